@@ -1,0 +1,13 @@
+# conelight_warnings(TARGET): the warnings every target of ours builds with.
+function(conelight_warnings target)
+  target_compile_options(${target} PRIVATE
+    $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wformat=2
+      -Wno-unknown-warning-option -Wno-missing-field-initializers>)
+  if(CONELIGHT_WERROR)
+    target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>:-Werror>)
+  endif()
+  if(CONELIGHT_SANITIZE)
+    target_compile_options(${target} PUBLIC -fsanitize=address,undefined -fno-omit-frame-pointer)
+    target_link_options(${target} PUBLIC -fsanitize=address,undefined)
+  endif()
+endfunction()

@@ -1,0 +1,15 @@
+# Script: writes OUTPUT, a C++ file that holds the bytes of INPUT as the string shader_SYMBOL.
+# Read and appended quoted, so that ; [ ] " \ @ ${} arrive unchanged; split because compilers limit one literal.
+file(READ "${INPUT}" text)
+set(body "")
+string(LENGTH "${text}" length)
+set(at 0)
+while(at LESS length)
+  string(SUBSTRING "${text}" ${at} 12000 piece)
+  string(APPEND body "R\"__glsl(${piece})__glsl\"\n")
+  math(EXPR at "${at} + 12000")
+endwhile()
+if(length EQUAL 0)
+  set(body "\"\"")
+endif()
+file(WRITE "${OUTPUT}" "// Generated from ${SYMBOL}.\nnamespace conelight::gl::embedded {\nextern const char* const shader_${SYMBOL};\nconst char* const shader_${SYMBOL} =\n${body};\n}\n")

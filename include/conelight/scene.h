@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+// The scene as plain tables on the CPU: what exists, in metres and radiometric units, before anything is
+// uploaded. Filled by hand or by conelight_io (glTF, OBJ, the thesis's text format, generated scenes);
+// read by the renderer and by the path tracer, which both see exactly this.
+//
+// Conventions: right-handed, y up, metres, radians, linear Rec.709 RGB. Column vectors, worldFromObject.
+// Triangles are counter-clockwise seen from their front. Texture coordinates: (0,0) is the first row's first
+// texel (glTF's convention). Indices refer to the vectors of Scene; -1 means none.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+namespace conelight {
+
+// Axis-aligned box; empty when min > max.
+struct Aabb {
+    glm::vec3 min{3.4e38f};
+    glm::vec3 max{-3.4e38f};
+    bool empty() const { return min.x > max.x || min.y > max.y || min.z > max.z; }
+    glm::vec3 center() const { return 0.5f * (min + max); }
+    glm::vec3 extent() const { return empty() ? glm::vec3(0) : max - min; }
+    void grow(const glm::vec3& p) {
+        min = glm::min(min, p);
+        max = glm::max(max, p);
+    }
+    void grow(const Aabb& b) {
+        min = glm::min(min, b.min);
+        max = glm::max(max, b.max);
+    }
+};
+
+// Indexed triangles with one material per instance. Every attribute but `positions` may be empty; if not, it
+// has as many elements as `positions`. Missing normals are flat, missing uvs (0,0), missing colours white.
+struct Mesh {
+    std::string name;
+    std::vector<glm::vec3> positions;
+    std::vector<glm::vec3> normals;   // unit length
+    std::vector<glm::vec2> uvs;
+    std::vector<glm::vec4> tangents;  // unit length; w = +-1: bitangent = w * cross(normal, tangent)
+    std::vector<glm::vec4> colors;    // linear, multiplied onto the base colour (rgb) and opacity (a)
+    std::vector<std::uint32_t> indices;  // multiple of 3
+
+    std::size_t triangleCount() const { return indices.size() / 3; }
+    Aabb bounds() const;
+};
+
+enum class TextureWrap : std::uint8_t { Repeat, Clamp, Mirror };
+enum class TextureFilter : std::uint8_t { Linear, Nearest };
+
+// 8-bit RGBA image, rows from the top. `srgb` says whether rgb is sRGB-encoded (base colour, emission) or
+// linear (normal, metallic-roughness). Alpha is always linear.
+struct Texture {
+    std::string name;
+    int width = 0;
+    int height = 0;
+    bool srgb = true;
+    TextureWrap wrapU = TextureWrap::Repeat;
+    TextureWrap wrapV = TextureWrap::Repeat;
+    TextureFilter filter = TextureFilter::Linear;
+    std::vector<std::uint8_t> rgba;  // 4 * width * height
+};
+
+// A use of a texture by a material: which one, and uv' = uvFromUv * (uv, 1) (KHR_texture_transform).
+struct TextureRef {
+    int texture = -1;
+    glm::mat3 uvFromUv{1.0f};
+    bool used() const { return texture >= 0; }
+};
+
+enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
+
+// The material model of the thesis (its sections on Phong shading), used by modes `thesis` and `phong`.
+// Radiance per light: (ambient + diffuse * n.l + specular * (v.r)^shininess) * lightColor * color / attenuation.
+struct PhongMaterial {
+    glm::vec3 color{0.85f};  // linear, [0,1]
+    float shininess = 32.0f;
+    float ambientStrength = 0.08f;
+    float diffuseStrength = 1.0f;
+    float specularStrength = 0.5f;
+};
+
+// glTF metallic-roughness with KHR_materials_specular, _ior, _emissive_strength and _unlit.
+struct Material {
+    std::string name;
+    glm::vec4 baseColor{0.8f, 0.8f, 0.8f, 1.0f};  // rgb: albedo (dielectric) or F0 (metal), [0,1]; a: opacity
+    float metallic = 0.0f;                        // [0,1]
+    float roughness = 1.0f;                       // perceptual, [0,1]; GGX alpha = roughness^2
+    float ior = 1.5f;                             // >= 1; dielectric F0 = ((ior-1)/(ior+1))^2; 0: F0 = 1
+    float specular = 1.0f;                        // [0,1], scales the dielectric specular lobe
+    glm::vec3 specularColor{1.0f};                // >= 0, tints dielectric F0 (F0 is clamped to 1)
+    glm::vec3 emission{0.0f};                     // radiance, W/(sr m^2), of the front face (both if doubleSided)
+    float normalScale = 1.0f;
+    float alphaCutoff = 0.5f;  // AlphaMode::Mask: below it there is no surface
+    AlphaMode alphaMode = AlphaMode::Opaque;
+    bool doubleSided = false;
+    bool unlit = false;  // shows baseColor as radiance; neither receives nor bounces light
+
+    TextureRef baseColorTexture;          // rgb * baseColor.rgb, a * baseColor.a
+    TextureRef metallicRoughnessTexture;  // g: roughness, b: metallic
+    TextureRef normalTexture;             // tangent space
+    TextureRef emissiveTexture;           // rgb * emission
+    TextureRef specularTexture;           // a: specular
+    TextureRef specularColorTexture;      // rgb: specularColor
+
+    bool isPhong = false;  // `phong` is given by the scene (thesis's format); else it is derived from the above
+    PhongMaterial phong;   // see phongFromPbr / pbrFromPhong
+};
+
+// Fills the Phong model of a metallic-roughness material, and the other way round. The mapping is chosen so
+// that a diffuse surface shows the same radiance in both (docs/theory/1_scene.md, "Two material models").
+PhongMaterial phongFromPbr(const Material& material);
+void setPbrFromPhong(Material& material);
+
+// One placement of a mesh.
+struct Instance {
+    std::string name;
+    int mesh = -1;
+    int material = -1;  // -1: the default Material
+    glm::mat4 worldFromObject{1.0f};
+    bool visible = true;      // false: in no pass at all (the thesis's active = false)
+    bool voxelized = true;    // false: drawn, but neither occludes nor bounces nor emits (the thesis's static = true)
+    bool castsShadow = true;  // false: left out of shadow maps and shadow rays
+    bool dynamic = false;     // true: may move every frame; voxelized separately from the rest
+};
+
+enum class LightType : std::uint8_t { Point, Spot, Directional, Rect };
+
+// A light. `intensity` is W/sr (point, spot), irradiance in W/m^2 on a plane facing it (directional) or
+// radiance in W/(sr m^2) of the front face (rect).
+struct Light {
+    std::string name;
+    LightType type = LightType::Point;
+    glm::vec3 intensity{1.0f};
+    glm::vec3 position{0.0f};
+    glm::vec3 direction{0.0f, -1.0f, 0.0f};  // unit; where light travels to (spot, directional, rect's normal)
+    glm::vec3 halfU{0.5f, 0, 0};             // rect: centre to edge; cross(halfU, halfV) need not point along `direction`
+    glm::vec3 halfV{0, 0, 0.5f};
+    float innerAngle = 0.0f;        // spot: half angle of full intensity, rad, [0, outerAngle]
+    float outerAngle = 0.78539816f; // spot: half angle of zero intensity, rad, (innerAngle, pi/2]
+    float range = 0.0f;             // glTF's range in metres, 0 = unlimited
+    bool enabled = true;
+    bool castsShadow = true;
+    // The thesis's falloff instead of the inverse square: intensity / (constant + linear d + quadratic d^2).
+    bool customFalloff = false;
+    glm::vec3 falloff{1.0f, 0.15f, 0.45f};  // constant, linear, quadratic
+};
+
+// A perspective camera. Looks from eye to target.
+struct Camera {
+    std::string name;
+    glm::vec3 eye{0, 0, 3};
+    glm::vec3 target{0, 0, 0};
+    glm::vec3 up{0, 1, 0};
+    float fovY = 0.78539816f;  // vertical field of view, rad; kept when the picture's aspect changes
+    float zNear = 0.01f;
+    float zFar = 1000.0f;
+};
+
+struct Scene {
+    std::string name;
+    std::vector<Mesh> meshes;
+    std::vector<Material> materials;
+    std::vector<Texture> textures;
+    std::vector<Instance> instances;
+    std::vector<Light> lights;
+    std::vector<Camera> cameras;
+    glm::vec3 sky{0.0f};  // constant radiance of the surroundings, W/(sr m^2)
+    // Scenes of the thesis's format are lit and shaded with its own conventions (section 5.6 of its sheet).
+    bool thesisFormat = false;
+    // Settings that the scene file asks for, KEY=VALUE in order (see settings.h); the caller applies them.
+    std::vector<std::pair<std::string, std::string>> settings;
+    // What the importer left out or changed, one line each, without the file name.
+    std::vector<std::string> notes;
+
+    // World bounds of all visible instances. O(vertices).
+    Aabb bounds() const;
+    std::size_t triangleCount() const;  // over visible instances
+
+    // Throws Error(BadInput) that names the first element that breaks the rules above (an index out of range,
+    // an attribute of the wrong length, a non-finite position or matrix, a zero-size texture).
+    void validate() const;
+};
+
+// A camera that looks at the whole of `bounds` from the front (+z) and slightly above, 45 degrees vertical.
+Camera frameCamera(const Aabb& bounds);
+
+// Adds what a scene needs to be seen: a camera when there is none, a headlight at the first camera when
+// there is no light, no emission and no sky. What was added is appended to `notes`.
+void completeScene(Scene& scene);
+
+}  // namespace conelight
