@@ -1,0 +1,137 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Tests of the checkers in this folder: each must report what it exists to report, and accept what is right.
+Every test builds a small project in a temporary folder. Run by tools/check."""
+import os
+import pathlib
+import subprocess
+import sys
+import tempfile
+import textwrap
+import unittest
+
+TOOLS = pathlib.Path(__file__).resolve().parent
+
+
+class Project(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+        self.root = pathlib.Path(self.folder.name)
+
+    def write(self, path, text):
+        file = self.root / path
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text(textwrap.dedent(text), encoding="utf-8")
+
+    def run_tool(self, name, *arguments):
+        run = subprocess.run([sys.executable, TOOLS / name, *arguments], capture_output=True, text=True)
+        return run.returncode, run.stdout
+
+
+class Layers(Project):
+    def problems(self):
+        _, output = self.run_tool("check_layers", self.root)
+        # The exceptions of the real project are unused in this one; that is not what is tested here.
+        return [line for line in output.splitlines() if "no longer used" not in line]
+
+    def test_order_of_stages(self):
+        self.write("src/light/a.cpp", '#include "voxels/grid.h"\n#include "light/a.h"\n')
+        self.assertEqual(self.problems(), [])
+        self.write("src/voxels/b.cpp", '#include "base/log.h"\n#include "light/a.h"\n')
+        self.assertEqual(len(self.problems()), 1)
+        self.assertIn("src/voxels/b.cpp:2", self.problems()[0])
+
+    def test_light_must_not_see_the_camera(self):
+        self.write("src/light/a.cpp", '#include "view/camera.h"\n')
+        self.assertEqual(len(self.problems()), 1)
+
+    def test_view_must_not_see_the_gather(self):
+        self.write("src/view/a.h", '#  include "gather/cone_set.h"\n')
+        self.assertEqual(len(self.problems()), 1)
+
+    def test_library_must_not_see_io_or_apps(self):
+        self.write("src/frame/a.cpp", '#include "io/import.h"\n#include "platform/headless_context.h"\n')
+        self.assertEqual(len(self.problems()), 2)
+
+    def test_program_sees_only_the_public_headers(self):
+        self.write("apps/conelight/a.cpp", '#include <conelight/renderer.h>\n#include "io/import.h"\n')
+        self.assertEqual(self.problems(), [])
+        self.write("apps/conelight/b.cpp", '#include "voxels/grid.h"\n')
+        self.assertEqual(len(self.problems()), 1)
+
+    def test_gl_calls_stay_in_one_folder(self):
+        self.write("src/gl/a.cpp", "#include <epoxy/gl.h>\n")
+        self.assertEqual(self.problems(), [])
+        self.write("src/voxels/a.cpp", "#include <epoxy/gl.h>\n")
+        self.assertEqual(len(self.problems()), 1)
+
+    def test_public_headers_stand_alone(self):
+        self.write("include/conelight/a.h", "#include <conelight/b.h>\n#include <glm/glm.hpp>\n#include <vector>\n")
+        self.assertEqual(self.problems(), [])
+        self.write("include/conelight/c.h", '#include "gl/buffer.h"\n#include <fmt/format.h>\n')
+        self.assertEqual(len(self.problems()), 2)
+
+    def test_shader_functions_know_no_stage(self):
+        self.write("shaders/lib/a.glsl", '#include "lib/math.glsl"\n#include "voxels/grid.glsl"\n')
+        self.assertEqual(len(self.problems()), 1)
+        self.write("shaders/voxels/a.comp.glsl", '#include "gather/cone.glsl"\n')
+        self.assertEqual(len(self.problems()), 2)
+
+
+class Docs(Project):
+    def faults(self, *arguments):
+        return self.run_tool("check_docs", "--root", self.root, *arguments)[1].splitlines()
+
+    def test_links_and_anchors(self):
+        self.write("docs/a.md", "# One\n\n[good](b.md#the-two-ones) [here](#one)\n")
+        self.write("docs/b.md", "# The two `ones`\n\n```\n[not a link](nowhere.md)\n```\n")
+        self.assertEqual(self.faults(), [])
+        self.write("docs/c.md", "[x](missing.md)\n[y](b.md#three)\n![z](p.png)\n[w](../../elsewhere)\n")
+        self.assertEqual(len(self.faults()), 4)
+
+    def test_snippets_equal_their_source(self):
+        self.write("examples/e.cpp", "int a;\n// [part]\n    int b;\n      int c;\n// [/part]\n")
+        self.write("README.md", "<!-- snippet: examples/e.cpp#part -->\n```cpp\nint b;\n  int c;\n```\n")
+        self.assertEqual(self.faults(), [])
+        self.write("examples/e.cpp", "// [part]\n    int d;\n// [/part]\n")
+        self.assertEqual(len(self.faults()), 1)
+        self.assertEqual(self.faults("--update"), [])
+        self.assertIn("int d;", (self.root / "README.md").read_text())
+        self.write("README.md", "<!-- snippet: examples/e.cpp#other -->\n```cpp\n```\n")
+        self.assertEqual(len(self.faults()), 1)
+
+    def test_commands_are_known_to_the_program(self):
+        self.write("program", """\
+            #!/bin/sh
+            test "$1" = render && echo "  --size WxH   -o FILE"
+            """)
+        os.chmod(self.root / "program", 0o755)
+        self.write("README.md", "`conelight render S --size 1x1 -o a.png`; conelight is fast\n")
+        self.assertEqual(self.faults("--program", self.root / "program"), [])
+        self.write("README.md", "    conelight render S --siz 1x1\n`conelight fly`\n")
+        self.assertEqual(len(self.faults("--program", self.root / "program")), 2)
+
+
+class Files(Project):
+    def problems(self):
+        subprocess.run(["git", "init", "-q", self.root], check=True)
+        return self.run_tool("check_files", self.root)[1].splitlines()
+
+    def test_right_file(self):
+        self.write("src/a.h", "// SPDX-License-Identifier: MIT\n// What it does. TODO(#7): more.\n")
+        self.assertEqual(self.problems(), [])
+
+    def test_each_fault(self):
+        self.write("src/licence.h", "#pragma once\n")
+        self.write("src/todo.h", "// SPDX-License-Identifier: MIT\n// TODO: some day\n")
+        self.write("src/blank.h", "// SPDX-License-Identifier: MIT \n")
+        self.write("src/tab.h", "// SPDX-License-Identifier: MIT\n\tint a;\n")
+        self.write("src/end.h", "// SPDX-License-Identifier: MIT")
+        self.write("src/long.h", "// SPDX-License-Identifier: MIT\n" * 801)
+        self.write("tools/x", "#!/bin/sh\ntrue\n")
+        self.assertEqual(len(self.problems()), 7, self.problems())
+
+
+if __name__ == "__main__":
+    unittest.main()
