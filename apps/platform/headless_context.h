@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// An OpenGL 4.5 core context without window or display, through EGL: the device platform (a GPU first, then
+// a software device), then Mesa's surfaceless platform. There is no default framebuffer.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace conelight::platform {
+
+struct HeadlessOptions {
+    int device = -1;     // index into listDevices(); -1: the first that gives a 4.5 core context
+    bool debug = false;  // KHR_debug messages, synchronous, through installDebugCallback
+};
+
+// Current on the creating thread from construction to destruction. Throws Error(NoGl) with what was tried.
+class HeadlessContext {
+  public:
+    explicit HeadlessContext(const HeadlessOptions& options = {});
+    ~HeadlessContext();
+    HeadlessContext(const HeadlessContext&) = delete;
+    HeadlessContext& operator=(const HeadlessContext&) = delete;
+
+    const std::string& description() const { return description_; }  // "EGL device 0, llvmpipe ..., 4.5 ..."
+
+  private:
+    bool tryDisplay(void* display, const std::string& how, bool debug);
+    void* display_ = nullptr;
+    void* context_ = nullptr;
+    std::string description_;
+    std::string tried_;
+};
+
+// One line per EGL device: "0: software (EGL_MESA_device_software)".
+std::vector<std::string> listDevices();
+
+// Call first thing in main(): on software drivers the renderer's memory is freed and re-mapped for every
+// draw unless glibc's malloc is told to keep it (20-50 % of the CPU time of raster passes).
+void tuneAllocator();
+
+}  // namespace conelight::platform

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// Binding numbers, one table for C++ and GLSL. Tables that every pass may read have fixed numbers; 8 and up
+// (storage), 8 and up (textures), 0 to 7 (images) and 2 to 7 (uniform) belong to the running pass.
+#pragma once
+#include "shared/prelude.h"
+
+// Uniform buffers
+#define BINDING_FRAME 0       // FrameConstants
+#define BINDING_VOXEL_GRID 1  // VoxelGrid
+#define BINDING_PASS 2        // a pass's own constants
+
+// Storage buffers of the scene (GpuScene::bind)
+#define BINDING_VERTICES 0
+#define BINDING_INDICES 1
+#define BINDING_INSTANCES 2
+#define BINDING_MATERIALS 3
+#define BINDING_LIGHTS 4
+#define BINDING_STORAGE_PASS 8  // first number free for passes; up to 15 (GL minimum is 8 per stage, 4.5 drivers have 16)
+
+// Texture units
+#define UNIT_MATERIAL_BASE 0       // G-buffer raster: textures of the drawn material
+#define UNIT_MATERIAL_METAL_ROUGH 1
+#define UNIT_MATERIAL_NORMAL 2
+#define UNIT_MATERIAL_EMISSIVE 3
+#define UNIT_MATERIAL_SPECULAR 4
+#define UNIT_MATERIAL_SPECULAR_COLOR 5
+#define UNIT_SURFACE_ARRAY 6       // all textures at low resolution, for compute (GpuScene)
+#define UNIT_PASS 8                // first unit free for passes
+// Units of the light stage, fixed because several stages shade
+#define UNIT_SHADOW_2D 24          // sampler2DArrayShadow
+#define UNIT_SHADOW_CUBE 25        // samplerCubeArrayShadow

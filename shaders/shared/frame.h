@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+// What every pass of a frame may ask: camera, picture size, scene counts. Uniform block at BINDING_FRAME.
+#pragma once
+#include "shared/prelude.h"
+CONELIGHT_SHARED_BEGIN
+
+struct FrameConstants {
+    mat4 clipFromWorld;
+    mat4 worldFromClip;
+    // ---- 128 B
+    vec3 eye;
+    float zNear;
+    // ---- 144 B
+    vec3 sky;  // radiance where nothing is hit
+    float zFar;
+    // ---- 160 B
+    uint width;
+    uint height;
+    uint lightCount;
+    uint frameIndex;
+    // ---- 176 B
+    uint instanceCount;
+    uint triangleCount;  // of all instances
+    uint seed;
+    uint pad0;
+};  // 192 B
+
+CONELIGHT_SHARED_END
+#ifdef __cplusplus
+static_assert(sizeof(conelight::gpu::FrameConstants) == 192);
+#endif

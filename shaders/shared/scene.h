@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// The scene tables on the GPU; filled by src/scene/gpu_scene.cpp.
+#pragma once
+#include "shared/prelude.h"
+CONELIGHT_SHARED_BEGIN
+
+// 32 bytes. Normal and tangent: octahedral, 2 x 16 bit signed-normalised; tangent sign in the lowest bit of its uint.
+struct Vertex {
+    vec3 position;
+    uint normalOct;
+    // ---- 16 B
+    float u;
+    float v;
+    uint tangentOct;
+    uint color;  // RGBA8 unorm, linear, r lowest
+};  // 32 B
+
+#define INSTANCE_VISIBLE 1u
+#define INSTANCE_VOXELIZED 2u
+#define INSTANCE_CASTS_SHADOW 4u
+#define INSTANCE_DYNAMIC 8u
+#define INSTANCE_FLIPPED 16u  // negative determinant: winding is reversed
+
+struct Instance {
+    mat4 worldFromObject;
+    // ---- 64 B: columns of the inverse transpose of the upper 3x3
+    vec4 normalColumn0;
+    vec4 normalColumn1;
+    vec4 normalColumn2;
+    // ---- 112 B
+    uint firstIndex;
+    uint indexCount;
+    uint firstVertex;  // added to every index
+    uint material;
+    // ---- 128 B
+    uint flags;          // INSTANCE_*
+    uint firstTriangle;  // number of triangles of all instances before this one, counting every instance
+    uint pad0;
+    uint pad1;
+};  // 144 B
+
+#define MATERIAL_ALPHA_MASK 1u
+#define MATERIAL_ALPHA_BLEND 2u
+#define MATERIAL_DOUBLE_SIDED 4u
+#define MATERIAL_UNLIT 8u
+#define MATERIAL_HAS_PHONG 16u  // phong* given by the scene, not derived
+
+struct Material {
+    vec4 baseColor;
+    // ---- 16 B
+    vec3 emission;  // W/(sr m^2)
+    float alphaCutoff;
+    // ---- 32 B
+    vec3 specularF0;  // dielectric reflectance at normal incidence
+    float metallic;
+    // ---- 48 B
+    float roughness;
+    float normalScale;
+    uint flags;  // MATERIAL_*
+    uint pad0;
+    // ---- 64 B: layers of the surface array (GpuScene), -1 none: base colour, metallic-roughness, normal, emissive
+    ivec4 layers;
+    // ---- 80 B: uv' = (dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z), rows of the four uses above
+    vec4 uvRow[8];
+    // ---- 208 B
+    vec3 phongColor;
+    float phongShininess;
+    // ---- 224 B
+    float phongAmbient;
+    float phongDiffuse;
+    float phongSpecular;
+    float pad1;
+};  // 240 B
+
+#define LIGHT_POINT 0u
+#define LIGHT_SPOT 1u
+#define LIGHT_DIRECTIONAL 2u
+#define LIGHT_RECT 3u
+
+struct Light {
+    vec3 position;
+    uint type;
+    // ---- 16 B
+    vec3 direction;  // unit, where light travels to
+    int shadow;      // first layer of the light's shadow maps, -1: unshadowed
+    // ---- 32 B
+    vec3 intensity;  // W/sr, W/m^2 or W/(sr m^2), see conelight::Light
+    float range;     // 0: unlimited
+    // ---- 48 B
+    vec3 halfU;
+    float cosInner;
+    // ---- 64 B
+    vec3 halfV;
+    float cosOuter;
+    // ---- 80 B
+    vec3 falloff;        // constant, linear, quadratic
+    uint customFalloff;  // 1: use it, 0: inverse square
+    // ---- 96 B: first shadow view and their number (light stage)
+    uint firstView;
+    uint viewCount;
+    uint flags;
+    uint pad0;
+};  // 112 B
+
+CONELIGHT_SHARED_END
+#ifdef __cplusplus
+static_assert(sizeof(conelight::gpu::Vertex) == 32);
+static_assert(sizeof(conelight::gpu::Instance) == 144);
+static_assert(sizeof(conelight::gpu::Material) == 240);
+static_assert(sizeof(conelight::gpu::Light) == 112);
+#endif

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// A GL buffer of immutable size. Filled at creation, by update(), or by shaders; read back by read().
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "gl/object.h"
+
+namespace conelight::gl {
+
+class Buffer : public Object<ObjectType::Buffer> {
+  public:
+    Buffer() = default;
+    // `bytes` of storage (at least 16 are allocated, so that an empty table can be bound), zero-filled.
+    Buffer(std::size_t bytes, const std::string& label);
+    Buffer(const void* data, std::size_t bytes, const std::string& label);
+    template <class T>
+    Buffer(std::span<const T> data, const std::string& label) : Buffer(data.data(), data.size_bytes(), label) {}
+    template <class T>
+    Buffer(const std::vector<T>& data, const std::string& label)
+        : Buffer(data.data(), data.size() * sizeof(T), label) {}
+
+    std::size_t bytes() const { return bytes_; }
+
+    void update(std::size_t offset, const void* data, std::size_t bytes);
+    template <class T>
+    void update(const T& value) {
+        update(0, &value, sizeof(T));
+    }
+    void clear();                      // all bytes zero
+    void fill(std::uint32_t word);     // every 32-bit word
+
+    void read(std::size_t offset, void* data, std::size_t bytes) const;  // waits for the GPU
+    template <class T>
+    std::vector<T> read(std::size_t count, std::size_t offset = 0) const {
+        std::vector<T> data(count);
+        read(offset, data.data(), count * sizeof(T));
+        return data;
+    }
+
+    void bindUniform(unsigned binding) const;
+    void bindStorage(unsigned binding) const;
+    void bindStorage(unsigned binding, std::size_t offset, std::size_t bytes) const;
+
+  private:
+    std::size_t bytes_ = 0;
+};
+
+}  // namespace conelight::gl

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "gl/draw.h"
+
+#include "base/assert.h"
+#include "base/log.h"
+#include "gl/gl.h"
+
+namespace conelight::gl {
+
+VertexArray::VertexArray(const Buffer& vertices, int stride, const std::vector<Attribute>& attributes,
+                         const Buffer& indices, const std::string& label) {
+    Name array = 0;
+    glCreateVertexArrays(1, &array);
+    glVertexArrayVertexBuffer(array, 0, vertices.name(), 0, stride);
+    glVertexArrayElementBuffer(array, indices.name());
+    for (const Attribute& a : attributes) {
+        glEnableVertexArrayAttrib(array, a.location);
+        if (a.integer)
+            glVertexArrayAttribIFormat(array, a.location, a.components, a.type, a.offset);
+        else
+            glVertexArrayAttribFormat(array, a.location, a.components, a.type, GL_FALSE, a.offset);
+        glVertexArrayAttribBinding(array, a.location, 0);
+    }
+    adopt(array, label, 0);
+}
+
+VertexArray::VertexArray(const std::string& label) {
+    Name array = 0;
+    glCreateVertexArrays(1, &array);
+    adopt(array, label, 0);
+}
+
+void VertexArray::bind() const { glBindVertexArray(name()); }
+
+Framebuffer::Framebuffer(const std::vector<const Texture*>& colors, const Texture* depth, const std::string& label,
+                         bool layered) {
+    Name framebuffer = 0;
+    glCreateFramebuffers(1, &framebuffer);
+    adopt(framebuffer, label, 0);
+    std::vector<GLenum> buffers;
+    for (std::size_t i = 0; i < colors.size(); ++i) {
+        buffers.push_back(static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + i));
+        glNamedFramebufferTexture(framebuffer, buffers.back(), colors[i]->name(), 0);
+    }
+    if (buffers.empty()) {
+        glNamedFramebufferDrawBuffer(framebuffer, GL_NONE);
+        glNamedFramebufferReadBuffer(framebuffer, GL_NONE);
+    } else {
+        glNamedFramebufferDrawBuffers(framebuffer, static_cast<GLsizei>(buffers.size()), buffers.data());
+    }
+    if (depth != nullptr) glNamedFramebufferTexture(framebuffer, GL_DEPTH_ATTACHMENT, depth->name(), 0);
+    const Texture* any = !colors.empty() ? colors.front() : depth;
+    CONELIGHT_ASSERT(any != nullptr, "a framebuffer needs an attachment or a size");
+    (void)layered;  // glNamedFramebufferTexture attaches all layers of a layered texture
+    width_ = any->width();
+    height_ = any->height();
+    check();
+}
+
+Framebuffer::Framebuffer(int width, int height, const std::string& label) : width_(width), height_(height) {
+    Name framebuffer = 0;
+    glCreateFramebuffers(1, &framebuffer);
+    adopt(framebuffer, label, 0);
+    glNamedFramebufferParameteri(framebuffer, GL_FRAMEBUFFER_DEFAULT_WIDTH, width);
+    glNamedFramebufferParameteri(framebuffer, GL_FRAMEBUFFER_DEFAULT_HEIGHT, height);
+    check();
+}
+
+Framebuffer Framebuffer::depthLayer(const Texture& depth, int layer, const std::string& label) {
+    Framebuffer result;
+    Name framebuffer = 0;
+    glCreateFramebuffers(1, &framebuffer);
+    result.adopt(framebuffer, label, 0);
+    glNamedFramebufferDrawBuffer(framebuffer, GL_NONE);
+    glNamedFramebufferReadBuffer(framebuffer, GL_NONE);
+    glNamedFramebufferTextureLayer(framebuffer, GL_DEPTH_ATTACHMENT, depth.name(), 0, layer);
+    result.width_ = depth.width();
+    result.height_ = depth.height();
+    result.check();
+    return result;
+}
+
+void Framebuffer::check() const {
+    const GLenum status = glCheckNamedFramebufferStatus(name(), GL_DRAW_FRAMEBUFFER);
+    if (status != GL_FRAMEBUFFER_COMPLETE)
+        base::fail(ErrorKind::Runtime, "framebuffer of %d x %d is not complete (0x%x)", width_, height_, status);
+}
+
+void Framebuffer::clearColor(int attachment, float r, float g, float b, float a) const {
+    const float value[4] = {r, g, b, a};
+    glClearNamedFramebufferfv(name(), GL_COLOR, attachment, value);
+}
+void Framebuffer::clearColorUint(int attachment, std::uint32_t r) const {
+    const GLuint value[4] = {r, 0, 0, 0};
+    glClearNamedFramebufferuiv(name(), GL_COLOR, attachment, value);
+}
+void Framebuffer::clearDepth(float depth) const { glClearNamedFramebufferfv(name(), GL_DEPTH, 0, &depth); }
+
+namespace {
+void enable(GLenum capability, bool on) { on ? glEnable(capability) : glDisable(capability); }
+}  // namespace
+
+void setCull(Cull cull) {
+    enable(GL_CULL_FACE, cull != Cull::None);
+    if (cull != Cull::None) glCullFace(cull == Cull::Back ? GL_BACK : GL_FRONT);
+}
+
+void apply(const RasterState& state) {
+    CONELIGHT_ASSERT(state.framebuffer != nullptr, "a raster pass needs a framebuffer");
+    glBindFramebuffer(GL_FRAMEBUFFER, state.framebuffer->name());
+    glViewport(0, 0, state.framebuffer->width(), state.framebuffer->height());
+    enable(GL_DEPTH_TEST, state.depthTest);
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(state.depthWrite ? GL_TRUE : GL_FALSE);
+    glDepthRange(0.0, 1.0);
+    setCull(state.cull);
+    glFrontFace(GL_CCW);
+    const GLboolean color = state.colorWrite ? GL_TRUE : GL_FALSE;
+    glColorMask(color, color, color, color);
+    enable(GL_BLEND, state.blend);
+    if (state.blend) glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    enable(GL_DEPTH_CLAMP, state.depthClamp);
+    const bool bias = state.depthBiasSlope != 0.0f || state.depthBiasUnits != 0.0f;
+    enable(GL_POLYGON_OFFSET_FILL, bias);
+    if (bias) glPolygonOffset(state.depthBiasSlope, state.depthBiasUnits);
+    glPolygonMode(GL_FRONT_AND_BACK, state.wireframe ? GL_LINE : GL_FILL);
+    enable(GL_SCISSOR_TEST, false);
+    enable(GL_STENCIL_TEST, false);
+    enable(GL_FRAMEBUFFER_SRGB, false);
+    enable(GL_MULTISAMPLE, true);
+    enable(GL_DITHER, false);
+    enable(GL_SAMPLE_ALPHA_TO_COVERAGE, false);
+    enable(GL_RASTERIZER_DISCARD, false);
+    enable(GL_PRIMITIVE_RESTART, false);
+}
+
+}  // namespace conelight::gl

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Raster state: vertex arrays, framebuffers, and the fixed state of a pass set as a whole.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/object.h"
+#include "gl/texture.h"
+
+namespace conelight::gl {
+
+class VertexArray : public Object<ObjectType::VertexArray> {
+  public:
+    struct Attribute {
+        unsigned location;
+        int components;
+        std::uint32_t type;     // GL_FLOAT, GL_UNSIGNED_INT
+        bool integer;           // arrives as uint, not converted
+        unsigned offset;        // bytes in the vertex
+    };
+    VertexArray() = default;
+    VertexArray(const Buffer& vertices, int stride, const std::vector<Attribute>& attributes, const Buffer& indices,
+                const std::string& label);
+    explicit VertexArray(const std::string& label);  // no attributes: full-screen triangles
+    void bind() const;
+};
+
+class Framebuffer : public Object<ObjectType::Framebuffer> {
+  public:
+    Framebuffer() = default;
+    // Colour attachments in order, then depth (may be null). Level 0; all layers when `layered`.
+    Framebuffer(const std::vector<const Texture*>& colors, const Texture* depth, const std::string& label,
+                bool layered = false);
+    // Without attachments, of a given size (for raster passes that only store images).
+    Framebuffer(int width, int height, const std::string& label);
+    // One layer of a depth texture and no colour.
+    static Framebuffer depthLayer(const Texture& depth, int layer, const std::string& label);
+
+    int width() const { return width_; }
+    int height() const { return height_; }
+    void clearColor(int attachment, float r, float g, float b, float a) const;
+    void clearColorUint(int attachment, std::uint32_t r) const;
+    void clearDepth(float depth) const;
+
+  private:
+    void check() const;
+    int width_ = 0;
+    int height_ = 0;
+};
+
+enum class Cull : std::uint8_t { None, Back, Front };
+
+// All fixed state a raster pass of this library depends on. Front faces are counter-clockwise.
+struct RasterState {
+    const Framebuffer* framebuffer = nullptr;
+    bool depthTest = true;
+    bool depthWrite = true;
+    Cull cull = Cull::Back;
+    bool colorWrite = true;
+    bool depthClamp = false;
+    bool blend = false;            // premultiplied: one, one minus source alpha
+    float depthBiasSlope = 0.0f;   // glPolygonOffset factor
+    float depthBiasUnits = 0.0f;
+    bool wireframe = false;
+};
+void apply(const RasterState& state);
+void setCull(Cull cull);
+
+}  // namespace conelight::gl

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Move-only ownership of one GL name, and the count of what is alive (per type, with bytes and labels).
+// Default-constructed and moved-from objects are empty (name 0). Destructors need the context current.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace conelight::gl {
+
+using Name = std::uint32_t;  // GLuint, without the GL header
+
+enum class ObjectType { Buffer, Texture, Sampler, Program, VertexArray, Framebuffer, Query };
+
+struct LiveObject {
+    ObjectType type;
+    Name name;
+    std::string label;
+    std::size_t bytes;  // storage of buffers and textures, else 0
+};
+
+// Everything alive in this process, in order of creation. Empty after the last owner died.
+std::vector<LiveObject> liveObjects();
+std::size_t liveObjectCount();
+
+namespace detail {
+void created(ObjectType type, Name name, const std::string& label, std::size_t bytes);
+void deleteName(ObjectType type, Name name) noexcept;
+}  // namespace detail
+
+// Owns one name. The public types (Buffer, Texture ...) derive from it.
+template <ObjectType Type>
+class Object {
+  public:
+    Object() = default;
+    Object(Object&& other) noexcept : name_(std::exchange(other.name_, 0)) {}
+    Object& operator=(Object&& other) noexcept {
+        if (this != &other) {
+            reset();
+            name_ = std::exchange(other.name_, 0);
+        }
+        return *this;
+    }
+    Object(const Object&) = delete;
+    Object& operator=(const Object&) = delete;
+    ~Object() { reset(); }
+
+    Name name() const { return name_; }
+    explicit operator bool() const { return name_ != 0; }
+    void reset() noexcept {
+        if (name_ != 0) detail::deleteName(Type, std::exchange(name_, 0));
+    }
+
+  protected:
+    void adopt(Name name, const std::string& label, std::size_t bytes) {
+        reset();
+        name_ = name;
+        detail::created(Type, name, label, bytes);
+    }
+
+  private:
+    Name name_ = 0;
+};
+
+}  // namespace conelight::gl

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+#include "gl/pass.h"
+
+#include <cstring>
+
+#include "base/clock.h"
+#include "gl/gl.h"
+
+namespace conelight::gl {
+
+bool isSoftwareDriver() {
+    const char* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    return renderer != nullptr && (std::strstr(renderer, "llvmpipe") != nullptr || std::strstr(renderer, "softpipe") != nullptr);
+}
+
+Query::Query(const std::string& label) {
+    Name query = 0;
+    glCreateQueries(GL_TIMESTAMP, 1, &query);
+    adopt(query, label, 0);
+}
+void Query::record() const { glQueryCounter(name(), GL_TIMESTAMP); }
+double Query::resultMs() const {
+    GLuint64 nanoseconds = 0;
+    glGetQueryObjectui64v(name(), GL_QUERY_RESULT, &nanoseconds);
+    return 1e-6 * static_cast<double>(nanoseconds);
+}
+
+void Profiler::beginFrame() { passes_.clear(); }
+
+std::vector<PassTime> Profiler::endFrame() {
+    std::vector<PassTime> times;
+    for (Open& pass : passes_) {
+        if (pass.start) pass.time.gpuMs = pass.stop.resultMs() - pass.start.resultMs();
+        times.push_back(pass.time);
+    }
+    passes_.clear();
+    return times;
+}
+
+PassScope::PassScope(Profiler& profiler, const char* name) : profiler_(profiler), timed_(profiler.enabled_) {
+    glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, name);
+    if (!timed_) return;
+    index_ = profiler_.passes_.size();
+    Profiler::Open& pass = profiler_.passes_.emplace_back();
+    pass.time.name = name;
+    if (isSoftwareDriver()) {
+        glFinish();
+    } else {
+        pass.start = Query(std::string(name) + " start");
+        pass.stop = Query(std::string(name) + " stop");
+        pass.start.record();
+    }
+    pass.cpuStart = base::processCpuMs();
+    pass.wallStart = base::wallMs();
+}
+
+PassScope::~PassScope() {
+    if (timed_) {
+        Profiler::Open& pass = profiler_.passes_[index_];
+        if (pass.start)
+            pass.stop.record();
+        else
+            glFinish();
+        pass.time.cpuMs = base::processCpuMs() - pass.cpuStart;
+        pass.time.wallMs = base::wallMs() - pass.wallStart;
+    }
+    glPopDebugGroup();
+}
+
+void barrier(Access consumers) {
+    const auto has = [&](Access one) { return (static_cast<unsigned>(consumers) & static_cast<unsigned>(one)) != 0; };
+    GLbitfield bits = 0;
+    if (has(Access::ShaderStorage)) bits |= GL_SHADER_STORAGE_BARRIER_BIT;
+    if (has(Access::ImageAccess)) bits |= GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
+    if (has(Access::TextureFetch)) bits |= GL_TEXTURE_FETCH_BARRIER_BIT;
+    if (has(Access::Indirect)) bits |= GL_COMMAND_BARRIER_BIT;
+    if (has(Access::Uniform)) bits |= GL_UNIFORM_BARRIER_BIT;
+    if (has(Access::Framebuffer)) bits |= GL_FRAMEBUFFER_BARRIER_BIT;
+    if (has(Access::VertexFetch)) bits |= GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT;
+    glMemoryBarrier(bits);
+}
+
+}  // namespace conelight::gl

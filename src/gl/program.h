@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Linked programs, and the library that builds each variant once and rebuilds changed ones (hot reload).
+#pragma once
+
+#include <glm/glm.hpp>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gl/buffer.h"
+#include "gl/object.h"
+#include "gl/shader_source.h"
+
+namespace conelight::gl {
+
+// What a program is made of. Stage by file suffix: .vert.glsl .geom.glsl .frag.glsl .comp.glsl.
+struct ProgramDesc {
+    std::vector<std::string> files;
+    Defines defines;
+    std::string label() const;  // "voxels/mark.comp.glsl[A=1 B=2]"
+};
+
+class Program : public Object<ObjectType::Program> {
+  public:
+    Program() = default;
+    // Throws Error(Runtime) with the driver's log mapped to file:line.
+    Program(const ShaderProvider& provider, const ProgramDesc& desc);
+
+    const std::vector<std::string>& sourceFiles() const { return sourceFiles_; }
+    glm::ivec3 groupSize() const { return groupSize_; }  // compute only
+
+    void use() const;
+    // Compute: use() and run at least this many invocations (rounded up to whole groups). Counts of zero run
+    // nothing; more than 65,535 groups along x are folded into y: shaders get the linear group by
+    // lib/linear_index.glsl.
+    void dispatch(int x, int y = 1, int z = 1) const;
+    void dispatchLinear(std::size_t invocations) const;
+    // Group counts read from `buffer` at `offset` (three uints).
+    void dispatchIndirect(const Buffer& buffer, std::size_t offset = 0) const;
+
+  private:
+    std::vector<std::string> sourceFiles_;
+    glm::ivec3 groupSize_{0};
+};
+
+// Programs by description; a reference stays valid while the library lives.
+class ProgramLibrary {
+  public:
+    explicit ProgramLibrary(ShaderProvider provider) : provider_(std::move(provider)) {}
+
+    const Program& get(const ProgramDesc& desc);
+    const Program& compute(const std::string& file, const Defines& defines = {}) { return get({{file}, defines}); }
+
+    // Rebuilds programs that use one of `files`; a program that fails keeps its old version.
+    // Returns one message per failure.
+    std::vector<std::string> reload(const std::vector<std::string>& files);
+
+  private:
+    struct Entry {
+        ProgramDesc desc;
+        Program program;
+    };
+    ShaderProvider provider_;
+    std::map<std::string, std::unique_ptr<Entry>> programs_;
+};
+
+}  // namespace conelight::gl

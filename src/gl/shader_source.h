@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// GLSL files -> one text per shader: resolves #include "path", inserts defines after #version, and keeps a
+// table from lines of the expanded text to file:line, with which driver logs are rewritten. No GL calls.
+//
+// Rules: paths are relative to the shader root (never to the including file), a file is included once, a
+// cycle is an error that names the chain. No #line is emitted: Mesa prints source 0 whatever it says.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace conelight::gl {
+
+struct EmbeddedShader {
+    const char* path;
+    const char* text;
+};
+std::span<const EmbeddedShader> embeddedShaders();  // generated at build time
+
+// Where shader files come from: path relative to the root -> text, nothing when there is no such file.
+using ShaderProvider = std::function<std::optional<std::string>(const std::string& path)>;
+ShaderProvider embeddedShaderProvider();
+ShaderProvider directoryShaderProvider(const std::string& directory);  // falls back to the embedded files
+
+using Defines = std::vector<std::pair<std::string, std::string>>;
+
+struct ExpandedShader {
+    std::string path;  // the entry file
+    std::string text;
+    struct Line {
+        int file;  // index into files
+        int line;  // 1-based
+    };
+    std::vector<Line> lines;         // one per line of text; file -1: inserted by us
+    std::vector<std::string> files;  // the resolved include set, entry first
+
+    // Rewrites the line references of a driver's log ("0:12(3):", "0(12) :", "ERROR: 0:12:") to
+    // file:line, and appends the source line of each message.
+    std::string mapLog(const std::string& log) const;
+};
+
+// Throws Error(Runtime): missing file, include cycle, malformed include, entry without #version.
+ExpandedShader expandShader(const ShaderProvider& provider, const std::string& path, const Defines& defines = {});
+
+}  // namespace conelight::gl

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "gl/texture.h"
+
+#include <algorithm>
+
+#include "base/assert.h"
+#include "base/log.h"
+#include "gl/gl.h"
+
+namespace conelight::gl {
+namespace {
+
+int fullChain(const TextureDesc& desc) {
+    int edge = std::max(desc.width, desc.height);
+    if (desc.target == GL_TEXTURE_3D) edge = std::max(edge, desc.depth);
+    int levels = 1;
+    while (edge > 1) {
+        edge /= 2;
+        ++levels;
+    }
+    return levels;
+}
+
+// Bytes of one texel, of the formats this library uses.
+std::size_t texelBytes(std::uint32_t format) {
+    switch (format) {
+        case GL_R8: case GL_R8UI: case GL_R8I: return 1;
+        case GL_R16F: case GL_R16UI: case GL_R16: case GL_RG8: case GL_DEPTH_COMPONENT16: return 2;
+        case GL_RGBA8: case GL_SRGB8_ALPHA8: case GL_R32UI: case GL_R32F: case GL_R32I: case GL_RG16F: case GL_RG16:
+        case GL_RG16_SNORM: case GL_RGB10_A2: case GL_R11F_G11F_B10F: case GL_DEPTH_COMPONENT32F: case GL_RGB9_E5:
+        case GL_DEPTH_COMPONENT24: case GL_RGBA8UI: return 4;
+        case GL_RGBA16F: case GL_RGBA16: case GL_RGBA16_SNORM: case GL_RG32F: case GL_RG32UI: return 8;
+        case GL_RGBA32F: case GL_RGBA32UI: return 16;
+        default: break;
+    }
+    base::fail(ErrorKind::Runtime, "texture format 0x%x has no known size", format);
+}
+
+}  // namespace
+
+Texture::Texture(const TextureDesc& desc, const std::string& label) : desc_(desc) {
+    if (desc_.levels == 0) desc_.levels = fullChain(desc_);
+    Name name = 0;
+    glCreateTextures(desc_.target, 1, &name);
+    if (desc_.target == GL_TEXTURE_3D || desc_.target == GL_TEXTURE_2D_ARRAY || desc_.target == GL_TEXTURE_CUBE_MAP_ARRAY)
+        glTextureStorage3D(name, desc_.levels, desc_.format, desc_.width, desc_.height, desc_.depth);
+    else
+        glTextureStorage2D(name, desc_.levels, desc_.format, desc_.width, desc_.height);
+    adopt(name, label, storageBytes(desc_));
+}
+
+Texture::Texture(const Buffer& buffer, std::uint32_t format, const std::string& label)
+    : desc_{GL_TEXTURE_BUFFER, format, static_cast<int>(buffer.bytes() / texelBytes(format))} {
+    Name name = 0;
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
+    glTextureBuffer(name, format, buffer.name());
+    adopt(name, label, 0);
+}
+
+int Texture::width(int level) const { return std::max(desc_.width >> level, 1); }
+int Texture::height(int level) const { return std::max(desc_.height >> level, 1); }
+int Texture::depth(int level) const {
+    return desc_.target == GL_TEXTURE_3D ? std::max(desc_.depth >> level, 1) : desc_.depth;
+}
+
+std::size_t Texture::storageBytes(const TextureDesc& desc) {
+    std::size_t texels = 0;
+    for (int level = 0; level < desc.levels; ++level) {
+        const std::size_t layers =
+            desc.target == GL_TEXTURE_3D ? static_cast<std::size_t>(std::max(desc.depth >> level, 1))
+            : desc.target == GL_TEXTURE_CUBE_MAP ? 6
+                                                 : static_cast<std::size_t>(desc.depth);
+        texels += static_cast<std::size_t>(std::max(desc.width >> level, 1)) *
+                  static_cast<std::size_t>(std::max(desc.height >> level, 1)) * layers;
+    }
+    return texels * texelBytes(desc.format);
+}
+
+void Texture::upload(int level, std::uint32_t layout, std::uint32_t type, const void* data) {
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    if (desc_.target == GL_TEXTURE_2D)
+        glTextureSubImage2D(name(), level, 0, 0, width(level), height(level), layout, type, data);
+    else
+        glTextureSubImage3D(name(), level, 0, 0, 0, width(level), height(level), depth(level), layout, type, data);
+}
+
+void Texture::uploadLayer(int level, int layer, std::uint32_t layout, std::uint32_t type, const void* data) {
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    glTextureSubImage3D(name(), level, 0, 0, layer, width(level), height(level), 1, layout, type, data);
+}
+
+void Texture::generateMipmaps() { glGenerateTextureMipmap(name()); }
+
+void Texture::clear(int level, std::uint32_t layout, std::uint32_t type, const void* texel) {
+    glClearTexImage(name(), level, layout, type, texel);
+}
+
+void Texture::read(int level, std::uint32_t layout, std::uint32_t type, void* data, std::size_t bytes) const {
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTextureImage(name(), level, layout, type, static_cast<GLsizei>(bytes), data);
+}
+
+void Texture::parameter(std::uint32_t parameterName, int value) { glTextureParameteri(name(), parameterName, value); }
+void Texture::bind(unsigned unit) const { glBindTextureUnit(unit, name()); }
+void Texture::bindImage(unsigned unit, int level, std::uint32_t access, std::uint32_t format) const {
+    glBindImageTexture(unit, name(), level, GL_TRUE, 0, access, format != 0 ? format : desc_.format);
+}
+
+Sampler::Sampler(const SamplerDesc& desc, const std::string& label) {
+    Name name = 0;
+    glCreateSamplers(1, &name);
+    glSamplerParameteri(name, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(desc.minFilter));
+    glSamplerParameteri(name, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(desc.magFilter));
+    glSamplerParameteri(name, GL_TEXTURE_WRAP_S, static_cast<GLint>(desc.wrap));
+    glSamplerParameteri(name, GL_TEXTURE_WRAP_T, static_cast<GLint>(desc.wrapV != 0 ? desc.wrapV : desc.wrap));
+    glSamplerParameteri(name, GL_TEXTURE_WRAP_R, static_cast<GLint>(desc.wrap));
+    if (desc.maxAnisotropy > 1.0f && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic"))
+        glSamplerParameterf(name, GL_TEXTURE_MAX_ANISOTROPY_EXT, desc.maxAnisotropy);
+    if (desc.depthCompare) {
+        glSamplerParameteri(name, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+        glSamplerParameteri(name, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
+    }
+    adopt(name, label, 0);
+}
+
+void Sampler::bind(unsigned unit) const { glBindSampler(unit, name()); }
+void unbindSampler(unsigned unit) { glBindSampler(unit, 0); }
+
+}  // namespace conelight::gl

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Textures of immutable storage, views of buffers as textures, samplers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "gl/buffer.h"
+#include "gl/object.h"
+
+namespace conelight::gl {
+
+struct TextureDesc {
+    std::uint32_t target;  // GL_TEXTURE_2D, _2D_ARRAY, _3D, _CUBE_MAP, _CUBE_MAP_ARRAY, _BUFFER
+    std::uint32_t format;  // sized internal format
+    int width = 1;
+    int height = 1;
+    int depth = 1;   // layers for arrays (6 per cube)
+    int levels = 1;  // 0: the full chain
+};
+
+class Texture : public Object<ObjectType::Texture> {
+  public:
+    Texture() = default;
+    Texture(const TextureDesc& desc, const std::string& label);
+    // A GL_TEXTURE_BUFFER that reads `buffer` (not owned) as texels of `format`.
+    Texture(const Buffer& buffer, std::uint32_t format, const std::string& label);
+
+    const TextureDesc& desc() const { return desc_; }
+    int width(int level = 0) const;
+    int height(int level = 0) const;
+    int depth(int level = 0) const;
+
+    // One level from host memory; type and layout as in glTextureSubImage.
+    void upload(int level, std::uint32_t layout, std::uint32_t type, const void* data);
+    void uploadLayer(int level, int layer, std::uint32_t layout, std::uint32_t type, const void* data);
+    void generateMipmaps();
+    void clear(int level, std::uint32_t layout, std::uint32_t type, const void* texel);  // null: zero
+    void read(int level, std::uint32_t layout, std::uint32_t type, void* data, std::size_t bytes) const;
+
+    void parameter(std::uint32_t name, int value);
+    void bind(unsigned unit) const;  // texture unit
+    // Image unit; access GL_READ_ONLY, _WRITE_ONLY, _READ_WRITE; all layers. format 0: the texture's own.
+    void bindImage(unsigned unit, int level, std::uint32_t access, std::uint32_t format = 0) const;
+
+    // Bytes of the storage of `desc`, all levels.
+    static std::size_t storageBytes(const TextureDesc& desc);
+
+  private:
+    TextureDesc desc_{};
+};
+
+struct SamplerDesc {
+    std::uint32_t minFilter;  // GL_LINEAR_MIPMAP_LINEAR ...
+    std::uint32_t magFilter;
+    std::uint32_t wrap;         // all axes
+    std::uint32_t wrapV = 0;    // 0: as wrap
+    bool depthCompare = false;  // GL_LEQUAL comparison
+    float maxAnisotropy = 1.0f;
+};
+
+class Sampler : public Object<ObjectType::Sampler> {
+  public:
+    Sampler() = default;
+    Sampler(const SamplerDesc& desc, const std::string& label);
+    void bind(unsigned unit) const;
+};
+
+// Forgets the sampler object of a unit: the texture's own parameters count again.
+void unbindSampler(unsigned unit);
+
+}  // namespace conelight::gl

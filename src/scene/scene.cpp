@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// The CPU scene tables: bounds, validation, and what a scene needs to be seen.
+#include "conelight/scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/log.h"
+
+namespace conelight {
+
+Aabb Mesh::bounds() const {
+    Aabb box;
+    for (const glm::vec3& p : positions) box.grow(p);
+    return box;
+}
+
+Aabb Scene::bounds() const {
+    Aabb box;
+    for (const Instance& instance : instances) {
+        if (!instance.visible || instance.mesh < 0) continue;
+        for (const glm::vec3& p : meshes[static_cast<std::size_t>(instance.mesh)].positions)
+            box.grow(glm::vec3(instance.worldFromObject * glm::vec4(p, 1)));
+    }
+    return box;
+}
+
+std::size_t Scene::triangleCount() const {
+    std::size_t count = 0;
+    for (const Instance& instance : instances)
+        if (instance.visible && instance.mesh >= 0)
+            count += meshes[static_cast<std::size_t>(instance.mesh)].triangleCount();
+    return count;
+}
+
+namespace {
+
+using base::fail;
+
+bool isFinite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+bool isFinite(const glm::mat4& m) {
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r)
+            if (!std::isfinite(m[c][r])) return false;
+    return true;
+}
+
+void validateMesh(const Mesh& mesh, std::size_t index) {
+    const auto where = [&] { return base::format("mesh %zu '%s'", index, mesh.name.c_str()); };
+    const std::size_t count = mesh.positions.size();
+    const auto attribute = [&](const char* name, std::size_t size) {
+        if (size != 0 && size != count)
+            fail(ErrorKind::BadInput, "%s: %zu %s for %zu positions; as many or none would be right",
+                 where().c_str(), size, name, count);
+    };
+    attribute("normals", mesh.normals.size());
+    attribute("uvs", mesh.uvs.size());
+    attribute("tangents", mesh.tangents.size());
+    attribute("colors", mesh.colors.size());
+    if (mesh.indices.size() % 3 != 0)
+        fail(ErrorKind::BadInput, "%s: %zu indices; a multiple of 3 would be right", where().c_str(),
+             mesh.indices.size());
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i)
+        if (mesh.indices[i] >= count)
+            fail(ErrorKind::BadInput, "%s: index %zu is %u; less than %zu would be right", where().c_str(), i,
+                 mesh.indices[i], count);
+    for (std::size_t i = 0; i < count; ++i)
+        if (!isFinite(mesh.positions[i]))
+            fail(ErrorKind::BadInput, "%s: position %zu is not finite", where().c_str(), i);
+}
+
+void validateTextureRef(const Scene& scene, const TextureRef& ref, const Material& material, const char* use) {
+    if (ref.texture >= static_cast<int>(scene.textures.size()))
+        fail(ErrorKind::BadInput, "material '%s': %s names texture %d; less than %zu would be right",
+             material.name.c_str(), use, ref.texture, scene.textures.size());
+}
+
+}  // namespace
+
+void Scene::validate() const {
+    for (std::size_t i = 0; i < meshes.size(); ++i) validateMesh(meshes[i], i);
+    for (const Texture& texture : textures) {
+        const std::size_t texels = static_cast<std::size_t>(std::max(texture.width, 0)) *
+                                   static_cast<std::size_t>(std::max(texture.height, 0));
+        if (texels == 0 || texture.rgba.size() != 4 * texels)
+            fail(ErrorKind::BadInput, "texture '%s': %d x %d texels and %zu bytes do not belong together",
+                 texture.name.c_str(), texture.width, texture.height, texture.rgba.size());
+    }
+    for (const Material& material : materials) {
+        validateTextureRef(*this, material.baseColorTexture, material, "base colour");
+        validateTextureRef(*this, material.metallicRoughnessTexture, material, "metallic-roughness");
+        validateTextureRef(*this, material.normalTexture, material, "normal");
+        validateTextureRef(*this, material.emissiveTexture, material, "emission");
+        validateTextureRef(*this, material.specularTexture, material, "specular");
+        validateTextureRef(*this, material.specularColorTexture, material, "specular colour");
+    }
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        const Instance& instance = instances[i];
+        if (instance.mesh < 0 || instance.mesh >= static_cast<int>(meshes.size()))
+            fail(ErrorKind::BadInput, "instance %zu '%s': mesh %d; 0 to %zu would be right", i,
+                 instance.name.c_str(), instance.mesh, meshes.size() - 1);
+        if (instance.material >= static_cast<int>(materials.size()))
+            fail(ErrorKind::BadInput, "instance %zu '%s': material %d; less than %zu would be right", i,
+                 instance.name.c_str(), instance.material, materials.size());
+        if (!isFinite(instance.worldFromObject))
+            fail(ErrorKind::BadInput, "instance %zu '%s': the transform is not finite", i,
+                 instance.name.c_str());
+    }
+    for (const Light& light : lights)
+        if (!isFinite(light.position) || !isFinite(light.direction) || !isFinite(light.intensity))
+            fail(ErrorKind::BadInput, "light '%s': position, direction or intensity is not finite",
+                 light.name.c_str());
+}
+
+// Lambert in both models: rho/pi * I and kd * color * c are equal when I = pi * c (docs/theory/1_scene.md).
+PhongMaterial phongFromPbr(const Material& material) {
+    PhongMaterial phong;
+    const glm::vec3 albedo(material.baseColor);
+    phong.color = albedo;
+    phong.diffuseStrength = 1.0f - material.metallic;
+    phong.ambientStrength = 0.0f;
+    // Equal half-height width of the Blinn and GGX lobes: n = 2 / alpha^2 - 2.
+    const float alpha = std::max(material.roughness * material.roughness, 0.01f);
+    phong.shininess = std::clamp(2.0f / (alpha * alpha) - 2.0f, 1.0f, 1000.0f);
+    phong.specularStrength = std::min(1.0f, 0.04f * material.specular + material.metallic);
+    return phong;
+}
+
+void setPbrFromPhong(Material& material) {
+    const PhongMaterial& phong = material.phong;
+    // Inverse of the rule above; the specular weight grows with shininess so that walls of the thesis's rooms
+    // (shininess 1, strength 0.01) stay matt and its mirror sphere (256, 1.3) mirrors. Chosen by eye.
+    const float weight = std::clamp(phong.specularStrength, 0.0f, 1.0f) * phong.shininess / (phong.shininess + 62.0f);
+    material.roughness = std::pow(2.0f / (std::max(phong.shininess, 0.0f) + 2.0f), 0.25f);
+    material.metallic = 0.0f;
+    // F0 = weight for a dielectric: specularColor scales the default 0.04.
+    material.ior = 1.5f;
+    material.specular = 1.0f;
+    material.specularColor = glm::vec3(weight / 0.04f);
+    const glm::vec3 albedo = glm::clamp(phong.color * phong.diffuseStrength, 0.0f, 1.0f) * (1.0f - weight);
+    material.baseColor = glm::vec4(albedo, material.baseColor.a);
+}
+
+Camera frameCamera(const Aabb& bounds) {
+    Camera camera;
+    camera.name = "framed";
+    if (bounds.empty()) return camera;
+    const float radius = std::max(0.5f * glm::length(bounds.extent()), 1e-4f);
+    const glm::vec3 direction = glm::normalize(glm::vec3(0.35f, 0.25f, 1.0f));
+    camera.target = bounds.center();
+    camera.eye = camera.target + direction * (radius / std::sin(0.5f * camera.fovY) * 1.02f);
+    camera.zNear = radius * 0.01f;
+    camera.zFar = radius * 20.0f;
+    return camera;
+}
+
+void completeScene(Scene& scene) {
+    const Aabb bounds = scene.bounds();
+    if (scene.cameras.empty()) {
+        scene.cameras.push_back(frameCamera(bounds));
+        scene.notes.emplace_back("no camera in the scene: one that frames it was added");
+    }
+    bool emits = glm::dot(scene.sky, glm::vec3(1)) > 0;
+    for (const Light& light : scene.lights) emits |= light.enabled;
+    for (const Instance& instance : scene.instances) {
+        if (!instance.visible || instance.material < 0) continue;
+        const Material& material = scene.materials[static_cast<std::size_t>(instance.material)];
+        emits |= !material.unlit && glm::dot(material.emission, glm::vec3(1)) > 0;
+    }
+    if (!emits && !bounds.empty()) {
+        // A headlight that gives a white surface at the centre of the view the radiance 1.
+        const Camera& camera = scene.cameras.front();
+        Light light;
+        light.name = "headlight";
+        light.type = LightType::Directional;
+        light.direction = glm::normalize(camera.target - camera.eye + glm::vec3(0.2f, -0.3f, 0.1f) *
+                                         glm::length(camera.target - camera.eye));
+        light.intensity = glm::vec3(3.14159265f);
+        scene.lights.push_back(light);
+        scene.notes.emplace_back("no light, emission or sky in the scene: a headlight was added");
+    }
+}
+
+}  // namespace conelight

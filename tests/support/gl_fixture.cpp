@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+#include "support/gl_fixture.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+
+#include "conelight/error.h"
+#include "gl/debug.h"
+#include "gl/object.h"
+#include "platform/headless_context.h"
+
+namespace conelight::test {
+namespace {
+
+struct SharedContext {
+    std::unique_ptr<platform::HeadlessContext> context;
+    std::string failure;
+    SharedContext() {
+        platform::tuneAllocator();
+        try {
+            platform::HeadlessOptions options;
+            options.debug = true;
+            context = std::make_unique<platform::HeadlessContext>(options);
+            gl::installDebugCallback();
+        } catch (const Error& error) {
+            failure = error.what();
+        }
+    }
+};
+
+SharedContext& sharedContext() {
+    static SharedContext* const shared = new SharedContext;  // lives until the process ends
+    return *shared;
+}
+
+}  // namespace
+
+void GlTest::SetUp() {
+    if (!sharedContext().failure.empty()) {
+        if (std::getenv("CONELIGHT_REQUIRE_GL") != nullptr) FAIL() << sharedContext().failure;
+        GTEST_SKIP() << sharedContext().failure;
+    }
+    gl::resetDebugErrors();
+    ASSERT_EQ(gl::liveObjectCount(), 0u) << "an earlier test left GL objects";
+}
+
+void GlTest::TearDown() {
+    programs_.reset();
+    if (!sharedContext().failure.empty()) return;
+    EXPECT_EQ(gl::debugErrorCount(), 0) << gl::lastDebugError();
+    for (const gl::LiveObject& object : gl::liveObjects()) ADD_FAILURE() << "leaked GL object '" << object.label << "'";
+}
+
+gl::ProgramLibrary& GlTest::programs() {
+    if (!programs_) {
+        programs_.emplace([this, embedded = gl::embeddedShaderProvider()](const std::string& path) {
+            for (const auto& [name, text] : extra_)
+                if (name == path) return std::optional<std::string>(text);
+            return embedded(path);
+        });
+    }
+    return *programs_;
+}
+
+void GlTest::addShader(const std::string& path, const std::string& text) { extra_.emplace_back(path, text); }
+
+std::optional<std::string> testData(const std::string& path) {
+    const char* root = std::getenv("CONELIGHT_TEST_DATA");
+    const std::filesystem::path file =
+        (root != nullptr ? std::filesystem::path(root) : std::filesystem::path(CONELIGHT_SOURCE_DIR) / ".." / "shared") / path;
+    if (!std::filesystem::exists(file)) return std::nullopt;
+    return file.lexically_normal().string();
+}
+
+std::string scratchDir() {
+    struct Dir {
+        std::filesystem::path path;
+        Dir() : path(std::filesystem::temp_directory_path() / ("conelight-test-" + std::to_string(getpid()))) {
+            std::filesystem::create_directories(path);
+        }
+        ~Dir() {
+            std::error_code ignored;
+            std::filesystem::remove_all(path, ignored);
+        }
+    };
+    static const Dir dir;
+    return dir.path.string();
+}
+
+CommandResult runCommand(const std::string& commandLine) {
+    CommandResult result{-1, ""};
+    FILE* pipe = popen((commandLine + " 2>&1").c_str(), "r");
+    if (pipe == nullptr) return result;
+    char chunk[4096];
+    for (std::size_t got; (got = fread(chunk, 1, sizeof chunk, pipe)) > 0;) result.output.append(chunk, got);
+    const int status = pclose(pipe);
+    result.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+    return result;
+}
+
+}  // namespace conelight::test

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Fixture of tests that need OpenGL: one context for the process; after each test no GL error has been
+// reported and no GL object is left. Without a usable context the test is skipped, unless
+// CONELIGHT_REQUIRE_GL is set (scripts/test sets it).
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "gl/gl.h"
+#include "gl/program.h"
+#include "gl/texture.h"
+
+namespace conelight::test {
+
+class GlTest : public ::testing::Test {
+  protected:
+    void SetUp() override;
+    void TearDown() override;
+    // Programs of the embedded shaders, plus files of the test itself (path -> text), which win.
+    gl::ProgramLibrary& programs();
+    void addShader(const std::string& path, const std::string& text);
+
+  private:
+    std::vector<std::pair<std::string, std::string>> extra_;
+    std::optional<gl::ProgramLibrary> programs_;
+};
+
+// The file or folder PATH of the test data that is not ours to ship (CONELIGHT_TEST_DATA, else ../shared
+// beside the sources); nothing when absent: GTEST_SKIP then.
+std::optional<std::string> testData(const std::string& path);
+
+// A fresh folder for files a test writes; removed with all it holds when the process ends.
+std::string scratchDir();
+
+// Runs a command line, returns exit status and what it printed (stdout and stderr together).
+struct CommandResult {
+    int status;
+    std::string output;
+};
+CommandResult runCommand(const std::string& commandLine);
+
+}  // namespace conelight::test
