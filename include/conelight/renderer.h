@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// The renderer: Scene + Camera + Settings -> a picture in a GL texture.
+//
+// Load time: make a 4.5 core context current, construct a Renderer, setScene. Render time: render() as often
+// as you like; it leaves the context's state as it found it (docs/guide/embed.md lists what is saved).
+// One thread at a time, the one on which the context is current.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "conelight/scene.h"
+#include "conelight/settings.h"
+
+namespace conelight {
+
+// Linear RGBA float pixels, first row on top. rgb is radiance (or what the component shows), a is 1 where a
+// surface was seen and 0 in the background.
+struct Image {
+    int width = 0;
+    int height = 0;
+    std::vector<glm::vec4> pixels;
+};
+
+struct PassStats {
+    std::string name;
+    double cpuMs = 0;
+    double wallMs = 0;
+    double gpuMs = -1;  // < 0: not measured
+};
+
+struct MemoryStats {
+    std::string label;
+    std::size_t bytes = 0;
+};
+
+struct FrameStats {
+    std::vector<PassStats> passes;  // empty unless profiling is on
+    double cpuMs = 0, wallMs = 0;   // of the whole render call
+    // Lookups: texture fetches of cones, by kind, mean per picture pixel; empty unless counting is on.
+    std::vector<std::pair<std::string, double>> lookupsPerPixel;
+    std::vector<MemoryStats> memory;  // live GL objects with storage, largest first
+    std::string device;
+};
+
+struct RendererOptions {
+    std::string shaderDirectory;  // empty: the embedded shaders; else files there win (for development)
+};
+
+class Renderer {
+  public:
+    // Throws Error(NoGl) without a current 4.5 context.
+    explicit Renderer(const RendererOptions& options = {});
+    ~Renderer();
+    Renderer(const Renderer&) = delete;
+    Renderer& operator=(const Renderer&) = delete;
+
+    // Copies and uploads the scene. Throws Error(BadInput) when Scene::validate does.
+    void setScene(const Scene& scene);
+
+    // Timings per pass cost a glFinish each on software drivers. Counting lookups makes cone passes slower.
+    void setProfiling(bool passes, bool lookups);
+
+    // Draws one picture, width x height in [1, 16384]. Voxels and light are rebuilt only when the scene or a
+    // setting they depend on changed since the last call, or when `dynamic` (set by setDynamic) is on.
+    // Throws Error(Usage) for settings out of range, Error(Runtime) for failures of the driver.
+    void render(const Camera& camera, int width, int height, const Settings& settings);
+    void setDynamic(bool everyFrame);
+
+    // Results of the last render().
+    Image readImage() const;          // waits for the GPU
+    std::uint32_t imageTexture() const;  // GL_TEXTURE_2D, RGBA32F, owned by the renderer; row 0 is the bottom row
+    const FrameStats& stats() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+// 8-bit picture bytes (RGB, first row on top) of a linear image: exposure, tone map, sRGB encoding.
+std::vector<std::uint8_t> toneMapped(const Image& image, const ImageSettings& settings);
+
+}  // namespace conelight

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// Every knob of the renderer as plain structs with defaults. The same list, with unit, range and one line of
+// explanation, is given by settingInfos() and is what `--set KEY=VALUE`, `conelight settings`, the
+// documentation and the viewer show: src/frame/settings.cpp is the single source of those texts.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace conelight {
+
+enum class Mode {
+    Phong,   // local illumination only, the thesis's Phong model with its attenuation
+    Thesis,  // the thesis's renderer
+    Cones,   // energy-normalised cone tracing, physically based shading
+};
+
+// What is shown. Indirect = Diffuse + Specular (the gathered parts).
+enum class Component { Full, Direct, Indirect, Diffuse, Specular, Occlusion, Albedo, Normal, Depth, Voxels, Emission };
+
+enum class ToneMap { None, Reinhard, Aces };
+
+struct VoxelSettings {
+    int size = 128;          // voxels along the longest axis of the grid; 8..512, divisible by 4
+    float padding = 0.03f;   // grid is larger than the scene's bounds by this fraction on each side
+};
+
+struct LightSettings {
+    int shadowSize = 1024;     // texels per edge of a shadow map (cube faces: half); 0 = no shadows; 64..8192
+    int shadowFilter = 2;      // radius of the shadow filter in texels; 0..4
+    int areaSamples = 16;      // points per rectangular light; 1, 4, 9, 16, 25 ... 64
+    bool emissiveQuads = true; // flat rectangular emitters are lit exactly, as area lights (cones mode)
+};
+
+// A number with a default that depends on the voxel size; set with `auto` or a number.
+struct AutoFloat {
+    bool isAuto = true;
+    float value = 0;
+    float resolve(float automatic) const { return isAuto ? automatic : value; }
+};
+
+// Defects of the original program that can be switched back on (docs/guide/thesis_mode.md lists each).
+// Filled by the thesis mode.
+struct ThesisDefects {};
+
+struct ThesisSettings {
+    ThesisDefects defects;
+};
+
+// Filled by the cones mode.
+struct ConesSettings {};
+
+struct ImageSettings {
+    float exposure = 0.0f;  // stops: the linear image is multiplied by 2^exposure before the tone map; -20..20
+    ToneMap toneMap = ToneMap::Aces;  // thesis and phong modes of a thesis-format scene default to None
+    bool srgb = true;       // encode 8-bit output as sRGB; the original wrote linear values
+};
+
+struct Settings {
+    Mode mode = Mode::Cones;
+    Component component = Component::Full;
+    VoxelSettings voxels;
+    LightSettings light;
+    ThesisSettings thesis;
+    ConesSettings cones;
+    ImageSettings image;
+};
+
+struct SettingInfo {
+    std::string key;           // "thesis.diffuse.aperture"
+    std::string type;          // "bool", "int", "float", "auto float", "choice"
+    std::string unit;          // "rad", "voxels", "" ...
+    std::string range;         // "0.01..3.14", "true,false", "none,reinhard,aces"
+    std::string defaultValue;
+    std::string help;          // one line
+};
+
+// All settings, in the order of the structs.
+const std::vector<SettingInfo>& settingInfos();
+
+// Sets one value. Throws Error(Usage): unknown key (names the nearest known one), unreadable or out of range.
+void setSetting(Settings& settings, const std::string& key, const std::string& value);
+std::string getSetting(const Settings& settings, const std::string& key);
+
+}  // namespace conelight

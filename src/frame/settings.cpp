@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+// The list of settings: key, unit, range, help, in one place; set, get and describe walk over it.
+#include "conelight/settings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+
+#include "base/log.h"
+
+namespace conelight {
+namespace {
+
+template <class T>
+struct Choice {
+    const char* name;
+    T value;
+};
+
+constexpr Choice<Mode> kModes[] = {{"phong", Mode::Phong}, {"thesis", Mode::Thesis}, {"cones", Mode::Cones}};
+constexpr Choice<Component> kComponents[] = {
+    {"full", Component::Full},         {"direct", Component::Direct},       {"indirect", Component::Indirect},
+    {"diffuse", Component::Diffuse},   {"specular", Component::Specular},   {"occlusion", Component::Occlusion},
+    {"albedo", Component::Albedo},     {"normal", Component::Normal},       {"depth", Component::Depth},
+    {"voxels", Component::Voxels},     {"emission", Component::Emission}};
+constexpr Choice<ToneMap> kToneMaps[] = {{"none", ToneMap::None}, {"reinhard", ToneMap::Reinhard}, {"aces", ToneMap::Aces}};
+
+// Calls visit(key, field, ...) for every setting. Visitor overloads: boolean, integer, number, autoNumber, choice.
+template <class S, class V>
+void visitAll(S& s, V&& visit) {
+    visit.choice("mode", s.mode, kModes, "how the picture is made");
+    visit.choice("component", s.component, kComponents, "the part of the picture that is shown");
+    visit.integer("voxels.size", s.voxels.size, 8, 512, 4, "voxels", "voxels along the longest axis of the grid");
+    visit.number("voxels.padding", s.voxels.padding, 0.0, 1.0, "", "grid beyond the scene's bounds, as a fraction per side");
+    visit.integer("light.shadow_size", s.light.shadowSize, 0, 8192, 1, "texels", "edge of a shadow map; 0: no shadows");
+    visit.integer("light.shadow_filter", s.light.shadowFilter, 0, 4, 1, "texels", "radius of the shadow filter");
+    visit.integer("light.area_samples", s.light.areaSamples, 1, 64, 1, "", "points per rectangular light, a square number");
+    visit.boolean("light.emissive_quads", s.light.emissiveQuads, "light flat rectangular emitters exactly, as area lights");
+    visit.number("image.exposure", s.image.exposure, -20.0, 20.0, "stops", "brightness before the tone map: 2^exposure");
+    visit.choice("image.tone_map", s.image.toneMap, kToneMaps, "curve from linear radiance to the 8-bit picture");
+    visit.boolean("image.srgb", s.image.srgb, "encode 8-bit pictures as sRGB");
+}
+
+std::string numberText(double value) { return base::format("%.6g", value); }
+
+template <class T, std::size_t N>
+std::string choiceNames(const Choice<T> (&choices)[N]) {
+    std::string names;
+    for (const auto& choice : choices) names += (names.empty() ? "" : ",") + std::string(choice.name);
+    return names;
+}
+
+struct Getter {
+    const std::string& key;
+    std::string result;
+    bool found = false;
+
+    bool is(const char* name) { return key == name && (found = true); }
+    void boolean(const char* name, const bool& value, const char*) {
+        if (is(name)) result = value ? "true" : "false";
+    }
+    void integer(const char* name, const int& value, int, int, int, const char*, const char*) {
+        if (is(name)) result = std::to_string(value);
+    }
+    void number(const char* name, const float& value, double, double, const char*, const char*) {
+        if (is(name)) result = numberText(value);
+    }
+    void autoNumber(const char* name, const AutoFloat& value, double, double, const char*, const char*) {
+        if (is(name)) result = value.isAuto ? "auto" : numberText(value.value);
+    }
+    template <class T, std::size_t N>
+    void choice(const char* name, const T& value, const Choice<T> (&choices)[N], const char*) {
+        if (!is(name)) return;
+        for (const auto& one : choices)
+            if (one.value == value) result = one.name;
+    }
+};
+
+struct Setter {
+    const std::string& key;
+    const std::string& text;
+    bool found = false;
+
+    bool is(const char* name) { return key == name && (found = true); }
+    [[noreturn]] void reject(const std::string& right) const {
+        base::fail(ErrorKind::Usage, "setting %s: '%s' is not usable; %s would be right", key.c_str(), text.c_str(),
+                   right.c_str());
+    }
+    double parse(double low, double high, const std::string& also) const {
+        char* end = nullptr;
+        const double value = std::strtod(text.c_str(), &end);
+        if (text.empty() || *end != '\0' || !(value >= low && value <= high))
+            reject("a number from " + numberText(low) + " to " + numberText(high) + also);
+        return value;
+    }
+    void boolean(const char* name, bool& value, const char*) {
+        if (!is(name)) return;
+        if (text == "true" || text == "on" || text == "1") value = true;
+        else if (text == "false" || text == "off" || text == "0") value = false;
+        else reject("true or false");
+    }
+    void integer(const char* name, int& value, int low, int high, int multiple, const char*, const char*) {
+        if (!is(name)) return;
+        const double parsed = parse(low, high, multiple > 1 ? ", a multiple of " + std::to_string(multiple) : "");
+        if (parsed != std::floor(parsed) || static_cast<int>(parsed) % multiple != 0)
+            reject("a whole number from " + std::to_string(low) + " to " + std::to_string(high) +
+                   (multiple > 1 ? ", a multiple of " + std::to_string(multiple) : ""));
+        value = static_cast<int>(parsed);
+    }
+    void number(const char* name, float& value, double low, double high, const char*, const char*) {
+        if (is(name)) value = static_cast<float>(parse(low, high, ""));
+    }
+    void autoNumber(const char* name, AutoFloat& value, double low, double high, const char*, const char*) {
+        if (!is(name)) return;
+        if (text == "auto") value = AutoFloat{};
+        else value = AutoFloat{false, static_cast<float>(parse(low, high, " or auto"))};
+    }
+    template <class T, std::size_t N>
+    void choice(const char* name, T& value, const Choice<T> (&choices)[N], const char*) {
+        if (!is(name)) return;
+        for (const auto& one : choices) {
+            if (text != one.name) continue;
+            value = one.value;
+            return;
+        }
+        reject("one of " + choiceNames(choices));
+    }
+};
+
+struct Describer {
+    std::vector<SettingInfo> infos;
+
+    void boolean(const char* name, const bool& value, const char* help) {
+        infos.push_back({name, "bool", "", "true,false", value ? "true" : "false", help});
+    }
+    void integer(const char* name, const int& value, int low, int high, int multiple, const char* unit, const char* help) {
+        infos.push_back({name, "int", unit,
+                         std::to_string(low) + ".." + std::to_string(high) +
+                             (multiple > 1 ? " by " + std::to_string(multiple) : ""),
+                         std::to_string(value), help});
+    }
+    void number(const char* name, const float& value, double low, double high, const char* unit, const char* help) {
+        infos.push_back({name, "float", unit, numberText(low) + ".." + numberText(high), numberText(value), help});
+    }
+    void autoNumber(const char* name, const AutoFloat& value, double low, double high, const char* unit, const char* help) {
+        infos.push_back({name, "auto float", unit, "auto, " + numberText(low) + ".." + numberText(high),
+                         value.isAuto ? "auto" : numberText(value.value), help});
+    }
+    template <class T, std::size_t N>
+    void choice(const char* name, const T& value, const Choice<T> (&choices)[N], const char* help) {
+        std::string current;
+        for (const auto& one : choices)
+            if (one.value == value) current = one.name;
+        infos.push_back({name, "choice", "", choiceNames(choices), current, help});
+    }
+};
+
+// Edit distance, for naming the nearest known key.
+std::size_t editDistance(const std::string& a, const std::string& b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t above = row[j];
+            row[j] = std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1] ? 1u : 0u)});
+            diagonal = above;
+        }
+    }
+    return row[b.size()];
+}
+
+[[noreturn]] void unknownKey(const std::string& key) {
+    const SettingInfo* nearest = nullptr;
+    std::size_t best = std::numeric_limits<std::size_t>::max();
+    for (const SettingInfo& info : settingInfos()) {
+        const std::size_t distance = editDistance(key, info.key);
+        if (distance < best) {
+            best = distance;
+            nearest = &info;
+        }
+    }
+    base::fail(ErrorKind::Usage, "setting %s: there is no such setting; %s would be the nearest (`conelight settings` lists all)",
+               key.c_str(), nearest->key.c_str());
+}
+
+}  // namespace
+
+const std::vector<SettingInfo>& settingInfos() {
+    static const std::vector<SettingInfo> infos = [] {
+        Describer describer;
+        const Settings defaults;
+        visitAll(defaults, describer);
+        return describer.infos;
+    }();
+    return infos;
+}
+
+void setSetting(Settings& settings, const std::string& key, const std::string& value) {
+    Setter setter{key, value};
+    visitAll(settings, setter);
+    if (!setter.found) unknownKey(key);
+}
+
+std::string getSetting(const Settings& settings, const std::string& key) {
+    Getter getter{key, {}};
+    visitAll(settings, getter);
+    if (!getter.found) unknownKey(key);
+    return getter.result;
+}
+
+}  // namespace conelight

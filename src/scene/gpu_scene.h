@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+// The scene on the GPU: Scene (CPU tables) -> buffers of shared/scene.h, textures per material, and all
+// textures once more at low resolution in one array that compute shaders can index (voxelizers).
+// Materials are deduplicated to the scene's own plus a default one at the end.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "conelight/scene.h"
+#include "gl/buffer.h"
+#include "gl/draw.h"
+#include "gl/texture.h"
+#include "shared/scene.h"
+
+namespace conelight::scene {
+
+class GpuScene {
+  public:
+    // Uploads everything. Throws Error(BadInput) by Scene::validate.
+    explicit GpuScene(const Scene& source);
+
+    // Binds the tables of shared/bindings.h (vertices, indices, instances, materials, lights) and the
+    // surface array.
+    void bind() const;
+
+    // Draws every instance accepted by `filter` (all when empty) with the vertex array bound. The instance's
+    // index arrives in the shader as the attribute/base instance: gl_InstanceID + gl_BaseInstance is not
+    // portable in 4.5 core, so a per-instance attribute `instanceIndex` (location 5) is used.
+    // `setMaterial(material, flipped, doubleSided)` is called when these change; culling is set by the callee.
+    // `copies` draws each instance that many times (gl_InstanceID = 0..copies-1), for layered rendering.
+    using InstanceFilter = std::function<bool(const gpu::Instance&)>;
+    void draw(const InstanceFilter& filter, gl::Cull cull, bool bindTextures, int copies = 1) const;
+
+    const Aabb& bounds() const { return bounds_; }
+    std::uint32_t triangleCount() const { return triangleCount_; }  // over all instances, visible or not
+    const std::vector<gpu::Instance>& instances() const { return instances_; }
+    const std::vector<gpu::Material>& materials() const { return materials_; }
+    const std::vector<gpu::Light>& lights() const { return lights_; }
+    // Light stage: writes shadow layers and view ranges into the table.
+    void updateLights(const std::vector<gpu::Light>& lights);
+    // Moves one instance (dynamic objects); bounds and tables follow.
+    void setTransform(std::size_t instance, const glm::mat4& worldFromObject);
+
+    const gl::Buffer& instanceBuffer() const { return instanceBuffer_; }
+
+  private:
+    void uploadGeometry(const Scene& source);
+    void uploadMaterials(const Scene& source);
+    void uploadTextures(const Scene& source);
+    void uploadLights(const Scene& source);
+    void updateBounds();
+    void bindMaterialTextures(std::uint32_t material) const;
+
+    std::vector<gpu::Instance> instances_;
+    std::vector<Aabb> instanceObjectBounds_;
+    std::vector<gpu::Material> materials_;
+    std::vector<gpu::Light> lights_;
+    struct MaterialTextures {
+        int slots[6];  // base, metallic-roughness, normal, emissive, specular, specular colour; -1: white
+    };
+    std::vector<MaterialTextures> materialTextures_;
+    std::vector<gl::Texture> textures_;
+    std::vector<gl::Sampler> samplers_;  // per texture
+    gl::Texture white_;
+    gl::Texture surfaceArray_;
+    gl::Sampler surfaceSampler_;
+    gl::Buffer vertexBuffer_, indexBuffer_, instanceBuffer_, instanceIndexBuffer_, materialBuffer_, lightBuffer_;
+    gl::VertexArray vertexArray_;
+    std::vector<std::uint32_t> drawOrder_;  // instances sorted by material
+    Aabb bounds_;
+    std::uint32_t triangleCount_ = 0;
+};
+
+}  // namespace conelight::scene
