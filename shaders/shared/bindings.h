@@ -29,3 +29,4 @@
 // Units of the light stage, fixed because several stages shade
 #define UNIT_SHADOW_2D 24          // sampler2DArrayShadow
 #define UNIT_SHADOW_CUBE 25        // samplerCubeArrayShadow
+#define BINDING_SHADOW_VIEWS 5     // storage: matrices of shadow views (light stage)

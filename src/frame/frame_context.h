@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// What a mode is given to draw one picture. Built by renderer.cpp for each render() call.
+#pragma once
+
+#include "conelight/scene.h"
+#include "conelight/settings.h"
+#include "gl/pass.h"
+#include "gl/program.h"
+#include "gl/texture.h"
+#include "light/shadow_maps.h"
+#include "scene/gpu_scene.h"
+#include "view/gbuffer.h"
+
+namespace conelight::frame {
+
+struct FrameContext {
+    gl::ProgramLibrary& programs;
+    gl::Profiler& profiler;
+    const Scene& source;
+    scene::GpuScene& scene;
+    const Settings& settings;
+    int width;
+    int height;
+    view::GBuffer& gbuffer;      // drawn before the mode runs; textures still to be bound
+    light::ShadowMaps& shadows;  // up to date and bound when the mode asked for them (needsShadows)
+    const gl::Texture& output;   // RGBA32F, width x height; the mode writes every pixel (imageStore), row 0 at the bottom
+    bool geometryChanged;        // scene, transforms, voxel settings or "every frame": rebuild voxels
+    bool lightChanged;           // geometryChanged, or lights or light settings changed: inject again
+    gl::Buffer* lookupCounters;  // not null: count texture lookups of cones (uints: diffuse, specular, occlusion)
+};
+
+// One way of making the picture. Owns its volumes and passes; lives as long as the scene is shown in its mode.
+class ModeRenderer {
+  public:
+    virtual ~ModeRenderer() = default;
+    // The frame block, scene tables, G-buffer and (if needed) shadow maps are ready.
+    virtual void render(const FrameContext& frame) = 0;
+    virtual bool needsShadows(const Settings& settings) const = 0;
+    virtual bool cullsBackFaces() const { return false; }
+};
+
+}  // namespace conelight::frame
