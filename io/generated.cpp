@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT
+// The list of generated scenes and the reading of their specifications: "NAME?key=value&key=value" -> Scene.
+#include "io/generated.h"
+
+#include "conelight/error.h"
+#include "io/generated_scenes.h"
+
+#include <fmt/format.h>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <optional>
+
+namespace conelight::io {
+namespace {
+
+constexpr GeneratedParameter kCornellParameters[] = {
+    {"emission", 40, 0, 1e4, false, "radiance of the lamp, W/(sr m^2)"},
+};
+constexpr GeneratedParameter kCornellPointParameters[] = {
+    {"intensity", 0.4, 0, 1e4, false, "of the lamp, W/sr"},
+};
+constexpr GeneratedParameter kFurnaceParameters[] = {
+    {"albedo", 0.5, 0, 0.99, false, "of every wall"},
+    {"emission", 1, 0, 1e4, false, "radiance of every wall, W/(sr m^2)"},
+};
+constexpr GeneratedParameter kSpheresParameters[] = {
+    {"columns", 6, 1, 12, true, "spheres from left to right, roughness 0.05 to 1"},
+    {"rows", 3, 1, 8, true, "spheres from front to back, metalness 0 to 1"},
+    {"emission", 8, 0, 1e4, false, "radiance of the lamp, W/(sr m^2)"},
+};
+
+struct Entry {
+    GeneratedSceneInfo info;
+    Scene (*build)(const generated::Values&);
+};
+
+// The order is the one of help pages: what people try first comes first.
+constexpr Entry kScenes[] = {
+    {{"cornell", "Cornell box, open front, one lamp in the ceiling", kCornellParameters},
+     generated::buildCornell},
+    {{"cornell-point", "closed Cornell box, a point light 0.1 m under the ceiling", kCornellPointParameters},
+     generated::buildCornellPoint},
+    {{"furnace", "closed box of equal glowing walls: radiance is emission / (1 - albedo) everywhere",
+      kFurnaceParameters},
+     generated::buildFurnace},
+    {{"spheres", "spheres of every roughness and metalness in a lit room", kSpheresParameters},
+     generated::buildSpheres},
+};
+constexpr std::size_t kSceneCount = std::size(kScenes);
+
+constexpr auto kInfos = [] {
+    std::array<GeneratedSceneInfo, kSceneCount> infos{};
+    for (std::size_t i = 0; i < kSceneCount; ++i) infos[i] = kScenes[i].info;
+    return infos;
+}();
+
+[[noreturn]] void failUsage(const std::string& spec, const std::string& what) {
+    throw Error(ErrorKind::Usage, fmt::format("builtin:{}: {}", spec, what));
+}
+
+std::string knownScenes() {
+    std::string list;
+    for (const Entry& entry : kScenes) list += fmt::format("{}{}", list.empty() ? "" : ", ", entry.info.name);
+    return list;
+}
+
+std::string range(const GeneratedParameter& p) { return fmt::format("{}={:g}..{:g}", p.name, p.min, p.max); }
+
+std::string knownParameters(const GeneratedSceneInfo& info) {
+    std::string list;
+    for (const GeneratedParameter& p : info.parameters)
+        list += fmt::format("{}{} (default {:g})", list.empty() ? "" : ", ", range(p), p.defaultValue);
+    return list;
+}
+
+// The whole text as a number, whatever the locale is; nothing for anything else, "nan" and "inf" included.
+std::optional<double> parseNumber(std::string_view text) {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
+        return std::nullopt;
+    return value;
+}
+
+double parseValue(const std::string& spec, const GeneratedParameter& p, std::string_view text) {
+    const std::optional<double> value = parseNumber(text);
+    if (!value) failUsage(spec, fmt::format("\"{}\" is no number; right would be {}", text, range(p)));
+    if (!(*value >= p.min && *value <= p.max))
+        failUsage(spec, fmt::format("{}={} is out of range; right would be {}", p.name, text, range(p)));
+    if (p.integer && *value != std::floor(*value))
+        failUsage(spec, fmt::format("{}={} is no whole number; right would be {}", p.name, text, range(p)));
+    return *value;
+}
+
+// Reads "key=value&key=value" over the defaults.
+generated::Values parseValues(const std::string& spec, const GeneratedSceneInfo& info,
+                              std::string_view text) {
+    generated::Values values;
+    for (const GeneratedParameter& p : info.parameters) values.set(p.name, p.defaultValue);
+    std::vector<std::string_view> seen;
+    while (!text.empty()) {
+        const std::string_view item = text.substr(0, text.find('&'));
+        text.remove_prefix(std::min(item.size() + 1, text.size()));
+        const std::size_t equals = item.find('=');
+        const std::string_view key = item.substr(0, equals);
+        const GeneratedParameter* parameter = nullptr;
+        for (const GeneratedParameter& p : info.parameters)
+            if (p.name == key) parameter = &p;
+        if (!parameter)
+            failUsage(spec, fmt::format("unknown parameter \"{}\"; {} takes {}", key, info.name,
+                                        knownParameters(info)));
+        if (equals == std::string_view::npos)
+            failUsage(spec, fmt::format("\"{}\" has no value; right would be {}", key, range(*parameter)));
+        for (std::string_view other : seen)
+            if (other == key) failUsage(spec, fmt::format("\"{}\" is given twice; once would be right", key));
+        seen.push_back(key);
+        values.set(parameter->name, parseValue(spec, *parameter, item.substr(equals + 1)));
+    }
+    return values;
+}
+
+}  // namespace
+
+std::span<const GeneratedSceneInfo> generatedScenes() { return kInfos; }
+
+Scene generateScene(const std::string& spec) {
+    const std::string_view text = spec;
+    const std::size_t mark = text.find('?');
+    const std::string_view name = text.substr(0, mark);
+    for (const Entry& entry : kScenes) {
+        if (entry.info.name != name) continue;
+        const std::string_view rest =
+            mark == std::string_view::npos ? std::string_view() : text.substr(mark + 1);
+        Scene scene = entry.build(parseValues(spec, entry.info, rest));
+        scene.name = spec;
+        return scene;
+    }
+    failUsage(spec, fmt::format("unknown scene \"{}\"; known are {}", name, knownScenes()));
+}
+
+}  // namespace conelight::io

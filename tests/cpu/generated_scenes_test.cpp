@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: MIT
+// Generated scenes: what their specifications accept and refuse, and what every one of them must fulfil:
+// valid tables, outward winding, closed rooms, the same bits every time, a camera that stands in free space.
+#include "conelight/error.h"
+#include "io/generated.h"
+
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <set>
+#include <tuple>
+
+namespace conelight {
+namespace {
+
+using io::generatedScenes;
+using io::generateScene;
+
+// ---- Specifications -------------------------------------------------------------------------------------
+
+// The message of the usage error that `spec` must give.
+std::string usageError(const std::string& spec) {
+    try {
+        generateScene(spec);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::Usage) << spec;
+        return error.what();
+    }
+    ADD_FAILURE() << spec << " is accepted";
+    return {};
+}
+
+TEST(GeneratedScenes, ListsEveryPromisedScene) {
+    std::set<std::string_view> names;
+    for (const io::GeneratedSceneInfo& info : generatedScenes()) {
+        EXPECT_TRUE(names.insert(info.name).second) << info.name << " is listed twice";
+        EXPECT_FALSE(info.description.empty()) << info.name;
+        EXPECT_EQ(info.description.find('\n'), std::string_view::npos) << info.name;
+        for (const io::GeneratedParameter& p : info.parameters) {
+            EXPECT_LT(p.min, p.max) << info.name << " " << p.name;
+            EXPECT_GE(p.defaultValue, p.min) << info.name << " " << p.name;
+            EXPECT_LE(p.defaultValue, p.max) << info.name << " " << p.name;
+            EXPECT_FALSE(p.meaning.empty()) << info.name << " " << p.name;
+        }
+    }
+    for (std::string_view promised : {"cornell", "cornell-point", "furnace", "spheres"})
+        EXPECT_TRUE(names.count(promised)) << promised;
+}
+
+TEST(GeneratedScenes, UnknownNameListsTheKnown) {
+    const std::string message = usageError("kornell");
+    EXPECT_NE(message.find("kornell"), std::string::npos);
+    for (const io::GeneratedSceneInfo& info : generatedScenes())
+        EXPECT_NE(message.find(info.name), std::string::npos) << info.name;
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+    usageError("");
+    usageError("?albedo=0.5");
+    usageError("furnace ");
+}
+
+TEST(GeneratedScenes, UnknownKeyListsTheKnownWithRanges) {
+    const std::string message = usageError("furnace?colour=1");
+    for (const char* part : {"colour", "albedo=0..0.99", "emission=0..10000", "default 0.5"})
+        EXPECT_NE(message.find(part), std::string::npos) << part << " in: " << message;
+    EXPECT_EQ(message.find('\n'), std::string::npos);
+}
+
+TEST(GeneratedScenes, RefusesBadValues) {
+    for (const char* spec :
+         {"furnace?albedo=", "furnace?albedo", "furnace?albedo=x", "furnace?albedo=0.5x",
+          "furnace?albedo=nan", "furnace?albedo=inf", "furnace?albedo=-0.1", "furnace?albedo=1",
+          "furnace?albedo=0,5", "furnace?albedo= 0.5", "furnace?albedo=0.1&albedo=0.2", "furnace?&albedo=0.1",
+          "furnace?albedo=0.1&&emission=1", "spheres?rows=2.5", "furnace?albedo=1e999", "furnace?Albedo=0.5",
+          "furnace?albedo=0.5?emission=1"})
+        EXPECT_NE(usageError(spec).find("builtin:"), std::string::npos) << spec;
+}
+
+TEST(GeneratedScenes, ReadsEveryValue) {
+    const Scene scene = generateScene("furnace?emission=2.5&albedo=0.25");
+    ASSERT_EQ(scene.materials.size(), 1u);
+    EXPECT_EQ(scene.materials[0].baseColor, glm::vec4(0.25f, 0.25f, 0.25f, 1));
+    EXPECT_EQ(scene.materials[0].emission, glm::vec3(2.5f));
+    EXPECT_EQ(scene.materials[0].specular, 0.0f);  // purely Lambertian
+    EXPECT_TRUE(scene.lights.empty());
+    EXPECT_EQ(scene.sky, glm::vec3(0));
+    EXPECT_EQ(generateScene("furnace").materials[0].baseColor.r, 0.5f);
+    EXPECT_EQ(generateScene("furnace?").materials[0].emission, glm::vec3(1));
+    EXPECT_EQ(generateScene("furnace?albedo=2e-1").materials[0].baseColor.r, 0.2f);
+}
+
+// ---- What all scenes fulfil -----------------------------------------------------------------------------
+
+// Every scene at its defaults, and at both ends of each parameter as far as that stays small.
+std::vector<std::string> allSpecs() {
+    std::vector<std::string> specs;
+    for (const io::GeneratedSceneInfo& info : generatedScenes()) {
+        specs.emplace_back(info.name);
+        for (const io::GeneratedParameter& p : info.parameters)
+            for (double value : {p.min, p.max})
+                if (p.name != "triangles" || value < 1e5)
+                    specs.push_back(std::string(info.name) + "?" + std::string(p.name) + "=" +
+                                    std::to_string(value));
+    }
+    return specs;
+}
+
+struct Triangle {
+    glm::vec3 a, b, c;
+};
+
+template <class Visit>  // visit(instance, corners in world space, indices)
+void forEachTriangle(const Scene& scene, Visit visit) {
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
+        for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+            const std::uint32_t* t = &mesh.indices[i];
+            auto corner = [&](int k) {
+                return glm::vec3(instance.worldFromObject * glm::vec4(mesh.positions[t[k]], 1));
+            };
+            visit(instance, Triangle{corner(0), corner(1), corner(2)}, t);
+        }
+    }
+}
+
+TEST(GeneratedScenes, TablesAreValidAndNamed) {
+    for (const std::string& spec : allSpecs()) {
+        SCOPED_TRACE(spec);
+        const Scene scene = generateScene(spec);
+        EXPECT_NO_THROW(scene.validate());
+        EXPECT_EQ(scene.name, spec);
+        ASSERT_FALSE(scene.cameras.empty());
+        for (const Mesh& m : scene.meshes) {
+            EXPECT_FALSE(m.name.empty());
+            EXPECT_FALSE(m.indices.empty()) << m.name;
+            EXPECT_EQ(m.normals.size(), m.positions.size()) << m.name;
+            EXPECT_EQ(m.uvs.size(), m.positions.size()) << m.name;
+        }
+        std::set<std::string> cameraNames;
+        for (const Camera& c : scene.cameras) EXPECT_TRUE(cameraNames.insert(c.name).second) << c.name;
+        for (const Instance& i : scene.instances) EXPECT_FALSE(i.name.empty());
+        for (const Light& l : scene.lights) EXPECT_FALSE(l.name.empty());
+        for (const Material& m : scene.materials) {
+            EXPECT_FALSE(m.name.empty());
+            // Nothing reflects all that it gets: the light in a closed room stays finite.
+            for (int k = 0; k < 3; ++k) EXPECT_LE(m.baseColor[k], 0.99f) << m.name;
+        }
+        // Somebody gives light.
+        bool glows = !scene.lights.empty() || scene.sky != glm::vec3(0);
+        for (const Material& m : scene.materials) glows = glows || m.emission != glm::vec3(0);
+        if (spec.find("=0.000000") == std::string::npos) {
+            EXPECT_TRUE(glows);
+        }
+    }
+}
+
+TEST(GeneratedScenes, NormalsAgreeWithWinding) {
+    for (const std::string& spec : allSpecs()) {
+        SCOPED_TRACE(spec);
+        const Scene scene = generateScene(spec);
+        for (const Mesh& mesh : scene.meshes) {
+            std::size_t wrong = 0;
+            for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+                const std::uint32_t* t = &mesh.indices[i];
+                const glm::vec3 n = glm::cross(mesh.positions[t[1]] - mesh.positions[t[0]],
+                                               mesh.positions[t[2]] - mesh.positions[t[0]]);
+                EXPECT_GT(glm::length(n), 0.0f) << mesh.name << " has a triangle without area";
+                if (glm::dot(n, mesh.normals[t[0]] + mesh.normals[t[1]] + mesh.normals[t[2]]) <= 0) ++wrong;
+            }
+            EXPECT_EQ(wrong, 0u) << mesh.name << " of " << mesh.triangleCount();
+            for (const glm::vec3& n : mesh.normals) ASSERT_NEAR(glm::length(n), 1.0f, 1e-4f) << mesh.name;
+        }
+        for (const Instance& i : scene.instances)
+            EXPECT_GT(glm::determinant(glm::mat3(i.worldFromObject)), 0.0f) << i.name << " is mirrored";
+    }
+}
+
+TEST(GeneratedScenes, TangentsComeWithNormalMaps) {
+    for (const std::string& spec : allSpecs()) {
+        SCOPED_TRACE(spec);
+        const Scene scene = generateScene(spec);
+        for (const Instance& i : scene.instances) {
+            const Mesh& mesh = scene.meshes[std::size_t(i.mesh)];
+            if (!scene.materials[std::size_t(i.material)].normalTexture.used()) continue;
+            ASSERT_EQ(mesh.tangents.size(), mesh.positions.size()) << mesh.name;
+            for (std::size_t v = 0; v < mesh.tangents.size(); ++v) {
+                ASSERT_NEAR(glm::length(glm::vec3(mesh.tangents[v])), 1.0f, 1e-4f) << mesh.name;
+                ASSERT_NEAR(glm::dot(glm::vec3(mesh.tangents[v]), mesh.normals[v]), 0.0f, 1e-3f) << mesh.name;
+                ASSERT_EQ(std::abs(mesh.tangents[v].w), 1.0f) << mesh.name;
+            }
+        }
+    }
+}
+
+// Half-edges by welded end points. Positions that should coincide come from the same sums, or differ by
+// rounding: they are welded on a lattice of 10 micrometres.
+using Point = std::array<long, 3>;
+Point weld(glm::vec3 p) {
+    return {std::lround(double(p.x) * 1e5), std::lround(double(p.y) * 1e5), std::lround(double(p.z) * 1e5)};
+}
+
+void expectWatertight(const Scene& scene) {
+    std::map<std::pair<Point, Point>, int> balance;  // an edge and its opposite cancel
+    std::map<std::pair<Point, Point>, int> uses;
+    forEachTriangle(scene, [&](const Instance&, const Triangle& t, const std::uint32_t*) {
+        const Point p[3] = {weld(t.a), weld(t.b), weld(t.c)};
+        for (int k = 0; k < 3; ++k) {
+            const Point& from = p[k];
+            const Point& to = p[(k + 1) % 3];
+            const bool forward = from < to;
+            const auto edge = forward ? std::pair(from, to) : std::pair(to, from);
+            balance[edge] += forward ? 1 : -1;
+            uses[edge] += 1;
+        }
+    });
+    std::size_t open = 0, shared = 0;
+    for (const auto& [edge, sum] : balance) open += sum != 0;
+    for (const auto& [edge, count] : uses) shared += count != 2;
+    EXPECT_EQ(open, 0u) << "edges without a partner in the opposite direction";
+    EXPECT_EQ(shared, 0u) << "edges not shared by exactly two triangles";
+}
+
+TEST(GeneratedScenes, MeasurementRoomsAreClosed) {
+    for (const char* spec : {"furnace", "cornell-point"}) {
+        SCOPED_TRACE(spec);
+        expectWatertight(generateScene(spec));
+    }
+}
+
+TEST(GeneratedScenes, CamerasStandInFreeSpaceAndSeeFronts) {
+    // Rays through a lattice of pixels: something is hit, and hit from its front or two-sided.
+    for (const std::string& spec : allSpecs()) {
+        if (spec.find("triangles") != std::string::npos) continue;
+        const Scene scene = generateScene(spec);
+        std::vector<std::pair<Triangle, bool>> triangles;
+        forEachTriangle(scene, [&](const Instance& i, const Triangle& t, const std::uint32_t*) {
+            triangles.emplace_back(t, scene.materials[std::size_t(i.material)].doubleSided);
+        });
+        for (const Camera& camera : scene.cameras) {
+            SCOPED_TRACE(spec + " camera " + camera.name);
+            const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
+            const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up));
+            const glm::vec3 up = glm::cross(right, forward);
+            int hits = 0, backs = 0;
+            for (int y = -2; y <= 2; ++y)
+                for (int x = -2; x <= 2; ++x) {
+                    // Off the symmetry axes, so that no ray runs along an edge.
+                    const float scale = 0.45f * std::tan(0.5f * camera.fovY);
+                    const glm::vec3 d =
+                        forward + right * (scale * (float(x) + 0.013f)) + up * (scale * (float(y) + 0.017f));
+                    float nearest = 1e30f;
+                    bool front = true;
+                    for (const auto& [t, doubleSided] : triangles) {
+                        const glm::vec3 e1 = t.b - t.a, e2 = t.c - t.a, p = glm::cross(d, e2);
+                        const float det = glm::dot(e1, p);
+                        if (det == 0) continue;
+                        const glm::vec3 s = camera.eye - t.a, q = glm::cross(s, e1);
+                        const float u = glm::dot(s, p) / det, v = glm::dot(d, q) / det,
+                                    w = glm::dot(e2, q) / det;
+                        if (u < 0 || v < 0 || u + v > 1 || w < camera.zNear || w >= nearest) continue;
+                        nearest = w;
+                        front = det > 0 || doubleSided;
+                    }
+                    hits += nearest < 1e30f;
+                    backs += !front;
+                }
+            EXPECT_GE(hits, 13) << "of 25 rays";
+            EXPECT_EQ(backs, 0);
+        }
+    }
+}
+
+// ---- Determinism ----------------------------------------------------------------------------------------
+
+// FNV-1a over the bytes of all tables.
+class TableHash {
+  public:
+    template <class T>
+    void addAll(const std::vector<T>& values) {
+        add(values.size());
+        for (const T& v : values) add(v);
+    }
+    template <class T>
+    void add(const T& value) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        unsigned char bytes[sizeof(T)];
+        std::memcpy(bytes, &value, sizeof(T));
+        for (unsigned char b : bytes) state_ = (state_ ^ b) * 0x100000001b3u;
+    }
+    std::uint64_t state() const { return state_; }
+
+  private:
+    std::uint64_t state_ = 0xcbf29ce484222325u;
+};
+
+std::uint64_t hashTables(const Scene& scene) {
+    TableHash hash;
+    for (const Mesh& m : scene.meshes) {
+        hash.addAll(m.positions);
+        hash.addAll(m.normals);
+        hash.addAll(m.uvs);
+        hash.addAll(m.tangents);
+        hash.addAll(m.colors);
+        hash.addAll(m.indices);
+    }
+    for (const Texture& t : scene.textures) hash.addAll(t.rgba);
+    for (const Material& m : scene.materials) {
+        hash.add(m.baseColor);
+        hash.add(m.emission);
+        hash.add(m.roughness);
+        hash.add(m.metallic);
+    }
+    for (const Instance& i : scene.instances) {
+        hash.add(i.mesh);
+        hash.add(i.material);
+        hash.add(i.worldFromObject);
+    }
+    for (const Light& l : scene.lights) {
+        hash.add(l.position);
+        hash.add(l.direction);
+        hash.add(l.intensity);
+    }
+    return hash.state();
+}
+
+TEST(GeneratedScenes, SameSpecSameBits) {
+    std::set<std::uint64_t> seen;
+    for (const io::GeneratedSceneInfo& info : generatedScenes()) {
+        const std::string spec(info.name);
+        const std::uint64_t first = hashTables(generateScene(spec));
+        EXPECT_EQ(first, hashTables(generateScene(spec))) << spec;
+        EXPECT_TRUE(seen.insert(first).second) << spec << " equals another scene";
+    }
+    // The hash notices a change at all.
+    EXPECT_NE(hashTables(generateScene("furnace?albedo=0.3")),
+              hashTables(generateScene("furnace?albedo=0.4")));
+}
+
+}  // namespace
+}  // namespace conelight
