@@ -144,7 +144,7 @@ Scene buildSpheres(const Values& values) {
     // Far enough for the columns to fit, held inside of the room.
     const float wanted = 0.5f * kSpacing * float(rows) + 0.55f * kSpacing * float(columns) + 0.5f;
     const float front = std::min(wanted, back + depth - 0.1f);
-    scene.cameras.push_back(camera("front", {0, 1.35f, front}, {0, 0.1f, 0}, 38));
+    scene.cameras.push_back(camera("front", {0, 1.35f, front}, {0, 0.2f, 0}, 45));
     return scene;
 }
 

@@ -5,6 +5,7 @@
 // mixers of low bias (constants of "lowbias32", 2018).
 #include "generated_shapes.h"
 
+#include <algorithm>
 #include <cassert>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
@@ -15,8 +16,9 @@ namespace {
 // Half step of the central differences in units of the parameter: big enough that float differences of metres
 // keep 4 digits, small against the features of all curves used (the finest flute spans 0.02).
 constexpr float kDerivativeStep = 5e-4f;
-// Twice the area, m^2, under which a triangle is left out: edges shorter than 0.1 micrometre.
-constexpr float kMinDoubleArea = 1e-14f;
+// Twice the area over the longest edge squared under which a triangle is left out: float sines of whole turns
+// make slivers of 1e-7 at poles; the flattest wanted triangle (a column seen along its shaft) has 1e-3.
+constexpr float kMinFlatness = 1e-5f;
 
 void appendVertex(Mesh& mesh, glm::vec3 position, glm::vec3 normal, glm::vec2 uv) {
     mesh.positions.push_back(position);
@@ -170,9 +172,11 @@ void appendPatch(Mesh& mesh, const Patch& patch) {
                          patch.uvOffset + patch.uvScale * glm::vec2(u, 1 - v));
         }
     auto appendTriangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        const glm::vec3 pa = mesh.positions[a];
-        const glm::vec3 n = glm::cross(mesh.positions[b] - pa, mesh.positions[c] - pa);
-        if (glm::length(n) < kMinDoubleArea) return;
+        const glm::vec3 e1 = mesh.positions[b] - mesh.positions[a];
+        const glm::vec3 e2 = mesh.positions[c] - mesh.positions[a];
+        const glm::vec3 e3 = e2 - e1;
+        const float longest = std::max({glm::dot(e1, e1), glm::dot(e2, e2), glm::dot(e3, e3)});
+        if (glm::length(glm::cross(e1, e2)) <= kMinFlatness * longest) return;
         if (patch.flip) std::swap(b, c);
         mesh.indices.insert(mesh.indices.end(), {a, b, c});
     };
