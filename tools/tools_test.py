@@ -90,6 +90,13 @@ class Docs(Project):
         self.write("docs/c.md", "[x](missing.md)\n[y](b.md#three)\n![z](p.png)\n[w](../../elsewhere)\n")
         self.assertEqual(len(self.faults()), 4)
 
+    def test_comments_name_existing_pages(self):
+        subprocess.run(["git", "init", "-q", self.root], check=True)
+        self.write("docs/a.md", "# A\n")
+        self.write("src/a.h", "// See docs/a.md and docs/theory/b.md.\n")
+        subprocess.run(["git", "-C", self.root, "add", "."], check=True)
+        self.assertEqual(self.faults(), ["src/a.h:1: names docs/theory/b.md: no such file"])
+
     def test_snippets_equal_their_source(self):
         self.write("examples/e.cpp", "int a;\n// [part]\n    int b;\n      int c;\n// [/part]\n")
         self.write("README.md", "<!-- snippet: examples/e.cpp#part -->\n```cpp\nint b;\n  int c;\n```\n")
