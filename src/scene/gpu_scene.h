@@ -25,11 +25,12 @@ class GpuScene {
     // surface array.
     void bind() const;
 
-    // Draws every instance accepted by `filter` (all when empty) with the vertex array bound. The instance's
-    // index arrives in the shader as the attribute/base instance: gl_InstanceID + gl_BaseInstance is not
-    // portable in 4.5 core, so a per-instance attribute `instanceIndex` (location 5) is used.
-    // `setMaterial(material, flipped, doubleSided)` is called when these change; culling is set by the callee.
-    // `copies` draws each instance that many times (gl_InstanceID = 0..copies-1), for layered rendering.
+    // Draws every visible instance accepted by `filter` (all when empty) with the current program, framebuffer
+    // and state. Attributes: 0 position, 1 normalOct, 2 uv, 3 tangentOct, 4 color (shared/scene.h), 5 the index
+    // into the instance table. `cull` holds for single-sided materials; double-sided ones are never culled;
+    // flipped instances reverse the front face. `bindTextures`: the material's six textures at
+    // UNIT_MATERIAL_*. `copies`: instances per draw, gl_InstanceID = 0..copies-1 (layered rendering).
+    // GL state changed: vertex array, cull, front face, texture units 0-5.
     using InstanceFilter = std::function<bool(const gpu::Instance&)>;
     void draw(const InstanceFilter& filter, gl::Cull cull, bool bindTextures, int copies = 1) const;
 
