@@ -24,6 +24,24 @@ constexpr GeneratedParameter kFurnaceParameters[] = {
     {"albedo", 0.5, 0, 0.99, false, "of every wall"},
     {"emission", 1, 0, 1e4, false, "radiance of every wall, W/(sr m^2)"},
 };
+constexpr GeneratedParameter kLeakParameters[] = {
+    {"angle", 0, -40, 40, false, "the partition is turned about the vertical, degrees"},
+    {"thickness", 0.004375, 0.0005, 0.2, false,
+     "of the partition, m; the default is half a voxel of 1.12 m / 128"},
+    {"intensity", 0.1, 0, 1e4, false, "of the lamp, W/sr"},
+};
+constexpr GeneratedParameter kSunroomParameters[] = {
+    {"sun", 40, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
+    {"sky", 0.5, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
+};
+constexpr GeneratedParameter kCorridorParameters[] = {
+    {"emission", 130, 0, 1e4, false, "radiance of the lamp, W/(sr m^2)"},
+};
+constexpr GeneratedParameter kGlossyParameters[] = {
+    {"roughness", 0.2, 0.02, 1, false, "of the floor"},
+    {"metallic", 1, 0, 1, false, "of the floor"},
+    {"emission", 11, 0, 1e4, false, "radiance of the lamp, W/(sr m^2)"},
+};
 constexpr GeneratedParameter kSpheresParameters[] = {
     {"columns", 6, 1, 12, true, "spheres from left to right, roughness 0.05 to 1"},
     {"rows", 3, 1, 8, true, "spheres from front to back, metalness 0 to 1"},
@@ -44,6 +62,14 @@ constexpr Entry kScenes[] = {
     {{"furnace", "closed box of equal glowing walls: radiance is emission / (1 - albedo) everywhere",
       kFurnaceParameters},
      generated::buildFurnace},
+    {{"leak", "room parted by a thin wall, lamp on one side only; cameras lit, dark, both", kLeakParameters},
+     generated::buildLeak},
+    {{"sunroom", "room with thick walls, sunlight through its window", kSunroomParameters},
+     generated::buildSunroom},
+    {{"corridor", "corridor with two bends, lamp at one end only", kCorridorParameters},
+     generated::buildCorridor},
+    {{"glossy", "metal floor and glossy objects of roughness 0.1 to 0.4", kGlossyParameters},
+     generated::buildGlossy},
     {{"spheres", "spheres of every roughness and metalness in a lit room", kSpheresParameters},
      generated::buildSpheres},
 };

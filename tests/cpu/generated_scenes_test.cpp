@@ -45,7 +45,8 @@ TEST(GeneratedScenes, ListsEveryPromisedScene) {
             EXPECT_FALSE(p.meaning.empty()) << info.name << " " << p.name;
         }
     }
-    for (std::string_view promised : {"cornell", "cornell-point", "furnace", "spheres"})
+    for (std::string_view promised :
+         {"cornell", "cornell-point", "furnace", "leak", "sunroom", "corridor", "glossy", "spheres"})
         EXPECT_TRUE(names.count(promised)) << promised;
 }
 
@@ -222,10 +223,89 @@ void expectWatertight(const Scene& scene) {
 }
 
 TEST(GeneratedScenes, MeasurementRoomsAreClosed) {
-    for (const char* spec : {"furnace", "cornell-point"}) {
+    for (const char* spec : {"furnace", "furnace?albedo=0.9", "cornell-point", "leak", "leak?angle=20",
+                             "leak?angle=-40&thickness=0.2", "leak?thickness=0.0005", "corridor"}) {
         SCOPED_TRACE(spec);
         expectWatertight(generateScene(spec));
     }
+}
+
+// Does anything of the scene lie between `from` and `to`?
+bool blocked(const Scene& scene, glm::vec3 from, glm::vec3 to) {
+    bool hit = false;
+    const glm::vec3 d = to - from;
+    forEachTriangle(scene, [&](const Instance&, const Triangle& t, const std::uint32_t*) {
+        const glm::vec3 e1 = t.b - t.a, e2 = t.c - t.a, p = glm::cross(d, e2);
+        const float det = glm::dot(e1, p);
+        if (det == 0) return;
+        const glm::vec3 s = from - t.a, q = glm::cross(s, e1);
+        const float u = glm::dot(s, p) / det, v = glm::dot(d, q) / det, w = glm::dot(e2, q) / det;
+        hit = hit || (u >= 0 && v >= 0 && u + v <= 1 && w > 0 && w < 1);
+    });
+    return hit;
+}
+
+TEST(GeneratedScenes, LeakHalvesDoNotSeeEachOther) {
+    // Segments between lattice points of the two halves, the corners along the partition's rim included.
+    for (const char* spec : {"leak", "leak?angle=20", "leak?angle=-40", "leak?thickness=0.0005&angle=33"}) {
+        SCOPED_TRACE(spec);
+        const Scene scene = generateScene(spec);
+        ASSERT_EQ(scene.lights.size(), 1u);
+        const Camera& lit = scene.cameras[0];
+        const Camera& dark = scene.cameras[1];
+        EXPECT_EQ(lit.name, "lit");
+        EXPECT_EQ(dark.name, "dark");
+        EXPECT_EQ(scene.cameras[2].name, "both");
+        EXPECT_FALSE(blocked(scene, lit.eye, scene.lights[0].position));
+        EXPECT_TRUE(blocked(scene, dark.eye, scene.lights[0].position));
+        int open = 0;
+        for (int i = 0; i < 20; ++i)
+            for (int j = 0; j < 20; ++j) {
+                // Up to 1 mm from floor and ceiling, from end to end.
+                const float y = 0.001f + 0.998f * float(j) / 19.0f;
+                const float z = -0.499f + 0.998f * float(i) / 19.0f;
+                open += !blocked(scene, scene.lights[0].position, {0.495f, y, z});
+            }
+        EXPECT_EQ(open, 0);
+    }
+}
+
+TEST(GeneratedScenes, LeakPartitionIsAsThickAsAsked) {
+    const Scene scene = generateScene("leak?angle=30&thickness=0.05");
+    const glm::vec3 across(std::cos(glm::radians(30.0f)), 0, -std::sin(glm::radians(30.0f)));  // its normal
+    float lo = 1e9f, hi = -1e9f;
+    for (const Instance& i : scene.instances)
+        if (i.name == "partition")
+            for (const glm::vec3& p : scene.meshes[std::size_t(i.mesh)].positions) {
+                lo = std::min(lo, glm::dot(across, p));
+                hi = std::max(hi, glm::dot(across, p));
+            }
+    EXPECT_NEAR(hi - lo, 0.05f, 1e-5f);
+}
+
+TEST(GeneratedScenes, SunReachesTheSunroomOnlyThroughItsWindow) {
+    const Scene scene = generateScene("sunroom");
+    const glm::vec3 toSun = -scene.lights.at(0).direction * 20.0f;
+    int lit = 0, total = 0;
+    for (int i = 0; i < 24; ++i)
+        for (int j = 0; j < 24; ++j, ++total)  // just above the floor, wall to wall
+            lit += !blocked(
+                scene, {-1.79f + 3.58f * float(i) / 23.0f, 0.03f, -2.19f + 4.38f * float(j) / 23.0f}, toSun);
+    EXPECT_GT(lit, total / 50);
+    EXPECT_LT(lit, total / 4);
+}
+
+TEST(GeneratedScenes, CorridorHidesItsLampFromTheFirstLeg) {
+    const Scene scene = generateScene("corridor");
+    glm::vec3 lamp(0);
+    for (const Instance& i : scene.instances)
+        if (i.name == "lamp")
+            lamp = scene.meshes[std::size_t(i.mesh)].bounds().center() - glm::vec3(0, 0.01f, 0);
+    std::map<std::string, bool> hidden;
+    for (const Camera& c : scene.cameras) hidden[c.name] = blocked(scene, c.eye, lamp);
+    EXPECT_TRUE(hidden.at("dark"));
+    EXPECT_TRUE(hidden.at("middle"));
+    EXPECT_FALSE(hidden.at("lit"));
 }
 
 TEST(GeneratedScenes, CamerasStandInFreeSpaceAndSeeFronts) {
