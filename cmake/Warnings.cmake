@@ -2,7 +2,7 @@
 function(conelight_warnings target)
   target_compile_options(${target} PRIVATE
     $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wformat=2
-      -Wno-missing-field-initializers>
+      -Wno-format-nonliteral -Wno-missing-field-initializers>
     # GCC 12 and 13 report overlapping copies inside std::string that do not exist (GCC bug 105651).
     $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-restrict>)
   if(CONELIGHT_WERROR)
