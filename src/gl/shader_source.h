@@ -3,13 +3,13 @@
 // table from lines of the expanded text to file:line, with which driver logs are rewritten. No GL calls.
 //
 // Rules: paths are relative to the shader root (never to the including file), a file is included once, a
-// cycle is an error that names the chain. No #line is emitted: Mesa prints source 0 whatever it says.
+// cycle is an error that names the chain. An include counts even inside an #if that is not taken; only
+// #ifdef __cplusplus is decided here, and its C++ branch left out. No #line is emitted: Mesa prints source 0
+// whatever it says.
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <utility>
@@ -45,7 +45,9 @@ struct ExpandedShader {
     std::string mapLog(const std::string& log) const;
 };
 
-// Throws Error(Runtime): missing file, include cycle, malformed include, entry without #version.
-ExpandedShader expandShader(const ShaderProvider& provider, const std::string& path, const Defines& defines = {});
+// Throws Error(Runtime): missing file, include cycle, malformed include, an include before #version, an entry
+// without #version. Thread-safe if the provider is.
+ExpandedShader expandShader(const ShaderProvider& provider, const std::string& path,
+                            const Defines& defines = {});
 
 }  // namespace conelight::gl
