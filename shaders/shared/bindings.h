@@ -26,6 +26,8 @@
 #define UNIT_MATERIAL_SPECULAR_COLOR 5
 #define UNIT_SURFACE_ARRAY 6       // all textures at low resolution, for compute (GpuScene)
 #define UNIT_PASS 8                // first unit free for passes
+// Units of the G-buffer (GBuffer::bind), fixed because many passes read it: UNIT_GBUFFER and the next
+#define UNIT_GBUFFER 22
 // Units of the light stage, fixed because several stages shade
 #define UNIT_SHADOW_2D 24          // sampler2DArrayShadow
 #define UNIT_SHADOW_CUBE 25        // samplerCubeArrayShadow

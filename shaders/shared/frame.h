@@ -23,9 +23,16 @@ struct FrameConstants {
     uint triangleCount;  // of all instances
     uint seed;
     uint pad0;
-};  // 192 B
+    // ---- 192 B: the point at view depth z and clip position (x, y) is eye + z (viewForward + x viewRight + y viewUp)
+    vec3 viewForward;  // unit
+    float pad1;
+    vec3 viewRight;  // unit vector times the tangent of half the horizontal field of view
+    float pad2;
+    vec3 viewUp;  // unit vector times the tangent of half the vertical field of view
+    float pad3;
+};  // 240 B
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
-static_assert(sizeof(conelight::gpu::FrameConstants) == 192);
+static_assert(sizeof(conelight::gpu::FrameConstants) == 240);
 #endif

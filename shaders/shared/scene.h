@@ -43,7 +43,9 @@ struct Instance {
 #define MATERIAL_ALPHA_BLEND 2u
 #define MATERIAL_DOUBLE_SIDED 4u
 #define MATERIAL_UNLIT 8u
-#define MATERIAL_HAS_PHONG 16u  // phong* given by the scene, not derived
+#define MATERIAL_HAS_PHONG 16u        // phong* given by the scene, not derived
+#define MATERIAL_BASE_TEXTURE 32u     // has a base colour texture
+#define MATERIAL_DETAIL_TEXTURES 64u  // has any of the other five
 
 struct Material {
     vec4 baseColor;
@@ -60,22 +62,25 @@ struct Material {
     uint pad0;
     // ---- 64 B: layers of the surface array (GpuScene), -1 none: base colour, metallic-roughness, normal, emissive
     ivec4 layers;
-    // ---- 80 B: uv' = (dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z), rows of the four uses above
-    vec4 uvRow[8];
-    // ---- 208 B
+    // ---- 80 B: uv' = (dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z), rows of the four uses above,
+    // then of specular and specular colour
+    vec4 uvRow[12];
+    // ---- 272 B
     vec3 phongColor;
     float phongShininess;
-    // ---- 224 B
+    // ---- 288 B
     float phongAmbient;
     float phongDiffuse;
     float phongSpecular;
     float pad1;
-};  // 240 B
+};  // 304 B
 
 #define LIGHT_POINT 0u
 #define LIGHT_SPOT 1u
 #define LIGHT_DIRECTIONAL 2u
 #define LIGHT_RECT 3u
+
+#define LIGHT_CASTS_SHADOW 1u  // Light::flags
 
 struct Light {
     vec3 position;
@@ -106,6 +111,6 @@ CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::Vertex) == 32);
 static_assert(sizeof(conelight::gpu::Instance) == 144);
-static_assert(sizeof(conelight::gpu::Material) == 240);
+static_assert(sizeof(conelight::gpu::Material) == 304);
 static_assert(sizeof(conelight::gpu::Light) == 112);
 #endif

@@ -95,9 +95,11 @@ gpu::Material packedMaterial(const Material& m) {
               (m.alphaMode == AlphaMode::Blend ? MATERIAL_ALPHA_BLEND : 0u) |
               (m.doubleSided ? MATERIAL_DOUBLE_SIDED : 0u) | (m.unlit ? MATERIAL_UNLIT : 0u) |
               (m.isPhong ? MATERIAL_HAS_PHONG : 0u);
-    const TextureRef* uses[4] = {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissiveTexture};
-    for (int i = 0; i < 4; ++i) {
-        g.layers[i] = uses[i]->texture;  // layers follow the order of the scene's textures
+    const TextureRef* uses[6] = {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture,
+                                 &m.emissiveTexture,  &m.specularTexture,          &m.specularColorTexture};
+    for (int i = 0; i < 6; ++i) {
+        if (i < 4) g.layers[i] = uses[i]->texture;  // layers follow the order of the scene's textures
+        if (uses[i]->used()) g.flags |= i == 0 ? MATERIAL_BASE_TEXTURE : MATERIAL_DETAIL_TEXTURES;
         const glm::mat3& t = uses[i]->uvFromUv;
         g.uvRow[2 * i] = {t[0][0], t[1][0], t[2][0], 0};
         g.uvRow[2 * i + 1] = {t[0][1], t[1][1], t[2][1], 0};
@@ -323,7 +325,8 @@ void GpuScene::uploadLights(const Scene& source) {
         g.type = static_cast<std::uint32_t>(light.type);
         g.position = light.position;
         g.direction = unitOr(light.direction, {0, -1, 0});
-        g.shadow = light.castsShadow ? 0 : -1;
+        g.shadow = -1;  // the light stage fills it in
+        g.flags = light.castsShadow ? LIGHT_CASTS_SHADOW : 0u;
         g.intensity = light.intensity;
         g.range = light.range;
         g.halfU = light.halfU;

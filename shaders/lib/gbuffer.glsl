@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Read access to the G-buffer: pixel -> Surface. Bits: lib/gbuffer_pack.glsl. What a shader does not use of
+// the Surface costs nothing: the compiler drops the fetches and unpacking behind it.
+#include "lib/gbuffer_pack.glsl"
+#include "lib/octahedral.glsl"
+#include "lib/scene_tables.glsl"
+#include "lib/surface.glsl"
+layout(binding = UNIT_GBUFFER) uniform usampler2D gbufferGeometry;
+layout(binding = UNIT_GBUFFER + 1) uniform usampler2D gbufferMaterial;
+
+// World-space direction, not unit: position = eye + view depth * direction. Row 0 is the bottom row.
+vec3 pixelRay(ivec2 pixel) {
+    vec2 clip = (vec2(pixel) + 0.5) / vec2(frame.width, frame.height) * 2.0 - 1.0;
+    return frame.viewForward + clip.x * frame.viewRight + clip.y * frame.viewUp;
+}
+
+// The surface seen at the centre of `pixel`; false in the background, where `s` is a default surface at the
+// eye.
+bool fetchSurface(ivec2 pixel, out Surface s) {
+    uvec4 geometry = texelFetch(gbufferGeometry, pixel, 0);
+    uvec4 material = texelFetch(gbufferMaterial, pixel, 0);
+    vec3 ray = pixelRay(pixel);
+    s.depth = uintBitsToFloat(geometry.x);
+    s.position = frame.eye + s.depth * ray;
+    s.toEye = -normalize(ray);
+    s.normal = octDecode(unpackSnorm2x16(geometry.y));
+    s.geometricNormal = octDecode(unpackSnorm2x16(geometry.z));
+    s.instance = geometry.w >> 2;
+    s.backFacing = (geometry.w & 1u) != 0u;
+    s.unlit = (geometry.w & 2u) != 0u;
+    s.material = instances[s.instance].material;
+
+    vec2 blueRough = unpackUnorm2x16(material.y);
+    vec3 base = vec3(unpackUnorm2x16(material.x), blueRough.x);
+    s.roughness = blueRough.y;
+    unpackReflectance(material.z, s.dielectricF0, s.metallic);
+    s.albedo = s.unlit ? vec3(0.0) : base;
+    s.emission = s.unlit ? base : materials[s.material].emission * unpackEmissionFactor(material.w);
+    return geometry.x != 0u;
+}

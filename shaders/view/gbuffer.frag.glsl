@@ -1,0 +1,105 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// Fragments of the scene -> the G-buffer's words (lib/gbuffer_pack.glsl). Material model of glTF 2.0 with
+// KHR_texture_transform, _specular, _unlit; MASKED: discards below the cut-off of masked materials, and below
+// one half of blended ones.
+#ifndef TEXTURES
+#error TEXTURES must be 0 (none), 1 (base colour) or 2 (all)
+#endif
+#ifndef MASKED
+#error MASKED must be 0 or 1
+#endif
+#include "lib/gbuffer_pack.glsl"
+#include "lib/octahedral.glsl"
+#include "lib/scene_tables.glsl"
+
+layout(location = 0) in vec3 fromEye;
+layout(location = 1) in vec3 interpolatedNormal;
+layout(location = 2) in vec4 interpolatedBase;
+layout(location = 3) flat in uvec4 constant;
+#if TEXTURES >= 1
+layout(location = 4) in vec2 uv;
+layout(binding = UNIT_MATERIAL_BASE) uniform sampler2D baseTexture;
+#endif
+#if TEXTURES >= 2
+layout(location = 5) in vec4 interpolatedTangent;
+layout(binding = UNIT_MATERIAL_METAL_ROUGH) uniform sampler2D metalRoughTexture;
+layout(binding = UNIT_MATERIAL_NORMAL) uniform sampler2D normalTexture;
+layout(binding = UNIT_MATERIAL_EMISSIVE) uniform sampler2D emissiveTexture;
+layout(binding = UNIT_MATERIAL_SPECULAR) uniform sampler2D specularTexture;
+layout(binding = UNIT_MATERIAL_SPECULAR_COLOR) uniform sampler2D specularColorTexture;
+#endif
+
+layout(location = 0) out uvec4 outGeometry;
+layout(location = 1) out uvec4 outMaterial;
+
+#if TEXTURES >= 1
+// Texture coordinates of the use-th texture (order of Material::uvRow).
+vec2 uvOf(uint material, int use) {
+    vec3 row0 = materials[material].uvRow[2 * use].xyz;
+    vec3 row1 = materials[material].uvRow[2 * use + 1].xyz;
+    return vec2(dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z);
+}
+#endif
+
+// The normal of the triangle, towards the eye.
+vec3 faceNormal() {
+    vec3 n = cross(dFdx(fromEye), dFdy(fromEye));
+    float len = length(n);
+    // Slivers without extent on screen have none of their own.
+    n = len > 0.0 ? n / len : normalize(interpolatedNormal);
+    return dot(n, fromEye) > 0.0 ? -n : n;
+}
+
+void main() {
+    uint material = constant.z;
+    vec4 base = interpolatedBase;
+    float roughness = uintBitsToFloat(constant.w);
+    uint reflectance = constant.y;
+    vec3 emissionFactor = vec3(1.0);
+#if TEXTURES >= 1
+    base *= texture(baseTexture, uvOf(material, 0));
+#endif
+#if MASKED
+    float cutoff =
+        (materials[material].flags & MATERIAL_ALPHA_MASK) != 0u ? materials[material].alphaCutoff : 0.5;
+    if (base.a < cutoff) discard;
+#endif
+
+    vec3 n = normalize(interpolatedNormal);
+#if TEXTURES >= 2
+    vec4 metalRough = texture(metalRoughTexture, uvOf(material, 1));
+    roughness *= metalRough.g;
+    float metallic = materials[material].metallic * metalRough.b;
+    vec3 f0 = materials[material].specularF0 * texture(specularTexture, uvOf(material, 4)).a *
+              texture(specularColorTexture, uvOf(material, 5)).rgb;
+    reflectance = packReflectance(f0, metallic);
+    emissionFactor = texture(emissiveTexture, uvOf(material, 3)).rgb;
+
+    // Normal map: x along the tangent, y along the bitangent. Without a map the texel is white: leave n
+    // alone.
+    vec3 texel = texture(normalTexture, uvOf(material, 2)).xyz * 2.0 - 1.0;
+    vec3 t = interpolatedTangent.xyz - n * dot(n, interpolatedTangent.xyz);
+    float tLength = length(t);
+    if (materials[material].layers.z >= 0 && tLength > 1e-6) {
+        t /= tLength;
+        vec3 b = cross(n, t) * (interpolatedTangent.w < 0.0 ? -1.0 : 1.0);
+        float scale = materials[material].normalScale;
+        n = normalize(t * (texel.x * scale) + b * (texel.y * scale) + n * max(texel.z, 1e-3));
+    }
+#endif
+
+    // Both normals face the eye. The vertex normal decides which side n is on, not the winding: files whose
+    // triangles wind the wrong way round are common, and look right by their normals.
+    vec3 face = faceNormal();
+    if (dot(interpolatedNormal, face) < 0.0) n = -n;
+
+    // The back of a single-sided emitter is dark.
+    bool back = !gl_FrontFacing;
+    if (back && (materials[material].flags & MATERIAL_DOUBLE_SIDED) == 0u) emissionFactor = vec3(0.0);
+
+    outGeometry = uvec4(floatBitsToUint(1.0 / gl_FragCoord.w), packSnorm2x16(octEncode(n)),
+                        packSnorm2x16(octEncode(face)), constant.x | (back ? 1u : 0u));
+    outMaterial = uvec4(packUnorm2x16(base.rg), packUnorm2x16(vec2(base.b, roughness)), reflectance,
+                        packEmissionFactor(emissionFactor));
+}

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "view/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+namespace conelight::view {
+namespace {
+
+// Orthonormal axes of a camera. A camera that looks along its up vector, or from a point to itself, still
+// gets axes: the world axis least aligned with the view takes the place of up, -z that of the view.
+struct Axes {
+    glm::dvec3 forward, right, up;
+};
+
+Axes axesOf(const Camera& camera) {
+    Axes axes;
+    const glm::dvec3 view = glm::dvec3(camera.target) - glm::dvec3(camera.eye);
+    const double distance = glm::length(view);
+    axes.forward = distance > 0 ? view / distance : glm::dvec3(0, 0, -1);
+    glm::dvec3 side = glm::cross(axes.forward, glm::dvec3(camera.up));
+    // 1e-6: below a microradian between view and up, rounding decides where right is.
+    if (!(glm::length(side) > 1e-6 * glm::length(glm::dvec3(camera.up)))) {
+        const glm::dvec3 away = glm::abs(axes.forward);
+        const glm::dvec3 up = away.y <= away.x && away.y <= away.z ? glm::dvec3(0, 1, 0)
+                              : away.z <= away.x                   ? glm::dvec3(0, 0, -1)
+                                                                   : glm::dvec3(1, 0, 0);
+        side = glm::cross(axes.forward, up);
+    }
+    axes.right = glm::normalize(side);
+    axes.up = glm::cross(axes.right, axes.forward);
+    return axes;
+}
+
+glm::dmat4 viewMatrix(const Camera& camera) {
+    const Axes axes = axesOf(camera);
+    const glm::dvec3 eye(camera.eye);
+    glm::dmat4 m(1.0);
+    for (int i = 0; i < 3; ++i) {
+        m[i][0] = axes.right[i];
+        m[i][1] = axes.up[i];
+        m[i][2] = -axes.forward[i];
+    }
+    m[3] = glm::dvec4(-glm::dot(axes.right, eye), -glm::dot(axes.up, eye), glm::dot(axes.forward, eye), 1);
+    return m;
+}
+
+glm::dmat4 projection(const Camera& camera, int width, int height) {
+    const double aspect = static_cast<double>(width) / static_cast<double>(height);
+    return glm::perspective(static_cast<double>(camera.fovY), aspect, static_cast<double>(camera.zNear),
+                            static_cast<double>(camera.zFar));
+}
+
+}  // namespace
+
+glm::mat4 viewFromWorld(const Camera& camera) { return glm::mat4(viewMatrix(camera)); }
+
+glm::mat4 clipFromView(const Camera& camera, int width, int height) {
+    return glm::mat4(projection(camera, width, height));
+}
+
+gpu::FrameConstants frameConstants(const Camera& camera, int width, int height, const scene::GpuScene& scene,
+                                   const glm::vec3& sky, std::uint32_t frameIndex, std::uint32_t seed) {
+    const Axes axes = axesOf(camera);
+    const double tanY = std::tan(0.5 * static_cast<double>(camera.fovY));
+    const double tanX = tanY * static_cast<double>(width) / static_cast<double>(height);
+    // In double: the inverse of a projection with zFar/zNear = 1e5 loses all digits in float.
+    const glm::dmat4 clipFromWorld = projection(camera, width, height) * viewMatrix(camera);
+
+    gpu::FrameConstants frame{};
+    frame.clipFromWorld = glm::mat4(clipFromWorld);
+    frame.worldFromClip = glm::mat4(glm::inverse(clipFromWorld));
+    frame.eye = camera.eye;
+    frame.zNear = camera.zNear;
+    frame.zFar = camera.zFar;
+    frame.viewForward = glm::vec3(axes.forward);
+    frame.viewRight = glm::vec3(axes.right * tanX);
+    frame.viewUp = glm::vec3(axes.up * tanY);
+    frame.sky = sky;
+    frame.width = static_cast<std::uint32_t>(width);
+    frame.height = static_cast<std::uint32_t>(height);
+    frame.lightCount = static_cast<std::uint32_t>(scene.lights().size());
+    frame.frameIndex = frameIndex;
+    frame.instanceCount = static_cast<std::uint32_t>(scene.instances().size());
+    frame.triangleCount = scene.triangleCount();
+    frame.seed = seed;
+    return frame;
+}
+
+}  // namespace conelight::view
