@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Materials and textures of Assimp scenes as metallic-roughness. Private to this room.
+#pragma once
+
+#include <filesystem>
+
+#include "conelight/scene.h"
+
+struct aiScene;
+
+namespace conelight::io {
+
+// Appends one Material per material of `source` (same order) and the textures they use to `scene`; texture
+// files are looked for beside `file`. Missing or broken textures become notes.
+void importAssimpMaterials(const aiScene& source, const std::filesystem::path& file, Scene& scene);
+
+}  // namespace conelight::io

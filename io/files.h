@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Whole files in and out as bytes: reading with a clear error, writing beside and renaming so that a reader
+// never sees half a file, and the two encodings URIs use (percent signs, base64).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace conelight::io {
+
+using Bytes = std::vector<std::uint8_t>;
+
+// Reads a whole file. Throws Error(BadInput) that names the path: missing, a folder, not readable, or larger
+// than `maxBytes`.
+Bytes readFile(const std::filesystem::path& path, std::uint64_t maxBytes = std::uint64_t(1) << 32);
+
+// Writes `bytes` to a file beside `path` and renames it over `path`; a special file (/dev/stdout) is written
+// directly. Throws Error(Runtime) that names the path; nothing is left behind then.
+void writeFile(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
+
+// "a%20b" -> "a b"; a percent sign without two hex digits stays.
+std::string percentDecoded(std::string_view text);
+
+// Bytes of base64 text, white space ignored; nothing when a character does not belong there.
+std::optional<Bytes> base64Decoded(std::string_view text);
+
+// Extension in lower case with its dot, "" if none.
+std::string lowerExtension(const std::filesystem::path& path);
+
+// `text` as one printable line of at most `maxLength` characters: line ends and control characters become
+// spaces. For names and messages that come from files.
+std::string oneLine(std::string_view text, std::size_t maxLength = 200);
+
+}  // namespace conelight::io

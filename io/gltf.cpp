@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: MIT
+// glTF 2.0 -> Scene: extensions, node graph, instances, lights, cameras, skins. Parts: gltf_file (container
+// and accessors), gltf_material, gltf_mesh.
+#include "io/gltf.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/gtc/quaternion.hpp>
+#include <map>
+#include <set>
+
+#include "io/geometry.h"
+#include "io/gltf_file.h"
+#include "io/gltf_material.h"
+#include "io/gltf_mesh.h"
+
+namespace conelight::io {
+
+namespace {
+
+constexpr std::size_t kMaxInstances = 10'000'000;  // 1 GB of table; more is a broken file
+
+// Extensions read in full.
+constexpr std::array kKnown = {"KHR_lights_punctual",    "KHR_materials_emissive_strength",
+                               "KHR_materials_ior",      "KHR_materials_specular",
+                               "KHR_materials_unlit",    "KHR_materials_pbrSpecularGlossiness",
+                               "KHR_texture_transform",  "KHR_mesh_quantization",
+                               "EXT_mesh_gpu_instancing"};
+// Extensions that do not change a still picture.
+constexpr std::array kHarmless = {"KHR_xmp", "KHR_xmp_json_ld", "KHR_animation_pointer", "KHR_audio_emitter",
+                                  "VRM",     "VRMC_vrm",        "KHR_node_visibility"};
+
+template <std::size_t N>
+bool contains(const std::array<const char*, N>& list, const std::string& name) {
+    return std::any_of(list.begin(), list.end(), [&](const char* entry) { return name == entry; });
+}
+
+class Reader {
+  public:
+    explicit Reader(const std::filesystem::path& path) : file_(path) {}
+    Scene read();
+
+  private:
+    void checkExtensions();
+    void findWorldTransforms();
+    std::vector<std::size_t> nodesOfScene();
+    glm::mat4 localTransform(const GltfValue& node) const;
+    void placeMesh(std::size_t node, const GltfValue& value, GltfMeshes& meshes);
+    std::vector<glm::mat4> instanceTransforms(const GltfValue& node);
+    std::vector<glm::mat4> jointTransforms(const GltfValue& skin);
+    void addLight(std::size_t node, const GltfValue& value);
+    void addCamera(std::size_t node, const GltfValue& value);
+    std::string nameOf(std::size_t node) const {
+        return oneLine(file_.array("nodes")[node]["name"].text(fmt::format("node{}", node)));
+    }
+
+    GltfFile file_;
+    Scene scene_;
+    std::vector<glm::mat4> worldFromNode_;
+    std::size_t skinned_ = 0;
+};
+
+void Reader::checkExtensions() {
+    const GltfValue required = file_.array("extensionsRequired");
+    for (std::size_t i = 0; i < required.size(); ++i) {
+        const std::string name = required[i].text("");
+        if (!contains(kKnown, name) && !contains(kHarmless, name))
+            required[i].fail(
+                fmt::format("the file needs {}, which is not supported; export it without", oneLine(name)));
+    }
+    const GltfValue used = file_.array("extensionsUsed");
+    for (std::size_t i = 0; i < used.size(); ++i) {
+        const std::string name = used[i].text("");
+        if (!contains(kKnown, name) && !contains(kHarmless, name))
+            scene_.notes.push_back(fmt::format("extension {} is not supported and left out", oneLine(name)));
+    }
+}
+
+glm::mat4 Reader::localTransform(const GltfValue& node) const {
+    if (node["matrix"].exists()) {
+        glm::mat4 m;
+        node["matrix"].numbers(&m[0][0], 16);
+        return m;
+    }
+    const glm::vec3 t = node["translation"].vector<3>(glm::vec3(0));
+    const glm::vec4 r = node["rotation"].vector<4>(glm::vec4(0, 0, 0, 1));
+    const glm::vec3 s = node["scale"].vector<3>(glm::vec3(1));
+    const float length = glm::length(r);
+    if (!(length > 0.0f)) node["rotation"].fail("a quaternion without length");
+    glm::mat4 m = glm::mat4_cast(glm::quat(r.w / length, r.x / length, r.y / length, r.z / length));
+    for (int c = 0; c < 3; ++c) m[c] *= s[c];
+    m[3] = glm::vec4(t, 1.0f);
+    return m;
+}
+
+// World transforms of all nodes, parents first, with an own stack. Every node must have one parent at most,
+// and all must hang on roots: a second parent or a cycle is an error.
+void Reader::findWorldTransforms() {
+    const GltfValue nodes = file_.array("nodes");
+    const std::size_t count = nodes.size();
+    std::vector<std::uint8_t> hasParent(count, 0);
+    for (std::size_t n = 0; n < count; ++n) {
+        const GltfValue children = nodes[n]["children"];
+        for (std::size_t c = 0; c < children.size(); ++c) {
+            const std::size_t child = children[c].index(count).value();
+            if (hasParent[child] != 0)
+                children[c].fail(fmt::format("node {} has two parents; nodes must form trees", child));
+            hasParent[child] = 1;
+        }
+    }
+    worldFromNode_.assign(count, glm::mat4(1.0f));
+    std::size_t reached = 0;
+    std::vector<std::size_t> stack;
+    for (std::size_t n = 0; n < count; ++n) {
+        if (hasParent[n] != 0) continue;
+        worldFromNode_[n] = localTransform(nodes[n]);
+        stack.push_back(n);
+        while (!stack.empty()) {
+            const std::size_t node = stack.back();
+            stack.pop_back();
+            ++reached;
+            const GltfValue children = nodes[node]["children"];
+            for (std::size_t c = 0; c < children.size(); ++c) {
+                const std::size_t child = children[c].index(count).value();
+                worldFromNode_[child] = worldFromNode_[node] * localTransform(nodes[child]);
+                stack.push_back(child);
+            }
+        }
+    }
+    if (reached != count) nodes.fail("contain a cycle; nodes must form trees");
+}
+
+// Nodes below the default scene (all nodes when the file has no scenes), in the file's order of walking.
+std::vector<std::size_t> Reader::nodesOfScene() {
+    const GltfValue nodes = file_.array("nodes"), scenes = file_.array("scenes");
+    const std::size_t count = nodes.size();
+    std::vector<std::size_t> order;
+    if (scenes.size() == 0) {
+        for (std::size_t n = 0; n < count; ++n) order.push_back(n);
+        return order;
+    }
+    const GltfValue chosen = scenes[file_.root()["scene"].index(scenes.size()).value_or(0)];
+    scene_.name = oneLine(chosen["name"].text(""));
+    scene_.sky =
+        glm::max(chosen["extras"].isObject() ? chosen["extras"]["sky"].vector<3>(glm::vec3(0)) : glm::vec3(0),
+                 glm::vec3(0));
+    if (scenes.size() > 1)
+        scene_.notes.push_back(
+            fmt::format("{} scenes in the file; {} is shown", scenes.size(), chosen.path()));
+    std::vector<std::uint8_t> seen(count, 0);
+    const GltfValue roots = chosen["nodes"];
+    for (std::size_t r = 0; r < roots.size(); ++r) {
+        std::vector<std::size_t> stack = {roots[r].index(count).value()};
+        while (!stack.empty()) {
+            const std::size_t node = stack.back();
+            stack.pop_back();
+            if (seen[node] != 0) continue;
+            seen[node] = 1;
+            order.push_back(node);
+            const GltfValue children = nodes[node]["children"];
+            for (std::size_t c = children.size(); c-- > 0;) stack.push_back(children[c].index(count).value());
+        }
+    }
+    return order;
+}
+
+std::vector<glm::mat4> Reader::instanceTransforms(const GltfValue& node) {
+    const GltfValue attributes = node.extension("EXT_mesh_gpu_instancing")["attributes"];
+    if (!attributes.exists()) return {glm::mat4(1.0f)};
+    std::size_t count = 0;
+    for (const char* name : {"TRANSLATION", "ROTATION", "SCALE"})
+        if (attributes[name].exists()) {
+            const std::size_t here = file_.accessorCount(attributes[name]);
+            if (count != 0 && here != count)
+                attributes[name].fail("must have as many elements as the others");
+            count = here;
+        }
+    if (count > kMaxInstances) attributes.fail("has too many instances");
+    const auto read = [&](const char* name, std::size_t components) {
+        return attributes[name].exists() ? file_.floats(attributes[name], components) : std::vector<float>();
+    };
+    const std::vector<float> t = read("TRANSLATION", 3), r = read("ROTATION", 4), s = read("SCALE", 3);
+    std::vector<glm::mat4> out(count, glm::mat4(1.0f));
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!r.empty()) {
+            const glm::quat q(r[4 * i + 3], r[4 * i], r[4 * i + 1], r[4 * i + 2]);
+            if (glm::length(q) > 0.0f) out[i] = glm::mat4_cast(glm::normalize(q));
+        }
+        if (!s.empty())
+            for (int c = 0; c < 3; ++c) out[i][c] *= s[3 * i + std::size_t(c)];
+        if (!t.empty()) out[i][3] = glm::vec4(t[3 * i], t[3 * i + 1], t[3 * i + 2], 1.0f);
+    }
+    return out;
+}
+
+std::vector<glm::mat4> Reader::jointTransforms(const GltfValue& skin) {
+    const GltfValue joints = skin["joints"];
+    std::vector<float> inverse;
+    if (skin["inverseBindMatrices"].exists()) {
+        inverse = file_.floats(skin["inverseBindMatrices"], 16);
+        if (inverse.size() < 16 * joints.size())
+            skin["inverseBindMatrices"].fail("one matrix per joint is needed");
+    }
+    std::vector<glm::mat4> out;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        glm::mat4 m = worldFromNode_[joints[j].index(worldFromNode_.size()).value()];
+        if (!inverse.empty()) {
+            glm::mat4 bind;
+            std::copy_n(&inverse[16 * j], 16, &bind[0][0]);
+            m = m * bind;
+        }
+        out.push_back(m);
+    }
+    return out;
+}
+
+void Reader::placeMesh(std::size_t node, const GltfValue& value, GltfMeshes& meshes) {
+    const std::optional<std::size_t> mesh = value["mesh"].index(file_.array("meshes").size());
+    if (!mesh) return;
+    std::vector<float> weights(value["weights"].size());
+    for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = value["weights"][i].number(0.0f);
+
+    // A skinned mesh is placed by its joints alone.
+    if (const auto skin = value["skin"].index(file_.array("skins").size())) {
+        const std::vector<glm::mat4> joints = jointTransforms(file_.array("skins")[*skin]);
+        ++skinned_;
+        for (const GltfPart& part : meshes.parts(*mesh, weights, &joints)) {
+            Instance instance;
+            instance.name = nameOf(node);
+            instance.mesh = part.mesh;
+            instance.material = part.material;
+            scene_.instances.push_back(std::move(instance));
+        }
+        return;
+    }
+    const std::vector<GltfPart> parts = meshes.parts(*mesh, weights, nullptr);
+    const std::vector<glm::mat4> transforms = instanceTransforms(value);
+    if (scene_.instances.size() + transforms.size() * parts.size() > kMaxInstances)
+        value.fail("the file has too many instances");
+    for (const glm::mat4& transform : transforms)
+        for (const GltfPart& part : parts) {
+            Instance instance;
+            instance.name = nameOf(node);
+            instance.mesh = part.mesh;
+            instance.material = part.material;
+            instance.worldFromObject = worldFromNode_[node] * transform;
+            scene_.instances.push_back(std::move(instance));
+        }
+}
+
+void Reader::addLight(std::size_t node, const GltfValue& value) {
+    const GltfValue lights = file_.root().extension("KHR_lights_punctual")["lights"];
+    const std::optional<std::size_t> at =
+        value.extension("KHR_lights_punctual")["light"].index(lights.size());
+    if (!at) return;
+    const GltfValue from = lights[*at];
+    Light to;
+    to.name = oneLine(from["name"].text(nameOf(node)));
+    const std::string type = from["type"].text("");
+    if (type == "point")
+        to.type = LightType::Point;
+    else if (type == "spot")
+        to.type = LightType::Spot;
+    else if (type == "directional")
+        to.type = LightType::Directional;
+    else
+        from["type"].fail(fmt::format("'{}' is unknown; known: point, spot, directional", oneLine(type)));
+    to.intensity = from["color"].vector<3>(glm::vec3(1)) * from["intensity"].number(1.0f);
+    if (glm::any(glm::lessThan(to.intensity, glm::vec3(0)))) from.fail("a negative intensity");
+    const glm::mat4& m = worldFromNode_[node];
+    to.position = glm::vec3(m[3]);
+    const glm::vec3 along = -glm::vec3(m[2]);
+    const float length = glm::length(along);
+    if (length > 0.0f && std::isfinite(length))
+        to.direction = along / length;
+    else
+        to.direction = {0, 0, -1};
+    to.range = std::max(from["range"].number(0.0f), 0.0f);
+    if (to.type == LightType::Spot) {
+        constexpr float kRightAngle = 1.57079632679f;
+        to.outerAngle = from["spot"]["outerConeAngle"].number(0.785398163f);
+        to.innerAngle = from["spot"]["innerConeAngle"].number(0.0f);
+        const bool valid =
+            to.innerAngle >= 0.0f && to.innerAngle < to.outerAngle && to.outerAngle <= kRightAngle + 1e-4f;
+        if (!valid)
+            scene_.notes.push_back(fmt::format("light {}: cone angles out of range, clamped", to.name));
+        to.outerAngle = std::clamp(to.outerAngle, 1e-3f, kRightAngle);
+        to.innerAngle = std::clamp(to.innerAngle, 0.0f, 0.999f * to.outerAngle);
+    }
+    scene_.lights.push_back(std::move(to));
+}
+
+void Reader::addCamera(std::size_t node, const GltfValue& value) {
+    const std::optional<std::size_t> at = value["camera"].index(file_.array("cameras").size());
+    if (!at) return;
+    const GltfValue from = file_.array("cameras")[*at];
+    Camera to;
+    to.name = oneLine(from["name"].text(nameOf(node)));
+    const glm::mat4& m = worldFromNode_[node];
+    to.eye = glm::vec3(m[3]);
+    const glm::vec3 forward = -glm::vec3(m[2]), up = glm::vec3(m[1]);
+    const float slant = glm::length(glm::cross(forward, up));
+    if (!(slant > 0.0f) || !std::isfinite(slant)) {
+        scene_.notes.push_back(fmt::format("camera {}: has no usable direction; left out", to.name));
+        return;
+    }
+    to.target = to.eye + glm::normalize(forward);
+    to.up = glm::normalize(up);
+    const std::string type = from["type"].text("perspective");
+    const GltfValue lens = from[type == "orthographic" ? "orthographic" : "perspective"];
+    if (type == "orthographic") {
+        scene_.notes.push_back(
+            fmt::format("camera {}: is orthographic; drawn in perspective with 45 degrees", to.name));
+    } else {
+        to.fovY = lens["yfov"].number(to.fovY);
+        if (!(to.fovY > 1e-4f && to.fovY < 3.1415f)) lens["yfov"].fail("must be between 0 and pi");
+    }
+    to.zNear = lens["znear"].number(to.zNear);
+    if (!(to.zNear > 0.0f)) to.zNear = 0.01f;
+    to.zFar = lens["zfar"].number(std::max(to.zFar, 1e5f * to.zNear));  // absent: endless
+    if (!(to.zFar > to.zNear)) to.zFar = 1e5f * to.zNear;
+    scene_.cameras.push_back(std::move(to));
+}
+
+Scene Reader::read() {
+    checkExtensions();
+    findWorldTransforms();
+    GltfMaterials materials(file_, scene_);
+    GltfMeshes meshes(file_, scene_, materials);
+    for (const std::size_t node : nodesOfScene()) {
+        const GltfValue value = file_.array("nodes")[node];
+        placeMesh(node, value, meshes);
+        addLight(node, value);
+        addCamera(node, value);
+    }
+    meshes.addNotes();
+    if (skinned_ > 0)
+        scene_.notes.push_back(
+            fmt::format("{} skinned mesh{} shown in rest pose", skinned_, skinned_ == 1 ? "" : "es"));
+    const std::size_t animations = file_.array("animations").size();
+    if (animations > 0)
+        scene_.notes.push_back(
+            fmt::format("{} animation{} left out", animations, animations == 1 ? "" : "s"));
+    removeMirrors(scene_);
+    return std::move(scene_);
+}
+
+}  // namespace
+
+Scene loadGltf(const std::filesystem::path& path) { return Reader(path).read(); }
+
+}  // namespace conelight::io

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Materials and textures of a glTF file. Private to this room.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "conelight/scene.h"
+#include "io/gltf_file.h"
+#include "io/image_file.h"
+
+namespace conelight::io {
+
+class GltfMaterials {
+  public:
+    // Converts all materials of the file into scene.materials (same order). Pictures that cannot be read
+    // become notes.
+    GltfMaterials(GltfFile& file, Scene& scene);
+
+    // Index into scene.materials of a primitive's material; the glTF default when it names none.
+    int indexOf(const GltfValue& primitive);
+    // Which TEXCOORD set the material's textures use.
+    std::size_t uvSetOf(int material) const { return uvSets_[std::size_t(material)]; }
+
+  private:
+    Material convert(const GltfValue& from);
+    void convertSpecularGlossiness(const GltfValue& from, Material& to);
+    TextureRef texture(const GltfValue& info, bool srgb);
+    int textureIndex(const GltfValue& texture, bool srgb);
+    const ByteImage* image(std::size_t index);
+
+    GltfFile& file_;
+    Scene& scene_;
+    std::map<std::size_t, std::optional<ByteImage>> images_;  // decoded; nothing: cannot be read
+    std::map<std::vector<std::size_t>, int> textures_;
+    std::vector<std::size_t> uvSets_;
+    std::size_t uvSet_ = 0;  // of the material being converted
+    bool uvSetKnown_ = false;
+    bool uvSetMixed_ = false;
+    int defaultMaterial_ = -1;
+};
+
+}  // namespace conelight::io

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Image files: 8-bit pictures (PNG, JPG) and float pictures (EXR, HDR). Rows run from the top; the first row
+// in memory is the first row of the picture. Every file is written beside its place and renamed, so it is
+// never half-written. Errors are conelight::Error with one line that starts with the path: Usage for an
+// extension nobody knows, BadInput for a file that cannot be read, Runtime for one that cannot be written.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace conelight::io {
+
+enum class ImageFormat { Png, Jpg, Exr, Hdr };
+
+// Format by extension (.png .jpg .jpeg .exr .hdr, any case). Throws Error(Usage) that names the known ones.
+ImageFormat imageFormatOf(const std::filesystem::path& path);
+
+// Throws Error(Runtime) when no file could be written at `path`: to be called before long work.
+void checkWritable(const std::filesystem::path& path);
+
+// 8 bits per channel, interleaved; rgb is sRGB-encoded by whoever fills it, alpha linear.
+struct ByteImage {
+    int width = 0;
+    int height = 0;
+    int channels = 3;                  // 1 grey, 3 RGB, 4 RGBA
+    std::vector<std::uint8_t> pixels;  // channels * width * height
+};
+
+// A further layer of an EXR file. Channel names in the file: NAME (1 channel), NAME.X .Y (2), NAME.R .G .B
+// (3), NAME.R .G .B .A (4).
+struct ImageLayer {
+    std::string name;
+    int channels = 3;
+    std::vector<float> pixels;
+};
+
+// Linear floats, Rec.709 primaries, interleaved.
+struct FloatImage {
+    int width = 0;
+    int height = 0;
+    int channels = 3;  // 1 grey, 3 RGB, 4 RGBA
+    std::vector<float> pixels;
+    std::vector<ImageLayer> layers;                               // EXR only
+    std::vector<std::pair<std::string, std::string>> attributes;  // EXR only: name, text
+};
+
+void writePng(const std::filesystem::path& path, const ByteImage& image);
+void writeJpg(const std::filesystem::path& path, const ByteImage& image, int quality = 92);
+
+// Scanline EXR, 32-bit float, ZIP, first row on top, with the Rec.709 chromaticities. Values are stored as
+// they are (negative, infinite and NaN included).
+void writeExr(const std::filesystem::path& path, const FloatImage& image);
+// RGBE, 8 bits mantissa: alpha and layers are dropped, negatives become 0.
+void writeHdr(const std::filesystem::path& path, const FloatImage& image);
+
+// All float, half and uint channels of the first part; R,G,B(,A) or Y become `pixels`, others layers (sorted
+// by name). A file without either has its first layer copied to `pixels`.
+FloatImage readExr(const std::filesystem::path& path);
+
+// PNG or JPG (and what else stb reads: BMP, TGA), with 1, 3 or 4 channels as in the file.
+ByteImage readByteImage(const std::filesystem::path& path);
+
+// Any known file as linear floats: EXR and HDR as they are, 8-bit ones sRGB-decoded.
+FloatImage readImage(const std::filesystem::path& path);
+
+// Encoded 8-bit picture in memory as RGBA; used for textures. `what` starts the error line.
+ByteImage decodeRgba(std::span<const std::uint8_t> encoded, const std::string& what);
+
+// sRGB transfer function (IEC 61966-2-1) of one channel, both ways; [0,1] in, [0,1] out.
+float linearFromSrgb(float encoded);
+float srgbFromLinear(float linear);
+
+}  // namespace conelight::io

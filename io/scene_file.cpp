@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+// Chooses the reader by name and extension, then checks its result: see scene_file.h.
+#include "io/scene_file.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "conelight/error.h"
+#include "io/assimp_import.h"
+#include "io/files.h"
+#include "io/gltf.h"
+#include "io/thesis_scene.h"
+#if __has_include("io/generated.h")
+#include "io/generated.h"
+#endif
+
+namespace conelight::io {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr std::string_view kBuiltin = "builtin:";
+
+Scene generate([[maybe_unused]] const std::string& spec) {
+#if __has_include("io/generated.h")
+    return generateScene(spec);
+#else
+    throw Error(ErrorKind::Usage, fmt::format("builtin:{}: this build has no generated scenes", spec));
+#endif
+}
+
+// glTF 1.0 has another layout; Assimp reads it.
+bool isGltf1(const fs::path& path) {
+    char head[8] = {};
+    std::ifstream file(path, std::ios::binary);
+    file.read(head, sizeof head);
+    if (file.gcount() == sizeof head && std::memcmp(head, "glTF", 4) == 0) return head[4] == 1;
+    return false;
+}
+
+Scene read(const fs::path& path, const LoadOptions& options) {
+    const std::string extension = lowerExtension(path);
+    if (extension == ".gltf" || extension == ".glb" || extension == ".vrm") {
+        if (isGltf1(path)) return loadAssimp(path, options);
+        try {
+            return loadGltf(path);
+        } catch (const GltfVersion1&) {
+            return loadAssimp(path, options);
+        }
+    }
+    if (extension == ".txt" || extension == ".scene") return loadThesisScene(path, options);
+    const std::vector<std::string> known = assimpExtensions();
+    if (std::find(known.begin(), known.end(), extension) != known.end()) return loadAssimp(path, options);
+    if (!fs::exists(path))
+        throw Error(ErrorKind::BadInput, fmt::format("{}: no such file", oneLine(path.string())));
+    throw Error(
+        ErrorKind::Usage,
+        fmt::format(
+            "{}: unknown scene extension '{}'; known: .gltf .glb, .txt (the thesis's format), .obj .fbx .ply "
+            ".stl .dae .3ds .ifc and {} more, or builtin:NAME",
+            oneLine(path.string()), oneLine(extension),
+            known.size() - std::min<std::size_t>(known.size(), 7)));
+}
+
+}  // namespace
+
+Scene loadScene(const std::string& pathOrBuiltin, const LoadOptions& options) {
+    if (pathOrBuiltin.rfind(kBuiltin, 0) == 0) return generate(pathOrBuiltin.substr(kBuiltin.size()));
+    const std::string file = oneLine(pathOrBuiltin);
+    try {
+        Scene scene = read(fs::path(pathOrBuiltin), options);
+        if (scene.name.empty()) scene.name = fs::path(pathOrBuiltin).stem().string();
+        scene.validate();
+        return scene;
+    } catch (const Error& error) {
+        // Scene::validate and other rooms do not know the file.
+        const std::string what = oneLine(error.what(), 1000);
+        if (what.rfind(file, 0) == 0) throw Error(error.kind(), what);
+        throw Error(error.kind(), file + ": " + what);
+    } catch (const std::bad_alloc&) {
+        throw Error(ErrorKind::BadInput, file + ": needs more memory than there is");
+    } catch (const std::exception& error) {
+        throw Error(ErrorKind::BadInput, fmt::format("{}: {}", file, oneLine(error.what())));
+    }
+}
+
+std::vector<std::string> sceneExtensions() {
+    const std::vector<std::string> foreign = assimpExtensions();
+    std::set<std::string> all(foreign.begin(), foreign.end());
+    all.insert({".gltf", ".glb", ".txt", ".scene"});
+    return {all.begin(), all.end()};
+}
+
+}  // namespace conelight::io

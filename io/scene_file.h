@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Scenes from files: glTF 2.0 (.gltf .glb), the thesis's text format (.txt .scene), generated scenes
+// (builtin:NAME) and every format Assimp reads (.obj .fbx .ply .stl .dae .3ds .ifc ...).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "conelight/scene.h"
+
+namespace conelight::io {
+
+struct LoadOptions {
+    // Processor seconds a foreign importer may use, plus one for every 5 MB of the file; 0 = no limit. A file
+    // that needs more is an error. Does not apply to glTF and the text format, whose cost is bounded by size.
+    double timeLimitSeconds = 10.0;
+    // Import foreign formats in a child process, so that an importer that crashes, hangs or eats memory ends
+    // as one line of error. Off: faster for many tiny files, and the importer can take the program with it.
+    bool isolate = true;
+};
+
+// Reads a scene. The result fulfils Scene::validate(); it has the file's cameras and lights only (see
+// completeScene). What was left out or changed is in Scene::notes.
+// Throws Error(BadInput), one line "FILE: where: what is wrong; what would be right"; Error(Usage) for an
+// extension nobody reads and for an unknown builtin. Reads files beside the scene; no other effect.
+// Thread-safe; on POSIX systems foreign formats fork the process.
+Scene loadScene(const std::string& pathOrBuiltin, const LoadOptions& options = {});
+
+// Extensions loadScene reads, in lower case with dot, sorted; for help texts and file dialogs.
+std::vector<std::string> sceneExtensions();
+
+}  // namespace conelight::io

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// A scene in words: see scene_info.h.
+#include "io/scene_info.h"
+
+#include <fmt/core.h>
+
+#include <iterator>
+#include <set>
+
+namespace conelight::io {
+
+namespace {
+
+constexpr float kDegreesPerRadian = 57.2957795f;
+
+std::string text(const glm::vec3& v) { return fmt::format("{:.4g} {:.4g} {:.4g}", v.x, v.y, v.z); }
+
+std::string bytesText(std::size_t bytes) {
+    if (bytes < 10'000) return fmt::format("{} B", bytes);
+    if (bytes < 10'000'000) return fmt::format("{:.1f} kB", double(bytes) / 1e3);
+    return fmt::format("{:.1f} MB", double(bytes) / 1e6);
+}
+
+std::size_t memoryOf(const Mesh& mesh) {
+    return mesh.positions.size() * sizeof(glm::vec3) + mesh.normals.size() * sizeof(glm::vec3) +
+           mesh.uvs.size() * sizeof(glm::vec2) + mesh.tangents.size() * sizeof(glm::vec4) +
+           mesh.colors.size() * sizeof(glm::vec4) + mesh.indices.size() * sizeof(std::uint32_t);
+}
+
+const char* wrapName(TextureWrap wrap) {
+    switch (wrap) {
+        case TextureWrap::Clamp:
+            return "clamp";
+        case TextureWrap::Mirror:
+            return "mirror";
+        default:
+            return "repeat";
+    }
+}
+
+const char* typeName(LightType type) {
+    switch (type) {
+        case LightType::Spot:
+            return "spot";
+        case LightType::Directional:
+            return "directional";
+        case LightType::Rect:
+            return "rect";
+        default:
+            return "point";
+    }
+}
+
+const char* unitName(LightType type) {
+    switch (type) {
+        case LightType::Directional:
+            return "W/m^2";
+        case LightType::Rect:
+            return "W/(sr m^2)";
+        default:
+            return "W/sr";
+    }
+}
+
+// Writes one heading and up to maxRows rows.
+class Report {
+  public:
+    explicit Report(std::size_t maxRows) : maxRows_(maxRows) {}
+
+    template <typename... Args>
+    void line(fmt::format_string<Args...> format, Args&&... args) {
+        fmt::format_to(std::back_inserter(out_), format, std::forward<Args>(args)...);
+        out_ += '\n';
+    }
+    template <typename T, typename Row>
+    void list(const std::vector<T>& items, const Row& row) {
+        for (std::size_t i = 0; i < std::min(items.size(), maxRows_); ++i)
+            line("  {:>3}  {}", i, row(items[i]));
+        if (items.size() > maxRows_) line("  ... {} more", items.size() - maxRows_);
+    }
+    std::string take() { return std::move(out_); }
+
+  private:
+    std::size_t maxRows_;
+    std::string out_;
+};
+
+std::string describe(const Material& m) {
+    std::string out =
+        fmt::format("{}: base {}", m.name.empty() ? "(unnamed)" : m.name, text(glm::vec3(m.baseColor)));
+    if (m.baseColor.a < 1.0f) out += fmt::format(", opacity {:.3g}", m.baseColor.a);
+    if (m.isPhong)
+        out += fmt::format(", Phong ambient {:.3g} diffuse {:.3g} specular {:.3g} shininess {:.3g}",
+                           m.phong.ambientStrength, m.phong.diffuseStrength, m.phong.specularStrength,
+                           m.phong.shininess);
+    else
+        out += fmt::format(", metallic {:.3g}, roughness {:.3g}", m.metallic, m.roughness);
+    if (m.emission != glm::vec3(0)) out += fmt::format(", emission {} W/(sr m^2)", text(m.emission));
+    std::string maps;
+    const auto map = [&](const TextureRef& ref, const char* name) {
+        if (ref.used()) maps += fmt::format("{}{} #{}", maps.empty() ? "" : ", ", name, ref.texture);
+    };
+    map(m.baseColorTexture, "base");
+    map(m.metallicRoughnessTexture, "metallic-roughness");
+    map(m.normalTexture, "normal");
+    map(m.emissiveTexture, "emissive");
+    map(m.specularTexture, "specular");
+    map(m.specularColorTexture, "specular colour");
+    if (!maps.empty()) out += fmt::format(", textures {}", maps);
+    if (m.alphaMode == AlphaMode::Mask) out += fmt::format(", mask below {:.3g}", m.alphaCutoff);
+    if (m.alphaMode == AlphaMode::Blend) out += ", blended";
+    if (m.doubleSided) out += ", double-sided";
+    if (m.unlit) out += ", unlit";
+    return out;
+}
+
+std::string describe(const Light& l) {
+    std::string out = fmt::format("{}: {}, {} {}", l.name.empty() ? "(unnamed)" : l.name, typeName(l.type),
+                                  text(l.intensity), unitName(l.type));
+    if (l.type != LightType::Directional) out += fmt::format(", at {}", text(l.position));
+    if (l.type != LightType::Point) out += fmt::format(", towards {}", text(l.direction));
+    if (l.type == LightType::Spot)
+        out += fmt::format(", cone {:.3g} to {:.3g} deg", l.innerAngle * kDegreesPerRadian,
+                           l.outerAngle * kDegreesPerRadian);
+    if (l.type == LightType::Rect)
+        out += fmt::format(", {:.3g} x {:.3g} m", 2.0f * glm::length(l.halfU), 2.0f * glm::length(l.halfV));
+    if (l.customFalloff)
+        out += fmt::format(", falloff 1/({:.3g} + {:.3g} d + {:.3g} d^2)", l.falloff.x, l.falloff.y,
+                           l.falloff.z);
+    if (l.range > 0.0f) out += fmt::format(", range {:.3g} m", l.range);
+    if (!l.enabled) out += ", off";
+    if (!l.castsShadow) out += ", no shadow";
+    return out;
+}
+
+}  // namespace
+
+std::string describeScene(const Scene& scene, std::size_t maxRows) {
+    Report report(maxRows);
+    std::size_t triangles = 0, voxelized = 0, hidden = 0, emissive = 0;
+    for (const Instance& instance : scene.instances) {
+        const std::size_t count = scene.meshes[std::size_t(instance.mesh)].triangleCount();
+        if (!instance.visible) {
+            ++hidden;
+            continue;
+        }
+        triangles += count;
+        if (instance.voxelized) voxelized += count;
+        if (instance.material >= 0 &&
+            scene.materials[std::size_t(instance.material)].emission != glm::vec3(0))
+            emissive += count;
+    }
+    std::size_t meshBytes = 0, meshTriangles = 0, textureBytes = 0;
+    for (const Mesh& mesh : scene.meshes) {
+        meshBytes += memoryOf(mesh);
+        meshTriangles += mesh.triangleCount();
+    }
+    for (const Texture& texture : scene.textures) textureBytes += texture.rgba.size();
+
+    const Aabb bounds = scene.bounds();
+    report.line("scene      {}{}", scene.name.empty() ? "(unnamed)" : scene.name,
+                scene.thesisFormat ? " (thesis's format)" : "");
+    report.line("triangles  {} drawn, {} voxelized, {} emissive", triangles, voxelized, emissive);
+    report.line("instances  {}{}", scene.instances.size(),
+                hidden > 0 ? fmt::format(", {} hidden", hidden) : "");
+    report.line("meshes     {}, {} triangles, {}", scene.meshes.size(), meshTriangles, bytesText(meshBytes));
+    if (bounds.empty())
+        report.line("bounds     empty");
+    else
+        report.line("bounds     {} to {} m, size {} m", text(bounds.min), text(bounds.max),
+                    text(bounds.extent()));
+    report.line("sky        {} W/(sr m^2)", text(scene.sky));
+    report.line("materials  {}", scene.materials.size());
+    report.list(scene.materials, [](const Material& m) { return describe(m); });
+    report.line("textures   {}, {}", scene.textures.size(), bytesText(textureBytes));
+    report.list(scene.textures, [](const Texture& t) {
+        return fmt::format("{}: {} x {}, {}, {}, {}/{}{}", t.name.empty() ? "(unnamed)" : t.name, t.width,
+                           t.height, t.srgb ? "sRGB" : "linear", bytesText(t.rgba.size()), wrapName(t.wrapU),
+                           wrapName(t.wrapV), t.filter == TextureFilter::Nearest ? ", nearest" : "");
+    });
+    report.line("lights     {}", scene.lights.size());
+    report.list(scene.lights, [](const Light& l) { return describe(l); });
+    report.line("cameras    {}", scene.cameras.size());
+    report.list(scene.cameras, [](const Camera& c) {
+        return fmt::format("{}: at {}, to {}, {:.4g} deg vertical, {:.3g} to {:.3g} m",
+                           c.name.empty() ? "(unnamed)" : c.name, text(c.eye), text(c.target),
+                           c.fovY * kDegreesPerRadian, c.zNear, c.zFar);
+    });
+    if (!scene.settings.empty()) report.line("settings   {}", scene.settings.size());
+    for (const auto& [key, value] : scene.settings) report.line("  {} = {}", key, value);
+    for (const std::string& note : scene.notes) report.line("note       {}", note);
+    return report.take();
+}
+
+}  // namespace conelight::io

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// A scene in words, for `conelight info SCENE`.
+#pragma once
+
+#include <string>
+
+#include "conelight/scene.h"
+
+namespace conelight::io {
+
+// Several lines, each ended by a line feed: counts, triangles, bounds, materials, textures with sizes and
+// memory, lights with type and unit, cameras, sky, settings, notes. Long lists are cut after `maxRows` rows.
+std::string describeScene(const Scene& scene, std::size_t maxRows = 32);
+
+}  // namespace conelight::io

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+// Scene to bytes and back: one list of fields per struct (`visit`), walked by a writer and by a reader, so
+// that the two cannot disagree. Every length is checked against what is left before memory is taken.
+#include "io/scene_stream.h"
+
+#include <cstring>
+#include <type_traits>
+
+#include "conelight/error.h"
+
+namespace conelight::io {
+
+namespace {
+
+class Writer {
+  public:
+    template <typename T>
+    void plain(const T& value) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        append(&value, sizeof value);
+    }
+    template <typename T>
+    void array(const std::vector<T>& values) {
+        static_assert(std::is_trivially_copyable_v<T>);
+        plain(std::uint64_t(values.size()));
+        append(values.data(), values.size() * sizeof(T));
+    }
+    void text(const std::string& value) {
+        plain(std::uint64_t(value.size()));
+        append(value.data(), value.size());
+    }
+    template <typename T>
+    std::size_t count(const std::vector<T>& values) {
+        plain(std::uint64_t(values.size()));
+        return values.size();
+    }
+    Bytes bytes;
+
+  private:
+    void append(const void* data, std::size_t size) {
+        if (size == 0) return;
+        const auto* from = static_cast<const std::uint8_t*>(data);
+        bytes.insert(bytes.end(), from, from + size);
+    }
+};
+
+class Reader {
+  public:
+    explicit Reader(std::span<const std::uint8_t> bytes) : left_(bytes) {}
+    template <typename T>
+    void plain(T& value) {
+        take(&value, sizeof value);
+    }
+    template <typename T>
+    void array(std::vector<T>& values) {
+        values.resize(length(sizeof(T)));
+        take(values.data(), values.size() * sizeof(T));
+    }
+    void text(std::string& value) {
+        value.resize(length(1));
+        take(value.data(), value.size());
+    }
+    template <typename T>
+    std::size_t count(std::vector<T>& values) {
+        values.resize(length(1));  // every element takes at least one byte
+        return values.size();
+    }
+    bool atEnd() const { return left_.empty(); }
+
+  private:
+    std::size_t length(std::size_t elementSize) {
+        std::uint64_t count = 0;
+        plain(count);
+        if (count > left_.size() / elementSize) fail();
+        return std::size_t(count);
+    }
+    void take(void* out, std::size_t size) {
+        if (size > left_.size()) fail();
+        if (size != 0) std::memcpy(out, left_.data(), size);
+        left_ = left_.subspan(size);
+    }
+    [[noreturn]] static void fail() { throw Error(ErrorKind::Runtime, "scene stream: ends early"); }
+    std::span<const std::uint8_t> left_;
+};
+
+template <typename Stream, typename M>
+void visitMesh(Stream& s, M& mesh) {
+    s.text(mesh.name);
+    s.array(mesh.positions);
+    s.array(mesh.normals);
+    s.array(mesh.uvs);
+    s.array(mesh.tangents);
+    s.array(mesh.colors);
+    s.array(mesh.indices);
+}
+
+template <typename Stream, typename T>
+void visitTexture(Stream& s, T& texture) {
+    s.text(texture.name);
+    s.plain(texture.width);
+    s.plain(texture.height);
+    s.plain(texture.srgb);
+    s.plain(texture.wrapU);
+    s.plain(texture.wrapV);
+    s.plain(texture.filter);
+    s.array(texture.rgba);
+}
+
+template <typename Stream, typename M>
+void visitMaterial(Stream& s, M& material) {
+    s.text(material.name);
+    s.plain(material.baseColor);
+    s.plain(material.metallic);
+    s.plain(material.roughness);
+    s.plain(material.ior);
+    s.plain(material.specular);
+    s.plain(material.specularColor);
+    s.plain(material.emission);
+    s.plain(material.normalScale);
+    s.plain(material.alphaCutoff);
+    s.plain(material.alphaMode);
+    s.plain(material.doubleSided);
+    s.plain(material.unlit);
+    s.plain(material.baseColorTexture);
+    s.plain(material.metallicRoughnessTexture);
+    s.plain(material.normalTexture);
+    s.plain(material.emissiveTexture);
+    s.plain(material.specularTexture);
+    s.plain(material.specularColorTexture);
+    s.plain(material.isPhong);
+    s.plain(material.phong);
+}
+
+template <typename Stream, typename I>
+void visitInstance(Stream& s, I& instance) {
+    s.text(instance.name);
+    s.plain(instance.mesh);
+    s.plain(instance.material);
+    s.plain(instance.worldFromObject);
+    s.plain(instance.visible);
+    s.plain(instance.voxelized);
+    s.plain(instance.castsShadow);
+    s.plain(instance.dynamic);
+}
+
+template <typename Stream, typename L>
+void visitLight(Stream& s, L& light) {
+    s.text(light.name);
+    s.plain(light.type);
+    s.plain(light.intensity);
+    s.plain(light.position);
+    s.plain(light.direction);
+    s.plain(light.halfU);
+    s.plain(light.halfV);
+    s.plain(light.innerAngle);
+    s.plain(light.outerAngle);
+    s.plain(light.range);
+    s.plain(light.enabled);
+    s.plain(light.castsShadow);
+    s.plain(light.customFalloff);
+    s.plain(light.falloff);
+}
+
+template <typename Stream, typename C>
+void visitCamera(Stream& s, C& camera) {
+    s.text(camera.name);
+    s.plain(camera.eye);
+    s.plain(camera.target);
+    s.plain(camera.up);
+    s.plain(camera.fovY);
+    s.plain(camera.zNear);
+    s.plain(camera.zFar);
+}
+
+template <typename Stream, typename S>
+void visitScene(Stream& s, S& scene) {
+    s.text(scene.name);
+    for (std::size_t i = 0, n = s.count(scene.meshes); i < n; ++i) visitMesh(s, scene.meshes[i]);
+    for (std::size_t i = 0, n = s.count(scene.materials); i < n; ++i) visitMaterial(s, scene.materials[i]);
+    for (std::size_t i = 0, n = s.count(scene.textures); i < n; ++i) visitTexture(s, scene.textures[i]);
+    for (std::size_t i = 0, n = s.count(scene.instances); i < n; ++i) visitInstance(s, scene.instances[i]);
+    for (std::size_t i = 0, n = s.count(scene.lights); i < n; ++i) visitLight(s, scene.lights[i]);
+    for (std::size_t i = 0, n = s.count(scene.cameras); i < n; ++i) visitCamera(s, scene.cameras[i]);
+    s.plain(scene.sky);
+    s.plain(scene.thesisFormat);
+    for (std::size_t i = 0, n = s.count(scene.settings); i < n; ++i) {
+        s.text(scene.settings[i].first);
+        s.text(scene.settings[i].second);
+    }
+    for (std::size_t i = 0, n = s.count(scene.notes); i < n; ++i) s.text(scene.notes[i]);
+}
+
+}  // namespace
+
+Bytes bytesFromScene(const Scene& scene) {
+    Writer writer;
+    visitScene(writer, scene);
+    return std::move(writer.bytes);
+}
+
+Scene sceneFromBytes(std::span<const std::uint8_t> bytes) {
+    Reader reader(bytes);
+    Scene scene;
+    visitScene(reader, scene);
+    if (!reader.atEnd()) throw Error(ErrorKind::Runtime, "scene stream: has bytes left over");
+    return scene;
+}
+
+}  // namespace conelight::io

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// What Conelight uses of stb_image and stb_image_write, behind plain functions; private to this room.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace conelight::io::stb {
+
+// Encoded file as bytes; empty when out of memory.
+std::vector<std::uint8_t> encodePng(int width, int height, int channels, const std::uint8_t* pixels);
+std::vector<std::uint8_t> encodeJpg(int width, int height, int channels, const std::uint8_t* pixels,
+                                    int quality);
+std::vector<std::uint8_t> encodeHdr(int width, int height, const float* rgb);
+
+// Decodes into the given variables; returns "" or what is wrong. wantedChannels 0: as in the file (1, 3, 4).
+std::string decodeBytes(const std::uint8_t* data, std::size_t size, int wantedChannels, int& width,
+                        int& height, int& channels, std::vector<std::uint8_t>& pixels);
+std::string decodeHdr(const std::uint8_t* data, std::size_t size, int& width, int& height,
+                      std::vector<float>& rgb);
+
+}  // namespace conelight::io::stb
