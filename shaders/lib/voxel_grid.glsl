@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+// The block of the voxel grid and the change between world and grid coordinates. C++ twin: src/voxels/voxel_grid.h.
+#include "shared/bindings.h"
+#include "shared/voxels.h"
+layout(std140, binding = BINDING_VOXEL_GRID) uniform VoxelGridBlock { VoxelGrid grid; };
+
+vec3 gridFromWorld(vec3 world) { return (world - grid.origin) * grid.inverseVoxelSize; }
+vec3 worldFromGrid(vec3 p) { return grid.origin + p * grid.voxelSize; }
+ivec3 gridSize() { return ivec3(grid.sizeX, grid.sizeY, grid.sizeZ); }
+ivec3 gridBricks() { return ivec3(grid.bricksX, grid.bricksY, grid.bricksZ); }

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// The packed numbers of face records (shared/voxels.h). C++ twin: src/voxels/voxel_record.h, bit for bit.
+#include "lib/octahedral.glsl"
+#include "lib/voxel_address.glsl"
+#include "shared/voxels.h"
+
+const float kVoxelWeightScale = 65535.0 / 4.0;  // W and area: [0,4] in 16 bits
+
+// Number of the direction -> unit vector: +x -x +y -y +z -z.
+vec3 directionVector(int direction) {
+    float side = (direction & 1) == 0 ? 1.0 : -1.0;
+    return vec3(direction < 2 ? side : 0.0, direction >= 2 && direction < 4 ? side : 0.0, direction >= 4 ? side : 0.0);
+}
+
+// Plane offset n.(c - centre)/h in [-1,1], coverage W in [0,4].
+uint packOffsetWeight(float offset, float weight) {
+    uint low = uint(int(floor(clamp(offset, -1.0, 1.0) * 32767.0 + 0.5))) & 0xffffu;
+    return low | (uint(floor(clamp(weight, 0.0, 4.0) * kVoxelWeightScale + 0.5)) << 16);
+}
+float unpackOffset(uint bits) { return max(float(int(bits << 16) >> 16) / 32767.0, -1.0); }
+float unpackWeight(uint bits) { return float(bits >> 16) / kVoxelWeightScale; }
+
+// Opacity of the face seen along its direction.
+float faceOpacity(uint offsetWeight) { return min(unpackWeight(offsetWeight), 1.0); }
+
+// Corners in voxel units [0,1]; min is rounded down, max up, so that the box never shrinks.
+uint packBounds(vec3 lower, vec3 upper) {
+    uvec3 a = uvec3(floor(clamp(lower, 0.0, 1.0) * 31.0));
+    uvec3 b = uvec3(ceil(clamp(upper, 0.0, 1.0) * 31.0));
+    return a.x | (a.y << 5) | (a.z << 10) | (b.x << 15) | (b.y << 20) | (b.z << 25);
+}
+vec3 unpackBoundsMin(uint bits) { return vec3(uvec3(bits, bits >> 5, bits >> 10) & 31u) / 31.0; }
+vec3 unpackBoundsMax(uint bits) { return vec3(uvec3(bits >> 15, bits >> 20, bits >> 25) & 31u) / 31.0; }
+
+uint packAlbedo(vec3 albedo) {
+    uvec3 q = uvec3(floor(clamp(albedo, 0.0, 1.0) * vec3(2047.0, 2047.0, 1023.0) + 0.5));
+    return q.x | (q.y << 11) | (q.z << 22);
+}
+vec3 unpackAlbedo(uint bits) { return vec3(bits & 2047u, (bits >> 11) & 2047u, bits >> 22) / vec3(2047.0, 2047.0, 1023.0); }
+
+// Shared-exponent colour (OpenGL 4.5 core, 8.5.2): mantissas of 9 bits, 2^(exponent - 24).
+uint packRgb9e5(vec3 color) {
+    vec3 c = clamp(color, 0.0, 65408.0);
+    float largest = max(max(c.r, c.g), c.b);
+    // floor(log2) from the float's own exponent field, exact.
+    int exponent = max(int(floatBitsToUint(largest) >> 23) - 127, -16) + 16;
+    if (floor(largest * uintBitsToFloat(uint(151 - exponent) << 23) + 0.5) >= 512.0) ++exponent;
+    uvec3 m = uvec3(floor(c * uintBitsToFloat(uint(151 - exponent) << 23) + 0.5));
+    return m.x | (m.y << 9) | (m.z << 18) | (uint(exponent) << 27);
+}
+vec3 unpackRgb9e5(uint bits) {
+    return vec3(bits & 511u, (bits >> 9) & 511u, (bits >> 18) & 511u) * uintBitsToFloat(((bits >> 27) + 103u) << 23);
+}
+
+// faceSource: emission as halves, area / h^2 in [0,4].
+uvec2 packFaceSource(vec3 emission, float area) {
+    vec3 e = clamp(emission, 0.0, 65504.0);
+    uint high = uint(floor(clamp(area, 0.0, 4.0) * kVoxelWeightScale + 0.5));
+    return uvec2(packHalf2x16(e.rg), packHalf2x16(vec2(e.b, 0.0)) | (high << 16));
+}
+vec3 unpackEmission(uvec2 bits) { return vec3(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y).x); }
+float unpackArea(uvec2 bits) { return float(bits.y >> 16) / kVoxelWeightScale; }
+
+// Plane of a face: unit normal, and its offset from the voxel's centre in voxels.
+vec3 faceNormal(FaceRecord face) { return octDecode(unpackSnorm2x16(face.normal)); }
+// The point of the plane nearest to the voxel's centre, in grid coordinates.
+vec3 facePoint(FaceRecord face) {
+    return vec3(unpackVoxel(face.voxel)) + 0.5 + faceNormal(face) * unpackOffset(face.offsetWeight);
+}
+// Centre of what the face holds: the middle of its bounds moved onto its plane, in grid coordinates.
+vec3 faceCenter(FaceRecord face) {
+    vec3 n = faceNormal(face);
+    vec3 middle = 0.5 * (unpackBoundsMin(face.bounds) + unpackBoundsMax(face.bounds)) - 0.5;
+    return vec3(unpackVoxel(face.voxel)) + 0.5 + middle + n * (unpackOffset(face.offsetWeight) - dot(n, middle));
+}
