@@ -3,12 +3,13 @@
 
 #include <cstdarg>
 #include <cstdio>
+#include <memory>
 #include <mutex>
 
 namespace conelight {
 namespace {
-std::mutex callbackMutex;
-LogCallback callback;
+std::recursive_mutex callbackMutex;  // recursive: a callback may log, or set another callback
+std::shared_ptr<const LogCallback> callback;
 
 std::string formatList(const char* pattern, va_list arguments) {
     va_list copy;
@@ -22,8 +23,9 @@ std::string formatList(const char* pattern, va_list arguments) {
 }  // namespace
 
 void setLogCallback(LogCallback newCallback) {
+    auto shared = newCallback ? std::make_shared<const LogCallback>(std::move(newCallback)) : nullptr;
     const std::lock_guard lock(callbackMutex);
-    callback = std::move(newCallback);
+    callback.swap(shared);
 }
 
 namespace base {
@@ -38,7 +40,9 @@ std::string format(const char* pattern, ...) {
 
 void log(LogLevel level, const std::string& message) {
     const std::lock_guard lock(callbackMutex);
-    if (callback) callback(level, message);
+    // Kept alive over the call, in which the host may set another.
+    const auto current = callback;
+    if (current) (*current)(level, message);
 }
 
 void fail(ErrorKind kind, const char* pattern, ...) {

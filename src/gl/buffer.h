@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A GL buffer of immutable size. Filled at creation, by update(), or by shaders; read back by read().
+// Creation throws Error(Runtime) when the driver has no memory; ranges outside the buffer are assertions.
+// clear(), fill() and read() see and follow what shaders wrote before; update() does only after
+// barrier(Access::Update).
 #pragma once
 
 #include <cstddef>
@@ -15,24 +18,26 @@ namespace conelight::gl {
 class Buffer : public Object<ObjectType::Buffer> {
   public:
     Buffer() = default;
-    // `bytes` of storage (at least 16 are allocated, so that an empty table can be bound), zero-filled.
+    // `bytes` of storage, zero-filled. Rounded up to whole words and to at least 16, so that it can be filled
+    // by words and an empty table can be bound.
     Buffer(std::size_t bytes, const std::string& label);
     Buffer(const void* data, std::size_t bytes, const std::string& label);
     template <class T>
-    Buffer(std::span<const T> data, const std::string& label) : Buffer(data.data(), data.size_bytes(), label) {}
+    Buffer(std::span<const T> data, const std::string& label)
+        : Buffer(data.data(), data.size_bytes(), label) {}
     template <class T>
     Buffer(const std::vector<T>& data, const std::string& label)
         : Buffer(data.data(), data.size() * sizeof(T), label) {}
 
-    std::size_t bytes() const { return bytes_; }
+    std::size_t bytes() const { return name() != 0 ? bytes_ : 0; }  // as allocated
 
     void update(std::size_t offset, const void* data, std::size_t bytes);
     template <class T>
     void update(const T& value) {
         update(0, &value, sizeof(T));
     }
-    void clear();                      // all bytes zero
-    void fill(std::uint32_t word);     // every 32-bit word
+    void clear();                   // all bytes zero
+    void fill(std::uint32_t word);  // every 32-bit word
 
     void read(std::size_t offset, void* data, std::size_t bytes) const;  // waits for the GPU
     template <class T>

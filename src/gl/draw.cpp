@@ -11,6 +11,7 @@ VertexArray::VertexArray(const Buffer& vertices, int stride, const std::vector<A
                          const Buffer& indices, const std::string& label) {
     Name array = 0;
     glCreateVertexArrays(1, &array);
+    adopt(array, label, 0);
     glVertexArrayVertexBuffer(array, 0, vertices.name(), 0, stride);
     glVertexArrayElementBuffer(array, indices.name());
     for (const Attribute& a : attributes) {
@@ -21,7 +22,6 @@ VertexArray::VertexArray(const Buffer& vertices, int stride, const std::vector<A
             glVertexArrayAttribFormat(array, a.location, a.components, a.type, GL_FALSE, a.offset);
         glVertexArrayAttribBinding(array, a.location, 0);
     }
-    adopt(array, label, 0);
 }
 
 VertexArray::VertexArray(const std::string& label) {
@@ -32,15 +32,52 @@ VertexArray::VertexArray(const std::string& label) {
 
 void VertexArray::bind() const { glBindVertexArray(name()); }
 
-Framebuffer::Framebuffer(const std::vector<const Texture*>& colors, const Texture* depth, const std::string& label,
-                         bool layered) {
+namespace {
+
+// Level 0 of a texture: all layers, or the first one.
+void attach(Name framebuffer, GLenum attachment, const Texture& texture, bool layered) {
+    const std::uint32_t target = texture.desc().target;
+    if (layered || target == GL_TEXTURE_2D)
+        glNamedFramebufferTexture(framebuffer, attachment, texture.name(), 0);
+    else
+        glNamedFramebufferTextureLayer(framebuffer, attachment, texture.name(), 0, 0);
+}
+
+const char* statusText(GLenum status) {
+    switch (status) {
+        case GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT:
+            return "an attachment cannot be drawn to";
+        case GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT:
+            return "it has neither attachments nor a size";
+        case GL_FRAMEBUFFER_INCOMPLETE_LAYER_TARGETS:
+            return "some attachments are layered and some are not";
+        case GL_FRAMEBUFFER_INCOMPLETE_MULTISAMPLE:
+            return "attachments differ in samples";
+        case GL_FRAMEBUFFER_UNSUPPORTED:
+            return "the driver does not support these formats together";
+        default:
+            return "the driver does not say why";
+    }
+}
+
+}  // namespace
+
+Framebuffer::Framebuffer(const std::vector<const Texture*>& colors, const Texture* depth,
+                         const std::string& label, bool layered) {
+    const Texture* any = !colors.empty() ? colors.front() : depth;
+    CONELIGHT_ASSERT(any != nullptr, "a framebuffer needs an attachment or a size");
+    for (const Texture* color : colors)
+        CONELIGHT_ASSERT(color->width() == any->width() && color->height() == any->height(),
+                         "attachments have one size");
+    CONELIGHT_ASSERT(depth == nullptr || (depth->width() == any->width() && depth->height() == any->height()),
+                     "attachments have one size");
     Name framebuffer = 0;
     glCreateFramebuffers(1, &framebuffer);
     adopt(framebuffer, label, 0);
     std::vector<GLenum> buffers;
     for (std::size_t i = 0; i < colors.size(); ++i) {
         buffers.push_back(static_cast<GLenum>(GL_COLOR_ATTACHMENT0 + i));
-        glNamedFramebufferTexture(framebuffer, buffers.back(), colors[i]->name(), 0);
+        attach(framebuffer, buffers.back(), *colors[i], layered);
     }
     if (buffers.empty()) {
         glNamedFramebufferDrawBuffer(framebuffer, GL_NONE);
@@ -48,13 +85,10 @@ Framebuffer::Framebuffer(const std::vector<const Texture*>& colors, const Textur
     } else {
         glNamedFramebufferDrawBuffers(framebuffer, static_cast<GLsizei>(buffers.size()), buffers.data());
     }
-    if (depth != nullptr) glNamedFramebufferTexture(framebuffer, GL_DEPTH_ATTACHMENT, depth->name(), 0);
-    const Texture* any = !colors.empty() ? colors.front() : depth;
-    CONELIGHT_ASSERT(any != nullptr, "a framebuffer needs an attachment or a size");
-    (void)layered;  // glNamedFramebufferTexture attaches all layers of a layered texture
+    if (depth != nullptr) attach(framebuffer, GL_DEPTH_ATTACHMENT, *depth, layered);
     width_ = any->width();
     height_ = any->height();
-    check();
+    check(label);
 }
 
 Framebuffer::Framebuffer(int width, int height, const std::string& label) : width_(width), height_(height) {
@@ -63,7 +97,7 @@ Framebuffer::Framebuffer(int width, int height, const std::string& label) : widt
     adopt(framebuffer, label, 0);
     glNamedFramebufferParameteri(framebuffer, GL_FRAMEBUFFER_DEFAULT_WIDTH, width);
     glNamedFramebufferParameteri(framebuffer, GL_FRAMEBUFFER_DEFAULT_HEIGHT, height);
-    check();
+    check(label);
 }
 
 Framebuffer Framebuffer::depthLayer(const Texture& depth, int layer, const std::string& label) {
@@ -76,14 +110,15 @@ Framebuffer Framebuffer::depthLayer(const Texture& depth, int layer, const std::
     glNamedFramebufferTextureLayer(framebuffer, GL_DEPTH_ATTACHMENT, depth.name(), 0, layer);
     result.width_ = depth.width();
     result.height_ = depth.height();
-    result.check();
+    result.check(label);
     return result;
 }
 
-void Framebuffer::check() const {
+void Framebuffer::check(const std::string& label) const {
     const GLenum status = glCheckNamedFramebufferStatus(name(), GL_DRAW_FRAMEBUFFER);
     if (status != GL_FRAMEBUFFER_COMPLETE)
-        base::fail(ErrorKind::Runtime, "framebuffer of %d x %d is not complete (0x%x)", width_, height_, status);
+        base::fail(ErrorKind::Runtime, "OpenGL: framebuffer '%s' of %d x %d is not complete: %s (0x%x)",
+                   label.c_str(), width_, height_, statusText(status), status);
 }
 
 void Framebuffer::clearColor(int attachment, float r, float g, float b, float a) const {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Raster state: vertex arrays, framebuffers, and the fixed state of a pass set as a whole.
+// Raster state: vertex arrays, framebuffers, and the fixed state of a pass set as a whole. Neither owns the
+// buffers and textures it refers to.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +18,13 @@ class VertexArray : public Object<ObjectType::VertexArray> {
     struct Attribute {
         unsigned location;
         int components;
-        std::uint32_t type;     // GL_FLOAT, GL_UNSIGNED_INT
-        bool integer;           // arrives as uint, not converted
-        unsigned offset;        // bytes in the vertex
+        std::uint32_t type;  // GL_FLOAT, GL_UNSIGNED_INT
+        bool integer;        // arrives as uint, not converted
+        unsigned offset;     // bytes in the vertex
     };
     VertexArray() = default;
-    VertexArray(const Buffer& vertices, int stride, const std::vector<Attribute>& attributes, const Buffer& indices,
-                const std::string& label);
+    VertexArray(const Buffer& vertices, int stride, const std::vector<Attribute>& attributes,
+                const Buffer& indices, const std::string& label);
     explicit VertexArray(const std::string& label);  // no attributes: full-screen triangles
     void bind() const;
 };
@@ -31,7 +32,8 @@ class VertexArray : public Object<ObjectType::VertexArray> {
 class Framebuffer : public Object<ObjectType::Framebuffer> {
   public:
     Framebuffer() = default;
-    // Colour attachments in order, then depth (may be null). Level 0; all layers when `layered`.
+    // Colour attachments in order, then depth (may be null), all of one size. Level 0; of textures with
+    // layers the first one, or all when `layered`. Throws Error(Runtime) when the driver cannot draw to them.
     Framebuffer(const std::vector<const Texture*>& colors, const Texture* depth, const std::string& label,
                 bool layered = false);
     // Without attachments, of a given size (for raster passes that only store images).
@@ -46,14 +48,15 @@ class Framebuffer : public Object<ObjectType::Framebuffer> {
     void clearDepth(float depth) const;
 
   private:
-    void check() const;
+    void check(const std::string& label) const;
     int width_ = 0;
     int height_ = 0;
 };
 
 enum class Cull : std::uint8_t { None, Back, Front };
 
-// All fixed state a raster pass of this library depends on. Front faces are counter-clockwise.
+// All fixed state in which raster passes of this library differ. Front faces are counter-clockwise. What is
+// not here is at GL's defaults: HostStateGuard sees to it (gl/host_state.h).
 struct RasterState {
     const Framebuffer* framebuffer = nullptr;
     bool depthTest = true;
@@ -61,8 +64,8 @@ struct RasterState {
     Cull cull = Cull::Back;
     bool colorWrite = true;
     bool depthClamp = false;
-    bool blend = false;            // premultiplied: one, one minus source alpha
-    float depthBiasSlope = 0.0f;   // glPolygonOffset factor
+    bool blend = false;           // premultiplied: one, one minus source alpha
+    float depthBiasSlope = 0.0f;  // glPolygonOffset factor
     float depthBiasUnits = 0.0f;
     bool wireframe = false;
 };

@@ -12,8 +12,8 @@ namespace {
 
 struct Registry {
     std::mutex mutex;
-    std::map<std::pair<ObjectType, Name>, std::pair<std::uint64_t, LiveObject>> objects;
-    std::uint64_t next = 0;
+    std::map<std::uint32_t, LiveObject> objects;  // by key: in order of creation
+    std::uint32_t next = 1;
 };
 
 Registry& registry() {
@@ -23,13 +23,20 @@ Registry& registry() {
 
 GLenum identifier(ObjectType type) {
     switch (type) {
-        case ObjectType::Buffer: return GL_BUFFER;
-        case ObjectType::Texture: return GL_TEXTURE;
-        case ObjectType::Sampler: return GL_SAMPLER;
-        case ObjectType::Program: return GL_PROGRAM;
-        case ObjectType::VertexArray: return GL_VERTEX_ARRAY;
-        case ObjectType::Framebuffer: return GL_FRAMEBUFFER;
-        case ObjectType::Query: return GL_QUERY;
+        case ObjectType::Buffer:
+            return GL_BUFFER;
+        case ObjectType::Texture:
+            return GL_TEXTURE;
+        case ObjectType::Sampler:
+            return GL_SAMPLER;
+        case ObjectType::Program:
+            return GL_PROGRAM;
+        case ObjectType::VertexArray:
+            return GL_VERTEX_ARRAY;
+        case ObjectType::Framebuffer:
+            return GL_FRAMEBUFFER;
+        case ObjectType::Query:
+            return GL_QUERY;
     }
     return GL_NONE;
 }
@@ -39,11 +46,8 @@ GLenum identifier(ObjectType type) {
 std::vector<LiveObject> liveObjects() {
     Registry& all = registry();
     const std::lock_guard lock(all.mutex);
-    std::vector<std::pair<std::uint64_t, LiveObject>> sorted;
-    for (const auto& [key, entry] : all.objects) sorted.push_back(entry);
-    std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<LiveObject> result;
-    for (auto& entry : sorted) result.push_back(std::move(entry.second));
+    for (const auto& [key, object] : all.objects) result.push_back(object);
     return result;
 }
 
@@ -55,26 +59,45 @@ std::size_t liveObjectCount() {
 
 namespace detail {
 
-void created(ObjectType type, Name name, const std::string& label, std::size_t bytes) {
-    glObjectLabel(identifier(type), name, static_cast<GLsizei>(label.size()), label.c_str());
+std::uint32_t created(ObjectType type, Name name, const std::string& label, std::size_t bytes) {
+    // GL_MAX_LABEL_LENGTH is at least 256, its terminator included; a longer label would be an error, and
+    // names of textures come from files.
+    constexpr std::size_t kMaxLabel = 255;
+    glObjectLabel(identifier(type), name, static_cast<GLsizei>(std::min(label.size(), kMaxLabel)),
+                  label.c_str());
     Registry& all = registry();
     const std::lock_guard lock(all.mutex);
-    all.objects[{type, name}] = {all.next++, LiveObject{type, name, label, bytes}};
+    all.objects.emplace(all.next, LiveObject{type, name, label, bytes});
+    return all.next++;
 }
 
-void deleteName(ObjectType type, Name name) noexcept {
+void deleteName(ObjectType type, Name name, std::uint32_t key) noexcept {
     switch (type) {
-        case ObjectType::Buffer: glDeleteBuffers(1, &name); break;
-        case ObjectType::Texture: glDeleteTextures(1, &name); break;
-        case ObjectType::Sampler: glDeleteSamplers(1, &name); break;
-        case ObjectType::Program: glDeleteProgram(name); break;
-        case ObjectType::VertexArray: glDeleteVertexArrays(1, &name); break;
-        case ObjectType::Framebuffer: glDeleteFramebuffers(1, &name); break;
-        case ObjectType::Query: glDeleteQueries(1, &name); break;
+        case ObjectType::Buffer:
+            glDeleteBuffers(1, &name);
+            break;
+        case ObjectType::Texture:
+            glDeleteTextures(1, &name);
+            break;
+        case ObjectType::Sampler:
+            glDeleteSamplers(1, &name);
+            break;
+        case ObjectType::Program:
+            glDeleteProgram(name);
+            break;
+        case ObjectType::VertexArray:
+            glDeleteVertexArrays(1, &name);
+            break;
+        case ObjectType::Framebuffer:
+            glDeleteFramebuffers(1, &name);
+            break;
+        case ObjectType::Query:
+            glDeleteQueries(1, &name);
+            break;
     }
     Registry& all = registry();
     const std::lock_guard lock(all.mutex);
-    all.objects.erase({type, name});
+    all.objects.erase(key);
 }
 
 }  // namespace detail

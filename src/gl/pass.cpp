@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "base/assert.h"
 #include "base/clock.h"
 #include "gl/gl.h"
 
@@ -10,7 +11,8 @@ namespace conelight::gl {
 
 bool isSoftwareDriver() {
     const char* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
-    return renderer != nullptr && (std::strstr(renderer, "llvmpipe") != nullptr || std::strstr(renderer, "softpipe") != nullptr);
+    return renderer != nullptr &&
+           (std::strstr(renderer, "llvmpipe") != nullptr || std::strstr(renderer, "softpipe") != nullptr);
 }
 
 Query::Query(const std::string& label) {
@@ -25,13 +27,18 @@ double Query::resultMs() const {
     return 1e-6 * static_cast<double>(nanoseconds);
 }
 
-void Profiler::beginFrame() { passes_.clear(); }
+void Profiler::beginFrame() {
+    CONELIGHT_ASSERT(open_.empty(), "Profiler::beginFrame inside a pass scope");
+    passes_.clear();
+}
 
 std::vector<PassTime> Profiler::endFrame() {
+    CONELIGHT_ASSERT(open_.empty(), "Profiler::endFrame inside a pass scope");
     std::vector<PassTime> times;
+    times.reserve(passes_.size());
     for (Open& pass : passes_) {
         if (pass.start) pass.time.gpuMs = pass.stop.resultMs() - pass.start.resultMs();
-        times.push_back(pass.time);
+        times.push_back(std::move(pass.time));
     }
     passes_.clear();
     return times;
@@ -40,14 +47,21 @@ std::vector<PassTime> Profiler::endFrame() {
 PassScope::PassScope(Profiler& profiler, const char* name) : profiler_(profiler), timed_(profiler.enabled_) {
     glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, name);
     if (!timed_) return;
+    // The list may grow and move while this scope is open, hence an index.
     index_ = profiler_.passes_.size();
+    const std::string outer =
+        profiler_.open_.empty() ? "" : profiler_.passes_[profiler_.open_.back()].time.name + "/";
     Profiler::Open& pass = profiler_.passes_.emplace_back();
-    pass.time.name = name;
-    if (isSoftwareDriver()) {
+    profiler_.open_.push_back(index_);
+    pass.time.name = outer + name;
+    // Earlier work must not be counted here: wait for it, or mark its end in the GPU's own order.
+    const bool byCpu =
+        profiler_.timer_ == PassTimer::Auto ? isSoftwareDriver() : profiler_.timer_ == PassTimer::Cpu;
+    if (byCpu) {
         glFinish();
     } else {
-        pass.start = Query(std::string(name) + " start");
-        pass.stop = Query(std::string(name) + " stop");
+        pass.start = Query(pass.time.name + " start");
+        pass.stop = Query(pass.time.name + " stop");
         pass.start.record();
     }
     pass.cpuStart = base::processCpuMs();
@@ -56,6 +70,9 @@ PassScope::PassScope(Profiler& profiler, const char* name) : profiler_(profiler)
 
 PassScope::~PassScope() {
     if (timed_) {
+        CONELIGHT_ASSERT(!profiler_.open_.empty() && profiler_.open_.back() == index_,
+                         "pass scopes close in reverse order");
+        profiler_.open_.pop_back();
         Profiler::Open& pass = profiler_.passes_[index_];
         if (pass.start)
             pass.stop.record();
@@ -68,7 +85,9 @@ PassScope::~PassScope() {
 }
 
 void barrier(Access consumers) {
-    const auto has = [&](Access one) { return (static_cast<unsigned>(consumers) & static_cast<unsigned>(one)) != 0; };
+    const auto has = [&](Access one) {
+        return (static_cast<unsigned>(consumers) & static_cast<unsigned>(one)) != 0;
+    };
     GLbitfield bits = 0;
     if (has(Access::ShaderStorage)) bits |= GL_SHADER_STORAGE_BARRIER_BIT;
     if (has(Access::ImageAccess)) bits |= GL_SHADER_IMAGE_ACCESS_BARRIER_BIT;
@@ -77,6 +96,8 @@ void barrier(Access consumers) {
     if (has(Access::Uniform)) bits |= GL_UNIFORM_BARRIER_BIT;
     if (has(Access::Framebuffer)) bits |= GL_FRAMEBUFFER_BARRIER_BIT;
     if (has(Access::VertexFetch)) bits |= GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT;
+    if (has(Access::Update))
+        bits |= GL_BUFFER_UPDATE_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_PIXEL_BUFFER_BARRIER_BIT;
     glMemoryBarrier(bits);
 }
 

@@ -2,6 +2,7 @@
 #include "gl/program.h"
 
 #include <algorithm>
+#include <set>
 
 #include "base/assert.h"
 #include "base/log.h"
@@ -18,7 +19,8 @@ GLenum stageOf(const std::string& file) {
     if (has(".geom.")) return GL_GEOMETRY_SHADER;
     if (has(".frag.")) return GL_FRAGMENT_SHADER;
     if (has(".comp.")) return GL_COMPUTE_SHADER;
-    base::fail(ErrorKind::Runtime, "%s: no stage in the name; .vert .geom .frag or .comp would be right", file.c_str());
+    base::fail(ErrorKind::Runtime, "%s: no stage in the name; .vert .geom .frag or .comp would be right",
+               file.c_str());
 }
 
 template <class Get, class GetLog>
@@ -42,7 +44,8 @@ void attachStage(GLuint program, const ExpandedShader& source) {
     const std::string log = infoLog(shader, glGetShaderiv, glGetShaderInfoLog);
     if (ok == GL_FALSE) {
         glDeleteShader(shader);
-        base::fail(ErrorKind::Runtime, "%s: does not compile:\n%s", source.path.c_str(), source.mapLog(log).c_str());
+        base::fail(ErrorKind::Runtime, "%s: does not compile:\n%s", source.path.c_str(),
+                   source.mapLog(log).c_str());
     }
     glAttachShader(program, shader);
     glDeleteShader(shader);
@@ -82,26 +85,36 @@ Program::Program(const ShaderProvider& provider, const ProgramDesc& desc) {
 void Program::use() const { glUseProgram(name()); }
 
 void Program::dispatch(int x, int y, int z) const {
+    CONELIGHT_ASSERT(groupSize_.x > 0, "Program::dispatch: not a compute program");
     if (x <= 0 || y <= 0 || z <= 0) return;
     const glm::ivec3 groups = (glm::ivec3(x, y, z) + groupSize_ - 1) / groupSize_;
     CONELIGHT_ASSERT(groups.x <= kMaxGroups && groups.y <= kMaxGroups && groups.z <= kMaxGroups,
                      "Program::dispatch: too many groups; dispatchLinear folds them");
     use();
-    glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y), static_cast<GLuint>(groups.z));
+    glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y),
+                      static_cast<GLuint>(groups.z));
 }
 
 void Program::dispatchLinear(std::size_t invocations) const {
+    CONELIGHT_ASSERT(groupSize_.x > 0, "Program::dispatchLinear: not a compute program");
     if (invocations == 0) return;
-    const std::size_t perGroup = static_cast<std::size_t>(groupSize_.x) * static_cast<std::size_t>(groupSize_.y) *
+    const std::size_t perGroup = static_cast<std::size_t>(groupSize_.x) *
+                                 static_cast<std::size_t>(groupSize_.y) *
                                  static_cast<std::size_t>(groupSize_.z);
     const std::size_t groups = (invocations + perGroup - 1) / perGroup;
+    // Rows of equal length waste less than one group per row; rows of full length up to 65,534 in the last.
     const std::size_t rows = (groups + kMaxGroups - 1) / kMaxGroups;
-    CONELIGHT_ASSERT(rows <= static_cast<std::size_t>(kMaxGroups), "Program::dispatchLinear: too many invocations");
+    const std::size_t columns = (groups + rows - 1) / rows;
+    CONELIGHT_ASSERT(rows <= static_cast<std::size_t>(kMaxGroups),
+                     "Program::dispatchLinear: too many invocations");
     use();
-    glDispatchCompute(static_cast<GLuint>(rows == 1 ? groups : kMaxGroups), static_cast<GLuint>(rows), 1);
+    glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(rows), 1);
 }
 
 void Program::dispatchIndirect(const Buffer& buffer, std::size_t offset) const {
+    CONELIGHT_ASSERT(groupSize_.x > 0, "Program::dispatchIndirect: not a compute program");
+    CONELIGHT_ASSERT(offset % 4 == 0 && buffer.bytes() >= 12 && offset <= buffer.bytes() - 12,
+                     "Program::dispatchIndirect reaches past the end of the buffer");
     use();
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer.name());
     glDispatchComputeIndirect(static_cast<GLintptr>(offset));
@@ -112,7 +125,7 @@ const Program& ProgramLibrary::get(const ProgramDesc& desc) {
     std::unique_ptr<Entry>& entry = programs_[desc.label()];
     if (!entry) {
         try {
-            entry = std::make_unique<Entry>(Entry{desc, Program(provider_, desc)});
+            entry = std::make_unique<Entry>(Entry{desc, Program(provider_, desc), false});
         } catch (...) {
             programs_.erase(desc.label());
             throw;
@@ -128,14 +141,23 @@ std::vector<std::string> ProgramLibrary::reload(const std::vector<std::string>& 
         const bool affected = std::any_of(files.begin(), files.end(), [&](const std::string& file) {
             return std::find(used.begin(), used.end(), file) != used.end();
         });
-        if (!affected) continue;
+        if (!affected && !entry->reloadFailed) continue;
         try {
             entry->program = Program(provider_, entry->desc);
+            entry->reloadFailed = false;
         } catch (const Error& error) {
+            entry->reloadFailed = true;
             failures.emplace_back(error.what());
         }
     }
     return failures;
+}
+
+std::vector<std::string> ProgramLibrary::sourceFiles() const {
+    std::set<std::string> files;
+    for (const auto& [label, entry] : programs_)
+        files.insert(entry->program.sourceFiles().begin(), entry->program.sourceFiles().end());
+    return {files.begin(), files.end()};
 }
 
 }  // namespace conelight::gl

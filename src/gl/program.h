@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Linked programs, and the library that builds each variant once and rebuilds changed ones (hot reload).
+// Use both on the thread of the context only.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -24,7 +25,8 @@ struct ProgramDesc {
 class Program : public Object<ObjectType::Program> {
   public:
     Program() = default;
-    // Throws Error(Runtime) with the driver's log mapped to file:line.
+    // Throws Error(Runtime) with the driver's log mapped to file:line. That message has several lines, unlike
+    // other errors: who writes shaders needs all of them.
     Program(const ShaderProvider& provider, const ProgramDesc& desc);
 
     const std::vector<std::string>& sourceFiles() const { return sourceFiles_; }
@@ -32,11 +34,12 @@ class Program : public Object<ObjectType::Program> {
 
     void use() const;
     // Compute: use() and run at least this many invocations (rounded up to whole groups). Counts of zero run
-    // nothing; more than 65,535 groups along x are folded into y: shaders get the linear group by
-    // lib/linear_index.glsl.
+    // nothing. dispatchLinear folds groups beyond 65,535 into y: the shader asks linearIndex() of
+    // lib/linear_index.glsl, which is below `invocations` for each exactly once (and above for some more).
     void dispatch(int x, int y = 1, int z = 1) const;
     void dispatchLinear(std::size_t invocations) const;
-    // Group counts read from `buffer` at `offset` (three uints).
+    // Group counts read from `buffer` at `offset` (three uints); each at most 65,535. GL state changed: the
+    // indirect dispatch buffer binding.
     void dispatchIndirect(const Buffer& buffer, std::size_t offset = 0) const;
 
   private:
@@ -50,16 +53,23 @@ class ProgramLibrary {
     explicit ProgramLibrary(ShaderProvider provider) : provider_(std::move(provider)) {}
 
     const Program& get(const ProgramDesc& desc);
-    const Program& compute(const std::string& file, const Defines& defines = {}) { return get({{file}, defines}); }
+    const Program& compute(const std::string& file, const Defines& defines = {}) {
+        return get({{file}, defines});
+    }
 
-    // Rebuilds programs that use one of `files`; a program that fails keeps its old version.
-    // Returns one message per failure.
+    // Rebuilds programs that use one of `files`, and those whose last rebuild failed (the fault may be in a
+    // file they did not use before). A program that fails keeps its old version. Returns one message per
+    // failure.
     std::vector<std::string> reload(const std::vector<std::string>& files);
+
+    // Files that programs built so far use, sorted: what to watch for changes.
+    std::vector<std::string> sourceFiles() const;
 
   private:
     struct Entry {
         ProgramDesc desc;
         Program program;
+        bool reloadFailed = false;
     };
     ShaderProvider provider_;
     std::map<std::string, std::unique_ptr<Entry>> programs_;

@@ -6,6 +6,7 @@
 #include "base/assert.h"
 #include "base/log.h"
 #include "gl/gl.h"
+#include "gl/storage.h"
 
 namespace conelight::gl {
 namespace {
@@ -24,50 +25,126 @@ int fullChain(const TextureDesc& desc) {
 // Bytes of one texel, of the formats this library uses.
 std::size_t texelBytes(std::uint32_t format) {
     switch (format) {
-        case GL_R8: case GL_R8UI: case GL_R8I: return 1;
-        case GL_R16F: case GL_R16UI: case GL_R16: case GL_RG8: case GL_DEPTH_COMPONENT16: return 2;
-        case GL_RGBA8: case GL_SRGB8_ALPHA8: case GL_R32UI: case GL_R32F: case GL_R32I: case GL_RG16F: case GL_RG16:
-        case GL_RG16_SNORM: case GL_RGB10_A2: case GL_R11F_G11F_B10F: case GL_DEPTH_COMPONENT32F: case GL_RGB9_E5:
-        case GL_DEPTH_COMPONENT24: case GL_RGBA8UI: return 4;
-        case GL_RGBA16F: case GL_RGBA16: case GL_RGBA16_SNORM: case GL_RG32F: case GL_RG32UI: return 8;
-        case GL_RGBA32F: case GL_RGBA32UI: return 16;
-        default: break;
+        case GL_R8:
+        case GL_R8UI:
+        case GL_R8I:
+        case GL_R8_SNORM:
+            return 1;
+        case GL_R16F:
+        case GL_R16UI:
+        case GL_R16I:
+        case GL_R16:
+        case GL_R16_SNORM:
+        case GL_RG8:
+        case GL_RG8UI:
+        case GL_RG8_SNORM:
+        case GL_DEPTH_COMPONENT16:
+            return 2;
+        case GL_RGBA8:
+        case GL_SRGB8_ALPHA8:
+        case GL_RGBA8_SNORM:
+        case GL_RGBA8UI:
+        case GL_R32UI:
+        case GL_R32F:
+        case GL_R32I:
+        case GL_RG16F:
+        case GL_RG16:
+        case GL_RG16_SNORM:
+        case GL_RG16UI:
+        case GL_RGB10_A2:
+        case GL_R11F_G11F_B10F:
+        case GL_RGB9_E5:
+        case GL_DEPTH_COMPONENT32F:
+        case GL_DEPTH_COMPONENT24:
+            return 4;
+        case GL_RGBA16F:
+        case GL_RGBA16:
+        case GL_RGBA16_SNORM:
+        case GL_RGBA16UI:
+        case GL_RG32F:
+        case GL_RG32UI:
+            return 8;
+        case GL_RGB32F:
+        case GL_RGB32UI:
+            return 12;  // buffer textures only
+        case GL_RGBA32F:
+        case GL_RGBA32UI:
+        case GL_RGBA32I:
+            return 16;
+        default:
+            break;
     }
     base::fail(ErrorKind::Runtime, "texture format 0x%x has no known size", format);
+}
+
+bool isArray(std::uint32_t target) {
+    return target == GL_TEXTURE_2D_ARRAY || target == GL_TEXTURE_CUBE_MAP_ARRAY;
+}
+
+int integer(GLenum limit) {
+    GLint value = 0;
+    glGetIntegerv(limit, &value);
+    return value;
+}
+
+// Sizes beyond the driver's limits are a failure the user can act on, not an error of GL.
+void requireLimits(const TextureDesc& desc, const std::string& label) {
+    CONELIGHT_ASSERT(desc.width > 0 && desc.height > 0 && desc.depth > 0, "a texture has at least one texel");
+    const bool cube = desc.target == GL_TEXTURE_CUBE_MAP || desc.target == GL_TEXTURE_CUBE_MAP_ARRAY;
+    const int edge = integer(desc.target == GL_TEXTURE_3D ? GL_MAX_3D_TEXTURE_SIZE
+                             : cube                       ? GL_MAX_CUBE_MAP_TEXTURE_SIZE
+                                                          : GL_MAX_TEXTURE_SIZE);
+    const int depth = desc.target == GL_TEXTURE_3D ? edge
+                      : isArray(desc.target)       ? integer(GL_MAX_ARRAY_TEXTURE_LAYERS)
+                                                   : 1;
+    if (desc.width > edge || desc.height > edge || desc.depth > depth)
+        base::fail(ErrorKind::Runtime,
+                   "OpenGL: texture '%s' of %d x %d x %d; at most %d x %d x %d would be right on this driver",
+                   label.c_str(), desc.width, desc.height, desc.depth, edge, edge, depth);
 }
 
 }  // namespace
 
 Texture::Texture(const TextureDesc& desc, const std::string& label) : desc_(desc) {
     if (desc_.levels == 0) desc_.levels = fullChain(desc_);
-    Name name = 0;
-    glCreateTextures(desc_.target, 1, &name);
-    if (desc_.target == GL_TEXTURE_3D || desc_.target == GL_TEXTURE_2D_ARRAY || desc_.target == GL_TEXTURE_CUBE_MAP_ARRAY)
-        glTextureStorage3D(name, desc_.levels, desc_.format, desc_.width, desc_.height, desc_.depth);
+    const std::size_t bytes = storageBytes(desc_);
+    requireLimits(desc_, label);
+    Name created = 0;
+    glCreateTextures(desc_.target, 1, &created);
+    adopt(created, label, bytes);
+    if (desc_.target == GL_TEXTURE_3D || isArray(desc_.target))
+        glTextureStorage3D(created, desc_.levels, desc_.format, desc_.width, desc_.height, desc_.depth);
     else
-        glTextureStorage2D(name, desc_.levels, desc_.format, desc_.width, desc_.height);
-    adopt(name, label, storageBytes(desc_));
+        glTextureStorage2D(created, desc_.levels, desc_.format, desc_.width, desc_.height);
+    requireStorage(ObjectType::Texture, created, label, bytes);
 }
 
 Texture::Texture(const Buffer& buffer, std::uint32_t format, const std::string& label)
     : desc_{GL_TEXTURE_BUFFER, format, static_cast<int>(buffer.bytes() / texelBytes(format))} {
-    Name name = 0;
-    glCreateTextures(GL_TEXTURE_BUFFER, 1, &name);
-    glTextureBuffer(name, format, buffer.name());
-    adopt(name, label, 0);
+    const int limit = integer(GL_MAX_TEXTURE_BUFFER_SIZE);
+    if (buffer.bytes() / texelBytes(format) > static_cast<std::size_t>(limit))
+        base::fail(ErrorKind::Runtime,
+                   "OpenGL: buffer texture '%s' of %zu texels; at most %d would be right on this driver",
+                   label.c_str(), buffer.bytes() / texelBytes(format), limit);
+    Name created = 0;
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &created);
+    adopt(created, label, 0);
+    glTextureBuffer(created, format, buffer.name());
 }
 
 int Texture::width(int level) const { return std::max(desc_.width >> level, 1); }
 int Texture::height(int level) const { return std::max(desc_.height >> level, 1); }
 int Texture::depth(int level) const {
+    if (desc_.target == GL_TEXTURE_CUBE_MAP) return 6;
     return desc_.target == GL_TEXTURE_3D ? std::max(desc_.depth >> level, 1) : desc_.depth;
 }
 
 std::size_t Texture::storageBytes(const TextureDesc& desc) {
     std::size_t texels = 0;
-    for (int level = 0; level < desc.levels; ++level) {
+    const int levels = desc.levels != 0 ? desc.levels : fullChain(desc);
+    for (int level = 0; level < levels; ++level) {
         const std::size_t layers =
-            desc.target == GL_TEXTURE_3D ? static_cast<std::size_t>(std::max(desc.depth >> level, 1))
+            desc.target == GL_TEXTURE_3D         ? static_cast<std::size_t>(std::max(desc.depth >> level, 1))
             : desc.target == GL_TEXTURE_CUBE_MAP ? 6
                                                  : static_cast<std::size_t>(desc.depth);
         texels += static_cast<std::size_t>(std::max(desc.width >> level, 1)) *
@@ -81,7 +158,8 @@ void Texture::upload(int level, std::uint32_t layout, std::uint32_t type, const 
     if (desc_.target == GL_TEXTURE_2D)
         glTextureSubImage2D(name(), level, 0, 0, width(level), height(level), layout, type, data);
     else
-        glTextureSubImage3D(name(), level, 0, 0, 0, width(level), height(level), depth(level), layout, type, data);
+        glTextureSubImage3D(name(), level, 0, 0, 0, width(level), height(level), depth(level), layout, type,
+                            data);
 }
 
 void Texture::uploadLayer(int level, int layer, std::uint32_t layout, std::uint32_t type, const void* data) {
@@ -92,6 +170,7 @@ void Texture::uploadLayer(int level, int layer, std::uint32_t layout, std::uint3
 void Texture::generateMipmaps() { glGenerateTextureMipmap(name()); }
 
 void Texture::clear(int level, std::uint32_t layout, std::uint32_t type, const void* texel) {
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     glClearTexImage(name(), level, layout, type, texel);
 }
 
@@ -101,7 +180,9 @@ void Texture::read(int level, std::uint32_t layout, std::uint32_t type, void* da
     glGetTextureImage(name(), level, layout, type, static_cast<GLsizei>(bytes), data);
 }
 
-void Texture::parameter(std::uint32_t parameterName, int value) { glTextureParameteri(name(), parameterName, value); }
+void Texture::parameter(std::uint32_t parameterName, int value) {
+    glTextureParameteri(name(), parameterName, value);
+}
 void Texture::bind(unsigned unit) const { glBindTextureUnit(unit, name()); }
 void Texture::bindImage(unsigned unit, int level, std::uint32_t access, std::uint32_t format) const {
     glBindImageTexture(unit, name(), level, GL_TRUE, 0, access, format != 0 ? format : desc_.format);
@@ -113,7 +194,8 @@ Sampler::Sampler(const SamplerDesc& desc, const std::string& label) {
     glSamplerParameteri(name, GL_TEXTURE_MIN_FILTER, static_cast<GLint>(desc.minFilter));
     glSamplerParameteri(name, GL_TEXTURE_MAG_FILTER, static_cast<GLint>(desc.magFilter));
     glSamplerParameteri(name, GL_TEXTURE_WRAP_S, static_cast<GLint>(desc.wrap));
-    glSamplerParameteri(name, GL_TEXTURE_WRAP_T, static_cast<GLint>(desc.wrapV != 0 ? desc.wrapV : desc.wrap));
+    glSamplerParameteri(name, GL_TEXTURE_WRAP_T,
+                        static_cast<GLint>(desc.wrapV != 0 ? desc.wrapV : desc.wrap));
     glSamplerParameteri(name, GL_TEXTURE_WRAP_R, static_cast<GLint>(desc.wrap));
     if (desc.maxAnisotropy > 1.0f && epoxy_has_gl_extension("GL_EXT_texture_filter_anisotropic"))
         glSamplerParameterf(name, GL_TEXTURE_MAX_ANISOTROPY_EXT, desc.maxAnisotropy);

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Textures of immutable storage, views of buffers as textures, samplers.
+// Creation throws Error(Runtime): a size beyond the driver's limits, no memory, an unknown format.
+// clear() and read() see and follow what shaders wrote before; uploads do only after barrier(Access::Update).
+// Transfers set the alignment of rows and rely on GL's defaults for the rest of the pixel store state, which
+// HostStateGuard provides.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +20,7 @@ struct TextureDesc {
     std::uint32_t format;  // sized internal format
     int width = 1;
     int height = 1;
-    int depth = 1;   // layers for arrays (6 per cube)
+    int depth = 1;   // layers for arrays (6 per cube); 1 for a single cube
     int levels = 1;  // 0: the full chain
 };
 
@@ -30,9 +34,9 @@ class Texture : public Object<ObjectType::Texture> {
     const TextureDesc& desc() const { return desc_; }
     int width(int level = 0) const;
     int height(int level = 0) const;
-    int depth(int level = 0) const;
+    int depth(int level = 0) const;  // slices or layers; 6 for a cube
 
-    // One level from host memory; type and layout as in glTextureSubImage.
+    // One level, all layers, from host memory; type and layout as in glTextureSubImage. Rows are tight.
     void upload(int level, std::uint32_t layout, std::uint32_t type, const void* data);
     void uploadLayer(int level, int layer, std::uint32_t layout, std::uint32_t type, const void* data);
     void generateMipmaps();
