@@ -1,2 +1,76 @@
 // SPDX-License-Identifier: MIT
-int main() { return 0; }
+// The program `conelight`: names the sub-commands (one file each) and turns failures into one line and an
+// exit status: 0 done, 1 failed while running, 2 wrong usage, 3 bad input, 4 no usable OpenGL, 130
+// interrupted.
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "command.h"
+#include "conelight/error.h"
+#include "conelight/version.h"
+#include "platform/headless_context.h"
+
+namespace {
+
+int exitStatus(conelight::ErrorKind kind) {
+    switch (kind) {
+        case conelight::ErrorKind::Runtime:
+            return 1;
+        case conelight::ErrorKind::Usage:
+            return 2;
+        case conelight::ErrorKind::BadInput:
+            return 3;
+        case conelight::ErrorKind::NoGl:
+            return 4;
+    }
+    return 1;
+}
+
+void printMessage(conelight::LogLevel level, std::string_view message) {
+    if (level == conelight::LogLevel::Warning || level == conelight::LogLevel::Error)
+        std::fprintf(stderr, "conelight: %.*s\n", static_cast<int>(message.size()), message.data());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    conelight::platform::tuneAllocator();
+    conelight::setLogCallback(printMessage);
+    conelight::program::installInterruptHandler();
+
+    CLI::App app("Conelight: global illumination by voxel cone tracing, measured against ground truth.",
+                 "conelight");
+    app.set_version_flag("--version", std::string("conelight ") + CONELIGHT_VERSION_STRING);
+    app.require_subcommand(1);
+    app.get_formatter()->column_width(36);
+    conelight::program::addRender(app);
+    conelight::program::addBench(app);
+    conelight::program::addInfo(app);
+    conelight::program::addSettings(app);
+
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
+            return app.exit(error);  // --help, --version
+        std::fprintf(stderr, "conelight: %s; `conelight --help` lists commands and options\n", error.what());
+        return 2;
+    } catch (const conelight::program::Interrupted&) {
+        std::fprintf(stderr, "conelight: interrupted; nothing was written\n");
+        return 130;
+    } catch (const conelight::Error& error) {
+        std::fprintf(stderr, "conelight: %s\n", error.what());
+        return exitStatus(error.kind());
+    } catch (const std::bad_alloc&) {
+        std::fprintf(stderr,
+                     "conelight: out of memory; a smaller scene, picture or voxel size would be right\n");
+        return 1;
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "conelight: %s\n", error.what());
+        return 1;
+    }
+    return 0;
+}

@@ -32,7 +32,9 @@ std::string extensionsOf(EGLDeviceEXT device) {
     return text != nullptr ? text : "";
 }
 
-bool isSoftware(EGLDeviceEXT device) { return extensionsOf(device).find("EGL_MESA_device_software") != std::string::npos; }
+bool isSoftware(EGLDeviceEXT device) {
+    return extensionsOf(device).find("EGL_MESA_device_software") != std::string::npos;
+}
 
 }  // namespace
 
@@ -40,8 +42,8 @@ std::vector<std::string> listDevices() {
     std::vector<std::string> lines;
     int index = 0;
     for (EGLDeviceEXT device : devices())
-        lines.push_back(std::to_string(index++) + ": " + (isSoftware(device) ? "software" : "hardware") + " (" +
-                        extensionsOf(device) + ")");
+        lines.push_back(std::to_string(index++) + ": " + (isSoftware(device) ? "software" : "hardware") +
+                        " (" + extensionsOf(device) + ")");
     return lines;
 }
 
@@ -58,14 +60,21 @@ bool HeadlessContext::tryDisplay(void* display, const std::string& how, bool deb
         return failed("no desktop OpenGL");
     }
     // NVIDIA wants a config for contexts; Mesa's surfaceless platform may have none.
-    const EGLint configAttributes[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_DONT_CARE, EGL_NONE};
+    const EGLint configAttributes[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_DONT_CARE,
+                                       EGL_NONE};
     EGLConfig config = EGL_NO_CONFIG_KHR;
     EGLint configCount = 0;
     if (eglChooseConfig(display, configAttributes, &config, 1, &configCount) == EGL_FALSE || configCount == 0)
         config = EGL_NO_CONFIG_KHR;
-    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION, 4, EGL_CONTEXT_MINOR_VERSION, 5,
-                                 EGL_CONTEXT_OPENGL_PROFILE_MASK, EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                 EGL_CONTEXT_OPENGL_DEBUG, debug ? EGL_TRUE : EGL_FALSE, EGL_NONE};
+    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
+                                 4,
+                                 EGL_CONTEXT_MINOR_VERSION,
+                                 5,
+                                 EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                 EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                 EGL_CONTEXT_OPENGL_DEBUG,
+                                 debug ? EGL_TRUE : EGL_FALSE,
+                                 EGL_NONE};
     EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
     if (context == EGL_NO_CONTEXT) {
         eglTerminate(display);
@@ -89,20 +98,24 @@ bool HeadlessContext::tryDisplay(void* display, const std::string& how, bool deb
 HeadlessContext::HeadlessContext(const HeadlessOptions& options) {
     const std::vector<EGLDeviceEXT> all = devices();
     if (options.device >= static_cast<int>(all.size()))
-        throw Error(ErrorKind::Usage, "--device: there is no EGL device " + std::to_string(options.device) + "; 0 to " +
-                                          std::to_string(static_cast<int>(all.size()) - 1) + " would be right");
+        throw Error(ErrorKind::Usage, "--device: there is no EGL device " + std::to_string(options.device) +
+                                          "; 0 to " + std::to_string(static_cast<int>(all.size()) - 1) +
+                                          " would be right");
     // Hardware devices first, then software ones, then surfaceless.
     for (const bool software : {false, true}) {
         for (std::size_t i = 0; i < all.size(); ++i) {
-            if (options.device >= 0 ? static_cast<int>(i) != options.device : isSoftware(all[i]) != software) continue;
+            if (options.device >= 0 ? static_cast<int>(i) != options.device : isSoftware(all[i]) != software)
+                continue;
             const std::string how = "EGL device " + std::to_string(i);
-            if (tryDisplay(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, all[i], nullptr), how, options.debug)) return;
+            if (tryDisplay(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, all[i], nullptr), how,
+                           options.debug))
+                return;
         }
         if (options.device >= 0) break;
     }
     if (options.device < 0 && epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless") &&
-        tryDisplay(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr), "EGL surfaceless",
-                   options.debug))
+        tryDisplay(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr),
+                   "EGL surfaceless", options.debug))
         return;
     throw Error(ErrorKind::NoGl, "OpenGL: no 4.5 core context without a display (" +
                                      (tried_.empty() ? std::string("EGL lists no device") : tried_) +

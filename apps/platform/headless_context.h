@@ -10,7 +10,7 @@ namespace conelight::platform {
 
 struct HeadlessOptions {
     int device = -1;     // index into listDevices(); -1: the first that gives a 4.5 core context
-    bool debug = false;  // KHR_debug messages, synchronous, through installDebugCallback
+    bool debug = false;  // a debug context, which reports errors (RendererOptions::reportGlErrors)
 };
 
 // Current on the creating thread from construction to destruction. Throws Error(NoGl) with what was tried.

@@ -48,6 +48,8 @@ struct FrameStats {
 
 struct RendererOptions {
     std::string shaderDirectory;  // empty: the embedded shaders; else files there win (for development)
+    bool reportGlErrors =
+        false;  // takes the context's KHR_debug callback: errors of the driver go to the log
 };
 
 class Renderer {
@@ -71,8 +73,9 @@ class Renderer {
     void setDynamic(bool everyFrame);
 
     // Results of the last render().
-    Image readImage() const;          // waits for the GPU
-    std::uint32_t imageTexture() const;  // GL_TEXTURE_2D, RGBA32F, owned by the renderer; row 0 is the bottom row
+    Image readImage() const;  // waits for the GPU
+    std::uint32_t imageTexture()
+        const;  // GL_TEXTURE_2D, RGBA32F, owned by the renderer; row 0 is the bottom row
     const FrameStats& stats() const;
 
   private:

@@ -37,10 +37,10 @@ struct Aabb {
 struct Mesh {
     std::string name;
     std::vector<glm::vec3> positions;
-    std::vector<glm::vec3> normals;   // unit length
+    std::vector<glm::vec3> normals;  // unit length
     std::vector<glm::vec2> uvs;
-    std::vector<glm::vec4> tangents;  // unit length; w = +-1: bitangent = w * cross(normal, tangent)
-    std::vector<glm::vec4> colors;    // linear, multiplied onto the base colour (rgb) and opacity (a)
+    std::vector<glm::vec4> tangents;     // unit length; w = +-1: bitangent = w * cross(normal, tangent)
+    std::vector<glm::vec4> colors;       // linear, multiplied onto the base colour (rgb) and opacity (a)
     std::vector<std::uint32_t> indices;  // multiple of 3
 
     std::size_t triangleCount() const { return indices.size() / 3; }
@@ -73,7 +73,8 @@ struct TextureRef {
 enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
 
 // The material model of the thesis (its sections on Phong shading), used by modes `thesis` and `phong`.
-// Radiance per light: (ambient + diffuse * n.l + specular * (v.r)^shininess) * lightColor * color / attenuation.
+// Radiance per light: (ambient + diffuse * n.l + specular * (v.r)^shininess) * lightColor * color /
+// attenuation.
 struct PhongMaterial {
     glm::vec3 color{0.85f};  // linear, [0,1]
     float shininess = 32.0f;
@@ -91,7 +92,7 @@ struct Material {
     float ior = 1.5f;                             // >= 1; dielectric F0 = ((ior-1)/(ior+1))^2; 0: F0 = 1
     float specular = 1.0f;                        // [0,1], scales the dielectric specular lobe
     glm::vec3 specularColor{1.0f};                // >= 0, tints dielectric F0 (F0 is clamped to 1)
-    glm::vec3 emission{0.0f};                     // radiance, W/(sr m^2), of the front face (both if doubleSided)
+    glm::vec3 emission{0.0f};  // radiance, W/(sr m^2), of the front face (both if doubleSided)
     float normalScale = 1.0f;
     float alphaCutoff = 0.5f;  // AlphaMode::Mask: below it there is no surface
     AlphaMode alphaMode = AlphaMode::Opaque;
@@ -105,8 +106,9 @@ struct Material {
     TextureRef specularTexture;           // a: specular
     TextureRef specularColorTexture;      // rgb: specularColor
 
-    bool isPhong = false;  // `phong` is given by the scene (thesis's format); else it is derived from the above
-    PhongMaterial phong;   // see phongFromPbr / pbrFromPhong
+    bool isPhong =
+        false;  // `phong` is given by the scene (thesis's format); else it is derived from the above
+    PhongMaterial phong;  // see phongFromPbr / pbrFromPhong
 };
 
 // Fills the Phong model of a metallic-roughness material, and the other way round. The mapping is chosen so
@@ -120,8 +122,9 @@ struct Instance {
     int mesh = -1;
     int material = -1;  // -1: the default Material
     glm::mat4 worldFromObject{1.0f};
-    bool visible = true;      // false: in no pass at all (the thesis's active = false)
-    bool voxelized = true;    // false: drawn, but neither occludes nor bounces nor emits (the thesis's static = true)
+    bool visible = true;  // false: in no pass at all (the thesis's active = false)
+    bool voxelized =
+        true;  // false: drawn, but neither occludes nor bounces nor emits (the thesis's static = true)
     bool castsShadow = true;  // false: left out of shadow maps and shadow rays
     bool dynamic = false;     // true: may move every frame; voxelized separately from the rest
 };
@@ -135,12 +138,14 @@ struct Light {
     LightType type = LightType::Point;
     glm::vec3 intensity{1.0f};
     glm::vec3 position{0.0f};
-    glm::vec3 direction{0.0f, -1.0f, 0.0f};  // unit; where light travels to (spot, directional, rect's normal)
-    glm::vec3 halfU{0.5f, 0, 0};             // rect: centre to edge; cross(halfU, halfV) need not point along `direction`
+    glm::vec3 direction{0.0f, -1.0f,
+                        0.0f};  // unit; where light travels to (spot, directional, rect's normal)
+    glm::vec3 halfU{0.5f, 0,
+                    0};  // rect: centre to edge; cross(halfU, halfV) need not point along `direction`
     glm::vec3 halfV{0, 0, 0.5f};
-    float innerAngle = 0.0f;        // spot: half angle of full intensity, rad, [0, outerAngle]
-    float outerAngle = 0.78539816f; // spot: half angle of zero intensity, rad, (innerAngle, pi/2]
-    float range = 0.0f;             // glTF's range in metres, 0 = unlimited
+    float innerAngle = 0.0f;         // spot: half angle of full intensity, rad, [0, outerAngle]
+    float outerAngle = 0.78539816f;  // spot: half angle of zero intensity, rad, (innerAngle, pi/2]
+    float range = 0.0f;              // glTF's range in metres, 0 = unlimited
     bool enabled = true;
     bool castsShadow = true;
     // The thesis's falloff instead of the inverse square: intensity / (constant + linear d + quadratic d^2).

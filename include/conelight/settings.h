@@ -18,20 +18,34 @@ enum class Mode {
 };
 
 // What is shown. Indirect = Diffuse + Specular (the gathered parts).
-enum class Component { Full, Direct, Indirect, Diffuse, Specular, Occlusion, Albedo, Normal, Depth, Voxels, Emission };
+enum class Component {
+    Full,
+    Direct,
+    Indirect,
+    Diffuse,
+    Specular,
+    Occlusion,
+    Albedo,
+    Normal,
+    Depth,
+    Voxels,
+    Emission
+};
 
 enum class ToneMap { None, Reinhard, Aces };
 
 struct VoxelSettings {
-    int size = 128;          // voxels along the longest axis of the grid; 8..512, divisible by 4
-    float padding = 0.03f;   // grid is larger than the scene's bounds by this fraction on each side
+    int size = 128;         // voxels along the longest axis of the grid; 8..512, divisible by 4
+    float padding = 0.03f;  // grid is larger than the scene's bounds by this fraction on each side
+    bool operator==(const VoxelSettings&) const = default;
 };
 
 struct LightSettings {
-    int shadowSize = 1024;     // texels per edge of a shadow map (cube faces: half); 0 = no shadows; 64..8192
-    int shadowFilter = 2;      // radius of the shadow filter in texels; 0..4
-    int areaSamples = 16;      // points per rectangular light; 1, 4, 9, 16, 25 ... 64
-    bool emissiveQuads = true; // flat rectangular emitters are lit exactly, as area lights (cones mode)
+    int shadowSize = 1024;  // texels per edge of a shadow map (cube faces: half); 0 = no shadows; 64..8192
+    int shadowFilter = 2;   // radius of the shadow filter in texels; 0..4
+    int areaSamples = 16;   // points per rectangular light; 1, 4, 9, 16, 25 ... 64
+    bool emissiveQuads = true;  // flat rectangular emitters are lit exactly, as area lights (cones mode)
+    bool operator==(const LightSettings&) const = default;
 };
 
 // A number with a default that depends on the voxel size; set with `auto` or a number.
@@ -53,9 +67,10 @@ struct ThesisSettings {
 struct ConesSettings {};
 
 struct ImageSettings {
-    float exposure = 0.0f;  // stops: the linear image is multiplied by 2^exposure before the tone map; -20..20
+    float exposure =
+        0.0f;  // stops: the linear image is multiplied by 2^exposure before the tone map; -20..20
     ToneMap toneMap = ToneMap::Aces;  // thesis and phong modes of a thesis-format scene default to None
-    bool srgb = true;       // encode 8-bit output as sRGB; the original wrote linear values
+    bool srgb = true;                 // encode 8-bit output as sRGB; the original wrote linear values
 };
 
 struct Settings {
@@ -69,12 +84,12 @@ struct Settings {
 };
 
 struct SettingInfo {
-    std::string key;           // "thesis.diffuse.aperture"
-    std::string type;          // "bool", "int", "float", "auto float", "choice"
-    std::string unit;          // "rad", "voxels", "" ...
-    std::string range;         // "0.01..3.14", "true,false", "none,reinhard,aces"
+    std::string key;    // "thesis.diffuse.aperture"
+    std::string type;   // "bool", "int", "float", "auto float", "choice"
+    std::string unit;   // "rad", "voxels", "" ...
+    std::string range;  // "0.01..3.14", "true,false", "none,reinhard,aces"
     std::string defaultValue;
-    std::string help;          // one line
+    std::string help;  // one line
 };
 
 // All settings, in the order of the structs.

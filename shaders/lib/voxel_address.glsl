@@ -3,7 +3,9 @@
 // World and grid coordinates: lib/voxel_grid.glsl.
 
 // Linear brick index, x fastest.
-uint brickIndex(ivec3 brick, ivec3 bricks) { return uint(brick.x + bricks.x * (brick.y + bricks.y * brick.z)); }
+uint brickIndex(ivec3 brick, ivec3 bricks) {
+    return uint(brick.x + bricks.x * (brick.y + bricks.y * brick.z));
+}
 
 ivec3 brickOfIndex(uint index, ivec3 bricks) {
     int i = int(index);
@@ -32,7 +34,8 @@ bool brickHas(uvec2 mask, uint bit) { return (((bit < 32u ? mask.x : mask.y) >> 
 // How many occupied voxels lie below bit `bit`.
 uint brickRank(uvec2 mask, uint bit) {
     uint below = (1u << (bit & 31u)) - 1u;
-    return bit < 32u ? uint(bitCount(mask.x & below)) : uint(bitCount(mask.x)) + uint(bitCount(mask.y & below));
+    return bit < 32u ? uint(bitCount(mask.x & below))
+                     : uint(bitCount(mask.x)) + uint(bitCount(mask.y & below));
 }
 
 // Index of the record of an occupied voxel, from its brick's texel of brickWord.

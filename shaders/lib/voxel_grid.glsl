@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The block of the voxel grid and the change between world and grid coordinates. C++ twin: src/voxels/voxel_grid.h.
+// The block of the voxel grid and the change between world and grid coordinates. C++ twin:
+// src/voxels/voxel_grid.h.
 #include "shared/bindings.h"
 #include "shared/voxels.h"
 layout(std140, binding = BINDING_VOXEL_GRID) uniform VoxelGridBlock { VoxelGrid grid; };

@@ -9,7 +9,8 @@ const float kVoxelWeightScale = 65535.0 / 4.0;  // W and area: [0,4] in 16 bits
 // Number of the direction -> unit vector: +x -x +y -y +z -z.
 vec3 directionVector(int direction) {
     float side = (direction & 1) == 0 ? 1.0 : -1.0;
-    return vec3(direction < 2 ? side : 0.0, direction >= 2 && direction < 4 ? side : 0.0, direction >= 4 ? side : 0.0);
+    return vec3(direction < 2 ? side : 0.0, direction >= 2 && direction < 4 ? side : 0.0,
+                direction >= 4 ? side : 0.0);
 }
 
 // Plane offset n.(c - centre)/h in [-1,1], coverage W in [0,4].
@@ -36,7 +37,9 @@ uint packAlbedo(vec3 albedo) {
     uvec3 q = uvec3(floor(clamp(albedo, 0.0, 1.0) * vec3(2047.0, 2047.0, 1023.0) + 0.5));
     return q.x | (q.y << 11) | (q.z << 22);
 }
-vec3 unpackAlbedo(uint bits) { return vec3(bits & 2047u, (bits >> 11) & 2047u, bits >> 22) / vec3(2047.0, 2047.0, 1023.0); }
+vec3 unpackAlbedo(uint bits) {
+    return vec3(bits & 2047u, (bits >> 11) & 2047u, bits >> 22) / vec3(2047.0, 2047.0, 1023.0);
+}
 
 // Shared-exponent colour (OpenGL 4.5 core, 8.5.2): mantissas of 9 bits, 2^(exponent - 24).
 uint packRgb9e5(vec3 color) {
@@ -49,7 +52,8 @@ uint packRgb9e5(vec3 color) {
     return m.x | (m.y << 9) | (m.z << 18) | (uint(exponent) << 27);
 }
 vec3 unpackRgb9e5(uint bits) {
-    return vec3(bits & 511u, (bits >> 9) & 511u, (bits >> 18) & 511u) * uintBitsToFloat(((bits >> 27) + 103u) << 23);
+    return vec3(bits & 511u, (bits >> 9) & 511u, (bits >> 18) & 511u) *
+           uintBitsToFloat(((bits >> 27) + 103u) << 23);
 }
 
 // faceSource: emission as halves, area / h^2 in [0,4].
@@ -71,5 +75,6 @@ vec3 facePoint(FaceRecord face) {
 vec3 faceCenter(FaceRecord face) {
     vec3 n = faceNormal(face);
     vec3 middle = 0.5 * (unpackBoundsMin(face.bounds) + unpackBoundsMax(face.bounds)) - 0.5;
-    return vec3(unpackVoxel(face.voxel)) + 0.5 + middle + n * (unpackOffset(face.offsetWeight) - dot(n, middle));
+    return vec3(unpackVoxel(face.voxel)) + 0.5 + middle +
+           n * (unpackOffset(face.offsetWeight) - dot(n, middle));
 }

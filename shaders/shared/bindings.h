@@ -15,20 +15,21 @@
 #define BINDING_INSTANCES 2
 #define BINDING_MATERIALS 3
 #define BINDING_LIGHTS 4
-#define BINDING_STORAGE_PASS 8  // first number free for passes; up to 15 (GL minimum is 8 per stage, 4.5 drivers have 16)
+#define BINDING_STORAGE_PASS \
+    8  // first number free for passes; up to 15 (GL minimum is 8 per stage, 4.5 drivers have 16)
 
 // Texture units
-#define UNIT_MATERIAL_BASE 0       // G-buffer raster: textures of the drawn material
+#define UNIT_MATERIAL_BASE 0  // G-buffer raster: textures of the drawn material
 #define UNIT_MATERIAL_METAL_ROUGH 1
 #define UNIT_MATERIAL_NORMAL 2
 #define UNIT_MATERIAL_EMISSIVE 3
 #define UNIT_MATERIAL_SPECULAR 4
 #define UNIT_MATERIAL_SPECULAR_COLOR 5
-#define UNIT_SURFACE_ARRAY 6       // all textures at low resolution, for compute (GpuScene)
-#define UNIT_PASS 8                // first unit free for passes
+#define UNIT_SURFACE_ARRAY 6  // all textures at low resolution, for compute (GpuScene)
+#define UNIT_PASS 8           // first unit free for passes
 // Units of the G-buffer (GBuffer::bind), fixed because many passes read it: UNIT_GBUFFER and the next
 #define UNIT_GBUFFER 22
 // Units of the light stage, fixed because several stages shade
-#define UNIT_SHADOW_2D 24          // sampler2DArrayShadow
-#define UNIT_SHADOW_CUBE 25        // samplerCubeArrayShadow
-#define BINDING_SHADOW_VIEWS 5     // storage: matrices of shadow views (light stage)
+#define UNIT_SHADOW_2D 24       // sampler2DArrayShadow
+#define UNIT_SHADOW_CUBE 25     // samplerCubeArrayShadow
+#define BINDING_SHADOW_VIEWS 5  // storage: matrices of shadow views (light stage)

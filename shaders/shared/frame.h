@@ -23,7 +23,8 @@ struct FrameConstants {
     uint triangleCount;  // of all instances
     uint seed;
     uint pad0;
-    // ---- 192 B: the point at view depth z and clip position (x, y) is eye + z (viewForward + x viewRight + y viewUp)
+    // ---- 192 B: the point at view depth z and clip position (x, y) is eye + z (viewForward + x viewRight +
+    // y viewUp)
     vec3 viewForward;  // unit
     float pad1;
     vec3 viewRight;  // unit vector times the tangent of half the horizontal field of view

@@ -8,7 +8,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
-#define CONELIGHT_SHARED_BEGIN namespace conelight::gpu { using glm::vec3; using glm::vec4; using glm::ivec4; using glm::uvec4; using glm::mat4; using uint = std::uint32_t;
+#define CONELIGHT_SHARED_BEGIN \
+    namespace conelight::gpu { \
+    using glm::vec3;           \
+    using glm::vec4;           \
+    using glm::ivec4;          \
+    using glm::uvec4;          \
+    using glm::mat4;           \
+    using uint = std::uint32_t;
 #define CONELIGHT_SHARED_END }
 #define CONELIGHT_CONSTANT constexpr
 #else

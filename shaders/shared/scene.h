@@ -4,7 +4,8 @@
 #include "shared/prelude.h"
 CONELIGHT_SHARED_BEGIN
 
-// 32 bytes. Normal and tangent: octahedral, 2 x 16 bit signed-normalised; tangent sign in the lowest bit of its uint.
+// 32 bytes. Normal and tangent: octahedral, 2 x 16 bit signed-normalised; tangent sign in the lowest bit of
+// its uint.
 struct Vertex {
     vec3 position;
     uint normalOct;
@@ -13,7 +14,7 @@ struct Vertex {
     float v;
     uint tangentOct;
     uint color;  // RGBA8 unorm, linear, r lowest
-};  // 32 B
+};               // 32 B
 
 #define INSTANCE_VISIBLE 1u
 #define INSTANCE_VOXELIZED 2u
@@ -60,7 +61,8 @@ struct Material {
     float normalScale;
     uint flags;  // MATERIAL_*
     uint pad0;
-    // ---- 64 B: layers of the surface array (GpuScene), -1 none: base colour, metallic-roughness, normal, emissive
+    // ---- 64 B: layers of the surface array (GpuScene), -1 none: base colour, metallic-roughness, normal,
+    // emissive
     ivec4 layers;
     // ---- 80 B: uv' = (dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z), rows of the four uses above,
     // then of specular and specular colour

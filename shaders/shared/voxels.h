@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The voxel structures that C++ and GLSL share. Written by src/voxels/surface_voxels.cpp, read by whoever
-// lights, gathers or shows voxels. Packing and unpacking: lib/voxel_record.glsl and src/voxels/voxel_record.h;
-// addresses: lib/voxel_address.glsl and src/voxels/voxel_grid.h.
+// lights, gathers or shows voxels. Packing and unpacking: lib/voxel_record.glsl and
+// src/voxels/voxel_record.h; addresses: lib/voxel_address.glsl and src/voxels/voxel_grid.h.
 //
 //   brickWord  RGBA32UI 3D texture, one texel per brick of 4^3 voxels:
 //              x, y  occupancy: bit i (lo: 0..31, hi: 32..63) is voxel i = x + 4 y + 16 z of the brick
-//              z     index of the brick's first voxel record; voxel i has index z + (occupied voxels below bit i)
-//              w     0, reserved
+//              z     index of the brick's first voxel record; voxel i has index z + (occupied voxels below
+//              bit i) w     0, reserved
 //   voxRec     one uint per occupied voxel, ordered by brick (x fastest) and voxel: bits 0..25 index of its
 //              first face, bits 26..31 the directions in which it has faces (bit 26 + k)
 //   face       FaceRecord per voxel and facing direction, ordered by voxel and direction
@@ -26,18 +26,19 @@
 #define VOXEL_FACING_THRESHOLD 0.02
 
 // Fixed slots of the voxel stage, besides BINDING_VOXEL_GRID.
-#define BINDING_VOXEL_FACES 6        // storage: FaceRecord[], for passes that write light into faces
-#define BINDING_VOXEL_RECORDS 7      // storage: uint[] (voxRec)
-#define UNIT_VOXEL_BRICKS 16         // usampler3D (brickWord)
-#define UNIT_VOXEL_RECORDS 17        // usamplerBuffer R32UI (voxRec)
-#define UNIT_VOXEL_FACES 18          // usamplerBuffer RGBA32UI, two texels per face (FaceRecord)
-#define UNIT_VOXEL_FACE_SOURCES 19   // usamplerBuffer RG32UI (faceSource)
+#define BINDING_VOXEL_FACES 6       // storage: FaceRecord[], for passes that write light into faces
+#define BINDING_VOXEL_RECORDS 7     // storage: uint[] (voxRec)
+#define UNIT_VOXEL_BRICKS 16        // usampler3D (brickWord)
+#define UNIT_VOXEL_RECORDS 17       // usamplerBuffer R32UI (voxRec)
+#define UNIT_VOXEL_FACES 18         // usamplerBuffer RGBA32UI, two texels per face (FaceRecord)
+#define UNIT_VOXEL_FACE_SOURCES 19  // usamplerBuffer RG32UI (faceSource)
 
 CONELIGHT_SHARED_BEGIN
 
-// Uniform block at BINDING_VOXEL_GRID. Voxel (i,j,k) is the cube origin + voxelSize * [i,i+1) x [j,j+1) x [k,k+1).
+// Uniform block at BINDING_VOXEL_GRID. Voxel (i,j,k) is the cube origin + voxelSize * [i,i+1) x [j,j+1) x
+// [k,k+1).
 struct VoxelGrid {
-    vec3 origin;  // world position of the lowest corner, m
+    vec3 origin;      // world position of the lowest corner, m
     float voxelSize;  // edge of a voxel, m
     // ---- 16 B
     uint sizeX;  // voxels per axis, multiples of 4
@@ -59,16 +60,19 @@ struct VoxelGrid {
 // What a voxel shows towards one facing direction k: the plane piece that rays hit, and its light.
 struct FaceRecord {
     // Texel 0, the hit test
-    uint normal;        // octahedral, 2 x 16 bit snorm: mean of the triangle normals, weighted by w = area (n.k)/h^2
-    uint offsetWeight;  // low 16: plane offset n.(c - voxel centre) / h, snorm; high 16: coverage W = sum of w, 0..4
-    uint bounds;        // 6 x 5 bit: min x y z, max x y z of the surface in the voxel, in 1/31 voxel, rounded outwards
+    uint
+        normal;  // octahedral, 2 x 16 bit snorm: mean of the triangle normals, weighted by w = area (n.k)/h^2
+    uint offsetWeight;  // low 16: plane offset n.(c - voxel centre) / h, snorm; high 16: coverage W = sum of
+                        // w, 0..4
+    uint bounds;        // 6 x 5 bit: min x y z, max x y z of the surface in the voxel, in 1/31 voxel, rounded
+                        // outwards
     uint voxel;         // 3 x 10 bit: x, y, z of the voxel
     // ---- 16 B: texel 1, shading
     uint albedo;       // 11 | 11 | 10 bit unorm, linear
     uint radiance;     // RGB9E5: emission + reflected direct light, W/(sr m^2); emission alone after build()
     uint irradiance0;  // irradiance / pi (the radiance a white Lambert surface would show): halves r, g
     uint irradiance1;  // half b | number of updates behind it, 0..65535
-};  // 32 B
+};                     // 32 B
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus

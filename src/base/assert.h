@@ -6,10 +6,10 @@
 #include <cstdio>
 #include <cstdlib>
 
-#define CONELIGHT_ASSERT(condition, sentence)                                                          \
-    do {                                                                                               \
-        if (!(condition)) {                                                                            \
+#define CONELIGHT_ASSERT(condition, sentence)                                                              \
+    do {                                                                                                   \
+        if (!(condition)) {                                                                                \
             std::fprintf(stderr, "%s:%d: conelight: %s (%s)\n", __FILE__, __LINE__, sentence, #condition); \
-            std::abort();                                                                              \
-        }                                                                                              \
+            std::abort();                                                                                  \
+        }                                                                                                  \
     } while (false)

@@ -23,20 +23,24 @@ struct FrameContext {
     int height;
     view::GBuffer& gbuffer;      // drawn before the mode runs; textures still to be bound
     light::ShadowMaps& shadows;  // up to date and bound when the mode asked for them (needsShadows)
-    const gl::Texture& output;   // RGBA32F, width x height; the mode writes every pixel (imageStore), row 0 at the bottom
-    bool geometryChanged;        // scene, transforms, voxel settings or "every frame": rebuild voxels
-    bool lightChanged;           // geometryChanged, or lights or light settings changed: inject again
-    gl::Buffer* lookupCounters;  // not null: count texture lookups of cones (uints: diffuse, specular, occlusion)
+    const gl::Texture&
+        output;  // RGBA32F, width x height; the mode writes every pixel (imageStore), row 0 at the bottom
+    bool geometryChanged;  // scene, transforms, voxel settings or "every frame": rebuild voxels
+    bool lightChanged;     // geometryChanged, or lights or light settings changed: inject again
+    gl::Buffer*
+        lookupCounters;  // not null: count texture lookups of cones (uints: diffuse, specular, occlusion)
 };
 
-// One way of making the picture. Owns its volumes and passes; lives as long as the scene is shown in its mode.
+// One way of making the picture. Owns its volumes and passes; lives as long as the scene is shown in its
+// mode.
 class ModeRenderer {
   public:
     virtual ~ModeRenderer() = default;
     // The frame block, scene tables, G-buffer and (if needed) shadow maps are ready.
     virtual void render(const FrameContext& frame) = 0;
     virtual bool needsShadows(const Settings& settings) const = 0;
-    virtual bool cullsBackFaces() const { return false; }
+    // Single-sided materials are not seen from behind (glTF's rule, and the original program's).
+    virtual bool cullsBackFaces() const { return true; }
 };
 
 }  // namespace conelight::frame

@@ -20,25 +20,35 @@ struct Choice {
 
 constexpr Choice<Mode> kModes[] = {{"phong", Mode::Phong}, {"thesis", Mode::Thesis}, {"cones", Mode::Cones}};
 constexpr Choice<Component> kComponents[] = {
-    {"full", Component::Full},         {"direct", Component::Direct},       {"indirect", Component::Indirect},
-    {"diffuse", Component::Diffuse},   {"specular", Component::Specular},   {"occlusion", Component::Occlusion},
-    {"albedo", Component::Albedo},     {"normal", Component::Normal},       {"depth", Component::Depth},
-    {"voxels", Component::Voxels},     {"emission", Component::Emission}};
-constexpr Choice<ToneMap> kToneMaps[] = {{"none", ToneMap::None}, {"reinhard", ToneMap::Reinhard}, {"aces", ToneMap::Aces}};
+    {"full", Component::Full},       {"direct", Component::Direct},     {"indirect", Component::Indirect},
+    {"diffuse", Component::Diffuse}, {"specular", Component::Specular}, {"occlusion", Component::Occlusion},
+    {"albedo", Component::Albedo},   {"normal", Component::Normal},     {"depth", Component::Depth},
+    {"voxels", Component::Voxels},   {"emission", Component::Emission}};
+constexpr Choice<ToneMap> kToneMaps[] = {
+    {"none", ToneMap::None}, {"reinhard", ToneMap::Reinhard}, {"aces", ToneMap::Aces}};
 
-// Calls visit(key, field, ...) for every setting. Visitor overloads: boolean, integer, number, autoNumber, choice.
+// Calls visit(key, field, ...) for every setting. Visitor overloads: boolean, integer, number, autoNumber,
+// choice.
 template <class S, class V>
 void visitAll(S& s, V&& visit) {
     visit.choice("mode", s.mode, kModes, "how the picture is made");
     visit.choice("component", s.component, kComponents, "the part of the picture that is shown");
-    visit.integer("voxels.size", s.voxels.size, 8, 512, 4, "voxels", "voxels along the longest axis of the grid");
-    visit.number("voxels.padding", s.voxels.padding, 0.0, 1.0, "", "grid beyond the scene's bounds, as a fraction per side");
-    visit.integer("light.shadow_size", s.light.shadowSize, 0, 8192, 1, "texels", "edge of a shadow map; 0: no shadows");
-    visit.integer("light.shadow_filter", s.light.shadowFilter, 0, 4, 1, "texels", "radius of the shadow filter");
-    visit.integer("light.area_samples", s.light.areaSamples, 1, 64, 1, "", "points per rectangular light, a square number");
-    visit.boolean("light.emissive_quads", s.light.emissiveQuads, "light flat rectangular emitters exactly, as area lights");
-    visit.number("image.exposure", s.image.exposure, -20.0, 20.0, "stops", "brightness before the tone map: 2^exposure");
-    visit.choice("image.tone_map", s.image.toneMap, kToneMaps, "curve from linear radiance to the 8-bit picture");
+    visit.integer("voxels.size", s.voxels.size, 8, 512, 4, "voxels",
+                  "voxels along the longest axis of the grid");
+    visit.number("voxels.padding", s.voxels.padding, 0.0, 1.0, "",
+                 "grid beyond the scene's bounds, as a fraction per side");
+    visit.integer("light.shadow_size", s.light.shadowSize, 0, 8192, 1, "texels",
+                  "edge of a shadow map; 0: no shadows");
+    visit.integer("light.shadow_filter", s.light.shadowFilter, 0, 4, 1, "texels",
+                  "radius of the shadow filter");
+    visit.integer("light.area_samples", s.light.areaSamples, 1, 64, 1, "",
+                  "points per rectangular light, a square number");
+    visit.boolean("light.emissive_quads", s.light.emissiveQuads,
+                  "light flat rectangular emitters exactly, as area lights");
+    visit.number("image.exposure", s.image.exposure, -20.0, 20.0, "stops",
+                 "brightness before the tone map: 2^exposure");
+    visit.choice("image.tone_map", s.image.toneMap, kToneMaps,
+                 "curve from linear radiance to the 8-bit picture");
     visit.boolean("image.srgb", s.image.srgb, "encode 8-bit pictures as sRGB");
 }
 
@@ -84,8 +94,8 @@ struct Setter {
 
     bool is(const char* name) { return key == name && (found = true); }
     [[noreturn]] void reject(const std::string& right) const {
-        base::fail(ErrorKind::Usage, "setting %s: '%s' is not usable; %s would be right", key.c_str(), text.c_str(),
-                   right.c_str());
+        base::fail(ErrorKind::Usage, "setting %s: '%s' is not usable; %s would be right", key.c_str(),
+                   text.c_str(), right.c_str());
     }
     double parse(double low, double high, const std::string& also) const {
         char* end = nullptr;
@@ -96,13 +106,17 @@ struct Setter {
     }
     void boolean(const char* name, bool& value, const char*) {
         if (!is(name)) return;
-        if (text == "true" || text == "on" || text == "1") value = true;
-        else if (text == "false" || text == "off" || text == "0") value = false;
-        else reject("true or false");
+        if (text == "true" || text == "on" || text == "1")
+            value = true;
+        else if (text == "false" || text == "off" || text == "0")
+            value = false;
+        else
+            reject("true or false");
     }
     void integer(const char* name, int& value, int low, int high, int multiple, const char*, const char*) {
         if (!is(name)) return;
-        const double parsed = parse(low, high, multiple > 1 ? ", a multiple of " + std::to_string(multiple) : "");
+        const double parsed =
+            parse(low, high, multiple > 1 ? ", a multiple of " + std::to_string(multiple) : "");
         if (parsed != std::floor(parsed) || static_cast<int>(parsed) % multiple != 0)
             reject("a whole number from " + std::to_string(low) + " to " + std::to_string(high) +
                    (multiple > 1 ? ", a multiple of " + std::to_string(multiple) : ""));
@@ -113,8 +127,10 @@ struct Setter {
     }
     void autoNumber(const char* name, AutoFloat& value, double low, double high, const char*, const char*) {
         if (!is(name)) return;
-        if (text == "auto") value = AutoFloat{};
-        else value = AutoFloat{false, static_cast<float>(parse(low, high, " or auto"))};
+        if (text == "auto")
+            value = AutoFloat{};
+        else
+            value = AutoFloat{false, static_cast<float>(parse(low, high, " or auto"))};
     }
     template <class T, std::size_t N>
     void choice(const char* name, T& value, const Choice<T> (&choices)[N], const char*) {
@@ -134,16 +150,20 @@ struct Describer {
     void boolean(const char* name, const bool& value, const char* help) {
         infos.push_back({name, "bool", "", "true,false", value ? "true" : "false", help});
     }
-    void integer(const char* name, const int& value, int low, int high, int multiple, const char* unit, const char* help) {
+    void integer(const char* name, const int& value, int low, int high, int multiple, const char* unit,
+                 const char* help) {
         infos.push_back({name, "int", unit,
                          std::to_string(low) + ".." + std::to_string(high) +
                              (multiple > 1 ? " by " + std::to_string(multiple) : ""),
                          std::to_string(value), help});
     }
-    void number(const char* name, const float& value, double low, double high, const char* unit, const char* help) {
-        infos.push_back({name, "float", unit, numberText(low) + ".." + numberText(high), numberText(value), help});
+    void number(const char* name, const float& value, double low, double high, const char* unit,
+                const char* help) {
+        infos.push_back(
+            {name, "float", unit, numberText(low) + ".." + numberText(high), numberText(value), help});
     }
-    void autoNumber(const char* name, const AutoFloat& value, double low, double high, const char* unit, const char* help) {
+    void autoNumber(const char* name, const AutoFloat& value, double low, double high, const char* unit,
+                    const char* help) {
         infos.push_back({name, "auto float", unit, "auto, " + numberText(low) + ".." + numberText(high),
                          value.isAuto ? "auto" : numberText(value.value), help});
     }
@@ -182,8 +202,10 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
             nearest = &info;
         }
     }
-    base::fail(ErrorKind::Usage, "setting %s: there is no such setting; %s would be the nearest (`conelight settings` lists all)",
-               key.c_str(), nearest->key.c_str());
+    base::fail(
+        ErrorKind::Usage,
+        "setting %s: there is no such setting; %s would be the nearest (`conelight settings` lists all)",
+        key.c_str(), nearest->key.c_str());
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ class ShadowMaps {
     ~ShadowMaps();
 
     // Draws every map anew. Updates `scene`'s light table (GpuScene::updateLights).
-    void update(gl::ProgramLibrary& programs, gl::Profiler& profiler, scene::GpuScene& scene, const LightSettings& settings);
+    void update(gl::ProgramLibrary& programs, gl::Profiler& profiler, scene::GpuScene& scene,
+                const LightSettings& settings);
     void bind() const;
 
     static std::vector<gl::ProgramDesc> programDescs();

@@ -72,7 +72,8 @@ bool appendVertices(const Mesh& mesh, std::vector<gpu::Vertex>& vertices) {
         vertex.u = std::isfinite(uv.x) ? uv.x : 0;
         vertex.v = std::isfinite(uv.y) ? uv.y : 0;
         const glm::vec4 tangent = mesh.tangents.empty() ? glm::vec4(1, 0, 0, 1) : mesh.tangents[source];
-        const std::uint32_t packed = math::packSnorm2x16(math::octEncode(unitOr(glm::vec3(tangent), {1, 0, 0})));
+        const std::uint32_t packed =
+            math::packSnorm2x16(math::octEncode(unitOr(glm::vec3(tangent), {1, 0, 0})));
         vertex.tangentOct = (packed & ~1u) | (tangent.w < 0 ? 1u : 0u);
         vertex.color = packUnorm8(mesh.colors.empty() ? glm::vec4(1) : mesh.colors[source]);
         vertices.push_back(vertex);
@@ -115,9 +116,12 @@ gpu::Material packedMaterial(const Material& m) {
 
 GLenum wrapMode(TextureWrap wrap) {
     switch (wrap) {
-        case TextureWrap::Repeat: return GL_REPEAT;
-        case TextureWrap::Clamp: return GL_CLAMP_TO_EDGE;
-        case TextureWrap::Mirror: return GL_MIRRORED_REPEAT;
+        case TextureWrap::Repeat:
+            return GL_REPEAT;
+        case TextureWrap::Clamp:
+            return GL_CLAMP_TO_EDGE;
+        case TextureWrap::Mirror:
+            return GL_MIRRORED_REPEAT;
     }
     return GL_REPEAT;
 }
@@ -142,10 +146,14 @@ std::vector<glm::vec4> linearSurface(const Texture& texture) {
             glm::vec4 sum(0);
             for (int sy = y0; sy < y1; ++sy)
                 for (int sx = x0; sx < x1; ++sx) {
-                    const std::uint8_t* t = &texture.rgba[4 * (static_cast<std::size_t>(sy) * pitch + static_cast<std::size_t>(sx))];
-                    sum += glm::vec4(toLinear[t[0]], toLinear[t[1]], toLinear[t[2]], static_cast<float>(t[3]) / 255.0f);
+                    const std::uint8_t* t =
+                        &texture
+                             .rgba[4 * (static_cast<std::size_t>(sy) * pitch + static_cast<std::size_t>(sx))];
+                    sum += glm::vec4(toLinear[t[0]], toLinear[t[1]], toLinear[t[2]],
+                                     static_cast<float>(t[3]) / 255.0f);
                 }
-            level[static_cast<std::size_t>(y) * kSurfaceEdge + static_cast<std::size_t>(x)] = sum / static_cast<float>((y1 - y0) * (x1 - x0));
+            level[static_cast<std::size_t>(y) * kSurfaceEdge + static_cast<std::size_t>(x)] =
+                sum / static_cast<float>((y1 - y0) * (x1 - x0));
         }
     }
     return level;
@@ -169,7 +177,8 @@ std::vector<std::uint8_t> encodedSurface(const std::vector<glm::vec4>& level) {
     bytes.reserve(4 * level.size());
     for (const glm::vec4& texel : level)
         for (int i = 0; i < 4; ++i)
-            bytes.push_back(static_cast<std::uint8_t>(std::lround((i < 3 ? std::sqrt(texel[i]) : texel[i]) * 255.0f)));
+            bytes.push_back(
+                static_cast<std::uint8_t>(std::lround((i < 3 ? std::sqrt(texel[i]) : texel[i]) * 255.0f)));
     return bytes;
 }
 
@@ -226,7 +235,8 @@ void GpuScene::uploadGeometry(const Scene& source) {
     indexBuffer_ = gl::Buffer(indices, "scene indices");
     instanceIndexBuffer_ = gl::Buffer(instanceIndices, "scene instance indices");
     instanceBuffer_ = gl::Buffer(instances_.size() * sizeof(gpu::Instance), "scene instances");
-    for (std::size_t i = 0; i < source.instances.size(); ++i) setTransform(i, source.instances[i].worldFromObject);
+    for (std::size_t i = 0; i < source.instances.size(); ++i)
+        setTransform(i, source.instances[i].worldFromObject);
     vertexArray_ = gl::VertexArray(vertexBuffer_, sizeof(gpu::Vertex),
                                    {{0, 3, GL_FLOAT, false, offsetof(gpu::Vertex, position)},
                                     {1, 1, GL_UNSIGNED_INT, true, offsetof(gpu::Vertex, normalOct)},
@@ -243,8 +253,9 @@ void GpuScene::uploadGeometry(const Scene& source) {
     glVertexArrayBindingDivisor(vertexArray_.name(), 1, 1u << 20);
     drawOrder_.resize(instances_.size());
     std::iota(drawOrder_.begin(), drawOrder_.end(), 0u);
-    std::stable_sort(drawOrder_.begin(), drawOrder_.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return instances_[a].material < instances_[b].material; });
+    std::stable_sort(drawOrder_.begin(), drawOrder_.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return instances_[a].material < instances_[b].material;
+    });
 }
 
 void GpuScene::setTransform(std::size_t index, const glm::mat4& worldFromObject) {
@@ -269,18 +280,20 @@ void GpuScene::updateBounds() {
         const Aabb& box = instanceObjectBounds_[i];
         if ((g.flags & INSTANCE_VISIBLE) == 0 || box.empty()) continue;
         for (int corner = 0; corner < 8; ++corner)
-            bounds_.grow(glm::vec3(g.worldFromObject * glm::vec4((corner & 1) != 0 ? box.max.x : box.min.x,
-                                                                 (corner & 2) != 0 ? box.max.y : box.min.y,
-                                                                 (corner & 4) != 0 ? box.max.z : box.min.z, 1)));
+            bounds_.grow(
+                glm::vec3(g.worldFromObject * glm::vec4((corner & 1) != 0 ? box.max.x : box.min.x,
+                                                        (corner & 2) != 0 ? box.max.y : box.min.y,
+                                                        (corner & 4) != 0 ? box.max.z : box.min.z, 1)));
     }
 }
 
 void GpuScene::uploadMaterials(const Scene& source) {
     for (const Material& material : source.materials) {
         materials_.push_back(packedMaterial(material));
-        materialTextures_.push_back({{material.baseColorTexture.texture, material.metallicRoughnessTexture.texture,
-                                      material.normalTexture.texture, material.emissiveTexture.texture,
-                                      material.specularTexture.texture, material.specularColorTexture.texture}});
+        materialTextures_.push_back(
+            {{material.baseColorTexture.texture, material.metallicRoughnessTexture.texture,
+              material.normalTexture.texture, material.emissiveTexture.texture,
+              material.specularTexture.texture, material.specularColorTexture.texture}});
     }
     materials_.push_back(packedMaterial(Material{}));
     materialTextures_.push_back({{-1, -1, -1, -1, -1, -1}});
@@ -293,12 +306,15 @@ void GpuScene::uploadTextures(const Scene& source) {
     white_.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, white);
     for (const Texture& texture : source.textures) {
         const std::string label = "texture " + texture.name;
-        gl::Texture t({GL_TEXTURE_2D, static_cast<std::uint32_t>(texture.srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8), texture.width, texture.height, 1, 0}, label);
+        gl::Texture t({GL_TEXTURE_2D, static_cast<std::uint32_t>(texture.srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8),
+                       texture.width, texture.height, 1, 0},
+                      label);
         t.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, texture.rgba.data());
         t.generateMipmaps();
         textures_.push_back(std::move(t));
         const bool nearest = texture.filter == TextureFilter::Nearest;
-        samplers_.emplace_back(gl::SamplerDesc{static_cast<std::uint32_t>(nearest ? GL_NEAREST_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_LINEAR),
+        samplers_.emplace_back(gl::SamplerDesc{static_cast<std::uint32_t>(nearest ? GL_NEAREST_MIPMAP_LINEAR
+                                                                                  : GL_LINEAR_MIPMAP_LINEAR),
                                                static_cast<std::uint32_t>(nearest ? GL_NEAREST : GL_LINEAR),
                                                wrapMode(texture.wrapU), wrapMode(texture.wrapV), false, 8.0f},
                                label);
@@ -311,7 +327,8 @@ void GpuScene::uploadTextures(const Scene& source) {
     for (std::size_t i = 0; i < source.textures.size(); ++i) {
         std::vector<glm::vec4> level = linearSurface(source.textures[i]);
         for (int mip = 0; mip < surfaceArray_.desc().levels; ++mip) {
-            surfaceArray_.uploadLayer(mip, static_cast<int>(i), GL_RGBA, GL_UNSIGNED_BYTE, encodedSurface(level).data());
+            surfaceArray_.uploadLayer(mip, static_cast<int>(i), GL_RGBA, GL_UNSIGNED_BYTE,
+                                      encodedSurface(level).data());
             level = halved(level, static_cast<std::size_t>(surfaceArray_.width(mip)));
         }
     }
@@ -398,8 +415,9 @@ void GpuScene::draw(const InstanceFilter& filter, gl::Cull cull, bool bindTextur
         }
         glDrawElementsInstancedBaseVertexBaseInstance(
             GL_TRIANGLES, static_cast<GLsizei>(instance.indexCount), GL_UNSIGNED_INT,
-            reinterpret_cast<const void*>(static_cast<std::uintptr_t>(instance.firstIndex) * sizeof(std::uint32_t)), copies,
-            static_cast<GLint>(instance.firstVertex), index);
+            reinterpret_cast<const void*>(static_cast<std::uintptr_t>(instance.firstIndex) *
+                                          sizeof(std::uint32_t)),
+            copies, static_cast<GLint>(instance.firstVertex), index);
     }
 }
 

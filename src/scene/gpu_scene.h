@@ -25,12 +25,12 @@ class GpuScene {
     // surface array.
     void bind() const;
 
-    // Draws every visible instance accepted by `filter` (all when empty) with the current program, framebuffer
-    // and state. Attributes: 0 position, 1 normalOct, 2 uv, 3 tangentOct, 4 color (shared/scene.h), 5 the index
-    // into the instance table. `cull` holds for single-sided materials; double-sided ones are never culled;
-    // flipped instances reverse the front face. `bindTextures`: the material's six textures at
-    // UNIT_MATERIAL_*. `copies`: instances per draw, gl_InstanceID = 0..copies-1 (layered rendering).
-    // GL state changed: vertex array, cull, front face, texture units 0-5.
+    // Draws every visible instance accepted by `filter` (all when empty) with the current program,
+    // framebuffer and state. Attributes: 0 position, 1 normalOct, 2 uv, 3 tangentOct, 4 color
+    // (shared/scene.h), 5 the index into the instance table. `cull` holds for single-sided materials;
+    // double-sided ones are never culled; flipped instances reverse the front face. `bindTextures`: the
+    // material's six textures at UNIT_MATERIAL_*. `copies`: instances per draw, gl_InstanceID = 0..copies-1
+    // (layered rendering). GL state changed: vertex array, cull, front face, texture units 0-5.
     using InstanceFilter = std::function<bool(const gpu::Instance&)>;
     void draw(const InstanceFilter& filter, gl::Cull cull, bool bindTextures, int copies = 1) const;
 
@@ -67,7 +67,8 @@ class GpuScene {
     gl::Texture white_;
     gl::Texture surfaceArray_;
     gl::Sampler surfaceSampler_;
-    gl::Buffer vertexBuffer_, indexBuffer_, instanceBuffer_, instanceIndexBuffer_, materialBuffer_, lightBuffer_;
+    gl::Buffer vertexBuffer_, indexBuffer_, instanceBuffer_, instanceIndexBuffer_, materialBuffer_,
+        lightBuffer_;
     gl::VertexArray vertexArray_;
     std::vector<std::uint32_t> drawOrder_;  // instances sorted by material
     Aabb bounds_;

@@ -70,7 +70,8 @@ void validateMesh(const Mesh& mesh, std::size_t index) {
             fail(ErrorKind::BadInput, "%s: position %zu is not finite", where().c_str(), i);
 }
 
-void validateTextureRef(const Scene& scene, const TextureRef& ref, const Material& material, const char* use) {
+void validateTextureRef(const Scene& scene, const TextureRef& ref, const Material& material,
+                        const char* use) {
     if (ref.texture >= static_cast<int>(scene.textures.size()))
         fail(ErrorKind::BadInput, "material '%s': %s names texture %d; less than %zu would be right",
              material.name.c_str(), use, ref.texture, scene.textures.size());
@@ -131,7 +132,8 @@ void setPbrFromPhong(Material& material) {
     const PhongMaterial& phong = material.phong;
     // Inverse of the rule above; the specular weight grows with shininess so that walls of the thesis's rooms
     // (shininess 1, strength 0.01) stay matt and its mirror sphere (256, 1.3) mirrors. Chosen by eye.
-    const float weight = std::clamp(phong.specularStrength, 0.0f, 1.0f) * phong.shininess / (phong.shininess + 62.0f);
+    const float weight =
+        std::clamp(phong.specularStrength, 0.0f, 1.0f) * phong.shininess / (phong.shininess + 62.0f);
     material.roughness = std::pow(2.0f / (std::max(phong.shininess, 0.0f) + 2.0f), 0.25f);
     material.metallic = 0.0f;
     // F0 = weight for a dielectric: specularColor scales the default 0.04.
@@ -174,8 +176,9 @@ void completeScene(Scene& scene) {
         Light light;
         light.name = "headlight";
         light.type = LightType::Directional;
-        light.direction = glm::normalize(camera.target - camera.eye + glm::vec3(0.2f, -0.3f, 0.1f) *
-                                         glm::length(camera.target - camera.eye));
+        light.direction =
+            glm::normalize(camera.target - camera.eye +
+                           glm::vec3(0.2f, -0.3f, 0.1f) * glm::length(camera.target - camera.eye));
         light.intensity = glm::vec3(3.14159265f);
         scene.lights.push_back(light);
         scene.notes.emplace_back("no light, emission or sky in the scene: a headlight was added");

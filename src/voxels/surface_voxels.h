@@ -3,10 +3,10 @@
 // Every triangle is clipped exactly against the voxels it meets (docs/theory/2_voxels.md, eq. 2.1) by compute
 // passes. Sums are integers, so the result is the same bit for bit, whatever the order of threads.
 //
-// Instances without INSTANCE_VOXELIZED are left out; unlit materials occlude (black, no emission); a masked or
-// blended texture scales coverage; double-sided triangles count in both directions. Triangles may be of any
-// size and may reach out of the grid; those without area are skipped.
-// Limits: 1023 voxels per axis; 2^26 faces; 65,000 triangles in one voxel.
+// Instances without INSTANCE_VOXELIZED are left out; unlit materials occlude (black, no emission); a masked
+// or blended texture scales coverage; double-sided triangles count in both directions. Triangles may be of
+// any size and may reach out of the grid; those without area are skipped. Limits: 1023 voxels per axis; 2^26
+// faces; 65,000 triangles in one voxel.
 #pragma once
 
 #include <cstdint>
@@ -31,9 +31,9 @@ class SurfaceVoxels {
     SurfaceVoxels& operator=(SurfaceVoxels&&) noexcept;
 
     // Voxelizes `scene` anew into a grid fitted to its bounds (or into `grid`), cheap enough for every frame:
-    // memory is kept and only grows. Waits for the GPU once, to read the counts. Radiance of every face is its
-    // emission, irradiance zero. GL state changed: program, storage bindings 0-4 and 8-15, BINDING_VOXEL_GRID,
-    // BINDING_PASS, the surface array's unit, units UNIT_PASS and up to UNIT_PASS + 7.
+    // memory is kept and only grows. Waits for the GPU once, to read the counts. Radiance of every face is
+    // its emission, irradiance zero. GL state changed: program, storage bindings 0-4 and 8-15,
+    // BINDING_VOXEL_GRID, BINDING_PASS, the surface array's unit, units UNIT_PASS and up to UNIT_PASS + 7.
     // Leaves the results visible to later shaders, as storage, textures and indirect arguments.
     void build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
                const VoxelSettings& settings);
@@ -44,16 +44,17 @@ class SurfaceVoxels {
     void bind() const;
 
     const VoxelGrid& grid() const;
-    std::uint32_t voxelCount() const;          // occupied voxels
+    std::uint32_t voxelCount() const;  // occupied voxels
     std::uint32_t faceCount() const;
     std::uint32_t occupiedBrickCount() const;
-    std::uint32_t fragmentCount() const;       // pairs (triangle, voxel) of the last build
+    std::uint32_t fragmentCount() const;  // pairs (triangle, voxel) of the last build
 
-    const gl::Texture& brickWords() const;     // RGBA32UI, size of grid().bricks()
-    const gl::Buffer& records() const;         // voxRec; voxelCount() uints are in use
-    const gl::Buffer& faces() const;           // gpu::FaceRecord; faceCount() are in use
-    const gl::Buffer& faceSources() const;     // two uints per face
-    const gl::Buffer& occupiedBricks() const;  // packVoxel(brick) of each occupied brick, in order of brick index
+    const gl::Texture& brickWords() const;  // RGBA32UI, size of grid().bricks()
+    const gl::Buffer& records() const;      // voxRec; voxelCount() uints are in use
+    const gl::Buffer& faces() const;        // gpu::FaceRecord; faceCount() are in use
+    const gl::Buffer& faceSources() const;  // two uints per face
+    const gl::Buffer& occupiedBricks()
+        const;  // packVoxel(brick) of each occupied brick, in order of brick index
 
     static std::vector<gl::ProgramDesc> programDescs();
 

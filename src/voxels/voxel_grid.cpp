@@ -14,8 +14,9 @@ constexpr int kMinSize = 8;
 constexpr int kMaxSize = 512;
 
 // Added to the best symmetric placement, in voxels. Without it the plane halfway between the bounds would lie
-// exactly on a border or in a voxel's middle; irrational, and different per axis, so that no plane at a simple
-// fraction of the extent does. All are in (0.1, 0.122): (sqrt 5 - 2)/2, (sqrt 2 - 1)/4, (sqrt 3 - 1)/6.
+// exactly on a border or in a voxel's middle; irrational, and different per axis, so that no plane at a
+// simple fraction of the extent does. All are in (0.1, 0.122): (sqrt 5 - 2)/2, (sqrt 2 - 1)/4, (sqrt 3 -
+// 1)/6.
 constexpr double kShift[3] = {0.1180339887498949, 0.1035533905932738, 0.1220084679281462};
 
 // Slack for the rounding of the voxel size to float when whole voxels are counted, in voxels.
@@ -23,9 +24,9 @@ constexpr double kRounding = 1e-3;
 
 double fraction(double x) { return x - std::floor(x); }
 
-// Grid coordinate of the lower of two planes `length` voxels apart that is at least `margin` voxels above zero,
-// so that both lie as far from borders as they can: borders sit in the middle of the longer of the two arcs
-// into which the planes' fractions divide [0,1). Each is then at least 1/4 voxel away, less kShift.
+// Grid coordinate of the lower of two planes `length` voxels apart that is at least `margin` voxels above
+// zero, so that both lie as far from borders as they can: borders sit in the middle of the longer of the two
+// arcs into which the planes' fractions divide [0,1). Each is then at least 1/4 voxel away, less kShift.
 double placeLower(double length, double margin, double shift) {
     const double f = fraction(length);
     // Lower plane at fraction a, upper at a + f. For f < 1/2 the arc outside [a, a+f] is the longer one.
@@ -63,17 +64,20 @@ gpu::VoxelGrid VoxelGrid::packed() const {
 
 VoxelGrid fitGrid(const Aabb& bounds, int size, float padding) {
     if (size < kMinSize || size > kMaxSize || size % 4 != 0)
-        base::fail(ErrorKind::Usage, "voxels.size: %d; a multiple of 4 from %d to %d would be right", size, kMinSize, kMaxSize);
+        base::fail(ErrorKind::Usage, "voxels.size: %d; a multiple of 4 from %d to %d would be right", size,
+                   kMinSize, kMaxSize);
     VoxelGrid grid;
     const glm::dvec3 extent(bounds.extent());
     double longest = std::max({extent.x, extent.y, extent.z});
     const bool isPoint = bounds.empty() || !(longest > 0);
     if (isPoint) longest = 1.0;
     const double pad = std::max(0.0, static_cast<double>(padding)) * longest;
-    // One voxel in reserve for the placement. The voxel size is rounded to float first: all else derives from it.
+    // One voxel in reserve for the placement. The voxel size is rounded to float first: all else derives from
+    // it.
     grid.voxelSize = static_cast<float>((longest + 2 * pad) / (size - 1));
     const double h = grid.voxelSize;
-    const glm::dvec3 lower = isPoint ? (bounds.empty() ? glm::dvec3(0) : glm::dvec3(bounds.min)) - 0.5 : glm::dvec3(bounds.min);
+    const glm::dvec3 lower =
+        isPoint ? (bounds.empty() ? glm::dvec3(0) : glm::dvec3(bounds.min)) - 0.5 : glm::dvec3(bounds.min);
     const double margin = pad / h;
     for (int axis = 0; axis < 3; ++axis) {
         const double length = (isPoint ? 1.0 : extent[axis]) / h;

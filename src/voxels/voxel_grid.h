@@ -17,9 +17,9 @@
 namespace conelight::voxels {
 
 struct VoxelGrid {
-    glm::vec3 origin{0.0f};   // world position of the lowest corner
-    float voxelSize = 1.0f;   // edge of a voxel in m
-    glm::ivec3 size{4};       // voxels per axis, multiples of 4
+    glm::vec3 origin{0.0f};  // world position of the lowest corner
+    float voxelSize = 1.0f;  // edge of a voxel in m
+    glm::ivec3 size{4};      // voxels per axis, multiples of 4
 
     glm::ivec3 bricks() const { return size / 4; }
     std::size_t brickCount() const;
@@ -38,9 +38,10 @@ struct VoxelGrid {
 // The grid for `bounds`: `size` voxels along the longest axis (8..512, divisible by 4), `padding` times the
 // longest extent free on each side. Throws Error(Usage) for a size out of range. Empty bounds: a unit cube.
 //
-// Placement. On each axis the scene's two bounding planes would fall anywhere within a voxel; they are shifted
-// (by at most one voxel, which the fit holds in reserve) so that both lie at least 0.128 voxel from borders,
-// and the plane halfway between them at least 0.1 voxel. Derivation: docs/theory/2_voxels.md, "The grid".
+// Placement. On each axis the scene's two bounding planes would fall anywhere within a voxel; they are
+// shifted (by at most one voxel, which the fit holds in reserve) so that both lie at least 0.128 voxel from
+// borders, and the plane halfway between them at least 0.1 voxel. Derivation: docs/theory/2_voxels.md, "The
+// grid".
 VoxelGrid fitGrid(const Aabb& bounds, int size, float padding);
 
 // Linear brick index, x fastest; bit of a voxel in its brick, x fastest (0..63).

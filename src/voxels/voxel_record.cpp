@@ -29,7 +29,8 @@ glm::vec3 directionVector(int direction) {
 
 std::uint32_t packOffsetWeight(float offset, float weight) {
     const int signedOffset = static_cast<int>(std::floor(std::clamp(offset, -1.0f, 1.0f) * 32767.0f + 0.5f));
-    const auto high = static_cast<std::uint32_t>(std::floor(std::clamp(weight, 0.0f, 4.0f) * kWeightScale + 0.5f));
+    const auto high =
+        static_cast<std::uint32_t>(std::floor(std::clamp(weight, 0.0f, 4.0f) * kWeightScale + 0.5f));
     return (static_cast<std::uint32_t>(signedOffset) & 0xffffu) | (high << 16);
 }
 
@@ -42,8 +43,10 @@ float unpackWeight(std::uint32_t bits) { return static_cast<float>(bits >> 16) /
 std::uint32_t packBounds(const glm::vec3& min, const glm::vec3& max) {
     std::uint32_t bits = 0;
     for (int i = 0; i < 3; ++i) {
-        bits |= static_cast<std::uint32_t>(std::floor(std::clamp(min[i], 0.0f, 1.0f) * kBoundsScale)) << (5 * i);
-        bits |= static_cast<std::uint32_t>(std::ceil(std::clamp(max[i], 0.0f, 1.0f) * kBoundsScale)) << (15 + 5 * i);
+        bits |= static_cast<std::uint32_t>(std::floor(std::clamp(min[i], 0.0f, 1.0f) * kBoundsScale))
+                << (5 * i);
+        bits |= static_cast<std::uint32_t>(std::ceil(std::clamp(max[i], 0.0f, 1.0f) * kBoundsScale))
+                << (15 + 5 * i);
     }
     return bits;
 }
@@ -56,7 +59,8 @@ void unpackBounds(std::uint32_t bits, glm::vec3& min, glm::vec3& max) {
 }
 
 std::uint32_t packAlbedo(const glm::vec3& albedo) {
-    return quantized(albedo.r, 2047.0f) | (quantized(albedo.g, 2047.0f) << 11) | (quantized(albedo.b, 1023.0f) << 22);
+    return quantized(albedo.r, 2047.0f) | (quantized(albedo.g, 2047.0f) << 11) |
+           (quantized(albedo.b, 1023.0f) << 22);
 }
 
 glm::vec3 unpackAlbedo(std::uint32_t bits) {
@@ -70,21 +74,26 @@ std::uint32_t packRgb9e5(const glm::vec3& color) {
     const float largest = std::max({c.r, c.g, c.b});
     // floor(log2) from the float's own exponent field, exact on both sides.
     int exponent = std::max(static_cast<int>(std::bit_cast<std::uint32_t>(largest) >> 23) - 127, -16) + 16;
-    const auto scaleOf = [](int e) { return std::bit_cast<float>(static_cast<std::uint32_t>(127 + 24 - e) << 23); };
+    const auto scaleOf = [](int e) {
+        return std::bit_cast<float>(static_cast<std::uint32_t>(127 + 24 - e) << 23);
+    };
     if (std::floor(largest * scaleOf(exponent) + 0.5f) >= 512.0f) ++exponent;
     const float scale = scaleOf(exponent);
     const auto mantissa = [&](float x) { return static_cast<std::uint32_t>(std::floor(x * scale + 0.5f)); };
-    return mantissa(c.r) | (mantissa(c.g) << 9) | (mantissa(c.b) << 18) | (static_cast<std::uint32_t>(exponent) << 27);
+    return mantissa(c.r) | (mantissa(c.g) << 9) | (mantissa(c.b) << 18) |
+           (static_cast<std::uint32_t>(exponent) << 27);
 }
 
 glm::vec3 unpackRgb9e5(std::uint32_t bits) {
     const float scale = std::bit_cast<float>(((bits >> 27) + 127u - 24u) << 23);
     return glm::vec3(static_cast<float>(bits & 511u), static_cast<float>((bits >> 9) & 511u),
-                     static_cast<float>((bits >> 18) & 511u)) * scale;
+                     static_cast<float>((bits >> 18) & 511u)) *
+           scale;
 }
 
 std::array<std::uint32_t, 2> packFaceSource(const glm::vec3& emission, float area) {
-    const auto high = static_cast<std::uint32_t>(std::floor(std::clamp(area, 0.0f, 4.0f) * kWeightScale + 0.5f));
+    const auto high =
+        static_cast<std::uint32_t>(std::floor(std::clamp(area, 0.0f, 4.0f) * kWeightScale + 0.5f));
     return {packHalf(emission.r) | (packHalf(emission.g) << 16), packHalf(emission.b) | (high << 16)};
 }
 
@@ -94,6 +103,8 @@ glm::vec3 unpackEmission(const std::array<std::uint32_t, 2>& bits) {
             glm::unpackHalf1x16(static_cast<glm::uint16>(bits[1] & 0xffffu))};
 }
 
-float unpackArea(const std::array<std::uint32_t, 2>& bits) { return static_cast<float>(bits[1] >> 16) / kWeightScale; }
+float unpackArea(const std::array<std::uint32_t, 2>& bits) {
+    return static_cast<float>(bits[1] >> 16) / kWeightScale;
+}
 
 }  // namespace conelight::voxels

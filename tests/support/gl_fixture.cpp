@@ -52,7 +52,8 @@ void GlTest::TearDown() {
     programs_.reset();
     if (!sharedContext().failure.empty()) return;
     EXPECT_EQ(gl::debugErrorCount(), 0) << gl::lastDebugError();
-    for (const gl::LiveObject& object : gl::liveObjects()) ADD_FAILURE() << "leaked GL object '" << object.label << "'";
+    for (const gl::LiveObject& object : gl::liveObjects())
+        ADD_FAILURE() << "leaked GL object '" << object.label << "'";
 }
 
 gl::ProgramLibrary& GlTest::programs() {
@@ -71,7 +72,9 @@ void GlTest::addShader(const std::string& path, const std::string& text) { extra
 std::optional<std::string> testData(const std::string& path) {
     const char* root = std::getenv("CONELIGHT_TEST_DATA");
     const std::filesystem::path file =
-        (root != nullptr ? std::filesystem::path(root) : std::filesystem::path(CONELIGHT_SOURCE_DIR) / ".." / "shared") / path;
+        (root != nullptr ? std::filesystem::path(root)
+                         : std::filesystem::path(CONELIGHT_SOURCE_DIR) / ".." / "shared") /
+        path;
     if (!std::filesystem::exists(file)) return std::nullopt;
     return file.lexically_normal().string();
 }
@@ -79,7 +82,8 @@ std::optional<std::string> testData(const std::string& path) {
 std::string scratchDir() {
     struct Dir {
         std::filesystem::path path;
-        Dir() : path(std::filesystem::temp_directory_path() / ("conelight-test-" + std::to_string(getpid()))) {
+        Dir()
+            : path(std::filesystem::temp_directory_path() / ("conelight-test-" + std::to_string(getpid()))) {
             std::filesystem::create_directories(path);
         }
         ~Dir() {

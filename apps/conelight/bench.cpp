@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+// `conelight bench SCENE...`: what a frame costs, per pass, as medians. Modes run in turn within one process
+// (A B A B ...), so that their ratios hold on a noisy machine. On a software driver the figure to compare is
+// process CPU time; GPU times come from timer queries elsewhere.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+
+#include "command.h"
+#include "conelight/error.h"
+#include "io/image_file.h"
+#include "stats_json.h"
+
+namespace conelight::program {
+namespace {
+
+struct BenchOptions {
+    std::vector<std::string> scenes;
+    std::string modes = "cones";
+    std::string jsonFile;
+    int frames = 5;
+    bool dynamic = false;
+    ViewOptions view;
+};
+
+struct Spread {
+    double median, min, max;
+};
+
+Spread spread(std::vector<double> values) {
+    std::sort(values.begin(), values.end());
+    const std::size_t n = values.size();
+    const double median = n % 2 == 1 ? values[n / 2] : 0.5 * (values[n / 2 - 1] + values[n / 2]);
+    return {median, values.front(), values.back()};
+}
+
+nlohmann::ordered_json spreadJson(const Spread& s) {
+    return {{"median", s.median}, {"min", s.min}, {"max", s.max}};
+}
+
+// The frames of one mode.
+struct Run {
+    std::string mode;
+    Settings settings;
+    std::vector<FrameStats> frames;
+    FrameStats counted;  // one extra frame with lookups counted
+
+    Spread of(double FrameStats::*field) const {
+        std::vector<double> values;
+        for (const FrameStats& frame : frames) values.push_back(frame.*field);
+        return spread(values);
+    }
+    // Passes in order of first appearance; those of equal name within a frame are added up.
+    std::vector<std::pair<std::string, std::pair<double, double>>> passes() const {
+        std::vector<std::string> order;
+        std::map<std::string, std::vector<double>> cpu, gpu;
+        for (const FrameStats& frame : frames) {
+            std::map<std::string, std::pair<double, double>> sums;
+            for (const PassStats& pass : frame.passes) {
+                if (cpu.find(pass.name) == cpu.end()) order.push_back(pass.name);
+                cpu[pass.name];
+                sums[pass.name].first += pass.cpuMs;
+                sums[pass.name].second += pass.gpuMs;
+            }
+            for (const auto& [name, sum] : sums) {
+                cpu[name].push_back(sum.first);
+                gpu[name].push_back(sum.second);
+            }
+        }
+        std::vector<std::pair<std::string, std::pair<double, double>>> result;
+        for (const std::string& name : order)
+            result.push_back({name, {spread(cpu[name]).median, spread(gpu[name]).median}});
+        return result;
+    }
+};
+
+void printRun(const std::string& scene, const BenchOptions& options, const Run& run) {
+    const Spread cpu = run.of(&FrameStats::cpuMs);
+    const Spread wall = run.of(&FrameStats::wallMs);
+    fmt::print("{}  mode {}  {}  {} voxels{}  {} frames\n", scene, run.mode, options.view.size,
+               run.settings.voxels.size, options.dynamic ? "  dynamic" : "", options.frames);
+    fmt::print("  {:<28} cpu {:9.2f} ms ({:.2f} .. {:.2f})   wall {:9.2f} ms\n", "frame", cpu.median, cpu.min,
+               cpu.max, wall.median);
+    for (const auto& [name, time] : run.passes()) {
+        fmt::print("  {:<28} cpu {:9.2f} ms", name, time.first);
+        if (time.second >= 0) fmt::print("   gpu {:9.3f} ms", time.second);
+        fmt::print("\n");
+    }
+    for (const auto& [kind, count] : run.counted.lookupsPerPixel)
+        if (count > 0) fmt::print("  {:<28} {:13.1f} per pixel\n", "lookups " + kind, count);
+    std::size_t total = 0;
+    for (const MemoryStats& object : run.frames.back().memory) total += object.bytes;
+    fmt::print("  {:<28} {:13.1f} MB\n", "GL objects", static_cast<double>(total) / 1e6);
+}
+
+nlohmann::ordered_json runJson(const std::string& scene, const BenchOptions& options, const Size& size,
+                               const Run& run) {
+    nlohmann::ordered_json json;
+    json["scene"] = scene;
+    json["mode"] = run.mode;
+    json["quality"] = nullptr;
+    json["voxels"] = run.settings.voxels.size;
+    json["size"] = {size.width, size.height};
+    json["dynamic"] = options.dynamic;
+    const bool onGpu = !run.frames.front().passes.empty() && run.frames.front().passes.front().gpuMs >= 0;
+    json["frame"] = {{"cpu_ms", spreadJson(run.of(&FrameStats::cpuMs))},
+                     {"wall_ms", spreadJson(run.of(&FrameStats::wallMs))}};
+    json["frame"]["gpu_ms"] = nullptr;
+    if (onGpu) {
+        std::vector<double> sums;
+        for (const FrameStats& frame : run.frames) {
+            double sum = 0;
+            for (const PassStats& pass : frame.passes) sum += std::max(pass.gpuMs, 0.0);
+            sums.push_back(sum);
+        }
+        json["frame"]["gpu_ms"] = spreadJson(spread(sums));
+    }
+    json["passes"] = nlohmann::ordered_json::array();
+    for (const auto& [name, time] : run.passes())
+        json["passes"].push_back(
+            {{"name", name},
+             {"cpu_ms", time.first},
+             {"gpu_ms", onGpu ? nlohmann::ordered_json(time.second) : nlohmann::ordered_json()}});
+    json["lookups_per_pixel"] = lookupsJson(run.counted);
+    json["memory_bytes"] = memoryJson(run.frames.back());
+    return json;
+}
+
+// All modes of one scene, frame by frame in turn. Each mode has its own renderer, so that switching does not
+// rebuild volumes.
+std::vector<Run> benchScene(const std::string& path, const BenchOptions& options, const Size& size,
+                            const std::vector<std::string>& modes, Progress& progress) {
+    const Scene scene = openScene(path, options.view, progress);
+    const Camera camera = cameraFor(scene, options.view);
+    std::vector<Run> runs;
+    std::vector<std::unique_ptr<Renderer>> renderers;
+    for (const std::string& mode : modes) {
+        runs.push_back({mode, settingsFor(scene, mode, options.view), {}, {}});
+        Renderer& renderer =
+            *renderers.emplace_back(std::make_unique<Renderer>(RendererOptions{"", options.view.debugGl}));
+        renderer.setScene(scene);
+        renderer.setDynamic(options.dynamic);
+        // Warm up: shaders are compiled at their first use, per state; then the frame that counts lookups.
+        progress.show(fmt::format("{}: {}: warming up", path, mode));
+        renderer.setProfiling(true, false);
+        renderer.render(camera, size.width, size.height, runs.back().settings);
+        renderer.setProfiling(true, true);
+        renderer.render(camera, size.width, size.height, runs.back().settings);
+        runs.back().counted = renderer.stats();
+        renderer.setProfiling(true, false);
+    }
+    for (int frame = 0; frame < options.frames; ++frame) {
+        for (std::size_t i = 0; i < runs.size(); ++i) {
+            progress.show(
+                fmt::format("{}: {}: frame {} of {}", path, runs[i].mode, frame + 1, options.frames));
+            renderers[i]->render(camera, size.width, size.height, runs[i].settings);
+            runs[i].frames.push_back(renderers[i]->stats());
+        }
+    }
+    // Memory of one mode only: the other renderers' objects are not its own.
+    if (runs.size() > 1) {
+        renderers.clear();
+        for (Run& run : runs) {
+            Renderer alone;
+            alone.setScene(scene);
+            alone.render(camera, size.width, size.height, run.settings);
+            run.frames.back().memory = alone.stats().memory;
+        }
+    }
+    progress.finish();
+    return runs;
+}
+
+void run(const BenchOptions& options) {
+    const Size size = parseSize(options.view.size);
+    std::vector<std::string> modes;
+    for (std::size_t from = 0; from <= options.modes.size();) {
+        const std::size_t comma = std::min(options.modes.find(',', from), options.modes.size());
+        modes.push_back(options.modes.substr(from, comma - from));
+        Settings probe;
+        setSetting(probe, "mode", modes.back());
+        from = comma + 1;
+    }
+    if (!options.jsonFile.empty()) io::checkWritable(options.jsonFile);
+    const std::unique_ptr<platform::HeadlessContext> context = openContext(options.view);
+    Progress progress;
+    nlohmann::ordered_json json;
+    json["version"] = 1;
+    json["device"] = {{"description", context->description()}};
+    json["runs"] = nlohmann::ordered_json::array();
+    for (const std::string& scene : options.scenes) {
+        for (const Run& one : benchScene(scene, options, size, modes, progress)) {
+            printRun(scene, options, one);
+            json["runs"].push_back(runJson(scene, options, size, one));
+        }
+    }
+    if (!options.jsonFile.empty()) writeJson(options.jsonFile, json);
+}
+
+}  // namespace
+
+void addBench(CLI::App& app) {
+    auto options = std::make_shared<BenchOptions>();
+    CLI::App* command =
+        app.add_subcommand("bench", "what a frame costs: time per pass, lookups per pixel, memory");
+    command->add_option("scenes", options->scenes, "scene files or builtin:NAME")->required();
+    command->add_option("--modes", options->modes, "modes to run in turn, comma-separated")
+        ->capture_default_str()
+        ->type_name("A,B");
+    command->add_option("--frames", options->frames, "frames that are measured")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 10000));
+    command->add_flag("--dynamic", options->dynamic, "voxelize and light everything anew each frame");
+    command->add_option("--json", options->jsonFile, "write the figures as JSON")->type_name("FILE");
+    options->view.addTo(*command);
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace conelight::program

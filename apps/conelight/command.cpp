@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "command.h"
+
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+
+#include "conelight/error.h"
+#include "io/scene_file.h"
+
+namespace conelight::program {
+namespace {
+
+volatile std::sig_atomic_t interrupted = 0;
+
+void onInterrupt(int) {
+    if (interrupted != 0) _exit(130);
+    interrupted = 1;
+}
+
+[[noreturn]] void usage(const std::string& message) { throw Error(ErrorKind::Usage, message); }
+
+double parseNumber(const std::string& option, const std::string& text) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0' || !std::isfinite(value))
+        usage(fmt::format("{}: '{}' is not a number", option, text));
+    return value;
+}
+
+}  // namespace
+
+void installInterruptHandler() {
+    std::signal(SIGINT, onInterrupt);
+    std::signal(SIGTERM, onInterrupt);
+}
+
+void throwIfInterrupted() {
+    if (interrupted != 0) throw Interrupted{};
+}
+
+Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0) {}
+Progress::~Progress() { finish(); }
+
+void Progress::show(const std::string& text) {
+    throwIfInterrupted();
+    if (!terminal_) return;
+    std::fprintf(stderr, "\r\033[K%s", text.c_str());
+    std::fflush(stderr);
+    shown_ = true;
+}
+
+void Progress::finish() {
+    if (shown_) std::fprintf(stderr, "\r\033[K");
+    shown_ = false;
+}
+
+Size parseSize(const std::string& text) {
+    const std::size_t cross = text.find('x');
+    Size size;
+    char* end = nullptr;
+    if (cross != std::string::npos) {
+        size.width = static_cast<int>(std::strtol(text.c_str(), &end, 10));
+        const bool widthRead = end == text.c_str() + cross;
+        size.height = static_cast<int>(std::strtol(text.c_str() + cross + 1, &end, 10));
+        if (widthRead && *end == '\0' && size.width >= 1 && size.height >= 1 && size.width <= 16384 &&
+            size.height <= 16384)
+            return size;
+    }
+    usage(fmt::format("--size: '{}' is not a picture size; WIDTHxHEIGHT with 1 to 16384 each would be right",
+                      text));
+}
+
+glm::vec3 parseVec3(const std::string& option, const std::string& text) {
+    const std::size_t first = text.find(',');
+    const std::size_t second = first == std::string::npos ? first : text.find(',', first + 1);
+    if (second == std::string::npos || text.find(',', second + 1) != std::string::npos)
+        usage(fmt::format("{}: '{}' is not three numbers; x,y,z would be right", option, text));
+    return {static_cast<float>(parseNumber(option, text.substr(0, first))),
+            static_cast<float>(parseNumber(option, text.substr(first + 1, second - first - 1))),
+            static_cast<float>(parseNumber(option, text.substr(second + 1)))};
+}
+
+void ViewOptions::addTo(CLI::App& command) {
+    command.add_option("--size", size, "picture size")->capture_default_str()->type_name("WxH");
+    command.add_option("--voxels", voxels, "voxels along the longest axis (same as --set voxels.size=N)")
+        ->type_name("N");
+    command.add_option("--camera", camera, "a camera of the scene: its name, or its number from 0")
+        ->type_name("NAME");
+    command.add_option("--eye", eye, "camera position instead of a camera of the scene")->type_name("X,Y,Z");
+    command.add_option("--target", target, "what the camera looks at")->type_name("X,Y,Z");
+    command.add_option("--fov", fovDeg, "vertical field of view in degrees")
+        ->type_name("DEG")
+        ->check(CLI::Range(1.0, 170.0));
+    command.add_option("--sky", sky, "constant sky radiance instead of the scene's, W/(sr m^2)")
+        ->type_name("R,G,B");
+    command.add_option("--set", sets, "a setting (`conelight settings` lists them); may be repeated")
+        ->type_name("KEY=VALUE")
+        ->allow_extra_args(false);
+    command.add_option("--device", device, "EGL device (`conelight info` lists them)")
+        ->type_name("N")
+        ->check(CLI::NonNegativeNumber);
+    command.add_flag("--gl-debug", debugGl,
+                     "check every OpenGL call and report errors of the driver (slower)");
+}
+
+std::unique_ptr<platform::HeadlessContext> openContext(const ViewOptions& options) {
+    platform::HeadlessOptions contextOptions;
+    contextOptions.device = options.device;
+    contextOptions.debug = options.debugGl;
+    return std::make_unique<platform::HeadlessContext>(contextOptions);
+}
+
+Scene openScene(const std::string& path, const ViewOptions& options, Progress& progress) {
+    progress.show("loading " + path);
+    Scene scene = io::loadScene(path);
+    if (!options.sky.empty()) scene.sky = glm::max(parseVec3("--sky", options.sky), glm::vec3(0));
+    completeScene(scene);
+    progress.finish();
+    for (const std::string& note : scene.notes)
+        std::fprintf(stderr, "conelight: %s: %s\n", path.c_str(), note.c_str());
+    throwIfInterrupted();
+    return scene;
+}
+
+Settings settingsFor(const Scene& scene, const std::string& mode, const ViewOptions& options) {
+    Settings settings;
+    if (!mode.empty()) setSetting(settings, "mode", mode);
+    // The original wrote linear values to the screen; its look is kept in its own modes unless asked
+    // otherwise.
+    if (scene.thesisFormat && settings.mode != Mode::Cones) {
+        settings.image.toneMap = ToneMap::None;
+        settings.image.srgb = false;
+    }
+    for (const auto& [key, value] : scene.settings) {
+        if (key == "mode" && !mode.empty()) continue;  // the command line wins
+        setSetting(settings, key, value);
+    }
+    if (options.voxels != 0) setSetting(settings, "voxels.size", std::to_string(options.voxels));
+    for (const std::string& set : options.sets) {
+        const std::size_t equals = set.find('=');
+        if (equals == std::string::npos)
+            usage(fmt::format("--set: '{}' has no '='; KEY=VALUE would be right", set));
+        setSetting(settings, set.substr(0, equals), set.substr(equals + 1));
+    }
+    return settings;
+}
+
+Camera cameraFor(const Scene& scene, const ViewOptions& options) {
+    Camera camera = scene.cameras.front();
+    if (!options.camera.empty()) {
+        const Camera* found = nullptr;
+        for (const Camera& one : scene.cameras)
+            if (one.name == options.camera && found == nullptr) found = &one;
+        char* end = nullptr;
+        const long index = std::strtol(options.camera.c_str(), &end, 10);
+        if (found == nullptr && *end == '\0' && index >= 0 && index < static_cast<long>(scene.cameras.size()))
+            found = &scene.cameras[static_cast<std::size_t>(index)];
+        if (found == nullptr) {
+            std::string names;
+            for (const Camera& one : scene.cameras) names += (names.empty() ? "" : ", ") + one.name;
+            usage(fmt::format("--camera: there is no camera '{}'; {} would be right", options.camera, names));
+        }
+        camera = *found;
+    }
+    if (!options.eye.empty()) camera.eye = parseVec3("--eye", options.eye);
+    if (!options.target.empty()) camera.target = parseVec3("--target", options.target);
+    if (options.fovDeg > 0) camera.fovY = static_cast<float>(options.fovDeg * 3.14159265358979 / 180.0);
+    if (glm::length(camera.target - camera.eye) < 1e-9f) usage("--eye and --target: both are the same point");
+    return camera;
+}
+
+}  // namespace conelight::program

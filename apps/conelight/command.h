@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// What the sub-commands share: registration, options that several take, progress, interruption.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "conelight/renderer.h"
+#include "conelight/scene.h"
+#include "conelight/settings.h"
+#include "platform/headless_context.h"
+
+namespace conelight::program {
+
+void addRender(CLI::App& app);
+void addBench(CLI::App& app);
+void addInfo(CLI::App& app);
+void addSettings(CLI::App& app);
+void addShaders(CLI::App& app);
+
+// Thrown by throwIfInterrupted after Ctrl-C (a second Ctrl-C ends the program at once).
+struct Interrupted {};
+void installInterruptHandler();
+void throwIfInterrupted();
+
+// One status line on standard error, on a terminal only. finish() clears it.
+class Progress {
+  public:
+    Progress();
+    ~Progress();
+    void show(const std::string& text);  // also checks for Ctrl-C
+    void finish();
+
+  private:
+    bool terminal_;
+    bool shown_ = false;
+};
+
+struct Size {
+    int width = 800;
+    int height = 600;
+};
+Size parseSize(const std::string& text);                                  // "800x600"
+glm::vec3 parseVec3(const std::string& option, const std::string& text);  // "x,y,z"
+
+// Options that choose scene, view and settings; `render` and `bench` take them all.
+struct ViewOptions {
+    std::string size = "800x600";
+    int voxels = 0;  // 0: the setting's default
+    std::string camera;
+    std::string eye, target;
+    double fovDeg = 0;
+    std::string sky;
+    std::vector<std::string> sets;
+    int device = -1;
+    bool debugGl = false;
+
+    void addTo(CLI::App& command);
+};
+
+// The OpenGL context that --device and --gl-debug ask for.
+std::unique_ptr<platform::HeadlessContext> openContext(const ViewOptions& options);
+
+// Loads a scene, prints its notes, completes it, applies --sky.
+Scene openScene(const std::string& path, const ViewOptions& options, Progress& progress);
+// The settings a scene starts with in a mode: the scene's own block, then --voxels and --set.
+Settings settingsFor(const Scene& scene, const std::string& mode, const ViewOptions& options);
+Camera cameraFor(const Scene& scene, const ViewOptions& options);
+
+}  // namespace conelight::program

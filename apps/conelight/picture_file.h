@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// A rendered image as a file: 8-bit formats through the tone map, float formats as linear radiance.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "conelight/renderer.h"
+
+namespace conelight::program {
+
+// Format by extension; throws Error(Usage) for an unknown one. Layers are kept by .exr only.
+void writePicture(const std::string& path, const Image& image, const ImageSettings& settings,
+                  const std::vector<std::pair<std::string, Image>>& layers = {});
+
+}  // namespace conelight::program

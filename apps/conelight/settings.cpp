@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// `conelight settings`: every setting with unit, range and default.
+#include <fmt/core.h>
+
+#include "command.h"
+
+namespace conelight::program {
+
+void addSettings(CLI::App& app) {
+    auto filter = std::make_shared<std::string>();
+    auto markdown = std::make_shared<bool>(false);
+    CLI::App* command = app.add_subcommand("settings", "every setting of --set with unit, range and default");
+    command->add_option("filter", *filter, "show only settings whose key contains this");
+    command->add_flag("--markdown", *markdown, "as the table of docs/reference/settings.md");
+    command->callback([filter, markdown] {
+        if (*markdown)
+            fmt::print("| setting | default | range | unit | what it does |\n|---|---|---|---|---|\n");
+        for (const SettingInfo& info : settingInfos()) {
+            if (info.key.find(*filter) == std::string::npos) continue;
+            if (*markdown)
+                fmt::print("| `{}` | `{}` | {} | {} | {} |\n", info.key, info.defaultValue, info.range,
+                           info.unit, info.help);
+            else
+                fmt::print("{:<36} {:<10} {}{}{}\n{:<36} {}\n", info.key, info.defaultValue, info.range,
+                           info.unit.empty() ? "" : " ", info.unit, "", info.help);
+        }
+    });
+}
+
+}  // namespace conelight::program

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#include "stats_json.h"
+
+#include "io/files.h"
+
+namespace conelight::program {
+
+nlohmann::ordered_json memoryJson(const FrameStats& stats) {
+    // Objects of equal label (textures of one kind) are added up.
+    nlohmann::ordered_json memory = nlohmann::ordered_json::object();
+    std::size_t total = 0;
+    for (const MemoryStats& object : stats.memory) {
+        memory[object.label] =
+            (memory.contains(object.label) ? memory[object.label].get<std::size_t>() : 0) + object.bytes;
+        total += object.bytes;
+    }
+    memory["total"] = total;
+    return memory;
+}
+
+nlohmann::ordered_json lookupsJson(const FrameStats& stats) {
+    nlohmann::ordered_json lookups = nlohmann::ordered_json::object();
+    for (const auto& [kind, count] : stats.lookupsPerPixel) lookups[kind] = count;
+    return lookups;
+}
+
+void writeJson(const std::string& path, const nlohmann::ordered_json& json) {
+    const std::string text = json.dump(2) + "\n";
+    io::writeFile(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+}
+
+nlohmann::ordered_json statsJson(const FrameStats& stats) {
+    nlohmann::ordered_json json;
+    json["device"] = stats.device;
+    json["frame"] = {{"cpu_ms", stats.cpuMs}, {"wall_ms", stats.wallMs}};
+    json["passes"] = nlohmann::ordered_json::array();
+    for (const PassStats& pass : stats.passes)
+        json["passes"].push_back(
+            {{"name", pass.name},
+             {"cpu_ms", pass.cpuMs},
+             {"wall_ms", pass.wallMs},
+             {"gpu_ms", pass.gpuMs >= 0 ? nlohmann::ordered_json(pass.gpuMs) : nlohmann::ordered_json()}});
+    json["lookups_per_pixel"] = lookupsJson(stats);
+    json["memory_bytes"] = memoryJson(stats);
+    return json;
+}
+
+}  // namespace conelight::program

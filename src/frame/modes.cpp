@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#include "frame/modes.h"
+
+#include "base/log.h"
+
+namespace conelight::frame {
+
+std::unique_ptr<ModeRenderer> makeModeRenderer(Mode mode) {
+    switch (mode) {
+        case Mode::Phong:
+            break;
+
+        case Mode::Thesis:
+            break;
+
+        case Mode::Cones:
+            break;
+    }
+    base::fail(ErrorKind::Usage, "mode: not built yet");
+}
+
+}  // namespace conelight::frame

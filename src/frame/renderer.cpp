@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// The frame, top to bottom: what is uploaded, what is rebuilt, which passes run in which order.
+#include "conelight/renderer.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "base/clock.h"
+#include "base/log.h"
+#include "frame/modes.h"
+#include "gl/debug.h"
+#include "gl/gl.h"
+#include "image/debug_view.h"
+#include "shared/bindings.h"
+#include "view/camera.h"
+
+namespace conelight {
+namespace {
+
+constexpr int kMaxEdge = 16384;  // GL's minimum for GL_MAX_TEXTURE_SIZE in 4.5
+
+// Textures of one picture size.
+struct Targets {
+    int width, height;
+    view::GBuffer gbuffer;
+    gl::Texture output;
+
+    Targets(int w, int h)
+        : width(w),
+          height(h),
+          gbuffer(w, h),
+          output({GL_TEXTURE_2D, GL_RGBA32F, w, h, 1, 1}, "output image") {}
+};
+
+std::vector<MemoryStats> memoryStats() {
+    std::vector<MemoryStats> memory;
+    for (const gl::LiveObject& object : gl::liveObjects())
+        if (object.bytes > 0) memory.push_back({object.label, object.bytes});
+    std::stable_sort(memory.begin(), memory.end(),
+                     [](const auto& a, const auto& b) { return a.bytes > b.bytes; });
+    return memory;
+}
+
+}  // namespace
+
+struct Renderer::Impl {
+    gl::ProgramLibrary programs;
+    gl::Profiler profiler;
+    std::string device;
+    bool countLookups = false;
+    bool everyFrame = false;
+
+    Scene source;
+    std::optional<scene::GpuScene> scene;
+    light::ShadowMaps shadows;
+    std::optional<Targets> targets;
+    gl::Buffer frameBlock{sizeof(gpu::FrameConstants), "frame constants"};
+    gl::Buffer lookupCounters{16, "lookup counters"};
+
+    // What the current volumes were built for.
+    std::unique_ptr<frame::ModeRenderer> mode;
+    Mode modeKind = Mode::Cones;
+    std::optional<Settings> builtFor;
+    bool sceneChanged = true;
+    bool shadowsCurrent = false;
+    std::uint32_t frameIndex = 0;
+    FrameStats stats;
+
+    explicit Impl(gl::ShaderProvider provider) : programs(std::move(provider)) {}
+
+    void render(const Camera& camera, int width, int height, const Settings& settings);
+    void collectStats(double cpuStart, double wallStart);
+};
+
+Renderer::Renderer(const RendererOptions& options) {
+    gl::requireContext();
+    if (options.reportGlErrors) gl::installDebugCallback();
+    impl_ = std::make_unique<Impl>(options.shaderDirectory.empty()
+                                       ? gl::embeddedShaderProvider()
+                                       : gl::directoryShaderProvider(options.shaderDirectory));
+    impl_->device = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+}
+
+Renderer::~Renderer() = default;
+
+void Renderer::setScene(const Scene& scene) {
+    impl_->scene.reset();
+    impl_->source = scene;
+    impl_->scene.emplace(impl_->source);
+    impl_->sceneChanged = true;
+}
+
+void Renderer::setProfiling(bool passes, bool lookups) {
+    impl_->profiler.setEnabled(passes);
+    impl_->countLookups = lookups;
+}
+
+void Renderer::setDynamic(bool everyFrame) { impl_->everyFrame = everyFrame; }
+
+void Renderer::render(const Camera& camera, int width, int height, const Settings& settings) {
+    if (width < 1 || height < 1 || width > kMaxEdge || height > kMaxEdge)
+        base::fail(ErrorKind::Usage, "picture of %d x %d; 1 to %d in each direction would be right", width,
+                   height, kMaxEdge);
+    if (!impl_->scene)
+        base::fail(ErrorKind::Usage, "render: there is no scene; setScene before it would be right");
+    impl_->render(camera, width, height, settings);
+}
+
+void Renderer::Impl::render(const Camera& camera, int width, int height, const Settings& settings) {
+    const double cpuStart = base::processCpuMs();
+    const double wallStart = base::wallMs();
+    profiler.beginFrame();
+
+    // What has to be rebuilt.
+    if (!mode || modeKind != settings.mode) {
+        mode.reset();  // frees the old volumes first
+        mode = frame::makeModeRenderer(settings.mode);
+        modeKind = settings.mode;
+        builtFor.reset();
+    }
+    const bool geometryChanged =
+        sceneChanged || everyFrame || !builtFor || !(builtFor->voxels == settings.voxels);
+    const bool lightChanged = geometryChanged || !(builtFor->light == settings.light);
+    if (lightChanged) shadowsCurrent = false;
+    if (!targets || targets->width != width || targets->height != height) {
+        targets.reset();
+        targets.emplace(width, height);
+    }
+
+    // Shadow maps; they fill in the light table that later passes read.
+    scene->bind();
+    if (mode->needsShadows(settings) && !shadowsCurrent) {
+        shadows.update(programs, profiler, *scene, settings.light);
+        scene->bind();
+        shadowsCurrent = true;
+    }
+    shadows.bind();
+
+    // Frame constants.
+    frameBlock.update(view::frameConstants(camera, width, height, *scene, source.sky, frameIndex++, 0));
+    frameBlock.bindUniform(BINDING_FRAME);
+    lookupCounters.clear();
+
+    // What the camera sees, then the mode's picture.
+    targets->gbuffer.draw(programs, profiler, *scene, mode->cullsBackFaces());
+    gl::barrier(gl::Access::TextureFetch | gl::Access::ShaderStorage);
+    if (image::isDebugView(settings.component)) {
+        image::drawDebugView(programs, profiler, targets->gbuffer, settings.component, targets->output);
+    } else {
+        mode->render({programs, profiler, source, *scene, settings, width, height, targets->gbuffer, shadows,
+                      targets->output, geometryChanged, lightChanged,
+                      countLookups ? &lookupCounters : nullptr});
+        sceneChanged = false;
+        builtFor = settings;
+    }
+    gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer);
+    collectStats(cpuStart, wallStart);
+}
+
+void Renderer::Impl::collectStats(double cpuStart, double wallStart) {
+    stats = FrameStats{};
+    stats.device = device;
+    if (!profiler.enabled()) {
+        stats.memory = memoryStats();
+        return;
+    }
+    if (gl::isSoftwareDriver()) glFinish();
+    stats.cpuMs = base::processCpuMs() - cpuStart;
+    stats.wallMs = base::wallMs() - wallStart;
+    for (const gl::PassTime& pass : profiler.endFrame())
+        stats.passes.push_back({pass.name, pass.cpuMs, pass.wallMs, pass.gpuMs});
+    stats.memory = memoryStats();
+    if (!countLookups) return;
+    const std::vector<std::uint32_t> counts = lookupCounters.read<std::uint32_t>(3);
+    const double pixels = static_cast<double>(targets->width) * static_cast<double>(targets->height);
+    const char* const kinds[3] = {"diffuse", "specular", "occlusion"};
+    for (std::size_t i = 0; i < 3; ++i) stats.lookupsPerPixel.emplace_back(kinds[i], counts[i] / pixels);
+}
+
+Image Renderer::readImage() const {
+    if (!impl_->targets)
+        base::fail(ErrorKind::Usage, "readImage: nothing was rendered; render before it would be right");
+    const Targets& targets = *impl_->targets;
+    Image image{targets.width, targets.height, {}};
+    const std::size_t width = static_cast<std::size_t>(targets.width);
+    image.pixels.resize(width * static_cast<std::size_t>(targets.height));
+    targets.output.read(0, GL_RGBA, GL_FLOAT, image.pixels.data(), image.pixels.size() * sizeof(glm::vec4));
+    // GL's first row is the lowest.
+    for (std::size_t low = 0, high = static_cast<std::size_t>(targets.height) - 1; low < high; ++low, --high)
+        std::swap_ranges(&image.pixels[low * width], &image.pixels[low * width] + width,
+                         &image.pixels[high * width]);
+    return image;
+}
+
+std::uint32_t Renderer::imageTexture() const { return impl_->targets ? impl_->targets->output.name() : 0; }
+
+const FrameStats& Renderer::stats() const { return impl_->stats; }
+
+}  // namespace conelight
