@@ -10,6 +10,7 @@
 #include "frame/modes.h"
 #include "gl/debug.h"
 #include "gl/gl.h"
+#include "gl/host_state.h"
 #include "image/debug_view.h"
 #include "shared/bindings.h"
 #include "view/camera.h"
@@ -84,6 +85,7 @@ Renderer::Renderer(const RendererOptions& options) {
 Renderer::~Renderer() = default;
 
 void Renderer::setScene(const Scene& scene) {
+    const gl::HostStateGuard guard;
     impl_->scene.reset();
     impl_->source = scene;
     impl_->scene.emplace(impl_->source);
@@ -103,6 +105,7 @@ void Renderer::render(const Camera& camera, int width, int height, const Setting
                    height, kMaxEdge);
     if (!impl_->scene)
         base::fail(ErrorKind::Usage, "render: there is no scene; setScene before it would be right");
+    const gl::HostStateGuard guard;
     impl_->render(camera, width, height, settings);
 }
 
@@ -180,6 +183,7 @@ void Renderer::Impl::collectStats(double cpuStart, double wallStart) {
 Image Renderer::readImage() const {
     if (!impl_->targets)
         base::fail(ErrorKind::Usage, "readImage: nothing was rendered; render before it would be right");
+    const gl::HostStateGuard guard;
     const Targets& targets = *impl_->targets;
     Image image{targets.width, targets.height, {}};
     const std::size_t width = static_cast<std::size_t>(targets.width);

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// The program from outside: exit statuses, one-line errors, files written whole, pictures that repeat bit by
+// bit.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "io/image_file.h"
+#include "support/gl_fixture.h"
+
+namespace conelight::test {
+namespace {
+
+std::string path(const std::string& name) { return scratchDir() + "/" + name; }
+
+CommandResult conelight(const std::string& arguments, const std::string& environment = "") {
+    return runCommand(environment + " '" + CONELIGHT_PROGRAM + "' " + arguments);
+}
+
+CommandResult render(const std::string& scene, const std::string& output, const std::string& more = "",
+                     const std::string& environment = "") {
+    return conelight("render '" + scene + "' -o '" + output + "' --size 64x48 --voxels 32 " + more,
+                     environment);
+}
+
+std::string bytesOf(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+// One line, from the program, that contains `part`.
+void expectOneLine(const CommandResult& result, int status, const std::string& part) {
+    EXPECT_EQ(result.status, status) << result.output;
+    EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
+    EXPECT_EQ(result.output.rfind("conelight: ", 0), 0u) << result.output;
+    EXPECT_NE(result.output.find(part), std::string::npos) << result.output;
+}
+
+class ProgramTest : public GlTest {};
+
+TEST_F(ProgramTest, EveryCommandHasHelp) {
+    for (const char* command : {"", "render", "bench", "info", "settings", "shaders"}) {
+        const CommandResult result = conelight(std::string(command) + " --help");
+        EXPECT_EQ(result.status, 0) << command;
+        EXPECT_NE(result.output.find("Usage"), std::string::npos) << result.output;
+    }
+}
+
+TEST_F(ProgramTest, WrongUsageIsOneLineAndStatus2) {
+    const std::string out = path("never.png");
+    expectOneLine(conelight("render"), 2, "required");
+    expectOneLine(conelight("paint x"), 2, "--help");
+    expectOneLine(render("builtin:cornell", out, "--size 0x7"), 2, "--size");
+    expectOneLine(render("builtin:cornell", out, "--mode cube"), 2, "mode");
+    expectOneLine(render("builtin:cornell", out, "--set voxel.size=8"), 2, "voxels.size");
+    expectOneLine(render("builtin:cornell", out, "--set voxels.size=3"), 2, "8 to 512");
+    expectOneLine(render("builtin:cornell", out, "--camera nobody"), 2, "nobody");
+    expectOneLine(render("builtin:cornell", path("never.bmp2")), 2, ".png");
+    expectOneLine(render("builtin:nowhere", out), 2, "nowhere");
+    expectOneLine(render("builtin:cornell", out, "--aov albedo"), 2, ".exr");
+    EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(ProgramTest, BadInputIsOneLineAndStatus3) {
+    const std::string out = path("never.png");
+    expectOneLine(render("/nonexistent/scene.glb", out), 3, "/nonexistent/scene.glb");
+    std::ofstream(path("broken.glb")) << "glTF but not really";
+    expectOneLine(render(path("broken.glb"), out), 3, "broken.glb");
+    EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(ProgramTest, UnwritablePlaceIsFoundBeforeTheWork) {
+    expectOneLine(render("builtin:cornell", "/nonexistent/folder/x.png"), 1, "/nonexistent/folder");
+}
+
+TEST_F(ProgramTest, NoOpenGlIsStatus4) {
+    expectOneLine(
+        render("builtin:cornell", path("never.png"), "", "__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent"), 4,
+        "OpenGL");
+}
+
+TEST_F(ProgramTest, SameCommandSameBytes) {
+    for (const char* mode : {"phong", "thesis", "cones"}) {
+        const std::string a = path(std::string(mode) + "-a.exr");
+        const std::string b = path(std::string(mode) + "-b.exr");
+        ASSERT_EQ(render("builtin:cornell", a, std::string("--mode ") + mode).status, 0);
+        ASSERT_EQ(render("builtin:cornell", b, std::string("--mode ") + mode, "LP_NUM_THREADS=0").status, 0);
+        EXPECT_EQ(bytesOf(a), bytesOf(b)) << mode;
+        const io::FloatImage image = io::readExr(a);
+        EXPECT_EQ(image.width, 64);
+        EXPECT_EQ(image.height, 48);
+        for (const float value : image.pixels) ASSERT_TRUE(std::isfinite(value)) << mode;
+    }
+}
+
+TEST_F(ProgramTest, PictureIsRightWayRound) {
+    // The Cornell box: red wall on the left, green on the right.
+    ASSERT_EQ(render("builtin:cornell", path("c.png"), "--component albedo").status, 0);
+    const io::ByteImage image = io::readByteImage(path("c.png"));
+    const auto at = [&](int x, int y) {
+        return &image.pixels[static_cast<std::size_t>(image.channels * (y * image.width + x))];
+    };
+    EXPECT_GT(at(12, 24)[0], at(12, 24)[1] + 40);
+    EXPECT_GT(at(51, 24)[1], at(51, 24)[0] + 40);
+}
+
+TEST_F(ProgramTest, AovsBecomeLayersOfTheExr) {
+    ASSERT_EQ(render("builtin:cornell", path("l.exr"), "--aov albedo,normal").status, 0);
+    const io::FloatImage image = io::readExr(path("l.exr"));
+    ASSERT_EQ(image.layers.size(), 2u);
+    EXPECT_EQ(image.layers[0].name, "albedo");
+    EXPECT_EQ(image.layers[1].name, "normal");
+}
+
+TEST_F(ProgramTest, StatsNamePassesLookupsAndMemory) {
+    ASSERT_EQ(render("builtin:cornell", path("s.png"), "--stats '" + path("s.json") + "'").status, 0);
+    const nlohmann::json json = nlohmann::json::parse(bytesOf(path("s.json")));
+    EXPECT_GT(json["passes"].size(), 2u);
+    EXPECT_GT(json["lookups_per_pixel"]["diffuse"].get<double>(), 1.0);
+    EXPECT_GT(json["memory_bytes"]["total"].get<double>(), 1e5);
+}
+
+TEST_F(ProgramTest, BenchJsonHasTheDocumentedShape) {
+    ASSERT_EQ(
+        conelight("bench builtin:cornell --frames 2 --modes cones,phong --size 64x48 --voxels 32 --json '" +
+                  path("b.json") + "'")
+            .status,
+        0);
+    const nlohmann::json json = nlohmann::json::parse(bytesOf(path("b.json")));
+    EXPECT_EQ(json["version"], 1);
+    ASSERT_EQ(json["runs"].size(), 2u);
+    for (const char* key : {"scene", "mode", "quality", "voxels", "size", "dynamic", "frame", "passes",
+                            "lookups_per_pixel", "memory_bytes"})
+        EXPECT_TRUE(json["runs"][0].contains(key)) << key;
+    for (const char* key : {"median", "min", "max"})
+        EXPECT_GT(json["runs"][0]["frame"]["cpu_ms"][key].get<double>(), 0.0);
+}
+
+TEST_F(ProgramTest, InfoDescribesScenesAndDevice) {
+    const CommandResult device = conelight("info");
+    EXPECT_EQ(device.status, 0);
+    EXPECT_NE(device.output.find("OpenGL 4."), std::string::npos) << device.output;
+    const CommandResult scene = conelight("info builtin:cornell");
+    EXPECT_EQ(scene.status, 0);
+    EXPECT_NE(scene.output.find("triangles"), std::string::npos) << scene.output;
+    EXPECT_EQ(conelight("info builtin:").status, 0);
+}
+
+TEST_F(ProgramTest, InterruptLeavesNoHalfFile) {
+    const std::string out = path("interrupted.exr");
+    const CommandResult result =
+        runCommand("timeout --preserve-status -s INT 1 '" + std::string(CONELIGHT_PROGRAM) +
+                   "' render 'builtin:atrium?triangles=2000000' -o '" + out +
+                   "' --size 2000x1500 --voxels 64 --mode phong");
+    // A fast machine may be done within the second; then the picture is whole.
+    if (result.status == 0)
+        EXPECT_EQ(io::readExr(out).width, 2000);
+    else
+        EXPECT_FALSE(std::filesystem::exists(out)) << result.output;
+    EXPECT_TRUE(result.status == 0 || result.status == 130) << result.status << ": " << result.output;
+}
+
+}  // namespace
+}  // namespace conelight::test
