@@ -1,0 +1,247 @@
+// SPDX-License-Identifier: MIT
+// Structs of shaders/shared: asks the driver where each member lies in std430 and std140, of which type it is
+// and how far elements are apart, and compares with C++. The table of members below is checked against the
+// headers, so that a new struct or member cannot be forgotten.
+#include <cstddef>
+#include <regex>
+#include <set>
+
+#include "shared/frame.h"
+#include "shared/scene.h"
+#include "shared/voxels.h"
+#include "support/gl_fixture.h"
+
+namespace conelight::test {
+namespace {
+
+struct Member {
+    std::string name;
+    std::size_t offset, bytes;
+    GLenum type;
+    std::size_t elements;  // 0: no array
+};
+
+struct Struct {
+    std::string name;
+    std::size_t bytes;
+    std::vector<Member> members;
+};
+
+template <class T>
+struct TypeOf;
+template <>
+struct TypeOf<float> {
+    static constexpr GLenum value = GL_FLOAT;
+};
+template <>
+struct TypeOf<std::int32_t> {
+    static constexpr GLenum value = GL_INT;
+};
+template <>
+struct TypeOf<std::uint32_t> {
+    static constexpr GLenum value = GL_UNSIGNED_INT;
+};
+template <>
+struct TypeOf<glm::vec3> {
+    static constexpr GLenum value = GL_FLOAT_VEC3;
+};
+template <>
+struct TypeOf<glm::vec4> {
+    static constexpr GLenum value = GL_FLOAT_VEC4;
+};
+template <>
+struct TypeOf<glm::ivec4> {
+    static constexpr GLenum value = GL_INT_VEC4;
+};
+template <>
+struct TypeOf<glm::uvec4> {
+    static constexpr GLenum value = GL_UNSIGNED_INT_VEC4;
+};
+template <>
+struct TypeOf<glm::mat4> {
+    static constexpr GLenum value = GL_FLOAT_MAT4;
+};
+
+template <class T>
+Member member(const char* name, std::size_t offset) {
+    return {name, offset, sizeof(T), TypeOf<std::remove_extent_t<T>>::value, std::extent_v<T>};
+}
+
+// ROW(Struct, member, member ...): the members in the order of the header. The macros apply one to each name.
+#define PARENTHESES ()
+#define EXPAND(...) EXPAND3(EXPAND3(EXPAND3(EXPAND3(__VA_ARGS__))))
+#define EXPAND3(...) EXPAND2(EXPAND2(EXPAND2(EXPAND2(__VA_ARGS__))))
+#define EXPAND2(...) EXPAND1(EXPAND1(EXPAND1(EXPAND1(__VA_ARGS__))))
+#define EXPAND1(...) __VA_ARGS__
+#define EACH(S, m, ...) \
+    member<decltype(gpu::S::m)>(#m, offsetof(gpu::S, m)), __VA_OPT__(EACH_AGAIN PARENTHESES(S, __VA_ARGS__))
+#define EACH_AGAIN() EACH
+#define ROW(S, ...)                                          \
+    Struct {                                                 \
+#S, sizeof(gpu::S), { EXPAND(EACH(S, __VA_ARGS__)) } \
+    }
+
+const std::vector<Struct>& table() {
+    static const std::vector<Struct> structs = {
+        ROW(FrameConstants, clipFromWorld, worldFromClip, eye, zNear, sky, zFar, width, height, lightCount,
+            frameIndex, instanceCount, triangleCount, seed, pad0, viewForward, pad1, viewRight, pad2, viewUp,
+            pad3),
+        ROW(Vertex, position, normalOct, u, v, tangentOct, color),
+        ROW(Instance, worldFromObject, normalColumn0, normalColumn1, normalColumn2, firstIndex, indexCount,
+            firstVertex, material, flags, firstTriangle, pad0, pad1),
+        ROW(Material, baseColor, emission, alphaCutoff, specularF0, metallic, roughness, normalScale, flags,
+            pad0, layers, uvRow, phongColor, phongShininess, phongAmbient, phongDiffuse, phongSpecular, pad1),
+        ROW(Light, position, type, direction, shadow, intensity, range, halfU, cosInner, halfV, cosOuter,
+            falloff, customFalloff, firstView, viewCount, flags, pad0),
+        ROW(VoxelGrid, origin, voxelSize, sizeX, sizeY, sizeZ, voxelCount, bricksX, bricksY, bricksZ,
+            faceCount, inverseVoxelSize, occupiedBricks, pad0, pad1),
+        ROW(FaceRecord, normal, offsetWeight, bounds, voxel, albedo, radiance, irradiance0, irradiance1),
+    };
+    return structs;
+}
+
+struct Parsed {
+    std::string header, name;
+    std::vector<std::string> members;
+};
+
+// The structs that the headers below shaders/shared declare.
+std::vector<Parsed> parsedStructs() {
+    std::vector<Parsed> found;
+    const std::regex comments(R"(//[^\n]*)"), structs(R"(struct\s+(\w+)\s*\{([^}]*)\})");
+    const std::regex members(R"((\w+)\s*(\[\s*\w+\s*\])?\s*[;,])");
+    for (const gl::EmbeddedShader& file : gl::embeddedShaders()) {
+        if (std::string(file.path).rfind("shared/", 0) != 0) continue;
+        EXPECT_EQ(std::string(file.text).find("/*"), std::string::npos)
+            << file.path << ": this test reads // comments only";
+        const std::string text = std::regex_replace(std::string(file.text), comments, " ");
+        for (std::sregex_iterator s(text.begin(), text.end(), structs), end; s != end; ++s) {
+            Parsed parsed{file.path, (*s)[1], {}};
+            const std::string body = (*s)[2];
+            for (std::sregex_iterator m(body.begin(), body.end(), members); m != end; ++m)
+                parsed.members.push_back((*m)[1]);
+            found.push_back(parsed);
+        }
+    }
+    return found;
+}
+
+std::string includesOfShared() {
+    std::string text;
+    for (const gl::EmbeddedShader& file : gl::embeddedShaders())
+        if (std::string(file.path).rfind("shared/", 0) == 0)
+            text += "#include \"" + std::string(file.path) + "\"\n";
+    return text;
+}
+
+// One property of a block member; -1 when the driver does not know the name.
+GLint property(GLuint program, GLenum interface, const std::string& name, GLenum which) {
+    const GLuint index = glGetProgramResourceIndex(program, interface, name.c_str());
+    if (index == GL_INVALID_INDEX) return -1;
+    GLint value = -1;
+    glGetProgramResourceiv(program, interface, index, 1, &which, 1, nullptr, &value);
+    return value;
+}
+
+class LayoutTest : public GlTest {
+  protected:
+    // A program whose block `Block` holds `Struct items[2]` in the given layout.
+    const gl::Program& blockProgram(const std::string& structName, const std::string& firstMember,
+                                    bool storage) {
+        const std::string path = "test/layout_" + structName + (storage ? "_430" : "_140") + ".comp.glsl";
+        addShader(path, "#version 450 core\nlayout(local_size_x = 8) in;\n" + includesOfShared() +
+                            (storage ? "layout(std430, binding = 0) buffer Block { "
+                                     : "layout(std140, binding = 0) uniform Block { ") +
+                            structName + (storage ? " items[]; };\n" : " items[2]; };\n") +
+                            "layout(std430, binding = 1) buffer Sink { uint sink; };\n"
+                            "void main() { if (items[1]." +
+                            firstMember + " == items[0]." + firstMember + ") sink = 1u; }\n");
+        return programs().compute(path);
+    }
+
+    void compare(const Struct& expected, bool storage) {
+        const gl::Program& program = blockProgram(expected.name, expected.members.front().name, storage);
+        const GLenum interface = storage ? GL_BUFFER_VARIABLE : GL_UNIFORM;
+        for (const Member& m : expected.members) {
+            const std::string suffix = "." + m.name + (m.elements != 0 ? "[0]" : "");
+            const std::string first = "items[0]" + suffix;
+            EXPECT_EQ(property(program.name(), interface, first, GL_OFFSET), static_cast<GLint>(m.offset))
+                << first;
+            EXPECT_EQ(property(program.name(), interface, first, GL_TYPE), static_cast<GLint>(m.type))
+                << first;
+            EXPECT_EQ(property(program.name(), interface, first, GL_ARRAY_STRIDE),
+                      m.elements != 0 ? static_cast<GLint>(m.bytes / m.elements) : 0)
+                << first;
+            if (m.elements != 0) {
+                EXPECT_EQ(property(program.name(), interface, first, GL_ARRAY_SIZE),
+                          static_cast<GLint>(m.elements))
+                    << first;
+            }
+            if (m.type == GL_FLOAT_MAT4) {
+                EXPECT_EQ(property(program.name(), interface, first, GL_MATRIX_STRIDE), 16) << first;
+                EXPECT_EQ(property(program.name(), interface, first, GL_IS_ROW_MAJOR), 0) << first;
+            }
+            // Elements of the table are sizeof apart.
+            if (storage) {
+                EXPECT_EQ(property(program.name(), interface, first, GL_TOP_LEVEL_ARRAY_STRIDE),
+                          static_cast<GLint>(expected.bytes))
+                    << first;
+            } else {
+                const std::string second = "items[1]" + suffix;
+                EXPECT_EQ(property(program.name(), interface, second, GL_OFFSET),
+                          static_cast<GLint>(expected.bytes + m.offset))
+                    << second;
+            }
+        }
+    }
+};
+
+}  // namespace
+
+TEST_F(LayoutTest, EveryStructOfTheHeadersIsInTheTable) {
+    const std::vector<Parsed> parsed = parsedStructs();
+    EXPECT_GE(parsed.size(), 7u);
+    std::set<std::string> seen;
+    for (const Parsed& found : parsed) {
+        seen.insert(found.name);
+        std::string row = "ROW(" + found.name;
+        for (const std::string& name : found.members) row += ", " + name;
+        row += "),";
+        const Struct* entry = nullptr;
+        for (const Struct& one : table())
+            if (one.name == found.name) entry = &one;
+        if (entry == nullptr) {
+            ADD_FAILURE() << found.header << ": struct " << found.name
+                          << " is not in the table of layout_test.cpp; add\n    " << row;
+            continue;
+        }
+        std::vector<std::string> names;
+        for (const Member& m : entry->members) names.push_back(m.name);
+        EXPECT_EQ(names, found.members)
+            << found.header << ": the row of " << found.name << " should be\n    " << row;
+    }
+    for (const Struct& one : table())
+        EXPECT_TRUE(seen.count(one.name)) << one.name << " is in no header any more";
+}
+
+TEST_F(LayoutTest, RowsOfSixteenBytesAreFull) {
+    for (const Struct& one : table()) {
+        EXPECT_EQ(one.bytes % 16, 0u) << one.name;
+        std::size_t end = 0;
+        for (const Member& m : one.members) {
+            EXPECT_EQ(m.offset, end) << one.name << "::" << m.name << ": hidden padding before it";
+            end = m.offset + m.bytes;
+        }
+        EXPECT_EQ(end, one.bytes) << one.name << ": hidden padding at its end";
+    }
+}
+
+TEST_F(LayoutTest, StorageBlocksAgreeWithCpp) {
+    for (const Struct& one : table()) compare(one, true);
+}
+
+TEST_F(LayoutTest, UniformBlocksAgreeWithCpp) {
+    for (const Struct& one : table()) compare(one, false);
+}
+
+}  // namespace conelight::test
