@@ -63,8 +63,29 @@ struct ThesisSettings {
     ThesisDefects defects;
 };
 
-// Filled by the cones mode.
-struct ConesSettings {};
+// Cones that gather the light at matt surfaces (docs/theory/4_gather.md): one, or a polar cone and rings of
+// 4, 5 or 4 + 4 round it, or Fibonacci of any number.
+enum class DiffuseSet { One, Five, Six, Nine, Fibonacci };
+// What a texel of the radiance volume keeps: one colour and opacity, or one per facing direction.
+enum class VolumeDirections { Isotropic, Six };
+// How opacity adds up along a cone and over levels. Fog: texels are mist of unrelated droplets (Crassin et al.
+// 2011). Area: texels hold connected surface, whose projected areas add up until nothing is left to see.
+enum class OpacityModel { Fog, Area };
+
+struct ConesSettings {
+    DiffuseSet diffuseSet = DiffuseSet::Six;
+    int count = 16;                    // cones of DiffuseSet::Fibonacci; 1..64
+    VolumeDirections directional = VolumeDirections::Six;
+    OpacityModel opacity = OpacityModel::Area;
+    float step = 0.5f;                 // step / footprint; 0.1..2
+    float offset = 1.0f;               // start off the surface, voxels along the geometric normal; 0..4
+    float maxFootprint = 0.125f;       // largest footprint / longest side of the grid; 0.01..1
+    AutoFloat maxDistance;             // m; auto: all the way through the grid
+    float specularMinAperture = 0.1f;  // rad, full angle of the narrowest cone; 0.01..1
+    AutoFloat occlusionDistance;       // m, of component occlusion; auto: a tenth of the grid's longest side
+    int bounces = 1;                   // of indirect light; 0: only light that comes straight from lights; 0..8
+    int voxelLevel = 0;                // level shown by component voxels; 0..6
+};
 
 struct ImageSettings {
     float exposure =

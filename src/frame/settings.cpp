@@ -24,8 +24,41 @@ constexpr Choice<Component> kComponents[] = {
     {"diffuse", Component::Diffuse}, {"specular", Component::Specular}, {"occlusion", Component::Occlusion},
     {"albedo", Component::Albedo},   {"normal", Component::Normal},     {"depth", Component::Depth},
     {"voxels", Component::Voxels},   {"emission", Component::Emission}};
+constexpr Choice<DiffuseSet> kDiffuseSets[] = {{"1", DiffuseSet::One},
+                                               {"5", DiffuseSet::Five},
+                                               {"6", DiffuseSet::Six},
+                                               {"9", DiffuseSet::Nine},
+                                               {"fibonacci", DiffuseSet::Fibonacci}};
+constexpr Choice<VolumeDirections> kVolumeDirections[] = {{"isotropic", VolumeDirections::Isotropic},
+                                                          {"six", VolumeDirections::Six}};
+constexpr Choice<OpacityModel> kOpacityModels[] = {{"fog", OpacityModel::Fog}, {"area", OpacityModel::Area}};
 constexpr Choice<ToneMap> kToneMaps[] = {
     {"none", ToneMap::None}, {"reinhard", ToneMap::Reinhard}, {"aces", ToneMap::Aces}};
+
+template <class S, class V>
+void visitCones(S& s, V& visit) {
+    visit.choice("cones.diffuse_set", s.diffuseSet, kDiffuseSets,
+                 "cones per hemisphere at matt surfaces; the time grows with them");
+    visit.integer("cones.count", s.count, 1, 64, 1, "", "number of cones of the set fibonacci");
+    visit.choice(
+        "cones.directional", s.directional, kVolumeDirections,
+        "radiance per voxel: one value, or six by facing direction (six times the memory, closed walls)");
+    visit.choice("cones.opacity", s.opacity, kOpacityModels,
+                 "how opacity adds up: as fog of unrelated droplets, or as connected surface area");
+    visit.number("cones.step", s.step, 0.1, 2.0, "footprints", "distance between samples along a cone");
+    visit.number("cones.offset", s.offset, 0.0, 4.0, "voxels", "where cones start, above the surface");
+    visit.number("cones.max_footprint", s.maxFootprint, 0.01, 1.0, "",
+                 "largest footprint as a fraction of the grid; smaller is slower and leaks less");
+    visit.autoNumber("cones.max_distance", s.maxDistance, 0.0, 1e6, "m",
+                     "length of cones; beyond it they see the sky; auto: through the grid");
+    visit.number("cones.specular_min_aperture", s.specularMinAperture, 0.01, 1.0, "rad",
+                 "full angle of the narrowest specular cone; narrower is sharper and slower");
+    visit.autoNumber("cones.occlusion_distance", s.occlusionDistance, 0.0, 1e6, "m",
+                     "reach of component occlusion; auto: a tenth of the grid");
+    visit.integer("cones.bounces", s.bounces, 0, 8, 1, "", "bounces of indirect light; 0: none");
+    visit.integer("cones.voxel_level", s.voxelLevel, 0, 6, 1, "",
+                  "level of the volume that component voxels shows");
+}
 
 // Calls visit(key, field, ...) for every setting. Visitor overloads: boolean, integer, number, autoNumber,
 // choice.
@@ -45,6 +78,7 @@ void visitAll(S& s, V&& visit) {
                   "points per rectangular light, a square number");
     visit.boolean("light.emissive_quads", s.light.emissiveQuads,
                   "light flat rectangular emitters exactly, as area lights");
+    visitCones(s.cones, visit);
     visit.number("image.exposure", s.image.exposure, -20.0, 20.0, "stops",
                  "brightness before the tone map: 2^exposure");
     visit.choice("image.tone_map", s.image.toneMap, kToneMaps,
