@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// The shaders as text, for tools that check or read them without a GPU.
+#pragma once
+
+#include <cstddef>
+#include <string>
+
+namespace conelight {
+
+// Writes every shader entry in every variant the renderer can ask for into `directory` (made if missing):
+// includes resolved, defines inserted, exactly what the driver gets. Files are named
+// STAGE/NAME-DEFINES.comp.glsl (.vert .geom .frag), which glslangValidator understands. `shaderDirectory` as
+// in RendererOptions. Returns how many files were written. Needs no GL context.
+// Throws Error(Runtime): an include fails, a file cannot be written.
+std::size_t expandAllShaders(const std::string& directory, const std::string& shaderDirectory = "");
+
+}  // namespace conelight

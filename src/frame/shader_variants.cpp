@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+#include "frame/shader_variants.h"
+
+#include <cctype>
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include "base/log.h"
+#include "conelight/shaders.h"
+#include "image/debug_view.h"
+#include "light/shadow_maps.h"
+#include "view/gbuffer.h"
+
+namespace conelight {
+namespace {
+
+// "view/gbuffer.frag.glsl" + {A=1, B=2} -> "view/gbuffer-A=1,B=2.frag.glsl".
+std::string variantFile(const std::string& path, const gl::Defines& defines) {
+    const std::size_t name = path.find_last_of('/') + 1;
+    const std::size_t dot = path.find('.', name);
+    std::string variant;
+    for (const auto& [key, value] : defines) variant += (variant.empty() ? "-" : ",") + key + "=" + value;
+    for (char& c : variant)
+        if (std::isalnum(static_cast<unsigned char>(c)) == 0 &&
+            std::string("-_=,.").find(c) == std::string::npos)
+            c = '_';
+    return path.substr(0, dot) + variant + path.substr(dot);
+}
+
+}  // namespace
+
+namespace frame {
+
+std::vector<gl::ProgramDesc> allShaderVariants() {
+    std::vector<gl::ProgramDesc> all;
+    std::set<std::string> labels;
+    const auto add = [&](const std::vector<gl::ProgramDesc>& descs) {
+        for (const gl::ProgramDesc& desc : descs)
+            if (labels.insert(desc.label()).second) all.push_back(desc);
+    };
+    add(light::ShadowMaps::programDescs());
+    add(view::GBuffer::programDescs());
+    add(image::debugViewProgramDescs());
+    return all;
+}
+
+}  // namespace frame
+
+std::size_t expandAllShaders(const std::string& directory, const std::string& shaderDirectory) {
+    const gl::ShaderProvider provider =
+        shaderDirectory.empty() ? gl::embeddedShaderProvider() : gl::directoryShaderProvider(shaderDirectory);
+    std::set<std::string> written;
+    for (const gl::ProgramDesc& desc : frame::allShaderVariants())
+        for (const std::string& file : desc.files) {
+            // Programs may share a stage.
+            const std::string name = variantFile(file, desc.defines);
+            if (!written.insert(name).second) continue;
+            const std::filesystem::path path = std::filesystem::path(directory) / name;
+            std::error_code ignored;
+            std::filesystem::create_directories(path.parent_path(), ignored);
+            std::ofstream out(path, std::ios::binary);
+            out << gl::expandShader(provider, file, desc.defines).text;
+            if (!out.flush())
+                base::fail(ErrorKind::Runtime,
+                           "%s: cannot be written; a folder with room and permission would be right",
+                           path.string().c_str());
+        }
+    return written.size();
+}
+
+}  // namespace conelight

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// The list of all shader variants is complete, and each is written out as the driver gets it.
+#include "frame/shader_variants.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "conelight/error.h"
+#include "conelight/shaders.h"
+#include "support/gl_fixture.h"
+
+namespace conelight::test {
+namespace {
+
+constexpr const char* kStages[] = {".comp.glsl", ".vert.glsl", ".geom.glsl", ".frag.glsl"};
+
+bool endsWith(const std::string& text, const std::string& end) {
+    return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+bool isEntry(const std::string& path) {
+    for (const char* stage : kStages)
+        if (endsWith(path, stage)) return true;
+    return false;
+}
+
+}  // namespace
+
+TEST(ShaderVariantsTest, EveryEntryIsInAVariant) {
+    std::set<std::string> used;
+    for (const gl::ProgramDesc& desc : frame::allShaderVariants())
+        used.insert(desc.files.begin(), desc.files.end());
+    for (const gl::EmbeddedShader& shader : gl::embeddedShaders()) {
+        if (!isEntry(shader.path)) continue;
+        EXPECT_TRUE(used.count(shader.path))
+            << "shaders/" << shader.path
+            << " is in no variant; add its stage's programDescs() to src/frame/shader_variants.cpp";
+    }
+    for (const std::string& file : used) EXPECT_TRUE(isEntry(file)) << file;
+}
+
+TEST(ShaderVariantsTest, ExpandedFilesAreWhatTheDriverGets) {
+    const std::filesystem::path dir = std::filesystem::path(scratchDir()) / "expanded";
+    const std::size_t count = expandAllShaders(dir.string());
+    std::set<std::string> texts;
+    for (const gl::ProgramDesc& desc : frame::allShaderVariants())
+        for (const std::string& file : desc.files)
+            texts.insert(gl::expandShader(gl::embeddedShaderProvider(), file, desc.defines).text);
+    std::size_t files = 0;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(dir)) {
+        if (!entry.is_regular_file()) continue;
+        ++files;
+        EXPECT_TRUE(isEntry(entry.path().string())) << entry.path();
+        std::ostringstream text;
+        text << std::ifstream(entry.path(), std::ios::binary).rdbuf();
+        EXPECT_TRUE(texts.count(text.str())) << entry.path();
+        texts.erase(text.str());
+    }
+    EXPECT_EQ(files, count);
+    EXPECT_GT(files, 0u);
+    EXPECT_TRUE(texts.empty()) << "variants that were not written, or two files of one text";
+}
+
+TEST(ShaderVariantsTest, UnwritableFolderIsAnError) {
+    const std::filesystem::path file = std::filesystem::path(scratchDir()) / "file";
+    std::ofstream(file) << "x";
+    try {
+        expandAllShaders(file.string());
+        FAIL() << "no error";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::Runtime);
+        EXPECT_EQ(std::string(error.what()).rfind(file.string(), 0), 0u) << error.what();
+    }
+}
+
+}  // namespace conelight::test

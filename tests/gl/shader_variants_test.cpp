@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// Every shader variant compiles and links on the driver.
+#include "frame/shader_variants.h"
+
+#include "conelight/error.h"
+#include "support/gl_fixture.h"
+
+namespace conelight::test {
+
+using ShaderVariantsGlTest = GlTest;
+
+TEST_F(ShaderVariantsGlTest, EveryVariantLinks) {
+    const std::vector<gl::ProgramDesc> all = frame::allShaderVariants();
+    EXPECT_FALSE(all.empty());
+    for (const gl::ProgramDesc& desc : all) {
+        try {
+            const gl::Program program(gl::embeddedShaderProvider(), desc);
+            EXPECT_TRUE(program);
+        } catch (const Error& error) {
+            ADD_FAILURE() << error.what();
+        }
+    }
+    RecordProperty("variants", static_cast<int>(all.size()));
+}
+
+}  // namespace conelight::test
