@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `conelight info [SCENE]`: the OpenGL device, or what a scene holds. `conelight info builtin:` lists the
 // generated scenes.
-#include <epoxy/gl.h>
 #include <fmt/core.h>
 
 #include "command.h"
@@ -25,21 +24,10 @@ void printDevice(int device) {
     options.device = device;
     const platform::HeadlessContext context(options);
     fmt::print("in use: {}\n", context.description());
-    const auto limit = [](const char* name, GLenum key, int needed) {
-        GLint value = 0;
-        glGetIntegerv(key, &value);
-        fmt::print("  {:<44} {:>12}  (used: up to {})\n", name, value, needed);
-    };
-    limit("3D texture edge", GL_MAX_3D_TEXTURE_SIZE, 2048);
-    limit("2D texture edge", GL_MAX_TEXTURE_SIZE, 16384);
-    limit("storage blocks per compute shader", GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, 16);
-    limit("texture units", GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS, 32);
-    limit("image units", GL_MAX_IMAGE_UNITS, 8);
-    limit("storage block bytes", GL_MAX_SHADER_STORAGE_BLOCK_SIZE, 1 << 27);
-    limit("texture buffer texels", GL_MAX_TEXTURE_BUFFER_SIZE, 1 << 26);
-    fmt::print("  optional extension GL_ARB_shader_viewport_layer_array: {}\n",
-               epoxy_has_gl_extension("GL_ARB_shader_viewport_layer_array") ? "used"
-                                                                            : "absent (six passes instead)");
+    for (const platform::DeviceLimit& limit : platform::deviceLimits())
+        fmt::print("  {:<36} {:>14}  (used: up to {})\n", limit.name, limit.value, limit.used);
+    for (const auto& [extension, present] : platform::optionalExtensions())
+        fmt::print("  {:<36} {:>14}\n", extension, present ? "used" : "absent");
 }
 
 void run(const InfoOptions& options) {

@@ -128,6 +128,28 @@ HeadlessContext::~HeadlessContext() {
     eglTerminate(display_);
 }
 
+std::vector<DeviceLimit> deviceLimits() {
+    const auto limit = [](const char* name, GLenum key, long long used) {
+        GLint64 value = 0;
+        glGetInteger64v(key, &value);
+        return DeviceLimit{name, value, used};
+    };
+    return {limit("3D texture edge", GL_MAX_3D_TEXTURE_SIZE, 2048),
+            limit("2D texture edge", GL_MAX_TEXTURE_SIZE, 16384),
+            limit("storage blocks per compute shader", GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS, 16),
+            limit("texture units", GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS, 32),
+            limit("image units", GL_MAX_IMAGE_UNITS, 8),
+            limit("bytes of a storage block", GL_MAX_SHADER_STORAGE_BLOCK_SIZE, 1 << 27),
+            limit("texels of a buffer texture", GL_MAX_TEXTURE_BUFFER_SIZE, 1 << 26)};
+}
+
+std::vector<std::pair<std::string, bool>> optionalExtensions() {
+    std::vector<std::pair<std::string, bool>> found;
+    for (const char* name : {"GL_ARB_shader_viewport_layer_array", "GL_EXT_texture_filter_anisotropic"})
+        found.emplace_back(name, epoxy_has_gl_extension(name));
+    return found;
+}
+
 void tuneAllocator() {
 #ifdef __GLIBC__
     mallopt(M_MMAP_THRESHOLD, 1 << 30);

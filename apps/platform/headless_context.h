@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace conelight::platform {
@@ -33,6 +34,16 @@ class HeadlessContext {
 
 // One line per EGL device: "0: software (EGL_MESA_device_software)".
 std::vector<std::string> listDevices();
+
+// What the current context offers beside what this library uses of it.
+struct DeviceLimit {
+    std::string name;
+    long long value;
+    long long used;  // most that Conelight asks for
+};
+std::vector<DeviceLimit> deviceLimits();
+// Extensions Conelight uses when they are there: name, present.
+std::vector<std::pair<std::string, bool>> optionalExtensions();
 
 // Call first thing in main(): on software drivers the renderer's memory is freed and re-mapped for every
 // draw unless glibc's malloc is told to keep it (20-50 % of the CPU time of raster passes).

@@ -79,7 +79,7 @@ Renderer::Renderer(const RendererOptions& options) {
     impl_ = std::make_unique<Impl>(options.shaderDirectory.empty()
                                        ? gl::embeddedShaderProvider()
                                        : gl::directoryShaderProvider(options.shaderDirectory));
-    impl_->device = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
+    impl_->device = gl::rendererName();
 }
 
 Renderer::~Renderer() = default;
@@ -167,7 +167,7 @@ void Renderer::Impl::collectStats(double cpuStart, double wallStart) {
         stats.memory = memoryStats();
         return;
     }
-    if (gl::isSoftwareDriver()) glFinish();
+    if (gl::isSoftwareDriver()) gl::finish();
     stats.cpuMs = base::processCpuMs() - cpuStart;
     stats.wallMs = base::wallMs() - wallStart;
     for (const gl::PassTime& pass : profiler.endFrame())

@@ -30,6 +30,16 @@ VertexArray::VertexArray(const std::string& label) {
     adopt(array, label, 0);
 }
 
+void VertexArray::addPerDrawUint(unsigned location, const Buffer& values) {
+    // One element per 2^20 instances: no draw has as many, so base instance alone selects the element.
+    constexpr GLuint kBinding = 1;
+    glVertexArrayVertexBuffer(name(), kBinding, values.name(), 0, sizeof(std::uint32_t));
+    glEnableVertexArrayAttrib(name(), location);
+    glVertexArrayAttribIFormat(name(), location, 1, GL_UNSIGNED_INT, 0);
+    glVertexArrayAttribBinding(name(), location, kBinding);
+    glVertexArrayBindingDivisor(name(), kBinding, 1u << 20);
+}
+
 void VertexArray::bind() const { glBindVertexArray(name()); }
 
 namespace {
@@ -138,6 +148,16 @@ void enable(GLenum capability, bool on) { on ? glEnable(capability) : glDisable(
 void setCull(Cull cull) {
     enable(GL_CULL_FACE, cull != Cull::None);
     if (cull != Cull::None) glCullFace(cull == Cull::Back ? GL_BACK : GL_FRONT);
+}
+
+void setFrontFace(bool counterClockwise) { glFrontFace(counterClockwise ? GL_CCW : GL_CW); }
+
+void drawIndexed(const IndexedDraw& draw) {
+    const std::uintptr_t offset = static_cast<std::uintptr_t>(draw.firstIndex) * sizeof(std::uint32_t);
+    glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(draw.count),
+                                                  GL_UNSIGNED_INT, reinterpret_cast<const void*>(offset),
+                                                  draw.instances, static_cast<GLint>(draw.firstVertex),
+                                                  draw.baseInstance);
 }
 
 void apply(const RasterState& state) {

@@ -26,6 +26,9 @@ class VertexArray : public Object<ObjectType::VertexArray> {
     VertexArray(const Buffer& vertices, int stride, const std::vector<Attribute>& attributes,
                 const Buffer& indices, const std::string& label);
     explicit VertexArray(const std::string& label);  // no attributes: full-screen triangles
+    // Adds an attribute that holds one uint of `values` per draw: the base instance of drawIndexed chooses
+    // it, and all instances of that draw see the same.
+    void addPerDrawUint(unsigned location, const Buffer& values);
     void bind() const;
 };
 
@@ -71,5 +74,16 @@ struct RasterState {
 };
 void apply(const RasterState& state);
 void setCull(Cull cull);
+void setFrontFace(bool counterClockwise);
+
+// Triangles of the bound vertex array: `count` 32-bit indices from `firstIndex`, each plus `firstVertex`.
+struct IndexedDraw {
+    std::uint32_t firstIndex;
+    std::uint32_t count;
+    std::uint32_t firstVertex;
+    std::uint32_t baseInstance;
+    int instances = 1;
+};
+void drawIndexed(const IndexedDraw& draw);
 
 }  // namespace conelight::gl

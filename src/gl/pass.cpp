@@ -9,6 +9,13 @@
 
 namespace conelight::gl {
 
+std::string rendererName() {
+    const GLubyte* text = glGetString(GL_RENDERER);
+    return text != nullptr ? reinterpret_cast<const char*>(text) : "";
+}
+
+void finish() { glFinish(); }
+
 bool isSoftwareDriver() {
     const char* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
     return renderer != nullptr &&

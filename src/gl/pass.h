@@ -21,7 +21,9 @@ struct PassTime {
     double gpuMs = -1;  // < 0: not measured (software driver)
 };
 
-bool isSoftwareDriver();  // GL_RENDERER is llvmpipe or softpipe
+std::string rendererName();  // GL_RENDERER
+void finish();               // waits until the driver has done everything
+bool isSoftwareDriver();     // GL_RENDERER is llvmpipe or softpipe
 
 class Query : public Object<ObjectType::Query> {
   public:

@@ -244,13 +244,7 @@ void GpuScene::uploadGeometry(const Scene& source) {
                                     {3, 1, GL_UNSIGNED_INT, true, offsetof(gpu::Vertex, tangentOct)},
                                     {4, 1, GL_UNSIGNED_INT, true, offsetof(gpu::Vertex, color)}},
                                    indexBuffer_, "scene");
-    // Location 5: the index of the instance. The divisor is large enough that all copies of one draw see the
-    // same element, which base instance selects.
-    glVertexArrayVertexBuffer(vertexArray_.name(), 1, instanceIndexBuffer_.name(), 0, sizeof(std::uint32_t));
-    glEnableVertexArrayAttrib(vertexArray_.name(), 5);
-    glVertexArrayAttribIFormat(vertexArray_.name(), 5, 1, GL_UNSIGNED_INT, 0);
-    glVertexArrayAttribBinding(vertexArray_.name(), 5, 1);
-    glVertexArrayBindingDivisor(vertexArray_.name(), 1, 1u << 20);
+    vertexArray_.addPerDrawUint(5, instanceIndexBuffer_);
     drawOrder_.resize(instances_.size());
     std::iota(drawOrder_.begin(), drawOrder_.end(), 0u);
     std::stable_sort(drawOrder_.begin(), drawOrder_.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -410,14 +404,10 @@ void GpuScene::draw(const InstanceFilter& filter, gl::Cull cull, bool bindTextur
         }
         const int flipped = (instance.flags & INSTANCE_FLIPPED) != 0 ? 1 : 0;
         if (flipped != boundFlipped) {
-            glFrontFace(flipped != 0 ? GL_CW : GL_CCW);
+            gl::setFrontFace(flipped == 0);
             boundFlipped = flipped;
         }
-        glDrawElementsInstancedBaseVertexBaseInstance(
-            GL_TRIANGLES, static_cast<GLsizei>(instance.indexCount), GL_UNSIGNED_INT,
-            reinterpret_cast<const void*>(static_cast<std::uintptr_t>(instance.firstIndex) *
-                                          sizeof(std::uint32_t)),
-            copies, static_cast<GLint>(instance.firstVertex), index);
+        gl::drawIndexed({instance.firstIndex, instance.indexCount, instance.firstVertex, index, copies});
     }
 }
 
