@@ -50,6 +50,7 @@ int main(int argc, char** argv) {
     conelight::program::addBench(app);
     conelight::program::addInfo(app);
     conelight::program::addSettings(app);
+    conelight::program::addShaders(app);
 
     try {
         app.parse(argc, argv);
