@@ -74,8 +74,39 @@ struct FaceRecord {
     uint irradiance1;  // half b | number of updates behind it, 0..65535
 };                     // 32 B
 
+// Uniform block at BINDING_PASS of the voxelizer's own passes (shaders/voxels/surface_*).
+struct SurfaceConstants {
+    uint triangleCount;
+    uint instanceCount;
+    uint tileCapacity;      // of the voxelizer's lists; what does not fit is counted and dropped
+    uint fragmentCapacity;
+    // ---- 16 B
+    uint voxelCapacity;
+    uint faceCapacity;
+    uint brickCapacity;
+    uint bricksPerChunk;    // prefix sums: elements one invocation adds up
+    // ---- 32 B
+    uint voxelsPerChunk;
+    float emissionScale;    // largest emission of any material, >= 1e-6: sums of emission are relative to it
+    uint pad0;
+    uint pad1;
+};  // 48 B
+
+// Words of the voxelizer's counters. Arguments: three group counts each, for indirect dispatches.
+#define SURFACE_TILES 0
+#define SURFACE_FRAGMENTS 1
+#define SURFACE_VOXELS 2
+#define SURFACE_BRICKS 3
+#define SURFACE_FACES 4
+#define SURFACE_ARGS_TILES 8
+#define SURFACE_ARGS_FRAGMENTS 12
+#define SURFACE_ARGS_VOXELS 16
+#define SURFACE_ARGS_FACES 20
+#define SURFACE_COUNTER_WORDS 24
+
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::VoxelGrid) == 64);
+static_assert(sizeof(conelight::gpu::SurfaceConstants) == 48);
 static_assert(sizeof(conelight::gpu::FaceRecord) == 32);
 #endif

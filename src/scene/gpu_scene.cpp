@@ -202,6 +202,7 @@ void GpuScene::uploadGeometry(const Scene& source) {
     };
     std::vector<Range> ranges;
     for (const Mesh& mesh : source.meshes) {
+        hasVertexColors_ = hasVertexColors_ || !mesh.colors.empty();
         Range range{static_cast<std::uint32_t>(vertices.size()), static_cast<std::uint32_t>(indices.size()),
                     static_cast<std::uint32_t>(mesh.indices.size()), mesh.bounds()};
         if (appendVertices(mesh, vertices)) {

@@ -39,6 +39,7 @@ class GpuScene {
     const std::vector<gpu::Instance>& instances() const { return instances_; }
     const std::vector<gpu::Material>& materials() const { return materials_; }
     const std::vector<gpu::Light>& lights() const { return lights_; }
+    bool hasVertexColors() const { return hasVertexColors_; }  // of any mesh
     // Light stage: writes shadow layers and view ranges into the table.
     void updateLights(const std::vector<gpu::Light>& lights);
     // Moves one instance (dynamic objects); bounds and tables follow.
@@ -73,6 +74,7 @@ class GpuScene {
     std::vector<std::uint32_t> drawOrder_;  // instances sorted by material
     Aabb bounds_;
     std::uint32_t triangleCount_ = 0;
+    bool hasVertexColors_ = false;
 };
 
 }  // namespace conelight::scene

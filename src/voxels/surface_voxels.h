@@ -58,6 +58,9 @@ class SurfaceVoxels {
 
     static std::vector<gl::ProgramDesc> programDescs();
 
+    // The voxelizer's own work list, for tests: 32 bytes per fragment, see shaders/voxels/surface_clip.comp.glsl.
+    const gl::Buffer& fragments() const;
+
   private:
     struct Impl;
     std::unique_ptr<Impl> impl_;

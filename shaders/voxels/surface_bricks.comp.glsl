@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Last third of the prefix sum over bricks: occupancy and first voxel record of each occupied brick into
+// brickWord (cleared before), and the list of occupied bricks.
+#version 450
+layout(local_size_x = 64) in;
+#include "voxels/surface_common.glsl"
+#include "lib/voxel_address.glsl"
+#include "lib/voxel_grid.glsl"
+layout(std430, binding = SURFACE_MASKS) readonly buffer MaskTable { uvec2 masks[]; };
+layout(std430, binding = SURFACE_CHUNKS) readonly buffer ChunkTable { uvec2 chunks[]; };
+layout(std430, binding = SURFACE_BRICK_LIST) writeonly buffer BrickTable { uint brickList[]; };
+layout(binding = 0, rgba32ui) uniform writeonly uimage3D brickWords;
+
+void main() {
+    ivec3 bricks = gridBricks();
+    uint count = grid.bricksX * grid.bricksY * grid.bricksZ;
+    uint chunk = linearInvocation();
+    uint i = chunk * surface.bricksPerChunk;
+    uint end = min(i + surface.bricksPerChunk, count);
+    uvec2 next = i < end ? chunks[chunk] : uvec2(0u);
+    while (i < end) {
+        uvec2 mask = masks[i];
+        bool occupied = (mask.x | mask.y) != 0u;
+        if (occupied) {
+            ivec3 brick = brickOfIndex(i, bricks);
+            imageStore(brickWords, brick, uvec4(mask, next.x, 0u));
+            if (next.y < surface.brickCapacity) brickList[next.y] = packVoxel(brick);
+        }
+        next += uvec2(uint(bitCount(mask.x) + bitCount(mask.y)), occupied ? 1u : 0u);
+        ++i;
+    }
+}

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+// One invocation per fragment: clips the triangle to the voxel, evaluates its material there, stores both
+// (32 bytes, below), and puts the fragment into its voxel's chain.
+//
+//   word 0  next fragment of the voxel + 1, 0: last    4  centroid x | y, 16 bit each, [0,1] of the voxel
+//        1  area / h^2, float                          5  centroid z 16 | coverage 8 | directions 6
+//        2  bounds (lib/voxel_record.glsl)             6  albedo
+//        3  normal, octahedral                         7  emission RGB9E5
+//
+// SURFACE_DETAIL 0: materials without textures or vertex colours. 1: with, sampled at the centroid and averaged
+// over the polygon's area. 2: and alpha tests, 16 samples over the polygon's bounds give coverage and albedo.
+#version 450
+#ifndef SURFACE_DETAIL
+#error SURFACE_DETAIL must be 0, 1 or 2
+#endif
+layout(local_size_x = 64) in;
+#include "voxels/surface_common.glsl"
+#include "lib/clip.glsl"
+#include "lib/voxel_record.glsl"
+#include "lib/voxel_grid.glsl"
+layout(std430, binding = SURFACE_COUNTERS) readonly buffer CounterTable { uint counters[]; };
+layout(std430, binding = SURFACE_CHAINS) buffer ChainTable { uint chains[]; };
+layout(std430, binding = SURFACE_FRAGMENT_DATA) writeonly buffer FragmentTable { uvec4 fragments[]; };
+layout(binding = SURFACE_UNIT_TRIANGLES) uniform samplerBuffer triangles;
+layout(binding = SURFACE_UNIT_PAIRS) uniform usamplerBuffer pairs;
+layout(binding = UNIT_VOXEL_BRICKS) uniform usampler3D brickWords;
+
+struct Surface {
+    vec3 albedo;
+    vec3 emission;
+    float coverage;
+};
+#if SURFACE_DETAIL > 0
+#include "voxels/surface_material.glsl"
+#endif
+
+// Less area than this (in voxel sides) is dropped: in fixed point its weight would vanish too.
+const float kLeastArea = 1e-7;
+
+void main() {
+    uint index = linearInvocation();
+    bool used = index < min(counters[SURFACE_FRAGMENTS], surface.fragmentCapacity);
+    uint slot = used ? index : 0u;
+    uvec2 pair = texelFetch(pairs, int(slot)).xy;
+    int triangle = int(pair.x);
+    vec4 t0 = texelFetch(triangles, 3 * triangle);
+    vec4 t1 = texelFetch(triangles, 3 * triangle + 1);
+    vec4 t2 = texelFetch(triangles, 3 * triangle + 2);
+    ivec3 voxel = unpackVoxel(pair.y);
+
+    vec3 center = vec3(voxel) + 0.5;
+    vec3 q0 = t0.xyz - center;
+    vec3 q1 = t1.xyz - center;
+    vec3 q2 = t2.xyz - center;
+    vec3 cr = cross(t1.xyz - t0.xyz, t2.xyz - t0.xyz);
+    float twiceArea = length(cr);
+    vec3 n = cr / twiceArea;
+    ClippedPolygon polygon = clipToVoxel(q0, q1, q2, n);
+
+    uint flags = floatBitsToUint(t0.w);
+    bool twoSided = (flags & TRIANGLE_TWO_SIDED) != 0u;
+    Surface s = Surface(vec3(0.0), vec3(0.0), 1.0);
+    uint albedoBits = floatBitsToUint(t1.w);
+    uint emissionBits = floatBitsToUint(t2.w);
+#if SURFACE_DETAIL > 0
+    s = evaluateSurface(uint(triangle), flags & 0xffffffu, q0, q1, q2, n, twiceArea, polygon);
+    albedoBits = packAlbedo(s.albedo);
+    emissionBits = packRgb9e5(s.emission);
+#endif
+    uint coverage = uint(floor(clamp(s.coverage, 0.0, 1.0) * 255.0 + 0.5));
+
+    // Into the chain of the voxel, which has a record because its bit was set with this fragment.
+    uvec4 word = texelFetch(brickWords, voxel >> 2, 0);
+    uint record = voxelRecordIndex(word, bitOfVoxel(voxel));
+    bool kept = used && polygon.area >= kLeastArea && coverage != 0u && record < surface.voxelCapacity;
+    uint directions = facingDirections(n) | (twoSided ? facingDirections(-n) : 0u);
+    uint next = 0u;
+    if (kept) {
+        next = atomicExchange(chains[2u * record], slot + 1u);
+        atomicOr(chains[2u * record + 1u], directions);
+    }
+    uvec3 c = uvec3(floor(clamp(polygon.center + 0.5, 0.0, 1.0) * 65535.0 + 0.5));
+    if (used) {
+        fragments[2u * slot] = uvec4(next, floatBitsToUint(kept ? polygon.area : 0.0),
+                                     packBounds(polygon.lower + 0.5, polygon.upper + 0.5), packSnorm2x16(octEncode(n)));
+        fragments[2u * slot + 1u] = uvec4(c.x | (c.y << 16), c.z | (coverage << 16) | (directions << 24),
+                                          albedoBits, emissionBits);
+    }
+}

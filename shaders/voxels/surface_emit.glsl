@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Writes fragments: marks the voxel in its brick's mask and appends (triangle, voxel) to the list.
+#include "lib/clip.glsl"
+#include "lib/voxel_address.glsl"
+#include "lib/voxel_grid.glsl"
+#include "voxels/surface_columns.glsl"
+layout(std430, binding = SURFACE_COUNTERS) buffer CounterTable { uint counters[]; };
+layout(std430, binding = SURFACE_PAIRS) writeonly buffer PairTable { uvec2 pairs[]; };
+layout(std430, binding = SURFACE_MASKS) buffer MaskTable { uint masks[]; };
+
+// The columns of one invocation: `width` cells per row, counted from cell (0,0) at the anchor.
+// bits: four per column, column after column.
+void emitFragments(ColumnTest t, uint triangle, uvec2 bits, int width, ivec3 anchor, int axis, int wBegin, int wEnd) {
+    uint total = uint(bitCount(bits.x) + bitCount(bits.y));
+    uint slot = 0u;
+    if (total != 0u) slot = atomicAdd(counters[SURFACE_FRAGMENTS], total);
+    ivec3 bricks = gridBricks();
+    do {
+        bool inLow = bits.x != 0u;
+        int bit = inLow ? findLSB(bits.x) : 32 + findLSB(bits.y);
+        bool alive = (bits.x | bits.y) != 0u;
+        int column = bit >> 2;
+        ivec2 cell = ivec2(column % width, column / width);
+        int first;
+        columnCandidates(t, vec2(cell), wBegin, wEnd, first);
+        ivec3 voxel = fromDominant(anchor + ivec3(cell, first + (bit & 3)), axis);
+        if (alive) {
+            uint b = bitOfVoxel(voxel);
+            atomicOr(masks[2u * brickIndex(voxel >> 2, bricks) + (b >> 5)], 1u << (b & 31u));
+        }
+        if (alive && slot < surface.fragmentCapacity) pairs[slot] = uvec2(triangle, packVoxel(voxel));
+        ++slot;
+        bits.y = inLow ? bits.y : bits.y & (bits.y - 1u);
+        bits.x = inLow ? bits.x & (bits.x - 1u) : 0u;
+    } while ((bits.x | bits.y) != 0u);
+}

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Second third of a prefix sum: one invocation turns the chunks' sums into their starts (at most a few thousand
+// chunks), and writes the totals and the group counts of the passes that follow.
+// STEP 0: no sum, group count of surface_tiles. 1: after counting bricks. 2: after counting faces.
+#version 450
+#ifndef STEP
+#error STEP must be 0, 1 or 2
+#endif
+layout(local_size_x = 8) in;
+#include "voxels/surface_common.glsl"
+#include "lib/voxel_grid.glsl"
+layout(std430, binding = SURFACE_COUNTERS) buffer CounterTable { uint counters[]; };
+layout(std430, binding = SURFACE_CHUNKS) buffer ChunkTable { uvec2 chunks[]; };
+
+// Groups of 64 invocations; more than fit along x are folded into y (linearInvocation).
+void writeArguments(int at, uint invocations) {
+    uint groups = (invocations + 63u) / 64u;
+    counters[at] = min(groups, 32768u);
+    counters[at + 1] = (groups + 32767u) / 32768u;
+    counters[at + 2] = 1u;
+}
+
+void main() {
+    if (gl_LocalInvocationIndex != 0u) return;
+#if STEP == 0
+    writeArguments(SURFACE_ARGS_TILES, 8u * min(counters[SURFACE_TILES], surface.tileCapacity));
+#else
+#if STEP == 1
+    uint count = grid.bricksX * grid.bricksY * grid.bricksZ;
+    uint chunkCount = (count + surface.bricksPerChunk - 1u) / surface.bricksPerChunk;
+#else
+    uint count = min(counters[SURFACE_VOXELS], surface.voxelCapacity);
+    uint chunkCount = (count + surface.voxelsPerChunk - 1u) / surface.voxelsPerChunk;
+#endif
+    uvec2 start = uvec2(0u);
+    uint i = 0u;
+    while (i < chunkCount) {
+        uvec2 sum = chunks[i];
+        chunks[i] = start;
+        start += sum;
+        ++i;
+    }
+#if STEP == 1
+    counters[SURFACE_VOXELS] = start.x;
+    counters[SURFACE_BRICKS] = start.y;
+    uint voxels = min(start.x, surface.voxelCapacity);
+    writeArguments(SURFACE_ARGS_FRAGMENTS, min(counters[SURFACE_FRAGMENTS], surface.fragmentCapacity));
+    writeArguments(SURFACE_ARGS_VOXELS, (voxels + surface.voxelsPerChunk - 1u) / surface.voxelsPerChunk);
+#else
+    counters[SURFACE_FACES] = start.x;
+    writeArguments(SURFACE_ARGS_FACES, min(start.x, surface.faceCapacity));
+#endif
+#endif
+}

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Tiles of big triangles -> fragments. Eight invocations per tile of 8 x 8 columns, one row of columns each.
+#version 450
+layout(local_size_x = 64) in;
+#include "voxels/surface_common.glsl"
+#include "voxels/surface_emit.glsl"
+layout(std430, binding = SURFACE_TILE_LIST) readonly buffer TileTable { uvec2 tiles[]; };
+layout(binding = SURFACE_UNIT_TRIANGLES) uniform samplerBuffer triangles;
+
+void main() {
+    uint index = linearInvocation();
+    uint tile = index >> 3;
+    int row = int(index & 7u);
+    bool used = tile < min(counters[SURFACE_TILES], surface.tileCapacity);
+    uvec2 entry = tiles[used ? tile : 0u];
+    int triangle = int(entry.x);
+    vec3 p0 = texelFetch(triangles, 3 * triangle).xyz;
+    vec3 p1 = texelFetch(triangles, 3 * triangle + 1).xyz;
+    vec3 p2 = texelFetch(triangles, 3 * triangle + 2).xyz;
+    vec3 n = cross(p1 - p0, p2 - p0);
+    int axis = dominantAxis(n);
+    vec3 a = toDominant(p0, axis);
+    vec3 b = toDominant(p1, axis);
+    vec3 c = toDominant(p2, axis);
+    ivec3 size = axis == 2 ? gridSize() : (axis == 1 ? gridSize().zxy : gridSize().yzx);
+    vec3 limit = vec3(size);
+    ivec3 low = ivec3(floor(clamp(min(min(a, b), c) - kTouch, vec3(0.0), limit)));
+    ivec3 high = ivec3(floor(clamp(max(max(a, b), c) + kTouch, vec3(-1.0), limit - 0.5))) + 1;
+
+    // The row's columns, up to the end of the triangle's bounds.
+    ivec3 anchor = ivec3(int(entry.y & 0xffffu), int(entry.y >> 16) + row, low.z);
+    vec3 origin = vec3(anchor);
+    ColumnTest t = columnTest(a - origin, b - origin, c - origin, toDominant(n, axis));
+    int count = used && anchor.y < high.y ? min(high.x - anchor.x, 8) : 0;
+    uint met = 0u;
+    int column = 0;
+    do {
+        uint mask = column < count ? columnMask(t, vec2(column, 0), 0, high.z - low.z) : 0u;
+        met |= mask << (4 * column);
+        ++column;
+    } while (column < count);
+    emitFragments(t, uint(triangle), uvec2(met, 0u), 8, anchor, axis, 0, high.z - low.z);
+}
