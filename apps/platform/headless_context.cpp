@@ -8,57 +8,77 @@
 #endif
 
 #include <climits>
+#include <map>
+#include <mutex>
 
 #include "conelight/error.h"
 
 namespace conelight::platform {
 namespace {
 
+bool hasClientExtension(const char* name) {
+    // libepoxy ends the process when it cannot load libEGL, so ask for the library first.
+    return epoxy_has_egl() && epoxy_has_egl_extension(EGL_NO_DISPLAY, name);
+}
+
 std::vector<EGLDeviceEXT> devices() {
     std::vector<EGLDeviceEXT> found;
-    if (!epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_base") &&
-        !epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_EXT_device_enumeration"))
+    if (!hasClientExtension("EGL_EXT_device_base") && !hasClientExtension("EGL_EXT_device_enumeration"))
         return found;
     EGLint count = 0;
     if (eglQueryDevicesEXT(0, nullptr, &count) == EGL_FALSE || count <= 0) return found;
     found.resize(static_cast<std::size_t>(count));
-    eglQueryDevicesEXT(count, found.data(), &count);
+    if (eglQueryDevicesEXT(count, found.data(), &count) == EGL_FALSE) count = 0;
     found.resize(static_cast<std::size_t>(count));
     return found;
 }
 
-std::string extensionsOf(EGLDeviceEXT device) {
+bool deviceHas(EGLDeviceEXT device, const std::string& extension) {
     const char* text = eglQueryDeviceStringEXT(device, EGL_EXTENSIONS);
-    return text != nullptr ? text : "";
+    return (" " + std::string(text != nullptr ? text : "") + " ").find(" " + extension + " ") !=
+           std::string::npos;
 }
 
-bool isSoftware(EGLDeviceEXT device) {
-    return extensionsOf(device).find("EGL_MESA_device_software") != std::string::npos;
+bool isSoftware(EGLDeviceEXT device) { return deviceHas(device, "EGL_MESA_device_software"); }
+
+// What tells a device from its neighbours: its file in /dev/dri, when it has one.
+std::string nameOf(EGLDeviceEXT device) {
+    if (isSoftware(device)) return "software";
+    const char* file = deviceHas(device, "EGL_EXT_device_drm")
+                           ? eglQueryDeviceStringEXT(device, EGL_DRM_DEVICE_FILE_EXT)
+                           : nullptr;
+    return std::string("hardware") + (file != nullptr ? std::string(", ") + file : "");
 }
 
-}  // namespace
-
-std::vector<std::string> listDevices() {
-    std::vector<std::string> lines;
-    int index = 0;
-    for (EGLDeviceEXT device : devices())
-        lines.push_back(std::to_string(index++) + ": " + (isSoftware(device) ? "software" : "hardware") +
-                        " (" + extensionsOf(device) + ")");
-    return lines;
+// EGL hands out one display per device to the whole process, and terminating it ends every context there:
+// the last user does it.
+struct Displays {
+    std::mutex mutex;
+    std::map<EGLDisplay, int> users;
+};
+Displays& displays() {
+    static Displays* const all = new Displays;  // outlives contexts of static storage
+    return *all;
 }
 
-bool HeadlessContext::tryDisplay(void* display, const std::string& how, bool debug) {
-    const auto failed = [&](const char* what) {
-        tried_ += (tried_.empty() ? "" : ", ") + how + ": " + what;
-        return false;
-    };
-    if (display == EGL_NO_DISPLAY) return failed("no display");
+bool openDisplay(EGLDisplay display) {
+    Displays& all = displays();
+    const std::lock_guard lock(all.mutex);
     EGLint major = 0, minor = 0;
-    if (eglInitialize(display, &major, &minor) == EGL_FALSE) return failed("does not initialise");
-    if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) {
-        eglTerminate(display);
-        return failed("no desktop OpenGL");
-    }
+    if (eglInitialize(display, &major, &minor) == EGL_FALSE) return false;
+    ++all.users[display];
+    return true;
+}
+
+void closeDisplay(EGLDisplay display) {
+    Displays& all = displays();
+    const std::lock_guard lock(all.mutex);
+    if (--all.users[display] > 0) return;
+    all.users.erase(display);
+    eglTerminate(display);
+}
+
+EGLContext createContext(EGLDisplay display, bool debug) {
     // NVIDIA wants a config for contexts; Mesa's surfaceless platform may have none.
     const EGLint configAttributes[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_DONT_CARE,
                                        EGL_NONE};
@@ -75,15 +95,38 @@ bool HeadlessContext::tryDisplay(void* display, const std::string& how, bool deb
                                  EGL_CONTEXT_OPENGL_DEBUG,
                                  debug ? EGL_TRUE : EGL_FALSE,
                                  EGL_NONE};
-    EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
-    if (context == EGL_NO_CONTEXT) {
-        eglTerminate(display);
-        return failed("no OpenGL 4.5 core context");
-    }
+    return eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
+}
+
+}  // namespace
+
+std::vector<std::string> listDevices() {
+    std::vector<std::string> lines;
+    for (EGLDeviceEXT device : devices())
+        lines.push_back(std::to_string(lines.size()) + ": " + nameOf(device));
+    return lines;
+}
+
+bool HeadlessContext::tryDisplay(void* display, const std::string& how, bool debug) {
+    const auto failed = [&](const char* what) {
+        tried_ += (tried_.empty() ? "" : ", ") + how + ": " + what;
+        return false;
+    };
+    if (display == EGL_NO_DISPLAY) return failed("no display");
+    if (!openDisplay(display)) return failed("does not initialise");
+    const auto closed = [&](const char* what) {
+        closeDisplay(display);
+        return failed(what);
+    };
+    if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) return closed("no desktop OpenGL");
+    const EGLContext context = createContext(display, debug);
+    if (context == EGL_NO_CONTEXT) return closed("no OpenGL 4.5 core context");
+    // What was current before comes back when this context ends.
+    previous_ = {eglGetCurrentDisplay(), eglGetCurrentContext(), eglGetCurrentSurface(EGL_DRAW),
+                 eglGetCurrentSurface(EGL_READ)};
     if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_FALSE) {
         eglDestroyContext(display, context);
-        eglTerminate(display);
-        return failed("context cannot be current without a surface");
+        return closed("context cannot be current without a surface");
     }
     display_ = display;
     context_ = context;
@@ -97,35 +140,42 @@ bool HeadlessContext::tryDisplay(void* display, const std::string& how, bool deb
 
 HeadlessContext::HeadlessContext(const HeadlessOptions& options) {
     const std::vector<EGLDeviceEXT> all = devices();
-    if (options.device >= static_cast<int>(all.size()))
+    const int count = static_cast<int>(all.size());
+    if (options.device != kAnyDevice && (options.device < 0 || options.device >= count) && count > 0)
         throw Error(ErrorKind::Usage, "--device: there is no EGL device " + std::to_string(options.device) +
-                                          "; 0 to " + std::to_string(static_cast<int>(all.size()) - 1) +
+                                          "; " + (count == 1 ? "0" : "0 to " + std::to_string(count - 1)) +
                                           " would be right");
     // Hardware devices first, then software ones, then surfaceless.
     for (const bool software : {false, true}) {
-        for (std::size_t i = 0; i < all.size(); ++i) {
-            if (options.device >= 0 ? static_cast<int>(i) != options.device : isSoftware(all[i]) != software)
-                continue;
-            const std::string how = "EGL device " + std::to_string(i);
-            if (tryDisplay(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, all[i], nullptr), how,
-                           options.debug))
+        for (int i = 0; i < count; ++i) {
+            EGLDeviceEXT device = all[static_cast<std::size_t>(i)];
+            if (options.device != kAnyDevice ? i != options.device : isSoftware(device) != software) continue;
+            if (tryDisplay(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr),
+                           "EGL device " + std::to_string(i), options.debug))
                 return;
         }
-        if (options.device >= 0) break;
+        if (options.device != kAnyDevice) break;
     }
-    if (options.device < 0 && epoxy_has_egl_extension(EGL_NO_DISPLAY, "EGL_MESA_platform_surfaceless") &&
+    if (options.device == kAnyDevice && hasClientExtension("EGL_MESA_platform_surfaceless") &&
         tryDisplay(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr),
                    "EGL surfaceless", options.debug))
         return;
     throw Error(ErrorKind::NoGl, "OpenGL: no 4.5 core context without a display (" +
-                                     (tried_.empty() ? std::string("EGL lists no device") : tried_) +
+                                     (!epoxy_has_egl() ? "libEGL is not installed"
+                                      : tried_.empty() ? "EGL lists no device"
+                                                       : tried_) +
                                      "); installing Mesa (libgl1-mesa-dri, libegl1) would be right");
 }
 
 HeadlessContext::~HeadlessContext() {
-    eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    // Another context may have become current since; then it stays.
+    if (eglGetCurrentContext() == context_) {
+        if (previous_.context == EGL_NO_CONTEXT ||
+            eglMakeCurrent(previous_.display, previous_.draw, previous_.read, previous_.context) == EGL_FALSE)
+            eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    }
     eglDestroyContext(display_, context_);
-    eglTerminate(display_);
+    closeDisplay(display_);
 }
 
 std::vector<DeviceLimit> deviceLimits() {

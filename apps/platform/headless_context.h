@@ -9,12 +9,16 @@
 
 namespace conelight::platform {
 
+constexpr int kAnyDevice = -1;
+
 struct HeadlessOptions {
-    int device = -1;     // index into listDevices(); -1: the first that gives a 4.5 core context
-    bool debug = false;  // a debug context, which reports errors (RendererOptions::reportGlErrors)
+    int device = kAnyDevice;  // index into listDevices(); kAnyDevice: the first that gives a 4.5 core context
+    bool debug = false;       // a debug context, which reports errors (RendererOptions::reportGlErrors)
 };
 
-// Current on the creating thread from construction to destruction. Throws Error(NoGl) with what was tried.
+// Current on the creating thread from construction to destruction, when the context that was current before
+// comes back. Contexts of one process may live at the same time. Throws Error(NoGl) with what was tried,
+// Error(Usage) for a device that is not listed.
 class HeadlessContext {
   public:
     explicit HeadlessContext(const HeadlessOptions& options = {});
@@ -28,11 +32,15 @@ class HeadlessContext {
     bool tryDisplay(void* display, const std::string& how, bool debug);
     void* display_ = nullptr;
     void* context_ = nullptr;
+    struct Current {
+        void *display = nullptr, *context = nullptr, *draw = nullptr, *read = nullptr;
+    };
+    Current previous_;
     std::string description_;
     std::string tried_;
 };
 
-// One line per EGL device: "0: software (EGL_MESA_device_software)".
+// One line per EGL device: "0: hardware, /dev/dri/card0", "1: software". Empty without EGL.
 std::vector<std::string> listDevices();
 
 // What the current context offers beside what this library uses of it.
