@@ -37,6 +37,12 @@ constexpr GeneratedParameter kSunroomParameters[] = {
 constexpr GeneratedParameter kCorridorParameters[] = {
     {"emission", 130, 0, 1e4, false, "radiance of the lamp, W/(sr m^2)"},
 };
+constexpr GeneratedParameter kAtriumParameters[] = {
+    {"triangles", 250000, 1e4, 1e7, true, "wanted, over all instances; met within 20 %"},
+    {"sun", 9.5, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
+    {"sky", 0.8, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
+    {"lamps", 0.8, 0, 1e4, false, "intensity of each of the four lanterns, W/sr"},
+};
 constexpr GeneratedParameter kGlossyParameters[] = {
     {"roughness", 0.2, 0.02, 1, false, "of the floor"},
     {"metallic", 1, 0, 1, false, "of the floor"},
@@ -68,6 +74,9 @@ constexpr Entry kScenes[] = {
      generated::buildSunroom},
     {{"corridor", "corridor with two bends, lamp at one end only", kCorridorParameters},
      generated::buildCorridor},
+    {{"atrium", "courtyard with arcade, vaulted aisles, gallery, curtains and fountain, in sun",
+      kAtriumParameters},
+     generated::buildAtrium},
     {{"glossy", "metal floor and glossy objects of roughness 0.1 to 0.4", kGlossyParameters},
      generated::buildGlossy},
     {{"spheres", "spheres of every roughness and metalness in a lit room", kSpheresParameters},

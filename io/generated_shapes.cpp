@@ -13,9 +13,9 @@
 namespace conelight::io::shapes {
 namespace {
 
-// Half step of the central differences in units of the parameter: big enough that float differences of metres
-// keep 4 digits, small against the features of all curves used (the finest flute spans 0.02).
-constexpr float kDerivativeStep = 5e-4f;
+// Normals come from differences to the neighbouring grid points, so that they always agree with the
+// triangles; on circles that is exact. At most a quarter of the domain, for patches of one or two pieces.
+constexpr float kWidestStep = 0.25f;
 // Twice the area over the longest edge squared under which a triangle is left out: float sines of whole turns
 // make slivers of 1e-7 at poles; the flattest wanted triangle (a column seen along its shaft) has 1e-3.
 constexpr float kMinFlatness = 1e-5f;
@@ -35,16 +35,30 @@ void appendCorners(Mesh& mesh, const std::array<glm::vec3, 4>& p, const std::arr
 }
 
 glm::vec3 patchNormal(const Patch& patch, float u, float v) {
-    // At a pole dp/du vanishes: there, look from a little inside.
-    for (float inside : {0.0f, 4.0f, 16.0f}) {
-        const float vIn = v + (v < 0.5f ? inside : -inside) * kDerivativeStep;
-        const glm::vec3 du =
-            patch.position(u + kDerivativeStep, vIn) - patch.position(u - kDerivativeStep, vIn);
-        const glm::vec3 dv =
-            patch.position(u, vIn + kDerivativeStep) - patch.position(u, vIn - kDerivativeStep);
+    const float stepU = std::min(1.0f / float(patch.nu), kWidestStep);
+    const float stepV = std::min(1.0f / float(patch.nv), kWidestStep);
+    // The mean direction of the steps before and after, not their sum: a fold's long flank would outweigh its
+    // tip.
+    auto along = [](glm::vec3 before, glm::vec3 here, glm::vec3 after) {
+        const glm::vec3 a = here - before, b = after - here;
+        const float la = glm::length(a), lb = glm::length(b);
+        return ((la > 0 ? a / la : a) + (lb > 0 ? b / lb : b)) * std::max(la, lb);
+    };
+    auto alongU = [&](float at) {
+        return along(patch.position(u - stepU, at), patch.position(u, at), patch.position(u + stepU, at));
+    };
+    auto alongV = [&](float at) {
+        return along(patch.position(u, at - stepV), patch.position(u, at), patch.position(u, at + stepV));
+    };
+    // Half a step inside of the patch: where a derivative vanishes, it is taken there.
+    const float inside = v + (v < 0.5f ? 0.5f : -0.5f) * stepV;
+    glm::vec3 du = alongU(v), dv = alongV(v);
+    if (glm::length(du) < 1e-3f * glm::length(dv)) du = alongU(inside);  // a pole
+    for (int attempt = 0; attempt < 2; ++attempt) {
         const glm::vec3 n = glm::cross(du, dv) * (patch.flip ? -1.0f : 1.0f);
-        const float length = glm::length(n);
-        if (length > 1e-5f * (glm::dot(du, du) + glm::dot(dv, dv)) && length > 0) return n / length;
+        if (glm::length(n) > 1e-3f * glm::length(du) * glm::length(dv)) return glm::normalize(n);
+        du = alongU(inside);
+        dv = alongV(inside);
     }
     return {0, 1, 0};
 }
@@ -168,8 +182,10 @@ void appendPatch(Mesh& mesh, const Patch& patch) {
         for (int i = 0; i <= patch.nu; ++i) {
             const float u = float(i) / float(patch.nu);
             const float v = float(j) / float(patch.nv);
-            appendVertex(mesh, patch.position(u, v), patchNormal(patch, u, v),
-                         patch.uvOffset + patch.uvScale * glm::vec2(u, 1 - v));
+            const glm::vec3 position = patch.position(u, v);
+            appendVertex(
+                mesh, position, patchNormal(patch, u, v),
+                patch.uvOf ? patch.uvOf(position) : patch.uvOffset + patch.uvScale * glm::vec2(u, 1 - v));
         }
     auto appendTriangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         const glm::vec3 e1 = mesh.positions[b] - mesh.positions[a];

@@ -52,6 +52,7 @@ struct Patch {
     std::function<glm::vec3(float u, float v)> position;
     glm::vec2 uvScale{1.0f};  // uv = uvOffset + uvScale * (u, 1 - v): texture rows run down from v = 1
     glm::vec2 uvOffset{0.0f};
+    std::function<glm::vec2(glm::vec3 position)> uvOf;  // if set: the uv instead, for flat faces cut oddly
     bool flip = false;
     std::size_t triangleCount() const { return 2 * std::size_t(nu) * std::size_t(nv); }
 };
