@@ -53,6 +53,7 @@ struct AutoFloat {
     bool isAuto = true;
     float value = 0;
     float resolve(float automatic) const { return isAuto ? automatic : value; }
+    bool operator==(const AutoFloat&) const = default;
 };
 
 // Defects of the original program that can be switched back on (docs/guide/thesis_mode.md lists each).
@@ -85,6 +86,7 @@ struct ConesSettings {
     AutoFloat occlusionDistance;       // m, of component occlusion; auto: a tenth of the grid's longest side
     int bounces = 1;                   // of indirect light; 0: only light that comes straight from lights; 0..8
     int voxelLevel = 0;                // level shown by component voxels; 0..6
+    bool operator==(const ConesSettings&) const = default;
 };
 
 struct ImageSettings {

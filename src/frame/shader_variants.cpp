@@ -8,9 +8,11 @@
 
 #include "base/log.h"
 #include "conelight/shaders.h"
+#include "gather/cone_gather.h"
 #include "image/debug_view.h"
 #include "light/shadow_maps.h"
 #include "view/gbuffer.h"
+#include "voxels/radiance_volume.h"
 
 namespace conelight {
 namespace {
@@ -41,6 +43,8 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     };
     add(light::ShadowMaps::programDescs());
     add(view::GBuffer::programDescs());
+    add(voxels::RadianceVolume::programDescs());
+    add(gather::ConeGather::programDescs());
     add(image::debugViewProgramDescs());
     return all;
 }

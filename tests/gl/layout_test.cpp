@@ -6,7 +6,9 @@
 #include <regex>
 #include <set>
 
+#include "shared/cones.h"
 #include "shared/frame.h"
+#include "shared/radiance_volume.h"
 #include "shared/scene.h"
 #include "shared/voxels.h"
 #include "support/gl_fixture.h"
@@ -95,6 +97,10 @@ const std::vector<Struct>& table() {
             falloff, customFalloff, firstView, viewCount, flags, pad0),
         ROW(VoxelGrid, origin, voxelSize, sizeX, sizeY, sizeZ, voxelCount, bricksX, bricksY, bricksZ,
             faceCount, inverseVoxelSize, occupiedBricks, pad0, pad1),
+        ROW(RadianceVolume, origin, voxelSize, inverseExtent, inverseVoxelSize, extent, maxLevel, sizeX, sizeY,
+            sizeZ, firstVoxelX, maxFootprint, halfTexelX, pad0, pad1),
+        ROW(ConeConstants, count, step, offset, maxDistance, specularMinTan, occlusionDistance, voxelLevel, pad0,
+            cone, aperture),
         ROW(FaceRecord, normal, offsetWeight, bounds, voxel, albedo, radiance, irradiance0, irradiance1),
     };
     return structs;

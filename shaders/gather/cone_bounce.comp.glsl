@@ -1,0 +1,29 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// One more bounce: irradiance / pi at every voxel face, by the same cones as pixels use, from the volume as
+// it is; the caller rebuilds the volume from it. One invocation per face.
+layout(local_size_x = 64) in;  // before linear_index, which asks for it
+#include "lib/cone_trace.glsl"
+#include "lib/linear_index.glsl"
+#include "lib/scene_tables.glsl"
+#include "lib/voxel_grid.glsl"
+#include "lib/voxel_record.glsl"
+layout(std430, binding = BINDING_VOXEL_FACES) buffer Faces { FaceRecord faces[]; };
+
+void main() {
+    uint index = linearIndex();
+    bool inside = index < grid.faceCount;
+    FaceRecord face = faces[min(index, grid.faceCount - 1u)];
+    vec3 normal = faceNormal(face);
+    vec3 origin = worldFromGrid(faceCenter(face)) + cones.offset * normal;
+    uint samples;
+    vec3 irradiance =
+        gatherCones(origin, normal, inside ? cones.count : 0u, frame.sky, cones.maxDistance, 0.0, samples)
+            .rgb;
+    if (!inside) return;
+    uint updates = min((face.irradiance1 >> 16) + 1u, 65535u);
+    // Below the largest half.
+    irradiance = min(irradiance, 65000.0);
+    faces[index].irradiance0 = packHalf2x16(irradiance.rg);
+    faces[index].irradiance1 = packHalf2x16(vec2(irradiance.b, 0.0)) | (updates << 16);
+}

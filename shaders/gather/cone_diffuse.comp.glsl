@@ -1,0 +1,36 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// G-buffer -> irradiance / pi by a set of cones (rgb), and how much of the hemisphere is open (a).
+//   OCCLUSION      short cones whose surfaces fade with distance, for component occlusion; rgb is of no use
+//   COUNT_LOOKUPS  adds the texture fetches to the counters
+#if !defined(OCCLUSION) || !defined(COUNT_LOOKUPS)
+#error OCCLUSION and COUNT_LOOKUPS must be 0 or 1
+#endif
+#include "lib/cone_trace.glsl"
+#include "lib/gbuffer.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(rgba16f, binding = 0) writeonly uniform image2D result;
+#if COUNT_LOOKUPS
+layout(std430, binding = BINDING_STORAGE_PASS) buffer LookupCounters { uint lookups[]; };
+#endif
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    Surface s;
+    bool seen = fetchSurface(min(pixel, imageSize(result) - 1), s) && all(lessThan(pixel, imageSize(result)));
+    vec3 origin = s.position + cones.offset * s.geometricNormal;
+    uint samples;
+#if OCCLUSION
+    vec4 gathered = gatherCones(origin, s.normal, seen ? cones.count : 0u, frame.sky, cones.occlusionDistance,
+                                1.0 / max(cones.occlusionDistance, 1e-9), samples);
+#else
+    // Metals and unlit surfaces have no diffuse part.
+    bool matt = seen && !s.unlit && s.metallic < 1.0;
+    vec4 gathered =
+        gatherCones(origin, s.normal, matt ? cones.count : 0u, frame.sky, cones.maxDistance, 0.0, samples);
+#endif
+    imageStore(result, pixel, gathered);
+#if COUNT_LOOKUPS
+    atomicAdd(lookups[OCCLUSION == 1 ? LOOKUPS_OCCLUSION : LOOKUPS_DIFFUSE], samples * kFetchesPerSample);
+#endif
+}

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// Cones through the radiance volume (docs/theory/4_gather.md; Crassin et al. 2011, section 5): apex, axis,
+// aperture -> premultiplied radiance and opacity.
+//
+// The way is cut into stretches that are a fixed part of the footprint; each is sampled once, in its middle,
+// in the level whose texels have the footprint's size. Stretches tile the way from the apex to the end
+// without gap, so that a wall counts once wherever it lies between samples.
+//
+//   DIRECTIONAL  the volume has six blocks, of which a cone reads the three that look towards it
+//   AREA         opacity: projected area of connected surface, which adds up until the cone is full; else fog
+#if !defined(DIRECTIONAL) || !defined(AREA)
+#error DIRECTIONAL and AREA must be 0 or 1
+#endif
+#include "lib/radiance_volume.glsl"
+#include "shared/cones.h"
+layout(std140, binding = BINDING_CONES) uniform ConeBlock { ConeConstants cones; };
+layout(binding = UNIT_RADIANCE_VOLUME) uniform sampler3D radianceVolume;
+
+#if DIRECTIONAL
+const uint kFetchesPerSample = 3u;
+#else
+const uint kFetchesPerSample = 1u;
+#endif
+
+// A cone that is this full is taken for full. 1/128: half a step of an 8-bit picture.
+const float kFullOpacity = 1.0 - 1.0 / 128.0;
+// A march ends here whatever happens, below the 65,535 turns at which llvmpipe ends it silently. The longest
+// one, 64 cones at step 0.1 in 512^3, takes 24,000.
+const uint kMaxSamples = 60000u;
+
+// One cone on its way.
+struct March {
+    vec3 origin;
+    vec3 direction;  // unit
+    float tanHalf;
+    float t;        // how far it got, m
+    float end;      // m
+    float fade;     // 1/m: surfaces count less by this per metre; 0 for light
+    vec4 gathered;  // premultiplied radiance, opacity
+};
+
+// Distance at which a ray leaves the volume, 0 when it never is inside.
+float volumeExit(vec3 origin, vec3 direction) {
+    // 1e-9 m per m: parallel to a side; keeps 0/0 out.
+    vec3 d = mix(direction, vec3(1e-9), lessThan(abs(direction), vec3(1e-9)));
+    vec3 a = (volume.origin - origin) / d;
+    vec3 b = (volume.origin + volume.extent - origin) / d;
+    vec3 near = min(a, b);
+    vec3 far = max(a, b);
+    float enter = max(max(near.x, near.y), max(near.z, 0.0));
+    float leave = min(far.x, min(far.y, far.z));
+    return leave > enter ? leave : 0.0;
+}
+
+March startMarch(vec3 origin, vec3 direction, float tanHalf, float maxDistance, float fade) {
+    float end = min(volumeExit(origin, direction), maxDistance);
+    return March(origin, direction, tanHalf, 0.0, end, fade, vec4(0.0));
+}
+
+// Diameter of the cone at distance t, between a voxel and the largest footprint (eq. 4.1).
+float footprint(float tanHalf, float t) {
+    return clamp(2.0 * tanHalf * t, volume.voxelSize, volume.maxFootprint);
+}
+
+// Premultiplied radiance and opacity of a stretch of length `delta` about p, in texels of size `size`.
+vec4 sampleStretch(vec3 p, vec3 direction, float size, float delta) {
+    float level = log2(size * volume.inverseVoxelSize);  // eq. 4.2
+    vec3 q = (p - volume.origin) * volume.inverseExtent;
+    float part = delta / size;
+#if DIRECTIONAL
+    // Stay half a texel of the coarser of both levels away from the neighbouring block.
+    float inset = exp2(ceil(level)) * volume.halfTexelX;
+    q.x = clamp(q.x, inset, 1.0 - inset);
+    // A cone that goes towards +x meets faces that look towards -x.
+    vec3 block =
+        vec3(direction.x > 0.0 ? 1.0 : 0.0, direction.y > 0.0 ? 3.0 : 2.0, direction.z > 0.0 ? 5.0 : 4.0);
+    vec3 u = (q.x + block) * (1.0 / 6.0);
+    vec4 x = textureLod(radianceVolume, vec3(u.x, q.yz), level);
+    vec4 y = textureLod(radianceVolume, vec3(u.y, q.yz), level);
+    vec4 z = textureLod(radianceVolume, vec3(u.z, q.yz), level);
+#if AREA
+    // Coverage along axis k is area * n.k: the sum with |d.k| is area * |n.d|, what the cone sees of it.
+    vec3 weight = abs(direction);
+#else
+    vec3 weight = direction * direction;
+#endif
+    vec4 s = x * weight.x + y * weight.y + z * weight.z;
+#else
+    vec4 s = textureLod(radianceVolume, q, level);
+#endif
+#if AREA
+    return s * part;
+#else
+    // Beer's law (eq. 4.4): a texel's opacity is that of crossing the whole of it.
+    float opacity = 1.0 - pow(1.0 - min(s.a, 0.9999), part);
+    return s * (opacity / max(s.a, 1e-6));
+#endif
+}
+
+// One more stretch.
+void stepMarch(inout March m, float step) {
+    float delta = min(step * footprint(m.tanHalf, m.t), max(m.end - m.t, 0.0));
+    float middle = m.t + 0.5 * delta;
+    vec4 s = sampleStretch(m.origin + middle * m.direction, m.direction, footprint(m.tanHalf, middle), delta);
+    s *= max(1.0 - middle * m.fade, 0.0);
+    m.t += delta;
+#if AREA
+    m.gathered += s * min((1.0 - m.gathered.a) / max(s.a, 1e-6), 1.0);
+#else
+    m.gathered += s * (1.0 - m.gathered.a);  // eq. 4.3
+#endif
+}
+
+bool isFinished(March m) { return m.t >= m.end || m.gathered.a >= kFullOpacity; }
+
+// What the cone sees in the end: a full one is all surface, another sees the sky behind.
+vec3 marchedRadiance(March m, vec3 sky) {
+    if (m.gathered.a >= kFullOpacity) return m.gathered.rgb / m.gathered.a;
+    return m.gathered.rgb + (1.0 - m.gathered.a) * sky;
+}
+
+// Orthonormal frame with the third axis n (Frisvad 2012, "Building an Orthonormal Basis from a 3D Unit Vector
+// Without Normalization"), with its one singular direction turned to -y: downward surfaces are seen least.
+mat3 frameAbout(vec3 n) {
+    if (n.y < -0.9999) return mat3(vec3(1.0, 0.0, 0.0), vec3(0.0, 0.0, 1.0), n);
+    float a = 1.0 / (1.0 + n.y);
+    float b = -n.x * n.z * a;
+    return mat3(vec3(1.0 - n.x * n.x * a, -n.x, b), vec3(b, -n.z, 1.0 - n.z * n.z * a), n);
+}
+
+// Irradiance / pi (rgb) at a surface by the set of cones of ConeBlock (eq. 4.5), and how much of the cosine-
+// weighted hemisphere is open (a). `count` cones from the front of the table; 0: none, with little work done.
+// One loop over all samples of all cones: nested loops would wait for the longest cone of eight pixels once
+// per cone.
+vec4 gatherCones(vec3 origin, vec3 normal, uint count, vec3 sky, float maxDistance, float fade,
+                 out uint samples) {
+    mat3 frame = frameAbout(normal);
+    vec4 sum = vec4(0.0);
+    uint cone = 0u;
+    samples = 0u;
+    March m = startMarch(origin, frame * cones.cone[0].xyz, cones.aperture[0].x, maxDistance, fade);
+    if (count == 0u) return sum;
+    do {
+        stepMarch(m, cones.step);
+        ++samples;
+        if (isFinished(m)) {
+            float open = m.gathered.a >= kFullOpacity ? 0.0 : 1.0 - m.gathered.a;
+            sum += cones.cone[cone].w * vec4(marchedRadiance(m, sky), open);
+            ++cone;
+            uint next = min(cone, MAX_CONES - 1u);
+            m = startMarch(origin, frame * cones.cone[next].xyz, cones.aperture[next].x, maxDistance, fade);
+        }
+    } while (cone < count && samples < kMaxSamples);
+    return sum;
+}

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// The radiance volume: what C++ and GLSL share. Written by src/voxels/radiance_volume.cpp, read by cones
+// (lib/cone_trace.glsl) and by the view of voxels.
+//
+// One RGBA16F 3D texture with levels, premultiplied radiance and opacity. Level l has texels of 2^l voxels.
+// Six directions are six blocks side by side along x, block k for faces that look towards direction k of
+// shared/voxels.h: one texture, so that the three blocks a cone needs are chosen by coordinate.
+//
+//   x ->  | margin | grid | margin || margin | grid | margin || ...      block width: a multiple of
+//   2^maxLevel
+// The margin (half a texel of the coarsest level) keeps the grid clear of the zone in which coordinates are
+// clamped so that filtering never reaches the neighbouring block. Isotropic volumes need none.
+#pragma once
+#include "shared/prelude.h"
+
+#define BINDING_RADIANCE_VOLUME 3  // uniform block
+#define UNIT_RADIANCE_VOLUME 8     // sampler3D
+
+CONELIGHT_SHARED_BEGIN
+
+struct RadianceVolume {
+    vec3 origin;  // world position of the lowest corner of the (first) block, m
+    float voxelSize;
+    // ---- 16 B
+    vec3 inverseExtent;  // 1 / extent of a block, 1/m
+    float inverseVoxelSize;
+    // ---- 32 B
+    vec3 extent;  // of a block, m
+    float maxLevel;
+    // ---- 48 B
+    uint sizeX;  // texels of level 0 per block
+    uint sizeY;
+    uint sizeZ;
+    uint firstVoxelX;  // texel x of the grid's voxel 0; y and z start at 0
+    // ---- 64 B
+    float maxFootprint;  // m
+    float halfTexelX;    // 0.5 / sizeX
+    uint pad0;
+    uint pad1;
+};  // 80 B
+
+CONELIGHT_SHARED_END
+#ifdef __cplusplus
+static_assert(sizeof(conelight::gpu::RadianceVolume) == 80);
+#endif

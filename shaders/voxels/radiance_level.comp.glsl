@@ -1,0 +1,94 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// A level of the radiance volume from the next finer one: each texel from eight. docs/theory/2_voxels.md,
+// "Levels".
+//   DIRECTIONAL  four columns of two texels along the block's direction, front one first, then their mean
+//   AREA         a column's opacities add up (connected surface) instead of hiding each other (fog).
+//   Isotropic:
+//                areas add up, and a texel of twice the size shows four times the area
+//   SPARSE       one invocation per texel of an occupied brick (levels 1 and 2), else one per texel
+#if !defined(DIRECTIONAL) || !defined(AREA) || !defined(SPARSE)
+#error DIRECTIONAL, AREA and SPARSE must be 0 or 1
+#endif
+#include "lib/radiance_volume.glsl"
+#if SPARSE
+layout(local_size_x = 64) in;  // before linear_index, which asks for it
+#include "lib/linear_index.glsl"
+#include "lib/voxel_address.glsl"
+#include "lib/voxel_grid.glsl"
+layout(std430, binding = BINDING_STORAGE_PASS) readonly buffer OccupiedBricks { uint occupiedBricks[]; };
+#else
+layout(local_size_x = 8, local_size_y = 4, local_size_z = 4) in;
+#endif
+layout(rgba16f, binding = 0) readonly uniform image3D fine;
+layout(rgba16f, binding = 1) writeonly uniform image3D coarse;
+
+// Opacity and colour of `front` with `back` behind it, both premultiplied.
+vec4 compositeColumn(vec4 front, vec4 back) {
+#if AREA
+    float visible = min(back.a, 1.0 - front.a) / max(back.a, 1e-6);
+    return front + back * visible;
+#else
+    return front + (1.0 - front.a) * back;
+#endif
+}
+
+void main() {
+    int blockWidth = imageSize(coarse).x;
+#if DIRECTIONAL
+    blockWidth /= 6;
+#endif
+#if SPARSE
+    // Level 1 has 2^3 texels per brick, level 2 one.
+    int edge = blockWidth * 2 == int(volume.sizeX) ? 2 : 1;
+    int perBrick = edge * edge * edge;
+    int index = int(linearIndex());
+    int inBrick = index % perBrick;
+    int brickBlock = index / perBrick;
+#if DIRECTIONAL
+    int block = brickBlock % 6;
+    uint number = uint(brickBlock / 6);
+#else
+    int block = 0;
+    uint number = uint(brickBlock);
+#endif
+    if (number >= grid.occupiedBricks) return;
+    ivec3 local = ivec3(inBrick % edge, (inBrick / edge) % edge, inBrick / (edge * edge));
+    ivec3 texel = unpackVoxel(occupiedBricks[number]) * edge + local;
+    texel.x += int(volume.firstVoxelX) * edge / 4 + block * blockWidth;
+#else
+    ivec3 texel = ivec3(gl_GlobalInvocationID);
+    if (any(greaterThanEqual(texel, imageSize(coarse)))) return;
+    int block = texel.x / blockWidth;
+#endif
+
+    // Four columns of two texels along axis `along`; the loads are addressed, not the loaded values indexed,
+    // which a software driver would do through memory.
+    int axis = block >> 1;
+    ivec3 along = ivec3(axis == 0, axis == 1, axis == 2);
+    ivec3 across = ivec3(axis != 0, axis == 0, 0);
+    ivec3 over = ivec3(1) - along - across;
+    // A face looking towards +x is seen from +x: the texel with the larger coordinate is in front.
+    ivec3 front = 2 * texel + ((block & 1) == 0 ? along : ivec3(0));
+    ivec3 back = 2 * texel + ((block & 1) == 0 ? ivec3(0) : along);
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < 4; ++i) {
+        ivec3 column = (i & 1) * across + (i >> 1) * over;
+        vec4 nearer = imageLoad(fine, front + column);
+        vec4 farther = imageLoad(fine, back + column);
+#if DIRECTIONAL
+        sum += compositeColumn(nearer, farther);
+#else
+        sum += nearer + farther;
+#endif
+    }
+#if DIRECTIONAL || AREA
+    sum *= 0.25;
+#else
+    sum *= 0.125;
+#endif
+#if !DIRECTIONAL && AREA
+    sum /= max(sum.a, 1.0);
+#endif
+    imageStore(coarse, texel, sum);
+}

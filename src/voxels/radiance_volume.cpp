@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: MIT
+#include "voxels/radiance_volume.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/assert.h"
+#include "gl/gl.h"
+#include "shared/bindings.h"
+
+namespace conelight::voxels {
+namespace {
+
+constexpr unsigned kImageSource = 0;
+constexpr unsigned kImageTarget = 1;
+
+// Levels of which only the texels of occupied bricks are computed; the rest is cleared. Level 2 is one texel
+// per brick of 4^3.
+constexpr int kSparseLevels = 2;
+
+gl::ProgramDesc scatterDesc(int blocks) {
+    return {{"voxels/radiance_scatter.comp.glsl"}, {{"DIRECTIONAL", blocks == 6 ? "1" : "0"}}};
+}
+
+gl::ProgramDesc levelDesc(int blocks, OpacityModel opacity, bool sparse) {
+    return {{"voxels/radiance_level.comp.glsl"},
+            {{"DIRECTIONAL", blocks == 6 ? "1" : "0"},
+             {"AREA", opacity == OpacityModel::Area ? "1" : "0"},
+             {"SPARSE", sparse ? "1" : "0"}}};
+}
+
+int roundUp(int value, int multiple) { return (value + multiple - 1) / multiple * multiple; }
+
+}  // namespace
+
+gpu::RadianceVolume RadianceLayout::packed() const {
+    gpu::RadianceVolume v{};
+    const float h = grid.voxelSize;
+    v.origin = grid.origin - glm::vec3(static_cast<float>(firstVoxelX) * h, 0, 0);
+    v.voxelSize = h;
+    v.inverseVoxelSize = 1.0f / h;
+    v.extent = glm::vec3(size) * h;
+    v.inverseExtent = 1.0f / v.extent;
+    v.maxLevel = static_cast<float>(maxLevel);
+    v.sizeX = static_cast<std::uint32_t>(size.x);
+    v.sizeY = static_cast<std::uint32_t>(size.y);
+    v.sizeZ = static_cast<std::uint32_t>(size.z);
+    v.firstVoxelX = static_cast<std::uint32_t>(firstVoxelX);
+    v.maxFootprint = maxFootprint * h;
+    v.halfTexelX = 0.5f / static_cast<float>(size.x);
+    return v;
+}
+
+RadianceLayout radianceLayout(const VoxelGrid& grid, VolumeDirections directional, float maxFootprint) {
+    RadianceLayout layout;
+    layout.grid = grid;
+    layout.blocks = directional == VolumeDirections::Six ? 6 : 1;
+    const int longest = std::max({grid.size.x, grid.size.y, grid.size.z});
+    layout.maxFootprint =
+        std::clamp(maxFootprint * static_cast<float>(longest), 1.0f, static_cast<float>(longest));
+    // The coarsest level is the first whose texels are at least as large as the largest footprint.
+    layout.maxLevel = std::max(static_cast<int>(std::ceil(std::log2(layout.maxFootprint) - 1e-4f)), 0);
+    const int texel = 1 << layout.maxLevel;
+    // The margin is a multiple of 4, so that bricks of voxels stay bricks of texels.
+    layout.firstVoxelX = layout.blocks == 6 ? roundUp(std::max(texel / 2, 1), 4) : 0;
+    layout.size = {roundUp(grid.size.x + 2 * layout.firstVoxelX, texel), roundUp(grid.size.y, texel),
+                   roundUp(grid.size.z, texel)};
+    return layout;
+}
+
+RadianceVolume::RadianceVolume(const RadianceLayout& layout)
+    : layout_(layout),
+      texture_({GL_TEXTURE_3D, GL_RGBA16F, layout.blocks * layout.size.x, layout.size.y, layout.size.z,
+                layout.maxLevel + 1},
+               "radiance volume"),
+      block_(sizeof(gpu::RadianceVolume), "radiance volume block") {
+    block_.update(layout.packed());
+    texture_.parameter(GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    texture_.parameter(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    for (const unsigned axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+        texture_.parameter(axis, GL_CLAMP_TO_EDGE);
+}
+
+void RadianceVolume::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const SurfaceVoxels& surface,
+                           OpacityModel opacity) {
+    CONELIGHT_ASSERT(surface.grid() == layout_.grid, "the volume is laid out for another grid");
+    block_.bindUniform(BINDING_RADIANCE_VOLUME);
+    {
+        gl::PassScope pass(profiler, "radiance volume");
+        for (int level = 0; level <= std::min(kSparseLevels, layout_.maxLevel); ++level)
+            texture_.clear(level, GL_RGBA, GL_FLOAT, nullptr);
+        texture_.bindImage(kImageTarget, 0, GL_WRITE_ONLY);
+        programs.get(scatterDesc(layout_.blocks)).dispatchLinear(surface.voxelCount());
+    }
+    gl::PassScope pass(profiler, "radiance levels");
+    buildLevels(programs, surface, opacity);
+    gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
+}
+
+void RadianceVolume::buildLevels(gl::ProgramLibrary& programs, const SurfaceVoxels& surface,
+                                 OpacityModel opacity) {
+    surface.occupiedBricks().bindStorage(BINDING_STORAGE_PASS);
+    for (int level = 1; level <= layout_.maxLevel; ++level) {
+        gl::barrier(gl::Access::ImageAccess);
+        texture_.bindImage(kImageSource, level - 1, GL_READ_ONLY);
+        texture_.bindImage(kImageTarget, level, GL_WRITE_ONLY);
+        const bool sparse = level <= kSparseLevels;
+        const gl::Program& program = programs.get(levelDesc(layout_.blocks, opacity, sparse));
+        if (sparse) {
+            const std::size_t texelsPerBrick = level == 1 ? 8 : 1;
+            program.dispatchLinear(surface.occupiedBrickCount() * texelsPerBrick *
+                                   static_cast<std::size_t>(layout_.blocks));
+        } else {
+            program.dispatch(texture_.width(level), texture_.height(level), texture_.depth(level));
+        }
+    }
+}
+
+void RadianceVolume::bind() const {
+    block_.bindUniform(BINDING_RADIANCE_VOLUME);
+    texture_.bind(UNIT_RADIANCE_VOLUME);
+}
+
+std::vector<gl::ProgramDesc> RadianceVolume::programDescs() {
+    std::vector<gl::ProgramDesc> descs;
+    for (const int blocks : {1, 6}) {
+        descs.push_back(scatterDesc(blocks));
+        for (const OpacityModel opacity : {OpacityModel::Fog, OpacityModel::Area})
+            for (const bool sparse : {false, true}) descs.push_back(levelDesc(blocks, opacity, sparse));
+    }
+    return descs;
+}
+
+}  // namespace conelight::voxels
