@@ -18,7 +18,10 @@ std::atomic<int> errorCount{0};
 std::mutex lastErrorMutex;
 std::string lastError;
 
-void handle(GLenum type, GLenum severity, const std::string& text) {
+void handle(GLenum source, GLenum type, GLenum severity, const std::string& text) {
+    // Program throws these with the lines mapped to files; a shader that fails while it is edited is no
+    // fault.
+    if (source == GL_DEBUG_SOURCE_SHADER_COMPILER) return;
     if (type == GL_DEBUG_TYPE_ERROR) {
         ++errorCount;
         {
@@ -31,12 +34,12 @@ void handle(GLenum type, GLenum severity, const std::string& text) {
     }
 }
 
-void GLAPIENTRY onMessage(GLenum, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* message,
-                          const void*) noexcept {
+void GLAPIENTRY onMessage(GLenum source, GLenum type, GLuint, GLenum severity, GLsizei length,
+                          const GLchar* message, const void*) noexcept {
     // Nothing may be thrown through the driver: a log callback that throws loses its message, not the
     // process.
     try {
-        handle(type, severity,
+        handle(source, type, severity,
                length >= 0 ? std::string(message, static_cast<std::size_t>(length)) : std::string(message));
     } catch (...) {
     }

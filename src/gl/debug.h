@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // KHR_debug: errors of the driver go to the log and are counted; a test fails when the count is not zero.
-// Other messages of high severity go to the log as warnings, the rest nowhere. The count is process-wide.
+// Other messages of high severity go to the log as warnings, the rest and those of the shader compiler, which
+// Program reports, nowhere. The count is process-wide.
 #pragma once
 
 #include <string>

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+// Programs: errors with file and line, rebuilding of changed shaders, and the three ways to dispatch.
+#include "gl/program.h"
+
+#include <map>
+
+#include "conelight/error.h"
+#include "gl/draw.h"
+#include "gl/pass.h"
+#include "support/gl_fixture.h"
+
+namespace conelight::test {
+namespace {
+
+const std::string kHead = "#version 450 core\nlayout(local_size_x = 8) in;\n";
+
+// A provider whose files the test changes.
+struct Files {
+    std::map<std::string, std::string> texts;
+    gl::ShaderProvider provider() {
+        return [this](const std::string& path) -> std::optional<std::string> {
+            const auto found = texts.find(path);
+            return found != texts.end() ? std::optional<std::string>(found->second)
+                                        : gl::embeddedShaderProvider()(path);
+        };
+    }
+};
+
+std::string failureOf(Files& files, const gl::ProgramDesc& desc) {
+    try {
+        const gl::Program program(files.provider(), desc);
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::Runtime);
+        return error.what();
+    }
+    return "no error";
+}
+
+bool contains(const std::string& text, const std::string& part) {
+    return text.find(part) != std::string::npos;
+}
+
+// Writes `value` into word 0 of storage buffer 8.
+std::string writer(int value) {
+    return kHead + "layout(std430, binding = 8) buffer Out { uint word; };\nvoid main() { word = " +
+           std::to_string(value) + "u; }\n";
+}
+
+std::uint32_t run(const gl::Program& program) {
+    gl::Buffer out(16, "out");
+    out.bindStorage(8);
+    program.dispatch(8);
+    return out.read<std::uint32_t>(1)[0];
+}
+
+class ProgramTest : public GlTest {
+  protected:
+    Files files;
+};
+
+}  // namespace
+
+TEST_F(ProgramTest, CompileErrorNamesFileLineAndText) {
+    files.texts["a.comp.glsl"] = kHead + "#include \"lib/broken.glsl\"\nvoid main() { broken(); }\n";
+    files.texts["lib/broken.glsl"] = "// head\n\nvoid broken() { int x = undeclaredName; }\n";
+    const std::string message = failureOf(files, {{"a.comp.glsl"}, {{"N", "1"}}});
+    EXPECT_EQ(message.rfind("a.comp.glsl: does not compile:\nlib/broken.glsl:3: ", 0), 0u) << message;
+    EXPECT_TRUE(contains(message, "undeclaredName")) << message;
+    EXPECT_TRUE(contains(message, "\n    void broken() { int x = undeclaredName; }")) << message;
+    EXPECT_EQ(gl::liveObjectCount(), 0u);
+}
+
+TEST_F(ProgramTest, LinkErrorNamesTheProgram) {
+    files.texts["a.vert.glsl"] =
+        "#version 450 core\nlayout(location = 0) out vec2 v;\nvoid main() { v = vec2(0); gl_Position = "
+        "vec4(0); }\n";
+    files.texts["a.frag.glsl"] =
+        "#version 450 core\nlayout(location = 0) in mat4 v;\nlayout(location = 0) out vec4 c;\nvoid main() { "
+        "c = v[0]; }\n";
+    const std::string message = failureOf(files, {{"a.vert.glsl", "a.frag.glsl"}, {{"B", "2"}}});
+    EXPECT_EQ(message.rfind("a.vert.glsl a.frag.glsl[B=2]: does not link: ", 0), 0u) << message;
+    EXPECT_GT(message.size(), 60u) << "the driver's reason is missing";
+    EXPECT_EQ(gl::liveObjectCount(), 0u);
+}
+
+TEST_F(ProgramTest, StageComesFromTheName) {
+    files.texts["a.glsl"] = "#version 450 core\n";
+    EXPECT_EQ(failureOf(files, {{"a.glsl"}, {}}),
+              "a.glsl: no stage in the name; .vert .geom .frag or .comp would be right");
+    EXPECT_TRUE(
+        contains(failureOf(files, {{"none.comp.glsl"}, {}}), "there is no shader file 'none.comp.glsl'"));
+    EXPECT_EQ(gl::liveObjectCount(), 0u);
+}
+
+TEST_F(ProgramTest, LibraryBuildsEachVariantOnce) {
+    files.texts["a.comp.glsl"] =
+        kHead + "layout(std430, binding = 8) buffer Out { uint word; };\nvoid main() { word = N; }\n";
+    gl::ProgramLibrary library(files.provider());
+    const gl::Program& three = library.compute("a.comp.glsl", {{"N", "3"}});
+    const gl::Program& four = library.compute("a.comp.glsl", {{"N", "4"}});
+    EXPECT_EQ(&three, &library.compute("a.comp.glsl", {{"N", "3"}}));
+    EXPECT_EQ(gl::liveObjectCount(), 2u);
+    EXPECT_EQ(run(three), 3u);
+    EXPECT_EQ(run(four), 4u);
+    // A variant that fails is not kept: the next request tries again.
+    EXPECT_THROW(library.compute("a.comp.glsl"), Error);
+    EXPECT_EQ(gl::liveObjectCount(), 2u);
+    EXPECT_EQ(library.sourceFiles(), std::vector<std::string>{"a.comp.glsl"});
+}
+
+TEST_F(ProgramTest, ReloadSwapsOnSuccessAndKeepsOnFailure) {
+    files.texts["a.comp.glsl"] = writer(1);
+    files.texts["b.comp.glsl"] = writer(10);
+    gl::ProgramLibrary library(files.provider());
+    const gl::Program& a = library.compute("a.comp.glsl");
+    const gl::Program& b = library.compute("b.comp.glsl");
+    // Success: the same object runs the new text; programs of other files stay.
+    const gl::Name untouched = b.name();
+    files.texts["a.comp.glsl"] = writer(2);
+    files.texts["b.comp.glsl"] = writer(20);
+    EXPECT_TRUE(library.reload({"a.comp.glsl", "unknown.glsl"}).empty());
+    EXPECT_EQ(run(a), 2u);
+    EXPECT_EQ(b.name(), untouched);
+    EXPECT_EQ(run(b), 10u);
+    // Failure: the old one runs on, and the message says where.
+    files.texts["a.comp.glsl"] = writer(3) + "oops\n";
+    const std::vector<std::string> failures = library.reload({"a.comp.glsl"});
+    ASSERT_EQ(failures.size(), 1u);
+    EXPECT_TRUE(contains(failures[0], "a.comp.glsl:5")) << failures[0];
+    EXPECT_EQ(run(a), 2u);
+    EXPECT_EQ(gl::liveObjectCount(), 2u);
+    files.texts["a.comp.glsl"] = writer(4);
+    EXPECT_TRUE(library.reload({"a.comp.glsl"}).empty());
+    EXPECT_EQ(run(a), 4u);
+}
+
+// The fault may sit in a file that the running version does not include.
+TEST_F(ProgramTest, ReloadAfterAFailureWatchesNewIncludes) {
+    files.texts["a.comp.glsl"] = writer(1);
+    gl::ProgramLibrary library(files.provider());
+    const gl::Program& a = library.compute("a.comp.glsl");
+    files.texts["a.comp.glsl"] = kHead + "#include \"lib/new.glsl\"\n" + writer(2).substr(kHead.size());
+    files.texts["lib/new.glsl"] = "oops\n";
+    EXPECT_EQ(library.reload({"a.comp.glsl"}).size(), 1u);
+    files.texts["lib/new.glsl"] = "// mended\n";
+    EXPECT_TRUE(library.reload({"lib/new.glsl"}).empty());
+    EXPECT_EQ(run(a), 2u);
+    EXPECT_EQ(library.sourceFiles(), (std::vector<std::string>{"a.comp.glsl", "lib/new.glsl"}));
+}
+
+TEST_F(ProgramTest, DispatchRoundsUpToWholeGroups) {
+    files.texts["a.comp.glsl"] =
+        "#version 450 core\nlayout(local_size_x = 8, local_size_y = 4, local_size_z = 2) in;\n"
+        "layout(std430, binding = 8) buffer Out { uint count; };\nvoid main() { atomicAdd(count, 1u); }\n";
+    gl::ProgramLibrary library(files.provider());
+    const gl::Program& program = library.compute("a.comp.glsl");
+    EXPECT_EQ(program.groupSize(), glm::ivec3(8, 4, 2));
+    const auto invocations = [&](int x, int y, int z) {
+        gl::Buffer out(16, "out");
+        out.bindStorage(8);
+        program.dispatch(x, y, z);
+        return out.read<std::uint32_t>(1)[0];
+    };
+    EXPECT_EQ(invocations(8, 4, 2), 64u);
+    EXPECT_EQ(invocations(9, 4, 3), 256u);
+    EXPECT_EQ(invocations(1, 1, 1), 64u);
+    EXPECT_EQ(invocations(0, 4, 2), 0u);
+    EXPECT_EQ(invocations(8, -1, 2), 0u);
+}
+
+// Every index below the count exactly once, none lost where groups fold into a second row.
+TEST_F(ProgramTest, LinearDispatchCoversEveryIndexOnce) {
+    const auto shader = [](const std::string& size) {
+        return "#version 450 core\nlayout(" + size +
+               ") in;\n#include \"lib/linear_index.glsl\"\n"
+               "layout(std430, binding = 8) buffer Out { uint hits[]; };\n"
+               "void main() { uint i = linearIndex(); if (i < hits.length()) atomicAdd(hits[i], 1u); }\n";
+    };
+    files.texts["a.comp.glsl"] = shader("local_size_x = 8");
+    files.texts["b.comp.glsl"] = shader("local_size_x = 8, local_size_y = 2, local_size_z = 2");
+    gl::ProgramLibrary library(files.provider());
+    for (const char* name : {"a.comp.glsl", "b.comp.glsl"}) {
+        const gl::Program& program = library.compute(name);
+        const std::size_t row =
+            65535u *
+            static_cast<std::size_t>(program.groupSize().x * program.groupSize().y * program.groupSize().z);
+        for (const std::size_t count : {std::size_t{4}, std::size_t{1000}, row, row + 4, 2 * row + 36}) {
+            const std::vector<std::uint32_t> zeros(count, 0);
+            gl::Buffer hits(zeros, "hits");
+            hits.bindStorage(8);
+            program.dispatchLinear(count);
+            EXPECT_EQ(hits.read<std::uint32_t>(count), std::vector<std::uint32_t>(count, 1))
+                << name << ", " << count;
+        }
+        gl::Buffer hits(64, "hits");
+        hits.bindStorage(8);
+        program.dispatchLinear(0);
+        EXPECT_EQ(hits.read<std::uint32_t>(16), std::vector<std::uint32_t>(16, 0));
+    }
+}
+
+TEST_F(ProgramTest, IndirectDispatchReadsCountsThatAShaderWrote) {
+    files.texts["count.comp.glsl"] = kHead +
+                                     "layout(std430, binding = 9) buffer Groups { uint groups[]; };\n"
+                                     "void main() { if (gl_GlobalInvocationID.x < 3u) groups[4u + "
+                                     "gl_GlobalInvocationID.x] = gl_GlobalInvocationID.x + 2u; }\n";
+    files.texts["work.comp.glsl"] =
+        kHead +
+        "layout(std430, binding = 8) buffer Out { uint count; };\nvoid main() { atomicAdd(count, 1u); }\n";
+    gl::ProgramLibrary library(files.provider());
+    gl::Buffer groups(32, "groups"), out(16, "out");
+    groups.bindStorage(9);
+    out.bindStorage(8);
+    library.compute("count.comp.glsl").dispatch(8);
+    gl::barrier(gl::Access::Indirect);
+    library.compute("work.comp.glsl").dispatchIndirect(groups, 16);
+    EXPECT_EQ(out.read<std::uint32_t>(1)[0], 2u * 3 * 4 * 8);
+    GLint bound = -1;
+    glGetIntegerv(GL_DISPATCH_INDIRECT_BUFFER_BINDING, &bound);
+    EXPECT_EQ(bound, 0);
+}
+
+using ProgramDeathTest = ProgramTest;
+
+TEST_F(ProgramDeathTest, MisuseStopsTheProgram) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    files.texts["a.comp.glsl"] = writer(1);
+    gl::ProgramLibrary library(files.provider());
+    const gl::Program& program = library.compute("a.comp.glsl");
+    gl::Buffer groups(16, "groups");
+    EXPECT_DEATH(program.dispatch(65536 * 8), "too many groups; dispatchLinear folds them");
+    EXPECT_DEATH(program.dispatchIndirect(groups, 8), "reaches past the end");
+    EXPECT_DEATH(gl::Program().dispatch(8), "not a compute program");
+}
+
+}  // namespace conelight::test
