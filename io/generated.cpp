@@ -41,7 +41,7 @@ constexpr GeneratedParameter kAtriumParameters[] = {
     {"triangles", 250000, 1e4, 1e7, true, "wanted, over all instances; met within 20 %"},
     {"sun", 9.5, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
     {"sky", 0.8, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
-    {"lamps", 0.8, 0, 1e4, false, "intensity of each of the four lanterns, W/sr"},
+    {"lamps", 2, 0, 1e4, false, "intensity of each of the four lanterns, W/sr"},
 };
 constexpr GeneratedParameter kGlossyParameters[] = {
     {"roughness", 0.2, 0.02, 1, false, "of the floor"},

@@ -15,6 +15,8 @@ namespace {
 
 constexpr float kPi = glm::pi<float>();
 
+constexpr glm::vec3 kLampColor{1.0f, 0.60f, 0.26f};  // about 2700 K
+
 // Limits between which every budget of 1e4 to 1e7 triangles lies; the count is monotone up to rounding.
 constexpr float kLeastDetail = 0.02f;
 constexpr float kMostDetail = 32.0f;
@@ -104,11 +106,13 @@ void planShell(Plan& plan, const Materials& m) {
         kGalleryPart,
         kCeilingPart,
         kEdgePart,
+        kOutsidePart,
         kRoofPart,
         kParts
     };
     shell.part = [=](glm::vec3 p, glm::vec3 n) -> int {
-        if (!within(p, inner + 0.01f) || p.y > kRoof - 0.01f || p.y < kBottom + 0.01f) return kRoofPart;
+        if (p.y > kRoof - 0.01f) return kRoofPart;
+        if (!within(p, inner + 0.01f) || p.y < kBottom + 0.01f) return kOutsidePart;
         if (n.y > 0.5f) return p.y < -0.01f ? kCourtPart : p.y < 1 ? kAislePart : kGalleryPart;
         if (n.y < -0.5f) return p.y > kGallery ? kCeilingPart : kWallPart;
         if (within(p, edge + 0.01f)) return kEdgePart;
@@ -122,7 +126,8 @@ void planShell(Plan& plan, const Materials& m) {
                                                        {"gallery floor", m.galleryFloor},
                                                        {"gallery ceiling", m.wood},
                                                        {"slab edges", m.ashlar},
-                                                       {"outside", m.roof}};
+                                                       {"outside", m.wall},
+                                                       {"roof", m.roof}};
     std::vector<Mesh> meshes = shapes::buildCells(shell, kParts);
     for (std::size_t i = 0; i < kParts; ++i)
         plan.push_back({looks[i].first, looks[i].second, {piece(std::move(meshes[i]))}});
@@ -384,14 +389,14 @@ void addLights(Scene& scene, const Values& values) {
     scene.sky = float(values["sky"]) * glm::vec3(0.50f, 0.72f, 1.0f);
     int number = 0;
     for (const glm::vec3& p : lanternPlaces())
-        scene.lights.push_back(pointLight(fmt::format("lantern {}", ++number), p,
-                                          float(values["lamps"]) * glm::vec3(1.0f, 0.60f, 0.26f)));
+        scene.lights.push_back(
+            pointLight(fmt::format("lantern {}", ++number), p, float(values["lamps"]) * kLampColor));
 }
 
 void addCameras(Scene& scene) {
-    scene.cameras.push_back(camera("courtyard", {6.1f, 1.75f, 2.1f}, {-4.6f, 2.75f, -1.5f}, 62));
+    scene.cameras.push_back(camera("courtyard", {6.1f, 1.75f, 2.1f}, {-4.6f, 2.45f, -1.5f}, 62));
     scene.cameras.push_back(camera("aisle", {8.0f, 1.65f, -5.9f}, {-6.0f, 2.0f, -5.3f}, 62));
-    scene.cameras.push_back(camera("gallery", {-6.2f, 6.4f, 4.9f}, {3.0f, 2.0f, -2.5f}, 62));
+    scene.cameras.push_back(camera("gallery", {-4.9f, 6.4f, 3.75f}, {3.2f, 1.2f, -2.4f}, 62));
     scene.cameras.push_back(camera("above", {13.0f, 15.0f, 13.0f}, {0, 2.0f, 0}, 50));
 }
 
@@ -423,7 +428,7 @@ std::size_t Part::triangles() const {
     return sum * places.size();
 }
 
-Materials addMaterials(Scene& scene) {
+Materials addMaterials(Scene& scene, float lampIntensity) {
     textures::Surface ashlarSurface = textures::ashlar(512), tileSurface = textures::tiles(512);
     const int ashlar = add(scene, std::move(ashlarSurface.color)),
               ashlarNormal = add(scene, std::move(ashlarSurface.normal));
@@ -459,18 +464,19 @@ Materials addMaterials(Scene& scene) {
     m.floor = add(scene, std::move(floor));
     m.galleryFloor = add(scene, textured(glossy("flagstones", {0.50f, 0.44f, 0.36f}, 0.6f), ashlar, 2.0f));
     m.wood = add(scene, textured(matte("wood", {0.30f, 0.17f, 0.09f}), wood, 0.8f));
-    m.roof = add(scene, matte("roof", {0.45f, 0.22f, 0.14f}));
+    m.roof = add(scene, matte("roof", {0.30f, 0.14f, 0.09f}));
     m.red = cloth("red fabric", {0.62f, 0.03f, 0.03f});
     m.green = cloth("green fabric", {0.04f, 0.36f, 0.08f});
     m.blue = cloth("blue fabric", {0.03f, 0.10f, 0.55f});
-    m.gold = cloth("gold fabric", {0.75f, 0.45f, 0.06f});
+    m.gold = cloth("gold fabric", {0.62f, 0.35f, 0.05f});
     m.terracotta = add(scene, textured(matte("terracotta", {0.55f, 0.24f, 0.13f}), plaster, 0.7f));
     Material leaves = glossy("leaves", {0.09f, 0.22f, 0.04f}, 0.55f);
     leaves.doubleSided = true;
     m.leaves = add(scene, std::move(leaves));
     m.water = add(scene, glossy("water", {0.03f, 0.07f, 0.07f}, 0.06f));
     m.iron = add(scene, metal("iron", {0.20f, 0.19f, 0.18f}, 0.5f));
-    m.lampGlass = add(scene, emitter("lamp glass", 25.0f * glm::vec3(1.0f, 0.60f, 0.26f)));
+    m.lampGlass =
+        add(scene, emitter("lamp glass", lampIntensity / (kPi * kGlassRadius * kGlassRadius) * kLampColor));
     return m;
 }
 
@@ -480,7 +486,7 @@ namespace conelight::io::generated {
 
 Scene buildAtrium(const Values& values) {
     Scene scene;
-    const atrium::Materials materials = atrium::addMaterials(scene);
+    const atrium::Materials materials = atrium::addMaterials(scene, float(values["lamps"]));
     atrium::build(scene, atrium::planForBudget(materials, values["triangles"]));
     atrium::addLights(scene, values);
     atrium::addCameras(scene);

@@ -31,7 +31,8 @@ constexpr float kGallery = 4.9f;      // floor of the gallery
 constexpr float kUpperSpring = 6.75f;
 constexpr float kUpperPanel = 1.1f;
 constexpr float kRoof = 8.3f;
-constexpr float kStep = 0.15f;  // the courtyard lies deeper than the aisles
+constexpr float kGlassRadius = 0.09f;  // of the lanterns
+constexpr float kStep = 0.15f;         // the courtyard lies deeper than the aisles
 
 // How finely curved things are cut: pieces = reference * scale, at least `least`. While triangles are scarce
 // (not rich), small things are left out or become boxes.
@@ -78,7 +79,8 @@ struct Materials {
     int wall, dado, upperWall, ashlar, trim, marble, floor, galleryFloor, wood, roof;
     int red, green, blue, gold, terracotta, leaves, water, iron, lampGlass;
 };
-Materials addMaterials(Scene& scene);
+// The lanterns' glass shows the radiance of a sphere that shines with `lampIntensity`, W/sr.
+Materials addMaterials(Scene& scene, float lampIntensity);
 
 // generated_atrium_parts.cpp: what carries.
 std::vector<Piece> columnShaft(const Detail& detail);

@@ -260,7 +260,7 @@ std::vector<Piece> lantern(const Detail& detail) {
 
 std::vector<Piece> lanternGlass(const Detail& detail) {
     return {piece(
-        shapes::uvSphere(glm::vec3(0), {0.085f, 0.10f, 0.085f}, detail.pieces(24, 6), detail.pieces(12, 4)))};
+        shapes::uvSphere(glm::vec3(0), glm::vec3(kGlassRadius), detail.pieces(24, 6), detail.pieces(12, 4)))};
 }
 
 }  // namespace conelight::io::generated::atrium

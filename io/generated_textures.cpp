@@ -191,7 +191,7 @@ Surface tiles(int size) {
         const float stain = 1 + 0.10f * fractalNoise(uv, 6, 4, kSeed + 3);
         const glm::vec3 stone =
             dark ? glm::mix(glm::vec3(0.30f, 0.15f, 0.11f), glm::vec3(0.50f, 0.40f, 0.33f), 0.5f * vein)
-                 : glm::mix(glm::vec3(0.66f, 0.60f, 0.50f), glm::vec3(0.48f, 0.40f, 0.31f), 0.7f * vein);
+                 : glm::mix(glm::vec3(0.56f, 0.49f, 0.39f), glm::vec3(0.40f, 0.32f, 0.24f), 0.7f * vein);
         const glm::vec3 joint(0.24f, 0.21f, 0.18f);
         return glm::mix(joint, stone * stain, smoothStep(0.6f * kJoint, kJoint, cell.border));
     });
