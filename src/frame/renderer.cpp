@@ -64,12 +64,16 @@ struct Renderer::Impl {
     std::optional<Settings> builtFor;
     bool sceneChanged = true;
     bool shadowsCurrent = false;
+    bool geometryChanged = true;
+    bool lightChanged = true;
     std::uint32_t frameIndex = 0;
     FrameStats stats;
 
     explicit Impl(gl::ShaderProvider provider) : programs(std::move(provider)) {}
 
     void render(const Camera& camera, int width, int height, const Settings& settings);
+    void prepareMode(const Settings& settings);
+    void drawMode(int width, int height, const Settings& settings);
     void collectStats(double cpuStart, double wallStart);
 };
 
@@ -113,51 +117,54 @@ void Renderer::Impl::render(const Camera& camera, int width, int height, const S
     const double cpuStart = base::processCpuMs();
     const double wallStart = base::wallMs();
     profiler.beginFrame();
+    if (!targets || targets->width != width || targets->height != height) {
+        targets.reset();
+        targets.emplace(width, height);
+    }
 
-    // What has to be rebuilt.
+    // Frame constants. Shadow maps come first where they are needed: they complete the light table.
+    const bool debugView = image::isDebugView(settings.component);
+    scene->bind();
+    if (!debugView) prepareMode(settings);
+    frameBlock.update(view::frameConstants(camera, width, height, *scene, source.sky, frameIndex++, 0));
+    frameBlock.bindUniform(BINDING_FRAME);
+    lookupCounters.clear();
+
+    // What the camera sees, then the mode's picture of it.
+    targets->gbuffer.draw(programs, profiler, *scene, debugView || mode->cullsBackFaces());
+    gl::barrier(gl::Access::TextureFetch | gl::Access::ShaderStorage);
+    if (debugView)
+        image::drawDebugView(programs, profiler, targets->gbuffer, settings.component, targets->output);
+    else
+        drawMode(width, height, settings);
+    gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer);
+    collectStats(cpuStart, wallStart);
+}
+
+// The mode's renderer, what it has to rebuild, and the shadow maps it reads.
+void Renderer::Impl::prepareMode(const Settings& settings) {
     if (!mode || modeKind != settings.mode) {
         mode.reset();  // frees the old volumes first
         mode = frame::makeModeRenderer(settings.mode);
         modeKind = settings.mode;
         builtFor.reset();
     }
-    const bool geometryChanged =
-        sceneChanged || everyFrame || !builtFor || !(builtFor->voxels == settings.voxels);
-    const bool lightChanged = geometryChanged || !(builtFor->light == settings.light);
+    geometryChanged = sceneChanged || everyFrame || !builtFor || !(builtFor->voxels == settings.voxels);
+    lightChanged = geometryChanged || !(builtFor->light == settings.light);
     if (lightChanged) shadowsCurrent = false;
-    if (!targets || targets->width != width || targets->height != height) {
-        targets.reset();
-        targets.emplace(width, height);
-    }
-
-    // Shadow maps; they fill in the light table that later passes read.
-    scene->bind();
     if (mode->needsShadows(settings) && !shadowsCurrent) {
         shadows.update(programs, profiler, *scene, settings.light);
         scene->bind();
         shadowsCurrent = true;
     }
     shadows.bind();
+}
 
-    // Frame constants.
-    frameBlock.update(view::frameConstants(camera, width, height, *scene, source.sky, frameIndex++, 0));
-    frameBlock.bindUniform(BINDING_FRAME);
-    lookupCounters.clear();
-
-    // What the camera sees, then the mode's picture.
-    targets->gbuffer.draw(programs, profiler, *scene, mode->cullsBackFaces());
-    gl::barrier(gl::Access::TextureFetch | gl::Access::ShaderStorage);
-    if (image::isDebugView(settings.component)) {
-        image::drawDebugView(programs, profiler, targets->gbuffer, settings.component, targets->output);
-    } else {
-        mode->render({programs, profiler, source, *scene, settings, width, height, targets->gbuffer, shadows,
-                      targets->output, geometryChanged, lightChanged,
-                      countLookups ? &lookupCounters : nullptr});
-        sceneChanged = false;
-        builtFor = settings;
-    }
-    gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer);
-    collectStats(cpuStart, wallStart);
+void Renderer::Impl::drawMode(int width, int height, const Settings& settings) {
+    mode->render({programs, profiler, source, *scene, settings, width, height, targets->gbuffer, shadows,
+                  targets->output, geometryChanged, lightChanged, countLookups ? &lookupCounters : nullptr});
+    sceneChanged = false;
+    builtFor = settings;
 }
 
 void Renderer::Impl::collectStats(double cpuStart, double wallStart) {
