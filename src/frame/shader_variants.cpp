@@ -13,6 +13,7 @@
 #include "light/shadow_maps.h"
 #include "view/gbuffer.h"
 #include "voxels/radiance_volume.h"
+#include "voxels/surface_voxels.h"
 
 namespace conelight {
 namespace {
@@ -43,6 +44,7 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     };
     add(light::ShadowMaps::programDescs());
     add(view::GBuffer::programDescs());
+    add(voxels::SurfaceVoxels::programDescs());
     add(voxels::RadianceVolume::programDescs());
     add(gather::ConeGather::programDescs());
     add(image::debugViewProgramDescs());
