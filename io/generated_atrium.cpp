@@ -184,6 +184,33 @@ void planGroundFloor(Plan& plan, const Materials& m, const Detail& detail) {
     plan.push_back({"door frame", m.trim, std::move(frame), doors});
 }
 
+void planBalustrade(Plan& plan, const Materials& m, const Detail& detail) {
+    // The balustrade stands between the piers; few balusters while triangles are scarce.
+    const int perSide = detail.scale() < 0.25f ? 3 : 5;
+    constexpr float kRailBottom = 0.10f, kRailTop = 0.76f;
+    std::vector<glm::mat4> balusters, rails;
+    for (const Bay& bay : allBays()) {
+        rails.push_back(bay.worldFromBay * translation({0, kGallery, 0}));
+        for (float s : {-1.0f, 1.0f})
+            for (int i = 0; i < perSide; ++i) {
+                const float x = s * (0.13f + (float(i) + 0.5f) * (1.22f - 0.13f) / float(perSide));
+                balusters.push_back(bay.worldFromBay * translation({x, kGallery + kRailBottom, 0}));
+            }
+    }
+    // A solid parapet stands in for them while there is no budget at all.
+    if (detail.rich())
+        plan.push_back({"baluster", m.trim, baluster(detail), balusters});
+    else
+        plan.push_back({"parapet",
+                        m.trim,
+                        {piece(box({{-1.23f, kRailBottom, -0.05f}, {1.23f, kRailTop, 0.05f}}))},
+                        rails});
+    std::vector<Piece> rail{piece(box({{-1.23f, 0, -0.09f}, {1.23f, 0.10f, 0.09f}})),
+                            piece(box({{-1.23f, 0.76f, -0.08f}, {1.23f, 0.80f, 0.08f}})),
+                            piece(box({{-1.23f, 0.80f, -0.11f}, {1.23f, 0.88f, 0.11f}}))};
+    plan.push_back({"rail", m.trim, std::move(rail), rails});
+}
+
 void planGallery(Plan& plan, const Materials& m, const Detail& detail) {
     const std::vector<Bay> bays = allBays();
     std::vector<glm::vec3> pierPlaces = columnPlaces();
@@ -207,31 +234,6 @@ void planGallery(Plan& plan, const Materials& m, const Detail& detail) {
         plan.push_back({"left gallery moulding", m.trim, archRim(detail, leftPanel, 0.12f), left});
         plan.push_back({"right gallery moulding", m.trim, archRim(detail, rightPanel, 0.12f), right});
     }
-
-    // The balustrade stands between the piers; few balusters while triangles are scarce.
-    const int perSide = detail.scale() < 0.25f ? 3 : 5;
-    constexpr float kRailBottom = 0.10f, kRailTop = 0.76f;
-    std::vector<glm::mat4> balusters, rails;
-    for (const Bay& bay : bays) {
-        rails.push_back(bay.worldFromBay * translation({0, kGallery, 0}));
-        for (float s : {-1.0f, 1.0f})
-            for (int i = 0; i < perSide; ++i) {
-                const float x = s * (0.13f + (float(i) + 0.5f) * (1.22f - 0.13f) / float(perSide));
-                balusters.push_back(bay.worldFromBay * translation({x, kGallery + kRailBottom, 0}));
-            }
-    }
-    // A solid parapet stands in for them while there is no budget at all.
-    if (detail.rich())
-        plan.push_back({"baluster", m.trim, baluster(detail), balusters});
-    else
-        plan.push_back({"parapet",
-                        m.trim,
-                        {piece(box({{-1.23f, kRailBottom, -0.05f}, {1.23f, kRailTop, 0.05f}}))},
-                        rails});
-    std::vector<Piece> rail{piece(box({{-1.23f, 0, -0.09f}, {1.23f, 0.10f, 0.09f}})),
-                            piece(box({{-1.23f, 0.76f, -0.08f}, {1.23f, 0.80f, 0.08f}})),
-                            piece(box({{-1.23f, 0.80f, -0.11f}, {1.23f, 0.88f, 0.11f}}))};
-    plan.push_back({"rail", m.trim, std::move(rail), rails});
 
     plan.push_back({"gallery cornice", m.trim,
                     cornice(detail, kSpring + kPanelHeight - 0.06f, 0.40f, 0.30f, 0.5f * kArcadeDepth)});
@@ -333,6 +335,7 @@ Plan makePlan(const Materials& m, const Detail& detail) {
     planShell(plan, m);
     planGroundFloor(plan, m, detail);
     planGallery(plan, m, detail);
+    planBalustrade(plan, m, detail);
     planTextiles(plan, m, detail);
     planGarden(plan, m, detail);
     return plan;
