@@ -111,13 +111,25 @@ class Docs(Project):
     def test_commands_are_known_to_the_program(self):
         self.write("program", """\
             #!/bin/sh
-            test "$1" = render && echo "  --size WxH   -o FILE"
+            test "$1" = render && echo "  --size WxH   -o FILE" || echo "  render   draws"
             """)
         os.chmod(self.root / "program", 0o755)
         self.write("README.md", "`conelight render S --size 1x1 -o a.png`; conelight is fast\n")
         self.assertEqual(self.faults("--program", self.root / "program"), [])
         self.write("README.md", "    conelight render S --siz 1x1\n`conelight fly`\n")
         self.assertEqual(len(self.faults("--program", self.root / "program")), 2)
+
+
+    def test_outputs_are_what_the_program_prints(self):
+        self.write("program", "#!/bin/sh\necho \"$1  \"\necho two\n")
+        os.chmod(self.root / "program", 0o755)
+        block = "<!-- output: conelight one -->\n```\none\ntwo\n```\n<!-- /output -->\n"
+        self.write("a.md", block + block.replace("```\n", ""))
+        self.assertEqual(self.faults("--program", self.root / "program"), [])
+        self.write("a.md", block.replace("two", "three"))
+        self.assertEqual(len(self.faults("--program", self.root / "program")), 1)
+        self.assertEqual(self.faults("--program", self.root / "program", "--update"), [])
+        self.assertEqual((self.root / "a.md").read_text(), block)
 
 
 class Files(Project):
