@@ -230,10 +230,8 @@ void planGallery(Plan& plan, const Materials& m, const Detail& detail) {
     plan.push_back({"colonnette", m.marble, colonnette(detail), colonnettes});
     plan.push_back({"left gallery arch", m.ashlar, archFaces(detail, leftPanel), left});
     plan.push_back({"right gallery arch", m.ashlar, archFaces(detail, rightPanel), right});
-    if (detail.rich()) {
-        plan.push_back({"left gallery moulding", m.trim, archRim(detail, leftPanel, 0.12f), left});
-        plan.push_back({"right gallery moulding", m.trim, archRim(detail, rightPanel, 0.12f), right});
-    }
+    plan.push_back({"left gallery moulding", m.trim, archRim(detail, leftPanel, 0.12f), left});
+    plan.push_back({"right gallery moulding", m.trim, archRim(detail, rightPanel, 0.12f), right});
 
     plan.push_back({"gallery cornice", m.trim,
                     cornice(detail, kSpring + kPanelHeight - 0.06f, 0.40f, 0.30f, 0.5f * kArcadeDepth)});

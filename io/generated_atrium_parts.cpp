@@ -3,6 +3,7 @@
 // space. Profiles follow the classical orders (torus, scotia, bell, abacus); sizes in metres, by eye.
 #include "io/generated_atrium.h"
 
+#include <array>
 #include <glm/gtc/constants.hpp>
 
 namespace conelight::io::generated::atrium {
@@ -45,39 +46,59 @@ Patch capitalLeaf(const Detail& detail, float angle, float foot, float height, f
     return patch;
 }
 
+// How an arch is cut: at the directions of its panel's upper corners, and evenly between them, so that faces
+// and mouldings share their vertices.
+struct ArchCuts {
+    std::array<float, 4> angles;  // left spring, left corner, right corner, right spring
+    std::array<int, 3> pieces;
+    int total() const { return pieces[0] + pieces[1] + pieces[2]; }
+    // Angle after the fraction u of all pieces; goes on evenly outside of [0,1].
+    float angleAt(float u) const {
+        const float cut = u * float(total());
+        float before = 0;
+        std::size_t part = 0;
+        while (part < 2 && cut > before + float(pieces[part])) before += float(pieces[part++]);
+        return angles[part] + (angles[part + 1] - angles[part]) * (cut - before) / float(pieces[part]);
+    }
+};
+
+ArchCuts archCuts(const Detail& detail, const ArchPanel& p) {
+    const int side = detail.pieces(10, 1);
+    return {{kPi, std::atan2(p.height, p.x0 - p.centre), std::atan2(p.height, p.x1 - p.centre), 0},
+            {side, detail.pieces(16, 4), side}};
+}
+
 // Left, top and right part of the panel's face at z: from the arch's rim to the rectangle around it.
-void addArchFace(std::vector<Piece>& pieces, const Detail& detail, const ArchPanel& p, float z, float rim) {
-    const float leftAngle = std::atan2(p.height, p.x0 - p.centre);
-    const float rightAngle = std::atan2(p.height, p.x1 - p.centre);
-    const float angles[4] = {kPi, leftAngle, rightAngle, 0};
-    for (int part = 0; part < 3; ++part) {
+void addArchFace(std::vector<Piece>& pieces, const Detail& detail, const ArchPanel& p, float z) {
+    const ArchCuts cuts = archCuts(detail, p);
+    for (std::size_t part = 0; part < 3; ++part) {
         Patch patch;
-        patch.nu = detail.pieces(part == 1 ? 16 : 10, part == 1 ? 4 : 1);
+        patch.nu = cuts.pieces[part];
         patch.nv = 1;
         patch.flip = z < 0;
         patch.uvOf = [](glm::vec3 q) { return glm::vec2(q.x, -q.y); };
-        patch.position = [=, from = angles[part], to = angles[part + 1]](float u, float v) {
-            const float a = from + (to - from) * u;
+        patch.position = [=](float u, float v) {
+            const float a = cuts.angles[part] + (cuts.angles[part + 1] - cuts.angles[part]) * u;
             const glm::vec2 d(std::cos(a), std::sin(a));
             // Along the ray from the centre to the side of the rectangle that this part belongs to.
             const float outer = part == 0   ? (p.x0 - p.centre) / d.x
                                 : part == 1 ? p.height / d.y
                                             : (p.x1 - p.centre) / d.x;
-            return glm::vec3(glm::vec2(p.centre, 0) + d * (rim + (outer - rim) * v), z);
+            return glm::vec3(glm::vec2(p.centre, 0) + d * (p.radius + (outer - p.radius) * v), z);
         };
         pieces.push_back(piece(std::move(patch)));
     }
 }
 
 // A strip along the half circle: radius and z are functions of v.
-Patch archStrip(const Detail& detail, float centre, const Curve& radiusAndZ) {
+Patch archStrip(const ArchCuts& cuts, float centre, const Curve& radiusAndZ) {
     Patch patch;
-    patch.nu = detail.pieces(36, 6);
+    patch.nu = cuts.total();
     patch.nv = radiusAndZ.n;
     patch.uvScale = {kPi * radiusAndZ.at(0).x, radiusAndZ.length()};
-    patch.position = [centre, at = radiusAndZ.at](float u, float v) {
+    patch.position = [=, at = radiusAndZ.at](float u, float v) {
         const glm::vec2 p = at(v);
-        const float a = kPi * (1 - u);
+        const float a = cuts.angleAt(u);
         return glm::vec3(centre + p.x * std::cos(a), p.x * std::sin(a), p.y);
     };
     return patch;
@@ -193,8 +214,8 @@ std::vector<Piece> pier(const Detail& detail, float halfWidth, float height) {
 std::vector<Piece> archFaces(const Detail& detail, const ArchPanel& panel) {
     std::vector<Piece> pieces;
     const float z = 0.5f * panel.depth;
-    addArchFace(pieces, detail, panel, z, panel.radius);
-    addArchFace(pieces, detail, panel, -z, panel.radius);
+    addArchFace(pieces, detail, panel, z);
+    addArchFace(pieces, detail, panel, -z);
     // What rests on the supports.
     for (const glm::vec2& span :
          {glm::vec2(panel.x0, panel.centre - panel.radius), glm::vec2(panel.centre + panel.radius, panel.x1)})
@@ -211,14 +232,14 @@ std::vector<Piece> archRim(const Detail& detail, const ArchPanel& panel, float r
     const int round = detail.pieces(6, 1);
     const float h = 0.5f * kPi;
     const Curve curves[] = {
-        line({r, back}, {r, front + proud}),
+        line({r, back}, {r, detail.rich() ? front + proud : front}),
         line({r, front + proud}, {r + 0.55f * rimWidth, front + proud}),
         arc({r + 0.75f * rimWidth, front + proud}, {0.2f * rimWidth, 0.2f * rimWidth}, 2 * h, 0, round),
         line({r + 0.95f * rimWidth, front + proud}, {r + rimWidth, front}),
     };
     for (const Curve& curve : curves) {
-        pieces.push_back(piece(archStrip(detail, panel.centre, curve)));
-        if (!detail.rich() && pieces.size() == 2) break;  // underside and fillet only
+        pieces.push_back(piece(archStrip(archCuts(detail, panel), panel.centre, curve)));
+        if (!detail.rich()) break;  // the underside only
     }
     return pieces;
 }
@@ -230,7 +251,7 @@ std::vector<Piece> vault(const Detail& detail) {
     std::vector<Piece> pieces;
     for (int sector = 0; sector < 4; ++sector) {
         Patch patch;
-        patch.nu = detail.pieces(20, 2);
+        patch.nu = detail.pieces(20, 4);  // fewer would cut the corner below the arches
         patch.nv = detail.pieces(10, 2);
         const float c = sector == 0 ? 1.0f : sector == 2 ? -1.0f : 0.0f;
         const float s = sector == 1 ? 1.0f : sector == 3 ? -1.0f : 0.0f;
@@ -255,7 +276,9 @@ std::vector<Piece> rib(const Detail& detail) {
     const Curve curves[] = {line({outer, -kHalfDepth}, {kArchRadius, -kHalfDepth}),
                             line({kArchRadius, -kHalfDepth}, {kArchRadius, kHalfDepth}),
                             line({kArchRadius, kHalfDepth}, {outer, kHalfDepth})};
-    for (const Curve& curve : curves) pieces.push_back(piece(archStrip(detail, 0, curve)));
+    const ArchCuts cuts{{kPi, 2 * kPi / 3, kPi / 3, 0},
+                        {detail.pieces(12, 2), detail.pieces(12, 2), detail.pieces(12, 2)}};
+    for (const Curve& curve : curves) pieces.push_back(piece(archStrip(cuts, 0, curve)));
     for (float side : {-1.0f, 1.0f}) {
         const float x = side > 0 ? kArchRadius : -outer;
         pieces.push_back(
