@@ -14,11 +14,19 @@
 namespace conelight::program {
 namespace {
 
+// Set while a file is being written: the interrupt then waits until the file is whole.
+volatile std::sig_atomic_t writing = 0;
 volatile std::sig_atomic_t interrupted = 0;
 
 void onInterrupt(int) {
-    if (interrupted != 0) _exit(130);
-    interrupted = 1;
+    if (writing != 0 && interrupted == 0) {
+        interrupted = 1;
+        return;
+    }
+    constexpr char message[] = "\nconelight: interrupted\n";
+    [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, message + (isatty(STDERR_FILENO) != 0 ? 0 : 1),
+                                                   sizeof message - 1 - (isatty(STDERR_FILENO) != 0 ? 0 : 1));
+    _exit(130);
 }
 
 [[noreturn]] void usage(const std::string& message) { throw Error(ErrorKind::Usage, message); }
@@ -38,15 +46,16 @@ void installInterruptHandler() {
     std::signal(SIGTERM, onInterrupt);
 }
 
-void throwIfInterrupted() {
-    if (interrupted != 0) throw Interrupted{};
+WritingScope::WritingScope() { writing = 1; }
+WritingScope::~WritingScope() {
+    writing = 0;
+    if (interrupted != 0) onInterrupt(0);
 }
 
 Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0) {}
 Progress::~Progress() { finish(); }
 
 void Progress::show(const std::string& text) {
-    throwIfInterrupted();
     if (!terminal_) return;
     std::fprintf(stderr, "\r\033[K%s", text.c_str());
     std::fflush(stderr);
@@ -122,7 +131,6 @@ Scene openScene(const std::string& path, const ViewOptions& options, Progress& p
     progress.finish();
     for (const std::string& note : scene.notes)
         std::fprintf(stderr, "conelight: %s: %s\n", path.c_str(), note.c_str());
-    throwIfInterrupted();
     return scene;
 }
 

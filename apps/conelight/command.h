@@ -21,17 +21,23 @@ void addInfo(CLI::App& app);
 void addSettings(CLI::App& app);
 void addShaders(CLI::App& app);
 
-// Thrown by throwIfInterrupted after Ctrl-C (a second Ctrl-C ends the program at once).
-struct Interrupted {};
+// Ctrl-C (and SIGTERM) end the program at once with status 130, except while a file is being written: then
+// when it is whole.
 void installInterruptHandler();
-void throwIfInterrupted();
+class WritingScope {
+  public:
+    WritingScope();
+    ~WritingScope();
+    WritingScope(const WritingScope&) = delete;
+    WritingScope& operator=(const WritingScope&) = delete;
+};
 
 // One status line on standard error, on a terminal only. finish() clears it.
 class Progress {
   public:
     Progress();
     ~Progress();
-    void show(const std::string& text);  // also checks for Ctrl-C
+    void show(const std::string& text);
     void finish();
 
   private:

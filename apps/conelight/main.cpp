@@ -59,9 +59,6 @@ int main(int argc, char** argv) {
             return app.exit(error);  // --help, --version
         std::fprintf(stderr, "conelight: %s; `conelight --help` lists commands and options\n", error.what());
         return 2;
-    } catch (const conelight::program::Interrupted&) {
-        std::fprintf(stderr, "conelight: interrupted; nothing was written\n");
-        return 130;
     } catch (const conelight::Error& error) {
         std::fprintf(stderr, "conelight: %s\n", error.what());
         return exitStatus(error.kind());

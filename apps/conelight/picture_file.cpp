@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "picture_file.h"
 
+#include "command.h"
 #include "conelight/error.h"
 #include "io/image_file.h"
 
@@ -19,6 +20,7 @@ std::vector<float> rgbOf(const Image& image) {
 
 void writePicture(const std::string& path, const Image& image, const ImageSettings& settings,
                   const std::vector<std::pair<std::string, Image>>& layers) {
+    const WritingScope writing;
     const io::ImageFormat format = io::imageFormatOf(path);
     if (format == io::ImageFormat::Png || format == io::ImageFormat::Jpg) {
         const io::ByteImage bytes{image.width, image.height, 3, toneMapped(image, settings)};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "stats_json.h"
 
+#include "command.h"
 #include "io/files.h"
 
 namespace conelight::program {
@@ -25,6 +26,7 @@ nlohmann::ordered_json lookupsJson(const FrameStats& stats) {
 }
 
 void writeJson(const std::string& path, const nlohmann::ordered_json& json) {
+    const WritingScope writing;
     const std::string text = json.dump(2) + "\n";
     io::writeFile(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }

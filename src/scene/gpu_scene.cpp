@@ -9,6 +9,7 @@
 #include "base/assert.h"
 #include "base/log.h"
 #include "gl/gl.h"
+#include "gl/pass.h"
 #include "math/octahedral.h"
 #include "shared/bindings.h"
 
@@ -299,6 +300,8 @@ void GpuScene::uploadTextures(const Scene& source) {
     const std::uint8_t white[4] = {255, 255, 255, 255};
     white_ = gl::Texture({GL_TEXTURE_2D, GL_RGBA8, 1, 1, 1, 1}, "white");
     white_.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, white);
+    // Mesa's software driver compiles and runs anisotropic lookups tens of times slower than trilinear ones.
+    const float anisotropy = gl::isSoftwareDriver() ? 1.0f : 8.0f;
     for (const Texture& texture : source.textures) {
         const std::string label = "texture " + texture.name;
         gl::Texture t({GL_TEXTURE_2D, static_cast<std::uint32_t>(texture.srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8),
@@ -311,7 +314,7 @@ void GpuScene::uploadTextures(const Scene& source) {
         samplers_.emplace_back(gl::SamplerDesc{static_cast<std::uint32_t>(nearest ? GL_NEAREST_MIPMAP_LINEAR
                                                                                   : GL_LINEAR_MIPMAP_LINEAR),
                                                static_cast<std::uint32_t>(nearest ? GL_NEAREST : GL_LINEAR),
-                                               wrapMode(texture.wrapU), wrapMode(texture.wrapV), false, 8.0f},
+                                               wrapMode(texture.wrapU), wrapMode(texture.wrapV), false, anisotropy},
                                label);
     }
     // The surface array has at least one (white) layer so that it can always be bound.
