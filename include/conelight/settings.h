@@ -120,6 +120,9 @@ const std::vector<SettingInfo>& settingInfos();
 
 // Sets one value. Throws Error(Usage): unknown key (names the nearest known one), unreadable or out of range.
 void setSetting(Settings& settings, const std::string& key, const std::string& value);
+// The value as text that setSetting reads back as the same value.
 std::string getSetting(const Settings& settings, const std::string& key);
+// Throws Error(Usage) that names the first value out of range; for values written into the structs directly.
+void validateSettings(const Settings& settings);
 
 }  // namespace conelight

@@ -107,6 +107,7 @@ void Renderer::render(const Camera& camera, int width, int height, const Setting
     if (width < 1 || height < 1 || width > kMaxEdge || height > kMaxEdge)
         base::fail(ErrorKind::Usage, "picture of %d x %d; 1 to %d in each direction would be right", width,
                    height, kMaxEdge);
+    validateSettings(settings);
     if (!impl_->scene)
         base::fail(ErrorKind::Usage, "render: there is no scene; setScene before it would be right");
     const gl::HostStateGuard guard;

@@ -3,9 +3,10 @@
 #include "conelight/settings.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
+#include <optional>
 
 #include "base/log.h"
 
@@ -60,8 +61,37 @@ void visitCones(S& s, V& visit) {
                   "level of the volume that component voxels shows");
 }
 
-// Calls visit(key, field, ...) for every setting. Visitor overloads: boolean, integer, number, autoNumber,
-// choice.
+// A set of whole numbers.
+struct Whole {
+    int low, high, multiple = 1;
+    bool orZero = false;  // 0 too, below `low`
+    bool square = false;  // squares only
+
+    bool holds(int value) const {
+        if (orZero && value == 0) return true;
+        if (value < low || value > high || value % multiple != 0) return false;
+        const int root = static_cast<int>(std::lround(std::sqrt(static_cast<double>(value))));
+        return !square || root * root == value;
+    }
+    std::string range() const {
+        if (!square)
+            return (orZero ? "0, " : "") + std::to_string(low) + ".." + std::to_string(high) +
+                   (multiple > 1 ? " by " + std::to_string(multiple) : "");
+        std::string all;
+        for (int value = low; value <= high; ++value)
+            if (holds(value)) all += (all.empty() ? "" : ",") + std::to_string(value);
+        return all;
+    }
+    std::string sentence() const {
+        if (square) return "one of " + range();
+        return (orZero ? "0 or a whole number from " : "a whole number from ") + std::to_string(low) +
+               " to " + std::to_string(high) +
+               (multiple > 1 ? ", a multiple of " + std::to_string(multiple) : "");
+    }
+};
+
+// Calls visit.KIND(key, field, ...) for every setting. Kinds: boolean, integer (low, high, multiple of),
+// whole (any other set of whole numbers), number, autoNumber, choice.
 template <class S, class V>
 void visitAll(S& s, V&& visit) {
     visit.choice("mode", s.mode, kModes, "how the picture is made");
@@ -70,12 +100,12 @@ void visitAll(S& s, V&& visit) {
                   "voxels along the longest axis of the grid");
     visit.number("voxels.padding", s.voxels.padding, 0.0, 1.0, "",
                  "grid beyond the scene's bounds, as a fraction per side");
-    visit.integer("light.shadow_size", s.light.shadowSize, 0, 8192, 1, "texels",
-                  "edge of a shadow map; 0: no shadows");
+    visit.whole("light.shadow_size", s.light.shadowSize, Whole{64, 8192, 1, true, false}, "texels",
+                "edge of a shadow map; 0: no shadows");
     visit.integer("light.shadow_filter", s.light.shadowFilter, 0, 4, 1, "texels",
                   "radius of the shadow filter");
-    visit.integer("light.area_samples", s.light.areaSamples, 1, 64, 1, "",
-                  "points per rectangular light, a square number");
+    visit.whole("light.area_samples", s.light.areaSamples, Whole{1, 64, 1, false, true}, "",
+                "points per rectangular light, a square number");
     visit.boolean("light.emissive_quads", s.light.emissiveQuads,
                   "light flat rectangular emitters exactly, as area lights");
     visitCones(s.cones, visit);
@@ -86,7 +116,26 @@ void visitAll(S& s, V&& visit) {
     visit.boolean("image.srgb", s.image.srgb, "encode 8-bit pictures as sRGB");
 }
 
-std::string numberText(double value) { return base::format("%.6g", value); }
+// Numbers as text and back, the same under any locale of the host (printf and strtod follow it).
+std::string numberText(double value) {
+    char text[32];
+    return std::string(text,
+                       std::to_chars(text, text + sizeof text, value, std::chars_format::general, 6).ptr);
+}
+// The shortest text that reads back as the same float.
+std::string numberText(float value) {
+    char text[32];
+    return std::string(text, std::to_chars(text, text + sizeof text, value).ptr);
+}
+std::optional<double> parsedNumber(const std::string& text) {
+    const char* first = text.data();
+    const char* const last = first + text.size();
+    if (first != last && *first == '+') ++first;
+    double value = 0;
+    const auto [end, fault] = std::from_chars(first, last, value);
+    if (fault != std::errc{} || end != last || first == last || !std::isfinite(value)) return std::nullopt;
+    return value;
+}
 
 template <class T, std::size_t N>
 std::string choiceNames(const Choice<T> (&choices)[N]) {
@@ -104,7 +153,11 @@ struct Getter {
     void boolean(const char* name, const bool& value, const char*) {
         if (is(name)) result = value ? "true" : "false";
     }
-    void integer(const char* name, const int& value, int, int, int, const char*, const char*) {
+    void integer(const char* name, const int& value, int low, int high, int multiple, const char* unit,
+                 const char* help) {
+        whole(name, value, Whole{low, high, multiple}, unit, help);
+    }
+    void whole(const char* name, const int& value, const Whole&, const char*, const char*) {
         if (is(name)) result = std::to_string(value);
     }
     void number(const char* name, const float& value, double, double, const char*, const char*) {
@@ -131,12 +184,11 @@ struct Setter {
         base::fail(ErrorKind::Usage, "setting %s: '%s' is not usable; %s would be right", key.c_str(),
                    text.c_str(), right.c_str());
     }
-    double parse(double low, double high, const std::string& also) const {
-        char* end = nullptr;
-        const double value = std::strtod(text.c_str(), &end);
-        if (text.empty() || *end != '\0' || !(value >= low && value <= high))
+    float parse(double low, double high, const std::string& also) const {
+        const std::optional<double> value = parsedNumber(text);
+        if (!value || *value < low || *value > high)
             reject("a number from " + numberText(low) + " to " + numberText(high) + also);
-        return value;
+        return static_cast<float>(*value);
     }
     void boolean(const char* name, bool& value, const char*) {
         if (!is(name)) return;
@@ -147,24 +199,28 @@ struct Setter {
         else
             reject("true or false");
     }
-    void integer(const char* name, int& value, int low, int high, int multiple, const char*, const char*) {
+    void integer(const char* name, int& value, int low, int high, int multiple, const char* unit,
+                 const char* help) {
+        whole(name, value, Whole{low, high, multiple}, unit, help);
+    }
+    void whole(const char* name, int& value, const Whole& allowed, const char*, const char*) {
         if (!is(name)) return;
-        const double parsed =
-            parse(low, high, multiple > 1 ? ", a multiple of " + std::to_string(multiple) : "");
-        if (parsed != std::floor(parsed) || static_cast<int>(parsed) % multiple != 0)
-            reject("a whole number from " + std::to_string(low) + " to " + std::to_string(high) +
-                   (multiple > 1 ? ", a multiple of " + std::to_string(multiple) : ""));
-        value = static_cast<int>(parsed);
+        const std::optional<double> parsed = parsedNumber(text);
+        // Checked as a double first: a number beyond int has no value as one.
+        if (!parsed || *parsed != std::floor(*parsed) || std::abs(*parsed) > allowed.high ||
+            !allowed.holds(static_cast<int>(*parsed)))
+            reject(allowed.sentence());
+        value = static_cast<int>(*parsed);
     }
     void number(const char* name, float& value, double low, double high, const char*, const char*) {
-        if (is(name)) value = static_cast<float>(parse(low, high, ""));
+        if (is(name)) value = parse(low, high, "");
     }
     void autoNumber(const char* name, AutoFloat& value, double low, double high, const char*, const char*) {
         if (!is(name)) return;
         if (text == "auto")
             value = AutoFloat{};
         else
-            value = AutoFloat{false, static_cast<float>(parse(low, high, " or auto"))};
+            value = AutoFloat{false, parse(low, high, " or auto")};
     }
     template <class T, std::size_t N>
     void choice(const char* name, T& value, const Choice<T> (&choices)[N], const char*) {
@@ -186,10 +242,10 @@ struct Describer {
     }
     void integer(const char* name, const int& value, int low, int high, int multiple, const char* unit,
                  const char* help) {
-        infos.push_back({name, "int", unit,
-                         std::to_string(low) + ".." + std::to_string(high) +
-                             (multiple > 1 ? " by " + std::to_string(multiple) : ""),
-                         std::to_string(value), help});
+        whole(name, value, Whole{low, high, multiple}, unit, help);
+    }
+    void whole(const char* name, const int& value, const Whole& allowed, const char* unit, const char* help) {
+        infos.push_back({name, "int", unit, allowed.range(), std::to_string(value), help});
     }
     void number(const char* name, const float& value, double low, double high, const char* unit,
                 const char* help) {
@@ -207,6 +263,37 @@ struct Describer {
         for (const auto& one : choices)
             if (one.value == value) current = one.name;
         infos.push_back({name, "choice", "", choiceNames(choices), current, help});
+    }
+};
+
+// Rejects values that a host wrote into the structs past setSetting.
+struct Checker {
+    [[noreturn]] static void reject(const char* name, const std::string& value, const std::string& right) {
+        base::fail(ErrorKind::Usage, "setting %s: '%s' is not usable; %s would be right", name, value.c_str(),
+                   right.c_str());
+    }
+    void boolean(const char*, const bool&, const char*) {}
+    void integer(const char* name, const int& value, int low, int high, int multiple, const char* unit,
+                 const char* help) {
+        whole(name, value, Whole{low, high, multiple}, unit, help);
+    }
+    void whole(const char* name, const int& value, const Whole& allowed, const char*, const char*) {
+        if (!allowed.holds(value)) reject(name, std::to_string(value), allowed.sentence());
+    }
+    void number(const char* name, const float& value, double low, double high, const char*, const char*) {
+        // As floats: the nearest float to a bound is the bound. NaN fails both.
+        if (!(value >= static_cast<float>(low) && value <= static_cast<float>(high)))
+            reject(name, numberText(value), "a number from " + numberText(low) + " to " + numberText(high));
+    }
+    void autoNumber(const char* name, const AutoFloat& value, double low, double high, const char* unit,
+                    const char* help) {
+        if (!value.isAuto) number(name, value.value, low, high, unit, help);
+    }
+    template <class T, std::size_t N>
+    void choice(const char* name, const T& value, const Choice<T> (&choices)[N], const char*) {
+        for (const auto& one : choices)
+            if (one.value == value) return;
+        reject(name, std::to_string(static_cast<int>(value)), "one of " + choiceNames(choices));
     }
 };
 
@@ -258,6 +345,11 @@ void setSetting(Settings& settings, const std::string& key, const std::string& v
     Setter setter{key, value};
     visitAll(settings, setter);
     if (!setter.found) unknownKey(key);
+}
+
+void validateSettings(const Settings& settings) {
+    Checker checker;
+    visitAll(settings, checker);
 }
 
 std::string getSetting(const Settings& settings, const std::string& key) {

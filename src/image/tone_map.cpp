@@ -24,6 +24,9 @@ glm::vec3 toneCurve(const glm::vec3& c, ToneMap curve) {
     return c;
 }
 
+// From here on every curve is white in 8 bits, and far above it its polynomials overflow to inf / inf.
+constexpr float kWhite = 1e6f;
+
 float srgbFromLinear(float c) {
     return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
 }
@@ -35,7 +38,8 @@ std::vector<std::uint8_t> toneMapped(const Image& image, const ImageSettings& se
     std::vector<std::uint8_t> bytes;
     bytes.reserve(image.pixels.size() * 3);
     for (const glm::vec4& pixel : image.pixels) {
-        const glm::vec3 color = toneCurve(glm::max(glm::vec3(pixel) * scale, 0.0f), settings.toneMap);
+        const glm::vec3 color =
+            toneCurve(glm::clamp(glm::vec3(pixel) * scale, 0.0f, kWhite), settings.toneMap);
         for (int i = 0; i < 3; ++i) {
             // A NaN shows as black here; readers of the linear image see it (conelight render counts them).
             const float linear = color[i] > 0.0f ? std::min(color[i], 1.0f) : 0.0f;

@@ -77,6 +77,32 @@ void validateTextureRef(const Scene& scene, const TextureRef& ref, const Materia
              material.name.c_str(), use, ref.texture, scene.textures.size());
 }
 
+// One number that is not finite would spread over the picture through every bounce.
+void validateNumbers(const Material& m) {
+    const auto require = [&](const char* what, bool finite) {
+        if (!finite) fail(ErrorKind::BadInput, "material '%s': %s is not finite", m.name.c_str(), what);
+    };
+    require("the base colour", isFinite(glm::vec3(m.baseColor)) && std::isfinite(m.baseColor.a));
+    require("metallic, roughness, ior or specular",
+            isFinite({m.metallic, m.roughness, m.ior}) && std::isfinite(m.specular));
+    require("the specular colour", isFinite(m.specularColor));
+    require("the emission", isFinite(m.emission));
+    require("the normal scale or alpha cutoff", std::isfinite(m.normalScale) && std::isfinite(m.alphaCutoff));
+    require("a Phong value",
+            isFinite(m.phong.color) && std::isfinite(m.phong.shininess) &&
+                isFinite({m.phong.ambientStrength, m.phong.diffuseStrength, m.phong.specularStrength}));
+}
+
+void validateLight(const Light& light) {
+    if (!isFinite(light.position) || !isFinite(light.direction) || !isFinite(light.intensity))
+        fail(ErrorKind::BadInput, "light '%s': position, direction or intensity is not finite",
+             light.name.c_str());
+    if (!isFinite(light.halfU) || !isFinite(light.halfV) || !isFinite(light.falloff) ||
+        !isFinite({light.innerAngle, light.outerAngle, light.range}))
+        fail(ErrorKind::BadInput, "light '%s': edges, angles, range or falloff are not finite",
+             light.name.c_str());
+}
+
 }  // namespace
 
 void Scene::validate() const {
@@ -89,6 +115,7 @@ void Scene::validate() const {
                  texture.name.c_str(), texture.width, texture.height, texture.rgba.size());
     }
     for (const Material& material : materials) {
+        validateNumbers(material);
         validateTextureRef(*this, material.baseColorTexture, material, "base colour");
         validateTextureRef(*this, material.metallicRoughnessTexture, material, "metallic-roughness");
         validateTextureRef(*this, material.normalTexture, material, "normal");
@@ -99,8 +126,9 @@ void Scene::validate() const {
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const Instance& instance = instances[i];
         if (instance.mesh < 0 || instance.mesh >= static_cast<int>(meshes.size()))
-            fail(ErrorKind::BadInput, "instance %zu '%s': mesh %d; 0 to %zu would be right", i,
-                 instance.name.c_str(), instance.mesh, meshes.size() - 1);
+            fail(ErrorKind::BadInput,
+                 "instance %zu '%s': mesh %d; 0 or more and less than %zu would be right", i,
+                 instance.name.c_str(), instance.mesh, meshes.size());
         if (instance.material >= static_cast<int>(materials.size()))
             fail(ErrorKind::BadInput, "instance %zu '%s': material %d; less than %zu would be right", i,
                  instance.name.c_str(), instance.material, materials.size());
@@ -108,10 +136,8 @@ void Scene::validate() const {
             fail(ErrorKind::BadInput, "instance %zu '%s': the transform is not finite", i,
                  instance.name.c_str());
     }
-    for (const Light& light : lights)
-        if (!isFinite(light.position) || !isFinite(light.direction) || !isFinite(light.intensity))
-            fail(ErrorKind::BadInput, "light '%s': position, direction or intensity is not finite",
-                 light.name.c_str());
+    for (const Light& light : lights) validateLight(light);
+    if (!isFinite(sky)) fail(ErrorKind::BadInput, "sky: the radiance is not finite");
 }
 
 // Lambert in both models: rho/pi * I and kd * color * c are equal when I = pi * c (docs/theory/1_scene.md).

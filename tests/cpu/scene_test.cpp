@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT
+// The scene tables: bounds, what is refused and with which words, the camera and light that are added, and
+// the two material models.
+#include "conelight/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "conelight/error.h"
+
+namespace conelight::test {
+namespace {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+
+// One triangle of one material, twice in the scene.
+Scene smallScene() {
+    Scene scene;
+    Mesh mesh;
+    mesh.name = "triangle";
+    mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}};
+    mesh.indices = {0, 1, 2};
+    scene.meshes.push_back(mesh);
+    scene.materials.emplace_back().name = "paint";
+    Texture texture;
+    texture.name = "wood";
+    texture.width = texture.height = 1;
+    texture.rgba = {1, 2, 3, 4};
+    scene.textures.push_back(texture);
+    scene.instances.resize(2);
+    for (Instance& instance : scene.instances) instance.mesh = instance.material = 0;
+    scene.instances[1].name = "far";
+    scene.instances[1].worldFromObject = glm::translate(glm::mat4(1), glm::vec3(10, 0, -3));
+    scene.lights.emplace_back().name = "lamp";
+    return scene;
+}
+
+std::string failureOf(const std::function<void(Scene&)>& breakIt) {
+    Scene scene = smallScene();
+    breakIt(scene);
+    try {
+        scene.validate();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::BadInput);
+        return error.what();
+    }
+    return "";
+}
+
+}  // namespace
+
+TEST(SceneTest, BoundsAndCountsAreOfWhatIsVisible) {
+    Scene scene = smallScene();
+    EXPECT_EQ(scene.bounds().min, glm::vec3(0, 0, -3));
+    EXPECT_EQ(scene.bounds().max, glm::vec3(11, 2, 0));
+    EXPECT_EQ(scene.triangleCount(), 2u);
+    scene.instances[1].visible = false;
+    EXPECT_EQ(scene.bounds().max, glm::vec3(1, 2, 0));
+    EXPECT_EQ(scene.triangleCount(), 1u);
+    scene.instances.clear();
+    EXPECT_TRUE(scene.bounds().empty());
+    EXPECT_EQ(scene.bounds().extent(), glm::vec3(0));
+}
+
+TEST(SceneTest, WhatBreaksARuleIsNamed) {
+    EXPECT_EQ(failureOf([](Scene&) {}), "");
+    EXPECT_EQ(failureOf([](Scene& s) { s.meshes[0].normals.resize(2); }),
+              "mesh 0 'triangle': 2 normals for 3 positions; as many or none would be right");
+    EXPECT_EQ(failureOf([](Scene& s) { s.meshes[0].indices.push_back(0); }),
+              "mesh 0 'triangle': 4 indices; a multiple of 3 would be right");
+    EXPECT_EQ(failureOf([](Scene& s) { s.meshes[0].indices[1] = 3; }),
+              "mesh 0 'triangle': index 1 is 3; less than 3 would be right");
+    EXPECT_EQ(failureOf([](Scene& s) { s.meshes[0].positions[2].y = kNan; }),
+              "mesh 0 'triangle': position 2 is not finite");
+    EXPECT_EQ(failureOf([](Scene& s) { s.textures[0].rgba.pop_back(); }),
+              "texture 'wood': 1 x 1 texels and 3 bytes do not belong together");
+    EXPECT_NE(failureOf([](Scene& s) { s.textures[0].width = -1; }), "");
+    EXPECT_EQ(failureOf([](Scene& s) { s.materials[0].normalTexture.texture = 1; }),
+              "material 'paint': normal names texture 1; less than 1 would be right");
+    EXPECT_EQ(failureOf([](Scene& s) { s.instances[1].mesh = 1; }),
+              "instance 1 'far': mesh 1; 0 or more and less than 1 would be right");
+    EXPECT_NE(failureOf([](Scene& s) { s.instances[0].mesh = -1; }), "");
+    EXPECT_EQ(failureOf([](Scene& s) { s.instances[1].material = 1; }),
+              "instance 1 'far': material 1; less than 1 would be right");
+    EXPECT_EQ(failureOf([](Scene& s) { s.instances[1].worldFromObject[3][0] = kNan; }),
+              "instance 1 'far': the transform is not finite");
+}
+
+// Every number that reaches a shader: NaN would spread through the light.
+TEST(SceneTest, NumbersAreFinite) {
+    const std::vector<std::function<void(Scene&)>> all{
+        [](Scene& s) { s.sky.y = kNan; },
+        [](Scene& s) { s.materials[0].baseColor.a = kNan; },
+        [](Scene& s) { s.materials[0].baseColor.r = std::numeric_limits<float>::infinity(); },
+        [](Scene& s) { s.materials[0].roughness = kNan; },
+        [](Scene& s) { s.materials[0].ior = kNan; },
+        [](Scene& s) { s.materials[0].specular = kNan; },
+        [](Scene& s) { s.materials[0].specularColor.z = kNan; },
+        [](Scene& s) { s.materials[0].emission.x = kNan; },
+        [](Scene& s) { s.materials[0].alphaCutoff = kNan; },
+        [](Scene& s) { s.materials[0].phong.shininess = kNan; },
+        [](Scene& s) { s.materials[0].phong.diffuseStrength = kNan; },
+        [](Scene& s) { s.lights[0].position.x = kNan; },
+        [](Scene& s) { s.lights[0].intensity.x = kNan; },
+        [](Scene& s) { s.lights[0].halfU.x = kNan; },
+        [](Scene& s) { s.lights[0].outerAngle = kNan; },
+        [](Scene& s) { s.lights[0].range = kNan; },
+        [](Scene& s) { s.lights[0].falloff.z = kNan; },
+    };
+    for (std::size_t i = 0; i < all.size(); ++i)
+        EXPECT_NE(failureOf(all[i]).find("not finite"), std::string::npos) << "change " << i;
+}
+
+TEST(SceneTest, FrameCameraSeesAllCorners) {
+    for (const glm::vec3& extent :
+         {glm::vec3(1), glm::vec3(100, 1, 1), glm::vec3(0.01f, 5, 2), glm::vec3(3, 0, 3)}) {
+        Aabb box;
+        box.grow(glm::vec3(7, -2, 5));
+        box.grow(glm::vec3(7, -2, 5) + extent);
+        const Camera camera = frameCamera(box);
+        const glm::mat4 clip = glm::perspective(camera.fovY, 1.0f, camera.zNear, camera.zFar) *
+                               glm::lookAt(camera.eye, camera.target, camera.up);
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::vec4 p = clip * glm::vec4((corner & 1) != 0 ? box.max.x : box.min.x,
+                                                 (corner & 2) != 0 ? box.max.y : box.min.y,
+                                                 (corner & 4) != 0 ? box.max.z : box.min.z, 1);
+            EXPECT_LE(std::abs(p.x), p.w);
+            EXPECT_LE(std::abs(p.y), p.w);
+            EXPECT_LE(std::abs(p.z), p.w);
+        }
+    }
+    // Nothing to see, or a single point: still a camera.
+    for (const Aabb& box : {Aabb{}, Aabb{glm::vec3(1), glm::vec3(1)}}) {
+        const Camera camera = frameCamera(box);
+        EXPECT_TRUE(std::isfinite(glm::length(camera.eye)));
+        EXPECT_GT(glm::distance(camera.eye, camera.target), 0.0f);
+        EXPECT_LT(camera.zNear, camera.zFar);
+    }
+}
+
+TEST(SceneTest, CompletedScenesCanBeSeen) {
+    Scene scene = smallScene();
+    completeScene(scene);
+    EXPECT_EQ(scene.cameras.size(), 1u);
+    EXPECT_EQ(scene.lights.size(), 1u);
+    EXPECT_EQ(scene.notes.size(), 1u);
+    // Nothing more the second time.
+    completeScene(scene);
+    EXPECT_EQ(scene.cameras.size(), 1u);
+    EXPECT_EQ(scene.notes.size(), 1u);
+    // No light: a headlight, that a surface facing the camera gets.
+    scene = smallScene();
+    scene.lights[0].enabled = false;
+    completeScene(scene);
+    ASSERT_EQ(scene.lights.size(), 2u);
+    EXPECT_EQ(scene.lights[1].type, LightType::Directional);
+    EXPECT_NEAR(glm::length(scene.lights[1].direction), 1.0f, 1e-5f);
+    EXPECT_GT(
+        glm::dot(scene.lights[1].direction, glm::normalize(scene.cameras[0].target - scene.cameras[0].eye)),
+        0.8f);
+    EXPECT_NO_THROW(scene.validate());
+    // Sky or emission are light enough.
+    for (const bool sky : {true, false}) {
+        scene = smallScene();
+        scene.lights.clear();
+        if (sky)
+            scene.sky = glm::vec3(0.1f);
+        else
+            scene.materials[0].emission = glm::vec3(0, 1, 0);
+        completeScene(scene);
+        EXPECT_TRUE(scene.lights.empty());
+    }
+    Scene empty;
+    completeScene(empty);
+    EXPECT_EQ(empty.cameras.size(), 1u);
+    EXPECT_TRUE(empty.lights.empty());
+}
+
+TEST(SceneTest, MattMaterialsLookTheSameInBothModels) {
+    Material matt;
+    matt.baseColor = {0.6f, 0.3f, 0.1f, 1};
+    const PhongMaterial phong = phongFromPbr(matt);
+    EXPECT_EQ(phong.color * phong.diffuseStrength, glm::vec3(0.6f, 0.3f, 0.1f));
+    EXPECT_EQ(phong.ambientStrength, 0.0f);
+    // And back: what the specular lobe takes, the diffuse one loses.
+    Material back;
+    back.phong = phong;
+    back.phong.specularStrength = 0;
+    setPbrFromPhong(back);
+    EXPECT_NEAR(glm::length(glm::vec3(back.baseColor) - glm::vec3(matt.baseColor)), 0.0f, 1e-6f);
+    EXPECT_EQ(back.specularColor, glm::vec3(0));
+    EXPECT_EQ(back.metallic, 0.0f);
+    // A mirror of the thesis's scenes: smooth, and no more light out than in.
+    back.phong.specularStrength = 1.3f;
+    back.phong.shininess = 256;
+    setPbrFromPhong(back);
+    EXPECT_LT(back.roughness, 0.3f);
+    EXPECT_LE(0.04f * back.specularColor.x + back.baseColor.r, 1.0f);
+}
+
+TEST(SceneTest, ShininessGrowsAsRoughnessFalls) {
+    float last = 0;
+    for (const float roughness : {1.0f, 0.8f, 0.5f, 0.3f, 0.1f}) {
+        Material material;
+        material.roughness = roughness;
+        const PhongMaterial phong = phongFromPbr(material);
+        EXPECT_GT(phong.shininess, last);
+        last = phong.shininess;
+        // The inverse up to the clamps.
+        Material back;
+        back.phong = phong;
+        setPbrFromPhong(back);
+        if (phong.shininess > 1.0f && phong.shininess < 1000.0f) {
+            EXPECT_NEAR(back.roughness, roughness, 1e-3f);
+        }
+    }
+}
+
+}  // namespace conelight::test
