@@ -37,11 +37,11 @@ TEST(ToneMapTest, BytesAreRgbInTheOrderOfPixels) {
 
 TEST(ToneMapTest, SrgbIsTheStandardsCurve) {
     const ImageSettings srgb = settings(ToneMap::None, true);
-    // 12.92 c below 0.0031308; 0.5 -> 187.5; 0.18 -> 117.6; 0.2140 is 0.5 of full scale.
+    // 12.92 c below 0.0031308; 0.5 -> 187.5; 0.18 -> 117.6; 0.21586 is 128/255.
     EXPECT_EQ(grey(0.001f, srgb), 3);
     EXPECT_EQ(grey(0.5f, srgb), 188);
     EXPECT_EQ(grey(0.18f, srgb), 118);
-    EXPECT_EQ(grey(0.21404f, srgb), 128);
+    EXPECT_EQ(grey(0.21586f, srgb), 128);
     EXPECT_EQ(grey(1.0f, srgb), 255);
 }
 
