@@ -80,7 +80,7 @@ struct ConesSettings {
     OpacityModel opacity = OpacityModel::Area;
     float step = 0.5f;                 // step / footprint; 0.1..2
     float offset = 1.0f;               // start off the surface, voxels along the geometric normal; 0..4
-    float maxFootprint = 0.125f;       // largest footprint / longest side of the grid; 0.01..1
+    float maxFootprint = 0.5f;         // largest footprint / longest side of the grid; 0.01..1
     AutoFloat maxDistance;             // m; auto: all the way through the grid
     float specularMinAperture = 0.1f;  // rad, full angle of the narrowest cone; 0.01..1
     AutoFloat occlusionDistance;       // m, of component occlusion; auto: a tenth of the grid's longest side

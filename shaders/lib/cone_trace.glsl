@@ -39,12 +39,15 @@ struct March {
     vec4 gathered;  // premultiplied radiance, opacity
 };
 
-// Distance at which a ray leaves the volume, 0 when it never is inside.
+// Distance at which a ray leaves the volume and half a texel of the coarsest level about it, 0 when it never
+// is inside. A wall at the volume's border is blurred over a texel; who stops at the border has crossed half
+// of it.
 float volumeExit(vec3 origin, vec3 direction) {
+    float margin = 0.5 * volume.voxelSize * exp2(volume.maxLevel);
     // 1e-9 m per m: parallel to a side; keeps 0/0 out.
     vec3 d = mix(direction, vec3(1e-9), lessThan(abs(direction), vec3(1e-9)));
-    vec3 a = (volume.origin - origin) / d;
-    vec3 b = (volume.origin + volume.extent - origin) / d;
+    vec3 a = (volume.origin - margin - origin) / d;
+    vec3 b = (volume.origin + volume.extent + margin - origin) / d;
     vec3 near = min(a, b);
     vec3 far = max(a, b);
     float enter = max(max(near.x, near.y), max(near.z, 0.0));
@@ -57,19 +60,20 @@ March startMarch(vec3 origin, vec3 direction, float tanHalf, float maxDistance, 
     return March(origin, direction, tanHalf, 0.0, end, fade, vec4(0.0));
 }
 
-// Diameter of the cone at distance t, between a voxel and the largest footprint (eq. 4.1).
-float footprint(float tanHalf, float t) {
-    return clamp(2.0 * tanHalf * t, volume.voxelSize, volume.maxFootprint);
+// Level whose texels are nearest to the cone's diameter at distance t (eq. 4.1, 4.2). A whole number: samples
+// of one cone lie at the same distances, and so in the same levels, for all pixels, and no ring shows where
+// the level changes; and stretches that are a whole part of a texel add up to 1 across a wall, which filters
+// between levels would not.
+float levelAt(float tanHalf, float t) {
+    return clamp(round(log2(2.0 * tanHalf * t * volume.inverseVoxelSize)), 0.0, volume.maxLevel);
 }
 
-// Premultiplied radiance and opacity of a stretch of length `delta` about p, in texels of size `size`.
-vec4 sampleStretch(vec3 p, vec3 direction, float size, float delta) {
-    float level = log2(size * volume.inverseVoxelSize);  // eq. 4.2
+// Premultiplied radiance and opacity of a stretch about p that is `part` of a texel of `level` long.
+vec4 sampleStretch(vec3 p, vec3 direction, float level, float part) {
     vec3 q = (p - volume.origin) * volume.inverseExtent;
-    float part = delta / size;
 #if DIRECTIONAL
-    // Stay half a texel of the coarser of both levels away from the neighbouring block.
-    float inset = exp2(ceil(level)) * volume.halfTexelX;
+    // Stay half a texel away from the neighbouring block, as clamping to the edge does at the other sides.
+    float inset = exp2(level) * volume.halfTexelX;
     q.x = clamp(q.x, inset, 1.0 - inset);
     // A cone that goes towards +x meets faces that look towards -x.
     vec3 block =
@@ -99,9 +103,11 @@ vec4 sampleStretch(vec3 p, vec3 direction, float size, float delta) {
 
 // One more stretch.
 void stepMarch(inout March m, float step) {
-    float delta = min(step * footprint(m.tanHalf, m.t), max(m.end - m.t, 0.0));
+    float level = levelAt(m.tanHalf, m.t);
+    float texel = volume.voxelSize * exp2(level);
+    float delta = min(step * texel, max(m.end - m.t, 0.0));
     float middle = m.t + 0.5 * delta;
-    vec4 s = sampleStretch(m.origin + middle * m.direction, m.direction, footprint(m.tanHalf, middle), delta);
+    vec4 s = sampleStretch(m.origin + middle * m.direction, m.direction, level, delta / texel);
     s *= max(1.0 - middle * m.fade, 0.0);
     m.t += delta;
 #if AREA

@@ -6,10 +6,7 @@
 // Six directions are six blocks side by side along x, block k for faces that look towards direction k of
 // shared/voxels.h: one texture, so that the three blocks a cone needs are chosen by coordinate.
 //
-//   x ->  | margin | grid | margin || margin | grid | margin || ...      block width: a multiple of
-//   2^maxLevel
-// The margin (half a texel of the coarsest level) keeps the grid clear of the zone in which coordinates are
-// clamped so that filtering never reaches the neighbouring block. Isotropic volumes need none.
+// Every axis is a multiple of 2^maxLevel, so that all levels have whole texels.
 #pragma once
 #include "shared/prelude.h"
 
@@ -19,7 +16,7 @@
 CONELIGHT_SHARED_BEGIN
 
 struct RadianceVolume {
-    vec3 origin;  // world position of the lowest corner of the (first) block, m
+    vec3 origin;  // world position of the lowest corner of each block, m
     float voxelSize;
     // ---- 16 B
     vec3 inverseExtent;  // 1 / extent of a block, 1/m
@@ -31,15 +28,10 @@ struct RadianceVolume {
     uint sizeX;  // texels of level 0 per block
     uint sizeY;
     uint sizeZ;
-    uint firstVoxelX;  // texel x of the grid's voxel 0; y and z start at 0
-    // ---- 64 B
-    float maxFootprint;  // m
-    float halfTexelX;    // 0.5 / sizeX
-    uint pad0;
-    uint pad1;
-};  // 80 B
+    float halfTexelX;  // 0.5 / sizeX
+};  // 64 B
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
-static_assert(sizeof(conelight::gpu::RadianceVolume) == 80);
+static_assert(sizeof(conelight::gpu::RadianceVolume) == 64);
 #endif

@@ -55,7 +55,7 @@ void main() {
     if (number >= grid.occupiedBricks) return;
     ivec3 local = ivec3(inBrick % edge, (inBrick / edge) % edge, inBrick / (edge * edge));
     ivec3 texel = unpackVoxel(occupiedBricks[number]) * edge + local;
-    texel.x += int(volume.firstVoxelX) * edge / 4 + block * blockWidth;
+    texel.x += block * blockWidth;
 #else
     ivec3 texel = ivec3(gl_GlobalInvocationID);
     if (any(greaterThanEqual(texel, imageSize(coarse)))) return;

@@ -36,7 +36,7 @@ int roundUp(int value, int multiple) { return (value + multiple - 1) / multiple 
 gpu::RadianceVolume RadianceLayout::packed() const {
     gpu::RadianceVolume v{};
     const float h = grid.voxelSize;
-    v.origin = grid.origin - glm::vec3(static_cast<float>(firstVoxelX) * h, 0, 0);
+    v.origin = grid.origin;
     v.voxelSize = h;
     v.inverseVoxelSize = 1.0f / h;
     v.extent = glm::vec3(size) * h;
@@ -45,8 +45,6 @@ gpu::RadianceVolume RadianceLayout::packed() const {
     v.sizeX = static_cast<std::uint32_t>(size.x);
     v.sizeY = static_cast<std::uint32_t>(size.y);
     v.sizeZ = static_cast<std::uint32_t>(size.z);
-    v.firstVoxelX = static_cast<std::uint32_t>(firstVoxelX);
-    v.maxFootprint = maxFootprint * h;
     v.halfTexelX = 0.5f / static_cast<float>(size.x);
     return v;
 }
@@ -56,15 +54,11 @@ RadianceLayout radianceLayout(const VoxelGrid& grid, VolumeDirections directiona
     layout.grid = grid;
     layout.blocks = directional == VolumeDirections::Six ? 6 : 1;
     const int longest = std::max({grid.size.x, grid.size.y, grid.size.z});
-    layout.maxFootprint =
-        std::clamp(maxFootprint * static_cast<float>(longest), 1.0f, static_cast<float>(longest));
-    // The coarsest level is the first whose texels are at least as large as the largest footprint.
-    layout.maxLevel = std::max(static_cast<int>(std::ceil(std::log2(layout.maxFootprint) - 1e-4f)), 0);
+    // The coarsest level is the one whose texels are nearest to the largest footprint.
+    const float footprint = std::clamp(maxFootprint, 0.0f, 1.0f) * static_cast<float>(longest);
+    layout.maxLevel = footprint > 1.0f ? static_cast<int>(std::lround(std::log2(footprint))) : 0;
     const int texel = 1 << layout.maxLevel;
-    // The margin is a multiple of 4, so that bricks of voxels stay bricks of texels.
-    layout.firstVoxelX = layout.blocks == 6 ? roundUp(std::max(texel / 2, 1), 4) : 0;
-    layout.size = {roundUp(grid.size.x + 2 * layout.firstVoxelX, texel), roundUp(grid.size.y, texel),
-                   roundUp(grid.size.z, texel)};
+    layout.size = {roundUp(grid.size.x, texel), roundUp(grid.size.y, texel), roundUp(grid.size.z, texel)};
     return layout;
 }
 
@@ -75,7 +69,7 @@ RadianceVolume::RadianceVolume(const RadianceLayout& layout)
                "radiance volume"),
       block_(sizeof(gpu::RadianceVolume), "radiance volume block") {
     block_.update(layout.packed());
-    texture_.parameter(GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    texture_.parameter(GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_NEAREST);
     texture_.parameter(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     for (const unsigned axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
         texture_.parameter(axis, GL_CLAMP_TO_EDGE);

@@ -26,11 +26,9 @@ namespace conelight::voxels {
 // Where the texels of a volume lie.
 struct RadianceLayout {
     VoxelGrid grid;
-    int blocks = 1;          // 6 with directions
-    int maxLevel = 0;        // coarsest level
-    float maxFootprint = 1;  // voxels
-    glm::ivec3 size{4};      // texels of level 0 per block
-    int firstVoxelX = 0;     // texel x of voxel 0
+    int blocks = 1;      // 6 with directions
+    int maxLevel = 0;    // coarsest level
+    glm::ivec3 size{4};  // texels of level 0 per block; texel 0 is voxel 0
 
     gpu::RadianceVolume packed() const;
     bool operator==(const RadianceLayout&) const = default;

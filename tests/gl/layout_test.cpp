@@ -98,7 +98,7 @@ const std::vector<Struct>& table() {
         ROW(VoxelGrid, origin, voxelSize, sizeX, sizeY, sizeZ, voxelCount, bricksX, bricksY, bricksZ,
             faceCount, inverseVoxelSize, occupiedBricks, pad0, pad1),
         ROW(RadianceVolume, origin, voxelSize, inverseExtent, inverseVoxelSize, extent, maxLevel, sizeX, sizeY,
-            sizeZ, firstVoxelX, maxFootprint, halfTexelX, pad0, pad1),
+            sizeZ, halfTexelX),
         ROW(ConeConstants, count, step, offset, maxDistance, specularMinTan, occlusionDistance, voxelLevel, pad0,
             cone, aperture),
         ROW(FaceRecord, normal, offsetWeight, bounds, voxel, albedo, radiance, irradiance0, irradiance1),
