@@ -34,6 +34,8 @@ namespace {
 
 constexpr float kSmoothingAngleDeg = 60.0f;  // corners sharper than this stay sharp
 constexpr double kBytesPerSecond = 5e6;      // slowest useful importer measured (FBX text), with a margin
+constexpr std::uint64_t kMemoryPerByte =
+    100;  // text formats: a vertex of 20 bytes becomes 200 with its copies
 
 [[noreturn]] void fail(const std::string& why) { throw Error(ErrorKind::BadInput, why); }
 
@@ -227,17 +229,15 @@ void Converter::convertCamera(const aiCamera& from, const glm::mat4& worldFromNo
         scene.notes.push_back(fmt::format("camera {}: is orthographic; drawn in perspective", to.name));
     else if (horizontal > 0.01f && horizontal < 3.1f)
         to.fovY = 2.0f * std::atan(std::tan(0.5f * horizontal) / aspect);
-    if (from.mClipPlaneNear > 0.0f && from.mClipPlaneFar > from.mClipPlaneNear &&
-        std::isfinite(from.mClipPlaneFar)) {
-        to.zNear = from.mClipPlaneNear;
-        to.zFar = from.mClipPlaneFar;
-    }
     scene.cameras.push_back(to);
 }
 
 // Root rotation that brings the file's up axis to +y. FBX states its axes as metadata and Assimp 5.2 leaves
-// the conversion to us; the other importers rotate by themselves.
-glm::mat4 yUpFromFile(const aiScene& source) {
+// the conversion to us; Blender and 3MF are z-up by definition; the other importers rotate by themselves, and
+// PLY, STL and OBJ say nothing.
+glm::mat4 yUpFromFile(const aiScene& source, const std::string& extension) {
+    if (extension == ".blend" || extension == ".3mf")
+        return {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1};  // (x, y, z) -> (x, z, -y)
     int upAxis = 1, upSign = 1, frontAxis = 2, frontSign = 1, coordAxis = 0, coordSign = 1;
     if (source.mMetaData == nullptr || !source.mMetaData->Get("UpAxis", upAxis)) return glm::mat4(1.0f);
     source.mMetaData->Get("UpAxisSign", upSign);
@@ -257,6 +257,16 @@ glm::mat4 yUpFromFile(const aiScene& source) {
     return m;
 }
 
+// Assimp's words for some common cases, said so that they help.
+std::string plainWords(const std::string& why) {
+    if (why.empty()) return "cannot be read";
+    if (why.find("bad_alloc") != std::string::npos)
+        return "needs too much memory; the file is probably broken";
+    if (why.find("No meshes remaining") != std::string::npos)
+        return "holds no triangles (only points or lines)";
+    return why;
+}
+
 // Runs the importer; `work` sees the aiScene before it dies.
 template <typename Work>
 void withAssimp(const fs::path& path, unsigned flags, const Work& work) {
@@ -264,10 +274,7 @@ void withAssimp(const fs::path& path, unsigned flags, const Work& work) {
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kSmoothingAngleDeg);
     const aiScene* source = importer.ReadFile(path.string(), flags);
-    if (source == nullptr) {
-        const std::string why = oneLine(importer.GetErrorString());
-        fail(why.empty() ? "cannot be read" : why);
-    }
+    if (source == nullptr) fail(plainWords(oneLine(importer.GetErrorString())));
     if (source->mRootNode == nullptr) fail("holds no scene");
     work(*source);
 }
@@ -281,7 +288,7 @@ Scene importWhole(const fs::path& path) {
         importAssimpMaterials(source, path, scene);
         Converter converter{source, scene, {}, 0, 0};
         converter.convertMeshes();
-        converter.place(yUpFromFile(source));
+        converter.place(yUpFromFile(source, lowerExtension(path)));
         if (converter.boneMeshes > 0)
             scene.notes.push_back(fmt::format("{} skinned mesh{} shown in rest pose", converter.boneMeshes,
                                               converter.boneMeshes == 1 ? "" : "es"));
@@ -294,6 +301,12 @@ Scene importWhole(const fs::path& path) {
     if (scene.instances.empty() && scene.lights.empty() && scene.cameras.empty())
         fail("holds no triangles, lights or cameras");
     removeMirrors(scene);
+    // Clip planes of these formats come in the file's units, unlike the rest: derive them from the size.
+    const float size = scene.instances.empty() ? 1.0f : glm::length(scene.bounds().extent());
+    for (Camera& camera : scene.cameras) {
+        camera.zNear = std::clamp(1e-3f * size, 1e-5f, 0.1f);
+        camera.zFar = std::max(1000.0f, 20.0f * size);
+    }
     return scene;
 }
 
@@ -321,7 +334,9 @@ Scene isolated(const fs::path& path, const LoadOptions& options, Scene (*import)
     if (options.isolate) {
         ChildLimits limits;
         limits.cpuSeconds = options.timeLimitSeconds;
+        limits.extraMemoryBytes = options.memoryLimitBytes;
         const std::uintmax_t size = fs::file_size(path, code);
+        if (limits.extraMemoryBytes > 0 && !code) limits.extraMemoryBytes += kMemoryPerByte * size;
         if (limits.cpuSeconds > 0.0 && !code) limits.cpuSeconds += double(size) / kBytesPerSecond;
         ChildResult result = runInChild([&] { return bytesFromScene(import(path)); }, limits);
         if (result.failure.empty()) return sceneFromBytes(result.bytes);

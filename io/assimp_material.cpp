@@ -323,6 +323,7 @@ Material convert(const aiMaterial& material, TextureTable& textures) {
     Material out;
     aiString name;
     if (material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS) out.name = oneLine(textOf(name));
+    if (out.name == AI_DEFAULT_MATERIAL_NAME) return out;  // the file names none: our default
     mapColours(material, out);
 
     out.baseColorTexture = textures.find(material, aiTextureType_BASE_COLOR, Use::Colour);

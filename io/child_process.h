@@ -11,8 +11,8 @@
 namespace conelight::io {
 
 struct ChildLimits {
-    double cpuSeconds = 10.0;                                 // 0 = none
-    std::uint64_t extraMemoryBytes = std::uint64_t(8) << 30;  // address space beyond today's; 0 = none
+    double cpuSeconds = 0.0;             // 0 = none
+    std::uint64_t extraMemoryBytes = 0;  // address space beyond today's; 0 = none
 };
 
 struct ChildResult {

@@ -151,10 +151,11 @@ FloatImage readFrom(const Bytes& bytes, const std::string& file) {
     if (layers.empty()) throw Error(ErrorKind::BadInput, fmt::format("{}: has no channels", file));
     std::size_t channelCount = 0;
     for (const auto& [name, suffixes] : layers) channelCount += suffixes.size();
-    // 2^31 floats are 8 GiB: more is a broken header.
-    if (channelCount * std::size_t(width * height) > (std::size_t(1) << 31))
-        throw Error(ErrorKind::BadInput,
-                    fmt::format("{}: channels: {} of them are too many", file, channelCount));
+    // 2^31 floats are 8 GiB: more is a broken header. So is, above 16 million floats, more than 65536 of them
+    // per byte (an empty PIZ picture has 6000).
+    const std::size_t values = channelCount * std::size_t(width * height);
+    if (values > (std::size_t(1) << 31) || (values > (std::size_t(1) << 24) && values / 65536 > bytes.size()))
+        throw Error(ErrorKind::BadInput, fmt::format("{}: header: its size does not fit the file", file));
 
     Imf::FrameBuffer buffer;
     image.layers.reserve(layers.size());

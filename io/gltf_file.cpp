@@ -192,7 +192,9 @@ GltfFile::GltfFile(const fs::path& path) : path_(path), file_(oneLine(path.strin
     } else {
         readJson({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     }
-    const std::string version = root()["asset"]["version"].text("");
+    const GltfValue versionValue = root()["asset"]["version"];
+    if (versionValue.isNumber() && versionValue.number(0.0f) < 2.0f) throw GltfVersion1();
+    const std::string version = versionValue.text("");
     if (version.rfind("1.", 0) == 0 || version == "1") throw GltfVersion1();
     if (version.empty()) failFile(file_, "asset.version: is missing; not a glTF file");
     if (version.rfind("2.", 0) != 0 && version != "2")

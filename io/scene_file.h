@@ -3,6 +3,7 @@
 // (builtin:NAME) and every format Assimp reads (.obj .fbx .ply .stl .dae .3ds .ifc ...).
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,8 @@ struct LoadOptions {
     // Processor seconds a foreign importer may use, plus one for every 5 MB of the file; 0 = no limit. A file
     // that needs more is an error. Does not apply to glTF and the text format, whose cost is bounded by size.
     double timeLimitSeconds = 10.0;
+    // Memory a foreign importer may take, plus 100 bytes for every byte of the file; 0 = no limit.
+    std::uint64_t memoryLimitBytes = std::uint64_t(4) << 30;
     // Import foreign formats in a child process, so that an importer that crashes, hangs or eats memory ends
     // as one line of error. Off: faster for many tiny files, and the importer can take the program with it.
     bool isolate = true;

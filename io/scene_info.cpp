@@ -95,6 +95,9 @@ std::string describe(const Material& m) {
                            m.phong.shininess);
     else
         out += fmt::format(", metallic {:.3g}, roughness {:.3g}", m.metallic, m.roughness);
+    if (m.specular != 1.0f) out += fmt::format(", specular {:.3g}", m.specular);
+    if (m.specularColor != glm::vec3(1)) out += fmt::format(", specular colour {}", text(m.specularColor));
+    if (m.ior != 1.5f) out += fmt::format(", ior {:.3g}", m.ior);
     if (m.emission != glm::vec3(0)) out += fmt::format(", emission {} W/(sr m^2)", text(m.emission));
     std::string maps;
     const auto map = [&](const TextureRef& ref, const char* name) {

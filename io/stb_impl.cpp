@@ -48,6 +48,14 @@ void append(void* context, void* data, int size) {
 // Largest picture we decode: 2^28 pixels (16384^2) are 1 GiB of RGBA.
 constexpr long long kMaxPixels = 1LL << 28;
 
+// A header may lie about its size. No format here packs more than about 1000 pixels into a byte (deflate's
+// limit is 1032 to 1); beyond 4 million pixels a picture must be that plausible.
+bool plausible(long long width, long long height, std::size_t fileBytes) {
+    const long long pixels = width * height;
+    return pixels > 0 && pixels <= kMaxPixels &&
+           (pixels <= (1LL << 22) || pixels / 1100 <= static_cast<long long>(fileBytes));
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> encodePng(int width, int height, int channels, const std::uint8_t* pixels) {
@@ -77,7 +85,7 @@ std::string decodeBytes(const std::uint8_t* data, std::size_t size, int wantedCh
     int inFile = 0;
     if (stbi_info_from_memory(data, int(size), &width, &height, &inFile) == 0)
         return "is not a PNG, JPG, BMP or TGA picture";
-    if (width <= 0 || height <= 0 || 1LL * width * height > kMaxPixels) return "has an unusable size";
+    if (!plausible(width, height, size)) return "has an unusable size";
     int asked = wantedChannels;
     if (asked == 0) asked = inFile == 2 ? 4 : inFile;
     stbi_uc* decoded = stbi_load_from_memory(data, int(size), &width, &height, &inFile, asked);
@@ -93,8 +101,8 @@ std::string decodeHdr(const std::uint8_t* data, std::size_t size, int& width, in
     if (size > INT_MAX) return "is larger than 2 GiB";
     if (stbi_is_hdr_from_memory(data, int(size)) == 0) return "is not a Radiance HDR picture";
     int inFile = 0;
-    if (stbi_info_from_memory(data, int(size), &width, &height, &inFile) == 0 || width <= 0 || height <= 0 ||
-        1LL * width * height > kMaxPixels)
+    if (stbi_info_from_memory(data, int(size), &width, &height, &inFile) == 0 ||
+        !plausible(width, height, size))
         return "has an unusable size";
     float* decoded = stbi_loadf_from_memory(data, int(size), &width, &height, &inFile, 3);
     if (decoded == nullptr) return std::string("cannot be decoded (") + stbi_failure_reason() + ")";
