@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <climits>
+#include <cmath>
+#include <cstdio>
 #include <cstdlib>
 
 #if defined(__GNUC__)
@@ -22,7 +24,6 @@
 #define STBI_ONLY_JPEG
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
-#define STBI_ONLY_HDR
 #define STBI_NO_STDIO
 #define STBI_MAX_DIMENSIONS 32768  // 2x the texture limit of today's GPUs
 #define STB_IMAGE_STATIC
@@ -96,18 +97,55 @@ std::string decodeBytes(const std::uint8_t* data, std::size_t size, int wantedCh
     return {};
 }
 
+// Radiance RGBE (Ward 1991), read here because stb_image of 2022 never returns from a file that ends within a
+// run. Scanlines are flat or run-length coded per channel; only the usual "-Y height +X width" order is read.
 std::string decodeHdr(const std::uint8_t* data, std::size_t size, int& width, int& height,
                       std::vector<float>& rgb) {
-    if (size > INT_MAX) return "is larger than 2 GiB";
-    if (stbi_is_hdr_from_memory(data, int(size)) == 0) return "is not a Radiance HDR picture";
-    int inFile = 0;
-    if (stbi_info_from_memory(data, int(size), &width, &height, &inFile) == 0 ||
-        !plausible(width, height, size))
-        return "has an unusable size";
-    float* decoded = stbi_loadf_from_memory(data, int(size), &width, &height, &inFile, 3);
-    if (decoded == nullptr) return std::string("cannot be decoded (") + stbi_failure_reason() + ")";
-    rgb.assign(decoded, decoded + 3 * std::size_t(width) * std::size_t(height));
-    stbi_image_free(decoded);
+    std::size_t at = 0;
+    const auto line = [&] {
+        std::string text;
+        while (at < size && data[at] != '\n') text.push_back(static_cast<char>(data[at++]));
+        ++at;
+        return text;
+    };
+    if (line().rfind("#?", 0) != 0) return "is not a Radiance HDR picture";
+    while (at < size && !line().empty()) {
+    }
+    if (std::sscanf(line().c_str(), "-Y %d +X %d", &height, &width) != 2) return "has no usable size line";
+    if (width <= 0 || height <= 0 || !plausible(width, height, size)) return "has an unusable size";
+    rgb.assign(3 * std::size_t(width) * std::size_t(height), 0.0f);
+    std::vector<std::uint8_t> row(4 * std::size_t(width));
+    const auto w = std::size_t(width);
+    for (int y = 0; y < height; ++y) {
+        const bool coded = width >= 8 && width < 32768 && at + 4 <= size && data[at] == 2 &&
+                           data[at + 1] == 2 && (std::size_t(data[at + 2]) << 8 | data[at + 3]) == w;
+        if (!coded) {
+            if (at > size || size - at < row.size()) return "ends early";
+            std::copy_n(data + at, row.size(), row.begin());
+            at += row.size();
+        } else {
+            at += 4;
+            for (std::size_t c = 0; c < 4; ++c)
+                for (std::size_t x = 0; x < w;) {
+                    if (at + 2 > size) return "ends early";
+                    const std::size_t head = data[at++];
+                    const bool isRun = head > 128;
+                    const std::size_t count = isRun ? head - 128 : head;
+                    if (count == 0 || count > w - x || (!isRun && count > size - at))
+                        return "has a broken run";
+                    for (std::size_t i = 0; i < count; ++i)
+                        row[4 * x++ + c] = isRun ? data[at] : data[at + i];
+                    at += isRun ? 1 : count;
+                }
+        }
+        for (std::size_t x = 0; x < w; ++x) {
+            // value = mantissa / 256 * 2^(exponent - 128); exponent 0 is black.
+            const float scale =
+                row[4 * x + 3] == 0 ? 0.0f : std::ldexp(1.0f, int(row[4 * x + 3]) - (128 + 8));
+            for (std::size_t c = 0; c < 3; ++c)
+                rgb[3 * (std::size_t(y) * w + x) + c] = float(row[4 * x + c]) * scale;
+        }
+    }
     return {};
 }
 
