@@ -30,6 +30,4 @@
 // Units of the G-buffer (GBuffer::bind), fixed because many passes read it: UNIT_GBUFFER and the next
 #define UNIT_GBUFFER 22
 // Units of the light stage, fixed because several stages shade
-#define UNIT_SHADOW_2D 24       // sampler2DArrayShadow
-#define UNIT_SHADOW_CUBE 25     // samplerCubeArrayShadow
-#define BINDING_SHADOW_VIEWS 5  // storage: matrices of shadow views (light stage)
+#define UNIT_SHADOW 24             // sampler2DArrayShadow, all shadow maps (lib/shadow.glsl)

@@ -31,9 +31,11 @@ struct FrameConstants {
     float pad2;
     vec3 viewUp;  // unit vector times the tangent of half the vertical field of view
     float pad3;
-};  // 240 B
+    // ---- 240 B: the light table is sorted by type; ends of the ranges of point, spot, directional, rect
+    uvec4 lightEnds;
+};  // 256 B
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
-static_assert(sizeof(conelight::gpu::FrameConstants) == 240);
+static_assert(sizeof(conelight::gpu::FrameConstants) == 256);
 #endif

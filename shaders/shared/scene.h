@@ -77,36 +77,39 @@ struct Material {
     float pad1;
 };  // 304 B
 
-#define LIGHT_POINT 0u
+// Kinds of lights by how they are evaluated; the table is sorted by them (FrameConstants::lightEnds).
+#define LIGHT_POINT 0u  // also spots wider than a single shadow map can cover
 #define LIGHT_SPOT 1u
 #define LIGHT_DIRECTIONAL 2u
 #define LIGHT_RECT 3u
 
-#define LIGHT_CASTS_SHADOW 1u  // Light::flags
+// Light::flags
+#define LIGHT_CASTS_SHADOW 1u
+#define LIGHT_FROM_EMITTER 2u  // stands for an emissive rectangle of the scene (light/emissive_quads.h)
 
 struct Light {
     vec3 position;
     uint type;
     // ---- 16 B
     vec3 direction;  // unit, where light travels to
-    int shadow;      // first layer of the light's shadow maps, -1: unshadowed
+    int shadow;      // first tile of the light's shadow maps (lib/shadow.glsl), -1: unshadowed
     // ---- 32 B
     vec3 intensity;  // W/sr, W/m^2 or W/(sr m^2), see conelight::Light
     float range;     // 0: unlimited
     // ---- 48 B
-    vec3 halfU;
-    float cosInner;
+    vec3 halfU;      // rect: centre to edge; spot and directional: unit axes of the shadow map
+    float cosInner;  // full intensity inside; a point light has -2 and -3: inside everywhere
     // ---- 64 B
     vec3 halfV;
-    float cosOuter;
+    float cosOuter;  // none outside
     // ---- 80 B
     vec3 falloff;        // constant, linear, quadratic
     uint customFalloff;  // 1: use it, 0: inverse square
-    // ---- 96 B: first shadow view and their number (light stage)
-    uint firstView;
-    uint viewCount;
-    uint flags;
-    uint pad0;
+    // ---- 96 B: filled in by the light stage
+    float shadowNear;   // depth in the map is shadowNear / distance along the map's axis; directional: 1 - shadowNear * distance
+    float shadowTexel;  // edge of a texel, m at 1 m from the light (perspective) or m (directional)
+    uint flags;         // LIGHT_CASTS_SHADOW ...
+    uint sampleGrid;    // rect: sample points per edge
 };  // 112 B
 
 CONELIGHT_SHARED_END

@@ -163,9 +163,18 @@ void drawIndexed(const IndexedDraw& draw) {
 void apply(const RasterState& state) {
     CONELIGHT_ASSERT(state.framebuffer != nullptr, "a raster pass needs a framebuffer");
     glBindFramebuffer(GL_FRAMEBUFFER, state.framebuffer->name());
-    glViewport(0, 0, state.framebuffer->width(), state.framebuffer->height());
+    const int* v = state.viewport;
+    const bool part = v[2] != 0;
+    if (part) {
+        glViewport(v[0], v[1], v[2], v[3]);
+        glScissor(v[0], v[1], v[2], v[3]);
+    } else {
+        glViewport(0, 0, state.framebuffer->width(), state.framebuffer->height());
+    }
+    enable(GL_SCISSOR_TEST, part);
     enable(GL_DEPTH_TEST, state.depthTest);
-    glDepthFunc(GL_LEQUAL);
+    glClipControl(GL_LOWER_LEFT, state.reversedDepth ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
+    glDepthFunc(state.reversedDepth ? GL_GEQUAL : GL_LEQUAL);
     glDepthMask(state.depthWrite ? GL_TRUE : GL_FALSE);
     glDepthRange(0.0, 1.0);
     setCull(state.cull);
@@ -179,7 +188,6 @@ void apply(const RasterState& state) {
     enable(GL_POLYGON_OFFSET_FILL, bias);
     if (bias) glPolygonOffset(state.depthBiasSlope, state.depthBiasUnits);
     glPolygonMode(GL_FRONT_AND_BACK, state.wireframe ? GL_LINE : GL_FILL);
-    enable(GL_SCISSOR_TEST, false);
     enable(GL_STENCIL_TEST, false);
     enable(GL_FRAMEBUFFER_SRGB, false);
     enable(GL_MULTISAMPLE, true);

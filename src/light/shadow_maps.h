@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: MIT
-// Shadow maps of all lights: GpuScene -> depth textures, and the light table's shadow fields filled in.
-// Point lights: one cube; spot: one 2D layer; directional: one 2D layer fitted to the scene's bounds;
-// rectangular: `area_samples` points, each with 2D layers. Compared by hardware, filtered by gather.
+// Shadow maps of all lights: GpuScene -> one array of depth textures, and the light table's shadow fields.
+// Point lights have six maps (the sides of a cube), spots and directional lights one, rectangles five per
+// sample point (the sides of half a cube). All are tiles of one array texture, so that shaders need one
+// sampler and one way of filtering; shaders/lib/shadow.glsl documents tiles, depths and the bias, and is the
+// other half of this file.
 //
-// Writes: depth textures at UNIT_SHADOW_2D (sampler2DArrayShadow) and UNIT_SHADOW_CUBE
-// (samplerCubeArrayShadow), views at BINDING_SHADOW_VIEWS. Shader side: lib/shadow.glsl.
+// Each map is one pass over the instances that its frustum meets: measured on llvmpipe, six culled passes cost
+// no more than one layered pass, and they need no extension.
+//
+// Reads: scene tables. Writes: the texture at UNIT_SHADOW. Both sides of every surface cast shadows.
 #pragma once
+
+#include <memory>
 
 #include "conelight/settings.h"
 #include "gl/pass.h"
@@ -19,9 +25,10 @@ class ShadowMaps {
     ShadowMaps();
     ~ShadowMaps();
 
-    // Draws every map anew. Updates `scene`'s light table (GpuScene::updateLights).
+    // Draws every map anew. Updates `scene`'s light table (GpuScene::updateLights). The scene must be bound.
     void update(gl::ProgramLibrary& programs, gl::Profiler& profiler, scene::GpuScene& scene,
                 const LightSettings& settings);
+    // UNIT_SHADOW; before the first update a map without shadows.
     void bind() const;
 
     static std::vector<gl::ProgramDesc> programDescs();
@@ -30,5 +37,13 @@ class ShadowMaps {
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
+
+// Defines for shaders that include lib/lights.glsl: which kinds of lights the scene has, the filter radius,
+// whether there are shadows at all.
+gl::Defines lightDefines(const scene::GpuScene& scene, const LightSettings& settings);
+
+// `base` with lightDefines' defines added, for a programDescs(): every kind of light alone and all together,
+// every filter radius, and without shadows. Other combinations are made of the same code.
+std::vector<gl::ProgramDesc> lightVariants(const gl::ProgramDesc& base);
 
 }  // namespace conelight::light

@@ -11,6 +11,7 @@
 #include "gl/gl.h"
 #include "gl/pass.h"
 #include "math/octahedral.h"
+#include "scene/gpu_lights.h"
 #include "shared/bindings.h"
 
 namespace conelight::scene {
@@ -275,12 +276,20 @@ void GpuScene::updateBounds() {
         const gpu::Instance& g = instances_[i];
         const Aabb& box = instanceObjectBounds_[i];
         if ((g.flags & INSTANCE_VISIBLE) == 0 || box.empty()) continue;
-        for (int corner = 0; corner < 8; ++corner)
-            bounds_.grow(
-                glm::vec3(g.worldFromObject * glm::vec4((corner & 1) != 0 ? box.max.x : box.min.x,
-                                                        (corner & 2) != 0 ? box.max.y : box.min.y,
-                                                        (corner & 4) != 0 ? box.max.z : box.min.z, 1)));
+        bounds_.grow(instanceBounds(i));
     }
+}
+
+Aabb GpuScene::instanceBounds(std::size_t instance) const {
+    const Aabb& box = instanceObjectBounds_[instance];
+    Aabb world;
+    if (box.empty()) return world;
+    for (int corner = 0; corner < 8; ++corner)
+        world.grow(glm::vec3(instances_[instance].worldFromObject *
+                             glm::vec4((corner & 1) != 0 ? box.max.x : box.min.x,
+                                       (corner & 2) != 0 ? box.max.y : box.min.y,
+                                       (corner & 4) != 0 ? box.max.z : box.min.z, 1)));
+    return world;
 }
 
 void GpuScene::uploadMaterials(const Scene& source) {
@@ -334,24 +343,7 @@ void GpuScene::uploadTextures(const Scene& source) {
 }
 
 void GpuScene::uploadLights(const Scene& source) {
-    for (const Light& light : source.lights) {
-        if (!light.enabled) continue;
-        gpu::Light g{};
-        g.type = static_cast<std::uint32_t>(light.type);
-        g.position = light.position;
-        g.direction = unitOr(light.direction, {0, -1, 0});
-        g.shadow = -1;  // the light stage fills it in
-        g.flags = light.castsShadow ? LIGHT_CASTS_SHADOW : 0u;
-        g.intensity = light.intensity;
-        g.range = light.range;
-        g.halfU = light.halfU;
-        g.halfV = light.halfV;
-        g.cosInner = std::cos(light.innerAngle);
-        g.cosOuter = std::cos(light.outerAngle);
-        g.falloff = light.falloff;
-        g.customFalloff = light.customFalloff ? 1u : 0u;
-        lights_.push_back(g);
-    }
+    lights_ = packedLights(source.lights);
     lightBuffer_ = gl::Buffer(lights_, "scene lights");
 }
 

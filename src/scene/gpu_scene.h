@@ -35,12 +35,13 @@ class GpuScene {
     void draw(const InstanceFilter& filter, gl::Cull cull, bool bindTextures, int copies = 1) const;
 
     const Aabb& bounds() const { return bounds_; }
+    Aabb instanceBounds(std::size_t instance) const;  // world box of the object box: may be larger than needed
     std::uint32_t triangleCount() const { return triangleCount_; }  // over all instances, visible or not
     const std::vector<gpu::Instance>& instances() const { return instances_; }
     const std::vector<gpu::Material>& materials() const { return materials_; }
     const std::vector<gpu::Light>& lights() const { return lights_; }
     bool hasVertexColors() const { return hasVertexColors_; }  // of any mesh
-    // Light stage: writes shadow layers and view ranges into the table.
+    // Light stage: adds lights of emitters, writes shadow maps into the table. Sorted by type.
     void updateLights(const std::vector<gpu::Light>& lights);
     // Moves one instance (dynamic objects); bounds and tables follow.
     void setTransform(std::size_t instance, const glm::mat4& worldFromObject);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scene/gpu_lights.h"
+
 namespace conelight::view {
 namespace {
 
@@ -85,6 +87,7 @@ gpu::FrameConstants frameConstants(const Camera& camera, int width, int height, 
     frame.instanceCount = static_cast<std::uint32_t>(scene.instances().size());
     frame.triangleCount = scene.triangleCount();
     frame.seed = seed;
+    frame.lightEnds = scene::lightEnds(scene.lights());
     return frame;
 }
 

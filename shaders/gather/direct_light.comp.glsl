@@ -1,0 +1,24 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// G-buffer + lights -> the light that reaches the eye without a bounce, per pixel: `diffuse` holds what the
+// diffuse part reflects plus emission (background: the sky), `specular` what the specular lobe reflects.
+// a: 1 where there is a surface, 0 in the background.
+#include "lib/gbuffer.glsl"
+#include "lib/lights.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0, rgba32f) writeonly uniform image2D diffuseImage;
+layout(binding = 1, rgba32f) writeonly uniform image2D specularImage;
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    Surface s;
+    bool seen = fetchSurface(pixel, s);
+    Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));
+    DirectLight light = directLight(Receiver(s.position, s.normal, s.geometricNormal, s.toEye), b);
+    vec3 diffuse = b.diffuse / kPi * light.irradiance + s.emission;
+    vec3 specular = s.unlit ? vec3(0.0) : light.specular;
+    if (pixel.x >= int(frame.width) || pixel.y >= int(frame.height)) return;
+    imageStore(diffuseImage, pixel, seen ? vec4(diffuse, 1.0) : vec4(frame.sky, 0.0));
+    imageStore(specularImage, pixel, seen ? vec4(specular, 1.0) : vec4(0.0));
+}

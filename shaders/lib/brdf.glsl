@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// The BRDF of glTF 2.0 metallic-roughness (its appendix B): Lambert plus one GGX lobe (Trowbridge-Reitz,
+// Walter et al. 2007) with height-correlated Smith masking (Heitz 2014) and Schlick's Fresnel.
+//
+// Energy: a single-scattering GGX lobe loses what bounces more than once between the facets, up to 60 % of it.
+// The lobe is scaled by 1 + F0 (1/E - 1), E its directional albedo at F = 1 (Turquin 2019, "Practical multiple
+// scattering compensation for microfacet models"), and the diffuse part of a dielectric gets what the lobe
+// leaves: 1 - its directional albedo. So a white surface, metal or dielectric, returns all light of a white
+// furnace (docs/theory/3_light.md). C++ twin: src/math/brdf.h. Limits: not reciprocal in both corrections.
+
+const float kPi = 3.14159265358979;
+
+// Roughness below this shows a highlight of less than a pixel that only makes noise; alpha = 0.045^2 = 0.002.
+const float kMinRoughness = 0.045;
+
+// What the functions below need to know of a surface seen from one direction.
+struct Brdf {
+    vec3 diffuse;       // directional albedo of the diffuse part: radiance = diffuse / pi * irradiance
+    vec3 f0;
+    vec3 f90;
+    vec3 compensation;  // factor on the specular lobe
+    float alpha;        // GGX width
+    float nov;
+};
+
+// Directional albedo of the single-scattering lobe for F0 = 1, F90 = 0 (x) and F0 = 0, F90 = 1 (y), so that it is
+// F0 x + F90 y with Schlick's Fresnel. Polynomials fitted by us (2026-11) to a quadrature over the visible normals
+// (Heitz 2018) for NoV in [0.005, 1] and perceptual roughness in [0.045, 1]; largest error of x + y 0.6 percent of
+// it, of y 0.021 (at grazing angles; 0.005 on average). `roughness` is perceptual.
+vec2 directionalAlbedo(float nov, float roughness) {
+    float a = roughness * roughness;
+    float s = nov / (nov + a);  // facets hide each other at grazing angles by the ratio of these two
+    float both = (0.959575 + s * (0.438832 + s * (-3.25298 + s * (5.54518 + s * -2.68982)))) + a * ((0.285436 + s * (-3.13559 + s * (10.8832 + s * (-14.5516 + s * 6.2423)))) + a * ((-0.689624 + s * (1.98606 + s * (-7.77566 + s * (1.51046 + s * 9.55351)))) + a * ((0.645843 + s * (-3.86254 + s * (10.699 + s * (-2.09599 + s * -18.0685)))) + a * (-0.217635 + s * (1.4135 + s * (-1.41486 + s * (-8.25343 + s * 18.5846)))))));
+    float r = roughness;
+    float q = sqrt(nov);
+    float c = 1.0 - nov;
+    float grazing = (0.664249 + q * (6.5041 + q * (-34.2269 + q * (66.6438 + q * -46.0345)))) + r * ((1.41443 + q * (-73.5057 + q * (471.779 + q * (-1052.84 + q * 784.235)))) + r * ((-10.5204 + q * (235.453 + q * (-1684.8 + q * (4060.07 + q * -3172.39)))) + r * ((14.4284 + q * (-281.443 + q * (2188.11 + q * (-5558.21 + q * 4491.91)))) + r * (-5.8871 + q * (112.475 + q * (-941.196 + q * (2490.15 + q * -2065.04)))))));
+    both = clamp(both, 0.0, 1.0);
+    grazing = clamp(grazing * (c * c) * (c * c), 0.0, both);
+    return vec2(both - grazing, grazing);
+}
+
+// Schlick's approximation.
+vec3 fresnel(vec3 f0, vec3 f90, float voh) {
+    float c = 1.0 - voh;
+    float c2 = c * c;
+    return f0 + (f90 - f0) * (c2 * c2 * c);
+}
+
+// Share of specularly reflected light of a white furnace, multiple scattering included.
+vec3 specularAlbedo(Brdf b, vec2 dfg) { return (b.f0 * dfg.x + b.f90 * dfg.y) * b.compensation; }
+
+Brdf makeBrdf(vec3 baseColor, float metallic, float roughness, vec3 dielectricF0, float nov) {
+    Brdf b;
+    b.nov = clamp(nov, 1e-4, 1.0);
+    float r = max(roughness, kMinRoughness);
+    b.alpha = r * r;
+    b.f0 = mix(dielectricF0, baseColor, metallic);
+    // No material reflects less than 2 % at normal incidence but by intent (KHR_materials_specular): then its
+    // grazing reflection goes as well.
+    b.f90 = vec3(clamp(50.0 * max(b.f0.r, max(b.f0.g, b.f0.b)), 0.0, 1.0));
+    vec2 dfg = directionalAlbedo(b.nov, r);
+    b.compensation = 1.0 + b.f0 * (1.0 / (dfg.x + dfg.y) - 1.0);
+    // The dielectric's own lobe decides what reaches the diffuse part, by its strongest channel, so that a
+    // tinted lobe does not tint the base.
+    float f0 = max(dielectricF0.r, max(dielectricF0.g, dielectricF0.b));
+    float f90 = clamp(50.0 * f0, 0.0, 1.0);
+    float reflected = (f0 * dfg.x + f90 * dfg.y) * (1.0 + f0 * (1.0 / (dfg.x + dfg.y) - 1.0));
+    b.diffuse = baseColor * ((1.0 - metallic) * clamp(1.0 - reflected, 0.0, 1.0));
+    return b;
+}
+
+// GGX times visibility, D V = D G2 / (4 NoL NoV).
+float ggxVisible(float alpha, float noh, float nol, float nov) {
+    float a2 = alpha * alpha;
+    // 1 - NoH^2 (1 - a2) by the complement keeps its digits near the peak.
+    float d = (1.0 - noh * noh) + noh * noh * a2;
+    float smithV = nol * sqrt(nov * nov * (1.0 - a2) + a2);
+    float smithL = nov * sqrt(nol * nol * (1.0 - a2) + a2);
+    return a2 / (kPi * d * d) * 0.5 / max(smithV + smithL, 1e-7);
+}
+
+// The specular BRDF (1/sr) for unit vectors to the light and to the eye.
+vec3 brdfSpecular(Brdf b, vec3 n, vec3 toLight, vec3 toEye) {
+    vec3 h = normalize(toLight + toEye);
+    float voh = clamp(dot(toEye, h), 0.0, 1.0);
+    float noh = clamp(dot(n, h), 0.0, 1.0);
+    float nol = clamp(dot(n, toLight), 1e-4, 1.0);
+    return fresnel(b.f0, b.f90, voh) * b.compensation * ggxVisible(b.alpha, noh, nol, b.nov);
+}

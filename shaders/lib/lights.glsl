@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: MIT
+// Light that arrives straight from the lights of the scene: position and normal -> irradiance, and radiance
+// reflected by the specular lobe. For pixels and for voxel faces alike. Units: include/conelight/scene.h.
+//
+// Defines (light::lightDefines gives them for a scene; unset: everything on):
+//   LIGHTS_POINT, _SPOT, _DIRECTIONAL, _RECT   whether the table holds such lights: what is absent is not compiled
+//   LIGHTS_SHADOWS                             0: everything is visible
+//   SHADOW_FILTER                              radius of the shadow filter in texels
+// Before the call: ShadowMaps::bind, the scene's tables and the frame block.
+#ifndef LIGHTS_POINT
+#define LIGHTS_POINT 1
+#endif
+#ifndef LIGHTS_SPOT
+#define LIGHTS_SPOT 1
+#endif
+#ifndef LIGHTS_DIRECTIONAL
+#define LIGHTS_DIRECTIONAL 1
+#endif
+#ifndef LIGHTS_RECT
+#define LIGHTS_RECT 1
+#endif
+#ifndef LIGHTS_SHADOWS
+#define LIGHTS_SHADOWS 1
+#endif
+#include "lib/brdf.glsl"
+#include "lib/rect_light.glsl"
+#include "lib/scene_tables.glsl"
+#include "lib/shadow.glsl"
+
+struct DirectLight {
+    vec3 irradiance;  // W/m^2 on a surface with the shading normal
+    vec3 specular;    // W/(sr m^2) towards the eye
+};
+
+// Where light arrives. The geometric normal is for shadows; both point to the side that is lit.
+struct Receiver {
+    vec3 position;
+    vec3 normal;
+    vec3 geometricNormal;
+    vec3 toEye;  // used for the specular part only
+};
+
+// Intensity over distance: inverse square (not below 1 mm) or the light's own falloff, and glTF's range window
+// (KHR_lights_punctual: 1 - (d/range)^4).
+float distanceFalloff(Light light, float d2) {
+    float d = sqrt(d2);
+    float inverseSquare = 1.0 / max(d2, 1e-6);
+    float custom = 1.0 / (light.falloff.x + light.falloff.y * d + light.falloff.z * d2);
+    float ratio = light.range > 0.0 ? d2 / (light.range * light.range) : 0.0;
+    return (light.customFalloff != 0u ? custom : inverseSquare) * clamp(1.0 - ratio * ratio, 0.0, 1.0);
+}
+
+// From 1 inside the inner to 0 outside the outer angle (KHR_lights_punctual).
+float spotFalloff(Light light, vec3 toLight) {
+    float t = (dot(-toLight, light.direction) - light.cosOuter) / max(light.cosInner - light.cosOuter, 1e-3);
+    t = clamp(t, 0.0, 1.0);
+    return t * t;
+}
+
+// Adds light from one direction; `facing` is the irradiance on a plane that faces it.
+void addLight(inout DirectLight sum, const bool specular, Receiver r, Brdf b, vec3 toLight, vec3 facing) {
+    vec3 irradiance = facing * max(dot(r.normal, toLight), 0.0);
+    sum.irradiance += irradiance;
+    if (specular) sum.specular += irradiance * brdfSpecular(b, r.normal, toLight, r.toEye);
+}
+
+void addPoint(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light) {
+    vec3 l = light.position - r.position;
+    float d2 = dot(l, l);
+    l *= inversesqrt(max(d2, 1e-20));
+    float visible = 1.0;
+#if LIGHTS_SHADOWS
+    visible = shadowVisibilityPoint(light, r.position, r.geometricNormal);
+#endif
+    addLight(sum, specular, r, b, l, light.intensity * (distanceFalloff(light, d2) * spotFalloff(light, l) * visible));
+}
+
+void addSpot(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light) {
+    vec3 l = light.position - r.position;
+    float d2 = dot(l, l);
+    l *= inversesqrt(max(d2, 1e-20));
+    float visible = 1.0;
+#if LIGHTS_SHADOWS
+    visible = shadowVisibilitySpot(light, r.position, r.geometricNormal);
+#endif
+    addLight(sum, specular, r, b, l, light.intensity * (distanceFalloff(light, d2) * spotFalloff(light, l) * visible));
+}
+
+void addDirectional(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light) {
+    float visible = 1.0;
+#if LIGHTS_SHADOWS
+    visible = shadowVisibilityDirectional(light, r.position, r.geometricNormal);
+#endif
+    addLight(sum, specular, r, b, -light.direction, light.intensity * visible);
+}
+
+// Diffuse: the exact irradiance of the whole rectangle times the visible share of its sample points, each
+// weighted by the irradiance its cell gives. Specular: a sum over the sample points (lib/rect_light.glsl).
+void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light) {
+    vec3 whole = light.intensity * rectIrradiance(light, r.position, r.normal);
+    float cellArea = 4.0 * length(cross(light.halfU, light.halfV)) / float(light.sampleGrid * light.sampleGrid);
+    float weights = 0.0, visibleWeights = 0.0;
+    uint count = light.sampleGrid * light.sampleGrid;
+    uint k = 0u;
+    do {
+        vec3 point = rectSamplePoint(light, k);
+        vec3 l = point - r.position;
+        float d2 = dot(l, l);
+        l *= inversesqrt(max(d2, 1e-20));
+        float emitted = max(-dot(l, light.direction), 0.0) / max(d2, cellArea);
+        float weight = emitted * max(dot(l, r.normal), 0.0);
+        float visible = 1.0;
+#if LIGHTS_SHADOWS
+        visible = shadowVisibilityRect(light, k, point, r.position, r.geometricNormal);
+#endif
+        weights += weight;
+        visibleWeights += weight * visible;
+        if (specular)
+            sum.specular += light.intensity * (weight * visible * cellArea) *
+                            rectCellSpecular(b, r.normal, l, r.toEye, emitted * cellArea);
+    } while (++k < count);
+    // No sample above the horizon, but a corner of the rectangle: its light is small, and taken as visible.
+    sum.irradiance += whole * (weights > 0.0 ? visibleWeights / weights : 1.0);
+}
+
+DirectLight allLights(const bool specular, Receiver r, Brdf b) {
+    DirectLight sum = DirectLight(vec3(0.0), vec3(0.0));
+    uint i;
+#if LIGHTS_POINT
+    i = 0u;
+    if (i < frame.lightEnds.x) do addPoint(sum, specular, r, b, lights[i]); while (++i < frame.lightEnds.x);
+#endif
+#if LIGHTS_SPOT
+    i = frame.lightEnds.x;
+    if (i < frame.lightEnds.y) do addSpot(sum, specular, r, b, lights[i]); while (++i < frame.lightEnds.y);
+#endif
+#if LIGHTS_DIRECTIONAL
+    i = frame.lightEnds.y;
+    if (i < frame.lightEnds.z) do addDirectional(sum, specular, r, b, lights[i]); while (++i < frame.lightEnds.z);
+#endif
+#if LIGHTS_RECT
+    i = frame.lightEnds.z;
+    if (i < frame.lightEnds.w) do addRect(sum, specular, r, b, lights[i]); while (++i < frame.lightEnds.w);
+#endif
+    return sum;
+}
+
+// Irradiance of all lights, shadows included, on a surface at `position`. `geometricNormal` is the normal of
+// the surface that casts shadows there (moves the look-up off it); equal to `normal` for a flat surface.
+vec3 directIrradiance(vec3 position, vec3 normal, vec3 geometricNormal) {
+    Brdf none;
+    return allLights(false, Receiver(position, normal, geometricNormal, normal), none).irradiance;
+}
+
+// Irradiance, and radiance that the specular lobe sends to the eye.
+DirectLight directLight(Receiver r, Brdf b) { return allLights(true, r, b); }

@@ -1,0 +1,376 @@
+// SPDX-License-Identifier: MIT
+#include "light/shadow_maps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "gl/gl.h"
+#include "scene/gpu_lights.h"
+#include "shared/bindings.h"
+
+namespace conelight::light {
+namespace {
+
+// The nearest thing that casts a shadow, as a fraction of the scene's diagonal. Reversed float depth has the
+// same relative precision for any value, so it is only bounded by what must not vanish.
+constexpr float kNearFraction = 1e-5f;
+
+// Texels that a map keeps beyond the frustum it covers: the filter's reach, and as much again (times sqrt 2 for
+// the worst direction) for the move along the normal, which may cross the border between two sides.
+int guardTexels(int filterRadius) { return static_cast<int>(std::ceil(2.5f * static_cast<float>(filterRadius + 1))) + 1; }
+constexpr int kRectGuard = 2;  // lib/shadow.glsl: filter radius 0 and the move, each one texel
+
+struct Axes {
+    glm::vec3 u, v, forward;
+};
+
+// Sides of a cube in the order of lib/shadow.glsl's cubeSide, in the frame (x, y, z).
+Axes cubeSide(int side, const glm::vec3& x, const glm::vec3& y, const glm::vec3& z) {
+    const std::array<glm::vec3, 3> axes{x, y, z};
+    const auto axis = static_cast<std::size_t>(side / 2);
+    return {axes[(axis + 1) % 3], axes[(axis + 2) % 3], (side & 1) != 0 ? -axes[axis] : axes[axis]};
+}
+
+// Rows of a matrix that acts on world points: row_i . (p - origin) + constant_i.
+glm::mat4 rows(const glm::vec3& origin, const std::array<glm::vec4, 4>& rowsAndConstants) {
+    glm::mat4 m(0.0f);
+    for (int i = 0; i < 4; ++i) {
+        const glm::vec4& row = rowsAndConstants[static_cast<std::size_t>(i)];
+        for (int c = 0; c < 3; ++c) m[c][i] = row[c];
+        m[3][i] = row.w - glm::dot(glm::vec3(row), origin);
+    }
+    return m;
+}
+
+// One map: where it lies in the array and how the world is projected into it.
+struct View {
+    glm::mat4 clipFromWorld;
+    int layer, x, y, width, height;
+};
+
+// A perspective map, reversed depth near / distance. The tile's centre in v is at `middleV` texels.
+View perspectiveView(const glm::vec3& origin, const Axes& axes, float nearDistance, float texel, int width, int height,
+                     float middleV) {
+    const float su = 2.0f / (texel * static_cast<float>(width));
+    const float sv = 2.0f / (texel * static_cast<float>(height));
+    const float shiftV = 2.0f * middleV / static_cast<float>(height) - 1.0f;
+    View view{};
+    view.clipFromWorld = rows(origin, {glm::vec4(axes.u * su, 0), glm::vec4(axes.v * sv + axes.forward * shiftV, 0),
+                                       glm::vec4(0, 0, 0, nearDistance), glm::vec4(axes.forward, 0)});
+    view.width = width;
+    view.height = height;
+    return view;
+}
+
+// Places a view in tile `tile` of an array whose layers are cut into n x n tiles.
+void place(View& view, int tile, int n, int layerSize) {
+    const int size = layerSize / n;
+    view.layer = tile / (n * n);
+    view.x = (tile % n) * size;
+    view.y = (tile / n % n) * size;
+}
+
+// True when the box is outside one of the planes of clip space (no far plane: depth is reversed, far is 0).
+bool isOutside(const glm::mat4& clipFromWorld, const Aabb& box) {
+    int outside[5] = {0, 0, 0, 0, 0};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec4 p = clipFromWorld * glm::vec4((corner & 1) != 0 ? box.max.x : box.min.x,
+                                                      (corner & 2) != 0 ? box.max.y : box.min.y,
+                                                      (corner & 4) != 0 ? box.max.z : box.min.z, 1);
+        outside[0] += p.x < -p.w;
+        outside[1] += p.x > p.w;
+        outside[2] += p.y < -p.w;
+        outside[3] += p.y > p.w;
+        outside[4] += p.z > p.w;
+    }
+    return std::any_of(std::begin(outside), std::end(outside), [](int count) { return count == 8; });
+}
+
+bool isMasked(const gpu::Material& material) {
+    return (material.flags & (MATERIAL_ALPHA_MASK | MATERIAL_ALPHA_BLEND)) != 0;
+}
+
+gl::ProgramDesc programDesc(bool masked) {
+    gl::ProgramDesc desc{{"light/shadow.vert.glsl"}, {{"MASKED", masked ? "1" : "0"}}};
+    if (masked) desc.files.emplace_back("light/shadow.frag.glsl");
+    return desc;
+}
+
+// Lays out the maps of a scene's lights and fills in the lights' shadow fields.
+class Layout {
+  public:
+    Layout(const Aabb& bounds, const LightSettings& settings)
+        : bounds_(bounds),
+          size_(std::max(settings.shadowSize / 8 * 8, 64)),
+          guard_(std::min(guardTexels(settings.shadowFilter), size_ / 8)),
+          near_(std::max(kNearFraction * glm::length(bounds.extent()), 1e-12f)) {}
+
+    void add(std::vector<gpu::Light>& lights) {
+        // Kinds one after the other, each from a new layer on: tiles of a kind have consecutive numbers.
+        for (const std::uint32_t kind : {LIGHT_SPOT, LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_RECT})
+            for (gpu::Light& light : lights)
+                if (light.type == kind && (light.flags & LIGHT_CASTS_SHADOW) != 0) addLight(light);
+    }
+    int size() const { return size_; }
+    int layers() const { return layers_; }
+    const std::vector<View>& views() const { return views_; }
+
+  private:
+    void addLight(gpu::Light& light) {
+        light.shadowNear = near_;
+        switch (light.type) {
+            case LIGHT_POINT: addPoint(light); break;
+            case LIGHT_SPOT: addSpot(light); break;
+            case LIGHT_DIRECTIONAL: addDirectional(light); break;
+            default: addRect(light); break;
+        }
+    }
+
+    // Takes `count` tiles of layers cut in n x n; returns the number of the first.
+    int take(int n, int count) {
+        if (n != tilesPerEdge_) {
+            tilesPerEdge_ = n;
+            nextTile_ = layers_ * n * n;
+        }
+        const int first = nextTile_;
+        nextTile_ += count;
+        layers_ = (nextTile_ + n * n - 1) / (n * n);
+        return first;
+    }
+
+    void addPoint(gpu::Light& light) {
+        const int tile = size_ / 2;
+        light.shadow = take(2, 6);
+        // The square of the side, tangent 1, plus the guard on each edge.
+        light.shadowTexel = 2.0f / static_cast<float>(tile - 2 * guard_);
+        for (int side = 0; side < 6; ++side) {
+            const Axes axes = cubeSide(side, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+            View view = perspectiveView(light.position, axes, near_, light.shadowTexel, tile, tile,
+                                        0.5f * static_cast<float>(tile));
+            place(view, light.shadow + side, 2, size_);
+            views_.push_back(view);
+        }
+    }
+
+    void addSpot(gpu::Light& light) {
+        light.shadow = take(1, 1);
+        const float tangent = std::tan(std::acos(light.cosOuter));
+        light.shadowTexel = 2.0f * std::max(tangent, 1e-3f) / static_cast<float>(size_ - 2 * guard_);
+        View view = perspectiveView(light.position, {light.halfU, light.halfV, light.direction}, near_,
+                                    light.shadowTexel, size_, size_, 0.5f * static_cast<float>(size_));
+        place(view, light.shadow, 1, size_);
+        views_.push_back(view);
+    }
+
+    // Fits the map to the scene's bounds. Texel size and centre move in steps, so that shadows do not crawl when
+    // the bounds change: sizes by powers of 2^(1/8), the centre by whole texels.
+    void addDirectional(gpu::Light& light) {
+        light.shadow = take(1, 1);
+        float half = 0, nearest = 1e30f, farthest = -1e30f;
+        const glm::vec3 centre = bounds_.empty() ? glm::vec3(0) : bounds_.center();
+        for (int corner = 0; corner < 8 && !bounds_.empty(); ++corner) {
+            const glm::vec3 p((corner & 1) != 0 ? bounds_.max.x : bounds_.min.x,
+                              (corner & 2) != 0 ? bounds_.max.y : bounds_.min.y,
+                              (corner & 4) != 0 ? bounds_.max.z : bounds_.min.z);
+            half = std::max({half, std::abs(glm::dot(p - centre, light.halfU)), std::abs(glm::dot(p - centre, light.halfV))});
+            nearest = std::min(nearest, glm::dot(p - centre, light.direction));
+            farthest = std::max(farthest, glm::dot(p - centre, light.direction));
+        }
+        half = std::exp2(std::ceil(8.0f * std::log2(std::max(half, 1e-6f))) / 8.0f);
+        // One more texel for the snapped centre.
+        light.shadowTexel = 2.0f * half / static_cast<float>(size_ - 2 * guard_ - 2);
+        const auto snapped = [&](const glm::vec3& axis) {
+            return std::floor(glm::dot(centre, axis) / light.shadowTexel) * light.shadowTexel;
+        };
+        // One percent more on either side, for what is moved along its normal out of the bounds.
+        const float range = std::max(farthest - nearest, 1e-6f) * 1.02f;
+        light.position = light.halfU * snapped(light.halfU) + light.halfV * snapped(light.halfV) +
+                         light.direction * (glm::dot(centre, light.direction) + nearest - range * 0.01f);
+        light.shadowNear = 1.0f / range;
+
+        const float scale = 2.0f / (light.shadowTexel * static_cast<float>(size_));
+        View view{};
+        view.clipFromWorld = rows(light.position, {glm::vec4(light.halfU * scale, 0), glm::vec4(light.halfV * scale, 0),
+                                                   glm::vec4(-light.direction * light.shadowNear, 1), glm::vec4(0, 0, 0, 1)});
+        view.width = view.height = size_;
+        place(view, light.shadow, 1, size_);
+        views_.push_back(view);
+    }
+
+    void addRect(gpu::Light& light) {
+        const int tile = size_ / 4;
+        const int samples = static_cast<int>(light.sampleGrid * light.sampleGrid);
+        light.shadow = take(4, 3 * samples);
+        // A half side holds tangents 0 to 1 and a guard at both ends in half a tile.
+        light.shadowTexel = 1.0f / static_cast<float>(tile / 2 - 2 * kRectGuard);
+        const glm::vec3 u = glm::normalize(light.halfU);
+        const glm::vec3 v = glm::cross(light.direction, u);
+        for (int sample = 0; sample < samples; ++sample) {
+            const glm::vec3 point = rectSamplePoint(light, sample);
+            for (int side = 0; side < 5; ++side) {
+                const bool front = side == 4;
+                Axes axes = cubeSide(side, u, v, light.direction);
+                if (side == 2 || side == 3) std::swap(axes.u, axes.v);
+                View view = perspectiveView(point, axes, near_, light.shadowTexel, tile, front ? tile : tile / 2,
+                                            front ? 0.5f * static_cast<float>(tile) : static_cast<float>(kRectGuard));
+                place(view, light.shadow + 3 * sample + (front ? 0 : 1 + side / 2), 4, size_);
+                if (!front && (side & 1) != 0) view.y += tile / 2;
+                views_.push_back(view);
+            }
+        }
+    }
+
+    // C++ twin of lib/shadow.glsl's.
+    static glm::vec3 rectSamplePoint(const gpu::Light& light, int k) {
+        const int grid = static_cast<int>(light.sampleGrid);
+        const glm::vec2 cell(k % grid, k / grid);
+        const glm::vec2 uv = (cell + (glm::vec2(cell.y, cell.x) + 0.5f) / static_cast<float>(grid)) /
+                                 static_cast<float>(grid) * 2.0f - 1.0f;
+        const float lift = 1e-3f * std::min(glm::length(light.halfU), glm::length(light.halfV));
+        return light.position + uv.x * light.halfU + uv.y * light.halfV + lift * light.direction;
+    }
+
+    Aabb bounds_;
+    int size_, guard_;
+    float near_;
+    int tilesPerEdge_ = 1, nextTile_ = 0, layers_ = 0;
+    std::vector<View> views_;
+};
+
+}  // namespace
+
+struct ShadowMaps::Impl {
+    gl::Texture maps;
+    std::vector<gl::Framebuffer> layers;
+    gl::Buffer viewBlock;
+
+    void allocate(int size, int layerCount) {
+        if (maps && maps.width() == size && maps.depth() == layerCount) return;
+        layers.clear();
+        maps = gl::Texture({GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, size, size, layerCount}, "shadow maps");
+        maps.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        maps.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        maps.parameter(GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        maps.parameter(GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+        maps.parameter(GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+        maps.parameter(GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);  // reversed depth: visible when not farther
+        for (int layer = 0; layer < layerCount; ++layer)
+            layers.push_back(gl::Framebuffer::depthLayer(maps, layer, "shadow layer " + std::to_string(layer)));
+        const float nothing = 0.0f;
+        maps.clear(0, GL_DEPTH_COMPONENT, GL_FLOAT, &nothing);
+    }
+
+    void draw(gl::ProgramLibrary& programs, const scene::GpuScene& scene, const View& view);
+};
+
+void ShadowMaps::Impl::draw(gl::ProgramLibrary& programs, const scene::GpuScene& scene, const View& view) {
+    gl::RasterState state;
+    state.framebuffer = &layers[static_cast<std::size_t>(view.layer)];
+    state.cull = gl::Cull::None;
+    state.reversedDepth = true;
+    state.viewport[0] = view.x;
+    state.viewport[1] = view.y;
+    state.viewport[2] = view.width;
+    state.viewport[3] = view.height;
+    gl::apply(state);
+    viewBlock.update(view.clipFromWorld);
+    viewBlock.bindUniform(BINDING_PASS);
+
+    const std::vector<gpu::Instance>& instances = scene.instances();
+    std::vector<char> drawn(instances.size());
+    bool anyOf[2] = {false, false};
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        if ((instances[i].flags & INSTANCE_CASTS_SHADOW) == 0) continue;
+        if (isOutside(view.clipFromWorld, scene.instanceBounds(i))) continue;
+        const bool masked = isMasked(scene.materials()[instances[i].material]);
+        drawn[i] = masked ? 2 : 1;
+        anyOf[masked ? 1 : 0] = true;
+    }
+    for (const bool masked : {false, true}) {
+        if (!anyOf[masked ? 1 : 0]) continue;
+        programs.get(programDesc(masked)).use();
+        const auto accepted = [&](const gpu::Instance& instance) {
+            return drawn[static_cast<std::size_t>(&instance - instances.data())] == (masked ? 2 : 1);
+        };
+        scene.draw(accepted, gl::Cull::None, masked);
+    }
+}
+
+ShadowMaps::ShadowMaps() : impl_(std::make_unique<Impl>()) {
+    impl_->allocate(8, 1);
+    impl_->viewBlock = gl::Buffer(sizeof(glm::mat4), "shadow view");
+}
+ShadowMaps::~ShadowMaps() = default;
+
+void ShadowMaps::update(gl::ProgramLibrary& programs, gl::Profiler& profiler, scene::GpuScene& scene,
+                        const LightSettings& settings) {
+    const gl::PassScope pass(profiler, "shadow maps");
+
+    // Lay out the maps.
+    std::vector<gpu::Light> lights = scene.lights();
+    const auto grid = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<float>(settings.areaSamples))));
+    for (gpu::Light& light : lights) {
+        light.shadow = -1;
+        light.sampleGrid = std::max(grid, 1u);
+    }
+    Layout layout(scene.bounds(), settings);
+    if (settings.shadowSize > 0) layout.add(lights);
+    scene.updateLights(lights);
+
+    // Draw them.
+    if (layout.layers() == 0) {
+        impl_->allocate(8, 1);
+        return;
+    }
+    impl_->allocate(layout.size(), layout.layers());
+    const float nothing = 0.0f;
+    impl_->maps.clear(0, GL_DEPTH_COMPONENT, GL_FLOAT, &nothing);
+    for (const View& view : layout.views()) impl_->draw(programs, scene, view);
+
+    // Leave neither reversed depth nor a scissor behind.
+    gl::RasterState plain;
+    plain.framebuffer = &impl_->layers.front();
+    gl::apply(plain);
+}
+
+void ShadowMaps::bind() const {
+    impl_->maps.bind(UNIT_SHADOW);
+    gl::unbindSampler(UNIT_SHADOW);
+}
+
+std::vector<gl::ProgramDesc> ShadowMaps::programDescs() { return {programDesc(false), programDesc(true)}; }
+
+namespace {
+gl::Defines definesOf(const std::array<bool, 4>& kinds, bool shadows, int filter) {
+    const auto flag = [](bool on) { return std::string(on ? "1" : "0"); };
+    return {{"LIGHTS_POINT", flag(kinds[0])},
+            {"LIGHTS_SPOT", flag(kinds[1])},
+            {"LIGHTS_DIRECTIONAL", flag(kinds[2])},
+            {"LIGHTS_RECT", flag(kinds[3])},
+            {"LIGHTS_SHADOWS", flag(shadows)},
+            {"SHADOW_FILTER", std::to_string(filter)}};
+}
+}  // namespace
+
+gl::Defines lightDefines(const scene::GpuScene& scene, const LightSettings& settings) {
+    const glm::uvec4 ends = scene::lightEnds(scene.lights());
+    return definesOf({ends.x > 0, ends.y > ends.x, ends.z > ends.y, ends.w > ends.z}, settings.shadowSize > 0,
+                     settings.shadowFilter);
+}
+
+std::vector<gl::ProgramDesc> lightVariants(const gl::ProgramDesc& base) {
+    std::vector<gl::ProgramDesc> descs;
+    const auto add = [&](const std::array<bool, 4>& kinds, bool shadows, int filter) {
+        gl::ProgramDesc desc = base;
+        for (auto& define : definesOf(kinds, shadows, filter)) desc.defines.push_back(std::move(define));
+        descs.push_back(std::move(desc));
+    };
+    for (std::size_t kind = 0; kind < 4; ++kind) add({kind == 0, kind == 1, kind == 2, kind == 3}, true, 2);
+    for (int filter = 0; filter <= 4; ++filter) add({true, true, true, true}, true, filter);
+    add({true, true, true, true}, false, 0);
+    add({false, false, false, false}, false, 0);
+    return descs;
+}
+
+}  // namespace conelight::light

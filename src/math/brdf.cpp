@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT
+#include "math/brdf.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace conelight::math {
+namespace {
+constexpr float kPi = 3.14159265358979f;
+float largest(const glm::vec3& v) { return std::max({v.r, v.g, v.b}); }
+}  // namespace
+
+glm::vec2 directionalAlbedo(float nov, float roughness) {
+    const float a = roughness * roughness;
+    const float s = nov / (nov + a);
+    const float both = (0.959575f + s * (0.438832f + s * (-3.25298f + s * (5.54518f + s * -2.68982f)))) + a * ((0.285436f + s * (-3.13559f + s * (10.8832f + s * (-14.5516f + s * 6.2423f)))) + a * ((-0.689624f + s * (1.98606f + s * (-7.77566f + s * (1.51046f + s * 9.55351f)))) + a * ((0.645843f + s * (-3.86254f + s * (10.699f + s * (-2.09599f + s * -18.0685f)))) + a * (-0.217635f + s * (1.4135f + s * (-1.41486f + s * (-8.25343f + s * 18.5846f)))))));
+    const float r = roughness;
+    const float q = std::sqrt(nov);
+    const float c = 1.0f - nov;
+    const float grazing = (0.664249f + q * (6.5041f + q * (-34.2269f + q * (66.6438f + q * -46.0345f)))) + r * ((1.41443f + q * (-73.5057f + q * (471.779f + q * (-1052.84f + q * 784.235f)))) + r * ((-10.5204f + q * (235.453f + q * (-1684.8f + q * (4060.07f + q * -3172.39f)))) + r * ((14.4284f + q * (-281.443f + q * (2188.11f + q * (-5558.21f + q * 4491.91f)))) + r * (-5.8871f + q * (112.475f + q * (-941.196f + q * (2490.15f + q * -2065.04f)))))));
+    const float e = std::clamp(both, 0.0f, 1.0f);
+    const float f = std::clamp(grazing * (c * c) * (c * c), 0.0f, e);
+    return {e - f, f};
+}
+
+glm::vec3 fresnel(const glm::vec3& f0, const glm::vec3& f90, float voh) {
+    const float c = 1.0f - voh;
+    const float c2 = c * c;
+    return f0 + (f90 - f0) * (c2 * c2 * c);
+}
+
+glm::vec3 specularAlbedo(const Brdf& b, const glm::vec2& dfg) { return (b.f0 * dfg.x + b.f90 * dfg.y) * b.compensation; }
+
+Brdf makeBrdf(const glm::vec3& baseColor, float metallic, float roughness, const glm::vec3& dielectricF0, float nov) {
+    Brdf b{};
+    b.nov = std::clamp(nov, 1e-4f, 1.0f);
+    const float r = std::max(roughness, kMinRoughness);
+    b.alpha = r * r;
+    b.f0 = glm::mix(dielectricF0, baseColor, metallic);
+    b.f90 = glm::vec3(std::clamp(50.0f * largest(b.f0), 0.0f, 1.0f));
+    const glm::vec2 dfg = directionalAlbedo(b.nov, r);
+    const float lost = 1.0f / (dfg.x + dfg.y) - 1.0f;
+    b.compensation = 1.0f + b.f0 * lost;
+    const float f0 = largest(dielectricF0);
+    const float f90 = std::clamp(50.0f * f0, 0.0f, 1.0f);
+    const float reflected = (f0 * dfg.x + f90 * dfg.y) * (1.0f + f0 * lost);
+    b.diffuse = baseColor * ((1.0f - metallic) * std::clamp(1.0f - reflected, 0.0f, 1.0f));
+    return b;
+}
+
+float ggxVisible(float alpha, float noh, float nol, float nov) {
+    const float a2 = alpha * alpha;
+    const float d = (1.0f - noh * noh) + noh * noh * a2;
+    const float smithV = nol * std::sqrt(nov * nov * (1.0f - a2) + a2);
+    const float smithL = nov * std::sqrt(nol * nol * (1.0f - a2) + a2);
+    return a2 / (kPi * d * d) * 0.5f / std::max(smithV + smithL, 1e-7f);
+}
+
+glm::vec3 brdfSpecular(const Brdf& b, const glm::vec3& n, const glm::vec3& toLight, const glm::vec3& toEye) {
+    const glm::vec3 h = glm::normalize(toLight + toEye);
+    const float voh = std::clamp(glm::dot(toEye, h), 0.0f, 1.0f);
+    const float noh = std::clamp(glm::dot(n, h), 0.0f, 1.0f);
+    const float nol = std::clamp(glm::dot(n, toLight), 1e-4f, 1.0f);
+    return fresnel(b.f0, b.f90, voh) * b.compensation * ggxVisible(b.alpha, noh, nol, b.nov);
+}
+
+}  // namespace conelight::math
