@@ -56,6 +56,15 @@ struct AutoFloat {
     bool operator==(const AutoFloat&) const = default;
 };
 
+// Off, on, or what suits the scene.
+enum class Toggle { Auto, Off, On };
+
+struct PhongSettings {
+    // Shadow maps in mode `phong`. Auto: on, but off in scenes of the thesis's format, whose program had none.
+    Toggle shadows = Toggle::Auto;
+    bool operator==(const PhongSettings&) const = default;
+};
+
 // Defects of the original program that can be switched back on (docs/guide/thesis_mode.md lists each).
 // Filled by the thesis mode.
 struct ThesisDefects {};
@@ -101,6 +110,7 @@ struct Settings {
     Component component = Component::Full;
     VoxelSettings voxels;
     LightSettings light;
+    PhongSettings phong;
     ThesisSettings thesis;
     ConesSettings cones;
     ImageSettings image;

@@ -2,11 +2,12 @@
 // The BRDF of glTF 2.0 metallic-roughness (its appendix B): Lambert plus one GGX lobe (Trowbridge-Reitz,
 // Walter et al. 2007) with height-correlated Smith masking (Heitz 2014) and Schlick's Fresnel.
 //
-// Energy: a single-scattering GGX lobe loses what bounces more than once between the facets, up to 60 % of it.
-// The lobe is scaled by 1 + F0 (1/E - 1), E its directional albedo at F = 1 (Turquin 2019, "Practical multiple
-// scattering compensation for microfacet models"), and the diffuse part of a dielectric gets what the lobe
-// leaves: 1 - its directional albedo. So a white surface, metal or dielectric, returns all light of a white
-// furnace (docs/theory/3_light.md). C++ twin: src/math/brdf.h. Limits: not reciprocal in both corrections.
+// Energy: a single-scattering GGX lobe loses what bounces more than once between the facets, up to 60 % of
+// it. The lobe is scaled by 1 + F0 (1/E - 1), E its directional albedo at F = 1 (Turquin 2019, "Practical
+// multiple scattering compensation for microfacet models"), and the diffuse part of a dielectric gets what
+// the lobe leaves: 1 - its directional albedo. So a white surface, metal or dielectric, returns all light of
+// a white furnace (docs/theory/3_light.md). C++ twin: src/math/brdf.h. Limits: not reciprocal in both
+// corrections.
 
 const float kPi = 3.14159265358979;
 
@@ -15,7 +16,7 @@ const float kMinRoughness = 0.045;
 
 // What the functions below need to know of a surface seen from one direction.
 struct Brdf {
-    vec3 diffuse;       // directional albedo of the diffuse part: radiance = diffuse / pi * irradiance
+    vec3 diffuse;  // directional albedo of the diffuse part: radiance = diffuse / pi * irradiance
     vec3 f0;
     vec3 f90;
     vec3 compensation;  // factor on the specular lobe
@@ -23,20 +24,29 @@ struct Brdf {
     float nov;
 };
 
-// Directional albedo of the single-scattering lobe for F0 = 1, F90 = 0 (x) and F0 = 0, F90 = 1 (y), so that it is
-// F0 x + F90 y with Schlick's Fresnel. Polynomials fitted by us (2026-11) to a quadrature over the visible normals
-// (Heitz 2018) for NoV in [0.005, 1] and perceptual roughness in [0.045, 1]; largest error of x + y 0.6 percent of
-// it, of y 0.021 (at grazing angles; 0.005 on average). `roughness` is perceptual.
+// Directional albedo of the single-scattering lobe for F0 = 1, F90 = 0 (x) and F0 = 0, F90 = 1 (y), so that
+// it is F0 x + F90 y with Schlick's Fresnel. Polynomials fitted by us (2026-11) to a quadrature over the
+// visible normals (Heitz 2018) for NoV in [0.005, 1] and perceptual roughness in [0.045, 1]; largest error of
+// x + y 0.6 percent of it, of y 0.0026. `roughness` is perceptual.
 vec2 directionalAlbedo(float nov, float roughness) {
     float a = roughness * roughness;
     float s = nov / (nov + a);  // facets hide each other at grazing angles by the ratio of these two
-    float both = (0.959575 + s * (0.438832 + s * (-3.25298 + s * (5.54518 + s * -2.68982)))) + a * ((0.285436 + s * (-3.13559 + s * (10.8832 + s * (-14.5516 + s * 6.2423)))) + a * ((-0.689624 + s * (1.98606 + s * (-7.77566 + s * (1.51046 + s * 9.55351)))) + a * ((0.645843 + s * (-3.86254 + s * (10.699 + s * (-2.09599 + s * -18.0685)))) + a * (-0.217635 + s * (1.4135 + s * (-1.41486 + s * (-8.25343 + s * 18.5846)))))));
+    float both =
+        (0.959575 + s * (0.438832 + s * (-3.25298 + s * (5.54518 + s * -2.68982)))) +
+        a * ((0.285436 + s * (-3.13559 + s * (10.8832 + s * (-14.5516 + s * 6.2423)))) +
+             a * ((-0.689624 + s * (1.98606 + s * (-7.77566 + s * (1.51046 + s * 9.55351)))) +
+                  a * ((0.645843 + s * (-3.86254 + s * (10.699 + s * (-2.09599 + s * -18.0685)))) +
+                       a * (-0.217635 + s * (1.4135 + s * (-1.41486 + s * (-8.25343 + s * 18.5846)))))));
     float r = roughness;
-    float q = sqrt(nov);
     float c = 1.0 - nov;
-    float grazing = (0.664249 + q * (6.5041 + q * (-34.2269 + q * (66.6438 + q * -46.0345)))) + r * ((1.41443 + q * (-73.5057 + q * (471.779 + q * (-1052.84 + q * 784.235)))) + r * ((-10.5204 + q * (235.453 + q * (-1684.8 + q * (4060.07 + q * -3172.39)))) + r * ((14.4284 + q * (-281.443 + q * (2188.11 + q * (-5558.21 + q * 4491.91)))) + r * (-5.8871 + q * (112.475 + q * (-941.196 + q * (2490.15 + q * -2065.04)))))));
+    float grazing =
+        (1.2406 + s * (-0.0343653 + s * (-3.78446 + s * (6.60108 + s * -3.02584)))) +
+        r * ((-4.05669 + s * (0.801049 + s * (20.2115 + s * (-18.1767 + s * 1.51945)))) +
+             r * ((5.47252 + s * (-6.02894 + s * (-3.47122 + s * (-77.448 + s * 73.214)))) +
+                  r * ((-3.45332 + s * (9.0266 + s * (-24.3157 + s * (120.581 + s * -45.8689)))) +
+                       r * (0.843674 + s * (-3.97724 + s * (13.7924 + s * (-43.6449 + s * -1.62864)))))));
     both = clamp(both, 0.0, 1.0);
-    grazing = clamp(grazing * (c * c) * (c * c), 0.0, both);
+    grazing = clamp(grazing * (c * c) * (c * c) * c, 0.0, both);
     return vec2(both - grazing, grazing);
 }
 

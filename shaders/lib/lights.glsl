@@ -3,9 +3,9 @@
 // reflected by the specular lobe. For pixels and for voxel faces alike. Units: include/conelight/scene.h.
 //
 // Defines (light::lightDefines gives them for a scene; unset: everything on):
-//   LIGHTS_POINT, _SPOT, _DIRECTIONAL, _RECT   whether the table holds such lights: what is absent is not compiled
-//   LIGHTS_SHADOWS                             0: everything is visible
-//   SHADOW_FILTER                              radius of the shadow filter in texels
+//   LIGHTS_POINT, _SPOT, _DIRECTIONAL, _RECT   whether the table holds such lights: what is absent is not
+//   compiled LIGHTS_SHADOWS                             0: everything is visible SHADOW_FILTER radius of the
+//   shadow filter in texels
 // Before the call: ShadowMaps::bind, the scene's tables and the frame block.
 #ifndef LIGHTS_POINT
 #define LIGHTS_POINT 1
@@ -40,8 +40,8 @@ struct Receiver {
     vec3 toEye;  // used for the specular part only
 };
 
-// Intensity over distance: inverse square (not below 1 mm) or the light's own falloff, and glTF's range window
-// (KHR_lights_punctual: 1 - (d/range)^4).
+// Intensity over distance: inverse square (not below 1 mm) or the light's own falloff, and glTF's range
+// window (KHR_lights_punctual: 1 - (d/range)^4).
 float distanceFalloff(Light light, float d2) {
     float d = sqrt(d2);
     float inverseSquare = 1.0 / max(d2, 1e-6);
@@ -72,7 +72,8 @@ void addPoint(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Li
 #if LIGHTS_SHADOWS
     visible = shadowVisibilityPoint(light, r.position, r.geometricNormal);
 #endif
-    addLight(sum, specular, r, b, l, light.intensity * (distanceFalloff(light, d2) * spotFalloff(light, l) * visible));
+    addLight(sum, specular, r, b, l,
+             light.intensity * (distanceFalloff(light, d2) * spotFalloff(light, l) * visible));
 }
 
 void addSpot(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light) {
@@ -83,7 +84,8 @@ void addSpot(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
 #if LIGHTS_SHADOWS
     visible = shadowVisibilitySpot(light, r.position, r.geometricNormal);
 #endif
-    addLight(sum, specular, r, b, l, light.intensity * (distanceFalloff(light, d2) * spotFalloff(light, l) * visible));
+    addLight(sum, specular, r, b, l,
+             light.intensity * (distanceFalloff(light, d2) * spotFalloff(light, l) * visible));
 }
 
 void addDirectional(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light) {
@@ -98,7 +100,8 @@ void addDirectional(inout DirectLight sum, const bool specular, Receiver r, Brdf
 // weighted by the irradiance its cell gives. Specular: a sum over the sample points (lib/rect_light.glsl).
 void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light) {
     vec3 whole = light.intensity * rectIrradiance(light, r.position, r.normal);
-    float cellArea = 4.0 * length(cross(light.halfU, light.halfV)) / float(light.sampleGrid * light.sampleGrid);
+    float cellArea =
+        4.0 * length(cross(light.halfU, light.halfV)) / float(light.sampleGrid * light.sampleGrid);
     float weights = 0.0, visibleWeights = 0.0;
     uint count = light.sampleGrid * light.sampleGrid;
     uint k = 0u;
@@ -128,19 +131,27 @@ DirectLight allLights(const bool specular, Receiver r, Brdf b) {
     uint i;
 #if LIGHTS_POINT
     i = 0u;
-    if (i < frame.lightEnds.x) do addPoint(sum, specular, r, b, lights[i]); while (++i < frame.lightEnds.x);
+    if (i < frame.lightEnds.x) do
+            addPoint(sum, specular, r, b, lights[i]);
+        while (++i < frame.lightEnds.x);
 #endif
 #if LIGHTS_SPOT
     i = frame.lightEnds.x;
-    if (i < frame.lightEnds.y) do addSpot(sum, specular, r, b, lights[i]); while (++i < frame.lightEnds.y);
+    if (i < frame.lightEnds.y) do
+            addSpot(sum, specular, r, b, lights[i]);
+        while (++i < frame.lightEnds.y);
 #endif
 #if LIGHTS_DIRECTIONAL
     i = frame.lightEnds.y;
-    if (i < frame.lightEnds.z) do addDirectional(sum, specular, r, b, lights[i]); while (++i < frame.lightEnds.z);
+    if (i < frame.lightEnds.z) do
+            addDirectional(sum, specular, r, b, lights[i]);
+        while (++i < frame.lightEnds.z);
 #endif
 #if LIGHTS_RECT
     i = frame.lightEnds.z;
-    if (i < frame.lightEnds.w) do addRect(sum, specular, r, b, lights[i]); while (++i < frame.lightEnds.w);
+    if (i < frame.lightEnds.w) do
+            addRect(sum, specular, r, b, lights[i]);
+        while (++i < frame.lightEnds.w);
 #endif
     return sum;
 }

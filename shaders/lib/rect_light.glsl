@@ -49,8 +49,8 @@ float rectIrradiance(Light light, vec3 p, vec3 n) {
 // Widening of alpha^2 per steradian of a cell, chosen by measurement (tests/shader/rect_light_test.cpp).
 const float kRectCellWidening = 0.16;
 
-// The specular BRDF averaged over a cell of a rectangle, of solid angle `solidAngle` around `toLight`: the lobe
-// is widened by the cell's extent, keeping its energy.
+// The specular BRDF averaged over a cell of a rectangle, of solid angle `solidAngle` around `toLight`: the
+// lobe is widened by the cell's extent, keeping its energy.
 vec3 rectCellSpecular(Brdf b, vec3 n, vec3 toLight, vec3 toEye, float solidAngle) {
     b.alpha = sqrt(clamp(b.alpha * b.alpha + kRectCellWidening * solidAngle, 0.0, 1.0));
     return brdfSpecular(b, n, toLight, toEye);

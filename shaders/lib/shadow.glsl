@@ -4,18 +4,18 @@
 // edges (Reeves et al. 1987, "Rendering Antialiased Shadows with Depth Maps"), four comparisons per gather.
 //
 // One array texture holds all maps. Its layers are cut into n x n tiles, counted row by row, layer by layer:
-// n = 1 for spots and directional lights, 2 for points (six tiles, one per side of a cube), 4 for sample points
-// of rectangles (three tiles: one side of a cube in front, four half sides around, two to a tile). Depth is
-// reversed: shadowNear / distance along the map's axis, 0 where nothing was drawn, a float's relative precision
-// everywhere. A point lies in the map at tile centre + lateral / (distance * shadowTexel).
+// n = 1 for spots and directional lights, 2 for points (six tiles, one per side of a cube), 4 for sample
+// points of rectangles (three tiles: one side of a cube in front, four half sides around, two to a tile).
+// Depth is reversed: shadowNear / distance along the map's axis, 0 where nothing was drawn, a float's
+// relative precision everywhere. A point lies in the map at tile centre + lateral / (distance * shadowTexel).
 //
 // No acne, no peter-panning: a texel away by e from the point, measured across the map's axis at the point's
 // distance, holds the depth of a plane through the point, which lies nearer than the point's own if n.e < 0.
 // Moving the point along its normal n by o >= max |n.e| puts it in front of the plane at every texel of the
 // filter. With the two lateral axes a, b of the map and |e.a|, |e.b| <= (SHADOW_FILTER + 1) texels:
 //   o = (SHADOW_FILTER + 1) * texel * (|n.a| + |n.b|),
-// exact for planes at every angle, zero where the plane faces the light, a bounded number of texels at grazing
-// light: nothing thicker than that loses its shadow's foot.
+// exact for planes at every angle, zero where the plane faces the light, a bounded number of texels at
+// grazing light: nothing thicker than that loses its shadow's foot.
 #ifndef SHADOW_FILTER
 #define SHADOW_FILTER 2
 #endif
@@ -23,13 +23,14 @@
 #include "shared/scene.h"
 layout(binding = UNIT_SHADOW) uniform sampler2DArrayShadow shadowMaps;
 
-// Added to the offset above, in texels: vertices are snapped to 1/256 texel when drawn, positions rebuilt from
-// the G-buffer err by up to 3e-5 of their distance, and a texel is about 4e-3 of the distance to the light.
+// Added to the offset above, in texels: vertices are snapped to 1/256 texel when drawn, positions rebuilt
+// from the G-buffer err by up to 3e-5 of their distance, and a texel is about 4e-3 of the distance to the
+// light.
 const float kShadowSlack = 0.1;
 
-// Texels away from the point are compared at a depth less by this share of their lateral distance, so that the
-// filter's outer texels do not find a wall that meets the surface at an angle. 0.5 by eye (2026-11): corners of
-// a room stay clean, and light leaks by no more than one texel below a standing object.
+// Texels away from the point are compared at a depth less by this share of their lateral distance, so that
+// the filter's outer texels do not find a wall that meets the surface at an angle. 0.5 by eye (2026-11):
+// corners of a room stay clean, and light leaks by no more than one texel below a standing object.
 const float kShadowCornerSlope = 0.5;
 
 // Share of visible texels around `texel` of a layer, for the reversed depth `ref`; `refSlope` is added per
@@ -59,10 +60,12 @@ vec3 shadowTile(int tile, const int tilesPerEdge) {
     int perLayer = tilesPerEdge * tilesPerEdge;
     int size = textureSize(shadowMaps, 0).x / tilesPerEdge;
     int inLayer = tile % perLayer;
-    return vec3(float((inLayer % tilesPerEdge) * size), float((inLayer / tilesPerEdge) * size), float(tile / perLayer));
+    return vec3(float((inLayer % tilesPerEdge) * size), float((inLayer / tilesPerEdge) * size),
+                float(tile / perLayer));
 }
 
-// How far a receiver is moved along its normal, from the lateral components of the normal and the texel's edge.
+// How far a receiver is moved along its normal, from the lateral components of the normal and the texel's
+// edge.
 float shadowOffset(const int radius, vec2 lateralNormal, float texel) {
     return texel * (float(radius + 1) * (abs(lateralNormal.x) + abs(lateralNormal.y)) + kShadowSlack);
 }
@@ -124,8 +127,8 @@ float shadowVisibilityDirectional(Light light, vec3 p, vec3 n) {
     return light.shadow < 0 ? 1.0 : lit;
 }
 
-// The k-th sample point of a rectangle, k < sampleGrid^2: one per cell of a grid, at places that differ in both
-// coordinates, so that an edge parallel to the rectangle meets them one by one (Chiu et al. 1994,
+// The k-th sample point of a rectangle, k < sampleGrid^2: one per cell of a grid, at places that differ in
+// both coordinates, so that an edge parallel to the rectangle meets them one by one (Chiu et al. 1994,
 // "Multi-Jittered Sampling", without the jitter). Moved off the surface by a thousandth of its size, which an
 // emitter's own triangles lie in.
 vec3 rectSamplePoint(Light light, uint k) {
@@ -145,7 +148,8 @@ float shadowVisibilityRect(Light light, uint k, vec3 point, vec3 p, vec3 n) {
     vec3 local = vec3(dot(toP, axisU), dot(toP, axisV), dot(toP, light.direction));
     vec3 localNormal = vec3(dot(n, axisU), dot(n, axisV), dot(n, light.direction));
 
-    // Sides: 0 +u, 1 -u, 2 +v, 3 -v, 4 front. Lateral axes of the side ones end with the front's: (v, n), (n, u).
+    // Sides: 0 +u, 1 -u, 2 +v, 3 -v, 4 front. Lateral axes of the side ones end with the front's: (v, n), (n,
+    // u).
     int side;
     vec3 lateral = cubeSide(local, local, side);
     vec3 ln = cubeSide(localNormal, local, side);

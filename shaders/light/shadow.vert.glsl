@@ -1,6 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// Vertices of the scene -> clip space of one shadow map (light/shadow_maps.cpp). MASKED: what the cut-off needs.
+// Vertices of the scene -> clip space of one shadow map (light/shadow_maps.cpp). MASKED: what the cut-off
+// needs.
 #ifndef MASKED
 #error MASKED must be 0 or 1
 #endif

@@ -20,6 +20,7 @@ struct Vertex {
 #define INSTANCE_VOXELIZED 2u
 #define INSTANCE_CASTS_SHADOW 4u
 #define INSTANCE_DYNAMIC 8u
+#define INSTANCE_LIT_EXACTLY 32u  // its emission is in the light table: voxels leave it out (light/emissive_quads.h)
 #define INSTANCE_FLIPPED 16u  // negative determinant: winding is reversed
 
 struct Instance {

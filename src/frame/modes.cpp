@@ -2,13 +2,14 @@
 #include "frame/modes.h"
 
 #include "base/log.h"
+#include "frame/phong_mode.h"
 
 namespace conelight::frame {
 
 std::unique_ptr<ModeRenderer> makeModeRenderer(Mode mode) {
     switch (mode) {
         case Mode::Phong:
-            break;
+            return std::make_unique<PhongMode>();
 
         case Mode::Thesis:
             break;

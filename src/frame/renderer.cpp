@@ -12,6 +12,7 @@
 #include "gl/gl.h"
 #include "gl/host_state.h"
 #include "image/debug_view.h"
+#include "light/emissive_quads.h"
 #include "shared/bindings.h"
 #include "view/camera.h"
 
@@ -153,6 +154,14 @@ void Renderer::Impl::prepareMode(const Settings& settings) {
     geometryChanged = sceneChanged || everyFrame || !builtFor || !(builtFor->voxels == settings.voxels);
     lightChanged = geometryChanged || !(builtFor->light == settings.light);
     if (lightChanged) shadowsCurrent = false;
+
+    // Flat emitters as lights. The thesis's mode knows none: its emissive objects light nothing.
+    if (lightChanged) {
+        light::setEmissiveQuads(*scene, source, settings.light.emissiveQuads && settings.mode != Mode::Thesis);
+        scene->bind();  // the light table may have moved
+    }
+
+    // Shadow maps; they fill in the light table that later passes read.
     if (mode->needsShadows(settings) && !shadowsCurrent) {
         shadows.update(programs, profiler, *scene, settings.light);
         scene->bind();

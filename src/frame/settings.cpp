@@ -61,6 +61,9 @@ void visitCones(S& s, V& visit) {
                   "level of the volume that component voxels shows");
 }
 
+constexpr Choice<Toggle> kToggles[] = {
+    {"auto", Toggle::Auto}, {"off", Toggle::Off}, {"on", Toggle::On}};
+
 // A set of whole numbers.
 struct Whole {
     int low, high, multiple = 1;
@@ -108,6 +111,8 @@ void visitAll(S& s, V&& visit) {
                 "points per rectangular light, a square number");
     visit.boolean("light.emissive_quads", s.light.emissiveQuads,
                   "light flat rectangular emitters exactly, as area lights");
+    visit.choice("phong.shadows", s.phong.shadows, kToggles,
+                 "shadow maps in mode phong; auto: not in scenes of the thesis's format");
     visitCones(s.cones, visit);
     visit.number("image.exposure", s.image.exposure, -20.0, 20.0, "stops",
                  "brightness before the tone map: 2^exposure");

@@ -9,6 +9,8 @@
 #include "base/log.h"
 #include "conelight/shaders.h"
 #include "gather/cone_gather.h"
+#include "gather/direct_light.h"
+#include "gather/phong_shade.h"
 #include "image/debug_view.h"
 #include "light/shadow_maps.h"
 #include "view/gbuffer.h"
@@ -46,6 +48,8 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     add(view::GBuffer::programDescs());
     add(voxels::SurfaceVoxels::programDescs());
     add(voxels::RadianceVolume::programDescs());
+    add(gather::DirectLight::programDescs());
+    add(gather::phongShadeProgramDescs());
     add(gather::ConeGather::programDescs());
     add(image::debugViewProgramDescs());
     return all;

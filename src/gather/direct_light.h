@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Light that reaches the eye without a bounce: G-buffer, light table and shadow maps -> two RGBA32F textures.
 //
-// Reads: G-buffer, frame block, scene tables, shadow maps (all bound). Writes: `diffuse` and `specular`; readers
-// need a texture-fetch barrier.
+// Reads: G-buffer, frame block, scene tables, shadow maps (all bound). Writes: `diffuse` and `specular`;
+// readers need a texture-fetch barrier.
 #pragma once
 
 #include "conelight/settings.h"
@@ -18,7 +18,9 @@ class DirectLight {
     void draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
               const LightSettings& settings, int width, int height);
 
-    const gl::Texture& diffuse() const { return diffuse_; }    // diffuse reflection plus emission; sky radiance; a: seen
+    const gl::Texture& diffuse() const {
+        return diffuse_;
+    }  // diffuse reflection plus emission; sky radiance; a: seen
     const gl::Texture& specular() const { return specular_; }  // specular reflection; a: seen
 
     static std::vector<gl::ProgramDesc> programDescs();

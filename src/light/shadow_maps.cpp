@@ -16,9 +16,11 @@ namespace {
 // same relative precision for any value, so it is only bounded by what must not vanish.
 constexpr float kNearFraction = 1e-5f;
 
-// Texels that a map keeps beyond the frustum it covers: the filter's reach, and as much again (times sqrt 2 for
-// the worst direction) for the move along the normal, which may cross the border between two sides.
-int guardTexels(int filterRadius) { return static_cast<int>(std::ceil(2.5f * static_cast<float>(filterRadius + 1))) + 1; }
+// Texels that a map keeps beyond the frustum it covers: the filter's reach, and as much again (times sqrt 2
+// for the worst direction) for the move along the normal, which may cross the border between two sides.
+int guardTexels(int filterRadius) {
+    return static_cast<int>(std::ceil(2.5f * static_cast<float>(filterRadius + 1))) + 1;
+}
 constexpr int kRectGuard = 2;  // lib/shadow.glsl: filter radius 0 and the move, each one texel
 
 struct Axes {
@@ -50,14 +52,15 @@ struct View {
 };
 
 // A perspective map, reversed depth near / distance. The tile's centre in v is at `middleV` texels.
-View perspectiveView(const glm::vec3& origin, const Axes& axes, float nearDistance, float texel, int width, int height,
-                     float middleV) {
+View perspectiveView(const glm::vec3& origin, const Axes& axes, float nearDistance, float texel, int width,
+                     int height, float middleV) {
     const float su = 2.0f / (texel * static_cast<float>(width));
     const float sv = 2.0f / (texel * static_cast<float>(height));
     const float shiftV = 2.0f * middleV / static_cast<float>(height) - 1.0f;
     View view{};
-    view.clipFromWorld = rows(origin, {glm::vec4(axes.u * su, 0), glm::vec4(axes.v * sv + axes.forward * shiftV, 0),
-                                       glm::vec4(0, 0, 0, nearDistance), glm::vec4(axes.forward, 0)});
+    view.clipFromWorld =
+        rows(origin, {glm::vec4(axes.u * su, 0), glm::vec4(axes.v * sv + axes.forward * shiftV, 0),
+                      glm::vec4(0, 0, 0, nearDistance), glm::vec4(axes.forward, 0)});
     view.width = width;
     view.height = height;
     return view;
@@ -120,10 +123,18 @@ class Layout {
     void addLight(gpu::Light& light) {
         light.shadowNear = near_;
         switch (light.type) {
-            case LIGHT_POINT: addPoint(light); break;
-            case LIGHT_SPOT: addSpot(light); break;
-            case LIGHT_DIRECTIONAL: addDirectional(light); break;
-            default: addRect(light); break;
+            case LIGHT_POINT:
+                addPoint(light);
+                break;
+            case LIGHT_SPOT:
+                addSpot(light);
+                break;
+            case LIGHT_DIRECTIONAL:
+                addDirectional(light);
+                break;
+            default:
+                addRect(light);
+                break;
         }
     }
 
@@ -163,8 +174,8 @@ class Layout {
         views_.push_back(view);
     }
 
-    // Fits the map to the scene's bounds. Texel size and centre move in steps, so that shadows do not crawl when
-    // the bounds change: sizes by powers of 2^(1/8), the centre by whole texels.
+    // Fits the map to the scene's bounds. Texel size and centre move in steps, so that shadows do not crawl
+    // when the bounds change: sizes by powers of 2^(1/8), the centre by whole texels.
     void addDirectional(gpu::Light& light) {
         light.shadow = take(1, 1);
         float half = 0, nearest = 1e30f, farthest = -1e30f;
@@ -173,7 +184,8 @@ class Layout {
             const glm::vec3 p((corner & 1) != 0 ? bounds_.max.x : bounds_.min.x,
                               (corner & 2) != 0 ? bounds_.max.y : bounds_.min.y,
                               (corner & 4) != 0 ? bounds_.max.z : bounds_.min.z);
-            half = std::max({half, std::abs(glm::dot(p - centre, light.halfU)), std::abs(glm::dot(p - centre, light.halfV))});
+            half = std::max({half, std::abs(glm::dot(p - centre, light.halfU)),
+                             std::abs(glm::dot(p - centre, light.halfV))});
             nearest = std::min(nearest, glm::dot(p - centre, light.direction));
             farthest = std::max(farthest, glm::dot(p - centre, light.direction));
         }
@@ -191,8 +203,9 @@ class Layout {
 
         const float scale = 2.0f / (light.shadowTexel * static_cast<float>(size_));
         View view{};
-        view.clipFromWorld = rows(light.position, {glm::vec4(light.halfU * scale, 0), glm::vec4(light.halfV * scale, 0),
-                                                   glm::vec4(-light.direction * light.shadowNear, 1), glm::vec4(0, 0, 0, 1)});
+        view.clipFromWorld =
+            rows(light.position, {glm::vec4(light.halfU * scale, 0), glm::vec4(light.halfV * scale, 0),
+                                  glm::vec4(-light.direction * light.shadowNear, 1), glm::vec4(0, 0, 0, 1)});
         view.width = view.height = size_;
         place(view, light.shadow, 1, size_);
         views_.push_back(view);
@@ -212,8 +225,9 @@ class Layout {
                 const bool front = side == 4;
                 Axes axes = cubeSide(side, u, v, light.direction);
                 if (side == 2 || side == 3) std::swap(axes.u, axes.v);
-                View view = perspectiveView(point, axes, near_, light.shadowTexel, tile, front ? tile : tile / 2,
-                                            front ? 0.5f * static_cast<float>(tile) : static_cast<float>(kRectGuard));
+                View view =
+                    perspectiveView(point, axes, near_, light.shadowTexel, tile, front ? tile : tile / 2,
+                                    front ? 0.5f * static_cast<float>(tile) : static_cast<float>(kRectGuard));
                 place(view, light.shadow + 3 * sample + (front ? 0 : 1 + side / 2), 4, size_);
                 if (!front && (side & 1) != 0) view.y += tile / 2;
                 views_.push_back(view);
@@ -226,7 +240,8 @@ class Layout {
         const int grid = static_cast<int>(light.sampleGrid);
         const glm::vec2 cell(k % grid, k / grid);
         const glm::vec2 uv = (cell + (glm::vec2(cell.y, cell.x) + 0.5f) / static_cast<float>(grid)) /
-                                 static_cast<float>(grid) * 2.0f - 1.0f;
+                                 static_cast<float>(grid) * 2.0f -
+                             1.0f;
         const float lift = 1e-3f * std::min(glm::length(light.halfU), glm::length(light.halfV));
         return light.position + uv.x * light.halfU + uv.y * light.halfV + lift * light.direction;
     }
@@ -248,7 +263,8 @@ struct ShadowMaps::Impl {
     void allocate(int size, int layerCount) {
         if (maps && maps.width() == size && maps.depth() == layerCount) return;
         layers.clear();
-        maps = gl::Texture({GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, size, size, layerCount}, "shadow maps");
+        maps =
+            gl::Texture({GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, size, size, layerCount}, "shadow maps");
         maps.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         maps.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
         maps.parameter(GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -256,7 +272,8 @@ struct ShadowMaps::Impl {
         maps.parameter(GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
         maps.parameter(GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);  // reversed depth: visible when not farther
         for (int layer = 0; layer < layerCount; ++layer)
-            layers.push_back(gl::Framebuffer::depthLayer(maps, layer, "shadow layer " + std::to_string(layer)));
+            layers.push_back(
+                gl::Framebuffer::depthLayer(maps, layer, "shadow layer " + std::to_string(layer)));
         const float nothing = 0.0f;
         maps.clear(0, GL_DEPTH_COMPONENT, GL_FLOAT, &nothing);
     }
@@ -309,7 +326,8 @@ void ShadowMaps::update(gl::ProgramLibrary& programs, gl::Profiler& profiler, sc
 
     // Lay out the maps.
     std::vector<gpu::Light> lights = scene.lights();
-    const auto grid = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<float>(settings.areaSamples))));
+    const auto grid =
+        static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<float>(settings.areaSamples))));
     for (gpu::Light& light : lights) {
         light.shadow = -1;
         light.sampleGrid = std::max(grid, 1u);
@@ -344,12 +362,9 @@ std::vector<gl::ProgramDesc> ShadowMaps::programDescs() { return {programDesc(fa
 namespace {
 gl::Defines definesOf(const std::array<bool, 4>& kinds, bool shadows, int filter) {
     const auto flag = [](bool on) { return std::string(on ? "1" : "0"); };
-    return {{"LIGHTS_POINT", flag(kinds[0])},
-            {"LIGHTS_SPOT", flag(kinds[1])},
-            {"LIGHTS_DIRECTIONAL", flag(kinds[2])},
-            {"LIGHTS_RECT", flag(kinds[3])},
-            {"LIGHTS_SHADOWS", flag(shadows)},
-            {"SHADOW_FILTER", std::to_string(filter)}};
+    return {{"LIGHTS_POINT", flag(kinds[0])},       {"LIGHTS_SPOT", flag(kinds[1])},
+            {"LIGHTS_DIRECTIONAL", flag(kinds[2])}, {"LIGHTS_RECT", flag(kinds[3])},
+            {"LIGHTS_SHADOWS", flag(shadows)},      {"SHADOW_FILTER", std::to_string(filter)}};
 }
 }  // namespace
 

@@ -5,8 +5,8 @@
 // sampler and one way of filtering; shaders/lib/shadow.glsl documents tiles, depths and the bias, and is the
 // other half of this file.
 //
-// Each map is one pass over the instances that its frustum meets: measured on llvmpipe, six culled passes cost
-// no more than one layered pass, and they need no extension.
+// Each map is one pass over the instances that its frustum meets: measured on llvmpipe, six culled passes
+// cost no more than one layered pass, and they need no extension.
 //
 // Reads: scene tables. Writes: the texture at UNIT_SHADOW. Both sides of every surface cast shadows.
 #pragma once

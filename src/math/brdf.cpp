@@ -13,13 +13,23 @@ float largest(const glm::vec3& v) { return std::max({v.r, v.g, v.b}); }
 glm::vec2 directionalAlbedo(float nov, float roughness) {
     const float a = roughness * roughness;
     const float s = nov / (nov + a);
-    const float both = (0.959575f + s * (0.438832f + s * (-3.25298f + s * (5.54518f + s * -2.68982f)))) + a * ((0.285436f + s * (-3.13559f + s * (10.8832f + s * (-14.5516f + s * 6.2423f)))) + a * ((-0.689624f + s * (1.98606f + s * (-7.77566f + s * (1.51046f + s * 9.55351f)))) + a * ((0.645843f + s * (-3.86254f + s * (10.699f + s * (-2.09599f + s * -18.0685f)))) + a * (-0.217635f + s * (1.4135f + s * (-1.41486f + s * (-8.25343f + s * 18.5846f)))))));
+    const float both =
+        (0.959575f + s * (0.438832f + s * (-3.25298f + s * (5.54518f + s * -2.68982f)))) +
+        a * ((0.285436f + s * (-3.13559f + s * (10.8832f + s * (-14.5516f + s * 6.2423f)))) +
+             a * ((-0.689624f + s * (1.98606f + s * (-7.77566f + s * (1.51046f + s * 9.55351f)))) +
+                  a * ((0.645843f + s * (-3.86254f + s * (10.699f + s * (-2.09599f + s * -18.0685f)))) +
+                       a * (-0.217635f + s * (1.4135f + s * (-1.41486f + s * (-8.25343f + s * 18.5846f)))))));
     const float r = roughness;
-    const float q = std::sqrt(nov);
     const float c = 1.0f - nov;
-    const float grazing = (0.664249f + q * (6.5041f + q * (-34.2269f + q * (66.6438f + q * -46.0345f)))) + r * ((1.41443f + q * (-73.5057f + q * (471.779f + q * (-1052.84f + q * 784.235f)))) + r * ((-10.5204f + q * (235.453f + q * (-1684.8f + q * (4060.07f + q * -3172.39f)))) + r * ((14.4284f + q * (-281.443f + q * (2188.11f + q * (-5558.21f + q * 4491.91f)))) + r * (-5.8871f + q * (112.475f + q * (-941.196f + q * (2490.15f + q * -2065.04f)))))));
+    const float grazing =
+        (1.2406f + s * (-0.0343653f + s * (-3.78446f + s * (6.60108f + s * -3.02584f)))) +
+        r * ((-4.05669f + s * (0.801049f + s * (20.2115f + s * (-18.1767f + s * 1.51945f)))) +
+             r * ((5.47252f + s * (-6.02894f + s * (-3.47122f + s * (-77.448f + s * 73.214f)))) +
+                  r * ((-3.45332f + s * (9.0266f + s * (-24.3157f + s * (120.581f + s * -45.8689f)))) +
+                       r * (0.843674f +
+                            s * (-3.97724f + s * (13.7924f + s * (-43.6449f + s * -1.62864f)))))));
     const float e = std::clamp(both, 0.0f, 1.0f);
-    const float f = std::clamp(grazing * (c * c) * (c * c), 0.0f, e);
+    const float f = std::clamp(grazing * (c * c) * (c * c) * c, 0.0f, e);
     return {e - f, f};
 }
 
@@ -29,9 +39,12 @@ glm::vec3 fresnel(const glm::vec3& f0, const glm::vec3& f90, float voh) {
     return f0 + (f90 - f0) * (c2 * c2 * c);
 }
 
-glm::vec3 specularAlbedo(const Brdf& b, const glm::vec2& dfg) { return (b.f0 * dfg.x + b.f90 * dfg.y) * b.compensation; }
+glm::vec3 specularAlbedo(const Brdf& b, const glm::vec2& dfg) {
+    return (b.f0 * dfg.x + b.f90 * dfg.y) * b.compensation;
+}
 
-Brdf makeBrdf(const glm::vec3& baseColor, float metallic, float roughness, const glm::vec3& dielectricF0, float nov) {
+Brdf makeBrdf(const glm::vec3& baseColor, float metallic, float roughness, const glm::vec3& dielectricF0,
+              float nov) {
     Brdf b{};
     b.nov = std::clamp(nov, 1e-4f, 1.0f);
     const float r = std::max(roughness, kMinRoughness);

@@ -22,12 +22,14 @@ glm::vec2 directionalAlbedo(float nov, float roughness);
 
 glm::vec3 fresnel(const glm::vec3& f0, const glm::vec3& f90, float voh);
 glm::vec3 specularAlbedo(const Brdf& brdf, const glm::vec2& dfg);
-Brdf makeBrdf(const glm::vec3& baseColor, float metallic, float roughness, const glm::vec3& dielectricF0, float nov);
+Brdf makeBrdf(const glm::vec3& baseColor, float metallic, float roughness, const glm::vec3& dielectricF0,
+              float nov);
 
 // GGX times visibility, D G2 / (4 NoL NoV).
 float ggxVisible(float alpha, float noh, float nol, float nov);
 
 // The specular BRDF (1/sr) for unit vectors to the light and to the eye.
-glm::vec3 brdfSpecular(const Brdf& brdf, const glm::vec3& n, const glm::vec3& toLight, const glm::vec3& toEye);
+glm::vec3 brdfSpecular(const Brdf& brdf, const glm::vec3& n, const glm::vec3& toLight,
+                       const glm::vec3& toEye);
 
 }  // namespace conelight::math

@@ -37,13 +37,17 @@ gpu::Light packed(const Light& light) {
     g.sampleGrid = 4;
     basis(g.direction, g.halfU, g.halfV);
     switch (light.type) {
-        case LightType::Point: g.type = LIGHT_POINT; break;
+        case LightType::Point:
+            g.type = LIGHT_POINT;
+            break;
         case LightType::Spot:
             g.type = light.outerAngle > kWidestSingleMap ? LIGHT_POINT : LIGHT_SPOT;
             g.cosInner = std::cos(light.innerAngle);
             g.cosOuter = std::cos(light.outerAngle);
             break;
-        case LightType::Directional: g.type = LIGHT_DIRECTIONAL; break;
+        case LightType::Directional:
+            g.type = LIGHT_DIRECTIONAL;
+            break;
         case LightType::Rect:
             g.type = LIGHT_RECT;
             g.halfU = light.halfU;

@@ -347,6 +347,14 @@ void GpuScene::uploadLights(const Scene& source) {
     lightBuffer_ = gl::Buffer(lights_, "scene lights");
 }
 
+void GpuScene::setLitExactly(std::size_t instance, bool lit) {
+    gpu::Instance& g = instances_[instance];
+    const std::uint32_t flags = lit ? g.flags | INSTANCE_LIT_EXACTLY : g.flags & ~INSTANCE_LIT_EXACTLY;
+    if (flags == g.flags) return;
+    g.flags = flags;
+    instanceBuffer_.update(instance * sizeof(gpu::Instance), &g, sizeof g);
+}
+
 void GpuScene::updateLights(const std::vector<gpu::Light>& lights) {
     if (lights.size() * sizeof(gpu::Light) > lightBuffer_.bytes())
         lightBuffer_ = gl::Buffer(lights, "scene lights");

@@ -43,6 +43,8 @@ class GpuScene {
     bool hasVertexColors() const { return hasVertexColors_; }  // of any mesh
     // Light stage: adds lights of emitters, writes shadow maps into the table. Sorted by type.
     void updateLights(const std::vector<gpu::Light>& lights);
+    // Light stage: sets or takes away INSTANCE_LIT_EXACTLY.
+    void setLitExactly(std::size_t instance, bool lit);
     // Moves one instance (dynamic objects); bounds and tables follow.
     void setTransform(std::size_t instance, const glm::mat4& worldFromObject);
 

@@ -1,0 +1,119 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// G-buffer + lights -> radiance by the thesis's Phong model: per light
+//   (ka + kd max(0, n.l) + ks max(0, v.r)^shininess) * C * c / attenuation,   r = reflect(-l, n),
+// C = intensity / pi (docs/theory/1_scene.md, two material models), attenuation of the light's own kind and
+// on every term, the ambient one included. Unlit surfaces show their colour. PHONG_SHADOWS: shadow maps on
+// the diffuse and specular terms (the thesis's program has none).
+#ifndef PHONG_SHADOWS
+#error PHONG_SHADOWS must be 0 or 1
+#endif
+#define LIGHTS_SHADOWS PHONG_SHADOWS
+#include "lib/gbuffer.glsl"
+#include "lib/lights.glsl"
+
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(binding = 0, rgba32f) writeonly uniform image2D outputImage;
+
+struct Phong {
+    vec3 color;
+    float ambient, diffuse, specular, shininess;
+};
+
+// The scene's own Phong material; else the G-buffer's base colour (textures, vertex colours) with strengths
+// derived at upload.
+Phong phongOf(Surface s) {
+    Phong m;
+    m.color = (materials[s.material].flags & MATERIAL_HAS_PHONG) != 0u ? materials[s.material].phongColor
+                                                                       : s.albedo;
+    m.ambient = materials[s.material].phongAmbient;
+    m.diffuse = materials[s.material].phongDiffuse;
+    m.specular = materials[s.material].phongSpecular;
+    m.shininess = max(materials[s.material].phongShininess, 1e-3);  // pow(0, 0) is undefined
+    return m;
+}
+
+// One light from direction l; `light` is its colour over the attenuation.
+vec3 phongTerm(Phong m, Surface s, vec3 l, vec3 light, float visible) {
+    float diffuse = m.diffuse * max(dot(s.normal, l), 0.0);
+    float specular = m.specular * pow(max(dot(s.toEye, reflect(-l, s.normal)), 0.0), m.shininess);
+    return (m.ambient + (diffuse + specular) * visible) * light;
+}
+
+vec3 phongPoint(Phong m, Surface s, Light light, const bool single) {
+    vec3 l = light.position - s.position;
+    float d2 = dot(l, l);
+    l *= inversesqrt(max(d2, 1e-20));
+    float visible = 1.0;
+#if LIGHTS_SHADOWS
+    visible = single ? shadowVisibilitySpot(light, s.position, s.geometricNormal)
+                     : shadowVisibilityPoint(light, s.position, s.geometricNormal);
+#endif
+    return phongTerm(m, s, l, light.intensity * (distanceFalloff(light, d2) * spotFalloff(light, l)),
+                     visible);
+}
+
+vec3 phongDirectional(Phong m, Surface s, Light light) {
+    float visible = 1.0;
+#if LIGHTS_SHADOWS
+    visible = shadowVisibilityDirectional(light, s.position, s.geometricNormal);
+#endif
+    return phongTerm(m, s, -light.direction, light.intensity, visible);
+}
+
+// The model knows no areas: each sample point of a rectangle is a light of its share.
+vec3 phongRect(Phong m, Surface s, Light light) {
+    uint count = light.sampleGrid * light.sampleGrid;
+    float cellArea = 4.0 * length(cross(light.halfU, light.halfV)) / float(count);
+    vec3 sum = vec3(0.0);
+    uint k = 0u;
+    do {
+        vec3 point = rectSamplePoint(light, k);
+        vec3 l = point - s.position;
+        float d2 = dot(l, l);
+        l *= inversesqrt(max(d2, 1e-20));
+        float visible = 1.0;
+#if LIGHTS_SHADOWS
+        visible = shadowVisibilityRect(light, k, point, s.position, s.geometricNormal);
+#endif
+        float share = cellArea * max(-dot(l, light.direction), 0.0) / max(d2, cellArea);
+        sum += phongTerm(m, s, l, light.intensity * share, visible);
+    } while (++k < count);
+    return sum;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    Surface s;
+    bool seen = fetchSurface(pixel, s);
+    Phong m = phongOf(s);
+    vec3 sum = vec3(0.0);
+    uint i;
+#if LIGHTS_POINT
+    i = 0u;
+    if (i < frame.lightEnds.x) do
+            sum += phongPoint(m, s, lights[i], false);
+        while (++i < frame.lightEnds.x);
+#endif
+#if LIGHTS_SPOT
+    i = frame.lightEnds.x;
+    if (i < frame.lightEnds.y) do
+            sum += phongPoint(m, s, lights[i], true);
+        while (++i < frame.lightEnds.y);
+#endif
+#if LIGHTS_DIRECTIONAL
+    i = frame.lightEnds.y;
+    if (i < frame.lightEnds.z) do
+            sum += phongDirectional(m, s, lights[i]);
+        while (++i < frame.lightEnds.z);
+#endif
+#if LIGHTS_RECT
+    i = frame.lightEnds.z;
+    if (i < frame.lightEnds.w) do
+            sum += phongRect(m, s, lights[i]);
+        while (++i < frame.lightEnds.w);
+#endif
+    vec3 radiance = s.unlit ? s.emission : sum * m.color / kPi + s.emission;
+    if (pixel.x >= int(frame.width) || pixel.y >= int(frame.height)) return;
+    imageStore(outputImage, pixel, seen ? vec4(radiance, 1.0) : vec4(frame.sky, 0.0));
+}

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: MIT
+// The BRDF: GLSL against its C++ twin, and both against the white furnace.
+#include "math/brdf.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gl/pass.h"
+#include "shared/bindings.h"
+#include "support/gl_fixture.h"
+
+namespace conelight::test {
+namespace {
+
+constexpr double kPi = 3.14159265358979;
+
+// Share of light that the lobe sends from a uniform environment to an eye at `nov`, by the midpoint rule over
+// the half vector's distribution: theta of the half vector is spaced by the GGX distribution, so that narrow
+// lobes are resolved as well as wide ones.
+glm::dvec3 reflectedOfFurnace(const math::Brdf& brdf, double nov) {
+    const int rings = 400, sectors = 256;
+    const double a2 = static_cast<double>(brdf.alpha) * static_cast<double>(brdf.alpha);
+    const glm::dvec3 eye(std::sqrt(1 - nov * nov), 0, nov);
+    glm::dvec3 sum(0);
+    for (int i = 0; i < rings; ++i) {
+        // Inverse of the cumulative distribution of D cos over the sphere of half vectors.
+        const double u = (i + 0.5) / rings;
+        const double cos2 = (1 - u) / (1 + (a2 - 1) * u);
+        const double cosTheta = std::sqrt(cos2), sinTheta = std::sqrt(1 - cos2);
+        const double d = a2 / (kPi * std::pow(cos2 * (a2 - 1) + 1, 2));
+        for (int j = 0; j < sectors; ++j) {
+            const double phi = 2 * kPi * (j + 0.5) / sectors;
+            const glm::dvec3 h(sinTheta * std::cos(phi), sinTheta * std::sin(phi), cosTheta);
+            const double voh = glm::dot(eye, h);
+            const glm::dvec3 l = 2 * voh * h - eye;
+            if (voh <= 0 || l.z <= 0) continue;
+            // Density over light directions: D cos(theta) / (4 VoH).
+            const double density = d * cosTheta / (4 * voh);
+            const glm::vec3 f = math::brdfSpecular(brdf, {0, 0, 1}, glm::vec3(l), glm::vec3(eye));
+            sum += glm::dvec3(f) * (l.z / density);
+        }
+    }
+    return sum / static_cast<double>(rings * sectors);
+}
+
+TEST(BrdfTest, WhiteMetalReturnsTheWhiteFurnace) {
+    for (const float roughness : {0.1f, 0.2f, 0.35f, 0.5f, 0.7f, 0.85f, 1.0f})
+        for (const float nov : {0.05f, 0.15f, 0.3f, 0.5f, 0.75f, 1.0f}) {
+            const math::Brdf brdf = math::makeBrdf(glm::vec3(1), 1, roughness, glm::vec3(0.04f), nov);
+            EXPECT_NEAR(reflectedOfFurnace(brdf, static_cast<double>(nov)).x, 1, 0.01)
+                << "roughness " << roughness << ", NoV " << nov;
+            EXPECT_EQ(brdf.diffuse, glm::vec3(0));
+        }
+}
+
+TEST(BrdfTest, WhiteDielectricReturnsTheWhiteFurnace) {
+    for (const float roughness : {0.1f, 0.2f, 0.35f, 0.5f, 0.7f, 0.85f, 1.0f})
+        for (const float nov : {0.1f, 0.3f, 0.5f, 0.75f, 1.0f}) {
+            const math::Brdf brdf = math::makeBrdf(glm::vec3(1), 0, roughness, glm::vec3(0.04f), nov);
+            const double total =
+                reflectedOfFurnace(brdf, static_cast<double>(nov)).x + static_cast<double>(brdf.diffuse.x);
+            EXPECT_NEAR(total, 1, 0.01) << "roughness " << roughness << ", NoV " << nov;
+        }
+}
+
+TEST(BrdfTest, NoSpecularMeansLambert) {
+    const math::Brdf brdf = math::makeBrdf(glm::vec3(0.7f), 0, 0.5f, glm::vec3(0), 0.3f);
+    EXPECT_FLOAT_EQ(brdf.diffuse.x, 0.7f);
+    EXPECT_EQ(math::brdfSpecular(brdf, {0, 0, 1}, {0, 0, 1}, {0, 0, 1}), glm::vec3(0));
+}
+
+TEST(BrdfTest, SpecularAlbedoPredictsTheFurnace) {
+    for (const float roughness : {0.2f, 0.6f, 1.0f})
+        for (const float nov : {0.2f, 0.6f, 1.0f}) {
+            const math::Brdf brdf = math::makeBrdf({0.9f, 0.6f, 0.3f}, 1, roughness, glm::vec3(0.04f), nov);
+            const glm::vec3 predicted = math::specularAlbedo(brdf, math::directionalAlbedo(nov, roughness));
+            const glm::dvec3 got = reflectedOfFurnace(brdf, static_cast<double>(nov));
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c], static_cast<double>(predicted[c]), 0.01);
+        }
+}
+
+class BrdfShaderTest : public GlTest {};
+
+TEST_F(BrdfShaderTest, ShaderEqualsItsTwin) {
+    addShader("test/brdf.comp.glsl", R"(#version 450 core
+#include "lib/brdf.glsl"
+#include "shared/bindings.h"
+layout(local_size_x = 64) in;
+layout(std430, binding = BINDING_STORAGE_PASS) buffer Data { vec4 data[]; };
+void main() {
+    uint i = gl_GlobalInvocationID.x * 4u;
+    vec4 a = data[i], b = data[i + 1u], c = data[i + 2u];
+    Brdf brdf = makeBrdf(vec3(a.x, 0.5, 1.0), a.y, a.z, vec3(a.w, 0.04, 0.0), dot(c.xyz, vec3(0, 0, 1)));
+    data[i + 3u] = vec4(brdfSpecular(brdf, vec3(0, 0, 1), b.xyz, c.xyz), brdf.diffuse.g);
+}
+)");
+    std::vector<glm::vec4> data;
+    std::uint32_t state = 12345;
+    const auto next = [&] {
+        state = state * 1664525u + 1013904223u;
+        return static_cast<float>(state >> 8) / 16777216.0f;
+    };
+    const auto direction = [&] {
+        const float z = 0.02f + 0.98f * next(), phi = 6.2831853f * next(), s = std::sqrt(1 - z * z);
+        return glm::vec3(s * std::cos(phi), s * std::sin(phi), z);
+    };
+    const std::size_t count = 256;
+    for (std::size_t i = 0; i < count; ++i) {
+        data.emplace_back(next(), i % 3 == 0 ? 1.0f : next(), 0.05f + 0.95f * next(), 0.1f * next());
+        data.emplace_back(direction(), 0);
+        data.emplace_back(direction(), 0);
+        data.emplace_back(0);
+    }
+    gl::Buffer buffer(data, "brdf cases");
+    buffer.bindStorage(BINDING_STORAGE_PASS);
+    programs().compute("test/brdf.comp.glsl").dispatch(static_cast<int>(count));
+    gl::barrier(gl::Access::ShaderStorage);
+    const std::vector<glm::vec4> got = buffer.read<glm::vec4>(data.size());
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::vec4 a = data[4 * i];
+        const glm::vec3 l(data[4 * i + 1]), v(data[4 * i + 2]);
+        const math::Brdf brdf = math::makeBrdf({a.x, 0.5f, 1.0f}, a.y, a.z, {a.w, 0.04f, 0.0f}, v.z);
+        const glm::vec3 want = math::brdfSpecular(brdf, {0, 0, 1}, l, v);
+        for (int c = 0; c < 3; ++c)
+            EXPECT_NEAR(got[4 * i + 3][c], want[c], 2e-4f * want[c] + 1e-5f) << "case " << i;
+        EXPECT_NEAR(got[4 * i + 3].w, brdf.diffuse.g, 1e-4f) << "case " << i;
+    }
+}
+
+}  // namespace
+}  // namespace conelight::test
