@@ -2,6 +2,7 @@
 #include "frame/modes.h"
 
 #include "base/log.h"
+#include "frame/cones_mode.h"
 #include "frame/phong_mode.h"
 
 namespace conelight::frame {
@@ -15,7 +16,7 @@ std::unique_ptr<ModeRenderer> makeModeRenderer(Mode mode) {
             break;
 
         case Mode::Cones:
-            break;
+            return std::make_unique<ConesMode>();
     }
     base::fail(ErrorKind::Usage, "mode: not built yet");
 }

@@ -157,7 +157,8 @@ void Renderer::Impl::prepareMode(const Settings& settings) {
 
     // Flat emitters as lights. The thesis's mode knows none: its emissive objects light nothing.
     if (lightChanged) {
-        light::setEmissiveQuads(*scene, source, settings.light.emissiveQuads && settings.mode != Mode::Thesis);
+        light::setEmissiveQuads(*scene, source,
+                                settings.light.emissiveQuads && settings.mode != Mode::Thesis);
         scene->bind();  // the light table may have moved
     }
 

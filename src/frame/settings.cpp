@@ -49,7 +49,8 @@ void visitCones(S& s, V& visit) {
     visit.number("cones.step", s.step, 0.1, 2.0, "footprints", "distance between samples along a cone");
     visit.number("cones.offset", s.offset, 0.0, 4.0, "voxels", "where cones start, above the surface");
     visit.number("cones.max_footprint", s.maxFootprint, 0.01, 1.0, "",
-                 "largest footprint as a fraction of the grid; smaller is slower, leaks less and may miss small lights");
+                 "largest footprint as a fraction of the grid; smaller is slower, leaks less and may miss "
+                 "small lights");
     visit.autoNumber("cones.max_distance", s.maxDistance, 0.0, 1e6, "m",
                      "length of cones; beyond it they see the sky; auto: through the grid");
     visit.number("cones.specular_min_aperture", s.specularMinAperture, 0.01, 1.0, "rad",

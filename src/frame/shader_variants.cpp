@@ -8,10 +8,12 @@
 
 #include "base/log.h"
 #include "conelight/shaders.h"
+#include "frame/cones_mode.h"
 #include "gather/cone_gather.h"
 #include "gather/direct_light.h"
 #include "gather/phong_shade.h"
 #include "image/debug_view.h"
+#include "light/inject_light.h"
 #include "light/shadow_maps.h"
 #include "view/gbuffer.h"
 #include "voxels/radiance_volume.h"
@@ -50,7 +52,9 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     add(voxels::RadianceVolume::programDescs());
     add(gather::DirectLight::programDescs());
     add(gather::phongShadeProgramDescs());
+    add(light::injectLightProgramDescs());
     add(gather::ConeGather::programDescs());
+    add(frame::ConesMode::programDescs());
     add(image::debugViewProgramDescs());
     return all;
 }

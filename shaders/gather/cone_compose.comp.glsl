@@ -1,0 +1,47 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// The picture of the cones mode from its parts: G-buffer, direct light, gathered light -> radiance (rgb), and
+// 1 where a surface is seen, 0 in the background (a).
+//   SHOW_DIRECT    emission and light that comes straight from lights (direct_light.comp.glsl); the sky
+//   behind SHOW_DIFFUSE   gathered irradiance, reflected by the matt part SHOW_SPECULAR  gathered radiance,
+//   reflected by the glossy part: times the lobe's directional albedo
+#if !defined(SHOW_DIRECT) || !defined(SHOW_DIFFUSE) || !defined(SHOW_SPECULAR)
+#error SHOW_DIRECT, SHOW_DIFFUSE and SHOW_SPECULAR must be 0 or 1
+#endif
+#include "lib/brdf.glsl"
+#include "lib/gbuffer.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(rgba32f, binding = 0) writeonly uniform image2D result;
+#if SHOW_DIRECT
+layout(binding = UNIT_PASS + 1) uniform sampler2D directDiffuse;  // with emission and sky
+layout(binding = UNIT_PASS + 2) uniform sampler2D directSpecular;
+#endif
+#if SHOW_DIFFUSE
+layout(binding = UNIT_PASS + 3) uniform sampler2D diffuseIrradiance;  // / pi
+#endif
+#if SHOW_SPECULAR
+layout(binding = UNIT_PASS + 4) uniform sampler2D specularRadiance;
+#endif
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(result)))) return;
+    Surface s;
+    bool seen = fetchSurface(pixel, s);
+    float nov = dot(s.normal, s.toEye);
+    Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, nov);
+    vec3 direct = vec3(0.0);
+#if SHOW_DIRECT
+    direct = texelFetch(directDiffuse, pixel, 0).rgb + texelFetch(directSpecular, pixel, 0).rgb;
+#endif
+    vec3 gathered = vec3(0.0);
+#if SHOW_DIFFUSE
+    gathered += b.diffuse * texelFetch(diffuseIrradiance, pixel, 0).rgb;
+#endif
+#if SHOW_SPECULAR
+    vec2 dfg = directionalAlbedo(b.nov, sqrt(b.alpha));
+    gathered += specularAlbedo(b, dfg) * texelFetch(specularRadiance, pixel, 0).rgb;
+#endif
+    bool gathers = seen && !s.unlit;
+    imageStore(result, pixel, vec4(direct + (gathers ? gathered : vec3(0.0)), seen ? 1.0 : 0.0));
+}

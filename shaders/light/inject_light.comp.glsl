@@ -1,0 +1,47 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// Face records: radiance = emission + albedo / pi * irradiance of the lights. One invocation per face.
+layout(local_size_x = 64) in;  // before linear_index, which asks for it
+#include "lib/lights.glsl"
+#include "lib/linear_index.glsl"
+#include "lib/voxel_grid.glsl"
+#include "lib/voxel_record.glsl"
+layout(std430, binding = BINDING_VOXEL_FACES) buffer Faces { FaceRecord faces[]; };
+layout(binding = UNIT_VOXEL_FACE_SOURCES) uniform usamplerBuffer faceSources;
+
+// Whether a face belongs to a rectangle of the scene that shines as an area light: it looks the same way, and
+// its centre lies on it. Voxels round positions to 1/31 voxel, so a quarter voxel is ample.
+bool isAreaLight(vec3 position, vec3 normal) {
+    bool found = false;
+#if LIGHTS_RECT
+    uint i = frame.lightEnds.z;
+    if (i < frame.lightEnds.w) do {
+            Light light = lights[i];
+            vec3 d = position - light.position;
+            float slack = 0.25 * grid.voxelSize;
+            // Along the unit edges; 0.94: the cosine of 20 degrees, coplanar up to the packing of normals.
+            bool on = (light.flags & LIGHT_FROM_EMITTER) != 0u && dot(normal, light.direction) > 0.94 &&
+                      abs(dot(d, light.direction)) < slack &&
+                      abs(dot(d, normalize(light.halfU))) < length(light.halfU) + slack &&
+                      abs(dot(d, normalize(light.halfV))) < length(light.halfV) + slack;
+            found = found || on;
+        } while (++i < frame.lightEnds.w);
+#endif
+    return found;
+}
+
+void main() {
+    uint index = min(linearIndex(), grid.faceCount - 1u);
+    bool inside = linearIndex() < grid.faceCount;
+    FaceRecord face = faces[index];
+    vec3 normal = faceNormal(face);
+    vec3 position = worldFromGrid(faceCenter(face));
+    vec3 emission = unpackEmission(texelFetch(faceSources, int(index)).xy);
+    if (isAreaLight(position, normal)) emission = vec3(0.0);
+    vec3 irradiance = directIrradiance(position, normal, normal);
+    vec3 radiance = emission + unpackAlbedo(face.albedo) * irradiance * (1.0 / 3.14159265358979);
+    if (!inside) return;
+    faces[index].radiance = packRgb9e5(radiance);
+    faces[index].irradiance0 = 0u;
+    faces[index].irradiance1 = 0u;
+}

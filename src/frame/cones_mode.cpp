@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: MIT
+#include "frame/cones_mode.h"
+
+#include <optional>
+
+#include "gather/cone_gather.h"
+#include "gather/direct_light.h"
+#include "gl/gl.h"
+#include "light/inject_light.h"
+#include "shared/bindings.h"
+#include "voxels/radiance_volume.h"
+
+namespace conelight::frame {
+namespace {
+
+// Texture units of gather/cone_compose.comp.glsl.
+constexpr unsigned kUnitDirectDiffuse = UNIT_PASS + 1;
+constexpr unsigned kUnitDirectSpecular = UNIT_PASS + 2;
+constexpr unsigned kUnitDiffuse = UNIT_PASS + 3;
+constexpr unsigned kUnitSpecular = UNIT_PASS + 4;
+
+// Which parts a component is made of.
+struct Parts {
+    bool direct, diffuse, specular;
+};
+
+Parts partsOf(Component component) {
+    switch (component) {
+        case Component::Full:
+            return {true, true, true};
+        case Component::Direct:
+            return {true, false, false};
+        case Component::Indirect:
+            return {false, true, true};
+        case Component::Diffuse:
+            return {false, true, false};
+        case Component::Specular:
+            return {false, false, true};
+        default:
+            return {false, false, false};
+    }
+}
+
+gl::ProgramDesc composeDesc(const Parts& parts) {
+    return {{"gather/cone_compose.comp.glsl"},
+            {{"SHOW_DIRECT", parts.direct ? "1" : "0"},
+             {"SHOW_DIFFUSE", parts.diffuse ? "1" : "0"},
+             {"SHOW_SPECULAR", parts.specular ? "1" : "0"}}};
+}
+
+gl::ProgramDesc occlusionDesc() { return {{"gather/cone_occlusion.comp.glsl"}, {}}; }
+
+}  // namespace
+
+struct ConesMode::Impl {
+    voxels::SurfaceVoxels surface;
+    voxels::RadianceVolume volume;
+    gather::ConeGather cones;
+    gather::DirectLight direct;
+    // Pictures of what was gathered, of the frame's size.
+    gl::Texture diffuse, specular;
+
+    // What the voxels and the volume were made for, and what has changed since.
+    bool geometryDirty = true;
+    bool lightDirty = true;
+    bool volumeDirty = true;
+    std::optional<ConesSettings> configuredFor;
+
+    void updateVolume(const FrameContext& frame);
+    void resize(gl::Texture& picture, const FrameContext& frame, const char* label);
+    void drawOcclusion(const FrameContext& frame);
+    void drawParts(const FrameContext& frame, const Parts& parts);
+};
+
+// Brings voxels, their light and the volume up to date.
+void ConesMode::Impl::updateVolume(const FrameContext& frame) {
+    const ConesSettings& settings = frame.settings.cones;
+    if (geometryDirty) {
+        surface.build(frame.programs, frame.profiler, frame.scene, frame.settings.voxels);
+        lightDirty = true;
+    }
+    const voxels::RadianceLayout layout =
+        voxels::radianceLayout(surface.grid(), settings.directional, settings.maxFootprint);
+    if (!volume.texture() || !(volume.layout() == layout)) {
+        volume = {};  // frees the old one first
+        volume = voxels::RadianceVolume(layout);
+        volumeDirty = true;
+        configuredFor.reset();
+    }
+    if (!configuredFor || !(*configuredFor == settings) || geometryDirty) {
+        // How light is gathered at faces is part of the volume when there is more than one bounce.
+        const bool gathered = settings.bounces > 1 || (configuredFor && configuredFor->bounces > 1);
+        if (gathered) lightDirty = true;
+        if (!configuredFor || configuredFor->opacity != settings.opacity) volumeDirty = true;
+        cones.configure(settings, layout);
+        configuredFor = settings;
+    }
+    if (lightDirty)
+        light::injectLight(frame.programs, frame.profiler, frame.scene, frame.settings.light, surface);
+    if (lightDirty || volumeDirty) {
+        volume.build(frame.programs, frame.profiler, surface, settings.opacity);
+        // Each further bounce reads the volume with one bounce less.
+        for (int bounce = 1; bounce < settings.bounces; ++bounce) {
+            cones.gatherBounce(frame.programs, frame.profiler, volume, surface);
+            volume.build(frame.programs, frame.profiler, surface, settings.opacity);
+        }
+    }
+    geometryDirty = lightDirty = volumeDirty = false;
+}
+
+void ConesMode::Impl::resize(gl::Texture& picture, const FrameContext& frame, const char* label) {
+    if (picture && picture.width() == frame.width && picture.height() == frame.height) return;
+    picture = {};
+    picture = gl::Texture({GL_TEXTURE_2D, GL_RGBA16F, frame.width, frame.height}, label);
+}
+
+void ConesMode::Impl::drawOcclusion(const FrameContext& frame) {
+    resize(diffuse, frame, "gathered diffuse");
+    cones.gatherOcclusion(frame.programs, frame.profiler, volume, diffuse, frame.lookupCounters);
+    gl::barrier(gl::Access::TextureFetch);
+    const gl::PassScope pass(frame.profiler, "compose");
+    diffuse.bind(kUnitDiffuse);
+    frame.output.bindImage(0, 0, GL_WRITE_ONLY);
+    frame.programs.get(occlusionDesc()).dispatch(frame.width, frame.height);
+}
+
+void ConesMode::Impl::drawParts(const FrameContext& frame, const Parts& parts) {
+    // Nothing is gathered without a bounce; the parts are black then.
+    const bool gathers = frame.settings.cones.bounces > 0;
+    const Parts shown{parts.direct, parts.diffuse && gathers, parts.specular && gathers};
+    if (shown.direct)
+        direct.draw(frame.programs, frame.profiler, frame.scene, frame.settings.light, frame.width,
+                    frame.height);
+    if (shown.diffuse) {
+        resize(diffuse, frame, "gathered diffuse");
+        cones.gatherDiffuse(frame.programs, frame.profiler, volume, diffuse, frame.lookupCounters);
+    }
+    if (shown.specular) {
+        resize(specular, frame, "gathered specular");
+        cones.gatherSpecular(frame.programs, frame.profiler, volume, specular, frame.lookupCounters);
+    }
+    gl::barrier(gl::Access::TextureFetch);
+
+    const gl::PassScope pass(frame.profiler, "compose");
+    if (shown.direct) {
+        direct.diffuse().bind(kUnitDirectDiffuse);
+        direct.specular().bind(kUnitDirectSpecular);
+    }
+    if (shown.diffuse) diffuse.bind(kUnitDiffuse);
+    if (shown.specular) specular.bind(kUnitSpecular);
+    frame.output.bindImage(0, 0, GL_WRITE_ONLY);
+    frame.programs.get(composeDesc(shown)).dispatch(frame.width, frame.height);
+}
+
+ConesMode::ConesMode() : impl_(std::make_unique<Impl>()) {}
+ConesMode::~ConesMode() = default;
+
+// Every component that this mode draws has lit voxels or direct light in it, or leaves them behind for the
+// next.
+bool ConesMode::needsShadows(const Settings&) const { return true; }
+
+void ConesMode::render(const FrameContext& frame) {
+    impl_->geometryDirty = impl_->geometryDirty || frame.geometryChanged;
+    impl_->lightDirty = impl_->lightDirty || frame.lightChanged;
+    const Component component = frame.settings.component;
+    const Parts parts = partsOf(component);
+    const bool usesVolume = component == Component::Occlusion || component == Component::Voxels ||
+                            ((parts.diffuse || parts.specular) && frame.settings.cones.bounces > 0);
+    if (usesVolume) impl_->updateVolume(frame);
+    frame.gbuffer.bind(UNIT_GBUFFER);
+    switch (component) {
+        case Component::Occlusion:
+            impl_->drawOcclusion(frame);
+            break;
+        case Component::Voxels:
+            impl_->cones.drawVoxels(frame.programs, frame.profiler, impl_->volume, frame.output);
+            break;
+        default:
+            impl_->drawParts(frame, parts);
+    }
+}
+
+std::vector<gl::ProgramDesc> ConesMode::programDescs() {
+    std::vector<gl::ProgramDesc> descs = {occlusionDesc()};
+    for (const bool direct : {false, true})
+        for (const bool diffuse : {false, true})
+            for (const bool specular : {false, true})
+                descs.push_back(composeDesc({direct, diffuse, specular}));
+    return descs;
+}
+
+}  // namespace conelight::frame

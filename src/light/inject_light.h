@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Light into voxels: SurfaceVoxels + lights -> the radiance word of every face record,
+//   emission + albedo / pi * irradiance of all lights, shadows included (lib/lights.glsl), at the centre of
+//   the
+// face's surface. Emission of rectangles that shine as area lights (LIGHT_FROM_EMITTER) is left out: their
+// light arrives exactly, and must not arrive twice. Irradiance gathered before is cleared.
+//
+// Needs the frame block, the scene's tables and the shadow maps bound. Reads and writes: face. Ends with the
+// barrier for shader storage. GL state changed: program, what SurfaceVoxels::bind binds.
+#pragma once
+
+#include <vector>
+
+#include "conelight/settings.h"
+#include "gl/pass.h"
+#include "gl/program.h"
+#include "scene/gpu_scene.h"
+#include "voxels/surface_voxels.h"
+
+namespace conelight::light {
+
+void injectLight(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
+                 const LightSettings& settings, const voxels::SurfaceVoxels& surface);
+
+std::vector<gl::ProgramDesc> injectLightProgramDescs();
+
+}  // namespace conelight::light
