@@ -18,15 +18,19 @@ void main() {
     uint i = chunk * surface.bricksPerChunk;
     uint end = min(i + surface.bricksPerChunk, count);
     uvec2 next = i < end ? chunks[chunk] : uvec2(0u);
+    // Counted along: an integer division per brick would cost more than the rest.
+    ivec3 brick = brickOfIndex(i, bricks);
     while (i < end) {
         uvec2 mask = masks[i];
         bool occupied = (mask.x | mask.y) != 0u;
         if (occupied) {
-            ivec3 brick = brickOfIndex(i, bricks);
             imageStore(brickWords, brick, uvec4(mask, next.x, 0u));
             if (next.y < surface.brickCapacity) brickList[next.y] = packVoxel(brick);
         }
         next += uvec2(uint(bitCount(mask.x) + bitCount(mask.y)), occupied ? 1u : 0u);
         ++i;
+        bool rowEnds = brick.x + 1 == bricks.x;
+        bool sliceEnds = rowEnds && brick.y + 1 == bricks.y;
+        brick = sliceEnds ? ivec3(0, 0, brick.z + 1) : (rowEnds ? ivec3(0, brick.y + 1, brick.z) : ivec3(brick.x + 1, brick.yz));
     }
 }

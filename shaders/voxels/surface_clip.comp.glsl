@@ -2,16 +2,20 @@
 // One invocation per fragment: clips the triangle to the voxel, evaluates its material there, stores both
 // (32 bytes, below), and puts the fragment into its voxel's chain.
 //
-//   word 0  next fragment of the voxel + 1, 0: last    4  centroid x | y, 16 bit each, [0,1] of the voxel
-//        1  area / h^2, float                          5  centroid z 16 | coverage 8 | directions 6
-//        2  bounds (lib/voxel_record.glsl)             6  albedo
-//        3  normal, octahedral                         7  emission RGB9E5
+//   word 0  next fragment of the voxel + 1, 0: last    4  normal z | centroid x, 16 bit each
+//        1  area / h^2 x coverage, float               5  centroid y | z, 16 bit each, [0,1] of the voxel
+//        2  bounds (lib/voxel_record.glsl), bit 30:    6  albedo
+//           two-sided                                  7  emission RGB9E5, or the voxel when nothing emits
+//        3  normal x | y, 16 bit snorm each
 //
 // SURFACE_DETAIL 0: materials without textures or vertex colours. 1: with, sampled at the centroid and averaged
 // over the polygon's area. 2: and alpha tests, 16 samples over the polygon's bounds give coverage and albedo.
 #version 450
 #ifndef SURFACE_DETAIL
 #error SURFACE_DETAIL must be 0, 1 or 2
+#endif
+#ifndef SURFACE_EMISSION
+#error SURFACE_EMISSION must be 0 or 1
 #endif
 layout(local_size_x = 64) in;
 #include "voxels/surface_common.glsl"
@@ -67,23 +71,31 @@ void main() {
     albedoBits = packAlbedo(s.albedo);
     emissionBits = packRgb9e5(s.emission);
 #endif
-    uint coverage = uint(floor(clamp(s.coverage, 0.0, 1.0) * 255.0 + 0.5));
+    float area = polygon.area * clamp(s.coverage, 0.0, 1.0);
+
+#if !SURFACE_EMISSION
+    emissionBits = pair.y;
+#endif
 
     // Into the chain of the voxel, which has a record because its bit was set with this fragment.
     uvec4 word = texelFetch(brickWords, voxel >> 2, 0);
     uint record = voxelRecordIndex(word, bitOfVoxel(voxel));
-    bool kept = used && polygon.area >= kLeastArea && coverage != 0u && record < surface.voxelCapacity;
-    uint directions = facingDirections(n) | (twoSided ? facingDirections(-n) : 0u);
+    bool kept = used && area >= kLeastArea && record < surface.voxelCapacity;
+    // The directions of the normal as it is stored: surface_resolve must come to the same.
+    uint nx = packSnorm16(n.x);
+    uint ny = packSnorm16(n.y);
+    uint nz = packSnorm16(n.z);
+    vec3 stored = vec3(unpackSnorm16(nx), unpackSnorm16(ny), unpackSnorm16(nz));
+    uint directions = facingDirections(stored) | (twoSided ? facingDirections(-stored) : 0u);
     uint next = 0u;
     if (kept) {
         next = atomicExchange(chains[2u * record], slot + 1u);
         atomicOr(chains[2u * record + 1u], directions);
     }
     uvec3 c = uvec3(floor(clamp(polygon.center + 0.5, 0.0, 1.0) * 65535.0 + 0.5));
+    uint bounds = packBounds(polygon.lower + 0.5, polygon.upper + 0.5) | (twoSided ? 0x40000000u : 0u);
     if (used) {
-        fragments[2u * slot] = uvec4(next, floatBitsToUint(kept ? polygon.area : 0.0),
-                                     packBounds(polygon.lower + 0.5, polygon.upper + 0.5), packSnorm2x16(octEncode(n)));
-        fragments[2u * slot + 1u] = uvec4(c.x | (c.y << 16), c.z | (coverage << 16) | (directions << 24),
-                                          albedoBits, emissionBits);
+        fragments[2u * slot] = uvec4(next, floatBitsToUint(kept ? area : 0.0), bounds, nx | (ny << 16));
+        fragments[2u * slot + 1u] = uvec4(nz | (c.x << 16), c.y | (c.z << 16), albedoBits, emissionBits);
     }
 }

@@ -31,7 +31,6 @@
 #define SURFACE_UNIT_PAIRS 9
 #define SURFACE_UNIT_FRAGMENTS 10
 #define SURFACE_UNIT_OWNERS 11
-#define SURFACE_UNIT_CHAINS 12
 
 layout(std140, binding = BINDING_PASS) uniform SurfaceBlock { SurfaceConstants surface; };
 
@@ -51,3 +50,7 @@ uint facingDirections(vec3 n) {
     return (n.x > t ? 1u : 0u) | (n.x < -t ? 2u : 0u) | (n.y > t ? 4u : 0u) | (n.y < -t ? 8u : 0u) |
            (n.z > t ? 16u : 0u) | (n.z < -t ? 32u : 0u);
 }
+
+// Normals of fragments: three 16-bit snorm numbers, cheaper to read than an octahedral one.
+uint packSnorm16(float x) { return uint(int(floor(x * 32767.0 + 0.5))) & 0xffffu; }
+float unpackSnorm16(uint bits) { return float(int(bits << 16) >> 16) * (1.0 / 32767.0); }

@@ -15,12 +15,14 @@ void emitFragments(ColumnTest t, uint triangle, uvec2 bits, int width, ivec3 anc
     uint slot = 0u;
     if (total != 0u) slot = atomicAdd(counters[SURFACE_FRAGMENTS], total);
     ivec3 bricks = gridBricks();
+    float perWidth = 1.0 / float(width);
     do {
         bool inLow = bits.x != 0u;
         int bit = inLow ? findLSB(bits.x) : 32 + findLSB(bits.y);
         bool alive = (bits.x | bits.y) != 0u;
         int column = bit >> 2;
-        ivec2 cell = ivec2(column % width, column / width);
+        int row = int((float(column) + 0.5) * perWidth);
+        ivec2 cell = ivec2(column - row * width, row);
         int first;
         columnCandidates(t, vec2(cell), wBegin, wEnd, first);
         ivec3 voxel = fromDominant(anchor + ivec3(cell, first + (bit & 3)), axis);

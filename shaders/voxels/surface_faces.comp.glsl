@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Last third of the prefix sum over voxels: voxRec of each voxel, and for each face the voxel and direction
-// it belongs to (record 28 bits | direction 3 bits above).
+// Last third of the prefix sum over voxels: voxRec of each voxel, and for each face where its
+// voxel's chain starts and its direction (29 bits | 3 bits above).
 #version 450
 layout(local_size_x = 64) in;
 #include "voxels/surface_common.glsl"
@@ -17,12 +17,13 @@ void main() {
     uint end = min(i + surface.voxelsPerChunk, count);
     uint next = i < end ? chunks[chunk].x : 0u;
     while (i < end) {
-        uint directions = chains[i].y;
+        uvec2 chain = chains[i];
+        uint directions = chain.y;
         records[i] = min(next, 0x3ffffffu) | (directions << 26);
         uint remaining = directions;
         // Most voxels have one to three of the six.
         while (remaining != 0u) {
-            if (next < surface.faceCapacity) owners[next] = i | (uint(findLSB(remaining)) << 28);
+            if (next < surface.faceCapacity) owners[next] = chain.x | (uint(findLSB(remaining)) << 29);
             remaining &= remaining - 1u;
             ++next;
         }

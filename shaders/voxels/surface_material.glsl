@@ -54,7 +54,11 @@ Surface evaluateSurface(uint triangle, uint instance, vec3 q0, vec3 q1, vec3 q2,
     float coverage = (flags & MATERIAL_ALPHA_BLEND) != 0u ? color.a * texel.a : 1.0;
 
 #if SURFACE_DETAIL == 2
-    // Alpha test: points of a 4 x 4 lattice over the polygon's bounds, as far as they lie in the triangle.
+    // Alpha test: points of a 4 x 4 lattice over the polygon's bounds, as far as they lie in the triangle. Where a
+    // point stands for more than a texel, alpha there is already an average: then it is the coverage itself (that
+    // of a mask which is mostly 0 or 1), because a threshold would make it all or nothing.
+    float texels = 0.25 * baseFootprint * float(textureSize(surfaceArray, 0).x);
+    float averaged = layers.x >= 0 ? clamp(log2(max(texels, 1.0)), 0.0, 1.0) : 0.0;
     int axis = dominantAxis(n);
     vec3 normal = toDominant(n, axis);
     vec3 low = toDominant(polygon.lower, axis);
@@ -71,7 +75,8 @@ Surface evaluateSurface(uint triangle, uint instance, vec3 q0, vec3 q1, vec3 q2,
         vec4 one = sampleSurfaceArray(max(layers.x, 0), transformedUv(where, baseRow0, baseRow1), 0.25 * baseFootprint);
         one = layers.x >= 0 ? one : vec4(1.0);
         float counts = min(min(w.x, w.y), w.z) >= 0.0 ? 1.0 : 0.0;
-        float passes = color.a * one.a >= materials[m].alphaCutoff ? counts : 0.0;
+        float alpha = color.a * one.a;
+        float passes = counts * mix(alpha >= materials[m].alphaCutoff ? 1.0 : 0.0, min(alpha, 1.0), averaged);
         inside += counts;
         sum += vec4(one.rgb * passes, passes);
         ++i;

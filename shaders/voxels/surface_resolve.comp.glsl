@@ -2,95 +2,110 @@
 // One invocation per face: walks the chain of its voxel, sums up the fragments that face its direction
 // (docs/theory/2_voxels.md, eq. 2.1), writes FaceRecord and faceSource.
 //
-// Sums are 64-bit integers in units of 2^-30: exact to 1e-9 of a full voxel side, without overflow for 2^33
-// fragments, and the same whatever the order of the chain.
+// Sums are integers in units of 2^-26 voxel sides, so the order of the chain does not matter. All terms are
+// weights times numbers in [0,1], so no sum exceeds that of the weights, which is kept in 64 bits: should it reach
+// 16 (never in a sane scene), the chain is walked again with units coarse enough that nothing overflows.
+//
+// SURFACE_EMISSION 0: no material emits, nothing is summed.
 #version 450
+#ifndef SURFACE_EMISSION
+#error SURFACE_EMISSION must be 0 or 1
+#endif
 layout(local_size_x = 64) in;
 #include "voxels/surface_common.glsl"
 #include "lib/voxel_record.glsl"
 layout(std430, binding = SURFACE_COUNTERS) readonly buffer CounterTable { uint counters[]; };
 layout(std430, binding = BINDING_VOXEL_FACES) writeonly buffer FaceTable { uvec4 faces[]; };
 layout(std430, binding = SURFACE_FACE_SOURCES) writeonly buffer SourceTable { uvec2 faceSources[]; };
+#if SURFACE_EMISSION
 layout(binding = SURFACE_UNIT_PAIRS) uniform usamplerBuffer pairs;
+#endif
 layout(binding = SURFACE_UNIT_FRAGMENTS) uniform usamplerBuffer fragments;
 layout(binding = SURFACE_UNIT_OWNERS) uniform usamplerBuffer owners;
-layout(binding = SURFACE_UNIT_CHAINS) uniform usamplerBuffer chains;
 
-const float kUnit = 1073741824.0;  // 2^30
-
-// Adds a value of magnitude below 2 to 64-bit sums in two's complement.
-void addTo(inout uvec3 low, inout uvec3 high, vec3 value) {
-    ivec3 v = ivec3(floor(value * kUnit + 0.5));
-    uvec3 sum = low + uvec3(v);
-    high += uvec3(v >> 31) + uvec3(lessThan(sum, low));
-    low = sum;
-}
-vec3 valueOf(uvec3 low, uvec3 high) {
-    // Magnitude first: converting the halves of a small negative number would lose it.
-    bvec3 negative = greaterThanEqual(high, uvec3(0x80000000u));
-    uvec3 l = mix(low, ~low + 1u, negative);
-    uvec3 h = mix(high, ~high + uvec3(equal(low, uvec3(0u))), negative);
-    vec3 magnitude = (vec3(h) * 4294967296.0 + vec3(l)) / kUnit;
-    return mix(magnitude, -magnitude, negative);
-}
+const uint kNeutralBounds = 0x7fffu;  // min 31, max 0
 
 void main() {
     uint index = linearInvocation();
-    uint count = min(counters[SURFACE_FACES], surface.faceCapacity);
-    bool used = index < count;
+    bool used = index < min(counters[SURFACE_FACES], surface.faceCapacity);
     uint owner = texelFetch(owners, int(used ? index : 0u)).x;
-    int direction = int(owner >> 28);
-    int record = int(owner & 0xfffffffu);
-    uint head = texelFetch(chains, 2 * record).x;
-    uint voxel = texelFetch(pairs, int(head) - 1).y;
-
-    uvec3 normalLow = uvec3(0u), normalHigh = uvec3(0u);
-    uvec3 centerLow = uvec3(0u), centerHigh = uvec3(0u);
-    uvec3 albedoLow = uvec3(0u), albedoHigh = uvec3(0u);
-    uvec3 emissionLow = uvec3(0u), emissionHigh = uvec3(0u);
-    uvec3 otherLow = uvec3(0u), otherHigh = uvec3(0u);  // weight, area, 0
-    uvec3 lower = uvec3(31u);
-    uvec3 upper = uvec3(0u);
-    float emissionUnit = 1.0 / surface.emissionScale;
-    uint at = used ? head : 0u;
+    int direction = int(owner >> 29);
+    uint head = owner & 0x1fffffffu;
     vec3 k = directionVector(direction);
-    do {
-        int i = 2 * max(int(at) - 1, 0);
-        uvec4 a = texelFetch(fragments, i);
-        uvec4 b = texelFetch(fragments, i + 1);
-        vec3 n = octDecode(unpackSnorm2x16(a.w));
-        float facing = dot(n, k);
-        bool counts = ((b.y >> (24 + direction)) & 1u) != 0u && at != 0u;
-        // A direction that the front does not face is faced by the back of a two-sided triangle.
-        n = facing < 0.0 ? -n : n;
-        facing = abs(facing);
-        float area = counts ? uintBitsToFloat(a.y) : 0.0;
-        float w = area * facing * float((b.y >> 16) & 255u) / 255.0;
-        vec3 center = vec3(b.x & 0xffffu, b.x >> 16, b.y & 0xffffu) / 65535.0 - 0.5;
-        addTo(normalLow, normalHigh, w * n);
-        addTo(centerLow, centerHigh, w * center);
-        addTo(albedoLow, albedoHigh, w * unpackAlbedo(b.z));
-        addTo(emissionLow, emissionHigh, min(w * unpackRgb9e5(b.w) * emissionUnit, 1.9));
-        addTo(otherLow, otherHigh, vec3(w, area, 0.0));
-        uvec3 boxMin = uvec3(a.z, a.z >> 5, a.z >> 10) & 31u;
-        uvec3 boxMax = uvec3(a.z >> 15, a.z >> 20, a.z >> 25) & 31u;
-        lower = counts ? min(lower, boxMin) : lower;
-        upper = counts ? max(upper, boxMax) : upper;
-        at = at != 0u ? a.x : 0u;
-    } while (at != 0u);
 
-    // Normalised; the clip pass keeps only what leaves a weight.
-    vec3 other = valueOf(otherLow, otherHigh);
-    float weight = max(other.x, 1.0 / kUnit);
-    vec3 sum = valueOf(normalLow, normalHigh);
-    vec3 n = dot(sum, sum) > 0.0 ? normalize(sum) : k;
-    float offset = dot(n, valueOf(centerLow, centerHigh)) / weight;
-    vec3 albedo = valueOf(albedoLow, albedoHigh) / weight;
-    vec3 emission = valueOf(emissionLow, emissionHigh) / weight * surface.emissionScale;
-    uint bounds = lower.x | (lower.y << 5) | (lower.z << 10) | (upper.x << 15) | (upper.y << 20) | (upper.z << 25);
+    int weightLow;
+    uint weightHigh;
+    int area;
+    ivec3 normal, center, albedo, emission;
+    ivec3 lower, upper;
+    int shift = 26;
+    bool again;
+    uint voxel = 0u;
+    do {
+        float unit = uintBitsToFloat(uint(127 + shift) << 23);
+        weightLow = 0;
+        weightHigh = 0u;
+        area = 0;
+        normal = ivec3(0);
+        center = ivec3(0);
+        albedo = ivec3(0);
+        emission = ivec3(0);
+        lower = ivec3(31);
+        upper = ivec3(0);
+        uint at = used ? head : 0u;
+        do {
+            int i = 2 * max(int(at) - 1, 0);
+            uvec4 a = texelFetch(fragments, i);
+            uvec4 b = texelFetch(fragments, i + 1);
+            vec3 n = vec3(unpackSnorm16(a.w), unpackSnorm16(a.w >> 16), unpackSnorm16(b.x));
+            // A two-sided triangle turns towards the direction.
+            float facing = dot(n, k);
+            bool turned = facing < 0.0 && (a.z & 0x40000000u) != 0u;
+            n = turned ? -n : n;
+            facing = turned ? -facing : facing;
+            bool counts = facing > VOXEL_FACING_THRESHOLD && at != 0u;
+            float covered = counts ? uintBitsToFloat(a.y) * unit : 0.0;
+            float w = covered * facing;
+            // Rounded by truncation of positive numbers.
+            int rounded = int(w + 0.5);
+            uint sum = uint(weightLow) + uint(rounded);
+            weightHigh += sum < uint(weightLow) ? 1u : 0u;
+            weightLow = int(sum);
+            area += int(covered * 0.5 + 0.5);
+            normal += ivec3(w * (0.5 * n + 0.5) + 0.5);
+            center += ivec3((w * (1.0 / 65535.0)) * vec3(ivec3(b.x >> 16, b.y & 0xffffu, b.y >> 16)) + 0.5);
+            albedo += ivec3(w * (vec3(ivec3(b.z & 2047u, (b.z >> 11) & 2047u, b.z >> 22)) *
+                                 vec3(1.0 / 2047.0, 1.0 / 2047.0, 1.0 / 1023.0)) + 0.5);
+#if !SURFACE_EMISSION
+            voxel = at != 0u ? b.w : voxel;
+#else
+            emission += ivec3(w * min(unpackRgb9e5(b.w) * (1.0 / surface.emissionScale), 1.0) + 0.5);
+#endif
+            uint bounds = counts ? a.z : kNeutralBounds;
+            lower = min(lower, ivec3(uvec3(bounds, bounds >> 5, bounds >> 10) & 31u));
+            upper = max(upper, ivec3(uvec3(bounds >> 15, bounds >> 20, bounds >> 25) & 31u));
+            at = at != 0u ? a.x : 0u;
+        } while (at != 0u);
+        // Next time the sum is below 2^30.
+        again = weightHigh != 0u || weightLow < 0 || weightLow >= 1 << 30;
+        shift -= again ? (weightHigh != 0u ? findMSB(weightHigh) + 3 : 2) : 0;
+    } while (again);
+
+    // The clip pass keeps only what leaves a weight; one unit stands in for less.
+    float unit = uintBitsToFloat(uint(127 - shift) << 23);
+    float total = float(max(weightLow, 1));
+    vec3 n = vec3(normal) * (2.0 / total) - 1.0;
+    n = dot(n, k) > 0.0 ? normalize(n) : k;
+    float offset = dot(n, vec3(center) / total - 0.5);
+    vec3 glow = vec3(0.0);
+#if SURFACE_EMISSION
+    voxel = texelFetch(pairs, int(head) - 1).y;
+    glow = vec3(emission) / total * surface.emissionScale;
+#endif
+    uint bounds = uint(lower.x | (lower.y << 5) | (lower.z << 10) | (upper.x << 15) | (upper.y << 20) | (upper.z << 25));
     if (used) {
-        faces[2u * index] = uvec4(packSnorm2x16(octEncode(n)), packOffsetWeight(offset, weight), bounds, voxel);
-        faces[2u * index + 1u] = uvec4(packAlbedo(albedo), packRgb9e5(emission), 0u, 0u);
-        faceSources[index] = packFaceSource(emission, other.y);
+        faces[2u * index] = uvec4(packSnorm2x16(octEncode(n)), packOffsetWeight(offset, total * unit), bounds, voxel);
+        faces[2u * index + 1u] = uvec4(packAlbedo(vec3(albedo) / total), packRgb9e5(glow), 0u, 0u);
+        faceSources[index] = packFaceSource(glow, float(area) * 2.0 * unit);
     }
 }

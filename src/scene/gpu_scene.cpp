@@ -130,6 +130,8 @@ GLenum wrapMode(TextureWrap wrap) {
 
 float srgbToLinear(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
 
+float linearToSrgb(float c) { return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f; }
+
 // Box-filters (or repeats) a texture to kSurfaceEdge^2 linear values.
 std::vector<glm::vec4> linearSurface(const Texture& texture) {
     std::vector<glm::vec4> level(static_cast<std::size_t>(kSurfaceEdge) * kSurfaceEdge);
@@ -172,15 +174,16 @@ std::vector<glm::vec4> halved(const std::vector<glm::vec4>& level, std::size_t e
     return half;
 }
 
-// Colours are stored as square roots: 8 bits then err by less than 1 % above 0.04 of full scale, and the
-// shader squares (lib/surface_array.glsl). Levels are averaged before encoding.
+// Stored sRGB-encoded, whatever the texture holds, in an sRGB format: 8 bits then err by less than 1 % above 0.02
+// of full scale, and the hardware decodes before it filters. (Square roots that the shader squares were tried:
+// filtering between them darkened high-contrast textures by up to half.)
 std::vector<std::uint8_t> encodedSurface(const std::vector<glm::vec4>& level) {
     std::vector<std::uint8_t> bytes;
     bytes.reserve(4 * level.size());
     for (const glm::vec4& texel : level)
         for (int i = 0; i < 4; ++i)
             bytes.push_back(
-                static_cast<std::uint8_t>(std::lround((i < 3 ? std::sqrt(texel[i]) : texel[i]) * 255.0f)));
+                static_cast<std::uint8_t>(std::lround((i < 3 ? linearToSrgb(texel[i]) : texel[i]) * 255.0f)));
     return bytes;
 }
 
@@ -329,7 +332,7 @@ void GpuScene::uploadTextures(const Scene& source) {
     // The surface array has at least one (white) layer so that it can always be bound.
     const int layers = std::max<int>(static_cast<int>(source.textures.size()), 1);
     const int edge = source.textures.empty() ? 1 : kSurfaceEdge;
-    surfaceArray_ = gl::Texture({GL_TEXTURE_2D_ARRAY, GL_RGBA8, edge, edge, layers, 0}, "surface array");
+    surfaceArray_ = gl::Texture({GL_TEXTURE_2D_ARRAY, GL_SRGB8_ALPHA8, edge, edge, layers, 0}, "surface array");
     if (source.textures.empty()) surfaceArray_.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, white);
     for (std::size_t i = 0; i < source.textures.size(); ++i) {
         std::vector<glm::vec4> level = linearSurface(source.textures[i]);

@@ -27,12 +27,14 @@ enum Slot : unsigned {
     kOwners = 10,
     kFaceSources = 9,
 };
-enum Unit : unsigned { kUnitTriangles = 8, kUnitPairs = 9, kUnitFragments = 10, kUnitOwners = 11, kUnitChains = 12 };
+enum Unit : unsigned { kUnitTriangles = 8, kUnitPairs = 9, kUnitFragments = 10, kUnitOwners = 11 };
 
 constexpr std::uint32_t kMaxChunks = 4096;   // one invocation walks over all chunks
 constexpr std::uint32_t kLeastChunk = 16;    // fewer elements per invocation are not worth starting it
 constexpr double kSlack = 1.25;              // room for growth when memory is allocated anew
 constexpr std::size_t kFragmentBytes = 32;
+constexpr float kLeastEmission = 1e-6f;      // W/(sr m^2); less is none
+constexpr float kLargestEmission = 65504.0f;  // what a half holds
 
 // How much every list can hold.
 struct Capacity {
@@ -45,20 +47,26 @@ struct Capacity {
     std::uint32_t gridBricks = 0;  // all
 };
 
-// Which parts of the material model a scene needs: 0 constant, 1 textures or vertex colours, 2 alpha tests.
-int surfaceDetail(const scene::GpuScene& scene) {
-    int detail = scene.hasVertexColors() ? 1 : 0;
-    for (const gpu::Material& m : scene.materials()) {
-        if ((m.flags & MATERIAL_ALPHA_MASK) != 0) return 2;
-        if (m.layers.x >= 0 || m.layers.w >= 0 || (m.flags & MATERIAL_ALPHA_BLEND) != 0) detail = 1;
-    }
-    return detail;
-}
+// What of the material model the voxelized instances of a scene need.
+struct Surfaces {
+    int detail = 0;             // 0 constant, 1 textures or vertex colours, 2 alpha tests
+    float largestEmission = 0;  // W/(sr m^2), any component
+    bool emit() const { return largestEmission > kLeastEmission; }
+};
 
-float largestEmission(const scene::GpuScene& scene) {
-    float largest = 1e-6f;
-    for (const gpu::Material& m : scene.materials()) largest = std::max({largest, m.emission.x, m.emission.y, m.emission.z});
-    return std::min(largest, 65504.0f);
+Surfaces surfacesOf(const scene::GpuScene& scene) {
+    Surfaces surfaces;
+    surfaces.detail = scene.hasVertexColors() ? 1 : 0;
+    for (const gpu::Instance& instance : scene.instances()) {
+        if ((instance.flags & INSTANCE_VOXELIZED) == 0) continue;
+        const gpu::Material& m = scene.materials()[instance.material];
+        const bool textured = m.layers.x >= 0 || m.layers.w >= 0 || (m.flags & MATERIAL_ALPHA_BLEND) != 0;
+        surfaces.detail = std::max(surfaces.detail, (m.flags & MATERIAL_ALPHA_MASK) != 0 ? 2 : (textured ? 1 : 0));
+        if ((m.flags & MATERIAL_UNLIT) != 0) continue;
+        surfaces.largestEmission = std::max({surfaces.largestEmission, m.emission.x, m.emission.y, m.emission.z});
+    }
+    surfaces.largestEmission = std::min(surfaces.largestEmission, kLargestEmission);
+    return surfaces;
 }
 
 std::uint32_t perChunk(std::uint32_t count) { return std::max((count + kMaxChunks - 1) / kMaxChunks, kLeastChunk); }
@@ -68,7 +76,10 @@ gl::ProgramDesc pass(const char* name, const gl::Defines& defines = {}) {
 }
 gl::ProgramDesc countPass(bool ofBricks) { return pass("surface_count", {{"OF_BRICKS", ofBricks ? "1" : "0"}}); }
 gl::ProgramDesc scanPass(int step) { return pass("surface_scan", {{"STEP", std::to_string(step)}}); }
-gl::ProgramDesc clipPass(int detail) { return pass("surface_clip", {{"SURFACE_DETAIL", std::to_string(detail)}}); }
+gl::ProgramDesc resolvePass(bool emission) { return pass("surface_resolve", {{"SURFACE_EMISSION", emission ? "1" : "0"}}); }
+gl::ProgramDesc clipPass(int detail, bool emission) {
+    return pass("surface_clip", {{"SURFACE_DETAIL", std::to_string(detail)}, {"SURFACE_EMISSION", emission ? "1" : "0"}});
+}
 
 }  // namespace
 
@@ -76,6 +87,7 @@ struct SurfaceVoxels::Impl {
     VoxelGrid grid;
     Capacity capacity;
     std::array<std::uint32_t, SURFACE_COUNTER_WORDS> counts{};
+    Surfaces surfaces;
 
     // Results
     gl::Texture brickWords;
@@ -83,7 +95,7 @@ struct SurfaceVoxels::Impl {
     gl::Texture recordTexels, faceTexels, sourceTexels;
     // Work space
     gl::Buffer counters, constants, triangles, tiles, pairs, masks, chains, fragments, chunks, owners;
-    gl::Texture triangleTexels, pairTexels, fragmentTexels, ownerTexels, chainTexels;
+    gl::Texture triangleTexels, pairTexels, fragmentTexels, ownerTexels;
 
     void reserve(const scene::GpuScene& scene);
     void allocateFor(const Capacity& wanted);
@@ -92,7 +104,7 @@ struct SurfaceVoxels::Impl {
     void clearWorkSpace();
     void mark(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene);
     void compact(gl::ProgramLibrary& programs, gl::Profiler& profiler);
-    void accumulate(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene);
+    void clip(gl::ProgramLibrary& programs, gl::Profiler& profiler);
     void resolve(gl::ProgramLibrary& programs, gl::Profiler& profiler);
     void updateGridBlock();
 };
@@ -142,7 +154,6 @@ void SurfaceVoxels::Impl::allocateFor(const Capacity& wanted) {
     }
     if (wanted.voxels > capacity.voxels) {
         chains = gl::Buffer(std::size_t{8} * wanted.voxels, "voxelizer chains");
-        chainTexels = gl::Texture(chains, GL_R32UI, "voxelizer chains");
         records = gl::Buffer(std::size_t{4} * wanted.voxels, "voxel records");
         recordTexels = gl::Texture(records, GL_R32UI, "voxel records");
     }
@@ -187,7 +198,7 @@ void SurfaceVoxels::Impl::upload(const scene::GpuScene& scene) {
     c.brickCapacity = capacity.bricks;
     c.bricksPerChunk = perChunk(static_cast<std::uint32_t>(grid.brickCount()));
     c.voxelsPerChunk = perChunk(capacity.voxels);
-    c.emissionScale = largestEmission(scene);
+    c.emissionScale = std::max(surfaces.largestEmission, kLeastEmission);
     constants.update(c);
     updateGridBlock();
 }
@@ -253,14 +264,14 @@ void SurfaceVoxels::Impl::compact(gl::ProgramLibrary& programs, gl::Profiler& pr
 }
 
 // Pairs -> clipped fragments in the chains of their voxels.
-void SurfaceVoxels::Impl::accumulate(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene) {
+void SurfaceVoxels::Impl::clip(gl::ProgramLibrary& programs, gl::Profiler& profiler) {
     const gl::PassScope scope(profiler, "voxelize: clip");
     chains.bindStorage(kChains);
     fragments.bindStorage(kFragments);
     brickWords.bind(UNIT_VOXEL_BRICKS);
     triangleTexels.bind(kUnitTriangles);
     pairTexels.bind(kUnitPairs);
-    programs.get(clipPass(surfaceDetail(scene))).dispatchIndirect(counters, 4 * SURFACE_ARGS_FRAGMENTS);
+    programs.get(clipPass(surfaces.detail, surfaces.emit())).dispatchIndirect(counters, 4 * SURFACE_ARGS_FRAGMENTS);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
 }
 
@@ -280,8 +291,7 @@ void SurfaceVoxels::Impl::resolve(gl::ProgramLibrary& programs, gl::Profiler& pr
     pairTexels.bind(kUnitPairs);
     fragmentTexels.bind(kUnitFragments);
     ownerTexels.bind(kUnitOwners);
-    chainTexels.bind(kUnitChains);
-    programs.get(pass("surface_resolve")).dispatchIndirect(counters, 4 * SURFACE_ARGS_FACES);
+    programs.get(resolvePass(surfaces.emit())).dispatchIndirect(counters, 4 * SURFACE_ARGS_FACES);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Indirect);
 }
 
@@ -294,6 +304,7 @@ void SurfaceVoxels::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, 
                           const VoxelGrid& grid) {
     Impl& m = *impl_;
     m.grid = grid;
+    m.surfaces = surfacesOf(scene);
     m.reserve(scene);
     // A list that overflows hides the true size of those after it: tiles, fragments, voxels, faces.
     constexpr int kMaxAttempts = 5;
@@ -301,7 +312,7 @@ void SurfaceVoxels::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, 
         m.upload(scene);
         m.mark(programs, profiler, scene);
         m.compact(programs, profiler);
-        m.accumulate(programs, profiler, scene);
+        m.clip(programs, profiler);
         m.resolve(programs, profiler);
         m.counters.read(0, m.counts.data(), sizeof m.counts);
         if (!m.grow()) break;
@@ -336,9 +347,9 @@ const gl::Buffer& SurfaceVoxels::fragments() const { return impl_->fragments; }
 
 std::vector<gl::ProgramDesc> SurfaceVoxels::programDescs() {
     std::vector<gl::ProgramDesc> descs{pass("surface_setup"), pass("surface_tiles"), pass("surface_bricks"),
-                                       pass("surface_faces"), pass("surface_resolve"), countPass(true), countPass(false)};
+                                       pass("surface_faces"), resolvePass(false), resolvePass(true), countPass(true), countPass(false)};
     for (int i = 0; i < 3; ++i) descs.push_back(scanPass(i));
-    for (int i = 0; i < 3; ++i) descs.push_back(clipPass(i));
+    for (int i = 0; i < 6; ++i) descs.push_back(clipPass(i / 2, i % 2 == 1));
     return descs;
 }
 
