@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One invocation per face: walks the chain of its voxel, sums up the fragments that face its direction
-// (docs/theory/2_voxels.md, eq. 2.1), writes FaceRecord and faceSource.
+// (docs/theory/2_voxels.md, eq. 2.2), writes FaceRecord and faceSource.
 //
 // Sums are integers in units of 2^-26 voxel sides, so the order of the chain does not matter. All terms are
 // weights times numbers in [0,1], so no sum exceeds that of the weights, which is kept in 64 bits: should it reach

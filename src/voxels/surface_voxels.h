@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The surface voxels of a scene: GpuScene -> brickWord, voxRec, face, faceSource of shared/voxels.h.
-// Every triangle is clipped exactly against the voxels it meets (docs/theory/2_voxels.md, eq. 2.1) by compute
+// Every triangle is clipped exactly against the voxels it meets (docs/theory/2_voxels.md, eq. 2.2) by compute
 // passes. Sums are integers, so the result is the same bit for bit, whatever the order of threads.
 //
 // Instances without INSTANCE_VOXELIZED are left out; unlit materials occlude (black, no emission); a masked

@@ -101,6 +101,8 @@ const std::vector<Struct>& table() {
             sizeZ, halfTexelX),
         ROW(ConeConstants, count, step, offset, maxDistance, specularMinTan, occlusionDistance, voxelLevel, pad0,
             cone, aperture),
+        ROW(SurfaceConstants, triangleCount, instanceCount, tileCapacity, fragmentCapacity, voxelCapacity, faceCapacity,
+            brickCapacity, bricksPerChunk, voxelsPerChunk, emissionScale, pad0, pad1),
         ROW(FaceRecord, normal, offsetWeight, bounds, voxel, albedo, radiance, irradiance0, irradiance1),
     };
     return structs;

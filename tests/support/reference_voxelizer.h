@@ -37,7 +37,7 @@ double polygonArea(const std::vector<glm::dvec3>& polygon);
 void forEachVoxel(const ReferenceTriangle& t, const voxels::VoxelGrid& grid, double slack,
                   const std::function<void(const glm::ivec3&)>& visit);
 
-// Sums of eq. 2.1 for one voxel and direction. Key: packVoxel(voxel) * 8 + direction.
+// Sums of eq. 2.2 for one voxel and direction. Key: packVoxel(voxel) * 8 + direction.
 struct ReferenceFace {
     double weight = 0;
     double area = 0;
