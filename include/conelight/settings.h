@@ -65,11 +65,84 @@ struct PhongSettings {
     bool operator==(const PhongSettings&) const = default;
 };
 
-// Defects of the original program that can be switched back on (docs/guide/thesis_mode.md lists each).
-// Filled by the thesis mode.
-struct ThesisDefects {};
+// Defects of the original program (docs/guide/thesis_mode.md: what each does, its cure, how to see it). All
+// are mended unless switched on.
+struct ThesisDefects {
+    // Volume
+    bool racingStores = false;        // the last of several fragments stays in a voxel
+    bool centerCoverage = false;      // only triangles that cover pixel centres become voxels
+    bool binaryOpacity = false;       // whatever is touched is opaque
+    bool faceRounding = false;        // surfaces on voxel faces fall to a side by rounding
+    bool unattenuatedVoxels = false;  // voxel light does not fall off
+    bool unshadowedVoxels = false;    // voxel light passes through everything
+    bool clippedRadiance = false;     // 8 bits per channel, at most 1
+    bool darkEmitters = false;        // emission is left out of the volume
+    bool volumeMips = false;          // opacity averaged over volume: walls fade in coarse levels
+    bool wholeGrid = false;           // the grid is [-1,1]^3 whatever the scene (thesis-format scenes)
+    bool cappedLevels = false;        // seven levels
+    bool tenLights = false;           // the first ten lights only
+    // Cones
+    bool coarseLod = false;              // one level too coarse
+    bool noStepCorrection = false;       // a sample's opacity counts in full whatever the step
+    bool forgetNearColor = false;        // near colour is scaled down by what comes later
+    bool doubleAlpha = false;            // opacity multiplied into premultiplied colour
+    bool lastStep = false;               // the last occlusion sample counts in full: rings
+    bool premultipliedFirstHit = false;  // the first hit's colour fades with its opacity
+    bool hardFirstHit = false;           // the first sample with opacity above 0.01 is all
+    bool fixedOffsets = false;           // cones start and grow regardless of the own surface
+    bool shortReach = false;             // cones end after 1 m
+    bool nanAxes = false;                // undefined cone axes where the normal is parallel to z
+    bool shortSideAxis = false;          // a cone axis of less than unit length
+    bool grazingSideCones = false;       // side cones lie in the surface
+    bool noCosineWeights = false;        // every diffuse cone counts alike, times 5
+    bool noAlbedo = false;               // indirect diffuse light takes no colour from the surface
+    bool occlusionFudge = false;         // damping of occlusion in absolute units
+    bool occludedIndirect = false;       // indirect light where a lamp shines only
+    bool specularPerLight = false;       // one equal specular cone per light
+    bool occludedSpecular = false;       // reflections where a lamp shines only
+    bool shininessSaturation = false;    // no angular effect above shininess 125
+    bool fixedSpecularAperture = false;  // all materials reflect through the same aperture
+    bool ambientTwice = false;           // ambient light on top of indirect light
+    bool fineSteps = false;              // steps in diameters, down to 1/100 voxel
+    bool operator==(const ThesisDefects&) const = default;
+};
+// Pointers to all of them, in the order above.
+std::vector<bool*> thesisDefectFlags(ThesisDefects& defects);
+
+// Regular: as in the thesis's chapter 4. Customised: as its chapter 5 changed it.
+enum class ConeVariant { Regular, Customised };
+
+enum class ThesisVoxelView { Cubes, Surfaces };
+
+// The thesis's VoxSettings. `auto` numbers: with the defect that goes with them on, the original's table for
+// 64, 128 and 256 voxels; else a value that does not depend on the size (docs/guide/thesis_mode.md).
+struct ThesisCones {
+    ConeVariant variant = ConeVariant::Customised;
+    AutoFloat aperture;    // full angle, rad; 0.001..3
+    AutoFloat distFactor;  // step as part of the diameter; 0.001..4
+    AutoFloat offset;      // distance of the first sample, m; 0.0001..10
+};
 
 struct ThesisSettings {
+    bool published = false;  // every defect on: the picture of the original program
+    // Parts of the picture
+    bool phong = true;           // direct light
+    bool phongAmbient = true;    // its ambient part; only without diffuse cones, unless defects.ambient_twice
+    bool phongDiffuse = true;    // its diffuse part
+    bool phongSpecular = false;  // its gloss
+    bool voxDiffuse = true;      // indirect diffuse light
+    bool voxSpecular = true;     // reflections
+    bool voxShadows = true;      // occlusion of direct light
+    bool frontCone = true, sideCones = false, intermediateCones = true;
+    ThesisCones diffuse, specular, occlusion;
+    AutoFloat diffuseOriginOffset;  // diffuse cones start this far along the normal, m; 0..10
+    AutoFloat shininessFalloff;     // exponent of the angular weight; 0..100
+    float shadowStr = 1.5f;         // gain of the customised occlusion; 0..100
+    float minSpecular =
+        0.004f;             // reflections of less weight are not traced (1/256 of white); 0 traces all; 0..1
+    int maxSamples = 4096;  // per cone; 1..16384
+    int voxelLevel = 0;     // level that component `voxels` shows; 0..8
+    ThesisVoxelView voxelView = ThesisVoxelView::Cubes;  // cubes, or their colours on the surfaces
     ThesisDefects defects;
 };
 
@@ -78,13 +151,13 @@ struct ThesisSettings {
 enum class DiffuseSet { One, Five, Six, Nine, Fibonacci };
 // What a texel of the radiance volume keeps: one colour and opacity, or one per facing direction.
 enum class VolumeDirections { Isotropic, Six };
-// How opacity adds up along a cone and over levels. Fog: texels are mist of unrelated droplets (Crassin et al.
-// 2011). Area: texels hold connected surface, whose projected areas add up until nothing is left to see.
+// How opacity adds up along a cone and over levels. Fog: texels are mist of unrelated droplets (Crassin et
+// al. 2011). Area: texels hold connected surface, whose projected areas add up until nothing is left to see.
 enum class OpacityModel { Fog, Area };
 
 struct ConesSettings {
     DiffuseSet diffuseSet = DiffuseSet::Six;
-    int count = 16;                    // cones of DiffuseSet::Fibonacci; 1..64
+    int count = 16;  // cones of DiffuseSet::Fibonacci; 1..64
     VolumeDirections directional = VolumeDirections::Six;
     OpacityModel opacity = OpacityModel::Area;
     float step = 0.5f;                 // step / footprint; 0.1..2
@@ -93,8 +166,8 @@ struct ConesSettings {
     AutoFloat maxDistance;             // m; auto: all the way through the grid
     float specularMinAperture = 0.1f;  // rad, full angle of the narrowest cone; 0.01..1
     AutoFloat occlusionDistance;       // m, of component occlusion; auto: a tenth of the grid's longest side
-    int bounces = 1;                   // of indirect light; 0: only light that comes straight from lights; 0..8
-    int voxelLevel = 0;                // level shown by component voxels; 0..6
+    int bounces = 1;     // of indirect light; 0: only light that comes straight from lights; 0..8
+    int voxelLevel = 0;  // level shown by component voxels; 0..6
     bool operator==(const ConesSettings&) const = default;
 };
 

@@ -4,6 +4,7 @@
 #include "base/log.h"
 #include "frame/cones_mode.h"
 #include "frame/phong_mode.h"
+#include "frame/thesis_mode.h"
 
 namespace conelight::frame {
 
@@ -13,7 +14,7 @@ std::unique_ptr<ModeRenderer> makeModeRenderer(Mode mode) {
             return std::make_unique<PhongMode>();
 
         case Mode::Thesis:
-            break;
+            return std::make_unique<ThesisMode>();
 
         case Mode::Cones:
             return std::make_unique<ConesMode>();

@@ -64,6 +64,121 @@ void visitCones(S& s, V& visit) {
 
 constexpr Choice<Toggle> kToggles[] = {
     {"auto", Toggle::Auto}, {"off", Toggle::Off}, {"on", Toggle::On}};
+constexpr Choice<ConeVariant> kConeVariants[] = {{"regular", ConeVariant::Regular},
+                                                 {"customised", ConeVariant::Customised}};
+constexpr Choice<ThesisVoxelView> kThesisVoxelViews[] = {{"cubes", ThesisVoxelView::Cubes},
+                                                         {"surfaces", ThesisVoxelView::Surfaces}};
+
+template <class D, class V>
+void visitThesisDefects(D& d, V&& visit) {
+    const auto defect = [&](const char* key, auto& flag, const char* help) {
+        visit.boolean(key, flag, help);
+    };
+    defect("thesis.defects.racing_stores", d.racingStores, "the last of several fragments stays in a voxel");
+    defect("thesis.defects.center_coverage", d.centerCoverage,
+           "only triangles that cover pixel centres become voxels");
+    defect("thesis.defects.binary_opacity", d.binaryOpacity, "whatever is touched is opaque");
+    defect("thesis.defects.face_rounding", d.faceRounding,
+           "surfaces on voxel faces fall to a side by rounding");
+    defect("thesis.defects.unattenuated_voxels", d.unattenuatedVoxels,
+           "voxel light does not fall off with distance");
+    defect("thesis.defects.unshadowed_voxels", d.unshadowedVoxels, "voxel light passes through everything");
+    defect("thesis.defects.clipped_radiance", d.clippedRadiance,
+           "the volume holds 8 bits per channel, at most 1");
+    defect("thesis.defects.dark_emitters", d.darkEmitters, "emission is left out of the volume");
+    defect("thesis.defects.volume_mips", d.volumeMips,
+           "opacity averaged over volume: walls fade in coarse levels");
+    defect("thesis.defects.whole_grid", d.wholeGrid,
+           "the grid of a thesis-format scene is [-1,1]^3, whatever it holds");
+    defect("thesis.defects.capped_levels", d.cappedLevels, "the volume has at most seven levels");
+    defect("thesis.defects.ten_lights", d.tenLights, "lights after the tenth are ignored");
+    defect("thesis.defects.coarse_lod", d.coarseLod, "the volume is read one level too coarse");
+    defect("thesis.defects.no_step_correction", d.noStepCorrection,
+           "a sample's opacity counts in full whatever the step");
+    defect("thesis.defects.forget_near_color", d.forgetNearColor,
+           "near colour is scaled down by what comes later");
+    defect("thesis.defects.double_alpha", d.doubleAlpha,
+           "opacity is multiplied into colour that holds it already");
+    defect("thesis.defects.last_step", d.lastStep,
+           "the last occlusion sample counts in full: rings around lights");
+    defect("thesis.defects.premultiplied_first_hit", d.premultipliedFirstHit,
+           "the first hit's colour fades with its opacity");
+    defect("thesis.defects.hard_first_hit", d.hardFirstHit,
+           "a diffuse cone ends at the first sample of opacity above 0.01");
+    defect("thesis.defects.fixed_offsets", d.fixedOffsets,
+           "cones start at fixed distances and meet their own surface");
+    defect("thesis.defects.short_reach", d.shortReach, "diffuse and specular cones end after 1 m");
+    defect("thesis.defects.nan_axes", d.nanAxes, "cones without direction where the normal is parallel to z");
+    defect("thesis.defects.short_side_axis", d.shortSideAxis,
+           "a cone axis of less than unit length: tilt varies");
+    defect("thesis.defects.grazing_side_cones", d.grazingSideCones, "side cones lie in the surface");
+    defect("thesis.defects.no_cosine_weights", d.noCosineWeights, "every diffuse cone counts alike, times 5");
+    defect("thesis.defects.no_albedo", d.noAlbedo, "indirect diffuse light takes no colour from the surface");
+    defect("thesis.defects.occlusion_fudge", d.occlusionFudge, "near occluders are damped in absolute units");
+    defect("thesis.defects.occluded_indirect", d.occludedIndirect, "indirect light only where a lamp shines");
+    defect("thesis.defects.specular_per_light", d.specularPerLight,
+           "an equal specular cone for every light, all added");
+    defect("thesis.defects.occluded_specular", d.occludedSpecular, "reflections only where a lamp shines");
+    defect("thesis.defects.shininess_saturation", d.shininessSaturation,
+           "no angular effect above shininess 125");
+    defect("thesis.defects.fixed_specular_aperture", d.fixedSpecularAperture,
+           "all materials reflect through one aperture");
+    defect("thesis.defects.ambient_twice", d.ambientTwice, "ambient light on top of indirect light");
+    defect("thesis.defects.fine_steps", d.fineSteps, "steps by the original's table, down to 1/100 voxel");
+}
+
+template <class T, class V>
+void visitThesis(T& t, V&& visit) {
+    visit.boolean("thesis.published", t.published, "all of thesis.defects.* on: the original's picture");
+    visit.boolean("thesis.phong", t.phong, "direct light");
+    visit.boolean("thesis.phong_ambient", t.phongAmbient,
+                  "ambient part of direct light (without diffuse cones)");
+    visit.boolean("thesis.phong_diffuse", t.phongDiffuse, "diffuse part of direct light");
+    visit.boolean("thesis.phong_specular", t.phongSpecular, "gloss of direct light");
+    visit.boolean("thesis.vox_diffuse", t.voxDiffuse, "diffuse cones: indirect light");
+    visit.boolean("thesis.vox_specular", t.voxSpecular, "specular cones: reflections");
+    visit.boolean("thesis.vox_shadows", t.voxShadows, "occlusion cones: shadows in direct light");
+    visit.boolean("thesis.front_cone", t.frontCone, "one diffuse cone along the normal");
+    visit.boolean("thesis.side_cones", t.sideCones, "four diffuse cones along the surface");
+    visit.boolean("thesis.intermediate_cones", t.intermediateCones, "four diffuse cones at 45 degrees");
+    visit.choice("thesis.diffuse.variant", t.diffuse.variant, kConeVariants,
+                 "march through (chapter 4) or first hit (chapter 5)");
+    visit.autoNumber("thesis.diffuse.aperture", t.diffuse.aperture, 0.001, 3.0, "rad",
+                     "full angle of diffuse cones");
+    visit.autoNumber("thesis.diffuse.dist_factor", t.diffuse.distFactor, 0.001, 4.0, "diameters",
+                     "step of diffuse cones");
+    visit.autoNumber("thesis.diffuse.offset", t.diffuse.offset, 0.0001, 10.0, "m",
+                     "first sample of diffuse cones");
+    visit.autoNumber("thesis.diffuse.origin_offset", t.diffuseOriginOffset, 0.0, 10.0, "m",
+                     "start of diffuse cones along the normal");
+    visit.choice("thesis.specular.variant", t.specular.variant, kConeVariants,
+                 "as traced, or weighted by the angle to the light");
+    visit.autoNumber("thesis.specular.aperture", t.specular.aperture, 0.001, 3.0, "rad",
+                     "full angle of specular cones; auto: by shininess");
+    visit.autoNumber("thesis.specular.dist_factor", t.specular.distFactor, 0.001, 4.0, "diameters",
+                     "step of specular cones");
+    visit.autoNumber("thesis.specular.offset", t.specular.offset, 0.0001, 10.0, "m",
+                     "first sample of specular cones");
+    visit.autoNumber("thesis.specular.shininess_falloff", t.shininessFalloff, 0.0, 100.0, "",
+                     "exponent of the angular weight");
+    visit.number("thesis.specular.min_weight", t.minSpecular, 0.0, 1.0, "",
+                 "reflections of less weight are not traced");
+    visit.choice("thesis.occlusion.variant", t.occlusion.variant, kConeVariants,
+                 "plain, or damped near the surface");
+    visit.autoNumber("thesis.occlusion.aperture", t.occlusion.aperture, 0.001, 3.0, "rad",
+                     "full angle of occlusion cones");
+    visit.autoNumber("thesis.occlusion.dist_factor", t.occlusion.distFactor, 0.001, 4.0, "diameters",
+                     "step of occlusion cones");
+    visit.autoNumber("thesis.occlusion.offset", t.occlusion.offset, 0.0001, 10.0, "m",
+                     "first sample of occlusion cones");
+    visit.number("thesis.occlusion.shadow_str", t.shadowStr, 0.0, 100.0, "",
+                 "gain of the customised occlusion");
+    visit.integer("thesis.max_samples", t.maxSamples, 1, 16384, 1, "samples", "limit per cone");
+    visit.integer("thesis.voxel_level", t.voxelLevel, 0, 8, 1, "", "level that component voxels shows");
+    visit.choice("thesis.voxel_view", t.voxelView, kThesisVoxelViews,
+                 "component voxels: as cubes, or on the surfaces");
+    visitThesisDefects(t.defects, visit);
+}
 
 // A set of whole numbers.
 struct Whole {
@@ -114,6 +229,7 @@ void visitAll(S& s, V&& visit) {
                   "light flat rectangular emitters exactly, as area lights");
     visit.choice("phong.shadows", s.phong.shadows, kToggles,
                  "shadow maps in mode phong; auto: not in scenes of the thesis's format");
+    visitThesis(s.thesis, visit);
     visitCones(s.cones, visit);
     visit.number("image.exposure", s.image.exposure, -20.0, 20.0, "stops",
                  "brightness before the tone map: 2^exposure");
@@ -336,6 +452,15 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 }
 
 }  // namespace
+
+std::vector<bool*> thesisDefectFlags(ThesisDefects& defects) {
+    struct Collector {
+        std::vector<bool*> flags;
+        void boolean(const char*, bool& flag, const char*) { flags.push_back(&flag); }
+    } collector;
+    visitThesisDefects(defects, collector);
+    return collector.flags;
+}
 
 const std::vector<SettingInfo>& settingInfos() {
     static const std::vector<SettingInfo> infos = [] {

@@ -9,6 +9,7 @@
 #include "base/log.h"
 #include "conelight/shaders.h"
 #include "frame/cones_mode.h"
+#include "frame/thesis_mode.h"
 #include "gather/cone_gather.h"
 #include "gather/direct_light.h"
 #include "gather/phong_shade.h"
@@ -55,6 +56,7 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     add(light::injectLightProgramDescs());
     add(gather::ConeGather::programDescs());
     add(frame::ConesMode::programDescs());
+    add(ThesisMode::programDescs());
     add(image::debugViewProgramDescs());
     return all;
 }

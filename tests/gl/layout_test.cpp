@@ -10,6 +10,7 @@
 #include "shared/frame.h"
 #include "shared/radiance_volume.h"
 #include "shared/scene.h"
+#include "shared/thesis.h"
 #include "shared/voxels.h"
 #include "support/gl_fixture.h"
 
@@ -103,6 +104,9 @@ const std::vector<Struct>& table() {
             cone, aperture),
         ROW(SurfaceConstants, triangleCount, instanceCount, tileCapacity, fragmentCapacity, voxelCapacity, faceCapacity,
             brickCapacity, bricksPerChunk, voxelsPerChunk, emissionScale, pad0, pad1),
+        ROW(ThesisGrid, origin, edge, voxelSize, size, maxLevel, sumScale, boxMin, boxSize),
+        ROW(ThesisConstants, diffuseCone, specularCone, occlusionCone, originOffset, shininessFalloff,
+            shadowStrength, minSpecular, switches, maxSamples, lightCount, viewLevel),
         ROW(FaceRecord, normal, offsetWeight, bounds, voxel, albedo, radiance, irradiance0, irradiance1),
     };
     return structs;

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+#include "frame/thesis_mode.h"
+
+namespace conelight::frame {
+namespace {
+
+voxels::ThesisVolumeOptions volumeOptions(const FrameContext& frame) {
+    voxels::ThesisVolumeOptions options;
+    options.size = frame.settings.voxels.size;
+    options.padding = frame.settings.voxels.padding;
+    options.defects = gather::effectiveDefects(frame.settings.thesis);
+    options.unitGrid = frame.source.thesisFormat && options.defects.wholeGrid;
+    options.shadows = !options.defects.unshadowedVoxels && frame.settings.light.shadowSize > 0;
+    if (options.shadows) options.lightDefines = light::lightDefines(frame.scene, frame.settings.light);
+    return options;
+}
+
+}  // namespace
+
+bool ThesisMode::needsShadows(const Settings& settings) const {
+    return settings.light.shadowSize > 0 && !gather::effectiveDefects(settings.thesis).unshadowedVoxels;
+}
+
+void ThesisMode::render(const FrameContext& frame) {
+    const voxels::ThesisVolumeOptions options = volumeOptions(frame);
+    if (frame.geometryChanged || frame.lightChanged || builtFor_ != options) {
+        volume_.build(frame.programs, frame.profiler, frame.scene, options);
+        builtFor_ = options;
+    }
+    cones_.render(frame.programs, frame.profiler, frame.scene, frame.gbuffer, volume_, frame.settings,
+                  frame.output, frame.lookupCounters);
+}
+
+std::vector<gl::ProgramDesc> ThesisMode::programDescs() {
+    std::vector<gl::ProgramDesc> descs = voxels::ThesisVolume::programDescs();
+    const std::vector<gl::ProgramDesc> cones = gather::ThesisConePass::programDescs();
+    descs.insert(descs.end(), cones.begin(), cones.end());
+    return descs;
+}
+
+}  // namespace conelight::frame

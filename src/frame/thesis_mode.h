@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Mode `thesis`: the renderer of the thesis, its volume and its cones, with the original's defects mended or
+// switched on (docs/guide/thesis_mode.md).
+#pragma once
+
+#include <optional>
+
+#include "frame/frame_context.h"
+#include "gather/thesis_cones.h"
+#include "voxels/thesis_volume.h"
+
+namespace conelight::frame {
+
+class ThesisMode : public ModeRenderer {
+  public:
+    void render(const FrameContext& frame) override;
+    bool needsShadows(const Settings& settings) const override;
+    // The original culls: its rooms are looked into through their front walls.
+    bool cullsBackFaces() const override { return true; }
+
+    static std::vector<gl::ProgramDesc> programDescs();
+
+  private:
+    voxels::ThesisVolume volume_;
+    gather::ThesisConePass cones_;
+    std::optional<voxels::ThesisVolumeOptions> builtFor_;
+};
+
+}  // namespace conelight::frame

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// The thesis's lit volume: GpuScene -> one 3D texture of direct light with its mips (thesis, chapter 4,
+// "Voxelization Process"; chapter 5, "Voxelization"). Raster: every triangle is seen along its dominant axis
+// by a viewport of one pixel per voxel; fragments carry the Phong light into the volume.
+//
+// RGBA16F premultiplied radiance and opacity (RGBA8 with the defect clippedRadiance). The grid is a cube:
+// fitted to the scene, or [-1,1]^3 with the defect wholeGrid. Work and memory beyond the texture go with the
+// box of voxels that the scene's bounds touch, and with the bricks of 8^3 voxels in it that hold surface.
+//
+// Reads: scene tables, frame block, shadow maps (unless unshadowed). Writes the texture; leaves it visible to
+// texture fetches. GL state changed: raster state, program, image units 0 and 1, storage bindings
+// BINDING_STORAGE_PASS to +2, BINDING_THESIS_GRID.
+// Limits: one colour per voxel for both faces of a wall; 255 layers of surface per voxel.
+#pragma once
+
+#include "conelight/settings.h"
+#include "gl/draw.h"
+#include "gl/pass.h"
+#include "gl/program.h"
+#include "scene/gpu_scene.h"
+#include "shared/thesis.h"
+
+namespace conelight::voxels {
+
+struct ThesisVolumeOptions {
+    int size = 64;             // voxels along the cube's edge; 8..512, divisible by 4
+    float padding = 0.03f;     // of the fitted grid, fraction of the scene's extent per side
+    bool unitGrid = false;     // [-1,1]^3 instead of the fitted grid
+    bool shadows = true;       // light is tested against the shadow maps
+    gl::Defines lightDefines;  // of light::lightDefines: which kinds of light there are
+    ThesisDefects defects;     // those of the volume count
+    bool operator==(const ThesisVolumeOptions&) const = default;
+};
+
+class ThesisVolume {
+  public:
+    // Voxelizes `scene` anew. Storage is kept while size and format stay.
+    void build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
+               const ThesisVolumeOptions& options);
+
+    const gpu::ThesisGrid& grid() const { return grid_; }
+    const gl::Texture& texture() const { return texture_; }
+    // Texture with its sampler: trilinear within and between levels, edge texels repeated outside.
+    void bind(unsigned unit) const;
+    void bindGrid() const;  // at BINDING_THESIS_GRID
+
+    // The grid that build() would use.
+    static gpu::ThesisGrid fitGrid(const Aabb& bounds, const ThesisVolumeOptions& options);
+
+    static std::vector<gl::ProgramDesc> programDescs();
+
+  private:
+    void allocate(const ThesisVolumeOptions& options);
+    void drawTriangles(gl::ProgramLibrary& programs, const scene::GpuScene& scene,
+                       const ThesisVolumeOptions& options);
+    void resolve(gl::ProgramLibrary& programs, const ThesisDefects& defects);
+    void buildMips(gl::ProgramLibrary& programs, const ThesisDefects& defects);
+
+    gpu::ThesisGrid grid_{};
+    gl::Texture texture_;
+    gl::Sampler sampler_;
+    gl::Framebuffer viewport_;
+    gl::Buffer constants_, sums_, brickFlags_, brickList_;
+};
+
+}  // namespace conelight::voxels
