@@ -12,6 +12,8 @@
 // Borders: the cube is half-open, -1/2 in and +1/2 out, so a triangle that lies exactly in a side belongs to one
 // voxel. Tiny gaps where rounding makes neighbouring segments miss each other cost area of the order of 1e-7.
 
+const float kLargestSection = 1.41422;  // sqrt 2, rounded up
+
 struct ClippedPolygon {
     float area;     // 0: nothing inside
     vec3 center;
@@ -130,10 +132,10 @@ ClippedPolygon clipToVoxel(vec3 q0, vec3 q1, vec3 q2, vec3 n) {
     in_ = sideSegment(bvec3(a.z < -0.5, b.z < -0.5, c.z < -0.5), a.xy, ab.xy, b.xy, bc.xy, c.xy, ca.xy, vec3(lowAb.z, lowBc.z, lowCa.z), e);
     addSegment(sum, vec3(e.xy, -0.5), vec3(e.zw, -0.5), in_, -1.0);
 
-    // Projected area is positive when the normal points up. The largest section of a cube is 1.3.
+    // Projected area is positive when the normal points up. The largest section of a cube is the diagonal one.
     ClippedPolygon polygon;
     float twice = sum.twiceArea * sign(normal.z);
-    polygon.area = clamp(0.5 * twice / abs(normal.z), 0.0, 1.3);
+    polygon.area = clamp(0.5 * twice / abs(normal.z), 0.0, kLargestSection);
     vec2 center = twice > 1e-12 ? sum.moment / (3.0 * sum.twiceArea) : 0.5 * (sum.lower.xy + sum.upper.xy);
     center = clamp(center, sum.lower.xy, sum.upper.xy);
     // Height from the plane, through the vertex nearest in the projection.

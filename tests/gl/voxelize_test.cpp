@@ -362,6 +362,21 @@ TEST_F(VoxelizeTest, TwoSheetsInOneVoxelAddUpAndDirectionsStayApart) {
     }
 }
 
+TEST_F(VoxelizeTest, TheDiagonalSectionOfAVoxelHasItsFullArea) {
+    // A plane at 45 degrees through the edges of voxels: area sqrt 2, the most a voxel can hold of a plane.
+    Scene scene;
+    addInstance(scene, quadMesh(), addMaterial(scene, glm::vec3(1)), glm::rotate(glm::mat4(1), glm::quarter_pi<float>(), {1, 0, 0}));
+    VoxelGrid grid;
+    grid.origin = {-2, -2, -2 + 0.001f};
+    grid.voxelSize = 0.25f;
+    grid.size = glm::ivec3(16);
+    const Result r = voxelize(scene, grid);
+    EXPECT_NEAR(r.area, 64.0, 0.01);
+    float largest = 0;
+    for (std::size_t i = 0; i < r.faces.size(); ++i) largest = std::max(largest, voxels::unpackArea({r.sources[2 * i], r.sources[2 * i + 1]}));
+    EXPECT_NEAR(largest, glm::root_two<float>(), 0.01f);
+}
+
 TEST_F(VoxelizeTest, ASurfaceExactlyOnABorderBelongsToTheUpperVoxelWhicheverWayItFaces) {
     for (const bool turned : {false, true}) {
         Scene scene;
