@@ -7,6 +7,10 @@
 // 16 (never in a sane scene), the chain is walked again with units coarse enough that nothing overflows.
 //
 // SURFACE_EMISSION 0: no material emits, nothing is summed.
+//
+// Tried on a software driver (cost of this pass): fragments through storage reads instead of a buffer texture +17 %;
+// fetching the next fragment while this one is added, no gain; all sums in 64 bits +50 %; looking up chain and voxel
+// through the voxel's record instead of the owner list +15 %.
 #version 450
 #ifndef SURFACE_EMISSION
 #error SURFACE_EMISSION must be 0 or 1
