@@ -30,4 +30,3 @@ float lightVisibility(Light light, vec3 position, vec3 n) {
 #endif
     return visible;
 }
-

@@ -2,6 +2,7 @@
 #include "frame/shader_variants.h"
 
 #include <cctype>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <set>
@@ -33,6 +34,14 @@ std::string variantFile(const std::string& path, const gl::Defines& defines) {
         if (std::isalnum(static_cast<unsigned char>(c)) == 0 &&
             std::string("-_=,.").find(c) == std::string::npos)
             c = '_';
+    // File systems allow 255 bytes. Long lists keep their first defines and get a hash of all (FNV-1a); the text
+    // of the file has them anyway.
+    constexpr std::size_t kMaxVariant = 120;
+    if (variant.size() > kMaxVariant) {
+        std::uint32_t hash = 2166136261u;
+        for (const char c : variant) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
+        variant = variant.substr(0, kMaxVariant) + base::format("-%08x", hash);
+    }
     return path.substr(0, dot) + variant + path.substr(dot);
 }
 
