@@ -88,30 +88,17 @@ void main() {
     bool seen = fetchSurface(pixel, s);
     Phong m = phongOf(s);
     vec3 sum = vec3(0.0);
-    uint i;
 #if LIGHTS_POINT
-    i = 0u;
-    if (i < frame.lightEnds.x) do
-            sum += phongPoint(m, s, lights[i], false);
-        while (++i < frame.lightEnds.x);
+    FOR_POINT_LIGHTS(sum += phongPoint(m, s, light, false))
 #endif
 #if LIGHTS_SPOT
-    i = frame.lightEnds.x;
-    if (i < frame.lightEnds.y) do
-            sum += phongPoint(m, s, lights[i], true);
-        while (++i < frame.lightEnds.y);
+    FOR_SPOT_LIGHTS(sum += phongPoint(m, s, light, true))
 #endif
 #if LIGHTS_DIRECTIONAL
-    i = frame.lightEnds.y;
-    if (i < frame.lightEnds.z) do
-            sum += phongDirectional(m, s, lights[i]);
-        while (++i < frame.lightEnds.z);
+    FOR_DIRECTIONAL_LIGHTS(sum += phongDirectional(m, s, light))
 #endif
 #if LIGHTS_RECT
-    i = frame.lightEnds.z;
-    if (i < frame.lightEnds.w) do
-            sum += phongRect(m, s, lights[i]);
-        while (++i < frame.lightEnds.w);
+    FOR_RECT_LIGHTS(sum += phongRect(m, s, light))
 #endif
     vec3 radiance = s.unlit ? s.emission : sum * m.color / kPi + s.emission;
     if (pixel.x >= int(frame.width) || pixel.y >= int(frame.height)) return;

@@ -19,6 +19,9 @@
 #ifndef LIGHTS_RECT
 #define LIGHTS_RECT 1
 #endif
+#ifndef LIGHTS_FIXED
+#define LIGHTS_FIXED 0
+#endif
 #ifndef LIGHTS_SHADOWS
 #define LIGHTS_SHADOWS 1
 #endif
@@ -97,13 +100,14 @@ void addDirectional(inout DirectLight sum, const bool specular, Receiver r, Brdf
 }
 
 // Diffuse: the exact irradiance of the whole rectangle times the visible share of its sample points, each
-// weighted by the irradiance its cell gives. Specular: a sum over the sample points (lib/rect_light.glsl).
+// weighted by the irradiance its cell gives. Specular: likewise the unshadowed reflection of the whole
+// (lib/rect_light.glsl) times the visible share, weighted by the reflection of each cell.
 void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light) {
-    vec3 whole = light.intensity * rectIrradiance(light, r.position, r.normal);
-    float cellArea =
-        4.0 * length(cross(light.halfU, light.halfV)) / float(light.sampleGrid * light.sampleGrid);
-    float weights = 0.0, visibleWeights = 0.0;
+    float whole = rectIrradiance(light, r.position, r.normal);
     uint count = light.sampleGrid * light.sampleGrid;
+    float cellArea = 4.0 * length(cross(light.halfU, light.halfV)) / float(count);
+    vec2 weights = vec2(0.0), visibleWeights = vec2(0.0);
+    float cells = 0.0;  // reflection by the sum over cells, without Fresnel's colour
     uint k = 0u;
     do {
         vec3 point = rectSamplePoint(light, k);
@@ -116,42 +120,61 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
 #if LIGHTS_SHADOWS
         visible = shadowVisibilityRect(light, k, point, r.position, r.geometricNormal);
 #endif
-        weights += weight;
-        visibleWeights += weight * visible;
-        if (specular)
-            sum.specular += light.intensity * (weight * visible * cellArea) *
-                            rectCellSpecular(b, r.normal, l, r.toEye, emitted * cellArea);
+        float reflected = specular ? weight * rectCellLobe(b, r.normal, l, r.toEye, emitted * cellArea) : 0.0;
+        weights += vec2(weight, reflected);
+        visibleWeights += vec2(weight, reflected) * visible;
     } while (++k < count);
     // No sample above the horizon, but a corner of the rectangle: its light is small, and taken as visible.
-    sum.irradiance += whole * (weights > 0.0 ? visibleWeights / weights : 1.0);
+    vec2 share = vec2(weights.x > 0.0 ? visibleWeights.x / weights.x : 1.0,
+                      weights.y > 0.0 ? visibleWeights.y / weights.y : 1.0);
+    sum.irradiance += light.intensity * (whole * share.x);
+    if (specular)
+        sum.specular += light.intensity *
+                        rectSpecular(light, r.position, r.normal, r.toEye, b, weights.y * cellArea) *
+                        (whole > 0.0 ? share.y : 0.0);
 }
+
+// Runs `statement` for every light of one kind: `light` in lights[begin..end). The table begins with `before`
+// lights of other kinds and has `count` of this one when LIGHTS_FIXED.
+#if LIGHTS_FIXED
+#define FOR_LIGHTS(before, count, begin, end, statement) \
+    for (uint n = 0u; n < uint(count); ++n) {            \
+        Light light = lights[uint(before) + n];          \
+        statement;                                       \
+    }
+#else
+#define FOR_LIGHTS(before, count, begin, end, statement) \
+    if ((begin) < (end)) {                               \
+        uint n = (begin);                                \
+        do {                                             \
+            Light light = lights[n];                     \
+            statement;                                   \
+        } while (++n < (end));                           \
+    }
+#endif
+#define FOR_POINT_LIGHTS(statement) FOR_LIGHTS(0, LIGHTS_POINT, 0u, frame.lightEnds.x, statement)
+#define FOR_SPOT_LIGHTS(statement) \
+    FOR_LIGHTS(LIGHTS_POINT, LIGHTS_SPOT, frame.lightEnds.x, frame.lightEnds.y, statement)
+#define FOR_DIRECTIONAL_LIGHTS(statement)                                                            \
+    FOR_LIGHTS(LIGHTS_POINT + LIGHTS_SPOT, LIGHTS_DIRECTIONAL, frame.lightEnds.y, frame.lightEnds.z, \
+               statement)
+#define FOR_RECT_LIGHTS(statement)                                                              \
+    FOR_LIGHTS(LIGHTS_POINT + LIGHTS_SPOT + LIGHTS_DIRECTIONAL, LIGHTS_RECT, frame.lightEnds.z, \
+               frame.lightEnds.w, statement)
 
 DirectLight allLights(const bool specular, Receiver r, Brdf b) {
     DirectLight sum = DirectLight(vec3(0.0), vec3(0.0));
-    uint i;
 #if LIGHTS_POINT
-    i = 0u;
-    if (i < frame.lightEnds.x) do
-            addPoint(sum, specular, r, b, lights[i]);
-        while (++i < frame.lightEnds.x);
+    FOR_POINT_LIGHTS(addPoint(sum, specular, r, b, light))
 #endif
 #if LIGHTS_SPOT
-    i = frame.lightEnds.x;
-    if (i < frame.lightEnds.y) do
-            addSpot(sum, specular, r, b, lights[i]);
-        while (++i < frame.lightEnds.y);
+    FOR_SPOT_LIGHTS(addSpot(sum, specular, r, b, light))
 #endif
 #if LIGHTS_DIRECTIONAL
-    i = frame.lightEnds.y;
-    if (i < frame.lightEnds.z) do
-            addDirectional(sum, specular, r, b, lights[i]);
-        while (++i < frame.lightEnds.z);
+    FOR_DIRECTIONAL_LIGHTS(addDirectional(sum, specular, r, b, light))
 #endif
 #if LIGHTS_RECT
-    i = frame.lightEnds.z;
-    if (i < frame.lightEnds.w) do
-            addRect(sum, specular, r, b, lights[i]);
-        while (++i < frame.lightEnds.w);
+    FOR_RECT_LIGHTS(addRect(sum, specular, r, b, light))
 #endif
     return sum;
 }

@@ -39,6 +39,8 @@ class ModeRenderer {
     // The frame block, scene tables, G-buffer and (if needed) shadow maps are ready.
     virtual void render(const FrameContext& frame) = 0;
     virtual bool needsShadows(const Settings& settings) const = 0;
+    // What the renderer asks; for modes whose answer depends on the scene.
+    virtual bool needsShadowsIn(const Scene&, const Settings& settings) const { return needsShadows(settings); }
     // Single-sided materials are not seen from behind (glTF's rule, and the original program's).
     virtual bool cullsBackFaces() const { return true; }
 };

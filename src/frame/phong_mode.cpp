@@ -10,6 +10,11 @@ bool PhongMode::needsShadows(const Settings& settings) const {
     return settings.phong.shadows != Toggle::Off && settings.light.shadowSize > 0;
 }
 
+bool PhongMode::needsShadowsIn(const Scene& scene, const Settings& settings) const {
+    const bool wanted = settings.phong.shadows == Toggle::On || !scene.thesisFormat;
+    return needsShadows(settings) && wanted;
+}
+
 void PhongMode::render(const FrameContext& frame) {
     // All light is direct: of the parts a picture can be asked for, only these hold any.
     const Component component = frame.settings.component;
@@ -17,11 +22,9 @@ void PhongMode::render(const FrameContext& frame) {
         gl::Framebuffer({&frame.output}, nullptr, "phong output").clearColor(0, 0, 0, 0, 0);
         return;
     }
-    const Toggle shadows = frame.settings.phong.shadows;
     frame.gbuffer.bind();
     gather::drawPhongShade(frame.programs, frame.profiler, frame.scene, frame.settings.light,
-                           shadows == Toggle::On || (shadows == Toggle::Auto && !frame.source.thesisFormat),
-                           frame.output);
+                           needsShadowsIn(frame.source, frame.settings), frame.output);
 }
 
 }  // namespace conelight::frame

@@ -11,6 +11,7 @@ class PhongMode : public ModeRenderer {
   public:
     void render(const FrameContext& frame) override;
     bool needsShadows(const Settings& settings) const override;
+    bool needsShadowsIn(const Scene& scene, const Settings& settings) const override;
     // The rooms of the thesis are looked into through their front walls.
     bool cullsBackFaces() const override { return true; }
 };

@@ -163,7 +163,7 @@ void Renderer::Impl::prepareMode(const Settings& settings) {
     }
 
     // Shadow maps; they fill in the light table that later passes read.
-    if (mode->needsShadows(settings) && !shadowsCurrent) {
+    if (mode->needsShadowsIn(source, settings) && !shadowsCurrent) {
         shadows.update(programs, profiler, *scene, settings.light);
         scene->bind();
         shadowsCurrent = true;

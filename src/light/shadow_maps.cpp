@@ -360,31 +360,48 @@ void ShadowMaps::bind() const {
 std::vector<gl::ProgramDesc> ShadowMaps::programDescs() { return {programDesc(false), programDesc(true)}; }
 
 namespace {
-gl::Defines definesOf(const std::array<bool, 4>& kinds, bool shadows, int filter) {
-    const auto flag = [](bool on) { return std::string(on ? "1" : "0"); };
-    return {{"LIGHTS_POINT", flag(kinds[0])},       {"LIGHTS_SPOT", flag(kinds[1])},
-            {"LIGHTS_DIRECTIONAL", flag(kinds[2])}, {"LIGHTS_RECT", flag(kinds[3])},
-            {"LIGHTS_SHADOWS", flag(shadows)},      {"SHADOW_FILTER", std::to_string(filter)}};
+
+// Lights up to this number are read at constant places by unrolled code; more would make programs long.
+constexpr std::uint32_t kFixedLights = 4;
+
+gl::Defines definesOf(const std::array<std::uint32_t, 4>& counts, bool shadows, int filter) {
+    const std::uint32_t total = counts[0] + counts[1] + counts[2] + counts[3];
+    const bool fixed = total <= kFixedLights;
+    const auto number = [&](std::uint32_t count) {
+        return std::to_string(fixed ? count : std::min(count, 1u));
+    };
+    return {{"LIGHTS_POINT", number(counts[0])},       {"LIGHTS_SPOT", number(counts[1])},
+            {"LIGHTS_DIRECTIONAL", number(counts[2])}, {"LIGHTS_RECT", number(counts[3])},
+            {"LIGHTS_FIXED", fixed ? "1" : "0"},       {"LIGHTS_SHADOWS", shadows ? "1" : "0"},
+            {"SHADOW_FILTER", std::to_string(filter)}};
 }
+
 }  // namespace
 
 gl::Defines lightDefines(const scene::GpuScene& scene, const LightSettings& settings) {
     const glm::uvec4 ends = scene::lightEnds(scene.lights());
-    return definesOf({ends.x > 0, ends.y > ends.x, ends.z > ends.y, ends.w > ends.z}, settings.shadowSize > 0,
+    return definesOf({ends.x, ends.y - ends.x, ends.z - ends.y, ends.w - ends.z}, settings.shadowSize > 0,
                      settings.shadowFilter);
 }
 
 std::vector<gl::ProgramDesc> lightVariants(const gl::ProgramDesc& base) {
     std::vector<gl::ProgramDesc> descs;
-    const auto add = [&](const std::array<bool, 4>& kinds, bool shadows, int filter) {
+    const auto add = [&](const std::array<std::uint32_t, 4>& counts, bool shadows, int filter) {
         gl::ProgramDesc desc = base;
-        for (auto& define : definesOf(kinds, shadows, filter)) desc.defines.push_back(std::move(define));
+        for (auto& define : definesOf(counts, shadows, filter)) desc.defines.push_back(std::move(define));
         descs.push_back(std::move(desc));
     };
-    for (std::size_t kind = 0; kind < 4; ++kind) add({kind == 0, kind == 1, kind == 2, kind == 3}, true, 2);
-    for (int filter = 0; filter <= 4; ++filter) add({true, true, true, true}, true, filter);
-    add({true, true, true, true}, false, 0);
-    add({false, false, false, false}, false, 0);
+    constexpr std::uint32_t many = kFixedLights + 1;
+    for (std::size_t kind = 0; kind < 4; ++kind)
+        for (const std::uint32_t count : {1u, many}) {
+            std::array<std::uint32_t, 4> counts{};
+            counts[kind] = count;
+            add(counts, true, 2);
+        }
+    for (int filter = 0; filter <= 4; ++filter) add({many, many, many, many}, true, filter);
+    add({1, 1, 1, 1}, true, 2);
+    add({many, many, many, many}, false, 0);
+    add({0, 0, 0, 0}, false, 0);
     return descs;
 }
 

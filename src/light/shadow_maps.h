@@ -38,8 +38,8 @@ class ShadowMaps {
     std::unique_ptr<Impl> impl_;
 };
 
-// Defines for shaders that include lib/lights.glsl: which kinds of lights the scene has, the filter radius,
-// whether there are shadows at all.
+// Defines for shaders that include lib/lights.glsl: how many lights of each kind the scene has (or whether
+// any, when they are many), the filter radius, whether there are shadows at all.
 gl::Defines lightDefines(const scene::GpuScene& scene, const LightSettings& settings);
 
 // `base` with lightDefines' defines added, for a programDescs(): every kind of light alone and all together,

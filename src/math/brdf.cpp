@@ -39,10 +39,6 @@ glm::vec3 fresnel(const glm::vec3& f0, const glm::vec3& f90, float voh) {
     return f0 + (f90 - f0) * (c2 * c2 * c);
 }
 
-glm::vec3 specularAlbedo(const Brdf& b, const glm::vec2& dfg) {
-    return (b.f0 * dfg.x + b.f90 * dfg.y) * b.compensation;
-}
-
 Brdf makeBrdf(const glm::vec3& baseColor, float metallic, float roughness, const glm::vec3& dielectricF0,
               float nov) {
     Brdf b{};
@@ -54,6 +50,7 @@ Brdf makeBrdf(const glm::vec3& baseColor, float metallic, float roughness, const
     const glm::vec2 dfg = directionalAlbedo(b.nov, r);
     const float lost = 1.0f / (dfg.x + dfg.y) - 1.0f;
     b.compensation = 1.0f + b.f0 * lost;
+    b.albedo = (b.f0 * dfg.x + b.f90 * dfg.y) * b.compensation;
     const float f0 = largest(dielectricF0);
     const float f90 = std::clamp(50.0f * f0, 0.0f, 1.0f);
     const float reflected = (f0 * dfg.x + f90 * dfg.y) * (1.0f + f0 * lost);

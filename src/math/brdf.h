@@ -13,6 +13,7 @@ struct Brdf {
     glm::vec3 f0;
     glm::vec3 f90;
     glm::vec3 compensation;  // factor on the specular lobe
+    glm::vec3 albedo;        // directional albedo of the specular lobe, compensation included
     float alpha;             // GGX width
     float nov;
 };
@@ -21,7 +22,6 @@ struct Brdf {
 glm::vec2 directionalAlbedo(float nov, float roughness);
 
 glm::vec3 fresnel(const glm::vec3& f0, const glm::vec3& f90, float voh);
-glm::vec3 specularAlbedo(const Brdf& brdf, const glm::vec2& dfg);
 Brdf makeBrdf(const glm::vec3& baseColor, float metallic, float roughness, const glm::vec3& dielectricF0,
               float nov);
 

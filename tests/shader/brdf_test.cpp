@@ -73,9 +73,8 @@ TEST(BrdfTest, SpecularAlbedoPredictsTheFurnace) {
     for (const float roughness : {0.2f, 0.6f, 1.0f})
         for (const float nov : {0.2f, 0.6f, 1.0f}) {
             const math::Brdf brdf = math::makeBrdf({0.9f, 0.6f, 0.3f}, 1, roughness, glm::vec3(0.04f), nov);
-            const glm::vec3 predicted = math::specularAlbedo(brdf, math::directionalAlbedo(nov, roughness));
             const glm::dvec3 got = reflectedOfFurnace(brdf, static_cast<double>(nov));
-            for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c], static_cast<double>(predicted[c]), 0.01);
+            for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c], static_cast<double>(brdf.albedo[c]), 0.01);
         }
 }
 
