@@ -101,12 +101,13 @@ void run(const RenderOptions& options) {
 
 void applyBounces(Settings& settings, const std::string& bounces) {
     if (bounces.empty()) return;
+    constexpr int kAll = 8;  // what is left after 8 more bounces is below 1 % even at albedo 0.55
     char* end = nullptr;
-    const long count = bounces == "all" ? 1 : std::strtol(bounces.c_str(), &end, 10);
-    if (bounces != "all" && (*end != '\0' || count < 0 || count > 1000))
-        throw Error(ErrorKind::Usage,
-                    "--bounces: '" + bounces +
-                        "' is not usable; a whole number from 0 to 1000, or all, would be right");
+    const long count = bounces == "all" ? kAll : std::strtol(bounces.c_str(), &end, 10);
+    if (bounces != "all" && (*end != '\0' || count < 0 || count > kAll))
+        throw Error(ErrorKind::Usage, "--bounces: '" + bounces +
+                                          "' is not usable; a whole number from 0 to 8, or all, would be right");
+    settings.cones.bounces = static_cast<int>(count);
     if (count == 0 && settings.component == Component::Full) settings.component = Component::Direct;
 }
 
@@ -129,7 +130,7 @@ void addRender(CLI::App& app) {
         ->capture_default_str();
     command
         ->add_option("--bounces", options->bounces,
-                     "indirect bounces: a number or all; 0 = direct light and emission seen")
+                     "indirect bounces (mode cones): 0 to 8 or all (8); 0 = direct light and emission seen")
         ->type_name("N");
     command
         ->add_option("--aov", options->aovs,
