@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+// Which emitters become lights, and what the tables hold then.
+#include "light/emissive_quads.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "support/gl_fixture.h"
+#include "support/view_rig.h"
+
+namespace conelight::test {
+namespace {
+
+Material emitter() {
+    Material material;
+    material.emission = {3, 2, 1};
+    return material;
+}
+
+TEST(EmissiveQuadsTest, AParallelogramBecomesALightOfItsFront) {
+    Scene scene;
+    glm::mat4 placed = glm::translate(glm::mat4(1), glm::vec3(0, 5, 0));
+    addInstance(scene, quadMesh({-1, 0, -2}, {2, 0, 0}, {0, 0, 4}), emitter(), placed);
+    const auto quads = light::emissiveQuads(scene);
+    ASSERT_EQ(quads.size(), 1u);
+    const Light& light = quads[0].light;
+    EXPECT_EQ(light.type, LightType::Rect);
+    EXPECT_EQ(light.intensity, glm::vec3(3, 2, 1));
+    EXPECT_NEAR(glm::length(light.position - glm::vec3(0, 5, 0)), 0, 1e-6f);
+    EXPECT_NEAR(glm::length(light.direction - glm::vec3(0, -1, 0)), 0, 1e-6f);
+    EXPECT_NEAR(4 * glm::length(glm::cross(light.halfU, light.halfV)), 8, 1e-5f);
+    // Mirrored: still the object's front. y -> -y turns it up.
+    scene.instances[0].worldFromObject = glm::scale(placed, glm::vec3(1, -1, 1));
+    EXPECT_NEAR(light::emissiveQuads(scene)[0].light.direction.y, 1, 1e-6f);
+    scene.instances[0].worldFromObject = glm::scale(placed, glm::vec3(-1, 1, 1));
+    EXPECT_NEAR(light::emissiveQuads(scene)[0].light.direction.y, -1, 1e-6f);
+    scene.materials[0].doubleSided = true;
+    EXPECT_EQ(light::emissiveQuads(scene).size(), 2u);
+}
+
+TEST(EmissiveQuadsTest, EveryOrderOfIndicesIsUnderstood) {
+    for (std::uint32_t i = 0; i < 3; ++i)
+        for (std::uint32_t j = 0; j < 3; ++j) {
+            Scene scene;
+            Mesh mesh = quadMesh({0, 0, 0}, {2, 0, 0}, {0, 1, 0});
+            const std::uint32_t first[3] = {0, 1, 2}, second[3] = {0, 2, 3};
+            mesh.indices.clear();
+            for (std::uint32_t k = 0; k < 3; ++k) mesh.indices.push_back(first[(i + k) % 3]);
+            for (std::uint32_t k = 0; k < 3; ++k) mesh.indices.push_back(second[(j + k) % 3]);
+            addInstance(scene, mesh, emitter());
+            const auto quads = light::emissiveQuads(scene);
+            ASSERT_EQ(quads.size(), 1u) << i << ' ' << j;
+            EXPECT_NEAR(quads[0].light.direction.z, 1, 1e-6f);
+            EXPECT_NEAR(4 * glm::length(glm::cross(quads[0].light.halfU, quads[0].light.halfV)), 2, 1e-5f);
+        }
+}
+
+TEST(EmissiveQuadsTest, OthersAreLeftToTheVoxels) {
+    Scene scene;
+    const Mesh quad = quadMesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0});
+    Mesh trapezium = quad, bent = quad, opposite = quad;
+    trapezium.positions[2].x = 0.5f;
+    bent.positions[2].z = 0.3f;
+    opposite.indices = {0, 1, 2, 0, 3, 2};  // the second triangle faces away
+    for (const Mesh& mesh : {trapezium, bent, opposite}) addInstance(scene, mesh, emitter());
+    addInstance(scene, quad, Material{});
+    addInstance(scene, quad, emitter());
+    scene.instances.back().visible = false;
+    Material textured = emitter();
+    textured.emissiveTexture.texture = 0;
+    addInstance(scene, quad, textured);
+    addInstance(scene, quad, emitter(), glm::scale(glm::mat4(1), glm::vec3(1, 0, 1)));
+    EXPECT_EQ(light::emissiveQuads(scene).size(), 0u);
+}
+
+class EmissiveQuadTableTest : public GlTest {};
+
+TEST_F(EmissiveQuadTableTest, TablesFollowTheSwitch) {
+    Scene scene;
+    addInstance(scene, quadMesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), emitter());
+    scene.lights.emplace_back();
+    scene::GpuScene gpuScene(scene);
+    for (int round = 0; round < 2; ++round) {
+        light::setEmissiveQuads(gpuScene, scene, true);
+        ASSERT_EQ(gpuScene.lights().size(), 2u);
+        EXPECT_EQ(gpuScene.lights()[1].type, LIGHT_RECT);
+        EXPECT_NE(gpuScene.instances()[0].flags & INSTANCE_LIT_EXACTLY, 0u);
+        EXPECT_NE(gpuScene.instanceBuffer().read<gpu::Instance>(1)[0].flags & INSTANCE_LIT_EXACTLY, 0u);
+    }
+    light::setEmissiveQuads(gpuScene, scene, false);
+    EXPECT_EQ(gpuScene.lights().size(), 1u);
+    EXPECT_EQ(gpuScene.instances()[0].flags & INSTANCE_LIT_EXACTLY, 0u);
+}
+
+}  // namespace
+}  // namespace conelight::test
