@@ -58,6 +58,10 @@ vec3 fresnel(vec3 f0, vec3 f90, float voh) {
     return f0 + (f90 - f0) * (c2 * c2 * c);
 }
 
+// Share of specularly reflected light of a white furnace, multiple scattering included; `dfg` is
+// directionalAlbedo of the surface.
+vec3 specularAlbedo(Brdf b, vec2 dfg) { return (b.f0 * dfg.x + b.f90 * dfg.y) * b.compensation; }
+
 Brdf makeBrdf(vec3 baseColor, float metallic, float roughness, vec3 dielectricF0, float nov) {
     Brdf b;
     b.nov = clamp(nov, 1e-4, 1.0);
@@ -69,7 +73,7 @@ Brdf makeBrdf(vec3 baseColor, float metallic, float roughness, vec3 dielectricF0
     b.f90 = vec3(clamp(50.0 * max(b.f0.r, max(b.f0.g, b.f0.b)), 0.0, 1.0));
     vec2 dfg = directionalAlbedo(b.nov, r);
     b.compensation = 1.0 + b.f0 * (1.0 / (dfg.x + dfg.y) - 1.0);
-    b.albedo = (b.f0 * dfg.x + b.f90 * dfg.y) * b.compensation;
+    b.albedo = specularAlbedo(b, dfg);
     // The dielectric's own lobe decides what reaches the diffuse part, by its strongest channel, so that a
     // tinted lobe does not tint the base.
     float f0 = max(dielectricF0.r, max(dielectricF0.g, dielectricF0.b));
