@@ -103,6 +103,7 @@ struct ThesisDefects {
     bool shininessSaturation = false;    // no angular effect above shininess 125
     bool fixedSpecularAperture = false;  // all materials reflect through the same aperture
     bool ambientTwice = false;           // ambient light on top of indirect light
+    bool unboundedSpecular = false;      // reflections on top of all diffuse light, strength above 1 allowed
     bool fineSteps = false;              // steps in diameters, down to 1/100 voxel
     bool operator==(const ThesisDefects&) const = default;
 };

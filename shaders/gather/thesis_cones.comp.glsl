@@ -301,6 +301,17 @@ vec3 phong(Surface s, vec3 color, uint material, ThesisLight light) {
            (ambient + diffuse * max(NoL, 0.0) + (NoL > 0.0 ? gloss * lobe : 0.0));
 }
 
+// Share of light that is reflected as by a mirror. The Phong model's strength is the height of its lobe, not
+// a share; scenes give broad lobes strengths of 1 and more. The rule is that of setPbrFromPhong
+// (src/scene/scene.cpp), so that all modes see the same material.
+float reflectance(float phongSpecular, float shininess) {
+#if UNBOUNDED_SPECULAR
+    return phongSpecular;
+#else
+    return min(phongSpecular, 1.0) * shininess / (shininess + 62.0);
+#endif
+}
+
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     bool inside = all(lessThan(pixel, ivec2(frame.width, frame.height)));
@@ -311,7 +322,7 @@ void main() {
     vec3 color =
         (materials[material].flags & MATERIAL_HAS_PHONG) != 0u ? materials[material].phongColor : s.albedo;
     float shininess = materials[material].phongShininess;
-    float strength = materials[material].phongSpecular;
+    float strength = reflectance(materials[material].phongSpecular, shininess);
     vec3 mirrored = reflect(-s.toEye, s.normal);
     uint diffuseSamples = 0u, specularSamples = 0u, occlusionSamples = 0u;
 
@@ -361,7 +372,11 @@ void main() {
 #if DIFFUSE && DIFFUSE_CONES > 0
     diffuse = traceDiffuse(s, isLit, diffuseSamples);
 #if !NO_ALBEDO
-    diffuse *= color * materials[material].phongDiffuse;
+    vec3 albedo = color * materials[material].phongDiffuse;
+#if !UNBOUNDED_SPECULAR
+    albedo = min(albedo, 1.0) * (1.0 - strength);
+#endif
+    diffuse *= albedo;
 #endif
 #if OCCLUDED_INDIRECT
     diffuse *= 1.0 - leastOcclusion;

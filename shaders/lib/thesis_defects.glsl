@@ -91,6 +91,9 @@
 #ifndef AMBIENT_TWICE
 #define AMBIENT_TWICE 0
 #endif
+#ifndef UNBOUNDED_SPECULAR
+#define UNBOUNDED_SPECULAR 0
+#endif
 #ifndef FINE_STEPS
 #define FINE_STEPS 0
 #endif

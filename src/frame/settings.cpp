@@ -124,6 +124,8 @@ void visitThesisDefects(D& d, V&& visit) {
     defect("thesis.defects.fixed_specular_aperture", d.fixedSpecularAperture,
            "all materials reflect through one aperture");
     defect("thesis.defects.ambient_twice", d.ambientTwice, "ambient light on top of indirect light");
+    defect("thesis.defects.unbounded_specular", d.unboundedSpecular,
+           "reflections come on top of all diffuse light, whatever adds up");
     defect("thesis.defects.fine_steps", d.fineSteps, "steps by the original's table, down to 1/100 voxel");
 }
 

@@ -58,6 +58,7 @@ constexpr Define kDefines[] = {
     {"SPECULAR_PER_LIGHT", &ThesisDefects::specularPerLight},
     {"OCCLUDED_SPECULAR", &ThesisDefects::occludedSpecular},
     {"SHININESS_SATURATION", &ThesisDefects::shininessSaturation},
+    {"UNBOUNDED_SPECULAR", &ThesisDefects::unboundedSpecular},
     {"FINE_STEPS", &ThesisDefects::fineSteps},
 };
 

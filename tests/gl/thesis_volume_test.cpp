@@ -106,12 +106,13 @@ class ThesisVolumeTest : public GlTest {
 }  // namespace
 
 TEST_F(ThesisVolumeTest, OpacityIsProjectedArea) {
-    // An axis-aligned rectangle that ends inside voxels: area / h^2, in whatever layers.
+    // An axis-aligned rectangle that ends inside voxels: area / h^2, in whatever layers. Half floats cut up
+    // to 1/2048 off.
     Scene scene = whiteScene();
     addQuad(scene, {-0.413f, 0.1234f, -0.377f}, {0, 0, 0.711f}, {0.823f, 0, 0});
     for (const int size : {16, 64}) {
         const float h = 2.0f / static_cast<float>(size);
-        EXPECT_NEAR(opacitySum(build(scene, optionsOf(size))) * h * h, 0.711 * 0.823, 2e-4 * 0.585) << size;
+        EXPECT_NEAR(opacitySum(build(scene, optionsOf(size))) * h * h, 0.711 * 0.823, 6e-4 * 0.585) << size;
     }
     // Many triangles thinner than a voxel: not one is lost.
     Scene strips = whiteScene();
@@ -125,7 +126,12 @@ TEST_F(ThesisVolumeTest, OpacityIsProjectedArea) {
     // The original's raster misses most of them.
     ThesisVolumeOptions original = optionsOf(32);
     original.defects.centerCoverage = true;
-    EXPECT_LT(opacitySum(build(strips, original)), opacitySum(build(strips, optionsOf(32))) * 20);
+    const auto occupied = [](const std::vector<glm::vec4>& texels) {
+        int count = 0;
+        for (const glm::vec4& texel : texels) count += texel.a > 0 ? 1 : 0;
+        return count;
+    };
+    EXPECT_LT(4 * occupied(build(strips, original)), occupied(build(strips, optionsOf(32))));
 }
 
 TEST_F(ThesisVolumeTest, RadianceIsTheLightOfTheSurface) {
