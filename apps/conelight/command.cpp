@@ -24,8 +24,9 @@ void onInterrupt(int) {
         return;
     }
     constexpr char message[] = "\nconelight: interrupted\n";
-    [[maybe_unused]] const ssize_t ignored = write(STDERR_FILENO, message + (isatty(STDERR_FILENO) != 0 ? 0 : 1),
-                                                   sizeof message - 1 - (isatty(STDERR_FILENO) != 0 ? 0 : 1));
+    [[maybe_unused]] const ssize_t ignored =
+        write(STDERR_FILENO, message + (isatty(STDERR_FILENO) != 0 ? 0 : 1),
+              sizeof message - 1 - (isatty(STDERR_FILENO) != 0 ? 0 : 1));
     _exit(130);
 }
 

@@ -9,7 +9,8 @@ namespace conelight::program {
 
 void addShaders(CLI::App& app) {
     auto directory = std::make_shared<std::string>();
-    CLI::App* command = app.add_subcommand("shaders", "write every shader variant as expanded text (for checks)");
+    CLI::App* command =
+        app.add_subcommand("shaders", "write every shader variant as expanded text (for checks)");
     command->add_option("--expand", *directory, "folder to write to")->required()->type_name("DIR");
     command->callback([directory] { fmt::print("{} files\n", expandAllShaders(*directory)); });
 }

@@ -3,21 +3,23 @@
 //
 // The polygon that Sutherland and Hodgman (1974) would build has at most nine vertices, but building it needs
 // lists that grow as they are indexed. Its area and centroid need only its boundary, in any order: Green's
-// theorem sums over boundary segments (a, b) the terms (a x b)/2 and (a + b)(a x b)/6. The boundary consists of
+// theorem sums over boundary segments (a, b) the terms (a x b)/2 and (a + b)(a x b)/6. The boundary consists
+// of
 //   3 pieces of triangle edges inside the cube, and
 //   6 pieces of the lines in which the triangle meets the cube's sides, inside the side.
-// Each is one segment, clipped by slabs (Liang and Barsky 1984). No list, no branch, the same work in each lane.
-// The CPU reference (tests/support/reference_voxelizer.h) uses Sutherland-Hodgman.
+// Each is one segment, clipped by slabs (Liang and Barsky 1984). No list, no branch, the same work in each
+// lane. The CPU reference (tests/support/reference_voxelizer.h) uses Sutherland-Hodgman.
 //
-// Borders: the cube is half-open, -1/2 in and +1/2 out, so a triangle that lies exactly in a side belongs to one
-// voxel. Tiny gaps where rounding makes neighbouring segments miss each other cost area of the order of 1e-7.
+// Borders: the cube is half-open, -1/2 in and +1/2 out, so a triangle that lies exactly in a side belongs to
+// one voxel. Tiny gaps where rounding makes neighbouring segments miss each other cost area of the order of
+// 1e-7.
 
 const float kLargestSection = 1.41422;  // sqrt 2, rounded up
 
 struct ClippedPolygon {
-    float area;     // 0: nothing inside
+    float area;  // 0: nothing inside
     vec3 center;
-    vec3 lower;     // bounds
+    vec3 lower;  // bounds
     vec3 upper;
 };
 
@@ -51,8 +53,8 @@ void addSegment(inout BoundarySum sum, vec3 a, vec3 b, bool inside, float orient
 vec3 safeInverse(vec3 d) { return 1.0 / mix(d, vec3(1e-20), lessThan(abs(d), vec3(1e-20))); }
 vec2 safeInverse(vec2 d) { return 1.0 / mix(d, vec2(1e-20), lessThan(abs(d), vec2(1e-20))); }
 
-// Piece of the side (coordinate = `at`) between the points where the triangle's boundary leaves it upwards and
-// comes back. `f`: vertex i is below the side. a, d: starts and directions of the edges in the side's two
+// Piece of the side (coordinate = `at`) between the points where the triangle's boundary leaves it upwards
+// and comes back. `f`: vertex i is below the side. a, d: starts and directions of the edges in the side's two
 // coordinates; t: edge parameters of the crossings. Returns the ends (xy, zw) and whether it is inside.
 bool sideSegment(bvec3 f, vec2 a0, vec2 d0, vec2 a1, vec2 d1, vec2 a2, vec2 d2, vec3 t, out vec4 ends) {
     vec3 s = clamp(t, 0.0, 1.0);
@@ -115,24 +117,31 @@ ClippedPolygon clipToVoxel(vec3 q0, vec3 q1, vec3 q2, vec3 n) {
     end = min(min(last.x, last.y), min(last.z, 1.0));
     addSegment(sum, c + begin * ca, c + end * ca, begin < end, 1.0);
 
-    // Pieces in the six sides: on an upper side the boundary runs from leaving to coming back, on a lower side
-    // the other way round.
+    // Pieces in the six sides: on an upper side the boundary runs from leaving to coming back, on a lower
+    // side the other way round.
     vec4 e;
     bool in_;
-    in_ = sideSegment(bvec3(a.x < 0.5, b.x < 0.5, c.x < 0.5), a.yz, ab.yz, b.yz, bc.yz, c.yz, ca.yz, vec3(highAb.x, highBc.x, highCa.x), e);
+    in_ = sideSegment(bvec3(a.x < 0.5, b.x < 0.5, c.x < 0.5), a.yz, ab.yz, b.yz, bc.yz, c.yz, ca.yz,
+                      vec3(highAb.x, highBc.x, highCa.x), e);
     addSegment(sum, vec3(0.5, e.xy), vec3(0.5, e.zw), in_, 1.0);
-    in_ = sideSegment(bvec3(a.x < -0.5, b.x < -0.5, c.x < -0.5), a.yz, ab.yz, b.yz, bc.yz, c.yz, ca.yz, vec3(lowAb.x, lowBc.x, lowCa.x), e);
+    in_ = sideSegment(bvec3(a.x < -0.5, b.x < -0.5, c.x < -0.5), a.yz, ab.yz, b.yz, bc.yz, c.yz, ca.yz,
+                      vec3(lowAb.x, lowBc.x, lowCa.x), e);
     addSegment(sum, vec3(-0.5, e.xy), vec3(-0.5, e.zw), in_, -1.0);
-    in_ = sideSegment(bvec3(a.y < 0.5, b.y < 0.5, c.y < 0.5), a.xz, ab.xz, b.xz, bc.xz, c.xz, ca.xz, vec3(highAb.y, highBc.y, highCa.y), e);
+    in_ = sideSegment(bvec3(a.y < 0.5, b.y < 0.5, c.y < 0.5), a.xz, ab.xz, b.xz, bc.xz, c.xz, ca.xz,
+                      vec3(highAb.y, highBc.y, highCa.y), e);
     addSegment(sum, vec3(e.x, 0.5, e.y), vec3(e.z, 0.5, e.w), in_, 1.0);
-    in_ = sideSegment(bvec3(a.y < -0.5, b.y < -0.5, c.y < -0.5), a.xz, ab.xz, b.xz, bc.xz, c.xz, ca.xz, vec3(lowAb.y, lowBc.y, lowCa.y), e);
+    in_ = sideSegment(bvec3(a.y < -0.5, b.y < -0.5, c.y < -0.5), a.xz, ab.xz, b.xz, bc.xz, c.xz, ca.xz,
+                      vec3(lowAb.y, lowBc.y, lowCa.y), e);
     addSegment(sum, vec3(e.x, -0.5, e.y), vec3(e.z, -0.5, e.w), in_, -1.0);
-    in_ = sideSegment(bvec3(a.z < 0.5, b.z < 0.5, c.z < 0.5), a.xy, ab.xy, b.xy, bc.xy, c.xy, ca.xy, vec3(highAb.z, highBc.z, highCa.z), e);
+    in_ = sideSegment(bvec3(a.z < 0.5, b.z < 0.5, c.z < 0.5), a.xy, ab.xy, b.xy, bc.xy, c.xy, ca.xy,
+                      vec3(highAb.z, highBc.z, highCa.z), e);
     addSegment(sum, vec3(e.xy, 0.5), vec3(e.zw, 0.5), in_, 1.0);
-    in_ = sideSegment(bvec3(a.z < -0.5, b.z < -0.5, c.z < -0.5), a.xy, ab.xy, b.xy, bc.xy, c.xy, ca.xy, vec3(lowAb.z, lowBc.z, lowCa.z), e);
+    in_ = sideSegment(bvec3(a.z < -0.5, b.z < -0.5, c.z < -0.5), a.xy, ab.xy, b.xy, bc.xy, c.xy, ca.xy,
+                      vec3(lowAb.z, lowBc.z, lowCa.z), e);
     addSegment(sum, vec3(e.xy, -0.5), vec3(e.zw, -0.5), in_, -1.0);
 
-    // Projected area is positive when the normal points up. The largest section of a cube is the diagonal one.
+    // Projected area is positive when the normal points up. The largest section of a cube is the diagonal
+    // one.
     ClippedPolygon polygon;
     float twice = sum.twiceArea * sign(normal.z);
     polygon.area = clamp(0.5 * twice / abs(normal.z), 0.0, kLargestSection);

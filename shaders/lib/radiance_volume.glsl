@@ -5,6 +5,4 @@
 layout(std140, binding = BINDING_RADIANCE_VOLUME) uniform RadianceVolumeBlock { RadianceVolume volume; };
 
 // Texel of level 0 that holds direction `block` of a voxel.
-ivec3 radianceTexel(ivec3 voxel, int block) {
-    return voxel + ivec3(block * int(volume.sizeX), 0, 0);
-}
+ivec3 radianceTexel(ivec3 voxel, int block) { return voxel + ivec3(block * int(volume.sizeX), 0, 0); }

@@ -30,4 +30,4 @@
 // Units of the G-buffer (GBuffer::bind), fixed because many passes read it: UNIT_GBUFFER and the next
 #define UNIT_GBUFFER 22
 // Units of the light stage, fixed because several stages shade
-#define UNIT_SHADOW 24             // sampler2DArrayShadow, all shadow maps (lib/shadow.glsl)
+#define UNIT_SHADOW 24  // sampler2DArrayShadow, all shadow maps (lib/shadow.glsl)

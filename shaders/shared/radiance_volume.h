@@ -29,7 +29,7 @@ struct RadianceVolume {
     uint sizeY;
     uint sizeZ;
     float halfTexelX;  // 0.5 / sizeX
-};  // 64 B
+};                     // 64 B
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus

@@ -20,7 +20,8 @@ struct Vertex {
 #define INSTANCE_VOXELIZED 2u
 #define INSTANCE_CASTS_SHADOW 4u
 #define INSTANCE_DYNAMIC 8u
-#define INSTANCE_LIT_EXACTLY 32u  // its emission is in the light table: voxels leave it out (light/emissive_quads.h)
+#define INSTANCE_LIT_EXACTLY \
+    32u  // its emission is in the light table: voxels leave it out (light/emissive_quads.h)
 #define INSTANCE_FLIPPED 16u  // negative determinant: winding is reversed
 
 struct Instance {
@@ -107,11 +108,12 @@ struct Light {
     vec3 falloff;        // constant, linear, quadratic
     uint customFalloff;  // 1: use it, 0: inverse square
     // ---- 96 B: filled in by the light stage
-    float shadowNear;   // depth in the map is shadowNear / distance along the map's axis; directional: 1 - shadowNear * distance
+    float shadowNear;   // depth in the map is shadowNear / distance along the map's axis; directional: 1 -
+                        // shadowNear * distance
     float shadowTexel;  // edge of a texel, m at 1 m from the light (perspective) or m (directional)
     uint flags;         // LIGHT_CASTS_SHADOW ...
     uint sampleGrid;    // rect: sample points per edge
-};  // 112 B
+};                      // 112 B
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus

@@ -78,16 +78,16 @@ struct FaceRecord {
 struct SurfaceConstants {
     uint triangleCount;
     uint instanceCount;
-    uint tileCapacity;      // of the voxelizer's lists; what does not fit is counted and dropped
+    uint tileCapacity;  // of the voxelizer's lists; what does not fit is counted and dropped
     uint fragmentCapacity;
     // ---- 16 B
     uint voxelCapacity;
     uint faceCapacity;
     uint brickCapacity;
-    uint bricksPerChunk;    // prefix sums: elements one invocation adds up
+    uint bricksPerChunk;  // prefix sums: elements one invocation adds up
     // ---- 32 B
     uint voxelsPerChunk;
-    float emissionScale;    // largest emission of any material, >= 1e-6: sums of emission are relative to it
+    float emissionScale;  // largest emission of any material, >= 1e-6: sums of emission are relative to it
     uint pad0;
     uint pad1;
 };  // 48 B

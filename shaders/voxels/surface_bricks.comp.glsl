@@ -3,9 +3,9 @@
 // brickWord (cleared before), and the list of occupied bricks.
 #version 450
 layout(local_size_x = 64) in;
-#include "voxels/surface_common.glsl"
 #include "lib/voxel_address.glsl"
 #include "lib/voxel_grid.glsl"
+#include "voxels/surface_common.glsl"
 layout(std430, binding = SURFACE_MASKS) readonly buffer MaskTable { uvec2 masks[]; };
 layout(std430, binding = SURFACE_CHUNKS) readonly buffer ChunkTable { uvec2 chunks[]; };
 layout(std430, binding = SURFACE_BRICK_LIST) writeonly buffer BrickTable { uint brickList[]; };
@@ -31,6 +31,7 @@ void main() {
         ++i;
         bool rowEnds = brick.x + 1 == bricks.x;
         bool sliceEnds = rowEnds && brick.y + 1 == bricks.y;
-        brick = sliceEnds ? ivec3(0, 0, brick.z + 1) : (rowEnds ? ivec3(0, brick.y + 1, brick.z) : ivec3(brick.x + 1, brick.yz));
+        brick = sliceEnds ? ivec3(0, 0, brick.z + 1)
+                          : (rowEnds ? ivec3(0, brick.y + 1, brick.z) : ivec3(brick.x + 1, brick.yz));
     }
 }

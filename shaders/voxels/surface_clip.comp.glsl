@@ -8,8 +8,9 @@
 //           two-sided                                  7  emission RGB9E5, or the voxel when nothing emits
 //        3  normal x | y, 16 bit snorm each
 //
-// SURFACE_DETAIL 0: materials without textures or vertex colours. 1: with, sampled at the centroid and averaged
-// over the polygon's area. 2: and alpha tests, 16 samples over the polygon's bounds give coverage and albedo.
+// SURFACE_DETAIL 0: materials without textures or vertex colours. 1: with, sampled at the centroid and
+// averaged over the polygon's area. 2: and alpha tests, 16 samples over the polygon's bounds give coverage
+// and albedo.
 #version 450
 #ifndef SURFACE_DETAIL
 #error SURFACE_DETAIL must be 0, 1 or 2
@@ -18,10 +19,10 @@
 #error SURFACE_EMISSION must be 0 or 1
 #endif
 layout(local_size_x = 64) in;
-#include "voxels/surface_common.glsl"
 #include "lib/clip.glsl"
-#include "lib/voxel_record.glsl"
 #include "lib/voxel_grid.glsl"
+#include "lib/voxel_record.glsl"
+#include "voxels/surface_common.glsl"
 layout(std430, binding = SURFACE_COUNTERS) readonly buffer CounterTable { uint counters[]; };
 layout(std430, binding = SURFACE_CHAINS) buffer ChainTable { uint chains[]; };
 layout(std430, binding = SURFACE_FRAGMENT_DATA) writeonly buffer FragmentTable { uvec4 fragments[]; };

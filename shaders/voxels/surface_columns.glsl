@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Which voxels of a column a triangle meets: exact test of triangle against box (Schwarz and Seidel, "Fast
-// Parallel Surface and Solid Voxelization on GPUs", 2010). Along the normal's dominant axis a plane rises by at
-// most two voxels within a column, so there are at most three candidates, four with rounding.
+// Parallel Surface and Solid Voxelization on GPUs", 2010). Along the normal's dominant axis a plane rises by
+// at most two voxels within a column, so there are at most three candidates, four with rounding.
 //
-// Coordinates are dominant-axis ones (lib/clip.glsl), in voxels, relative to an anchor near the columns, so that
-// numbers stay small where precision matters.
+// Coordinates are dominant-axis ones (lib/clip.glsl), in voxels, relative to an anchor near the columns, so
+// that numbers stay small where precision matters.
 
-// How far outside a voxel a triangle may pass and still count, in voxels. Rounding of coordinates up to 512 and
-// of the edge functions stays below; the clipping that follows is exact.
+// How far outside a voxel a triangle may pass and still count, in voxels. Rounding of coordinates up to 512
+// and of the edge functions stays below; the clipping that follows is exact.
 const float kTouch = 4e-5;
 
 struct ColumnTest {
@@ -21,7 +21,8 @@ struct ColumnTest {
     float lowest, highest;  // of the triangle along w
 };
 
-// Edges of one projection: x, y of the three vertices in order; side: sign of the normal along the third axis.
+// Edges of one projection: x, y of the three vertices in order; side: sign of the normal along the third
+// axis.
 void projectedEdges(vec2 a, vec2 b, vec2 c, float side, out vec3 A, out vec3 B, out vec3 C) {
     A = vec3(a.y - b.y, b.y - c.y, c.y - a.y) * side;
     B = vec3(b.x - a.x, c.x - b.x, a.x - c.x) * side;

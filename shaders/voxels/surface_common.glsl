@@ -8,8 +8,8 @@
 //   surface_count, surface_scan, surface_faces    directions -> voxRec, owner of each face
 //   surface_resolve  face -> its chain, summed up
 //
-// A fragment is a pair (triangle, voxel). Lists are filled in any order; everything that survives is ordered by
-// prefix sums or summed in integers.
+// A fragment is a pair (triangle, voxel). Lists are filled in any order; everything that survives is ordered
+// by prefix sums or summed in integers.
 #include "shared/bindings.h"
 #include "shared/scene.h"
 #include "shared/voxels.h"

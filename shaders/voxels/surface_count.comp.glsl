@@ -6,8 +6,8 @@
 #error OF_BRICKS must be 0 or 1
 #endif
 layout(local_size_x = 64) in;
-#include "voxels/surface_common.glsl"
 #include "lib/voxel_grid.glsl"
+#include "voxels/surface_common.glsl"
 layout(std430, binding = SURFACE_COUNTERS) readonly buffer CounterTable { uint counters[]; };
 layout(std430, binding = SURFACE_MASKS) readonly buffer MaskTable { uvec2 masks[]; };
 layout(std430, binding = SURFACE_CHAINS) readonly buffer ChainTable { uvec2 chains[]; };

@@ -10,7 +10,8 @@ layout(std430, binding = SURFACE_MASKS) buffer MaskTable { uint masks[]; };
 
 // The columns of one invocation: `width` cells per row, counted from cell (0,0) at the anchor.
 // bits: four per column, column after column.
-void emitFragments(ColumnTest t, uint triangle, uvec2 bits, int width, ivec3 anchor, int axis, int wBegin, int wEnd) {
+void emitFragments(ColumnTest t, uint triangle, uvec2 bits, int width, ivec3 anchor, int axis, int wBegin,
+                   int wEnd) {
     uint total = uint(bitCount(bits.x) + bitCount(bits.y));
     uint slot = 0u;
     if (total != 0u) slot = atomicAdd(counters[SURFACE_FRAGMENTS], total);

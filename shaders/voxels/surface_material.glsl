@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What a material shows within one clipped polygon: base colour x texture x vertex colour, emission, coverage.
-// Textures come from the surface array at the level whose texel is as large as the polygon.
-// Metals count with their base colour: what they reflect towards everywhere, added up. Unlit: black.
-// Included by surface_clip.comp.glsl, which defines struct Surface.
+// What a material shows within one clipped polygon: base colour x texture x vertex colour, emission,
+// coverage. Textures come from the surface array at the level whose texel is as large as the polygon. Metals
+// count with their base colour: what they reflect towards everywhere, added up. Unlit: black. Included by
+// surface_clip.comp.glsl, which defines struct Surface.
 #include "lib/surface_array.glsl"
 layout(std430, binding = BINDING_VERTICES) readonly buffer VertexTable { Vertex vertices[]; };
 layout(std430, binding = BINDING_INDICES) readonly buffer IndexTable { uint indices[]; };
@@ -17,7 +17,9 @@ vec3 barycentric(vec3 p, vec3 q0, vec3 q1, vec3 q2, vec3 n, float twiceArea) {
 }
 
 // Texture coordinates of one use of a texture (row pair of Material.uvRow), and what an area ratio becomes.
-vec2 transformedUv(vec2 uv, vec4 row0, vec4 row1) { return vec2(dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z); }
+vec2 transformedUv(vec2 uv, vec4 row0, vec4 row1) {
+    return vec2(dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z);
+}
 float transformedScale(vec4 row0, vec4 row1) { return abs(row0.x * row1.y - row0.y * row1.x); }
 
 Surface evaluateSurface(uint triangle, uint instance, vec3 q0, vec3 q1, vec3 q2, vec3 n, float twiceArea,
@@ -54,9 +56,9 @@ Surface evaluateSurface(uint triangle, uint instance, vec3 q0, vec3 q1, vec3 q2,
     float coverage = (flags & MATERIAL_ALPHA_BLEND) != 0u ? color.a * texel.a : 1.0;
 
 #if SURFACE_DETAIL == 2
-    // Alpha test: points of a 4 x 4 lattice over the polygon's bounds, as far as they lie in the triangle. Where a
-    // point stands for more than a texel, alpha there is already an average: then it is the coverage itself (that
-    // of a mask which is mostly 0 or 1), because a threshold would make it all or nothing.
+    // Alpha test: points of a 4 x 4 lattice over the polygon's bounds, as far as they lie in the triangle.
+    // Where a point stands for more than a texel, alpha there is already an average: then it is the coverage
+    // itself (that of a mask which is mostly 0 or 1), because a threshold would make it all or nothing.
     float texels = 0.25 * baseFootprint * float(textureSize(surfaceArray, 0).x);
     float averaged = layers.x >= 0 ? clamp(log2(max(texels, 1.0)), 0.0, 1.0) : 0.0;
     int axis = dominantAxis(n);
@@ -72,7 +74,8 @@ Surface evaluateSurface(uint triangle, uint instance, vec3 q0, vec3 q1, vec3 q2,
         float height = through.z - dot(normal.xy, at - through.xy) / normal.z;
         vec3 w = barycentric(fromDominant(vec3(at, height), axis), q0, q1, q2, n, twiceArea);
         vec2 where = uv0 * w.x + uv1 * w.y + uv2 * w.z;
-        vec4 one = sampleSurfaceArray(max(layers.x, 0), transformedUv(where, baseRow0, baseRow1), 0.25 * baseFootprint);
+        vec4 one = sampleSurfaceArray(max(layers.x, 0), transformedUv(where, baseRow0, baseRow1),
+                                      0.25 * baseFootprint);
         one = layers.x >= 0 ? one : vec4(1.0);
         float counts = min(min(w.x, w.y), w.z) >= 0.0 ? 1.0 : 0.0;
         float alpha = color.a * one.a;
@@ -91,7 +94,8 @@ Surface evaluateSurface(uint triangle, uint instance, vec3 q0, vec3 q1, vec3 q2,
     vec4 emissiveRow0 = materials[m].uvRow[6];
     vec4 emissiveRow1 = materials[m].uvRow[7];
     vec3 glow = sampleSurfaceArray(max(layers.w, 0), transformedUv(uv, emissiveRow0, emissiveRow1),
-                                   footprint * sqrt(transformedScale(emissiveRow0, emissiveRow1))).rgb;
+                                   footprint * sqrt(transformedScale(emissiveRow0, emissiveRow1)))
+                    .rgb;
     vec3 emission = materials[m].emission * (layers.w >= 0 ? glow : vec3(1.0));
     bool unlit = (flags & MATERIAL_UNLIT) != 0u;
     return Surface(unlit ? vec3(0.0) : color.rgb * texel.rgb, unlit ? vec3(0.0) : emission, coverage);

@@ -3,21 +3,22 @@
 // (docs/theory/2_voxels.md, eq. 2.2), writes FaceRecord and faceSource.
 //
 // Sums are integers in units of 2^-26 voxel sides, so the order of the chain does not matter. All terms are
-// weights times numbers in [0,1], so no sum exceeds that of the weights, which is kept in 64 bits: should it reach
-// 16 (never in a sane scene), the chain is walked again with units coarse enough that nothing overflows.
+// weights times numbers in [0,1], so no sum exceeds that of the weights, which is kept in 64 bits: should it
+// reach 16 (never in a sane scene), the chain is walked again with units coarse enough that nothing
+// overflows.
 //
 // SURFACE_EMISSION 0: no material emits, nothing is summed.
 //
-// Tried on a software driver (cost of this pass): fragments through storage reads instead of a buffer texture +17 %;
-// fetching the next fragment while this one is added, no gain; all sums in 64 bits +50 %; looking up chain and voxel
-// through the voxel's record instead of the owner list +15 %.
+// Tried on a software driver (cost of this pass): fragments through storage reads instead of a buffer texture
+// +17 %; fetching the next fragment while this one is added, no gain; all sums in 64 bits +50 %; looking up
+// chain and voxel through the voxel's record instead of the owner list +15 %.
 #version 450
 #ifndef SURFACE_EMISSION
 #error SURFACE_EMISSION must be 0 or 1
 #endif
 layout(local_size_x = 64) in;
-#include "voxels/surface_common.glsl"
 #include "lib/voxel_record.glsl"
+#include "voxels/surface_common.glsl"
 layout(std430, binding = SURFACE_COUNTERS) readonly buffer CounterTable { uint counters[]; };
 layout(std430, binding = BINDING_VOXEL_FACES) writeonly buffer FaceTable { uvec4 faces[]; };
 layout(std430, binding = SURFACE_FACE_SOURCES) writeonly buffer SourceTable { uvec2 faceSources[]; };
@@ -79,7 +80,8 @@ void main() {
             normal += ivec3(w * (0.5 * n + 0.5) + 0.5);
             center += ivec3((w * (1.0 / 65535.0)) * vec3(ivec3(b.x >> 16, b.y & 0xffffu, b.y >> 16)) + 0.5);
             albedo += ivec3(w * (vec3(ivec3(b.z & 2047u, (b.z >> 11) & 2047u, b.z >> 22)) *
-                                 vec3(1.0 / 2047.0, 1.0 / 2047.0, 1.0 / 1023.0)) + 0.5);
+                                 vec3(1.0 / 2047.0, 1.0 / 2047.0, 1.0 / 1023.0)) +
+                            0.5);
 #if !SURFACE_EMISSION
             voxel = at != 0u ? b.w : voxel;
 #else
@@ -106,9 +108,11 @@ void main() {
     voxel = texelFetch(pairs, int(head) - 1).y;
     glow = vec3(emission) / total * surface.emissionScale;
 #endif
-    uint bounds = uint(lower.x | (lower.y << 5) | (lower.z << 10) | (upper.x << 15) | (upper.y << 20) | (upper.z << 25));
+    uint bounds = uint(lower.x | (lower.y << 5) | (lower.z << 10) | (upper.x << 15) | (upper.y << 20) |
+                       (upper.z << 25));
     if (used) {
-        faces[2u * index] = uvec4(packSnorm2x16(octEncode(n)), packOffsetWeight(offset, total * unit), bounds, voxel);
+        faces[2u * index] =
+            uvec4(packSnorm2x16(octEncode(n)), packOffsetWeight(offset, total * unit), bounds, voxel);
         faces[2u * index + 1u] = uvec4(packAlbedo(vec3(albedo) / total), packRgb9e5(glow), 0u, 0u);
         faceSources[index] = packFaceSource(glow, float(area) * 2.0 * unit);
     }

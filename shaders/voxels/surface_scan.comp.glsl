@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-// Second third of a prefix sum: one invocation turns the chunks' sums into their starts (at most a few thousand
-// chunks), and writes the totals and the group counts of the passes that follow.
-// STEP 0: no sum, group count of surface_tiles. 1: after counting bricks. 2: after counting faces.
+// Second third of a prefix sum: one invocation turns the chunks' sums into their starts (at most a few
+// thousand chunks), and writes the totals and the group counts of the passes that follow. STEP 0: no sum,
+// group count of surface_tiles. 1: after counting bricks. 2: after counting faces.
 #version 450
 #ifndef STEP
 #error STEP must be 0, 1 or 2
 #endif
 layout(local_size_x = 8) in;
-#include "voxels/surface_common.glsl"
 #include "lib/voxel_grid.glsl"
+#include "voxels/surface_common.glsl"
 layout(std430, binding = SURFACE_COUNTERS) buffer CounterTable { uint counters[]; };
 layout(std430, binding = SURFACE_CHUNKS) buffer ChunkTable { uvec2 chunks[]; };
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // First pass of the voxelizer, one invocation per triangle: vertices to grid coordinates (kept for the later
-// passes), small triangles to fragments, big ones to tiles of 8 x 8 columns. A triangle is small when it spans
-// at most 16 columns; then one invocation has little to do. At most 64 x 64 tiles are visited per triangle.
+// passes), small triangles to fragments, big ones to tiles of 8 x 8 columns. A triangle is small when it
+// spans at most 16 columns; then one invocation has little to do. At most 64 x 64 tiles are visited per
+// triangle.
 #version 450
 layout(local_size_x = 64) in;
-#include "voxels/surface_common.glsl"
 #include "lib/voxel_record.glsl"
+#include "voxels/surface_common.glsl"
 #include "voxels/surface_emit.glsl"
 layout(std430, binding = BINDING_VERTICES) readonly buffer VertexTable { Vertex vertices[]; };
 layout(std430, binding = BINDING_INDICES) readonly buffer IndexTable { uint indices[]; };
@@ -49,8 +50,8 @@ void main() {
     vec3 p1 = gridFromWorld((worldFromObject * vec4(vertices[i1].position, 1.0)).xyz);
     vec3 p2 = gridFromWorld((worldFromObject * vec4(vertices[i2].position, 1.0)).xyz);
 
-    // Triangles whose height is below a millionth of their longest edge have no reliable normal and next to no
-    // area; NaN fails the comparison too.
+    // Triangles whose height is below a millionth of their longest edge have no reliable normal and next to
+    // no area; NaN fails the comparison too.
     vec3 e0 = p1 - p0;
     vec3 e1 = p2 - p0;
     vec3 e2 = p2 - p1;

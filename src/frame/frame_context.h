@@ -40,7 +40,9 @@ class ModeRenderer {
     virtual void render(const FrameContext& frame) = 0;
     virtual bool needsShadows(const Settings& settings) const = 0;
     // What the renderer asks; for modes whose answer depends on the scene.
-    virtual bool needsShadowsIn(const Scene&, const Settings& settings) const { return needsShadows(settings); }
+    virtual bool needsShadowsIn(const Scene&, const Settings& settings) const {
+        return needsShadows(settings);
+    }
     // Single-sided materials are not seen from behind (glTF's rule, and the original program's).
     virtual bool cullsBackFaces() const { return true; }
 };

@@ -34,8 +34,8 @@ std::string variantFile(const std::string& path, const gl::Defines& defines) {
         if (std::isalnum(static_cast<unsigned char>(c)) == 0 &&
             std::string("-_=,.").find(c) == std::string::npos)
             c = '_';
-    // File systems allow 255 bytes. Long lists keep their first defines and get a hash of all (FNV-1a); the text
-    // of the file has them anyway.
+    // File systems allow 255 bytes. Long lists keep their first defines and get a hash of all (FNV-1a); the
+    // text of the file has them anyway.
     constexpr std::size_t kMaxVariant = 120;
     if (variant.size() > kMaxVariant) {
         std::uint32_t hash = 2166136261u;

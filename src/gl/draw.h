@@ -71,8 +71,8 @@ struct RasterState {
     float depthBiasSlope = 0.0f;  // glPolygonOffset factor
     float depthBiasUnits = 0.0f;
     bool wireframe = false;
-    // Clip space z in [0,1] with 1 at the near plane, greater depths win (float depth then keeps its digits at
-    // any distance); clear with 0. false: GL's [-1,1], lesser depths win.
+    // Clip space z in [0,1] with 1 at the near plane, greater depths win (float depth then keeps its digits
+    // at any distance); clear with 0. false: GL's [-1,1], lesser depths win.
     bool reversedDepth = false;
     int viewport[4] = {0, 0, 0, 0};  // x, y, width, height, fragments outside are cut; width 0: all
 };

@@ -130,7 +130,9 @@ GLenum wrapMode(TextureWrap wrap) {
 
 float srgbToLinear(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
 
-float linearToSrgb(float c) { return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f; }
+float linearToSrgb(float c) {
+    return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
+}
 
 // Box-filters (or repeats) a texture to kSurfaceEdge^2 linear values.
 std::vector<glm::vec4> linearSurface(const Texture& texture) {
@@ -174,9 +176,9 @@ std::vector<glm::vec4> halved(const std::vector<glm::vec4>& level, std::size_t e
     return half;
 }
 
-// Stored sRGB-encoded, whatever the texture holds, in an sRGB format: 8 bits then err by less than 1 % above 0.02
-// of full scale, and the hardware decodes before it filters. (Square roots that the shader squares were tried:
-// filtering between them darkened high-contrast textures by up to half.)
+// Stored sRGB-encoded, whatever the texture holds, in an sRGB format: 8 bits then err by less than 1 % above
+// 0.02 of full scale, and the hardware decodes before it filters. (Square roots that the shader squares were
+// tried: filtering between them darkened high-contrast textures by up to half.)
 std::vector<std::uint8_t> encodedSurface(const std::vector<glm::vec4>& level) {
     std::vector<std::uint8_t> bytes;
     bytes.reserve(4 * level.size());
@@ -323,16 +325,18 @@ void GpuScene::uploadTextures(const Scene& source) {
         t.generateMipmaps();
         textures_.push_back(std::move(t));
         const bool nearest = texture.filter == TextureFilter::Nearest;
-        samplers_.emplace_back(gl::SamplerDesc{static_cast<std::uint32_t>(nearest ? GL_NEAREST_MIPMAP_LINEAR
-                                                                                  : GL_LINEAR_MIPMAP_LINEAR),
-                                               static_cast<std::uint32_t>(nearest ? GL_NEAREST : GL_LINEAR),
-                                               wrapMode(texture.wrapU), wrapMode(texture.wrapV), false, anisotropy},
-                               label);
+        samplers_.emplace_back(
+            gl::SamplerDesc{
+                static_cast<std::uint32_t>(nearest ? GL_NEAREST_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_LINEAR),
+                static_cast<std::uint32_t>(nearest ? GL_NEAREST : GL_LINEAR), wrapMode(texture.wrapU),
+                wrapMode(texture.wrapV), false, anisotropy},
+            label);
     }
     // The surface array has at least one (white) layer so that it can always be bound.
     const int layers = std::max<int>(static_cast<int>(source.textures.size()), 1);
     const int edge = source.textures.empty() ? 1 : kSurfaceEdge;
-    surfaceArray_ = gl::Texture({GL_TEXTURE_2D_ARRAY, GL_SRGB8_ALPHA8, edge, edge, layers, 0}, "surface array");
+    surfaceArray_ =
+        gl::Texture({GL_TEXTURE_2D_ARRAY, GL_SRGB8_ALPHA8, edge, edge, layers, 0}, "surface array");
     if (source.textures.empty()) surfaceArray_.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, white);
     for (std::size_t i = 0; i < source.textures.size(); ++i) {
         std::vector<glm::vec4> level = linearSurface(source.textures[i]);

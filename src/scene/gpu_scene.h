@@ -35,7 +35,8 @@ class GpuScene {
     void draw(const InstanceFilter& filter, gl::Cull cull, bool bindTextures, int copies = 1) const;
 
     const Aabb& bounds() const { return bounds_; }
-    Aabb instanceBounds(std::size_t instance) const;  // world box of the object box: may be larger than needed
+    Aabb instanceBounds(
+        std::size_t instance) const;  // world box of the object box: may be larger than needed
     std::uint32_t triangleCount() const { return triangleCount_; }  // over all instances, visible or not
     const std::vector<gpu::Instance>& instances() const { return instances_; }
     const std::vector<gpu::Material>& materials() const { return materials_; }

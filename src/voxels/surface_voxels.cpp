@@ -29,11 +29,11 @@ enum Slot : unsigned {
 };
 enum Unit : unsigned { kUnitTriangles = 8, kUnitPairs = 9, kUnitFragments = 10, kUnitOwners = 11 };
 
-constexpr std::uint32_t kMaxChunks = 4096;   // one invocation walks over all chunks
-constexpr std::uint32_t kLeastChunk = 16;    // fewer elements per invocation are not worth starting it
-constexpr double kSlack = 1.25;              // room for growth when memory is allocated anew
+constexpr std::uint32_t kMaxChunks = 4096;  // one invocation walks over all chunks
+constexpr std::uint32_t kLeastChunk = 16;   // fewer elements per invocation are not worth starting it
+constexpr double kSlack = 1.25;             // room for growth when memory is allocated anew
 constexpr std::size_t kFragmentBytes = 32;
-constexpr float kLeastEmission = 1e-6f;      // W/(sr m^2); less is none
+constexpr float kLeastEmission = 1e-6f;       // W/(sr m^2); less is none
 constexpr float kLargestEmission = 65504.0f;  // what a half holds
 
 // How much every list can hold.
@@ -61,24 +61,33 @@ Surfaces surfacesOf(const scene::GpuScene& scene) {
         if ((instance.flags & INSTANCE_VOXELIZED) == 0) continue;
         const gpu::Material& m = scene.materials()[instance.material];
         const bool textured = m.layers.x >= 0 || m.layers.w >= 0 || (m.flags & MATERIAL_ALPHA_BLEND) != 0;
-        surfaces.detail = std::max(surfaces.detail, (m.flags & MATERIAL_ALPHA_MASK) != 0 ? 2 : (textured ? 1 : 0));
+        surfaces.detail =
+            std::max(surfaces.detail, (m.flags & MATERIAL_ALPHA_MASK) != 0 ? 2 : (textured ? 1 : 0));
         if ((m.flags & MATERIAL_UNLIT) != 0) continue;
-        surfaces.largestEmission = std::max({surfaces.largestEmission, m.emission.x, m.emission.y, m.emission.z});
+        surfaces.largestEmission =
+            std::max({surfaces.largestEmission, m.emission.x, m.emission.y, m.emission.z});
     }
     surfaces.largestEmission = std::min(surfaces.largestEmission, kLargestEmission);
     return surfaces;
 }
 
-std::uint32_t perChunk(std::uint32_t count) { return std::max((count + kMaxChunks - 1) / kMaxChunks, kLeastChunk); }
+std::uint32_t perChunk(std::uint32_t count) {
+    return std::max((count + kMaxChunks - 1) / kMaxChunks, kLeastChunk);
+}
 
 gl::ProgramDesc pass(const char* name, const gl::Defines& defines = {}) {
     return {{std::string("voxels/") + name + ".comp.glsl"}, defines};
 }
-gl::ProgramDesc countPass(bool ofBricks) { return pass("surface_count", {{"OF_BRICKS", ofBricks ? "1" : "0"}}); }
+gl::ProgramDesc countPass(bool ofBricks) {
+    return pass("surface_count", {{"OF_BRICKS", ofBricks ? "1" : "0"}});
+}
 gl::ProgramDesc scanPass(int step) { return pass("surface_scan", {{"STEP", std::to_string(step)}}); }
-gl::ProgramDesc resolvePass(bool emission) { return pass("surface_resolve", {{"SURFACE_EMISSION", emission ? "1" : "0"}}); }
+gl::ProgramDesc resolvePass(bool emission) {
+    return pass("surface_resolve", {{"SURFACE_EMISSION", emission ? "1" : "0"}});
+}
 gl::ProgramDesc clipPass(int detail, bool emission) {
-    return pass("surface_clip", {{"SURFACE_DETAIL", std::to_string(detail)}, {"SURFACE_EMISSION", emission ? "1" : "0"}});
+    return pass("surface_clip",
+                {{"SURFACE_DETAIL", std::to_string(detail)}, {"SURFACE_EMISSION", emission ? "1" : "0"}});
 }
 
 }  // namespace
@@ -140,7 +149,8 @@ void SurfaceVoxels::Impl::allocateFor(const Capacity& wanted) {
         counters = gl::Buffer(sizeof counts, "voxelizer counters");
         chunks = gl::Buffer(kMaxChunks * std::size_t{8}, "voxelizer chunks");
     }
-    if (wanted.gridBricks > capacity.gridBricks) masks = gl::Buffer(std::size_t{8} * wanted.gridBricks, "voxelizer masks");
+    if (wanted.gridBricks > capacity.gridBricks)
+        masks = gl::Buffer(std::size_t{8} * wanted.gridBricks, "voxelizer masks");
     if (wanted.triangles > capacity.triangles) {
         triangles = gl::Buffer(std::size_t{48} * wanted.triangles, "voxelizer triangles");
         triangleTexels = gl::Texture(triangles, GL_RGBA32F, "voxelizer triangles");
@@ -165,7 +175,8 @@ void SurfaceVoxels::Impl::allocateFor(const Capacity& wanted) {
         owners = gl::Buffer(std::size_t{4} * wanted.faces, "voxelizer face owners");
         ownerTexels = gl::Texture(owners, GL_R32UI, "voxelizer face owners");
     }
-    if (wanted.bricks > capacity.bricks) brickList = gl::Buffer(std::size_t{4} * wanted.bricks, "occupied bricks");
+    if (wanted.bricks > capacity.bricks)
+        brickList = gl::Buffer(std::size_t{4} * wanted.bricks, "occupied bricks");
     capacity = wanted;
 }
 
@@ -182,7 +193,8 @@ bool SurfaceVoxels::Impl::grow() {
     raise(wanted.faces, counts[SURFACE_FACES]);
     raise(wanted.bricks, counts[SURFACE_BRICKS]);
     const bool grown = wanted.tiles > capacity.tiles || wanted.fragments > capacity.fragments ||
-                       wanted.voxels > capacity.voxels || wanted.faces > capacity.faces || wanted.bricks > capacity.bricks;
+                       wanted.voxels > capacity.voxels || wanted.faces > capacity.faces ||
+                       wanted.bricks > capacity.bricks;
     if (grown) allocateFor(wanted);
     return grown;
 }
@@ -215,7 +227,8 @@ void SurfaceVoxels::Impl::clearWorkSpace() {
     const glm::ivec3 bricks = grid.bricks();
     const gl::TextureDesc& have = brickWords.desc();
     if (!brickWords || have.width != bricks.x || have.height != bricks.y || have.depth != bricks.z) {
-        brickWords = gl::Texture({GL_TEXTURE_3D, GL_RGBA32UI, bricks.x, bricks.y, bricks.z, 1}, "voxel bricks");
+        brickWords =
+            gl::Texture({GL_TEXTURE_3D, GL_RGBA32UI, bricks.x, bricks.y, bricks.z, 1}, "voxel bricks");
         // Integer textures are incomplete, and read as zero, with the filters that textures are born with.
         brickWords.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         brickWords.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
@@ -232,7 +245,8 @@ void SurfaceVoxels::Impl::clearWorkSpace() {
 }
 
 // Triangles -> pairs (triangle, voxel), and a bit per voxel.
-void SurfaceVoxels::Impl::mark(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene) {
+void SurfaceVoxels::Impl::mark(gl::ProgramLibrary& programs, gl::Profiler& profiler,
+                               const scene::GpuScene& scene) {
     const gl::PassScope scope(profiler, "voxelize: mark");
     clearWorkSpace();
     scene.bind();
@@ -271,7 +285,8 @@ void SurfaceVoxels::Impl::clip(gl::ProgramLibrary& programs, gl::Profiler& profi
     brickWords.bind(UNIT_VOXEL_BRICKS);
     triangleTexels.bind(kUnitTriangles);
     pairTexels.bind(kUnitPairs);
-    programs.get(clipPass(surfaces.detail, surfaces.emit())).dispatchIndirect(counters, 4 * SURFACE_ARGS_FRAGMENTS);
+    programs.get(clipPass(surfaces.detail, surfaces.emit()))
+        .dispatchIndirect(counters, 4 * SURFACE_ARGS_FRAGMENTS);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
 }
 
@@ -316,7 +331,8 @@ void SurfaceVoxels::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, 
         m.resolve(programs, profiler);
         m.counters.read(0, m.counts.data(), sizeof m.counts);
         if (!m.grow()) break;
-        CONELIGHT_ASSERT(attempt + 1 < kMaxAttempts, "SurfaceVoxels::build: lists still too small after growing");
+        CONELIGHT_ASSERT(attempt + 1 < kMaxAttempts,
+                         "SurfaceVoxels::build: lists still too small after growing");
     }
     m.updateGridBlock();
 }
@@ -347,7 +363,8 @@ const gl::Buffer& SurfaceVoxels::fragments() const { return impl_->fragments; }
 
 std::vector<gl::ProgramDesc> SurfaceVoxels::programDescs() {
     std::vector<gl::ProgramDesc> descs{pass("surface_setup"), pass("surface_tiles"), pass("surface_bricks"),
-                                       pass("surface_faces"), resolvePass(false), resolvePass(true), countPass(true), countPass(false)};
+                                       pass("surface_faces"), resolvePass(false),    resolvePass(true),
+                                       countPass(true),       countPass(false)};
     for (int i = 0; i < 3; ++i) descs.push_back(scanPass(i));
     for (int i = 0; i < 6; ++i) descs.push_back(clipPass(i / 2, i % 2 == 1));
     return descs;

@@ -58,7 +58,8 @@ class SurfaceVoxels {
 
     static std::vector<gl::ProgramDesc> programDescs();
 
-    // The voxelizer's own work list, for tests: 32 bytes per fragment, see shaders/voxels/surface_clip.comp.glsl.
+    // The voxelizer's own work list, for tests: 32 bytes per fragment, see
+    // shaders/voxels/surface_clip.comp.glsl.
     const gl::Buffer& fragments() const;
 
   private:

@@ -20,7 +20,8 @@ std::uint32_t quantized(float value, float scale) {
 // Half of a number in [0, 65504], to nearest, ties to even.
 std::uint32_t packHalf(float value) {
     const float v = std::clamp(value, 0.0f, 65504.0f);
-    if (v < 6.103515625e-5f) return static_cast<std::uint32_t>(std::nearbyint(v * 16777216.0f));  // denormal: steps of 2^-24
+    if (v < 6.103515625e-5f)
+        return static_cast<std::uint32_t>(std::nearbyint(v * 16777216.0f));  // denormal: steps of 2^-24
     const auto bits = std::bit_cast<std::uint32_t>(v);
     return ((bits + 0xfffu + ((bits >> 13) & 1u)) >> 13) - (112u << 10);  // exponent bias 127 -> 15
 }

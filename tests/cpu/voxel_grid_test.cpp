@@ -41,7 +41,8 @@ TEST(VoxelGrid, HoldsTheSceneWithItsPaddingAndHasTheSizeAskedFor) {
             EXPECT_GE(box.min[axis] - grid.origin[axis], padding * longest - slack);
             EXPECT_GE(far[axis] - box.max[axis], padding * longest - slack);
             // No axis has a whole brick more than it needs.
-            EXPECT_LT(static_cast<float>(grid.size[axis]) * grid.voxelSize, extent[axis] + 2 * padding * longest + 6 * grid.voxelSize);
+            EXPECT_LT(static_cast<float>(grid.size[axis]) * grid.voxelSize,
+                      extent[axis] + 2 * padding * longest + 6 * grid.voxelSize);
         }
     }
 }
@@ -54,7 +55,9 @@ TEST(VoxelGrid, BoundsAndMiddlePlanesStayAwayFromVoxelBorders) {
         box.min = glm::vec3(0);
         const VoxelGrid grid = fitGrid(box, 8 + 4 * (i % 100), 0.01f * static_cast<float>(i % 10));
         for (int axis = 0; axis < 3; ++axis) {
-            const auto at = [&](double x) { return (x - static_cast<double>(grid.origin[axis])) / static_cast<double>(grid.voxelSize); };
+            const auto at = [&](double x) {
+                return (x - static_cast<double>(grid.origin[axis])) / static_cast<double>(grid.voxelSize);
+            };
             EXPECT_GT(distanceToBorder(at(0)), 0.125);
             EXPECT_GT(distanceToBorder(at(static_cast<double>(box.max[axis]))), 0.125);
             EXPECT_GT(distanceToBorder(at(0.5 * static_cast<double>(box.max[axis]))), 0.1);
@@ -74,7 +77,8 @@ TEST(VoxelGrid, FlatPointLikeAndEmptyBoundsGiveAUsableGrid) {
         EXPECT_EQ(grid.size, glm::ivec3(16));
         EXPECT_GT(grid.voxelSize, 0.0f);
     }
-    EXPECT_TRUE(fitGrid(point, 16, 0).contains(VoxelGrid::voxelOf(fitGrid(point, 16, 0).gridFromWorld(glm::vec3(3, 4, 5)))));
+    EXPECT_TRUE(fitGrid(point, 16, 0)
+                    .contains(VoxelGrid::voxelOf(fitGrid(point, 16, 0).gridFromWorld(glm::vec3(3, 4, 5)))));
 }
 
 TEST(VoxelGrid, SizesOutOfRangeAreRefused) {

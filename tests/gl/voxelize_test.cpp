@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The compute voxelizer against the CPU reference (tests/support/reference_voxelizer.h): which voxels, what area,
-// what each face says; the same bits in every run; textures, masks, odd triangles; twins of the packing functions.
+// The compute voxelizer against the CPU reference (tests/support/reference_voxelizer.h): which voxels, what
+// area, what each face says; the same bits in every run; textures, masks, odd triangles; twins of the packing
+// functions.
 #include <gtest/gtest.h>
 
 #include <unistd.h>
@@ -50,8 +51,10 @@ void addInstance(Scene& scene, Mesh mesh, int material, const glm::mat4& worldFr
 
 Mesh boxMesh() {
     Mesh mesh;
-    for (int i = 0; i < 8; ++i) mesh.positions.emplace_back((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
-    mesh.indices = {0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
+    for (int i = 0; i < 8; ++i)
+        mesh.positions.emplace_back((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
+    mesh.indices = {0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
+                    2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
     return mesh;
 }
 
@@ -67,7 +70,8 @@ Mesh torusMesh(int rings, int sides) {
     const auto at = [&](int i, int j) { return static_cast<std::uint32_t>((i % rings) * sides + j % sides); };
     for (int i = 0; i < rings; ++i)
         for (int j = 0; j < sides; ++j)
-            for (const std::uint32_t v : {at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i + 1, j)})
+            for (const std::uint32_t v :
+                 {at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i, j), at(i + 1, j + 1), at(i + 1, j)})
                 mesh.indices.push_back(v);
     return mesh;
 }
@@ -82,7 +86,8 @@ Scene rotatedBox() {
 
 Scene torus() {
     Scene scene;
-    addInstance(scene, torusMesh(90, 40), addMaterial(scene, {0.9f, 0.1f, 0.4f}), glm::rotate(glm::mat4(1), 0.5f, {1, 0.2f, 0.1f}));
+    addInstance(scene, torusMesh(90, 40), addMaterial(scene, {0.9f, 0.1f, 0.4f}),
+                glm::rotate(glm::mat4(1), 0.5f, {1, 0.2f, 0.1f}));
     return scene;
 }
 
@@ -115,7 +120,8 @@ struct Result {
     std::uint64_t hash() const {
         std::uint64_t h = 1469598103934665603u;
         const auto add = [&](const void* data, std::size_t bytes) {
-            for (std::size_t i = 0; i < bytes; ++i) h = (h ^ static_cast<const unsigned char*>(data)[i]) * 1099511628211u;
+            for (std::size_t i = 0; i < bytes; ++i)
+                h = (h ^ static_cast<const unsigned char*>(data)[i]) * 1099511628211u;
         };
         add(brickWords.data(), 4 * brickWords.size());
         add(records.data(), 4 * records.size());
@@ -130,13 +136,15 @@ Result download(const voxels::SurfaceVoxels& surface) {
     Result r;
     r.grid = surface.grid();
     r.brickWords.resize(4 * r.grid.brickCount());
-    surface.brickWords().read(0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, r.brickWords.data(), 4 * r.brickWords.size());
+    surface.brickWords().read(0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, r.brickWords.data(),
+                              4 * r.brickWords.size());
     r.records = surface.records().read<std::uint32_t>(surface.voxelCount());
     r.faces = surface.faces().read<gpu::FaceRecord>(surface.faceCount());
     r.sources = surface.faceSources().read<std::uint32_t>(2 * std::size_t{surface.faceCount()});
     r.bricks = surface.occupiedBricks().read<std::uint32_t>(surface.occupiedBrickCount());
     const auto fragments = surface.fragments().read<std::uint32_t>(8 * std::size_t{surface.fragmentCount()});
-    for (std::size_t i = 1; i < fragments.size(); i += 8) r.area += static_cast<double>(std::bit_cast<float>(fragments[i]));
+    for (std::size_t i = 1; i < fragments.size(); i += 8)
+        r.area += static_cast<double>(std::bit_cast<float>(fragments[i]));
     const glm::ivec3 bricks = r.grid.bricks();
     for (int z = 0; z < bricks.z; ++z)
         for (int y = 0; y < bricks.y; ++y)
@@ -149,7 +157,8 @@ Result download(const voxels::SurfaceVoxels& surface) {
 }
 
 double meshArea(const std::vector<ReferenceTriangle>& triangles) {
-    return std::accumulate(triangles.begin(), triangles.end(), 0.0, [](double sum, const ReferenceTriangle& t) { return sum + t.area(); });
+    return std::accumulate(triangles.begin(), triangles.end(), 0.0,
+                           [](double sum, const ReferenceTriangle& t) { return sum + t.area(); });
 }
 
 class VoxelizeTest : public GlTest {
@@ -179,7 +188,8 @@ class VoxelizeTest : public GlTest {
         std::size_t missed = 0;
         for (const std::uint32_t packed : touched) missed += result.has(voxels::unpackVoxel(packed)) ? 0 : 1;
         std::size_t extra = 0;
-        for (const glm::ivec3& voxel : result.occupied) extra += nearly.count(voxels::packVoxel(voxel)) != 0 ? 0 : 1;
+        for (const glm::ivec3& voxel : result.occupied)
+            extra += nearly.count(voxels::packVoxel(voxel)) != 0 ? 0 : 1;
         EXPECT_GT(touched.size(), 1000u);
         EXPECT_EQ(missed, 0u) << "of " << touched.size();
         EXPECT_EQ(extra, 0u) << "of " << result.occupied.size();
@@ -237,7 +247,8 @@ TEST_F(VoxelizeTest, TrianglesLargerThanTheGridAreClippedToIt) {
             missed += result.has(voxel) ? 0 : 1;
             area += polygonArea(clippedPolygon(t, voxel));
         });
-    for (const glm::ivec3& voxel : result.occupied) extra += nearly.count(voxels::packVoxel(voxel)) != 0 ? 0 : 1;
+    for (const glm::ivec3& voxel : result.occupied)
+        extra += nearly.count(voxels::packVoxel(voxel)) != 0 ? 0 : 1;
     EXPECT_GT(met, 2000u);
     EXPECT_EQ(missed, 0u);
     EXPECT_EQ(extra, 0u);
@@ -258,30 +269,38 @@ TEST_F(VoxelizeTest, SceneOutsideTheGridGivesNothing) {
 
 TEST_F(VoxelizeTest, FacesSayWhatTheReferenceComputes) {
     Scene scene = torus();
-    addInstance(scene, quadMesh(), addMaterial(scene, {0.2f, 0.7f, 0.3f}, true), glm::rotate(glm::mat4(1), 0.6f, {1, 1, 0.3f}));
+    addInstance(scene, quadMesh(), addMaterial(scene, {0.2f, 0.7f, 0.3f}, true),
+                glm::rotate(glm::mat4(1), 0.6f, {1, 1, 0.3f}));
     // A mirrored instance: triangles keep facing outwards.
     addInstance(scene, boxMesh(), addMaterial(scene, {1, 1, 1}),
-                glm::rotate(glm::scale(glm::translate(glm::mat4(1), {0.2f, 0.9f, 0}), {-0.3f, 0.2f, 0.25f}), 0.3f, {0, 1, 1}));
+                glm::rotate(glm::scale(glm::translate(glm::mat4(1), {0.2f, 0.9f, 0}), {-0.3f, 0.2f, 0.25f}),
+                            0.3f, {0, 1, 1}));
     const Result result = voxelize(scene, 64);
-    const ReferenceFaces reference = referenceFaces(scene, referenceTriangles(scene, result.grid), result.grid);
+    const ReferenceFaces reference =
+        referenceFaces(scene, referenceTriangles(scene, result.grid), result.grid);
     std::size_t compared = 0, index = 0;
     double weightOf = 0, weightReference = 0;
     for (const gpu::FaceRecord& face : result.faces) {
         const std::uint32_t* source = &result.sources[2 * index];
         ++index;
-        // The direction follows from the face's place among those of its voxel; find it by the reference's keys.
+        // The direction follows from the face's place among those of its voxel; find it by the reference's
+        // keys.
         const glm::ivec3 voxel = voxels::unpackVoxel(face.voxel);
         ASSERT_TRUE(result.has(voxel));
-        const std::uint32_t* word = &result.brickWords[4 * voxels::brickIndex(voxel / 4, result.grid.bricks())];
+        const std::uint32_t* word =
+            &result.brickWords[4 * voxels::brickIndex(voxel / 4, result.grid.bricks())];
         const std::uint64_t mask = word[0] | (static_cast<std::uint64_t>(word[1]) << 32);
         const std::uint32_t bit = voxels::bitOfVoxel(voxel);
-        const std::uint32_t record = result.records[word[2] + static_cast<std::uint32_t>(std::popcount(mask & ((std::uint64_t{1} << bit) - 1)))];
+        const std::uint32_t record =
+            result.records[word[2] +
+                           static_cast<std::uint32_t>(std::popcount(mask & ((std::uint64_t{1} << bit) - 1)))];
         const std::uint32_t place = static_cast<std::uint32_t>(index - 1) - (record & 0x3ffffffu);
         int direction = 0;
         for (std::uint32_t seen = 0; direction < 6; ++direction)
             if (((record >> (26 + direction)) & 1u) != 0 && seen++ == place) break;
         ASSERT_LT(direction, 6);
-        const auto found = reference.find(std::uint64_t{8} * face.voxel + static_cast<std::uint64_t>(direction));
+        const auto found =
+            reference.find(std::uint64_t{8} * face.voxel + static_cast<std::uint64_t>(direction));
         // Slivers may exist on one side only.
         const double weight = static_cast<double>(voxels::unpackWeight(face.offsetWeight));
         if (found == reference.end()) {
@@ -298,7 +317,8 @@ TEST_F(VoxelizeTest, FacesSayWhatTheReferenceComputes) {
         const glm::dvec3 n = glm::normalize(f.normal);
         const glm::dvec3 normal(math::octDecode(math::unpackSnorm2x16(face.normal)));
         EXPECT_GT(glm::dot(normal, n), 0.99999);
-        EXPECT_NEAR(static_cast<double>(voxels::unpackOffset(face.offsetWeight)), glm::dot(n, f.center) / f.weight, 1e-3);
+        EXPECT_NEAR(static_cast<double>(voxels::unpackOffset(face.offsetWeight)),
+                    glm::dot(n, f.center) / f.weight, 1e-3);
         const glm::vec3 albedo = voxels::unpackAlbedo(face.albedo);
         glm::vec3 low, high;
         voxels::unpackBounds(face.bounds, low, high);
@@ -310,12 +330,14 @@ TEST_F(VoxelizeTest, FacesSayWhatTheReferenceComputes) {
             EXPECT_GE(static_cast<double>(high[k]), f.upper[k] - 1e-4);
             EXPECT_LE(static_cast<double>(high[k]), f.upper[k] + 1.01 / 31);
         }
-        if (HasFailure()) FAIL() << "voxel " << voxel.x << " " << voxel.y << " " << voxel.z << " direction " << direction;
+        if (HasFailure())
+            FAIL() << "voxel " << voxel.x << " " << voxel.y << " " << voxel.z << " direction " << direction;
     }
     EXPECT_GT(compared, 10000u);
     EXPECT_NEAR(weightOf / weightReference, 1.0, 1e-4);
     // No face of the reference is absent, but slivers.
-    EXPECT_LT(static_cast<double>(reference.size()) - static_cast<double>(result.faces.size()), 0.01 * static_cast<double>(reference.size()));
+    EXPECT_LT(static_cast<double>(reference.size()) - static_cast<double>(result.faces.size()),
+              0.01 * static_cast<double>(reference.size()));
 }
 
 TEST_F(VoxelizeTest, RecordsAreOrderedByBrickVoxelAndDirection) {
@@ -323,7 +345,8 @@ TEST_F(VoxelizeTest, RecordsAreOrderedByBrickVoxelAndDirection) {
     std::uint32_t voxel = 0, face = 0;
     std::size_t brick = 0;
     for (std::size_t b = 0; b < r.grid.brickCount(); ++b) {
-        const std::uint64_t mask = r.brickWords[4 * b] | (static_cast<std::uint64_t>(r.brickWords[4 * b + 1]) << 32);
+        const std::uint64_t mask =
+            r.brickWords[4 * b] | (static_cast<std::uint64_t>(r.brickWords[4 * b + 1]) << 32);
         if (mask == 0) continue;
         EXPECT_EQ(r.brickWords[4 * b + 2], voxel);
         EXPECT_EQ(voxels::brickIndex(voxels::unpackVoxel(r.bricks[brick++]), r.grid.bricks()), b);
@@ -365,7 +388,8 @@ TEST_F(VoxelizeTest, TwoSheetsInOneVoxelAddUpAndDirectionsStayApart) {
 TEST_F(VoxelizeTest, TheDiagonalSectionOfAVoxelHasItsFullArea) {
     // A plane at 45 degrees through the edges of voxels: area sqrt 2, the most a voxel can hold of a plane.
     Scene scene;
-    addInstance(scene, quadMesh(), addMaterial(scene, glm::vec3(1)), glm::rotate(glm::mat4(1), glm::quarter_pi<float>(), {1, 0, 0}));
+    addInstance(scene, quadMesh(), addMaterial(scene, glm::vec3(1)),
+                glm::rotate(glm::mat4(1), glm::quarter_pi<float>(), {1, 0, 0}));
     VoxelGrid grid;
     grid.origin = {-2, -2, -2 + 0.001f};
     grid.voxelSize = 0.25f;
@@ -373,7 +397,8 @@ TEST_F(VoxelizeTest, TheDiagonalSectionOfAVoxelHasItsFullArea) {
     const Result r = voxelize(scene, grid);
     EXPECT_NEAR(r.area, 64.0, 0.01);
     float largest = 0;
-    for (std::size_t i = 0; i < r.faces.size(); ++i) largest = std::max(largest, voxels::unpackArea({r.sources[2 * i], r.sources[2 * i + 1]}));
+    for (std::size_t i = 0; i < r.faces.size(); ++i)
+        largest = std::max(largest, voxels::unpackArea({r.sources[2 * i], r.sources[2 * i + 1]}));
     EXPECT_NEAR(largest, glm::root_two<float>(), 0.01f);
 }
 
@@ -406,7 +431,8 @@ TEST_F(VoxelizeTest, DegenerateTrianglesAddNothingAndNothingIsNan) {
     Scene plain = torus();
     Scene scene = plain;
     Mesh odd;
-    odd.positions = {{0, 0, 0}, {0, 0, 0}, {0, 0, 0}, {-0.5f, 0, 0}, {0.5f, 0, 0}, {0.1f, 0, 0}, {0.3f, 0.3f, 0.3f}, {0.3f, 0.3f, 0.30000001f}};
+    odd.positions = {{0, 0, 0},    {0, 0, 0},    {0, 0, 0},          {-0.5f, 0, 0},
+                     {0.5f, 0, 0}, {0.1f, 0, 0}, {0.3f, 0.3f, 0.3f}, {0.3f, 0.3f, 0.30000001f}};
     odd.indices = {0, 1, 2, 3, 4, 5, 3, 3, 4, 6, 7, 6, 6, 7, 0, 4, 3, 3};
     addInstance(scene, odd, 0);
     // Scaled flat: every triangle of a box collapses or keeps an area in one plane only.
@@ -449,7 +475,8 @@ TEST_F(VoxelizeTest, EmissionIsKeptOfTheFrontOnly) {
     for (std::size_t i = 0; i < r.faces.size(); ++i) {
         EXPECT_GT(math::octDecode(math::unpackSnorm2x16(r.faces[i].normal)).z, 0.999f);
         const glm::vec3 e = voxels::unpackEmission({r.sources[2 * i], r.sources[2 * i + 1]});
-        for (int k = 0; k < 3; ++k) EXPECT_NEAR(e[k] / scene.materials[0].emission[k], 1.0f, k == 1 ? 0.05f : 0.004f);
+        for (int k = 0; k < 3; ++k)
+            EXPECT_NEAR(e[k] / scene.materials[0].emission[k], 1.0f, k == 1 ? 0.05f : 0.004f);
     }
 }
 
@@ -489,7 +516,8 @@ TEST_F(VoxelizeTest, CheckerTextureAveragesToItsMean) {
     const Texture texture = checker(64, 8, {255, 0, 51, 255}, {0, 255, 102, 255});
     // Cells larger than voxels, of about their size, and far smaller.
     for (const float repeats : {1.0f, 7.3f, 90.0f}) {
-        const Result r = voxelize(texturedQuad(texture, repeats, glm::rotate(glm::mat4(1), 0.4f, {1, 1, 0})), 64);
+        const Result r =
+            voxelize(texturedQuad(texture, repeats, glm::rotate(glm::mat4(1), 0.4f, {1, 1, 0})), 64);
         const glm::dvec3 mean = meanAlbedo(r);
         EXPECT_NEAR(mean.x, 0.5, 0.01) << repeats;
         EXPECT_NEAR(mean.y, 0.5, 0.01) << repeats;
@@ -498,7 +526,8 @@ TEST_F(VoxelizeTest, CheckerTextureAveragesToItsMean) {
     // Large cells are seen as such, not smeared.
     const Result sharp = voxelize(texturedQuad(texture, 1), 128);
     std::size_t pure = 0;
-    for (const gpu::FaceRecord& face : sharp.faces) pure += std::abs(voxels::unpackAlbedo(face.albedo).x - 0.5f) > 0.45f ? 1 : 0;
+    for (const gpu::FaceRecord& face : sharp.faces)
+        pure += std::abs(voxels::unpackAlbedo(face.albedo).x - 0.5f) > 0.45f ? 1 : 0;
     EXPECT_GT(static_cast<double>(pure), 0.7 * static_cast<double>(sharp.faces.size()));
 }
 
@@ -512,8 +541,10 @@ TEST_F(VoxelizeTest, MaskedTextureOfHalfCoverageGivesHalfTheWeight) {
         opaque.materials[0].alphaMode = AlphaMode::Opaque;
         const Result all = voxelize(opaque, 64);
         double weight = 0, weightAll = 0;
-        for (const gpu::FaceRecord& face : r.faces) weight += static_cast<double>(voxels::unpackWeight(face.offsetWeight));
-        for (const gpu::FaceRecord& face : all.faces) weightAll += static_cast<double>(voxels::unpackWeight(face.offsetWeight));
+        for (const gpu::FaceRecord& face : r.faces)
+            weight += static_cast<double>(voxels::unpackWeight(face.offsetWeight));
+        for (const gpu::FaceRecord& face : all.faces)
+            weightAll += static_cast<double>(voxels::unpackWeight(face.offsetWeight));
         EXPECT_NEAR(weight / weightAll, 0.5, 0.02) << repeats;
         if (repeats > 10) continue;
         // What is cut away lends no colour: green is where alpha is zero.
@@ -546,7 +577,8 @@ TEST_F(VoxelizeTest, VertexColoursAndBlendingCount) {
 // Prints a hash when asked to; else runs itself with 0, 1 and 2 driver threads and compares.
 TEST_F(VoxelizeTest, SameBitsWithAnyNumberOfThreads) {
     Scene scene = torus();
-    addInstance(scene, quadMesh(), addMaterial(scene, {0.2f, 0.7f, 0.3f}, true), glm::rotate(glm::mat4(1), 0.6f, {1, 1, 0.3f}));
+    addInstance(scene, quadMesh(), addMaterial(scene, {0.2f, 0.7f, 0.3f}, true),
+                glm::rotate(glm::mat4(1), 0.6f, {1, 1, 0.3f}));
     scene.materials[0].emission = {1, 2, 3};
     const std::uint64_t mine = voxelize(scene, 128).hash();
     if (std::getenv("CONELIGHT_PRINT_HASH") != nullptr) {
@@ -554,9 +586,9 @@ TEST_F(VoxelizeTest, SameBitsWithAnyNumberOfThreads) {
         return;
     }
     for (const int threads : {0, 1, 2}) {
-        const CommandResult child = runCommand("LP_NUM_THREADS=" + std::to_string(threads) +
-                                               " CONELIGHT_PRINT_HASH=1 /proc/" + std::to_string(getpid()) +
-                                               "/exe --gtest_filter=VoxelizeTest.SameBitsWithAnyNumberOfThreads");
+        const CommandResult child = runCommand(
+            "LP_NUM_THREADS=" + std::to_string(threads) + " CONELIGHT_PRINT_HASH=1 /proc/" +
+            std::to_string(getpid()) + "/exe --gtest_filter=VoxelizeTest.SameBitsWithAnyNumberOfThreads");
         ASSERT_EQ(child.status, 0) << child.output;
         char expected[32];
         std::snprintf(expected, sizeof expected, "hash=%016llx", static_cast<unsigned long long>(mine));
@@ -591,13 +623,16 @@ TEST_F(VoxelizeTest, ManyTrianglesInOneVoxelAreSummedExactly) {
     const Result r = voxelize(scene, 8);
     const ReferenceFaces reference = referenceFaces(scene, referenceTriangles(scene, r.grid), r.grid);
     double weight = 0, expected = 0;
-    for (const gpu::FaceRecord& face : r.faces) weight += static_cast<double>(voxels::unpackWeight(face.offsetWeight));
+    for (const gpu::FaceRecord& face : r.faces)
+        weight += static_cast<double>(voxels::unpackWeight(face.offsetWeight));
     for (const auto& [key, face] : reference) expected += std::min(face.weight, 4.0);
     EXPECT_NEAR(weight / expected, 1.0, 1e-3);
     // 40 sheets in one voxel: more than the record can say, and than the first unit of the sums can hold.
     Scene stack;
     const int material = addMaterial(stack, {0.2f, 0.4f, 0.8f});
-    for (int i = 0; i < 40; ++i) addInstance(stack, quadMesh(), material, glm::translate(glm::mat4(1), {0, 0, 0.002f * static_cast<float>(i)}));
+    for (int i = 0; i < 40; ++i)
+        addInstance(stack, quadMesh(), material,
+                    glm::translate(glm::mat4(1), {0, 0, 0.002f * static_cast<float>(i)}));
     VoxelGrid grid;
     grid.origin = {-2, -2, -0.1f};
     grid.voxelSize = 0.25f;
@@ -632,7 +667,8 @@ void main() {
     std::mt19937 random(7);
     std::uniform_real_distribution<float> unit(0, 1);
     std::vector<glm::vec4> values;
-    for (std::size_t i = 0; i < kCount; ++i) values.emplace_back(unit(random), unit(random), unit(random), unit(random));
+    for (std::size_t i = 0; i < kCount; ++i)
+        values.emplace_back(unit(random), unit(random), unit(random), unit(random));
     values[0] = {0, 0, 0, 0};
     values[1] = {1, 1, 1, 1};
     values[2] = {0.5f, 1, 0, 0.5f};
@@ -650,14 +686,23 @@ void main() {
         const glm::ivec3 voxel(a * 1023.0f);
         const auto source = voxels::packFaceSource(a * 1000.0f, v.w * 4.0f);
         const std::uint32_t expected[8] = {
-            voxels::packOffsetWeight(v.x * 2.0f - 1.0f, v.w * 4.0f), voxels::packBounds(glm::min(a, b), glm::max(a, b)),
-            voxels::packAlbedo(a), voxels::packRgb9e5(a * std::exp2(std::floor(v.w * 40.0f - 20.0f))), source[0], source[1],
-            voxels::packVoxel(voxel), voxels::bitOfVoxel(voxel) | (voxels::brickIndex(voxel / 4, glm::ivec3(256)) << 6)};
+            voxels::packOffsetWeight(v.x * 2.0f - 1.0f, v.w * 4.0f),
+            voxels::packBounds(glm::min(a, b), glm::max(a, b)),
+            voxels::packAlbedo(a),
+            voxels::packRgb9e5(a * std::exp2(std::floor(v.w * 40.0f - 20.0f))),
+            source[0],
+            source[1],
+            voxels::packVoxel(voxel),
+            voxels::bitOfVoxel(voxel) | (voxels::brickIndex(voxel / 4, glm::ivec3(256)) << 6)};
         for (std::size_t k = 0; k < 8; ++k) {
             if (k == 4 || k == 5) {
                 // GLSL leaves the rounding of halves to the driver: one step either way.
-                EXPECT_LE(std::abs(static_cast<int>(got[8 * i + k] & 0xffffu) - static_cast<int>(expected[k] & 0xffffu)), 1);
-                EXPECT_LE(std::abs(static_cast<int>(got[8 * i + k] >> 16) - static_cast<int>(expected[k] >> 16)), k == 4 ? 1 : 0);
+                EXPECT_LE(std::abs(static_cast<int>(got[8 * i + k] & 0xffffu) -
+                                   static_cast<int>(expected[k] & 0xffffu)),
+                          1);
+                EXPECT_LE(
+                    std::abs(static_cast<int>(got[8 * i + k] >> 16) - static_cast<int>(expected[k] >> 16)),
+                    k == 4 ? 1 : 0);
             } else {
                 EXPECT_EQ(got[8 * i + k], expected[k]);
             }
@@ -713,7 +758,8 @@ void main() {
             EXPECT_NEAR(g[4][k], high[k], 1e-6f);
         }
         const std::uint32_t direction = z % 6;
-        EXPECT_EQ(g[1].w, static_cast<float>((x & 0x3ffffffu) + static_cast<std::uint32_t>(std::popcount((x >> 26) & ((1u << direction) - 1)))));
+        EXPECT_EQ(g[1].w, static_cast<float>((x & 0x3ffffffu) + static_cast<std::uint32_t>(std::popcount(
+                                                                    (x >> 26) & ((1u << direction) - 1)))));
         EXPECT_EQ(g[2].w, ((mask >> bit) & 1u) != 0 ? 1.0f : 0.0f);
         const std::uint32_t index = w & 0xffffu;
         if (index < 20 * 24 * 28) {

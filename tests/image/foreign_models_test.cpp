@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Every file of Debian's assimp-testmodels (about 600, many broken on purpose) either renders or fails with one
-// clear line; none crashes, hangs, or draws a pixel that is not finite. Skipped when the package is absent.
+// Every file of Debian's assimp-testmodels (about 600, many broken on purpose) either renders or fails with
+// one clear line; none crashes, hangs, or draws a pixel that is not finite. Skipped when the package is
+// absent.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -22,7 +23,8 @@ std::vector<fs::path> modelFiles() {
     const char* folder = std::getenv("CONELIGHT_ASSIMP_MODELS");
     std::vector<fs::path> files;
     std::error_code missing;
-    for (const auto& entry : fs::recursive_directory_iterator(folder != nullptr ? folder : "/usr/share/assimp/models", missing))
+    for (const auto& entry :
+         fs::recursive_directory_iterator(folder != nullptr ? folder : "/usr/share/assimp/models", missing))
         if (entry.is_regular_file()) files.push_back(entry.path());
     std::sort(files.begin(), files.end());
     return files;

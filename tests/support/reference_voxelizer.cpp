@@ -18,12 +18,15 @@ std::vector<ReferenceTriangle> referenceTriangles(const Scene& scene, const voxe
         const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
         const glm::dmat4 worldFromObject(instance.worldFromObject);
         const bool flipped = glm::determinant(glm::dmat3(worldFromObject)) < 0;
-        const bool twoSided = instance.material >= 0 && scene.materials[static_cast<std::size_t>(instance.material)].doubleSided;
+        const bool twoSided = instance.material >= 0 &&
+                              scene.materials[static_cast<std::size_t>(instance.material)].doubleSided;
         for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
             ReferenceTriangle t{{}, instance.material, twoSided};
             for (std::size_t k = 0; k < 3; ++k) {
-                const glm::dvec4 world = worldFromObject * glm::dvec4(glm::dvec3(mesh.positions[mesh.indices[i + k]]), 1);
-                t.p[flipped ? (3 - k) % 3 : k] = (glm::dvec3(world) - glm::dvec3(grid.origin)) / static_cast<double>(grid.voxelSize);
+                const glm::dvec4 world =
+                    worldFromObject * glm::dvec4(glm::dvec3(mesh.positions[mesh.indices[i + k]]), 1);
+                t.p[flipped ? (3 - k) % 3 : k] =
+                    (glm::dvec3(world) - glm::dvec3(grid.origin)) / static_cast<double>(grid.voxelSize);
             }
             if (t.area() > 0) triangles.push_back(t);
         }
@@ -86,14 +89,20 @@ void forEachVoxel(const ReferenceTriangle& t, const voxels::VoxelGrid& grid, dou
     const int v = (w + 2) % 3;
     const glm::dvec3 low = glm::min(glm::min(t.p[0], t.p[1]), t.p[2]) - slack;
     const glm::dvec3 high = glm::max(glm::max(t.p[0], t.p[1]), t.p[2]) + slack;
-    const auto first = [&](int axis, double x) { return std::clamp(static_cast<int>(std::floor(x)) - 1, 0, grid.size[axis] - 1); };
-    const auto last = [&](int axis, double x) { return std::clamp(static_cast<int>(std::floor(x)) + 1, 0, grid.size[axis] - 1); };
+    const auto first = [&](int axis, double x) {
+        return std::clamp(static_cast<int>(std::floor(x)) - 1, 0, grid.size[axis] - 1);
+    };
+    const auto last = [&](int axis, double x) {
+        return std::clamp(static_cast<int>(std::floor(x)) + 1, 0, grid.size[axis] - 1);
+    };
     for (int j = first(v, low[v]); j <= last(v, high[v]); ++j)
         for (int i = first(u, low[u]); i <= last(u, high[u]); ++i) {
             // Heights of the plane over the cell; one voxel more on both sides, the test below decides.
-            const double middle = t.p[0][w] - (n[u] * (i + 0.5 - t.p[0][u]) + n[v] * (j + 0.5 - t.p[0][v])) / n[w];
+            const double middle =
+                t.p[0][w] - (n[u] * (i + 0.5 - t.p[0][u]) + n[v] * (j + 0.5 - t.p[0][v])) / n[w];
             const double rise = 0.5 * (m[u] + m[v]) / m[w] + slack * 4;
-            for (int k = first(w, std::max(middle - rise, low[w])); k <= last(w, std::min(middle + rise, high[w])); ++k) {
+            for (int k = first(w, std::max(middle - rise, low[w]));
+                 k <= last(w, std::min(middle + rise, high[w])); ++k) {
                 glm::ivec3 voxel;
                 voxel[u] = i;
                 voxel[v] = j;
@@ -103,11 +112,13 @@ void forEachVoxel(const ReferenceTriangle& t, const voxels::VoxelGrid& grid, dou
         }
 }
 
-ReferenceFaces referenceFaces(const Scene& scene, const std::vector<ReferenceTriangle>& triangles, const voxels::VoxelGrid& grid) {
+ReferenceFaces referenceFaces(const Scene& scene, const std::vector<ReferenceTriangle>& triangles,
+                              const voxels::VoxelGrid& grid) {
     ReferenceFaces faces;
     for (const ReferenceTriangle& t : triangles) {
-        const glm::dvec3 albedo(t.material >= 0 ? glm::vec3(scene.materials[static_cast<std::size_t>(t.material)].baseColor)
-                                                : glm::vec3(Material{}.baseColor));
+        const glm::dvec3 albedo(
+            t.material >= 0 ? glm::vec3(scene.materials[static_cast<std::size_t>(t.material)].baseColor)
+                            : glm::vec3(Material{}.baseColor));
         forEachVoxel(t, grid, 0, [&](const glm::ivec3& voxel) {
             const std::vector<glm::dvec3> polygon = clippedPolygon(t, voxel);
             const double area = polygonArea(polygon);
@@ -115,7 +126,8 @@ ReferenceFaces referenceFaces(const Scene& scene, const std::vector<ReferenceTri
             glm::dvec3 center(0);
             double total = 0;
             for (std::size_t i = 2; i < polygon.size(); ++i) {
-                const double part = 0.5 * glm::length(glm::cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]));
+                const double part =
+                    0.5 * glm::length(glm::cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]));
                 center += part * (polygon[0] + polygon[i - 1] + polygon[i]) / 3.0;
                 total += part;
             }
@@ -125,7 +137,8 @@ ReferenceFaces referenceFaces(const Scene& scene, const std::vector<ReferenceTri
                 for (int k = 0; k < 6; ++k) {
                     const double facing = glm::dot(n, glm::dvec3(voxels::directionVector(k)));
                     if (facing <= VOXEL_FACING_THRESHOLD) continue;
-                    ReferenceFace& face = faces[std::uint64_t{8} * voxels::packVoxel(voxel) + static_cast<std::uint64_t>(k)];
+                    ReferenceFace& face =
+                        faces[std::uint64_t{8} * voxels::packVoxel(voxel) + static_cast<std::uint64_t>(k)];
                     const double weight = area * facing;
                     face.weight += weight;
                     face.area += area;

@@ -47,6 +47,7 @@ struct ReferenceFace {
     glm::dvec3 lower{1}, upper{0};
 };
 using ReferenceFaces = std::unordered_map<std::uint64_t, ReferenceFace>;
-ReferenceFaces referenceFaces(const Scene& scene, const std::vector<ReferenceTriangle>& triangles, const voxels::VoxelGrid& grid);
+ReferenceFaces referenceFaces(const Scene& scene, const std::vector<ReferenceTriangle>& triangles,
+                              const voxels::VoxelGrid& grid);
 
 }  // namespace conelight::test
