@@ -60,7 +60,8 @@ struct AutoFloat {
 enum class Toggle { Auto, Off, On };
 
 struct PhongSettings {
-    // Shadow maps in mode `phong`. Auto: on, but off in scenes of the thesis's format, whose program had none.
+    // Shadow maps in mode `phong`. Auto: on, but off in scenes of the thesis's format, whose program had
+    // none.
     Toggle shadows = Toggle::Auto;
     bool operator==(const PhongSettings&) const = default;
 };
@@ -161,13 +162,13 @@ struct ConesSettings {
     int count = 16;  // cones of DiffuseSet::Fibonacci; 1..64
     VolumeDirections directional = VolumeDirections::Six;
     OpacityModel opacity = OpacityModel::Area;
-    float step = 0.5f;                 // step / footprint; 0.1..2
+    float step = 1.0f;                 // step / footprint; 0.1..2
     float offset = 1.0f;               // start off the surface, voxels along the geometric normal; 0..4
-    float maxFootprint = 0.5f;         // largest footprint / longest side of the grid; 0.01..1
+    float maxFootprint = 0.25f;        // largest footprint / longest side of the grid; 0.01..1
     AutoFloat maxDistance;             // m; auto: all the way through the grid
     float specularMinAperture = 0.1f;  // rad, full angle of the narrowest cone; 0.01..1
     AutoFloat occlusionDistance;       // m, of component occlusion; auto: a tenth of the grid's longest side
-    int bounces = 1;     // of indirect light; 0: only light that comes straight from lights; 0..8
+    int bounces = 2;     // of indirect light; 0: only light that comes straight from lights; 0..8
     int voxelLevel = 0;  // level shown by component voxels; 0..6
     bool operator==(const ConesSettings&) const = default;
 };
