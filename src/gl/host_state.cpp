@@ -290,7 +290,8 @@ void HostStateGuard::State::setAssumed() {
 }
 
 void HostStateGuard::State::restoreBindings() const {
-    glUseProgram(program);
+    // A program that the host deleted while it was current is gone for good once another took its place.
+    glUseProgram(glIsProgram(program) == GL_TRUE ? program : 0);
     glBindVertexArray(vertexArray);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, drawFramebuffer);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, readFramebuffer);
