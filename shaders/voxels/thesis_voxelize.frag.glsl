@@ -145,7 +145,8 @@ void main() {
     bool unlit = (flags & MATERIAL_UNLIT) != 0u;
     vec3 radiance = unlit ? vec3(0.0) : directLight(material, color.rgb, position, p.normal);
 #if !DARK_EMITTERS
-    radiance += unlit ? color.rgb : materials[material].emission;
+    // Emitters that are lights as well (LIGHT_FROM_EMITTER) would light everything twice.
+    radiance += unlit ? color.rgb : grid.boxSize.w == 0 ? materials[material].emission : vec3(0.0);
 #endif
     // The sums' scale holds radiance up to this; half floats hold 65,504.
     radiance = clamp(radiance, vec3(0.0), vec3(16777216.0 / grid.sumScale));

@@ -172,6 +172,8 @@ void ThesisVolume::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, c
     grid_.sumScale = kSumSteps / (options.defects.clippedRadiance ? std::min(bound, 1.0f) : bound);
     const std::size_t lights = scene.lights().size();
     grid_.boxMin.w = static_cast<int>(options.defects.tenLights ? std::min<std::size_t>(lights, 10) : lights);
+    for (const gpu::Light& light : scene.lights())
+        if ((light.flags & LIGHT_FROM_EMITTER) != 0) grid_.boxSize.w = 1;
     allocate(options);
     constants_.update(grid_);
     bindGrid();
