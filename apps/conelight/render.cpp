@@ -105,8 +105,9 @@ void applyBounces(Settings& settings, const std::string& bounces) {
     char* end = nullptr;
     const long count = bounces == "all" ? kAll : std::strtol(bounces.c_str(), &end, 10);
     if (bounces != "all" && (*end != '\0' || count < 0 || count > kAll))
-        throw Error(ErrorKind::Usage, "--bounces: '" + bounces +
-                                          "' is not usable; a whole number from 0 to 8, or all, would be right");
+        throw Error(
+            ErrorKind::Usage,
+            "--bounces: '" + bounces + "' is not usable; a whole number from 0 to 8, or all, would be right");
     settings.cones.bounces = static_cast<int>(count);
     if (count == 0 && settings.component == Component::Full) settings.component = Component::Direct;
 }

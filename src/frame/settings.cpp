@@ -62,8 +62,7 @@ void visitCones(S& s, V& visit) {
                   "level of the volume that component voxels shows");
 }
 
-constexpr Choice<Toggle> kToggles[] = {
-    {"auto", Toggle::Auto}, {"off", Toggle::Off}, {"on", Toggle::On}};
+constexpr Choice<Toggle> kToggles[] = {{"auto", Toggle::Auto}, {"off", Toggle::Off}, {"on", Toggle::On}};
 constexpr Choice<ConeVariant> kConeVariants[] = {{"regular", ConeVariant::Regular},
                                                  {"customised", ConeVariant::Customised}};
 constexpr Choice<ThesisVoxelView> kThesisVoxelViews[] = {{"cubes", ThesisVoxelView::Cubes},
