@@ -73,7 +73,7 @@ std::vector<std::string> goodValues(const SettingInfo& info) {
 TEST(SettingsTest, EachHasWhatTheManualShows) {
     const std::set<std::string> types{"bool", "int", "float", "auto float", "choice"};
     const std::set<std::string> units{"",           "rad",   "m",   "voxels",  "texels", "stops",
-                                      "footprints", "cones", "deg", "samples", "steps"};
+                                      "footprints", "diameters", "cones", "deg", "samples", "steps"};
     std::set<std::string> keys;
     for (const SettingInfo& info : settingInfos()) {
         EXPECT_TRUE(keys.insert(info.key).second) << info.key << " twice";
