@@ -86,9 +86,13 @@ Member member(const char* name, std::size_t offset) {
 
 const std::vector<Struct>& table() {
     static const std::vector<Struct> structs = {
+        ROW(ConeConstants, count, step, offset, maxDistance, specularMinTan, occlusionDistance, voxelLevel,
+            pad0, cone, aperture),
         ROW(FrameConstants, clipFromWorld, worldFromClip, eye, zNear, sky, zFar, width, height, lightCount,
             frameIndex, instanceCount, triangleCount, seed, pad0, viewForward, pad1, viewRight, pad2, viewUp,
             pad3, lightEnds),
+        ROW(RadianceVolume, origin, voxelSize, inverseExtent, inverseVoxelSize, extent, maxLevel, sizeX,
+            sizeY, sizeZ, halfTexelX),
         ROW(Vertex, position, normalOct, u, v, tangentOct, color),
         ROW(Instance, worldFromObject, normalColumn0, normalColumn1, normalColumn2, firstIndex, indexCount,
             firstVertex, material, flags, firstTriangle, pad0, pad1),
@@ -96,18 +100,14 @@ const std::vector<Struct>& table() {
             pad0, layers, uvRow, phongColor, phongShininess, phongAmbient, phongDiffuse, phongSpecular, pad1),
         ROW(Light, position, type, direction, shadow, intensity, range, halfU, cosInner, halfV, cosOuter,
             falloff, customFalloff, shadowNear, shadowTexel, flags, sampleGrid),
-        ROW(VoxelGrid, origin, voxelSize, sizeX, sizeY, sizeZ, voxelCount, bricksX, bricksY, bricksZ,
-            faceCount, inverseVoxelSize, occupiedBricks, pad0, pad1),
-        ROW(RadianceVolume, origin, voxelSize, inverseExtent, inverseVoxelSize, extent, maxLevel, sizeX, sizeY,
-            sizeZ, halfTexelX),
-        ROW(ConeConstants, count, step, offset, maxDistance, specularMinTan, occlusionDistance, voxelLevel, pad0,
-            cone, aperture),
-        ROW(SurfaceConstants, triangleCount, instanceCount, tileCapacity, fragmentCapacity, voxelCapacity, faceCapacity,
-            brickCapacity, bricksPerChunk, voxelsPerChunk, emissionScale, pad0, pad1),
         ROW(ThesisGrid, origin, edge, voxelSize, size, maxLevel, sumScale, boxMin, boxSize),
         ROW(ThesisConstants, diffuseCone, specularCone, occlusionCone, originOffset, shininessFalloff,
             shadowStrength, minSpecular, switches, maxSamples, lightCount, viewLevel),
+        ROW(VoxelGrid, origin, voxelSize, sizeX, sizeY, sizeZ, voxelCount, bricksX, bricksY, bricksZ,
+            faceCount, inverseVoxelSize, occupiedBricks, pad0, pad1),
         ROW(FaceRecord, normal, offsetWeight, bounds, voxel, albedo, radiance, irradiance0, irradiance1),
+        ROW(SurfaceConstants, triangleCount, instanceCount, tileCapacity, fragmentCapacity, voxelCapacity,
+            faceCapacity, brickCapacity, bricksPerChunk, voxelsPerChunk, emissionScale, pad0, pad1),
     };
     return structs;
 }
