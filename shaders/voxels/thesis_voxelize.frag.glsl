@@ -18,6 +18,9 @@
 #ifndef SHADOWED
 #error SHADOWED must be 0 or 1: 1 tests the lights' shadow maps, with the defines of light::lightDefines
 #endif
+#ifndef TEXTURED
+#error TEXTURED must be 0 or 1: 1 when a material of the scene has a base colour texture
+#endif
 #include "lib/thesis_visibility.glsl"
 layout(std140, binding = BINDING_THESIS_GRID) uniform ThesisGridBlock { ThesisGrid grid; };
 layout(std430, binding = BINDING_STORAGE_PASS) buffer SumTable { uint sums[]; };  // 4 per voxel of the box
@@ -80,12 +83,16 @@ Piece piece() {
 vec4 surfaceColor(uint index, vec2 uv) {
     if ((materials[index].flags & MATERIAL_HAS_PHONG) != 0u) return vec4(materials[index].phongColor, 1.0);
     vec4 color = materials[index].baseColor * unpackUnorm4x8(constant.z);
+#if TEXTURED
     int layer = materials[index].layers.x;
     vec3 row0 = materials[index].uvRow[0].xyz, row1 = materials[index].uvRow[1].xyz;
     vec2 textureUv = vec2(dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z);
     // A sixteenth of the texture: voxels rarely see less of it, and the finest level would shimmer.
     vec4 texel = sampleSurfaceArray(max(layer, 0), textureUv, 1.0 / 16.0);
     return layer >= 0 ? color * texel : color;
+#else
+    return color;
+#endif
 }
 
 vec3 directLight(uint index, vec3 color, vec3 position, vec3 n) {

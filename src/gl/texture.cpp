@@ -174,6 +174,12 @@ void Texture::clear(int level, std::uint32_t layout, std::uint32_t type, const v
     glClearTexImage(name(), level, layout, type, texel);
 }
 
+void Texture::clearRegion(int level, const glm::ivec3& offset, const glm::ivec3& size, std::uint32_t layout,
+                          std::uint32_t type) {
+    glClearTexSubImage(name(), level, offset.x, offset.y, offset.z, size.x, size.y, size.z, layout, type,
+                       nullptr);
+}
+
 void Texture::read(int level, std::uint32_t layout, std::uint32_t type, void* data, std::size_t bytes) const {
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);

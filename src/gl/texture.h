@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <string>
 
 #include "gl/buffer.h"
@@ -41,6 +42,9 @@ class Texture : public Object<ObjectType::Texture> {
     void uploadLayer(int level, int layer, std::uint32_t layout, std::uint32_t type, const void* data);
     void generateMipmaps();
     void clear(int level, std::uint32_t layout, std::uint32_t type, const void* texel);  // null: zero
+    // A box of one level to zero.
+    void clearRegion(int level, const glm::ivec3& offset, const glm::ivec3& size, std::uint32_t layout,
+                     std::uint32_t type);
     void read(int level, std::uint32_t layout, std::uint32_t type, void* data, std::size_t bytes) const;
 
     void parameter(std::uint32_t name, int value);

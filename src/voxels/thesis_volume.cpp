@@ -61,10 +61,11 @@ gl::Defines volumeDefines(const ThesisDefects& d) {
     return defines;
 }
 
-gl::ProgramDesc voxelizeDesc(const ThesisVolumeOptions& options) {
+gl::ProgramDesc voxelizeDesc(const ThesisVolumeOptions& options, bool textured) {
     const ThesisDefects& d = options.defects;
     gl::Defines defines = options.shadows ? options.lightDefines : gl::Defines{};
     defines.emplace_back("SHADOWED", options.shadows ? "1" : "0");
+    defines.emplace_back("TEXTURED", textured ? "1" : "0");
     const auto add = [&](const char* name, bool on) {
         if (on) defines.emplace_back(name, "1");
     };
@@ -143,6 +144,7 @@ void ThesisVolume::allocate(const ThesisVolumeOptions& options) {
         texture_.reset();
         texture_ = gl::Texture({GL_TEXTURE_3D, format, edge, edge, edge, levels}, "thesis volume");
         viewport_ = gl::Framebuffer(edge, edge, "thesis voxelization");
+        dirtySize_ = glm::ivec3(0);
     }
     if (!sampler_)
         sampler_ = gl::Sampler({GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE}, "thesis volume");
@@ -183,8 +185,7 @@ void ThesisVolume::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, c
 
     {
         const gl::PassScope step(profiler, "thesis clear");
-        for (int level = 0; level < texture_.desc().levels; ++level)
-            texture_.clear(level, GL_RGBA, GL_FLOAT, nullptr);
+        clearBox();
     }
     {
         const gl::PassScope step(profiler, "thesis voxelize");
@@ -198,6 +199,22 @@ void ThesisVolume::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, c
     gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
 }
 
+// Only the box of the last build holds anything.
+void ThesisVolume::clearBox() {
+    for (int level = 0; level < texture_.desc().levels; ++level) {
+        if (dirtySize_.x == 0) {
+            texture_.clear(level, GL_RGBA, GL_FLOAT, nullptr);
+            continue;
+        }
+        const glm::ivec3 edge(texture_.width(level));
+        const glm::ivec3 first = dirtyMin_ >> level;
+        const glm::ivec3 last = glm::min(((dirtyMin_ + dirtySize_ - 1) >> level) + 1, edge);
+        texture_.clearRegion(level, first, last - first, GL_RGBA, GL_FLOAT);
+    }
+    dirtyMin_ = glm::ivec3(grid_.boxMin);
+    dirtySize_ = glm::ivec3(grid_.boxSize);
+}
+
 void ThesisVolume::drawTriangles(gl::ProgramLibrary& programs, const scene::GpuScene& scene,
                                  const ThesisVolumeOptions& options) {
     gl::RasterState state;
@@ -207,7 +224,9 @@ void ThesisVolume::drawTriangles(gl::ProgramLibrary& programs, const scene::GpuS
     state.colorWrite = false;
     state.cull = gl::Cull::None;
     gl::apply(state);
-    programs.get(voxelizeDesc(options)).use();
+    const auto hasTexture = [](const gpu::Material& material) { return material.layers.x >= 0; };
+    const bool textured = std::any_of(scene.materials().begin(), scene.materials().end(), hasTexture);
+    programs.get(voxelizeDesc(options, textured)).use();
     texture_.bindImage(0, 0, GL_WRITE_ONLY);
     scene.draw([](const gpu::Instance& instance) { return (instance.flags & INSTANCE_VOXELIZED) != 0; },
                gl::Cull::None, false);
@@ -270,7 +289,7 @@ std::vector<gl::ProgramDesc> ThesisVolume::programDescs() {
     d.clippedRadiance = d.darkEmitters = d.volumeMips = d.ambientTwice = true;
     std::vector<gl::ProgramDesc> descs{bricksDesc(false), bricksDesc(true)};
     for (const ThesisVolumeOptions& options : {mended, shadowed, published})
-        descs.push_back(voxelizeDesc(options));
+        for (const bool textured : {false, true}) descs.push_back(voxelizeDesc(options, textured));
     for (const ThesisVolumeOptions& options : {mended, published}) {
         descs.push_back(resolveDesc(options.defects));
         for (const int texels : {64, 8, 1, 0}) descs.push_back(mipDesc(options.defects, texels));

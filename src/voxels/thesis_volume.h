@@ -51,11 +51,13 @@ class ThesisVolume {
 
   private:
     void allocate(const ThesisVolumeOptions& options);
+    void clearBox();
     void drawTriangles(gl::ProgramLibrary& programs, const scene::GpuScene& scene,
                        const ThesisVolumeOptions& options);
     void resolve(gl::ProgramLibrary& programs, const ThesisDefects& defects);
     void buildMips(gl::ProgramLibrary& programs, const ThesisDefects& defects);
 
+    glm::ivec3 dirtyMin_{0}, dirtySize_{0};  // box of the texture's voxels that may not be zero; size 0: all
     gpu::ThesisGrid grid_{};
     gl::Texture texture_;
     gl::Sampler sampler_;
