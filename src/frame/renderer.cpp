@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "base/log.h"
 #include "frame/modes.h"
+#include "gather/thesis_cones.h"
 #include "gl/debug.h"
 #include "gl/gl.h"
 #include "gl/host_state.h"
@@ -65,6 +66,7 @@ struct Renderer::Impl {
     std::optional<Settings> builtFor;
     bool sceneChanged = true;
     bool shadowsCurrent = false;
+    bool emittersAreLights = false;
     bool geometryChanged = true;
     bool lightChanged = true;
     std::uint32_t frameIndex = 0;
@@ -152,13 +154,15 @@ void Renderer::Impl::prepareMode(const Settings& settings) {
         builtFor.reset();
     }
     geometryChanged = sceneChanged || everyFrame || !builtFor || !(builtFor->voxels == settings.voxels);
-    lightChanged = geometryChanged || !(builtFor->light == settings.light);
-    if (lightChanged) shadowsCurrent = false;
-
-    // Flat emitters as lights. The thesis's mode knows none: its emissive objects light nothing.
+    // Flat emitters as lights; in the thesis's program emissive objects light nothing (a defect).
+    const bool emitters =
+        settings.light.emissiveQuads &&
+        !(settings.mode == Mode::Thesis && gather::effectiveDefects(settings.thesis).darkEmitters);
+    lightChanged = geometryChanged || !(builtFor->light == settings.light) || emitters != emittersAreLights;
     if (lightChanged) {
-        light::setEmissiveQuads(*scene, source,
-                                settings.light.emissiveQuads && settings.mode != Mode::Thesis);
+        shadowsCurrent = false;
+        light::setEmissiveQuads(*scene, source, emitters);
+        emittersAreLights = emitters;
         scene->bind();  // the light table may have moved
     }
 
