@@ -15,7 +15,10 @@ layout(binding = UNIT_MATERIAL_BASE) uniform sampler2D baseTexture;
 void main() {
     vec3 row0 = materials[material].uvRow[0].xyz;
     vec3 row1 = materials[material].uvRow[1].xyz;
-    float a = alpha * texture(baseTexture, vec2(dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z)).a;
+    // Gradients of the interpolated uv: see view/gbuffer.frag.glsl.
+    mat2 turn = mat2(row0.x, row1.x, row0.y, row1.y);
+    float a = alpha *
+              textureGrad(baseTexture, turn * uv + vec2(row0.z, row1.z), turn * dFdx(uv), turn * dFdy(uv)).a;
     float cutoff =
         (materials[material].flags & MATERIAL_ALPHA_MASK) != 0u ? materials[material].alphaCutoff : 0.5;
     if (a < cutoff) discard;

@@ -34,11 +34,14 @@ layout(location = 0) out uvec4 outGeometry;
 layout(location = 1) out uvec4 outMaterial;
 
 #if TEXTURES >= 1
-// Texture coordinates of the use-th texture (order of Material::uvRow).
-vec2 uvOf(uint material, int use) {
+// Texel of the use-th texture (order of Material::uvRow). The gradients come from the interpolated uv: helper
+// invocations beside the triangle may read zeros from the material table (Mesa's software driver does), so
+// that implicit ones are wrong along every edge.
+vec4 materialTexel(sampler2D map, uint material, int use) {
     vec3 row0 = materials[material].uvRow[2 * use].xyz;
     vec3 row1 = materials[material].uvRow[2 * use + 1].xyz;
-    return vec2(dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z);
+    mat2 turn = mat2(row0.x, row1.x, row0.y, row1.y);
+    return textureGrad(map, turn * uv + vec2(row0.z, row1.z), turn * dFdx(uv), turn * dFdy(uv));
 }
 #endif
 
@@ -58,7 +61,7 @@ void main() {
     uint reflectance = constant.y;
     vec3 emissionFactor = vec3(1.0);
 #if TEXTURES >= 1
-    base *= texture(baseTexture, uvOf(material, 0));
+    base *= materialTexel(baseTexture, material, 0);
 #endif
 #if MASKED
     float cutoff =
@@ -68,17 +71,17 @@ void main() {
 
     vec3 n = normalize(interpolatedNormal);
 #if TEXTURES >= 2
-    vec4 metalRough = texture(metalRoughTexture, uvOf(material, 1));
+    vec4 metalRough = materialTexel(metalRoughTexture, material, 1);
     roughness *= metalRough.g;
     float metallic = materials[material].metallic * metalRough.b;
-    vec3 f0 = materials[material].specularF0 * texture(specularTexture, uvOf(material, 4)).a *
-              texture(specularColorTexture, uvOf(material, 5)).rgb;
+    vec3 f0 = materials[material].specularF0 * materialTexel(specularTexture, material, 4).a *
+              materialTexel(specularColorTexture, material, 5).rgb;
     reflectance = packReflectance(f0, metallic);
-    emissionFactor = texture(emissiveTexture, uvOf(material, 3)).rgb;
+    emissionFactor = materialTexel(emissiveTexture, material, 3).rgb;
 
     // Normal map: x along the tangent, y along the bitangent. Without a map the texel is white: leave n
     // alone.
-    vec3 texel = texture(normalTexture, uvOf(material, 2)).xyz * 2.0 - 1.0;
+    vec3 texel = materialTexel(normalTexture, material, 2).xyz * 2.0 - 1.0;
     vec3 t = interpolatedTangent.xyz - n * dot(n, interpolatedTangent.xyz);
     float tLength = length(t);
     if (materials[material].layers.z >= 0 && tLength > 1e-6) {

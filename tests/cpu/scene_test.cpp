@@ -175,6 +175,19 @@ TEST(SceneTest, CompletedScenesCanBeSeen) {
         completeScene(scene);
         EXPECT_TRUE(scene.lights.empty());
     }
+    // A texture that glows in a few places only is no lamp; one that glows all over is.
+    for (const std::uint8_t level : {std::uint8_t{5}, std::uint8_t{200}}) {
+        scene = smallScene();
+        scene.lights.clear();
+        scene.materials[0].emission = glm::vec3(1);
+        scene.materials[0].emissiveTexture.texture = static_cast<int>(scene.textures.size());
+        Texture marks;
+        marks.width = marks.height = 1;
+        marks.rgba = {level, level, level, 255};
+        scene.textures.push_back(marks);
+        completeScene(scene);
+        EXPECT_EQ(scene.lights.size(), level < 64 ? 1u : 0u);
+    }
     Scene empty;
     completeScene(empty);
     EXPECT_EQ(empty.cameras.size(), 1u);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // lib/thesis_coverage.glsl against polygon clipping on the CPU; lib/thesis_march.glsl's frames and weights.
+#include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
 #include <random>
