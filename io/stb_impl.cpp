@@ -57,6 +57,40 @@ bool plausible(long long width, long long height, std::size_t fileBytes) {
            (pixels <= (1LL << 22) || pixels / 1100 <= static_cast<long long>(fileBytes));
 }
 
+// stb_image of 2022 writes past its tables when a Huffman table of a JPG (ITU T.81, B.2.4.2) lists more than
+// 256 codes. Here one marker segment at `at` (the length field): false if it does.
+bool huffmanTablesFit(const std::uint8_t* data, std::size_t size, std::size_t at) {
+    if (at + 2 > size) return true;
+    const std::size_t end = at + (std::size_t(data[at]) << 8 | data[at + 1]);
+    for (at += 2; at < end && at + 17 <= size;) {
+        int codes = 0;
+        for (int i = 1; i <= 16; ++i) codes += data[at + std::size_t(i)];
+        if (codes > 256) return false;
+        at += 17 + std::size_t(codes);
+    }
+    return true;
+}
+
+// Whether all Huffman tables of a JPG fit. Segments are followed up to the first scan; behind it, where
+// damage can lead a decoder anywhere, every occurrence of the table marker is looked at.
+bool jpgTablesFit(const std::uint8_t* data, std::size_t size) {
+    constexpr std::uint8_t kTables = 0xC4, kScan = 0xDA;
+    bool inScan = false;
+    for (std::size_t at = 2; at + 1 < size;) {
+        if (data[at] != 0xFF || data[at + 1] == 0xFF) {
+            ++at;
+            continue;
+        }
+        const std::uint8_t marker = data[at + 1];
+        at += 2;
+        if (marker == kTables && !huffmanTablesFit(data, size, at)) return false;
+        inScan = inScan || marker == kScan;
+        const bool alone = marker <= 0x01 || (marker >= 0xD0 && marker <= 0xD9);
+        if (!inScan && !alone && at + 1 < size) at += std::size_t(data[at]) << 8 | data[at + 1];
+    }
+    return true;
+}
+
 }  // namespace
 
 std::vector<std::uint8_t> encodePng(int width, int height, int channels, const std::uint8_t* pixels) {
@@ -83,6 +117,8 @@ std::vector<std::uint8_t> encodeHdr(int width, int height, const float* rgb) {
 std::string decodeBytes(const std::uint8_t* data, std::size_t size, int wantedChannels, int& width,
                         int& height, int& channels, std::vector<std::uint8_t>& pixels) {
     if (size > INT_MAX) return "is larger than 2 GiB";
+    if (size > 2 && data[0] == 0xFF && data[1] == 0xD8 && !jpgTablesFit(data, size))
+        return "is damaged (a Huffman table lists more than 256 codes)";
     int inFile = 0;
     if (stbi_info_from_memory(data, int(size), &width, &height, &inFile) == 0)
         return "is not a PNG, JPG, BMP or TGA picture";
