@@ -78,3 +78,12 @@ uint columnMask(ColumnTest t, vec2 cell, int wBegin, int wEnd) {
     } while (i < count);
     return mask;
 }
+
+// Voxels that a triangle (dominant-axis coordinates, in voxels) may meet within the grid: low <= voxel <
+// high.
+void columnBounds(vec3 a, vec3 b, vec3 c, int axis, out ivec3 low, out ivec3 high) {
+    ivec3 size = axis == 2 ? gridSize() : (axis == 1 ? gridSize().zxy : gridSize().yzx);
+    vec3 limit = vec3(size);
+    low = ivec3(floor(clamp(min(min(a, b), c) - kTouch, vec3(0.0), limit)));
+    high = ivec3(floor(clamp(max(max(a, b), c) + kTouch, vec3(-1.0), limit - 0.5))) + 1;
+}

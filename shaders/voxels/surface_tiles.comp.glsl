@@ -22,10 +22,8 @@ void main() {
     vec3 a = toDominant(p0, axis);
     vec3 b = toDominant(p1, axis);
     vec3 c = toDominant(p2, axis);
-    ivec3 size = axis == 2 ? gridSize() : (axis == 1 ? gridSize().zxy : gridSize().yzx);
-    vec3 limit = vec3(size);
-    ivec3 low = ivec3(floor(clamp(min(min(a, b), c) - kTouch, vec3(0.0), limit)));
-    ivec3 high = ivec3(floor(clamp(max(max(a, b), c) + kTouch, vec3(-1.0), limit - 0.5))) + 1;
+    ivec3 low, high;
+    columnBounds(a, b, c, axis, low, high);
 
     // The row's columns, up to the end of the triangle's bounds.
     ivec3 anchor = ivec3(int(entry.y & 0xffffu), int(entry.y >> 16) + row, low.z);

@@ -92,6 +92,7 @@ Renderer::Renderer(const RendererOptions& options) {
 Renderer::~Renderer() = default;
 
 void Renderer::setScene(const Scene& scene) {
+    scene.validate();  // a scene that is refused leaves the old one in place
     const gl::HostStateGuard guard;
     impl_->scene.reset();
     impl_->source = scene;

@@ -183,11 +183,11 @@ void apply(const RasterState& state) {
     glColorMask(color, color, color, color);
     enable(GL_BLEND, state.blend);
     if (state.blend) glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    enable(GL_DEPTH_CLAMP, state.depthClamp);
+    enable(GL_DEPTH_CLAMP, false);
     const bool bias = state.depthBiasSlope != 0.0f || state.depthBiasUnits != 0.0f;
     enable(GL_POLYGON_OFFSET_FILL, bias);
     if (bias) glPolygonOffset(state.depthBiasSlope, state.depthBiasUnits);
-    glPolygonMode(GL_FRONT_AND_BACK, state.wireframe ? GL_LINE : GL_FILL);
+    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     enable(GL_STENCIL_TEST, false);
     enable(GL_FRAMEBUFFER_SRGB, false);
     enable(GL_MULTISAMPLE, true);

@@ -66,11 +66,9 @@ struct RasterState {
     bool depthWrite = true;
     Cull cull = Cull::Back;
     bool colorWrite = true;
-    bool depthClamp = false;
     bool blend = false;           // premultiplied: one, one minus source alpha
     float depthBiasSlope = 0.0f;  // glPolygonOffset factor
     float depthBiasUnits = 0.0f;
-    bool wireframe = false;
     // Clip space z in [0,1] with 1 at the near plane, greater depths win (float depth then keeps its digits
     // at any distance); clear with 0. false: GL's [-1,1], lesser depths win.
     bool reversedDepth = false;
