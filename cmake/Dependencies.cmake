@@ -6,6 +6,7 @@ if(CONELIGHT_BUILD_PROGRAM)
   find_package(assimp REQUIRED)
   find_package(OpenEXR REQUIRED)
   find_package(CLI11 REQUIRED)
+  find_package(embree REQUIRED)  # 3 (Debian 12) or 4
   find_package(fmt REQUIRED)
   find_package(nlohmann_json REQUIRED)
   find_package(Threads REQUIRED)

@@ -4,6 +4,7 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "scene/emissive_quads.h"
 #include "support/gl_fixture.h"
 #include "support/view_rig.h"
 
@@ -20,7 +21,7 @@ TEST(EmissiveQuadsTest, AParallelogramBecomesALightOfItsFront) {
     Scene scene;
     glm::mat4 placed = glm::translate(glm::mat4(1), glm::vec3(0, 5, 0));
     addInstance(scene, quadMesh({-1, 0, -2}, {2, 0, 0}, {0, 0, 4}), emitter(), placed);
-    const auto quads = light::emissiveQuads(scene);
+    const auto quads = scene::emissiveQuads(scene);
     ASSERT_EQ(quads.size(), 1u);
     const Light& light = quads[0].light;
     EXPECT_EQ(light.type, LightType::Rect);
@@ -30,11 +31,11 @@ TEST(EmissiveQuadsTest, AParallelogramBecomesALightOfItsFront) {
     EXPECT_NEAR(4 * glm::length(glm::cross(light.halfU, light.halfV)), 8, 1e-5f);
     // Mirrored: still the object's front. y -> -y turns it up.
     scene.instances[0].worldFromObject = glm::scale(placed, glm::vec3(1, -1, 1));
-    EXPECT_NEAR(light::emissiveQuads(scene)[0].light.direction.y, 1, 1e-6f);
+    EXPECT_NEAR(scene::emissiveQuads(scene)[0].light.direction.y, 1, 1e-6f);
     scene.instances[0].worldFromObject = glm::scale(placed, glm::vec3(-1, 1, 1));
-    EXPECT_NEAR(light::emissiveQuads(scene)[0].light.direction.y, -1, 1e-6f);
+    EXPECT_NEAR(scene::emissiveQuads(scene)[0].light.direction.y, -1, 1e-6f);
     scene.materials[0].doubleSided = true;
-    EXPECT_EQ(light::emissiveQuads(scene).size(), 2u);
+    EXPECT_EQ(scene::emissiveQuads(scene).size(), 2u);
 }
 
 TEST(EmissiveQuadsTest, EveryOrderOfIndicesIsUnderstood) {
@@ -47,7 +48,7 @@ TEST(EmissiveQuadsTest, EveryOrderOfIndicesIsUnderstood) {
             for (std::uint32_t k = 0; k < 3; ++k) mesh.indices.push_back(first[(i + k) % 3]);
             for (std::uint32_t k = 0; k < 3; ++k) mesh.indices.push_back(second[(j + k) % 3]);
             addInstance(scene, mesh, emitter());
-            const auto quads = light::emissiveQuads(scene);
+            const auto quads = scene::emissiveQuads(scene);
             ASSERT_EQ(quads.size(), 1u) << i << ' ' << j;
             EXPECT_NEAR(quads[0].light.direction.z, 1, 1e-6f);
             EXPECT_NEAR(4 * glm::length(glm::cross(quads[0].light.halfU, quads[0].light.halfV)), 2, 1e-5f);
@@ -69,7 +70,7 @@ TEST(EmissiveQuadsTest, OthersAreLeftToTheVoxels) {
     textured.emissiveTexture.texture = 0;
     addInstance(scene, quad, textured);
     addInstance(scene, quad, emitter(), glm::scale(glm::mat4(1), glm::vec3(1, 0, 1)));
-    EXPECT_EQ(light::emissiveQuads(scene).size(), 0u);
+    EXPECT_EQ(scene::emissiveQuads(scene).size(), 0u);
 }
 
 class EmissiveQuadTableTest : public GlTest {};

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// The path tracer: Scene + Camera -> radiance, the truth that every other mode is measured against. Same
+// tables, units, materials (src/math/brdf.h) and rules as the GL modes, on all cores. Unbiased; the same bits
+// for the same seed, whatever the number of threads. Methods and citations: path_tracer.cpp.
+//
+// Rules shared with the GL modes: single-sided surfaces are not seen from behind by the camera but block and
+// absorb light; instances without castsShadow block no light that comes straight from lights; instances
+// without voxelized neither block, bounce nor emit in indirect light; primary rays start at zNear.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "conelight/renderer.h"
+#include "conelight/scene.h"
+
+namespace conelight::reference {
+
+// How light is found. Mis is for use, the other two to check it: all three agree within noise.
+enum class Estimator { Mis, LightsOnly, MaterialsOnly };
+enum class PixelFilter { Center, Box };  // one point as the GL modes have it; or the pixel's area
+
+struct PathTracerSettings {
+    int samplesPerPixel = 256;  // at most; 1..2^20, rounded up to an even number (two halves)
+    double noise = 0;           // stop once the estimated relRMSE of the picture is below; 0: never
+    int bounces = -1;  // of indirect light; -1: all (Russian roulette, unbiased); 0: direct light only
+    std::uint32_t seed = 1;
+    PixelFilter filter = PixelFilter::Center;
+    Estimator estimator = Estimator::Mis;
+    bool emissiveQuads = true;  // as light.emissive_quads: decides what is "direct"
+    int perBounce = 0;          // fill PathTracedPicture::bounces for bounces 1..perBounce
+    int threads = 0;            // 0: all cores
+};
+
+// Parts as in Component. direct: emission seen, and light that comes straight from lights (flat emissive
+// quads included, as in the GL modes). indirect = full - direct: everything else, sky and other emitters
+// included; split by the lobe of the first surface that reflected it: diffuse + specular = indirect.
+struct PathTracedPicture {
+    Image full, direct, indirect, diffuse, specular;
+    Image halfA, halfB;          // of full, from independent samples; full is their mean
+    Image indirectA, indirectB;  // of indirect
+    std::vector<Image>
+        bounces;  // light reflected exactly n + 1 times more than direct light; empty unless asked
+    int samplesPerPixel = 0;  // done
+    double noise = 0;         // estimated relRMSE of full: sqrt(mean variance of the pixel means) / mean
+    std::uint64_t rays = 0;
+    double cpuSeconds = 0, wallSeconds = 0;
+};
+
+struct PathTracerProgress {
+    int samplesDone = 0, samplesPlanned = 0;
+    double noise = 0;
+    double secondsLeft = -1;  // < 0: unknown yet
+};
+
+class PathTracer {
+  public:
+    // Keeps a reference to `scene`, which must outlive it unchanged. Builds the ray structure. Throws
+    // Error(BadInput) when Scene::validate does, Error(Runtime) when memory runs out.
+    explicit PathTracer(const Scene& scene);
+    ~PathTracer();
+    PathTracer(PathTracer&&) noexcept;
+    PathTracer& operator=(PathTracer&&) noexcept;
+
+    // Renders in rounds over the whole picture. `onProgress` is called between rounds (at least twice a
+    // second if it can be); when it returns false the picture so far is returned.
+    using OnProgress = std::function<bool(const PathTracerProgress&)>;
+    PathTracedPicture render(const Camera& camera, int width, int height, const PathTracerSettings& settings,
+                             const OnProgress& onProgress = {}) const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace conelight::reference

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+#include "reference/surface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace conelight::reference {
+namespace {
+
+const Material kDefaultMaterial;
+
+const Material& materialOf(const Scene& scene, const Instance& instance) {
+    return instance.material < 0 ? kDefaultMaterial
+                                 : scene.materials[static_cast<std::size_t>(instance.material)];
+}
+
+std::array<std::uint32_t, 3> cornersOf(const Mesh& mesh, std::uint32_t triangle) {
+    const std::size_t i = 3 * static_cast<std::size_t>(triangle);
+    return {mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
+}
+
+template <typename T>
+T interpolated(const std::vector<T>& values, const std::array<std::uint32_t, 3>& corners, const glm::vec2& b,
+               const T& missing) {
+    if (values.empty()) return missing;
+    return values[corners[0]] * (1 - b.x - b.y) + values[corners[1]] * b.x + values[corners[2]] * b.y;
+}
+
+float linearFromSrgb(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
+
+std::array<float, 256> srgbTable() {
+    std::array<float, 256> table{};
+    for (std::size_t i = 0; i < table.size(); ++i) table[i] = linearFromSrgb(static_cast<float>(i) / 255.0f);
+    return table;
+}
+
+int wrapped(int i, int size, TextureWrap wrap) {
+    switch (wrap) {
+        case TextureWrap::Clamp:
+            return std::clamp(i, 0, size - 1);
+        case TextureWrap::Mirror: {
+            const int period = ((i % (2 * size)) + 2 * size) % (2 * size);
+            return period < size ? period : 2 * size - 1 - period;
+        }
+        case TextureWrap::Repeat:
+            break;
+    }
+    return ((i % size) + size) % size;
+}
+
+glm::vec4 texelAt(const Texture& texture, int x, int y) {
+    static const std::array<float, 256> kLinear = srgbTable();
+    const auto row = static_cast<std::size_t>(wrapped(y, texture.height, texture.wrapV));
+    const auto column = static_cast<std::size_t>(wrapped(x, texture.width, texture.wrapU));
+    const std::uint8_t* t = &texture.rgba[4 * (row * static_cast<std::size_t>(texture.width) + column)];
+    const float a = static_cast<float>(t[3]) / 255.0f;
+    if (texture.srgb) return {kLinear[t[0]], kLinear[t[1]], kLinear[t[2]], a};
+    return {static_cast<float>(t[0]) / 255.0f, static_cast<float>(t[1]) / 255.0f,
+            static_cast<float>(t[2]) / 255.0f, a};
+}
+
+glm::vec4 baseColorAt(const Scene& scene, const Mesh& mesh, const Material& material,
+                      const std::array<std::uint32_t, 3>& corners, const glm::vec2& b, const glm::vec2& uv) {
+    return material.baseColor * interpolated(mesh.colors, corners, b, glm::vec4(1)) *
+           sampleTexture(scene, material.baseColorTexture, uv);
+}
+
+// Normal map on an interpolated normal, as in view/gbuffer.frag.glsl.
+glm::vec3 mappedNormal(const glm::vec3& n, const glm::vec4& tangent, const glm::vec3& texel, float scale) {
+    glm::vec3 t = glm::vec3(tangent) - n * glm::dot(n, glm::vec3(tangent));
+    const float length = glm::length(t);
+    if (!(length > 1e-6f)) return n;
+    t /= length;
+    const glm::vec3 b = glm::cross(n, t) * (tangent.w < 0 ? -1.0f : 1.0f);
+    return glm::normalize(t * (texel.x * scale) + b * (texel.y * scale) + n * std::max(texel.z, 1e-3f));
+}
+
+}  // namespace
+
+glm::vec4 sampleTexture(const Scene& scene, const TextureRef& reference, const glm::vec2& uv) {
+    if (!reference.used()) return glm::vec4(1);
+    const Texture& texture = scene.textures[static_cast<std::size_t>(reference.texture)];
+    const glm::vec3 at = reference.uvFromUv * glm::vec3(uv, 1);
+    if (!std::isfinite(at.x) || !std::isfinite(at.y)) return texelAt(texture, 0, 0);
+    // Large coordinates are reduced first, so that int holds the texel.
+    const auto reduced = [](float c, TextureWrap wrap) {
+        return wrap == TextureWrap::Clamp ? std::clamp(c, -1.0f, 2.0f) : c - 2.0f * std::floor(0.5f * c);
+    };
+    const float x = reduced(at.x, texture.wrapU) * static_cast<float>(texture.width);
+    const float y = reduced(at.y, texture.wrapV) * static_cast<float>(texture.height);
+    if (texture.filter == TextureFilter::Nearest)
+        return texelAt(texture, static_cast<int>(std::floor(x)), static_cast<int>(std::floor(y)));
+    const float x0 = std::floor(x - 0.5f), y0 = std::floor(y - 0.5f);
+    const float fx = x - 0.5f - x0, fy = y - 0.5f - y0;
+    const int ix = static_cast<int>(x0), iy = static_cast<int>(y0);
+    return glm::mix(glm::mix(texelAt(texture, ix, iy), texelAt(texture, ix + 1, iy), fx),
+                    glm::mix(texelAt(texture, ix, iy + 1), texelAt(texture, ix + 1, iy + 1), fx), fy);
+}
+
+bool coversAt(const Scene& scene, std::uint32_t instanceIndex, std::uint32_t triangle, const glm::vec2& b) {
+    const Instance& instance = scene.instances[instanceIndex];
+    const Material& material = materialOf(scene, instance);
+    if (material.alphaMode == AlphaMode::Opaque) return true;
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    const auto corners = cornersOf(mesh, triangle);
+    const glm::vec2 uv = interpolated(mesh.uvs, corners, b, glm::vec2(0));
+    const float cutoff = material.alphaMode == AlphaMode::Mask ? material.alphaCutoff : 0.5f;
+    return baseColorAt(scene, mesh, material, corners, b, uv).a >= cutoff;
+}
+
+Surface surfaceAt(const Scene& scene, const Ray& ray, const RayHit& hit) {
+    const Instance& instance = scene.instances[hit.instance];
+    const Material& material = materialOf(scene, instance);
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    const auto corners = cornersOf(mesh, hit.triangle);
+    const glm::vec2 b = hit.barycentric;
+    const glm::vec2 uv = interpolated(mesh.uvs, corners, b, glm::vec2(0));
+
+    Surface s;
+    s.position = ray.origin + ray.direction * hit.t;
+    s.material = &material;
+    s.frontFace = glm::dot(hit.geometricNormal, ray.direction) < 0;
+    s.geometricNormal = s.frontFace ? hit.geometricNormal : -hit.geometricNormal;
+
+    // Normals: inverse transpose; a missing one is flat.
+    const glm::mat3 worldFromObject(instance.worldFromObject);
+    glm::vec3 normal = hit.geometricNormal;
+    if (!mesh.normals.empty()) {
+        // The cofactor matrix is the inverse transpose times the determinant, and exists for flat scales too.
+        const glm::mat3 cofactor(glm::cross(worldFromObject[1], worldFromObject[2]),
+                                 glm::cross(worldFromObject[2], worldFromObject[0]),
+                                 glm::cross(worldFromObject[0], worldFromObject[1]));
+        const float sign = glm::determinant(worldFromObject) < 0 ? -1.0f : 1.0f;
+        const glm::vec3 n = sign * (cofactor * interpolated(mesh.normals, corners, b, glm::vec3(0)));
+        if (glm::length(n) > 1e-20f) normal = glm::normalize(n);
+    }
+    const glm::vec3 vertexNormal = normal;
+    if (material.normalTexture.used() && !mesh.tangents.empty()) {
+        const glm::vec4 tangent = interpolated(mesh.tangents, corners, b, glm::vec4(0));
+        const glm::vec3 texel = glm::vec3(sampleTexture(scene, material.normalTexture, uv)) * 2.0f - 1.0f;
+        normal = mappedNormal(normal, {worldFromObject * glm::vec3(tangent), tangent.w}, texel,
+                              material.normalScale);
+    }
+    // The vertex normal decides which side the shading normal is on (view/gbuffer.frag.glsl).
+    s.shadingNormal = glm::dot(vertexNormal, s.geometricNormal) < 0 ? -normal : normal;
+
+    const glm::vec3 base(baseColorAt(scene, mesh, material, corners, b, uv));
+    const bool shines = s.frontFace || material.doubleSided;
+    s.unlit = material.unlit;
+    if (s.unlit) {
+        s.emission = base;
+        return s;
+    }
+    s.baseColor = base;
+    const glm::vec4 metalRough = sampleTexture(scene, material.metallicRoughnessTexture, uv);
+    s.metallic = material.metallic * metalRough.b;
+    s.roughness = material.roughness * metalRough.g;
+    const float ratio = material.ior > 0 ? (material.ior - 1) / (material.ior + 1) : 1.0f;
+    s.dielectricF0 = glm::min(material.specularColor * (ratio * ratio), glm::vec3(1)) * material.specular *
+                     sampleTexture(scene, material.specularTexture, uv).a *
+                     glm::vec3(sampleTexture(scene, material.specularColorTexture, uv));
+    if (shines)
+        s.emission = material.emission * glm::vec3(sampleTexture(scene, material.emissiveTexture, uv));
+    return s;
+}
+
+}  // namespace conelight::reference

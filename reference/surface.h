@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// What a ray hit: textures, vertex colours and normals evaluated at a point, by the same rules as the GL
+// modes' G-buffer (bilinear, level 0: rays see textures unfiltered).
+#pragma once
+
+#include "conelight/scene.h"
+#include "reference/ray_scene.h"
+
+namespace conelight::reference {
+
+struct Surface {
+    glm::vec3 position{0};
+    glm::vec3 geometricNormal{0};  // on the side the ray came from
+    glm::vec3 shadingNormal{0};    // interpolated, normal-mapped, on that side
+    bool frontFace = true;
+    const Material* material = nullptr;
+    glm::vec3 baseColor{0};
+    float metallic = 0, roughness = 1;
+    glm::vec3 dielectricF0{0.04f};
+    glm::vec3 emission{0};  // radiance toward the ray: 0 on the back of single-sided materials
+    bool unlit = false;     // emission is its colour; reflects nothing
+};
+
+Surface surfaceAt(const Scene& scene, const Ray& ray, const RayHit& hit);
+// Whether there is a surface at a hit: masked materials below their cut-off, and blended ones below one half,
+// have none, as in the G-buffer and the shadow maps.
+bool coversAt(const Scene& scene, std::uint32_t instance, std::uint32_t triangle,
+              const glm::vec2& barycentric);
+// Linear RGBA of a texture at uv, bilinear or nearest, wrapped as it says; sRGB is decoded before filtering.
+glm::vec4 sampleTexture(const Scene& scene, const TextureRef& reference, const glm::vec2& uv);
+
+}  // namespace conelight::reference

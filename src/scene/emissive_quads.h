@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Flat emitters: instances that are one untextured emissive parallelogram (two triangles) are rectangular
+// lights of the same radiance. Which ones they are decides what is "direct light", in the GL modes and in the
+// path tracer. No GL.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "conelight/scene.h"
+
+namespace conelight::scene {
+
+// Double-sided emitters give two entries, one for each side.
+struct EmissiveQuad {
+    std::size_t instance;
+    Light light;
+};
+std::vector<EmissiveQuad> emissiveQuads(const Scene& scene);
+
+}  // namespace conelight::scene
