@@ -4,7 +4,6 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 
@@ -13,22 +12,6 @@
 
 namespace conelight::program {
 namespace {
-
-// Set while a file is being written: the interrupt then waits until the file is whole.
-volatile std::sig_atomic_t writing = 0;
-volatile std::sig_atomic_t interrupted = 0;
-
-void onInterrupt(int) {
-    if (writing != 0 && interrupted == 0) {
-        interrupted = 1;
-        return;
-    }
-    constexpr char message[] = "\nconelight: interrupted\n";
-    [[maybe_unused]] const ssize_t ignored =
-        write(STDERR_FILENO, message + (isatty(STDERR_FILENO) != 0 ? 0 : 1),
-              sizeof message - 1 - (isatty(STDERR_FILENO) != 0 ? 0 : 1));
-    _exit(130);
-}
 
 [[noreturn]] void usage(const std::string& message) { throw Error(ErrorKind::Usage, message); }
 
@@ -41,17 +24,6 @@ double parseNumber(const std::string& option, const std::string& text) {
 }
 
 }  // namespace
-
-void installInterruptHandler() {
-    std::signal(SIGINT, onInterrupt);
-    std::signal(SIGTERM, onInterrupt);
-}
-
-WritingScope::WritingScope() { writing = 1; }
-WritingScope::~WritingScope() {
-    writing = 0;
-    if (interrupted != 0) onInterrupt(0);
-}
 
 Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0) {}
 Progress::~Progress() { finish(); }

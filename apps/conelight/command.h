@@ -11,6 +11,7 @@
 #include "conelight/renderer.h"
 #include "conelight/scene.h"
 #include "conelight/settings.h"
+#include "interrupt.h"
 #include "platform/headless_context.h"
 
 namespace conelight::program {
@@ -20,17 +21,6 @@ void addBench(CLI::App& app);
 void addInfo(CLI::App& app);
 void addSettings(CLI::App& app);
 void addShaders(CLI::App& app);
-
-// Ctrl-C (and SIGTERM) end the program at once with status 130, except while a file is being written: then
-// when it is whole.
-void installInterruptHandler();
-class WritingScope {
-  public:
-    WritingScope();
-    ~WritingScope();
-    WritingScope(const WritingScope&) = delete;
-    WritingScope& operator=(const WritingScope&) = delete;
-};
 
 // One status line on standard error, on a terminal only. finish() clears it.
 class Progress {

@@ -59,6 +59,8 @@ int main(int argc, char** argv) {
             return app.exit(error);  // --help, --version
         std::fprintf(stderr, "conelight: %s; `conelight --help` lists commands and options\n", error.what());
         return 2;
+    } catch (const conelight::program::InterruptedError&) {
+        return 130;
     } catch (const conelight::Error& error) {
         std::fprintf(stderr, "conelight: %s\n", error.what());
         return exitStatus(error.kind());

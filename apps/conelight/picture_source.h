@@ -1,54 +1,66 @@
 // SPDX-License-Identifier: MIT
-// A picture of a scene in any mode: the GL modes, `reference` (path tracer) and `radiosity`, behind one call,
-// with its cost. What `render`, `compare` and `score` draw with.
+// A picture of a scene in any mode, with its cost, behind one call. What `render`, `compare` and `score` draw
+// with.
 #pragma once
 
-#include <functional>
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "command.h"
 #include "conelight/renderer.h"
-#include "reference/path_tracer.h"
-#include "reference/radiosity.h"
 
 namespace conelight::program {
 
-// A mode's name on the command line: phong, thesis, cones, ... (Mode), reference, radiosity.
+// A mode's name on the command line.
 bool isModeName(const std::string& name);
-std::string modeNames();  // "phong, thesis, cones, reference or radiosity"
+std::string modeNames();                         // "phong, thesis or cones"
+void requireModeName(const std::string& name);   // throws Error(Usage) that names them
+Component componentOf(const std::string& name);  // throws Error(Usage) that names them
 
 struct PictureRequest {
     std::string mode = "cones";
-    Settings settings;  // mode and component are overwritten
+    Settings settings;  // its mode and component are overwritten
     Camera camera;
     Size size;
     std::vector<Component> components = {Component::Full};
-    reference::PathTracerSettings reference;
-    reference::RadiositySettings radiosity;
-    int frames = 1;  // GL modes: drawn this often before it is read (modes that settle over frames)
+    int frames = 1;        // the first component is drawn this often: modes may settle over frames
+    bool profile = false;  // fill Picture::stats with passes and lookups
+    int timedFrames = 0;   // fill Picture::cost from this many further frames of the first component
+};
+
+// What a settled frame costs.
+struct FrameCost {
+    double cpuMs = 0, wallMs = 0;  // medians over the frames; CPU time is the whole process's
+    double gpuMs = -1;             // median; < 0: not measured (software drivers)
+    std::vector<std::pair<std::string, double>> lookupsPerPixel;
+    std::size_t memoryBytes = 0;  // of GL objects
 };
 
 struct Picture {
-    std::vector<Image> images;                           // one per component asked for
-    std::optional<reference::PathTracedPicture> traced;  // mode reference: everything it knows
-    FrameStats stats;                                    // GL modes: of the last frame
-    double cpuSeconds = 0, wallSeconds = 0;              // of all of it, without loading the scene
+    std::vector<Image> images;  // one per component asked for
+    FrameStats stats;           // of the last frame of the first component
+    FrameCost cost;
 };
 
-// Keeps the GL context (made when first needed), the renderer, the ray structure and the bake of one scene.
+// Keeps the GL context and the renderer, made when first needed, for one scene after the other.
 class PictureSource {
   public:
-    PictureSource(const Scene& scene, const ViewOptions& view, const std::string& shaderDirectory = {});
+    explicit PictureSource(const ViewOptions& view, const std::string& shaderDirectory = {});
     ~PictureSource();
     PictureSource(const PictureSource&) = delete;
     PictureSource& operator=(const PictureSource&) = delete;
 
-    // Throws Error(Usage) for a component that the mode does not have. `progress` may be null.
+    // Keeps a reference: `scene` lives unchanged until the next setScene. What the renderer keeps over frames
+    // is kept.
+    void setScene(const Scene& scene);
+
+    // `progress` may be null. Throws Error(Usage) for a mode or component that does not exist, else what the
+    // renderer throws.
     Picture draw(const PictureRequest& request, Progress* progress);
-    Renderer& renderer();  // GL modes; makes the context
+
+    std::string device() const;  // the GL device; empty when there was no need of one
 
   private:
     struct Impl;

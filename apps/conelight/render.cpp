@@ -9,6 +9,7 @@
 #include "conelight/error.h"
 #include "io/image_file.h"
 #include "picture_file.h"
+#include "picture_source.h"
 #include "stats_json.h"
 
 namespace conelight::program {
@@ -54,44 +55,37 @@ void run(const RenderOptions& options) {
             options.output + ": --aov: this format holds one picture; a name ending in .exr would be right");
     io::checkWritable(options.output);
     if (!options.statsFile.empty()) io::checkWritable(options.statsFile);
-    Settings probe;
-    setSetting(probe, "component", options.component);
-    for (const std::string& aov : splitList(options.aovs)) setSetting(probe, "component", aov);
+    if (!options.mode.empty()) requireModeName(options.mode);
+    PictureRequest request;
+    request.size = size;
+    request.profile = !options.statsFile.empty();
+    request.components = {componentOf(options.component)};
+    const std::vector<std::string> aovs = splitList(options.aovs);
+    for (const std::string& aov : aovs) request.components.push_back(componentOf(aov));
 
     Progress progress;
     const Scene scene = openScene(options.scene, options.view, progress);
-    Settings settings = settingsFor(scene, options.mode, options.view);
-    setSetting(settings, "component", options.component);
-    applyBounces(settings, options.bounces);
-    const Camera camera = cameraFor(scene, options.view);
+    request.settings = settingsFor(scene, options.mode, options.view);
+    request.settings.component = request.components.front();
+    applyBounces(request.settings, options.bounces);
+    request.components.front() = request.settings.component;
+    request.mode = getSetting(request.settings, "mode");
+    request.camera = cameraFor(scene, options.view);
 
-    progress.show("starting OpenGL");
-    const std::unique_ptr<platform::HeadlessContext> context = openContext(options.view);
-    Renderer renderer({options.shaderDirectory, options.view.debugGl});
-    progress.show("uploading " + options.scene);
-    renderer.setScene(scene);
-    if (!options.statsFile.empty()) renderer.setProfiling(true, true);
-    progress.show("rendering");
-    renderer.render(camera, size.width, size.height, settings);
-    const Image image = renderer.readImage();
-    const FrameStats stats = renderer.stats();
-    reportBadPixels(image);
+    PictureSource source(options.view, options.shaderDirectory);
+    source.setScene(scene);
+    const Picture picture = source.draw(request, &progress);
+    reportBadPixels(picture.images.front());
 
     std::vector<std::pair<std::string, Image>> layers;
-    for (const std::string& aov : splitList(options.aovs)) {
-        progress.show("rendering " + aov);
-        Settings layer = settings;
-        setSetting(layer, "component", aov);
-        renderer.render(camera, size.width, size.height, layer);
-        layers.emplace_back(aov, renderer.readImage());
-    }
+    for (std::size_t i = 0; i < aovs.size(); ++i) layers.emplace_back(aovs[i], picture.images[i + 1]);
     progress.show("writing " + options.output);
-    writePicture(options.output, image, settings.image, layers);
+    writePicture(options.output, picture.images.front(), request.settings.image, layers);
     if (!options.statsFile.empty()) {
-        nlohmann::ordered_json json = statsJson(stats);
+        nlohmann::ordered_json json = statsJson(picture.stats);
         json["scene"] = options.scene;
-        json["mode"] = getSetting(settings, "mode");
-        json["voxels"] = settings.voxels.size;
+        json["mode"] = request.mode;
+        json["voxels"] = request.settings.voxels.size;
         json["size"] = {size.width, size.height};
         writeJson(options.statsFile, json);
     }
@@ -123,7 +117,7 @@ void addRender(CLI::App& app) {
         ->add_option("-o,--output", options->output,
                      "picture: .png .jpg (tone-mapped), .exr .hdr (linear radiance)")
         ->required();
-    command->add_option("--mode", options->mode, "phong, thesis or cones (default cones)");
+    command->add_option("--mode", options->mode, modeNames() + " (default cones)");
     command
         ->add_option(
             "--component", options->component,

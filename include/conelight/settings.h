@@ -37,6 +37,7 @@ enum class ToneMap { None, Reinhard, Aces };
 struct VoxelSettings {
     int size = 128;         // voxels along the longest axis of the grid; 8..512, divisible by 4
     float padding = 0.03f;  // grid is larger than the scene's bounds by this fraction on each side
+    glm::vec3 shift{0};  // moves the lattice toward lower coordinates, voxels; 0..1 (to measure its effect)
     bool operator==(const VoxelSettings&) const = default;
 };
 

@@ -220,6 +220,10 @@ void visitAll(S& s, V&& visit) {
                   "voxels along the longest axis of the grid");
     visit.number("voxels.padding", s.voxels.padding, 0.0, 1.0, "",
                  "grid beyond the scene's bounds, as a fraction per side");
+    constexpr const char* shift = "moves the grid, to see what its place changes (conelight score shift)";
+    visit.number("voxels.shift_x", s.voxels.shift.x, 0.0, 1.0, "voxels", shift);
+    visit.number("voxels.shift_y", s.voxels.shift.y, 0.0, 1.0, "voxels", shift);
+    visit.number("voxels.shift_z", s.voxels.shift.z, 0.0, 1.0, "voxels", shift);
     visit.whole("light.shadow_size", s.light.shadowSize, Whole{64, 8192, 1, true, false}, "texels",
                 "edge of a shadow map; 0: no shadows");
     visit.integer("light.shadow_filter", s.light.shadowFilter, 0, 4, 1, "texels",

@@ -8,6 +8,7 @@ voxels::ThesisVolumeOptions volumeOptions(const FrameContext& frame) {
     voxels::ThesisVolumeOptions options;
     options.size = frame.settings.voxels.size;
     options.padding = frame.settings.voxels.padding;
+    options.shift = frame.settings.voxels.shift;
     options.defects = gather::effectiveDefects(frame.settings.thesis);
     options.unitGrid = frame.source.thesisFormat && options.defects.wholeGrid;
     options.shadows = !options.defects.unshadowedVoxels && frame.settings.light.shadowSize > 0;

@@ -312,7 +312,8 @@ void SurfaceVoxels::Impl::resolve(gl::ProgramLibrary& programs, gl::Profiler& pr
 
 void SurfaceVoxels::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
                           const VoxelSettings& settings) {
-    build(programs, profiler, scene, fitGrid(scene.bounds(), settings.size, settings.padding));
+    build(programs, profiler, scene,
+          fitGrid(scene.bounds(), settings.size, settings.padding, settings.shift));
 }
 
 void SurfaceVoxels::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,

@@ -118,6 +118,7 @@ gpu::ThesisGrid ThesisVolume::fitGrid(const Aabb& bounds, const ThesisVolumeOpti
         grid.edge = grid.voxelSize * static_cast<float>(edge);
         grid.origin = bounds.center() - 0.5f * grid.edge;
     }
+    grid.origin -= grid.voxelSize * options.shift;
     grid.size = static_cast<float>(edge);
     grid.maxLevel = static_cast<float>(levelCount(edge, options.defects.cappedLevels) - 1);
 

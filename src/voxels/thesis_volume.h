@@ -25,6 +25,7 @@ namespace conelight::voxels {
 struct ThesisVolumeOptions {
     int size = 64;             // voxels along the cube's edge; 8..512, divisible by 4
     float padding = 0.03f;     // of the fitted grid, fraction of the scene's extent per side
+    glm::vec3 shift{0};        // moves the grid toward lower coordinates, voxels; 0..1
     bool unitGrid = false;     // [-1,1]^3 instead of the fitted grid
     bool shadows = true;       // light is tested against the shadow maps
     gl::Defines lightDefines;  // of light::lightDefines: which kinds of light there are

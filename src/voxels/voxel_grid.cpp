@@ -62,7 +62,7 @@ gpu::VoxelGrid VoxelGrid::packed() const {
     return g;
 }
 
-VoxelGrid fitGrid(const Aabb& bounds, int size, float padding) {
+VoxelGrid fitGrid(const Aabb& bounds, int size, float padding, const glm::vec3& shift) {
     if (size < kMinSize || size > kMaxSize || size % 4 != 0)
         base::fail(ErrorKind::Usage, "voxels.size: %d; a multiple of 4 from %d to %d would be right", size,
                    kMinSize, kMaxSize);
@@ -87,7 +87,9 @@ VoxelGrid fitGrid(const Aabb& bounds, int size, float padding) {
         grid.size[axis] = std::min(4 * static_cast<int>(std::ceil(needed / 4)), std::max(size, 4));
         // Bricks left over are shared between both sides.
         const int spare = (grid.size[axis] - static_cast<int>(needed)) / 2;
-        grid.origin[axis] = static_cast<float>(lower[axis] - (start + spare) * h);
+        const double first = start + spare + static_cast<double>(shift[axis]);
+        if (first + length > grid.size[axis]) grid.size[axis] += 4;
+        grid.origin[axis] = static_cast<float>(lower[axis] - first * h);
     }
     return grid;
 }

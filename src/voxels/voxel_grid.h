@@ -42,7 +42,10 @@ struct VoxelGrid {
 // shifted (by at most one voxel, which the fit holds in reserve) so that both lie at least 0.128 voxel from
 // borders, and the plane halfway between them at least 0.1 voxel. Derivation: docs/theory/2_voxels.md, "The
 // grid".
-VoxelGrid fitGrid(const Aabb& bounds, int size, float padding);
+//
+// `shift`, 0..1 voxel per axis, then moves the grid toward lower coordinates, all else equal; where the scene
+// would no longer fit, which takes a padding below one voxel, an axis gets one more brick.
+VoxelGrid fitGrid(const Aabb& bounds, int size, float padding, const glm::vec3& shift = glm::vec3(0));
 
 // Linear brick index, x fastest; bit of a voxel in its brick, x fastest (0..63).
 std::uint32_t brickIndex(const glm::ivec3& brick, const glm::ivec3& bricks);

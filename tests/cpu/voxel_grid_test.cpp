@@ -81,6 +81,28 @@ TEST(VoxelGrid, FlatPointLikeAndEmptyBoundsGiveAUsableGrid) {
                     .contains(VoxelGrid::voxelOf(fitGrid(point, 16, 0).gridFromWorld(glm::vec3(3, 4, 5)))));
 }
 
+TEST(VoxelGrid, ShiftMovesTheLatticeAndNothingElse) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<float> part(0, 1);
+    for (int i = 0; i < 2000; ++i) {
+        const Aabb box = randomBox(random);
+        const int size = 8 + 4 * (i % 100);
+        const float padding = 0.01f * static_cast<float>(i % 10);
+        const glm::vec3 shift(part(random), part(random), i % 5 == 0 ? 1.0f : part(random));
+        const VoxelGrid still = fitGrid(box, size, padding);
+        const VoxelGrid moved = fitGrid(box, size, padding, shift);
+        EXPECT_EQ(moved.voxelSize, still.voxelSize);
+        const glm::vec3 far = moved.worldFromGrid(glm::vec3(moved.size));
+        for (int axis = 0; axis < 3; ++axis) {
+            const float slack = 1e-3f * still.voxelSize + 1e-5f;
+            EXPECT_NEAR(still.origin[axis] - moved.origin[axis], shift[axis] * still.voxelSize, slack);
+            EXPECT_LE(moved.origin[axis], box.min[axis] + slack);
+            EXPECT_GE(far[axis], box.max[axis] - slack);
+            EXPECT_LE(moved.size[axis], still.size[axis] + 4);
+        }
+    }
+}
+
 TEST(VoxelGrid, SizesOutOfRangeAreRefused) {
     for (const int size : {0, 4, 7, 66, 516, -8}) EXPECT_THROW(fitGrid(Aabb{}, size, 0), Error) << size;
 }
