@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// The metrics that are sums over pixels, and the frame around the others. Sums run in double precision in
+// pixel order, so the numbers do not depend on threads.
+#include "reference/metrics.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <limits>
+
+#include "conelight/error.h"
+#include "reference/metric_parts.h"
+
+namespace conelight::reference {
+namespace {
+
+// Keeps relMSE finite where the reference is black (Rousselle et al. 2011, eq. 6).
+constexpr double kRelMseFloor = 0.01;
+
+bool isFinite(const glm::vec4& c) { return std::isfinite(c.r) && std::isfinite(c.g) && std::isfinite(c.b); }
+
+// part / whole, where 0 / 0 means "no difference".
+double ratio(double part, double whole) {
+    if (whole != 0) return part / whole;
+    return part == 0 ? 0 : std::numeric_limits<double>::infinity();
+}
+
+double meanOf(const std::vector<float>& values, const std::vector<std::uint8_t>& usable) {
+    double sum = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!usable[i]) continue;
+        sum += values[i];
+        ++count;
+    }
+    return sum / static_cast<double>(count);
+}
+
+void addRadianceMetrics(Metrics& m, const Image& test, const Image& reference,
+                        const std::optional<Halves>& halves, const std::vector<std::uint8_t>& usable) {
+    double sumX = 0, sumR = 0, absolute = 0, squared = 0, relative = 0, noise = 0;
+    for (std::size_t i = 0; i < usable.size(); ++i) {
+        if (!usable[i]) continue;
+        for (int c = 0; c < 3; ++c) {
+            const double x = test.pixels[i][c];
+            const double r = reference.pixels[i][c];
+            double square = (x - r) * (x - r);
+            if (halves) {
+                const double a = halves->a->pixels[i][c];
+                const double b = halves->b->pixels[i][c];
+                // E[(x-a)(x-b)] = (x - E r)^2 for independent halves: their noise has no square in it.
+                square = (x - a) * (x - b);
+                noise += (a - b) * (a - b) / 4;  // variance of (a + b) / 2
+            }
+            sumX += x;
+            sumR += r;
+            absolute += std::abs(x - r);
+            squared += square;
+            relative += square / (r * r + kRelMseFloor);
+        }
+    }
+    const double count = 3.0 * static_cast<double>(m.pixels);
+    m.mean = sumX / count;
+    m.referenceMean = sumR / count;
+    m.bias = ratio(m.mean - m.referenceMean, m.referenceMean);
+    m.mae = absolute / count;
+    m.mse = squared / count;
+    m.rmse = std::sqrt(std::max(m.mse, 0.0));
+    m.relRmse = ratio(m.rmse, m.referenceMean);
+    m.relMse = relative / count;
+    m.referenceNoise = ratio(std::sqrt(noise / count), m.referenceMean);
+}
+
+// Encoded luma of a display image.
+std::vector<float> lumaOf(const Colors& display) {
+    std::vector<float> luma;
+    luma.reserve(display.pixels.size());
+    for (const glm::vec3& c : display.pixels)
+        luma.push_back(luminanceOf({srgbOf(c.r), srgbOf(c.g), srgbOf(c.b)}));
+    return luma;
+}
+
+double psnrOf(const Colors& test, const Colors& reference, const std::vector<std::uint8_t>& usable) {
+    double squared = 0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < usable.size(); ++i) {
+        if (!usable[i]) continue;
+        for (int c = 0; c < 3; ++c) {
+            const double difference = double(srgbOf(test.pixels[i][c])) - srgbOf(reference.pixels[i][c]);
+            squared += difference * difference;
+        }
+        count += 3;
+    }
+    return 10 * std::log10(static_cast<double>(count) / squared);  // +infinity for equal images
+}
+
+}  // namespace
+
+std::vector<std::uint8_t> usablePixels(const std::vector<const Image*>& images) {
+    const Image& first = *images.front();
+    if (first.width <= 0 || first.height <= 0 ||
+        first.pixels.size() != std::size_t(first.width) * std::size_t(first.height))
+        throw Error(ErrorKind::BadInput, "comparison: an image has no pixels");
+    for (const Image* image : images)
+        if (image->width != first.width || image->height != first.height ||
+            image->pixels.size() != first.pixels.size())
+            throw Error(
+                ErrorKind::BadInput,
+                fmt::format("comparison: the images are {}x{} and {}x{} pixels; the same size would be "
+                            "right",
+                            first.width, first.height, image->width, image->height));
+    std::vector<std::uint8_t> usable(first.pixels.size(), 1);
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < usable.size(); ++i) {
+        for (const Image* image : images)
+            if (!isFinite(image->pixels[i])) usable[i] = 0;
+        count += usable[i];
+    }
+    if (count == 0) throw Error(ErrorKind::BadInput, "comparison: no pixel is finite in all images");
+    return usable;
+}
+
+Colors usableColors(const Image& image, const std::vector<std::uint8_t>& usable) {
+    Colors colors{image.width, image.height, std::vector<glm::vec3>(image.pixels.size(), glm::vec3(0))};
+    for (std::size_t i = 0; i < usable.size(); ++i)
+        if (usable[i]) colors.pixels[i] = glm::vec3(image.pixels[i]);
+    return colors;
+}
+
+Colors displayColors(const Colors& colors, float exposure) {
+    const float scale = std::exp2(exposure);
+    Colors display = colors;
+    for (glm::vec3& c : display.pixels) c = glm::clamp(c * scale, 0.0f, 1.0f);
+    return display;
+}
+
+float srgbOf(float linear) {
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * std::pow(linear, 1.0f / 2.4f) - 0.055f;
+}
+
+Metrics compareImages(const Image& test, const Image& reference, const MetricOptions& options,
+                      std::optional<Halves> halves) {
+    std::vector<const Image*> images = {&test, &reference};
+    if (halves) images.insert(images.end(), {halves->a, halves->b});
+    const std::vector<std::uint8_t> usable = usablePixels(images);
+
+    Metrics m;
+    for (const std::uint8_t isUsable : usable) ++(isUsable ? m.pixels : m.badPixels);
+    addRadianceMetrics(m, test, reference, halves, usable);
+
+    const Colors x = usableColors(test, usable);
+    const Colors r = usableColors(reference, usable);
+    const Colors displayX = displayColors(x, options.exposure);
+    const Colors displayR = displayColors(r, options.exposure);
+    m.psnr = psnrOf(displayX, displayR, usable);
+    m.ssim = meanSsim(lumaOf(displayX), lumaOf(displayR), x.width, x.height, usable);
+    if (options.flip) {
+        m.flip = meanOf(ldrFlip(displayX, displayR, options.pixelsPerDegree), usable);
+        m.hdrFlip = meanOf(hdrFlip(x, r, options.pixelsPerDegree), usable);
+    }
+    return m;
+}
+
+}  // namespace conelight::reference
