@@ -17,6 +17,7 @@
 namespace conelight::program {
 
 void addRender(CLI::App& app);
+void addCompare(CLI::App& app);
 void addBench(CLI::App& app);
 void addInfo(CLI::App& app);
 void addSettings(CLI::App& app);

@@ -9,6 +9,7 @@
 #include <new>
 
 #include "command.h"
+#include "command_line.h"
 #include "conelight/error.h"
 #include "conelight/version.h"
 #include "platform/headless_context.h"
@@ -40,6 +41,7 @@ int main(int argc, char** argv) {
     conelight::platform::tuneAllocator();
     conelight::setLogCallback(printMessage);
     conelight::program::installInterruptHandler();
+    conelight::program::keepCommandLine(argc, argv);
 
     CLI::App app("Conelight: global illumination by voxel cone tracing, measured against ground truth.",
                  "conelight");
@@ -47,6 +49,7 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app.get_formatter()->column_width(36);
     conelight::program::addRender(app);
+    conelight::program::addCompare(app);
     conelight::program::addBench(app);
     conelight::program::addInfo(app);
     conelight::program::addSettings(app);

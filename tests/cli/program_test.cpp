@@ -44,7 +44,7 @@ void expectOneLine(const CommandResult& result, int status, const std::string& p
 class ProgramTest : public GlTest {};
 
 TEST_F(ProgramTest, EveryCommandHasHelp) {
-    for (const char* command : {"", "render", "bench", "info", "settings", "shaders"}) {
+    for (const char* command : {"", "render", "compare", "bench", "info", "settings", "shaders"}) {
         const CommandResult result = conelight(std::string(command) + " --help");
         EXPECT_EQ(result.status, 0) << command;
         EXPECT_NE(result.output.find("Usage"), std::string::npos) << result.output;

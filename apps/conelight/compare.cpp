@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: MIT
+// `conelight compare A B`: metrics of two pictures as a table or JSON, error maps, a report, bars with exit
+// status. With one argument, which then is a scene, compare_scene.h does the work.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "command.h"
+#include "compare_scene.h"
+#include "comparison.h"
+#include "conelight/error.h"
+#include "io/image_file.h"
+#include "picture_input.h"
+
+namespace conelight::program {
+namespace {
+
+using nlohmann::ordered_json;
+using reference::ErrorMap;
+using reference::Halves;
+using reference::Metrics;
+
+struct ComparePicturesOptions {
+    std::string test, reference;
+    std::string layer;
+    std::vector<std::string> halves;
+    std::string mapFile;
+    std::vector<std::string> mapKinds = {"signed"};
+    double mapScale = 0;
+    ComparisonOptions comparison;
+
+    void addTo(CLI::App& command);
+};
+
+void ComparePicturesOptions::addTo(CLI::App& command) {
+    const std::size_t before = command.get_options().size();
+    command.add_option("--layer", layer, "compare this layer of both .exr files, for example indirect")
+        ->type_name("NAME");
+    command
+        .add_option("--halves", halves,
+                    "two independent halves of the reference: its own noise is not counted as error")
+        ->delimiter(',')
+        ->expected(2)
+        ->type_name("A,B");
+    command.add_option("--map", mapFile, "write an error map: .png in colours, .exr as values")
+        ->type_name("FILE");
+    command
+        .add_option("--map-kind", mapKinds,
+                    "signed, absolute, relative, flip or hdr-flip; several write FILE-KIND each")
+        ->delimiter(',')
+        ->capture_default_str()
+        ->type_name("KINDS");
+    command
+        .add_option(
+            "--map-scale", mapScale,
+            "error at the end of the colour scale (default 0.5 of the mean light for signed and absolute, "
+            "else 1)")
+        ->check(CLI::PositiveNumber)
+        ->type_name("X");
+    const std::vector<CLI::Option*> all = command.get_options();
+    for (std::size_t i = before; i < all.size(); ++i) all[i]->group("Two pictures");
+}
+
+// Where each kind of map goes.
+std::vector<std::pair<ErrorMap, std::string>> mapFiles(const ComparePicturesOptions& options) {
+    std::vector<std::pair<ErrorMap, std::string>> files;
+    if (options.mapFile.empty()) return files;
+    for (const std::string& name : options.mapKinds) {
+        const std::optional<ErrorMap> kind = reference::errorMapOf(name);
+        if (!kind)
+            throw Error(ErrorKind::Usage,
+                        fmt::format("--map-kind: '{}' is no kind of map; signed, absolute, relative, "
+                                    "flip or hdr-flip would be right",
+                                    name));
+        std::filesystem::path file = options.mapFile;
+        const io::ImageFormat format = io::imageFormatOf(file);
+        if (format != io::ImageFormat::Png && format != io::ImageFormat::Exr)
+            throw Error(ErrorKind::Usage,
+                        options.mapFile + ": --map: a name ending in .png or .exr would be right");
+        if (options.mapKinds.size() > 1)
+            file.replace_filename(file.stem().string() + "-" + name + file.extension().string());
+        io::checkWritable(file);
+        files.emplace_back(*kind, file.string());
+    }
+    return files;
+}
+
+void writeMap(const std::string& file, const std::vector<float>& values, int width, int height, bool isSigned,
+              double scale) {
+    if (io::imageFormatOf(file) == io::ImageFormat::Exr) {
+        io::FloatImage image;
+        image.width = width;
+        image.height = height;
+        image.channels = 1;
+        image.pixels = values;
+        return io::writeExr(file, image);
+    }
+    io::ByteImage image{width, height, 3, std::vector<std::uint8_t>(values.size() * 3)};
+    for (std::size_t i = 0; i < values.size(); ++i)
+        reference::colorOfError(values[i] / static_cast<float>(scale), isSigned, &image.pixels[3 * i]);
+    io::writePng(file, image);
+}
+
+// Halves whose mean is another picture were made for another reference.
+void warnOfForeignHalves(const Image& reference, const Image& a, const Image& b, const std::string& name) {
+    double difference = 0, sum = 0;
+    for (std::size_t i = 0; i < reference.pixels.size(); ++i)
+        for (int c = 0; c < 3; ++c) {
+            const double mean = 0.5 * (double(a.pixels[i][c]) + b.pixels[i][c]);
+            if (!std::isfinite(mean) || !std::isfinite(reference.pixels[i][c])) continue;
+            difference += std::abs(mean - reference.pixels[i][c]);
+            sum += std::abs(mean);
+        }
+    constexpr double kRounding = 1e-3;  // of 16-bit floats
+    if (difference > kRounding * sum)
+        std::fprintf(stderr, "conelight: --halves: their mean differs from %s by %.2g %%\n", name.c_str(),
+                     100 * difference / sum);
+}
+
+void printTable(const ComparePicturesOptions& options, const Metrics& metrics, bool withFlip) {
+    const std::string layer = options.layer.empty() ? "" : ", layer " + options.layer;
+    fmt::print("test       {}{}\nreference  {}{}\ncompared   {} pixels", options.test, layer,
+               options.reference, layer, metrics.pixels);
+    if (metrics.badPixels > 0) fmt::print("; {} left out that are not finite", metrics.badPixels);
+    fmt::print("\n\n{}", alignedTable(metricRows(metrics, withFlip, !options.halves.empty())));
+}
+
+void comparePictures(const ComparePicturesOptions& options) {
+    if (!options.comparison.report.empty())
+        throw Error(ErrorKind::Usage, "--report: is not there yet; --map would be right");
+    const reference::MetricOptions metricOptions = options.comparison.metricOptions();
+    const auto maps = mapFiles(options);
+    const std::string& jsonFile = options.comparison.jsonFile;
+    if (!jsonFile.empty() && jsonFile != "-") io::checkWritable(jsonFile);
+
+    // Read everything, and see that it fits.
+    const Image test = readPicture(options.test, options.layer);
+    const Image reference = readPicture(options.reference, options.layer);
+    requireSameSize(test, options.test, reference, options.reference);
+    std::vector<Image> halves;
+    for (const std::string& file : options.halves) {
+        halves.push_back(readPicture(file, options.layer));
+        requireSameSize(halves.back(), file, reference, options.reference);
+    }
+    std::optional<Halves> given;
+    if (!halves.empty()) {
+        given = Halves{&halves[0], &halves[1]};
+        warnOfForeignHalves(reference, halves[0], halves[1], options.reference);
+    }
+
+    const Metrics metrics = reference::compareImages(test, reference, metricOptions, given);
+    for (const auto& [kind, file] : maps) {
+        const bool inMeans = kind == ErrorMap::Signed || kind == ErrorMap::Absolute;
+        const double scale = options.mapScale > 0 ? options.mapScale : inMeans ? 0.5 : 1.0;  // by eye
+        writeMap(file, reference::errorValues(test, reference, kind, metricOptions), test.width, test.height,
+                 kind == ErrorMap::Signed, scale);
+    }
+
+    const std::vector<std::string> broken = options.comparison.bars.brokenBy(metrics);
+    if (jsonFile != "-") printTable(options, metrics, metricOptions.flip);
+    ordered_json json;
+    json["version"] = 1;
+    json["test"] = options.test;
+    json["reference"] = options.reference;
+    if (!options.layer.empty()) json["layer"] = options.layer;
+    if (given) json["halves"] = options.halves;
+    json["size"] = {test.width, test.height};
+    json["exposure"] = metricOptions.exposure;
+    if (metricOptions.flip) json["pixels_per_degree"] = metricOptions.pixelsPerDegree;
+    json["metrics"] = metricsJson(metrics, metricOptions.flip, given.has_value());
+    json["broken_bars"] = broken;
+    if (!jsonFile.empty()) writeComparisonJson(jsonFile, json);
+    requireBars(options.test, broken);
+}
+
+struct CompareOptions {
+    std::vector<std::string> inputs;
+    ComparisonOptions comparison;
+    ComparePicturesOptions pictures;
+    CompareSceneOptions scene;
+    std::vector<const CLI::Option*> ofPictures, ofScene;  // options of one form only
+};
+
+void refuse(const std::vector<const CLI::Option*>& options, const char* needed) {
+    for (const CLI::Option* option : options)
+        if (option->count() > 0)
+            throw Error(ErrorKind::Usage,
+                        fmt::format("{}: belongs to the comparison of {}; `conelight compare --help` "
+                                    "lists both forms",
+                                    option->get_name(), needed));
+}
+
+void run(CompareOptions& options) {
+    if (options.inputs.size() == 2) {
+        refuse(options.ofScene, "one scene");
+        options.pictures.test = options.inputs[0];
+        options.pictures.reference = options.inputs[1];
+        options.pictures.comparison = options.comparison;
+        return comparePictures(options.pictures);
+    }
+    if (isPictureFile(options.inputs[0]))
+        throw Error(ErrorKind::Usage,
+                    options.inputs[0] + ": is one picture; a second one to compare it with would be right");
+    refuse(options.ofPictures, "two pictures");
+    options.scene.scene = options.inputs[0];
+    options.scene.comparison = options.comparison;
+    compareScene(options.scene);
+}
+
+}  // namespace
+
+void addCompare(CLI::App& app) {
+    auto options = std::make_shared<CompareOptions>();
+    CLI::App* command = app.add_subcommand(
+        "compare", "measure two pictures (A B: is A like B?), or the modes of a scene against the reference");
+    command
+        ->add_option("inputs", options->inputs,
+                     "two pictures (.exr .hdr .png .jpg), the second one the truth; or one scene")
+        ->required()
+        ->type_name("A B | SCENE")
+        ->expected(1, 2);
+    options->comparison.addTo(*command);
+    const auto added = [&](auto&& add) {
+        const std::size_t before = command->get_options().size();
+        add();
+        const std::vector<CLI::Option*> all = command->get_options();
+        return std::vector<const CLI::Option*>(all.begin() + std::ptrdiff_t(before), all.end());
+    };
+    options->ofPictures = added([&] { options->pictures.addTo(*command); });
+    options->ofScene = added([&] { options->scene.addTo(*command); });
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace conelight::program
