@@ -5,7 +5,9 @@
 //
 // Rules shared with the GL modes: single-sided surfaces are not seen from behind by the camera but block and
 // absorb light; instances without castsShadow block no light that comes straight from lights; instances
-// without voxelized neither block, bounce nor emit in indirect light; primary rays start at zNear.
+// without voxelized neither block, bounce nor emit in indirect light; primary rays run from zNear to zFar.
+// Unlit surfaces are seen, block light and give none. Backs of single-sided surfaces absorb. Surfaces reflect
+// nothing to or from below their geometric horizon, whatever the shading normal says.
 #pragma once
 
 #include <cstdint>
@@ -34,18 +36,21 @@ struct PathTracerSettings {
     int threads = 0;            // 0: all cores
 };
 
-// Parts as in Component. direct: emission seen, and light that comes straight from lights (flat emissive
-// quads included, as in the GL modes). indirect = full - direct: everything else, sky and other emitters
-// included; split by the lobe of the first surface that reflected it: diffuse + specular = indirect.
+// Parts as in Component. direct: emission seen, the sky behind everything, and light that comes straight from
+// lights (flat emissive quads included, as in the GL modes). indirect = full - direct: everything else, light
+// of the sky and of other emitters included; split by the lobe of the first surface that reflected it:
+// diffuse + specular = indirect.
 struct PathTracedPicture {
     Image full, direct, indirect, diffuse, specular;
     Image halfA, halfB;          // of full, from independent samples; full is their mean
     Image indirectA, indirectB;  // of indirect
-    std::vector<Image>
-        bounces;  // light reflected exactly n + 1 times more than direct light; empty unless asked
+    // [n]: what bounce n + 1 adds to `indirect`: light of the sky and of emitters that are not direct light
+    // after n + 1 reflections, all other light after n + 2. Empty unless asked for.
+    std::vector<Image> bounces;
     int samplesPerPixel = 0;  // done
     double noise = 0;         // estimated relRMSE of full: sqrt(mean variance of the pixel means) / mean
     std::uint64_t rays = 0;
+    std::uint64_t badSamples = 0;  // not finite: taken as black, and counted here
     double cpuSeconds = 0, wallSeconds = 0;
 };
 

@@ -225,7 +225,8 @@ bool RayScene::intersect(RayKind kind, const Ray& ray, RayHit& hit) const {
     hit.instance = query.hit.geomID;
     hit.triangle = query.hit.primID;
     hit.barycentric = {query.hit.u, query.hit.v};
-    const glm::vec3 normal = glm::normalize(glm::vec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z));
+    // In double: twice the area of a triangle of a micrometre, squared, is no float.
+    const glm::vec3 normal(glm::normalize(glm::dvec3(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z)));
     hit.geometricNormal = impl_->infos[hit.instance].mirrored ? -normal : normal;
     return true;
 }

@@ -109,6 +109,17 @@ bool coversAt(const Scene& scene, std::uint32_t instanceIndex, std::uint32_t tri
     return baseColorAt(scene, mesh, material, corners, b, uv).a >= cutoff;
 }
 
+glm::vec3 emissionAt(const Scene& scene, std::uint32_t instanceIndex, std::uint32_t triangle,
+                     const glm::vec2& b) {
+    const Instance& instance = scene.instances[instanceIndex];
+    const Material& material = materialOf(scene, instance);
+    if (material.unlit || !coversAt(scene, instanceIndex, triangle, b)) return glm::vec3(0);
+    if (!material.emissiveTexture.used()) return material.emission;
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    const glm::vec2 uv = interpolated(mesh.uvs, cornersOf(mesh, triangle), b, glm::vec2(0));
+    return material.emission * glm::vec3(sampleTexture(scene, material.emissiveTexture, uv));
+}
+
 Surface surfaceAt(const Scene& scene, const Ray& ray, const RayHit& hit) {
     const Instance& instance = scene.instances[hit.instance];
     const Material& material = materialOf(scene, instance);
@@ -118,7 +129,9 @@ Surface surfaceAt(const Scene& scene, const Ray& ray, const RayHit& hit) {
     const glm::vec2 uv = interpolated(mesh.uvs, corners, b, glm::vec2(0));
 
     Surface s;
-    s.position = ray.origin + ray.direction * hit.t;
+    // From the vertices, not along the ray: exact to the last places however far the ray has come.
+    s.position = glm::vec3(instance.worldFromObject *
+                           glm::vec4(interpolated(mesh.positions, corners, b, glm::vec3(0)), 1));
     s.material = &material;
     s.frontFace = glm::dot(hit.geometricNormal, ray.direction) < 0;
     s.geometricNormal = s.frontFace ? hit.geometricNormal : -hit.geometricNormal;

@@ -26,6 +26,10 @@ Surface surfaceAt(const Scene& scene, const Ray& ray, const RayHit& hit);
 // have none, as in the G-buffer and the shadow maps.
 bool coversAt(const Scene& scene, std::uint32_t instance, std::uint32_t triangle,
               const glm::vec2& barycentric);
+// Radiance that a point of a triangle gives off (from the sides that shine): 0 where coversAt is false, and
+// for unlit materials, which light nothing.
+glm::vec3 emissionAt(const Scene& scene, std::uint32_t instance, std::uint32_t triangle,
+                     const glm::vec2& barycentric);
 // Linear RGBA of a texture at uv, bilinear or nearest, wrapped as it says; sRGB is decoded before filtering.
 glm::vec4 sampleTexture(const Scene& scene, const TextureRef& reference, const glm::vec2& uv);
 

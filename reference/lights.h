@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// Everything that shines, as one table that the path tracer samples by power: lights of the scene, flat
+// emissive quads (rectangular lights, as in the GL modes) and other emissive triangles. Intensity, falloff,
+// cone and range follow shaders/lib/lights.glsl to the letter.
+//
+// The power of a textured emitter is that of its mean over each triangle, only to choose it often enough;
+// what it gives is the exact value at the sampled point. The sky is not in the table: it is found by the
+// directions that surfaces reflect to.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "conelight/scene.h"
+#include "reference/ray_scene.h"
+
+namespace conelight::reference {
+
+struct LightSample {
+    glm::vec3 toLight{0};   // unit
+    float distance = 0;     // to the sampled point; infinite for directional lights
+    glm::vec3 target{0};    // the sampled point, moved off the emitter's surface; not for directional lights
+    glm::vec3 radiance{0};  // of the emitter, or the irradiance on a facing plane of a light without extent
+    float density = 0;      // of this sample, 1/sr; without extent: the probability of having chosen it
+    bool extended = false;  // has a solid angle: other techniques can find it as well
+    bool direct = false;    // counts as direct light: seen by shadow rays, else by bounce rays
+    bool castsShadow = true;
+};
+
+class LightTable {
+  public:
+    // With `quads`, flat emissive quads are direct light. Without `extended`, only lights that no ray can hit
+    // are sampled. `scene` must outlive it.
+    LightTable(const Scene& scene, bool quads, bool extended);
+
+    bool empty() const { return cumulative_.empty(); }  // nothing to sample
+    // False when nothing arrives (behind the emitter, out of range ...).
+    bool sample(const glm::vec3& from, float choice, const glm::vec2& u, LightSample& result) const;
+
+    // A ray from `from` hit a triangle: whether it belongs to the table, and the density with which sample()
+    // would have found this point.
+    struct Found {
+        bool emitter = false;    // in the table
+        bool quad = false;       // of a flat quad: direct light
+        bool elsewhere = false;  // forRectsAlong finds it
+        float density = 0;
+    };
+    Found found(const RayHit& hit, const glm::vec3& direction) const;
+
+    // Rectangles that no bounce ray finds: the scene's own, and, with `quads`, flat emissive ones when bounce
+    // rays see other instances than shadow rays. Calls visit(const LightSample&) for each that the ray meets.
+    template <class Visit>
+    void forRectsAlong(const glm::vec3& from, const glm::vec3& direction, Visit visit) const {
+        for (const std::uint32_t i : rectsToTest_) {
+            LightSample hit;
+            if (rectAlong(emitters_[i], from, direction, hit)) visit(hit);
+        }
+    }
+    bool hasRectsToTest() const { return !rectsToTest_.empty(); }
+    bool hasQuadsOrRects() const { return hasQuadsOrRects_; }
+
+  private:
+    enum class Kind : std::uint8_t { Point, Directional, Rect, Triangle };
+    struct Emitter {
+        Kind kind = Kind::Point;
+        bool direct = true, castsShadow = true, twoSided = false, constant = true;
+        glm::vec3 radiance{0};  // or intensity
+        glm::vec3 position{0};  // rect: a corner; triangle: vertex 0
+        glm::vec3 edgeU{0}, edgeV{0};
+        glm::vec3 normal{0};  // unit; shining side, or where light travels to
+        float area = 0;
+        float choice = 0;  // probability
+        std::uint32_t instance = 0, triangle = 0;
+        const Light* light = nullptr;  // point, spot
+        float cosInner = -2, cosOuter = -3;
+    };
+
+    void addLight(const Light& light);
+    void addRect(const Light& light, std::uint32_t instance, bool isQuad);
+    void addTriangles(const Scene& scene, std::size_t instance);
+    void setChoices(bool extended);
+    double powerOf(const Emitter& e) const;
+    bool rectAlong(const Emitter& e, const glm::vec3& from, const glm::vec3& direction,
+                   LightSample& hit) const;
+    bool samplePoint(const Emitter& e, const glm::vec3& from, LightSample& result) const;
+    bool sampleArea(const Emitter& e, const glm::vec3& from, const glm::vec2& u, LightSample& result) const;
+
+    const Scene& scene_;
+    std::vector<Emitter> emitters_;
+    std::vector<float> cumulative_;
+    std::vector<std::uint32_t> rectsToTest_;
+    static constexpr std::uint32_t kNone = ~0u;
+    struct OfInstance {
+        std::uint32_t first = kNone;  // first triangle's emitter, or the quad's front
+        bool quad = false;
+        bool twoSided = false;  // the quad's back follows its front
+    };
+    std::vector<OfInstance> ofInstance_;
+    float sceneRadius_ = 1;
+    bool sameBlockers_ = true;
+    bool hasQuadsOrRects_ = false;
+};
+
+}  // namespace conelight::reference

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+// One path: a camera ray -> the radiance that comes back along it, split into the parts of PathTracedPicture.
+// Method: path_integrator.cpp.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "reference/lights.h"
+#include "reference/materials.h"
+#include "reference/path_tracer.h"
+#include "reference/ray_scene.h"
+#include "reference/sampler.h"
+
+namespace conelight::reference {
+
+struct PathSample {
+    glm::vec3 direct{0}, diffuse{0}, specular{0};
+    std::vector<glm::vec3> bounces;  // sized by the caller; bounces beyond its size are not kept
+    bool seen = false;               // the camera ray met a surface
+    std::uint64_t rays = 0;          // added to
+
+    void clear();
+    bool finite() const;
+};
+
+class PathIntegrator {
+  public:
+    PathIntegrator(const Scene& scene, const RayScene& rays, const PathTracerSettings& settings);
+
+    void trace(const Ray& cameraRay, Sampler& sampler, PathSample& result) const;  // thread-safe
+
+  private:
+    // The end of a path so far.
+    struct Vertex {
+        Surface surface;
+        glm::vec3 toEye{0};  // unit; back along the path
+        std::uint32_t instance = 0;
+        int depth = 0;              // surfaces before this one
+        glm::vec3 throughput{1};    // of what happens here towards the camera
+        glm::vec3 diffuseShare{0};  // of the first surface's reflection, from depth 1 on
+    };
+    bool wanted(int bounce) const { return settings_.bounces < 0 || bounce <= settings_.bounces; }
+    static void add(PathSample& result, const Vertex& vertex, int bounce, const glm::vec3& light,
+                    const Reflection::Value& value);
+    bool arrives(const Vertex& vertex, const LightSample& light, PathSample& result) const;
+    void gatherLights(const Vertex& vertex, const Reflection& reflection, float choice, const glm::vec2& u,
+                      PathSample& result) const;
+    void gatherSky(const Vertex& vertex, const Reflection& reflection, const glm::vec2& u,
+                   PathSample& result) const;
+    bool advance(Vertex& vertex, const Reflection& reflection, const glm::vec2& choices, const glm::vec2& u,
+                 PathSample& result) const;
+    bool arriveAt(Vertex& vertex, const Ray& ray, const Reflection::Value& value, PathSample& result) const;
+
+    const Scene& scene_;
+    const RayScene& rays_;
+    PathTracerSettings settings_;
+    LightTable lights_;
+};
+
+}  // namespace conelight::reference
