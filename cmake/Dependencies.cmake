@@ -5,6 +5,8 @@ pkg_check_modules(EPOXY REQUIRED IMPORTED_TARGET epoxy)
 if(CONELIGHT_BUILD_PROGRAM)
   find_package(assimp REQUIRED)
   find_package(OpenEXR REQUIRED)
+  pkg_check_modules(GLFW REQUIRED IMPORTED_TARGET glfw3)
+  pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
   find_package(CLI11 REQUIRED)
   find_package(embree REQUIRED)  # 3 (Debian 12) or 4
   find_package(fmt REQUIRED)

@@ -76,6 +76,9 @@ class Renderer {
     Image readImage() const;  // waits for the GPU
     std::uint32_t imageTexture()
         const;  // GL_TEXTURE_2D, RGBA32F, owned by the renderer; row 0 is the bottom row
+    // The picture as a screen shows it (what toneMapped gives): GL_TEXTURE_2D, RGBA8, row 0 is the top row.
+    // Drawn anew at each call; owned by the renderer. 0 before the first render().
+    std::uint32_t displayTexture(const ImageSettings& settings);
     const FrameStats& stats() const;
 
   private:

@@ -13,6 +13,7 @@
 #include "gl/gl.h"
 #include "gl/host_state.h"
 #include "image/debug_view.h"
+#include "image/display.h"
 #include "light/emissive_quads.h"
 #include "shared/bindings.h"
 #include "view/camera.h"
@@ -57,6 +58,7 @@ struct Renderer::Impl {
     std::optional<scene::GpuScene> scene;
     light::ShadowMaps shadows;
     std::optional<Targets> targets;
+    image::Display display;
     gl::Buffer frameBlock{sizeof(gpu::FrameConstants), "frame constants"};
     gl::Buffer lookupCounters{16, "lookup counters"};
 
@@ -220,6 +222,13 @@ Image Renderer::readImage() const {
 }
 
 std::uint32_t Renderer::imageTexture() const { return impl_->targets ? impl_->targets->output.name() : 0; }
+
+std::uint32_t Renderer::displayTexture(const ImageSettings& settings) {
+    if (!impl_->targets) return 0;
+    const gl::HostStateGuard guard;
+    impl_->display.draw(impl_->programs, impl_->targets->output, settings);
+    return impl_->display.texture().name();
+}
 
 const FrameStats& Renderer::stats() const { return impl_->stats; }
 

@@ -15,6 +15,7 @@
 #include "gather/direct_light.h"
 #include "gather/phong_shade.h"
 #include "image/debug_view.h"
+#include "image/display.h"
 #include "light/inject_light.h"
 #include "light/shadow_maps.h"
 #include "view/gbuffer.h"
@@ -67,6 +68,7 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     add(frame::ConesMode::programDescs());
     add(ThesisMode::programDescs());
     add(image::debugViewProgramDescs());
+    add(image::Display::programDescs());
     return all;
 }
 

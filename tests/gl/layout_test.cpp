@@ -8,6 +8,7 @@
 
 #include "shared/cones.h"
 #include "shared/frame.h"
+#include "shared/image.h"
 #include "shared/radiance_volume.h"
 #include "shared/scene.h"
 #include "shared/thesis.h"
@@ -88,6 +89,7 @@ const std::vector<Struct>& table() {
     static const std::vector<Struct> structs = {
         ROW(ConeConstants, count, step, offset, maxDistance, specularMinTan, occlusionDistance, voxelLevel,
             pad0, cone, aperture),
+        ROW(DisplayConstants, scale, curve, srgb, pad0),
         ROW(FrameConstants, clipFromWorld, worldFromClip, eye, zNear, sky, zFar, width, height, lightCount,
             frameIndex, instanceCount, triangleCount, seed, pad0, viewForward, pad1, viewRight, pad2, viewUp,
             pad3, lightEnds),

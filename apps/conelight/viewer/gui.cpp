@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/gui.h"
+
+#include <backends/imgui_impl_glfw.h>
+#include <backends/imgui_impl_opengl3.h>
+#include <imgui.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+namespace conelight::program {
+namespace {
+
+// Fonts of the Debian packages fonts-dejavu-core and fonts-liberation; ImGui's own bitmap font else.
+constexpr std::array<const char*, 3> kFonts = {
+    "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
+    "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
+    "/usr/share/fonts/truetype/freefont/FreeSans.ttf"};
+constexpr float kFontSize = 14.0f;  // px at 96 dpi
+
+ImVec4 grey(float value, float alpha = 1) { return {value, value, value, alpha}; }
+
+// Neutral greys, so that the GUI does not tint the eye that judges the picture; one accent.
+void setColors(ImGuiStyle& style) {
+    const ImVec4 accent{0.36f, 0.58f, 0.80f, 1};
+    const ImVec4 accentDim{0.28f, 0.40f, 0.52f, 1};
+    ImVec4* c = style.Colors;
+    c[ImGuiCol_Text] = grey(0.88f);
+    c[ImGuiCol_TextDisabled] = grey(0.50f);
+    c[ImGuiCol_WindowBg] = grey(0.13f);
+    c[ImGuiCol_ChildBg] = grey(0.13f);
+    c[ImGuiCol_PopupBg] = grey(0.10f, 0.97f);
+    c[ImGuiCol_Border] = grey(0.22f);
+    c[ImGuiCol_FrameBg] = grey(0.19f);
+    c[ImGuiCol_FrameBgHovered] = grey(0.24f);
+    c[ImGuiCol_FrameBgActive] = grey(0.27f);
+    c[ImGuiCol_TitleBg] = grey(0.11f);
+    c[ImGuiCol_TitleBgActive] = grey(0.11f);
+    c[ImGuiCol_MenuBarBg] = grey(0.11f);
+    c[ImGuiCol_ScrollbarBg] = grey(0.13f);
+    c[ImGuiCol_ScrollbarGrab] = grey(0.27f);
+    c[ImGuiCol_ScrollbarGrabHovered] = grey(0.33f);
+    c[ImGuiCol_ScrollbarGrabActive] = grey(0.38f);
+    c[ImGuiCol_CheckMark] = accent;
+    c[ImGuiCol_SliderGrab] = accent;
+    c[ImGuiCol_SliderGrabActive] = {0.45f, 0.68f, 0.90f, 1};
+    c[ImGuiCol_Button] = grey(0.21f);
+    c[ImGuiCol_ButtonHovered] = grey(0.27f);
+    c[ImGuiCol_ButtonActive] = accentDim;
+    c[ImGuiCol_Header] = grey(0.19f);
+    c[ImGuiCol_HeaderHovered] = grey(0.24f);
+    c[ImGuiCol_HeaderActive] = accentDim;
+    c[ImGuiCol_Separator] = grey(0.22f);
+    c[ImGuiCol_Tab] = grey(0.15f);
+    c[ImGuiCol_TabHovered] = grey(0.26f);
+    c[ImGuiCol_TabActive] = grey(0.22f);
+    c[ImGuiCol_PlotHistogram] = accent;
+    c[ImGuiCol_PlotLines] = accent;
+    c[ImGuiCol_TableHeaderBg] = grey(0.16f);
+    c[ImGuiCol_TableRowBgAlt] = grey(1, 0.02f);
+    c[ImGuiCol_TextSelectedBg] = accentDim;
+}
+
+}  // namespace
+
+Gui::Gui(platform::Window& window, const std::string& iniFile) : window_(window), iniFile_(iniFile) {
+    IMGUI_CHECKVERSION();
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = iniFile_.empty() ? nullptr : iniFile_.c_str();
+    scale_ = window.contentScale();
+    applyLook();
+    ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
+    ImGui_ImplOpenGL3_Init("#version 450 core");
+}
+
+Gui::~Gui() {
+    ImGui_ImplOpenGL3_Shutdown();
+    ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+}
+
+void Gui::applyLook() {
+    ImGui::StyleColorsDark();
+    ImGuiStyle& style = ImGui::GetStyle();
+    style.WindowRounding = 0;
+    style.ChildRounding = 0;
+    style.FrameRounding = 3;
+    style.GrabRounding = 3;
+    style.TabRounding = 3;
+    style.WindowBorderSize = 0;
+    style.PopupBorderSize = 1;
+    style.WindowPadding = {10, 8};
+    style.FramePadding = {7, 3};
+    style.ItemSpacing = {7, 5};
+    style.IndentSpacing = 14;
+    style.ScrollbarSize = 11;
+    style.GrabMinSize = 9;
+    setColors(style);
+    style.ScaleAllSizes(scale_);
+
+    ImGuiIO& io = ImGui::GetIO();
+    for (const char* file : kFonts)
+        if (std::error_code ignored; std::filesystem::exists(file, ignored)) {
+            io.Fonts->AddFontFromFileTTF(file, std::round(kFontSize * scale_));
+            return;
+        }
+    ImFontConfig config;
+    config.SizePixels = std::round(13.0f * scale_);  // the bitmap font's own size
+    io.Fonts->AddFontDefault(&config);
+}
+
+void Gui::beginFrame() {
+    ImGui_ImplOpenGL3_NewFrame();
+    ImGui_ImplGlfw_NewFrame();
+    // A captured cursor belongs to the camera.
+    if (window_.cursorCaptured()) ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
+    ImGui::NewFrame();
+}
+
+void Gui::endFrame() {
+    ImGui::Render();
+    ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+}
+
+bool Gui::wantsMouse() const { return ImGui::GetIO().WantCaptureMouse; }
+bool Gui::wantsKeyboard() const { return ImGui::GetIO().WantTextInput; }
+
+}  // namespace conelight::program

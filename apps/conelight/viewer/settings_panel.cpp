@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/settings_panel.h"
+
+#include <fmt/core.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstdlib>
+
+namespace conelight::program {
+namespace {
+
+std::vector<std::string> choicesOf(const SettingInfo& info) {
+    std::vector<std::string> names;
+    std::size_t from = 0;
+    while (from <= info.range.size()) {
+        const std::size_t comma = std::min(info.range.find(',', from), info.range.size());
+        names.push_back(info.range.substr(from, comma - from));
+        from = comma + 1;
+    }
+    return names;
+}
+
+// "thesis.diffuse.aperture" -> "diffuse aperture": the panel's heading has said the rest.
+std::string labelOf(const std::string& key) {
+    const std::size_t dot = key.find('.');
+    std::string label = dot == std::string::npos ? key : key.substr(dot + 1);
+    std::replace(label.begin(), label.end(), '.', ' ');
+    std::replace(label.begin(), label.end(), '_', ' ');
+    return label;
+}
+
+// Ranges over more than three decades get a logarithmic slider.
+bool isLogarithmic(double low, double high) { return low > 0 && high / low > 1000; }
+
+void numberWidget(const SettingInfo& info, const std::string& value, const SettingEdit& edit) {
+    double low = 0, high = 1;
+    const bool bounded = rangeOf(info, low, high);
+    const bool whole = info.type == "int";
+    float number = std::strtof(value.c_str(), nullptr);
+    bool changed;
+    if (whole) {
+        int count = static_cast<int>(number);
+        // A slider over thousands of numbers cannot be set to one of them.
+        changed = bounded && high - low <= 512
+                      ? ImGui::SliderInt("##v", &count, static_cast<int>(low), static_cast<int>(high))
+                      : ImGui::InputInt("##v", &count, 1, 16);
+        if (changed)
+            edit(info.key, std::to_string(std::clamp(count, static_cast<int>(low), static_cast<int>(high))),
+                 false);
+    } else {
+        ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp;
+        if (isLogarithmic(low, high)) flags |= ImGuiSliderFlags_Logarithmic;
+        const float span = static_cast<float>(high - low);
+        changed =
+            bounded && high <= 1000
+                ? ImGui::SliderFloat("##v", &number, static_cast<float>(low), static_cast<float>(high),
+                                     "%.4g", flags)
+                : ImGui::DragFloat("##v", &number, std::min(0.01f, 0.001f * span), static_cast<float>(low),
+                                   static_cast<float>(high), "%.4g", ImGuiSliderFlags_AlwaysClamp);
+        if (changed) edit(info.key, fmt::format("{}", number), false);
+    }
+    if (ImGui::IsItemDeactivatedAfterEdit()) edit(info.key, "", true);
+}
+
+void widget(const Settings& settings, const SettingInfo& info, const std::string& value,
+            const SettingEdit& edit) {
+    if (info.type == "bool") {
+        bool on = value == "true";
+        if (ImGui::Checkbox("##v", &on)) edit(info.key, on ? "true" : "false", true);
+    } else if (info.type == "choice") {
+        if (ImGui::BeginCombo("##v", value.c_str())) {
+            for (const std::string& name : choicesOf(info))
+                if (ImGui::Selectable(name.c_str(), name == value)) edit(info.key, name, true);
+            ImGui::EndCombo();
+        }
+    } else if (info.type == "auto float") {
+        bool isAuto = value == "auto";
+        if (ImGui::Checkbox("##auto", &isAuto)) edit(info.key, isAuto ? "auto" : "1", true);
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("chosen by the program");
+        ImGui::SameLine();
+        if (isAuto)
+            ImGui::TextDisabled("auto");
+        else {
+            ImGui::SetNextItemWidth(-1);
+            numberWidget(info, getSetting(settings, info.key), edit);
+        }
+    } else {
+        numberWidget(info, value, edit);
+    }
+}
+
+void tooltip(const SettingInfo& info) {
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(26 * ImGui::GetFontSize());
+    ImGui::TextUnformatted(info.help.c_str());
+    ImGui::TextDisabled("%s", fmt::format("{}\nrange {}{}{}\ndefault {}", info.key, info.range,
+                                          info.unit.empty() ? "" : " ", info.unit, info.defaultValue)
+                                  .c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+}  // namespace
+
+bool rangeOf(const SettingInfo& info, double& low, double& high) {
+    const std::size_t dots = info.range.find("..");
+    if (dots == std::string::npos) return false;
+    low = std::strtod(info.range.c_str(), nullptr);
+    high = std::strtod(info.range.c_str() + dots + 2, nullptr);
+    return high > low;
+}
+
+void settingRow(const Settings& settings, const SettingInfo& info, const SettingEdit& edit) {
+    const std::string value = getSetting(settings, info.key);
+    ImGui::PushID(info.key.c_str());
+    ImGui::TableNextRow();
+    ImGui::TableSetColumnIndex(0);
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextUnformatted(labelOf(info.key).c_str());
+    if (ImGui::IsItemHovered()) tooltip(info);
+    ImGui::TableSetColumnIndex(1);
+    ImGui::SetNextItemWidth(-1);
+    widget(settings, info, value, edit);
+    if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) tooltip(info);
+    ImGui::TableSetColumnIndex(2);
+    if (!info.unit.empty()) {
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextDisabled("%s", info.unit.c_str());
+    }
+    ImGui::TableSetColumnIndex(3);
+    if (value != info.defaultValue) {
+        if (ImGui::SmallButton("x")) edit(info.key, info.defaultValue, true);
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("back to %s", info.defaultValue.c_str());
+    }
+    ImGui::PopID();
+}
+
+void settingsPanel(const Settings& settings, const std::vector<std::string>& prefixes,
+                   const std::string& filter, const SettingEdit& edit) {
+    if (!ImGui::BeginTable("settings", 4, ImGuiTableFlags_SizingStretchProp)) return;
+    const float em = ImGui::GetFontSize();
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 0.44f);
+    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.56f);
+    ImGui::TableSetupColumn("unit", ImGuiTableColumnFlags_WidthFixed, 3.2f * em);
+    ImGui::TableSetupColumn("reset", ImGuiTableColumnFlags_WidthFixed, 1.2f * em);
+    for (const SettingInfo& info : settingInfos()) {
+        const bool ours = std::any_of(prefixes.begin(), prefixes.end(), [&](const std::string& prefix) {
+            return info.key.compare(0, prefix.size(), prefix) == 0;
+        });
+        if (ours && info.key.find(filter) != std::string::npos) settingRow(settings, info, edit);
+    }
+    ImGui::EndTable();
+}
+
+}  // namespace conelight::program

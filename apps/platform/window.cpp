@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+#include "platform/window.h"
+
+#include <epoxy/gl.h>
+// After epoxy: GLFW must not bring in its own GL header.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <cstdlib>
+
+#include "conelight/error.h"
+
+namespace conelight::platform {
+namespace {
+
+std::string lastGlfwError;
+void keepError(int, const char* message) { lastGlfwError = message != nullptr ? message : ""; }
+
+[[noreturn]] void noWindow(const std::string& what) {
+    throw Error(
+        ErrorKind::NoGl,
+        "no window: " + what + (lastGlfwError.empty() ? "" : " (" + lastGlfwError + ")") +
+            "; a display (DISPLAY or WAYLAND_DISPLAY) and a driver with OpenGL 4.5 would be right, or "
+            "`conelight render`, which needs no display");
+}
+
+Window& self(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
+
+}  // namespace
+
+Window::Window(const WindowOptions& options) {
+    glfwSetErrorCallback(keepError);
+    if (glfwInit() == GLFW_FALSE) noWindow("there is no display to open one on");
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+    glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+    glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.debug ? GLFW_TRUE : GLFW_FALSE);
+    glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
+    glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    // The GUI and the finished picture need neither.
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);
+    glfwWindowHint(GLFW_STENCIL_BITS, 0);
+    window_ = glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
+    if (window_ == nullptr) {
+        glfwTerminate();
+        noWindow("the display gives no OpenGL 4.5 core context");
+    }
+    glfwMakeContextCurrent(window_);
+    glfwSwapInterval(1);
+    glfwSetWindowUserPointer(window_, this);
+    glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
+        if (self(window).onDrop) self(window).onDrop({paths, paths + count});
+    });
+    glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) {
+        if (self(window).onRefresh) self(window).onRefresh();
+    });
+}
+
+Window::~Window() {
+    glfwDestroyWindow(window_);
+    glfwTerminate();
+}
+
+bool Window::shouldClose() const { return glfwWindowShouldClose(window_) != GLFW_FALSE; }
+void Window::setShouldClose(bool close) { glfwSetWindowShouldClose(window_, close ? GLFW_TRUE : GLFW_FALSE); }
+void Window::setTitle(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
+
+void Window::pollEvents(double seconds) {
+    if (seconds > 0)
+        glfwWaitEventsTimeout(seconds);
+    else
+        glfwPollEvents();
+}
+
+void Window::wake() { glfwPostEmptyEvent(); }
+void Window::swapBuffers() { glfwSwapBuffers(window_); }
+
+glm::ivec2 Window::size() const {
+    glm::ivec2 size(0);
+    glfwGetWindowSize(window_, &size.x, &size.y);
+    return size;
+}
+
+glm::ivec2 Window::framebufferSize() const {
+    glm::ivec2 size(0);
+    glfwGetFramebufferSize(window_, &size.x, &size.y);
+    return size;
+}
+
+float Window::contentScale() const {
+    float x = 1, y = 1;
+    glfwGetWindowContentScale(window_, &x, &y);
+    return x > 0 ? x : 1.0f;
+}
+
+bool Window::minimized() const {
+    const glm::ivec2 size = framebufferSize();
+    return size.x == 0 || size.y == 0 || glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != GLFW_FALSE;
+}
+
+void Window::setFullscreen(bool on) {
+    if (on == fullscreen_) return;
+    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
+    if (on && monitor == nullptr) return;
+    fullscreen_ = on;
+    if (on) {
+        glfwGetWindowPos(window_, &windowedPosition_.x, &windowedPosition_.y);
+        windowedSize_ = size();
+        const GLFWvidmode* mode = glfwGetVideoMode(monitor);
+        glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+    } else {
+        glfwSetWindowMonitor(window_, nullptr, windowedPosition_.x, windowedPosition_.y, windowedSize_.x,
+                             windowedSize_.y, GLFW_DONT_CARE);
+    }
+}
+
+void Window::captureCursor(bool on) {
+    if (on == captured_) return;
+    captured_ = on;
+    glfwSetInputMode(window_, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+    if (on && glfwRawMouseMotionSupported() != GLFW_FALSE)
+        glfwSetInputMode(window_, GLFW_RAW_MOUSE_MOTION, GLFW_TRUE);
+}
+
+bool Window::isKeyDown(int glfwKey) const { return glfwGetKey(window_, glfwKey) == GLFW_PRESS; }
+
+glm::dvec2 Window::cursor() const {
+    glm::dvec2 at(0);
+    glfwGetCursorPos(window_, &at.x, &at.y);
+    return at;
+}
+
+void Window::clear(const glm::vec3& color) {
+    const glm::ivec2 size = framebufferSize();
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, size.x, size.y);
+    glDisable(GL_SCISSOR_TEST);
+    glClearColor(color.r, color.g, color.b, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
+}
+
+std::string Window::description() const {
+    const auto text = [](GLenum name) {
+        const GLubyte* value = glGetString(name);
+        return std::string(value != nullptr ? reinterpret_cast<const char*>(value) : "?");
+    };
+    return text(GL_RENDERER) + ", " + text(GL_VERSION);
+}
+
+}  // namespace conelight::platform

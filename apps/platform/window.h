@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// A window with an OpenGL 4.5 core context, through GLFW: events, size, scale of the screen. One window per
+// process; use it on the main thread only.
+#pragma once
+
+#include <functional>
+#include <glm/glm.hpp>
+#include <string>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace conelight::platform {
+
+struct WindowOptions {
+    int width = 1280;
+    int height = 800;  // screen units, not pixels
+    std::string title = "Conelight";
+    bool visible = true;
+    bool debug = false;  // a debug context
+};
+
+// Throws Error(NoGl) without a display or without OpenGL 4.5, with what would be right.
+class Window {
+  public:
+    explicit Window(const WindowOptions& options = {});
+    ~Window();
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
+
+    bool shouldClose() const;
+    void setShouldClose(bool close);
+    void setTitle(const std::string& title);
+    // Handles what happened; waits at most `seconds` for something to happen (0: does not wait).
+    void pollEvents(double seconds);
+    // Ends a wait from another thread.
+    static void wake();
+    void swapBuffers();
+
+    glm::ivec2 size() const;             // screen units
+    glm::ivec2 framebufferSize() const;  // pixels
+    float contentScale() const;          // pixels per 96 dpi pixel; 1 on ordinary screens, 2 on HiDPI
+    bool minimized() const;
+    bool fullscreen() const { return fullscreen_; }
+    void setFullscreen(bool on);
+    // Hides the cursor and reports its movement without limits, for flying.
+    void captureCursor(bool on);
+    bool cursorCaptured() const { return captured_; }
+    bool isKeyDown(int glfwKey) const;
+    glm::dvec2 cursor() const;  // screen units from the top left corner
+
+    std::function<void(const std::vector<std::string>& paths)> onDrop;
+    // Called while the window is being resized, when the main loop does not run.
+    std::function<void()> onRefresh;
+
+    // Clears the framebuffer, for what is drawn over it (the GUI). GL state changed: framebuffer binding,
+    // viewport, clear colour.
+    void clear(const glm::vec3& color);
+    GLFWwindow* handle() const { return window_; }
+    std::string description() const;  // GL renderer and version
+
+  private:
+    GLFWwindow* window_ = nullptr;
+    bool fullscreen_ = false;
+    bool captured_ = false;
+    glm::ivec2 windowedPosition_{0}, windowedSize_{0};
+};
+
+}  // namespace conelight::platform
