@@ -1,5 +1,6 @@
-# Script: writes OUTPUT, a C++ file that holds the bytes of INPUT as the string shader_SYMBOL.
-# Read and appended quoted, so that ; [ ] " \ @ ${} arrive unchanged; split because compilers limit one literal.
+# Script: writes OUTPUT, a C++ file that holds the bytes of INPUT as the string NAMESPACE::SYMBOL; NAME says in a
+# comment what it is. Read and appended quoted, so that ; [ ] " \ @ ${} arrive unchanged; split because compilers
+# limit one literal.
 file(READ "${INPUT}" text)
 set(body "")
 string(LENGTH "${text}" length)
@@ -12,4 +13,4 @@ endwhile()
 if(length EQUAL 0)
   set(body "\"\"")
 endif()
-file(WRITE "${OUTPUT}" "// Generated from ${SYMBOL}.\nnamespace conelight::gl::embedded {\nextern const char* const shader_${SYMBOL};\nconst char* const shader_${SYMBOL} =\n${body};\n}\n")
+file(WRITE "${OUTPUT}" "// Generated from ${NAME}.\nnamespace ${NAMESPACE} {\nextern const char* const ${SYMBOL};\nconst char* const ${SYMBOL} =\n${body};\n}\n")

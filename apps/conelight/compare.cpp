@@ -8,11 +8,13 @@
 #include <filesystem>
 
 #include "command.h"
+#include "command_line.h"
 #include "compare_scene.h"
 #include "comparison.h"
 #include "conelight/error.h"
 #include "io/image_file.h"
 #include "picture_input.h"
+#include "report/report.h"
 
 namespace conelight::program {
 namespace {
@@ -127,13 +129,55 @@ void printTable(const ComparePicturesOptions& options, const Metrics& metrics, b
     fmt::print("\n\n{}", alignedTable(metricRows(metrics, withFlip, !options.halves.empty())));
 }
 
+// Short names that differ: the files' names without folders, or the paths.
+std::pair<std::string, std::string> shortNames(const std::string& a, const std::string& b) {
+    const std::string shortA = std::filesystem::path(a).filename().string();
+    const std::string shortB = std::filesystem::path(b).filename().string();
+    if (shortA != shortB) return {shortA, shortB};
+    return a != b ? std::pair(a, b) : std::pair(a, b + " (reference)");
+}
+
+Report reportOf(const ComparePicturesOptions& options, const Image& test, const Image& reference,
+                const Metrics& metrics) {
+    const reference::MetricOptions metricOptions = options.comparison.metricOptions();
+    const auto [testName, referenceName] = shortNames(options.test, options.reference);
+    Report report;
+    report.title = testName + " against " + referenceName;
+    report.summary = fmt::format("{}x{} pixels. Bias {:+.2f} %, relRMSE {:.2f} %.", test.width, test.height,
+                                 metrics.bias * 100, metrics.relRmse * 100);
+    report.commands = {commandLine()};
+    ReportView view;
+    view.name = options.layer.empty() ? "picture" : options.layer;
+    view.exposure = metricOptions.exposure;
+    view.reference = 1;
+    view.pictures = {{testName, test, metrics, {}, {}}, {referenceName, reference, {}, {}, {}}};
+    if (metricOptions.flip) {
+        view.pictures[0].flip = reference::errorValues(test, reference, ErrorMap::Flip, metricOptions);
+        view.pictures[0].hdrFlip = reference::errorValues(test, reference, ErrorMap::HdrFlip, metricOptions);
+    }
+    report.views.push_back(std::move(view));
+    ReportTable numbers{"All numbers", "", {{"metric"}, {"value"}, {"unit"}, {"meaning"}}, {}};
+    for (const MetricRow& row : metricRows(metrics, metricOptions.flip, !options.halves.empty()))
+        numbers.rows.push_back({row.name, row.value, row.unit, row.meaning});
+    report.tables.push_back(std::move(numbers));
+    report.settings = {{"test", options.test}, {"reference", options.reference}};
+    for (const std::string& half : options.halves)
+        report.settings.emplace_back("half of the reference", half);
+    report.settings.emplace_back("exposure of the metrics", fmt::format("{} stops", metricOptions.exposure));
+    if (metricOptions.flip)
+        report.settings.emplace_back("pixels per degree (FLIP)",
+                                     fmt::format("{}", metricOptions.pixelsPerDegree));
+    return report;
+}
+
 void comparePictures(const ComparePicturesOptions& options) {
-    if (!options.comparison.report.empty())
-        throw Error(ErrorKind::Usage, "--report: is not there yet; --map would be right");
     const reference::MetricOptions metricOptions = options.comparison.metricOptions();
     const auto maps = mapFiles(options);
     const std::string& jsonFile = options.comparison.jsonFile;
     if (!jsonFile.empty() && jsonFile != "-") io::checkWritable(jsonFile);
+
+    const std::string& reportFolder = options.comparison.report;
+    if (!reportFolder.empty()) prepareReport(reportFolder);
 
     // Read everything, and see that it fits.
     const Image test = readPicture(options.test, options.layer);
@@ -172,6 +216,7 @@ void comparePictures(const ComparePicturesOptions& options) {
     json["metrics"] = metricsJson(metrics, metricOptions.flip, given.has_value());
     json["broken_bars"] = broken;
     if (!jsonFile.empty()) writeComparisonJson(jsonFile, json);
+    if (!reportFolder.empty()) writeReport(reportFolder, reportOf(options, test, reference, metrics));
     requireBars(options.test, broken);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 
@@ -123,6 +124,20 @@ TEST_F(CompareTest, MapsAreColouredAndNamedByKind) {
     expectOneLine(compare(pair_ + "--map '" + path("x.png") + "' --map-kind odd"), 2,
                   "'odd' is no kind of map");
     expectOneLine(compare(pair_ + "--map '" + path("x.hdr") + "'"), 2, ".png or .exr");
+}
+
+TEST_F(CompareTest, ReportIsOnePageThatFetchesNothing) {
+    ASSERT_EQ(compare(pair_ + "--report '" + path("report") + "'").status, 0);
+    std::ifstream stream(path("report") + "/index.html");
+    const std::string page{std::istreambuf_iterator<char>(stream), {}};
+    EXPECT_NE(page.find("test.exr against reference.exr"), std::string::npos);
+    EXPECT_NE(page.find("compare"), std::string::npos);
+    EXPECT_NE(page.find("default-src 'none'"), std::string::npos);
+    for (const char* fetched : {"http:", "https:", " src=", "@import", "{{"})
+        EXPECT_EQ(page.find(fetched), std::string::npos) << fetched;
+    EXPECT_TRUE(
+        std::all_of(page.begin(), page.end(), [](char c) { return static_cast<unsigned char>(c) < 128; }));
+    expectOneLine(compare(pair_ + "--report /proc/nowhere"), 1, "/proc/nowhere");
 }
 
 TEST_F(CompareTest, BadInputIsOneLine) {
