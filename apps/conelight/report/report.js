@@ -186,7 +186,8 @@ function valueText(value) {
 
 function pixelValues(layer, index) {
   const values = layerValues(layer);
-  return layer.kind === "picture" ? [...values.subarray(3 * index, 3 * index + 3)] : [values[index]];
+  if (layer.kind === "picture") return [...values.subarray(3 * index, 3 * index + 3)];
+  return [isFlip(layer.kind) ? Math.round(values[index] * 1000) / 1000 : values[index]];
 }
 
 function fillRow(id, values) {
