@@ -9,6 +9,7 @@
 
 #include "conelight/error.h"
 #include "io/scene_file.h"
+#include "session/session.h"
 
 namespace conelight::program {
 namespace {
@@ -108,21 +109,7 @@ Scene openScene(const std::string& path, const ViewOptions& options, Progress& p
 }
 
 Settings settingsFor(const Scene& scene, const std::string& mode, const ViewOptions& options) {
-    Settings settings;
-    if (!mode.empty()) setSetting(settings, "mode", mode);
-    // The original wrote linear values to the screen; its look is kept in its own modes unless asked
-    // otherwise. Its rooms (closed, albedo 0.85) gather several times their direct light: 1.5 stops less, by
-    // eye.
-    if (scene.thesisFormat && settings.mode == Mode::Cones) {
-        settings.image.exposure = -1.5f;
-    } else if (scene.thesisFormat) {
-        settings.image.toneMap = ToneMap::None;
-        settings.image.srgb = false;
-    }
-    for (const auto& [key, value] : scene.settings) {
-        if (key == "mode" && !mode.empty()) continue;  // the command line wins
-        setSetting(settings, key, value);
-    }
+    Settings settings = startSettings(scene, mode);
     if (options.voxels != 0) setSetting(settings, "voxels.size", std::to_string(options.voxels));
     for (const std::string& set : options.sets) {
         const std::size_t equals = set.find('=');

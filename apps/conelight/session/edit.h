@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// One step of undo: what changed, before and after. Only the parts that changed are kept, never meshes or
+// textures.
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "conelight/scene.h"
+#include "conelight/settings.h"
+#include "session/view_flags.h"
+
+namespace conelight::program {
+
+template <class T>
+struct BeforeAfter {
+    T before, after;
+};
+// The settings and the mode's name, which may be one that Settings does not know (reference, radiosity).
+struct PictureSettings {
+    Settings settings;
+    std::string mode;
+};
+
+struct InstanceEdit : BeforeAfter<Instance> {
+    std::size_t index = 0;
+};
+struct MaterialEdit : BeforeAfter<Material> {
+    std::size_t index = 0;
+};
+struct MaterialsEdit : BeforeAfter<std::vector<Material>> {};
+struct LightsEdit : BeforeAfter<std::vector<Light>> {};
+struct CamerasEdit : BeforeAfter<std::vector<Camera>> {};
+struct SkyEdit : BeforeAfter<glm::vec3> {};
+struct SettingsEdit : BeforeAfter<PictureSettings> {};
+struct CameraEdit : BeforeAfter<Camera> {};
+struct FlagsEdit : BeforeAfter<ViewFlags> {};
+
+using Edit = std::variant<InstanceEdit, MaterialEdit, MaterialsEdit, LightsEdit, CamerasEdit, SkyEdit,
+                          SettingsEdit, CameraEdit, FlagsEdit>;
+
+struct Step {
+    std::string label;     // "translate Lucy"
+    std::string mergeKey;  // steps of one key in a row become one: a slider that is dragged
+    std::vector<Edit> edits;
+};
+
+}  // namespace conelight::program

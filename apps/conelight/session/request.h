@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Work that a command or a panel asks for and the main loop carries out between frames: it owns the window,
+// the GL context and the files.
+#pragma once
+
+#include <string>
+
+namespace conelight::program {
+
+enum class RequestKind {
+    Screenshot,   // file
+    Record,       // file, count frames, turntable
+    Load,         // file; keepView
+    Revoxelize,   // and say how large the voxels are
+    SingleFrame,  // draw one frame although ViewFlags::singleFrame is on
+    Wait,         // draw `count` frames before the next command
+    Quit,         // status
+};
+
+struct Request {
+    RequestKind kind = RequestKind::Wait;
+    std::string file;
+    int count = 1;
+    int status = 0;
+    bool keepView = false;   // Load: camera and settings stay
+    bool turntable = false;  // Record: once round the target
+};
+
+}  // namespace conelight::program

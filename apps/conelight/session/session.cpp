@@ -1,0 +1,372 @@
+// SPDX-License-Identifier: MIT
+#include "session/session.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "conelight/error.h"
+#include "io/scene_file.h"
+
+namespace conelight::program {
+namespace {
+
+// Steps kept. A step holds tables of lights or single materials: far below a megabyte each.
+constexpr std::size_t kSteps = 1000;
+
+// Settings have no ==; their texts read back as the same values.
+bool same(const Settings& a, const Settings& b) {
+    return std::all_of(settingInfos().begin(), settingInfos().end(), [&](const SettingInfo& info) {
+        return getSetting(a, info.key) == getSetting(b, info.key);
+    });
+}
+
+bool same(const Camera& a, const Camera& b) {
+    return a.name == b.name && a.eye == b.eye && a.target == b.target && a.up == b.up && a.fovY == b.fovY &&
+           a.zNear == b.zNear && a.zFar == b.zFar;
+}
+
+// Whether two steps change the same things, so that the later one can take the place of the earlier.
+bool sameTargets(const Step& a, const Step& b) {
+    if (a.edits.size() != b.edits.size()) return false;
+    for (std::size_t i = 0; i < a.edits.size(); ++i) {
+        if (a.edits[i].index() != b.edits[i].index()) return false;
+        const auto* instance = std::get_if<InstanceEdit>(&a.edits[i]);
+        if (instance != nullptr && instance->index != std::get<InstanceEdit>(b.edits[i]).index) return false;
+        const auto* material = std::get_if<MaterialEdit>(&a.edits[i]);
+        if (material != nullptr && material->index != std::get<MaterialEdit>(b.edits[i]).index) return false;
+    }
+    return true;
+}
+
+void takeAfter(Edit& edit, const Edit& later) {
+    std::visit([&](auto& one) { one.after = std::get<std::decay_t<decltype(one)>>(later).after; }, edit);
+}
+
+template <class E, class T>
+Edit editOf(const T& before, const T& after) {
+    E edit;
+    edit.before = before;
+    edit.after = after;
+    return edit;
+}
+
+}  // namespace
+
+Settings startSettings(const Scene& scene, const std::string& mode) {
+    Settings settings;
+    if (!mode.empty()) setSetting(settings, "mode", mode);
+    // The original wrote linear values to the screen; its look is kept in its own modes unless asked
+    // otherwise. Its rooms (closed, albedo 0.85) gather several times their direct light: 1.5 stops less, by
+    // eye.
+    const bool itsOwn = settings.mode == Mode::Thesis || settings.mode == Mode::Phong;
+    if (scene.thesisFormat && itsOwn) {
+        settings.image.toneMap = ToneMap::None;
+        settings.image.srgb = false;
+    } else if (scene.thesisFormat) {
+        settings.image.exposure = -1.5f;
+    }
+    for (const auto& [key, value] : scene.settings) {
+        if (key == "mode" && !mode.empty()) continue;  // the caller wins
+        setSetting(settings, key, value);
+    }
+    return settings;
+}
+
+bool isSettingsMode(const std::string& mode) { return mode != "reference" && mode != "radiosity"; }
+
+std::vector<std::string> sessionModes() {
+    std::vector<std::string> modes;
+    std::string known;
+    for (const SettingInfo& info : settingInfos())
+        if (info.key == "mode") known = info.range;
+    for (std::size_t from = 0; from < known.size();) {
+        const std::size_t comma = std::min(known.find(',', from), known.size());
+        modes.push_back(known.substr(from, comma - from));
+        from = comma + 1;
+    }
+    modes.insert(modes.end(), {"reference", "radiosity"});
+    return modes;
+}
+
+Session::Session() {
+    scene_.name = "empty";
+    completeScene(scene_);
+    camera_ = scene_.cameras.empty() ? Camera{} : scene_.cameras.front();
+    mode_ = getSetting(settings_, "mode");
+}
+
+Session::Session(Scene scene, std::string path, const Settings& settings, std::string mode,
+                 const Camera& camera)
+    : scene_(std::move(scene)),
+      path_(std::move(path)),
+      settings_(settings),
+      mode_(mode.empty() ? getSetting(settings, "mode") : std::move(mode)),
+      camera_(camera) {}
+
+std::vector<std::string> Session::open(const std::string& path, bool keepView) {
+    Scene loaded = io::loadScene(path);
+    completeScene(loaded);
+    const Settings start = startSettings(loaded);
+    scene_ = std::move(loaded);
+    path_ = path;
+    if (!keepView) {
+        settings_ = start;
+        mode_ = getSetting(start, "mode");
+        camera_ = scene_.cameras.front();
+        flags_ = {};
+        ++revisions_.settings;
+        ++revisions_.camera;
+        ++revisions_.flags;
+    }
+    selection_ = {};
+    rayMark_.reset();
+    done_.clear();
+    undone_.clear();
+    sealed_ = true;
+    savedCount_ = ++changeCount_;
+    ++revisions_.scene;
+    ++revisions_.selection;
+    return scene_.notes;
+}
+
+Settings Session::startingSettings() const { return startSettings(scene_, getSetting(settings_, "mode")); }
+
+Settings Session::shownSettings() const {
+    Settings shown = settings_;
+    const std::string mode = shownMode();
+    if (isSettingsMode(mode)) conelight::setSetting(shown, "mode", mode);
+    if (flags_.drawVoxels || flags_.localizedLod) {
+        shown.component = Component::Voxels;
+        shown.thesis.voxelView = flags_.drawVoxels ? ThesisVoxelView::Cubes : ThesisVoxelView::Surfaces;
+    }
+    return shown;
+}
+
+std::string Session::shownMode() const {
+    // Colours of the volume on surfaces exist in mode thesis only; modes without voxels show its volume.
+    if (flags_.localizedLod && !flags_.drawVoxels) return "thesis";
+    const bool hasVoxels = mode_ != "phong" && isSettingsMode(mode_);
+    return flags_.drawVoxels && !hasVoxels ? "thesis" : mode_;
+}
+
+bool Session::showsNothing() const { return !flags_.drawObjects && !flags_.drawVoxels; }
+
+void Session::setSettings(const Settings& settings, const std::string& label, const std::string& mergeKey) {
+    validateSettings(settings);
+    const std::string renderMode = getSetting(settings, "mode");
+    const bool otherMode = renderMode != getSetting(settings_, "mode");
+    if (same(settings, settings_)) return;
+    Step step{label, mergeKey, {}};
+    step.edits.push_back(editOf<SettingsEdit, PictureSettings>({settings_, mode_},
+                                                               {settings, otherMode ? renderMode : mode_}));
+    commit(std::move(step));
+}
+
+void Session::setSetting(const std::string& key, const std::string& value, const std::string& mergeKey) {
+    if (key == "mode") return setMode(value);
+    Settings changed = settings_;
+    conelight::setSetting(changed, key, value);
+    setSettings(changed, "set " + key + " " + value, mergeKey);
+}
+
+void Session::setMode(const std::string& mode) {
+    const std::vector<std::string> known = sessionModes();
+    if (std::find(known.begin(), known.end(), mode) == known.end()) {
+        std::string names;
+        for (const std::string& one : known)
+            names += (names.empty() ? "" : one == known.back() ? " or " : ", ") + one;
+        throw Error(ErrorKind::Usage,
+                    fmt::format("mode: there is no mode '{}'; {} would be right", mode, names));
+    }
+    if (mode == mode_) return;
+    Settings changed = settings_;
+    if (isSettingsMode(mode)) {
+        const Settings oldStart = startingSettings(), newStart = startSettings(scene_, mode);
+        for (const SettingInfo& info : settingInfos())
+            if (getSetting(changed, info.key) == getSetting(oldStart, info.key))
+                conelight::setSetting(changed, info.key, getSetting(newStart, info.key));
+        conelight::setSetting(changed, "mode", mode);
+    }
+    Step step{"mode " + mode, {}, {}};
+    step.edits.push_back(editOf<SettingsEdit, PictureSettings>({settings_, mode_}, {changed, mode}));
+    commit(std::move(step));
+}
+
+void Session::jumpCamera(const Camera& camera, const std::string& label) {
+    if (same(camera, camera_)) return;
+    Step step{label, {}, {}};
+    step.edits.push_back(editOf<CameraEdit>(camera_, camera));
+    commit(std::move(step));
+}
+
+void Session::setFlags(const ViewFlags& flags, const std::string& label) {
+    if (flags == flags_) return;
+    Step step{label, {}, {}};
+    step.edits.push_back(editOf<FlagsEdit>(flags_, flags));
+    commit(std::move(step));
+}
+
+void Session::setInstances(const std::vector<std::pair<std::size_t, Instance>>& changed,
+                           const std::string& label, const std::string& mergeKey) {
+    Step step{label, mergeKey, {}};
+    for (const auto& [index, instance] : changed) {
+        Edit edit = editOf<InstanceEdit>(scene_.instances.at(index), instance);
+        std::get<InstanceEdit>(edit).index = index;
+        step.edits.push_back(std::move(edit));
+    }
+    if (!step.edits.empty()) commit(std::move(step));
+}
+
+void Session::setMaterials(const std::vector<std::pair<std::size_t, Material>>& changed,
+                           const std::string& label, const std::string& mergeKey) {
+    Step step{label, mergeKey, {}};
+    for (const auto& [index, material] : changed) {
+        Edit edit = editOf<MaterialEdit>(scene_.materials.at(index), material);
+        std::get<MaterialEdit>(edit).index = index;
+        step.edits.push_back(std::move(edit));
+    }
+    if (!step.edits.empty()) commit(std::move(step));
+}
+
+std::size_t Session::materialOf(std::size_t instance) {
+    Instance changed = scene_.instances.at(instance);
+    if (changed.material >= 0) return static_cast<std::size_t>(changed.material);
+    std::vector<Material> materials = scene_.materials;
+    materials.emplace_back();
+    materials.back().name = changed.name;
+    changed.material = static_cast<int>(scene_.materials.size());
+    Step step{"material of " + changed.name, {}, {}};
+    step.edits.push_back(editOf<MaterialsEdit>(scene_.materials, materials));
+    Edit edit = editOf<InstanceEdit>(scene_.instances[instance], changed);
+    std::get<InstanceEdit>(edit).index = instance;
+    step.edits.push_back(std::move(edit));
+    commit(std::move(step));
+    return materials.size() - 1;
+}
+
+void Session::setLights(const std::vector<Light>& lights, const std::string& label,
+                        const std::string& mergeKey) {
+    Step step{label, mergeKey, {}};
+    step.edits.push_back(editOf<LightsEdit>(scene_.lights, lights));
+    commit(std::move(step));
+}
+
+void Session::setCameras(const std::vector<Camera>& cameras, const std::string& label) {
+    Step step{label, {}, {}};
+    step.edits.push_back(editOf<CamerasEdit>(scene_.cameras, cameras));
+    commit(std::move(step));
+}
+
+void Session::setSky(const glm::vec3& sky, const std::string& label, const std::string& mergeKey) {
+    if (sky == scene_.sky) return;
+    Step step{label, mergeKey, {}};
+    step.edits.push_back(editOf<SkyEdit>(scene_.sky, sky));
+    commit(std::move(step));
+}
+
+void Session::moveCamera(const Camera& camera) {
+    if (same(camera, camera_)) return;
+    camera_ = camera;
+    ++revisions_.camera;
+}
+
+void Session::select(const Selection& selection) {
+    if (selection == selection_) return;
+    selection_ = selection;
+    ++revisions_.selection;
+}
+
+void Session::setRayMark(const std::optional<RayMark>& mark) {
+    rayMark_ = mark;
+    ++revisions_.selection;
+}
+
+void Session::commit(Step step) {
+    for (const Edit& edit : step.edits) apply(edit, true);
+    ++changeCount_;
+    undone_.clear();
+    const bool merges = !sealed_ && !step.mergeKey.empty() && !done_.empty() &&
+                        done_.back().mergeKey == step.mergeKey && sameTargets(done_.back(), step);
+    sealed_ = false;
+    if (merges) {
+        for (std::size_t i = 0; i < step.edits.size(); ++i) takeAfter(done_.back().edits[i], step.edits[i]);
+        done_.back().label = std::move(step.label);
+        return;
+    }
+    done_.push_back(std::move(step));
+    if (done_.size() > kSteps) done_.pop_front();
+}
+
+void Session::apply(const Edit& edit, bool forward) {
+    const auto side = [forward](const auto& one) -> const auto& { return forward ? one.after : one.before; };
+    if (const auto* instance = std::get_if<InstanceEdit>(&edit)) {
+        Instance& target = scene_.instances[instance->index];
+        if (instance->before.worldFromObject != instance->after.worldFromObject) ++revisions_.transforms;
+        Instance rest = instance->after;
+        rest.worldFromObject = instance->before.worldFromObject;
+        const Instance& before = instance->before;
+        if (rest.name != before.name || rest.material != before.material || rest.visible != before.visible ||
+            rest.voxelized != before.voxelized || rest.castsShadow != before.castsShadow ||
+            rest.dynamic != before.dynamic || rest.mesh != before.mesh)
+            ++revisions_.instances;
+        target = side(*instance);
+    } else if (const auto* material = std::get_if<MaterialEdit>(&edit)) {
+        scene_.materials[material->index] = side(*material);
+        ++revisions_.materials;
+    } else if (const auto* materials = std::get_if<MaterialsEdit>(&edit)) {
+        scene_.materials = side(*materials);
+        ++revisions_.materials;
+    } else if (const auto* lights = std::get_if<LightsEdit>(&edit)) {
+        scene_.lights = side(*lights);
+        ++revisions_.lights;
+        if (selection_.kind == SelectionKind::Light && selection_.index >= scene_.lights.size()) select({});
+    } else if (const auto* cameras = std::get_if<CamerasEdit>(&edit)) {
+        scene_.cameras = side(*cameras);
+        ++revisions_.cameras;
+    } else if (const auto* sky = std::get_if<SkyEdit>(&edit)) {
+        scene_.sky = side(*sky);
+        ++revisions_.sky;
+    } else if (const auto* settings = std::get_if<SettingsEdit>(&edit)) {
+        settings_ = side(*settings).settings;
+        mode_ = side(*settings).mode;
+        ++revisions_.settings;
+    } else if (const auto* camera = std::get_if<CameraEdit>(&edit)) {
+        camera_ = side(*camera);
+        ++revisions_.camera;
+    } else if (const auto* flags = std::get_if<FlagsEdit>(&edit)) {
+        flags_ = side(*flags);
+        ++revisions_.flags;
+    }
+}
+
+std::optional<std::string> Session::undo() {
+    if (done_.empty()) return std::nullopt;
+    Step step = std::move(done_.back());
+    done_.pop_back();
+    for (auto edit = step.edits.rbegin(); edit != step.edits.rend(); ++edit) apply(*edit, false);
+    ++changeCount_;
+    sealed_ = true;
+    undone_.push_back(std::move(step));
+    return undone_.back().label;
+}
+
+std::optional<std::string> Session::redo() {
+    if (undone_.empty()) return std::nullopt;
+    Step step = std::move(undone_.back());
+    undone_.pop_back();
+    for (const Edit& edit : step.edits) apply(edit, true);
+    ++changeCount_;
+    sealed_ = true;
+    done_.push_back(std::move(step));
+    return done_.back().label;
+}
+
+std::optional<Request> Session::takeRequest() {
+    if (requests_.empty()) return std::nullopt;
+    Request next = std::move(requests_.front());
+    requests_.pop_front();
+    return next;
+}
+
+}  // namespace conelight::program

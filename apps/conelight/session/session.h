@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+// What a viewer acts on, without a window and without OpenGL: the edited scene, the picture's settings, the
+// camera, the selection and the view flags, with undo, with counters of what changed, and with the requests
+// that the main loop carries out between frames. Console and panels change it through the same calls; one
+// thread only.
+//
+// Loop:  console.runQueued();  while (request = session.takeRequest()) carry it out;  draw shownSettings()
+// through camera(), with setScene before it when revisions().sceneTables() differs;  session.frameDrawn(ms);
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "session/edit.h"
+#include "session/frame_times.h"
+#include "session/request.h"
+#include "session/revisions.h"
+
+namespace conelight::program {
+
+enum class SelectionKind { None, Instance, Light, Material };
+struct Selection {
+    SelectionKind kind = SelectionKind::None;
+    std::size_t index = 0;
+    bool operator==(const Selection&) const = default;
+};
+
+// Where the last ray met a surface, to be drawn as a mark.
+struct RayMark {
+    glm::vec3 position{0};
+    glm::vec3 normal{0};
+};
+
+// Settings that a scene starts with in a mode ("": the default or the scene's own): its format's look, then
+// its own block.
+Settings startSettings(const Scene& scene, const std::string& mode = {});
+// All modes of the program: those of the renderer, then those on the CPU.
+std::vector<std::string> sessionModes();
+// `mode` as a mode of the renderer: those on the CPU have none of their own, and stand on `cones`.
+bool isSettingsMode(const std::string& mode);
+
+class Session {
+  public:
+    Session();
+    // `scene` is valid and complete (completeScene). `mode` may be one of the CPU's.
+    Session(Scene scene, std::string path, const Settings& settings, std::string mode, const Camera& camera);
+
+    // Reads and completes a scene; its notes are returned. On an error the session is as before. keepView:
+    // camera, settings and flags stay.
+    std::vector<std::string> open(const std::string& path, bool keepView);
+
+    const Scene& scene() const { return scene_; }
+    const std::string& path() const { return path_; }
+    const Settings& settings() const { return settings_; }
+    // What the scene starts with in the present mode: what `reset` goes back to.
+    Settings startingSettings() const;
+    const std::string& mode() const { return mode_; }
+    const Camera& camera() const { return camera_; }
+    const ViewFlags& flags() const { return flags_; }
+    const Selection& selection() const { return selection_; }
+    const std::optional<RayMark>& rayMark() const { return rayMark_; }
+    const Revisions& revisions() const { return revisions_; }
+
+    // Settings and mode with the flags that change the picture in them: what is to be drawn.
+    Settings shownSettings() const;
+    std::string shownMode() const;
+    bool showsNothing() const;  // objects and voxels are both off: the picture is background
+
+    // Changes. Each is one step of undo, labelled; a change to the same is none. With a mergeKey equal to
+    // that of the step before, and no seal() in between, both become one step.
+    void setSettings(const Settings& settings, const std::string& label, const std::string& mergeKey = {});
+    void setSetting(const std::string& key, const std::string& value, const std::string& mergeKey = {});
+    // Settings that were the scene's own for the old mode become its own for the new one. Throws Error(Usage)
+    // that names the known modes.
+    void setMode(const std::string& mode);
+    void jumpCamera(const Camera& camera, const std::string& label);
+    void setFlags(const ViewFlags& flags, const std::string& label);
+    void setInstances(const std::vector<std::pair<std::size_t, Instance>>& changed, const std::string& label,
+                      const std::string& mergeKey = {});
+    void setMaterials(const std::vector<std::pair<std::size_t, Material>>& changed, const std::string& label,
+                      const std::string& mergeKey = {});
+    // Gives an instance without material one of its own, which can be edited; returns its index.
+    std::size_t materialOf(std::size_t instance);
+    void setLights(const std::vector<Light>& lights, const std::string& label,
+                   const std::string& mergeKey = {});
+    void setCameras(const std::vector<Camera>& cameras, const std::string& label);
+    void setSky(const glm::vec3& sky, const std::string& label, const std::string& mergeKey = {});
+    void seal() { sealed_ = true; }
+
+    // No steps of undo: flying, looking, choosing.
+    void moveCamera(const Camera& camera);
+    void select(const Selection& selection);
+    void setRayMark(const std::optional<RayMark>& mark);
+    void askForVoxels() { ++revisions_.voxels; }
+
+    // Return the label of what was undone or redone; nothing when there is none.
+    std::optional<std::string> undo();
+    std::optional<std::string> redo();
+    std::size_t undoSteps() const { return done_.size(); }
+    std::size_t redoSteps() const { return undone_.size(); }
+    bool unsaved() const { return changeCount_ != savedCount_; }
+    void markSaved() { savedCount_ = changeCount_; }
+
+    void request(Request request) { requests_.push_back(std::move(request)); }
+    std::optional<Request> takeRequest();
+    bool hasRequests() const { return !requests_.empty(); }
+
+    FrameTimes& frameTimes() { return frameTimes_; }
+    const FrameTimes& frameTimes() const { return frameTimes_; }
+    void frameDrawn(double ms) { frameTimes_.add(ms); }
+
+  private:
+    void commit(Step step);
+    void apply(const Edit& edit, bool forward);
+
+    Scene scene_;
+    std::string path_;
+    Settings settings_;
+    std::string mode_;
+    Camera camera_;
+    ViewFlags flags_;
+    Selection selection_;
+    std::optional<RayMark> rayMark_;
+    Revisions revisions_;
+    FrameTimes frameTimes_;
+    std::deque<Request> requests_;
+    std::deque<Step> done_;
+    std::vector<Step> undone_;
+    bool sealed_ = true;
+    std::uint64_t changeCount_ = 0, savedCount_ = 0;
+};
+
+}  // namespace conelight::program
