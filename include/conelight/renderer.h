@@ -63,11 +63,25 @@ class Renderer {
     // Copies and uploads the scene. Throws Error(BadInput) when Scene::validate does.
     void setScene(const Scene& scene);
 
+    // Changes of the scene in place: each uploads just what it names, and the next render() makes anew what
+    // depends on it. Indices are those of the scene's vectors. The voxel grid stays where setScene put it and
+    // grows by whole bricks when something moves out of it (docs/guide/embed.md, "Things that move").
+    // Throw Error(Usage) before setScene or for an index out of range, Error(BadInput) for what
+    // Scene::validate refuses; nothing is changed then. GL state stays as it was.
+    // setInstance: transform, material, flags; the mesh must be the one it has.
+    void setInstance(std::size_t index, const Instance& instance);
+    void setMaterial(std::size_t index, const Material& material);
+    void setLight(std::size_t index, const Light& light);
+    void setLights(const std::vector<Light>& lights);  // all of them: adds and removes
+    void setSky(const glm::vec3& radiance);            // W/(sr m^2)
+    // The renderer's copy, with all changes; valid until the next setScene.
+    const Scene& scene() const;
+
     // Timings per pass cost a glFinish each on software drivers. Counting lookups makes cone passes slower.
     void setProfiling(bool passes, bool lookups);
 
-    // Draws one picture, width x height in [1, 16384]. Voxels and light are rebuilt only when the scene or a
-    // setting they depend on changed since the last call, or when `dynamic` (set by setDynamic) is on.
+    // Draws one picture, width x height in [1, 16384]. Voxels and light are made anew only where the scene or
+    // a setting they depend on changed since the last call; all of them when `dynamic` (setDynamic) is on.
     // Throws Error(Usage) for settings out of range, Error(Runtime) for failures of the driver.
     void render(const Camera& camera, int width, int height, const Settings& settings);
     void setDynamic(bool everyFrame);

@@ -40,7 +40,9 @@ struct Instance {
     uint firstTriangle;  // number of triangles of all instances before this one, counting every instance
     uint pad0;
     uint pad1;
-};  // 144 B
+    // ---- 144 B: worldFromObject at the picture before (motion vectors); equal when it has not moved since
+    mat4 prevWorldFromObject;
+};  // 208 B
 
 #define MATERIAL_ALPHA_MASK 1u
 #define MATERIAL_ALPHA_BLEND 2u
@@ -118,7 +120,7 @@ struct Light {
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::Vertex) == 32);
-static_assert(sizeof(conelight::gpu::Instance) == 144);
+static_assert(sizeof(conelight::gpu::Instance) == 208);
 static_assert(sizeof(conelight::gpu::Material) == 304);
 static_assert(sizeof(conelight::gpu::Light) == 112);
 #endif

@@ -15,6 +15,7 @@
 #include "image/debug_view.h"
 #include "image/display.h"
 #include "light/emissive_quads.h"
+#include "scene/scene_checks.h"
 #include "shared/bindings.h"
 #include "view/camera.h"
 
@@ -67,14 +68,20 @@ struct Renderer::Impl {
     Mode modeKind = Mode::Cones;
     std::optional<Settings> builtFor;
     bool sceneChanged = true;
+    std::uint64_t geometryRevision = 0, lightRevision = 0;
     bool shadowsCurrent = false;
     bool emittersAreLights = false;
     bool geometryChanged = true;
     bool lightChanged = true;
+    bool skyChanged = false;
     std::uint32_t frameIndex = 0;
     FrameStats stats;
 
     explicit Impl(gl::ShaderProvider provider) : programs(std::move(provider)) {}
+
+    // Throw Error(Usage) without a scene or for an index out of range.
+    void requireScene(const char* call) const;
+    static void requireIndex(const char* call, const char* what, std::size_t index, std::size_t count);
 
     void render(const Camera& camera, int width, int height, const Settings& settings);
     void prepareMode(const Settings& settings);
@@ -102,6 +109,67 @@ void Renderer::setScene(const Scene& scene) {
     impl_->sceneChanged = true;
 }
 
+void Renderer::Impl::requireScene(const char* call) const {
+    if (!scene)
+        base::fail(ErrorKind::Usage, "%s: there is no scene; setScene before it would be right", call);
+}
+
+void Renderer::Impl::requireIndex(const char* call, const char* what, std::size_t index, std::size_t count) {
+    if (index >= count)
+        base::fail(ErrorKind::Usage, "%s: %s %zu of %zu; an index below that would be right", call, what,
+                   index, count);
+}
+
+void Renderer::setInstance(std::size_t index, const Instance& instance) {
+    impl_->requireScene("setInstance");
+    std::vector<Instance>& instances = impl_->source.instances;
+    Impl::requireIndex("setInstance", "instance", index, instances.size());
+    scene::validateInstance(impl_->source, instance, index);
+    if (instance.mesh != instances[index].mesh)
+        base::fail(ErrorKind::BadInput, "instance %zu '%s': mesh %d; the mesh it has, %d, would be right",
+                   index, instance.name.c_str(), instance.mesh, instances[index].mesh);
+    const gl::HostStateGuard guard;
+    instances[index] = instance;
+    impl_->scene->setInstance(index, instance);
+}
+
+void Renderer::setMaterial(std::size_t index, const Material& material) {
+    impl_->requireScene("setMaterial");
+    Impl::requireIndex("setMaterial", "material", index, impl_->source.materials.size());
+    scene::validateMaterial(impl_->source, material);
+    const gl::HostStateGuard guard;
+    impl_->source.materials[index] = material;
+    impl_->scene->setMaterial(index, material);
+}
+
+void Renderer::setLight(std::size_t index, const Light& light) {
+    impl_->requireScene("setLight");
+    Impl::requireIndex("setLight", "light", index, impl_->source.lights.size());
+    std::vector<Light> lights = impl_->source.lights;
+    lights[index] = light;
+    setLights(lights);
+}
+
+void Renderer::setLights(const std::vector<Light>& lights) {
+    impl_->requireScene("setLights");
+    for (const Light& light : lights) scene::validateLight(light);
+    const gl::HostStateGuard guard;
+    impl_->source.lights = lights;
+    impl_->scene->setLights(lights);
+}
+
+void Renderer::setSky(const glm::vec3& radiance) {
+    impl_->requireScene("setSky");
+    scene::validateSky(radiance);
+    impl_->source.sky = radiance;
+    impl_->skyChanged = true;
+}
+
+const Scene& Renderer::scene() const {
+    impl_->requireScene("scene");
+    return impl_->source;
+}
+
 void Renderer::setProfiling(bool passes, bool lookups) {
     impl_->profiler.setEnabled(passes);
     impl_->countLookups = lookups;
@@ -114,8 +182,7 @@ void Renderer::render(const Camera& camera, int width, int height, const Setting
         base::fail(ErrorKind::Usage, "picture of %d x %d; 1 to %d in each direction would be right", width,
                    height, kMaxEdge);
     validateSettings(settings);
-    if (!impl_->scene)
-        base::fail(ErrorKind::Usage, "render: there is no scene; setScene before it would be right");
+    impl_->requireScene("render");
     const gl::HostStateGuard guard;
     impl_->render(camera, width, height, settings);
 }
@@ -145,6 +212,7 @@ void Renderer::Impl::render(const Camera& camera, int width, int height, const S
     else
         drawMode(width, height, settings);
     gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer);
+    scene->endFrame();
     collectStats(cpuStart, wallStart);
 }
 
@@ -156,12 +224,14 @@ void Renderer::Impl::prepareMode(const Settings& settings) {
         modeKind = settings.mode;
         builtFor.reset();
     }
-    geometryChanged = sceneChanged || everyFrame || !builtFor || !(builtFor->voxels == settings.voxels);
+    geometryChanged = sceneChanged || everyFrame || !builtFor || !(builtFor->voxels == settings.voxels) ||
+                      geometryRevision != scene->geometryRevision();
     // Flat emitters as lights; in the thesis's program emissive objects light nothing (a defect).
     const bool emitters =
         settings.light.emissiveQuads &&
         !(settings.mode == Mode::Thesis && gather::effectiveDefects(settings.thesis).darkEmitters);
-    lightChanged = geometryChanged || !(builtFor->light == settings.light) || emitters != emittersAreLights;
+    lightChanged = geometryChanged || skyChanged || lightRevision != scene->lightRevision() ||
+                   !(builtFor->light == settings.light) || emitters != emittersAreLights;
     if (lightChanged) {
         shadowsCurrent = false;
         light::setEmissiveQuads(*scene, source, emitters);
@@ -181,7 +251,9 @@ void Renderer::Impl::prepareMode(const Settings& settings) {
 void Renderer::Impl::drawMode(int width, int height, const Settings& settings) {
     mode->render({programs, profiler, source, *scene, settings, width, height, targets->gbuffer, shadows,
                   targets->output, geometryChanged, lightChanged, countLookups ? &lookupCounters : nullptr});
-    sceneChanged = false;
+    sceneChanged = skyChanged = false;
+    geometryRevision = scene->geometryRevision();
+    lightRevision = scene->lightRevision();
     builtFor = settings;
 }
 

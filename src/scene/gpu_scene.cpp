@@ -193,10 +193,13 @@ std::vector<std::uint8_t> encodedSurface(const std::vector<glm::vec4>& level) {
 
 GpuScene::GpuScene(const Scene& source) {
     source.validate();
+    static std::uint64_t made = 0;
+    identity_ = ++made;
     uploadGeometry(source);
     uploadMaterials(source);
     uploadTextures(source);
-    uploadLights(source);
+    setLights(source.lights);
+    firstBounds_ = bounds();
 }
 
 void GpuScene::uploadGeometry(const Scene& source) {
@@ -229,10 +232,6 @@ void GpuScene::uploadGeometry(const Scene& source) {
         g.indexCount = range.indexCount;
         g.firstVertex = range.firstVertex;
         g.material = instance.material >= 0 ? static_cast<std::uint32_t>(instance.material) : defaultMaterial;
-        g.flags = (instance.visible ? INSTANCE_VISIBLE : 0u) |
-                  (instance.visible && instance.voxelized ? INSTANCE_VOXELIZED : 0u) |
-                  (instance.visible && instance.castsShadow ? INSTANCE_CASTS_SHADOW : 0u) |
-                  (instance.dynamic ? INSTANCE_DYNAMIC : 0u);
         g.firstTriangle = triangleCount_;
         triangleCount_ += range.indexCount / 3;
         instanceIndices.push_back(static_cast<std::uint32_t>(instances_.size()));
@@ -242,9 +241,14 @@ void GpuScene::uploadGeometry(const Scene& source) {
     vertexBuffer_ = gl::Buffer(vertices, "scene vertices");
     indexBuffer_ = gl::Buffer(indices, "scene indices");
     instanceIndexBuffer_ = gl::Buffer(instanceIndices, "scene instance indices");
-    instanceBuffer_ = gl::Buffer(instances_.size() * sizeof(gpu::Instance), "scene instances");
-    for (std::size_t i = 0; i < source.instances.size(); ++i)
-        setTransform(i, source.instances[i].worldFromObject);
+    instanceBounds_.resize(instances_.size());
+    instanceRevisions_.resize(instances_.size());
+    for (std::size_t i = 0; i < instances_.size(); ++i) {
+        setFlags(i, source.instances[i]);
+        place(i, source.instances[i].worldFromObject);
+        instances_[i].prevWorldFromObject = instances_[i].worldFromObject;
+    }
+    instanceBuffer_ = gl::Buffer(instances_, "scene instances");
     vertexArray_ = gl::VertexArray(vertexBuffer_, sizeof(gpu::Vertex),
                                    {{0, 3, GL_FLOAT, false, offsetof(gpu::Vertex, position)},
                                     {1, 1, GL_UNSIGNED_INT, true, offsetof(gpu::Vertex, normalOct)},
@@ -255,12 +259,28 @@ void GpuScene::uploadGeometry(const Scene& source) {
     vertexArray_.addPerDrawUint(5, instanceIndexBuffer_);
     drawOrder_.resize(instances_.size());
     std::iota(drawOrder_.begin(), drawOrder_.end(), 0u);
+    sortDraws();
+}
+
+void GpuScene::sortDraws() {
     std::stable_sort(drawOrder_.begin(), drawOrder_.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return instances_[a].material < instances_[b].material;
+        return instances_[a].material != instances_[b].material
+                   ? instances_[a].material < instances_[b].material
+                   : a < b;
     });
 }
 
-void GpuScene::setTransform(std::size_t index, const glm::mat4& worldFromObject) {
+void GpuScene::setFlags(std::size_t index, const Instance& source) {
+    gpu::Instance& g = instances_[index];
+    g.flags = (source.visible ? INSTANCE_VISIBLE : 0u) |
+              (source.visible && source.voxelized ? INSTANCE_VOXELIZED : 0u) |
+              (source.visible && source.castsShadow ? INSTANCE_CASTS_SHADOW : 0u) |
+              (source.dynamic ? INSTANCE_DYNAMIC : 0u) |
+              (g.flags & (INSTANCE_FLIPPED | INSTANCE_LIT_EXACTLY));
+}
+
+// In the CPU table.
+void GpuScene::place(std::size_t index, const glm::mat4& worldFromObject) {
     gpu::Instance& g = instances_[index];
     g.worldFromObject = worldFromObject;
     const glm::mat3 linear(worldFromObject);
@@ -271,39 +291,76 @@ void GpuScene::setTransform(std::size_t index, const glm::mat4& worldFromObject)
     g.normalColumn0 = glm::vec4(glm::cross(linear[1], linear[2]) * sign, 0);
     g.normalColumn1 = glm::vec4(glm::cross(linear[2], linear[0]) * sign, 0);
     g.normalColumn2 = glm::vec4(glm::cross(linear[0], linear[1]) * sign, 0);
-    instanceBuffer_.update(index * sizeof(gpu::Instance), &g, sizeof g);
-    updateBounds();
-}
-
-void GpuScene::updateBounds() {
-    bounds_ = Aabb{};
-    for (std::size_t i = 0; i < instances_.size(); ++i) {
-        const gpu::Instance& g = instances_[i];
-        const Aabb& box = instanceObjectBounds_[i];
-        if ((g.flags & INSTANCE_VISIBLE) == 0 || box.empty()) continue;
-        bounds_.grow(instanceBounds(i));
-    }
-}
-
-Aabb GpuScene::instanceBounds(std::size_t instance) const {
-    const Aabb& box = instanceObjectBounds_[instance];
+    const Aabb& box = instanceObjectBounds_[index];
     Aabb world;
-    if (box.empty()) return world;
-    for (int corner = 0; corner < 8; ++corner)
-        world.grow(glm::vec3(instances_[instance].worldFromObject *
-                             glm::vec4((corner & 1) != 0 ? box.max.x : box.min.x,
-                                       (corner & 2) != 0 ? box.max.y : box.min.y,
-                                       (corner & 4) != 0 ? box.max.z : box.min.z, 1)));
-    return world;
+    for (int corner = 0; corner < 8 && !box.empty(); ++corner)
+        world.grow(glm::vec3(worldFromObject * glm::vec4((corner & 1) != 0 ? box.max.x : box.min.x,
+                                                         (corner & 2) != 0 ? box.max.y : box.min.y,
+                                                         (corner & 4) != 0 ? box.max.z : box.min.z, 1)));
+    instanceBounds_[index] = world;
+    boundsCurrent_ = false;
+}
+
+void GpuScene::uploadInstance(std::size_t index) {
+    instanceBuffer_.update(index * sizeof(gpu::Instance), &instances_[index], sizeof(gpu::Instance));
+}
+
+void GpuScene::setInstance(std::size_t index, const Instance& instance) {
+    gpu::Instance& g = instances_[index];
+    const std::uint32_t material = instance.material >= 0 ? static_cast<std::uint32_t>(instance.material)
+                                                          : static_cast<std::uint32_t>(materials_.size() - 1);
+    const std::uint32_t flagsBefore = g.flags;
+    const bool recolored = g.material != material;
+    g.material = material;
+    setFlags(index, instance);
+    // Moved twice within a frame, it still has one place before.
+    const bool moves = g.worldFromObject != instance.worldFromObject;
+    if (moves && std::find(moved_.begin(), moved_.end(), static_cast<std::uint32_t>(index)) == moved_.end())
+        moved_.push_back(static_cast<std::uint32_t>(index));
+    place(index, instance.worldFromObject);
+    if (!moves && !recolored && g.flags == flagsBefore) return;
+    uploadInstance(index);
+    if (recolored) sortDraws();
+    instanceRevisions_[index] = ++geometryRevision_;
+}
+
+void GpuScene::endFrame() {
+    for (const std::uint32_t index : moved_) {
+        instances_[index].prevWorldFromObject = instances_[index].worldFromObject;
+        uploadInstance(index);
+    }
+    moved_.clear();
+}
+
+void GpuScene::setMaterial(std::size_t index, const Material& material) {
+    materials_[index] = packedMaterial(material);
+    materialTextures_[index] = texturesOf(material);
+    materialBuffer_.update(index * sizeof(gpu::Material), &materials_[index], sizeof(gpu::Material));
+    ++geometryRevision_;
+    for (std::size_t i = 0; i < instances_.size(); ++i)
+        if (instances_[i].material == index) instanceRevisions_[i] = geometryRevision_;
+}
+
+const Aabb& GpuScene::bounds() const {
+    if (boundsCurrent_) return bounds_;
+    bounds_ = Aabb{};
+    for (std::size_t i = 0; i < instances_.size(); ++i)
+        if ((instances_[i].flags & INSTANCE_VISIBLE) != 0 && !instanceBounds_[i].empty())
+            bounds_.grow(instanceBounds_[i]);
+    boundsCurrent_ = true;
+    return bounds_;
+}
+
+GpuScene::MaterialTextures GpuScene::texturesOf(const Material& material) {
+    return {{material.baseColorTexture.texture, material.metallicRoughnessTexture.texture,
+             material.normalTexture.texture, material.emissiveTexture.texture,
+             material.specularTexture.texture, material.specularColorTexture.texture}};
 }
 
 void GpuScene::uploadMaterials(const Scene& source) {
     for (const Material& material : source.materials) {
         materials_.push_back(packedMaterial(material));
-        materialTextures_.push_back(
-            {{material.baseColorTexture.texture, material.metallicRoughnessTexture.texture,
-              material.normalTexture.texture, material.emissiveTexture.texture,
-              material.specularTexture.texture, material.specularColorTexture.texture}});
+        materialTextures_.push_back(texturesOf(material));
     }
     materials_.push_back(packedMaterial(Material{}));
     materialTextures_.push_back({{-1, -1, -1, -1, -1, -1}});
@@ -349,9 +406,9 @@ void GpuScene::uploadTextures(const Scene& source) {
     surfaceSampler_ = gl::Sampler({GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT}, "surface array");
 }
 
-void GpuScene::uploadLights(const Scene& source) {
-    lights_ = packedLights(source.lights);
-    lightBuffer_ = gl::Buffer(lights_, "scene lights");
+void GpuScene::setLights(const std::vector<Light>& lights) {
+    updateLights(packedLights(lights));
+    ++lightRevision_;
 }
 
 void GpuScene::setLitExactly(std::size_t instance, bool lit) {
@@ -359,11 +416,11 @@ void GpuScene::setLitExactly(std::size_t instance, bool lit) {
     const std::uint32_t flags = lit ? g.flags | INSTANCE_LIT_EXACTLY : g.flags & ~INSTANCE_LIT_EXACTLY;
     if (flags == g.flags) return;
     g.flags = flags;
-    instanceBuffer_.update(instance * sizeof(gpu::Instance), &g, sizeof g);
+    uploadInstance(instance);
 }
 
 void GpuScene::updateLights(const std::vector<gpu::Light>& lights) {
-    if (lights.size() * sizeof(gpu::Light) > lightBuffer_.bytes())
+    if (!lightBuffer_ || lights.size() * sizeof(gpu::Light) > lightBuffer_.bytes())
         lightBuffer_ = gl::Buffer(lights, "scene lights");
     else
         lightBuffer_.update(0, lights.data(), lights.size() * sizeof(gpu::Light));

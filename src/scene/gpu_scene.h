@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 // The scene on the GPU: Scene (CPU tables) -> buffers of shared/scene.h, textures per material, and all
 // textures once more at low resolution in one array that compute shaders can index (voxelizers).
-// Materials are deduplicated to the scene's own plus a default one at the end.
+// Materials are the scene's own plus a default one at the end.
+//
+// Changes in place (setInstance, setMaterial, setLights) upload just the entries they concern and raise
+// revisions. Who derives something from instances keeps the revisions it has seen and compares: no lists of
+// changes have to be handed on, and none can be missed.
 #pragma once
 
 #include <cstdint>
@@ -34,9 +38,29 @@ class GpuScene {
     using InstanceFilter = std::function<bool(const gpu::Instance&)>;
     void draw(const InstanceFilter& filter, gl::Cull cull, bool bindTextures, int copies = 1) const;
 
-    const Aabb& bounds() const { return bounds_; }
-    Aabb instanceBounds(
-        std::size_t instance) const;  // world box of the object box: may be larger than needed
+    // One entry each; geometry, index ranges and textures stay. setInstance keeps the mesh it has.
+    // `material`: as the Scene counts them. Nothing is checked (scene/scene_checks.h).
+    void setInstance(std::size_t index, const Instance& instance);
+    void setMaterial(std::size_t index, const Material& material);
+    void setLights(const std::vector<Light>& lights);  // all of them; lights of emitters are gone
+    // After a picture: what has moved since the one before counts as standing there (prevWorldFromObject).
+    void endFrame();
+
+    // Differs between scenes of one process, so that equal revisions of two scenes are not taken for one.
+    std::uint64_t identity() const { return identity_; }
+    // Raised by each change that voxels or shadows may show: of an instance (transform, flags, material, what
+    // its material says), of any instance, of lights.
+    std::uint64_t instanceRevision(std::size_t instance) const { return instanceRevisions_[instance]; }
+    std::uint64_t geometryRevision() const { return geometryRevision_; }
+    std::uint64_t lightRevision() const { return lightRevision_; }
+
+    const Aabb& bounds() const;                               // of visible instances as they are now
+    const Aabb& firstBounds() const { return firstBounds_; }  // as they were handed over: grids fit to these
+    const Aabb& instanceBounds(
+        std::size_t instance) const  // world box of the object box: may be larger than needed
+    {
+        return instanceBounds_[instance];
+    }
     std::uint32_t triangleCount() const { return triangleCount_; }  // over all instances, visible or not
     const std::vector<gpu::Instance>& instances() const { return instances_; }
     const std::vector<gpu::Material>& materials() const { return materials_; }
@@ -46,8 +70,6 @@ class GpuScene {
     void updateLights(const std::vector<gpu::Light>& lights);
     // Light stage: sets or takes away INSTANCE_LIT_EXACTLY.
     void setLitExactly(std::size_t instance, bool lit);
-    // Moves one instance (dynamic objects); bounds and tables follow.
-    void setTransform(std::size_t instance, const glm::mat4& worldFromObject);
 
     const gl::Buffer& instanceBuffer() const { return instanceBuffer_; }
 
@@ -55,17 +77,23 @@ class GpuScene {
     void uploadGeometry(const Scene& source);
     void uploadMaterials(const Scene& source);
     void uploadTextures(const Scene& source);
-    void uploadLights(const Scene& source);
-    void updateBounds();
+    void place(std::size_t instance, const glm::mat4& worldFromObject);
+    void setFlags(std::size_t instance, const Instance& source);
+    void uploadInstance(std::size_t instance);
+    void sortDraws();
     void bindMaterialTextures(std::uint32_t material) const;
 
     std::vector<gpu::Instance> instances_;
-    std::vector<Aabb> instanceObjectBounds_;
+    std::vector<Aabb> instanceObjectBounds_, instanceBounds_;
+    std::vector<std::uint64_t> instanceRevisions_;
+    std::vector<std::uint32_t> moved_;  // since the last endFrame()
+    std::uint64_t identity_ = 0, geometryRevision_ = 0, lightRevision_ = 0;
     std::vector<gpu::Material> materials_;
     std::vector<gpu::Light> lights_;
     struct MaterialTextures {
         int slots[6];  // base, metallic-roughness, normal, emissive, specular, specular colour; -1: white
     };
+    static MaterialTextures texturesOf(const Material& material);
     std::vector<MaterialTextures> materialTextures_;
     std::vector<gl::Texture> textures_;
     std::vector<gl::Sampler> samplers_;  // per texture
@@ -76,7 +104,9 @@ class GpuScene {
         lightBuffer_;
     gl::VertexArray vertexArray_;
     std::vector<std::uint32_t> drawOrder_;  // instances sorted by material
-    Aabb bounds_;
+    mutable Aabb bounds_;
+    mutable bool boundsCurrent_ = false;
+    Aabb firstBounds_;
     std::uint32_t triangleCount_ = 0;
     bool hasVertexColors_ = false;
 };

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/log.h"
+#include "scene/scene_checks.h"
 
 namespace conelight {
 
@@ -93,7 +94,9 @@ void validateNumbers(const Material& m) {
                 isFinite({m.phong.ambientStrength, m.phong.diffuseStrength, m.phong.specularStrength}));
 }
 
-void validateLight(const Light& light) {
+}  // namespace
+
+void scene::validateLight(const Light& light) {
     if (!isFinite(light.position) || !isFinite(light.direction) || !isFinite(light.intensity))
         fail(ErrorKind::BadInput, "light '%s': position, direction or intensity is not finite",
              light.name.c_str());
@@ -103,7 +106,31 @@ void validateLight(const Light& light) {
              light.name.c_str());
 }
 
-}  // namespace
+void scene::validateMaterial(const Scene& scene, const Material& material) {
+    validateNumbers(material);
+    validateTextureRef(scene, material.baseColorTexture, material, "base colour");
+    validateTextureRef(scene, material.metallicRoughnessTexture, material, "metallic-roughness");
+    validateTextureRef(scene, material.normalTexture, material, "normal");
+    validateTextureRef(scene, material.emissiveTexture, material, "emission");
+    validateTextureRef(scene, material.specularTexture, material, "specular");
+    validateTextureRef(scene, material.specularColorTexture, material, "specular colour");
+}
+
+void scene::validateInstance(const Scene& scene, const Instance& instance, std::size_t index) {
+    if (instance.mesh < 0 || instance.mesh >= static_cast<int>(scene.meshes.size()))
+        fail(ErrorKind::BadInput, "instance %zu '%s': mesh %d; 0 or more and less than %zu would be right",
+             index, instance.name.c_str(), instance.mesh, scene.meshes.size());
+    if (instance.material >= static_cast<int>(scene.materials.size()))
+        fail(ErrorKind::BadInput, "instance %zu '%s': material %d; less than %zu would be right", index,
+             instance.name.c_str(), instance.material, scene.materials.size());
+    if (!isFinite(instance.worldFromObject))
+        fail(ErrorKind::BadInput, "instance %zu '%s': the transform is not finite", index,
+             instance.name.c_str());
+}
+
+void scene::validateSky(const glm::vec3& sky) {
+    if (!isFinite(sky)) fail(ErrorKind::BadInput, "sky: the radiance is not finite");
+}
 
 void Scene::validate() const {
     for (std::size_t i = 0; i < meshes.size(); ++i) validateMesh(meshes[i], i);
@@ -114,30 +141,10 @@ void Scene::validate() const {
             fail(ErrorKind::BadInput, "texture '%s': %d x %d texels and %zu bytes do not belong together",
                  texture.name.c_str(), texture.width, texture.height, texture.rgba.size());
     }
-    for (const Material& material : materials) {
-        validateNumbers(material);
-        validateTextureRef(*this, material.baseColorTexture, material, "base colour");
-        validateTextureRef(*this, material.metallicRoughnessTexture, material, "metallic-roughness");
-        validateTextureRef(*this, material.normalTexture, material, "normal");
-        validateTextureRef(*this, material.emissiveTexture, material, "emission");
-        validateTextureRef(*this, material.specularTexture, material, "specular");
-        validateTextureRef(*this, material.specularColorTexture, material, "specular colour");
-    }
-    for (std::size_t i = 0; i < instances.size(); ++i) {
-        const Instance& instance = instances[i];
-        if (instance.mesh < 0 || instance.mesh >= static_cast<int>(meshes.size()))
-            fail(ErrorKind::BadInput,
-                 "instance %zu '%s': mesh %d; 0 or more and less than %zu would be right", i,
-                 instance.name.c_str(), instance.mesh, meshes.size());
-        if (instance.material >= static_cast<int>(materials.size()))
-            fail(ErrorKind::BadInput, "instance %zu '%s': material %d; less than %zu would be right", i,
-                 instance.name.c_str(), instance.material, materials.size());
-        if (!isFinite(instance.worldFromObject))
-            fail(ErrorKind::BadInput, "instance %zu '%s': the transform is not finite", i,
-                 instance.name.c_str());
-    }
-    for (const Light& light : lights) validateLight(light);
-    if (!isFinite(sky)) fail(ErrorKind::BadInput, "sky: the radiance is not finite");
+    for (const Material& material : materials) scene::validateMaterial(*this, material);
+    for (std::size_t i = 0; i < instances.size(); ++i) scene::validateInstance(*this, instances[i], i);
+    for (const Light& light : lights) scene::validateLight(light);
+    scene::validateSky(sky);
 }
 
 // Lambert in both models: rho/pi * I and kd * color * c are equal when I = pi * c (docs/theory/1_scene.md).

@@ -310,10 +310,14 @@ void SurfaceVoxels::Impl::resolve(gl::ProgramLibrary& programs, gl::Profiler& pr
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Indirect);
 }
 
+VoxelGrid SurfaceVoxels::gridOf(const scene::GpuScene& scene, const VoxelSettings& settings) {
+    return grownGrid(fitGrid(scene.firstBounds(), settings.size, settings.padding, settings.shift),
+                     scene.bounds());
+}
+
 void SurfaceVoxels::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
                           const VoxelSettings& settings) {
-    build(programs, profiler, scene,
-          fitGrid(scene.bounds(), settings.size, settings.padding, settings.shift));
+    build(programs, profiler, scene, gridOf(scene, settings));
 }
 
 void SurfaceVoxels::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,

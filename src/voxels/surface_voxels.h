@@ -30,7 +30,7 @@ class SurfaceVoxels {
     SurfaceVoxels(SurfaceVoxels&&) noexcept;
     SurfaceVoxels& operator=(SurfaceVoxels&&) noexcept;
 
-    // Voxelizes `scene` anew into a grid fitted to its bounds (or into `grid`), cheap enough for every frame:
+    // Voxelizes `scene` anew into its grid (gridOf, or `grid`), cheap enough for every frame:
     // memory is kept and only grows. Waits for the GPU once, to read the counts. Radiance of every face is
     // its emission, irradiance zero. GL state changed: program, storage bindings 0-4 and 8-15,
     // BINDING_VOXEL_GRID, BINDING_PASS, the surface array's unit, units UNIT_PASS and up to UNIT_PASS + 7.
@@ -39,6 +39,9 @@ class SurfaceVoxels {
                const VoxelSettings& settings);
     void build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
                const VoxelGrid& grid);
+
+    // The grid fitted to the scene as it was handed over, grown by whole bricks to what has left it since.
+    static VoxelGrid gridOf(const scene::GpuScene& scene, const VoxelSettings& settings);
 
     // Binds the grid block and the slots BINDING_VOXEL_* and UNIT_VOXEL_* of shared/voxels.h.
     void bind() const;

@@ -101,7 +101,8 @@ gl::ProgramDesc mipDesc(const ThesisDefects& d, int brickTexels) {
 
 }  // namespace
 
-gpu::ThesisGrid ThesisVolume::fitGrid(const Aabb& bounds, const ThesisVolumeOptions& options) {
+gpu::ThesisGrid ThesisVolume::fitGrid(const Aabb& bounds, const Aabb& filled,
+                                      const ThesisVolumeOptions& options) {
     gpu::ThesisGrid grid{};
     const int edge = textureEdge(options.size);
     if (options.unitGrid || bounds.empty()) {
@@ -123,7 +124,7 @@ gpu::ThesisGrid ThesisVolume::fitGrid(const Aabb& bounds, const ThesisVolumeOpti
     grid.maxLevel = static_cast<float>(levelCount(edge, options.defects.cappedLevels) - 1);
 
     // The box: whole bricks around the bounds and the layer of voxels that shares.
-    const Aabb box = bounds.empty() ? Aabb{glm::vec3(0), glm::vec3(0)} : bounds;
+    const Aabb box = filled.empty() ? Aabb{glm::vec3(0), glm::vec3(0)} : filled;
     for (int axis = 0; axis < 3; ++axis) {
         const auto voxel = [&](float world) { return (world - grid.origin[axis]) / grid.voxelSize; };
         const float limit = grid.size;
@@ -170,7 +171,7 @@ void ThesisVolume::allocate(const ThesisVolumeOptions& options) {
 void ThesisVolume::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
                          const ThesisVolumeOptions& options) {
     const gl::PassScope pass(profiler, "thesis voxels");
-    grid_ = fitGrid(scene.bounds(), options);
+    grid_ = fitGrid(scene.firstBounds(), scene.bounds(), options);
     const float bound = radianceBound(scene, options.defects, grid_.voxelSize);
     grid_.sumScale = kSumSteps / (options.defects.clippedRadiance ? std::min(bound, 1.0f) : bound);
     const std::size_t lights = scene.lights().size();

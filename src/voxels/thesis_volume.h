@@ -45,8 +45,13 @@ class ThesisVolume {
     void bind(unsigned unit) const;
     void bindGrid() const;  // at BINDING_THESIS_GRID
 
-    // The grid that build() would use.
-    static gpu::ThesisGrid fitGrid(const Aabb& bounds, const ThesisVolumeOptions& options);
+    // The grid that build() would use. The cube is fitted to `bounds`, the box in it that is filled to
+    // `filled`.
+    static gpu::ThesisGrid fitGrid(const Aabb& bounds, const Aabb& filled,
+                                   const ThesisVolumeOptions& options);
+    static gpu::ThesisGrid fitGrid(const Aabb& bounds, const ThesisVolumeOptions& options) {
+        return fitGrid(bounds, bounds, options);
+    }
 
     static std::vector<gl::ProgramDesc> programDescs();
 

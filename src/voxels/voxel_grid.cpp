@@ -22,6 +22,9 @@ constexpr double kShift[3] = {0.1180339887498949, 0.1035533905932738, 0.12200846
 // Slack for the rounding of the voxel size to float when whole voxels are counted, in voxels.
 constexpr double kRounding = 1e-3;
 
+// Bounds that a fitted grid touches stay in it in spite of rounding, in bricks.
+constexpr double kBorder = 1e-4;
+
 double fraction(double x) { return x - std::floor(x); }
 
 // Grid coordinate of the lower of two planes `length` voxels apart that is at least `margin` voxels above
@@ -92,6 +95,28 @@ VoxelGrid fitGrid(const Aabb& bounds, int size, float padding, const glm::vec3& 
         grid.origin[axis] = static_cast<float>(lower[axis] - first * h);
     }
     return grid;
+}
+
+VoxelGrid grownGrid(const VoxelGrid& grid, const Aabb& bounds) {
+    VoxelGrid grown = grid;
+    if (bounds.empty()) return grown;
+    const double edge = 4.0 * static_cast<double>(grid.voxelSize);
+    for (int axis = 0; axis < 3; ++axis) {
+        const int bricks = grid.size[axis] / 4;
+        const int room = std::max(std::min(2 * bricks, kMaxSize / 4) - bricks, 0);
+        const double origin = static_cast<double>(grid.origin[axis]);
+        // In bricks from the lowest corner; clamped before they become integers.
+        const double low = (static_cast<double>(bounds.min[axis]) - origin) / edge;
+        const double high = (static_cast<double>(bounds.max[axis]) - origin) / edge;
+        const int below = static_cast<int>(std::clamp(std::ceil(-low - kBorder), 0.0, 1.0 * room));
+        const int above = static_cast<int>(std::clamp(std::ceil(high - bricks - kBorder), 0.0, 1.0 * room));
+        // Both sides at once may ask for more than there is room: each gets its share.
+        const int under = below + above <= room ? below : room * below / (below + above);
+        const int over = std::min(above, room - under);
+        grown.size[axis] = 4 * (bricks + under + over);
+        grown.origin[axis] = static_cast<float>(origin - under * edge);
+    }
+    return grown;
 }
 
 std::uint32_t brickIndex(const glm::ivec3& brick, const glm::ivec3& bricks) {

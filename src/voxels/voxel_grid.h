@@ -47,6 +47,12 @@ struct VoxelGrid {
 // would no longer fit, which takes a padding below one voxel, an axis gets one more brick.
 VoxelGrid fitGrid(const Aabb& bounds, int size, float padding, const glm::vec3& shift = glm::vec3(0));
 
+// `grid` and as many bricks more on each side as it takes to hold `bounds`: voxels stay where they are. An
+// axis grows to twice its voxels at most, and to 512 (a grid that is longer stays so); what lies farther out
+// is not in the grid. The same grid and bounds give the same result, so what comes back finds the grid it
+// left.
+VoxelGrid grownGrid(const VoxelGrid& grid, const Aabb& bounds);
+
 // Linear brick index, x fastest; bit of a voxel in its brick, x fastest (0..63).
 std::uint32_t brickIndex(const glm::ivec3& brick, const glm::ivec3& bricks);
 std::uint32_t bitOfVoxel(const glm::ivec3& voxel);

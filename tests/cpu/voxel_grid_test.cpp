@@ -23,6 +23,38 @@ Aabb randomBox(std::mt19937& random) {
     return box;
 }
 
+// Moving things: the lattice stays, only whole bricks come and go.
+TEST(VoxelGrid, GrowsByWholeBricksToWhatHasLeftIt) {
+    std::mt19937 random(2);
+    std::uniform_real_distribution<float> place(-1.5f, 1.5f);
+    for (int i = 0; i < 1000; ++i) {
+        const Aabb box = randomBox(random);
+        const VoxelGrid grid = fitGrid(box, 8 + 4 * (i % 100), 0.02f);
+        EXPECT_EQ(grownGrid(grid, box), grid);
+        Aabb moved = box;
+        const glm::vec3 far = box.center() + glm::vec3(place(random), place(random), place(random)) *
+                                                 glm::vec3(grid.size) * grid.voxelSize;
+        moved.grow(far);
+        const VoxelGrid grown = grownGrid(grid, moved);
+        EXPECT_EQ(grown.voxelSize, grid.voxelSize);
+        for (int axis = 0; axis < 3; ++axis) {
+            const int limit = std::max(grid.size[axis], std::min(2 * grid.size[axis], 512));
+            EXPECT_EQ(grown.size[axis] % 4, 0);
+            EXPECT_LE(grown.size[axis], limit);
+            const double bricks =
+                static_cast<double>(grid.origin[axis] - grown.origin[axis]) / (4 * grid.voxelSize);
+            EXPECT_GE(bricks, -1e-3);
+            EXPECT_LT(distanceToBorder(bricks), 1e-3 + 1e-5 * std::abs(far[axis] / grid.voxelSize));
+            // All of it is inside, unless the limit forbids.
+            const float slack = 1e-3f * grid.voxelSize + 1e-5f * std::abs(far[axis]);
+            if (grown.size[axis] < limit) {
+                EXPECT_LE(grown.origin[axis], moved.min[axis] + slack);
+                EXPECT_GE(grown.worldFromGrid(glm::vec3(grown.size))[axis], moved.max[axis] - slack);
+            }
+        }
+    }
+}
+
 TEST(VoxelGrid, HoldsTheSceneWithItsPaddingAndHasTheSizeAskedFor) {
     std::mt19937 random(1);
     for (int i = 0; i < 2000; ++i) {

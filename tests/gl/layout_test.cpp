@@ -97,7 +97,7 @@ const std::vector<Struct>& table() {
             sizeY, sizeZ, halfTexelX),
         ROW(Vertex, position, normalOct, u, v, tangentOct, color),
         ROW(Instance, worldFromObject, normalColumn0, normalColumn1, normalColumn2, firstIndex, indexCount,
-            firstVertex, material, flags, firstTriangle, pad0, pad1),
+            firstVertex, material, flags, firstTriangle, pad0, pad1, prevWorldFromObject),
         ROW(Material, baseColor, emission, alphaCutoff, specularF0, metallic, roughness, normalScale, flags,
             pad0, layers, uvRow, phongColor, phongShininess, phongAmbient, phongDiffuse, phongSpecular, pad1),
         ROW(Light, position, type, direction, shadow, intensity, range, halfU, cosInner, halfV, cosOuter,

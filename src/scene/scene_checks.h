@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// The rules of Scene::validate for single elements: what changes one of them checks just that one.
+// Each throws Error(BadInput) that names the element and what breaks the rule.
+#pragma once
+
+#include <cstddef>
+
+#include "conelight/scene.h"
+
+namespace conelight::scene {
+
+// Against the meshes and materials of `scene`; `index` is for the message.
+void validateInstance(const Scene& scene, const Instance& instance, std::size_t index);
+// Against the textures of `scene`.
+void validateMaterial(const Scene& scene, const Material& material);
+void validateLight(const Light& light);
+void validateSky(const glm::vec3& sky);
+
+}  // namespace conelight::scene
