@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Everything that shines, as one table that the path tracer samples by power: lights of the scene, flat
-// emissive quads (rectangular lights, as in the GL modes) and other emissive triangles. Intensity, falloff,
+// Everything that shines, as one table that the path tracer samples: lights of the scene, flat emissive quads
+// (rectangular lights, as in the GL modes) and other emissive triangles. Intensity, falloff,
 // cone and range follow shaders/lib/lights.glsl to the letter.
 //
-// The power of a textured emitter is that of its mean over each triangle, only to choose it often enough;
-// what it gives is the exact value at the sampled point. The sky is not in the table: it is found by the
-// directions that surfaces reflect to.
+// Each light of the scene, quad and emissive instance is a group. A group is chosen by what it gives at the
+// surface without shadows, a triangle within its group by power; the first surface of a path asks all groups
+// if they are few. Very many groups are one, chosen from by power. The power of a textured emitter is that of
+// its mean over each triangle, only to choose it often enough; what it gives is the exact value at the
+// sampled point. The sky is not in the table: it is found by the directions that surfaces reflect to.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -33,9 +36,21 @@ class LightTable {
     // are sampled. `scene` must outlive it.
     LightTable(const Scene& scene, bool quads, bool extended);
 
-    bool empty() const { return cumulative_.empty(); }  // nothing to sample
-    // False when nothing arrives (behind the emitter, out of range ...).
-    bool sample(const glm::vec3& from, float choice, const glm::vec2& u, LightSample& result) const;
+    // How often each group is asked from one surface; all zero when no group can give light.
+    static constexpr std::size_t kMostGroups = 32;
+    struct Choice {
+        std::array<float, kMostGroups> probability;
+        bool each = false;  // all groups are asked: the probabilities are 1
+    };
+    // `first`: of a path.
+    void choose(const glm::vec3& from, const glm::vec3& normal, bool first, Choice& choice) const;
+    std::size_t groupCount() const { return groups_.size(); }
+
+    // A point of one group. False when nothing arrives (behind the emitter, out of range ...).
+    bool sample(const Choice& choice, std::size_t group, const glm::vec3& from, float within,
+                const glm::vec2& u, LightSample& result) const;
+    // The group that a number in [0,1) stands for, and what is left of the number; groupCount() if none.
+    std::size_t groupOf(const Choice& choice, float& number) const;
 
     // A ray from `from` hit a triangle: whether it belongs to the table, and the density with which sample()
     // would have found this point.
@@ -45,15 +60,16 @@ class LightTable {
         bool elsewhere = false;  // forRectsAlong finds it
         float density = 0;
     };
-    Found found(const RayHit& hit, const glm::vec3& direction) const;
+    Found found(const Choice& choice, const RayHit& hit, const glm::vec3& direction) const;
 
     // Rectangles that no bounce ray finds: the scene's own, and, with `quads`, flat emissive ones when bounce
     // rays see other instances than shadow rays. Calls visit(const LightSample&) for each that the ray meets.
     template <class Visit>
-    void forRectsAlong(const glm::vec3& from, const glm::vec3& direction, Visit visit) const {
+    void forRectsAlong(const Choice& choice, const glm::vec3& from, const glm::vec3& direction,
+                       Visit visit) const {
         for (const std::uint32_t i : rectsToTest_) {
             LightSample hit;
-            if (rectAlong(emitters_[i], from, direction, hit)) visit(hit);
+            if (rectAlong(choice, emitters_[i], from, direction, hit)) visit(hit);
         }
     }
     bool hasRectsToTest() const { return !rectsToTest_.empty(); }
@@ -69,7 +85,8 @@ class LightTable {
         glm::vec3 edgeU{0}, edgeV{0};
         glm::vec3 normal{0};  // unit; shining side, or where light travels to
         float area = 0;
-        float choice = 0;  // probability
+        float within = 0;  // probability within its group; 0: never sampled
+        std::uint32_t group = 0;
         std::uint32_t instance = 0, triangle = 0;
         const Light* light = nullptr;  // point, spot
         float cosInner = -2, cosOuter = -3;
@@ -78,16 +95,25 @@ class LightTable {
     void addLight(const Light& light);
     void addRect(const Light& light, std::uint32_t instance, bool isQuad);
     void addTriangles(const Scene& scene, std::size_t instance);
-    void setChoices(bool extended);
+    void setGroups(bool extended);
+    float weightOf(std::size_t group, const glm::vec3& from, const glm::vec3& normal) const;
     double powerOf(const Emitter& e) const;
-    bool rectAlong(const Emitter& e, const glm::vec3& from, const glm::vec3& direction,
+    bool rectAlong(const Choice& choice, const Emitter& e, const glm::vec3& from, const glm::vec3& direction,
                    LightSample& hit) const;
+    bool samplePart(const Emitter& e, const glm::vec3& from, const glm::vec2& u, LightSample& result) const;
     bool samplePoint(const Emitter& e, const glm::vec3& from, LightSample& result) const;
     bool sampleArea(const Emitter& e, const glm::vec3& from, const glm::vec2& u, LightSample& result) const;
 
     const Scene& scene_;
     std::vector<Emitter> emitters_;
-    std::vector<float> cumulative_;
+    struct Group {
+        std::size_t first = 0, count = 0;  // emitters
+        glm::vec3 center{0};
+        float radius2 = 0;  // of a sphere around it, squared
+        float power = 0;    // 0: never sampled
+    };
+    std::vector<Group> groups_;
+    std::vector<float> cumulative_;  // within groups, by emitter
     std::vector<std::uint32_t> rectsToTest_;
     static constexpr std::uint32_t kNone = ~0u;
     struct OfInstance {

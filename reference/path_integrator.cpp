@@ -24,6 +24,8 @@ namespace {
 constexpr float kPi = 3.14159265358979f;
 // Paths live on with at least this probability, so that no survivor weighs more than twenty.
 constexpr float kLeastSurvival = 0.05f;
+// And end with at least one in fifty, or a closed white room would keep them for ever.
+constexpr float kMostSurvival = 0.98f;
 // Rays towards a point end by this share of their length before it.
 constexpr float kRayEnd = 1 - 1e-5f;
 
@@ -93,10 +95,25 @@ bool PathIntegrator::arrives(const Vertex& vertex, const LightSample& light, Pat
     return !rays_.occluded(light.direct ? RayKind::Shadow : RayKind::Bounce, ray);
 }
 
-void PathIntegrator::gatherLights(const Vertex& vertex, const Reflection& reflection, float choice,
-                                  const glm::vec2& u, PathSample& result) const {
+void PathIntegrator::gatherLights(const Vertex& vertex, const Reflection& reflection, Sampler& sampler,
+                                  PathSample& result) const {
+    if (vertex.lights.each) {
+        for (std::size_t group = 0; group < lights_.groupCount(); ++group) {
+            const float within = sampler.next2().x;
+            gatherGroup(vertex, reflection, group, within, sampler.next2(), result);
+        }
+        return;
+    }
+    float number = sampler.next2().x;
+    const std::size_t group = lights_.groupOf(vertex.lights, number);
+    const glm::vec2 u = sampler.next2();
+    if (group < lights_.groupCount()) gatherGroup(vertex, reflection, group, number, u, result);
+}
+
+void PathIntegrator::gatherGroup(const Vertex& vertex, const Reflection& reflection, std::size_t group,
+                                 float within, const glm::vec2& u, PathSample& result) const {
     LightSample light;
-    if (lights_.empty() || !lights_.sample(vertex.surface.position, choice, u, light)) return;
+    if (!lights_.sample(vertex.lights, group, vertex.surface.position, within, u, light)) return;
     const int bounce = vertex.depth + (light.direct ? 0 : 1);
     if (!wanted(bounce)) return;
     const Reflection::Value value = reflection.evaluate(light.toLight);
@@ -128,11 +145,12 @@ bool PathIntegrator::arriveAt(Vertex& vertex, const Ray& ray, const Reflection::
 
     // Rectangles that are no triangles, or block other light than they are blocked by.
     if (!lightsOnly && lights_.hasRectsToTest())
-        lights_.forRectsAlong(vertex.surface.position, ray.direction, [&](const LightSample& rect) {
-            const float weight = mis ? misWeight(value.density, rect.density) : 1.0f;
-            if (arrives(vertex, rect, result))
-                add(result, vertex, vertex.depth, rect.radiance * reflected * weight, value);
-        });
+        lights_.forRectsAlong(
+            vertex.lights, vertex.surface.position, ray.direction, [&](const LightSample& rect) {
+                const float weight = mis ? misWeight(value.density, rect.density) : 1.0f;
+                if (arrives(vertex, rect, result))
+                    add(result, vertex, vertex.depth, rect.radiance * reflected * weight, value);
+            });
 
     ++result.rays;
     RayHit hit;
@@ -143,7 +161,7 @@ bool PathIntegrator::arriveAt(Vertex& vertex, const Ray& ray, const Reflection::
     }
     const Surface next = surfaceAt(scene_, ray, hit);
     if (next.unlit) return false;  // is seen, and lights nothing
-    const LightTable::Found found = lights_.found(hit, ray.direction);
+    const LightTable::Found found = lights_.found(vertex.lights, hit, ray.direction);
     const int bounce = vertex.depth + (found.quad ? 0 : 1);
     if (!lightsOnly && !(found.quad && found.elsewhere) && wanted(bounce) && largest(next.emission) > 0)
         add(result, vertex, bounce,
@@ -175,9 +193,9 @@ bool PathIntegrator::advance(Vertex& vertex, const Reflection& reflection, const
 
     // Russian roulette, not on the first surface, where it would only add noise.
     if (vertex.depth > 0) {
-        const float survival =
-            std::clamp(largest(vertex.throughput * value.sum() / value.density), kLeastSurvival, 1.0f);
-        if (choices.y >= survival) return false;
+        const float survival = std::clamp(largest(vertex.throughput * value.sum() / value.density),
+                                          kLeastSurvival, kMostSurvival);
+        if (!(choices.y < survival)) return false;
         vertex.throughput /= survival;
     }
     ray.origin = RayScene::offsetOrigin(vertex.surface.position, vertex.surface.geometricNormal);
@@ -201,8 +219,9 @@ void PathIntegrator::trace(const Ray& cameraRay, Sampler& sampler, PathSample& r
         const Reflection reflection(vertex.surface, vertex.toEye);
         if (reflection.black()) return;
         const glm::vec2 choices = sampler.next2(), direction = sampler.next2();
-        const glm::vec2 lightChoice = sampler.next2(), lightPoint = sampler.next2();
-        gatherLights(vertex, reflection, lightChoice.x, lightPoint, result);
+        lights_.choose(vertex.surface.position, vertex.surface.shadingNormal, vertex.depth == 0,
+                       vertex.lights);
+        gatherLights(vertex, reflection, sampler, result);
         if (settings_.estimator == Estimator::LightsOnly)
             gatherSky(vertex, reflection, sampler.next2(), result);
         goesOn = advance(vertex, reflection, choices, direction, result);

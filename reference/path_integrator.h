@@ -38,14 +38,17 @@ class PathIntegrator {
         std::uint32_t instance = 0;
         int depth = 0;              // surfaces before this one
         glm::vec3 throughput{1};    // of what happens here towards the camera
+        LightTable::Choice lights;  // how they are sampled from here
         glm::vec3 diffuseShare{0};  // of the first surface's reflection, from depth 1 on
     };
     bool wanted(int bounce) const { return settings_.bounces < 0 || bounce <= settings_.bounces; }
     static void add(PathSample& result, const Vertex& vertex, int bounce, const glm::vec3& light,
                     const Reflection::Value& value);
     bool arrives(const Vertex& vertex, const LightSample& light, PathSample& result) const;
-    void gatherLights(const Vertex& vertex, const Reflection& reflection, float choice, const glm::vec2& u,
+    void gatherLights(const Vertex& vertex, const Reflection& reflection, Sampler& sampler,
                       PathSample& result) const;
+    void gatherGroup(const Vertex& vertex, const Reflection& reflection, std::size_t group, float within,
+                     const glm::vec2& u, PathSample& result) const;
     void gatherSky(const Vertex& vertex, const Reflection& reflection, const glm::vec2& u,
                    PathSample& result) const;
     bool advance(Vertex& vertex, const Reflection& reflection, const glm::vec2& choices, const glm::vec2& u,

@@ -34,6 +34,25 @@ Scene closedBox(const Material& material) {
     return scene;
 }
 
+Mesh sphereMesh(int columns, int rows) {
+    Mesh mesh;
+    for (int y = 0; y <= rows; ++y)
+        for (int x = 0; x <= columns; ++x) {
+            const float theta = 3.14159265f * static_cast<float>(y) / static_cast<float>(rows);
+            const float phi = 6.28318531f * static_cast<float>(x % columns) / static_cast<float>(columns);
+            mesh.positions.emplace_back(std::sin(theta) * std::sin(phi), std::cos(theta),
+                                        std::sin(theta) * std::cos(phi));
+        }
+    mesh.normals = mesh.positions;
+    for (int y = 0; y < rows; ++y)
+        for (int x = 0; x < columns; ++x) {
+            const auto a = static_cast<std::uint32_t>(y * (columns + 1) + x);
+            const auto b = a + static_cast<std::uint32_t>(columns) + 1;
+            for (const std::uint32_t i : {a, b, b + 1, a, b + 1, a + 1}) mesh.indices.push_back(i);
+        }
+    return mesh;
+}
+
 Camera cameraAbove(const glm::vec3& point, float height, float width) {
     Camera camera;
     camera.eye = point + glm::vec3(0, height, 0);

@@ -15,6 +15,9 @@ Material mattMaterial(const glm::vec3& albedo = glm::vec3(1), const glm::vec3& e
 // its camera is inside.
 Scene closedBox(const Material& material);
 
+// A closed unit sphere about the origin with smooth normals, `columns` x `rows` quads.
+Mesh sphereMesh(int columns, int rows);
+
 // A camera that looks from `height` above straight down (-y) on a square of edge `width` about `point`.
 Camera cameraAbove(const glm::vec3& point, float height, float width);
 
