@@ -139,7 +139,7 @@ float srgbOf(float linear) {
 }
 
 Metrics compareImages(const Image& test, const Image& reference, const MetricOptions& options,
-                      std::optional<Halves> halves) {
+                      std::optional<Halves> halves, FlipMaps* maps) {
     std::vector<const Image*> images = {&test, &reference};
     if (halves) images.insert(images.end(), {halves->a, halves->b});
     const std::vector<std::uint8_t> usable = usablePixels(images);
@@ -155,8 +155,13 @@ Metrics compareImages(const Image& test, const Image& reference, const MetricOpt
     m.psnr = psnrOf(displayX, displayR, usable);
     m.ssim = meanSsim(lumaOf(displayX), lumaOf(displayR), x.width, x.height, usable);
     if (options.flip) {
-        m.flip = meanOf(ldrFlip(displayX, displayR, options.pixelsPerDegree), usable);
-        m.hdrFlip = meanOf(hdrFlip(x, r, options.pixelsPerDegree), usable);
+        FlipMaps both = {ldrFlip(displayX, displayR, options.pixelsPerDegree),
+                         hdrFlip(x, r, options.pixelsPerDegree)};
+        m.flip = meanOf(both.flip, usable);
+        m.hdrFlip = meanOf(both.hdrFlip, usable);
+        for (std::size_t i = 0; i < usable.size(); ++i)
+            if (!usable[i]) both.flip[i] = both.hdrFlip[i] = std::numeric_limits<float>::quiet_NaN();
+        if (maps) *maps = std::move(both);
     }
     return m;
 }

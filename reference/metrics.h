@@ -55,9 +55,15 @@ struct Halves {
     const Image* b = nullptr;
 };
 
+// FLIP per pixel, as errorValues.
+struct FlipMaps {
+    std::vector<float> flip, hdrFlip;
+};
+
 // Throws Error(BadInput) when the sizes differ, there is no pixel, or none that is finite in all images.
+// `maps` may be null; it receives what FLIP has to compute anyway, and stays empty without options.flip.
 Metrics compareImages(const Image& test, const Image& reference, const MetricOptions& options = {},
-                      std::optional<Halves> halves = {});
+                      std::optional<Halves> halves = {}, FlipMaps* maps = nullptr);
 
 enum class ErrorMap { Signed, Absolute, RelativeSquared, Flip, HdrFlip };
 // Per pixel, rows from the top: signed: (x - r) luminance / referenceMean; absolute: its magnitude; relative

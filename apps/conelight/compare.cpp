@@ -138,7 +138,7 @@ std::pair<std::string, std::string> shortNames(const std::string& a, const std::
 }
 
 Report reportOf(const ComparePicturesOptions& options, const Image& test, const Image& reference,
-                const Metrics& metrics) {
+                const Metrics& metrics, const reference::FlipMaps& maps) {
     const reference::MetricOptions metricOptions = options.comparison.metricOptions();
     const auto [testName, referenceName] = shortNames(options.test, options.reference);
     Report report;
@@ -150,11 +150,8 @@ Report reportOf(const ComparePicturesOptions& options, const Image& test, const 
     view.name = options.layer.empty() ? "picture" : options.layer;
     view.exposure = metricOptions.exposure;
     view.reference = 1;
-    view.pictures = {{testName, test, metrics, {}, {}}, {referenceName, reference, {}, {}, {}}};
-    if (metricOptions.flip) {
-        view.pictures[0].flip = reference::errorValues(test, reference, ErrorMap::Flip, metricOptions);
-        view.pictures[0].hdrFlip = reference::errorValues(test, reference, ErrorMap::HdrFlip, metricOptions);
-    }
+    view.pictures = {{testName, test, metrics, maps.flip, maps.hdrFlip},
+                     {referenceName, reference, {}, {}, {}}};
     report.views.push_back(std::move(view));
     ReportTable numbers{"All numbers", "", {{"metric"}, {"value"}, {"unit"}, {"meaning"}}, {}};
     for (const MetricRow& row : metricRows(metrics, metricOptions.flip, !options.halves.empty()))
@@ -194,7 +191,8 @@ void comparePictures(const ComparePicturesOptions& options) {
         warnOfForeignHalves(reference, halves[0], halves[1], options.reference);
     }
 
-    const Metrics metrics = reference::compareImages(test, reference, metricOptions, given);
+    reference::FlipMaps flipMaps;
+    const Metrics metrics = reference::compareImages(test, reference, metricOptions, given, &flipMaps);
     for (const auto& [kind, file] : maps) {
         const bool inMeans = kind == ErrorMap::Signed || kind == ErrorMap::Absolute;
         const double scale = options.mapScale > 0 ? options.mapScale : inMeans ? 0.5 : 1.0;  // by eye
@@ -216,7 +214,8 @@ void comparePictures(const ComparePicturesOptions& options) {
     json["metrics"] = metricsJson(metrics, metricOptions.flip, given.has_value());
     json["broken_bars"] = broken;
     if (!jsonFile.empty()) writeComparisonJson(jsonFile, json);
-    if (!reportFolder.empty()) writeReport(reportFolder, reportOf(options, test, reference, metrics));
+    if (!reportFolder.empty())
+        writeReport(reportFolder, reportOf(options, test, reference, metrics, flipMaps));
     requireBars(options.test, broken);
 }
 

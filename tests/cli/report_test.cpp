@@ -275,4 +275,35 @@ TEST_F(ReportTest, TablesAreThereAndSort) {
               "descending");
 }
 
+// Above 48 MiB of values the page carries 16-bit floats: 11 bits of mantissa.
+TEST_F(ReportTest, LargePicturesTravelAsHalves) {
+    constexpr int kLargeWidth = 1260, kLargeHeight = 1250;  // two of them are 3.15 million pixels of 16 bytes
+    io::FloatImage large;
+    large.width = kLargeWidth;
+    large.height = kLargeHeight;
+    for (int i = 0; i < kLargeWidth * kLargeHeight; ++i) {
+        const float value = 0.001f * float(i % 997) - 0.2f;
+        large.pixels.insert(large.pixels.end(), {value, 60000.0f, 1e-6f});
+    }
+    const std::string folder = scratchDir();
+    io::writeExr(folder + "/large.exr", large);
+    const std::string file = "'" + folder + "/large.exr' ";
+    ASSERT_EQ(runCommand(std::string("'") + CONELIGHT_PROGRAM + "' compare " + file + file +
+                         "--no-flip --report '" + folder + "/report'")
+                  .status,
+              0);
+    browser_->open(address_);
+    browser_->waitFor("document.documentElement.dataset.draws > 0");
+    browser_->evaluate("document.getElementById('canvas').focus()");
+    browser_->typeKey("ArrowRight");  // from the middle
+    const std::vector<std::string> values = readout("readA");
+    const std::size_t i = std::size_t(3 * (kLargeHeight / 2 * kLargeWidth + kLargeWidth / 2 + 1));
+    // Half a step of 2^-11; below 2^-14 a step is 2^-24.
+    EXPECT_NEAR(std::stod(values.at(0)), large.pixels[i], std::abs(large.pixels[i]) * 6e-4);
+    EXPECT_NEAR(std::stod(values.at(1)), 60000, 16);
+    EXPECT_NEAR(std::stod(values.at(2)), 1e-6, 4e-8);
+    EXPECT_EQ(browser_->evaluate("document.getElementById('precision').textContent.includes('16-bit')"),
+              true);
+}
+
 }  // namespace conelight::test

@@ -24,7 +24,7 @@ struct ReportPicture {
     std::string name;  // "cones", "reference"
     Image image;
     std::optional<reference::Metrics> metrics;  // against the view's reference; none for the reference itself
-    std::vector<float> flip, hdrFlip;           // per pixel, as errorValues; empty: no such map
+    std::vector<float> flip, hdrFlip;           // per pixel, as reference::FlipMaps; empty: no such map
 };
 
 // Pictures of one size that show the same: a component, a camera. The reference, if any, is among them.
