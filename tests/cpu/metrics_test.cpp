@@ -148,6 +148,46 @@ TEST(SsimTest, NoiseOnAConstant) {
                 c2 / (variance + c2), 0.004);
 }
 
+TEST(SsimTest, IsThePapersSumOverWindows) {
+    // Greys of noise, correlated between the images; every window by its definition, mean first, then
+    // moments.
+    constexpr int kWidth = 23, kHeight = 17;
+    std::mt19937 generator(5);
+    std::uniform_real_distribution<double> noise(0, 1);
+    std::vector<double> a, b;
+    for (int i = 0; i < kWidth * kHeight; ++i) {
+        a.push_back(noise(generator));
+        b.push_back(0.7 * a.back() + 0.3 * noise(generator));
+    }
+    double sum = 0;
+    for (int top = 0; top + 11 <= kHeight; ++top)
+        for (int left = 0; left + 11 <= kWidth; ++left) {
+            const auto mean = [&](auto&& value) {
+                double total = 0, weights = 0;
+                for (int y = 0; y < 11; ++y)
+                    for (int x = 0; x < 11; ++x) {
+                        const double w = std::exp(-((x - 5) * (x - 5) + (y - 5) * (y - 5)) / (2 * 1.5 * 1.5));
+                        total += w * value(std::size_t((top + y) * kWidth + left + x));
+                        weights += w;
+                    }
+                return total / weights;
+            };
+            const double meanA = mean([&](std::size_t i) { return a[i]; });
+            const double meanB = mean([&](std::size_t i) { return b[i]; });
+            const double varianceA = mean([&](std::size_t i) { return std::pow(a[i] - meanA, 2); });
+            const double varianceB = mean([&](std::size_t i) { return std::pow(b[i] - meanB, 2); });
+            const double covariance = mean([&](std::size_t i) { return (a[i] - meanA) * (b[i] - meanB); });
+            sum += (2 * meanA * meanB + 1e-4) * (2 * covariance + 9e-4) /
+                   ((meanA * meanA + meanB * meanB + 1e-4) * (varianceA + varianceB + 9e-4));
+        }
+    const auto image = [&](const std::vector<double>& values) {
+        return fromFunction(kWidth, kHeight, [&](int x, int y) {
+            return glm::vec3(linearOf(values[std::size_t(y * kWidth + x)]));
+        });
+    };
+    EXPECT_NEAR(compareImages(image(a), image(b), withoutFlip()).ssim, sum / (13 * 7), 1e-5);
+}
+
 TEST(SsimTest, PicturesSmallerThanAWindow) {
     const Metrics m = compareImages(constant(glm::vec3(0.5f), 1, 1), constant(glm::vec3(0.5f), 1, 1));
     EXPECT_NEAR(m.ssim, 1, 1e-9);
