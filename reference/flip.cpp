@@ -234,8 +234,8 @@ Colors toneMapped(const Colors& colors, float exposure) {
     return result;
 }
 
-// Exposures from where the brightest pixel of the reference is shown at 85 % to where its median is, at least
-// one per stop (section 3.2 of the HDR paper).
+// Exposures from where the brightest pixel of the reference is shown at 85 % to where its median is: as many
+// as there are stops between, at least two (section 3.2 of the HDR paper).
 std::vector<float> exposuresFor(const Colors& reference) {
     constexpr float kShown = 0.85f;
     const float p = (kK1 - kK4 * kShown) / (kK0 - kK3 * kShown), q = -kK5 * kShown / (kK0 - kK3 * kShown);
