@@ -24,7 +24,7 @@ struct Plane {
     std::vector<float> values;
 };
 
-// --- Colour spaces (section 4.1; D65) -------------------------------------------------------------------
+// --- Colour spaces (D65) -------------------------------------------------------------------
 
 // Linear sRGB to XYZ from the primaries of BT.709 and D65, to 6 digits.
 const glm::mat3 kXyzFromRgb = glm::transpose(glm::mat3(0.412386f, 0.357591f, 0.180450f,  //
@@ -49,7 +49,7 @@ float labCurve(float t) {
     return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0f / 29.0f;
 }
 
-// CIELAB with chroma scaled by lightness (Hunt 1952; section 4.1.2).
+// CIELAB with chroma scaled by lightness (Hunt 1952).
 glm::vec3 huntLabFromRgb(const glm::vec3& rgb) {
     const glm::vec3 t = kXyzFromRgb * rgb / kWhite;
     const float x = labCurve(t.x), y = labCurve(t.y), z = labCurve(t.z);
@@ -104,12 +104,12 @@ float sumOf(const Kernel& kernel) {
     return sum;
 }
 
-// One Gaussian of a contrast sensitivity function, in the spatial domain (section 4.1.1, eq. 3):
+// One Gaussian of a contrast sensitivity function, in the spatial domain :
 // a sqrt(pi / b) exp(-pi^2 d^2 / b), d in degrees.
 struct Sensitivity {
     float a, b;
 };
-// Table 1 of the paper.
+// The paper's constants of spatial filtering.
 constexpr Sensitivity kAchromatic[] = {{1, 0.0047f}};
 constexpr Sensitivity kRedGreen[] = {{1, 0.0053f}};
 constexpr Sensitivity kBlueYellow[] = {{34.1f, 0.04f}, {13.5f, 0.025f}};
@@ -135,7 +135,7 @@ Plane contrastFiltered(const Plane& in, const Sensitivity (&terms)[count], float
     return out;
 }
 
-// Makes the positive weights sum to 1 and the negative ones to -1 (section 4.2).
+// Makes the positive weights sum to 1 and the negative ones to -1.
 void normalizeSigned(Kernel& kernel) {
     float positive = 0, negative = 0;
     for (const float weight : kernel) (weight > 0 ? positive : negative) += std::abs(weight);
@@ -160,9 +160,10 @@ std::vector<float> featureMagnitude(const Plane& y, const Kernel& derivative, co
     return magnitude;
 }
 
-// Edges and points in lightness: first and second derivative of a Gaussian (section 4.2).
+// Edges and points in lightness: first and second derivative of a Gaussian.
 void findFeatures(const Plane& y, float pixelsPerDegree, Seen& seen) {
-    constexpr float kFeatureDegrees = 0.082f;  // peak to trough of the eye's edge detector, section 4.2
+    constexpr float kFeatureDegrees =
+        0.082f;  // peak to trough of the eye's edge detector, as the paper has it
     const float sigma = 0.5f * kFeatureDegrees * pixelsPerDegree;
     const int radius = int(std::ceil(3 * sigma));
     Kernel smooth, edge, point;
@@ -202,10 +203,10 @@ Seen see(const Colors& colors, float pixelsPerDegree) {
     return seen;
 }
 
-constexpr float kColorExponent = 0.7f;    // q_c, section 4.1.3
-constexpr float kFeatureExponent = 0.5f;  // q_f, section 4.2
+constexpr float kColorExponent = 0.7f;    // q_c
+constexpr float kFeatureExponent = 0.5f;  // q_f
 
-// Maps a powered HyAB distance to [0,1]: the first p_c of the range takes p_t of it (section 4.1.3).
+// Maps a powered HyAB distance to [0,1]: the first p_c of the range takes p_t of it.
 float colorDifference(const glm::vec3& a, const glm::vec3& b) {
     constexpr float kPc = 0.4f, kPt = 0.95f;
     // The largest distance of two displayable colours: green to blue.
@@ -235,7 +236,7 @@ Colors toneMapped(const Colors& colors, float exposure) {
 }
 
 // Exposures from where the brightest pixel of the reference is shown at 85 % to where its median is: as many
-// as there are stops between, at least two (section 3.2 of the HDR paper).
+// as there are stops between, at least two.
 std::vector<float> exposuresFor(const Colors& reference) {
     constexpr float kShown = 0.85f;
     const float p = (kK1 - kK4 * kShown) / (kK0 - kK3 * kShown), q = -kK5 * kShown / (kK0 - kK3 * kShown);
@@ -269,7 +270,7 @@ std::vector<float> ldrFlip(const Colors& test, const Colors& reference, float pi
         const float feature =
             std::max(std::abs(x.edges[i] - r.edges[i]), std::abs(x.points[i] - r.points[i]));
         const float exponent = 1 - std::pow(feature / std::numbers::sqrt2_v<float>, kFeatureExponent);
-        flip[i] = std::pow(color, exponent);  // eq. 1
+        flip[i] = std::pow(color, exponent);
     }
     return flip;
 }

@@ -68,7 +68,7 @@ double filtered(const Grid& grid, int x, int y, std::size_t channel, int radius,
     return sum;
 }
 
-// Contrast sensitivity of a channel, HPG paper table 1.
+// Contrast sensitivity of a channel, the HPG paper's constants.
 double sensitivity(std::size_t channel, double degrees2) {
     const auto term = [&](double a, double b) {
         return a * std::sqrt(kPi / b) * std::exp(-kPi * kPi * degrees2 / b);
