@@ -41,6 +41,26 @@ TEST(PathTracer, FurnaceShowsTheGeometricSum) {
     }
 }
 
+// From the middle of the box its edges lie on the picture's diagonals, through centres of pixels: points
+// there, rounded, lie in the neighbouring wall. They once were black.
+TEST(PathTracer, EdgesBetweenWallsAreLit) {
+    Scene scene = closedBox(mattMaterial(glm::vec3(0.5f), glm::vec3(1)));
+    for (const float offset : {0.0f, 0.7f}) {
+        for (Instance& instance : scene.instances)
+            instance.worldFromObject[3] = glm::vec4(glm::vec3(offset), 1);
+        Camera camera;
+        camera.eye = glm::vec3(offset);
+        camera.target = camera.eye - glm::vec3(0, 0, 1);
+        camera.fovY = 2.0f;
+        PathTracerSettings settings;
+        settings.samplesPerPixel = 256;
+        const PathTracedPicture picture = PathTracer(scene).render(camera, 24, 24, settings);
+        for (std::size_t i = 0; i < 24; ++i)
+            for (const std::size_t x : {i, 23 - i})
+                EXPECT_NEAR(picture.full.pixels[24 * i + x].g, 2, 0.35) << x;
+    }
+}
+
 // With every emitter indirect, bounce n gives rho^n.
 TEST(PathTracer, EnergyPerBounceFallsGeometricallyInTheFurnace) {
     const double rho = 0.6;
