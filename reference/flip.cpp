@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // FLIP: two display images -> per pixel, how strong the difference looks when one flips between them, [0,1].
-// Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 2020 (sections named below),
+// Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 2020,
 // and for high dynamic range Andersson et al., "Visualizing Errors in Rendered High Dynamic Range Images",
 // Eurographics 2021. Written from the papers. All filters are sums of separable ones and run so; borders
 // repeat the outermost pixel.
@@ -104,7 +104,7 @@ float sumOf(const Kernel& kernel) {
     return sum;
 }
 
-// One Gaussian of a contrast sensitivity function, in the spatial domain :
+// One Gaussian of a contrast sensitivity function, in the spatial domain:
 // a sqrt(pi / b) exp(-pi^2 d^2 / b), d in degrees.
 struct Sensitivity {
     float a, b;
