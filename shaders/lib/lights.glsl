@@ -164,8 +164,7 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
     FOR_LIGHTS(LIGHTS_POINT + LIGHTS_SPOT + LIGHTS_DIRECTIONAL, LIGHTS_RECT, frame.lightEnds.z, \
                frame.lightEnds.w, statement)
 
-DirectLight allLights(const bool specular, Receiver r, Brdf b) {
-    DirectLight sum = DirectLight(vec3(0.0), vec3(0.0));
+void addPunctualLights(inout DirectLight sum, const bool specular, Receiver r, Brdf b) {
 #if LIGHTS_POINT
     FOR_POINT_LIGHTS(addPoint(sum, specular, r, b, light))
 #endif
@@ -175,9 +174,18 @@ DirectLight allLights(const bool specular, Receiver r, Brdf b) {
 #if LIGHTS_DIRECTIONAL
     FOR_DIRECTIONAL_LIGHTS(addDirectional(sum, specular, r, b, light))
 #endif
+}
+
+void addRectLights(inout DirectLight sum, const bool specular, Receiver r, Brdf b) {
 #if LIGHTS_RECT
     FOR_RECT_LIGHTS(addRect(sum, specular, r, b, light))
 #endif
+}
+
+DirectLight allLights(const bool specular, Receiver r, Brdf b) {
+    DirectLight sum = DirectLight(vec3(0.0), vec3(0.0));
+    addPunctualLights(sum, specular, r, b);
+    addRectLights(sum, specular, r, b);
     return sum;
 }
 

@@ -1,6 +1,11 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
 // Face records: radiance = emission + albedo / pi * irradiance of the lights. One invocation per face.
+// KEEP_IRRADIANCE 0: gathered irradiance is cleared. 1: it stays, and what does not come from point, spot and
+// directional lights is written once more by itself (steadyLight of shared/irradiance.h).
+#ifndef KEEP_IRRADIANCE
+#error KEEP_IRRADIANCE must be 0 or 1
+#endif
 layout(local_size_x = 64) in;  // before linear_index, which asks for it
 #include "lib/lights.glsl"
 #include "lib/linear_index.glsl"
@@ -8,6 +13,9 @@ layout(local_size_x = 64) in;  // before linear_index, which asks for it
 #include "lib/voxel_record.glsl"
 layout(std430, binding = BINDING_VOXEL_FACES) buffer Faces { FaceRecord faces[]; };
 layout(binding = UNIT_VOXEL_FACE_SOURCES) uniform usamplerBuffer faceSources;
+#if KEEP_IRRADIANCE
+layout(std430, binding = BINDING_STORAGE_PASS) writeonly buffer SteadyLight { uint steadyLight[]; };
+#endif
 
 // Whether a face belongs to a rectangle of the scene that shines as an area light: it looks the same way, and
 // its centre lies on it. Voxels round positions to 1/31 voxel, so a quarter voxel is ample.
@@ -38,10 +46,21 @@ void main() {
     vec3 position = worldFromGrid(faceCenter(face));
     vec3 emission = unpackEmission(texelFetch(faceSources, int(index)).xy);
     if (isAreaLight(position, normal)) emission = vec3(0.0);
-    vec3 irradiance = directIrradiance(position, normal, normal);
-    vec3 radiance = emission + unpackAlbedo(face.albedo) * irradiance * (1.0 / 3.14159265358979);
+    vec3 reflectance = unpackAlbedo(face.albedo) * (1.0 / 3.14159265358979);
+    Receiver receiver = Receiver(position, normal, normal, normal);
+    Brdf none;
+    DirectLight light = DirectLight(vec3(0.0), vec3(0.0));
+    addRectLights(light, false, receiver, none);
+#if KEEP_IRRADIANCE
+    vec3 steady = emission + reflectance * light.irradiance;
+#endif
+    addPunctualLights(light, false, receiver, none);
     if (!inside) return;
-    faces[index].radiance = packRgb9e5(radiance);
+    faces[index].radiance = packRgb9e5(emission + reflectance * light.irradiance);
+#if KEEP_IRRADIANCE
+    steadyLight[index] = packRgb9e5(steady);
+#else
     faces[index].irradiance0 = 0u;
     faces[index].irradiance1 = 0u;
+#endif
 }

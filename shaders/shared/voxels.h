@@ -12,9 +12,13 @@
 //   face       FaceRecord per voxel and facing direction, ordered by voxel and direction
 //   faceSource two uints per face: emission as three halves, exact area (lib/voxel_record.glsl)
 //
-// Reserved for the ray query (not built yet): octWord, RGBA32UI (8 Bx, By, Bz), x = brick.x + octant * Bx:
-// occupancy of the voxels that face the octant (lo, hi), forward empty distance in bricks, 0. It is derived
-// from brickWord and the direction flags of voxRec alone.
+//   octWord    RGBA32UI 3D texture (8 Bx, By, Bz), for rays (src/voxels/octant_words.h): at x = brick.x +
+//              octant * Bx, with bit i of the octant set for rays that go down along axis i:
+//              x, y  which voxels of the brick have a face that looks against such rays (lo, hi)
+//              z     edge, in bricks, of an empty cube that starts with this brick and reaches forward along
+//                    the rays, OCTANT_REACH at most; 0: x, y are not empty. What lies outside the grid is
+//                    empty
+//              w     0, reserved
 #pragma once
 #include "shared/prelude.h"
 
@@ -32,6 +36,10 @@
 #define UNIT_VOXEL_RECORDS 17       // usamplerBuffer R32UI (voxRec)
 #define UNIT_VOXEL_FACES 18         // usamplerBuffer RGBA32UI, two texels per face (FaceRecord)
 #define UNIT_VOXEL_FACE_SOURCES 19  // usamplerBuffer RG32UI (faceSource)
+#define UNIT_VOXEL_OCTANTS 20       // usampler3D (octWord)
+
+// Longest step over empty bricks, a power of two. 2 costs rays 15 to 30 % more, 8 gains nothing in rooms.
+#define OCTANT_REACH 4
 
 CONELIGHT_SHARED_BEGIN
 
@@ -66,7 +74,7 @@ struct FaceRecord {
                         // w, 0..4
     uint bounds;        // 6 x 5 bit: min x y z, max x y z of the surface in the voxel, in 1/31 voxel, rounded
                         // outwards
-    uint voxel;         // 3 x 10 bit: x, y, z of the voxel
+    uint voxel;         // 3 x 10 bit: x, y, z of the voxel; bits 30, 31: axis of the direction (0 x .. 2 z)
     // ---- 16 B: texel 1, shading
     uint albedo;       // 11 | 11 | 10 bit unorm, linear
     uint radiance;     // RGB9E5: emission + reflected direct light, W/(sr m^2); emission alone after build()

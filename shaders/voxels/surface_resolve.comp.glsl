@@ -111,8 +111,8 @@ void main() {
     uint bounds = uint(lower.x | (lower.y << 5) | (lower.z << 10) | (upper.x << 15) | (upper.y << 20) |
                        (upper.z << 25));
     if (used) {
-        faces[2u * index] =
-            uvec4(packSnorm2x16(octEncode(n)), packOffsetWeight(offset, total * unit), bounds, voxel);
+        faces[2u * index] = uvec4(packSnorm2x16(octEncode(n)), packOffsetWeight(offset, total * unit), bounds,
+                                  voxel | (uint(direction >> 1) << 30));
         faces[2u * index + 1u] = uvec4(packAlbedo(vec3(albedo) / total), packRgb9e5(glow), 0u, 0u);
         faceSources[index] = packFaceSource(glow, float(area) * 2.0 * unit);
     }

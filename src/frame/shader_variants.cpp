@@ -17,8 +17,10 @@
 #include "image/debug_view.h"
 #include "image/display.h"
 #include "light/inject_light.h"
+#include "light/irradiance_cache.h"
 #include "light/shadow_maps.h"
 #include "view/gbuffer.h"
+#include "voxels/octant_words.h"
 #include "voxels/radiance_volume.h"
 #include "voxels/surface_voxels.h"
 
@@ -64,6 +66,8 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     add(gather::DirectLight::programDescs());
     add(gather::phongShadeProgramDescs());
     add(light::injectLightProgramDescs());
+    add(voxels::OctantWords::programDescs());
+    add(light::IrradianceCache::programDescs());
     add(gather::ConeGather::programDescs());
     add(frame::ConesMode::programDescs());
     add(ThesisMode::programDescs());

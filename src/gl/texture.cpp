@@ -180,6 +180,16 @@ void Texture::clearRegion(int level, const glm::ivec3& offset, const glm::ivec3&
                        nullptr);
 }
 
+void Texture::copyFrom(const Texture& source) {
+    CONELIGHT_ASSERT(source.desc_.target == desc_.target && source.desc_.format == desc_.format &&
+                         source.width() == width() && source.height() == height() &&
+                         source.depth() == depth(),
+                     "Texture::copyFrom: textures differ");
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glCopyImageSubData(source.name(), desc_.target, 0, 0, 0, 0, name(), desc_.target, 0, 0, 0, 0, width(),
+                       height(), depth());
+}
+
 void Texture::read(int level, std::uint32_t layout, std::uint32_t type, void* data, std::size_t bytes) const {
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Textures of immutable storage, views of buffers as textures, samplers.
 // Creation throws Error(Runtime): a size beyond the driver's limits, no memory, an unknown format.
-// clear() and read() see and follow what shaders wrote before; uploads do only after barrier(Access::Update).
-// Transfers set the alignment of rows and rely on GL's defaults for the rest of the pixel store state, which
-// HostStateGuard provides.
+// clear(), copyFrom() and read() see and follow what shaders wrote before; uploads do only after
+// barrier(Access::Update). Transfers set the alignment of rows and rely on GL's defaults for the rest of the
+// pixel store state, which HostStateGuard provides.
 #pragma once
 
 #include <cstddef>
@@ -45,6 +45,7 @@ class Texture : public Object<ObjectType::Texture> {
     // A box of one level to zero.
     void clearRegion(int level, const glm::ivec3& offset, const glm::ivec3& size, std::uint32_t layout,
                      std::uint32_t type);
+    void copyFrom(const Texture& source);  // level 0, of a texture of the same size and format
     void read(int level, std::uint32_t layout, std::uint32_t type, void* data, std::size_t bytes) const;
 
     void parameter(std::uint32_t name, int value);

@@ -3,7 +3,7 @@
 //   emission + albedo / pi * irradiance of all lights, shadows included (lib/lights.glsl), at the centre of
 //   the
 // face's surface. Emission of rectangles that shine as area lights (LIGHT_FROM_EMITTER) is left out: their
-// light arrives exactly, and must not arrive twice. Irradiance gathered before is cleared.
+// light arrives exactly, and must not arrive twice.
 //
 // Needs the frame block, the scene's tables and the shadow maps bound. Reads and writes: face. Ends with the
 // barrier for shader storage. GL state changed: program, what SurfaceVoxels::bind binds.
@@ -19,8 +19,11 @@
 
 namespace conelight::light {
 
+// Irradiance gathered before is cleared; with `steadyLight` (IrradianceCache's) it is kept, and the part of
+// the radiance that is not looked up at hits is written there.
 void injectLight(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
-                 const LightSettings& settings, const voxels::SurfaceVoxels& surface);
+                 const LightSettings& settings, const voxels::SurfaceVoxels& surface,
+                 const gl::Buffer* steadyLight = nullptr);
 
 std::vector<gl::ProgramDesc> injectLightProgramDescs();
 

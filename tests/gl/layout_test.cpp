@@ -9,6 +9,7 @@
 #include "shared/cones.h"
 #include "shared/frame.h"
 #include "shared/image.h"
+#include "shared/irradiance.h"
 #include "shared/radiance_volume.h"
 #include "shared/scene.h"
 #include "shared/thesis.h"
@@ -108,6 +109,10 @@ const std::vector<Struct>& table() {
         ROW(VoxelGrid, origin, voxelSize, sizeX, sizeY, sizeZ, voxelCount, bricksX, bricksY, bricksZ,
             faceCount, inverseVoxelSize, occupiedBricks, pad0, pad1),
         ROW(FaceRecord, normal, offsetWeight, bounds, voxel, albedo, radiance, irradiance0, irradiance1),
+        ROW(FaceCache, irradiance, counts),
+        ROW(CacheConstants, firstFace, faceCount, cosineRays, lightRays, update, seed, longestWindow,
+            facesPerChunk, chunkCount, restart, pad0, pad1),
+        ROW(CacheCarry, oldOrigin, oldInverseVoxelSize, oldSizeX, oldSizeY, oldSizeZ, pad0),
         ROW(SurfaceConstants, triangleCount, instanceCount, tileCapacity, fragmentCapacity, voxelCapacity,
             faceCapacity, brickCapacity, bricksPerChunk, voxelsPerChunk, emissionScale, pad0, pad1),
     };

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// What the passes of the irradiance cache share that deal with the flux of faces, for the pool of bright
+// faces.
+#include "lib/linear_index.glsl"
+#include "lib/voxel_grid.glsl"
+#include "lib/voxel_record.glsl"
+#include "shared/irradiance.h"
+layout(std140, binding = BINDING_PASS) uniform CacheBlock { CacheConstants cache; };
+layout(std430, binding = CACHE_STATE) buffer StateTable { FaceCache states[]; };
+// Per chunk of faces: its flux, then the flux of all chunks before it.
+layout(std430, binding = CACHE_CHUNKS) buffer ChunkTable { float chunks[]; };
+
+bool isDead(FaceCache state) {
+    uint rays = (state.counts >> 16) & 0xffu;
+    return rays >= IRRADIANCE_DEAD_RAYS && 4u * (state.counts >> 24) > rays;
+}
+
+// How much of the pool a face gets: brightness x area of its bounds seen along its direction x (n.k).
+float faceFlux(uvec4 hitTexel, vec3 radiance) {
+    vec3 n = octDecode(unpackSnorm2x16(hitTexel.x));
+    vec3 size = unpackBoundsMax(hitTexel.z) - unpackBoundsMin(hitTexel.z);
+    uint axis = hitTexel.w >> 30;
+    float seen = axis == 0u ? size.y * size.z : (axis == 1u ? size.z * size.x : size.x * size.y);
+    float facing = axis == 0u ? n.x : (axis == 1u ? n.y : n.z);
+    return dot(radiance, vec3(1.0 / 3.0)) * seen * abs(facing);
+}

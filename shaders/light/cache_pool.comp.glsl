@@ -1,0 +1,41 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// Draws the pool of bright faces: entry i is the face at a random place in the i-th of equal parts of the
+// total flux (stratified). Finds its chunk by bisection, then walks through the chunk.
+layout(local_size_x = 64) in;
+#include "lib/random.glsl"
+#include "light/cache_common.glsl"
+layout(std430, binding = CACHE_POOL) writeonly buffer PoolTable { uint pool[]; };
+layout(binding = UNIT_VOXEL_FACES) uniform usamplerBuffer faces;
+
+void main() {
+    uint entry = min(gl_GlobalInvocationID.x, BRIGHT_FACE_COUNT - 1u);
+    float total = chunks[cache.chunkCount];
+    uint state = randomHash(entry ^ randomHash(cache.update ^ randomHash(cache.seed ^ 0x51ed270bu)));
+    float wanted = (float(entry) + randomNext(state)) * (total / float(BRIGHT_FACE_COUNT));
+    uint low = 0u;
+    uint high = cache.chunkCount;
+    do {
+        uint middle = (low + high) / 2u;
+        bool above = chunks[middle] <= wanted;
+        low = above ? middle : low;
+        high = above ? high : middle;
+    } while (high - low > 1u);
+    uint face = low * cache.facesPerChunk;
+    uint end = min(face + cache.facesPerChunk, grid.faceCount);
+    float sum = chunks[low];
+    // The last face with any flux stands in where rounding overshoots.
+    uint found = face;
+    bool going = true;
+    do {
+        uvec4 shade = texelFetch(faces, 2 * int(face) + 1);
+        vec3 irradiance = vec3(unpackHalf2x16(shade.z), unpackHalf2x16(shade.w).x);
+        vec3 radiance = unpackRgb9e5(shade.y) + unpackAlbedo(shade.x) * irradiance;
+        float flux =
+            shade.w >> 16 == IRRADIANCE_DEAD ? 0.0 : faceFlux(texelFetch(faces, 2 * int(face)), radiance);
+        found = flux > 0.0 ? face : found;
+        sum += flux;
+        going = sum <= wanted;
+    } while (++face < end && going);
+    pool[1u + entry] = found;
+}

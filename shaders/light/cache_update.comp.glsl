@@ -1,0 +1,41 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// One update of the irradiance cache: each face of the slice gathers with a few rays what other faces showed
+// before, and blends it into its mean (docs/theory/4_gather.md, "The cache"). Rays read the packed irradiance
+// of the records, which cache_commit writes afterwards: who comes first does not matter.
+//
+// RAY_BACK_FACES 1: also counts rays that meet a surface from behind, to find faces inside closed objects.
+layout(local_size_x = 64) in;
+#include "lib/linear_index.glsl"
+#include "lib/voxel_light.glsl"
+layout(std140, binding = BINDING_PASS) uniform CacheBlock { CacheConstants cache; };
+layout(std430, binding = CACHE_STATE) buffer StateTable { FaceCache states[]; };
+
+void main() {
+    uint index = linearIndex();
+    bool used = index < cache.faceCount;
+    uint face = cache.firstFace + (used ? index : 0u);
+    face = face >= grid.faceCount ? face - grid.faceCount : face;
+    uvec4 r = texelFetch(voxelFaces, 2 * int(face));
+    FaceRecord record = FaceRecord(r.x, r.y, r.z, r.w, 0u, 0u, 0u, 0u);
+    vec3 normal = faceNormal(record);
+    // Faces keep their directions from one run to the next by voxel and axis, not by number.
+    uint seed = randomHash(r.w ^ randomHash(cache.seed));
+    float backs;
+    vec3 gathered =
+        gatherIrradianceSequence(rayOrigin(faceCenter(record), normal), normal, normal, int(cache.cosineRays),
+                                 int(cache.lightRays), seed, cache.update, backs);
+    if (!used) return;
+    FaceCache state = states[face];
+    uint updates = state.counts & 0xffffu;
+    // Replaces until bounces have settled, then averages (weights 1, 1/2, 1/3 ...).
+    uint window = clamp(updates, IRRADIANCE_SETTLE, IRRADIANCE_SETTLE + cache.longestWindow - 1u);
+    state.irradiance += (gathered - state.irradiance) / float(window - IRRADIANCE_SETTLE + 1u);
+    state.counts = (state.counts & 0xffff0000u) | min(updates + 1u, 0x7fffu);
+#if RAY_BACK_FACES
+    uint rays = (state.counts >> 16) & 0xffu;
+    if (rays + cache.cosineRays < 256u)
+        state.counts += (cache.cosineRays << 16) + (uint(backs * float(cache.cosineRays) + 0.5) << 24);
+#endif
+    states[face] = state;
+}

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// What the irradiance cache (src/light/irradiance_cache.h) and its readers (lib/voxel_light.glsl) share.
+//
+//   brightFaces  uints: [0] 1 / flux of all faces as a float, per voxel side; [1 + i] entry i of the pool: a
+//                face. Entries are drawn by flux, anew for every update.
+//   steadyLight  uint per face: RGB9E5 of its radiance less what point, spot and directional lights give
+#pragma once
+#include "shared/prelude.h"
+
+#define UNIT_STEADY_LIGHT 21  // usamplerBuffer R32UI
+#define UNIT_BRIGHT_FACES 25  // usamplerBuffer R32UI
+
+// Entries of the pool. Searching the whole list for each ray instead costs 11 to 17 % more
+// (docs/theory/4_gather.md).
+#define BRIGHT_FACE_COUNT 4096
+
+// In the upper half of FaceRecord::irradiance1: updates behind a face, below this; from here on the face lies
+// inside a closed object and is left out.
+#define IRRADIANCE_DEAD 0x8000u
+
+// Updates after a change that replace what was there; averages begin then. Averages that begin before bounces
+// have settled keep 2 to 4 % of the light out for good (accuracy experiments, docs/theory/4_gather.md).
+#define IRRADIANCE_SETTLE 14
+// A face lies inside a closed object when of at least so many cosine rays more than a quarter meet a surface
+// from behind first, farther than 1.5 voxels away.
+#define IRRADIANCE_DEAD_RAYS 16
+
+// Storage slots of the cache's passes.
+#define CACHE_STATE 8
+#define CACHE_CHUNKS 9
+#define CACHE_POOL 10
+#define CACHE_OLD_STATE 9
+// Texture units of the pass that carries over.
+#define CACHE_UNIT_OLD_BRICKS 8
+#define CACHE_UNIT_OLD_RECORDS 9
+
+CONELIGHT_SHARED_BEGIN
+
+// State of one face of the cache.
+struct FaceCache {
+    vec3 irradiance;  // irradiance / pi, the mean so far
+    uint counts;  // updates since a change, 0: never | rays looked at for dead faces << 16 | of these, met a
+                  // surface from behind first << 24
+};                // 16 B
+
+// Uniform block at BINDING_PASS of the cache's passes.
+struct CacheConstants {
+    uint firstFace;  // of the faces to update, wrapping around
+    uint faceCount;
+    uint cosineRays;
+    uint lightRays;
+    // ---- 16 B
+    uint update;  // number of the update, part of every seed
+    uint seed;
+    uint longestWindow;  // updates that are averaged at most
+    uint facesPerChunk;
+    // ---- 32 B
+    uint chunkCount;
+    uint restart;  // 1: light changed, windows are short again
+    uint pad0;
+    uint pad1;
+};  // 48 B
+
+// Uniform block at BINDING_PASS of the pass that carries light over.
+struct CacheCarry {
+    vec3 oldOrigin;
+    float oldInverseVoxelSize;
+    // ---- 16 B
+    uint oldSizeX;
+    uint oldSizeY;
+    uint oldSizeZ;
+    uint pad0;
+};  // 32 B
+
+CONELIGHT_SHARED_END
+#ifdef __cplusplus
+static_assert(sizeof(conelight::gpu::FaceCache) == 16);
+static_assert(sizeof(conelight::gpu::CacheConstants) == 48);
+static_assert(sizeof(conelight::gpu::CacheCarry) == 32);
+#endif

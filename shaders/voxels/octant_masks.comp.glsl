@@ -1,0 +1,41 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// Occupied bricks -> octWord's masks: one invocation per brick gathers which voxels have faces in which
+// direction, and combines three directions for each octant. Bricks without a voxel that faces an octant keep
+// what the texture was cleared to: empty, reach 1.
+layout(local_size_x = 64) in;
+#include "lib/linear_index.glsl"
+#include "lib/voxel_address.glsl"
+#include "lib/voxel_grid.glsl"
+layout(binding = UNIT_VOXEL_BRICKS) uniform usampler3D brickWords;
+layout(binding = UNIT_VOXEL_RECORDS) uniform usamplerBuffer records;
+layout(std430, binding = BINDING_STORAGE_PASS) readonly buffer BrickTable { uint brickList[]; };
+layout(binding = 0, rgba32ui) uniform writeonly uimage3D octants;
+
+void main() {
+    uint index = linearIndex();
+    bool used = index < grid.occupiedBricks;
+    ivec3 brick = unpackVoxel(brickList[used ? index : 0u]);
+    uvec4 word = texelFetch(brickWords, brick, 0);
+    uvec2 mask[6] = uvec2[6](uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
+    uvec2 left = word.xy;
+    int record = int(word.z);
+    do {
+        // The lowest voxel that is left; none: adds nothing.
+        bool low = left.x != 0u;
+        uint lowest = low ? left.x & (0u - left.x) : left.y & (0u - left.y);
+        uvec2 bit = low ? uvec2(lowest, 0u) : uvec2(0u, lowest);
+        uint directions = texelFetch(records, record).x >> 26;
+        for (int k = 0; k < 6; ++k) mask[k] |= (directions >> k & 1u) != 0u ? bit : uvec2(0u);
+        left ^= bit;
+        ++record;
+    } while ((left.x | left.y) != 0u);
+    if (!used) return;
+    for (int octant = 0; octant < 8; ++octant) {
+        // Rays that go down along an axis meet the faces that look up.
+        uvec2 facing = ((octant & 1) != 0 ? mask[0] : mask[1]) | ((octant & 2) != 0 ? mask[2] : mask[3]) |
+                       ((octant & 4) != 0 ? mask[4] : mask[5]);
+        if ((facing.x | facing.y) != 0u)
+            imageStore(octants, ivec3(brick.x + octant * int(grid.bricksX), brick.yz), uvec4(facing, 0u, 0u));
+    }
+}

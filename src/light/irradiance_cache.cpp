@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+#include "light/irradiance_cache.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/assert.h"
+#include "gl/gl.h"
+#include "light/shadow_maps.h"
+#include "scene/gpu_lights.h"
+#include "shared/bindings.h"
+#include "shared/irradiance.h"
+
+namespace conelight::light {
+namespace {
+
+constexpr std::uint32_t kMaxChunks = 4096;  // one invocation walks over all chunks
+constexpr std::uint32_t kLeastChunk = 16;   // fewer faces per invocation are not worth starting it
+constexpr double kSlack = 1.25;             // room for growth when memory is allocated anew
+// Updates with the test for faces inside closed objects, after voxels have changed: with 2 cosine rays enough
+// for twice IRRADIANCE_DEAD_RAYS.
+constexpr int kDeadUpdates = 16;
+// More lights than these are taken from faces, not looked up at every hit: the shadow maps of 4 cost as much
+// as the ray itself.
+constexpr std::uint32_t kMostExactLights = 4;
+
+gl::ProgramDesc updateDesc(gl::Defines hitLights, bool findsBacks) {
+    hitLights.emplace_back("RAY_BACK_FACES", findsBacks ? "1" : "0");
+    return {{"light/cache_update.comp.glsl"}, std::move(hitLights)};
+}
+gl::ProgramDesc pass(const char* name) { return {{std::string("light/cache_") + name + ".comp.glsl"}, {}}; }
+
+gl::Defines exactDefines(const gl::Defines& lights, bool exact) {
+    gl::Defines defines{{"EXACT_DIRECT", exact ? "1" : "0"}};
+    if (!exact) return defines;
+    for (const auto& [key, value] : lights) {
+        // One comparison of four texels per light: rays average edges anyway.
+        if (key == "SHADOW_FILTER")
+            defines.emplace_back(key, "0");
+        else
+            defines.emplace_back(key, key == "LIGHTS_RECT" ? "0" : value);
+    }
+    return defines;
+}
+
+}  // namespace
+
+gl::Defines hitLightDefines(const scene::GpuScene& scene, const LightSettings& settings, bool exactDirect) {
+    const std::uint32_t punctual = scene::lightEnds(scene.lights()).z;
+    return exactDefines(lightDefines(scene, settings),
+                        exactDirect && punctual > 0 && punctual <= kMostExactLights);
+}
+
+std::vector<gl::ProgramDesc> hitLightVariants(const gl::ProgramDesc& base) {
+    std::vector<gl::ProgramDesc> descs;
+    const auto add = [&](const gl::Defines& defines) {
+        gl::ProgramDesc desc = base;
+        desc.defines.insert(desc.defines.end(), defines.begin(), defines.end());
+        descs.push_back(std::move(desc));
+    };
+    add(exactDefines({}, false));
+    for (const char* kind : {"LIGHTS_POINT", "LIGHTS_SPOT", "LIGHTS_DIRECTIONAL"}) {
+        gl::Defines lights;
+        for (const char* other : {"LIGHTS_POINT", "LIGHTS_SPOT", "LIGHTS_DIRECTIONAL", "LIGHTS_RECT"})
+            lights.emplace_back(other, std::string(kind) == other ? "1" : "0");
+        lights.insert(lights.end(), {{"LIGHTS_FIXED", "1"}, {"LIGHTS_SHADOWS", "1"}, {"SHADOW_FILTER", "0"}});
+        add(exactDefines(lights, true));
+    }
+    return descs;
+}
+
+struct IrradianceCache::Impl {
+    gl::Buffer states, oldStates, steady, chunks, pool, constants, carryBlock;
+    gl::Texture steadyTexels, poolTexels;
+    // Voxels before they were built anew.
+    gl::Buffer oldRecords;
+    gl::Texture oldRecordTexels, oldBricks;
+    voxels::VoxelGrid oldGrid;
+    std::uint32_t oldFaces = 0;
+
+    bool prepared = false;  // pool and records say what the states and the direct light say
+    bool restart = false;
+    std::uint32_t number = 0;        // of updates, ever
+    std::uint32_t firstFace = 0;     // where the next update begins
+    std::uint64_t facesVisited = 0;  // since light changed
+    std::uint64_t facesTested = 0;   // for dead ones, since voxels changed
+    std::uint32_t faceCount = 0;
+
+    void reserve(std::uint32_t faces);
+    gpu::CacheConstants packed(const CacheSettings& settings) const;
+    void commit(gl::ProgramLibrary& programs, gl::Profiler& profiler, const CacheSettings& settings);
+};
+
+IrradianceCache::IrradianceCache() : impl_(std::make_unique<Impl>()) {}
+IrradianceCache::~IrradianceCache() = default;
+IrradianceCache::IrradianceCache(IrradianceCache&&) noexcept = default;
+IrradianceCache& IrradianceCache::operator=(IrradianceCache&&) noexcept = default;
+
+void IrradianceCache::reset() { impl_ = std::make_unique<Impl>(); }
+
+// Makes room for so many faces. What is there may be lost.
+void IrradianceCache::Impl::reserve(std::uint32_t faces) {
+    if (!pool) {
+        pool = gl::Buffer(4 * (1 + BRIGHT_FACE_COUNT), "bright faces");
+        poolTexels = gl::Texture(pool, GL_R32UI, "bright faces");
+        chunks = gl::Buffer(4 * (kMaxChunks + 1), "irradiance cache chunks");
+        constants = gl::Buffer(sizeof(gpu::CacheConstants), "irradiance cache constants");
+        carryBlock = gl::Buffer(sizeof(gpu::CacheCarry), "irradiance cache carry-over");
+    }
+    const auto room = static_cast<std::size_t>(std::ceil(kSlack * faces)) + 64;
+    if (states.bytes() < sizeof(gpu::FaceCache) * std::size_t{faces} || !states) {
+        states = {};
+        states = gl::Buffer(sizeof(gpu::FaceCache) * room, "irradiance cache");
+    }
+    if (steady.bytes() < std::size_t{4} * faces || !steady) {
+        steadyTexels = {};
+        steady = {};
+        steady = gl::Buffer(std::size_t{4} * room, "steady light");
+        steadyTexels = gl::Texture(steady, GL_R32UI, "steady light");
+    }
+}
+
+void IrradianceCache::beforeVoxelize(gl::Profiler& profiler, const voxels::SurfaceVoxels& surface) {
+    Impl& m = *impl_;
+    if (m.faceCount == 0) return;
+    const gl::PassScope pass(profiler, "irradiance: keep");
+    const std::size_t recordBytes = std::size_t{4} * surface.voxelCount();
+    if (m.oldRecords.bytes() < recordBytes) {
+        m.oldRecordTexels = {};
+        m.oldRecords = {};
+        m.oldRecords = gl::Buffer(recordBytes + recordBytes / 4, "old voxel records");
+        m.oldRecordTexels = gl::Texture(m.oldRecords, GL_R32UI, "old voxel records");
+    }
+    m.oldRecords.copyFrom(surface.records(), recordBytes);
+    const gl::TextureDesc& desc = surface.brickWords().desc();
+    if (!m.oldBricks || m.oldBricks.width() != desc.width || m.oldBricks.height() != desc.height ||
+        m.oldBricks.depth() != desc.depth) {
+        m.oldBricks = {};
+        m.oldBricks = gl::Texture(desc, "old voxel bricks");
+        m.oldBricks.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        m.oldBricks.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    }
+    m.oldBricks.copyFrom(surface.brickWords());
+    m.oldGrid = surface.grid();
+    m.oldFaces = m.faceCount;
+}
+
+void IrradianceCache::afterVoxelize(gl::ProgramLibrary& programs, gl::Profiler& profiler,
+                                    const voxels::SurfaceVoxels& surface) {
+    Impl& m = *impl_;
+    const gl::PassScope pass(profiler, "irradiance: carry over");
+    const bool carries = m.oldFaces > 0 && m.oldBricks;
+    // The states of the old voxels change places with the buffer for the new ones.
+    std::swap(m.states, m.oldStates);
+    m.reserve(surface.faceCount());
+    m.faceCount = surface.faceCount();
+    if (carries && m.faceCount > 0) {
+        gpu::CacheCarry block{};
+        block.oldOrigin = m.oldGrid.origin;
+        block.oldInverseVoxelSize = 1.0f / m.oldGrid.voxelSize;
+        block.oldSizeX = static_cast<std::uint32_t>(m.oldGrid.size.x);
+        block.oldSizeY = static_cast<std::uint32_t>(m.oldGrid.size.y);
+        block.oldSizeZ = static_cast<std::uint32_t>(m.oldGrid.size.z);
+        m.carryBlock.update(block);
+        m.carryBlock.bindUniform(BINDING_PASS);
+        m.states.bindStorage(CACHE_STATE);
+        m.oldStates.bindStorage(CACHE_OLD_STATE);
+        surface.bind();
+        m.oldBricks.bind(CACHE_UNIT_OLD_BRICKS);
+        m.oldRecordTexels.bind(CACHE_UNIT_OLD_RECORDS);
+        programs.get(light::pass("carry")).dispatchLinear(m.faceCount);
+        gl::barrier(gl::Access::ShaderStorage);
+    } else {
+        m.states.clear();
+    }
+    m.oldFaces = 0;
+    m.firstFace = 0;
+    m.facesTested = 0;
+    lightChanged();
+}
+
+void IrradianceCache::lightChanged() {
+    impl_->restart = true;
+    impl_->prepared = false;
+    impl_->facesVisited = 0;
+}
+
+gpu::CacheConstants IrradianceCache::Impl::packed(const CacheSettings& settings) const {
+    gpu::CacheConstants c{};
+    c.firstFace = firstFace;
+    c.faceCount = settings.facesPerUpdate == 0 ? faceCount : std::min(settings.facesPerUpdate, faceCount);
+    c.cosineRays = static_cast<std::uint32_t>(settings.cosineRays);
+    c.lightRays = static_cast<std::uint32_t>(settings.lightRays);
+    c.update = number;
+    c.seed = settings.seed;
+    c.longestWindow = static_cast<std::uint32_t>(std::max(settings.longestWindow, 1));
+    c.facesPerChunk = std::max((faceCount + kMaxChunks - 1) / kMaxChunks, kLeastChunk);
+    c.chunkCount = (faceCount + c.facesPerChunk - 1) / c.facesPerChunk;
+    c.restart = restart ? 1 : 0;
+    return c;
+}
+
+// States -> records and pool.
+void IrradianceCache::Impl::commit(gl::ProgramLibrary& programs, gl::Profiler& profiler,
+                                   const CacheSettings& settings) {
+    const gl::PassScope scope(profiler, "irradiance: bright faces");
+    const gpu::CacheConstants block = packed(settings);
+    constants.update(block);
+    constants.bindUniform(BINDING_PASS);
+    states.bindStorage(CACHE_STATE);
+    chunks.bindStorage(CACHE_CHUNKS);
+    pool.bindStorage(CACHE_POOL);
+    programs.get(pass("commit")).dispatchLinear(block.chunkCount);
+    gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+    programs.get(pass("sums")).dispatch(8);
+    gl::barrier(gl::Access::ShaderStorage);
+    programs.get(pass("pool")).dispatch(BRIGHT_FACE_COUNT);
+    gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Update);
+    prepared = true;
+    restart = false;
+}
+
+void IrradianceCache::update(gl::ProgramLibrary& programs, gl::Profiler& profiler,
+                             const scene::GpuScene& scene, const LightSettings& light,
+                             const voxels::SurfaceVoxels& surface, const CacheSettings& settings,
+                             int passes) {
+    Impl& m = *impl_;
+    CONELIGHT_ASSERT(surface.faceCount() == m.faceCount,
+                     "IrradianceCache::update before afterVoxelize of these voxels");
+    if (m.faceCount == 0) return;
+    const gl::Defines lights = hitLightDefines(scene, light, settings.exactDirect);
+    surface.bind();
+    if (!m.prepared) m.commit(programs, profiler, settings);
+    for (int i = 0; i < passes; ++i) {
+        const gpu::CacheConstants block = m.packed(settings);
+        {
+            const gl::PassScope scope(profiler, "irradiance: update");
+            m.constants.update(block);
+            m.constants.bindUniform(BINDING_PASS);
+            m.states.bindStorage(CACHE_STATE);
+            bind();
+            const bool tests = m.facesTested < std::uint64_t{kDeadUpdates} * m.faceCount;
+            programs.get(updateDesc(lights, tests)).dispatchLinear(block.faceCount);
+            gl::barrier(gl::Access::ShaderStorage | gl::Access::Update);
+        }
+        m.firstFace = (m.firstFace + block.faceCount) % m.faceCount;
+        m.facesVisited += block.faceCount;
+        m.facesTested += block.faceCount;
+        ++m.number;
+        m.commit(programs, profiler, settings);
+    }
+}
+
+bool IrradianceCache::settled() const { return updates() >= IRRADIANCE_SETTLE; }
+
+int IrradianceCache::updates() const {
+    return impl_->faceCount == 0 ? IRRADIANCE_SETTLE
+                                 : static_cast<int>(impl_->facesVisited / impl_->faceCount);
+}
+
+void IrradianceCache::bind() const {
+    CONELIGHT_ASSERT(impl_->pool, "IrradianceCache::bind before afterVoxelize");
+    impl_->steadyTexels.bind(UNIT_STEADY_LIGHT);
+    impl_->poolTexels.bind(UNIT_BRIGHT_FACES);
+}
+
+const gl::Buffer& IrradianceCache::steadyLight() const { return impl_->steady; }
+const gl::Buffer& IrradianceCache::state() const { return impl_->states; }
+
+std::vector<gl::ProgramDesc> IrradianceCache::programDescs() {
+    std::vector<gl::ProgramDesc> descs{pass("commit"), pass("sums"), pass("pool"), pass("carry")};
+    for (const bool backs : {false, true})
+        for (gl::ProgramDesc& desc : hitLightVariants({{"light/cache_update.comp.glsl"}, {}}))
+            descs.push_back(updateDesc(std::move(desc.defines), backs));
+    return descs;
+}
+
+}  // namespace conelight::light
