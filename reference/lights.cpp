@@ -45,8 +45,8 @@ constexpr double kLeastEmission = 0.01;
 
 // The first surface of a path asks every group when there are no more than these: its noise is the picture's.
 constexpr std::size_t kGroupsAtFirst = 8;
-// Share of choices that do not look at the light a group would give: the brightest may be hidden, as the sun from
-// most of scene atrium. Chosen by eye, not tuned.
+// Share of choices that do not look at the light a group would give: the brightest may be hidden, as the sun
+// from most of scene atrium. Chosen by eye, not tuned.
 constexpr float kEvenShare = 0.25f;
 
 glm::vec3 meanEmission(const Scene& scene, std::uint32_t instance, std::uint32_t triangle) {
