@@ -95,9 +95,10 @@ struct SurfaceConstants {
     uint bricksPerChunk;  // prefix sums: elements one invocation adds up
     // ---- 32 B
     uint voxelsPerChunk;
-    float emissionScale;  // largest emission of any material, >= 1e-6: sums of emission are relative to it
+    float emissionScale;  // power of two >= largest emission of any material: sums of emission are relative
+                          // to it
+    uint dirtyBricks;     // updates: bricks whose chains are searched for fragments to drop
     uint pad0;
-    uint pad1;
 };  // 48 B
 
 // Words of the voxelizer's counters. Arguments: three group counts each, for indirect dispatches.
@@ -106,11 +107,17 @@ struct SurfaceConstants {
 #define SURFACE_VOXELS 2
 #define SURFACE_BRICKS 3
 #define SURFACE_FACES 4
+// Updates: entries of the list of free slots; first slot that was never used; faces that are summed up again
+#define SURFACE_FREE 5
+#define SURFACE_TAIL 6
+#define SURFACE_WORK 7
 #define SURFACE_ARGS_TILES 8
 #define SURFACE_ARGS_FRAGMENTS 12
 #define SURFACE_ARGS_VOXELS 16
 #define SURFACE_ARGS_FACES 20
-#define SURFACE_COUNTER_WORDS 24
+#define SURFACE_ARGS_BRICKS 24
+#define SURFACE_ARGS_WORK 28
+#define SURFACE_COUNTER_WORDS 32
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus

@@ -12,6 +12,9 @@
 // averaged over the polygon's area. 2: and alpha tests, 16 samples over the polygon's bounds give coverage
 // and albedo.
 #version 450
+#ifndef SURFACE_UPDATE
+#error SURFACE_UPDATE must be 0 or 1
+#endif
 #ifndef SURFACE_DETAIL
 #error SURFACE_DETAIL must be 0, 1 or 2
 #endif
@@ -30,6 +33,11 @@ layout(binding = SURFACE_UNIT_TRIANGLES) uniform samplerBuffer triangles;
 layout(binding = SURFACE_UNIT_PAIRS) uniform usamplerBuffer pairs;
 layout(binding = UNIT_VOXEL_BRICKS) uniform usampler3D brickWords;
 
+#if SURFACE_UPDATE
+layout(std430, binding = SURFACE_FREE_LIST) readonly buffer FreeTable { uint freeSlots[]; };
+layout(std430, binding = SURFACE_CHANGED_BRICKS) buffer ChangedTable { uint changedBricks[]; };
+#endif
+
 struct Surface {
     vec3 albedo;
     vec3 emission;
@@ -39,13 +47,21 @@ struct Surface {
 #include "voxels/surface_material.glsl"
 #endif
 
-// Less area than this (in voxel sides) is dropped: in fixed point its weight would vanish too.
+// Less area than this (in voxel sides) counts as none: in fixed point its weight would vanish too. Such a
+// fragment stays in its chain, which says with it that the voxel is occupied.
 const float kLeastArea = 1e-7;
 
 void main() {
     uint index = linearInvocation();
+#if SURFACE_UPDATE
+    bool used = index < counters[SURFACE_FRAGMENTS];
+    uint slot = used ? FRAGMENT_SLOT(index) : 0u;
+    used = used && slot < surface.fragmentCapacity;
+    slot = used ? slot : 0u;
+#else
     bool used = index < min(counters[SURFACE_FRAGMENTS], surface.fragmentCapacity);
     uint slot = used ? index : 0u;
+#endif
     uvec2 pair = texelFetch(pairs, int(slot)).xy;
     int triangle = int(pair.x);
     vec4 t0 = texelFetch(triangles, 3 * triangle);
@@ -81,15 +97,24 @@ void main() {
     // Into the chain of the voxel, which has a record because its bit was set with this fragment.
     uvec4 word = texelFetch(brickWords, voxel >> 2, 0);
     uint record = voxelRecordIndex(word, bitOfVoxel(voxel));
-    bool kept = used && area >= kLeastArea && record < surface.voxelCapacity;
+    bool chained = used && record < surface.voxelCapacity;
+    bool kept = chained && area >= kLeastArea;
     // The directions of the normal as it is stored: surface_resolve must come to the same.
     uint nx = packSnorm16(n.x);
     uint ny = packSnorm16(n.y);
     uint nz = packSnorm16(n.z);
     vec3 stored = vec3(unpackSnorm16(nx), unpackSnorm16(ny), unpackSnorm16(nz));
     uint directions = facingDirections(stored) | (twoSided ? facingDirections(-stored) : 0u);
+    directions = kept ? directions : 0u;
+#if SURFACE_UPDATE
+    directions |= CHAIN_DIRTY;
+    if (chained) {
+        uint brick = brickIndex(voxel >> 2, gridBricks());
+        atomicOr(changedBricks[brick >> 5], 1u << (brick & 31u));
+    }
+#endif
     uint next = 0u;
-    if (kept) {
+    if (chained) {
         next = atomicExchange(chains[2u * record], slot + 1u);
         atomicOr(chains[2u * record + 1u], directions);
     }

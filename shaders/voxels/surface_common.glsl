@@ -8,6 +8,16 @@
 //   surface_count, surface_scan, surface_faces    directions -> voxRec, owner of each face
 //   surface_resolve  face -> its chain, summed up
 //
+// Updates of what changed (SURFACE_UPDATE 1; docs/theory/2_voxels.md, "Updates"):
+//   surface_drop     voxel in a dirty brick -> chain without the fragments of changed instances
+//   surface_setup, surface_tiles             of changed instances only; fragments take free slots
+//   surface_count, surface_scan, surface_bricks   as above
+//   surface_carry    brick -> chains under their new numbers
+//   surface_clip     new fragments only
+//   surface_count, surface_scan, surface_faces    as above
+//   surface_copy     face of an unchanged voxel, from its place before
+//   surface_resolve  faces of changed voxels
+//
 // A fragment is a pair (triangle, voxel). Lists are filled in any order; everything that survives is ordered
 // by prefix sums or summed in integers.
 #include "shared/bindings.h"
@@ -26,6 +36,25 @@
 #define SURFACE_BRICK_LIST 10
 #define SURFACE_OWNERS 10
 #define SURFACE_FACE_SOURCES 9
+// Updates
+#define SURFACE_RUNS 13            // setup: (instance, its first place in the work) per changed instance
+#define SURFACE_FREE_LIST 15       // setup, tiles, clip, drop: slots of dropped fragments
+#define SURFACE_CHANGED_BRICKS 10  // clip, drop: bit per brick
+#define SURFACE_DIRTY_BRICKS 9     // drop: indices of bricks to search
+#define SURFACE_STALE 11           // drop: bit per instance that changed
+#define SURFACE_OLD_CHAINS 14      // carry
+#define SURFACE_ORIGIN 12          // carry, faces: record that a voxel had before, ~0: none
+#define SURFACE_WORK_LIST 11       // faces, resolve: faces to be summed up
+#define SURFACE_UNIT_OLD_BRICKS 8
+#define SURFACE_UNIT_OLD_FACES 8
+#define SURFACE_UNIT_OLD_SOURCES 9
+#define SURFACE_UNIT_OLD_RECORDS 10
+// In the word of directions of a chain: the voxel's fragments changed in this update.
+#define CHAIN_DIRTY 0x80000000u
+#define CHAIN_DIRECTIONS 63u
+// In place of a direction (0..5) of an owner.
+#define OWNER_IS_FACE 7u
+
 // Buffer textures: reading through them costs a third of a storage read on a software driver
 #define SURFACE_UNIT_TRIANGLES 8
 #define SURFACE_UNIT_PAIRS 9
@@ -43,6 +72,11 @@ uint linearInvocation() {
     uint group = gl_WorkGroupID.y * gl_NumWorkGroups.x + gl_WorkGroupID.x;
     return group * (gl_WorkGroupSize.x * gl_WorkGroupSize.y * gl_WorkGroupSize.z) + gl_LocalInvocationIndex;
 }
+
+// Slot of the i-th new fragment of an update: free ones first, then behind those in use.
+#define FRAGMENT_SLOT(i)                                                         \
+    ((i) < counters[SURFACE_FREE] ? freeSlots[counters[SURFACE_FREE] - 1u - (i)] \
+                                  : counters[SURFACE_TAIL] + (i)-counters[SURFACE_FREE])
 
 // Directions a normal faces, bit k (shared/voxels.h).
 uint facingDirections(vec3 n) {

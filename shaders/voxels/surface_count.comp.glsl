@@ -30,7 +30,7 @@ void main() {
         uvec2 mask = masks[i];
         sum += uvec2(uint(bitCount(mask.x) + bitCount(mask.y)), (mask.x | mask.y) != 0u ? 1u : 0u);
 #else
-        sum.x += uint(bitCount(chains[i].y));
+        sum.x += uint(bitCount(chains[i].y & CHAIN_DIRECTIONS));
 #endif
         ++i;
     }

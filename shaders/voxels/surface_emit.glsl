@@ -6,6 +6,9 @@
 #include "voxels/surface_columns.glsl"
 layout(std430, binding = SURFACE_COUNTERS) buffer CounterTable { uint counters[]; };
 layout(std430, binding = SURFACE_PAIRS) writeonly buffer PairTable { uvec2 pairs[]; };
+#if SURFACE_UPDATE
+layout(std430, binding = SURFACE_FREE_LIST) readonly buffer FreeTable { uint freeSlots[]; };
+#endif
 layout(std430, binding = SURFACE_MASKS) buffer MaskTable { uint masks[]; };
 
 // The columns of one invocation: `width` cells per row, counted from cell (0,0) at the anchor.
@@ -31,7 +34,12 @@ void emitFragments(ColumnTest t, uint triangle, uvec2 bits, int width, ivec3 anc
             uint b = bitOfVoxel(voxel);
             atomicOr(masks[2u * brickIndex(voxel >> 2, bricks) + (b >> 5)], 1u << (b & 31u));
         }
-        if (alive && slot < surface.fragmentCapacity) pairs[slot] = uvec2(triangle, packVoxel(voxel));
+#if SURFACE_UPDATE
+        uint place = alive ? FRAGMENT_SLOT(slot) : 0u;
+#else
+        uint place = slot;
+#endif
+        if (alive && place < surface.fragmentCapacity) pairs[place] = uvec2(triangle, packVoxel(voxel));
         ++slot;
         bits.y = inLow ? bits.y : bits.y & (bits.y - 1u);
         bits.x = inLow ? bits.x & (bits.x - 1u) : 0u;

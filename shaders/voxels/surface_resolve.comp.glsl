@@ -13,6 +13,9 @@
 // +17 %; fetching the next fragment while this one is added, no gain; all sums in 64 bits +50 %; looking up
 // chain and voxel through the voxel's record instead of the owner list +15 %.
 #version 450
+#ifndef SURFACE_UPDATE
+#error SURFACE_UPDATE must be 0 or 1
+#endif
 #ifndef SURFACE_EMISSION
 #error SURFACE_EMISSION must be 0 or 1
 #endif
@@ -25,6 +28,9 @@ layout(std430, binding = SURFACE_FACE_SOURCES) writeonly buffer SourceTable { uv
 #if SURFACE_EMISSION
 layout(binding = SURFACE_UNIT_PAIRS) uniform usamplerBuffer pairs;
 #endif
+#if SURFACE_UPDATE
+layout(std430, binding = SURFACE_WORK_LIST) readonly buffer WorkTable { uint work[]; };
+#endif
 layout(binding = SURFACE_UNIT_FRAGMENTS) uniform usamplerBuffer fragments;
 layout(binding = SURFACE_UNIT_OWNERS) uniform usamplerBuffer owners;
 
@@ -32,7 +38,12 @@ const uint kNeutralBounds = 0x7fffu;  // min 31, max 0
 
 void main() {
     uint index = linearInvocation();
+#if SURFACE_UPDATE
+    bool used = index < min(counters[SURFACE_WORK], surface.faceCapacity);
+    index = work[used ? index : 0u];
+#else
     bool used = index < min(counters[SURFACE_FACES], surface.faceCapacity);
+#endif
     uint owner = texelFetch(owners, int(used ? index : 0u)).x;
     int direction = int(owner >> 29);
     uint head = owner & 0x1fffffffu;
@@ -68,7 +79,7 @@ void main() {
             bool turned = facing < 0.0 && (a.z & 0x40000000u) != 0u;
             n = turned ? -n : n;
             facing = turned ? -facing : facing;
-            bool counts = facing > VOXEL_FACING_THRESHOLD && at != 0u;
+            bool counts = facing > VOXEL_FACING_THRESHOLD && at != 0u && a.y != 0u;
             float covered = counts ? uintBitsToFloat(a.y) * unit : 0.0;
             float w = covered * facing;
             // Rounded by truncation of positive numbers.

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Second third of a prefix sum: one invocation turns the chunks' sums into their starts (at most a few
 // thousand chunks), and writes the totals and the group counts of the passes that follow. STEP 0: no sum,
-// group count of surface_tiles. 1: after counting bricks. 2: after counting faces.
+// group count of surface_tiles. 1: after counting bricks. 2: after counting faces. 3: no sum, group count of
+// surface_resolve in an update.
 #version 450
 #ifndef STEP
-#error STEP must be 0, 1 or 2
+#error STEP must be 0, 1, 2 or 3
 #endif
 layout(local_size_x = 8) in;
 #include "lib/voxel_grid.glsl"
@@ -24,6 +25,8 @@ void main() {
     if (gl_LocalInvocationIndex != 0u) return;
 #if STEP == 0
     writeArguments(SURFACE_ARGS_TILES, 8u * min(counters[SURFACE_TILES], surface.tileCapacity));
+#elif STEP == 3
+    writeArguments(SURFACE_ARGS_WORK, min(counters[SURFACE_WORK], surface.faceCapacity));
 #else
 #if STEP == 1
     uint count = grid.bricksX * grid.bricksY * grid.bricksZ;
@@ -44,6 +47,7 @@ void main() {
     counters[SURFACE_VOXELS] = start.x;
     counters[SURFACE_BRICKS] = start.y;
     uint voxels = min(start.x, surface.voxelCapacity);
+    writeArguments(SURFACE_ARGS_BRICKS, min(start.y, surface.brickCapacity));
     writeArguments(SURFACE_ARGS_FRAGMENTS, min(counters[SURFACE_FRAGMENTS], surface.fragmentCapacity));
     writeArguments(SURFACE_ARGS_VOXELS, (voxels + surface.voxelsPerChunk - 1u) / surface.voxelsPerChunk);
 #else

@@ -4,6 +4,9 @@
 // spans at most 16 columns; then one invocation has little to do. At most 64 x 64 tiles are visited per
 // triangle.
 #version 450
+#ifndef SURFACE_UPDATE
+#error SURFACE_UPDATE must be 0 or 1
+#endif
 layout(local_size_x = 64) in;
 #include "lib/voxel_record.glsl"
 #include "voxels/surface_common.glsl"
@@ -16,6 +19,23 @@ layout(std430, binding = SURFACE_TRIANGLES) writeonly buffer TriangleTable { vec
 layout(std430, binding = SURFACE_TILE_LIST) writeonly buffer TileTable { uvec2 tiles[]; };
 
 const int kSmallColumns = 16;
+
+#if SURFACE_UPDATE
+layout(std430, binding = SURFACE_RUNS) readonly buffer RunTable { uvec2 runs[]; };
+
+// The changed instance that the n-th triangle of the work belongs to: last run that starts at or before it.
+uvec2 runOf(uint n) {
+    uint low = 0u;
+    uint high = surface.instanceCount;
+    do {
+        uint middle = (low + high) >> 1;
+        bool below = runs[middle].y <= n;
+        low = below ? middle : low;
+        high = below ? high : middle;
+    } while (high - low > 1u);
+    return runs[low];
+}
+#endif
 
 // The instance a triangle belongs to: last one that starts at or before it.
 uint instanceOfTriangle(uint triangle) {
@@ -33,8 +53,16 @@ uint instanceOfTriangle(uint triangle) {
 void main() {
     uint index = linearInvocation();
     bool used = index < surface.triangleCount;
+#if SURFACE_UPDATE
+    // surface.triangleCount and .instanceCount are those of the work.
+    uint work = min(index, surface.triangleCount - 1u);
+    uvec2 run = runOf(work);
+    uint instance = run.x;
+    uint triangle = instances[instance].firstTriangle + work - run.y;
+#else
     uint triangle = min(index, surface.triangleCount - 1u);
     uint instance = instanceOfTriangle(triangle);
+#endif
     uint firstIndex = instances[instance].firstIndex + 3u * (triangle - instances[instance].firstTriangle);
     uint firstVertex = instances[instance].firstVertex;
     uint instanceFlags = instances[instance].flags;

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Tiles of big triangles -> fragments. Eight invocations per tile of 8 x 8 columns, one row of columns each.
 #version 450
+#ifndef SURFACE_UPDATE
+#error SURFACE_UPDATE must be 0 or 1
+#endif
 layout(local_size_x = 64) in;
 #include "voxels/surface_common.glsl"
 #include "voxels/surface_emit.glsl"

@@ -76,7 +76,10 @@ struct ConesMode::Impl {
 void ConesMode::Impl::updateVolume(const FrameContext& frame) {
     const ConesSettings& settings = frame.settings.cones;
     if (geometryDirty) {
-        surface.build(frame.programs, frame.profiler, frame.scene, frame.settings.voxels);
+        if (frame.everythingAnew)
+            surface.build(frame.programs, frame.profiler, frame.scene, frame.settings.voxels);
+        else
+            surface.update(frame.programs, frame.profiler, frame.scene, frame.settings.voxels);
         lightDirty = true;
     }
     const voxels::RadianceLayout layout =

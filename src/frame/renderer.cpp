@@ -250,7 +250,8 @@ void Renderer::Impl::prepareMode(const Settings& settings) {
 
 void Renderer::Impl::drawMode(int width, int height, const Settings& settings) {
     mode->render({programs, profiler, source, *scene, settings, width, height, targets->gbuffer, shadows,
-                  targets->output, geometryChanged, lightChanged, countLookups ? &lookupCounters : nullptr});
+                  targets->output, geometryChanged, everyFrame, lightChanged,
+                  countLookups ? &lookupCounters : nullptr});
     sceneChanged = skyChanged = false;
     geometryRevision = scene->geometryRevision();
     lightRevision = scene->lightRevision();

@@ -23,6 +23,14 @@
 
 namespace conelight::voxels {
 
+// What the last build or update had to do.
+struct SurfaceUpdate {
+    bool whole = false;           // everything was voxelized anew
+    std::uint32_t triangles = 0;  // set up
+    std::uint32_t fragments = 0;  // clipped
+    std::uint32_t faces = 0;      // summed up
+};
+
 class SurfaceVoxels {
   public:
     SurfaceVoxels();
@@ -40,6 +48,20 @@ class SurfaceVoxels {
     void build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
                const VoxelGrid& grid);
 
+    // As build(), but does again only what `scene` has changed since the last build or update: bit for bit
+    // the same voxels, light apart. Faces of voxels in which nothing changed keep their radiance and
+    // irradiance; the others get their emission and zero. Falls back to build() for another scene or grid,
+    // when materials need another variant of the passes, when more than half of the triangles changed, and
+    // when a list has become too small. Buffers and textures may be others than before (bind() again). GL
+    // state changed: as build(), and units up to UNIT_PASS + 7.
+    void update(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
+                const VoxelSettings& settings);
+
+    // Of the last build or update: bit i % 32 of word i / 32 is set when something changed in brick i
+    // (brickIndex); all are set after a build.
+    const gl::Buffer& changedBricks() const;
+    const SurfaceUpdate& lastUpdate() const;
+
     // The grid fitted to the scene as it was handed over, grown by whole bricks to what has left it since.
     static VoxelGrid gridOf(const scene::GpuScene& scene, const VoxelSettings& settings);
 
@@ -50,7 +72,7 @@ class SurfaceVoxels {
     std::uint32_t voxelCount() const;  // occupied voxels
     std::uint32_t faceCount() const;
     std::uint32_t occupiedBrickCount() const;
-    std::uint32_t fragmentCount() const;  // pairs (triangle, voxel) of the last build
+    std::uint32_t fragmentCount() const;  // pairs (triangle, voxel)
 
     const gl::Texture& brickWords() const;  // RGBA32UI, size of grid().bricks()
     const gl::Buffer& records() const;      // voxRec; voxelCount() uints are in use

@@ -114,7 +114,7 @@ const std::vector<Struct>& table() {
             facesPerChunk, chunkCount, restart, pad0, pad1),
         ROW(CacheCarry, oldOrigin, oldInverseVoxelSize, oldSizeX, oldSizeY, oldSizeZ, pad0),
         ROW(SurfaceConstants, triangleCount, instanceCount, tileCapacity, fragmentCapacity, voxelCapacity,
-            faceCapacity, brickCapacity, bricksPerChunk, voxelsPerChunk, emissionScale, pad0, pad1),
+            faceCapacity, brickCapacity, bricksPerChunk, voxelsPerChunk, emissionScale, dirtyBricks, pad0),
     };
     return structs;
 }

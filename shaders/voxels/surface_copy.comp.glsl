@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Update: one invocation per face. Faces of voxels in which nothing changed are taken over, light included.
+#version 450
+layout(local_size_x = 64) in;
+#include "voxels/surface_common.glsl"
+layout(std430, binding = SURFACE_COUNTERS) readonly buffer CounterTable { uint counters[]; };
+layout(std430, binding = BINDING_VOXEL_FACES) writeonly buffer FaceTable { uvec4 faces[]; };
+layout(std430, binding = SURFACE_FACE_SOURCES) writeonly buffer SourceTable { uvec2 faceSources[]; };
+layout(binding = SURFACE_UNIT_OLD_FACES) uniform usamplerBuffer oldFaces;
+layout(binding = SURFACE_UNIT_OLD_SOURCES) uniform usamplerBuffer oldSources;
+layout(binding = SURFACE_UNIT_OWNERS) uniform usamplerBuffer owners;
+
+void main() {
+    uint index = linearInvocation();
+    bool used = index < min(counters[SURFACE_FACES], surface.faceCapacity);
+    uint owner = texelFetch(owners, int(used ? index : 0u)).x;
+    int old = int(owner & 0x1fffffffu);
+    if (used && owner >> 29 == OWNER_IS_FACE) {
+        faces[2u * index] = texelFetch(oldFaces, 2 * old);
+        faces[2u * index + 1u] = texelFetch(oldFaces, 2 * old + 1);
+        faceSources[index] = texelFetch(oldSources, old).xy;
+    }
+}
