@@ -4,24 +4,27 @@
 //
 // Result: a Scene of the same look whose vertices carry the light: vertex colours are the irradiance over pi
 // of diffuse surfaces (times base colour and texture = radiance), materials are unlit, emitters show their
-// radiance. Any GL mode draws it, `io` saves it (.glb), any glTF viewer opens it.
+// radiance. Any GL mode draws it, and so does the path tracer. Highlights and mirrors are left out: only the
+// diffuse part of a material reflects.
 #pragma once
 
+#include <cstdint>
 #include <functional>
-#include <vector>
 
-#include "conelight/renderer.h"
 #include "conelight/scene.h"
 
 namespace conelight::reference {
 
 struct RadiositySettings {
-    float patchSize = 0;     // longest edge of the coarsest patches, m; 0: a 24th of the scene's longest side
-    int maxSubdivision = 4;  // further halvings where the light changes fast; 0..8
-    float subdivideError = 0.03f;  // change of radiosity across a patch, relative to the mean, that splits it
-    float residual = 0.002f;       // stop when the light still to be shot is below this part of all light
-    int visibilityRays = 16;       // per pair of patches; 1..256
-    int bounces = -1;              // -1: all
+    float patchSize = 0;     // longest edge of the patches that exchange light, m; 0: a 16th of the longest
+                             // side of the scene
+    int maxSubdivision = 4;  // further halvings of edges where the light changes fast; 0..8
+    float subdivideError = 0.02f;  // deviation from linear light that splits an element, relative
+    float residual = 0.0005f;      // stop when an iteration changes the light by less than this part
+    int patchRays = 256;           // per patch: its form factors; 16..65536
+    int gatherRays = 512;          // per vertex: light of the last bounce; 16..65536
+    int visibilityRays = 256;      // per vertex and area light in its penumbra; 16..4096
+    int bounces = -1;              // of indirect light; -1: all; 0: direct light only
     std::uint32_t seed = 1;
     int threads = 0;  // 0: all cores
 };
@@ -35,12 +38,14 @@ struct RadiosityStats {
 };
 
 struct RadiosityProgress {
+    double done = 0;  // part of the work known so far; falls back when elements are split
     double residual = 1;
-    double secondsLeft = -1;
+    double secondsLeft = -1;  // < 0: unknown
 };
 
-// Bakes `scene`. `onProgress` returning false stops with what is there. Throws Error(BadInput) as
-// Scene::validate.
+// Bakes `scene`. `onProgress`, called from this thread a few times a second, stops by returning false: the
+// result holds what is there. Throws Error(BadInput) as Scene::validate, Error(Usage) for settings out of
+// range.
 Scene bakeRadiosity(const Scene& scene, const RadiositySettings& settings, RadiosityStats* stats = nullptr,
                     const std::function<bool(const RadiosityProgress&)>& onProgress = {});
 

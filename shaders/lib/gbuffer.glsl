@@ -33,8 +33,10 @@ bool fetchSurface(ivec2 pixel, out Surface s) {
     vec2 blueRough = unpackUnorm2x16(material.y);
     vec3 base = vec3(unpackUnorm2x16(material.x), blueRough.x);
     s.roughness = blueRough.y;
+    vec3 unlitRadiance = vec3(unpackHalf2x16(material.x), unpackHalf2x16(material.y).x);
+    if (s.unlit) s.roughness = 1.0;
     unpackReflectance(material.z, s.dielectricF0, s.metallic);
     s.albedo = s.unlit ? vec3(0.0) : base;
-    s.emission = s.unlit ? base : materials[s.material].emission * unpackEmissionFactor(material.w);
+    s.emission = s.unlit ? unlitRadiance : materials[s.material].emission * unpackEmissionFactor(material.w);
     return geometry.x != 0u;
 }

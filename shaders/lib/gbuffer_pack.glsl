@@ -7,6 +7,7 @@
 //             w  instance index << 2 | unlit << 1 | back-facing
 //   material  x  albedo r, g, 16 bit each
 //             y  albedo b, perceptual roughness, 16 bit each
+//                unlit: radiance r, g; b as half floats in x and y, which hold light far above 1
 //             z  dielectric F0 r, g, b as 8 bit square roots (0.2 of the default 0.04 is exact); metallic 8
 //             bit w  factor on the material's emission, 10 bit square roots; 0 on the dark side of an emitter
 // Emission itself stays in the material table in full precision: untextured emitters show it exactly.

@@ -25,6 +25,6 @@ void main() {
 #if MASKED
     outUv = uv;
     outMaterial = instances[instanceIndex].material;
-    outAlpha = materials[outMaterial].baseColor.a * unpackUnorm4x8(color).a;
+    outAlpha = materials[outMaterial].baseColor.a * vertexColor(color, instances[instanceIndex].flags).a;
 #endif
 }

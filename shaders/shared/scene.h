@@ -13,7 +13,7 @@ struct Vertex {
     float u;
     float v;
     uint tangentOct;
-    uint color;  // RGBA8 unorm, linear, r lowest
+    uint color;  // linear, r lowest: RGBA8 unorm, or RGB9E5 (INSTANCE_WIDE_COLORS)
 };               // 32 B
 
 #define INSTANCE_VISIBLE 1u
@@ -22,7 +22,8 @@ struct Vertex {
 #define INSTANCE_DYNAMIC 8u
 #define INSTANCE_LIT_EXACTLY \
     32u  // its emission is in the light table: voxels leave it out (light/emissive_quads.h)
-#define INSTANCE_FLIPPED 16u  // negative determinant: winding is reversed
+#define INSTANCE_WIDE_COLORS 64u  // vertex colours are RGB9E5: above 1, or finer than 8 bits
+#define INSTANCE_FLIPPED 16u      // negative determinant: winding is reversed
 
 struct Instance {
     mat4 worldFromObject;

@@ -42,7 +42,7 @@ void main() {
 
     uint material = instances[instanceIndex].material;
     uint flags = materials[material].flags;
-    outBase = materials[material].baseColor * unpackUnorm4x8(color);
+    outBase = materials[material].baseColor * vertexColor(color, instances[instanceIndex].flags);
     outConstant.x = packInstanceWord(instanceIndex, (flags & MATERIAL_UNLIT) != 0u);
     outConstant.y = packReflectance(materials[material].specularF0, materials[material].metallic);
     outConstant.z = material;

@@ -42,8 +42,10 @@ Surface evaluateSurface(uint triangle, uint instance, vec3 q0, vec3 q1, vec3 q2,
 
     // Colour at the centroid. Rounding may put it a little outside.
     vec3 b = clamp(barycentric(polygon.center, q0, q1, q2, n, twiceArea), 0.0, 1.0);
-    vec4 color = unpackUnorm4x8(vertices[i0].color) * b.x + unpackUnorm4x8(vertices[i1].color) * b.y +
-                 unpackUnorm4x8(vertices[i2].color) * b.z;
+    uint instanceFlags = instances[instance].flags;
+    vec4 color = vertexColor(vertices[i0].color, instanceFlags) * b.x +
+                 vertexColor(vertices[i1].color, instanceFlags) * b.y +
+                 vertexColor(vertices[i2].color, instanceFlags) * b.z;
     vec2 uv = uv0 * b.x + uv1 * b.y + uv2 * b.z;
     // Edge of a square in texture space of the polygon's area.
     vec2 du = uv1 - uv0;

@@ -23,6 +23,7 @@ void main() {
                           instances[instanceIndex].normalColumn1.xyz * n.y +
                           instances[instanceIndex].normalColumn2.xyz * n.z);
     outUv = uv;
-    outColor = color;
+    uint flags = instances[instanceIndex].flags;
+    outColor = (flags & INSTANCE_WIDE_COLORS) == 0u ? color : packUnorm4x8(vertexColor(color, flags));
     outMaterial = instances[instanceIndex].material;
 }

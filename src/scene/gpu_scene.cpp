@@ -28,6 +28,35 @@ std::uint32_t packUnorm8(const glm::vec4& color) {
     return bits;
 }
 
+// RGB9E5 of EXT_texture_shared_exponent, section "Conversion": rounding errs by 1/1022 of the largest
+// channel.
+std::uint32_t packRgb9e5(const glm::vec4& color) {
+    constexpr float kLargest = 65408.0f;
+    const glm::vec3 c = glm::clamp(glm::vec3(color), 0.0f, kLargest);
+    const float most = std::max({c.r, c.g, c.b});
+    int exponent = most > 0 ? std::max(-16, std::ilogb(most)) + 16 : 0;
+    if (std::lround(std::ldexp(most, 24 - exponent)) == 512) ++exponent;
+    std::uint32_t bits = static_cast<std::uint32_t>(exponent) << 27;
+    for (int i = 0; i < 3; ++i)
+        bits |= static_cast<std::uint32_t>(std::lround(std::ldexp(c[i], 24 - exponent))) << (9 * i);
+    return bits;
+}
+
+// Whether 8 bits do not hold the colours of a mesh: brighter than 1, or finer, as baked light is. Opacity
+// has no place beside the shared exponent.
+bool hasWideColors(const Mesh& mesh) {
+    bool wide = false;
+    for (const glm::vec4& color : mesh.colors) {
+        if (color.a != 1.0f) return false;
+        for (int i = 0; i < 3; ++i) {
+            // Values made of 8 bits, as most files have them, are off by rounding only.
+            const float steps = color[i] * 255.0f;
+            wide = wide || color[i] > 1.0f || std::fabs(steps - std::round(steps)) > 1e-3f;
+        }
+    }
+    return wide;
+}
+
 // Area-weighted smooth normals would hide hard edges: missing normals are flat, which splits vertices.
 struct FlatMesh {
     std::vector<glm::vec3> positions, normals;
@@ -63,6 +92,7 @@ bool appendVertices(const Mesh& mesh, std::vector<gpu::Vertex>& vertices) {
     const bool hasNormals = !mesh.normals.empty();
     FlatMesh flat;
     if (!hasNormals) flat = flattened(mesh);
+    const bool wide = hasWideColors(mesh);
     const std::size_t count = hasNormals ? mesh.positions.size() : flat.positions.size();
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t source = hasNormals ? i : flat.source[i];
@@ -77,7 +107,8 @@ bool appendVertices(const Mesh& mesh, std::vector<gpu::Vertex>& vertices) {
         const std::uint32_t packed =
             math::packSnorm2x16(math::octEncode(unitOr(glm::vec3(tangent), {1, 0, 0})));
         vertex.tangentOct = (packed & ~1u) | (tangent.w < 0 ? 1u : 0u);
-        vertex.color = packUnorm8(mesh.colors.empty() ? glm::vec4(1) : mesh.colors[source]);
+        const glm::vec4 color = mesh.colors.empty() ? glm::vec4(1) : mesh.colors[source];
+        vertex.color = wide ? packRgb9e5(color) : packUnorm8(color);
         vertices.push_back(vertex);
     }
     return hasNormals;
@@ -209,12 +240,13 @@ void GpuScene::uploadGeometry(const Scene& source) {
     struct Range {
         std::uint32_t firstVertex, firstIndex, indexCount;
         Aabb bounds;
+        bool wideColors;
     };
     std::vector<Range> ranges;
     for (const Mesh& mesh : source.meshes) {
         hasVertexColors_ = hasVertexColors_ || !mesh.colors.empty();
         Range range{static_cast<std::uint32_t>(vertices.size()), static_cast<std::uint32_t>(indices.size()),
-                    static_cast<std::uint32_t>(mesh.indices.size()), mesh.bounds()};
+                    static_cast<std::uint32_t>(mesh.indices.size()), mesh.bounds(), hasWideColors(mesh)};
         if (appendVertices(mesh, vertices)) {
             indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
         } else {
@@ -233,6 +265,7 @@ void GpuScene::uploadGeometry(const Scene& source) {
         g.firstVertex = range.firstVertex;
         g.material = instance.material >= 0 ? static_cast<std::uint32_t>(instance.material) : defaultMaterial;
         g.firstTriangle = triangleCount_;
+        g.flags = range.wideColors ? INSTANCE_WIDE_COLORS : 0u;
         triangleCount_ += range.indexCount / 3;
         instanceIndices.push_back(static_cast<std::uint32_t>(instances_.size()));
         instances_.push_back(g);
@@ -276,7 +309,7 @@ void GpuScene::setFlags(std::size_t index, const Instance& source) {
               (source.visible && source.voxelized ? INSTANCE_VOXELIZED : 0u) |
               (source.visible && source.castsShadow ? INSTANCE_CASTS_SHADOW : 0u) |
               (source.dynamic ? INSTANCE_DYNAMIC : 0u) |
-              (g.flags & (INSTANCE_FLIPPED | INSTANCE_LIT_EXACTLY));
+              (g.flags & (INSTANCE_FLIPPED | INSTANCE_LIT_EXACTLY | INSTANCE_WIDE_COLORS));
 }
 
 // In the CPU table.
