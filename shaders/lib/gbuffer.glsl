@@ -33,7 +33,7 @@ bool fetchSurface(ivec2 pixel, out Surface s) {
     vec2 blueRough = unpackUnorm2x16(material.y);
     vec3 base = vec3(unpackUnorm2x16(material.x), blueRough.x);
     s.roughness = blueRough.y;
-    vec3 unlitRadiance = vec3(unpackHalf2x16(material.x), unpackHalf2x16(material.y).x);
+    vec3 unlitRadiance = base * unlitScale(material.y);
     if (s.unlit) s.roughness = 1.0;
     unpackReflectance(material.z, s.dielectricF0, s.metallic);
     s.albedo = s.unlit ? vec3(0.0) : base;

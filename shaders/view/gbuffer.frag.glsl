@@ -105,9 +105,5 @@ void main() {
                         packSnorm2x16(octEncode(face)), constant.x | (back ? 1u : 0u));
     outMaterial = uvec4(packUnorm2x16(base.rg), packUnorm2x16(vec2(base.b, roughness)), reflectance,
                         packEmissionFactor(emissionFactor));
-    // 65504 is the largest half float.
-    if ((constant.x & 2u) != 0u) {
-        vec3 radiance = clamp(base.rgb, 0.0, 65504.0);
-        outMaterial.xy = uvec2(packHalf2x16(radiance.rg), packHalf2x16(vec2(radiance.b, 0.0)));
-    }
+    if ((constant.x & 2u) != 0u) outMaterial.xy = packUnlit(base.rgb);
 }

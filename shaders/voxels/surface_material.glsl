@@ -4,6 +4,7 @@
 // count with their base colour: what they reflect towards everywhere, added up. Unlit: black. Included by
 // surface_clip.comp.glsl, which defines struct Surface.
 #include "lib/surface_array.glsl"
+#include "lib/vertex_color.glsl"
 layout(std430, binding = BINDING_VERTICES) readonly buffer VertexTable { Vertex vertices[]; };
 layout(std430, binding = BINDING_INDICES) readonly buffer IndexTable { uint indices[]; };
 layout(std430, binding = BINDING_INSTANCES) readonly buffer InstanceTable { Instance instances[]; };

@@ -110,8 +110,7 @@ TEST_F(LightGBufferTest, MaterialFieldsArrive) {
     EXPECT_EQ(centre().position.w, 1);
     EXPECT_EQ(centre().normal.w, static_cast<float>(instance));
     EXPECT_EQ(centre().geometricNormal.w, 1);
-    // Vertex colours have 8 bits.
-    expectNear(centre().albedo, {0.25f * 128 / 255, 0.5f, 0.75f}, 2e-5f, "albedo");
+    expectNear(centre().albedo, {0.25f * 0.5f, 0.5f, 0.75f}, 2e-5f, "albedo");
     EXPECT_NEAR(centre().albedo.w, 0.4f, 0.5 / 255);
     EXPECT_NEAR(centre().f0.w, 0.3f, 1e-5);
     // Half a step of an 8-bit square root: 2 * 0.2 / 510.
