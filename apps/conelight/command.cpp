@@ -12,19 +12,8 @@
 #include "session/session.h"
 
 namespace conelight::program {
-namespace {
 
 [[noreturn]] void usage(const std::string& message) { throw Error(ErrorKind::Usage, message); }
-
-double parseNumber(const std::string& option, const std::string& text) {
-    char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);
-    if (text.empty() || *end != '\0' || !std::isfinite(value))
-        usage(fmt::format("{}: '{}' is not a number", option, text));
-    return value;
-}
-
-}  // namespace
 
 Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0) {}
 Progress::~Progress() { finish(); }
@@ -57,6 +46,14 @@ Size parseSize(const std::string& text) {
                       text));
 }
 
+double parseNumber(const std::string& option, const std::string& text) {
+    char* end = nullptr;
+    const double value = std::strtod(text.c_str(), &end);
+    if (text.empty() || *end != '\0' || !std::isfinite(value))
+        usage(fmt::format("{}: '{}' is not a number", option, text));
+    return value;
+}
+
 glm::vec3 parseVec3(const std::string& option, const std::string& text) {
     const std::size_t first = text.find(',');
     const std::size_t second = first == std::string::npos ? first : text.find(',', first + 1);
@@ -65,6 +62,16 @@ glm::vec3 parseVec3(const std::string& option, const std::string& text) {
     return {static_cast<float>(parseNumber(option, text.substr(0, first))),
             static_cast<float>(parseNumber(option, text.substr(first + 1, second - first - 1))),
             static_cast<float>(parseNumber(option, text.substr(second + 1)))};
+}
+
+std::vector<std::string> splitList(const std::string& text) {
+    std::vector<std::string> parts;
+    for (std::size_t from = 0; from <= text.size() && !text.empty();) {
+        const std::size_t comma = std::min(text.find(',', from), text.size());
+        parts.push_back(text.substr(from, comma - from));
+        from = comma + 1;
+    }
+    return parts;
 }
 
 void ViewOptions::addTo(CLI::App& command) {

@@ -19,9 +19,13 @@ namespace conelight::program {
 void addRender(CLI::App& app);
 void addCompare(CLI::App& app);
 void addBench(CLI::App& app);
+void addScore(CLI::App& app);
 void addInfo(CLI::App& app);
 void addSettings(CLI::App& app);
 void addShaders(CLI::App& app);
+
+// Throws Error(Usage).
+[[noreturn]] void usage(const std::string& message);
 
 // One status line on standard error, on a terminal only. finish() clears it.
 class Progress {
@@ -41,7 +45,10 @@ struct Size {
     int height = 600;
 };
 Size parseSize(const std::string& text);                                  // "800x600"
+double parseNumber(const std::string& option, const std::string& text);   // finite
 glm::vec3 parseVec3(const std::string& option, const std::string& text);  // "x,y,z"
+
+std::vector<std::string> splitList(const std::string& text);  // "a,b" -> a and b; "" -> none
 
 // Options that choose scene, view and settings; `render` and `bench` take them all.
 struct ViewOptions {

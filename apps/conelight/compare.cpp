@@ -237,18 +237,24 @@ void refuse(const std::vector<const CLI::Option*>& options, const char* needed) 
 }
 
 void run(CompareOptions& options) {
-    if (options.inputs.size() == 2) {
-        refuse(options.ofScene, "one scene");
+    const std::vector<std::string>& inputs = options.inputs;
+    const auto picture = std::find_if(inputs.begin(), inputs.end(), isPictureFile);
+    if (inputs.size() == 2 && picture != inputs.end()) {
+        refuse(options.ofScene, "scenes");
         options.pictures.test = options.inputs[0];
         options.pictures.reference = options.inputs[1];
         options.pictures.comparison = options.comparison;
         return comparePictures(options.pictures);
     }
-    if (isPictureFile(options.inputs[0]))
+    if (picture != inputs.end())
         throw Error(ErrorKind::Usage,
-                    options.inputs[0] + ": is one picture; a second one to compare it with would be right");
+                    *picture +
+                        (inputs.size() == 1 ? ": is one picture; a second one to compare it with"
+                                            : ": is a picture among scenes; two pictures, or scenes"
+                                              " alone,") +
+                        " would be right");
     refuse(options.ofPictures, "two pictures");
-    options.scene.scene = options.inputs[0];
+    options.scene.scenes = inputs;
     options.scene.comparison = options.comparison;
     compareScene(options.scene);
 }
@@ -258,13 +264,13 @@ void run(CompareOptions& options) {
 void addCompare(CLI::App& app) {
     auto options = std::make_shared<CompareOptions>();
     CLI::App* command = app.add_subcommand(
-        "compare", "measure two pictures (A B: is A like B?), or the modes of a scene against the reference");
+        "compare", "measure two pictures (A B: is A like B?), or modes of scenes against the reference");
     command
         ->add_option("inputs", options->inputs,
-                     "two pictures (.exr .hdr .png .jpg), the second one the truth; or one scene")
+                     "two pictures (.exr .hdr .png .jpg), the second one the truth; or scenes")
         ->required()
         ->type_name("A B | SCENE")
-        ->expected(1, 2);
+        ->expected(1, 1000);
     options->comparison.addTo(*command);
     const auto added = [&](auto&& add) {
         const std::size_t before = command->get_options().size();

@@ -1,26 +1,226 @@
 // SPDX-License-Identifier: MIT
 #include "compare_scene.h"
 
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "command_line.h"
 #include "conelight/error.h"
+#include "io/image_file.h"
+#include "report/report.h"
+#include "scene_comparison_output.h"
 
 namespace conelight::program {
+namespace {
+
+using nlohmann::ordered_json;
+
+std::vector<Component> componentsOf(const CompareSceneOptions& options) {
+    std::vector<Component> components;
+    const std::vector<std::string> names = splitList(options.components);
+    const auto isLight = [](const std::string& name) {
+        return name == "full" || name == "direct" || name == "indirect" || name == "diffuse" ||
+               name == "specular";
+    };
+    for (const std::string& name : names) {
+        if (!isLight(name))
+            usage("--components: there is no truth for '" + name +
+                  "'; full, direct, indirect, diffuse or specular would be right");
+        components.push_back(componentOf(name));
+    }
+    if (components.empty()) usage("--components: there is none; full would be right");
+    if (std::find(names.begin(), names.end(), options.barsOn) == names.end())
+        usage("--bars-on: '" + options.barsOn + "' is not among --components; one of " + options.components +
+              " would be right");
+    return components;
+}
+
+SceneComparisonRequest requestOf(const CompareSceneOptions& options) {
+    SceneComparisonRequest request;
+    request.variants = options.variants.variants();
+    request.components = componentsOf(options);
+    requireModeName(options.against);
+    request.against = options.against;
+    request.referenceFile = options.referenceFile;
+    if (!options.referenceFile.empty() && options.scenes.size() > 1)
+        usage("--reference: one picture for several scenes; one scene would be right");
+    const std::string tracer = options.tracer.given();
+    if (!tracer.empty() && (!options.referenceFile.empty() || options.against != "reference"))
+        usage(tracer + ": no reference is traced; without --reference and --against it would be right");
+    request.cache = options.cache.empty() ? options.comparison.report : options.cache;
+    request.picture.size = parseSize(options.view.size);
+    request.picture.reference = options.tracer.settings();
+    request.picture.frames = options.frames;
+    request.picture.timedFrames = options.timedFrames;
+    request.metrics = options.comparison.metricOptions();
+    request.view = options.view;
+    return request;
+}
+
+// "cones voxels.size=64, indirect: relRMSE 0.2 is above 0.1 (--max-relrmse)".
+std::vector<std::string> brokenBars(const CompareSceneOptions& options, const SceneComparison& comparison) {
+    std::vector<std::string> all;
+    for (const VariantResult& result : comparison.variants)
+        for (const ComponentResult& component : result.components) {
+            if (component.name != options.barsOn) continue;
+            for (const std::string& broken : options.comparison.bars.brokenBy(component.metrics))
+                all.push_back(fmt::format("{} {} {}: {}", comparison.scene, result.variant.label(),
+                                          component.name, broken));
+        }
+    return all;
+}
+
+void addViews(Report& report, const SceneComparison& comparison, const reference::MetricOptions& metrics,
+              bool severalScenes) {
+    const auto& components = comparison.variants.front().components;
+    for (std::size_t c = 0; c < components.size(); ++c) {
+        const Image& truth = *comparison.reference.part(components[c].component);
+        ReportView view;
+        view.name = (severalScenes ? comparison.scene + ", " : "") + components[c].name;
+        view.exposure = metrics.exposure;
+        for (const VariantResult& result : comparison.variants) {
+            const ComponentResult& component = result.components[c];
+            ReportPicture picture{result.variant.label(), component.image, component.metrics, {}, {}};
+            if (metrics.flip) {
+                picture.flip =
+                    reference::errorValues(component.image, truth, reference::ErrorMap::Flip, metrics);
+                picture.hdrFlip =
+                    reference::errorValues(component.image, truth, reference::ErrorMap::HdrFlip, metrics);
+            }
+            view.pictures.push_back(std::move(picture));
+        }
+        view.reference = view.pictures.size();
+        view.pictures.push_back({comparison.against, truth, {}, {}, {}});
+        report.views.push_back(std::move(view));
+    }
+}
+
+ReportTable costTable(const std::vector<SceneComparison>& comparisons) {
+    ReportTable table{"Cost of a settled frame",
+                      "Process CPU time, median; on a software driver that is the whole cost.",
+                      {{"scene"},
+                       {"mode"},
+                       {"CPU", "ms", 3, "", true},
+                       {"GPU", "ms", 3, "", true},
+                       {"lookups", "per pixel", 3, "texture fetches of cones", true},
+                       {"memory", "MB", 3, "GL objects", true}},
+                      {}};
+    for (const SceneComparison& comparison : comparisons)
+        for (const VariantResult& result : comparison.variants) {
+            const FrameCost& cost = result.cost;
+            double lookups = 0;
+            for (const auto& [kind, count] : cost.lookupsPerPixel) lookups += count;
+            table.rows.push_back({comparison.scene, result.variant.label(), cost.cpuMs,
+                                  cost.gpuMs >= 0 ? ReportCell(cost.gpuMs) : ReportCell("not measured"),
+                                  cost.lookupsPerPixel.empty() ? ReportCell("none") : ReportCell(lookups),
+                                  cost.memoryBytes > 0
+                                      ? ReportCell(static_cast<double>(cost.memoryBytes) / 1e6)
+                                      : ReportCell("none")});
+        }
+    return table;
+}
+
+Report reportOf(const std::vector<SceneComparison>& comparisons, const SceneComparisonRequest& request,
+                const std::string& device) {
+    Report report;
+    std::string scenes, modes;
+    for (const SceneComparison& one : comparisons) scenes += (scenes.empty() ? "" : ", ") + one.scene;
+    for (const Variant& one : request.variants) modes += (modes.empty() ? "" : ", ") + one.label();
+    report.title = scenes + ": " + modes + " against " + comparisons.front().against;
+    report.commands = {commandLine()};
+    for (const SceneComparison& one : comparisons) {
+        addViews(report, one, request.metrics, comparisons.size() > 1);
+        const ReferencePicture& reference = one.reference;
+        std::string text = reference.origin;
+        if (reference.samplesPerPixel > 0)
+            text += fmt::format("; {} samples per pixel, noise {:.2g} %", reference.samplesPerPixel,
+                                100 * reference.noise);
+        report.settings.emplace_back("reference of " + one.scene, text);
+    }
+    const SceneComparison& first = comparisons.front();
+    report.summary = fmt::format("{}x{} pixels, {} variants, {} scenes.", first.size.width, first.size.height,
+                                 request.variants.size(), comparisons.size());
+    report.tables.push_back(costTable(comparisons));
+    if (!device.empty()) report.settings.emplace_back("device", device);
+    for (const std::string& set : request.view.sets) report.settings.emplace_back("set", set);
+    return report;
+}
+
+}  // namespace
 
 void CompareSceneOptions::addTo(CLI::App& command) {
     const std::size_t before = command.get_options().size();
-    command.add_option("--modes", modes, "the modes to measure, comma-separated")
-        ->capture_default_str()
-        ->type_name("A,B");
+    view.size = "256x256";
+    variants.addTo(command, "thesis,cones");
     command.add_option("--against", against, "the mode that counts as the truth")
         ->capture_default_str()
         ->type_name("MODE");
+    command
+        .add_option(
+            "--reference", referenceFile,
+            "a picture that counts as the truth: an .exr of `render --mode reference`, with the layers "
+            "direct and indirect; halves are used when it has them")
+        ->type_name("FILE");
+    command
+        .add_option(
+            "--cache", cache,
+            "folder in which reference pictures are kept for the next run (default: that of --report)")
+        ->type_name("DIR");
+    command
+        .add_option("--components", components, "what is measured: full, direct, indirect, diffuse, specular")
+        ->capture_default_str()
+        ->type_name("A,B");
+    command.add_option("--bars-on", barsOn, "the component that bars are held against")
+        ->capture_default_str()
+        ->type_name("NAME");
+    command.add_option("--frames", frames, "frames until a picture has settled")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 100000));
+    command.add_option("--timed", timedFrames, "frames whose cost is measured; 0: none")
+        ->capture_default_str()
+        ->check(CLI::Range(0, 10000));
+    tracer.addTo(command);
     view.addTo(command);
     const std::vector<CLI::Option*> all = command.get_options();
-    for (std::size_t i = before; i < all.size(); ++i) all[i]->group("One scene");
+    for (std::size_t i = before; i < all.size(); ++i) all[i]->group("Scenes");
 }
 
 void compareScene(const CompareSceneOptions& options) {
-    throw Error(ErrorKind::Usage,
-                options.scene + ": the modes of a scene cannot be compared yet; two pictures would be right");
+    const SceneComparisonRequest request = requestOf(options);
+    const std::string& jsonFile = options.comparison.jsonFile;
+    const std::string& folder = options.comparison.report;
+    if (!jsonFile.empty() && jsonFile != "-") io::checkWritable(jsonFile);
+    if (!folder.empty()) prepareReport(folder);
+
+    PictureSource source(options.view);
+    Progress progress;
+    const bool withFlip = request.metrics.flip;
+    std::vector<SceneComparison> comparisons;
+    std::vector<std::string> broken;
+    ordered_json json = {{"version", 1}, {"command", commandLine()}, {"device", nullptr}};
+    json["scenes"] = ordered_json::array();
+    for (const std::string& name : options.scenes) {
+        const Scene scene = openScene(name, options.view, progress);
+        comparisons.push_back(compareVariants(scene, name, request, progress, source));
+        progress.finish();
+        const SceneComparison& done = comparisons.back();
+        if (jsonFile != "-") printComparison(done, withFlip);
+        json["scenes"].push_back(comparisonJson(done, withFlip));
+        if (!folder.empty()) writeVariants(done, folder);
+        const std::vector<std::string> here = brokenBars(options, done);
+        broken.insert(broken.end(), here.begin(), here.end());
+        if (folder.empty()) comparisons.clear();  // several large pictures each
+    }
+    if (!source.device().empty()) json["device"] = source.device();
+    json["broken_bars"] = broken;
+    if (!jsonFile.empty()) writeComparisonJson(jsonFile, json);
+    if (!folder.empty()) {
+        progress.show("writing the report");
+        writeReport(folder, reportOf(comparisons, request, source.device()));
+        progress.finish();
+    }
+    requireBars("compare", broken);
 }
 
 }  // namespace conelight::program

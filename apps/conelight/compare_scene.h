@@ -1,21 +1,31 @@
 // SPDX-License-Identifier: MIT
-// `conelight compare SCENE --modes A,B --against MODE`: draws a scene in several modes and measures each
-// against one of them.
+// `conelight compare SCENE... --modes A,B --against MODE`: draws scenes in several modes and settings and
+// measures each against one truth.
 #pragma once
 
 #include <CLI/CLI.hpp>
 
 #include <string>
+#include <vector>
 
 #include "command.h"
 #include "comparison.h"
+#include "truth_options.h"
+#include "variants.h"
 
 namespace conelight::program {
 
 struct CompareSceneOptions {
-    std::string scene;
-    std::string modes = "cones,thesis";
+    std::vector<std::string> scenes;
+    VariantOptions variants;
     std::string against = "reference";
+    std::string referenceFile;
+    std::string cache;
+    std::string components = "full,direct,indirect";
+    std::string barsOn = "full";
+    int frames = 1;
+    int timedFrames = 3;
+    TracerOptions tracer;
     ViewOptions view;
     ComparisonOptions comparison;  // filled by compare.cpp, which owns the options of both forms
 

@@ -51,6 +51,7 @@ int main(int argc, char** argv) {
     conelight::program::addRender(app);
     conelight::program::addCompare(app);
     conelight::program::addBench(app);
+    conelight::program::addScore(app);
     conelight::program::addInfo(app);
     conelight::program::addSettings(app);
     conelight::program::addShaders(app);

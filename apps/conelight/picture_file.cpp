@@ -6,17 +6,13 @@
 #include "io/image_file.h"
 
 namespace conelight::program {
-namespace {
 
-// rgb without the coverage in a.
 std::vector<float> rgbOf(const Image& image) {
     std::vector<float> values;
     values.reserve(image.pixels.size() * 3);
     for (const glm::vec4& pixel : image.pixels) values.insert(values.end(), {pixel.r, pixel.g, pixel.b});
     return values;
 }
-
-}  // namespace
 
 void writePicture(const std::string& path, const Image& image, const ImageSettings& settings,
                   const std::vector<std::pair<std::string, Image>>& layers) {

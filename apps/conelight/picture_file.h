@@ -14,4 +14,7 @@ namespace conelight::program {
 void writePicture(const std::string& path, const Image& image, const ImageSettings& settings,
                   const std::vector<std::pair<std::string, Image>>& layers = {});
 
+// rgb without the coverage in a, interleaved.
+std::vector<float> rgbOf(const Image& image);
+
 }  // namespace conelight::program

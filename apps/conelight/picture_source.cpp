@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "picture_source.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "conelight/error.h"
+#include "traced_picture.h"
 
 namespace conelight::program {
 namespace {
@@ -18,15 +21,40 @@ void show(Progress* progress, const std::string& text) {
     if (progress != nullptr) progress->show(text);
 }
 
+struct Bake {
+    std::string key;  // the settings it was made with
+    Scene scene;
+    reference::RadiosityStats stats;
+};
+
+std::string keyOf(const reference::RadiositySettings& s) {
+    return fmt::format("{} {} {} {} {} {} {}", s.patchSize, s.maxSubdivision, s.subdivideError, s.residual,
+                       s.visibilityRays, s.bounces, s.seed);
+}
+
+// image += sign * other, rgb only.
+void add(Image& image, const Image& other, float sign) {
+    for (std::size_t i = 0; i < image.pixels.size(); ++i)
+        image.pixels[i] += sign * glm::vec4(glm::vec3(other.pixels[i]), 0);
+}
+
 }  // namespace
 
-bool isModeName(const std::string& name) { return name == "phong" || name == "thesis" || name == "cones"; }
+bool isRendererMode(const std::string& name) {
+    return name == "phong" || name == "thesis" || name == "cones";
+}
 
-std::string modeNames() { return "phong, thesis or cones"; }
+bool isModeName(const std::string& name) {
+    return isRendererMode(name) || name == "reference" || (kRadiosity && name == "radiosity");
+}
+
+std::string modeNames() {
+    return kRadiosity ? "phong, thesis, cones, reference or radiosity" : "phong, thesis, cones or reference";
+}
 
 void requireModeName(const std::string& name) {
     if (isModeName(name)) return;
-    throw Error(ErrorKind::Usage, "--mode: there is no '" + name + "'; " + modeNames() + " would be right");
+    throw Error(ErrorKind::Usage, "there is no mode '" + name + "'; " + modeNames() + " would be right");
 }
 
 Component componentOf(const std::string& name) {
@@ -42,10 +70,19 @@ struct PictureSource::Impl {
     std::unique_ptr<Renderer> renderer;
     const Scene* scene = nullptr;
     const Scene* uploaded = nullptr;  // what the renderer holds
+    std::optional<reference::PathTracer> tracer;
+    std::optional<Bake> lit, direct;  // by all light asked for; by light that comes straight from lights
 
-    Renderer& rendererOf(const Scene& wanted, Progress* progress);
-    void drawGl(const Scene& drawn, const PictureRequest& request, Picture& picture, Progress* progress);
+    void upload(const Scene& wanted, Progress* progress);
+    Image drawGl(const PictureRequest& request, const Settings& settings, Picture& picture);
     FrameCost costOf(const PictureRequest& request, const Settings& settings);
+    reference::PathTracedPicture trace(const PictureRequest& request, Picture& picture, Progress* progress);
+    const Bake& bake(std::optional<Bake>& kept, const reference::RadiositySettings& settings,
+                     Picture& picture, Progress* progress);
+
+    void drawRenderer(const PictureRequest& request, Picture& picture, Progress* progress);
+    void drawTraced(const PictureRequest& request, Picture& picture, Progress* progress);
+    void drawRadiosity(const PictureRequest& request, Picture& picture, Progress* progress);
 };
 
 PictureSource::PictureSource(const ViewOptions& view, const std::string& shaderDirectory)
@@ -59,23 +96,37 @@ PictureSource::~PictureSource() = default;
 void PictureSource::setScene(const Scene& scene) {
     impl_->scene = &scene;
     impl_->uploaded = nullptr;
+    impl_->tracer.reset();
+    impl_->lit.reset();
+    impl_->direct.reset();
 }
 
 std::string PictureSource::device() const { return impl_->context ? impl_->context->description() : ""; }
 
-// The renderer with `wanted` in it; makes the context at the first call.
-Renderer& PictureSource::Impl::rendererOf(const Scene& wanted, Progress* progress) {
+// Makes the context and the renderer at the first call; `wanted` is in the renderer afterwards.
+void PictureSource::Impl::upload(const Scene& wanted, Progress* progress) {
     if (!renderer) {
         show(progress, "starting OpenGL");
         context = openContext(view);
         renderer = std::make_unique<Renderer>(RendererOptions{shaderDirectory, view.debugGl});
     }
-    if (uploaded != &wanted) {
-        show(progress, "uploading the scene");
-        renderer->setScene(wanted);
-        uploaded = &wanted;
-    }
-    return *renderer;
+    if (uploaded == &wanted) return;
+    show(progress, "uploading the scene");
+    renderer->setScene(wanted);
+    uploaded = &wanted;
+}
+
+// One component. The first of a picture is drawn until it has settled, and is the one that is measured.
+Image PictureSource::Impl::drawGl(const PictureRequest& request, const Settings& settings, Picture& picture) {
+    const bool first = picture.images.empty();
+    renderer->setProfiling(first && request.profile, first && request.profile);
+    for (int frame = 0; frame < (first ? request.frames : 1); ++frame)
+        renderer->render(request.camera, request.size.width, request.size.height, settings);
+    Image image = renderer->readImage();
+    if (!first) return image;
+    picture.stats = renderer->stats();
+    if (request.timedFrames > 0) picture.cost = costOf(request, settings);
+    return image;
 }
 
 // A settled frame: times without counters, which slow it down; then lookups.
@@ -100,27 +151,114 @@ FrameCost PictureSource::Impl::costOf(const PictureRequest& request, const Setti
     if (!stats.passes.empty() && stats.passes.front().gpuMs >= 0) cost.gpuMs = median(gpu);
     cost.lookupsPerPixel = stats.lookupsPerPixel;
     for (const MemoryStats& object : stats.memory) cost.memoryBytes += object.bytes;
-    renderer->setProfiling(false, false);
     return cost;
 }
 
-void PictureSource::Impl::drawGl(const Scene& drawn, const PictureRequest& request, Picture& picture,
-                                 Progress* progress) {
-    Renderer& gl = rendererOf(drawn, progress);
+void PictureSource::Impl::drawRenderer(const PictureRequest& request, Picture& picture, Progress* progress) {
+    upload(*scene, progress);
     Settings settings = request.settings;
     setSetting(settings, "mode", request.mode);
     for (const Component component : request.components) {
-        const bool first = picture.images.empty();
         settings.component = component;
         show(progress, "rendering " + getSetting(settings, "component"));
-        gl.setProfiling(first && request.profile, first && request.profile);
-        for (int frame = 0; frame < (first ? request.frames : 1); ++frame)
-            gl.render(request.camera, request.size.width, request.size.height, settings);
-        picture.images.push_back(gl.readImage());
-        if (!first) continue;
-        picture.stats = gl.stats();
-        if (request.timedFrames > 0) picture.cost = costOf(request, settings);
+        picture.images.push_back(drawGl(request, settings, picture));
     }
+}
+
+reference::PathTracedPicture PictureSource::Impl::trace(const PictureRequest& request, Picture& picture,
+                                                        Progress* progress) {
+    if (!tracer) {
+        show(progress, "building the ray structure");
+        tracer.emplace(*scene);
+    }
+    reference::PathTracerSettings settings = request.reference;
+    settings.emissiveQuads = request.settings.light.emissiveQuads;
+    reference::PathTracedPicture traced =
+        program::trace(*tracer, request.camera, request.size, settings, progress);
+    picture.stopped = interrupted();
+    return traced;
+}
+
+void PictureSource::Impl::drawTraced(const PictureRequest& request, Picture& picture, Progress* progress) {
+    const reference::PathTracedPicture none;
+    for (const Component component : request.components) imageOf(none, component);  // refused before the work
+    picture.traced = trace(request, picture, progress);
+    for (const Component component : request.components)
+        picture.images.push_back(imageOf(*picture.traced, component));
+    picture.cost.cpuMs = 1e3 * picture.traced->cpuSeconds;
+    picture.cost.wallMs = 1e3 * picture.traced->wallSeconds;
+}
+
+const Bake& PictureSource::Impl::bake(std::optional<Bake>& kept, const reference::RadiositySettings& settings,
+                                      Picture& picture, Progress* progress) {
+    if (kept && kept->key == keyOf(settings)) return *kept;
+    show(progress, "radiosity");
+    const StoppableScope stoppable;
+    const auto onProgress = [&](const reference::RadiosityProgress& now) {
+        std::string text = fmt::format("radiosity: {:.2g} % of the light is under way", 100 * now.residual);
+        if (now.secondsLeft >= 0) text += ", " + timeText(now.secondsLeft) + " left";
+        show(progress, text);
+        return !interrupted();
+    };
+    uploaded = nullptr;  // the renderer may hold the bake that is replaced
+    kept.emplace();
+    kept->key = keyOf(settings);
+    if constexpr (kRadiosity)
+        kept->scene = reference::bakeRadiosity(*scene, settings, &kept->stats, onProgress);
+    picture.stopped = interrupted();
+    return *kept;
+}
+
+// The baked scene carries its light in unlit materials, so any mode of the renderer shows it; phong is the
+// cheapest. Indirect light is what a bake by light straight from lights lacks.
+void PictureSource::Impl::drawRadiosity(const PictureRequest& request, Picture& picture, Progress* progress) {
+    const auto wants = [&](Component which) {
+        return std::find(request.components.begin(), request.components.end(), which) !=
+               request.components.end();
+    };
+    if (wants(Component::Occlusion) || wants(Component::Voxels))
+        throw Error(ErrorKind::Usage,
+                    "mode radiosity: it has no voxels and no occlusion; full, direct, indirect, diffuse or "
+                    "specular would be right");
+    Settings settings = request.settings;
+    settings.mode = Mode::Phong;
+    settings.component = Component::Full;
+    const Bake& whole = bake(lit, request.radiosity, picture, progress);
+    picture.baked = whole.stats;
+    upload(whole.scene, progress);
+    const Image all = drawGl(request, settings, picture);
+    renderer->setProfiling(false, false);
+    const auto drawOf = [&](const Scene& drawn, Component component) {
+        upload(drawn, progress);
+        settings.component = component;
+        renderer->render(request.camera, request.size.width, request.size.height, settings);
+        return renderer->readImage();
+    };
+    Image straight, reflections = all;
+    if (wants(Component::Direct) || wants(Component::Indirect) || wants(Component::Diffuse)) {
+        reference::RadiositySettings once = request.radiosity;
+        once.bounces = 0;
+        straight = drawOf(bake(direct, once, picture, progress).scene, Component::Full);
+    }
+    add(reflections, all, -1);
+    if (request.radiositySpecular) reflections = trace(request, picture, progress).specular;
+    for (const Component component : request.components) {
+        const bool indirect = component == Component::Indirect || component == Component::Diffuse;
+        Image image = component == Component::Direct     ? straight
+                      : component == Component::Specular ? reflections
+                                                         : all;
+        if (indirect) add(image, straight, -1);
+        if (component == Component::Full || component == Component::Indirect) add(image, reflections, 1);
+        const bool light = indirect || component == Component::Full || component == Component::Direct ||
+                           component == Component::Specular;
+        if (!light) image = drawOf(*scene, component);  // what the surfaces are, from the scene as it was
+        picture.images.push_back(std::move(image));
+    }
+}
+
+const Scene& PictureSource::bakedScene(const reference::RadiositySettings& settings, Progress* progress) {
+    Picture ignored;
+    return impl_->bake(impl_->lit, settings, ignored, progress).scene;
 }
 
 Picture PictureSource::draw(const PictureRequest& request, Progress* progress) {
@@ -129,7 +267,12 @@ Picture PictureSource::draw(const PictureRequest& request, Progress* progress) {
         throw Error(ErrorKind::Usage,
                     "PictureSource: there is no scene; setScene before draw would be right");
     Picture picture;
-    impl_->drawGl(*impl_->scene, request, picture, progress);
+    if (request.mode == "reference")
+        impl_->drawTraced(request, picture, progress);
+    else if (request.mode == "radiosity")
+        impl_->drawRadiosity(request, picture, progress);
+    else
+        impl_->drawRenderer(request, picture, progress);
     return picture;
 }
 

@@ -4,18 +4,26 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "command.h"
 #include "conelight/renderer.h"
+#include "reference/path_tracer.h"
+#include "reference/radiosity.h"
 
 namespace conelight::program {
 
-// A mode's name on the command line.
+// Whether mode radiosity is there; until then nothing of it can be reached.
+constexpr bool kRadiosity = false;
+
+// A mode's name on the command line: those of the renderer, and `reference` and `radiosity`, which run on the
+// CPU and are no modes of it.
 bool isModeName(const std::string& name);
-std::string modeNames();                         // "phong, thesis or cones"
+bool isRendererMode(const std::string& name);
+std::string modeNames();                         // "phong, thesis, cones, reference or radiosity"
 void requireModeName(const std::string& name);   // throws Error(Usage) that names them
 Component componentOf(const std::string& name);  // throws Error(Usage) that names them
 
@@ -25,9 +33,12 @@ struct PictureRequest {
     Camera camera;
     Size size;
     std::vector<Component> components = {Component::Full};
-    int frames = 1;        // the first component is drawn this often: modes may settle over frames
-    bool profile = false;  // fill Picture::stats with passes and lookups
-    int timedFrames = 0;   // fill Picture::cost from this many further frames of the first component
+    reference::PathTracerSettings reference;  // also of the reflections on top of radiosity
+    reference::RadiositySettings radiosity;
+    bool radiositySpecular = false;  // reflections on top
+    int frames = 1;                  // the first component is drawn this often: modes may settle over frames
+    bool profile = false;            // fill Picture::stats with passes and lookups
+    int timedFrames = 0;  // fill Picture::cost from this many further frames of the first component
 };
 
 // What a settled frame costs.
@@ -35,16 +46,20 @@ struct FrameCost {
     double cpuMs = 0, wallMs = 0;  // medians over the frames; CPU time is the whole process's
     double gpuMs = -1;             // median; < 0: not measured (software drivers)
     std::vector<std::pair<std::string, double>> lookupsPerPixel;
-    std::size_t memoryBytes = 0;  // of GL objects
+    std::size_t memoryBytes = 0;  // of GL objects; 0: none
 };
 
 struct Picture {
-    std::vector<Image> images;  // one per component asked for
-    FrameStats stats;           // of the last frame of the first component
-    FrameCost cost;
+    std::vector<Image> images;                           // one per component asked for
+    FrameStats stats;                                    // GL: of the last frame of the first component
+    FrameCost cost;                                      // in mode reference: of the whole picture
+    std::optional<reference::PathTracedPicture> traced;  // mode reference: everything it knows
+    std::optional<reference::RadiosityStats> baked;      // mode radiosity
+    bool stopped = false;                                // by a signal; the images show what there was
 };
 
-// Keeps the GL context and the renderer, made when first needed, for one scene after the other.
+// Keeps the GL context, the renderer, the ray structure and the bake, each made when first needed, for one
+// scene after the other.
 class PictureSource {
   public:
     explicit PictureSource(const ViewOptions& view, const std::string& shaderDirectory = {});
@@ -59,6 +74,9 @@ class PictureSource {
     // `progress` may be null. Throws Error(Usage) for a mode or component that does not exist, else what the
     // renderer throws.
     Picture draw(const PictureRequest& request, Progress* progress);
+
+    // Mode radiosity: the lit scene, baked at the first call.
+    const Scene& bakedScene(const reference::RadiositySettings& settings, Progress* progress);
 
     std::string device() const;  // the GL device; empty when there was no need of one
 

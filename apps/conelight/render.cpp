@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// `conelight render SCENE -o OUT`: one picture, without a display.
+// `conelight render SCENE -o OUT`: one picture in any mode, without a display.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +12,8 @@
 #include "picture_file.h"
 #include "picture_source.h"
 #include "stats_json.h"
+#include "traced_picture.h"
+#include "truth_options.h"
 
 namespace conelight::program {
 namespace {
@@ -25,18 +28,11 @@ struct RenderOptions {
     std::string statsFile;
     std::string shaderDirectory;
     ViewOptions view;
+    TracerOptions tracer;
+    RadiosityOptions radiosity;
 };
 
-std::vector<std::string> splitList(const std::string& text) {
-    std::vector<std::string> parts;
-    std::size_t from = 0;
-    while (from <= text.size() && !text.empty()) {
-        const std::size_t comma = std::min(text.find(',', from), text.size());
-        parts.push_back(text.substr(from, comma - from));
-        from = comma + 1;
-    }
-    return parts;
-}
+using Layers = std::vector<std::pair<std::string, Image>>;
 
 void reportBadPixels(const Image& image) {
     std::size_t bad = 0;
@@ -45,66 +41,139 @@ void reportBadPixels(const Image& image) {
     if (bad > 0) std::fprintf(stderr, "conelight: %zu pixels are not finite\n", bad);
 }
 
+// Options of one mode mean nothing in another: better an error than a picture that was not asked for.
+void checkModeOptions(const RenderOptions& options) {
+    const bool traces = options.mode == "reference" || options.radiosity.specular;
+    const std::string tracer = options.tracer.given();
+    const bool seedOfBake = tracer == "--seed" && options.mode == "radiosity";
+    if (!tracer.empty() && !traces && !seedOfBake)
+        usage(tracer + ": belongs to mode reference; --mode reference would be right");
+    const std::string radiosity = options.radiosity.given();
+    if (!radiosity.empty() && options.mode != "radiosity")
+        usage(radiosity + ": belongs to mode radiosity; --mode radiosity would be right");
+}
+
+void checkFiles(const RenderOptions& options) {
+    if (options.output.empty() && options.radiosity.bakeFile.empty())
+        usage("--output is required; -o PICTURE.png, for example, would be right");
+    if (!options.output.empty()) {
+        const io::ImageFormat format = io::imageFormatOf(options.output);
+        if (!options.aovs.empty() && format != io::ImageFormat::Exr)
+            usage(options.output +
+                  ": --aov: this format holds one picture; a name ending in .exr would be right");
+        io::checkWritable(options.output);
+    }
+    if (!options.radiosity.bakeFile.empty()) io::checkWritable(options.radiosity.bakeFile);
+    if (!options.statsFile.empty()) io::checkWritable(options.statsFile);
+}
+
+// Components asked for: the picture's, then those of the layers; layers of the path tracer alone set what it
+// has to keep.
+void addComponents(const RenderOptions& options, PictureRequest& request) {
+    request.components = {componentOf(options.component)};
+    for (const std::string& aov : splitList(options.aovs)) {
+        if (!isTracedLayer(aov)) {
+            request.components.push_back(componentOf(aov));
+            continue;
+        }
+        if (options.mode != "reference")
+            usage("--aov: layer " + aov + " belongs to mode reference; --mode reference would be right");
+        request.reference.perBounce = std::max(request.reference.perBounce, bounceLayer(aov));
+    }
+}
+
+Layers layersOf(const RenderOptions& options, const Picture& picture) {
+    Layers layers;
+    std::size_t next = 1;
+    for (const std::string& aov : splitList(options.aovs)) {
+        if (isTracedLayer(aov))
+            layers.emplace_back(aov, *layerOf(*picture.traced, aov));
+        else
+            layers.emplace_back(aov, picture.images[next++]);
+    }
+    return layers;
+}
+
+nlohmann::ordered_json statsOf(const RenderOptions& options, const PictureRequest& request,
+                               const Picture& picture) {
+    nlohmann::ordered_json json;
+    if (picture.traced)
+        json = tracedJson(*picture.traced);
+    else
+        json = statsJson(picture.stats);
+    if (picture.baked) json["radiosity"] = bakeJson(*picture.baked);
+    json["scene"] = options.scene;
+    json["mode"] = request.mode;
+    if (isRendererMode(request.mode)) json["voxels"] = request.settings.voxels.size;
+    json["size"] = {request.size.width, request.size.height};
+    return json;
+}
+
+// After a signal: what the files hold is said on the error output, then the program ends.
+[[noreturn]] void endStopped(const RenderOptions& options, const PictureRequest& request,
+                             const Picture& picture) {
+    std::string what = "a picture that is not finished";
+    if (picture.traced)
+        what = fmt::format("{} of {} samples per pixel, noise {:.2g} %", picture.traced->samplesPerPixel,
+                           request.reference.samplesPerPixel, 100 * picture.traced->noise);
+    else if (picture.baked)
+        what = fmt::format("radiosity with {:.2g} % of the light still under way",
+                           100 * picture.baked->residual);
+    const std::string& file = options.output.empty() ? options.radiosity.bakeFile : options.output;
+    std::fprintf(stderr, "conelight: interrupted; %s holds %s\n", file.c_str(), what.c_str());
+    throw InterruptedError();
+}
+
+PictureRequest requestOf(const RenderOptions& options) {
+    PictureRequest request;
+    request.size = parseSize(options.view.size);
+    request.profile = !options.statsFile.empty();
+    request.reference = options.tracer.settings();
+    request.radiosity = options.radiosity.values;
+    request.radiosity.seed = options.tracer.seed;
+    request.radiositySpecular = options.radiosity.specular;
+    addComponents(options, request);
+    return request;
+}
+
 void run(const RenderOptions& options) {
     // Everything that can be wrong on the command line is found before the work starts.
-    const Size size = parseSize(options.view.size);
-    const io::ImageFormat format = io::imageFormatOf(options.output);
-    if (!options.aovs.empty() && format != io::ImageFormat::Exr)
-        throw Error(
-            ErrorKind::Usage,
-            options.output + ": --aov: this format holds one picture; a name ending in .exr would be right");
-    io::checkWritable(options.output);
-    if (!options.statsFile.empty()) io::checkWritable(options.statsFile);
     if (!options.mode.empty()) requireModeName(options.mode);
-    PictureRequest request;
-    request.size = size;
-    request.profile = !options.statsFile.empty();
-    request.components = {componentOf(options.component)};
-    const std::vector<std::string> aovs = splitList(options.aovs);
-    for (const std::string& aov : aovs) request.components.push_back(componentOf(aov));
+    checkModeOptions(options);
+    PictureRequest request = requestOf(options);
+    checkFiles(options);
 
     Progress progress;
     const Scene scene = openScene(options.scene, options.view, progress);
-    request.settings = settingsFor(scene, options.mode, options.view);
-    request.settings.component = request.components.front();
-    applyBounces(request.settings, options.bounces);
-    request.components.front() = request.settings.component;
-    request.mode = getSetting(request.settings, "mode");
+    const bool onCpu = !options.mode.empty() && !isRendererMode(options.mode);
+    request.settings = settingsFor(scene, onCpu ? "cones" : options.mode, options.view);
+    request.mode = onCpu ? options.mode : getSetting(request.settings, "mode");
     request.camera = cameraFor(scene, options.view);
+    if (onCpu) {
+        constexpr int kMost = 1000;
+        if (!options.bounces.empty())
+            request.reference.bounces = request.radiosity.bounces = parseBounces(options.bounces, kMost);
+    } else {
+        request.settings.component = request.components.front();
+        applyBounces(request.settings, options.bounces);
+        request.components.front() = request.settings.component;
+    }
 
     PictureSource source(options.view, options.shaderDirectory);
     source.setScene(scene);
     const Picture picture = source.draw(request, &progress);
     reportBadPixels(picture.images.front());
-
-    std::vector<std::pair<std::string, Image>> layers;
-    for (std::size_t i = 0; i < aovs.size(); ++i) layers.emplace_back(aovs[i], picture.images[i + 1]);
-    progress.show("writing " + options.output);
-    writePicture(options.output, picture.images.front(), request.settings.image, layers);
-    if (!options.statsFile.empty()) {
-        nlohmann::ordered_json json = statsJson(picture.stats);
-        json["scene"] = options.scene;
-        json["mode"] = request.mode;
-        json["voxels"] = request.settings.voxels.size;
-        json["size"] = {size.width, size.height};
-        writeJson(options.statsFile, json);
+    if (!options.output.empty()) {
+        progress.show("writing " + options.output);
+        writePicture(options.output, picture.images.front(), request.settings.image,
+                     layersOf(options, picture));
     }
+    if (!options.statsFile.empty()) writeJson(options.statsFile, statsOf(options, request, picture));
+    progress.finish();
+    if (picture.stopped) endStopped(options, request, picture);
 }
 
 }  // namespace
-
-void applyBounces(Settings& settings, const std::string& bounces) {
-    if (bounces.empty()) return;
-    constexpr int kAll = 8;  // what is left after 8 more bounces is below 1 % even at albedo 0.55
-    char* end = nullptr;
-    const long count = bounces == "all" ? kAll : std::strtol(bounces.c_str(), &end, 10);
-    if (bounces != "all" && (*end != '\0' || count < 0 || count > kAll))
-        throw Error(
-            ErrorKind::Usage,
-            "--bounces: '" + bounces + "' is not usable; a whole number from 0 to 8, or all, would be right");
-    settings.cones.bounces = static_cast<int>(count);
-    if (count == 0 && settings.component == Component::Full) settings.component = Component::Direct;
-}
 
 void addRender(CLI::App& app) {
     auto options = std::make_shared<RenderOptions>();
@@ -113,30 +182,35 @@ void addRender(CLI::App& app) {
         ->add_option("scene", options->scene,
                      "a scene file, or builtin:NAME (`conelight info builtin:` lists them)")
         ->required();
-    command
-        ->add_option("-o,--output", options->output,
-                     "picture: .png .jpg (tone-mapped), .exr .hdr (linear radiance)")
-        ->required();
+    command->add_option("-o,--output", options->output,
+                        "picture: .png .jpg (tone-mapped), .exr .hdr (linear radiance)");
     command->add_option("--mode", options->mode, modeNames() + " (default cones)");
     command
-        ->add_option(
-            "--component", options->component,
-            "full, direct, indirect, diffuse, specular, occlusion, albedo, normal, depth, voxels or emission")
+        ->add_option("--component", options->component,
+                     "full, direct, indirect, diffuse or specular; but for mode reference also occlusion, "
+                     "albedo, normal, depth, voxels or emission")
         ->capture_default_str();
     command
         ->add_option("--bounces", options->bounces,
-                     "indirect bounces (mode cones): 0 to 8 or all (8); 0 = direct light and emission seen")
+                     "indirect bounces, or all: 0 = direct light and emission seen; mode cones: 0 to 8, all "
+                     "is 8; modes reference and radiosity: any number, all is the default")
         ->type_name("N");
     command
         ->add_option("--aov", options->aovs,
-                     "components that become further layers of an .exr, comma-separated")
+                     "components that become further layers of an .exr, comma-separated; mode reference: "
+                     "also " +
+                         tracedLayerNames())
         ->type_name("A,B");
-    command->add_option("--stats", options->statsFile, "write passes, lookups per pixel and memory as JSON")
+    command
+        ->add_option("--stats", options->statsFile,
+                     "write passes, lookups per pixel and memory, or samples, noise and rays, as JSON")
         ->type_name("FILE");
     command
         ->add_option("--shader-dir", options->shaderDirectory,
                      "shaders from this folder instead of the built-in ones")
         ->type_name("DIR");
+    options->tracer.addTo(*command);
+    if (kRadiosity) options->radiosity.addTo(*command);
     options->view.addTo(*command);
     command->callback([options] { run(*options); });
 }

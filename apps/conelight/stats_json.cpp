@@ -25,6 +25,23 @@ nlohmann::ordered_json lookupsJson(const FrameStats& stats) {
     return lookups;
 }
 
+nlohmann::ordered_json tracedJson(const reference::PathTracedPicture& picture) {
+    return {{"samples_per_pixel", picture.samplesPerPixel},
+            {"noise", picture.noise},
+            {"rays", picture.rays},
+            {"rays_per_second",
+             picture.wallSeconds > 0 ? static_cast<double>(picture.rays) / picture.wallSeconds : 0.0},
+            {"cpu_seconds", picture.cpuSeconds},
+            {"wall_seconds", picture.wallSeconds}};
+}
+
+nlohmann::ordered_json bakeJson(const reference::RadiosityStats& stats) {
+    return {{"patches", stats.patches},        {"elements", stats.elements},
+            {"vertices", stats.vertices},      {"iterations", stats.iterations},
+            {"residual", stats.residual},      {"rays", stats.rays},
+            {"cpu_seconds", stats.cpuSeconds}, {"wall_seconds", stats.wallSeconds}};
+}
+
 void writeJson(const std::string& path, const nlohmann::ordered_json& json) {
     const WritingScope writing;
     const std::string text = json.dump(2) + "\n";

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
-// FrameStats as JSON, in the words of `render --stats` and `bench --json`.
+// What a picture cost as JSON, in the words of `render --stats` and `bench --json`.
 #pragma once
 
 #include <nlohmann/json.hpp>
 
 #include "conelight/renderer.h"
+#include "reference/path_tracer.h"
+#include "reference/radiosity.h"
 
 namespace conelight::program {
 
@@ -13,11 +15,12 @@ namespace conelight::program {
 nlohmann::ordered_json statsJson(const FrameStats& stats);
 nlohmann::ordered_json memoryJson(const FrameStats& stats);
 nlohmann::ordered_json lookupsJson(const FrameStats& stats);
+// {"samples_per_pixel", "noise", "rays", "rays_per_second", "cpu_seconds", "wall_seconds"}
+nlohmann::ordered_json tracedJson(const reference::PathTracedPicture& picture);
+// {"patches", "elements", "vertices", "iterations", "residual", "rays", "cpu_seconds", "wall_seconds"}
+nlohmann::ordered_json bakeJson(const reference::RadiosityStats& stats);
 
 // Indented, with a line end.
 void writeJson(const std::string& path, const nlohmann::ordered_json& json);
-
-// --bounces N|all.
-void applyBounces(Settings& settings, const std::string& bounces);
 
 }  // namespace conelight::program

@@ -145,7 +145,7 @@ TEST_F(CompareTest, BadInputIsOneLine) {
     expectOneLine(compare("'" + path("small.exr") + "' '" + path("test.exr") + "'"), 3, "is 8x8 pixels, but");
     expectOneLine(compare("'" + path("none.exr") + "' '" + path("test.exr") + "'"), 3, "none.exr");
     expectOneLine(compare("'" + path("test.exr") + "'"), 2, "second one");
-    expectOneLine(compare(pair_ + "--modes cones"), 2, "one scene");
+    expectOneLine(compare(pair_ + "--modes cones"), 2, "scenes");
     expectOneLine(compare("builtin:cornell --halves a,b"), 2, "two pictures");
     expectOneLine(compare(pair_ + "--json /nonexistent/folder/x.json"), 1, "/nonexistent/folder");
 }

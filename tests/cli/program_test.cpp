@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: MIT
 // The program from outside: exit statuses, one-line errors, files written whole, pictures that repeat bit by
 // bit.
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "io/image_file.h"
-#include "support/gl_fixture.h"
+#include "support/program.h"
 
 namespace conelight::test {
 namespace {
 
-std::string path(const std::string& name) { return scratchDir() + "/" + name; }
-
-CommandResult conelight(const std::string& arguments, const std::string& environment = "") {
-    return runCommand(environment + " '" + CONELIGHT_PROGRAM + "' " + arguments);
-}
+std::string path(const std::string& name) { return scratchPath(name); }
 
 CommandResult render(const std::string& scene, const std::string& output, const std::string& more = "",
                      const std::string& environment = "") {
@@ -26,25 +20,11 @@ CommandResult render(const std::string& scene, const std::string& output, const 
                      environment);
 }
 
-std::string bytesOf(const std::string& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    return text.str();
-}
-
-// One line, from the program, that contains `part`.
-void expectOneLine(const CommandResult& result, int status, const std::string& part) {
-    EXPECT_EQ(result.status, status) << result.output;
-    EXPECT_EQ(std::count(result.output.begin(), result.output.end(), '\n'), 1) << result.output;
-    EXPECT_EQ(result.output.rfind("conelight: ", 0), 0u) << result.output;
-    EXPECT_NE(result.output.find(part), std::string::npos) << result.output;
-}
-
 class ProgramTest : public GlTest {};
 
 TEST_F(ProgramTest, EveryCommandHasHelp) {
-    for (const char* command : {"", "render", "compare", "bench", "info", "settings", "shaders"}) {
+    for (const char* command : {"", "render", "compare", "bench", "score", "score leak", "score shift",
+                                "score flicker", "score convergence", "info", "settings", "shaders"}) {
         const CommandResult result = conelight(std::string(command) + " --help");
         EXPECT_EQ(result.status, 0) << command;
         EXPECT_NE(result.output.find("Usage"), std::string::npos) << result.output;

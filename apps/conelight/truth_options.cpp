@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "truth_options.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <initializer_list>
+
+#include "conelight/error.h"
+
+namespace conelight::program {
+namespace {
+
+// With --noise alone: more samples than any picture here needs; the noise ends it.
+constexpr int kSamplesUntilQuiet = 65536;
+
+std::string firstGiven(const CLI::App* command, std::initializer_list<const char*> names) {
+    for (const char* name : names)
+        if (command != nullptr && command->count(name) > 0) return name;
+    return {};
+}
+
+}  // namespace
+
+double parseFraction(const std::string& option, const std::string& text) {
+    char* end = nullptr;
+    double value = std::strtod(text.c_str(), &end);
+    const bool read = end != text.c_str();
+    if (read && *end == '%') {
+        value /= 100;
+        ++end;
+    }
+    if (!read || *end != '\0' || !std::isfinite(value) || value < 0)
+        throw Error(
+            ErrorKind::Usage,
+            fmt::format("{}: '{}' is not a fraction; 0.01 or 1%, for example, would be right", option, text));
+    return value;
+}
+
+void TracerOptions::addTo(CLI::App& command) {
+    command_ = &command;
+    command
+        .add_option("--spp", samples,
+                    "mode reference: samples per pixel (default 256; with --noise, as many as it takes)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1 << 20));
+    command
+        .add_option("--noise", noise, "mode reference: stop when the noise is below, as relRMSE; 1% or 0.01")
+        ->type_name("X");
+    command.add_option("--seed", seed, "modes reference and radiosity: of the random numbers")
+        ->capture_default_str()
+        ->type_name("N");
+    command
+        .add_option("--filter", filter,
+                    "mode reference: center (a point per pixel, as the other modes) or box (its area)")
+        ->capture_default_str()
+        ->type_name("NAME");
+}
+
+reference::PathTracerSettings TracerOptions::settings() const {
+    reference::PathTracerSettings result;
+    result.seed = seed;
+    if (!noise.empty()) {
+        result.noise = parseFraction("--noise", noise);
+        if (!(result.noise > 0))
+            throw Error(ErrorKind::Usage, "--noise: 0 would take for ever; 1%, for example, would be right");
+        result.samplesPerPixel = kSamplesUntilQuiet;
+    }
+    if (samples > 0) result.samplesPerPixel = samples;
+    if (filter != "center" && filter != "box")
+        throw Error(ErrorKind::Usage,
+                    "--filter: '" + filter + "' is not usable; center or box would be right");
+    result.filter = filter == "box" ? reference::PixelFilter::Box : reference::PixelFilter::Center;
+    return result;
+}
+
+std::string TracerOptions::given() const {
+    return firstGiven(command_, {"--spp", "--noise", "--filter", "--seed"});
+}
+
+void RadiosityOptions::addTo(CLI::App& command) {
+    command_ = &command;
+    command
+        .add_option("--patch", values.patchSize,
+                    "mode radiosity: longest edge of the coarsest patches, m (default: a 24th of the scene)")
+        ->type_name("M")
+        ->check(CLI::PositiveNumber);
+    command
+        .add_option("--subdivide", values.maxSubdivision,
+                    "mode radiosity: halvings of patches where the light changes fast")
+        ->capture_default_str()
+        ->type_name("N")
+        ->check(CLI::Range(0, 8));
+    command
+        .add_option("--residual", values.residual,
+                    "mode radiosity: stop when less than this part of all light is still under way")
+        ->capture_default_str()
+        ->type_name("X")
+        ->check(CLI::Range(1e-6, 1.0));
+    command
+        .add_option("--visibility-rays", values.visibilityRays, "mode radiosity: rays per pair of patches")
+        ->capture_default_str()
+        ->type_name("N")
+        ->check(CLI::Range(1, 256));
+    command.add_flag("--specular", specular,
+                     "mode radiosity: reflections on top, by the path tracer (takes --spp and --noise)");
+    command
+        .add_option("--bake", bakeFile,
+                    "mode radiosity: save the lit scene as .glb, which every mode and other programs show")
+        ->type_name("FILE");
+}
+
+std::string RadiosityOptions::given() const {
+    return firstGiven(command_,
+                      {"--patch", "--subdivide", "--residual", "--visibility-rays", "--specular", "--bake"});
+}
+
+int parseBounces(const std::string& text, int most) {
+    if (text == "all") return -1;
+    char* end = nullptr;
+    const long count = std::strtol(text.c_str(), &end, 10);
+    if (text.empty() || *end != '\0' || count < 0 || count > most)
+        throw Error(
+            ErrorKind::Usage,
+            fmt::format("--bounces: '{}' is not usable; a whole number from 0 to {}, or all, would be right",
+                        text, most));
+    return static_cast<int>(count);
+}
+
+void applyBounces(Settings& settings, const std::string& bounces) {
+    if (bounces.empty()) return;
+    constexpr int kAll = 8;  // what is left after 8 more bounces is below 1 % even at albedo 0.55
+    const int count = parseBounces(bounces, kAll);
+    settings.cones.bounces = count < 0 ? kAll : count;
+    if (count == 0 && settings.component == Component::Full) settings.component = Component::Direct;
+}
+
+}  // namespace conelight::program

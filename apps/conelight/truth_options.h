@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+// Options of the modes that run on the CPU: `reference` (path tracer) and `radiosity`; and --bounces, which
+// means the same in every mode.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+#include <string>
+
+#include "conelight/settings.h"
+#include "reference/path_tracer.h"
+#include "reference/radiosity.h"
+
+namespace conelight::program {
+
+struct TracerOptions {
+    int samples = 0;  // 0: not given
+    std::string noise;
+    std::uint32_t seed = 1;
+    std::string filter = "center";
+
+    void addTo(CLI::App& command);
+    // The settings asked for; throws Error(Usage). Without --spp: 256, or with --noise as many as it takes.
+    reference::PathTracerSettings settings() const;
+    // The first option that was given, as on the command line; empty: none.
+    std::string given() const;
+
+  private:
+    CLI::App* command_ = nullptr;
+};
+
+struct RadiosityOptions {
+    reference::RadiositySettings values;
+    bool specular = false;
+    std::string bakeFile;
+
+    void addTo(CLI::App& command);
+    std::string given() const;
+
+  private:
+    CLI::App* command_ = nullptr;
+};
+
+// "1%" or "0.01" -> 0.01. Throws Error(Usage) that starts with `option`.
+double parseFraction(const std::string& option, const std::string& text);
+
+// --bounces: -1 for "all", else the number, 0..`most`. Throws Error(Usage).
+int parseBounces(const std::string& text, int most);
+// Into the settings of the GL modes, which bounce 0 to 8 times. No text: nothing.
+void applyBounces(Settings& settings, const std::string& bounces);
+
+}  // namespace conelight::program

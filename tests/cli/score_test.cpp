@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+// `conelight score` on cases whose score is known.
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "support/program.h"
+
+namespace conelight::test {
+namespace {
+
+class ScoreTest : public GlTest {};
+
+nlohmann::json scored(const std::string& arguments) {
+    const std::string file = scratchPath("score.json");
+    std::filesystem::remove(file);
+    const CommandResult result = conelight("score " + arguments + " --json '" + file + "'");
+    EXPECT_EQ(result.status, 0) << result.output;
+    return nlohmann::json::parse(bytesOf(file));
+}
+
+TEST_F(ScoreTest, ShiftIsZeroWithoutAGridAndNotZeroWithOne) {
+    const nlohmann::json json =
+        scored("shift builtin:cornell-point --modes phong,thesis,cones --shifts 2 --size 48x48 --voxels 32");
+    ASSERT_EQ(json["runs"].size(), 3u);
+    EXPECT_EQ(json["runs"][0]["full"]["worst"], 0.0);
+    // The thesis's cones see opacity averaged over voxels, which depends on where those lie.
+    EXPECT_GT(json["runs"][1]["full"]["worst"].get<double>(), 0.005);
+    EXPECT_GT(json["runs"][2]["indirect"]["mean"].get<double>(), 0.001);
+    EXPECT_GE(json["runs"][1]["full"]["worst"], json["runs"][1]["full"]["mean"]);
+}
+
+TEST_F(ScoreTest, ShiftIsTheSameTwice) {
+    const std::string arguments = "shift builtin:cornell-point --shifts 1 --size 32x32 --voxels 16";
+    EXPECT_EQ(scored(arguments)["runs"], scored(arguments)["runs"]);
+}
+
+TEST_F(ScoreTest, ModesThatMakeEveryFrameAnewSettleInOne) {
+    const nlohmann::json json =
+        scored("convergence builtin:cornell --modes phong,cones --frames 3 --size 32x32 --voxels 16 --max 1");
+    for (const auto& run : json["runs"]) {
+        EXPECT_EQ(run["frames"], 1) << run;
+        EXPECT_EQ(run["errors"].size(), 3u);
+        EXPECT_EQ(run["light"], "lamp");
+    }
+}
+
+TEST_F(ScoreTest, LeakIsZeroForShadowMapsAndNotForTheThesis) {
+    const nlohmann::json json = scored(
+        "leak --modes phong,thesis --vary voxels.size=32 --angles 0,30 --size 32x32 --spp 2 --dark dark");
+    ASSERT_EQ(json["runs"].size(), 4u);
+    for (const auto& run : json["runs"]) {
+        EXPECT_EQ(run["dark_pixels"], 32 * 32);
+        EXPECT_GT(run["lit_mean"].get<double>(), 0.0);
+        if (run["variant"].get<std::string>().rfind("phong", 0) == 0)
+            EXPECT_LT(run["leak"].get<double>(), 1e-3) << run;
+        else
+            EXPECT_GT(run["leak"].get<double>(), 0.01) << run;
+    }
+    EXPECT_EQ(json["runs"][0]["angle"], 0.0);
+    EXPECT_EQ(json["runs"][2]["angle"], 30.0);
+}
+
+TEST_F(ScoreTest, ThePathTracerDoesNotFlickerAgainstItself) {
+    const nlohmann::json json = scored(
+        "flicker builtin:cornell-point --modes reference,phong --frames 3 --size 32x32 --spp 8 --path "
+        "orbit=3");
+    // The picture is the mean of the halves, so its errors against them are opposite: no product is positive.
+    EXPECT_EQ(json["runs"][0]["flicker"], 0.0);
+    EXPECT_GT(json["runs"][1]["pixels_followed"].get<double>(), 0.5);
+}
+
+TEST_F(ScoreTest, AThresholdThatIsExceededIsStatus1) {
+    const std::string shift =
+        "score shift builtin:cornell-point --modes thesis --shifts 1 --size 32x32 "
+        "--voxels 16 --max ";
+    EXPECT_EQ(conelight(shift + "10").status, 0);
+    const CommandResult result = conelight(shift + "1e-9");
+    EXPECT_EQ(result.status, 1) << result.output;
+    EXPECT_NE(result.output.find("1 of 1 above 1e-09"), std::string::npos) << result.output;
+}
+
+TEST_F(ScoreTest, WrongUsageIsOneLineAndStatus2) {
+    expectOneLine(conelight("score"), 2, "required");
+    expectOneLine(conelight("score shift builtin:cornell --modes cube"), 2, "cube");
+    expectOneLine(conelight("score shift builtin:cornell --modes reference"), 2, "reference");
+    expectOneLine(conelight("score shift builtin:cornell --vary voxels.sise=8"), 2, "voxels.size");
+    expectOneLine(conelight("score shift builtin:cornell --vary voxels.size"), 2, "KEY=A,B");
+    expectOneLine(conelight("score convergence builtin:cornell --light nobody"), 2, "lamp");
+    expectOneLine(conelight("score convergence builtin:cornell --within x"), 2, "--within");
+    expectOneLine(conelight("score flicker builtin:cornell --path zoom=3"), 2, "orbit");
+    expectOneLine(conelight("score flicker builtin:cornell --path object=nobody:1,0,0"), 2, "nobody");
+    expectOneLine(conelight("score leak --angles 10,x"), 2, "--angles");
+    expectOneLine(conelight("score leak --dark nobody --size 16x16"), 2, "nobody");
+}
+
+}  // namespace
+}  // namespace conelight::test
