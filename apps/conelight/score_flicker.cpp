@@ -2,6 +2,8 @@
 // `conelight score flicker`: error that comes and goes along a path of the camera or of an object.
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "conelight/error.h"
