@@ -57,6 +57,10 @@ class Reader {
         return oneLine(file_.array("nodes")[node]["name"].text(fmt::format("node{}", node)));
     }
 
+    void readOwnExtras(const GltfValue& scene);
+    void readFlags(const GltfValue& node, Instance& instance) const;
+    void addRectLight(std::size_t node, const GltfValue& own);
+
     GltfFile file_;
     Scene scene_;
     std::vector<glm::mat4> worldFromNode_;
@@ -133,6 +137,46 @@ void Reader::findWorldTransforms() {
     if (reached != count) nodes.fail("contain a cycle; nodes must form trees");
 }
 
+// What io/gltf_write.cpp keeps of a value; absent in other programs' files, whose extras may be anything.
+GltfValue ownExtras(const GltfValue& value) {
+    const GltfValue absent = value["(none)"];
+    if (!value.isObject() || !value["extras"].isObject()) return absent;
+    const GltfValue own = value["extras"]["conelight"];
+    return own.isObject() ? own : absent;
+}
+
+void Reader::readOwnExtras(const GltfValue& scene) {
+    const GltfValue own = ownExtras(scene);
+    scene_.thesisFormat = own["thesisFormat"].boolean(false);
+    const GltfValue settings = own["settings"];
+    for (std::size_t i = 0; i < settings.size(); ++i)
+        scene_.settings.emplace_back(settings[i][std::size_t(0)].text(""),
+                                     settings[i][std::size_t(1)].text(""));
+}
+
+void Reader::readFlags(const GltfValue& node, Instance& instance) const {
+    const GltfValue own = ownExtras(node);
+    instance.visible = own["visible"].boolean(true);
+    instance.voxelized = own["voxelized"].boolean(true);
+    instance.castsShadow = own["castsShadow"].boolean(true);
+    instance.dynamic = own["dynamic"].boolean(false);
+}
+
+// A rectangular light has no place in KHR_lights_punctual; it stands whole in the extras of its node.
+void Reader::addRectLight(std::size_t node, const GltfValue& own) {
+    Light to;
+    to.name = nameOf(node);
+    to.type = LightType::Rect;
+    to.intensity = glm::max(own["radiance"].vector<3>(glm::vec3(1)), glm::vec3(0));
+    to.position = glm::vec3(worldFromNode_[node][3]);
+    to.direction = own["direction"].vector<3>(to.direction);
+    to.halfU = own["halfU"].vector<3>(to.halfU);
+    to.halfV = own["halfV"].vector<3>(to.halfV);
+    to.enabled = own["enabled"].boolean(true);
+    to.castsShadow = own["castsShadow"].boolean(true);
+    scene_.lights.push_back(std::move(to));
+}
+
 // Nodes below the default scene (all nodes when the file has no scenes), in the file's order of walking.
 std::vector<std::size_t> Reader::nodesOfScene() {
     const GltfValue nodes = file_.array("nodes"), scenes = file_.array("scenes");
@@ -147,6 +191,7 @@ std::vector<std::size_t> Reader::nodesOfScene() {
     scene_.sky =
         glm::max(chosen["extras"].isObject() ? chosen["extras"]["sky"].vector<3>(glm::vec3(0)) : glm::vec3(0),
                  glm::vec3(0));
+    readOwnExtras(chosen);
     if (scenes.size() > 1)
         scene_.notes.push_back(
             fmt::format("{} scenes in the file; {} is shown", scenes.size(), chosen.path()));
@@ -247,6 +292,7 @@ void Reader::placeMesh(std::size_t node, const GltfValue& value, GltfMeshes& mes
             instance.mesh = part.mesh;
             instance.material = part.material;
             instance.worldFromObject = worldFromNode_[node] * transform;
+            readFlags(value, instance);
             scene_.instances.push_back(std::move(instance));
         }
 }
@@ -255,7 +301,11 @@ void Reader::addLight(std::size_t node, const GltfValue& value) {
     const GltfValue lights = file_.root().extension("KHR_lights_punctual")["lights"];
     const std::optional<std::size_t> at =
         value.extension("KHR_lights_punctual")["light"].index(lights.size());
-    if (!at) return;
+    if (!at) {
+        const GltfValue own = ownExtras(value)["light"];
+        if (own.isObject() && own["type"].text("") == "rect") addRectLight(node, own);
+        return;
+    }
     const GltfValue from = lights[*at];
     Light to;
     to.name = oneLine(from["name"].text(nameOf(node)));
@@ -279,6 +329,11 @@ void Reader::addLight(std::size_t node, const GltfValue& value) {
     else
         to.direction = {0, 0, -1};
     to.range = std::max(from["range"].number(0.0f), 0.0f);
+    const GltfValue own = ownExtras(from);
+    to.enabled = own["enabled"].boolean(true);
+    to.castsShadow = own["castsShadow"].boolean(true);
+    to.customFalloff = own["falloff"].exists();
+    to.falloff = own["falloff"].vector<3>(to.falloff);
     if (to.type == LightType::Spot) {
         constexpr float kRightAngle = 1.57079632679f;
         to.outerAngle = from["spot"]["outerConeAngle"].number(0.785398163f);
@@ -307,7 +362,8 @@ void Reader::addCamera(std::size_t node, const GltfValue& value) {
         scene_.notes.push_back(fmt::format("camera {}: has no usable direction; left out", to.name));
         return;
     }
-    to.target = to.eye + glm::normalize(forward);
+    const float distance = ownExtras(value)["distance"].number(1.0f);
+    to.target = to.eye + glm::normalize(forward) * (distance > 0 ? distance : 1.0f);
     to.up = glm::normalize(up);
     const std::string type = from["type"].text("perspective");
     const GltfValue lens = from[type == "orthographic" ? "orthographic" : "perspective"];

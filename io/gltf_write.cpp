@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: MIT
+#include "io/gltf_write.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "conelight/error.h"
+#include "conelight/version.h"
+#include "io/files.h"
+#include "io/gltf_write_buffer.h"
+#include "io/gltf_write_material.h"
+
+namespace conelight::io {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::uint32_t kGlbMagic = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
+
+Json listOf(const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); }
+Json listOf(const glm::mat4& m) {
+    Json list = Json::array();
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r) list.push_back(m[c][r]);
+    return list;
+}
+
+// A placement that looks along `forward` (glTF's lights and cameras look along -z).
+glm::mat4 lookingAlong(const glm::vec3& position, const glm::vec3& forward, const glm::vec3& up) {
+    const glm::vec3 z = -glm::normalize(forward);
+    glm::vec3 x = glm::cross(up, z);
+    if (!(glm::length(x) > 1e-6f)) x = glm::cross(glm::vec3(1, 0, 0), z);
+    if (!(glm::length(x) > 1e-6f)) x = glm::cross(glm::vec3(0, 0, 1), z);
+    x = glm::normalize(x);
+    return {glm::vec4(x, 0), glm::vec4(glm::cross(z, x), 0), glm::vec4(z, 0), glm::vec4(position, 1)};
+}
+
+class Writer {
+  public:
+    explicit Writer(const Scene& scene) : scene_(scene), buffer_(root_) {}
+    Json document();
+    std::vector<std::uint8_t>& bytes() { return buffer_.bytes(); }
+    std::vector<std::string> notes() const;
+
+  private:
+    int meshOf(const Instance& instance);
+    void addInstance(const Instance& instance);
+    void addLight(const Light& light);
+    void addCamera(const Camera& camera);
+    void addNode(Json node);
+    void addSceneExtras(Json& scene);
+
+    const Scene& scene_;
+    Json root_;
+    GltfBuffer buffer_;
+    std::map<int, Json> primitives_;             // mesh of the scene -> attributes and indices
+    std::map<std::pair<int, int>, int> meshes_;  // (mesh, material) -> mesh of the file
+    std::set<std::string> extensions_;
+    Json nodes_ = Json::array();
+    std::size_t rectLights_ = 0, customFalloffs_ = 0, flagged_ = 0;
+};
+
+int Writer::meshOf(const Instance& instance) {
+    const auto key = std::make_pair(instance.mesh, instance.material);
+    if (const auto known = meshes_.find(key); known != meshes_.end()) return known->second;
+    const Mesh& mesh = scene_.meshes[static_cast<std::size_t>(instance.mesh)];
+    Json& primitive = primitives_[instance.mesh];
+    if (primitive.is_null()) {
+        const auto attribute = [&](const char* name, int accessor) {
+            if (accessor >= 0) primitive["attributes"][name] = accessor;
+        };
+        attribute("POSITION", buffer_.vectors(mesh.positions, true));
+        attribute("NORMAL", buffer_.vectors(mesh.normals));
+        attribute("TANGENT", buffer_.vectors(mesh.tangents));
+        attribute("TEXCOORD_0", buffer_.vectors(mesh.uvs));
+        attribute("COLOR_0", buffer_.vectors(mesh.colors));
+        primitive["indices"] = buffer_.indices(mesh.indices);
+    }
+    Json placed = primitive;
+    if (instance.material >= 0) placed["material"] = instance.material;
+    root_["meshes"].push_back({{"name", mesh.name}, {"primitives", Json::array({placed})}});
+    return meshes_[key] = static_cast<int>(root_["meshes"].size()) - 1;
+}
+
+void Writer::addNode(Json node) {
+    nodes_.push_back(root_["nodes"].size());
+    root_["nodes"].push_back(std::move(node));
+}
+
+void Writer::addInstance(const Instance& instance) {
+    if (instance.mesh < 0 || scene_.meshes[static_cast<std::size_t>(instance.mesh)].indices.empty()) return;
+    Json node = {{"name", instance.name}, {"mesh", meshOf(instance)}};
+    if (instance.worldFromObject != glm::mat4(1.0f)) node["matrix"] = listOf(instance.worldFromObject);
+    Json flags = Json::object();
+    if (!instance.visible) flags["visible"] = false;
+    if (!instance.voxelized) flags["voxelized"] = false;
+    if (!instance.castsShadow) flags["castsShadow"] = false;
+    if (instance.dynamic) flags["dynamic"] = true;
+    if (!flags.empty()) {
+        node["extras"]["conelight"] = flags;
+        ++flagged_;
+    }
+    addNode(std::move(node));
+}
+
+void Writer::addLight(const Light& light) {
+    Json own = Json::object();
+    if (!light.enabled) own["enabled"] = false;
+    if (!light.castsShadow) own["castsShadow"] = false;
+    if (light.customFalloff) {
+        own["falloff"] = listOf(light.falloff);
+        ++customFalloffs_;
+    }
+    Json node = {{"name", light.name},
+                 {"matrix", listOf(lookingAlong(light.position, light.direction, {0, 1, 0}))}};
+    if (light.type == LightType::Rect) {
+        own["type"] = "rect";
+        own["radiance"] = listOf(light.intensity);
+        own["direction"] = listOf(light.direction);
+        own["halfU"] = listOf(light.halfU);
+        own["halfV"] = listOf(light.halfV);
+        node["extras"]["conelight"]["light"] = own;
+        ++rectLights_;
+        addNode(std::move(node));
+        return;
+    }
+    const float strength = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
+    Json to = {{"name", light.name},
+               {"type", light.type == LightType::Point  ? "point"
+                        : light.type == LightType::Spot ? "spot"
+                                                        : "directional"},
+               {"color", listOf(strength > 0 ? light.intensity / strength : glm::vec3(1))},
+               {"intensity", strength}};
+    if (light.range > 0) to["range"] = light.range;
+    if (light.type == LightType::Spot)
+        to["spot"] = {{"innerConeAngle", light.innerAngle}, {"outerConeAngle", light.outerAngle}};
+    if (!own.empty()) to["extras"]["conelight"] = own;
+    Json& lights = root_["extensions"]["KHR_lights_punctual"]["lights"];
+    node["extensions"]["KHR_lights_punctual"]["light"] = lights.size();
+    lights.push_back(to);
+    extensions_.insert("KHR_lights_punctual");
+    addNode(std::move(node));
+}
+
+void Writer::addCamera(const Camera& camera) {
+    const glm::vec3 forward = camera.target - camera.eye;
+    root_["cameras"].push_back(
+        {{"name", camera.name},
+         {"type", "perspective"},
+         {"perspective", {{"yfov", camera.fovY}, {"znear", camera.zNear}, {"zfar", camera.zFar}}}});
+    addNode({{"name", camera.name},
+             {"camera", root_["cameras"].size() - 1},
+             {"matrix", listOf(lookingAlong(camera.eye, forward, camera.up))},
+             {"extras", {{"conelight", {{"distance", glm::length(forward)}}}}}});
+}
+
+void Writer::addSceneExtras(Json& scene) {
+    if (scene_.sky != glm::vec3(0)) scene["extras"]["sky"] = listOf(scene_.sky);
+    if (scene_.thesisFormat) scene["extras"]["conelight"]["thesisFormat"] = true;
+    for (const auto& [key, value] : scene_.settings)
+        scene["extras"]["conelight"]["settings"].push_back(Json::array({key, value}));
+}
+
+Json Writer::document() {
+    root_["asset"] = {{"version", "2.0"}, {"generator", "Conelight " CONELIGHT_VERSION_STRING}};
+    writeGltfTextures(root_, buffer_, scene_);
+    for (const Material& material : scene_.materials) writeGltfMaterial(root_, material, extensions_);
+    for (const Instance& instance : scene_.instances) addInstance(instance);
+    for (const Light& light : scene_.lights) addLight(light);
+    for (const Camera& camera : scene_.cameras) addCamera(camera);
+    Json scene = {{"name", scene_.name}, {"nodes", nodes_}};
+    if (nodes_.empty()) scene.erase("nodes");
+    addSceneExtras(scene);
+    root_["scene"] = 0;
+    root_["scenes"] = Json::array({scene});
+    if (!extensions_.empty()) root_["extensionsUsed"] = extensions_;
+    while (buffer_.bytes().size() % 4 != 0) buffer_.bytes().push_back(0);
+    return root_;
+}
+
+std::vector<std::string> Writer::notes() const {
+    std::vector<std::string> notes;
+    const auto note = [&](std::size_t count, const char* what) {
+        if (count > 0)
+            notes.push_back(fmt::format("{} {}: kept as extras, which only Conelight reads", count, what));
+    };
+    note(rectLights_, rectLights_ == 1 ? "rectangular light" : "rectangular lights");
+    note(customFalloffs_,
+         customFalloffs_ == 1 ? "light with its own falloff" : "lights with their own falloff");
+    note(flagged_, flagged_ == 1 ? "object with flags" : "objects with flags");
+    return notes;
+}
+
+void append(std::vector<std::uint8_t>& to, std::uint32_t word) {
+    for (int i = 0; i < 4; ++i) to.push_back(static_cast<std::uint8_t>(word >> (8 * i)));
+}
+
+std::vector<std::uint8_t> glbOf(const std::filesystem::path& path, std::string json,
+                                const std::vector<std::uint8_t>& binary) {
+    while (json.size() % 4 != 0) json += ' ';
+    const std::uint64_t total = 12 + 8 + json.size() + (binary.empty() ? 0 : 8 + binary.size());
+    if (total > 0xffffffffull)
+        throw Error(ErrorKind::Runtime,
+                    path.string() + ": more than 4 GiB, which .glb cannot hold; .gltf would be right");
+    std::vector<std::uint8_t> file;
+    file.reserve(total);
+    append(file, kGlbMagic);
+    append(file, 2);
+    append(file, static_cast<std::uint32_t>(total));
+    append(file, static_cast<std::uint32_t>(json.size()));
+    append(file, kJsonChunk);
+    file.insert(file.end(), json.begin(), json.end());
+    if (binary.empty()) return file;
+    append(file, static_cast<std::uint32_t>(binary.size()));
+    append(file, kBinaryChunk);
+    file.insert(file.end(), binary.begin(), binary.end());
+    return file;
+}
+
+// Names come from files in any encoding; JSON wants UTF-8.
+std::string textOf(const Json& document, int indent) {
+    return document.dump(indent, ' ', false, Json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::vector<std::string> writeGltf(const std::filesystem::path& path, const Scene& scene) {
+    scene.validate();
+    Writer writer(scene);
+    Json document = writer.document();
+    const std::vector<std::uint8_t>& binary = writer.bytes();
+    if (!binary.empty()) document["buffers"] = Json::array({{{"byteLength", binary.size()}}});
+    if (lowerExtension(path) == ".glb") {
+        writeFile(path, glbOf(path, textOf(document, -1), binary));
+        return writer.notes();
+    }
+    if (!binary.empty()) {
+        const std::filesystem::path beside = std::filesystem::path(path).replace_extension(".bin");
+        document["buffers"][0]["uri"] = beside.filename().string();
+        writeFile(beside, binary);
+    }
+    const std::string text = textOf(document, 1) + "\n";
+    writeFile(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    return writer.notes();
+}
+
+}  // namespace conelight::io

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Scene -> glTF 2.0: meshes, instances as nodes, metallic-roughness materials with the KHR extensions that
+// io/gltf_*.cpp reads, textures as PNG, lights (KHR_lights_punctual), cameras. What glTF has no words for
+// (rectangular lights, the thesis's falloff and materials, flags of instances, settings) is kept in
+// `extras.conelight`, which loadScene reads back and other programs ignore.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "conelight/scene.h"
+
+namespace conelight::io {
+
+// `.glb`: one file; any other name: JSON with a NAME.bin beside it. Returns what other programs will not see,
+// one line each. Throws Error(BadInput) as Scene::validate, Error(Runtime) when a file cannot be written or
+// exceeds 4 GiB (.glb).
+std::vector<std::string> writeGltf(const std::filesystem::path& path, const Scene& scene);
+
+}  // namespace conelight::io

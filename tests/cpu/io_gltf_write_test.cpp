@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// Scenes written as glTF and read back: the same scene, for every generated one and for what glTF has no
+// words for.
+#include <fmt/core.h>
+
+#include "cpu/io_test_support.h"
+#include "io/gltf_write.h"
+#include "io/scene_file.h"
+
+namespace conelight {
+namespace {
+
+using namespace test;
+
+Scene roundTrip(const Scene& scene, const std::string& file) {
+    const std::filesystem::path path = folderOf("gltf_write") / file;
+    io::writeGltf(path, scene);
+    return io::loadScene(path.string());
+}
+
+void expectNear(const glm::vec3& a, const glm::vec3& b, float tolerance, const std::string& what) {
+    EXPECT_LE(glm::length(a - b), tolerance * std::max(1.0f, glm::length(b))) << what;
+}
+
+glm::vec3 corner(const Scene& scene, const Instance& instance, std::size_t index) {
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    return glm::vec3(instance.worldFromObject * glm::vec4(mesh.positions[mesh.indices[index]], 1));
+}
+
+void expectSameMaterial(const Material& a, const Material& b, const Scene& from, const Scene& to) {
+    expectNear(glm::vec3(a.baseColor), glm::vec3(b.baseColor), 1e-6f, b.name + " base colour");
+    EXPECT_EQ(a.baseColor.a, b.baseColor.a);
+    EXPECT_EQ(a.metallic, b.metallic);
+    EXPECT_EQ(a.roughness, b.roughness);
+    EXPECT_EQ(a.ior, b.ior);
+    EXPECT_EQ(a.specular, b.specular);
+    expectNear(a.emission, b.emission, 1e-6f, b.name + " emission");
+    EXPECT_EQ(a.alphaMode, b.alphaMode);
+    EXPECT_EQ(a.doubleSided, b.doubleSided);
+    EXPECT_EQ(a.unlit, b.unlit);
+    EXPECT_EQ(a.isPhong, b.isPhong);
+    if (b.isPhong) {
+        EXPECT_EQ(a.phong.color, b.phong.color);
+        EXPECT_EQ(a.phong.shininess, b.phong.shininess);
+        EXPECT_EQ(a.phong.specularStrength, b.phong.specularStrength);
+    }
+    ASSERT_EQ(a.baseColorTexture.used(), b.baseColorTexture.used());
+    if (!b.baseColorTexture.used()) return;
+    const Texture& ta = from.textures[static_cast<std::size_t>(a.baseColorTexture.texture)];
+    const Texture& tb = to.textures[static_cast<std::size_t>(b.baseColorTexture.texture)];
+    EXPECT_EQ(ta.rgba, tb.rgba);
+    EXPECT_EQ(ta.srgb, tb.srgb);
+    EXPECT_EQ(ta.wrapU, tb.wrapU);
+    EXPECT_EQ(ta.filter, tb.filter);
+    for (int c = 0; c < 3; ++c)
+        expectNear(a.baseColorTexture.uvFromUv[c], b.baseColorTexture.uvFromUv[c], 1e-5f, "uv transform");
+}
+
+void expectSame(const Scene& read, const Scene& written) {
+    EXPECT_EQ(read.sky, written.sky);
+    EXPECT_EQ(read.thesisFormat, written.thesisFormat);
+    EXPECT_EQ(read.settings, written.settings);
+    ASSERT_EQ(read.instances.size(), written.instances.size());
+    EXPECT_EQ(read.triangleCount(), written.triangleCount());
+    for (std::size_t i = 0; i < read.instances.size(); ++i) {
+        const Instance &a = read.instances[i], &b = written.instances[i];
+        EXPECT_EQ(a.name, b.name);
+        EXPECT_EQ(a.visible, b.visible);
+        EXPECT_EQ(a.voxelized, b.voxelized);
+        EXPECT_EQ(a.castsShadow, b.castsShadow);
+        EXPECT_EQ(a.dynamic, b.dynamic);
+        const Mesh& mesh = written.meshes[static_cast<std::size_t>(b.mesh)];
+        for (std::size_t k = 0; k < mesh.indices.size(); k += 1 + mesh.indices.size() / 50)
+            expectNear(corner(read, a, k), corner(written, b, k), 1e-6f, b.name);
+        if (b.material >= 0)
+            expectSameMaterial(read.materials[static_cast<std::size_t>(a.material)],
+                               written.materials[static_cast<std::size_t>(b.material)], read, written);
+    }
+    ASSERT_EQ(read.lights.size(), written.lights.size());
+    for (std::size_t i = 0; i < read.lights.size(); ++i) {
+        const Light &a = read.lights[i], &b = written.lights[i];
+        EXPECT_EQ(a.name, b.name);
+        EXPECT_EQ(a.type, b.type);
+        expectNear(a.intensity, b.intensity, 1e-6f, b.name + " intensity");
+        if (b.type != LightType::Directional) {
+            EXPECT_EQ(a.position, b.position);
+        }
+        if (b.type != LightType::Point) expectNear(a.direction, b.direction, 1e-6f, b.name + " direction");
+        EXPECT_EQ(a.range, b.range);
+        EXPECT_EQ(a.enabled, b.enabled);
+        EXPECT_EQ(a.castsShadow, b.castsShadow);
+        EXPECT_EQ(a.customFalloff, b.customFalloff);
+        if (b.customFalloff) {
+            EXPECT_EQ(a.falloff, b.falloff);
+        }
+        if (b.type == LightType::Rect) {
+            EXPECT_EQ(a.halfU, b.halfU);
+        }
+        if (b.type == LightType::Spot) {
+            EXPECT_EQ(a.outerAngle, b.outerAngle);
+        }
+    }
+    ASSERT_EQ(read.cameras.size(), written.cameras.size());
+    for (std::size_t i = 0; i < read.cameras.size(); ++i) {
+        EXPECT_EQ(read.cameras[i].name, written.cameras[i].name);
+        EXPECT_EQ(read.cameras[i].eye, written.cameras[i].eye);
+        expectNear(read.cameras[i].target, written.cameras[i].target, 1e-5f, "target");
+        EXPECT_EQ(read.cameras[i].fovY, written.cameras[i].fovY);
+        EXPECT_EQ(read.cameras[i].zNear, written.cameras[i].zNear);
+    }
+}
+
+TEST(GltfWrite, EveryGeneratedSceneComesBack) {
+    for (const char* name : {"cornell", "cornell-point", "furnace", "leak", "sunroom", "corridor",
+                             "atrium?triangles=10000", "glossy", "spheres"}) {
+        SCOPED_TRACE(name);
+        const Scene scene = io::loadScene(fmt::format("builtin:{}", name));
+        expectSame(roundTrip(scene, "generated.glb"), scene);
+    }
+}
+
+TEST(GltfWrite, WhatGltfHasNoWordsForComesBackAndIsNamed) {
+    Scene scene = io::loadScene("builtin:cornell");
+    scene.thesisFormat = true;
+    scene.settings = {{"voxels.size", "64"}, {"image.exposure", "1"}};
+    scene.sky = {0.25f, 0.5f, 1};
+    scene.instances[0].castsShadow = false;
+    scene.instances[1].dynamic = true;
+    scene.materials[0].isPhong = true;
+    scene.materials[0].phong.shininess = 17;
+    Light rect;
+    rect.name = "panel";
+    rect.type = LightType::Rect;
+    rect.intensity = {3, 2, 1};
+    rect.position = {0.1f, 0.2f, 0.3f};
+    rect.direction = glm::normalize(glm::vec3(1, -2, 0.5f));
+    rect.enabled = false;
+    Light lamp;
+    lamp.name = "lamp";
+    lamp.customFalloff = true;
+    lamp.falloff = {1, 0.2f, 0.3f};
+    lamp.castsShadow = false;
+    Light spot;
+    spot.name = "spot";
+    spot.type = LightType::Spot;
+    spot.outerAngle = 0.4f;
+    scene.lights = {rect, lamp, spot};
+    const std::filesystem::path path = folderOf("gltf_write") / "own.gltf";
+    EXPECT_EQ(io::writeGltf(path, scene).size(), 3u);
+    expectSame(io::loadScene(path.string()), scene);
+}
+
+TEST(GltfWrite, BrightVertexColoursKeepTheirValue) {
+    Scene scene = io::loadScene("builtin:furnace");
+    Mesh& mesh = scene.meshes[0];
+    mesh.colors.assign(mesh.positions.size(), glm::vec4(12.5f, 0.001f, 3, 1));
+    const Scene read = roundTrip(scene, "colours.glb");
+    ASSERT_FALSE(read.meshes[0].colors.empty());
+    EXPECT_EQ(read.meshes[0].colors[0], glm::vec4(12.5f, 0.001f, 3, 1));
+}
+
+TEST(GltfWrite, RefusesAFolderThatDoesNotExist) {
+    const Scene scene = io::loadScene("builtin:furnace");
+    EXPECT_THROW(io::writeGltf(folderOf("gltf_write") / "missing" / "a.glb", scene), Error);
+}
+
+}  // namespace
+}  // namespace conelight
