@@ -105,8 +105,9 @@ bool sampleBrightFace(inout uint state, out vec3 point, out vec3 normal) {
     p += along * k;
     point = vec3(unpackVoxel(r.w)) + p;
     float height = dot(p, k);
-    const float slack = 0.02;  // bounds are rounded to 1/31
-    return header != 0u && height > dot(lower, k) - slack && height < dot(upper, k) + slack;
+    // Not beyond the voxel, where its neighbour has the same surface: points there would be drawn twice.
+    vec2 range = vec2(max(dot(lower, k) - 1e-3, -1e-4), min(dot(upper, k) + 1e-3, 1.0001));
+    return header != 0u && height >= range.x && height <= range.y;
 }
 
 // Radiance of a white Lambert surface (irradiance / pi): `cosineRays` by the cosine about the shading normal,

@@ -1,8 +1,9 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// After voxels were built anew: each face takes over the state of the face that lay where its voxel's centre
-// is, and looked in the same direction; else of the same voxel's face in any other direction nothing: it
-// starts dark. Counts of rays for dead faces are halved, so that what has moved is found again.
+// After voxels were built anew: each face takes over the state of the face that lay where its own centre is,
+// or a quarter voxel in front of or behind it, and looked in the same direction; where there was none it
+// starts dark. Counts of rays for dead faces are halved once they can be, so that what has moved is found
+// again.
 layout(local_size_x = 64) in;
 #include "lib/linear_index.glsl"
 #include "lib/voxel_grid.glsl"
@@ -23,18 +24,30 @@ void main() {
     int axis = int(r.w >> 30);
     float along = axis == 0 ? n.x : (axis == 1 ? n.y : n.z);
     int direction = 2 * axis + (along < 0.0 ? 1 : 0);
-    vec3 world = worldFromGrid(vec3(unpackVoxel(r.w)) + 0.5);
-    ivec3 voxel = ivec3(floor((world - carry.oldOrigin) * carry.oldInverseVoxelSize));
-    bool inside = all(greaterThanEqual(voxel, ivec3(0))) &&
-                  all(lessThan(voxel, ivec3(carry.oldSizeX, carry.oldSizeY, carry.oldSizeZ)));
-    voxel = inside ? voxel : ivec3(0);
-    uvec4 word = texelFetch(oldBricks, voxel >> 2, 0);
-    bool had = inside && brickHas(word.xy, bitOfVoxel(voxel));
-    uint record = texelFetch(oldRecords, had ? int(voxelRecordIndex(word, bitOfVoxel(voxel))) : 0).x;
-    had = had && (faceDirections(record) >> direction & 1u) != 0u;
+    FaceRecord face = FaceRecord(r.x, r.y, r.z, r.w, 0u, 0u, 0u, 0u);
+    vec3 corner = vec3(unpackVoxel(r.w));
+    vec3 center = corner + clamp(faceCenter(face) - corner, 0.001, 0.999);
+    bool had = false;
+    uint record = 0u;
+    int attempt = 0;
+    do {
+        float aside = attempt == 0 ? 0.0 : (attempt == 1 ? 0.25 : -0.25);
+        vec3 world = worldFromGrid(center + aside * directionVector(direction));
+        ivec3 voxel = ivec3(floor((world - carry.oldOrigin) * carry.oldInverseVoxelSize));
+        bool inside = all(greaterThanEqual(voxel, ivec3(0))) &&
+                      all(lessThan(voxel, ivec3(carry.oldSizeX, carry.oldSizeY, carry.oldSizeZ)));
+        voxel = inside ? voxel : ivec3(0);
+        uvec4 word = texelFetch(oldBricks, voxel >> 2, 0);
+        bool occupied = inside && brickHas(word.xy, bitOfVoxel(voxel));
+        record = texelFetch(oldRecords, occupied ? int(voxelRecordIndex(word, bitOfVoxel(voxel))) : 0).x;
+        had = occupied && (faceDirections(record) >> direction & 1u) != 0u;
+    } while (!had && ++attempt < 3);
     FaceCache state = oldStates[had ? faceIndex(record, direction) : 0u];
-    uint rays = (state.counts >> 17) & 0x7fu;
-    uint backs = (state.counts >> 25) & 0x7fu;
+    uint rays = (state.counts >> 16) & 0xffu;
+    uint backs = state.counts >> 24;
+    bool enough = rays >= 2u * IRRADIANCE_DEAD_RAYS;
+    rays = enough ? rays / 2u : rays;
+    backs = enough ? (backs + 1u) / 2u : backs;
     state.counts = (state.counts & 0xffffu) | (rays << 16) | (backs << 24);
     if (!had) state = FaceCache(vec3(0.0), 0u);
     if (used) states[index] = state;

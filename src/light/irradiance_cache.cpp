@@ -17,9 +17,9 @@ namespace {
 constexpr std::uint32_t kMaxChunks = 4096;  // one invocation walks over all chunks
 constexpr std::uint32_t kLeastChunk = 16;   // fewer faces per invocation are not worth starting it
 constexpr double kSlack = 1.25;             // room for growth when memory is allocated anew
-// Updates with the test for faces inside closed objects, after voxels have changed: with 2 cosine rays enough
-// for twice IRRADIANCE_DEAD_RAYS.
-constexpr int kDeadUpdates = 16;
+// While voxels change every frame, only one in so many updates looks for faces inside closed objects: it
+// costs three times as much as one that does not.
+constexpr std::uint32_t kDeadInterval = 4;
 // More lights than these are taken from faces, not looked up at every hit: the shadow maps of 4 cost as much
 // as the ray itself.
 constexpr std::uint32_t kMostExactLights = 4;
@@ -83,7 +83,8 @@ struct IrradianceCache::Impl {
     std::uint32_t number = 0;        // of updates, ever
     std::uint32_t firstFace = 0;     // where the next update begins
     std::uint64_t facesVisited = 0;  // since light changed
-    std::uint64_t facesTested = 0;   // for dead ones, since voxels changed
+    std::uint64_t raysTested = 0;    // cosine rays that looked for faces inside objects, since voxels changed
+    bool carried = false;            // the last voxels took over light from those before
     std::uint32_t faceCount = 0;
 
     void reserve(std::uint32_t faces);
@@ -175,7 +176,8 @@ void IrradianceCache::afterVoxelize(gl::ProgramLibrary& programs, gl::Profiler& 
     }
     m.oldFaces = 0;
     m.firstFace = 0;
-    m.facesTested = 0;
+    m.raysTested = 0;
+    m.carried = carries;
     lightChanged();
 }
 
@@ -233,19 +235,21 @@ void IrradianceCache::update(gl::ProgramLibrary& programs, gl::Profiler& profile
     if (!m.prepared) m.commit(programs, profiler, settings);
     for (int i = 0; i < passes; ++i) {
         const gpu::CacheConstants block = m.packed(settings);
+        bool tests = false;
         {
             const gl::PassScope scope(profiler, "irradiance: update");
             m.constants.update(block);
             m.constants.bindUniform(BINDING_PASS);
             m.states.bindStorage(CACHE_STATE);
             bind();
-            const bool tests = m.facesTested < std::uint64_t{kDeadUpdates} * m.faceCount;
+            tests = m.raysTested < std::uint64_t{IRRADIANCE_DEAD_RAYS} * m.faceCount &&
+                    (!m.carried || m.number % kDeadInterval == 0);
             programs.get(updateDesc(lights, tests)).dispatchLinear(block.faceCount);
             gl::barrier(gl::Access::ShaderStorage | gl::Access::Update);
         }
         m.firstFace = (m.firstFace + block.faceCount) % m.faceCount;
         m.facesVisited += block.faceCount;
-        m.facesTested += block.faceCount;
+        if (tests) m.raysTested += std::uint64_t{block.faceCount} * block.cosineRays;
         ++m.number;
         m.commit(programs, profiler, settings);
     }
