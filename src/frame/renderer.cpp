@@ -241,7 +241,7 @@ void Renderer::Impl::prepareMode(const Settings& settings) {
 
     // Shadow maps; they fill in the light table that later passes read.
     if (mode->needsShadowsIn(source, settings) && !shadowsCurrent) {
-        shadows.update(programs, profiler, *scene, settings.light);
+        shadows.update(programs, profiler, *scene, settings.light, everyFrame);
         scene->bind();
         shadowsCurrent = true;
     }

@@ -49,6 +49,11 @@ glm::mat4 rows(const glm::vec3& origin, const std::array<glm::vec4, 4>& rowsAndC
 struct View {
     glm::mat4 clipFromWorld;
     int layer, x, y, width, height;
+
+    bool samePlace(const View& other) const {
+        return layer == other.layer && x == other.x && y == other.y && width == other.width &&
+               height == other.height;
+    }
 };
 
 // A perspective map, reversed depth near / distance. The tile's centre in v is at `middleV` texels.
@@ -103,11 +108,12 @@ gl::ProgramDesc programDesc(bool masked) {
 // Lays out the maps of a scene's lights and fills in the lights' shadow fields.
 class Layout {
   public:
-    Layout(const Aabb& bounds, const LightSettings& settings)
+    // `first`: bounds that do not change when something moves, for the near distance.
+    Layout(const Aabb& bounds, const Aabb& first, const LightSettings& settings)
         : bounds_(bounds),
           size_(std::max(settings.shadowSize / 8 * 8, 64)),
           guard_(std::min(guardTexels(settings.shadowFilter), size_ / 8)),
-          near_(std::max(kNearFraction * glm::length(bounds.extent()), 1e-12f)) {}
+          near_(std::max(kNearFraction * glm::length(first.extent()), 1e-12f)) {}
 
     void add(std::vector<gpu::Light>& lights) {
         // Kinds one after the other, each from a new layer on: tiles of a kind have consecutive numbers.
@@ -260,8 +266,16 @@ struct ShadowMaps::Impl {
     std::vector<gl::Framebuffer> layers;
     gl::Buffer viewBlock;
 
+    // What was drawn last, and the scene it was drawn of.
+    std::vector<View> drawnViews;
+    std::uint64_t sceneIdentity = 0;
+    std::vector<std::uint64_t> revisions;
+    std::vector<Aabb> casterBoxes;  // empty: casts no shadow
+    int redrawn = 0;
+
     void allocate(int size, int layerCount) {
         if (maps && maps.width() == size && maps.depth() == layerCount) return;
+        drawnViews.clear();
         layers.clear();
         maps =
             gl::Texture({GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, size, size, layerCount}, "shadow maps");
@@ -279,7 +293,48 @@ struct ShadowMaps::Impl {
     }
 
     void draw(gl::ProgramLibrary& programs, const scene::GpuScene& scene, const View& view);
+    bool keepsPlaces(const scene::GpuScene& scene, const std::vector<View>& views) const;
+    std::vector<Aabb> changedBoxes(const scene::GpuScene& scene) const;
+    void remember(const scene::GpuScene& scene, const std::vector<View>& views);
 };
+
+namespace {
+
+Aabb casterBox(const scene::GpuScene& scene, std::size_t instance) {
+    return (scene.instances()[instance].flags & INSTANCE_CASTS_SHADOW) != 0 ? scene.instanceBounds(instance)
+                                                                            : Aabb{};
+}
+
+}  // namespace
+
+// Whether the maps hold the same views of the same scene, moved at most.
+bool ShadowMaps::Impl::keepsPlaces(const scene::GpuScene& scene, const std::vector<View>& views) const {
+    return sceneIdentity == scene.identity() &&
+           std::equal(views.begin(), views.end(), drawnViews.begin(), drawnViews.end(),
+                      [](const View& a, const View& b) { return a.samePlace(b); });
+}
+
+// Where casters have changed since the maps were drawn: old boxes and new ones.
+std::vector<Aabb> ShadowMaps::Impl::changedBoxes(const scene::GpuScene& scene) const {
+    std::vector<Aabb> boxes;
+    for (std::size_t i = 0; i < revisions.size(); ++i) {
+        if (revisions[i] == scene.instanceRevision(i)) continue;
+        for (const Aabb& box : {casterBoxes[i], casterBox(scene, i)})
+            if (!box.empty()) boxes.push_back(box);
+    }
+    return boxes;
+}
+
+void ShadowMaps::Impl::remember(const scene::GpuScene& scene, const std::vector<View>& views) {
+    drawnViews = views;
+    sceneIdentity = scene.identity();
+    revisions.resize(scene.instances().size());
+    casterBoxes.resize(revisions.size());
+    for (std::size_t i = 0; i < revisions.size(); ++i) {
+        revisions[i] = scene.instanceRevision(i);
+        casterBoxes[i] = casterBox(scene, i);
+    }
+}
 
 void ShadowMaps::Impl::draw(gl::ProgramLibrary& programs, const scene::GpuScene& scene, const View& view) {
     gl::RasterState state;
@@ -321,7 +376,7 @@ ShadowMaps::ShadowMaps() : impl_(std::make_unique<Impl>()) {
 ShadowMaps::~ShadowMaps() = default;
 
 void ShadowMaps::update(gl::ProgramLibrary& programs, gl::Profiler& profiler, scene::GpuScene& scene,
-                        const LightSettings& settings) {
+                        const LightSettings& settings, bool everything) {
     const gl::PassScope pass(profiler, "shadow maps");
 
     // Lay out the maps.
@@ -332,25 +387,44 @@ void ShadowMaps::update(gl::ProgramLibrary& programs, gl::Profiler& profiler, sc
         light.shadow = -1;
         light.sampleGrid = std::max(grid, 1u);
     }
-    Layout layout(scene.bounds(), settings);
+    Layout layout(scene.bounds(), scene.firstBounds(), settings);
     if (settings.shadowSize > 0) layout.add(lights);
     scene.updateLights(lights);
 
-    // Draw them.
+    // Draw them, or those that look different now or see a caster that changed.
+    impl_->redrawn = 0;
     if (layout.layers() == 0) {
         impl_->allocate(8, 1);
         return;
     }
     impl_->allocate(layout.size(), layout.layers());
+    const bool whole = everything || !impl_->keepsPlaces(scene, layout.views());
+    const std::vector<Aabb> changed = whole ? std::vector<Aabb>{} : impl_->changedBoxes(scene);
     const float nothing = 0.0f;
-    impl_->maps.clear(0, GL_DEPTH_COMPONENT, GL_FLOAT, &nothing);
-    for (const View& view : layout.views()) impl_->draw(programs, scene, view);
+    if (whole) impl_->maps.clear(0, GL_DEPTH_COMPONENT, GL_FLOAT, &nothing);
+    for (std::size_t i = 0; i < layout.views().size(); ++i) {
+        const View& view = layout.views()[i];
+        if (!whole) {
+            const bool touched = view.clipFromWorld != impl_->drawnViews[i].clipFromWorld ||
+                                 std::any_of(changed.begin(), changed.end(), [&](const Aabb& box) {
+                                     return !isOutside(view.clipFromWorld, box);
+                                 });
+            if (!touched) continue;
+            impl_->maps.clearRegion(0, {view.x, view.y, view.layer}, {view.width, view.height, 1},
+                                    GL_DEPTH_COMPONENT, GL_FLOAT);
+        }
+        impl_->draw(programs, scene, view);
+        ++impl_->redrawn;
+    }
+    impl_->remember(scene, layout.views());
 
     // Leave neither reversed depth nor a scissor behind.
     gl::RasterState plain;
     plain.framebuffer = &impl_->layers.front();
     gl::apply(plain);
 }
+
+int ShadowMaps::redrawn() const { return impl_->redrawn; }
 
 void ShadowMaps::bind() const {
     impl_->maps.bind(UNIT_SHADOW);

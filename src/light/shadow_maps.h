@@ -25,9 +25,12 @@ class ShadowMaps {
     ShadowMaps();
     ~ShadowMaps();
 
-    // Draws every map anew. Updates `scene`'s light table (GpuScene::updateLights). The scene must be bound.
+    // Brings the maps up to date: draws those of lights that changed, and those that see an instance that
+    // changed, where it was or where it is; with `everything` all. The depths are the same bit for bit.
+    // Updates `scene`'s light table (GpuScene::updateLights). The scene must be bound.
     void update(gl::ProgramLibrary& programs, gl::Profiler& profiler, scene::GpuScene& scene,
-                const LightSettings& settings);
+                const LightSettings& settings, bool everything = false);
+    int redrawn() const;  // maps that the last update drew
     // UNIT_SHADOW; before the first update a map without shadows.
     void bind() const;
 
