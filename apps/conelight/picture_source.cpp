@@ -28,8 +28,8 @@ struct Bake {
 };
 
 std::string keyOf(const reference::RadiositySettings& s) {
-    return fmt::format("{} {} {} {} {} {} {}", s.patchSize, s.maxSubdivision, s.subdivideError, s.residual,
-                       s.visibilityRays, s.bounces, s.seed);
+    return fmt::format("{} {} {} {} {} {} {} {} {}", s.patchSize, s.maxSubdivision, s.subdivideError, s.residual,
+                       s.patchRays, s.gatherRays, s.visibilityRays, s.bounces, s.seed);
 }
 
 // image += sign * other, rgb only.
@@ -45,11 +45,11 @@ bool isRendererMode(const std::string& name) {
 }
 
 bool isModeName(const std::string& name) {
-    return isRendererMode(name) || name == "reference" || (kRadiosity && name == "radiosity");
+    return isRendererMode(name) || name == "reference" || name == "radiosity";
 }
 
 std::string modeNames() {
-    return kRadiosity ? "phong, thesis, cones, reference or radiosity" : "phong, thesis, cones or reference";
+    return "phong, thesis, cones, reference or radiosity";
 }
 
 void requireModeName(const std::string& name) {
@@ -195,7 +195,7 @@ const Bake& PictureSource::Impl::bake(std::optional<Bake>& kept, const reference
     show(progress, "radiosity");
     const StoppableScope stoppable;
     const auto onProgress = [&](const reference::RadiosityProgress& now) {
-        std::string text = fmt::format("radiosity: {:.2g} % of the light is under way", 100 * now.residual);
+        std::string text = fmt::format("radiosity: {:.0f} %", 100 * now.done);
         if (now.secondsLeft >= 0) text += ", " + timeText(now.secondsLeft) + " left";
         show(progress, text);
         return !interrupted();
@@ -203,8 +203,7 @@ const Bake& PictureSource::Impl::bake(std::optional<Bake>& kept, const reference
     uploaded = nullptr;  // the renderer may hold the bake that is replaced
     kept.emplace();
     kept->key = keyOf(settings);
-    if constexpr (kRadiosity)
-        kept->scene = reference::bakeRadiosity(*scene, settings, &kept->stats, onProgress);
+    kept->scene = reference::bakeRadiosity(*scene, settings, &kept->stats, onProgress);
     picture.stopped = interrupted();
     return *kept;
 }

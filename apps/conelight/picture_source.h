@@ -16,9 +16,6 @@
 
 namespace conelight::program {
 
-// Whether mode radiosity is there; until then nothing of it can be reached.
-constexpr bool kRadiosity = false;
-
 // A mode's name on the command line: those of the renderer, and `reference` and `radiosity`, which run on the
 // CPU and are no modes of it.
 bool isModeName(const std::string& name);

@@ -8,6 +8,7 @@
 
 #include "command.h"
 #include "conelight/error.h"
+#include "io/gltf_write.h"
 #include "io/image_file.h"
 #include "picture_file.h"
 #include "picture_source.h"
@@ -63,7 +64,12 @@ void checkFiles(const RenderOptions& options) {
                   ": --aov: this format holds one picture; a name ending in .exr would be right");
         io::checkWritable(options.output);
     }
-    if (!options.radiosity.bakeFile.empty()) io::checkWritable(options.radiosity.bakeFile);
+    if (!options.radiosity.bakeFile.empty()) {
+        const std::string extension = std::filesystem::path(options.radiosity.bakeFile).extension().string();
+        if (extension != ".glb" && extension != ".gltf")
+            usage("--bake: " + options.radiosity.bakeFile + ": a name ending in .glb or .gltf would be right");
+        io::checkWritable(options.radiosity.bakeFile);
+    }
     if (!options.statsFile.empty()) io::checkWritable(options.statsFile);
 }
 
@@ -168,6 +174,11 @@ void run(const RenderOptions& options) {
         writePicture(options.output, picture.images.front(), request.settings.image,
                      layersOf(options, picture));
     }
+    if (!options.radiosity.bakeFile.empty()) {
+        progress.show("writing " + options.radiosity.bakeFile);
+        const WritingScope writing;
+        io::writeGltf(options.radiosity.bakeFile, source.bakedScene(request.radiosity, &progress));
+    }
     if (!options.statsFile.empty()) writeJson(options.statsFile, statsOf(options, request, picture));
     progress.finish();
     if (picture.stopped) endStopped(options, request, picture);
@@ -210,7 +221,7 @@ void addRender(CLI::App& app) {
                      "shaders from this folder instead of the built-in ones")
         ->type_name("DIR");
     options->tracer.addTo(*command);
-    if (kRadiosity) options->radiosity.addTo(*command);
+    options->radiosity.addTo(*command);
     options->view.addTo(*command);
     command->callback([options] { run(*options); });
 }

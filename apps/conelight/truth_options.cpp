@@ -83,26 +83,30 @@ void RadiosityOptions::addTo(CLI::App& command) {
     command_ = &command;
     command
         .add_option("--patch", values.patchSize,
-                    "mode radiosity: longest edge of the coarsest patches, m (default: a 24th of the scene)")
+                    "mode radiosity: longest edge of the patches that exchange light, m (default: a 16th of the scene)")
         ->type_name("M")
         ->check(CLI::PositiveNumber);
     command
         .add_option("--subdivide", values.maxSubdivision,
-                    "mode radiosity: halvings of patches where the light changes fast")
+                    "mode radiosity: further halvings where the light changes fast")
         ->capture_default_str()
         ->type_name("N")
         ->check(CLI::Range(0, 8));
     command
         .add_option("--residual", values.residual,
-                    "mode radiosity: stop when less than this part of all light is still under way")
+                    "mode radiosity: stop when an iteration changes the light by less than this part")
         ->capture_default_str()
         ->type_name("X")
         ->check(CLI::Range(1e-6, 1.0));
-    command
-        .add_option("--visibility-rays", values.visibilityRays, "mode radiosity: rays per pair of patches")
+    command.add_option("--gather-rays", values.gatherRays, "mode radiosity: per vertex, for the last bounce")
         ->capture_default_str()
         ->type_name("N")
-        ->check(CLI::Range(1, 256));
+        ->check(CLI::Range(16, 65536));
+    command
+        .add_option("--visibility-rays", values.visibilityRays, "mode radiosity: per vertex and area light in its penumbra")
+        ->capture_default_str()
+        ->type_name("N")
+        ->check(CLI::Range(16, 4096));
     command.add_flag("--specular", specular,
                      "mode radiosity: reflections on top, by the path tracer (takes --spp and --noise)");
     command
@@ -113,7 +117,7 @@ void RadiosityOptions::addTo(CLI::App& command) {
 
 std::string RadiosityOptions::given() const {
     return firstGiven(command_,
-                      {"--patch", "--subdivide", "--residual", "--visibility-rays", "--specular", "--bake"});
+                      {"--patch", "--subdivide", "--residual", "--gather-rays", "--visibility-rays", "--specular", "--bake"});
 }
 
 int parseBounces(const std::string& text, int most) {
