@@ -28,8 +28,8 @@ struct Bake {
 };
 
 std::string keyOf(const reference::RadiositySettings& s) {
-    return fmt::format("{} {} {} {} {} {} {} {} {}", s.patchSize, s.maxSubdivision, s.subdivideError, s.residual,
-                       s.patchRays, s.gatherRays, s.visibilityRays, s.bounces, s.seed);
+    return fmt::format("{} {} {} {} {} {} {} {} {}", s.patchSize, s.maxSubdivision, s.subdivideError,
+                       s.residual, s.patchRays, s.gatherRays, s.visibilityRays, s.bounces, s.seed);
 }
 
 // image += sign * other, rgb only.
@@ -48,9 +48,7 @@ bool isModeName(const std::string& name) {
     return isRendererMode(name) || name == "reference" || name == "radiosity";
 }
 
-std::string modeNames() {
-    return "phong, thesis, cones, reference or radiosity";
-}
+std::string modeNames() { return "phong, thesis, cones, reference or radiosity"; }
 
 void requireModeName(const std::string& name) {
     if (isModeName(name)) return;

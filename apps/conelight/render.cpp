@@ -67,7 +67,8 @@ void checkFiles(const RenderOptions& options) {
     if (!options.radiosity.bakeFile.empty()) {
         const std::string extension = std::filesystem::path(options.radiosity.bakeFile).extension().string();
         if (extension != ".glb" && extension != ".gltf")
-            usage("--bake: " + options.radiosity.bakeFile + ": a name ending in .glb or .gltf would be right");
+            usage("--bake: " + options.radiosity.bakeFile +
+                  ": a name ending in .glb or .gltf would be right");
         io::checkWritable(options.radiosity.bakeFile);
     }
     if (!options.statsFile.empty()) io::checkWritable(options.statsFile);

@@ -83,7 +83,8 @@ void RadiosityOptions::addTo(CLI::App& command) {
     command_ = &command;
     command
         .add_option("--patch", values.patchSize,
-                    "mode radiosity: longest edge of the patches that exchange light, m (default: a 16th of the scene)")
+                    "mode radiosity: longest edge of the patches that exchange light, m (default: a 16th of "
+                    "the scene)")
         ->type_name("M")
         ->check(CLI::PositiveNumber);
     command
@@ -103,7 +104,8 @@ void RadiosityOptions::addTo(CLI::App& command) {
         ->type_name("N")
         ->check(CLI::Range(16, 65536));
     command
-        .add_option("--visibility-rays", values.visibilityRays, "mode radiosity: per vertex and area light in its penumbra")
+        .add_option("--visibility-rays", values.visibilityRays,
+                    "mode radiosity: per vertex and area light in its penumbra")
         ->capture_default_str()
         ->type_name("N")
         ->check(CLI::Range(16, 4096));
@@ -116,8 +118,8 @@ void RadiosityOptions::addTo(CLI::App& command) {
 }
 
 std::string RadiosityOptions::given() const {
-    return firstGiven(command_,
-                      {"--patch", "--subdivide", "--residual", "--gather-rays", "--visibility-rays", "--specular", "--bake"});
+    return firstGiven(command_, {"--patch", "--subdivide", "--residual", "--gather-rays", "--visibility-rays",
+                                 "--specular", "--bake"});
 }
 
 int parseBounces(const std::string& text, int most) {

@@ -212,14 +212,18 @@ void completeScene(Scene& scene) {
         scene.notes.emplace_back("no camera in the scene: one that frames it was added");
     }
     bool emits = glm::dot(scene.sky, glm::vec3(1)) > 0;
+    bool needsLight = false;  // baked scenes are unlit throughout
     for (const Light& light : scene.lights) emits |= light.enabled;
     for (const Instance& instance : scene.instances) {
-        if (!instance.visible || instance.material < 0) continue;
+        if (!instance.visible) continue;
+        needsLight |=
+            instance.material < 0 || !scene.materials[static_cast<std::size_t>(instance.material)].unlit;
+        if (instance.material < 0) continue;
         const Material& material = scene.materials[static_cast<std::size_t>(instance.material)];
         emits |= !material.unlit && glm::dot(material.emission, glm::vec3(1)) > 0 &&
                  isMostlyLit(scene, material.emissiveTexture);
     }
-    if (!emits && !bounds.empty()) {
+    if (!emits && needsLight && !bounds.empty()) {
         // A headlight that gives a white surface at the centre of the view the radiance 1.
         const Camera& camera = scene.cameras.front();
         Light light;
