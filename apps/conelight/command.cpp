@@ -78,6 +78,11 @@ void ViewOptions::addTo(CLI::App& command) {
     command.add_option("--size", size, "picture size")->capture_default_str()->type_name("WxH");
     command.add_option("--voxels", voxels, "voxels along the longest axis (same as --set voxels.size=N)")
         ->type_name("N");
+    command
+        .add_option("--quality", quality,
+                    "work of mode traced: draft, interactive, high or converged (same as --set "
+                    "traced.quality=NAME before all others)")
+        ->type_name("NAME");
     command.add_option("--camera", camera, "a camera of the scene: its name, or its number from 0")
         ->type_name("NAME");
     command.add_option("--eye", eye, "camera position instead of a camera of the scene")->type_name("X,Y,Z");
@@ -117,6 +122,7 @@ Scene openScene(const std::string& path, const ViewOptions& options, Progress& p
 
 Settings settingsFor(const Scene& scene, const std::string& mode, const ViewOptions& options) {
     Settings settings = startSettings(scene, mode);
+    if (!options.quality.empty()) setSetting(settings, "traced.quality", options.quality);
     if (options.voxels != 0) setSetting(settings, "voxels.size", std::to_string(options.voxels));
     for (const std::string& set : options.sets) {
         const std::size_t equals = set.find('=');

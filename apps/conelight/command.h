@@ -54,6 +54,7 @@ std::vector<std::string> splitList(const std::string& text);  // "a,b" -> a and 
 struct ViewOptions {
     std::string size = "800x600";
     int voxels = 0;  // 0: the setting's default
+    std::string quality;
     std::string camera;
     std::string eye, target;
     double fovDeg = 0;

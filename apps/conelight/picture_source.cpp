@@ -41,14 +41,14 @@ void add(Image& image, const Image& other, float sign) {
 }  // namespace
 
 bool isRendererMode(const std::string& name) {
-    return name == "phong" || name == "thesis" || name == "cones";
+    return name == "phong" || name == "thesis" || name == "cones" || name == "traced";
 }
 
 bool isModeName(const std::string& name) {
     return isRendererMode(name) || name == "reference" || name == "radiosity";
 }
 
-std::string modeNames() { return "phong, thesis, cones, reference or radiosity"; }
+std::string modeNames() { return "phong, thesis, cones, traced, reference or radiosity"; }
 
 void requireModeName(const std::string& name) {
     if (isModeName(name)) return;

@@ -20,12 +20,12 @@ namespace conelight::program {
 // CPU and are no modes of it.
 bool isModeName(const std::string& name);
 bool isRendererMode(const std::string& name);
-std::string modeNames();                         // "phong, thesis, cones, reference or radiosity"
+std::string modeNames();                         // "phong, thesis, cones, traced, reference or radiosity"
 void requireModeName(const std::string& name);   // throws Error(Usage) that names them
 Component componentOf(const std::string& name);  // throws Error(Usage) that names them
 
 struct PictureRequest {
-    std::string mode = "cones";
+    std::string mode = "traced";
     Settings settings;  // its mode and component are overwritten
     Camera camera;
     Size size;

@@ -196,7 +196,7 @@ void addRender(CLI::App& app) {
         ->required();
     command->add_option("-o,--output", options->output,
                         "picture: .png .jpg (tone-mapped), .exr .hdr (linear radiance)");
-    command->add_option("--mode", options->mode, modeNames() + " (default cones)");
+    command->add_option("--mode", options->mode, modeNames() + " (default traced)");
     command
         ->add_option("--component", options->component,
                      "full, direct, indirect, diffuse or specular; but for mode reference also occlusion, "
@@ -205,7 +205,7 @@ void addRender(CLI::App& app) {
     command
         ->add_option("--bounces", options->bounces,
                      "indirect bounces, or all: 0 = direct light and emission seen; mode cones: 0 to 8, all "
-                     "is 8; modes reference and radiosity: any number, all is the default")
+                     "is 8; traced: 0 to 15 or all; modes reference and radiosity: any number, all is the default")
         ->type_name("N");
     command
         ->add_option("--aov", options->aovs,

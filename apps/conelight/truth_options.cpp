@@ -136,6 +136,13 @@ int parseBounces(const std::string& text, int most) {
 
 void applyBounces(Settings& settings, const std::string& bounces) {
     if (bounces.empty()) return;
+    if (settings.mode == Mode::Traced) {
+        constexpr int kMost = 15;  // the next number, 16, stands for all
+        const int count = parseBounces(bounces, kMost);
+        settings.traced.bounces = count < 0 ? kMost + 1 : count;
+        if (count == 0 && settings.component == Component::Full) settings.component = Component::Direct;
+        return;
+    }
     constexpr int kAll = 8;  // what is left after 8 more bounces is below 1 % even at albedo 0.55
     const int count = parseBounces(bounces, kAll);
     settings.cones.bounces = count < 0 ? kAll : count;

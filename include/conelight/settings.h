@@ -15,6 +15,7 @@ enum class Mode {
     Phong,   // local illumination only, the thesis's Phong model with its attenuation
     Thesis,  // the thesis's renderer
     Cones,   // energy-normalised cone tracing, physically based shading
+    Traced,  // rays through surface voxels, irradiance cached per voxel face, unlimited bounces
 };
 
 // What is shown. Indirect = Diffuse + Specular (the gathered parts).
@@ -174,6 +175,33 @@ struct ConesSettings {
     bool operator==(const ConesSettings&) const = default;
 };
 
+// How much work mode `traced` spends on a picture; each fills in TracedSettings (applyQuality).
+enum class Quality { Draft, Interactive, High, Converged };
+
+// Defaults are those of Quality::Interactive.
+struct TracedSettings {
+    Quality quality = Quality::Interactive;  // the preset that was applied last; of no effect by itself
+    // Pixels
+    int pixelRays = 1;  // rays by the cosine per pixel and pass, as many again to bright faces; 0: the cache
+                        // is shown; 0..64
+    int specularRays = 1;        // rays per pixel and pass into the specular lobe; 0..16
+    float specularLimit = 0.6f;  // rougher surfaces reflect their irradiance instead; 0..1
+    int passes = 16;             // of pixel rays that are averaged; 1..1024
+    int filterLevels = 2;        // of the edge-stopping filter: 0 none, 1 3x3, 2 7x7, 3 15x15 pixels; 0..4
+    // Cache of irradiance
+    int cacheRays = 2;      // rays by the cosine per face and update, as many again to bright faces; 1..64
+    int cacheUpdates = 32;  // updates of all faces until the cache is left as it is; 1..4096
+    int faceBudget = 0;     // faces updated per call when budgeted; 0: all
+    int bounces = 16;       // of indirect light; 16: all; 0..16
+    bool exactHits = true;  // light of point, spot and directional lights is looked up where rays hit
+    // Off: a call returns a finished picture, with all updates and passes. On: each call does one update and
+    // one pass, and what came before is reused where it is still seen.
+    bool budgeted = false;
+    bool operator==(const TracedSettings&) const = default;
+};
+// Fills in all fields but `bounces` and `budgeted`.
+void applyQuality(TracedSettings& settings, Quality quality);
+
 struct ImageSettings {
     float exposure =
         0.0f;  // stops: the linear image is multiplied by 2^exposure before the tone map; -20..20
@@ -182,13 +210,14 @@ struct ImageSettings {
 };
 
 struct Settings {
-    Mode mode = Mode::Cones;
+    Mode mode = Mode::Traced;
     Component component = Component::Full;
     VoxelSettings voxels;
     LightSettings light;
     PhongSettings phong;
     ThesisSettings thesis;
     ConesSettings cones;
+    TracedSettings traced;
     ImageSettings image;
 };
 

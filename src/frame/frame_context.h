@@ -9,6 +9,7 @@
 #include "gl/texture.h"
 #include "light/shadow_maps.h"
 #include "scene/gpu_scene.h"
+#include "shared/frame.h"
 #include "view/gbuffer.h"
 
 namespace conelight::frame {
@@ -19,6 +20,7 @@ struct FrameContext {
     const Scene& source;
     scene::GpuScene& scene;
     const Settings& settings;
+    const gpu::FrameConstants& view;  // the camera; what the frame block holds
     int width;
     int height;
     view::GBuffer& gbuffer;      // drawn before the mode runs; textures still to be bound

@@ -5,6 +5,7 @@
 #include "frame/cones_mode.h"
 #include "frame/phong_mode.h"
 #include "frame/thesis_mode.h"
+#include "frame/traced_mode.h"
 
 namespace conelight::frame {
 
@@ -18,6 +19,9 @@ std::unique_ptr<ModeRenderer> makeModeRenderer(Mode mode) {
 
         case Mode::Cones:
             return std::make_unique<ConesMode>();
+
+        case Mode::Traced:
+            return std::make_unique<TracedMode>();
     }
     base::fail(ErrorKind::Usage, "mode: not built yet");
 }

@@ -60,12 +60,13 @@ struct Renderer::Impl {
     light::ShadowMaps shadows;
     std::optional<Targets> targets;
     image::Display display;
+    gpu::FrameConstants constants{};
     gl::Buffer frameBlock{sizeof(gpu::FrameConstants), "frame constants"};
     gl::Buffer lookupCounters{16, "lookup counters"};
 
     // What the current volumes were built for.
     std::unique_ptr<frame::ModeRenderer> mode;
-    Mode modeKind = Mode::Cones;
+    Mode modeKind = Mode::Traced;
     std::optional<Settings> builtFor;
     bool sceneChanged = true;
     std::uint64_t geometryRevision = 0, lightRevision = 0;
@@ -200,7 +201,8 @@ void Renderer::Impl::render(const Camera& camera, int width, int height, const S
     const bool debugView = image::isDebugView(settings.component);
     scene->bind();
     if (!debugView) prepareMode(settings);
-    frameBlock.update(view::frameConstants(camera, width, height, *scene, source.sky, frameIndex++, 0));
+    constants = view::frameConstants(camera, width, height, *scene, source.sky, frameIndex++, 0);
+    frameBlock.update(constants);
     frameBlock.bindUniform(BINDING_FRAME);
     lookupCounters.clear();
 
@@ -249,8 +251,8 @@ void Renderer::Impl::prepareMode(const Settings& settings) {
 }
 
 void Renderer::Impl::drawMode(int width, int height, const Settings& settings) {
-    mode->render({programs, profiler, source, *scene, settings, width, height, targets->gbuffer, shadows,
-                  targets->output, geometryChanged, everyFrame, lightChanged,
+    mode->render({programs, profiler, source, *scene, settings, constants, width, height, targets->gbuffer,
+                  shadows, targets->output, geometryChanged, everyFrame, lightChanged,
                   countLookups ? &lookupCounters : nullptr});
     sceneChanged = skyChanged = false;
     geometryRevision = scene->geometryRevision();

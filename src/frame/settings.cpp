@@ -19,7 +19,8 @@ struct Choice {
     T value;
 };
 
-constexpr Choice<Mode> kModes[] = {{"phong", Mode::Phong}, {"thesis", Mode::Thesis}, {"cones", Mode::Cones}};
+constexpr Choice<Mode> kModes[] = {
+    {"phong", Mode::Phong}, {"thesis", Mode::Thesis}, {"cones", Mode::Cones}, {"traced", Mode::Traced}};
 constexpr Choice<Component> kComponents[] = {
     {"full", Component::Full},       {"direct", Component::Direct},     {"indirect", Component::Indirect},
     {"diffuse", Component::Diffuse}, {"specular", Component::Specular}, {"occlusion", Component::Occlusion},
@@ -60,6 +61,38 @@ void visitCones(S& s, V& visit) {
     visit.integer("cones.bounces", s.bounces, 0, 8, 1, "", "bounces of indirect light; 0: none");
     visit.integer("cones.voxel_level", s.voxelLevel, 0, 6, 1, "",
                   "level of the volume that component voxels shows");
+}
+
+constexpr Choice<Quality> kQualities[] = {{"draft", Quality::Draft},
+                                          {"interactive", Quality::Interactive},
+                                          {"high", Quality::High},
+                                          {"converged", Quality::Converged}};
+
+template <class S, class V>
+void visitTraced(S& s, V& visit) {
+    visit.choice("traced.quality", s.quality, kQualities,
+                 "fills in the other settings of this group (all but bounces and budgeted); set it first");
+    visit.integer("traced.pixel_rays", s.pixelRays, 0, 64, 1, "",
+                  "rays by the cosine per pixel and pass, as many again to bright faces; 0: the cache alone");
+    visit.integer("traced.specular_rays", s.specularRays, 0, 16, 1, "",
+                  "rays per pixel and pass into the specular lobe");
+    visit.number("traced.specular_limit", s.specularLimit, 0.0, 1.0, "",
+                 "surfaces of more roughness reflect their irradiance, without rays");
+    visit.integer("traced.passes", s.passes, 1, 1024, 1, "", "passes of pixel rays that are averaged");
+    visit.integer("traced.filter_levels", s.filterLevels, 0, 4, 1, "",
+                  "edge-stopping filter: 0 none, 1 3x3, 2 7x7, 3 15x15, 4 31x31 pixels");
+    visit.integer("traced.cache_rays", s.cacheRays, 1, 64, 1, "",
+                  "rays by the cosine per voxel face and update, as many again to bright faces");
+    visit.integer("traced.cache_updates", s.cacheUpdates, 1, 4096, 1, "",
+                  "updates of all faces after a change, until the cache is left as it is");
+    visit.integer("traced.face_budget", s.faceBudget, 0, 100000000, 1, "faces",
+                  "faces updated per budgeted frame; 0: all");
+    visit.integer("traced.bounces", s.bounces, 0, 16, 1, "", "bounces of indirect light; 16: all");
+    visit.boolean("traced.exact_hits", s.exactHits,
+                  "look up the light of point, spot and directional lights where rays hit, by shadow map");
+    visit.boolean("traced.budgeted", s.budgeted,
+                  "one update and one pass per frame, reusing frames before, for moving pictures; off: every "
+                  "frame is finished");
 }
 
 constexpr Choice<Toggle> kToggles[] = {{"auto", Toggle::Auto}, {"off", Toggle::Off}, {"on", Toggle::On}};
@@ -236,6 +269,7 @@ void visitAll(S& s, V&& visit) {
                  "shadow maps in mode phong; auto: not in scenes of the thesis's format");
     visitThesis(s.thesis, visit);
     visitCones(s.cones, visit);
+    visitTraced(s.traced, visit);
     visit.number("image.exposure", s.image.exposure, -20.0, 20.0, "stops",
                  "brightness before the tone map: 2^exposure");
     visit.choice("image.tone_map", s.image.toneMap, kToneMaps,
@@ -481,6 +515,42 @@ void setSetting(Settings& settings, const std::string& key, const std::string& v
     Setter setter{key, value};
     visitAll(settings, setter);
     if (!setter.found) unknownKey(key);
+    if (key == "traced.quality") applyQuality(settings.traced, settings.traced.quality);
+}
+
+void applyQuality(TracedSettings& settings, Quality quality) {
+    const int bounces = settings.bounces;
+    const bool budgeted = settings.budgeted;
+    TracedSettings s;  // interactive
+    s.quality = quality;
+    switch (quality) {
+        case Quality::Draft:
+            s.pixelRays = 0;
+            s.specularLimit = 0.4f;
+            s.passes = 4;
+            s.filterLevels = 1;
+            s.cacheUpdates = 48;
+            break;
+        case Quality::Interactive:
+            break;
+        case Quality::High:
+            s.pixelRays = 4;
+            s.specularRays = 2;
+            s.specularLimit = 1;
+            s.cacheUpdates = 64;
+            break;
+        case Quality::Converged:
+            s.pixelRays = 8;
+            s.specularRays = 8;
+            s.specularLimit = 1;
+            s.filterLevels = 0;
+            s.cacheRays = 8;
+            s.cacheUpdates = 46;
+            break;
+    }
+    s.bounces = bounces;
+    s.budgeted = budgeted;
+    settings = s;
 }
 
 void validateSettings(const Settings& settings) {

@@ -11,6 +11,7 @@
 #include "conelight/shaders.h"
 #include "frame/cones_mode.h"
 #include "frame/thesis_mode.h"
+#include "frame/traced_mode.h"
 #include "gather/cone_gather.h"
 #include "gather/direct_light.h"
 #include "gather/phong_shade.h"
@@ -71,6 +72,7 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     add(gather::ConeGather::programDescs());
     add(frame::ConesMode::programDescs());
     add(ThesisMode::programDescs());
+    add(TracedMode::programDescs());
     add(image::debugViewProgramDescs());
     add(image::Display::programDescs());
     return all;

@@ -73,7 +73,8 @@ std::vector<std::string> goodValues(const SettingInfo& info) {
 TEST(SettingsTest, EachHasWhatTheManualShows) {
     const std::set<std::string> types{"bool", "int", "float", "auto float", "choice"};
     const std::set<std::string> units{"",           "rad",       "m",     "voxels", "texels",  "stops",
-                                      "footprints", "diameters", "cones", "deg",    "samples", "steps"};
+                                      "footprints", "diameters", "cones", "deg",    "samples", "steps",
+                                      "faces"};
     std::set<std::string> keys;
     for (const SettingInfo& info : settingInfos()) {
         EXPECT_TRUE(keys.insert(info.key).second) << info.key << " twice";
@@ -101,12 +102,30 @@ TEST(SettingsTest, DefaultsAreUsableAndAreTheStructs) {
     EXPECT_NO_THROW(validateSettings(settings));
     EXPECT_EQ(getSetting(settings, "voxels.size"), "128");
     EXPECT_EQ(getSetting(settings, "voxels.padding"), "0.03");
-    EXPECT_EQ(getSetting(settings, "mode"), "cones");
+    EXPECT_EQ(getSetting(settings, "mode"), "traced");
     EXPECT_EQ(getSetting(settings, "cones.max_distance"), "auto");
+}
+
+// A quality fills in the group, which stays open to single settings; bounces and budgeted are not its own.
+TEST(SettingsTest, QualityFillsInItsGroup) {
+    Settings settings;
+    setSetting(settings, "traced.bounces", "3");
+    setSetting(settings, "traced.budgeted", "true");
+    setSetting(settings, "traced.quality", "draft");
+    EXPECT_EQ(getSetting(settings, "traced.pixel_rays"), "0");
+    EXPECT_EQ(getSetting(settings, "traced.bounces"), "3");
+    EXPECT_EQ(getSetting(settings, "traced.budgeted"), "true");
+    setSetting(settings, "traced.pixel_rays", "5");
+    EXPECT_EQ(settings.traced.pixelRays, 5);
+    setSetting(settings, "traced.quality", "interactive");
+    setSetting(settings, "traced.bounces", "16");
+    setSetting(settings, "traced.budgeted", "false");
+    EXPECT_EQ(settings.traced, TracedSettings{});
 }
 
 TEST(SettingsTest, EachTakesItsRangeAndGivesItBack) {
     for (const SettingInfo& info : settingInfos()) {
+        if (info.key == "traced.quality") continue;  // sets others as well: the test above
         for (const std::string& value : goodValues(info)) {
             Settings settings;
             ASSERT_NO_THROW(setSetting(settings, info.key, value)) << info.key << "=" << value;

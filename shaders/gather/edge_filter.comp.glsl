@@ -1,0 +1,75 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// One level of an edge-stopping filter over a gathered picture (lib/pixel_history.glsl): 3x3 taps FILTER_STEP
+// pixels apart, weights 1 2 1. Levels of 1, 2, 4 pixels after each other reach over 3, 7, 15 pixels
+// (a-trous wavelets: Dammertz et al. 2010, "Edge-Avoiding A-Trous Wavelet Transform for fast Global
+// Illumination Filtering"). A tap counts by its normal (power 32) and its distance from the pixel's plane in
+// voxels, and only on the same instance with no other surface half way between: so light does not cross thin
+// walls. SPECULAR 1: the reach grows with roughness, none at a mirror.
+#if !defined(FILTER_STEP) || !defined(SPECULAR)
+#error FILTER_STEP must be 1, 2, 4 or 8, SPECULAR 0 or 1
+#endif
+#include "lib/gbuffer.glsl"
+#include "lib/pixel_history.glsl"
+#include "shared/pixel_rays.h"
+layout(std140, binding = BINDING_PASS) uniform PixelRayBlock { PixelRayConstants pixelRays; };
+layout(binding = PIXEL_UNIT_HISTORY) uniform usampler2D source;
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(rgba32ui, binding = 0) writeonly uniform uimage2D result;
+
+vec3 positionOf(ivec2 pixel, uvec4 bits) { return frame.eye + pixelHistoryDepth(bits) * pixelRay(pixel); }
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 size = imageSize(result);
+    uvec4 own = texelFetch(source, min(pixel, size - 1), 0);
+    vec3 position = positionOf(pixel, own);
+    vec3 normal = pixelHistoryNormal(own);
+    vec3 sum = 4.0 * pixelHistoryValue(own);
+    float weights = 4.0;
+    float reach = 1.0;
+#if SPECULAR
+    float roughness = unpackUnorm2x16(texelFetch(gbufferMaterial, min(pixel, size - 1), 0).y).y;
+    reach = clamp(2.0 * roughness, 0.0, 1.0) / float(FILTER_STEP);
+    reach *= reach;
+#endif
+    float certainty = sqrt(max(pixelHistoryCount(own), 1.0) * float(pixelRays.rays)) / 2.0;
+    for (int i = 0; i < 8; ++i) {
+        int k = i < 4 ? i : i + 1;  // the middle is our own
+        ivec2 offset = ivec2(k % 3, k / 3) - 1;
+        ivec2 q = pixel + FILTER_STEP * offset;
+        bool inside = all(greaterThanEqual(q, ivec2(0))) && all(lessThan(q, size));
+        uvec4 bits = texelFetch(source, clamp(q, ivec2(0), size - 1), 0);
+        float tap = offset.x == 0 || offset.y == 0 ? 2.0 : 1.0;
+        float offPlane = dot(positionOf(q, bits) - position, normal) * pixelRays.inverseVoxelSize;
+        float turned = max(dot(pixelHistoryNormal(bits), normal), 0.0);
+        turned *= turned;
+        turned *= turned;
+        turned *= turned;
+        turned *= turned;
+        turned *= turned;
+        bool same = inside && bits.z != 0u && pixelHistoryInstance(bits) == pixelHistoryInstance(own);
+#if FILTER_STEP > 1
+        uvec4 middle = texelFetch(source, clamp(pixel + FILTER_STEP / 2 * offset, ivec2(0), size - 1), 0);
+        float middleOff = dot(positionOf(pixel + FILTER_STEP / 2 * offset, middle) - position, normal);
+        same = same && pixelHistoryInstance(middle) == pixelHistoryInstance(own) &&
+               abs(middleOff) * pixelRays.inverseVoxelSize < 0.5;
+#endif
+#if !SPECULAR
+        // Noise of a mean of n rays is about 1 / sqrt(n) of it; twice that is another light, as across
+        // a wall too thin for a pixel.
+        vec3 a = pixelHistoryValue(own);
+        vec3 b = pixelHistoryValue(bits);
+        float relative = dot(abs(a - b), vec3(1.0)) / max(dot(a + b, vec3(1.0)), 1e-6) * certainty;
+        tap *= max(1.0 - relative * relative, 0.0);
+#endif
+        tap *= same ? turned * reach * max(1.0 - 4.0 * offPlane * offPlane, 0.0) : 0.0;
+        sum += tap * pixelHistoryValue(bits);
+        weights += tap;
+    }
+    if (any(greaterThanEqual(pixel, size))) return;
+    vec3 value = own.z != 0u ? sum / weights : vec3(0.0);
+    imageStore(
+        result, pixel,
+        uvec4(packHalf2x16(value.rg), packHalf2x16(vec2(value.b, 0.0)) | (own.y & 0xffff0000u), own.zw));
+}

@@ -1,0 +1,48 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// G-buffer -> irradiance / pi by rays through the voxels (lib/voxel_light.glsl), averaged with the passes and
+// frames before (lib/temporal.glsl). The surface's colour is left out, so that filters keep textures sharp.
+// OCCLUSION 1: instead the open part of the hemisphere; surfaces count less the farther they are.
+#ifndef OCCLUSION
+#error OCCLUSION must be 0 or 1
+#endif
+#include "lib/temporal.glsl"
+#include "lib/voxel_light.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(rgba32ui, binding = 0) writeonly uniform uimage2D result;
+
+#if OCCLUSION
+float openness(vec3 origin, vec3 normal, uint seed) {
+    float sum = 0.0;
+    int i = 0;
+    do {
+        vec3 direction =
+            cosineDirection(normal, sequencePoint(seed, pixelRays.pass * pixelRays.rays + uint(i)));
+        VoxelHit hit = traceVoxels(origin, direction, pixelRays.reach);
+        sum += hit.face >= 0 ? hit.t / pixelRays.reach : 1.0;
+    } while (++i < int(pixelRays.rays));
+    return sum / float(pixelRays.rays);
+}
+#endif
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    Surface s;
+    bool seen = fetchSurface(min(pixel, imageSize(result) - 1), s);
+    bool matt = seen && !s.unlit && (s.metallic < 1.0 || s.roughness > pixelRays.specularLimit);
+    // Pixels without need of it send rays out of the grid, which end at once.
+    const vec3 away = vec3(-1.0, 0.0, 0.0);
+    vec3 normal = matt ? s.normal : away;
+    vec3 origin = matt ? rayOrigin(gridFromWorld(s.position), s.geometricNormal) : 16.0 * away;
+    uint seed = randomHash(uint(pixel.x) | uint(pixel.y) << 16);
+#if OCCLUSION
+    vec3 value = vec3(openness(origin, normal, seed));
+#else
+    float backs;
+    vec3 value =
+        gatherIrradianceSequence(origin, matt ? s.geometricNormal : away, normal, int(pixelRays.rays),
+                                 int(pixelRays.rays), seed, pixelRays.pass, backs);
+#endif
+    if (any(greaterThanEqual(pixel, imageSize(result)))) return;
+    imageStore(result, pixel, withPass(pixel, s, seen, matt ? value : vec3(0.0), pixelRays.longestMean));
+}

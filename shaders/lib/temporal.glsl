@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// What a pixel's surface showed in the picture so far, and how many passes are behind that; and the mean with
+// a new value. Reprojection with rejection after Nehab et al. 2007, "Accelerating Real-Time Shading with
+// Reverse Reprojection Caching"; docs/theory/4_gather.md, "Over frames".
+//
+// TEMPORAL 0: nothing so far. 1: the picture so far has the same view: its pixel is ours. 2: it has another
+//   view (pixelRays.old*): of the four pixels about the place, those count that show our surface, by plane,
+//   normal and instance.
+// MOTION 1 (with TEMPORAL 2): instances have moved as well (PIXEL_MOTION).
+#if !defined(TEMPORAL) || !defined(MOTION)
+#error TEMPORAL must be 0, 1 or 2, MOTION 0 or 1
+#endif
+#include "lib/gbuffer.glsl"
+#include "lib/pixel_history.glsl"
+#include "shared/pixel_rays.h"
+layout(std140, binding = BINDING_PASS) uniform PixelRayBlock { PixelRayConstants pixelRays; };
+layout(binding = PIXEL_UNIT_HISTORY) uniform usampler2D pixelHistory;
+#if MOTION
+layout(std430, binding = PIXEL_MOTION) readonly buffer Motion { mat4 oldFromWorld[]; };
+#endif
+
+// rgb and number of passes, 0 where there is nothing to go by.
+vec4 valueSoFar(ivec2 pixel, Surface s) {
+#if TEMPORAL == 0
+    return vec4(0.0);
+#elif TEMPORAL == 1
+    uvec4 bits = texelFetch(pixelHistory, pixel, 0);
+    return bits.z != 0u ? vec4(pixelHistoryValue(bits), pixelHistoryCount(bits)) : vec4(0.0);
+#else
+    vec3 position = s.position;
+    vec3 normal = s.normal;
+    vec3 planeNormal = s.geometricNormal;
+#if MOTION
+    mat4 motion = oldFromWorld[s.instance];
+    position = (motion * vec4(position, 1.0)).xyz;
+    normal = normalize(mat3(motion) * normal);
+    planeNormal = normalize(mat3(motion) * planeNormal);
+#endif
+    vec4 clip = pixelRays.oldClipFromWorld * vec4(position, 1.0);
+    ivec2 size = textureSize(pixelHistory, 0);
+    vec2 place = (clip.xy / max(clip.w, 1e-6) * 0.5 + 0.5) * vec2(size) - 0.5;
+    // Where the view has hardly changed, rounding must not blur.
+    vec2 nearest = floor(place + 0.5);
+    place = mix(place, nearest, lessThan(abs(place - nearest), vec2(0.02)));
+    vec2 base = floor(place);
+    vec2 part = place - base;
+    vec4 sum = vec4(0.0);
+    float weight = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        ivec2 offset = ivec2(i & 1, i >> 1);
+        ivec2 q = ivec2(base) + offset;
+        bool inside = clip.w > 0.0 && all(greaterThanEqual(q, ivec2(0))) && all(lessThan(q, size));
+        uvec4 bits = texelFetch(pixelHistory, clamp(q, ivec2(0), size - 1), 0);
+        vec2 at = (vec2(q) + 0.5) / vec2(size) * 2.0 - 1.0;
+        vec3 there = pixelRays.oldEye +
+                     pixelHistoryDepth(bits) *
+                         (pixelRays.oldForward + at.x * pixelRays.oldRight + at.y * pixelRays.oldUp);
+        bool same = inside && bits.z != 0u && pixelHistoryInstance(bits) == (s.instance & 0xffu) &&
+                    dot(pixelHistoryNormal(bits), normal) > 0.9 &&
+                    abs(dot(there - position, planeNormal)) < pixelRays.planeTolerance;
+        vec2 w = mix(1.0 - part, part, vec2(offset));
+        float tap = same ? w.x * w.y : 0.0;
+        sum += tap * vec4(pixelHistoryValue(bits), pixelHistoryCount(bits));
+        weight += tap;
+    }
+    // Less than a twentieth of a pixel is rounding.
+    return weight > 0.05 ? sum / weight : vec4(0.0);
+#endif
+}
+
+// The mean of what was so far and one more pass; `longest` passes at most, so that change gets through.
+uvec4 withPass(ivec2 pixel, Surface s, bool seen, vec3 value, float longest) {
+    vec4 soFar = valueSoFar(pixel, s);
+    float count = min(floor(soFar.a), longest - 1.0) + 1.0;
+    vec3 mean = mix(soFar.rgb, value, 1.0 / count);
+    return packPixelHistory(PixelHistory(mean, count, seen ? s.depth : 0.0, s.normal, s.instance));
+}

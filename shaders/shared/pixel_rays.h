@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// What the passes that gather by rays at pixels share with src/gather/pixel_rays.cpp.
+#pragma once
+#include "shared/prelude.h"
+
+// Texture units of these passes, besides those of voxels, G-buffer and shadow maps.
+#define PIXEL_UNIT_HISTORY 8     // usampler2D: the picture so far (lib/pixel_history.glsl)
+#define PIXEL_UNIT_IRRADIANCE 9  // usampler2D: gathered irradiance, for composition
+#define PIXEL_UNIT_LOBE 10       // usampler2D: radiance in the specular lobe, for composition
+#define PIXEL_MOTION 8  // storage: mat4 per instance, world of the frame before from world of this one
+
+CONELIGHT_SHARED_BEGIN
+
+// Uniform block at BINDING_PASS of these passes.
+struct PixelRayConstants {
+    mat4 oldClipFromWorld;  // of the picture so far
+    // ---- 64 B
+    vec3 oldEye;
+    float planeTolerance;  // m: the picture so far counts where its surface is no farther off the plane
+    // ---- 80 B
+    vec3 oldForward;  // as in FrameConstants
+    uint pass;        // number of the pass, part of every random number
+    // ---- 96 B
+    vec3 oldRight;
+    uint rays;  // of each kind, per pixel
+    // ---- 112 B
+    vec3 oldUp;
+    float longestMean;  // passes that are averaged at most
+    // ---- 128 B
+    float specularLimit;  // rougher surfaces get no rays into the lobe
+    float reach;          // of occlusion, voxels
+    float inverseVoxelSize;
+    uint pad0;
+};  // 144 B
+
+CONELIGHT_SHARED_END
+#ifdef __cplusplus
+static_assert(sizeof(conelight::gpu::PixelRayConstants) == 144);
+#endif

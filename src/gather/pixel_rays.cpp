@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "gather/pixel_rays.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "gl/gl.h"
+#include "light/irradiance_cache.h"
+#include "shared/bindings.h"
+
+namespace conelight::gather {
+namespace {
+
+// The picture so far counts for a point where its surface is within half a voxel of the point's plane: voxels
+// tell no finer.
+constexpr float kPlaneTolerance = 0.5f;
+// Reach of component occlusion, as a part of the grid's longest side.
+constexpr float kOcclusionReach = 0.1f;
+
+gl::ProgramDesc gatherDesc(RayPicture kind, Reuse reuse, bool motion, const gl::Defines& hitLights) {
+    gl::ProgramDesc desc;
+    desc.files = {kind == RayPicture::Specular ? "gather/ray_specular.comp.glsl"
+                                               : "gather/ray_diffuse.comp.glsl"};
+    desc.defines = {{"TEMPORAL", std::to_string(static_cast<int>(reuse))},
+                    {"MOTION", motion && reuse == Reuse::Reproject ? "1" : "0"}};
+    if (kind != RayPicture::Specular)
+        desc.defines.emplace_back("OCCLUSION", kind == RayPicture::Occlusion ? "1" : "0");
+    desc.defines.insert(desc.defines.end(), hitLights.begin(), hitLights.end());
+    return desc;
+}
+
+gl::ProgramDesc filterDesc(int step, bool specular) {
+    return {{"gather/edge_filter.comp.glsl"},
+            {{"FILTER_STEP", std::to_string(step)}, {"SPECULAR", specular ? "1" : "0"}}};
+}
+
+const char* const kGatherPass[] = {"diffuse rays", "specular rays", "occlusion rays"};
+const char* const kLabel[] = {"gathered diffuse", "gathered specular", "gathered occlusion"};
+
+gl::Texture makePicture(int width, int height, const char* label) {
+    gl::Texture picture({GL_TEXTURE_2D, GL_RGBA32UI, width, height}, label);
+    picture.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    picture.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    return picture;
+}
+
+void bindPicture(const gl::Texture& picture, unsigned unit) {
+    picture.bind(unit);
+    gl::unbindSampler(unit);
+}
+
+}  // namespace
+
+bool PixelRays::has(int width, int height) const {
+    return current_ && current_.width() == width && current_.height() == height;
+}
+
+gpu::PixelRayConstants PixelRays::packed(const PixelRayFrame& frame, const TracedSettings& settings, int rays,
+                                         std::uint32_t pass, int longest) const {
+    gpu::PixelRayConstants c{};
+    c.oldClipFromWorld = seenFrom_.clipFromWorld;
+    c.oldEye = seenFrom_.eye;
+    c.oldForward = seenFrom_.viewForward;
+    c.oldRight = seenFrom_.viewRight;
+    c.oldUp = seenFrom_.viewUp;
+    c.planeTolerance = kPlaneTolerance * frame.voxelSize;
+    c.pass = pass;
+    c.rays = static_cast<std::uint32_t>(std::max(rays, 1));
+    c.longestMean = static_cast<float>(std::max(longest, 1));
+    c.specularLimit = settings.specularLimit;
+    c.reach = kOcclusionReach * frame.gridLength;
+    c.inverseVoxelSize = 1.0f / frame.voxelSize;
+    return c;
+}
+
+void PixelRays::gather(const PixelRayFrame& frame, const TracedSettings& settings, Reuse reuse, int rays,
+                       std::uint32_t pass, int longest) {
+    const gl::PassScope scope(frame.profiler, kGatherPass[static_cast<int>(kind_)]);
+    const int width = static_cast<int>(frame.view.width);
+    const int height = static_cast<int>(frame.view.height);
+    if (!has(width, height)) {
+        for (gl::Texture* picture : {&current_, &other_, &filtered_}) *picture = {};
+        current_ = makePicture(width, height, kLabel[static_cast<int>(kind_)]);
+        other_ = makePicture(width, height, kLabel[static_cast<int>(kind_)]);
+        reuse = Reuse::None;
+    }
+    if (!constants_) constants_ = gl::Buffer(sizeof(gpu::PixelRayConstants), "pixel rays constants");
+    constants_.update(packed(frame, settings, rays, pass, longest));
+    constants_.bindUniform(BINDING_PASS);
+    if (frame.motion != nullptr) frame.motion->bindStorage(PIXEL_MOTION);
+    bindPicture(current_, PIXEL_UNIT_HISTORY);
+    other_.bindImage(0, 0, GL_WRITE_ONLY);
+    const gl::Defines lights = light::hitLightDefines(frame.scene, frame.light,
+                                                      settings.exactHits && kind_ != RayPicture::Occlusion);
+    frame.programs.get(gatherDesc(kind_, reuse, frame.motion != nullptr, lights)).dispatch(width, height);
+    gl::barrier(gl::Access::TextureFetch);
+    std::swap(current_, other_);
+    seenFrom_ = frame.view;
+}
+
+const gl::Texture& PixelRays::filtered(const PixelRayFrame& frame, int levels) {
+    if (levels == 0) return current_;
+    const gl::PassScope scope(frame.profiler, "edge filter");
+    const int width = current_.width(), height = current_.height();
+    if (!filtered_) filtered_ = makePicture(width, height, "filtered picture");
+    constants_.bindUniform(BINDING_PASS);
+    // From level to level between two textures; the second is what gather() writes next, so its content is
+    // free. An even number of levels ends there as well.
+    const gl::Texture* from = &current_;
+    for (int level = 0; level < levels; ++level) {
+        const gl::Texture* to = level % 2 == 0 ? &filtered_ : &other_;
+        bindPicture(*from, PIXEL_UNIT_HISTORY);
+        to->bindImage(0, 0, GL_WRITE_ONLY);
+        frame.programs.get(filterDesc(1 << level, kind_ == RayPicture::Specular)).dispatch(width, height);
+        gl::barrier(gl::Access::TextureFetch);
+        from = to;
+    }
+    return *from;
+}
+
+std::vector<gl::ProgramDesc> PixelRays::programDescs() {
+    std::vector<gl::ProgramDesc> descs;
+    const auto add = [&](RayPicture kind, Reuse reuse, bool motion) {
+        for (gl::ProgramDesc& desc : light::hitLightVariants(gatherDesc(kind, reuse, motion, {})))
+            descs.push_back(std::move(desc));
+    };
+    for (const RayPicture kind : {RayPicture::Diffuse, RayPicture::Specular}) {
+        for (const Reuse reuse : {Reuse::None, Reuse::SameView, Reuse::Reproject}) add(kind, reuse, false);
+        add(kind, Reuse::Reproject, true);
+    }
+    for (const Reuse reuse : {Reuse::None, Reuse::SameView, Reuse::Reproject})
+        descs.push_back(gatherDesc(RayPicture::Occlusion, reuse, false, {{"EXACT_DIRECT", "0"}}));
+    for (const int step : {1, 2, 4, 8})
+        for (const bool specular : {false, true}) descs.push_back(filterDesc(step, specular));
+    return descs;
+}
+
+}  // namespace conelight::gather

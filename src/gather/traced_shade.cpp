@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT
+#include "gather/traced_shade.h"
+
+#include "gl/gl.h"
+#include "light/shadow_maps.h"
+#include "shared/bindings.h"
+#include "shared/pixel_rays.h"
+
+namespace conelight::gather {
+namespace {
+
+gl::ProgramDesc shadeDesc(const TracedParts& parts, bool picture, bool lobe, const gl::Defines& lights) {
+    const bool gathers = parts.diffuse || parts.specular;
+    gl::ProgramDesc desc{{"gather/traced_shade.comp.glsl"},
+                         {{"SHOW_DIRECT", parts.direct ? "1" : "0"},
+                          {"SHOW_DIFFUSE", parts.diffuse ? "1" : "0"},
+                          {"SHOW_SPECULAR", parts.specular ? "1" : "0"},
+                          {"IRRADIANCE", picture && gathers ? "1" : "0"},
+                          {"LOBE", lobe && parts.specular ? "1" : "0"}}};
+    if (parts.direct) desc.defines.insert(desc.defines.end(), lights.begin(), lights.end());
+    return desc;
+}
+
+gl::ProgramDesc occlusionDesc() { return {{"gather/traced_occlusion.comp.glsl"}, {}}; }
+gl::ProgramDesc voxelsDesc() { return {{"gather/traced_voxels.comp.glsl"}, {}}; }
+
+void bindPicture(const gl::Texture* picture, unsigned unit) {
+    if (picture == nullptr) return;
+    picture->bind(unit);
+    gl::unbindSampler(unit);
+}
+
+}  // namespace
+
+void TracedShade::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
+                       const Settings& settings, const TracedParts& parts, const gl::Texture* irradiance,
+                       const gl::Texture* lobe, const gl::Texture& output) {
+    const gl::PassScope pass(profiler, "shade");
+    if (!constants_) constants_ = gl::Buffer(sizeof(gpu::PixelRayConstants), "shade constants");
+    gpu::PixelRayConstants constants{};
+    constants.specularLimit = settings.traced.specularLimit;
+    constants_.update(constants);
+    constants_.bindUniform(BINDING_PASS);
+    bindPicture(irradiance, PIXEL_UNIT_IRRADIANCE);
+    bindPicture(lobe, PIXEL_UNIT_LOBE);
+    output.bindImage(0, 0, GL_WRITE_ONLY);
+    const gl::Defines lights = light::lightDefines(scene, settings.light);
+    programs.get(shadeDesc(parts, irradiance != nullptr, lobe != nullptr, lights))
+        .dispatch(output.width(), output.height());
+}
+
+void TracedShade::drawOcclusion(gl::ProgramLibrary& programs, gl::Profiler& profiler,
+                                const gl::Texture& occlusion, const gl::Texture& output) {
+    const gl::PassScope pass(profiler, "shade");
+    bindPicture(&occlusion, PIXEL_UNIT_IRRADIANCE);
+    output.bindImage(0, 0, GL_WRITE_ONLY);
+    programs.get(occlusionDesc()).dispatch(output.width(), output.height());
+}
+
+void TracedShade::drawVoxels(gl::ProgramLibrary& programs, gl::Profiler& profiler,
+                             const gl::Texture& output) {
+    const gl::PassScope pass(profiler, "voxel view");
+    output.bindImage(0, 0, GL_WRITE_ONLY);
+    programs.get(voxelsDesc()).dispatch(output.width(), output.height());
+}
+
+std::vector<gl::ProgramDesc> TracedShade::programDescs() {
+    std::vector<gl::ProgramDesc> descs = {occlusionDesc(), voxelsDesc()};
+    const auto add = [&](const TracedParts& parts, bool picture, bool lobe) {
+        descs.push_back(shadeDesc(parts, picture, lobe, {}));
+    };
+    for (const bool picture : {false, true}) {
+        add({false, true, false}, picture, false);
+        add({true, true, false}, picture, false);
+        for (const bool lobe : {false, true}) {
+            add({false, false, true}, picture, lobe);
+            add({false, true, true}, picture, lobe);
+        }
+    }
+    add({false, false, false}, false, false);
+    add({true, false, false}, false, false);
+    // With direct light: each kind of light.
+    for (const bool picture : {false, true})
+        for (const bool lobe : {false, true})
+            for (gl::ProgramDesc& desc :
+                 light::lightVariants(shadeDesc({true, true, true}, picture, lobe, {})))
+                descs.push_back(std::move(desc));
+    return descs;
+}
+
+}  // namespace conelight::gather

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// The picture of mode `traced`, put together in one pass: G-buffer, lights, cache or gathered pictures ->
+// RGBA32F picture. Also its views of voxels and occlusion.
+//
+// Reads: frame block, scene tables, G-buffer, shadow maps, SurfaceVoxels, OctantWords, IrradianceCache, all
+// bound. Writes `output`; readers need a texture-fetch barrier. GL state changed: program, image 0,
+// BINDING_PASS, units PIXEL_UNIT_*.
+#pragma once
+
+#include <vector>
+
+#include "conelight/settings.h"
+#include "gl/buffer.h"
+#include "gl/pass.h"
+#include "gl/program.h"
+#include "gl/texture.h"
+#include "scene/gpu_scene.h"
+
+namespace conelight::gather {
+
+// What a component is made of.
+struct TracedParts {
+    bool direct, diffuse, specular;
+};
+
+class TracedShade {
+  public:
+    // `irradiance` null: from the cache. `lobe` null: the irradiance stands in for it.
+    void draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
+              const Settings& settings, const TracedParts& parts, const gl::Texture* irradiance,
+              const gl::Texture* lobe, const gl::Texture& output);
+    void drawOcclusion(gl::ProgramLibrary& programs, gl::Profiler& profiler, const gl::Texture& occlusion,
+                       const gl::Texture& output);
+    void drawVoxels(gl::ProgramLibrary& programs, gl::Profiler& profiler, const gl::Texture& output);
+
+    static std::vector<gl::ProgramDesc> programDescs();
+
+  private:
+    gl::Buffer constants_;
+};
+
+}  // namespace conelight::gather

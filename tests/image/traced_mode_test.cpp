@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: MIT
+// Pictures of mode `traced` against what must be so: furnaces (matt and metal), bounces, parts that add up,
+// the same bits every time, means over frames, a moving camera, thin walls under the filter.
+#include <cmath>
+
+#include "conelight/renderer.h"
+#include "io/generated.h"
+#include "support/gl_fixture.h"
+#include "support/truth_rig.h"
+#include "support/view_rig.h"
+
+namespace conelight::test {
+namespace {
+
+constexpr int kPixels = 48;
+
+Settings smallSettings(Quality quality, Component component = Component::Full) {
+    Settings settings;
+    settings.mode = Mode::Traced;
+    settings.component = component;
+    settings.voxels.size = 32;
+    settings.light.shadowSize = 256;
+    settings.light.areaSamples = 4;
+    applyQuality(settings.traced, quality);
+    settings.traced.cacheRays = std::min(settings.traced.cacheRays, 2);
+    settings.traced.passes = std::min(settings.traced.passes, 8);
+    return settings;
+}
+
+class TracedModeTest : public GlTest {
+  protected:
+    static Image draw(Renderer& renderer, const Scene& scene, const Settings& settings) {
+        renderer.render(scene.cameras.at(0), kPixels, kPixels, settings);
+        return renderer.readImage();
+    }
+    static Image draw(const Scene& scene, const Settings& settings) {
+        Renderer renderer;
+        renderer.setScene(scene);
+        return draw(renderer, scene, settings);
+    }
+    // A room 2 wide with a wall from side to side that is much thinner than a voxel; light on one side only,
+    // seen from above through the missing ceiling... of both floors.
+    static Scene dividedRoom();
+};
+
+Scene TracedModeTest::dividedRoom() {
+    Scene scene = closedBox(mattMaterial(glm::vec3(0.7f)));
+    // Two faces 0.02 apart: a third of a voxel of 2.1 m / 32.
+    addInstance(scene, quadMesh({0.01f, -1, -1}, {0, 2, 0}, {0, 0, 2}), mattMaterial(glm::vec3(0.7f)));
+    addInstance(scene, quadMesh({-0.01f, -1, -1}, {0, 0, 2}, {0, 2, 0}), mattMaterial(glm::vec3(0.7f)));
+    Light light;
+    light.type = LightType::Point;
+    light.position = {0.5f, 0.5f, 0};
+    light.intensity = glm::vec3(1);
+    scene.lights.push_back(light);
+    return scene;
+}
+
+// Every ray of a closed box ends at a wall that shows e + rho L: L = e / (1 - rho) after all bounces.
+TEST_F(TracedModeTest, FurnaceIsEvenAtEveryQuality) {
+    const Scene scene = closedBox(mattMaterial(glm::vec3(0.5f), glm::vec3(1)));
+    for (const Quality quality : {Quality::Draft, Quality::Interactive, Quality::High, Quality::Converged}) {
+        Settings settings = smallSettings(quality);
+        settings.light.emissiveQuads = false;  // the walls shine by their voxels
+        const Image image = draw(scene, settings);
+        EXPECT_NEAR(meanOf(image), 2.0, 0.004) << static_cast<int>(quality);
+        double square = 0;
+        for (const glm::vec4& p : image.pixels) square += std::pow(static_cast<double>(p.x) / 2 - 1, 2);
+        EXPECT_LT(std::sqrt(square / (kPixels * kPixels)), 0.03) << static_cast<int>(quality);
+    }
+}
+
+// White metal takes nothing away: a plate in a furnace of radiance 2 cannot be seen.
+TEST_F(TracedModeTest, WhiteMetalVanishesInTheFurnace) {
+    for (const float roughness : {0.05f, 0.3f, 0.8f}) {
+        Scene scene = closedBox(mattMaterial(glm::vec3(0.5f), glm::vec3(1)));
+        Material metal;
+        metal.baseColor = glm::vec4(1);
+        metal.metallic = 1;
+        metal.roughness = roughness;
+        metal.doubleSided = true;  // the wall behind it sees it as well
+        addInstance(scene, quadMesh({-0.4f, -0.4f, -0.6f}, {0.8f, 0, 0}, {0, 0.8f, 0}), metal);
+        Settings settings = smallSettings(Quality::Converged);
+        settings.light.emissiveQuads = false;
+        const Image image = draw(scene, settings);
+        EXPECT_NEAR(meanOf(image), 2.0, 0.02) << roughness;
+    }
+}
+
+TEST_F(TracedModeTest, SameBitsTwice) {
+    const Scene scene = io::generateScene("cornell");
+    for (const Quality quality : {Quality::Draft, Quality::Interactive}) {
+        const Settings settings = smallSettings(quality);
+        Renderer renderer;
+        renderer.setScene(scene);
+        const Image first = draw(renderer, scene, settings);
+        EXPECT_EQ(first.pixels, draw(renderer, scene, settings).pixels);
+        EXPECT_EQ(first.pixels, draw(scene, settings).pixels);
+    }
+}
+
+TEST_F(TracedModeTest, PartsAddUp) {
+    const Scene scene = io::generateScene("glossy");
+    Renderer renderer;
+    renderer.setScene(scene);
+    for (const Quality quality : {Quality::Draft, Quality::Interactive}) {
+        Image sum, full;
+        for (const Component part :
+             {Component::Full, Component::Direct, Component::Diffuse, Component::Specular}) {
+            const Image image = draw(renderer, scene, smallSettings(quality, part));
+            if (part == Component::Full) {
+                full = image;
+                sum = image;
+                for (glm::vec4& p : sum.pixels) p = glm::vec4(0);
+                continue;
+            }
+            for (std::size_t i = 0; i < sum.pixels.size(); ++i) sum.pixels[i] += image.pixels[i];
+        }
+        for (std::size_t i = 0; i < sum.pixels.size(); ++i)
+            for (int c = 0; c < 3; ++c)
+                ASSERT_NEAR(sum.pixels[i][c], full.pixels[i][c], 1e-5f + 1e-4f * full.pixels[i][c]);
+    }
+}
+
+// Furnace of albedo 1/2 and emission 1: n bounces show 2 - 2^-n.
+TEST_F(TracedModeTest, BouncesAddUpOneByOne) {
+    const Scene scene = closedBox(mattMaterial(glm::vec3(0.5f), glm::vec3(1)));
+    Renderer renderer;
+    renderer.setScene(scene);
+    for (const int rays : {0, 2}) {
+        for (const int bounces : {0, 1, 2, 3, 6}) {
+            Settings settings = smallSettings(Quality::Interactive);
+            settings.light.emissiveQuads = false;
+            settings.traced.pixelRays = rays;
+            settings.traced.bounces = bounces;
+            EXPECT_NEAR(meanOf(draw(renderer, scene, settings)), 2.0 - std::pow(0.5, bounces), 0.01)
+                << rays << " rays, " << bounces << " bounces";
+        }
+    }
+}
+
+// Independent passes: the error of the mean falls as 1 / sqrt(n), so n = 4 -> 64 by a factor of 4.
+TEST_F(TracedModeTest, MoreFramesLessNoise) {
+    const Scene scene = io::generateScene("cornell-point");
+    Renderer renderer;
+    renderer.setScene(scene);
+    Settings settings = smallSettings(Quality::Interactive, Component::Diffuse);
+    settings.traced.filterLevels = 0;
+    const auto noise = [&](int passes) {
+        settings.traced.passes = passes;
+        return draw(renderer, scene, settings);
+    };
+    const Image truth = noise(512);
+    const double few = relRmse(noise(4), truth);
+    const double many = relRmse(noise(64), truth);
+    EXPECT_GT(few / many, 3.0);
+    EXPECT_LT(many, 0.2);
+}
+
+// A camera that moves over a still scene, frame by frame with reuse, ends up near a picture made at rest.
+TEST_F(TracedModeTest, MovingCameraLeavesNoGhosts) {
+    const Scene scene = io::generateScene("cornell");
+    Renderer renderer;
+    renderer.setScene(scene);
+    Settings settings = smallSettings(Quality::Interactive, Component::Diffuse);
+    draw(renderer, scene, settings);  // settles the cache
+    Camera camera = scene.cameras.at(0);
+    settings.traced.budgeted = true;
+    for (int frame = 0; frame < 16; ++frame) {
+        camera.eye.x += 0.03f;
+        renderer.render(camera, kPixels, kPixels, settings);
+    }
+    const Image moving = renderer.readImage();
+    settings.traced.budgeted = false;
+    settings.traced.passes = 128;
+    settings.traced.filterLevels = 0;
+    renderer.render(camera, kPixels, kPixels, settings);
+    const Image rest = renderer.readImage();
+    // As good as a camera at rest for as many frames, within what resampling blurs.
+    Renderer other;
+    other.setScene(scene);
+    settings.traced.passes = 8;
+    settings.traced.filterLevels = 2;
+    other.render(camera, kPixels, kPixels, settings);
+    EXPECT_LT(relRmse(moving, rest), 1.5 * relRmse(other.readImage(), rest));
+    EXPECT_NEAR(meanOf(moving) / meanOf(rest), 1.0, 0.02);
+}
+
+// The dark half of a divided room stays dark, under the filter, too.
+TEST_F(TracedModeTest, FilterDoesNotCrossThinWalls) {
+    Scene scene = dividedRoom();
+    scene.cameras.clear();
+    Camera camera;  // sees the edge of the wall, the floor on both sides of it
+    camera.eye = {0, 0.95f, 0.9f};
+    camera.target = {0, -1, -0.2f};
+    camera.fovY = 1.2f;
+    scene.cameras.push_back(camera);
+    const auto leak = [&](const Image& image) {
+        double dark = 0, lit = 0;
+        for (int y = 0; y < kPixels; ++y)
+            for (int x = 0; x < kPixels; ++x)
+                (x < kPixels / 2 - 1 ? dark : lit) +=
+                    static_cast<double>(image.pixels[static_cast<std::size_t>(y * kPixels + x)].y);
+        return dark / lit;
+    };
+    Settings settings = smallSettings(Quality::Interactive, Component::Indirect);
+    settings.traced.filterLevels = 0;
+    const double plain = leak(draw(scene, settings));
+    settings.traced.filterLevels = 3;
+    const double filtered = leak(draw(scene, settings));
+    EXPECT_LT(plain, 0.02);
+    EXPECT_LT(filtered, plain + 0.005);
+}
+
+TEST_F(TracedModeTest, EveryComponentIsFinite) {
+    const Scene scene = io::generateScene("spheres");
+    Renderer renderer;
+    renderer.setScene(scene);
+    for (const Component part : {Component::Full, Component::Indirect, Component::Specular,
+                                 Component::Occlusion, Component::Voxels}) {
+        const Image image = draw(renderer, scene, smallSettings(Quality::Interactive, part));
+        EXPECT_GT(meanOf(image), 0.0);  // NaN where one pixel is not finite
+    }
+}
+
+}  // namespace
+}  // namespace conelight::test
