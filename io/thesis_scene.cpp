@@ -212,8 +212,9 @@ void Loader::readMaterial(const Item& model, Material& material) {
     const Item* found = first(model, "material");
     const Item& block = found != nullptr ? *found : kEmpty;
     if (found != nullptr && !found->isBlock) fail(found->line, "material: a block expected");
-    checkKeys(block, {"color", "shininess", "ambient_str", "diffuse_str", "specular_str", "emission",
-                      "roughness", "metallic", "double_sided"});
+    checkKeys(block,
+              {"color", "shininess", "ambient_str", "diffuse_str", "specular_str", "emission", "roughness",
+               "metallic", "double_sided", "base_color", "ior", "specular", "specular_color"});
 
     PhongMaterial& phong = material.phong;
     material.isPhong = true;
@@ -232,6 +233,13 @@ void Loader::readMaterial(const Item& model, Material& material) {
     material.emission = glm::max(triple(block, "emission", "rgb", glm::vec3(0)), glm::vec3(0));
     material.roughness = std::clamp(number(block, "roughness", material.roughness), 0.0f, 1.0f);
     material.metallic = std::clamp(number(block, "metallic", material.metallic), 0.0f, 1.0f);
+    material.ior = number(block, "ior", material.ior);
+    if (material.ior != 0 && material.ior < 1) fail(block.line, "material: ior must be 1 or more");
+    material.specular = std::clamp(number(block, "specular", material.specular), 0.0f, 1.0f);
+    material.specularColor =
+        glm::max(triple(block, "specular_color", "rgb", material.specularColor), glm::vec3(0));
+    const glm::vec3 base = triple(block, "base_color", "rgb", glm::vec3(material.baseColor));
+    material.baseColor = glm::vec4(glm::clamp(base, 0.0f, 1.0f), material.baseColor.a);
     material.doubleSided = boolean(block, "double_sided", false);
 }
 
@@ -289,7 +297,7 @@ void Loader::readModel(const Item& model) {
 void Loader::readLight(const Item& block) {
     checkKeys(block, {"name", "type", "position", "color", "att_constant", "att_linear", "att_quadratic",
                       "intensity", "direction", "inner_angle", "outer_angle", "width", "height", "range",
-                      "active", "casts_shadow"});
+                      "active", "casts_shadow", "up"});
     Light light;
     const std::string* name = word(block, "name");
     light.name = name != nullptr ? oneLine(*name) : fmt::format("light{}", scene_.lights.size());
@@ -337,8 +345,12 @@ void Loader::readLight(const Item& block) {
     light.enabled = boolean(block, "active", true);
     light.castsShadow = boolean(block, "casts_shadow", true);
     if (light.type == LightType::Rect) {
-        // Height runs along the world's up as far as the direction allows; width at right angles to both.
-        const glm::vec3 up = std::abs(light.direction.y) > 0.999f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
+        // Height runs along `up`, else the world's, as far as the direction allows; width at right angles to
+        // both.
+        const bool upright = std::abs(light.direction.y) <= 0.999f;
+        const glm::vec3 up = triple(block, "up", "xyz", upright ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, -1));
+        if (!(glm::length(glm::cross(up, light.direction)) > 0))
+            fail(block.line, "light: up and direction are parallel");
         const glm::vec3 u = glm::normalize(glm::cross(up, light.direction));
         const glm::vec3 v = glm::cross(light.direction, u);
         light.halfU = 0.5f * std::max(number(block, "width", 1.0f), 0.0f) * u;

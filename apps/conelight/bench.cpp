@@ -11,6 +11,7 @@
 #include "command.h"
 #include "conelight/error.h"
 #include "io/image_file.h"
+#include "script_run.h"
 #include "stats_json.h"
 
 namespace conelight::program {
@@ -24,6 +25,7 @@ struct BenchOptions {
     bool dynamic = false;
     std::string moving;  // name or index of an instance; empty: none
     ViewOptions view;
+    ScriptOptions script;
 };
 
 struct Spread {
@@ -155,33 +157,48 @@ Instance movedInstance(const Scene& scene, std::size_t index, int frame) {
     return instance;
 }
 
+// The scene as the commands of --exec and --script leave it, in one mode.
+std::unique_ptr<Session> sessionFor(const Scene& scene, const Camera& camera, const std::string& path,
+                                    const std::string& mode, const BenchOptions& options,
+                                    Progress& progress) {
+    auto session =
+        std::make_unique<Session>(scene, path, settingsFor(scene, mode, options.view), mode, camera);
+    runScript(options.script, *session, nullptr, {}, progress);
+    if (session->shownMode() != mode)
+        throw Error(ErrorKind::Usage, fmt::format("--exec: changes the mode to {}; --modes {} would be right",
+                                                  session->shownMode(), session->shownMode()));
+    return session;
+}
+
 // All modes of one scene, frame by frame in turn. Each mode has its own renderer, so that switching does not
 // rebuild volumes.
 std::vector<Run> benchScene(const std::string& path, const BenchOptions& options, const Size& size,
                             const std::vector<std::string>& modes, Progress& progress) {
     const Scene scene = openScene(path, options.view, progress);
     const Camera camera = cameraFor(scene, options.view);
-    const std::size_t moving = options.moving.empty() ? 0 : findInstance(scene, path, options.moving);
+    std::vector<std::unique_ptr<Session>> sessions;
     std::vector<Run> runs;
     std::vector<std::unique_ptr<Renderer>> renderers;
     for (const std::string& mode : modes) {
-        runs.push_back({mode, settingsFor(scene, mode, options.view), {}, {}});
+        sessions.push_back(sessionFor(scene, camera, path, mode, options, progress));
+        if (!options.moving.empty()) findInstance(sessions.back()->scene(), path, options.moving);
+        runs.push_back({mode, sessions.back()->shownSettings(), {}, {}});
         Renderer& renderer =
             *renderers.emplace_back(std::make_unique<Renderer>(RendererOptions{"", options.view.debugGl}));
-        renderer.setScene(scene);
+        renderer.setScene(sessions.back()->scene());
         Settings& settings = runs.back().settings;
         // A frame of a moving picture is timed: with light settled first, or with all light made anew in
         // each.
         progress.show(fmt::format("{}: {}: settling", path, mode));
-        renderer.render(camera, size.width, size.height, settings);
+        renderer.render(sessions.back()->camera(), size.width, size.height, settings);
         settings.traced.budgeted = true;
-        renderer.setDynamic(options.dynamic);
+        renderer.setDynamic(options.dynamic || sessions.back()->flags().dynamic);
         // Warm up: shaders are compiled at their first use, per state; then the frame that counts lookups.
         progress.show(fmt::format("{}: {}: warming up", path, mode));
         renderer.setProfiling(true, false);
-        renderer.render(camera, size.width, size.height, runs.back().settings);
+        renderer.render(sessions.back()->camera(), size.width, size.height, runs.back().settings);
         renderer.setProfiling(true, true);
-        renderer.render(camera, size.width, size.height, runs.back().settings);
+        renderer.render(sessions.back()->camera(), size.width, size.height, runs.back().settings);
         runs.back().counted = renderer.stats();
         renderer.setProfiling(true, false);
     }
@@ -189,20 +206,23 @@ std::vector<Run> benchScene(const std::string& path, const BenchOptions& options
         for (std::size_t i = 0; i < runs.size(); ++i) {
             progress.show(
                 fmt::format("{}: {}: frame {} of {}", path, runs[i].mode, frame + 1, options.frames));
-            if (!options.moving.empty())
-                renderers[i]->setInstance(moving, movedInstance(scene, moving, frame));
-            renderers[i]->render(camera, size.width, size.height, runs[i].settings);
+            if (!options.moving.empty()) {
+                const Scene& moved = sessions[i]->scene();
+                const std::size_t moving = findInstance(moved, path, options.moving);
+                renderers[i]->setInstance(moving, movedInstance(moved, moving, frame));
+            }
+            renderers[i]->render(sessions[i]->camera(), size.width, size.height, runs[i].settings);
             runs[i].frames.push_back(renderers[i]->stats());
         }
     }
     // Memory of one mode only: the other renderers' objects are not its own.
     if (runs.size() > 1) {
         renderers.clear();
-        for (Run& run : runs) {
+        for (std::size_t i = 0; i < runs.size(); ++i) {
             Renderer alone;
-            alone.setScene(scene);
-            alone.render(camera, size.width, size.height, run.settings);
-            run.frames.back().memory = alone.stats().memory;
+            alone.setScene(sessions[i]->scene());
+            alone.render(sessions[i]->camera(), size.width, size.height, runs[i].settings);
+            runs[i].frames.back().memory = alone.stats().memory;
         }
     }
     progress.finish();
@@ -255,6 +275,7 @@ void addBench(CLI::App& app) {
         ->type_name("INSTANCE");
     command->add_option("--json", options->jsonFile, "write the figures as JSON")->type_name("FILE");
     options->view.addTo(*command);
+    options->script.addTo(*command);
     command->callback([options] { run(*options); });
 }
 

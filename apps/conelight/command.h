@@ -22,6 +22,8 @@ void addBench(CLI::App& app);
 void addScore(CLI::App& app);
 void addInfo(CLI::App& app);
 void addSettings(CLI::App& app);
+void addCommands(CLI::App& app);
+void addConvert(CLI::App& app);
 void addShaders(CLI::App& app);
 
 // Throws Error(Usage).

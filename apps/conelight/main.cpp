@@ -13,6 +13,7 @@
 #include "conelight/error.h"
 #include "conelight/version.h"
 #include "platform/headless_context.h"
+#include "script_run.h"
 
 namespace {
 
@@ -54,6 +55,8 @@ int main(int argc, char** argv) {
     conelight::program::addScore(app);
     conelight::program::addInfo(app);
     conelight::program::addSettings(app);
+    conelight::program::addCommands(app);
+    conelight::program::addConvert(app);
     conelight::program::addShaders(app);
 
     try {
@@ -63,6 +66,8 @@ int main(int argc, char** argv) {
             return app.exit(error);  // --help, --version
         std::fprintf(stderr, "conelight: %s; `conelight --help` lists commands and options\n", error.what());
         return 2;
+    } catch (const conelight::program::QuitRequest& quit) {
+        return quit.status;
     } catch (const conelight::program::InterruptedError&) {
         return 130;
     } catch (const conelight::Error& error) {

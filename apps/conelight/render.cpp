@@ -12,6 +12,7 @@
 #include "io/image_file.h"
 #include "picture_file.h"
 #include "picture_source.h"
+#include "script_run.h"
 #include "stats_json.h"
 #include "traced_picture.h"
 #include "truth_options.h"
@@ -31,6 +32,7 @@ struct RenderOptions {
     ViewOptions view;
     TracerOptions tracer;
     RadiosityOptions radiosity;
+    ScriptOptions script;
 };
 
 using Layers = std::vector<std::pair<std::string, Image>>;
@@ -55,7 +57,7 @@ void checkModeOptions(const RenderOptions& options) {
 }
 
 void checkFiles(const RenderOptions& options) {
-    if (options.output.empty() && options.radiosity.bakeFile.empty())
+    if (options.output.empty() && options.radiosity.bakeFile.empty() && !options.script.given())
         usage("--output is required; -o PICTURE.png, for example, would be right");
     if (!options.output.empty()) {
         const io::ImageFormat format = io::imageFormatOf(options.output);
@@ -143,6 +145,15 @@ PictureRequest requestOf(const RenderOptions& options) {
     return request;
 }
 
+// The picture's request as the commands of --exec and --script left the session.
+void takeSession(const Session& session, PictureRequest& request) {
+    const PictureRequest shown = requestFor(session, request);
+    request.settings = shown.settings;
+    request.mode = shown.mode;
+    request.camera = shown.camera;
+    request.components.front() = shown.components.front();
+}
+
 void run(const RenderOptions& options) {
     // Everything that can be wrong on the command line is found before the work starts.
     if (!options.mode.empty()) requireModeName(options.mode);
@@ -151,7 +162,7 @@ void run(const RenderOptions& options) {
     checkFiles(options);
 
     Progress progress;
-    const Scene scene = openScene(options.scene, options.view, progress);
+    Scene scene = openScene(options.scene, options.view, progress);
     const bool onCpu = !options.mode.empty() && !isRendererMode(options.mode);
     request.settings = settingsFor(scene, onCpu ? "cones" : options.mode, options.view);
     request.mode = onCpu ? options.mode : getSetting(request.settings, "mode");
@@ -167,7 +178,14 @@ void run(const RenderOptions& options) {
     }
 
     PictureSource source(options.view, options.shaderDirectory);
-    source.setScene(scene);
+    request.settings.component = request.components.front();
+    Session session(std::move(scene), options.scene, request.settings, request.mode, request.camera);
+    if (options.script.given()) {
+        runScript(options.script, session, &source, request, progress);
+        takeSession(session, request);
+        if (options.output.empty() && options.radiosity.bakeFile.empty()) return;
+    }
+    source.setScene(session.scene());
     const Picture picture = source.draw(request, &progress);
     reportBadPixels(picture.images.front());
     if (!options.output.empty()) {
@@ -224,6 +242,7 @@ void addRender(CLI::App& app) {
     options->tracer.addTo(*command);
     options->radiosity.addTo(*command);
     options->view.addTo(*command);
+    options->script.addTo(*command);
     command->callback([options] { run(*options); });
 }
 

@@ -23,8 +23,9 @@ CommandResult render(const std::string& scene, const std::string& output, const 
 class ProgramTest : public GlTest {};
 
 TEST_F(ProgramTest, EveryCommandHasHelp) {
-    for (const char* command : {"", "render", "compare", "bench", "score", "score leak", "score shift",
-                                "score flicker", "score convergence", "info", "settings", "shaders"}) {
+    for (const char* command :
+         {"", "render", "compare", "bench", "score", "score leak", "score shift", "score flicker",
+          "score convergence", "info", "settings", "commands", "convert", "shaders"}) {
         const CommandResult result = conelight(std::string(command) + " --help");
         EXPECT_EQ(result.status, 0) << command;
         EXPECT_NE(result.output.find("Usage"), std::string::npos) << result.output;

@@ -35,7 +35,8 @@ std::optional<Pick> Picker::along(const Session& session, const glm::vec3& origi
     const reference::Surface surface = reference::surfaceAt(session.scene(), ray, hit);
     const Instance& instance = session.scene().instances[hit.instance];
     Pick pick;
-    pick.position = surface.position;
+    // Not the surface's own point, which path tracing keeps away from edges.
+    pick.position = origin + hit.t * ray.direction;
     pick.normal = surface.geometricNormal;
     pick.shadingNormal = surface.shadingNormal;
     pick.distance = hit.t;

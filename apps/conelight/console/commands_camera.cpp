@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+// The camera: `camera` with a name, a number or one of its words.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "conelight/error.h"
+#include "console/console.h"
+#include "console/names.h"
+
+namespace conelight::program {
+namespace {
+
+std::string text(const glm::vec3& v) { return fmt::format("{:.9g} {:.9g} {:.9g}", v.x, v.y, v.z); }
+
+void printCamera(const CommandContext& context, const Camera& camera) {
+    context.print(fmt::format("camera {}", camera.name.empty() ? "(free)" : camera.name));
+    context.print("  eye    " + text(camera.eye) + " m");
+    context.print("  target " + text(camera.target) + " m");
+    context.print("  up     " + text(camera.up));
+    context.print(fmt::format("  fov    {:.6g} deg", glm::degrees(camera.fovY)));
+}
+
+[[noreturn]] void usage(const std::string& message) { throw Error(ErrorKind::Usage, message); }
+
+// `count` numbers behind the first word.
+std::vector<double> numbers(const CommandContext& context, std::size_t count, const char* usageText) {
+    if (context.count() != count + 1)
+        usage(fmt::format("camera {}: takes {} number{}, got {}; camera {} {} would be right",
+                          context.words[0], count, count == 1 ? "" : "s", context.count() - 1,
+                          context.words[0], usageText));
+    std::vector<double> values;
+    for (std::size_t i = 0; i < count; ++i)
+        values.push_back(parseNumber("camera " + context.words[0], context.words[i + 1]));
+    return values;
+}
+
+glm::vec3 vector(const std::vector<double>& v) {
+    return {static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2])};
+}
+
+void jump(const CommandContext& context, Camera camera, const std::string& label) {
+    if (!(glm::length(camera.target - camera.eye) > 1e-9f))
+        usage("camera: eye and target are the same point; another one would be right");
+    camera.name.clear();
+    context.session.jumpCamera(camera, label);
+}
+
+// Round the target: degrees to the right, then upward, short of the poles.
+void orbit(const CommandContext& context, Camera camera) {
+    std::vector<double> v =
+        context.count() == 2 ? numbers(context, 1, "DEG [DEG]") : numbers(context, 2, "DEG [DEG]");
+    v.resize(2, 0.0);
+    const glm::vec3 up = glm::normalize(camera.up);
+    glm::vec3 offset = camera.eye - camera.target;
+    const float distance = glm::length(offset);
+    offset = glm::vec3(glm::rotate(glm::mat4(1), glm::radians(static_cast<float>(v[0])), up) *
+                       glm::vec4(offset, 0));
+    const float elevation = std::asin(std::clamp(glm::dot(offset, up) / distance, -1.0f, 1.0f));
+    // 89 degrees: as far as the original's camera looks up or down.
+    const float most = glm::radians(89.0f);
+    const float wanted = std::clamp(elevation + glm::radians(static_cast<float>(v[1])), -most, most);
+    const glm::vec3 side = glm::cross(up, offset);
+    if (glm::length(side) > 1e-6f * distance)
+        offset = glm::vec3(glm::rotate(glm::mat4(1), elevation - wanted, glm::normalize(side)) *
+                           glm::vec4(offset, 0));
+    camera.eye = camera.target + offset;
+    jump(context, camera, "camera orbit");
+}
+
+void list(const CommandContext& context) {
+    const std::vector<Camera>& cameras = context.session.scene().cameras;
+    for (std::size_t i = 0; i < cameras.size(); ++i)
+        context.print(fmt::format("{:3} {:<20} eye {}  target {}  fov {:.4g} deg", i, cameras[i].name,
+                                  text(cameras[i].eye), text(cameras[i].target),
+                                  glm::degrees(cameras[i].fovY)));
+}
+
+void add(const CommandContext& context) {
+    if (context.count() != 2) usage("camera add: takes a name; camera add NAME would be right");
+    Camera camera = context.session.camera();
+    camera.name = context.words[1];
+    std::vector<Camera> cameras = context.session.scene().cameras;
+    const auto same = std::find_if(cameras.begin(), cameras.end(),
+                                   [&](const Camera& one) { return one.name == camera.name; });
+    if (same != cameras.end())
+        *same = camera;
+    else
+        cameras.push_back(camera);
+    context.session.setCameras(cameras, "camera add " + camera.name);
+}
+
+// Object in the middle of the picture, seen from the present side.
+void frame(const CommandContext& context, Camera camera) {
+    if (context.count() != 2) usage("camera frame: takes an object; camera frame OBJECT would be right");
+    requireName("camera frame", "object", objectNames(context.session), context.words[1]);
+    const Scene& scene = context.session.scene();
+    Aabb bounds;
+    for (const std::size_t index : objectsNamed(context.session, context.words[1])) {
+        const Instance& instance = scene.instances[index];
+        if (instance.mesh < 0) continue;
+        const Aabb own = scene.meshes[static_cast<std::size_t>(instance.mesh)].bounds();
+        for (int corner = 0; corner < 8 && !own.empty(); ++corner) {
+            const glm::vec3 p((corner & 1) != 0 ? own.max.x : own.min.x,
+                              (corner & 2) != 0 ? own.max.y : own.min.y,
+                              (corner & 4) != 0 ? own.max.z : own.min.z);
+            bounds.grow(glm::vec3(instance.worldFromObject * glm::vec4(p, 1)));
+        }
+    }
+    if (bounds.empty()) usage("camera frame: the object has no surface");
+    const float radius = std::max(0.5f * glm::length(bounds.extent()), 1e-4f);
+    const glm::vec3 back = glm::normalize(camera.eye - camera.target);
+    camera.target = bounds.center();
+    camera.eye = camera.target + back * (1.02f * radius / std::sin(0.5f * camera.fovY));
+    jump(context, camera, "camera frame");
+}
+
+void camera(const CommandContext& context) {
+    Session& session = context.session;
+    Camera camera = session.camera();
+    if (context.count() == 0) return printCamera(context, camera);
+    const std::string& word = context.words[0];
+    if (word == "list" && context.count() == 1) return list(context);
+    if (word == "add") return add(context);
+    if (word == "orbit") return orbit(context, camera);
+    if (word == "frame") return frame(context, camera);
+    if (word == "eye" || word == "target" || word == "up") {
+        const glm::vec3 v = vector(numbers(context, 3, "X Y Z"));
+        if (word == "up" && !(glm::length(v) > 0)) usage("camera up: has no length");
+        (word == "eye"      ? camera.eye
+         : word == "target" ? camera.target
+                            : camera.up) = word == "up" ? glm::normalize(v) : v;
+        return jump(context, camera, "camera " + word);
+    }
+    if (word == "fov") {
+        const double fov = numbers(context, 1, "DEG")[0];
+        if (!(fov >= 1 && fov <= 170))
+            usage(fmt::format("camera fov: '{}' is not usable; a number from 1 to 170 deg would be right",
+                              context.words[1]));
+        camera.fovY = static_cast<float>(fov * 3.14159265358979 / 180.0);
+        return jump(context, camera, "camera fov");
+    }
+    if (context.count() > 1)
+        usage(
+            fmt::format("camera: '{}' takes no arguments; list, eye, target, up, fov, orbit, frame, add or "
+                        "a camera's name would be right",
+                        word));
+    requireName("camera", "camera", cameraNames(session), word);
+    session.jumpCamera(session.scene().cameras[camerasNamed(session, word).front()], "camera " + word);
+}
+
+}  // namespace
+
+CommandGroup cameraCommands() {
+    Command command;
+    command.name = "camera";
+    command.arguments = {{"NAME", ArgumentKind::Camera, true}, {"VALUE", ArgumentKind::Text, true, true}};
+    command.help = "look through a camera of the scene, move the camera, or print where it is";
+    command.details =
+        "camera                  where it is\n"
+        "camera list             cameras of the scene\n"
+        "camera NAME|NUMBER      look through one of them\n"
+        "camera eye X Y Z        move it, m\n"
+        "camera target X Y Z     look at a point, m\n"
+        "camera up X Y Z         what is up\n"
+        "camera fov DEG          vertical field of view, 1 to 170 degrees\n"
+        "camera orbit DEG [DEG]  round the target: to the right, and upward\n"
+        "camera frame OBJECT     an object in the middle, seen from this side\n"
+        "camera add NAME         keep the view as a camera of the scene";
+    command.run = camera;
+    return {"Camera", {command}};
+}
+
+}  // namespace conelight::program

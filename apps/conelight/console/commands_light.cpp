@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+// `light`: print, add, change and delete lights.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "conelight/error.h"
+#include "console/console.h"
+#include "console/names.h"
+
+namespace conelight::program {
+namespace {
+
+[[noreturn]] void usage(const std::string& message) { throw Error(ErrorKind::Usage, message); }
+
+std::string text(const glm::vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
+
+constexpr std::pair<const char*, LightType> kTypes[] = {{"point", LightType::Point},
+                                                        {"spot", LightType::Spot},
+                                                        {"directional", LightType::Directional},
+                                                        {"rect", LightType::Rect}};
+
+const char* unitOf(LightType type) {
+    switch (type) {
+        case LightType::Directional:
+            return "W/m^2";
+        case LightType::Rect:
+            return "W/(sr m^2)";
+        default:
+            return "W/sr";
+    }
+}
+
+std::string typeName(LightType type) {
+    for (const auto& [name, one] : kTypes)
+        if (one == type) return name;
+    return "";
+}
+
+void printLight(const CommandContext& context, std::size_t index) {
+    const Light& light = context.session.scene().lights[index];
+    std::string line = fmt::format("{:3} {:<16} {:<11} intensity {} {}", index, light.name,
+                                   typeName(light.type), text(light.intensity), unitOf(light.type));
+    if (light.type != LightType::Directional) line += "  at " + text(light.position);
+    if (light.type != LightType::Point) line += "  direction " + text(light.direction);
+    if (light.type == LightType::Spot)
+        line += fmt::format("  angles {:.4g} {:.4g} deg", glm::degrees(light.innerAngle),
+                            glm::degrees(light.outerAngle));
+    if (light.type == LightType::Rect)
+        line +=
+            fmt::format("  size {:.4g} {:.4g} m", 2 * glm::length(light.halfU), 2 * glm::length(light.halfV));
+    if (light.range > 0) line += fmt::format("  range {:.4g} m", light.range);
+    if (light.customFalloff) line += "  falloff " + text(light.falloff);
+    if (!light.castsShadow) line += "  no shadows";
+    if (!light.enabled) line += "  off";
+    context.print(line);
+}
+
+std::vector<float> numbers(const std::string& what, const std::vector<std::string>& words, std::size_t count,
+                           double low, double high, const char* unit) {
+    if (words.size() != count)
+        usage(fmt::format("light: {} takes {} number{}, got {}", what, count, count == 1 ? "" : "s",
+                          words.size()));
+    std::vector<float> values;
+    for (const std::string& word : words) {
+        const double value = parseNumber("light: " + what, word);
+        if (value < low || value > high)
+            usage(fmt::format("light: {}: '{}' is not usable; {:g} to {:g}{}{} would be right", what, word,
+                              low, high, *unit == '\0' ? "" : " ", unit));
+        values.push_back(static_cast<float>(value));
+    }
+    return values;
+}
+
+glm::vec3 vector(const std::vector<float>& v) { return {v[0], v[1], v[2]}; }
+
+// Keeps width and height of a rectangle while it turns; its height runs upward as far as it can.
+void aim(Light& light, const glm::vec3& direction) {
+    if (!(glm::length(direction) > 0)) usage("light: direction has no length");
+    light.direction = glm::normalize(direction);
+    if (light.type != LightType::Rect) return;
+    const glm::vec3 up = std::abs(light.direction.y) > 0.999f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
+    const glm::vec3 u = glm::normalize(glm::cross(up, light.direction));
+    const glm::vec3 v = glm::cross(light.direction, u);
+    light.halfU = glm::length(light.halfU) * u;
+    light.halfV = glm::length(light.halfV) * v;
+}
+
+bool onOff(const std::string& what, const std::vector<std::string>& words) {
+    const std::string word = words.size() == 1 ? words[0] : "";
+    if (word == "on" || word == "true") return true;
+    if (word == "off" || word == "false") return false;
+    usage(fmt::format("light: {}: on or off would be right", what));
+}
+
+void needs(const Light& light, const std::string& what, bool fits) {
+    if (!fits) usage(fmt::format("light: {}: a {} light has none", what, typeName(light.type)));
+}
+
+const std::vector<std::string> kWords = {"intensity", "position", "direction", "angles",  "size", "range",
+                                         "falloff",   "on",       "off",       "shadows", "name", "delete"};
+
+void changeShape(Light& light, const std::string& what, const std::vector<std::string>& words) {
+    if (what == "angles") {
+        needs(light, what, light.type == LightType::Spot);
+        const std::vector<float> v = numbers(what, words, 2, 0, 90, "deg");
+        if (!(v[0] < v[1])) usage("light: angles: the inner one must be less than the outer one");
+        light.innerAngle = glm::radians(v[0]);
+        light.outerAngle = glm::radians(v[1]);
+    } else {
+        needs(light, what, light.type == LightType::Rect);
+        const std::vector<float> v = numbers(what, words, 2, 1e-6, 1e6, "m");
+        light.halfU = 0.5f * v[0] * glm::normalize(light.halfU);
+        light.halfV = 0.5f * v[1] * glm::normalize(light.halfV);
+    }
+}
+
+void changeFalloff(Light& light, const std::vector<std::string>& words) {
+    needs(light, "falloff", light.type == LightType::Point || light.type == LightType::Spot);
+    if (words.size() == 1 && words[0] == "off") {
+        light.customFalloff = false;
+        return;
+    }
+    const glm::vec3 falloff = vector(numbers("falloff", words, 3, 0, 1e6, ""));
+    if (falloff == glm::vec3(0)) usage("light: falloff: not all three may be 0");
+    light.customFalloff = true;
+    light.falloff = falloff;
+}
+
+void change(Light& light, const std::string& what, std::vector<std::string> words) {
+    if (what == "intensity") {
+        if (words.size() == 1) words.resize(3, words[0]);
+        light.intensity = vector(numbers(what, words, 3, 0, 1e9, unitOf(light.type)));
+    } else if (what == "position") {
+        needs(light, what, light.type != LightType::Directional);
+        light.position = vector(numbers(what, words, 3, -1e6, 1e6, "m"));
+    } else if (what == "direction") {
+        needs(light, what, light.type != LightType::Point);
+        aim(light, vector(numbers(what, words, 3, -1e6, 1e6, "")));
+    } else if (what == "angles" || what == "size") {
+        changeShape(light, what, words);
+    } else if (what == "range") {
+        light.range = numbers(what, words, 1, 0, 1e6, "m")[0];
+    } else if (what == "falloff") {
+        changeFalloff(light, words);
+    } else if (what == "on" || what == "off") {
+        numbers(what, words, 0, 0, 0, "");
+        light.enabled = what == "on";
+    } else if (what == "shadows") {
+        light.castsShadow = onOff(what, words);
+    } else if (what == "name") {
+        if (words.size() != 1) usage("light: name: takes one word");
+        light.name = words[0];
+    } else {
+        const std::string near = nearest(what, kWords);
+        std::string all;
+        for (const std::string& word : kWords) all += (all.empty() ? "" : ", ") + word;
+        usage(fmt::format("light: there is no property '{}'; {} would be right", what,
+                          near.empty() ? "one of " + all : near));
+    }
+}
+
+void add(const CommandContext& context) {
+    if (context.count() < 2 || context.count() > 3)
+        usage(
+            "light add: takes a type and a name; light add point|spot|directional|rect [NAME] would be "
+            "right");
+    Light light;
+    const auto type = std::find_if(std::begin(kTypes), std::end(kTypes),
+                                   [&](const auto& one) { return context.words[1] == one.first; });
+    if (type == std::end(kTypes))
+        usage(fmt::format("light add: there is no type '{}'; point, spot, directional or rect would be right",
+                          context.words[1]));
+    std::vector<Light> lights = context.session.scene().lights;
+    light.type = type->second;
+    light.name = context.count() == 3 ? context.words[2] : fmt::format("light{}", lights.size());
+    // Where the eye is, shining where it looks: it is seen at once, and can be moved from there.
+    light.position = context.session.camera().eye;
+    aim(light, context.session.camera().target - context.session.camera().eye);
+    lights.push_back(light);
+    context.session.setLights(lights, "light add " + light.name);
+    context.session.select({SelectionKind::Light, lights.size() - 1});
+}
+
+void light(const CommandContext& context) {
+    Session& session = context.session;
+    if (context.count() == 0) return printLights(context);
+    if (context.words[0] == "add") return add(context);
+    std::vector<std::string> words = context.words;
+    if (words[0] == "delete" && words.size() == 2) std::swap(words[0], words[1]);
+    requireName("light", "light", lightNames(session), words[0]);
+    const std::vector<std::size_t> found = lightsNamed(session, words[0]);
+    if (words.size() == 1) {
+        for (const std::size_t index : found) printLight(context, index);
+        return;
+    }
+    std::vector<Light> lights = session.scene().lights;
+    if (words[1] == "delete") {
+        if (words.size() > 2) usage("light: delete takes nothing more");
+        for (auto index = found.rbegin(); index != found.rend(); ++index)
+            lights.erase(lights.begin() + static_cast<std::ptrdiff_t>(*index));
+    } else {
+        for (const std::size_t index : found)
+            change(lights[index], words[1], {words.begin() + 2, words.end()});
+    }
+    session.setLights(lights, "light " + words[0] + " " + words[1]);
+}
+
+}  // namespace
+
+void printLights(const CommandContext& context) {
+    for (std::size_t i = 0; i < context.session.scene().lights.size(); ++i) printLight(context, i);
+    if (context.session.scene().lights.empty()) context.print("no lights");
+}
+
+Command lightCommand() {
+    Command command;
+    command.name = "light";
+    command.arguments = {{"NAME", ArgumentKind::Light, true},
+                         {"PROPERTY", ArgumentKind::Choice, true, false, "", 0, 0, {}},
+                         {"VALUE", ArgumentKind::Text, true, true}};
+    command.arguments[1].kind = ArgumentKind::Text;
+    command.arguments[1].choices = kWords;
+    command.help = "print, add, change or delete lights";
+    command.details =
+        "light                      all of them\n"
+        "light add TYPE [NAME]      point, spot, directional or rect; at the eye, along the view\n"
+        "light NAME                 one of them\n"
+        "light NAME intensity R G B W/sr (point, spot), W/m^2 (directional), W/(sr m^2) (rect)\n"
+        "light NAME position X Y Z  m\n"
+        "light NAME direction X Y Z where it shines (not point)\n"
+        "light NAME angles IN OUT   half angles of a spot, degrees\n"
+        "light NAME size W H        of a rectangle, m\n"
+        "light NAME range M         0: unlimited\n"
+        "light NAME falloff C L Q   1 / (C + L d + Q d^2); off: the inverse square\n"
+        "light NAME on|off          light NAME shadows on|off\n"
+        "light NAME name NEW        light NAME delete";
+    command.run = light;
+    return command;
+}
+
+}  // namespace conelight::program

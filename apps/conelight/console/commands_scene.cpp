@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT
+// Commands that list, choose and edit what the scene holds: objects, materials, sky; saving. Lights:
+// commands_light.cpp.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include "conelight/error.h"
+#include "console/console.h"
+#include "console/names.h"
+#include "session/material_edit.h"
+#include "session/save.h"
+
+namespace conelight::program {
+namespace {
+
+[[noreturn]] void usage(const std::string& message) { throw Error(ErrorKind::Usage, message); }
+
+std::string text(const glm::vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
+
+void listObjects(const CommandContext& context) {
+    const Scene& scene = context.session.scene();
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& one = scene.instances[i];
+        const std::size_t triangles =
+            one.mesh < 0 ? 0 : scene.meshes[static_cast<std::size_t>(one.mesh)].triangleCount();
+        const std::string material =
+            one.material < 0 ? "-" : scene.materials[static_cast<std::size_t>(one.material)].name;
+        context.print(fmt::format("{:3} {:<20} {:>9} triangles  material {:<16} at {}{}{}{}", i, one.name,
+                                  triangles, material, text(glm::vec3(one.worldFromObject[3])),
+                                  one.visible ? "" : "  hidden", one.voxelized ? "" : "  not voxelized",
+                                  one.dynamic ? "  dynamic" : ""));
+    }
+}
+
+void listMaterials(const CommandContext& context) {
+    const std::vector<Material>& materials = context.session.scene().materials;
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        const Material& one = materials[i];
+        const glm::vec3 color = one.isPhong ? one.phong.color : glm::vec3(one.baseColor);
+        context.print(fmt::format("{:3} {:<20} color {}  roughness {:.3g}  metallic {:.3g}{}", i, one.name,
+                                  text(color), one.roughness, one.metallic,
+                                  one.emission == glm::vec3(0) ? "" : "  emission " + text(one.emission)));
+    }
+}
+
+void list(const CommandContext& context) {
+    const std::string what = context.count() > 0 ? context.words[0] : "objects";
+    if (what == "objects") listObjects(context);
+    if (what == "materials") listMaterials(context);
+    if (what == "lights") printLights(context);
+    if (what == "cameras") {
+        const std::vector<std::string> names = cameraNames(context.session);
+        for (std::size_t i = 0; i < names.size(); ++i) context.print(fmt::format("{:3} {}", i, names[i]));
+    }
+    if (what == "modes")
+        for (const std::string& one : sessionModes()) context.print(one);
+}
+
+void select(const CommandContext& context) {
+    Session& session = context.session;
+    const std::string& word = context.words[0];
+    if (word == "none") return session.select({});
+    const std::pair<SelectionKind, std::vector<std::size_t>> kinds[] = {
+        {SelectionKind::Instance, objectsNamed(session, word)},
+        {SelectionKind::Light, lightsNamed(session, word)},
+        {SelectionKind::Material, materialsNamed(session, word)}};
+    for (const auto& [kind, found] : kinds)
+        if (!found.empty()) return session.select({kind, found.front()});
+    requireName("select", "object, light or material", wordsOf(session, {"", ArgumentKind::Selectable}),
+                word);
+}
+
+struct Property {
+    const char* name;
+    std::size_t values;  // 0: on or off
+    double low, high;
+    const char* unit;
+};
+constexpr Property kProperties[] = {
+    {"color", 3, 0, 1, ""},
+    {"opacity", 1, 0, 1, ""},
+    {"roughness", 1, 0, 1, ""},
+    {"metallic", 1, 0, 1, ""},
+    {"ior", 1, 1, 10, ""},
+    {"specular", 1, 0, 1, ""},
+    {"emission", 3, 0, 1e9, "W/(sr m^2)"},
+    {"shininess", 1, 0, 10000, ""},
+    {"ambient_str", 1, 0, 100, ""},
+    {"diffuse_str", 1, 0, 100, ""},
+    {"specular_str", 1, 0, 100, ""},
+    {"double_sided", 0, 0, 0, ""},
+    {"unlit", 0, 0, 0, ""},
+};
+
+const Property& propertyOf(const std::string& word) {
+    std::vector<std::string> names;
+    for (const Property& property : kProperties) {
+        if (word == property.name) return property;
+        names.push_back(property.name);
+    }
+    const std::string near = nearest(word, names);
+    std::string all;
+    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+    usage(fmt::format("material: there is no property '{}'; {} would be right", word,
+                      near.empty() ? "one of " + all : near));
+}
+
+std::array<float, 3> valuesOf(const CommandContext& context, const Property& property) {
+    const std::size_t given = context.count() - 2;
+    // One number stands for three equal ones.
+    if (given != property.values && !(property.values == 3 && given == 1))
+        usage(fmt::format("material: {} takes {} number{}, got {}", property.name, property.values,
+                          property.values == 1 ? "" : "s", given));
+    std::array<float, 3> values{};
+    for (std::size_t i = 0; i < property.values; ++i) {
+        const std::string& word = context.words[2 + std::min(i, given - 1)];
+        const double value = parseNumber(std::string("material: ") + property.name, word);
+        if (value < property.low || value > property.high)
+            usage(fmt::format("material: {}: '{}' is not usable; {:g} to {:g}{}{} would be right",
+                              property.name, word, property.low, property.high,
+                              *property.unit == '\0' ? "" : " ", property.unit));
+        values[i] = static_cast<float>(value);
+    }
+    return values;
+}
+
+bool onOff(const CommandContext& context, const Property& property) {
+    const std::string word = context.count() == 3 ? context.words[2] : "";
+    if (word == "on" || word == "true") return true;
+    if (word == "off" || word == "false") return false;
+    usage(fmt::format("material: {}: on or off would be right", property.name));
+}
+
+void change(Material& material, const CommandContext& context) {
+    const Property& property = propertyOf(context.words[1]);
+    const std::string name = property.name;
+    if (property.values == 0) {
+        (name == "unlit" ? material.unlit : material.doubleSided) = onOff(context, property);
+        return;
+    }
+    const std::array<float, 3> v = valuesOf(context, property);
+    PhongMaterial phong = material.isPhong ? material.phong : phongFromPbr(material);
+    if (name == "color") setColor(material, {v[0], v[1], v[2]});
+    if (name == "emission") material.emission = {v[0], v[1], v[2]};
+    if (name == "opacity") {
+        material.baseColor.a = v[0];
+        if (v[0] < 1 && material.alphaMode == AlphaMode::Opaque) material.alphaMode = AlphaMode::Blend;
+    }
+    if (name == "roughness") material.roughness = v[0];
+    if (name == "metallic") material.metallic = v[0];
+    if (name == "ior") material.ior = v[0];
+    if (name == "specular") material.specular = v[0];
+    if (name == "shininess") phong.shininess = v[0];
+    if (name == "ambient_str") phong.ambientStrength = v[0];
+    if (name == "diffuse_str") phong.diffuseStrength = v[0];
+    if (name == "specular_str") phong.specularStrength = v[0];
+    if (name == "shininess" || name.find("_str") != std::string::npos) setPhong(material, phong);
+}
+
+void printMaterial(const CommandContext& context, const Material& m) {
+    context.print("material " + m.name);
+    context.print(fmt::format("  color {}  opacity {:.6g}{}", text(glm::vec3(m.baseColor)), m.baseColor.a,
+                              m.baseColorTexture.used() ? "  times a texture" : ""));
+    context.print(fmt::format("  roughness {:.6g}  metallic {:.6g}  ior {:.6g}  specular {:.6g}", m.roughness,
+                              m.metallic, m.ior, m.specular));
+    context.print(fmt::format("  emission {} W/(sr m^2)", text(m.emission)));
+    const PhongMaterial phong = m.isPhong ? m.phong : phongFromPbr(m);
+    context.print(
+        fmt::format("  Phong{}: color {}  shininess {:.6g}  ambient_str {:.6g}  diffuse_str {:.6g}"
+                    "  specular_str {:.6g}",
+                    m.isPhong ? "" : " (derived)", text(phong.color), phong.shininess, phong.ambientStrength,
+                    phong.diffuseStrength, phong.specularStrength));
+    context.print(
+        fmt::format("  double_sided {}  unlit {}", m.doubleSided ? "on" : "off", m.unlit ? "on" : "off"));
+}
+
+void material(const CommandContext& context) {
+    Session& session = context.session;
+    const std::string& word = context.words[0];
+    if (context.count() > 1) propertyOf(context.words[1]);  // before anything is changed
+    std::set<std::size_t> indices;
+    for (const std::size_t index : materialsNamed(session, word)) indices.insert(index);
+    if (indices.empty())
+        for (const std::size_t object : objectsNamed(session, word))
+            indices.insert(session.materialOf(object));
+    if (indices.empty()) {
+        std::vector<std::string> names = materialNames(session);
+        const std::vector<std::string> objects = objectNames(session);
+        names.insert(names.end(), objects.begin(), objects.end());
+        requireName("material", "material or object", names, word);
+    }
+    std::vector<std::pair<std::size_t, Material>> changes;
+    for (const std::size_t index : indices) {
+        Material changed = session.scene().materials[index];
+        if (context.count() == 1) {
+            printMaterial(context, changed);
+            continue;
+        }
+        change(changed, context);
+        changes.emplace_back(index, std::move(changed));
+    }
+    if (!changes.empty()) session.setMaterials(changes, "material " + word + " " + context.words[1]);
+}
+
+void sky(const CommandContext& context) {
+    if (context.count() == 0)
+        return context.print("sky: " + text(context.session.scene().sky) + " W/(sr m^2)");
+    if (context.count() != 1 && context.count() != 3)
+        usage(fmt::format("sky: takes 1 or 3 numbers, got {}; sky R G B would be right", context.count()));
+    glm::vec3 color(0);
+    for (int c = 0; c < 3; ++c)
+        color[c] = static_cast<float>(context.number(context.count() == 3 ? static_cast<std::size_t>(c) : 0));
+    context.session.setSky(color, "sky");
+}
+
+void save(const CommandContext& context) {
+    for (const std::string& note : saveSession(context.session, context.words[0], context.count() > 1))
+        context.print(note);
+    context.print("saved " + context.words[0]);
+}
+
+Command command(const char* name, std::vector<Argument> arguments, const char* help,
+                void (*run)(const CommandContext&), const char* details = "") {
+    Command made;
+    made.name = name;
+    made.arguments = std::move(arguments);
+    made.help = help;
+    made.run = run;
+    made.details = details;
+    return made;
+}
+
+}  // namespace
+
+CommandGroup sceneCommands() {
+    return {
+        "Scene",
+        {
+            command("list",
+                    {{"WHAT",
+                      ArgumentKind::Choice,
+                      true,
+                      false,
+                      "",
+                      0,
+                      0,
+                      {"objects", "materials", "lights", "cameras", "modes"}}},
+                    "what there is, with its numbers", list, "Without WHAT: objects."),
+            command("select", {{"NAME", ArgumentKind::Selectable}},
+                    "choose an object, light or material, or none", select),
+            command("material",
+                    {{"NAME", ArgumentKind::Material},
+                     {"PROPERTY", ArgumentKind::Text, true},
+                     {"VALUE", ArgumentKind::Text, true, true}},
+                    "print a material, or change one of its properties", material,
+                    "NAME is a material's or an object's.\n"
+                    "color R G B, emission R G B (W/(sr m^2)): one number stands for three equal ones\n"
+                    "roughness, metallic, opacity, specular: 0 to 1; ior: 1 to 10\n"
+                    "shininess, ambient_str, diffuse_str, specular_str: Phong's, modes phong and thesis\n"
+                    "double_sided, unlit: on or off"),
+            lightCommand(),
+            command("sky", {{"RADIANCE", ArgumentKind::Number, true, true, "W/(sr m^2)", 0, 1e9, {}}},
+                    "radiance of the surroundings: R G B, or one number", sky,
+                    "Without RADIANCE it is printed."),
+            command("save",
+                    {{"FILE", ArgumentKind::File},
+                     {"FORCE", ArgumentKind::Choice, true, false, "", 0, 0, {"force"}}},
+                    "write the edited scene: .gltf .glb, or .txt (the thesis's format)", save,
+                    "A file that exists is left alone unless `force` is said. What the format cannot hold is "
+                    "named.\nThe .txt format keeps settings and view too, and its meshes as .obj files "
+                    "beside it."),
+        }};
+}
+
+}  // namespace conelight::program

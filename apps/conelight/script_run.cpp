@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "script_run.h"
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <glm/gtc/matrix_transform.hpp>
+#include <iostream>
+#include <iterator>
+
+#include "conelight/error.h"
+#include "console/console.h"
+#include "picture_file.h"
+#include "video_file.h"
+
+namespace conelight::program {
+namespace {
+
+class Runner {
+  public:
+    Runner(Session& session, PictureSource* source, const PictureRequest& base, Progress& progress)
+        : session_(session),
+          source_(source),
+          base_(base),
+          progress_(progress),
+          console_(session, [&](const ConsoleLine& line) {
+              if (line.isError) return;  // thrown at the end, with the exit status that goes with it
+              progress.finish();
+              fmt::print("{}\n", line.text);
+          }) {
+        console_.setStopOnError(true);
+    }
+
+    void run(const ScriptOptions& options) {
+        for (const std::string& file : options.files) {
+            if (file == "-")
+                console_.submit({std::istreambuf_iterator<char>(std::cin), {}}, "standard input");
+            else
+                console_.submit("source " + quoted(file), "--script");
+        }
+        for (const std::string& commands : options.commands) console_.submit(commands, "--exec");
+        while (!console_.idle() || session_.hasRequests()) {
+            console_.runQueued();
+            while (std::optional<Request> request = session_.takeRequest()) carryOut(*request);
+            if (console_.framesToWait() > 0) {
+                draw();
+                console_.frameDone();
+            }
+        }
+        progress_.finish();
+        std::fflush(stdout);
+        if (console_.firstError()) throw *console_.firstError();
+    }
+
+  private:
+    // A request that fails is the failure of its command.
+    void carryOut(const Request& request) {
+        if (request.kind == RequestKind::Quit) {
+            progress_.finish();
+            std::fflush(stdout);
+            throw QuitRequest{request.status};
+        }
+        try {
+            carryOutWork(request);
+        } catch (const Error& error) {
+            console_.fail(error);
+        }
+    }
+
+    void carryOutWork(const Request& request) {
+        switch (request.kind) {
+            case RequestKind::Load:
+                progress_.show("loading " + request.file);
+                for (const std::string& note : session_.open(request.file, request.keepView))
+                    std::fprintf(stderr, "conelight: %s: %s\n", request.file.c_str(), note.c_str());
+                break;
+            case RequestKind::Screenshot: {
+                const Image image = draw();
+                writePicture(request.file, image, session_.shownSettings().image);
+                console_.print("written " + request.file);
+                break;
+            }
+            case RequestKind::Record:
+                record(request);
+                break;
+            case RequestKind::Revoxelize: {
+                draw();
+                std::size_t bytes = 0;
+                for (const MemoryStats& object : stats_.memory) bytes += object.bytes;
+                console_.print(fmt::format("Voxelization Complete: {} voxels along the longest axis",
+                                           session_.settings().voxels.size));
+                console_.print(fmt::format("GL objects (bytes): {}", bytes));
+                break;
+            }
+            case RequestKind::SingleFrame:
+                draw();
+                break;
+            default:
+                break;
+        }
+    }
+
+    void record(const Request& request) {
+        const PictureRequest shown = requestFor(session_, base_);
+        VideoFile video(request.file, shown.size.width, shown.size.height);
+        const Camera start = session_.camera();
+        for (int frame = 0; frame < request.count; ++frame) {
+            progress_.show(fmt::format("{}: frame {} of {}", request.file, frame + 1, request.count));
+            if (request.turntable) {
+                const float angle =
+                    6.2831853f * static_cast<float>(frame) / static_cast<float>(request.count);
+                Camera turned = start;
+                turned.eye = start.target + glm::vec3(glm::rotate(glm::mat4(1), angle, start.up) *
+                                                      glm::vec4(start.eye - start.target, 0));
+                session_.moveCamera(turned);
+            }
+            video.add(draw(), session_.shownSettings().image);
+        }
+        session_.moveCamera(start);
+        video.finish();
+        console_.print("written " + request.file);
+    }
+
+    Image draw() {
+        if (source_ == nullptr)
+            throw Error(ErrorKind::Usage, "this command needs a picture, which only `render` draws");
+        const PictureRequest request = requestFor(session_, base_);
+        if (session_.showsNothing()) {
+            Image image{request.size.width, request.size.height, {}};
+            image.pixels.assign(
+                static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
+                glm::vec4(session_.scene().sky, 0));
+            return image;
+        }
+        const std::uint64_t tables = session_.revisions().sceneTables();
+        if (!uploaded_ || *uploaded_ != tables) source_->setScene(session_.scene());
+        uploaded_ = tables;
+        const auto start = std::chrono::steady_clock::now();
+        Picture picture = source_->draw(request, &progress_);
+        const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
+        stats_ = picture.stats;
+        session_.frameDrawn(taken.count());
+        return std::move(picture.images.front());
+    }
+
+    Session& session_;
+    PictureSource* source_;
+    PictureRequest base_;
+    Progress& progress_;
+    Console console_;
+    std::optional<std::uint64_t> uploaded_;
+    FrameStats stats_;
+};
+
+}  // namespace
+
+void ScriptOptions::addTo(CLI::App& command) {
+    command
+        .add_option("--exec", this->commands,
+                    "console commands to run first, as in `mode phong; pos1`; may be repeated")
+        ->type_name("COMMANDS")
+        ->allow_extra_args(false);
+    command
+        .add_option("--script", files, "a file of console commands to run before those; - is standard input")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+}
+
+PictureRequest requestFor(const Session& session, const PictureRequest& base) {
+    PictureRequest request = base;
+    request.settings = session.shownSettings();
+    request.mode = session.shownMode();
+    request.camera = session.camera();
+    request.components = {request.settings.component};
+    return request;
+}
+
+void runScript(const ScriptOptions& options, Session& session, PictureSource* source,
+               const PictureRequest& base, Progress& progress) {
+    if (options.given()) Runner(session, source, base, progress).run(options);
+}
+
+}  // namespace conelight::program

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "session/material_edit.h"
+
+#include <fmt/core.h>
+
+namespace conelight::program {
+
+void setPhong(Material& material, const PhongMaterial& phong) {
+    if (!material.isPhong) {
+        // The metallic-roughness model was given and stays, but for what is the same property by another
+        // name.
+        const PhongMaterial before = phongFromPbr(material);
+        Material probe;
+        probe.phong = phong;
+        setPbrFromPhong(probe);
+        if (phong.shininess != before.shininess) material.roughness = probe.roughness;
+        material.phong = phong;
+        material.isPhong = true;
+        return;
+    }
+    Material old = material, now = material;
+    setPbrFromPhong(old);
+    now.phong = phong;
+    setPbrFromPhong(now);
+    if (material.roughness == old.roughness) material.roughness = now.roughness;
+    if (material.metallic == old.metallic) material.metallic = now.metallic;
+    if (material.ior == old.ior) material.ior = now.ior;
+    if (material.specular == old.specular) material.specular = now.specular;
+    if (material.specularColor == old.specularColor) material.specularColor = now.specularColor;
+    if (material.baseColor == old.baseColor) material.baseColor = now.baseColor;
+    material.phong = phong;
+}
+
+void setColor(Material& material, const glm::vec3& color) {
+    if (material.isPhong && material.phong.color != color) {
+        PhongMaterial phong = material.phong;
+        phong.color = color;
+        const glm::vec4 before = material.baseColor;
+        setPhong(material, phong);
+        // A base colour of its own: it becomes the new one as it is.
+        if (material.baseColor == before && !material.unlit) material.baseColor = glm::vec4(color, before.a);
+    }
+    if (!material.isPhong || material.unlit) material.baseColor = glm::vec4(color, material.baseColor.a);
+}
+
+std::string othersWith(const Session& session, const std::set<std::size_t>& materials,
+                       const std::string& name) {
+    std::string names;
+    int count = 0;
+    for (const Instance& instance : session.scene().instances) {
+        if (instance.material < 0 || instance.name == name) continue;
+        if (materials.count(static_cast<std::size_t>(instance.material)) == 0) continue;
+        if (++count <= 3) names += (count == 1 ? "" : ", ") + instance.name;
+    }
+    return count > 3 ? fmt::format("{} and {} more", names, count - 3) : names;
+}
+
+}  // namespace conelight::program

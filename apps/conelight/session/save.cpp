@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#include "session/save.h"
+
+#include "io/scene_write.h"
+
+namespace conelight::program {
+namespace {
+
+bool sameView(const Camera& a, const Camera& b) {
+    return a.eye == b.eye && a.target == b.target && a.up == b.up && a.fovY == b.fovY;
+}
+
+}  // namespace
+
+std::vector<std::string> saveSession(Session& session, const std::string& path, bool force) {
+    Scene scene = session.scene();
+    const bool isFirst = !scene.cameras.empty() && sameView(scene.cameras.front(), session.camera());
+    if (!isFirst) {
+        Camera view = session.camera();
+        view.name = "saved";
+        std::erase_if(scene.cameras, [](const Camera& one) { return one.name == "saved"; });
+        scene.cameras.insert(scene.cameras.begin(), view);
+    }
+    // All that differs from what a reader starts with; the picture's look always, because formats differ in
+    // it.
+    scene.settings.clear();
+    const Settings defaults;
+    for (const SettingInfo& info : settingInfos()) {
+        const std::string value = getSetting(session.settings(), info.key);
+        if (info.key.rfind("image.", 0) == 0 || value != getSetting(defaults, info.key))
+            scene.settings.emplace_back(info.key, value);
+    }
+    std::vector<std::string> notes = io::writeScene(path, scene, force);
+    session.markSaved();
+    return notes;
+}
+
+}  // namespace conelight::program

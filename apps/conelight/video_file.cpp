@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+#include "video_file.h"
+
+#include <fmt/core.h>
+#include <signal.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "command_line.h"
+#include "conelight/error.h"
+#include "io/image_file.h"
+#include "picture_file.h"
+
+namespace conelight::program {
+namespace {
+
+// ffmpeg may end before it has read all; the write then fails instead of killing the program.
+class IgnorePipeSignal {
+  public:
+    IgnorePipeSignal() : before_(::signal(SIGPIPE, SIG_IGN)) {}
+    ~IgnorePipeSignal() { ::signal(SIGPIPE, before_); }
+
+  private:
+    void (*before_)(int);
+};
+
+std::string numbered(const std::string& pattern, int number) {
+    const std::size_t percent = pattern.find('%');
+    const std::size_t end = pattern.find('d', percent);
+    const std::string width = pattern.substr(percent + 1, end - percent - 1);
+    const int digits = width.empty() ? 1 : std::atoi(width.c_str());
+    return fmt::format("{}{:0{}}{}", pattern.substr(0, percent), number, digits, pattern.substr(end + 1));
+}
+
+}  // namespace
+
+VideoFile::VideoFile(const std::string& file, int width, int height, int framesPerSecond) : file_(file) {
+    if (file.find('%') != std::string::npos) {
+        io::checkWritable(numbered(file, 0));
+        return;
+    }
+    io::checkWritable(file);
+    if (std::system("command -v ffmpeg >/dev/null 2>&1") != 0)
+        throw Error(
+            ErrorKind::Runtime,
+            fmt::format("{}: films need the program ffmpeg, which is not installed; numbered pictures "
+                        "as in frame%04d.png would be right",
+                        file));
+    const std::filesystem::path path(file);
+    partial_ =
+        (path.parent_path() / (path.stem().string() + ".partial" + path.extension().string())).string();
+    // Even sizes: the usual pixel format of films holds colour at half resolution.
+    const std::string command = fmt::format(
+        "ffmpeg -y -loglevel error -f rawvideo -pix_fmt rgb24 -s {}x{} -r {} -i - "
+        "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2' -pix_fmt yuv420p {} >/dev/null",
+        width, height, framesPerSecond, shellWord(partial_));
+    pipe_ = ::popen(command.c_str(), "w");
+    if (pipe_ == nullptr) throw Error(ErrorKind::Runtime, file + ": ffmpeg cannot be started");
+}
+
+VideoFile::~VideoFile() {
+    if (pipe_ == nullptr) return;
+    const IgnorePipeSignal ignore;
+    ::pclose(pipe_);
+    std::error_code code;
+    std::filesystem::remove(partial_, code);
+}
+
+void VideoFile::add(const Image& image, const ImageSettings& settings) {
+    if (partial_.empty()) return writePicture(numbered(file_, count_++), image, settings);
+    const IgnorePipeSignal ignore;
+    const std::vector<std::uint8_t> bytes = toneMapped(image, settings);
+    if (std::fwrite(bytes.data(), 1, bytes.size(), pipe_) != bytes.size() || std::fflush(pipe_) != 0)
+        throw Error(ErrorKind::Runtime, file_ + ": ffmpeg stopped reading; its own message stands above");
+    ++count_;
+}
+
+void VideoFile::finish() {
+    if (pipe_ == nullptr) return;
+    const IgnorePipeSignal ignore;
+    const int status = ::pclose(pipe_);
+    pipe_ = nullptr;
+    std::error_code code;
+    if (status == 0) std::filesystem::rename(partial_, file_, code);
+    if (status != 0 || code) {
+        std::filesystem::remove(partial_, code);
+        throw Error(ErrorKind::Runtime, file_ + ": ffmpeg failed; its own message stands above");
+    }
+}
+
+}  // namespace conelight::program

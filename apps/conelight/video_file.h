@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Frames to a film (through the program ffmpeg) or to numbered pictures (frame%04d.png). A film is written
+// beside its place and renamed when finish() is reached.
+#pragma once
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "conelight/renderer.h"
+
+namespace conelight::program {
+
+class VideoFile {
+  public:
+    // `file` as isVideoName() takes it. Throws Error(Runtime) when it cannot be written.
+    VideoFile(const std::string& file, int width, int height, int framesPerSecond = 30);
+    ~VideoFile();
+    VideoFile(const VideoFile&) = delete;
+    VideoFile& operator=(const VideoFile&) = delete;
+
+    // Throws Error(Runtime), of ffmpeg too: that it is not installed, or what it ended with.
+    void add(const Image& image, const ImageSettings& settings);
+    void finish();
+
+  private:
+    std::string file_, partial_;
+    int count_ = 0;
+    std::FILE* pipe_ = nullptr;
+};
+
+}  // namespace conelight::program

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include "io/scene_write.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "conelight/error.h"
+#include "io/files.h"
+#include "io/gltf_write.h"
+#include "io/thesis_write.h"
+
+namespace conelight::io {
+
+std::vector<std::string> writtenSceneExtensions() { return {".glb", ".gltf", ".scene", ".txt"}; }
+
+std::vector<std::string> writeScene(const std::string& path, const Scene& scene, bool force) {
+    const std::vector<std::string> known = writtenSceneExtensions();
+    const std::string extension = lowerExtension(path);
+    if (std::find(known.begin(), known.end(), extension) == known.end())
+        throw Error(ErrorKind::Usage,
+                    fmt::format("{}: scenes are not written as '{}'; one of {} would be right", oneLine(path),
+                                oneLine(extension), fmt::join(known, " ")));
+    refuseOverwriting(path, force);
+    if (extension == ".gltf" || extension == ".glb") return writeGltf(path, scene);
+    return writeThesisScene(path, scene, force);
+}
+
+}  // namespace conelight::io
