@@ -221,9 +221,10 @@ void addRender(CLI::App& app) {
                      "albedo, normal, depth, voxels or emission")
         ->capture_default_str();
     command
-        ->add_option("--bounces", options->bounces,
-                     "indirect bounces, or all: 0 = direct light and emission seen; mode cones: 0 to 8, all "
-                     "is 8; traced: 0 to 15 or all; modes reference and radiosity: any number, all is the default")
+        ->add_option(
+            "--bounces", options->bounces,
+            "indirect bounces, or all: 0 = direct light and emission seen; mode cones: 0 to 8, all "
+            "is 8; traced: 0 to 15 or all; modes reference and radiosity: any number, all is the default")
         ->type_name("N");
     command
         ->add_option("--aov", options->aovs,

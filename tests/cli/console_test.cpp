@@ -39,7 +39,7 @@ TEST_F(ConsoleCliTest, ExecEqualsTheOptionsBitForBit) {
         {"--mode thesis --set thesis.side_cones=true --set thesis.diffuse.aperture=0.5",
          "--exec 'mode thesis; side_cones; da 0.5'"},
         {"--mode cones --component indirect --set cones.bounces=1 --sky 0.5,0.25,0",
-         "--exec 'set cones.bounces 1; component indirect' --exec 'sky 0.5 0.25 0'"},
+         "--exec 'mode cones; set cones.bounces 1; component indirect' --exec 'sky 0.5 0.25 0'"},
         {"--mode phong --eye 0.2,1,3 --target 0,1,0 --fov 50",
          "--exec 'camera eye 0.2 1 3; camera target 0 1 0; camera fov 50; mode phong'"},
         {"--mode thesis --component voxels --set thesis.voxel_level=1", "--exec 'mode thesis; voxs; lod 1'"},

@@ -99,7 +99,8 @@ TEST_F(ProgramTest, AovsBecomeLayersOfTheExr) {
 }
 
 TEST_F(ProgramTest, StatsNamePassesLookupsAndMemory) {
-    ASSERT_EQ(render("builtin:cornell", path("s.png"), "--stats '" + path("s.json") + "'").status, 0);
+    ASSERT_EQ(
+        render("builtin:cornell", path("s.png"), "--mode cones --stats '" + path("s.json") + "'").status, 0);
     const nlohmann::json json = nlohmann::json::parse(bytesOf(path("s.json")));
     EXPECT_GT(json["passes"].size(), 2u);
     EXPECT_GT(json["lookups_per_pixel"]["diffuse"].get<double>(), 1.0);

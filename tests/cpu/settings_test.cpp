@@ -72,9 +72,8 @@ std::vector<std::string> goodValues(const SettingInfo& info) {
 
 TEST(SettingsTest, EachHasWhatTheManualShows) {
     const std::set<std::string> types{"bool", "int", "float", "auto float", "choice"};
-    const std::set<std::string> units{"",           "rad",       "m",     "voxels", "texels",  "stops",
-                                      "footprints", "diameters", "cones", "deg",    "samples", "steps",
-                                      "faces"};
+    const std::set<std::string> units{"",          "rad",   "m",   "voxels",  "texels", "stops", "footprints",
+                                      "diameters", "cones", "deg", "samples", "steps",  "faces"};
     std::set<std::string> keys;
     for (const SettingInfo& info : settingInfos()) {
         EXPECT_TRUE(keys.insert(info.key).second) << info.key << " twice";

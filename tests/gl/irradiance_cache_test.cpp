@@ -101,16 +101,18 @@ TEST_F(IrradianceCacheTest, TurnedFurnace) {
 }
 
 // How many rays go which way must not matter: the trap of rays to bright faces that count whatever they meet,
-// with which the second mean is a fifth larger and the third several times.
+// with which the second mean is a fifth larger and the third several times. All faces of an update draw from
+// one pool of 4,096 bright faces, whose noise they share (4 % of the mean after 3 updates at 4+60 rays): 40
+// updates average it away.
 TEST_F(IrradianceCacheTest, EstimatorsAgreeInTheMean) {
     const Scene scene = io::loadScene("builtin:cornell");
     double means[3];
-    const int rays[3][2] = {{128, 0}, {64, 64}, {4, 60}};
+    const int rays[3][2] = {{64, 0}, {32, 32}, {4, 28}};
     for (int i = 0; i < 3; ++i) {
         CacheRig rig(programs(), scene, 32);
         rig.settings.cosineRays = rays[i][0];
         rig.settings.lightRays = rays[i][1];
-        rig.update(3);
+        rig.update(40);
         means[i] = rig.meanIrradiance();
         RecordProperty(std::to_string(rays[i][0]) + "+" + std::to_string(rays[i][1]),
                        std::to_string(means[i]));

@@ -10,6 +10,7 @@
 #include "shared/frame.h"
 #include "shared/image.h"
 #include "shared/irradiance.h"
+#include "shared/pixel_rays.h"
 #include "shared/radiance_volume.h"
 #include "shared/scene.h"
 #include "shared/thesis.h"
@@ -91,6 +92,8 @@ const std::vector<Struct>& table() {
         ROW(ConeConstants, count, step, offset, maxDistance, specularMinTan, occlusionDistance, voxelLevel,
             pad0, cone, aperture),
         ROW(DisplayConstants, scale, curve, srgb, pad0),
+        ROW(PixelRayConstants, oldClipFromWorld, oldEye, planeTolerance, oldForward, pass, oldRight, rays,
+            oldUp, longestMean, specularLimit, reach, inverseVoxelSize, pad0),
         ROW(FrameConstants, clipFromWorld, worldFromClip, eye, zNear, sky, zFar, width, height, lightCount,
             frameIndex, instanceCount, triangleCount, seed, pad0, viewForward, pad1, viewRight, pad2, viewUp,
             pad3, lightEnds),

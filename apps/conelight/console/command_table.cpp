@@ -26,7 +26,7 @@ std::string joined(const std::vector<std::string>& words) {
 
 void checkNumber(const Command& command, const Argument& argument, const std::string& word) {
     const std::string what = command.name + ": " + argument.name;
-    const double value = parseNumber(what, word);
+    const double value = numberFrom(what, word);
     const bool whole = argument.kind == ArgumentKind::Whole;
     const bool outside = argument.low < argument.high && (value < argument.low || value > argument.high);
     if (!outside && (!whole || value == std::floor(value))) return;
@@ -37,7 +37,7 @@ void checkNumber(const Command& command, const Argument& argument, const std::st
 
 }  // namespace
 
-double CommandContext::number(std::size_t i) const { return parseNumber("argument", words.at(i)); }
+double CommandContext::number(std::size_t i) const { return numberFrom("argument", words.at(i)); }
 void CommandContext::print(const std::string& line) const { console.print(line); }
 
 std::size_t Command::fewestWords() const {
@@ -92,7 +92,7 @@ std::vector<std::string> commandWords() {
     return words;
 }
 
-double parseNumber(const std::string& what, const std::string& text) {
+double numberFrom(const std::string& what, const std::string& text) {
     const char* first = text.data();
     const char* last = first + text.size();
     if (first != last && *first == '+') ++first;

@@ -77,7 +77,7 @@ std::vector<const Command*> commandsNamed(const std::string& word);
 std::vector<std::string> commandWords();  // all names and aliases, sorted
 
 // A number in any locale; an `f` behind it is passed over, as the original did. Throws Error(Usage).
-double parseNumber(const std::string& what, const std::string& text);
+double numberFrom(const std::string& what, const std::string& text);
 // Throws Error(Usage) that names the argument and what would be right.
 void checkArgument(const Session& session, const Command& command, const Argument& argument,
                    const std::string& word);

@@ -33,7 +33,7 @@ std::vector<double> numbers(const CommandContext& context, std::size_t count, co
                           context.words[0], usageText));
     std::vector<double> values;
     for (std::size_t i = 0; i < count; ++i)
-        values.push_back(parseNumber("camera " + context.words[0], context.words[i + 1]));
+        values.push_back(numberFrom("camera " + context.words[0], context.words[i + 1]));
     return values;
 }
 

@@ -64,7 +64,7 @@ std::vector<float> numbers(const std::string& what, const std::vector<std::strin
                           words.size()));
     std::vector<float> values;
     for (const std::string& word : words) {
-        const double value = parseNumber("light: " + what, word);
+        const double value = numberFrom("light: " + what, word);
         if (value < low || value > high)
             usage(fmt::format("light: {}: '{}' is not usable; {:g} to {:g}{}{} would be right", what, word,
                               low, high, *unit == '\0' ? "" : " ", unit));

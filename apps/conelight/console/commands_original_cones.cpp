@@ -119,7 +119,7 @@ Command numberCommand(const Number& row) {
                 fmt::format("{} : {}", row.label, getSetting(context.session.settings(), row.key)));
         const bool automatic = context.words[0] == "auto";
         std::string text = context.words[0];
-        if (!automatic) text = fmt::format("{:.9g}", parseNumber(row.name, text));
+        if (!automatic) text = fmt::format("{:.9g}", numberFrom(row.name, text));
         context.session.setSetting(row.key, text);
         hint(context);
     };

@@ -117,7 +117,7 @@ std::array<float, 3> valuesOf(const CommandContext& context, const Property& pro
     std::array<float, 3> values{};
     for (std::size_t i = 0; i < property.values; ++i) {
         const std::string& word = context.words[2 + std::min(i, given - 1)];
-        const double value = parseNumber(std::string("material: ") + property.name, word);
+        const double value = numberFrom(std::string("material: ") + property.name, word);
         if (value < property.low || value > property.high)
             usage(fmt::format("material: {}: '{}' is not usable; {:g} to {:g}{}{} would be right",
                               property.name, word, property.low, property.high,
