@@ -25,6 +25,7 @@ void addSettings(CLI::App& app);
 void addCommands(CLI::App& app);
 void addConvert(CLI::App& app);
 void addShaders(CLI::App& app);
+void addView(CLI::App& app);
 
 // Throws Error(Usage).
 [[noreturn]] void usage(const std::string& message);

@@ -49,6 +49,7 @@ int main(int argc, char** argv) {
     app.set_version_flag("--version", std::string("conelight ") + CONELIGHT_VERSION_STRING);
     app.require_subcommand(1);
     app.get_formatter()->column_width(36);
+    conelight::program::addView(app);
     conelight::program::addRender(app);
     conelight::program::addCompare(app);
     conelight::program::addBench(app);

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// `conelight view [SCENE]`: the window.
+#include "command.h"
+#include "script_run.h"
+#include "session/session.h"
+#include "viewer/viewer.h"
+
+namespace conelight::program {
+namespace {
+
+struct ViewCommand {
+    std::string scene = "builtin:cornell";
+    std::string mode;
+    std::string shaderDirectory;
+    std::string window = "1280x800";
+    std::vector<std::string> commands;
+    bool noInput = false;
+    ViewOptions view;
+};
+
+int run(const ViewCommand& options) {
+    const Size size = parseSize(options.window);
+    Progress progress;
+    Scene scene = openScene(options.scene, options.view, progress);
+    const Settings settings = settingsFor(scene, options.mode, options.view);
+    const Camera camera = cameraFor(scene, options.view);
+    progress.finish();
+    Session session(std::move(scene), options.scene, settings,
+                    options.mode.empty() ? getSetting(settings, "mode") : options.mode, camera);
+    ViewerOptions viewer;
+    viewer.width = size.width;
+    viewer.height = size.height;
+    viewer.shaderDirectory = options.shaderDirectory;
+    viewer.debugGl = options.view.debugGl;
+    viewer.commands = options.commands;
+    viewer.readStdin = !options.noInput;
+    return runViewer(session, viewer);
+}
+
+}  // namespace
+
+void addView(CLI::App& app) {
+    auto options = std::make_shared<ViewCommand>();
+    CLI::App* command = app.add_subcommand("view", "a window on a scene: fly through it, turn every knob");
+    command->add_option("scene", options->scene, "a scene file, or builtin:NAME")->capture_default_str();
+    command->add_option("--mode", options->mode, "mode to start in");
+    command->add_option("--window", options->window, "size of the window")
+        ->capture_default_str()
+        ->type_name("WxH");
+    command
+        ->add_option("--shader-dir", options->shaderDirectory,
+                     "shaders from this folder instead of the built-in ones; changes show at once")
+        ->type_name("DIR");
+    command->add_option("--exec", options->commands, "console commands to run first; may be repeated")
+        ->type_name("COMMANDS")
+        ->allow_extra_args(false);
+    command->add_flag("--no-input", options->noInput, "do not read commands from standard input");
+    options->view.addTo(*command);
+    command->callback([options] {
+        if (const int status = run(*options); status != 0) throw QuitRequest{status};
+    });
+}
+
+}  // namespace conelight::program

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/console_panel.h"
+
+#include <imgui.h>
+#include <imgui_stdlib.h>
+
+#include <algorithm>
+
+namespace conelight::program {
+namespace {
+
+constexpr std::size_t kKeptLines = 2000;
+
+// What all candidates start with.
+std::string commonStart(const std::vector<std::string>& words) {
+    std::string start = words.front();
+    for (const std::string& word : words) {
+        std::size_t same = 0;
+        while (same < std::min(start.size(), word.size()) && start[same] == word[same]) ++same;
+        start.resize(same);
+    }
+    return start;
+}
+
+void replaceLine(ImGuiInputTextCallbackData* data, const std::string& text) {
+    data->DeleteChars(0, data->BufTextLen);
+    data->InsertChars(0, text.c_str());
+}
+
+}  // namespace
+
+void ConsolePanel::say(const std::string& text) {
+    std::size_t from = 0;
+    while (from <= text.size()) {
+        const std::size_t end = std::min(text.find('\n', from), text.size());
+        if (end > from || end < text.size()) lines_.push_back(text.substr(from, end - from));
+        from = end + 1;
+    }
+    while (lines_.size() > kKeptLines) lines_.pop_front();
+    scrollDown_ = true;
+}
+
+void ConsolePanel::completeLine(void* callbackData) {
+    auto* data = static_cast<ImGuiInputTextCallbackData*>(callbackData);
+    const std::vector<std::string> whole =
+        complete_(std::string(data->Buf, static_cast<std::size_t>(data->BufTextLen)));
+    if (whole.empty()) return;
+    replaceLine(data, whole.size() == 1 ? whole.front() + " " : commonStart(whole));
+    if (whole.size() == 1) return;
+    std::string all;
+    for (const std::string& line : whole) all += (all.empty() ? "" : "   ") + line;
+    say(all);
+}
+
+void ConsolePanel::recall(void* callbackData) {
+    auto* data = static_cast<ImGuiInputTextCallbackData*>(callbackData);
+    if (data->EventKey == ImGuiKey_UpArrow && recalled_ < history_.size()) ++recalled_;
+    if (data->EventKey == ImGuiKey_DownArrow && recalled_ > 0) --recalled_;
+    replaceLine(data, recalled_ == 0 ? "" : history_[history_.size() - recalled_]);
+}
+
+int ConsolePanel::edited(void* callbackData) {
+    auto* data = static_cast<ImGuiInputTextCallbackData*>(callbackData);
+    auto* panel = static_cast<ConsolePanel*>(data->UserData);
+    if (data->EventFlag == ImGuiInputTextFlags_CallbackCompletion) panel->completeLine(data);
+    if (data->EventFlag == ImGuiInputTextFlags_CallbackHistory) panel->recall(data);
+    return 0;
+}
+
+void ConsolePanel::show() {
+    const float footer = ImGui::GetFrameHeightWithSpacing();
+    ImGui::BeginChild("##log", {0, -footer});
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(lines_.size()));
+    while (clipper.Step())
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
+            ImGui::TextUnformatted(lines_[static_cast<std::size_t>(i)].c_str());
+    clipper.End();
+    if (scrollDown_) ImGui::SetScrollHereY(1);
+    scrollDown_ = false;
+    ImGui::EndChild();
+
+    ImGui::SetNextItemWidth(-1);
+    const bool entered = ImGui::InputTextWithHint(
+        "##line", "command; `help` lists them, Tab completes", &line_,
+        ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion |
+            ImGuiInputTextFlags_CallbackHistory,
+        [](ImGuiInputTextCallbackData* data) { return edited(data); }, this);
+    if (!entered) return;
+    if (!line_.empty()) {
+        say("> " + line_);
+        if (history_.empty() || history_.back() != line_) history_.push_back(line_);
+        enter_(line_);
+    }
+    line_.clear();
+    recalled_ = 0;
+    ImGui::SetKeyboardFocusHere(-1);
+}
+
+}  // namespace conelight::program

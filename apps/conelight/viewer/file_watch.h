@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Files that changed on disk since they were last looked at: the scene's, and the shaders of --shader-dir.
+// Modification times are polled, at most twice a second.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+
+namespace conelight::program {
+
+class FileWatch {
+  public:
+    explicit FileWatch(std::string shaderDirectory) : shaders_(std::move(shaderDirectory)) {}
+    void setScene(const std::string& path);  // what does not name a file (builtin:) is not watched
+    bool sceneChanged();
+    bool shadersChanged();
+
+  private:
+    using Time = std::filesystem::file_time_type;
+    static Time newestIn(const std::string& path);
+    bool due(std::chrono::steady_clock::time_point& last);
+    std::string scene_, shaders_;
+    Time sceneTime_{}, shaderTime_{};
+    std::chrono::steady_clock::time_point sceneLooked_{}, shadersLooked_{};
+};
+
+}  // namespace conelight::program

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// The panels beside the picture. Each is a function that draws its widgets into the current ImGui window and
+// changes the session through its calls.
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "conelight/renderer.h"
+#include "session/picker.h"
+#include "session/session.h"
+
+namespace conelight::program {
+
+// Objects, lights, materials, cameras as lists; the selection is set by a click.
+void sceneTree(Session& session, const std::string& filter);
+// What is selected, editable: transform and flags, material, light.
+void selectionEditor(Session& session);
+void cameraEditor(Session& session);
+
+// Times of passes and frames, memory.
+void statsPanel(const FrameStats& stats, const FrameTimes& times);
+
+// What lies under the last clicked pixel.
+struct Inspection {
+    glm::ivec2 pixel{0};
+    glm::vec4 radiance{0};
+    std::optional<Pick> hit;
+};
+void inspectorPanel(const Session& session, const std::optional<Inspection>& inspection);
+
+// Why a picture is black, or nothing when it is not; cheap.
+std::optional<std::string> whyBlack(const Session& session, const Image& picture);
+
+}  // namespace conelight::program

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+#include <imgui.h>
+
+#include "viewer/panels.h"
+
+namespace conelight::program {
+namespace {
+
+std::string nameOr(const std::string& name, const char* kind, std::size_t index) {
+    return name.empty() ? fmt::format("{} {}", kind, index) : name;
+}
+
+const char* kindOf(LightType type) {
+    switch (type) {
+        case LightType::Point:
+            return "point";
+        case LightType::Spot:
+            return "spot";
+        case LightType::Directional:
+            return "directional";
+        case LightType::Rect:
+            return "rectangle";
+    }
+    return "light";
+}
+
+// A line of a list: shown when it matches the filter, selects what it names.
+void entry(Session& session, const std::string& label, const std::string& filter, const Selection& what) {
+    if (label.find(filter) == std::string::npos) return;
+    ImGui::PushID(static_cast<int>(what.index));
+    if (ImGui::Selectable(label.c_str(), session.selection() == what)) session.select(what);
+    ImGui::PopID();
+}
+
+bool heading(const char* name, std::size_t count) {
+    return ImGui::CollapsingHeader(fmt::format("{} ({})###{}", name, count, name).c_str(),
+                                   count <= 32 ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+}
+
+void objects(Session& session, const std::string& filter) {
+    const std::vector<Instance>& instances = session.scene().instances;
+    if (!heading("Objects", instances.size())) return;
+    // Long lists draw only the lines that are seen.
+    std::vector<std::size_t> shown;
+    for (std::size_t i = 0; i < instances.size(); ++i)
+        if (nameOr(instances[i].name, "object", i).find(filter) != std::string::npos) shown.push_back(i);
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(shown.size()));
+    while (clipper.Step())
+        for (int line = clipper.DisplayStart; line < clipper.DisplayEnd; ++line) {
+            const std::size_t i = shown[static_cast<std::size_t>(line)];
+            ImGui::PushID(static_cast<int>(i));
+            bool visible = instances[i].visible;
+            if (ImGui::Checkbox("##visible", &visible)) {
+                Instance changed = instances[i];
+                changed.visible = visible;
+                session.setInstances({{i, changed}},
+                                     visible ? "show " + changed.name : "hide " + changed.name);
+            }
+            ImGui::SameLine();
+            const Selection what{SelectionKind::Instance, i};
+            if (ImGui::Selectable(nameOr(instances[i].name, "object", i).c_str(),
+                                  session.selection() == what))
+                session.select(what);
+            ImGui::PopID();
+        }
+}
+
+}  // namespace
+
+void sceneTree(Session& session, const std::string& filter) {
+    const Scene& scene = session.scene();
+    objects(session, filter);
+    if (heading("Lights", scene.lights.size()))
+        for (std::size_t i = 0; i < scene.lights.size(); ++i)
+            entry(session,
+                  fmt::format("{}  ({})", nameOr(scene.lights[i].name, "light", i),
+                              kindOf(scene.lights[i].type)),
+                  filter, {SelectionKind::Light, i});
+    if (heading("Materials", scene.materials.size()))
+        for (std::size_t i = 0; i < scene.materials.size(); ++i)
+            entry(session, nameOr(scene.materials[i].name, "material", i), filter,
+                  {SelectionKind::Material, i});
+    if (heading("Cameras", scene.cameras.size()))
+        for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+            const std::string name = nameOr(scene.cameras[i].name, "camera", i);
+            ImGui::PushID(static_cast<int>(i));
+            if (ImGui::Selectable(name.c_str())) session.jumpCamera(scene.cameras[i], "camera " + name);
+            ImGui::PopID();
+        }
+    glm::vec3 sky = scene.sky;
+    if (ImGui::ColorEdit3("sky", &sky.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR))
+        session.setSky(glm::max(sky, glm::vec3(0)), "sky", "sky");
+}
+
+}  // namespace conelight::program

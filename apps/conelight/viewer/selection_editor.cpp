@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtx/euler_angles.hpp>
+
+#include "viewer/panels.h"
+
+namespace conelight::program {
+namespace {
+
+constexpr float kRadPerDeg = 0.01745329252f;
+
+// A matrix as translation, Euler angles (YXZ, degrees) and scale; shear is lost, which is why only the parts
+// that the user changes are applied, as a factor on the matrix.
+struct Placement {
+    glm::vec3 position, scale;
+};
+Placement placementOf(const glm::mat4& m) {
+    return {glm::vec3(m[3]),
+            {glm::length(glm::vec3(m[0])), glm::length(glm::vec3(m[1])), glm::length(glm::vec3(m[2]))}};
+}
+
+void seals(Session& session) {
+    if (ImGui::IsItemDeactivatedAfterEdit()) session.seal();
+}
+
+void editInstance(Session& session, std::size_t index) {
+    Instance instance = session.scene().instances[index];
+    const std::string key = fmt::format("instance {}", index);
+    ImGui::TextUnformatted(instance.name.empty() ? key.c_str() : instance.name.c_str());
+    const Mesh& mesh = session.scene().meshes[static_cast<std::size_t>(instance.mesh)];
+    ImGui::TextDisabled("%zu triangles", mesh.triangleCount());
+    bool changed = false;
+    Placement p = placementOf(instance.worldFromObject);
+    if (ImGui::DragFloat3("position", &p.position.x, 0.01f)) {
+        instance.worldFromObject[3] = glm::vec4(p.position, 1);
+        changed = true;
+    }
+    seals(session);
+    glm::vec3 turn(0);
+    if (ImGui::DragFloat3("turn (deg)", &turn.x, 0.5f)) {
+        const glm::mat4 rotation =
+            glm::eulerAngleYXZ(turn.y * kRadPerDeg, turn.x * kRadPerDeg, turn.z * kRadPerDeg);
+        glm::mat4 m = instance.worldFromObject;
+        m[3] = {0, 0, 0, 1};
+        m = rotation * m;
+        m[3] = instance.worldFromObject[3];
+        instance.worldFromObject = m;
+        changed = true;
+    }
+    seals(session);
+    const glm::vec3 before = p.scale;
+    if (ImGui::DragFloat3("scale", &p.scale.x, 0.01f, 0.001f, 1000.0f)) {
+        for (int i = 0; i < 3; ++i)
+            if (before[i] > 0) instance.worldFromObject[i] *= std::max(p.scale[i], 0.001f) / before[i];
+        changed = true;
+    }
+    seals(session);
+    changed |= ImGui::Checkbox("visible", &instance.visible);
+    ImGui::SameLine();
+    changed |= ImGui::Checkbox("voxelized", &instance.voxelized);
+    changed |= ImGui::Checkbox("casts shadow", &instance.castsShadow);
+    ImGui::SameLine();
+    changed |= ImGui::Checkbox("dynamic", &instance.dynamic);
+    if (changed) session.setInstances({{index, instance}}, "edit " + instance.name, key);
+    if (instance.material >= 0 && ImGui::Button("edit material"))
+        session.select({SelectionKind::Material, static_cast<std::size_t>(instance.material)});
+}
+
+void editMaterial(Session& session, std::size_t index) {
+    Material m = session.scene().materials[index];
+    ImGui::TextUnformatted(m.name.empty() ? fmt::format("material {}", index).c_str() : m.name.c_str());
+    bool changed = ImGui::ColorEdit4("base colour", &m.baseColor.x, ImGuiColorEditFlags_Float);
+    seals(session);
+    changed |= ImGui::SliderFloat("metallic", &m.metallic, 0, 1);
+    seals(session);
+    changed |= ImGui::SliderFloat("roughness", &m.roughness, 0, 1);
+    seals(session);
+    changed |= ImGui::DragFloat("ior", &m.ior, 0.01f, 1.0f, 4.0f);
+    seals(session);
+    changed |= ImGui::SliderFloat("specular", &m.specular, 0, 1);
+    seals(session);
+    changed |=
+        ImGui::ColorEdit3("emission", &m.emission.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR);
+    seals(session);
+    changed |= ImGui::Checkbox("double-sided", &m.doubleSided);
+    ImGui::SameLine();
+    changed |= ImGui::Checkbox("unlit", &m.unlit);
+    if (ImGui::TreeNode("Phong (modes thesis, phong)")) {
+        changed |= ImGui::Checkbox("own values", &m.isPhong);
+        if (m.isPhong) {
+            changed |= ImGui::ColorEdit3("colour", &m.phong.color.x, ImGuiColorEditFlags_Float);
+            changed |= ImGui::DragFloat("shininess", &m.phong.shininess, 0.5f, 0.0f, 1000.0f);
+            changed |= ImGui::SliderFloat("ambient", &m.phong.ambientStrength, 0, 1);
+            changed |= ImGui::SliderFloat("diffuse", &m.phong.diffuseStrength, 0, 1);
+            changed |= ImGui::SliderFloat("gloss", &m.phong.specularStrength, 0, 1);
+        }
+        ImGui::TreePop();
+    }
+    m.emission = glm::max(m.emission, glm::vec3(0));
+    if (changed) session.setMaterials({{index, m}}, "edit " + m.name, fmt::format("material {}", index));
+}
+
+void editLight(Session& session, std::size_t index) {
+    std::vector<Light> lights = session.scene().lights;
+    Light& light = lights[index];
+    const char* const kinds[] = {"point", "spot", "directional", "rectangle"};
+    int type = static_cast<int>(light.type);
+    bool changed = ImGui::Checkbox("on", &light.enabled);
+    ImGui::SameLine();
+    changed |= ImGui::Checkbox("casts shadow", &light.castsShadow);
+    if (ImGui::Combo("kind", &type, kinds, 4)) {
+        light.type = static_cast<LightType>(type);
+        changed = true;
+    }
+    const char* const units[] = {"W/sr", "W/sr", "W/m2", "W/(sr m2)"};
+    // Intensities span decades: colour and strength apart.
+    float strength = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
+    glm::vec3 color = strength > 0 ? light.intensity / strength : glm::vec3(1);
+    if (ImGui::ColorEdit3("colour", &color.x, ImGuiColorEditFlags_Float)) {
+        light.intensity = color * strength;
+        changed = true;
+    }
+    seals(session);
+    if (ImGui::DragFloat(units[type], &strength, 0.01f * std::max(strength, 0.1f), 0.0f, 1e6f, "%.4g")) {
+        light.intensity = color * strength;
+        changed = true;
+    }
+    seals(session);
+    if (light.type != LightType::Directional)
+        changed |= ImGui::DragFloat3("position", &light.position.x, 0.01f);
+    seals(session);
+    if (light.type != LightType::Point && ImGui::DragFloat3("direction", &light.direction.x, 0.01f)) {
+        if (glm::length(light.direction) > 1e-4f) {
+            light.direction = glm::normalize(light.direction);
+            changed = true;
+        }
+    }
+    seals(session);
+    if (light.type == LightType::Spot) {
+        changed |= ImGui::SliderAngle("inner", &light.innerAngle, 0, 89);
+        changed |= ImGui::SliderAngle("outer", &light.outerAngle, 1, 90);
+        light.innerAngle = std::min(light.innerAngle, light.outerAngle - 0.001f);
+    }
+    if (ImGui::Button("delete")) {
+        lights.erase(lights.begin() + static_cast<std::ptrdiff_t>(index));
+        session.select({});
+        session.setLights(lights, "delete light");
+        return;
+    }
+    if (changed) session.setLights(lights, "edit light", fmt::format("light {}", index));
+}
+
+}  // namespace
+
+void selectionEditor(Session& session) {
+    const Selection selection = session.selection();
+    const Scene& scene = session.scene();
+    ImGui::PushItemWidth(-8.0f * ImGui::GetFontSize());
+    if (selection.kind == SelectionKind::Instance && selection.index < scene.instances.size())
+        editInstance(session, selection.index);
+    else if (selection.kind == SelectionKind::Material && selection.index < scene.materials.size())
+        editMaterial(session, selection.index);
+    else if (selection.kind == SelectionKind::Light && selection.index < scene.lights.size())
+        editLight(session, selection.index);
+    else
+        ImGui::TextDisabled("click an object in the picture or in the list");
+    ImGui::PopItemWidth();
+}
+
+void cameraEditor(Session& session) {
+    Camera camera = session.camera();
+    ImGui::PushItemWidth(-8.0f * ImGui::GetFontSize());
+    bool changed = ImGui::DragFloat3("eye", &camera.eye.x, 0.01f);
+    changed |= ImGui::DragFloat3("target", &camera.target.x, 0.01f);
+    changed |= ImGui::SliderAngle("field of view", &camera.fovY, 1, 150);
+    ImGui::PopItemWidth();
+    if (changed && glm::length(camera.target - camera.eye) > 1e-6f) session.moveCamera(camera);
+}
+
+}  // namespace conelight::program

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// `conelight view`: the window round a session. Reads top to bottom: events, commands, requests, pictures,
+// GUI, swap; sleeps when nothing changes.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "session/session.h"
+
+namespace conelight::program {
+
+struct ViewerOptions {
+    int width = 1280, height = 800;  // of the window, screen units
+    std::string shaderDirectory;
+    bool debugGl = false;
+    std::vector<std::string> commands;  // run first, one line each
+    bool readStdin = true;
+};
+
+// Runs until the window closes or `quit`; returns the exit status.
+int runViewer(Session& session, const ViewerOptions& options);
+
+}  // namespace conelight::program

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+// What commands and panels asked for, carried out between frames: files to load and write, pictures, video.
+#pragma once
+
+#include <string>
+
+#include "console/console.h"
+#include "session/session.h"
+#include "viewer/picture_view.h"
+
+namespace conelight::program {
+
+struct ViewerState {
+    bool quit = false;
+    int status = 0;
+};
+
+// One request. A failure is that of its command. Returns whether there was one.
+bool carryOutRequest(Session& session, PictureView& view, Console& console, ViewerState& state);
+
+// "conelight-0001.png" and so on: the first that does not exist yet, in the current folder.
+std::string nextScreenshot();
+
+}  // namespace conelight::program
