@@ -2,8 +2,9 @@
 // FLIP: two display images -> per pixel, how strong the difference looks when one flips between them, [0,1].
 // Andersson et al., "FLIP: A Difference Evaluator for Alternating Images", HPG 2020,
 // and for high dynamic range Andersson et al., "Visualizing Errors in Rendered High Dynamic Range Images",
-// Eurographics 2021. Written from the papers. All filters are sums of separable ones and run so; borders
-// repeat the outermost pixel.
+// Eurographics 2021. Constants and the order of steps are those of the authors' public implementation; the
+// published values of its sample pictures have not been reproduced here. All filters are sums of separable
+// ones and run so; borders repeat the outermost pixel.
 #include <algorithm>
 #include <atomic>
 #include <cmath>

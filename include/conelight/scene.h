@@ -126,7 +126,7 @@ struct Instance {
     bool voxelized =
         true;  // false: drawn, but neither occludes nor bounces nor emits (the thesis's static = true)
     bool castsShadow = true;  // false: left out of shadow maps and shadow rays
-    bool dynamic = false;     // true: may move every frame; voxelized separately from the rest
+    bool dynamic = false;     // a hint that it moves; whatever changes is made anew, with or without it
 };
 
 enum class LightType : std::uint8_t { Point, Spot, Directional, Rect };

@@ -27,8 +27,7 @@ namespace conelight::light {
 struct CacheSettings {
     int cosineRays = 2;  // per face and update, to directions by the cosine; 1..64
     int lightRays = 2;   // per face and update, to bright faces; 0..64
-    // Faces that one update visits at most, those that changed first; 0: all. Rays per frame are this times
-    // the rays per face.
+    // Faces that one update visits at most, in turn; 0: all. Rays per frame are this times the rays per face.
     std::uint32_t facesPerUpdate = 0;
     int longestWindow = 256;  // updates that are averaged in the end
     bool exactDirect = true;  // light of point, spot and directional lights is looked up where rays hit

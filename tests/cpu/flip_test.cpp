@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// FLIP against a second implementation that follows the papers literally: whole two-dimensional kernels,
+// FLIP against a second implementation that follows the definitions literally: whole two-dimensional kernels,
 // double precision, CIELAB by its textbook formula. It is slow and small, and shares no code with the first.
 #include <gtest/gtest.h>
 
