@@ -15,7 +15,9 @@
 #include "reference/radiosity.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <thread>
 
 #include "base/clock.h"
 #include "base/log.h"

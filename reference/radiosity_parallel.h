@@ -2,6 +2,7 @@
 // A loop on several threads. Each index writes only what is its own, so results do not depend on who runs it.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>

@@ -4,6 +4,7 @@
 // of single-sided surfaces for camera rays.
 #include "reference/ray_scene.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>

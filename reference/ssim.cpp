@@ -3,6 +3,7 @@
 // Wang, Bovik, Sheikh, Simoncelli, "Image Quality Assessment: From Error Visibility to Structural
 // Similarity", 2004, eq. 13 to 17: 11x11 Gaussian windows of sigma 1.5 that lie within the picture. In a
 // picture smaller than 11 pixels the window shrinks to what fits.
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

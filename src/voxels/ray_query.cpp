@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "voxels/ray_query.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>

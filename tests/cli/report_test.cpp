@@ -4,8 +4,10 @@
 // browser. CONELIGHT_SCREENSHOTS=DIR keeps pictures of the page.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <limits>
 

@@ -3,6 +3,7 @@
 // double precision, CIELAB by its textbook formula. It is slow and small, and shares no code with the first.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>

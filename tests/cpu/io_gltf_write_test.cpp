@@ -7,6 +7,8 @@
 #include "io/gltf_write.h"
 #include "io/scene_file.h"
 
+#include <algorithm>
+
 namespace conelight {
 namespace {
 

@@ -2,6 +2,7 @@
 // Error metrics on images whose errors are known in closed form.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>

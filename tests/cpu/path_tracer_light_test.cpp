@@ -3,6 +3,7 @@
 // Radiation Heat Transfer Configuration Factors", sections B-3, C-11, C-14.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "reference/path_tracer.h"

@@ -2,6 +2,7 @@
 // The fit of the grid, addresses, and the packed numbers of records.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 

@@ -3,6 +3,7 @@
 // knows neither bricks nor octants; octant words against what they are said to mean.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <bit>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>

@@ -2,6 +2,7 @@
 // The GPU's picture for a screen against the CPU's: the same bytes but for the last place.
 #include <epoxy/gl.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "conelight/renderer.h"

@@ -2,6 +2,7 @@
 // Direct light of mode cones against the path tracer's, same scene and camera (docs/design: bias within 1 %,
 // relRMSE away from shadow edges within 2 %). Two independent ways to the same picture: shadow maps and
 // closed forms there, rays and random numbers here; units, materials, falloffs and cameras must agree for it.
+#include <algorithm>
 #include <cmath>
 
 #include "conelight/renderer.h"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pictures of mode `traced` against what must be so: furnaces (matt and metal), bounces, parts that add up,
 // the same bits every time, means over frames, a moving camera, thin walls under the filter.
+#include <algorithm>
 #include <cmath>
 
 #include "conelight/renderer.h"

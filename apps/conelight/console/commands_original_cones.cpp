@@ -3,6 +3,7 @@
 // shows.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 
 #include "conelight/error.h"

@@ -6,6 +6,8 @@
 #include "console/console.h"
 #include "io/image_file.h"
 
+#include <algorithm>
+
 namespace conelight::program {
 namespace {
 

@@ -5,6 +5,8 @@
 #include "conelight/error.h"
 #include "console/console.h"
 
+#include <algorithm>
+
 namespace conelight::program {
 namespace {
 
