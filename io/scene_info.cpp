@@ -39,30 +39,6 @@ const char* wrapName(TextureWrap wrap) {
     }
 }
 
-const char* typeName(LightType type) {
-    switch (type) {
-        case LightType::Spot:
-            return "spot";
-        case LightType::Directional:
-            return "directional";
-        case LightType::Rect:
-            return "rect";
-        default:
-            return "point";
-    }
-}
-
-const char* unitName(LightType type) {
-    switch (type) {
-        case LightType::Directional:
-            return "W/m^2";
-        case LightType::Rect:
-            return "W/(sr m^2)";
-        default:
-            return "W/sr";
-    }
-}
-
 // Writes one heading and up to maxRows rows.
 class Report {
   public:
@@ -119,8 +95,8 @@ std::string describe(const Material& m) {
 }
 
 std::string describe(const Light& l) {
-    std::string out = fmt::format("{}: {}, {} {}", l.name.empty() ? "(unnamed)" : l.name, typeName(l.type),
-                                  text(l.intensity), unitName(l.type));
+    std::string out = fmt::format("{}: {}, {} {}", l.name.empty() ? "(unnamed)" : l.name,
+                                  lightTypeName(l.type), text(l.intensity), lightUnit(l.type));
     if (l.type != LightType::Directional) out += fmt::format(", at {}", text(l.position));
     if (l.type != LightType::Point) out += fmt::format(", towards {}", text(l.direction));
     if (l.type == LightType::Spot)
@@ -138,6 +114,30 @@ std::string describe(const Light& l) {
 }
 
 }  // namespace
+
+const char* lightTypeName(LightType type) {
+    switch (type) {
+        case LightType::Spot:
+            return "spot";
+        case LightType::Directional:
+            return "directional";
+        case LightType::Rect:
+            return "rect";
+        default:
+            return "point";
+    }
+}
+
+const char* lightUnit(LightType type) {
+    switch (type) {
+        case LightType::Directional:
+            return "W/m^2";
+        case LightType::Rect:
+            return "W/(sr m^2)";
+        default:
+            return "W/sr";
+    }
+}
 
 std::string describeScene(const Scene& scene, std::size_t maxRows) {
     Report report(maxRows);

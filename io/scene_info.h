@@ -8,6 +8,10 @@
 
 namespace conelight::io {
 
+// point, spot, directional, rect; and the unit of such a light's intensity.
+const char* lightTypeName(LightType type);
+const char* lightUnit(LightType type);
+
 // Several lines, each ended by a line feed: counts, triangles, bounds, materials, textures with sizes and
 // memory, lights with type and unit, cameras, sky, settings, notes. Long lists are cut after `maxRows` rows.
 std::string describeScene(const Scene& scene, std::size_t maxRows = 32);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "conelight/error.h"
+#include "session/session.h"
 #include "traced_picture.h"
 
 namespace conelight::program {
@@ -41,14 +42,21 @@ void add(Image& image, const Image& other, float sign) {
 }  // namespace
 
 bool isRendererMode(const std::string& name) {
-    return name == "phong" || name == "thesis" || name == "cones" || name == "traced";
+    const std::vector<std::string> names = settingChoices("mode");
+    return std::find(names.begin(), names.end(), name) != names.end();
 }
 
 bool isModeName(const std::string& name) {
-    return isRendererMode(name) || name == "reference" || name == "radiosity";
+    const std::vector<std::string> names = sessionModes();
+    return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-std::string modeNames() { return "phong, thesis, cones, traced, reference or radiosity"; }
+std::string modeNames() {
+    const std::vector<std::string> names = sessionModes();
+    std::string all = names.front();
+    for (std::size_t i = 1; i < names.size(); ++i) all += (i + 1 < names.size() ? ", " : " or ") + names[i];
+    return all;
+}
 
 void requireModeName(const std::string& name) {
     if (isModeName(name)) return;

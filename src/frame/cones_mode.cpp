@@ -5,6 +5,7 @@
 
 #include "gather/cone_gather.h"
 #include "gather/direct_light.h"
+#include "gather/picture_parts.h"
 #include "gl/gl.h"
 #include "light/inject_light.h"
 #include "shared/bindings.h"
@@ -19,29 +20,7 @@ constexpr unsigned kUnitDirectSpecular = UNIT_PASS + 2;
 constexpr unsigned kUnitDiffuse = UNIT_PASS + 3;
 constexpr unsigned kUnitSpecular = UNIT_PASS + 4;
 
-// Which parts a component is made of.
-struct Parts {
-    bool direct, diffuse, specular;
-};
-
-Parts partsOf(Component component) {
-    switch (component) {
-        case Component::Full:
-            return {true, true, true};
-        case Component::Direct:
-            return {true, false, false};
-        case Component::Indirect:
-            return {false, true, true};
-        case Component::Diffuse:
-            return {false, true, false};
-        case Component::Specular:
-            return {false, false, true};
-        default:
-            return {false, false, false};
-    }
-}
-
-gl::ProgramDesc composeDesc(const Parts& parts) {
+gl::ProgramDesc composeDesc(const gather::PictureParts& parts) {
     return {{"gather/cone_compose.comp.glsl"},
             {{"SHOW_DIRECT", parts.direct ? "1" : "0"},
              {"SHOW_DIFFUSE", parts.diffuse ? "1" : "0"},
@@ -69,7 +48,7 @@ struct ConesMode::Impl {
     void updateVolume(const FrameContext& frame);
     void resize(gl::Texture& picture, const FrameContext& frame, const char* label);
     void drawOcclusion(const FrameContext& frame);
-    void drawParts(const FrameContext& frame, const Parts& parts);
+    void drawParts(const FrameContext& frame, const gather::PictureParts& parts);
 };
 
 // Brings voxels, their light and the volume up to date.
@@ -127,10 +106,10 @@ void ConesMode::Impl::drawOcclusion(const FrameContext& frame) {
     frame.programs.get(occlusionDesc()).dispatch(frame.width, frame.height);
 }
 
-void ConesMode::Impl::drawParts(const FrameContext& frame, const Parts& parts) {
+void ConesMode::Impl::drawParts(const FrameContext& frame, const gather::PictureParts& parts) {
     // Nothing is gathered without a bounce; the parts are black then.
     const bool gathers = frame.settings.cones.bounces > 0;
-    const Parts shown{parts.direct, parts.diffuse && gathers, parts.specular && gathers};
+    const gather::PictureParts shown{parts.direct, parts.diffuse && gathers, parts.specular && gathers};
     if (shown.direct)
         direct.draw(frame.programs, frame.profiler, frame.scene, frame.settings.light, frame.width,
                     frame.height);
@@ -166,7 +145,7 @@ void ConesMode::render(const FrameContext& frame) {
     impl_->geometryDirty = impl_->geometryDirty || frame.geometryChanged;
     impl_->lightDirty = impl_->lightDirty || frame.lightChanged;
     const Component component = frame.settings.component;
-    const Parts parts = partsOf(component);
+    const gather::PictureParts parts = gather::partsOf(component);
     const bool usesVolume = component == Component::Occlusion || component == Component::Voxels ||
                             ((parts.diffuse || parts.specular) && frame.settings.cones.bounces > 0);
     if (usesVolume) impl_->updateVolume(frame);

@@ -26,23 +26,6 @@ constexpr int kUnsettledMean = 4;
 constexpr int kOcclusionPasses = 16;
 constexpr int kOcclusionRays = 2;
 
-gather::TracedParts partsOf(Component component) {
-    switch (component) {
-        case Component::Full:
-            return {true, true, true};
-        case Component::Direct:
-            return {true, false, false};
-        case Component::Indirect:
-            return {false, true, true};
-        case Component::Diffuse:
-            return {false, true, false};
-        case Component::Specular:
-            return {false, false, true};
-        default:
-            return {false, false, false};
-    }
-}
-
 bool sameView(const gpu::FrameConstants& a, const gpu::FrameConstants& b) {
     return a.clipFromWorld == b.clipFromWorld && a.eye == b.eye && a.viewForward == b.viewForward &&
            a.viewRight == b.viewRight && a.viewUp == b.viewUp && a.width == b.width && a.height == b.height;
@@ -94,7 +77,7 @@ struct TracedMode::Impl {
     void gather(const FrameContext& frame, gather::PixelRays& picture, Seen& seen, int rays, int passes);
     gather::PixelRayFrame rayFrame(const FrameContext& frame) const;
     int updatesWanted(const TracedSettings& settings) const;
-    void drawParts(const FrameContext& frame, const gather::TracedParts& parts);
+    void drawParts(const FrameContext& frame, const gather::PictureParts& parts);
 };
 
 // Voxels, what rays need to cross them, and direct light on their faces.
@@ -212,10 +195,10 @@ void TracedMode::Impl::gather(const FrameContext& frame, gather::PixelRays& pict
     seen.view = frame.view;
 }
 
-void TracedMode::Impl::drawParts(const FrameContext& frame, const gather::TracedParts& parts) {
+void TracedMode::Impl::drawParts(const FrameContext& frame, const gather::PictureParts& parts) {
     const TracedSettings& settings = frame.settings.traced;
     const bool gathers = settings.bounces > 0;
-    const gather::TracedParts shown{parts.direct, parts.diffuse && gathers, parts.specular && gathers};
+    const gather::PictureParts shown{parts.direct, parts.diffuse && gathers, parts.specular && gathers};
     const gl::Texture* irradiance = nullptr;
     const gl::Texture* lobe = nullptr;
     if (settings.pixelRays > 0 && (shown.diffuse || shown.specular)) {
@@ -241,7 +224,7 @@ void TracedMode::render(const FrameContext& frame) {
     m.geometryDirty = m.geometryDirty || frame.geometryChanged;
     m.lightDirty = m.lightDirty || frame.lightChanged;
     const Component component = frame.settings.component;
-    const gather::TracedParts parts = partsOf(component);
+    const gather::PictureParts parts = gather::partsOf(component);
     const bool usesVoxels = component == Component::Occlusion || component == Component::Voxels ||
                             ((parts.diffuse || parts.specular) && frame.settings.traced.bounces > 0);
     if (usesVoxels) {

@@ -9,7 +9,7 @@
 namespace conelight::gather {
 namespace {
 
-gl::ProgramDesc shadeDesc(const TracedParts& parts, bool picture, bool lobe, const gl::Defines& lights) {
+gl::ProgramDesc shadeDesc(const PictureParts& parts, bool picture, bool lobe, const gl::Defines& lights) {
     const bool gathers = parts.diffuse || parts.specular;
     gl::ProgramDesc desc{{"gather/traced_shade.comp.glsl"},
                          {{"SHOW_DIRECT", parts.direct ? "1" : "0"},
@@ -33,7 +33,7 @@ void bindPicture(const gl::Texture* picture, unsigned unit) {
 }  // namespace
 
 void TracedShade::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
-                       const Settings& settings, const TracedParts& parts, const gl::Texture* irradiance,
+                       const Settings& settings, const PictureParts& parts, const gl::Texture* irradiance,
                        const gl::Texture* lobe, const gl::Texture& output) {
     const gl::PassScope pass(profiler, "shade");
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::PixelRayConstants), "shade constants");
@@ -66,7 +66,7 @@ void TracedShade::drawVoxels(gl::ProgramLibrary& programs, gl::Profiler& profile
 
 std::vector<gl::ProgramDesc> TracedShade::programDescs() {
     std::vector<gl::ProgramDesc> descs = {occlusionDesc(), voxelsDesc()};
-    const auto add = [&](const TracedParts& parts, bool picture, bool lobe) {
+    const auto add = [&](const PictureParts& parts, bool picture, bool lobe) {
         descs.push_back(shadeDesc(parts, picture, lobe, {}));
     };
     for (const bool picture : {false, true}) {

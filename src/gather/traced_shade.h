@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "conelight/settings.h"
+#include "gather/picture_parts.h"
 #include "gl/buffer.h"
 #include "gl/pass.h"
 #include "gl/program.h"
@@ -18,16 +19,11 @@
 
 namespace conelight::gather {
 
-// What a component is made of.
-struct TracedParts {
-    bool direct, diffuse, specular;
-};
-
 class TracedShade {
   public:
     // `irradiance` null: from the cache. `lobe` null: the irradiance stands in for it.
     void draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
-              const Settings& settings, const TracedParts& parts, const gl::Texture* irradiance,
+              const Settings& settings, const PictureParts& parts, const gl::Texture* irradiance,
               const gl::Texture* lobe, const gl::Texture& output);
     void drawOcclusion(gl::ProgramLibrary& programs, gl::Profiler& profiler, const gl::Texture& occlusion,
                        const gl::Texture& output);

@@ -7,6 +7,7 @@
 #include "conelight/renderer.h"
 #include "io/generated.h"
 #include "support/gl_fixture.h"
+#include "support/truth_rig.h"
 #include "support/view_rig.h"
 
 namespace conelight::test {
@@ -47,34 +48,6 @@ Range rangeOf(const Image& image, int x0, int y0, int x1, int y1, int channel = 
 }
 Range rangeOf(const Image& image, int channel = 1) {
     return rangeOf(image, 0, 0, image.width, image.height, channel);
-}
-
-// A closed box of edge 2 about the origin, seen from inside; walls face inwards.
-Scene boxScene(const Material& material) {
-    Scene scene;
-    for (int axis = 0; axis < 3; ++axis)
-        for (const float side : {-1.0f, 1.0f}) {
-            glm::vec3 n(0), u(0), v(0);
-            n[axis] = -side;
-            u[(axis + 1) % 3] = 2;
-            v[(axis + 2) % 3] = 2;
-            const glm::vec3 corner = -n - 0.5f * (u + v);
-            addInstance(scene, side < 0 ? quadMesh(corner, u, v) : quadMesh(corner, v, u), material);
-        }
-    Camera camera;
-    camera.eye = {0.3f, 0.2f, 0.8f};
-    camera.target = {-0.2f, -0.1f, -1};
-    camera.fovY = 1.5f;
-    scene.cameras.push_back(camera);
-    return scene;
-}
-
-Material matt(const glm::vec3& albedo, const glm::vec3& emission = glm::vec3(0)) {
-    Material material;
-    material.baseColor = glm::vec4(albedo, 1);
-    material.emission = emission;
-    material.specular = 0;  // Lambert alone
-    return material;
 }
 
 class ConesModeTest : public GlTest {
@@ -127,14 +100,14 @@ TEST_F(ConesModeTest, FurnaceBounceByBounce) {
 
 // A furnace of rough metal: the specular cone brings the same radiance, times the lobe's albedo of nearly 1.
 TEST_F(ConesModeTest, FurnaceOfMetal) {
-    Material metal = matt({1, 1, 1}, {1, 1, 1});
+    Material metal = mattMaterial({1, 1, 1}, {1, 1, 1});
     metal.metallic = 1;
     for (const float roughness : {0.05f, 0.3f, 0.6f, 1.0f}) {
         metal.roughness = roughness;
-        const Image image = render(boxScene(metal), smallSettings(Component::Specular));
+        const Image image = render(closedBox(metal), smallSettings(Component::Specular));
         // Fit of the directional albedo 1 %; the narrowest cone slips through a corner now and then: 0.972.
         EXPECT_NEAR(rangeOf(image).mean, 1, 0.04) << roughness;
-        EXPECT_EQ(rangeOf(render(boxScene(metal), smallSettings(Component::Diffuse))).high, 0.0f);
+        EXPECT_EQ(rangeOf(render(closedBox(metal), smallSettings(Component::Diffuse))).high, 0.0f);
     }
 }
 
@@ -153,7 +126,7 @@ TEST_F(ConesModeTest, PlaneUnderTheSky) {
         Scene scene;
         const glm::vec3 u = glm::normalize(glm::cross(up, glm::vec3(0.3f, 0.2f, 1)));
         const glm::vec3 v = glm::cross(up, u);
-        addInstance(scene, quadMesh(-2.0f * (u + v), 4.0f * u, 4.0f * v), matt({0.5f, 0.5f, 0.5f}));
+        addInstance(scene, quadMesh(-2.0f * (u + v), 4.0f * u, 4.0f * v), mattMaterial({0.5f, 0.5f, 0.5f}));
         scene.sky = {1, 2, 3};
         Camera camera;
         camera.eye = up + 0.1f * u;
@@ -174,7 +147,7 @@ TEST_F(ConesModeTest, PlaneUnderTheSky) {
 }
 
 TEST_F(ConesModeTest, ClosedBlackBoxIsBlack) {
-    Scene scene = boxScene(matt({0, 0, 0}));
+    Scene scene = closedBox(mattMaterial({0, 0, 0}));
     scene.sky = {100, 100, 100};
     const Image image = render(scene, smallSettings());
     for (const glm::vec4& p : image.pixels) {
@@ -186,7 +159,7 @@ TEST_F(ConesModeTest, ClosedBlackBoxIsBlack) {
 // A closed room is dark inside though the sky is bright: what leaks through its corners
 // (FurnaceLosesNoLight).
 TEST_F(ConesModeTest, ClosedRoomKeepsTheSkyOut) {
-    Scene scene = boxScene(matt({0.8f, 0.8f, 0.8f}));
+    Scene scene = closedBox(mattMaterial({0.8f, 0.8f, 0.8f}));
     scene.sky = {1, 1, 1};
     EXPECT_LE(rangeOf(render(scene, smallSettings())).mean, 0.8 * 0.005);
 }
@@ -236,10 +209,10 @@ TEST_F(ConesModeTest, ColourBleeds) {
 
 // A lamp that is a rectangle shines exactly, by itself, and must not be met by cones a second time.
 TEST_F(ConesModeTest, LampsCountOnce) {
-    Scene scene = boxScene(matt({0, 0, 0}));
-    scene.materials[2] = matt({0.5f, 0.5f, 0.5f});  // the floor alone is not black
+    Scene scene = closedBox(mattMaterial({0, 0, 0}));
+    scene.materials[2] = mattMaterial({0.5f, 0.5f, 0.5f});  // the floor alone is not black
     addInstance(scene, quadMesh({-0.4f, 0.9f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f}),
-                matt({0, 0, 0}, {5, 5, 5}));
+                mattMaterial({0, 0, 0}, {5, 5, 5}));
     scene.cameras[0].target = {0, -1, -0.3f};
     Settings settings = smallSettings(Component::Diffuse);
     const double exact = rangeOf(render(scene, settings)).mean;
@@ -270,7 +243,7 @@ TEST_F(ConesModeTest, VoxelsShowTheirRadiance) {
 
 // The middle of a wall is open, the corner of a room less; everything is within [0,1].
 TEST_F(ConesModeTest, OcclusionDarkensCorners) {
-    Scene scene = boxScene(matt({0.5f, 0.5f, 0.5f}));
+    Scene scene = closedBox(mattMaterial({0.5f, 0.5f, 0.5f}));
     Settings settings = smallSettings(Component::Occlusion);
     settings.cones.occlusionDistance = {false, 0.5f};
     scene.cameras[0].eye = {0, 0, 0.9f};

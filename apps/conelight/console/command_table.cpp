@@ -92,6 +92,17 @@ std::vector<std::string> commandWords() {
     return words;
 }
 
+Command command(const char* name, std::vector<Argument> arguments, const char* help,
+                void (*run)(const CommandContext&), const char* details) {
+    Command made;
+    made.name = name;
+    made.arguments = std::move(arguments);
+    made.help = help;
+    made.run = run;
+    made.details = details;
+    return made;
+}
+
 double numberFrom(const std::string& what, const std::string& text) {
     const char* first = text.data();
     const char* last = first + text.size();

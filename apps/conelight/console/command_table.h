@@ -66,6 +66,9 @@ struct Command {
     std::string usage() const;  // "translate NAME AXIS DISTANCE"
 };
 
+Command command(const char* name, std::vector<Argument> arguments, const char* help,
+                void (*run)(const CommandContext&), const char* details = "");
+
 struct CommandGroup {
     std::string title;
     std::vector<Command> commands;

@@ -8,6 +8,7 @@
 #include "conelight/error.h"
 #include "console/console.h"
 #include "console/names.h"
+#include "io/scene_info.h"
 
 namespace conelight::program {
 namespace {
@@ -16,32 +17,13 @@ namespace {
 
 std::string text(const glm::vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
 
-constexpr std::pair<const char*, LightType> kTypes[] = {{"point", LightType::Point},
-                                                        {"spot", LightType::Spot},
-                                                        {"directional", LightType::Directional},
-                                                        {"rect", LightType::Rect}};
-
-const char* unitOf(LightType type) {
-    switch (type) {
-        case LightType::Directional:
-            return "W/m^2";
-        case LightType::Rect:
-            return "W/(sr m^2)";
-        default:
-            return "W/sr";
-    }
-}
-
-std::string typeName(LightType type) {
-    for (const auto& [name, one] : kTypes)
-        if (one == type) return name;
-    return "";
-}
+constexpr LightType kTypes[] = {LightType::Point, LightType::Spot, LightType::Directional, LightType::Rect};
 
 void printLight(const CommandContext& context, std::size_t index) {
     const Light& light = context.session.scene().lights[index];
-    std::string line = fmt::format("{:3} {:<16} {:<11} intensity {} {}", index, light.name,
-                                   typeName(light.type), text(light.intensity), unitOf(light.type));
+    std::string line =
+        fmt::format("{:3} {:<16} {:<11} intensity {} {}", index, light.name, io::lightTypeName(light.type),
+                    text(light.intensity), io::lightUnit(light.type));
     if (light.type != LightType::Directional) line += "  at " + text(light.position);
     if (light.type != LightType::Point) line += "  direction " + text(light.direction);
     if (light.type == LightType::Spot)
@@ -95,7 +77,7 @@ bool onOff(const std::string& what, const std::vector<std::string>& words) {
 }
 
 void needs(const Light& light, const std::string& what, bool fits) {
-    if (!fits) usage(fmt::format("light: {}: a {} light has none", what, typeName(light.type)));
+    if (!fits) usage(fmt::format("light: {}: a {} light has none", what, io::lightTypeName(light.type)));
 }
 
 const std::vector<std::string> kWords = {"intensity", "position", "direction", "angles",  "size", "range",
@@ -131,7 +113,7 @@ void changeFalloff(Light& light, const std::vector<std::string>& words) {
 void change(Light& light, const std::string& what, std::vector<std::string> words) {
     if (what == "intensity") {
         if (words.size() == 1) words.resize(3, words[0]);
-        light.intensity = vector(numbers(what, words, 3, 0, 1e9, unitOf(light.type)));
+        light.intensity = vector(numbers(what, words, 3, 0, 1e9, io::lightUnit(light.type)));
     } else if (what == "position") {
         needs(light, what, light.type != LightType::Directional);
         light.position = vector(numbers(what, words, 3, -1e6, 1e6, "m"));
@@ -168,12 +150,12 @@ void add(const CommandContext& context) {
             "right");
     Light light;
     const auto type = std::find_if(std::begin(kTypes), std::end(kTypes),
-                                   [&](const auto& one) { return context.words[1] == one.first; });
+                                   [&](LightType one) { return context.words[1] == io::lightTypeName(one); });
     if (type == std::end(kTypes))
         usage(fmt::format("light add: there is no type '{}'; point, spot, directional or rect would be right",
                           context.words[1]));
     std::vector<Light> lights = context.session.scene().lights;
-    light.type = type->second;
+    light.type = *type;
     light.name = context.count() == 3 ? context.words[2] : fmt::format("light{}", lights.size());
     // Where the eye is, shining where it looks: it is seen at once, and can be moved from there.
     light.position = context.session.camera().eye;

@@ -88,13 +88,9 @@ void setMaterial(const CommandContext& context) {
     if (!others.empty()) context.print("(the material is shared with " + others + ")");
 }
 
-Command command(const char* name, std::vector<Argument> arguments, const char* help,
-                void (*run)(const CommandContext&), const char* original) {
-    Command made;
-    made.name = name;
-    made.arguments = std::move(arguments);
-    made.help = help;
-    made.run = run;
+Command originalCommand(const char* name, std::vector<Argument> arguments, const char* help,
+                        void (*run)(const CommandContext&), const char* original) {
+    Command made = command(name, std::move(arguments), help, run);
     made.original = original;
     made.branches = 1;
     return made;
@@ -108,31 +104,33 @@ CommandGroup originalModelCommands() {
     return {
         "The thesis's program: objects",
         {
-            command("toggle", {object}, "show or hide an object: hidden ones are in no pass", toggle,
-                    "says so when no object has the name, as all of these do"),
-            command("scale", {object, {"FACTOR", ArgumentKind::Number, false, false, "", 1e-4, 1e4, {}}},
-                    "multiply an object's size", scale, "as there; 0 is refused"),
-            command("setmat",
-                    {object,
-                     {"PROPERTY",
-                      ArgumentKind::Choice,
-                      false,
-                      false,
-                      "",
-                      0,
-                      0,
-                      {"shininess", "ambient_str", "diffuse_str", "specular_str"}},
-                     {"VALUE", ArgumentKind::Number, false, false, "", 0, 10000, {}}},
-                    "a Phong property of an object's material (`material` changes all others)", setMaterial,
-                    "unknown properties are refused; the physical modes follow"),
-            command(
+            originalCommand("toggle", {object}, "show or hide an object: hidden ones are in no pass", toggle,
+                            "says so when no object has the name, as all of these do"),
+            originalCommand("scale",
+                            {object, {"FACTOR", ArgumentKind::Number, false, false, "", 1e-4, 1e4, {}}},
+                            "multiply an object's size", scale, "as there; 0 is refused"),
+            originalCommand("setmat",
+                            {object,
+                             {"PROPERTY",
+                              ArgumentKind::Choice,
+                              false,
+                              false,
+                              "",
+                              0,
+                              0,
+                              {"shininess", "ambient_str", "diffuse_str", "specular_str"}},
+                             {"VALUE", ArgumentKind::Number, false, false, "", 0, 10000, {}}},
+                            "a Phong property of an object's material (`material` changes all others)",
+                            setMaterial, "unknown properties are refused; the physical modes follow"),
+            originalCommand(
                 "translate",
                 {object, axis, {"DISTANCE", ArgumentKind::Number, false, false, "m", -1e6, 1e6, {}}},
                 "move an object along an axis of the world", translate,
                 "in metres along the world's axes, as its README says, not along scaled axes of the model"),
-            command("rotate",
-                    {object, axis, {"ANGLE", ArgumentKind::Number, false, false, "deg", -36000, 36000, {}}},
-                    "turn an object about its own axis", rotate, "does not shear scaled models"),
+            originalCommand(
+                "rotate",
+                {object, axis, {"ANGLE", ArgumentKind::Number, false, false, "deg", -36000, 36000, {}}},
+                "turn an object about its own axis", rotate, "does not shear scaled models"),
         }};
 }
 

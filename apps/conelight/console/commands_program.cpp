@@ -102,17 +102,6 @@ void quit(const CommandContext& context) {
     context.session.request(request);
 }
 
-Command command(const char* name, std::vector<Argument> arguments, const char* help,
-                void (*run)(const CommandContext&), const char* details = "") {
-    Command made;
-    made.name = name;
-    made.arguments = std::move(arguments);
-    made.help = help;
-    made.run = run;
-    made.details = details;
-    return made;
-}
-
 }  // namespace
 
 bool isVideoName(const std::string& file) {

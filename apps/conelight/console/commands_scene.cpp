@@ -222,17 +222,6 @@ void save(const CommandContext& context) {
     context.print("saved " + context.words[0]);
 }
 
-Command command(const char* name, std::vector<Argument> arguments, const char* help,
-                void (*run)(const CommandContext&), const char* details = "") {
-    Command made;
-    made.name = name;
-    made.arguments = std::move(arguments);
-    made.help = help;
-    made.run = run;
-    made.details = details;
-    return made;
-}
-
 }  // namespace
 
 CommandGroup sceneCommands() {

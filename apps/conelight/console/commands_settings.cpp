@@ -84,53 +84,29 @@ void redo(const CommandContext& context) {
     context.print("redone: " + *label);
 }
 
-Command command(const char* name, std::vector<Argument> arguments, const char* help,
-                void (*run)(const CommandContext&), const char* details = "") {
-    Command made;
-    made.name = name;
-    made.arguments = std::move(arguments);
-    made.help = help;
-    made.run = run;
-    made.details = details;
-    return made;
-}
-
-std::vector<std::string> componentNames() {
-    std::vector<std::string> names;
-    for (const SettingInfo& info : settingInfos()) {
-        if (info.key != "component") continue;
-        for (std::size_t from = 0; from < info.range.size();) {
-            const std::size_t comma = std::min(info.range.find(',', from), info.range.size());
-            names.push_back(info.range.substr(from, comma - from));
-            from = comma + 1;
-        }
-    }
-    return names;
-}
-
 }  // namespace
 
 CommandGroup settingCommands() {
     const Argument key{"KEY", ArgumentKind::Setting};
     Argument optionalKey = key;
     optionalKey.optional = true;
-    return {
-        "Settings",
-        {
-            command("mode", {{"MODE", ArgumentKind::Mode, true}}, "how the picture is made", mode,
-                    "Without MODE it is printed."),
-            command("component", {{"NAME", ArgumentKind::Choice, true, false, "", 0, 0, componentNames()}},
-                    "the part of the picture that is shown", component, "Without NAME it is printed."),
-            command("set", {key, {"VALUE", ArgumentKind::SettingValue, true}},
-                    "change a setting: KEY VALUE or KEY=VALUE, as --set takes it", set),
-            command("get", {optionalKey}, "print a setting, or all that begin with KEY, or all", get),
-            command("reset", {optionalKey},
-                    "a setting, or all that begin with KEY, or all, as the scene started", reset),
-            command("undo", {}, "take back the last change", undo,
-                    "Changes of settings, mode, flags, objects, materials, lights, sky and jumps of the "
-                    "camera; not flying."),
-            command("redo", {}, "bring back what undo took", redo),
-        }};
+    return {"Settings",
+            {
+                command("mode", {{"MODE", ArgumentKind::Mode, true}}, "how the picture is made", mode,
+                        "Without MODE it is printed."),
+                command("component",
+                        {{"NAME", ArgumentKind::Choice, true, false, "", 0, 0, settingChoices("component")}},
+                        "the part of the picture that is shown", component, "Without NAME it is printed."),
+                command("set", {key, {"VALUE", ArgumentKind::SettingValue, true}},
+                        "change a setting: KEY VALUE or KEY=VALUE, as --set takes it", set),
+                command("get", {optionalKey}, "print a setting, or all that begin with KEY, or all", get),
+                command("reset", {optionalKey},
+                        "a setting, or all that begin with KEY, or all, as the scene started", reset),
+                command("undo", {}, "take back the last change", undo,
+                        "Changes of settings, mode, flags, objects, materials, lights, sky and jumps of the "
+                        "camera; not flying."),
+                command("redo", {}, "bring back what undo took", redo),
+            }};
 }
 
 }  // namespace conelight::program

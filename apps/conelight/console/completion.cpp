@@ -73,13 +73,7 @@ std::vector<std::string> valuesOfSetting(const std::string& key) {
         if (info.key != key) continue;
         if (info.type == "auto float") return {"auto"};
         if (info.type != "bool" && info.type != "choice") return {info.defaultValue};
-        std::vector<std::string> values;
-        for (std::size_t from = 0; from < info.range.size();) {
-            const std::size_t comma = std::min(info.range.find(',', from), info.range.size());
-            values.push_back(info.range.substr(from, comma - from));
-            from = comma + 1;
-        }
-        return values;
+        return settingChoices(key);
     }
     return {};
 }

@@ -73,18 +73,23 @@ Settings startSettings(const Scene& scene, const std::string& mode) {
     return settings;
 }
 
+std::vector<std::string> settingChoices(const std::string& key) {
+    std::vector<std::string> names;
+    for (const SettingInfo& info : settingInfos()) {
+        if (info.key != key || (info.type != "choice" && info.type != "bool")) continue;
+        for (std::size_t from = 0; from < info.range.size();) {
+            const std::size_t comma = std::min(info.range.find(',', from), info.range.size());
+            names.push_back(info.range.substr(from, comma - from));
+            from = comma + 1;
+        }
+    }
+    return names;
+}
+
 bool isSettingsMode(const std::string& mode) { return mode != "reference" && mode != "radiosity"; }
 
 std::vector<std::string> sessionModes() {
-    std::vector<std::string> modes;
-    std::string known;
-    for (const SettingInfo& info : settingInfos())
-        if (info.key == "mode") known = info.range;
-    for (std::size_t from = 0; from < known.size();) {
-        const std::size_t comma = std::min(known.find(',', from), known.size());
-        modes.push_back(known.substr(from, comma - from));
-        from = comma + 1;
-    }
+    std::vector<std::string> modes = settingChoices("mode");
     modes.insert(modes.end(), {"reference", "radiosity"});
     return modes;
 }

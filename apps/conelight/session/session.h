@@ -37,6 +37,8 @@ struct RayMark {
 // Settings that a scene starts with in a mode ("": the default or the scene's own): its format's look, then
 // its own block.
 Settings startSettings(const Scene& scene, const std::string& mode = {});
+// Values of a setting that is one of several names (or true,false); empty for numbers and unknown keys.
+std::vector<std::string> settingChoices(const std::string& key);
 // All modes of the program: those of the renderer, then those on the CPU.
 std::vector<std::string> sessionModes();
 // `mode` as a mode of the renderer: those on the CPU have none of their own, and stand on `cones`.

@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 #include <imgui.h>
 
+#include "io/scene_info.h"
 #include "viewer/panels.h"
 
 namespace conelight::program {
@@ -9,20 +10,6 @@ namespace {
 
 std::string nameOr(const std::string& name, const char* kind, std::size_t index) {
     return name.empty() ? fmt::format("{} {}", kind, index) : name;
-}
-
-const char* kindOf(LightType type) {
-    switch (type) {
-        case LightType::Point:
-            return "point";
-        case LightType::Spot:
-            return "spot";
-        case LightType::Directional:
-            return "directional";
-        case LightType::Rect:
-            return "rectangle";
-    }
-    return "light";
 }
 
 // A line of a list: shown when it matches the filter, selects what it names.
@@ -76,7 +63,7 @@ void sceneTree(Session& session, const std::string& filter) {
         for (std::size_t i = 0; i < scene.lights.size(); ++i)
             entry(session,
                   fmt::format("{}  ({})", nameOr(scene.lights[i].name, "light", i),
-                              kindOf(scene.lights[i].type)),
+                              io::lightTypeName(scene.lights[i].type)),
                   filter, {SelectionKind::Light, i});
     if (heading("Materials", scene.materials.size()))
         for (std::size_t i = 0; i < scene.materials.size(); ++i)

@@ -7,6 +7,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtx/euler_angles.hpp>
 
+#include "io/scene_info.h"
 #include "viewer/panels.h"
 
 namespace conelight::program {
@@ -108,7 +109,8 @@ void editMaterial(Session& session, std::size_t index) {
 void editLight(Session& session, std::size_t index) {
     std::vector<Light> lights = session.scene().lights;
     Light& light = lights[index];
-    const char* const kinds[] = {"point", "spot", "directional", "rectangle"};
+    const char* kinds[4];
+    for (int i = 0; i < 4; ++i) kinds[i] = io::lightTypeName(static_cast<LightType>(i));
     int type = static_cast<int>(light.type);
     bool changed = ImGui::Checkbox("on", &light.enabled);
     ImGui::SameLine();
@@ -117,7 +119,6 @@ void editLight(Session& session, std::size_t index) {
         light.type = static_cast<LightType>(type);
         changed = true;
     }
-    const char* const units[] = {"W/sr", "W/sr", "W/m2", "W/(sr m2)"};
     // Intensities span decades: colour and strength apart.
     float strength = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
     glm::vec3 color = strength > 0 ? light.intensity / strength : glm::vec3(1);
@@ -126,7 +127,8 @@ void editLight(Session& session, std::size_t index) {
         changed = true;
     }
     seals(session);
-    if (ImGui::DragFloat(units[type], &strength, 0.01f * std::max(strength, 0.1f), 0.0f, 1e6f, "%.4g")) {
+    if (ImGui::DragFloat(io::lightUnit(light.type), &strength, 0.01f * std::max(strength, 0.1f), 0.0f, 1e6f,
+                         "%.4g")) {
         light.intensity = color * strength;
         changed = true;
     }

@@ -8,19 +8,10 @@
 #include <charconv>
 #include <cstdlib>
 
+#include "session/session.h"
+
 namespace conelight::program {
 namespace {
-
-std::vector<std::string> choicesOf(const SettingInfo& info) {
-    std::vector<std::string> names;
-    std::size_t from = 0;
-    while (from <= info.range.size()) {
-        const std::size_t comma = std::min(info.range.find(',', from), info.range.size());
-        names.push_back(info.range.substr(from, comma - from));
-        from = comma + 1;
-    }
-    return names;
-}
 
 // "thesis.diffuse.aperture" -> "diffuse aperture": the panel's heading has said the rest.
 std::string labelOf(const std::string& key) {
@@ -71,7 +62,7 @@ void widget(const Settings& settings, const SettingInfo& info, const std::string
         if (ImGui::Checkbox("##v", &on)) edit(info.key, on ? "true" : "false", true);
     } else if (info.type == "choice") {
         if (ImGui::BeginCombo("##v", value.c_str())) {
-            for (const std::string& name : choicesOf(info))
+            for (const std::string& name : settingChoices(info.key))
                 if (ImGui::Selectable(name.c_str(), name == value)) edit(info.key, name, true);
             ImGui::EndCombo();
         }

@@ -44,21 +44,6 @@ std::vector<Stage> stagesOf(const std::string& mode) {
             {"Image", {"image."}}};
 }
 
-const std::vector<std::string>& componentNames() {
-    static const std::vector<std::string> names = [] {
-        std::vector<std::string> all;
-        for (const SettingInfo& info : settingInfos())
-            if (info.key == "component")
-                for (std::size_t from = 0; from <= info.range.size();) {
-                    const std::size_t comma = std::min(info.range.find(',', from), info.range.size());
-                    all.push_back(info.range.substr(from, comma - from));
-                    from = comma + 1;
-                }
-        return all;
-    }();
-    return names;
-}
-
 class Viewer {
   public:
     Viewer(Session& session, const ViewerOptions& options)
@@ -341,7 +326,7 @@ void Viewer::modeControls() {
     if (const auto mode = combo("##mode", session_.mode(), sessionModes(), 7)) session_.setMode(*mode);
     ImGui::SameLine();
     if (const auto name = combo("##component", conelight::getSetting(session_.settings(), "component"),
-                                componentNames(), 7))
+                                settingChoices("component"), 7))
         session_.setSetting("component", *name);
     ImGui::SameLine();
     ImGui::Checkbox("split", &view_.split.on);
