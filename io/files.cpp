@@ -56,6 +56,42 @@ int writeAll(const fs::path& path, std::span<const std::uint8_t> bytes) {
     return std::fclose(raw) == 0 ? 0 : errno;
 }
 
+// A file's new content beside its place.
+struct Staged {
+    fs::path target, part;
+};
+
+// Nothing for special files, which are written at once.
+std::optional<Staged> stage(const fs::path& path, std::span<const std::uint8_t> bytes) {
+    if (path.empty()) throw Error(ErrorKind::Usage, "output: empty file name; give a path");
+    std::error_code code;
+    const fs::file_status status = fs::status(path, code);
+    if (fs::is_directory(status)) failWrite(path, "it is a folder; give a file name");
+    if (fs::exists(status) && !fs::is_regular_file(status)) {
+        if (const int failure = writeAll(path, bytes)) failWrite(path, lowerErrno(failure));
+        return std::nullopt;
+    }
+    // A link is kept: its target is replaced.
+    fs::path target = path;
+    if (fs::is_symlink(fs::symlink_status(path, code))) {
+        const fs::path resolved = fs::weakly_canonical(path, code);
+        if (!code) target = resolved;
+    }
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    if (!fs::exists(folder, code))
+        failWrite(path, fmt::format("folder {} does not exist", oneLine(folder.string())));
+
+    // The process and a counter make the name unique among writers of the same folder.
+    static std::atomic<unsigned> counter{0};
+    const fs::path part =
+        folder / fmt::format(".{}.{}-{}.part", target.filename().string(), ::getpid(), counter++);
+    if (const int failure = writeAll(part, bytes)) {
+        fs::remove(part, code);
+        failWrite(path, lowerErrno(failure));
+    }
+    return Staged{target, part};
+}
+
 }  // namespace
 
 Bytes readFile(const fs::path& path, std::uint64_t maxBytes) {
@@ -87,40 +123,57 @@ Bytes readFile(const fs::path& path, std::uint64_t maxBytes) {
     return bytes;
 }
 
-void writeFile(const fs::path& path, std::span<const std::uint8_t> bytes) {
-    if (path.empty()) throw Error(ErrorKind::Usage, "output: empty file name; give a path");
+void refuseOverwriting(const std::string& path, bool overwrite) {
     std::error_code code;
-    const fs::file_status status = fs::status(path, code);
-    if (fs::is_directory(status)) failWrite(path, "it is a folder; give a file name");
-    if (fs::exists(status) && !fs::is_regular_file(status)) {
-        if (const int failure = writeAll(path, bytes)) failWrite(path, lowerErrno(failure));
-        return;
-    }
-    // A link is kept: its target is replaced.
-    fs::path target = path;
-    if (fs::is_symlink(fs::symlink_status(path, code))) {
-        const fs::path resolved = fs::weakly_canonical(path, code);
-        if (!code) target = resolved;
-    }
-    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-    if (!fs::exists(folder, code))
-        failWrite(path, fmt::format("folder {} does not exist", oneLine(folder.string())));
+    if (!overwrite && fs::exists(fs::symlink_status(path, code)))
+        throw Error(
+            ErrorKind::Usage,
+            fmt::format("{}: is there already; another name, or overwrite, would be right", oneLine(path)));
+}
 
-    // The process and a counter make the name unique among writers of the same folder.
-    static std::atomic<unsigned> counter{0};
-    const fs::path part =
-        folder / fmt::format(".{}.{}-{}.part", target.filename().string(), ::getpid(), counter++);
-    if (const int failure = writeAll(part, bytes)) {
-        fs::remove(part, code);
-        failWrite(path, lowerErrno(failure));
-    }
-    fs::rename(part, target, code);
-    if (code) {
+void writeFile(const fs::path& path, std::span<const std::uint8_t> bytes) {
+    if (const std::optional<Staged> staged = stage(path, bytes)) {
+        std::error_code code;
+        fs::rename(staged->part, staged->target, code);
+        if (!code) return;
         const std::string why = code.message();
-        std::error_code ignored;
-        fs::remove(part, ignored);
+        fs::remove(staged->part, code);
         failWrite(path, why);
     }
+}
+
+void writeFiles(const std::vector<std::pair<fs::path, Bytes>>& files) {
+    std::vector<Staged> staged;
+    std::error_code ignored;
+    try {
+        for (const auto& [path, bytes] : files)
+            if (std::optional<Staged> one = stage(path, bytes)) staged.push_back(std::move(*one));
+    } catch (const Error&) {
+        for (const Staged& one : staged) fs::remove(one.part, ignored);
+        throw;
+    }
+    // The old files live on under other names until all new ones are in place.
+    std::vector<fs::path> backups(staged.size());
+    for (std::size_t i = 0; i < staged.size(); ++i) {
+        std::error_code code;
+        if (fs::exists(staged[i].target, code)) {
+            backups[i] = staged[i].part;
+            backups[i] += ".old";
+            fs::create_hard_link(staged[i].target, backups[i], code);
+            if (code) fs::rename(staged[i].target, backups[i], code);  // a file system without links
+        }
+        if (!code) fs::rename(staged[i].part, staged[i].target, code);
+        if (!code) continue;
+        for (std::size_t k = 0; k <= i; ++k) {
+            if (k < i && backups[k].empty()) fs::remove(staged[k].target, ignored);
+            if (!backups[k].empty()) fs::rename(backups[k], staged[k].target, ignored);
+        }
+        for (const Staged& one : staged) fs::remove(one.part, ignored);
+        for (const fs::path& backup : backups) fs::remove(backup, ignored);
+        failWrite(staged[i].target, code.message());
+    }
+    for (const fs::path& backup : backups)
+        if (!backup.empty()) fs::remove(backup, ignored);
 }
 
 std::string percentDecoded(std::string_view text) {

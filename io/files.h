@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace conelight::io {
@@ -22,6 +23,13 @@ Bytes readFile(const std::filesystem::path& path, std::uint64_t maxBytes = std::
 // Writes `bytes` to a file beside `path` and renames it over `path`; a special file (/dev/stdout) is written
 // directly. Throws Error(Runtime) that names the path; nothing is left behind then.
 void writeFile(const std::filesystem::path& path, std::span<const std::uint8_t> bytes);
+
+// Writes files that belong together, in this order: all beside their places first, then all renamed. Should
+// one fail, what was there before is there again. Throws Error(Runtime) that names the path.
+void writeFiles(const std::vector<std::pair<std::filesystem::path, Bytes>>& files);
+
+// Throws Error(Usage) when there is anything of that name and `overwrite` is not given.
+void refuseOverwriting(const std::string& path, bool overwrite);
 
 // "a%20b" -> "a b"; a percent sign without two hex digits stays.
 std::string percentDecoded(std::string_view text);

@@ -228,7 +228,41 @@ std::string textOf(const Json& document, int indent) {
 
 }  // namespace
 
-std::vector<std::string> writeGltf(const std::filesystem::path& path, const Scene& scene) {
+namespace {
+
+std::filesystem::path bufferBeside(const std::filesystem::path& path) {
+    return std::filesystem::path(path).replace_extension(".bin");
+}
+
+// Whether the glTF file that is there reads its geometry from `buffer`.
+bool names(const std::filesystem::path& path, const std::filesystem::path& buffer) {
+    std::error_code code;
+    if (!std::filesystem::is_regular_file(path, code)) return false;
+    const Bytes bytes = readFile(path);
+    const Json old = Json::parse(bytes.begin(), bytes.end(), nullptr, false);
+    if (!old.is_object() || !old.contains("buffers") || !old["buffers"].is_array()) return false;
+    for (const Json& one : old["buffers"])
+        if (one.is_object() && one.contains("uri") && one["uri"].is_string() &&
+            percentDecoded(one["uri"].get<std::string>()) == buffer.filename().string())
+            return true;
+    return false;
+}
+
+}  // namespace
+
+void refuseForeignBuffer(const std::filesystem::path& path, bool overwrite) {
+    if (overwrite || lowerExtension(path) == ".glb") return;
+    const std::filesystem::path buffer = bufferBeside(path);
+    std::error_code code;
+    if (!std::filesystem::exists(std::filesystem::symlink_status(buffer, code)) || names(path, buffer))
+        return;
+    throw Error(ErrorKind::Usage,
+                fmt::format("{}: is there already and not of {}; another name, .glb, or overwrite, would be "
+                            "right",
+                            oneLine(buffer.string()), oneLine(path.filename().string())));
+}
+
+std::vector<std::string> writeGltf(const std::filesystem::path& path, const Scene& scene, bool overwrite) {
     scene.validate();
     Writer writer(scene);
     Json document = writer.document();
@@ -238,13 +272,15 @@ std::vector<std::string> writeGltf(const std::filesystem::path& path, const Scen
         writeFile(path, glbOf(path, textOf(document, -1), binary));
         return writer.notes();
     }
+    std::vector<std::pair<std::filesystem::path, Bytes>> files;
     if (!binary.empty()) {
-        const std::filesystem::path beside = std::filesystem::path(path).replace_extension(".bin");
-        document["buffers"][0]["uri"] = beside.filename().string();
-        writeFile(beside, binary);
+        refuseForeignBuffer(path, overwrite);
+        document["buffers"][0]["uri"] = bufferBeside(path).filename().string();
+        files.emplace_back(bufferBeside(path), binary);
     }
     const std::string text = textOf(document, 1) + "\n";
-    writeFile(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    files.emplace_back(path, Bytes(text.begin(), text.end()));
+    writeFiles(files);
     return writer.notes();
 }
 

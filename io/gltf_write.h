@@ -13,9 +13,14 @@
 
 namespace conelight::io {
 
-// `.glb`: one file; any other name: JSON with a NAME.bin beside it. Returns what other programs will not see,
-// one line each. Throws Error(BadInput) as Scene::validate, Error(Runtime) when a file cannot be written or
-// exceeds 4 GiB (.glb).
-std::vector<std::string> writeGltf(const std::filesystem::path& path, const Scene& scene);
+// `.glb`: one file; any other name: JSON with a NAME.bin beside it, both or neither. Replaces a file at
+// `path`. Returns what other programs will not see, one line each. Throws Error(BadInput) as Scene::validate,
+// Error(Usage) as refuseForeignBuffer, Error(Runtime) when a file cannot be written or exceeds 4 GiB (.glb).
+std::vector<std::string> writeGltf(const std::filesystem::path& path, const Scene& scene,
+                                   bool overwrite = false);
+
+// Throws Error(Usage) when the NAME.bin that writeGltf would write beside `path` is there and is not the one
+// that a glTF file at `path` names; not with `overwrite`.
+void refuseForeignBuffer(const std::filesystem::path& path, bool overwrite);
 
 }  // namespace conelight::io

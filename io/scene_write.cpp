@@ -22,7 +22,7 @@ std::vector<std::string> writeScene(const std::string& path, const Scene& scene,
                     fmt::format("{}: scenes are not written as '{}'; one of {} would be right", oneLine(path),
                                 oneLine(extension), fmt::join(known, " ")));
     refuseOverwriting(path, force);
-    if (extension == ".gltf" || extension == ".glb") return writeGltf(path, scene);
+    if (extension == ".gltf" || extension == ".glb") return writeGltf(path, scene, force);
     return writeThesisScene(path, scene, force);
 }
 

@@ -28,10 +28,6 @@ std::string triple(const glm::vec3& v, const char* names) {
                        names[2], number(v.z));
 }
 
-void put(const fs::path& path, const std::string& text) {
-    writeFile(path, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-}
-
 // T Rx Ry Rz S of a matrix; nothing when it has shear or no extent in some direction.
 struct Placement {
     glm::vec3 position, rotationDeg, scale;
@@ -309,28 +305,30 @@ std::vector<std::string> Writer::write(bool force) {
         notes_.push_back("no camera: a reader takes the three of the thesis's program");
 
     const fs::path folder = path_.has_parent_path() ? path_.parent_path() / folder_ : fs::path(folder_);
-    for (const auto& [name, content] : files_) refuseOverwriting((folder / name).string(), force);
+    std::vector<std::pair<fs::path, Bytes>> all;
+    for (const auto& [name, content] : files_) {
+        refuseOverwriting((folder / name).string(), force);
+        all.emplace_back(folder / name, Bytes(content.begin(), content.end()));
+    }
+    all.emplace_back(path_, Bytes(text_.begin(), text_.end()));
     std::error_code code;
-    if (!files_.empty() && !fs::is_directory(folder, code)) {
+    const bool makes = !files_.empty() && !fs::is_directory(folder, code);
+    if (makes) {
         fs::create_directory(folder, code);
         if (code)
             throw Error(ErrorKind::Runtime,
                         fmt::format("{}: cannot be made: {}", oneLine(folder.string()), code.message()));
     }
-    for (const auto& [name, content] : files_) put(folder / name, content);
-    put(path_, text_);
+    try {
+        writeFiles(all);
+    } catch (const Error&) {
+        if (makes) fs::remove(folder, code);
+        throw;
+    }
     return std::move(notes_);
 }
 
 }  // namespace
-
-void refuseOverwriting(const std::string& path, bool force) {
-    std::error_code code;
-    if (!force && fs::exists(path, code))
-        throw Error(
-            ErrorKind::Usage,
-            fmt::format("{}: is there already; another name, or force, would be right", oneLine(path)));
-}
 
 std::vector<std::string> writeThesisScene(const std::string& path, const Scene& scene, bool force) {
     return Writer(path, scene).write(force);

@@ -17,7 +17,4 @@ namespace conelight::io {
 // written.
 std::vector<std::string> writeThesisScene(const std::string& path, const Scene& scene, bool force);
 
-// Throws Error(Usage) when there is a file and `force` is not given.
-void refuseOverwriting(const std::string& path, bool force);
-
 }  // namespace conelight::io

@@ -19,7 +19,7 @@ void addConvert(CLI::App& app) {
     std::string known;
     for (const std::string& extension : io::writtenSceneExtensions()) known += " " + extension;
     command->add_option("out", options->out, "what to write:" + known)->required();
-    command->add_flag("--force", options->force, "write over files that are there");
+    command->add_flag("--overwrite,--force", options->force, "write over files that are there");
     command->callback([options] {
         Progress progress;
         progress.show("loading " + options->in);

@@ -4,10 +4,13 @@
 #include <fmt/core.h>
 
 #include "cpu/io_test_support.h"
+#include "io/files.h"
 #include "io/gltf_write.h"
 #include "io/scene_file.h"
 
 #include <algorithm>
+#include <iterator>
+#include <sstream>
 
 namespace conelight {
 namespace {
@@ -159,6 +162,70 @@ TEST(GltfWrite, BrightVertexColoursKeepTheirValue) {
     const Scene read = roundTrip(scene, "colours.glb");
     ASSERT_FALSE(read.meshes[0].colors.empty());
     EXPECT_EQ(read.meshes[0].colors[0], glm::vec4(12.5f, 0.001f, 3, 1));
+}
+
+std::string contentOf(const std::filesystem::path& path) {
+    std::ostringstream text;
+    text << std::ifstream(path, std::ios::binary).rdbuf();
+    return text.str();
+}
+
+std::size_t filesIn(const std::filesystem::path& folder) {
+    return static_cast<std::size_t>(
+        std::distance(std::filesystem::directory_iterator(folder), std::filesystem::directory_iterator()));
+}
+
+TEST(GltfWrite, ABufferBesideIsReplacedOnlyWhereItIsItsOwn) {
+    const std::filesystem::path folder = folderOf("gltf_beside");
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    const Scene scene = io::loadScene("builtin:cornell");
+    Scene moved = scene;
+    moved.meshes[0].positions[0].x += 0.5f;
+    io::writeGltf(folder / "a.gltf", scene);
+    const std::string first = contentOf(folder / "a.bin");
+    io::writeGltf(folder / "a.gltf", moved);  // its own
+    EXPECT_NE(contentOf(folder / "a.bin"), first);
+
+    std::ofstream(folder / "b.bin") << "another's";
+    EXPECT_THROW(io::writeGltf(folder / "b.gltf", scene), Error);
+    EXPECT_FALSE(std::filesystem::exists(folder / "b.gltf"));
+    std::ofstream(folder / "b.gltf") << R"({"asset":{"version":"2.0"},"buffers":[{"uri":"c.bin"}]})";
+    EXPECT_THROW(io::writeGltf(folder / "b.gltf", scene), Error);
+    std::ofstream(folder / "b.gltf") << "no glTF at all";
+    EXPECT_THROW(io::writeGltf(folder / "b.gltf", scene), Error);
+    EXPECT_EQ(contentOf(folder / "b.bin"), "another's");
+    EXPECT_EQ(contentOf(folder / "b.gltf"), "no glTF at all");
+    EXPECT_NO_THROW(io::writeGltf(folder / "b.glb", scene));  // has no need of it
+    io::writeGltf(folder / "b.gltf", scene, true);
+    EXPECT_EQ(io::loadScene((folder / "b.gltf").string()).instances.size(), scene.instances.size());
+    EXPECT_EQ(filesIn(folder), 5u);  // nothing is left beside: a.gltf a.bin b.gltf b.bin b.glb
+}
+
+TEST(GltfWrite, BothFilesOrNeither) {
+    const std::filesystem::path folder = folderOf("gltf_both");
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder / "a.gltf");  // the second of the two cannot be written
+    EXPECT_THROW(io::writeGltf(folder / "a.gltf", io::loadScene("builtin:cornell")), Error);
+    EXPECT_EQ(filesIn(folder), 1u);
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.bin"));
+}
+
+TEST(WriteFiles, WhatWasThereStaysWhenOneFails) {
+    const std::filesystem::path folder = folderOf("write_files");
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder / "folder");
+    std::ofstream(folder / "old") << "old";
+    EXPECT_THROW(
+        io::writeFiles({{folder / "old", {'n'}}, {folder / "new", {'n'}}, {folder / "folder", {'n'}}}),
+        Error);
+    EXPECT_THROW(io::writeFiles({{folder / "old", {'n'}}, {folder / "missing" / "x", {'n'}}}), Error);
+    EXPECT_EQ(contentOf(folder / "old"), "old");
+    EXPECT_EQ(filesIn(folder), 2u);
+    io::writeFiles({{folder / "old", {'n'}}, {folder / "new", {'m'}}});
+    EXPECT_EQ(contentOf(folder / "old"), "n");
+    EXPECT_EQ(contentOf(folder / "new"), "m");
+    EXPECT_EQ(filesIn(folder), 3u);
 }
 
 TEST(GltfWrite, RefusesAFolderThatDoesNotExist) {
