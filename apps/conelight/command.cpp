@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "conelight/error.h"
+#include "conelight/quality.h"
 #include "io/scene_file.h"
 #include "session/session.h"
 
@@ -80,9 +81,19 @@ void ViewOptions::addTo(CLI::App& command) {
     command.add_option("--voxels", voxels, "voxels along the longest axis (same as --set voxels.size=N)")
         ->type_name("N");
     command
-        .add_option("--quality", quality,
-                    "work of mode traced: draft, interactive, high or converged (same as --set "
-                    "traced.quality=NAME before all others)")
+        .add_option(
+            "--preset", preset,
+            "settings from a file, as the console's `preset save` writes it; what it does not name is as "
+            "the scene starts; options and --set come after it")
+        ->type_name("FILE");
+    std::string qualities;
+    for (const QualityInfo& info : qualityInfos()) qualities += "\n" + info.name + ": " + qualityText(info);
+    command
+        .add_option(
+            "--quality", quality,
+            "work of mode traced (same as --set traced.quality=NAME before all others); errors are those "
+            "in builtin:cornell against the path tracer:" +
+                qualities)
         ->type_name("NAME");
     command.add_option("--camera", camera, "a camera of the scene: its name, or its number from 0")
         ->type_name("NAME");
@@ -123,6 +134,12 @@ Scene openScene(const std::string& path, const ViewOptions& options, Progress& p
 
 Settings settingsFor(const Scene& scene, const std::string& mode, const ViewOptions& options) {
     Settings settings = startSettings(scene, mode);
+    if (!options.preset.empty()) {
+        const Preset preset = readPreset(options.preset);
+        if (mode.empty() && isSettingsMode(preset.mode) && !preset.mode.empty())
+            settings = startSettings(scene, preset.mode);
+        preset.apply(settings);
+    }
     if (!options.quality.empty()) setSetting(settings, "traced.quality", options.quality);
     if (options.voxels != 0) setSetting(settings, "voxels.size", std::to_string(options.voxels));
     for (const std::string& set : options.sets) {
@@ -132,6 +149,10 @@ Settings settingsFor(const Scene& scene, const std::string& mode, const ViewOpti
         setSetting(settings, set.substr(0, equals), set.substr(equals + 1));
     }
     return settings;
+}
+
+std::string modeFor(const std::string& given, const ViewOptions& options) {
+    return given.empty() && !options.preset.empty() ? readPreset(options.preset).mode : given;
 }
 
 Camera cameraFor(const Scene& scene, const ViewOptions& options) {

@@ -57,6 +57,7 @@ std::vector<std::string> splitList(const std::string& text);  // "a,b" -> a and 
 struct ViewOptions {
     std::string size = "800x600";
     int voxels = 0;  // 0: the setting's default
+    std::string preset;
     std::string quality;
     std::string camera;
     std::string eye, target;
@@ -77,5 +78,7 @@ Scene openScene(const std::string& path, const ViewOptions& options, Progress& p
 // The settings a scene starts with in a mode: the scene's own block, then --voxels and --set.
 Settings settingsFor(const Scene& scene, const std::string& mode, const ViewOptions& options);
 Camera cameraFor(const Scene& scene, const ViewOptions& options);
+// The mode given, else that of --preset; empty: neither.
+std::string modeFor(const std::string& given, const ViewOptions& options);
 
 }  // namespace conelight::program

@@ -8,11 +8,13 @@
 
 #include "command.h"
 #include "conelight/error.h"
+#include "console/command_table.h"
 #include "io/gltf_write.h"
 #include "io/image_file.h"
 #include "picture_file.h"
 #include "picture_source.h"
 #include "script_run.h"
+#include "session/why_black.h"
 #include "stats_json.h"
 #include "traced_picture.h"
 #include "truth_options.h"
@@ -29,6 +31,11 @@ struct RenderOptions {
     std::string aovs;
     std::string statsFile;
     std::string shaderDirectory;
+    std::string pathFile;
+    int frames = 0;  // 0: not given
+    bool turntable = false;
+    bool overwrite = false;
+    bool componentGiven = false;
     ViewOptions view;
     TracerOptions tracer;
     RadiosityOptions radiosity;
@@ -56,10 +63,32 @@ void checkModeOptions(const RenderOptions& options) {
         usage(radiosity + ": belongs to mode radiosity; --mode radiosity would be right");
 }
 
+bool isFilm(const RenderOptions& options) { return !options.pathFile.empty() || options.turntable; }
+
+void checkFilm(const RenderOptions& options) {
+    if (!options.pathFile.empty() && options.turntable)
+        usage("--path, --turntable: both move the camera; one would be right");
+    const bool films = isVideoName(options.output);
+    if (!isFilm(options)) {
+        if (options.frames != 0) usage("--frames: belongs to --path FILE or --turntable");
+        if (films) usage(options.output + ": a film needs --path FILE or --turntable");
+        return;
+    }
+    const char* option = options.turntable ? "--turntable" : "--path";
+    if (!films)
+        usage(fmt::format(
+            "{}: {}: a name ending in .mp4, or numbered pictures as in frame%04d.png, would be right", option,
+            options.output.empty() ? "no --output" : options.output));
+    for (const auto& [name, given] : {std::pair<const char*, bool>{"--aov", !options.aovs.empty()},
+                                      {"--stats", !options.statsFile.empty()}})
+        if (given) usage(fmt::format("{}: is of one picture; without {} would be right", name, option));
+}
+
 void checkFiles(const RenderOptions& options) {
+    checkFilm(options);
     if (options.output.empty() && options.radiosity.bakeFile.empty() && !options.script.given())
         usage("--output is required; -o PICTURE.png, for example, would be right");
-    if (!options.output.empty()) {
+    if (!options.output.empty() && !isFilm(options)) {
         const io::ImageFormat format = io::imageFormatOf(options.output);
         if (!options.aovs.empty() && format != io::ImageFormat::Exr)
             usage(options.output +
@@ -72,6 +101,7 @@ void checkFiles(const RenderOptions& options) {
             usage("--bake: " + options.radiosity.bakeFile +
                   ": a name ending in .glb or .gltf would be right");
         io::checkWritable(options.radiosity.bakeFile);
+        io::refuseForeignBuffer(options.radiosity.bakeFile, options.overwrite);
     }
     if (!options.statsFile.empty()) io::checkWritable(options.statsFile);
 }
@@ -154,12 +184,43 @@ void takeSession(const Session& session, PictureRequest& request) {
     request.components.front() = shown.components.front();
 }
 
-void run(const RenderOptions& options) {
+// The film as a command of the console would ask for it.
+Request filmRequest(const RenderOptions& options, Session& session) {
+    constexpr int kTurntableFrames = 120, kFramesPerSecond = 30;
+    Request film{RequestKind::Record, options.output, options.frames};
+    film.turntable = options.turntable;
+    film.alongPath = !options.turntable;
+    if (film.alongPath) {
+        const CameraPath path = readCameraPath(options.pathFile);
+        session.setCameraPath(path, "path load");
+        if (film.count == 0)
+            film.count = 1 + static_cast<int>(std::lround(kFramesPerSecond * (path.end() - path.start())));
+    }
+    if (film.count == 0) film.count = kTurntableFrames;
+    return film;
+}
+
+// A picture without light in it says why, where it should have some.
+void explainBlack(const Session& session, const PictureRequest& request, const Image& image) {
+    const Component component = request.components.front();
+    const bool ofLight = component == Component::Full || component == Component::Direct ||
+                         component == Component::Indirect || component == Component::Diffuse ||
+                         component == Component::Voxels;
+    if (!ofLight || !isBlack(image, request.settings.image)) return;
+    Picker picker;
+    const std::vector<std::string> reasons = whyBlack(session, picker, &image);
+    std::fprintf(stderr, "conelight: the picture is black%s%s\n", reasons.empty() ? "" : ": ",
+                 reasons.empty() ? "" : reasons.front().c_str());
+}
+
+void run(RenderOptions options) {
+    options.mode = modeFor(options.mode, options.view);
     // Everything that can be wrong on the command line is found before the work starts.
     if (!options.mode.empty()) requireModeName(options.mode);
     checkModeOptions(options);
     PictureRequest request = requestOf(options);
     checkFiles(options);
+    if (!options.pathFile.empty()) readCameraPath(options.pathFile);
 
     Progress progress;
     Scene scene = openScene(options.scene, options.view, progress);
@@ -172,7 +233,10 @@ void run(const RenderOptions& options) {
         if (!options.bounces.empty())
             request.reference.bounces = request.radiosity.bounces = parseBounces(options.bounces, kMost);
     } else {
-        request.settings.component = request.components.front();
+        if (options.componentGiven)
+            request.settings.component = request.components.front();
+        else
+            request.components.front() = request.settings.component;
         applyBounces(request.settings, options.bounces);
         request.components.front() = request.settings.component;
     }
@@ -180,7 +244,11 @@ void run(const RenderOptions& options) {
     PictureSource source(options.view, options.shaderDirectory);
     request.settings.component = request.components.front();
     Session session(std::move(scene), options.scene, request.settings, request.mode, request.camera);
-    if (options.script.given()) {
+    if (isFilm(options)) {
+        runScript(options.script, session, &source, request, progress, filmRequest(options, session));
+        takeSession(session, request);
+        if (options.radiosity.bakeFile.empty()) return;
+    } else if (options.script.given()) {
         runScript(options.script, session, &source, request, progress);
         takeSession(session, request);
         if (options.output.empty() && options.radiosity.bakeFile.empty()) return;
@@ -188,7 +256,8 @@ void run(const RenderOptions& options) {
     source.setScene(session.scene());
     const Picture picture = source.draw(request, &progress);
     reportBadPixels(picture.images.front());
-    if (!options.output.empty()) {
+    explainBlack(session, request, picture.images.front());
+    if (!options.output.empty() && !isFilm(options)) {
         progress.show("writing " + options.output);
         writePicture(options.output, picture.images.front(), request.settings.image,
                      layersOf(options, picture));
@@ -196,7 +265,8 @@ void run(const RenderOptions& options) {
     if (!options.radiosity.bakeFile.empty()) {
         progress.show("writing " + options.radiosity.bakeFile);
         const WritingScope writing;
-        io::writeGltf(options.radiosity.bakeFile, source.bakedScene(request.radiosity, &progress));
+        io::writeGltf(options.radiosity.bakeFile, source.bakedScene(request.radiosity, &progress),
+                      options.overwrite);
     }
     if (!options.statsFile.empty()) writeJson(options.statsFile, statsOf(options, request, picture));
     progress.finish();
@@ -212,8 +282,22 @@ void addRender(CLI::App& app) {
         ->add_option("scene", options->scene,
                      "a scene file, or builtin:NAME (`conelight info builtin:` lists them)")
         ->required();
-    command->add_option("-o,--output", options->output,
-                        "picture: .png .jpg (tone-mapped), .exr .hdr (linear radiance)");
+    command->add_option(
+        "-o,--output", options->output,
+        "picture: .png .jpg (tone-mapped), .exr .hdr (linear radiance); with --path or --turntable a film: "
+        ".mp4, or numbered pictures as in frame%04d.png");
+    command
+        ->add_option("--path", options->pathFile,
+                     "a film along the camera path of this file (docs/reference/camera_path.md)")
+        ->type_name("FILE");
+    command->add_flag("--turntable", options->turntable, "a film once round what the camera looks at");
+    command
+        ->add_option("--frames", options->frames,
+                     "frames of the film (default: 30 a second of the path; turntable 120)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 100000));
+    command->add_flag("--overwrite", options->overwrite,
+                      "--bake NAME.gltf may replace a NAME.bin that belongs to another file");
     command->add_option("--mode", options->mode, modeNames() + " (default traced)");
     command
         ->add_option("--component", options->component,
@@ -244,7 +328,10 @@ void addRender(CLI::App& app) {
     options->radiosity.addTo(*command);
     options->view.addTo(*command);
     options->script.addTo(*command);
-    command->callback([options] { run(*options); });
+    command->callback([options, command] {
+        options->componentGiven = command->count("--component") > 0;
+        run(*options);
+    });
 }
 
 }  // namespace conelight::program

@@ -4,12 +4,12 @@
 #include <fmt/core.h>
 
 #include <chrono>
-#include <glm/gtc/matrix_transform.hpp>
 #include <iostream>
 #include <iterator>
 
 #include "conelight/error.h"
 #include "console/console.h"
+#include "io/gltf_write.h"
 #include "picture_file.h"
 #include "video_file.h"
 
@@ -31,7 +31,7 @@ class Runner {
         console_.setStopOnError(true);
     }
 
-    void run(const ScriptOptions& options) {
+    void run(const ScriptOptions& options, const std::optional<Request>& then) {
         for (const std::string& file : options.files) {
             if (file == "-")
                 console_.submit({std::istreambuf_iterator<char>(std::cin), {}}, "standard input");
@@ -39,8 +39,14 @@ class Runner {
                 console_.submit("source " + quoted(file), "--script");
         }
         for (const std::string& commands : options.commands) console_.submit(commands, "--exec");
-        while (!console_.idle() || session_.hasRequests()) {
+        bool last = !then;
+        while (!console_.idle() || session_.hasRequests() || !last) {
             console_.runQueued();
+            if (session_.playing()) session_.finishPlaying();  // nobody looks
+            if (!last && console_.idle() && !session_.hasRequests()) {
+                if (!console_.firstError()) session_.request(*then);
+                last = true;
+            }
             while (std::optional<Request> request = session_.takeRequest()) carryOut(*request);
             if (console_.framesToWait() > 0) {
                 draw();
@@ -92,6 +98,9 @@ class Runner {
                 console_.print(fmt::format("GL objects (bytes): {}", bytes));
                 break;
             }
+            case RequestKind::Bake:
+                bake(request);
+                break;
             case RequestKind::SingleFrame:
                 draw();
                 break;
@@ -104,21 +113,35 @@ class Runner {
         const PictureRequest shown = requestFor(session_, base_);
         VideoFile video(request.file, shown.size.width, shown.size.height);
         const Camera start = session_.camera();
+        const auto began = std::chrono::steady_clock::now();
         for (int frame = 0; frame < request.count; ++frame) {
-            progress_.show(fmt::format("{}: frame {} of {}", request.file, frame + 1, request.count));
-            if (request.turntable) {
-                const float angle =
-                    6.2831853f * static_cast<float>(frame) / static_cast<float>(request.count);
-                Camera turned = start;
-                turned.eye = start.target + glm::vec3(glm::rotate(glm::mat4(1), angle, start.up) *
-                                                      glm::vec4(start.eye - start.target, 0));
-                session_.moveCamera(turned);
-            }
+            const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - began;
+            const double left = frame == 0 ? 0 : gone.count() / frame * (request.count - frame);
+            progress_.show(fmt::format("{}: frame {} of {}{}", request.file, frame + 1, request.count,
+                                       frame == 0 ? "" : fmt::format(", {:.0f} s left", left)));
+            if (request.turntable) session_.moveCamera(turntableFrame(start, frame, request.count));
+            if (request.alongPath) session_.moveCamera(session_.cameraPath().frame(frame, request.count));
             video.add(draw(), session_.shownSettings().image);
         }
         session_.moveCamera(start);
         video.finish();
         console_.print("written " + request.file);
+    }
+
+    void bake(const Request& request) {
+        if (source_ == nullptr) throw Error(ErrorKind::Usage, "bake: only `render` bakes");
+        upload();
+        const Scene& lit = source_->bakedScene(base_.radiosity, &progress_);
+        const WritingScope writing;
+        for (const std::string& note : io::writeGltf(request.file, lit, request.overwrite))
+            console_.print(note);
+        console_.print("written " + request.file);
+    }
+
+    void upload() {
+        const std::uint64_t tables = session_.revisions().sceneTables();
+        if (!uploaded_ || *uploaded_ != tables) source_->setScene(session_.scene());
+        uploaded_ = tables;
     }
 
     Image draw() {
@@ -132,14 +155,13 @@ class Runner {
                 glm::vec4(session_.scene().sky, 0));
             return image;
         }
-        const std::uint64_t tables = session_.revisions().sceneTables();
-        if (!uploaded_ || *uploaded_ != tables) source_->setScene(session_.scene());
-        uploaded_ = tables;
+        upload();
         const auto start = std::chrono::steady_clock::now();
         Picture picture = source_->draw(request, &progress_);
         const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
         stats_ = picture.stats;
         session_.frameDrawn(taken.count());
+        if (picture.stopped) throw InterruptedError();  // half a picture is none of a script
         return std::move(picture.images.front());
     }
 
@@ -176,8 +198,8 @@ PictureRequest requestFor(const Session& session, const PictureRequest& base) {
 }
 
 void runScript(const ScriptOptions& options, Session& session, PictureSource* source,
-               const PictureRequest& base, Progress& progress) {
-    if (options.given()) Runner(session, source, base, progress).run(options);
+               const PictureRequest& base, Progress& progress, const std::optional<Request>& then) {
+    if (options.given() || then) Runner(session, source, base, progress).run(options, then);
 }
 
 }  // namespace conelight::program

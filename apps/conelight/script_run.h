@@ -29,8 +29,9 @@ struct QuitRequest {
 // Runs all scripts, then all commands. `base`: size and what else the pictures of `screenshot`, `record` and
 // `wait` are drawn with; mode, settings and camera are the session's. Without `source` commands that need a
 // picture are an error. Throws the first error, with the command's place.
+// `then`: carried out behind them.
 void runScript(const ScriptOptions& options, Session& session, PictureSource* source,
-               const PictureRequest& base, Progress& progress);
+               const PictureRequest& base, Progress& progress, const std::optional<Request>& then = {});
 
 // What the session shows, as a request.
 PictureRequest requestFor(const Session& session, const PictureRequest& base);

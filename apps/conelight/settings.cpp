@@ -3,8 +3,27 @@
 #include <fmt/core.h>
 
 #include "command.h"
+#include "conelight/quality.h"
 
 namespace conelight::program {
+
+namespace {
+
+void printQualities(bool markdown) {
+    if (!markdown) {
+        for (const QualityInfo& info : qualityInfos())
+            fmt::print("{:<12} {}\n", info.name, qualityText(info));
+        return;
+    }
+    fmt::print(
+        "| quality | rays per pixel | into lobes | rays per voxel face | indirect light: relRMSE | bias |\n"
+        "|---|--:|--:|--:|--:|--:|\n");
+    for (const QualityInfo& info : qualityInfos())
+        fmt::print("| `{}` | {} | {} | {} | {:.1f} % | {:+.1f} % |\n", info.name, info.raysPerPixel,
+                   info.lobeRays, info.raysPerFace, 100 * info.relativeError, 100 * info.bias);
+}
+
+}  // namespace
 
 void addSettings(CLI::App& app) {
     auto filter = std::make_shared<std::string>();
@@ -12,7 +31,10 @@ void addSettings(CLI::App& app) {
     CLI::App* command = app.add_subcommand("settings", "every setting of --set with unit, range and default");
     command->add_option("filter", *filter, "show only settings whose key contains this");
     command->add_flag("--markdown", *markdown, "as the table of docs/reference/settings.md");
-    command->callback([filter, markdown] {
+    auto qualities = std::make_shared<bool>(false);
+    command->add_flag("--qualities", *qualities, "instead: what each --quality costs and how good it is");
+    command->callback([filter, markdown, qualities] {
+        if (*qualities) return printQualities(*markdown);
         if (*markdown)
             fmt::print("| setting | default | range | unit | what it does |\n|---|---|---|---|---|\n");
         for (const SettingInfo& info : settingInfos()) {

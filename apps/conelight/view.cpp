@@ -22,11 +22,12 @@ int run(const ViewCommand& options) {
     const Size size = parseSize(options.window);
     Progress progress;
     Scene scene = openScene(options.scene, options.view, progress);
-    const Settings settings = settingsFor(scene, options.mode, options.view);
+    const std::string mode = modeFor(options.mode, options.view);
+    const Settings settings = settingsFor(scene, isSettingsMode(mode) ? mode : "cones", options.view);
     const Camera camera = cameraFor(scene, options.view);
     progress.finish();
     Session session(std::move(scene), options.scene, settings,
-                    options.mode.empty() ? getSetting(settings, "mode") : options.mode, camera);
+                    mode.empty() ? getSetting(settings, "mode") : mode, camera);
     ViewerOptions viewer;
     viewer.width = size.width;
     viewer.height = size.height;

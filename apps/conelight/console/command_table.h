@@ -96,7 +96,11 @@ CommandGroup cameraCommands();         // commands_camera.cpp
 CommandGroup sceneCommands();          // commands_scene.cpp
 CommandGroup programCommands();        // commands_program.cpp
 
-Command lightCommand();  // commands_light.cpp
+Command lightCommand();    // commands_light.cpp
+Command pathCommand();     // commands_path.cpp
+Command presetCommand();   // commands_preset.cpp
+Command qualityCommand();  // commands_preset.cpp
+Command whyCommand();      // commands_why.cpp
 void printLights(const CommandContext& context);
 
 // Whether `record` can write this: a film's extension, or a pattern of numbered pictures.

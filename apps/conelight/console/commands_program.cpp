@@ -71,7 +71,11 @@ void screenshot(const CommandContext& context) {
 
 void record(const CommandContext& context) {
     Request request{RequestKind::Record, context.words[0], static_cast<int>(context.number(1))};
-    request.turntable = context.count() > 2;
+    request.turntable = context.count() > 2 && context.words[2] == "turntable";
+    request.alongPath = context.count() > 2 && context.words[2] == "path";
+    if (request.alongPath && context.session.cameraPath().empty())
+        throw Error(ErrorKind::Usage,
+                    "record: the camera path has no keys; `path add` or `path load` would be right");
     if (!isVideoName(request.file))
         throw Error(ErrorKind::Usage,
                     fmt::format("record: {}: a name ending in .mp4, or numbered pictures as in frame%04d.png "
@@ -142,14 +146,16 @@ CommandGroup programCommands() {
             command("record",
                     {{"FILE", ArgumentKind::File},
                      {"FRAMES", ArgumentKind::Whole, false, false, "frames", 1, 100000, {}},
-                     {"PATH", ArgumentKind::Choice, true, false, "", 0, 0, {"turntable"}}},
+                     {"PATH", ArgumentKind::Choice, true, false, "", 0, 0, {"turntable", "path"}}},
                     "write frames as a film, or as numbered pictures", record,
                     "FILE ends in .mp4 (through ffmpeg, 30 frames a second), or is a pattern like "
-                    "frame%04d.png.\nturntable: the camera goes once round its target."),
+                    "frame%04d.png.\nturntable: the camera goes once round its target. path: along its keys "
+                    "(`help path`)."),
             command("open", {{"SCENE", ArgumentKind::SceneFile}},
                     "another scene, with its own camera and settings", open),
             command("wait", {{"FRAMES", ArgumentKind::Whole, false, false, "frames", 1, 100000, {}}},
                     "draw so many frames before the next command", wait),
+            whyCommand(),
             command("echo", {{"TEXT", ArgumentKind::Text, true, true}}, "print a line", echo),
             command("source", {{"FILE", ArgumentKind::File}}, "run the commands of a file", source),
             command("history", {}, "the lines typed so far", history),

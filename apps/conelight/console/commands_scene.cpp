@@ -10,6 +10,9 @@
 #include "conelight/error.h"
 #include "console/console.h"
 #include "console/names.h"
+#include "io/files.h"
+#include "io/gltf_write.h"
+#include "io/image_file.h"
 #include "session/material_edit.h"
 #include "session/save.h"
 
@@ -222,6 +225,19 @@ void save(const CommandContext& context) {
     context.print("saved " + context.words[0]);
 }
 
+void bake(const CommandContext& context) {
+    const std::string& file = context.words[0];
+    Request request{RequestKind::Bake, file};
+    request.overwrite = context.count() > 1;
+    const std::string extension = io::lowerExtension(file);
+    if (extension != ".glb" && extension != ".gltf")
+        usage("bake: " + file + ": a name ending in .glb or .gltf would be right");
+    io::refuseOverwriting(file, request.overwrite);
+    io::refuseForeignBuffer(file, request.overwrite);
+    io::checkWritable(file);
+    context.session.request(std::move(request));
+}
+
 }  // namespace
 
 CommandGroup sceneCommands() {
@@ -256,11 +272,20 @@ CommandGroup sceneCommands() {
                     "Without RADIANCE it is printed."),
             command("save",
                     {{"FILE", ArgumentKind::File},
-                     {"FORCE", ArgumentKind::Choice, true, false, "", 0, 0, {"force"}}},
+                     {"OVERWRITE", ArgumentKind::Choice, true, false, "", 0, 0, {"overwrite", "force"}}},
                     "write the edited scene: .gltf .glb, or .txt (the thesis's format)", save,
-                    "A file that exists is left alone unless `force` is said. What the format cannot hold is "
-                    "named.\nThe .txt format keeps settings and view too, and its meshes as .obj files "
+                    "What exists is left alone, the .bin beside a .gltf too, unless `overwrite` is said; "
+                    "nothing is "
+                    "half-written.\nWhat the format cannot hold is named. The .txt format keeps settings and "
+                    "view too, and its meshes as .obj files "
                     "beside it."),
+            command(
+                "bake",
+                {{"FILE", ArgumentKind::File},
+                 {"OVERWRITE", ArgumentKind::Choice, true, false, "", 0, 0, {"overwrite", "force"}}},
+                "solve radiosity for the scene as it is and write it lit: .glb, .gltf", bake,
+                "As `render --mode radiosity --bake`: any mode draws the file from anywhere, mode phong at "
+                "once.\nWhat exists is left alone unless `overwrite` is said."),
         }};
 }
 

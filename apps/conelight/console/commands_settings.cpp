@@ -90,23 +90,27 @@ CommandGroup settingCommands() {
     const Argument key{"KEY", ArgumentKind::Setting};
     Argument optionalKey = key;
     optionalKey.optional = true;
-    return {"Settings",
-            {
-                command("mode", {{"MODE", ArgumentKind::Mode, true}}, "how the picture is made", mode,
-                        "Without MODE it is printed."),
-                command("component",
-                        {{"NAME", ArgumentKind::Choice, true, false, "", 0, 0, settingChoices("component")}},
-                        "the part of the picture that is shown", component, "Without NAME it is printed."),
-                command("set", {key, {"VALUE", ArgumentKind::SettingValue, true}},
-                        "change a setting: KEY VALUE or KEY=VALUE, as --set takes it", set),
-                command("get", {optionalKey}, "print a setting, or all that begin with KEY, or all", get),
-                command("reset", {optionalKey},
-                        "a setting, or all that begin with KEY, or all, as the scene started", reset),
-                command("undo", {}, "take back the last change", undo,
-                        "Changes of settings, mode, flags, objects, materials, lights, sky and jumps of the "
-                        "camera; not flying."),
-                command("redo", {}, "bring back what undo took", redo),
-            }};
+    return {
+        "Settings",
+        {
+            command("mode", {{"MODE", ArgumentKind::Mode, true}}, "how the picture is made", mode,
+                    "Without MODE it is printed."),
+            command("component",
+                    {{"NAME", ArgumentKind::Choice, true, false, "", 0, 0, settingChoices("component")}},
+                    "the part of the picture that is shown", component, "Without NAME it is printed."),
+            command("set", {key, {"VALUE", ArgumentKind::SettingValue, true}},
+                    "change a setting: KEY VALUE or KEY=VALUE, as --set takes it", set),
+            command("get", {optionalKey}, "print a setting, or all that begin with KEY, or all", get),
+            command("reset", {optionalKey},
+                    "a setting, or all that begin with KEY, or all, as the scene started", reset),
+            qualityCommand(),
+            presetCommand(),
+            command(
+                "undo", {}, "take back the last change", undo,
+                "Changes of settings, mode, flags, objects, materials, lights, sky, camera path and jumps of "
+                "the camera; not flying."),
+            command("redo", {}, "bring back what undo took", redo),
+        }};
 }
 
 }  // namespace conelight::program

@@ -63,7 +63,7 @@ void Console::source(const std::string& file) {
 
 bool Console::runQueued() {
     bool any = false;
-    while (!queue_.empty() && waitFrames_ == 0 && !session_.hasRequests()) {
+    while (!queue_.empty() && waitFrames_ == 0 && !session_.hasRequests() && !session_.playing()) {
         current_ = std::move(queue_.front());
         queue_.pop_front();
         run(current_);

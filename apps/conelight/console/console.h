@@ -44,7 +44,7 @@ class Console {
     // Runs commands until one asks for work of the main loop or all are done. An error is one line; with
     // stopOnError what is queued behind it is dropped. Returns whether any ran.
     bool runQueued();
-    bool idle() const { return queue_.empty() && waitFrames_ == 0; }
+    bool idle() const { return queue_.empty() && waitFrames_ == 0 && !session_.playing(); }
     void setStopOnError(bool stop) { stopOnError_ = stop; }
     // The first error since construction.
     const std::optional<Error>& firstError() const { return firstError_; }

@@ -9,6 +9,7 @@
 
 #include "conelight/scene.h"
 #include "conelight/settings.h"
+#include "session/camera_path.h"
 #include "session/view_flags.h"
 
 namespace conelight::program {
@@ -36,9 +37,10 @@ struct SkyEdit : BeforeAfter<glm::vec3> {};
 struct SettingsEdit : BeforeAfter<PictureSettings> {};
 struct CameraEdit : BeforeAfter<Camera> {};
 struct FlagsEdit : BeforeAfter<ViewFlags> {};
+struct PathEdit : BeforeAfter<CameraPath> {};
 
 using Edit = std::variant<InstanceEdit, MaterialEdit, MaterialsEdit, LightsEdit, CamerasEdit, SkyEdit,
-                          SettingsEdit, CameraEdit, FlagsEdit>;
+                          SettingsEdit, CameraEdit, FlagsEdit, PathEdit>;
 
 struct Step {
     std::string label;     // "translate Lucy"

@@ -9,7 +9,8 @@ namespace conelight::program {
 
 enum class RequestKind {
     Screenshot,   // file
-    Record,       // file, count frames, turntable
+    Record,       // file, count frames, turntable or alongPath
+    Bake,         // file; overwrite
     Load,         // file; keepView
     Revoxelize,   // and say how large the voxels are
     SingleFrame,  // draw one frame although ViewFlags::singleFrame is on
@@ -24,6 +25,8 @@ struct Request {
     int status = 0;
     bool keepView = false;   // Load: camera and settings stay
     bool turntable = false;  // Record: once round the target
+    bool alongPath = false;  // Record: along the session's camera path
+    bool overwrite = false;  // Bake: what is there already
 };
 
 }  // namespace conelight::program

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "session/save.h"
 
+#include <algorithm>
+
+#include "io/gltf_write.h"
 #include "io/scene_write.h"
+#include "reference/radiosity.h"
+#include "session/preset.h"
 
 namespace conelight::program {
 namespace {
@@ -23,16 +28,20 @@ std::vector<std::string> saveSession(Session& session, const std::string& path, 
     }
     // All that differs from what a reader starts with; the picture's look always, because formats differ in
     // it.
-    scene.settings.clear();
-    const Settings defaults;
+    scene.settings = differences(Settings{}, session.settings());
     for (const SettingInfo& info : settingInfos()) {
-        const std::string value = getSetting(session.settings(), info.key);
-        if (info.key.rfind("image.", 0) == 0 || value != getSetting(defaults, info.key))
-            scene.settings.emplace_back(info.key, value);
+        const bool said = std::any_of(scene.settings.begin(), scene.settings.end(),
+                                      [&](const auto& one) { return one.first == info.key; });
+        if (info.key.rfind("image.", 0) == 0 && !said)
+            scene.settings.emplace_back(info.key, getSetting(session.settings(), info.key));
     }
     std::vector<std::string> notes = io::writeScene(path, scene, force);
     session.markSaved();
     return notes;
+}
+
+void bakeTo(const std::string& path, const Scene& scene, bool overwrite) {
+    io::writeGltf(path, reference::bakeRadiosity(scene, reference::RadiositySettings{}), overwrite);
 }
 
 }  // namespace conelight::program

@@ -119,6 +119,7 @@ std::vector<std::string> Session::open(const std::string& path, bool keepView) {
         settings_ = start;
         mode_ = getSetting(start, "mode");
         camera_ = scene_.cameras.front();
+        playing_.reset();
         flags_ = {};
         ++revisions_.settings;
         ++revisions_.camera;
@@ -263,6 +264,36 @@ void Session::setCameras(const std::vector<Camera>& cameras, const std::string& 
     commit(std::move(step));
 }
 
+void Session::setCameraPath(const CameraPath& path, const std::string& label) {
+    Step step{label, {}, {}};
+    step.edits.push_back(editOf<PathEdit>(cameraPath_, path));
+    commit(std::move(step));
+}
+
+void Session::applyPreset(const Preset& preset, const std::string& label) {
+    const std::string mode = preset.mode.empty() ? mode_ : preset.mode;
+    Settings changed = startSettings(scene_, isSettingsMode(mode) ? mode : getSetting(settings_, "mode"));
+    preset.apply(changed);
+    if (same(changed, settings_) && mode == mode_) return;
+    Step step{label, {}, {}};
+    step.edits.push_back(editOf<SettingsEdit, PictureSettings>({settings_, mode_}, {changed, mode}));
+    commit(std::move(step));
+}
+
+Preset Session::preset() const {
+    Preset preset;
+    preset.mode = mode_;
+    Settings bare;
+    conelight::setSetting(bare, "mode", getSetting(settings_, "mode"));
+    std::vector<std::string> keys;
+    for (const Settings& from : {bare, startingSettings()})
+        for (const auto& [key, value] : differences(from, settings_)) keys.push_back(key);
+    for (const SettingInfo& info : settingInfos())
+        if (std::find(keys.begin(), keys.end(), info.key) != keys.end())
+            preset.values.emplace_back(info.key, getSetting(settings_, info.key));
+    return preset;
+}
+
 void Session::setSky(const glm::vec3& sky, const std::string& label, const std::string& mergeKey) {
     if (sky == scene_.sky) return;
     Step step{label, mergeKey, {}};
@@ -272,8 +303,32 @@ void Session::setSky(const glm::vec3& sky, const std::string& label, const std::
 
 void Session::moveCamera(const Camera& camera) {
     if (same(camera, camera_)) return;
+    playing_.reset();
+    place(camera);
+}
+
+void Session::place(const Camera& camera) {
     camera_ = camera;
     ++revisions_.camera;
+}
+
+void Session::playPath(double seconds) {
+    place(cameraPath_.at(cameraPath_.start()));
+    playing_ = Playing{std::chrono::steady_clock::now(), seconds};
+}
+
+void Session::finishPlaying() {
+    if (playing_ && !cameraPath_.empty()) place(cameraPath_.at(cameraPath_.end()));
+    playing_.reset();
+}
+
+void Session::frameDrawn(double ms) {
+    frameTimes_.add(ms);
+    if (!playing_) return;
+    const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - playing_->from;
+    if (cameraPath_.empty() || gone.count() >= playing_->seconds) return finishPlaying();
+    const double part = gone.count() / playing_->seconds;
+    place(cameraPath_.at(cameraPath_.start() + part * (cameraPath_.end() - cameraPath_.start())));
 }
 
 void Session::select(const Selection& selection) {
@@ -339,6 +394,10 @@ void Session::apply(const Edit& edit, bool forward) {
     } else if (const auto* camera = std::get_if<CameraEdit>(&edit)) {
         camera_ = side(*camera);
         ++revisions_.camera;
+        playing_.reset();
+    } else if (const auto* path = std::get_if<PathEdit>(&edit)) {
+        cameraPath_ = side(*path);
+        playing_.reset();
     } else if (const auto* flags = std::get_if<FlagsEdit>(&edit)) {
         flags_ = side(*flags);
         ++revisions_.flags;

@@ -8,14 +8,17 @@
 // through camera(), with setScene before it when revisions().sceneTables() differs;  session.frameDrawn(ms);
 #pragma once
 
+#include <chrono>
 #include <deque>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "session/camera_path.h"
 #include "session/edit.h"
 #include "session/frame_times.h"
+#include "session/preset.h"
 #include "session/request.h"
 #include "session/revisions.h"
 
@@ -65,6 +68,9 @@ class Session {
     const Selection& selection() const { return selection_; }
     const std::optional<RayMark>& rayMark() const { return rayMark_; }
     const Revisions& revisions() const { return revisions_; }
+    const CameraPath& cameraPath() const { return cameraPath_; }
+    // What applyPreset makes these settings and this mode of, in this scene and in one that says nothing.
+    Preset preset() const;
 
     // Settings and mode with the flags that change the picture in them: what is to be drawn.
     Settings shownSettings() const;
@@ -89,11 +95,20 @@ class Session {
     void setLights(const std::vector<Light>& lights, const std::string& label,
                    const std::string& mergeKey = {});
     void setCameras(const std::vector<Camera>& cameras, const std::string& label);
+    void setCameraPath(const CameraPath& path, const std::string& label);
+    // Settings and mode of a preset; what it does not name is as the scene starts.
+    void applyPreset(const Preset& preset, const std::string& label);
     void setSky(const glm::vec3& sky, const std::string& label, const std::string& mergeKey = {});
     void seal() { sealed_ = true; }
 
     // No steps of undo: flying, looking, choosing.
     void moveCamera(const Camera& camera);
+    // The camera goes along its path, which has a key, in so many seconds of the clock: a step after each
+    // drawn frame. Any other movement of the camera ends it.
+    void playPath(double seconds);
+    bool playing() const { return playing_.has_value(); }
+    void stopPlaying() { playing_.reset(); }
+    void finishPlaying();  // at once at the path's end
     void select(const Selection& selection);
     void setRayMark(const std::optional<RayMark>& mark);
     void askForVoxels() { ++revisions_.voxels; }
@@ -112,11 +127,17 @@ class Session {
 
     FrameTimes& frameTimes() { return frameTimes_; }
     const FrameTimes& frameTimes() const { return frameTimes_; }
-    void frameDrawn(double ms) { frameTimes_.add(ms); }
+    void frameDrawn(double ms);
 
   private:
     void commit(Step step);
     void apply(const Edit& edit, bool forward);
+    void place(const Camera& camera);
+
+    struct Playing {
+        std::chrono::steady_clock::time_point from;
+        double seconds = 0;
+    };
 
     Scene scene_;
     std::string path_;
@@ -126,6 +147,8 @@ class Session {
     ViewFlags flags_;
     Selection selection_;
     std::optional<RayMark> rayMark_;
+    CameraPath cameraPath_;
+    std::optional<Playing> playing_;
     Revisions revisions_;
     FrameTimes frameTimes_;
     std::deque<Request> requests_;

@@ -7,8 +7,8 @@
 
 #include "conelight/error.h"
 #include "picture_file.h"
+#include "session/save.h"
 #include "video_file.h"
-#include "viewer/camera_control.h"
 
 namespace conelight::program {
 namespace {
@@ -32,19 +32,15 @@ void screenshot(Session& session, PictureView& view, Console& console, const std
     console.print(fmt::format("written {} ({} x {})", file, linear.width, linear.height));
 }
 
-// `count` frames while the camera turns once round its target, or stands still.
+// `count` frames while the camera turns once round its target, goes along its path or stands still.
 void record(Session& session, PictureView& view, Console& console, const Request& request) {
     const glm::ivec2 size = view.pictureSize() / 2 * 2;  // video codecs want even sizes
     if (size.x < 2) throw Error(ErrorKind::Runtime, request.file + ": there is no picture yet");
     VideoFile video(request.file, size.x, size.y);
     const Camera start = session.camera();
-    constexpr float kTurn = 6.28318531f;
     for (int i = 0; i < request.count; ++i) {
-        if (request.turntable) {
-            Camera camera = start;
-            orbit(camera, {kTurn * static_cast<float>(i) / static_cast<float>(request.count), 0});
-            session.moveCamera(camera);
-        }
+        if (request.turntable) session.moveCamera(turntableFrame(start, i, request.count));
+        if (request.alongPath) session.moveCamera(session.cameraPath().frame(i, request.count));
         video.add(finishedPicture(session, view, size), session.shownSettings().image);
     }
     session.moveCamera(start);
@@ -60,6 +56,10 @@ void carryOut(Session& session, PictureView& view, Console& console, ViewerState
             break;
         case RequestKind::Record:
             record(session, view, console, request);
+            break;
+        case RequestKind::Bake:
+            bakeTo(request.file, session.scene(), request.overwrite);
+            console.print("written " + request.file);
             break;
         case RequestKind::Load:
             for (const std::string& note : session.open(request.file, request.keepView)) console.print(note);
