@@ -44,7 +44,7 @@ struct VoxelSettings {
 
 struct LightSettings {
     int shadowSize = 1024;  // texels per edge of a shadow map (cube faces: half); 0 = no shadows; 64..8192
-    int shadowFilter = 2;   // radius of the shadow filter in texels; 0..4
+    int shadowFilter = 0;   // blur of shadow edges in texels to either side; 0..4
     int areaSamples = 16;   // points per rectangular light; 1, 4, 9, 16, 25 ... 64
     bool emissiveQuads = true;  // flat rectangular emitters are lit exactly, as area lights (cones mode)
     bool operator==(const LightSettings&) const = default;

@@ -37,7 +37,7 @@ void main() {
     Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));
     vec3 radiance = vec3(0.0);
 #if SHOW_DIRECT
-    DirectLight light = directLight(Receiver(s.position, s.normal, s.geometricNormal, s.toEye), b);
+    DirectLight light = directLight(Receiver(s.position, s.normal, s.geometricNormal, s.toEye, 0.0), b);
     radiance = b.diffuse / kPi * light.irradiance + s.emission + (s.unlit ? vec3(0.0) : light.specular);
 #endif
 #if GATHERS

@@ -42,7 +42,8 @@ struct Receiver {
     vec3 position;
     vec3 normal;
     vec3 geometricNormal;
-    vec3 toEye;  // used for the specular part only
+    vec3 toEye;        // used for the specular part only
+    float shadowLift;  // 0 for an exact position, kShadowVoxelLift for a voxel's
 };
 
 // Intensity over distance: inverse square (not below 1 mm) or the light's own falloff, and glTF's range
@@ -75,7 +76,7 @@ void addPoint(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Li
     l *= inversesqrt(max(d2, 1e-20));
     float visible = 1.0;
 #if LIGHTS_SHADOWS
-    visible = shadowVisibilityPoint(light, r.position, r.geometricNormal);
+    visible = shadowVisibilityPoint(light, r.position, r.geometricNormal, r.shadowLift);
 #endif
     addLight(sum, specular, r, b, l,
              light.intensity * (distanceFalloff(light, d2) * spotFalloff(light, l) * visible));
@@ -87,7 +88,7 @@ void addSpot(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
     l *= inversesqrt(max(d2, 1e-20));
     float visible = 1.0;
 #if LIGHTS_SHADOWS
-    visible = shadowVisibilitySpot(light, r.position, r.geometricNormal);
+    visible = shadowVisibilitySpot(light, r.position, r.geometricNormal, r.shadowLift);
 #endif
     addLight(sum, specular, r, b, l,
              light.intensity * (distanceFalloff(light, d2) * spotFalloff(light, l) * visible));
@@ -96,7 +97,7 @@ void addSpot(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
 void addDirectional(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light) {
     float visible = 1.0;
 #if LIGHTS_SHADOWS
-    visible = shadowVisibilityDirectional(light, r.position, r.geometricNormal);
+    visible = shadowVisibilityDirectional(light, r.position, r.geometricNormal, r.shadowLift);
 #endif
     addLight(sum, specular, r, b, -light.direction, light.intensity * visible);
 }
@@ -193,7 +194,8 @@ DirectLight allLights(const bool specular, Receiver r, Brdf b) {
 // the surface that casts shadows there (moves the look-up off it); equal to `normal` for a flat surface.
 vec3 directIrradiance(vec3 position, vec3 normal, vec3 geometricNormal) {
     Brdf none;
-    return allLights(false, Receiver(position, normal, geometricNormal, normal), none).irradiance;
+    return allLights(false, Receiver(position, normal, geometricNormal, normal, kShadowVoxelLift), none)
+        .irradiance;
 }
 
 // Irradiance, and radiance that the specular lobe sends to the eye.

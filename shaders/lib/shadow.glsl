@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Visibility of lights by shadow maps (drawn by src/light/shadow_maps.cpp): position and normal -> [0,1].
-// Filter: share of visible texels in a box of (2 SHADOW_FILTER + 1)^2 texels around the point with fractional
-// edges (Reeves et al. 1987, "Rendering Antialiased Shadows with Depth Maps"), four comparisons per gather.
+// docs/theory/3_light.md, "Visibility" and "Outlines".
 //
 // One array texture holds all maps. Its layers are cut into n x n tiles, counted row by row, layer by layer:
 // n = 1 for spots and directional lights, 2 for points (six tiles, one per side of a cube), 4 for sample
@@ -9,50 +8,140 @@
 // Depth is reversed: shadowNear / distance along the map's axis, 0 where nothing was drawn, a float's
 // relative precision everywhere. A point lies in the map at tile centre + lateral / (distance * shadowTexel).
 //
-// No acne, no peter-panning: a texel away by e from the point, measured across the map's axis at the point's
-// distance, holds the depth of a plane through the point, which lies nearer than the point's own if n.e < 0.
-// Moving the point along its normal n by o >= max |n.e| puts it in front of the plane at every texel of the
-// filter. With the two lateral axes a, b of the map and |e.a|, |e.b| <= (SHADOW_FILTER + 1) texels:
-//   o = (SHADOW_FILTER + 1) * texel * (|n.a| + |n.b|),
-// exact for planes at every angle, zero where the plane faces the light, a bounded number of texels at
-// grazing light: nothing thicker than that loses its shadow's foot.
+// Besides its depth a texel keeps the slopes of its triangle and where that ends. It hides the receiver if
+// (3.2) both
+//   1. the texel's point is nearer than the receiver's plane at that texel,
+//   2. the texel's plane is nearer than the receiver where the receiver is,
+// and over the texel's triangle by 2 alone. What is left is rounding (kShadowSlack).
+//
+// SHADOW_FILTER 0: the outline between texels is that of their triangles. Above: share of visible texels in a
+// box of (2 SHADOW_FILTER + 1)^2 texels around the point with fractional edges (Reeves et al. 1987).
+//
+// Maps of rectangles have depths alone. There the receiver is moved along its normal n by o >= max |n.e| over
+// the texels e that are compared, which puts it in front of its own plane at each of them:
+//   o = texel * (|n.a| + |n.b|), a and b the map's lateral axes.
+//
+// Positions of voxels are not exact: `lift` moves them likewise, by so many texels.
 #ifndef SHADOW_FILTER
-#define SHADOW_FILTER 2
+#define SHADOW_FILTER 0
 #endif
 #include "shared/bindings.h"
 #include "shared/scene.h"
 layout(binding = UNIT_SHADOW) uniform sampler2DArrayShadow shadowMaps;
+layout(binding = UNIT_SHADOW_DEPTHS) uniform sampler2DArray shadowDepths;
+layout(binding = UNIT_SHADOW_SURFACES) uniform usampler2DArray shadowSurfaces;
 
-// Added to the offset above, in texels: vertices are snapped to 1/256 texel when drawn, positions rebuilt
-// from the G-buffer err by up to 3e-5 of their distance, and a texel is about 4e-3 of the distance to the
-// light.
-const float kShadowSlack = 0.1;
+// Texels along the surface by which one is taken for another, at most: vertices are snapped to 1/256 texel
+// when drawn, slopes are halves, positions rebuilt from the G-buffer err by up to 3e-5 of their distance, and
+// a texel is about 4e-3 of the distance to the light.
+const float kShadowSlack = 0.03;
+// For the maps of rectangles, in texels too, for the same reasons; three times as much, as nothing but the
+// move separates a surface from itself.
+const float kShadowRectSlack = 0.1;
 
-// Texels away from the point are compared at a depth less by this share of their lateral distance, so that
-// the filter's outer texels do not find a wall that meets the surface at an angle. 0.5 by eye (2026-11):
-// corners of a room stay clean, and light leaks by no more than one texel below a standing object.
-const float kShadowCornerSlope = 0.5;
+// Up to how many texels from its centre a texel knows where its triangle ends; light/shadow.frag.glsl too.
+const float kShadowEnd = 2.0;
 
-// Share of visible texels around `texel` of a layer, for the reversed depth `ref`; `refSlope` is added per
-// texel of distance. `radius` must be constant.
-float shadowFilter(const int radius, vec2 texel, float layer, float ref, float refSlope) {
+// lift for the positions of voxels; src/light/shadow_maps.cpp keeps a guard for it.
+const float kShadowVoxelLift = 3.0;
+
+// Where an outline crosses the line from one texel's centre (0) to the next (1), of which the first is lit by
+// `lit0` and the second by `lit1`: where the hidden one's triangle ends.
+float shadowCrossing(float lit0, float lit1, float end0, float end1) {
+    float t = lit0 < lit1 ? end0 : 1.0 - end1;
+    return (lit0 < lit1 ? end0 : end1) > 0.998 ? 0.5 : t;
+}
+
+// Visible or not, at f between the centres of four texels that are (lit) or are not: the outline of what
+// hides them runs straight between the two places where it crosses the lines between neighbours (marching
+// squares). endX, endY: where the texels' triangles end towards each other. Order as of a gather: (0,1),
+// (1,1), (1,0), (0,0).
+float shadowOutline(vec4 lit, vec4 endX, vec4 endY, vec2 f) {
+    float bottom = shadowCrossing(lit.w, lit.z, endX.w, endX.z);
+    float top = shadowCrossing(lit.x, lit.y, endX.x, endX.y);
+    float left = shadowCrossing(lit.w, lit.x, endY.w, endY.x);
+    float right = shadowCrossing(lit.z, lit.y, endY.z, endY.y);
+    // Within the corner that the outline cuts off.
+    vec4 u = vec4(f.x, 1.0 - f.x, 1.0 - f.x, f.x), tu = vec4(top, 1.0 - top, 1.0 - bottom, bottom);
+    vec4 v = vec4(1.0 - f.y, 1.0 - f.y, f.y, f.y), tv = vec4(1.0 - left, 1.0 - right, right, left);
+    vec4 within = step(u * tv + v * tu, tu * tv);
+    float count = dot(lit, vec4(1.0));
+    float hiddenCorner = 1.0 - min(dot(within, 1.0 - lit), 1.0);  // lit but for corners
+    float litCorner = min(dot(within, lit), 1.0);                 // hidden but for corners
+    float across = f.x < mix(bottom, top, f.y) ? lit.w : lit.z;
+    float along = f.y < mix(left, right, f.x) ? lit.w : lit.x;
+    float result = lit.w == lit.x ? across : (lit.w == lit.z ? along : hiddenCorner);
+    result = count > 2.5 ? hiddenCorner : (count < 1.5 ? litCorner : result);
+    return count > 3.5 ? 1.0 : (count < 0.5 ? 0.0 : result);
+}
+
+// Whether the receiver is visible, for a layer's `texel` where it is, its reversed depth `ref` and its
+// plane's `slope`; with a filter a share. Slopes are in units of unit.x + unit.y * depth per texel.
+float shadowFilter(vec2 texel, float layer, float ref, vec2 slope, vec2 unit) {
+    const int radius = SHADOW_FILTER;
     vec2 corner = floor(texel - 0.5);
     vec2 f = texel - 0.5 - corner;
     corner -= float(radius);
-    vec2 uvFromTexel = 1.0 / vec2(textureSize(shadowMaps, 0).xy);
+    vec2 uvFromTexel = 1.0 / vec2(textureSize(shadowDepths, 0).xy);
+    float refUnit = unit.x + unit.y * ref;
+    float slack = kShadowSlack * refUnit;
+    float refSlack = ref + slack * (1.0 + abs(slope.x) + abs(slope.y));
+    vec2 refSlope = slope * refUnit;
     float sum = 0.0;
     for (int y = 0; y <= radius; ++y) {
         for (int x = 0; x <= radius; ++x) {
             // A gather at a corner between texels returns (0,1), (1,1), (1,0), (0,0).
-            float away = float(max(abs(2 * x - radius), abs(2 * y - radius)));
-            vec2 uv = (corner + vec2(2 * x + 1, 2 * y + 1)) * uvFromTexel;
-            vec4 lit = textureGather(shadowMaps, vec3(uv, layer), ref + away * refSlope);
+            vec3 uv = vec3((corner + vec2(2 * x + 1, 2 * y + 1)) * uvFromTexel, layer);
+            vec4 depth = textureGather(shadowDepths, uv);
+            uvec4 bits = textureGather(shadowSurfaces, uv, 0);
+            vec2 s0 = unpackHalf2x16(bits.x), s1 = unpackHalf2x16(bits.y);
+            vec2 s2 = unpackHalf2x16(bits.z), s3 = unpackHalf2x16(bits.w);
+            vec4 slopeX = vec4(s0.x, s1.x, s2.x, s3.x), slopeY = vec4(s0.y, s1.y, s2.y, s3.y);
+            // From the receiver to the texels' centres.
+            vec4 dx = vec4(0.0, 1.0, 1.0, 0.0) + (float(2 * x - radius) - f.x);
+            vec4 dy = vec4(1.0, 1.0, 0.0, 0.0) + (float(2 * y - radius) - f.y);
+            vec4 bound = refSlack + slack * (abs(slopeX) + abs(slopeY));
+            vec4 overReceiver = depth - (refSlope.x * dx + refSlope.y * dy);
+            vec4 overTexel = depth - (unit.x + unit.y * depth) * (slopeX * dx + slopeY * dy);
+#if SHADOW_FILTER
+            vec4 lit = step(min(overReceiver, overTexel), bound);
             vec2 wx = vec2(x == 0 ? 1.0 - f.x : 1.0, x == radius ? f.x : 1.0);
             vec2 wy = vec2(y == 0 ? 1.0 - f.y : 1.0, y == radius ? f.y : 1.0);
             sum += wy.x * dot(wx, lit.wz) + wy.y * dot(wx, lit.xy);
+#else
+            uvec4 ends = textureGather(shadowSurfaces, uv, 1);
+            vec4 e0 = unpackUnorm4x8(ends.x), e1 = unpackUnorm4x8(ends.y);
+            vec4 e2 = unpackUnorm4x8(ends.z), e3 = unpackUnorm4x8(ends.w);
+            vec4 endX = kShadowEnd * vec4(e0.x, e1.y, e2.y, e3.x);
+            vec4 endY = kShadowEnd * vec4(e0.w, e1.w, e2.z, e3.z);
+            // Over the texel's triangle 2 alone decides: that is a ray against a triangle.
+            vec4 within = step(abs(dx) * endY + abs(dy) * endX, endX * endY);
+            vec4 lit = step(max(min(overReceiver, overTexel), overTexel * within), bound);
+            // A triangle that a line through the texel's centre crosses in less than a texel is found by
+            // chance. Its share of the area comes out right only if it then counts for the whole texel.
+            vec4 acrossX = vec4(e0.x + e0.y, e1.x + e1.y, e2.x + e2.y, e3.x + e3.y);
+            vec4 acrossY = vec4(e0.z + e0.w, e1.z + e1.w, e2.z + e2.w, e3.z + e3.w);
+            vec4 large = clamp(2.0 * kShadowEnd * min(acrossX, acrossY) - 1.0, 0.0, 1.0);
+            float trusted = dot(large, 1.0 - lit) / max(4.0 - dot(lit, vec4(1.0)), 1.0);
+            float whole = mix(mix(lit.w, lit.z, f.x), mix(lit.x, lit.y, f.x), f.y);
+            sum = mix(whole, shadowOutline(lit, endX, endY, f), trusted);
+#endif
         }
     }
     return sum / float((2 * radius + 1) * (2 * radius + 1));
+}
+
+// Slopes of the depth of a plane with normal n that is seen at lateral tangents `at` (0, 0 for a parallel
+// projection), over the unit; the light is on the side that n points to.
+vec2 shadowPlane(vec3 n, vec2 at) { return n.xy / min(dot(n, vec3(at, 1.0)), -1e-4); }
+
+// Bilinear share of visible texels in the map of a rectangle's sample point.
+float shadowBilinear(vec2 texel, float layer, float ref) {
+    vec2 corner = floor(texel - 0.5);
+    vec2 f = texel - 0.5 - corner;
+    vec2 uv = (corner + 1.0) / vec2(textureSize(shadowMaps, 0).xy);
+    vec4 lit = textureGather(shadowMaps, vec3(uv, layer), ref);
+    return mix(mix(lit.w, lit.z, f.x), mix(lit.x, lit.y, f.x), f.y);
 }
 
 // Lower left corner of a tile, in texels (xy), and its layer (z).
@@ -64,10 +153,9 @@ vec3 shadowTile(int tile, const int tilesPerEdge) {
                 float(tile / perLayer));
 }
 
-// How far a receiver is moved along its normal, from the lateral components of the normal and the texel's
-// edge.
-float shadowOffset(const int radius, vec2 lateralNormal, float texel) {
-    return texel * (float(radius + 1) * (abs(lateralNormal.x) + abs(lateralNormal.y)) + kShadowSlack);
+// How far a receiver is moved along its normal, from the lateral components of the normal.
+float shadowOffset(float texels, vec2 lateralNormal) {
+    return texels * (abs(lateralNormal.x) + abs(lateralNormal.y));
 }
 
 // Components along the axes of the cube side that v lies on: xy lateral, z along the side's axis (positive).
@@ -82,49 +170,48 @@ vec3 cubeSide(vec3 v, vec3 chooser, out int side) {
 }
 
 // Visibility of a point light (or a wide spot) from p with geometric normal n.
-float shadowVisibilityPoint(Light light, vec3 p, vec3 n) {
+float shadowVisibilityPoint(Light light, vec3 p, vec3 n, float lift) {
     int side;
     vec3 toP = p - light.position;
     vec3 lateral = cubeSide(toP, toP, side);
     vec3 ln = cubeSide(n, toP, side);
-    float offset = shadowOffset(SHADOW_FILTER, ln.xy, lateral.z * light.shadowTexel);
     // The side stays that of p: it has a margin that takes the filter and the move.
-    lateral += offset * ln;
+    lateral += shadowOffset(lift * lateral.z * light.shadowTexel, ln.xy) * ln;
     float z = max(lateral.z, 1e-20);
-    float ref = light.shadowNear / z;
+    vec2 at = lateral.xy / z;
     vec3 tile = shadowTile(max(light.shadow, 0) + side, 2);
-    float centre = 0.25 * float(textureSize(shadowMaps, 0).x);
-    vec2 texel = tile.xy + centre + lateral.xy / (z * light.shadowTexel);
-    float lit = shadowFilter(SHADOW_FILTER, texel, tile.z, ref, ref * light.shadowTexel * kShadowCornerSlope);
-    return light.shadow < 0 ? 1.0 : lit;
+    float centre = 0.25 * float(textureSize(shadowDepths, 0).x);
+    float lit = shadowFilter(tile.xy + centre + at / light.shadowTexel, tile.z, light.shadowNear / z,
+                             shadowPlane(ln, at), vec2(0.0, light.shadowTexel));
+    return light.shadow < 0 ? 1.0 : (dot(n, toP) < 0.0 ? lit : 0.0);
 }
 
 // Visibility of a spot with one map.
-float shadowVisibilitySpot(Light light, vec3 p, vec3 n) {
+float shadowVisibilitySpot(Light light, vec3 p, vec3 n, float lift) {
     vec3 toP = p - light.position;
     vec3 lateral = vec3(dot(toP, light.halfU), dot(toP, light.halfV), dot(toP, light.direction));
     vec3 ln = vec3(dot(n, light.halfU), dot(n, light.halfV), dot(n, light.direction));
-    lateral += shadowOffset(SHADOW_FILTER, ln.xy, max(lateral.z, 0.0) * light.shadowTexel) * ln;
+    lateral += shadowOffset(lift * max(lateral.z, 0.0) * light.shadowTexel, ln.xy) * ln;
     float z = max(lateral.z, 1e-20);
-    float ref = light.shadowNear / z;
-    float size = float(textureSize(shadowMaps, 0).x);
-    vec2 texel = clamp(0.5 * size + lateral.xy / (z * light.shadowTexel), 0.0, size);
-    float lit = shadowFilter(SHADOW_FILTER, texel, float(light.shadow), ref,
-                             ref * light.shadowTexel * kShadowCornerSlope);
-    return light.shadow < 0 ? 1.0 : lit;
+    vec2 at = lateral.xy / z;
+    float size = float(textureSize(shadowDepths, 0).x);
+    vec2 texel = clamp(0.5 * size + at / light.shadowTexel, 0.0, size);
+    float lit = shadowFilter(texel, float(light.shadow), light.shadowNear / z, shadowPlane(ln, at),
+                             vec2(0.0, light.shadowTexel));
+    return light.shadow < 0 ? 1.0 : (dot(n, toP) < 0.0 ? lit : 0.0);
 }
 
 // Visibility of a directional light; light.position is the centre of the map's near side.
-float shadowVisibilityDirectional(Light light, vec3 p, vec3 n) {
+float shadowVisibilityDirectional(Light light, vec3 p, vec3 n, float lift) {
     vec3 toP = p - light.position;
-    vec2 ln = vec2(dot(n, light.halfU), dot(n, light.halfV));
-    toP += n * shadowOffset(SHADOW_FILTER, ln, light.shadowTexel);
+    vec3 ln = vec3(dot(n, light.halfU), dot(n, light.halfV), dot(n, light.direction));
+    toP += n * shadowOffset(lift * light.shadowTexel, ln.xy);
     float ref = 1.0 - dot(toP, light.direction) * light.shadowNear;
-    float size = float(textureSize(shadowMaps, 0).x);
+    float size = float(textureSize(shadowDepths, 0).x);
     vec2 texel = 0.5 * size + vec2(dot(toP, light.halfU), dot(toP, light.halfV)) / light.shadowTexel;
-    float lit = shadowFilter(SHADOW_FILTER, clamp(texel, 0.0, size), float(light.shadow), ref,
-                             light.shadowNear * light.shadowTexel * kShadowCornerSlope);
-    return light.shadow < 0 ? 1.0 : lit;
+    float lit = shadowFilter(clamp(texel, 0.0, size), float(light.shadow), ref, shadowPlane(ln, vec2(0.0)),
+                             vec2(light.shadowNear * light.shadowTexel, 0.0));
+    return light.shadow < 0 ? 1.0 : (ln.z < 0.0 ? lit : 0.0);
 }
 
 // The k-th sample point of a rectangle, k < sampleGrid^2: one per cell of a grid, at places that differ in
@@ -153,7 +240,8 @@ float shadowVisibilityRect(Light light, uint k, vec3 point, vec3 p, vec3 n) {
     int side;
     vec3 lateral = cubeSide(local, local, side);
     vec3 ln = cubeSide(localNormal, local, side);
-    lateral += shadowOffset(0, ln.xy, lateral.z * light.shadowTexel) * ln;
+    float texelSize = lateral.z * light.shadowTexel;
+    lateral += (shadowOffset(texelSize, ln.xy) + kShadowRectSlack * texelSize) * ln;
     float z = max(lateral.z, 1e-20);
     bool front = side >= 4;
     vec2 across = side == 2 || side == 3 ? lateral.yx : lateral.xy;  // x along the rectangle, y to the front
@@ -163,6 +251,6 @@ float shadowVisibilityRect(Light light, uint k, vec3 point, vec3 p, vec3 n) {
     vec2 texel = across / (z * light.shadowTexel);
     // Half sides begin two texels (SHADOW_RECT_GUARD) below the rectangle's plane.
     texel += front ? vec2(0.5 * size) : vec2(0.5 * size, (side & 1) != 0 ? 0.5 * size + 2.0 : 2.0);
-    float lit = shadowFilter(0, tile.xy + texel, tile.z, light.shadowNear / z, 0.0);
+    float lit = shadowBilinear(tile.xy + texel, tile.z, light.shadowNear / z);
     return light.shadow < 0 ? 1.0 : lit;
 }

@@ -13,13 +13,14 @@ float lightVisibility(Light light, vec3 position, vec3 n) {
     float visible = 1.0;
 #if SHADOWED && LIGHTS_SHADOWS
 #if LIGHTS_POINT
-    if (light.type == LIGHT_POINT) visible = shadowVisibilityPoint(light, position, n);
+    if (light.type == LIGHT_POINT) visible = shadowVisibilityPoint(light, position, n, kShadowVoxelLift);
 #endif
 #if LIGHTS_SPOT
-    if (light.type == LIGHT_SPOT) visible = shadowVisibilitySpot(light, position, n);
+    if (light.type == LIGHT_SPOT) visible = shadowVisibilitySpot(light, position, n, kShadowVoxelLift);
 #endif
 #if LIGHTS_DIRECTIONAL
-    if (light.type == LIGHT_DIRECTIONAL) visible = shadowVisibilityDirectional(light, position, n);
+    if (light.type == LIGHT_DIRECTIONAL)
+        visible = shadowVisibilityDirectional(light, position, n, kShadowVoxelLift);
 #endif
 #if LIGHTS_RECT
     if (light.type == LIGHT_RECT) {

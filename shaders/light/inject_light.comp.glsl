@@ -47,7 +47,7 @@ void main() {
     vec3 emission = unpackEmission(texelFetch(faceSources, int(index)).xy);
     if (isAreaLight(position, normal)) emission = vec3(0.0);
     vec3 reflectance = unpackAlbedo(face.albedo) * (1.0 / 3.14159265358979);
-    Receiver receiver = Receiver(position, normal, normal, normal);
+    Receiver receiver = Receiver(position, normal, normal, normal, kShadowVoxelLift);
     Brdf none;
     DirectLight light = DirectLight(vec3(0.0), vec3(0.0));
     addRectLights(light, false, receiver, none);

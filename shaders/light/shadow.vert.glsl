@@ -9,7 +9,7 @@
 
 layout(location = 0) in vec3 position;
 layout(location = 5) in uint instanceIndex;
-layout(std140, binding = BINDING_PASS) uniform ShadowViewBlock { mat4 clipFromWorld; };
+#include "light/shadow_view.glsl"
 
 #if MASKED
 layout(location = 2) in vec2 uv;

@@ -30,4 +30,6 @@
 // Units of the G-buffer (GBuffer::bind), fixed because many passes read it: UNIT_GBUFFER and the next
 #define UNIT_GBUFFER 22
 // Units of the light stage, fixed because several stages shade
-#define UNIT_SHADOW 24  // sampler2DArrayShadow, all shadow maps (lib/shadow.glsl)
+#define UNIT_SHADOW 24           // sampler2DArrayShadow, all shadow maps (lib/shadow.glsl)
+#define UNIT_SHADOW_DEPTHS 26    // sampler2DArray, the same
+#define UNIT_SHADOW_SURFACES 27  // usampler2DArray RG32UI, of lights other than rectangles

@@ -260,7 +260,7 @@ void visitAll(S& s, V&& visit) {
     visit.whole("light.shadow_size", s.light.shadowSize, Whole{64, 8192, 1, true, false}, "texels",
                 "edge of a shadow map; 0: no shadows");
     visit.integer("light.shadow_filter", s.light.shadowFilter, 0, 4, 1, "texels",
-                  "radius of the shadow filter");
+                  "blur of shadow edges to either side; 0: as sharp as the map");
     visit.whole("light.area_samples", s.light.areaSamples, Whole{1, 64, 1, false, true}, "",
                 "points per rectangular light, a square number");
     visit.boolean("light.emissive_quads", s.light.emissiveQuads,

@@ -110,13 +110,17 @@ Framebuffer::Framebuffer(int width, int height, const std::string& label) : widt
     check(label);
 }
 
-Framebuffer Framebuffer::depthLayer(const Texture& depth, int layer, const std::string& label) {
+Framebuffer Framebuffer::depthLayer(const Texture& depth, int layer, const std::string& label,
+                                    const Texture* color) {
     Framebuffer result;
     Name framebuffer = 0;
     glCreateFramebuffers(1, &framebuffer);
     result.adopt(framebuffer, label, 0);
-    glNamedFramebufferDrawBuffer(framebuffer, GL_NONE);
-    glNamedFramebufferReadBuffer(framebuffer, GL_NONE);
+    const GLenum buffer = color != nullptr ? GL_COLOR_ATTACHMENT0 : GL_NONE;
+    glNamedFramebufferDrawBuffer(framebuffer, buffer);
+    glNamedFramebufferReadBuffer(framebuffer, buffer);
+    if (color != nullptr)
+        glNamedFramebufferTextureLayer(framebuffer, GL_COLOR_ATTACHMENT0, color->name(), 0, layer);
     glNamedFramebufferTextureLayer(framebuffer, GL_DEPTH_ATTACHMENT, depth.name(), 0, layer);
     result.width_ = depth.width();
     result.height_ = depth.height();

@@ -41,8 +41,9 @@ class Framebuffer : public Object<ObjectType::Framebuffer> {
                 bool layered = false);
     // Without attachments, of a given size (for raster passes that only store images).
     Framebuffer(int width, int height, const std::string& label);
-    // One layer of a depth texture and no colour.
-    static Framebuffer depthLayer(const Texture& depth, int layer, const std::string& label);
+    // One layer of a depth texture, and of a colour texture or none.
+    static Framebuffer depthLayer(const Texture& depth, int layer, const std::string& label,
+                                  const Texture* color = nullptr);
 
     int width() const { return width_; }
     int height() const { return height_; }

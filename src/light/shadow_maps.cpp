@@ -16,10 +16,13 @@ namespace {
 // same relative precision for any value, so it is only bounded by what must not vanish.
 constexpr float kNearFraction = 1e-5f;
 
-// Texels that a map keeps beyond the frustum it covers: the filter's reach, and as much again (times sqrt 2
-// for the worst direction) for the move along the normal, which may cross the border between two sides.
+// lib/shadow.glsl's: by how many texels voxels' positions are moved along the normal.
+constexpr float kVoxelLift = 3;
+
+// Texels that a map keeps beyond the frustum it covers: the filter's reach, and the move along the normal
+// (times sqrt 2 for the worst direction), which may cross the border between two sides.
 int guardTexels(int filterRadius) {
-    return static_cast<int>(std::ceil(2.5f * static_cast<float>(filterRadius + 1))) + 1;
+    return filterRadius + 2 + static_cast<int>(std::ceil(1.5f * kVoxelLift));
 }
 constexpr int kRectGuard = 2;  // lib/shadow.glsl: filter radius 0 and the move, each one texel
 
@@ -48,7 +51,9 @@ glm::mat4 rows(const glm::vec3& origin, const std::array<glm::vec4, 4>& rowsAndC
 // One map: where it lies in the array and how the world is projected into it.
 struct View {
     glm::mat4 clipFromWorld;
+    glm::vec2 slopeUnit;  // depth per texel of a slope of 1: x + y * depth
     int layer, x, y, width, height;
+    bool surfaces;  // whether slopes and outlines are drawn
 
     bool samePlace(const View& other) const {
         return layer == other.layer && x == other.x && y == other.y && width == other.width &&
@@ -66,10 +71,21 @@ View perspectiveView(const glm::vec3& origin, const Axes& axes, float nearDistan
     view.clipFromWorld =
         rows(origin, {glm::vec4(axes.u * su, 0), glm::vec4(axes.v * sv + axes.forward * shiftV, 0),
                       glm::vec4(0, 0, 0, nearDistance), glm::vec4(axes.forward, 0)});
+    view.slopeUnit = {0, texel};
+    view.surfaces = true;
     view.width = width;
     view.height = height;
     return view;
 }
+
+// light/shadow_view.glsl.
+struct ViewConstants {
+    glm::mat4 clipFromWorld;
+    glm::vec2 slopeUnit;
+    glm::vec2 middle;    // of the map, in texels of the layer
+    glm::vec2 halfSize;  // texels
+    glm::vec2 pad;
+};
 
 // Places a view in tile `tile` of an array whose layers are cut into n x n tiles.
 void place(View& view, int tile, int n, int layerSize) {
@@ -99,9 +115,11 @@ bool isMasked(const gpu::Material& material) {
     return (material.flags & (MATERIAL_ALPHA_MASK | MATERIAL_ALPHA_BLEND)) != 0;
 }
 
-gl::ProgramDesc programDesc(bool masked) {
-    gl::ProgramDesc desc{{"light/shadow.vert.glsl"}, {{"MASKED", masked ? "1" : "0"}}};
-    if (masked) desc.files.emplace_back("light/shadow.frag.glsl");
+gl::ProgramDesc programDesc(bool masked, bool surfaces) {
+    gl::ProgramDesc desc{{"light/shadow.vert.glsl"},
+                         {{"MASKED", masked ? "1" : "0"}, {"SURFACES", surfaces ? "1" : "0"}}};
+    if (surfaces) desc.files.emplace_back("light/shadow.geom.glsl");
+    if (masked || surfaces) desc.files.emplace_back("light/shadow.frag.glsl");
     return desc;
 }
 
@@ -117,12 +135,16 @@ class Layout {
 
     void add(std::vector<gpu::Light>& lights) {
         // Kinds one after the other, each from a new layer on: tiles of a kind have consecutive numbers.
-        for (const std::uint32_t kind : {LIGHT_SPOT, LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_RECT})
+        // Rectangles last: their layers have no surfaces.
+        for (const std::uint32_t kind : {LIGHT_SPOT, LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_RECT}) {
+            if (kind == LIGHT_RECT) surfaceLayers_ = layers_;
             for (gpu::Light& light : lights)
                 if (light.type == kind && (light.flags & LIGHT_CASTS_SHADOW) != 0) addLight(light);
+        }
     }
     int size() const { return size_; }
     int layers() const { return layers_; }
+    int surfaceLayers() const { return surfaceLayers_; }  // the first ones
     const std::vector<View>& views() const { return views_; }
 
   private:
@@ -212,6 +234,8 @@ class Layout {
         view.clipFromWorld =
             rows(light.position, {glm::vec4(light.halfU * scale, 0), glm::vec4(light.halfV * scale, 0),
                                   glm::vec4(-light.direction * light.shadowNear, 1), glm::vec4(0, 0, 0, 1)});
+        view.slopeUnit = {light.shadowNear * light.shadowTexel, 0};
+        view.surfaces = true;
         view.width = view.height = size_;
         place(view, light.shadow, 1, size_);
         views_.push_back(view);
@@ -234,6 +258,7 @@ class Layout {
                 View view =
                     perspectiveView(point, axes, near_, light.shadowTexel, tile, front ? tile : tile / 2,
                                     front ? 0.5f * static_cast<float>(tile) : static_cast<float>(kRectGuard));
+                view.surfaces = false;
                 place(view, light.shadow + 3 * sample + (front ? 0 : 1 + side / 2), 4, size_);
                 if (!front && (side & 1) != 0) view.y += tile / 2;
                 views_.push_back(view);
@@ -255,14 +280,15 @@ class Layout {
     Aabb bounds_;
     int size_, guard_;
     float near_;
-    int tilesPerEdge_ = 1, nextTile_ = 0, layers_ = 0;
+    int tilesPerEdge_ = 1, nextTile_ = 0, layers_ = 0, surfaceLayers_ = 0;
     std::vector<View> views_;
 };
 
 }  // namespace
 
 struct ShadowMaps::Impl {
-    gl::Texture maps;
+    gl::Texture maps, surfaces;
+    gl::Sampler plainSampler;  // depths as numbers, without comparison
     std::vector<gl::Framebuffer> layers;
     gl::Buffer viewBlock;
 
@@ -273,12 +299,23 @@ struct ShadowMaps::Impl {
     std::vector<Aabb> casterBoxes;  // empty: casts no shadow
     int redrawn = 0;
 
-    void allocate(int size, int layerCount) {
-        if (maps && maps.width() == size && maps.depth() == layerCount) return;
+    void allocate(int size, int layerCount, int surfaceLayers) {
+        // No surfaces: one texel, for the sampler.
+        const int surfaceSize = surfaceLayers > 0 ? size : 1;
+        if (maps && maps.width() == size && maps.depth() == layerCount && surfaces.width() == surfaceSize &&
+            surfaces.depth() == std::max(surfaceLayers, 1))
+            return;
         drawnViews.clear();
         layers.clear();
         maps =
             gl::Texture({GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, size, size, layerCount}, "shadow maps");
+        surfaces = gl::Texture(
+            {GL_TEXTURE_2D_ARRAY, GL_RG32UI, surfaceSize, surfaceSize, std::max(surfaceLayers, 1)},
+            "shadow surfaces");
+        surfaces.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        surfaces.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        surfaces.parameter(GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+        surfaces.parameter(GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
         maps.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         maps.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
         maps.parameter(GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -286,10 +323,15 @@ struct ShadowMaps::Impl {
         maps.parameter(GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
         maps.parameter(GL_TEXTURE_COMPARE_FUNC, GL_GEQUAL);  // reversed depth: visible when not farther
         for (int layer = 0; layer < layerCount; ++layer)
-            layers.push_back(
-                gl::Framebuffer::depthLayer(maps, layer, "shadow layer " + std::to_string(layer)));
+            layers.push_back(gl::Framebuffer::depthLayer(maps, layer, "shadow layer " + std::to_string(layer),
+                                                         layer < surfaceLayers ? &surfaces : nullptr));
+        clear();
+    }
+
+    void clear() {
         const float nothing = 0.0f;
         maps.clear(0, GL_DEPTH_COMPONENT, GL_FLOAT, &nothing);
+        surfaces.clear(0, GL_RG_INTEGER, GL_UNSIGNED_INT, nullptr);
     }
 
     void draw(gl::ProgramLibrary& programs, const scene::GpuScene& scene, const View& view);
@@ -346,7 +388,9 @@ void ShadowMaps::Impl::draw(gl::ProgramLibrary& programs, const scene::GpuScene&
     state.viewport[2] = view.width;
     state.viewport[3] = view.height;
     gl::apply(state);
-    viewBlock.update(view.clipFromWorld);
+    const glm::vec2 half = 0.5f * glm::vec2(view.width, view.height);
+    viewBlock.update(
+        ViewConstants{view.clipFromWorld, view.slopeUnit, glm::vec2(view.x, view.y) + half, half, {}});
     viewBlock.bindUniform(BINDING_PASS);
 
     const std::vector<gpu::Instance>& instances = scene.instances();
@@ -361,7 +405,7 @@ void ShadowMaps::Impl::draw(gl::ProgramLibrary& programs, const scene::GpuScene&
     }
     for (const bool masked : {false, true}) {
         if (!anyOf[masked ? 1 : 0]) continue;
-        programs.get(programDesc(masked)).use();
+        programs.get(programDesc(masked, view.surfaces)).use();
         const auto accepted = [&](const gpu::Instance& instance) {
             return drawn[static_cast<std::size_t>(&instance - instances.data())] == (masked ? 2 : 1);
         };
@@ -370,8 +414,9 @@ void ShadowMaps::Impl::draw(gl::ProgramLibrary& programs, const scene::GpuScene&
 }
 
 ShadowMaps::ShadowMaps() : impl_(std::make_unique<Impl>()) {
-    impl_->allocate(8, 1);
-    impl_->viewBlock = gl::Buffer(sizeof(glm::mat4), "shadow view");
+    impl_->allocate(8, 1, 0);
+    impl_->viewBlock = gl::Buffer(sizeof(ViewConstants), "shadow view");
+    impl_->plainSampler = gl::Sampler({GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE}, "shadow depths");
 }
 ShadowMaps::~ShadowMaps() = default;
 
@@ -394,14 +439,13 @@ void ShadowMaps::update(gl::ProgramLibrary& programs, gl::Profiler& profiler, sc
     // Draw them, or those that look different now or see a caster that changed.
     impl_->redrawn = 0;
     if (layout.layers() == 0) {
-        impl_->allocate(8, 1);
+        impl_->allocate(8, 1, 0);
         return;
     }
-    impl_->allocate(layout.size(), layout.layers());
+    impl_->allocate(layout.size(), layout.layers(), layout.surfaceLayers());
     const bool whole = everything || !impl_->keepsPlaces(scene, layout.views());
     const std::vector<Aabb> changed = whole ? std::vector<Aabb>{} : impl_->changedBoxes(scene);
-    const float nothing = 0.0f;
-    if (whole) impl_->maps.clear(0, GL_DEPTH_COMPONENT, GL_FLOAT, &nothing);
+    if (whole) impl_->clear();
     for (std::size_t i = 0; i < layout.views().size(); ++i) {
         const View& view = layout.views()[i];
         if (!whole) {
@@ -410,8 +454,9 @@ void ShadowMaps::update(gl::ProgramLibrary& programs, gl::Profiler& profiler, sc
                                      return !isOutside(view.clipFromWorld, box);
                                  });
             if (!touched) continue;
-            impl_->maps.clearRegion(0, {view.x, view.y, view.layer}, {view.width, view.height, 1},
-                                    GL_DEPTH_COMPONENT, GL_FLOAT);
+            const glm::ivec3 corner(view.x, view.y, view.layer), extent(view.width, view.height, 1);
+            impl_->maps.clearRegion(0, corner, extent, GL_DEPTH_COMPONENT, GL_FLOAT);
+            if (view.surfaces) impl_->surfaces.clearRegion(0, corner, extent, GL_RG_INTEGER, GL_UNSIGNED_INT);
         }
         impl_->draw(programs, scene, view);
         ++impl_->redrawn;
@@ -429,9 +474,16 @@ int ShadowMaps::redrawn() const { return impl_->redrawn; }
 void ShadowMaps::bind() const {
     impl_->maps.bind(UNIT_SHADOW);
     gl::unbindSampler(UNIT_SHADOW);
+    impl_->maps.bind(UNIT_SHADOW_DEPTHS);
+    impl_->plainSampler.bind(UNIT_SHADOW_DEPTHS);
+    impl_->surfaces.bind(UNIT_SHADOW_SURFACES);
+    gl::unbindSampler(UNIT_SHADOW_SURFACES);
 }
 
-std::vector<gl::ProgramDesc> ShadowMaps::programDescs() { return {programDesc(false), programDesc(true)}; }
+std::vector<gl::ProgramDesc> ShadowMaps::programDescs() {
+    return {programDesc(false, false), programDesc(false, true), programDesc(true, false),
+            programDesc(true, true)};
+}
 
 namespace {
 
@@ -470,10 +522,10 @@ std::vector<gl::ProgramDesc> lightVariants(const gl::ProgramDesc& base) {
         for (const std::uint32_t count : {1u, many}) {
             std::array<std::uint32_t, 4> counts{};
             counts[kind] = count;
-            add(counts, true, 2);
+            add(counts, true, 0);
         }
     for (int filter = 0; filter <= 4; ++filter) add({many, many, many, many}, true, filter);
-    add({1, 1, 1, 1}, true, 2);
+    add({1, 1, 1, 1}, true, 0);
     add({many, many, many, many}, false, 0);
     add({0, 0, 0, 0}, false, 0);
     return descs;

@@ -2,13 +2,14 @@
 // Shadow maps of all lights: GpuScene -> one array of depth textures, and the light table's shadow fields.
 // Point lights have six maps (the sides of a cube), spots and directional lights one, rectangles five per
 // sample point (the sides of half a cube). All are tiles of one array texture, so that shaders need one
-// sampler and one way of filtering; shaders/lib/shadow.glsl documents tiles, depths and the bias, and is the
-// other half of this file.
+// sampler and one way of filtering; shaders/lib/shadow.glsl documents tiles, depths and what hides what, and
+// is the other half of this file. Maps other than rectangles' keep slopes and extents of triangles too.
 //
 // Each map is one pass over the instances that its frustum meets: measured on llvmpipe, six culled passes
 // cost no more than one layered pass, and they need no extension.
 //
-// Reads: scene tables. Writes: the texture at UNIT_SHADOW. Both sides of every surface cast shadows.
+// Reads: scene tables. Writes: the textures at UNIT_SHADOW, _DEPTHS, _SURFACES. Both sides of every surface
+// cast shadows.
 #pragma once
 
 #include <memory>
@@ -31,7 +32,7 @@ class ShadowMaps {
     void update(gl::ProgramLibrary& programs, gl::Profiler& profiler, scene::GpuScene& scene,
                 const LightSettings& settings, bool everything = false);
     int redrawn() const;  // maps that the last update drew
-    // UNIT_SHADOW; before the first update a map without shadows.
+    // UNIT_SHADOW, _DEPTHS, _SURFACES; before the first update a map without shadows.
     void bind() const;
 
     static std::vector<gl::ProgramDesc> programDescs();

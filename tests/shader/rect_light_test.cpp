@@ -53,7 +53,7 @@ void main() {
     vec3 p = data[i].xyz, toEye = normalize(data[i + 1u].xyz - p), n = vec3(0, 1, 0);
     Brdf b = makeBrdf(vec3(1), 1.0, data[i].w, vec3(0.04), toEye.y);
     DirectLight sum = DirectLight(vec3(0), vec3(0));
-    addRect(sum, true, Receiver(p, n, n, toEye), b, lights[0]);
+    addRect(sum, true, Receiver(p, n, n, toEye, 0.0), b, lights[0]);
     data[i + 1u] = vec4(sum.specular, sum.irradiance.x);
 }
 )");
