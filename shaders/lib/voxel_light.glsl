@@ -55,8 +55,10 @@ vec3 hitRadiance(VoxelHit hit, vec3 origin, vec3 direction) {
     int face = max(hit.face, 0);
     FaceShade s = faceShade(face);
 #if EXACT_DIRECT
-    vec3 normal = octDecode(unpackSnorm2x16(texelFetch(voxelFaces, 2 * face).x));
-    vec3 position = worldFromGrid(origin + (hit.face >= 0 ? hit.t : 0.0) * direction);
+    uvec4 r = texelFetch(voxelFaces, 2 * face);
+    vec3 normal = octDecode(unpackSnorm2x16(r.x));
+    vec3 at = origin + (hit.face >= 0 ? hit.t : 0.0) * direction;
+    vec3 position = worldFromGrid(at + faceRise(r, normal));
     vec3 direct = directIrradiance(position, normal, normal) * (1.0 / kGatherPi);
     vec3 radiance = unpackRgb9e5(texelFetch(steadyLight, face).x) + s.albedo * (direct + s.irradiance);
 #else

@@ -71,10 +71,28 @@ vec3 faceNormal(FaceRecord face) { return octDecode(unpackSnorm2x16(face.normal)
 vec3 facePoint(FaceRecord face) {
     return vec3(unpackVoxel(face.voxel)) + 0.5 + faceNormal(face) * unpackOffset(face.offsetWeight);
 }
-// Centre of what the face holds: the middle of its bounds moved onto its plane, in grid coordinates.
+// From the plane of a face to what stands highest before it, along the face's axis: how far the bounds reach
+// beyond what a plane piece fills. Light that falls on the face is looked up there, not inside of what stands
+// before the plane. Zero for plane pieces, but where rounding of the bounds is more than its mean.
+vec3 faceRise(uvec4 hitTexel, vec3 n) {
+    uint axis = hitTexel.w >> 30;
+    vec3 k = vec3(axis == 0u, axis == 1u, axis == 2u);
+    k = dot(n, k) < 0.0 ? -k : k;
+    float facing = max(dot(n, k), VOXEL_FACING_THRESHOLD);
+    vec3 lower = unpackBoundsMin(hitTexel.z) - 0.5;
+    vec3 upper = unpackBoundsMax(hitTexel.z) - 0.5;
+    vec3 across = 1.0 - abs(k);
+    float height = (unpackOffset(hitTexel.y) - dot(n, 0.5 * (lower + upper) * across)) / facing;
+    float reach = 0.5 * dot(abs(n) * across, upper - lower) / facing;
+    float top = max(dot(lower, k), dot(upper, k));
+    return k * clamp(top - height - reach - 1.5 / 31.0, 0.0, 1.0);
+}
+// Centre of what the face holds: the middle of its bounds moved onto its plane, and up to what stands before
+// it, in grid coordinates.
 vec3 faceCenter(FaceRecord face) {
     vec3 n = faceNormal(face);
     vec3 middle = 0.5 * (unpackBoundsMin(face.bounds) + unpackBoundsMax(face.bounds)) - 0.5;
+    vec3 rise = faceRise(uvec4(face.normal, face.offsetWeight, face.bounds, face.voxel), n);
     return vec3(unpackVoxel(face.voxel)) + 0.5 + middle +
-           n * (unpackOffset(face.offsetWeight) - dot(n, middle));
+           n * (unpackOffset(face.offsetWeight) - dot(n, middle)) + rise;
 }

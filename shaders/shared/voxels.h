@@ -71,7 +71,7 @@ struct FaceRecord {
     uint
         normal;  // octahedral, 2 x 16 bit snorm: mean of the triangle normals, weighted by w = area (n.k)/h^2
     uint offsetWeight;  // low 16: plane offset n.(c - voxel centre) / h, snorm; high 16: coverage W = sum of
-                        // w, 0..4
+                        // w of what is not hidden, 0..4
     uint bounds;        // 6 x 5 bit: min x y z, max x y z of the surface in the voxel, in 1/31 voxel, rounded
                         // outwards
     uint voxel;         // 3 x 10 bit: x, y, z of the voxel; bits 30, 31: axis of the direction (0 x .. 2 z)
@@ -117,7 +117,10 @@ struct SurfaceConstants {
 #define SURFACE_ARGS_FACES 20
 #define SURFACE_ARGS_BRICKS 24
 #define SURFACE_ARGS_WORK 28
-#define SURFACE_COUNTER_WORDS 32
+#define SURFACE_ARGS_LAYERS 32
+// Faces in which something covers something else
+#define SURFACE_LAYERS 36
+#define SURFACE_COUNTER_WORDS 40
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus

@@ -7,6 +7,7 @@
 //   surface_clip     fragment -> what of the triangle is in the voxel, chained to its voxel
 //   surface_count, surface_scan, surface_faces    directions -> voxRec, owner of each face
 //   surface_resolve  face -> its chain, summed up
+//   surface_layers   face in which something is covered -> what is seen, summed up again
 //
 // Updates of what changed (SURFACE_UPDATE 1; docs/theory/2_voxels.md, "Updates"):
 //   surface_drop     voxel in a dirty brick -> chain without the fragments of changed instances
@@ -16,7 +17,7 @@
 //   surface_clip     new fragments only
 //   surface_count, surface_scan, surface_faces    as above
 //   surface_copy     face of an unchanged voxel, from its place before
-//   surface_resolve  faces of changed voxels
+//   surface_resolve, surface_layers          faces of changed voxels
 //
 // A fragment is a pair (triangle, voxel). Lists are filled in any order; everything that survives is ordered
 // by prefix sums or summed in integers.
@@ -36,6 +37,7 @@
 #define SURFACE_BRICK_LIST 10
 #define SURFACE_OWNERS 10
 #define SURFACE_FACE_SOURCES 9
+#define SURFACE_LAYER_LIST 14  // resolve, layers: faces in which something is covered
 // Updates
 #define SURFACE_RUNS 13            // setup: (instance, its first place in the work) per changed instance
 #define SURFACE_FREE_LIST 15       // setup, tiles, clip, drop: slots of dropped fragments
@@ -62,6 +64,11 @@
 #define SURFACE_UNIT_OWNERS 11
 
 layout(std140, binding = BINDING_PASS) uniform SurfaceBlock { SurfaceConstants surface; };
+
+// Sums of weights are integers in units of 2^-shift voxel sides; this is the largest shift.
+#define SURFACE_FINEST_UNIT 26
+// Weight beyond the area of the bounds, in voxel sides, that rounding explains.
+#define SURFACE_LEAST_EXCESS 0.00390625
 
 // Flags of a triangle, above the 24 bits of its instance.
 #define TRIANGLE_TWO_SIDED 0x1000000u

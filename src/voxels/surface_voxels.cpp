@@ -27,6 +27,7 @@ enum Slot : unsigned {
     kBrickList = 10,
     kOwners = 10,
     kFaceSources = 9,
+    kLayerList = 14,
     // Updates
     kRuns = 13,
     kFreeList = 15,
@@ -119,6 +120,9 @@ gl::ProgramDesc markPass(const char* name, bool update) {
 gl::ProgramDesc resolvePass(bool emission, bool update) {
     return pass("surface_resolve", {{"SURFACE_EMISSION", flag(emission)}, {"SURFACE_UPDATE", flag(update)}});
 }
+gl::ProgramDesc layersPass(bool emission) {
+    return pass("surface_layers", {{"SURFACE_EMISSION", flag(emission)}});
+}
 gl::ProgramDesc clipPass(int detail, bool emission, bool update) {
     return pass("surface_clip", {{"SURFACE_DETAIL", std::to_string(detail)},
                                  {"SURFACE_EMISSION", flag(emission)},
@@ -205,7 +209,7 @@ struct SurfaceVoxels::Impl {
     Results now, before;  // before: empty until the first update
     gl::Buffer brickList, gridBlock, changedBricks;
     // Work space
-    gl::Buffer counters, constants, triangles, tiles, pairs, masks, fragments, chunks, owners;
+    gl::Buffer counters, constants, triangles, tiles, pairs, masks, fragments, chunks, owners, layered;
     gl::Texture triangleTexels, pairTexels, fragmentTexels, ownerTexels;
     gl::Buffer stale, runs, dirtyBricks, freeList, origins, workList;  // of updates
 
@@ -290,6 +294,7 @@ void SurfaceVoxels::Impl::allocateFor(const Capacity& wanted) {
     if (wanted.faces > capacity.faces) {
         owners = gl::Buffer(std::size_t{4} * wanted.faces, "voxelizer face owners");
         ownerTexels = gl::Texture(owners, GL_R32UI, "voxelizer face owners");
+        layered = gl::Buffer(std::size_t{4} * wanted.faces, "voxelizer layered faces");
     }
     if (wanted.bricks > capacity.bricks)
         brickList = gl::Buffer(std::size_t{4} * wanted.bricks, "occupied bricks");
@@ -438,8 +443,13 @@ void SurfaceVoxels::Impl::resolve(gl::ProgramLibrary& programs, gl::Profiler& pr
     pairTexels.bind(kUnitPairs);
     fragmentTexels.bind(kUnitFragments);
     ownerTexels.bind(kUnitOwners);
+    layered.bindStorage(kLayerList);
     programs.get(resolvePass(surfaces.emit(), update))
         .dispatchIndirect(counters, 4 * (update ? SURFACE_ARGS_WORK : SURFACE_ARGS_FACES));
+    gl::barrier(gl::Access::ShaderStorage);
+    programs.get(scanPass(4)).dispatch(1);
+    gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
+    programs.get(layersPass(surfaces.emit())).dispatchIndirect(counters, 4 * SURFACE_ARGS_LAYERS);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Indirect);
 }
 
@@ -665,7 +675,8 @@ const gl::Buffer& SurfaceVoxels::fragments() const { return impl_->fragments; }
 std::vector<gl::ProgramDesc> SurfaceVoxels::programDescs() {
     std::vector<gl::ProgramDesc> descs{pass("surface_bricks"), pass("surface_carry"), pass("surface_copy"),
                                        pass("surface_drop"),   countPass(true),       countPass(false)};
-    for (int i = 0; i < 4; ++i) descs.push_back(scanPass(i));
+    for (int i = 0; i < 5; ++i) descs.push_back(scanPass(i));
+    for (const bool emission : {false, true}) descs.push_back(layersPass(emission));
     for (const bool update : {false, true}) {
         for (const char* name : {"surface_setup", "surface_tiles", "surface_faces"})
             descs.push_back(markPass(name, update));

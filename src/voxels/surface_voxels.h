@@ -5,8 +5,9 @@
 //
 // Instances without INSTANCE_VOXELIZED are left out; unlit materials occlude (black, no emission); a masked
 // or blended texture scales coverage; double-sided triangles count in both directions. Triangles may be of
-// any size and may reach out of the grid; those without area are skipped. Limits: 1023 voxels per axis; 2^26
-// faces; 65,000 triangles in one voxel.
+// any size and may reach out of the grid; those without area are skipped. What lies in front hides what it
+// covers within a voxel ("Layers within a voxel", ibidem). Limits: 1023 voxels per axis; 2^26 faces; 65,000
+// triangles in one voxel, 21,000 where they cover each other.
 #pragma once
 
 #include <cstdint>

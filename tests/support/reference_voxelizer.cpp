@@ -112,47 +112,135 @@ void forEachVoxel(const ReferenceTriangle& t, const voxels::VoxelGrid& grid, dou
         }
 }
 
+namespace {
+
+// What of one triangle a face holds.
+struct Piece {
+    double area = 0, weight = 0;
+    glm::dvec3 normal{0}, center{0}, albedo{0};  // center: from the voxel's
+    glm::dvec3 lower{1}, upper{0};               // of the voxel
+};
+
+// Edges of a box in a voxel whose sides are moved outwards to multiples of 1/31.
+glm::dvec3 roundedSize(const glm::dvec3& lower, const glm::dvec3& upper) {
+    constexpr double kRounding = 1e-6;  // of the shader's numbers
+    const glm::dvec3 a = glm::floor(glm::clamp(lower, 0.0, 1.0) * 31.0 + kRounding);
+    const glm::dvec3 b = glm::ceil(glm::clamp(upper, 0.0, 1.0) * 31.0 - kRounding);
+    return (b - a) / 31.0;
+}
+
+// Weighted sums; bounds of the pieces of which more than `leastSeen` is seen.
+ReferenceFace sumOf(const std::vector<Piece>& pieces, const std::vector<double>& seen, double leastSeen) {
+    ReferenceFace face;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        const Piece& piece = pieces[i];
+        const double weight = piece.weight * seen[i];
+        face.weight += weight;
+        face.area += piece.area * seen[i];
+        face.normal += weight * piece.normal;
+        face.center += weight * piece.center;
+        face.albedo += weight * piece.albedo;
+        if (seen[i] <= leastSeen) continue;
+        face.lower = glm::min(face.lower, piece.lower);
+        face.upper = glm::max(face.upper, piece.upper);
+    }
+    face.offset = glm::dot(glm::normalize(face.normal), face.center) / face.weight;
+    return face;
+}
+
+// How much of each piece is seen along the axis, where pieces cover each other (docs/theory/2_voxels.md,
+// "Layers within a voxel"): cover of 16 slices of depth, filled from the front.
+std::vector<double> seenOf(const std::vector<Piece>& pieces, const glm::dvec3& normal, double room) {
+    constexpr int kSlices = 16;
+    std::vector<glm::dvec2> reach;  // of depth
+    double farthest = 1e9, nearest = -1e9;
+    for (const Piece& piece : pieces) {
+        const glm::dvec3 inPlane = normal - glm::dot(normal, piece.normal) * piece.normal;
+        const double half = 0.5 * glm::dot(glm::abs(inPlane), roundedSize(piece.lower, piece.upper));
+        const double middle = glm::dot(normal, piece.center);
+        reach.emplace_back(middle - half, middle + half);
+        farthest = std::min(farthest, middle - half);
+        nearest = std::max(nearest, middle + half);
+    }
+    // In slices, widened by half of one on both sides.
+    const double thickness = std::max(nearest - farthest, 1.0 / 256) / (kSlices - 1);
+    const auto share = [&](std::size_t piece, int slice) {
+        const double low = (reach[piece].x - farthest) / thickness;
+        const double high = (reach[piece].y - farthest) / thickness + 1;
+        return std::max(std::min(high, slice + 1.0) - std::max(low, double(slice)), 0.0) / (high - low);
+    };
+    std::vector<double> seen(pieces.size(), 0.0);
+    for (int slice = kSlices - 1; slice >= 0; --slice) {
+        double cover = 0;
+        for (std::size_t i = 0; i < pieces.size(); ++i) cover += pieces[i].weight * share(i, slice);
+        const double part = cover > 0 ? std::min(room / cover, 1.0) : 0.0;
+        for (std::size_t i = 0; i < pieces.size(); ++i) seen[i] += part * share(i, slice);
+        room -= part * cover;
+    }
+    return seen;
+}
+
+ReferenceFace faceOf(const std::vector<Piece>& pieces, int direction, bool hides) {
+    ReferenceFace face = sumOf(pieces, std::vector<double>(pieces.size(), 1.0), 0);
+    const int axis = direction / 2;
+    const glm::dvec3 size = roundedSize(face.lower, face.upper);
+    const double room = size[(axis + 1) % 3] * size[(axis + 2) % 3];
+    if (!hides || face.weight <= room + 1.0 / 256) return face;
+    const double leastSeen = room / face.weight / 8;
+    const glm::dvec3 normal = glm::normalize(face.normal);
+    const std::vector<double> seen = seenOf(pieces, normal, room);
+    face = sumOf(pieces, seen, leastSeen);
+    face.layered = true;
+    // The plane goes through the rearmost that is seen, not through the mean.
+    double rear = 1;
+    for (std::size_t i = 0; i < pieces.size(); ++i)
+        if (seen[i] > leastSeen) rear = std::min(rear, glm::dot(normal, pieces[i].center));
+    const double behind = glm::dot(normal, face.center) / face.weight - rear;
+    face.offset = glm::dot(glm::normalize(face.normal), face.center) / face.weight - std::max(behind, 0.0);
+    return face;
+}
+
+}  // namespace
+
 ReferenceFaces referenceFaces(const Scene& scene, const std::vector<ReferenceTriangle>& triangles,
-                              const voxels::VoxelGrid& grid) {
-    ReferenceFaces faces;
+                              const voxels::VoxelGrid& grid, bool hides) {
+    std::unordered_map<std::uint64_t, std::vector<Piece>> pieces;
     for (const ReferenceTriangle& t : triangles) {
         const glm::dvec3 albedo(
             t.material >= 0 ? glm::vec3(scene.materials[static_cast<std::size_t>(t.material)].baseColor)
                             : glm::vec3(Material{}.baseColor));
         forEachVoxel(t, grid, 0, [&](const glm::ivec3& voxel) {
             const std::vector<glm::dvec3> polygon = clippedPolygon(t, voxel);
-            const double area = polygonArea(polygon);
-            if (area <= 0) return;
-            glm::dvec3 center(0);
+            Piece piece;
+            piece.area = polygonArea(polygon);
+            piece.albedo = albedo;
+            if (piece.area <= 0) return;
             double total = 0;
             for (std::size_t i = 2; i < polygon.size(); ++i) {
                 const double part =
                     0.5 * glm::length(glm::cross(polygon[i - 1] - polygon[0], polygon[i] - polygon[0]));
-                center += part * (polygon[0] + polygon[i - 1] + polygon[i]) / 3.0;
+                piece.center += part * (polygon[0] + polygon[i - 1] + polygon[i]) / 3.0;
                 total += part;
             }
-            center = center / total - (glm::dvec3(voxel) + 0.5);
+            piece.center = piece.center / total - (glm::dvec3(voxel) + 0.5);
+            for (const glm::dvec3& p : polygon) {
+                piece.lower = glm::min(piece.lower, p - glm::dvec3(voxel));
+                piece.upper = glm::max(piece.upper, p - glm::dvec3(voxel));
+            }
             for (int side = 0; side < (t.twoSided ? 2 : 1); ++side) {
-                const glm::dvec3 n = side == 0 ? t.normal() : -t.normal();
+                piece.normal = side == 0 ? t.normal() : -t.normal();
                 for (int k = 0; k < 6; ++k) {
-                    const double facing = glm::dot(n, glm::dvec3(voxels::directionVector(k)));
+                    const double facing = glm::dot(piece.normal, glm::dvec3(voxels::directionVector(k)));
                     if (facing <= VOXEL_FACING_THRESHOLD) continue;
-                    ReferenceFace& face =
-                        faces[std::uint64_t{8} * voxels::packVoxel(voxel) + static_cast<std::uint64_t>(k)];
-                    const double weight = area * facing;
-                    face.weight += weight;
-                    face.area += area;
-                    face.normal += weight * n;
-                    face.center += weight * center;
-                    face.albedo += weight * albedo;
-                    for (const glm::dvec3& p : polygon) {
-                        face.lower = glm::min(face.lower, p - glm::dvec3(voxel));
-                        face.upper = glm::max(face.upper, p - glm::dvec3(voxel));
-                    }
+                    piece.weight = piece.area * facing;
+                    pieces[std::uint64_t{8} * voxels::packVoxel(voxel) + static_cast<std::uint64_t>(k)]
+                        .push_back(piece);
                 }
             }
         });
     }
+    ReferenceFaces faces;
+    for (const auto& [key, list] : pieces) faces[key] = faceOf(list, static_cast<int>(key % 8), hides);
     return faces;
 }
 

@@ -37,7 +37,7 @@ double polygonArea(const std::vector<glm::dvec3>& polygon);
 void forEachVoxel(const ReferenceTriangle& t, const voxels::VoxelGrid& grid, double slack,
                   const std::function<void(const glm::ivec3&)>& visit);
 
-// Sums of eq. 2.2 for one voxel and direction. Key: packVoxel(voxel) * 8 + direction.
+// Sums of eq. 2.2 for one voxel and direction, of what is not hidden. Key: packVoxel(voxel) * 8 + direction.
 struct ReferenceFace {
     double weight = 0;
     double area = 0;
@@ -45,9 +45,12 @@ struct ReferenceFace {
     glm::dvec3 center{0};  // times weight, relative to the voxel's centre
     glm::dvec3 albedo{0};
     glm::dvec3 lower{1}, upper{0};
+    double offset = 0;     // of the plane, from the voxel's centre
+    bool layered = false;  // something covers something else
 };
 using ReferenceFaces = std::unordered_map<std::uint64_t, ReferenceFace>;
+// `hides`: what lies in front hides what it covers; false: all counts.
 ReferenceFaces referenceFaces(const Scene& scene, const std::vector<ReferenceTriangle>& triangles,
-                              const voxels::VoxelGrid& grid);
+                              const voxels::VoxelGrid& grid, bool hides = true);
 
 }  // namespace conelight::test
