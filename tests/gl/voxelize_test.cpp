@@ -310,6 +310,8 @@ TEST_F(VoxelizeTest, FacesSayWhatTheReferenceComputes) {
         const ReferenceFace& f = found->second;
         weightOf += weight;
         weightReference += f.weight;
+        // Faces with something to hide: voxel_layers_test.cpp.
+        if (f.layered) continue;
         EXPECT_NEAR(weight, f.weight, 2e-4);
         EXPECT_NEAR(static_cast<double>(voxels::unpackArea({source[0], source[1]})), f.area, 2e-4);
         if (f.weight < 0.01) continue;
@@ -360,14 +362,14 @@ TEST_F(VoxelizeTest, RecordsAreOrderedByBrickVoxelAndDirection) {
     EXPECT_EQ(brick, r.bricks.size());
 }
 
-TEST_F(VoxelizeTest, TwoSheetsInOneVoxelAddUpAndDirectionsStayApart) {
-    // Two quads facing +z a tenth of a voxel apart, one facing -z.
+TEST_F(VoxelizeTest, DirectionsStayApart) {
+    // Two quads facing +z a tenth of a voxel apart, of which the front one is seen; one facing -z.
     Scene scene;
     const int red = addMaterial(scene, {1, 0, 0});
     const int blue = addMaterial(scene, {0, 0, 1});
     addInstance(scene, quadMesh(), red);
     addInstance(scene, quadMesh(), blue, glm::translate(glm::mat4(1), {0, 0, 0.1f * 0.25f}));
-    addInstance(scene, quadMesh(), blue, glm::rotate(glm::mat4(1), glm::pi<float>(), {1, 0, 0}));
+    addInstance(scene, quadMesh(), red, glm::rotate(glm::mat4(1), glm::pi<float>(), {1, 0, 0}));
     VoxelGrid grid;
     grid.origin = {-2, -2, -0.1f};
     grid.voxelSize = 0.25f;
@@ -375,13 +377,12 @@ TEST_F(VoxelizeTest, TwoSheetsInOneVoxelAddUpAndDirectionsStayApart) {
     const Result r = voxelize(scene, grid);
     ASSERT_EQ(r.faces.size(), 128u);
     for (std::size_t i = 0; i < r.faces.size(); i += 2) {
-        EXPECT_NEAR(voxels::unpackWeight(r.faces[i].offsetWeight), 2.0f, 1e-3f);
-        const glm::vec3 mixed = voxels::unpackAlbedo(r.faces[i].albedo);
-        EXPECT_NEAR(mixed.r, 0.5f, 1e-3f);
-        EXPECT_NEAR(mixed.b, 0.5f, 1e-3f);
+        EXPECT_NEAR(voxels::unpackWeight(r.faces[i].offsetWeight), 1.0f, 1e-3f);
+        EXPECT_EQ(voxels::unpackAlbedo(r.faces[i].albedo), glm::vec3(0, 0, 1));
+        EXPECT_NEAR(voxels::unpackOffset(r.faces[i].offsetWeight), 0.4f + 0.1f - 0.5f, 1e-3f);
         EXPECT_NEAR(voxels::unpackWeight(r.faces[i + 1].offsetWeight), 1.0f, 1e-3f);
-        EXPECT_EQ(voxels::unpackAlbedo(r.faces[i + 1].albedo), glm::vec3(0, 0, 1));
-        EXPECT_NEAR(voxels::unpackOffset(r.faces[i].offsetWeight), 0.4f + 0.05f - 0.5f, 1e-3f);
+        EXPECT_EQ(voxels::unpackAlbedo(r.faces[i + 1].albedo), glm::vec3(1, 0, 0));
+        EXPECT_NEAR(voxels::unpackOffset(r.faces[i + 1].offsetWeight), -(0.4f - 0.5f), 1e-3f);
     }
 }
 
@@ -627,7 +628,7 @@ TEST_F(VoxelizeTest, ManyTrianglesInOneVoxelAreSummedExactly) {
         weight += static_cast<double>(voxels::unpackWeight(face.offsetWeight));
     for (const auto& [key, face] : reference) expected += std::min(face.weight, 4.0);
     EXPECT_NEAR(weight / expected, 1.0, 1e-3);
-    // 40 sheets in one voxel: more than the record can say, and than the first unit of the sums can hold.
+    // 40 sheets in one voxel: more than the first unit of the sums can hold. The frontmost are seen.
     Scene stack;
     const int material = addMaterial(stack, {0.2f, 0.4f, 0.8f});
     for (int i = 0; i < 40; ++i)
@@ -640,9 +641,10 @@ TEST_F(VoxelizeTest, ManyTrianglesInOneVoxelAreSummedExactly) {
     const Result sheets = voxelize(stack, grid);
     ASSERT_EQ(sheets.faces.size(), 64u);
     for (const gpu::FaceRecord& face : sheets.faces) {
-        EXPECT_EQ(voxels::unpackWeight(face.offsetWeight), 4.0f);
+        EXPECT_NEAR(voxels::unpackWeight(face.offsetWeight), 1.0f, 1e-3f);
         EXPECT_NEAR(voxels::unpackAlbedo(face.albedo).b, 0.8f, 1e-3f);
-        EXPECT_NEAR(voxels::unpackOffset(face.offsetWeight), (0.1f + 0.039f) / 0.25f - 0.5f, 1e-3f);
+        // A slice of depth holds the last three, 0.074 to 0.078; the plane is the rearmost's of them.
+        EXPECT_NEAR(voxels::unpackOffset(face.offsetWeight), (0.1f + 0.074f) / 0.25f - 0.5f, 1e-3f);
     }
 }
 
