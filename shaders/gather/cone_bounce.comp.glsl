@@ -21,9 +21,8 @@ void main() {
         gatherCones(origin, normal, inside ? cones.count : 0u, frame.sky, cones.maxDistance, 0.0, samples)
             .rgb;
     if (!inside) return;
-    uint updates = min((face.irradiance1 >> 16) + 1u, 65535u);
     // Below the largest half.
     irradiance = min(irradiance, 65000.0);
     faces[index].irradiance0 = packHalf2x16(irradiance.rg);
-    faces[index].irradiance1 = packHalf2x16(vec2(irradiance.b, 0.0)) | (updates << 16);
+    faces[index].irradiance1 = packHalf2x16(vec2(irradiance.b, 0.0)) | FACE_LIT;
 }

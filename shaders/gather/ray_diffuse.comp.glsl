@@ -33,15 +33,15 @@ void main() {
     // Pixels without need of it send rays out of the grid, which end at once.
     const vec3 away = vec3(-1.0, 0.0, 0.0);
     vec3 normal = matt ? s.normal : away;
-    vec3 origin = matt ? rayOrigin(gridFromWorld(s.position), s.geometricNormal) : 16.0 * away;
+    vec3 origin = matt ? seenRayOrigin(gridFromWorld(s.position), s.geometricNormal, s.toEye) : 16.0 * away;
     uint seed = randomHash(uint(pixel.x) | uint(pixel.y) << 16);
 #if OCCLUSION
     vec3 value = vec3(openness(origin, normal, seed));
 #else
     float backs;
-    vec3 value =
-        gatherIrradianceSequence(origin, matt ? s.geometricNormal : away, normal, int(pixelRays.rays),
-                                 int(pixelRays.rays), seed, pixelRays.pass, backs);
+    vec3 value = gatherIrradianceSequence(
+        origin, matt ? s.geometricNormal : away, normal, int(pixelRays.rays), int(pixelRays.rays),
+        int(pixelRays.reflections), pixelRays.reflectedLimit, seed, pixelRays.pass, backs);
 #endif
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
     imageStore(result, pixel, withPass(pixel, s, seen, matt ? value : vec3(0.0), pixelRays.longestMean));

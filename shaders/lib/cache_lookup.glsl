@@ -42,8 +42,7 @@ vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted) {
             int face = faces ? int(faceIndex(record, direction)) : 0;
             float coverage = unpackWeight(texelFetch(voxelFaces, 2 * face).y);
             uvec4 light = texelFetch(voxelFaces, 2 * face + 1);
-            uint updates = light.w >> 16;
-            faces = faces && updates != 0u && updates < IRRADIANCE_DEAD;
+            faces = faces && (light.w & (FACE_LIT | FACE_DEAD)) == FACE_LIT;
             float weight = faces ? t.x * t.y * t.z * share * coverage : 0.0;
             sum += weight * vec4(unpackHalf2x16(light.z), unpackHalf2x16(light.w).x, 1.0);
         }

@@ -25,3 +25,11 @@ vec2 sequencePoint(uint seed, uint index) {
     uint a = randomHash(seed);
     return vec2(randomFloat(a + index * 3242174889u), randomFloat(randomHash(a) + index * 2447445414u));
 }
+
+// The same in [0,1)^3, with the root of x^4 = x + 1, 1.22074408460...
+vec3 sequencePoint3(uint seed, uint index) {
+    uint a = randomHash(seed ^ 0x68bc21ebu);
+    uint b = randomHash(a);
+    return vec3(randomFloat(a + index * 3518319155u), randomFloat(b + index * 2882110345u),
+                randomFloat(randomHash(b) + index * 2360945575u));
+}

@@ -35,15 +35,26 @@ struct VoxelHit {
 // A face is met when its normal turns against the ray by more than this: flatter crossings have no
 // usable distance. From the accuracy experiments, as the next three.
 const float kRayFacing = 1e-3;
-const float kRayNear = 0.05;        // nearest crossing that counts, voxels
+const float kRayNear = 0.05;        // a ray starts this far in front of its surface, voxels
+const float kRayStart = 1e-3;       // nearest crossing that counts, voxels
 const float kRayBoundsSlack = 0.1;  // a face's bounds are grown by this, voxels
-const float kRayBackNear = 1.5;     // backs nearer than this are the ray's own surface
-const float kRayTie = 0.5;          // crossings nearer together than this: the face that covers more
+// But shrunk by this for crossings before kRayNear, along the surface: there lies the other wall of a corner,
+// whose bounds hold the ray's start, or the other side of an edge, whose bounds (rounded outwards by 1/31)
+// end below it.
+const float kRayBoundsShrink = 0.02;
+const float kRayBackNear = 1.5;  // backs nearer than this are the ray's own surface
+const float kRayTie = 0.5;       // crossings nearer together than this: the face that covers more
 // Stay clear of the grid's far side, so that rounding cannot step out of it.
 const float kRayEnd = 1e-3;
 
 // The only offset there is: a ray starts this far in front of its surface.
 vec3 rayOrigin(vec3 pointGrid, vec3 geometricNormal) { return pointGrid + kRayNear * geometricNormal; }
+
+// From what a camera sees: also towards the eye, where nothing is. A pixel in a corner lies on both walls, or
+// by rounding behind one of them; from there rays would leave the room.
+vec3 seenRayOrigin(vec3 pointGrid, vec3 geometricNormal, vec3 toEye) {
+    return rayOrigin(pointGrid, geometricNormal) + kRayNear * toEye;
+}
 
 // 1 / direction; 1e7 where that is larger, so that no product with it is NaN.
 vec3 rayInverse(vec3 direction) {
@@ -75,12 +86,13 @@ void testVoxelFaces(ivec3 voxel, vec3 origin, vec3 direction, uint facing, float
         float t =
             (unpackOffset(r.y) + dot(n, toCenter)) / (abs(towards) > kRayFacing ? towards : -kRayFacing);
         vec3 at = t * direction - toCenter + 0.5;
-        bool inside = left != 0u && t < tMax &&
-                      all(greaterThanEqual(at, unpackBoundsMin(r.z) - kRayBoundsSlack)) &&
-                      all(lessThanEqual(at, unpackBoundsMax(r.z) + kRayBoundsSlack));
+        vec3 slack = t > kRayNear ? vec3(kRayBoundsSlack)
+                                  : (kRayBoundsSlack + kRayBoundsShrink) * n * n - kRayBoundsShrink;
+        bool inside = left != 0u && t < tMax && all(greaterThanEqual(at, unpackBoundsMin(r.z) - slack)) &&
+                      all(lessThanEqual(at, unpackBoundsMax(r.z) + slack));
         float w = unpackWeight(r.y);
         bool nearer = hit.face < 0 || t < hit.t - kRayTie || (t <= hit.t + kRayTie && w > weight);
-        bool better = inside && towards < -kRayFacing && t > kRayNear && nearer;
+        bool better = inside && towards < -kRayFacing && t > kRayStart && nearer;
 #if RAY_BACK_FACES
         better = better && (lowest & facing) != 0u;
         bool back = inside && towards > kRayFacing && t > kRayBackNear && (lowest & facing) == 0u;

@@ -5,21 +5,38 @@
 // EXACT_DIRECT 1: light of point, spot and directional lights is looked up at the exact hit point by shadow
 // map, not taken from the face; rectangles and emission stay the face's. light::hitLightDefines says for a
 // scene. RAY_BACK_FACES as in lib/ray_query.glsl.
+// LOBES 1: where a ray meets metal it goes on in its lobe (rayRadiance). 0: metals shine as if matt.
+// SMOOTH_HITS 1: what is met shows irradiance interpolated over the voxels about it, not that of its face.
 //
 // Before the call: SurfaceVoxels::bind, OctantWords::bind, IrradianceCache::bind, the frame block;
 // EXACT_DIRECT also the scene's tables and the shadow maps.
 #ifndef EXACT_DIRECT
 #define EXACT_DIRECT 0
 #endif
+#ifndef LOBES
+#define LOBES 0
+#endif
+#ifndef SMOOTH_HITS
+#define SMOOTH_HITS 0
+#endif
+// Not within an #if: what arrives in one that is not taken is lost to those after it.
+#include "lib/ggx_sample.glsl"
 #include "lib/random.glsl"
 #include "lib/ray_query.glsl"
 #include "lib/scene_tables.glsl"
+#include "lib/tangent_frame.glsl"
 #include "shared/irradiance.h"
 #if EXACT_DIRECT
 #if LIGHTS_RECT
 #error rectangles are not looked up at hits: LIGHTS_RECT must be 0
 #endif
 #include "lib/lights.glsl"
+#endif
+#if LOBES
+layout(binding = UNIT_VOXEL_FACE_SOURCES) uniform usamplerBuffer faceSources;
+#endif
+#if SMOOTH_HITS
+#include "lib/cache_lookup.glsl"
 #endif
 layout(binding = UNIT_STEADY_LIGHT) uniform usamplerBuffer steadyLight;
 layout(binding = UNIT_BRIGHT_FACES) uniform usamplerBuffer brightFaces;
@@ -36,9 +53,8 @@ struct FaceShade {
 FaceShade faceShade(int face) {
     uvec4 r = texelFetch(voxelFaces, 2 * face + 1);
     vec2 high = unpackHalf2x16(r.w);
-    uint updates = r.w >> 16;
     return FaceShade(unpackAlbedo(r.x), unpackRgb9e5(r.y), vec3(unpackHalf2x16(r.z), high.x),
-                     updates != 0u && updates < IRRADIANCE_DEAD);
+                     (r.w & (FACE_LIT | FACE_DEAD)) == FACE_LIT);
 }
 
 // What a face shows: emission, reflected direct light, reflected cached light.
@@ -50,16 +66,24 @@ vec3 faceRadiance(int face) {
 // How bright a face is when rays to bright faces are dealt out. The plain mean: blue light counts as much.
 float faceBrightness(vec3 radiance) { return dot(radiance, vec3(1.0 / 3.0)); }
 
-// Radiance at a hit; the sky where nothing was met, nothing where a surface was met from behind.
+vec3 faceNormalOf(int face) { return octDecode(unpackSnorm2x16(texelFetch(voxelFaces, 2 * face).x)); }
+
+// Radiance at a hit, all surfaces matt; the sky where nothing was met, nothing where a surface was met from
+// behind.
 vec3 hitRadiance(VoxelHit hit, vec3 origin, vec3 direction) {
     int face = max(hit.face, 0);
     FaceShade s = faceShade(face);
+#if EXACT_DIRECT || SMOOTH_HITS
+    vec3 normal = faceNormalOf(face);
+    vec3 point = origin + (hit.face >= 0 ? hit.t : 0.0) * direction;
+#endif
+#if SMOOTH_HITS
+    vec4 around = cachedIrradiance(point, normal, hit.face >= 0);
+    s.irradiance = around.a > 0.0 ? around.rgb : s.irradiance;
+#endif
 #if EXACT_DIRECT
-    uvec4 r = texelFetch(voxelFaces, 2 * face);
-    vec3 normal = octDecode(unpackSnorm2x16(r.x));
-    vec3 at = origin + (hit.face >= 0 ? hit.t : 0.0) * direction;
-    vec3 position = worldFromGrid(at + faceRise(r, normal));
-    vec3 direct = directIrradiance(position, normal, normal) * (1.0 / kGatherPi);
+    vec3 rise = faceRise(texelFetch(voxelFaces, 2 * face), normal);
+    vec3 direct = directIrradiance(worldFromGrid(point + rise), normal, normal) * (1.0 / kGatherPi);
     vec3 radiance = unpackRgb9e5(texelFetch(steadyLight, face).x) + s.albedo * (direct + s.irradiance);
 #else
     vec3 radiance = s.radiance + s.albedo * s.irradiance;
@@ -68,14 +92,90 @@ vec3 hitRadiance(VoxelHit hit, vec3 origin, vec3 direction) {
     return hit.face >= 0 ? radiance : missed;
 }
 
-// Unit vectors that with `n` form a right-handed frame (Duff et al. 2017, "Building an Orthonormal Basis,
-// Revisited").
-void tangentFrame(vec3 n, out vec3 u, out vec3 v) {
-    float s = n.z >= 0.0 ? 1.0 : -1.0;
-    float a = -1.0 / (s + n.z);
-    float b = n.x * n.y * a;
-    u = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
-    v = vec3(b, s + n.y * n.y * a, -n.y);
+#if LOBES
+// Metals rougher than this shine as if matt: their lobe is nearly as wide, and rays cost the same.
+const float kRoughestLobe = 0.75;
+
+// A ray that meets metal: what it shows besides its lobe, and how the ray goes on in the lobe. Light of
+// point, spot and directional lights cannot be met by rays: the lobe reflects it here, matt where it was not
+// looked up.
+struct LobeStep {
+    vec3 radiance;
+    vec3 weight;
+    vec3 origin;
+    vec3 direction;
+};
+
+LobeStep reflectRay(int face, FaceShade s, vec2 lobe, vec3 matt, vec3 point, vec3 direction, vec2 xi) {
+    vec3 normal = faceNormalOf(face);
+    Brdf b = makeBrdf(s.albedo, lobe.x, lobe.y, vec3(0.04), -dot(normal, direction));
+    LobeStep next;
+    next.direction = lobeDirection(b, normal, -direction, xi, next.weight);
+    next.origin = rayOrigin(point, normal);
+    // The record reflects by all of its colour; its matt part is only this much of it.
+    float share = dot(b.diffuse, vec3(1.0)) / max(dot(s.albedo, vec3(1.0)), 1e-4);
+    vec3 emission = unpackEmission(texelFetch(faceSources, face).xy);
+    next.radiance = emission + share * max(matt - emission, vec3(0.0));
+#if EXACT_DIRECT
+    DirectLight light = DirectLight(vec3(0.0), vec3(0.0));
+    addPunctualLights(light, true, Receiver(worldFromGrid(point + faceRise(texelFetch(voxelFaces, 2 * face), normal)),
+                                               normal, normal, -direction, kShadowVoxelLift), b);
+    next.radiance += light.specular;
+#else
+    next.radiance +=
+        (1.0 - share) * max(s.radiance - unpackRgb9e5(texelFetch(steadyLight, face).x), vec3(0.0));
+#endif
+    return next;
+}
+#endif
+
+// Radiance that a ray brings (hitRadiance), and what it met first. With LOBES it goes on where it meets
+// metal, up to `reflections` times; after that metals shine as if matt. Rectangles and lamps that stand for
+// them are seen by rays that come off metal, only there: whoever sends the ray adds their light itself. What
+// comes by reflections is not brighter than `limit` times what the metal would show if matt: a lamp met by
+// one ray of few is a speckle. The limit grows with the number of rays, so that the mean tends to what is
+// there. `aim`: a ray that is over where its first hit is not at this distance; negative: none.
+vec3 rayRadiance(vec3 origin, vec3 direction, float reach, float aim, int reflections, float limit,
+                 inout uint random, out VoxelHit first) {
+    first = traceVoxels(origin, direction, reach);
+#if !LOBES
+    return hitRadiance(first, origin, direction);
+#else
+    VoxelHit hit = first;
+    vec3 shown = vec3(0.0);    // by what was met first
+    vec3 brought = vec3(0.0);  // by reflections
+    vec3 throughput = vec3(1.0);
+    float most = 0.0;
+    int count = 0;
+    bool going;
+    do {
+        int face = max(hit.face, 0);
+        FaceShade s = faceShade(face);
+        uint bits = texelFetch(voxelFaces, 2 * face + 1).w;
+        vec2 lobe = unpackLobe(bits >> 16);
+        vec3 radiance = hitRadiance(hit, origin, direction);
+        bool lamp = (bits & FACE_AREA_LIGHT) != 0u;
+        bool arrived = count > 0 || aim < 0.0 || abs(hit.t - aim) < 0.3;
+        going = hit.face >= 0 && count < reflections && lobe.x > 0.0 && lobe.y <= kRoughestLobe && s.usable &&
+                !lamp && arrived;
+        if (count > 0 && hit.face >= 0 && lamp) radiance += unpackEmission(texelFetch(faceSources, face).xy);
+        vec2 xi = vec2(randomNext(random), randomNext(random));
+        LobeStep next = reflectRay(face, s, lobe, radiance, origin + hit.t * direction, direction, xi);
+        vec3 light = throughput * (going ? next.radiance : radiance);
+        shown += count == 0 ? light : vec3(0.0);
+        brought += count == 0 ? vec3(0.0) : light;
+        most = count == 0 ? limit * faceBrightness(radiance) : most;
+        throughput *= next.weight;
+        going = going && throughput.r + throughput.g + throughput.b > 0.0;
+        if (going) {
+            origin = next.origin;
+            direction = next.direction;
+            hit = traceVoxels(origin, direction, 1e9);
+        }
+        ++count;
+    } while (going);
+    return shown + brought * min(1.0, most / max(faceBrightness(brought), 1e-12));
+#endif
 }
 
 // Direction with density cos / pi about n (Malley's method).
@@ -90,18 +190,18 @@ vec3 cosineDirection(vec3 n, vec2 xi) {
 // A random point on a random bright face, in grid coordinates: face with probability ~ brightness x (area of
 // its bounds seen along its direction) x (n.k), point uniform in those bounds, moved along the direction onto
 // the plane. Summed over the directions of one surface that is a density of brightness / flux per area, since
-// the (n.k)^2 add up to 1. Returns false where that point is not in the bounds.
-bool sampleBrightFace(inout uint state, out vec3 point, out vec3 normal) {
+// the (n.k)^2 add up to 1. Returns false where that point is not in the bounds. xi.x chooses the face: the
+// pool is ordered as voxels are, so evenly spread numbers are spread over the scene.
+bool sampleBrightFace(vec3 xi, out vec3 point, out vec3 normal) {
     uint header = texelFetch(brightFaces, 0).x;
-    int entry = int(randomNext(state) * float(BRIGHT_FACE_COUNT));
+    int entry = int(xi.x * float(BRIGHT_FACE_COUNT));
     uvec4 r = texelFetch(voxelFaces, 2 * int(texelFetch(brightFaces, 1 + entry).x));
     int axis = int(r.w >> 30);
     normal = octDecode(unpackSnorm2x16(r.x));
     vec3 lower = unpackBoundsMin(r.z);
     vec3 upper = unpackBoundsMax(r.z);
-    vec2 xi = vec2(randomNext(state), randomNext(state));
     vec3 k = vec3(axis == 0, axis == 1, axis == 2);
-    vec3 in01 = axis == 0 ? vec3(0.5, xi) : (axis == 1 ? vec3(xi.y, 0.5, xi.x) : vec3(xi, 0.5));
+    vec3 in01 = axis == 0 ? vec3(0.5, xi.yz) : (axis == 1 ? vec3(xi.z, 0.5, xi.y) : vec3(xi.yz, 0.5));
     vec3 p = mix(lower, upper, in01) * (1.0 - k) + 0.5 * k;
     float along = (unpackOffset(r.y) - dot(normal, p - 0.5)) / dot(normal, k);
     p += along * k;
@@ -112,13 +212,18 @@ bool sampleBrightFace(inout uint state, out vec3 point, out vec3 normal) {
     return header != 0u && height >= range.x && height <= range.y;
 }
 
+// A ray to a bright face has arrived on a face turned from it by no more than this (cosine of 45 degrees). In
+// a corner, bounds (rounded outwards) reach behind the other wall, which has its own rays.
+const float kSameSurface = 0.7;
+
 // Radiance of a white Lambert surface (irradiance / pi): `cosineRays` by the cosine about the shading normal,
 // `lightRays` to bright faces, weighted by the balance heuristic (Veach and Guibas 1995). A miss is the sky.
 // A ray to a bright face counts only where it arrives at its point: else directions with many bright faces
 // behind an occluder would be counted twice. `index` numbers the calls with the same seed, 0, 1, 2 ...: their
 // directions complement each other. backShare: share of cosine rays that met a surface from behind.
 vec3 gatherIrradianceSequence(vec3 originGrid, vec3 geometricNormal, vec3 shadingNormal, int cosineRays,
-                              int lightRays, uint seed, uint index, out float backShare) {
+                              int lightRays, int reflections, float limit, uint seed, uint index,
+                              out float backShare) {
     float inverseFlux = uintBitsToFloat(texelFetch(brightFaces, 0).x);
     uint state = randomHash(seed) ^ randomHash(index * 0x9e3779b9u + 0x85ebca6bu);
     vec3 sum = vec3(0.0);
@@ -128,7 +233,8 @@ vec3 gatherIrradianceSequence(vec3 originGrid, vec3 geometricNormal, vec3 shadin
     do {
         bool toLight = i >= cosineRays;
         vec3 target, targetNormal;
-        bool onFace = sampleBrightFace(state, target, targetNormal);
+        uint lightIndex = index * uint(lightRays) + uint(max(i - cosineRays, 0));
+        bool onFace = sampleBrightFace(sequencePoint3(seed, lightIndex), target, targetNormal);
         vec3 toTarget = target - originGrid;
         float distance = length(toTarget);
         vec2 xi = sequencePoint(seed, index * uint(cosineRays) + uint(i));
@@ -138,15 +244,17 @@ vec3 gatherIrradianceSequence(vec3 originGrid, vec3 geometricNormal, vec3 shadin
         above = above && (!toLight || (onFace && dot(direction, targetNormal) < 0.0 && inverseFlux > 0.0));
         // What lies beyond the point is of no interest.
         float reach = toLight ? distance + 1.0 : 1e9;
-        VoxelHit hit = traceVoxels(originGrid, direction, above ? reach : -1.0);
-        bool arrived = !toLight || (hit.face >= 0 && abs(hit.t - distance) < 0.3);
-        vec3 n = octDecode(unpackSnorm2x16(texelFetch(voxelFaces, 2 * max(hit.face, 0)).x));
+        VoxelHit hit;
+        vec3 radiance = rayRadiance(originGrid, direction, above ? reach : -1.0, toLight ? distance : -1.0,
+                                    reflections, limit, state, hit);
+        vec3 n = faceNormalOf(max(hit.face, 0));
+        bool there = abs(hit.t - distance) < 0.3 && dot(n, targetNormal) > kSameSurface;
+        bool arrived = !toLight || (hit.face >= 0 && there);
         float brightness = hit.face >= 0 ? faceBrightness(faceRadiance(max(hit.face, 0))) : 0.0;
         float turned = max(-dot(n, direction), 1e-3);
         float lightDensity = brightness * inverseFlux * hit.t * hit.t / turned;
         if (hit.face < 0) lightDensity = 0.0;
         float density = float(cosineRays) * cosine / kGatherPi + float(lightRays) * lightDensity;
-        vec3 radiance = hitRadiance(hit, originGrid, direction);
         sum += above && arrived ? radiance * (cosine / kGatherPi / max(density, 1e-12)) : vec3(0.0);
         backs += !toLight && hit.backFirst ? 1.0 : 0.0;
     } while (++i < count);
@@ -156,6 +264,6 @@ vec3 gatherIrradianceSequence(vec3 originGrid, vec3 geometricNormal, vec3 shadin
 
 vec3 gatherIrradiance(vec3 originGrid, vec3 geometricNormal, vec3 shadingNormal, int cosineRays,
                       int lightRays, uint seed, out float backShare) {
-    return gatherIrradianceSequence(originGrid, geometricNormal, shadingNormal, cosineRays, lightRays, seed,
-                                    0u, backShare);
+    return gatherIrradianceSequence(originGrid, geometricNormal, shadingNormal, cosineRays, lightRays, 0, 0.0,
+                                    seed, 0u, backShare);
 }

@@ -65,6 +65,13 @@ uvec2 packFaceSource(vec3 emission, float area) {
 vec3 unpackEmission(uvec2 bits) { return vec3(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y).x); }
 float unpackArea(uvec2 bits) { return float(bits.y >> 16) / kVoxelWeightScale; }
 
+// Metalness in 4 bits, roughness in 5: the lowest 9 bits, FACE_LOBE_BITS >> 16.
+uint packLobe(float metallic, float roughness) {
+    return (uint(floor(clamp(metallic, 0.0, 1.0) * 15.0 + 0.5)) << 5) |
+           uint(floor(clamp(roughness, 0.0, 1.0) * 31.0 + 0.5));
+}
+vec2 unpackLobe(uint bits) { return vec2((bits >> 5) & 15u, bits & 31u) / vec2(15.0, 31.0); }
+
 // Plane of a face: unit normal, and its offset from the voxel's centre in voxels.
 vec3 faceNormal(FaceRecord face) { return octDecode(unpackSnorm2x16(face.normal)); }
 // The point of the plane nearest to the voxel's centre, in grid coordinates.

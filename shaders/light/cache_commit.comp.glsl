@@ -24,7 +24,8 @@ void main() {
         vec3 radiance = unpackRgb9e5(shade.y) + unpackAlbedo(shade.x) * irradiance;
         flux += inside && !dead ? faceFlux(hitTexel, radiance) : 0.0;
         shade.z = packHalf2x16(irradiance.rg);
-        shade.w = packHalf2x16(vec2(irradiance.b, 0.0)) | ((dead ? IRRADIANCE_DEAD : updates) << 16);
+        shade.w = packHalf2x16(vec2(irradiance.b, 0.0)) | (shade.w & (FACE_LOBE_BITS | FACE_AREA_LIGHT)) |
+                  (dead ? FACE_DEAD : (updates != 0u ? FACE_LIT : 0u));
         if (inside) {
             faces[2u * at + 1u] = shade;
             // What was there is replaced by the next update, but is good until then.

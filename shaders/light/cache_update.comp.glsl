@@ -22,9 +22,9 @@ void main() {
     // Faces keep their directions from one run to the next by voxel and axis, not by number.
     uint seed = randomHash(r.w ^ randomHash(cache.seed));
     float backs;
-    vec3 gathered =
-        gatherIrradianceSequence(rayOrigin(faceCenter(record), normal), normal, normal, int(cache.cosineRays),
-                                 int(cache.lightRays), seed, cache.update, backs);
+    vec3 gathered = gatherIrradianceSequence(
+        rayOrigin(faceCenter(record), normal), normal, normal, int(cache.cosineRays), int(cache.lightRays),
+        int(cache.reflections), cache.reflectedLimit, seed, cache.update, backs);
     if (!used) return;
     FaceCache state = states[face];
     uint updates = state.counts & 0xffffu;

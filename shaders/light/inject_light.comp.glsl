@@ -45,7 +45,8 @@ void main() {
     vec3 normal = faceNormal(face);
     vec3 position = worldFromGrid(faceCenter(face));
     vec3 emission = unpackEmission(texelFetch(faceSources, int(index)).xy);
-    if (isAreaLight(position, normal)) emission = vec3(0.0);
+    bool areaLight = isAreaLight(position, normal);
+    if (areaLight) emission = vec3(0.0);
     vec3 reflectance = unpackAlbedo(face.albedo) * (1.0 / 3.14159265358979);
     Receiver receiver = Receiver(position, normal, normal, normal, kShadowVoxelLift);
     Brdf none;
@@ -59,6 +60,7 @@ void main() {
     faces[index].radiance = packRgb9e5(emission + reflectance * light.irradiance);
 #if KEEP_IRRADIANCE
     steadyLight[index] = packRgb9e5(steady);
+    faces[index].irradiance1 = (face.irradiance1 & ~FACE_AREA_LIGHT) | (areaLight ? FACE_AREA_LIGHT : 0u);
 #else
     faces[index].irradiance0 = 0u;
     faces[index].irradiance1 = 0u;

@@ -14,10 +14,6 @@
 // (docs/theory/4_gather.md).
 #define BRIGHT_FACE_COUNT 4096
 
-// In the upper half of FaceRecord::irradiance1: updates behind a face, below this; from here on the face lies
-// inside a closed object and is left out.
-#define IRRADIANCE_DEAD 0x8000u
-
 // Updates after a change that replace what was there; averages begin then. Averages that begin before bounces
 // have settled keep 2 to 4 % of the light out for good (accuracy experiments, docs/theory/4_gather.md).
 #define IRRADIANCE_SETTLE 14
@@ -56,10 +52,10 @@ struct CacheConstants {
     uint facesPerChunk;
     // ---- 32 B
     uint chunkCount;
-    uint restart;  // 1: light changed, windows are short again
-    uint pad0;
-    uint pad1;
-};  // 48 B
+    uint restart;          // 1: light changed, windows are short again
+    uint reflections;      // on metals, of one ray
+    float reflectedLimit;  // as in PixelRayConstants
+};                         // 48 B
 
 // Uniform block at BINDING_PASS of the pass that carries light over.
 struct CacheCarry {

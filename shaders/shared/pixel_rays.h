@@ -30,10 +30,15 @@ struct PixelRayConstants {
     float specularLimit;  // rougher surfaces get no rays into the lobe
     float reach;          // of occlusion, voxels
     float inverseVoxelSize;
+    uint reflections;  // on metals, of one ray
+    // ---- 144 B
+    float reflectedLimit;  // of what a ray sees by reflections, over what the metal shows if matt
     uint pad0;
-};  // 144 B
+    uint pad1;
+    uint pad2;
+};  // 160 B
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
-static_assert(sizeof(conelight::gpu::PixelRayConstants) == 144);
+static_assert(sizeof(conelight::gpu::PixelRayConstants) == 160);
 #endif

@@ -41,6 +41,14 @@
 // Longest step over empty bricks, a power of two. 2 costs rays 15 to 30 % more, 8 gains nothing in rooms.
 #define OCTANT_REACH 4
 
+// Upper half of FaceRecord::irradiance1. Written by surface_resolve (lobe) and whoever lights faces.
+#define FACE_ROUGHNESS_SHIFT 16u     // 5 bit: roughness of what is metallic
+#define FACE_METALLIC_SHIFT 21u      // 4 bit: metalness
+#define FACE_LOBE_BITS 0x01ff0000u   // both
+#define FACE_AREA_LIGHT 0x02000000u  // its emission is the light of a rectangle, not in `radiance`
+#define FACE_LIT 0x40000000u         // irradiance was gathered at least once
+#define FACE_DEAD 0x80000000u        // inside a closed object: left out
+
 CONELIGHT_SHARED_BEGIN
 
 // Uniform block at BINDING_VOXEL_GRID. Voxel (i,j,k) is the cube origin + voxelSize * [i,i+1) x [j,j+1) x
@@ -79,7 +87,7 @@ struct FaceRecord {
     uint albedo;       // 11 | 11 | 10 bit unorm, linear
     uint radiance;     // RGB9E5: emission + reflected direct light, W/(sr m^2); emission alone after build()
     uint irradiance0;  // irradiance / pi (the radiance a white Lambert surface would show): halves r, g
-    uint irradiance1;  // half b | number of updates behind it, 0..65535
+    uint irradiance1;  // half b | FACE_* in the upper half
 };                     // 32 B
 
 // Uniform block at BINDING_PASS of the voxelizer's own passes (shaders/voxels/surface_*).

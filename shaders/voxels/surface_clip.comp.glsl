@@ -3,7 +3,8 @@
 // (32 bytes, below), and puts the fragment into its voxel's chain.
 //
 //   word 0  next fragment of the voxel + 1, 0: last    4  normal z | centroid x, 16 bit each
-//        1  area / h^2 x coverage, float               5  centroid y | z, 16 bit each, [0,1] of the voxel
+//        1  area / h^2 x coverage, float, its lowest   5  centroid y | z, 16 bit each, [0,1] of the voxel
+//           9 bits: SURFACE_LOBES (2^-15 of the area)
 //        2  bounds (lib/voxel_record.glsl), bit 30:    6  albedo
 //           two-sided                                  7  emission RGB9E5, or the voxel when nothing emits
 //        3  normal x | y, 16 bit snorm each
@@ -11,6 +12,8 @@
 // SURFACE_DETAIL 0: materials without textures or vertex colours. 1: with, sampled at the centroid and
 // averaged over the polygon's area. 2: and alpha tests, 16 samples over the polygon's bounds give coverage
 // and albedo.
+// SURFACE_LOBES 1: metalness and roughness as well (lib/voxel_record.glsl, packLobe); only with
+// SURFACE_DETAIL > 0.
 #version 450
 #ifndef SURFACE_UPDATE
 #error SURFACE_UPDATE must be 0 or 1
@@ -20,6 +23,9 @@
 #endif
 #ifndef SURFACE_EMISSION
 #error SURFACE_EMISSION must be 0 or 1
+#endif
+#if !defined(SURFACE_LOBES) || SURFACE_LOBES && SURFACE_DETAIL == 0
+#error SURFACE_LOBES must be 0 or 1, 0 with SURFACE_DETAIL 0
 #endif
 layout(local_size_x = 64) in;
 #include "lib/clip.glsl"
@@ -42,6 +48,7 @@ struct Surface {
     vec3 albedo;
     vec3 emission;
     float coverage;
+    uint lobe;
 };
 #if SURFACE_DETAIL > 0
 #include "voxels/surface_material.glsl"
@@ -80,7 +87,7 @@ void main() {
 
     uint flags = floatBitsToUint(t0.w);
     bool twoSided = (flags & TRIANGLE_TWO_SIDED) != 0u;
-    Surface s = Surface(vec3(0.0), vec3(0.0), 1.0);
+    Surface s = Surface(vec3(0.0), vec3(0.0), 1.0, 0u);
     uint albedoBits = floatBitsToUint(t1.w);
     uint emissionBits = floatBitsToUint(t2.w);
 #if SURFACE_DETAIL > 0
@@ -120,8 +127,12 @@ void main() {
     }
     uvec3 c = uvec3(floor(clamp(polygon.center + 0.5, 0.0, 1.0) * 65535.0 + 0.5));
     uint bounds = packBounds(polygon.lower + 0.5, polygon.upper + 0.5) | (twoSided ? 0x40000000u : 0u);
+    uint areaBits = floatBitsToUint(kept ? area : 0.0);
+#if SURFACE_LOBES
+    areaBits = kept ? ((areaBits + 0x100u) & ~0x1ffu) | s.lobe : 0u;
+#endif
     if (used) {
-        fragments[2u * slot] = uvec4(next, floatBitsToUint(kept ? area : 0.0), bounds, nx | (ny << 16));
+        fragments[2u * slot] = uvec4(next, areaBits, bounds, nx | (ny << 16));
         fragments[2u * slot + 1u] = uvec4(nz | (c.x << 16), c.y | (c.z << 16), albedoBits, emissionBits);
     }
 }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a material shows within one clipped polygon: base colour x texture x vertex colour, emission,
 // coverage. Textures come from the surface array at the level whose texel is as large as the polygon. Metals
-// count with their base colour: what they reflect towards everywhere, added up. Unlit: black. Included by
+// count with their base colour: what they reflect towards everywhere, added up; with SURFACE_LOBES it is also
+// said how metallic and how rough they are. Unlit: black. Included by
 // surface_clip.comp.glsl, which defines struct Surface.
 #include "lib/surface_array.glsl"
 #include "lib/vertex_color.glsl"
@@ -15,6 +16,11 @@ vec3 barycentric(vec3 p, vec3 q0, vec3 q1, vec3 q2, vec3 n, float twiceArea) {
     float b1 = dot(n, cross(p - q0, q2 - q0)) / twiceArea;
     float b2 = dot(n, cross(q1 - q0, p - q0)) / twiceArea;
     return vec3(1.0 - b1 - b2, b1, b2);
+}
+
+// Linear colour -> sRGB (IEC 61966-2-1).
+vec3 encodeSrgb(vec3 c) {
+    return mix(1.055 * pow(max(c, 0.0), vec3(1.0 / 2.4)) - 0.055, 12.92 * c, lessThan(c, vec3(0.0031308)));
 }
 
 // Texture coordinates of one use of a texture (row pair of Material.uvRow), and what an area ratio becomes.
@@ -101,5 +107,16 @@ Surface evaluateSurface(uint triangle, uint instance, vec3 q0, vec3 q1, vec3 q2,
                     .rgb;
     vec3 emission = materials[m].emission * (layers.w >= 0 ? glow : vec3(1.0));
     bool unlit = (flags & MATERIAL_UNLIT) != 0u;
-    return Surface(unlit ? vec3(0.0) : color.rgb * texel.rgb, unlit ? vec3(0.0) : emission, coverage);
+    uint lobe = 0u;
+#if SURFACE_LOBES
+    vec4 lobeRow0 = materials[m].uvRow[2];
+    vec4 lobeRow1 = materials[m].uvRow[3];
+    vec3 metalRough = sampleSurfaceArray(max(layers.y, 0), transformedUv(uv, lobeRow0, lobeRow1),
+                                         footprint * sqrt(transformedScale(lobeRow0, lobeRow1)))
+                          .rgb;
+    // The array decodes what it holds from sRGB, which these numbers are not.
+    metalRough = layers.y >= 0 ? encodeSrgb(metalRough) : vec3(1.0);
+    lobe = unlit ? 0u : packLobe(materials[m].metallic * metalRough.b, materials[m].roughness * metalRough.g);
+#endif
+    return Surface(unlit ? vec3(0.0) : color.rgb * texel.rgb, unlit ? vec3(0.0) : emission, coverage, lobe);
 }

@@ -3,6 +3,10 @@
 // share. Sums are integers in units of 2^-26 voxel sides or coarser, so the order of fragments does not
 // matter. All terms are weights times numbers in [0,1], so no sum exceeds that of the weights.
 // SURFACE_EMISSION 0: no material emits, nothing is summed.
+// SURFACE_LOBES 0: no material is metallic; fragments have no lobe in the lowest bits of their area.
+#ifndef SURFACE_LOBES
+#error SURFACE_LOBES must be 0 or 1
+#endif
 layout(std430, binding = SURFACE_FACE_SOURCES) writeonly buffer SourceTable { uvec2 faceSources[]; };
 layout(binding = SURFACE_UNIT_FRAGMENTS) uniform usamplerBuffer fragments;
 layout(binding = SURFACE_UNIT_OWNERS) uniform usamplerBuffer owners;
@@ -20,6 +24,7 @@ struct Fragment {
     uint bounds;    // lib/voxel_record.glsl; bits 30, 31 are of no meaning
     uint albedo;    // packed
     uint emission;  // packed; the voxel when SURFACE_EMISSION is 0
+    vec2 lobe;      // metalness, roughness
 };
 
 // `at`: place + 1; 0: none, which counts nothing.
@@ -33,8 +38,15 @@ Fragment readFragment(uint at, vec3 k) {
     n = turned ? -n : n;
     facing = turned ? -facing : facing;
     bool counts = facing > VOXEL_FACING_THRESHOLD && at != 0u && a.y != 0u;
-    return Fragment(at != 0u ? a.x : 0u, counts ? uintBitsToFloat(a.y) : 0.0, facing, n,
-                    ivec3(b.x >> 16, b.y & 0xffffu, b.y >> 16), a.z, b.z, b.w);
+#if SURFACE_LOBES
+    uint areaBits = a.y & ~0x1ffu;
+    vec2 lobe = unpackLobe(a.y);
+#else
+    uint areaBits = a.y;
+    vec2 lobe = vec2(0.0);
+#endif
+    return Fragment(at != 0u ? a.x : 0u, counts ? uintBitsToFloat(areaBits) : 0.0, facing, n,
+                    ivec3(b.x >> 16, b.y & 0xffffu, b.y >> 16), a.z, b.z, b.w, lobe);
 }
 
 struct FaceSums {
@@ -43,10 +55,11 @@ struct FaceSums {
     int area;  // in two units
     ivec3 normal, center, albedo, emission;
     ivec3 lower, upper;  // bounds, in 1/31 voxel
+    ivec2 lobe;          // metalness; metalness x roughness
 };
 
 FaceSums emptySums() {
-    return FaceSums(0, 0u, 0, ivec3(0), ivec3(0), ivec3(0), ivec3(0), ivec3(31), ivec3(0));
+    return FaceSums(0, 0u, 0, ivec3(0), ivec3(0), ivec3(0), ivec3(0), ivec3(31), ivec3(0), ivec2(0));
 }
 
 float unitsOf(int shift) { return uintBitsToFloat(uint(127 + shift) << 23); }  // 2^shift
@@ -67,6 +80,9 @@ void addFragment(inout FaceSums sums, Fragment f, float covered, bool bounded) {
                          0.5);
 #if SURFACE_EMISSION
     sums.emission += ivec3(w * min(unpackRgb9e5(f.emission) * (1.0 / surface.emissionScale), 1.0) + 0.5);
+#endif
+#if SURFACE_LOBES
+    sums.lobe += ivec2(w * f.lobe.x * vec2(1.0, f.lobe.y) + 0.5);
 #endif
     const uint kNeutralBounds = 0x7fffu;  // min 31, max 0
     uint bounds = bounded ? f.bounds : kNeutralBounds;
@@ -98,11 +114,16 @@ ResolvedFace resolvedFace(FaceSums sums, int shift, int direction, uint voxel) {
 #if SURFACE_EMISSION
     glow = vec3(sums.emission) / total * surface.emissionScale;
 #endif
+    uint lobe = 0u;
+#if SURFACE_LOBES
+    // Roughness is that of the metals in the voxel.
+    lobe = packLobe(float(sums.lobe.x) / total, float(sums.lobe.y) / float(max(sums.lobe.x, 1)));
+#endif
     ivec3 a = sums.lower;
     ivec3 b = sums.upper;
     uint bounds = uint(a.x | (a.y << 5) | (a.z << 10) | (b.x << 15) | (b.y << 20) | (b.z << 25));
     return ResolvedFace(uvec4(packSnorm2x16(octEncode(n)), packOffsetWeight(offset, total * unit), bounds,
                               voxel | (uint(direction >> 1) << 30)),
-                        uvec4(packAlbedo(vec3(sums.albedo) / total), packRgb9e5(glow), 0u, 0u),
+                        uvec4(packAlbedo(vec3(sums.albedo) / total), packRgb9e5(glow), 0u, lobe << 16),
                         packFaceSource(glow, float(sums.area) * 2.0 * unit));
 }

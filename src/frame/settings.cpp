@@ -543,7 +543,6 @@ void applyQuality(TracedSettings& settings, Quality quality) {
             s.pixelRays = 8;
             s.specularRays = 8;
             s.specularLimit = 1;
-            s.filterLevels = 0;
             s.cacheRays = 8;
             s.cacheUpdates = 46;
             break;

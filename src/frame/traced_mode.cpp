@@ -118,6 +118,8 @@ void TracedMode::Impl::updateCache(const FrameContext& frame) {
     const TracedSettings& settings = frame.settings.traced;
     const bool limited = settings.bounces < kAllBounces;
     light::CacheSettings cacheSettings;
+    // A reflection is a bounce, which updates count.
+    if (limited) cacheSettings.reflections = 0;
     cacheSettings.exactDirect = settings.exactHits;
     cacheSettings.facesPerUpdate = settings.budgeted ? static_cast<std::uint32_t>(settings.faceBudget) : 0;
     const auto run = [&](int rays, int passes) {

@@ -16,6 +16,14 @@ namespace {
 constexpr float kPlaneTolerance = 0.5f;
 // Reach of component occlusion, as a part of the grid's longest side.
 constexpr float kOcclusionReach = 0.1f;
+// A ray that meets metal goes on in the metal's lobe so often; after that metals shine as if matt. Three
+// mirrors in a row are seen, more are hardly told apart; what irradiance misses of the second is little.
+constexpr std::uint32_t kLobeReflections = 3;
+constexpr std::uint32_t kGatherReflections = 2;
+constexpr int kAllBounces = 16;  // TracedSettings::bounces
+
+// Occlusion asks for no light.
+const gl::Defines kNoHitLights = {{"EXACT_DIRECT", "0"}, {"LOBES", "0"}};
 
 gl::ProgramDesc gatherDesc(RayPicture kind, Reuse reuse, bool motion, const gl::Defines& hitLights) {
     gl::ProgramDesc desc;
@@ -69,6 +77,11 @@ gpu::PixelRayConstants PixelRays::packed(const PixelRayFrame& frame, const Trace
     c.longestMean = static_cast<float>(std::max(longest, 1));
     c.specularLimit = settings.specularLimit;
     c.reach = kOcclusionReach * frame.gridLength;
+    // With a limited number of bounces none: a reflection is a bounce more.
+    c.reflections = kind_ == RayPicture::Specular ? kLobeReflections : kGatherReflections;
+    if (settings.bounces < kAllBounces) c.reflections = 0;
+    const int kinds = kind_ == RayPicture::Specular ? 1 : 2;
+    c.reflectedLimit = light::reflectedLimit(kinds * rays * longest);
     c.inverseVoxelSize = 1.0f / frame.voxelSize;
     return c;
 }
@@ -90,8 +103,9 @@ void PixelRays::gather(const PixelRayFrame& frame, const TracedSettings& setting
     if (frame.motion != nullptr) frame.motion->bindStorage(PIXEL_MOTION);
     bindPicture(current_, PIXEL_UNIT_HISTORY);
     other_.bindImage(0, 0, GL_WRITE_ONLY);
-    const gl::Defines lights = light::hitLightDefines(frame.scene, frame.light,
-                                                      settings.exactHits && kind_ != RayPicture::Occlusion);
+    const gl::Defines lights = kind_ == RayPicture::Occlusion
+                                   ? kNoHitLights
+                                   : light::hitLightDefines(frame.scene, frame.light, settings.exactHits);
     frame.programs.get(gatherDesc(kind_, reuse, frame.motion != nullptr, lights)).dispatch(width, height);
     gl::barrier(gl::Access::TextureFetch);
     std::swap(current_, other_);
@@ -129,7 +143,7 @@ std::vector<gl::ProgramDesc> PixelRays::programDescs() {
         add(kind, Reuse::Reproject, true);
     }
     for (const Reuse reuse : {Reuse::None, Reuse::SameView, Reuse::Reproject})
-        descs.push_back(gatherDesc(RayPicture::Occlusion, reuse, false, {{"EXACT_DIRECT", "0"}}));
+        descs.push_back(gatherDesc(RayPicture::Occlusion, reuse, false, kNoHitLights));
     for (const int step : {1, 2, 4, 8})
         for (const bool specular : {false, true}) descs.push_back(filterDesc(step, specular));
     return descs;

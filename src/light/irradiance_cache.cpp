@@ -24,6 +24,9 @@ constexpr std::uint32_t kDeadInterval = 4;
 // as the ray itself.
 constexpr std::uint32_t kMostExactLights = 4;
 
+// Updates behind a mean of the cache, when it is shown: for what one ray may bring by reflections.
+constexpr int kUsualWindow = 32;
+
 gl::ProgramDesc updateDesc(gl::Defines hitLights, bool findsBacks) {
     hitLights.emplace_back("RAY_BACK_FACES", findsBacks ? "1" : "0");
     return {{"light/cache_update.comp.glsl"}, std::move(hitLights)};
@@ -43,13 +46,28 @@ gl::Defines exactDefines(const gl::Defines& lights, bool exact) {
     return defines;
 }
 
+// Whether rays may meet metal.
+bool hasMetals(const scene::GpuScene& scene) {
+    return std::any_of(scene.instances().begin(), scene.instances().end(),
+                       [&](const gpu::Instance& instance) {
+                           const gpu::Material& m = scene.materials()[instance.material];
+                           return (instance.flags & INSTANCE_VOXELIZED) != 0 &&
+                                  (m.flags & MATERIAL_UNLIT) == 0 && m.metallic > 0;
+                       });
+}
+
 }  // namespace
 
 gl::Defines hitLightDefines(const scene::GpuScene& scene, const LightSettings& settings, bool exactDirect) {
     const std::uint32_t punctual = scene::lightEnds(scene.lights()).z;
-    return exactDefines(lightDefines(scene, settings),
-                        exactDirect && punctual > 0 && punctual <= kMostExactLights);
+    gl::Defines defines = exactDefines(lightDefines(scene, settings),
+                                       exactDirect && punctual > 0 && punctual <= kMostExactLights);
+    defines.emplace_back("LOBES", hasMetals(scene) ? "1" : "0");
+    return defines;
 }
+
+// At least 8, by eye: with less, lamps seen in two metals vanish from quality draft.
+float reflectedLimit(int rays) { return static_cast<float>(std::max(rays, 8)); }
 
 std::vector<gl::ProgramDesc> hitLightVariants(const gl::ProgramDesc& base) {
     std::vector<gl::ProgramDesc> descs;
@@ -58,13 +76,17 @@ std::vector<gl::ProgramDesc> hitLightVariants(const gl::ProgramDesc& base) {
         desc.defines.insert(desc.defines.end(), defines.begin(), defines.end());
         descs.push_back(std::move(desc));
     };
-    add(exactDefines({}, false));
+    const auto withLobes = [](gl::Defines defines, bool lobes) {
+        defines.emplace_back("LOBES", lobes ? "1" : "0");
+        return defines;
+    };
+    for (const bool lobes : {false, true}) add(withLobes(exactDefines({}, false), lobes));
     for (const char* kind : {"LIGHTS_POINT", "LIGHTS_SPOT", "LIGHTS_DIRECTIONAL"}) {
         gl::Defines lights;
         for (const char* other : {"LIGHTS_POINT", "LIGHTS_SPOT", "LIGHTS_DIRECTIONAL", "LIGHTS_RECT"})
             lights.emplace_back(other, std::string(kind) == other ? "1" : "0");
         lights.insert(lights.end(), {{"LIGHTS_FIXED", "1"}, {"LIGHTS_SHADOWS", "1"}, {"SHADOW_FILTER", "0"}});
-        add(exactDefines(lights, true));
+        for (const bool lobes : {false, true}) add(withLobes(exactDefines(lights, true), lobes));
     }
     return descs;
 }
@@ -198,6 +220,9 @@ gpu::CacheConstants IrradianceCache::Impl::packed(const CacheSettings& settings)
     c.longestWindow = static_cast<std::uint32_t>(std::max(settings.longestWindow, 1));
     c.facesPerChunk = std::max((faceCount + kMaxChunks - 1) / kMaxChunks, kLeastChunk);
     c.chunkCount = (faceCount + c.facesPerChunk - 1) / c.facesPerChunk;
+    c.reflections = static_cast<std::uint32_t>(std::max(settings.reflections, 0));
+    c.reflectedLimit = reflectedLimit((settings.cosineRays + settings.lightRays) *
+                                      std::min(settings.longestWindow, kUsualWindow));
     c.restart = restart ? 1 : 0;
     return c;
 }

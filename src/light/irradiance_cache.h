@@ -30,6 +30,7 @@ struct CacheSettings {
     // Faces that one update visits at most, in turn; 0: all. Rays per frame are this times the rays per face.
     std::uint32_t facesPerUpdate = 0;
     int longestWindow = 256;  // updates that are averaged in the end
+    int reflections = 1;      // of one ray on metals; after that they shine as if matt; 0..8
     bool exactDirect = true;  // light of point, spot and directional lights is looked up where rays hit
     std::uint32_t seed = 1;
 };
@@ -78,9 +79,13 @@ class IrradianceCache {
     std::unique_ptr<Impl> impl_;
 };
 
-// Defines of shaders that include lib/voxel_light.glsl: EXACT_DIRECT and which lights are looked up at hits.
+// Defines of shaders that include lib/voxel_light.glsl: LOBES, EXACT_DIRECT and which lights are looked up at
+// hits.
 // Off where a scene has none to look up, or more than pays (kMostExactLights).
 gl::Defines hitLightDefines(const scene::GpuScene& scene, const LightSettings& settings, bool exactDirect);
+// Most that a ray may bring by reflections on metal, over what the metal shows if matt, when a mean is of so
+// many rays: a single ray then moves the mean by no more than what the metal would show if matt.
+float reflectedLimit(int rays);
 // `base` with these defines, for a programDescs().
 std::vector<gl::ProgramDesc> hitLightVariants(const gl::ProgramDesc& base);
 

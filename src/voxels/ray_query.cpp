@@ -16,7 +16,9 @@ namespace {
 // The constants of shaders/lib/ray_query.glsl.
 constexpr double kFacing = 1e-3;
 constexpr double kNear = 0.05;
+constexpr double kStart = 1e-3;
 constexpr double kBoundsSlack = 0.1;
+constexpr double kBoundsShrink = 0.02;
 constexpr double kTie = 0.5;
 constexpr double kBackNear = 1.5;
 
@@ -48,14 +50,16 @@ void testFaces(const VoxelTables& voxels, const glm::ivec3& voxel, const glm::dv
         glm::vec3 lower, upper;
         unpackBounds(r.bounds, lower, upper);
         const glm::dvec3 at = t * direction - toCenter + 0.5;
-        if (t >= tMax || glm::any(glm::lessThan(at, glm::dvec3(lower) - kBoundsSlack)) ||
-            glm::any(glm::greaterThan(at, glm::dvec3(upper) + kBoundsSlack)))
+        const glm::dvec3 slack =
+            t > kNear ? glm::dvec3(kBoundsSlack) : (kBoundsSlack + kBoundsShrink) * n * n - kBoundsShrink;
+        if (t >= tMax || glm::any(glm::lessThan(at, glm::dvec3(lower) - slack)) ||
+            glm::any(glm::greaterThan(at, glm::dvec3(upper) + slack)))
             continue;
         if (!facing) {
             if (towards > 0 && t > kBackNear) back = std::min(back, t);
             continue;
         }
-        if (towards > 0 || t <= kNear) continue;
+        if (towards > 0 || t <= kStart) continue;
         const auto weight = static_cast<double>(unpackWeight(r.offsetWeight));
         if (s.hit.face < 0 || t < s.hit.t - kTie || (t <= s.hit.t + kTie && weight > s.weight)) {
             s.hit.face = static_cast<int>(index);

@@ -77,6 +77,7 @@ struct Capacity {
 struct Surfaces {
     int detail = 0;             // 0 constant, 1 textures or vertex colours, 2 alpha tests
     float largestEmission = 0;  // W/(sr m^2), any component
+    bool lobes = false;         // metals
     bool emit() const { return largestEmission > kLeastEmission; }
     bool operator==(const Surfaces&) const = default;
 };
@@ -92,9 +93,12 @@ Surfaces surfacesOf(const scene::GpuScene& scene) {
         surfaces.detail =
             std::max(surfaces.detail, (m.flags & MATERIAL_ALPHA_MASK) != 0 ? 2 : (textured ? 1 : 0));
         if ((m.flags & MATERIAL_UNLIT) != 0) continue;
+        surfaces.lobes = surfaces.lobes || m.metallic > 0;
         surfaces.largestEmission =
             std::max({surfaces.largestEmission, m.emission.x, m.emission.y, m.emission.z});
     }
+    // Only the pass with textures evaluates more than a colour.
+    if (surfaces.lobes) surfaces.detail = std::max(surfaces.detail, 1);
     // Rounded up to a power of two: an emission that is turned up a little leaves all other sums as they are.
     if (surfaces.emit())
         surfaces.largestEmission =
@@ -117,15 +121,18 @@ const char* flag(bool on) { return on ? "1" : "0"; }
 gl::ProgramDesc markPass(const char* name, bool update) {
     return pass(name, {{"SURFACE_UPDATE", flag(update)}});
 }
-gl::ProgramDesc resolvePass(bool emission, bool update) {
-    return pass("surface_resolve", {{"SURFACE_EMISSION", flag(emission)}, {"SURFACE_UPDATE", flag(update)}});
+gl::ProgramDesc resolvePass(bool emission, bool lobes, bool update) {
+    return pass("surface_resolve", {{"SURFACE_EMISSION", flag(emission)},
+                                    {"SURFACE_LOBES", flag(lobes)},
+                                    {"SURFACE_UPDATE", flag(update)}});
 }
-gl::ProgramDesc layersPass(bool emission) {
-    return pass("surface_layers", {{"SURFACE_EMISSION", flag(emission)}});
+gl::ProgramDesc layersPass(bool emission, bool lobes) {
+    return pass("surface_layers", {{"SURFACE_EMISSION", flag(emission)}, {"SURFACE_LOBES", flag(lobes)}});
 }
-gl::ProgramDesc clipPass(int detail, bool emission, bool update) {
+gl::ProgramDesc clipPass(int detail, bool emission, bool lobes, bool update) {
     return pass("surface_clip", {{"SURFACE_DETAIL", std::to_string(detail)},
                                  {"SURFACE_EMISSION", flag(emission)},
+                                 {"SURFACE_LOBES", flag(lobes)},
                                  {"SURFACE_UPDATE", flag(update)}});
 }
 
@@ -408,7 +415,7 @@ void SurfaceVoxels::Impl::clip(gl::ProgramLibrary& programs, gl::Profiler& profi
     now.brickWords.bind(UNIT_VOXEL_BRICKS);
     triangleTexels.bind(kUnitTriangles);
     pairTexels.bind(kUnitPairs);
-    programs.get(clipPass(surfaces.detail, surfaces.emit(), update))
+    programs.get(clipPass(surfaces.detail, surfaces.emit(), surfaces.lobes, update))
         .dispatchIndirect(counters, 4 * SURFACE_ARGS_FRAGMENTS);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
 }
@@ -444,12 +451,12 @@ void SurfaceVoxels::Impl::resolve(gl::ProgramLibrary& programs, gl::Profiler& pr
     fragmentTexels.bind(kUnitFragments);
     ownerTexels.bind(kUnitOwners);
     layered.bindStorage(kLayerList);
-    programs.get(resolvePass(surfaces.emit(), update))
+    programs.get(resolvePass(surfaces.emit(), surfaces.lobes, update))
         .dispatchIndirect(counters, 4 * (update ? SURFACE_ARGS_WORK : SURFACE_ARGS_FACES));
     gl::barrier(gl::Access::ShaderStorage);
     programs.get(scanPass(4)).dispatch(1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
-    programs.get(layersPass(surfaces.emit())).dispatchIndirect(counters, 4 * SURFACE_ARGS_LAYERS);
+    programs.get(layersPass(surfaces.emit(), surfaces.lobes)).dispatchIndirect(counters, 4 * SURFACE_ARGS_LAYERS);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Indirect);
 }
 
@@ -676,13 +683,17 @@ std::vector<gl::ProgramDesc> SurfaceVoxels::programDescs() {
     std::vector<gl::ProgramDesc> descs{pass("surface_bricks"), pass("surface_carry"), pass("surface_copy"),
                                        pass("surface_drop"),   countPass(true),       countPass(false)};
     for (int i = 0; i < 5; ++i) descs.push_back(scanPass(i));
-    for (const bool emission : {false, true}) descs.push_back(layersPass(emission));
+    for (const bool emission : {false, true})
+        for (const bool lobes : {false, true}) descs.push_back(layersPass(emission, lobes));
     for (const bool update : {false, true}) {
         for (const char* name : {"surface_setup", "surface_tiles", "surface_faces"})
             descs.push_back(markPass(name, update));
         for (const bool emission : {false, true}) {
-            descs.push_back(resolvePass(emission, update));
-            for (int detail = 0; detail < 3; ++detail) descs.push_back(clipPass(detail, emission, update));
+            for (const bool lobes : {false, true}) {
+                descs.push_back(resolvePass(emission, lobes, update));
+                for (int detail = lobes ? 1 : 0; detail < 3; ++detail)
+                    descs.push_back(clipPass(detail, emission, lobes, update));
+            }
         }
     }
     return descs;

@@ -6,6 +6,7 @@
 
 #include "conelight/renderer.h"
 #include "io/generated.h"
+#include "reference/path_tracer.h"
 #include "support/gl_fixture.h"
 #include "support/truth_rig.h"
 #include "support/view_rig.h"
@@ -85,6 +86,75 @@ TEST_F(TracedModeTest, WhiteMetalVanishesInTheFurnace) {
         settings.light.emissiveQuads = false;
         const Image image = draw(scene, settings);
         EXPECT_NEAR(meanOf(image), 2.0, 0.02) << roughness;
+    }
+}
+
+// The edges of a box run through the middles of the pixels on the diagonals. A ray that starts on such an
+// edge lies on two walls, and must meet the other one.
+TEST_F(TracedModeTest, CornersLoseNoLight) {
+    Scene scene = closedBox(mattMaterial(glm::vec3(0.5f), glm::vec3(1)));
+    Camera& camera = scene.cameras.at(0);
+    camera.eye = {0, 0, 0.9f};
+    camera.target = {0, 0, -1};
+    Settings settings = smallSettings(Quality::Interactive);
+    settings.light.emissiveQuads = false;
+    settings.traced.filterLevels = 0;
+    const Image image = draw(scene, settings);
+    double sum = 0;
+    for (int i = 0; i < kPixels; ++i)
+        for (const int x : {i, kPixels - 1 - i})
+            sum += static_cast<double>(image.pixels[static_cast<std::size_t>(i * kPixels + x)].x);
+    // Half of the light of each was lost, on some of them.
+    EXPECT_NEAR(sum / (2 * kPixels), 2.0, 0.04);
+}
+
+// Two metal walls face each other; each shows what the other shows of a lit room.
+TEST_F(TracedModeTest, MetalSeenInMetalIsTheTruth) {
+    for (const bool lamp : {false, true}) {
+        Scene scene = closedBox(mattMaterial(glm::vec3(0.5f)));
+        const auto wall = [&](std::size_t i) -> Material& {
+            return scene.materials[static_cast<std::size_t>(scene.instances[i].material)];
+        };
+        for (const std::size_t i : {std::size_t{0}, std::size_t{1}}) {
+            wall(i).baseColor = glm::vec4(0.9f, 0.9f, 0.9f, 1);
+            wall(i).metallic = 1;
+            wall(i).specular = 1;
+            // A smaller highlight of a point would be noise in the truth.
+            wall(i).roughness = lamp ? 0.3f : 0.1f;
+        }
+        wall(4).baseColor = glm::vec4(0.8f, 0.1f, 0.1f, 1);
+        wall(3).baseColor = glm::vec4(0.1f, 0.1f, 0.6f, 1);
+        if (lamp) {
+            Light light;
+            light.type = LightType::Point;
+            light.position = {0, 0.2f, -0.3f};
+            light.intensity = glm::vec3(1);
+            scene.lights.push_back(light);
+        } else {
+            wall(2).emission = glm::vec3(1);
+        }
+        Camera& camera = scene.cameras.at(0);
+        camera.eye = {-0.6f, 0, 0.6f};
+        camera.target = {1, 0, -0.2f};
+        camera.fovY = 1.0f;
+        reference::PathTracerSettings path;
+        path.samplesPerPixel = 256;
+        path.emissiveQuads = false;
+        const reference::PathTracedPicture truth =
+            reference::PathTracer(scene).render(camera, kPixels, kPixels, path);
+        Settings settings = smallSettings(Quality::Converged, Component::Indirect);
+        settings.light.emissiveQuads = false;
+        settings.voxels.size = 64;
+        const Image image = draw(scene, settings);
+        // The truth's own noise left out, by its halves.
+        double square = 0;
+        for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+            const glm::dvec3 a(image.pixels[i] - truth.indirectA.pixels[i]);
+            const glm::dvec3 b(image.pixels[i] - truth.indirectB.pixels[i]);
+            square += glm::dot(a, b) / (3.0 * kPixels * kPixels);
+        }
+        EXPECT_LT(std::sqrt(std::max(square, 0.0)) / meanOf(truth.indirect), 0.15) << lamp;
+        EXPECT_NEAR(meanOf(image) / meanOf(truth.indirect), 1.0, 0.03) << lamp;
     }
 }
 
