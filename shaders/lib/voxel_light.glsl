@@ -36,9 +36,9 @@ struct FaceShade {
 FaceShade faceShade(int face) {
     uvec4 r = texelFetch(voxelFaces, 2 * face + 1);
     vec2 high = unpackHalf2x16(r.w);
-    uint updates = r.w >> 16;
+    uint coverage = r.w >> 16;
     return FaceShade(unpackAlbedo(r.x), unpackRgb9e5(r.y), vec3(unpackHalf2x16(r.z), high.x),
-                     updates != 0u && updates < IRRADIANCE_DEAD);
+                     coverage != 0u && coverage != IRRADIANCE_DEAD);
 }
 
 // What a face shows: emission, reflected direct light, reflected cached light.

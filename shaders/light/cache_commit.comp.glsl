@@ -24,7 +24,10 @@ void main() {
         vec3 radiance = unpackRgb9e5(shade.y) + unpackAlbedo(shade.x) * irradiance;
         flux += inside && !dead ? faceFlux(hitTexel, radiance) : 0.0;
         shade.z = packHalf2x16(irradiance.rg);
-        shade.w = packHalf2x16(vec2(irradiance.b, 0.0)) | ((dead ? IRRADIANCE_DEAD : updates) << 16);
+        // A face that was updated has some coverage, however little, and never that of dead ones.
+        uint coverage = clamp(hitTexel.y >> 16, 1u, IRRADIANCE_DEAD - 1u);
+        uint code = dead ? IRRADIANCE_DEAD : (updates == 0u ? 0u : coverage);
+        shade.w = packHalf2x16(vec2(irradiance.b, 0.0)) | (code << 16);
         if (inside) {
             faces[2u * at + 1u] = shade;
             // What was there is replaced by the next update, but is good until then.

@@ -14,9 +14,9 @@
 // (docs/theory/4_gather.md).
 #define BRIGHT_FACE_COUNT 4096
 
-// In the upper half of FaceRecord::irradiance1: updates behind a face, below this; from here on the face lies
-// inside a closed object and is left out.
-#define IRRADIANCE_DEAD 0x8000u
+// In the upper half of FaceRecord::irradiance1, in mode traced: 0 while the face was never updated; this when
+// it lies inside a closed object and is left out; else its coverage W, packed as in FaceRecord::offsetWeight.
+#define IRRADIANCE_DEAD 0xffffu
 
 // Updates after a change that replace what was there; averages begin then. Averages that begin before bounces
 // have settled keep 2 to 4 % of the light out for good (accuracy experiments, docs/theory/4_gather.md).

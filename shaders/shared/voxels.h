@@ -79,7 +79,7 @@ struct FaceRecord {
     uint albedo;       // 11 | 11 | 10 bit unorm, linear
     uint radiance;     // RGB9E5: emission + reflected direct light, W/(sr m^2); emission alone after build()
     uint irradiance0;  // irradiance / pi (the radiance a white Lambert surface would show): halves r, g
-    uint irradiance1;  // half b | number of updates behind it, 0..65535
+    uint irradiance1;  // half b | upper half: cones: number of updates behind it; traced: IRRADIANCE_DEAD
 };                     // 32 B
 
 // Uniform block at BINDING_PASS of the voxelizer's own passes (shaders/voxels/surface_*).
