@@ -4,12 +4,16 @@
 //
 // EXACT_DIRECT 1: light of point, spot and directional lights is looked up at the exact hit point by shadow
 // map, not taken from the face; rectangles and emission stay the face's. light::hitLightDefines says for a
-// scene. RAY_BACK_FACES as in lib/ray_query.glsl.
+// scene. FIND_BACKS 1: rays by the cosine are followed back as well, to see whether they met a surface from
+// behind.
 //
 // Before the call: SurfaceVoxels::bind, OctantWords::bind, IrradianceCache::bind, the frame block;
 // EXACT_DIRECT also the scene's tables and the shadow maps.
 #ifndef EXACT_DIRECT
 #define EXACT_DIRECT 0
+#endif
+#ifndef FIND_BACKS
+#define FIND_BACKS 0
 #endif
 #include "lib/random.glsl"
 #include "lib/ray_query.glsl"
@@ -112,6 +116,18 @@ bool sampleBrightFace(inout uint state, out vec3 point, out vec3 normal) {
     return header != 0u && height >= range.x && height <= range.y;
 }
 
+#if FIND_BACKS
+// Whether a ray that found `hit` met a surface from behind on its way, beyond kRayBackNear. The way back meets
+// from the front what the way there met from behind: one more ray, where asking for both at once
+// (RAY_BACK_FACES) costs two to three, for then nothing is known of how far empty space reaches.
+bool metBackBefore(VoxelHit hit, vec3 origin, vec3 direction) {
+    vec3 leave = (mix(vec3(0.0), vec3(gridSize()), greaterThanEqual(direction, vec3(0.0))) - origin) *
+                 rayInverse(direction);
+    float end = min(hit.t, min(min(leave.x, leave.y), leave.z) - kRayEnd);
+    return traceVoxels(origin + end * direction, -direction, end - kRayBackNear).face >= 0;
+}
+#endif
+
 // Radiance of a white Lambert surface (irradiance / pi): `cosineRays` by the cosine about the shading normal,
 // `lightRays` to bright faces, weighted by the balance heuristic (Veach and Guibas 1995). A miss is the sky.
 // A ray to a bright face counts only where it arrives at its point: else directions with many bright faces
@@ -139,6 +155,11 @@ vec3 gatherIrradianceSequence(vec3 originGrid, vec3 geometricNormal, vec3 shadin
         // What lies beyond the point is of no interest.
         float reach = toLight ? distance + 1.0 : 1e9;
         VoxelHit hit = traceVoxels(originGrid, direction, above ? reach : -1.0);
+#if FIND_BACKS
+        VoxelHit met = hit;
+        if (toLight) met.t = -1.0;
+        if (metBackBefore(met, originGrid, direction)) hit = VoxelHit(-1, hit.t, true);
+#endif
         bool arrived = !toLight || (hit.face >= 0 && abs(hit.t - distance) < 0.3);
         vec3 n = octDecode(unpackSnorm2x16(texelFetch(voxelFaces, 2 * max(hit.face, 0)).x));
         float brightness = hit.face >= 0 ? faceBrightness(faceRadiance(max(hit.face, 0))) : 0.0;
