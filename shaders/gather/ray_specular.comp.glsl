@@ -3,6 +3,7 @@
 // G-buffer -> radiance in the specular lobe over the lobe's directional albedo, by rays along visible normals
 // of GGX (Heitz 2018, "Sampling the GGX Distribution of Visible Normals"), averaged with the passes and
 // frames before. What a ray meets shows its interpolated cached light, so that mirrors show no voxels.
+// COUNT_LOOKUPS 1: adds what rays look up to the counters, shadow maps at hits included.
 #include "lib/brdf.glsl"
 #include "lib/cache_lookup.glsl"
 #include "lib/temporal.glsl"
@@ -66,9 +67,13 @@ void main() {
         // A bent normal can mirror into the surface: keep to the side of the triangle.
         direction -= 2.0 * min(dot(direction, s.geometricNormal), 0.0) * s.geometricNormal;
         VoxelHit hit = traceVoxels(origin, direction, glossy && l.z > 0.0 ? 1e9 : -1.0);
+        COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);
         sum += weight * smoothHitRadiance(hit, origin, direction);
     } while (++i < int(pixelRays.rays));
     vec3 value = glossy ? sum / (float(pixelRays.rays) * max(b.albedo, 1e-6)) : vec3(0.0);
+#if COUNT_LOOKUPS
+    addLookups(LOOKUPS_SPECULAR, glossy);
+#endif
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
 #if TEMPORAL == 2
     // What a smooth surface shows moves otherwise than the surface: means are short there.

@@ -3,13 +3,14 @@
 // does, by trilinear weight, square of the normal's component and coverage:
 //   E(p) = sum t n_k^2 W E(F) / sum t n_k^2 W      (docs/theory/4_gather.md, "The cache at pixels")
 // Only axes along which the normal has a part worth a fetch are visited: on walls along the axes one of
-// three. Coverage stands beside the irradiance (IRRADIANCE_DEAD in shared/irradiance.h), so that a face is one
-// fetch.
+// three. Coverage stands beside the irradiance (IRRADIANCE_DEAD in shared/irradiance.h), so that a face is
+// one fetch.
 //
 // Before the call: SurfaceVoxels::bind. Includers that also trace rays share the samplers with
 // lib/ray_query.glsl.
 #include "lib/ray_query.glsl"
 #include "shared/irradiance.h"
+layout(binding = IMAGE_VOXEL_BRICKS, rgba32ui) readonly uniform uimage3D voxelBrickImage;
 
 // Squares of components below this are left out: 3 % of the normal's length.
 const float kLeastAxis = 1e-3;
@@ -26,27 +27,29 @@ vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted) {
     uint facing = (square.x > kLeastAxis ? (normal.x < 0.0 ? 2u : 1u) : 0u) |
                   (square.y > kLeastAxis ? (normal.y < 0.0 ? 8u : 4u) : 0u) |
                   (square.z > kLeastAxis ? (normal.z < 0.0 ? 32u : 16u) : 0u);
+    COUNT_LOOKUP(wanted ? 8 : 0);
     uint corners = 0u;
     for (int i = 0; i < 8; ++i) {
         ivec3 voxel = clamp(base + ivec3(i & 1, (i >> 1) & 1, i >> 2), ivec3(0), last);
-        uvec2 mask = texelFetch(voxelBricks, voxel >> 2, 0).xy;
+        uvec2 mask = imageLoad(voxelBrickImage, voxel >> 2).xy;
         corners |= brickHas(mask, bitOfVoxel(voxel)) ? 1u << i : 0u;
     }
     corners = wanted ? corners : 0u;
     vec4 sum = vec4(0.0);
     do {
         bool any = corners != 0u;
+        COUNT_LOOKUP(any ? 2 : 0);
         int i = max(findLSB(corners), 0);
         ivec3 offset = ivec3(i & 1, (i >> 1) & 1, i >> 2);
         ivec3 voxel = clamp(base + offset, ivec3(0), last);
         vec3 t = mix(1.0 - part, part, vec3(offset));
-        uvec4 word = texelFetch(voxelBricks, voxel >> 2, 0);
-        uint record =
-            texelFetch(voxelRecords, any ? int(voxelRecordIndex(word, bitOfVoxel(voxel))) : 0).x;
+        uvec4 word = imageLoad(voxelBrickImage, voxel >> 2);
+        uint record = texelFetch(voxelRecords, any ? int(voxelRecordIndex(word, bitOfVoxel(voxel))) : 0).x;
         uint directions = faceDirections(record);
         int first = int(faceBase(record));
         uint left = any ? directions & facing : 0u;
         do {
+            COUNT_LOOKUP(left != 0u ? 1 : 0);
             uint lowest = left & (0u - left);
             int face = left != 0u ? first + bitCount(directions & (lowest - 1u)) : 0;
             uvec4 light = texelFetch(voxelFaces, 2 * face + 1);

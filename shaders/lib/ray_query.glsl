@@ -19,12 +19,13 @@
 #ifndef RAY_BACK_FACES
 #define RAY_BACK_FACES 0
 #endif
+#include "lib/lookup_count.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
 layout(binding = UNIT_VOXEL_BRICKS) uniform usampler3D voxelBricks;
 layout(binding = UNIT_VOXEL_RECORDS) uniform usamplerBuffer voxelRecords;
 layout(binding = UNIT_VOXEL_FACES) uniform usamplerBuffer voxelFaces;
-layout(binding = UNIT_VOXEL_OCTANTS) uniform usampler3D voxelOctants;
+layout(binding = IMAGE_VOXEL_OCTANTS, rg32ui) readonly uniform uimage3D voxelOctants;
 
 struct VoxelHit {
     int face;        // index of the face record; -1: nothing was met
@@ -62,12 +63,14 @@ void testVoxelFaces(ivec3 voxel, vec3 origin, vec3 direction, uint facing, float
     uint directions = brickHas(word.xy, bitOfVoxel(voxel)) ? faceDirections(record) : 0u;
     int base = int(faceBase(record));
     vec3 toCenter = vec3(voxel) + 0.5 - origin;
+    COUNT_LOOKUP(facing != 0u ? 2 : 0);
 #if RAY_BACK_FACES
     uint left = facing != 0u ? directions : 0u;
 #else
     uint left = directions & facing;
 #endif
     do {
+        COUNT_LOOKUP(left != 0u ? 1 : 0);
         uint lowest = left & (0u - left);
         int face = base + bitCount(directions & (max(lowest, 1u) - 1u));
         uvec4 r = texelFetch(voxelFaces, 2 * (left != 0u ? face : 0));
@@ -104,8 +107,8 @@ VoxelHit traceVoxels(vec3 origin, vec3 direction, float tMax) {
     // Faces that look against the ray: -k for the positive components.
     uint facing = (forward.x ? 2u : 1u) | (forward.y ? 8u : 4u) | (forward.z ? 32u : 16u);
 
-    // An empty cube ends so far from its first brick's lowest corner: nearSide + 4 reach, negated when it goes
-    // down.
+    // An empty cube ends so far from its first brick's lowest corner: nearSide + 4 reach, negated when it
+    // goes down.
     ivec3 turn = pos - 1;
     ivec3 nearSide = 4 - 4 * pos;
 
@@ -127,13 +130,14 @@ VoxelHit traceVoxels(vec3 origin, vec3 direction, float tMax) {
         ivec3 at;
         do {
             ivec3 brick = cell >> 2;
-            uvec2 word = texelFetch(voxelOctants, ivec3(brick.x + octantX, brick.yz), 0).xy;
+            COUNT_LOOKUP(alive ? 1 : 0);
+            uvec2 word = imageLoad(voxelOctants, ivec3(brick.x + octantX, brick.yz)).xy;
             int empty = word.y == OCTANT_EMPTY ? int(word.x) : 0;
             word = empty > 0 ? uvec2(0u) : word;
 #if RAY_BACK_FACES
             // Faces that look the other way are what the opposite octant's rays meet; nothing is known of how
             // far they are.
-            uvec2 backs = texelFetch(voxelOctants, ivec3(brick.x + 7 * bricks.x - octantX, brick.yz), 0).xy;
+            uvec2 backs = imageLoad(voxelOctants, ivec3(brick.x + 7 * bricks.x - octantX, brick.yz)).xy;
             bool none = backs.y == OCTANT_EMPTY;
             word |= none ? uvec2(0u) : backs;
             empty = none ? min(empty, 1) : 0;

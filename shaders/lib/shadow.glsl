@@ -25,6 +25,7 @@
 #ifndef SHADOW_FILTER
 #define SHADOW_FILTER 0
 #endif
+#include "lib/lookup_count.glsl"
 #include "shared/bindings.h"
 #include "shared/scene.h"
 layout(binding = UNIT_SHADOW) uniform sampler2DArrayShadow shadowMaps;
@@ -88,6 +89,7 @@ float shadowFilter(vec2 texel, float layer, float ref, vec2 slope, vec2 unit) {
     float refSlack = ref + slack * (1.0 + abs(slope.x) + abs(slope.y));
     vec2 refSlope = slope * refUnit;
     float sum = 0.0;
+    COUNT_LOOKUP((radius + 1) * (radius + 1));
     for (int y = 0; y <= radius; ++y) {
         for (int x = 0; x <= radius; ++x) {
             // A gather at a corner between texels returns (0,1), (1,1), (1,0), (0,0).

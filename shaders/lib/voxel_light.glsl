@@ -117,8 +117,8 @@ bool sampleBrightFace(inout uint state, out vec3 point, out vec3 normal) {
 }
 
 #if FIND_BACKS
-// Whether a ray that found `hit` met a surface from behind on its way, beyond kRayBackNear. The way back meets
-// from the front what the way there met from behind: one more ray, where asking for both at once
+// Whether a ray that found `hit` met a surface from behind on its way, beyond kRayBackNear. The way back
+// meets from the front what the way there met from behind: one more ray, where asking for both at once
 // (RAY_BACK_FACES) costs two to three, for then nothing is known of how far empty space reaches.
 bool metBackBefore(VoxelHit hit, vec3 origin, vec3 direction) {
     vec3 leave = (mix(vec3(0.0), vec3(gridSize()), greaterThanEqual(direction, vec3(0.0))) - origin) *
@@ -154,7 +154,10 @@ vec3 gatherIrradianceSequence(vec3 originGrid, vec3 geometricNormal, vec3 shadin
         above = above && (!toLight || (onFace && dot(direction, targetNormal) < 0.0 && inverseFlux > 0.0));
         // What lies beyond the point is of no interest.
         float reach = toLight ? distance + 1.0 : 1e9;
+        // Bright face: its pool entry and record. Hit: both halves of its record, steady light if asked for.
+        COUNT_LOOKUP(toLight ? 2 : 0);
         VoxelHit hit = traceVoxels(originGrid, direction, above ? reach : -1.0);
+        COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);
 #if FIND_BACKS
         VoxelHit met = hit;
         if (toLight) met.t = -1.0;

@@ -37,7 +37,10 @@
 #define UNIT_VOXEL_RECORDS 17       // usamplerBuffer R32UI (voxRec)
 #define UNIT_VOXEL_FACES 18         // usamplerBuffer RGBA32UI, two texels per face (FaceRecord)
 #define UNIT_VOXEL_FACE_SOURCES 19  // usamplerBuffer RG32UI (faceSource)
-#define UNIT_VOXEL_OCTANTS 20       // usampler3D (octWord)
+// Image units, for reads that are many: software drivers fetch texels of such formats by a call each, and
+// load from images in line (rays 11 % faster, the cache at pixels 17 %).
+#define IMAGE_VOXEL_BRICKS 6   // uimage3D (brickWord)
+#define IMAGE_VOXEL_OCTANTS 7  // uimage3D (octWord)
 
 // Longest step over empty bricks, a power of two. 2 costs rays 15 to 30 % more, 8 gains nothing in rooms.
 #define OCTANT_REACH 4

@@ -37,12 +37,12 @@ void OctantWords::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, co
         texture_.bindImage(0, 0, GL_READ_WRITE);
         programs.get(reachDesc(reach)).dispatch(8 * bricks.x, bricks.y, bricks.z);
     }
-    gl::barrier(gl::Access::TextureFetch);
+    gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
 }
 
 void OctantWords::bind() const {
     CONELIGHT_ASSERT(texture_, "OctantWords::bind before build");
-    texture_.bind(UNIT_VOXEL_OCTANTS);
+    texture_.bindImage(IMAGE_VOXEL_OCTANTS, 0, GL_READ_ONLY);
 }
 
 std::vector<gl::ProgramDesc> OctantWords::programDescs() {

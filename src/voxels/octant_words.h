@@ -18,10 +18,10 @@ namespace conelight::voxels {
 class OctantWords {
   public:
     // GL state changed: program, image 0, BINDING_STORAGE_PASS, what SurfaceVoxels::bind binds. Ends with the
-    // barrier for texture fetches.
+    // barrier for texture fetches and image loads.
     void build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const SurfaceVoxels& surface);
 
-    void bind() const;  // UNIT_VOXEL_OCTANTS
+    void bind() const;  // IMAGE_VOXEL_OCTANTS
 
     const gl::Texture& texture() const { return texture_; }
 

@@ -205,8 +205,8 @@ TEST_F(RayQueryTest, OctantWordsSayWhatIsThere) {
     octants_.texture().read(0, GL_RG_INTEGER, GL_UNSIGNED_INT, words.data(), 8 * words.size());
     // Mask and, in z, reach.
     const auto word = [&](int octant, const glm::ivec3& b) {
-        const glm::uvec2 w = words[static_cast<std::size_t>(b.x + octant * bricks.x +
-                                                            8 * bricks.x * (b.y + bricks.y * b.z))];
+        const glm::uvec2 w =
+            words[static_cast<std::size_t>(b.x + octant * bricks.x + 8 * bricks.x * (b.y + bricks.y * b.z))];
         return w.y == OCTANT_EMPTY ? glm::uvec3(0, 0, w.x) : glm::uvec3(w, 0);
     };
     std::size_t wrongMasks = 0, wrongReach = 0;
