@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Counts what an invocation looks up: texture fetches, image loads, gathers of four comparisons.
+// Counts what an invocation looks up: texture fetches, image loads, gathers of four texels.
 // COUNT_LOOKUPS 0: COUNT_LOOKUP is nothing. 1: it adds to lookupsMade, which main() hands to addLookups, kind
 // by kind (LOOKUPS_* of shared/cones.h). The buffer's binding is LOOKUP_TABLE.
 #ifndef COUNT_LOOKUPS
