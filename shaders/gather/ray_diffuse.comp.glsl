@@ -3,6 +3,7 @@
 // G-buffer -> irradiance / pi by rays through the voxels (lib/voxel_light.glsl), averaged with the passes and
 // frames before (lib/temporal.glsl). The surface's colour is left out, so that filters keep textures sharp.
 // OCCLUSION 1: instead the open part of the hemisphere; surfaces count less the farther they are.
+// COUNT_LOOKUPS 1: adds what rays look up to the counters, shadow maps at hits included.
 #ifndef OCCLUSION
 #error OCCLUSION must be 0 or 1
 #endif
@@ -42,6 +43,9 @@ void main() {
     vec3 value = gatherIrradianceSequence(
         origin, matt ? s.geometricNormal : away, normal, int(pixelRays.rays), int(pixelRays.rays),
         int(pixelRays.reflections), pixelRays.reflectedLimit, seed, pixelRays.pass, backs);
+#endif
+#if COUNT_LOOKUPS
+    addLookups(OCCLUSION == 1 ? LOOKUPS_OCCLUSION : LOOKUPS_DIFFUSE, matt);
 #endif
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
     imageStore(result, pixel, withPass(pixel, s, seen, matt ? value : vec3(0.0), pixelRays.longestMean));

@@ -3,6 +3,7 @@
 // G-buffer -> radiance in the specular lobe over the lobe's directional albedo, by rays along visible normals
 // of GGX (Heitz 2018, "Sampling the GGX Distribution of Visible Normals"), averaged with the passes and
 // frames before. What a ray meets shows its interpolated cached light, so that mirrors show no voxels.
+// COUNT_LOOKUPS 1: adds what rays look up to the counters, shadow maps at hits included.
 #define SMOOTH_HITS 1
 #include "lib/ggx_sample.glsl"
 #include "lib/temporal.glsl"
@@ -32,8 +33,12 @@ void main() {
         sum += weight * rayRadiance(origin, direction, counts ? 1e9 : -1.0, -1.0,
                                     counts ? int(pixelRays.reflections) : 0, pixelRays.reflectedLimit, random,
                                     hit);
+        COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);
     } while (++i < int(pixelRays.rays));
     vec3 value = glossy ? sum / (float(pixelRays.rays) * max(b.albedo, 1e-6)) : vec3(0.0);
+#if COUNT_LOOKUPS
+    addLookups(LOOKUPS_SPECULAR, glossy);
+#endif
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
 #if TEMPORAL == 2
     // What a smooth surface shows moves otherwise than the surface: means are short there.

@@ -13,9 +13,11 @@
     !defined(LOBE)
 #error SHOW_DIRECT, SHOW_DIFFUSE, SHOW_SPECULAR, IRRADIANCE and LOBE must be 0 or 1
 #endif
+// COUNT_LOOKUPS 1: adds lookups to the counters: of the cache, and of shadow maps as those of occlusion.
 #define GATHERS (SHOW_DIFFUSE || SHOW_SPECULAR)
 #include "lib/brdf.glsl"
 #include "lib/gbuffer.glsl"
+#include "lib/lookup_count.glsl"
 #if SHOW_DIRECT
 #include "lib/lights.glsl"
 #endif
@@ -38,6 +40,9 @@ void main() {
     vec3 radiance = vec3(0.0);
 #if SHOW_DIRECT
     DirectLight light = directLight(Receiver(s.position, s.normal, s.geometricNormal, s.toEye, 0.0), b);
+#if COUNT_LOOKUPS
+    addLookups(LOOKUPS_OCCLUSION, seen);
+#endif
     radiance = b.diffuse / kPi * light.irradiance + s.emission + (s.unlit ? vec3(0.0) : light.specular);
 #endif
 #if GATHERS
@@ -46,6 +51,9 @@ void main() {
     vec3 irradiance = pixelHistoryValue(texelFetch(irradiancePicture, min(pixel, imageSize(result) - 1), 0));
 #else
     vec3 irradiance = cachedIrradiance(gridFromWorld(s.position), s.normal, gathers).rgb;
+#if COUNT_LOOKUPS
+    addLookups(LOOKUPS_DIFFUSE, gathers);
+#endif
 #endif
     vec3 gathered = vec3(0.0);
 #if SHOW_DIFFUSE

@@ -3,50 +3,64 @@
 // does, by trilinear weight, square of the normal's component and coverage:
 //   E(p) = sum t n_k^2 W E(F) / sum t n_k^2 W      (docs/theory/4_gather.md, "The cache at pixels")
 // Only axes along which the normal has a part worth a fetch are visited: on walls along the axes one of
-// three.
+// three. Coverage stands beside the irradiance (IRRADIANCE_DEAD in shared/irradiance.h), so that a face is
+// one fetch.
 //
 // Before the call: SurfaceVoxels::bind. Includers that also trace rays share the samplers with
 // lib/ray_query.glsl.
 #include "lib/ray_query.glsl"
 #include "shared/irradiance.h"
+layout(binding = IMAGE_VOXEL_BRICKS, rgba32ui) readonly uniform uimage3D voxelBrickImage;
 
 // Squares of components below this are left out: 3 % of the normal's length.
 const float kLeastAxis = 1e-3;
 
-// rgb irradiance / pi; a: sum of weights, 0 where no face was found.
+// rgb irradiance / pi; a: sum of weights, 0 where no face was found. Which of the eight voxels are there is
+// asked first, then only those are visited, and of their faces those that count: on a wall four of eight
+// voxels and one face each (platform figures: docs/theory/4_gather.md, "The cache at pixels").
 vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted) {
     vec3 corner = floor(point - 0.5);
     vec3 part = point - 0.5 - corner;
     ivec3 base = ivec3(corner);
     ivec3 last = gridSize() - 1;
     vec3 square = normal * normal;
-    uint axes = (square.x > kLeastAxis ? 1u : 0u) | (square.y > kLeastAxis ? 2u : 0u) |
-                (square.z > kLeastAxis ? 4u : 0u);
-    axes = wanted ? axes : 0u;
+    uint facing = (square.x > kLeastAxis ? (normal.x < 0.0 ? 2u : 1u) : 0u) |
+                  (square.y > kLeastAxis ? (normal.y < 0.0 ? 8u : 4u) : 0u) |
+                  (square.z > kLeastAxis ? (normal.z < 0.0 ? 32u : 16u) : 0u);
+    COUNT_LOOKUP(wanted ? 8 : 0);
+    uint corners = 0u;
+    for (int i = 0; i < 8; ++i) {
+        ivec3 voxel = clamp(base + ivec3(i & 1, (i >> 1) & 1, i >> 2), ivec3(0), last);
+        uvec2 mask = imageLoad(voxelBrickImage, voxel >> 2).xy;
+        corners |= brickHas(mask, bitOfVoxel(voxel)) ? 1u << i : 0u;
+    }
+    corners = wanted ? corners : 0u;
     vec4 sum = vec4(0.0);
     do {
-        uint lowest = axes & (0u - axes);
-        int axis = lowest == 4u ? 2 : (lowest == 2u ? 1 : 0);
-        float component = axis == 0 ? normal.x : (axis == 1 ? normal.y : normal.z);
-        int direction = 2 * axis + (component < 0.0 ? 1 : 0);
-        float share = axes != 0u ? component * component : 0.0;
-        for (int i = 0; i < 8; ++i) {
-            ivec3 offset = ivec3(i & 1, (i >> 1) & 1, i >> 2);
-            ivec3 voxel = clamp(base + offset, ivec3(0), last);
-            vec3 t = mix(1.0 - part, part, vec3(offset));
-            uvec4 word = texelFetch(voxelBricks, voxel >> 2, 0);
-            uint bit = bitOfVoxel(voxel);
-            bool occupied = brickHas(word.xy, bit);
-            uint record = texelFetch(voxelRecords, occupied ? int(voxelRecordIndex(word, bit)) : 0).x;
-            bool faces = occupied && ((faceDirections(record) >> direction) & 1u) != 0u;
-            int face = faces ? int(faceIndex(record, direction)) : 0;
-            float coverage = unpackWeight(texelFetch(voxelFaces, 2 * face).y);
+        bool any = corners != 0u;
+        COUNT_LOOKUP(any ? 2 : 0);
+        int i = max(findLSB(corners), 0);
+        ivec3 offset = ivec3(i & 1, (i >> 1) & 1, i >> 2);
+        ivec3 voxel = clamp(base + offset, ivec3(0), last);
+        vec3 t = mix(1.0 - part, part, vec3(offset));
+        uvec4 word = imageLoad(voxelBrickImage, voxel >> 2);
+        uint record = texelFetch(voxelRecords, any ? int(voxelRecordIndex(word, bitOfVoxel(voxel))) : 0).x;
+        uint directions = faceDirections(record);
+        int first = int(faceBase(record));
+        uint left = any ? directions & facing : 0u;
+        do {
+            COUNT_LOOKUP(left != 0u ? 1 : 0);
+            uint lowest = left & (0u - left);
+            int face = left != 0u ? first + bitCount(directions & (lowest - 1u)) : 0;
             uvec4 light = texelFetch(voxelFaces, 2 * face + 1);
-            faces = faces && (light.w & (FACE_LIT | FACE_DEAD)) == FACE_LIT;
-            float weight = faces ? t.x * t.y * t.z * share * coverage : 0.0;
+            bool lit = (light.w & (FACE_LIT | FACE_DEAD)) == FACE_LIT;
+            float share = lowest < 4u ? square.x : (lowest < 16u ? square.y : square.z);
+            float coverage = unpackWeight(texelFetch(voxelFaces, 2 * face).y);
+            float weight = left != 0u && lit ? t.x * t.y * t.z * share * coverage : 0.0;
             sum += weight * vec4(unpackHalf2x16(light.z), unpackHalf2x16(light.w).x, 1.0);
-        }
-        axes ^= lowest;
-    } while (axes != 0u);
+            left ^= lowest;
+        } while (left != 0u);
+        corners &= corners - 1u;
+    } while (corners != 0u);
     return vec4(sum.rgb / max(sum.a, 1e-12), sum.a);
 }

@@ -5,7 +5,9 @@
 // Defines (light::lightDefines gives them for a scene; unset: everything on):
 // - LIGHTS_POINT, _SPOT, _DIRECTIONAL, _RECT: whether the table holds such lights. Others are left out.
 // - LIGHTS_FIXED 1: these four are the exact numbers of lights. Loops are then unrolled and read the table at
-//   constant places (mode phong on the thesis's scene: 21 instead of 25 cpu-ms on llvmpipe).
+//   constant places of a uniform block (mode phong on the thesis's scene: 21 instead of 25 cpu-ms on
+//   llvmpipe, which reads storage once per lane wherever lanes may be idle, as in the loop over a face's
+//   rays).
 // - LIGHTS_SHADOWS 0: everything is visible.
 // - SHADOW_FILTER: radius of the shadow filter in texels.
 // Before the call: ShadowMaps::bind, the scene's tables and the frame block.
@@ -31,6 +33,11 @@
 #include "lib/rect_light.glsl"
 #include "lib/scene_tables.glsl"
 #include "lib/shadow.glsl"
+
+#define LIGHTS_TOTAL (LIGHTS_POINT + LIGHTS_SPOT + LIGHTS_DIRECTIONAL + LIGHTS_RECT)
+#if LIGHTS_FIXED && LIGHTS_TOTAL > 0
+layout(std140, binding = BINDING_FIXED_LIGHTS) uniform FixedLightBlock { Light fixedLights[LIGHTS_TOTAL]; };
+#endif
 
 struct DirectLight {
     vec3 irradiance;  // W/m^2 on a surface with the shading normal
@@ -142,7 +149,7 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
 #if LIGHTS_FIXED
 #define FOR_LIGHTS(before, count, begin, end, statement) \
     for (uint n = 0u; n < uint(count); ++n) {            \
-        Light light = lights[uint(before) + n];          \
+        Light light = fixedLights[uint(before) + n];     \
         statement;                                       \
     }
 #else

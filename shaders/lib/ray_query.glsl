@@ -19,12 +19,13 @@
 #ifndef RAY_BACK_FACES
 #define RAY_BACK_FACES 0
 #endif
+#include "lib/lookup_count.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
 layout(binding = UNIT_VOXEL_BRICKS) uniform usampler3D voxelBricks;
 layout(binding = UNIT_VOXEL_RECORDS) uniform usamplerBuffer voxelRecords;
 layout(binding = UNIT_VOXEL_FACES) uniform usamplerBuffer voxelFaces;
-layout(binding = UNIT_VOXEL_OCTANTS) uniform usampler3D voxelOctants;
+layout(binding = IMAGE_VOXEL_OCTANTS, rg32ui) readonly uniform uimage3D voxelOctants;
 
 struct VoxelHit {
     int face;        // index of the face record; -1: nothing was met
@@ -69,15 +70,18 @@ void testVoxelFaces(ivec3 voxel, vec3 origin, vec3 direction, uint facing, float
                     inout float weight, inout float tBack) {
     uvec4 word = texelFetch(voxelBricks, voxel >> 2, 0);
     uint record = texelFetch(voxelRecords, int(voxelRecordIndex(word, bitOfVoxel(voxel)))).x;
-    uint directions = faceDirections(record);
+    // A spare bit of octWord names a voxel that may have none.
+    uint directions = brickHas(word.xy, bitOfVoxel(voxel)) ? faceDirections(record) : 0u;
     int base = int(faceBase(record));
     vec3 toCenter = vec3(voxel) + 0.5 - origin;
+    COUNT_LOOKUP(facing != 0u ? 2 : 0);
 #if RAY_BACK_FACES
     uint left = facing != 0u ? directions : 0u;
 #else
     uint left = directions & facing;
 #endif
     do {
+        COUNT_LOOKUP(left != 0u ? 1 : 0);
         uint lowest = left & (0u - left);
         int face = base + bitCount(directions & (max(lowest, 1u) - 1u));
         uvec4 r = texelFetch(voxelFaces, 2 * (left != 0u ? face : 0));
@@ -115,6 +119,11 @@ VoxelHit traceVoxels(vec3 origin, vec3 direction, float tMax) {
     // Faces that look against the ray: -k for the positive components.
     uint facing = (forward.x ? 2u : 1u) | (forward.y ? 8u : 4u) | (forward.z ? 32u : 16u);
 
+    // An empty cube ends so far from its first brick's lowest corner: nearSide + 4 reach, negated when it
+    // goes down.
+    ivec3 turn = pos - 1;
+    ivec3 nearSide = 4 - 4 * pos;
+
     // Clipped to the grid. All that follows counts from the entry, where rounding is least.
     vec3 enter = (mix(size, vec3(0.0), forward) - origin) * inverse;
     vec3 leave = (mix(vec3(0.0), size, forward) - origin) * inverse;
@@ -133,19 +142,22 @@ VoxelHit traceVoxels(vec3 origin, vec3 direction, float tMax) {
         ivec3 at;
         do {
             ivec3 brick = cell >> 2;
-            uvec4 word = texelFetch(voxelOctants, ivec3(brick.x + octantX, brick.yz), 0);
-            int empty = int(word.z);
+            COUNT_LOOKUP(alive ? 1 : 0);
+            uvec2 word = imageLoad(voxelOctants, ivec3(brick.x + octantX, brick.yz)).xy;
+            int empty = word.y == OCTANT_EMPTY ? int(word.x) : 0;
+            word = empty > 0 ? uvec2(0u) : word;
 #if RAY_BACK_FACES
             // Faces that look the other way are what the opposite octant's rays meet; nothing is known of how
             // far they are.
-            uvec2 backs = texelFetch(voxelOctants, ivec3(brick.x + 7 * bricks.x - octantX, brick.yz), 0).xy;
-            word.xy |= backs;
-            empty = (backs.x | backs.y) != 0u ? 0 : min(empty, 1);
+            uvec2 backs = imageLoad(voxelOctants, ivec3(brick.x + 7 * bricks.x - octantX, brick.yz)).xy;
+            bool none = backs.y == OCTANT_EMPTY;
+            word |= none ? uvec2(0u) : backs;
+            empty = none ? min(empty, 1) : 0;
 #endif
-            candidate = brickHas(word.xy, bitOfVoxel(cell));
+            candidate = brickHas(word, bitOfVoxel(cell));
             at = cell;
             // The planes through which the voxel, or the empty cube, is left.
-            ivec3 border = empty > 0 ? brick * 4 + 4 - 4 * empty + pos * (8 * empty - 4) : cell + pos;
+            ivec3 border = empty > 0 ? (cell & ~3) + nearSide + ((4 * empty) ^ turn) - turn : cell + pos;
             vec3 exits = (vec3(border) - origin) * inverse;
             t = min(exits.x, min(exits.y, exits.z));
             ivec3 there = ivec3(floor(origin + t * direction));

@@ -25,6 +25,7 @@
 #ifndef SHADOW_FILTER
 #define SHADOW_FILTER 0
 #endif
+#include "lib/lookup_count.glsl"
 #include "shared/bindings.h"
 #include "shared/scene.h"
 layout(binding = UNIT_SHADOW) uniform sampler2DArrayShadow shadowMaps;
@@ -88,6 +89,7 @@ float shadowFilter(vec2 texel, float layer, float ref, vec2 slope, vec2 unit) {
     float refSlack = ref + slack * (1.0 + abs(slope.x) + abs(slope.y));
     vec2 refSlope = slope * refUnit;
     float sum = 0.0;
+    COUNT_LOOKUP((radius + 1) * (radius + 1) * (radius > 0 ? 2 : 3));
     for (int y = 0; y <= radius; ++y) {
         for (int x = 0; x <= radius; ++x) {
             // A gather at a corner between texels returns (0,1), (1,1), (1,0), (0,0).
@@ -139,6 +141,7 @@ vec2 shadowPlane(vec3 n, vec2 at) { return n.xy / min(dot(n, vec3(at, 1.0)), -1e
 float shadowBilinear(vec2 texel, float layer, float ref) {
     vec2 corner = floor(texel - 0.5);
     vec2 f = texel - 0.5 - corner;
+    COUNT_LOOKUP(1);
     vec2 uv = (corner + 1.0) / vec2(textureSize(shadowMaps, 0).xy);
     vec4 lit = textureGather(shadowMaps, vec3(uv, layer), ref);
     return mix(mix(lit.w, lit.z, f.x), mix(lit.x, lit.y, f.x), f.y);

@@ -4,7 +4,8 @@
 //
 // EXACT_DIRECT 1: light of point, spot and directional lights is looked up at the exact hit point by shadow
 // map, not taken from the face; rectangles and emission stay the face's. light::hitLightDefines says for a
-// scene. RAY_BACK_FACES as in lib/ray_query.glsl.
+// scene. FIND_BACKS 1: rays by the cosine are followed back as well, to see whether they met a surface from
+// behind.
 // LOBES 1: where a ray meets metal it goes on in its lobe (rayRadiance). 0: metals shine as if matt.
 // SMOOTH_HITS 1: what is met shows irradiance interpolated over the voxels about it, not that of its face.
 //
@@ -12,6 +13,9 @@
 // EXACT_DIRECT also the scene's tables and the shadow maps.
 #ifndef EXACT_DIRECT
 #define EXACT_DIRECT 0
+#endif
+#ifndef FIND_BACKS
+#define FIND_BACKS 0
 #endif
 #ifndef LOBES
 #define LOBES 0
@@ -216,6 +220,18 @@ bool sampleBrightFace(vec3 xi, out vec3 point, out vec3 normal) {
 // a corner, bounds (rounded outwards) reach behind the other wall, which has its own rays.
 const float kSameSurface = 0.7;
 
+#if FIND_BACKS
+// Whether a ray that found `hit` met a surface from behind on its way, beyond kRayBackNear. The way back
+// meets from the front what the way there met from behind: one more ray, where asking for both at once
+// (RAY_BACK_FACES) costs two to three, for then nothing is known of how far empty space reaches.
+bool metBackBefore(VoxelHit hit, vec3 origin, vec3 direction) {
+    vec3 leave = (mix(vec3(0.0), vec3(gridSize()), greaterThanEqual(direction, vec3(0.0))) - origin) *
+                 rayInverse(direction);
+    float end = min(hit.t, min(min(leave.x, leave.y), leave.z) - kRayEnd);
+    return traceVoxels(origin + end * direction, -direction, end - kRayBackNear).face >= 0;
+}
+#endif
+
 // Radiance of a white Lambert surface (irradiance / pi): `cosineRays` by the cosine about the shading normal,
 // `lightRays` to bright faces, weighted by the balance heuristic (Veach and Guibas 1995). A miss is the sky.
 // A ray to a bright face counts only where it arrives at its point: else directions with many bright faces
@@ -244,9 +260,20 @@ vec3 gatherIrradianceSequence(vec3 originGrid, vec3 geometricNormal, vec3 shadin
         above = above && (!toLight || (onFace && dot(direction, targetNormal) < 0.0 && inverseFlux > 0.0));
         // What lies beyond the point is of no interest.
         float reach = toLight ? distance + 1.0 : 1e9;
+        // Bright face: its pool entry and record. Hit: both halves of its record, steady light if asked for.
+        COUNT_LOOKUP(toLight ? 2 : 0);
         VoxelHit hit;
         vec3 radiance = rayRadiance(originGrid, direction, above ? reach : -1.0, toLight ? distance : -1.0,
                                     reflections, limit, state, hit);
+        COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);
+#if FIND_BACKS
+        VoxelHit met = hit;
+        if (toLight) met.t = -1.0;
+        if (metBackBefore(met, originGrid, direction)) {
+            hit = VoxelHit(-1, hit.t, true);
+            radiance = vec3(0.0);
+        }
+#endif
         vec3 n = faceNormalOf(max(hit.face, 0));
         bool there = abs(hit.t - distance) < 0.3 && dot(n, targetNormal) > kSameSurface;
         bool arrived = !toLight || (hit.face >= 0 && there);

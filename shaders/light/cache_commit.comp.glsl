@@ -4,7 +4,9 @@
 // of faces. One invocation per chunk, so that sums have an order.
 layout(local_size_x = 64) in;
 #include "light/cache_common.glsl"
-layout(std430, binding = BINDING_VOXEL_FACES) buffer FaceTable { uvec4 faces[]; };
+layout(std430, binding = BINDING_VOXEL_FACES) writeonly buffer FaceTable { uvec4 faces[]; };
+// The same once more: software drivers read storage lane by lane in loops.
+layout(binding = UNIT_VOXEL_FACES) uniform usamplerBuffer faceTexels;
 
 void main() {
     uint chunk = linearIndex();
@@ -16,8 +18,8 @@ void main() {
         bool inside = face < end;
         uint at = min(face, grid.faceCount - 1u);
         FaceCache state = states[at];
-        uvec4 hitTexel = faces[2u * at];
-        uvec4 shade = faces[2u * at + 1u];
+        uvec4 hitTexel = texelFetch(faceTexels, 2 * int(at));
+        uvec4 shade = texelFetch(faceTexels, 2 * int(at) + 1);
         uint updates = state.counts & 0xffffu;
         bool dead = isDead(state);
         vec3 irradiance = dead ? vec3(0.0) : clamp(state.irradiance, 0.0, 65504.0);
@@ -27,7 +29,7 @@ void main() {
         shade.w = packHalf2x16(vec2(irradiance.b, 0.0)) | (shade.w & (FACE_LOBE_BITS | FACE_AREA_LIGHT)) |
                   (dead ? FACE_DEAD : (updates != 0u ? FACE_LIT : 0u));
         if (inside) {
-            faces[2u * at + 1u] = shade;
+            faces[2u * at + 1u].zw = shade.zw;
             // What was there is replaced by the next update, but is good until then.
             if (cache.restart != 0u) states[at].counts = (state.counts & 0xffff0000u) | min(updates, 1u);
         }

@@ -4,7 +4,7 @@
 // before, and blends it into its mean (docs/theory/4_gather.md, "The cache"). Rays read the packed irradiance
 // of the records, which cache_commit writes afterwards: who comes first does not matter.
 //
-// RAY_BACK_FACES 1: also counts rays that meet a surface from behind, to find faces inside closed objects.
+// FIND_BACKS 1: also counts rays that meet a surface from behind, to find faces inside closed objects.
 layout(local_size_x = 64) in;
 #include "lib/linear_index.glsl"
 #include "lib/voxel_light.glsl"
@@ -32,7 +32,7 @@ void main() {
     uint window = clamp(updates, IRRADIANCE_SETTLE, IRRADIANCE_SETTLE + cache.longestWindow - 1u);
     state.irradiance += (gathered - state.irradiance) / float(window - IRRADIANCE_SETTLE + 1u);
     state.counts = (state.counts & 0xffff0000u) | min(updates + 1u, 0x7fffu);
-#if RAY_BACK_FACES
+#if FIND_BACKS
     uint rays = (state.counts >> 16) & 0xffu;
     if (rays + cache.cosineRays < 256u)
         state.counts += (cache.cosineRays << 16) + (uint(backs * float(cache.cosineRays) + 0.5) << 24);

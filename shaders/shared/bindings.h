@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Binding numbers, one table for C++ and GLSL. Tables that every pass may read have fixed numbers; 8 and up
-// (storage), 8 and up (textures), 0 to 7 (images) and 2 to 7 (uniform) belong to the running pass.
+// (storage), 8 and up (textures), 0 to 5 (images) and 2 to 6 (uniform) belong to the running pass.
 #pragma once
 #include "shared/prelude.h"
 
 // Uniform buffers
-#define BINDING_FRAME 0       // FrameConstants
-#define BINDING_VOXEL_GRID 1  // VoxelGrid
-#define BINDING_PASS 2        // a pass's own constants
+#define BINDING_FRAME 0         // FrameConstants
+#define BINDING_VOXEL_GRID 1    // VoxelGrid
+#define BINDING_PASS 2          // a pass's own constants
+#define BINDING_FIXED_LIGHTS 7  // the light table once more, for shaders that know how many there are
 
 // Storage buffers of the scene (GpuScene::bind)
 #define BINDING_VERTICES 0

@@ -10,7 +10,7 @@ layout(local_size_x = 64) in;
 layout(binding = UNIT_VOXEL_BRICKS) uniform usampler3D brickWords;
 layout(binding = UNIT_VOXEL_RECORDS) uniform usamplerBuffer records;
 layout(std430, binding = BINDING_STORAGE_PASS) readonly buffer BrickTable { uint brickList[]; };
-layout(binding = 0, rgba32ui) uniform writeonly uimage3D octants;
+layout(binding = 0, rg32ui) uniform writeonly uimage3D octants;
 
 void main() {
     uint index = linearIndex();
@@ -35,7 +35,9 @@ void main() {
         // Rays that go down along an axis meet the faces that look up.
         uvec2 facing = ((octant & 1) != 0 ? mask[0] : mask[1]) | ((octant & 2) != 0 ? mask[2] : mask[3]) |
                        ((octant & 4) != 0 ? mask[4] : mask[5]);
-        if ((facing.x | facing.y) != 0u)
+        bool some = (facing.x | facing.y) != 0u;
+        if (facing.y == OCTANT_EMPTY) facing.y |= OCTANT_EMPTY_SPARE;
+        if (some)
             imageStore(octants, ivec3(brick.x + octant * int(grid.bricksX), brick.yz), uvec4(facing, 0u, 0u));
     }
 }

@@ -7,7 +7,7 @@
 #endif
 layout(local_size_x = 8, local_size_y = 4, local_size_z = 4) in;
 #include "lib/voxel_grid.glsl"
-layout(binding = 0, rgba32ui) uniform uimage3D octants;
+layout(binding = 0, rg32ui) uniform uimage3D octants;
 
 void main() {
     ivec3 at = ivec3(gl_GlobalInvocationID);
@@ -20,10 +20,11 @@ void main() {
     for (int corner = 0; corner < 8; ++corner) {
         ivec3 other = brick + ahead * (ivec3(corner, corner >> 1, corner >> 2) & 1);
         bool inside = all(greaterThanEqual(other, ivec3(0))) && all(lessThan(other, bricks));
-        uint reach = imageLoad(octants, ivec3((inside ? other.x : brick.x) + octant * bricks.x,
+        uvec2 word = imageLoad(octants, ivec3((inside ? other.x : brick.x) + octant * bricks.x,
                                               inside ? other.yz : brick.yz))
-                         .z;
+                         .xy;
+        uint reach = word.y == OCTANT_EMPTY ? word.x : 0u;
         least = inside || corner == 0 ? min(least, reach) : least;
     }
-    if (least == REACH / 2) imageStore(octants, at, uvec4(0u, 0u, REACH, 0u));
+    if (least == REACH / 2) imageStore(octants, at, uvec4(REACH, OCTANT_EMPTY, 0u, 0u));
 }

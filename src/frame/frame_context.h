@@ -27,11 +27,10 @@ struct FrameContext {
     light::ShadowMaps& shadows;  // up to date and bound when the mode asked for them (needsShadows)
     const gl::Texture&
         output;  // RGBA32F, width x height; the mode writes every pixel (imageStore), row 0 at the bottom
-    bool geometryChanged;  // scene, transforms, voxel settings or "every frame": voxels are out of date
-    bool everythingAnew;   // "every frame": build all, also what did not change
-    bool lightChanged;     // geometryChanged, or lights or light settings changed: inject again
-    gl::Buffer*
-        lookupCounters;  // not null: count texture lookups of cones (uints: diffuse, specular, occlusion)
+    bool geometryChanged;        // scene, transforms, voxel settings or "every frame": voxels are out of date
+    bool everythingAnew;         // "every frame": build all, also what did not change
+    bool lightChanged;           // geometryChanged, or lights or light settings changed: inject again
+    gl::Buffer* lookupCounters;  // not null: count texture lookups of cones or rays (shared/lookups.h)
 };
 
 // One way of making the picture. Owns its volumes and passes; lives as long as the scene is shown in its

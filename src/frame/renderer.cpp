@@ -17,6 +17,7 @@
 #include "light/emissive_quads.h"
 #include "scene/scene_checks.h"
 #include "shared/bindings.h"
+#include "shared/lookups.h"
 #include "view/camera.h"
 
 namespace conelight {
@@ -62,7 +63,7 @@ struct Renderer::Impl {
     image::Display display;
     gpu::FrameConstants constants{};
     gl::Buffer frameBlock{sizeof(gpu::FrameConstants), "frame constants"};
-    gl::Buffer lookupCounters{16, "lookup counters"};
+    gl::Buffer lookupCounters{4 * LOOKUPS_WORDS, "lookup counters"};
 
     // What the current volumes were built for.
     std::unique_ptr<frame::ModeRenderer> mode;
@@ -274,10 +275,12 @@ void Renderer::Impl::collectStats(double cpuStart, double wallStart) {
         stats.passes.push_back({pass.name, pass.cpuMs, pass.wallMs, pass.gpuMs});
     stats.memory = memoryStats();
     if (!countLookups) return;
-    const std::vector<std::uint32_t> counts = lookupCounters.read<std::uint32_t>(3);
+    const std::vector<std::uint32_t> counts = lookupCounters.read<std::uint32_t>(LOOKUPS_WORDS);
     const double pixels = static_cast<double>(targets->width) * static_cast<double>(targets->height);
     const char* const kinds[3] = {"diffuse", "specular", "occlusion"};
-    for (std::size_t i = 0; i < 3; ++i) stats.lookupsPerPixel.emplace_back(kinds[i], counts[i] / pixels);
+    for (std::size_t i = 0; i < 3; ++i)
+        stats.lookupsPerPixel.emplace_back(kinds[i],
+                                           (counts[i] + 4294967296.0 * counts[LOOKUPS_CARRY + i]) / pixels);
 }
 
 Image Renderer::readImage() const {

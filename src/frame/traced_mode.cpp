@@ -170,7 +170,8 @@ gather::PixelRayFrame TracedMode::Impl::rayFrame(const FrameContext& frame) cons
             frame.view,
             surface.grid().voxelSize,
             static_cast<float>(std::max({size.x, size.y, size.z})),
-            moved ? &motion : nullptr};
+            moved ? &motion : nullptr,
+            frame.lookupCounters};
 }
 
 // Finished at once, or one more pass on top of what is known from before.
@@ -212,7 +213,7 @@ void TracedMode::Impl::drawParts(const FrameContext& frame, const gather::Pictur
         lobe = &specular.filtered(rayFrame(frame), settings.filterLevels);
     }
     shade.draw(frame.programs, frame.profiler, frame.scene, frame.settings, shown, irradiance, lobe,
-               frame.output);
+               frame.output, frame.lookupCounters);
 }
 
 TracedMode::TracedMode() : impl_(std::make_unique<Impl>()) {}

@@ -7,6 +7,7 @@
 #include "gl/gl.h"
 #include "light/irradiance_cache.h"
 #include "shared/bindings.h"
+#include "shared/lookups.h"
 
 namespace conelight::gather {
 namespace {
@@ -25,7 +26,8 @@ constexpr int kAllBounces = 16;  // TracedSettings::bounces
 // Occlusion asks for no light.
 const gl::Defines kNoHitLights = {{"EXACT_DIRECT", "0"}, {"LOBES", "0"}};
 
-gl::ProgramDesc gatherDesc(RayPicture kind, Reuse reuse, bool motion, const gl::Defines& hitLights) {
+gl::ProgramDesc gatherDesc(RayPicture kind, Reuse reuse, bool motion, bool countLookups,
+                           const gl::Defines& hitLights) {
     gl::ProgramDesc desc;
     desc.files = {kind == RayPicture::Specular ? "gather/ray_specular.comp.glsl"
                                                : "gather/ray_diffuse.comp.glsl"};
@@ -33,6 +35,7 @@ gl::ProgramDesc gatherDesc(RayPicture kind, Reuse reuse, bool motion, const gl::
                     {"MOTION", motion && reuse == Reuse::Reproject ? "1" : "0"}};
     if (kind != RayPicture::Specular)
         desc.defines.emplace_back("OCCLUSION", kind == RayPicture::Occlusion ? "1" : "0");
+    if (countLookups) desc.defines.emplace_back("COUNT_LOOKUPS", "1");
     desc.defines.insert(desc.defines.end(), hitLights.begin(), hitLights.end());
     return desc;
 }
@@ -106,7 +109,10 @@ void PixelRays::gather(const PixelRayFrame& frame, const TracedSettings& setting
     const gl::Defines lights = kind_ == RayPicture::Occlusion
                                    ? kNoHitLights
                                    : light::hitLightDefines(frame.scene, frame.light, settings.exactHits);
-    frame.programs.get(gatherDesc(kind_, reuse, frame.motion != nullptr, lights)).dispatch(width, height);
+    const bool counts = frame.lookupCounters != nullptr;
+    if (counts) frame.lookupCounters->bindStorage(LOOKUP_TABLE);
+    frame.programs.get(gatherDesc(kind_, reuse, frame.motion != nullptr, counts, lights))
+        .dispatch(width, height);
     gl::barrier(gl::Access::TextureFetch);
     std::swap(current_, other_);
     seenFrom_ = frame.view;
@@ -135,15 +141,16 @@ const gl::Texture& PixelRays::filtered(const PixelRayFrame& frame, int levels) {
 std::vector<gl::ProgramDesc> PixelRays::programDescs() {
     std::vector<gl::ProgramDesc> descs;
     const auto add = [&](RayPicture kind, Reuse reuse, bool motion) {
-        for (gl::ProgramDesc& desc : light::hitLightVariants(gatherDesc(kind, reuse, motion, {})))
+        for (gl::ProgramDesc& desc : light::hitLightVariants(gatherDesc(kind, reuse, motion, false, {})))
             descs.push_back(std::move(desc));
     };
     for (const RayPicture kind : {RayPicture::Diffuse, RayPicture::Specular}) {
         for (const Reuse reuse : {Reuse::None, Reuse::SameView, Reuse::Reproject}) add(kind, reuse, false);
         add(kind, Reuse::Reproject, true);
+        descs.push_back(gatherDesc(kind, Reuse::SameView, false, true, {{"EXACT_DIRECT", "0"}}));
     }
     for (const Reuse reuse : {Reuse::None, Reuse::SameView, Reuse::Reproject})
-        descs.push_back(gatherDesc(RayPicture::Occlusion, reuse, false, kNoHitLights));
+        descs.push_back(gatherDesc(RayPicture::Occlusion, reuse, false, false, kNoHitLights));
     for (const int step : {1, 2, 4, 8})
         for (const bool specular : {false, true}) descs.push_back(filterDesc(step, specular));
     return descs;

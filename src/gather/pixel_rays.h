@@ -37,6 +37,7 @@ struct PixelRayFrame {
     float voxelSize;           // m
     float gridLength;          // voxels, longest side
     const gl::Buffer* motion;  // mat4 per instance, where it was in the frame before; null: nothing moved
+    const gl::Buffer* lookupCounters;  // not null: what rays look up is added (shared/lookups.h)
 };
 
 class PixelRays {

@@ -4,12 +4,14 @@
 #include "gl/gl.h"
 #include "light/shadow_maps.h"
 #include "shared/bindings.h"
+#include "shared/lookups.h"
 #include "shared/pixel_rays.h"
 
 namespace conelight::gather {
 namespace {
 
-gl::ProgramDesc shadeDesc(const PictureParts& parts, bool picture, bool lobe, const gl::Defines& lights) {
+gl::ProgramDesc shadeDesc(const PictureParts& parts, bool picture, bool lobe, const gl::Defines& lights,
+                          bool countLookups = false) {
     const bool gathers = parts.diffuse || parts.specular;
     gl::ProgramDesc desc{{"gather/traced_shade.comp.glsl"},
                          {{"SHOW_DIRECT", parts.direct ? "1" : "0"},
@@ -17,6 +19,7 @@ gl::ProgramDesc shadeDesc(const PictureParts& parts, bool picture, bool lobe, co
                           {"SHOW_SPECULAR", parts.specular ? "1" : "0"},
                           {"IRRADIANCE", picture && gathers ? "1" : "0"},
                           {"LOBE", lobe && parts.specular ? "1" : "0"}}};
+    if (countLookups) desc.defines.emplace_back("COUNT_LOOKUPS", "1");
     if (parts.direct) desc.defines.insert(desc.defines.end(), lights.begin(), lights.end());
     return desc;
 }
@@ -34,7 +37,7 @@ void bindPicture(const gl::Texture* picture, unsigned unit) {
 
 void TracedShade::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
                        const Settings& settings, const PictureParts& parts, const gl::Texture* irradiance,
-                       const gl::Texture* lobe, const gl::Texture& output) {
+                       const gl::Texture* lobe, const gl::Texture& output, const gl::Buffer* lookupCounters) {
     const gl::PassScope pass(profiler, "shade");
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::PixelRayConstants), "shade constants");
     gpu::PixelRayConstants constants{};
@@ -45,7 +48,9 @@ void TracedShade::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, con
     bindPicture(lobe, PIXEL_UNIT_LOBE);
     output.bindImage(0, 0, GL_WRITE_ONLY);
     const gl::Defines lights = light::lightDefines(scene, settings.light);
-    programs.get(shadeDesc(parts, irradiance != nullptr, lobe != nullptr, lights))
+    const bool counts = lookupCounters != nullptr;
+    if (counts) lookupCounters->bindStorage(LOOKUP_TABLE);
+    programs.get(shadeDesc(parts, irradiance != nullptr, lobe != nullptr, lights, counts))
         .dispatch(output.width(), output.height());
 }
 
@@ -85,6 +90,7 @@ std::vector<gl::ProgramDesc> TracedShade::programDescs() {
             for (gl::ProgramDesc& desc :
                  light::lightVariants(shadeDesc({true, true, true}, picture, lobe, {})))
                 descs.push_back(std::move(desc));
+    descs.push_back(shadeDesc({true, true, true}, false, false, {}, true));
     return descs;
 }
 

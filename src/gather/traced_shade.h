@@ -22,9 +22,10 @@ namespace conelight::gather {
 class TracedShade {
   public:
     // `irradiance` null: from the cache. `lobe` null: the irradiance stands in for it.
+    // `lookupCounters` not null: adds lookups of the cache, and of shadow maps as occlusion's.
     void draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
               const Settings& settings, const PictureParts& parts, const gl::Texture* irradiance,
-              const gl::Texture* lobe, const gl::Texture& output);
+              const gl::Texture* lobe, const gl::Texture& output, const gl::Buffer* lookupCounters);
     void drawOcclusion(gl::ProgramLibrary& programs, gl::Profiler& profiler, const gl::Texture& occlusion,
                        const gl::Texture& output);
     void drawVoxels(gl::ProgramLibrary& programs, gl::Profiler& profiler, const gl::Texture& output);

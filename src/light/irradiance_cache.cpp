@@ -17,8 +17,8 @@ namespace {
 constexpr std::uint32_t kMaxChunks = 4096;  // one invocation walks over all chunks
 constexpr std::uint32_t kLeastChunk = 16;   // fewer faces per invocation are not worth starting it
 constexpr double kSlack = 1.25;             // room for growth when memory is allocated anew
-// While voxels change every frame, only one in so many updates looks for faces inside closed objects: it
-// costs three times as much as one that does not.
+// While voxels change every frame, an update looks for faces inside closed objects at one in so many faces
+// only, others at the next: looking costs as much as two more rays.
 constexpr std::uint32_t kDeadInterval = 4;
 // More lights than these are taken from faces, not looked up at every hit: the shadow maps of 4 cost as much
 // as the ray itself.
@@ -28,7 +28,7 @@ constexpr std::uint32_t kMostExactLights = 4;
 constexpr int kUsualWindow = 32;
 
 gl::ProgramDesc updateDesc(gl::Defines hitLights, bool findsBacks) {
-    hitLights.emplace_back("RAY_BACK_FACES", findsBacks ? "1" : "0");
+    hitLights.emplace_back("FIND_BACKS", findsBacks ? "1" : "0");
     return {{"light/cache_update.comp.glsl"}, std::move(hitLights)};
 }
 gl::ProgramDesc pass(const char* name) { return {{std::string("light/cache_") + name + ".comp.glsl"}, {}}; }
@@ -260,21 +260,34 @@ void IrradianceCache::update(gl::ProgramLibrary& programs, gl::Profiler& profile
     if (!m.prepared) m.commit(programs, profiler, settings);
     for (int i = 0; i < passes; ++i) {
         const gpu::CacheConstants block = m.packed(settings);
-        bool tests = false;
+        // Faces [first, end) of this update are looked at for dead ones.
+        std::uint32_t first = 0, end = 0;
+        if (m.raysTested < std::uint64_t{IRRADIANCE_DEAD_RAYS} * m.faceCount) {
+            const std::uint64_t parts = m.carried ? kDeadInterval : 1, part = m.number % parts;
+            first = static_cast<std::uint32_t>(part * block.faceCount / parts);
+            end = static_cast<std::uint32_t>((part + 1) * block.faceCount / parts);
+        }
         {
             const gl::PassScope scope(profiler, "irradiance: update");
-            m.constants.update(block);
-            m.constants.bindUniform(BINDING_PASS);
             m.states.bindStorage(CACHE_STATE);
             bind();
-            tests = m.raysTested < std::uint64_t{IRRADIANCE_DEAD_RAYS} * m.faceCount &&
-                    (!m.carried || m.number % kDeadInterval == 0);
-            programs.get(updateDesc(lights, tests)).dispatchLinear(block.faceCount);
+            const auto visit = [&](std::uint32_t from, std::uint32_t to, bool findsBacks) {
+                if (from >= to) return;
+                gpu::CacheConstants part = block;
+                part.firstFace = (block.firstFace + from) % m.faceCount;
+                part.faceCount = to - from;
+                m.constants.update(part);
+                m.constants.bindUniform(BINDING_PASS);
+                programs.get(updateDesc(lights, findsBacks)).dispatchLinear(part.faceCount);
+            };
+            visit(0, first, false);
+            visit(first, end, true);
+            visit(end, block.faceCount, false);
             gl::barrier(gl::Access::ShaderStorage | gl::Access::Update);
         }
         m.firstFace = (m.firstFace + block.faceCount) % m.faceCount;
         m.facesVisited += block.faceCount;
-        if (tests) m.raysTested += std::uint64_t{block.faceCount} * block.cosineRays;
+        m.raysTested += std::uint64_t{end - first} * block.cosineRays;
         ++m.number;
         m.commit(programs, profiler, settings);
     }

@@ -466,6 +466,7 @@ void GpuScene::bind() const {
     instanceBuffer_.bindStorage(BINDING_INSTANCES);
     materialBuffer_.bindStorage(BINDING_MATERIALS);
     lightBuffer_.bindStorage(BINDING_LIGHTS);
+    lightBuffer_.bindUniform(BINDING_FIXED_LIGHTS);
     surfaceArray_.bind(UNIT_SURFACE_ARRAY);
     surfaceSampler_.bind(UNIT_SURFACE_ARRAY);
 }

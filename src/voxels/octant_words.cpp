@@ -22,12 +22,12 @@ void OctantWords::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, co
         texture_.depth() != bricks.z) {
         texture_ = {};  // frees the old one first
         texture_ =
-            gl::Texture({GL_TEXTURE_3D, GL_RGBA32UI, 8 * bricks.x, bricks.y, bricks.z, 1}, "octant words");
+            gl::Texture({GL_TEXTURE_3D, GL_RG32UI, 8 * bricks.x, bricks.y, bricks.z, 1}, "octant words");
         texture_.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         texture_.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     }
-    const std::uint32_t empty[4] = {0, 0, 1, 0};
-    texture_.clear(0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, empty);
+    const std::uint32_t empty[2] = {1, OCTANT_EMPTY};
+    texture_.clear(0, GL_RG_INTEGER, GL_UNSIGNED_INT, empty);
     surface.bind();
     surface.occupiedBricks().bindStorage(BINDING_STORAGE_PASS);
     texture_.bindImage(0, 0, GL_WRITE_ONLY);
@@ -37,12 +37,12 @@ void OctantWords::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, co
         texture_.bindImage(0, 0, GL_READ_WRITE);
         programs.get(reachDesc(reach)).dispatch(8 * bricks.x, bricks.y, bricks.z);
     }
-    gl::barrier(gl::Access::TextureFetch);
+    gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
 }
 
 void OctantWords::bind() const {
     CONELIGHT_ASSERT(texture_, "OctantWords::bind before build");
-    texture_.bind(UNIT_VOXEL_OCTANTS);
+    texture_.bindImage(IMAGE_VOXEL_OCTANTS, 0, GL_READ_ONLY);
 }
 
 std::vector<gl::ProgramDesc> OctantWords::programDescs() {

@@ -3,7 +3,7 @@
 // directions the voxels that face the octant and the reach of the empty space ahead. Read by
 // lib/ray_query.glsl.
 //
-// Built anew whenever the voxels are. Memory: 128 bytes per brick of the grid (4.2 MB at 128^3).
+// Built anew whenever the voxels are. Memory: 64 bytes per brick of the grid (2.1 MB at 128^3).
 #pragma once
 
 #include <vector>
@@ -18,10 +18,10 @@ namespace conelight::voxels {
 class OctantWords {
   public:
     // GL state changed: program, image 0, BINDING_STORAGE_PASS, what SurfaceVoxels::bind binds. Ends with the
-    // barrier for texture fetches.
+    // barrier for texture fetches and image loads.
     void build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const SurfaceVoxels& surface);
 
-    void bind() const;  // UNIT_VOXEL_OCTANTS
+    void bind() const;  // IMAGE_VOXEL_OCTANTS
 
     const gl::Texture& texture() const { return texture_; }
 

@@ -660,6 +660,7 @@ void SurfaceVoxels::bind() const {
     m.now.faces.bindStorage(BINDING_VOXEL_FACES);
     m.now.records.bindStorage(BINDING_VOXEL_RECORDS);
     m.now.brickWords.bind(UNIT_VOXEL_BRICKS);
+    m.now.brickWords.bindImage(IMAGE_VOXEL_BRICKS, 0, GL_READ_ONLY);
     m.now.recordTexels.bind(UNIT_VOXEL_RECORDS);
     m.now.faceTexels.bind(UNIT_VOXEL_FACES);
     m.now.sourceTexels.bind(UNIT_VOXEL_FACE_SOURCES);

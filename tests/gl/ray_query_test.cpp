@@ -201,11 +201,13 @@ TEST_F(RayQueryTest, SameFacesAsTwinInALargeEmptySpace) {
 TEST_F(RayQueryTest, OctantWordsSayWhatIsThere) {
     voxelize(io::loadScene("builtin:spheres"), 64);
     const glm::ivec3 bricks = tables_.grid.bricks();
-    std::vector<glm::uvec4> words(8 * tables_.grid.brickCount());
-    octants_.texture().read(0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, words.data(), 16 * words.size());
+    std::vector<glm::uvec2> words(8 * tables_.grid.brickCount());
+    octants_.texture().read(0, GL_RG_INTEGER, GL_UNSIGNED_INT, words.data(), 8 * words.size());
+    // Mask and, in z, reach.
     const auto word = [&](int octant, const glm::ivec3& b) {
-        return words[static_cast<std::size_t>(b.x + octant * bricks.x +
-                                              8 * bricks.x * (b.y + bricks.y * b.z))];
+        const glm::uvec2 w =
+            words[static_cast<std::size_t>(b.x + octant * bricks.x + 8 * bricks.x * (b.y + bricks.y * b.z))];
+        return w.y == OCTANT_EMPTY ? glm::uvec3(0, 0, w.x) : glm::uvec3(w, 0);
     };
     std::size_t wrongMasks = 0, wrongReach = 0;
     for (int octant = 0; octant < 8; ++octant) {
@@ -224,7 +226,7 @@ TEST_F(RayQueryTest, OctantWordsSayWhatIsThere) {
         for (int z = 0; z < bricks.z; ++z)
             for (int y = 0; y < bricks.y; ++y)
                 for (int x = 0; x < bricks.x; ++x) {
-                    const glm::uvec4 w = word(octant, {x, y, z});
+                    const glm::uvec3 w = word(octant, {x, y, z});
                     for (std::uint32_t bit = 0; bit < 64; ++bit) {
                         const glm::ivec3 voxel = voxels::voxelOfBit({x, y, z}, bit);
                         std::uint32_t facing = 0;

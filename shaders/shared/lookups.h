@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+// The counters of lookups behind FrameContext::lookupCounters: one word per kind (LOOKUPS_* of
+// shared/cones.h), and its carries.
+#pragma once
+#include "shared/cones.h"
+
+#define LOOKUPS_CARRY 4  // word of the first kind's carries
+#define LOOKUPS_WORDS 8
+#define LOOKUP_TABLE 9  // storage slot in passes of mode traced
