@@ -42,7 +42,7 @@ vec3 smoothHitRadiance(VoxelHit hit, vec3 origin, vec3 direction) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = INVOCATION_PIXEL;
     Surface s;
     bool seen = fetchSurface(min(pixel, imageSize(result) - 1), s);
     Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));
@@ -66,9 +66,20 @@ void main() {
         // A bent normal can mirror into the surface: keep to the side of the triangle.
         direction -= 2.0 * min(dot(direction, s.geometricNormal), 0.0) * s.geometricNormal;
         VoxelHit hit = traceVoxels(origin, direction, glossy && l.z > 0.0 ? 1e9 : -1.0);
-        sum += weight * smoothHitRadiance(hit, origin, direction);
+        vec3 radiance = smoothHitRadiance(hit, origin, direction);
+        sum += weight * radiance;
+        if (glossy)
+            RECORD_RAY(PATH_SPECULAR_RAY, origin, direction, hit, 1.0,
+                       weight / (float(pixelRays.rays) * max(b.albedo, 1e-6)), radiance, glossy && l.z > 0.0);
     } while (++i < int(pixelRays.rays));
     vec3 value = glossy ? sum / (float(pixelRays.rays) * max(b.albedo, 1e-6)) : vec3(0.0);
+#ifdef RECORD_STEPS
+    RECORD_SURFACE(seen, s);
+    // The first pass takes the place of the irradiance.
+    if (glossy && recording() && pixelRays.pass == 0u) record.parts[PART_SPECULAR].value = vec3(0.0);
+    if (glossy) RECORD_PART(PART_SPECULAR, value, b.albedo);
+    return;
+#endif
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
 #if TEMPORAL == 2
     // What a smooth surface shows moves otherwise than the surface: means are short there.

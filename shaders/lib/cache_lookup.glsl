@@ -8,6 +8,7 @@
 // Before the call: SurfaceVoxels::bind. Includers that also trace rays share the samplers with
 // lib/ray_query.glsl.
 #include "lib/ray_query.glsl"
+#include "lib/record_face.glsl"
 #include "shared/irradiance.h"
 
 // Squares of components below this are left out: 3 % of the normal's length.
@@ -46,6 +47,7 @@ vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted) {
             faces = faces && updates != 0u && updates < IRRADIANCE_DEAD;
             float weight = faces ? t.x * t.y * t.z * share * coverage : 0.0;
             sum += weight * vec4(unpackHalf2x16(light.z), unpackHalf2x16(light.w).x, 1.0);
+            RECORD_CACHE_FACE(point, face, weight, vec3(unpackHalf2x16(light.z), unpackHalf2x16(light.w).x));
         }
         axes ^= lowest;
     } while (axes != 0u);

@@ -19,6 +19,7 @@
 #ifndef RAY_BACK_FACES
 #define RAY_BACK_FACES 0
 #endif
+#include "lib/record_steps.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
 layout(binding = UNIT_VOXEL_BRICKS) uniform usampler3D voxelBricks;
@@ -132,6 +133,15 @@ VoxelHit traceVoxels(vec3 origin, vec3 direction, float tMax) {
 #endif
             candidate = brickHas(word.xy, bitOfVoxel(cell));
             at = cell;
+#ifdef RECORD_STEPS
+            float edge = empty > 0 ? float(4 * empty) : 1.0;
+            if (alive)
+                RECORD_STEP(empty > 0   ? STEP_EMPTY
+                            : candidate ? STEP_TESTED
+                                        : STEP_VOXEL,
+                            worldFromGrid(origin + t * direction), t * grid.voxelSize, edge * grid.voxelSize,
+                            log2(edge), vec3(0.0), 0.0, 0.0);
+#endif
             // The planes through which the voxel, or the empty cube, is left.
             ivec3 border = empty > 0 ? brick * 4 + 4 - 4 * empty + pos * (8 * empty - 4) : cell + pos;
             vec3 exits = (vec3(border) - origin) * inverse;

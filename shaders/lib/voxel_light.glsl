@@ -13,6 +13,7 @@
 #endif
 #include "lib/random.glsl"
 #include "lib/ray_query.glsl"
+#include "lib/record_face.glsl"
 #include "lib/scene_tables.glsl"
 #include "shared/irradiance.h"
 #if EXACT_DIRECT
@@ -148,6 +149,8 @@ vec3 gatherIrradianceSequence(vec3 originGrid, vec3 geometricNormal, vec3 shadin
         float density = float(cosineRays) * cosine / kGatherPi + float(lightRays) * lightDensity;
         vec3 radiance = hitRadiance(hit, originGrid, direction);
         sum += above && arrived ? radiance * (cosine / kGatherPi / max(density, 1e-12)) : vec3(0.0);
+        RECORD_RAY(toLight ? PATH_LIGHT_RAY : PATH_COSINE_RAY, originGrid, direction, hit, 1.0,
+                   vec3(cosine / kGatherPi / max(density, 1e-12)), radiance, above && arrived);
         backs += !toLight && hit.backFirst ? 1.0 : 0.0;
     } while (++i < count);
     backShare = backs / float(max(cosineRays, 1));
