@@ -21,6 +21,7 @@ void addCompare(CLI::App& app);
 void addBench(CLI::App& app);
 void addScore(CLI::App& app);
 void addInfo(CLI::App& app);
+void addInspect(CLI::App& app);
 void addSettings(CLI::App& app);
 void addCommands(CLI::App& app);
 void addConvert(CLI::App& app);

@@ -55,6 +55,7 @@ int main(int argc, char** argv) {
     conelight::program::addBench(app);
     conelight::program::addScore(app);
     conelight::program::addInfo(app);
+    conelight::program::addInspect(app);
     conelight::program::addSettings(app);
     conelight::program::addCommands(app);
     conelight::program::addConvert(app);

@@ -266,6 +266,13 @@ const Scene& PictureSource::bakedScene(const reference::RadiositySettings& setti
     return impl_->bake(impl_->lit, settings, ignored, progress).scene;
 }
 
+PixelInspection PictureSource::inspect(const PictureRequest& drawn, int x, int y) {
+    if (!isRendererMode(drawn.mode) || !impl_->renderer)
+        throw Error(ErrorKind::Usage, "inspect: mode " + drawn.mode +
+                                          " keeps no cones or rays; traced, cones or thesis would be right");
+    return impl_->renderer->inspectPixel(x, y);
+}
+
 Picture PictureSource::draw(const PictureRequest& request, Progress* progress) {
     requireModeName(request.mode);
     if (impl_->scene == nullptr)

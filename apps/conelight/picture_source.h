@@ -72,6 +72,10 @@ class PictureSource {
     // renderer throws.
     Picture draw(const PictureRequest& request, Progress* progress);
 
+    // How a pixel of the last draw was gathered. Throws Error(Usage) for the modes on the CPU, which do not
+    // keep it.
+    PixelInspection inspect(const PictureRequest& drawn, int x, int y);
+
     // Mode radiosity: the lit scene, baked at the first call.
     const Scene& bakedScene(const reference::RadiositySettings& settings, Progress* progress);
 

@@ -9,6 +9,7 @@
 
 #include "conelight/error.h"
 #include "console/console.h"
+#include "inspection_text.h"
 #include "io/gltf_write.h"
 #include "picture_file.h"
 #include "video_file.h"
@@ -104,6 +105,13 @@ class Runner {
             case RequestKind::SingleFrame:
                 draw();
                 break;
+            case RequestKind::Inspect: {
+                draw();
+                const PixelInspection pixel =
+                    source_->inspect(requestFor(session_, base_), request.x, request.y);
+                for (const std::string& line : inspectionText(pixel, request.steps)) console_.print(line);
+                break;
+            }
             default:
                 break;
         }

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "conelight/inspect.h"
 #include "conelight/scene.h"
 #include "conelight/settings.h"
 
@@ -88,6 +89,11 @@ class Renderer {
 
     // Results of the last render().
     Image readImage() const;  // waits for the GPU
+    // How the light of pixel (x, y), counted from the upper left corner, was gathered in the last picture:
+    // its cones or rays once more, recorded (conelight/inspect.h). The picture stays as it is. Mode phong
+    // gathers nothing. What the shown component does not need is gathered for this. Throws Error(Usage)
+    // before the first render() and for a pixel outside the picture.
+    PixelInspection inspectPixel(int x, int y);
     std::uint32_t imageTexture()
         const;  // GL_TEXTURE_2D, RGBA32F, owned by the renderer; row 0 is the bottom row
     // The picture as a screen shows it (what toneMapped gives): GL_TEXTURE_2D, RGBA8, row 0 is the top row.

@@ -30,7 +30,8 @@ enum class Component {
     Normal,
     Depth,
     Voxels,
-    Emission
+    Emission,
+    ShadowMap
 };
 
 enum class ToneMap { None, Reinhard, Aces };
@@ -202,6 +203,39 @@ struct TracedSettings {
 // Fills in all fields but `bounces` and `budgeted`.
 void applyQuality(TracedSettings& settings, Quality quality);
 
+// Edges of the scene's triangles: over the picture, hidden ones left out, or alone, all of them.
+enum class Wireframe { Off, Over, Alone };
+
+// What views of voxels show. Mode thesis keeps radiance and opacity only: Radiance, Coverage, Level.
+enum class VoxelData {
+    Radiance,    // W/(sr m^2), what cones and rays read
+    Irradiance,  // cached or gathered indirect irradiance / pi
+    Age,  // updates behind that, as a colour: blue none, red 256 and more, magenta inside closed objects
+    Albedo,
+    Normal,  // axes from [-1,1] to [0,1]
+    Emission,
+    Coverage,  // share of the voxel's side that surface covers, 0..1
+    Bricks,    // occupied voxels per brick of 4^3, as a colour: blue 1, red 64
+    Level      // number of the level that is read, as a colour: blue 0, red 6
+};
+
+// Auto: what the mode's rays or cones meet. Faces: plane pieces in the voxels (mode traced).
+// Edges: cubes as wireframes. Volume: by opacity, front to back. Surfaces: on the picture's surfaces.
+enum class VoxelShape { Auto, Cubes, Edges, Faces, Volume, Surfaces };
+
+// Views that look inside; they change what is drawn, not the light.
+struct ViewSettings {
+    Wireframe wireframe = Wireframe::Off;
+    bool voxels = false;  // voxels among the objects of the picture; component voxels shows them alone
+    VoxelData voxelData = VoxelData::Radiance;
+    VoxelShape voxelShape = VoxelShape::Auto;
+    AutoFloat voxelLevel;       // 0..8; auto: cones.voxel_level, thesis.voxel_level, else 0
+    float voxelAperture = 0;    // full angle, rad; 0..1.5: each voxel in the level that a cone of it from the
+                                // eye would read there; 0: voxelLevel everywhere
+    float voxelDensity = 1.0f;  // of VoxelShape::Volume: opacity is 1 - (1 - coverage)^density; 0.001..1
+    int light = 0;              // whose shadow map is shown, in the scene's order; 0..4095
+};
+
 struct ImageSettings {
     float exposure =
         0.0f;  // stops: the linear image is multiplied by 2^exposure before the tone map; -20..20
@@ -218,6 +252,7 @@ struct Settings {
     ThesisSettings thesis;
     ConesSettings cones;
     TracedSettings traced;
+    ViewSettings view;
     ImageSettings image;
 };
 

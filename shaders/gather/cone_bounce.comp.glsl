@@ -24,5 +24,5 @@ void main() {
     // Below the largest half.
     irradiance = min(irradiance, 65000.0);
     faces[index].irradiance0 = packHalf2x16(irradiance.rg);
-    faces[index].irradiance1 = packHalf2x16(vec2(irradiance.b, 0.0)) | FACE_LIT;
+    faces[index].irradiance1 = packHalf2x16(vec2(irradiance.b, 0.0)) | FACE_LIT | (1u << FACE_AGE_SHIFT);
 }

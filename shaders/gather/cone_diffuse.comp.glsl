@@ -6,6 +6,7 @@
 #if !defined(OCCLUSION) || !defined(COUNT_LOOKUPS)
 #error OCCLUSION and COUNT_LOOKUPS must be 0 or 1
 #endif
+#include "lib/brdf.glsl"
 #include "lib/cone_trace.glsl"
 #include "lib/gbuffer.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -15,7 +16,7 @@ layout(std430, binding = BINDING_STORAGE_PASS) buffer LookupCounters { uint look
 #endif
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = INVOCATION_PIXEL;
     Surface s;
     bool seen = fetchSurface(min(pixel, imageSize(result) - 1), s) && all(lessThan(pixel, imageSize(result)));
     vec3 origin = s.position + cones.offset * s.geometricNormal;
@@ -29,7 +30,14 @@ void main() {
     vec4 gathered =
         gatherCones(origin, s.normal, matt ? cones.count : 0u, frame.sky, cones.maxDistance, 0.0, samples);
 #endif
+#ifdef RECORD_STEPS
+    Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));
+    RECORD_SURFACE(seen, s);
+    RECORD_PART(OCCLUSION == 1 ? PART_OCCLUSION : PART_DIFFUSE, OCCLUSION == 1 ? gathered.aaa : gathered.rgb,
+                OCCLUSION == 1 ? vec3(1.0) : b.diffuse);
+#else
     imageStore(result, pixel, gathered);
+#endif
 #if COUNT_LOOKUPS
     atomicAdd(lookups[OCCLUSION == 1 ? LOOKUPS_OCCLUSION : LOOKUPS_DIFFUSE], samples * kFetchesPerSample);
 #endif

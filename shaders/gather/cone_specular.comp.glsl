@@ -11,6 +11,7 @@
 #ifndef COUNT_LOOKUPS
 #error COUNT_LOOKUPS must be 0 or 1
 #endif
+#include "lib/brdf.glsl"
 #include "lib/cone_trace.glsl"
 #include "lib/gbuffer.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -22,7 +23,7 @@ layout(std430, binding = BINDING_STORAGE_PASS) buffer LookupCounters { uint look
 const float kWidestTan = 2.8284271;  // tan(acos(1/3))
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = INVOCATION_PIXEL;
     Surface s;
     bool seen = fetchSurface(min(pixel, imageSize(result) - 1), s) &&
                 all(lessThan(pixel, imageSize(result))) && !s.unlit;
@@ -44,7 +45,18 @@ void main() {
         ++samples;
     } while (!isFinished(m) && samples < kMaxSamples);
     float open = m.gathered.a >= kFullOpacity ? 0.0 : 1.0 - m.gathered.a;
+#ifdef RECORD_STEPS
+    Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));
+    RECORD_SURFACE(seen, s);
+    if (seen) {
+        RECORD_PATH(PATH_SPECULAR_CONE, m.origin, direction, tanHalf, vec3(1.0),
+                    marchedRadiance(m, frame.sky), 1.0 - open, m.t, open == 0.0 ? END_FULL : END_OPEN);
+        RECORD_PART(PART_SPECULAR, marchedRadiance(m, frame.sky),
+                    specularAlbedo(b, directionalAlbedo(b.nov, sqrt(b.alpha))));
+    }
+#else
     imageStore(result, pixel, vec4(marchedRadiance(m, frame.sky), open));
+#endif
 #if COUNT_LOOKUPS
     if (seen) atomicAdd(lookups[LOOKUPS_SPECULAR], samples * kFetchesPerSample);
 #endif

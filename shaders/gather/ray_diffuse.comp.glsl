@@ -7,6 +7,7 @@
 #ifndef OCCLUSION
 #error OCCLUSION must be 0 or 1
 #endif
+#include "lib/brdf.glsl"
 #include "lib/temporal.glsl"
 #include "lib/voxel_light.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -20,14 +21,17 @@ float openness(vec3 origin, vec3 normal, uint seed) {
         vec3 direction =
             cosineDirection(normal, sequencePoint(seed, pixelRays.pass * pixelRays.rays + uint(i)));
         VoxelHit hit = traceVoxels(origin, direction, pixelRays.reach);
-        sum += hit.face >= 0 ? hit.t / pixelRays.reach : 1.0;
+        float open = hit.face >= 0 ? hit.t / pixelRays.reach : 1.0;
+        sum += open;
+        RECORD_RAY(PATH_OCCLUSION_RAY, origin, direction, hit, 1.0 - open, vec3(1.0 / float(pixelRays.rays)),
+                   vec3(open), true);
     } while (++i < int(pixelRays.rays));
     return sum / float(pixelRays.rays);
 }
 #endif
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = INVOCATION_PIXEL;
     Surface s;
     bool seen = fetchSurface(min(pixel, imageSize(result) - 1), s);
     bool matt = seen && !s.unlit && (s.metallic < 1.0 || s.roughness > pixelRays.specularLimit);
@@ -46,6 +50,17 @@ void main() {
 #endif
 #if COUNT_LOOKUPS
     addLookups(OCCLUSION == 1 ? LOOKUPS_OCCLUSION : LOOKUPS_DIFFUSE, matt);
+#endif
+#ifdef RECORD_STEPS
+    Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));
+    RECORD_SURFACE(seen, s);
+    RECORD_PART(OCCLUSION == 1 ? PART_OCCLUSION : PART_DIFFUSE, matt ? value : vec3(0.0),
+                OCCLUSION == 1 ? vec3(1.0) : b.diffuse);
+#if !OCCLUSION
+    // Unless the pixel has rays of its own into the lobe, which are recorded after this.
+    RECORD_PART(PART_SPECULAR, matt ? value : vec3(0.0), b.albedo);
+#endif
+    return;
 #endif
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
     imageStore(result, pixel, withPass(pixel, s, seen, matt ? value : vec3(0.0), pixelRays.longestMean));

@@ -12,7 +12,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba32ui, binding = 0) writeonly uniform uimage2D result;
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = INVOCATION_PIXEL;
     Surface s;
     bool seen = fetchSurface(min(pixel, imageSize(result) - 1), s);
     Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));
@@ -30,14 +30,25 @@ void main() {
         direction -= 2.0 * min(dot(direction, s.geometricNormal), 0.0) * s.geometricNormal;
         bool counts = glossy && weight.r + weight.g + weight.b > 0.0;
         VoxelHit hit;
-        sum += weight * rayRadiance(origin, direction, counts ? 1e9 : -1.0, -1.0,
-                                    counts ? int(pixelRays.reflections) : 0, pixelRays.reflectedLimit, random,
-                                    hit);
+        vec3 radiance =
+            rayRadiance(origin, direction, counts ? 1e9 : -1.0, -1.0, counts ? int(pixelRays.reflections) : 0,
+                        pixelRays.reflectedLimit, random, hit);
+        sum += weight * radiance;
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);
+        if (glossy)
+            RECORD_RAY(PATH_SPECULAR_RAY, origin, direction, hit, 1.0,
+                       weight / (float(pixelRays.rays) * max(b.albedo, 1e-6)), radiance, counts);
     } while (++i < int(pixelRays.rays));
     vec3 value = glossy ? sum / (float(pixelRays.rays) * max(b.albedo, 1e-6)) : vec3(0.0);
 #if COUNT_LOOKUPS
     addLookups(LOOKUPS_SPECULAR, glossy);
+#endif
+#ifdef RECORD_STEPS
+    RECORD_SURFACE(seen, s);
+    // The first pass takes the place of the irradiance.
+    if (glossy && recording() && pixelRays.pass == 0u) record.parts[PART_SPECULAR].value = vec3(0.0);
+    if (glossy) RECORD_PART(PART_SPECULAR, value, b.albedo);
+    return;
 #endif
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
 #if TEMPORAL == 2

@@ -6,6 +6,7 @@
 //
 // Loops end at the bottom and their conditions hold "is there a surface": branches skip nothing on llvmpipe.
 #include "lib/gbuffer.glsl"
+#include "lib/record_steps.glsl"
 #include "lib/thesis_defects.glsl"
 #include "lib/thesis_light.glsl"
 #include "lib/thesis_march.glsl"
@@ -128,6 +129,17 @@ bool coneEnded(float t, vec3 position, float reach) {
 }
 
 #if DIFFUSE && DIFFUSE_CONES > 0
+#ifdef RECORD_STEPS
+// What the sum over cones is multiplied by in the end.
+float setShare(float lift) {
+#if NO_COSINE_WEIGHTS
+    return 5.0 / float(DIFFUSE_CONES);
+#else
+    return 1.0 / weightOfSets(FRONT_CONES, INTERMEDIATE_CONES, SIDE_CONES, lift);
+#endif
+}
+#endif
+
 // Light from all diffuse cones, weighted to a mean: what a white surface shows. One loop over all cones.
 vec3 traceDiffuse(Surface s, bool isLit, out uint samples) {
     ConeFrame axes = coneFrame(s.normal);
@@ -152,6 +164,7 @@ vec3 traceDiffuse(Surface s, bool isLit, out uint samples) {
         vec4 texel = sampleVolume(origin + t * direction.xyz, size);
         ++samples;
         ++coneSamples;
+        Gathered before = got;
 #if DIFFUSE == CUSTOMISED
 #if PREMULTIPLIED_FIRST_HIT
         vec3 color = texel.rgb;
@@ -168,6 +181,10 @@ vec3 traceDiffuse(Surface s, bool isLit, out uint samples) {
 #else
         accumulate(got, texel, stepOpacity(texel.a, stride, texelEdge));
 #endif
+        if (running)
+            RECORD_STEP(STEP_SAMPLE, origin + t * direction.xyz, t, texelEdge,
+                        sampleLevel(size, grid.voxelSize, grid.maxLevel), got.color - before.color,
+                        got.opacity - before.opacity, got.opacity);
         t += stride;
         bool left = coneEnded(t, origin + t * direction.xyz, cone.reach);
         if (left || got.opacity >= 0.999 || coneSamples >= thesis.maxSamples) {
@@ -175,6 +192,10 @@ vec3 traceDiffuse(Surface s, bool isLit, out uint samples) {
             if (left) got.color += max(1.0 - got.opacity, 0.0) * frame.sky;
 #endif
             sum += direction.w * got.color;
+            if (running)
+                RECORD_PATH(PATH_DIFFUSE_CONE, origin, direction.xyz, 0.5 * cone.spread,
+                            vec3(direction.w * setShare(lift)), got.color, got.opacity, t,
+                            got.opacity >= 0.999 ? END_FULL : END_OPEN);
             ++k;
 #if NAN_AXES
             // The original's cones along an undefined axis read an empty corner of the volume: black.
@@ -215,7 +236,12 @@ vec3 traceSpecular(Surface s, vec3 mirrored, float shininess, bool isTraced, ino
         float stride = stepLength(cone, diameter, texelEdge);
         vec4 texel = sampleVolume(origin + t * mirrored, size);
         ++coneSamples;
+        Gathered before = got;
         accumulate(got, texel, stepOpacity(texel.a, stride, texelEdge));
+        if (running)
+            RECORD_STEP(STEP_SAMPLE, origin + t * mirrored, t, texelEdge,
+                        sampleLevel(size, grid.voxelSize, grid.maxLevel), got.color - before.color,
+                        got.opacity - before.opacity, got.opacity);
         t += stride;
         bool left = coneEnded(t, origin + t * mirrored, cone.reach);
 #if !SHORT_REACH
@@ -224,6 +250,9 @@ vec3 traceSpecular(Surface s, vec3 mirrored, float shininess, bool isTraced, ino
         running = running && !left && got.opacity < 0.999 && coneSamples < thesis.maxSamples;
     } while (running);
     samples += isTraced ? coneSamples : 0u;
+    if (isTraced)
+        RECORD_PATH(PATH_SPECULAR_CONE, origin, mirrored, 0.5 * cone.spread, vec3(1.0), got.color,
+                    got.opacity, t, got.opacity >= 0.999 ? END_FULL : END_OPEN);
     return isTraced ? got.color : vec3(0.0);
 }
 #endif
@@ -274,15 +303,23 @@ float traceOcclusion(Surface s, ThesisLight light, bool isTraced, inout uint sam
         sampled *= x * x * (3.0 - 2.0 * x);
 #endif
         float added = stepOpacity(sampled, length, texelEdge);
+        float opacityBefore = opacity;
 #if NO_STEP_CORRECTION
         opacity += (1.0 - opacity) * added;
 #else
         opacity = min(opacity + added, 1.0);
 #endif
+        if (running)
+            RECORD_STEP(STEP_SAMPLE, origin + t * direction, t, texelEdge,
+                        sampleLevel(size, grid.voxelSize, grid.maxLevel), vec3(0.0), opacity - opacityBefore,
+                        opacity);
         t += stride;
         running = running && t < end && opacity < 0.999 && coneSamples < thesis.maxSamples;
     } while (running);
     samples += started ? coneSamples : 0u;
+    RECORD_PATH(PATH_OCCLUSION_CONE, origin, direction, 0.5 * cone.spread,
+                vec3(1.0 / float(max(thesis.lightCount, 1u))), vec3(started ? 1.0 - opacity : 1.0),
+                started ? opacity : 0.0, min(t, end), opacity >= 0.999 ? END_FULL : END_OPEN);
     return started ? opacity : 0.0;
 }
 #endif
@@ -313,7 +350,7 @@ float reflectance(float phongSpecular, float shininess) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = INVOCATION_PIXEL;
     bool inside = all(lessThan(pixel, ivec2(frame.width, frame.height)));
     Surface s;
     bool seen = fetchSurface(min(pixel, ivec2(frame.width, frame.height) - 1), s) && inside;
@@ -356,6 +393,7 @@ void main() {
 #if SPECULAR_PER_LIGHT
         bool reflects = isLit && strength * weight > thesis.minSpecular;
         specular += strength * weight * traceSpecular(s, mirrored, shininess, reflects, specularSamples);
+        if (reflects) RECORD_WEIGHT(strength * weight);
 #else
         mirrorWeight = max(mirrorWeight, weight);
 #endif
@@ -366,21 +404,37 @@ void main() {
     mirrorWeight = strength * (thesis.lightCount == 0u ? 1.0 : mirrorWeight);
     bool reflects = isLit && mirrorWeight > thesis.minSpecular;
     specular = mirrorWeight * traceSpecular(s, mirrored, shininess, reflects, specularSamples);
+    if (reflects) RECORD_WEIGHT(mirrorWeight);
 #endif
 
     vec3 diffuse = vec3(0.0);
+    vec3 diffuseScale = vec3(1.0);
 #if DIFFUSE && DIFFUSE_CONES > 0
     diffuse = traceDiffuse(s, isLit, diffuseSamples);
+    vec3 gathered = isLit ? diffuse : vec3(0.0);
 #if !NO_ALBEDO
     vec3 albedo = color * materials[material].phongDiffuse;
 #if !UNBOUNDED_SPECULAR
     albedo = min(albedo, 1.0) * (1.0 - strength);
 #endif
     diffuse *= albedo;
+    diffuseScale = albedo;
 #endif
 #if OCCLUDED_INDIRECT
     diffuse *= 1.0 - leastOcclusion;
+    diffuseScale *= 1.0 - leastOcclusion;
 #endif
+    RECORD_PART(PART_DIFFUSE, gathered, diffuseScale);
+#endif
+#ifdef RECORD_STEPS
+    RECORD_SURFACE(seen, s);
+#if SPECULAR
+    RECORD_PART(PART_SPECULAR, isLit ? specular : vec3(0.0), vec3(1.0));
+#endif
+#if OCCLUSION
+    RECORD_PART(PART_OCCLUSION, vec3(visibleSum / max(float(thesis.lightCount), 1.0)), vec3(1.0));
+#endif
+    return;
 #endif
 
 #if VIEW == VIEW_FULL

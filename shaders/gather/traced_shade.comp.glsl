@@ -15,6 +15,7 @@
 #endif
 // COUNT_LOOKUPS 1: adds lookups to the counters: of the cache, and of shadow maps as those of occlusion.
 #define GATHERS (SHOW_DIFFUSE || SHOW_SPECULAR)
+#define RECORD_CACHE
 #include "lib/brdf.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/lookup_count.glsl"
@@ -22,6 +23,7 @@
 #include "lib/lights.glsl"
 #endif
 #include "lib/pixel_history.glsl"
+#include "lib/record_steps.glsl"
 #include "shared/pixel_rays.h"
 #if GATHERS && !IRRADIANCE
 #include "lib/cache_lookup.glsl"
@@ -33,7 +35,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba32f, binding = 0) writeonly uniform image2D result;
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = INVOCATION_PIXEL;
     Surface s;
     bool seen = fetchSurface(min(pixel, imageSize(result) - 1), s);
     Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));
@@ -68,6 +70,12 @@ void main() {
     gathered += b.albedo * lobe;
 #endif
     radiance += gathers ? gathered : vec3(0.0);
+#ifdef RECORD_STEPS
+    RECORD_SURFACE(seen, s);
+    RECORD_PART(PART_DIFFUSE, gathers ? irradiance : vec3(0.0), b.diffuse);
+    RECORD_PART(PART_SPECULAR, gathers ? irradiance : vec3(0.0), b.albedo);
+    return;
+#endif
 #endif
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
     vec3 behind = SHOW_DIRECT == 1 ? frame.sky : vec3(0.0);

@@ -3,12 +3,12 @@
 // does, by trilinear weight, square of the normal's component and coverage:
 //   E(p) = sum t n_k^2 W E(F) / sum t n_k^2 W      (docs/theory/4_gather.md, "The cache at pixels")
 // Only axes along which the normal has a part worth a fetch are visited: on walls along the axes one of
-// three. Coverage stands beside the irradiance (IRRADIANCE_DEAD in shared/irradiance.h), so that a face is
-// one fetch.
+// three.
 //
 // Before the call: SurfaceVoxels::bind. Includers that also trace rays share the samplers with
 // lib/ray_query.glsl.
 #include "lib/ray_query.glsl"
+#include "lib/record_face.glsl"
 #include "shared/irradiance.h"
 layout(binding = IMAGE_VOXEL_BRICKS, rgba32ui) readonly uniform uimage3D voxelBrickImage;
 
@@ -49,7 +49,7 @@ vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted) {
         int first = int(faceBase(record));
         uint left = any ? directions & facing : 0u;
         do {
-            COUNT_LOOKUP(left != 0u ? 1 : 0);
+            COUNT_LOOKUP(left != 0u ? 2 : 0);
             uint lowest = left & (0u - left);
             int face = left != 0u ? first + bitCount(directions & (lowest - 1u)) : 0;
             uvec4 light = texelFetch(voxelFaces, 2 * face + 1);
@@ -58,6 +58,7 @@ vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted) {
             float coverage = unpackWeight(texelFetch(voxelFaces, 2 * face).y);
             float weight = left != 0u && lit ? t.x * t.y * t.z * share * coverage : 0.0;
             sum += weight * vec4(unpackHalf2x16(light.z), unpackHalf2x16(light.w).x, 1.0);
+            RECORD_CACHE_FACE(point, face, weight, vec3(unpackHalf2x16(light.z), unpackHalf2x16(light.w).x));
             left ^= lowest;
         } while (left != 0u);
         corners &= corners - 1u;

@@ -12,6 +12,7 @@
 #error DIRECTIONAL and AREA must be 0 or 1
 #endif
 #include "lib/radiance_volume.glsl"
+#include "lib/record_steps.glsl"
 #include "shared/cones.h"
 layout(std140, binding = BINDING_CONES) uniform ConeBlock { ConeConstants cones; };
 layout(binding = UNIT_RADIANCE_VOLUME) uniform sampler3D radianceVolume;
@@ -111,10 +112,13 @@ void stepMarch(inout March m, float step) {
     s *= max(1.0 - middle * m.fade, 0.0);
     m.t += delta;
 #if AREA
-    m.gathered += s * min((1.0 - m.gathered.a) / max(s.a, 1e-6), 1.0);
+    vec4 added = s * min((1.0 - m.gathered.a) / max(s.a, 1e-6), 1.0);
 #else
-    m.gathered += s * (1.0 - m.gathered.a);  // eq. 4.3
+    vec4 added = s * (1.0 - m.gathered.a);  // eq. 4.3
 #endif
+    m.gathered += added;
+    RECORD_STEP(STEP_SAMPLE, m.origin + middle * m.direction, middle, texel, level, added.rgb, added.a,
+                m.gathered.a);
 }
 
 bool isFinished(March m) { return m.t >= m.end || m.gathered.a >= kFullOpacity; }
@@ -152,6 +156,9 @@ vec4 gatherCones(vec3 origin, vec3 normal, uint count, vec3 sky, float maxDistan
         if (isFinished(m)) {
             float open = m.gathered.a >= kFullOpacity ? 0.0 : 1.0 - m.gathered.a;
             sum += cones.cone[cone].w * vec4(marchedRadiance(m, sky), open);
+            RECORD_PATH(fade > 0.0 ? PATH_OCCLUSION_CONE : PATH_DIFFUSE_CONE, origin, m.direction, m.tanHalf,
+                        vec3(cones.cone[cone].w), fade > 0.0 ? vec3(open) : marchedRadiance(m, sky),
+                        1.0 - open, m.t, open == 0.0 ? END_FULL : END_OPEN);
             ++cone;
             uint next = min(cone, MAX_CONES - 1u);
             m = startMarch(origin, frame * cones.cone[next].xyz, cones.aperture[next].x, maxDistance, fade);

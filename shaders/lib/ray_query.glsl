@@ -20,6 +20,7 @@
 #define RAY_BACK_FACES 0
 #endif
 #include "lib/lookup_count.glsl"
+#include "lib/record_steps.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
 layout(binding = UNIT_VOXEL_BRICKS) uniform usampler3D voxelBricks;
@@ -156,6 +157,15 @@ VoxelHit traceVoxels(vec3 origin, vec3 direction, float tMax) {
 #endif
             candidate = brickHas(word, bitOfVoxel(cell));
             at = cell;
+#ifdef RECORD_STEPS
+            float edge = empty > 0 ? float(4 * empty) : 1.0;
+            if (alive)
+                RECORD_STEP(empty > 0   ? STEP_EMPTY
+                            : candidate ? STEP_TESTED
+                                        : STEP_VOXEL,
+                            worldFromGrid(origin + t * direction), t * grid.voxelSize, edge * grid.voxelSize,
+                            log2(edge), vec3(0.0), 0.0, 0.0);
+#endif
             // The planes through which the voxel, or the empty cube, is left.
             ivec3 border = empty > 0 ? (cell & ~3) + nearSide + ((4 * empty) ^ turn) - turn : cell + pos;
             vec3 exits = (vec3(border) - origin) * inverse;

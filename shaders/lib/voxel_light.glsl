@@ -27,6 +27,7 @@
 #include "lib/ggx_sample.glsl"
 #include "lib/random.glsl"
 #include "lib/ray_query.glsl"
+#include "lib/record_face.glsl"
 #include "lib/scene_tables.glsl"
 #include "lib/tangent_frame.glsl"
 #include "shared/irradiance.h"
@@ -122,8 +123,10 @@ LobeStep reflectRay(int face, FaceShade s, vec2 lobe, vec3 matt, vec3 point, vec
     next.radiance = emission + share * max(matt - emission, vec3(0.0));
 #if EXACT_DIRECT
     DirectLight light = DirectLight(vec3(0.0), vec3(0.0));
-    addPunctualLights(light, true, Receiver(worldFromGrid(point + faceRise(texelFetch(voxelFaces, 2 * face), normal)),
-                                               normal, normal, -direction, kShadowVoxelLift), b);
+    addPunctualLights(light, true,
+                      Receiver(worldFromGrid(point + faceRise(texelFetch(voxelFaces, 2 * face), normal)),
+                               normal, normal, -direction, kShadowVoxelLift),
+                      b);
     next.radiance += light.specular;
 #else
     next.radiance +=
@@ -283,6 +286,8 @@ vec3 gatherIrradianceSequence(vec3 originGrid, vec3 geometricNormal, vec3 shadin
         if (hit.face < 0) lightDensity = 0.0;
         float density = float(cosineRays) * cosine / kGatherPi + float(lightRays) * lightDensity;
         sum += above && arrived ? radiance * (cosine / kGatherPi / max(density, 1e-12)) : vec3(0.0);
+        RECORD_RAY(toLight ? PATH_LIGHT_RAY : PATH_COSINE_RAY, originGrid, direction, hit, 1.0,
+                   vec3(cosine / kGatherPi / max(density, 1e-12)), radiance, above && arrived);
         backs += !toLight && hit.backFirst ? 1.0 : 0.0;
     } while (++i < count);
     backShare = backs / float(max(cosineRays, 1));

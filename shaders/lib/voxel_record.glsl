@@ -70,6 +70,12 @@ uint packLobe(float metallic, float roughness) {
     return (uint(floor(clamp(metallic, 0.0, 1.0) * 15.0 + 0.5)) << 5) |
            uint(floor(clamp(roughness, 0.0, 1.0) * 31.0 + 0.5));
 }
+// From FaceRecord::irradiance1.
+uint faceUpdates(uint irradiance1) {
+    uint age = (irradiance1 >> FACE_AGE_SHIFT) & FACE_AGE_MASK;
+    return (irradiance1 & FACE_DEAD) != 0u ? FACE_UPDATES_DEAD : (age == 0u ? 0u : 1u << (age - 1u));
+}
+
 vec2 unpackLobe(uint bits) { return vec2((bits >> 5) & 15u, bits & 31u) / vec2(15.0, 31.0); }
 
 // Plane of a face: unit normal, and its offset from the voxel's centre in voxels.

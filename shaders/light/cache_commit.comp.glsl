@@ -27,6 +27,7 @@ void main() {
         flux += inside && !dead ? faceFlux(hitTexel, radiance) : 0.0;
         shade.z = packHalf2x16(irradiance.rg);
         shade.w = packHalf2x16(vec2(irradiance.b, 0.0)) | (shade.w & (FACE_LOBE_BITS | FACE_AREA_LIGHT)) |
+                  (uint(findMSB(updates) + 1) << FACE_AGE_SHIFT) |
                   (dead ? FACE_DEAD : (updates != 0u ? FACE_LIT : 0u));
         if (inside) {
             faces[2u * at + 1u].zw = shade.zw;

@@ -21,8 +21,8 @@ struct ConeConstants {
     // ---- 16 B
     float specularMinTan;     // tangent of half the narrowest aperture
     float occlusionDistance;  // m
-    int voxelLevel;           // shown by component voxels
     uint pad0;
+    uint pad1;
     // ---- 32 B
     vec4 cone[MAX_CONES];      // xyz direction about +z, w weight / pi
     vec4 aperture[MAX_CONES];  // x tangent of the half-angle

@@ -13,7 +13,33 @@ struct DisplayConstants {
     uint pad0;
 };  // 16 B
 
+// Uniform block at BINDING_PASS of image/wireframe.*.
+struct WireframeConstants {
+    vec3 radiance;
+    float opacity;
+    // ---- 16 B
+    float halfWidth;  // pixels
+    uint pad0;
+    uint pad1;
+    uint pad2;
+};  // 32 B
+
+// Uniform block at BINDING_PASS of image/shadow_view.comp.glsl.
+struct ShadowViewConstants {
+    uint light;  // in the light table
+    uint tiles;
+    uint tilesPerEdge;  // of a layer
+    uint columns;
+    // ---- 16 B
+    uint rows;
+    uint pad0;
+    uint pad1;
+    uint pad2;
+};  // 32 B
+
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::DisplayConstants) == 16);
+static_assert(sizeof(conelight::gpu::WireframeConstants) == 32);
+static_assert(sizeof(conelight::gpu::ShadowViewConstants) == 32);
 #endif

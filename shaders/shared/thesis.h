@@ -46,8 +46,8 @@ struct ThesisConstants {
     uint switches;    // THESIS_*
     uint maxSamples;  // per cone
     uint lightCount;
-    uint viewLevel;  // level shown by the voxel views
-};                   // 80 B
+    uint pad0;
+};  // 80 B
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus

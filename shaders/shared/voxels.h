@@ -53,8 +53,11 @@
 #define FACE_METALLIC_SHIFT 21u      // 4 bit: metalness
 #define FACE_LOBE_BITS 0x01ff0000u   // both
 #define FACE_AREA_LIGHT 0x02000000u  // its emission is the light of a rectangle, not in `radiance`
-#define FACE_LIT 0x40000000u         // irradiance was gathered at least once
-#define FACE_DEAD 0x80000000u        // inside a closed object: left out
+#define FACE_AGE_SHIFT 26u           // 4 bit: updates behind the irradiance, 0: none, n: 2^(n-1) to 2^n - 1
+#define FACE_AGE_MASK 15u
+#define FACE_UPDATES_DEAD 0xffffffffu  // faceUpdates of what is inside a closed object
+#define FACE_LIT 0x40000000u           // irradiance was gathered at least once
+#define FACE_DEAD 0x80000000u          // inside a closed object: left out
 
 CONELIGHT_SHARED_BEGIN
 

@@ -6,6 +6,7 @@
 #include "gather/cone_gather.h"
 #include "gather/direct_light.h"
 #include "gather/picture_parts.h"
+#include "gather/voxel_view.h"
 #include "gl/gl.h"
 #include "light/inject_light.h"
 #include "shared/bindings.h"
@@ -36,6 +37,7 @@ struct ConesMode::Impl {
     voxels::RadianceVolume volume;
     gather::ConeGather cones;
     gather::DirectLight direct;
+    gather::VoxelView voxelView;
     // Pictures of what was gathered, of the frame's size.
     gl::Texture diffuse, specular;
 
@@ -48,6 +50,7 @@ struct ConesMode::Impl {
     void updateVolume(const FrameContext& frame);
     void resize(gl::Texture& picture, const FrameContext& frame, const char* label);
     void drawOcclusion(const FrameContext& frame);
+    void drawVoxels(const FrameContext& frame);
     void drawParts(const FrameContext& frame, const gather::PictureParts& parts);
 };
 
@@ -106,6 +109,17 @@ void ConesMode::Impl::drawOcclusion(const FrameContext& frame) {
     frame.programs.get(occlusionDesc()).dispatch(frame.width, frame.height);
 }
 
+// What the volume holds is shown as cones read it, the rest by the faces behind it.
+void ConesMode::Impl::drawVoxels(const FrameContext& frame) {
+    const gather::VoxelView::Target target{frame.programs, frame.profiler, frame.settings,
+                                           frame.view,     frame.output,   frame.voxelsAmong};
+    const VoxelData data = frame.settings.view.voxelData;
+    if (data == VoxelData::Radiance || data == VoxelData::Coverage || data == VoxelData::Level)
+        voxelView.draw(target, volume);
+    else
+        voxelView.draw(target, surface, false);
+}
+
 void ConesMode::Impl::drawParts(const FrameContext& frame, const gather::PictureParts& parts) {
     // Nothing is gathered without a bounce; the parts are black then.
     const bool gathers = frame.settings.cones.bounces > 0;
@@ -155,11 +169,26 @@ void ConesMode::render(const FrameContext& frame) {
             impl_->drawOcclusion(frame);
             break;
         case Component::Voxels:
-            impl_->cones.drawVoxels(frame.programs, frame.profiler, impl_->volume, frame.output);
+            impl_->drawVoxels(frame);
             break;
         default:
             impl_->drawParts(frame, parts);
     }
+}
+
+void ConesMode::record(const FrameContext& frame, gather::StepRecorder& recorder) {
+    using Recorded = gather::ConeGather::Recorded;
+    Impl& m = *impl_;
+    m.geometryDirty = m.geometryDirty || frame.geometryChanged;
+    m.lightDirty = m.lightDirty || frame.lightChanged;
+    m.updateVolume(frame);
+    frame.gbuffer.bind(UNIT_GBUFFER);
+    m.resize(m.diffuse, frame, "gathered diffuse");
+    if (frame.settings.component == Component::Occlusion)
+        return m.cones.record(frame.programs, m.volume, m.diffuse, Recorded::Occlusion, recorder);
+    if (frame.settings.cones.bounces == 0) return;
+    m.cones.record(frame.programs, m.volume, m.diffuse, Recorded::Diffuse, recorder);
+    m.cones.record(frame.programs, m.volume, m.diffuse, Recorded::Specular, recorder);
 }
 
 std::vector<gl::ProgramDesc> ConesMode::programDescs() {

@@ -18,6 +18,7 @@ class ConesMode : public ModeRenderer {
     ~ConesMode() override;
     void render(const FrameContext& frame) override;
     bool needsShadows(const Settings& settings) const override;
+    void record(const FrameContext& frame, gather::StepRecorder& recorder) override;
 
     static std::vector<gl::ProgramDesc> programDescs();
 

@@ -4,6 +4,7 @@
 
 #include "conelight/scene.h"
 #include "conelight/settings.h"
+#include "gather/step_recorder.h"
 #include "gl/pass.h"
 #include "gl/program.h"
 #include "gl/texture.h"
@@ -31,6 +32,7 @@ struct FrameContext {
     bool everythingAnew;         // "every frame": build all, also what did not change
     bool lightChanged;           // geometryChanged, or lights or light settings changed: inject again
     gl::Buffer* lookupCounters;  // not null: count texture lookups of cones or rays (shared/lookups.h)
+    bool voxelsAmong = false;    // with component voxels: on top of the picture in `output`
 };
 
 // One way of making the picture. Owns its volumes and passes; lives as long as the scene is shown in its
@@ -41,6 +43,9 @@ class ModeRenderer {
     // The frame block, scene tables, G-buffer and (if needed) shadow maps are ready.
     virtual void render(const FrameContext& frame) = 0;
     virtual bool needsShadows(const Settings& settings) const = 0;
+    // Gathers for the recorder's pixel once more what the picture of this frame shows there, or would show in
+    // component full. State as for render(); the G-buffer is that of the picture.
+    virtual void record(const FrameContext&, gather::StepRecorder&) {}
     // What the renderer asks; for modes whose answer depends on the scene.
     virtual bool needsShadowsIn(const Scene&, const Settings& settings) const {
         return needsShadows(settings);

@@ -14,6 +14,8 @@
 #include "gl/host_state.h"
 #include "image/debug_view.h"
 #include "image/display.h"
+#include "image/shadow_view.h"
+#include "image/wireframe.h"
 #include "light/emissive_quads.h"
 #include "scene/scene_checks.h"
 #include "shared/bindings.h"
@@ -61,6 +63,8 @@ struct Renderer::Impl {
     light::ShadowMaps shadows;
     std::optional<Targets> targets;
     image::Display display;
+    image::ShadowView shadowMapView;
+    image::WireframeView wireframe;
     gpu::FrameConstants constants{};
     gl::Buffer frameBlock{sizeof(gpu::FrameConstants), "frame constants"};
     gl::Buffer lookupCounters{4 * LOOKUPS_WORDS, "lookup counters"};
@@ -77,6 +81,9 @@ struct Renderer::Impl {
     bool lightChanged = true;
     bool skyChanged = false;
     std::uint32_t frameIndex = 0;
+    // Of the last picture.
+    Camera shownCamera;
+    Settings shownSettings;
     FrameStats stats;
 
     explicit Impl(gl::ShaderProvider provider) : programs(std::move(provider)) {}
@@ -87,7 +94,11 @@ struct Renderer::Impl {
 
     void render(const Camera& camera, int width, int height, const Settings& settings);
     void prepareMode(const Settings& settings);
-    void drawMode(int width, int height, const Settings& settings);
+    frame::FrameContext context(const Settings& settings);
+    void markBuilt(const Settings& settings);
+    void drawMode(const Settings& settings);
+    void drawOverlays(const Settings& settings);
+    PixelInspection inspect(int x, int y);
     void collectStats(double cpuStart, double wallStart);
 };
 
@@ -201,7 +212,8 @@ void Renderer::Impl::render(const Camera& camera, int width, int height, const S
     // Frame constants. Shadow maps come first where they are needed: they complete the light table.
     const bool debugView = image::isDebugView(settings.component);
     scene->bind();
-    if (!debugView) prepareMode(settings);
+    const bool shadowView = settings.component == Component::ShadowMap;
+    if (!debugView || settings.view.voxels) prepareMode(settings);
     constants = view::frameConstants(camera, width, height, *scene, source.sky, frameIndex++, 0);
     frameBlock.update(constants);
     frameBlock.bindUniform(BINDING_FRAME);
@@ -212,10 +224,15 @@ void Renderer::Impl::render(const Camera& camera, int width, int height, const S
     gl::barrier(gl::Access::TextureFetch | gl::Access::ShaderStorage);
     if (debugView)
         image::drawDebugView(programs, profiler, targets->gbuffer, settings.component, targets->output);
+    else if (shadowView)
+        shadowMapView.draw(programs, profiler, source, *scene, settings.view.light, targets->output);
     else
-        drawMode(width, height, settings);
-    gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer);
+        drawMode(settings);
+    gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess);
+    if (!shadowView) drawOverlays(settings);
     scene->endFrame();
+    shownCamera = camera;
+    shownSettings = settings;
     collectStats(cpuStart, wallStart);
 }
 
@@ -243,7 +260,9 @@ void Renderer::Impl::prepareMode(const Settings& settings) {
     }
 
     // Shadow maps; they fill in the light table that later passes read.
-    if (mode->needsShadowsIn(source, settings) && !shadowsCurrent) {
+    const bool wantsShadows =
+        settings.component == Component::ShadowMap || mode->needsShadowsIn(source, settings);
+    if (wantsShadows && !shadowsCurrent) {
         shadows.update(programs, profiler, *scene, settings.light, everyFrame);
         scene->bind();
         shadowsCurrent = true;
@@ -251,10 +270,38 @@ void Renderer::Impl::prepareMode(const Settings& settings) {
     shadows.bind();
 }
 
-void Renderer::Impl::drawMode(int width, int height, const Settings& settings) {
-    mode->render({programs, profiler, source, *scene, settings, constants, width, height, targets->gbuffer,
-                  shadows, targets->output, geometryChanged, everyFrame, lightChanged,
-                  countLookups ? &lookupCounters : nullptr});
+frame::FrameContext Renderer::Impl::context(const Settings& settings) {
+    return {programs,       profiler,        source,
+            *scene,         settings,        constants,
+            targets->width, targets->height, targets->gbuffer,
+            shadows,        targets->output, geometryChanged,
+            everyFrame,     lightChanged,    countLookups ? &lookupCounters : nullptr};
+}
+
+void Renderer::Impl::drawMode(const Settings& settings) {
+    mode->render(context(settings));
+    markBuilt(settings);
+}
+
+// Voxels among the objects, edges of triangles.
+void Renderer::Impl::drawOverlays(const Settings& settings) {
+    if (settings.view.voxels && settings.component != Component::Voxels && settings.mode != Mode::Phong) {
+        Settings voxels = settings;
+        voxels.component = Component::Voxels;
+        frame::FrameContext among = context(voxels);
+        // What the picture was drawn with is up to date.
+        if (!image::isDebugView(settings.component)) among.geometryChanged = among.lightChanged = false;
+        among.voxelsAmong = true;
+        mode->render(among);
+        markBuilt(settings);
+        gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer);
+    }
+    if (settings.view.wireframe != Wireframe::Off)
+        wireframe.draw(programs, profiler, *scene, targets->gbuffer, settings.view.wireframe,
+                       settings.image.exposure, source.sky, true, targets->output);
+}
+
+void Renderer::Impl::markBuilt(const Settings& settings) {
     sceneChanged = skyChanged = false;
     geometryRevision = scene->geometryRevision();
     lightRevision = scene->lightRevision();
@@ -297,6 +344,44 @@ Image Renderer::readImage() const {
         std::swap_ranges(&image.pixels[low * width], &image.pixels[low * width] + width,
                          &image.pixels[high * width]);
     return image;
+}
+
+PixelInspection Renderer::inspectPixel(int x, int y) {
+    if (!impl_->targets)
+        base::fail(ErrorKind::Usage, "inspectPixel: nothing was rendered; render before it would be right");
+    const Targets& targets = *impl_->targets;
+    if (x < 0 || y < 0 || x >= targets.width || y >= targets.height)
+        base::fail(ErrorKind::Usage,
+                   "inspectPixel: pixel %d,%d of a picture of %d x %d; 0,0 to %d,%d would be right", x, y,
+                   targets.width, targets.height, targets.width - 1, targets.height - 1);
+    PixelInspection found;
+    {
+        const gl::HostStateGuard guard;
+        found = impl_->inspect(x, y);
+    }
+    found.picture = readImage().pixels[static_cast<std::size_t>(y * targets.width + x)];
+    return found;
+}
+
+// The mode's passes once more, for one pixel, on the G-buffer of the last picture.
+PixelInspection Renderer::Impl::inspect(int x, int y) {
+    const bool wasEveryFrame = everyFrame;
+    everyFrame = false;
+    scene->bind();
+    prepareMode(shownSettings);
+    constants = view::frameConstants(shownCamera, targets->width, targets->height, *scene, source.sky,
+                                     constants.frameIndex, 0);
+    frameBlock.update(constants);
+    frameBlock.bindUniform(BINDING_FRAME);
+    gather::StepRecorder recorder({x, targets->height - 1 - y});
+    mode->record(context(shownSettings), recorder);
+    markBuilt(shownSettings);
+    everyFrame = wasEveryFrame;
+    PixelInspection found = recorder.read();
+    found.x = x;
+    found.y = y;
+    found.mode = shownSettings.mode;
+    return found;
 }
 
 std::uint32_t Renderer::imageTexture() const { return impl_->targets ? impl_->targets->output.name() : 0; }

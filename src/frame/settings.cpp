@@ -25,7 +25,7 @@ constexpr Choice<Component> kComponents[] = {
     {"full", Component::Full},       {"direct", Component::Direct},     {"indirect", Component::Indirect},
     {"diffuse", Component::Diffuse}, {"specular", Component::Specular}, {"occlusion", Component::Occlusion},
     {"albedo", Component::Albedo},   {"normal", Component::Normal},     {"depth", Component::Depth},
-    {"voxels", Component::Voxels},   {"emission", Component::Emission}};
+    {"voxels", Component::Voxels},   {"emission", Component::Emission}, {"shadow_map", Component::ShadowMap}};
 constexpr Choice<DiffuseSet> kDiffuseSets[] = {{"1", DiffuseSet::One},
                                                {"5", DiffuseSet::Five},
                                                {"6", DiffuseSet::Six},
@@ -93,6 +93,43 @@ void visitTraced(S& s, V& visit) {
     visit.boolean("traced.budgeted", s.budgeted,
                   "one update and one pass per frame, reusing frames before, for moving pictures; off: every "
                   "frame is finished");
+}
+
+constexpr Choice<Wireframe> kWireframes[] = {
+    {"off", Wireframe::Off}, {"over", Wireframe::Over}, {"alone", Wireframe::Alone}};
+constexpr Choice<VoxelData> kVoxelData[] = {
+    {"radiance", VoxelData::Radiance}, {"irradiance", VoxelData::Irradiance},
+    {"age", VoxelData::Age},           {"albedo", VoxelData::Albedo},
+    {"normal", VoxelData::Normal},     {"emission", VoxelData::Emission},
+    {"coverage", VoxelData::Coverage}, {"bricks", VoxelData::Bricks},
+    {"level", VoxelData::Level}};
+constexpr Choice<VoxelShape> kVoxelShapes[] = {
+    {"auto", VoxelShape::Auto},   {"cubes", VoxelShape::Cubes},   {"edges", VoxelShape::Edges},
+    {"faces", VoxelShape::Faces}, {"volume", VoxelShape::Volume}, {"surfaces", VoxelShape::Surfaces}};
+
+template <class S, class V>
+void visitView(S& s, V& visit) {
+    visit.choice("view.wireframe", s.wireframe, kWireframes,
+                 "edges of the triangles: over the picture without hidden ones, or alone");
+    visit.boolean(
+        "view.voxels", s.voxels,
+        "voxels among the objects, whichever is nearer, but in mode phong (component voxels: alone)");
+    visit.choice("view.voxel_data", s.voxelData, kVoxelData,
+                 "what voxels show; age, bricks and level as colours from blue (none, 1, 0) to red (256 "
+                 "updates, 64 voxels, level 6); mode thesis has radiance, coverage and level");
+    visit.choice("view.voxel_shape", s.voxelShape, kVoxelShapes,
+                 "how voxels are drawn; auto: as the mode's rays or cones meet them; faces: plane pieces, "
+                 "mode traced only; surfaces: their colours on the objects");
+    visit.autoNumber("view.voxel_level", s.voxelLevel, 0.0, 8.0, "",
+                     "level that is shown, voxels of 2^level; auto: cones.voxel_level or "
+                     "thesis.voxel_level, in mode traced 0");
+    visit.number("view.voxel_aperture", s.voxelAperture, 0.0, 1.5, "rad",
+                 "show the level that a cone of this full angle from the eye reads at the distance; 0: one "
+                 "level everywhere");
+    visit.number("view.voxel_density", s.voxelDensity, 0.001, 1.0, "",
+                 "of shape volume: a voxel hides 1 - (1 - coverage)^density");
+    visit.integer("view.light", s.light, 0, 4095, 1, "",
+                  "number of the light whose shadow map component shadow_map shows");
 }
 
 constexpr Choice<Toggle> kToggles[] = {{"auto", Toggle::Auto}, {"off", Toggle::Off}, {"on", Toggle::On}};
@@ -270,6 +307,7 @@ void visitAll(S& s, V&& visit) {
     visitThesis(s.thesis, visit);
     visitCones(s.cones, visit);
     visitTraced(s.traced, visit);
+    visitView(s.view, visit);
     visit.number("image.exposure", s.image.exposure, -20.0, 20.0, "stops",
                  "brightness before the tone map: 2^exposure");
     visit.choice("image.tone_map", s.image.toneMap, kToneMaps,

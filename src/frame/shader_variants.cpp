@@ -15,8 +15,11 @@
 #include "gather/cone_gather.h"
 #include "gather/direct_light.h"
 #include "gather/phong_shade.h"
+#include "gather/voxel_view.h"
 #include "image/debug_view.h"
 #include "image/display.h"
+#include "image/shadow_view.h"
+#include "image/wireframe.h"
 #include "light/inject_light.h"
 #include "light/irradiance_cache.h"
 #include "light/shadow_maps.h"
@@ -73,7 +76,10 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     add(frame::ConesMode::programDescs());
     add(ThesisMode::programDescs());
     add(TracedMode::programDescs());
+    add(gather::VoxelView::programDescs());
     add(image::debugViewProgramDescs());
+    add(image::ShadowView::programDescs());
+    add(image::WireframeView::programDescs());
     add(image::Display::programDescs());
     return all;
 }

@@ -22,11 +22,26 @@ bool ThesisMode::needsShadows(const Settings& settings) const {
     return settings.light.shadowSize > 0 && !gather::effectiveDefects(settings.thesis).unshadowedVoxels;
 }
 
-void ThesisMode::render(const FrameContext& frame) {
+void ThesisMode::updateVolume(const FrameContext& frame) {
     const voxels::ThesisVolumeOptions options = volumeOptions(frame);
     if (frame.geometryChanged || frame.lightChanged || builtFor_ != options) {
         volume_.build(frame.programs, frame.profiler, frame.scene, options);
         builtFor_ = options;
+    }
+}
+
+void ThesisMode::record(const FrameContext& frame, gather::StepRecorder& recorder) {
+    updateVolume(frame);
+    cones_.record(frame.programs, frame.scene, frame.gbuffer, volume_, frame.settings, recorder);
+}
+
+void ThesisMode::render(const FrameContext& frame) {
+    updateVolume(frame);
+    if (frame.settings.component == Component::Voxels) {
+        frame.gbuffer.bind();
+        return voxelView_.draw(
+            {frame.programs, frame.profiler, frame.settings, frame.view, frame.output, frame.voxelsAmong},
+            volume_);
     }
     cones_.render(frame.programs, frame.profiler, frame.scene, frame.gbuffer, volume_, frame.settings,
                   frame.output, frame.lookupCounters);

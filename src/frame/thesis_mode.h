@@ -7,6 +7,7 @@
 
 #include "frame/frame_context.h"
 #include "gather/thesis_cones.h"
+#include "gather/voxel_view.h"
 #include "voxels/thesis_volume.h"
 
 namespace conelight::frame {
@@ -15,14 +16,18 @@ class ThesisMode : public ModeRenderer {
   public:
     void render(const FrameContext& frame) override;
     bool needsShadows(const Settings& settings) const override;
+    void record(const FrameContext& frame, gather::StepRecorder& recorder) override;
     // The original culls: its rooms are looked into through their front walls.
     bool cullsBackFaces() const override { return true; }
 
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
+    void updateVolume(const FrameContext& frame);
+
     voxels::ThesisVolume volume_;
     gather::ThesisConePass cones_;
+    gather::VoxelView voxelView_;
     std::optional<voxels::ThesisVolumeOptions> builtFor_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "gather/pixel_rays.h"
 #include "gather/traced_shade.h"
+#include "gather/voxel_view.h"
 #include "gl/gl.h"
 #include "light/inject_light.h"
 #include "light/irradiance_cache.h"
@@ -54,6 +55,7 @@ struct TracedMode::Impl {
     gather::PixelRays specular{gather::RayPicture::Specular};
     gather::PixelRays occlusion{gather::RayPicture::Occlusion};
     gather::TracedShade shade;
+    gather::VoxelView voxelView;
 
     // What the light was gathered for, and what has changed since.
     bool geometryDirty = true;
@@ -243,11 +245,39 @@ void TracedMode::render(const FrameContext& frame) {
                                   frame.output);
             break;
         case Component::Voxels:
-            m.shade.drawVoxels(frame.programs, frame.profiler, frame.output);
+            m.voxelView.draw(
+                {frame.programs, frame.profiler, frame.settings, frame.view, frame.output, frame.voxelsAmong},
+                m.surface, true);
             break;
         default:
             m.drawParts(frame, parts);
     }
+}
+
+void TracedMode::record(const FrameContext& frame, gather::StepRecorder& recorder) {
+    Impl& m = *impl_;
+    const TracedSettings& settings = frame.settings.traced;
+    m.geometryDirty = m.geometryDirty || frame.geometryChanged;
+    m.lightDirty = m.lightDirty || frame.lightChanged;
+    if (m.geometryDirty || m.lightDirty || !m.gatheredFor || !(*m.gatheredFor == settings)) {
+        m.updateVoxels(frame);
+        m.updateCache(frame);
+    } else {
+        m.octants.bind();
+        m.surface.bind();
+        m.cache.bind();
+    }
+    frame.gbuffer.bind(UNIT_GBUFFER);
+    const gather::PixelRayFrame rays = m.rayFrame(frame);
+    if (frame.settings.component == Component::Occlusion)
+        return m.occlusion.record(rays, settings, kOcclusionRays, kOcclusionPasses, recorder);
+    if (settings.bounces == 0) return;
+    if (settings.pixelRays > 0)
+        m.diffuse.record(rays, settings, settings.pixelRays, settings.passes, recorder);
+    else
+        m.shade.recordCache(frame.programs, frame.output, recorder);
+    if (settings.specularRays > 0 && hasGloss(frame.scene, settings.specularLimit))
+        m.specular.record(rays, settings, settings.specularRays, settings.passes, recorder);
 }
 
 std::vector<gl::ProgramDesc> TracedMode::programDescs() {

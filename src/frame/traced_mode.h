@@ -17,6 +17,7 @@ class TracedMode : public ModeRenderer {
     ~TracedMode() override;
     void render(const FrameContext& frame) override;
     bool needsShadows(const Settings& settings) const override;
+    void record(const FrameContext& frame, gather::StepRecorder& recorder) override;
 
     static std::vector<gl::ProgramDesc> programDescs();
 

@@ -37,10 +37,6 @@ gl::ProgramDesc bounceDesc(int blocks, OpacityModel opacity) {
     return {{"gather/cone_bounce.comp.glsl"}, volumeDefines(blocks, opacity)};
 }
 
-gl::ProgramDesc voxelsDesc(int blocks) {
-    return {{"gather/cone_voxels.comp.glsl"}, {{"DIRECTIONAL", blocks == 6 ? "1" : "0"}}};
-}
-
 }  // namespace
 
 ConeGather::ConeGather() : block_(sizeof(gpu::ConeConstants), "cone constants") {}
@@ -58,7 +54,6 @@ void ConeGather::configure(const ConesSettings& settings, const voxels::Radiance
     constants.maxDistance = settings.maxDistance.resolve(2 * glm::length(glm::vec3(layout.size) * h));
     constants.specularMinTan = std::tan(0.5f * settings.specularMinAperture);
     constants.occlusionDistance = settings.occlusionDistance.resolve(0.1f * longest);
-    constants.voxelLevel = settings.voxelLevel;
 
     const std::vector<Cone> cones = coneSet(settings.diffuseSet, settings.count);
     constants.count = static_cast<std::uint32_t>(cones.size());
@@ -69,11 +64,15 @@ void ConeGather::configure(const ConesSettings& settings, const voxels::Radiance
     block_.update(constants);
 }
 
+void ConeGather::bind(const voxels::RadianceVolume& volume) const {
+    volume.bind();
+    block_.bindUniform(BINDING_CONES);
+}
+
 void ConeGather::run(gl::ProgramLibrary& programs, const gl::ProgramDesc& desc,
                      const voxels::RadianceVolume& volume, const gl::Texture& result,
                      const gl::Buffer* counters) const {
-    volume.bind();
-    block_.bindUniform(BINDING_CONES);
+    bind(volume);
     if (counters != nullptr) counters->bindStorage(BINDING_STORAGE_PASS);
     result.bindImage(0, 0, GL_WRITE_ONLY);
     programs.get(desc).dispatch(result.width(), result.height());
@@ -103,21 +102,24 @@ void ConeGather::gatherSpecular(gl::ProgramLibrary& programs, gl::Profiler& prof
         counters);
 }
 
+void ConeGather::record(gl::ProgramLibrary& programs, const voxels::RadianceVolume& volume,
+                        const gl::Texture& result, Recorded what, StepRecorder& recorder) const {
+    const int blocks = volume.layout().blocks;
+    bind(volume);
+    result.bindImage(0, 0, GL_WRITE_ONLY);
+    recorder.record(programs, what == Recorded::Specular
+                                  ? specularDesc(blocks, opacity_, false)
+                                  : diffuseDesc(blocks, opacity_, what == Recorded::Occlusion, false));
+}
+
 void ConeGather::gatherBounce(gl::ProgramLibrary& programs, gl::Profiler& profiler,
                               const voxels::RadianceVolume& volume,
                               const voxels::SurfaceVoxels& surface) const {
     const gl::PassScope pass(profiler, "bounce cones");
-    volume.bind();
-    block_.bindUniform(BINDING_CONES);
+    bind(volume);
     surface.bind();
     programs.get(bounceDesc(volume.layout().blocks, opacity_)).dispatchLinear(surface.faceCount());
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
-}
-
-void ConeGather::drawVoxels(gl::ProgramLibrary& programs, gl::Profiler& profiler,
-                            const voxels::RadianceVolume& volume, const gl::Texture& result) const {
-    const gl::PassScope pass(profiler, "voxel view");
-    run(programs, voxelsDesc(volume.layout().blocks), volume, result, nullptr);
 }
 
 std::vector<gl::ProgramDesc> ConeGather::programDescs() {
@@ -130,8 +132,10 @@ std::vector<gl::ProgramDesc> ConeGather::programDescs() {
                 descs.push_back(specularDesc(blocks, opacity, count));
             }
             descs.push_back(bounceDesc(blocks, opacity));
+            for (const bool occlusion : {false, true})
+                descs.push_back(StepRecorder::variant(diffuseDesc(blocks, opacity, occlusion, false)));
+            descs.push_back(StepRecorder::variant(specularDesc(blocks, opacity, false)));
         }
-        descs.push_back(voxelsDesc(blocks));
     }
     return descs;
 }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "conelight/settings.h"
+#include "gather/step_recorder.h"
 #include "gl/buffer.h"
 #include "gl/pass.h"
 #include "gl/program.h"
@@ -40,16 +41,19 @@ class ConeGather {
     void gatherSpecular(gl::ProgramLibrary& programs, gl::Profiler& profiler,
                         const voxels::RadianceVolume& volume, const gl::Texture& result,
                         const gl::Buffer* counters) const;
+    // Records the recorder's pixel (gather/step_recorder.h) of one of the three above; `result` as there, not
+    // written.
+    enum class Recorded { Diffuse, Specular, Occlusion };
+    void record(gl::ProgramLibrary& programs, const voxels::RadianceVolume& volume, const gl::Texture& result,
+                Recorded what, StepRecorder& recorder) const;
     // Irradiance of every face from the volume as it is. Ends with the barrier for shader storage.
     void gatherBounce(gl::ProgramLibrary& programs, gl::Profiler& profiler,
                       const voxels::RadianceVolume& volume, const voxels::SurfaceVoxels& surface) const;
-    // The volume seen by the camera (component voxels); `result` is RGBA32F.
-    void drawVoxels(gl::ProgramLibrary& programs, gl::Profiler& profiler,
-                    const voxels::RadianceVolume& volume, const gl::Texture& result) const;
 
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
+    void bind(const voxels::RadianceVolume& volume) const;
     void run(gl::ProgramLibrary& programs, const gl::ProgramDesc& desc, const voxels::RadianceVolume& volume,
              const gl::Texture& result, const gl::Buffer* counters) const;
 

@@ -89,17 +89,38 @@ gpu::PixelRayConstants PixelRays::packed(const PixelRayFrame& frame, const Trace
     return c;
 }
 
+// Returns whether what was there is gone.
+bool PixelRays::resize(int width, int height) {
+    if (has(width, height)) return false;
+    for (gl::Texture* picture : {&current_, &other_, &filtered_}) *picture = {};
+    current_ = makePicture(width, height, kLabel[static_cast<int>(kind_)]);
+    other_ = makePicture(width, height, kLabel[static_cast<int>(kind_)]);
+    return true;
+}
+
+void PixelRays::record(const PixelRayFrame& frame, const TracedSettings& settings, int rays, int passes,
+                       StepRecorder& recorder) {
+    resize(static_cast<int>(frame.view.width), static_cast<int>(frame.view.height));
+    if (!constants_) constants_ = gl::Buffer(sizeof(gpu::PixelRayConstants), "pixel rays constants");
+    bindPicture(current_, PIXEL_UNIT_HISTORY);
+    other_.bindImage(0, 0, GL_WRITE_ONLY);
+    const gl::Defines lights = kind_ == RayPicture::Occlusion
+                                   ? kNoHitLights
+                                   : light::hitLightDefines(frame.scene, frame.light, settings.exactHits);
+    for (int pass = 0; pass < passes; ++pass) {
+        constants_.update(packed(frame, settings, rays, static_cast<std::uint32_t>(pass), passes));
+        constants_.bindUniform(BINDING_PASS);
+        recorder.record(frame.programs, gatherDesc(kind_, Reuse::None, false, false, lights),
+                        1.0f / static_cast<float>(passes));
+    }
+}
+
 void PixelRays::gather(const PixelRayFrame& frame, const TracedSettings& settings, Reuse reuse, int rays,
                        std::uint32_t pass, int longest) {
     const gl::PassScope scope(frame.profiler, kGatherPass[static_cast<int>(kind_)]);
     const int width = static_cast<int>(frame.view.width);
     const int height = static_cast<int>(frame.view.height);
-    if (!has(width, height)) {
-        for (gl::Texture* picture : {&current_, &other_, &filtered_}) *picture = {};
-        current_ = makePicture(width, height, kLabel[static_cast<int>(kind_)]);
-        other_ = makePicture(width, height, kLabel[static_cast<int>(kind_)]);
-        reuse = Reuse::None;
-    }
+    if (resize(width, height)) reuse = Reuse::None;
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::PixelRayConstants), "pixel rays constants");
     constants_.update(packed(frame, settings, rays, pass, longest));
     constants_.bindUniform(BINDING_PASS);
@@ -151,6 +172,12 @@ std::vector<gl::ProgramDesc> PixelRays::programDescs() {
     }
     for (const Reuse reuse : {Reuse::None, Reuse::SameView, Reuse::Reproject})
         descs.push_back(gatherDesc(RayPicture::Occlusion, reuse, false, false, kNoHitLights));
+    for (const RayPicture kind : {RayPicture::Diffuse, RayPicture::Specular})
+        for (const gl::ProgramDesc& desc :
+             light::hitLightVariants(gatherDesc(kind, Reuse::None, false, false, {})))
+            descs.push_back(StepRecorder::variant(desc));
+    descs.push_back(
+        StepRecorder::variant(gatherDesc(RayPicture::Occlusion, Reuse::None, false, false, kNoHitLights)));
     for (const int step : {1, 2, 4, 8})
         for (const bool specular : {false, true}) descs.push_back(filterDesc(step, specular));
     return descs;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "conelight/settings.h"
+#include "gather/step_recorder.h"
 #include "gl/buffer.h"
 #include "gl/pass.h"
 #include "gl/program.h"
@@ -52,9 +53,15 @@ class PixelRays {
     // The picture, filtered by so many levels; what the next gather() goes on from stays as it is.
     const gl::Texture& filtered(const PixelRayFrame& frame, int levels);
 
+    // Records the recorder's pixel of passes 0 to `passes` - 1, each of `rays` rays (of each kind); pictures
+    // stay as they are.
+    void record(const PixelRayFrame& frame, const TracedSettings& settings, int rays, int passes,
+                StepRecorder& recorder);
+
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
+    bool resize(int width, int height);
     gpu::PixelRayConstants packed(const PixelRayFrame& frame, const TracedSettings& settings, int rays,
                                   std::uint32_t pass, int longest) const;
 

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "base/log.h"
+#include "gather/picture_parts.h"
 #include "gl/gl.h"
 #include "shared/bindings.h"
 
@@ -106,11 +107,6 @@ gl::ProgramDesc conesDesc(const ThesisSettings& settings, Component component, b
     return {{"gather/thesis_cones.comp.glsl"}, defines};
 }
 
-gl::ProgramDesc voxelViewDesc(ThesisVoxelView view) {
-    return {{"gather/thesis_voxel_view.comp.glsl"},
-            {{"SURFACES", view == ThesisVoxelView::Surfaces ? "1" : "0"}}};
-}
-
 }  // namespace
 
 ThesisDefects effectiveDefects(const ThesisSettings& settings) {
@@ -160,7 +156,6 @@ gpu::ThesisConstants thesisConstants(const ThesisSettings& s, const gpu::ThesisG
     c.shadowStrength = s.shadowStr;
     c.minSpecular = s.minSpecular;
     c.maxSamples = static_cast<std::uint32_t>(s.maxSamples);
-    c.viewLevel = static_cast<std::uint32_t>(s.voxelLevel);
 
     // Ambient light stands for indirect light, so it is left out where cones bring that.
     const bool gathers = s.voxDiffuse && (s.frontCone || s.sideCones || s.intermediateCones);
@@ -171,11 +166,8 @@ gpu::ThesisConstants thesisConstants(const ThesisSettings& s, const gpu::ThesisG
     return c;
 }
 
-void ThesisConePass::render(gl::ProgramLibrary& programs, gl::Profiler& profiler,
-                            const scene::GpuScene& scene, const view::GBuffer& gbuffer,
-                            const voxels::ThesisVolume& volume, const Settings& settings,
-                            const gl::Texture& output, const gl::Buffer* lookupCounters) {
-    const gl::PassScope pass(profiler, "thesis cones");
+void ThesisConePass::bind(const scene::GpuScene& scene, const view::GBuffer& gbuffer,
+                          const voxels::ThesisVolume& volume, const Settings& settings) {
     gpu::ThesisConstants constants = thesisConstants(settings.thesis, volume.grid(), settings.voxels.size);
     const std::size_t lights = scene.lights().size();
     constants.lightCount = static_cast<std::uint32_t>(
@@ -186,13 +178,29 @@ void ThesisConePass::render(gl::ProgramLibrary& programs, gl::Profiler& profiler
     gbuffer.bind();
     volume.bind(UNIT_PASS);
     volume.bindGrid();
+}
+
+void ThesisConePass::record(gl::ProgramLibrary& programs, const scene::GpuScene& scene,
+                            const view::GBuffer& gbuffer, const voxels::ThesisVolume& volume,
+                            const Settings& settings, StepRecorder& recorder) {
+    bind(scene, gbuffer, volume, settings);
+    const bool gathered = partsOf(settings.component).diffuse || partsOf(settings.component).specular ||
+                          settings.component == Component::Occlusion;
+    recorder.record(programs,
+                    conesDesc(settings.thesis, gathered ? settings.component : Component::Full, false));
+    gl::unbindSampler(UNIT_PASS);
+}
+
+void ThesisConePass::render(gl::ProgramLibrary& programs, gl::Profiler& profiler,
+                            const scene::GpuScene& scene, const view::GBuffer& gbuffer,
+                            const voxels::ThesisVolume& volume, const Settings& settings,
+                            const gl::Texture& output, const gl::Buffer* lookupCounters) {
+    const gl::PassScope pass(profiler, "thesis cones");
+    bind(scene, gbuffer, volume, settings);
     output.bindImage(0, 0, GL_WRITE_ONLY);
     if (lookupCounters != nullptr) lookupCounters->bindStorage(BINDING_STORAGE_PASS);
-    const gl::ProgramDesc desc =
-        settings.component == Component::Voxels
-            ? voxelViewDesc(settings.thesis.voxelView)
-            : conesDesc(settings.thesis, settings.component, lookupCounters != nullptr);
-    programs.get(desc).dispatch(output.width(), output.height());
+    programs.get(conesDesc(settings.thesis, settings.component, lookupCounters != nullptr))
+        .dispatch(output.width(), output.height());
     gl::unbindSampler(UNIT_PASS);
 }
 
@@ -207,6 +215,9 @@ std::vector<gl::ProgramDesc> ThesisConePass::programDescs() {
     for (const Component component : {Component::Full, Component::Direct, Component::Indirect,
                                       Component::Diffuse, Component::Specular, Component::Occlusion})
         add(mended, component);
+    descs.push_back(StepRecorder::variant(conesDesc(mended, Component::Full, false)));
+    descs.push_back(StepRecorder::variant(conesDesc(mended, Component::Occlusion, false)));
+    descs.push_back(StepRecorder::variant(conesDesc(published, Component::Full, false)));
     add(mended, Component::Full, true);
     add(regular, Component::Full);
     add(published, Component::Full);
@@ -222,8 +233,6 @@ std::vector<gl::ProgramDesc> ThesisConePass::programDescs() {
         *thesisDefectFlags(one.defects)[i] = true;
         add(one, Component::Full);
     }
-    descs.push_back(voxelViewDesc(ThesisVoxelView::Cubes));
-    descs.push_back(voxelViewDesc(ThesisVoxelView::Surfaces));
     return descs;
 }
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "conelight/settings.h"
+#include "gather/step_recorder.h"
 #include "gl/pass.h"
 #include "gl/program.h"
 #include "scene/gpu_scene.h"
@@ -31,9 +32,17 @@ class ThesisConePass {
                 const view::GBuffer& gbuffer, const voxels::ThesisVolume& volume, const Settings& settings,
                 const gl::Texture& output, const gl::Buffer* lookupCounters);
 
+    // Records the recorder's pixel of the picture that render() draws with these settings; of `output` only
+    // the size is asked. Views of the volume are recorded as component full.
+    void record(gl::ProgramLibrary& programs, const scene::GpuScene& scene, const view::GBuffer& gbuffer,
+                const voxels::ThesisVolume& volume, const Settings& settings, StepRecorder& recorder);
+
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
+    void bind(const scene::GpuScene& scene, const view::GBuffer& gbuffer, const voxels::ThesisVolume& volume,
+              const Settings& settings);
+
     gl::Buffer constants_;
 };
 

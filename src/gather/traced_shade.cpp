@@ -25,7 +25,6 @@ gl::ProgramDesc shadeDesc(const PictureParts& parts, bool picture, bool lobe, co
 }
 
 gl::ProgramDesc occlusionDesc() { return {{"gather/traced_occlusion.comp.glsl"}, {}}; }
-gl::ProgramDesc voxelsDesc() { return {{"gather/traced_voxels.comp.glsl"}, {}}; }
 
 void bindPicture(const gl::Texture* picture, unsigned unit) {
     if (picture == nullptr) return;
@@ -54,6 +53,12 @@ void TracedShade::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, con
         .dispatch(output.width(), output.height());
 }
 
+void TracedShade::recordCache(gl::ProgramLibrary& programs, const gl::Texture& output,
+                              StepRecorder& recorder) {
+    output.bindImage(0, 0, GL_WRITE_ONLY);
+    recorder.record(programs, shadeDesc({false, true, false}, false, false, {}));
+}
+
 void TracedShade::drawOcclusion(gl::ProgramLibrary& programs, gl::Profiler& profiler,
                                 const gl::Texture& occlusion, const gl::Texture& output) {
     const gl::PassScope pass(profiler, "shade");
@@ -62,15 +67,9 @@ void TracedShade::drawOcclusion(gl::ProgramLibrary& programs, gl::Profiler& prof
     programs.get(occlusionDesc()).dispatch(output.width(), output.height());
 }
 
-void TracedShade::drawVoxels(gl::ProgramLibrary& programs, gl::Profiler& profiler,
-                             const gl::Texture& output) {
-    const gl::PassScope pass(profiler, "voxel view");
-    output.bindImage(0, 0, GL_WRITE_ONLY);
-    programs.get(voxelsDesc()).dispatch(output.width(), output.height());
-}
-
 std::vector<gl::ProgramDesc> TracedShade::programDescs() {
-    std::vector<gl::ProgramDesc> descs = {occlusionDesc(), voxelsDesc()};
+    std::vector<gl::ProgramDesc> descs = {
+        occlusionDesc(), StepRecorder::variant(shadeDesc({false, true, false}, false, false, {}))};
     const auto add = [&](const PictureParts& parts, bool picture, bool lobe) {
         descs.push_back(shadeDesc(parts, picture, lobe, {}));
     };

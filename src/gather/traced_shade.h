@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The picture of mode `traced`, put together in one pass: G-buffer, lights, cache or gathered pictures ->
-// RGBA32F picture. Also its views of voxels and occlusion.
+// RGBA32F picture. Also its view of occlusion.
 //
 // Reads: frame block, scene tables, G-buffer, shadow maps, SurfaceVoxels, OctantWords, IrradianceCache, all
 // bound. Writes `output`; readers need a texture-fetch barrier. GL state changed: program, image 0,
@@ -11,6 +11,7 @@
 
 #include "conelight/settings.h"
 #include "gather/picture_parts.h"
+#include "gather/step_recorder.h"
 #include "gl/buffer.h"
 #include "gl/pass.h"
 #include "gl/program.h"
@@ -26,9 +27,10 @@ class TracedShade {
     void draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
               const Settings& settings, const PictureParts& parts, const gl::Texture* irradiance,
               const gl::Texture* lobe, const gl::Texture& output, const gl::Buffer* lookupCounters);
+    // Records the faces of the cache that the recorder's pixel shows.
+    void recordCache(gl::ProgramLibrary& programs, const gl::Texture& output, StepRecorder& recorder);
     void drawOcclusion(gl::ProgramLibrary& programs, gl::Profiler& profiler, const gl::Texture& occlusion,
                        const gl::Texture& output);
-    void drawVoxels(gl::ProgramLibrary& programs, gl::Profiler& profiler, const gl::Texture& output);
 
     static std::vector<gl::ProgramDesc> programDescs();
 

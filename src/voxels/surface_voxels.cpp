@@ -456,7 +456,8 @@ void SurfaceVoxels::Impl::resolve(gl::ProgramLibrary& programs, gl::Profiler& pr
     gl::barrier(gl::Access::ShaderStorage);
     programs.get(scanPass(4)).dispatch(1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
-    programs.get(layersPass(surfaces.emit(), surfaces.lobes)).dispatchIndirect(counters, 4 * SURFACE_ARGS_LAYERS);
+    programs.get(layersPass(surfaces.emit(), surfaces.lobes))
+        .dispatchIndirect(counters, 4 * SURFACE_ARGS_LAYERS);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Indirect);
 }
 

@@ -42,7 +42,8 @@ TEST_F(ConsoleCliTest, ExecEqualsTheOptionsBitForBit) {
          "--exec 'mode cones; set cones.bounces 1; component indirect' --exec 'sky 0.5 0.25 0'"},
         {"--mode phong --eye 0.2,1,3 --target 0,1,0 --fov 50",
          "--exec 'camera eye 0.2 1 3; camera target 0 1 0; camera fov 50; mode phong'"},
-        {"--mode thesis --component voxels --set thesis.voxel_level=1", "--exec 'mode thesis; voxs; lod 1'"},
+        {"--mode thesis --component voxels --set thesis.voxel_level=1",
+         "--exec 'mode thesis; objs; voxs; lod 1'"},
     };
     for (const auto& [options, commands] : cases) {
         for (const char* name : {"a.exr", "b.exr"}) std::filesystem::remove(path(name));

@@ -23,6 +23,9 @@ struct Case {
 const Case kCases[] = {
     {"objs"},
     {"voxs"},
+    {"voxsW", "voxs", 1, 1},
+    {"objsW"},
+    {"overlayW"},
     {"loclod"},
     {"lod 2", "voxs", 1, 1},
     {"iLight"},

@@ -213,6 +213,11 @@ TEST(Session, VoxelFlagsChangeWhatIsShown) {
     flags.drawVoxels = true;
     s.setFlags(flags, "voxels");
     EXPECT_EQ(s.shownMode(), "thesis");
+    EXPECT_TRUE(s.shownSettings().view.voxels);
+    EXPECT_EQ(s.shownSettings().component, Component::Full);
+    flags.drawObjects = false;
+    s.setFlags(flags, "voxels alone");
+    EXPECT_FALSE(s.shownSettings().view.voxels);
     EXPECT_EQ(s.shownSettings().component, Component::Voxels);
     EXPECT_EQ(s.settings().component, Component::Full);
     flags = {};
@@ -225,6 +230,26 @@ TEST(Session, VoxelFlagsChangeWhatIsShown) {
     flags.drawVoxels = true;
     s.setFlags(flags, "voxels");
     EXPECT_EQ(s.shownMode(), "cones");
+}
+
+TEST(Session, WireframeFlagsChangeWhatIsShown) {
+    Session s = session();
+    ViewFlags flags;
+    flags.wireframeOverlay = true;
+    s.setFlags(flags, "overlay");
+    EXPECT_EQ(s.shownSettings().view.wireframe, Wireframe::Over);
+    flags.wireframeObjects = true;
+    s.setFlags(flags, "objects");
+    EXPECT_EQ(s.shownSettings().view.wireframe, Wireframe::Alone);
+    flags.drawVoxels = flags.wireframeVoxels = true;
+    s.setFlags(flags, "all");
+    EXPECT_EQ(s.shownSettings().view.wireframe, Wireframe::Over);
+    EXPECT_EQ(s.shownSettings().component, Component::Voxels);
+    EXPECT_EQ(s.shownSettings().view.voxelShape, VoxelShape::Edges);
+    flags.drawObjects = false;
+    s.setFlags(flags, "no objects");
+    EXPECT_EQ(s.shownSettings().view.wireframe, Wireframe::Off);
+    EXPECT_EQ(s.settings().view.wireframe, Wireframe::Off);
 }
 
 TEST(Session, StartSettingsFollowTheModeUnlessTouched) {

@@ -9,11 +9,13 @@
 #include "shared/cones.h"
 #include "shared/frame.h"
 #include "shared/image.h"
+#include "shared/inspect.h"
 #include "shared/irradiance.h"
 #include "shared/pixel_rays.h"
 #include "shared/radiance_volume.h"
 #include "shared/scene.h"
 #include "shared/thesis.h"
+#include "shared/voxel_view.h"
 #include "shared/voxels.h"
 #include "support/gl_fixture.h"
 
@@ -89,9 +91,20 @@ Member member(const char* name, std::size_t offset) {
 
 const std::vector<Struct>& table() {
     static const std::vector<Struct> structs = {
-        ROW(ConeConstants, count, step, offset, maxDistance, specularMinTan, occlusionDistance, voxelLevel,
-            pad0, cone, aperture),
+        ROW(ConeConstants, count, step, offset, maxDistance, specularMinTan, occlusionDistance, pad0, pad1,
+            cone, aperture),
         ROW(DisplayConstants, scale, curve, srgb, pad0),
+        ROW(WireframeConstants, radiance, opacity, halfWidth, pad0, pad1, pad2),
+        ROW(ShadowViewConstants, light, tiles, tilesPerEdge, columns, rows, pad0, pad1, pad2),
+        ROW(VoxelViewConstants, origin, voxelSize, sizeX, sizeY, sizeZ, data, level, spread, maxLevel,
+            density, pixelSize, pad0, pad1, pad2),
+        ROW(RecordHeader, pixelX, pixelY, paths, steps, pathSteps, share, seen, pad0, position, depth, normal,
+            pad1),
+        ROW(RecordedPart, value, used, scale, pad0),
+        ROW(RecordedPath, origin, kind, direction, tanHalf, weight, opacity, radiance, distance, firstStep,
+            stepCount, end, face, faceNormal, facePlane, faceAlbedo, faceVoxel, faceRadiance, faceCoverage,
+            faceIrradiance, faceUpdates),
+        ROW(RecordedStep, position, size, radiance, opacity, distance, level, total, kind),
         ROW(PixelRayConstants, oldClipFromWorld, oldEye, planeTolerance, oldForward, pass, oldRight, rays,
             oldUp, longestMean, specularLimit, reach, inverseVoxelSize, reflections, reflectedLimit, pad0,
             pad1, pad2),
@@ -109,7 +122,7 @@ const std::vector<Struct>& table() {
             falloff, customFalloff, shadowNear, shadowTexel, flags, sampleGrid),
         ROW(ThesisGrid, origin, edge, voxelSize, size, maxLevel, sumScale, boxMin, boxSize),
         ROW(ThesisConstants, diffuseCone, specularCone, occlusionCone, originOffset, shininessFalloff,
-            shadowStrength, minSpecular, switches, maxSamples, lightCount, viewLevel),
+            shadowStrength, minSpecular, switches, maxSamples, lightCount, pad0),
         ROW(VoxelGrid, origin, voxelSize, sizeX, sizeY, sizeZ, voxelCount, bricksX, bricksY, bricksZ,
             faceCount, inverseVoxelSize, occupiedBricks, pad0, pad1),
         ROW(FaceRecord, normal, offsetWeight, bounds, voxel, albedo, radiance, irradiance0, irradiance1),

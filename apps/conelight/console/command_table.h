@@ -94,6 +94,7 @@ CommandGroup originalModelCommands();  // commands_original_models.cpp
 CommandGroup settingCommands();        // commands_settings.cpp
 CommandGroup cameraCommands();         // commands_camera.cpp
 CommandGroup sceneCommands();          // commands_scene.cpp
+CommandGroup inspectCommands();        // commands_inspect.cpp
 CommandGroup programCommands();        // commands_program.cpp
 
 Command lightCommand();    // commands_light.cpp

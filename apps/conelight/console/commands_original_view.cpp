@@ -147,8 +147,9 @@ CommandGroup originalViewCommands() {
     std::vector<Command>& c = group.commands;
     c = {
         toggle("objs", "Draw Objects", &ViewFlags::drawObjects, "draw the objects", "as there"),
-        toggle("voxs", "Draw Voxels", &ViewFlags::drawVoxels, "show the voxels as cubes",
-               "instead of the objects, not among them; does not need `vox` first"),
+        toggle("voxs", "Draw Voxels", &ViewFlags::drawVoxels,
+               "show the voxels as cubes among the objects, alone after `objs`",
+               "ray cast, not drawn one by one; does not need `vox` first"),
         plain(
             "vox", "build the voxels anew at the next frame",
             [](const CommandContext& context) {
@@ -157,16 +158,18 @@ CommandGroup originalViewCommands() {
             },
             "rarely needed: voxels follow every change by themselves"),
         toggle("voxsW", "Wireframe Voxels", &ViewFlags::wireframeVoxels, "draw voxels as wireframes",
-               "kept and printed; not drawn yet"),
+               "with `voxs` on; seen through, as there"),
         toggle("objsW", "Wireframe Objects", &ViewFlags::wireframeObjects, "draw objects as wireframes",
-               "kept and printed; not drawn yet"),
+               "all edges, in one colour; in every mode but reference"),
         toggle("sfMode", "Single Frame Mode", &ViewFlags::singleFrame, "draw only when `sf` asks",
                "the window stays alive"),
         plain("sf", "draw one frame in single-frame mode", singleFrame, "says so when the mode is off"),
         plain("iLight", "indirect light: the mode before, or mode phong", iLight,
               "back to the mode before; from the start on mode thesis"),
         toggle("overlayW", "Wireframe Overlay", &ViewFlags::wireframeOverlay,
-               "draw edges on top of the picture", "kept and printed; not drawn yet"),
+               "draw edges on top of the picture",
+               "as its README says: on the filled picture, in every mode but reference; `objsW` stays as it "
+               "is"),
         preset("pos1", {1.26f, 0.10f, 1.73f}, -126, -4),
         preset("pos2", {0, 0, 1.8f}, -90, 0),
         plain("ray", "what is in front of the camera: object, distance, point, normal; selects it", ray,

@@ -15,6 +15,7 @@ enum class RequestKind {
     Revoxelize,   // and say how large the voxels are
     SingleFrame,  // draw one frame although ViewFlags::singleFrame is on
     Wait,         // draw `count` frames before the next command
+    Inspect,      // how pixel (x, y) was gathered; steps
     Quit,         // status
 };
 
@@ -27,6 +28,8 @@ struct Request {
     bool turntable = false;  // Record: once round the target
     bool alongPath = false;  // Record: along the session's camera path
     bool overwrite = false;  // Bake: what is there already
+    int x = 0, y = 0;        // Inspect: from the upper left corner
+    bool steps = false;      // Inspect: print every step
 };
 
 }  // namespace conelight::program

@@ -142,10 +142,23 @@ Settings Session::shownSettings() const {
     Settings shown = settings_;
     const std::string mode = shownMode();
     if (isSettingsMode(mode)) conelight::setSetting(shown, "mode", mode);
-    if (flags_.drawVoxels || flags_.localizedLod) {
+    if (flags_.drawVoxels) {
+        // Among the objects, unless these are not drawn or are only wires.
+        shown.view.voxels = flags_.drawObjects && !flags_.wireframeObjects;
+        if (!shown.view.voxels) shown.component = Component::Voxels;
+        shown.thesis.voxelView = ThesisVoxelView::Cubes;
+        if (flags_.wireframeVoxels)
+            shown.view.voxelShape = VoxelShape::Edges;
+        else if (shown.view.voxelShape == VoxelShape::Auto)
+            shown.view.voxelShape = VoxelShape::Cubes;
+    } else if (flags_.localizedLod) {
         shown.component = Component::Voxels;
-        shown.thesis.voxelView = flags_.drawVoxels ? ThesisVoxelView::Cubes : ThesisVoxelView::Surfaces;
+        shown.thesis.voxelView = ThesisVoxelView::Surfaces;
+        shown.view.voxelShape = VoxelShape::Surfaces;
     }
+    if (flags_.drawObjects && (flags_.wireframeObjects || flags_.wireframeOverlay))
+        shown.view.wireframe =
+            flags_.wireframeObjects && !flags_.drawVoxels ? Wireframe::Alone : Wireframe::Over;
     return shown;
 }
 

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
+#include "conelight/error.h"
 #include "viewer/panels.h"
 
 namespace conelight::program {
@@ -20,9 +22,72 @@ void row(const char* name, const std::string& value) {
     ImGui::TextUnformatted(value.c_str());
 }
 
+void partRow(const char* name, const InspectedPart& part) {
+    if (part.used) row(name, text(part.value) + "  x  " + text(part.scale));
+}
+
+// Every path in a line.
+void pathTable(Inspection& inspection) {
+    constexpr ImGuiTableFlags kFlags =
+        ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
+    if (!ImGui::BeginTable("paths", 5, kFlags, {0, 12 * ImGui::GetFontSize()})) return;
+    ImGui::TableSetupScrollFreeze(0, 1);
+    for (const char* head : {"cone or ray", "end", "m", "weight", "radiance"}) ImGui::TableSetupColumn(head);
+    ImGui::TableHeadersRow();
+    int number = 0;
+    for (const InspectedPath& path : inspection.gathered->paths) {
+        ImGui::TableNextRow();
+        ImGui::TableNextColumn();
+        const bool chosen = inspection.chosen == number;
+        if (ImGui::Selectable(fmt::format("{} {}##path", number, nameOf(path.kind)).c_str(), chosen,
+                              ImGuiSelectableFlags_SpanAllColumns))
+            inspection.chosen = chosen ? -1 : number;
+        for (const std::string& cell : {std::string(nameOf(path.end)), fmt::format("{:.3g}", path.distance),
+                                        text(path.weight), text(path.radiance)}) {
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(cell.c_str());
+        }
+        ++number;
+    }
+    ImGui::EndTable();
+}
+
+// Face and steps of one.
+void chosenPath(const InspectedPath& path) {
+    if (path.face && ImGui::BeginTable("face", 2, ImGuiTableFlags_SizingFixedFit)) {
+        const InspectedFace& face = *path.face;
+        row("voxel", fmt::format("{} {} {}", face.voxel.x, face.voxel.y, face.voxel.z));
+        row("normal", text(face.normal));
+        row("plane", fmt::format("{:+.3f} voxels, coverage {:.3g}", face.plane, face.coverage));
+        row("albedo", text(face.albedo));
+        row("radiance", text(face.radiance) + "  W/(sr m2)");
+        row("irradiance / pi", text(face.irradiance));
+        row("cache age", face.updates < 0 ? std::string("inside a closed object")
+                                          : fmt::format("{} updates", face.updates));
+        ImGui::EndTable();
+    }
+    constexpr ImGuiTableFlags kFlags =
+        ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
+    if (!ImGui::BeginTable("steps", 6, kFlags, {0, 12 * ImGui::GetFontSize()})) return;
+    ImGui::TableSetupScrollFreeze(0, 1);
+    for (const char* head : {"step", "m", "size m", "level", "opacity", "radiance"})
+        ImGui::TableSetupColumn(head);
+    ImGui::TableHeadersRow();
+    for (const InspectedStep& step : path.steps) {
+        ImGui::TableNextRow();
+        for (const std::string& cell : {std::string(nameOf(step.kind)), fmt::format("{:.3g}", step.distance),
+                                        fmt::format("{:.3g}", step.size), fmt::format("{:.3g}", step.level),
+                                        fmt::format("{:.3f}", step.total), text(step.radiance)}) {
+            ImGui::TableNextColumn();
+            ImGui::TextUnformatted(cell.c_str());
+        }
+    }
+    ImGui::EndTable();
+}
+
 }  // namespace
 
-void inspectorPanel(const Session& session, const std::optional<Inspection>& inspection) {
+void inspectorPanel(const Session& session, std::optional<Inspection>& inspection) {
     if (!inspection) {
         ImGui::TextDisabled("click a pixel");
         return;
@@ -44,7 +109,50 @@ void inspectorPanel(const Session& session, const std::optional<Inspection>& ins
     } else {
         row("hit", "nothing: the sky");
     }
+    if (inspection->gathered) {
+        partRow("diffuse", inspection->gathered->diffuse);
+        partRow("specular", inspection->gathered->specular);
+        partRow("open", inspection->gathered->occlusion);
+    }
     ImGui::EndTable();
+    if (!inspection->gathered || inspection->gathered->paths.empty()) return;
+    pathTable(*inspection);
+    const std::vector<InspectedPath>& paths = inspection->gathered->paths;
+    if (inspection->chosen >= 0 && static_cast<std::size_t>(inspection->chosen) < paths.size())
+        chosenPath(paths[static_cast<std::size_t>(inspection->chosen)]);
+}
+
+void inspectGathering(Inspection& inspection, Renderer* renderer) {
+    inspection.gathered.reset();
+    if (renderer == nullptr) return;
+    try {
+        inspection.gathered = renderer->inspectPixel(inspection.pixel.x, inspection.pixel.y);
+    } catch (const Error&) {
+        // The picture changed its size since the click: there is nothing to show.
+    }
+}
+
+void drawInspection(const Session& session, Picker& picker, std::optional<Inspection>& inspection,
+                    const glm::vec2& at, const glm::vec2& size) {
+    if (!inspection || !inspection->gathered || size.x < 1 || size.y < 1) return;
+    const float aspect = size.x / size.y;
+    const std::uint64_t key[3] = {session.revisions().camera + 1, session.revisions().sceneTables(),
+                                  static_cast<std::uint64_t>(inspection->chosen + 2) * 100000 +
+                                      static_cast<std::uint64_t>(1000 * aspect)};
+    if (!std::equal(std::begin(key), std::end(key), std::begin(inspection->linesOf))) {
+        inspection->lines = inspectionLines(*inspection->gathered, session.camera(), aspect,
+                                            inspection->chosen, seenFrom(picker, session));
+        std::copy(std::begin(key), std::end(key), std::begin(inspection->linesOf));
+    }
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    list->PushClipRect({at.x, at.y}, {at.x + size.x, at.y + size.y}, true);
+    for (const PictureLine& line : inspection->lines) {
+        const glm::vec2 from = at + line.from * size, to = at + line.to * size;
+        list->AddLine(
+            {from.x, from.y}, {to.x, to.y},
+            ImGui::ColorConvertFloat4ToU32({line.color.r, line.color.g, line.color.b, line.opacity}), 1.2f);
+    }
+    list->PopClipRect();
 }
 
 std::optional<std::string> whyBlack(const Session& session, const Image& picture) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "conelight/renderer.h"
+#include "session/inspection_lines.h"
 #include "session/picker.h"
 #include "session/session.h"
 
@@ -28,8 +29,19 @@ struct Inspection {
     glm::ivec2 pixel{0};
     glm::vec4 radiance{0};
     std::optional<Pick> hit;
+    std::optional<PixelInspection> gathered;  // nothing in modes on the CPU
+    int chosen = -1;                          // the path that stands out; -1: none
+    // Lines over the picture, and what they were made for.
+    std::vector<PictureLine> lines;
+    std::uint64_t linesOf[3] = {0, 0, 0};
 };
-void inspectorPanel(const Session& session, const std::optional<Inspection>& inspection);
+// Fills in `gathered` from the last picture; null: nothing.
+void inspectGathering(Inspection& inspection, Renderer* renderer);
+// A table of cones or rays; a click on one makes it stand out and shows its steps.
+void inspectorPanel(const Session& session, std::optional<Inspection>& inspection);
+// Cones and rays over the picture at `at`, into the current ImGui window.
+void drawInspection(const Session& session, Picker& picker, std::optional<Inspection>& inspection,
+                    const glm::vec2& at, const glm::vec2& size);
 
 // Why a picture is black, or nothing when it is not; cheap.
 std::optional<std::string> whyBlack(const Session& session, const Image& picture);

@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <utility>
 
 #include "conelight/error.h"
 #include "console/console.h"
@@ -41,7 +42,7 @@ std::vector<Stage> stagesOf(const std::string& mode) {
             {"Voxels", {"voxels."}},
             {"Light", {"light."}},
             {"Gather", {mode + "."}},
-            {"Image", {"image."}}};
+            {"Image", {"image.", "view."}}};
 }
 
 class Viewer {
@@ -183,7 +184,8 @@ void Viewer::picture(const glm::vec2& at, const glm::vec2& size) {
     while (carryOutRequest(session_, view_, commands_, state_)) more_ = true;
     if (!more_ || commands_.framesToWait() > 0) commands_.frameDone();
 
-    const auto clicked = view_.show(session_, at, size, static_cast<float>(ImGui::GetTime() - lastFrame_));
+    auto clicked = view_.show(session_, at, size, static_cast<float>(ImGui::GetTime() - lastFrame_));
+    if (state_.inspect) clicked = std::exchange(state_.inspect, std::nullopt);
     if (clicked) {
         const glm::ivec2 drawn = view_.pictureSize();
         Inspection inspection;
@@ -193,8 +195,10 @@ void Viewer::picture(const glm::vec2& at, const glm::vec2& size) {
         inspection.hit = picker_.atPixel(session_, drawn.x, drawn.y, clicked->x, clicked->y);
         session_.select(inspection.hit ? Selection{SelectionKind::Instance, inspection.hit->instance}
                                        : Selection{});
+        inspectGathering(inspection, view_.slot(false).renderer());
         inspection_ = inspection;
     }
+    drawInspection(session_, picker_, inspection_, at, size);
     overlayText(at, size);
     ImGui::End();
 }

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "conelight/error.h"
+#include "inspection_text.h"
 #include "picture_file.h"
 #include "session/save.h"
 #include "video_file.h"
@@ -48,6 +49,17 @@ void record(Session& session, PictureView& view, Console& console, const Request
     console.print(fmt::format("written {} ({} frames)", request.file, request.count));
 }
 
+void inspect(PictureView& view, Console& console, const Request& request) {
+    Renderer* renderer = view.slot(false).renderer();
+    if (renderer == nullptr)
+        throw Error(ErrorKind::Usage,
+                    "inspect: this mode keeps no cones or rays; traced, cones or thesis "
+                    "would be right");
+    for (const std::string& line :
+         inspectionText(renderer->inspectPixel(request.x, request.y), request.steps))
+        console.print(line);
+}
+
 void carryOut(Session& session, PictureView& view, Console& console, ViewerState& state,
               const Request& request) {
     switch (request.kind) {
@@ -68,6 +80,10 @@ void carryOut(Session& session, PictureView& view, Console& console, ViewerState
         case RequestKind::Quit:
             state.quit = true;
             state.status = request.status;
+            break;
+        case RequestKind::Inspect:
+            inspect(view, console, request);
+            state.inspect = glm::ivec2(request.x, request.y);
             break;
         case RequestKind::SingleFrame:
             view.slot(false).redraw();

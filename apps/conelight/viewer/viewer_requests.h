@@ -11,6 +11,7 @@
 namespace conelight::program {
 
 struct ViewerState {
+    std::optional<glm::ivec2> inspect;  // a pixel that a command asked for: as if it were clicked
     bool quit = false;
     int status = 0;
 };

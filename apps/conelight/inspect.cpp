@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+// `conelight inspect SCENE --pixel X,Y`: how the light of one pixel was gathered.
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "command.h"
+#include "conelight/error.h"
+#include "inspection_text.h"
+#include "io/image_file.h"
+#include "picture_file.h"
+#include "picture_source.h"
+#include "script_run.h"
+#include "session/inspection_lines.h"
+#include "session/picker.h"
+#include "stats_json.h"
+
+namespace conelight::program {
+namespace {
+
+struct InspectOptions {
+    std::string scene;
+    std::string pixel;
+    std::string mode;
+    std::string component = "full";
+    std::string jsonFile;
+    std::string output;
+    bool steps = false;
+    ViewOptions view;
+    ScriptOptions script;
+};
+
+glm::ivec2 parsePixel(const std::string& text, const Size& size) {
+    int x = 0, y = 0, end = 0;
+    const bool read = std::sscanf(text.c_str(), "%d,%d%n", &x, &y, &end) == 2 &&
+                      static_cast<std::size_t>(end) == text.size();
+    if (!read || x < 0 || y < 0 || x >= size.width || y >= size.height)
+        usage(
+            fmt::format("--pixel: '{}' is no pixel of a picture of {} x {}; X,Y from 0,0 (upper left) to "
+                        "{},{} would be right",
+                        text, size.width, size.height, size.width - 1, size.height - 1));
+    return {x, y};
+}
+
+// A line in the picture: points half a pixel apart, each shared between its four pixels.
+void drawLine(Image& image, const PictureLine& line, float brightness) {
+    const glm::vec2 size(static_cast<float>(image.width), static_cast<float>(image.height));
+    const glm::vec2 from = line.from * size - 0.5f, to = line.to * size - 0.5f;
+    const float length = glm::length(to - from);
+    // Lines far outside are cut, not walked.
+    const int points = std::clamp(static_cast<int>(2 * length), 1, 8 * std::max(image.width, image.height));
+    for (int i = 0; i <= points; ++i) {
+        const glm::vec2 p = glm::mix(from, to, static_cast<float>(i) / static_cast<float>(points));
+        if (!(p.x > -1 && p.y > -1 && p.x < size.x && p.y < size.y)) continue;
+        const glm::ivec2 corner(glm::floor(p));
+        const glm::vec2 part = p - glm::vec2(corner);
+        for (int k = 0; k < 4; ++k) {
+            const glm::ivec2 q = corner + glm::ivec2(k & 1, k >> 1);
+            if (q.x < 0 || q.y < 0 || q.x >= image.width || q.y >= image.height) continue;
+            const float share = ((k & 1) != 0 ? part.x : 1 - part.x) * ((k >> 1) != 0 ? part.y : 1 - part.y);
+            glm::vec4& pixel = image.pixels[static_cast<std::size_t>(q.y * image.width + q.x)];
+            pixel = glm::mix(pixel, glm::vec4(brightness * line.color, 1), 0.7f * share * line.opacity);
+        }
+    }
+}
+
+void run(const InspectOptions& options) {
+    if (!options.mode.empty() && !isRendererMode(options.mode)) {
+        requireModeName(options.mode);
+        usage("--mode: " + options.mode +
+              " keeps no cones or rays; traced, cones, thesis or phong would be right");
+    }
+    PictureRequest request;
+    request.size = parseSize(options.view.size);
+    const glm::ivec2 pixel = parsePixel(options.pixel, request.size);
+    if (!options.output.empty()) {
+        io::imageFormatOf(options.output);
+        io::checkWritable(options.output);
+    }
+    if (!options.jsonFile.empty()) io::checkWritable(options.jsonFile);
+
+    Progress progress;
+    Scene scene = openScene(options.scene, options.view, progress);
+    request.settings = settingsFor(scene, options.mode, options.view);
+    setSetting(request.settings, "component", options.component);
+    request.mode = getSetting(request.settings, "mode");
+    request.camera = cameraFor(scene, options.view);
+    PictureSource source(options.view);
+    Session session(std::move(scene), options.scene, request.settings, request.mode, request.camera);
+    runScript(options.script, session, &source, request, progress);
+    request = requestFor(session, request);
+    source.setScene(session.scene());
+    Picture picture = source.draw(request, &progress);
+    const PixelInspection found = source.inspect(request, pixel.x, pixel.y);
+    progress.finish();
+
+    for (const std::string& line : inspectionText(found, options.steps)) fmt::print("{}\n", line);
+    if (!options.jsonFile.empty()) writeJson(options.jsonFile, inspectionJson(found));
+    if (options.output.empty()) return;
+    Image& image = picture.images.front();
+    Picker picker;
+    const float aspect = static_cast<float>(request.size.width) / static_cast<float>(request.size.height);
+    for (const PictureLine& line :
+         inspectionLines(found, session.camera(), aspect, -1, seenFrom(picker, session)))
+        drawLine(image, line, std::exp2(-request.settings.image.exposure));
+    writePicture(options.output, image, request.settings.image);
+}
+
+}  // namespace
+
+void addInspect(CLI::App& app) {
+    auto options = std::make_shared<InspectOptions>();
+    CLI::App* command =
+        app.add_subcommand("inspect", "how the light of one pixel was gathered: its cones or rays");
+    command->add_option("scene", options->scene, "a scene file, or builtin:NAME")->required();
+    command->add_option("--pixel", options->pixel, "the pixel, from the upper left corner")
+        ->type_name("X,Y")
+        ->required();
+    command->add_option("--mode", options->mode, "traced, cones or thesis (default traced)");
+    command->add_option("--component", options->component, "of the picture; occlusion has rays of its own")
+        ->capture_default_str();
+    command->add_flag("--steps", options->steps, "print every step");
+    command->add_option("--json", options->jsonFile, "write all steps as JSON")->type_name("FILE");
+    command->add_option("-o,--output", options->output, "the picture with cones and rays drawn over it")
+        ->type_name("FILE");
+    options->view.addTo(*command);
+    options->script.addTo(*command);
+    command->callback([options] { run(*options); });
+}
+
+}  // namespace conelight::program

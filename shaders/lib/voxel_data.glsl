@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// What a face or a voxel of the surface voxels shows in the views of voxels (conelight::VoxelData). After
+// lib/ray_query.glsl; SurfaceVoxels::bind.
+#include "lib/false_color.glsl"
+#include "shared/irradiance.h"
+#include "shared/voxel_view.h"
+layout(binding = UNIT_VOXEL_FACE_SOURCES) uniform usamplerBuffer voxelFaceSources;
+
+vec3 faceData(int face, uint data) {
+    uvec4 a = texelFetch(voxelFaces, 2 * face);
+    uvec4 b = texelFetch(voxelFaces, 2 * face + 1);
+    vec3 irradiance = vec3(unpackHalf2x16(b.z), unpackHalf2x16(b.w).x);
+    uint updates = faceUpdates(b.w);
+    switch (data) {
+        case VIEW_IRRADIANCE:
+            return irradiance;
+        case VIEW_AGE:
+            return updates == FACE_UPDATES_DEAD ? vec3(1.0, 0.0, 1.0)
+                                                : falseColor(log2(1.0 + float(updates)) / 8.0);
+        case VIEW_ALBEDO:
+            return unpackAlbedo(b.x);
+        case VIEW_NORMAL:
+            return 0.5 + 0.5 * octDecode(unpackSnorm2x16(a.x));
+        case VIEW_EMISSION:
+            return unpackEmission(texelFetch(voxelFaceSources, face).xy);
+        case VIEW_COVERAGE:
+            return vec3(min(unpackWeight(a.y), 1.0));
+        case VIEW_BRICKS: {
+            uvec4 word = texelFetch(voxelBricks, unpackVoxel(a.w) >> 2, 0);
+            return falseColor(float(bitCount(word.x) + bitCount(word.y)) / 64.0);
+        }
+        default:
+            return unpackRgb9e5(b.y) + unpackAlbedo(b.x) * irradiance;
+    }
+}
+
+// Premultiplied mean over the faces of a voxel, and what it hides: the area of a plane piece with coverages W
+// along the axes is |W|. Faces count by coverage and by how much they look against `ray`; the others only
+// where none does. A zero ray: all alike. `record`: of the voxel (voxRec).
+vec4 voxelMean(uint record, vec3 ray, uint data) {
+    uint directions = faceDirections(record);
+    int face = int(faceBase(record));
+    vec4 sum = vec4(0.0);
+    vec3 axes = vec3(0.0);
+    bool any = dot(ray, ray) > 0.0;
+    do {
+        int k = findLSB(directions);
+        directions &= directions - 1u;
+        vec3 along = directionVector(k);
+        float coverage = unpackWeight(texelFetch(voxelFaces, 2 * face).y);
+        float weight = coverage * (any ? max(-dot(along, ray), 1e-4) : 1.0);
+        sum += weight * vec4(faceData(face, data), 1.0);
+        axes = max(axes, abs(along) * coverage);
+        ++face;
+    } while (directions != 0u);
+    float opacity = min(length(axes), 1.0);
+    return vec4(sum.rgb / max(sum.a, 1e-12) * opacity, opacity);
+}

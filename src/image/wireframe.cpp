@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "image/wireframe.h"
+
+#include <cmath>
+
+#include "gl/gl.h"
+#include "shared/bindings.h"
+#include "shared/image.h"
+
+namespace conelight::image {
+namespace {
+
+// Chosen by eye: thin lines that are seen on white walls and on black ones. Over the picture they are dark
+// blue-green and strong, alone light grey on a dark ground.
+constexpr float kHalfWidth = 0.4f;  // pixels
+constexpr glm::vec3 kOverColor{0.02f, 0.35f, 0.3f};
+constexpr float kOverOpacity = 0.85f;
+constexpr glm::vec3 kAloneColor{0.5f};
+constexpr float kAloneOpacity = 0.8f;
+// Lines lie on the surfaces whose depth they are tested against: nearer by two units and the slope.
+constexpr float kBiasSlope = -1.0f, kBiasUnits = -2.0f;
+
+gl::ProgramDesc desc() {
+    return {{"image/wireframe.vert.glsl", "image/wireframe.geom.glsl", "image/wireframe.frag.glsl"}, {}};
+}
+
+}  // namespace
+
+void WireframeView::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
+                         const view::GBuffer& gbuffer, Wireframe kind, float exposure, const glm::vec3& sky,
+                         bool culls, const gl::Texture& output) {
+    const gl::PassScope pass(profiler, "wireframe");
+    const bool over = kind == Wireframe::Over;
+    gpu::WireframeConstants c{};
+    c.radiance = (over ? kOverColor : kAloneColor) * std::exp2(-exposure);
+    c.opacity = over ? kOverOpacity : kAloneOpacity;
+    c.halfWidth = kHalfWidth;
+    if (!constants_) constants_ = gl::Buffer(sizeof(gpu::WireframeConstants), "wireframe constants");
+    constants_.update(c);
+    constants_.bindUniform(BINDING_PASS);
+
+    const gl::Framebuffer target({&output}, &gbuffer.depth(), "wireframe");
+    gl::RasterState state;
+    state.framebuffer = &target;
+    state.depthTest = over;
+    state.depthWrite = false;
+    state.blend = true;
+    state.depthBiasSlope = kBiasSlope;
+    state.depthBiasUnits = kBiasUnits;
+    gl::apply(state);
+    if (!over) target.clearColor(0, sky.r, sky.g, sky.b, 0);
+    programs.get(desc()).use();
+    scene.draw({}, over && culls ? gl::Cull::Back : gl::Cull::None, false);
+}
+
+std::vector<gl::ProgramDesc> WireframeView::programDescs() { return {desc()}; }
+
+}  // namespace conelight::image

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: MIT
+// Views that look inside, by pixels of scenes whose answer is known: edges of triangles, shadow maps, voxels
+// at every level, alone and among the objects.
+#include <cmath>
+#include <memory>
+
+#include "conelight/renderer.h"
+#include "support/gl_fixture.h"
+#include "support/truth_rig.h"
+#include "support/view_rig.h"
+
+namespace conelight::test {
+namespace {
+
+constexpr int kPixels = 64;
+
+glm::vec3 at(const Image& image, int x, int y) {
+    return glm::vec3(image.pixels[static_cast<std::size_t>(y * image.width + x)]);
+}
+
+// Part of the picture that is covered.
+double covered(const Image& image) {
+    double sum = 0;
+    for (const glm::vec4& p : image.pixels) sum += p.a;
+    return sum / static_cast<double>(image.pixels.size());
+}
+
+double differing(const Image& a, const Image& b) {
+    double count = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        count += glm::length(glm::vec3(a.pixels[i] - b.pixels[i])) > 1e-3f ? 1 : 0;
+    return count / static_cast<double>(a.pixels.size());
+}
+
+Settings settingsOf(Mode mode, Component component) {
+    Settings settings;
+    settings.mode = mode;
+    settings.component = component;
+    settings.voxels.size = 32;
+    settings.light.shadowSize = 256;
+    settings.cones.bounces = 1;
+    settings.traced.cacheUpdates = 4;
+    settings.traced.passes = 1;
+    return settings;
+}
+
+// A red cube of edge 1 about the origin, in front of nothing, seen from +z and a little above and beside.
+Scene redCube() {
+    Scene outside;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float side : {-1.0f, 1.0f}) {
+            glm::vec3 n(0), u(0), v(0);
+            n[axis] = side;
+            u[(axis + 1) % 3] = 1;
+            v[(axis + 2) % 3] = 1;
+            const glm::vec3 corner = 0.5f * n - 0.5f * (u + v);
+            addInstance(outside, side > 0 ? quadMesh(corner, u, v) : quadMesh(corner, v, u),
+                        mattMaterial({0.8f, 0.1f, 0.05f}));
+        }
+    Light light;
+    light.type = LightType::Point;
+    light.position = {0.4f, 0.6f, 3};
+    light.intensity = glm::vec3(10);
+    outside.lights.push_back(light);
+    Camera camera;
+    camera.eye = {0.2f, 0.3f, 3};
+    camera.target = {0, 0, 0};
+    camera.fovY = 0.5f;
+    outside.cameras.push_back(camera);
+    return outside;
+}
+
+class ViewsTest : public GlTest {
+  protected:
+    void TearDown() override {
+        renderer_.reset();
+        GlTest::TearDown();
+    }
+    // One renderer for all pictures of a test: programs are built once.
+    Image draw(const Scene& scene, const Settings& settings) {
+        if (!renderer_) renderer_ = std::make_unique<Renderer>();
+        renderer_->setScene(scene);
+        return again(scene, settings);
+    }
+    // The scene of the last draw.
+    Image again(const Scene& scene, const Settings& settings) {
+        renderer_->render(scene.cameras.at(0), kPixels, kPixels, settings);
+        return renderer_->readImage();
+    }
+
+  private:
+    std::unique_ptr<Renderer> renderer_;
+};
+
+// One quad that fills the view: its diagonal is an edge, the middles of its halves are not.
+TEST_F(ViewsTest, EdgesLieWhereTrianglesMeet) {
+    Scene scene;
+    addInstance(scene, quadMesh({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), mattMaterial(glm::vec3(0.5f)));
+    scene.cameras.push_back(cameraAbove({0, 0, 0}, 2, 2));
+    scene.sky = glm::vec3(0.25f);
+    Settings settings = settingsOf(Mode::Phong, Component::Albedo);
+    const Image plain = draw(scene, settings);
+    settings.view.wireframe = Wireframe::Over;
+    const Image over = draw(scene, settings);
+    int onDiagonals = 0;
+    for (int i = 8; i < kPixels - 8; ++i) {
+        onDiagonals += glm::length(at(over, i, i) - at(plain, i, i)) > 0.05f ? 1 : 0;
+        onDiagonals += glm::length(at(over, i, kPixels - 1 - i) - at(plain, i, kPixels - 1 - i)) > 0.05f;
+    }
+    EXPECT_GE(onDiagonals, kPixels - 16);  // one of the two diagonals, all along
+    EXPECT_LE(onDiagonals, kPixels - 12);  // not the other
+    for (const glm::ivec2 p :
+         {glm::ivec2(32, 10), glm::ivec2(10, 32), glm::ivec2(54, 32), glm::ivec2(32, 54)})
+        EXPECT_EQ(at(over, p.x, p.y), at(plain, p.x, p.y));
+    settings.view.wireframe = Wireframe::Alone;
+    const Image alone = draw(scene, settings);
+    EXPECT_EQ(at(alone, 32, 10), glm::vec3(0.25f));  // the sky, not the surface
+    EXPECT_GT(differing(alone, plain), 0.9);
+    // As bright on the screen whatever the exposure.
+    settings.image.exposure = 3;
+    const Image exposed = draw(scene, settings);
+    float brightest = 0, brightestExposed = 0;
+    for (int i = 8; i < kPixels - 8; ++i)
+        for (const int x : {i, kPixels - 1 - i}) {
+            brightest = std::max(brightest, at(alone, x, i).x);
+            brightestExposed = std::max(brightestExposed, at(exposed, x, i).x);
+        }
+    EXPECT_GT(brightest, 0.3f);
+    EXPECT_LT(brightestExposed, brightest);
+}
+
+// Over: edges behind surfaces are hidden; alone: they are not. A far cube's edges behind a near quad.
+TEST_F(ViewsTest, HiddenEdgesAreLeftOutUnlessAlone) {
+    Scene scene = redCube();
+    Settings settings = settingsOf(Mode::Phong, Component::Albedo);
+    settings.view.wireframe = Wireframe::Over;
+    const double visible = differing(draw(scene, settings), [&] {
+        Settings without = settings;
+        without.view.wireframe = Wireframe::Off;
+        return draw(scene, without);
+    }());
+    settings.view.wireframe = Wireframe::Alone;
+    const double all = differing(draw(scene, settings), [&] {
+        Scene empty = scene;
+        for (Instance& instance : empty.instances) instance.visible = false;
+        return draw(empty, settings);
+    }());
+    EXPECT_GT(visible, 0.02);
+    EXPECT_GT(all, 1.2 * visible);  // six sides and not three
+}
+
+// A light 1.5 above a floor: below it the map holds that distance along its axis.
+TEST_F(ViewsTest, ShadowMapsHoldDistances) {
+    Scene scene;
+    addInstance(scene, quadMesh({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}), mattMaterial(glm::vec3(0.5f)));
+    scene.cameras.push_back(cameraAbove({0, 0, 0}, 2, 2));
+    Light sun;
+    sun.type = LightType::Directional;
+    sun.direction = {0, -1, 0};
+    sun.intensity = glm::vec3(1);
+    scene.lights.push_back(sun);
+    Light point;
+    point.type = LightType::Point;
+    point.position = {0, 1.5f, 0};
+    point.intensity = glm::vec3(1);
+    scene.lights.push_back(point);
+    for (const Mode mode : {Mode::Traced, Mode::Phong}) {
+        Settings settings = settingsOf(mode, Component::ShadowMap);
+        settings.view.light = 1;  // second in the scene, first in the table, which is sorted by kind
+        Renderer renderer;
+        renderer.setScene(scene);
+        renderer.render(scene.cameras.at(0), 96, 64, settings);
+        const Image image = renderer.readImage();
+        // +x -x +y above, -y +z -z below, tiles of 32 pixels.
+        EXPECT_NEAR(at(image, 16, 48).x, 1.5f, 0.01f);  // -y: all floor, at the same distance along the axis
+        EXPECT_NEAR(at(image, 6, 38).x, 1.5f, 0.01f);
+        EXPECT_EQ(at(image, 80, 16), glm::vec3(0));  // +y: nothing
+        settings.view.light = 7;                     // beyond the last: the last
+        renderer.render(scene.cameras.at(0), 96, 64, settings);
+        EXPECT_EQ(renderer.readImage().pixels, image.pixels);
+        settings.view.light = 0;  // one map: all of it is floor at one distance
+        renderer.render(scene.cameras.at(0), 96, 64, settings);
+        const Image single = renderer.readImage();
+        EXPECT_GT(at(single, 48, 32).x, 0);
+        EXPECT_NEAR(at(single, 40, 20).x, at(single, 48, 32).x, 0.01f);
+        EXPECT_EQ(at(single, 2, 32), glm::vec3(0));  // beside the square map
+    }
+}
+
+// The cube is as large in voxels as it is, to about a voxel, at every level; and has its colour and normals.
+TEST_F(ViewsTest, VoxelsShowTheCubeAtEveryLevel) {
+    const Scene scene = redCube();
+    const double truth = covered(draw(scene, settingsOf(Mode::Phong, Component::Albedo)));
+    for (const Mode mode : {Mode::Traced, Mode::Cones}) {
+        Settings settings = settingsOf(mode, Component::Voxels);
+        settings.view.voxelShape = VoxelShape::Cubes;
+        settings.view.voxelData = VoxelData::Albedo;
+        for (int level = 0; level <= 3; ++level) {
+            settings.view.voxelLevel = {false, static_cast<float>(level)};
+            const Image image = draw(scene, settings);
+            // 32 voxels are 1.06 m: cubes of 2^level stick out by less than one on each side.
+            const double edge = 1 + 2 * 0.033 * (1 << level);
+            EXPECT_GE(covered(image), 0.97 * truth) << level;
+            EXPECT_LE(covered(image), 1.05 * truth * edge * edge) << level;
+            EXPECT_NEAR(at(image, 32, 32).x, 0.8f, 0.01f) << level;
+            EXPECT_NEAR(at(image, 32, 32).y, 0.1f, 0.01f) << level;
+        }
+        settings.view.voxelLevel = {};
+        settings.view.voxelData = VoxelData::Normal;
+        EXPECT_NEAR(at(draw(scene, settings), 32, 32).z, 1.0f, 0.02f);  // +z
+        settings.view.voxelData = VoxelData::Coverage;
+        EXPECT_NEAR(at(draw(scene, settings), 32, 32).x, 1.0f, 0.05f);
+        settings.view.voxelData = VoxelData::Level;
+        EXPECT_EQ(at(draw(scene, settings), 32, 32), glm::vec3(0, 0, 1));  // level 0 is blue
+    }
+}
+
+TEST_F(ViewsTest, EveryShapeAndKindOfDataDraws) {
+    const Scene scene = redCube();
+    const double truth = covered(draw(scene, settingsOf(Mode::Phong, Component::Albedo)));
+    for (const Mode mode : {Mode::Traced, Mode::Cones, Mode::Thesis}) {
+        Settings settings = settingsOf(mode, Component::Voxels);
+        draw(scene, settings);
+        for (const VoxelShape shape : {VoxelShape::Auto, VoxelShape::Cubes, VoxelShape::Edges,
+                                       VoxelShape::Faces, VoxelShape::Volume, VoxelShape::Surfaces})
+            for (int data = 0; data <= static_cast<int>(VoxelData::Level); ++data) {
+                settings.view.voxelShape = shape;
+                settings.view.voxelData = static_cast<VoxelData>(data);
+                const Image image = again(scene, settings);
+                SCOPED_TRACE(testing::Message() << "mode " << static_cast<int>(mode) << " shape "
+                                                << static_cast<int>(shape) << " data " << data);
+                const double part = covered(image);
+                EXPECT_GT(part, shape == VoxelShape::Edges ? 0.02 : 0.15);
+                EXPECT_LT(part, 1.3 * truth);  // bricks stick out by up to four voxels
+                for (const glm::vec4& p : image.pixels)
+                    for (int c = 0; c < 4; ++c) ASSERT_TRUE(std::isfinite(p[c]));
+            }
+    }
+}
+
+// Age is the number of updates; the cache's irradiance alone is dark where there is nothing to reflect.
+TEST_F(ViewsTest, AgeCountsUpdates) {
+    const Scene scene = closedBox(mattMaterial(glm::vec3(0.5f), glm::vec3(1)));
+    Settings settings = settingsOf(Mode::Traced, Component::Voxels);
+    settings.view.voxelData = VoxelData::Age;
+    settings.traced.cacheUpdates = 1;
+    const glm::vec3 young = at(draw(scene, settings), 32, 32);  // log2(2) / 8: much blue
+    settings.traced.cacheUpdates = 255;
+    settings.traced.cacheRays = 1;
+    settings.voxels.size = 16;
+    const glm::vec3 old = at(draw(scene, settings), 32, 32);  // log2(256) / 8: red
+    EXPECT_GT(young.z, 0.9f);
+    EXPECT_LT(young.x, 0.1f);
+    EXPECT_NEAR(old.x, 1.0f, 0.05f);
+    EXPECT_NEAR(old.z, 0.0f, 0.05f);
+    settings.view.voxelData = VoxelData::Irradiance;  // e / (1 - rho) arrives from everywhere
+    settings.light.emissiveQuads = false;
+    EXPECT_NEAR(at(draw(scene, settings), 32, 32).x, 2.0f, 0.1f);
+}
+
+// A cone of the aperture has the diameter of a voxel at one distance, and of two at twice that.
+TEST_F(ViewsTest, TheLevelGrowsWithTheDistance) {
+    Scene scene;
+    addInstance(scene, quadMesh({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}), mattMaterial(glm::vec3(0.5f)));
+    Camera camera;
+    camera.eye = {0, 0.8f, 3.9f};
+    camera.target = {0, 0.3f, 0};
+    camera.fovY = 1.2f;
+    scene.cameras.push_back(camera);
+    for (const Mode mode : {Mode::Traced, Mode::Cones, Mode::Thesis})
+        for (const VoxelShape shape : {VoxelShape::Cubes, VoxelShape::Surfaces}) {
+            Settings settings = settingsOf(mode, Component::Voxels);
+            settings.view.voxelShape = shape;
+            settings.view.voxelData = VoxelData::Level;
+            settings.view.voxelAperture = 0.4f;
+            const Image image = draw(scene, settings);
+            // From blue (low) below to redder or greener ones above: green never falls on the way up.
+            float last = -1;
+            int levels = 0;
+            for (int y = kPixels - 1; y > 0 && image.pixels[static_cast<std::size_t>(y * kPixels + 32)].a > 0;
+                 --y) {
+                const glm::vec3 color = at(image, 32, y);
+                const float order = color.y - color.z + 2 * color.x;
+                EXPECT_GE(order, last - 1e-4f) << y;
+                levels += order > last + 1e-4f ? 1 : 0;
+                last = std::max(last, order);
+            }
+            EXPECT_GE(levels, 3) << static_cast<int>(mode) << " " << static_cast<int>(shape);
+        }
+}
+
+// Cubes stick out of the surface by up to a voxel: among the objects some are in front and some are not; what
+// is nearer than both stays.
+TEST_F(ViewsTest, VoxelsStandAmongTheObjects) {
+    Scene scene = redCube();
+    // A plate in front of the cube's left half that is not voxelized.
+    const std::size_t plate =
+        addInstance(scene, quadMesh({-1, -1, 1}, {1, 0, 0}, {0, 2, 0}), mattMaterial({0, 0, 1}));
+    scene.instances[plate].voxelized = false;
+    for (const Mode mode : {Mode::Traced, Mode::Cones, Mode::Thesis}) {
+        Settings settings = settingsOf(mode, Component::Albedo);
+        const Image picture = draw(scene, settings);
+        settings.view.voxels = true;
+        settings.view.voxelShape = VoxelShape::Cubes;
+        settings.view.voxelData = VoxelData::Level;
+        const Image among = draw(scene, settings);
+        EXPECT_EQ(at(among, 16, 32), at(picture, 16, 32)) << static_cast<int>(mode);  // the plate is in front
+        EXPECT_EQ(at(picture, 16, 32), glm::vec3(0, 0, 1));
+        EXPECT_GT(differing(among, picture), 0.05) << static_cast<int>(mode);
+    }
+}
+
+// Edges leave the cubes open, and the ray meets the same cubes as a volume does.
+TEST_F(ViewsTest, EdgesAreOpenAndVolumesThin) {
+    Scene scene = redCube();
+    scene.cameras[0].fovY = 0.25f;  // cubes of 11 pixels: their edges are 1.5 wide
+    Settings settings = settingsOf(Mode::Traced, Component::Voxels);
+    settings.voxels.size = 8;
+    settings.view.voxelShape = VoxelShape::Cubes;
+    const double cubes = covered(draw(scene, settings));
+    settings.view.voxelShape = VoxelShape::Edges;
+    EXPECT_LT(covered(draw(scene, settings)), 0.7 * cubes);
+    settings.view.voxelShape = VoxelShape::Volume;
+    settings.view.voxelDensity = 1;
+    const double dense = covered(draw(scene, settings));
+    settings.view.voxelDensity = 0.02f;
+    const double thin = covered(draw(scene, settings));
+    EXPECT_GT(dense, 0.8 * cubes);
+    EXPECT_LT(thin, 0.5 * dense);
+    EXPECT_GT(thin, 0.01);
+}
+
+}  // namespace
+}  // namespace conelight::test
