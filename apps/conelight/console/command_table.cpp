@@ -61,8 +61,8 @@ std::string Command::usage() const {
 
 const std::vector<CommandGroup>& commandGroups() {
     static const std::vector<CommandGroup> kGroups = {
-        settingCommands(),      cameraCommands(),       sceneCommands(),        programCommands(),
-        originalViewCommands(), originalConeCommands(), originalModelCommands()};
+        settingCommands(), cameraCommands(),       sceneCommands(),        programCommands(),
+        windowCommands(),  originalViewCommands(), originalConeCommands(), originalModelCommands()};
     return kGroups;
 }
 

@@ -95,6 +95,7 @@ CommandGroup settingCommands();        // commands_settings.cpp
 CommandGroup cameraCommands();         // commands_camera.cpp
 CommandGroup sceneCommands();          // commands_scene.cpp
 CommandGroup programCommands();        // commands_program.cpp
+CommandGroup windowCommands();         // commands_window.cpp
 
 Command lightCommand();    // commands_light.cpp
 Command pathCommand();     // commands_path.cpp

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace conelight::program {
 
@@ -15,6 +16,7 @@ enum class RequestKind {
     Revoxelize,   // and say how large the voxels are
     SingleFrame,  // draw one frame although ViewFlags::singleFrame is on
     Wait,         // draw `count` frames before the next command
+    Window,       // words: a command that only a window has (commands_window.cpp)
     Quit,         // status
 };
 
@@ -27,6 +29,7 @@ struct Request {
     bool turntable = false;  // Record: once round the target
     bool alongPath = false;  // Record: along the session's camera path
     bool overwrite = false;  // Bake: what is there already
+    std::vector<std::string> words;
 };
 
 }  // namespace conelight::program
