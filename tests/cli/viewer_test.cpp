@@ -35,8 +35,8 @@ class ViewerTest : public ::testing::Test {
     void start(const std::string& arguments, const std::string& environment = "") {
         viewer = std::make_unique<ViewerProcess>(*screen, arguments, environment);
     }
-    // Until the window has looked at input that came before and has drawn what follows from it: an answer comes
-    // between the two.
+    // Until the window has looked at input that came before and has drawn what follows from it: an answer
+    // comes between the two.
     void pass() {
         for (int i = 0; i < 3; ++i) viewer->status("frames");
     }
@@ -297,7 +297,10 @@ TEST_F(ViewerTest, LinesAreTypedIntoTheWindowAndRemembered) {
     click(viewer->middleOf("menu:File"));
     click(viewer->middleOf("menu:Open recent"));
     click(viewer->middleOf("recent:builtin:cornell"));
-    EXPECT_NE(viewer->expect("loaded builtin:cornell"), "") << viewer->output();
+    EXPECT_TRUE(eventually([&] {
+        viewer->status("frames");
+        return viewer->output().find("loaded builtin:cornell") != std::string::npos;
+    })) << viewer->output();
 }
 
 TEST_F(ViewerTest, BadFilesAndBadNumbersAreLinesNotTheEnd) {

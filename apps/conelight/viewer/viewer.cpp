@@ -224,9 +224,8 @@ void Viewer::takeCommands() {
 
 int Viewer::run() {
     while (!end_.quit && !window_.shouldClose()) {
-        const bool busy =
-            more_ || session_.hasRequests() || (!commands_.idle() && !settling_) || !wanted_.empty() ||
-                          session_.playing();
+        const bool busy = more_ || session_.hasRequests() || (!commands_.idle() && !settling_) ||
+                          !wanted_.empty() || session_.playing();
         const ViewFlags& flags = session_.flags();
         const double rest = flags.dynamic ? std::min<double>(flags.period, kIdleWait) : kIdleWait;
         if (!console_.takesKeysSoon()) window_.pollEvents(!busy ? rest : lastWasIdle_ ? kPace : 0);
