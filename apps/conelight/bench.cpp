@@ -163,7 +163,8 @@ std::unique_ptr<Session> sessionFor(const Scene& scene, const Camera& camera, co
                                     Progress& progress) {
     auto session =
         std::make_unique<Session>(scene, path, settingsFor(scene, mode, options.view), mode, camera);
-    runScript(options.script, *session, nullptr, {}, progress);
+    const PictureRequest none;
+    runScript(options.script, *session, nullptr, none, progress);
     if (session->shownMode() != mode)
         throw Error(ErrorKind::Usage, fmt::format("--exec: changes the mode to {}; --modes {} would be right",
                                                   session->shownMode(), session->shownMode()));

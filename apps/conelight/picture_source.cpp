@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "conelight/error.h"
+#include "scene_upload.h"
 #include "session/session.h"
 #include "traced_picture.h"
 
@@ -75,10 +76,14 @@ struct PictureSource::Impl {
     std::unique_ptr<platform::HeadlessContext> context;
     std::unique_ptr<Renderer> renderer;
     const Scene* scene = nullptr;
-    const Scene* uploaded = nullptr;  // what the renderer holds
+    const Scene* uploaded = nullptr;   // what the renderer holds
+    const Session* session = nullptr;  // null: of setScene
+    std::uint64_t sessionTables = 0;   // of the session when tracer and bakes were made
+    SceneUpload changes;
     std::optional<reference::PathTracer> tracer;
     std::optional<Bake> lit, direct;  // by all light asked for; by light that comes straight from lights
 
+    void dropTruths();
     void upload(const Scene& wanted, Progress* progress);
     Image drawGl(const PictureRequest& request, const Settings& settings, Picture& picture);
     FrameCost costOf(const PictureRequest& request, const Settings& settings);
@@ -101,10 +106,27 @@ PictureSource::~PictureSource() = default;
 
 void PictureSource::setScene(const Scene& scene) {
     impl_->scene = &scene;
+    impl_->session = nullptr;
     impl_->uploaded = nullptr;
-    impl_->tracer.reset();
-    impl_->lit.reset();
-    impl_->direct.reset();
+    impl_->dropTruths();
+}
+
+void PictureSource::follow(const Session& session) {
+    const std::uint64_t tables = session.revisions().sceneTables();
+    const bool other = impl_->session != &session;
+    if (!other && impl_->sessionTables == tables) return;
+    if (other || impl_->uploaded != &session.scene()) impl_->uploaded = nullptr;  // it may hold a bake
+    impl_->dropTruths();
+    impl_->scene = &session.scene();
+    impl_->session = &session;
+    impl_->sessionTables = tables;
+}
+
+// What rays and radiosity know of the scene.
+void PictureSource::Impl::dropTruths() {
+    tracer.reset();
+    lit.reset();
+    direct.reset();
 }
 
 std::string PictureSource::device() const { return impl_->context ? impl_->context->description() : ""; }
@@ -116,9 +138,15 @@ void PictureSource::Impl::upload(const Scene& wanted, Progress* progress) {
         context = openContext(view);
         renderer = std::make_unique<Renderer>(RendererOptions{shaderDirectory, view.debugGl});
     }
-    if (uploaded == &wanted) return;
+    const bool follows = session != nullptr && &wanted == scene;
+    if (uploaded == &wanted && !follows) return;
     show(progress, "uploading the scene");
-    renderer->setScene(wanted);
+    if (follows) {
+        if (uploaded != &wanted) changes.forget();
+        changes.follow(*renderer, *session);
+    } else {
+        renderer->setScene(wanted);
+    }
     uploaded = &wanted;
 }
 

@@ -13,6 +13,7 @@
 #include "conelight/renderer.h"
 #include "reference/path_tracer.h"
 #include "reference/radiosity.h"
+#include "session/session.h"
 
 namespace conelight::program {
 
@@ -67,6 +68,9 @@ class PictureSource {
     // Keeps a reference: `scene` lives unchanged until the next setScene. What the renderer keeps over frames
     // is kept.
     void setScene(const Scene& scene);
+    // The session's scene as it is now; keeps a reference to it. Called before each draw, it uploads what
+    // changed since and no more. Throws what the renderer refuses.
+    void follow(const Session& session);
 
     // `progress` may be null. Throws Error(Usage) for a mode or component that does not exist, else what the
     // renderer throws.

@@ -112,6 +112,9 @@ class Runner {
                 for (const std::string& line : inspectionText(pixel, request.steps)) console_.print(line);
                 break;
             }
+            case RequestKind::Window:
+                throw Error(ErrorKind::Usage,
+                            request.words.front() + ": there is no window; `conelight view` has one");
             default:
                 break;
         }
@@ -138,18 +141,12 @@ class Runner {
 
     void bake(const Request& request) {
         if (source_ == nullptr) throw Error(ErrorKind::Usage, "bake: only `render` bakes");
-        upload();
+        source_->follow(session_);
         const Scene& lit = source_->bakedScene(base_.radiosity, &progress_);
         const WritingScope writing;
         for (const std::string& note : io::writeGltf(request.file, lit, request.overwrite))
             console_.print(note);
         console_.print("written " + request.file);
-    }
-
-    void upload() {
-        const std::uint64_t tables = session_.revisions().sceneTables();
-        if (!uploaded_ || *uploaded_ != tables) source_->setScene(session_.scene());
-        uploaded_ = tables;
     }
 
     Image draw() {
@@ -163,7 +160,7 @@ class Runner {
                 glm::vec4(session_.scene().sky, 0));
             return image;
         }
-        upload();
+        source_->follow(session_);
         const auto start = std::chrono::steady_clock::now();
         Picture picture = source_->draw(request, &progress_);
         const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
@@ -178,7 +175,6 @@ class Runner {
     PictureRequest base_;
     Progress& progress_;
     Console console_;
-    std::optional<std::uint64_t> uploaded_;
     FrameStats stats_;
 };
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // `conelight view [SCENE]`: the window.
+#include <chrono>
+
 #include "command.h"
 #include "script_run.h"
 #include "session/session.h"
@@ -8,6 +10,9 @@
 namespace conelight::program {
 namespace {
 
+// Initialised before main().
+const std::chrono::steady_clock::time_point kStarted = std::chrono::steady_clock::now();
+
 struct ViewCommand {
     std::string scene = "builtin:cornell";
     std::string mode;
@@ -15,6 +20,9 @@ struct ViewCommand {
     std::string window = "1280x800";
     std::vector<std::string> commands;
     bool noInput = false;
+    bool noState = false;
+    bool timing = false;
+    double uiScale = 0;
     ViewOptions view;
 };
 
@@ -35,6 +43,10 @@ int run(const ViewCommand& options) {
     viewer.debugGl = options.view.debugGl;
     viewer.commands = options.commands;
     viewer.readStdin = !options.noInput;
+    viewer.keepState = !options.noState;
+    viewer.timing = options.timing;
+    viewer.uiScale = static_cast<float>(options.uiScale);
+    viewer.startedMs = std::chrono::duration<double, std::milli>(kStarted.time_since_epoch()).count();
     return runViewer(session, viewer);
 }
 
@@ -56,6 +68,14 @@ void addView(CLI::App& app) {
         ->type_name("COMMANDS")
         ->allow_extra_args(false);
     command->add_flag("--no-input", options->noInput, "do not read commands from standard input");
+    command->add_flag("--no-state", options->noState,
+                      "remember nothing: neither scenes that were opened nor lines that were typed");
+    command->add_flag("--timing", options->timing,
+                      "print when the first frame was shown, and at the end what frames cost");
+    command
+        ->add_option("--ui-scale", options->uiScale,
+                     "size of text and widgets, 1 on ordinary screens; the screen's by default")
+        ->check(CLI::Range(0.5, 4.0));
     options->view.addTo(*command);
     command->callback([options] {
         if (const int status = run(*options); status != 0) throw QuitRequest{status};

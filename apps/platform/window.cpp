@@ -6,6 +6,7 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "conelight/error.h"
@@ -24,9 +25,9 @@ void keepError(int, const char* message) { lastGlfwError = message != nullptr ? 
             "`conelight render`, which needs no display");
 }
 
-Window& self(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
-
 }  // namespace
+
+Window& Window::self(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
 
 Window::Window(const WindowOptions& options) {
     glfwSetErrorCallback(keepError);
@@ -51,6 +52,16 @@ Window::Window(const WindowOptions& options) {
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
         if (self(window).onDrop) self(window).onDrop({paths, paths + count});
     });
+    // The GUI's own callbacks call these on.
+    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int mods) {
+        ++self(window).inputs_;
+        if (action == GLFW_PRESS)
+            self(window).keyPresses_.push_back(
+                {key, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0});
+    });
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double, double) { ++self(window).inputs_; });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int, int, int) { ++self(window).inputs_; });
+    glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double) { ++self(window).inputs_; });
     glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) {
         if (self(window).onRefresh) self(window).onRefresh();
     });
@@ -137,6 +148,24 @@ void Window::clear(const glm::vec3& color) {
     glDisable(GL_SCISSOR_TEST);
     glClearColor(color.r, color.g, color.b, 1);
     glClear(GL_COLOR_BUFFER_BIT);
+}
+
+std::vector<std::uint8_t> Window::pixels() const {
+    const glm::ivec2 size = framebufferSize();
+    const std::size_t pitch = 3 * static_cast<std::size_t>(size.x);
+    std::vector<std::uint8_t> rows(pitch * static_cast<std::size_t>(size.y));
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    glReadBuffer(GL_BACK);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, size.x, size.y, GL_RGB, GL_UNSIGNED_BYTE, rows.data());
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    for (std::size_t low = 0, high = rows.size(); low + pitch < high; low += pitch) {
+        high -= pitch;  // GL's first row is the lowest
+        std::swap_ranges(rows.begin() + static_cast<std::ptrdiff_t>(low),
+                         rows.begin() + static_cast<std::ptrdiff_t>(low + pitch),
+                         rows.begin() + static_cast<std::ptrdiff_t>(high));
+    }
+    return rows;
 }
 
 std::string Window::description() const {

@@ -3,9 +3,11 @@
 // process; use it on the main thread only.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 struct GLFWwindow;
@@ -47,6 +49,14 @@ class Window {
     void captureCursor(bool on);
     bool cursorCaptured() const { return captured_; }
     bool isKeyDown(int glfwKey) const;
+    struct KeyPress {
+        int key = 0;  // GLFW's
+        bool control = false, shift = false;
+    };
+    // Keys that went down since the last call, in order: also those that are up again.
+    std::vector<KeyPress> takeKeyPresses() { return std::exchange(keyPresses_, {}); }
+    // Counts what the user does with mouse and keys.
+    std::uint64_t inputs() const { return inputs_; }
     glm::dvec2 cursor() const;  // screen units from the top left corner
 
     std::function<void(const std::vector<std::string>& paths)> onDrop;
@@ -56,13 +66,18 @@ class Window {
     // Clears the framebuffer, for what is drawn over it (the GUI). GL state changed: framebuffer binding,
     // viewport, clear colour.
     void clear(const glm::vec3& color);
+    // The framebuffer as it is, before swapBuffers: RGB bytes of framebufferSize(), first row on top.
+    std::vector<std::uint8_t> pixels() const;
     GLFWwindow* handle() const { return window_; }
     std::string description() const;  // GL renderer and version
 
   private:
+    static Window& self(GLFWwindow* window);
     GLFWwindow* window_ = nullptr;
     bool fullscreen_ = false;
     bool captured_ = false;
+    std::vector<KeyPress> keyPresses_;
+    std::uint64_t inputs_ = 0;
     glm::ivec2 windowedPosition_{0}, windowedSize_{0};
 };
 

@@ -86,6 +86,9 @@ class Renderer {
     // Throws Error(Usage) for settings out of range, Error(Runtime) for failures of the driver.
     void render(const Camera& camera, int width, int height, const Settings& settings);
     void setDynamic(bool everyFrame);
+    // With RendererOptions::shaderDirectory: builds the programs again that use files changed there. One that
+    // fails stays as it was. Returns a message per failure, several lines each; GL state stays as it was.
+    std::vector<std::string> reloadShaders();
 
     // Results of the last render().
     Image readImage() const;  // waits for the GPU

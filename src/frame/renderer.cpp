@@ -76,6 +76,7 @@ struct Renderer::Impl {
     bool sceneChanged = true;
     std::uint64_t geometryRevision = 0, lightRevision = 0;
     bool shadowsCurrent = false;
+    bool allShadows = false;  // also those that see no change
     bool emittersAreLights = false;
     bool geometryChanged = true;
     bool lightChanged = true;
@@ -190,6 +191,15 @@ void Renderer::setProfiling(bool passes, bool lookups) {
 
 void Renderer::setDynamic(bool everyFrame) { impl_->everyFrame = everyFrame; }
 
+std::vector<std::string> Renderer::reloadShaders() {
+    const gl::HostStateGuard guard;
+    std::vector<std::string> failures = impl_->programs.reload(impl_->programs.sourceFiles());
+    impl_->mode.reset();  // what the old programs left in volumes and shadow maps is theirs
+    impl_->allShadows = true;
+    impl_->sceneChanged = true;
+    return failures;
+}
+
 void Renderer::render(const Camera& camera, int width, int height, const Settings& settings) {
     if (width < 1 || height < 1 || width > kMaxEdge || height > kMaxEdge)
         base::fail(ErrorKind::Usage, "picture of %d x %d; 1 to %d in each direction would be right", width,
@@ -263,7 +273,8 @@ void Renderer::Impl::prepareMode(const Settings& settings) {
     const bool wantsShadows =
         settings.component == Component::ShadowMap || mode->needsShadowsIn(source, settings);
     if (wantsShadows && !shadowsCurrent) {
-        shadows.update(programs, profiler, *scene, settings.light, everyFrame);
+        shadows.update(programs, profiler, *scene, settings.light, everyFrame || allShadows);
+        allShadows = false;
         scene->bind();
         shadowsCurrent = true;
     }

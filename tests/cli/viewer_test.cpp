@@ -1,79 +1,395 @@
 // SPDX-License-Identifier: MIT
-// `conelight view` under Xvfb, driven through its console; skipped without one. Its camera moves as the
-// pointer does is tested below without a window.
+// `conelight view` on a screen without a monitor, driven by mouse, keys and its console, watched by what it
+// prints and by the screen's pixels. Skipped where Xvfb, xdotool or xwd is not installed.
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
 
 #include "io/image_file.h"
+#include "platform/window.h"
 #include "support/program.h"
-#include "viewer/camera_control.h"
+#include "support/virtual_screen.h"
 
 namespace conelight::test {
 namespace {
 
-// The program on a virtual screen of its own. A driver that hangs is ended after a minute.
-CommandResult view(const std::string& arguments, const std::string& input) {
-    return runCommand("printf '" + input +
-                      "' | timeout 60 xvfb-run -a -s '-screen 0 800x600x24' '" CONELIGHT_PROGRAM "' view " +
-                      arguments + " 2>&1");
+constexpr glm::ivec2 kScreen(960, 640);
+// Small and cheap: what is tested is the window.
+const char* const kSmall = "--window 720x480 --voxels 32 --mode phong --no-state ";
+
+bool near(const glm::vec3& a, const glm::vec3& b, float tolerance) {
+    return glm::all(glm::lessThan(glm::abs(a - b), glm::vec3(tolerance)));
 }
 
 class ViewerTest : public ::testing::Test {
   protected:
     void SetUp() override {
-        if (std::system("command -v xvfb-run >/dev/null 2>&1") != 0)
-            GTEST_SKIP() << "xvfb-run is not installed (packages xvfb, xauth)";
+        if (const std::string missing = VirtualScreen::missing(); !missing.empty()) GTEST_SKIP() << missing;
+        screen = std::make_unique<VirtualScreen>(kScreen.x, kScreen.y);
     }
+    void start(const std::string& arguments, const std::string& environment = "") {
+        viewer = std::make_unique<ViewerProcess>(*screen, arguments, environment);
+    }
+    // Until the window has looked at input that came before and has drawn what follows from it: an answer
+    // comes between the two.
+    void pass() {
+        for (int i = 0; i < 3; ++i) viewer->status("frames");
+    }
+    void moveTo(const glm::ivec2& p) {
+        screen->xdotool("mousemove " + std::to_string(p.x) + " " + std::to_string(p.y));
+    }
+    // In steps, as a hand does: a window that looks once a frame must see the button go down first.
+    void drag(int button, const glm::ivec2& from, const glm::ivec2& to) {
+        moveTo(from);
+        pass();
+        screen->xdotool("mousedown " + std::to_string(button));
+        for (int i = 1; i <= 4; ++i) {
+            pass();
+            moveTo(from + (to - from) * i / 4);
+        }
+        pass();
+        screen->xdotool("mouseup " + std::to_string(button));
+        pass();
+    }
+    void click(const glm::ivec2& p) {
+        moveTo(p);
+        pass();
+        screen->xdotool("mousedown 1");
+        pass();
+        screen->xdotool("mouseup 1");
+        pass();
+    }
+    // The picture's place on the screen.
+    glm::ivec4 picture() { return viewer->placeOf("picture"); }
+    glm::ivec2 inPicture(float x, float y) {
+        const glm::ivec4 place = picture();
+        return glm::ivec2(place) + glm::ivec2(glm::vec2(place.z, place.w) * glm::vec2(x, y));
+    }
+    // Mean of a few pixels of the screen there.
+    glm::vec3 shownAt(const glm::ivec2& p) { return screen->pixels().mean(p - 2, {5, 5}); }
+    void settle() {
+        viewer->send("settle; echo settled");
+        ASSERT_NE(viewer->expect("settled"), "") << viewer->output();
+    }
+
+    std::unique_ptr<VirtualScreen> screen;
+    std::unique_ptr<ViewerProcess> viewer;
 };
 
 TEST_F(ViewerTest, ConsoleSwitchesModesTakesAScreenshotAndQuits) {
     const std::string shot = scratchPath("viewer.png");
     std::filesystem::remove(shot);
-    const CommandResult result =
-        view("builtin:cornell --voxels 32 --window 640x480 --mode phong",
-             "wait 2\\nmode cones\\nwait 2\\nget mode\\nscreenshot " + shot + "\\nnonsense\\nquit 7\\n");
-    EXPECT_EQ(result.status, 7) << result.output;
-    EXPECT_NE(result.output.find("cones"), std::string::npos) << result.output;
-    EXPECT_NE(result.output.find("nonsense"), std::string::npos) << "an unknown command is named";
+    start(std::string(kSmall) + "builtin:cornell");
+    viewer->send("mode cones; settle; screenshot " + shot);
+    EXPECT_NE(viewer->expect("written " + shot), "") << viewer->output();
+    EXPECT_EQ(viewer->setting("mode"), "cones");
     const io::ByteImage picture = io::readByteImage(shot);
-    double sum = 0;
-    for (const std::uint8_t value : picture.pixels) sum += value;
-    EXPECT_GT(sum / static_cast<double>(picture.pixels.size()), 10) << "the picture is not black";
+    const glm::ivec4 place = this->picture();
+    EXPECT_EQ(picture.width, place.z);
+    EXPECT_EQ(picture.height, place.w);
+    // The screen shows the same picture.
+    const glm::ivec2 at(picture.width / 3, picture.height / 3);
+    const std::size_t index = 3 * (static_cast<std::size_t>(at.y) * static_cast<std::size_t>(picture.width) +
+                                   static_cast<std::size_t>(at.x));
+    const glm::vec3 written(picture.pixels[index], picture.pixels[index + 1], picture.pixels[index + 2]);
+    EXPECT_GT(written.x, 10);
+    EXPECT_TRUE(near(written, shownAt(glm::ivec2(place) + at), 6));
+    viewer->send("nonsense");
+    EXPECT_NE(viewer->expect("unknown command 'nonsense'"), "") << "an unknown command is named";
+    viewer->send("quit 7");
+    EXPECT_EQ(viewer->exitStatus(), 7);
 }
 
-TEST(CameraControl, OrbitKeepsTheDistanceAndFlyKeepsTheDirection) {
-    Camera camera;
-    camera.eye = {1, 2, 5};
-    camera.target = {0, 1, 0};
-    const float distance = glm::length(camera.target - camera.eye);
-    Camera turned = camera;
-    program::orbit(turned, {0.5f, -0.2f});
-    EXPECT_EQ(turned.target, camera.target);
-    EXPECT_NEAR(glm::length(turned.target - turned.eye), distance, 1e-4f);
-    Camera flown = camera;
-    program::fly(flown, {{0, 0, 1}, {0, 0}, 0.5f, 2.0f});
-    const glm::vec3 before = glm::normalize(camera.target - camera.eye);
-    EXPECT_NEAR(glm::dot(before, glm::normalize(flown.target - flown.eye)), 1, 1e-5f);
-    EXPECT_NEAR(glm::dot(flown.eye - camera.eye, before), 1, 1e-4f);  // half a second at 2 m/s
-    // Pitch stops short of the pole.
-    program::orbit(turned, {0, 10});
-    EXPECT_LT(std::fabs(program::viewAngles(turned).pitch), program::kMaxPitch + 1e-3f);
+TEST_F(ViewerTest, MouseAndKeysMoveTheCameraAndChooseObjects) {
+    start(std::string(kSmall) + "builtin:cornell");
+    settle();
+    const std::string first = viewer->status("camera");
+    const glm::ivec2 middle = inPicture(0.5f, 0.5f);
+
+    // A click chooses what lies there, and says what it is.
+    EXPECT_EQ(viewer->status("selection"), "none");
+    click(inPicture(0.6f, 0.75f));
+    EXPECT_NE(viewer->status("selection").find("short block"), std::string::npos)
+        << viewer->status("selection");
+    EXPECT_NE(viewer->status("pixel").find("short block"), std::string::npos);
+    EXPECT_EQ(viewer->status("camera"), first) << "a click does not move the camera";
+
+    // Left drag: round the target. The picture follows.
+    const ScreenPixels before = screen->pixels();
+    drag(1, middle, middle + glm::ivec2(80, 0));
+    const std::string orbited = viewer->status("camera");
+    EXPECT_NE(orbited, first);
+    settle();
+    const ScreenPixels after = screen->pixels();
+    int changed = 0;
+    const glm::ivec4 place = picture();
+    for (int y = place.y; y < place.y + place.w; y += 4)
+        for (int x = place.x; x < place.x + place.z; x += 4)
+            changed += !near(before.at({x, y}), after.at({x, y}), 12);
+    EXPECT_GT(changed, place.z * place.w / 16 / 10) << "a tenth of the picture";
+
+    // Right button and W: forward.
+    moveTo(middle);
+    pass();
+    screen->xdotool("mousedown 3");
+    screen->xdotool("keydown w");
+    const std::string flown =
+        viewer->statusUntil("camera", [&](const std::string& now) { return now != orbited; });
+    screen->xdotool("keyup w");
+    screen->xdotool("mouseup 3");
+    EXPECT_NE(flown, orbited);
+
+    // F: the camera sees all of the selection; that can be taken back.
+    settle();
+    const std::string rest = viewer->status("camera");
+    screen->xdotool("key f");
+    EXPECT_NE(viewer->statusUntil("camera", [&](const std::string& now) { return now != rest; }), rest);
+    screen->xdotool("key ctrl+z");
+    EXPECT_EQ(viewer->statusUntil("camera", [&](const std::string& now) { return now == rest; }), rest);
 }
 
-TEST(CameraControl, FocusShowsAllOfABox) {
-    Camera camera;
-    Aabb box;
-    box.grow({-1, -2, -3});
-    box.grow({4, 5, 6});
-    program::focusOn(camera, box, 0.5f);
-    const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
-    const float half = std::atan(std::tan(0.5f * camera.fovY) * 0.5f);
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 p((corner & 1) ? 4 : -1, (corner & 2) ? 5 : -2, (corner & 4) ? 6 : -3);
-        const float angle = std::acos(glm::dot(glm::normalize(p - camera.eye), forward));
-        EXPECT_LT(angle, half + 1e-4f) << corner;
+TEST_F(ViewerTest, SlidersAreDraggedAndUndone) {
+    start(std::string(kSmall) + "builtin:cornell");
+    settle();
+    click(viewer->middleOf("tab:Image"));
+    const glm::ivec4 slider = viewer->placeOf("image.exposure");
+    ASSERT_GT(slider.z, 20) << viewer->output();
+    const glm::ivec2 at = inPicture(0.5f, 0.35f);
+    const glm::vec3 dark = shownAt(at);
+    // Each step is waited for on the screen: a command between them would end the step of undo.
+    const auto shows = [&] { return screen->pixels().mean({slider.x, slider.y}, {slider.z, slider.w}); };
+    const auto expectChange = [&](const std::string& action) {
+        const glm::vec3 last = shows();
+        screen->xdotool(action);
+        EXPECT_TRUE(eventually([&] { return shows() != last; })) << action;
+    };
+    const auto to = [&](int percent) {
+        return "mousemove " + std::to_string(slider.x + slider.z * percent / 100) + " " +
+               std::to_string(slider.y + slider.w / 2);
+    };
+    expectChange(to(50));
+    expectChange("mousedown 1");
+    expectChange(to(52));
+    expectChange(to(55));
+    screen->xdotool("mouseup 1");
+    const float exposure = std::strtof(viewer->setting("image.exposure").c_str(), nullptr);
+    EXPECT_GT(exposure, 0.5f);
+    settle();
+    EXPECT_GT(glm::length(shownAt(at)), glm::length(dark) * 1.1f);
+    EXPECT_EQ(viewer->status("steps").substr(0, 1), "1") << "a drag is one step of undo";
+    viewer->send("undo");
+    EXPECT_EQ(std::strtof(viewer->setting("image.exposure").c_str(), nullptr), 0.0f);
+    settle();
+    EXPECT_TRUE(near(shownAt(at), dark, 3));
+}
+
+TEST_F(ViewerTest, TwoModesSideBySide) {
+    start(std::string(kSmall) + "builtin:cornell");
+    settle();
+    const glm::ivec4 place = picture();
+    // The background of mode phong and the path tracer's bounced light differ on the ceiling's edge.
+    const glm::ivec2 at = inPicture(0.8f, 0.5f);
+    const glm::vec3 phong = shownAt(at);
+    viewer->send("split reference 0.5");
+    settle();
+    EXPECT_NE(viewer->status("split").find("reference at 0.500, shown"), std::string::npos)
+        << viewer->output();
+    EXPECT_TRUE(eventually([&] { return !near(shownAt(at), phong, 4); }))
+        << "the right side is the path tracer's";
+
+    // The line between is dragged; where it was, the left picture is.
+    drag(1, viewer->middleOf("split"), {place.x + place.z * 9 / 10, place.y + place.w / 2});
+    const std::string split = viewer->status("split");
+    ASSERT_EQ(split.rfind("reference at ", 0), 0u) << split;
+    EXPECT_NEAR(std::strtof(split.c_str() + 13, nullptr), 0.9f, 0.02f);
+    EXPECT_TRUE(eventually([&] { return near(shownAt(at), phong, 4); }));
+
+    // Errors: the right side in blue and red.
+    viewer->send("split reference 0; error on");
+    const glm::ivec2 size(place.z / 2, place.w / 2);
+    EXPECT_TRUE(eventually([&] {
+        const glm::vec3 mean = screen->pixels().mean(glm::ivec2(place) + size / 2, size);
+        return std::fabs(mean.x - mean.z) > 8;
+    })) << "mode phong lacks light: it is too dark";
+    viewer->send("error off; split radiosity 0");
+    settle();
+    EXPECT_NE(viewer->status("split").find("radiosity at 0.000, shown"), std::string::npos)
+        << viewer->output();
+    EXPECT_TRUE(eventually([&] { return !near(shownAt(at), phong, 4); })) << "bounced light";
+    viewer->send("split off; quit");
+    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
+}
+
+TEST_F(ViewerTest, ModesOfTheProcessorInTheWindow) {
+    start(std::string(kSmall) + "builtin:cornell");
+    settle();
+    const glm::ivec2 at = inPicture(0.8f, 0.5f);
+    const glm::vec3 phong = shownAt(at);
+    viewer->send("mode reference");
+    settle();
+    EXPECT_EQ(viewer->status("mode").substr(0, 9), "reference") << viewer->output();
+    EXPECT_TRUE(eventually([&] { return !near(shownAt(at), phong, 4); })) << "bounced light";
+    viewer->send("mode phong; split radiosity 0");
+    EXPECT_NE(
+        viewer
+            ->statusUntil("split",
+                          [](const std::string& now) { return now.find("not yet") != std::string::npos; })
+            .find("not yet"),
+        std::string::npos)
+        << "until it is baked the left picture is shown";
+    settle();
+    EXPECT_NE(viewer->status("split").find("radiosity at 0.000, shown"), std::string::npos)
+        << viewer->output();
+    EXPECT_TRUE(eventually([&] { return !near(shownAt(at), phong, 4); })) << "bounced light";
+    // The scene is edited while they work: they begin again, and nothing ends.
+    viewer->send("material white color 0.1 0.1 0.1; mode radiosity; wait 3; mode phong; split off");
+    settle();
+    EXPECT_FALSE(near(shownAt(at), phong, 4)) << "the walls are darker";
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
+}
+
+TEST_F(ViewerTest, LinesAreTypedIntoTheWindowAndRemembered) {
+    const std::string state = scratchPath("state");
+    std::filesystem::remove_all(state);
+    const std::string environment = "XDG_STATE_HOME=" + state;
+    const std::string options = "--window 720x480 --voxels 32 --mode phong builtin:cornell";
+    start(options, environment);
+    settle();
+    click(viewer->middleOf("console"));
+    screen->xdotool("type --delay 30 'set image.exposure 1.5'");
+    screen->xdotool("key Return");
+    EXPECT_TRUE(eventually([&] { return viewer->setting("image.exposure") == "1.5"; })) << viewer->output();
+    screen->xdotool("type --delay 30 'set image.exposure 2'");
+    screen->xdotool("key Return");
+    EXPECT_TRUE(eventually([&] { return viewer->setting("image.exposure") == "2"; })) << viewer->output();
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0);
+    EXPECT_EQ(bytesOf(state + "/conelight/recent"), "builtin:cornell\n");
+    EXPECT_EQ(bytesOf(state + "/conelight/history"), "set image.exposure 1.5\nset image.exposure 2\n");
+
+    // The next run knows them: the arrow goes back past the last to the first.
+    start(options, environment);
+    settle();
+    const glm::ivec4 box = viewer->placeOf("console");
+    click(viewer->middleOf("console"));
+    // Each step is waited for on the screen: lines of the standard input are history too.
+    for (const char* action : {"type --delay 30 'set im'", "key Up", "key Up"}) {
+        const ScreenPixels last = screen->pixels();
+        screen->xdotool(action);
+        EXPECT_TRUE(eventually([&] {
+            const ScreenPixels now = screen->pixels();
+            // Text of other length: the cursor that blinks is no change.
+            int changed = 0;
+            for (int y = box.y; y < box.y + box.w; ++y)
+                for (int x = box.x; x < box.x + box.z; ++x) changed += now.at({x, y}) != last.at({x, y});
+            return changed > 2 * box.w;
+        })) << action;
     }
+    screen->xdotool("key Return");
+    EXPECT_TRUE(eventually([&] { return viewer->setting("image.exposure") == "1.5"; })) << viewer->output();
+    // And the menu has the scene.
+    click(viewer->middleOf("menu:File"));
+    click(viewer->middleOf("menu:Open recent"));
+    click(viewer->middleOf("recent:builtin:cornell"));
+    EXPECT_TRUE(eventually([&] {
+        viewer->status("frames");
+        return viewer->output().find("loaded builtin:cornell") != std::string::npos;
+    })) << viewer->output();
+}
+
+TEST_F(ViewerTest, BadFilesAndBadNumbersAreLinesNotTheEnd) {
+    const std::string broken = scratchPath("broken.gltf");
+    std::ofstream(broken) << "{";
+    start(std::string(kSmall) + "builtin:cornell");
+    settle();
+    viewer->send("open " + broken);
+    EXPECT_NE(viewer->expect(broken), "") << viewer->output();
+    viewer->send("set voxels.size 7");
+    EXPECT_NE(viewer->expect("setting voxels.size"), "") << viewer->output();
+    // What the renderer refuses while it draws.
+    viewer->send("mode reference; component voxels; wait 3; mode phong; component full; settle; echo alive");
+    EXPECT_NE(viewer->expect("alive"), "") << viewer->output();
+    viewer->send("where nowhere");
+    EXPECT_NE(viewer->expect("where: 'nowhere' is not on the screen"), "");
+}
+
+TEST_F(ViewerTest, WindowChangesSizeFillsTheScreenAndCloses) {
+    start(std::string(kSmall) + "--ui-scale 1.5 builtin:cornell");
+    settle();
+    EXPECT_NE(viewer->status("window").find("scale 1.50"), std::string::npos);
+    const glm::ivec4 before = picture();
+    screen->xdotool("search --name Conelight windowsize 700 500");
+    const std::string small = viewer->statusUntil(
+        "window", [](const std::string& now) { return now.find("700 x 500") != std::string::npos; });
+    EXPECT_NE(small.find("700 x 500"), std::string::npos) << small;
+    settle();
+    EXPECT_LT(picture().z, before.z);
+    EXPECT_NE(viewer->status("picture").find(std::to_string(picture().z) + " x"), std::string::npos)
+        << "drawn at the size it is shown at";
+    screen->xdotool("key F11");
+    const std::string full = viewer->statusUntil(
+        "window", [](const std::string& now) { return now.find("full screen") != std::string::npos; });
+    EXPECT_NE(full.find("960 x 640"), std::string::npos) << full;
+    viewer->send("fullscreen off; panels off");
+    settle();
+    EXPECT_EQ(picture().x, 0) << "the picture has the whole width";
+    // The window's close button, as a window manager presses it; older xdotool cannot.
+    if (std::system("xdotool help 2>&1 | grep -q windowquit") == 0)
+        screen->xdotool("search --name Conelight windowquit");
+    else
+        viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
+}
+
+// A file manager's drop arrives through GLFW's callback; it is called here as GLFW calls it.
+TEST_F(ViewerTest, DroppedFilesReachTheWindow) {
+    const char* old = std::getenv("DISPLAY");
+    const std::string before = old != nullptr ? old : "";
+    setenv("DISPLAY", screen->display().c_str(), 1);
+    {
+        platform::WindowOptions options;
+        options.width = options.height = 64;
+        platform::Window window(options);
+        std::vector<std::string> dropped;
+        window.onDrop = [&](const std::vector<std::string>& paths) { dropped = paths; };
+        const GLFWdropfun callback = glfwSetDropCallback(window.handle(), nullptr);
+        ASSERT_NE(callback, nullptr);
+        const char* paths[] = {"/a/scene with spaces.glb", "/b.obj"};
+        callback(window.handle(), 2, paths);
+        EXPECT_EQ(dropped, (std::vector<std::string>{paths[0], paths[1]}));
+    }
+    if (old != nullptr)
+        setenv("DISPLAY", before.c_str(), 1);
+    else
+        unsetenv("DISPLAY");
+}
+
+// Mean CPU time of the panels and time to the first picture, as --timing prints them. The first run warms
+// caches of files and shaders.
+TEST_F(ViewerTest, StartsSoonAndSpendsLittleOnPanels) {
+    // The number behind `begin` in what the program prints with these arguments; the least of up to three
+    // runs.
+    const auto least = [&](const std::string& arguments, const std::string& begin, float enough) {
+        float best = 1e9f;
+        for (int run = 0; run < 3 && best >= enough; ++run) {
+            start("--window 960x640 --voxels 64 --no-state --timing builtin:cornell " + arguments);
+            const std::string line = viewer->expect("timing: " + begin);
+            EXPECT_NE(line, "") << viewer->output();
+            EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
+            best = std::min(best, std::strtof(line.c_str() + line.find_first_of("0123456789"), nullptr));
+        }
+        return best;
+    };
+    const float first = least("--exec 'wait 1; quit'", "first frame after ", 3);
+    const float gui = least("--mode phong --exec 'wait 60; quit'", "GUI ", 1);
+    EXPECT_LT(first, 3) << "s to the first frame";
+    EXPECT_LT(gui, 1) << "ms of CPU a frame";
 }
 
 }  // namespace

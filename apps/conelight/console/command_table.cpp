@@ -61,8 +61,9 @@ std::string Command::usage() const {
 
 const std::vector<CommandGroup>& commandGroups() {
     static const std::vector<CommandGroup> kGroups = {
-        settingCommands(), cameraCommands(),       sceneCommands(),        inspectCommands(),
-        programCommands(), originalViewCommands(), originalConeCommands(), originalModelCommands()};
+        settingCommands(),      cameraCommands(),       sceneCommands(),
+        inspectCommands(),      programCommands(),      windowCommands(),
+        originalViewCommands(), originalConeCommands(), originalModelCommands()};
     return kGroups;
 }
 

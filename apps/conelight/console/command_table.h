@@ -96,6 +96,7 @@ CommandGroup cameraCommands();         // commands_camera.cpp
 CommandGroup sceneCommands();          // commands_scene.cpp
 CommandGroup inspectCommands();        // commands_inspect.cpp
 CommandGroup programCommands();        // commands_program.cpp
+CommandGroup windowCommands();         // commands_window.cpp
 
 Command lightCommand();    // commands_light.cpp
 Command pathCommand();     // commands_path.cpp

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace conelight::program {
 
@@ -16,6 +17,7 @@ enum class RequestKind {
     SingleFrame,  // draw one frame although ViewFlags::singleFrame is on
     Wait,         // draw `count` frames before the next command
     Inspect,      // how pixel (x, y) was gathered; steps
+    Window,       // words: a command that only a window has (commands_window.cpp)
     Quit,         // status
 };
 
@@ -30,6 +32,7 @@ struct Request {
     bool overwrite = false;  // Bake: what is there already
     int x = 0, y = 0;        // Inspect: from the upper left corner
     bool steps = false;      // Inspect: print every step
+    std::vector<std::string> words;
 };
 
 }  // namespace conelight::program

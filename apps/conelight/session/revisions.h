@@ -22,7 +22,7 @@ struct Revisions {
     std::uint64_t voxels = 0;  // somebody asked for them to be built anew
 
     bool operator==(const Revisions&) const = default;
-    // What the picture's scene tables depend on: when it differs, Renderer::setScene is due.
+    // What the picture's scene tables depend on: when it differs, a renderer's are out of date (SceneUpload).
     std::uint64_t sceneTables() const {
         return scene + transforms + instances + materials + lights + sky + voxels;
     }

@@ -99,6 +99,7 @@ Session::Session() {
     completeScene(scene_);
     camera_ = scene_.cameras.empty() ? Camera{} : scene_.cameras.front();
     mode_ = getSetting(settings_, "mode");
+    startRevisions();
 }
 
 Session::Session(Scene scene, std::string path, const Settings& settings, std::string mode,
@@ -107,13 +108,21 @@ Session::Session(Scene scene, std::string path, const Settings& settings, std::s
       path_(std::move(path)),
       settings_(settings),
       mode_(mode.empty() ? getSetting(settings, "mode") : std::move(mode)),
-      camera_(camera) {}
+      camera_(camera) {
+    startRevisions();
+}
+
+void Session::startRevisions() {
+    instanceRevisions_.assign(scene_.instances.size(), 0);
+    materialRevisions_.assign(scene_.materials.size(), 0);
+}
 
 std::vector<std::string> Session::open(const std::string& path, bool keepView) {
     Scene loaded = io::loadScene(path);
     completeScene(loaded);
     const Settings start = startSettings(loaded);
     scene_ = std::move(loaded);
+    startRevisions();
     path_ = path;
     if (!keepView) {
         settings_ = start;
@@ -212,9 +221,9 @@ void Session::setMode(const std::string& mode) {
     commit(std::move(step));
 }
 
-void Session::jumpCamera(const Camera& camera, const std::string& label) {
+void Session::jumpCamera(const Camera& camera, const std::string& label, const std::string& mergeKey) {
     if (same(camera, camera_)) return;
-    Step step{label, {}, {}};
+    Step step{label, mergeKey, {}};
     step.edits.push_back(editOf<CameraEdit>(camera_, camera));
     commit(std::move(step));
 }
@@ -384,11 +393,15 @@ void Session::apply(const Edit& edit, bool forward) {
             rest.dynamic != before.dynamic || rest.mesh != before.mesh)
             ++revisions_.instances;
         target = side(*instance);
+        ++instanceRevisions_[instance->index];
     } else if (const auto* material = std::get_if<MaterialEdit>(&edit)) {
         scene_.materials[material->index] = side(*material);
+        ++materialRevisions_[material->index];
         ++revisions_.materials;
     } else if (const auto* materials = std::get_if<MaterialsEdit>(&edit)) {
         scene_.materials = side(*materials);
+        materialRevisions_.resize(scene_.materials.size());
+        for (std::uint64_t& revision : materialRevisions_) ++revision;
         ++revisions_.materials;
     } else if (const auto* lights = std::get_if<LightsEdit>(&edit)) {
         scene_.lights = side(*lights);

@@ -5,10 +5,11 @@
 // thread only.
 //
 // Loop:  console.runQueued();  while (request = session.takeRequest()) carry it out;  draw shownSettings()
-// through camera(), with setScene before it when revisions().sceneTables() differs;  session.frameDrawn(ms);
+// through camera(), after SceneUpload has brought its changes to the renderer;  session.frameDrawn(ms);
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <deque>
 #include <optional>
 #include <string>
@@ -71,6 +72,9 @@ class Session {
     const CameraPath& cameraPath() const { return cameraPath_; }
     // What applyPreset makes these settings and this mode of, in this scene and in one that says nothing.
     Preset preset() const;
+    // Grow with every change of that one; another scene starts them anew (Revisions::scene).
+    const std::vector<std::uint64_t>& instanceRevisions() const { return instanceRevisions_; }
+    const std::vector<std::uint64_t>& materialRevisions() const { return materialRevisions_; }
 
     // Settings and mode with the flags that change the picture in them: what is to be drawn.
     Settings shownSettings() const;
@@ -84,7 +88,7 @@ class Session {
     // Settings that were the scene's own for the old mode become its own for the new one. Throws Error(Usage)
     // that names the known modes.
     void setMode(const std::string& mode);
-    void jumpCamera(const Camera& camera, const std::string& label);
+    void jumpCamera(const Camera& camera, const std::string& label, const std::string& mergeKey = {});
     void setFlags(const ViewFlags& flags, const std::string& label);
     void setInstances(const std::vector<std::pair<std::size_t, Instance>>& changed, const std::string& label,
                       const std::string& mergeKey = {});
@@ -138,6 +142,7 @@ class Session {
         std::chrono::steady_clock::time_point from;
         double seconds = 0;
     };
+    void startRevisions();
 
     Scene scene_;
     std::string path_;
@@ -150,6 +155,7 @@ class Session {
     CameraPath cameraPath_;
     std::optional<Playing> playing_;
     Revisions revisions_;
+    std::vector<std::uint64_t> instanceRevisions_, materialRevisions_;
     FrameTimes frameTimes_;
     std::deque<Request> requests_;
     std::deque<Step> done_;

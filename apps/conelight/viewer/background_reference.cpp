@@ -2,31 +2,55 @@
 #include "viewer/background_reference.h"
 
 #include <algorithm>
-#include <atomic>
+#include <cmath>
 #include <exception>
 #include <mutex>
 #include <optional>
-#include <thread>
+#include <utility>
 
 #include "reference/path_tracer.h"
+#include "traced_picture.h"
+#include "viewer/background_job.h"
 
 namespace conelight::program {
 namespace {
 
-// What a running refinement was started for.
-struct Job {
+// A scene as it was when the work on it began, with the rays' structure; shared by pictures of it.
+struct TracedScene {
+    std::uint64_t tables = 0;
+    Scene scene;
+    std::optional<reference::PathTracer> tracer;
+};
+
+// What a refinement is for.
+struct Wanted {
     std::uint64_t tables = 0;
     Camera camera;
     int width = 0, height = 0;
     int samplesPerPixel = 0;
+    Component component = Component::Full;
+    bool emissiveQuads = true;
 
-    bool samePicture(const Job& other) const {
-        return tables == other.tables && width == other.width && height == other.height &&
-               samplesPerPixel == other.samplesPerPixel && camera.eye == other.camera.eye &&
+    bool samePicture(const Wanted& other) const {
+        return sameView(other) && width == other.width && height == other.height &&
+               samplesPerPixel == other.samplesPerPixel;
+    }
+    bool sameView(const Wanted& other) const {
+        return tables == other.tables && component == other.component &&
+               emissiveQuads == other.emissiveQuads && camera.eye == other.camera.eye &&
                camera.target == other.camera.target && camera.up == other.camera.up &&
                camera.fovY == other.camera.fovY && camera.zNear == other.camera.zNear;
     }
 };
+
+Wanted wantedOf(const Session& session) {
+    Wanted wanted;
+    wanted.tables = session.revisions().sceneTables();
+    wanted.camera = session.camera();
+    wanted.component = session.settings().component;
+    wanted.emissiveQuads = session.settings().light.emissiveQuads;
+    return wanted;
+}
 
 // Adds a round's picture to the mean of those before it.
 void accumulate(Image& mean, int before, const Image& round, int samples) {
@@ -42,32 +66,34 @@ void accumulate(Image& mean, int before, const Image& round, int samples) {
 }  // namespace
 
 struct BackgroundReference::Impl {
-    std::optional<Job> job;
-    std::shared_ptr<const Scene> scene;  // a copy: the session's may change meanwhile
-    std::uint64_t sceneTables = 0;
-    std::thread thread;
-    std::atomic<bool> cancelled{false};
+    std::optional<Wanted> wanted;  // what the thread works on, or has finished
+    std::uint64_t jobs = 0;
+    std::shared_ptr<TracedScene> scene;
 
     mutable std::mutex mutex;  // guards what follows
     Image mean;
     std::uint64_t version = 0;
     ReferenceStatus status;
 
-    void run(const Job& work, void (*wake)());
-    void publish(const Image& picture, int samples, double noise);
+    BackgroundJob job;  // last: it ends before what it works on does
+
+    void run(const Wanted& work, TracedScene& traced, const Cancelled& cancelled, void (*wake)());
+    void clear(bool running);
 };
 
-void BackgroundReference::Impl::publish(const Image& picture, int samples, double noise) {
+void BackgroundReference::Impl::clear(bool running) {
     const std::lock_guard lock(mutex);
-    mean = picture;
-    ++version;
-    status.samplesPerPixel = samples;
-    status.noise = noise;
+    mean = {};
+    status = {};
+    status.running = running;
 }
 
-void BackgroundReference::Impl::run(const Job& work, void (*wake)()) {
+void BackgroundReference::Impl::run(const Wanted& work, TracedScene& traced, const Cancelled& cancelled,
+                                    void (*wake)()) {
+    std::string failure;
     try {
-        const reference::PathTracer tracer(*scene);
+        if (!traced.tracer) traced.tracer.emplace(traced.scene);
+        imageOf({}, work.component);  // refused before the work
         Image sum;
         int done = 0;
         // Rounds grow, so that there is something to see at once and little is lost to overhead later.
@@ -75,21 +101,29 @@ void BackgroundReference::Impl::run(const Job& work, void (*wake)()) {
             reference::PathTracerSettings settings;
             settings.samplesPerPixel = std::clamp(done, 2, 32);
             settings.seed = round + 1;
+            settings.emissiveQuads = work.emissiveQuads;
+            settings.threads = BackgroundJob::threads();
             const reference::PathTracedPicture picture =
-                tracer.render(work.camera, work.width, work.height, settings,
-                              [this](const reference::PathTracerProgress&) { return !cancelled; });
+                traced.tracer->render(work.camera, work.width, work.height, settings,
+                                      [&](const reference::PathTracerProgress&) { return !cancelled; });
             if (cancelled || picture.samplesPerPixel == 0) break;
-            accumulate(sum, done, picture.full, picture.samplesPerPixel);
+            accumulate(sum, done, imageOf(picture, work.component), picture.samplesPerPixel);
             done += picture.samplesPerPixel;
-            const double share = static_cast<double>(picture.samplesPerPixel) / done;
-            publish(sum, done, picture.noise * std::sqrt(share));
+            {
+                const std::lock_guard lock(mutex);
+                mean = sum;
+                ++version;
+                status.samplesPerPixel = done;
+                status.noise = picture.noise * std::sqrt(static_cast<double>(picture.samplesPerPixel) / done);
+            }
             wake();
         }
     } catch (const std::exception& error) {
-        const std::lock_guard lock(mutex);
-        status.error = error.what();
+        failure = error.what();
     }
+    if (cancelled) return;
     const std::lock_guard lock(mutex);
+    status.error = failure;
     status.running = false;
 }
 
@@ -97,27 +131,38 @@ BackgroundReference::BackgroundReference() : impl_(std::make_unique<Impl>()) {}
 BackgroundReference::~BackgroundReference() { stop(); }
 
 void BackgroundReference::stop() {
-    impl_->cancelled = true;
-    if (impl_->thread.joinable()) impl_->thread.join();
-    impl_->cancelled = false;
-    impl_->job.reset();
-    const std::lock_guard lock(impl_->mutex);
-    impl_->status = {};
+    impl_->job.cancel();
+    impl_->wanted.reset();
+    impl_->clear(false);
+}
+
+bool BackgroundReference::shows(const Session& session) const {
+    return impl_->wanted && impl_->wanted->sameView(wantedOf(session));
 }
 
 void BackgroundReference::refine(const Session& session, int width, int height, int samplesPerPixel,
                                  void (*wake)()) {
-    const Job wanted{session.revisions().sceneTables(), session.camera(), width, height, samplesPerPixel};
-    if (impl_->job && impl_->job->samePicture(wanted)) return;
-    stop();
-    if (!impl_->scene || impl_->sceneTables != wanted.tables) {
-        impl_->scene = std::make_shared<const Scene>(session.scene());
-        impl_->sceneTables = wanted.tables;
+    Wanted wanted = wantedOf(session);
+    wanted.width = width;
+    wanted.height = height;
+    wanted.samplesPerPixel = samplesPerPixel;
+    if (impl_->wanted && impl_->wanted->samePicture(wanted)) return;
+    impl_->job.cancel();
+    if (impl_->job.busy()) return;  // its end wakes the window, which asks again
+    if (!impl_->scene || impl_->scene->tables != wanted.tables) {
+        impl_->scene = std::make_shared<TracedScene>();
+        impl_->scene->tables = wanted.tables;
+        impl_->scene->scene = session.scene();
     }
-    impl_->job = wanted;
-    impl_->status.running = true;
-    impl_->thread = std::thread([this, wanted, wake] { impl_->run(wanted, wake); });
+    impl_->clear(true);
+    impl_->wanted = wanted;
+    ++impl_->jobs;
+    impl_->job.start([impl = impl_.get(), wanted, scene = impl_->scene,
+                      wake](const Cancelled& cancelled) { impl->run(wanted, *scene, cancelled, wake); },
+                     wake);
 }
+
+std::uint64_t BackgroundReference::jobs() const { return impl_->jobs; }
 
 bool BackgroundReference::take(std::uint64_t& version, Image& picture) {
     const std::lock_guard lock(impl_->mutex);

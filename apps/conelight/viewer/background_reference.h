@@ -21,15 +21,19 @@ struct ReferenceStatus {
 class BackgroundReference {
   public:
     BackgroundReference();
-    ~BackgroundReference();  // stops and joins
+    ~BackgroundReference();  // stops and waits
     BackgroundReference(const BackgroundReference&) = delete;
     BackgroundReference& operator=(const BackgroundReference&) = delete;
 
-    // Refines the session's view of `width` x `height` pixels, anew when scene, camera, sky or size changed,
-    // until `samplesPerPixel`. Cheap to call every frame. `wake` is called from the thread after each round.
+    // Refines the session's view of `width` x `height` pixels, anew when scene, camera, component or size
+    // changed, until `samplesPerPixel`. Cheap to call every frame; never waits. `wake` is called from the
+    // thread after each round.
     void refine(const Session& session, int width, int height, int samplesPerPixel, void (*wake)());
-    void stop();
+    void stop();  // asks the thread to end; its picture is gone
 
+    // Whether what it holds or is about to hold is the session's view now.
+    bool shows(const Session& session) const;
+    std::uint64_t jobs() const;  // how many pictures were begun: which one it is
     // Copies the newest picture when there is one newer than `version`, which it then sets.
     bool take(std::uint64_t& version, Image& picture);
     ReferenceStatus status() const;

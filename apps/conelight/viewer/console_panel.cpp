@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+#include "viewer/widget_places.h"
+
 namespace conelight::program {
 namespace {
 
@@ -22,6 +24,15 @@ std::string commonStart(const std::vector<std::string>& words) {
     return start;
 }
 
+// Errors stand out; so does what was typed.
+void line(const std::string& text, bool isError) {
+    const bool typed = text.compare(0, 2, "> ") == 0;
+    if (isError) ImGui::PushStyleColor(ImGuiCol_Text, {0.95f, 0.55f, 0.45f, 1});
+    if (typed) ImGui::PushStyleColor(ImGuiCol_Text, {0.60f, 0.72f, 0.84f, 1});
+    ImGui::TextUnformatted(text.c_str());
+    if (isError || typed) ImGui::PopStyleColor();
+}
+
 void replaceLine(ImGuiInputTextCallbackData* data, const std::string& text) {
     data->DeleteChars(0, data->BufTextLen);
     data->InsertChars(0, text.c_str());
@@ -29,11 +40,11 @@ void replaceLine(ImGuiInputTextCallbackData* data, const std::string& text) {
 
 }  // namespace
 
-void ConsolePanel::say(const std::string& text) {
+void ConsolePanel::say(const std::string& text, bool isError) {
     std::size_t from = 0;
     while (from <= text.size()) {
         const std::size_t end = std::min(text.find('\n', from), text.size());
-        if (end > from || end < text.size()) lines_.push_back(text.substr(from, end - from));
+        if (end > from || end < text.size()) lines_.push_back({text.substr(from, end - from), isError});
         from = end + 1;
     }
     while (lines_.size() > kKeptLines) lines_.pop_front();
@@ -54,9 +65,8 @@ void ConsolePanel::completeLine(void* callbackData) {
 
 void ConsolePanel::recall(void* callbackData) {
     auto* data = static_cast<ImGuiInputTextCallbackData*>(callbackData);
-    if (data->EventKey == ImGuiKey_UpArrow && recalled_ < history_.size()) ++recalled_;
-    if (data->EventKey == ImGuiKey_DownArrow && recalled_ > 0) --recalled_;
-    replaceLine(data, recalled_ == 0 ? "" : history_[history_.size() - recalled_]);
+    const std::string typed(data->Buf, static_cast<std::size_t>(data->BufTextLen));
+    replaceLine(data, data->EventKey == ImGuiKey_UpArrow ? history_.back(typed) : history_.forward(typed));
 }
 
 int ConsolePanel::edited(void* callbackData) {
@@ -74,27 +84,28 @@ void ConsolePanel::show() {
     clipper.Begin(static_cast<int>(lines_.size()));
     while (clipper.Step())
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-            ImGui::TextUnformatted(lines_[static_cast<std::size_t>(i)].c_str());
+            line(lines_[static_cast<std::size_t>(i)].text, lines_[static_cast<std::size_t>(i)].isError);
     clipper.End();
     if (scrollDown_) ImGui::SetScrollHereY(1);
     scrollDown_ = false;
     ImGui::EndChild();
 
     ImGui::SetNextItemWidth(-1);
+    if (framesToFocus_ > 0) ImGui::SetKeyboardFocusHere();
     const bool entered = ImGui::InputTextWithHint(
         "##line", "command; `help` lists them, Tab completes", &line_,
         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCompletion |
             ImGuiInputTextFlags_CallbackHistory,
         [](ImGuiInputTextCallbackData* data) { return edited(data); }, this);
+    notePlace("console");
+    if (framesToFocus_ > 0) framesToFocus_ = ImGui::IsItemActive() ? 0 : framesToFocus_ - 1;
     if (!entered) return;
     if (!line_.empty()) {
         say("> " + line_);
-        if (history_.empty() || history_.back() != line_) history_.push_back(line_);
         enter_(line_);
     }
     line_.clear();
-    recalled_ = 0;
-    ImGui::SetKeyboardFocusHere(-1);
+    framesToFocus_ = 4;  // it takes two
 }
 
 }  // namespace conelight::program

@@ -8,29 +8,40 @@
 #include <string>
 #include <vector>
 
+#include "console/history.h"
+
 namespace conelight::program {
 
 class ConsolePanel {
   public:
     using Complete = std::function<std::vector<std::string>(const std::string& line)>;
     using Enter = std::function<void(const std::string& line)>;
-    ConsolePanel(Enter enter, Complete complete) : enter_(std::move(enter)), complete_(std::move(complete)) {}
+    // `history` is added to by whoever takes the lines.
+    ConsolePanel(History& history, Enter enter, Complete complete)
+        : history_(history), enter_(std::move(enter)), complete_(std::move(complete)) {}
 
-    void say(const std::string& text);  // one line or several
+    void say(const std::string& text, bool isError = false);  // one line or several
     void show();
+    // A line was entered and its box does not have the keys again yet: what is typed until then would be
+    // lost, so draw before looking at input.
+    bool takesKeysSoon() const { return framesToFocus_ > 0; }
 
   private:
     static int edited(void* callbackData);
     void completeLine(void* callbackData);
     void recall(void* callbackData);
 
+    History& history_;
     Enter enter_;
     Complete complete_;
-    std::deque<std::string> lines_;
-    std::vector<std::string> history_;
-    std::size_t recalled_ = 0;
+    struct Line {
+        std::string text;
+        bool isError;
+    };
+    std::deque<Line> lines_;
     std::string line_;
     bool scrollDown_ = false;
+    int framesToFocus_ = 0;
 };
 
 }  // namespace conelight::program

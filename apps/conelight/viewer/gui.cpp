@@ -64,11 +64,11 @@ void setColors(ImGuiStyle& style) {
 
 }  // namespace
 
-Gui::Gui(platform::Window& window, const std::string& iniFile) : window_(window), iniFile_(iniFile) {
+Gui::Gui(platform::Window& window, float scale) : window_(window), followsScreen_(!(scale > 0)) {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = iniFile_.empty() ? nullptr : iniFile_.c_str();
-    scale_ = window.contentScale();
+    ImGui::GetIO().IniFilename = nullptr;  // the layout follows the window's size
+    scale_ = followsScreen_ ? window.contentScale() : scale;
     applyLook();
     ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
     ImGui_ImplOpenGL3_Init("#version 450 core");
@@ -81,8 +81,9 @@ Gui::~Gui() {
 }
 
 void Gui::applyLook() {
-    ImGui::StyleColorsDark();
     ImGuiStyle& style = ImGui::GetStyle();
+    style = ImGuiStyle();  // sizes are scaled from the originals
+    ImGui::StyleColorsDark();
     style.WindowRounding = 0;
     style.ChildRounding = 0;
     style.FrameRounding = 3;
@@ -100,6 +101,7 @@ void Gui::applyLook() {
     style.ScaleAllSizes(scale_);
 
     ImGuiIO& io = ImGui::GetIO();
+    io.Fonts->Clear();
     for (const char* file : kFonts)
         if (std::error_code ignored; std::filesystem::exists(file, ignored)) {
             io.Fonts->AddFontFromFileTTF(file, std::round(kFontSize * scale_));
@@ -111,6 +113,11 @@ void Gui::applyLook() {
 }
 
 void Gui::beginFrame() {
+    if (const float scale = window_.contentScale(); followsScreen_ && scale != scale_) {
+        scale_ = scale;
+        applyLook();
+        ImGui_ImplOpenGL3_DestroyDeviceObjects();  // made anew, with the font's texture, by the next line
+    }
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     // A captured cursor belongs to the camera.

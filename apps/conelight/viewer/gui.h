@@ -2,16 +2,14 @@
 // Dear ImGui on the window: start, frame, look. Panels call ImGui themselves.
 #pragma once
 
-#include <string>
-
 #include "platform/window.h"
 
 namespace conelight::program {
 
 class Gui {
   public:
-    // Where panels remember their sizes; empty: nowhere.
-    Gui(platform::Window& window, const std::string& iniFile);
+    // `scale`: of text and widgets; 0: the screen's, also when the window moves to another screen.
+    explicit Gui(platform::Window& window, float scale = 0);
     ~Gui();
     Gui(const Gui&) = delete;
     Gui& operator=(const Gui&) = delete;
@@ -26,7 +24,7 @@ class Gui {
   private:
     void applyLook();
     platform::Window& window_;
-    std::string iniFile_;
+    bool followsScreen_;
     float scale_ = 1;
 };
 

@@ -22,7 +22,8 @@ void selectionEditor(Session& session);
 void cameraEditor(Session& session);
 
 // Times of passes and frames, memory.
-void statsPanel(const FrameStats& stats, const FrameTimes& times);
+// `guiMs`: CPU time of a frame of the GUI.
+void statsPanel(const FrameStats& stats, const FrameTimes& times, double guiMs);
 
 // What lies under the last clicked pixel.
 struct Inspection {

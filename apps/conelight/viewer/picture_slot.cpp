@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/picture_slot.h"
 
-#include <chrono>
-#include <optional>
+#include <fmt/core.h>
 
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include "conelight/error.h"
 #include "platform/picture_texture.h"
 #include "platform/window.h"
+#include "scene_upload.h"
+#include "traced_picture.h"
+#include "viewer/background_bake.h"
+#include "viewer/background_reference.h"
 
 namespace conelight::program {
 namespace {
@@ -25,6 +34,17 @@ struct PictureKey {
 };
 PictureKey keyOf(const Revisions& r) { return {r.sceneTables(), r.settings, r.camera, r.flags}; }
 
+bool sameLook(const ImageSettings& a, const ImageSettings& b) {
+    return a.exposure == b.exposure && a.srgb == b.srgb && a.toneMap == b.toneMap;
+}
+
+// Whether two settings give the same linear picture: all but exposure, tone map and encoding.
+bool sameButLook(const Settings& a, const Settings& b) {
+    return std::all_of(settingInfos().begin(), settingInfos().end(), [&](const SettingInfo& info) {
+        return info.key.compare(0, 6, "image.") == 0 || getSetting(a, info.key) == getSetting(b, info.key);
+    });
+}
+
 double wallMs() {
     using clock = std::chrono::steady_clock;
     return std::chrono::duration<double, std::milli>(clock::now().time_since_epoch()).count();
@@ -34,28 +54,44 @@ double wallMs() {
 
 struct PictureSlot::Impl {
     std::string shaderDirectory;
-    bool debugGl;
+    bool debugGl = false;
     std::unique_ptr<Renderer> renderer;
-    std::uint64_t uploaded = 0;
-    bool hasScene = false;
+    SceneUpload upload;                // of the session's scene
+    std::shared_ptr<const Scene> lit;  // the baked scene that the renderer holds instead
 
     // What the last picture shows.
     std::string mode;
     std::optional<PictureKey> shown;
+    Settings shownSettings;
+    bool own = false;      // the picture is the mode's and of this view
+    bool preview = false;  // it is another mode's while the mode has none
+    bool asked = false;    // redraw()
     int width = 0, height = 0;
     int settling = 0;
     double frameMs = 0;
+    double voxelsMadeAt = 0;  // ms; ViewFlags::dynamic
     std::uint64_t version = 0;
     std::uint32_t texture = 0;
-
     std::optional<Image> linear;
-    BackgroundReference reference;
-    std::uint64_t referenceVersion = 0;
-    platform::PictureTexture referenceTexture;
-    ImageSettings referenceLook;
+    std::optional<std::string> error;
+    std::string lastError;  // said once while it stays
 
-    bool drawGl(const Session& session, int w, int h);
-    bool drawReference(const Session& session, int w, int h, bool full);
+    platform::PictureTexture cpuTexture;
+    ImageSettings cpuLook;
+    BackgroundReference reference;
+    std::uint64_t referenceVersion = 0, linearJob = 0;
+    BackgroundBake bake;
+
+    bool draw(const Session& session, int w, int h, const How& how);
+    bool drawScene(const Session& session, const std::string& drawnMode, int w, int h, const How& how);
+    bool drawReference(const Session& session, int w, int h, const How& how);
+    bool drawRadiosity(const Session& session, int w, int h, const How& how);
+    void drawNothing(const Session& session, int w, int h);
+    void renderFrame(const Session& session, Settings settings, int w, int h);
+    void showImage(const ImageSettings& look);
+    void followLook(const Session& session);
+    bool onlyLook(const Session& session) const;
+    void startAnew();
 };
 
 PictureSlot::PictureSlot(std::string shaderDirectory, bool debugGl) : impl_(std::make_unique<Impl>()) {
@@ -64,75 +100,226 @@ PictureSlot::PictureSlot(std::string shaderDirectory, bool debugGl) : impl_(std:
 }
 PictureSlot::~PictureSlot() = default;
 
-void PictureSlot::redraw() { impl_->shown.reset(); }
+void PictureSlot::redraw() { impl_->asked = true; }
+
+// Nothing is shown until the next picture: what there was is another mode's.
+void PictureSlot::Impl::startAnew() {
+    reference.stop();
+    shown.reset();
+    linear.reset();
+    texture = 0;
+    own = preview = false;
+    settling = 0;
+}
 
 void PictureSlot::clear() {
-    impl_->reference.stop();
+    impl_->startAnew();
+    impl_->bake.stop();
     impl_->renderer.reset();
-    impl_->hasScene = false;
-    impl_->shown.reset();
-    impl_->texture = 0;
-    impl_->linear.reset();
+    impl_->upload.forget();
+    impl_->lit.reset();
 }
 
-bool PictureSlot::draw(const Session& session, const std::string& mode, int width, int height, bool full) {
+std::vector<std::string> PictureSlot::reloadShaders() {
+    if (!impl_->renderer) return {};
+    impl_->asked = true;
+    return impl_->renderer->reloadShaders();
+}
+
+bool PictureSlot::draw(const Session& session, const std::string& mode, int width, int height,
+                       const How& how) {
     if (mode != impl_->mode) {
-        impl_->reference.stop();
-        impl_->shown.reset();
+        impl_->startAnew();
         impl_->mode = mode;
     }
-    return mode == "reference" ? impl_->drawReference(session, width, height, full)
-                               : impl_->drawGl(session, width, height);
+    try {
+        const bool more = impl_->draw(session, width, height, how);
+        if (!how.onlyChanges) impl_->lastError.clear();
+        return more;
+    } catch (const std::exception& error) {
+        // Not tried again before something changes.
+        impl_->shown = keyOf(session.revisions());
+        impl_->shownSettings = session.settings();
+        impl_->width = width;
+        impl_->height = height;
+        impl_->settling = 0;
+        impl_->asked = false;
+        if (impl_->lastError != error.what()) impl_->error = error.what();
+        impl_->lastError = error.what();
+        return false;
+    }
 }
 
-bool PictureSlot::Impl::drawGl(const Session& session, int w, int h) {
-    if (!renderer) renderer = std::make_unique<Renderer>(RendererOptions{shaderDirectory, debugGl});
-    const bool changed = !shown || !(*shown == keyOf(session.revisions())) || w != width || h != height;
-    if (changed) settling = settlesOverFrames(mode) ? kSettlingFrames : 1;
-    if (settling == 0) return false;
-    if (!hasScene || uploaded != session.revisions().sceneTables()) {
-        renderer->setScene(session.scene());
-        uploaded = session.revisions().sceneTables();
-        hasScene = true;
+std::optional<std::string> PictureSlot::takeError() { return std::exchange(impl_->error, std::nullopt); }
+
+bool PictureSlot::Impl::draw(const Session& session, int w, int h, const How& how) {
+    const ViewFlags& flags = session.flags();
+    if (flags.singleFrame && !asked && shown) return false;
+    if (session.showsNothing()) {
+        drawNothing(session, w, h);
+        return false;
     }
-    const double start = wallMs();
+    if (mode == "reference") return drawReference(session, w, h, how);
+    if (mode == "radiosity") return drawRadiosity(session, w, h, how);
+    own = true;
+    return drawScene(session, mode, w, h, how);
+}
+
+// The scene as it is, in a mode of the renderer.
+bool PictureSlot::Impl::drawScene(const Session& session, const std::string& drawnMode, int w, int h,
+                                  const How& how) {
+    followLook(session);
+    const ViewFlags& flags = session.flags();
+    const bool voxelsDue = flags.dynamic && wallMs() - voxelsMadeAt > 1e3 * flags.period;
+    const bool changed = asked || !shown || !(*shown == keyOf(session.revisions())) || voxelsDue;
+    const bool resized = w != width || h != height;
+    if (changed || (resized && !how.onlyChanges))
+        settling = settlesOverFrames(drawnMode) ? kSettlingFrames : 1;
+    if (settling == 0) return resized && how.onlyChanges;
+    if (how.onlyChanges && !changed) return true;
+
+    if (!renderer) {
+        renderer = std::make_unique<Renderer>(RendererOptions{shaderDirectory, debugGl});
+        upload.forget();
+    }
+    if (lit) {
+        lit.reset();
+        upload.forget();
+    }
+    upload.follow(*renderer, session);
+    if (voxelsDue) voxelsMadeAt = wallMs();
     Settings settings = session.shownSettings();
-    conelight::setSetting(settings, "mode", mode);
+    conelight::setSetting(settings, "mode", drawnMode);
     settings.traced.budgeted = true;  // the window stays live; the picture settles over frames
-    renderer->setProfiling(true, false);
-    renderer->render(session.camera(), w, h, settings);
-    texture = renderer->displayTexture(settings.image);
-    frameMs = wallMs() - start;
-    linear.reset();
-    shown = keyOf(session.revisions());
-    width = w;
-    height = h;
-    ++version;
+    renderer->setDynamic(voxelsDue);
+    renderFrame(session, settings, w, h);
     --settling;
     return settling > 0;
 }
 
-bool PictureSlot::Impl::drawReference(const Session& session, int w, int h, bool full) {
-    // While the camera moves the old picture stays: a new one would not come far.
-    if (full) reference.refine(session, w, h, kReferenceSamples, platform::Window::wake);
-    Image newest;
-    const bool isNew = reference.take(referenceVersion, newest);
-    if (isNew) linear = std::move(newest);
-    const ImageSettings& look = session.settings().image;
-    const bool lookChanged = look.exposure != referenceLook.exposure || look.srgb != referenceLook.srgb ||
-                             look.toneMap != referenceLook.toneMap;
-    if (linear && (isNew || lookChanged || texture != referenceTexture.name())) {
-        referenceTexture.update(linear->width, linear->height, toneMapped(*linear, look));
-        referenceLook = look;
-        texture = referenceTexture.name();
-        width = linear->width;
-        height = linear->height;
-        ++version;
-    }
-    shown = keyOf(session.revisions());
-    return false;  // the thread wakes the window when there is more
+// A change of exposure or tone map shows what was rendered in another light; nothing is rendered.
+void PictureSlot::Impl::followLook(const Session& session) {
+    const PictureKey key = keyOf(session.revisions());
+    const bool rendered = renderer && texture != 0 && texture != cpuTexture.name();
+    if (!rendered || !shown || key == *shown || !onlyLook(session)) return;
+    texture = renderer->displayTexture(session.settings().image);
+    shown = key;
+    ++version;
 }
 
+bool PictureSlot::Impl::onlyLook(const Session& session) const {
+    if (!shown) return false;
+    PictureKey before = keyOf(session.revisions());
+    before.settings = shown->settings;
+    return before == *shown && sameButLook(session.settings(), shownSettings);
+}
+
+void PictureSlot::Impl::renderFrame(const Session& session, Settings settings, int w, int h) {
+    const double start = wallMs();
+    renderer->setProfiling(true, false);
+    renderer->render(session.camera(), w, h, settings);
+    texture = renderer->displayTexture(settings.image);
+    linear.reset();
+    linearJob = 0;
+    if (session.flags().drawBlock) linear = renderer->readImage();
+    double gpuMs = 0;
+    for (const PassStats& pass : renderer->stats().passes) gpuMs += std::max(pass.gpuMs, 0.0);
+    frameMs = std::max(wallMs() - start, gpuMs);
+    shown = keyOf(session.revisions());
+    shownSettings = session.settings();
+    asked = false;
+    width = w;
+    height = h;
+    ++version;
+}
+
+// `linear`, tone-mapped, as the texture.
+void PictureSlot::Impl::showImage(const ImageSettings& look) {
+    cpuTexture.update(linear->width, linear->height, toneMapped(*linear, look));
+    cpuLook = look;
+    texture = cpuTexture.name();
+    width = linear->width;
+    height = linear->height;
+    ++version;
+}
+
+void PictureSlot::Impl::drawNothing(const Session& session, int w, int h) {
+    const PictureKey key = keyOf(session.revisions());
+    if (shown == key && width == w && height == h && !asked) return;
+    const std::size_t pixels = static_cast<std::size_t>(w) * static_cast<std::size_t>(h);
+    linear = Image{w, h, std::vector<glm::vec4>(pixels, glm::vec4(session.scene().sky, 0))};
+    showImage(session.settings().image);
+    shown = key;
+    asked = preview = false;
+    own = true;
+    settling = 0;
+}
+
+bool PictureSlot::Impl::drawReference(const Session& session, int w, int h, const How& how) {
+    // While the camera moves no new picture is begun: it would not come far.
+    if (how.still) reference.refine(session, w, h, kReferenceSamples, platform::Window::wake);
+    own = false;
+    if (reference.shows(session)) {
+        Image newest;
+        const bool isNew = reference.take(referenceVersion, newest);
+        const ImageSettings& look = session.settings().image;
+        if (isNew) {
+            linear = std::move(newest);
+            linearJob = reference.jobs();
+        }
+        own = linear && linearJob == reference.jobs();
+        if (own && (isNew || !sameLook(look, cpuLook) || texture != cpuTexture.name())) showImage(look);
+        if (own) {
+            preview = false;
+            shown = keyOf(session.revisions());
+            shownSettings = session.settings();
+            return false;
+        }
+        if (const std::string failure = reference.status().error; !failure.empty())
+            throw Error(ErrorKind::Runtime, failure);
+    }
+    if (!how.preview) return false;
+    if (!preview) shown.reset();
+    preview = true;
+    return drawScene(session, getSetting(session.settings(), "mode"), w, h, how);
+}
+
+// The baked scene carries its light in unlit materials, so any mode of the renderer shows it; phong is the
+// cheapest.
+bool PictureSlot::Impl::drawRadiosity(const Session& session, int w, int h, const How& how) {
+    if (how.still) bake.bake(session, platform::Window::wake);
+    if (const std::string failure = bake.status().error; !failure.empty() && how.still)
+        throw Error(ErrorKind::Runtime, failure);
+    const std::shared_ptr<const Scene> newest = bake.lit(session);
+    own = newest != nullptr;
+    if (!own) {
+        if (!how.preview) return false;
+        if (!preview) shown.reset();
+        preview = true;
+        return drawScene(session, getSetting(session.settings(), "mode"), w, h, how);
+    }
+    preview = false;
+    followLook(session);
+    const bool changed = asked || !shown || !(*shown == keyOf(session.revisions())) || lit != newest;
+    const bool resized = w != width || h != height;
+    if (!changed && !resized) return false;
+    if (!changed && how.onlyChanges) return true;
+    if (!renderer) renderer = std::make_unique<Renderer>(RendererOptions{shaderDirectory, debugGl});
+    if (lit != newest) {
+        upload.forget();
+        renderer->setScene(*newest);
+        lit = newest;
+    }
+    Settings settings = session.settings();
+    settings.mode = Mode::Phong;
+    settings.component = Component::Full;
+    renderer->setDynamic(false);
+    renderFrame(session, settings, w, h);
+    settling = 0;
+    return false;
+}
+
+bool PictureSlot::onlyLook(const Session& session) const { return impl_->onlyLook(session); }
 std::uint32_t PictureSlot::texture() const { return impl_->texture; }
 int PictureSlot::width() const { return impl_->width; }
 int PictureSlot::height() const { return impl_->height; }
@@ -140,15 +327,50 @@ double PictureSlot::frameMs() const { return impl_->frameMs; }
 std::uint64_t PictureSlot::version() const { return impl_->version; }
 
 const Image& PictureSlot::linear() {
-    if (!impl_->linear) impl_->linear = impl_->renderer ? impl_->renderer->readImage() : Image{};
+    static const Image none;
+    if (impl_->linear) return *impl_->linear;
+    // A texture of the renderer's is its last picture.
+    if (impl_->texture == 0 || !impl_->renderer || impl_->texture == impl_->cpuTexture.name()) return none;
+    impl_->linear = impl_->renderer->readImage();
     return *impl_->linear;
 }
 
 const FrameStats* PictureSlot::stats() const {
-    return impl_->mode != "reference" && impl_->renderer ? &impl_->renderer->stats() : nullptr;
+    const bool drawn = impl_->renderer && (impl_->mode != "reference" || impl_->preview);
+    return drawn ? &impl_->renderer->stats() : nullptr;
 }
 
-ReferenceStatus PictureSlot::referenceStatus() const { return impl_->reference.status(); }
-Renderer* PictureSlot::renderer() { return impl_->mode == "reference" ? nullptr : impl_->renderer.get(); }
+Renderer* PictureSlot::renderer() {
+    return isSettingsMode(impl_->mode) || impl_->preview ? impl_->renderer.get() : nullptr;
+}
+
+bool PictureSlot::ownPicture() const { return impl_->texture != 0 && impl_->own; }
+
+bool PictureSlot::finished() const {
+    if (!impl_->lastError.empty()) return true;  // until something changes
+    if (!ownPicture() || impl_->settling > 0) return false;
+    if (impl_->mode == "reference") return !impl_->reference.status().running;
+    return impl_->mode != "radiosity" || !impl_->bake.status().running;
+}
+
+std::string PictureSlot::label() const {
+    const std::string instead = impl_->preview ? "; until then the view without it" : "";
+    if (impl_->mode == "reference") {
+        const ReferenceStatus status = impl_->reference.status();
+        if (!status.error.empty()) return "reference: " + status.error;
+        if (status.samplesPerPixel == 0) return "reference: tracing the first samples" + instead;
+        return fmt::format("reference  {} spp  noise {:.1f} %{}", status.samplesPerPixel, 100 * status.noise,
+                           status.running ? "" : "  done");
+    }
+    if (impl_->mode == "radiosity") {
+        const BakeStatus status = impl_->bake.status();
+        if (!status.error.empty()) return "radiosity: " + status.error;
+        if (!status.running) return "radiosity";
+        const std::string left = status.secondsLeft >= 0 ? ", " + timeText(status.secondsLeft) + " left" : "";
+        return fmt::format("radiosity: baking, {:.0f} %{}{}", 100 * status.done, left,
+                           impl_->preview ? instead : "; light as it was before the change");
+    }
+    return impl_->mode;
+}
 
 }  // namespace conelight::program

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
-// One picture of the session in one mode, as a texture: a renderer of its own for the GL modes, the path
-// tracer in the background for `reference`. The window has one, two when it is split.
+// One picture of the session in one mode, as a texture: a renderer of its own for the GL modes; for
+// `reference` the path tracer and for `radiosity` the bake, both in the background. The window has one, two
+// when it is split.
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "conelight/renderer.h"
 #include "session/session.h"
-#include "viewer/background_reference.h"
 
 namespace conelight::program {
 
@@ -19,22 +21,35 @@ class PictureSlot {
     PictureSlot(const PictureSlot&) = delete;
     PictureSlot& operator=(const PictureSlot&) = delete;
 
-    // Brings the picture up to date. `width` x `height` is what is drawn, `full` whether that is the window's
-    // resolution (the reference starts only then). Returns whether drawing again would change it.
-    bool draw(const Session& session, const std::string& mode, int width, int height, bool full);
-    void redraw();  // the next draw draws although nothing changed
+    struct How {
+        bool still = true;    // the view rests: work in the background may start
+        bool preview = true;  // until that has something to show, draw the view in a mode of the renderer
+        bool onlyChanges = false;  // leave out what merely refines the picture
+    };
+    // Brings the picture up to date, `width` x `height` pixels. Returns whether drawing again soon would
+    // change it; work in the background wakes the window instead. Never throws: takeError() has what went
+    // wrong.
+    bool draw(const Session& session, const std::string& mode, int width, int height, const How& how);
+    std::optional<std::string> takeError();  // of draw, each once
+    void redraw();  // the next draw draws although nothing changed, and although only single frames are asked
     // Frees what the slot holds; the next draw starts anew.
     void clear();
+    std::vector<std::string> reloadShaders();  // messages of those that fail
 
+    // Whether what changed since the last picture can be shown without rendering: exposure, tone map.
+    bool onlyLook(const Session& session) const;
     std::uint32_t texture() const;  // tone-mapped, row 0 on top; 0: nothing yet
     int width() const;
     int height() const;
-    const Image& linear();            // reads it back when it has not been yet
-    double frameMs() const;           // wall time of the last frame that was drawn
+    // Reads it back when it has not been yet; empty: there is no picture.
+    const Image& linear();
+    double frameMs() const;           // of the last frame that was drawn
     std::uint64_t version() const;    // grows with every new picture
-    const FrameStats* stats() const;  // of the last GL frame; null for the reference
-    ReferenceStatus referenceStatus() const;
-    Renderer* renderer();  // null unless a GL mode is shown
+    const FrameStats* stats() const;  // of the last frame of a renderer's mode; null without
+    Renderer* renderer();             // null unless a renderer's mode is shown
+    bool ownPicture() const;          // what is shown is the mode's and of this view, not a preview, nor old
+    bool finished() const;            // ownPicture, and nothing would refine it
+    std::string label() const;        // mode, and how far it is
 
   private:
     struct Impl;

@@ -7,17 +7,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
+#include "conelight/error.h"
 #include "platform/picture_texture.h"
 #include "reference/metrics.h"
 #include "viewer/camera_control.h"
+#include "viewer/widget_places.h"
 
 namespace conelight::program {
 namespace {
 
 constexpr double kStillAfter = 0.25;      // s without movement until the picture is drawn in full
 constexpr double kMovingFrameMs = 100;    // while moving the resolution falls until a frame takes this
-constexpr float kLeastScale = 0.125f;     // of the resolution
+constexpr double kSlowFrameMs = 30;       // refinement of pictures that take longer waits for the user
 constexpr float kTurnPerPixel = 0.0035f;  // rad; the original's 0.1 degrees at twice the speed, by hand
 constexpr float kClickSlop = 4;           // px: a press that moved less is a click
 
@@ -46,50 +49,93 @@ PictureView::PictureView(platform::Window& window, std::string shaderDirectory, 
     : window_(window),
       left_(std::make_unique<PictureSlot>(shaderDirectory, debugGl)),
       right_(std::make_unique<PictureSlot>(shaderDirectory, debugGl)),
-      errors_(std::make_unique<Errors>()) {}
+      errors_(std::make_unique<Errors>()),
+      movingResolution_(kMovingFrameMs) {}
 PictureView::~PictureView() = default;
 
 bool PictureView::moving() const { return lastMove_ >= 0 && ImGui::GetTime() - lastMove_ < kStillAfter; }
 
 glm::ivec2 PictureView::pictureSize() const { return {left_->width(), left_->height()}; }
 
-void PictureView::dropShaders() {
-    left_->clear();
-    right_->clear();
+std::vector<std::string> PictureView::reloadShaders() {
+    std::vector<std::string> failures = left_->reloadShaders();
+    // Both sides use the same files.
+    if (const auto more = right_->reloadShaders(); failures.empty()) failures = more;
+    return failures;
 }
 
-glm::ivec2 PictureView::drawnSize(const glm::ivec2& areaPx) const {
-    const float scale = moving() ? std::min(movingScale_, resolutionScale) : resolutionScale;
-    return glm::max(glm::ivec2(glm::round(glm::vec2(areaPx) * scale)), glm::ivec2(8));
+std::optional<std::string> PictureView::takeError() {
+    std::optional<std::string> error = left_->takeError();
+    return error ? error : right_->takeError();
 }
 
-bool PictureView::update(const Session& session, const glm::ivec2& areaPx) {
+bool PictureView::showsOwn() const {
+    return !moving() && left_->ownPicture() && (!split.on || right_->ownPicture());
+}
+
+bool PictureView::finished() const {
+    return !moving() && left_->finished() && (!split.on || right_->finished());
+}
+
+bool PictureView::update(const Session& session, const glm::ivec2& areaPx, bool userActs) {
     if (areaPx.x < 8 || areaPx.y < 8) return false;
-    const glm::ivec2 size = drawnSize(areaPx);
-    const std::uint64_t before = left_->version();
-    bool more = left_->draw(session, session.shownMode(), size.x, size.y, !moving());
-    if (split.on)
-        more = right_->draw(session, split.mode, size.x, size.y, !moving()) || more;
-    else
-        right_->clear();
+    // A slider that is dragged changes the scene at each frame, as a camera that moves does. (What only
+    // changes the look costs nothing: left_ does not draw it anew.)
+    const std::uint64_t edits = session.revisions().sceneTables() + session.revisions().settings;
+    const bool slow = left_->frameMs() + (split.on ? right_->frameMs() : 0) > kSlowFrameMs;
+    if (std::exchange(lastEdit_, edits) != edits && ImGui::IsAnyItemActive() && slow &&
+        !left_->onlyLook(session))
+        lastMove_ = ImGui::GetTime();
 
-    // Steer the resolution of the next moving frame by the time of this one: cost grows with the pixels.
-    if (moving() && left_->version() != before && left_->frameMs() > 0) {
-        const double cost = left_->frameMs() + (split.on ? right_->frameMs() : 0);
-        const float wanted = movingScale_ * static_cast<float>(std::sqrt(kMovingFrameMs / cost));
-        movingScale_ = std::clamp(0.5f * (movingScale_ + wanted), kLeastScale, 1.0f);
-    }
+    const bool coarse = moving();
+    const auto sizeAt = [&](float scale) {
+        return glm::max(glm::ivec2(glm::round(glm::vec2(areaPx) * scale)), glm::ivec2(8));
+    };
+    fullSize_ = sizeAt(resolutionScale);
+    const glm::ivec2 size = coarse ? sizeAt(std::min(movingResolution_.scale(), resolutionScale)) : fullSize_;
+    if (!coarse) movingResolution_.forget();
+    PictureSlot::How how;
+    how.still = !coarse;
+    how.onlyChanges = !coarse && userActs && slow;
+
+    const std::uint64_t before = left_->version();
+    bool more = left_->draw(session, session.shownMode(), size.x, size.y, how);
+    updateRight(session, size, how, more);
+    if (coarse && left_->version() != before && left_->frameMs() > 0)
+        movingResolution_.measured(left_->frameMs() + (split.on ? right_->frameMs() : 0));
     if (split.on && split.errors) showErrors();
     return more || moving();
 }
 
+// The right side is freed when the split is closed; when it has no picture of the view, it shows the left
+// one.
+void PictureView::updateRight(const Session& session, const glm::ivec2& size, const PictureSlot::How& how,
+                              bool& more) {
+    if (std::exchange(rightInUse_, split.on) && !split.on) right_->clear();
+    if (!split.on) return;
+    PictureSlot::How right = how;
+    right.preview = false;
+    more = right_->draw(session, split.mode, size.x, size.y, right) || more;
+}
+
+std::uint32_t PictureView::rightTexture() const {
+    if (!right_->ownPicture()) return left_->texture();
+    return split.errors ? errors_->texture.name() : right_->texture();
+}
+
 void PictureView::showErrors() {
+    if (!left_->ownPicture() || !right_->ownPicture()) return;
     const bool current = errors_->leftVersion == left_->version() &&
                          errors_->rightVersion == right_->version() && errors_->scale == split.errorScale;
     const Image& test = left_->linear();
     const Image& truth = right_->linear();
     if (current || test.width != truth.width || test.height != truth.height || test.pixels.empty()) return;
-    const std::vector<float> values = reference::errorValues(test, truth, reference::ErrorMap::Signed, {});
+    std::vector<float> values;
+    try {
+        values = reference::errorValues(test, truth, reference::ErrorMap::Signed, {});
+    } catch (const Error&) {
+        return;  // no pixel is finite in both: there is no error to show
+    }
     std::vector<std::uint8_t> rgb(3 * values.size());
     for (std::size_t i = 0; i < values.size(); ++i)
         reference::colorOfError(values[i] / split.errorScale, true, &rgb[3 * i]);
@@ -99,8 +145,13 @@ void PictureView::showErrors() {
     errors_->scale = split.errorScale;
 }
 
-std::optional<glm::ivec2> PictureView::show(Session& session, const glm::vec2& at, const glm::vec2& size,
-                                            float seconds) {
+std::optional<PictureView::Click> PictureView::show(Session& session, const glm::vec2& at,
+                                                    const glm::vec2& size, float seconds) {
+    const auto note = [&](const char* key, float x, float y, float w, float h) {
+        notePlace(key, {x, y}, {x + w, y + h});
+    };
+    note("picture", at.x, at.y, size.x, size.y);
+    if (split.on) note("split", at.x + split.position * size.x - 3, at.y, 6, size.y);
     ImGui::SetCursorScreenPos({at.x, at.y});
     ImGui::InvisibleButton("picture", {std::max(size.x, 1.0f), std::max(size.y, 1.0f)},
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
@@ -112,7 +163,7 @@ std::optional<glm::ivec2> PictureView::show(Session& session, const glm::vec2& a
 
     if (split.on) {
         const float x = at.x + split.position * size.x;
-        const std::uint32_t right = split.errors ? errors_->texture.name() : right_->texture();
+        const std::uint32_t right = rightTexture();
         if (right != 0) list->AddImage(idOf(right), {x, low.y}, high, {split.position, 0}, {1, 1});
         list->AddLine({x, low.y}, {x, high.y}, IM_COL32(235, 235, 235, 220), 2);
         const ImVec2 mouse = ImGui::GetIO().MousePos;
@@ -128,8 +179,7 @@ std::optional<glm::ivec2> PictureView::show(Session& session, const glm::vec2& a
     // A press and release in place.
     if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !wasDragging && left_->width() > 0) {
         const ImVec2 mouse = ImGui::GetIO().MousePos;
-        const glm::vec2 part((mouse.x - at.x) / size.x, (mouse.y - at.y) / size.y);
-        return glm::clamp(glm::ivec2(part * glm::vec2(pictureSize())), glm::ivec2(0), pictureSize() - 1);
+        return Click{{(mouse.x - at.x) / size.x, (mouse.y - at.y) / size.y}};
     }
     return std::nullopt;
 }

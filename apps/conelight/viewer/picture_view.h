@@ -11,9 +11,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "platform/window.h"
 #include "session/session.h"
+#include "viewer/moving_resolution.h"
 #include "viewer/picture_slot.h"
 
 namespace conelight::program {
@@ -34,32 +36,45 @@ class PictureView {
     PictureView& operator=(const PictureView&) = delete;
 
     // Draws the pictures that are out of date into their textures. `areaPx`: pixels of the picture's place.
-    // Returns whether another call soon would improve them.
-    bool update(const Session& session, const glm::ivec2& areaPx);
-    // The GUI part: shows the textures at the cursor, moves the camera, returns the pixel that was clicked.
-    std::optional<glm::ivec2> show(Session& session, const glm::vec2& at, const glm::vec2& size,
-                                   float seconds);
-    bool moving() const;  // input moved the camera a moment ago: pictures are coarse
+    // `userActs`: input came a moment ago, so that what only refines a slow picture waits. Returns whether
+    // another call soon would improve them. Failures are said by takeError().
+    bool update(const Session& session, const glm::ivec2& areaPx, bool userActs);
+    std::optional<std::string> takeError();  // of update, each once
+    // The GUI part: shows the textures at the cursor, moves the camera, returns where it was clicked.
+    struct Click {
+        glm::vec2 part{0};  // of the picture's width and height, from the upper left corner
+    };
+    std::optional<Click> show(Session& session, const glm::vec2& at, const glm::vec2& size, float seconds);
+    bool moving() const;  // input moved the camera or a slider a moment ago: pictures are coarse
 
     Split split;
     float resolutionScale = 1.0f;  // of the still picture, 0.25..1
     PictureSlot& slot(bool right) { return right ? *right_ : *left_; }
-    glm::ivec2 pictureSize() const;  // of the left picture
-    void dropShaders();              // after a change of the shader files
+    glm::ivec2 pictureSize() const;                    // of the left picture
+    glm::ivec2 fullSize() const { return fullSize_; }  // of pictures at rest
+    std::vector<std::string> reloadShaders();          // messages of those that fail
+    bool showsOwn() const;                             // both sides show their mode's picture
+    bool finished() const;                             // nothing would refine what is shown
+    // The picture on that side of the split, under which a click is looked up.
+    PictureSlot& slotAt(float part) { return slot(split.on && !split.errors && part >= split.position); }
 
   private:
     bool takeInput(Session& session, const glm::vec2& size, bool hovered, float seconds);
     void showErrors();
-    glm::ivec2 drawnSize(const glm::ivec2& areaPx) const;
+    void updateRight(const Session& session, const glm::ivec2& size, const PictureSlot::How& how, bool& more);
+    std::uint32_t rightTexture() const;
 
     platform::Window& window_;
     std::unique_ptr<PictureSlot> left_, right_;
     struct Errors;
     std::unique_ptr<Errors> errors_;
     double lastMove_ = -1;
-    float movingScale_ = 0.5f;
+    std::uint64_t lastEdit_ = 0;
+    MovingResolution movingResolution_;
+    glm::ivec2 fullSize_{0};
     bool dragged_ = false;
     bool draggingSplit_ = false;
+    bool rightInUse_ = false;
     glm::dvec2 flyCursor_{0};
 };
 

@@ -4,6 +4,7 @@
 
 #include "io/scene_info.h"
 #include "viewer/panels.h"
+#include "viewer/widget_places.h"
 
 namespace conelight::program {
 namespace {
@@ -50,6 +51,7 @@ void objects(Session& session, const std::string& filter) {
             if (ImGui::Selectable(nameOr(instances[i].name, "object", i).c_str(),
                                   session.selection() == what))
                 session.select(what);
+            notePlace("object:" + nameOr(instances[i].name, "object", i));
             ImGui::PopID();
         }
 }

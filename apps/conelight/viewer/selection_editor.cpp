@@ -178,10 +178,14 @@ void cameraEditor(Session& session) {
     Camera camera = session.camera();
     ImGui::PushItemWidth(-8.0f * ImGui::GetFontSize());
     bool changed = ImGui::DragFloat3("eye", &camera.eye.x, 0.01f);
+    seals(session);
     changed |= ImGui::DragFloat3("target", &camera.target.x, 0.01f);
+    seals(session);
     changed |= ImGui::SliderAngle("field of view", &camera.fovY, 1, 150);
+    seals(session);
     ImGui::PopItemWidth();
-    if (changed && glm::length(camera.target - camera.eye) > 1e-6f) session.moveCamera(camera);
+    if (changed && glm::length(camera.target - camera.eye) > 1e-6f)
+        session.jumpCamera(camera, "edit camera", "camera");
 }
 
 }  // namespace conelight::program

@@ -9,6 +9,7 @@
 #include <cstdlib>
 
 #include "session/session.h"
+#include "viewer/widget_places.h"
 
 namespace conelight::program {
 namespace {
@@ -114,6 +115,7 @@ void settingRow(const Settings& settings, const SettingInfo& info, const Setting
     ImGui::TableSetColumnIndex(1);
     ImGui::SetNextItemWidth(-1);
     widget(settings, info, value, edit);
+    notePlace(info.key);
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) tooltip(info);
     ImGui::TableSetColumnIndex(2);
     if (!info.unit.empty()) {

@@ -51,18 +51,33 @@ void memoryTable(const FrameStats& stats) {
     ImGui::TreePop();
 }
 
+// Bars from zero, one a frame, newest on the right: one frame is seen too.
+void frameGraph(const FrameTimes& times) {
+    const std::deque<double>& all = times.all();
+    std::vector<float> ms(all.size());
+    std::transform(all.begin(), all.end(), ms.begin(), [](double one) { return static_cast<float>(one); });
+    const float longest = *std::max_element(ms.begin(), ms.end());
+    ImGui::PlotHistogram("##frames", ms.data(), static_cast<int>(ms.size()), 0, nullptr, 0, 1.1f * longest,
+                         {ImGui::GetContentRegionAvail().x, 3.5f * ImGui::GetFontSize()});
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("times of the last %zu frames, 0 to %.0f ms", all.size(),
+                          static_cast<double>(1.1f * longest));
+}
+
 }  // namespace
 
-void statsPanel(const FrameStats& stats, const FrameTimes& times) {
-    std::vector<float> ms(times.all().begin(), times.all().end());
-    if (!ms.empty()) {
-        const float longest = *std::max_element(ms.begin(), ms.end());
-        ImGui::PlotLines("##frames", ms.data(), static_cast<int>(ms.size()), 0,
-                         fmt::format("{:.1f} ms", ms.back()).c_str(), 0, 1.1f * longest,
-                         {-1, 3.5f * ImGui::GetFontSize()});
+void statsPanel(const FrameStats& stats, const FrameTimes& times, double guiMs) {
+    if (!times.all().empty()) {
+        const double last = times.all().back();
+        ImGui::TextUnformatted(
+            fmt::format("{:.1f} ms, {:.1f} frames/s", last, 1e3 / std::max(last, 1e-3)).c_str());
+        frameGraph(times);
     }
     ImGui::TextDisabled("%s", stats.device.c_str());
     passTable(stats);
+    ImGui::TextDisabled("GUI %.2f ms", guiMs);
+    if (ImGui::IsItemHovered())
+        ImGui::SetTooltip("CPU time of this thread for the panels of a frame, median");
     memoryTable(stats);
 }
 

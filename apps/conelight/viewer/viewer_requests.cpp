@@ -19,23 +19,25 @@ constexpr int kMaxScreenshots = 9999;
 // A mode that settles over frames is drawn until it has, so that a picture on disk is the finished one.
 const Image& finishedPicture(Session& session, PictureView& view, const glm::ivec2& size) {
     PictureSlot& slot = view.slot(false);
-    while (slot.draw(session, session.shownMode(), size.x, size.y, true)) {
+    while (slot.draw(session, session.shownMode(), size.x, size.y, {})) {
     }
+    if (const std::optional<std::string> error = slot.takeError()) throw Error(ErrorKind::Runtime, *error);
     const Image& linear = slot.linear();
-    if (linear.pixels.empty())
-        throw Error(ErrorKind::Runtime, "there is no picture yet; a moment later would be right");
+    if (linear.pixels.empty() || !slot.ownPicture())
+        throw Error(ErrorKind::Runtime, "there is no picture yet (" + slot.label() +
+                                            "); a moment later would be right, after `settle` for example");
     return linear;
 }
 
 void screenshot(Session& session, PictureView& view, Console& console, const std::string& file) {
-    const Image& linear = finishedPicture(session, view, view.pictureSize());
+    const Image& linear = finishedPicture(session, view, view.fullSize());
     writePicture(file, linear, session.shownSettings().image);
     console.print(fmt::format("written {} ({} x {})", file, linear.width, linear.height));
 }
 
 // `count` frames while the camera turns once round its target, goes along its path or stands still.
 void record(Session& session, PictureView& view, Console& console, const Request& request) {
-    const glm::ivec2 size = view.pictureSize() / 2 * 2;  // video codecs want even sizes
+    const glm::ivec2 size = view.fullSize() / 2 * 2;  // video codecs want even sizes
     if (size.x < 2) throw Error(ErrorKind::Runtime, request.file + ": there is no picture yet");
     VideoFile video(request.file, size.x, size.y);
     const Camera start = session.camera();
@@ -61,7 +63,7 @@ void inspect(PictureView& view, Console& console, const Request& request) {
 }
 
 void carryOut(Session& session, PictureView& view, Console& console, ViewerState& state,
-              const Request& request) {
+              const Request& request, const std::function<void(const Request&)>& window) {
     switch (request.kind) {
         case RequestKind::Screenshot:
             screenshot(session, view, console, request.file);
@@ -76,6 +78,9 @@ void carryOut(Session& session, PictureView& view, Console& console, ViewerState
         case RequestKind::Load:
             for (const std::string& note : session.open(request.file, request.keepView)) console.print(note);
             console.print("loaded " + request.file);
+            break;
+        case RequestKind::Window:
+            window(request);
             break;
         case RequestKind::Quit:
             state.quit = true;
@@ -105,11 +110,12 @@ std::string nextScreenshot() {
     return "conelight.png";
 }
 
-bool carryOutRequest(Session& session, PictureView& view, Console& console, ViewerState& state) {
+bool carryOutRequest(Session& session, PictureView& view, Console& console, ViewerState& state,
+                     const std::function<void(const Request&)>& window) {
     const std::optional<Request> request = session.takeRequest();
     if (!request) return false;
     try {
-        carryOut(session, view, console, state, *request);
+        carryOut(session, view, console, state, *request, window);
     } catch (const Error& error) {
         console.fail(error);
     }

@@ -2,6 +2,7 @@
 // What commands and panels asked for, carried out between frames: files to load and write, pictures, video.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "console/console.h"
@@ -16,8 +17,10 @@ struct ViewerState {
     int status = 0;
 };
 
-// One request. A failure is that of its command. Returns whether there was one.
-bool carryOutRequest(Session& session, PictureView& view, Console& console, ViewerState& state);
+// One request; `window` carries out RequestKind::Window. A failure is that of its command. Returns whether
+// there was one.
+bool carryOutRequest(Session& session, PictureView& view, Console& console, ViewerState& state,
+                     const std::function<void(const Request&)>& window);
 
 // "conelight-0001.png" and so on: the first that does not exist yet, in the current folder.
 std::string nextScreenshot();

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// Commands that act on the viewer's window. The window carries them out between frames, as any request.
+#include "conelight/error.h"
+#include "console/console.h"
+#include "io/image_file.h"
+
+namespace conelight::program {
+namespace {
+
+void askWindow(const CommandContext& context, const char* name) {
+    Request request{RequestKind::Window};
+    request.words = {name};
+    request.words.insert(request.words.end(), context.words.begin(), context.words.end());
+    context.session.request(std::move(request));
+}
+
+Argument onOff() {
+    Argument argument{"ON", ArgumentKind::Choice, true};
+    argument.choices = {"on", "off"};
+    return argument;
+}
+
+Argument choice(const char* name, std::vector<std::string> choices) {
+    Argument argument{name, ArgumentKind::Choice, true};
+    argument.choices = std::move(choices);
+    return argument;
+}
+
+}  // namespace
+
+CommandGroup windowCommands() {
+    Argument splitMode = choice("MODE", sessionModes());
+    splitMode.choices.emplace_back("off");
+    Argument key = choice("KEY", {"scene", "window", "picture", "mode", "split", "settled", "selection",
+                                  "pixel", "camera", "steps", "frames", "gui", "first_frame"});
+    return {
+        "Window (conelight view)",
+        {
+            command(
+                "split", {splitMode, {"POSITION", ArgumentKind::Number, true, false, "", 0, 1, {}}},
+                "another mode on the right side of the picture",
+                [](const CommandContext& context) { askWindow(context, "split"); },
+                "POSITION: where it begins, as a part of the width. Without MODE: on, or off again."),
+            command(
+                "error", {onOff(), {"SCALE", ArgumentKind::Number, true, false, "", 0.05, 4, {}}},
+                "the right side of a split shows the left one's error against it",
+                [](const CommandContext& context) { askWindow(context, "error"); },
+                "SCALE: the error that gets the strongest colour, in parts of the mean radiance."),
+            command("fullscreen", {onOff()}, "fill the screen, or not",
+                    [](const CommandContext& context) { askWindow(context, "fullscreen"); }),
+            command("panels", {onOff()}, "show panels and console beside the picture, or the picture alone",
+                    [](const CommandContext& context) { askWindow(context, "panels"); }),
+            command("focus", {}, "move the camera so that it sees all of the selection, or of the scene",
+                    [](const CommandContext& context) { askWindow(context, "focus"); }),
+            command(
+                "pick",
+                {{"X", ArgumentKind::Number, false, false, "", 0, 1, {}},
+                 {"Y", ArgumentKind::Number, false, false, "", 0, 1, {}}},
+                "as a click into the picture: select and inspect what lies there",
+                [](const CommandContext& context) { askWindow(context, "pick"); },
+                "X and Y: parts of its width and height, from the upper left corner."),
+            command(
+                "settle", {}, "wait until the picture is as good as it gets",
+                [](const CommandContext& context) { askWindow(context, "settle"); },
+                "In mode reference, and beside it, until there is a first picture."),
+            command("status", {key}, "what the window shows and what that costs",
+                    [](const CommandContext& context) { askWindow(context, "status"); }),
+            command("screenshot_window", {{"FILE", ArgumentKind::File}},
+                    "write the window with its panels: .png or .jpg",
+                    [](const CommandContext& context) {
+                        const io::ImageFormat format = io::imageFormatOf(context.words[0]);
+                        if (format != io::ImageFormat::Png && format != io::ImageFormat::Jpg)
+                            throw Error(ErrorKind::Usage,
+                                        "screenshot_window: " + context.words[0] +
+                                            ": a name ending in .png or .jpg would be right");
+                        io::checkWritable(context.words[0]);
+                        askWindow(context, "screenshot_window");
+                    }),
+            command(
+                "where", {{"WIDGET", ArgumentKind::Text, false, true}},
+                "the place of a widget in the window, to drive it from a script: x y width height",
+                [](const CommandContext& context) { askWindow(context, "where"); },
+                "WIDGET: picture, split, console, a setting's key, tab:Voxels, menu:File, object:NAME"),
+        }};
+}
+
+}  // namespace conelight::program

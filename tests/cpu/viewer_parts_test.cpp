@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// What of the viewer needs no window: how input moves the camera, how coarse moving pictures are, what is
+// remembered between runs.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "session/state_files.h"
+#include "support/gl_fixture.h"
+#include "viewer/camera_control.h"
+#include "viewer/moving_resolution.h"
+
+namespace conelight::test {
+namespace {
+
+TEST(CameraControl, OrbitKeepsTheDistanceAndFlyKeepsTheDirection) {
+    Camera camera;
+    camera.eye = {1, 2, 5};
+    camera.target = {0, 1, 0};
+    const float distance = glm::length(camera.target - camera.eye);
+    Camera turned = camera;
+    program::orbit(turned, {0.5f, -0.2f});
+    EXPECT_EQ(turned.target, camera.target);
+    EXPECT_NEAR(glm::length(turned.target - turned.eye), distance, 1e-4f);
+    Camera flown = camera;
+    program::fly(flown, {{0, 0, 1}, {0, 0}, 0.5f, 2.0f});
+    const glm::vec3 before = glm::normalize(camera.target - camera.eye);
+    EXPECT_NEAR(glm::dot(before, glm::normalize(flown.target - flown.eye)), 1, 1e-5f);
+    EXPECT_NEAR(glm::dot(flown.eye - camera.eye, before), 1, 1e-4f);  // half a second at 2 m/s
+    // Pitch stops short of the pole.
+    program::orbit(turned, {0, 10});
+    EXPECT_LT(std::fabs(program::viewAngles(turned).pitch), program::kMaxPitch + 1e-3f);
+}
+
+TEST(CameraControl, FocusShowsAllOfABox) {
+    Camera camera;
+    Aabb box;
+    box.grow({-1, -2, -3});
+    box.grow({4, 5, 6});
+    program::focusOn(camera, box, 0.5f);
+    const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
+    const float half = std::atan(std::tan(0.5f * camera.fovY) * 0.5f);
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 p((corner & 1) ? 4 : -1, (corner & 2) ? 5 : -2, (corner & 4) ? 6 : -3);
+        const float angle = std::acos(glm::dot(glm::normalize(p - camera.eye), forward));
+        EXPECT_LT(angle, half + 1e-4f) << corner;
+    }
+}
+
+// Frames whose cost is `fixed` plus `perPicture` at full resolution; the level after some of them.
+int levelAfterFrames(program::MovingResolution& resolution, double fixed, double perPicture,
+                     int frames = 40) {
+    for (int i = 0; i < frames; ++i)
+        resolution.measured(fixed + perPicture * resolution.scale() * resolution.scale());
+    return resolution.level();
+}
+
+TEST(MovingResolution, IsAsFineAsTheTimeAllows) {
+    program::MovingResolution cheap(100), dear(100);
+    EXPECT_EQ(levelAfterFrames(cheap, 1, 20), 0);
+    const int level = levelAfterFrames(dear, 1, 1000);
+    EXPECT_LE(1 + 1000 * std::exp2(-level), 100);
+    EXPECT_GT(1 + 1000 * std::exp2(-(level - 1)), 80) << "one finer would not fit";
+    // Cheaper again, after the camera stood: finer again.
+    dear.forget();
+    EXPECT_EQ(levelAfterFrames(dear, 1, 20), 0);
+}
+
+TEST(MovingResolution, FewerPixelsThanPayAreNotChosen) {
+    program::MovingResolution resolution(100);
+    const int level = levelAfterFrames(resolution, 300, 40);
+    EXPECT_LE(level, 2) << "most of the cost is not the pixels'";
+    const int later = levelAfterFrames(resolution, 300, 40, 1);
+    EXPECT_EQ(level, later) << "it rests";
+}
+
+class StateFilesTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        folder = scratchDir() + "/state";
+        std::filesystem::remove_all(folder);
+        setenv("XDG_STATE_HOME", folder.c_str(), 1);
+    }
+    void TearDown() override { unsetenv("XDG_STATE_HOME"); }
+    std::string folder;
+};
+
+TEST_F(StateFilesTest, ScenesAndLinesAreKeptForTheNextRun) {
+    program::StateFiles one(true);
+    EXPECT_TRUE(one.recent().empty());
+    one.opened("builtin:cornell");
+    one.opened("a/../b.gltf");
+    one.opened("builtin:cornell");
+    one.typed("mode cones");
+    program::StateFiles other(true);
+    ASSERT_EQ(other.recent().size(), 2u) << "each once";
+    EXPECT_EQ(other.recent()[0], "builtin:cornell") << "newest first";
+    EXPECT_EQ(other.recent()[1], (std::filesystem::current_path() / "b.gltf").string());
+    EXPECT_EQ(other.lines(), std::vector<std::string>{"mode cones"});
+    for (std::size_t i = 0; i < 3 * program::StateFiles::kLines; ++i)
+        other.typed("line " + std::to_string(i));
+    EXPECT_EQ(other.lines().size(), program::StateFiles::kLines);
+    EXPECT_EQ(other.lines().back(), "line " + std::to_string(3 * program::StateFiles::kLines - 1));
+    for (int i = 0; i < 30; ++i) other.opened("builtin:" + std::to_string(i));
+    EXPECT_EQ(program::StateFiles(true).recent().size(), program::StateFiles::kRecent);
+}
+
+TEST_F(StateFilesTest, NothingIsKeptWhenNotWanted) {
+    program::StateFiles none(false);
+    none.opened("builtin:cornell");
+    none.typed("help");
+    EXPECT_FALSE(std::filesystem::exists(folder));
+    // A folder that cannot be made is no failure.
+    std::ofstream(folder) << "a file";
+    program::StateFiles blocked(true);
+    blocked.opened("builtin:cornell");
+    EXPECT_TRUE(blocked.recent().empty());
+    std::filesystem::remove(folder);
+}
+
+}  // namespace
+}  // namespace conelight::test
