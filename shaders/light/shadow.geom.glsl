@@ -6,7 +6,6 @@
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;
 #include "light/shadow_view.glsl"
-#include "shared/bindings.h"
 
 layout(location = 3) flat out vec3 edge[3];
 #if MASKED
