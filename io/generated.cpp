@@ -53,6 +53,44 @@ constexpr GeneratedParameter kSpheresParameters[] = {
     {"rows", 3, 1, 8, true, "spheres from front to back, metalness 0 to 1"},
     {"emission", 8, 0, 1e4, false, "radiance of the lamp, W/(sr m^2)"},
 };
+constexpr GeneratedParameter kColoursParameters[] = {
+    {"intensity", 2.5, 0, 1e4, false, "of the point lamp, W/sr; the spots have twice as much"},
+};
+constexpr GeneratedParameter kLanternsParameters[] = {
+    {"emission", 12, 0, 1e4, false, "radiance of the lamps, W/(sr m^2)"},
+};
+constexpr GeneratedParameter kVasesParameters[] = {
+    {"intensity", 0.9, 0, 1e4, false, "of the lamp, W/sr"},
+};
+constexpr GeneratedParameter kStudyParameters[] = {
+    {"intensity", 3, 0, 1e4, false, "of the lamp, W/sr"},
+};
+constexpr GeneratedParameter kClutterParameters[] = {
+    {"boxes", 400, 0, 5000, true, "how many"},
+    {"intensity", 0.8, 0, 1e4, false, "of the lamp, W/sr"},
+};
+constexpr GeneratedParameter kTunnelParameters[] = {
+    {"emission", 150, 0, 1e4, false, "radiance of the lamp, W/(sr m^2)"},
+};
+constexpr GeneratedParameter kYardParameters[] = {
+    {"sun", 6, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
+    {"sky", 0.7, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
+};
+constexpr GeneratedParameter kLobbyParameters[] = {
+    {"roughness", 0.15, 0.02, 1, false, "of the floor"},
+    {"emission", 8, 0, 1e4, false, "radiance of the lamp, W/(sr m^2)"},
+};
+constexpr GeneratedParameter kMirrorsParameters[] = {
+    {"roughness", 0.05, 0.02, 1, false, "of the mirrors"},
+    {"intensity", 1.2, 0, 1e4, false, "of the lamp, W/sr"},
+};
+constexpr GeneratedParameter kScreensParameters[] = {
+    {"intensity", 0.6, 0, 1e4, false, "of the lamp, W/sr"},
+};
+constexpr GeneratedParameter kLoftParameters[] = {
+    {"sun", 30, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
+    {"sky", 0.8, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
+};
 
 struct Entry {
     GeneratedSceneInfo info;
@@ -81,6 +119,26 @@ constexpr Entry kScenes[] = {
      generated::buildGlossy},
     {{"spheres", "spheres of every roughness and metalness in a lit room", kSpheresParameters},
      generated::buildSpheres},
+    // Held out: made when the modes' constants stood.
+    {{"colours", "closed room, three lamps of three colours, two of them spots, and slabs",
+      kColoursParameters},
+     generated::buildColours},
+    {{"lanterns", "closed room lit by emission alone: a ball, a ring, a strip", kLanternsParameters},
+     generated::buildLanterns},
+    {{"vases", "closed room with curved meshes", kVasesParameters}, generated::buildVases},
+    {{"study", "closed room, every surface textured", kStudyParameters}, generated::buildStudy},
+    {{"clutter", "closed room with many small boxes turned at random", kClutterParameters},
+     generated::buildClutter},
+    {{"tunnel", "long passage, lamp at its far end only; cameras dark, lit", kTunnelParameters},
+     generated::buildTunnel},
+    {{"yard", "houses and trees under sun and sky", kYardParameters}, generated::buildYard},
+    {{"lobby", "glossy dielectric floor under columns", kLobbyParameters}, generated::buildLobby},
+    {{"mirrors", "mirror ball and mirror in a coloured room", kMirrorsParameters}, generated::buildMirrors},
+    {{"screens", "screens without thickness, straight and turned, between a lit bay and dark ones",
+      kScreensParameters},
+     generated::buildScreens},
+    {{"loft", "room with thick walls, sunlight through two skylights", kLoftParameters},
+     generated::buildLoft},
 };
 constexpr std::size_t kSceneCount = std::size(kScenes);
 

@@ -62,5 +62,16 @@ Scene buildCorridor(const Values& values);
 Scene buildAtrium(const Values& values);
 Scene buildGlossy(const Values& values);
 Scene buildSpheres(const Values& values);
+Scene buildColours(const Values& values);
+Scene buildLanterns(const Values& values);
+Scene buildVases(const Values& values);
+Scene buildStudy(const Values& values);
+Scene buildClutter(const Values& values);
+Scene buildTunnel(const Values& values);
+Scene buildYard(const Values& values);
+Scene buildLobby(const Values& values);
+Scene buildMirrors(const Values& values);
+Scene buildScreens(const Values& values);
+Scene buildLoft(const Values& values);
 
 }  // namespace conelight::io::generated
