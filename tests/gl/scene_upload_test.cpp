@@ -24,7 +24,7 @@ class SceneUploadTest : public GlTest {
         completeScene(scene);
         settings.mode = Mode::Cones;
         settings.voxels.size = 32;
-        settings.cones.bounces = 0;
+        settings.cones.bounces = 1;
         const Camera camera = scene.cameras.front();
         session = std::make_unique<program::Session>(std::move(scene), "builtin:cornell", settings, "cones",
                                                      camera);
