@@ -79,18 +79,24 @@ struct TracedMode::Impl {
     void gather(const FrameContext& frame, gather::PixelRays& picture, Seen& seen, int rays, int passes);
     gather::PixelRayFrame rayFrame(const FrameContext& frame) const;
     int updatesWanted(const TracedSettings& settings) const;
+    bool sameUpdates(const TracedSettings& a, const TracedSettings& b) const;
     void drawParts(const FrameContext& frame, const gather::PictureParts& parts);
 };
 
 // Voxels, what rays need to cross them, and direct light on their faces.
 void TracedMode::Impl::updateVoxels(const FrameContext& frame) {
     const TracedSettings& settings = frame.settings.traced;
-    if (gatheredFor && gatheredFor->bounces != settings.bounces) geometryDirty = true;
+    const bool otherUpdates = gatheredFor && !sameUpdates(*gatheredFor, settings);
+    const bool otherBounces = gatheredFor && gatheredFor->bounces != settings.bounces;
+    // Else a picture would be better or worse for the settings of those before it. Moving ones keep what is
+    // there.
+    const bool anew = otherBounces || (otherUpdates && !settings.budgeted);
+    geometryDirty = geometryDirty || anew;
     // Light of a limited number of bounces starts in the dark.
     const bool limited = settings.bounces < kAllBounces;
     if (limited && lightDirty) geometryDirty = true;
     if (geometryDirty) {
-        if (limited || (gatheredFor && gatheredFor->bounces != settings.bounces)) cache.reset();
+        if (limited || anew) cache.reset();
         cache.beforeVoxelize(frame.profiler, surface);
         if (frame.everythingAnew)
             surface.build(frame.programs, frame.profiler, frame.scene, frame.settings.voxels);
@@ -103,11 +109,19 @@ void TracedMode::Impl::updateVoxels(const FrameContext& frame) {
         light::injectLight(frame.programs, frame.profiler, frame.scene, frame.settings.light, surface,
                            &cache.steadyLight());
         cache.lightChanged();
+    } else if (otherUpdates) {
+        cache.lightChanged();
     }
     if (geometryDirty || lightDirty || !gatheredFor || !(*gatheredFor == settings))
         seenDiffuse.passes = seenSpecular.passes = seenOcclusion.passes = 0;
     gatheredFor = settings;
     geometryDirty = lightDirty = false;
+}
+
+// Whether both settings update the cache in the same way.
+bool TracedMode::Impl::sameUpdates(const TracedSettings& a, const TracedSettings& b) const {
+    return updatesWanted(a) == updatesWanted(b) && a.cacheRays == b.cacheRays && a.bounces == b.bounces &&
+           a.exactHits == b.exactHits;
 }
 
 // Rays at pixels add a bounce to what the cache holds.

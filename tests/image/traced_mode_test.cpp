@@ -170,6 +170,16 @@ TEST_F(TracedModeTest, SameBitsTwice) {
     }
 }
 
+// What was drawn before, with other settings, leaves nothing in a picture.
+TEST_F(TracedModeTest, QualitiesDoNotMix) {
+    const Scene scene = io::generateScene("cornell");
+    Renderer renderer;
+    renderer.setScene(scene);
+    draw(renderer, scene, smallSettings(Quality::Interactive));
+    const Settings draft = smallSettings(Quality::Draft);
+    EXPECT_EQ(draw(renderer, scene, draft).pixels, draw(scene, draft).pixels);
+}
+
 TEST_F(TracedModeTest, PartsAddUp) {
     const Scene scene = io::generateScene("glossy");
     Renderer renderer;
