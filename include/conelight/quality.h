@@ -17,7 +17,7 @@ struct QualityInfo {
     int lobeRays = 0;      // per pixel into the lobes of smooth surfaces, over all passes
     int raysPerFace = 0;   // of the cache, over all updates
     // Indirect light of builtin:cornell against the path tracer's, as `conelight compare builtin:cornell
-    // --modes traced --vary traced.quality=... --against reference --size 256x256 --spp 512` measures it.
+    // --modes traced --vary traced.quality=... --against reference --size 256x256 --spp 256` measures it.
     double relativeError = 0;  // RMS / mean
     double bias = 0;           // mean / mean of the reference - 1
 };

@@ -14,10 +14,10 @@ struct Measured {
     double relativeError, bias;
 };
 constexpr Measured kMeasured[] = {
-    {"draft", Quality::Draft, 0.073, -0.002},
-    {"interactive", Quality::Interactive, 0.062, -0.001},
-    {"high", Quality::High, 0.050, -0.004},
-    {"converged", Quality::Converged, 0.083, -0.004},
+    {"draft", Quality::Draft, 0.050, -0.002},
+    {"interactive", Quality::Interactive, 0.044, -0.002},
+    {"high", Quality::High, 0.030, -0.001},
+    {"converged", Quality::Converged, 0.025, 0.000},
 };
 
 }  // namespace
