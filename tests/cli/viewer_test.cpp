@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `conelight view` on a screen without a monitor, driven by mouse, keys and its console, watched by what it
-// prints and by the screen's pixels. Skipped where Xvfb, xdotool or xwd is not installed.
+// prints and by the screen's pixels. Skipped where Xvfb or xdotool is not installed.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 

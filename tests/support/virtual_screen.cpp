@@ -11,9 +11,12 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <sstream>
 #include <stdexcept>
 #include <thread>
+
+#include "support/program.h"
 
 namespace conelight::test {
 namespace {
@@ -78,18 +81,22 @@ bool eventually(const std::function<bool()>& condition) {
 }
 
 std::string VirtualScreen::missing() {
-    for (const char* program : {"Xvfb", "xdotool", "xwd"})
+    for (const char* program : {"Xvfb", "xdotool"})
         if (std::system(("command -v " + std::string(program) + " >/dev/null 2>&1").c_str()) != 0)
-            return std::string(program) + " is not installed (packages xvfb, xdotool, x11-apps)";
+            return std::string(program) + " is not installed (packages xvfb, xdotool)";
     return {};
 }
 
 VirtualScreen::VirtualScreen(int width, int height) {
     int numbers[2];
     if (pipe(numbers) != 0) throw std::runtime_error("pipe failed");
-    process_ = start("exec Xvfb -displayfd " + std::to_string(numbers[1]) + " -screen 0 " +
-                         std::to_string(width) + "x" + std::to_string(height) + "x24 -nolisten tcp",
-                     -1, -1, numbers[1]);
+    std::string directory = (std::filesystem::temp_directory_path() / "conelight_screen_XXXXXX").string();
+    if (mkdtemp(directory.data()) == nullptr) throw std::runtime_error(directory + " cannot be made");
+    directory_ = directory;
+    process_ =
+        start("exec Xvfb -displayfd " + std::to_string(numbers[1]) + " -screen 0 " + std::to_string(width) +
+                  "x" + std::to_string(height) + "x24 -nolisten tcp -fbdir '" + directory_ + "'",
+              -1, -1, numbers[1]);
     close(numbers[1]);
     // The number comes when the screen is ready.
     std::string text;
@@ -103,14 +110,16 @@ VirtualScreen::VirtualScreen(int width, int height) {
     display_ = ":" + text;
 }
 
-VirtualScreen::~VirtualScreen() { end(process_); }
+VirtualScreen::~VirtualScreen() {
+    end(process_);
+    std::error_code ignored;
+    std::filesystem::remove_all(directory_, ignored);
+}
 
+// The server's own memory, not `xwd -root`: where a window's visual is not the root's, as OpenGL's need not
+// be, xwd composes the dump itself and packs three bytes per pixel under a header that says four.
 ScreenPixels VirtualScreen::pixels() const {
-    FILE* pipe = popen(("xwd -root -silent -display " + display_).c_str(), "r");
-    std::string bytes;
-    char block[65536];
-    for (std::size_t n; (n = fread(block, 1, sizeof block, pipe)) > 0;) bytes.append(block, n);
-    pclose(pipe);
+    const std::string bytes = bytesOf(directory_ + "/Xvfb_screen0");
     // The X window dump: a header of big-endian words, then its colour map, then rows of BGRX.
     const std::size_t offset = word(bytes, 0) + 12 * std::size_t(word(bytes, 19));
     ScreenPixels screen{static_cast<int>(word(bytes, 4)), static_cast<int>(word(bytes, 5)), {}};

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A screen without a monitor (Xvfb), and the viewer on it: driven by mouse and keys (xdotool) and through its
-// standard input, watched by what it prints and by the screen's pixels (xwd). Nothing here sleeps and hopes:
-// everything waits for a condition, and fails with what there was when it does not come.
+// standard input, watched by what it prints and by the screen's pixels (the file that Xvfb keeps them in).
+// Nothing here sleeps and hopes: everything waits for a condition, and fails with what there was when it does
+// not come.
 #pragma once
 
 #include <functional>
@@ -38,6 +39,7 @@ class VirtualScreen {
   private:
     int process_ = -1;
     std::string display_;
+    std::string directory_;  // of the file with the screen's pixels
 };
 
 class ViewerProcess {
