@@ -12,6 +12,10 @@
 namespace conelight::program {
 namespace {
 
+// Tables of many numbers are wider than the panel.
+constexpr ImGuiTableFlags kScrolled = ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg |
+                                   ImGuiTableFlags_SizingFixedFit;
+
 std::string text(const glm::vec3& v) { return fmt::format("{:.4g}  {:.4g}  {:.4g}", v.x, v.y, v.z); }
 
 void row(const char* name, const std::string& value) {
@@ -19,7 +23,15 @@ void row(const char* name, const std::string& value) {
     ImGui::TableSetColumnIndex(0);
     ImGui::TextDisabled("%s", name);
     ImGui::TableSetColumnIndex(1);
-    ImGui::TextUnformatted(value.c_str());
+    ImGui::TextWrapped("%s", value.c_str());
+}
+
+// Of rows: names and, in what is left of the panel, values, which wrap.
+bool beginRows(const char* id) {
+    if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingFixedFit)) return false;
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed);
+    ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
+    return true;
 }
 
 void partRow(const char* name, const InspectedPart& part) {
@@ -28,9 +40,7 @@ void partRow(const char* name, const InspectedPart& part) {
 
 // Every path in a line.
 void pathTable(Inspection& inspection) {
-    constexpr ImGuiTableFlags kFlags =
-        ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
-    if (!ImGui::BeginTable("paths", 5, kFlags, {0, 12 * ImGui::GetFontSize()})) return;
+    if (!ImGui::BeginTable("paths", 5, kScrolled, {0, 12 * ImGui::GetFontSize()})) return;
     ImGui::TableSetupScrollFreeze(0, 1);
     for (const char* head : {"cone or ray", "end", "m", "weight", "radiance"}) ImGui::TableSetupColumn(head);
     ImGui::TableHeadersRow();
@@ -54,7 +64,7 @@ void pathTable(Inspection& inspection) {
 
 // Face and steps of one.
 void chosenPath(const InspectedPath& path) {
-    if (path.face && ImGui::BeginTable("face", 2, ImGuiTableFlags_SizingFixedFit)) {
+    if (path.face && beginRows("face")) {
         const InspectedFace& face = *path.face;
         row("voxel", fmt::format("{} {} {}", face.voxel.x, face.voxel.y, face.voxel.z));
         row("normal", text(face.normal));
@@ -66,9 +76,7 @@ void chosenPath(const InspectedPath& path) {
                                           : fmt::format("{} updates", face.updates));
         ImGui::EndTable();
     }
-    constexpr ImGuiTableFlags kFlags =
-        ImGuiTableFlags_ScrollY | ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
-    if (!ImGui::BeginTable("steps", 6, kFlags, {0, 12 * ImGui::GetFontSize()})) return;
+    if (!ImGui::BeginTable("steps", 6, kScrolled, {0, 12 * ImGui::GetFontSize()})) return;
     ImGui::TableSetupScrollFreeze(0, 1);
     for (const char* head : {"step", "m", "size m", "level", "opacity", "radiance"})
         ImGui::TableSetupColumn(head);
@@ -92,7 +100,7 @@ void inspectorPanel(const Session& session, std::optional<Inspection>& inspectio
         ImGui::TextDisabled("click a pixel");
         return;
     }
-    if (!ImGui::BeginTable("inspector", 2, ImGuiTableFlags_SizingFixedFit)) return;
+    if (!beginRows("inspector")) return;
     row("pixel", fmt::format("{}, {}", inspection->pixel.x, inspection->pixel.y));
     row("radiance", text(glm::vec3(inspection->radiance)) + "  W/(sr m2)");
     if (inspection->hit) {
