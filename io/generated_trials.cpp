@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Scenes to try methods on that were tuned elsewhere: written down after the modes' constants were fixed, one
-// for each kind of light and surface that people bring. docs/measurements/held_out_scenes.md has the results.
+// for each kind of light and surface that people bring. `tools/measure_modes held-out` measures on them.
 // Values -> Scene.
 #include "io/generated_scenes.h"
 

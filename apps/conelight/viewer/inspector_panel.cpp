@@ -18,12 +18,30 @@ constexpr ImGuiTableFlags kScrolled = ImGuiTableFlags_ScrollX | ImGuiTableFlags_
 
 std::string text(const glm::vec3& v) { return fmt::format("{:.4g}  {:.4g}  {:.4g}", v.x, v.y, v.z); }
 
+// `text` with line feeds at spaces, so that lines are as wide as there is room. ImGui's own wrapping also
+// breaks behind the point of a number.
+std::string wrappedAtSpaces(const std::string& text) {
+    const float room = ImGui::GetContentRegionAvail().x;
+    std::string out;
+    float width = 0;
+    for (std::size_t from = 0; from < text.size();) {
+        const std::size_t to = std::min(text.find(' ', from + 1), text.size());
+        const std::string word = text.substr(from, to - from);
+        const float wide = ImGui::CalcTextSize(word.c_str()).x;
+        const bool breaks = width > 0 && width + wide > room;
+        out += breaks ? "\n" + word.substr(word.front() == ' ' ? 1 : 0) : word;
+        width = breaks ? wide : width + wide;
+        from = to;
+    }
+    return out;
+}
+
 void row(const char* name, const std::string& value) {
     ImGui::TableNextRow();
     ImGui::TableSetColumnIndex(0);
     ImGui::TextDisabled("%s", name);
     ImGui::TableSetColumnIndex(1);
-    ImGui::TextWrapped("%s", value.c_str());
+    ImGui::TextUnformatted(wrappedAtSpaces(value).c_str());
 }
 
 // Of rows: names and, in what is left of the panel, values, which wrap.
