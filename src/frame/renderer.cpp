@@ -121,6 +121,7 @@ void Renderer::setScene(const Scene& scene) {
     impl_->source = scene;
     impl_->scene.emplace(impl_->source);
     impl_->sceneChanged = true;
+    impl_->mode.reset();  // light and dead faces of another scene say nothing of this one
 }
 
 void Renderer::Impl::requireScene(const char* call) const {

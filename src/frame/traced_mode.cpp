@@ -60,6 +60,7 @@ struct TracedMode::Impl {
     // What the light was gathered for, and what has changed since.
     bool geometryDirty = true;
     bool lightDirty = true;
+    VoxelSettings voxelsFor;  // of the last picture
     std::optional<TracedSettings> gatheredFor;
     glm::vec3 sky{-1};
 
@@ -90,7 +91,9 @@ void TracedMode::Impl::updateVoxels(const FrameContext& frame) {
     const bool otherBounces = gatheredFor && gatheredFor->bounces != settings.bounces;
     // Else a picture would be better or worse for the settings of those before it. Moving ones keep what is
     // there.
-    const bool anew = otherBounces || (otherUpdates && !settings.budgeted);
+    const bool otherGrid = gatheredFor && !(voxelsFor == frame.settings.voxels);
+    const bool anew = otherBounces || ((otherUpdates || otherGrid) && !settings.budgeted);
+    voxelsFor = frame.settings.voxels;
     geometryDirty = geometryDirty || anew;
     // Light of a limited number of bounces starts in the dark.
     const bool limited = settings.bounces < kAllBounces;

@@ -178,6 +178,14 @@ TEST_F(TracedModeTest, QualitiesDoNotMix) {
     draw(renderer, scene, smallSettings(Quality::Interactive));
     const Settings draft = smallSettings(Quality::Draft);
     EXPECT_EQ(draw(renderer, scene, draft).pixels, draw(scene, draft).pixels);
+    Settings coarse = draft;
+    coarse.voxels.size = 16;
+    draw(renderer, scene, coarse);
+    EXPECT_EQ(draw(renderer, scene, draft).pixels, draw(scene, draft).pixels);
+    // Nor another scene.
+    const Scene other = io::generateScene("leak");
+    renderer.setScene(other);
+    EXPECT_EQ(draw(renderer, other, draft).pixels, draw(other, draft).pixels);
 }
 
 TEST_F(TracedModeTest, PartsAddUp) {
