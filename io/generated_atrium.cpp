@@ -21,14 +21,6 @@ constexpr glm::vec3 kLampColor{1.0f, 0.60f, 0.26f};  // about 2700 K
 constexpr float kLeastDetail = 0.02f;
 constexpr float kMostDetail = 32.0f;
 
-TextureRef repeat(int texture, float metres) {
-    TextureRef ref;
-    ref.texture = texture;
-    ref.uvFromUv = glm::mat3(1 / metres);
-    ref.uvFromUv[2] = glm::vec3(0, 0, 1);
-    return ref;
-}
-
 // A local frame on the courtyard's rim: +z looks into the courtyard, the origin lies on the axis of the
 // columns.
 struct Bay {

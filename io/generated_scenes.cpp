@@ -82,6 +82,14 @@ Instance& addPart(Scene& scene, Mesh mesh, std::string name, int material) {
     return place(scene, index, material, std::move(name));
 }
 
+TextureRef repeat(int texture, float metres) {
+    TextureRef ref;
+    ref.texture = texture;
+    ref.uvFromUv = glm::mat3(1 / metres);
+    ref.uvFromUv[2] = glm::vec3(0, 0, 1);
+    return ref;
+}
+
 Mesh quad(glm::vec3 origin, glm::vec3 edgeU, glm::vec3 edgeV) {
     Mesh mesh;
     shapes::appendQuad(mesh, origin, edgeU, edgeV);

@@ -38,6 +38,8 @@ Material emitter(std::string name, glm::vec3 radiance);
 int add(Scene& scene, Material material);
 int add(Scene& scene, Mesh mesh);
 int add(Scene& scene, Texture texture);
+// The texture once per `metres`, for texture coordinates in metres.
+TextureRef repeat(int texture, float metres);
 Instance& place(Scene& scene, int mesh, int material, std::string name = {},
                 const glm::mat4& worldFromObject = glm::mat4(1));
 // A mesh with one instance, both called `name`.

@@ -90,14 +90,6 @@ Light spotLight(std::string name, glm::vec3 from, glm::vec3 to, float outerDeg, 
     return light;
 }
 
-TextureRef tiled(int texture, float metres) {
-    TextureRef ref;
-    ref.texture = texture;
-    ref.uvFromUv = glm::mat3(1 / metres);
-    ref.uvFromUv[2] = glm::vec3(0, 0, 1);
-    return ref;
-}
-
 }  // namespace
 
 // Three lamps of three colours, two of them spots, among a few slabs: shadows of every mixture.
@@ -197,14 +189,14 @@ Scene buildStudy(const Values& values) {
     Scene scene;
     const auto surface = [&](const char* name, textures::Surface made, float metres, float roughness) {
         Material m = roughness < 1 ? glossy(name, glm::vec3(0.8f), roughness) : matte(name, glm::vec3(0.8f));
-        m.baseColorTexture = tiled(add(scene, std::move(made.color)), metres);
+        m.baseColorTexture = repeat(add(scene, std::move(made.color)), metres);
         if (made.roughness.width > 0)
-            m.metallicRoughnessTexture = tiled(add(scene, std::move(made.roughness)), metres);
+            m.metallicRoughnessTexture = repeat(add(scene, std::move(made.roughness)), metres);
         return add(scene, std::move(m));
     };
     const auto coloured = [&](const char* name, Texture texture, float metres, glm::vec3 colour) {
         Material m = matte(name, colour);
-        m.baseColorTexture = tiled(add(scene, std::move(texture)), metres);
+        m.baseColorTexture = repeat(add(scene, std::move(texture)), metres);
         return add(scene, std::move(m));
     };
     const int stone = surface("stone", textures::ashlar(256), 1.2f, 1);
@@ -358,7 +350,7 @@ Scene buildMirrors(const Values& values) {
     const int red = add(scene, matte("red wall", {0.58f, 0.12f, 0.10f}));
     const int chequer = [&] {
         Material m = matte("tiles", glm::vec3(0.75f));
-        m.baseColorTexture = tiled(add(scene, textures::tiles(256).color), 0.9f);
+        m.baseColorTexture = repeat(add(scene, textures::tiles(256).color), 0.9f);
         return add(scene, std::move(m));
     }();
     addRoom(scene, {{-1.3f, 0, -1.3f}, {1.3f, 2, 1.5f}}, {chequer, pale, red, green, pale, pale});
