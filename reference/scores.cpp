@@ -168,20 +168,32 @@ LeakScore leakScore(const Image& dark, const Image& darkReference, const Image& 
     return score;
 }
 
-double relativeDifference(const Image& a, const Image& b) {
+double meanRadiance(const Image& image) {
+    double total = 0;
+    std::size_t count = 0;
+    for (const glm::vec4& pixel : image.pixels) {
+        if (!finite(pixel)) continue;
+        total += sum(pixel);
+        count += 3;
+    }
+    return count == 0 ? 0 : total / static_cast<double>(count);
+}
+
+double relativeDifference(const Image& a, const Image& b, double mean) {
     requireSameSize(a, b, "difference");
-    double squares = 0, total = 0;
+    double squares = 0;
     std::size_t count = 0;
     for (std::size_t i = 0; i < a.pixels.size(); ++i) {
         if (!finite(a.pixels[i]) || !finite(b.pixels[i])) continue;
         const glm::dvec3 d = glm::dvec3(a.pixels[i]) - glm::dvec3(b.pixels[i]);
         squares += glm::dot(d, d);
-        total += sum(b.pixels[i]);
         count += 3;
     }
-    if (count == 0) return 0;
-    const double n = static_cast<double>(count);
-    return ratioOf(std::sqrt(squares / n), total / n);
+    return count == 0 ? 0 : ratioOf(std::sqrt(squares / static_cast<double>(count)), mean);
+}
+
+double relativeDifference(const Image& a, const Image& b) {
+    return relativeDifference(a, b, meanRadiance(b));
 }
 
 FlickerScore flickerScore(std::span<const FlickerFrame> frames) {

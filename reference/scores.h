@@ -27,6 +27,10 @@ LeakScore leakScore(const Image& dark, const Image& darkReference, const Image& 
 
 // Root mean square of a - b over the mean of b. 0 when both are black; infinite when only b is.
 double relativeDifference(const Image& a, const Image& b);
+// Over `mean` instead.
+double relativeDifference(const Image& a, const Image& b, double mean);
+// Mean over pixels and components that are finite.
+double meanRadiance(const Image& image);
 
 // A frame of a path: the picture, two independent halves of its reference, view depth of each pixel in m (0:
 // background) and the camera that saw them.

@@ -128,7 +128,7 @@ struct Flicker {
         }
     }
 
-    // In order, as an animation: what a mode keeps over frames takes part.
+    // In order, as an animation that starts settled: what a mode keeps over frames takes part.
     void draw(PictureSource& source, const Variant& variant) {
         for (std::size_t f = 0; f < frames.size(); ++f) {
             if (scenes.size() > 1 || f == 0) source.setScene(sceneOf(f));
@@ -139,6 +139,7 @@ struct Flicker {
             request.size = parseSize(options.view.size);
             request.components = {component};
             request.reference = options.tracer.settings();
+            request.settings.traced.budgeted = f > 0;
             frames[f].test = source.draw(request, &progress).images.front();
         }
     }

@@ -42,6 +42,22 @@ TEST_F(ScoreTest, ModesThatMakeEveryFrameAnewSettleInOne) {
         EXPECT_EQ(run["errors"].size(), 3u);
         EXPECT_EQ(run["light"], "lamp");
     }
+    ASSERT_EQ(json["runs"].size(), 4u);  // both modes, on and off
+    EXPECT_EQ(json["runs"][0]["goes"], "on");
+    EXPECT_EQ(json["runs"][1]["goes"], "off");
+}
+
+// Neither a slow rise nor a ghost: the picture follows a light within 16 frames, and not in the first.
+TEST_F(ScoreTest, TracedFollowsALightWithin16Frames) {
+    const nlohmann::json json =
+        scored("convergence builtin:cornell --modes traced --quality interactive --size 64x64 --voxels 64");
+    ASSERT_EQ(json["runs"].size(), 2u);
+    for (const auto& run : json["runs"]) {
+        ASSERT_TRUE(run["frames"].is_number()) << run;
+        EXPECT_GT(run["frames"].get<int>(), 1) << run;
+        EXPECT_LE(run["frames"].get<int>(), 16) << run;
+        EXPECT_LT(run["errors"].back().get<double>(), 0.5 * run["errors"].front().get<double>());
+    }
 }
 
 TEST_F(ScoreTest, LeakIsZeroForShadowMapsAndNotForTheThesis) {

@@ -57,6 +57,9 @@ TEST(Scores, DifferenceIsRelativeToTheMean) {
     Image bad = filled(1);
     bad.pixels[0].x = std::numeric_limits<float>::quiet_NaN();
     EXPECT_EQ(relativeDifference(bad, filled(1)), 0);
+    EXPECT_NEAR(relativeDifference(filled(0.3f), filled(0), 3), 0.1, 1e-6);
+    EXPECT_NEAR(meanRadiance(filled(0.25f)), 0.25, 1e-6);
+    EXPECT_EQ(meanRadiance(Image{}), 0);
 }
 
 TEST(Scores, SteadyAndEvenlyChangingErrorsDoNotFlicker) {
