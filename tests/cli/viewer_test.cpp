@@ -5,6 +5,7 @@
 #include <GLFW/glfw3.h>
 
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -370,7 +371,7 @@ TEST_F(ViewerTest, DroppedFilesReachTheWindow) {
         unsetenv("DISPLAY");
 }
 
-// Mean CPU time of the panels and time to the first picture, as --timing prints them. The first run warms
+// Median CPU time of the panels and time to the first picture, as --timing prints them. The first run warms
 // caches of files and shaders.
 TEST_F(ViewerTest, StartsSoonAndSpendsLittleOnPanels) {
     // The number behind `begin` in what the program prints with these arguments; the least of up to three
@@ -387,9 +388,11 @@ TEST_F(ViewerTest, StartsSoonAndSpendsLittleOnPanels) {
         return best;
     };
     const float first = least("--exec 'wait 1; quit'", "first frame after ", 3);
-    // The goal is 1 ms, of which a quiet machine of 2026 needs 0.94 to 1.28; beside another test it takes
+    // The goal is 1 ms, of which a quiet machine of 2026 needs about 0.6; beside another test it takes
     // longer.
-    const float gui = least("--mode phong --exec 'wait 60; quit'", "GUI ", 2);
+    const float gui = least("--mode phong --exec 'wait 120; quit'", "GUI ", 1);
+    std::printf("first frame after %.2f s; GUI %.3f ms of CPU a frame\n", static_cast<double>(first),
+                static_cast<double>(gui));
     EXPECT_LT(first, 3) << "s to the first frame";
     EXPECT_LT(gui, 2) << "ms of CPU a frame";
 }

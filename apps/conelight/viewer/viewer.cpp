@@ -133,6 +133,7 @@ class Viewer {
     std::unique_ptr<LineReader> input_;
     FileWatch watch_;
     OpenDialog openDialog_;
+    SettingsPanel settingsPanel_;
     std::optional<Inspection> inspection_;
     std::optional<PictureView::Click> clicked_;
     std::optional<std::string> hint_;
@@ -542,30 +543,32 @@ void Viewer::fileMenu() {
 void Viewer::modeControls() {
     const float em = ImGui::GetFontSize();
     ImGui::SameLine(0, 2 * em);
-    const auto combo = [&](const char* id, const std::string& value, const std::vector<std::string>& names,
+    // The names are asked for only while the list is open.
+    const auto combo = [&](const char* id, const std::string& value, const auto& namesOf,
                            float width) -> std::optional<std::string> {
         std::optional<std::string> chosen;
         ImGui::SetNextItemWidth(width * em);
         if (ImGui::BeginCombo(id, value.c_str())) {
-            for (const std::string& name : names)
+            for (const std::string& name : namesOf())
                 if (ImGui::Selectable(name.c_str(), name == value)) chosen = name;
             ImGui::EndCombo();
         }
         return chosen;
     };
-    if (const auto mode = combo("##mode", session_.mode(), sessionModes(), 7))
+    if (const auto mode = combo("##mode", session_.mode(), sessionModes, 7))
         attempt([&] { session_.setMode(*mode); });
     notePlace("mode");
     ImGui::SameLine();
-    if (const auto name = combo("##component", conelight::getSetting(session_.settings(), "component"),
-                                settingChoices("component"), 7))
+    if (const auto name = combo(
+            "##component", conelight::getSetting(session_.settings(), "component"),
+            [] { return settingChoices("component"); }, 7))
         attempt([&] { session_.setSetting("component", *name); });
     ImGui::SameLine();
     ImGui::Checkbox("split", &view_.split.on);
     notePlace("split on");
     if (!view_.split.on) return;
     ImGui::SameLine();
-    if (const auto mode = combo("##right", view_.split.mode, sessionModes(), 7)) view_.split.mode = *mode;
+    if (const auto mode = combo("##right", view_.split.mode, sessionModes, 7)) view_.split.mode = *mode;
     ImGui::SameLine();
     ImGui::Checkbox("error", &view_.split.errors);
     if (!view_.split.errors) return;
@@ -589,8 +592,11 @@ void Viewer::leftPanel(const Layout& layout) {
     const bool tabs = ImGui::BeginTabBar("stages");
     ImGui::PopStyleVar();
     if (tabs) {
-        const std::string mode = conelight::getSetting(session_.settings(), "mode");
-        for (const Stage& stage : stagesOf(mode)) {
+        const SettingEdit editSetting = [this](const std::string& key, const std::string& value, bool done) {
+            if (!value.empty()) attempt([&] { session_.setSetting(key, value, key); });
+            if (done) session_.seal();
+        };
+        for (const Stage& stage : stagesOf(conelight::getSetting(session_.settings(), "mode"))) {
             const bool shown = ImGui::BeginTabItem(stage.name);
             notePlace(std::string("tab:") + stage.name);
             if (!shown) continue;
@@ -600,11 +606,8 @@ void Viewer::leftPanel(const Layout& layout) {
             if (stage.prefixes.empty())
                 sceneTree(session_, filter_);
             else
-                settingsPanel(session_.settings(), stage.prefixes, filter_,
-                              [this](const std::string& key, const std::string& value, bool done) {
-                                  if (!value.empty()) attempt([&] { session_.setSetting(key, value, key); });
-                                  if (done) session_.seal();
-                              });
+                settingsPanel_.show(session_.settings(), session_.revisions().settings, stage.prefixes,
+                                    filter_, editSetting);
             ImGui::EndChild();
             ImGui::EndTabItem();
         }
