@@ -371,6 +371,44 @@ TEST_F(ViewerTest, DroppedFilesReachTheWindow) {
         unsetenv("DISPLAY");
 }
 
+// Right button and W held, at the size that people have: what moves is drawn coarser, at five pictures a second
+// or more. The best of some flights, as other tests may run beside.
+TEST_F(ViewerTest, FliesAtFiveFramesASecondOnTheProcessor) {
+    screen = std::make_unique<VirtualScreen>(1280, 720);
+    for (const char* scene : {"builtin:cornell", "builtin:atrium"}) {
+        start(std::string("--window 1280x720 --voxels 64 --mode traced --no-state ") + scene);
+        viewer->send("wait 3; echo drawn");
+        ASSERT_NE(viewer->expect("drawn"), "") << viewer->output();
+        const glm::ivec4 full = picture();
+        float best = 0;
+        std::string said;
+        for (int flight = 0; flight < 3 && best < 5; ++flight) {
+            moveTo(inPicture(0.5f, 0.5f));
+            pass();
+            screen->xdotool("mousedown 3");
+            screen->xdotool(flight % 2 == 0 ? "keydown w" : "keydown s");
+            // "F frames/s, longest wait MS ms, W x H pixels (N pictures in S s)"
+            said = viewer->statusUntil("moving", [](const std::string& now) {
+                const std::size_t bracket = now.find('(');
+                return bracket != std::string::npos &&
+                       std::strtol(now.c_str() + bracket + 1, nullptr, 10) >= 20;
+            });
+            screen->xdotool(flight % 2 == 0 ? "keyup w" : "keyup s");
+            screen->xdotool("mouseup 3");
+            best = std::max(best, std::strtof(said.c_str(), nullptr));
+            std::printf("%s: %s\n", scene, said.c_str());
+            viewer->statusUntil("picture", [&](const std::string& now) {
+                return now.rfind(std::to_string(full.z) + " x", 0) == 0;
+            });
+        }
+        EXPECT_GE(best, 5) << scene << ": " << said;
+        EXPECT_EQ(viewer->status("picture").rfind(std::to_string(full.z) + " x", 0), 0u)
+            << "at rest it is as fine as its place";
+        viewer->send("quit");
+        EXPECT_EQ(viewer->exitStatus(), 0);
+    }
+}
+
 // Median CPU time of the panels and time to the first picture, as --timing prints them. The first run warms
 // caches of files and shaders.
 TEST_F(ViewerTest, StartsSoonAndSpendsLittleOnPanels) {

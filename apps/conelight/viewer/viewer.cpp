@@ -103,6 +103,7 @@ class Viewer {
     void splitCommand(const std::vector<std::string>& words);
     void status(const std::string& key);
     std::string splitText();
+    std::string movingText() const;
     std::string selectionText() const;
     void answerPlaces();
     void keys();
@@ -708,6 +709,13 @@ std::string Viewer::splitText() {
                        right.width(), right.height());
 }
 
+std::string Viewer::movingText() const {
+    const PictureView::Movement& m = view_.movement();
+    return fmt::format("{:.1f} frames/s, longest wait {:.0f} ms, {} x {} pixels ({} pictures in {:.1f} s)",
+                       m.pictures / std::max(m.seconds, 1e-3), 1e3 * m.longest, m.sizePx.x, m.sizePx.y,
+                       m.pictures, m.seconds);
+}
+
 std::string Viewer::selectionText() const {
     const Selection& selection = session_.selection();
     const Scene& scene = session_.scene();
@@ -739,6 +747,7 @@ void Viewer::status(const std::string& key) {
         {"steps", fmt::format("{} to undo, {} to redo", session_.undoSteps(), session_.redoSteps())},
         {"frames", fmt::format("{} pictures, {:.1f} ms (median)", view_.slot(false).version(),
                                median(session_.frameTimes()))},
+        {"moving", movingText()},
         {"gui",
          fmt::format("{:.3f} ms of CPU a frame (median of {})", median(guiTimes_), guiTimes_.all().size())},
         {"first_frame", fmt::format("{:.2f} s after the start", 1e-3 * firstFrameMs_)}};
