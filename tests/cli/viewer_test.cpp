@@ -4,12 +4,14 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <thread>
 
 #include "io/image_file.h"
 #include "platform/window.h"
@@ -251,6 +253,59 @@ TEST_F(ViewerTest, ModesOfTheProcessorInTheWindow) {
     viewer->send("material white color 0.1 0.1 0.1; mode radiosity; wait 3; mode phong; split off");
     settle();
     EXPECT_FALSE(near(shownAt(at), phong, 4)) << "the walls are darker";
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
+}
+
+// The window draws, follows the mouse and answers while it bakes; commands behind it wait, and it can be stopped.
+TEST_F(ViewerTest, BakesInTheBackground) {
+    const std::string file = scratchPath("baked.glb");
+    std::filesystem::remove(file);
+    start(std::string(kSmall) + "--subdivide 1 --visibility-rays 64 builtin:cornell");
+    settle();
+    const std::string before = viewer->status("camera");
+    const glm::ivec4 place = picture();
+    viewer->send("bake " + file + "; status camera");
+    const glm::ivec2 middle = glm::ivec2(place) + glm::ivec2(place.z, place.w) / 2;
+    const ScreenPixels still = screen->pixels();
+    moveTo(middle);
+    screen->xdotool("mousedown 1");
+    for (int i = 1; i <= 8; ++i) {
+        moveTo(middle + glm::ivec2(10 * i, 0));
+        std::this_thread::sleep_for(std::chrono::milliseconds(60));
+    }
+    screen->xdotool("mouseup 1");
+    EXPECT_TRUE(eventually([&] {
+        return !near(screen->pixels().mean(middle - 40, {80, 80}), still.mean(middle - 40, {80, 80}), 0.5f);
+    }))
+        << "the picture turns";
+    EXPECT_FALSE(std::filesystem::exists(file)) << "it is still at work";
+    EXPECT_NE(viewer->expect("written " + file), "") << viewer->output();
+    const std::string after = viewer->expect("status camera: ");
+    ASSERT_NE(after, "") << "what waited runs then";
+    EXPECT_EQ(after.find(before), std::string::npos) << "the drag moved the camera meanwhile";
+    EXPECT_GT(std::filesystem::file_size(file), 10000u);
+
+    viewer->send("bake " + file + "; echo behind");
+    EXPECT_NE(viewer->expect(file), "") << "what exists is left alone";
+    ASSERT_NE(viewer->expect("behind"), "");
+    // Its button at the end of the strip, as `where` cannot be asked meanwhile: heights of text are 14 pixels.
+    const auto written = std::filesystem::last_write_time(file);
+    const float em = 14, strip = std::min(36 * em, static_cast<float>(place.z) - em);
+    viewer->send("bake " + file + " overwrite; echo after");
+    const glm::ivec2 stop = glm::ivec2(place) + glm::ivec2(0.5f * em + strip - 2.5f * em, place.w - 1.6f * em);
+    const glm::ivec2 edge = stop + glm::ivec2(-20, 6);  // of the button, beside its text
+    EXPECT_TRUE(eventually([&] { return near(glm::vec3(screen->pixels().at(edge)), glm::vec3(54), 3); }))
+        << "the strip is shown";
+    moveTo(stop);
+    EXPECT_TRUE(eventually([&] { return near(glm::vec3(screen->pixels().at(edge)), glm::vec3(69), 3); }))
+        << "the button is under the cursor";
+    screen->xdotool("mousedown 1");
+    EXPECT_TRUE(eventually([&] { return !near(glm::vec3(screen->pixels().at(edge)), glm::vec3(69), 3); }));
+    screen->xdotool("mouseup 1");
+    EXPECT_NE(viewer->expect("bake: stopped"), "") << viewer->output();
+    EXPECT_NE(viewer->expect("after"), "") << "what is behind it runs";
+    EXPECT_EQ(std::filesystem::last_write_time(file), written) << "nothing was written";
     viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
 }

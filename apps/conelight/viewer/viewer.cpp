@@ -22,8 +22,11 @@
 #include "io/image_file.h"
 #include "platform/window.h"
 #include "session/state_files.h"
+#include "traced_picture.h"
+#include "viewer/background_job.h"
 #include "viewer/camera_control.h"
 #include "viewer/console_panel.h"
+#include "viewer/file_bake.h"
 #include "viewer/file_watch.h"
 #include "viewer/gui.h"
 #include "viewer/open_dialog.h"
@@ -60,6 +63,14 @@ double median(const FrameTimes& times) {
     std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
                      sorted.end());
     return sorted[sorted.size() / 2];
+}
+
+// Of a bake: those of mode traced, where 16 stands for all, as -1 does here. All in other modes: cones bounces
+// as often as it can pay for.
+int bouncesOf(const Settings& settings) {
+    constexpr int kAll = 16;
+    const bool limited = settings.mode == Mode::Traced && settings.traced.bounces < kAll;
+    return limited ? settings.traced.bounces : -1;
 }
 
 double threadCpuMs() {
@@ -99,6 +110,8 @@ class Viewer {
     void attempt(const Edit& edit);
     std::vector<std::string> completed(const std::string& line) const;
     void takeCommands();
+    void followBake();
+    void bakeStrip(const glm::vec2& at, const glm::vec2& size);
     void windowCommand(const Request& request);
     void splitCommand(const std::vector<std::string>& words);
     void status(const std::string& key);
@@ -148,6 +161,8 @@ class Viewer {
     bool showConsole_ = true;
     bool showSide_ = true;
     float sideEm_ = 24, consoleEm_ = 10;  // sizes of panels, in heights of text
+    FileBake bake_;
+    reference::RadiositySettings radiosity_;  // of bakes
     bool more_ = true;
     bool lastWasIdle_ = false;  // the last frame drew no picture
     bool settling_ = false;     // `settle`: commands wait for the picture
@@ -175,6 +190,7 @@ Viewer::Viewer(Session& session, const ViewerOptions& options)
           },
           [this](const std::string& line) { return completed(line); }),
       watch_(options.shaderDirectory),
+      radiosity_(options.radiosity),
       timing_(options.timing),
       startedMs_(options.startedMs) {
     for (const std::string& line : state_.lines()) commands_.history().add(line);
@@ -221,18 +237,54 @@ void Viewer::takeCommands() {
     std::string line;
     while (input_ && input_->take(line)) commands_.submit(line);
     if (settling_ && (view_.finished() || (!more_ && view_.showsOwn()))) settling_ = false;
-    if (!settling_) commands_.runQueued();
+    if (!settling_ && !bake_.busy()) commands_.runQueued();
+}
+
+// Commands behind `bake` wait for it; everything else goes on.
+void Viewer::followBake() {
+    if (const std::optional<Request> asked = std::exchange(end_.bake, std::nullopt)) {
+        reference::RadiositySettings settings = radiosity_;
+        settings.bounces = bouncesOf(session_.shownSettings());
+        settings.threads = BackgroundJob::threads();
+        bake_.start(asked->file, asked->overwrite, session_.scene(), settings, platform::Window::wake);
+    }
+    try {
+        if (const auto lines = bake_.finish())
+            for (const std::string& line : *lines) print({false, line});
+    } catch (const Error& error) {
+        commands_.fail(error);
+    }
+}
+
+// How far the bake is, and the end of it, at the bottom of the picture.
+void Viewer::bakeStrip(const glm::vec2& at, const glm::vec2& size) {
+    if (!bake_.busy()) return;
+    const float em = ImGui::GetFontSize();
+    const BakeStatus status = bake_.status();
+    std::string text = fmt::format("{}: {:.0f} %", bake_.file(), 100 * status.done);
+    if (status.secondsLeft >= 0) text += ", " + timeText(status.secondsLeft) + " left";
+    ImGui::SetNextWindowPos({at.x + 0.5f * em, at.y + size.y - 2.8f * em});
+    ImGui::SetNextWindowSize({std::min(36 * em, size.x - em), 2.3f * em});
+    ImGui::Begin("##bake", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+    ImGui::ProgressBar(static_cast<float>(status.done), {-5 * em, 0}, text.c_str());
+    ImGui::SameLine();
+    if (ImGui::Button("stop", {-1, 0})) bake_.stop();
+    notePlace("bake:stop");
+    ImGui::End();
 }
 
 int Viewer::run() {
     while (!end_.quit && !window_.shouldClose()) {
-        const bool busy = more_ || session_.hasRequests() || (!commands_.idle() && !settling_) ||
+        const bool waits = settling_ || bake_.busy();
+        const bool busy = more_ || session_.hasRequests() || (!commands_.idle() && !waits) ||
                           !wanted_.empty() || session_.playing();
         const ViewFlags& flags = session_.flags();
         const double rest = flags.dynamic ? std::min<double>(flags.period, kIdleWait) : kIdleWait;
         if (!console_.takesKeysSoon()) window_.pollEvents(!busy ? rest : lastWasIdle_ ? kPace : 0);
         watchFiles();
         rememberScene();
+        followBake();
         takeCommands();
         if (window_.minimized())
             carryOutRequests();
@@ -355,6 +407,7 @@ void Viewer::gui(const Layout& layout) {
     }
     if (showConsole_) bottomPanel(layout);
     picture(layout.pictureAt(), layout.pictureSize());
+    bakeStrip(layout.pictureAt(), layout.pictureSize());
     if (const std::optional<std::string> scene = openDialog_.show()) load(*scene);
     resizePanels(layout);
 }
