@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `conelight view` on a screen without a monitor, driven by mouse, keys and its console, watched by what it
 // prints and by the screen's pixels. Skipped where Xvfb or xdotool is not installed.
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -14,9 +11,9 @@
 #include <thread>
 
 #include "io/image_file.h"
-#include "platform/window.h"
 #include "support/program.h"
 #include "support/virtual_screen.h"
+#include "support/x11_client.h"
 
 namespace conelight::test {
 namespace {
@@ -395,35 +392,40 @@ TEST_F(ViewerTest, WindowChangesSizeFillsTheScreenAndCloses) {
     viewer->send("fullscreen off; panels off");
     settle();
     EXPECT_EQ(picture().x, 0) << "the picture has the whole width";
-    // The window's close button, as a window manager presses it; older xdotool cannot.
-    if (std::system("xdotool help 2>&1 | grep -q windowquit") == 0)
-        screen->xdotool("search --name Conelight windowquit");
-    else
-        viewer->send("quit");
+    viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
 }
 
-// A file manager's drop arrives through GLFW's callback; it is called here as GLFW calls it.
-TEST_F(ViewerTest, DroppedFilesReachTheWindow) {
-    const char* old = std::getenv("DISPLAY");
-    const std::string before = old != nullptr ? old : "";
-    setenv("DISPLAY", screen->display().c_str(), 1);
-    {
-        platform::WindowOptions options;
-        options.width = options.height = 64;
-        platform::Window window(options);
-        std::vector<std::string> dropped;
-        window.onDrop = [&](const std::vector<std::string>& paths) { dropped = paths; };
-        const GLFWdropfun callback = glfwSetDropCallback(window.handle(), nullptr);
-        ASSERT_NE(callback, nullptr);
-        const char* paths[] = {"/a/scene with spaces.glb", "/b.obj"};
-        callback(window.handle(), 2, paths);
-        EXPECT_EQ(dropped, (std::vector<std::string>{paths[0], paths[1]}));
-    }
-    if (old != nullptr)
-        setenv("DISPLAY", before.c_str(), 1);
-    else
-        unsetenv("DISPLAY");
+TEST_F(ViewerTest, TheCloseButtonEndsIt) {
+    if (const std::string missing = x11Missing(); !missing.empty()) GTEST_SKIP() << missing;
+    start(std::string(kSmall) + "--timing builtin:cornell");
+    settle();
+    pressCloseButton(screen->display(), "Conelight");
+    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
+    EXPECT_NE(viewer->output().find("timing: GUI"), std::string::npos) << "it ended in order";
+}
+
+// As a file manager drops them: the first is opened, and what cannot be is a line.
+TEST_F(ViewerTest, DroppedFilesAreOpened) {
+    if (const std::string missing = x11Missing(); !missing.empty()) GTEST_SKIP() << missing;
+    const std::string folder = scratchPath("dropped");
+    std::filesystem::create_directories(folder);
+    const std::string scene = folder + "/a scene's file.glb", broken = folder + "/broken.gltf";
+    start(std::string(kSmall) + "builtin:cornell");
+    settle();
+    viewer->send("save '" + folder + "/a.glb' overwrite; echo saved");
+    ASSERT_NE(viewer->expect("saved " + folder), "") << viewer->output();
+    std::filesystem::rename(folder + "/a.glb", scene);
+    std::ofstream(broken) << "{";
+    ASSERT_TRUE(dropFiles(screen->display(), "Conelight", {scene, broken}));
+    EXPECT_NE(viewer->expect("loaded " + scene), "") << viewer->output();
+    EXPECT_EQ(viewer->status("scene"), scene);
+    settle();
+    ASSERT_TRUE(dropFiles(screen->display(), "Conelight", {broken}));
+    EXPECT_NE(viewer->expect(broken), "") << viewer->output();
+    EXPECT_EQ(viewer->status("scene"), scene) << "what was there stays";
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
 }
 
 // Right button and W held, at the size that people have: what moves is drawn coarser, at five pictures a second
