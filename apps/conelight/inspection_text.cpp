@@ -95,11 +95,15 @@ std::vector<std::string> inspectionText(const PixelInspection& pixel, bool steps
     for (const InspectedPath& path : pixel.paths) {
         const std::string aperture =
             path.aperture > 0 ? fmt::format(" {:.1f} deg", glm::degrees(path.aperture)) : "";
-        lines.push_back(fmt::format(
-            "  {:>3} {}{}: {} after {:.4g} m in {} steps, direction {}, weight {}, radiance {}, opacity "
-            "{:.3f}",
-            number++, nameOf(path.kind), aperture, nameOf(path.end), path.distance, path.steps.size(),
-            text(path.direction), text(path.weight), text(path.radiance), path.opacity));
+        const std::string end = path.end == PathEnd::Unused
+                                    ? std::string(nameOf(path.end))
+                                    : fmt::format("{} after {:.4g} m in {} steps", nameOf(path.end),
+                                                  path.distance, path.steps.size());
+        lines.push_back(
+            fmt::format("  {:>3} {}{}: {}, direction {}, weight {}, radiance {}, opacity "
+                        "{:.3f}",
+                        number++, nameOf(path.kind), aperture, end, text(path.direction), text(path.weight),
+                        text(path.radiance), path.opacity));
         if (path.face) lines.push_back(faceText(*path.face));
         if (!steps) continue;
         for (const InspectedStep& step : path.steps)

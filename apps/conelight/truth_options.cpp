@@ -81,6 +81,16 @@ std::string TracerOptions::given() const {
 
 void RadiosityOptions::addTo(CLI::App& command) {
     command_ = &command;
+    addSolverTo(command);
+    command.add_flag("--specular", specular,
+                     "mode radiosity: reflections on top, by the path tracer (takes --spp and --noise)");
+    command
+        .add_option("--bake", bakeFile,
+                    "mode radiosity: save the lit scene as .glb, which every mode and other programs show")
+        ->type_name("FILE");
+}
+
+void RadiosityOptions::addSolverTo(CLI::App& command) {
     command
         .add_option("--patch", values.patchSize,
                     "mode radiosity: longest edge of the patches that exchange light, m (default: a 16th of "
@@ -109,12 +119,6 @@ void RadiosityOptions::addTo(CLI::App& command) {
         ->capture_default_str()
         ->type_name("N")
         ->check(CLI::Range(16, 4096));
-    command.add_flag("--specular", specular,
-                     "mode radiosity: reflections on top, by the path tracer (takes --spp and --noise)");
-    command
-        .add_option("--bake", bakeFile,
-                    "mode radiosity: save the lit scene as .glb, which every mode and other programs show")
-        ->type_name("FILE");
 }
 
 std::string RadiosityOptions::given() const {

@@ -35,6 +35,7 @@ struct RadiosityOptions {
     std::string bakeFile;
 
     void addTo(CLI::App& command);
+    void addSolverTo(CLI::App& command);  // `values` alone
     std::string given() const;
 
   private:

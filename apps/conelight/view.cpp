@@ -5,6 +5,7 @@
 #include "command.h"
 #include "script_run.h"
 #include "session/session.h"
+#include "truth_options.h"
 #include "viewer/viewer.h"
 
 namespace conelight::program {
@@ -23,6 +24,7 @@ struct ViewCommand {
     bool noState = false;
     bool timing = false;
     double uiScale = 0;
+    RadiosityOptions radiosity;
     ViewOptions view;
 };
 
@@ -46,6 +48,7 @@ int run(const ViewCommand& options) {
     viewer.keepState = !options.noState;
     viewer.timing = options.timing;
     viewer.uiScale = static_cast<float>(options.uiScale);
+    viewer.radiosity = options.radiosity.values;
     viewer.startedMs = std::chrono::duration<double, std::milli>(kStarted.time_since_epoch()).count();
     return runViewer(session, viewer);
 }
@@ -77,6 +80,7 @@ void addView(CLI::App& app) {
                      "size of text and widgets, 1 on ordinary screens; the screen's by default")
         ->check(CLI::Range(0.5, 4.0));
     options->view.addTo(*command);
+    options->radiosity.addSolverTo(*command);
     command->callback([options] {
         if (const int status = run(*options); status != 0) throw QuitRequest{status};
     });

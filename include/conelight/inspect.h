@@ -70,7 +70,7 @@ struct InspectedPath {
     glm::vec3 origin{0};
     glm::vec3 direction{0};  // unit
     float aperture = 0;      // full angle, rad; 0: a ray
-    float distance = 0;      // where it ended
+    float distance = 0;      // where it ended; unused: 0
     glm::vec3 weight{0};     // in its part
     glm::vec3 radiance{0};   // that arrives along it
     float opacity = 0;       // gathered over the steps

@@ -135,7 +135,8 @@ PixelInspection StepRecorder::read() const {
         path.origin = p.origin;
         path.direction = p.direction;
         path.aperture = 2 * std::atan(p.tanHalf);
-        path.distance = p.distance;
+        // What was not traced has no end: its start may lie before the surface, by rounding.
+        path.distance = path.end == PathEnd::Unused ? 0 : p.distance;
         path.weight = p.weight;
         path.radiance = p.radiance;
         path.opacity = p.opacity;

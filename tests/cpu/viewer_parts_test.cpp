@@ -11,6 +11,7 @@
 #include "session/state_files.h"
 #include "support/gl_fixture.h"
 #include "viewer/camera_control.h"
+#include "viewer/face_budget.h"
 #include "viewer/moving_resolution.h"
 
 namespace conelight::test {
@@ -65,8 +66,38 @@ TEST(MovingResolution, IsAsFineAsTheTimeAllows) {
     EXPECT_LE(1 + 1000 * std::exp2(-level), 100);
     EXPECT_GT(1 + 1000 * std::exp2(-(level - 1)), 80) << "one finer would not fit";
     // Cheaper again, after the camera stood: finer again.
-    dear.forget();
+    dear.begin(0);
     EXPECT_EQ(levelAfterFrames(dear, 1, 20), 0);
+}
+
+TEST(MovingResolution, BeginsWhereThePictureAtRestSays) {
+    program::MovingResolution resolution(100);
+    resolution.begin(790);
+    EXPECT_EQ(resolution.level(), 3) << "an eighth of the pixels";
+    resolution.begin(20);
+    EXPECT_EQ(resolution.level(), 0);
+}
+
+TEST(MovingResolution, OneSlowFrameIsForgotten) {
+    program::MovingResolution resolution(100);
+    resolution.begin(300);
+    resolution.measured(500);
+    EXPECT_EQ(levelAfterFrames(resolution, 1, 20), 0);
+}
+
+TEST(FaceBudget, KeepsUpdatesShortAndLeavesFastOnesAlone) {
+    program::FaceBudget fast(25), slow(25);
+    fast.measured(20);
+    EXPECT_EQ(fast.faces(), 0) << "all";
+    slow.measured(250);
+    const double msPerFace = 0.01;
+    for (int i = 0; i < 20; ++i) slow.measured(msPerFace * slow.faces());
+    EXPECT_GT(slow.faces(), 0);
+    EXPECT_LE(msPerFace * slow.faces(), 50);
+    EXPECT_GE(msPerFace * slow.faces(), 10);
+    const int settled = slow.faces();
+    slow.measured(msPerFace * settled);
+    EXPECT_EQ(slow.faces(), settled) << "it rests";
 }
 
 TEST(MovingResolution, FewerPixelsThanPayAreNotChosen) {

@@ -285,7 +285,8 @@ CommandGroup sceneCommands() {
                  {"OVERWRITE", ArgumentKind::Choice, true, false, "", 0, 0, {"overwrite", "force"}}},
                 "solve radiosity for the scene as it is and write it lit: .glb, .gltf", bake,
                 "As `render --mode radiosity --bake`: any mode draws the file from anywhere, mode phong at "
-                "once.\nWhat exists is left alone unless `overwrite` is said."),
+                "once.\nA window stays live meanwhile; with as many bounces as `traced.bounces` says in that "
+                "mode.\nWhat exists is left alone unless `overwrite` is said."),
         }};
 }
 

@@ -5,7 +5,6 @@
 
 #include "io/gltf_write.h"
 #include "io/scene_write.h"
-#include "reference/radiosity.h"
 #include "session/preset.h"
 
 namespace conelight::program {
@@ -38,10 +37,6 @@ std::vector<std::string> saveSession(Session& session, const std::string& path, 
     std::vector<std::string> notes = io::writeScene(path, scene, force);
     session.markSaved();
     return notes;
-}
-
-void bakeTo(const std::string& path, const Scene& scene, bool overwrite) {
-    io::writeGltf(path, reference::bakeRadiosity(scene, reference::RadiositySettings{}), overwrite);
 }
 
 }  // namespace conelight::program

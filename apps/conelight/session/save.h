@@ -15,7 +15,4 @@ namespace conelight::program {
 // when it cannot be written.
 std::vector<std::string> saveSession(Session& session, const std::string& path, bool force);
 
-// Solves radiosity with its defaults and writes the lit scene: .glb or .gltf. Throws as io::writeGltf.
-void bakeTo(const std::string& path, const Scene& scene, bool overwrite);
-
 }  // namespace conelight::program

@@ -8,6 +8,7 @@
 
 #include "conelight/error.h"
 #include "viewer/panels.h"
+#include "viewer/widget_places.h"
 
 namespace conelight::program {
 namespace {
@@ -17,6 +18,11 @@ constexpr ImGuiTableFlags kScrolled = ImGuiTableFlags_ScrollX | ImGuiTableFlags_
                                       ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
 
 std::string text(const glm::vec3& v) { return fmt::format("{:.4g}  {:.4g}  {:.4g}", v.x, v.y, v.z); }
+
+// In tables: a grey as one number.
+std::string shortText(const glm::vec3& v) {
+    return v.x == v.y && v.y == v.z ? fmt::format("{:.4g}", v.x) : text(v);
+}
 
 // `text` with line feeds at spaces, so that lines are as wide as there is room. ImGui's own wrapping also
 // breaks behind the point of a number.
@@ -56,27 +62,45 @@ void partRow(const char* name, const InspectedPart& part) {
     if (part.used) row(name, text(part.value) + "  x  " + text(part.scale));
 }
 
+// Long tables make only the lines that are seen.
+template <class Line>
+void forLinesSeen(std::size_t count, const Line& line) {
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(count));
+    while (clipper.Step())
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) line(static_cast<std::size_t>(i));
+}
+
+// A path that was not followed has no end.
+std::string metres(const InspectedPath& path) {
+    return path.end == PathEnd::Unused ? "-" : fmt::format("{:.3g}", path.distance);
+}
+
+void cells(const std::vector<std::string>& texts) {
+    for (const std::string& one : texts) {
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(one.c_str());
+    }
+}
+
 // Every path in a line.
 void pathTable(Inspection& inspection) {
     if (!ImGui::BeginTable("paths", 5, kScrolled, {0, 12 * ImGui::GetFontSize()})) return;
     ImGui::TableSetupScrollFreeze(0, 1);
     for (const char* head : {"cone or ray", "end", "m", "weight", "radiance"}) ImGui::TableSetupColumn(head);
     ImGui::TableHeadersRow();
-    int number = 0;
-    for (const InspectedPath& path : inspection.gathered->paths) {
+    forLinesSeen(inspection.gathered->paths.size(), [&](std::size_t i) {
+        const InspectedPath& path = inspection.gathered->paths[i];
+        const int number = static_cast<int>(i);
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         const bool chosen = inspection.chosen == number;
         if (ImGui::Selectable(fmt::format("{} {}##path", number, nameOf(path.kind)).c_str(), chosen,
                               ImGuiSelectableFlags_SpanAllColumns))
             inspection.chosen = chosen ? -1 : number;
-        for (const std::string& cell : {std::string(nameOf(path.end)), fmt::format("{:.3g}", path.distance),
-                                        text(path.weight), text(path.radiance)}) {
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted(cell.c_str());
-        }
-        ++number;
-    }
+        notePlace(fmt::format("path:{}", number));
+        cells({nameOf(path.end), metres(path), shortText(path.weight), shortText(path.radiance)});
+    });
     ImGui::EndTable();
 }
 
@@ -99,15 +123,13 @@ void chosenPath(const InspectedPath& path) {
     for (const char* head : {"step", "m", "size m", "level", "opacity", "radiance"})
         ImGui::TableSetupColumn(head);
     ImGui::TableHeadersRow();
-    for (const InspectedStep& step : path.steps) {
+    forLinesSeen(path.steps.size(), [&](std::size_t i) {
+        const InspectedStep& step = path.steps[i];
         ImGui::TableNextRow();
-        for (const std::string& cell : {std::string(nameOf(step.kind)), fmt::format("{:.3g}", step.distance),
-                                        fmt::format("{:.3g}", step.size), fmt::format("{:.3g}", step.level),
-                                        fmt::format("{:.3f}", step.total), text(step.radiance)}) {
-            ImGui::TableNextColumn();
-            ImGui::TextUnformatted(cell.c_str());
-        }
-    }
+        cells({nameOf(step.kind), fmt::format("{:.3g}", step.distance), fmt::format("{:.3g}", step.size),
+               fmt::format("{:.3g}", step.level), fmt::format("{:.3f}", step.total),
+               shortText(step.radiance)});
+    });
     ImGui::EndTable();
 }
 

@@ -4,6 +4,7 @@
 // than what pays is never chosen: part of a frame's cost does not depend on its pixels.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -21,15 +22,22 @@ class MovingResolution {
     void measured(double ms) {
         double& known = ms_[static_cast<std::size_t>(level_)];
         known = known > 0 ? 0.5 * (known + ms) : ms;
-        const double finer = level_ > 0 ? msAt(level_ - 1, 2 * known) : 0;
+        // Twice the pixels cost at most twice as much, whatever they cost when the machine had more to do.
+        const double finer = level_ > 0 ? std::min(msAt(level_ - 1, 2 * known), 2 * known) : 0;
         const double coarser = level_ + 1 < kLevels ? msAt(level_ + 1, 0.5 * known) : known;
         if (known > targetMs_ && coarser < kPays * known)
             ++level_;
         else if (level_ > 0 && (finer < kSure * targetMs_ || kPays * finer < known))
             --level_;
     }
-    // A movement ended: what frames cost may be different in the next one.
-    void forget() { ms_.fill(0); }
+    // A movement begins: what frames cost may be different from the last one. `stillMs`: of a picture at
+    // rest, of which as many pixels less are drawn as it is too slow; 0: not known.
+    void begin(double stillMs) {
+        ms_.fill(0);
+        if (!(stillMs > 0)) return;
+        level_ = 0;
+        while (level_ + 1 < kLevels && stillMs > targetMs_ * std::exp2(level_)) ++level_;
+    }
 
   private:
     // Fewer pixels must save this much (chosen by eye), and a finer picture must fit with this margin.

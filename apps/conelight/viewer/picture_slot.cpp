@@ -15,6 +15,7 @@
 #include "traced_picture.h"
 #include "viewer/background_bake.h"
 #include "viewer/background_reference.h"
+#include "viewer/face_budget.h"
 
 namespace conelight::program {
 namespace {
@@ -24,6 +25,9 @@ namespace {
 constexpr int kSettlingFrames = 24;
 // The background reference rests here: below 1 % noise in closed rooms.
 constexpr int kReferenceSamples = 4096;
+// Part of a picture's time that updates of the light cache may take while the camera flies: a quarter of the
+// time that PictureView aims at.
+constexpr double kFlyingUpdateMs = 25;
 
 bool settlesOverFrames(const std::string& mode) { return mode == "traced"; }
 
@@ -68,7 +72,9 @@ struct PictureSlot::Impl {
     bool asked = false;    // redraw()
     int width = 0, height = 0;
     int settling = 0;
-    double frameMs = 0;
+    double frameMs = 0, updateMs = 0;  // the light cache's part
+    FaceBudget flyingFaces{kFlyingUpdateMs};
+    bool flyingUpdate = false;  // the last update was of flyingFaces
     double voxelsMadeAt = 0;  // ms; ViewFlags::dynamic
     std::uint64_t version = 0;
     std::uint32_t texture = 0;
@@ -89,6 +95,7 @@ struct PictureSlot::Impl {
     void drawNothing(const Session& session, int w, int h);
     void renderFrame(const Session& session, Settings settings, int w, int h);
     void showImage(const ImageSettings& look);
+    void followUpdateTime();
     void followLook(const Session& session);
     bool onlyLook(const Session& session) const;
     void startAnew();
@@ -191,10 +198,22 @@ bool PictureSlot::Impl::drawScene(const Session& session, const std::string& dra
     Settings settings = session.shownSettings();
     conelight::setSetting(settings, "mode", drawnMode);
     settings.traced.budgeted = true;  // the window stays live; the picture settles over frames
+    const int faces = flyingFaces.faces();
+    flyingUpdate = how.flying && faces > 0;
+    if (flyingUpdate && (settings.traced.faceBudget == 0 || settings.traced.faceBudget > faces))
+        settings.traced.faceBudget = faces;
     renderer->setDynamic(voxelsDue);
     renderFrame(session, settings, w, h);
+    followUpdateTime();
     --settling;
     return settling > 0;
+}
+
+void PictureSlot::Impl::followUpdateTime() {
+    updateMs = 0;
+    for (const PassStats& pass : renderer->stats().passes)
+        if (pass.name == "irradiance: update") updateMs += pass.gpuMs >= 0 ? pass.gpuMs : pass.wallMs;
+    if (updateMs > 0 && (flyingUpdate || flyingFaces.faces() == 0)) flyingFaces.measured(updateMs);
 }
 
 // A change of exposure or tone map shows what was rendered in another light; nothing is rendered.
@@ -324,6 +343,7 @@ std::uint32_t PictureSlot::texture() const { return impl_->texture; }
 int PictureSlot::width() const { return impl_->width; }
 int PictureSlot::height() const { return impl_->height; }
 double PictureSlot::frameMs() const { return impl_->frameMs; }
+double PictureSlot::pixelsMs() const { return std::max(impl_->frameMs - impl_->updateMs, 0.0); }
 std::uint64_t PictureSlot::version() const { return impl_->version; }
 
 const Image& PictureSlot::linear() {

@@ -24,6 +24,7 @@ class PictureSlot {
     struct How {
         bool still = true;    // the view rests: work in the background may start
         bool preview = true;  // until that has something to show, draw the view in a mode of the renderer
+        bool flying = false;       // the camera moves, the scene does not: what is slow may lag behind
         bool onlyChanges = false;  // leave out what merely refines the picture
     };
     // Brings the picture up to date, `width` x `height` pixels. Returns whether drawing again soon would
@@ -44,6 +45,7 @@ class PictureSlot {
     // Reads it back when it has not been yet; empty: there is no picture.
     const Image& linear();
     double frameMs() const;           // of the last frame that was drawn
+    double pixelsMs() const;          // the part of it that is not the light cache's
     std::uint64_t version() const;    // grows with every new picture
     const FrameStats* stats() const;  // of the last frame of a renderer's mode; null without
     Renderer* renderer();             // null unless a renderer's mode is shown

@@ -6,6 +6,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -27,6 +28,12 @@ constexpr float kClickSlop = 4;           // px: a press that moved less is a cl
 ImTextureID idOf(std::uint32_t texture) {
     return (
         ImTextureID)(static_cast<std::uintptr_t>(texture));  // an integer or a pointer, by ImGui's version
+}
+
+// ImGui's clock stands still within a frame.
+double wallSeconds() {
+    using clock = std::chrono::steady_clock;
+    return std::chrono::duration<double>(clock::now().time_since_epoch()).count();
 }
 
 glm::vec3 moveKeys(const platform::Window& window) {
@@ -87,24 +94,43 @@ bool PictureView::update(const Session& session, const glm::ivec2& areaPx, bool 
         !left_->onlyLook(session))
         lastMove_ = ImGui::GetTime();
 
+    if (session.playing()) lastMove_ = lastFlight_ = ImGui::GetTime();
+
     const bool coarse = moving();
+    if (!std::exchange(wasMoving_, coarse) && coarse) beginMovement();
     const auto sizeAt = [&](float scale) {
         return glm::max(glm::ivec2(glm::round(glm::vec2(areaPx) * scale)), glm::ivec2(8));
     };
     fullSize_ = sizeAt(resolutionScale);
     const glm::ivec2 size = coarse ? sizeAt(std::min(movingResolution_.scale(), resolutionScale)) : fullSize_;
-    if (!coarse) movingResolution_.forget();
     PictureSlot::How how;
     how.still = !coarse;
+    how.flying = coarse && lastFlight_ == lastMove_;
     how.onlyChanges = !coarse && userActs && slow;
 
     const std::uint64_t before = left_->version();
     bool more = left_->draw(session, session.shownMode(), size.x, size.y, how);
     updateRight(session, size, how, more);
+    if (coarse && left_->version() != before) countPicture();
     if (coarse && left_->version() != before && left_->frameMs() > 0)
         movingResolution_.measured(left_->frameMs() + (split.on ? right_->frameMs() : 0));
     if (split.on && split.errors) showErrors();
     return more || moving();
+}
+
+void PictureView::beginMovement() {
+    movement_ = {};
+    movement_.begun = movement_.lastPicture = wallSeconds();
+    movingResolution_.begin(left_->pixelsMs() + (split.on ? right_->pixelsMs() : 0));
+}
+
+void PictureView::countPicture() {
+    const double now = wallSeconds();
+    ++movement_.pictures;
+    movement_.seconds = now - movement_.begun;
+    movement_.longest = std::max(movement_.longest, now - movement_.lastPicture);
+    movement_.lastPicture = now;
+    movement_.sizePx = pictureSize();
 }
 
 // The right side is freed when the split is closed; when it has no picture of the view, it shows the left
@@ -174,7 +200,7 @@ std::optional<PictureView::Click> PictureView::show(Session& session, const glm:
         if (draggingSplit_) split.position = std::clamp((mouse.x - at.x) / size.x, 0.0f, 1.0f);
     }
     const bool wasDragging = dragged_ || draggingSplit_;
-    if (takeInput(session, size, hovered, seconds)) lastMove_ = ImGui::GetTime();
+    if (takeInput(session, size, hovered, seconds)) lastMove_ = lastFlight_ = ImGui::GetTime();
 
     // A press and release in place.
     if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !wasDragging && left_->width() > 0) {

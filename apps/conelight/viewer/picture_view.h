@@ -45,6 +45,14 @@ class PictureView {
         glm::vec2 part{0};  // of the picture's width and height, from the upper left corner
     };
     std::optional<Click> show(Session& session, const glm::vec2& at, const glm::vec2& size, float seconds);
+    // The movement that runs or ran last: pictures, how long they took together, the longest wait for one.
+    struct Movement {
+        int pictures = 0;
+        double seconds = 0, longest = 0;
+        glm::ivec2 sizePx{0};  // of the last one
+        double begun = 0, lastPicture = 0;
+    };
+    const Movement& movement() const { return movement_; }
     bool moving() const;  // input moved the camera or a slider a moment ago: pictures are coarse
 
     Split split;
@@ -61,6 +69,8 @@ class PictureView {
   private:
     bool takeInput(Session& session, const glm::vec2& size, bool hovered, float seconds);
     void showErrors();
+    void beginMovement();
+    void countPicture();
     void updateRight(const Session& session, const glm::ivec2& size, const PictureSlot::How& how, bool& more);
     std::uint32_t rightTexture() const;
 
@@ -68,9 +78,12 @@ class PictureView {
     std::unique_ptr<PictureSlot> left_, right_;
     struct Errors;
     std::unique_ptr<Errors> errors_;
-    double lastMove_ = -1;
+    double lastMove_ = -1;    // of camera or scene
+    double lastFlight_ = -2;  // of the camera
     std::uint64_t lastEdit_ = 0;
     MovingResolution movingResolution_;
+    Movement movement_;
+    bool wasMoving_ = false;
     glm::ivec2 fullSize_{0};
     bool dragged_ = false;
     bool draggingSplit_ = false;

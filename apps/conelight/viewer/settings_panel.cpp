@@ -26,11 +26,33 @@ std::string labelOf(const std::string& key) {
 // Ranges over more than three decades get a logarithmic slider.
 bool isLogarithmic(double low, double high) { return low > 0 && high / low > 1000; }
 
-void numberWidget(const SettingInfo& info, const std::string& value, const SettingEdit& edit) {
-    double low = 0, high = 1;
-    const bool bounded = rangeOf(info, low, high);
+void tooltip(const SettingInfo& info) {
+    ImGui::BeginTooltip();
+    ImGui::PushTextWrapPos(26 * ImGui::GetFontSize());
+    ImGui::TextUnformatted(info.help.c_str());
+    ImGui::TextDisabled("%s", fmt::format("{}\nrange {}{}{}\ndefault {}", info.key, info.range,
+                                          info.unit.empty() ? "" : " ", info.unit, info.defaultValue)
+                                  .c_str());
+    ImGui::PopTextWrapPos();
+    ImGui::EndTooltip();
+}
+
+}  // namespace
+
+bool rangeOf(const SettingInfo& info, double& low, double& high) {
+    const std::size_t dots = info.range.find("..");
+    if (dots == std::string::npos) return false;
+    low = std::strtod(info.range.c_str(), nullptr);
+    high = std::strtod(info.range.c_str() + dots + 2, nullptr);
+    return high > low;
+}
+
+void SettingsPanel::showNumber(const Row& row, const SettingEdit& edit) {
+    const SettingInfo& info = *row.info;
+    const double low = row.low, high = row.high;
+    const bool bounded = row.bounded;
     const bool whole = info.type == "int";
-    float number = std::strtof(value.c_str(), nullptr);
+    float number = std::strtof(row.value.c_str(), nullptr);
     bool changed;
     if (whole) {
         int count = static_cast<int>(number);
@@ -56,8 +78,9 @@ void numberWidget(const SettingInfo& info, const std::string& value, const Setti
     if (ImGui::IsItemDeactivatedAfterEdit()) edit(info.key, "", true);
 }
 
-void widget(const Settings& settings, const SettingInfo& info, const std::string& value,
-            const SettingEdit& edit) {
+void SettingsPanel::showValue(const Row& row, const SettingEdit& edit) {
+    const SettingInfo& info = *row.info;
+    const std::string& value = row.value;
     if (info.type == "bool") {
         bool on = value == "true";
         if (ImGui::Checkbox("##v", &on)) edit(info.key, on ? "true" : "false", true);
@@ -76,45 +99,24 @@ void widget(const Settings& settings, const SettingInfo& info, const std::string
             ImGui::TextDisabled("auto");
         else {
             ImGui::SetNextItemWidth(-1);
-            numberWidget(info, getSetting(settings, info.key), edit);
+            showNumber(row, edit);
         }
     } else {
-        numberWidget(info, value, edit);
+        showNumber(row, edit);
     }
 }
 
-void tooltip(const SettingInfo& info) {
-    ImGui::BeginTooltip();
-    ImGui::PushTextWrapPos(26 * ImGui::GetFontSize());
-    ImGui::TextUnformatted(info.help.c_str());
-    ImGui::TextDisabled("%s", fmt::format("{}\nrange {}{}{}\ndefault {}", info.key, info.range,
-                                          info.unit.empty() ? "" : " ", info.unit, info.defaultValue)
-                                  .c_str());
-    ImGui::PopTextWrapPos();
-    ImGui::EndTooltip();
-}
-
-}  // namespace
-
-bool rangeOf(const SettingInfo& info, double& low, double& high) {
-    const std::size_t dots = info.range.find("..");
-    if (dots == std::string::npos) return false;
-    low = std::strtod(info.range.c_str(), nullptr);
-    high = std::strtod(info.range.c_str() + dots + 2, nullptr);
-    return high > low;
-}
-
-void settingRow(const Settings& settings, const SettingInfo& info, const SettingEdit& edit) {
-    const std::string value = getSetting(settings, info.key);
+void SettingsPanel::showRow(const Row& row, const SettingEdit& edit) {
+    const SettingInfo& info = *row.info;
     ImGui::PushID(info.key.c_str());
     ImGui::TableNextRow();
     ImGui::TableSetColumnIndex(0);
     ImGui::AlignTextToFramePadding();
-    ImGui::TextUnformatted(labelOf(info.key).c_str());
+    ImGui::TextUnformatted(row.label.c_str());
     if (ImGui::IsItemHovered()) tooltip(info);
     ImGui::TableSetColumnIndex(1);
     ImGui::SetNextItemWidth(-1);
-    widget(settings, info, value, edit);
+    showValue(row, edit);
     notePlace(info.key);
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) tooltip(info);
     ImGui::TableSetColumnIndex(2);
@@ -123,27 +125,42 @@ void settingRow(const Settings& settings, const SettingInfo& info, const Setting
         ImGui::TextDisabled("%s", info.unit.c_str());
     }
     ImGui::TableSetColumnIndex(3);
-    if (value != info.defaultValue) {
+    if (row.value != info.defaultValue) {
         if (ImGui::SmallButton("x")) edit(info.key, info.defaultValue, true);
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("back to %s", info.defaultValue.c_str());
     }
     ImGui::PopID();
 }
 
-void settingsPanel(const Settings& settings, const std::vector<std::string>& prefixes,
-                   const std::string& filter, const SettingEdit& edit) {
+void SettingsPanel::gather(const Settings& settings) {
+    rows_.clear();
+    for (const SettingInfo& info : settingInfos()) {
+        const bool ours = std::any_of(prefixes_.begin(), prefixes_.end(), [&](const std::string& prefix) {
+            return info.key.compare(0, prefix.size(), prefix) == 0;
+        });
+        if (!ours || info.key.find(filter_) == std::string::npos) continue;
+        Row row{&info, labelOf(info.key), getSetting(settings, info.key)};
+        row.bounded = rangeOf(info, row.low, row.high);
+        rows_.push_back(row);
+    }
+}
+
+void SettingsPanel::show(const Settings& settings, std::uint64_t revision,
+                         const std::vector<std::string>& prefixes, const std::string& filter,
+                         const SettingEdit& edit) {
+    if (revision_ != revision || prefixes_ != prefixes || filter_ != filter) {
+        revision_ = revision;
+        prefixes_ = prefixes;
+        filter_ = filter;
+        gather(settings);
+    }
     if (!ImGui::BeginTable("settings", 4, ImGuiTableFlags_SizingStretchProp)) return;
     const float em = ImGui::GetFontSize();
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 0.44f);
     ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.56f);
     ImGui::TableSetupColumn("unit", ImGuiTableColumnFlags_WidthFixed, 3.2f * em);
     ImGui::TableSetupColumn("reset", ImGuiTableColumnFlags_WidthFixed, 1.2f * em);
-    for (const SettingInfo& info : settingInfos()) {
-        const bool ours = std::any_of(prefixes.begin(), prefixes.end(), [&](const std::string& prefix) {
-            return info.key.compare(0, prefix.size(), prefix) == 0;
-        });
-        if (ours && info.key.find(filter) != std::string::npos) settingRow(settings, info, edit);
-    }
+    for (const Row& row : rows_) showRow(row, edit);
     ImGui::EndTable();
 }
 

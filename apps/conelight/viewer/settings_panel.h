@@ -3,7 +3,9 @@
 // the help text as tool tip. The same texts as `conelight settings` and the documentation.
 #pragma once
 
+#include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,11 +16,30 @@ namespace conelight::program {
 // Called when the user changed a setting. `done`: the value is final (a drag ended), for undo.
 using SettingEdit = std::function<void(const std::string& key, const std::string& value, bool done)>;
 
-// All settings whose key starts with one of `prefixes` and holds `filter` (empty: all).
-void settingsPanel(const Settings& settings, const std::vector<std::string>& prefixes,
-                   const std::string& filter, const SettingEdit& edit);
-// One setting's row.
-void settingRow(const Settings& settings, const SettingInfo& info, const SettingEdit& edit);
+class SettingsPanel {
+  public:
+    // All settings whose key starts with one of `prefixes` and holds `filter` (empty: all). `revision` grows
+    // when `settings` change: their texts are kept until then, for looking them up costs.
+    void show(const Settings& settings, std::uint64_t revision, const std::vector<std::string>& prefixes,
+              const std::string& filter, const SettingEdit& edit);
+
+  private:
+    struct Row {
+        const SettingInfo* info = nullptr;
+        std::string label, value;
+        double low = 0, high = 1;  // where the setting has a range of numbers
+        bool bounded = false;
+    };
+    void gather(const Settings& settings);
+    static void showRow(const Row& row, const SettingEdit& edit);
+    static void showValue(const Row& row, const SettingEdit& edit);
+    static void showNumber(const Row& row, const SettingEdit& edit);
+
+    std::vector<Row> rows_;
+    std::vector<std::string> prefixes_;
+    std::string filter_;
+    std::optional<std::uint64_t> revision_;
+};
 
 // The two numbers of a range like "0.1..2"; false for lists.
 bool rangeOf(const SettingInfo& info, double& low, double& high);

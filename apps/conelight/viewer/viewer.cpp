@@ -22,8 +22,11 @@
 #include "io/image_file.h"
 #include "platform/window.h"
 #include "session/state_files.h"
+#include "traced_picture.h"
+#include "viewer/background_job.h"
 #include "viewer/camera_control.h"
 #include "viewer/console_panel.h"
+#include "viewer/file_bake.h"
 #include "viewer/file_watch.h"
 #include "viewer/gui.h"
 #include "viewer/open_dialog.h"
@@ -60,6 +63,14 @@ double median(const FrameTimes& times) {
     std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
                      sorted.end());
     return sorted[sorted.size() / 2];
+}
+
+// Of a bake: those of mode traced, where 16 stands for all, as -1 does here. All in other modes: cones bounces
+// as often as it can pay for.
+int bouncesOf(const Settings& settings) {
+    constexpr int kAll = 16;
+    const bool limited = settings.mode == Mode::Traced && settings.traced.bounces < kAll;
+    return limited ? settings.traced.bounces : -1;
 }
 
 double threadCpuMs() {
@@ -99,10 +110,13 @@ class Viewer {
     void attempt(const Edit& edit);
     std::vector<std::string> completed(const std::string& line) const;
     void takeCommands();
+    void followBake();
+    void bakeStrip(const glm::vec2& at, const glm::vec2& size);
     void windowCommand(const Request& request);
     void splitCommand(const std::vector<std::string>& words);
     void status(const std::string& key);
     std::string splitText();
+    std::string movingText() const;
     std::string selectionText() const;
     void answerPlaces();
     void keys();
@@ -133,6 +147,7 @@ class Viewer {
     std::unique_ptr<LineReader> input_;
     FileWatch watch_;
     OpenDialog openDialog_;
+    SettingsPanel settingsPanel_;
     std::optional<Inspection> inspection_;
     std::optional<PictureView::Click> clicked_;
     std::optional<std::string> hint_;
@@ -146,6 +161,8 @@ class Viewer {
     bool showConsole_ = true;
     bool showSide_ = true;
     float sideEm_ = 24, consoleEm_ = 10;  // sizes of panels, in heights of text
+    FileBake bake_;
+    reference::RadiositySettings radiosity_;  // of bakes
     bool more_ = true;
     bool lastWasIdle_ = false;  // the last frame drew no picture
     bool settling_ = false;     // `settle`: commands wait for the picture
@@ -173,6 +190,7 @@ Viewer::Viewer(Session& session, const ViewerOptions& options)
           },
           [this](const std::string& line) { return completed(line); }),
       watch_(options.shaderDirectory),
+      radiosity_(options.radiosity),
       timing_(options.timing),
       startedMs_(options.startedMs) {
     for (const std::string& line : state_.lines()) commands_.history().add(line);
@@ -219,18 +237,54 @@ void Viewer::takeCommands() {
     std::string line;
     while (input_ && input_->take(line)) commands_.submit(line);
     if (settling_ && (view_.finished() || (!more_ && view_.showsOwn()))) settling_ = false;
-    if (!settling_) commands_.runQueued();
+    if (!settling_ && !bake_.busy()) commands_.runQueued();
+}
+
+// Commands behind `bake` wait for it; everything else goes on.
+void Viewer::followBake() {
+    if (const std::optional<Request> asked = std::exchange(end_.bake, std::nullopt)) {
+        reference::RadiositySettings settings = radiosity_;
+        settings.bounces = bouncesOf(session_.shownSettings());
+        settings.threads = BackgroundJob::threads();
+        bake_.start(asked->file, asked->overwrite, session_.scene(), settings, platform::Window::wake);
+    }
+    try {
+        if (const auto lines = bake_.finish())
+            for (const std::string& line : *lines) print({false, line});
+    } catch (const Error& error) {
+        commands_.fail(error);
+    }
+}
+
+// How far the bake is, and the end of it, at the bottom of the picture.
+void Viewer::bakeStrip(const glm::vec2& at, const glm::vec2& size) {
+    if (!bake_.busy()) return;
+    const float em = ImGui::GetFontSize();
+    const BakeStatus status = bake_.status();
+    std::string text = fmt::format("{}: {:.0f} %", bake_.file(), 100 * status.done);
+    if (status.secondsLeft >= 0) text += ", " + timeText(status.secondsLeft) + " left";
+    ImGui::SetNextWindowPos({at.x + 0.5f * em, at.y + size.y - 2.8f * em});
+    ImGui::SetNextWindowSize({std::min(36 * em, size.x - em), 2.3f * em});
+    ImGui::Begin("##bake", nullptr,
+                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+    ImGui::ProgressBar(static_cast<float>(status.done), {-5 * em, 0}, text.c_str());
+    ImGui::SameLine();
+    if (ImGui::Button("stop", {-1, 0})) bake_.stop();
+    notePlace("bake:stop");
+    ImGui::End();
 }
 
 int Viewer::run() {
     while (!end_.quit && !window_.shouldClose()) {
-        const bool busy = more_ || session_.hasRequests() || (!commands_.idle() && !settling_) ||
+        const bool waits = settling_ || bake_.busy();
+        const bool busy = more_ || session_.hasRequests() || (!commands_.idle() && !waits) ||
                           !wanted_.empty() || session_.playing();
         const ViewFlags& flags = session_.flags();
         const double rest = flags.dynamic ? std::min<double>(flags.period, kIdleWait) : kIdleWait;
         if (!console_.takesKeysSoon()) window_.pollEvents(!busy ? rest : lastWasIdle_ ? kPace : 0);
         watchFiles();
         rememberScene();
+        followBake();
         takeCommands();
         if (window_.minimized())
             carryOutRequests();
@@ -353,6 +407,7 @@ void Viewer::gui(const Layout& layout) {
     }
     if (showConsole_) bottomPanel(layout);
     picture(layout.pictureAt(), layout.pictureSize());
+    bakeStrip(layout.pictureAt(), layout.pictureSize());
     if (const std::optional<std::string> scene = openDialog_.show()) load(*scene);
     resizePanels(layout);
 }
@@ -542,30 +597,32 @@ void Viewer::fileMenu() {
 void Viewer::modeControls() {
     const float em = ImGui::GetFontSize();
     ImGui::SameLine(0, 2 * em);
-    const auto combo = [&](const char* id, const std::string& value, const std::vector<std::string>& names,
+    // The names are asked for only while the list is open.
+    const auto combo = [&](const char* id, const std::string& value, const auto& namesOf,
                            float width) -> std::optional<std::string> {
         std::optional<std::string> chosen;
         ImGui::SetNextItemWidth(width * em);
         if (ImGui::BeginCombo(id, value.c_str())) {
-            for (const std::string& name : names)
+            for (const std::string& name : namesOf())
                 if (ImGui::Selectable(name.c_str(), name == value)) chosen = name;
             ImGui::EndCombo();
         }
         return chosen;
     };
-    if (const auto mode = combo("##mode", session_.mode(), sessionModes(), 7))
+    if (const auto mode = combo("##mode", session_.mode(), sessionModes, 7))
         attempt([&] { session_.setMode(*mode); });
     notePlace("mode");
     ImGui::SameLine();
-    if (const auto name = combo("##component", conelight::getSetting(session_.settings(), "component"),
-                                settingChoices("component"), 7))
+    if (const auto name = combo(
+            "##component", conelight::getSetting(session_.settings(), "component"),
+            [] { return settingChoices("component"); }, 7))
         attempt([&] { session_.setSetting("component", *name); });
     ImGui::SameLine();
     ImGui::Checkbox("split", &view_.split.on);
     notePlace("split on");
     if (!view_.split.on) return;
     ImGui::SameLine();
-    if (const auto mode = combo("##right", view_.split.mode, sessionModes(), 7)) view_.split.mode = *mode;
+    if (const auto mode = combo("##right", view_.split.mode, sessionModes, 7)) view_.split.mode = *mode;
     ImGui::SameLine();
     ImGui::Checkbox("error", &view_.split.errors);
     if (!view_.split.errors) return;
@@ -589,8 +646,11 @@ void Viewer::leftPanel(const Layout& layout) {
     const bool tabs = ImGui::BeginTabBar("stages");
     ImGui::PopStyleVar();
     if (tabs) {
-        const std::string mode = conelight::getSetting(session_.settings(), "mode");
-        for (const Stage& stage : stagesOf(mode)) {
+        const SettingEdit editSetting = [this](const std::string& key, const std::string& value, bool done) {
+            if (!value.empty()) attempt([&] { session_.setSetting(key, value, key); });
+            if (done) session_.seal();
+        };
+        for (const Stage& stage : stagesOf(conelight::getSetting(session_.settings(), "mode"))) {
             const bool shown = ImGui::BeginTabItem(stage.name);
             notePlace(std::string("tab:") + stage.name);
             if (!shown) continue;
@@ -600,11 +660,8 @@ void Viewer::leftPanel(const Layout& layout) {
             if (stage.prefixes.empty())
                 sceneTree(session_, filter_);
             else
-                settingsPanel(session_.settings(), stage.prefixes, filter_,
-                              [this](const std::string& key, const std::string& value, bool done) {
-                                  if (!value.empty()) attempt([&] { session_.setSetting(key, value, key); });
-                                  if (done) session_.seal();
-                              });
+                settingsPanel_.show(session_.settings(), session_.revisions().settings, stage.prefixes,
+                                    filter_, editSetting);
             ImGui::EndChild();
             ImGui::EndTabItem();
         }
@@ -705,6 +762,13 @@ std::string Viewer::splitText() {
                        right.width(), right.height());
 }
 
+std::string Viewer::movingText() const {
+    const PictureView::Movement& m = view_.movement();
+    return fmt::format("{:.1f} frames/s, longest wait {:.0f} ms, {} x {} pixels ({} pictures in {:.1f} s)",
+                       m.pictures / std::max(m.seconds, 1e-3), 1e3 * m.longest, m.sizePx.x, m.sizePx.y,
+                       m.pictures, m.seconds);
+}
+
 std::string Viewer::selectionText() const {
     const Selection& selection = session_.selection();
     const Scene& scene = session_.scene();
@@ -736,6 +800,7 @@ void Viewer::status(const std::string& key) {
         {"steps", fmt::format("{} to undo, {} to redo", session_.undoSteps(), session_.redoSteps())},
         {"frames", fmt::format("{} pictures, {:.1f} ms (median)", view_.slot(false).version(),
                                median(session_.frameTimes()))},
+        {"moving", movingText()},
         {"gui",
          fmt::format("{:.3f} ms of CPU a frame (median of {})", median(guiTimes_), guiTimes_.all().size())},
         {"first_frame", fmt::format("{:.2f} s after the start", 1e-3 * firstFrameMs_)}};

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "reference/radiosity.h"
 #include "session/session.h"
 
 namespace conelight::program {
@@ -20,6 +21,7 @@ struct ViewerOptions {
     bool keepState = true;  // remember scenes and typed lines (session/state_files.h)
     bool timing = false;    // print start and cost of frames
     float uiScale = 0;      // of text and widgets; 0: the screen's
+    reference::RadiositySettings radiosity;  // of `bake`
     double startedMs = 0;   // steady clock when the program started
 };
 

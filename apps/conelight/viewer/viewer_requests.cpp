@@ -8,7 +8,6 @@
 #include "conelight/error.h"
 #include "inspection_text.h"
 #include "picture_file.h"
-#include "session/save.h"
 #include "video_file.h"
 
 namespace conelight::program {
@@ -72,8 +71,7 @@ void carryOut(Session& session, PictureView& view, Console& console, ViewerState
             record(session, view, console, request);
             break;
         case RequestKind::Bake:
-            bakeTo(request.file, session.scene(), request.overwrite);
-            console.print("written " + request.file);
+            state.bake = request;
             break;
         case RequestKind::Load:
             for (const std::string& note : session.open(request.file, request.keepView)) console.print(note);

@@ -13,6 +13,7 @@ namespace conelight::program {
 
 struct ViewerState {
     std::optional<glm::ivec2> inspect;  // a pixel that a command asked for: as if it were clicked
+    std::optional<Request> bake;        // to be done in the background
     bool quit = false;
     int status = 0;
 };
