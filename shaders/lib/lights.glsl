@@ -109,6 +109,10 @@ void addDirectional(inout DirectLight sum, const bool specular, Receiver r, Brdf
     addLight(sum, specular, r, b, -light.direction, light.intensity * visible);
 }
 
+// Widening of the lobe (width^2) per steradian of a cell, where it weighs what of a reflection is visible: by
+// eye, so that highlights fade evenly behind an edge.
+const float kRectCellWidening = 1.0;
+
 // Diffuse: the exact irradiance of the whole rectangle times the visible share of its sample points, each
 // weighted by the irradiance its cell gives. Specular: likewise the unshadowed reflection of the whole
 // (lib/rect_light.glsl) times the visible share, weighted by the reflection of each cell.
@@ -116,8 +120,12 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
     float whole = rectIrradiance(light, r.position, r.normal);
     uint count = light.sampleGrid * light.sampleGrid;
     float cellArea = 4.0 * length(cross(light.halfU, light.halfV)) / float(count);
-    vec2 weights = vec2(0.0), visibleWeights = vec2(0.0);
-    float cells = 0.0;  // reflection by the sum over cells, without Fresnel's colour
+    RectLobe lobe;
+    if (specular) lobe = rectLobe(r.normal, r.toEye, b.alpha, b.nov);
+    vec2 width2 = lobe.width * lobe.width;
+    vec2 weights = vec2(0.0), visibleWeights = vec2(0.0);  // irradiance, reflection
+    vec2 exact = vec2(0.0);                                // sums of rectSpecular
+    float cosine = 0.0, most = 0.0;
     uint k = 0u;
     do {
         vec3 point = rectSamplePoint(light, k);
@@ -125,14 +133,29 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
         float d2 = dot(l, l);
         l *= inversesqrt(max(d2, 1e-20));
         float emitted = max(-dot(l, light.direction), 0.0) / max(d2, cellArea);
-        float weight = emitted * max(dot(l, r.normal), 0.0);
+        float height = dot(l, r.normal);
+        float nol = max(height, 0.0);
         float visible = 1.0;
 #if LIGHTS_SHADOWS
         visible = shadowVisibilityRect(light, k, point, r.position, r.geometricNormal);
 #endif
-        float reflected = specular ? weight * rectCellLobe(b, r.normal, l, r.toEye, emitted * cellArea) : 0.0;
-        weights += vec2(weight, reflected);
-        visibleWeights += vec2(weight, reflected) * visible;
+        vec2 weight = vec2(emitted * nol, 0.0);
+        if (specular) {
+            // With h half way between l and the eye: n.h and 1 - v.h.
+            float half2 = 0.5 + 0.5 * dot(l, r.toEye);
+            float perHalf = inversesqrt(max(half2, 1e-6));
+            float noh = clamp(0.5 * (height + b.nov) * perHalf, 0.0, 1.0);
+            float c = 1.0 - half2 * perHalf;
+            float c2 = c * c;
+            exact += weight.x * ggxVisible(b.alpha, noh, max(nol, 1e-4), b.nov) * vec2(1.0, c2 * c2 * c);
+            vec3 inSpace = rectLobeSpace(lobe, l, height);
+            float transformed = emitted * rectLobeDensity(inSpace, width2);
+            cosine += transformed;
+            most = max(most, transformed);
+            weight.y = emitted * rectLobeDensity(inSpace, width2 + kRectCellWidening * cellArea * emitted);
+        }
+        weights += weight;
+        visibleWeights += weight * visible;
     } while (++k < count);
     // No sample above the horizon, but a corner of the rectangle: its light is small, and taken as visible.
     vec2 share = vec2(weights.x > 0.0 ? visibleWeights.x / weights.x : 1.0,
@@ -140,7 +163,8 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
     sum.irradiance += light.intensity * (whole * share.x);
     if (specular)
         sum.specular += light.intensity *
-                        rectSpecular(light, r.position, r.normal, r.toEye, b, weights.y * cellArea) *
+                        rectSpecular(light, r.position, lobe, b, exact * cellArea, cosine * cellArea / kPi,
+                                     most * cellArea / kPi) *
                         (whole > 0.0 ? share.y : 0.0);
 }
 

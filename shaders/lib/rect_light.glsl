@@ -54,51 +54,80 @@ float rectIrradiance(Light light, vec3 p, vec3 n) {
     return dot(p - light.position, light.direction) > 0.0 ? polygonIrradiance(corner, n) : 0.0;
 }
 
-// Widening of alpha^2 per steradian of a cell: least error of 4 x 4 cells for roughness 0.5 to 0.8 against a
-// sum over 100 x 100, three lights over a floor (2026-11).
-const float kRectCellWidening = 0.25;
+// The linearly transformed cosine (Heitz et al. 2016) nearest to the GGX lobe times the cosine: a direction
+// (x, y, z), z along the normal and x to the side of the mirrored view, becomes ((x - shift z) / width.x, y /
+// width.y, z) (3.5), so that the horizon stays where it is. For small alpha the width is 2 alpha (1 / NoV^2,
+// 1) and the shift the view's tangent, as reflection doubles the angle of the facet. The factors on these are
+// polynomials fitted by tools/fit_rect_lobe.cpp, in s as in directionalAlbedo.
+struct RectLobe {
+    vec3 along;  // the side of the mirrored view, in the surface
+    vec3 across;
+    vec3 normal;
+    vec2 width;
+    float shift;
+};
 
-// The lobe without Fresnel's factor, averaged over a cell of solid angle `solidAngle` around `toLight`:
-// widened by the cell's extent, keeping its energy.
-float rectCellLobe(Brdf b, vec3 n, vec3 toLight, vec3 toEye, float solidAngle) {
-    float alpha = sqrt(min(b.alpha * b.alpha + kRectCellWidening * solidAngle, 1.0));
-    vec3 h = normalize(toLight + toEye);
-    float noh = clamp(dot(n, h), 0.0, 1.0);
-    float nol = clamp(dot(n, toLight), 1e-4, 1.0);
-    return ggxVisible(alpha, noh, nol, b.nov);
+RectLobe rectLobe(vec3 n, vec3 toEye, float alpha, float nov) {
+    RectLobe lobe;
+    lobe.normal = n;
+    vec3 along = dot(n, toEye) * n - toEye;
+    float alongLength = length(along);
+    lobe.along = alongLength > 1e-4 ? along / alongLength : normalize(cross(n.yzx, n) + vec3(1e-6));
+    lobe.across = cross(n, lobe.along);
+    float r = sqrt(alpha);
+    float s = nov / (nov + alpha);
+    float wideX =
+        (1.29227 + s * (-5.47364 + s * (14.8254 + s * (-13.2592 + s * (3.61848))))) +
+        r * ((-5.52999 + s * (27.8312 + s * (-56.654 + s * (50.7816 + s * (-16.5467))))) +
+             r * ((11.5977 + s * (-43.9361 + s * (52.2134 + s * (-11.7053 + s * (-7.00019))))) +
+                  r * ((-9.48487 + s * (30.8728 + s * (-8.04704 + s * (-31.1243 + s * (12.3386))))) +
+                       r * ((3.05076 + s * (-9.56177 + s * (2.7346 + s * (-4.20788 + s * (17.8255)))))))));
+    float wideY =
+        (-0.286434 + s * (4.24182 + s * (-7.01885 + s * (6.48932 + s * (-2.42788))))) +
+        r * ((6.8825 + s * (-22.6236 + s * (26.5856 + s * (-11.6195 + s * (0.853501))))) +
+             r * ((-11.9879 + s * (40.263 + s * (-37.5247 + s * (5.36034 + s * (2.98663))))) +
+                  r * ((7.89362 + s * (-31.7826 + s * (28.3491 + s * (-6.39589 + s * (3.06636))))) +
+                       r * ((-1.65108 + s * (8.11413 + s * (-4.08973 + s * (-6.18177 + s * (4.88188)))))))));
+    float shift =
+        (1.14059 + s * (-3.51801 + s * (11.3454 + s * (-12.1974 + s * (4.22556))))) +
+        r * ((-3.87199 + s * (6.10689 + s * (-13.0306 + s * (32.6652 + s * (-21.743))))) +
+             r * ((6.72048 + s * (9.90489 + s * (-20.6585 + s * (-53.1321 + s * (56.1935))))) +
+                  r * ((-5.0604 + s * (-10.0926 + s * (-37.6492 + s * (219.072 + s * (-166.697))))) +
+                       r * ((1.12677 + s * (-3.92632 + s * (69.7312 + s * (-208.799 + s * (145.081)))))))));
+    wideX = max(wideX, 0.05) * s / nov;
+    lobe.width = 2.0 * alpha * vec2(wideX * wideX, max(wideY, 0.05));
+    lobe.shift = max(shift, 0.0) * s / nov * sqrt(max(1.0 - nov * nov, 0.0));
+    return lobe;
 }
 
-// Unshadowed reflection towards the eye per unit radiance. Smooth surfaces: the lobe around the mirror
-// direction is taken as a clamped cosine stretched by the lobe's width, for which the integral over a polygon
-// is closed (linearly transformed cosines, Heitz et al. 2016). Their stretch is fitted; ours follows from GGX
-// for small alpha, where reflection doubles the angle of the half vector: 2 alpha in the plane of incidence
-// and 2 alpha NoV across; for larger alpha the corrections below are fitted. Rough surfaces: the sum over
-// cells
-// (`cellSum`, without Fresnel's factor). Error against 100 x 100 cells, RMS over mean, of three lights over a
-// floor: roughness 0.1: 2 %, 0.2: 10 %, 0.3: 19 %, 0.5: 23 %, 0.8: 7 %; a sum over 4 x 4 cells alone has 200
-// % at 0.1.
-vec3 rectSpecular(Light light, vec3 p, vec3 n, vec3 toEye, Brdf b, float cellSum) {
-    // The lobe leans from the mirror direction towards the normal.
-    vec3 mirror = 2.0 * dot(n, toEye) * n - toEye;
-    float a2 = b.alpha * b.alpha;
-    vec3 axis = normalize(mix(mirror, n, min(2.25 * a2, 0.9)));
-    vec3 across = cross(n, axis);
-    float acrossLength = length(across);
-    across = acrossLength > 1e-4 ? across / acrossLength : normalize(cross(n.yzx, n) + vec3(1e-6));
-    vec3 along = cross(across, axis);
-    float width = (2.0 - b.alpha) * b.alpha;
-    float widthAcross = clamp(width * max(max(dot(axis, n), 0.02), 0.5 * b.alpha), 1e-5, 1.0);
+// Into the space where the lobe is a cosine, but for the division by the width. z: along the normal.
+vec3 rectLobeSpace(RectLobe lobe, vec3 v, float z) {
+    return vec3(dot(v, lobe.along) - lobe.shift * z, dot(v, lobe.across), z);
+}
 
+// Density of the transformed cosine per steradian, times pi; `width2`: squares of the width.
+float rectLobeDensity(vec3 inSpace, vec2 width2) {
+    float q = dot(inSpace.xy * inSpace.xy, 1.0 / width2) + inSpace.z * inSpace.z;
+    return max(inSpace.z, 0.0) * inversesqrt(width2.x * width2.y) / (q * q);
+}
+
+// The sum over sample points takes the error of the transformed cosine away where no cell holds more than
+// the first of these shares of the lobe, and is left out from the second on, where the lobe falls between the
+// points. From the errors in tests/shader/rect_light_test.cpp.
+const vec2 kRectMended = vec2(0.1, 0.25);
+
+// Unshadowed reflection towards the eye per unit radiance. The integral of the transformed cosine over the
+// rectangle is that of a cosine over the transformed rectangle, closed; Fresnel's factor is the lobe's mean.
+// `exact` and `cosine` are sums over the rectangle's sample points: of the lobe (x: without Fresnel's factor,
+// y: its grazing part) and of the transformed cosine. Their difference is small and smooth, so that few
+// points do, where the lobe alone would take hundreds. `most`: the largest term of the latter.
+vec3 rectSpecular(Light light, vec3 p, RectLobe lobe, Brdf b, vec2 exact, float cosine, float most) {
     vec3 corner[4];
     rectCorners(light, p, corner);
     for (int i = 0; i < 4; ++i)
-        corner[i] = vec3(dot(corner[i], along) / min(width, 1.0), dot(corner[i], across) / widthAcross,
-                         dot(corner[i], axis));
-    float stretched = polygonIrradiance(corner, vec3(0.0, 0.0, 1.0)) / kPi;
-
-    // From one to the other where both err by the same, at roughness 0.45 to 0.75.
-    vec3 smoothSurface = b.albedo * stretched;
-    vec3 roughSurface =
-        fresnel(b.f0, b.f90, clamp(dot(toEye, normalize(axis + toEye)), 0.0, 1.0)) * b.compensation * cellSum;
-    return mix(smoothSurface, roughSurface, smoothstep(0.45, 0.75, sqrt(b.alpha)));
+        corner[i] = rectLobeSpace(lobe, corner[i], dot(corner[i], lobe.normal)) / vec3(lobe.width, 1.0);
+    float whole = polygonIrradiance(corner, vec3(0.0, 0.0, 1.0)) / kPi;
+    vec3 missing = b.compensation * (b.f0 * (exact.x - exact.y) + b.f90 * exact.y) - b.albedo * cosine;
+    float mended = 1.0 - smoothstep(kRectMended.x, kRectMended.y, most);
+    return max(b.albedo * whole + mended * missing, vec3(0.0));
 }

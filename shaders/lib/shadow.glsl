@@ -27,6 +27,7 @@
 #endif
 #include "lib/lookup_count.glsl"
 #include "shared/bindings.h"
+#include "shared/rect_points.h"
 #include "shared/scene.h"
 layout(binding = UNIT_SHADOW) uniform sampler2DArrayShadow shadowMaps;
 layout(binding = UNIT_SHADOW_DEPTHS) uniform sampler2DArray shadowDepths;
@@ -217,14 +218,10 @@ float shadowVisibilityDirectional(Light light, vec3 p, vec3 n, float lift) {
     return light.shadow < 0 ? 1.0 : (ln.z < 0.0 ? lit : 0.0);
 }
 
-// The k-th sample point of a rectangle, k < sampleGrid^2: one per cell of a grid, at places that differ in
-// both coordinates, so that an edge parallel to the rectangle meets them one by one (Chiu et al. 1994,
-// "Multi-Jittered Sampling", without the jitter). Moved off the surface by a thousandth of its size, which an
-// emitter's own triangles lie in.
+// The k-th sample point of a rectangle (shared/rect_points.h). Moved off the surface by a thousandth of its
+// size, which an emitter's own triangles lie in.
 vec3 rectSamplePoint(Light light, uint k) {
-    float grid = float(light.sampleGrid);
-    vec2 cell = vec2(k % light.sampleGrid, k / light.sampleGrid);
-    vec2 uv = (cell + (cell.yx + 0.5) / grid) / grid * 2.0 - 1.0;
+    vec2 uv = (vec2(k, RECT_POINT_ROW(k)) + 0.5) * (2.0 / float(RECT_POINT_COUNT)) - 1.0;
     float lift = 1e-3 * min(length(light.halfU), length(light.halfV));
     return light.position + uv.x * light.halfU + uv.y * light.halfV + lift * light.direction;
 }

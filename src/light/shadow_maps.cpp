@@ -8,6 +8,7 @@
 #include "gl/gl.h"
 #include "scene/gpu_lights.h"
 #include "shared/bindings.h"
+#include "shared/rect_points.h"
 
 namespace conelight::light {
 namespace {
@@ -268,10 +269,9 @@ class Layout {
 
     // C++ twin of lib/shadow.glsl's.
     static glm::vec3 rectSamplePoint(const gpu::Light& light, int k) {
-        const int grid = static_cast<int>(light.sampleGrid);
-        const glm::vec2 cell(k % grid, k / grid);
-        const glm::vec2 uv = (cell + (glm::vec2(cell.y, cell.x) + 0.5f) / static_cast<float>(grid)) /
-                                 static_cast<float>(grid) * 2.0f -
+        const auto column = static_cast<std::uint32_t>(k);
+        const glm::vec2 uv = (glm::vec2(column, RECT_POINT_ROW(column)) + 0.5f) *
+                                 (2.0f / static_cast<float>(RECT_POINT_COUNT)) -
                              1.0f;
         const float lift = 1e-3f * std::min(glm::length(light.halfU), glm::length(light.halfV));
         return light.position + uv.x * light.halfU + uv.y * light.halfV + lift * light.direction;

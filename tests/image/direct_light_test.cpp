@@ -351,5 +351,50 @@ TEST_F(DirectLightTest, HalfOfARectangleBehindAWallGivesHalfItsLight) {
     EXPECT_NEAR(irradiance(scene, camera)[centre] / whole, 0.5f, 0.05f);
 }
 
+// The shadow of a screen half way up to the light, whose edge is turned by `degrees` against the light's
+// sides: along the penumbra the visible share falls evenly, not in the steps of the light's sample points.
+TEST_F(DirectLightTest, PenumbrasAreEvenForEdgesOfAnyDirection) {
+    constexpr double kHalf = 0.2;
+    const Camera camera = cameraAt({0, 0.45f, 0.35f}, {0, 0, 0});
+    double worst = 0;
+    for (int degrees = 0; degrees < 180; degrees += 15) {
+        const double angle = degrees * kPi / 180;
+        const glm::dvec3 open(std::cos(angle), 0, std::sin(angle));  // the side that is not covered
+        const glm::vec3 edge(-open.z, 0, open.x);
+        Scene scene;
+        addInstance(scene, floorMesh(2), lambert());
+        addInstance(scene, quadMesh(glm::vec3(0, 0.5f, 0) - edge, 2.0f * edge, -glm::vec3(open)), lambert());
+        scene.lights.push_back(
+            rectangle({0, 1, 0}, {0, -1, 0}, {float{kHalf}, 0, 0}, {0, 0, float{kHalf}}, 1));
+        const std::vector<float> got = irradiance(scene, camera);
+        LightSettings none;
+        none.shadowSize = 0;
+        const std::vector<float> whole = irradiance(scene, camera, none);
+        double squares = 0;
+        int count = 0;
+        for (int y = 0; y < kHeight; ++y)
+            for (int x = 0; x < kWidth; ++x) {
+                const glm::dvec3 p = floorPoint(camera, x, y);
+                const double limit = -glm::dot(open, p);
+                if (std::abs(limit) > 1.3 * kHalf) continue;
+                constexpr int kCells = 40;
+                int visible = 0;
+                for (int i = 0; i < kCells * kCells; ++i) {
+                    const glm::dvec3 q(kHalf * (2 * (i % kCells + 0.5) / kCells - 1), 0,
+                                       kHalf * (2 * (i / kCells + 0.5) / kCells - 1));
+                    visible += glm::dot(open, q) > limit;
+                }
+                const auto at = static_cast<std::size_t>(y * kWidth + x);
+                const double error =
+                    got[at] / static_cast<double>(whole[at]) - visible / double{kCells * kCells};
+                squares += error * error;
+                ++count;
+            }
+        ASSERT_GT(count, 1000);
+        worst = std::max(worst, std::sqrt(squares / count));
+    }
+    EXPECT_LT(worst, 0.04);
+}
+
 }  // namespace
 }  // namespace conelight::test
