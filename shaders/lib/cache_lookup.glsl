@@ -10,7 +10,6 @@
 #include "lib/ray_query.glsl"
 #include "lib/record_face.glsl"
 #include "shared/irradiance.h"
-layout(binding = IMAGE_VOXEL_BRICKS, rgba32ui) readonly uniform uimage3D voxelBrickImage;
 
 // Squares of components below this are left out: 3 % of the normal's length.
 const float kLeastAxis = 1e-3;

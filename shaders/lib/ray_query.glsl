@@ -9,16 +9,11 @@
 //
 // Empty space is crossed by octWord: one texel per brick of 4^3 and octant of directions, with the voxels
 // that hold a face towards the octant and the edge of the empty cube that starts here and reaches forward. So
-// a ray that leaves a wall never meets that wall's own voxels. One loop; a step leaves a voxel or an empty
-// cube of bricks. Measured against seven other shapes: docs/theory/4_gather.md.
-//
-// RAY_BACK_FACES 1: a surface met from behind ends the ray, with backFirst. 0: it is not there, which costs
-// less. Closed objects look the same from outside either way.
+// a ray that leaves a wall never meets that wall's own voxels. One loop; a step leaves a voxel, an empty
+// block of 2^3, or an empty cube of bricks. Measured against seven other shapes: docs/theory/4_gather.md.
+// A surface that is met from behind is not there.
 //
 // Before the call: SurfaceVoxels::bind, OctantWords::bind.
-#ifndef RAY_BACK_FACES
-#define RAY_BACK_FACES 0
-#endif
 #include "lib/lookup_count.glsl"
 #include "lib/record_steps.glsl"
 #include "lib/voxel_grid.glsl"
@@ -26,12 +21,14 @@
 layout(binding = UNIT_VOXEL_BRICKS) uniform usampler3D voxelBricks;
 layout(binding = UNIT_VOXEL_RECORDS) uniform usamplerBuffer voxelRecords;
 layout(binding = UNIT_VOXEL_FACES) uniform usamplerBuffer voxelFaces;
+layout(binding = IMAGE_VOXEL_BRICKS, rgba32ui) readonly uniform uimage3D voxelBrickImage;
 layout(binding = IMAGE_VOXEL_OCTANTS, rg32ui) readonly uniform uimage3D voxelOctants;
 
 struct VoxelHit {
     int face;        // index of the face record; -1: nothing was met
     float t;         // distance in voxels; tMax when nothing was met
-    bool backFirst;  // only with RAY_BACK_FACES: a surface was met from behind, before anything else
+    bool backFirst;  // for callers that look for backs (lib/voxel_light.glsl): one was met before anything
+                     // else
 };
 
 // A face is met when its normal turns against the ray by more than this: flatter crossings have no
@@ -65,22 +62,16 @@ vec3 rayInverse(vec3 direction) {
 }
 
 // Tests the faces of a voxel that face the ray. Nearest crossing wins, among equals the largest coverage.
-// With RAY_BACK_FACES also the others: one that is crossed from behind, beyond kRayBackNear and before all
-// else, ends the ray. A back behind a front in the same voxel does not: thin walls have both there.
 void testVoxelFaces(ivec3 voxel, vec3 origin, vec3 direction, uint facing, float tMax, inout VoxelHit hit,
-                    inout float weight, inout float tBack) {
-    uvec4 word = texelFetch(voxelBricks, voxel >> 2, 0);
+                    inout float weight) {
+    uvec4 word = imageLoad(voxelBrickImage, voxel >> 2);
     uint record = texelFetch(voxelRecords, int(voxelRecordIndex(word, bitOfVoxel(voxel)))).x;
     // A spare bit of octWord names a voxel that may have none.
     uint directions = brickHas(word.xy, bitOfVoxel(voxel)) ? faceDirections(record) : 0u;
     int base = int(faceBase(record));
     vec3 toCenter = vec3(voxel) + 0.5 - origin;
     COUNT_LOOKUP(facing != 0u ? 2 : 0);
-#if RAY_BACK_FACES
-    uint left = facing != 0u ? directions : 0u;
-#else
     uint left = directions & facing;
-#endif
     do {
         COUNT_LOOKUP(left != 0u ? 1 : 0);
         uint lowest = left & (0u - left);
@@ -88,8 +79,7 @@ void testVoxelFaces(ivec3 voxel, vec3 origin, vec3 direction, uint facing, float
         uvec4 r = texelFetch(voxelFaces, 2 * (left != 0u ? face : 0));
         vec3 n = octDecode(unpackSnorm2x16(r.x));
         float towards = dot(n, direction);
-        float t =
-            (unpackOffset(r.y) + dot(n, toCenter)) / (abs(towards) > kRayFacing ? towards : -kRayFacing);
+        float t = (unpackOffset(r.y) + dot(n, toCenter)) / min(towards, -kRayFacing);
         vec3 at = t * direction - toCenter + 0.5;
         vec3 slack = t > kRayNear ? vec3(kRayBoundsSlack)
                                   : (kRayBoundsSlack + kRayBoundsShrink) * n * n - kRayBoundsShrink;
@@ -98,11 +88,6 @@ void testVoxelFaces(ivec3 voxel, vec3 origin, vec3 direction, uint facing, float
         float w = unpackWeight(r.y);
         bool nearer = hit.face < 0 || t < hit.t - kRayTie || (t <= hit.t + kRayTie && w > weight);
         bool better = inside && towards < -kRayFacing && t > kRayStart && nearer;
-#if RAY_BACK_FACES
-        better = better && (lowest & facing) != 0u;
-        bool back = inside && towards > kRayFacing && t > kRayBackNear && (lowest & facing) == 0u;
-        tBack = back ? min(tBack, t) : tBack;
-#endif
         hit.face = better ? face : hit.face;
         hit.t = better ? t : hit.t;
         weight = better ? w : weight;
@@ -111,33 +96,29 @@ void testVoxelFaces(ivec3 voxel, vec3 origin, vec3 direction, uint facing, float
 }
 
 VoxelHit traceVoxels(vec3 origin, vec3 direction, float tMax) {
-    ivec3 bricks = gridBricks();
     vec3 size = vec3(gridSize());
-    vec3 inverse = rayInverse(direction);
-    bvec3 forward = greaterThanEqual(direction, vec3(0.0));
-    ivec3 pos = ivec3(forward);
-    int octantX = (7 - (pos.x | (pos.y << 1) | (pos.z << 2))) * bricks.x;
-    // Faces that look against the ray: -k for the positive components.
-    uint facing = (forward.x ? 2u : 1u) | (forward.y ? 8u : 4u) | (forward.z ? 32u : 16u);
+    ivec3 last = gridSize() - 1;
+    bvec3 down = lessThan(direction, vec3(0.0));
+    int octantX = (int(down.x) | (int(down.y) << 1) | (int(down.z) << 2)) * gridBricks().x;
+    // Faces that look against the ray: -k for the components that are not negative.
+    uint facing = (down.x ? 1u : 2u) | (down.y ? 4u : 8u) | (down.z ? 16u : 32u);
 
-    // An empty cube ends so far from its first brick's lowest corner: nearSide + 4 reach, negated when it
-    // goes down.
-    ivec3 turn = pos - 1;
-    ivec3 nearSide = 4 - 4 * pos;
+    // In the octant's own coordinates, mirrored so that no ray goes down.
+    vec3 from = mix(origin, size - origin, down);
+    vec3 along = abs(direction);
+    vec3 inverse = 1.0 / max(along, vec3(1e-7));
 
     // Clipped to the grid. All that follows counts from the entry, where rounding is least.
-    vec3 enter = (mix(size, vec3(0.0), forward) - origin) * inverse;
-    vec3 leave = (mix(vec3(0.0), size, forward) - origin) * inverse;
+    vec3 enter = -from * inverse;
+    vec3 leave = (size - from) * inverse;
     float tEnter = max(max(enter.x, enter.y), max(enter.z, 0.0));
     float tEnd = min(min(min(leave.x, leave.y), leave.z) - kRayEnd, tMax);
     VoxelHit hit = VoxelHit(-1, tMax, false);
     bool alive = tEnd > tEnter;
     float t = alive ? tEnter : 0.0;
     tEnd = alive ? tEnd : -3e38;  // below every t, also those of cells behind the origin
-    ivec3 last = gridSize() - 1;
-    ivec3 cell = clamp(ivec3(floor(origin + t * direction)), ivec3(0), last);
+    ivec3 cell = clamp(ivec3(floor(from + t * along)), ivec3(0), last);
     float weight = 0.0;
-    float tBack = tMax;
     do {
         bool candidate;
         ivec3 at;
@@ -145,39 +126,31 @@ VoxelHit traceVoxels(vec3 origin, vec3 direction, float tMax) {
             ivec3 brick = cell >> 2;
             COUNT_LOOKUP(alive ? 1 : 0);
             uvec2 word = imageLoad(voxelOctants, ivec3(brick.x + octantX, brick.yz)).xy;
-            int empty = word.y == OCTANT_EMPTY ? int(word.x) : 0;
-            word = empty > 0 ? uvec2(0u) : word;
-#if RAY_BACK_FACES
-            // Faces that look the other way are what the opposite octant's rays meet; nothing is known of how
-            // far they are.
-            uvec2 backs = imageLoad(voxelOctants, ivec3(brick.x + 7 * bricks.x - octantX, brick.yz)).xy;
-            bool none = backs.y == OCTANT_EMPTY;
-            word |= none ? uvec2(0u) : backs;
-            empty = none ? min(empty, 1) : 0;
-#endif
-            candidate = brickHas(word, bitOfVoxel(cell));
+            bool empty = word.y == OCTANT_EMPTY;
+            candidate = !empty && brickHas(word, bitOfVoxel(cell));
             at = cell;
+            // What is left behind: the empty cube of bricks, the empty block of 2^3 voxels, the voxel.
+            uint half32 = (cell.z & 2) != 0 ? word.y : word.x;
+            bool emptyBlock = (half32 >> ((cell.x & 2) + 4 * (cell.y & 2)) & 0x00330033u) == 0u;
+            int edge = empty ? 4 * int(word.x) : (emptyBlock ? 2 : 1);
+            ivec3 border = (cell & (empty ? ~3 : (emptyBlock ? ~1 : ~0))) + edge;
 #ifdef RECORD_STEPS
-            float edge = empty > 0 ? float(4 * empty) : 1.0;
             if (alive)
-                RECORD_STEP(empty > 0   ? STEP_EMPTY
-                            : candidate ? STEP_TESTED
-                                        : STEP_VOXEL,
-                            worldFromGrid(origin + t * direction), t * grid.voxelSize, edge * grid.voxelSize,
-                            log2(edge), vec3(0.0), 0.0, 0.0);
+                RECORD_STEP(candidate  ? STEP_TESTED
+                            : edge > 1 ? STEP_EMPTY
+                                       : STEP_VOXEL,
+                            worldFromGrid(origin + t * direction), t * grid.voxelSize,
+                            float(edge) * grid.voxelSize, log2(float(edge)), vec3(0.0), 0.0, 0.0);
 #endif
-            // The planes through which the voxel, or the empty cube, is left.
-            ivec3 border = empty > 0 ? (cell & ~3) + nearSide + ((4 * empty) ^ turn) - turn : cell + pos;
-            vec3 exits = (vec3(border) - origin) * inverse;
+            vec3 exits = (vec3(border) - from) * inverse;
             t = min(exits.x, min(exits.y, exits.z));
-            ivec3 there = ivec3(floor(origin + t * direction));
-            there = clamp(there, min(cell, border), max(cell, border - 1));
-            cell = clamp(mix(there, border - 1 + pos, lessThanEqual(exits, vec3(t))), ivec3(0), last);
+            // Beyond the grid's border t is beyond tEnd.
+            ivec3 there = clamp(ivec3(from + t * along), cell, border - 1);
+            cell = mix(there, border, lessThanEqual(exits, vec3(t)));
         } while (!candidate && t < tEnd);
         uint tested = candidate && alive ? facing : 0u;
-        testVoxelFaces(at, origin, direction, tested, tMax, hit, weight, tBack);
-    } while (hit.face < 0 && tBack == tMax && t < tEnd);
-    if (tBack < hit.t) hit = VoxelHit(-1, tBack, true);
+        testVoxelFaces(mix(at, last - at, down), origin, direction, tested, tMax, hit, weight);
+    } while (hit.face < 0 && t < tEnd);
     return hit;
 }
 

@@ -15,7 +15,8 @@
 // and over the texel's triangle by 2 alone. What is left is rounding (kShadowSlack).
 //
 // SHADOW_FILTER 0: the outline between texels is that of their triangles. Above: share of visible texels in a
-// box of (2 SHADOW_FILTER + 1)^2 texels around the point with fractional edges (Reeves et al. 1987).
+// box of (2 SHADOW_FILTER + 1)^2 texels around the point with fractional edges (Reeves et al. 1987). -1: the
+// nearest texel says yes or no; for rays whose mean is taken.
 //
 // Maps of rectangles have depths alone. There the receiver is moved along its normal n by o >= max |n.e| over
 // the texels e that are compared, which puts it in front of its own plane at each of them:
@@ -79,6 +80,20 @@ float shadowOutline(vec4 lit, vec4 endX, vec4 endY, vec2 f) {
 
 // Whether the receiver is visible, for a layer's `texel` where it is, its reversed depth `ref` and its
 // plane's `slope`; with a filter a share. Slopes are in units of unit.x + unit.y * depth per texel.
+#if SHADOW_FILTER < 0
+float shadowFilter(vec2 texel, float layer, float ref, vec2 slope, vec2 unit) {
+    ivec3 at = ivec3(texel, layer);
+    COUNT_LOOKUP(2);
+    float depth = texelFetch(shadowDepths, at, 0).x;
+    vec2 texelSlope = unpackHalf2x16(texelFetch(shadowSurfaces, at, 0).x);
+    vec2 d = floor(texel) + 0.5 - texel;
+    float refUnit = unit.x + unit.y * ref;
+    float slopes = abs(slope.x) + abs(slope.y) + abs(texelSlope.x) + abs(texelSlope.y);
+    float overReceiver = depth - refUnit * dot(slope, d);
+    float overTexel = depth - (unit.x + unit.y * depth) * dot(texelSlope, d);
+    return min(overReceiver, overTexel) <= ref + kShadowSlack * refUnit * (1.0 + slopes) ? 1.0 : 0.0;
+}
+#else
 float shadowFilter(vec2 texel, float layer, float ref, vec2 slope, vec2 unit) {
     const int radius = SHADOW_FILTER;
     vec2 corner = floor(texel - 0.5);
@@ -133,6 +148,7 @@ float shadowFilter(vec2 texel, float layer, float ref, vec2 slope, vec2 unit) {
     }
     return sum / float((2 * radius + 1) * (2 * radius + 1));
 }
+#endif
 
 // Slopes of the depth of a plane with normal n that is seen at lateral tangents `at` (0, 0 for a parallel
 // projection), over the unit; the light is on the side that n points to.

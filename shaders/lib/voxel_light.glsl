@@ -225,8 +225,8 @@ const float kSameSurface = 0.7;
 
 #if FIND_BACKS
 // Whether a ray that found `hit` met a surface from behind on its way, beyond kRayBackNear. The way back
-// meets from the front what the way there met from behind: one more ray, where asking for both at once
-// (RAY_BACK_FACES) costs two to three, for then nothing is known of how far empty space reaches.
+// meets from the front what the way there met from behind: one more ray, where asking for both at once costs
+// two to three, for then nothing is known of how far empty space reaches.
 bool metBackBefore(VoxelHit hit, vec3 origin, vec3 direction) {
     vec3 leave = (mix(vec3(0.0), vec3(gridSize()), greaterThanEqual(direction, vec3(0.0))) - origin) *
                  rayInverse(direction);

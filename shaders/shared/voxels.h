@@ -13,7 +13,8 @@
 //   faceSource two uints per face: emission as three halves, exact area (lib/voxel_record.glsl)
 //
 //   octWord    RG32UI 3D texture (8 Bx, By, Bz), for rays (src/voxels/octant_words.h): at x = brick.x +
-//              octant * Bx, with bit i of the octant set for rays that go down along axis i, one of
+//              octant * Bx, with bit i of the octant set for rays that go down along axis i; bricks, and the
+//              voxels within, are counted from the other end along those axes, so that rays go up. One of
 //              - which voxels of the brick have a face that looks against such rays (lo, hi)
 //              - there are none: x edge, in bricks, of an empty cube that starts with this brick and reaches
 //                forward along the rays, OCTANT_REACH at most; y OCTANT_EMPTY. What lies outside the grid is

@@ -12,6 +12,18 @@ layout(binding = UNIT_VOXEL_RECORDS) uniform usamplerBuffer records;
 layout(std430, binding = BINDING_STORAGE_PASS) readonly buffer BrickTable { uint brickList[]; };
 layout(binding = 0, rg32ui) uniform writeonly uimage3D octants;
 
+// The brick's voxels in the opposite order along the axes that rays of the octant go down.
+uvec2 mirrored(uvec2 m, int octant) {
+    uvec2 x = ((m & 0x11111111u) << 3) | ((m & 0x22222222u) << 1) | ((m >> 1) & 0x22222222u) |
+              ((m >> 3) & 0x11111111u);
+    m = (octant & 1) != 0 ? x : m;
+    uvec2 y = ((m & 0x000f000fu) << 12) | ((m & 0x00f000f0u) << 4) | ((m >> 4) & 0x00f000f0u) |
+              ((m >> 12) & 0x000f000fu);
+    m = (octant & 2) != 0 ? y : m;
+    uvec2 z = (m.yx << 16) | (m.yx >> 16);
+    return (octant & 4) != 0 ? z : m;
+}
+
 void main() {
     uint index = linearIndex();
     bool used = index < grid.occupiedBricks;
@@ -36,8 +48,10 @@ void main() {
         uvec2 facing = ((octant & 1) != 0 ? mask[0] : mask[1]) | ((octant & 2) != 0 ? mask[2] : mask[3]) |
                        ((octant & 4) != 0 ? mask[4] : mask[5]);
         bool some = (facing.x | facing.y) != 0u;
+        facing = mirrored(facing, octant);
         if (facing.y == OCTANT_EMPTY) facing.y |= OCTANT_EMPTY_SPARE;
-        if (some)
-            imageStore(octants, ivec3(brick.x + octant * int(grid.bricksX), brick.yz), uvec4(facing, 0u, 0u));
+        bvec3 down = notEqual(ivec3(octant) & ivec3(1, 2, 4), ivec3(0));
+        ivec3 at = mix(brick, gridBricks() - 1 - brick, down);
+        if (some) imageStore(octants, ivec3(at.x + octant * int(grid.bricksX), at.yz), uvec4(facing, 0u, 0u));
     }
 }

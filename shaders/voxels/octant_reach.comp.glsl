@@ -15,11 +15,10 @@ void main() {
     if (any(greaterThanEqual(at, ivec3(8 * bricks.x, bricks.yz)))) return;
     int octant = at.x / bricks.x;
     ivec3 brick = ivec3(at.x - octant * bricks.x, at.yz);
-    ivec3 ahead = (1 - 2 * (ivec3(octant, octant >> 1, octant >> 2) & 1)) * (REACH / 2);
     uint least = REACH / 2;
     for (int corner = 0; corner < 8; ++corner) {
-        ivec3 other = brick + ahead * (ivec3(corner, corner >> 1, corner >> 2) & 1);
-        bool inside = all(greaterThanEqual(other, ivec3(0))) && all(lessThan(other, bricks));
+        ivec3 other = brick + REACH / 2 * (ivec3(corner, corner >> 1, corner >> 2) & 1);
+        bool inside = all(lessThan(other, bricks));
         uvec2 word = imageLoad(octants, ivec3((inside ? other.x : brick.x) + octant * bricks.x,
                                               inside ? other.yz : brick.yz))
                          .xy;

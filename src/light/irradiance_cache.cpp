@@ -28,6 +28,9 @@ constexpr std::uint32_t kMostExactLights = 4;
 constexpr int kUsualWindow = 32;
 
 gl::ProgramDesc updateDesc(gl::Defines hitLights, bool findsBacks) {
+    // One texel per light: what a face keeps is a mean of many rays.
+    for (auto& [key, value] : hitLights)
+        if (key == "SHADOW_FILTER") value = "-1";
     hitLights.emplace_back("FIND_BACKS", findsBacks ? "1" : "0");
     return {{"light/cache_update.comp.glsl"}, std::move(hitLights)};
 }

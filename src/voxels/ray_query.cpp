@@ -20,7 +20,6 @@ constexpr double kStart = 1e-3;
 constexpr double kBoundsSlack = 0.1;
 constexpr double kBoundsShrink = 0.02;
 constexpr double kTie = 0.5;
-constexpr double kBackNear = 1.5;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -30,20 +29,18 @@ struct Search {
 };
 
 void testFaces(const VoxelTables& voxels, const glm::ivec3& voxel, const glm::dvec3& origin,
-               const glm::dvec3& direction, double tMax, bool findsBacks, Search& s) {
+               const glm::dvec3& direction, double tMax, Search& s) {
     const std::uint32_t record = voxels.record(voxel);
     std::uint32_t face = record & 0x3ffffffu;
-    double back = tMax;
     for (int k = 0; k < 6; ++k) {
         if ((record >> (26 + k) & 1u) == 0) continue;
         const std::uint32_t index = face++;
         // Components of zero count as positive, as in the shader.
-        const bool facing = (direction[k / 2] >= 0) == (k % 2 == 1);
-        if (!facing && !findsBacks) continue;
+        if ((direction[k / 2] >= 0) != (k % 2 == 1)) continue;
         const gpu::FaceRecord& r = voxels.faces[index];
         const glm::dvec3 n(math::octDecode(math::unpackSnorm2x16(r.normal)));
         const double towards = glm::dot(n, direction);
-        if (std::abs(towards) <= kFacing) continue;
+        if (towards >= -kFacing) continue;
         const glm::dvec3 toCenter = glm::dvec3(voxel) + 0.5 - origin;
         const double t =
             (static_cast<double>(unpackOffset(r.offsetWeight)) + glm::dot(n, toCenter)) / towards;
@@ -55,11 +52,7 @@ void testFaces(const VoxelTables& voxels, const glm::ivec3& voxel, const glm::dv
         if (t >= tMax || glm::any(glm::lessThan(at, glm::dvec3(lower) - slack)) ||
             glm::any(glm::greaterThan(at, glm::dvec3(upper) + slack)))
             continue;
-        if (!facing) {
-            if (towards > 0 && t > kBackNear) back = std::min(back, t);
-            continue;
-        }
-        if (towards > 0 || t <= kStart) continue;
+        if (t <= kStart) continue;
         const auto weight = static_cast<double>(unpackWeight(r.offsetWeight));
         if (s.hit.face < 0 || t < s.hit.t - kTie || (t <= s.hit.t + kTie && weight > s.weight)) {
             s.hit.face = static_cast<int>(index);
@@ -67,7 +60,6 @@ void testFaces(const VoxelTables& voxels, const glm::ivec3& voxel, const glm::dv
             s.weight = weight;
         }
     }
-    if (back < s.hit.t) s.hit = {-1, back, true};
 }
 
 }  // namespace
@@ -98,7 +90,7 @@ VoxelTables downloadVoxels(const SurfaceVoxels& surface) {
 }
 
 VoxelHit traceVoxels(const VoxelTables& voxels, const glm::dvec3& origin, const glm::dvec3& direction,
-                     double tMax, bool findsBacks) {
+                     double tMax) {
     Search search;
     search.hit.t = tMax;
     const glm::dvec3 size(voxels.grid.size);
@@ -125,8 +117,8 @@ VoxelHit traceVoxels(const VoxelTables& voxels, const glm::dvec3& origin, const 
     }
     while (true) {
         if (voxels.has(cell)) {
-            testFaces(voxels, cell, origin, direction, tMax, findsBacks, search);
-            if (search.hit.face >= 0 || search.hit.backFirst) return search.hit;
+            testFaces(voxels, cell, origin, direction, tMax, search);
+            if (search.hit.face >= 0) return search.hit;
         }
         const int axis = next.x <= next.y && next.x <= next.z ? 0 : (next.y <= next.z ? 1 : 2);
         if (next[axis] >= leave) return search.hit;

@@ -33,11 +33,10 @@ VoxelTables downloadVoxels(const SurfaceVoxels& surface);  // waits for the GPU
 struct VoxelHit {
     int face = -1;  // -1: nothing was met
     double t = 0;   // in voxels; tMax when nothing was met
-    bool backFirst = false;
 };
 
-// `direction` is a unit vector. findsBacks: as RAY_BACK_FACES.
+// `direction` is a unit vector.
 VoxelHit traceVoxels(const VoxelTables& voxels, const glm::dvec3& origin, const glm::dvec3& direction,
-                     double tMax, bool findsBacks = false);
+                     double tMax);
 
 }  // namespace conelight::voxels

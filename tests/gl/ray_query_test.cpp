@@ -49,7 +49,7 @@ class RayQueryTest : public GlTest {
         tables_ = voxels::downloadVoxels(surface_);
     }
 
-    std::vector<glm::vec4> traced(const std::vector<TestRay>& rays, bool backs) {
+    std::vector<glm::vec4> traced(const std::vector<TestRay>& rays) {
         addShader("test/rays.comp.glsl", R"(#version 450 core
 layout(local_size_x = 64) in;
 #include "lib/linear_index.glsl"
@@ -59,16 +59,14 @@ void main() {
     uint i = 2u * linearIndex();
     if (i >= uint(data.length())) return;
     VoxelHit hit = traceVoxels(data[i].xyz, data[i + 1u].xyz, data[i].w);
-    data[i] = vec4(intBitsToFloat(hit.face), hit.t, hit.backFirst ? 1.0 : 0.0, 0.0);
+    data[i] = vec4(intBitsToFloat(hit.face), hit.t, 0.0, 0.0);
 }
 )");
         gl::Buffer buffer(rays, "rays");
         surface_.bind();
         octants_.bind();
         buffer.bindStorage(BINDING_STORAGE_PASS);
-        programs()
-            .compute("test/rays.comp.glsl", {{"RAY_BACK_FACES", backs ? "1" : "0"}})
-            .dispatchLinear(rays.size());
+        programs().compute("test/rays.comp.glsl").dispatchLinear(rays.size());
         gl::barrier(gl::Access::ShaderStorage);
         return buffer.read<glm::vec4>(2 * rays.size());
     }
@@ -133,29 +131,25 @@ void main() {
     static glm::vec3 faceNormal(const gpu::FaceRecord& face);
     static float unpackedOffset(const gpu::FaceRecord& face);
 
-    void expectEqualHits(const Scene& scene, int size, bool backs) {
+    void expectEqualHits(const Scene& scene, int size) {
         voxelize(scene, size);
         const std::vector<TestRay> rays = mixedRays(60000);
-        const std::vector<glm::vec4> found = traced(rays, backs);
-        std::size_t differ = 0, hits = 0, fromBehind = 0;
+        const std::vector<glm::vec4> found = traced(rays);
+        std::size_t differ = 0, hits = 0;
         double furthest = 0;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const voxels::VoxelHit hit =
                 voxels::traceVoxels(tables_, glm::dvec3(rays[i].origin), glm::dvec3(rays[i].direction),
-                                    static_cast<double>(rays[i].origin.w), backs);
+                                    static_cast<double>(rays[i].origin.w));
             const int face = std::bit_cast<int>(found[2 * i].x);
             hits += hit.face >= 0 ? 1 : 0;
-            fromBehind += hit.backFirst ? 1 : 0;
-            const bool same = face == hit.face && (found[2 * i].z != 0) == hit.backFirst;
+            const bool same = face == hit.face;
             differ += same ? 0 : 1;
-            if (same && (face >= 0 || hit.backFirst))
+            if (same && face >= 0)
                 furthest =
                     std::max(furthest, std::abs(static_cast<double>(found[2 * i].y) - hit.t) / (1 + hit.t));
         }
         EXPECT_GT(hits, rays.size() / 10);
-        if (backs) {
-            EXPECT_GT(fromBehind, 0u);
-        }
         // A crossing within rounding of a face's bounds goes either way: 1 in 10,000 of these rays.
         EXPECT_LE(differ, rays.size() / 10000) << "of " << rays.size();
         // Grazing: t = height / sine, the sine as small as 1e-3.
@@ -175,15 +169,11 @@ float RayQueryTest::unpackedOffset(const gpu::FaceRecord& face) {
     return voxels::unpackOffset(face.offsetWeight);
 }
 
-TEST_F(RayQueryTest, SameFacesAsTwinCornell) { expectEqualHits(io::loadScene("builtin:cornell"), 64, false); }
-TEST_F(RayQueryTest, SameFacesAsTwinCurved) { expectEqualHits(io::loadScene("builtin:spheres"), 128, false); }
-TEST_F(RayQueryTest, SameFacesAsTwinTextured) { expectEqualHits(io::loadScene("builtin:atrium"), 96, false); }
-TEST_F(RayQueryTest, SameFacesAsTwinThinWalls) { expectEqualHits(thinWalls(0), 64, false); }
-TEST_F(RayQueryTest, SameFacesAsTwinThinWallsTurned) { expectEqualHits(thinWalls(0.35f), 128, false); }
-TEST_F(RayQueryTest, SameFacesAsTwinWithBacks) {
-    expectEqualHits(io::loadScene("builtin:spheres"), 64, true);
-    expectEqualHits(thinWalls(0.35f), 64, true);
-}
+TEST_F(RayQueryTest, SameFacesAsTwinCornell) { expectEqualHits(io::loadScene("builtin:cornell"), 64); }
+TEST_F(RayQueryTest, SameFacesAsTwinCurved) { expectEqualHits(io::loadScene("builtin:spheres"), 128); }
+TEST_F(RayQueryTest, SameFacesAsTwinTextured) { expectEqualHits(io::loadScene("builtin:atrium"), 96); }
+TEST_F(RayQueryTest, SameFacesAsTwinThinWalls) { expectEqualHits(thinWalls(0), 64); }
+TEST_F(RayQueryTest, SameFacesAsTwinThinWallsTurned) { expectEqualHits(thinWalls(0.35f), 128); }
 
 // A floor in a grid of 512 voxels, almost all of it empty: steps are long and many.
 TEST_F(RayQueryTest, SameFacesAsTwinInALargeEmptySpace) {
@@ -193,7 +183,7 @@ TEST_F(RayQueryTest, SameFacesAsTwinInALargeEmptySpace) {
     for (float z = -90; z < 100; z += 20)
         addInstance(scene, quadMesh({-100, 1, z}, {200, 0, 0}, {0, 5, 0}), white);
     addInstance(scene, quadMesh({-1, 90, 1}, {2, 0, 0}, {0, 0.5f, -2}), white);
-    expectEqualHits(scene, 256, false);
+    expectEqualHits(scene, 256);
 }
 
 // Every voxel that looks against an octant is in its mask, no other; the reach ends before all of them, and
@@ -203,8 +193,15 @@ TEST_F(RayQueryTest, OctantWordsSayWhatIsThere) {
     const glm::ivec3 bricks = tables_.grid.bricks();
     std::vector<glm::uvec2> words(8 * tables_.grid.brickCount());
     octants_.texture().read(0, GL_RG_INTEGER, GL_UNSIGNED_INT, words.data(), 8 * words.size());
+    // Words count bricks and voxels from the other end along axes that the octant's rays go down.
+    const auto mirrored = [](int octant, glm::ivec3 at, const glm::ivec3& size) {
+        for (int axis = 0; axis < 3; ++axis)
+            if ((octant >> axis & 1) != 0) at[axis] = size[axis] - 1 - at[axis];
+        return at;
+    };
     // Mask and, in z, reach.
-    const auto word = [&](int octant, const glm::ivec3& b) {
+    const auto word = [&](int octant, const glm::ivec3& brick) {
+        const glm::ivec3 b = mirrored(octant, brick, bricks);
         const glm::uvec2 w =
             words[static_cast<std::size_t>(b.x + octant * bricks.x + 8 * bricks.x * (b.y + bricks.y * b.z))];
         return w.y == OCTANT_EMPTY ? glm::uvec3(0, 0, w.x) : glm::uvec3(w, 0);
@@ -235,7 +232,9 @@ TEST_F(RayQueryTest, OctantWordsSayWhatIsThere) {
                             for (int axis = 0; axis < 3; ++axis)
                                 facing |= directions >> (2 * axis + (ahead[axis] > 0 ? 1 : 0)) & 1u;
                         }
-                        wrongMasks += ((bit < 32 ? w.x : w.y) >> (bit % 32) & 1u) != facing ? 1 : 0;
+                        const std::uint32_t at =
+                            voxels::bitOfVoxel(mirrored(octant, voxel % 4, glm::ivec3(4)));
+                        wrongMasks += ((at < 32 ? w.x : w.y) >> (at % 32) & 1u) != facing ? 1 : 0;
                     }
                     int reach = (w.x | w.y) == 0 ? 1 : 0;
                     while (reach != 0 && reach < OCTANT_REACH && isEmpty({x, y, z}, 2 * reach)) reach *= 2;
