@@ -44,6 +44,13 @@ const float kRayBoundsSlack = 0.1;  // a face's bounds are grown by this, voxels
 // whose bounds hold the ray's start, or the other side of an edge, whose bounds (rounded outwards by 1/31)
 // end below it.
 const float kRayBoundsShrink = 0.02;
+// A two-sided surface has faces on both sides. Of the surface that a ray leaves the other side does not hide
+// it, where plane pieces are not quite where the surface is: neither what is turned from the start by more
+// than this cosine and nearer to it than this, in voxels, ...
+const float kRayOtherSide = -0.1;
+const float kRayOtherNear = 0.5;
+// ... nor, met by rays from elsewhere, the insides of solids next to an edge: bounds of reverses that end
+// within the voxel are shrunk, too.
 const float kRayBackNear = 1.5;  // backs nearer than this are the ray's own surface
 const float kRayTie = 0.5;       // crossings nearer together than this: the face that covers more
 // Stay clear of the grid's far side, so that rounding cannot step out of it.
@@ -67,8 +74,8 @@ vec3 rayInverse(vec3 direction) {
 // Tests the faces of a voxel that face the ray. Nearest crossing wins, among equals the largest coverage.
 // With RAY_BACK_FACES also the others: one that is crossed from behind, beyond kRayBackNear and before all
 // else, ends the ray. A back behind a front in the same voxel does not: thin walls have both there.
-void testVoxelFaces(ivec3 voxel, vec3 origin, vec3 direction, uint facing, float tMax, inout VoxelHit hit,
-                    inout float weight, inout float tBack) {
+void testVoxelFaces(ivec3 voxel, vec3 origin, vec3 direction, vec3 leaves, uint facing, float tMax,
+                    inout VoxelHit hit, inout float weight, inout float tBack) {
     uvec4 word = texelFetch(voxelBricks, voxel >> 2, 0);
     uint record = texelFetch(voxelRecords, int(voxelRecordIndex(word, bitOfVoxel(voxel)))).x;
     // A spare bit of octWord names a voxel that may have none.
@@ -88,13 +95,19 @@ void testVoxelFaces(ivec3 voxel, vec3 origin, vec3 direction, uint facing, float
         uvec4 r = texelFetch(voxelFaces, 2 * (left != 0u ? face : 0));
         vec3 n = octDecode(unpackSnorm2x16(r.x));
         float towards = dot(n, direction);
-        float t =
-            (unpackOffset(r.y) + dot(n, toCenter)) / (abs(towards) > kRayFacing ? towards : -kRayFacing);
+        float ahead = unpackOffset(r.y) + dot(n, toCenter);
+        float t = ahead / (abs(towards) > kRayFacing ? towards : -kRayFacing);
         vec3 at = t * direction - toCenter + 0.5;
-        vec3 slack = t > kRayNear ? vec3(kRayBoundsSlack)
-                                  : (kRayBoundsSlack + kRayBoundsShrink) * n * n - kRayBoundsShrink;
-        bool inside = left != 0u && t < tMax && all(greaterThanEqual(at, unpackBoundsMin(r.z) - slack)) &&
-                      all(lessThanEqual(at, unpackBoundsMax(r.z) + slack));
+        vec3 shrunk = (kRayBoundsSlack + kRayBoundsShrink) * n * n - kRayBoundsShrink;
+        vec3 slack = t > kRayNear ? vec3(kRayBoundsSlack) : shrunk;
+        vec3 lower = unpackBoundsMin(r.z);
+        vec3 upper = unpackBoundsMax(r.z);
+        bool reverse = (r.z & FACE_REVERSE) != 0u;
+        vec3 below = reverse ? mix(slack, shrunk, greaterThan(lower, vec3(0.0))) : slack;
+        vec3 above = reverse ? mix(slack, shrunk, lessThan(upper, vec3(1.0))) : slack;
+        bool own = (r.z & FACE_TWO_SIDED) != 0u && dot(n, leaves) < kRayOtherSide && ahead > -kRayOtherNear;
+        bool inside = left != 0u && !own && t < tMax && all(greaterThanEqual(at, lower - below)) &&
+                      all(lessThanEqual(at, upper + above));
         float w = unpackWeight(r.y);
         bool nearer = hit.face < 0 || t < hit.t - kRayTie || (t <= hit.t + kRayTie && w > weight);
         bool better = inside && towards < -kRayFacing && t > kRayStart && nearer;
@@ -110,7 +123,8 @@ void testVoxelFaces(ivec3 voxel, vec3 origin, vec3 direction, uint facing, float
     } while (left != 0u);
 }
 
-VoxelHit traceVoxels(vec3 origin, vec3 direction, float tMax) {
+// `leaves`: normal of the surface that the ray starts from, or 0.
+VoxelHit traceVoxels(vec3 origin, vec3 direction, float tMax, vec3 leaves) {
     ivec3 bricks = gridBricks();
     vec3 size = vec3(gridSize());
     vec3 inverse = rayInverse(direction);
@@ -175,12 +189,12 @@ VoxelHit traceVoxels(vec3 origin, vec3 direction, float tMax) {
             cell = clamp(mix(there, border - 1 + pos, lessThanEqual(exits, vec3(t))), ivec3(0), last);
         } while (!candidate && t < tEnd);
         uint tested = candidate && alive ? facing : 0u;
-        testVoxelFaces(at, origin, direction, tested, tMax, hit, weight, tBack);
+        testVoxelFaces(at, origin, direction, leaves, tested, tMax, hit, weight, tBack);
     } while (hit.face < 0 && tBack == tMax && t < tEnd);
     if (tBack < hit.t) hit = VoxelHit(-1, tBack, true);
     return hit;
 }
 
 bool voxelsOcclude(vec3 origin, vec3 direction, float tMax) {
-    return traceVoxels(origin, direction, tMax).face >= 0;
+    return traceVoxels(origin, direction, tMax, vec3(0.0)).face >= 0;
 }

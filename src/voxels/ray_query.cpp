@@ -20,6 +20,8 @@ constexpr double kStart = 1e-3;
 constexpr double kBoundsSlack = 0.1;
 constexpr double kBoundsShrink = 0.02;
 constexpr double kTie = 0.5;
+constexpr double kOtherSide = -0.1;
+constexpr double kOtherNear = 0.5;
 constexpr double kBackNear = 1.5;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -30,7 +32,8 @@ struct Search {
 };
 
 void testFaces(const VoxelTables& voxels, const glm::ivec3& voxel, const glm::dvec3& origin,
-               const glm::dvec3& direction, double tMax, bool findsBacks, Search& s) {
+               const glm::dvec3& direction, double tMax, const glm::dvec3& leaves, bool findsBacks,
+               Search& s) {
     const std::uint32_t record = voxels.record(voxel);
     std::uint32_t face = record & 0x3ffffffu;
     double back = tMax;
@@ -45,16 +48,24 @@ void testFaces(const VoxelTables& voxels, const glm::ivec3& voxel, const glm::dv
         const double towards = glm::dot(n, direction);
         if (std::abs(towards) <= kFacing) continue;
         const glm::dvec3 toCenter = glm::dvec3(voxel) + 0.5 - origin;
-        const double t =
-            (static_cast<double>(unpackOffset(r.offsetWeight)) + glm::dot(n, toCenter)) / towards;
+        const double ahead = static_cast<double>(unpackOffset(r.offsetWeight)) + glm::dot(n, toCenter);
+        const double t = ahead / towards;
+        if ((r.bounds & FACE_TWO_SIDED) != 0 && glm::dot(n, leaves) < kOtherSide && ahead > -kOtherNear)
+            continue;
         glm::vec3 lower, upper;
         unpackBounds(r.bounds, lower, upper);
         const glm::dvec3 at = t * direction - toCenter + 0.5;
-        const glm::dvec3 slack =
-            t > kNear ? glm::dvec3(kBoundsSlack) : (kBoundsSlack + kBoundsShrink) * n * n - kBoundsShrink;
-        if (t >= tMax || glm::any(glm::lessThan(at, glm::dvec3(lower) - slack)) ||
-            glm::any(glm::greaterThan(at, glm::dvec3(upper) + slack)))
-            continue;
+        const glm::dvec3 shrunk = (kBoundsSlack + kBoundsShrink) * n * n - kBoundsShrink;
+        const glm::dvec3 slack = t > kNear ? glm::dvec3(kBoundsSlack) : shrunk;
+        const bool reverse = (r.bounds & FACE_REVERSE) != 0;
+        bool inside = t < tMax;
+        for (int i = 0; i < 3; ++i) {
+            const double below = reverse && lower[i] > 0 ? shrunk[i] : slack[i];
+            const double above = reverse && upper[i] < 1 ? shrunk[i] : slack[i];
+            inside = inside && at[i] >= static_cast<double>(lower[i]) - below &&
+                     at[i] <= static_cast<double>(upper[i]) + above;
+        }
+        if (!inside) continue;
         if (!facing) {
             if (towards > 0 && t > kBackNear) back = std::min(back, t);
             continue;
@@ -98,7 +109,7 @@ VoxelTables downloadVoxels(const SurfaceVoxels& surface) {
 }
 
 VoxelHit traceVoxels(const VoxelTables& voxels, const glm::dvec3& origin, const glm::dvec3& direction,
-                     double tMax, bool findsBacks) {
+                     double tMax, const glm::dvec3& leaves, bool findsBacks) {
     Search search;
     search.hit.t = tMax;
     const glm::dvec3 size(voxels.grid.size);
@@ -125,7 +136,7 @@ VoxelHit traceVoxels(const VoxelTables& voxels, const glm::dvec3& origin, const 
     }
     while (true) {
         if (voxels.has(cell)) {
-            testFaces(voxels, cell, origin, direction, tMax, findsBacks, search);
+            testFaces(voxels, cell, origin, direction, tMax, leaves, findsBacks, search);
             if (search.hit.face >= 0 || search.hit.backFirst) return search.hit;
         }
         const int axis = next.x <= next.y && next.x <= next.z ? 0 : (next.y <= next.z ? 1 : 2);

@@ -36,8 +36,9 @@ struct VoxelHit {
     bool backFirst = false;
 };
 
-// `direction` is a unit vector. findsBacks: as RAY_BACK_FACES.
+// `direction` is a unit vector. `leaves`: normal of the surface that the ray starts from, or 0. findsBacks:
+// as RAY_BACK_FACES.
 VoxelHit traceVoxels(const VoxelTables& voxels, const glm::dvec3& origin, const glm::dvec3& direction,
-                     double tMax, bool findsBacks = false);
+                     double tMax, const glm::dvec3& leaves = glm::dvec3(0), bool findsBacks = false);
 
 }  // namespace conelight::voxels
