@@ -14,13 +14,13 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba32ui, binding = 0) writeonly uniform uimage2D result;
 
 #if OCCLUSION
-float openness(vec3 origin, vec3 normal, uint seed) {
+float openness(vec3 origin, vec3 normal, vec3 leaves, uint seed) {
     float sum = 0.0;
     int i = 0;
     do {
         vec3 direction =
             cosineDirection(normal, sequencePoint(seed, pixelRays.pass * pixelRays.rays + uint(i)));
-        VoxelHit hit = traceVoxels(origin, direction, pixelRays.reach);
+        VoxelHit hit = traceVoxels(origin, direction, pixelRays.reach, leaves);
         float open = hit.face >= 0 ? hit.t / pixelRays.reach : 1.0;
         sum += open;
         RECORD_RAY(PATH_OCCLUSION_RAY, origin, direction, hit, 1.0 - open, vec3(1.0 / float(pixelRays.rays)),
@@ -41,7 +41,7 @@ void main() {
     vec3 origin = matt ? seenRayOrigin(gridFromWorld(s.position), s.geometricNormal, s.toEye) : 16.0 * away;
     uint seed = randomHash(uint(pixel.x) | uint(pixel.y) << 16);
 #if OCCLUSION
-    vec3 value = vec3(openness(origin, normal, seed));
+    vec3 value = vec3(openness(origin, normal, s.geometricNormal, seed));
 #else
     float backs;
     vec3 value = gatherIrradianceSequence(

@@ -31,8 +31,8 @@ void main() {
         bool counts = glossy && weight.r + weight.g + weight.b > 0.0;
         VoxelHit hit;
         vec3 radiance =
-            rayRadiance(origin, direction, counts ? 1e9 : -1.0, -1.0, counts ? int(pixelRays.reflections) : 0,
-                        pixelRays.reflectedLimit, random, hit);
+            rayRadiance(origin, s.geometricNormal, direction, counts ? 1e9 : -1.0, -1.0,
+                        counts ? int(pixelRays.reflections) : 0, pixelRays.reflectedLimit, random, hit);
         sum += weight * radiance;
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);
         if (glossy)

@@ -198,7 +198,7 @@ void main() {
     distance = end;
 #elif SHAPE == FACES
     vec3 origin = gridFromWorld(frame.eye);
-    VoxelHit hit = traceVoxels(origin, ray, end / view.voxelSize);
+    VoxelHit hit = traceVoxels(origin, ray, end / view.voxelSize, vec3(0.0));
     distance = hit.t * view.voxelSize;
     vec4 result = vec4(0.0);
     if (hit.face >= 0)

@@ -13,6 +13,9 @@
 
 // Squares of components below this are left out: 3 % of the normal's length.
 const float kLeastAxis = 1e-3;
+// The inside of a solid lies next to its outside. Of a cloth that is seen from its other side nothing else is
+// there, so that a small weight does as well as a large one.
+const float kReverseWeight = 1.0 / 64.0;
 
 // rgb irradiance / pi; a: sum of weights, 0 where no face was found. Which of the eight voxels are there is
 // asked first, then only those are visited, and of their faces those that count: on a wall four of eight
@@ -54,7 +57,8 @@ vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted) {
             uvec4 light = texelFetch(voxelFaces, 2 * face + 1);
             bool lit = (light.w & (FACE_LIT | FACE_DEAD)) == FACE_LIT;
             float share = lowest < 4u ? square.x : (lowest < 16u ? square.y : square.z);
-            float coverage = unpackWeight(texelFetch(voxelFaces, 2 * face).y);
+            uvec4 plane = texelFetch(voxelFaces, 2 * face);
+            float coverage = unpackWeight(plane.y) * ((plane.z & FACE_REVERSE) != 0u ? kReverseWeight : 1.0);
             float weight = left != 0u && lit ? t.x * t.y * t.z * share * coverage : 0.0;
             sum += weight * vec4(unpackHalf2x16(light.z), unpackHalf2x16(light.w).x, 1.0);
             RECORD_CACHE_FACE(point, face, weight, vec3(unpackHalf2x16(light.z), unpackHalf2x16(light.w).x));

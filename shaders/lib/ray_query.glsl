@@ -36,11 +36,17 @@ struct VoxelHit {
 const float kRayFacing = 1e-3;
 const float kRayNear = 0.05;        // a ray starts this far in front of its surface, voxels
 const float kRayStart = 1e-3;       // nearest crossing that counts, voxels
-const float kRayBoundsSlack = 0.1;  // a face's bounds are grown by this, voxels
-// But shrunk by this for crossings before kRayNear, along the surface: there lies the other wall of a corner,
-// whose bounds hold the ray's start, or the other side of an edge, whose bounds (rounded outwards by 1/31)
-// end below it.
+const float kRayBoundsSlack = 0.1;  // bounds that reach the voxel's side are grown by this, voxels
+// Where they end within the voxel, they are shrunk by this along the surface, about as much as they are
+// rounded outwards (up to 1/31), or all that is small would be too large. So are all for crossings before
+// kRayNear: there lies the other wall of a corner, whose bounds hold the ray's start, or the other side of
+// an edge, whose bounds end below it.
 const float kRayBoundsShrink = 0.02;
+// A two-sided surface has faces on both sides. Of the surface that a ray leaves the other side does not hide
+// it, where plane pieces are not quite where the surface is: what is turned from the start by more than this
+// cosine and nearer to it than this, in voxels.
+const float kRayOtherSide = -0.1;
+const float kRayOtherNear = 0.5;
 const float kRayBackNear = 1.5;  // backs nearer than this are the ray's own surface
 const float kRayTie = 0.5;       // crossings nearer together than this: the face that covers more
 // Stay clear of the grid's far side, so that rounding cannot step out of it.
@@ -62,8 +68,8 @@ vec3 rayInverse(vec3 direction) {
 }
 
 // Tests the faces of a voxel that face the ray. Nearest crossing wins, among equals the largest coverage.
-void testVoxelFaces(ivec3 voxel, vec3 origin, vec3 direction, uint facing, float tMax, inout VoxelHit hit,
-                    inout float weight) {
+void testVoxelFaces(ivec3 voxel, vec3 origin, vec3 direction, vec3 leaves, uint facing, float tMax,
+                    inout VoxelHit hit, inout float weight) {
     uvec4 word = imageLoad(voxelBrickImage, voxel >> 2);
     uint record = texelFetch(voxelRecords, int(voxelRecordIndex(word, bitOfVoxel(voxel)))).x;
     // A spare bit of octWord names a voxel that may have none.
@@ -79,12 +85,18 @@ void testVoxelFaces(ivec3 voxel, vec3 origin, vec3 direction, uint facing, float
         uvec4 r = texelFetch(voxelFaces, 2 * (left != 0u ? face : 0));
         vec3 n = octDecode(unpackSnorm2x16(r.x));
         float towards = dot(n, direction);
-        float t = (unpackOffset(r.y) + dot(n, toCenter)) / min(towards, -kRayFacing);
+        float ahead = unpackOffset(r.y) + dot(n, toCenter);
+        float t = ahead / min(towards, -kRayFacing);
         vec3 at = t * direction - toCenter + 0.5;
-        vec3 slack = t > kRayNear ? vec3(kRayBoundsSlack)
-                                  : (kRayBoundsSlack + kRayBoundsShrink) * n * n - kRayBoundsShrink;
-        bool inside = left != 0u && t < tMax && all(greaterThanEqual(at, unpackBoundsMin(r.z) - slack)) &&
-                      all(lessThanEqual(at, unpackBoundsMax(r.z) + slack));
+        vec3 shrunk = (kRayBoundsSlack + kRayBoundsShrink) * n * n - kRayBoundsShrink;
+        vec3 slack = t > kRayNear ? vec3(kRayBoundsSlack) : shrunk;
+        vec3 lower = unpackBoundsMin(r.z);
+        vec3 upper = unpackBoundsMax(r.z);
+        vec3 below = mix(slack, shrunk, greaterThan(lower, vec3(0.0)));
+        vec3 above = mix(slack, shrunk, lessThan(upper, vec3(1.0)));
+        bool own = (r.z & FACE_TWO_SIDED) != 0u && dot(n, leaves) < kRayOtherSide && ahead > -kRayOtherNear;
+        bool inside = left != 0u && !own && t < tMax && all(greaterThanEqual(at, lower - below)) &&
+                      all(lessThanEqual(at, upper + above));
         float w = unpackWeight(r.y);
         bool nearer = hit.face < 0 || t < hit.t - kRayTie || (t <= hit.t + kRayTie && w > weight);
         bool better = inside && towards < -kRayFacing && t > kRayStart && nearer;
@@ -95,7 +107,8 @@ void testVoxelFaces(ivec3 voxel, vec3 origin, vec3 direction, uint facing, float
     } while (left != 0u);
 }
 
-VoxelHit traceVoxels(vec3 origin, vec3 direction, float tMax) {
+// `leaves`: normal of the surface that the ray starts from, or 0.
+VoxelHit traceVoxels(vec3 origin, vec3 direction, float tMax, vec3 leaves) {
     vec3 size = vec3(gridSize());
     ivec3 last = gridSize() - 1;
     bvec3 down = lessThan(direction, vec3(0.0));
@@ -149,11 +162,11 @@ VoxelHit traceVoxels(vec3 origin, vec3 direction, float tMax) {
             cell = mix(there, border, lessThanEqual(exits, vec3(t)));
         } while (!candidate && t < tEnd);
         uint tested = candidate && alive ? facing : 0u;
-        testVoxelFaces(mix(at, last - at, down), origin, direction, tested, tMax, hit, weight);
+        testVoxelFaces(mix(at, last - at, down), origin, direction, leaves, tested, tMax, hit, weight);
     } while (hit.face < 0 && t < tEnd);
     return hit;
 }
 
 bool voxelsOcclude(vec3 origin, vec3 direction, float tMax) {
-    return traceVoxels(origin, direction, tMax).face >= 0;
+    return traceVoxels(origin, direction, tMax, vec3(0.0)).face >= 0;
 }

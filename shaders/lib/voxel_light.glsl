@@ -108,6 +108,7 @@ struct LobeStep {
     vec3 radiance;
     vec3 weight;
     vec3 origin;
+    vec3 leaves;
     vec3 direction;
 };
 
@@ -117,6 +118,7 @@ LobeStep reflectRay(int face, FaceShade s, vec2 lobe, vec3 matt, vec3 point, vec
     LobeStep next;
     next.direction = lobeDirection(b, normal, -direction, xi, next.weight);
     next.origin = rayOrigin(point, normal);
+    next.leaves = normal;
     // The record reflects by all of its colour; its matt part is only this much of it.
     float share = dot(b.diffuse, vec3(1.0)) / max(dot(s.albedo, vec3(1.0)), 1e-4);
     vec3 emission = unpackEmission(texelFetch(faceSources, face).xy);
@@ -142,9 +144,9 @@ LobeStep reflectRay(int face, FaceShade s, vec2 lobe, vec3 matt, vec3 point, vec
 // comes by reflections is not brighter than `limit` times what the metal would show if matt: a lamp met by
 // one ray of few is a speckle. The limit grows with the number of rays, so that the mean tends to what is
 // there. `aim`: a ray that is over where its first hit is not at this distance; negative: none.
-vec3 rayRadiance(vec3 origin, vec3 direction, float reach, float aim, int reflections, float limit,
-                 inout uint random, out VoxelHit first) {
-    first = traceVoxels(origin, direction, reach);
+vec3 rayRadiance(vec3 origin, vec3 leaves, vec3 direction, float reach, float aim, int reflections,
+                 float limit, inout uint random, out VoxelHit first) {
+    first = traceVoxels(origin, direction, reach, leaves);
 #if !LOBES
     return hitRadiance(first, origin, direction);
 #else
@@ -177,7 +179,7 @@ vec3 rayRadiance(vec3 origin, vec3 direction, float reach, float aim, int reflec
         if (going) {
             origin = next.origin;
             direction = next.direction;
-            hit = traceVoxels(origin, direction, 1e9);
+            hit = traceVoxels(origin, direction, 1e9, next.leaves);
         }
         ++count;
     } while (going);
@@ -231,7 +233,9 @@ bool metBackBefore(VoxelHit hit, vec3 origin, vec3 direction) {
     vec3 leave = (mix(vec3(0.0), vec3(gridSize()), greaterThanEqual(direction, vec3(0.0))) - origin) *
                  rayInverse(direction);
     float end = min(hit.t, min(min(leave.x, leave.y), leave.z) - kRayEnd);
-    return traceVoxels(origin + end * direction, -direction, end - kRayBackNear).face >= 0;
+    // Of what was met, the other side is not on the way.
+    vec3 met = hit.face >= 0 ? faceNormalOf(hit.face) : vec3(0.0);
+    return traceVoxels(origin + end * direction, -direction, end - kRayBackNear, met).face >= 0;
 }
 #endif
 
@@ -266,8 +270,8 @@ vec3 gatherIrradianceSequence(vec3 originGrid, vec3 geometricNormal, vec3 shadin
         // Bright face: its pool entry and record. Hit: both halves of its record, steady light if asked for.
         COUNT_LOOKUP(toLight ? 2 : 0);
         VoxelHit hit;
-        vec3 radiance = rayRadiance(originGrid, direction, above ? reach : -1.0, toLight ? distance : -1.0,
-                                    reflections, limit, state, hit);
+        vec3 radiance = rayRadiance(originGrid, geometricNormal, direction, above ? reach : -1.0,
+                                    toLight ? distance : -1.0, reflections, limit, state, hit);
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);
 #if FIND_BACKS
         VoxelHit met = hit;

@@ -60,6 +60,10 @@
 #define FACE_LIT 0x40000000u           // irradiance was gathered at least once
 #define FACE_DEAD 0x80000000u          // inside a closed object: left out
 
+// In FaceRecord::bounds, above them: what most of the face is made of.
+#define FACE_TWO_SIDED 0x40000000u  // triangles with a face on their other side, too
+#define FACE_REVERSE 0x80000000u    // that other side, which solids have within them
+
 CONELIGHT_SHARED_BEGIN
 
 // Uniform block at BINDING_VOXEL_GRID. Voxel (i,j,k) is the cube origin + voxelSize * [i,i+1) x [j,j+1) x
@@ -92,7 +96,7 @@ struct FaceRecord {
     uint offsetWeight;  // low 16: plane offset n.(c - voxel centre) / h, snorm; high 16: coverage W = sum of
                         // w of what is not hidden, 0..4
     uint bounds;        // 6 x 5 bit: min x y z, max x y z of the surface in the voxel, in 1/31 voxel, rounded
-                        // outwards
+                        // outwards; FACE_TWO_SIDED, FACE_REVERSE
     uint voxel;         // 3 x 10 bit: x, y, z of the voxel; bits 30, 31: axis of the direction (0 x .. 2 z)
     // ---- 16 B: texel 1, shading
     uint albedo;       // 11 | 11 | 10 bit unorm, linear

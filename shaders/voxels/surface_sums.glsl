@@ -25,6 +25,8 @@ struct Fragment {
     uint albedo;    // packed
     uint emission;  // packed; the voxel when SURFACE_EMISSION is 0
     vec2 lobe;      // metalness, roughness
+    bool twoSided;
+    bool turned;  // the other side of a two-sided triangle
 };
 
 // `at`: place + 1; 0: none, which counts nothing.
@@ -46,7 +48,8 @@ Fragment readFragment(uint at, vec3 k) {
     vec2 lobe = vec2(0.0);
 #endif
     return Fragment(at != 0u ? a.x : 0u, counts ? uintBitsToFloat(areaBits) : 0.0, facing, n,
-                    ivec3(b.x >> 16, b.y & 0xffffu, b.y >> 16), a.z, b.z, b.w, lobe);
+                    ivec3(b.x >> 16, b.y & 0xffffu, b.y >> 16), a.z, b.z, b.w, lobe,
+                    (a.z & 0x40000000u) != 0u, turned);
 }
 
 struct FaceSums {
@@ -56,10 +59,12 @@ struct FaceSums {
     ivec3 normal, center, albedo, emission;
     ivec3 lower, upper;  // bounds, in 1/31 voxel
     ivec2 lobe;          // metalness; metalness x roughness
+    int twoSided;        // weights of two-sided triangles, and of those seen from their other side
+    int turned;
 };
 
 FaceSums emptySums() {
-    return FaceSums(0, 0u, 0, ivec3(0), ivec3(0), ivec3(0), ivec3(0), ivec3(31), ivec3(0), ivec2(0));
+    return FaceSums(0, 0u, 0, ivec3(0), ivec3(0), ivec3(0), ivec3(0), ivec3(31), ivec3(0), ivec2(0), 0, 0);
 }
 
 float unitsOf(int shift) { return uintBitsToFloat(uint(127 + shift) << 23); }  // 2^shift
@@ -72,6 +77,8 @@ void addFragment(inout FaceSums sums, Fragment f, float covered, bool bounded) {
     uint sum = uint(sums.weightLow) + uint(rounded);
     sums.weightHigh += sum < uint(sums.weightLow) ? 1u : 0u;
     sums.weightLow = int(sum);
+    sums.twoSided += f.twoSided ? rounded : 0;
+    sums.turned += f.turned ? rounded : 0;
     sums.area += int(covered * 0.5 + 0.5);
     sums.normal += ivec3(w * (0.5 * f.normal + 0.5) + 0.5);
     sums.center += ivec3((w * (1.0 / 65535.0)) * vec3(f.center) + 0.5);
@@ -122,6 +129,8 @@ ResolvedFace resolvedFace(FaceSums sums, int shift, int direction, uint voxel) {
     ivec3 a = sums.lower;
     ivec3 b = sums.upper;
     uint bounds = uint(a.x | (a.y << 5) | (a.z << 10) | (b.x << 15) | (b.y << 20) | (b.z << 25));
+    bounds |= sums.twoSided > sums.weightLow / 2 ? FACE_TWO_SIDED : 0u;
+    bounds |= sums.turned > sums.weightLow / 2 ? FACE_REVERSE : 0u;
     return ResolvedFace(uvec4(packSnorm2x16(octEncode(n)), packOffsetWeight(offset, total * unit), bounds,
                               voxel | (uint(direction >> 1) << 30)),
                         uvec4(packAlbedo(vec3(sums.albedo) / total), packRgb9e5(glow), 0u, lobe << 16),

@@ -20,6 +20,8 @@ constexpr double kStart = 1e-3;
 constexpr double kBoundsSlack = 0.1;
 constexpr double kBoundsShrink = 0.02;
 constexpr double kTie = 0.5;
+constexpr double kOtherSide = -0.1;
+constexpr double kOtherNear = 0.5;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
@@ -29,7 +31,7 @@ struct Search {
 };
 
 void testFaces(const VoxelTables& voxels, const glm::ivec3& voxel, const glm::dvec3& origin,
-               const glm::dvec3& direction, double tMax, Search& s) {
+               const glm::dvec3& direction, double tMax, const glm::dvec3& leaves, Search& s) {
     const std::uint32_t record = voxels.record(voxel);
     std::uint32_t face = record & 0x3ffffffu;
     for (int k = 0; k < 6; ++k) {
@@ -42,17 +44,22 @@ void testFaces(const VoxelTables& voxels, const glm::ivec3& voxel, const glm::dv
         const double towards = glm::dot(n, direction);
         if (towards >= -kFacing) continue;
         const glm::dvec3 toCenter = glm::dvec3(voxel) + 0.5 - origin;
-        const double t =
-            (static_cast<double>(unpackOffset(r.offsetWeight)) + glm::dot(n, toCenter)) / towards;
+        const double ahead = static_cast<double>(unpackOffset(r.offsetWeight)) + glm::dot(n, toCenter);
+        const double t = ahead / towards;
+        if ((r.bounds & FACE_TWO_SIDED) != 0 && glm::dot(n, leaves) < kOtherSide && ahead > -kOtherNear)
+            continue;
         glm::vec3 lower, upper;
         unpackBounds(r.bounds, lower, upper);
         const glm::dvec3 at = t * direction - toCenter + 0.5;
-        const glm::dvec3 slack =
-            t > kNear ? glm::dvec3(kBoundsSlack) : (kBoundsSlack + kBoundsShrink) * n * n - kBoundsShrink;
-        if (t >= tMax || glm::any(glm::lessThan(at, glm::dvec3(lower) - slack)) ||
-            glm::any(glm::greaterThan(at, glm::dvec3(upper) + slack)))
-            continue;
-        if (t <= kStart) continue;
+        const glm::dvec3 shrunk = (kBoundsSlack + kBoundsShrink) * n * n - kBoundsShrink;
+        const glm::dvec3 slack = t > kNear ? glm::dvec3(kBoundsSlack) : shrunk;
+        bool inside = t < tMax && t > kStart;
+        for (int i = 0; i < 3; ++i) {
+            inside = inside &&
+                     at[i] >= static_cast<double>(lower[i]) - (lower[i] > 0 ? shrunk[i] : slack[i]) &&
+                     at[i] <= static_cast<double>(upper[i]) + (upper[i] < 1 ? shrunk[i] : slack[i]);
+        }
+        if (!inside) continue;
         const auto weight = static_cast<double>(unpackWeight(r.offsetWeight));
         if (s.hit.face < 0 || t < s.hit.t - kTie || (t <= s.hit.t + kTie && weight > s.weight)) {
             s.hit.face = static_cast<int>(index);
@@ -90,7 +97,7 @@ VoxelTables downloadVoxels(const SurfaceVoxels& surface) {
 }
 
 VoxelHit traceVoxels(const VoxelTables& voxels, const glm::dvec3& origin, const glm::dvec3& direction,
-                     double tMax) {
+                     double tMax, const glm::dvec3& leaves) {
     Search search;
     search.hit.t = tMax;
     const glm::dvec3 size(voxels.grid.size);
@@ -117,7 +124,7 @@ VoxelHit traceVoxels(const VoxelTables& voxels, const glm::dvec3& origin, const 
     }
     while (true) {
         if (voxels.has(cell)) {
-            testFaces(voxels, cell, origin, direction, tMax, search);
+            testFaces(voxels, cell, origin, direction, tMax, leaves, search);
             if (search.hit.face >= 0) return search.hit;
         }
         const int axis = next.x <= next.y && next.x <= next.z ? 0 : (next.y <= next.z ? 1 : 2);

@@ -35,8 +35,8 @@ struct VoxelHit {
     double t = 0;   // in voxels; tMax when nothing was met
 };
 
-// `direction` is a unit vector.
+// `direction` is a unit vector. `leaves`: normal of the surface that the ray starts from, or 0.
 VoxelHit traceVoxels(const VoxelTables& voxels, const glm::dvec3& origin, const glm::dvec3& direction,
-                     double tMax);
+                     double tMax, const glm::dvec3& leaves = glm::dvec3(0));
 
 }  // namespace conelight::voxels

@@ -254,7 +254,8 @@ TEST_F(ViewerTest, ModesOfTheProcessorInTheWindow) {
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
 }
 
-// The window draws, follows the mouse and answers while it bakes; commands behind it wait, and it can be stopped.
+// The window draws, follows the mouse and answers while it bakes; commands behind it wait, and it can be
+// stopped.
 TEST_F(ViewerTest, BakesInTheBackground) {
     const std::string file = scratchPath("baked.glb");
     std::filesystem::remove(file);
@@ -274,8 +275,7 @@ TEST_F(ViewerTest, BakesInTheBackground) {
     screen->xdotool("mouseup 1");
     EXPECT_TRUE(eventually([&] {
         return !near(screen->pixels().mean(middle - 40, {80, 80}), still.mean(middle - 40, {80, 80}), 0.5f);
-    }))
-        << "the picture turns";
+    })) << "the picture turns";
     EXPECT_FALSE(std::filesystem::exists(file)) << "it is still at work";
     EXPECT_NE(viewer->expect("written " + file), "") << viewer->output();
     const std::string after = viewer->expect("status camera: ");
@@ -286,11 +286,13 @@ TEST_F(ViewerTest, BakesInTheBackground) {
     viewer->send("bake " + file + "; echo behind");
     EXPECT_NE(viewer->expect(file), "") << "what exists is left alone";
     ASSERT_NE(viewer->expect("behind"), "");
-    // Its button at the end of the strip, as `where` cannot be asked meanwhile: heights of text are 14 pixels.
+    // Its button at the end of the strip, as `where` cannot be asked meanwhile: heights of text are 14
+    // pixels.
     const auto written = std::filesystem::last_write_time(file);
     const float em = 14, strip = std::min(36 * em, static_cast<float>(place.z) - em);
     viewer->send("bake " + file + " overwrite; echo after");
-    const glm::ivec2 stop = glm::ivec2(place) + glm::ivec2(0.5f * em + strip - 2.5f * em, place.w - 1.6f * em);
+    const glm::ivec2 stop =
+        glm::ivec2(place) + glm::ivec2(0.5f * em + strip - 2.5f * em, place.w - 1.6f * em);
     const glm::ivec2 edge = stop + glm::ivec2(-20, 6);  // of the button, beside its text
     EXPECT_TRUE(eventually([&] { return near(glm::vec3(screen->pixels().at(edge)), glm::vec3(54), 3); }))
         << "the strip is shown";
@@ -428,8 +430,8 @@ TEST_F(ViewerTest, DroppedFilesAreOpened) {
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
 }
 
-// Right button and W held, at the size that people have: what moves is drawn coarser, at five pictures a second
-// or more. The best of some flights, as other tests may run beside.
+// Right button and W held, at the size that people have: what moves is drawn coarser, at five pictures a
+// second or more. The best of some flights, as other tests may run beside.
 TEST_F(ViewerTest, FliesAtFiveFramesASecondOnTheProcessor) {
     screen = std::make_unique<VirtualScreen>(1280, 720);
     for (const char* scene : {"builtin:cornell", "builtin:atrium"}) {

@@ -26,6 +26,7 @@ namespace {
 struct TestRay {
     glm::vec4 origin;     // w: tMax
     glm::vec4 direction;  // w: 0
+    glm::vec4 leaves;     // normal of the surface where it starts, or 0
 };
 
 Scene thinWalls(float turn) {
@@ -56,9 +57,9 @@ layout(local_size_x = 64) in;
 #include "lib/ray_query.glsl"
 layout(std430, binding = BINDING_STORAGE_PASS) buffer Data { vec4 data[]; };
 void main() {
-    uint i = 2u * linearIndex();
+    uint i = 3u * linearIndex();
     if (i >= uint(data.length())) return;
-    VoxelHit hit = traceVoxels(data[i].xyz, data[i + 1u].xyz, data[i].w);
+    VoxelHit hit = traceVoxels(data[i].xyz, data[i + 1u].xyz, data[i].w, data[i + 2u].xyz);
     data[i] = vec4(intBitsToFloat(hit.face), hit.t, 0.0, 0.0);
 }
 )");
@@ -68,7 +69,7 @@ void main() {
         buffer.bindStorage(BINDING_STORAGE_PASS);
         programs().compute("test/rays.comp.glsl").dispatchLinear(rays.size());
         gl::barrier(gl::Access::ShaderStorage);
-        return buffer.read<glm::vec4>(2 * rays.size());
+        return buffer.read<glm::vec4>(3 * rays.size());
     }
 
     // Cosine rays from random faces, grazing rays along them, rays from and to anywhere, axis-parallel ones.
@@ -91,13 +92,14 @@ void main() {
             const glm::vec3 n = faceNormal(face);
             const glm::vec3 on =
                 glm::vec3(voxels::unpackVoxel(face.voxel)) + 0.5f + n * unpackedOffset(face) + 0.05f * n;
-            TestRay ray{{on, 1e9f}, {glm::normalize(n + 0.999f * anywhere()), 0}};
+            TestRay ray{{on, 1e9f}, {glm::normalize(n + 0.999f * anywhere()), 0}, {n, 0}};
             const glm::vec3 side = glm::normalize(glm::cross(n, anywhere()));
             switch (i % 6) {
                 case 1:  // grazing
                     ray.direction = glm::vec4(glm::normalize(side + uniform(0, 0.02f) * n), 0);
                     break;
                 case 2:  // from outside, also past the grid
+                    ray.leaves = glm::vec4(0);
                     ray.origin = glm::vec4(size * (0.5f + 1.2f * anywhere()), 1e9f);
                     ray.direction =
                         glm::vec4(glm::normalize(size * glm::vec3(uniform(-0.1f, 1.1f), uniform(-0.1f, 1.1f),
@@ -140,14 +142,14 @@ void main() {
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const voxels::VoxelHit hit =
                 voxels::traceVoxels(tables_, glm::dvec3(rays[i].origin), glm::dvec3(rays[i].direction),
-                                    static_cast<double>(rays[i].origin.w));
-            const int face = std::bit_cast<int>(found[2 * i].x);
+                                    static_cast<double>(rays[i].origin.w), glm::dvec3(rays[i].leaves));
+            const int face = std::bit_cast<int>(found[3 * i].x);
             hits += hit.face >= 0 ? 1 : 0;
             const bool same = face == hit.face;
             differ += same ? 0 : 1;
             if (same && face >= 0)
                 furthest =
-                    std::max(furthest, std::abs(static_cast<double>(found[2 * i].y) - hit.t) / (1 + hit.t));
+                    std::max(furthest, std::abs(static_cast<double>(found[3 * i].y) - hit.t) / (1 + hit.t));
         }
         EXPECT_GT(hits, rays.size() / 10);
         // A crossing within rounding of a face's bounds goes either way: 1 in 10,000 of these rays.

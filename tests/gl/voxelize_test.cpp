@@ -403,6 +403,35 @@ TEST_F(VoxelizeTest, TheDiagonalSectionOfAVoxelHasItsFullArea) {
     EXPECT_NEAR(largest, glm::root_two<float>(), 0.01f);
 }
 
+// Planes that hold edges of voxels, or their corners: every voxel must decide alike on which side an edge is.
+TEST_F(VoxelizeTest, PlanesThroughEdgesKeepTheirArea) {
+    const glm::vec3 normals[] = {{0, 1, 1}, {0, 1, -1}, {1, 0, 1}, {-1, 0, 1},
+                                 {1, 1, 0}, {1, -1, 0}, {1, 1, 1}};
+    for (const glm::vec3& normal : normals)
+        for (const float voxel : {0.25f, 0.3f, 2.0f / 7})
+            for (const float side : {-1.0f, 1.0f}) {
+                const glm::vec3 n = side * glm::normalize(normal);
+                // An edge that lies in the plane, exactly; the other is not along the grid.
+                const glm::vec3 u = normal.x == 0   ? glm::vec3(2, 0, 0)
+                                    : normal.y == 0 ? glm::vec3(0, 2, 0)
+                                                    : glm::vec3(normal.y, -normal.x, 0);
+                const glm::vec3 v = glm::cross(n, u) + 0.3f * u;
+                Scene scene;
+                Mesh mesh;
+                mesh.positions = {-0.5f * (u + v), 0.5f * (u - v), 0.5f * (u + v), 0.5f * (v - u)};
+                mesh.indices = {0, 1, 2, 0, 2, 3};
+                addInstance(scene, std::move(mesh), addMaterial(scene, glm::vec3(1)));
+                VoxelGrid grid;
+                grid.origin = glm::vec3(-12 * voxel);
+                grid.voxelSize = voxel;
+                grid.size = glm::ivec3(24);
+                const Result r = voxelize(scene, grid);
+                const double area = meshArea(referenceTriangles(scene, grid));
+                EXPECT_NEAR(r.area / area, 1.0, 2e-3)
+                    << side * normal.x << ' ' << side * normal.y << ' ' << side * normal.z << ' ' << voxel;
+            }
+}
+
 TEST_F(VoxelizeTest, ASurfaceExactlyOnABorderBelongsToTheUpperVoxelWhicheverWayItFaces) {
     for (const bool turned : {false, true}) {
         Scene scene;

@@ -3,6 +3,7 @@
 // the same bits every time, means over frames, a moving camera, thin walls under the filter.
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 
 #include "conelight/renderer.h"
 #include "io/generated.h"
@@ -299,6 +300,46 @@ TEST_F(TracedModeTest, FilterDoesNotCrossThinWalls) {
     const double filtered = leak(draw(scene, settings));
     EXPECT_LT(plain, 0.02);
     EXPECT_LT(filtered, plain + 0.005);
+}
+
+// Nobody sees the inside of a solid: making its material two-sided changes nothing. Ribs of half a voxel, so
+// that plane pieces are not where the surface is.
+TEST_F(TracedModeTest, SolidsMayBeTwoSided) {
+    constexpr int kRibs = 28;
+    Mesh column;
+    for (int i = 0; i < 2 * kRibs; ++i) {
+        const auto at = [](int k, float y) {
+            const float angle = glm::pi<float>() * static_cast<float>(k) / kRibs;
+            const float radius = k % 2 == 0 ? 0.45f : 0.41f;
+            return glm::vec3(radius * std::sin(angle), y, radius * std::cos(angle));
+        };
+        const glm::vec3 low = at(i, -1);
+        const Mesh rib = quadMesh(low, at(i + 1, -1) - low, {0, 1.6f, 0});
+        const auto first = static_cast<std::uint32_t>(column.positions.size());
+        column.positions.insert(column.positions.end(), rib.positions.begin(), rib.positions.end());
+        column.normals.insert(column.normals.end(), rib.normals.begin(), rib.normals.end());
+        column.uvs.insert(column.uvs.end(), rib.uvs.begin(), rib.uvs.end());
+        for (const std::uint32_t index : rib.indices) column.indices.push_back(first + index);
+    }
+    Material stone = mattMaterial(glm::vec3(0.7f));
+    Scene scene;
+    addInstance(scene, quadMesh({-1, -1, 1}, {2, 0, 0}, {0, 0, -2}), mattMaterial(glm::vec3(0.5f)));
+    addInstance(scene, quadMesh({-0.5f, 0.6f, 0.5f}, {1, 0, 0}, {0, 0, -1}), stone);
+    addInstance(scene, quadMesh({-0.5f, 0.6f, -0.5f}, {1, 0, 0}, {0, 0, 1}), stone);
+    addInstance(scene, column, stone);
+    scene.sky = glm::vec3(1);
+    Camera camera;
+    camera.eye = {0, 0, 1.6f};
+    camera.target = {0, -0.2f, 0};
+    camera.fovY = 0.6f;
+    scene.cameras.push_back(camera);
+    for (const Quality quality : {Quality::Draft, Quality::Interactive}) {
+        const Settings settings = smallSettings(quality, Component::Indirect);
+        const double single = meanOf(draw(scene, settings));
+        Scene other = scene;
+        for (Material& material : other.materials) material.doubleSided = true;
+        EXPECT_NEAR(meanOf(draw(other, settings)) / single, 1.0, 0.03) << static_cast<int>(quality);
+    }
 }
 
 TEST_F(TracedModeTest, EveryComponentIsFinite) {

@@ -65,8 +65,8 @@ double median(const FrameTimes& times) {
     return sorted[sorted.size() / 2];
 }
 
-// Of a bake: those of mode traced, where 16 stands for all, as -1 does here. All in other modes: cones bounces
-// as often as it can pay for.
+// Of a bake: those of mode traced, where 16 stands for all, as -1 does here. All in other modes: cones
+// bounces as often as it can pay for.
 int bouncesOf(const Settings& settings) {
     constexpr int kAll = 16;
     const bool limited = settings.mode == Mode::Traced && settings.traced.bounces < kAll;
