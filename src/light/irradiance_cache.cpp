@@ -34,6 +34,13 @@ gl::ProgramDesc updateDesc(gl::Defines hitLights, bool findsBacks) {
     hitLights.emplace_back("FIND_BACKS", findsBacks ? "1" : "0");
     return {{"light/cache_update.comp.glsl"}, std::move(hitLights)};
 }
+// Grids with more blocks of 16^3 voxels (256^3 has half of that) keep faces as they are stored: bins would
+// take too much memory.
+constexpr std::size_t kMostBlocks = 8192;
+
+gl::ProgramDesc orderDesc(int step) {
+    return {{"light/cache_order.comp.glsl"}, {{"STEP", std::to_string(step)}}};
+}
 gl::ProgramDesc pass(const char* name) { return {{std::string("light/cache_") + name + ".comp.glsl"}, {}}; }
 
 gl::Defines exactDefines(const gl::Defines& lights, bool exact) {
@@ -96,6 +103,7 @@ std::vector<gl::ProgramDesc> hitLightVariants(const gl::ProgramDesc& base) {
 
 struct IrradianceCache::Impl {
     gl::Buffer states, oldStates, steady, chunks, pool, constants, carryBlock;
+    gl::Buffer order, bins, binStarts;
     gl::Texture steadyTexels, poolTexels;
     // Voxels before they were built anew.
     gl::Buffer oldRecords;
@@ -113,6 +121,7 @@ struct IrradianceCache::Impl {
     std::uint32_t faceCount = 0;
 
     void reserve(std::uint32_t faces);
+    void sortFaces(gl::ProgramLibrary& programs, const voxels::VoxelGrid& grid);
     gpu::CacheConstants packed(const CacheSettings& settings) const;
     void commit(gl::ProgramLibrary& programs, gl::Profiler& profiler, const CacheSettings& settings);
 };
@@ -138,11 +147,44 @@ void IrradianceCache::Impl::reserve(std::uint32_t faces) {
         states = {};
         states = gl::Buffer(sizeof(gpu::FaceCache) * room, "irradiance cache");
     }
+    if (order.bytes() < std::size_t{4} * faces || !order) {
+        order = {};
+        order = gl::Buffer(std::size_t{4} * room, "order of faces");
+    }
     if (steady.bytes() < std::size_t{4} * faces || !steady) {
         steadyTexels = {};
         steady = {};
         steady = gl::Buffer(std::size_t{4} * room, "steady light");
         steadyTexels = gl::Texture(steady, GL_R32UI, "steady light");
+    }
+}
+
+// The order in which updates visit faces (shaders/light/cache_order.comp.glsl). Voxels must be bound.
+void IrradianceCache::Impl::sortFaces(gl::ProgramLibrary& programs, const voxels::VoxelGrid& grid) {
+    const glm::ivec3 blocks = (grid.bricks() + 3) / 4;
+    const auto blockCount = static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.y) *
+                            static_cast<std::size_t>(blocks.z);
+    order.bindStorage(CACHE_ORDER);
+    if (blockCount > kMostBlocks) {
+        programs.get(orderDesc(5)).dispatchLinear(faceCount);
+        gl::barrier(gl::Access::ShaderStorage);
+        return;
+    }
+    const std::size_t binCount = blockCount * CACHE_BINS_PER_BLOCK;
+    if (bins.bytes() != 8 * binCount) {
+        bins = {};
+        binStarts = {};
+        bins = gl::Buffer(8 * binCount, "bins of faces");
+        binStarts = gl::Buffer(4 * binCount, "starts of bins of faces");
+    }
+    bins.clear();
+    bins.bindStorage(CACHE_BINS);
+    binStarts.bindStorage(CACHE_BIN_STARTS);
+    chunks.bindStorage(CACHE_CHUNKS);
+    const std::size_t invocations[] = {faceCount, CACHE_ORDER_CHUNKS, 1, CACHE_ORDER_CHUNKS, faceCount};
+    for (int step = 0; step < 5; ++step) {
+        programs.get(orderDesc(step)).dispatchLinear(invocations[step]);
+        gl::barrier(gl::Access::ShaderStorage);
     }
 }
 
@@ -198,6 +240,10 @@ void IrradianceCache::afterVoxelize(gl::ProgramLibrary& programs, gl::Profiler& 
         gl::barrier(gl::Access::ShaderStorage);
     } else {
         m.states.clear();
+    }
+    if (m.faceCount > 0) {
+        surface.bind();
+        m.sortFaces(programs, surface.grid());
     }
     m.oldFaces = 0;
     m.firstFace = 0;
@@ -273,6 +319,7 @@ void IrradianceCache::update(gl::ProgramLibrary& programs, gl::Profiler& profile
         {
             const gl::PassScope scope(profiler, "irradiance: update");
             m.states.bindStorage(CACHE_STATE);
+            m.order.bindStorage(CACHE_ORDER);
             bind();
             const auto visit = [&](std::uint32_t from, std::uint32_t to, bool findsBacks) {
                 if (from >= to) return;
@@ -311,9 +358,11 @@ void IrradianceCache::bind() const {
 
 const gl::Buffer& IrradianceCache::steadyLight() const { return impl_->steady; }
 const gl::Buffer& IrradianceCache::state() const { return impl_->states; }
+const gl::Buffer& IrradianceCache::order() const { return impl_->order; }
 
 std::vector<gl::ProgramDesc> IrradianceCache::programDescs() {
     std::vector<gl::ProgramDesc> descs{pass("commit"), pass("sums"), pass("pool"), pass("carry")};
+    for (int step = 0; step < 6; ++step) descs.push_back(orderDesc(step));
     for (const bool backs : {false, true})
         for (gl::ProgramDesc& desc : hitLightVariants({{"light/cache_update.comp.glsl"}, {}}))
             descs.push_back(updateDesc(std::move(desc.defines), backs));

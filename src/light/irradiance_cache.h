@@ -71,6 +71,7 @@ class IrradianceCache {
     const gl::Buffer& steadyLight() const;
 
     const gl::Buffer& state() const;  // gpu::FaceCache per face, for tests
+    const gl::Buffer& order() const;  // faces in the order in which updates visit them, for tests
 
     static std::vector<gl::ProgramDesc> programDescs();
 
