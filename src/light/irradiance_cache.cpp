@@ -103,7 +103,6 @@ std::vector<gl::ProgramDesc> hitLightVariants(const gl::ProgramDesc& base) {
 
 struct IrradianceCache::Impl {
     gl::Buffer states, oldStates, steady, chunks, pool, constants, carryBlock;
-    gl::Buffer order, bins, binStarts;
     gl::Texture steadyTexels, poolTexels;
     // Voxels before they were built anew.
     gl::Buffer oldRecords;
@@ -121,7 +120,6 @@ struct IrradianceCache::Impl {
     std::uint32_t faceCount = 0;
 
     void reserve(std::uint32_t faces);
-    void sortFaces(gl::ProgramLibrary& programs, const voxels::VoxelGrid& grid);
     gpu::CacheConstants packed(const CacheSettings& settings) const;
     void commit(gl::ProgramLibrary& programs, gl::Profiler& profiler, const CacheSettings& settings);
 };
@@ -147,10 +145,6 @@ void IrradianceCache::Impl::reserve(std::uint32_t faces) {
         states = {};
         states = gl::Buffer(sizeof(gpu::FaceCache) * room, "irradiance cache");
     }
-    if (order.bytes() < std::size_t{4} * faces || !order) {
-        order = {};
-        order = gl::Buffer(std::size_t{4} * room, "order of faces");
-    }
     if (steady.bytes() < std::size_t{4} * faces || !steady) {
         steadyTexels = {};
         steady = {};
@@ -159,24 +153,27 @@ void IrradianceCache::Impl::reserve(std::uint32_t faces) {
     }
 }
 
-// The order in which updates visit faces (shaders/light/cache_order.comp.glsl). Voxels must be bound.
-void IrradianceCache::Impl::sortFaces(gl::ProgramLibrary& programs, const voxels::VoxelGrid& grid) {
-    const glm::ivec3 blocks = (grid.bricks() + 3) / 4;
+namespace {
+
+// The order in which updates visit faces (shaders/light/cache_order.comp.glsl), into the voxels' scratch
+// buffer.
+void sortFaces(gl::ProgramLibrary& programs, const voxels::SurfaceVoxels& surface, const gl::Buffer& chunks) {
+    const std::uint32_t faceCount = surface.faceCount();
+    if (faceCount == 0) return;
+    const glm::ivec3 blocks = (surface.grid().bricks() + 3) / 4;
     const auto blockCount = static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.y) *
                             static_cast<std::size_t>(blocks.z);
-    order.bindStorage(CACHE_ORDER);
+    surface.bind();
+    surface.faceScratch().bindStorage(CACHE_ORDER);
     if (blockCount > kMostBlocks) {
         programs.get(orderDesc(5)).dispatchLinear(faceCount);
         gl::barrier(gl::Access::ShaderStorage);
         return;
     }
     const std::size_t binCount = blockCount * CACHE_BINS_PER_BLOCK;
-    if (bins.bytes() != 8 * binCount) {
-        bins = {};
-        binStarts = {};
-        bins = gl::Buffer(8 * binCount, "bins of faces");
-        binStarts = gl::Buffer(4 * binCount, "starts of bins of faces");
-    }
+    // Not kept: they are as large as what they sort.
+    gl::Buffer bins(8 * binCount, "bins of faces");
+    const gl::Buffer binStarts(4 * binCount, "starts of bins of faces");
     bins.clear();
     bins.bindStorage(CACHE_BINS);
     binStarts.bindStorage(CACHE_BIN_STARTS);
@@ -187,6 +184,8 @@ void IrradianceCache::Impl::sortFaces(gl::ProgramLibrary& programs, const voxels
         gl::barrier(gl::Access::ShaderStorage);
     }
 }
+
+}  // namespace
 
 void IrradianceCache::beforeVoxelize(gl::Profiler& profiler, const voxels::SurfaceVoxels& surface) {
     Impl& m = *impl_;
@@ -241,10 +240,7 @@ void IrradianceCache::afterVoxelize(gl::ProgramLibrary& programs, gl::Profiler& 
     } else {
         m.states.clear();
     }
-    if (m.faceCount > 0) {
-        surface.bind();
-        m.sortFaces(programs, surface.grid());
-    }
+    sortFaces(programs, surface, m.chunks);
     m.oldFaces = 0;
     m.firstFace = 0;
     m.raysTested = 0;
@@ -319,7 +315,7 @@ void IrradianceCache::update(gl::ProgramLibrary& programs, gl::Profiler& profile
         {
             const gl::PassScope scope(profiler, "irradiance: update");
             m.states.bindStorage(CACHE_STATE);
-            m.order.bindStorage(CACHE_ORDER);
+            surface.faceScratch().bindStorage(CACHE_ORDER);
             bind();
             const auto visit = [&](std::uint32_t from, std::uint32_t to, bool findsBacks) {
                 if (from >= to) return;
@@ -358,7 +354,6 @@ void IrradianceCache::bind() const {
 
 const gl::Buffer& IrradianceCache::steadyLight() const { return impl_->steady; }
 const gl::Buffer& IrradianceCache::state() const { return impl_->states; }
-const gl::Buffer& IrradianceCache::order() const { return impl_->order; }
 
 std::vector<gl::ProgramDesc> IrradianceCache::programDescs() {
     std::vector<gl::ProgramDesc> descs{pass("commit"), pass("sums"), pass("pool"), pass("carry")};

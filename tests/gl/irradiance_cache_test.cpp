@@ -295,7 +295,7 @@ TEST_F(IrradianceCacheTest, DISABLED_Costs) {
 TEST_F(IrradianceCacheTest, OrderPutsLikeFacesTogether) {
     const CacheRig rig(programs(), io::loadScene("builtin:spheres"), 48);
     const std::uint32_t count = rig.surface.faceCount();
-    const auto order = rig.cache.order().read<std::uint32_t>(count);
+    const auto order = rig.surface.faceScratch().read<std::uint32_t>(count);
     const auto records = rig.surface.faces().read<gpu::FaceRecord>(count);
     const glm::ivec3 blocks = (rig.surface.grid().bricks() + 3) / 4;
     std::vector<int> visits(count);
