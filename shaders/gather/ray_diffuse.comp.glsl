@@ -46,7 +46,7 @@ void main() {
     float backs;
     vec3 value = gatherIrradianceSequence(
         origin, matt ? s.geometricNormal : away, normal, int(pixelRays.rays), int(pixelRays.rays),
-        int(pixelRays.reflections), pixelRays.reflectedLimit, seed, pixelRays.pass, backs);
+        int(pixelRays.reflections), pixelRays.reflectedLimit, seed, vec3(0.0), pixelRays.pass, backs);
 #endif
 #if COUNT_LOOKUPS
     addLookups(OCCLUSION == 1 ? LOOKUPS_OCCLUSION : LOOKUPS_DIFFUSE, matt);

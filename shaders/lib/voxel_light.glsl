@@ -243,9 +243,10 @@ bool metBackBefore(VoxelHit hit, vec3 origin, vec3 direction) {
 // `lightRays` to bright faces, weighted by the balance heuristic (Veach and Guibas 1995). A miss is the sky.
 // A ray to a bright face counts only where it arrives at its point: else directions with many bright faces
 // behind an occluder would be counted twice. `index` numbers the calls with the same seed, 0, 1, 2 ...: their
-// directions complement each other. backShare: share of cosine rays that met a surface from behind.
+// directions complement each other; so do those of calls with the same seed whose `shift`, in [0,1)^3, are
+// evenly spread. backShare: share of cosine rays that met a surface from behind.
 vec3 gatherIrradianceSequence(vec3 originGrid, vec3 geometricNormal, vec3 shadingNormal, int cosineRays,
-                              int lightRays, int reflections, float limit, uint seed, uint index,
+                              int lightRays, int reflections, float limit, uint seed, vec3 shift, uint index,
                               out float backShare) {
     float inverseFlux = uintBitsToFloat(texelFetch(brightFaces, 0).x);
     uint state = randomHash(seed) ^ randomHash(index * 0x9e3779b9u + 0x85ebca6bu);
@@ -257,10 +258,11 @@ vec3 gatherIrradianceSequence(vec3 originGrid, vec3 geometricNormal, vec3 shadin
         bool toLight = i >= cosineRays;
         vec3 target, targetNormal;
         uint lightIndex = index * uint(lightRays) + uint(max(i - cosineRays, 0));
-        bool onFace = sampleBrightFace(sequencePoint3(seed, lightIndex), target, targetNormal);
+        bool onFace =
+            sampleBrightFace(fract(sequencePoint3(seed, lightIndex) + shift.zxy), target, targetNormal);
         vec3 toTarget = target - originGrid;
         float distance = length(toTarget);
-        vec2 xi = sequencePoint(seed, index * uint(cosineRays) + uint(i));
+        vec2 xi = fract(sequencePoint(seed, index * uint(cosineRays) + uint(i)) + shift.xy);
         vec3 direction = toLight ? toTarget / max(distance, 1e-6) : cosineDirection(shadingNormal, xi);
         float cosine = dot(direction, shadingNormal);
         bool above = cosine > 0.0 && dot(direction, geometricNormal) > 0.0;
@@ -301,5 +303,5 @@ vec3 gatherIrradianceSequence(vec3 originGrid, vec3 geometricNormal, vec3 shadin
 vec3 gatherIrradiance(vec3 originGrid, vec3 geometricNormal, vec3 shadingNormal, int cosineRays,
                       int lightRays, uint seed, out float backShare) {
     return gatherIrradianceSequence(originGrid, geometricNormal, shadingNormal, cosineRays, lightRays, 0, 0.0,
-                                    seed, 0u, backShare);
+                                    seed, vec3(0.0), 0u, backShare);
 }

@@ -9,22 +9,35 @@ layout(local_size_x = 64) in;
 #include "lib/linear_index.glsl"
 #include "lib/voxel_light.glsl"
 layout(std140, binding = BINDING_PASS) uniform CacheBlock { CacheConstants cache; };
+layout(std430, binding = CACHE_ORDER) readonly buffer OrderTable { uint order[]; };
 layout(std430, binding = CACHE_STATE) buffer StateTable { FaceCache states[]; };
+
+// Places 0 to 3 along three axes -> 4 x 4 shifts, all of them on any plane along two of the axes.
+vec2 spreadPlace(uvec3 place) {
+    uvec2 part = (place.xy + place.z) & 3u;
+    return vec2((part >> 1 | part << 1) & 3u) * 0.25;
+}
 
 void main() {
     uint index = linearIndex();
     bool used = index < cache.faceCount;
-    uint face = cache.firstFace + (used ? index : 0u);
-    face = face >= grid.faceCount ? face - grid.faceCount : face;
+    uint place = cache.firstFace + (used ? index : 0u);
+    uint face = order[place >= grid.faceCount ? place - grid.faceCount : place];
     uvec4 r = texelFetch(voxelFaces, 2 * int(face));
     FaceRecord record = FaceRecord(r.x, r.y, r.z, r.w, 0u, 0u, 0u, 0u);
     vec3 normal = faceNormal(record);
-    // Faces keep their directions from one run to the next by voxel and axis, not by number.
-    uint seed = randomHash(r.w ^ randomHash(cache.seed));
+    // Faces keep their directions from one run to the next by voxel and axis, not by number. Those of one
+    // place in the bricks of a block share them, and are next to each other in order.
+    uint seed = randomHash((r.w & 0xc0000000u) ^ randomHash(cache.seed));
+    // Places complement each other, then blocks, then 4^3 blocks.
+    uvec3 voxel = uvec3(r.w, r.w >> 10, r.w >> 20) & 1023u;
+    vec2 fine = spreadPlace(voxel), coarse = spreadPlace(voxel >> 4), coarsest = spreadPlace(voxel >> 6);
+    float ofPool = fine.x + fine.y / 4.0 + coarse.x / 16.0 + coarse.y / 64.0;
+    vec3 shift = vec3(fine + coarse / 4.0 + coarsest / 16.0, ofPool);
     float backs;
     vec3 gathered = gatherIrradianceSequence(
         rayOrigin(faceCenter(record), normal), normal, normal, int(cache.cosineRays), int(cache.lightRays),
-        int(cache.reflections), cache.reflectedLimit, seed, cache.update, backs);
+        int(cache.reflections), cache.reflectedLimit, seed, shift, cache.update, backs);
     if (!used) return;
     FaceCache state = states[face];
     uint updates = state.counts & 0xffffu;

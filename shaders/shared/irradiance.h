@@ -26,9 +26,17 @@
 #define CACHE_CHUNKS 9
 #define CACHE_POOL 10
 #define CACHE_OLD_STATE 9
+#define CACHE_ORDER 11
+#define CACHE_BINS 12
+#define CACHE_BIN_STARTS 13
 // Texture units of the pass that carries over.
 #define CACHE_UNIT_OLD_BRICKS 8
 #define CACHE_UNIT_OLD_RECORDS 9
+
+// Order in which updates visit faces (cache_order): six directions and 64 places in a brick per block of 4^3
+// bricks; chunks of the prefix sum over bins.
+#define CACHE_BINS_PER_BLOCK 384u
+#define CACHE_ORDER_CHUNKS 4096u
 
 CONELIGHT_SHARED_BEGIN
 
@@ -41,7 +49,7 @@ struct FaceCache {
 
 // Uniform block at BINDING_PASS of the cache's passes.
 struct CacheConstants {
-    uint firstFace;  // of the faces to update, wrapping around
+    uint firstFace;  // of the faces to update, a place in their order, wrapping around
     uint faceCount;
     uint cosineRays;
     uint lightRays;

@@ -34,6 +34,13 @@ gl::ProgramDesc updateDesc(gl::Defines hitLights, bool findsBacks) {
     hitLights.emplace_back("FIND_BACKS", findsBacks ? "1" : "0");
     return {{"light/cache_update.comp.glsl"}, std::move(hitLights)};
 }
+// Grids with more blocks of 16^3 voxels (256^3 has half of that) keep faces as they are stored: bins would
+// take too much memory.
+constexpr std::size_t kMostBlocks = 8192;
+
+gl::ProgramDesc orderDesc(int step) {
+    return {{"light/cache_order.comp.glsl"}, {{"STEP", std::to_string(step)}}};
+}
 gl::ProgramDesc pass(const char* name) { return {{std::string("light/cache_") + name + ".comp.glsl"}, {}}; }
 
 gl::Defines exactDefines(const gl::Defines& lights, bool exact) {
@@ -146,6 +153,40 @@ void IrradianceCache::Impl::reserve(std::uint32_t faces) {
     }
 }
 
+namespace {
+
+// The order in which updates visit faces (shaders/light/cache_order.comp.glsl), into the voxels' scratch
+// buffer.
+void sortFaces(gl::ProgramLibrary& programs, const voxels::SurfaceVoxels& surface, const gl::Buffer& chunks) {
+    const std::uint32_t faceCount = surface.faceCount();
+    if (faceCount == 0) return;
+    const glm::ivec3 blocks = (surface.grid().bricks() + 3) / 4;
+    const auto blockCount = static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.y) *
+                            static_cast<std::size_t>(blocks.z);
+    surface.bind();
+    surface.faceScratch().bindStorage(CACHE_ORDER);
+    if (blockCount > kMostBlocks) {
+        programs.get(orderDesc(5)).dispatchLinear(faceCount);
+        gl::barrier(gl::Access::ShaderStorage);
+        return;
+    }
+    const std::size_t binCount = blockCount * CACHE_BINS_PER_BLOCK;
+    // Not kept: they are as large as what they sort.
+    gl::Buffer bins(8 * binCount, "bins of faces");
+    const gl::Buffer binStarts(4 * binCount, "starts of bins of faces");
+    bins.clear();
+    bins.bindStorage(CACHE_BINS);
+    binStarts.bindStorage(CACHE_BIN_STARTS);
+    chunks.bindStorage(CACHE_CHUNKS);
+    const std::size_t invocations[] = {faceCount, CACHE_ORDER_CHUNKS, 1, CACHE_ORDER_CHUNKS, faceCount};
+    for (int step = 0; step < 5; ++step) {
+        programs.get(orderDesc(step)).dispatchLinear(invocations[step]);
+        gl::barrier(gl::Access::ShaderStorage);
+    }
+}
+
+}  // namespace
+
 void IrradianceCache::beforeVoxelize(gl::Profiler& profiler, const voxels::SurfaceVoxels& surface) {
     Impl& m = *impl_;
     if (m.faceCount == 0) return;
@@ -199,6 +240,7 @@ void IrradianceCache::afterVoxelize(gl::ProgramLibrary& programs, gl::Profiler& 
     } else {
         m.states.clear();
     }
+    sortFaces(programs, surface, m.chunks);
     m.oldFaces = 0;
     m.firstFace = 0;
     m.raysTested = 0;
@@ -273,6 +315,7 @@ void IrradianceCache::update(gl::ProgramLibrary& programs, gl::Profiler& profile
         {
             const gl::PassScope scope(profiler, "irradiance: update");
             m.states.bindStorage(CACHE_STATE);
+            surface.faceScratch().bindStorage(CACHE_ORDER);
             bind();
             const auto visit = [&](std::uint32_t from, std::uint32_t to, bool findsBacks) {
                 if (from >= to) return;
@@ -314,6 +357,7 @@ const gl::Buffer& IrradianceCache::state() const { return impl_->states; }
 
 std::vector<gl::ProgramDesc> IrradianceCache::programDescs() {
     std::vector<gl::ProgramDesc> descs{pass("commit"), pass("sums"), pass("pool"), pass("carry")};
+    for (int step = 0; step < 6; ++step) descs.push_back(orderDesc(step));
     for (const bool backs : {false, true})
         for (gl::ProgramDesc& desc : hitLightVariants({{"light/cache_update.comp.glsl"}, {}}))
             descs.push_back(updateDesc(std::move(desc.defines), backs));

@@ -46,8 +46,8 @@ class IrradianceCache {
     void reset();
     // Before voxels are built anew: remembers whose light is whose. Nothing before the first build.
     void beforeVoxelize(gl::Profiler& profiler, const voxels::SurfaceVoxels& surface);
-    // After: each face takes over the light of the face that lay there and looked the same way. Counts as a
-    // change of light, too.
+    // After: the order in which updates visit faces goes to SurfaceVoxels::faceScratch. Each face takes over
+    // the light of the face that lay there and looked the same way. Counts as a change of light, too.
     void afterVoxelize(gl::ProgramLibrary& programs, gl::Profiler& profiler,
                        const voxels::SurfaceVoxels& surface);
     // Direct light, emission or the sky changed: short averages again, until bounces have settled.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -12,10 +13,12 @@
 #include <map>
 
 #include "io/scene_file.h"
+#include "math/octahedral.h"
 #include "shared/irradiance.h"
 #include "support/cache_rig.h"
 #include "support/gl_fixture.h"
 #include "support/view_rig.h"
+#include "voxels/voxel_record.h"
 
 namespace conelight::test {
 namespace {
@@ -285,6 +288,35 @@ TEST_F(IrradianceCacheTest, DISABLED_Costs) {
         });
         report("octants", [&] { rig.octants.build(programs(), rig.profiler, rig.surface); });
     }
+}
+
+// Updates visit every face once, those of a block of 16^3 voxels together, by direction and place in the
+// brick; so do they in the next run.
+TEST_F(IrradianceCacheTest, OrderPutsLikeFacesTogether) {
+    const CacheRig rig(programs(), io::loadScene("builtin:spheres"), 48);
+    const std::uint32_t count = rig.surface.faceCount();
+    const auto order = rig.surface.faceScratch().read<std::uint32_t>(count);
+    const auto records = rig.surface.faces().read<gpu::FaceRecord>(count);
+    const glm::ivec3 blocks = (rig.surface.grid().bricks() + 3) / 4;
+    std::vector<int> visits(count);
+    std::array<int, 4> last{};
+    for (std::uint32_t i = 0; i < count; ++i) {
+        ASSERT_LT(order[i], count);
+        ++visits[order[i]];
+        const gpu::FaceRecord& r = records[order[i]];
+        const glm::ivec3 voxel = voxels::unpackVoxel(r.voxel & 0x3fffffffu);
+        const auto axis = static_cast<int>(r.voxel >> 30);
+        const bool down = math::octDecode(math::unpackSnorm2x16(r.normal))[axis] < 0;
+        const glm::ivec3 block = voxel / 16, brick = voxel / 4 % 4;
+        const std::array<int, 4> key{block.x + blocks.x * (block.y + blocks.y * block.z),
+                                     2 * axis + (down ? 1 : 0), static_cast<int>(voxels::bitOfVoxel(voxel)),
+                                     brick.x + 4 * brick.y + 16 * brick.z};
+        if (i > 0) {
+            ASSERT_LT(last, key) << i;
+        }
+        last = key;
+    }
+    EXPECT_EQ(std::count(visits.begin(), visits.end(), 1), static_cast<std::ptrdiff_t>(count));
 }
 
 // Slices of the faces add up to whole rounds.

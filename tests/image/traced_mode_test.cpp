@@ -247,6 +247,24 @@ TEST_F(TracedModeTest, MoreFramesLessNoise) {
     EXPECT_LT(many, 0.2);
 }
 
+// What does not grow with the picture: voxels, light, shadow maps, the scene.
+TEST_F(TracedModeTest, VoxelsAndLightTakeLittleMemory) {
+    const Scene scene = io::generateScene("cornell");
+    Settings settings;
+    settings.mode = Mode::Traced;
+    applyQuality(settings.traced, Quality::Draft);
+    settings.traced.cacheUpdates = 1;
+    settings.voxels.size = 128;
+    Renderer renderer;
+    renderer.setScene(scene);
+    renderer.render(scene.cameras.at(0), 1, 1, settings);
+    std::size_t bytes = 0;
+    for (const MemoryStats& object : renderer.stats().memory) bytes += object.bytes;
+    RecordProperty("bytes", std::to_string(bytes));
+    EXPECT_LE(bytes, 32'000'000u);
+    EXPECT_GT(bytes, 10'000'000u);
+}
+
 // A camera that moves over a still scene, frame by frame with reuse, ends up near a picture made at rest.
 TEST_F(TracedModeTest, MovingCameraLeavesNoGhosts) {
     const Scene scene = io::generateScene("cornell");
