@@ -115,7 +115,7 @@ vec3 reflectedRects(Brdf b, vec3 position, vec3 normal, vec3 toEye, uint k) {
         do {
             Light light = lights[i];
             vec3 point = rectSamplePoint(light, k);
-            reflected += light.intensity * rectSpecular(light, position, lobe, b, vec2(0.0), 0.0, 1.0) *
+            reflected += light.intensity * rectSpecularQuick(light, position, lobe, b) *
                          shadowVisibilityRect(light, k, point, position, normal);
         } while (++i < frame.lightEnds.w);
     }
