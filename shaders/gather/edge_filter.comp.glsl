@@ -5,7 +5,8 @@
 // (a-trous wavelets: Dammertz et al. 2010, "Edge-Avoiding A-Trous Wavelet Transform for fast Global
 // Illumination Filtering"). A tap counts by its normal (power 32) and its distance from the pixel's plane in
 // voxels, and only on the same instance with no other surface half way between: so light does not cross thin
-// walls. SPECULAR 1: the reach grows with roughness, none at a mirror.
+// walls. SPECULAR 1: the reach grows with roughness, none at a mirror, less where the surface is curved; how
+// fast is fitted to builtin:glossy and builtin:spheres (least error, qualities draft and interactive).
 #if !defined(FILTER_STEP) || !defined(SPECULAR)
 #error FILTER_STEP must be 1, 2, 4 or 8, SPECULAR 0 or 1
 #endif
@@ -30,8 +31,9 @@ void main() {
     float reach = 1.0;
 #if SPECULAR
     float roughness = unpackUnorm2x16(texelFetch(gbufferMaterial, min(pixel, size - 1), 0).y).y;
-    reach = clamp(2.0 * roughness, 0.0, 1.0) / float(FILTER_STEP);
+    reach = clamp((FILTER_STEP == 1 ? 5.0 : 2.0 / float(FILTER_STEP)) * roughness, 0.0, 1.0);
     reach *= reach;
+    float lobe = max(roughness * roughness, 1e-3);  // GGX's alpha
 #endif
     float certainty = sqrt(max(pixelHistoryCount(own), 1.0) * float(pixelRays.rays)) / 2.0;
     for (int i = 0; i < 8; ++i) {
@@ -42,7 +44,8 @@ void main() {
         uvec4 bits = texelFetch(source, clamp(q, ivec2(0), size - 1), 0);
         float tap = offset.x == 0 || offset.y == 0 ? 2.0 : 1.0;
         float offPlane = dot(positionOf(q, bits) - position, normal) * pixelRays.inverseVoxelSize;
-        float turned = max(dot(pixelHistoryNormal(bits), normal), 0.0);
+        float cosine = dot(pixelHistoryNormal(bits), normal);
+        float turned = max(cosine, 0.0);
         turned *= turned;
         turned *= turned;
         turned *= turned;
@@ -55,7 +58,10 @@ void main() {
         same = same && pixelHistoryInstance(middle) == pixelHistoryInstance(own) &&
                abs(middleOff) * pixelRays.inverseVoxelSize < 0.5;
 #endif
-#if !SPECULAR
+#if SPECULAR
+        // A normal turned by alpha shows what lies a whole lobe beside.
+        tap *= max(1.0 - 2.0 * (1.0 - cosine) / (lobe * lobe), 0.0);
+#else
         // Noise of a mean of n rays is about 1 / sqrt(n) of it; twice that is another light, as across
         // a wall too thin for a pixel.
         vec3 a = pixelHistoryValue(own);

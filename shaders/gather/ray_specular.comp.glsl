@@ -32,7 +32,7 @@ void main() {
         VoxelHit hit;
         vec3 radiance =
             rayRadiance(origin, s.geometricNormal, direction, counts ? 1e9 : -1.0, -1.0,
-                        counts ? int(pixelRays.reflections) : 0, pixelRays.reflectedLimit, random, hit);
+                        counts ? int(pixelRays.reflections) : 0, b.alpha, pixelRays.reflectedLimit, random, hit);
         sum += weight * radiance;
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);
         if (glossy)

@@ -131,3 +131,30 @@ vec3 rectSpecular(Light light, vec3 p, RectLobe lobe, Brdf b, vec2 exact, float 
     float mended = 1.0 - smoothstep(kRectMended.x, kRectMended.y, most);
     return max(b.albedo * whole + mended * missing, vec3(0.0));
 }
+
+// Angle over sine of an edge between unit vectors, by the cosine: a cubic fitted for [0, 1] (error 0.13 %),
+// below by the other side's.
+float edgeAngleOverSine(float cosine) {
+    float y = abs(cosine);
+    float g = 1.56895 + y * (-0.958997 + y * (0.564784 + y * -0.176038));
+    return cosine < 0.0 ? kPi * inversesqrt(max(1.0 - y * y, 1e-6)) - g : g;
+}
+
+// The same for what a ray meets, at a third of the cost: the transformed cosine alone, not cut at the
+// horizon.
+vec3 rectSpecularQuick(Light light, vec3 p, RectLobe lobe, Brdf b) {
+    vec3 corner[4];
+    rectCorners(light, p, corner);
+    for (int i = 0; i < 4; ++i)
+        corner[i] =
+            normalize(rectLobeSpace(lobe, corner[i], dot(corner[i], lobe.normal)) / vec3(lobe.width, 1.0));
+    float sum = 0.0;
+    for (int i = 0; i < 4; ++i) {
+        vec3 from = corner[i], to = corner[(i + 1) & 3];
+        sum += edgeAngleOverSine(dot(from, to)) * (from.x * to.y - from.y * to.x);
+    }
+    // Seen from the shining side, which way the corners turn.
+    float turn = dot(cross(light.halfU, light.halfV), light.direction);
+    bool inFront = dot(p - light.position, light.direction) > 0.0;
+    return inFront ? b.albedo * (max(turn > 0.0 ? -sum : sum, 0.0) / (2.0 * kPi)) : vec3(0.0);
+}

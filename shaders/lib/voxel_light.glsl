@@ -28,7 +28,9 @@
 #include "lib/random.glsl"
 #include "lib/ray_query.glsl"
 #include "lib/record_face.glsl"
+#include "lib/rect_light.glsl"
 #include "lib/scene_tables.glsl"
+#include "lib/shadow.glsl"
 #include "lib/tangent_frame.glsl"
 #include "shared/irradiance.h"
 #if EXACT_DIRECT
@@ -74,10 +76,9 @@ float faceBrightness(vec3 radiance) { return dot(radiance, vec3(1.0 / 3.0)); }
 vec3 faceNormalOf(int face) { return octDecode(unpackSnorm2x16(texelFetch(voxelFaces, 2 * face).x)); }
 
 // Radiance at a hit, all surfaces matt; the sky where nothing was met, nothing where a surface was met from
-// behind.
-vec3 hitRadiance(VoxelHit hit, vec3 origin, vec3 direction) {
+// behind. `s`: of the face that was hit; its irradiance becomes that of the point, where it is looked up.
+vec3 hitRadiance(VoxelHit hit, vec3 origin, vec3 direction, inout FaceShade s) {
     int face = max(hit.face, 0);
-    FaceShade s = faceShade(face);
 #if EXACT_DIRECT || SMOOTH_HITS
     vec3 normal = faceNormalOf(face);
     vec3 point = origin + (hit.face >= 0 ? hit.t : 0.0) * direction;
@@ -100,9 +101,29 @@ vec3 hitRadiance(VoxelHit hit, vec3 origin, vec3 direction) {
 #if LOBES
 // Metals rougher than this shine as if matt: their lobe is nearly as wide, and rays cost the same.
 const float kRoughestLobe = 0.75;
+// A lobe at least this wide (GGX's alpha) reflects rectangles of light as a whole, without a ray; in one that
+// is narrower a ray must meet them, which then few do not, and shadows on them are sharp. By eye.
+const float kNarrowLobe = 0.015;
 
-// A ray that meets metal: what it shows besides its lobe, and how the ray goes on in the lobe. Light of
-// point, spot and directional lights cannot be met by rays: the lobe reflects it here, matt where it was not
+// What rectangles of light show in the lobe of b: their reflection as a whole (lib/rect_light.glsl) where one
+// of their sample points, number k, is seen.
+vec3 reflectedRects(Brdf b, vec3 position, vec3 normal, vec3 toEye, uint k) {
+    vec3 reflected = vec3(0.0);
+    uint i = frame.lightEnds.z;
+    if (i < frame.lightEnds.w) {
+        RectLobe lobe = rectLobe(normal, toEye, b.alpha, b.nov);
+        do {
+            Light light = lights[i];
+            vec3 point = rectSamplePoint(light, k);
+            reflected += light.intensity * rectSpecularQuick(light, position, lobe, b) *
+                         shadowVisibilityRect(light, k, point, position, normal);
+        } while (++i < frame.lightEnds.w);
+    }
+    return reflected;
+}
+
+// A ray that meets metal: what it shows besides what its lobe reflects of other surfaces, and how the ray
+// goes on in the lobe. Lights, which no ray can meet or few, are reflected here, matt where they were not
 // looked up.
 struct LobeStep {
     vec3 radiance;
@@ -110,25 +131,33 @@ struct LobeStep {
     vec3 origin;
     vec3 leaves;
     vec3 direction;
+    float alpha;
+    float glossy;  // share of its colour that the lobe has
 };
 
-LobeStep reflectRay(int face, FaceShade s, vec2 lobe, vec3 matt, vec3 point, vec3 direction, vec2 xi) {
+// `widening`: added to the square of the lobe's width.
+LobeStep reflectRay(int face, FaceShade s, vec2 lobe, float widening, vec3 matt, vec3 point, vec3 direction,
+                    vec2 xi) {
     vec3 normal = faceNormalOf(face);
-    Brdf b = makeBrdf(s.albedo, lobe.x, lobe.y, vec3(0.04), -dot(normal, direction));
+    float alpha = max(lobe.y, kMinRoughness) * max(lobe.y, kMinRoughness);
+    alpha = min(sqrt(alpha * alpha + widening), 1.0);
+    Brdf b = makeBrdf(s.albedo, lobe.x, sqrt(alpha), vec3(0.04), -dot(normal, direction));
     LobeStep next;
+    next.alpha = alpha;
     next.direction = lobeDirection(b, normal, -direction, xi, next.weight);
     next.origin = rayOrigin(point, normal);
     next.leaves = normal;
     // The record reflects by all of its colour; its matt part is only this much of it.
     float share = dot(b.diffuse, vec3(1.0)) / max(dot(s.albedo, vec3(1.0)), 1e-4);
+    next.glossy = 1.0 - share;
     vec3 emission = unpackEmission(texelFetch(faceSources, face).xy);
     next.radiance = emission + share * max(matt - emission, vec3(0.0));
+    vec3 position = worldFromGrid(point + faceRise(texelFetch(voxelFaces, 2 * face), normal));
+    uint k = min(uint(fract(7.0 * xi.x + xi.y) * float(RECT_POINT_COUNT)), RECT_POINT_COUNT - 1u);
+    if (alpha >= kNarrowLobe) next.radiance += reflectedRects(b, position, normal, -direction, k);
 #if EXACT_DIRECT
     DirectLight light = DirectLight(vec3(0.0), vec3(0.0));
-    addPunctualLights(light, true,
-                      Receiver(worldFromGrid(point + faceRise(texelFetch(voxelFaces, 2 * face), normal)),
-                               normal, normal, -direction, kShadowVoxelLift),
-                      b);
+    addPunctualLights(light, true, Receiver(position, normal, normal, -direction, kShadowVoxelLift), b);
     next.radiance += light.specular;
 #else
     next.radiance +=
@@ -138,23 +167,33 @@ LobeStep reflectRay(int face, FaceShade s, vec2 lobe, vec3 matt, vec3 point, vec
 }
 #endif
 
+// Where a ray comes from: how wide its direction was drawn, as a GGX alpha.
+const float kCosineSpread = 0.5;
+// A second lobe is widened by so much of the square of the first, over the number of rays of the mean: what
+// few of the rays would find, a lamp or a bright wall in a narrow lobe, many see blurred instead.
+const float kLobeWidening = 12.0;
+
 // Radiance that a ray brings (hitRadiance), and what it met first. With LOBES it goes on where it meets
-// metal, up to `reflections` times; after that metals shine as if matt. Rectangles and lamps that stand for
-// them are seen by rays that come off metal, only there: whoever sends the ray adds their light itself. What
-// comes by reflections is not brighter than `limit` times what the metal would show if matt: a lamp met by
-// one ray of few is a speckle. The limit grows with the number of rays, so that the mean tends to what is
-// there. `aim`: a ray that is over where its first hit is not at this distance; negative: none.
+// metal, up to `reflections` times; after that metals reflect lights in their lobe and all else as if matt.
+// `leaves`: normal of the surface that the ray starts from. `spread`: of the directions that this ray was
+// drawn from. `limit`: number of rays of the mean. Lobes are widened by both (path space regularization:
+// Kaplanyan and Dachsbacher 2013), and what comes by reflections is not brighter than `limit` times what the
+// metal would show if matt. Both vanish with the number of rays, so that the mean tends to what is there.
+// `aim`: a ray that is over where its first hit is not at this distance; negative: none.
 vec3 rayRadiance(vec3 origin, vec3 leaves, vec3 direction, float reach, float aim, int reflections,
-                 float limit, inout uint random, out VoxelHit first) {
+                 float spread, float limit, inout uint random, out VoxelHit first) {
     first = traceVoxels(origin, direction, reach, leaves);
 #if !LOBES
-    return hitRadiance(first, origin, direction);
+    FaceShade s = faceShade(max(first.face, 0));
+    return hitRadiance(first, origin, direction, s);
 #else
     VoxelHit hit = first;
     vec3 shown = vec3(0.0);    // by what was met first
     vec3 brought = vec3(0.0);  // by reflections
     vec3 throughput = vec3(1.0);
     float most = 0.0;
+    float spread2 = spread * spread;
+    bool narrow = false;  // the lobe that the ray comes from
     int count = 0;
     bool going;
     do {
@@ -162,19 +201,24 @@ vec3 rayRadiance(vec3 origin, vec3 leaves, vec3 direction, float reach, float ai
         FaceShade s = faceShade(face);
         uint bits = texelFetch(voxelFaces, 2 * face + 1).w;
         vec2 lobe = unpackLobe(bits >> 16);
-        vec3 radiance = hitRadiance(hit, origin, direction);
+        vec3 radiance = hitRadiance(hit, origin, direction, s);
         bool lamp = (bits & FACE_AREA_LIGHT) != 0u;
         bool arrived = count > 0 || aim < 0.0 || abs(hit.t - aim) < 0.3;
-        going = hit.face >= 0 && count < reflections && lobe.x > 0.0 && lobe.y <= kRoughestLobe && s.usable &&
-                !lamp && arrived;
-        if (count > 0 && hit.face >= 0 && lamp) radiance += unpackEmission(texelFetch(faceSources, face).xy);
+        bool metal = hit.face >= 0 && lobe.x > 0.0 && lobe.y <= kRoughestLobe && s.usable && !lamp && arrived;
+        if (narrow && hit.face >= 0 && lamp) radiance += unpackEmission(texelFetch(faceSources, face).xy);
         vec2 xi = vec2(randomNext(random), randomNext(random));
-        LobeStep next = reflectRay(face, s, lobe, radiance, origin + hit.t * direction, direction, xi);
-        vec3 light = throughput * (going ? next.radiance : radiance);
+        LobeStep next = reflectRay(face, s, lobe, spread2 * kLobeWidening / limit, radiance,
+                                   origin + hit.t * direction, direction, xi);
+        going = metal && count < reflections;
+        // The lobe's part of what surfaces about it show; matt metal has it in its colour.
+        if (!going) next.radiance += next.glossy * s.albedo * s.irradiance;
+        vec3 light = throughput * (metal ? next.radiance : radiance);
         shown += count == 0 ? light : vec3(0.0);
         brought += count == 0 ? vec3(0.0) : light;
         most = count == 0 ? limit * faceBrightness(radiance) : most;
         throughput *= next.weight;
+        spread2 += next.alpha * next.alpha;
+        narrow = next.alpha < kNarrowLobe;
         going = going && throughput.r + throughput.g + throughput.b > 0.0;
         if (going) {
             origin = next.origin;
@@ -273,7 +317,7 @@ vec3 gatherIrradianceSequence(vec3 originGrid, vec3 geometricNormal, vec3 shadin
         COUNT_LOOKUP(toLight ? 2 : 0);
         VoxelHit hit;
         vec3 radiance = rayRadiance(originGrid, geometricNormal, direction, above ? reach : -1.0,
-                                    toLight ? distance : -1.0, reflections, limit, state, hit);
+                                    toLight ? distance : -1.0, reflections, kCosineSpread, limit, state, hit);
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);
 #if FIND_BACKS
         VoxelHit met = hit;

@@ -17,10 +17,11 @@ namespace {
 constexpr float kPlaneTolerance = 0.5f;
 // Reach of component occlusion, as a part of the grid's longest side.
 constexpr float kOcclusionReach = 0.1f;
-// A ray that meets metal goes on in the metal's lobe so often; after that metals shine as if matt. Three
-// mirrors in a row are seen, more are hardly told apart; what irradiance misses of the second is little.
+// A ray into a lobe goes on so often where it meets metal; after that metals reflect lights in their lobe and
+// all else as if matt. Three mirrors in a row are seen, more are hardly told apart. Rays for irradiance go on
+// only where many are averaged: what few bring from a lobe is speckles.
 constexpr std::uint32_t kLobeReflections = 3;
-constexpr std::uint32_t kGatherReflections = 2;
+constexpr int kReflectedRays = 128;
 constexpr int kAllBounces = 16;  // TracedSettings::bounces
 
 // Occlusion asks for no light.
@@ -80,11 +81,12 @@ gpu::PixelRayConstants PixelRays::packed(const PixelRayFrame& frame, const Trace
     c.longestMean = static_cast<float>(std::max(longest, 1));
     c.specularLimit = settings.specularLimit;
     c.reach = kOcclusionReach * frame.gridLength;
+    const bool lobes = kind_ == RayPicture::Specular;
+    const int averaged = (lobes ? 1 : 2) * rays * longest;
+    c.reflections = lobes ? kLobeReflections : (averaged >= kReflectedRays ? 1u : 0u);
     // With a limited number of bounces none: a reflection is a bounce more.
-    c.reflections = kind_ == RayPicture::Specular ? kLobeReflections : kGatherReflections;
     if (settings.bounces < kAllBounces) c.reflections = 0;
-    const int kinds = kind_ == RayPicture::Specular ? 1 : 2;
-    c.reflectedLimit = light::reflectedLimit(kinds * rays * longest);
+    c.reflectedLimit = light::reflectedLimit(averaged);
     c.inverseVoxelSize = 1.0f / frame.voxelSize;
     return c;
 }

@@ -30,7 +30,7 @@ struct CacheSettings {
     // Faces that one update visits at most, in turn; 0: all. Rays per frame are this times the rays per face.
     std::uint32_t facesPerUpdate = 0;
     int longestWindow = 256;  // updates that are averaged in the end
-    int reflections = 1;      // of one ray on metals; after that they shine as if matt; 0..8
+    int reflections = 1;      // of one ray on metals; then all but lights is reflected as if matt; 0..8
     bool exactDirect = true;  // light of point, spot and directional lights is looked up where rays hit
     std::uint32_t seed = 1;
 };

@@ -2,6 +2,7 @@
 // Pictures of mode `traced` against what must be so: furnaces (matt and metal), bounces, parts that add up,
 // the same bits every time, means over frames, a moving camera, thin walls under the filter.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
@@ -358,6 +359,34 @@ TEST_F(TracedModeTest, SolidsMayBeTwoSided) {
         for (Material& material : other.materials) material.doubleSided = true;
         EXPECT_NEAR(meanOf(draw(other, settings)) / single, 1.0, 0.03) << static_cast<int>(quality);
     }
+}
+
+// Of the light that a metal floor and metal things send to walls few rays find much. It must arrive without
+// speckles, pixels far brighter than those about them, and all of it.
+TEST_F(TracedModeTest, MetalsThrowNoSpecklesOnWalls) {
+    const Scene scene = io::generateScene("glossy");
+    Settings settings = smallSettings(Quality::Interactive, Component::Diffuse);
+    const Image image = draw(scene, settings);
+    int speckles = 0;
+    for (int y = 1; y + 1 < kPixels; ++y)
+        for (int x = 1; x + 1 < kPixels; ++x) {
+            std::array<float, 9> around;
+            for (int i = 0; i < 9; ++i) {
+                const int at = (y + i / 3 - 1) * kPixels + x + i % 3 - 1;
+                around[static_cast<std::size_t>(i)] = image.pixels[static_cast<std::size_t>(at)].x;
+            }
+            const float own = around[4];
+            std::sort(around.begin(), around.end());
+            // Six of nine are of the same surface.
+            speckles += around[3] > 0 && own > 1.5f * around[8 - 1] ? 1 : 0;
+        }
+    EXPECT_LE(speckles, 4);
+    settings.component = Component::Full;
+    reference::PathTracerSettings truth;
+    truth.samplesPerPixel = 64;
+    const double expected =
+        meanOf(reference::PathTracer(scene).render(scene.cameras.at(0), kPixels, kPixels, truth).full);
+    EXPECT_NEAR(meanOf(draw(scene, settings)) / expected, 1.0, 0.03);
 }
 
 TEST_F(TracedModeTest, EveryComponentIsFinite) {
