@@ -534,6 +534,8 @@ void Viewer::keys() {
     if (gui_.wantsKeyboard() || window_.cursorCaptured()) return;
     for (const auto& press : presses) {
         if (press.key == GLFW_KEY_F && !press.control) focus();
+        if (press.key >= GLFW_KEY_1 && press.key <= GLFW_KEY_3 && !press.control)
+            view_.gizmo.tool = static_cast<GizmoTool>(press.key - GLFW_KEY_1);
         if (press.key == GLFW_KEY_F11) window_.setFullscreen(!window_.fullscreen());
         if (press.key == GLFW_KEY_TAB) showSide_ = showConsole_ = !showSide_;
         if (press.key == GLFW_KEY_X && !press.control) view_.split.on = !view_.split.on;
@@ -558,6 +560,14 @@ void Viewer::menuBar() {
     notePlace("menu:View");
     if (view) {
         if (ImGui::MenuItem("Focus", "F")) focus();
+        const auto tool = [&](const char* name, const char* key, GizmoTool one) {
+            if (ImGui::MenuItem(name, key, view_.gizmo.tool == one)) view_.gizmo.tool = one;
+        };
+        ImGui::Separator();
+        tool("Move", "1", GizmoTool::Move);
+        tool("Turn", "2", GizmoTool::Turn);
+        tool("Scale", "3", GizmoTool::Scale);
+        ImGui::Separator();
         ImGui::MenuItem("Split", "X", &view_.split.on);
         ImGui::MenuItem("Panels", "Tab", &showSide_);
         ImGui::MenuItem("Console", nullptr, &showConsole_);
@@ -772,8 +782,12 @@ std::string Viewer::movingText() const {
 std::string Viewer::selectionText() const {
     const Selection& selection = session_.selection();
     const Scene& scene = session_.scene();
-    if (selection.kind == SelectionKind::Instance)
-        return fmt::format("object {} {}", selection.index, scene.instances[selection.index].name);
+    if (selection.kind == SelectionKind::Instance) {
+        const Instance& instance = scene.instances[selection.index];
+        const glm::mat4& m = instance.worldFromObject;
+        return fmt::format("object {} {} at {:.4f} {:.4f} {:.4f}, x axis {:.4f} {:.4f} {:.4f}", selection.index,
+                           instance.name, m[3].x, m[3].y, m[3].z, m[0].x, m[0].y, m[0].z);
+    }
     if (selection.kind == SelectionKind::Light) return fmt::format("light {}", selection.index);
     if (selection.kind == SelectionKind::Material)
         return fmt::format("material {} {}", selection.index, scene.materials[selection.index].name);
