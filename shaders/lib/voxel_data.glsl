@@ -30,10 +30,10 @@ vec3 faceData(int face, uint data) {
             return falseColor(float(bitCount(word.x) + bitCount(word.y)) / 64.0);
         }
         default: {
-            // Emitters that are lights as well are dark to rays, which count them as lights; they glow all the same.
-            vec3 glow = (b.w & FACE_AREA_LIGHT) != 0u
-                            ? unpackEmission(texelFetch(voxelFaceSources, face).xy)
-                            : vec3(0.0);
+            // Emitters that are lights as well are dark to rays, which count them as lights; they glow all
+            // the same.
+            vec3 glow = (b.w & FACE_AREA_LIGHT) != 0u ? unpackEmission(texelFetch(voxelFaceSources, face).xy)
+                                                      : vec3(0.0);
             return unpackRgb9e5(b.y) + glow + unpackAlbedo(b.x) * irradiance;
         }
     }

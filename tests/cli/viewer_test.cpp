@@ -163,7 +163,8 @@ TEST_F(ViewerTest, HandlesMoveTurnAndScaleTheSelection) {
         const std::string text = viewer->status("selection");
         std::vector<float> found;
         for (const char* word : {" at ", "x axis "}) {
-            std::istringstream stream(text.substr(std::min(text.size(), text.find(word) + std::strlen(word))));
+            std::istringstream stream(
+                text.substr(std::min(text.size(), text.find(word) + std::strlen(word))));
             float value = 0;
             for (int i = 0; i < 3 && stream >> value; ++i) {
                 found.push_back(value);
@@ -179,9 +180,9 @@ TEST_F(ViewerTest, HandlesMoveTurnAndScaleTheSelection) {
         const char *key, *handle;
         glm::ivec2 by;
     };
-    for (const Case& one : {Case{"1", "gizmo:x", {25, 0}}, Case{"1", "gizmo:y", {0, -25}},
-                            Case{"2", "gizmo:y", {-20, 8}}, Case{"3", "gizmo:x", {20, 0}},
-                            Case{"3", "gizmo:all", {40, 0}}}) {
+    for (const Case& one :
+         {Case{"1", "gizmo:x", {25, 0}}, Case{"1", "gizmo:y", {0, -25}}, Case{"2", "gizmo:y", {-20, 8}},
+          Case{"3", "gizmo:x", {20, 0}}, Case{"3", "gizmo:all", {40, 0}}}) {
         SCOPED_TRACE(std::string(one.key) + one.handle);
         moveTo(inPicture(0.5f, 0.95f));
         screen->xdotool(std::string("key ") + one.key);
@@ -338,7 +339,8 @@ TEST_F(ViewerTest, ModesOfTheProcessorInTheWindow) {
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
 }
 
-// The window draws, follows the mouse and answers while it bakes; commands behind it wait, and it can be stopped.
+// The window draws, follows the mouse and answers while it bakes; commands behind it wait, and it can be
+// stopped.
 TEST_F(ViewerTest, BakesInTheBackground) {
     const std::string file = scratchPath("baked.glb");
     std::filesystem::remove(file);
@@ -358,8 +360,7 @@ TEST_F(ViewerTest, BakesInTheBackground) {
     screen->xdotool("mouseup 1");
     EXPECT_TRUE(eventually([&] {
         return !near(screen->pixels().mean(middle - 40, {80, 80}), still.mean(middle - 40, {80, 80}), 0.5f);
-    }))
-        << "the picture turns";
+    })) << "the picture turns";
     EXPECT_FALSE(std::filesystem::exists(file)) << "it is still at work";
     EXPECT_NE(viewer->expect("written " + file), "") << viewer->output();
     const std::string after = viewer->expect("status camera: ");
@@ -370,11 +371,13 @@ TEST_F(ViewerTest, BakesInTheBackground) {
     viewer->send("bake " + file + "; echo behind");
     EXPECT_NE(viewer->expect(file), "") << "what exists is left alone";
     ASSERT_NE(viewer->expect("behind"), "");
-    // Its button at the end of the strip, as `where` cannot be asked meanwhile: heights of text are 14 pixels.
+    // Its button at the end of the strip, as `where` cannot be asked meanwhile: heights of text are 14
+    // pixels.
     const auto written = std::filesystem::last_write_time(file);
     const float em = 14, strip = std::min(36 * em, static_cast<float>(place.z) - em);
     viewer->send("bake " + file + " overwrite; echo after");
-    const glm::ivec2 stop = glm::ivec2(place) + glm::ivec2(0.5f * em + strip - 2.5f * em, place.w - 1.6f * em);
+    const glm::ivec2 stop =
+        glm::ivec2(place) + glm::ivec2(0.5f * em + strip - 2.5f * em, place.w - 1.6f * em);
     const glm::ivec2 edge = stop + glm::ivec2(-20, 6);  // of the button, beside its text
     EXPECT_TRUE(eventually([&] { return near(glm::vec3(screen->pixels().at(edge)), glm::vec3(54), 3); }))
         << "the strip is shown";
@@ -389,6 +392,38 @@ TEST_F(ViewerTest, BakesInTheBackground) {
     EXPECT_EQ(std::filesystem::last_write_time(file), written) << "nothing was written";
     viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
+}
+
+// A click lists the rays of the pixel and draws them; one in the list stands out and shows its steps.
+TEST_F(ViewerTest, InspectorListsAndDrawsRays) {
+    screen = std::make_unique<VirtualScreen>(960, 960);
+    start("--window 960x960 --voxels 32 --mode traced --no-state builtin:cornell");
+    settle();
+    const ScreenPixels before = screen->pixels();
+    const glm::ivec4 place = picture();
+    click(inPicture(0.62f, 0.72f));
+    EXPECT_NE(viewer->status("pixel").find("short block"), std::string::npos);
+    settle();
+    // Pixels of the picture in the rays' yellow.
+    const auto yellow = [&] {
+        const ScreenPixels now = screen->pixels();
+        int count = 0;
+        for (int y = place.y; y < place.y + place.w; ++y)
+            for (int x = place.x; x < place.x + place.z; ++x) {
+                const glm::ivec3 p = now.at({x, y});
+                count += p != before.at({x, y}) && p.x > 200 && p.y > 150 && p.y < 215 && p.z < 110;
+            }
+        return count;
+    };
+    EXPECT_TRUE(eventually([&] { return yellow() > 100; })) << yellow();
+    const int all = yellow();
+    const glm::ivec4 line = viewer->placeOf("path:0");
+    ASSERT_GT(line.z, 0) << "rays are listed: " << viewer->output();
+    click({line.x + 20, line.y + line.w / 2});
+    EXPECT_TRUE(eventually([&] { return yellow() < all / 2; })) << "the others step back";
+    EXPECT_GT(viewer->placeOf("step:0").z, 0) << "its steps are listed";
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0);
 }
 
 TEST_F(ViewerTest, LinesAreTypedIntoTheWindowAndRemembered) {
@@ -512,8 +547,8 @@ TEST_F(ViewerTest, DroppedFilesAreOpened) {
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
 }
 
-// Right button and W held, at the size that people have: what moves is drawn coarser, at five pictures a second
-// or more. The best of some flights, as other tests may run beside.
+// Right button and W held, at the size that people have: what moves is drawn coarser, at five pictures a
+// second or more. The best of some flights, as other tests may run beside.
 TEST_F(ViewerTest, FliesAtFiveFramesASecondOnTheProcessor) {
     screen = std::make_unique<VirtualScreen>(1280, 720);
     for (const char* scene : {"builtin:cornell", "builtin:atrium"}) {

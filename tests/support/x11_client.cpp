@@ -87,7 +87,8 @@ std::string uriOf(const std::string& path) {
         const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
                            c == '/' || c == '.' || c == '-' || c == '_';
         char escaped[4];
-        std::snprintf(escaped, sizeof escaped, "%%%02X", static_cast<unsigned>(static_cast<unsigned char>(c)));
+        std::snprintf(escaped, sizeof escaped, "%%%02X",
+                      static_cast<unsigned>(static_cast<unsigned char>(c)));
         uri += plain ? std::string(1, c) : std::string(escaped);
     }
     return uri;
@@ -112,8 +113,9 @@ bool dropFiles(const std::string& display, const std::string& title, const std::
     const Atom selection = client.atom("XdndSelection"), list = client.atom("text/uri-list");
     XSetSelectionOwner(x, selection, source, CurrentTime);
     client.message(target, "XdndEnter", {from, 5L << 24, static_cast<long>(list), 0, 0});
-    client.message(target, "XdndPosition",
-                   {from, 0, (50L << 16) | 50, CurrentTime, static_cast<long>(client.atom("XdndActionCopy"))});
+    client.message(
+        target, "XdndPosition",
+        {from, 0, (50L << 16) | 50, CurrentTime, static_cast<long>(client.atom("XdndActionCopy"))});
     XEvent event;
     if (!client.wait(ClientMessage, client.atom("XdndStatus"), event)) return false;
     if ((event.xclient.data.l[1] & 1) == 0) return false;  // not taken there

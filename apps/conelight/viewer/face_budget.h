@@ -14,8 +14,8 @@ class FaceBudget {
     explicit FaceBudget(double targetMs) : targetMs_(targetMs) {}
     // 0: all.
     int faces() const { return faces_; }
-    // An update of faces() faces took this long. Changes by halves and doubles, and not for little: means over
-    // pictures begin anew with it.
+    // An update of faces() faces took this long. Changes by halves and doubles, and not for little: means
+    // over pictures begin anew with it.
     void measured(double ms) {
         if (faces_ == 0)
             faces_ = ms > 2 * targetMs_ ? kFirst : 0;

@@ -30,17 +30,17 @@ void FileBake::Impl::run(const Scene& scene, const reference::RadiositySettings&
     std::optional<Scene> baked;
     std::optional<Error> error;
     try {
-        baked = reference::bakeRadiosity(
-            scene, settings, nullptr, [&](const reference::RadiosityProgress& progress) {
-                if (cancelled) return false;
-                {
-                    const std::lock_guard lock(mutex);
-                    status.done = progress.done;
-                    status.secondsLeft = progress.secondsLeft;
-                }
-                wake();
-                return true;
-            });
+        baked = reference::bakeRadiosity(scene, settings, nullptr,
+                                         [&](const reference::RadiosityProgress& progress) {
+                                             if (cancelled) return false;
+                                             {
+                                                 const std::lock_guard lock(mutex);
+                                                 status.done = progress.done;
+                                                 status.secondsLeft = progress.secondsLeft;
+                                             }
+                                             wake();
+                                             return true;
+                                         });
     } catch (const Error& one) {
         error = one;
     } catch (const std::exception& one) {
@@ -63,10 +63,10 @@ void FileBake::start(const std::string& file, bool overwrite, const Scene& scene
     impl_->lit.reset();
     impl_->failure.reset();
     impl_->status.running = true;
-    impl_->started = impl_->job.start(
-        [impl = impl_.get(), copy = std::make_shared<const Scene>(scene), settings,
-         wake](const Cancelled& cancelled) { impl->run(*copy, settings, cancelled, wake); },
-        wake);
+    impl_->started =
+        impl_->job.start([impl = impl_.get(), copy = std::make_shared<const Scene>(scene), settings,
+                          wake](const Cancelled& cancelled) { impl->run(*copy, settings, cancelled, wake); },
+                         wake);
 }
 
 void FileBake::stop() {
@@ -85,8 +85,7 @@ BakeStatus FileBake::status() const {
 std::optional<std::vector<std::string>> FileBake::finish() {
     if (!impl_->started || impl_->job.busy()) return std::nullopt;
     impl_->started = false;
-    if (impl_->stopped)
-        throw Error(ErrorKind::Runtime, "bake: stopped; " + impl_->file + " is not written");
+    if (impl_->stopped) throw Error(ErrorKind::Runtime, "bake: stopped; " + impl_->file + " is not written");
     if (impl_->failure) throw *impl_->failure;
     const WritingScope writing;
     std::vector<std::string> lines = io::writeGltf(impl_->file, *impl_->lit, impl_->overwrite);

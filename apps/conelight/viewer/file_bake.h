@@ -29,8 +29,8 @@ class FileBake {
     const std::string& file() const;
     BakeStatus status() const;
 
-    // Once, when the work has ended: writes the file and returns lines that say so, or throws what went wrong.
-    // Nothing while it runs, and when there was none.
+    // Once, when the work has ended: writes the file and returns lines that say so, or throws what went
+    // wrong. Nothing while it runs, and when there was none.
     std::optional<std::vector<std::string>> finish();
 
   private:

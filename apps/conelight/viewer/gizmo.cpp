@@ -86,7 +86,8 @@ glm::vec3 Gizmo::View::ray(const glm::vec2& mouse) const {
 std::vector<Gizmo::Handle> Gizmo::handles(const View& view, const glm::vec3& pivot, const glm::mat3& own,
                                           bool moves) const {
     const GizmoTool shown = moves ? GizmoTool::Move : tool;
-    const float length = kLength * 2 * std::tan(0.5f * view.camera.fovY) * glm::length(pivot - view.camera.eye);
+    const float length =
+        kLength * 2 * std::tan(0.5f * view.camera.fovY) * glm::length(pivot - view.camera.eye);
     std::vector<Handle> all;
     const std::optional<glm::vec2> middle = view.onScreen(pivot);
     if (!middle || !(length > 0)) return all;
@@ -99,7 +100,8 @@ std::vector<Gizmo::Handle> Gizmo::handles(const View& view, const glm::vec3& piv
             across(handle.direction, u, v);
             for (int i = 0; i <= kRing; ++i) {
                 const float angle = 6.2831853f * static_cast<float>(i) / kRing;
-                if (const auto p = view.onScreen(pivot + length * (std::cos(angle) * u + std::sin(angle) * v)))
+                if (const auto p =
+                        view.onScreen(pivot + length * (std::cos(angle) * u + std::sin(angle) * v)))
                     handle.line.push_back(*p);
             }
         } else if (const auto tip = view.onScreen(pivot + length * handle.direction)) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Handles on the selected object or light in the picture: arrows move it along the world's axes, rings turn it
-// about them, boxes scale it along its own axes, the box in the middle along all. A drag is one step of undo.
-// Drawn with ImGui, as no package of Debian 12 has such handles.
+// Handles on the selected object or light in the picture: arrows move it along the world's axes, rings turn
+// it about them, boxes scale it along its own axes, the box in the middle along all. A drag is one step of
+// undo. Drawn with ImGui, as no package of Debian 12 has such handles.
 #pragma once
 
 #include <functional>
@@ -41,9 +41,9 @@ class Gizmo {
         Selection what;
         Handle handle;
         glm::vec3 pivot{0};
-        glm::vec2 mouse{0};                  // where it began
-        std::optional<float> along;          // the axis, or the angle about it, there
-        Instance instance;                   // as it was
+        glm::vec2 mouse{0};          // where it began
+        std::optional<float> along;  // the axis, or the angle about it, there
+        Instance instance;           // as it was
         glm::vec3 light{0};
     };
     std::vector<Handle> handles(const View& view, const glm::vec3& pivot, const glm::mat3& own,

@@ -75,7 +75,7 @@ struct PictureSlot::Impl {
     double frameMs = 0, updateMs = 0;  // the light cache's part
     FaceBudget flyingFaces{kFlyingUpdateMs};
     bool flyingUpdate = false;  // the last update was of flyingFaces
-    double voxelsMadeAt = 0;  // ms; ViewFlags::dynamic
+    double voxelsMadeAt = 0;    // ms; ViewFlags::dynamic
     std::uint64_t version = 0;
     std::uint32_t texture = 0;
     std::optional<Image> linear;

@@ -24,7 +24,7 @@ class PictureSlot {
     struct How {
         bool still = true;    // the view rests: work in the background may start
         bool preview = true;  // until that has something to show, draw the view in a mode of the renderer
-        bool flying = false;       // the camera moves, the scene does not: what is slow may lag behind
+        bool flying = false;  // the camera moves, the scene does not: what is slow may lag behind
         bool onlyChanges = false;  // leave out what merely refines the picture
     };
     // Brings the picture up to date, `width` x `height` pixels. Returns whether drawing again soon would

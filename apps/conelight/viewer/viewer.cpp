@@ -65,8 +65,8 @@ double median(const FrameTimes& times) {
     return sorted[sorted.size() / 2];
 }
 
-// Of a bake: those of mode traced, where 16 stands for all, as -1 does here. All in other modes: cones bounces
-// as often as it can pay for.
+// Of a bake: those of mode traced, where 16 stands for all, as -1 does here. All in other modes: cones
+// bounces as often as it can pay for.
 int bouncesOf(const Settings& settings) {
     constexpr int kAll = 16;
     const bool limited = settings.mode == Mode::Traced && settings.traced.bounces < kAll;
@@ -126,6 +126,7 @@ class Viewer {
     Layout layout() const;
     void resizePanels(const Layout& layout);
     void leftPanel(const Layout& layout);
+    void stageTabs(const std::vector<Stage>& stages);
     void rightPanel(const Layout& layout);
     void bottomPanel(const Layout& layout);
     void picture(const glm::vec2& at, const glm::vec2& size);
@@ -153,6 +154,7 @@ class Viewer {
     std::optional<std::string> hint_;
     std::uint64_t hintVersion_ = 0;
     Picker picker_;
+    std::size_t stage_ = 0;  // of the left panel
     std::string filter_;
     std::string remembered_;           // the scene that the recent list has
     std::vector<std::string> wanted_;  // widgets whose place was asked for
@@ -650,34 +652,43 @@ void Viewer::leftPanel(const Layout& layout) {
     ImGui::SetNextWindowPos({0, layout.top});
     ImGui::SetNextWindowSize({layout.left, layout.display.y - layout.top});
     ImGui::Begin("##left", nullptr, kPanel);
-    // Narrow enough for all five names.
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding,
-                        {0.35f * ImGui::GetFontSize(), ImGui::GetStyle().FramePadding.y});
-    const bool tabs = ImGui::BeginTabBar("stages");
-    ImGui::PopStyleVar();
-    if (tabs) {
-        const SettingEdit editSetting = [this](const std::string& key, const std::string& value, bool done) {
-            if (!value.empty()) attempt([&] { session_.setSetting(key, value, key); });
-            if (done) session_.seal();
-        };
-        for (const Stage& stage : stagesOf(conelight::getSetting(session_.settings(), "mode"))) {
-            const bool shown = ImGui::BeginTabItem(stage.name);
-            notePlace(std::string("tab:") + stage.name);
-            if (!shown) continue;
-            ImGui::SetNextItemWidth(-1);
-            ImGui::InputTextWithHint("##filter", "filter", &filter_);
-            ImGui::BeginChild("##stage");
-            if (stage.prefixes.empty())
-                sceneTree(session_, filter_);
-            else
-                settingsPanel_.show(session_.settings(), session_.revisions().settings, stage.prefixes,
-                                    filter_, editSetting);
-            ImGui::EndChild();
-            ImGui::EndTabItem();
-        }
-        ImGui::EndTabBar();
-    }
+    const std::vector<Stage> stages = stagesOf(conelight::getSetting(session_.settings(), "mode"));
+    stageTabs(stages);
+    const Stage& stage = stages[stage_];
+    ImGui::SetNextItemWidth(-1);
+    ImGui::InputTextWithHint("##filter", "filter", &filter_);
+    ImGui::BeginChild(stage.name);
+    if (stage.prefixes.empty())
+        sceneTree(session_, filter_);
+    else
+        settingsPanel_.show(session_.settings(), session_.revisions().settings, stage.prefixes, filter_,
+                            [this](const std::string& key, const std::string& value, bool done) {
+                                if (!value.empty()) attempt([&] { session_.setSetting(key, value, key); });
+                                if (done) session_.seal();
+                            });
+    ImGui::EndChild();
     ImGui::End();
+}
+
+// Whole names on as many lines as they take: ImGui's own tabs cut them in narrow windows.
+void Viewer::stageTabs(const std::vector<Stage>& stages) {
+    const float room = ImGui::GetContentRegionAvail().x, gap = 0.2f * ImGui::GetFontSize();
+    float used = 0;
+    for (std::size_t i = 0; i < stages.size(); ++i) {
+        const float width =
+            ImGui::CalcTextSize(stages[i].name).x + 2 * ImGui::GetStyle().FramePadding.x + gap;
+        if (i > 0 && used + width <= room + gap)
+            ImGui::SameLine(0, gap);
+        else
+            used = 0;
+        used += width;
+        const bool shown = i == stage_;
+        ImGui::PushStyleColor(ImGuiCol_Button,
+                              ImGui::GetStyleColorVec4(shown ? ImGuiCol_ButtonActive : ImGuiCol_Tab));
+        if (ImGui::Button(stages[i].name)) stage_ = i;
+        ImGui::PopStyleColor();
+        notePlace(std::string("tab:") + stages[i].name);
+    }
 }
 
 void Viewer::rightPanel(const Layout& layout) {
@@ -689,7 +700,8 @@ void Viewer::rightPanel(const Layout& layout) {
         inspectorPanel(session_, inspection_);
     if (ImGui::CollapsingHeader("Camera")) cameraEditor(session_);
     if (ImGui::CollapsingHeader("Frame", ImGuiTreeNodeFlags_DefaultOpen)) {
-        ImGui::SetNextItemWidth(8 * ImGui::GetFontSize());
+        const float em = ImGui::GetFontSize();
+        ImGui::SetNextItemWidth(std::min(8 * em, ImGui::GetContentRegionAvail().x - 5.5f * em));
         ImGui::SliderFloat("resolution", &view_.resolutionScale, 0.25f, 1.0f, "%.2f");
         if (const FrameStats* stats = view_.slot(false).stats())
             statsPanel(*stats, session_.frameTimes(), median(guiTimes_));
@@ -785,8 +797,8 @@ std::string Viewer::selectionText() const {
     if (selection.kind == SelectionKind::Instance) {
         const Instance& instance = scene.instances[selection.index];
         const glm::mat4& m = instance.worldFromObject;
-        return fmt::format("object {} {} at {:.4f} {:.4f} {:.4f}, x axis {:.4f} {:.4f} {:.4f}", selection.index,
-                           instance.name, m[3].x, m[3].y, m[3].z, m[0].x, m[0].y, m[0].z);
+        return fmt::format("object {} {} at {:.4f} {:.4f} {:.4f}, x axis {:.4f} {:.4f} {:.4f}",
+                           selection.index, instance.name, m[3].x, m[3].y, m[3].z, m[0].x, m[0].y, m[0].z);
     }
     if (selection.kind == SelectionKind::Light) return fmt::format("light {}", selection.index);
     if (selection.kind == SelectionKind::Material)

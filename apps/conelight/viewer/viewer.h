@@ -18,11 +18,11 @@ struct ViewerOptions {
     bool debugGl = false;
     std::vector<std::string> commands;  // run first, one line each
     bool readStdin = true;
-    bool keepState = true;  // remember scenes and typed lines (session/state_files.h)
-    bool timing = false;    // print start and cost of frames
-    float uiScale = 0;      // of text and widgets; 0: the screen's
+    bool keepState = true;                   // remember scenes and typed lines (session/state_files.h)
+    bool timing = false;                     // print start and cost of frames
+    float uiScale = 0;                       // of text and widgets; 0: the screen's
     reference::RadiositySettings radiosity;  // of `bake`
-    double startedMs = 0;   // steady clock when the program started
+    double startedMs = 0;                    // steady clock when the program started
 };
 
 // Runs until the window closes or `quit`; returns the exit status.
