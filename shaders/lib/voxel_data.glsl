@@ -29,8 +29,13 @@ vec3 faceData(int face, uint data) {
             uvec4 word = texelFetch(voxelBricks, unpackVoxel(a.w) >> 2, 0);
             return falseColor(float(bitCount(word.x) + bitCount(word.y)) / 64.0);
         }
-        default:
-            return unpackRgb9e5(b.y) + unpackAlbedo(b.x) * irradiance;
+        default: {
+            // Emitters that are lights as well are dark to rays, which count them as lights; they glow all
+            // the same.
+            vec3 glow = (b.w & FACE_AREA_LIGHT) != 0u ? unpackEmission(texelFetch(voxelFaceSources, face).xy)
+                                                      : vec3(0.0);
+            return unpackRgb9e5(b.y) + glow + unpackAlbedo(b.x) * irradiance;
+        }
     }
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -151,6 +152,90 @@ TEST_F(ViewerTest, MouseAndKeysMoveTheCameraAndChooseObjects) {
     EXPECT_NE(viewer->statusUntil("camera", [&](const std::string& now) { return now != rest; }), rest);
     screen->xdotool("key ctrl+z");
     EXPECT_EQ(viewer->statusUntil("camera", [&](const std::string& now) { return now == rest; }), rest);
+}
+
+// Handles on what is selected: each tool by the mouse, each drag one step of undo, and the camera stays.
+TEST_F(ViewerTest, HandlesMoveTurnAndScaleTheSelection) {
+    start(std::string(kSmall) + "builtin:cornell");
+    viewer->send("camera orbit 30 20; select 'short block'");
+    settle();
+    const auto numbers = [&] {  // at x y z, x axis x y z
+        const std::string text = viewer->status("selection");
+        std::vector<float> found;
+        for (const char* word : {" at ", "x axis "}) {
+            std::istringstream stream(
+                text.substr(std::min(text.size(), text.find(word) + std::strlen(word))));
+            float value = 0;
+            for (int i = 0; i < 3 && stream >> value; ++i) {
+                found.push_back(value);
+                if (stream.peek() == ',') break;
+            }
+        }
+        found.resize(6);
+        return found;
+    };
+    const std::vector<float> first = numbers();
+    const std::string camera = viewer->status("camera");
+    struct Case {
+        const char *key, *handle;
+        glm::ivec2 by;
+    };
+    for (const Case& one :
+         {Case{"1", "gizmo:x", {25, 0}}, Case{"1", "gizmo:y", {0, -25}}, Case{"2", "gizmo:y", {-20, 8}},
+          Case{"3", "gizmo:x", {20, 0}}, Case{"3", "gizmo:all", {40, 0}}}) {
+        SCOPED_TRACE(std::string(one.key) + one.handle);
+        moveTo(inPicture(0.5f, 0.95f));
+        screen->xdotool(std::string("key ") + one.key);
+        pass();
+        const std::string steps = viewer->status("steps");
+        const glm::ivec2 from = viewer->middleOf(one.handle);
+        ASSERT_GT(from.x, 0) << viewer->output();
+        // Each step is waited for on the screen: a command between them would end the step of undo.
+        const glm::ivec4 place = picture();
+        const auto expectChange = [&](const std::string& action) {
+            const ScreenPixels last = screen->pixels();
+            screen->xdotool(action);
+            EXPECT_TRUE(eventually([&] {
+                const ScreenPixels now = screen->pixels();
+                int changed = 0;
+                for (int y = place.y; y < place.y + place.w; ++y)
+                    for (int x = place.x; x < place.x + place.z; ++x)
+                        changed += now.at({x, y}) != last.at({x, y});
+                return changed > 10;
+            })) << action;
+        };
+        const auto to = [](const glm::ivec2& p) {
+            return "mousemove " + std::to_string(p.x) + " " + std::to_string(p.y);
+        };
+        expectChange(to(from));
+        screen->xdotool("mousedown 1");
+        std::this_thread::sleep_for(std::chrono::milliseconds(200));  // nothing is seen of a button
+        expectChange(to(from + one.by / 2));
+        expectChange(to(from + one.by));
+        screen->xdotool("mouseup 1");
+        pass();
+        const std::vector<float> now = numbers();
+        EXPECT_NE(viewer->status("steps"), steps);
+        const glm::vec3 move(now[0] - first[0], now[1] - first[1], now[2] - first[2]);
+        const glm::vec3 axis(now[3], now[4], now[5]), axisBefore(first[3], first[4], first[5]);
+        if (one.key[0] == '1') {
+            const int c = one.handle[6] - 'x';
+            EXPECT_GT(move[c], 0.02f) << "towards the arrow";
+            EXPECT_NEAR(glm::length(move), std::fabs(move[c]), 1e-4f) << "along the axis alone";
+            EXPECT_EQ(axis, axisBefore);
+        } else if (one.key[0] == '2') {
+            EXPECT_GT(glm::length(axis - axisBefore), 0.1f);
+            EXPECT_NEAR(glm::length(axis), glm::length(axisBefore), 1e-3f) << "turned, not scaled";
+            EXPECT_NEAR(axis.y, axisBefore.y, 1e-3f);
+        } else {
+            EXPECT_GT(glm::length(axis), 1.1f * glm::length(axisBefore));
+        }
+        EXPECT_EQ(viewer->status("camera"), camera);
+        viewer->send("undo");
+        EXPECT_EQ(numbers(), first) << "one step";
+    }
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0);
 }
 
 TEST_F(ViewerTest, SlidersAreDraggedAndUndone) {
@@ -307,6 +392,38 @@ TEST_F(ViewerTest, BakesInTheBackground) {
     EXPECT_EQ(std::filesystem::last_write_time(file), written) << "nothing was written";
     viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
+}
+
+// A click lists the rays of the pixel and draws them; one in the list stands out and shows its steps.
+TEST_F(ViewerTest, InspectorListsAndDrawsRays) {
+    screen = std::make_unique<VirtualScreen>(960, 960);
+    start("--window 960x960 --voxels 32 --mode traced --no-state builtin:cornell");
+    settle();
+    const ScreenPixels before = screen->pixels();
+    const glm::ivec4 place = picture();
+    click(inPicture(0.62f, 0.72f));
+    EXPECT_NE(viewer->status("pixel").find("short block"), std::string::npos);
+    settle();
+    // Pixels of the picture in the rays' yellow.
+    const auto yellow = [&] {
+        const ScreenPixels now = screen->pixels();
+        int count = 0;
+        for (int y = place.y; y < place.y + place.w; ++y)
+            for (int x = place.x; x < place.x + place.z; ++x) {
+                const glm::ivec3 p = now.at({x, y});
+                count += p != before.at({x, y}) && p.x > 200 && p.y > 150 && p.y < 215 && p.z < 110;
+            }
+        return count;
+    };
+    EXPECT_TRUE(eventually([&] { return yellow() > 100; })) << yellow();
+    const int all = yellow();
+    const glm::ivec4 line = viewer->placeOf("path:0");
+    ASSERT_GT(line.z, 0) << "rays are listed: " << viewer->output();
+    click({line.x + 20, line.y + line.w / 2});
+    EXPECT_TRUE(eventually([&] { return yellow() < all / 2; })) << "the others step back";
+    EXPECT_GT(viewer->placeOf("step:0").z, 0) << "its steps are listed";
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0);
 }
 
 TEST_F(ViewerTest, LinesAreTypedIntoTheWindowAndRemembered) {

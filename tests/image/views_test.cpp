@@ -239,6 +239,25 @@ TEST_F(ViewsTest, EveryShapeAndKindOfDataDraws) {
 }
 
 // Age is the number of updates; the cache's irradiance alone is dark where there is nothing to reflect.
+// A lamp that is a light itself: rays count it as that, and its voxels were black once.
+TEST_F(ViewsTest, LampsGlow) {
+    const glm::vec3 emission(3, 2, 1);
+    Scene scene = redCube();
+    for (Material& material : scene.materials) material.emission = emission;
+    for (const int level : {0, 2}) {
+        Settings settings = settingsOf(Mode::Traced, Component::Voxels);
+        settings.traced.bounces = 0;
+        settings.view.voxelLevel.value = static_cast<float>(level);
+        const Image image = draw(scene, settings);
+        const glm::vec3 shown = at(image, kPixels / 2, kPixels / 2);
+        // On top of its own light what it reflects of the lamp of the scene: at most 0.8 * 10 / 2.5^2 / pi.
+        for (int c = 0; c < 3; ++c) {
+            EXPECT_GT(shown[c], 0.95f * emission[c]) << "level " << level;
+            EXPECT_LT(shown[c], 1.05f * emission[c] + 0.45f) << "level " << level;
+        }
+    }
+}
+
 TEST_F(ViewsTest, AgeCountsUpdates) {
     const Scene scene = closedBox(mattMaterial(glm::vec3(0.5f), glm::vec3(1)));
     Settings settings = settingsOf(Mode::Traced, Component::Voxels);

@@ -90,7 +90,7 @@ constexpr Number kNumbers[] = {
      "can be printed; 0 is refused (hung)"},
     {"diffuse_offset", "do", "Diffuse Offset", "thesis.diffuse.offset", 2, "0 is refused (hung)"},
     {"diffuse_origin_offset", "doo", "Diffuse Origin Offset", "thesis.diffuse.origin_offset", 1,
-     "can be printed"},
+     "can be printed; without effect unless thesis.defects.fixed_offsets is on"},
     {"occlusion_offset", "oo", "Occlusion Offset", "thesis.occlusion.offset", 2, "0 is refused (hung)"},
     {"specular_offset", "so", "Specular Offset", "thesis.specular.offset", 2, "0 is refused (hung)"},
     {"diffuse_aperture", "da", "Diffuse Aperture", "thesis.diffuse.aperture", 1,

@@ -126,7 +126,10 @@ void chosenPath(const InspectedPath& path) {
     forLinesSeen(path.steps.size(), [&](std::size_t i) {
         const InspectedStep& step = path.steps[i];
         ImGui::TableNextRow();
-        cells({nameOf(step.kind), fmt::format("{:.3g}", step.distance), fmt::format("{:.3g}", step.size),
+        ImGui::TableNextColumn();
+        ImGui::TextUnformatted(nameOf(step.kind));
+        notePlace(fmt::format("step:{}", i));
+        cells({fmt::format("{:.3g}", step.distance), fmt::format("{:.3g}", step.size),
                fmt::format("{:.3g}", step.level), fmt::format("{:.3f}", step.total),
                shortText(step.radiance)});
     });

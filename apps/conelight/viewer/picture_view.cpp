@@ -199,7 +199,9 @@ std::optional<PictureView::Click> PictureView::show(Session& session, const glm:
         if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) draggingSplit_ = false;
         if (draggingSplit_) split.position = std::clamp((mouse.x - at.x) / size.x, 0.0f, 1.0f);
     }
-    const bool wasDragging = dragged_ || draggingSplit_;
+    // A click that a handle takes neither moves the camera nor selects.
+    const bool wasDragging = dragged_ || draggingSplit_ || gizmo.active();
+    gizmo.show(session, at, size, hovered && !draggingSplit_ && !window_.cursorCaptured());
     if (takeInput(session, size, hovered, seconds)) lastMove_ = lastFlight_ = ImGui::GetTime();
 
     // A press and release in place.
@@ -232,7 +234,7 @@ bool PictureView::takeInput(Session& session, const glm::vec2& size, bool hovere
             moved = true;
         }
         if (!rightDown && !window_.isKeyDown(GLFW_KEY_LEFT_ALT)) window_.captureCursor(false);
-    } else if (ImGui::IsItemActive() && !draggingSplit_) {
+    } else if (ImGui::IsItemActive() && !draggingSplit_ && !gizmo.active()) {
         const glm::vec2 delta(io.MouseDelta.x, io.MouseDelta.y);
         if (ImGui::IsMouseDragging(ImGuiMouseButton_Left, kClickSlop)) dragged_ = true;
         if (dragged_ && delta != glm::vec2(0)) {

@@ -15,6 +15,7 @@
 
 #include "platform/window.h"
 #include "session/session.h"
+#include "viewer/gizmo.h"
 #include "viewer/moving_resolution.h"
 #include "viewer/picture_slot.h"
 
@@ -56,6 +57,7 @@ class PictureView {
     bool moving() const;  // input moved the camera or a slider a moment ago: pictures are coarse
 
     Split split;
+    Gizmo gizmo;
     float resolutionScale = 1.0f;  // of the still picture, 0.25..1
     PictureSlot& slot(bool right) { return right ? *right_ : *left_; }
     glm::ivec2 pictureSize() const;                    // of the left picture

@@ -169,8 +169,11 @@ void selectionEditor(Session& session) {
         editMaterial(session, selection.index);
     else if (selection.kind == SelectionKind::Light && selection.index < scene.lights.size())
         editLight(session, selection.index);
-    else
+    else {
+        ImGui::PushTextWrapPos(0);
         ImGui::TextDisabled("click an object in the picture or in the list");
+        ImGui::PopTextWrapPos();
+    }
     ImGui::PopItemWidth();
 }
 

@@ -14,6 +14,9 @@
 namespace conelight::program {
 namespace {
 
+// Panels narrower than this, in heights of text, have no room for names beside values; by eye.
+constexpr float kTableEm = 17;
+
 // "thesis.diffuse.aperture" -> "diffuse aperture": the panel's heading has said the rest.
 std::string labelOf(const std::string& key) {
     const std::size_t dot = key.find('.');
@@ -106,26 +109,37 @@ void SettingsPanel::showValue(const Row& row, const SettingEdit& edit) {
     }
 }
 
-void SettingsPanel::showRow(const Row& row, const SettingEdit& edit) {
+// In a table name, value, unit, reset beside each other; else the name above the value, the unit in the tool
+// tip.
+void SettingsPanel::showRow(const Row& row, bool inTable, const SettingEdit& edit) {
     const SettingInfo& info = *row.info;
     ImGui::PushID(info.key.c_str());
-    ImGui::TableNextRow();
-    ImGui::TableSetColumnIndex(0);
-    ImGui::AlignTextToFramePadding();
+    const float em = ImGui::GetFontSize();
+    if (inTable) {
+        ImGui::TableNextRow();
+        ImGui::TableSetColumnIndex(0);
+    }
+    if (inTable || info.type == "bool") ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(row.label.c_str());
     if (ImGui::IsItemHovered()) tooltip(info);
-    ImGui::TableSetColumnIndex(1);
-    ImGui::SetNextItemWidth(-1);
+    if (inTable)
+        ImGui::TableSetColumnIndex(1);
+    else if (info.type == "bool")
+        ImGui::SameLine(std::max(ImGui::GetContentRegionAvail().x - 3.2f * em, 1.0f));
+    ImGui::SetNextItemWidth(inTable ? -1 : -1.8f * em);
     showValue(row, edit);
     notePlace(info.key);
     if (ImGui::IsItemHovered() && !ImGui::IsItemActive()) tooltip(info);
-    ImGui::TableSetColumnIndex(2);
-    if (!info.unit.empty()) {
-        ImGui::AlignTextToFramePadding();
-        ImGui::TextDisabled("%s", info.unit.c_str());
+    if (inTable) {
+        ImGui::TableSetColumnIndex(2);
+        if (!info.unit.empty()) {
+            ImGui::AlignTextToFramePadding();
+            ImGui::TextDisabled("%s", info.unit.c_str());
+        }
+        ImGui::TableSetColumnIndex(3);
     }
-    ImGui::TableSetColumnIndex(3);
     if (row.value != info.defaultValue) {
+        if (!inTable) ImGui::SameLine();
         if (ImGui::SmallButton("x")) edit(info.key, info.defaultValue, true);
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("back to %s", info.defaultValue.c_str());
     }
@@ -154,13 +168,17 @@ void SettingsPanel::show(const Settings& settings, std::uint64_t revision,
         filter_ = filter;
         gather(settings);
     }
-    if (!ImGui::BeginTable("settings", 4, ImGuiTableFlags_SizingStretchProp)) return;
     const float em = ImGui::GetFontSize();
+    if (ImGui::GetContentRegionAvail().x < kTableEm * em) {
+        for (const Row& row : rows_) showRow(row, false, edit);
+        return;
+    }
+    if (!ImGui::BeginTable("settings", 4, ImGuiTableFlags_SizingStretchProp)) return;
     ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthStretch, 0.44f);
     ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch, 0.56f);
     ImGui::TableSetupColumn("unit", ImGuiTableColumnFlags_WidthFixed, 3.2f * em);
     ImGui::TableSetupColumn("reset", ImGuiTableColumnFlags_WidthFixed, 1.2f * em);
-    for (const Row& row : rows_) showRow(row, edit);
+    for (const Row& row : rows_) showRow(row, true, edit);
     ImGui::EndTable();
 }
 

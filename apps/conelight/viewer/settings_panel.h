@@ -31,7 +31,7 @@ class SettingsPanel {
         bool bounded = false;
     };
     void gather(const Settings& settings);
-    static void showRow(const Row& row, const SettingEdit& edit);
+    static void showRow(const Row& row, bool inTable, const SettingEdit& edit);
     static void showValue(const Row& row, const SettingEdit& edit);
     static void showNumber(const Row& row, const SettingEdit& edit);
 

@@ -10,10 +10,12 @@ namespace conelight::program {
 namespace {
 
 void passTable(const FrameStats& stats) {
-    if (!ImGui::BeginTable("passes", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) return;
+    const bool bars = ImGui::GetContentRegionAvail().x > 17 * ImGui::GetFontSize();  // there is room for them
+    if (!ImGui::BeginTable("passes", bars ? 3 : 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp))
+        return;
     ImGui::TableSetupColumn("pass", ImGuiTableColumnFlags_WidthStretch);
     ImGui::TableSetupColumn("ms", ImGuiTableColumnFlags_WidthFixed, 4 * ImGui::GetFontSize());
-    ImGui::TableSetupColumn("share", ImGuiTableColumnFlags_WidthFixed, 5 * ImGui::GetFontSize());
+    if (bars) ImGui::TableSetupColumn("share", ImGuiTableColumnFlags_WidthFixed, 5 * ImGui::GetFontSize());
     ImGui::TableHeadersRow();
     double longest = 1e-3;
     for (const PassStats& pass : stats.passes)
@@ -25,6 +27,7 @@ void passTable(const FrameStats& stats) {
         ImGui::TextUnformatted(pass.name.c_str());
         ImGui::TableSetColumnIndex(1);
         ImGui::TextUnformatted(fmt::format("{:.2f}", ms).c_str());
+        if (!bars) continue;
         ImGui::TableSetColumnIndex(2);
         ImGui::ProgressBar(static_cast<float>(ms / longest), {-1, 0.7f * ImGui::GetFontSize()}, "");
     }
@@ -73,7 +76,9 @@ void statsPanel(const FrameStats& stats, const FrameTimes& times, double guiMs) 
             fmt::format("{:.1f} ms, {:.1f} frames/s", last, 1e3 / std::max(last, 1e-3)).c_str());
         frameGraph(times);
     }
+    ImGui::PushTextWrapPos(0);
     ImGui::TextDisabled("%s", stats.device.c_str());
+    ImGui::PopTextWrapPos();
     passTable(stats);
     ImGui::TextDisabled("GUI %.2f ms", guiMs);
     if (ImGui::IsItemHovered())
