@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Read access to the G-buffer: pixel -> Surface. Bits: lib/gbuffer_pack.glsl. What a shader does not use of
 // the Surface costs nothing: the compiler drops the fetches and unpacking behind it.
+// SURFACE_EMISSION 0: no material emits light, and the tables of storage that say how much are not asked.
+#ifndef SURFACE_EMISSION
+#define SURFACE_EMISSION 1
+#endif
 #include "lib/gbuffer_pack.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/scene_tables.glsl"
@@ -37,6 +41,9 @@ bool fetchSurface(ivec2 pixel, out Surface s) {
     if (s.unlit) s.roughness = 1.0;
     unpackReflectance(material.z, s.dielectricF0, s.metallic);
     s.albedo = s.unlit ? vec3(0.0) : base;
-    s.emission = s.unlit ? unlitRadiance : materials[s.material].emission * unpackEmissionFactor(material.w);
+    s.emission = s.unlit ? unlitRadiance : vec3(0.0);
+#if SURFACE_EMISSION
+    if (!s.unlit) s.emission = materials[s.material].emission * unpackEmissionFactor(material.w);
+#endif
     return geometry.x != 0u;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gather/traced_shade.h"
 
+#include <algorithm>
+
 #include "gl/gl.h"
 #include "light/shadow_maps.h"
 #include "shared/bindings.h"
@@ -10,8 +12,13 @@
 namespace conelight::gather {
 namespace {
 
+bool anyEmission(const scene::GpuScene& scene) {
+    return std::any_of(scene.materials().begin(), scene.materials().end(),
+                       [](const gpu::Material& m) { return m.emission != glm::vec3(0); });
+}
+
 gl::ProgramDesc shadeDesc(const PictureParts& parts, bool picture, bool lobe, const gl::Defines& lights,
-                          bool countLookups = false) {
+                          bool countLookups = false, bool emission = true) {
     const bool gathers = parts.diffuse || parts.specular;
     gl::ProgramDesc desc{{"gather/traced_shade.comp.glsl"},
                          {{"SHOW_DIRECT", parts.direct ? "1" : "0"},
@@ -19,6 +26,7 @@ gl::ProgramDesc shadeDesc(const PictureParts& parts, bool picture, bool lobe, co
                           {"SHOW_SPECULAR", parts.specular ? "1" : "0"},
                           {"IRRADIANCE", picture && gathers ? "1" : "0"},
                           {"LOBE", lobe && parts.specular ? "1" : "0"}}};
+    if (!emission) desc.defines.emplace_back("SURFACE_EMISSION", "0");
     if (countLookups) desc.defines.emplace_back("COUNT_LOOKUPS", "1");
     if (parts.direct) desc.defines.insert(desc.defines.end(), lights.begin(), lights.end());
     return desc;
@@ -49,7 +57,7 @@ void TracedShade::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, con
     const gl::Defines lights = light::lightDefines(scene, settings.light);
     const bool counts = lookupCounters != nullptr;
     if (counts) lookupCounters->bindStorage(LOOKUP_TABLE);
-    programs.get(shadeDesc(parts, irradiance != nullptr, lobe != nullptr, lights, counts))
+    programs.get(shadeDesc(parts, irradiance != nullptr, lobe != nullptr, lights, counts, anyEmission(scene)))
         .dispatch(output.width(), output.height());
 }
 
@@ -90,6 +98,7 @@ std::vector<gl::ProgramDesc> TracedShade::programDescs() {
                  light::lightVariants(shadeDesc({true, true, true}, picture, lobe, {})))
                 descs.push_back(std::move(desc));
     descs.push_back(shadeDesc({true, true, true}, false, false, {}, true));
+    descs.push_back(shadeDesc({true, true, true}, false, false, {}, false, false));
     return descs;
 }
 
