@@ -31,7 +31,10 @@ void main() {
     float reach = 1.0;
 #if SPECULAR
     float roughness = unpackUnorm2x16(texelFetch(gbufferMaterial, min(pixel, size - 1), 0).y).y;
-    reach = clamp((FILTER_STEP == 1 ? 5.0 : 2.0 / float(FILTER_STEP)) * roughness, 0.0, 1.0);
+    // Neighbours share the less the more rays there are: from 5 with 16 of them down to 2 with 100.
+    float count = max(pixelHistoryCount(own), 1.0) * float(pixelRays.rays);
+    float nearby = clamp(20.0 * inversesqrt(count), 2.0, 5.0);
+    reach = clamp((FILTER_STEP == 1 ? nearby : 2.0 / float(FILTER_STEP)) * roughness, 0.0, 1.0);
     reach *= reach;
     float lobe = max(roughness * roughness, 1e-3);  // GGX's alpha
 #endif

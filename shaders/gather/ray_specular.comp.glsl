@@ -30,9 +30,9 @@ void main() {
         direction -= 2.0 * min(dot(direction, s.geometricNormal), 0.0) * s.geometricNormal;
         bool counts = glossy && weight.r + weight.g + weight.b > 0.0;
         VoxelHit hit;
-        vec3 radiance =
-            rayRadiance(origin, s.geometricNormal, direction, counts ? 1e9 : -1.0, -1.0,
-                        counts ? int(pixelRays.reflections) : 0, b.alpha, pixelRays.reflectedLimit, random, hit);
+        vec3 radiance = rayRadiance(origin, s.geometricNormal, direction, counts ? 1e9 : -1.0, -1.0,
+                                    counts ? int(pixelRays.reflections) : 0, b.alpha,
+                                    pixelRays.reflectedLimit, random, hit);
         sum += weight * radiance;
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);
         if (glossy)

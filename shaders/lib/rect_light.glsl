@@ -140,7 +140,7 @@ float edgeAngleOverSine(float cosine) {
     return cosine < 0.0 ? kPi * inversesqrt(max(1.0 - y * y, 1e-6)) - g : g;
 }
 
-// The same for what a ray meets, at a third of the cost: the transformed cosine alone, not cut at the
+// The same for what a ray meets, at less cost: the transformed cosine alone, not cut at the
 // horizon.
 vec3 rectSpecularQuick(Light light, vec3 p, RectLobe lobe, Brdf b) {
     vec3 corner[4];
