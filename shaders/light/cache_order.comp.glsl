@@ -1,10 +1,10 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// The order in which updates visit faces: by block of 16^3 voxels, direction, place in the brick, brick.
-// Eight neighbours in this order look the same way from places four voxels apart and share their directions
-// (cache_update), so that their rays run side by side; faces next to each other in space do not share theirs
-// (interleaved sampling, Keller and Heidrich 2001). A counting sort: a bin per block, direction and place,
-// with a bit for each of the block's 64 bricks.
+// The order in which updates visit faces: by block of 16^3 voxels, direction, place (lib/interleave.glsl),
+// brick. Eight neighbours in this order look the same way from places a few voxels apart and share their
+// directions (cache_update), so that their rays run side by side; faces next to each other in space do not
+// share theirs. A counting sort: a bin per block, direction and place, with a bit for each of the block's 64
+// bricks.
 //   STEP 0  faces -> bins
 //   STEP 1  bins -> number of faces per chunk of bins
 //   STEP 2  the same -> faces before each chunk (one invocation)
@@ -15,6 +15,7 @@
 #error STEP must be 0 to 5
 #endif
 layout(local_size_x = 64) in;
+#include "lib/interleave.glsl"
 #include "lib/linear_index.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
@@ -40,7 +41,8 @@ uint binOf(uvec4 hitTexel, out uint brick) {
     ivec3 within = (voxel >> 2) & 3;
     brick = uint(within.x | within.y << 2 | within.z << 4);
     uint block = brickIndex(voxel >> 4, (gridBricks() + 3) >> 2);
-    return block * CACHE_BINS_PER_BLOCK + uint(2 * axis + (along < 0.0 ? 1 : 0)) * 64u + bitOfVoxel(voxel);
+    return block * CACHE_BINS_PER_BLOCK + uint(2 * axis + (along < 0.0 ? 1 : 0)) * 64u +
+           bitOfVoxel(ivec3(interleavedPlace(uvec3(voxel), uint(axis))));
 }
 
 void main() {

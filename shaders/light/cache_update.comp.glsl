@@ -6,6 +6,7 @@
 //
 // FIND_BACKS 1: also counts rays that meet a surface from behind, to find faces inside closed objects.
 layout(local_size_x = 64) in;
+#include "lib/interleave.glsl"
 #include "lib/linear_index.glsl"
 #include "lib/voxel_light.glsl"
 layout(std140, binding = BINDING_PASS) uniform CacheBlock { CacheConstants cache; };
@@ -31,7 +32,8 @@ void main() {
     uint seed = randomHash((r.w & 0xc0000000u) ^ randomHash(cache.seed));
     // Places complement each other, then blocks, then 4^3 blocks.
     uvec3 voxel = uvec3(r.w, r.w >> 10, r.w >> 20) & 1023u;
-    vec2 fine = spreadPlace(voxel), coarse = spreadPlace(voxel >> 4), coarsest = spreadPlace(voxel >> 6);
+    vec2 fine = spreadPlace(interleavedPlace(voxel, r.w >> 30)), coarse = spreadPlace(voxel >> 4),
+         coarsest = spreadPlace(voxel >> 6);
     float ofPool = fine.x + fine.y / 4.0 + coarse.x / 16.0 + coarse.y / 64.0;
     vec3 shift = vec3(fine + coarse / 4.0 + coarsest / 16.0, ofPool);
     float backs;

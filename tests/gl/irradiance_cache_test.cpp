@@ -292,6 +292,17 @@ TEST_F(IrradianceCacheTest, DISABLED_Costs) {
 
 // Updates visit every face once, those of a block of 16^3 voxels together, by direction and place in the
 // brick; so do they in the next run.
+// interleavedPlace of shaders/lib/interleave.glsl, as the bit of a voxel.
+std::uint32_t placeOf(const glm::ivec3& voxel, int axis) {
+    const glm::uvec3 brick = glm::uvec3(voxel) / 4u;
+    const std::uint32_t state = (brick.x | brick.y << 10 | brick.z << 20) * 747796405u + 2891336453u;
+    const std::uint32_t word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
+    const std::uint32_t hash = (word >> 22u) ^ word;
+    glm::uvec3 turn(hash, hash >> 2, hash >> 4);
+    turn[axis] = 0;
+    return voxels::bitOfVoxel(glm::ivec3((glm::uvec3(voxel) ^ turn) & 3u));
+}
+
 TEST_F(IrradianceCacheTest, OrderPutsLikeFacesTogether) {
     const CacheRig rig(programs(), io::loadScene("builtin:spheres"), 48);
     const std::uint32_t count = rig.surface.faceCount();
@@ -309,7 +320,7 @@ TEST_F(IrradianceCacheTest, OrderPutsLikeFacesTogether) {
         const bool down = math::octDecode(math::unpackSnorm2x16(r.normal))[axis] < 0;
         const glm::ivec3 block = voxel / 16, brick = voxel / 4 % 4;
         const std::array<int, 4> key{block.x + blocks.x * (block.y + blocks.y * block.z),
-                                     2 * axis + (down ? 1 : 0), static_cast<int>(voxels::bitOfVoxel(voxel)),
+                                     2 * axis + (down ? 1 : 0), static_cast<int>(placeOf(voxel, axis)),
                                      brick.x + 4 * brick.y + 16 * brick.z};
         if (i > 0) {
             ASSERT_LT(last, key) << i;
