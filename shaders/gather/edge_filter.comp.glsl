@@ -5,8 +5,9 @@
 // (a-trous wavelets: Dammertz et al. 2010, "Edge-Avoiding A-Trous Wavelet Transform for fast Global
 // Illumination Filtering"). A tap counts by its normal (power 32) and its distance from the pixel's plane in
 // voxels, and only on the same instance with no other surface half way between: so light does not cross thin
-// walls. SPECULAR 1: the reach grows with roughness, none at a mirror, less where the surface is curved; how
-// fast is fitted to builtin:glossy and builtin:spheres (least error, qualities draft and interactive).
+// walls. SPECULAR 1: only pixels of the lobes' list, others are left as they are; the reach grows with
+// roughness, none at a mirror, less where the surface is curved; how fast is fitted to builtin:glossy and
+// builtin:spheres (least error, qualities draft and interactive).
 #if !defined(FILTER_STEP) || !defined(SPECULAR)
 #error FILTER_STEP must be 1, 2, 4 or 8, SPECULAR 0 or 1
 #endif
@@ -16,13 +17,21 @@
 layout(std140, binding = BINDING_PASS) uniform PixelRayBlock { PixelRayConstants pixelRays; };
 layout(binding = PIXEL_UNIT_HISTORY) uniform usampler2D source;
 layout(local_size_x = 8, local_size_y = 8) in;
+#if SPECULAR
+#define LOBE_LIST_ACCESS readonly
+#include "lib/lobe_list.glsl"
+#endif
 layout(rgba32ui, binding = 0) writeonly uniform uimage2D result;
 
 vec3 positionOf(ivec2 pixel, uvec4 bits) { return frame.eye + pixelHistoryDepth(bits) * pixelRay(pixel); }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     ivec2 size = imageSize(result);
+#if SPECULAR
+    ivec2 pixel = listedPixel(size);
+#else
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+#endif
     uvec4 own = texelFetch(source, min(pixel, size - 1), 0);
     vec3 position = positionOf(pixel, own);
     vec3 normal = pixelHistoryNormal(own);

@@ -2,6 +2,7 @@
 #include "gather/pixel_rays.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 
 #include "gl/gl.h"
@@ -27,8 +28,11 @@ constexpr int kAllBounces = 16;  // TracedSettings::bounces
 // Occlusion asks for no light.
 const gl::Defines kNoHitLights = {{"EXACT_DIRECT", "0"}, {"LOBES", "0"}};
 
+// Steps of ray_specular (LOBE_STEP).
+enum class LobeStep { Both, Select, Trace };
+
 gl::ProgramDesc gatherDesc(RayPicture kind, Reuse reuse, bool motion, bool countLookups,
-                           const gl::Defines& hitLights) {
+                           const gl::Defines& hitLights, LobeStep step = LobeStep::Both) {
     gl::ProgramDesc desc;
     desc.files = {kind == RayPicture::Specular ? "gather/ray_specular.comp.glsl"
                                                : "gather/ray_diffuse.comp.glsl"};
@@ -36,6 +40,8 @@ gl::ProgramDesc gatherDesc(RayPicture kind, Reuse reuse, bool motion, bool count
                     {"MOTION", motion && reuse == Reuse::Reproject ? "1" : "0"}};
     if (kind != RayPicture::Specular)
         desc.defines.emplace_back("OCCLUSION", kind == RayPicture::Occlusion ? "1" : "0");
+    if (step != LobeStep::Both)
+        desc.defines.emplace_back("LOBE_STEP", std::to_string(static_cast<int>(step)));
     if (countLookups) desc.defines.emplace_back("COUNT_LOOKUPS", "1");
     desc.defines.insert(desc.defines.end(), hitLights.begin(), hitLights.end());
     return desc;
@@ -95,6 +101,7 @@ gpu::PixelRayConstants PixelRays::packed(const PixelRayFrame& frame, const Trace
 bool PixelRays::resize(int width, int height) {
     if (has(width, height)) return false;
     for (gl::Texture* picture : {&current_, &other_, &filtered_}) *picture = {};
+    lobeList_ = {};
     current_ = makePicture(width, height, kLabel[static_cast<int>(kind_)]);
     other_ = makePicture(width, height, kLabel[static_cast<int>(kind_)]);
     return true;
@@ -134,9 +141,24 @@ void PixelRays::gather(const PixelRayFrame& frame, const TracedSettings& setting
                                    : light::hitLightDefines(frame.scene, frame.light, settings.exactHits);
     const bool counts = frame.lookupCounters != nullptr;
     if (counts) frame.lookupCounters->bindStorage(LOOKUP_TABLE);
-    frame.programs.get(gatherDesc(kind_, reuse, frame.motion != nullptr, counts, lights))
-        .dispatch(width, height);
-    gl::barrier(gl::Access::TextureFetch);
+    const bool moving = frame.motion != nullptr;
+    if (kind_ == RayPicture::Specular) {
+        constexpr std::array<std::uint32_t, 4> kEmptyList{LOBE_GROUPS_X, 0, 1, 0};
+        if (!lobeList_)
+            lobeList_ = gl::Buffer(sizeof kEmptyList + std::size_t{4} * static_cast<std::size_t>(width) *
+                                                           static_cast<std::size_t>(height),
+                                   "pixels with lobes");
+        lobeList_.update(kEmptyList);
+        lobeList_.bindStorage(PIXEL_LOBE_LIST);
+        frame.programs.get(gatherDesc(kind_, reuse, moving, false, kNoHitLights, LobeStep::Select))
+            .dispatch(width, height);
+        gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
+        frame.programs.get(gatherDesc(kind_, reuse, moving, counts, lights, LobeStep::Trace))
+            .dispatchIndirect(lobeList_);
+    } else {
+        frame.programs.get(gatherDesc(kind_, reuse, moving, counts, lights)).dispatch(width, height);
+    }
+    gl::barrier(gl::Access::TextureFetch | gl::Access::Update);
     std::swap(current_, other_);
     seenFrom_ = frame.view;
 }
@@ -151,11 +173,20 @@ const gl::Texture& PixelRays::filtered(const PixelRayFrame& frame, int levels) {
     // free. An even number of levels ends there as well.
     const gl::Texture* from = &current_;
     for (int level = 0; level < levels; ++level) {
-        const gl::Texture* to = level % 2 == 0 ? &filtered_ : &other_;
+        gl::Texture* to = level % 2 == 0 ? &filtered_ : &other_;
         bindPicture(*from, PIXEL_UNIT_HISTORY);
         to->bindImage(0, 0, GL_WRITE_ONLY);
-        frame.programs.get(filterDesc(1 << level, kind_ == RayPicture::Specular)).dispatch(width, height);
-        gl::barrier(gl::Access::TextureFetch);
+        const bool lobes = kind_ == RayPicture::Specular;
+        const gl::Program& filter = frame.programs.get(filterDesc(1 << level, lobes));
+        if (lobes) {
+            // Pixels that are not listed count for nothing.
+            to->clear(0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, nullptr);
+            lobeList_.bindStorage(PIXEL_LOBE_LIST);
+            filter.dispatchIndirect(lobeList_);
+        } else {
+            filter.dispatch(width, height);
+        }
+        gl::barrier(gl::Access::TextureFetch | gl::Access::Update);
         from = to;
     }
     return *from;
@@ -164,13 +195,17 @@ const gl::Texture& PixelRays::filtered(const PixelRayFrame& frame, int levels) {
 std::vector<gl::ProgramDesc> PixelRays::programDescs() {
     std::vector<gl::ProgramDesc> descs;
     const auto add = [&](RayPicture kind, Reuse reuse, bool motion) {
-        for (gl::ProgramDesc& desc : light::hitLightVariants(gatherDesc(kind, reuse, motion, false, {})))
+        const bool lobes = kind == RayPicture::Specular;
+        if (lobes) descs.push_back(gatherDesc(kind, reuse, motion, false, kNoHitLights, LobeStep::Select));
+        for (gl::ProgramDesc& desc : light::hitLightVariants(
+                 gatherDesc(kind, reuse, motion, false, {}, lobes ? LobeStep::Trace : LobeStep::Both)))
             descs.push_back(std::move(desc));
     };
     for (const RayPicture kind : {RayPicture::Diffuse, RayPicture::Specular}) {
         for (const Reuse reuse : {Reuse::None, Reuse::SameView, Reuse::Reproject}) add(kind, reuse, false);
         add(kind, Reuse::Reproject, true);
-        descs.push_back(gatherDesc(kind, Reuse::SameView, false, true, {{"EXACT_DIRECT", "0"}}));
+        descs.push_back(gatherDesc(kind, Reuse::SameView, false, true, {{"EXACT_DIRECT", "0"}},
+                                   kind == RayPicture::Specular ? LobeStep::Trace : LobeStep::Both));
     }
     for (const Reuse reuse : {Reuse::None, Reuse::SameView, Reuse::Reproject})
         descs.push_back(gatherDesc(RayPicture::Occlusion, reuse, false, false, kNoHitLights));

@@ -5,7 +5,8 @@
 //
 // Every pass needs the frame block, the scene's tables, G-buffer, shadow maps, SurfaceVoxels, OctantWords and
 // IrradianceCache bound. Readers need gl::barrier(TextureFetch). GL state changed: program, image 0,
-// BINDING_PASS, PIXEL_MOTION, texture unit PIXEL_UNIT_HISTORY.
+// BINDING_PASS, PIXEL_MOTION, PIXEL_LOBE_LIST, the indirect dispatch buffer binding, texture unit
+// PIXEL_UNIT_HISTORY.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -68,6 +69,7 @@ class PixelRays {
     RayPicture kind_;
     gl::Texture current_, other_, filtered_;
     gl::Buffer constants_;
+    gl::Buffer lobeList_;             // of kind Specular: PIXEL_LOBE_LIST
     gpu::FrameConstants seenFrom_{};  // the view of current_
 };
 
