@@ -15,13 +15,12 @@
 #define SMOOTH_HITS 1
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "lib/ggx_sample.glsl"
-#if LOBE_STEP != 0
 #define LOBE_LIST_ACCESS
 #include "lib/lobe_list.glsl"
-#endif
 #include "lib/temporal.glsl"
 #include "lib/voxel_light.glsl"
 layout(rgba32ui, binding = 0) writeonly uniform uimage2D result;
+
 void main() {
 #if LOBE_STEP == 2
     ivec2 pixel = listedPixel(imageSize(result));
