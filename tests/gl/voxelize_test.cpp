@@ -421,13 +421,9 @@ TEST_F(VoxelizeTest, PlanesThroughEdgesKeepTheirArea) {
                 mesh.positions = {-0.5f * (u + v), 0.5f * (u - v), 0.5f * (u + v), 0.5f * (v - u)};
                 mesh.indices = {0, 1, 2, 0, 2, 3};
                 addInstance(scene, std::move(mesh), addMaterial(scene, glm::vec3(1)));
-                VoxelGrid grid;
-                grid.origin = glm::vec3(-12 * voxel);
-                grid.voxelSize = voxel;
-                grid.size = glm::ivec3(24);
-                const Result r = voxelize(scene, grid);
+                const VoxelGrid grid{glm::vec3(-12 * voxel), voxel, glm::ivec3(24)};
                 const double area = meshArea(referenceTriangles(scene, grid));
-                EXPECT_NEAR(r.area / area, 1.0, 2e-3)
+                EXPECT_NEAR(voxelize(scene, grid).area / area, 1.0, 2e-3)
                     << side * normal.x << ' ' << side * normal.y << ' ' << side * normal.z << ' ' << voxel;
             }
 }
