@@ -434,11 +434,27 @@ TEST_F(ViewerTest, LinesAreTypedIntoTheWindowAndRemembered) {
     start(options, environment);
     settle();
     click(viewer->middleOf("console"));
-    screen->xdotool("type --delay 30 'set image.exposure 1.5'");
-    screen->xdotool("key Return");
+    // As by someone who looks at the screen: the line is complete before it is entered.
+    const glm::ivec4 line = viewer->placeOf("console");
+    const auto enter = [&](const std::string& text) {
+        screen->xdotool("type --delay 30 '" + text + "'");
+        int still = 0;
+        ScreenPixels last = screen->pixels();
+        EXPECT_TRUE(eventually([&] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+            const ScreenPixels now = screen->pixels();
+            int changed = 0;
+            for (int y = line.y; y < line.y + line.w; ++y)
+                for (int x = line.x; x < line.x + line.z; ++x) changed += now.at({x, y}) != last.at({x, y});
+            still = changed <= 2 * line.w ? still + 1 : 0;  // a cursor blinks
+            last = now;
+            return still == 5;
+        })) << text;
+        screen->xdotool("key Return");
+    };
+    enter("set image.exposure 1.5");
     EXPECT_TRUE(eventually([&] { return viewer->setting("image.exposure") == "1.5"; })) << viewer->output();
-    screen->xdotool("type --delay 30 'set image.exposure 2'");
-    screen->xdotool("key Return");
+    enter("set image.exposure 2");
     EXPECT_TRUE(eventually([&] { return viewer->setting("image.exposure") == "2"; })) << viewer->output();
     viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0);
