@@ -185,7 +185,8 @@ struct Scene {
     std::size_t triangleCount() const;  // over visible instances
 
     // Throws Error(BadInput) that names the first element that breaks the rules above (an index out of range,
-    // an attribute of the wrong length, a non-finite position or matrix, a zero-size texture).
+    // an attribute of the wrong length, a non-finite position or matrix, an instance that reaches further
+    // than 1e15 m, a zero-size texture).
     void validate() const;
 };
 

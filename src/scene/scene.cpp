@@ -94,6 +94,24 @@ void validateNumbers(const Material& m) {
                 isFinite({m.phong.ambientStrength, m.phong.diffuseStrength, m.phong.specularStrength}));
 }
 
+// Beyond it squares of lengths overflow in float, and the fault would show somewhere else.
+constexpr float kFarthest = 1e15f;  // metres
+
+void validateReach(const Instance& instance, std::size_t index, const Aabb& meshBounds) {
+    if (meshBounds.empty()) return;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 from((corner & 1) != 0 ? meshBounds.max.x : meshBounds.min.x,
+                             (corner & 2) != 0 ? meshBounds.max.y : meshBounds.min.y,
+                             (corner & 4) != 0 ? meshBounds.max.z : meshBounds.min.z);
+        const glm::vec3 at(instance.worldFromObject * glm::vec4(from, 1));
+        const float reach = std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)});
+        if (!(reach <= kFarthest))
+            fail(ErrorKind::BadInput,
+                 "instance %zu '%s': reaches %.3g m from the origin; at most %.0e would be right", index,
+                 instance.name.c_str(), double(reach), double(kFarthest));
+    }
+}
+
 }  // namespace
 
 void scene::validateLight(const Light& light) {
@@ -142,7 +160,12 @@ void Scene::validate() const {
                  texture.name.c_str(), texture.width, texture.height, texture.rgba.size());
     }
     for (const Material& material : materials) scene::validateMaterial(*this, material);
-    for (std::size_t i = 0; i < instances.size(); ++i) scene::validateInstance(*this, instances[i], i);
+    std::vector<Aabb> meshBounds(meshes.size());
+    for (std::size_t i = 0; i < meshes.size(); ++i) meshBounds[i] = meshes[i].bounds();
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        scene::validateInstance(*this, instances[i], i);
+        validateReach(instances[i], i, meshBounds[static_cast<std::size_t>(instances[i].mesh)]);
+    }
     for (const Light& light : lights) scene::validateLight(light);
     scene::validateSky(sky);
 }

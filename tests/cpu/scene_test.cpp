@@ -89,6 +89,8 @@ TEST(SceneTest, WhatBreaksARuleIsNamed) {
               "instance 1 'far': material 1; less than 1 would be right");
     EXPECT_EQ(failureOf([](Scene& s) { s.instances[1].worldFromObject[3][0] = kNan; }),
               "instance 1 'far': the transform is not finite");
+    EXPECT_EQ(failureOf([](Scene& s) { s.instances[1].worldFromObject[3][0] = 3e38f; }),
+              "instance 1 'far': reaches 3e+38 m from the origin; at most 1e+15 would be right");
 }
 
 // Every number that reaches a shader: NaN would spread through the light.
