@@ -109,10 +109,6 @@ void addDirectional(inout DirectLight sum, const bool specular, Receiver r, Brdf
     addLight(sum, specular, r, b, -light.direction, light.intensity * visible);
 }
 
-// Widening of the lobe (width^2) per steradian of a cell, where it weighs what of a reflection is visible: by
-// eye, so that highlights fade evenly behind an edge.
-const float kRectCellWidening = 1.0;
-
 // Diffuse: the exact irradiance of the whole rectangle times the visible share of its sample points, each
 // weighted by the irradiance its cell gives. Specular: likewise the unshadowed reflection of the whole
 // (lib/rect_light.glsl) times the visible share, weighted by the reflection of each cell.

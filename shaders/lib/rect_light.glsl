@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rectangular lights of constant radiance.
 #include "lib/brdf.glsl"
+#include "lib/rect_points.glsl"
 #include "shared/scene.h"
 
 // Angle between unit vectors a and b, times the component along n of the unit normal of their plane.
@@ -157,4 +158,37 @@ vec3 rectSpecularQuick(Light light, vec3 p, RectLobe lobe, Brdf b) {
     float turn = dot(cross(light.halfU, light.halfV), light.direction);
     bool inFront = dot(p - light.position, light.direction) > 0.0;
     return inFront ? b.albedo * (max(turn > 0.0 ? -sum : sum, 0.0) / (2.0 * kPi)) : vec3(0.0);
+}
+
+// Widening of the lobe (width^2) per steradian of a cell, where it weighs what of a reflection is visible: by
+// eye, so that highlights fade evenly behind an edge.
+const float kRectCellWidening = 1.0;
+
+// Sample point of a rectangle (shared/rect_points.h) for a ray that asks one of them whether the rectangle is
+// seen in the lobe: number k with the probability of its share of the transformed cosine, xi in [0,1).
+// All alike, a ray would ask points that the lobe does not reflect. In rectLobeSpace a point's share is height
+// / distance^4, as the distance to the rectangle's plane is the same for all.
+uint rectPointInLobe(Light light, vec3 p, RectLobe lobe, float xi) {
+    vec3 c = light.position - p;
+    float cell = 4.0 * length(cross(light.halfU, light.halfV)) / float(RECT_POINT_COUNT);
+    vec2 width2 = lobe.width * lobe.width + kRectCellWidening * cell / max(dot(c, c), cell);
+    vec3 scale = vec3(inversesqrt(width2), 1.0);
+    vec3 middle = scale * rectLobeSpace(lobe, c, dot(c, lobe.normal));
+    vec3 u = scale * rectLobeSpace(lobe, light.halfU, dot(light.halfU, lobe.normal));
+    vec3 v = scale * rectLobeSpace(lobe, light.halfV, dot(light.halfV, lobe.normal));
+    float sum = 0.0;
+    uint chosen = 0u;
+    for (uint k = 0u; k < RECT_POINT_COUNT; ++k) {
+        vec2 at = rectPointPlace(k);
+        vec3 q = middle + at.x * u + at.y * v;
+        float q2 = max(dot(q, q), 1e-12);
+        float share = max(q.z, 0.0) / (q2 * q2);
+        sum += share;
+        // One number decides between the points so far and this one, and is spread over [0,1) again.
+        float before = 1.0 - share / max(sum, 1e-30);
+        bool taken = share > 0.0 && xi >= before;
+        xi = taken ? (xi - before) / max(1.0 - before, 1e-6) : xi / max(before, 1e-6);
+        chosen = taken ? k : chosen;
+    }
+    return chosen;
 }

@@ -27,8 +27,8 @@
 #define SHADOW_FILTER 0
 #endif
 #include "lib/lookup_count.glsl"
+#include "lib/rect_points.glsl"
 #include "shared/bindings.h"
-#include "shared/rect_points.h"
 #include "shared/scene.h"
 layout(binding = UNIT_SHADOW) uniform sampler2DArrayShadow shadowMaps;
 layout(binding = UNIT_SHADOW_DEPTHS) uniform sampler2DArray shadowDepths;
@@ -237,7 +237,7 @@ float shadowVisibilityDirectional(Light light, vec3 p, vec3 n, float lift) {
 // The k-th sample point of a rectangle (shared/rect_points.h). Moved off the surface by a thousandth of its
 // size, which an emitter's own triangles lie in.
 vec3 rectSamplePoint(Light light, uint k) {
-    vec2 uv = (vec2(k, RECT_POINT_ROW(k)) + 0.5) * (2.0 / float(RECT_POINT_COUNT)) - 1.0;
+    vec2 uv = rectPointPlace(k);
     float lift = 1e-3 * min(length(light.halfU), length(light.halfV));
     return light.position + uv.x * light.halfU + uv.y * light.halfV + lift * light.direction;
 }

@@ -106,14 +106,15 @@ const float kRoughestLobe = 0.75;
 const float kNarrowLobe = 0.015;
 
 // What rectangles of light show in the lobe of b: their reflection as a whole (lib/rect_light.glsl) where one
-// of their sample points, number k, is seen.
-vec3 reflectedRects(Brdf b, vec3 position, vec3 normal, vec3 toEye, uint k) {
+// of their sample points is seen, drawn by its share of the lobe.
+vec3 reflectedRects(Brdf b, vec3 position, vec3 normal, vec3 toEye, float xi) {
     vec3 reflected = vec3(0.0);
     uint i = frame.lightEnds.z;
     if (i < frame.lightEnds.w) {
         RectLobe lobe = rectLobe(normal, toEye, b.alpha, b.nov);
         do {
             Light light = lights[i];
+            uint k = rectPointInLobe(light, position, lobe, xi);
             vec3 point = rectSamplePoint(light, k);
             reflected += light.intensity * rectSpecularQuick(light, position, lobe, b) *
                          shadowVisibilityRect(light, k, point, position, normal);
@@ -153,8 +154,8 @@ LobeStep reflectRay(int face, FaceShade s, vec2 lobe, float widening, vec3 matt,
     vec3 emission = unpackEmission(texelFetch(faceSources, face).xy);
     next.radiance = emission + share * max(matt - emission, vec3(0.0));
     vec3 position = worldFromGrid(point + faceRise(texelFetch(voxelFaces, 2 * face), normal));
-    uint k = min(uint(fract(7.0 * xi.x + xi.y) * float(RECT_POINT_COUNT)), RECT_POINT_COUNT - 1u);
-    if (alpha >= kNarrowLobe) next.radiance += reflectedRects(b, position, normal, -direction, k);
+    if (alpha >= kNarrowLobe)
+        next.radiance += reflectedRects(b, position, normal, -direction, fract(7.0 * xi.x + xi.y));
 #if EXACT_DIRECT
     DirectLight light = DirectLight(vec3(0.0), vec3(0.0));
     addPunctualLights(light, true, Receiver(position, normal, normal, -direction, kShadowVoxelLift), b);

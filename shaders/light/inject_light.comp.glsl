@@ -17,21 +17,23 @@ layout(binding = UNIT_VOXEL_FACE_SOURCES) uniform usamplerBuffer faceSources;
 layout(std430, binding = BINDING_STORAGE_PASS) writeonly buffer SteadyLight { uint steadyLight[]; };
 #endif
 
-// Whether a face belongs to a rectangle of the scene that shines as an area light: it looks the same way, and
-// its centre lies on it. Voxels round positions to 1/31 voxel, so a quarter voxel is ample.
-bool isAreaLight(vec3 position, vec3 normal) {
+// Whether a face holds a part of a rectangle of the scene that shines as an area light: it looks the same way,
+// lies in its plane and its bounds reach into it. A voxel on the rectangle's edge has emission of it, too, which
+// is no emission but the area light's. Voxels round positions to 1/31 voxel, so a quarter voxel is ample.
+bool isAreaLight(FaceRecord face, vec3 position, vec3 normal) {
     bool found = false;
 #if LIGHTS_RECT
+    vec3 reach = (0.5 * (unpackBoundsMax(face.bounds) - unpackBoundsMin(face.bounds)) + 0.25) * grid.voxelSize;
     uint i = frame.lightEnds.z;
     if (i < frame.lightEnds.w) do {
             Light light = lights[i];
             vec3 d = position - light.position;
-            float slack = 0.25 * grid.voxelSize;
-            // Along the unit edges; 0.94: the cosine of 20 degrees, coplanar up to the packing of normals.
+            vec3 u = normalize(light.halfU), v = normalize(light.halfV);
+            // 0.94: the cosine of 20 degrees, coplanar up to the packing of normals.
             bool on = (light.flags & LIGHT_FROM_EMITTER) != 0u && dot(normal, light.direction) > 0.94 &&
-                      abs(dot(d, light.direction)) < slack &&
-                      abs(dot(d, normalize(light.halfU))) < length(light.halfU) + slack &&
-                      abs(dot(d, normalize(light.halfV))) < length(light.halfV) + slack;
+                      abs(dot(d, light.direction)) < 0.25 * grid.voxelSize &&
+                      abs(dot(d, u)) < length(light.halfU) + dot(abs(u), reach) &&
+                      abs(dot(d, v)) < length(light.halfV) + dot(abs(v), reach);
             found = found || on;
         } while (++i < frame.lightEnds.w);
 #endif
@@ -45,7 +47,7 @@ void main() {
     vec3 normal = faceNormal(face);
     vec3 position = worldFromGrid(faceCenter(face));
     vec3 emission = unpackEmission(texelFetch(faceSources, int(index)).xy);
-    bool areaLight = isAreaLight(position, normal);
+    bool areaLight = emission != vec3(0.0) && isAreaLight(face, position, normal);
     if (areaLight) emission = vec3(0.0);
     vec3 reflectance = unpackAlbedo(face.albedo) * (1.0 / 3.14159265358979);
     Receiver receiver = Receiver(position, normal, normal, normal, kShadowVoxelLift);
