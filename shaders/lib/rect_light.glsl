@@ -166,8 +166,8 @@ const float kRectCellWidening = 1.0;
 
 // Sample point of a rectangle (shared/rect_points.h) for a ray that asks one of them whether the rectangle is
 // seen in the lobe: number k with the probability of its share of the transformed cosine, xi in [0,1).
-// All alike, a ray would ask points that the lobe does not reflect. In rectLobeSpace a point's share is height
-// / distance^4, as the distance to the rectangle's plane is the same for all.
+// All alike, a ray would ask points that the lobe does not reflect. In rectLobeSpace a point's share is
+// height / distance^4, as the distance to the rectangle's plane is the same for all.
 uint rectPointInLobe(Light light, vec3 p, RectLobe lobe, float xi) {
     vec3 c = light.position - p;
     float cell = 4.0 * length(cross(light.halfU, light.halfV)) / float(RECT_POINT_COUNT);

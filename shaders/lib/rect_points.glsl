@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the sample points of a rectangle of light lie (shared/rect_points.h), in [-1,1] along halfU and halfV.
+// Where the sample points of a rectangle of light lie (shared/rect_points.h), in [-1,1] along halfU and
+// halfV.
 #include "shared/rect_points.h"
 
 vec2 rectPointPlace(uint k) {

@@ -17,13 +17,15 @@ layout(binding = UNIT_VOXEL_FACE_SOURCES) uniform usamplerBuffer faceSources;
 layout(std430, binding = BINDING_STORAGE_PASS) writeonly buffer SteadyLight { uint steadyLight[]; };
 #endif
 
-// Whether a face holds a part of a rectangle of the scene that shines as an area light: it looks the same way,
-// lies in its plane and its bounds reach into it. A voxel on the rectangle's edge has emission of it, too, which
-// is no emission but the area light's. Voxels round positions to 1/31 voxel, so a quarter voxel is ample.
+// Whether a face holds a part of a rectangle of the scene that shines as an area light: it looks the same
+// way, lies in its plane and its bounds reach into it. A voxel on the rectangle's edge has emission of it,
+// too, which is no emission but the area light's. Voxels round positions to 1/31 voxel, so a quarter voxel is
+// ample.
 bool isAreaLight(FaceRecord face, vec3 position, vec3 normal) {
     bool found = false;
 #if LIGHTS_RECT
-    vec3 reach = (0.5 * (unpackBoundsMax(face.bounds) - unpackBoundsMin(face.bounds)) + 0.25) * grid.voxelSize;
+    vec3 reach =
+        (0.5 * (unpackBoundsMax(face.bounds) - unpackBoundsMin(face.bounds)) + 0.25) * grid.voxelSize;
     uint i = frame.lightEnds.z;
     if (i < frame.lightEnds.w) do {
             Light light = lights[i];

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // What a material shows within one clipped polygon: base colour x texture x vertex colour, emission,
-// coverage. Textures come from the surface array at the level whose texel is as large as the polygon. Metals
-// count with their base colour: what they reflect towards everywhere, added up; with SURFACE_LOBES it is also
-// said how metallic and how rough they are. Unlit: black. Included by
-// surface_clip.comp.glsl, which defines struct Surface.
+// coverage. Textures come from the surface array at the level whose texel is as large as the polygon. All
+// that is reflected counts as colour, whichever way it goes (evenAlbedo); with SURFACE_LOBES it is also said
+// how metallic and how rough metals are. Without, textures of metalness and roughness are not looked at.
+// Unlit: black. Included by surface_clip.comp.glsl, which defines struct Surface.
+#include "lib/brdf.glsl"
 #include "lib/surface_array.glsl"
 #include "lib/vertex_color.glsl"
 layout(std430, binding = BINDING_VERTICES) readonly buffer VertexTable { Vertex vertices[]; };
@@ -108,6 +109,8 @@ Surface evaluateSurface(uint triangle, uint instance, vec3 q0, vec3 q1, vec3 q2,
     vec3 emission = materials[m].emission * (layers.w >= 0 ? glow : vec3(1.0));
     bool unlit = (flags & MATERIAL_UNLIT) != 0u;
     uint lobe = 0u;
+    float metallic = materials[m].metallic;
+    float roughness = materials[m].roughness;
 #if SURFACE_LOBES
     vec4 lobeRow0 = materials[m].uvRow[2];
     vec4 lobeRow1 = materials[m].uvRow[3];
@@ -116,7 +119,10 @@ Surface evaluateSurface(uint triangle, uint instance, vec3 q0, vec3 q1, vec3 q2,
                           .rgb;
     // The array decodes what it holds from sRGB, which these numbers are not.
     metalRough = layers.y >= 0 ? encodeSrgb(metalRough) : vec3(1.0);
-    lobe = unlit ? 0u : packLobe(materials[m].metallic * metalRough.b, materials[m].roughness * metalRough.g);
+    metallic *= metalRough.b;
+    roughness *= metalRough.g;
+    lobe = unlit ? 0u : packLobe(metallic, roughness);
 #endif
-    return Surface(unlit ? vec3(0.0) : color.rgb * texel.rgb, unlit ? vec3(0.0) : emission, coverage, lobe);
+    vec3 albedo = evenAlbedo(color.rgb * texel.rgb, metallic, roughness, materials[m].specularF0);
+    return Surface(unlit ? vec3(0.0) : albedo, unlit ? vec3(0.0) : emission, coverage, lobe);
 }

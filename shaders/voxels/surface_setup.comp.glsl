@@ -8,6 +8,7 @@
 #error SURFACE_UPDATE must be 0 or 1
 #endif
 layout(local_size_x = 64) in;
+#include "lib/brdf.glsl"
 #include "lib/voxel_record.glsl"
 #include "voxels/surface_common.glsl"
 #include "voxels/surface_emit.glsl"
@@ -93,7 +94,9 @@ void main() {
     uint bits = instance | ((materialFlags & MATERIAL_DOUBLE_SIDED) != 0u ? TRIANGLE_TWO_SIDED : 0u) |
                 (used ? 0u : TRIANGLE_UNUSED);
     bool unlit = (materialFlags & MATERIAL_UNLIT) != 0u;
-    vec3 albedo = unlit ? vec3(0.0) : materials[material].baseColor.rgb;
+    vec3 albedo = evenAlbedo(materials[material].baseColor.rgb, materials[material].metallic,
+                             materials[material].roughness, materials[material].specularF0);
+    albedo = unlit ? vec3(0.0) : albedo;
     vec3 emission = unlit ? vec3(0.0) : materials[material].emission;
     if (index < surface.triangleCount) {
         triangles[3u * triangle] = vec4(p0, uintBitsToFloat(bits));

@@ -58,6 +58,20 @@ Brdf makeBrdf(const glm::vec3& baseColor, float metallic, float roughness, const
     return b;
 }
 
+glm::vec3 evenAlbedo(const glm::vec3& baseColor, float metallic, float roughness,
+                     const glm::vec3& dielectricF0) {
+    constexpr float kEvenLobe = 0.5f;
+    const float r = std::max(roughness, kMinRoughness);
+    const float both =
+        0.9997027f + r * (-0.01521229f + r * (0.3516476f + r * (-2.2508005f + r * 1.3269485f)));
+    const float grazing =
+        0.04557508f + r * (0.05997143f + r * (-0.4956394f + r * (0.670405f + r * -0.2784238f)));
+    const float f90 = std::clamp(50.0f * largest(dielectricF0), 0.0f, 1.0f);
+    const glm::vec3 own = kEvenLobe * (dielectricF0 * (both - grazing) + f90 * grazing) *
+                          (1.0f + dielectricF0 * (1.0f / both - 1.0f));
+    return glm::mix(baseColor * (1.0f - largest(own)) + own, baseColor, metallic);
+}
+
 float ggxVisible(float alpha, float noh, float nol, float nov) {
     const float a2 = alpha * alpha;
     const float d = (1.0f - noh * noh) + noh * noh * a2;

@@ -25,6 +25,10 @@ glm::vec3 fresnel(const glm::vec3& f0, const glm::vec3& f90, float voh);
 Brdf makeBrdf(const glm::vec3& baseColor, float metallic, float roughness, const glm::vec3& dielectricF0,
               float nov);
 
+// Reflectance in even light, both lobes; what voxels keep as a surface's colour.
+glm::vec3 evenAlbedo(const glm::vec3& baseColor, float metallic, float roughness,
+                     const glm::vec3& dielectricF0);
+
 // GGX times visibility, D G2 / (4 NoL NoV).
 float ggxVisible(float alpha, float noh, float nol, float nov);
 

@@ -69,6 +69,34 @@ double grey(const glm::vec3& v) { return static_cast<double>(v.x + v.y + v.z) / 
 
 class IrradianceCacheTest : public GlTest {};
 
+// A lamp in the ceiling, whose edges lie within voxels. Its light comes from the rectangle; the ceiling
+// beside it, which it does not reach, is dark. Emission averaged into the voxels of the edge would shine
+// twice.
+TEST_F(IrradianceCacheTest, EdgesOfLampsDoNotGlow) {
+    Scene scene;
+    addInstance(scene, boxOfQuads(false), matt(glm::vec3(0.5f)));
+    Mesh lamp;
+    lamp.positions = {
+        {0.33f, 0.999f, 0.41f}, {0.71f, 0.999f, 0.41f}, {0.71f, 0.999f, 0.62f}, {0.33f, 0.999f, 0.62f}};
+    lamp.indices = {0, 1, 2, 0, 2, 3};
+    addInstance(scene, lamp, matt(glm::vec3(0), glm::vec3(5)));
+    for (const int voxels : {24, 32, 41}) {
+        CacheRig rig(programs(), scene, voxels);
+        rig.relight();
+        int ceiling = 0;
+        double floor = 0;
+        for (const CachedFace& face : rig.faces()) {
+            if (face.normal.y > 0.9f) floor = std::max(floor, grey(face.radiance));
+            if (face.normal.y > -0.9f || face.position.y < 0.9f) continue;
+            ++ceiling;
+            EXPECT_LE(grey(face.radiance), 1e-3)
+                << voxels << " voxels, " << face.position.x << ' ' << face.position.z;
+        }
+        EXPECT_GT(ceiling, voxels * voxels / 2);
+        EXPECT_GT(floor, 0.05);
+    }
+}
+
 // Closed, albedo rho, every surface shines with e: radiance e / (1 - rho) everywhere, irradiance / pi the
 // same. Turned, so that no wall is along an axis: what rays to bright faces are off by (bounds are not quite
 // what a surface covers, O(h)) is largest there.

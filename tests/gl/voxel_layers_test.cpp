@@ -32,6 +32,7 @@ Material painted(const glm::vec3& albedo, bool doubleSided = false) {
     Material material;
     material.baseColor = glm::vec4(albedo, 1);
     material.doubleSided = doubleSided;
+    material.specular = 0;
     return material;
 }
 

@@ -63,6 +63,28 @@ TEST(BrdfTest, WhiteDielectricReturnsTheWhiteFurnace) {
         }
 }
 
+// A white surface sends all light back; a black dielectric half (kEvenLobe) of what its lobe reflects in even
+// light, the mean of its directional albedo by the cosine.
+TEST(BrdfTest, EvenAlbedoIsHalfTheLobeOverTheBase) {
+    for (const float roughness : {0.05f, 0.2f, 0.4f, 0.6f, 0.8f, 1.0f}) {
+        const glm::vec3 f0(0.04f);
+        EXPECT_NEAR(math::evenAlbedo(glm::vec3(1), 0, roughness, f0).x, 1.0f, 1e-5f);
+        EXPECT_EQ(math::evenAlbedo(glm::vec3(0.3f), 1, roughness, f0), glm::vec3(0.3f));
+        EXPECT_EQ(math::evenAlbedo(glm::vec3(0.3f), 0, roughness, glm::vec3(0)), glm::vec3(0.3f));
+        double mean = 0;
+        const int steps = 1000;
+        for (int i = 0; i < steps; ++i) {
+            const float nov = (static_cast<float>(i) + 0.5f) / steps;
+            mean +=
+                2.0 * static_cast<double>(nov * math::makeBrdf(glm::vec3(0), 0, roughness, f0, nov).albedo.x);
+        }
+        mean /= steps;
+        EXPECT_NEAR(static_cast<double>(math::evenAlbedo(glm::vec3(0), 0, roughness, f0).x), 0.5 * mean,
+                    0.0015)
+            << "roughness " << roughness;
+    }
+}
+
 TEST(BrdfTest, NoSpecularMeansLambert) {
     const math::Brdf brdf = math::makeBrdf(glm::vec3(0.7f), 0, 0.5f, glm::vec3(0), 0.3f);
     EXPECT_FLOAT_EQ(brdf.diffuse.x, 0.7f);

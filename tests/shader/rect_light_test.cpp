@@ -117,5 +117,65 @@ TEST_F(RectLightTest, ReflectionsAreCloseToADenseSum) {
     }
 }
 
+// A ray asks one sample point of a lamp whether it is seen. Points are drawn by what the lobe reflects of
+// them: the share of those on one half of the lamp is that half's share of the reflection. Drawn all alike it
+// is always one half, and a lamp half hidden shows in metal though the lobe points at its hidden half.
+TEST_F(RectLightTest, PointsAreDrawnAsTheLobeSeesThem) {
+    addShader("test/points.comp.glsl", R"(#version 450 core
+#define LIGHTS_SHADOWS 0
+#include "lib/lights.glsl"
+layout(local_size_x = 64) in;
+layout(std430, binding = BINDING_STORAGE_PASS) buffer Data { vec4 data[]; };
+void main() {
+    uint i = gl_GlobalInvocationID.x * 2u;
+    vec3 p = data[i].xyz, toEye = normalize(data[i + 1u].xyz - p), n = vec3(0, 1, 0);
+    Brdf b = makeBrdf(vec3(1), 1.0, data[i].w, vec3(0.04), toEye.y);
+    RectLobe lobe = rectLobe(n, toEye, b.alpha, b.nov);
+    float left = 0.0;
+    for (int k = 0; k < 256; ++k)
+        left += rectPointPlace(rectPointInLobe(lights[0], p, lobe, (float(k) + 0.5) / 256.0)).x < 0.0 ? 1.0 : 0.0;
+    data[i] = vec4(left / 256.0);
+}
+)");
+    Light light;
+    light.type = LightType::Rect;
+    light.intensity = glm::vec3(1);
+    light.position = {0, 0.6f, -1.5f};
+    light.direction = {0, 0, 1};
+    light.halfU = {0.8f, 0, 0};
+    light.halfV = {0, 0.4f, 0};
+    Light half = light;
+    half.position.x = -0.4f;
+    half.halfU.x = 0.4f;
+    const gl::Buffer table(scene::packedLights({light}), "lights");
+    table.bindStorage(BINDING_LIGHTS);
+    for (const float roughness : {0.2f, 0.35f, 0.6f}) {
+        std::vector<glm::vec4> data;
+        for (int z = 0; z < kEdge; ++z)
+            for (int x = 0; x < kEdge; ++x) {
+                data.emplace_back(floorPoint(x, z), roughness);
+                data.emplace_back(kEye, 0);
+            }
+        gl::Buffer buffer(data, "points");
+        buffer.bindStorage(BINDING_STORAGE_PASS);
+        programs().compute("test/points.comp.glsl").dispatch(kEdge * kEdge);
+        gl::barrier(gl::Access::ShaderStorage);
+        const std::vector<glm::vec4> got = buffer.read<glm::vec4>(data.size());
+        // Weighted by the reflection: where there is none, any point will do.
+        double error = 0, one = 0, weights = 0;
+        for (int i = 0; i < kEdge * kEdge; ++i) {
+            const glm::vec3 p = floorPoint(i % kEdge, i / kEdge);
+            const double whole = denseSum(light, p, roughness);
+            const double share = denseSum(half, p, roughness) / whole;
+            error += whole * std::abs(static_cast<double>(got[static_cast<std::size_t>(2 * i)].x) - share);
+            one += whole * std::abs(0.5 - share);
+            weights += whole;
+        }
+        RecordProperty("error" + std::to_string(roughness), std::to_string(error / weights));
+        EXPECT_LE(error / weights, 0.06) << "roughness " << roughness;
+        EXPECT_GE(one / weights, 0.1) << "all alike would do at roughness " << roughness;
+    }
+}
+
 }  // namespace
 }  // namespace conelight::test

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/brdf.h"
 #include "voxels/voxel_record.h"
 
 namespace conelight::test {
@@ -206,9 +207,12 @@ ReferenceFaces referenceFaces(const Scene& scene, const std::vector<ReferenceTri
                               const voxels::VoxelGrid& grid, bool hides) {
     std::unordered_map<std::uint64_t, std::vector<Piece>> pieces;
     for (const ReferenceTriangle& t : triangles) {
-        const glm::dvec3 albedo(
-            t.material >= 0 ? glm::vec3(scene.materials[static_cast<std::size_t>(t.material)].baseColor)
-                            : glm::vec3(Material{}.baseColor));
+        const Material material =
+            t.material >= 0 ? scene.materials[static_cast<std::size_t>(t.material)] : Material{};
+        const float ratio = (material.ior - 1) / (material.ior + 1);
+        const glm::dvec3 albedo(math::evenAlbedo(
+            glm::vec3(material.baseColor), material.metallic, material.roughness,
+            glm::min(material.specularColor * (ratio * ratio), glm::vec3(1)) * material.specular));
         forEachVoxel(t, grid, 0, [&](const glm::ivec3& voxel) {
             const std::vector<glm::dvec3> polygon = clippedPolygon(t, voxel);
             Piece piece;
