@@ -17,10 +17,16 @@ const float kLeastAxis = 1e-3;
 // there, so that a small weight does as well as a large one.
 const float kReverseWeight = 1.0 / 64.0;
 
-// rgb irradiance / pi; a: sum of weights, 0 where no face was found. Which of the eight voxels are there is
+// Faces count for the surface's normal fully where they are turned from it by less than the acos of the sum of
+// these, and not beyond the acos of the first: on curved things neighbours do, across edges they do not.
+const float kSameBend = 0.75;
+const float kSameBendRange = 0.1;
+
+// rgb irradiance / pi; a: sum of weights, 0 where no face was found. `bent`: sum of the normals of these
+// faces, of any length, as far as they are near `normal`. Which of the eight voxels are there is
 // asked first, then only those are visited, and of their faces those that count: on a wall four of eight
 // voxels and one face each (platform figures: docs/theory/4_gather.md, "The cache at pixels").
-vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted) {
+vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
     vec3 corner = floor(point - 0.5);
     vec3 part = point - 0.5 - corner;
     ivec3 base = ivec3(corner);
@@ -38,6 +44,7 @@ vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted) {
     }
     corners = wanted ? corners : 0u;
     vec4 sum = vec4(0.0);
+    bent = vec3(0.0);
     do {
         bool any = corners != 0u;
         COUNT_LOOKUP(any ? 2 : 0);
@@ -59,7 +66,10 @@ vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted) {
             float share = lowest < 4u ? square.x : (lowest < 16u ? square.y : square.z);
             uvec4 plane = texelFetch(voxelFaces, 2 * face);
             float coverage = unpackWeight(plane.y) * ((plane.z & FACE_REVERSE) != 0u ? kReverseWeight : 1.0);
-            float weight = left != 0u && lit ? t.x * t.y * t.z * share * coverage : 0.0;
+            float place = left != 0u ? t.x * t.y * t.z * share * coverage : 0.0;
+            float weight = lit ? place : 0.0;
+            vec3 turned = octDecode(unpackSnorm2x16(plane.x));
+            bent += place * clamp((dot(turned, normal) - kSameBend) / kSameBendRange, 0.0, 1.0) * turned;
             sum += weight * vec4(unpackHalf2x16(light.z), unpackHalf2x16(light.w).x, 1.0);
             RECORD_CACHE_FACE(point, face, weight, vec3(unpackHalf2x16(light.z), unpackHalf2x16(light.w).x));
             left ^= lowest;
@@ -67,4 +77,9 @@ vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted) {
         corners &= corners - 1u;
     } while (corners != 0u);
     return vec4(sum.rgb / max(sum.a, 1e-12), sum.a);
+}
+
+vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted) {
+    vec3 bent;
+    return cachedIrradiance(point, normal, wanted, bent);
 }

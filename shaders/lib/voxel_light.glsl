@@ -7,7 +7,8 @@
 // scene. FIND_BACKS 1: rays by the cosine are followed back as well, to see whether they met a surface from
 // behind.
 // LOBES 1: where a ray meets metal it goes on in its lobe (rayRadiance). 0: metals shine as if matt.
-// SMOOTH_HITS 1: what is met shows irradiance interpolated over the voxels about it, not that of its face.
+// SMOOTH_HITS 1: what is met shows irradiance and normal interpolated over the voxels about it, not those of
+// its face.
 //
 // Before the call: SurfaceVoxels::bind, OctantWords::bind, IrradianceCache::bind, the frame block;
 // EXACT_DIRECT also the scene's tables and the shadow maps.
@@ -77,19 +78,22 @@ vec3 faceNormalOf(int face) { return octDecode(unpackSnorm2x16(texelFetch(voxelF
 
 // Radiance at a hit, all surfaces matt; the sky where nothing was met, nothing where a surface was met from
 // behind. `s`: of the face that was hit; its irradiance becomes that of the point, where it is looked up.
-vec3 hitRadiance(VoxelHit hit, vec3 origin, vec3 direction, inout FaceShade s) {
+// `bent`: the normal there, in the same way.
+vec3 hitRadiance(VoxelHit hit, vec3 origin, vec3 direction, inout FaceShade s, out vec3 bent) {
     int face = max(hit.face, 0);
-#if EXACT_DIRECT || SMOOTH_HITS
     vec3 normal = faceNormalOf(face);
+    bent = normal;
+#if EXACT_DIRECT || SMOOTH_HITS
     vec3 point = origin + (hit.face >= 0 ? hit.t : 0.0) * direction;
 #endif
 #if SMOOTH_HITS
-    vec4 around = cachedIrradiance(point, normal, hit.face >= 0);
+    vec4 around = cachedIrradiance(point, normal, hit.face >= 0, bent);
+    bent = dot(bent, bent) > 0.0 ? normalize(bent) : normal;
     s.irradiance = around.a > 0.0 ? around.rgb : s.irradiance;
 #endif
 #if EXACT_DIRECT
     vec3 rise = faceRise(texelFetch(voxelFaces, 2 * face), normal);
-    vec3 direct = directIrradiance(worldFromGrid(point + rise), normal, normal) * (1.0 / kGatherPi);
+    vec3 direct = directIrradiance(worldFromGrid(point + rise), bent, normal) * (1.0 / kGatherPi);
     vec3 radiance = unpackRgb9e5(texelFetch(steadyLight, face).x) + s.albedo * (direct + s.irradiance);
 #else
     vec3 radiance = s.radiance + s.albedo * s.irradiance;
@@ -107,7 +111,7 @@ const float kNarrowLobe = 0.015;
 
 // What rectangles of light show in the lobe of b: their reflection as a whole (lib/rect_light.glsl) where one
 // of their sample points is seen, drawn by its share of the lobe.
-vec3 reflectedRects(Brdf b, vec3 position, vec3 normal, vec3 toEye, float xi) {
+vec3 reflectedRects(Brdf b, vec3 position, vec3 normal, vec3 geometricNormal, vec3 toEye, float xi) {
     vec3 reflected = vec3(0.0);
     uint i = frame.lightEnds.z;
     if (i < frame.lightEnds.w) {
@@ -117,7 +121,7 @@ vec3 reflectedRects(Brdf b, vec3 position, vec3 normal, vec3 toEye, float xi) {
             uint k = rectPointInLobe(light, position, lobe, xi);
             vec3 point = rectSamplePoint(light, k);
             reflected += light.intensity * rectSpecularQuick(light, position, lobe, b) *
-                         shadowVisibilityRect(light, k, point, position, normal);
+                         shadowVisibilityRect(light, k, point, position, geometricNormal);
         } while (++i < frame.lightEnds.w);
     }
     return reflected;
@@ -136,16 +140,18 @@ struct LobeStep {
     float glossy;  // share of its colour that the lobe has
 };
 
-// `widening`: added to the square of the lobe's width.
-LobeStep reflectRay(int face, FaceShade s, vec2 lobe, float widening, vec3 matt, vec3 point, vec3 direction,
-                    vec2 xi) {
+// `widening`: added to the square of the lobe's width. `bent`: the normal that the lobe is about.
+LobeStep reflectRay(int face, FaceShade s, vec2 lobe, float widening, vec3 matt, vec3 point, vec3 bent,
+                    vec3 direction, vec2 xi) {
     vec3 normal = faceNormalOf(face);
     float alpha = max(lobe.y, kMinRoughness) * max(lobe.y, kMinRoughness);
     alpha = min(sqrt(alpha * alpha + widening), 1.0);
-    Brdf b = makeBrdf(s.albedo, lobe.x, sqrt(alpha), vec3(0.04), -dot(normal, direction));
+    Brdf b = makeBrdf(s.albedo, lobe.x, sqrt(alpha), vec3(0.04), -dot(bent, direction));
     LobeStep next;
     next.alpha = alpha;
-    next.direction = lobeDirection(b, normal, -direction, xi, next.weight);
+    next.direction = lobeDirection(b, bent, -direction, xi, next.weight);
+    // A bent normal can mirror into the surface.
+    next.direction -= 2.0 * min(dot(next.direction, normal), 0.0) * normal;
     next.origin = rayOrigin(point, normal);
     next.leaves = normal;
     // The record reflects by all of its colour; its matt part is only this much of it.
@@ -155,10 +161,10 @@ LobeStep reflectRay(int face, FaceShade s, vec2 lobe, float widening, vec3 matt,
     next.radiance = emission + share * max(matt - emission, vec3(0.0));
     vec3 position = worldFromGrid(point + faceRise(texelFetch(voxelFaces, 2 * face), normal));
     if (alpha >= kNarrowLobe)
-        next.radiance += reflectedRects(b, position, normal, -direction, fract(7.0 * xi.x + xi.y));
+        next.radiance += reflectedRects(b, position, bent, normal, -direction, fract(7.0 * xi.x + xi.y));
 #if EXACT_DIRECT
     DirectLight light = DirectLight(vec3(0.0), vec3(0.0));
-    addPunctualLights(light, true, Receiver(position, normal, normal, -direction, kShadowVoxelLift), b);
+    addPunctualLights(light, true, Receiver(position, bent, normal, -direction, kShadowVoxelLift), b);
     next.radiance += light.specular;
 #else
     next.radiance +=
@@ -186,7 +192,8 @@ vec3 rayRadiance(vec3 origin, vec3 leaves, vec3 direction, float reach, float ai
     first = traceVoxels(origin, direction, reach, leaves);
 #if !LOBES
     FaceShade s = faceShade(max(first.face, 0));
-    return hitRadiance(first, origin, direction, s);
+    vec3 bent;
+    return hitRadiance(first, origin, direction, s, bent);
 #else
     VoxelHit hit = first;
     vec3 shown = vec3(0.0);    // by what was met first
@@ -202,14 +209,15 @@ vec3 rayRadiance(vec3 origin, vec3 leaves, vec3 direction, float reach, float ai
         FaceShade s = faceShade(face);
         uint bits = texelFetch(voxelFaces, 2 * face + 1).w;
         vec2 lobe = unpackLobe(bits >> 16);
-        vec3 radiance = hitRadiance(hit, origin, direction, s);
+        vec3 bent;
+        vec3 radiance = hitRadiance(hit, origin, direction, s, bent);
         bool lamp = (bits & FACE_AREA_LIGHT) != 0u;
         bool arrived = count > 0 || aim < 0.0 || abs(hit.t - aim) < 0.3;
         bool metal = hit.face >= 0 && lobe.x > 0.0 && lobe.y <= kRoughestLobe && s.usable && !lamp && arrived;
         if (narrow && hit.face >= 0 && lamp) radiance += unpackEmission(texelFetch(faceSources, face).xy);
         vec2 xi = vec2(randomNext(random), randomNext(random));
         LobeStep next = reflectRay(face, s, lobe, spread2 * kLobeWidening / limit, radiance,
-                                   origin + hit.t * direction, direction, xi);
+                                   origin + hit.t * direction, bent, direction, xi);
         going = metal && count < reflections;
         // The lobe's part of what surfaces about it show; matt metal has it in its colour.
         if (!going) next.radiance += next.glossy * s.albedo * s.irradiance;
