@@ -80,7 +80,7 @@ TEST_F(IrradianceCacheTest, EdgesOfLampsDoNotGlow) {
         {0.33f, 0.999f, 0.41f}, {0.71f, 0.999f, 0.41f}, {0.71f, 0.999f, 0.62f}, {0.33f, 0.999f, 0.62f}};
     lamp.indices = {0, 1, 2, 0, 2, 3};
     addInstance(scene, lamp, matt(glm::vec3(0), glm::vec3(5)));
-    for (const int voxels : {24, 32, 41}) {
+    for (const int voxels : {24, 32, 44}) {
         CacheRig rig(programs(), scene, voxels);
         rig.relight();
         int ceiling = 0;
