@@ -17,8 +17,8 @@ const float kLeastAxis = 1e-3;
 // there, so that a small weight does as well as a large one.
 const float kReverseWeight = 1.0 / 64.0;
 
-// Faces count for the surface's normal fully where they are turned from it by less than the acos of the sum of
-// these, and not beyond the acos of the first: on curved things neighbours do, across edges they do not.
+// Faces count for the surface's normal fully where they are turned from it by less than the acos of the sum
+// of these, and not beyond the acos of the first: on curved things neighbours do, across edges they do not.
 const float kSameBend = 0.75;
 const float kSameBendRange = 0.1;
 

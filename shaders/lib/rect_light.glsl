@@ -164,13 +164,14 @@ vec3 rectSpecularQuick(Light light, vec3 p, RectLobe lobe, Brdf b) {
 // eye, so that highlights fade evenly behind an edge.
 const float kRectCellWidening = 1.0;
 
-// Sample point of a rectangle (shared/rect_points.h) for a ray that asks one of them whether the rectangle is
+// Sample point of a rectangle (lib/rect_points.glsl) for a ray that asks one of them whether the rectangle is
 // seen in the lobe: number k with the probability of its share of the transformed cosine, xi in [0,1).
 // All alike, a ray would ask points that the lobe does not reflect. In rectLobeSpace a point's share is
 // height / distance^4, as the distance to the rectangle's plane is the same for all.
 uint rectPointInLobe(Light light, vec3 p, RectLobe lobe, float xi) {
     vec3 c = light.position - p;
-    float cell = 4.0 * length(cross(light.halfU, light.halfV)) / float(RECT_POINT_COUNT);
+    uint count = light.sampleGrid * light.sampleGrid;
+    float cell = 4.0 * length(cross(light.halfU, light.halfV)) / float(count);
     vec2 width2 = lobe.width * lobe.width + kRectCellWidening * cell / max(dot(c, c), cell);
     vec3 scale = vec3(inversesqrt(width2), 1.0);
     vec3 middle = scale * rectLobeSpace(lobe, c, dot(c, lobe.normal));
@@ -178,8 +179,8 @@ uint rectPointInLobe(Light light, vec3 p, RectLobe lobe, float xi) {
     vec3 v = scale * rectLobeSpace(lobe, light.halfV, dot(light.halfV, lobe.normal));
     float sum = 0.0;
     uint chosen = 0u;
-    for (uint k = 0u; k < RECT_POINT_COUNT; ++k) {
-        vec2 at = rectPointPlace(k);
+    for (uint k = 0u; k < count; ++k) {
+        vec2 at = rectPointPlace(k, light.sampleGrid);
         vec3 q = middle + at.x * u + at.y * v;
         float q2 = max(dot(q, q), 1e-12);
         float share = max(q.z, 0.0) / (q2 * q2);

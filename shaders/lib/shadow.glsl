@@ -237,7 +237,7 @@ float shadowVisibilityDirectional(Light light, vec3 p, vec3 n, float lift) {
 // The k-th sample point of a rectangle (shared/rect_points.h). Moved off the surface by a thousandth of its
 // size, which an emitter's own triangles lie in.
 vec3 rectSamplePoint(Light light, uint k) {
-    vec2 uv = rectPointPlace(k);
+    vec2 uv = rectPointPlace(k, light.sampleGrid);
     float lift = 1e-3 * min(length(light.halfU), length(light.halfV));
     return light.position + uv.x * light.halfU + uv.y * light.halfV + lift * light.direction;
 }

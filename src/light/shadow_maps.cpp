@@ -270,9 +270,10 @@ class Layout {
     // C++ twin of lib/shadow.glsl's.
     static glm::vec3 rectSamplePoint(const gpu::Light& light, int k) {
         const auto column = static_cast<std::uint32_t>(k);
-        const glm::vec2 uv = (glm::vec2(column, RECT_POINT_ROW(column)) + 0.5f) *
-                                 (2.0f / static_cast<float>(RECT_POINT_COUNT)) -
-                             1.0f;
+        const std::uint32_t grid = light.sampleGrid, count = grid * grid;
+        const std::uint32_t row =
+            count == RECT_POINT_COUNT ? RECT_POINT_ROW(column) : column % grid * grid + column / grid;
+        const glm::vec2 uv = (glm::vec2(column, row) + 0.5f) * (2.0f / static_cast<float>(count)) - 1.0f;
         const float lift = 1e-3f * std::min(glm::length(light.halfU), glm::length(light.halfV));
         return light.position + uv.x * light.halfU + uv.y * light.halfV + lift * light.direction;
     }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "conelight/renderer.h"
 #include "io/generated.h"
@@ -158,6 +159,43 @@ TEST_F(TracedModeTest, MetalSeenInMetalIsTheTruth) {
         EXPECT_LT(std::sqrt(std::max(square, 0.0)) / meanOf(truth.indirect), 0.15) << lamp;
         EXPECT_NEAR(meanOf(image) / meanOf(truth.indirect), 1.0, 0.03) << lamp;
     }
+}
+
+// Two metal balls under a lamp show each other's highlights, small and bright, where the truth has them:
+// about the balls' own normals, not those of their voxels, and only of the part of the lamp that is in sight.
+TEST_F(TracedModeTest, MetalBallsShowEachOthersHighlights) {
+    Scene scene = closedBox(mattMaterial(glm::vec3(0.5f)));
+    Material metal = mattMaterial(glm::vec3(0.9f, 0.7f, 0.4f));
+    metal.metallic = 1;
+    metal.roughness = 0.25f;
+    for (const float x : {-0.48f, 0.48f})
+        addInstance(scene, sphereMesh(48, 24), metal,
+                    glm::scale(glm::translate(glm::mat4(1), {x, -0.6f, -0.1f}), glm::vec3(0.35f)));
+    // 1.5 mm below the ceiling, its edges within voxels.
+    addInstance(scene, quadMesh({-0.43f, 0.9985f, -0.27f}, {0.81f, 0, 0}, {0, 0, 0.55f}),
+                mattMaterial(glm::vec3(0), glm::vec3(6)));
+    Camera& camera = scene.cameras.at(0);
+    camera.eye = {0, -0.45f, 0.95f};
+    camera.target = {0, -0.6f, -0.1f};
+    camera.fovY = 0.8f;
+    reference::PathTracerSettings path;
+    path.samplesPerPixel = 256;
+    const reference::PathTracedPicture truth =
+        reference::PathTracer(scene).render(camera, kPixels, kPixels, path);
+    Settings settings = smallSettings(Quality::Interactive, Component::Indirect);
+    settings.traced.specularRays = 16;  // few rays show highlights wider than they are
+    settings.voxels.size = 64;
+    const Image image = draw(scene, settings);
+    double square = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const glm::dvec3 a(image.pixels[i] - truth.indirectA.pixels[i]);
+        const glm::dvec3 b(image.pixels[i] - truth.indirectB.pixels[i]);
+        square += glm::dot(a, b) / (3.0 * kPixels * kPixels);
+    }
+    const double error = std::sqrt(std::max(square, 0.0)) / meanOf(truth.indirect);
+    RecordProperty("error", std::to_string(error));
+    EXPECT_LT(error, 0.1);
+    EXPECT_NEAR(meanOf(image) / meanOf(truth.indirect), 1.0, 0.03);
 }
 
 TEST_F(TracedModeTest, SameBitsTwice) {

@@ -133,7 +133,7 @@ void main() {
     RectLobe lobe = rectLobe(n, toEye, b.alpha, b.nov);
     float left = 0.0;
     for (int k = 0; k < 256; ++k)
-        left += rectPointPlace(rectPointInLobe(lights[0], p, lobe, (float(k) + 0.5) / 256.0)).x < 0.0 ? 1.0 : 0.0;
+        left += rectPointPlace(rectPointInLobe(lights[0], p, lobe, (float(k) + 0.5) / 256.0), 4u).x < 0.0 ? 1.0 : 0.0;
     data[i] = vec4(left / 256.0);
 }
 )");
@@ -174,6 +174,42 @@ void main() {
         RecordProperty("error" + std::to_string(roughness), std::to_string(error / weights));
         EXPECT_LE(error / weights, 0.06) << "roughness " << roughness;
         EXPECT_GE(one / weights, 0.1) << "all alike would do at roughness " << roughness;
+    }
+}
+
+// Whatever their number, light.area_samples, the points spread over the rectangle and not beyond it.
+TEST_F(RectLightTest, AnyNumberOfPointsSpreadsOverTheRectangle) {
+    addShader("test/places.comp.glsl", R"(#version 450 core
+#include "lib/rect_points.glsl"
+#include "shared/bindings.h"
+layout(local_size_x = 64) in;
+layout(std430, binding = BINDING_STORAGE_PASS) buffer Data { vec4 data[]; };
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= 512u) return;
+    data[i] = vec4(rectPointPlace(i & 63u, i / 64u + 1u), 0.0, 0.0);
+}
+)");
+    gl::Buffer buffer(std::vector<glm::vec4>(512), "places");
+    buffer.bindStorage(BINDING_STORAGE_PASS);
+    programs().compute("test/places.comp.glsl").dispatch(512);
+    gl::barrier(gl::Access::ShaderStorage);
+    const std::vector<glm::vec4> places = buffer.read<glm::vec4>(512);
+    for (std::size_t grid = 1; grid <= 8; ++grid) {
+        glm::vec2 sum(0), squares(0);
+        const std::size_t count = grid * grid;
+        for (std::size_t k = 0; k < count; ++k) {
+            const glm::vec2 at(places[64 * (grid - 1) + k]);
+            EXPECT_LE(std::max(std::abs(at.x), std::abs(at.y)), 1.0f) << grid << ' ' << k;
+            sum += at;
+            squares += at * at;
+        }
+        for (int k = 0; k < 2; ++k) {
+            EXPECT_NEAR(sum[k], 0.0f, 1e-4f) << grid;
+            // Evenly over [-1,1]: 1/3 less what a point per column and row leaves out.
+            const float even = (1 - 1 / static_cast<float>(count * count)) / 3;
+            EXPECT_NEAR(squares[k] / static_cast<float>(count), even, 1e-3f) << grid;
+        }
     }
 }
 
