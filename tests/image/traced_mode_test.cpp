@@ -167,7 +167,7 @@ TEST_F(TracedModeTest, MetalBallsShowEachOthersHighlights) {
     Scene scene = closedBox(mattMaterial(glm::vec3(0.5f)));
     Material metal = mattMaterial(glm::vec3(0.9f, 0.7f, 0.4f));
     metal.metallic = 1;
-    metal.roughness = 0.25f;
+    metal.roughness = 0.13f;
     for (const float x : {-0.48f, 0.48f})
         addInstance(scene, sphereMesh(48, 24), metal,
                     glm::scale(glm::translate(glm::mat4(1), {x, -0.6f, -0.1f}), glm::vec3(0.35f)));
@@ -194,8 +194,8 @@ TEST_F(TracedModeTest, MetalBallsShowEachOthersHighlights) {
     }
     const double error = std::sqrt(std::max(square, 0.0)) / meanOf(truth.indirect);
     RecordProperty("error", std::to_string(error));
-    EXPECT_LT(error, 0.1);
-    EXPECT_NEAR(meanOf(image) / meanOf(truth.indirect), 1.0, 0.03);
+    EXPECT_LT(error, 0.13);  // 0.10; about the normals of voxels 0.17
+    EXPECT_NEAR(meanOf(image) / meanOf(truth.indirect), 1.0, 0.04);
 }
 
 TEST_F(TracedModeTest, SameBitsTwice) {
