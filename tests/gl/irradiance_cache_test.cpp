@@ -13,6 +13,7 @@
 #include <map>
 
 #include "io/scene_file.h"
+#include "math/brdf.h"
 #include "math/octahedral.h"
 #include "shared/irradiance.h"
 #include "support/cache_rig.h"
@@ -68,6 +69,25 @@ Scene room(float albedo) {
 double grey(const glm::vec3& v) { return static_cast<double>(v.x + v.y + v.z) / 3; }
 
 class IrradianceCacheTest : public GlTest {};
+
+// What rays find of a dielectric holds its lobe, or rooms with floors of wood and stone are too dark. Metals
+// keep their colour: their lobes are traced.
+TEST_F(IrradianceCacheTest, DielectricsCountTheirLobeMetalsDoNot) {
+    const glm::vec3 base(0.1f, 0.5f, 0.3f);
+    for (const float metallic : {0.0f, 1.0f}) {
+        Material material = matt(base);
+        material.specular = 1;
+        material.roughness = 0.3f;
+        material.metallic = metallic;
+        Scene scene;
+        addInstance(scene, boxOfQuads(false), material);
+        const CacheRig rig(programs(), scene, 16);
+        const glm::vec3 expected = math::evenAlbedo(base, metallic, 0.3f, glm::vec3(0.04f));
+        for (const CachedFace& face : rig.faces())
+            for (int k = 0; k < 3; ++k) EXPECT_NEAR(face.albedo[k], expected[k], 1e-3f);
+        EXPECT_NEAR(expected.x, metallic > 0 ? 0.1f : 0.13f, metallic > 0 ? 1e-4f : 0.005f);
+    }
+}
 
 // A lamp in the ceiling, whose edges lie within voxels. Its light comes from the rectangle; the ceiling
 // beside it, which it does not reach, is dark. Emission averaged into the voxels of the edge would shine

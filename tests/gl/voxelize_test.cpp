@@ -18,7 +18,6 @@
 
 #include "gl/pass.h"
 #include "io/scene_file.h"
-#include "math/brdf.h"
 #include "math/octahedral.h"
 #include "scene/gpu_scene.h"
 #include "support/gl_fixture.h"
@@ -32,7 +31,6 @@ namespace {
 using voxels::VoxelGrid;
 
 // --- Scenes made here
-
 int addMaterial(Scene& scene, const glm::vec3& albedo, bool doubleSided = false) {
     Material material;
     material.baseColor = glm::vec4(albedo, 1);
@@ -477,39 +475,6 @@ TEST_F(VoxelizeTest, DegenerateTrianglesAddNothingAndNothingIsNan) {
     }
 }
 
-glm::dvec3 meanAlbedo(const Result& r) {
-    glm::dvec3 sum(0);
-    double weight = 0;
-    for (const gpu::FaceRecord& face : r.faces) {
-        const double w = static_cast<double>(voxels::unpackWeight(face.offsetWeight));
-        sum += w * glm::dvec3(voxels::unpackAlbedo(face.albedo));
-        weight += w;
-    }
-    return sum / weight;
-}
-
-// What rays find of a dielectric holds its lobe, or rooms with floors of wood and stone are too dark.
-TEST_F(VoxelizeTest, DielectricsCountTheirLobeMetalsDoNot) {
-    const glm::vec3 base(0.1f, 0.5f, 0.3f);
-    for (const bool textured : {false, true})
-        for (const float metallic : {0.0f, 1.0f}) {
-            Scene scene;
-            const int material = addMaterial(scene, base);
-            scene.materials[0].specular = 1;
-            scene.materials[0].roughness = 0.3f;
-            scene.materials[0].metallic = metallic;
-            Mesh quad = quadMesh();
-            if (textured) quad.colors = {glm::vec4(1), glm::vec4(1), glm::vec4(1), glm::vec4(1)};
-            addInstance(scene, quad, material);
-            const Result r = voxelize(scene, 16);
-            const glm::dvec3 mean = meanAlbedo(r);
-            const glm::vec3 expected = math::evenAlbedo(base, metallic, 0.3f, glm::vec3(0.04f));
-            for (int k = 0; k < 3; ++k) EXPECT_NEAR(mean[k], static_cast<double>(expected[k]), 1e-3);
-            EXPECT_GT(expected.x, metallic > 0 ? 0.0999f : 0.125f);
-            EXPECT_LT(expected.x, metallic > 0 ? 0.1001f : 0.135f);
-        }
-}
-
 TEST_F(VoxelizeTest, InvisibleAndUnvoxelizedInstancesAreLeftOutUnlitOnesAreBlack) {
     Scene scene = rotatedBox();
     scene.materials[0].unlit = true;
@@ -560,6 +525,17 @@ Scene texturedQuad(const Texture& texture, float repeats, const glm::mat4& world
     scene.materials[0].baseColorTexture.texture = 0;
     addInstance(scene, quadMesh(repeats), material, worldFromObject);
     return scene;
+}
+
+glm::dvec3 meanAlbedo(const Result& r) {
+    glm::dvec3 sum(0);
+    double weight = 0;
+    for (const gpu::FaceRecord& face : r.faces) {
+        const double w = static_cast<double>(voxels::unpackWeight(face.offsetWeight));
+        sum += w * glm::dvec3(voxels::unpackAlbedo(face.albedo));
+        weight += w;
+    }
+    return sum / weight;
 }
 
 TEST_F(VoxelizeTest, CheckerTextureAveragesToItsMean) {
