@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "support/reference_voxelizer.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
+#include "math/brdf.h"
 #include "voxels/voxel_record.h"
 
 namespace conelight::test {
@@ -53,22 +55,26 @@ bool touches(const ReferenceTriangle& t, const glm::dvec3& center, double half) 
     return true;
 }
 
+// What of a polygon lies on one side of the plane across an axis (Sutherland-Hodgman).
+static std::vector<glm::dvec3> cut(const std::vector<glm::dvec3>& polygon, int axis, double at, bool above) {
+    const double sign = above ? 1 : -1;
+    std::vector<glm::dvec3> rest;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec3& a = polygon[i];
+        const glm::dvec3& b = polygon[(i + 1) % polygon.size()];
+        const double da = sign * (a[axis] - at);
+        const double db = sign * (b[axis] - at);
+        if (da >= 0) rest.push_back(a);
+        if ((da >= 0) != (db >= 0)) rest.push_back(a + da / (da - db) * (b - a));
+    }
+    return rest;
+}
+
 std::vector<glm::dvec3> clippedPolygon(const ReferenceTriangle& t, const glm::ivec3& voxel) {
     std::vector<glm::dvec3> polygon(t.p.begin(), t.p.end());
-    for (int side = 0; side < 6; ++side) {
-        const int axis = side / 2;
-        const double at = voxel[axis] + side % 2;
-        const double sign = side % 2 == 0 ? 1 : -1;
-        std::vector<glm::dvec3> rest;
-        for (std::size_t i = 0; i < polygon.size(); ++i) {
-            const glm::dvec3& a = polygon[i];
-            const glm::dvec3& b = polygon[(i + 1) % polygon.size()];
-            const double da = sign * (a[axis] - at);
-            const double db = sign * (b[axis] - at);
-            if (da >= 0) rest.push_back(a);
-            if ((da >= 0) != (db >= 0)) rest.push_back(a + da / (da - db) * (b - a));
-        }
-        polygon = std::move(rest);
+    for (int axis = 0; axis < 3; ++axis) {
+        polygon = cut(polygon, axis, voxel[axis], true);
+        polygon = cut(polygon, axis, voxel[axis] + 1, false);
     }
     return polygon;
 }
@@ -202,13 +208,53 @@ ReferenceFace faceOf(const std::vector<Piece>& pieces, int direction, bool hides
 
 }  // namespace
 
+glm::dvec3 sentOn(const Material& material) {
+    const float ratio = (material.ior - 1) / (material.ior + 1);
+    const glm::vec3 f0 = glm::min(material.specularColor * (ratio * ratio), glm::vec3(1)) * material.specular;
+    const glm::dvec3 lobe(math::makeBrdf(glm::vec3(1), 0, material.roughness, f0, std::sqrt(0.5f)).albedo);
+    const glm::dvec3 base(glm::vec3(material.baseColor));
+    return base + (1 - static_cast<double>(material.metallic)) * lobe * (1.0 - base);
+}
+
+std::string wrongBounds(const ReferenceFace& face, int direction, const glm::dvec3& lower,
+                        const glm::dvec3& upper) {
+    constexpr double kStep = 1.0 / 31;
+    bool same = true;
+    for (int i = 0; i < 3; ++i) {
+        same = same && std::abs(lower[i] - face.lower[i]) < 1.01 * kStep &&
+               std::abs(upper[i] - face.upper[i]) < 1.01 * kStep;
+        if (lower[i] < face.lower[i] - 1.01 * kStep || upper[i] > face.upper[i] + 1.01 * kStep ||
+            upper[i] < lower[i])
+            return "beyond what the face holds";
+    }
+    if (same) return {};
+    // The plane's piece within them: a large square of the plane, clipped.
+    const glm::dvec3 n = glm::normalize(face.normal);
+    const auto filled = [&](const glm::dvec3& low, const glm::dvec3& high) {
+        const glm::dvec3 u =
+            glm::normalize(glm::cross(n, std::abs(n.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+        const glm::dvec3 v = glm::cross(n, u), at = 0.5 + face.offset * n;
+        std::vector<glm::dvec3> piece = {at - 4.0 * u - 4.0 * v, at + 4.0 * u - 4.0 * v,
+                                         at + 4.0 * u + 4.0 * v, at - 4.0 * u + 4.0 * v};
+        for (int i = 0; i < 3; ++i) {
+            piece = cut(piece, i, low[i], true);
+            piece = cut(piece, i, high[i], false);
+        }
+        return piece.size() < 3 ? 0.0 : polygonArea(piece) * std::abs(n[direction / 2]);
+    };
+    // What a step of rounding at each end adds or takes, to bounds and offset.
+    const double most = filled(lower - kStep, upper + kStep), least = filled(lower + kStep, upper - kStep);
+    if (face.weight < least - 0.02) return fmt::format("hold {:.3f}, of {:.3f}", least, face.weight);
+    if (face.weight > most + 0.02) return fmt::format("hold {:.3f} only, of {:.3f}", most, face.weight);
+    return {};
+}
+
 ReferenceFaces referenceFaces(const Scene& scene, const std::vector<ReferenceTriangle>& triangles,
                               const voxels::VoxelGrid& grid, bool hides) {
     std::unordered_map<std::uint64_t, std::vector<Piece>> pieces;
     for (const ReferenceTriangle& t : triangles) {
-        const glm::dvec3 albedo(
-            t.material >= 0 ? glm::vec3(scene.materials[static_cast<std::size_t>(t.material)].baseColor)
-                            : glm::vec3(Material{}.baseColor));
+        const glm::dvec3 albedo =
+            sentOn(t.material >= 0 ? scene.materials[static_cast<std::size_t>(t.material)] : Material{});
         forEachVoxel(t, grid, 0, [&](const glm::ivec3& voxel) {
             const std::vector<glm::dvec3> polygon = clippedPolygon(t, voxel);
             Piece piece;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -37,6 +38,9 @@ double polygonArea(const std::vector<glm::dvec3>& polygon);
 void forEachVoxel(const ReferenceTriangle& t, const voxels::VoxelGrid& grid, double slack,
                   const std::function<void(const glm::ivec3&)>& visit);
 
+// Of even light: base colour, and for dielectrics the lobe before it. Without textures, F0 without tint.
+glm::dvec3 sentOn(const Material& material);
+
 // Sums of eq. 2.2 for one voxel and direction, of what is not hidden. Key: packVoxel(voxel) * 8 + direction.
 struct ReferenceFace {
     double weight = 0;
@@ -48,6 +52,11 @@ struct ReferenceFace {
     double offset = 0;     // of the plane, from the voxel's centre
     bool layered = false;  // something covers something else
 };
+// Bounds that a face record may have: those of what the face holds, rounded outwards; or smaller ones of
+// which a plane piece fills as much as the face holds, where the surface ends askew within the voxel. Returns
+// what is wrong, or nothing.
+std::string wrongBounds(const ReferenceFace& face, int direction, const glm::dvec3& lower,
+                        const glm::dvec3& upper);
 using ReferenceFaces = std::unordered_map<std::uint64_t, ReferenceFace>;
 // `hides`: what lies in front hides what it covers; false: all counts.
 ReferenceFaces referenceFaces(const Scene& scene, const std::vector<ReferenceTriangle>& triangles,
