@@ -79,8 +79,8 @@ struct Material {
     float phongAmbient;
     float phongDiffuse;
     float phongSpecular;
-    float pad1;
-};  // 304 B
+    float lobeShare;  // of light at 45 degrees that the lobe of a dielectric reflects
+};                    // 304 B
 
 // Kinds of lights by how they are evaluated; the table is sorted by them (FrameConstants::lightEnds).
 #define LIGHT_POINT 0u  // also spots wider than a single shadow map can cover

@@ -95,3 +95,9 @@ uint facingDirections(vec3 n) {
 // Normals of fragments: three 16-bit snorm numbers, cheaper to read than an octahedral one.
 uint packSnorm16(float x) { return uint(int(floor(x * 32767.0 + 0.5))) & 0xffffu; }
 float unpackSnorm16(uint bits) { return float(int(bits << 16) >> 16) * (1.0 / 32767.0); }
+
+// Share of even light that a surface sends on, to everywhere together: by its colour, and a dielectric by its
+// lobe before that (Material::lobeShare). What voxels reflect is matt, so both are one number.
+vec3 sentOn(vec3 baseColor, float metallic, float lobeShare) {
+    return baseColor + (1.0 - metallic) * lobeShare * (1.0 - baseColor);
+}

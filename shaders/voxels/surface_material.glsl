@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What a material shows within one clipped polygon: base colour x texture x vertex colour, emission,
 // coverage. Textures come from the surface array at the level whose texel is as large as the polygon. Metals
-// count with their base colour: what they reflect towards everywhere, added up; with SURFACE_LOBES it is also
-// said how metallic and how rough they are. Unlit: black. Included by
+// count with their base colour: what they reflect towards everywhere, added up (dielectrics: sentOn); with
+// SURFACE_LOBES it is also said how metallic and how rough they are. Unlit: black. Included by
 // surface_clip.comp.glsl, which defines struct Surface.
 #include "lib/surface_array.glsl"
 #include "lib/vertex_color.glsl"
@@ -108,6 +108,7 @@ Surface evaluateSurface(uint triangle, uint instance, vec3 q0, vec3 q1, vec3 q2,
     vec3 emission = materials[m].emission * (layers.w >= 0 ? glow : vec3(1.0));
     bool unlit = (flags & MATERIAL_UNLIT) != 0u;
     uint lobe = 0u;
+    float metallic = 0.0;
 #if SURFACE_LOBES
     vec4 lobeRow0 = materials[m].uvRow[2];
     vec4 lobeRow1 = materials[m].uvRow[3];
@@ -116,7 +117,9 @@ Surface evaluateSurface(uint triangle, uint instance, vec3 q0, vec3 q1, vec3 q2,
                           .rgb;
     // The array decodes what it holds from sRGB, which these numbers are not.
     metalRough = layers.y >= 0 ? encodeSrgb(metalRough) : vec3(1.0);
-    lobe = unlit ? 0u : packLobe(materials[m].metallic * metalRough.b, materials[m].roughness * metalRough.g);
+    metallic = materials[m].metallic * metalRough.b;
+    lobe = unlit ? 0u : packLobe(metallic, materials[m].roughness * metalRough.g);
 #endif
-    return Surface(unlit ? vec3(0.0) : color.rgb * texel.rgb, unlit ? vec3(0.0) : emission, coverage, lobe);
+    vec3 albedo = sentOn(color.rgb * texel.rgb, metallic, materials[m].lobeShare);
+    return Surface(unlit ? vec3(0.0) : albedo, unlit ? vec3(0.0) : emission, coverage, lobe);
 }

@@ -93,7 +93,9 @@ void main() {
     uint bits = instance | ((materialFlags & MATERIAL_DOUBLE_SIDED) != 0u ? TRIANGLE_TWO_SIDED : 0u) |
                 (used ? 0u : TRIANGLE_UNUSED);
     bool unlit = (materialFlags & MATERIAL_UNLIT) != 0u;
-    vec3 albedo = unlit ? vec3(0.0) : materials[material].baseColor.rgb;
+    vec3 albedo = sentOn(materials[material].baseColor.rgb, materials[material].metallic,
+                         materials[material].lobeShare);
+    albedo = unlit ? vec3(0.0) : albedo;
     vec3 emission = unlit ? vec3(0.0) : materials[material].emission;
     if (index < surface.triangleCount) {
         triangles[3u * triangle] = vec4(p0, uintBitsToFloat(bits));

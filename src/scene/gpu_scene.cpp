@@ -10,6 +10,7 @@
 #include "base/log.h"
 #include "gl/gl.h"
 #include "gl/pass.h"
+#include "math/brdf.h"
 #include "math/octahedral.h"
 #include "scene/gpu_lights.h"
 #include "shared/bindings.h"
@@ -114,6 +115,14 @@ bool appendVertices(const Mesh& mesh, std::vector<gpu::Vertex>& vertices) {
     return hasNormals;
 }
 
+// Share of light that a dielectric's lobe reflects: at 45 degrees, within which half of even light comes. The
+// mean over all directions is twice as much, by grazing ones, whose light goes on much as if nothing had
+// been there (docs/theory/2_voxels.md, "Materials").
+float lobeShare(const glm::vec3& f0, float roughness) {
+    const math::Brdf brdf = math::makeBrdf(glm::vec3(0), 0, roughness, f0, std::sqrt(0.5f));
+    return glm::dot(brdf.albedo, glm::vec3(1.0f / 3));
+}
+
 gpu::Material packedMaterial(const Material& m) {
     gpu::Material g{};
     g.baseColor = m.baseColor;
@@ -144,6 +153,7 @@ gpu::Material packedMaterial(const Material& m) {
     g.phongAmbient = phong.ambientStrength;
     g.phongDiffuse = phong.diffuseStrength;
     g.phongSpecular = phong.specularStrength;
+    g.lobeShare = lobeShare(g.specularF0, g.roughness);
     return g;
 }
 

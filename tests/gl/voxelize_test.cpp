@@ -276,6 +276,10 @@ TEST_F(VoxelizeTest, FacesSayWhatTheReferenceComputes) {
     addInstance(scene, boxMesh(), addMaterial(scene, {1, 1, 1}),
                 glm::rotate(glm::scale(glm::translate(glm::mat4(1), {0.2f, 0.9f, 0}), {-0.3f, 0.2f, 0.25f}),
                             0.3f, {0, 1, 1}));
+    // Dielectrics, smooth and rough: they reflect more than their colour.
+    scene.materials[0].specular = 1;
+    scene.materials[0].roughness = 0.2f;
+    scene.materials[1].specular = 1;
     const Result result = voxelize(scene, 64);
     const ReferenceFaces reference =
         referenceFaces(scene, referenceTriangles(scene, result.grid), result.grid);
