@@ -69,6 +69,9 @@ layout(std140, binding = BINDING_PASS) uniform SurfaceBlock { SurfaceConstants s
 #define SURFACE_FINEST_UNIT 26
 // Weight beyond the area of the bounds, in voxel sides, that rounding explains.
 #define SURFACE_LEAST_EXCESS 0.00390625
+// Entry of the list of surface_layers: index of the face, from bit 26 on how much coarser its units are than
+// the finest, and whether nothing in it is covered and only its bounds are too wide.
+#define SURFACE_ONLY_WIDE 0x80000000u
 
 // Flags of a triangle, above the 24 bits of its instance.
 #define TRIANGLE_TWO_SIDED 0x1000000u
@@ -96,7 +99,7 @@ uint facingDirections(vec3 n) {
 uint packSnorm16(float x) { return uint(int(floor(x * 32767.0 + 0.5))) & 0xffffu; }
 float unpackSnorm16(uint bits) { return float(int(bits << 16) >> 16) * (1.0 / 32767.0); }
 
-// Share of even light that a surface sends on, to everywhere together: by its colour, and a dielectric by its
+// Share of light that a surface sends on, to everywhere together: by its colour, and a dielectric by its
 // lobe before that (Material::lobeShare). What voxels reflect is matt, so both are one number.
 vec3 sentOn(vec3 baseColor, float metallic, float lobeShare) {
     return baseColor + (1.0 - metallic) * lobeShare * (1.0 - baseColor);

@@ -276,14 +276,12 @@ TEST_F(VoxelizeTest, FacesSayWhatTheReferenceComputes) {
     addInstance(scene, boxMesh(), addMaterial(scene, {1, 1, 1}),
                 glm::rotate(glm::scale(glm::translate(glm::mat4(1), {0.2f, 0.9f, 0}), {-0.3f, 0.2f, 0.25f}),
                             0.3f, {0, 1, 1}));
-    // Dielectrics, smooth and rough: they reflect more than their colour.
-    scene.materials[0].specular = 1;
+    scene.materials[0].specular = 1;  // reflects more than its colour
     scene.materials[0].roughness = 0.2f;
-    scene.materials[1].specular = 1;
     const Result result = voxelize(scene, 64);
     const ReferenceFaces reference =
         referenceFaces(scene, referenceTriangles(scene, result.grid), result.grid);
-    std::size_t compared = 0, index = 0;
+    std::size_t compared = 0, fitted = 0, index = 0;
     double weightOf = 0, weightReference = 0;
     for (const gpu::FaceRecord& face : result.faces) {
         const std::uint32_t* source = &result.sources[2 * index];
@@ -330,13 +328,13 @@ TEST_F(VoxelizeTest, FacesSayWhatTheReferenceComputes) {
         glm::vec3 low, high;
         voxels::unpackBounds(face.bounds, low, high);
         EXPECT_EQ(wrongBounds(f, direction, low, high), "");
-        for (int k = 0; k < 3; ++k) {
-            EXPECT_NEAR(static_cast<double>(albedo[k]), f.albedo[k] / f.weight, 1e-3);
-        }
+        fitted += glm::any(glm::greaterThan(glm::dvec3(low), f.lower + 1.01 / 31)) ? 1 : 0;
+        for (int k = 0; k < 3; ++k) EXPECT_NEAR(static_cast<double>(albedo[k]), f.albedo[k] / f.weight, 1e-3);
         if (HasFailure())
             FAIL() << "voxel " << voxel.x << " " << voxel.y << " " << voxel.z << " direction " << direction;
     }
     EXPECT_GT(compared, 10000u);
+    EXPECT_GT(fitted, compared / 200);  // edges of the box and the quad
     EXPECT_NEAR(weightOf / weightReference, 1.0, 1e-4);
     // No face of the reference is absent, but slivers.
     EXPECT_LT(static_cast<double>(reference.size()) - static_cast<double>(result.faces.size()),
