@@ -91,6 +91,19 @@ constexpr GeneratedParameter kLoftParameters[] = {
     {"sun", 30, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
     {"sky", 0.8, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
 };
+constexpr GeneratedParameter kLoungeParameters[] = {
+    {"emission", 12, 0, 1e4, false, "radiance of the lamps, W/(sr m^2)"},
+};
+constexpr GeneratedParameter kLibraryParameters[] = {
+    {"intensity", 2, 0, 1e4, false, "of the lamp, W/sr; the reading lamp has twice as much"},
+};
+constexpr GeneratedParameter kHeapParameters[] = {
+    {"things", 500, 0, 5000, true, "how many"},
+    {"intensity", 0.9, 0, 1e4, false, "of the lamp, W/sr"},
+};
+constexpr GeneratedParameter kBendsParameters[] = {
+    {"emission", 150, 0, 1e4, false, "radiance of the lamp, W/(sr m^2)"},
+};
 
 struct Entry {
     GeneratedSceneInfo info;
@@ -139,6 +152,15 @@ constexpr Entry kScenes[] = {
      generated::buildScreens},
     {{"loft", "room with thick walls, sunlight through two skylights", kLoftParameters},
      generated::buildLoft},
+    {{"lounge", "closed room lit by emission alone: a leaning rod, a turned bar, a ball, a ring",
+      kLoungeParameters},
+     generated::buildLounge},
+    {{"library", "closed room, wood, plaster, stone and cloth, shelves of books", kLibraryParameters},
+     generated::buildLibrary},
+    {{"heap", "closed room with many small rods, cones, tiles and balls", kHeapParameters},
+     generated::buildHeap},
+    {{"bends", "passage that turns back twice, lamp at its far end; cameras dark, lit", kBendsParameters},
+     generated::buildBends},
 };
 constexpr std::size_t kSceneCount = std::size(kScenes);
 

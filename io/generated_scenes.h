@@ -75,5 +75,9 @@ Scene buildLobby(const Values& values);
 Scene buildMirrors(const Values& values);
 Scene buildScreens(const Values& values);
 Scene buildLoft(const Values& values);
+Scene buildLounge(const Values& values);
+Scene buildLibrary(const Values& values);
+Scene buildHeap(const Values& values);
+Scene buildBends(const Values& values);
 
 }  // namespace conelight::io::generated

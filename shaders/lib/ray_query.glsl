@@ -34,9 +34,13 @@ struct VoxelHit {
 // A face is met when its normal turns against the ray by more than this: flatter crossings have no
 // usable distance. From the accuracy experiments, as the next three.
 const float kRayFacing = 1e-3;
-const float kRayNear = 0.05;        // a ray starts this far in front of its surface, voxels
-const float kRayStart = 1e-3;       // nearest crossing that counts, voxels
-const float kRayBoundsSlack = 0.1;  // bounds that reach the voxel's side are grown by this, voxels
+const float kRayNear = 0.05;   // a ray starts this far in front of its surface, voxels
+const float kRayStart = 1e-3;  // nearest crossing that counts, voxels
+// Bounds that reach the voxel's side are grown, voxels: by the first along the normal, by the second, which
+// is how far pieces of one surface overlap, along it. Second: more makes balls too wide, less opens gaps
+// between their pieces (docs/theory/4_gather.md, "A ray").
+const float kRayBoundsSlack = 0.1;
+const float kRayBoundsOverlap = 0.04;
 // Where they end within the voxel, they are shrunk by this along the surface, about as much as they are
 // rounded outwards (up to 1/31), or all that is small would be too large. So are all for crossings before
 // kRayNear: there lies the other wall of a corner, whose bounds hold the ray's start, or the other side of
@@ -89,7 +93,8 @@ void testVoxelFaces(ivec3 voxel, vec3 origin, vec3 direction, vec3 leaves, uint 
         float t = ahead / min(towards, -kRayFacing);
         vec3 at = t * direction - toCenter + 0.5;
         vec3 shrunk = (kRayBoundsSlack + kRayBoundsShrink) * n * n - kRayBoundsShrink;
-        vec3 slack = t > kRayNear ? vec3(kRayBoundsSlack) : shrunk;
+        vec3 grown = (kRayBoundsSlack - kRayBoundsOverlap) * n * n + kRayBoundsOverlap;
+        vec3 slack = t > kRayNear ? grown : shrunk;
         vec3 lower = unpackBoundsMin(r.z);
         vec3 upper = unpackBoundsMax(r.z);
         vec3 below = mix(slack, shrunk, greaterThan(lower, vec3(0.0)));

@@ -69,6 +69,9 @@ layout(std140, binding = BINDING_PASS) uniform SurfaceBlock { SurfaceConstants s
 #define SURFACE_FINEST_UNIT 26
 // Weight beyond the area of the bounds, in voxel sides, that rounding explains.
 #define SURFACE_LEAST_EXCESS 0.00390625
+// Entry of the list of surface_layers: index of the face, from bit 26 on how much coarser its units are than
+// the finest, and whether nothing in it is covered and only its bounds are too wide.
+#define SURFACE_ONLY_WIDE 0x80000000u
 
 // Flags of a triangle, above the 24 bits of its instance.
 #define TRIANGLE_TWO_SIDED 0x1000000u

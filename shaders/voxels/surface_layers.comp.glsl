@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One invocation per face whose fragments cover more than their bounds have room for: some lie behind others.
 // Each is weighted by how much of it is seen, and the face is summed up again (docs/theory/2_voxels.md,
-// "Layers within a voxel").
+// "Layers within a voxel"). Then, and where nothing is covered and only the bounds are too wide, these are
+// fitted ("Bounds that fit").
 //
 // Depth is measured along the face's mean normal and cut into 16 slices. From front to back each slice is
 // seen as far as those before it leave room. A fragment that tilts against the mean normal reaches over
@@ -82,7 +83,8 @@ void main() {
     float slices = 15.0 / max(nearest - farthest, kLeastRange);
 
     // Cover of the slices, in units that surface_resolve found to be coarse enough.
-    float units = unitsOf(SURFACE_FINEST_UNIT - int(entry >> 26));
+    bool onlyWide = (entry & SURFACE_ONLY_WIDE) != 0u;
+    float units = unitsOf(SURFACE_FINEST_UNIT - int((entry & ~SURFACE_ONLY_WIDE) >> 26));
     ivec4 cover0 = ivec4(0), cover1 = ivec4(0), cover2 = ivec4(0), cover3 = ivec4(0);
     at = used ? head : 0u;
     do {
@@ -118,8 +120,8 @@ void main() {
         vec2 reach = (depth.x - farthest + vec2(-depth.y, depth.y)) * slices + vec2(0.0, 1.0);
         float seen = dot(shareOf(reach, 0.0), seen0) + dot(shareOf(reach, 4.0), seen1) +
                      dot(shareOf(reach, 8.0), seen2) + dot(shareOf(reach, 12.0), seen3);
-        seen = clamp(seen, 0.0, 1.0);
-        bool shows = f.area > 0.0 && seen > leastSeen;
+        seen = onlyWide ? 1.0 : clamp(seen, 0.0, 1.0);
+        bool shows = f.area > 0.0 && (onlyWide || seen > leastSeen);
         addFragment(sums, f, f.area * seen * unitsOf(SURFACE_FINEST_UNIT), shows);
         rear = shows ? min(rear, depth.x) : rear;
         at = f.next;
@@ -127,8 +129,10 @@ void main() {
 
     ResolvedFace face = resolvedFace(sums, SURFACE_FINEST_UNIT, direction, hit.w & 0x3fffffffu);
     float behind = dot(n, vec3(sums.center) / float(max(sums.weightLow, 1)) - 0.5) - rear;
-    float offset = unpackOffset(face.hit.y) - max(behind, 0.0);
+    float offset = unpackOffset(face.hit.y) - (onlyWide ? 0.0 : max(behind, 0.0));
     face.hit.y = (face.hit.y & 0xffff0000u) | (packOffsetWeight(offset, 0.0) & 0xffffu);
+    FacePlane plane = facePlane(sums, SURFACE_FINEST_UNIT, k, face.hit);
+    fitBounds(sums, plane, k, used && boundsTooWide(plane) ? head : 0u, face);
     if (used) {
         faces[2u * index] = face.hit;
         faces[2u * index + 1u] = face.shade;

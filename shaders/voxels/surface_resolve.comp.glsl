@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One invocation per face: walks the chain of its voxel, sums up the fragments that face its direction
 // (docs/theory/2_voxels.md, eq. 2.2), writes FaceRecord and faceSource. Faces in which something may cover
-// something else are put on the list of surface_layers, which does them again.
+// something else, or whose bounds are too wide, are put on the list of surface_layers, which does them again.
 //
 // The sum of weights is kept in 64 bits: should it reach 16 (never in a sane scene), the chain is walked
 // again with units coarse enough that nothing overflows.
@@ -67,13 +67,15 @@ void main() {
     ResolvedFace face = resolvedFace(sums, shift, direction, voxel);
     float weight = float(sums.weightLow) * inverseUnits(shift);
     bool covers = weight > boundsArea(sums.lower, sums.upper, direction >> 1) + SURFACE_LEAST_EXCESS;
+    bool wide = !covers && boundsTooWide(facePlane(sums, shift, k, face.hit));
     if (used) {
         faces[2u * index] = face.hit;
         faces[2u * index + 1u] = face.shade;
         faceSources[index] = face.source;
-        if (covers) {
+        if (covers || wide) {
             uint place = atomicAdd(counters[SURFACE_LAYERS], 1u);
-            layered[place] = index | (uint(SURFACE_FINEST_UNIT - shift) << 26);
+            layered[place] =
+                index | (uint(SURFACE_FINEST_UNIT - shift) << 26) | (wide ? SURFACE_ONLY_WIDE : 0u);
         }
     }
 }

@@ -7,6 +7,7 @@
 #ifndef SURFACE_LOBES
 #error SURFACE_LOBES must be 0 or 1
 #endif
+#include "lib/clip.glsl"
 layout(std430, binding = SURFACE_FACE_SOURCES) writeonly buffer SourceTable { uvec2 faceSources[]; };
 layout(binding = SURFACE_UNIT_FRAGMENTS) uniform usamplerBuffer fragments;
 layout(binding = SURFACE_UNIT_OWNERS) uniform usamplerBuffer owners;
@@ -18,6 +19,7 @@ layout(binding = SURFACE_UNIT_PAIRS) uniform usamplerBuffer pairs;
 struct Fragment {
     uint next;      // place of the next one + 1, 0: last
     float area;     // x coverage, in voxel sides; 0 when it does not face the direction
+    float whole;    // the same, whichever way it faces
     float facing;   // n.k
     vec3 normal;    // of two-sided triangles that of the side that faces the direction
     ivec3 center;   // in 1/65535 voxel
@@ -47,7 +49,8 @@ Fragment readFragment(uint at, vec3 k) {
     uint areaBits = a.y;
     vec2 lobe = vec2(0.0);
 #endif
-    return Fragment(at != 0u ? a.x : 0u, counts ? uintBitsToFloat(areaBits) : 0.0, facing, n,
+    float whole = at != 0u ? uintBitsToFloat(areaBits) : 0.0;
+    return Fragment(at != 0u ? a.x : 0u, counts ? whole : 0.0, whole, facing, n,
                     ivec3(b.x >> 16, b.y & 0xffffu, b.y >> 16), a.z, b.z, b.w, lobe,
                     (a.z & 0x40000000u) != 0u, turned);
 }
@@ -103,6 +106,26 @@ float boundsArea(ivec3 lower, ivec3 upper, int axis) {
     return axis == 0 ? size.y * size.z : (axis == 1 ? size.z * size.x : size.x * size.y);
 }
 
+// Share of a rectangle on which a plane lies below `height`, measured from the plane's height in the middle:
+// the distribution function of a sum of two even ones. `rise`: what the plane rises along the two edges.
+float shareBelow(vec2 rise, float height) {
+    float a = max(max(rise.x, rise.y), 0.02);
+    float b = max(min(rise.x, rise.y), 0.02);
+    vec4 corner = max(height + 0.5 * vec4(a + b, b - a, a - b, -a - b), 0.0);
+    corner *= corner;
+    return clamp((corner.x - corner.y - corner.z + corner.w) / (2.0 * a * b), 0.0, 1.0);
+}
+
+// Area of a plane's piece within a box, seen along the third axis; n.z is the largest component. From the
+// voxel's centre.
+float pieceArea(vec3 n, float offset, vec3 lower, vec3 upper) {
+    vec3 size = max(upper - lower, 0.0);
+    float middle = (offset - dot(n.xy, 0.5 * (lower.xy + upper.xy))) / n.z;
+    vec2 rise = abs(n.xy / n.z) * size.xy;
+    return size.x * size.y *
+           max(shareBelow(rise, upper.z - middle) - shareBelow(rise, lower.z - middle), 0.0);
+}
+
 struct ResolvedFace {
     uvec4 hit;  // the two texels of FaceRecord
     uvec4 shade;
@@ -135,4 +158,103 @@ ResolvedFace resolvedFace(FaceSums sums, int shift, int direction, uint voxel) {
                               voxel | (uint(direction >> 1) << 30)),
                         uvec4(packAlbedo(vec3(sums.albedo) / total), packRgb9e5(glow), 0u, lobe << 16),
                         packFaceSource(glow, float(sums.area) * 2.0 * unit));
+}
+
+// --- Bounds that fit (docs/theory/2_voxels.md, eq. 2.8)
+
+const float kBoundsStep = 1.0 / 31.0;
+const float kRayShrink = 0.02;   // kRayBoundsShrink, lib/ray_query.glsl
+const float kFitted = 0.98;      // share of the bounds from which on a piece fills them
+const float kSameWay = 0.5;      // cosine of normals of one surface
+const float kFrontShare = 0.25;  // in front of a piece, of what is behind: in a corner
+const float kFrontUnits = 65536.0;
+
+// Sides of a box that end within the voxel moved inwards.
+void shrinkEnds(float by, inout vec3 lower, inout vec3 upper) {
+    lower.xy += mix(vec2(0.0), vec2(by), greaterThan(lower.xy, vec2(-0.49)));
+    upper.xy -= mix(vec2(0.0), vec2(by), lessThan(upper.xy, vec2(0.49)));
+}
+
+// What a face says of its plane, in coordinates whose third axis is the one that the plane is most turned to.
+struct FacePlane {
+    vec3 normal, center, lower, upper;  // of what the face holds, from the voxel's centre
+    float offset;
+    float held;  // area of what the face holds, seen along that axis
+    int axis;
+};
+
+FacePlane facePlane(FaceSums sums, int shift, vec3 k, uvec4 hit) {
+    vec3 n = octDecode(unpackSnorm2x16(hit.x));
+    int axis = dominantAxis(n);
+    vec3 m = toDominant(n, axis);
+    return FacePlane(m, toDominant(vec3(sums.center) / float(max(sums.weightLow, 1)) - 0.5, axis),
+                     toDominant(vec3(sums.lower) * kBoundsStep - 0.5, axis),
+                     toDominant(vec3(sums.upper) * kBoundsStep - 0.5, axis), unpackOffset(hit.y),
+                     float(sums.weightLow) * inverseUnits(shift) * abs(m.z) / max(dot(n, k), 1e-3), axis);
+}
+
+// Whether the bounds hold more of the plane than rounding explains.
+bool boundsTooWide(FacePlane plane) {
+    vec3 a = plane.lower;
+    vec3 b = plane.upper;
+    shrinkEnds(kBoundsStep, a, b);
+    return plane.held < kFitted * pieceArea(plane.normal, plane.offset, a, b);
+}
+
+// Where the surface ends within the voxel askew, its bounds hold more of its plane than there is of it, and
+// rays find it too wide: the bounds are shrunk about its centroid. Not in corners, where the rest is behind
+// the other wall and a smaller piece would leave a hole. `at`: head of the voxel's chain, 0: leave it as it
+// is.
+void fitBounds(FaceSums sums, FacePlane plane, vec3 k, uint at, inout ResolvedFace face) {
+    int axis = plane.axis;
+    vec3 m = plane.normal;
+    vec3 c = plane.center;
+    vec3 low = plane.lower;
+    vec3 high = plane.upper;
+    float offset = plane.offset;
+    vec3 n = fromDominant(m, axis);
+    vec3 center = fromDominant(c, axis);
+    vec3 a, b;
+    bool fits = at != 0u;
+    int front = 0, behind = 0;
+    do {
+        Fragment f = readFragment(at, k);
+        float height = dot(n, vec3(f.center) * (1.0 / 65535.0) - 0.5 - center);
+        bool other = abs(dot(n, f.normal)) < kSameWay;
+        int moment = int(min(f.whole * abs(height), 1024.0) * kFrontUnits + 0.5);
+        front += other && height > 0.0 ? moment : 0;
+        behind += other && height < 0.0 ? moment : 0;
+        at = f.next;
+    } while (at != 0u);
+    fits = fits && float(front) <= kFrontShare * float(behind);
+
+    // An axis along which the centroid is off the middle is one along which the surface ends.
+    vec2 half2 = max(0.5 * (high.xy - low.xy), 0.5 * kBoundsStep);
+    vec2 uneven = clamp(abs(c.xy - 0.5 * (low.xy + high.xy)) / half2, 0.0, 1.0) + 0.05;
+    vec2 part = uneven / (uneven.x + uneven.y);
+    vec2 slope = abs(m.xy / m.z);
+    float middle = (offset - dot(m.xy, 0.5 * (low.xy + high.xy))) / m.z;
+    float top = min(middle + dot(slope, half2), high.z);
+    float bottom = max(middle - dot(slope, half2), low.z);
+    float scale = 1.0;
+    int i = 0;
+    do {
+        vec2 h = half2 * exp2(log2(scale) * part);
+        vec2 at2 = clamp(c.xy, low.xy + h, high.xy - h);
+        float height = (offset - dot(m.xy, at2)) / m.z;
+        float reach = dot(slope, h);
+        // What stands before the plane stays as far before it (faceRise).
+        a = vec3(at2 - h, low.z + max(height - reach - bottom, 0.0));
+        b = vec3(at2 + h, high.z - max(top - height - reach, 0.0));
+        vec3 inner = a;
+        vec3 outer = b;
+        shrinkEnds(kRayShrink, inner, outer);
+        scale = clamp(scale * plane.held / max(pieceArea(m, offset, inner, outer), 1e-4), 1e-3, 1.0);
+    } while (++i < 6 && fits);
+    ivec3 lower = clamp(ivec3((fromDominant(a, axis) + 0.5) * 31.0 + 0.5), sums.lower, sums.upper);
+    ivec3 upper =
+        clamp(ivec3((fromDominant(b, axis) + 0.5) * 31.0 + 0.5), min(lower + 1, sums.upper), sums.upper);
+    uint bounds = uint(lower.x | (lower.y << 5) | (lower.z << 10) | (upper.x << 15) | (upper.y << 20) |
+                       (upper.z << 25));
+    face.hit.z = fits ? bounds | (face.hit.z & (FACE_TWO_SIDED | FACE_REVERSE)) : face.hit.z;
 }

@@ -18,6 +18,7 @@ constexpr double kFacing = 1e-3;
 constexpr double kNear = 0.05;
 constexpr double kStart = 1e-3;
 constexpr double kBoundsSlack = 0.1;
+constexpr double kBoundsOverlap = 0.04;
 constexpr double kBoundsShrink = 0.02;
 constexpr double kTie = 0.5;
 constexpr double kOtherSide = -0.1;
@@ -52,7 +53,8 @@ void testFaces(const VoxelTables& voxels, const glm::ivec3& voxel, const glm::dv
         unpackBounds(r.bounds, lower, upper);
         const glm::dvec3 at = t * direction - toCenter + 0.5;
         const glm::dvec3 shrunk = (kBoundsSlack + kBoundsShrink) * n * n - kBoundsShrink;
-        const glm::dvec3 slack = t > kNear ? glm::dvec3(kBoundsSlack) : shrunk;
+        const glm::dvec3 slack =
+            t > kNear ? kBoundsOverlap + (kBoundsSlack - kBoundsOverlap) * n * n : shrunk;
         bool inside = t < tMax && t > kStart;
         for (int i = 0; i < 3; ++i) {
             inside = inside &&

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "support/reference_voxelizer.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 
@@ -54,22 +55,26 @@ bool touches(const ReferenceTriangle& t, const glm::dvec3& center, double half) 
     return true;
 }
 
+// What of a polygon lies on one side of the plane across an axis (Sutherland-Hodgman).
+static std::vector<glm::dvec3> cut(const std::vector<glm::dvec3>& polygon, int axis, double at, bool above) {
+    const double sign = above ? 1 : -1;
+    std::vector<glm::dvec3> rest;
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const glm::dvec3& a = polygon[i];
+        const glm::dvec3& b = polygon[(i + 1) % polygon.size()];
+        const double da = sign * (a[axis] - at);
+        const double db = sign * (b[axis] - at);
+        if (da >= 0) rest.push_back(a);
+        if ((da >= 0) != (db >= 0)) rest.push_back(a + da / (da - db) * (b - a));
+    }
+    return rest;
+}
+
 std::vector<glm::dvec3> clippedPolygon(const ReferenceTriangle& t, const glm::ivec3& voxel) {
     std::vector<glm::dvec3> polygon(t.p.begin(), t.p.end());
-    for (int side = 0; side < 6; ++side) {
-        const int axis = side / 2;
-        const double at = voxel[axis] + side % 2;
-        const double sign = side % 2 == 0 ? 1 : -1;
-        std::vector<glm::dvec3> rest;
-        for (std::size_t i = 0; i < polygon.size(); ++i) {
-            const glm::dvec3& a = polygon[i];
-            const glm::dvec3& b = polygon[(i + 1) % polygon.size()];
-            const double da = sign * (a[axis] - at);
-            const double db = sign * (b[axis] - at);
-            if (da >= 0) rest.push_back(a);
-            if ((da >= 0) != (db >= 0)) rest.push_back(a + da / (da - db) * (b - a));
-        }
-        polygon = std::move(rest);
+    for (int axis = 0; axis < 3; ++axis) {
+        polygon = cut(polygon, axis, voxel[axis], true);
+        polygon = cut(polygon, axis, voxel[axis] + 1, false);
     }
     return polygon;
 }
@@ -202,6 +207,39 @@ ReferenceFace faceOf(const std::vector<Piece>& pieces, int direction, bool hides
 }
 
 }  // namespace
+
+std::string wrongBounds(const ReferenceFace& face, int direction, const glm::dvec3& lower,
+                        const glm::dvec3& upper) {
+    constexpr double kStep = 1.0 / 31;
+    bool same = true;
+    for (int i = 0; i < 3; ++i) {
+        same = same && std::abs(lower[i] - face.lower[i]) < 1.01 * kStep &&
+               std::abs(upper[i] - face.upper[i]) < 1.01 * kStep;
+        if (lower[i] < face.lower[i] - 1.01 * kStep || upper[i] > face.upper[i] + 1.01 * kStep ||
+            upper[i] < lower[i])
+            return "beyond what the face holds";
+    }
+    if (same) return {};
+    // The plane's piece within them: a large square of the plane, clipped.
+    const glm::dvec3 n = glm::normalize(face.normal);
+    const auto filled = [&](const glm::dvec3& low, const glm::dvec3& high) {
+        const glm::dvec3 u =
+            glm::normalize(glm::cross(n, std::abs(n.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0)));
+        const glm::dvec3 v = glm::cross(n, u), at = 0.5 + face.offset * n;
+        std::vector<glm::dvec3> piece = {at - 4.0 * u - 4.0 * v, at + 4.0 * u - 4.0 * v,
+                                         at + 4.0 * u + 4.0 * v, at - 4.0 * u + 4.0 * v};
+        for (int i = 0; i < 3; ++i) {
+            piece = cut(piece, i, low[i], true);
+            piece = cut(piece, i, high[i], false);
+        }
+        return piece.size() < 3 ? 0.0 : polygonArea(piece) * std::abs(n[direction / 2]);
+    };
+    // What a step of rounding at each end adds or takes, to bounds and offset.
+    const double most = filled(lower - kStep, upper + kStep), least = filled(lower + kStep, upper - kStep);
+    if (face.weight < least - 0.02) return fmt::format("hold {:.3f}, of {:.3f}", least, face.weight);
+    if (face.weight > most + 0.02) return fmt::format("hold {:.3f} only, of {:.3f}", most, face.weight);
+    return {};
+}
 
 ReferenceFaces referenceFaces(const Scene& scene, const std::vector<ReferenceTriangle>& triangles,
                               const voxels::VoxelGrid& grid, bool hides) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <glm/glm.hpp>
+#include <string>
 #include <unordered_map>
 #include <vector>
 
@@ -48,6 +49,11 @@ struct ReferenceFace {
     double offset = 0;     // of the plane, from the voxel's centre
     bool layered = false;  // something covers something else
 };
+// Bounds that a face record may have: those of what the face holds, rounded outwards; or smaller ones of
+// which a plane piece fills as much as the face holds, where the surface ends askew within the voxel. Returns
+// what is wrong, or nothing.
+std::string wrongBounds(const ReferenceFace& face, int direction, const glm::dvec3& lower,
+                        const glm::dvec3& upper);
 using ReferenceFaces = std::unordered_map<std::uint64_t, ReferenceFace>;
 // `hides`: what lies in front hides what it covers; false: all counts.
 ReferenceFaces referenceFaces(const Scene& scene, const std::vector<ReferenceTriangle>& triangles,
