@@ -109,6 +109,7 @@ struct IrradianceCache::Impl {
     gl::Texture oldRecordTexels, oldBricks;
     voxels::VoxelGrid oldGrid;
     std::uint32_t oldFaces = 0;
+    gl::Buffer bins, binStarts;  // of sortFaces
 
     bool prepared = false;  // pool and records say what the states and the direct light say
     bool restart = false;
@@ -120,6 +121,7 @@ struct IrradianceCache::Impl {
     std::uint32_t faceCount = 0;
 
     void reserve(std::uint32_t faces);
+    void sortFaces(gl::ProgramLibrary& programs, const voxels::SurfaceVoxels& surface);
     gpu::CacheConstants packed(const CacheSettings& settings) const;
     void commit(gl::ProgramLibrary& programs, gl::Profiler& profiler, const CacheSettings& settings);
 };
@@ -153,12 +155,9 @@ void IrradianceCache::Impl::reserve(std::uint32_t faces) {
     }
 }
 
-namespace {
-
 // The order in which updates visit faces (shaders/light/cache_order.comp.glsl), into the voxels' scratch
 // buffer.
-void sortFaces(gl::ProgramLibrary& programs, const voxels::SurfaceVoxels& surface, const gl::Buffer& chunks) {
-    const std::uint32_t faceCount = surface.faceCount();
+void IrradianceCache::Impl::sortFaces(gl::ProgramLibrary& programs, const voxels::SurfaceVoxels& surface) {
     if (faceCount == 0) return;
     const glm::ivec3 blocks = (surface.grid().bricks() + 3) / 4;
     const auto blockCount = static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.y) *
@@ -171,9 +170,12 @@ void sortFaces(gl::ProgramLibrary& programs, const voxels::SurfaceVoxels& surfac
         return;
     }
     const std::size_t binCount = blockCount * CACHE_BINS_PER_BLOCK;
-    // Not kept: they are as large as what they sort.
-    gl::Buffer bins(8 * binCount, "bins of faces");
-    const gl::Buffer binStarts(4 * binCount, "starts of bins of faces");
+    if (bins.bytes() != 8 * binCount) {
+        bins = {};
+        binStarts = {};
+        bins = gl::Buffer(8 * binCount, "bins of faces");
+        binStarts = gl::Buffer(4 * binCount, "starts of bins of faces");
+    }
     bins.clear();
     bins.bindStorage(CACHE_BINS);
     binStarts.bindStorage(CACHE_BIN_STARTS);
@@ -183,9 +185,12 @@ void sortFaces(gl::ProgramLibrary& programs, const voxels::SurfaceVoxels& surfac
         programs.get(orderDesc(step)).dispatchLinear(invocations[step]);
         gl::barrier(gl::Access::ShaderStorage);
     }
+    // They are as large as what they sort: kept only where voxels change again and again.
+    if (!carried) {
+        bins = {};
+        binStarts = {};
+    }
 }
-
-}  // namespace
 
 void IrradianceCache::beforeVoxelize(gl::Profiler& profiler, const voxels::SurfaceVoxels& surface) {
     Impl& m = *impl_;
@@ -240,11 +245,11 @@ void IrradianceCache::afterVoxelize(gl::ProgramLibrary& programs, gl::Profiler& 
     } else {
         m.states.clear();
     }
-    sortFaces(programs, surface, m.chunks);
+    m.carried = carries;
+    m.sortFaces(programs, surface);
     m.oldFaces = 0;
     m.firstFace = 0;
     m.raysTested = 0;
-    m.carried = carries;
     lightChanged();
 }
 
