@@ -292,7 +292,7 @@ void TracedMode::record(const FrameContext& frame, gather::StepRecorder& recorde
     if (settings.pixelRays > 0)
         m.diffuse.record(rays, settings, settings.pixelRays, settings.passes, recorder);
     else
-        m.shade.recordCache(frame.programs, frame.output, recorder);
+        m.shade.recordCache(frame.programs, recorder);
     if (settings.specularRays > 0 && hasGloss(frame.scene, settings.specularLimit))
         m.specular.record(rays, settings, settings.specularRays, settings.passes, recorder);
 }
