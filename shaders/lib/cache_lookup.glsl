@@ -5,18 +5,15 @@
 // Only axes along which the normal has a part worth a fetch are visited: on walls along the axes one of
 // three.
 //
-// Before the call: SurfaceVoxels::bind. Includers that also trace rays share the samplers with
-// lib/ray_query.glsl.
+// Before the call: SurfaceVoxels::bind, IrradianceCache::bind. Includers that also trace rays share the
+// samplers with lib/ray_query.glsl.
 #include "lib/ray_query.glsl"
 #include "lib/record_face.glsl"
 #include "shared/irradiance.h"
+layout(binding = UNIT_FACE_LIGHT) uniform usamplerBuffer faceLight;
 
 // Squares of components below this are left out: 3 % of the normal's length.
 const float kLeastAxis = 1e-3;
-// The inside of a solid lies next to its outside. Of a cloth that is seen from its other side nothing else is
-// there, so that a small weight does as well as a large one.
-const float kReverseWeight = 1.0 / 64.0;
-
 // rgb irradiance / pi; a: sum of weights, 0 where no face was found. Which of the eight voxels are there is
 // asked first, then only those are visited, and of their faces those that count: on a wall four of eight
 // voxels and one face each (platform figures: docs/theory/4_gather.md, "The cache at pixels").
@@ -51,17 +48,15 @@ vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted) {
         int first = int(faceBase(record));
         uint left = any ? directions & facing : 0u;
         do {
-            COUNT_LOOKUP(left != 0u ? 2 : 0);
+            COUNT_LOOKUP(left != 0u ? 1 : 0);
             uint lowest = left & (0u - left);
             int face = left != 0u ? first + bitCount(directions & (lowest - 1u)) : 0;
-            uvec4 light = texelFetch(voxelFaces, 2 * face + 1);
-            bool lit = (light.w & (FACE_LIT | FACE_DEAD)) == FACE_LIT;
+            uvec2 light = texelFetch(faceLight, face).xy;
             float share = lowest < 4u ? square.x : (lowest < 16u ? square.y : square.z);
-            uvec4 plane = texelFetch(voxelFaces, 2 * face);
-            float coverage = unpackWeight(plane.y) * ((plane.z & FACE_REVERSE) != 0u ? kReverseWeight : 1.0);
-            float weight = left != 0u && lit ? t.x * t.y * t.z * share * coverage : 0.0;
-            sum += weight * vec4(unpackHalf2x16(light.z), unpackHalf2x16(light.w).x, 1.0);
-            RECORD_CACHE_FACE(point, face, weight, vec3(unpackHalf2x16(light.z), unpackHalf2x16(light.w).x));
+            float weight = left != 0u ? t.x * t.y * t.z * share * unpackWeight(light.y) : 0.0;
+            vec3 irradiance = vec3(unpackHalf2x16(light.x), unpackHalf2x16(light.y).x);
+            sum += weight * vec4(irradiance, 1.0);
+            RECORD_CACHE_FACE(point, face, weight, irradiance);
             left ^= lowest;
         } while (left != 0u);
         corners &= corners - 1u;

@@ -4,11 +4,16 @@
 //   brightFaces  uints: [0] 1 / flux of all faces as a float, per voxel side; [1 + i] entry i of the pool: a
 //                face. Entries are drawn by flux, anew for every update.
 //   steadyLight  uint per face: RGB9E5 of its radiance less what point, spot and directional lights give
+//   faceLight    two uints per face, what lookups at pixels read: irradiance / pi as three halves, and 16
+//   bits of its
+//                weight as in FaceRecord::offsetWeight: its coverage, less for reverse faces, 0 for those
+//                that are dead or were never updated
 #pragma once
 #include "shared/prelude.h"
 
 #define UNIT_STEADY_LIGHT 21  // usamplerBuffer R32UI
 #define UNIT_BRIGHT_FACES 25  // usamplerBuffer R32UI
+#define UNIT_FACE_LIGHT 28    // usamplerBuffer RG32UI
 
 // Entries of the pool. Searching the whole list for each ray instead costs 11 to 17 % more
 // (docs/theory/4_gather.md).
@@ -29,6 +34,7 @@
 #define CACHE_ORDER 11
 #define CACHE_BINS 12
 #define CACHE_BIN_STARTS 13
+#define CACHE_FACE_LIGHT 14
 // Texture units of the pass that carries over.
 #define CACHE_UNIT_OLD_BRICKS 8
 #define CACHE_UNIT_OLD_RECORDS 9

@@ -110,7 +110,7 @@ void TracedMode::Impl::updateVoxels(const FrameContext& frame) {
     }
     if (geometryDirty || lightDirty) {
         light::injectLight(frame.programs, frame.profiler, frame.scene, frame.settings.light, surface,
-                           &cache.steadyLight());
+                           &surface.secondFaceScratch());
         cache.lightChanged();
     } else if (otherUpdates) {
         cache.lightChanged();

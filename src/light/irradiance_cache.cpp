@@ -102,8 +102,8 @@ std::vector<gl::ProgramDesc> hitLightVariants(const gl::ProgramDesc& base) {
 }
 
 struct IrradianceCache::Impl {
-    gl::Buffer states, oldStates, steady, chunks, pool, constants, carryBlock;
-    gl::Texture steadyTexels, poolTexels;
+    gl::Buffer states, oldStates, faceLight, chunks, pool, constants, carryBlock;
+    gl::Texture steadyTexels, faceLightTexels, poolTexels;
     // Voxels before they were built anew.
     gl::Buffer oldRecords;
     gl::Texture oldRecordTexels, oldBricks;
@@ -142,16 +142,17 @@ void IrradianceCache::Impl::reserve(std::uint32_t faces) {
         constants = gl::Buffer(sizeof(gpu::CacheConstants), "irradiance cache constants");
         carryBlock = gl::Buffer(sizeof(gpu::CacheCarry), "irradiance cache carry-over");
     }
-    const auto room = static_cast<std::size_t>(std::ceil(kSlack * faces)) + 64;
+    // No room for growth before there was any.
+    const auto room = static_cast<std::size_t>(std::ceil((states ? kSlack : 1.0) * faces)) + 64;
     if (states.bytes() < sizeof(gpu::FaceCache) * std::size_t{faces} || !states) {
         states = {};
         states = gl::Buffer(sizeof(gpu::FaceCache) * room, "irradiance cache");
     }
-    if (steady.bytes() < std::size_t{4} * faces || !steady) {
-        steadyTexels = {};
-        steady = {};
-        steady = gl::Buffer(std::size_t{4} * room, "steady light");
-        steadyTexels = gl::Texture(steady, GL_R32UI, "steady light");
+    if (faceLight.bytes() < std::size_t{8} * faces || !faceLight) {
+        faceLightTexels = {};
+        faceLight = {};
+        faceLight = gl::Buffer(std::size_t{8} * room, "light of faces at pixels");
+        faceLightTexels = gl::Texture(faceLight, GL_RG32UI, "light of faces at pixels");
     }
 }
 
@@ -225,6 +226,9 @@ void IrradianceCache::afterVoxelize(gl::ProgramLibrary& programs, gl::Profiler& 
     // The states of the old voxels change places with the buffer for the new ones.
     std::swap(m.states, m.oldStates);
     m.reserve(surface.faceCount());
+    m.steadyTexels = {};
+    if (surface.secondFaceScratch())
+        m.steadyTexels = gl::Texture(surface.secondFaceScratch(), GL_R32UI, "steady light");
     m.faceCount = surface.faceCount();
     if (carries && m.faceCount > 0) {
         gpu::CacheCarry block{};
@@ -287,6 +291,7 @@ void IrradianceCache::Impl::commit(gl::ProgramLibrary& programs, gl::Profiler& p
     states.bindStorage(CACHE_STATE);
     chunks.bindStorage(CACHE_CHUNKS);
     pool.bindStorage(CACHE_POOL);
+    faceLight.bindStorage(CACHE_FACE_LIGHT);
     programs.get(pass("commit")).dispatchLinear(block.chunkCount);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
     programs.get(pass("sums")).dispatch(8);
@@ -355,9 +360,9 @@ void IrradianceCache::bind() const {
     CONELIGHT_ASSERT(impl_->pool, "IrradianceCache::bind before afterVoxelize");
     impl_->steadyTexels.bind(UNIT_STEADY_LIGHT);
     impl_->poolTexels.bind(UNIT_BRIGHT_FACES);
+    impl_->faceLightTexels.bind(UNIT_FACE_LIGHT);
 }
 
-const gl::Buffer& IrradianceCache::steadyLight() const { return impl_->steady; }
 const gl::Buffer& IrradianceCache::state() const { return impl_->states; }
 
 std::vector<gl::ProgramDesc> IrradianceCache::programDescs() {
