@@ -19,9 +19,10 @@
 // (docs/theory/4_gather.md).
 #define BRIGHT_FACE_COUNT 4096
 
-// Updates after a change that replace what was there; averages begin then. Averages that begin before bounces
-// have settled keep 2 to 4 % of the light out for good (accuracy experiments, docs/theory/4_gather.md).
-#define IRRADIANCE_SETTLE 14
+// Updates after a change that replace what was there; averages begin then, in which early ones count for less.
+// Averages of all updates from the first one keep 2 to 4 % of the light out for good: bounces have not settled
+// (accuracy experiments, docs/theory/4_gather.md).
+#define IRRADIANCE_SETTLE 8
 // A face lies inside a closed object when of at least so many cosine rays more than a quarter meet a surface
 // from behind first, farther than 1.5 voxels away.
 #define IRRADIANCE_DEAD_RAYS 16

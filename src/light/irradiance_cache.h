@@ -30,6 +30,7 @@ struct CacheSettings {
     // Faces that one update visits at most, in turn; 0: all. Rays per frame are this times the rays per face.
     std::uint32_t facesPerUpdate = 0;
     int longestWindow = 256;  // updates that are averaged in the end
+    bool averages = true;     // false: every update replaces what was there, for a limited number of bounces
     int reflections = 1;      // of one ray on metals; then all but lights is reflected as if matt; 0..8
     bool exactDirect = true;  // light of point, spot and directional lights is looked up where rays hit
     std::uint32_t seed = 1;
