@@ -19,9 +19,9 @@
 // (docs/theory/4_gather.md).
 #define BRIGHT_FACE_COUNT 4096
 
-// Updates after a change that replace what was there; averages begin then, in which early ones count for less.
-// Averages of all updates from the first one keep 2 to 4 % of the light out for good: bounces have not settled
-// (accuracy experiments, docs/theory/4_gather.md).
+// Updates after a change that replace what was there; averages begin then, in which early ones count for
+// less. Averages of all updates from the first one keep 2 to 4 % of the light out for good: bounces have not
+// settled (accuracy experiments, docs/theory/4_gather.md).
 #define IRRADIANCE_SETTLE 8
 // A face lies inside a closed object when of at least so many cosine rays more than a quarter meet a surface
 // from behind first, farther than 1.5 voxels away.

@@ -23,7 +23,8 @@ constexpr int kRaysPerBounce = 32;
 // rays will do.
 constexpr int kCoarseUpdates = IRRADIANCE_SETTLE;
 // Means over frames while the cache is still on its way, so many updates: longer ones would show old light
-// (builtin:cornell-point, interactive: 16 frames to settle instead of 12 when they were long after 8 updates).
+// (builtin:cornell-point, interactive: 16 frames to settle instead of 12 when they were long after 8
+// updates).
 constexpr int kUnsettledMean = 4;
 constexpr int kUnsettledUpdates = 14;
 constexpr int kOcclusionPasses = 16;

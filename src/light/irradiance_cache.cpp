@@ -271,8 +271,7 @@ gpu::CacheConstants IrradianceCache::Impl::packed(const CacheSettings& settings)
     c.lightRays = static_cast<std::uint32_t>(settings.lightRays);
     c.update = number;
     c.seed = settings.seed;
-    c.longestWindow =
-        settings.averages ? static_cast<std::uint32_t>(std::max(settings.longestWindow, 1)) : 1;
+    c.longestWindow = settings.averages ? static_cast<std::uint32_t>(std::max(settings.longestWindow, 1)) : 1;
     c.facesPerChunk = std::max((faceCount + kMaxChunks - 1) / kMaxChunks, kLeastChunk);
     c.chunkCount = (faceCount + c.facesPerChunk - 1) / c.facesPerChunk;
     c.reflections = static_cast<std::uint32_t>(std::max(settings.reflections, 0));
