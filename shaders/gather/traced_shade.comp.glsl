@@ -1,83 +1,11 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// The picture of mode `traced`: G-buffer, lights, cache or gathered pictures -> radiance (rgb), and 1 where a
-// surface is seen, 0 in the background (a). One pass, so that no direct light travels through memory.
-//   SHOW_DIRECT    emission and light that comes straight from lights; the sky behind
-//   SHOW_DIFFUSE   indirect irradiance, reflected by the matt part
-//   SHOW_SPECULAR  indirect radiance, reflected by the glossy part
-//   IRRADIANCE     0 from the cache, 1 from the picture at PIXEL_UNIT_IRRADIANCE
-//   LOBE           1: radiance of lobes from the picture at PIXEL_UNIT_LOBE where roughness is within the
-//   limit.
-//                  Elsewhere, and with 0, the irradiance stands in for it: the same in even light.
-#if !defined(SHOW_DIRECT) || !defined(SHOW_DIFFUSE) || !defined(SHOW_SPECULAR) || !defined(IRRADIANCE) || \
-    !defined(LOBE)
-#error SHOW_DIRECT, SHOW_DIFFUSE, SHOW_SPECULAR, IRRADIANCE and LOBE must be 0 or 1
+// What the picture of mode `traced` shows at one pixel, for the inspector (RECORD_STEPS): see
+// gather/traced_shade.glsl.
+#ifndef RECORD_STEPS
+#error pictures are drawn by gather/traced_shade.frag.glsl
 #endif
-// COUNT_LOOKUPS 1: adds lookups to the counters: of the cache, and of shadow maps as those of occlusion.
-#define GATHERS (SHOW_DIFFUSE || SHOW_SPECULAR)
-#define RECORD_CACHE
-#include "lib/brdf.glsl"
-#include "lib/gbuffer.glsl"
-#include "lib/lookup_count.glsl"
-#if SHOW_DIRECT
-#include "lib/lights.glsl"
-#endif
-#include "lib/pixel_history.glsl"
-#include "lib/record_steps.glsl"
-#include "shared/pixel_rays.h"
-#if GATHERS && !IRRADIANCE
-#include "lib/cache_lookup.glsl"
-#endif
-layout(std140, binding = BINDING_PASS) uniform PixelRayBlock { PixelRayConstants pixelRays; };
-layout(binding = PIXEL_UNIT_IRRADIANCE) uniform usampler2D irradiancePicture;
-layout(binding = PIXEL_UNIT_LOBE) uniform usampler2D lobePicture;
+#include "gather/traced_shade.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(rgba32f, binding = 0) writeonly uniform image2D result;
 
-void main() {
-    ivec2 pixel = INVOCATION_PIXEL;
-    Surface s;
-    bool seen = fetchSurface(min(pixel, imageSize(result) - 1), s);
-    Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));
-    vec3 radiance = vec3(0.0);
-#if SHOW_DIRECT
-    DirectLight light = directLight(Receiver(s.position, s.normal, s.geometricNormal, s.toEye, 0.0), b);
-#if COUNT_LOOKUPS
-    addLookups(LOOKUPS_OCCLUSION, seen);
-#endif
-    radiance = b.diffuse / kPi * light.irradiance + s.emission + (s.unlit ? vec3(0.0) : light.specular);
-#endif
-#if GATHERS
-    bool gathers = seen && !s.unlit;
-#if IRRADIANCE
-    vec3 irradiance = pixelHistoryValue(texelFetch(irradiancePicture, min(pixel, imageSize(result) - 1), 0));
-#else
-    vec3 irradiance = cachedIrradiance(gridFromWorld(s.position), s.normal, gathers).rgb;
-#if COUNT_LOOKUPS
-    addLookups(LOOKUPS_DIFFUSE, gathers);
-#endif
-#endif
-    vec3 gathered = vec3(0.0);
-#if SHOW_DIFFUSE
-    gathered += b.diffuse * irradiance;
-#endif
-#if SHOW_SPECULAR
-    vec3 lobe = irradiance;
-#if LOBE
-    vec3 traced = pixelHistoryValue(texelFetch(lobePicture, min(pixel, imageSize(result) - 1), 0));
-    lobe = s.roughness <= pixelRays.specularLimit ? traced : lobe;
-#endif
-    gathered += b.albedo * lobe;
-#endif
-    radiance += gathers ? gathered : vec3(0.0);
-#ifdef RECORD_STEPS
-    RECORD_SURFACE(seen, s);
-    RECORD_PART(PART_DIFFUSE, gathers ? irradiance : vec3(0.0), b.diffuse);
-    RECORD_PART(PART_SPECULAR, gathers ? irradiance : vec3(0.0), b.albedo);
-    return;
-#endif
-#endif
-    if (any(greaterThanEqual(pixel, imageSize(result)))) return;
-    vec3 behind = SHOW_DIRECT == 1 ? frame.sky : vec3(0.0);
-    imageStore(result, pixel, seen ? vec4(radiance, 1.0) : vec4(behind, 0.0));
-}
+void main() { tracedShade(min(INVOCATION_PIXEL, textureSize(gbufferGeometry, 0) - 1)); }

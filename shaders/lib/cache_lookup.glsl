@@ -5,25 +5,26 @@
 // Only axes along which the normal has a part worth a fetch are visited: on walls along the axes one of
 // three.
 //
-// Before the call: SurfaceVoxels::bind. Includers that also trace rays share the samplers with
-// lib/ray_query.glsl.
+// Before the call: SurfaceVoxels::bind, IrradianceCache::bind. Includers that also trace rays share the
+// samplers with lib/ray_query.glsl.
 #include "lib/ray_query.glsl"
 #include "lib/record_face.glsl"
 #include "shared/irradiance.h"
+layout(binding = UNIT_FACE_LIGHT) uniform usamplerBuffer faceLight;
 
 // Squares of components below this are left out: 3 % of the normal's length.
 const float kLeastAxis = 1e-3;
-// The inside of a solid lies next to its outside. Of a cloth that is seen from its other side nothing else is
-// there, so that a small weight does as well as a large one.
-const float kReverseWeight = 1.0 / 64.0;
+#ifndef CACHE_NORMALS
+#define CACHE_NORMALS 0
+#endif
 
 // Faces count for the surface's normal fully where they are turned from it by less than the acos of the sum
 // of these, and not beyond the acos of the first: on curved things neighbours do, across edges they do not.
 const float kSameBend = 0.75;
 const float kSameBendRange = 0.1;
 
-// rgb irradiance / pi; a: sum of weights, 0 where no face was found. `bent`: sum of the normals of these
-// faces, of any length, as far as they are near `normal`. Which of the eight voxels are there is
+// rgb irradiance / pi; a: sum of weights, 0 where no face was found. `bent`, with CACHE_NORMALS 1: sum of the
+// normals of these faces, of any length, as far as they are near `normal`. Which of the eight voxels are there is
 // asked first, then only those are visited, and of their faces those that count: on a wall four of eight
 // voxels and one face each (platform figures: docs/theory/4_gather.md, "The cache at pixels").
 vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
@@ -58,20 +59,20 @@ vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
         int first = int(faceBase(record));
         uint left = any ? directions & facing : 0u;
         do {
-            COUNT_LOOKUP(left != 0u ? 2 : 0);
+            COUNT_LOOKUP(left != 0u ? 1 : 0);
             uint lowest = left & (0u - left);
             int face = left != 0u ? first + bitCount(directions & (lowest - 1u)) : 0;
-            uvec4 light = texelFetch(voxelFaces, 2 * face + 1);
-            bool lit = (light.w & (FACE_LIT | FACE_DEAD)) == FACE_LIT;
+            uvec2 light = texelFetch(faceLight, face).xy;
             float share = lowest < 4u ? square.x : (lowest < 16u ? square.y : square.z);
-            uvec4 plane = texelFetch(voxelFaces, 2 * face);
-            float coverage = unpackWeight(plane.y) * ((plane.z & FACE_REVERSE) != 0u ? kReverseWeight : 1.0);
-            float place = left != 0u ? t.x * t.y * t.z * share * coverage : 0.0;
-            float weight = lit ? place : 0.0;
-            vec3 turned = octDecode(unpackSnorm2x16(plane.x));
-            bent += place * clamp((dot(turned, normal) - kSameBend) / kSameBendRange, 0.0, 1.0) * turned;
-            sum += weight * vec4(unpackHalf2x16(light.z), unpackHalf2x16(light.w).x, 1.0);
-            RECORD_CACHE_FACE(point, face, weight, vec3(unpackHalf2x16(light.z), unpackHalf2x16(light.w).x));
+            float weight = left != 0u ? t.x * t.y * t.z * share * unpackWeight(light.y) : 0.0;
+            vec3 irradiance = vec3(unpackHalf2x16(light.x), unpackHalf2x16(light.y).x);
+            sum += weight * vec4(irradiance, 1.0);
+#if CACHE_NORMALS
+            COUNT_LOOKUP(left != 0u ? 1 : 0);
+            vec3 turned = octDecode(unpackSnorm2x16(texelFetch(voxelFaces, 2 * face).x));
+            bent += weight * clamp((dot(turned, normal) - kSameBend) / kSameBendRange, 0.0, 1.0) * turned;
+#endif
+            RECORD_CACHE_FACE(point, face, weight, irradiance);
             left ^= lowest;
         } while (left != 0u);
         corners &= corners - 1u;

@@ -25,10 +25,8 @@ layout(binding = IMAGE_VOXEL_BRICKS, rgba32ui) readonly uniform uimage3D voxelBr
 layout(binding = IMAGE_VOXEL_OCTANTS, rg32ui) readonly uniform uimage3D voxelOctants;
 
 struct VoxelHit {
-    int face;        // index of the face record; -1: nothing was met
-    float t;         // distance in voxels; tMax when nothing was met
-    bool backFirst;  // for callers that look for backs (lib/voxel_light.glsl): one was met before anything
-                     // else
+    int face;  // index of the face record; -1: nothing was met
+    float t;   // distance in voxels; tMax when nothing was met
 };
 
 // A face is met when its normal turns against the ray by more than this: flatter crossings have no
@@ -131,7 +129,7 @@ VoxelHit traceVoxels(vec3 origin, vec3 direction, float tMax, vec3 leaves) {
     vec3 leave = (size - from) * inverse;
     float tEnter = max(max(enter.x, enter.y), max(enter.z, 0.0));
     float tEnd = min(min(min(leave.x, leave.y), leave.z) - kRayEnd, tMax);
-    VoxelHit hit = VoxelHit(-1, tMax, false);
+    VoxelHit hit = VoxelHit(-1, tMax);
     bool alive = tEnd > tEnter;
     float t = alive ? tEnter : 0.0;
     tEnd = alive ? tEnd : -3e38;  // below every t, also those of cells behind the origin

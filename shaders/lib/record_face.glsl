@@ -23,12 +23,11 @@ void recordRay(uint kind, vec3 origin, vec3 direction, VoxelHit hit, float opaci
                vec3 radiance, bool used) {
     bool met = hit.face >= 0;
     // What leaves the grid ends where the last step began.
-    float t = met || hit.backFirst
-                  ? hit.t
-                  : min(hit.t, distance(origin, 0.5 * vec3(gridSize())) + 0.5 * length(vec3(gridSize())));
+    float t =
+        met ? hit.t : min(hit.t, distance(origin, 0.5 * vec3(gridSize())) + 0.5 * length(vec3(gridSize())));
     vec3 at = worldFromGrid(origin + t * direction);
     if (met) recordStep(STEP_HIT, at, t * grid.voxelSize, grid.voxelSize, 0.0, radiance, opacity, opacity);
-    uint end = !used ? END_UNUSED : met ? END_FACE : hit.backFirst ? END_BACK : END_OPEN;
+    uint end = !used ? END_UNUSED : met ? END_FACE : END_OPEN;
     uint path = recordPath(kind, worldFromGrid(origin), direction, 0.0, used ? weight : vec3(0.0), radiance,
                            met ? opacity : 0.0, t * grid.voxelSize, end);
     recordFace(path, hit.face);

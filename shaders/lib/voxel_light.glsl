@@ -44,6 +44,7 @@
 layout(binding = UNIT_VOXEL_FACE_SOURCES) uniform usamplerBuffer faceSources;
 #endif
 #if SMOOTH_HITS
+#define CACHE_NORMALS 1
 #include "lib/cache_lookup.glsl"
 #endif
 layout(binding = UNIT_STEADY_LIGHT) uniform usamplerBuffer steadyLight;
@@ -76,9 +77,8 @@ float faceBrightness(vec3 radiance) { return dot(radiance, vec3(1.0 / 3.0)); }
 
 vec3 faceNormalOf(int face) { return octDecode(unpackSnorm2x16(texelFetch(voxelFaces, 2 * face).x)); }
 
-// Radiance at a hit, all surfaces matt; the sky where nothing was met, nothing where a surface was met from
-// behind. `s`: of the face that was hit; its irradiance becomes that of the point, where it is looked up.
-// `bent`: the normal there, in the same way.
+// Radiance at a hit, all surfaces matt; the sky where nothing was met. `s`: of the face that was hit; its
+// irradiance becomes that of the point, where it is looked up. `bent`: the normal there, in the same way.
 vec3 hitRadiance(VoxelHit hit, vec3 origin, vec3 direction, inout FaceShade s, out vec3 bent) {
     int face = max(hit.face, 0);
     vec3 normal = faceNormalOf(face);
@@ -98,8 +98,7 @@ vec3 hitRadiance(VoxelHit hit, vec3 origin, vec3 direction, inout FaceShade s, o
 #else
     vec3 radiance = s.radiance + s.albedo * s.irradiance;
 #endif
-    vec3 missed = hit.backFirst ? vec3(0.0) : frame.sky;
-    return hit.face >= 0 ? radiance : missed;
+    return hit.face >= 0 ? radiance : frame.sky;
 }
 
 #if LOBES
@@ -332,8 +331,9 @@ vec3 gatherIrradianceSequence(vec3 originGrid, vec3 geometricNormal, vec3 shadin
         VoxelHit met = hit;
         if (toLight) met.t = -1.0;
         if (metBackBefore(met, originGrid, direction)) {
-            hit = VoxelHit(-1, hit.t, true);
+            hit.face = -1;
             radiance = vec3(0.0);
+            backs += toLight ? 0.0 : 1.0;
         }
 #endif
         vec3 n = faceNormalOf(max(hit.face, 0));
@@ -347,7 +347,6 @@ vec3 gatherIrradianceSequence(vec3 originGrid, vec3 geometricNormal, vec3 shadin
         sum += above && arrived ? radiance * (cosine / kGatherPi / max(density, 1e-12)) : vec3(0.0);
         RECORD_RAY(toLight ? PATH_LIGHT_RAY : PATH_COSINE_RAY, originGrid, direction, hit, 1.0,
                    vec3(cosine / kGatherPi / max(density, 1e-12)), radiance, above && arrived);
-        backs += !toLight && hit.backFirst ? 1.0 : 0.0;
     } while (++i < count);
     backShare = backs / float(max(cosineRays, 1));
     return sum;

@@ -43,9 +43,10 @@ void main() {
     if (!used) return;
     FaceCache state = states[face];
     uint updates = state.counts & 0xffffu;
-    // Replaces until bounces have settled, then averages (weights 1, 1/2, 1/3 ...).
+    // (4.13): replaces while bounces travel, then averages, in which the n-th update has a weight like
+    // sqrt(n): what came before bounces had settled is soon outweighed.
     uint window = clamp(updates, IRRADIANCE_SETTLE, IRRADIANCE_SETTLE + cache.longestWindow - 1u);
-    state.irradiance += (gathered - state.irradiance) / float(window - IRRADIANCE_SETTLE + 1u);
+    state.irradiance += (gathered - state.irradiance) * (1.5 / (float(window - IRRADIANCE_SETTLE) + 1.5));
     state.counts = (state.counts & 0xffff0000u) | min(updates + 1u, 0x7fffu);
 #if FIND_BACKS
     uint rays = (state.counts >> 16) & 0xffu;

@@ -4,19 +4,25 @@
 //   brightFaces  uints: [0] 1 / flux of all faces as a float, per voxel side; [1 + i] entry i of the pool: a
 //                face. Entries are drawn by flux, anew for every update.
 //   steadyLight  uint per face: RGB9E5 of its radiance less what point, spot and directional lights give
+//   faceLight    two uints per face, what lookups at pixels read: irradiance / pi as three halves, and 16
+//   bits of its
+//                weight as in FaceRecord::offsetWeight: its coverage, less for reverse faces, 0 for those
+//                that are dead or were never updated
 #pragma once
 #include "shared/prelude.h"
 
 #define UNIT_STEADY_LIGHT 21  // usamplerBuffer R32UI
 #define UNIT_BRIGHT_FACES 25  // usamplerBuffer R32UI
+#define UNIT_FACE_LIGHT 28    // usamplerBuffer RG32UI
 
 // Entries of the pool. Searching the whole list for each ray instead costs 11 to 17 % more
 // (docs/theory/4_gather.md).
 #define BRIGHT_FACE_COUNT 4096
 
-// Updates after a change that replace what was there; averages begin then. Averages that begin before bounces
-// have settled keep 2 to 4 % of the light out for good (accuracy experiments, docs/theory/4_gather.md).
-#define IRRADIANCE_SETTLE 14
+// Updates after a change that replace what was there; averages begin then, in which early ones count for
+// less. Averages of all updates from the first one keep 2 to 4 % of the light out for good: bounces have not
+// settled (accuracy experiments, docs/theory/4_gather.md).
+#define IRRADIANCE_SETTLE 8
 // A face lies inside a closed object when of at least so many cosine rays more than a quarter meet a surface
 // from behind first, farther than 1.5 voxels away.
 #define IRRADIANCE_DEAD_RAYS 16
@@ -29,6 +35,7 @@
 #define CACHE_ORDER 11
 #define CACHE_BINS 12
 #define CACHE_BIN_STARTS 13
+#define CACHE_FACE_LIGHT 14
 // Texture units of the pass that carries over.
 #define CACHE_UNIT_OLD_BRICKS 8
 #define CACHE_UNIT_OLD_RECORDS 9

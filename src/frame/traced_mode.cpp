@@ -21,9 +21,12 @@ constexpr int kAllBounces = 16;  // TracedSettings::bounces
 constexpr int kRaysPerBounce = 32;
 // The first updates after a change only carry bounces around: what they find is replaced, so a quarter of the
 // rays will do.
-constexpr int kCoarseUpdates = 10;
-// Means over frames while the cache is still on its way: longer ones would show old light.
+constexpr int kCoarseUpdates = IRRADIANCE_SETTLE;
+// Means over frames while the cache is still on its way, so many updates: longer ones would show old light
+// (builtin:cornell-point, interactive: 16 frames to settle instead of 12 when they were long after 8
+// updates).
 constexpr int kUnsettledMean = 4;
+constexpr int kUnsettledUpdates = 14;
 constexpr int kOcclusionPasses = 16;
 constexpr int kOcclusionRays = 2;
 
@@ -110,7 +113,7 @@ void TracedMode::Impl::updateVoxels(const FrameContext& frame) {
     }
     if (geometryDirty || lightDirty) {
         light::injectLight(frame.programs, frame.profiler, frame.scene, frame.settings.light, surface,
-                           &cache.steadyLight());
+                           &surface.secondFaceScratch());
         cache.lightChanged();
     } else if (otherUpdates) {
         cache.lightChanged();
@@ -139,6 +142,7 @@ void TracedMode::Impl::updateCache(const FrameContext& frame) {
     light::CacheSettings cacheSettings;
     // A reflection is a bounce, which updates count.
     if (limited) cacheSettings.reflections = 0;
+    cacheSettings.averages = !limited;
     cacheSettings.exactDirect = settings.exactHits;
     cacheSettings.facesPerUpdate = settings.budgeted ? static_cast<std::uint32_t>(settings.faceBudget) : 0;
     const auto run = [&](int rays, int passes) {
@@ -201,7 +205,7 @@ void TracedMode::Impl::gather(const FrameContext& frame, gather::PixelRays& pict
     const bool known = seen.view && picture.has(frame.width, frame.height);
     const bool still = known && sameView(*seen.view, frame.view) && !moved;
     if (settings.budgeted) {
-        const bool settled = cache.updates() >= std::min(updatesWanted(settings), IRRADIANCE_SETTLE);
+        const bool settled = cache.updates() >= std::min(updatesWanted(settings), kUnsettledUpdates);
         const auto reuse =
             !known ? gather::Reuse::None : (still ? gather::Reuse::SameView : gather::Reuse::Reproject);
         picture.gather(rayFrame, settings, reuse, rays, static_cast<std::uint32_t>(seen.passes),
@@ -292,7 +296,7 @@ void TracedMode::record(const FrameContext& frame, gather::StepRecorder& recorde
     if (settings.pixelRays > 0)
         m.diffuse.record(rays, settings, settings.pixelRays, settings.passes, recorder);
     else
-        m.shade.recordCache(frame.programs, frame.output, recorder);
+        m.shade.recordCache(frame.programs, recorder);
     if (settings.specularRays > 0 && hasGloss(frame.scene, settings.specularLimit))
         m.specular.record(rays, settings, settings.specularRays, settings.passes, recorder);
 }

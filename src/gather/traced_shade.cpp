@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "gl/draw.h"
 #include "gl/gl.h"
 #include "light/shadow_maps.h"
 #include "shared/bindings.h"
@@ -20,7 +21,7 @@ bool anyEmission(const scene::GpuScene& scene) {
 gl::ProgramDesc shadeDesc(const PictureParts& parts, bool picture, bool lobe, const gl::Defines& lights,
                           bool countLookups = false, bool emission = true) {
     const bool gathers = parts.diffuse || parts.specular;
-    gl::ProgramDesc desc{{"gather/traced_shade.comp.glsl"},
+    gl::ProgramDesc desc{{"gather/full_picture.vert.glsl", "gather/traced_shade.frag.glsl"},
                          {{"SHOW_DIRECT", parts.direct ? "1" : "0"},
                           {"SHOW_DIFFUSE", parts.diffuse ? "1" : "0"},
                           {"SHOW_SPECULAR", parts.specular ? "1" : "0"},
@@ -29,6 +30,13 @@ gl::ProgramDesc shadeDesc(const PictureParts& parts, bool picture, bool lobe, co
     if (!emission) desc.defines.emplace_back("SURFACE_EMISSION", "0");
     if (countLookups) desc.defines.emplace_back("COUNT_LOOKUPS", "1");
     if (parts.direct) desc.defines.insert(desc.defines.end(), lights.begin(), lights.end());
+    return desc;
+}
+
+// For the recorder, which runs a compute shader for one pixel.
+gl::ProgramDesc recordDesc() {
+    gl::ProgramDesc desc = shadeDesc({false, true, false}, false, false, {});
+    desc.files = {"gather/traced_shade.comp.glsl"};
     return desc;
 }
 
@@ -53,18 +61,23 @@ void TracedShade::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, con
     constants_.bindUniform(BINDING_PASS);
     bindPicture(irradiance, PIXEL_UNIT_IRRADIANCE);
     bindPicture(lobe, PIXEL_UNIT_LOBE);
-    output.bindImage(0, 0, GL_WRITE_ONLY);
     const gl::Defines lights = light::lightDefines(scene, settings.light);
     const bool counts = lookupCounters != nullptr;
     if (counts) lookupCounters->bindStorage(LOOKUP_TABLE);
+    const gl::Framebuffer target({&output}, nullptr, "traced picture");
+    gl::RasterState state;
+    state.framebuffer = &target;
+    state.depthTest = state.depthWrite = false;
+    state.cull = gl::Cull::None;
+    gl::apply(state);
+    if (!noVertices_) noVertices_ = gl::VertexArray("no vertices");
     programs.get(shadeDesc(parts, irradiance != nullptr, lobe != nullptr, lights, counts, anyEmission(scene)))
-        .dispatch(output.width(), output.height());
+        .use();
+    gl::drawTriangle(noVertices_);
 }
 
-void TracedShade::recordCache(gl::ProgramLibrary& programs, const gl::Texture& output,
-                              StepRecorder& recorder) {
-    output.bindImage(0, 0, GL_WRITE_ONLY);
-    recorder.record(programs, shadeDesc({false, true, false}, false, false, {}));
+void TracedShade::recordCache(gl::ProgramLibrary& programs, StepRecorder& recorder) {
+    recorder.record(programs, recordDesc());
 }
 
 void TracedShade::drawOcclusion(gl::ProgramLibrary& programs, gl::Profiler& profiler,
@@ -76,8 +89,7 @@ void TracedShade::drawOcclusion(gl::ProgramLibrary& programs, gl::Profiler& prof
 }
 
 std::vector<gl::ProgramDesc> TracedShade::programDescs() {
-    std::vector<gl::ProgramDesc> descs = {
-        occlusionDesc(), StepRecorder::variant(shadeDesc({false, true, false}, false, false, {}))};
+    std::vector<gl::ProgramDesc> descs = {occlusionDesc(), StepRecorder::variant(recordDesc())};
     const auto add = [&](const PictureParts& parts, bool picture, bool lobe) {
         descs.push_back(shadeDesc(parts, picture, lobe, {}));
     };

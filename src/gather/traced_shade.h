@@ -3,8 +3,8 @@
 // RGBA32F picture. Also its view of occlusion.
 //
 // Reads: frame block, scene tables, G-buffer, shadow maps, SurfaceVoxels, OctantWords, IrradianceCache, all
-// bound. Writes `output`; readers need a texture-fetch barrier. GL state changed: program, image 0,
-// BINDING_PASS, units PIXEL_UNIT_*.
+// bound. Writes `output`; readers need a texture-fetch barrier. GL state changed: raster state, program,
+// vertex array, image 0, BINDING_PASS, units PIXEL_UNIT_*.
 #pragma once
 
 #include <vector>
@@ -13,6 +13,7 @@
 #include "gather/picture_parts.h"
 #include "gather/step_recorder.h"
 #include "gl/buffer.h"
+#include "gl/draw.h"
 #include "gl/pass.h"
 #include "gl/program.h"
 #include "gl/texture.h"
@@ -28,7 +29,7 @@ class TracedShade {
               const Settings& settings, const PictureParts& parts, const gl::Texture* irradiance,
               const gl::Texture* lobe, const gl::Texture& output, const gl::Buffer* lookupCounters);
     // Records the faces of the cache that the recorder's pixel shows.
-    void recordCache(gl::ProgramLibrary& programs, const gl::Texture& output, StepRecorder& recorder);
+    void recordCache(gl::ProgramLibrary& programs, StepRecorder& recorder);
     void drawOcclusion(gl::ProgramLibrary& programs, gl::Profiler& profiler, const gl::Texture& occlusion,
                        const gl::Texture& output);
 
@@ -36,6 +37,7 @@ class TracedShade {
 
   private:
     gl::Buffer constants_;
+    gl::VertexArray noVertices_;
 };
 
 }  // namespace conelight::gather

@@ -164,6 +164,11 @@ void drawIndexed(const IndexedDraw& draw) {
                                                   draw.baseInstance);
 }
 
+void drawTriangle(const VertexArray& empty) {
+    empty.bind();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+}
+
 void apply(const RasterState& state) {
     CONELIGHT_ASSERT(state.framebuffer != nullptr, "a raster pass needs a framebuffer");
     glBindFramebuffer(GL_FRAMEBUFFER, state.framebuffer->name());

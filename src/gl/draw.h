@@ -88,5 +88,7 @@ struct IndexedDraw {
     int instances = 1;
 };
 void drawIndexed(const IndexedDraw& draw);
+// One triangle, corners gl_VertexID 0 to 2, of a vertex array without attributes.
+void drawTriangle(const VertexArray& empty);
 
 }  // namespace conelight::gl

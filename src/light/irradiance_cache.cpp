@@ -102,13 +102,14 @@ std::vector<gl::ProgramDesc> hitLightVariants(const gl::ProgramDesc& base) {
 }
 
 struct IrradianceCache::Impl {
-    gl::Buffer states, oldStates, steady, chunks, pool, constants, carryBlock;
-    gl::Texture steadyTexels, poolTexels;
+    gl::Buffer states, oldStates, faceLight, chunks, pool, constants, carryBlock;
+    gl::Texture steadyTexels, faceLightTexels, poolTexels;
     // Voxels before they were built anew.
     gl::Buffer oldRecords;
     gl::Texture oldRecordTexels, oldBricks;
     voxels::VoxelGrid oldGrid;
     std::uint32_t oldFaces = 0;
+    gl::Buffer bins, binStarts;  // of sortFaces
 
     bool prepared = false;  // pool and records say what the states and the direct light say
     bool restart = false;
@@ -120,6 +121,7 @@ struct IrradianceCache::Impl {
     std::uint32_t faceCount = 0;
 
     void reserve(std::uint32_t faces);
+    void sortFaces(gl::ProgramLibrary& programs, const voxels::SurfaceVoxels& surface);
     gpu::CacheConstants packed(const CacheSettings& settings) const;
     void commit(gl::ProgramLibrary& programs, gl::Profiler& profiler, const CacheSettings& settings);
 };
@@ -140,25 +142,23 @@ void IrradianceCache::Impl::reserve(std::uint32_t faces) {
         constants = gl::Buffer(sizeof(gpu::CacheConstants), "irradiance cache constants");
         carryBlock = gl::Buffer(sizeof(gpu::CacheCarry), "irradiance cache carry-over");
     }
-    const auto room = static_cast<std::size_t>(std::ceil(kSlack * faces)) + 64;
+    // No room for growth before there was any.
+    const auto room = static_cast<std::size_t>(std::ceil((states ? kSlack : 1.0) * faces)) + 64;
     if (states.bytes() < sizeof(gpu::FaceCache) * std::size_t{faces} || !states) {
         states = {};
         states = gl::Buffer(sizeof(gpu::FaceCache) * room, "irradiance cache");
     }
-    if (steady.bytes() < std::size_t{4} * faces || !steady) {
-        steadyTexels = {};
-        steady = {};
-        steady = gl::Buffer(std::size_t{4} * room, "steady light");
-        steadyTexels = gl::Texture(steady, GL_R32UI, "steady light");
+    if (faceLight.bytes() < std::size_t{8} * faces || !faceLight) {
+        faceLightTexels = {};
+        faceLight = {};
+        faceLight = gl::Buffer(std::size_t{8} * room, "light of faces at pixels");
+        faceLightTexels = gl::Texture(faceLight, GL_RG32UI, "light of faces at pixels");
     }
 }
 
-namespace {
-
 // The order in which updates visit faces (shaders/light/cache_order.comp.glsl), into the voxels' scratch
 // buffer.
-void sortFaces(gl::ProgramLibrary& programs, const voxels::SurfaceVoxels& surface, const gl::Buffer& chunks) {
-    const std::uint32_t faceCount = surface.faceCount();
+void IrradianceCache::Impl::sortFaces(gl::ProgramLibrary& programs, const voxels::SurfaceVoxels& surface) {
     if (faceCount == 0) return;
     const glm::ivec3 blocks = (surface.grid().bricks() + 3) / 4;
     const auto blockCount = static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.y) *
@@ -171,9 +171,12 @@ void sortFaces(gl::ProgramLibrary& programs, const voxels::SurfaceVoxels& surfac
         return;
     }
     const std::size_t binCount = blockCount * CACHE_BINS_PER_BLOCK;
-    // Not kept: they are as large as what they sort.
-    gl::Buffer bins(8 * binCount, "bins of faces");
-    const gl::Buffer binStarts(4 * binCount, "starts of bins of faces");
+    if (bins.bytes() != 8 * binCount) {
+        bins = {};
+        binStarts = {};
+        bins = gl::Buffer(8 * binCount, "bins of faces");
+        binStarts = gl::Buffer(4 * binCount, "starts of bins of faces");
+    }
     bins.clear();
     bins.bindStorage(CACHE_BINS);
     binStarts.bindStorage(CACHE_BIN_STARTS);
@@ -183,9 +186,12 @@ void sortFaces(gl::ProgramLibrary& programs, const voxels::SurfaceVoxels& surfac
         programs.get(orderDesc(step)).dispatchLinear(invocations[step]);
         gl::barrier(gl::Access::ShaderStorage);
     }
+    // They are as large as what they sort: kept only where voxels change again and again.
+    if (!carried) {
+        bins = {};
+        binStarts = {};
+    }
 }
-
-}  // namespace
 
 void IrradianceCache::beforeVoxelize(gl::Profiler& profiler, const voxels::SurfaceVoxels& surface) {
     Impl& m = *impl_;
@@ -220,6 +226,9 @@ void IrradianceCache::afterVoxelize(gl::ProgramLibrary& programs, gl::Profiler& 
     // The states of the old voxels change places with the buffer for the new ones.
     std::swap(m.states, m.oldStates);
     m.reserve(surface.faceCount());
+    m.steadyTexels = {};
+    if (surface.secondFaceScratch())
+        m.steadyTexels = gl::Texture(surface.secondFaceScratch(), GL_R32UI, "steady light");
     m.faceCount = surface.faceCount();
     if (carries && m.faceCount > 0) {
         gpu::CacheCarry block{};
@@ -240,11 +249,11 @@ void IrradianceCache::afterVoxelize(gl::ProgramLibrary& programs, gl::Profiler& 
     } else {
         m.states.clear();
     }
-    sortFaces(programs, surface, m.chunks);
+    m.carried = carries;
+    m.sortFaces(programs, surface);
     m.oldFaces = 0;
     m.firstFace = 0;
     m.raysTested = 0;
-    m.carried = carries;
     lightChanged();
 }
 
@@ -262,7 +271,7 @@ gpu::CacheConstants IrradianceCache::Impl::packed(const CacheSettings& settings)
     c.lightRays = static_cast<std::uint32_t>(settings.lightRays);
     c.update = number;
     c.seed = settings.seed;
-    c.longestWindow = static_cast<std::uint32_t>(std::max(settings.longestWindow, 1));
+    c.longestWindow = settings.averages ? static_cast<std::uint32_t>(std::max(settings.longestWindow, 1)) : 1;
     c.facesPerChunk = std::max((faceCount + kMaxChunks - 1) / kMaxChunks, kLeastChunk);
     c.chunkCount = (faceCount + c.facesPerChunk - 1) / c.facesPerChunk;
     c.reflections = static_cast<std::uint32_t>(std::max(settings.reflections, 0));
@@ -282,6 +291,7 @@ void IrradianceCache::Impl::commit(gl::ProgramLibrary& programs, gl::Profiler& p
     states.bindStorage(CACHE_STATE);
     chunks.bindStorage(CACHE_CHUNKS);
     pool.bindStorage(CACHE_POOL);
+    faceLight.bindStorage(CACHE_FACE_LIGHT);
     programs.get(pass("commit")).dispatchLinear(block.chunkCount);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
     programs.get(pass("sums")).dispatch(8);
@@ -350,9 +360,9 @@ void IrradianceCache::bind() const {
     CONELIGHT_ASSERT(impl_->pool, "IrradianceCache::bind before afterVoxelize");
     impl_->steadyTexels.bind(UNIT_STEADY_LIGHT);
     impl_->poolTexels.bind(UNIT_BRIGHT_FACES);
+    impl_->faceLightTexels.bind(UNIT_FACE_LIGHT);
 }
 
-const gl::Buffer& IrradianceCache::steadyLight() const { return impl_->steady; }
 const gl::Buffer& IrradianceCache::state() const { return impl_->states; }
 
 std::vector<gl::ProgramDesc> IrradianceCache::programDescs() {

@@ -30,6 +30,7 @@ struct CacheSettings {
     // Faces that one update visits at most, in turn; 0: all. Rays per frame are this times the rays per face.
     std::uint32_t facesPerUpdate = 0;
     int longestWindow = 256;  // updates that are averaged in the end
+    bool averages = true;     // false: every update replaces what was there, for a limited number of bounces
     int reflections = 1;      // of one ray on metals; then all but lights is reflected as if matt; 0..8
     bool exactDirect = true;  // light of point, spot and directional lights is looked up where rays hit
     std::uint32_t seed = 1;
@@ -46,8 +47,9 @@ class IrradianceCache {
     void reset();
     // Before voxels are built anew: remembers whose light is whose. Nothing before the first build.
     void beforeVoxelize(gl::Profiler& profiler, const voxels::SurfaceVoxels& surface);
-    // After: the order in which updates visit faces goes to SurfaceVoxels::faceScratch. Each face takes over
-    // the light of the face that lay there and looked the same way. Counts as a change of light, too.
+    // After: the order in which updates visit faces goes to SurfaceVoxels::faceScratch; injectLight, which
+    // must follow, puts steady light (shared/irradiance.h) into secondFaceScratch. Each face takes over the
+    // light of the face that lay there and looked the same way. Counts as a change of light, too.
     void afterVoxelize(gl::ProgramLibrary& programs, gl::Profiler& profiler,
                        const voxels::SurfaceVoxels& surface);
     // Direct light, emission or the sky changed: short averages again, until bounces have settled.
@@ -67,9 +69,6 @@ class IrradianceCache {
 
     // What lib/voxel_light.glsl needs besides SurfaceVoxels::bind and OctantWords::bind.
     void bind() const;
-    // Light of each face without what is looked up at hits (shared/irradiance.h); written by injectLight.
-    const gl::Buffer& steadyLight() const;
-
     const gl::Buffer& state() const;  // gpu::FaceCache per face, for tests
 
     static std::vector<gl::ProgramDesc> programDescs();

@@ -680,6 +680,7 @@ const gl::Buffer& SurfaceVoxels::occupiedBricks() const { return impl_->brickLis
 const gl::Buffer& SurfaceVoxels::changedBricks() const { return impl_->changedBricks; }
 const SurfaceUpdate& SurfaceVoxels::lastUpdate() const { return impl_->lastUpdate; }
 const gl::Buffer& SurfaceVoxels::faceScratch() const { return impl_->owners; }
+const gl::Buffer& SurfaceVoxels::secondFaceScratch() const { return impl_->layered; }
 const gl::Buffer& SurfaceVoxels::fragments() const { return impl_->fragments; }
 
 std::vector<gl::ProgramDesc> SurfaceVoxels::programDescs() {

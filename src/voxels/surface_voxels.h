@@ -79,8 +79,9 @@ class SurfaceVoxels {
     const gl::Buffer& records() const;      // voxRec; voxelCount() uints are in use
     const gl::Buffer& faces() const;        // gpu::FaceRecord; faceCount() are in use
     const gl::Buffer& faceSources() const;  // two uints per face
-    // A uint per face for others to use until the next build or update, which needs it itself.
+    // Each a uint per face for others to use until the next build or update, which needs it itself.
     const gl::Buffer& faceScratch() const;
+    const gl::Buffer& secondFaceScratch() const;
     const gl::Buffer& occupiedBricks()
         const;  // packVoxel(brick) of each occupied brick, in order of brick index
 

@@ -36,7 +36,7 @@ void CacheRig::relight() {
     frameBlock.bindUniform(BINDING_FRAME);
     scene.bind();
     shadows.bind();
-    light::injectLight(programs, profiler, scene, light, surface, &cache.steadyLight());
+    light::injectLight(programs, profiler, scene, light, surface, &surface.secondFaceScratch());
     cache.lightChanged();
 }
 
