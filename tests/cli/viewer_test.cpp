@@ -126,13 +126,8 @@ TEST_F(ViewerTest, MouseAndKeysMoveTheCameraAndChooseObjects) {
     const std::string orbited = viewer->status("camera");
     EXPECT_NE(orbited, first);
     settle();
-    const ScreenPixels after = screen->pixels();
-    int changed = 0;
     const glm::ivec4 place = picture();
-    for (int y = place.y; y < place.y + place.w; y += 4)
-        for (int x = place.x; x < place.x + place.z; x += 4)
-            changed += !near(before.at({x, y}), after.at({x, y}), 12);
-    EXPECT_GT(changed, place.z * place.w / 16 / 10) << "a tenth of the picture";
+    EXPECT_GT(screen->pixels().changedFrom(before, place, 12), place.z * place.w / 10) << "a tenth of it";
 
     // Right button and W: forward.
     moveTo(middle);
@@ -195,14 +190,7 @@ TEST_F(ViewerTest, HandlesMoveTurnAndScaleTheSelection) {
         const auto expectChange = [&](const std::string& action) {
             const ScreenPixels last = screen->pixels();
             screen->xdotool(action);
-            EXPECT_TRUE(eventually([&] {
-                const ScreenPixels now = screen->pixels();
-                int changed = 0;
-                for (int y = place.y; y < place.y + place.w; ++y)
-                    for (int x = place.x; x < place.x + place.z; ++x)
-                        changed += now.at({x, y}) != last.at({x, y});
-                return changed > 10;
-            })) << action;
+            EXPECT_TRUE(eventually([&] { return screen->pixels().changedFrom(last, place) > 10; })) << action;
         };
         const auto to = [](const glm::ivec2& p) {
             return "mousemove " + std::to_string(p.x) + " " + std::to_string(p.y);
@@ -443,10 +431,7 @@ TEST_F(ViewerTest, LinesAreTypedIntoTheWindowAndRemembered) {
         EXPECT_TRUE(eventually([&] {
             std::this_thread::sleep_for(std::chrono::milliseconds(100));
             const ScreenPixels now = screen->pixels();
-            int changed = 0;
-            for (int y = line.y; y < line.y + line.w; ++y)
-                for (int x = line.x; x < line.x + line.z; ++x) changed += now.at({x, y}) != last.at({x, y});
-            still = changed <= 2 * line.w ? still + 1 : 0;  // a cursor blinks
+            still = now.changedFrom(last, line) <= 2 * line.w ? still + 1 : 0;  // a cursor blinks
             last = now;
             return still == 5;
         })) << text;
@@ -470,14 +455,8 @@ TEST_F(ViewerTest, LinesAreTypedIntoTheWindowAndRemembered) {
     for (const char* action : {"type --delay 30 'set im'", "key Up", "key Up"}) {
         const ScreenPixels last = screen->pixels();
         screen->xdotool(action);
-        EXPECT_TRUE(eventually([&] {
-            const ScreenPixels now = screen->pixels();
-            // Text of other length: the cursor that blinks is no change.
-            int changed = 0;
-            for (int y = box.y; y < box.y + box.w; ++y)
-                for (int x = box.x; x < box.x + box.z; ++x) changed += now.at({x, y}) != last.at({x, y});
-            return changed > 2 * box.w;
-        })) << action;
+        // Text of other length: the cursor that blinks is no change.
+        EXPECT_TRUE(eventually([&] { return screen->pixels().changedFrom(last, box) > 2 * box.w; })) << action;
     }
     screen->xdotool("key Return");
     EXPECT_TRUE(eventually([&] { return viewer->setting("image.exposure") == "1.5"; })) << viewer->output();

@@ -48,17 +48,7 @@ void BackgroundBake::Impl::run(const Scene& scene, const Version& version, const
         settings.gatherRays = 128;
         settings.visibilityRays = 64;
         settings.threads = BackgroundJob::threads();
-        baked = std::make_shared<const Scene>(reference::bakeRadiosity(
-            scene, settings, nullptr, [&](const reference::RadiosityProgress& progress) {
-                if (cancelled) return false;
-                {
-                    const std::lock_guard lock(mutex);
-                    status.done = progress.done;
-                    status.secondsLeft = progress.secondsLeft;
-                }
-                wake();
-                return true;
-            }));
+        baked = std::make_shared<const Scene>(bakeWatched(scene, settings, cancelled, mutex, status, wake));
     } catch (const std::exception& error) {
         failure = error.what();
     }
