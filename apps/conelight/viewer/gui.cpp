@@ -5,9 +5,12 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
+
+#include "viewer/imgui_names.h"
 
 namespace conelight::program {
 namespace {
@@ -18,6 +21,7 @@ constexpr std::array<const char*, 3> kFonts = {
     "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
     "/usr/share/fonts/truetype/freefont/FreeSans.ttf"};
 constexpr float kFontSize = 14.0f;  // px at 96 dpi
+constexpr float kMinScale = 0.5f, kMaxScale = 4;
 
 ImVec4 grey(float value, float alpha = 1) { return {value, value, value, alpha}; }
 
@@ -54,7 +58,7 @@ void setColors(ImGuiStyle& style) {
     c[ImGuiCol_Separator] = grey(0.22f);
     c[ImGuiCol_Tab] = grey(0.15f);
     c[ImGuiCol_TabHovered] = grey(0.26f);
-    c[ImGuiCol_TabActive] = grey(0.22f);
+    c[kColTabShown] = grey(0.22f);
     c[ImGuiCol_PlotHistogram] = accent;
     c[ImGuiCol_PlotLines] = accent;
     c[ImGuiCol_TableHeaderBg] = grey(0.16f);
@@ -68,7 +72,7 @@ Gui::Gui(platform::Window& window, float scale) : window_(window), followsScreen
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;  // the layout follows the window's size
-    scale_ = followsScreen_ ? window.contentScale() : scale;
+    scale_ = wantedScale_ = followsScreen_ ? window.contentScale() : scale;
     applyLook();
     ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
     ImGui_ImplOpenGL3_Init("#version 450 core");
@@ -114,8 +118,13 @@ void Gui::applyLook() {
     io.Fonts->AddFontDefault(&config);
 }
 
+void Gui::setScale(float scale) {
+    followsScreen_ = false;
+    wantedScale_ = std::clamp(scale, kMinScale, kMaxScale);
+}
+
 void Gui::beginFrame() {
-    if (const float scale = window_.contentScale(); followsScreen_ && scale != scale_) {
+    if (const float scale = followsScreen_ ? window_.contentScale() : wantedScale_; scale != scale_) {
         scale_ = scale;
         applyLook();
         ImGui_ImplOpenGL3_DestroyDeviceObjects();  // made anew, with the font's texture, by the next line

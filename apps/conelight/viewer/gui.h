@@ -20,12 +20,13 @@ class Gui {
     bool wantsMouse() const;     // the cursor is over the GUI or drags one of its widgets
     bool wantsKeyboard() const;  // a text field has the keys
     float scale() const { return scale_; }
+    void setScale(float scale);  // from the next frame on; the screen's no more
 
   private:
     void applyLook();
     platform::Window& window_;
     bool followsScreen_;
-    float scale_ = 1;
+    float scale_ = 1, wantedScale_ = 1;
 };
 
 }  // namespace conelight::program
