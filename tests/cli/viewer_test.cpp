@@ -12,75 +12,12 @@
 #include <thread>
 
 #include "io/image_file.h"
+#include "cli/viewer_test_support.h"
 #include "support/program.h"
-#include "support/virtual_screen.h"
 #include "support/x11_client.h"
 
 namespace conelight::test {
 namespace {
-
-constexpr glm::ivec2 kScreen(960, 640);
-// Small and cheap: what is tested is the window.
-const char* const kSmall = "--window 720x480 --voxels 32 --mode phong --no-state ";
-
-bool near(const glm::vec3& a, const glm::vec3& b, float tolerance) {
-    return glm::all(glm::lessThan(glm::abs(a - b), glm::vec3(tolerance)));
-}
-
-class ViewerTest : public ::testing::Test {
-  protected:
-    void SetUp() override {
-        if (const std::string missing = VirtualScreen::missing(); !missing.empty()) GTEST_SKIP() << missing;
-        screen = std::make_unique<VirtualScreen>(kScreen.x, kScreen.y);
-    }
-    void start(const std::string& arguments, const std::string& environment = "") {
-        viewer = std::make_unique<ViewerProcess>(*screen, arguments, environment);
-    }
-    // Until the window has looked at input that came before and has drawn what follows from it: an answer
-    // comes between the two.
-    void pass() {
-        for (int i = 0; i < 3; ++i) viewer->status("frames");
-    }
-    void moveTo(const glm::ivec2& p) {
-        screen->xdotool("mousemove " + std::to_string(p.x) + " " + std::to_string(p.y));
-    }
-    // In steps, as a hand does: a window that looks once a frame must see the button go down first.
-    void drag(int button, const glm::ivec2& from, const glm::ivec2& to) {
-        moveTo(from);
-        pass();
-        screen->xdotool("mousedown " + std::to_string(button));
-        for (int i = 1; i <= 4; ++i) {
-            pass();
-            moveTo(from + (to - from) * i / 4);
-        }
-        pass();
-        screen->xdotool("mouseup " + std::to_string(button));
-        pass();
-    }
-    void click(const glm::ivec2& p) {
-        moveTo(p);
-        pass();
-        screen->xdotool("mousedown 1");
-        pass();
-        screen->xdotool("mouseup 1");
-        pass();
-    }
-    // The picture's place on the screen.
-    glm::ivec4 picture() { return viewer->placeOf("picture"); }
-    glm::ivec2 inPicture(float x, float y) {
-        const glm::ivec4 place = picture();
-        return glm::ivec2(place) + glm::ivec2(glm::vec2(place.z, place.w) * glm::vec2(x, y));
-    }
-    // Mean of a few pixels of the screen there.
-    glm::vec3 shownAt(const glm::ivec2& p) { return screen->pixels().mean(p - 2, {5, 5}); }
-    void settle() {
-        viewer->send("settle; echo settled");
-        ASSERT_NE(viewer->expect("settled"), "") << viewer->output();
-    }
-
-    std::unique_ptr<VirtualScreen> screen;
-    std::unique_ptr<ViewerProcess> viewer;
-};
 
 TEST_F(ViewerTest, ConsoleSwitchesModesTakesAScreenshotAndQuits) {
     const std::string shot = scratchPath("viewer.png");
@@ -229,7 +166,7 @@ TEST_F(ViewerTest, HandlesMoveTurnAndScaleTheSelection) {
 TEST_F(ViewerTest, SlidersAreDraggedAndUndone) {
     start(std::string(kSmall) + "builtin:cornell");
     settle();
-    click(viewer->middleOf("tab:Image"));
+    click("tab:Image");
     const glm::ivec4 slider = viewer->placeOf("image.exposure");
     ASSERT_GT(slider.z, 20) << viewer->output();
     const glm::ivec2 at = inPicture(0.5f, 0.35f);
@@ -378,14 +315,21 @@ TEST_F(ViewerTest, BakesInTheBackground) {
     EXPECT_NE(viewer->expect("bake: stopped"), "") << viewer->output();
     EXPECT_NE(viewer->expect("after"), "") << "what is behind it runs";
     EXPECT_EQ(std::filesystem::last_write_time(file), written) << "nothing was written";
-    viewer->send("quit");
+    // Who closes the window in the midst of it has closed it.
+    viewer->send("bake " + file + " overwrite");
+    EXPECT_TRUE(eventually([&] { return near(glm::vec3(screen->pixels().at(edge)), glm::vec3(69), 3); }));
+    if (x11Missing().empty())
+        pressCloseButton(screen->display(), "Conelight");
+    else
+        click(stop), viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
+    EXPECT_EQ(std::filesystem::last_write_time(file), written) << "nothing was written";
 }
 
 // A click lists the rays of the pixel and draws them; one in the list stands out and shows its steps.
 TEST_F(ViewerTest, InspectorListsAndDrawsRays) {
     screen = std::make_unique<VirtualScreen>(960, 960);
-    start("--window 960x960 --voxels 32 --mode traced --no-state builtin:cornell");
+    start("--window 960x960 --voxels 32 --mode traced --no-state --exec 'resolution 0.25' builtin:cornell");
     settle();
     const ScreenPixels before = screen->pixels();
     const glm::ivec4 place = picture();
@@ -421,20 +365,10 @@ TEST_F(ViewerTest, LinesAreTypedIntoTheWindowAndRemembered) {
     const std::string options = "--window 720x480 --voxels 32 --mode phong builtin:cornell";
     start(options, environment);
     settle();
-    click(viewer->middleOf("console"));
-    // As by someone who looks at the screen: the line is complete before it is entered.
+    click("console");
     const glm::ivec4 line = viewer->placeOf("console");
     const auto enter = [&](const std::string& text) {
-        screen->xdotool("type --delay 30 '" + text + "'");
-        int still = 0;
-        ScreenPixels last = screen->pixels();
-        EXPECT_TRUE(eventually([&] {
-            std::this_thread::sleep_for(std::chrono::milliseconds(100));
-            const ScreenPixels now = screen->pixels();
-            still = now.changedFrom(last, line) <= 2 * line.w ? still + 1 : 0;  // a cursor blinks
-            last = now;
-            return still == 5;
-        })) << text;
+        type(text, line);
         screen->xdotool("key Return");
     };
     enter("set image.exposure 1.5");
@@ -450,7 +384,7 @@ TEST_F(ViewerTest, LinesAreTypedIntoTheWindowAndRemembered) {
     start(options, environment);
     settle();
     const glm::ivec4 box = viewer->placeOf("console");
-    click(viewer->middleOf("console"));
+    click("console");
     // Each step is waited for on the screen: lines of the standard input are history too.
     for (const char* action : {"type --delay 30 'set im'", "key Up", "key Up"}) {
         const ScreenPixels last = screen->pixels();
@@ -461,9 +395,9 @@ TEST_F(ViewerTest, LinesAreTypedIntoTheWindowAndRemembered) {
     screen->xdotool("key Return");
     EXPECT_TRUE(eventually([&] { return viewer->setting("image.exposure") == "1.5"; })) << viewer->output();
     // And the menu has the scene.
-    click(viewer->middleOf("menu:File"));
-    click(viewer->middleOf("menu:Open recent"));
-    click(viewer->middleOf("recent:builtin:cornell"));
+    click("menu:File");
+    click("menu:Open recent");
+    click("recent:builtin:cornell");
     EXPECT_TRUE(eventually([&] {
         viewer->status("frames");
         return viewer->output().find("loaded builtin:cornell") != std::string::npos;
@@ -475,15 +409,47 @@ TEST_F(ViewerTest, BadFilesAndBadNumbersAreLinesNotTheEnd) {
     std::ofstream(broken) << "{";
     start(std::string(kSmall) + "builtin:cornell");
     settle();
-    viewer->send("open " + broken);
-    EXPECT_NE(viewer->expect(broken), "") << viewer->output();
+    for (const std::string& path : {broken, scratchPath(""), scratchPath("nowhere.glb")}) {
+        viewer->send("open '" + path + "'");
+        EXPECT_NE(viewer->expect(path), "") << viewer->output();
+    }
     viewer->send("set voxels.size 7");
     EXPECT_NE(viewer->expect("setting voxels.size"), "") << viewer->output();
+    // Each is a line in the log, in the colour of errors, however long.
+    EXPECT_NE(viewer->status("log").find("4 errors"), std::string::npos) << viewer->status("log");
+    const glm::ivec4 box = viewer->placeOf("console");
+    const auto redRows = [&] {
+        const ScreenPixels now = screen->pixels();
+        int rows = 0;
+        for (int y = picture().y + picture().w; y < box.y; ++y)
+            for (int x = box.x; x < box.x + box.z; ++x)
+                if (const glm::ivec3 p = now.at({x, y}); p.x > 180 && p.z < 140) {
+                    ++rows;
+                    break;
+                }
+        return rows;
+    };
+    viewer->send("panels on; settle");
+    settle();
+    const int before = redRows();
+    viewer->send("open " + std::string(150, 'x'));
+    EXPECT_NE(viewer->expect(std::string(150, 'x')), "") << viewer->output();
+    EXPECT_TRUE(eventually([&] { return redRows() >= before + 15; })) << "it takes two lines at least";
     // What the renderer refuses while it draws.
     viewer->send("mode reference; component voxels; wait 3; mode phong; component full; settle; echo alive");
     EXPECT_NE(viewer->expect("alive"), "") << viewer->output();
     viewer->send("where nowhere");
     EXPECT_NE(viewer->expect("where: 'nowhere' is not on the screen"), "");
+    // A window of nothing draws nothing, and comes back.
+    screen->xdotool("search --name Conelight windowsize 20 12");
+    viewer->statusUntil("window", [](const std::string& now) { return now.find("20 x 12") != std::string::npos; });
+    viewer->send("mode cones; wait 2; mode phong");
+    screen->xdotool("search --name Conelight windowsize 720 480");
+    viewer->statusUntil("window", [](const std::string& now) { return now.find("720 x 480") != std::string::npos; });
+    settle();
+    EXPECT_EQ(viewer->status("picture").rfind(std::to_string(picture().z) + " x", 0), 0u);
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
 }
 
 TEST_F(ViewerTest, WindowChangesSizeFillsTheScreenAndCloses) {

@@ -32,7 +32,7 @@ CommandGroup windowCommands() {
     Argument splitMode = choice("MODE", sessionModes());
     splitMode.choices.emplace_back("off");
     Argument key = choice("KEY", {"scene", "window", "picture", "mode", "split", "settled", "selection",
-                                  "pixel", "camera", "steps", "path", "log", "frames", "moving", "gui", "first_frame"});
+                                  "pixel", "camera", "steps", "path", "log", "hint", "frames", "moving", "gui", "first_frame"});
     return {
         "Window (conelight view)",
         {

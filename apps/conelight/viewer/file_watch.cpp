@@ -38,6 +38,8 @@ void FileWatch::setScene(const std::string& path) {
     sceneTime_ = newestIn(path);
 }
 
+void FileWatch::acceptScene() { sceneTime_ = newestIn(scene_); }
+
 bool FileWatch::sceneChanged() {
     if (scene_.empty() || !due(sceneLooked_)) return false;
     const Time time = newestIn(scene_);

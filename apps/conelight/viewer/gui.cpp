@@ -64,6 +64,7 @@ void setColors(ImGuiStyle& style) {
     c[ImGuiCol_TableHeaderBg] = grey(0.16f);
     c[ImGuiCol_TableRowBgAlt] = grey(1, 0.02f);
     c[ImGuiCol_TextSelectedBg] = accentDim;
+    c[ImGuiCol_ModalWindowDimBg] = {0, 0, 0, 0.45f};
 }
 
 }  // namespace

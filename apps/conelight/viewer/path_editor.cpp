@@ -42,10 +42,11 @@ void pathEditor(Session& session, int& frames, const RunLine& run,
                 const std::function<void(FilePurpose)>& ask) {
     const CameraPath& path = session.cameraPath();
     ImGui::Separator();
-    ImGui::TextDisabled("%s", path.empty() ? "no key frames yet"
-                                           : fmt::format("{} key frames, {:g} s", path.keys().size(),
-                                                         path.end() - path.start())
-                                                 .c_str());
+    const std::string count =
+        path.empty() ? "no key frames yet"
+                     : fmt::format("{} key frame{}, {:g} s", path.keys().size(),
+                                   path.keys().size() == 1 ? "" : "s", path.end() - path.start());
+    ImGui::TextDisabled("%s", count.c_str());
     keyList(path, run);
     if (button("add key", "path:add", "this view becomes a key frame, 1 s after the last")) run("path add");
     if (!path.empty()) {

@@ -147,6 +147,8 @@ int Viewer::run() {
 // Files that changed on disk are loaded again; the view stays.
 void Viewer::watchFiles() {
     watch_.setScene(session_.path());
+    // What this program saved is what it shows.
+    if (std::exchange(savesSeen_, session_.saves()) != session_.saves()) watch_.acceptScene();
     if (watch_.sceneChanged()) {
         Request request{RequestKind::Load};
         request.file = session_.path();

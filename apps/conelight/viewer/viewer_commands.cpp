@@ -134,6 +134,7 @@ void Viewer::status(const std::string& key) {
         {"steps", fmt::format("{} to undo, {} to redo", session_.undoSteps(), session_.redoSteps())},
         {"path", pathText()},
         {"log", fmt::format("{} lines, {} errors", console_.lines(), console_.errors())},
+        {"hint", hint_ ? *hint_ : "none"},
         {"frames", fmt::format("{} pictures, {:.1f} ms (median)", view_.slot(false).version(),
                                median(session_.frameTimes()))},
         {"moving", movingText()},

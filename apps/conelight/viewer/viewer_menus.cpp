@@ -80,6 +80,7 @@ void Viewer::fileMenu() {
     notePlace("menu:File");
     if (!open) return;
     if (ImGui::MenuItem("Open...", "Ctrl+O")) fileDialog_.open(FilePurpose::OpenScene, session_.path());
+    notePlace("menu:Open");
     if (ImGui::BeginMenu("Open recent", !state_.recent().empty())) {
         for (const std::string& scene : state_.recent()) {
             if (ImGui::MenuItem(scene.c_str())) load(scene);

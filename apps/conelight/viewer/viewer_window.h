@@ -138,7 +138,7 @@ class Viewer {
     bool timing_;
     double startedMs_, firstFrameMs_ = -1;
     double lastFrame_ = 0;
-    std::uint64_t inputsSeen_ = 0;
+    std::uint64_t inputsSeen_ = 0, savesSeen_ = 0;
     double lastInput_ = -1;
     FrameTimes guiTimes_;
     ViewerState end_;
