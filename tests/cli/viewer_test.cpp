@@ -296,32 +296,19 @@ TEST_F(ViewerTest, BakesInTheBackground) {
     viewer->send("bake " + file + "; echo behind");
     EXPECT_NE(viewer->expect(file), "") << "what exists is left alone";
     ASSERT_NE(viewer->expect("behind"), "");
-    // Its button at the end of the strip, as `where` cannot be asked meanwhile: heights of text are 14
-    // pixels.
     const auto written = std::filesystem::last_write_time(file);
-    const float em = 14, strip = std::min(36 * em, static_cast<float>(place.z) - em);
     viewer->send("bake " + file + " overwrite; echo after");
-    const glm::ivec2 stop =
-        glm::ivec2(place) + glm::ivec2(0.5f * em + strip - 2.5f * em, place.w - 1.6f * em);
-    const glm::ivec2 edge = stop + glm::ivec2(-20, 6);  // of the button, beside its text
-    EXPECT_TRUE(eventually([&] { return near(glm::vec3(screen->pixels().at(edge)), glm::vec3(54), 3); }))
-        << "the strip is shown";
-    moveTo(stop);
-    EXPECT_TRUE(eventually([&] { return near(glm::vec3(screen->pixels().at(edge)), glm::vec3(69), 3); }))
-        << "the button is under the cursor";
-    screen->xdotool("mousedown 1");
-    EXPECT_TRUE(eventually([&] { return !near(glm::vec3(screen->pixels().at(edge)), glm::vec3(69), 3); }));
-    screen->xdotool("mouseup 1");
+    pressStop(place);
     EXPECT_NE(viewer->expect("bake: stopped"), "") << viewer->output();
     EXPECT_NE(viewer->expect("after"), "") << "what is behind it runs";
     EXPECT_EQ(std::filesystem::last_write_time(file), written) << "nothing was written";
     // Who closes the window in the midst of it has closed it.
     viewer->send("bake " + file + " overwrite");
-    EXPECT_TRUE(eventually([&] { return near(glm::vec3(screen->pixels().at(edge)), glm::vec3(69), 3); }));
+    EXPECT_TRUE(stripShown(place));
     if (x11Missing().empty())
         pressCloseButton(screen->display(), "Conelight");
     else
-        click(stop), viewer->send("quit");
+        pressStop(place), viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
     EXPECT_EQ(std::filesystem::last_write_time(file), written) << "nothing was written";
 }
@@ -351,7 +338,7 @@ TEST_F(ViewerTest, InspectorListsAndDrawsRays) {
     const int all = yellow();
     const glm::ivec4 line = viewer->placeOf("path:0");
     ASSERT_GT(line.z, 0) << "rays are listed: " << viewer->output();
-    click({line.x + 20, line.y + line.w / 2});
+    click(glm::ivec2{line.x + 20, line.y + line.w / 2});
     EXPECT_TRUE(eventually([&] { return yellow() < all / 2; })) << "the others step back";
     EXPECT_GT(viewer->placeOf("step:0").z, 0) << "its steps are listed";
     viewer->send("quit");

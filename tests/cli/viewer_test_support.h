@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <string>
@@ -99,6 +100,27 @@ class ViewerTest : public ::testing::Test {
         }
         screen->xdotool("mouseup 1");
         pass();
+    }
+    // The button at the end of the strip that says how far a bake or film is, in a picture there: `where`
+    // cannot be asked meanwhile. Heights of text are 14 pixels.
+    static glm::ivec2 stopAt(const glm::ivec4& place) {
+        const float em = 14, strip = std::min(36 * em, static_cast<float>(place.z) - em);
+        return glm::ivec2(place) + glm::ivec2(0.5f * em + strip - 2.5f * em, place.w - 1.6f * em);
+    }
+    // Of the button, beside its text.
+    bool stopLooks(const glm::ivec4& place, float grey) {
+        return near(glm::vec3(screen->pixels().at(stopAt(place) + glm::ivec2(-20, 6))), glm::vec3(grey), 3);
+    }
+    bool stripShown(const glm::ivec4& place) {
+        return eventually([&] { return stopLooks(place, 54) || stopLooks(place, 69); });
+    }
+    void pressStop(const glm::ivec4& place) {
+        EXPECT_TRUE(stripShown(place));
+        moveTo(stopAt(place));
+        EXPECT_TRUE(eventually([&] { return stopLooks(place, 69); })) << "the button is under the cursor";
+        screen->xdotool("mousedown 1");
+        EXPECT_TRUE(eventually([&] { return !stopLooks(place, 69); }));
+        screen->xdotool("mouseup 1");
     }
     // The picture's place on the screen.
     glm::ivec4 picture() { return viewer->placeOf("picture"); }

@@ -226,8 +226,10 @@ std::string ViewerProcess::statusUntil(const std::string& key,
 glm::ivec4 ViewerProcess::placeOf(const std::string& widget) {
     send("where " + widget);
     const std::string begin = "where " + widget + ": ";
-    const std::string line = expect(begin);
-    if (line.empty()) return glm::ivec4(0);
+    std::string line;
+    do line = expect("where");
+    while (!line.empty() && line.rfind(begin, 0) != 0 && line.rfind("where: '" + widget + "'", 0) != 0);
+    if (line.rfind(begin, 0) != 0) return glm::ivec4(0);  // not on the screen
     std::istringstream numbers(line.substr(begin.size()));
     glm::ivec4 place(0);
     numbers >> place.x >> place.y >> place.z >> place.w;

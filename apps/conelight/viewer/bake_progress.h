@@ -15,6 +15,7 @@ struct BakeStatus {
     double done = 0;          // part of the work
     double secondsLeft = -1;  // < 0: unknown
     bool running = false;
+    bool refining = false;  // a draft is there
     std::string error;  // of the thread; empty: none
 };
 

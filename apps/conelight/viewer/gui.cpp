@@ -119,6 +119,21 @@ void Gui::applyLook() {
     io.Fonts->AddFontDefault(&config);
 }
 
+// Dear ImGui before 1.87 looks at keys once a frame: of a key that is up again by then it would not know, and
+// at five frames a second that is every other Return.
+void Gui::holdTappedKeys() {
+#if IMGUI_VERSION_NUM < 18700
+    ImGuiIO& io = ImGui::GetIO();
+    for (const int key : tapped_) io.KeysDown[key] = false;
+    tapped_.clear();
+    for (const platform::Window::KeyPress& press : window_.keyPresses()) {
+        if (press.key < 0 || press.key >= IM_ARRAYSIZE(io.KeysDown) || window_.isKeyDown(press.key)) continue;
+        io.KeysDown[press.key] = true;
+        tapped_.push_back(press.key);
+    }
+#endif
+}
+
 void Gui::setScale(float scale) {
     followsScreen_ = false;
     wantedScale_ = std::clamp(scale, kMinScale, kMaxScale);
@@ -132,6 +147,7 @@ void Gui::beginFrame() {
     }
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    holdTappedKeys();
     // A captured cursor belongs to the camera.
     if (window_.cursorCaptured()) ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
     ImGui::NewFrame();

@@ -2,6 +2,8 @@
 // Dear ImGui on the window: start, frame, look. Panels call ImGui themselves.
 #pragma once
 
+#include <vector>
+
 #include "platform/window.h"
 
 namespace conelight::program {
@@ -24,7 +26,9 @@ class Gui {
 
   private:
     void applyLook();
+    void holdTappedKeys();
     platform::Window& window_;
+    std::vector<int> tapped_;  // keys that went down and up again between two frames
     bool followsScreen_;
     float scale_ = 1, wantedScale_ = 1;
 };

@@ -69,7 +69,7 @@ void pathEditor(Session& session, int& frames, const RunLine& run,
     if (!path.empty()) {
         if (button("record path...", "path:record", "a film of the flight along the key frames"))
             ask(FilePurpose::RecordPath);
-        ImGui::SameLine();
+        if (ImGui::GetContentRegionAvail().x > 15 * ImGui::GetFontSize()) ImGui::SameLine();
     }
     if (button("record turn...", "path:turn", "a film of a turn round the target"))
         ask(FilePurpose::RecordTurntable);

@@ -5,6 +5,7 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "traced_picture.h"
@@ -25,6 +26,8 @@ std::vector<Stage> stagesOf(const std::string& mode) {
 constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+std::string nameOf(const std::string& file) { return std::filesystem::path(file).filename().string(); }
 
 }  // namespace
 
@@ -49,15 +52,15 @@ void Viewer::jobStrips(const glm::vec2& at, const glm::vec2& size) {
     };
     if (bake_.busy()) {
         const BakeStatus status = bake_.status();
-        if (strip("bake", fmt::format("{}: baking, {:.0f} %", bake_.file(), 100 * status.done), status.done,
+        if (strip("bake", fmt::format("{}: {:.0f} %", nameOf(bake_.file()), 100 * status.done), status.done,
                   status.secondsLeft))
             bake_.stop();
     }
     // A screenshot of a picture that is finished takes no time.
     PictureJob& job = end_.job;
     if (job.busy() && strip("record",
-                            job.frames() == 1 ? job.file() + ": the picture settles"
-                                              : fmt::format("{}: frame {} of {}", job.file(), job.done() + 1,
+                            job.frames() == 1 ? nameOf(job.file()) + ": settles"
+                                              : fmt::format("{}: {} of {}", nameOf(job.file()), job.done() + 1,
                                                             job.frames()),
                             static_cast<double>(job.done()) / job.frames(), job.secondsLeft()))
         job.stop();
