@@ -225,6 +225,8 @@ TEST_F(ViewerPanelsTest, SceneTreeAndEditorsChangeTheScene) {
     const std::string colour = answer("material white", "  color");
     ASSERT_NE(colour, "") << viewer->output();
     dragWidget("edit:base colour", {0.05f, 0.5f}, {-40, 0});
+    EXPECT_NE(viewer->status("selection").find("material"), std::string::npos)
+        << "a drag that ends over the picture is no click into it";
     EXPECT_NE(answer("material white", "  color"), colour);
     const std::string rough = answer("material white", "  roughness");
     dragWidget("edit:roughness", {0.5f, 0.5f}, {-30, 0});

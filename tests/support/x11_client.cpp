@@ -110,6 +110,8 @@ void setScreenDpi(const std::string& display, int dpi) {
     XChangeProperty(client.display(), client.root(), client.atom("RESOURCE_MANAGER"), XA_STRING, 8,
                     PropModeReplace, reinterpret_cast<const unsigned char*>(text.data()),
                     static_cast<int>(text.size()));
+    // A server starts anew when its last client has gone, unless that one asked it not to.
+    XSetCloseDownMode(client.display(), RetainPermanent);
     XSync(client.display(), False);
 }
 
