@@ -213,7 +213,8 @@ TEST_F(ViewerPanelsTest, SceneTreeAndEditorsChangeTheScene) {
     const std::string before = viewer->status("selection");
     dragWidget("edit:position", {0.1f, 0.5f}, {30, 0});
     EXPECT_NE(viewer->status("selection"), before);
-    EXPECT_EQ(viewer->status("steps").substr(0, 1), "2") << "camera, and one drag: " << viewer->status("steps");
+    EXPECT_EQ(viewer->status("steps").substr(0, 1), "2")
+        << "camera, and one drag: " << viewer->status("steps");
     openMenu("Edit", "menu:Undo");
     EXPECT_TRUE(eventually([&] { return viewer->status("selection") == before; }));
     screen->xdotool("key ctrl+y");
@@ -250,7 +251,8 @@ TEST_F(ViewerPanelsTest, SceneTreeAndEditorsChangeTheScene) {
     last = screen->pixels();
     dragWidget("edit:strength", {0.2f, 0.5f}, {60, 0});
     EXPECT_NE(answer("light light0", "  0 light0"), moved);
-    EXPECT_TRUE(eventually([&] { return screen->pixels().changedFrom(last, place, 8) > 2000; })) << "brighter";
+    EXPECT_TRUE(eventually([&] { return screen->pixels().changedFrom(last, place, 8) > 2000; }))
+        << "brighter";
     click("edit:delete");
     EXPECT_EQ(answer("light", "no lights"), "no lights") << viewer->output();
 
@@ -305,7 +307,8 @@ TEST_F(ViewerPanelsTest, MeasuresToolTipsAndViewsOfVoxels) {
     for (const char* change : {"view.voxel_data age", "view.voxel_data bricks", "view.voxel_data normal",
                                "view.voxel_level 2", "view.voxel_shape volume", "view.voxel_aperture 0.3"}) {
         viewer->send(std::string("set ") + change);
-        EXPECT_TRUE(eventually([&] { return screen->pixels().changedFrom(shown, place, 8) > 500; })) << change;
+        EXPECT_TRUE(eventually([&] { return screen->pixels().changedFrom(shown, place, 8) > 500; }))
+            << change;
         settle();
         shown = screen->pixels();
     }
@@ -332,8 +335,9 @@ TEST_F(ViewerPanelsTest, ABlackPictureSaysWhy) {
         EXPECT_NE(viewer->output().find(one.reason), std::string::npos) << one.command << ": " << hint;
         const glm::ivec4 place = picture();
         EXPECT_TRUE(eventually([&] {  // letters on it
-            return screen->pixels().mean(glm::ivec2(place) + glm::ivec2(place.z, place.w) / 2 - 60,
-                                         {120, 120}).x > 20;
+            return screen->pixels()
+                       .mean(glm::ivec2(place) + glm::ivec2(place.z, place.w) / 2 - 60, {120, 120})
+                       .x > 20;
         })) << one.command;
         viewer->send(one.back);
         settle();
@@ -357,17 +361,19 @@ TEST_F(ViewerPanelsTest, TextFollowsTheScreensScale) {
     EXPECT_NEAR(large.w, 2 * small.w, 2);
     moveTo(inPicture(0.5f, 0.5f));
     screen->xdotool("key ctrl+equal");
-    EXPECT_NE(viewer->statusUntil("window", [](const std::string& now) {
-                        return now.find("scale 1.10") != std::string::npos;
-                    })
-                  .find("scale 1.10"),
-              std::string::npos);
+    EXPECT_NE(
+        viewer
+            ->statusUntil("window",
+                          [](const std::string& now) { return now.find("scale 1.10") != std::string::npos; })
+            .find("scale 1.10"),
+        std::string::npos);
     screen->xdotool("key ctrl+minus");
-    EXPECT_NE(viewer->statusUntil("window", [](const std::string& now) {
-                        return now.find("scale 1.00") != std::string::npos;
-                    })
-                  .find("scale 1.00"),
-              std::string::npos);
+    EXPECT_NE(
+        viewer
+            ->statusUntil("window",
+                          [](const std::string& now) { return now.find("scale 1.00") != std::string::npos; })
+            .find("scale 1.00"),
+        std::string::npos);
     viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0);
 }

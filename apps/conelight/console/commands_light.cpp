@@ -148,8 +148,7 @@ void add(const CommandContext& context) {
         usage(fmt::format("light add: there is no type '{}'; point, spot, directional or rect would be right",
                           context.words[1]));
     std::vector<Light> lights = context.session.scene().lights;
-    const std::string name =
-        context.count() == 3 ? context.words[2] : fmt::format("light{}", lights.size());
+    const std::string name = context.count() == 3 ? context.words[2] : fmt::format("light{}", lights.size());
     lights.push_back(lightAt(context.session.camera(), *type, name));
     context.session.setLights(lights, "light add " + name);
     context.session.select({SelectionKind::Light, lights.size() - 1});

@@ -55,8 +55,8 @@ void BackgroundBake::Impl::run(const Scene& scene, const Version& version, const
         try {
             reference::RadiositySettings settings = draft ? draftSettings() : reference::RadiositySettings{};
             settings.threads = BackgroundJob::threads();
-            baked = std::make_shared<const Scene>(
-                bakeWatched(scene, settings, cancelled, mutex, status, wake));
+            baked =
+                std::make_shared<const Scene>(bakeWatched(scene, settings, cancelled, mutex, status, wake));
         } catch (const std::exception& error) {
             failure = error.what();
         }

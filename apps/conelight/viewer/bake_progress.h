@@ -16,7 +16,7 @@ struct BakeStatus {
     double secondsLeft = -1;  // < 0: unknown
     bool running = false;
     bool refining = false;  // a draft is there
-    std::string error;  // of the thread; empty: none
+    std::string error;      // of the thread; empty: none
 };
 
 // bakeRadiosity that keeps `status`, guarded by `mutex`, up to date, wakes the window at each step and ends

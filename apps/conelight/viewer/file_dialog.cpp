@@ -29,16 +29,25 @@ struct PurposeInfo {
 const PurposeInfo& infoOf(FilePurpose purpose) {
     static const std::vector<PurposeInfo> kInfos = {
         {"Open a scene", "a file, or builtin:NAME", nullptr, "", io::sceneExtensions()},
-        {"Save the scene", "a name ending in .glb, .gltf, or .txt (the thesis's format)", "Save",
-         "scene.glb", {".glb", ".gltf", ".txt"}},
+        {"Save the scene",
+         "a name ending in .glb, .gltf, or .txt (the thesis's format)",
+         "Save",
+         "scene.glb",
+         {".glb", ".gltf", ".txt"}},
         {"Load a preset", "a file of settings (.json)", nullptr, "", {".json"}},
         {"Save the settings", "a name ending in .json", "Save", "preset.json", {".json"}},
         {"Load a camera path", "a file of key frames (.json)", nullptr, "", {".json"}},
         {"Save the camera path", "a name ending in .json", "Save", "path.json", {".json"}},
-        {"Record along the camera path", "a name ending in .mp4, or numbered pictures: frame%04d.png",
-         "Record", "path.mp4", {".mp4"}},
-        {"Record a turn round the target", "a name ending in .mp4, or numbered pictures: frame%04d.png",
-         "Record", "turntable.mp4", {".mp4"}}};
+        {"Record along the camera path",
+         "a name ending in .mp4, or numbered pictures: frame%04d.png",
+         "Record",
+         "path.mp4",
+         {".mp4"}},
+        {"Record a turn round the target",
+         "a name ending in .mp4, or numbered pictures: frame%04d.png",
+         "Record",
+         "turntable.mp4",
+         {".mp4"}}};
     return kInfos[static_cast<std::size_t>(purpose)];
 }
 
@@ -135,8 +144,7 @@ std::optional<FileChoice> FileDialog::show() {
         ImGui::TextDisabled("generated");
         for (const io::GeneratedSceneInfo& scene : io::generatedScenes()) {
             const std::string name(scene.name);
-            if (ImGui::Selectable(name.c_str(), false, kKeepPopup))
-                chosen = "builtin:" + name;
+            if (ImGui::Selectable(name.c_str(), false, kKeepPopup)) chosen = "builtin:" + name;
             notePlace("file:builtin:" + name);
         }
         ImGui::EndChild();
@@ -151,8 +159,7 @@ std::optional<FileChoice> FileDialog::show() {
         ImGui::SameLine();
     }
     if (entered && !typed_.empty() && !replaces) chosen = typedPath();
-    if (ImGui::Button("Cancel") || escapePressed() || chosen)
-        ImGui::CloseCurrentPopup();
+    if (ImGui::Button("Cancel") || escapePressed() || chosen) ImGui::CloseCurrentPopup();
     notePlace("dialog:cancel");
     ImGui::EndPopup();
     if (!chosen) return std::nullopt;

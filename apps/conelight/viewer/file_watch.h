@@ -13,7 +13,7 @@ class FileWatch {
   public:
     explicit FileWatch(std::string shaderDirectory) : shaders_(std::move(shaderDirectory)) {}
     void setScene(const std::string& path);  // what does not name a file (builtin:) is not watched
-    void acceptScene();  // as it is now, it is known
+    void acceptScene();                      // as it is now, it is known
     bool sceneChanged();
     bool shadersChanged();
 

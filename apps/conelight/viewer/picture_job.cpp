@@ -68,12 +68,11 @@ std::optional<std::string> PictureJob::step(Session& session, PictureSlot& slot)
     try {
         while (done_ < request_->count) {
             if (stopped_)
-                throw Error(ErrorKind::Runtime, fmt::format("record: stopped at frame {} of {}; {}", done_,
-                                                            request_->count,
-                                                            request_->file + " is not finished"));
+                throw Error(ErrorKind::Runtime,
+                            fmt::format("record: stopped at frame {} of {}; {}", done_, request_->count,
+                                        request_->file + " is not finished"));
             if (!std::exchange(placed_, true)) {
-                if (request_->turntable)
-                    session.moveCamera(turntableFrame(camera_, done_, request_->count));
+                if (request_->turntable) session.moveCamera(turntableFrame(camera_, done_, request_->count));
                 if (request_->alongPath)
                     session.moveCamera(session.cameraPath().frame(done_, request_->count));
             }
@@ -86,9 +85,8 @@ std::optional<std::string> PictureJob::step(Session& session, PictureSlot& slot)
         throw;
     }
     if (done_ < request_->count) return std::nullopt;
-    const std::string line =
-        video_ ? fmt::format("written {} ({} frames)", request_->file, done_)
-               : fmt::format("written {} ({} x {})", request_->file, size_.x, size_.y);
+    const std::string line = video_ ? fmt::format("written {} ({} frames)", request_->file, done_)
+                                    : fmt::format("written {} ({} x {})", request_->file, size_.x, size_.y);
     end(session);
     return line;
 }

@@ -66,6 +66,7 @@ Viewer::Viewer(Session& session, const ViewerOptions& options)
       timing_(options.timing),
       startedMs_(options.startedMs) {
     for (const std::string& line : state_.lines()) commands_.history().add(line);
+    for (const std::string& note : session.scene().notes) console_.say(note);  // the terminal has them
     window_.onDrop = [this](const std::vector<std::string>& paths) {
         if (!paths.empty()) load(paths.front());
     };

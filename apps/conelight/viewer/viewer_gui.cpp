@@ -39,9 +39,9 @@ void Viewer::jobStrips(const glm::vec2& at, const glm::vec2& size) {
         if (secondsLeft >= 0) text += ", " + timeText(secondsLeft) + " left";
         ImGui::SetNextWindowPos({at.x + 0.5f * em, y});
         ImGui::SetNextWindowSize({std::min(36 * em, size.x - em), 2.3f * em});
-        ImGui::Begin((std::string("##") + name).c_str(), nullptr,
-                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                         ImGuiWindowFlags_NoSavedSettings);
+        ImGui::Begin(
+            (std::string("##") + name).c_str(), nullptr,
+            ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
         ImGui::ProgressBar(static_cast<float>(done), {-5 * em, 0}, text.c_str());
         ImGui::SameLine();
         const bool stopped = ImGui::Button("stop", {-1, 0});
@@ -60,8 +60,8 @@ void Viewer::jobStrips(const glm::vec2& at, const glm::vec2& size) {
     PictureJob& job = end_.job;
     if (job.busy() && strip("record",
                             job.frames() == 1 ? nameOf(job.file()) + ": settles"
-                                              : fmt::format("{}: {} of {}", nameOf(job.file()), job.done() + 1,
-                                                            job.frames()),
+                                              : fmt::format("{}: {} of {}", nameOf(job.file()),
+                                                            job.done() + 1, job.frames()),
                             static_cast<double>(job.done()) / job.frames(), job.secondsLeft()))
         job.stop();
 }
@@ -219,8 +219,9 @@ void Viewer::rightPanel(const Layout& layout) {
     notePlace("header:Camera");
     if (camera) {
         cameraEditor(session_);
-        pathEditor(session_, filmFrames_, [this](const std::string& line) { runLine(line); },
-                   [this](FilePurpose purpose) { fileDialog_.open(purpose, session_.path()); });
+        pathEditor(
+            session_, filmFrames_, [this](const std::string& line) { runLine(line); },
+            [this](FilePurpose purpose) { fileDialog_.open(purpose, session_.path()); });
     }
     if (ImGui::CollapsingHeader("Frame", ImGuiTreeNodeFlags_DefaultOpen)) {
         const float em = ImGui::GetFontSize();

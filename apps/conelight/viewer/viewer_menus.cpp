@@ -27,14 +27,16 @@ void Viewer::keys() {
         if (press.key == GLFW_KEY_X && !press.control) view_.split.on = !view_.split.on;
         if (press.key == GLFW_KEY_Z && press.control) press.shift ? session_.redo() : session_.undo();
         if (press.key == GLFW_KEY_Y && press.control) session_.redo();
-        if (press.key == GLFW_KEY_O && press.control) fileDialog_.open(FilePurpose::OpenScene, session_.path());
+        if (press.key == GLFW_KEY_O && press.control)
+            fileDialog_.open(FilePurpose::OpenScene, session_.path());
         if (press.control && (press.key == GLFW_KEY_EQUAL || press.key == GLFW_KEY_KP_ADD))
             gui_.setScale(gui_.scale() * kTextStep);
         if (press.control && (press.key == GLFW_KEY_MINUS || press.key == GLFW_KEY_KP_SUBTRACT))
             gui_.setScale(gui_.scale() / kTextStep);
         if (press.key == GLFW_KEY_S && press.control)
             fileDialog_.open(FilePurpose::SaveScene, session_.path());
-        if (press.key == GLFW_KEY_P && !press.control) session_.request({RequestKind::Screenshot, nextScreenshot()});
+        if (press.key == GLFW_KEY_P && !press.control)
+            session_.request({RequestKind::Screenshot, nextScreenshot()});
     }
 }
 
