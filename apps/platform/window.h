@@ -54,6 +54,7 @@ class Window {
         bool control = false, shift = false;
     };
     // Keys that went down since the last call, in order: also those that are up again.
+    const std::vector<KeyPress>& keyPresses() const { return keyPresses_; }
     std::vector<KeyPress> takeKeyPresses() { return std::exchange(keyPresses_, {}); }
     // Counts what the user does with mouse and keys.
     std::uint64_t inputs() const { return inputs_; }

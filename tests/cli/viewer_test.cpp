@@ -11,76 +11,13 @@
 #include <sstream>
 #include <thread>
 
+#include "cli/viewer_test_support.h"
 #include "io/image_file.h"
 #include "support/program.h"
-#include "support/virtual_screen.h"
 #include "support/x11_client.h"
 
 namespace conelight::test {
 namespace {
-
-constexpr glm::ivec2 kScreen(960, 640);
-// Small and cheap: what is tested is the window.
-const char* const kSmall = "--window 720x480 --voxels 32 --mode phong --no-state ";
-
-bool near(const glm::vec3& a, const glm::vec3& b, float tolerance) {
-    return glm::all(glm::lessThan(glm::abs(a - b), glm::vec3(tolerance)));
-}
-
-class ViewerTest : public ::testing::Test {
-  protected:
-    void SetUp() override {
-        if (const std::string missing = VirtualScreen::missing(); !missing.empty()) GTEST_SKIP() << missing;
-        screen = std::make_unique<VirtualScreen>(kScreen.x, kScreen.y);
-    }
-    void start(const std::string& arguments, const std::string& environment = "") {
-        viewer = std::make_unique<ViewerProcess>(*screen, arguments, environment);
-    }
-    // Until the window has looked at input that came before and has drawn what follows from it: an answer
-    // comes between the two.
-    void pass() {
-        for (int i = 0; i < 3; ++i) viewer->status("frames");
-    }
-    void moveTo(const glm::ivec2& p) {
-        screen->xdotool("mousemove " + std::to_string(p.x) + " " + std::to_string(p.y));
-    }
-    // In steps, as a hand does: a window that looks once a frame must see the button go down first.
-    void drag(int button, const glm::ivec2& from, const glm::ivec2& to) {
-        moveTo(from);
-        pass();
-        screen->xdotool("mousedown " + std::to_string(button));
-        for (int i = 1; i <= 4; ++i) {
-            pass();
-            moveTo(from + (to - from) * i / 4);
-        }
-        pass();
-        screen->xdotool("mouseup " + std::to_string(button));
-        pass();
-    }
-    void click(const glm::ivec2& p) {
-        moveTo(p);
-        pass();
-        screen->xdotool("mousedown 1");
-        pass();
-        screen->xdotool("mouseup 1");
-        pass();
-    }
-    // The picture's place on the screen.
-    glm::ivec4 picture() { return viewer->placeOf("picture"); }
-    glm::ivec2 inPicture(float x, float y) {
-        const glm::ivec4 place = picture();
-        return glm::ivec2(place) + glm::ivec2(glm::vec2(place.z, place.w) * glm::vec2(x, y));
-    }
-    // Mean of a few pixels of the screen there.
-    glm::vec3 shownAt(const glm::ivec2& p) { return screen->pixels().mean(p - 2, {5, 5}); }
-    void settle() {
-        viewer->send("settle; echo settled");
-        ASSERT_NE(viewer->expect("settled"), "") << viewer->output();
-    }
-
-    std::unique_ptr<VirtualScreen> screen;
-    std::unique_ptr<ViewerProcess> viewer;
-};
 
 TEST_F(ViewerTest, ConsoleSwitchesModesTakesAScreenshotAndQuits) {
     const std::string shot = scratchPath("viewer.png");
@@ -126,13 +63,8 @@ TEST_F(ViewerTest, MouseAndKeysMoveTheCameraAndChooseObjects) {
     const std::string orbited = viewer->status("camera");
     EXPECT_NE(orbited, first);
     settle();
-    const ScreenPixels after = screen->pixels();
-    int changed = 0;
     const glm::ivec4 place = picture();
-    for (int y = place.y; y < place.y + place.w; y += 4)
-        for (int x = place.x; x < place.x + place.z; x += 4)
-            changed += !near(before.at({x, y}), after.at({x, y}), 12);
-    EXPECT_GT(changed, place.z * place.w / 16 / 10) << "a tenth of the picture";
+    EXPECT_GT(screen->pixels().changedFrom(before, place, 12), place.z * place.w / 10) << "a tenth of it";
 
     // Right button and W: forward.
     moveTo(middle);
@@ -195,14 +127,7 @@ TEST_F(ViewerTest, HandlesMoveTurnAndScaleTheSelection) {
         const auto expectChange = [&](const std::string& action) {
             const ScreenPixels last = screen->pixels();
             screen->xdotool(action);
-            EXPECT_TRUE(eventually([&] {
-                const ScreenPixels now = screen->pixels();
-                int changed = 0;
-                for (int y = place.y; y < place.y + place.w; ++y)
-                    for (int x = place.x; x < place.x + place.z; ++x)
-                        changed += now.at({x, y}) != last.at({x, y});
-                return changed > 10;
-            })) << action;
+            EXPECT_TRUE(eventually([&] { return screen->pixels().changedFrom(last, place) > 10; })) << action;
         };
         const auto to = [](const glm::ivec2& p) {
             return "mousemove " + std::to_string(p.x) + " " + std::to_string(p.y);
@@ -241,7 +166,7 @@ TEST_F(ViewerTest, HandlesMoveTurnAndScaleTheSelection) {
 TEST_F(ViewerTest, SlidersAreDraggedAndUndone) {
     start(std::string(kSmall) + "builtin:cornell");
     settle();
-    click(viewer->middleOf("tab:Image"));
+    click("tab:Image");
     const glm::ivec4 slider = viewer->placeOf("image.exposure");
     ASSERT_GT(slider.z, 20) << viewer->output();
     const glm::ivec2 at = inPicture(0.5f, 0.35f);
@@ -371,33 +296,27 @@ TEST_F(ViewerTest, BakesInTheBackground) {
     viewer->send("bake " + file + "; echo behind");
     EXPECT_NE(viewer->expect(file), "") << "what exists is left alone";
     ASSERT_NE(viewer->expect("behind"), "");
-    // Its button at the end of the strip, as `where` cannot be asked meanwhile: heights of text are 14
-    // pixels.
     const auto written = std::filesystem::last_write_time(file);
-    const float em = 14, strip = std::min(36 * em, static_cast<float>(place.z) - em);
     viewer->send("bake " + file + " overwrite; echo after");
-    const glm::ivec2 stop =
-        glm::ivec2(place) + glm::ivec2(0.5f * em + strip - 2.5f * em, place.w - 1.6f * em);
-    const glm::ivec2 edge = stop + glm::ivec2(-20, 6);  // of the button, beside its text
-    EXPECT_TRUE(eventually([&] { return near(glm::vec3(screen->pixels().at(edge)), glm::vec3(54), 3); }))
-        << "the strip is shown";
-    moveTo(stop);
-    EXPECT_TRUE(eventually([&] { return near(glm::vec3(screen->pixels().at(edge)), glm::vec3(69), 3); }))
-        << "the button is under the cursor";
-    screen->xdotool("mousedown 1");
-    EXPECT_TRUE(eventually([&] { return !near(glm::vec3(screen->pixels().at(edge)), glm::vec3(69), 3); }));
-    screen->xdotool("mouseup 1");
+    pressStop(place);
     EXPECT_NE(viewer->expect("bake: stopped"), "") << viewer->output();
     EXPECT_NE(viewer->expect("after"), "") << "what is behind it runs";
     EXPECT_EQ(std::filesystem::last_write_time(file), written) << "nothing was written";
-    viewer->send("quit");
+    // Who closes the window in the midst of it has closed it.
+    viewer->send("bake " + file + " overwrite");
+    EXPECT_TRUE(stripShown(place));
+    if (x11Missing().empty())
+        pressCloseButton(screen->display(), "Conelight");
+    else
+        pressStop(place), viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
+    EXPECT_EQ(std::filesystem::last_write_time(file), written) << "nothing was written";
 }
 
 // A click lists the rays of the pixel and draws them; one in the list stands out and shows its steps.
 TEST_F(ViewerTest, InspectorListsAndDrawsRays) {
     screen = std::make_unique<VirtualScreen>(960, 960);
-    start("--window 960x960 --voxels 32 --mode traced --no-state builtin:cornell");
+    start("--window 960x960 --voxels 32 --mode traced --no-state --exec 'resolution 0.25' builtin:cornell");
     settle();
     const ScreenPixels before = screen->pixels();
     const glm::ivec4 place = picture();
@@ -419,7 +338,7 @@ TEST_F(ViewerTest, InspectorListsAndDrawsRays) {
     const int all = yellow();
     const glm::ivec4 line = viewer->placeOf("path:0");
     ASSERT_GT(line.z, 0) << "rays are listed: " << viewer->output();
-    click({line.x + 20, line.y + line.w / 2});
+    click(glm::ivec2{line.x + 20, line.y + line.w / 2});
     EXPECT_TRUE(eventually([&] { return yellow() < all / 2; })) << "the others step back";
     EXPECT_GT(viewer->placeOf("step:0").z, 0) << "its steps are listed";
     viewer->send("quit");
@@ -433,23 +352,10 @@ TEST_F(ViewerTest, LinesAreTypedIntoTheWindowAndRemembered) {
     const std::string options = "--window 720x480 --voxels 32 --mode phong builtin:cornell";
     start(options, environment);
     settle();
-    click(viewer->middleOf("console"));
-    // As by someone who looks at the screen: the line is complete before it is entered.
+    click("console");
     const glm::ivec4 line = viewer->placeOf("console");
     const auto enter = [&](const std::string& text) {
-        screen->xdotool("type --delay 30 '" + text + "'");
-        int still = 0;
-        ScreenPixels last = screen->pixels();
-        EXPECT_TRUE(eventually([&] {
-            std::this_thread::sleep_for(std::chrono::milliseconds(100));
-            const ScreenPixels now = screen->pixels();
-            int changed = 0;
-            for (int y = line.y; y < line.y + line.w; ++y)
-                for (int x = line.x; x < line.x + line.z; ++x) changed += now.at({x, y}) != last.at({x, y});
-            still = changed <= 2 * line.w ? still + 1 : 0;  // a cursor blinks
-            last = now;
-            return still == 5;
-        })) << text;
+        type(text, line);
         screen->xdotool("key Return");
     };
     enter("set image.exposure 1.5");
@@ -465,26 +371,21 @@ TEST_F(ViewerTest, LinesAreTypedIntoTheWindowAndRemembered) {
     start(options, environment);
     settle();
     const glm::ivec4 box = viewer->placeOf("console");
-    click(viewer->middleOf("console"));
+    click("console");
     // Each step is waited for on the screen: lines of the standard input are history too.
     for (const char* action : {"type --delay 30 'set im'", "key Up", "key Up"}) {
         const ScreenPixels last = screen->pixels();
         screen->xdotool(action);
-        EXPECT_TRUE(eventually([&] {
-            const ScreenPixels now = screen->pixels();
-            // Text of other length: the cursor that blinks is no change.
-            int changed = 0;
-            for (int y = box.y; y < box.y + box.w; ++y)
-                for (int x = box.x; x < box.x + box.z; ++x) changed += now.at({x, y}) != last.at({x, y});
-            return changed > 2 * box.w;
-        })) << action;
+        // Text of other length: the cursor that blinks is no change.
+        EXPECT_TRUE(eventually([&] { return screen->pixels().changedFrom(last, box) > 2 * box.w; }))
+            << action;
     }
     screen->xdotool("key Return");
     EXPECT_TRUE(eventually([&] { return viewer->setting("image.exposure") == "1.5"; })) << viewer->output();
     // And the menu has the scene.
-    click(viewer->middleOf("menu:File"));
-    click(viewer->middleOf("menu:Open recent"));
-    click(viewer->middleOf("recent:builtin:cornell"));
+    click("menu:File");
+    click("menu:Open recent");
+    click("recent:builtin:cornell");
     EXPECT_TRUE(eventually([&] {
         viewer->status("frames");
         return viewer->output().find("loaded builtin:cornell") != std::string::npos;
@@ -496,15 +397,49 @@ TEST_F(ViewerTest, BadFilesAndBadNumbersAreLinesNotTheEnd) {
     std::ofstream(broken) << "{";
     start(std::string(kSmall) + "builtin:cornell");
     settle();
-    viewer->send("open " + broken);
-    EXPECT_NE(viewer->expect(broken), "") << viewer->output();
+    for (const std::string& path : {broken, scratchPath(""), scratchPath("nowhere.glb")}) {
+        viewer->send("open '" + path + "'");
+        EXPECT_NE(viewer->expect(path), "") << viewer->output();
+    }
     viewer->send("set voxels.size 7");
     EXPECT_NE(viewer->expect("setting voxels.size"), "") << viewer->output();
+    // Each is a line in the log, in the colour of errors, however long.
+    EXPECT_NE(viewer->status("log").find("4 errors"), std::string::npos) << viewer->status("log");
+    const glm::ivec4 box = viewer->placeOf("console");
+    const auto redRows = [&] {
+        const ScreenPixels now = screen->pixels();
+        int rows = 0;
+        for (int y = picture().y + picture().w; y < box.y; ++y)
+            for (int x = box.x; x < box.x + box.z; ++x)
+                if (const glm::ivec3 p = now.at({x, y}); p.x > 180 && p.z < 140) {
+                    ++rows;
+                    break;
+                }
+        return rows;
+    };
+    for (int i = 0; i < 12; ++i) viewer->send("echo a line without an error");
+    pass();
+    EXPECT_TRUE(eventually([&] { return redRows() == 0; })) << "they have gone up";
+    viewer->send("open " + std::string(150, 'x'));
+    EXPECT_NE(viewer->expect(std::string(150, 'x')), "") << viewer->output();
+    EXPECT_TRUE(eventually([&] { return redRows() > 12; })) << "it takes two lines at least";
     // What the renderer refuses while it draws.
     viewer->send("mode reference; component voxels; wait 3; mode phong; component full; settle; echo alive");
     EXPECT_NE(viewer->expect("alive"), "") << viewer->output();
     viewer->send("where nowhere");
     EXPECT_NE(viewer->expect("where: 'nowhere' is not on the screen"), "");
+    // A window of nothing draws nothing, and comes back.
+    screen->xdotool("search --name Conelight windowsize 20 12");
+    viewer->statusUntil("window",
+                        [](const std::string& now) { return now.find("20 x 12") != std::string::npos; });
+    viewer->send("mode cones; wait 2; mode phong");
+    screen->xdotool("search --name Conelight windowsize 720 480");
+    viewer->statusUntil("window",
+                        [](const std::string& now) { return now.find("720 x 480") != std::string::npos; });
+    settle();
+    EXPECT_EQ(viewer->status("picture").rfind(std::to_string(picture().z) + " x", 0), 0u);
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
 }
 
 TEST_F(ViewerTest, WindowChangesSizeFillsTheScreenAndCloses) {

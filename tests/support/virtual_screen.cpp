@@ -7,6 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -69,6 +70,16 @@ glm::vec3 ScreenPixels::mean(const glm::ivec2& from, const glm::ivec2& size) con
     for (int y = 0; y < size.y; ++y)
         for (int x = 0; x < size.x; ++x) sum += glm::vec3(at(from + glm::ivec2(x, y)));
     return sum / static_cast<float>(size.x * size.y);
+}
+
+int ScreenPixels::changedFrom(const ScreenPixels& other, const glm::ivec4& box, int tolerance) const {
+    int changed = 0;
+    for (int y = box.y; y < box.y + box.w; ++y)
+        for (int x = box.x; x < box.x + box.z; ++x) {
+            const glm::ivec3 apart = glm::abs(at({x, y}) - other.at({x, y}));
+            changed += std::max({apart.x, apart.y, apart.z}) > tolerance;
+        }
+    return changed;
 }
 
 bool eventually(const std::function<bool()>& condition) {
@@ -215,8 +226,10 @@ std::string ViewerProcess::statusUntil(const std::string& key,
 glm::ivec4 ViewerProcess::placeOf(const std::string& widget) {
     send("where " + widget);
     const std::string begin = "where " + widget + ": ";
-    const std::string line = expect(begin);
-    if (line.empty()) return glm::ivec4(0);
+    std::string line;
+    do line = expect("where");
+    while (!line.empty() && line.rfind(begin, 0) != 0 && line.rfind("where: '" + widget + "'", 0) != 0);
+    if (line.rfind(begin, 0) != 0) return glm::ivec4(0);  // not on the screen
     std::istringstream numbers(line.substr(begin.size()));
     glm::ivec4 place(0);
     numbers >> place.x >> place.y >> place.z >> place.w;

@@ -21,6 +21,9 @@ struct ScreenPixels {
     }
     // Mean of a rectangle, 0..255.
     glm::vec3 mean(const glm::ivec2& at, const glm::ivec2& size) const;
+    // How many pixels of a box (x y width height) differ from those of `other` by more than `tolerance` in a
+    // channel.
+    int changedFrom(const ScreenPixels& other, const glm::ivec4& box, int tolerance = 0) const;
 };
 
 class VirtualScreen {

@@ -104,6 +104,17 @@ void pressCloseButton(const std::string& display, const std::string& title) {
                    {static_cast<long>(client.atom("WM_DELETE_WINDOW")), CurrentTime, 0, 0, 0});
 }
 
+void setScreenDpi(const std::string& display, int dpi) {
+    const Client client(display);
+    const std::string text = "Xft.dpi:\t" + std::to_string(dpi) + "\n";
+    XChangeProperty(client.display(), client.root(), client.atom("RESOURCE_MANAGER"), XA_STRING, 8,
+                    PropModeReplace, reinterpret_cast<const unsigned char*>(text.data()),
+                    static_cast<int>(text.size()));
+    // A server starts anew when its last client has gone, unless that one asked it not to.
+    XSetCloseDownMode(client.display(), RetainPermanent);
+    XSync(client.display(), False);
+}
+
 bool dropFiles(const std::string& display, const std::string& title, const std::vector<std::string>& paths) {
     const Client client(display);
     Display* x = client.display();
@@ -145,6 +156,7 @@ bool dropFiles(const std::string& display, const std::string& title, const std::
 namespace conelight::test {
 
 std::string x11Missing() { return "built without Xlib (package libx11-dev)"; }
+void setScreenDpi(const std::string&, int) { throw std::runtime_error(x11Missing()); }
 void pressCloseButton(const std::string&, const std::string&) { throw std::runtime_error(x11Missing()); }
 bool dropFiles(const std::string&, const std::string&, const std::vector<std::string>&) {
     throw std::runtime_error(x11Missing());

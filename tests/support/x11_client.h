@@ -12,6 +12,8 @@ namespace conelight::test {
 std::string x11Missing();
 // `title`: the window's name ends with it. Throw std::runtime_error when there is none.
 void pressCloseButton(const std::string& display, const std::string& title);
+// What a desktop on such a screen says to programs that start from then on: resource Xft.dpi.
+void setScreenDpi(const std::string& display, int dpi);
 // `paths` are absolute. Returns whether the window took the drop.
 bool dropFiles(const std::string& display, const std::string& title, const std::vector<std::string>& paths);
 

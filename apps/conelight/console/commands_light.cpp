@@ -9,6 +9,7 @@
 #include "console/console.h"
 #include "console/names.h"
 #include "io/scene_info.h"
+#include "session/light_edit.h"
 
 namespace conelight::program {
 namespace {
@@ -57,16 +58,9 @@ std::vector<float> numbers(const std::string& what, const std::vector<std::strin
 
 glm::vec3 vector(const std::vector<float>& v) { return {v[0], v[1], v[2]}; }
 
-// Keeps width and height of a rectangle while it turns; its height runs upward as far as it can.
 void aim(Light& light, const glm::vec3& direction) {
     if (!(glm::length(direction) > 0)) usage("light: direction has no length");
-    light.direction = glm::normalize(direction);
-    if (light.type != LightType::Rect) return;
-    const glm::vec3 up = std::abs(light.direction.y) > 0.999f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0);
-    const glm::vec3 u = glm::normalize(glm::cross(up, light.direction));
-    const glm::vec3 v = glm::cross(light.direction, u);
-    light.halfU = glm::length(light.halfU) * u;
-    light.halfV = glm::length(light.halfV) * v;
+    aimLight(light, direction);
 }
 
 bool onOff(const std::string& what, const std::vector<std::string>& words) {
@@ -148,20 +142,15 @@ void add(const CommandContext& context) {
         usage(
             "light add: takes a type and a name; light add point|spot|directional|rect [NAME] would be "
             "right");
-    Light light;
     const auto type = std::find_if(std::begin(kTypes), std::end(kTypes),
                                    [&](LightType one) { return context.words[1] == io::lightTypeName(one); });
     if (type == std::end(kTypes))
         usage(fmt::format("light add: there is no type '{}'; point, spot, directional or rect would be right",
                           context.words[1]));
     std::vector<Light> lights = context.session.scene().lights;
-    light.type = *type;
-    light.name = context.count() == 3 ? context.words[2] : fmt::format("light{}", lights.size());
-    // Where the eye is, shining where it looks: it is seen at once, and can be moved from there.
-    light.position = context.session.camera().eye;
-    aim(light, context.session.camera().target - context.session.camera().eye);
-    lights.push_back(light);
-    context.session.setLights(lights, "light add " + light.name);
+    const std::string name = context.count() == 3 ? context.words[2] : fmt::format("light{}", lights.size());
+    lights.push_back(lightAt(context.session.camera(), *type, name));
+    context.session.setLights(lights, "light add " + name);
     context.session.select({SelectionKind::Light, lights.size() - 1});
 }
 

@@ -31,8 +31,9 @@ Argument choice(const char* name, std::vector<std::string> choices) {
 CommandGroup windowCommands() {
     Argument splitMode = choice("MODE", sessionModes());
     splitMode.choices.emplace_back("off");
-    Argument key = choice("KEY", {"scene", "window", "picture", "mode", "split", "settled", "selection",
-                                  "pixel", "camera", "steps", "frames", "moving", "gui", "first_frame"});
+    Argument key =
+        choice("KEY", {"scene", "window", "picture", "mode", "split", "settled", "selection", "pixel",
+                       "camera", "steps", "path", "log", "hint", "frames", "moving", "gui", "first_frame"});
     return {
         "Window (conelight view)",
         {
@@ -63,6 +64,14 @@ CommandGroup windowCommands() {
                 "settle", {}, "wait until the picture is as good as it gets",
                 [](const CommandContext& context) { askWindow(context, "settle"); },
                 "In mode reference, and beside it, until there is a first picture."),
+            command(
+                "resolution", {{"SCALE", ArgumentKind::Number, true, false, "", 0.25, 1, {}}},
+                "pixels of the picture, as a part of those of the window, along each edge",
+                [](const CommandContext& context) { askWindow(context, "resolution"); },
+                "Without SCALE it is printed. While the camera moves there may be fewer."),
+            command("ui_scale", {{"SCALE", ArgumentKind::Number, false, false, "", 0.5, 4, {}}},
+                    "size of text and widgets, 1 on ordinary screens",
+                    [](const CommandContext& context) { askWindow(context, "ui_scale"); }),
             command("status", {key}, "what the window shows and what that costs",
                     [](const CommandContext& context) { askWindow(context, "status"); }),
             command("screenshot_window", {{"FILE", ArgumentKind::File}},
@@ -80,7 +89,8 @@ CommandGroup windowCommands() {
                 "where", {{"WIDGET", ArgumentKind::Text, false, true}},
                 "the place of a widget in the window, to drive it from a script: x y width height",
                 [](const CommandContext& context) { askWindow(context, "where"); },
-                "WIDGET: picture, split, console, a setting's key, tab:Voxels, menu:File, object:NAME"),
+                "WIDGET: picture, split, console, a setting's key, tab:Voxels, menu:File, object:NAME, "
+                "edit:roughness"),
         }};
 }
 

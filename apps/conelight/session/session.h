@@ -123,7 +123,11 @@ class Session {
     std::size_t undoSteps() const { return done_.size(); }
     std::size_t redoSteps() const { return undone_.size(); }
     bool unsaved() const { return changeCount_ != savedCount_; }
-    void markSaved() { savedCount_ = changeCount_; }
+    void markSaved() {
+        savedCount_ = changeCount_;
+        ++saves_;
+    }
+    std::uint64_t saves() const { return saves_; }  // how often it was saved
 
     void request(Request request) { requests_.push_back(std::move(request)); }
     std::optional<Request> takeRequest();
@@ -161,7 +165,7 @@ class Session {
     std::deque<Step> done_;
     std::vector<Step> undone_;
     bool sealed_ = true;
-    std::uint64_t changeCount_ = 0, savedCount_ = 0;
+    std::uint64_t changeCount_ = 0, savedCount_ = 0, saves_ = 0;
 };
 
 }  // namespace conelight::program

@@ -21,6 +21,16 @@ Version versionOf(const Session& session) {
     return {session.revisions().scene, session.revisions().sceneTables()};
 }
 
+// Seconds in a small room, to have something to show: a quarter of the rays. Chosen by eye.
+reference::RadiositySettings draftSettings() {
+    reference::RadiositySettings settings;
+    settings.maxSubdivision = 3;
+    settings.patchRays = 128;
+    settings.gatherRays = 128;
+    settings.visibilityRays = 64;
+    return settings;
+}
+
 }  // namespace
 
 struct BackgroundBake::Impl {
@@ -36,39 +46,32 @@ struct BackgroundBake::Impl {
     void run(const Scene& scene, const Version& version, const Cancelled& cancelled, void (*wake)());
 };
 
+// A draft first, then what `render --mode radiosity` bakes.
 void BackgroundBake::Impl::run(const Scene& scene, const Version& version, const Cancelled& cancelled,
                                void (*wake)()) {
-    std::string failure;
-    std::shared_ptr<const Scene> baked;
-    try {
-        // A quarter of the rays of `render --mode radiosity`: seconds in a small room. Chosen by eye.
-        reference::RadiositySettings settings;
-        settings.maxSubdivision = 3;
-        settings.patchRays = 128;
-        settings.gatherRays = 128;
-        settings.visibilityRays = 64;
-        settings.threads = BackgroundJob::threads();
-        baked = std::make_shared<const Scene>(reference::bakeRadiosity(
-            scene, settings, nullptr, [&](const reference::RadiosityProgress& progress) {
-                if (cancelled) return false;
-                {
-                    const std::lock_guard lock(mutex);
-                    status.done = progress.done;
-                    status.secondsLeft = progress.secondsLeft;
-                }
-                wake();
-                return true;
-            }));
-    } catch (const std::exception& error) {
-        failure = error.what();
+    for (const bool draft : {true, false}) {
+        std::string failure;
+        std::shared_ptr<const Scene> baked;
+        try {
+            reference::RadiositySettings settings = draft ? draftSettings() : reference::RadiositySettings{};
+            settings.threads = BackgroundJob::threads();
+            baked =
+                std::make_shared<const Scene>(bakeWatched(scene, settings, cancelled, mutex, status, wake));
+        } catch (const std::exception& error) {
+            failure = error.what();
+        }
+        if (cancelled) return;  // half a bake is none
+        {
+            const std::lock_guard lock(mutex);
+            status = {};
+            status.running = status.refining = draft && failure.empty();
+            status.error = failure;
+            if (!failure.empty()) return;
+            lit = std::move(baked);
+            litVersion = version;
+        }
+        wake();
     }
-    if (cancelled) return;  // half a bake is none
-    const std::lock_guard lock(mutex);
-    status = {};
-    status.error = failure;
-    if (!failure.empty()) return;
-    lit = std::move(baked);
-    litVersion = version;
 }
 
 BackgroundBake::BackgroundBake() : impl_(std::make_unique<Impl>()) {}

@@ -4,18 +4,11 @@
 
 #include <cstdint>
 #include <memory>
-#include <string>
 
 #include "session/session.h"
+#include "viewer/bake_progress.h"
 
 namespace conelight::program {
-
-struct BakeStatus {
-    double done = 0;          // part of the work
-    double secondsLeft = -1;  // < 0: unknown
-    bool running = false;
-    std::string error;  // of the thread; empty: none
-};
 
 class BackgroundBake {
   public:

@@ -5,7 +5,10 @@
 #include <imgui_stdlib.h>
 
 #include <algorithm>
+#include <sstream>
+#include <utility>
 
+#include "viewer/text_wrap.h"
 #include "viewer/widget_places.h"
 
 namespace conelight::program {
@@ -48,7 +51,8 @@ void ConsolePanel::say(const std::string& text, bool isError) {
         from = end + 1;
     }
     while (lines_.size() > kKeptLines) lines_.pop_front();
-    scrollDown_ = true;
+    if (isError) ++errors_;
+    scrollDown_ = saidMore_ = true;
 }
 
 void ConsolePanel::completeLine(void* callbackData) {
@@ -77,14 +81,26 @@ int ConsolePanel::edited(void* callbackData) {
     return 0;
 }
 
+void ConsolePanel::wrap(float room) {
+    if (room == shownRoom_ && !std::exchange(saidMore_, false)) return;
+    shownRoom_ = room;
+    shown_.clear();
+    for (const Line& one : lines_) {
+        std::istringstream pieces(wrappedAtSpaces(one.text, room));
+        for (std::string piece; std::getline(pieces, piece);) shown_.push_back({piece, one.isError});
+        if (one.text.empty()) shown_.push_back(one);
+    }
+}
+
 void ConsolePanel::show() {
     const float footer = ImGui::GetFrameHeightWithSpacing();
     ImGui::BeginChild("##log", {0, -footer});
+    wrap(ImGui::GetWindowWidth() - ImGui::GetStyle().ScrollbarSize);
     ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(lines_.size()));
+    clipper.Begin(static_cast<int>(shown_.size()));
     while (clipper.Step())
         for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i)
-            line(lines_[static_cast<std::size_t>(i)].text, lines_[static_cast<std::size_t>(i)].isError);
+            line(shown_[static_cast<std::size_t>(i)].text, shown_[static_cast<std::size_t>(i)].isError);
     clipper.End();
     if (scrollDown_) ImGui::SetScrollHereY(1);
     scrollDown_ = false;

@@ -22,6 +22,8 @@ class ConsolePanel {
 
     void say(const std::string& text, bool isError = false);  // one line or several
     void show();
+    std::size_t lines() const { return lines_.size(); }
+    std::size_t errors() const { return errors_; }  // since the start
     // A line was entered and its box does not have the keys again yet: what is typed until then would be
     // lost, so draw before looking at input.
     bool takesKeysSoon() const { return framesToFocus_ > 0; }
@@ -38,7 +40,14 @@ class ConsolePanel {
         std::string text;
         bool isError;
     };
+    void wrap(float room);
+
     std::deque<Line> lines_;
+    std::size_t errors_ = 0;
+    // lines_ as they are shown: in pieces as wide as there is room; made anew when that or they change.
+    std::vector<Line> shown_;
+    float shownRoom_ = 0;
+    bool saidMore_ = false;
     std::string line_;
     bool scrollDown_ = false;
     int framesToFocus_ = 0;

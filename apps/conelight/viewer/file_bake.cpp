@@ -30,17 +30,7 @@ void FileBake::Impl::run(const Scene& scene, const reference::RadiositySettings&
     std::optional<Scene> baked;
     std::optional<Error> error;
     try {
-        baked = reference::bakeRadiosity(scene, settings, nullptr,
-                                         [&](const reference::RadiosityProgress& progress) {
-                                             if (cancelled) return false;
-                                             {
-                                                 const std::lock_guard lock(mutex);
-                                                 status.done = progress.done;
-                                                 status.secondsLeft = progress.secondsLeft;
-                                             }
-                                             wake();
-                                             return true;
-                                         });
+        baked = bakeWatched(scene, settings, cancelled, mutex, status, wake);
     } catch (const Error& one) {
         error = one;
     } catch (const std::exception& one) {

@@ -10,7 +10,7 @@
 #include "conelight/error.h"
 #include "conelight/scene.h"
 #include "reference/radiosity.h"
-#include "viewer/background_bake.h"
+#include "viewer/bake_progress.h"
 
 namespace conelight::program {
 

@@ -10,7 +10,7 @@ constexpr std::chrono::milliseconds kPeriod{500};
 }
 
 FileWatch::Time FileWatch::newestIn(const std::string& path) {
-    Time newest{};
+    Time newest = kNever;
     std::error_code error;
     if (path.empty()) return newest;
     if (!std::filesystem::is_directory(path, error)) {
@@ -38,10 +38,12 @@ void FileWatch::setScene(const std::string& path) {
     sceneTime_ = newestIn(path);
 }
 
+void FileWatch::acceptScene() { sceneTime_ = newestIn(scene_); }
+
 bool FileWatch::sceneChanged() {
     if (scene_.empty() || !due(sceneLooked_)) return false;
     const Time time = newestIn(scene_);
-    if (time == Time{} || time == sceneTime_) return false;
+    if (time == kNever || time == sceneTime_) return false;
     // A file that is still being written is left alone until it has rested for a period.
     const bool atRest = Time::clock::now() - time > kPeriod;
     if (atRest) sceneTime_ = time;
@@ -51,7 +53,7 @@ bool FileWatch::sceneChanged() {
 bool FileWatch::shadersChanged() {
     if (shaders_.empty() || !due(shadersLooked_)) return false;
     const Time time = newestIn(shaders_);
-    const bool changed = shaderTime_ != Time{} && time != shaderTime_;
+    const bool changed = shaderTime_ != kNever && time != shaderTime_;
     shaderTime_ = time;
     return changed;
 }

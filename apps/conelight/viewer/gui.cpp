@@ -5,9 +5,12 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
+
+#include "viewer/imgui_names.h"
 
 namespace conelight::program {
 namespace {
@@ -18,6 +21,7 @@ constexpr std::array<const char*, 3> kFonts = {
     "/usr/share/fonts/truetype/liberation/LiberationSans-Regular.ttf",
     "/usr/share/fonts/truetype/freefont/FreeSans.ttf"};
 constexpr float kFontSize = 14.0f;  // px at 96 dpi
+constexpr float kMinScale = 0.5f, kMaxScale = 4;
 
 ImVec4 grey(float value, float alpha = 1) { return {value, value, value, alpha}; }
 
@@ -54,12 +58,13 @@ void setColors(ImGuiStyle& style) {
     c[ImGuiCol_Separator] = grey(0.22f);
     c[ImGuiCol_Tab] = grey(0.15f);
     c[ImGuiCol_TabHovered] = grey(0.26f);
-    c[ImGuiCol_TabActive] = grey(0.22f);
+    c[kColTabShown] = grey(0.22f);
     c[ImGuiCol_PlotHistogram] = accent;
     c[ImGuiCol_PlotLines] = accent;
     c[ImGuiCol_TableHeaderBg] = grey(0.16f);
     c[ImGuiCol_TableRowBgAlt] = grey(1, 0.02f);
     c[ImGuiCol_TextSelectedBg] = accentDim;
+    c[ImGuiCol_ModalWindowDimBg] = {0, 0, 0, 0.45f};
 }
 
 }  // namespace
@@ -68,7 +73,7 @@ Gui::Gui(platform::Window& window, float scale) : window_(window), followsScreen
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;  // the layout follows the window's size
-    scale_ = followsScreen_ ? window.contentScale() : scale;
+    scale_ = wantedScale_ = followsScreen_ ? window.contentScale() : scale;
     applyLook();
     ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
     ImGui_ImplOpenGL3_Init("#version 450 core");
@@ -114,14 +119,35 @@ void Gui::applyLook() {
     io.Fonts->AddFontDefault(&config);
 }
 
+// Dear ImGui before 1.87 looks at keys once a frame: of a key that is up again by then it would not know, and
+// at five frames a second that is every other Return.
+void Gui::holdTappedKeys() {
+#if IMGUI_VERSION_NUM < 18700
+    ImGuiIO& io = ImGui::GetIO();
+    for (const int key : tapped_) io.KeysDown[key] = false;
+    tapped_.clear();
+    for (const platform::Window::KeyPress& press : window_.keyPresses()) {
+        if (press.key < 0 || press.key >= IM_ARRAYSIZE(io.KeysDown) || window_.isKeyDown(press.key)) continue;
+        io.KeysDown[press.key] = true;
+        tapped_.push_back(press.key);
+    }
+#endif
+}
+
+void Gui::setScale(float scale) {
+    followsScreen_ = false;
+    wantedScale_ = std::clamp(scale, kMinScale, kMaxScale);
+}
+
 void Gui::beginFrame() {
-    if (const float scale = window_.contentScale(); followsScreen_ && scale != scale_) {
+    if (const float scale = followsScreen_ ? window_.contentScale() : wantedScale_; scale != scale_) {
         scale_ = scale;
         applyLook();
         ImGui_ImplOpenGL3_DestroyDeviceObjects();  // made anew, with the font's texture, by the next line
     }
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
+    holdTappedKeys();
     // A captured cursor belongs to the camera.
     if (window_.cursorCaptured()) ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
     ImGui::NewFrame();

@@ -2,6 +2,8 @@
 // Dear ImGui on the window: start, frame, look. Panels call ImGui themselves.
 #pragma once
 
+#include <vector>
+
 #include "platform/window.h"
 
 namespace conelight::program {
@@ -20,12 +22,15 @@ class Gui {
     bool wantsMouse() const;     // the cursor is over the GUI or drags one of its widgets
     bool wantsKeyboard() const;  // a text field has the keys
     float scale() const { return scale_; }
+    void setScale(float scale);  // from the next frame on; the screen's no more
 
   private:
     void applyLook();
+    void holdTappedKeys();
     platform::Window& window_;
+    std::vector<int> tapped_;  // keys that went down and up again between two frames
     bool followsScreen_;
-    float scale_ = 1;
+    float scale_ = 1, wantedScale_ = 1;
 };
 
 }  // namespace conelight::program

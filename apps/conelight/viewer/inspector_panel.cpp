@@ -8,6 +8,7 @@
 
 #include "conelight/error.h"
 #include "viewer/panels.h"
+#include "viewer/text_wrap.h"
 #include "viewer/widget_places.h"
 
 namespace conelight::program {
@@ -24,30 +25,12 @@ std::string shortText(const glm::vec3& v) {
     return v.x == v.y && v.y == v.z ? fmt::format("{:.4g}", v.x) : text(v);
 }
 
-// `text` with line feeds at spaces, so that lines are as wide as there is room. ImGui's own wrapping also
-// breaks behind the point of a number.
-std::string wrappedAtSpaces(const std::string& text) {
-    const float room = ImGui::GetContentRegionAvail().x;
-    std::string out;
-    float width = 0;
-    for (std::size_t from = 0; from < text.size();) {
-        const std::size_t to = std::min(text.find(' ', from + 1), text.size());
-        const std::string word = text.substr(from, to - from);
-        const float wide = ImGui::CalcTextSize(word.c_str()).x;
-        const bool breaks = width > 0 && width + wide > room;
-        out += breaks ? "\n" + word.substr(word.front() == ' ' ? 1 : 0) : word;
-        width = breaks ? wide : width + wide;
-        from = to;
-    }
-    return out;
-}
-
 void row(const char* name, const std::string& value) {
     ImGui::TableNextRow();
     ImGui::TableSetColumnIndex(0);
     ImGui::TextDisabled("%s", name);
     ImGui::TableSetColumnIndex(1);
-    ImGui::TextUnformatted(wrappedAtSpaces(value).c_str());
+    ImGui::TextUnformatted(wrappedAtSpaces(value, ImGui::GetContentRegionAvail().x).c_str());
 }
 
 // Of rows: names and, in what is left of the panel, values, which wrap.
@@ -204,42 +187,6 @@ void drawInspection(const Session& session, Picker& picker, std::optional<Inspec
             ImGui::ColorConvertFloat4ToU32({line.color.r, line.color.g, line.color.b, line.opacity}), 1.2f);
     }
     list->PopClipRect();
-}
-
-std::optional<std::string> whyBlack(const Session& session, const Image& picture) {
-    float brightest = 0;
-    float covered = 0;
-    for (const glm::vec4& pixel : picture.pixels) {
-        const float value = std::max({pixel.x, pixel.y, pixel.z});
-        if (std::isfinite(value)) brightest = std::max(brightest, value);
-        covered += pixel.w;
-    }
-    const float shown = brightest * std::exp2(session.settings().image.exposure);
-    // 8 bits round what is below 1/3000 (sRGB's first step) to black.
-    if (picture.pixels.empty() || shown > 1.0f / 3000) return std::nullopt;
-
-    const Scene& scene = session.scene();
-    if (scene.instances.empty()) return "The scene is empty: open a file, or drop one here.";
-    if (session.showsNothing()) return "Objects and voxels are both switched off (console: objs).";
-    if (covered == 0) {
-        const Aabb bounds = scene.bounds();
-        const glm::vec3 away = session.camera().eye - bounds.center();
-        return glm::length(away) > 0.5f * glm::length(bounds.extent())
-                   ? "The camera looks past the scene: press F to see all of it."
-                   : "The camera sees no surface: it looks out of the scene, or at backs of single-sided "
-                     "surfaces. Press F to see all of it.";
-    }
-    bool lit = scene.sky != glm::vec3(0);
-    for (const Light& light : scene.lights) lit = lit || (light.enabled && light.intensity != glm::vec3(0));
-    for (const Material& material : scene.materials)
-        lit = lit || material.emission != glm::vec3(0) || material.unlit;
-    if (!lit) return "There is no light: add one (panel Scene), or give the scene a sky.";
-    if (brightest > 0)
-        return fmt::format("The picture is there but dark: raise the exposure by {:.0f} stops (panel Image).",
-                           std::ceil(std::log2(0.5f / shown)));
-    return "No light reaches what the camera sees: it may be inside a wall or a closed object, or all light "
-           "is "
-           "indirect and `bounces` is 0. Press F to see the whole scene.";
 }
 
 }  // namespace conelight::program

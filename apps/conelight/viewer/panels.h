@@ -4,6 +4,7 @@
 #pragma once
 
 #include <deque>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,14 +13,21 @@
 #include "session/inspection_lines.h"
 #include "session/picker.h"
 #include "session/session.h"
+#include "viewer/file_dialog.h"
 
 namespace conelight::program {
 
+// Takes a line of the console: what has a command is done by it, and said in the log.
+using RunLine = std::function<void(const std::string& line)>;
+
 // Objects, lights, materials, cameras as lists; the selection is set by a click.
-void sceneTree(Session& session, const std::string& filter);
+void sceneTree(Session& session, const std::string& filter, const RunLine& run);
 // What is selected, editable: transform and flags, material, light.
 void selectionEditor(Session& session);
 void cameraEditor(Session& session);
+// Key frames: keep, go to, fly along, load, save, record; a film has `frames`.
+void pathEditor(Session& session, int& frames, const RunLine& run,
+                const std::function<void(FilePurpose)>& ask);
 
 // Times of passes and frames, memory.
 // `guiMs`: CPU time of a frame of the GUI.
@@ -43,8 +51,5 @@ void inspectorPanel(const Session& session, std::optional<Inspection>& inspectio
 // Cones and rays over the picture at `at`, into the current ImGui window.
 void drawInspection(const Session& session, Picker& picker, std::optional<Inspection>& inspection,
                     const glm::vec2& at, const glm::vec2& size);
-
-// Why a picture is black, or nothing when it is not; cheap.
-std::optional<std::string> whyBlack(const Session& session, const Image& picture);
 
 }  // namespace conelight::program

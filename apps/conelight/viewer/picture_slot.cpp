@@ -387,6 +387,8 @@ std::string PictureSlot::label() const {
         if (!status.error.empty()) return "radiosity: " + status.error;
         if (!status.running) return "radiosity";
         const std::string left = status.secondsLeft >= 0 ? ", " + timeText(status.secondsLeft) + " left" : "";
+        if (status.refining)
+            return fmt::format("radiosity: a draft; baking in full, {:.0f} %{}", 100 * status.done, left);
         return fmt::format("radiosity: baking, {:.0f} %{}{}", 100 * status.done, left,
                            impl_->preview ? instead : "; light as it was before the change");
     }

@@ -183,6 +183,7 @@ std::optional<PictureView::Click> PictureView::show(Session& session, const glm:
                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight |
                                ImGuiButtonFlags_MouseButtonMiddle);
     const bool hovered = ImGui::IsItemHovered();
+    const bool letGo = ImGui::IsItemDeactivated();  // by a press that began here, not in a panel
     ImDrawList* list = ImGui::GetWindowDrawList();
     const ImVec2 low{at.x, at.y}, high{at.x + size.x, at.y + size.y};
     if (left_->texture() != 0) list->AddImage(idOf(left_->texture()), low, high);
@@ -205,7 +206,8 @@ std::optional<PictureView::Click> PictureView::show(Session& session, const glm:
     if (takeInput(session, size, hovered, seconds)) lastMove_ = lastFlight_ = ImGui::GetTime();
 
     // A press and release in place.
-    if (hovered && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !wasDragging && left_->width() > 0) {
+    if (hovered && letGo && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !wasDragging &&
+        left_->width() > 0) {
         const ImVec2 mouse = ImGui::GetIO().MousePos;
         return Click{{(mouse.x - at.x) / size.x, (mouse.y - at.y) / size.y}};
     }

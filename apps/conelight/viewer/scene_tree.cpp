@@ -18,6 +18,7 @@ void entry(Session& session, const std::string& label, const std::string& filter
     if (label.find(filter) == std::string::npos) return;
     ImGui::PushID(static_cast<int>(what.index));
     if (ImGui::Selectable(label.c_str(), session.selection() == what)) session.select(what);
+    notePlace("entry:" + label);
     ImGui::PopID();
 }
 
@@ -40,7 +41,9 @@ void objects(Session& session, const std::string& filter) {
             const std::size_t i = shown[static_cast<std::size_t>(line)];
             ImGui::PushID(static_cast<int>(i));
             bool visible = instances[i].visible;
-            if (ImGui::Checkbox("##visible", &visible)) {
+            const bool switched = ImGui::Checkbox("##visible", &visible);
+            notePlace("visible:" + nameOr(instances[i].name, "object", i));
+            if (switched) {
                 Instance changed = instances[i];
                 changed.visible = visible;
                 session.setInstances({{i, changed}},
@@ -56,17 +59,33 @@ void objects(Session& session, const std::string& filter) {
         }
 }
 
+// One where the eye is.
+void addLight(const RunLine& run) {
+    ImGui::SetNextItemWidth(-1);
+    if (ImGui::BeginCombo("##add light", "add a light at the eye", ImGuiComboFlags_NoArrowButton)) {
+        for (int i = 0; i < 4; ++i) {
+            const char* kind = io::lightTypeName(static_cast<LightType>(i));
+            if (ImGui::Selectable(kind)) run(std::string("light add ") + kind);
+            notePlace(std::string("add light:") + kind);
+        }
+        ImGui::EndCombo();
+    }
+    notePlace("add light");
+}
+
 }  // namespace
 
-void sceneTree(Session& session, const std::string& filter) {
+void sceneTree(Session& session, const std::string& filter, const RunLine& run) {
     const Scene& scene = session.scene();
     objects(session, filter);
-    if (heading("Lights", scene.lights.size()))
+    if (heading("Lights", scene.lights.size())) {
         for (std::size_t i = 0; i < scene.lights.size(); ++i)
             entry(session,
                   fmt::format("{}  ({})", nameOr(scene.lights[i].name, "light", i),
                               io::lightTypeName(scene.lights[i].type)),
                   filter, {SelectionKind::Light, i});
+        addLight(run);
+    }
     if (heading("Materials", scene.materials.size()))
         for (std::size_t i = 0; i < scene.materials.size(); ++i)
             entry(session, nameOr(scene.materials[i].name, "material", i), filter,
@@ -76,11 +95,15 @@ void sceneTree(Session& session, const std::string& filter) {
             const std::string name = nameOr(scene.cameras[i].name, "camera", i);
             ImGui::PushID(static_cast<int>(i));
             if (ImGui::Selectable(name.c_str())) session.jumpCamera(scene.cameras[i], "camera " + name);
+            notePlace("camera:" + name);
             ImGui::PopID();
         }
     glm::vec3 sky = scene.sky;
     if (ImGui::ColorEdit3("sky", &sky.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR))
         session.setSky(glm::max(sky, glm::vec3(0)), "sky", "sky");
+    notePlace("edit:sky");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("radiance of the surroundings, W/(sr m^2)");
+    if (ImGui::IsItemDeactivatedAfterEdit()) session.seal();
 }
 
 }  // namespace conelight::program

@@ -8,7 +8,9 @@
 #include <glm/gtx/euler_angles.hpp>
 
 #include "io/scene_info.h"
+#include "session/light_edit.h"
 #include "viewer/panels.h"
+#include "viewer/widget_places.h"
 
 namespace conelight::program {
 namespace {
@@ -25,7 +27,9 @@ Placement placementOf(const glm::mat4& m) {
             {glm::length(glm::vec3(m[0])), glm::length(glm::vec3(m[1])), glm::length(glm::vec3(m[2]))}};
 }
 
-void seals(Session& session) {
+// Of the widget before: it can be found by `where edit:NAME`, and the end of its drag ends a step of undo.
+void seals(Session& session, const char* name) {
+    notePlace(std::string("edit:") + name);
     if (ImGui::IsItemDeactivatedAfterEdit()) session.seal();
 }
 
@@ -37,11 +41,11 @@ void editInstance(Session& session, std::size_t index) {
     ImGui::TextDisabled("%zu triangles", mesh.triangleCount());
     bool changed = false;
     Placement p = placementOf(instance.worldFromObject);
-    if (ImGui::DragFloat3("position", &p.position.x, 0.01f)) {
+    if (ImGui::DragFloat3("position (m)", &p.position.x, 0.01f)) {
         instance.worldFromObject[3] = glm::vec4(p.position, 1);
         changed = true;
     }
-    seals(session);
+    seals(session, "position");
     glm::vec3 turn(0);
     if (ImGui::DragFloat3("turn (deg)", &turn.x, 0.5f)) {
         const glm::mat4 rotation =
@@ -53,14 +57,14 @@ void editInstance(Session& session, std::size_t index) {
         instance.worldFromObject = m;
         changed = true;
     }
-    seals(session);
+    seals(session, "turn");
     const glm::vec3 before = p.scale;
     if (ImGui::DragFloat3("scale", &p.scale.x, 0.01f, 0.001f, 1000.0f)) {
         for (int i = 0; i < 3; ++i)
             if (before[i] > 0) instance.worldFromObject[i] *= std::max(p.scale[i], 0.001f) / before[i];
         changed = true;
     }
-    seals(session);
+    seals(session, "scale");
     changed |= ImGui::Checkbox("visible", &instance.visible);
     ImGui::SameLine();
     changed |= ImGui::Checkbox("voxelized", &instance.voxelized);
@@ -68,37 +72,43 @@ void editInstance(Session& session, std::size_t index) {
     ImGui::SameLine();
     changed |= ImGui::Checkbox("dynamic", &instance.dynamic);
     if (changed) session.setInstances({{index, instance}}, "edit " + instance.name, key);
-    if (instance.material >= 0 && ImGui::Button("edit material"))
+    if (instance.material < 0) return;
+    if (ImGui::Button("edit material"))
         session.select({SelectionKind::Material, static_cast<std::size_t>(instance.material)});
+    notePlace("edit:material");
 }
 
 void editMaterial(Session& session, std::size_t index) {
     Material m = session.scene().materials[index];
     ImGui::TextUnformatted(m.name.empty() ? fmt::format("material {}", index).c_str() : m.name.c_str());
     bool changed = ImGui::ColorEdit4("base colour", &m.baseColor.x, ImGuiColorEditFlags_Float);
-    seals(session);
+    seals(session, "base colour");
     changed |= ImGui::SliderFloat("metallic", &m.metallic, 0, 1);
-    seals(session);
+    seals(session, "metallic");
     changed |= ImGui::SliderFloat("roughness", &m.roughness, 0, 1);
-    seals(session);
+    seals(session, "roughness");
     changed |= ImGui::DragFloat("ior", &m.ior, 0.01f, 1.0f, 4.0f);
-    seals(session);
+    seals(session, "ior");
     changed |= ImGui::SliderFloat("specular", &m.specular, 0, 1);
-    seals(session);
+    seals(session, "specular");
     changed |=
         ImGui::ColorEdit3("emission", &m.emission.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR);
-    seals(session);
+    seals(session, "emission");
     changed |= ImGui::Checkbox("double-sided", &m.doubleSided);
     ImGui::SameLine();
     changed |= ImGui::Checkbox("unlit", &m.unlit);
     if (ImGui::TreeNode("Phong (modes thesis, phong)")) {
         changed |= ImGui::Checkbox("own values", &m.isPhong);
         if (m.isPhong) {
-            changed |= ImGui::ColorEdit3("colour", &m.phong.color.x, ImGuiColorEditFlags_Float);
-            changed |= ImGui::DragFloat("shininess", &m.phong.shininess, 0.5f, 0.0f, 1000.0f);
-            changed |= ImGui::SliderFloat("ambient", &m.phong.ambientStrength, 0, 1);
-            changed |= ImGui::SliderFloat("diffuse", &m.phong.diffuseStrength, 0, 1);
-            changed |= ImGui::SliderFloat("gloss", &m.phong.specularStrength, 0, 1);
+            const auto value = [&](bool edited, const char* name) {
+                seals(session, name);
+                changed |= edited;
+            };
+            value(ImGui::ColorEdit3("colour", &m.phong.color.x, ImGuiColorEditFlags_Float), "phong colour");
+            value(ImGui::DragFloat("shininess", &m.phong.shininess, 0.5f, 0.0f, 1000.0f), "shininess");
+            value(ImGui::SliderFloat("ambient", &m.phong.ambientStrength, 0, 1), "ambient");
+            value(ImGui::SliderFloat("diffuse", &m.phong.diffuseStrength, 0, 1), "diffuse");
+            value(ImGui::SliderFloat("gloss", &m.phong.specularStrength, 0, 1), "gloss");
         }
         ImGui::TreePop();
     }
@@ -117,8 +127,10 @@ void editLight(Session& session, std::size_t index) {
     changed |= ImGui::Checkbox("casts shadow", &light.castsShadow);
     if (ImGui::Combo("kind", &type, kinds, 4)) {
         light.type = static_cast<LightType>(type);
+        aimLight(light, light.direction);
         changed = true;
     }
+    notePlace("edit:kind");
     // Intensities span decades: colour and strength apart.
     float strength = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
     glm::vec3 color = strength > 0 ? light.intensity / strength : glm::vec3(1);
@@ -126,29 +138,42 @@ void editLight(Session& session, std::size_t index) {
         light.intensity = color * strength;
         changed = true;
     }
-    seals(session);
+    seals(session, "colour");
     if (ImGui::DragFloat(io::lightUnit(light.type), &strength, 0.01f * std::max(strength, 0.1f), 0.0f, 1e6f,
                          "%.4g")) {
         light.intensity = color * strength;
         changed = true;
     }
-    seals(session);
+    seals(session, "strength");
     if (light.type != LightType::Directional)
-        changed |= ImGui::DragFloat3("position", &light.position.x, 0.01f);
-    seals(session);
-    if (light.type != LightType::Point && ImGui::DragFloat3("direction", &light.direction.x, 0.01f)) {
-        if (glm::length(light.direction) > 1e-4f) {
-            light.direction = glm::normalize(light.direction);
-            changed = true;
-        }
+        changed |= ImGui::DragFloat3("position (m)", &light.position.x, 0.01f);
+    seals(session, "light position");
+    glm::vec3 direction = light.direction;
+    if (light.type != LightType::Point && ImGui::DragFloat3("direction", &direction.x, 0.01f) &&
+        glm::length(direction) > 1e-4f) {
+        aimLight(light, direction);
+        changed = true;
     }
-    seals(session);
+    seals(session, "direction");
     if (light.type == LightType::Spot) {
         changed |= ImGui::SliderAngle("inner", &light.innerAngle, 0, 89);
+        seals(session, "inner");
         changed |= ImGui::SliderAngle("outer", &light.outerAngle, 1, 90);
+        seals(session, "outer");
         light.innerAngle = std::min(light.innerAngle, light.outerAngle - 0.001f);
     }
-    if (ImGui::Button("delete")) {
+    if (light.type == LightType::Rect) {
+        glm::vec2 size(2 * glm::length(light.halfU), 2 * glm::length(light.halfV));
+        if (ImGui::DragFloat2("size (m)", &size.x, 0.01f, 0.001f, 1e4f)) {
+            light.halfU = 0.5f * std::max(size.x, 0.001f) * glm::normalize(light.halfU);
+            light.halfV = 0.5f * std::max(size.y, 0.001f) * glm::normalize(light.halfV);
+            changed = true;
+        }
+        seals(session, "size");
+    }
+    const bool deleted = ImGui::Button("delete");
+    notePlace("edit:delete");
+    if (deleted) {
         lights.erase(lights.begin() + static_cast<std::ptrdiff_t>(index));
         session.select({});
         session.setLights(lights, "delete light");
@@ -180,12 +205,12 @@ void selectionEditor(Session& session) {
 void cameraEditor(Session& session) {
     Camera camera = session.camera();
     ImGui::PushItemWidth(-8.0f * ImGui::GetFontSize());
-    bool changed = ImGui::DragFloat3("eye", &camera.eye.x, 0.01f);
-    seals(session);
-    changed |= ImGui::DragFloat3("target", &camera.target.x, 0.01f);
-    seals(session);
+    bool changed = ImGui::DragFloat3("eye (m)", &camera.eye.x, 0.01f);
+    seals(session, "eye");
+    changed |= ImGui::DragFloat3("target (m)", &camera.target.x, 0.01f);
+    seals(session, "target");
     changed |= ImGui::SliderAngle("field of view", &camera.fovY, 1, 150);
-    seals(session);
+    seals(session, "field of view");
     ImGui::PopItemWidth();
     if (changed && glm::length(camera.target - camera.eye) > 1e-6f)
         session.jumpCamera(camera, "edit camera", "camera");

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "viewer/panels.h"
+#include "viewer/widget_places.h"
 
 namespace conelight::program {
 namespace {
@@ -25,6 +26,7 @@ void passTable(const FrameStats& stats) {
         ImGui::TableNextRow();
         ImGui::TableSetColumnIndex(0);
         ImGui::TextUnformatted(pass.name.c_str());
+        notePlace("pass:" + pass.name);
         ImGui::TableSetColumnIndex(1);
         ImGui::TextUnformatted(fmt::format("{:.2f}", ms).c_str());
         if (!bars) continue;
@@ -37,14 +39,16 @@ void passTable(const FrameStats& stats) {
 void memoryTable(const FrameStats& stats) {
     std::size_t total = 0;
     for (const MemoryStats& object : stats.memory) total += object.bytes;
-    if (!ImGui::TreeNode(
-            fmt::format("Memory: {:.1f} MB###memory", static_cast<double>(total) * 1e-6).c_str()))
-        return;
+    const bool open =
+        ImGui::TreeNode(fmt::format("Memory: {:.1f} MB###memory", static_cast<double>(total) * 1e-6).c_str());
+    notePlace("memory");
+    if (!open) return;
     if (ImGui::BeginTable("memory", 2, ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingStretchProp)) {
         for (const MemoryStats& object : stats.memory) {
             ImGui::TableNextRow();
             ImGui::TableSetColumnIndex(0);
             ImGui::TextUnformatted(object.label.c_str());
+            notePlace("memory:" + object.label);
             ImGui::TableSetColumnIndex(1);
             ImGui::TextUnformatted(
                 fmt::format("{:.2f} MB", static_cast<double>(object.bytes) * 1e-6).c_str());
@@ -62,6 +66,7 @@ void frameGraph(const FrameTimes& times) {
     const float longest = *std::max_element(ms.begin(), ms.end());
     ImGui::PlotHistogram("##frames", ms.data(), static_cast<int>(ms.size()), 0, nullptr, 0, 1.1f * longest,
                          {ImGui::GetContentRegionAvail().x, 3.5f * ImGui::GetFontSize()});
+    notePlace("frame graph");
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("times of the last %zu frames, 0 to %.0f ms", all.size(),
                           static_cast<double>(1.1f * longest));

@@ -13,6 +13,7 @@
 #include "conelight/error.h"
 #include "interrupt.h"
 #include "io/image_file.h"
+#include "session/why_black.h"
 #include "viewer/background_job.h"
 #include "viewer/camera_control.h"
 #include "viewer/viewer_window.h"
@@ -65,6 +66,7 @@ Viewer::Viewer(Session& session, const ViewerOptions& options)
       timing_(options.timing),
       startedMs_(options.startedMs) {
     for (const std::string& line : state_.lines()) commands_.history().add(line);
+    for (const std::string& note : session.scene().notes) console_.say(note);  // the terminal has them
     window_.onDrop = [this](const std::vector<std::string>& paths) {
         if (!paths.empty()) load(paths.front());
     };
@@ -98,7 +100,7 @@ void Viewer::takeCommands() {
     std::string line;
     while (input_ && input_->take(line)) commands_.submit(line);
     if (settling_ && (view_.finished() || (!more_ && view_.showsOwn()))) settling_ = false;
-    if (!settling_ && !bake_.busy()) commands_.runQueued();
+    if (!settling_ && !bake_.busy() && !end_.job.busy()) commands_.runQueued();
 }
 
 // Commands behind `bake` wait for it; everything else goes on.
@@ -129,10 +131,10 @@ int Viewer::run() {
         rememberScene();
         followBake();
         takeCommands();
-        if (window_.minimized())
-            carryOutRequests();
-        else
+        if (!window_.minimized())
             frame();
+        else if (!drawPictureJob())
+            carryOutRequests();
     }
     if (timing_)
         print({false,
@@ -146,6 +148,8 @@ int Viewer::run() {
 // Files that changed on disk are loaded again; the view stays.
 void Viewer::watchFiles() {
     watch_.setScene(session_.path());
+    // What this program saved is what it shows.
+    if (std::exchange(savesSeen_, session_.saves()) != session_.saves()) watch_.acceptScene();
     if (watch_.sceneChanged()) {
         Request request{RequestKind::Load};
         request.file = session_.path();
@@ -163,6 +167,20 @@ void Viewer::rememberScene() {
     remembered_ = session_.path();
     state_.opened(remembered_);
     window_.setTitle(remembered_.empty() ? "Conelight" : remembered_ + " - Conelight");
+}
+
+// The window shows the pictures of the job meanwhile. Returns whether there is one.
+bool Viewer::drawPictureJob() {
+    PictureJob& job = end_.job;
+    if (!job.busy()) return false;
+    try {
+        if (const std::optional<std::string> line = job.step(session_, view_.slot(false)))
+            commands_.print(*line);
+    } catch (const Error& error) {
+        commands_.fail(error);
+    }
+    more_ = true;
+    return true;
 }
 
 // A window that is not seen draws nothing, but carries out what is asked.
@@ -209,6 +227,7 @@ void Viewer::firstFrameShown() {
 }
 
 void Viewer::updatePictures(const Layout& layout) {
+    if (drawPictureJob()) return;
     const glm::vec2 pixels =
         glm::vec2(window_.framebufferSize()) / glm::max(glm::vec2(window_.size()), glm::vec2(1));
     const double now = ImGui::GetTime();
@@ -252,7 +271,12 @@ void Viewer::explainBlack() {
         slot.version() == 0)
         return;
     hintVersion_ = slot.version();
-    hint_ = whyBlack(session_, slot.linear());
+    hint_.reset();
+    const Image& linear = slot.linear();
+    if (linear.pixels.empty() || !isBlack(linear, session_.shownSettings().image)) return;
+    for (const std::string& reason : whyBlack(session_, picker_, &linear))
+        hint_ = (hint_ ? *hint_ + "\n\n" : "The picture is black.\n\n") + reason;
+    if (hint_) *hint_ += "\n\nKey F: the camera sees all of the selection, or of the scene.";
 }
 
 void Viewer::focus() {

@@ -35,6 +35,11 @@ void Viewer::windowCommand(const Request& request) {
         focus();
     } else if (name == "pick") {
         inspect({{std::strtof(words[1].c_str(), nullptr), std::strtof(words[2].c_str(), nullptr)}});
+    } else if (name == "resolution") {
+        if (words.size() > 1) view_.resolutionScale = std::strtof(words[1].c_str(), nullptr);
+        print({false, fmt::format("resolution: {:g}", view_.resolutionScale)});
+    } else if (name == "ui_scale") {
+        if (words.size() > 1) gui_.setScale(std::strtof(words[1].c_str(), nullptr));
     } else if (name == "settle") {
         settling_ = true;
     } else if (name == "status") {
@@ -81,6 +86,12 @@ std::string Viewer::splitText() {
                        right.width(), right.height());
 }
 
+std::string Viewer::pathText() const {
+    const CameraPath& path = session_.cameraPath();
+    return fmt::format("{} keys, {:g} s{}", path.keys().size(), path.end() - path.start(),
+                       session_.playing() ? ", playing" : "");
+}
+
 std::string Viewer::movingText() const {
     const PictureView::Movement& m = view_.movement();
     return fmt::format("{:.1f} frames/s, longest wait {:.0f} ms, {} x {} pixels ({} pictures in {:.1f} s)",
@@ -121,6 +132,9 @@ void Viewer::status(const std::string& key) {
         {"camera", fmt::format("eye {:.4g} {:.4g} {:.4g} target {:.4g} {:.4g} {:.4g} fov {:.4g} deg", c.eye.x,
                                c.eye.y, c.eye.z, c.target.x, c.target.y, c.target.z, glm::degrees(c.fovY))},
         {"steps", fmt::format("{} to undo, {} to redo", session_.undoSteps(), session_.redoSteps())},
+        {"path", pathText()},
+        {"log", fmt::format("{} lines, {} errors", console_.lines(), console_.errors())},
+        {"hint", hint_ ? *hint_ : "none"},
         {"frames", fmt::format("{} pictures, {:.1f} ms (median)", view_.slot(false).version(),
                                median(session_.frameTimes()))},
         {"moving", movingText()},

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Menu, panels, keys, and what is written over the picture.
+// Panels, and what is written over the picture.
 #include <fmt/core.h>
 #include <imgui.h>
 #include <imgui_stdlib.h>
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <utility>
 
 #include "traced_picture.h"
@@ -28,24 +27,43 @@ constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFla
                                     ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
 
+std::string nameOf(const std::string& file) { return std::filesystem::path(file).filename().string(); }
+
 }  // namespace
 
-// How far the bake is, and the end of it, at the bottom of the picture.
-void Viewer::bakeStrip(const glm::vec2& at, const glm::vec2& size) {
-    if (!bake_.busy()) return;
+// How far what runs in the background is, and the end of it, at the bottom of the picture.
+void Viewer::jobStrips(const glm::vec2& at, const glm::vec2& size) {
     const float em = ImGui::GetFontSize();
-    const BakeStatus status = bake_.status();
-    std::string text = fmt::format("{}: {:.0f} %", bake_.file(), 100 * status.done);
-    if (status.secondsLeft >= 0) text += ", " + timeText(status.secondsLeft) + " left";
-    ImGui::SetNextWindowPos({at.x + 0.5f * em, at.y + size.y - 2.8f * em});
-    ImGui::SetNextWindowSize({std::min(36 * em, size.x - em), 2.3f * em});
-    ImGui::Begin("##bake", nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
-    ImGui::ProgressBar(static_cast<float>(status.done), {-5 * em, 0}, text.c_str());
-    ImGui::SameLine();
-    if (ImGui::Button("stop", {-1, 0})) bake_.stop();
-    notePlace("bake:stop");
-    ImGui::End();
+    float y = at.y + size.y - 2.8f * em;
+    const auto strip = [&](const char* name, std::string text, double done, double secondsLeft) {
+        if (secondsLeft >= 0) text += ", " + timeText(secondsLeft) + " left";
+        ImGui::SetNextWindowPos({at.x + 0.5f * em, y});
+        ImGui::SetNextWindowSize({std::min(36 * em, size.x - em), 2.3f * em});
+        ImGui::Begin(
+            (std::string("##") + name).c_str(), nullptr,
+            ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+        ImGui::ProgressBar(static_cast<float>(done), {-5 * em, 0}, text.c_str());
+        ImGui::SameLine();
+        const bool stopped = ImGui::Button("stop", {-1, 0});
+        notePlace(std::string(name) + ":stop");
+        ImGui::End();
+        y -= 2.6f * em;
+        return stopped;
+    };
+    if (bake_.busy()) {
+        const BakeStatus status = bake_.status();
+        if (strip("bake", fmt::format("{}: {:.0f} %", nameOf(bake_.file()), 100 * status.done), status.done,
+                  status.secondsLeft))
+            bake_.stop();
+    }
+    // A screenshot of a picture that is finished takes no time.
+    PictureJob& job = end_.job;
+    if (job.busy() && strip("record",
+                            job.frames() == 1 ? nameOf(job.file()) + ": settles"
+                                              : fmt::format("{}: {} of {}", nameOf(job.file()),
+                                                            job.done() + 1, job.frames()),
+                            static_cast<double>(job.done()) / job.frames(), job.secondsLeft()))
+        job.stop();
 }
 
 Layout Viewer::layout() const {
@@ -70,8 +88,8 @@ void Viewer::gui(const Layout& layout) {
     }
     if (showConsole_) bottomPanel(layout);
     picture(layout.pictureAt(), layout.pictureSize());
-    bakeStrip(layout.pictureAt(), layout.pictureSize());
-    if (const std::optional<std::string> scene = openDialog_.show()) load(*scene);
+    jobStrips(layout.pictureAt(), layout.pictureSize());
+    if (const std::optional<FileChoice> choice = fileDialog_.show()) takeFile(*choice);
     resizePanels(layout);
 }
 
@@ -147,119 +165,6 @@ void Viewer::overlayText(const glm::vec2& at, const glm::vec2& size) {
                   hint_->c_str(), nullptr, wrap);
 }
 
-void Viewer::keys() {
-    const std::vector<platform::Window::KeyPress> presses = window_.takeKeyPresses();
-    if (gui_.wantsKeyboard() || window_.cursorCaptured()) return;
-    for (const auto& press : presses) {
-        if (press.key == GLFW_KEY_F && !press.control) focus();
-        if (press.key >= GLFW_KEY_1 && press.key <= GLFW_KEY_3 && !press.control)
-            view_.gizmo.tool = static_cast<GizmoTool>(press.key - GLFW_KEY_1);
-        if (press.key == GLFW_KEY_F11) window_.setFullscreen(!window_.fullscreen());
-        if (press.key == GLFW_KEY_TAB) showSide_ = showConsole_ = !showSide_;
-        if (press.key == GLFW_KEY_X && !press.control) view_.split.on = !view_.split.on;
-        if (press.key == GLFW_KEY_Z && press.control) press.shift ? session_.redo() : session_.undo();
-        if (press.key == GLFW_KEY_Y && press.control) session_.redo();
-        if (press.key == GLFW_KEY_O && press.control) openDialog_.open(session_.path());
-        if (press.key == GLFW_KEY_P) session_.request({RequestKind::Screenshot, nextScreenshot()});
-    }
-}
-
-void Viewer::menuBar() {
-    if (!ImGui::BeginMainMenuBar()) return;
-    fileMenu();
-    const bool edit = ImGui::BeginMenu("Edit");
-    notePlace("menu:Edit");
-    if (edit) {
-        if (ImGui::MenuItem("Undo", "Ctrl+Z", false, session_.undoSteps() > 0)) session_.undo();
-        if (ImGui::MenuItem("Redo", "Ctrl+Y", false, session_.redoSteps() > 0)) session_.redo();
-        ImGui::EndMenu();
-    }
-    const bool view = ImGui::BeginMenu("View");
-    notePlace("menu:View");
-    if (view) {
-        if (ImGui::MenuItem("Focus", "F")) focus();
-        const auto tool = [&](const char* name, const char* key, GizmoTool one) {
-            if (ImGui::MenuItem(name, key, view_.gizmo.tool == one)) view_.gizmo.tool = one;
-        };
-        ImGui::Separator();
-        tool("Move", "1", GizmoTool::Move);
-        tool("Turn", "2", GizmoTool::Turn);
-        tool("Scale", "3", GizmoTool::Scale);
-        ImGui::Separator();
-        ImGui::MenuItem("Split", "X", &view_.split.on);
-        ImGui::MenuItem("Panels", "Tab", &showSide_);
-        ImGui::MenuItem("Console", nullptr, &showConsole_);
-        if (ImGui::MenuItem("Fullscreen", "F11")) window_.setFullscreen(!window_.fullscreen());
-        ImGui::EndMenu();
-    }
-    modeControls();
-    ImGui::EndMainMenuBar();
-}
-
-void Viewer::fileMenu() {
-    const bool open = ImGui::BeginMenu("File");
-    notePlace("menu:File");
-    if (!open) return;
-    if (ImGui::MenuItem("Open...", "Ctrl+O")) openDialog_.open(session_.path());
-    if (ImGui::BeginMenu("Open recent", !state_.recent().empty())) {
-        for (const std::string& scene : state_.recent()) {
-            if (ImGui::MenuItem(scene.c_str())) load(scene);
-            notePlace("recent:" + scene);
-        }
-        ImGui::EndMenu();
-    }
-    notePlace("menu:Open recent");
-    if (ImGui::MenuItem("Reload", nullptr, false, !session_.path().empty())) {
-        Request request{RequestKind::Load};
-        request.file = session_.path();
-        request.keepView = true;
-        session_.request(request);
-    }
-    ImGui::Separator();
-    if (ImGui::MenuItem("Screenshot", "P")) session_.request({RequestKind::Screenshot, nextScreenshot()});
-    ImGui::Separator();
-    if (ImGui::MenuItem("Quit")) end_.quit = true;
-    ImGui::EndMenu();
-}
-
-void Viewer::modeControls() {
-    const float em = ImGui::GetFontSize();
-    ImGui::SameLine(0, 2 * em);
-    // The names are asked for only while the list is open.
-    const auto combo = [&](const char* id, const std::string& value, const auto& namesOf,
-                           float width) -> std::optional<std::string> {
-        std::optional<std::string> chosen;
-        ImGui::SetNextItemWidth(width * em);
-        if (ImGui::BeginCombo(id, value.c_str())) {
-            for (const std::string& name : namesOf())
-                if (ImGui::Selectable(name.c_str(), name == value)) chosen = name;
-            ImGui::EndCombo();
-        }
-        return chosen;
-    };
-    if (const auto mode = combo("##mode", session_.mode(), sessionModes, 7))
-        attempt([&] { session_.setMode(*mode); });
-    notePlace("mode");
-    ImGui::SameLine();
-    if (const auto name = combo(
-            "##component", conelight::getSetting(session_.settings(), "component"),
-            [] { return settingChoices("component"); }, 7))
-        attempt([&] { session_.setSetting("component", *name); });
-    ImGui::SameLine();
-    ImGui::Checkbox("split", &view_.split.on);
-    notePlace("split on");
-    if (!view_.split.on) return;
-    ImGui::SameLine();
-    if (const auto mode = combo("##right", view_.split.mode, sessionModes, 7)) view_.split.mode = *mode;
-    ImGui::SameLine();
-    ImGui::Checkbox("error", &view_.split.errors);
-    if (!view_.split.errors) return;
-    ImGui::SameLine();
-    ImGui::SetNextItemWidth(6 * em);
-    ImGui::SliderFloat("##errorscale", &view_.split.errorScale, 0.05f, 4.0f, "x %.2f",
-                       ImGuiSliderFlags_Logarithmic);
-}
-
 void Viewer::leftPanel(const Layout& layout) {
     ImGui::SetNextWindowPos({0, layout.top});
     ImGui::SetNextWindowSize({layout.left, layout.display.y - layout.top});
@@ -271,7 +176,7 @@ void Viewer::leftPanel(const Layout& layout) {
     ImGui::InputTextWithHint("##filter", "filter", &filter_);
     ImGui::BeginChild(stage.name);
     if (stage.prefixes.empty())
-        sceneTree(session_, filter_);
+        sceneTree(session_, filter_, [this](const std::string& line) { runLine(line); });
     else
         settingsPanel_.show(session_.settings(), session_.revisions().settings, stage.prefixes, filter_,
                             [this](const std::string& key, const std::string& value, bool done) {
@@ -310,11 +215,21 @@ void Viewer::rightPanel(const Layout& layout) {
     if (ImGui::CollapsingHeader("Selection", ImGuiTreeNodeFlags_DefaultOpen)) selectionEditor(session_);
     if (ImGui::CollapsingHeader("Pixel", ImGuiTreeNodeFlags_DefaultOpen))
         inspectorPanel(session_, inspection_);
-    if (ImGui::CollapsingHeader("Camera")) cameraEditor(session_);
+    const bool camera = ImGui::CollapsingHeader("Camera");
+    notePlace("header:Camera");
+    if (camera) {
+        cameraEditor(session_);
+        pathEditor(
+            session_, filmFrames_, [this](const std::string& line) { runLine(line); },
+            [this](FilePurpose purpose) { fileDialog_.open(purpose, session_.path()); });
+    }
     if (ImGui::CollapsingHeader("Frame", ImGuiTreeNodeFlags_DefaultOpen)) {
         const float em = ImGui::GetFontSize();
         ImGui::SetNextItemWidth(std::min(8 * em, ImGui::GetContentRegionAvail().x - 5.5f * em));
         ImGui::SliderFloat("resolution", &view_.resolutionScale, 0.25f, 1.0f, "%.2f");
+        notePlace("resolution");
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("pixels of the picture, as a part of those of the window, along each edge");
         if (const FrameStats* stats = view_.slot(false).stats())
             statsPanel(*stats, session_.frameTimes(), median(guiTimes_));
     }

@@ -7,48 +7,11 @@
 
 #include "conelight/error.h"
 #include "inspection_text.h"
-#include "picture_file.h"
-#include "video_file.h"
 
 namespace conelight::program {
 namespace {
 
 constexpr int kMaxScreenshots = 9999;
-
-// A mode that settles over frames is drawn until it has, so that a picture on disk is the finished one.
-const Image& finishedPicture(Session& session, PictureView& view, const glm::ivec2& size) {
-    PictureSlot& slot = view.slot(false);
-    while (slot.draw(session, session.shownMode(), size.x, size.y, {})) {
-    }
-    if (const std::optional<std::string> error = slot.takeError()) throw Error(ErrorKind::Runtime, *error);
-    const Image& linear = slot.linear();
-    if (linear.pixels.empty() || !slot.ownPicture())
-        throw Error(ErrorKind::Runtime, "there is no picture yet (" + slot.label() +
-                                            "); a moment later would be right, after `settle` for example");
-    return linear;
-}
-
-void screenshot(Session& session, PictureView& view, Console& console, const std::string& file) {
-    const Image& linear = finishedPicture(session, view, view.fullSize());
-    writePicture(file, linear, session.shownSettings().image);
-    console.print(fmt::format("written {} ({} x {})", file, linear.width, linear.height));
-}
-
-// `count` frames while the camera turns once round its target, goes along its path or stands still.
-void record(Session& session, PictureView& view, Console& console, const Request& request) {
-    const glm::ivec2 size = view.fullSize() / 2 * 2;  // video codecs want even sizes
-    if (size.x < 2) throw Error(ErrorKind::Runtime, request.file + ": there is no picture yet");
-    VideoFile video(request.file, size.x, size.y);
-    const Camera start = session.camera();
-    for (int i = 0; i < request.count; ++i) {
-        if (request.turntable) session.moveCamera(turntableFrame(start, i, request.count));
-        if (request.alongPath) session.moveCamera(session.cameraPath().frame(i, request.count));
-        video.add(finishedPicture(session, view, size), session.shownSettings().image);
-    }
-    session.moveCamera(start);
-    video.finish();
-    console.print(fmt::format("written {} ({} frames)", request.file, request.count));
-}
 
 void inspect(PictureView& view, Console& console, const Request& request) {
     Renderer* renderer = view.slot(false).renderer();
@@ -65,10 +28,8 @@ void carryOut(Session& session, PictureView& view, Console& console, ViewerState
               const Request& request, const std::function<void(const Request&)>& window) {
     switch (request.kind) {
         case RequestKind::Screenshot:
-            screenshot(session, view, console, request.file);
-            break;
         case RequestKind::Record:
-            record(session, view, console, request);
+            state.job.start(request, session, view.fullSize());
             break;
         case RequestKind::Bake:
             state.bake = request;
@@ -110,6 +71,7 @@ std::string nextScreenshot() {
 
 bool carryOutRequest(Session& session, PictureView& view, Console& console, ViewerState& state,
                      const std::function<void(const Request&)>& window) {
+    if (state.job.busy()) return false;  // what comes behind it waits
     const std::optional<Request> request = session.takeRequest();
     if (!request) return false;
     try {

@@ -7,6 +7,7 @@
 
 #include "console/console.h"
 #include "session/session.h"
+#include "viewer/picture_job.h"
 #include "viewer/picture_view.h"
 
 namespace conelight::program {
@@ -14,6 +15,7 @@ namespace conelight::program {
 struct ViewerState {
     std::optional<glm::ivec2> inspect;  // a pixel that a command asked for: as if it were clicked
     std::optional<Request> bake;        // to be done in the background
+    PictureJob job;                     // pictures to write, a little at each frame
     bool quit = false;
     int status = 0;
 };

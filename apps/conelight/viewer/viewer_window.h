@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The viewer's parts, shared by its files: viewer.cpp (start, loop, frame, files), viewer_gui.cpp (menu,
-// panels, keys), viewer_commands.cpp (commands that are the window's own, and what it answers).
+// The viewer's parts, shared by its files: viewer.cpp (start, loop, frame, files), viewer_menus.cpp
+// (menu, keys, dialog), viewer_gui.cpp (panels), viewer_commands.cpp (commands that are the window's own, and
+// what it answers).
 #pragma once
 
 #include <algorithm>
@@ -17,9 +18,9 @@
 #include "session/state_files.h"
 #include "viewer/console_panel.h"
 #include "viewer/file_bake.h"
+#include "viewer/file_dialog.h"
 #include "viewer/file_watch.h"
 #include "viewer/gui.h"
-#include "viewer/open_dialog.h"
 #include "viewer/panels.h"
 #include "viewer/picture_view.h"
 #include "viewer/settings_panel.h"
@@ -70,17 +71,22 @@ class Viewer {
     std::vector<std::string> completed(const std::string& line) const;
     void takeCommands();
     void followBake();
-    void bakeStrip(const glm::vec2& at, const glm::vec2& size);
+    void jobStrips(const glm::vec2& at, const glm::vec2& size);
     void windowCommand(const Request& request);
     void splitCommand(const std::vector<std::string>& words);
     void status(const std::string& key);
     std::string splitText();
     std::string movingText() const;
+    std::string pathText() const;
     std::string selectionText() const;
     void answerPlaces();
     void keys();
     void menuBar();
     void fileMenu();
+    void presetMenu();
+    void takeFile(const FileChoice& choice);
+    void runLine(const std::string& line);  // as if it were typed into the window
+    bool drawPictureJob();
     void load(const std::string& scene);
     Layout layout() const;
     void resizePanels(const Layout& layout);
@@ -106,7 +112,9 @@ class Viewer {
     ConsolePanel console_;
     std::unique_ptr<LineReader> input_;
     FileWatch watch_;
-    OpenDialog openDialog_;
+    FileDialog fileDialog_;
+    std::vector<std::string> presets_;  // of the current folder, while the menu shows them
+    int filmFrames_ = 120;
     SettingsPanel settingsPanel_;
     std::optional<Inspection> inspection_;
     std::optional<PictureView::Click> clicked_;
@@ -130,7 +138,7 @@ class Viewer {
     bool timing_;
     double startedMs_, firstFrameMs_ = -1;
     double lastFrame_ = 0;
-    std::uint64_t inputsSeen_ = 0;
+    std::uint64_t inputsSeen_ = 0, savesSeen_ = 0;
     double lastInput_ = -1;
     FrameTimes guiTimes_;
     ViewerState end_;

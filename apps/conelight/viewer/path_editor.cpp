@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/core.h>
+#include <imgui.h>
+
+#include <algorithm>
+
+#include "viewer/panels.h"
+#include "viewer/widget_places.h"
+
+namespace conelight::program {
+namespace {
+
+bool button(const char* label, const char* place, const char* help) {
+    const bool pressed = ImGui::Button(label);
+    notePlace(place);
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", help);
+    return pressed;
+}
+
+// A line each: a click goes there, x removes it.
+void keyList(const CameraPath& path, const RunLine& run) {
+    for (std::size_t i = 0; i < path.keys().size(); ++i) {
+        const PathKey& key = path.keys()[i];
+        ImGui::PushID(static_cast<int>(i));
+        const std::string text = fmt::format("{:g} s   {:.3g}  {:.3g}  {:.3g}", key.seconds, key.camera.eye.x,
+                                             key.camera.eye.y, key.camera.eye.z);
+        const float room = ImGui::GetContentRegionAvail().x - 2 * ImGui::GetFontSize();
+        if (ImGui::Selectable(text.c_str(), false, 0, {std::max(room, 1.0f), 0}))
+            run(fmt::format("path at {}", key.seconds));
+        notePlace(fmt::format("key:{}", i));
+        if (ImGui::IsItemHovered()) ImGui::SetTooltip("time, and where the eye is (m)");
+        ImGui::SameLine();
+        if (ImGui::SmallButton("x")) run(fmt::format("path remove {}", i));
+        notePlace(fmt::format("key:{}:remove", i));
+        ImGui::PopID();
+    }
+}
+
+}  // namespace
+
+void pathEditor(Session& session, int& frames, const RunLine& run,
+                const std::function<void(FilePurpose)>& ask) {
+    const CameraPath& path = session.cameraPath();
+    ImGui::Separator();
+    const std::string count =
+        path.empty() ? "no key frames yet"
+                     : fmt::format("{} key frame{}, {:g} s", path.keys().size(),
+                                   path.keys().size() == 1 ? "" : "s", path.end() - path.start());
+    ImGui::TextDisabled("%s", count.c_str());
+    keyList(path, run);
+    if (button("add key", "path:add", "this view becomes a key frame, 1 s after the last")) run("path add");
+    if (!path.empty()) {
+        ImGui::SameLine();
+        // At once: commands wait for the end of the flight.
+        if (session.playing() && button("stop", "path:stop", "stay here")) session.stopPlaying();
+        if (!session.playing() && button("play", "path:play", "fly along the key frames")) run("path play");
+        ImGui::SameLine();
+        if (button("clear", "path:clear", "no key frames")) run("path clear");
+    }
+    if (button("load...", "path:load", "key frames from a file")) ask(FilePurpose::LoadPath);
+    if (!path.empty()) {
+        ImGui::SameLine();
+        if (button("save...", "path:save", "key frames to a file")) ask(FilePurpose::SavePath);
+    }
+    ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
+    ImGui::DragInt("frames of a film", &frames, 1, 2, 100000);
+    notePlace("film frames");
+    frames = std::clamp(frames, 2, 100000);
+    if (!path.empty()) {
+        if (button("record path...", "path:record", "a film of the flight along the key frames"))
+            ask(FilePurpose::RecordPath);
+        if (ImGui::GetContentRegionAvail().x > 15 * ImGui::GetFontSize()) ImGui::SameLine();
+    }
+    if (button("record turn...", "path:turn", "a film of a turn round the target"))
+        ask(FilePurpose::RecordTurntable);
+}
+
+}  // namespace conelight::program

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// `screenshot` and `record` in the window: pictures drawn until they are finished and written, a little of
+// the work between two frames of the window, so that it stays alive and can end it.
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "session/session.h"
+#include "video_file.h"
+#include "viewer/picture_slot.h"
+
+namespace conelight::program {
+
+class PictureJob {
+  public:
+    // A request of kind Screenshot or Record; pictures of `size` pixels. Not while busy(). Throws
+    // Error(Runtime) when nothing can be drawn or written there.
+    void start(const Request& request, const Session& session, const glm::ivec2& size);
+    bool busy() const { return request_.has_value(); }
+    // Draws for a while. Returns the line that says what was written, once, when that was the last of it.
+    // Throws what went wrong: then it has ended too. The camera is where it was when it ends.
+    std::optional<std::string> step(Session& session, PictureSlot& slot);
+    void stop() { stopped_ = true; }  // the next step ends it and says so
+
+    const std::string& file() const { return request_->file; }
+    int frames() const { return request_->count; }
+    int done() const { return done_; }
+    double secondsLeft() const;  // < 0: unknown
+
+  private:
+    void end(Session& session);
+    void add(Session& session, PictureSlot& slot);
+
+    std::optional<Request> request_;
+    std::unique_ptr<VideoFile> video_;  // of films
+    glm::ivec2 size_{0};
+    Camera camera_;  // where it stood at the start
+    int done_ = 0;
+    bool placed_ = false;  // the camera is where the next frame wants it
+    bool stopped_ = false;
+    std::chrono::steady_clock::time_point began_;
+};
+
+}  // namespace conelight::program

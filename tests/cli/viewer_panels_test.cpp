@@ -1,0 +1,405 @@
+// SPDX-License-Identifier: MIT
+// The viewer's menus, panels and dialogs on a screen without a monitor: what they change is asked of the
+// console, read from files, and seen on the screen.
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "cli/viewer_test_support.h"
+#include "support/program.h"
+#include "support/x11_client.h"
+
+namespace conelight::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ViewerPanelsTest : public ViewerTest {
+  protected:
+    // A name is typed into the dialog that is open, and its button pressed.
+    void name(const std::string& file) {
+        type(file, viewer->placeOf("dialog:name"));
+        click("dialog:take");
+    }
+    // The answer to a command that begins with `begin`.
+    std::string answer(const std::string& command, const std::string& begin) {
+        viewer->send(command);
+        return viewer->expect(begin);
+    }
+    // Whether it has said so, also while widgets were looked for.
+    bool heard(const std::string& part) {
+        return eventually([&] {
+            viewer->status("frames");
+            return viewer->output().find(part) != std::string::npos;
+        });
+    }
+    void openMenu(const std::string& menu, const std::string& item) {
+        click("menu:" + menu);
+        click(item);
+    }
+    std::string freshFolder(const std::string& folder) {
+        const std::string path = scratchPath(folder);
+        fs::remove_all(path);
+        fs::create_directories(path);
+        return path;
+    }
+};
+
+TEST_F(ViewerPanelsTest, PresetsAreSavedAndLoadedInTheMenu) {
+    const std::string file = freshFolder("presets") + "/look.json";
+    start(std::string(kSmall) + "builtin:cornell");
+    settle();
+    viewer->send("set image.exposure 1");
+    click("menu:File");
+    openMenu("Presets", "menu:Save settings");
+    name(file);
+    EXPECT_TRUE(heard("saved " + file)) << viewer->output();
+    EXPECT_NE(bytesOf(file).find("image.exposure"), std::string::npos) << bytesOf(file);
+
+    // What is there is replaced by the button that says so, not by Return alone.
+    viewer->send("set image.exposure 2");
+    click("menu:File");
+    openMenu("Presets", "menu:Save settings");
+    type(file, viewer->placeOf("dialog:name"));
+    const std::string before = bytesOf(file);
+    screen->xdotool("key Return");
+    pass();
+    EXPECT_GT(viewer->placeOf("dialog:take").z, 0) << "the dialog stays";
+    EXPECT_EQ(bytesOf(file), before);
+    click("dialog:take");
+    EXPECT_TRUE(eventually([&] { return bytesOf(file) != before; })) << viewer->output();
+
+    viewer->send("reset image.exposure");
+    const glm::ivec2 at = inPicture(0.5f, 0.35f);
+    settle();
+    const glm::vec3 dark = shownAt(at);
+    click("menu:File");
+    openMenu("Presets", "menu:Load preset");
+    type(file, viewer->placeOf("dialog:name"));
+    screen->xdotool("key Return");
+    EXPECT_TRUE(eventually([&] { return viewer->setting("image.exposure") == "2"; })) << viewer->output();
+    settle();
+    EXPECT_GT(glm::length(shownAt(at)), 1.2f * glm::length(dark));
+    // One step of undo, by the menu; again by key.
+    openMenu("Edit", "menu:Undo");
+    EXPECT_TRUE(eventually([&] { return viewer->setting("image.exposure") == "0"; })) << viewer->output();
+    screen->xdotool("key ctrl+y");
+    EXPECT_TRUE(eventually([&] { return viewer->setting("image.exposure") == "2"; })) << viewer->output();
+    // Escape leaves the dialog and nothing else.
+    screen->xdotool("key ctrl+s");
+    pass();
+    EXPECT_GT(viewer->placeOf("dialog:take").z, 0) << viewer->output();
+    screen->xdotool("key Escape");
+    EXPECT_TRUE(eventually([&] { return viewer->placeOf("dialog:take").z == 0; })) << viewer->output();
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0);
+}
+
+TEST_F(ViewerPanelsTest, KeyFramesAreKeptPlayedSavedAndRecorded) {
+    const std::string folder = freshFolder("path");
+    start(std::string(kSmall) + "builtin:cornell");
+    settle();
+    const std::string first = viewer->status("camera");
+    click("header:Camera");
+    click("path:add");
+    EXPECT_EQ(viewer->status("path"), "1 keys, 0 s");
+    viewer->send("camera orbit 40");
+    const std::string second = viewer->status("camera");
+    click("path:add");
+    EXPECT_EQ(viewer->status("path"), "2 keys, 1 s");
+    click("key:0");
+    EXPECT_EQ(viewer->status("camera"), first) << "a click on a key goes there";
+
+    settle();
+    ScreenPixels last = screen->pixels();
+    const glm::ivec4 place = picture();
+    click("path:play");  // commands wait until it has arrived
+    EXPECT_EQ(viewer->status("camera"), second);
+    settle();
+    EXPECT_GT(screen->pixels().changedFrom(last, place, 12), place.z * place.w / 10);
+
+    click("path:save");
+    name(folder + "/way.json");
+    EXPECT_TRUE(heard("saved " + folder)) << viewer->output();
+    click("path:clear");
+    EXPECT_EQ(viewer->status("path"), "0 keys, 0 s");
+    click("path:load");
+    type(folder + "/way.json", viewer->placeOf("dialog:name"));
+    screen->xdotool("key Return");
+    EXPECT_TRUE(heard("2 keys, 1 s")) << viewer->output();
+    EXPECT_EQ(viewer->status("path"), "2 keys, 1 s");
+
+    // A film: the window shows how far it is and can end it; what was asked for behind it comes then.
+    viewer->send("camera orbit 5");
+    const std::string before = viewer->status("camera");
+    click("path:record");
+    type(folder + "/frame%03d.png", viewer->placeOf("dialog:name"));
+    moveTo(viewer->middleOf("dialog:take"));
+    pass();
+    screen->xdotool("mousedown 1");
+    pass();
+    screen->xdotool("mouseup 1");  // from here on commands wait for the film
+    EXPECT_TRUE(eventually([&] { return fs::exists(folder + "/frame003.png"); })) << viewer->output();
+    pressStop(place);
+    EXPECT_TRUE(heard("record: stopped at frame")) << viewer->output();
+    EXPECT_EQ(viewer->status("camera"), before) << "it is where it was";
+    EXPECT_FALSE(fs::exists(folder + "/frame119.png"));
+    viewer->send("record " + folder + "/turn%d.png 3 turntable; echo behind");
+    EXPECT_TRUE(heard("written " + folder + "/turn%d.png (3 frames)")) << viewer->output();
+    EXPECT_TRUE(heard("behind"));
+    EXPECT_EQ(viewer->status("camera"), before);
+    EXPECT_NE(bytesOf(folder + "/turn0.png"), bytesOf(folder + "/turn1.png"));
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0);
+}
+
+TEST_F(ViewerPanelsTest, ScenesAreSavedOpenedAndReloaded) {
+    const std::string folder = freshFolder("scenes"), scene = folder + "/room.glb";
+    start(std::string(kSmall) + "builtin:cornell");
+    viewer->send("material white color 0.2 0.2 0.2");
+    settle();
+    const glm::ivec2 at = inPicture(0.5f, 0.35f);
+    const glm::vec3 grey = shownAt(at);
+    screen->xdotool("key ctrl+s");
+    pass();
+    name(scene);
+    EXPECT_TRUE(heard("saved " + scene)) << viewer->output();
+    viewer->send("save " + folder + "/as_it_was.glb; undo");
+    EXPECT_TRUE(heard("saved " + folder)) << viewer->output();
+    settle();
+    EXPECT_GT(glm::length(shownAt(at)), 1.2f * glm::length(grey));
+
+    openMenu("File", "menu:Open");
+    type(scene, viewer->placeOf("dialog:name"));
+    screen->xdotool("key Return");
+    EXPECT_TRUE(heard("loaded " + scene)) << viewer->output();
+    settle();
+    EXPECT_TRUE(near(shownAt(at), grey, 4)) << "the edit was saved";
+
+    // What another program writes is loaded again, with camera and settings as they are; what is saved from
+    // here is not: undo would be lost.
+    viewer->send("material white color 0.8 0.8 0.8; save " + scene + " overwrite; set image.exposure 1");
+    EXPECT_TRUE(heard("saved " + scene)) << viewer->output();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1500));  // files are looked at twice a second
+    EXPECT_EQ(viewer->status("steps").substr(0, 1), "2") << viewer->output();
+    const std::size_t until = viewer->output().size();
+    fs::copy_file(folder + "/as_it_was.glb", scene, fs::copy_options::overwrite_existing);
+    fs::last_write_time(scene, fs::file_time_type::clock::now());
+    EXPECT_TRUE(eventually([&] {
+        viewer->status("frames");
+        return viewer->output().find("loaded " + scene, until) != std::string::npos;
+    })) << viewer->output();
+    EXPECT_EQ(viewer->setting("image.exposure"), "1");
+    viewer->send("set image.exposure 0");
+    settle();
+    EXPECT_TRUE(near(shownAt(at), grey, 4)) << "as it was";
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0);
+}
+
+TEST_F(ViewerPanelsTest, SceneTreeAndEditorsChangeTheScene) {
+    start("--window 900x600 --voxels 32 --mode phong --no-state builtin:cornell");
+    viewer->send("camera orbit 30 15");
+    settle();
+    const glm::ivec4 place = picture();
+    const std::string camera = viewer->status("camera");
+
+    click("object:tall block");
+    EXPECT_NE(viewer->status("selection").find("tall block"), std::string::npos);
+    ScreenPixels last = screen->pixels();
+    click("visible:tall block");
+    EXPECT_TRUE(eventually([&] { return screen->pixels().changedFrom(last, place, 20) > 2000; })) << "gone";
+    viewer->send("undo");
+    const std::string before = viewer->status("selection");
+    dragWidget("edit:position", {0.1f, 0.5f}, {30, 0});
+    EXPECT_NE(viewer->status("selection"), before);
+    EXPECT_EQ(viewer->status("steps").substr(0, 1), "2")
+        << "camera, and one drag: " << viewer->status("steps");
+    openMenu("Edit", "menu:Undo");
+    EXPECT_TRUE(eventually([&] { return viewer->status("selection") == before; }));
+    screen->xdotool("key ctrl+y");
+    EXPECT_TRUE(eventually([&] { return viewer->status("selection") != before; }));
+
+    // Its material.
+    click("edit:material");
+    EXPECT_NE(viewer->status("selection").find("material"), std::string::npos);
+    const std::string colour = answer("material white", "  color");
+    ASSERT_NE(colour, "") << viewer->output();
+    dragWidget("edit:base colour", {0.05f, 0.5f}, {-40, 0});
+    EXPECT_NE(viewer->status("selection").find("material"), std::string::npos)
+        << "a drag that ends over the picture is no click into it";
+    EXPECT_NE(answer("material white", "  color"), colour);
+    const std::string rough = answer("material white", "  roughness");
+    dragWidget("edit:roughness", {0.5f, 0.5f}, {-30, 0});
+    EXPECT_NE(answer("material white", "  roughness"), rough);
+
+    // A light is added where the eye is, moved away from there by its handle, its strength dragged, deleted.
+    click("add light");
+    click("add light:point");
+    EXPECT_EQ(viewer->status("selection"), "light 0");
+    viewer->send("light light0 position 0 0.6 0.4");
+    settle();
+    const std::string light = answer("light light0", "  0 light0");
+    const glm::ivec2 handle = viewer->middleOf("gizmo:y");
+    ASSERT_GT(handle.x, 0) << viewer->output();
+    drag(1, handle, handle + glm::ivec2(0, 40));
+    const std::string moved = answer("light light0", "  0 light0");
+    EXPECT_NE(moved, light);
+    EXPECT_EQ(moved.substr(0, moved.find("at ")), light.substr(0, light.find("at "))) << "its place alone";
+    EXPECT_EQ(viewer->status("camera"), camera) << "the handle took the drag";
+    settle();
+    last = screen->pixels();
+    dragWidget("edit:strength", {0.2f, 0.5f}, {60, 0});
+    EXPECT_NE(answer("light light0", "  0 light0"), moved);
+    EXPECT_TRUE(eventually([&] { return screen->pixels().changedFrom(last, place, 8) > 2000; }))
+        << "brighter";
+    click("edit:delete");
+    EXPECT_EQ(answer("light", "no lights"), "no lights") << viewer->output();
+
+    // Camera by numbers.
+    click("header:Camera");
+    dragWidget("edit:eye", {0.1f, 0.5f}, {30, 0});
+    EXPECT_NE(viewer->status("camera"), camera);
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0);
+}
+
+TEST_F(ViewerPanelsTest, MeasuresToolTipsAndViewsOfVoxels) {
+    start("--window 900x600 --voxels 32 --mode phong --no-state builtin:cornell");
+    settle();
+    // Times of frames and passes, memory by object.
+    EXPECT_GT(viewer->placeOf("frame graph").z, 50) << viewer->output();
+    EXPECT_GT(viewer->placeOf("pass:phong").z, 0) << viewer->output();
+    const glm::ivec4 memory = viewer->placeOf("memory");
+    const glm::ivec4 table(memory.x, memory.y + memory.w, memory.z, 60);
+    const ScreenPixels closed = screen->pixels();
+    click("memory");
+    EXPECT_TRUE(eventually([&] { return screen->pixels().changedFrom(closed, table, 40) > 200; })) << "lines";
+    // A setting's tool tip comes up beside the cursor.
+    click("tab:Image");
+    const glm::ivec4 exposure = viewer->placeOf("image.exposure");
+    moveTo(inPicture(0.5f, 0.9f));
+    pass();
+    const ScreenPixels last = screen->pixels();
+    moveTo({exposure.x + exposure.z / 2, exposure.y + exposure.w / 2});
+    const glm::ivec4 below(exposure.x, exposure.y + 20, 200, 80);
+    EXPECT_TRUE(eventually([&] { return screen->pixels().changedFrom(last, below, 8) > 1000; }));
+
+    // Wheel and middle button.
+    const std::string camera = viewer->status("camera");
+    moveTo(inPicture(0.5f, 0.5f));
+    pass();
+    screen->xdotool("click 4");
+    const std::string nearer =
+        viewer->statusUntil("camera", [&](const std::string& now) { return now != camera; });
+    EXPECT_NE(nearer, camera);
+    EXPECT_EQ(nearer.substr(nearer.find("target")), camera.substr(camera.find("target")));
+    drag(2, inPicture(0.5f, 0.5f), inPicture(0.6f, 0.5f));
+    const std::string panned = viewer->status("camera");
+    EXPECT_NE(panned.substr(panned.find("target")), camera.substr(camera.find("target")));
+    viewer->send("undo; reset; camera orbit 0");
+
+    // Each of the views of voxels is a picture of its own.
+    viewer->send("mode traced; component voxels; resolution 0.25; set view.voxel_shape cubes");
+    settle();
+    const glm::ivec4 place = picture();
+    ScreenPixels shown = screen->pixels();
+    for (const char* change : {"view.voxel_data age", "view.voxel_data bricks", "view.voxel_data normal",
+                               "view.voxel_level 2", "view.voxel_shape volume", "view.voxel_aperture 0.3"}) {
+        viewer->send(std::string("set ") + change);
+        EXPECT_TRUE(eventually([&] { return screen->pixels().changedFrom(shown, place, 8) > 500; }))
+            << change;
+        settle();
+        shown = screen->pixels();
+    }
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0);
+}
+
+// What is black says why, in words, on the picture.
+TEST_F(ViewerPanelsTest, ABlackPictureSaysWhy) {
+    start(std::string(kSmall) + "builtin:cornell");
+    settle();
+    EXPECT_EQ(viewer->status("hint"), "none");
+    const struct {
+        const char *command, *reason, *back;
+    } cases[] = {{"set image.exposure -20", "exposure: ", "undo"},
+                 {"material lamp emission 0", "light: every lamp is off or dark", "undo"},
+                 {"camera target 0 1 100; camera eye 0 1 50", "camera: nothing is in view", "undo; undo"},
+                 {"objs", "objects: drawing them is off", "undo"}};
+    for (const auto& one : cases) {
+        viewer->send(one.command);
+        settle();
+        const std::string hint = viewer->statusUntil(
+            "hint", [&](const std::string& now) { return now != "none" && !now.empty(); });
+        EXPECT_NE(viewer->output().find(one.reason), std::string::npos) << one.command << ": " << hint;
+        const glm::ivec4 place = picture();
+        EXPECT_TRUE(eventually([&] {  // letters on it
+            return screen->pixels()
+                       .mean(glm::ivec2(place) + glm::ivec2(place.z, place.w) / 2 - 60, {120, 120})
+                       .x > 20;
+        })) << one.command;
+        viewer->send(one.back);
+        settle();
+        EXPECT_EQ(viewer->statusUntil("hint", [](const std::string& now) { return now == "none"; }), "none");
+    }
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0);
+}
+
+// On a screen of 192 dots an inch text and widgets are twice as large; the size can be changed while it runs.
+TEST_F(ViewerPanelsTest, TextFollowsTheScreensScale) {
+    if (const std::string missing = x11Missing(); !missing.empty()) GTEST_SKIP() << missing;
+    setScreenDpi(screen->display(), 192);
+    start(std::string(kSmall) + "builtin:cornell");
+    settle();
+    EXPECT_NE(viewer->status("window").find("scale 2.00"), std::string::npos) << viewer->status("window");
+    const glm::ivec4 large = viewer->placeOf("tab:Scene");
+    viewer->send("ui_scale 1");
+    settle();
+    const glm::ivec4 small = viewer->placeOf("tab:Scene");
+    EXPECT_NEAR(large.w, 2 * small.w, 2);
+    moveTo(inPicture(0.5f, 0.5f));
+    screen->xdotool("key ctrl+equal");
+    EXPECT_NE(
+        viewer
+            ->statusUntil("window",
+                          [](const std::string& now) { return now.find("scale 1.10") != std::string::npos; })
+            .find("scale 1.10"),
+        std::string::npos);
+    screen->xdotool("key ctrl+minus");
+    EXPECT_NE(
+        viewer
+            ->statusUntil("window",
+                          [](const std::string& now) { return now.find("scale 1.00") != std::string::npos; })
+            .find("scale 1.00"),
+        std::string::npos);
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0);
+}
+
+// Shaders of a folder are built again when they change; one that is broken is named, and the picture stays.
+TEST_F(ViewerPanelsTest, ShadersAreBuiltAgainWhenTheyChange) {
+    const std::string folder = freshFolder("shaders");
+    fs::copy(CONELIGHT_SOURCE_DIR "/shaders", folder,
+             fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+    start(std::string(kSmall) + "--shader-dir '" + folder + "' builtin:cornell");
+    settle();
+    const glm::ivec2 at = inPicture(0.5f, 0.35f);
+    const glm::vec3 lit = shownAt(at);
+    const std::string file = folder + "/gather/phong_shade.comp.glsl";
+    const std::string text = bytesOf(file);
+    ASSERT_NE(text, "");
+    std::this_thread::sleep_for(std::chrono::milliseconds(1200));  // it has looked at the folder once
+    std::ofstream(file) << text << "\nbroken";
+    EXPECT_TRUE(heard("phong_shade.comp.glsl: does not compile")) << viewer->output();
+    settle();
+    EXPECT_TRUE(near(shownAt(at), lit, 3)) << "the picture stays";
+    std::ofstream(file) << text;
+    EXPECT_TRUE(heard("shaders: built again")) << viewer->output();
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
+}
+
+}  // namespace
+}  // namespace conelight::test
