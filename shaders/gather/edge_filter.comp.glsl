@@ -47,7 +47,28 @@ void main() {
     reach *= reach;
     float lobe = max(roughness * roughness, 1e-3);  // GGX's alpha
 #endif
-    float certainty = sqrt(max(pixelHistoryCount(own), 1.0) * float(pixelRays.rays)) / 2.0;
+#if !SPECULAR
+    // What is unlike all of its neighbours is noise, not another light: it is told from them by the least or
+    // most of them.
+    vec3 alike = pixelHistoryValue(own);
+#if FILTER_STEP == 1
+    vec3 least = vec3(1e30);
+    vec3 most = vec3(0.0);
+    for (int i = 0; i < 8; ++i) {
+        int k = i < 4 ? i : i + 1;
+        ivec2 q = pixel + ivec2(k % 3, k / 3) - 1;
+        bool inside = all(greaterThanEqual(q, ivec2(0))) && all(lessThan(q, size));
+        uvec4 bits = texelFetch(source, clamp(q, ivec2(0), size - 1), 0);
+        bool same = inside && bits.z != 0u && pixelHistoryInstance(bits) == pixelHistoryInstance(own);
+        float offPlane = dot(positionOf(q, bits) - position, normal) * pixelRays.inverseVoxelSize;
+        same = same && dot(pixelHistoryNormal(bits), normal) > 0.9 && abs(offPlane) < 0.5;
+        least = same ? min(least, pixelHistoryValue(bits)) : least;
+        most = same ? max(most, pixelHistoryValue(bits)) : most;
+    }
+    alike = least.r < 1e30 ? clamp(alike, least, most) : alike;
+#endif
+#endif
+    float certainty = sqrt(max(pixelHistoryCount(own), 1.0) * float(pixelRays.rays)) / 3.0;
     for (int i = 0; i < 8; ++i) {
         int k = i < 4 ? i : i + 1;  // the middle is our own
         ivec2 offset = ivec2(k % 3, k / 3) - 1;
@@ -74,9 +95,9 @@ void main() {
         // A normal turned by alpha shows what lies a whole lobe beside.
         tap *= max(1.0 - 2.0 * (1.0 - cosine) / (lobe * lobe), 0.0);
 #else
-        // Noise of a mean of n rays is about 1 / sqrt(n) of it; twice that is another light, as across
-        // a wall too thin for a pixel.
-        vec3 a = pixelHistoryValue(own);
+        // Noise of a mean of n rays is about 1 / sqrt(n) of it; six times that between two of them is another
+        // light, as across a wall too thin for a pixel.
+        vec3 a = alike;
         vec3 b = pixelHistoryValue(bits);
         float relative = dot(abs(a - b), vec3(1.0)) / max(dot(a + b, vec3(1.0)), 1e-6) * certainty;
         tap *= max(1.0 - relative * relative, 0.0);

@@ -24,9 +24,9 @@ const float kSameBend = 0.75;
 const float kSameBendRange = 0.1;
 
 // rgb irradiance / pi; a: sum of weights, 0 where no face was found. `bent`, with CACHE_NORMALS 1: sum of the
-// normals of these faces, of any length, as far as they are near `normal`. Which of the eight voxels are there is
-// asked first, then only those are visited, and of their faces those that count: on a wall four of eight
-// voxels and one face each (platform figures: docs/theory/4_gather.md, "The cache at pixels").
+// normals of these faces, of any length, as far as they are near `normal`. Which of the eight voxels are
+// there is asked first, then only those are visited, and of their faces those that count: on a wall four of
+// eight voxels and one face each (platform figures: docs/theory/4_gather.md, "The cache at pixels").
 vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
     vec3 corner = floor(point - 0.5);
     vec3 part = point - 0.5 - corner;

@@ -399,13 +399,10 @@ TEST_F(TracedModeTest, SolidsMayBeTwoSided) {
     }
 }
 
-// Of the light that a metal floor and metal things send to walls few rays find much. It must arrive without
-// speckles, pixels far brighter than those about them, and all of it.
-TEST_F(TracedModeTest, MetalsThrowNoSpecklesOnWalls) {
-    const Scene scene = io::generateScene("glossy");
-    Settings settings = smallSettings(Quality::Interactive, Component::Diffuse);
-    const Image image = draw(scene, settings);
-    int speckles = 0;
+// Pixels that `isDot(own, sorted 3x3)` says so of.
+template <class IsDot>
+int dotsIn(const Image& image, IsDot isDot) {
+    int dots = 0;
     for (int y = 1; y + 1 < kPixels; ++y)
         for (int x = 1; x + 1 < kPixels; ++x) {
             std::array<float, 9> around;
@@ -415,9 +412,21 @@ TEST_F(TracedModeTest, MetalsThrowNoSpecklesOnWalls) {
             }
             const float own = around[4];
             std::sort(around.begin(), around.end());
-            // Six of nine are of the same surface.
-            speckles += around[3] > 0 && own > 1.5f * around[8 - 1] ? 1 : 0;
+            dots += isDot(own, around) ? 1 : 0;
         }
+    return dots;
+}
+
+// Of the light that a metal floor and metal things send to walls few rays find much. It must arrive without
+// speckles, pixels far brighter than those about them, and all of it.
+TEST_F(TracedModeTest, MetalsThrowNoSpecklesOnWalls) {
+    const Scene scene = io::generateScene("glossy");
+    Settings settings = smallSettings(Quality::Interactive, Component::Diffuse);
+    const Image image = draw(scene, settings);
+    // Six of nine are of the same surface.
+    const int speckles = dotsIn(image, [](float own, const std::array<float, 9>& around) {
+        return around[3] > 0 && own > 1.5f * around[8 - 1];
+    });
     EXPECT_LE(speckles, 4);
     settings.component = Component::Full;
     reference::PathTracerSettings truth;
@@ -425,6 +434,17 @@ TEST_F(TracedModeTest, MetalsThrowNoSpecklesOnWalls) {
     const double expected =
         meanOf(reference::PathTracer(scene).render(scene.cameras.at(0), kPixels, kPixels, truth).full);
     EXPECT_NEAR(meanOf(draw(scene, settings)) / expected, 1.0, 0.03);
+}
+
+// A room lit by one lamp that rays must find: where few did, a pixel is darker than all about it, and the
+// filter must share nonetheless.
+TEST_F(TracedModeTest, FewRaysLeaveNoDarkDots) {
+    const Image image =
+        draw(io::generateScene("lobby"), smallSettings(Quality::Interactive, Component::Diffuse));
+    EXPECT_LE(
+        dotsIn(image, [](float own,
+                         const std::array<float, 9>& around) { return own > 0 && own < 0.8f * around[1]; }),
+        2);
 }
 
 TEST_F(TracedModeTest, EveryComponentIsFinite) {
