@@ -68,7 +68,7 @@ void main() {
     alike = least.r < 1e30 ? clamp(alike, least, most) : alike;
 #endif
 #endif
-    float certainty = sqrt(max(pixelHistoryCount(own), 1.0) * float(pixelRays.rays)) / 3.0;
+    float certainty = pow(max(pixelHistoryCount(own), 1.0) * float(pixelRays.rays), 0.6) / 4.25;
     for (int i = 0; i < 8; ++i) {
         int k = i < 4 ? i : i + 1;  // the middle is our own
         ivec2 offset = ivec2(k % 3, k / 3) - 1;
@@ -95,8 +95,8 @@ void main() {
         // A normal turned by alpha shows what lies a whole lobe beside.
         tap *= max(1.0 - 2.0 * (1.0 - cosine) / (lobe * lobe), 0.0);
 #else
-        // Noise of a mean of n rays is about 1 / sqrt(n) of it; six times that between two of them is another
-        // light, as across a wall too thin for a pixel.
+        // Noise of a mean of n rays that complement each other falls as n^-0.6 (fitted); a difference far
+        // above it is another light, as across a wall too thin for a pixel.
         vec3 a = alike;
         vec3 b = pixelHistoryValue(bits);
         float relative = dot(abs(a - b), vec3(1.0)) / max(dot(a + b, vec3(1.0)), 1e-6) * certainty;
