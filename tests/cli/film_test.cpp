@@ -83,6 +83,19 @@ TEST_F(FilmTest, FilmsHaveTheLengthOfThePathOrTheFramesAskedFor) {
     EXPECT_EQ(std::filesystem::file_size(film), 5 * frame);
 }
 
+TEST_F(FilmTest, FfmpegWritesFilmsThatPlay) {
+    if (runCommand("ffprobe -version").status != 0)
+        GTEST_SKIP() << "no ffmpeg (scripts/install_packages --film)";
+    const std::string film = file("plays.mp4");
+    const CommandResult written = render("--mode phong --turntable --frames 5 -o " + film);
+    ASSERT_EQ(written.status, 0) << written.output;
+    const CommandResult probed = runCommand(
+        "ffprobe -v error -count_frames -show_entries stream=codec_name,width,height,nb_read_frames -of "
+        "csv=p=0 " +
+        film);
+    EXPECT_EQ(probed.output.substr(0, probed.output.find_last_not_of('\n') + 1), "h264,48,32,5");
+}
+
 TEST_F(FilmTest, WhatDoesNotFitIsRefused) {
     const std::string path = keys(), film = file("never.mp4");
     expectOneLine(render("--frames 3 -o " + file("a.png")), 2, "--frames: belongs to --path");

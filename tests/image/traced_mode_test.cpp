@@ -32,6 +32,17 @@ Settings smallSettings(Quality quality, Component component = Component::Full) {
     return settings;
 }
 
+// relRMSE of indirect light, the truth's own noise left out by its halves.
+double indirectError(const Image& image, const reference::PathTracedPicture& truth) {
+    double square = 0;
+    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
+        const glm::dvec3 a(image.pixels[i] - truth.indirectA.pixels[i]);
+        const glm::dvec3 b(image.pixels[i] - truth.indirectB.pixels[i]);
+        square += glm::dot(a, b) / (3.0 * kPixels * kPixels);
+    }
+    return std::sqrt(std::max(square, 0.0)) / meanOf(truth.indirect);
+}
+
 class TracedModeTest : public GlTest {
   protected:
     static Image draw(Renderer& renderer, const Scene& scene, const Settings& settings) {
@@ -149,14 +160,7 @@ TEST_F(TracedModeTest, MetalSeenInMetalIsTheTruth) {
         settings.light.emissiveQuads = false;
         settings.voxels.size = 64;
         const Image image = draw(scene, settings);
-        // The truth's own noise left out, by its halves.
-        double square = 0;
-        for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-            const glm::dvec3 a(image.pixels[i] - truth.indirectA.pixels[i]);
-            const glm::dvec3 b(image.pixels[i] - truth.indirectB.pixels[i]);
-            square += glm::dot(a, b) / (3.0 * kPixels * kPixels);
-        }
-        EXPECT_LT(std::sqrt(std::max(square, 0.0)) / meanOf(truth.indirect), 0.15) << lamp;
+        EXPECT_LT(indirectError(image, truth), 0.15) << lamp;
         EXPECT_NEAR(meanOf(image) / meanOf(truth.indirect), 1.0, 0.03) << lamp;
     }
 }
@@ -186,13 +190,7 @@ TEST_F(TracedModeTest, MetalBallsShowEachOthersHighlights) {
     settings.traced.specularRays = 16;  // few rays show highlights wider than they are
     settings.voxels.size = 64;
     const Image image = draw(scene, settings);
-    double square = 0;
-    for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-        const glm::dvec3 a(image.pixels[i] - truth.indirectA.pixels[i]);
-        const glm::dvec3 b(image.pixels[i] - truth.indirectB.pixels[i]);
-        square += glm::dot(a, b) / (3.0 * kPixels * kPixels);
-    }
-    const double error = std::sqrt(std::max(square, 0.0)) / meanOf(truth.indirect);
+    const double error = indirectError(image, truth);
     RecordProperty("error", std::to_string(error));
     EXPECT_LT(error, 0.13);  // 0.10; about the normals of voxels 0.17
     EXPECT_NEAR(meanOf(image) / meanOf(truth.indirect), 1.0, 0.04);
