@@ -104,6 +104,10 @@ float Window::contentScale() const {
     return x > 0 ? x : 1.0f;
 }
 
+void Window::show() {
+    if (glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != GLFW_FALSE) glfwRestoreWindow(window_);
+}
+
 bool Window::minimized() const {
     const glm::ivec2 size = framebufferSize();
     return size.x == 0 || size.y == 0 || glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != GLFW_FALSE;

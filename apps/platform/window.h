@@ -43,6 +43,7 @@ class Window {
     glm::ivec2 framebufferSize() const;  // pixels
     float contentScale() const;          // pixels per 96 dpi pixel; 1 on ordinary screens, 2 on HiDPI
     bool minimized() const;
+    void show();  // not minimized any more
     bool fullscreen() const { return fullscreen_; }
     void setFullscreen(bool on);
     // Hides the cursor and reports its movement without limits, for flying.

@@ -172,6 +172,8 @@ TEST_F(ViewerPanelsTest, ScenesAreSavedOpenedAndReloaded) {
     openMenu("File", "menu:Open");
     type(scene, viewer->placeOf("dialog:name"));
     screen->xdotool("key Return");
+    pass();
+    click("unsaved:lose");  // it was saved before the undo
     EXPECT_TRUE(heard("loaded " + scene)) << viewer->output();
     settle();
     EXPECT_TRUE(near(shownAt(at), grey, 4)) << "the edit was saved";
@@ -195,6 +197,42 @@ TEST_F(ViewerPanelsTest, ScenesAreSavedOpenedAndReloaded) {
     EXPECT_TRUE(near(shownAt(at), grey, 4)) << "as it was";
     viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0);
+}
+
+// Closing, opening another scene, and a file that changes on disk wait for an answer where changes of the
+// scene would be lost.
+TEST_F(ViewerPanelsTest, ChangesAreNotLostUnasked) {
+    if (const std::string missing = x11Missing(); !missing.empty()) GTEST_SKIP() << missing;
+    const std::string folder = freshFolder("unsaved"), scene = folder + "/room.glb",
+                      kept = folder + "/kept.glb";
+    start(std::string(kSmall) + "builtin:cornell");
+    viewer->send("save " + scene + "; load " + scene + "; set image.exposure 0.5");
+    EXPECT_TRUE(heard("loaded " + scene)) << viewer->output();
+    settle();
+    viewer->send("material white color 0.1 0.1 0.9");
+    settle();
+
+    // The file changes: what is in the window stays.
+    fs::last_write_time(scene, fs::file_time_type::clock::now() + std::chrono::seconds(2));
+    EXPECT_TRUE(eventually([&] { return viewer->placeOf("unsaved:stay").z > 0; })) << viewer->output();
+    click("unsaved:stay");
+    EXPECT_EQ(viewer->status("steps").substr(0, 1), "2") << viewer->output();
+
+    ASSERT_TRUE(dropFiles(screen->display(), "Conelight", {scene}));
+    EXPECT_TRUE(eventually([&] { return viewer->placeOf("unsaved:stay").z > 0; })) << viewer->output();
+    screen->xdotool("key Escape");
+    EXPECT_TRUE(eventually([&] { return viewer->placeOf("unsaved:stay").z == 0; })) << viewer->output();
+    EXPECT_EQ(viewer->status("steps").substr(0, 1), "2") << viewer->output();
+
+    // Closed: the changes are saved first, and then it ends.
+    pressCloseButton(screen->display(), "Conelight");
+    EXPECT_TRUE(eventually([&] { return viewer->placeOf("unsaved:save").z > 0; })) << viewer->output();
+    click("unsaved:save");
+    pass();
+    name(kept);
+    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
+    EXPECT_NE(bytesOf(kept), bytesOf(scene));
+    EXPECT_FALSE(bytesOf(kept).empty());
 }
 
 TEST_F(ViewerPanelsTest, SceneTreeAndEditorsChangeTheScene) {

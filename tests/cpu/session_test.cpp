@@ -82,6 +82,37 @@ std::string stateOf(const Session& s) {
     return text;
 }
 
+TEST(Session, UnsavedIsASceneOtherThanTheFile) {
+    Session s = session();
+    EXPECT_FALSE(s.unsaved());
+    s.setSetting("image.exposure", "2");
+    EXPECT_FALSE(s.unsaved()) << "settings are not of the scene";
+    s.setSky(glm::vec3(1), "sky");
+    EXPECT_TRUE(s.unsaved());
+    s.markSaved();
+    s.setSetting("image.exposure", "3");
+    EXPECT_FALSE(s.unsaved());
+    s.undo();
+    s.undo();
+    EXPECT_TRUE(s.unsaved()) << "the file has the sky";
+    s.redo();
+    EXPECT_FALSE(s.unsaved());
+    // One step by the same key, begun before it was saved.
+    s.setSky(glm::vec3(2), "sky", "sky");
+    s.markSaved();
+    s.setSky(glm::vec3(3), "sky", "sky");
+    EXPECT_TRUE(s.unsaved());
+    s.undo();
+    s.setSky(glm::vec3(4), "sky");
+    EXPECT_TRUE(s.unsaved()) << "another step in the place of the saved one";
+    // Forgotten steps count.
+    s.markSaved();
+    for (int i = 0; i < 1100; ++i) s.setSky(glm::vec3(static_cast<float>(i)), "sky");
+    while (s.undo()) {
+    }
+    EXPECT_TRUE(s.unsaved());
+}
+
 TEST(Session, EveryChangeIsCountedAloneAndUndone) {
     Session s = session();
     struct Case {
@@ -144,6 +175,7 @@ TEST(Session, EveryChangeIsCountedAloneAndUndone) {
         EXPECT_EQ(stateOf(s), states[i]);
     }
     EXPECT_FALSE(s.undo());
+    EXPECT_FALSE(s.unsaved()) << "as it was opened";
     for (std::size_t i = 0; i < std::size(cases); ++i) {
         ASSERT_TRUE(s.redo());
         EXPECT_EQ(stateOf(s), states[i + 1]);

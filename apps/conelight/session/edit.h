@@ -3,6 +3,7 @@
 // textures.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <variant>
 #include <vector>
@@ -46,6 +47,13 @@ struct Step {
     std::string label;     // "translate Lucy"
     std::string mergeKey;  // steps of one key in a row become one: a slider that is dragged
     std::vector<Edit> edits;
+    std::uint64_t serial = 0;  // of its last merge: no two states of a session share one
 };
+
+// Whether it changes what a scene file holds; settings, view and camera path are not of the scene.
+inline bool isOfScene(const Edit& edit) {
+    return !std::holds_alternative<SettingsEdit>(edit) && !std::holds_alternative<CameraEdit>(edit) &&
+           !std::holds_alternative<FlagsEdit>(edit) && !std::holds_alternative<PathEdit>(edit);
+}
 
 }  // namespace conelight::program

@@ -26,6 +26,8 @@ bool same(const Camera& a, const Camera& b) {
            a.zNear == b.zNear && a.zFar == b.zFar;
 }
 
+bool changesScene(const Step& step) { return std::any_of(step.edits.begin(), step.edits.end(), isOfScene); }
+
 // Whether two steps change the same things, so that the later one can take the place of the earlier.
 bool sameTargets(const Step& a, const Step& b) {
     if (a.edits.size() != b.edits.size()) return false;
@@ -139,7 +141,7 @@ std::vector<std::string> Session::open(const std::string& path, bool keepView) {
     done_.clear();
     undone_.clear();
     sealed_ = true;
-    savedCount_ = ++changeCount_;
+    savedSerial_ = forgottenSerial_ = 0;
     ++revisions_.scene;
     ++revisions_.selection;
     return scene_.notes;
@@ -364,9 +366,15 @@ void Session::setRayMark(const std::optional<RayMark>& mark) {
     ++revisions_.selection;
 }
 
+// Serial of the last step that made the scene what it is.
+std::uint64_t Session::sceneSerial() const {
+    const auto last = std::find_if(done_.rbegin(), done_.rend(), changesScene);
+    return last == done_.rend() ? forgottenSerial_ : last->serial;
+}
+
 void Session::commit(Step step) {
     for (const Edit& edit : step.edits) apply(edit, true);
-    ++changeCount_;
+    step.serial = ++lastSerial_;
     undone_.clear();
     const bool merges = !sealed_ && !step.mergeKey.empty() && !done_.empty() &&
                         done_.back().mergeKey == step.mergeKey && sameTargets(done_.back(), step);
@@ -374,10 +382,13 @@ void Session::commit(Step step) {
     if (merges) {
         for (std::size_t i = 0; i < step.edits.size(); ++i) takeAfter(done_.back().edits[i], step.edits[i]);
         done_.back().label = std::move(step.label);
+        done_.back().serial = step.serial;
         return;
     }
     done_.push_back(std::move(step));
-    if (done_.size() > kSteps) done_.pop_front();
+    if (done_.size() <= kSteps) return;
+    if (changesScene(done_.front())) forgottenSerial_ = done_.front().serial;
+    done_.pop_front();
 }
 
 void Session::apply(const Edit& edit, bool forward) {
@@ -435,7 +446,6 @@ std::optional<std::string> Session::undo() {
     Step step = std::move(done_.back());
     done_.pop_back();
     for (auto edit = step.edits.rbegin(); edit != step.edits.rend(); ++edit) apply(*edit, false);
-    ++changeCount_;
     sealed_ = true;
     undone_.push_back(std::move(step));
     return undone_.back().label;
@@ -446,7 +456,6 @@ std::optional<std::string> Session::redo() {
     Step step = std::move(undone_.back());
     undone_.pop_back();
     for (const Edit& edit : step.edits) apply(edit, true);
-    ++changeCount_;
     sealed_ = true;
     done_.push_back(std::move(step));
     return done_.back().label;

@@ -122,9 +122,10 @@ class Session {
     std::optional<std::string> redo();
     std::size_t undoSteps() const { return done_.size(); }
     std::size_t redoSteps() const { return undone_.size(); }
-    bool unsaved() const { return changeCount_ != savedCount_; }
+    // Whether the scene is another than was opened or last saved; one that was changed and undone is not.
+    bool unsaved() const { return sceneSerial() != savedSerial_; }
     void markSaved() {
-        savedCount_ = changeCount_;
+        savedSerial_ = sceneSerial();
         ++saves_;
     }
     std::uint64_t saves() const { return saves_; }  // how often it was saved
@@ -139,6 +140,7 @@ class Session {
 
   private:
     void commit(Step step);
+    std::uint64_t sceneSerial() const;
     void apply(const Edit& edit, bool forward);
     void place(const Camera& camera);
 
@@ -165,7 +167,7 @@ class Session {
     std::deque<Step> done_;
     std::vector<Step> undone_;
     bool sealed_ = true;
-    std::uint64_t changeCount_ = 0, savedCount_ = 0, saves_ = 0;
+    std::uint64_t lastSerial_ = 0, forgottenSerial_ = 0, savedSerial_ = 0, saves_ = 0;
 };
 
 }  // namespace conelight::program

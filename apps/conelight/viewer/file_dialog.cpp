@@ -124,7 +124,8 @@ std::optional<FileChoice> FileDialog::show() {
     ImGui::SetNextWindowSize({std::min(36 * em, display.x), std::min(26 * em, display.y)},
                              ImGuiCond_Appearing);
     ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Appearing, {0.5f, 0.5f});
-    if (!ImGui::BeginPopupModal(info.title)) return std::nullopt;
+    shown_ = ImGui::BeginPopupModal(info.title);
+    if (!shown_) return std::nullopt;
     std::optional<std::string> chosen;
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-1);

@@ -33,6 +33,7 @@ class FileDialog {
     // Draws it when it is open; returns what was chosen, once. What is there already may be replaced: the
     // user has said so.
     std::optional<FileChoice> show();
+    bool isOpen() const { return wanted_ || shown_; }
 
   private:
     struct Entry {
@@ -43,7 +44,7 @@ class FileDialog {
     void listFiles(float width, float height, std::optional<std::string>& chosen);
     std::string typedPath() const;
 
-    bool wanted_ = false;
+    bool wanted_ = false, shown_ = false;
     FilePurpose purpose_ = FilePurpose::OpenScene;
     std::string folder_, typed_;
     std::vector<Entry> entries_;

@@ -68,7 +68,7 @@ Viewer::Viewer(Session& session, const ViewerOptions& options)
     for (const std::string& line : state_.lines()) commands_.history().add(line);
     for (const std::string& note : session.scene().notes) console_.say(note);  // the terminal has them
     window_.onDrop = [this](const std::vector<std::string>& paths) {
-        if (!paths.empty()) load(paths.front());
+        if (!paths.empty()) openScene(paths.front());
     };
     window_.onRefresh = [this] { frame(); };
     if (options.readStdin) input_ = std::make_unique<LineReader>(0, platform::Window::wake);
@@ -80,12 +80,6 @@ void Viewer::print(const ConsoleLine& line) {
     console_.say(line.text, line.isError);
     std::fprintf(line.isError ? stderr : stdout, "%s\n", line.text.c_str());
     std::fflush(line.isError ? stderr : stdout);
-}
-
-void Viewer::load(const std::string& scene) {
-    Request request{RequestKind::Load};
-    request.file = scene;
-    session_.request(request);
 }
 
 std::vector<std::string> Viewer::completed(const std::string& line) const {
@@ -120,7 +114,12 @@ void Viewer::followBake() {
 }
 
 int Viewer::run() {
-    while (!end_.quit && !window_.shouldClose()) {
+    while (!end_.quit) {
+        if (window_.shouldClose()) {
+            window_.setShouldClose(false);
+            leave({});
+            if (end_.quit) break;
+        }
         const bool waits = settling_ || bake_.busy();
         const bool busy = more_ || session_.hasRequests() || (!commands_.idle() && !waits) ||
                           !wanted_.empty() || session_.playing();
@@ -150,12 +149,7 @@ void Viewer::watchFiles() {
     watch_.setScene(session_.path());
     // What this program saved is what it shows.
     if (std::exchange(savesSeen_, session_.saves()) != session_.saves()) watch_.acceptScene();
-    if (watch_.sceneChanged()) {
-        Request request{RequestKind::Load};
-        request.file = session_.path();
-        request.keepView = true;
-        session_.request(request);
-    }
+    if (watch_.sceneChanged()) reload();
     if (!watch_.shadersChanged()) return;
     const std::vector<std::string> failures = view_.reloadShaders();
     for (const std::string& failure : failures) fail(failure);
@@ -163,10 +157,13 @@ void Viewer::watchFiles() {
 }
 
 void Viewer::rememberScene() {
-    if (session_.path() == remembered_) return;
-    remembered_ = session_.path();
+    const std::string& scene = session_.path();
+    std::string title =
+        scene.empty() ? "Conelight" : scene + (session_.unsaved() ? " * - Conelight" : " - Conelight");
+    if (title != title_) window_.setTitle(title_ = std::move(title));
+    if (scene == remembered_) return;
+    remembered_ = scene;
     state_.opened(remembered_);
-    window_.setTitle(remembered_.empty() ? "Conelight" : remembered_ + " - Conelight");
 }
 
 // The window shows the pictures of the job meanwhile. Returns whether there is one.

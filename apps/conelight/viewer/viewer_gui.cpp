@@ -90,6 +90,7 @@ void Viewer::gui(const Layout& layout) {
     picture(layout.pictureAt(), layout.pictureSize());
     jobStrips(layout.pictureAt(), layout.pictureSize());
     if (const std::optional<FileChoice> choice = fileDialog_.show()) takeFile(*choice);
+    unsavedQuestion();
     resizePanels(layout);
 }
 

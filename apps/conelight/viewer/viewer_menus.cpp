@@ -5,6 +5,9 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <utility>
+
+#include "viewer/imgui_names.h"
 #include "viewer/viewer_window.h"
 #include "viewer/widget_places.h"
 
@@ -85,18 +88,13 @@ void Viewer::fileMenu() {
     notePlace("menu:Open");
     if (ImGui::BeginMenu("Open recent", !state_.recent().empty())) {
         for (const std::string& scene : state_.recent()) {
-            if (ImGui::MenuItem(scene.c_str())) load(scene);
+            if (ImGui::MenuItem(scene.c_str())) openScene(scene);
             notePlace("recent:" + scene);
         }
         ImGui::EndMenu();
     }
     notePlace("menu:Open recent");
-    if (ImGui::MenuItem("Reload", nullptr, false, !session_.path().empty())) {
-        Request request{RequestKind::Load};
-        request.file = session_.path();
-        request.keepView = true;
-        session_.request(request);
-    }
+    if (ImGui::MenuItem("Reload", nullptr, false, !session_.path().empty())) reload();
     if (ImGui::MenuItem("Save scene as...", "Ctrl+S"))
         fileDialog_.open(FilePurpose::SaveScene, session_.path());
     notePlace("menu:Save scene");
@@ -105,7 +103,7 @@ void Viewer::fileMenu() {
     ImGui::Separator();
     if (ImGui::MenuItem("Screenshot", "P")) session_.request({RequestKind::Screenshot, nextScreenshot()});
     ImGui::Separator();
-    if (ImGui::MenuItem("Quit")) end_.quit = true;
+    if (ImGui::MenuItem("Quit")) leave({});
     notePlace("menu:Quit");
     ImGui::EndMenu();
 }
@@ -135,7 +133,7 @@ void Viewer::takeFile(const FileChoice& choice) {
     const std::string file = quoted(choice.file);
     switch (choice.purpose) {
         case FilePurpose::OpenScene:
-            return load(choice.file);
+            return openScene(choice.file);
         case FilePurpose::SaveScene:
             return runLine("save " + file + " overwrite");
         case FilePurpose::LoadPreset:
@@ -150,6 +148,67 @@ void Viewer::takeFile(const FileChoice& choice) {
             return runLine(fmt::format("record {} {} path", file, filmFrames_));
         case FilePurpose::RecordTurntable:
             return runLine(fmt::format("record {} {} turntable", file, filmFrames_));
+    }
+}
+
+void Viewer::leave(const Leaving& leaving) {
+    if (!session_.unsaved()) return leaveNow(leaving);
+    leaving_ = leaving;
+    savesFirst_ = false;
+    window_.show();
+}
+
+void Viewer::leaveNow(Leaving leaving) {
+    leaving_.reset();
+    if (leaving.to == Leaving::To::End) {
+        end_.quit = true;
+        return;
+    }
+    Request request{RequestKind::Load};
+    request.file = std::move(leaving.file);
+    request.keepView = leaving.to == Leaving::To::FileAsChanged;
+    session_.request(request);
+}
+
+// Whether changes of the scene may be lost.
+void Viewer::unsavedQuestion() {
+    if (!leaving_) return;
+    if (savesFirst_) {
+        if (!session_.unsaved())
+            leaveNow(*leaving_);
+        else if (!fileDialog_.isOpen() && commands_.idle())
+            leaving_.reset();  // not saved after all
+        return;
+    }
+    constexpr const char* kTitle = "Changes that are not saved";
+    const bool reloads = leaving_->to == Leaving::To::FileAsChanged;
+    if (!ImGui::IsPopupOpen(kTitle)) ImGui::OpenPopup(kTitle);
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Appearing, {0.5f, 0.5f});
+    if (!ImGui::BeginPopupModal(kTitle, nullptr, ImGuiWindowFlags_AlwaysAutoResize)) return;
+    if (reloads) ImGui::Text("%s is to be read again.", session_.path().c_str());
+    ImGui::TextUnformatted("The scene has changes that are in no file.");
+    const auto button = [](const char* text, const char* place) {
+        const bool pressed = ImGui::Button(text);
+        notePlace(place);
+        ImGui::SameLine();
+        return pressed;
+    };
+    const bool saves = button("Save as...", "unsaved:save");
+    const bool leaves = button(leaving_->to == Leaving::To::End          ? "Quit without them"
+                               : leaving_->to == Leaving::To::OtherScene ? "Open without them"
+                                                                         : "Read the file, lose them",
+                               "unsaved:lose");
+    const bool stays = button(reloads ? "Keep them" : "Cancel", "unsaved:stay") || escapePressed();
+    if (saves || leaves || stays) ImGui::CloseCurrentPopup();
+    ImGui::EndPopup();
+    if (saves) {
+        savesFirst_ = true;
+        fileDialog_.open(FilePurpose::SaveScene, session_.path());
+    } else if (leaves) {
+        leaveNow(*leaving_);
+    } else if (stays) {
+        leaving_.reset();
     }
 }
 

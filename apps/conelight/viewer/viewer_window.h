@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The viewer's parts, shared by its files: viewer.cpp (start, loop, frame, files), viewer_menus.cpp
-// (menu, keys, dialog), viewer_gui.cpp (panels), viewer_commands.cpp (commands that are the window's own, and
-// what it answers).
+// (menu, keys, dialogs), viewer_gui.cpp (panels), viewer_commands.cpp (commands that are the window's own,
+// and what it answers).
 #pragma once
 
 #include <algorithm>
@@ -52,6 +52,12 @@ struct Layout {
     glm::vec2 pictureSize() const { return {display.x - left - right, display.y - top - bottom}; }
 };
 
+// What would lose the scene's unsaved changes.
+struct Leaving {
+    enum class To { End, OtherScene, FileAsChanged } to = To::End;
+    std::string file;  // OtherScene
+};
+
 class Viewer {
   public:
     Viewer(Session& session, const ViewerOptions& options);
@@ -87,7 +93,11 @@ class Viewer {
     void takeFile(const FileChoice& choice);
     void runLine(const std::string& line);  // as if it were typed into the window
     bool drawPictureJob();
-    void load(const std::string& scene);
+    void openScene(const std::string& scene) { leave({Leaving::To::OtherScene, scene}); }
+    void reload() { leave({Leaving::To::FileAsChanged, session_.path()}); }
+    void leave(const Leaving& leaving);  // at once when nothing would be lost, else after a question
+    void leaveNow(Leaving leaving);
+    void unsavedQuestion();
     Layout layout() const;
     void resizePanels(const Layout& layout);
     void leftPanel(const Layout& layout);
@@ -113,6 +123,8 @@ class Viewer {
     std::unique_ptr<LineReader> input_;
     FileWatch watch_;
     FileDialog fileDialog_;
+    std::optional<Leaving> leaving_;  // waits for the answer, or for the file to be saved
+    bool savesFirst_ = false;
     std::vector<std::string> presets_;  // of the current folder, while the menu shows them
     int filmFrames_ = 120;
     SettingsPanel settingsPanel_;
@@ -123,7 +135,7 @@ class Viewer {
     Picker picker_;
     std::size_t stage_ = 0;  // of the left panel
     std::string filter_;
-    std::string remembered_;           // the scene that the recent list has
+    std::string remembered_, title_;   // the scene that the recent list has; the window's title
     std::vector<std::string> wanted_;  // widgets whose place was asked for
     std::string windowShot_;           // a file that gets the next frame
     bool placesAsked_ = false, placesRecorded_ = false;
