@@ -68,7 +68,9 @@ void main() {
     alike = least.r < 1e30 ? clamp(alike, least, most) : alike;
 #endif
 #endif
-    float certainty = pow(max(pixelHistoryCount(own), 1.0) * float(pixelRays.rays), 0.6) / 4.25;
+    float rays = max(pixelHistoryCount(own), 1.0) * float(pixelRays.rays);
+    // From 8 rays on, a pixel six times as bright as another never counts for it.
+    float certainty = max(pow(rays, 0.6) / 4.25, min(0.5 * sqrt(rays), 1.4));
     for (int i = 0; i < 8; ++i) {
         int k = i < 4 ? i : i + 1;  // the middle is our own
         ivec2 offset = ivec2(k % 3, k / 3) - 1;
