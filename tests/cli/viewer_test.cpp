@@ -198,6 +198,30 @@ TEST_F(ViewerTest, SlidersAreDraggedAndUndone) {
     EXPECT_TRUE(near(shownAt(at), dark, 3));
 }
 
+// At a few frames a second a shortcut goes down and up between two of them, in any order.
+TEST_F(ViewerTest, KeysLetGoWithinOneFrameDoNotStick) {
+    start("--window 720x480 --voxels 64 --mode cones --no-state builtin:cornell");
+    settle();
+    click("tab:Image");
+    // Frames that take a while, without end. Ctrl and Y go down and Ctrl up before one, Y up before the next.
+    viewer->send("vox_freq 0.01; dynamic; set image.exposure 1");
+    viewer->send("undo");
+    pass();
+    EXPECT_EQ(viewer->setting("image.exposure"), "0");
+    viewer->pause();
+    screen->xdotool("keydown ctrl keydown y keyup ctrl");
+    viewer->send("status frames");
+    viewer->resume();
+    viewer->expect("status frames");
+    screen->xdotool("keyup y");
+    pass();
+    viewer->send("dynamic");
+    EXPECT_EQ(viewer->setting("image.exposure"), "1") << "redone";
+    // With a Ctrl that nobody holds a slider would ask for a number in letters.
+    dragWidget("image.exposure", {0.6f, 0.5f}, {30, 0});
+    EXPECT_GT(std::strtof(viewer->setting("image.exposure").c_str(), nullptr), 1.5f) << viewer->output();
+}
+
 TEST_F(ViewerTest, TwoModesSideBySide) {
     start(std::string(kSmall) + "builtin:cornell");
     settle();

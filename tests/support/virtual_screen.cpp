@@ -23,7 +23,7 @@ namespace conelight::test {
 namespace {
 
 // A condition that has not come by then does not: generous, for machines that do other things too.
-constexpr double kPatience = 60;  // s
+constexpr double kPatience = 120;  // s
 
 double now() {
     using clock = std::chrono::steady_clock;
@@ -240,6 +240,9 @@ glm::ivec2 ViewerProcess::middleOf(const std::string& widget) {
     const glm::ivec4 place = placeOf(widget);
     return {place.x + place.z / 2, place.y + place.w / 2};
 }
+
+void ViewerProcess::pause() { kill(process_, SIGSTOP); }
+void ViewerProcess::resume() { kill(process_, SIGCONT); }
 
 bool ViewerProcess::running() {
     int status = 0;

@@ -69,6 +69,9 @@ class ViewerProcess {
     // Waits for the end; -1: it did not end.
     int exitStatus();
     bool running();
+    // Holds the program where it is, so that all input meanwhile reaches it at once, and lets it go on.
+    void pause();
+    void resume();
     const std::string& output() const { return output_; }  // all of it, errors too
 
   private:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/gui.h"
 
+#include <GLFW/glfw3.h>
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
@@ -120,15 +121,23 @@ void Gui::applyLook() {
 }
 
 // Dear ImGui before 1.87 looks at keys once a frame: of a key that is up again by then it would not know, and
-// at five frames a second that is every other Return.
+// at five frames a second that is every other Return. Modifiers are told as such: among the keys its back end
+// would take one that is held here for pressed, at the next key's event, and nobody would let go of it.
 void Gui::holdTappedKeys() {
 #if IMGUI_VERSION_NUM < 18700
     ImGuiIO& io = ImGui::GetIO();
-    for (const int key : tapped_) io.KeysDown[key] = false;
+    for (const int key : tapped_) io.KeysDown[key] = window_.isKeyDown(key);
     tapped_.clear();
+    io.KeyCtrl = window_.isKeyDown(GLFW_KEY_LEFT_CONTROL) || window_.isKeyDown(GLFW_KEY_RIGHT_CONTROL);
+    io.KeyShift = window_.isKeyDown(GLFW_KEY_LEFT_SHIFT) || window_.isKeyDown(GLFW_KEY_RIGHT_SHIFT);
     for (const platform::Window::KeyPress& press : window_.keyPresses()) {
-        if (press.key < 0 || press.key >= IM_ARRAYSIZE(io.KeysDown) || window_.isKeyDown(press.key)) continue;
+        const bool modifier = press.key >= GLFW_KEY_LEFT_SHIFT && press.key <= GLFW_KEY_RIGHT_SUPER;
+        if (modifier || press.key < 0 || press.key >= IM_ARRAYSIZE(io.KeysDown) ||
+            window_.isKeyDown(press.key))
+            continue;
         io.KeysDown[press.key] = true;
+        io.KeyCtrl |= press.control;
+        io.KeyShift |= press.shift;
         tapped_.push_back(press.key);
     }
 #endif
