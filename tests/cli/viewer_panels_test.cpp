@@ -187,6 +187,17 @@ TEST_F(ViewerPanelsTest, WaitsAreEndedByHand) {
     EXPECT_EQ(viewer->exitStatus(), 0);
 }
 
+// Where someone looks for them who has just chosen component voxels.
+TEST_F(ViewerPanelsTest, HowVoxelsAreShownStandsWithVoxels) {
+    start(std::string(kSmall) + "builtin:cornell");
+    settle();
+    click("tab:Voxels");
+    for (const char* key : {"voxels.size", "view.voxels", "view.voxel_data", "view.voxel_shape"})
+        EXPECT_GT(viewer->placeOf(key).z, 0) << key;
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0);
+}
+
 // They are those of the program without a window, bit for bit.
 TEST_F(ViewerPanelsTest, FilmsOfThePathTracerAreDrawnInTheWindow) {
     const std::string folder = freshFolder("cpu_film"), way = folder + "/way.json";

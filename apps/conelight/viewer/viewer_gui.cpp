@@ -17,10 +17,10 @@ namespace {
 
 std::vector<Stage> stagesOf(const std::string& mode) {
     return {{"Scene", {}},
-            {"Voxels", {"voxels."}},
-            {"Light", {"light."}},
+            {"Voxels", {"voxels.", "view.voxel"}},
+            {"Light", {"light.", "view.light"}},
             {"Gather", {mode + "."}},
-            {"Image", {"image.", "view."}}};
+            {"Image", {"image.", "view.wireframe"}}};
 }
 
 constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
