@@ -24,6 +24,7 @@ struct ViewCommand {
     bool noState = false;
     bool timing = false;
     double uiScale = 0;
+    int filmSamples = 0;
     RadiosityOptions radiosity;
     ViewOptions view;
 };
@@ -48,6 +49,7 @@ int run(const ViewCommand& options) {
     viewer.keepState = !options.noState;
     viewer.timing = options.timing;
     viewer.uiScale = static_cast<float>(options.uiScale);
+    viewer.filmSamples = options.filmSamples;
     viewer.radiosity = options.radiosity.values;
     viewer.startedMs = std::chrono::duration<double, std::milli>(kStarted.time_since_epoch()).count();
     return runViewer(session, viewer);
@@ -79,6 +81,11 @@ void addView(CLI::App& app) {
         ->add_option("--ui-scale", options->uiScale,
                      "size of text and widgets, 1 on ordinary screens; the screen's by default")
         ->check(CLI::Range(0.5, 4.0));
+    command
+        ->add_option("--spp", options->filmSamples,
+                     "films of mode reference: samples per pixel of each frame (default 256)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1 << 20));
     options->view.addTo(*command);
     options->radiosity.addSolverTo(*command);
     command->callback([options] {

@@ -8,19 +8,22 @@
 //           back   4 on the surfaces of the picture
 //   AMONG   1: in front of what the G-buffer holds, on the picture; 0: alone, on the sky
 //
-// Rays go from cell to cell (Amanatides and Woo 1987) and skip what is empty: bricks by their mask, at
-// coarser levels texels two levels up. A cell is a voxel of the level that is shown; with view.spread the
-// level a cone of that spread from the eye reads there (levelAt of lib/cone_trace.glsl), so it grows with the
-// distance.
+// Rays go from cell to cell (Amanatides and Woo 1987). A cell is a voxel of the level that is shown; with
+// view.spread the level a cone of that spread from the eye reads there (levelAt of lib/cone_trace.glsl), so
+// it grows with the distance. What is empty is crossed in an inner loop by one image load a step: `occupied`
+// (voxel_view_occupied) has the voxels of a brick, or how far around it there is nothing. Data are fetched
+// once that loop has found something for every ray of a vector; software drivers run both sides of branches.
 #if !defined(SOURCE) || !defined(SHAPE) || !defined(AMONG) || !defined(DIRECTIONAL)
 #error SOURCE, SHAPE, AMONG and DIRECTIONAL must be defined
 #endif
 #include "lib/false_color.glsl"
 #include "lib/gbuffer.glsl"
+#include "lib/voxel_address.glsl"
 #include "shared/voxel_view.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140, binding = BINDING_PASS) uniform ViewBlock { VoxelViewConstants view; };
 layout(rgba32f, binding = 0) uniform image2D picture;
+layout(rgba32ui, binding = 1) readonly uniform uimage3D occupied;
 layout(binding = UNIT_PASS) uniform sampler3D volume;
 #if SOURCE == 0
 #include "lib/ray_query.glsl"
@@ -54,7 +57,7 @@ ivec3 levelSize(int level) { return (ivec3(view.sizeX, view.sizeY, view.sizeZ) +
 vec4 cellOf(ivec3 cell, int level, vec3 ray, int axis) {
 #if SOURCE == 0
     if (level == 0) {
-        uvec4 word = texelFetch(voxelBricks, cell >> 2, 0);
+        uvec4 word = imageLoad(voxelBrickImage, cell >> 2);
         uint bit = bitOfVoxel(cell);
         if (!brickHas(word.xy, bit)) return vec4(0.0);
         return voxelMean(texelFetch(voxelRecords, int(voxelRecordIndex(word, bit))).x, ray, view.data);
@@ -74,21 +77,35 @@ vec4 cellOf(ivec3 cell, int level, vec3 ray, int axis) {
 #endif
 }
 
-// Levels above `level` of an empty cube about the cell, -1: not empty or not known.
-int emptyAbove(ivec3 cell, int level) {
-#if SOURCE == 0
-    if (level < 2) {
-        uvec4 word = texelFetch(voxelBricks, (cell << level) >> 2, 0);
-        return (word.x | word.y) == 0u ? 2 - level : -1;
+// Whether `cell` may hold something; if not, `low` and `high` (voxels) are a box of whole empty cells about
+// it.
+bool mayHold(ivec3 cell, int level, out ivec3 low, out ivec3 high) {
+    ivec3 voxel = cell << level;
+    ivec3 brick = voxel >> 2;
+    uvec4 word = imageLoad(occupied, brick);
+    bool empty = (word.x | word.y) == 0u;
+    // Within a brick: the voxel, or the block of 2^3.
+    uint half32 = (voxel.z & 2) != 0 ? word.y : word.x;
+    bool emptyBlock = (half32 >> ((voxel.x & 2) + 4 * (voxel.y & 2)) & 0x00330033u) == 0u;
+    bool may = level == 0 ? brickHas(word.xy, bitOfVoxel(voxel)) : level == 1 ? !emptyBlock : !empty;
+    int within = emptyBlock ? 1 : 0;
+    low = (voxel >> within) << within;
+    high = low + (1 << within);
+    // Empty bricks all around, word.z of them to each side. Where the cells are larger than bricks or may
+    // grow on the way, the box is one that all levels up to its own divide.
+    int around = int(word.z);
+    bool free = level <= 2 && view.spread == 0.0;
+    int up = 2 + findMSB(around + 1);
+    ivec3 corner = (voxel >> up) << up;
+    if (empty) {
+        low = free ? 4 * (brick - around) : corner;
+        high = free ? 4 * (brick + around + 1) : corner + (1 << up);
+        may = !free && up < level;
     }
-    if (level + 2 > int(view.maxLevel)) return -1;
-    return texelFetch(volume, cell >> 2, level + 1).a == 0.0 ? 2 : -1;
-#elif SOURCE == 2 && !DIRECTIONAL
-    if (level + 2 > int(view.maxLevel)) return -1;
-    return texelFetch(volume, cell >> 2, level + 2).a == 0.0 ? 2 : -1;
-#else
-    return -1;
-#endif
+    // Larger cells may have something beside an empty brick.
+    low = may ? voxel : low;
+    high = may ? voxel + (1 << level) : high;
+    return may;
 }
 
 vec3 shown(vec4 cell, int level) {
@@ -123,17 +140,28 @@ vec4 castRay(vec3 ray, float end, out float distance) {
     vec4 result = vec4(0.0);
     int budget = kMostCells;
     bool going = t < last;
+    last = going ? last : -1.0;
     do {
-        int level = levelShown(t);
-        float edge = exp2(float(level));
-        ivec3 cell = clamp(ivec3(floor((o + (t + kNudge) * d) / edge)), ivec3(0), levelSize(level) - 1);
-        int up = emptyAbove(cell, level);
-        vec4 found = up < 0 && going ? cellOf(cell, level, ray, axis) : vec4(0.0);
-        float leap = up < 0 ? edge : edge * exp2(float(up));
-        vec3 corner = vec3(up < 0 ? cell : cell >> up) * leap;
-        vec3 exits = (corner + mix(vec3(0.0), vec3(leap), greaterThan(d, vec3(0.0))) - o) * inverse;
-        float leave = max(min(exits.x, min(exits.y, exits.z)), t + kNudge);
-        int exitAxis = exits.x <= exits.y && exits.x <= exits.z ? 0 : exits.y <= exits.z ? 1 : 2;
+        // To the next cell that may hold something: `t` where it is entered, `leave` where it is left. The
+        // loop is tested at its top: tested at its end, llvmpipe lost hits of rays that leave it before their
+        // neighbours.
+        ivec3 cell;
+        int level, exitAxis = axis;
+        float edge, leave = t;
+        bool may = false;
+        while (!may && leave < last && --budget > 0) {
+            t = leave;
+            axis = exitAxis;
+            level = levelShown(t);
+            edge = float(1 << level);
+            cell = clamp(ivec3(floor((o + (t + kNudge) * d) / edge)), ivec3(0), levelSize(level) - 1);
+            ivec3 low, high;
+            may = mayHold(cell, level, low, high);
+            vec3 exits = (vec3(mix(low, high, greaterThan(d, vec3(0.0)))) - o) * inverse;
+            leave = max(min(exits.x, min(exits.y, exits.z)), t + kNudge);
+            exitAxis = exits.x <= exits.y && exits.x <= exits.z ? 0 : exits.y <= exits.z ? 1 : 2;
+        }
+        vec4 found = may && going ? cellOf(cell, level, ray, axis) : vec4(0.0);
         if (found.a > kLeastOpacity) {
             vec3 color = shown(found, level);
 #if SHAPE == VOLUME

@@ -62,6 +62,7 @@ void ConesMode::Impl::updateVolume(const FrameContext& frame) {
             surface.build(frame.programs, frame.profiler, frame.scene, frame.settings.voxels);
         else
             surface.update(frame.programs, frame.profiler, frame.scene, frame.settings.voxels);
+        voxelView.voxelsChanged();
         lightDirty = true;
     }
     const voxels::RadianceLayout layout =
@@ -83,6 +84,7 @@ void ConesMode::Impl::updateVolume(const FrameContext& frame) {
     if (lightDirty)
         light::injectLight(frame.programs, frame.profiler, frame.scene, frame.settings.light, surface);
     if (lightDirty || volumeDirty) {
+        voxelView.lightChanged();
         volume.build(frame.programs, frame.profiler, surface, settings.opacity);
         // Each further bounce reads the volume with one bounce less.
         for (int bounce = 1; bounce < settings.bounces; ++bounce) {
@@ -115,7 +117,7 @@ void ConesMode::Impl::drawVoxels(const FrameContext& frame) {
                                            frame.view,     frame.output,   frame.voxelsAmong};
     const VoxelData data = frame.settings.view.voxelData;
     if (data == VoxelData::Radiance || data == VoxelData::Coverage || data == VoxelData::Level)
-        voxelView.draw(target, volume);
+        voxelView.draw(target, volume, surface);
     else
         voxelView.draw(target, surface, false);
 }

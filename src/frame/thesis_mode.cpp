@@ -26,6 +26,7 @@ void ThesisMode::updateVolume(const FrameContext& frame) {
     const voxels::ThesisVolumeOptions options = volumeOptions(frame);
     if (frame.geometryChanged || frame.lightChanged || builtFor_ != options) {
         volume_.build(frame.programs, frame.profiler, frame.scene, options);
+        voxelView_.voxelsChanged();
         builtFor_ = options;
     }
 }

@@ -109,11 +109,13 @@ void TracedMode::Impl::updateVoxels(const FrameContext& frame) {
         else
             surface.update(frame.programs, frame.profiler, frame.scene, frame.settings.voxels);
         octants.build(frame.programs, frame.profiler, surface);
+        voxelView.voxelsChanged();
         cache.afterVoxelize(frame.programs, frame.profiler, surface);
     }
     if (geometryDirty || lightDirty) {
         light::injectLight(frame.programs, frame.profiler, frame.scene, frame.settings.light, surface,
                            &surface.secondFaceScratch());
+        voxelView.lightChanged();
         cache.lightChanged();
     } else if (otherUpdates) {
         cache.lightChanged();
@@ -146,6 +148,7 @@ void TracedMode::Impl::updateCache(const FrameContext& frame) {
     cacheSettings.exactDirect = settings.exactHits;
     cacheSettings.facesPerUpdate = settings.budgeted ? static_cast<std::uint32_t>(settings.faceBudget) : 0;
     const auto run = [&](int rays, int passes) {
+        if (passes > 0) voxelView.lightChanged();
         cacheSettings.cosineRays = cacheSettings.lightRays = rays;
         cache.update(frame.programs, frame.profiler, frame.scene, frame.settings.light, surface,
                      cacheSettings, passes);

@@ -22,6 +22,8 @@ namespace {
 
 constexpr int kSurfaceVoxels = 0, kThesisVolume = 1, kRadianceVolume = 2;  // SOURCE of the shader
 constexpr int kCoarsest = 8;                                               // view.voxel_level
+// Bricks to each side that are known to be empty, a power of two: a leap of 68 voxels, half of a large room.
+constexpr int kReach = 8;
 
 // SHAPE of the shader.
 int shapeNumber(VoxelShape shape) {
@@ -51,6 +53,19 @@ gl::ProgramDesc levelDesc(bool first) {
     return {{"gather/voxel_view_level.comp.glsl"}, {{"FIRST", first ? "1" : "0"}}};
 }
 
+// HALVES counts for the volume of mode thesis.
+gl::ProgramDesc occupiedDesc(int source, bool halves) {
+    return {{"gather/voxel_view_occupied.comp.glsl"},
+            {{"SOURCE", std::to_string(source)}, {"HALVES", halves ? "1" : "0"}}};
+}
+
+gl::ProgramDesc reachDesc(int reach) {
+    return {{"gather/voxel_view_reach.comp.glsl"}, {{"REACH", std::to_string(reach)}}};
+}
+
+// Shapes for which rays go from cell to cell.
+bool castsRays(VoxelShape shape) { return shape != VoxelShape::Faces && shape != VoxelShape::Surfaces; }
+
 bool needsCoarse(const ViewSettings& view) {
     return view.voxelAperture > 0 || view.voxelData == VoxelData::Bricks ||
            view.voxelLevel.resolve(0) >= 0.5f;
@@ -79,6 +94,7 @@ void VoxelView::run(const Target& target, int source, VoxelShape shape, bool dir
     constants_.update(c);
     constants_.bindUniform(BINDING_PASS);
     if (volume != nullptr) volume->bind(UNIT_PASS);
+    if (castsRays(shape)) occupied_.bindImage(1, 0, GL_READ_ONLY);
     target.output.bindImage(0, 0, target.among ? GL_READ_WRITE : GL_WRITE_ONLY);
     // On surfaces there is nothing to be in front of.
     const bool among = target.among && shape != VoxelShape::Surfaces;
@@ -87,27 +103,61 @@ void VoxelView::run(const Target& target, int source, VoxelShape shape, bool dir
     gl::unbindSampler(UNIT_PASS);
 }
 
+// Of the voxels that are bound; the volume of mode thesis at UNIT_PASS. `size`: of level 0.
+void VoxelView::buildOccupied(const Target& target, int source, bool halves, const glm::ivec3& size) {
+    const glm::ivec3 bricks = (size + 3) / 4;
+    if (!occupied_ || occupied_.width() != bricks.x || occupied_.height() != bricks.y ||
+        occupied_.depth() != bricks.z) {
+        occupied_ = {};
+        occupied_ = gl::Texture({GL_TEXTURE_3D, GL_RGBA32UI, bricks.x, bricks.y, bricks.z, 1},
+                                "voxel view occupancy");
+        occupied_.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        occupied_.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        occupiedValid_ = false;
+    }
+    if (occupiedValid_) return;
+    const gl::PassScope pass(target.profiler, "voxel view occupancy");
+    occupied_.bindImage(1, 0, GL_READ_WRITE);
+    target.programs.get(occupiedDesc(source, halves)).dispatch(bricks.x, bricks.y, bricks.z);
+    for (int reach = 1; reach <= kReach; reach *= 2) {
+        gl::barrier(gl::Access::ImageAccess);
+        target.programs.get(reachDesc(reach)).dispatch(bricks.x, bricks.y, bricks.z);
+    }
+    gl::barrier(gl::Access::ImageAccess);
+    occupiedValid_ = true;
+}
+
 // Level 1 of the surface voxels' means and all above it; `size` is that of level 1.
-void VoxelView::buildLevels(const Target& target, const glm::ivec3& size, int maxLevel) {
-    const gl::PassScope pass(target.profiler, "voxel view levels");
+void VoxelView::buildLevels(const Target& target, const voxels::SurfaceVoxels& surface,
+                            const glm::ivec3& size, int maxLevel) {
     if (!levels_ || levels_.width() != size.x || levels_.height() != size.y || levels_.depth() != size.z) {
         levels_ = {};
         levels_ = gl::Texture({GL_TEXTURE_3D, GL_RGBA16F, size.x, size.y, size.z, maxLevel}, "voxel view");
         levels_.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
         levels_.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        levelsValid_ = false;
     }
+    if (levelsValid_ && levelsData_ == target.settings.view.voxelData) return;
+    const gl::PassScope pass(target.profiler, "voxel view levels");
     gpu::VoxelViewConstants c{};
     c.data = static_cast<std::uint32_t>(target.settings.view.voxelData);
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::VoxelViewConstants), "voxel view constants");
     constants_.update(c);
     constants_.bindUniform(BINDING_PASS);
+    surface.occupiedBricks().bindStorage(BINDING_STORAGE_PASS);
+    levels_.clear(0, GL_RGBA, GL_FLOAT, nullptr);
     for (int level = 0; level < maxLevel; ++level) {
         if (level > 0) levels_.bindImage(1, level - 1, GL_READ_ONLY);
         levels_.bindImage(0, level, GL_WRITE_ONLY);
-        target.programs.get(levelDesc(level == 0))
-            .dispatch(levels_.width(level), levels_.height(level), levels_.depth(level));
+        const gl::Program& program = target.programs.get(levelDesc(level == 0));
+        if (level == 0)
+            program.dispatchLinear(std::size_t{8} * surface.occupiedBrickCount());
+        else
+            program.dispatch(levels_.width(level), levels_.height(level), levels_.depth(level));
         gl::barrier(gl::Access::ImageAccess | gl::Access::TextureFetch);
     }
+    levelsValid_ = true;
+    levelsData_ = target.settings.view.voxelData;
 }
 
 void VoxelView::draw(const Target& target, const voxels::SurfaceVoxels& surface, bool hasOctants) {
@@ -124,7 +174,7 @@ void VoxelView::draw(const Target& target, const voxels::SurfaceVoxels& surface,
         ++maxLevel;
     if (coarse && shape != VoxelShape::Faces) {
         const int texel = 1 << maxLevel;
-        buildLevels(target,
+        buildLevels(target, surface,
                     {roundUp(grid.size.x, texel) / 2, roundUp(grid.size.y, texel) / 2,
                      roundUp(grid.size.z, texel) / 2},
                     maxLevel);
@@ -132,23 +182,26 @@ void VoxelView::draw(const Target& target, const voxels::SurfaceVoxels& surface,
         levels_ = {};
         maxLevel = 0;
     }
+    if (castsRays(shape)) buildOccupied(target, kSurfaceVoxels, true, grid.size);
     const gl::PassScope pass(target.profiler, "voxel view");
     run(target, kSurfaceVoxels, shape, false, {grid.origin, grid.voxelSize, grid.size, maxLevel},
         view.voxelData == VoxelData::Bricks ? 2 : 0, levels_ ? &levels_ : nullptr);
 }
 
-void VoxelView::draw(const Target& target, const voxels::RadianceVolume& volume) {
-    const gl::PassScope pass(target.profiler, "voxel view");
+void VoxelView::draw(const Target& target, const voxels::RadianceVolume& volume,
+                     const voxels::SurfaceVoxels& surface) {
     const voxels::RadianceLayout& layout = volume.layout();
     VoxelShape shape = target.settings.view.voxelShape;
     if (shape == VoxelShape::Auto || shape == VoxelShape::Faces) shape = VoxelShape::Cubes;
+    surface.bind();
+    if (castsRays(shape)) buildOccupied(target, kSurfaceVoxels, true, layout.size);
+    const gl::PassScope pass(target.profiler, "voxel view");
     run(target, kRadianceVolume, shape, layout.blocks == 6,
         {layout.grid.origin, layout.grid.voxelSize, layout.size, layout.maxLevel},
         target.settings.cones.voxelLevel, &volume.texture());
 }
 
 void VoxelView::draw(const Target& target, const voxels::ThesisVolume& volume) {
-    const gl::PassScope pass(target.profiler, "voxel view");
     const gpu::ThesisGrid& grid = volume.grid();
     const ThesisSettings& thesis = target.settings.thesis;
     VoxelShape shape = target.settings.view.voxelShape;
@@ -156,6 +209,11 @@ void VoxelView::draw(const Target& target, const voxels::ThesisVolume& volume) {
         shape = thesis.voxelView == ThesisVoxelView::Surfaces ? VoxelShape::Surfaces : VoxelShape::Cubes;
     if (shape == VoxelShape::Faces) shape = VoxelShape::Cubes;
     volume.bind(UNIT_PASS);
+    volume.bindGrid();
+    const bool halves = volume.texture().desc().format == GL_RGBA16F && grid.maxLevel >= 2;
+    if (castsRays(shape))
+        buildOccupied(target, kThesisVolume, halves, glm::ivec3(static_cast<int>(grid.size)));
+    const gl::PassScope pass(target.profiler, "voxel view");
     run(target, kThesisVolume, shape, false,
         {grid.origin, grid.voxelSize, glm::ivec3(static_cast<int>(grid.size)),
          static_cast<int>(grid.maxLevel)},
@@ -163,7 +221,10 @@ void VoxelView::draw(const Target& target, const voxels::ThesisVolume& volume) {
 }
 
 std::vector<gl::ProgramDesc> VoxelView::programDescs() {
-    std::vector<gl::ProgramDesc> descs = {levelDesc(true), levelDesc(false)};
+    std::vector<gl::ProgramDesc> descs = {
+        levelDesc(true), levelDesc(false), occupiedDesc(kSurfaceVoxels, true),
+        occupiedDesc(kThesisVolume, true), occupiedDesc(kThesisVolume, false)};
+    for (int reach = 1; reach <= kReach; reach *= 2) descs.push_back(reachDesc(reach));
     for (const VoxelShape shape : {VoxelShape::Cubes, VoxelShape::Edges, VoxelShape::Faces,
                                    VoxelShape::Volume, VoxelShape::Surfaces}) {
         for (const bool among : {false, true}) {

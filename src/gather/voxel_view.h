@@ -3,9 +3,12 @@
 // their edges, plane pieces, a volume, or colours on surfaces, at any level; no draw call per voxel. What
 // they show: ViewSettings.
 //
+// Where there is nothing is found out once per voxelization, means of coarser levels once per state of the
+// light.
+//
 // Needs the frame block, the scene tables and the G-buffer bound, and for surface voxels SurfaceVoxels (shape
 // faces also OctantWords). Writes `output`; readers need a texture-fetch barrier. GL state changed: program,
-// images 0 and 1, BINDING_PASS, UNIT_PASS.
+// images 0 and 1, BINDING_PASS, BINDING_STORAGE_PASS, UNIT_PASS.
 #pragma once
 
 #include <vector>
@@ -37,17 +40,29 @@ class VoxelView {
 
     // `hasOctants`: shape faces can be drawn.
     void draw(const Target& target, const voxels::SurfaceVoxels& surface, bool hasOctants);
-    void draw(const Target& target, const voxels::RadianceVolume& volume);
+    // `volume` holds what `surface` does; its grid is bound.
+    void draw(const Target& target, const voxels::RadianceVolume& volume,
+              const voxels::SurfaceVoxels& surface);
     void draw(const Target& target, const voxels::ThesisVolume& volume);
+
+    // Before the next draw: other voxels, or other light on the same ones.
+    void voxelsChanged() { occupiedValid_ = levelsValid_ = false; }
+    void lightChanged() { levelsValid_ = false; }
 
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
     void run(const Target& target, int source, VoxelShape shape, bool directional, const VoxelViewGrid& grid,
              int levelOfMode, const gl::Texture* volume);
-    void buildLevels(const Target& target, const glm::ivec3& size, int maxLevel);
+    void buildOccupied(const Target& target, int source, bool halves, const glm::ivec3& size);
+    void buildLevels(const Target& target, const voxels::SurfaceVoxels& surface, const glm::ivec3& size,
+                     int maxLevel);
 
+    gl::Texture occupied_;  // voxel_view_occupied.comp.glsl
+    bool occupiedValid_ = false;
     gl::Texture levels_;  // level 1 and up of surface voxels
+    bool levelsValid_ = false;
+    VoxelData levelsData_ = VoxelData::Radiance;
     gl::Buffer constants_;
 };
 

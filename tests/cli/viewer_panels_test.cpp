@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The viewer's menus, panels and dialogs on a screen without a monitor: what they change is asked of the
 // console, read from files, and seen on the screen.
+#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -149,6 +150,83 @@ TEST_F(ViewerPanelsTest, KeyFramesAreKeptPlayedSavedAndRecorded) {
     EXPECT_TRUE(heard("behind"));
     EXPECT_EQ(viewer->status("camera"), before);
     EXPECT_NE(bytesOf(folder + "/turn0.png"), bytesOf(folder + "/turn1.png"));
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0);
+}
+
+// What is waited for can be ended by whoever sits in front of it; a script's commands wait.
+TEST_F(ViewerPanelsTest, WaitsAreEndedByHand) {
+    const std::string folder = freshFolder("stop");
+    start(std::string(kSmall) + "builtin:cornell");
+    settle();
+    viewer->send("path add; camera orbit 40; path add");
+    const glm::ivec4 box = viewer->placeOf("console");
+    click("console");
+    const auto enter = [&](const std::string& line) {
+        type(line, box);
+        screen->xdotool("key Return");
+    };
+    // Of 3,000 s: who waits for the end of it does not get an answer.
+    enter("path play 3000");
+    enter("path stop");
+    EXPECT_EQ(viewer->status("path"), "2 keys, 1 s");
+    enter("path play 3000");
+    screen->xdotool("key Escape");
+    EXPECT_EQ(viewer->status("path"), "2 keys, 1 s");
+    // The line still has the keys; what is queued goes on.
+    enter("path play 3000; echo behind");
+    enter("stop");
+    EXPECT_TRUE(heard("stopped\nbehind")) << viewer->output();
+    enter("record " + folder + "/%d.png 99999 path");
+    EXPECT_TRUE(eventually([&] { return fs::exists(folder + "/1.png"); })) << viewer->output();
+    enter("stop");
+    EXPECT_TRUE(heard("record: stopped at frame")) << viewer->output();
+    enter("stop");
+    EXPECT_TRUE(heard("stop: nothing is waited for")) << viewer->output();
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0);
+}
+
+// Where someone looks for them who has just chosen component voxels.
+TEST_F(ViewerPanelsTest, HowVoxelsAreShownStandsWithVoxels) {
+    start(std::string(kSmall) + "builtin:cornell");
+    settle();
+    click("tab:Voxels");
+    for (const char* key : {"voxels.size", "view.voxels", "view.voxel_data", "view.voxel_shape"})
+        EXPECT_GT(viewer->placeOf(key).z, 0) << key;
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0);
+}
+
+// They are those of the program without a window, bit for bit.
+TEST_F(ViewerPanelsTest, FilmsOfThePathTracerAreDrawnInTheWindow) {
+    const std::string folder = freshFolder("cpu_film"), way = folder + "/way.json";
+    start("--window 720x600 --voxels 32 --mode phong --no-state --spp 2 builtin:cornell");
+    settle();
+    viewer->send("path add; camera orbit 30; path add; path save " + way);
+    const std::string picture = viewer->status("picture");
+    int width = 0, height = 0;
+    ASSERT_EQ(std::sscanf(picture.c_str(), "%*d x %*d of %d x %d", &width, &height), 2) << picture;
+    viewer->send("mode reference; record " + folder + "/window%d.exr 2 path");
+    EXPECT_TRUE(heard("written " + folder + "/window%d.exr (2 frames)")) << viewer->output();
+    const CommandResult alone = conelight("render builtin:cornell --mode reference --spp 2 --path " + way +
+                                          " --frames 2 --size " + std::to_string(width / 2 * 2) + "x" +
+                                          std::to_string(height / 2 * 2) + " -o " + folder + "/alone%d.exr");
+    EXPECT_EQ(alone.status, 0) << alone.output;
+    for (const char* frame : {"0", "1"}) {
+        const std::string drawn = bytesOf(folder + "/window" + frame + ".exr");
+        EXPECT_FALSE(drawn.empty());
+        EXPECT_TRUE(drawn == bytesOf(folder + "/alone" + frame + ".exr")) << frame;
+    }
+    EXPECT_NE(bytesOf(folder + "/window0.exr"), bytesOf(folder + "/window1.exr"));
+    click("header:Camera");
+    EXPECT_GT(viewer->placeOf("film samples").z, 0);
+    // The strip stops one within a frame.
+    const glm::ivec4 place = viewer->placeOf("picture");
+    viewer->send("record " + folder + "/%d.png 99999 turntable");
+    pressStop(place);
+    EXPECT_TRUE(heard("record: stopped at frame")) << viewer->output();
+    EXPECT_FALSE(fs::exists(folder + "/99998.png"));
     viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0);
 }

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: MIT
 // Views that look inside, by pixels of scenes whose answer is known: edges of triangles, shadow maps, voxels
 // at every level, alone and among the objects.
+#include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <memory>
+#include <vector>
 
 #include "conelight/renderer.h"
+#include "gl/pass.h"
+#include "scene/gpu_scene.h"
 #include "support/gl_fixture.h"
 #include "support/truth_rig.h"
 #include "support/view_rig.h"
+#include "voxels/surface_voxels.h"
+#include "voxels/thesis_volume.h"
 
 namespace conelight::test {
 namespace {
@@ -327,6 +334,158 @@ TEST_F(ViewsTest, VoxelsStandAmongTheObjects) {
         EXPECT_EQ(at(picture, 16, 32), glm::vec3(0, 0, 1));
         EXPECT_GT(differing(among, picture), 0.05) << static_cast<int>(mode);
     }
+}
+
+// Patches of all directions and colours, far apart: most of the grid is empty.
+Scene scatteredPatches() {
+    Scene scene;
+    for (int i = 0; i < 24; ++i) {
+        const auto hash = [i](int k) {
+            const float x = std::sin(static_cast<float>(12 * i + k) * 12.9898f) * 43758.547f;
+            return x - std::floor(x);
+        };
+        const glm::vec3 place(2 * hash(0) - 1, 2 * hash(1) - 1, 2 * hash(2) - 1);
+        const glm::vec3 u = 0.1f * glm::normalize(glm::vec3(hash(3), hash(4), hash(5)) - 0.5f);
+        const glm::vec3 v = glm::normalize(glm::cross(u, glm::vec3(hash(6), hash(7), 0.3f))) * 0.15f;
+        Material material = mattMaterial({0.1f + 0.8f * hash(8), 0.1f + 0.8f * hash(9), 0.5f});
+        material.doubleSided = true;
+        addInstance(scene, quadMesh(place, u, v), material);
+    }
+    Camera camera;
+    camera.eye = {1.6f, 0.9f, 2.5f};
+    camera.target = {0, 0, 0};
+    camera.fovY = 0.9f;
+    scene.cameras.push_back(camera);
+    return scene;
+}
+
+// What rays may meet, m.
+struct Cubes {
+    std::vector<glm::dvec3> lows, highs;
+    // Distance along `ray` to the nearest; none: infinity. All are tried: nothing is skipped.
+    double meet(const glm::dvec3& eye, const glm::dvec3& ray) const {
+        double nearest = INFINITY;
+        for (std::size_t i = 0; i < lows.size(); ++i) {
+            const glm::dvec3 a = (lows[i] - eye) / ray, b = (highs[i] - eye) / ray;
+            const glm::dvec3 enter = glm::min(a, b), leave = glm::max(a, b);
+            const double in = std::max({enter.x, enter.y, enter.z});
+            if (in < std::min({leave.x, leave.y, leave.z}) && in > 0) nearest = std::min(nearest, in);
+        }
+        return nearest;
+    }
+};
+
+// What is drawn is what a ray meets that tries every cube, though rays leap over what is empty.
+TEST_F(ViewsTest, RaysThatLeapMeetWhatRaysMeetThatDoNot) {
+    Scene scene = scatteredPatches();
+    const Camera& camera = scene.cameras[0];
+    Settings settings = settingsOf(Mode::Traced, Component::Voxels);
+    settings.voxels.size = 64;
+    settings.light.shadowSize = 0;
+    settings.traced.bounces = 0;
+    settings.view.voxelShape = VoxelShape::Cubes;
+    gl::Profiler profiler;
+    ViewRig rig(scene, camera, kPixels, kPixels);
+    rig.draw(programs());
+    for (const Mode mode : {Mode::Traced, Mode::Cones, Mode::Thesis})
+        for (const int level : {0, 1, 2, 3}) {
+            SCOPED_TRACE(testing::Message() << "mode " << static_cast<int>(mode) << " level " << level);
+            Cubes cubes;
+            const auto add = [&](const glm::vec3& origin, float edge, const glm::ivec3& voxel,
+                                 const glm::ivec3& end) {
+                const glm::ivec3 low = voxel >> level << level;
+                const glm::ivec3 high = glm::min(low + (1 << level), end);
+                cubes.lows.push_back(glm::dvec3(origin) + static_cast<double>(edge) * glm::dvec3(low));
+                cubes.highs.push_back(glm::dvec3(origin) + static_cast<double>(edge) * glm::dvec3(high));
+            };
+            if (mode == Mode::Thesis) {
+                voxels::ThesisVolumeOptions options;
+                options.size = settings.voxels.size;
+                options.padding = settings.voxels.padding;
+                options.shadows = false;
+                voxels::ThesisVolume volume;
+                rig.draw(programs());
+                volume.build(programs(), profiler, rig.gpuScene, options);
+                const auto n = static_cast<int>(volume.grid().size);
+                std::vector<glm::vec4> texels(static_cast<std::size_t>(n) * n * n);
+                volume.texture().read(0, GL_RGBA, GL_FLOAT, texels.data(), texels.size() * sizeof(glm::vec4));
+                for (int i = 0; i < n * n * n; ++i)
+                    if (texels[static_cast<std::size_t>(i)].a > 0)
+                        add(volume.grid().origin, volume.grid().voxelSize, {i % n, i / n % n, i / (n * n)},
+                            glm::ivec3(n));
+            } else {
+                voxels::SurfaceVoxels surface;
+                surface.build(programs(), profiler, rig.gpuScene, settings.voxels);
+                const voxels::VoxelGrid& grid = surface.grid();
+                // The volume of mode cones has whole texels at its border.
+                const glm::ivec3 end = mode == Mode::Cones ? 2 * grid.size : grid.size;
+                std::vector<glm::uvec4> words(grid.brickCount());
+                surface.brickWords().read(0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, words.data(),
+                                          words.size() * sizeof(glm::uvec4));
+                for (std::size_t i = 0; i < words.size(); ++i) {
+                    const int b = static_cast<int>(i);
+                    const glm::ivec3 n = grid.bricks(), brick(b % n.x, b / n.x % n.y, b / (n.x * n.y));
+                    for (std::uint32_t bit = 0; bit < 64; ++bit)
+                        if (((bit < 32 ? words[i].x : words[i].y) >> (bit % 32) & 1) != 0)
+                            add(grid.origin, grid.voxelSize, voxels::voxelOfBit(brick, bit), end);
+                }
+            }
+            settings.mode = mode;
+            settings.view.voxelLevel = {false, static_cast<float>(level)};
+            const Image image = draw(scene, settings);
+            int met = 0, wrong = 0;
+            for (int y = 0; y < kPixels; ++y)
+                for (int x = 0; x < kPixels; ++x) {
+                    const glm::dvec3 forward =
+                        glm::normalize(glm::dvec3(camera.target) - glm::dvec3(camera.eye));
+                    const glm::dvec3 at = pixelOnPlane(camera, kPixels, kPixels, x, y, forward,
+                                                       glm::dot(forward, glm::dvec3(camera.eye)) + 1);
+                    const bool meets = std::isfinite(cubes.meet(camera.eye, at - glm::dvec3(camera.eye)));
+                    const bool drawn =
+                        image.pixels[static_cast<std::size_t>((kPixels - 1 - y) * kPixels + x)].a > 0;
+                    met += meets;
+                    wrong += meets != drawn;
+                }
+            EXPECT_GT(met, 100);
+            EXPECT_LT(met, kPixels * kPixels * 3 / 4);
+            EXPECT_LE(wrong, 4);  // rays along an edge
+        }
+}
+
+// The coarser levels and what is empty are kept from frame to frame: not when the scene or its light changes.
+TEST_F(ViewsTest, WhatIsKeptForVoxelsFollowsTheScene) {
+    for (const Mode mode : {Mode::Traced, Mode::Cones, Mode::Thesis})
+        for (const int level : {0, 2}) {
+            SCOPED_TRACE(testing::Message() << "mode " << static_cast<int>(mode) << " level " << level);
+            Scene scene = redCube();
+            Settings settings = settingsOf(mode, Component::Voxels);
+            settings.traced.bounces = 0;
+            settings.view.voxelShape = VoxelShape::Cubes;
+            settings.view.voxelLevel = {false, static_cast<float>(level)};
+            Renderer kept;
+            kept.setScene(scene);
+            const auto drawWith = [&](Renderer& renderer) {
+                renderer.render(scene.cameras[0], kPixels, kPixels, settings);
+                return renderer.readImage();
+            };
+            const auto drawAnew = [&] {
+                Renderer fresh;
+                fresh.setScene(scene);
+                return drawWith(fresh);
+            };
+            const Image before = drawWith(kept);
+            // The side towards the camera goes in, within the bounds: the grid stays.
+            scene.instances.back().worldFromObject = glm::translate(glm::mat4(1), glm::vec3(0, 0, -0.4f));
+            kept.setInstance(scene.instances.size() - 1, scene.instances.back());
+            const Image moved = drawWith(kept);
+            EXPECT_GT(differing(before, moved), 0.01);
+            EXPECT_LT(differing(moved, drawAnew()), 0.005);
+            scene.lights[0].intensity *= 3.0f;
+            kept.setLight(0, scene.lights[0]);
+            const Image lit = drawWith(kept);
+            EXPECT_GT(differing(moved, lit), 0.01);
+            EXPECT_LT(differing(lit, drawAnew()), 0.005);
+        }
 }
 
 // Edges leave the cubes open, and the ray meets the same cubes as a volume does.

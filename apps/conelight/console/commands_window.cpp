@@ -65,6 +65,11 @@ CommandGroup windowCommands() {
                 [](const CommandContext& context) { askWindow(context, "settle"); },
                 "In mode reference, and beside it, until there is a first picture."),
             command(
+                "stop", {}, "end what commands wait for: a flight, a film, a bake, settle or wait",
+                [](const CommandContext& context) { askWindow(context, "stop"); },
+                "Typed by itself it is carried out at once, and the commands behind that go on. So is `path "
+                "stop` during a flight, which the key Escape ends, too."),
+            command(
                 "resolution", {{"SCALE", ArgumentKind::Number, true, false, "", 0.25, 1, {}}},
                 "pixels of the picture, as a part of those of the window, along each edge",
                 [](const CommandContext& context) { askWindow(context, "resolution"); },

@@ -53,6 +53,7 @@ class Console {
     void frameDone();  // a frame was drawn: `wait` counts it
     void waitFor(int frames) { waitFrames_ += frames; }
     int framesToWait() const { return waitFrames_; }
+    void endWait() { waitFrames_ = 0; }
     void print(const std::string& line);
     void fail(const Error& error);  // of a request: as if its command had failed
 

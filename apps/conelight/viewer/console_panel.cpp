@@ -121,7 +121,7 @@ void ConsolePanel::show() {
         enter_(line_);
     }
     line_.clear();
-    framesToFocus_ = 4;  // it takes two
+    focus();
 }
 
 }  // namespace conelight::program

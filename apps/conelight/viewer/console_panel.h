@@ -26,9 +26,11 @@ class ConsolePanel {
     std::size_t errors() const { return errors_; }  // since the start
     // A line was entered and its box does not have the keys again yet: what is typed until then would be
     // lost, so draw before looking at input.
+    void focus() { framesToFocus_ = kFramesToFocus; }  // the line to type in gets the keys
     bool takesKeysSoon() const { return framesToFocus_ > 0; }
 
   private:
+    static constexpr int kFramesToFocus = 4;  // it takes two
     static int edited(void* callbackData);
     void completeLine(void* callbackData);
     void recall(void* callbackData);

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <iterator>
+#include <utility>
 
 #include "conelight/error.h"
 #include "viewer/panels.h"
@@ -36,7 +38,8 @@ void row(const char* name, const std::string& value) {
 // Of rows: names and, in what is left of the panel, values, which wrap.
 bool beginRows(const char* id) {
     if (!ImGui::BeginTable(id, 2, ImGuiTableFlags_SizingFixedFit)) return false;
-    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed);
+    // Said, not fitted: a column has no width before it was drawn once, and the next frame may be long.
+    ImGui::TableSetupColumn("name", ImGuiTableColumnFlags_WidthFixed, 7.2f * ImGui::GetFontSize());
     ImGui::TableSetupColumn("value", ImGuiTableColumnFlags_WidthStretch);
     return true;
 }
@@ -59,6 +62,12 @@ std::string metres(const InspectedPath& path) {
     return path.end == PathEnd::Unused ? "-" : fmt::format("{:.3g}", path.distance);
 }
 
+// With widths in heights of text.
+void columns(std::initializer_list<std::pair<const char*, float>> columns) {
+    for (const auto& [head, width] : columns)
+        ImGui::TableSetupColumn(head, ImGuiTableColumnFlags_WidthFixed, width * ImGui::GetFontSize());
+}
+
 void cells(const std::vector<std::string>& texts) {
     for (const std::string& one : texts) {
         ImGui::TableNextColumn();
@@ -70,7 +79,7 @@ void cells(const std::vector<std::string>& texts) {
 void pathTable(Inspection& inspection) {
     if (!ImGui::BeginTable("paths", 5, kScrolled, {0, 12 * ImGui::GetFontSize()})) return;
     ImGui::TableSetupScrollFreeze(0, 1);
-    for (const char* head : {"cone or ray", "end", "m", "weight", "radiance"}) ImGui::TableSetupColumn(head);
+    columns({{"cone or ray", 7}, {"end", 4}, {"m", 3.5f}, {"weight", 4.5f}, {"radiance", 10}});
     ImGui::TableHeadersRow();
     forLinesSeen(inspection.gathered->paths.size(), [&](std::size_t i) {
         const InspectedPath& path = inspection.gathered->paths[i];
@@ -103,8 +112,7 @@ void chosenPath(const InspectedPath& path) {
     }
     if (!ImGui::BeginTable("steps", 6, kScrolled, {0, 12 * ImGui::GetFontSize()})) return;
     ImGui::TableSetupScrollFreeze(0, 1);
-    for (const char* head : {"step", "m", "size m", "level", "opacity", "radiance"})
-        ImGui::TableSetupColumn(head);
+    columns({{"step", 6}, {"m", 3.5f}, {"size m", 4}, {"level", 3}, {"opacity", 4}, {"radiance", 10}});
     ImGui::TableHeadersRow();
     forLinesSeen(path.steps.size(), [&](std::size_t i) {
         const InspectedStep& step = path.steps[i];

@@ -25,8 +25,13 @@ void sceneTree(Session& session, const std::string& filter, const RunLine& run);
 // What is selected, editable: transform and flags, material, light.
 void selectionEditor(Session& session);
 void cameraEditor(Session& session);
-// Key frames: keep, go to, fly along, load, save, record; a film has `frames`.
-void pathEditor(Session& session, int& frames, const RunLine& run,
+// What films take; `samples`: a pixel and frame in mode reference.
+struct FilmNumbers {
+    int& frames;
+    int& samples;
+};
+// Key frames: keep, go to, fly along, load, save, record.
+void pathEditor(Session& session, const FilmNumbers& film, const RunLine& run,
                 const std::function<void(FilePurpose)>& ask);
 
 // Times of passes and frames, memory.

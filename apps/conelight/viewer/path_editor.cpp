@@ -10,6 +10,8 @@
 namespace conelight::program {
 namespace {
 
+constexpr int kMostSamples = 1 << 20;  // as `conelight render --spp`
+
 bool button(const char* label, const char* place, const char* help) {
     const bool pressed = ImGui::Button(label);
     notePlace(place);
@@ -38,7 +40,7 @@ void keyList(const CameraPath& path, const RunLine& run) {
 
 }  // namespace
 
-void pathEditor(Session& session, int& frames, const RunLine& run,
+void pathEditor(Session& session, const FilmNumbers& film, const RunLine& run,
                 const std::function<void(FilePurpose)>& ask) {
     const CameraPath& path = session.cameraPath();
     ImGui::Separator();
@@ -63,9 +65,17 @@ void pathEditor(Session& session, int& frames, const RunLine& run,
         if (button("save...", "path:save", "key frames to a file")) ask(FilePurpose::SavePath);
     }
     ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
-    ImGui::DragInt("frames of a film", &frames, 1, 2, 100000);
+    ImGui::DragInt("frames of a film", &film.frames, 1, 2, 100000);
     notePlace("film frames");
-    frames = std::clamp(frames, 2, 100000);
+    film.frames = std::clamp(film.frames, 2, 100000);
+    if (session.mode() == "reference") {
+        ImGui::SetNextItemWidth(6 * ImGui::GetFontSize());
+        ImGui::DragInt("samples a frame", &film.samples, 1, 1, kMostSamples);
+        notePlace("film samples");
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("paths per pixel of each frame of a film; four times as many halve the noise");
+        film.samples = std::clamp(film.samples, 1, kMostSamples);
+    }
     if (!path.empty()) {
         if (button("record path...", "path:record", "a film of the flight along the key frames"))
             ask(FilePurpose::RecordPath);

@@ -5,6 +5,7 @@
 
 #include "conelight/error.h"
 #include "picture_file.h"
+#include "platform/window.h"
 
 namespace conelight::program {
 namespace {
@@ -19,40 +20,72 @@ double secondsSince(Clock::time_point then) {
 
 }  // namespace
 
-void PictureJob::start(const Request& request, const Session& session, const glm::ivec2& size) {
+void PictureJob::start(const Request& request, const Session& session, const glm::ivec2& size,
+                       const reference::PathTracerSettings& traced) {
     const bool film = request.kind == RequestKind::Record;
     if (size.x < 2 || size.y < 2) throw Error(ErrorKind::Runtime, request.file + ": there is no picture yet");
-    if (film && (request.turntable || request.alongPath) && !isSettingsMode(session.shownMode()))
-        throw Error(ErrorKind::Usage, "record: mode " + session.shownMode() +
-                                          " needs its time for every frame; `conelight render --mode " +
-                                          session.shownMode() + " --path FILE` would be right");
     size_ = film ? size / 2 * 2 : size;  // video codecs want even sizes
     video_ = film ? std::make_unique<VideoFile>(request.file, size_.x, size_.y) : nullptr;
     request_ = request;
     if (!film) request_->count = 1;
     camera_ = session.camera();
     done_ = 0;
-    placed_ = stopped_ = false;
+    traced_ = traced;
+    placed_ = stopped_ = tracing_ = waits_ = false;
     began_ = Clock::now();
 }
 
+double PictureJob::part() const { return (done_ + (tracing_ ? frame_.done() : 0)) / request_->count; }
+
 double PictureJob::secondsLeft() const {
-    return done_ == 0 ? -1 : secondsSince(began_) / done_ * (request_->count - done_);
+    constexpr double kEnough = 0.01;  // of the work, to judge the rest by
+    const double part = this->part();
+    return done_ == 0 && part < kEnough ? -1 : secondsSince(began_) / part * (1 - part);
 }
 
 void PictureJob::end(Session& session) {
     if (request_->turntable || request_->alongPath) session.moveCamera(camera_);
+    frame_.stop();
+    waits_ = false;
     request_.reset();
     video_.reset();
 }
 
-// The picture of the slot is finished.
-void PictureJob::add(Session& session, PictureSlot& slot) {
+// The next picture, or a part of its work: what a mode needs until it is finished. Returns whether it is.
+bool PictureJob::draw(Session& session, PictureSlot& slot) {
+    const std::string mode = session.shownMode();
+    waits_ = false;
+    if (video_ && mode == "reference") {
+        slot.restInBackground();
+        if (!tracing_) tracing_ = frame_.start(session, size_, traced_, platform::Window::wake);
+        waits_ = !tracing_ || !frame_.ready();
+        if (waits_) return false;
+        tracing_ = false;
+        Image picture = frame_.take();
+        add(session, picture);
+        slot.show(session, std::move(picture));
+        return true;
+    }
+    // A mode that settles over frames is drawn until it has: what is written is finished.
+    if (slot.draw(session, mode, size_.x, size_.y, {})) return false;
+    if (video_ && mode == "radiosity" && !slot.finished()) {
+        waits_ = true;
+        return false;
+    }
+    add(session, finished(slot));
+    return true;
+}
+
+Image PictureJob::finished(PictureSlot& slot) {
     if (const std::optional<std::string> error = slot.takeError()) throw Error(ErrorKind::Runtime, *error);
     const Image& linear = slot.linear();
     if (linear.pixels.empty() || !slot.ownPicture())
         throw Error(ErrorKind::Runtime, "there is no picture yet (" + slot.label() +
                                             "); a moment later would be right, after `settle` for example");
+    return linear;
+}
+
+void PictureJob::add(const Session& session, const Image& linear) {
     const ImageSettings look = session.shownSettings().image;
     if (video_)
         video_->add(linear, look);
@@ -76,8 +109,7 @@ std::optional<std::string> PictureJob::step(Session& session, PictureSlot& slot)
                 if (request_->alongPath)
                     session.moveCamera(session.cameraPath().frame(done_, request_->count));
             }
-            // A mode that settles over frames is drawn until it has: what is written is finished.
-            if (!slot.draw(session, session.shownMode(), size_.x, size_.y, {})) add(session, slot);
+            if (!draw(session, slot) && waits_) break;
             if (Clock::now() - start > kSlice) break;
         }
     } catch (...) {

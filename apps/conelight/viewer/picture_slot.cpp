@@ -127,6 +127,19 @@ void PictureSlot::clear() {
     impl_->lit.reset();
 }
 
+void PictureSlot::show(const Session& session, Image picture) {
+    impl_->linear = std::move(picture);
+    impl_->linearJob = 0;
+    impl_->showImage(session.settings().image);
+    impl_->shown = keyOf(session.revisions());
+    impl_->shownSettings = session.settings();
+    impl_->own = true;
+    impl_->preview = false;
+    impl_->settling = 0;
+}
+
+void PictureSlot::restInBackground() { impl_->reference.stop(); }
+
 std::vector<std::string> PictureSlot::reloadShaders() {
     if (!impl_->renderer) return {};
     impl_->asked = true;

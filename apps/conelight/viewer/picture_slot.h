@@ -32,6 +32,9 @@ class PictureSlot {
     // wrong.
     bool draw(const Session& session, const std::string& mode, int width, int height, const How& how);
     std::optional<std::string> takeError();  // of draw, each once
+    void show(const Session& session,
+              Image picture);  // in place of what draw() would, until something changes
+    void restInBackground();   // ends the work of mode reference there; draw() begins it again
     void redraw();  // the next draw draws although nothing changed, and although only single frames are asked
     // Frees what the slot holds; the next draw starts anew.
     void clear();

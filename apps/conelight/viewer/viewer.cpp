@@ -10,6 +10,8 @@
 #include <ctime>
 #include <utility>
 
+#include <unistd.h>
+
 #include "conelight/error.h"
 #include "interrupt.h"
 #include "io/image_file.h"
@@ -58,7 +60,7 @@ Viewer::Viewer(Session& session, const ViewerOptions& options)
           commands_.history(),
           [this](const std::string& line) {
               state_.typed(line);
-              commands_.submit(line);
+              typed(line);
           },
           [this](const std::string& line) { return completed(line); }),
       watch_(options.shaderDirectory),
@@ -72,6 +74,7 @@ Viewer::Viewer(Session& session, const ViewerOptions& options)
     };
     window_.onRefresh = [this] { frame(); };
     if (options.readStdin) input_ = std::make_unique<LineReader>(0, platform::Window::wake);
+    if (options.filmSamples > 0) end_.traced.samplesPerPixel = options.filmSamples;
     for (const std::string& line : options.commands) commands_.submit(line, "--exec");
 }
 
@@ -92,9 +95,41 @@ std::vector<std::string> Viewer::completed(const std::string& line) const {
 
 void Viewer::takeCommands() {
     std::string line;
-    while (input_ && input_->take(line)) commands_.submit(line);
+    // What comes through a pipe is a script: it means the same at any speed.
+    static const bool byHand = isatty(STDIN_FILENO) != 0;
+    while (input_ && input_->take(line)) byHand ? typed(line) : commands_.submit(line);
     if (settling_ && (view_.finished() || (!more_ && view_.showsOwn()))) settling_ = false;
     if (!settling_ && !bake_.busy() && !end_.job.busy()) commands_.runQueued();
+}
+
+bool Viewer::waits() const {
+    return session_.playing() || end_.job.busy() || bake_.busy() || settling_ || commands_.framesToWait() > 0;
+}
+
+// A line by itself that ends what commands wait for does not wait with them.
+void Viewer::typed(const std::string& line) {
+    const std::vector<Statement> statements = parseStatements(line);
+    const std::vector<std::string> words =
+        statements.size() == 1 ? statements.front().words : std::vector<std::string>{};
+    const bool stop = words == std::vector<std::string>{"stop"};
+    const bool stopPath = words == std::vector<std::string>{"path", "stop"};
+    if (!waits() || !(stop || (stopPath && session_.playing()))) return commands_.submit(line);
+    commands_.history().add(line);
+    if (stopPath)
+        session_.stopPlaying();
+    else
+        stopWaiting();
+}
+
+// The commands behind it go on. Bakes and films say themselves how far they came.
+void Viewer::stopWaiting() {
+    if (!waits()) return print({false, "stop: nothing is waited for"});
+    session_.stopPlaying();
+    if (end_.job.busy()) end_.job.stop();
+    if (bake_.busy()) bake_.stop();
+    settling_ = false;
+    commands_.endWait();
+    print({false, "stopped"});
 }
 
 // Commands behind `bake` wait for it; everything else goes on.
@@ -177,6 +212,7 @@ bool Viewer::drawPictureJob() {
         commands_.fail(error);
     }
     more_ = true;
+    lastWasIdle_ = job.busy() && job.waits();
     return true;
 }
 

@@ -42,6 +42,8 @@ void Viewer::windowCommand(const Request& request) {
         if (words.size() > 1) gui_.setScale(std::strtof(words[1].c_str(), nullptr));
     } else if (name == "settle") {
         settling_ = true;
+    } else if (name == "stop") {
+        stopWaiting();
     } else if (name == "status") {
         status(words.size() > 1 ? words[1] : "");
     } else if (name == "screenshot_window") {

@@ -17,10 +17,10 @@ namespace {
 
 std::vector<Stage> stagesOf(const std::string& mode) {
     return {{"Scene", {}},
-            {"Voxels", {"voxels."}},
-            {"Light", {"light."}},
+            {"Voxels", {"voxels.", "view.voxel"}},
+            {"Light", {"light.", "view.light"}},
             {"Gather", {mode + "."}},
-            {"Image", {"image.", "view."}}};
+            {"Image", {"image.", "view.wireframe"}}};
 }
 
 constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
@@ -62,7 +62,7 @@ void Viewer::jobStrips(const glm::vec2& at, const glm::vec2& size) {
                             job.frames() == 1 ? nameOf(job.file()) + ": settles"
                                               : fmt::format("{}: {} of {}", nameOf(job.file()),
                                                             job.done() + 1, job.frames()),
-                            static_cast<double>(job.done()) / job.frames(), job.secondsLeft()))
+                            job.part(), job.secondsLeft()))
         job.stop();
 }
 
@@ -221,7 +221,8 @@ void Viewer::rightPanel(const Layout& layout) {
     if (camera) {
         cameraEditor(session_);
         pathEditor(
-            session_, filmFrames_, [this](const std::string& line) { runLine(line); },
+            session_, {filmFrames_, end_.traced.samplesPerPixel},
+            [this](const std::string& line) { runLine(line); },
             [this](FilePurpose purpose) { fileDialog_.open(purpose, session_.path()); });
     }
     if (ImGui::CollapsingHeader("Frame", ImGuiTreeNodeFlags_DefaultOpen)) {

@@ -29,7 +29,7 @@ void carryOut(Session& session, PictureView& view, Console& console, ViewerState
     switch (request.kind) {
         case RequestKind::Screenshot:
         case RequestKind::Record:
-            state.job.start(request, session, view.fullSize());
+            state.job.start(request, session, view.fullSize(), state.traced);
             break;
         case RequestKind::Bake:
             state.bake = request;

@@ -13,9 +13,10 @@
 namespace conelight::program {
 
 struct ViewerState {
-    std::optional<glm::ivec2> inspect;  // a pixel that a command asked for: as if it were clicked
-    std::optional<Request> bake;        // to be done in the background
-    PictureJob job;                     // pictures to write, a little at each frame
+    std::optional<glm::ivec2> inspect;     // a pixel that a command asked for: as if it were clicked
+    std::optional<Request> bake;           // to be done in the background
+    PictureJob job;                        // pictures to write, a little at each frame
+    reference::PathTracerSettings traced;  // of films in mode reference
     bool quit = false;
     int status = 0;
 };

@@ -76,6 +76,9 @@ class Viewer {
     void attempt(const Edit& edit);
     std::vector<std::string> completed(const std::string& line) const;
     void takeCommands();
+    void typed(const std::string& line);  // by hand
+    bool waits() const;                   // whether commands wait for something that can be ended
+    void stopWaiting();
     void followBake();
     void jobStrips(const glm::vec2& at, const glm::vec2& size);
     void windowCommand(const Request& request);
