@@ -109,3 +109,31 @@ vec3 faceCenter(FaceRecord face) {
     return vec3(unpackVoxel(face.voxel)) + 0.5 + middle +
            n * (unpackOffset(face.offsetWeight) - dot(n, middle)) + rise;
 }
+
+// Bounds that reach the voxel's side are grown, voxels: by the first along the normal, by the second, which
+// is how far pieces of one surface overlap, along it. Second: more makes balls too wide, less opens gaps
+// between their pieces (docs/theory/4_gather.md, "A ray").
+const float kRayBoundsSlack = 0.1;
+const float kRayBoundsOverlap = 0.04;
+// Where they end within the voxel, they are shrunk by this along the surface, about as much as they are
+// rounded outwards (up to 1/31), or all that is small would be too large. So are all for crossings before
+// kRayNear: there lies the other wall of a corner, whose bounds hold the ray's start, or the other side of
+// an edge, whose bounds end below it.
+const float kRayBoundsShrink = 0.02;
+// Bounds within which rays meet a face, in voxel units: all crossings beyond kRayNear, and no others.
+void rayBounds(uint bounds, vec3 n, out vec3 lower, out vec3 upper) {
+    vec3 shrunk = (kRayBoundsSlack + kRayBoundsShrink) * n * n - kRayBoundsShrink;
+    vec3 grown = (kRayBoundsSlack - kRayBoundsOverlap) * n * n + kRayBoundsOverlap;
+    lower = unpackBoundsMin(bounds);
+    upper = unpackBoundsMax(bounds);
+    lower -= mix(grown, shrunk, greaterThan(lower, vec3(0.0)));
+    upper += mix(grown, shrunk, lessThan(upper, vec3(1.0)));
+}
+
+// Up to three faces of a voxel hold the same surface, and rays meet the one that covers most. So that is where
+// rays are aimed at: 1 for the face of the normal's largest component, little for others.
+float flowShare(vec3 n, uint axis) {
+    vec3 a = abs(n);
+    float part = (axis == 0u ? a.x : (axis == 1u ? a.y : a.z)) / max(a.x, max(a.y, a.z));
+    return part * part * part * part;
+}
