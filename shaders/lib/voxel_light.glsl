@@ -250,9 +250,9 @@ vec3 cosineDirection(vec3 n, vec2 xi) {
 
 // A random point on a random bright face, in grid coordinates: face by its flux (faceFlux), point uniform in
 // its bounds as rays meet them, seen along its direction k, moved along k onto the plane. Per area that is a
-// density of brightnessDensity / flux. Returns the face; -1 where that point is not in the bounds. xi.x chooses
-// the face: the pool is ordered as voxels are, so evenly spread numbers are spread over the scene.
-int sampleBrightFace(vec3 xi, out vec3 point, out vec3 normal) {
+// density of brightnessDensity / flux. Returns the face; -1 where that point is not in the bounds. xi.x
+// chooses the face: the pool is ordered as voxels are, so evenly spread numbers are spread over the scene.
+int sampleBrightFace(vec3 xi, vec3 origin, out vec3 point, out vec3 normal) {
     uint header = texelFetch(brightFaces, 0).x;
     int entry = int(xi.x * float(BRIGHT_FACE_COUNT));
     int face = int(texelFetch(brightFaces, 1 + entry).x);
@@ -260,7 +260,7 @@ int sampleBrightFace(vec3 xi, out vec3 point, out vec3 normal) {
     int axis = int(r.w >> 30);
     normal = octDecode(unpackSnorm2x16(r.x));
     vec3 lower, upper;
-    rayBounds(r.z, normal, lower, upper);
+    aimBounds(r, normal, origin, lower, upper);
     vec3 k = vec3(axis == 0, axis == 1, axis == 2);
     vec3 in01 = axis == 0 ? vec3(0.5, xi.yz) : (axis == 1 ? vec3(xi.z, 0.5, xi.y) : vec3(xi.yz, 0.5));
     vec3 p = mix(lower, upper, in01) * (1.0 - k) + 0.5 * k;
@@ -304,15 +304,16 @@ vec3 gatherIrradianceSequence(vec3 originGrid, vec3 geometricNormal, vec3 shadin
         bool toLight = i >= cosineRays;
         vec3 target, targetNormal;
         uint lightIndex = index * uint(lightRays) + uint(max(i - cosineRays, 0));
-        int aimed =
-            sampleBrightFace(fract(sequencePoint3(seed, lightIndex) + shift.zxy), target, targetNormal);
+        int aimed = sampleBrightFace(fract(sequencePoint3(seed, lightIndex) + shift.zxy), originGrid, target,
+                                     targetNormal);
         vec3 toTarget = target - originGrid;
         float distance = length(toTarget);
         vec2 xi = fract(sequencePoint(seed, index * uint(cosineRays) + uint(i)) + shift.xy);
         vec3 direction = toLight ? toTarget / max(distance, 1e-6) : cosineDirection(shadingNormal, xi);
         float cosine = dot(direction, shadingNormal);
         bool above = cosine > 0.0 && dot(direction, geometricNormal) > 0.0;
-        above = above && (!toLight || (aimed >= 0 && dot(direction, targetNormal) < 0.0 && inverseFlux > 0.0));
+        above =
+            above && (!toLight || (aimed >= 0 && dot(direction, targetNormal) < 0.0 && inverseFlux > 0.0));
         // What lies beyond the point is of no interest.
         float reach = toLight ? distance + 1.0 : 1e9;
         // Bright face: its pool entry and record. Hit: both halves of its record, steady light if asked for.
@@ -336,7 +337,11 @@ vec3 gatherIrradianceSequence(vec3 originGrid, vec3 geometricNormal, vec3 shadin
         float brightness = hit.face >= 0 ? faceBrightness(faceRadiance(max(hit.face, 0))) : 0.0;
         float turned = max(-dot(n, direction), 1e-3);
         float lightDensity = brightness * flowShare(n, met.w >> 30) * inverseFlux * hit.t * hit.t / turned;
-        if (hit.face < 0) lightDensity = 0.0;
+        vec3 lower, upper;
+        aimBounds(met, n, originGrid, lower, upper);
+        vec3 at = originGrid + hit.t * direction - vec3(unpackVoxel(met.w));
+        bool aimedAt = all(greaterThanEqual(at, lower)) && all(lessThanEqual(at, upper));
+        if (hit.face < 0 || !aimedAt) lightDensity = 0.0;
         float density = float(cosineRays) * cosine / kGatherPi + float(lightRays) * lightDensity;
         sum += above && arrived ? radiance * (cosine / kGatherPi / max(density, 1e-12)) : vec3(0.0);
         RECORD_RAY(toLight ? PATH_LIGHT_RAY : PATH_COSINE_RAY, originGrid, direction, hit, 1.0,

@@ -15,11 +15,12 @@ bool isDead(FaceCache state) {
     return rays >= IRRADIANCE_DEAD_RAYS && 4u * (state.counts >> 24) > rays;
 }
 
-// How much of the pool a face gets: brightness x area of its bounds seen along its direction k / (n.k) x share.
+// How much of the pool a face gets (docs/theory/4_gather.md, eq. 4.11).
+// share.
 float faceFlux(uvec4 hitTexel, vec3 radiance) {
     vec3 n = octDecode(unpackSnorm2x16(hitTexel.x));
     vec3 lower, upper;
-    rayBounds(hitTexel.z, n, lower, upper);
+    aimBounds(hitTexel, n, vec3(0.0), lower, upper);
     vec3 size = max(upper - lower, vec3(0.0));
     uint axis = hitTexel.w >> 30;
     float seen = axis == 0u ? size.y * size.z : (axis == 1u ? size.z * size.x : size.x * size.y);
