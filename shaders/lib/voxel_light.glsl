@@ -249,9 +249,9 @@ vec3 cosineDirection(vec3 n, vec2 xi) {
 }
 
 // A random point on a random bright face, in grid coordinates: face by its flux (faceFlux), point uniform in
-// its bounds as rays meet them, seen along its direction k, moved along k onto the plane. Per area that is a
-// density of brightnessDensity / flux. Returns the face; -1 where that point is not in the bounds. xi.x
-// chooses the face: the pool is ordered as voxels are, so evenly spread numbers are spread over the scene.
+// its bounds as rays meet them (aimBounds), seen along its direction k, moved along k onto the plane: density
+// (4.11). Returns the face; -1 where that point is not in the bounds. xi.x chooses the face: the pool is
+// ordered as voxels are, so evenly spread numbers are spread over the scene.
 int sampleBrightFace(vec3 xi, vec3 origin, out vec3 point, out vec3 normal) {
     uint header = texelFetch(brightFaces, 0).x;
     int entry = int(xi.x * float(BRIGHT_FACE_COUNT));
@@ -287,7 +287,7 @@ bool metBackBefore(VoxelHit hit, vec3 origin, vec3 direction) {
 
 // Radiance of a white Lambert surface (irradiance / pi): `cosineRays` by the cosine about the shading normal,
 // `lightRays` to bright faces, weighted by the balance heuristic (Veach and Guibas 1995). A miss is the sky.
-// A ray to a bright face counts only where it arrives at its point: else directions with many bright faces
+// A ray to a bright face counts only where it meets that face: else directions with many bright faces
 // behind an occluder would be counted twice. `index` numbers the calls with the same seed, 0, 1, 2 ...: their
 // directions complement each other; so do those of calls with the same seed whose `shift`, in [0,1)^3, are
 // evenly spread. backShare: share of cosine rays that met a surface from behind.

@@ -16,7 +16,6 @@ bool isDead(FaceCache state) {
 }
 
 // How much of the pool a face gets (docs/theory/4_gather.md, eq. 4.11).
-// share.
 float faceFlux(uvec4 hitTexel, vec3 radiance) {
     vec3 n = octDecode(unpackSnorm2x16(hitTexel.x));
     vec3 lower, upper;
