@@ -34,16 +34,6 @@ struct VoxelHit {
 const float kRayFacing = 1e-3;
 const float kRayNear = 0.05;   // a ray starts this far in front of its surface, voxels
 const float kRayStart = 1e-3;  // nearest crossing that counts, voxels
-// Bounds that reach the voxel's side are grown, voxels: by the first along the normal, by the second, which
-// is how far pieces of one surface overlap, along it. Second: more makes balls too wide, less opens gaps
-// between their pieces (docs/theory/4_gather.md, "A ray").
-const float kRayBoundsSlack = 0.1;
-const float kRayBoundsOverlap = 0.04;
-// Where they end within the voxel, they are shrunk by this along the surface, about as much as they are
-// rounded outwards (up to 1/31), or all that is small would be too large. So are all for crossings before
-// kRayNear: there lies the other wall of a corner, whose bounds hold the ray's start, or the other side of
-// an edge, whose bounds end below it.
-const float kRayBoundsShrink = 0.02;
 // A two-sided surface has faces on both sides. Of the surface that a ray leaves the other side does not hide
 // it, where plane pieces are not quite where the surface is: what is turned from the start by more than this
 // cosine and nearer to it than this, in voxels.

@@ -248,19 +248,19 @@ vec3 cosineDirection(vec3 n, vec2 xi) {
     return r * cos(phi) * u + r * sin(phi) * v + sqrt(max(1.0 - xi.x, 0.0)) * n;
 }
 
-// A random point on a random bright face, in grid coordinates: face with probability ~ brightness x (area of
-// its bounds seen along its direction) x (n.k), point uniform in those bounds, moved along the direction onto
-// the plane. Summed over the directions of one surface that is a density of brightness / flux per area, since
-// the (n.k)^2 add up to 1. Returns false where that point is not in the bounds. xi.x chooses the face: the
-// pool is ordered as voxels are, so evenly spread numbers are spread over the scene.
-bool sampleBrightFace(vec3 xi, out vec3 point, out vec3 normal) {
+// A random point on a random bright face, in grid coordinates: face by its flux (faceFlux), point uniform in
+// its bounds as rays meet them (aimBounds), seen along its direction k, moved along k onto the plane: density
+// (4.11). Returns the face; -1 where that point is not in the bounds. xi.x chooses the face: the pool is
+// ordered as voxels are, so evenly spread numbers are spread over the scene.
+int sampleBrightFace(vec3 xi, vec3 origin, out vec3 point, out vec3 normal) {
     uint header = texelFetch(brightFaces, 0).x;
     int entry = int(xi.x * float(BRIGHT_FACE_COUNT));
-    uvec4 r = texelFetch(voxelFaces, 2 * int(texelFetch(brightFaces, 1 + entry).x));
+    int face = int(texelFetch(brightFaces, 1 + entry).x);
+    uvec4 r = texelFetch(voxelFaces, 2 * face);
     int axis = int(r.w >> 30);
     normal = octDecode(unpackSnorm2x16(r.x));
-    vec3 lower = unpackBoundsMin(r.z);
-    vec3 upper = unpackBoundsMax(r.z);
+    vec3 lower, upper;
+    aimBounds(r, normal, origin, lower, upper);
     vec3 k = vec3(axis == 0, axis == 1, axis == 2);
     vec3 in01 = axis == 0 ? vec3(0.5, xi.yz) : (axis == 1 ? vec3(xi.z, 0.5, xi.y) : vec3(xi.yz, 0.5));
     vec3 p = mix(lower, upper, in01) * (1.0 - k) + 0.5 * k;
@@ -268,14 +268,8 @@ bool sampleBrightFace(vec3 xi, out vec3 point, out vec3 normal) {
     p += along * k;
     point = vec3(unpackVoxel(r.w)) + p;
     float height = dot(p, k);
-    // Not beyond the voxel, where its neighbour has the same surface: points there would be drawn twice.
-    vec2 range = vec2(max(dot(lower, k) - 1e-3, -1e-4), min(dot(upper, k) + 1e-3, 1.0001));
-    return header != 0u && height >= range.x && height <= range.y;
+    return header != 0u && height >= dot(lower, k) && height <= dot(upper, k) ? face : -1;
 }
-
-// A ray to a bright face has arrived on a face turned from it by no more than this (cosine of 45 degrees). In
-// a corner, bounds (rounded outwards) reach behind the other wall, which has its own rays.
-const float kSameSurface = 0.7;
 
 #if FIND_BACKS
 // Whether a ray that found `hit` met a surface from behind on its way, beyond kRayBackNear. The way back
@@ -293,7 +287,7 @@ bool metBackBefore(VoxelHit hit, vec3 origin, vec3 direction) {
 
 // Radiance of a white Lambert surface (irradiance / pi): `cosineRays` by the cosine about the shading normal,
 // `lightRays` to bright faces, weighted by the balance heuristic (Veach and Guibas 1995). A miss is the sky.
-// A ray to a bright face counts only where it arrives at its point: else directions with many bright faces
+// A ray to a bright face counts only where it meets that face: else directions with many bright faces
 // behind an occluder would be counted twice. `index` numbers the calls with the same seed, 0, 1, 2 ...: their
 // directions complement each other; so do those of calls with the same seed whose `shift`, in [0,1)^3, are
 // evenly spread. backShare: share of cosine rays that met a surface from behind.
@@ -310,15 +304,16 @@ vec3 gatherIrradianceSequence(vec3 originGrid, vec3 geometricNormal, vec3 shadin
         bool toLight = i >= cosineRays;
         vec3 target, targetNormal;
         uint lightIndex = index * uint(lightRays) + uint(max(i - cosineRays, 0));
-        bool onFace =
-            sampleBrightFace(fract(sequencePoint3(seed, lightIndex) + shift.zxy), target, targetNormal);
+        int aimed = sampleBrightFace(fract(sequencePoint3(seed, lightIndex) + shift.zxy), originGrid, target,
+                                     targetNormal);
         vec3 toTarget = target - originGrid;
         float distance = length(toTarget);
         vec2 xi = fract(sequencePoint(seed, index * uint(cosineRays) + uint(i)) + shift.xy);
         vec3 direction = toLight ? toTarget / max(distance, 1e-6) : cosineDirection(shadingNormal, xi);
         float cosine = dot(direction, shadingNormal);
         bool above = cosine > 0.0 && dot(direction, geometricNormal) > 0.0;
-        above = above && (!toLight || (onFace && dot(direction, targetNormal) < 0.0 && inverseFlux > 0.0));
+        above =
+            above && (!toLight || (aimed >= 0 && dot(direction, targetNormal) < 0.0 && inverseFlux > 0.0));
         // What lies beyond the point is of no interest.
         float reach = toLight ? distance + 1.0 : 1e9;
         // Bright face: its pool entry and record. Hit: both halves of its record, steady light if asked for.
@@ -328,21 +323,25 @@ vec3 gatherIrradianceSequence(vec3 originGrid, vec3 geometricNormal, vec3 shadin
                                     toLight ? distance : -1.0, reflections, kCosineSpread, limit, state, hit);
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);
 #if FIND_BACKS
-        VoxelHit met = hit;
-        if (toLight) met.t = -1.0;
-        if (metBackBefore(met, originGrid, direction)) {
+        VoxelHit seen = hit;
+        if (toLight) seen.t = -1.0;
+        if (metBackBefore(seen, originGrid, direction)) {
             hit.face = -1;
             radiance = vec3(0.0);
             backs += toLight ? 0.0 : 1.0;
         }
 #endif
-        vec3 n = faceNormalOf(max(hit.face, 0));
-        bool there = abs(hit.t - distance) < 0.3 && dot(n, targetNormal) > kSameSurface;
-        bool arrived = !toLight || (hit.face >= 0 && there);
+        uvec4 met = texelFetch(voxelFaces, 2 * max(hit.face, 0));
+        vec3 n = octDecode(unpackSnorm2x16(met.x));
+        bool arrived = !toLight || (hit.face >= 0 && hit.face == aimed);
         float brightness = hit.face >= 0 ? faceBrightness(faceRadiance(max(hit.face, 0))) : 0.0;
         float turned = max(-dot(n, direction), 1e-3);
-        float lightDensity = brightness * inverseFlux * hit.t * hit.t / turned;
-        if (hit.face < 0) lightDensity = 0.0;
+        float lightDensity = brightness * flowShare(n, met.w >> 30) * inverseFlux * hit.t * hit.t / turned;
+        vec3 lower, upper;
+        aimBounds(met, n, originGrid, lower, upper);
+        vec3 at = originGrid + hit.t * direction - vec3(unpackVoxel(met.w));
+        bool aimedAt = all(greaterThanEqual(at, lower)) && all(lessThanEqual(at, upper));
+        if (hit.face < 0 || !aimedAt) lightDensity = 0.0;
         float density = float(cosineRays) * cosine / kGatherPi + float(lightRays) * lightDensity;
         sum += above && arrived ? radiance * (cosine / kGatherPi / max(density, 1e-12)) : vec3(0.0);
         RECORD_RAY(toLight ? PATH_LIGHT_RAY : PATH_COSINE_RAY, originGrid, direction, hit, 1.0,

@@ -56,7 +56,8 @@ vec3 unpackRgb9e5(uint bits) {
            uintBitsToFloat(((bits >> 27) + 103u) << 23);
 }
 
-// faceSource: emission as halves, area / h^2 in [0,4].
+// faceSource: emission as halves, area / h^2 in [0,4]: of the surface what is the face's own, (n.k)^2 of it,
+// so that the faces of a voxel add up to it.
 uvec2 packFaceSource(vec3 emission, float area) {
     vec3 e = clamp(emission, 0.0, 65504.0);
     uint high = uint(floor(clamp(area, 0.0, 4.0) * kVoxelWeightScale + 0.5));
@@ -108,4 +109,49 @@ vec3 faceCenter(FaceRecord face) {
     vec3 rise = faceRise(uvec4(face.normal, face.offsetWeight, face.bounds, face.voxel), n);
     return vec3(unpackVoxel(face.voxel)) + 0.5 + middle +
            n * (unpackOffset(face.offsetWeight) - dot(n, middle)) + rise;
+}
+
+// Bounds that reach the voxel's side are grown, voxels: by the first along the normal, by the second, which
+// is how far pieces of one surface overlap, along it. Second: more makes balls too wide, less opens gaps
+// between their pieces (docs/theory/4_gather.md, "A ray").
+const float kRayBoundsSlack = 0.1;
+const float kRayBoundsOverlap = 0.04;
+// Where they end within the voxel, they are shrunk by this along the surface, about as much as they are
+// rounded outwards (up to 1/31), or all that is small would be too large. So are all for crossings before
+// kRayNear: there lies the other wall of a corner, whose bounds hold the ray's start, or the other side of
+// an edge, whose bounds end below it.
+const float kRayBoundsShrink = 0.02;
+// Bounds within which rays meet a face, in voxel units: all crossings beyond kRayNear, and no others.
+void rayBounds(uint bounds, vec3 n, out vec3 lower, out vec3 upper) {
+    vec3 shrunk = (kRayBoundsSlack + kRayBoundsShrink) * n * n - kRayBoundsShrink;
+    vec3 grown = (kRayBoundsSlack - kRayBoundsOverlap) * n * n + kRayBoundsOverlap;
+    lower = unpackBoundsMin(bounds);
+    upper = unpackBoundsMax(bounds);
+    lower -= mix(grown, shrunk, greaterThan(lower, vec3(0.0)));
+    upper += mix(grown, shrunk, lessThan(upper, vec3(1.0)));
+}
+
+// Where rays from `origin` (grid coordinates) aim at a face: its bounds as rays meet them. Where a plane
+// along the grid goes on next door on both sides, bounds overlap, and rays meet those that they come to
+// first: there bounds are moved away from the origin instead of grown, so that each point is aimed at once.
+void aimBounds(uvec4 hitTexel, vec3 n, vec3 origin, out vec3 lower, out vec3 upper) {
+    rayBounds(hitTexel.z, n, lower, upper);
+    vec3 a = abs(n);
+    bool alongGrid = max(a.x, max(a.y, a.z)) > 0.9999;
+    vec3 from = vec3(unpackVoxel(hitTexel.w)) + 0.5 - origin;
+    vec3 moved = kRayBoundsOverlap * sign(from);
+    bvec3 goesOn =
+        bvec3(alongGrid && lower.x < 0.0 && upper.x > 1.0, alongGrid && lower.y < 0.0 && upper.y > 1.0,
+              alongGrid && lower.z < 0.0 && upper.z > 1.0);
+    lower = mix(lower, moved, goesOn);
+    upper = mix(upper, 1.0 + moved, goesOn);
+}
+
+// Up to three faces of a voxel hold the same surface, and rays meet the one that covers most. So that is
+// where rays are aimed at (docs/theory/4_gather.md, eq. 4.11): 1 for the face of the normal's largest
+// component, little for others.
+float flowShare(vec3 n, uint axis) {
+    vec3 a = abs(n);
+    float part = (axis == 0u ? a.x : (axis == 1u ? a.y : a.z)) / max(a.x, max(a.y, a.z));
+    return part * part * part * part;
 }

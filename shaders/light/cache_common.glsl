@@ -15,12 +15,14 @@ bool isDead(FaceCache state) {
     return rays >= IRRADIANCE_DEAD_RAYS && 4u * (state.counts >> 24) > rays;
 }
 
-// How much of the pool a face gets: brightness x area of its bounds seen along its direction x (n.k).
+// How much of the pool a face gets (docs/theory/4_gather.md, eq. 4.11).
 float faceFlux(uvec4 hitTexel, vec3 radiance) {
     vec3 n = octDecode(unpackSnorm2x16(hitTexel.x));
-    vec3 size = unpackBoundsMax(hitTexel.z) - unpackBoundsMin(hitTexel.z);
+    vec3 lower, upper;
+    aimBounds(hitTexel, n, vec3(0.0), lower, upper);
+    vec3 size = max(upper - lower, vec3(0.0));
     uint axis = hitTexel.w >> 30;
     float seen = axis == 0u ? size.y * size.z : (axis == 1u ? size.z * size.x : size.x * size.y);
     float facing = axis == 0u ? n.x : (axis == 1u ? n.y : n.z);
-    return dot(radiance, vec3(1.0 / 3.0)) * seen * abs(facing);
+    return dot(radiance, vec3(1.0 / 3.0)) * seen * flowShare(n, axis) / max(abs(facing), 1e-3);
 }

@@ -10,7 +10,7 @@
 //   voxRec     one uint per occupied voxel, ordered by brick (x fastest) and voxel: bits 0..25 index of its
 //              first face, bits 26..31 the directions in which it has faces (bit 26 + k)
 //   face       FaceRecord per voxel and facing direction, ordered by voxel and direction
-//   faceSource two uints per face: emission as three halves, exact area (lib/voxel_record.glsl)
+//   faceSource two uints per face: emission as three halves, area (lib/voxel_record.glsl)
 //
 //   octWord    RG32UI 3D texture (8 Bx, By, Bz), for rays (src/voxels/octant_words.h): at x = brick.x +
 //              octant * Bx, with bit i of the octant set for rays that go down along axis i; bricks, and the

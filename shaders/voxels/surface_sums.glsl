@@ -8,6 +8,7 @@
 #error SURFACE_LOBES must be 0 or 1
 #endif
 #include "lib/clip.glsl"
+#include "lib/plane_piece.glsl"
 layout(std430, binding = SURFACE_FACE_SOURCES) writeonly buffer SourceTable { uvec2 faceSources[]; };
 layout(binding = SURFACE_UNIT_FRAGMENTS) uniform usamplerBuffer fragments;
 layout(binding = SURFACE_UNIT_OWNERS) uniform usamplerBuffer owners;
@@ -58,7 +59,7 @@ Fragment readFragment(uint at, vec3 k) {
 struct FaceSums {
     int weightLow;  // 64 bits
     uint weightHigh;
-    int area;  // in two units
+    int area;  // what is this face's own: the faces of a voxel add up to the surface's
     ivec3 normal, center, albedo, emission;
     ivec3 lower, upper;  // bounds, in 1/31 voxel
     ivec2 lobe;          // metalness; metalness x roughness
@@ -82,7 +83,7 @@ void addFragment(inout FaceSums sums, Fragment f, float covered, bool bounded) {
     sums.weightLow = int(sum);
     sums.twoSided += f.twoSided ? rounded : 0;
     sums.turned += f.turned ? rounded : 0;
-    sums.area += int(covered * 0.5 + 0.5);
+    sums.area += int(w * f.facing + 0.5);
     sums.normal += ivec3(w * (0.5 * f.normal + 0.5) + 0.5);
     sums.center += ivec3((w * (1.0 / 65535.0)) * vec3(f.center) + 0.5);
     sums.albedo += ivec3(w * (vec3(ivec3(f.albedo & 2047u, (f.albedo >> 11) & 2047u, f.albedo >> 22)) *
@@ -104,26 +105,6 @@ void addFragment(inout FaceSums sums, Fragment f, float covered, bool bounded) {
 float boundsArea(ivec3 lower, ivec3 upper, int axis) {
     vec3 size = vec3(max(upper - lower, 0)) * (1.0 / 31.0);
     return axis == 0 ? size.y * size.z : (axis == 1 ? size.z * size.x : size.x * size.y);
-}
-
-// Share of a rectangle on which a plane lies below `height`, measured from the plane's height in the middle:
-// the distribution function of a sum of two even ones. `rise`: what the plane rises along the two edges.
-float shareBelow(vec2 rise, float height) {
-    float a = max(max(rise.x, rise.y), 0.02);
-    float b = max(min(rise.x, rise.y), 0.02);
-    vec4 corner = max(height + 0.5 * vec4(a + b, b - a, a - b, -a - b), 0.0);
-    corner *= corner;
-    return clamp((corner.x - corner.y - corner.z + corner.w) / (2.0 * a * b), 0.0, 1.0);
-}
-
-// Area of a plane's piece within a box, seen along the third axis; n.z is the largest component. From the
-// voxel's centre.
-float pieceArea(vec3 n, float offset, vec3 lower, vec3 upper) {
-    vec3 size = max(upper - lower, 0.0);
-    float middle = (offset - dot(n.xy, 0.5 * (lower.xy + upper.xy))) / n.z;
-    vec2 rise = abs(n.xy / n.z) * size.xy;
-    return size.x * size.y *
-           max(shareBelow(rise, upper.z - middle) - shareBelow(rise, lower.z - middle), 0.0);
 }
 
 struct ResolvedFace {
@@ -157,13 +138,12 @@ ResolvedFace resolvedFace(FaceSums sums, int shift, int direction, uint voxel) {
     return ResolvedFace(uvec4(packSnorm2x16(octEncode(n)), packOffsetWeight(offset, total * unit), bounds,
                               voxel | (uint(direction >> 1) << 30)),
                         uvec4(packAlbedo(vec3(sums.albedo) / total), packRgb9e5(glow), 0u, lobe << 16),
-                        packFaceSource(glow, float(sums.area) * 2.0 * unit));
+                        packFaceSource(glow, float(sums.area) * unit));
 }
 
 // --- Bounds that fit (docs/theory/2_voxels.md, eq. 2.8)
 
 const float kBoundsStep = 1.0 / 31.0;
-const float kRayShrink = 0.02;   // kRayBoundsShrink, lib/ray_query.glsl
 const float kFitted = 0.98;      // share of the bounds from which on a piece fills them
 const float kSameWay = 0.5;      // cosine of normals of one surface
 const float kFrontShare = 0.25;  // in front of a piece, of what is behind: in a corner
@@ -248,7 +228,7 @@ void fitBounds(FaceSums sums, FacePlane plane, vec3 k, uint at, inout ResolvedFa
         b = vec3(at2 + h, high.z - max(top - height - reach, 0.0));
         vec3 inner = a;
         vec3 outer = b;
-        shrinkEnds(kRayShrink, inner, outer);
+        shrinkEnds(kRayBoundsShrink, inner, outer);
         scale = clamp(scale * plane.held / max(pieceArea(m, offset, inner, outer), 1e-4), 1e-3, 1.0);
     } while (++i < 6 && fits);
     ivec3 lower = clamp(ivec3((fromDominant(a, axis) + 0.5) * 31.0 + 0.5), sums.lower, sums.upper);

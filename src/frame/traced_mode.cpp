@@ -113,6 +113,7 @@ void TracedMode::Impl::updateVoxels(const FrameContext& frame) {
         cache.afterVoxelize(frame.programs, frame.profiler, surface);
     }
     if (geometryDirty || lightDirty) {
+        octants.bind();
         light::injectLight(frame.programs, frame.profiler, frame.scene, frame.settings.light, surface,
                            &surface.secondFaceScratch());
         voxelView.lightChanged();

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Light into voxels: SurfaceVoxels + lights -> the radiance word of every face record,
 //   emission + albedo / pi * irradiance of all lights, shadows included (lib/lights.glsl), at the centre of
-//   the
-// face's surface. Emission of rectangles that shine as area lights (LIGHT_FROM_EMITTER) is left out: their
-// light arrives exactly, and must not arrive twice.
+// the face's surface. Emission of rectangles that shine as area lights (LIGHT_FROM_EMITTER) is left out:
+// their light arrives exactly, and must not arrive twice.
 //
 // Needs the frame block, the scene's tables and the shadow maps bound. Reads and writes: face. Ends with the
 // barrier for shader storage. GL state changed: program, what SurfaceVoxels::bind binds.
@@ -20,7 +19,8 @@
 namespace conelight::light {
 
 // Irradiance gathered before is cleared; with `steadyLight` (IrradianceCache's) it is kept, and the part of
-// the radiance that is not looked up at hits is written there.
+// the radiance that is not looked up at hits is written there; emission then is what fits the faces' sizes as
+// rays meet them (emission_fit.comp.glsl), for which OctantWords must be bound.
 void injectLight(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
                  const LightSettings& settings, const voxels::SurfaceVoxels& surface,
                  const gl::Buffer* steadyLight = nullptr);

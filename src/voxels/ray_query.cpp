@@ -13,7 +13,7 @@
 namespace conelight::voxels {
 namespace {
 
-// The constants of shaders/lib/ray_query.glsl.
+// The constants of shaders/lib/ray_query.glsl and voxel_record.glsl.
 constexpr double kFacing = 1e-3;
 constexpr double kNear = 0.05;
 constexpr double kStart = 1e-3;

@@ -33,7 +33,8 @@ glm::vec3 unpackAlbedo(std::uint32_t bits);
 std::uint32_t packRgb9e5(const glm::vec3& color);
 glm::vec3 unpackRgb9e5(std::uint32_t bits);
 
-// faceSource: emission as halves (0..65504, relative error 0.05 %) and area / h^2 in [0,4), 16 bit.
+// faceSource: emission as halves (0..65504, relative error 0.05 %) and area / h^2 in [0,4), 16 bit: of the
+// surface what is the face's own, (n.k)^2 of it.
 std::array<std::uint32_t, 2> packFaceSource(const glm::vec3& emission, float area);
 glm::vec3 unpackEmission(const std::array<std::uint32_t, 2>& bits);
 float unpackArea(const std::array<std::uint32_t, 2>& bits);

@@ -266,7 +266,7 @@ TEST_F(VoxelLayers, CrossingSurfacesShowTheirUpperHalves) {
     const std::optional<Face> f = face({1, 1, 1}, kUp);
     ASSERT_TRUE(f);
     EXPECT_NEAR(f->weight, 1.0f, 0.01f);
-    EXPECT_NEAR(f->area, std::sqrt(2.0f), 0.03f);
+    EXPECT_NEAR(f->area, std::sqrt(0.5f), 0.03f);
     EXPECT_GT(f->normal.y, 0.999f);
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(f->albedo[i], 0.5f * (kRed[i] + kGreen[i]), 0.01f);
 }

@@ -36,6 +36,7 @@ void CacheRig::relight() {
     frameBlock.bindUniform(BINDING_FRAME);
     scene.bind();
     shadows.bind();
+    octants.bind();
     light::injectLight(programs, profiler, scene, light, surface, &surface.secondFaceScratch());
     cache.lightChanged();
 }

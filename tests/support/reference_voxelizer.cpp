@@ -122,7 +122,7 @@ namespace {
 
 // What of one triangle a face holds.
 struct Piece {
-    double area = 0, weight = 0;
+    double area = 0, weight = 0, own = 0;        // own: of its area, what is this face's
     glm::dvec3 normal{0}, center{0}, albedo{0};  // center: from the voxel's
     glm::dvec3 lower{1}, upper{0};               // of the voxel
 };
@@ -142,7 +142,7 @@ ReferenceFace sumOf(const std::vector<Piece>& pieces, const std::vector<double>&
         const Piece& piece = pieces[i];
         const double weight = piece.weight * seen[i];
         face.weight += weight;
-        face.area += piece.area * seen[i];
+        face.area += piece.own * seen[i];
         face.normal += weight * piece.normal;
         face.center += weight * piece.center;
         face.albedo += weight * piece.albedo;
@@ -275,6 +275,7 @@ ReferenceFaces referenceFaces(const Scene& scene, const std::vector<ReferenceTri
                     const double facing = glm::dot(piece.normal, glm::dvec3(voxels::directionVector(k)));
                     if (facing <= VOXEL_FACING_THRESHOLD) continue;
                     piece.weight = piece.area * facing;
+                    piece.own = piece.weight * facing;
                     pieces[std::uint64_t{8} * voxels::packVoxel(voxel) + static_cast<std::uint64_t>(k)]
                         .push_back(piece);
                 }
