@@ -240,7 +240,7 @@ void TracedMode::Impl::drawParts(const FrameContext& frame, const gather::Pictur
         lobe = &specular.filtered(rayFrame(frame), settings.filterLevels);
     }
     shade.draw(frame.programs, frame.profiler, frame.scene, frame.settings, shown, irradiance, lobe,
-               frame.output, frame.lookupCounters);
+               frame.gbuffer, frame.view.sky, frame.output, frame.lookupCounters);
 }
 
 TracedMode::TracedMode() : impl_(std::make_unique<Impl>()) {}

@@ -52,7 +52,8 @@ void bindPicture(const gl::Texture* picture, unsigned unit) {
 
 void TracedShade::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
                        const Settings& settings, const PictureParts& parts, const gl::Texture* irradiance,
-                       const gl::Texture* lobe, const gl::Texture& output, const gl::Buffer* lookupCounters) {
+                       const gl::Texture* lobe, const view::GBuffer& gbuffer, const glm::vec3& sky,
+                       const gl::Texture& output, const gl::Buffer* lookupCounters) {
     const gl::PassScope pass(profiler, "shade");
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::PixelRayConstants), "shade constants");
     gpu::PixelRayConstants constants{};
@@ -64,12 +65,16 @@ void TracedShade::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, con
     const gl::Defines lights = light::lightDefines(scene, settings.light);
     const bool counts = lookupCounters != nullptr;
     if (counts) lookupCounters->bindStorage(LOOKUP_TABLE);
-    const gl::Framebuffer target({&output}, nullptr, "traced picture");
+    // The depth test leaves out the background (shared/gbuffer.h), which the clear has drawn.
+    const gl::Framebuffer target({&output}, &gbuffer.depth(), "traced picture");
     gl::RasterState state;
     state.framebuffer = &target;
-    state.depthTest = state.depthWrite = false;
+    state.depthWrite = false;
+    state.reversedDepth = true;
     state.cull = gl::Cull::None;
     gl::apply(state);
+    const glm::vec3 behind = parts.direct ? sky : glm::vec3(0);
+    target.clearColor(0, behind.r, behind.g, behind.b, 0);
     if (!noVertices_) noVertices_ = gl::VertexArray("no vertices");
     programs.get(shadeDesc(parts, irradiance != nullptr, lobe != nullptr, lights, counts, anyEmission(scene)))
         .use();

@@ -185,7 +185,7 @@ void apply(const RasterState& state) {
     glClipControl(GL_LOWER_LEFT, state.reversedDepth ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
     glDepthFunc(state.reversedDepth ? GL_GEQUAL : GL_LEQUAL);
     glDepthMask(state.depthWrite ? GL_TRUE : GL_FALSE);
-    glDepthRange(0.0, 1.0);
+    glDepthRange(0.0, state.farthest);
     setCull(state.cull);
     glFrontFace(GL_CCW);
     const GLboolean color = state.colorWrite ? GL_TRUE : GL_FALSE;

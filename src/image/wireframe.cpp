@@ -5,6 +5,7 @@
 
 #include "gl/gl.h"
 #include "shared/bindings.h"
+#include "shared/gbuffer.h"
 #include "shared/image.h"
 
 namespace conelight::image {
@@ -45,6 +46,7 @@ void WireframeView::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, c
     state.depthTest = over;
     state.depthWrite = false;
     state.blend = true;
+    state.farthest = GBUFFER_FARTHEST;
     state.depthBiasSlope = kBiasSlope;
     state.depthBiasUnits = kBiasUnits;
     gl::apply(state);

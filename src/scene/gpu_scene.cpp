@@ -12,6 +12,7 @@
 #include "gl/pass.h"
 #include "math/octahedral.h"
 #include "scene/gpu_lights.h"
+#include "scene/mesh_order.h"
 #include "shared/bindings.h"
 
 namespace conelight::scene {
@@ -253,6 +254,7 @@ void GpuScene::uploadGeometry(const Scene& source) {
             indices.resize(indices.size() + mesh.indices.size());
             std::iota(indices.end() - static_cast<std::ptrdiff_t>(mesh.indices.size()), indices.end(), 0u);
         }
+        orderForReuse(vertices, range.firstVertex, indices, range.firstIndex);
         ranges.push_back(range);
     }
     const std::uint32_t defaultMaterial = static_cast<std::uint32_t>(source.materials.size());

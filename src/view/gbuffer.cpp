@@ -2,6 +2,7 @@
 #include "view/gbuffer.h"
 
 #include "gl/gl.h"
+#include "shared/gbuffer.h"
 
 namespace conelight::view {
 namespace {
@@ -44,6 +45,7 @@ void GBuffer::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const s
     const gl::PassScope pass(profiler, "gbuffer");
     gl::RasterState state;
     state.framebuffer = &framebuffer_;
+    state.farthest = GBUFFER_FARTHEST;
     gl::apply(state);
 
     // View depth 0 marks the background; the material words of such pixels are never read.

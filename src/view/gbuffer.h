@@ -34,7 +34,8 @@ class GBuffer {
 
     int width() const { return width_; }
     int height() const { return height_; }
-    // D32F, of frame.clipFromWorld; background 1. For raster passes on top of the surfaces.
+    // D32F, of frame.clipFromWorld; surfaces up to GBUFFER_FARTHEST, background 1. For raster passes on top
+    // of the surfaces.
     const gl::Texture& depth() const { return depth_; }
 
     static std::vector<gl::ProgramDesc> programDescs();
