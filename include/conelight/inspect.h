@@ -26,11 +26,10 @@ enum class PathKind {
     CacheFace      // no ray: a face of the cache that was read at the pixel
 };
 enum class PathEnd {
-    Open,      // left the grid or reached its length: the rest sees the sky
-    Full,      // the cone became opaque
-    Face,      // a face was met
-    BackFace,  // a surface was met from behind: black
-    Unused     // weight 0: would start below the surface, or did not arrive at its bright face
+    Open,   // left the grid or reached its length: the rest sees the sky
+    Full,   // the cone became opaque
+    Face,   // a face was met
+    Unused  // weight 0: would start below the surface, or did not arrive at its bright face
 };
 enum class StepKind {
     Sample,  // a cone read the volume

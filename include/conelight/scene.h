@@ -8,6 +8,7 @@
 // texel (glTF's convention). Indices refer to the vectors of Scene; -1 means none.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <string>
@@ -29,6 +30,20 @@ struct Aabb {
     void grow(const Aabb& b) {
         min = glm::min(min, b.min);
         max = glm::max(max, b.max);
+    }
+    std::array<glm::vec3, 8> corners() const {
+        std::array<glm::vec3, 8> all;
+        for (unsigned i = 0; i < 8; ++i)
+            all[i] = {(i & 1) != 0 ? max.x : min.x, (i & 2) != 0 ? max.y : min.y,
+                      (i & 4) != 0 ? max.z : min.z};
+        return all;
+    }
+    // Least box round this one's corners, taken through an affine transform; empty stays empty.
+    Aabb transformed(const glm::mat4& transform) const {
+        Aabb box;
+        if (empty()) return box;
+        for (const glm::vec3& corner : corners()) box.grow(glm::vec3(transform * glm::vec4(corner, 1)));
+        return box;
     }
 };
 

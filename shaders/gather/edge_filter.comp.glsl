@@ -5,9 +5,9 @@
 // (a-trous wavelets: Dammertz et al. 2010, "Edge-Avoiding A-Trous Wavelet Transform for fast Global
 // Illumination Filtering"). A tap counts by its normal (power 32) and its distance from the pixel's plane in
 // voxels, and only on the same instance with no other surface half way between: so light does not cross thin
-// walls. SPECULAR 1: only pixels of the lobes' list, others are left as they are; the reach grows with
-// roughness, none at a mirror, less where the surface is curved; how fast is fitted to builtin:glossy and
-// builtin:spheres (least error, qualities draft and interactive).
+// walls. SPECULAR 1: only pixels of the lobes' list (the caller clears the others); the reach grows
+// with roughness, none at a mirror, less where the surface is curved; how fast is fitted to builtin:glossy
+// and builtin:spheres (least error, qualities draft and interactive).
 #if !defined(FILTER_STEP) || !defined(SPECULAR)
 #error FILTER_STEP must be 1, 2, 4 or 8, SPECULAR 0 or 1
 #endif
@@ -22,6 +22,12 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "lib/lobe_list.glsl"
 #endif
 layout(rgba32ui, binding = 0) writeonly uniform uimage2D result;
+
+// The eight neighbours, row by row: all but the middle of 3x3.
+ivec2 neighbour(int i) {
+    int k = i < 4 ? i : i + 1;
+    return ivec2(k % 3, k / 3) - 1;
+}
 
 vec3 positionOf(ivec2 pixel, uvec4 bits) { return frame.eye + pixelHistoryDepth(bits) * pixelRay(pixel); }
 
@@ -47,38 +53,41 @@ void main() {
     reach *= reach;
     float lobe = max(roughness * roughness, 1e-3);  // GGX's alpha
 #endif
+    uvec4 taps[8];
+    bool inside[8];
+    for (int i = 0; i < 8; ++i) {
+        ivec2 q = pixel + FILTER_STEP * neighbour(i);
+        inside[i] = all(greaterThanEqual(q, ivec2(0))) && all(lessThan(q, size));
+        taps[i] = texelFetch(source, clamp(q, ivec2(0), size - 1), 0);
+    }
 #if !SPECULAR
-    // What is unlike all of its neighbours is noise, not another light: it is told from them by the least or
-    // most of them.
     vec3 alike = pixelHistoryValue(own);
 #if FILTER_STEP == 1
+    // What is unlike all of its neighbours is noise, not another light: it is told from them by the least or
+    // most of them.
     vec3 least = vec3(1e30);
     vec3 most = vec3(0.0);
     for (int i = 0; i < 8; ++i) {
-        int k = i < 4 ? i : i + 1;
-        ivec2 q = pixel + ivec2(k % 3, k / 3) - 1;
-        bool inside = all(greaterThanEqual(q, ivec2(0))) && all(lessThan(q, size));
-        uvec4 bits = texelFetch(source, clamp(q, ivec2(0), size - 1), 0);
-        bool same = inside && bits.z != 0u && pixelHistoryInstance(bits) == pixelHistoryInstance(own);
-        float offPlane = dot(positionOf(q, bits) - position, normal) * pixelRays.inverseVoxelSize;
+        uvec4 bits = taps[i];
+        bool same = inside[i] && bits.z != 0u && pixelHistoryInstance(bits) == pixelHistoryInstance(own);
+        float offPlane =
+            dot(positionOf(pixel + neighbour(i), bits) - position, normal) * pixelRays.inverseVoxelSize;
         same = same && dot(pixelHistoryNormal(bits), normal) > 0.9 && abs(offPlane) < 0.5;
         least = same ? min(least, pixelHistoryValue(bits)) : least;
         most = same ? max(most, pixelHistoryValue(bits)) : most;
     }
     alike = least.r < 1e30 ? clamp(alike, least, most) : alike;
 #endif
-#endif
     float rays = max(pixelHistoryCount(own), 1.0) * float(pixelRays.rays);
     // From 8 rays on, a pixel six times as bright as another never counts for it.
     float certainty = max(pow(rays, 0.6) / 4.25, min(0.5 * sqrt(rays), 1.4));
+#endif
     for (int i = 0; i < 8; ++i) {
-        int k = i < 4 ? i : i + 1;  // the middle is our own
-        ivec2 offset = ivec2(k % 3, k / 3) - 1;
-        ivec2 q = pixel + FILTER_STEP * offset;
-        bool inside = all(greaterThanEqual(q, ivec2(0))) && all(lessThan(q, size));
-        uvec4 bits = texelFetch(source, clamp(q, ivec2(0), size - 1), 0);
+        ivec2 offset = neighbour(i);
+        uvec4 bits = taps[i];
         float tap = offset.x == 0 || offset.y == 0 ? 2.0 : 1.0;
-        float offPlane = dot(positionOf(q, bits) - position, normal) * pixelRays.inverseVoxelSize;
+        float offPlane = dot(positionOf(pixel + FILTER_STEP * offset, bits) - position, normal) *
+                         pixelRays.inverseVoxelSize;
         float cosine = dot(pixelHistoryNormal(bits), normal);
         float turned = max(cosine, 0.0);
         turned *= turned;
@@ -86,7 +95,7 @@ void main() {
         turned *= turned;
         turned *= turned;
         turned *= turned;
-        bool same = inside && bits.z != 0u && pixelHistoryInstance(bits) == pixelHistoryInstance(own);
+        bool same = inside[i] && bits.z != 0u && pixelHistoryInstance(bits) == pixelHistoryInstance(own);
 #if FILTER_STEP > 1
         uvec4 middle = texelFetch(source, clamp(pixel + FILTER_STEP / 2 * offset, ivec2(0), size - 1), 0);
         float middleOff = dot(positionOf(pixel + FILTER_STEP / 2 * offset, middle) - position, normal);

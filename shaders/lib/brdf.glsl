@@ -58,9 +58,9 @@ vec3 fresnel(vec3 f0, vec3 f90, float voh) {
     return f0 + (f90 - f0) * (c2 * c2 * c);
 }
 
-// What a dielectric's lobe reflects of lamps it throws where few look; of the light in a room about half
-// comes straight from lamps. Fitted to builtin:spheres and builtin:lobby, whose indirect light is 3.3 and 1.6
-// % too dark with 0, 1.9 and 2.0 % too bright with 1.
+// Light in a room is not even: much of it comes steeply, of which a lobe reflects half the mean or less, and
+// what it reflects of grazing light goes on much as if nothing had been there. Fitted to builtin:spheres and
+// builtin:lobby, whose indirect light is 3.3 and 1.6 % too dark with 0, 1.9 and 2.0 % too bright with 1.
 const float kEvenLobe = 0.5;
 
 // Share of the light that a surface sends back on average, for what knows surfaces by one colour only. In

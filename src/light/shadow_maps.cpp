@@ -99,10 +99,8 @@ void place(View& view, int tile, int n, int layerSize) {
 // True when the box is outside one of the planes of clip space (no far plane: depth is reversed, far is 0).
 bool isOutside(const glm::mat4& clipFromWorld, const Aabb& box) {
     int outside[5] = {0, 0, 0, 0, 0};
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec4 p = clipFromWorld * glm::vec4((corner & 1) != 0 ? box.max.x : box.min.x,
-                                                      (corner & 2) != 0 ? box.max.y : box.min.y,
-                                                      (corner & 4) != 0 ? box.max.z : box.min.z, 1);
+    for (const glm::vec3& corner : box.corners()) {
+        const glm::vec4 p = clipFromWorld * glm::vec4(corner, 1);
         outside[0] += p.x < -p.w;
         outside[1] += p.x > p.w;
         outside[2] += p.y < -p.w;
@@ -208,11 +206,9 @@ class Layout {
     void addDirectional(gpu::Light& light) {
         light.shadow = take(1, 1);
         float half = 0, nearest = 1e30f, farthest = -1e30f;
-        const glm::vec3 centre = bounds_.empty() ? glm::vec3(0) : bounds_.center();
-        for (int corner = 0; corner < 8 && !bounds_.empty(); ++corner) {
-            const glm::vec3 p((corner & 1) != 0 ? bounds_.max.x : bounds_.min.x,
-                              (corner & 2) != 0 ? bounds_.max.y : bounds_.min.y,
-                              (corner & 4) != 0 ? bounds_.max.z : bounds_.min.z);
+        const Aabb box = bounds_.empty() ? Aabb{glm::vec3(0), glm::vec3(0)} : bounds_;
+        const glm::vec3 centre = box.center();
+        for (const glm::vec3& p : box.corners()) {
             half = std::max({half, std::abs(glm::dot(p - centre, light.halfU)),
                              std::abs(glm::dot(p - centre, light.halfV))});
             nearest = std::min(nearest, glm::dot(p - centre, light.direction));

@@ -326,13 +326,7 @@ void GpuScene::place(std::size_t index, const glm::mat4& worldFromObject) {
     g.normalColumn0 = glm::vec4(glm::cross(linear[1], linear[2]) * sign, 0);
     g.normalColumn1 = glm::vec4(glm::cross(linear[2], linear[0]) * sign, 0);
     g.normalColumn2 = glm::vec4(glm::cross(linear[0], linear[1]) * sign, 0);
-    const Aabb& box = instanceObjectBounds_[index];
-    Aabb world;
-    for (int corner = 0; corner < 8 && !box.empty(); ++corner)
-        world.grow(glm::vec3(worldFromObject * glm::vec4((corner & 1) != 0 ? box.max.x : box.min.x,
-                                                         (corner & 2) != 0 ? box.max.y : box.min.y,
-                                                         (corner & 4) != 0 ? box.max.z : box.min.z, 1)));
-    instanceBounds_[index] = world;
+    instanceBounds_[index] = instanceObjectBounds_[index].transformed(worldFromObject);
     boundsCurrent_ = false;
 }
 

@@ -99,11 +99,8 @@ constexpr float kFarthest = 1e15f;  // metres
 
 void validateReach(const Instance& instance, std::size_t index, const Aabb& meshBounds) {
     if (meshBounds.empty()) return;
-    for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 from((corner & 1) != 0 ? meshBounds.max.x : meshBounds.min.x,
-                             (corner & 2) != 0 ? meshBounds.max.y : meshBounds.min.y,
-                             (corner & 4) != 0 ? meshBounds.max.z : meshBounds.min.z);
-        const glm::vec3 at(instance.worldFromObject * glm::vec4(from, 1));
+    for (const glm::vec3& corner : meshBounds.corners()) {
+        const glm::vec3 at(instance.worldFromObject * glm::vec4(corner, 1));
         const float reach = std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)});
         if (!(reach <= kFarthest))
             fail(ErrorKind::BadInput,

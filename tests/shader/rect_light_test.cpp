@@ -42,7 +42,9 @@ double denseSum(const Light& light, const glm::vec3& p, float roughness) {
 
 class RectLightTest : public GlTest {
   protected:
-    std::vector<glm::vec4> shaded(const Light& light, float roughness) {
+    // What `body` writes to data[i] and data[i + 1] at each point of the floor: `p` the point, `n` its
+    // normal, `b` white metal.
+    std::vector<glm::vec4> atEachPoint(const std::string& body, const Light& light, float roughness) {
         addShader("test/rect.comp.glsl", R"(#version 450 core
 #define LIGHTS_SHADOWS 0
 #include "lib/lights.glsl"
@@ -52,13 +54,8 @@ void main() {
     uint i = gl_GlobalInvocationID.x * 2u;
     vec3 p = data[i].xyz, toEye = normalize(data[i + 1u].xyz - p), n = vec3(0, 1, 0);
     Brdf b = makeBrdf(vec3(1), 1.0, data[i].w, vec3(0.04), toEye.y);
-    DirectLight sum = DirectLight(vec3(0), vec3(0));
-    addRect(sum, true, Receiver(p, n, n, toEye, 0.0), b, lights[0]);
-    vec3 quick = rectSpecularQuick(lights[0], p, rectLobe(n, toEye, b.alpha, b.nov), b);
-    data[i] = vec4(lights[0].intensity * quick, 0.0);
-    data[i + 1u] = vec4(sum.specular, sum.irradiance.x);
-}
-)");
+    RectLobe lobe = rectLobe(n, toEye, b.alpha, b.nov);
+)" + body + "}\n");
         std::vector<glm::vec4> data;
         for (int z = 0; z < kEdge; ++z)
             for (int x = 0; x < kEdge; ++x) {
@@ -72,6 +69,15 @@ void main() {
         programs().compute("test/rect.comp.glsl").dispatch(kEdge * kEdge);
         gl::barrier(gl::Access::ShaderStorage);
         return buffer.read<glm::vec4>(data.size());
+    }
+    std::vector<glm::vec4> shaded(const Light& light, float roughness) {
+        return atEachPoint(R"(
+    DirectLight sum = DirectLight(vec3(0), vec3(0));
+    addRect(sum, true, Receiver(p, n, n, toEye, 0.0), b, lights[0]);
+    data[i] = vec4(lights[0].intensity * rectSpecularQuick(lights[0], p, lobe, b), 0.0);
+    data[i + 1u] = vec4(sum.specular, sum.irradiance.x);
+)",
+                           light, roughness);
     }
 };
 
@@ -121,22 +127,12 @@ TEST_F(RectLightTest, ReflectionsAreCloseToADenseSum) {
 // them: the share of those on one half of the lamp is that half's share of the reflection. Drawn all alike it
 // is always one half, and a lamp half hidden shows in metal though the lobe points at its hidden half.
 TEST_F(RectLightTest, PointsAreDrawnAsTheLobeSeesThem) {
-    addShader("test/points.comp.glsl", R"(#version 450 core
-#define LIGHTS_SHADOWS 0
-#include "lib/lights.glsl"
-layout(local_size_x = 64) in;
-layout(std430, binding = BINDING_STORAGE_PASS) buffer Data { vec4 data[]; };
-void main() {
-    uint i = gl_GlobalInvocationID.x * 2u;
-    vec3 p = data[i].xyz, toEye = normalize(data[i + 1u].xyz - p), n = vec3(0, 1, 0);
-    Brdf b = makeBrdf(vec3(1), 1.0, data[i].w, vec3(0.04), toEye.y);
-    RectLobe lobe = rectLobe(n, toEye, b.alpha, b.nov);
+    const std::string leftShare = R"(
     float left = 0.0;
     for (int k = 0; k < 256; ++k)
         left += rectPointPlace(rectPointInLobe(lights[0], p, lobe, (float(k) + 0.5) / 256.0), 4u).x < 0.0 ? 1.0 : 0.0;
     data[i] = vec4(left / 256.0);
-}
-)");
+)";
     Light light;
     light.type = LightType::Rect;
     light.intensity = glm::vec3(1);
@@ -147,20 +143,8 @@ void main() {
     Light half = light;
     half.position.x = -0.4f;
     half.halfU.x = 0.4f;
-    const gl::Buffer table(scene::packedLights({light}), "lights");
-    table.bindStorage(BINDING_LIGHTS);
     for (const float roughness : {0.2f, 0.35f, 0.6f}) {
-        std::vector<glm::vec4> data;
-        for (int z = 0; z < kEdge; ++z)
-            for (int x = 0; x < kEdge; ++x) {
-                data.emplace_back(floorPoint(x, z), roughness);
-                data.emplace_back(kEye, 0);
-            }
-        gl::Buffer buffer(data, "points");
-        buffer.bindStorage(BINDING_STORAGE_PASS);
-        programs().compute("test/points.comp.glsl").dispatch(kEdge * kEdge);
-        gl::barrier(gl::Access::ShaderStorage);
-        const std::vector<glm::vec4> got = buffer.read<glm::vec4>(data.size());
+        const std::vector<glm::vec4> got = atEachPoint(leftShare, light, roughness);
         // Weighted by the reflection: where there is none, any point will do.
         double error = 0, one = 0, weights = 0;
         for (int i = 0; i < kEdge * kEdge; ++i) {

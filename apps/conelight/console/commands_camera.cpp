@@ -101,13 +101,8 @@ void frame(const CommandContext& context, Camera camera) {
     for (const std::size_t index : objectsNamed(context.session, context.words[1])) {
         const Instance& instance = scene.instances[index];
         if (instance.mesh < 0) continue;
-        const Aabb own = scene.meshes[static_cast<std::size_t>(instance.mesh)].bounds();
-        for (int corner = 0; corner < 8 && !own.empty(); ++corner) {
-            const glm::vec3 p((corner & 1) != 0 ? own.max.x : own.min.x,
-                              (corner & 2) != 0 ? own.max.y : own.min.y,
-                              (corner & 4) != 0 ? own.max.z : own.min.z);
-            bounds.grow(glm::vec3(instance.worldFromObject * glm::vec4(p, 1)));
-        }
+        bounds.grow(scene.meshes[static_cast<std::size_t>(instance.mesh)].bounds().transformed(
+            instance.worldFromObject));
     }
     if (bounds.empty()) usage("camera frame: the object has no surface");
     const float radius = std::max(0.5f * glm::length(bounds.extent()), 1e-4f);

@@ -316,13 +316,8 @@ void Viewer::focus() {
     Aabb bounds = session_.scene().bounds();
     if (session_.selection().kind == SelectionKind::Instance) {
         const Instance& instance = session_.scene().instances[session_.selection().index];
-        const Aabb object = session_.scene().meshes[static_cast<std::size_t>(instance.mesh)].bounds();
-        bounds = {};
-        for (int corner = 0; corner < 8; ++corner)
-            bounds.grow(glm::vec3(instance.worldFromObject *
-                                  glm::vec4((corner & 1) ? object.max.x : object.min.x,
-                                            (corner & 2) ? object.max.y : object.min.y,
-                                            (corner & 4) ? object.max.z : object.min.z, 1)));
+        bounds = session_.scene().meshes[static_cast<std::size_t>(instance.mesh)].bounds().transformed(
+            instance.worldFromObject);
     }
     Camera camera = session_.camera();
     const glm::ivec2 size = glm::max(view_.pictureSize(), glm::ivec2(1));

@@ -55,7 +55,7 @@ struct Layout {
 // What would lose the scene's unsaved changes.
 struct Leaving {
     enum class To { End, OtherScene, FileAsChanged } to = To::End;
-    std::string file;  // OtherScene
+    std::string file;  // what is opened or loaded again; not for End
 };
 
 class Viewer {
