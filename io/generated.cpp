@@ -94,6 +94,9 @@ constexpr GeneratedParameter kLoftParameters[] = {
 constexpr GeneratedParameter kLoungeParameters[] = {
     {"emission", 12, 0, 1e4, false, "radiance of the lamps, W/(sr m^2)"},
 };
+constexpr GeneratedParameter kNeonParameters[] = {
+    {"emission", 14, 0, 1e4, false, "radiance of the lamps, W/(sr m^2)"},
+};
 constexpr GeneratedParameter kLibraryParameters[] = {
     {"intensity", 2, 0, 1e4, false, "of the lamp, W/sr; the reading lamp has twice as much"},
 };
@@ -155,6 +158,8 @@ constexpr Entry kScenes[] = {
     {{"lounge", "closed room lit by emission alone: a leaning rod, a turned bar, a ball, a ring",
       kLoungeParameters},
      generated::buildLounge},
+    {{"neon", "closed room lit by emission alone: a winding tube, a cone, a lens, a cube", kNeonParameters},
+     generated::buildNeon},
     {{"library", "closed room, wood, plaster, stone and cloth, shelves of books", kLibraryParameters},
      generated::buildLibrary},
     {{"heap", "closed room with many small rods, cones, tiles and balls", kHeapParameters},

@@ -76,6 +76,7 @@ Scene buildMirrors(const Values& values);
 Scene buildScreens(const Values& values);
 Scene buildLoft(const Values& values);
 Scene buildLounge(const Values& values);
+Scene buildNeon(const Values& values);
 Scene buildLibrary(const Values& values);
 Scene buildHeap(const Values& values);
 Scene buildBends(const Values& values);

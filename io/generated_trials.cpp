@@ -443,6 +443,55 @@ Scene buildLounge(const Values& values) {
     return scene;
 }
 
+// Emission again, written after the rules for small lamps and measured once they stood: a tube that winds
+// through the room, a glowing cone, a lens, a small leaning cube.
+Scene buildNeon(const Values& values) {
+    Scene scene;
+    const float glow = float(values["emission"]);
+    const int pale = white(scene);
+    const int plum = add(scene, matte("plum wall", {0.34f, 0.20f, 0.30f}));
+    const int slate = add(scene, matte("slate", {0.22f, 0.24f, 0.26f}));
+    addRoom(scene, {{-1.5f, 0, -1.6f}, {1.5f, 2.4f, 1.6f}}, {slate, pale, plum, pale, pale, pale});
+    const auto lamp = [&](Mesh mesh, const char* name, glm::vec3 colour, const glm::mat4& place) {
+        addPart(scene, std::move(mesh), name, add(scene, emitter(name, glow * colour))).worldFromObject =
+            place;
+    };
+    // A closed tube about a curve on the far wall that crosses itself in depth.
+    constexpr float kTurn = 6.28318531f, kRadius = 0.025f;
+    const auto middle = [](float u) {
+        return glm::vec3(0.8f * std::sin(kTurn * u), 1.35f + 0.4f * std::sin(2 * kTurn * u),
+                         -1.2f + 0.18f * std::cos(3 * kTurn * u));
+    };
+    shapes::Patch tube;
+    tube.nu = 160;
+    tube.nv = 16;
+    tube.position = [&](float u, float v) {
+        const glm::vec3 along = glm::normalize(middle(u + 0.001f) - middle(u - 0.001f));
+        const glm::vec3 side = glm::normalize(glm::cross(along, glm::vec3(0, 0, 1)));
+        const glm::vec3 up = glm::cross(side, along);
+        return middle(u) + kRadius * (std::cos(kTurn * v) * side + std::sin(kTurn * v) * up);
+    };
+    Mesh winding;
+    shapes::appendPatch(winding, tube);
+    lamp(std::move(winding), "winding tube", {1.0f, 0.35f, 0.55f}, glm::mat4(1));
+    lamp(turned({shapes::line({0, 0}, {0.16f, 0}), shapes::line({0.16f, 0}, {0, 0.4f}, 4)}, 24), "cone",
+         {0.45f, 0.8f, 1.0f},
+         translation({0.85f, 0.1f, -0.5f}) * glm::rotate(glm::mat4(1), 0.4f, glm::vec3(1, 0, 1)));
+    lamp(turned({shapes::line({0, 0}, {0.12f, 0}),
+                 shapes::arc({0, -0.16f}, {0.2f, 0.2f}, 0.92729522f, 1.57079633f, 6)},
+                32),
+         "lens", {1.0f, 0.9f, 0.6f},
+         translation({-0.7f, 2.25f, 0.2f}) * glm::rotate(glm::mat4(1), 2.7f, glm::vec3(1, 0, 0.2f)));
+    lamp(box({glm::vec3(-0.06f), glm::vec3(0.06f)}), "small cube", {0.7f, 1.0f, 0.6f},
+         translation({-0.95f, 0.62f, -0.4f}) * turnAboutY(0.5f) *
+             glm::rotate(glm::mat4(1), 0.6f, glm::vec3(1, 0, 0)));
+    addPart(scene, box({{-0.3f, 0, -0.3f}, {0.3f, 0.4f, 0.3f}}), "block", pale).worldFromObject =
+        translation({-0.85f, 0, -0.45f}) * turnAboutY(0.4f);
+    addPart(scene, sphere(0.28f, 32), "ball", plum).worldFromObject = translation({0.15f, 0.28f, 0.1f});
+    scene.cameras.push_back(camera("front", {0.1f, 1.25f, 1.52f}, {0, 1.05f, -0.8f}, 74));
+    return scene;
+}
+
 // Textures again: shelves of wood along plastered and tiled walls, a rug, under two lamps.
 Scene buildLibrary(const Values& values) {
     Scene scene;

@@ -20,7 +20,6 @@ gl::ProgramDesc fitProgramDesc(int step) {
 }
 
 // Others than those whose light comes from rectangles.
-// Others than those whose light comes from rectangles.
 bool hasEmitters(const scene::GpuScene& scene) {
     return std::any_of(
         scene.instances().begin(), scene.instances().end(), [&](const gpu::Instance& instance) {

@@ -336,6 +336,11 @@ TEST_F(ViewerPanelsTest, SceneTreeAndEditorsChangeTheScene) {
     screen->xdotool("key ctrl+y");
     EXPECT_TRUE(eventually([&] { return viewer->status("selection") != before; }));
 
+    click("menu:Edit");
+    EXPECT_GT(viewer->placeOf("menu:Undo").z, 0);
+    screen->xdotool("key Escape");
+    EXPECT_TRUE(eventually([&] { return viewer->placeOf("menu:Undo").z == 0; })) << "Escape closes menus";
+
     // Its material.
     click("edit:material");
     EXPECT_NE(viewer->status("selection").find("material"), std::string::npos);

@@ -2,6 +2,7 @@
 // Panels, and what is written over the picture.
 #include <fmt/core.h>
 #include <imgui.h>
+#include <imgui_internal.h>  // ClosePopupToLevel
 #include <imgui_stdlib.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "traced_picture.h"
+#include "viewer/imgui_names.h"
 #include "viewer/viewer_window.h"
 #include "viewer/widget_places.h"
 
@@ -26,6 +28,13 @@ std::vector<Stage> stagesOf(const std::string& mode) {
 constexpr ImGuiWindowFlags kPanel = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoMove |
                                     ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoSavedSettings |
                                     ImGuiWindowFlags_NoBringToFrontOnFocus;
+
+// Menus and lists; dialogs answer the key themselves.
+void closeMenusOnEscape() {
+    if (escapePressed() && ImGui::GetCurrentContext()->OpenPopupStack.Size > 0 &&
+        ImGui::GetTopMostPopupModal() == nullptr)
+        ImGui::ClosePopupToLevel(0, true);
+}
 
 std::string nameOf(const std::string& file) { return std::filesystem::path(file).filename().string(); }
 
@@ -80,6 +89,7 @@ Layout Viewer::layout() const {
 void Viewer::gui(const Layout& layout) {
     beginPlaces();
     placesRecorded_ = std::exchange(placesAsked_, false);
+    closeMenusOnEscape();
     keys();
     menuBar();
     if (showSide_) {
