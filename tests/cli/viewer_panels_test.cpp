@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "cli/viewer_test_support.h"
+#include "io/image_file.h"
 #include "support/program.h"
 #include "support/x11_client.h"
 
@@ -231,6 +232,31 @@ TEST_F(ViewerPanelsTest, FilmsOfThePathTracerAreDrawnInTheWindow) {
     EXPECT_EQ(viewer->exitStatus(), 0);
 }
 
+// A film of mode radiosity waits for the bake: none of its frames is a picture without bounced light.
+TEST_F(ViewerPanelsTest, FilmsOfRadiosityBeginWhenItIsBaked) {
+    const std::string folder = freshFolder("baked_film");
+    start(
+        "--window 720x480 --voxels 32 --mode phong --no-state --subdivide 1 --visibility-rays 64 "
+        "builtin:cornell");
+    settle();
+    const auto film = [&](const std::string& mode) {
+        viewer->send("mode " + mode + "; record " + folder + "/" + mode + "%d.exr 2 turntable");
+        EXPECT_TRUE(heard("written " + folder + "/" + mode + "%d.exr (2 frames)")) << viewer->output();
+    };
+    film("phong");
+    film("radiosity");
+    const auto sum = [&](const std::string& frame) {
+        double all = 0;
+        for (const float value : io::readExr(folder + "/" + frame + ".exr").pixels) all += double(value);
+        return all;
+    };
+    for (const char* frame : {"0", "1"})
+        EXPECT_GT(sum(std::string("radiosity") + frame), 1.1 * sum(std::string("phong") + frame)) << frame;
+    EXPECT_NE(bytesOf(folder + "/radiosity0.exr"), bytesOf(folder + "/radiosity1.exr"));
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0);
+}
+
 TEST_F(ViewerPanelsTest, ScenesAreSavedOpenedAndReloaded) {
     const std::string folder = freshFolder("scenes"), scene = folder + "/room.glb";
     start(std::string(kSmall) + "builtin:cornell");
@@ -353,6 +379,10 @@ TEST_F(ViewerPanelsTest, SceneTreeAndEditorsChangeTheScene) {
     const std::string rough = answer("material white", "  roughness");
     dragWidget("edit:roughness", {0.5f, 0.5f}, {-30, 0});
     EXPECT_NE(answer("material white", "  roughness"), rough);
+
+    // What glows stands with the lights.
+    click("entry:lamp  (glows)");
+    EXPECT_NE(viewer->status("selection").find("material"), std::string::npos) << viewer->status("selection");
 
     // A light is added where the eye is, moved away from there by its handle, its strength dragged, deleted.
     click("add light");

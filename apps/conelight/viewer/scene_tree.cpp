@@ -59,6 +59,15 @@ void objects(Session& session, const std::string& filter) {
         }
 }
 
+// Lamps that are no lights of the scene but surfaces: their materials.
+void glowing(Session& session, const std::string& filter) {
+    const std::vector<Material>& materials = session.scene().materials;
+    for (std::size_t i = 0; i < materials.size(); ++i)
+        if (materials[i].emission != glm::vec3(0))
+            entry(session, nameOr(materials[i].name, "material", i) + "  (glows)", filter,
+                  {SelectionKind::Material, i});
+}
+
 // One where the eye is.
 void addLight(const RunLine& run) {
     ImGui::SetNextItemWidth(-1);
@@ -84,6 +93,7 @@ void sceneTree(Session& session, const std::string& filter, const RunLine& run) 
                   fmt::format("{}  ({})", nameOr(scene.lights[i].name, "light", i),
                               io::lightTypeName(scene.lights[i].type)),
                   filter, {SelectionKind::Light, i});
+        glowing(session, filter);
         addLight(run);
     }
     if (heading("Materials", scene.materials.size()))
