@@ -236,7 +236,7 @@ TEST_F(ViewerPanelsTest, FilmsOfThePathTracerAreDrawnInTheWindow) {
 TEST_F(ViewerPanelsTest, FilmsOfRadiosityBeginWhenItIsBaked) {
     const std::string folder = freshFolder("baked_film");
     start(
-        "--window 720x480 --voxels 32 --mode phong --no-state --subdivide 1 --visibility-rays 64 "
+        "--window 720x480 --voxels 32 --mode phong --no-state --subdivide 0 --visibility-rays 16 "
         "builtin:cornell");
     settle();
     const auto film = [&](const std::string& mode) {
@@ -381,7 +381,7 @@ TEST_F(ViewerPanelsTest, SceneTreeAndEditorsChangeTheScene) {
     EXPECT_NE(answer("material white", "  roughness"), rough);
 
     // What glows stands with the lights.
-    click("entry:lamp  (glows)");
+    click("entry:lamp (glows)");
     EXPECT_NE(viewer->status("selection").find("material"), std::string::npos) << viewer->status("selection");
 
     // A light is added where the eye is, moved away from there by its handle, its strength dragged, deleted.

@@ -64,7 +64,7 @@ void glowing(Session& session, const std::string& filter) {
     const std::vector<Material>& materials = session.scene().materials;
     for (std::size_t i = 0; i < materials.size(); ++i)
         if (materials[i].emission != glm::vec3(0))
-            entry(session, nameOr(materials[i].name, "material", i) + "  (glows)", filter,
+            entry(session, nameOr(materials[i].name, "material", i) + " (glows)", filter,
                   {SelectionKind::Material, i});
 }
 
