@@ -236,7 +236,7 @@ TEST_F(ViewerPanelsTest, FilmsOfThePathTracerAreDrawnInTheWindow) {
 TEST_F(ViewerPanelsTest, FilmsOfRadiosityBeginWhenItIsBaked) {
     const std::string folder = freshFolder("baked_film");
     start(
-        "--window 720x480 --voxels 32 --mode phong --no-state --subdivide 0 --visibility-rays 16 "
+        "--window 720x480 --voxels 32 --mode phong --no-state --patch 0.25 --subdivide 0 --gather-rays 64 "
         "builtin:cornell");
     settle();
     const auto film = [&](const std::string& mode) {
