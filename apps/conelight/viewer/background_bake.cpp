@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/background_bake.h"
 
+#include <algorithm>
 #include <exception>
 #include <mutex>
 #include <optional>
@@ -22,12 +23,11 @@ Version versionOf(const Session& session) {
 }
 
 // Seconds in a small room, to have something to show: a quarter of the rays. Chosen by eye.
-reference::RadiositySettings draftSettings() {
-    reference::RadiositySettings settings;
-    settings.maxSubdivision = 3;
-    settings.patchRays = 128;
-    settings.gatherRays = 128;
-    settings.visibilityRays = 64;
+reference::RadiositySettings draftOf(reference::RadiositySettings settings) {
+    settings.maxSubdivision = std::min(settings.maxSubdivision, 3);
+    settings.patchRays = std::min(settings.patchRays, 128);
+    settings.gatherRays = std::min(settings.gatherRays, 128);
+    settings.visibilityRays = std::min(settings.visibilityRays, 64);
     return settings;
 }
 
@@ -35,6 +35,7 @@ reference::RadiositySettings draftSettings() {
 
 struct BackgroundBake::Impl {
     std::optional<Version> wanted;
+    reference::RadiositySettings settings;
 
     mutable std::mutex mutex;  // guards what follows
     std::shared_ptr<const Scene> lit;
@@ -43,20 +44,21 @@ struct BackgroundBake::Impl {
 
     BackgroundJob job;  // last: it ends before what it works on does
 
-    void run(const Scene& scene, const Version& version, const Cancelled& cancelled, void (*wake)());
+    void run(const Scene& scene, const Version& version, const reference::RadiositySettings& full,
+             const Cancelled& cancelled, void (*wake)());
 };
 
 // A draft first, then what `render --mode radiosity` bakes.
-void BackgroundBake::Impl::run(const Scene& scene, const Version& version, const Cancelled& cancelled,
+void BackgroundBake::Impl::run(const Scene& scene, const Version& version,
+                               const reference::RadiositySettings& full, const Cancelled& cancelled,
                                void (*wake)()) {
     for (const bool draft : {true, false}) {
         std::string failure;
         std::shared_ptr<const Scene> baked;
         try {
-            reference::RadiositySettings settings = draft ? draftSettings() : reference::RadiositySettings{};
-            settings.threads = BackgroundJob::threads();
-            baked =
-                std::make_shared<const Scene>(bakeWatched(scene, settings, cancelled, mutex, status, wake));
+            reference::RadiositySettings chosen = draft ? draftOf(full) : full;
+            chosen.threads = BackgroundJob::threads();
+            baked = std::make_shared<const Scene>(bakeWatched(scene, chosen, cancelled, mutex, status, wake));
         } catch (const std::exception& error) {
             failure = error.what();
         }
@@ -77,6 +79,8 @@ void BackgroundBake::Impl::run(const Scene& scene, const Version& version, const
 BackgroundBake::BackgroundBake() : impl_(std::make_unique<Impl>()) {}
 BackgroundBake::~BackgroundBake() { stop(); }
 
+void BackgroundBake::setSettings(const reference::RadiositySettings& settings) { impl_->settings = settings; }
+
 void BackgroundBake::stop() {
     impl_->job.cancel();
     impl_->wanted.reset();
@@ -96,9 +100,11 @@ void BackgroundBake::bake(const Session& session, void (*wake)()) {
         impl_->status = {};
         impl_->status.running = true;
     }
-    impl_->job.start([impl = impl_.get(), version, scene = std::make_shared<const Scene>(session.scene()),
-                      wake](const Cancelled& cancelled) { impl->run(*scene, version, cancelled, wake); },
-                     wake);
+    impl_->job.start(
+        [impl = impl_.get(), version, scene = std::make_shared<const Scene>(session.scene()),
+         settings = impl_->settings,
+         wake](const Cancelled& cancelled) { impl->run(*scene, version, settings, cancelled, wake); },
+        wake);
 }
 
 std::shared_ptr<const Scene> BackgroundBake::lit(const Session& session) const {

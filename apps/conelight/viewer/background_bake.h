@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "reference/radiosity.h"
 #include "session/session.h"
 #include "viewer/bake_progress.h"
 
@@ -20,6 +21,7 @@ class BackgroundBake {
     // Bakes the session's scene, anew when it changed. Cheap to call every frame; never waits. `wake` is
     // called from the thread when there is progress.
     void bake(const Session& session, void (*wake)());
+    void setSettings(const reference::RadiositySettings& settings);  // of bakes that begin from now on
     void stop();  // asks the thread to end; the lit scene is gone
 
     // The lit scene that was finished last, of the session's scene as it was then; null: none yet.

@@ -107,6 +107,10 @@ PictureSlot::PictureSlot(std::string shaderDirectory, bool debugGl) : impl_(std:
 }
 PictureSlot::~PictureSlot() = default;
 
+void PictureSlot::setRadiosity(const reference::RadiositySettings& settings) {
+    impl_->bake.setSettings(settings);
+}
+
 void PictureSlot::redraw() { impl_->asked = true; }
 
 // Nothing is shown until the next picture: what there was is another mode's.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "conelight/renderer.h"
+#include "reference/radiosity.h"
 #include "session/session.h"
 
 namespace conelight::program {
@@ -35,6 +36,7 @@ class PictureSlot {
     void show(const Session& session,
               Image picture);  // in place of what draw() would, until something changes
     void restInBackground();   // ends the work of mode reference there; draw() begins it again
+    void setRadiosity(const reference::RadiositySettings& settings);  // of mode radiosity, before it is shown
     void redraw();  // the next draw draws although nothing changed, and although only single frames are asked
     // Frees what the slot holds; the next draw starts anew.
     void clear();

@@ -60,6 +60,11 @@ PictureView::PictureView(platform::Window& window, std::string shaderDirectory, 
       movingResolution_(kMovingFrameMs) {}
 PictureView::~PictureView() = default;
 
+void PictureView::setRadiosity(const reference::RadiositySettings& settings) {
+    left_->setRadiosity(settings);
+    right_->setRadiosity(settings);
+}
+
 bool PictureView::moving() const { return lastMove_ >= 0 && ImGui::GetTime() - lastMove_ < kStillAfter; }
 
 glm::ivec2 PictureView::pictureSize() const { return {left_->width(), left_->height()}; }

@@ -40,7 +40,8 @@ class PictureView {
     // `userActs`: input came a moment ago, so that what only refines a slow picture waits. Returns whether
     // another call soon would improve them. Failures are said by takeError().
     bool update(const Session& session, const glm::ivec2& areaPx, bool userActs);
-    std::optional<std::string> takeError();  // of update, each once
+    std::optional<std::string> takeError();                           // of update, each once
+    void setRadiosity(const reference::RadiositySettings& settings);  // of mode radiosity, before it is shown
     // The GUI part: shows the textures at the cursor, moves the camera, returns where it was clicked.
     struct Click {
         glm::vec2 part{0};  // of the picture's width and height, from the upper left corner

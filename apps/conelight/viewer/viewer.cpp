@@ -67,6 +67,7 @@ Viewer::Viewer(Session& session, const ViewerOptions& options)
       radiosity_(options.radiosity),
       timing_(options.timing),
       startedMs_(options.startedMs) {
+    view_.setRadiosity(radiosity_);
     for (const std::string& line : state_.lines()) commands_.history().add(line);
     for (const std::string& note : session.scene().notes) console_.say(note);  // the terminal has them
     window_.onDrop = [this](const std::vector<std::string>& paths) {

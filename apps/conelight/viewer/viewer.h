@@ -22,7 +22,7 @@ struct ViewerOptions {
     bool timing = false;                     // print start and cost of frames
     float uiScale = 0;                       // of text and widgets; 0: the screen's
     int filmSamples = 0;                     // a pixel and frame of films in mode reference; 0: as `render`
-    reference::RadiositySettings radiosity;  // of `bake`
+    reference::RadiositySettings radiosity;  // of mode radiosity and `bake`
     double startedMs = 0;                    // steady clock when the program started
 };
 
