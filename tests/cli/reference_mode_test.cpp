@@ -83,6 +83,7 @@ TEST(ReferenceMode, NoiseEndsItAndTheStatisticsSayHow) {
 
 TEST(ReferenceMode, InterruptWritesWhatThereIs) {
     const std::string out = scratchPath("stopped.exr");
+    std::filesystem::remove(out);
     // Before its first pass there is nothing to write: a busy machine is given longer.
     CommandResult result;
     for (int seconds = 2; seconds <= 64 && !std::filesystem::exists(out); seconds *= 2) {
