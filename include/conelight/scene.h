@@ -208,8 +208,8 @@ struct Scene {
 // A camera that looks at the whole of `bounds` from the front (+z) and slightly above, 45 degrees vertical.
 Camera frameCamera(const Aabb& bounds);
 
-// Adds what a scene needs to be seen: a camera when there is none, a headlight at the first camera when
-// there is no light, no emission and no sky. What was added is appended to `notes`.
+// Adds what a scene needs to be seen: a camera when there is none, a headlight at the first camera and
+// a grey sky when there is no light, no emission and no sky. What was added is appended to `notes`.
 void completeScene(Scene& scene);
 
 }  // namespace conelight

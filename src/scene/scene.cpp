@@ -244,17 +244,20 @@ void completeScene(Scene& scene) {
                  isMostlyLit(scene, material.emissiveTexture);
     }
     if (!emits && needsLight && !bounds.empty()) {
-        // A headlight that gives a white surface at the centre of the view the radiance 1.
+        // A white surface at the centre of the view that faces the light gets a radiance below 1, so that glow and
+        // gloss stand out. Metals show what is around them: without a sky they would be black but for one highlight.
+        constexpr float kSky = 0.25f, kHeadlight = 0.6f;
         const Camera& camera = scene.cameras.front();
         Light light;
         light.name = "headlight";
         light.type = LightType::Directional;
         light.direction =
             glm::normalize(camera.target - camera.eye +
-                           glm::vec3(0.2f, -0.3f, 0.1f) * glm::length(camera.target - camera.eye));
-        light.intensity = glm::vec3(3.14159265f);
+                           glm::vec3(0.35f, -0.5f, 0.1f) * glm::length(camera.target - camera.eye));
+        light.intensity = glm::vec3(kHeadlight * 3.14159265f);
         scene.lights.push_back(light);
-        scene.notes.emplace_back("no light, lamp or sky in the scene: a headlight was added");
+        scene.sky = glm::vec3(kSky);
+        scene.notes.emplace_back("no light, lamp or sky in the scene: a headlight and a grey sky were added");
     }
 }
 

@@ -155,13 +155,16 @@ TEST(SceneTest, CompletedScenesCanBeSeen) {
     completeScene(scene);
     EXPECT_EQ(scene.cameras.size(), 1u);
     EXPECT_EQ(scene.notes.size(), 1u);
-    // No light: a headlight, that a surface facing the camera gets.
+    // No light: a headlight, that a surface facing the camera gets, and a sky, for metals to show. Together they
+    // make a white surface that faces the light bright, but not more than a display shows.
     scene = smallScene();
     scene.lights[0].enabled = false;
     completeScene(scene);
     ASSERT_EQ(scene.lights.size(), 2u);
     EXPECT_EQ(scene.lights[1].type, LightType::Directional);
     EXPECT_NEAR(glm::length(scene.lights[1].direction), 1.0f, 1e-5f);
+    EXPECT_GT(scene.sky.g, 0.1f);
+    EXPECT_NEAR(scene.lights[1].intensity.g / 3.14159265f + scene.sky.g, 0.85f, 0.15f);
     EXPECT_GT(
         glm::dot(scene.lights[1].direction, glm::normalize(scene.cameras[0].target - scene.cameras[0].eye)),
         0.8f);
