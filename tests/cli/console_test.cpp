@@ -55,6 +55,17 @@ TEST_F(ConsoleCliTest, ExecEqualsTheOptionsBitForBit) {
     }
 }
 
+// What a mode is, is said in one place: README has the program's words.
+TEST_F(ConsoleCliTest, ModesAreAsReadmeSays) {
+    std::istringstream lines(render("--exec 'list modes' -o " + path("modes.png")).output);
+    std::ostringstream readme;
+    readme << std::ifstream(CONELIGHT_SOURCE_DIR "/README.md").rdbuf();
+    int modes = 0;
+    for (std::string mode, about; lines >> mode && std::getline(lines >> std::ws, about); ++modes)
+        EXPECT_NE(readme.str().find("| `" + mode + "` | " + about), std::string::npos) << mode << ": " << about;
+    EXPECT_EQ(modes, 6);
+}
+
 TEST_F(ConsoleCliTest, ScreenshotsShowTheStateAtTheirPlace) {
     std::ofstream(path("script.txt")) << "# two pictures\nmode phong\nscreenshot '" << path("p.exr")
                                       << "'\nmode cones # the second\nscreenshot '" << path("c.exr") << "'\n";

@@ -59,7 +59,8 @@ void list(const CommandContext& context) {
         for (std::size_t i = 0; i < names.size(); ++i) context.print(fmt::format("{:3} {}", i, names[i]));
     }
     if (what == "modes")
-        for (const std::string& one : sessionModes()) context.print(one);
+        for (const std::string& one : sessionModes())
+            context.print(fmt::format("{:<10} {}", one, aboutMode(one)));
 }
 
 void select(const CommandContext& context) {

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "conelight/error.h"
 #include "io/scene_file.h"
@@ -94,6 +95,21 @@ std::vector<std::string> sessionModes() {
     std::vector<std::string> modes = settingChoices("mode");
     modes.insert(modes.end(), {"reference", "radiosity"});
     return modes;
+}
+
+const char* aboutMode(const std::string& mode) {
+    static constexpr std::pair<const char*, const char*> kModes[] = {
+        {"traced",
+         "rays through surface voxels, irradiance cached per voxel face, unlimited bounces; the default"},
+        {"cones", "cone tracing through prefiltered radiance"},
+        {"thesis",
+         "the renderer of the bachelor's thesis that Conelight grew from, its defects mended or shown"},
+        {"phong", "direct light alone, by the Phong model"},
+        {"reference", "path tracer on the CPU, all bounces: the truth the others are measured against"},
+        {"radiosity", "light between matt surfaces solved once on the CPU and kept at vertices"}};
+    for (const auto& [name, about] : kModes)
+        if (mode == name) return about;
+    return "";
 }
 
 Session::Session() {

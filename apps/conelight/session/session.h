@@ -45,6 +45,8 @@ Settings startSettings(const Scene& scene, const std::string& mode = {});
 std::vector<std::string> settingChoices(const std::string& key);
 // All modes of the program: those of the renderer, then those on the CPU.
 std::vector<std::string> sessionModes();
+// What a mode is, in a line; empty for other names. README.md has the same words.
+const char* aboutMode(const std::string& mode);
 // `mode` as a mode of the renderer: those on the CPU have none of their own, and stand on `cones`.
 bool isSettingsMode(const std::string& mode);
 

@@ -31,7 +31,7 @@ void PictureJob::start(const Request& request, const Session& session, const glm
     camera_ = session.camera();
     done_ = 0;
     traced_ = traced;
-    placed_ = stopped_ = tracing_ = waits_ = false;
+    placed_ = stopped_ = tracing_ = waits_ = bakes_ = false;
     began_ = Clock::now();
 }
 
@@ -46,7 +46,7 @@ double PictureJob::secondsLeft() const {
 void PictureJob::end(Session& session) {
     if (request_->turntable || request_->alongPath) session.moveCamera(camera_);
     frame_.stop();
-    waits_ = false;
+    waits_ = bakes_ = false;
     request_.reset();
     video_.reset();
 }
@@ -54,7 +54,7 @@ void PictureJob::end(Session& session) {
 // The next picture, or a part of its work: what a mode needs until it is finished. Returns whether it is.
 bool PictureJob::draw(Session& session, PictureSlot& slot) {
     const std::string mode = session.shownMode();
-    waits_ = false;
+    waits_ = bakes_ = false;
     if (video_ && mode == "reference") {
         slot.restInBackground();
         if (!tracing_) tracing_ = frame_.start(session, size_, traced_, platform::Window::wake);
@@ -69,7 +69,8 @@ bool PictureJob::draw(Session& session, PictureSlot& slot) {
     // A mode that settles over frames is drawn until it has: what is written is finished.
     if (slot.draw(session, mode, size_.x, size_.y, {})) return false;
     if (video_ && mode == "radiosity" && !slot.finished()) {
-        waits_ = true;
+        waits_ = bakes_ = true;
+        if (done_ == 0) began_ = Clock::now();  // pictures are quick: the bake does not count for what is left
         return false;
     }
     add(session, finished(slot));

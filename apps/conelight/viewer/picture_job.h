@@ -33,6 +33,7 @@ class PictureJob {
     int frames() const { return request_->count; }
     int done() const { return done_; }
     bool waits() const { return waits_; }  // for the background: the last step drew nothing
+    bool bakes() const { return bakes_; }  // the film begins when the light of mode radiosity is baked
     double part() const;                   // of the whole work, 0..1
     double secondsLeft() const;            // < 0: unknown
 
@@ -47,7 +48,7 @@ class PictureJob {
     FilmFrame frame_;                   // mode reference
     reference::PathTracerSettings traced_;
     bool tracing_ = false;  // a frame of it was started
-    bool waits_ = false;
+    bool waits_ = false, bakes_ = false;
     glm::ivec2 size_{0};
     Camera camera_;  // where it stood at the start
     int done_ = 0;

@@ -67,12 +67,11 @@ void Viewer::jobStrips(const glm::vec2& at, const glm::vec2& size) {
     }
     // A screenshot of a picture that is finished takes no time.
     PictureJob& job = end_.job;
-    if (job.busy() && strip("record",
-                            job.frames() == 1 ? nameOf(job.file()) + ": settles"
-                                              : fmt::format("{}: {} of {}", nameOf(job.file()),
-                                                            job.done() + 1, job.frames()),
-                            job.part(), job.secondsLeft()))
-        job.stop();
+    if (!job.busy()) return;
+    const std::string state = job.bakes()         ? "waits for the bake"
+                              : job.frames() == 1 ? "settles"
+                                                  : fmt::format("{} of {}", job.done() + 1, job.frames());
+    if (strip("record", nameOf(job.file()) + ": " + state, job.part(), job.secondsLeft())) job.stop();
 }
 
 Layout Viewer::layout() const {

@@ -16,20 +16,6 @@ namespace {
 
 constexpr float kTextStep = 1.1f;
 
-// For who meets the modes' names first; null for what is no mode.
-const char* aboutMode(const std::string& name) {
-    static constexpr std::pair<const char*, const char*> kModes[] = {
-        {"phong", "light straight from lamps, no bounces: what the other modes add is missing"},
-        {"thesis", "the thesis's voxel cones: one bounce, as its program drew it"},
-        {"cones", "voxel cones with more directions and bounces: smooth, light leaks a little"},
-        {"traced", "rays through voxels, all bounces: the most accurate of those that are live"},
-        {"reference", "the path tracer, on the CPU: the truth, refining in the background"},
-        {"radiosity", "light baked on the CPU, then any view is quick; matt surfaces only"}};
-    for (const auto& [mode, text] : kModes)
-        if (name == mode) return text;
-    return nullptr;
-}
-
 }  // namespace
 
 void Viewer::keys() {
@@ -249,7 +235,7 @@ void Viewer::modeControls() {
             for (const std::string& name : namesOf()) {
                 if (ImGui::Selectable(name.c_str(), name == value)) chosen = name;
                 notePlace("choice:" + name);
-                if (const char* text = aboutMode(name); text != nullptr && ImGui::IsItemHovered())
+                if (const char* text = aboutMode(name); *text != 0 && ImGui::IsItemHovered())
                     ImGui::SetTooltip("%s", text);
             }
             ImGui::EndCombo();
