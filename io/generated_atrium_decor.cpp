@@ -4,6 +4,7 @@
 // gathered.
 #include "io/generated_atrium.h"
 
+#include <algorithm>
 #include <glm/gtc/constants.hpp>
 
 namespace conelight::io::generated::atrium {

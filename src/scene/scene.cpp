@@ -244,8 +244,9 @@ void completeScene(Scene& scene) {
                  isMostlyLit(scene, material.emissiveTexture);
     }
     if (!emits && needsLight && !bounds.empty()) {
-        // A white surface at the centre of the view that faces the light gets a radiance below 1, so that glow and
-        // gloss stand out. Metals show what is around them: without a sky they would be black but for one highlight.
+        // A white surface at the centre of the view that faces the light gets a radiance below 1, so that
+        // glow and gloss stand out. Metals show what is around them: without a sky they would be black but
+        // for one highlight.
         constexpr float kSky = 0.25f, kHeadlight = 0.6f;
         const Camera& camera = scene.cameras.front();
         Light light;

@@ -62,7 +62,8 @@ TEST_F(ConsoleCliTest, ModesAreAsReadmeSays) {
     readme << std::ifstream(CONELIGHT_SOURCE_DIR "/README.md").rdbuf();
     int modes = 0;
     for (std::string mode, about; lines >> mode && std::getline(lines >> std::ws, about); ++modes)
-        EXPECT_NE(readme.str().find("| `" + mode + "` | " + about), std::string::npos) << mode << ": " << about;
+        EXPECT_NE(readme.str().find("| `" + mode + "` | " + about), std::string::npos)
+            << mode << ": " << about;
     EXPECT_EQ(modes, 6);
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Image files: what is written comes back, files appear whole or not at all, errors say what is wrong.
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <random>
 
 #include "cpu/io_test_support.h"
 #include "io/files.h"

@@ -155,8 +155,8 @@ TEST(SceneTest, CompletedScenesCanBeSeen) {
     completeScene(scene);
     EXPECT_EQ(scene.cameras.size(), 1u);
     EXPECT_EQ(scene.notes.size(), 1u);
-    // No light: a headlight, that a surface facing the camera gets, and a sky, for metals to show. Together they
-    // make a white surface that faces the light bright, but not more than a display shows.
+    // No light: a headlight, that a surface facing the camera gets, and a sky, for metals to show. Together
+    // they make a white surface that faces the light bright, but not more than a display shows.
     scene = smallScene();
     scene.lights[0].enabled = false;
     completeScene(scene);

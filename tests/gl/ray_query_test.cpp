@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 

@@ -3,6 +3,7 @@
 // that fails throws and leaves nothing alive.
 #include "gl/texture.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "conelight/error.h"

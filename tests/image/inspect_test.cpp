@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Renderer::inspectPixel against the picture that it explains: paths with their weights add up to what was
 // gathered, what was gathered is the picture's pixel; steps add up to their path; rays end at the walls.
+#include <algorithm>
 #include <cmath>
 
 #include "conelight/error.h"

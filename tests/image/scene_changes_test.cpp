@@ -3,6 +3,7 @@
 // scene, bit for bit; what is undone brings the first picture back; what is refused changes nothing.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <glm/gtc/matrix_transform.hpp>

@@ -338,8 +338,8 @@ TEST_F(ViewsTest, VoxelsStandAmongTheObjects) {
 }
 
 // Patches of all directions and colours, far apart: most of the grid is empty.
-// Not every seed will do: corners of patches that a coarse cell holds nothing of but a millionth are not drawn
-// (kLeastOpacity of voxel_view.comp.glsl), though a ray meets their cube.
+// Not every seed will do: corners of patches that a coarse cell holds nothing of but a millionth are not
+// drawn (kLeastOpacity of voxel_view.comp.glsl), though a ray meets their cube.
 Scene scatteredPatches() {
     constexpr std::uint32_t kSeed = 1;
     Scene scene;

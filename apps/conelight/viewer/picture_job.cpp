@@ -70,7 +70,8 @@ bool PictureJob::draw(Session& session, PictureSlot& slot) {
     if (slot.draw(session, mode, size_.x, size_.y, {})) return false;
     if (video_ && mode == "radiosity" && !slot.finished()) {
         waits_ = bakes_ = true;
-        if (done_ == 0) began_ = Clock::now();  // pictures are quick: the bake does not count for what is left
+        // Pictures are quick: the bake does not count for what is left.
+        if (done_ == 0) began_ = Clock::now();
         return false;
     }
     add(session, finished(slot));
