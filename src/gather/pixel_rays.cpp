@@ -28,11 +28,11 @@ constexpr int kAllBounces = 16;  // TracedSettings::bounces
 // Occlusion asks for no light.
 const gl::Defines kNoHitLights = {{"EXACT_DIRECT", "0"}, {"LOBES", "0"}};
 
-// Steps of ray_specular (LOBE_STEP).
-enum class LobeStep { Both, Select, Trace };
+// Which pixels get rays into their lobe (LOBE_LISTED).
+enum class LobePixels { All, Listed };
 
 gl::ProgramDesc gatherDesc(RayPicture kind, Reuse reuse, bool motion, bool countLookups,
-                           const gl::Defines& hitLights, LobeStep step = LobeStep::Both) {
+                           const gl::Defines& hitLights, LobePixels lobes = LobePixels::All) {
     gl::ProgramDesc desc;
     desc.files = {kind == RayPicture::Specular ? "gather/ray_specular.comp.glsl"
                                                : "gather/ray_diffuse.comp.glsl"};
@@ -40,12 +40,13 @@ gl::ProgramDesc gatherDesc(RayPicture kind, Reuse reuse, bool motion, bool count
                     {"MOTION", motion && reuse == Reuse::Reproject ? "1" : "0"}};
     if (kind != RayPicture::Specular)
         desc.defines.emplace_back("OCCLUSION", kind == RayPicture::Occlusion ? "1" : "0");
-    if (step != LobeStep::Both)
-        desc.defines.emplace_back("LOBE_STEP", std::to_string(static_cast<int>(step)));
+    if (lobes == LobePixels::Listed) desc.defines.emplace_back("LOBE_LISTED", "1");
     if (countLookups) desc.defines.emplace_back("COUNT_LOOKUPS", "1");
     desc.defines.insert(desc.defines.end(), hitLights.begin(), hitLights.end());
     return desc;
 }
+
+gl::ProgramDesc selectDesc() { return {{"gather/lobe_select.comp.glsl"}, {}}; }
 
 gl::ProgramDesc filterDesc(int step, bool specular) {
     return {{"gather/edge_filter.comp.glsl"},
@@ -150,10 +151,11 @@ void PixelRays::gather(const PixelRayFrame& frame, const TracedSettings& setting
                                    "pixels with lobes");
         lobeList_.update(kEmptyList);
         lobeList_.bindStorage(PIXEL_LOBE_LIST);
-        frame.programs.get(gatherDesc(kind_, reuse, moving, false, kNoHitLights, LobeStep::Select))
-            .dispatch(width, height);
+        frame.programs.get(selectDesc()).dispatch(width, height);
+        // Pixels that are not listed hold nothing.
+        other_.clear(0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, nullptr);
         gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
-        frame.programs.get(gatherDesc(kind_, reuse, moving, counts, lights, LobeStep::Trace))
+        frame.programs.get(gatherDesc(kind_, reuse, moving, counts, lights, LobePixels::Listed))
             .dispatchIndirect(lobeList_);
     } else {
         frame.programs.get(gatherDesc(kind_, reuse, moving, counts, lights)).dispatch(width, height);
@@ -193,19 +195,18 @@ const gl::Texture& PixelRays::filtered(const PixelRayFrame& frame, int levels) {
 }
 
 std::vector<gl::ProgramDesc> PixelRays::programDescs() {
-    std::vector<gl::ProgramDesc> descs;
+    std::vector<gl::ProgramDesc> descs = {selectDesc()};
     const auto add = [&](RayPicture kind, Reuse reuse, bool motion) {
         const bool lobes = kind == RayPicture::Specular;
-        if (lobes) descs.push_back(gatherDesc(kind, reuse, motion, false, kNoHitLights, LobeStep::Select));
         for (gl::ProgramDesc& desc : light::hitLightVariants(
-                 gatherDesc(kind, reuse, motion, false, {}, lobes ? LobeStep::Trace : LobeStep::Both)))
+                 gatherDesc(kind, reuse, motion, false, {}, lobes ? LobePixels::Listed : LobePixels::All)))
             descs.push_back(std::move(desc));
     };
     for (const RayPicture kind : {RayPicture::Diffuse, RayPicture::Specular}) {
         for (const Reuse reuse : {Reuse::None, Reuse::SameView, Reuse::Reproject}) add(kind, reuse, false);
         add(kind, Reuse::Reproject, true);
         descs.push_back(gatherDesc(kind, Reuse::SameView, false, true, {{"EXACT_DIRECT", "0"}},
-                                   kind == RayPicture::Specular ? LobeStep::Trace : LobeStep::Both));
+                                   kind == RayPicture::Specular ? LobePixels::Listed : LobePixels::All));
     }
     for (const Reuse reuse : {Reuse::None, Reuse::SameView, Reuse::Reproject})
         descs.push_back(gatherDesc(RayPicture::Occlusion, reuse, false, false, kNoHitLights));
