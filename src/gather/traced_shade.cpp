@@ -21,7 +21,7 @@ bool anyEmission(const scene::GpuScene& scene) {
 gl::ProgramDesc shadeDesc(const PictureParts& parts, bool picture, bool lobe, const gl::Defines& lights,
                           bool countLookups = false, bool emission = true) {
     const bool gathers = parts.diffuse || parts.specular;
-    gl::ProgramDesc desc{{"gather/full_picture.vert.glsl", "gather/traced_shade.frag.glsl"},
+    gl::ProgramDesc desc{{"gather/traced_shade.vert.glsl", "gather/traced_shade.frag.glsl"},
                          {{"SHOW_DIRECT", parts.direct ? "1" : "0"},
                           {"SHOW_DIFFUSE", parts.diffuse ? "1" : "0"},
                           {"SHOW_SPECULAR", parts.specular ? "1" : "0"},
