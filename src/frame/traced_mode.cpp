@@ -37,15 +37,9 @@ bool sameView(const gpu::FrameConstants& a, const gpu::FrameConstants& b) {
 
 // Whether any surface may be as smooth as `limit`.
 bool hasGloss(const scene::GpuScene& scene, float limit) {
-    const std::vector<gpu::Material>& materials = scene.materials();
     return std::any_of(
-        scene.instances().begin(), scene.instances().end(), [&](const gpu::Instance& instance) {
-            const gpu::Material& m = materials[instance.material];
-            const bool textured = (m.flags & MATERIAL_DETAIL_TEXTURES) != 0;
-            const bool reflects = m.metallic > 0 || m.specularF0 != glm::vec3(0);
-            return (instance.flags & INSTANCE_VISIBLE) != 0 && (m.flags & MATERIAL_UNLIT) == 0 && reflects &&
-                   (textured || m.roughness <= limit);
-        });
+        scene.instances().begin(), scene.instances().end(),
+        [&](const gpu::Instance& instance) { return gather::mayHaveLobe(scene, instance, limit); });
 }
 
 }  // namespace

@@ -42,6 +42,10 @@ struct PixelRayFrame {
     const gl::Buffer* lookupCounters;  // not null: what rays look up is added (shared/lookups.h)
 };
 
+// Whether a surface of the instance may be smooth enough for rays into its lobe (hasLobe in
+// lib/lobe_list.glsl).
+bool mayHaveLobe(const scene::GpuScene& scene, const gpu::Instance& instance, float roughest);
+
 class PixelRays {
   public:
     explicit PixelRays(RayPicture kind) : kind_(kind) {}
@@ -62,12 +66,23 @@ class PixelRays {
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
+    // Pixels lowest <= p < end.
+    struct Rectangle {
+        glm::ivec2 lowest{0};
+        glm::ivec2 end{0};
+    };
+    struct Picture {
+        gl::Texture texture;
+        Rectangle written;  // of kind Specular: zeros outside
+    };
+    static void clearWritten(Picture& picture);
+    static Rectangle lobeRectangle(const PixelRayFrame& frame, float roughest);
     bool resize(int width, int height);
     gpu::PixelRayConstants packed(const PixelRayFrame& frame, const TracedSettings& settings, int rays,
                                   std::uint32_t pass, int longest) const;
 
     RayPicture kind_;
-    gl::Texture current_, other_, filtered_;
+    Picture current_, other_, filtered_;
     gl::Buffer constants_;
     gl::Buffer lobeList_;             // of kind Specular: PIXEL_LOBE_LIST
     gpu::FrameConstants seenFrom_{};  // the view of current_
