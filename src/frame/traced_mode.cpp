@@ -225,6 +225,7 @@ void TracedMode::Impl::drawParts(const FrameContext& frame, const gather::Pictur
     const gather::PictureParts shown{parts.direct, parts.diffuse && gathers, parts.specular && gathers};
     const gl::Texture* irradiance = nullptr;
     const gl::Texture* lobe = nullptr;
+    gather::PixelRectangle lobes;
     if (settings.pixelRays > 0 && (shown.diffuse || shown.specular)) {
         gather(frame, diffuse, seenDiffuse, settings.pixelRays, settings.passes);
         irradiance = &diffuse.filtered(rayFrame(frame), settings.filterLevels);
@@ -232,8 +233,9 @@ void TracedMode::Impl::drawParts(const FrameContext& frame, const gather::Pictur
     if (settings.specularRays > 0 && shown.specular && hasGloss(frame.scene, settings.specularLimit)) {
         gather(frame, specular, seenSpecular, settings.specularRays, settings.passes);
         lobe = &specular.filtered(rayFrame(frame), settings.filterLevels);
+        lobes = specular.lobes();
     }
-    shade.draw(frame.programs, frame.profiler, frame.scene, frame.settings, shown, irradiance, lobe,
+    shade.draw(frame.programs, frame.profiler, frame.scene, frame.settings, shown, irradiance, lobe, lobes,
                frame.gbuffer, frame.view.sky, frame.output, frame.lookupCounters);
 }
 

@@ -85,9 +85,9 @@ bool PixelRays::has(int width, int height) const {
 }
 
 // About the boxes of all instances that may have lobes. One that reaches behind the eye may be anywhere.
-PixelRays::Rectangle PixelRays::lobeRectangle(const PixelRayFrame& frame, float roughest) {
+PixelRectangle PixelRays::lobeRectangle(const PixelRayFrame& frame, float roughest) {
     const glm::ivec2 size(frame.view.width, frame.view.height);
-    Rectangle all{size, glm::ivec2(0)};
+    PixelRectangle all{size, glm::ivec2(0)};
     const std::vector<gpu::Instance>& instances = frame.scene.instances();
     for (std::size_t i = 0; i < instances.size(); ++i) {
         if (!mayHaveLobe(frame.scene, instances[i], roughest)) continue;
@@ -184,7 +184,7 @@ void PixelRays::gather(const PixelRayFrame& frame, const TracedSettings& setting
     if (resize(width, height)) reuse = Reuse::None;
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::PixelRayConstants), "pixel rays constants");
     gpu::PixelRayConstants constants = packed(frame, settings, rays, pass, longest);
-    Rectangle lobes;
+    PixelRectangle lobes;
     if (kind_ == RayPicture::Specular) lobes = lobeRectangle(frame, settings.specularLimit);
     constants.lobesX = static_cast<std::uint32_t>(lobes.lowest.x);
     constants.lobesY = static_cast<std::uint32_t>(lobes.lowest.y);
