@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: MIT
 // G-buffer -> list of the pixels that need rays into their lobe (lib/lobe_list.glsl), and the arguments of an
 // indirect dispatch over it. Branches do not spare software drivers work, and stores into images cost them
-// word by word: so pixels are sorted out here, and pictures of lobes hold nothing at the others. Runs over the
-// rectangle in which such pixels can be.
+// word by word: so pixels are sorted out here, and pictures of lobes hold nothing at the others. Runs over
+// the rectangle in which such pixels can be.
 layout(local_size_x = 8, local_size_y = 8) in;
 #define LOBE_LIST_ACCESS
 #include "lib/brdf.glsl"

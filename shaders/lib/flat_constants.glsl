@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// What a fragment shader reads of uniform blocks, as flat inputs from the vertices of its one triangle. Mesa's
-// software driver reads a block lane by lane: 27 instructions for each number, again wherever it is used,
-// which were a third of mode traced's picture. A flat input is one. FLAT_CONSTANTS 1 says that a shader has
-// them (fragments);
-// gather/traced_shade.vert.glsl hands them on.
+// What a fragment shader reads of uniform blocks, as flat inputs from the vertices of its one triangle.
+// Mesa's software driver reads a block lane by lane: 27 instructions for each number, again wherever it is
+// used, which were a third of mode traced's picture. A flat input is one. FLAT_CONSTANTS 1 says that a shader
+// has them (fragments); gather/traced_shade.vert.glsl hands them on.
 #ifndef FLAT_CONSTANTS
 #define FLAT_CONSTANTS 0
 #endif

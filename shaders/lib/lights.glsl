@@ -6,8 +6,8 @@
 // - LIGHTS_POINT, _SPOT, _DIRECTIONAL, _RECT: whether the table holds such lights. Others are left out.
 // - LIGHTS_FIXED 1: these four are the exact numbers of lights, at most 4 together. Loops are then unrolled
 //   and read the table at constant places of a uniform block (mode phong on the thesis's scene: 21 instead of
-//   25 cpu-ms on llvmpipe, which reads storage once per lane wherever lanes may be idle, as in the loop over a
-//   face's rays). Unrolled here, not by the compiler: Mesa leaves loops of this size as they are, and then
+//   25 cpu-ms on llvmpipe, which reads storage once per lane wherever lanes may be idle, as in the loop over
+//   a face's rays). Unrolled here, not by the compiler: Mesa leaves loops of this size as they are, and then
 //   reads a light's numbers lane by lane.
 // - LIGHTS_SHADOWS 0: everything is visible.
 // - SHADOW_FILTER: radius of the shadow filter in texels.
@@ -184,10 +184,10 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
 #if LIGHTS_TOTAL > 4
 #error more lights than FOR_LIGHTS unrolls
 #endif
-#define FIXED_LIGHT(n, before, count, statement)                        \
-    if ((n) < (count)) {                                                \
+#define FIXED_LIGHT(n, before, count, statement)                         \
+    if ((n) < (count)) {                                                 \
         Light light = fixedLight(min((before) + (n), LIGHTS_TOTAL - 1)); \
-        statement;                                                      \
+        statement;                                                       \
     }
 #define FOR_LIGHTS(before, count, begin, end, statement) \
     FIXED_LIGHT(0, before, count, statement)             \

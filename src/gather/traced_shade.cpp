@@ -52,8 +52,8 @@ void bindPicture(const gl::Texture* picture, unsigned unit) {
 
 void TracedShade::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
                        const Settings& settings, const PictureParts& parts, const gl::Texture* irradiance,
-                       const gl::Texture* lobe, const PixelRectangle& lobes, const view::GBuffer& gbuffer, const glm::vec3& sky,
-                       const gl::Texture& output, const gl::Buffer* lookupCounters) {
+                       const gl::Texture* lobe, const PixelRectangle& lobes, const view::GBuffer& gbuffer,
+                       const glm::vec3& sky, const gl::Texture& output, const gl::Buffer* lookupCounters) {
     const gl::PassScope pass(profiler, "shade");
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::PixelRayConstants), "shade constants");
     gpu::PixelRayConstants constants{};
