@@ -5,24 +5,22 @@
 // frames before. What a ray meets shows its interpolated cached light, so that mirrors show no voxels.
 // COUNT_LOOKUPS 1: adds what rays look up to the counters, shadow maps at hits included.
 //
-// Branches do not spare software drivers work, so pixels that need no ray are sorted out first:
-//   LOBE_STEP 1  pixels that need rays -> list and the arguments of step 2; the others are done
-//   LOBE_STEP 2  the listed pixels, by an indirect dispatch of LOBE_GROUPS_X groups in x
-//   LOBE_STEP 0  both in one
-#ifndef LOBE_STEP
-#define LOBE_STEP 0
+// LOBE_LISTED 1: the listed pixels (gather/lobe_select.comp.glsl), by an indirect dispatch of LOBE_GROUPS_X
+// groups in x; the others are the caller's to clear. 0: all pixels.
+#ifndef LOBE_LISTED
+#define LOBE_LISTED 0
 #endif
 #define SMOOTH_HITS 1
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "lib/ggx_sample.glsl"
-#define LOBE_LIST_ACCESS
+#define LOBE_LIST_ACCESS readonly
 #include "lib/lobe_list.glsl"
 #include "lib/temporal.glsl"
 #include "lib/voxel_light.glsl"
 layout(rgba32ui, binding = 0) writeonly uniform uimage2D result;
 
 void main() {
-#if LOBE_STEP == 2
+#if LOBE_LISTED
     ivec2 pixel = listedPixel(imageSize(result));
 #else
     ivec2 pixel = INVOCATION_PIXEL;
@@ -30,16 +28,7 @@ void main() {
     Surface s;
     bool seen = fetchSurface(min(pixel, imageSize(result) - 1), s);
     Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));
-    bool glossy = seen && !s.unlit && s.roughness <= pixelRays.specularLimit && b.f90.r > 0.0;
-#if LOBE_STEP == 1
-    vec3 value = vec3(0.0);
-    if (any(greaterThanEqual(pixel, imageSize(result)))) return;
-    if (glossy) {
-        uint at = atomicAdd(lobeList.count, 1u);
-        lobeList.pixels[at] = uint(pixel.x) | uint(pixel.y) << 16;
-        atomicMax(lobeList.groups.y, at / (64u * LOBE_GROUPS_X) + 1u);
-    }
-#else
+    bool glossy = hasLobe(s, seen, pixelRays.specularLimit);
     vec3 origin = seenRayOrigin(gridFromWorld(s.position), s.geometricNormal, s.toEye);
     uint seed = randomHash(uint(pixel.x) | uint(pixel.y) << 16) ^ 0x5bd1e995u;
     uint random = randomHash(seed) ^ randomHash(pixelRays.pass * 0x9e3779b9u + 0x85ebca6bu);
@@ -74,7 +63,6 @@ void main() {
     return;
 #endif
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
-#endif
 #if TEMPORAL == 2
     // What a smooth surface shows moves otherwise than the surface: means are short there.
     float longest = mix(1.0, pixelRays.longestMean, smoothstep(0.1, 0.5, s.roughness));

@@ -28,7 +28,9 @@
 #if GATHERS && !IRRADIANCE
 #include "lib/cache_lookup.glsl"
 #endif
+#if !FLAT_CONSTANTS
 layout(std140, binding = BINDING_PASS) uniform PixelRayBlock { PixelRayConstants pixelRays; };
+#endif
 layout(binding = PIXEL_UNIT_IRRADIANCE) uniform usampler2D irradiancePicture;
 layout(binding = PIXEL_UNIT_LOBE) uniform usampler2D lobePicture;
 

@@ -4,10 +4,11 @@
 //
 // Defines (light::lightDefines gives them for a scene; unset: everything on):
 // - LIGHTS_POINT, _SPOT, _DIRECTIONAL, _RECT: whether the table holds such lights. Others are left out.
-// - LIGHTS_FIXED 1: these four are the exact numbers of lights. Loops are then unrolled and read the table at
-//   constant places of a uniform block (mode phong on the thesis's scene: 21 instead of 25 cpu-ms on
-//   llvmpipe, which reads storage once per lane wherever lanes may be idle, as in the loop over a face's
-//   rays).
+// - LIGHTS_FIXED 1: these four are the exact numbers of lights, at most 4 together. Loops are then unrolled
+//   and read the table at constant places of a uniform block (mode phong on the thesis's scene: 21 instead of
+//   25 cpu-ms on llvmpipe, which reads storage once per lane wherever lanes may be idle, as in the loop over
+//   a face's rays). Unrolled here, not by the compiler: Mesa leaves loops of this size as they are, and then
+//   reads a light's numbers lane by lane.
 // - LIGHTS_SHADOWS 0: everything is visible.
 // - SHADOW_FILTER: radius of the shadow filter in texels.
 // Before the call: ShadowMaps::bind, the scene's tables and the frame block.
@@ -36,7 +37,20 @@
 
 #define LIGHTS_TOTAL (LIGHTS_POINT + LIGHTS_SPOT + LIGHTS_DIRECTIONAL + LIGHTS_RECT)
 #if LIGHTS_FIXED && LIGHTS_TOTAL > 0
+#if FLAT_CONSTANTS && FLAT_LIGHTS
+Light fixedLight(const int n) {
+    int row = FLAT_LIGHT_ROW + 7 * n;
+    uvec4 a = flatRows[row], b = flatRows[row + 1], c = flatRows[row + 2], d = flatRows[row + 3];
+    uvec4 e = flatRows[row + 4], f = flatRows[row + 5], g = flatRows[row + 6];
+    return Light(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), int(b.w), uintBitsToFloat(c.xyz),
+                 uintBitsToFloat(c.w), uintBitsToFloat(d.xyz), uintBitsToFloat(d.w), uintBitsToFloat(e.xyz),
+                 uintBitsToFloat(e.w), uintBitsToFloat(f.xyz), f.w, uintBitsToFloat(g.x),
+                 uintBitsToFloat(g.y), g.z, g.w);
+}
+#else
 layout(std140, binding = BINDING_FIXED_LIGHTS) uniform FixedLightBlock { Light fixedLights[LIGHTS_TOTAL]; };
+Light fixedLight(const int n) { return fixedLights[n]; }
+#endif
 #endif
 
 struct DirectLight {
@@ -167,11 +181,19 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
 // Runs `statement` for every light of one kind: `light` in lights[begin..end). The table begins with `before`
 // lights of other kinds and has `count` of this one when LIGHTS_FIXED.
 #if LIGHTS_FIXED
-#define FOR_LIGHTS(before, count, begin, end, statement) \
-    for (uint n = 0u; n < uint(count); ++n) {            \
-        Light light = fixedLights[uint(before) + n];     \
-        statement;                                       \
+#if LIGHTS_TOTAL > 4
+#error more lights than FOR_LIGHTS unrolls
+#endif
+#define FIXED_LIGHT(n, before, count, statement)                         \
+    if ((n) < (count)) {                                                 \
+        Light light = fixedLight(min((before) + (n), LIGHTS_TOTAL - 1)); \
+        statement;                                                       \
     }
+#define FOR_LIGHTS(before, count, begin, end, statement) \
+    FIXED_LIGHT(0, before, count, statement)             \
+    FIXED_LIGHT(1, before, count, statement)             \
+    FIXED_LIGHT(2, before, count, statement)             \
+    FIXED_LIGHT(3, before, count, statement)
 #else
 #define FOR_LIGHTS(before, count, begin, end, statement) \
     if ((begin) < (end)) {                               \

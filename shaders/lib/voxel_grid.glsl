@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The block of the voxel grid and the change between world and grid coordinates. C++ twin:
 // src/voxels/voxel_grid.h.
+#include "lib/flat_constants.glsl"
 #include "shared/bindings.h"
 #include "shared/voxels.h"
+#if !FLAT_CONSTANTS
 layout(std140, binding = BINDING_VOXEL_GRID) uniform VoxelGridBlock { VoxelGrid grid; };
+#endif
 
 vec3 gridFromWorld(vec3 world) { return (world - grid.origin) * grid.inverseVoxelSize; }
 vec3 worldFromGrid(vec3 p) { return grid.origin + p * grid.voxelSize; }

@@ -35,9 +35,9 @@ struct PixelRayConstants {
     uint reflections;  // on metals, of one ray
     // ---- 144 B
     float reflectedLimit;  // of what a ray sees by reflections, over what the metal shows if matt
+    uint lobesX;           // lowest pixel that may need rays into its lobe
+    uint lobesY;
     uint pad0;
-    uint pad1;
-    uint pad2;
 };  // 160 B
 
 CONELIGHT_SHARED_END

@@ -37,15 +37,9 @@ bool sameView(const gpu::FrameConstants& a, const gpu::FrameConstants& b) {
 
 // Whether any surface may be as smooth as `limit`.
 bool hasGloss(const scene::GpuScene& scene, float limit) {
-    const std::vector<gpu::Material>& materials = scene.materials();
     return std::any_of(
-        scene.instances().begin(), scene.instances().end(), [&](const gpu::Instance& instance) {
-            const gpu::Material& m = materials[instance.material];
-            const bool textured = (m.flags & MATERIAL_DETAIL_TEXTURES) != 0;
-            const bool reflects = m.metallic > 0 || m.specularF0 != glm::vec3(0);
-            return (instance.flags & INSTANCE_VISIBLE) != 0 && (m.flags & MATERIAL_UNLIT) == 0 && reflects &&
-                   (textured || m.roughness <= limit);
-        });
+        scene.instances().begin(), scene.instances().end(),
+        [&](const gpu::Instance& instance) { return gather::mayHaveLobe(scene, instance, limit); });
 }
 
 }  // namespace
@@ -231,6 +225,7 @@ void TracedMode::Impl::drawParts(const FrameContext& frame, const gather::Pictur
     const gather::PictureParts shown{parts.direct, parts.diffuse && gathers, parts.specular && gathers};
     const gl::Texture* irradiance = nullptr;
     const gl::Texture* lobe = nullptr;
+    gather::PixelRectangle lobes;
     if (settings.pixelRays > 0 && (shown.diffuse || shown.specular)) {
         gather(frame, diffuse, seenDiffuse, settings.pixelRays, settings.passes);
         irradiance = &diffuse.filtered(rayFrame(frame), settings.filterLevels);
@@ -238,8 +233,9 @@ void TracedMode::Impl::drawParts(const FrameContext& frame, const gather::Pictur
     if (settings.specularRays > 0 && shown.specular && hasGloss(frame.scene, settings.specularLimit)) {
         gather(frame, specular, seenSpecular, settings.specularRays, settings.passes);
         lobe = &specular.filtered(rayFrame(frame), settings.filterLevels);
+        lobes = specular.lobes();
     }
-    shade.draw(frame.programs, frame.profiler, frame.scene, frame.settings, shown, irradiance, lobe,
+    shade.draw(frame.programs, frame.profiler, frame.scene, frame.settings, shown, irradiance, lobe, lobes,
                frame.gbuffer, frame.view.sky, frame.output, frame.lookupCounters);
 }
 

@@ -28,11 +28,11 @@ constexpr int kAllBounces = 16;  // TracedSettings::bounces
 // Occlusion asks for no light.
 const gl::Defines kNoHitLights = {{"EXACT_DIRECT", "0"}, {"LOBES", "0"}};
 
-// Steps of ray_specular (LOBE_STEP).
-enum class LobeStep { Both, Select, Trace };
+// Which pixels get rays into their lobe (LOBE_LISTED).
+enum class LobePixels { All, Listed };
 
 gl::ProgramDesc gatherDesc(RayPicture kind, Reuse reuse, bool motion, bool countLookups,
-                           const gl::Defines& hitLights, LobeStep step = LobeStep::Both) {
+                           const gl::Defines& hitLights, LobePixels lobes = LobePixels::All) {
     gl::ProgramDesc desc;
     desc.files = {kind == RayPicture::Specular ? "gather/ray_specular.comp.glsl"
                                                : "gather/ray_diffuse.comp.glsl"};
@@ -40,12 +40,13 @@ gl::ProgramDesc gatherDesc(RayPicture kind, Reuse reuse, bool motion, bool count
                     {"MOTION", motion && reuse == Reuse::Reproject ? "1" : "0"}};
     if (kind != RayPicture::Specular)
         desc.defines.emplace_back("OCCLUSION", kind == RayPicture::Occlusion ? "1" : "0");
-    if (step != LobeStep::Both)
-        desc.defines.emplace_back("LOBE_STEP", std::to_string(static_cast<int>(step)));
+    if (lobes == LobePixels::Listed) desc.defines.emplace_back("LOBE_LISTED", "1");
     if (countLookups) desc.defines.emplace_back("COUNT_LOOKUPS", "1");
     desc.defines.insert(desc.defines.end(), hitLights.begin(), hitLights.end());
     return desc;
 }
+
+gl::ProgramDesc selectDesc() { return {{"gather/lobe_select.comp.glsl"}, {}}; }
 
 gl::ProgramDesc filterDesc(int step, bool specular) {
     return {{"gather/edge_filter.comp.glsl"},
@@ -59,6 +60,7 @@ gl::Texture makePicture(int width, int height, const char* label) {
     gl::Texture picture({GL_TEXTURE_2D, GL_RGBA32UI, width, height}, label);
     picture.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     picture.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    picture.clear(0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, nullptr);
     return picture;
 }
 
@@ -69,8 +71,58 @@ void bindPicture(const gl::Texture& picture, unsigned unit) {
 
 }  // namespace
 
+bool mayHaveLobe(const scene::GpuScene& scene, const gpu::Instance& instance, float roughest) {
+    const gpu::Material& m = scene.materials()[instance.material];
+    const bool textured = (m.flags & MATERIAL_DETAIL_TEXTURES) != 0;
+    const bool reflects = m.metallic > 0 || m.specularF0 != glm::vec3(0);
+    return (instance.flags & INSTANCE_VISIBLE) != 0 && (m.flags & MATERIAL_UNLIT) == 0 && reflects &&
+           (textured || m.roughness <= roughest);
+}
+
 bool PixelRays::has(int width, int height) const {
-    return current_ && current_.width() == width && current_.height() == height;
+    const gl::Texture& picture = current_.texture;
+    return picture && picture.width() == width && picture.height() == height;
+}
+
+// About the boxes of all instances that may have lobes. One that reaches behind the eye may be anywhere.
+PixelRectangle PixelRays::lobeRectangle(const PixelRayFrame& frame, float roughest) {
+    const glm::ivec2 size(frame.view.width, frame.view.height);
+    PixelRectangle all{size, glm::ivec2(0)};
+    const std::vector<gpu::Instance>& instances = frame.scene.instances();
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        if (!mayHaveLobe(frame.scene, instances[i], roughest)) continue;
+        const Aabb& box = frame.scene.instanceBounds(i);
+        glm::vec2 lowest(1e9f), highest(-1e9f);
+        int before = 0;
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::vec3 at((corner & 1) != 0 ? box.max.x : box.min.x,
+                               (corner & 2) != 0 ? box.max.y : box.min.y,
+                               (corner & 4) != 0 ? box.max.z : box.min.z);
+            const glm::vec4 clip = frame.view.clipFromWorld * glm::vec4(at, 1);
+            if (clip.w < 1e-3f * frame.voxelSize) continue;
+            ++before;
+            // Far outside all is the same; numbers stay small enough for integers.
+            const glm::vec2 place = glm::clamp(glm::vec2(clip) / clip.w, -2.0f, 2.0f);
+            lowest = glm::min(lowest, place);
+            highest = glm::max(highest, place);
+        }
+        if (before == 0) continue;
+        if (before < 8) return {glm::ivec2(0), size};
+        // One pixel more on each side, for rounding.
+        all.lowest = glm::min(all.lowest, glm::ivec2((lowest * 0.5f + 0.5f) * glm::vec2(size)) - 1);
+        all.end = glm::max(all.end, glm::ivec2((highest * 0.5f + 0.5f) * glm::vec2(size)) + 2);
+    }
+    // Whole groups of 8 pixels, as in a dispatch over all.
+    all.lowest = glm::max(all.lowest, 0) / 8 * 8;
+    all.end = glm::max(glm::min(all.end, size), all.lowest);
+    return all;
+}
+
+void PixelRays::clearWritten(Picture& picture) {
+    const glm::ivec2 size = picture.written.end - picture.written.lowest;
+    if (size.x > 0 && size.y > 0)
+        picture.texture.clearRegion(0, glm::ivec3(picture.written.lowest, 0), glm::ivec3(size, 1),
+                                    GL_RGBA_INTEGER, GL_UNSIGNED_INT);
 }
 
 gpu::PixelRayConstants PixelRays::packed(const PixelRayFrame& frame, const TracedSettings& settings, int rays,
@@ -100,10 +152,10 @@ gpu::PixelRayConstants PixelRays::packed(const PixelRayFrame& frame, const Trace
 // Returns whether what was there is gone.
 bool PixelRays::resize(int width, int height) {
     if (has(width, height)) return false;
-    for (gl::Texture* picture : {&current_, &other_, &filtered_}) *picture = {};
+    filtered_ = {};
     lobeList_ = {};
-    current_ = makePicture(width, height, kLabel[static_cast<int>(kind_)]);
-    other_ = makePicture(width, height, kLabel[static_cast<int>(kind_)]);
+    for (Picture* picture : {&current_, &other_})
+        *picture = {makePicture(width, height, kLabel[static_cast<int>(kind_)]), {}};
     return true;
 }
 
@@ -111,8 +163,8 @@ void PixelRays::record(const PixelRayFrame& frame, const TracedSettings& setting
                        StepRecorder& recorder) {
     resize(static_cast<int>(frame.view.width), static_cast<int>(frame.view.height));
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::PixelRayConstants), "pixel rays constants");
-    bindPicture(current_, PIXEL_UNIT_HISTORY);
-    other_.bindImage(0, 0, GL_WRITE_ONLY);
+    bindPicture(current_.texture, PIXEL_UNIT_HISTORY);
+    other_.texture.bindImage(0, 0, GL_WRITE_ONLY);
     const gl::Defines lights = kind_ == RayPicture::Occlusion
                                    ? kNoHitLights
                                    : light::hitLightDefines(frame.scene, frame.light, settings.exactHits);
@@ -131,11 +183,16 @@ void PixelRays::gather(const PixelRayFrame& frame, const TracedSettings& setting
     const int height = static_cast<int>(frame.view.height);
     if (resize(width, height)) reuse = Reuse::None;
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::PixelRayConstants), "pixel rays constants");
-    constants_.update(packed(frame, settings, rays, pass, longest));
+    gpu::PixelRayConstants constants = packed(frame, settings, rays, pass, longest);
+    PixelRectangle lobes;
+    if (kind_ == RayPicture::Specular) lobes = lobeRectangle(frame, settings.specularLimit);
+    constants.lobesX = static_cast<std::uint32_t>(lobes.lowest.x);
+    constants.lobesY = static_cast<std::uint32_t>(lobes.lowest.y);
+    constants_.update(constants);
     constants_.bindUniform(BINDING_PASS);
     if (frame.motion != nullptr) frame.motion->bindStorage(PIXEL_MOTION);
-    bindPicture(current_, PIXEL_UNIT_HISTORY);
-    other_.bindImage(0, 0, GL_WRITE_ONLY);
+    bindPicture(current_.texture, PIXEL_UNIT_HISTORY);
+    other_.texture.bindImage(0, 0, GL_WRITE_ONLY);
     const gl::Defines lights = kind_ == RayPicture::Occlusion
                                    ? kNoHitLights
                                    : light::hitLightDefines(frame.scene, frame.light, settings.exactHits);
@@ -150,10 +207,13 @@ void PixelRays::gather(const PixelRayFrame& frame, const TracedSettings& setting
                                    "pixels with lobes");
         lobeList_.update(kEmptyList);
         lobeList_.bindStorage(PIXEL_LOBE_LIST);
-        frame.programs.get(gatherDesc(kind_, reuse, moving, false, kNoHitLights, LobeStep::Select))
-            .dispatch(width, height);
+        const glm::ivec2 extent = lobes.end - lobes.lowest;
+        if (extent.x > 0 && extent.y > 0) frame.programs.get(selectDesc()).dispatch(extent.x, extent.y);
+        // Pixels that are not listed hold nothing.
+        clearWritten(other_);
+        other_.written = lobes;
         gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
-        frame.programs.get(gatherDesc(kind_, reuse, moving, counts, lights, LobeStep::Trace))
+        frame.programs.get(gatherDesc(kind_, reuse, moving, counts, lights, LobePixels::Listed))
             .dispatchIndirect(lobeList_);
     } else {
         frame.programs.get(gatherDesc(kind_, reuse, moving, counts, lights)).dispatch(width, height);
@@ -164,23 +224,24 @@ void PixelRays::gather(const PixelRayFrame& frame, const TracedSettings& setting
 }
 
 const gl::Texture& PixelRays::filtered(const PixelRayFrame& frame, int levels) {
-    if (levels == 0) return current_;
+    if (levels == 0) return current_.texture;
     const gl::PassScope scope(frame.profiler, "edge filter");
-    const int width = current_.width(), height = current_.height();
-    if (!filtered_) filtered_ = makePicture(width, height, "filtered picture");
+    const int width = current_.texture.width(), height = current_.texture.height();
+    if (!filtered_.texture) filtered_ = {makePicture(width, height, "filtered picture"), {}};
     constants_.bindUniform(BINDING_PASS);
     // From level to level between two textures; the second is what gather() writes next, so its content is
     // free. An even number of levels ends there as well.
-    const gl::Texture* from = &current_;
+    const Picture* from = &current_;
     for (int level = 0; level < levels; ++level) {
-        gl::Texture* to = level % 2 == 0 ? &filtered_ : &other_;
-        bindPicture(*from, PIXEL_UNIT_HISTORY);
-        to->bindImage(0, 0, GL_WRITE_ONLY);
+        Picture* to = level % 2 == 0 ? &filtered_ : &other_;
+        bindPicture(from->texture, PIXEL_UNIT_HISTORY);
+        to->texture.bindImage(0, 0, GL_WRITE_ONLY);
         const bool lobes = kind_ == RayPicture::Specular;
         const gl::Program& filter = frame.programs.get(filterDesc(1 << level, lobes));
         if (lobes) {
             // Pixels that are not listed count for nothing.
-            to->clear(0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, nullptr);
+            clearWritten(*to);
+            to->written = current_.written;
             lobeList_.bindStorage(PIXEL_LOBE_LIST);
             filter.dispatchIndirect(lobeList_);
         } else {
@@ -189,23 +250,22 @@ const gl::Texture& PixelRays::filtered(const PixelRayFrame& frame, int levels) {
         gl::barrier(gl::Access::TextureFetch | gl::Access::Update);
         from = to;
     }
-    return *from;
+    return from->texture;
 }
 
 std::vector<gl::ProgramDesc> PixelRays::programDescs() {
-    std::vector<gl::ProgramDesc> descs;
+    std::vector<gl::ProgramDesc> descs = {selectDesc()};
     const auto add = [&](RayPicture kind, Reuse reuse, bool motion) {
         const bool lobes = kind == RayPicture::Specular;
-        if (lobes) descs.push_back(gatherDesc(kind, reuse, motion, false, kNoHitLights, LobeStep::Select));
         for (gl::ProgramDesc& desc : light::hitLightVariants(
-                 gatherDesc(kind, reuse, motion, false, {}, lobes ? LobeStep::Trace : LobeStep::Both)))
+                 gatherDesc(kind, reuse, motion, false, {}, lobes ? LobePixels::Listed : LobePixels::All)))
             descs.push_back(std::move(desc));
     };
     for (const RayPicture kind : {RayPicture::Diffuse, RayPicture::Specular}) {
         for (const Reuse reuse : {Reuse::None, Reuse::SameView, Reuse::Reproject}) add(kind, reuse, false);
         add(kind, Reuse::Reproject, true);
         descs.push_back(gatherDesc(kind, Reuse::SameView, false, true, {{"EXACT_DIRECT", "0"}},
-                                   kind == RayPicture::Specular ? LobeStep::Trace : LobeStep::Both));
+                                   kind == RayPicture::Specular ? LobePixels::Listed : LobePixels::All));
     }
     for (const Reuse reuse : {Reuse::None, Reuse::SameView, Reuse::Reproject})
         descs.push_back(gatherDesc(RayPicture::Occlusion, reuse, false, false, kNoHitLights));

@@ -42,6 +42,16 @@ struct PixelRayFrame {
     const gl::Buffer* lookupCounters;  // not null: what rays look up is added (shared/lookups.h)
 };
 
+// Pixels lowest <= p < end.
+struct PixelRectangle {
+    glm::ivec2 lowest{0};
+    glm::ivec2 end{0};
+};
+
+// Whether a surface of the instance may be smooth enough for rays into its lobe (hasLobe in
+// lib/lobe_list.glsl).
+bool mayHaveLobe(const scene::GpuScene& scene, const gpu::Instance& instance, float roughest);
+
 class PixelRays {
   public:
     explicit PixelRays(RayPicture kind) : kind_(kind) {}
@@ -54,6 +64,9 @@ class PixelRays {
     // The picture, filtered by so many levels; what the next gather() goes on from stays as it is.
     const gl::Texture& filtered(const PixelRayFrame& frame, int levels);
 
+    // Where the picture of kind Specular has anything.
+    const PixelRectangle& lobes() const { return current_.written; }
+
     // Records the recorder's pixel of passes 0 to `passes` - 1, each of `rays` rays (of each kind); pictures
     // stay as they are.
     void record(const PixelRayFrame& frame, const TracedSettings& settings, int rays, int passes,
@@ -62,12 +75,18 @@ class PixelRays {
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
+    struct Picture {
+        gl::Texture texture;
+        PixelRectangle written;  // of kind Specular: zeros outside
+    };
+    static void clearWritten(Picture& picture);
+    static PixelRectangle lobeRectangle(const PixelRayFrame& frame, float roughest);
     bool resize(int width, int height);
     gpu::PixelRayConstants packed(const PixelRayFrame& frame, const TracedSettings& settings, int rays,
                                   std::uint32_t pass, int longest) const;
 
     RayPicture kind_;
-    gl::Texture current_, other_, filtered_;
+    Picture current_, other_, filtered_;
     gl::Buffer constants_;
     gl::Buffer lobeList_;             // of kind Specular: PIXEL_LOBE_LIST
     gpu::FrameConstants seenFrom_{};  // the view of current_

@@ -21,7 +21,7 @@ bool anyEmission(const scene::GpuScene& scene) {
 gl::ProgramDesc shadeDesc(const PictureParts& parts, bool picture, bool lobe, const gl::Defines& lights,
                           bool countLookups = false, bool emission = true) {
     const bool gathers = parts.diffuse || parts.specular;
-    gl::ProgramDesc desc{{"gather/full_picture.vert.glsl", "gather/traced_shade.frag.glsl"},
+    gl::ProgramDesc desc{{"gather/traced_shade.vert.glsl", "gather/traced_shade.frag.glsl"},
                          {{"SHOW_DIRECT", parts.direct ? "1" : "0"},
                           {"SHOW_DIFFUSE", parts.diffuse ? "1" : "0"},
                           {"SHOW_SPECULAR", parts.specular ? "1" : "0"},
@@ -52,8 +52,8 @@ void bindPicture(const gl::Texture* picture, unsigned unit) {
 
 void TracedShade::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
                        const Settings& settings, const PictureParts& parts, const gl::Texture* irradiance,
-                       const gl::Texture* lobe, const view::GBuffer& gbuffer, const glm::vec3& sky,
-                       const gl::Texture& output, const gl::Buffer* lookupCounters) {
+                       const gl::Texture* lobe, const PixelRectangle& lobes, const view::GBuffer& gbuffer,
+                       const glm::vec3& sky, const gl::Texture& output, const gl::Buffer* lookupCounters) {
     const gl::PassScope pass(profiler, "shade");
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::PixelRayConstants), "shade constants");
     gpu::PixelRayConstants constants{};
@@ -76,9 +76,22 @@ void TracedShade::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, con
     const glm::vec3 behind = parts.direct ? sky : glm::vec3(0);
     target.clearColor(0, behind.r, behind.g, behind.b, 0);
     if (!noVertices_) noVertices_ = gl::VertexArray("no vertices");
-    programs.get(shadeDesc(parts, irradiance != nullptr, lobe != nullptr, lights, counts, anyEmission(scene)))
-        .use();
-    gl::drawTriangle(noVertices_);
+    const auto drawPicture = [&](bool withLobe) {
+        programs.get(shadeDesc(parts, irradiance != nullptr, withLobe, lights, counts, anyEmission(scene)))
+            .use();
+        gl::drawTriangle(noVertices_);
+    };
+    // The picture of lobes is read where it has anything; again, if that is a small part of the picture.
+    const glm::ivec2 extent = lobes.end - lobes.lowest;
+    const bool small = 4 * extent.x * extent.y < output.width() * output.height();
+    const bool apart = lobe != nullptr && small && !counts;
+    drawPicture(lobe != nullptr && !apart);
+    if (apart && extent.x > 0 && extent.y > 0) {
+        const int viewport[4] = {lobes.lowest.x, lobes.lowest.y, extent.x, extent.y};
+        std::copy(std::begin(viewport), std::end(viewport), state.viewport);
+        gl::apply(state);
+        drawPicture(true);
+    }
 }
 
 void TracedShade::recordCache(gl::ProgramLibrary& programs, StepRecorder& recorder) {

@@ -11,6 +11,7 @@
 
 #include "conelight/settings.h"
 #include "gather/picture_parts.h"
+#include "gather/pixel_rays.h"
 #include "gather/step_recorder.h"
 #include "gl/buffer.h"
 #include "gl/draw.h"
@@ -24,13 +25,13 @@ namespace conelight::gather {
 
 class TracedShade {
   public:
-    // `irradiance` null: from the cache. `lobe` null: the irradiance stands in for it.
-    // Where `gbuffer` holds no surface there is `sky`, with direct light.
-    // `lookupCounters` not null: adds lookups of the cache, and of shadow maps as occlusion's.
+    // `irradiance` null: from the cache. `lobe` null: the irradiance stands in for it; it has something
+    // within `lobes`. Where `gbuffer` holds no surface there is `sky`, with direct light. `lookupCounters`
+    // not null: adds lookups of the cache, and of shadow maps as occlusion's.
     void draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
               const Settings& settings, const PictureParts& parts, const gl::Texture* irradiance,
-              const gl::Texture* lobe, const view::GBuffer& gbuffer, const glm::vec3& sky,
-              const gl::Texture& output, const gl::Buffer* lookupCounters);
+              const gl::Texture* lobe, const PixelRectangle& lobes, const view::GBuffer& gbuffer,
+              const glm::vec3& sky, const gl::Texture& output, const gl::Buffer* lookupCounters);
     // Records the faces of the cache that the recorder's pixel shows.
     void recordCache(gl::ProgramLibrary& programs, StepRecorder& recorder);
     void drawOcclusion(gl::ProgramLibrary& programs, gl::Profiler& profiler, const gl::Texture& occlusion,

@@ -208,6 +208,45 @@ TEST_F(TracedModeTest, SameBitsTwice) {
     }
 }
 
+// Pixels with lobes are looked for, and their picture is read, only about the instances that may have them. A
+// ball that is elsewhere than in the picture before leaves nothing behind, and the whole picture, which is
+// drawn at once where lookups are counted, is the same but for rounding.
+TEST_F(TracedModeTest, LobesAreWhereTheirInstancesAre) {
+    Scene scene = closedBox(mattMaterial(glm::vec3(0.5f)));
+    scene.materials[static_cast<std::size_t>(scene.instances[2].material)].emission = glm::vec3(1);
+    Material metal = mattMaterial(glm::vec3(0.9f, 0.7f, 0.4f));
+    metal.metallic = 1;
+    metal.roughness = 0.2f;
+    addInstance(scene, sphereMesh(32, 16), metal,
+                glm::scale(glm::translate(glm::mat4(1), {0, 0, -0.6f}), glm::vec3(0.15f)));
+    Camera& camera = scene.cameras.at(0);
+    camera.eye = {0, 0, 0.9f};
+    camera.fovY = 1.2f;
+    for (const Quality quality : {Quality::Draft, Quality::Interactive}) {
+        const Settings settings = smallSettings(quality);
+        Renderer renderer;
+        renderer.setScene(scene);
+        Image fresh;
+        for (const float x : {-0.5f, 0.4f, 0.0f}) {
+            camera.target = {x, 0.5f * x, -0.6f};
+            const Image image = draw(renderer, scene, settings);
+            fresh = draw(scene, settings);
+            EXPECT_EQ(image.pixels, fresh.pixels) << x;
+        }
+        // The ball is in the middle, and reflects what the walls do not show.
+        Settings rough = settings;
+        rough.traced.specularLimit = 0;
+        constexpr std::size_t kMiddle = std::size_t{kPixels} * kPixels / 2 + kPixels / 2;
+        EXPECT_GT(glm::length(fresh.pixels[kMiddle] - draw(scene, rough).pixels[kMiddle]), 1e-3f);
+        renderer.setProfiling(false, true);
+        const Image whole = draw(renderer, scene, settings);
+        for (std::size_t i = 0; i < whole.pixels.size(); ++i)
+            ASSERT_LT(glm::length(whole.pixels[i] - fresh.pixels[i]),
+                      1e-5f * glm::length(whole.pixels[i]) + 1e-9f)
+                << i;
+    }
+}
+
 // What was drawn before, with other settings, leaves nothing in a picture.
 TEST_F(TracedModeTest, QualitiesDoNotMix) {
     const Scene scene = io::generateScene("cornell");
