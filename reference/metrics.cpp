@@ -40,8 +40,10 @@ double meanOf(const std::vector<float>& values, const std::vector<std::uint8_t>&
 void addRadianceMetrics(Metrics& m, const Image& test, const Image& reference,
                         const std::optional<Halves>& halves, const std::vector<std::uint8_t>& usable) {
     double sumX = 0, sumR = 0, absolute = 0, squared = 0, relative = 0, noise = 0;
+    double spread = 0;  // variance of `squared`
     for (std::size_t i = 0; i < usable.size(); ++i) {
         if (!usable[i]) continue;
+        double chance = 0;
         for (int c = 0; c < 3; ++c) {
             const double x = test.pixels[i][c];
             const double r = reference.pixels[i][c];
@@ -52,6 +54,7 @@ void addRadianceMetrics(Metrics& m, const Image& test, const Image& reference,
                 // E[(x-a)(x-b)] = (x - E r)^2 for independent halves: their noise has no square in it.
                 square = (x - a) * (x - b);
                 noise += (a - b) * (a - b) / 4;  // variance of (a + b) / 2
+                chance += (a - b) * (x - 0.5 * (a + b));
             }
             sumX += x;
             sumR += r;
@@ -59,6 +62,7 @@ void addRadianceMetrics(Metrics& m, const Image& test, const Image& reference,
             squared += square;
             relative += square / (r * r + kRelMseFloor);
         }
+        spread += chance * chance;
     }
     const double count = 3.0 * static_cast<double>(m.pixels);
     m.mean = sumX / count;
@@ -68,6 +72,10 @@ void addRadianceMetrics(Metrics& m, const Image& test, const Image& reference,
     m.mse = squared / count;
     m.rmse = std::sqrt(std::max(m.mse, 0.0));
     m.relRmse = ratio(m.rmse, m.referenceMean);
+    constexpr double kWithin = 2;  // standard errors: 95 of 100 times
+    const double wide = kWithin * std::sqrt(spread) / count;
+    m.relRmseLow = ratio(std::sqrt(std::max(m.mse - wide, 0.0)), m.referenceMean);
+    m.relRmseHigh = ratio(std::sqrt(std::max(m.mse + wide, 0.0)), m.referenceMean);
     m.relMse = relative / count;
     m.referenceNoise = ratio(std::sqrt(noise / count), m.referenceMean);
 }

@@ -31,9 +31,12 @@ struct Metrics {
                          // which does not count the reference's own noise and may be negative
     double rmse = 0;     // sqrt(max(mse, 0))
     double relRmse = 0;  // rmse / referenceMean: "the error in parts of the mean light"
-    double relMse = 0;   // sum (x - r)^2 / (r^2 + 0.01) / N (Rousselle et al. 2011, eq. 6); with halves
-                         // (x-a)(x-b) above the line
-    double psnr = 0;     // 10 log10(1 / mean (d(x) - d(r))^2), dB; infinite for equal images
+    // With halves, where relRmse would lie without the reference's noise, 95 of 100 times: mse may be off by
+    // two standard errors, 2 sqrt(sum over pixels of ((a-b).(x-r))^2) / N. Else relRmse twice.
+    double relRmseLow = 0, relRmseHigh = 0;
+    double relMse = 0;  // sum (x - r)^2 / (r^2 + 0.01) / N (Rousselle et al. 2011, eq. 6); with halves
+                        // (x-a)(x-b) above the line
+    double psnr = 0;    // 10 log10(1 / mean (d(x) - d(r))^2), dB; infinite for equal images
     double ssim =
         0;  // Wang et al. 2004, eq. 13: mean over 11x11 Gaussian windows (sigma 1.5) that lie within
             // the picture, K1 = 0.01, K2 = 0.03, of Rec.709 luma of d; [-1,1], 1 for equal images

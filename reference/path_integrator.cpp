@@ -202,7 +202,8 @@ bool PathIntegrator::advance(Vertex& vertex, const Reflection& reflection, const
     return arriveAt(vertex, ray, value, result);
 }
 
-void PathIntegrator::trace(const Ray& cameraRay, Sampler& sampler, PathSample& result) const {
+void PathIntegrator::trace(const Ray& cameraRay, const PixelTurns* pixel, Sampler& sampler,
+                           PathSample& result) const {
     ++result.rays;
     RayHit hit;
     if (!rays_.intersect(RayKind::Camera, cameraRay, hit)) {
@@ -211,7 +212,13 @@ void PathIntegrator::trace(const Ray& cameraRay, Sampler& sampler, PathSample& r
     }
     result.seen = true;
     Vertex vertex;
-    vertex.surface = surfaceAt(scene_, cameraRay, hit);
+    // Untextured surfaces take no number: their samples stay what they are.
+    glm::vec3 turn(0);
+    if (pixel != nullptr && isTextured(scene_, hit)) {
+        const glm::vec2 inPixel = sampler.next2() - 0.5f;
+        turn = inPixel.x * (*pixel)[0] + inPixel.y * (*pixel)[1];
+    }
+    vertex.surface = surfaceAt(scene_, cameraRay, hit, turn);
     vertex.instance = hit.instance;
     result.direct = vertex.surface.emission;
     vertex.toEye = -cameraRay.direction;

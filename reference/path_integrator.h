@@ -3,6 +3,7 @@
 // Method: path_integrator.cpp.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -28,7 +29,10 @@ class PathIntegrator {
   public:
     PathIntegrator(const Scene& scene, const RayScene& rays, const PathTracerSettings& settings);
 
-    void trace(const Ray& cameraRay, Sampler& sampler, PathSample& result) const;  // thread-safe
+    // `pixel`: what the pixel's width and height add to the camera ray's direction. The first surface shows
+    // its textures' mean over it, a point of it per sample. Null: textures at the hit alone. Thread-safe.
+    using PixelTurns = std::array<glm::vec3, 2>;
+    void trace(const Ray& cameraRay, const PixelTurns* pixel, Sampler& sampler, PathSample& result) const;
 
   private:
     // The end of a path so far.

@@ -64,6 +64,14 @@ struct Lens {
         ray.tMax = static_cast<float>(zFar * length);
         return ray;
     }
+
+    // What a step in the picture, [-1,1]^2, adds to the unit direction of ray(clip), to first order.
+    glm::vec3 turn(const glm::dvec2& clip, const glm::dvec2& step) const {
+        const glm::dvec3 way = forward + clip.x * right + clip.y * up;
+        const double length = glm::length(way);
+        const glm::dvec3 direction = way / length, change = (step.x * right + step.y * up) / length;
+        return glm::vec3(change - direction * glm::dot(direction, change));
+    }
 };
 
 struct HalfSums {
@@ -176,14 +184,19 @@ void Round::renderTile(int tile, PathSample& sample, std::uint64_t& bad) {
                                    static_cast<std::size_t>(x);
             PixelSums& sums = film_.pixels[at];
             const std::uint32_t key = combineBits(mixBits(settings_.seed), static_cast<std::uint32_t>(at));
+            const glm::dvec2 size(film_.width, film_.height);
+            const glm::dvec2 middle = (glm::dvec2(x, y) + 0.5) / size * 2.0 - 1.0;
+            const PathIntegrator::PixelTurns turns = {lens_.turn({middle.x, -middle.y}, {2 / size.x, 0}),
+                                                      lens_.turn({middle.x, -middle.y}, {0, 2 / size.y})};
+            const bool box = settings_.filter == PixelFilter::Box;
             for (int i = begin_; i < end_; ++i) {
                 const auto half = static_cast<std::uint32_t>(i & 1);
                 Sampler sampler(combineBits(key, half), static_cast<std::uint32_t>(i >> 1), bits);
-                const glm::dvec2 inPixel =
-                    settings_.filter == PixelFilter::Box ? glm::dvec2(sampler.next2()) : glm::dvec2(0.5);
-                const glm::dvec2 clip = (glm::dvec2(x, y) + inPixel) / glm::dvec2(film_.width, film_.height);
+                const glm::dvec2 inPixel = box ? glm::dvec2(sampler.next2()) : glm::dvec2(0.5);
+                const glm::dvec2 clip = (glm::dvec2(x, y) + inPixel) / size;
                 sample.clear();
-                integrator_.trace(lens_.ray({2 * clip.x - 1, 1 - 2 * clip.y}), sampler, sample);
+                integrator_.trace(lens_.ray({2 * clip.x - 1, 1 - 2 * clip.y}), box ? nullptr : &turns,
+                                  sampler, sample);
                 if (!sample.finite()) {
                     ++bad;
                     continue;

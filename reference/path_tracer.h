@@ -22,7 +22,9 @@ namespace conelight::reference {
 
 // How light is found. Mis is for use, the other two to check it: all three agree within noise.
 enum class Estimator { Mis, LightsOnly, MaterialsOnly };
-enum class PixelFilter { Center, Box };  // one point as the GL modes have it; or the pixel's area
+// Center: one point of the pixel, as the GL modes have it, its textures averaged over the pixel as theirs are
+// by levels. Box: all of it over the pixel's area, edges of surfaces too.
+enum class PixelFilter { Center, Box };
 
 struct PathTracerSettings {
     int samplesPerPixel = 256;  // at most; 1..2^20, rounded up to an even number (two halves)

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 namespace conelight::reference {
 namespace {
@@ -13,6 +14,13 @@ const Material kDefaultMaterial;
 const Material& materialOf(const Scene& scene, const Instance& instance) {
     return instance.material < 0 ? kDefaultMaterial
                                  : scene.materials[static_cast<std::size_t>(instance.material)];
+}
+
+bool isTextured(const Material& m) {
+    const TextureRef* const all[] = {&m.baseColorTexture, &m.metallicRoughnessTexture,
+                                     &m.normalTexture,    &m.emissiveTexture,
+                                     &m.specularTexture,  &m.specularColorTexture};
+    return std::any_of(std::begin(all), std::end(all), [](const TextureRef* one) { return one->used(); });
 }
 
 std::array<std::uint32_t, 3> cornersOf(const Mesh& mesh, std::uint32_t triangle) {
@@ -34,6 +42,24 @@ glm::vec2 offEdges(const glm::vec2& b) {
     constexpr float kLeast = 1e-4f;
     const float least = std::min({b.x, b.y, 1 - b.x - b.y});
     return least < kLeast ? glm::mix(b, glm::vec2(1.0f / 3.0f), 3 * kLeast) : b;
+}
+
+// How far the point where a ray meets its triangle's plane moves when `turn` is added to its direction, in
+// the triangle's barycentric coordinates: Igehy 1999, "Tracing Ray Differentials", equation 10. Beyond the
+// triangle its texture coordinates go on evenly, as a rasterizer's derivatives take them to.
+glm::vec2 barycentricShift(const Mesh& mesh, const glm::mat4& worldFromObject,
+                           const std::array<std::uint32_t, 3>& corners, const Ray& ray, const RayHit& hit,
+                           const glm::vec3& turn) {
+    const float across = glm::dot(hit.geometricNormal, ray.direction);
+    const glm::vec3 way = hit.t * (turn - ray.direction * (glm::dot(hit.geometricNormal, turn) / across));
+    const glm::mat3 turned(worldFromObject);
+    const glm::vec3 u = turned * (mesh.positions[corners[1]] - mesh.positions[corners[0]]);
+    const glm::vec3 v = turned * (mesh.positions[corners[2]] - mesh.positions[corners[0]]);
+    const glm::vec3 n = glm::cross(u, v);
+    const float area = glm::dot(n, n);
+    const glm::vec2 shift(glm::dot(glm::cross(way, v), n) / area, glm::dot(glm::cross(u, way), n) / area);
+    // Seen edge-on there is no plane to move on.
+    return std::isfinite(shift.x) && std::isfinite(shift.y) ? shift : glm::vec2(0);
 }
 
 float linearFromSrgb(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
@@ -129,13 +155,25 @@ glm::vec3 emissionAt(const Scene& scene, std::uint32_t instanceIndex, std::uint3
     return material.emission * glm::vec3(sampleTexture(scene, material.emissiveTexture, uv));
 }
 
-Surface surfaceAt(const Scene& scene, const Ray& ray, const RayHit& hit) {
+bool isTextured(const Scene& scene, const RayHit& hit) {
+    return isTextured(materialOf(scene, scene.instances[hit.instance]));
+}
+
+bool isTextured(const Scene& scene) {
+    return std::any_of(scene.materials.begin(), scene.materials.end(),
+                       [](const Material& material) { return isTextured(material); });
+}
+
+Surface surfaceAt(const Scene& scene, const Ray& ray, const RayHit& hit, const glm::vec3& turn) {
     const Instance& instance = scene.instances[hit.instance];
     const Material& material = materialOf(scene, instance);
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
     const auto corners = cornersOf(mesh, hit.triangle);
     const glm::vec2 b = hit.barycentric;
-    const glm::vec2 uv = interpolated(mesh.uvs, corners, b, glm::vec2(0));
+    glm::vec2 read = b;
+    if (turn != glm::vec3(0))
+        read += barycentricShift(mesh, instance.worldFromObject, corners, ray, hit, turn);
+    const glm::vec2 uv = interpolated(mesh.uvs, corners, read, glm::vec2(0));
 
     Surface s;
     // From the vertices, not along the ray: exact to the last places however far the ray has come.

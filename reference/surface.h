@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a ray hit: textures, vertex colours and normals evaluated at a point, by the same rules as the GL
-// modes' G-buffer (bilinear, level 0: rays see textures unfiltered).
+// modes' G-buffer (bilinear, level 0). What a pixel sees of a texture is the mean of many such points over
+// its footprint, which the path tracer chooses.
 #pragma once
 
 #include "conelight/scene.h"
@@ -21,7 +22,13 @@ struct Surface {
     bool unlit = false;     // emission is its colour; reflects nothing
 };
 
-Surface surfaceAt(const Scene& scene, const Ray& ray, const RayHit& hit);
+// `turn`: textures are read where the ray would meet the plane of the triangle if this were added to its
+// direction, to first order (ray differentials, Igehy 1999); everything else stays that of the hit.
+Surface surfaceAt(const Scene& scene, const Ray& ray, const RayHit& hit,
+                  const glm::vec3& turn = glm::vec3(0));
+// Whether what a hit, or anything in the scene, shows depends on textures.
+bool isTextured(const Scene& scene, const RayHit& hit);
+bool isTextured(const Scene& scene);
 // Whether there is a surface at a hit: masked materials below their cut-off, and blended ones below one half,
 // have none, as in the G-buffer and the shadow maps.
 bool coversAt(const Scene& scene, std::uint32_t instance, std::uint32_t triangle,

@@ -117,7 +117,11 @@ ordered_json metricsJson(const Metrics& m, bool withFlip, bool withHalves) {
         add("flip", m.flip);
         add("hdr_flip", m.hdrFlip);
     }
-    if (withHalves) add("reference_noise", m.referenceNoise);
+    if (withHalves) {
+        add("relrmse_low", m.relRmseLow);
+        add("relrmse_high", m.relRmseHigh);
+        add("reference_noise", m.referenceNoise);
+    }
     return json;
 }
 
@@ -140,9 +144,13 @@ std::vector<MetricRow> metricRows(const Metrics& m, bool withFlip, bool withHalv
         rows.push_back({"FLIP", shown(m.flip, "{:.4f}"), "", "as displayed; 0 = no visible difference"});
         rows.push_back({"HDR-FLIP", shown(m.hdrFlip, "{:.4f}"), "", "worst over exposures"});
     }
-    if (withHalves)
+    if (withHalves) {
+        rows.push_back({"relRMSE within",
+                        shown(m.relRmseLow * 100, "{:.2f}") + "-" + shown(m.relRmseHigh * 100, "{:.2f}"), "%",
+                        "95 of 100 times, by the reference's noise"});
         rows.push_back({"reference noise", shown(m.referenceNoise * 100, "{:.3f}"), "%",
                         "relRMSE that the reference itself has left"});
+    }
     return rows;
 }
 

@@ -10,6 +10,7 @@
 #include "conelight/version.h"
 #include "io/image_file.h"
 #include "picture_file.h"
+#include "reference/surface.h"
 #include "scene_hash.h"
 
 namespace conelight::program {
@@ -17,6 +18,9 @@ namespace {
 
 // Goes up whenever the path tracer's pictures change, so that kept ones are not taken for today's.
 constexpr int kTracerGeneration = 1;
+// The same for pictures that show textures by the point; others stay what they were.
+//   1: the texture's value at the pixel's centre; 2: its mean over the pixel.
+constexpr int kTextureGeneration = 2;
 
 std::vector<std::pair<std::string, Image ReferencePicture::*>> layerFields() {
     return {{"direct", &ReferencePicture::direct},
@@ -45,6 +49,8 @@ std::string keyOf(const Scene& scene, const PictureRequest& request) {
     Hash hash;
     hash.add(std::string(CONELIGHT_VERSION_STRING));
     hash.add(kTracerGeneration);
+    if (request.reference.filter == reference::PixelFilter::Center && reference::isTextured(scene))
+        hash.add(kTextureGeneration);
     addScene(hash, scene);
     addCamera(hash, request.camera);
     hash.add(request.size.width);

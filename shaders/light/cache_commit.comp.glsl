@@ -1,23 +1,67 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// After an update: means into the face records, where rays read them, and into faceLight, where pixels do;
-// and the flux of each chunk of faces. One invocation per chunk, so that sums have an order.
+// After an update: means into the face records, where rays read them, and into faceLight, where pixels do,
+// shared there with neighbours while they are of few updates; and the flux of each chunk of faces. One
+// invocation per chunk, so that sums have an order.
 layout(local_size_x = 64) in;
 #include "light/cache_common.glsl"
 layout(std430, binding = BINDING_VOXEL_FACES) writeonly buffer FaceTable { uvec4 faces[]; };
 // The same once more: software drivers read storage lane by lane in loops.
 layout(binding = UNIT_VOXEL_FACES) uniform usamplerBuffer faceTexels;
+layout(binding = UNIT_VOXEL_RECORDS) uniform usamplerBuffer voxelRecords;
+layout(binding = IMAGE_VOXEL_BRICKS, rgba32ui) readonly uniform uimage3D voxelBrickImage;
 layout(std430, binding = CACHE_FACE_LIGHT) writeonly buffer FaceLightTable { uvec2 faceLight[]; };
 
 // The inside of a solid lies next to its outside. Of a cloth that is seen from its other side nothing else is
 // there, so that a small weight does as well as a large one: this part of it.
 const uint kReversePart = 64u;
 
+// Neighbours count in full until a face has had as many updates as the first, and no more from the second on.
+const float kSharedFrom = 20.0;
+const float kSharedUntil = 32.0;
+// What is one plane: by the cosine between normals, and by the distance of the planes in voxels.
+const float kSamePlaneNormal = 0.95;
+const float kSamePlaneOffset = 0.2;
+
 // In 16 bits, as unpackWeight reads it from the upper half of a word.
 uint weightAtPixels(uvec4 hitTexel, bool lit) {
     uint weight = hitTexel.y >> 16;
     if ((hitTexel.z & FACE_REVERSE) != 0u) weight = (weight + kReversePart - 1u) / kReversePart;
     return lit ? weight : 0u;
+}
+
+// The mean of a face and its neighbours on the same plane, for as long as its own is of few updates. Only
+// pixels see it: rays go on reading each face's own, whose noise they average.
+vec3 shownIrradiance(vec3 own, uvec4 hitTexel, uint updates) {
+    float share = clamp((kSharedUntil - float(updates)) / (kSharedUntil - kSharedFrom), 0.0, 1.0);
+    vec3 n = octDecode(unpackSnorm2x16(hitTexel.x));
+    ivec3 voxel = unpackVoxel(hitTexel.w);
+    int axis = int(hitTexel.w >> 30);
+    int direction = 2 * axis + (n[axis] < 0.0 ? 1 : 0);
+    ivec3 last = gridSize() - 1;
+    vec4 sum = vec4(own, 1.0);
+    // Where every update replaces what was there, each has rays enough.
+    int i = share > 0.0 && updates > 0u && cache.longestWindow > 1u ? 0 : 4;
+    while (i < 4) {
+        ivec3 step = ivec3(0);
+        step[(axis + 1 + (i >> 1)) % 3] = 1 - 2 * (i & 1);
+        ivec3 at = clamp(voxel + step, ivec3(0), last);
+        uvec4 word = imageLoad(voxelBrickImage, at >> 2);
+        bool there = brickHas(word.xy, bitOfVoxel(at));
+        uint record = there ? texelFetch(voxelRecords, int(voxelRecordIndex(word, bitOfVoxel(at)))).x : 0u;
+        there = there && (faceDirections(record) >> direction & 1u) != 0u;
+        int face = there ? int(faceIndex(record, direction)) : 0;
+        uvec4 other = texelFetch(faceTexels, 2 * face);
+        vec3 turned = octDecode(unpackSnorm2x16(other.x));
+        float apart = dot(n, vec3(step) + unpackOffset(other.y) * turned) - unpackOffset(hitTexel.y);
+        FaceCache state = states[face];
+        bool same = there && dot(n, turned) > kSamePlaneNormal && abs(apart) < kSamePlaneOffset &&
+                    ((other.z ^ hitTexel.z) & FACE_REVERSE) == 0u && (state.counts & 0xffffu) != 0u &&
+                    !isDead(state);
+        sum += same ? share * vec4(state.irradiance, 1.0) : vec4(0.0);
+        ++i;
+    }
+    return sum.rgb / sum.a;
 }
 
 void main() {
@@ -43,8 +87,10 @@ void main() {
                   (dead ? FACE_DEAD : (updates != 0u ? FACE_LIT : 0u));
         if (inside) {
             faces[2u * at + 1u].zw = shade.zw;
-            faceLight[at] = uvec2(shade.z, packHalf2x16(vec2(irradiance.b, 0.0)) |
-                                               weightAtPixels(hitTexel, !dead && updates != 0u) << 16);
+            vec3 shown = clamp(shownIrradiance(irradiance, hitTexel, updates), 0.0, 65504.0);
+            faceLight[at] =
+                uvec2(packHalf2x16(shown.rg), packHalf2x16(vec2(shown.b, 0.0)) |
+                                                  weightAtPixels(hitTexel, !dead && updates != 0u) << 16);
             // What was there is replaced by the next update, but is good until then.
             if (cache.restart != 0u) states[at].counts = (state.counts & 0xffff0000u) | min(updates, 1u);
         }

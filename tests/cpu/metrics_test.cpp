@@ -254,6 +254,44 @@ TEST(MetricsTest, HalvesTakeTheReferencesNoiseOut) {
                 std::sqrt(kSigma * kSigma / 2), 0.01);
 }
 
+// The interval holds the truth 95 of 100 times, of a picture whose error is below the reference's noise, with
+// noise that differs from pixel to pixel and has the same sign in all channels, as that of light paths has.
+TEST(MetricsTest, IntervalOfRelRmseHoldsTheTruth) {
+    constexpr int kSide = 32, kTrials = 400;
+    std::mt19937 generator(11);
+    std::normal_distribution<float> noise(0, 1);
+    const auto error = [](int x, int y) { return 0.02f * static_cast<float>(x % 5 + y % 3); };
+    double square = 0;
+    for (int y = 0; y < kSide; ++y)
+        for (int x = 0; x < kSide; ++x) square += std::pow(error(x, y), 2) / (kSide * kSide);
+    const Image test = fromFunction(kSide, kSide, [&](int x, int y) { return glm::vec3(1 + error(x, y)); });
+    const auto noisy = [&](int x, int) {
+        return glm::vec3(1 + noise(generator) * (x < kSide / 4 ? 1.0f : 0.2f));
+    };
+    int below = 0, above = 0;
+    double width = 0;
+    for (int trial = 0; trial < kTrials; ++trial) {
+        const Image a = fromFunction(kSide, kSide, noisy), b = fromFunction(kSide, kSide, noisy);
+        Image reference = a;
+        for (std::size_t i = 0; i < reference.pixels.size(); ++i)
+            reference.pixels[i] = (a.pixels[i] + b.pixels[i]) * 0.5f;
+        const Metrics m = compareImages(test, reference, withoutFlip(), Halves{&a, &b});
+        const double truth = std::sqrt(square) / m.referenceMean;
+        EXPECT_LE(m.relRmseLow, m.relRmse);
+        EXPECT_LE(m.relRmse, m.relRmseHigh);
+        below += truth < m.relRmseLow ? 1 : 0;
+        above += truth > m.relRmseHigh ? 1 : 0;
+        width += (m.relRmseHigh - m.relRmseLow) / kTrials;
+    }
+    // 5 % of 400, give or take three of its standard deviations: not too narrow, and not too wide.
+    EXPECT_LE(below + above, 33);
+    EXPECT_GE(below + above, 7);
+    EXPECT_GT(width, 0.05);
+    const Metrics plain = compareImages(test, test, withoutFlip());
+    EXPECT_EQ(plain.relRmseLow, 0);
+    EXPECT_EQ(plain.relRmseHigh, 0);
+}
+
 TEST(FlipTest, ConstantGreys) {
     MetricOptions options;
     const auto flip = [&](float a, float b) {
