@@ -8,10 +8,11 @@ layout(local_size_x = 64) in;
 #include "lib/linear_index.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
+#include "light/cache_state.glsl"
 #include "shared/irradiance.h"
 layout(std140, binding = BINDING_PASS) uniform CarryBlock { CacheCarry carry; };
 layout(std430, binding = CACHE_STATE) writeonly buffer StateTable { FaceCache states[]; };
-layout(std430, binding = CACHE_OLD_STATE) readonly buffer OldTable { FaceCache oldStates[]; };
+layout(binding = CACHE_UNIT_OLD_STATE) uniform usamplerBuffer oldStates;
 layout(binding = UNIT_VOXEL_FACES) uniform usamplerBuffer faces;
 layout(binding = CACHE_UNIT_OLD_BRICKS) uniform usampler3D oldBricks;
 layout(binding = CACHE_UNIT_OLD_RECORDS) uniform usamplerBuffer oldRecords;
@@ -42,7 +43,7 @@ void main() {
         record = texelFetch(oldRecords, occupied ? int(voxelRecordIndex(word, bitOfVoxel(voxel))) : 0).x;
         had = occupied && (faceDirections(record) >> direction & 1u) != 0u;
     } while (!had && ++attempt < 3);
-    FaceCache state = oldStates[had ? faceIndex(record, direction) : 0u];
+    FaceCache state = unpackState(texelFetch(oldStates, int(had ? faceIndex(record, direction) : 0u)));
     uint rays = (state.counts >> 16) & 0xffu;
     uint backs = state.counts >> 24;
     bool enough = rays >= 2u * IRRADIANCE_DEAD_RAYS;

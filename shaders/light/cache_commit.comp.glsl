@@ -5,6 +5,8 @@
 // invocation per chunk, so that sums have an order.
 layout(local_size_x = 64) in;
 #include "light/cache_common.glsl"
+#include "light/cache_state.glsl"
+layout(binding = CACHE_UNIT_STATE) uniform usamplerBuffer stateTexels;
 layout(std430, binding = BINDING_VOXEL_FACES) writeonly buffer FaceTable { uvec4 faces[]; };
 // The same once more: software drivers read storage lane by lane in loops.
 layout(binding = UNIT_VOXEL_FACES) uniform usamplerBuffer faceTexels;
@@ -73,7 +75,7 @@ void main() {
     do {
         bool inside = face < end;
         uint at = min(face, grid.faceCount - 1u);
-        FaceCache state = states[at];
+        FaceCache state = unpackState(texelFetch(stateTexels, int(at)));
         uvec4 hitTexel = texelFetch(faceTexels, 2 * int(at));
         uvec4 shade = texelFetch(faceTexels, 2 * int(at) + 1);
         uint updates = state.counts & 0xffffu;

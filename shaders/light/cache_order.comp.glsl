@@ -25,6 +25,8 @@ layout(std430, binding = CACHE_BINS) buffer BinTable { uvec2 bins[]; };
 layout(std430, binding = CACHE_BIN_STARTS) buffer StartTable { uint starts[]; };
 layout(std430, binding = CACHE_CHUNKS) buffer ChunkTable { uint chunks[]; };
 layout(binding = UNIT_VOXEL_FACES) uniform usamplerBuffer faces;
+layout(binding = CACHE_UNIT_BINS) uniform usamplerBuffer binTexels;
+layout(binding = CACHE_UNIT_BIN_STARTS) uniform usamplerBuffer startTexels;
 
 uint binCount() {
     ivec3 blocks = (gridBricks() + 3) >> 2;
@@ -59,7 +61,8 @@ void main() {
     else
         atomicOr(bins[bin].y, 1u << (brick - 32u));
 #else
-    order[starts[bin] + brickRank(bins[bin], brick)] = index;
+    uint before = texelFetch(startTexels, int(bin)).x;
+    order[before + brickRank(texelFetch(binTexels, int(bin)).xy, brick)] = index;
 #endif
 #elif STEP == 2
     uint before = 0u;
@@ -76,7 +79,7 @@ void main() {
     uint end = index < CACHE_ORDER_CHUNKS ? min(bin + size, binCount()) : bin;
     uint sum = STEP == 3 && index < CACHE_ORDER_CHUNKS ? chunks[index] : 0u;
     while (bin < end) {
-        uvec2 mask = bins[bin];
+        uvec2 mask = texelFetch(binTexels, int(bin)).xy;
 #if STEP == 3
         starts[bin] = sum;
 #endif

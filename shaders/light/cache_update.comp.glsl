@@ -9,9 +9,11 @@ layout(local_size_x = 64) in;
 #include "lib/interleave.glsl"
 #include "lib/linear_index.glsl"
 #include "lib/voxel_light.glsl"
+#include "light/cache_state.glsl"
 layout(std140, binding = BINDING_PASS) uniform CacheBlock { CacheConstants cache; };
-layout(std430, binding = CACHE_ORDER) readonly buffer OrderTable { uint order[]; };
-layout(std430, binding = CACHE_STATE) buffer StateTable { FaceCache states[]; };
+layout(binding = CACHE_UNIT_ORDER) uniform usamplerBuffer order;
+layout(binding = CACHE_UNIT_STATE) uniform usamplerBuffer stateTexels;
+layout(std430, binding = CACHE_STATE) writeonly buffer StateTable { FaceCache states[]; };
 
 // Places 0 to 3 along three axes -> 4 x 4 shifts, all of them on any plane along two of the axes.
 vec2 spreadPlace(uvec3 place) {
@@ -23,7 +25,7 @@ void main() {
     uint index = linearIndex();
     bool used = index < cache.faceCount;
     uint place = cache.firstFace + (used ? index : 0u);
-    uint face = order[place >= grid.faceCount ? place - grid.faceCount : place];
+    uint face = texelFetch(order, int(place >= grid.faceCount ? place - grid.faceCount : place)).x;
     uvec4 r = texelFetch(voxelFaces, 2 * int(face));
     FaceRecord record = FaceRecord(r.x, r.y, r.z, r.w, 0u, 0u, 0u, 0u);
     vec3 normal = faceNormal(record);
@@ -41,7 +43,7 @@ void main() {
         rayOrigin(faceCenter(record), normal), normal, normal, int(cache.cosineRays), int(cache.lightRays),
         int(cache.reflections), cache.reflectedLimit, seed, shift, cache.update, backs);
     if (!used) return;
-    FaceCache state = states[face];
+    FaceCache state = unpackState(texelFetch(stateTexels, int(face)));
     uint updates = state.counts & 0xffffu;
     // (4.13): replaces while bounces travel, then averages, in which the n-th update has a weight like
     // sqrt(n): what came before bounces had settled is soon outweighed.

@@ -3,7 +3,7 @@
 // Face records: radiance = emission + albedo / pi * irradiance of the lights. One invocation per face.
 // KEEP_IRRADIANCE 0: gathered irradiance is cleared. 1: it stays, and what does not come from point, spot and
 // directional lights is written once more by itself (steadyLight of shared/irradiance.h).
-// EMISSION_FITS 1: steadyLight holds the part of its emission that each face shows (emission_fit.comp.glsl).
+// EMISSION_FITS 1: each face shows a part of its emission (emission_fit.comp.glsl).
 #ifndef KEEP_IRRADIANCE
 #error KEEP_IRRADIANCE must be 0 or 1
 #endif
@@ -18,7 +18,10 @@ layout(local_size_x = 64) in;  // before linear_index, which asks for it
 layout(std430, binding = BINDING_VOXEL_FACES) buffer Faces { FaceRecord faces[]; };
 layout(binding = UNIT_VOXEL_FACE_SOURCES) uniform usamplerBuffer faceSources;
 #if KEEP_IRRADIANCE
-layout(std430, binding = BINDING_STORAGE_PASS) buffer SteadyLight { uint steadyLight[]; };
+layout(std430, binding = BINDING_STORAGE_PASS) writeonly buffer SteadyLight { uint steadyLight[]; };
+#endif
+#if EMISSION_FITS
+layout(binding = UNIT_PASS) uniform usamplerBuffer emissionParts;
 #endif
 
 // Whether a face holds a part of a rectangle of the scene that shines as an area light: it looks the same
@@ -56,7 +59,7 @@ void main() {
     bool areaLight = emission != vec3(0.0) && isAreaLight(face, position, normal);
     if (areaLight) emission = vec3(0.0);
 #if EMISSION_FITS
-    emission *= uintBitsToFloat(steadyLight[index]);
+    emission *= uintBitsToFloat(texelFetch(emissionParts, int(index)).x);
 #endif
     vec3 reflectance = unpackAlbedo(face.albedo) * (1.0 / 3.14159265358979);
     Receiver receiver = Receiver(position, normal, normal, normal, kShadowVoxelLift);

@@ -31,14 +31,19 @@
 #define CACHE_STATE 8
 #define CACHE_CHUNKS 9
 #define CACHE_POOL 10
-#define CACHE_OLD_STATE 9
 #define CACHE_ORDER 11
 #define CACHE_BINS 12
 #define CACHE_BIN_STARTS 13
 #define CACHE_FACE_LIGHT 14
-// Texture units of the pass that carries over.
+// Texture units of the cache's passes. What they read of their own tables comes through buffer textures:
+// software drivers read storage lane by lane in loops.
 #define CACHE_UNIT_OLD_BRICKS 8
 #define CACHE_UNIT_OLD_RECORDS 9
+#define CACHE_UNIT_OLD_STATE 10
+#define CACHE_UNIT_STATE 11
+#define CACHE_UNIT_ORDER 12
+#define CACHE_UNIT_BINS 13
+#define CACHE_UNIT_BIN_STARTS 14
 
 // Order in which updates visit faces (cache_order): six directions and 64 places in a brick per block of 4^3
 // bricks; chunks of the prefix sum over bins.

@@ -141,9 +141,11 @@ struct SurfaceConstants {
 #define SURFACE_ARGS_BRICKS 24
 #define SURFACE_ARGS_WORK 28
 #define SURFACE_ARGS_LAYERS 32
-// Faces in which something covers something else
+// Faces in which something covers something else, and others whose bounds are too wide
 #define SURFACE_LAYERS 36
-#define SURFACE_COUNTER_WORDS 40
+#define SURFACE_WIDE 37
+#define SURFACE_ARGS_WIDE 40
+#define SURFACE_COUNTER_WORDS 44
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus

@@ -2,14 +2,16 @@
 // SPDX-License-Identifier: MIT
 // Occupied bricks -> octWord's masks: one invocation per brick gathers which voxels have faces in which
 // direction, and combines three directions for each octant. Bricks without a voxel that faces an octant keep
-// what the texture was cleared to: empty, reach 1.
+// what the texture was cleared to: empty. Rows of bits say which bricks those are not.
 layout(local_size_x = 64) in;
 #include "lib/linear_index.glsl"
 #include "lib/voxel_address.glsl"
 #include "lib/voxel_grid.glsl"
+#include "voxels/octant_rows.glsl"
 layout(binding = UNIT_VOXEL_BRICKS) uniform usampler3D brickWords;
 layout(binding = UNIT_VOXEL_RECORDS) uniform usamplerBuffer records;
 layout(std430, binding = BINDING_STORAGE_PASS) readonly buffer BrickTable { uint brickList[]; };
+layout(std430, binding = OCTANT_ROWS) buffer RowTable { uint rows[]; };
 layout(binding = 0, rg32ui) uniform writeonly uimage3D octants;
 
 // The brick's voxels in the opposite order along the axes that rays of the octant go down.
@@ -52,6 +54,9 @@ void main() {
         if (facing.y == OCTANT_EMPTY) facing.y |= OCTANT_EMPTY_SPARE;
         bvec3 down = notEqual(ivec3(octant) & ivec3(1, 2, 4), ivec3(0));
         ivec3 at = mix(brick, gridBricks() - 1 - brick, down);
-        if (some) imageStore(octants, ivec3(at.x + octant * int(grid.bricksX), at.yz), uvec4(facing, 0u, 0u));
+        if (some) {
+            imageStore(octants, ivec3(at.x + octant * int(grid.bricksX), at.yz), uvec4(facing, 0u, 0u));
+            atomicOr(rows[octantRow(octant, ivec3(at.x >> 5, at.yz), gridBricks())], 1u << (at.x & 31));
+        }
     }
 }

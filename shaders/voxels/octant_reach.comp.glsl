@@ -1,29 +1,55 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// octWord: reach R / 2 -> R where the eight cubes of edge R / 2 ahead are empty. In place: what other
-// invocations write meanwhile, R in place of R / 2, passes the same test.
-#ifndef REACH
-#error REACH must be the reach that is looked for: 2, 4 ...
-#endif
-layout(local_size_x = 8, local_size_y = 4, local_size_z = 4) in;
+// octWord: the reach of empty space, where it is less than the OCTANT_REACH that the texture was cleared to.
+// A cube of bricks is empty when none of its rows has a brick with a face towards the octant; rows are words
+// with a bit per brick (octant_masks), so one invocation does 32 bricks at once. What lies outside the grid
+// is empty.
+layout(local_size_x = 64) in;
+#include "lib/linear_index.glsl"
 #include "lib/voxel_grid.glsl"
-layout(binding = 0, rg32ui) uniform uimage3D octants;
+#include "voxels/octant_rows.glsl"
+#if OCTANT_REACH != 4
+#error reaches of 1, 2 and 4 are told apart
+#endif
+layout(binding = OCTANT_UNIT_ROWS) uniform usamplerBuffer rows;
+layout(binding = 0, rg32ui) uniform writeonly uimage3D octants;
 
 void main() {
-    ivec3 at = ivec3(gl_GlobalInvocationID);
     ivec3 bricks = gridBricks();
-    if (any(greaterThanEqual(at, ivec3(8 * bricks.x, bricks.yz)))) return;
-    int octant = at.x / bricks.x;
-    ivec3 brick = ivec3(at.x - octant * bricks.x, at.yz);
-    uint least = REACH / 2;
-    for (int corner = 0; corner < 8; ++corner) {
-        ivec3 other = brick + REACH / 2 * (ivec3(corner, corner >> 1, corner >> 2) & 1);
-        bool inside = all(lessThan(other, bricks));
-        uvec2 word = imageLoad(octants, ivec3((inside ? other.x : brick.x) + octant * bricks.x,
-                                              inside ? other.yz : brick.yz))
-                         .xy;
-        uint reach = word.y == OCTANT_EMPTY ? word.x : 0u;
-        least = inside || corner == 0 ? min(least, reach) : least;
+    int words = octantRowWords(bricks);
+    int index = int(linearIndex());
+    bool used = index < 8 * bricks.z * bricks.y * words;
+    index = used ? index : 0;
+    int word = index % words;
+    int y = index / words % bricks.y;
+    int z = index / (words * bricks.y) % bricks.z;
+    int octant = index / (words * bricks.y * bricks.z);
+
+    // Rows of the cubes with edges of 1, 2 and 4 bricks, this word and the next.
+    uint taken1 = 0u;
+    uvec2 two = uvec2(0u), four = uvec2(0u);
+    for (int i = 0; i < 16; ++i) {
+        int dy = i & 3, dz = i >> 2;
+        bool inside = y + dy < bricks.y && z + dz < bricks.z;
+        int at = inside ? octantRow(octant, ivec3(word, y + dy, z + dz), bricks) : 0;
+        uvec2 row = uvec2(texelFetch(rows, at).x, word + 1 < words ? texelFetch(rows, at + 1).x : 0u);
+        row = inside ? row : uvec2(0u);
+        four |= row;
+        if (dy < 2 && dz < 2) two |= row;
+        if (i == 0) taken1 = row.x;
     }
-    if (least == REACH / 2) imageStore(octants, at, uvec4(REACH, OCTANT_EMPTY, 0u, 0u));
+    // A bit for each brick whose cube is not empty.
+    uint taken2 = two.x | two.x >> 1 | two.y << 31;
+    uint taken4 =
+        four.x | four.x >> 1 | four.x >> 2 | four.x >> 3 | four.y << 31 | four.y << 30 | four.y << 29;
+    uint left = used ? taken4 & ~taken1 : 0u;
+    if (left == 0u) return;
+    do {
+        int i = findLSB(left);
+        left &= left - 1u;
+        ivec3 at = ivec3(32 * word + i, y, z);
+        if (at.x < bricks.x)
+            imageStore(octants, ivec3(octant * bricks.x + at.x, y, z),
+                       uvec4((taken2 >> i & 1u) == 0u ? 2u : 1u, OCTANT_EMPTY, 0u, 0u));
+    } while (left != 0u);
 }

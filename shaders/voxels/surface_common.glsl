@@ -7,7 +7,8 @@
 //   surface_clip     fragment -> what of the triangle is in the voxel, chained to its voxel
 //   surface_count, surface_scan, surface_faces    directions -> voxRec, owner of each face
 //   surface_resolve  face -> its chain, summed up
-//   surface_layers   face in which something is covered -> what is seen, summed up again
+//   surface_layers   face in which something is covered -> what is seen, summed up again; face whose bounds
+//                    are too wide -> bounds that fit
 //
 // Updates of what changed (SURFACE_UPDATE 1; docs/theory/2_voxels.md, "Updates"):
 //   surface_drop     voxel in a dirty brick -> chain without the fragments of changed instances
@@ -37,7 +38,7 @@
 #define SURFACE_BRICK_LIST 10
 #define SURFACE_OWNERS 10
 #define SURFACE_FACE_SOURCES 9
-#define SURFACE_LAYER_LIST 14  // resolve, layers: faces in which something is covered
+#define SURFACE_LAYER_LIST 14  // resolve, layers: faces to be done again
 // Updates
 #define SURFACE_RUNS 13            // setup: (instance, its first place in the work) per changed instance
 #define SURFACE_FREE_LIST 15       // setup, tiles, clip, drop: slots of dropped fragments
@@ -69,9 +70,9 @@ layout(std140, binding = BINDING_PASS) uniform SurfaceBlock { SurfaceConstants s
 #define SURFACE_FINEST_UNIT 26
 // Weight beyond the area of the bounds, in voxel sides, that rounding explains.
 #define SURFACE_LEAST_EXCESS 0.00390625
-// Entry of the list of surface_layers: index of the face, from bit 26 on how much coarser its units are than
-// the finest, and whether nothing in it is covered and only its bounds are too wide.
-#define SURFACE_ONLY_WIDE 0x80000000u
+// Entry of the lists of surface_layers: index of the face, from bit 26 on how much coarser its units are than
+// the finest. Faces in which something is covered stand from the buffer's first place on, those of which only
+// the bounds are too wide from place faceCapacity - 1 downwards.
 
 // Flags of a triangle, above the 24 bits of its instance.
 #define TRIANGLE_TWO_SIDED 0x1000000u

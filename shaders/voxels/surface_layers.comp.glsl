@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 // One invocation per face whose fragments cover more than their bounds have room for: some lie behind others.
 // Each is weighted by how much of it is seen, and the face is summed up again (docs/theory/2_voxels.md,
-// "Layers within a voxel"). Then, and where nothing is covered and only the bounds are too wide, these are
-// fitted ("Bounds that fit").
+// "Layers within a voxel"). Then its bounds are fitted ("Bounds that fit").
+// SURFACE_ONLY_WIDE 1: one invocation per face in which nothing is covered and only the bounds are too wide;
+// a program of its own, as these are many more, and a software driver does the work of a branch that is not
+// taken.
 //
 // Depth is measured along the face's mean normal and cut into 16 slices. From front to back each slice is
 // seen as far as those before it leave room. A fragment that tilts against the mean normal reaches over
@@ -11,6 +13,9 @@
 // The plane goes through the rearmost that is seen: a ray that starts at a step's foot must not start below
 // it. Light is looked up where faceRise says, on top of the front.
 #version 450
+#ifndef SURFACE_ONLY_WIDE
+#error SURFACE_ONLY_WIDE must be 0 or 1
+#endif
 #ifndef SURFACE_EMISSION
 #error SURFACE_EMISSION must be 0 or 1
 #endif
@@ -57,14 +62,29 @@ vec4 seenOf(ivec4 cover, inout int room) {
 
 void main() {
     uint invocation = linearInvocation();
+#if SURFACE_ONLY_WIDE
+    bool used = invocation < min(counters[SURFACE_WIDE], surface.faceCapacity);
+    uint entry = layered[surface.faceCapacity - 1u - (used ? invocation : 0u)];
+#else
     bool used = invocation < min(counters[SURFACE_LAYERS], surface.faceCapacity);
     uint entry = layered[used ? invocation : 0u];
+#endif
     uint index = entry & 0x3ffffffu;
     uint owner = texelFetch(owners, int(index)).x;
     int direction = int(owner >> 29);
     uint head = owner & 0x1fffffffu;
     vec3 k = directionVector(direction);
     uvec4 hit = faces[2u * index];
+#if SURFACE_ONLY_WIDE
+    FaceSums sums = emptySums();
+    uint at = used ? head : 0u;
+    do {
+        Fragment f = readFragment(at, k);
+        addFragment(sums, f, f.area * unitsOf(SURFACE_FINEST_UNIT), f.area > 0.0);
+        at = f.next;
+    } while (at != 0u);
+    ResolvedFace face = resolvedFace(sums, SURFACE_FINEST_UNIT, direction, hit.w & 0x3fffffffu);
+#else
     vec3 n = octDecode(unpackSnorm2x16(hit.x));
 
     // Range of depth.
@@ -83,8 +103,7 @@ void main() {
     float slices = 15.0 / max(nearest - farthest, kLeastRange);
 
     // Cover of the slices, in units that surface_resolve found to be coarse enough.
-    bool onlyWide = (entry & SURFACE_ONLY_WIDE) != 0u;
-    float units = unitsOf(SURFACE_FINEST_UNIT - int((entry & ~SURFACE_ONLY_WIDE) >> 26));
+    float units = unitsOf(SURFACE_FINEST_UNIT - int(entry >> 26));
     ivec4 cover0 = ivec4(0), cover1 = ivec4(0), cover2 = ivec4(0), cover3 = ivec4(0);
     at = used ? head : 0u;
     do {
@@ -120,8 +139,8 @@ void main() {
         vec2 reach = (depth.x - farthest + vec2(-depth.y, depth.y)) * slices + vec2(0.0, 1.0);
         float seen = dot(shareOf(reach, 0.0), seen0) + dot(shareOf(reach, 4.0), seen1) +
                      dot(shareOf(reach, 8.0), seen2) + dot(shareOf(reach, 12.0), seen3);
-        seen = onlyWide ? 1.0 : clamp(seen, 0.0, 1.0);
-        bool shows = f.area > 0.0 && (onlyWide || seen > leastSeen);
+        seen = clamp(seen, 0.0, 1.0);
+        bool shows = f.area > 0.0 && seen > leastSeen;
         addFragment(sums, f, f.area * seen * unitsOf(SURFACE_FINEST_UNIT), shows);
         rear = shows ? min(rear, depth.x) : rear;
         at = f.next;
@@ -129,8 +148,9 @@ void main() {
 
     ResolvedFace face = resolvedFace(sums, SURFACE_FINEST_UNIT, direction, hit.w & 0x3fffffffu);
     float behind = dot(n, vec3(sums.center) / float(max(sums.weightLow, 1)) - 0.5) - rear;
-    float offset = unpackOffset(face.hit.y) - (onlyWide ? 0.0 : max(behind, 0.0));
+    float offset = unpackOffset(face.hit.y) - max(behind, 0.0);
     face.hit.y = (face.hit.y & 0xffff0000u) | (packOffsetWeight(offset, 0.0) & 0xffffu);
+#endif
     FacePlane plane = facePlane(sums, SURFACE_FINEST_UNIT, k, face.hit);
     fitBounds(sums, plane, k, used && boundsTooWide(plane) ? head : 0u, face);
     if (used) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // One invocation per face: walks the chain of its voxel, sums up the fragments that face its direction
 // (docs/theory/2_voxels.md, eq. 2.2), writes FaceRecord and faceSource. Faces in which something may cover
-// something else, or whose bounds are too wide, are put on the list of surface_layers, which does them again.
+// something else, or whose bounds are too wide, are put on the lists of surface_layers, which does them
+// again.
 //
 // The sum of weights is kept in 64 bits: should it reach 16 (never in a sane scene), the chain is walked
 // again with units coarse enough that nothing overflows.
@@ -72,10 +73,8 @@ void main() {
         faces[2u * index] = face.hit;
         faces[2u * index + 1u] = face.shade;
         faceSources[index] = face.source;
-        if (covers || wide) {
-            uint place = atomicAdd(counters[SURFACE_LAYERS], 1u);
-            layered[place] =
-                index | (uint(SURFACE_FINEST_UNIT - shift) << 26) | (wide ? SURFACE_ONLY_WIDE : 0u);
-        }
+        uint entry = index | (uint(SURFACE_FINEST_UNIT - shift) << 26);
+        if (covers) layered[atomicAdd(counters[SURFACE_LAYERS], 1u)] = entry;
+        if (wide) layered[surface.faceCapacity - 1u - atomicAdd(counters[SURFACE_WIDE], 1u)] = entry;
     }
 }

@@ -2,7 +2,7 @@
 // Second third of a prefix sum: one invocation turns the chunks' sums into their starts (at most a few
 // thousand chunks), and writes the totals and the group counts of the passes that follow. STEP 0: no sum,
 // group count of surface_tiles. 1: after counting bricks. 2: after counting faces. 3: no sum, group count of
-// surface_resolve in an update. 4: no sum, group count of surface_layers.
+// surface_resolve in an update. 4: no sum, group counts of surface_layers.
 #version 450
 #ifndef STEP
 #error STEP must be 0, 1, 2, 3 or 4
@@ -29,6 +29,7 @@ void main() {
     writeArguments(SURFACE_ARGS_WORK, min(counters[SURFACE_WORK], surface.faceCapacity));
 #elif STEP == 4
     writeArguments(SURFACE_ARGS_LAYERS, min(counters[SURFACE_LAYERS], surface.faceCapacity));
+    writeArguments(SURFACE_ARGS_WIDE, min(counters[SURFACE_WIDE], surface.faceCapacity));
 #else
 #if STEP == 1
     uint count = grid.bricksX * grid.bricksY * grid.bricksZ;

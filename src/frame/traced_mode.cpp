@@ -47,6 +47,7 @@ bool hasGloss(const scene::GpuScene& scene, float limit) {
 struct TracedMode::Impl {
     voxels::SurfaceVoxels surface;
     voxels::OctantWords octants;
+    light::EmissionFit emissionFit;
     light::IrradianceCache cache;
     gather::PixelRays diffuse{gather::RayPicture::Diffuse};
     gather::PixelRays specular{gather::RayPicture::Specular};
@@ -103,13 +104,14 @@ void TracedMode::Impl::updateVoxels(const FrameContext& frame) {
         else
             surface.update(frame.programs, frame.profiler, frame.scene, frame.settings.voxels);
         octants.build(frame.programs, frame.profiler, surface);
+        emissionFit.known = false;
         voxelView.voxelsChanged();
         cache.afterVoxelize(frame.programs, frame.profiler, surface);
     }
     if (geometryDirty || lightDirty) {
         octants.bind();
         light::injectLight(frame.programs, frame.profiler, frame.scene, frame.settings.light, surface,
-                           &surface.secondFaceScratch());
+                           &surface.secondFaceScratch(), &emissionFit);
         voxelView.lightChanged();
         cache.lightChanged();
     } else if (otherUpdates) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/assert.h"
+#include "gl/gl.h"
 #include "light/shadow_maps.h"
 #include "shared/bindings.h"
 
@@ -30,23 +32,38 @@ bool hasEmitters(const scene::GpuScene& scene) {
         });
 }
 
+void makeFit(gl::ProgramLibrary& programs, const voxels::SurfaceVoxels& surface, EmissionFit& fit) {
+    const std::size_t bytes = std::size_t{4} * surface.faceCount();
+    if (fit.parts.bytes() < bytes) {
+        fit.texels = {};
+        fit.parts = {};
+        fit.parts = gl::Buffer(bytes + bytes / 4, "emission that fits");
+        fit.texels = gl::Texture(fit.parts, GL_R32UI, "emission that fits");
+    }
+    fit.parts.bindStorage(BINDING_STORAGE_PASS);
+    const glm::ivec3 size = surface.grid().bricks();
+    const auto bricks = static_cast<std::size_t>(size.x * size.y * size.z);
+    for (int step = 0; step < 3; ++step) {
+        programs.get(fitProgramDesc(step)).dispatchLinear(step == 1 ? surface.faceCount() : bricks);
+        gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+    }
+    fit.known = true;
+}
+
 }  // namespace
 
 void injectLight(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
                  const LightSettings& settings, const voxels::SurfaceVoxels& surface,
-                 const gl::Buffer* steadyLight) {
+                 const gl::Buffer* steadyLight, EmissionFit* fit) {
     const gl::PassScope pass(profiler, "inject light");
+    CONELIGHT_ASSERT(steadyLight == nullptr || fit != nullptr, "injectLight: steady light without a fit");
     surface.bind();
-    if (steadyLight != nullptr) steadyLight->bindStorage(BINDING_STORAGE_PASS);
     const bool fits = steadyLight != nullptr && surface.faceCount() > 0 && hasEmitters(scene);
     if (fits) {
-        const glm::ivec3 size = surface.grid().bricks();
-        const auto bricks = static_cast<std::size_t>(size.x * size.y * size.z);
-        for (int step = 0; step < 3; ++step) {
-            programs.get(fitProgramDesc(step)).dispatchLinear(step == 1 ? surface.faceCount() : bricks);
-            gl::barrier(gl::Access::ShaderStorage);
-        }
+        if (!fit->known) makeFit(programs, surface, *fit);
+        fit->texels.bind(UNIT_PASS);
     }
+    if (steadyLight != nullptr) steadyLight->bindStorage(BINDING_STORAGE_PASS);
     programs.get(programDesc(lightDefines(scene, settings), steadyLight != nullptr, fits))
         .dispatchLinear(surface.faceCount());
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);

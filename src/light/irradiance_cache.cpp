@@ -103,13 +103,14 @@ std::vector<gl::ProgramDesc> hitLightVariants(const gl::ProgramDesc& base) {
 
 struct IrradianceCache::Impl {
     gl::Buffer states, oldStates, faceLight, chunks, pool, constants, carryBlock;
-    gl::Texture steadyTexels, faceLightTexels, poolTexels;
+    gl::Texture steadyTexels, faceLightTexels, poolTexels, orderTexels, stateTexels, oldStateTexels;
     // Voxels before they were built anew.
     gl::Buffer oldRecords;
     gl::Texture oldRecordTexels, oldBricks;
     voxels::VoxelGrid oldGrid;
     std::uint32_t oldFaces = 0;
     gl::Buffer bins, binStarts;  // of sortFaces
+    gl::Texture binTexels, binStartTexels;
 
     bool prepared = false;  // pool and records say what the states and the direct light say
     bool restart = false;
@@ -145,8 +146,10 @@ void IrradianceCache::Impl::reserve(std::uint32_t faces) {
     // No room for growth before there was any.
     const auto room = static_cast<std::size_t>(std::ceil((states ? kSlack : 1.0) * faces)) + 64;
     if (states.bytes() < sizeof(gpu::FaceCache) * std::size_t{faces} || !states) {
+        stateTexels = {};
         states = {};
         states = gl::Buffer(sizeof(gpu::FaceCache) * room, "irradiance cache");
+        stateTexels = gl::Texture(states, GL_RGBA32UI, "irradiance cache");
     }
     if (faceLight.bytes() < std::size_t{8} * faces || !faceLight) {
         faceLightTexels = {};
@@ -167,27 +170,35 @@ void IrradianceCache::Impl::sortFaces(gl::ProgramLibrary& programs, const voxels
     surface.faceScratch().bindStorage(CACHE_ORDER);
     if (blockCount > kMostBlocks) {
         programs.get(orderDesc(5)).dispatchLinear(faceCount);
-        gl::barrier(gl::Access::ShaderStorage);
+        gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
         return;
     }
     const std::size_t binCount = blockCount * CACHE_BINS_PER_BLOCK;
     if (bins.bytes() != 8 * binCount) {
+        binTexels = {};
+        binStartTexels = {};
         bins = {};
         binStarts = {};
         bins = gl::Buffer(8 * binCount, "bins of faces");
         binStarts = gl::Buffer(4 * binCount, "starts of bins of faces");
+        binTexels = gl::Texture(bins, GL_RG32UI, "bins of faces");
+        binStartTexels = gl::Texture(binStarts, GL_R32UI, "starts of bins of faces");
     }
     bins.clear();
     bins.bindStorage(CACHE_BINS);
     binStarts.bindStorage(CACHE_BIN_STARTS);
+    binTexels.bind(CACHE_UNIT_BINS);
+    binStartTexels.bind(CACHE_UNIT_BIN_STARTS);
     chunks.bindStorage(CACHE_CHUNKS);
     const std::size_t invocations[] = {faceCount, CACHE_ORDER_CHUNKS, 1, CACHE_ORDER_CHUNKS, faceCount};
     for (int step = 0; step < 5; ++step) {
         programs.get(orderDesc(step)).dispatchLinear(invocations[step]);
-        gl::barrier(gl::Access::ShaderStorage);
+        gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
     }
     // They are as large as what they sort: kept only where voxels change again and again.
     if (!carried) {
+        binTexels = {};
+        binStartTexels = {};
         bins = {};
         binStarts = {};
     }
@@ -225,10 +236,13 @@ void IrradianceCache::afterVoxelize(gl::ProgramLibrary& programs, gl::Profiler& 
     const bool carries = m.oldFaces > 0 && m.oldBricks;
     // The states of the old voxels change places with the buffer for the new ones.
     std::swap(m.states, m.oldStates);
+    std::swap(m.stateTexels, m.oldStateTexels);
     m.reserve(surface.faceCount());
     m.steadyTexels = {};
     if (surface.secondFaceScratch())
         m.steadyTexels = gl::Texture(surface.secondFaceScratch(), GL_R32UI, "steady light");
+    m.orderTexels = {};
+    if (surface.faceScratch()) m.orderTexels = gl::Texture(surface.faceScratch(), GL_R32UI, "order of faces");
     m.faceCount = surface.faceCount();
     if (carries && m.faceCount > 0) {
         gpu::CacheCarry block{};
@@ -240,12 +254,12 @@ void IrradianceCache::afterVoxelize(gl::ProgramLibrary& programs, gl::Profiler& 
         m.carryBlock.update(block);
         m.carryBlock.bindUniform(BINDING_PASS);
         m.states.bindStorage(CACHE_STATE);
-        m.oldStates.bindStorage(CACHE_OLD_STATE);
+        m.oldStateTexels.bind(CACHE_UNIT_OLD_STATE);
         surface.bind();
         m.oldBricks.bind(CACHE_UNIT_OLD_BRICKS);
         m.oldRecordTexels.bind(CACHE_UNIT_OLD_RECORDS);
         programs.get(light::pass("carry")).dispatchLinear(m.faceCount);
-        gl::barrier(gl::Access::ShaderStorage);
+        gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
     } else {
         m.states.clear();
     }
@@ -289,6 +303,7 @@ void IrradianceCache::Impl::commit(gl::ProgramLibrary& programs, gl::Profiler& p
     constants.update(block);
     constants.bindUniform(BINDING_PASS);
     states.bindStorage(CACHE_STATE);
+    stateTexels.bind(CACHE_UNIT_STATE);
     chunks.bindStorage(CACHE_CHUNKS);
     pool.bindStorage(CACHE_POOL);
     faceLight.bindStorage(CACHE_FACE_LIGHT);
@@ -325,7 +340,8 @@ void IrradianceCache::update(gl::ProgramLibrary& programs, gl::Profiler& profile
         {
             const gl::PassScope scope(profiler, "irradiance: update");
             m.states.bindStorage(CACHE_STATE);
-            surface.faceScratch().bindStorage(CACHE_ORDER);
+            m.stateTexels.bind(CACHE_UNIT_STATE);
+            m.orderTexels.bind(CACHE_UNIT_ORDER);
             bind();
             const auto visit = [&](std::uint32_t from, std::uint32_t to, bool findsBacks) {
                 if (from >= to) return;
@@ -339,7 +355,7 @@ void IrradianceCache::update(gl::ProgramLibrary& programs, gl::Profiler& profile
             visit(0, first, false);
             visit(first, end, true);
             visit(end, block.faceCount, false);
-            gl::barrier(gl::Access::ShaderStorage | gl::Access::Update);
+            gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Update);
         }
         m.firstFace = (m.firstFace + block.faceCount) % m.faceCount;
         m.facesVisited += block.faceCount;

@@ -9,9 +9,10 @@ namespace conelight::voxels {
 namespace {
 
 gl::ProgramDesc masksDesc() { return {{"voxels/octant_masks.comp.glsl"}, {}}; }
-gl::ProgramDesc reachDesc(int reach) {
-    return {{"voxels/octant_reach.comp.glsl"}, {{"REACH", std::to_string(reach)}}};
-}
+gl::ProgramDesc reachDesc() { return {{"voxels/octant_reach.comp.glsl"}, {}}; }
+
+// shaders/voxels/octant_rows.glsl
+constexpr unsigned kRows = 9, kUnitRows = 8;
 
 }  // namespace
 
@@ -26,17 +27,25 @@ void OctantWords::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, co
         texture_.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         texture_.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     }
-    const std::uint32_t empty[2] = {1, OCTANT_EMPTY};
+    const std::size_t rowWords = std::size_t{8} * static_cast<std::size_t>((bricks.x + 31) / 32) *
+                                 static_cast<std::size_t>(bricks.y * bricks.z);
+    if (rows_.bytes() < 4 * rowWords) {
+        rowTexels_ = {};
+        rows_ = {};
+        rows_ = gl::Buffer(4 * rowWords, "octant rows");
+        rowTexels_ = gl::Texture(rows_, GL_R32UI, "octant rows");
+    }
+    rows_.clear();
+    const std::uint32_t empty[2] = {OCTANT_REACH, OCTANT_EMPTY};
     texture_.clear(0, GL_RG_INTEGER, GL_UNSIGNED_INT, empty);
     surface.bind();
     surface.occupiedBricks().bindStorage(BINDING_STORAGE_PASS);
+    rows_.bindStorage(kRows);
     texture_.bindImage(0, 0, GL_WRITE_ONLY);
     programs.get(masksDesc()).dispatchLinear(surface.occupiedBrickCount());
-    for (int reach = 2; reach <= OCTANT_REACH; reach *= 2) {
-        gl::barrier(gl::Access::ImageAccess);
-        texture_.bindImage(0, 0, GL_READ_WRITE);
-        programs.get(reachDesc(reach)).dispatch(8 * bricks.x, bricks.y, bricks.z);
-    }
+    gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
+    rowTexels_.bind(kUnitRows);
+    programs.get(reachDesc()).dispatchLinear(rowWords);
     gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
 }
 
@@ -45,10 +54,6 @@ void OctantWords::bind() const {
     texture_.bindImage(IMAGE_VOXEL_OCTANTS, 0, GL_READ_ONLY);
 }
 
-std::vector<gl::ProgramDesc> OctantWords::programDescs() {
-    std::vector<gl::ProgramDesc> descs{masksDesc()};
-    for (int reach = 2; reach <= OCTANT_REACH; reach *= 2) descs.push_back(reachDesc(reach));
-    return descs;
-}
+std::vector<gl::ProgramDesc> OctantWords::programDescs() { return {masksDesc(), reachDesc()}; }
 
 }  // namespace conelight::voxels

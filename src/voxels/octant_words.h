@@ -17,8 +17,8 @@ namespace conelight::voxels {
 
 class OctantWords {
   public:
-    // GL state changed: program, image 0, BINDING_STORAGE_PASS, what SurfaceVoxels::bind binds. Ends with the
-    // barrier for texture fetches and image loads.
+    // GL state changed: program, image 0, BINDING_STORAGE_PASS, storage slot 9, texture unit 8, what
+    // SurfaceVoxels::bind binds. Ends with the barrier for texture fetches and image loads.
     void build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const SurfaceVoxels& surface);
 
     void bind() const;  // IMAGE_VOXEL_OCTANTS
@@ -29,6 +29,8 @@ class OctantWords {
 
   private:
     gl::Texture texture_;
+    gl::Buffer rows_;
+    gl::Texture rowTexels_;
 };
 
 }  // namespace conelight::voxels

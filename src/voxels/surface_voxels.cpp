@@ -126,8 +126,10 @@ gl::ProgramDesc resolvePass(bool emission, bool lobes, bool update) {
                                     {"SURFACE_LOBES", flag(lobes)},
                                     {"SURFACE_UPDATE", flag(update)}});
 }
-gl::ProgramDesc layersPass(bool emission, bool lobes) {
-    return pass("surface_layers", {{"SURFACE_EMISSION", flag(emission)}, {"SURFACE_LOBES", flag(lobes)}});
+gl::ProgramDesc layersPass(bool emission, bool lobes, bool onlyWide) {
+    return pass("surface_layers", {{"SURFACE_EMISSION", flag(emission)},
+                                   {"SURFACE_LOBES", flag(lobes)},
+                                   {"SURFACE_ONLY_WIDE", flag(onlyWide)}});
 }
 gl::ProgramDesc clipPass(int detail, bool emission, bool lobes, bool update) {
     return pass("surface_clip", {{"SURFACE_DETAIL", std::to_string(detail)},
@@ -456,8 +458,9 @@ void SurfaceVoxels::Impl::resolve(gl::ProgramLibrary& programs, gl::Profiler& pr
     gl::barrier(gl::Access::ShaderStorage);
     programs.get(scanPass(4)).dispatch(1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
-    programs.get(layersPass(surfaces.emit(), surfaces.lobes))
-        .dispatchIndirect(counters, 4 * SURFACE_ARGS_LAYERS);
+    for (const bool onlyWide : {false, true})
+        programs.get(layersPass(surfaces.emit(), surfaces.lobes, onlyWide))
+            .dispatchIndirect(counters, 4 * (onlyWide ? SURFACE_ARGS_WIDE : SURFACE_ARGS_LAYERS));
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Indirect);
 }
 
@@ -688,7 +691,8 @@ std::vector<gl::ProgramDesc> SurfaceVoxels::programDescs() {
                                        pass("surface_drop"),   countPass(true),       countPass(false)};
     for (int i = 0; i < 5; ++i) descs.push_back(scanPass(i));
     for (const bool emission : {false, true})
-        for (const bool lobes : {false, true}) descs.push_back(layersPass(emission, lobes));
+        for (const bool lobes : {false, true})
+            for (const bool onlyWide : {false, true}) descs.push_back(layersPass(emission, lobes, onlyWide));
     for (const bool update : {false, true}) {
         for (const char* name : {"surface_setup", "surface_tiles", "surface_faces"})
             descs.push_back(markPass(name, update));

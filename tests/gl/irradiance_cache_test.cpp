@@ -217,6 +217,34 @@ TEST_F(IrradianceCacheTest, LampsSendWhatTheirSurfaceSends) {
     }
 }
 
+// What of a lamp's emission fits is kept while lights change, and found anew when the lamp has moved.
+TEST_F(IrradianceCacheTest, EmissionFitsAnewWhereALampHasMoved) {
+    Mesh ball;
+    io::shapes::appendPatch(ball, io::shapes::uvSphere(glm::vec3(0), glm::vec3(2.5f), 48, 24));
+    const auto sceneWith = [&](const glm::vec3& place) {
+        Scene scene;
+        addInstance(scene, boxOfQuads(false), matt(glm::vec3(0)), glm::scale(glm::mat4(1), glm::vec3(30)));
+        addInstance(scene, ball, matt(glm::vec3(0), glm::vec3(3)), glm::translate(glm::mat4(1), place));
+        return scene;
+    };
+    const auto radiance = [](const CacheRig& rig) {
+        std::vector<glm::vec3> all;
+        for (const CachedFace& face : rig.faces()) all.push_back(face.radiance);
+        return all;
+    };
+    const Scene before = sceneWith({14.3f, 15.6f, 15.1f}), after = sceneWith({11.1f, 9.3f, 15.8f});
+    CacheRig rig(programs(), before, 32);
+    const std::vector<glm::vec3> first = radiance(rig);
+    EXPECT_TRUE(std::any_of(first.begin(), first.end(),
+                            [](const glm::vec3& r) { return r.g > 0.0f && std::abs(r.g - 3.0f) > 0.05f; }));
+    rig.relight();
+    EXPECT_EQ(radiance(rig), first);
+    rig.scene.setInstance(1, after.instances[1]);
+    rig.voxelize();
+    rig.relight();
+    EXPECT_EQ(radiance(rig), radiance(CacheRig(programs(), after, 32)));
+}
+
 // Every update adds a bounce, none more than albedo times the one before.
 TEST_F(IrradianceCacheTest, EnergyGrowsWithBouncesAndIsBounded) {
     const double albedo = 0.7;

@@ -161,6 +161,8 @@ void main() {
         EXPECT_LT(furthest, 2e-3);
     }
 
+    void expectOctantWords(const Scene& scene, int gridEdge);
+
     gl::Profiler profiler_;
     voxels::SurfaceVoxels surface_;
     voxels::OctantWords octants_;
@@ -193,8 +195,8 @@ TEST_F(RayQueryTest, SameFacesAsTwinInALargeEmptySpace) {
 
 // Every voxel that looks against an octant is in its mask, no other; the reach ends before all of them, and
 // is as long as it may be.
-TEST_F(RayQueryTest, OctantWordsSayWhatIsThere) {
-    voxelize(io::loadScene("builtin:spheres"), 64);
+void RayQueryTest::expectOctantWords(const Scene& scene, int gridEdge) {
+    voxelize(scene, gridEdge);
     const glm::ivec3 bricks = tables_.grid.bricks();
     std::vector<glm::uvec2> words(8 * tables_.grid.brickCount());
     octants_.texture().read(0, GL_RG_INTEGER, GL_UNSIGNED_INT, words.data(), 8 * words.size());
@@ -248,6 +250,18 @@ TEST_F(RayQueryTest, OctantWordsSayWhatIsThere) {
     }
     EXPECT_EQ(wrongMasks, 0u);
     EXPECT_EQ(wrongReach, 0u);
+}
+
+TEST_F(RayQueryTest, OctantWordsSayWhatIsThere) { expectOctantWords(io::loadScene("builtin:spheres"), 64); }
+
+// Rows of more than 32 bricks, with things on both sides of the 32nd.
+TEST_F(RayQueryTest, OctantWordsSayWhatIsThereInLongGrids) {
+    Scene scene;
+    Material white;
+    for (const float x : {0.0f, 11.0f, 31.1f, 31.7f, 33.0f, 38.0f})
+        addInstance(scene, quadMesh({x, 0, 1}, {1, 0.3f, 0}, {0.2f, 0, -1}), white);
+    addInstance(scene, quadMesh({20, 5, 1}, {0.1f, 0, 0}, {0, 0, -1}), white);
+    expectOctantWords(scene, 160);
 }
 
 // --- How wide rays find things

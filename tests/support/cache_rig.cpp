@@ -25,6 +25,7 @@ void CacheRig::voxelize() {
     cache.beforeVoxelize(profiler, surface);
     surface.build(programs, profiler, scene, voxelSettings);
     octants.build(programs, profiler, surface);
+    emissionFit.known = false;
     cache.afterVoxelize(programs, profiler, surface);
 }
 
@@ -37,7 +38,7 @@ void CacheRig::relight() {
     scene.bind();
     shadows.bind();
     octants.bind();
-    light::injectLight(programs, profiler, scene, light, surface, &surface.secondFaceScratch());
+    light::injectLight(programs, profiler, scene, light, surface, &surface.secondFaceScratch(), &emissionFit);
     cache.lightChanged();
 }
 

@@ -9,6 +9,7 @@
 #include "conelight/scene.h"
 #include "conelight/settings.h"
 #include "gl/pass.h"
+#include "light/inject_light.h"
 #include "light/irradiance_cache.h"
 #include "light/shadow_maps.h"
 #include "scene/gpu_scene.h"
@@ -53,6 +54,7 @@ struct CacheRig {
     light::ShadowMaps shadows;
     voxels::SurfaceVoxels surface;
     voxels::OctantWords octants;
+    light::EmissionFit emissionFit;
     light::IrradianceCache cache;
 };
 
