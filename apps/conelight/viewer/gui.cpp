@@ -5,6 +5,7 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include <imgui_internal.h>  // InputEventsQueue
 
 #include <algorithm>
 #include <array>
@@ -169,5 +170,14 @@ void Gui::endFrame() {
 
 bool Gui::wantsMouse() const { return ImGui::GetIO().WantCaptureMouse; }
 bool Gui::wantsKeyboard() const { return ImGui::GetIO().WantTextInput; }
+
+// From 1.87 on Dear ImGui takes one press of a key or button a frame and keeps those behind it.
+bool Gui::hasInput() const {
+#if IMGUI_VERSION_NUM >= 18700
+    return !ImGui::GetCurrentContext()->InputEventsQueue.empty();
+#else
+    return false;
+#endif
+}
 
 }  // namespace conelight::program

@@ -21,6 +21,7 @@ class Gui {
     void endFrame();
     bool wantsMouse() const;     // the cursor is over the GUI or drags one of its widgets
     bool wantsKeyboard() const;  // a text field has the keys
+    bool hasInput() const;       // that the last frame did not take: the next one does
     float scale() const { return scale_; }
     void setScale(float scale);  // from the next frame on; the screen's no more
 

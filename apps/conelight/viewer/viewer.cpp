@@ -158,7 +158,7 @@ int Viewer::run() {
         }
         const bool waits = settling_ || bake_.busy();
         const bool busy = more_ || session_.hasRequests() || (!commands_.idle() && !waits) ||
-                          !wanted_.empty() || session_.playing();
+                          !wanted_.empty() || session_.playing() || gui_.hasInput();
         const ViewFlags& flags = session_.flags();
         const double rest = flags.dynamic ? std::min<double>(flags.period, kIdleWait) : kIdleWait;
         if (!console_.takesKeysSoon()) window_.pollEvents(!busy ? rest : lastWasIdle_ ? kPace : 0);
