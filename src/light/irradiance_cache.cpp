@@ -386,7 +386,8 @@ void IrradianceCache::bind() const {
 const gl::Buffer& IrradianceCache::state() const { return impl_->states; }
 
 std::vector<gl::ProgramDesc> IrradianceCache::programDescs() {
-    std::vector<gl::ProgramDesc> descs{commitDesc(false), commitDesc(true), pass("sums"), pass("pool"), pass("carry")};
+    std::vector<gl::ProgramDesc> descs{commitDesc(false), commitDesc(true), pass("sums"), pass("pool"),
+                                       pass("carry")};
     for (int step = 0; step < 6; ++step) descs.push_back(orderDesc(step));
     for (const bool backs : {false, true})
         for (gl::ProgramDesc& desc : hitLightVariants({{"light/cache_update.comp.glsl"}, {}}))
