@@ -3,6 +3,8 @@
 // After an update: means into the face records, where rays read them, and into faceLight, where pixels do,
 // shared there with neighbours while they are of few updates; and the flux of each chunk of faces. One
 // invocation per chunk, so that sums have an order.
+//
+// AT_PIXELS 0: leaves faceLight alone, for a commit that is followed by another before pixels look.
 layout(local_size_x = 64) in;
 #include "light/cache_common.glsl"
 #include "light/cache_state.glsl"
@@ -14,6 +16,7 @@ layout(binding = UNIT_VOXEL_RECORDS) uniform usamplerBuffer voxelRecords;
 layout(binding = IMAGE_VOXEL_BRICKS, rgba32ui) readonly uniform uimage3D voxelBrickImage;
 layout(std430, binding = CACHE_FACE_LIGHT) writeonly buffer FaceLightTable { uvec2 faceLight[]; };
 
+#if AT_PIXELS
 // The inside of a solid lies next to its outside. Of a cloth that is seen from its other side nothing else is
 // there, so that a small weight does as well as a large one: this part of it.
 const uint kReversePart = 64u;
@@ -56,7 +59,7 @@ vec3 shownIrradiance(vec3 own, uvec4 hitTexel, uint updates) {
         uvec4 other = texelFetch(faceTexels, 2 * face);
         vec3 turned = octDecode(unpackSnorm2x16(other.x));
         float apart = dot(n, vec3(step) + unpackOffset(other.y) * turned) - unpackOffset(hitTexel.y);
-        FaceCache state = states[face];
+        FaceCache state = unpackState(texelFetch(stateTexels, face));
         bool same = there && dot(n, turned) > kSamePlaneNormal && abs(apart) < kSamePlaneOffset &&
                     ((other.z ^ hitTexel.z) & FACE_REVERSE) == 0u && (state.counts & 0xffffu) != 0u &&
                     !isDead(state);
@@ -65,6 +68,7 @@ vec3 shownIrradiance(vec3 own, uvec4 hitTexel, uint updates) {
     }
     return sum.rgb / sum.a;
 }
+#endif
 
 void main() {
     uint chunk = linearIndex();
@@ -89,10 +93,12 @@ void main() {
                   (dead ? FACE_DEAD : (updates != 0u ? FACE_LIT : 0u));
         if (inside) {
             faces[2u * at + 1u].zw = shade.zw;
+#if AT_PIXELS
             vec3 shown = clamp(shownIrradiance(irradiance, hitTexel, updates), 0.0, 65504.0);
             faceLight[at] =
                 uvec2(packHalf2x16(shown.rg), packHalf2x16(vec2(shown.b, 0.0)) |
                                                   weightAtPixels(hitTexel, !dead && updates != 0u) << 16);
+#endif
             // What was there is replaced by the next update, but is good until then.
             if (cache.restart != 0u) states[at].counts = (state.counts & 0xffff0000u) | min(updates, 1u);
         }

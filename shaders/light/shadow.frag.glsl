@@ -8,10 +8,10 @@
 #error depth alone of a closed surface needs no fragment stage
 #endif
 #include "lib/scene_tables.glsl"
-#include "light/shadow_view.glsl"
 
 #if SURFACES
 layout(location = 3) flat in vec3 edge[3];
+layout(location = 6) flat in vec4 viewConstants;
 layout(location = 0) out uvec2 surface;
 
 const float kShadowEnd = 2.0;  // lib/shadow.glsl
@@ -27,12 +27,12 @@ void main() {
 #if SURFACES
     // Depth is a plane over the map for either projection, so differences within a quad are exact.
     vec2 slope = vec2(dFdx(gl_FragCoord.z), dFdy(gl_FragCoord.z));
-    slope /= slopeUnit.x + slopeUnit.y * gl_FragCoord.z;
+    slope /= viewConstants.x + viewConstants.y * gl_FragCoord.z;
 
     // Where the triangle ends towards +x, -x, +y, -y, in texels.
     vec4 ends = vec4(kShadowEnd);
     for (int i = 0; i < 3; ++i) {
-        float inside = max(dot(edge[i], vec3(gl_FragCoord.xy - middle, 1.0)), 0.0);
+        float inside = max(dot(edge[i], vec3(gl_FragCoord.xy - viewConstants.zw, 1.0)), 0.0);
         vec2 t = inside / max(abs(edge[i].xy), 1e-20);
         bvec2 forward = lessThan(edge[i].xy, vec2(0.0));
         ends = min(ends, vec4(forward.x ? t.x : kShadowEnd, forward.x ? kShadowEnd : t.x,

@@ -8,6 +8,7 @@ layout(triangle_strip, max_vertices = 3) out;
 #include "light/shadow_view.glsl"
 
 layout(location = 3) flat out vec3 edge[3];
+layout(location = 6) flat out vec4 viewConstants;  // slopeUnit, middle: lib/flat_constants.glsl says why
 #if MASKED
 layout(location = 0) in vec2 uv[];
 layout(location = 1) in float alpha[];
@@ -29,6 +30,7 @@ void main() {
     for (int i = 0; i < 3; ++i) {
         gl_Position = gl_in[i].gl_Position;
         for (int k = 0; k < 3; ++k) edge[k] = edges[k] * turn;
+        viewConstants = vec4(slopeUnit, middle);
 #if MASKED
         outUv = uv[i];
         outAlpha = alpha[i];

@@ -42,6 +42,9 @@ gl::ProgramDesc orderDesc(int step) {
     return {{"light/cache_order.comp.glsl"}, {{"STEP", std::to_string(step)}}};
 }
 gl::ProgramDesc pass(const char* name) { return {{std::string("light/cache_") + name + ".comp.glsl"}, {}}; }
+gl::ProgramDesc commitDesc(bool atPixels) {
+    return {{"light/cache_commit.comp.glsl"}, {{"AT_PIXELS", atPixels ? "1" : "0"}}};
+}
 
 gl::Defines exactDefines(const gl::Defines& lights, bool exact) {
     gl::Defines defines{{"EXACT_DIRECT", exact ? "1" : "0"}};
@@ -124,7 +127,8 @@ struct IrradianceCache::Impl {
     void reserve(std::uint32_t faces);
     void sortFaces(gl::ProgramLibrary& programs, const voxels::SurfaceVoxels& surface);
     gpu::CacheConstants packed(const CacheSettings& settings) const;
-    void commit(gl::ProgramLibrary& programs, gl::Profiler& profiler, const CacheSettings& settings);
+    void commit(gl::ProgramLibrary& programs, gl::Profiler& profiler, const CacheSettings& settings,
+                bool atPixels);
 };
 
 IrradianceCache::IrradianceCache() : impl_(std::make_unique<Impl>()) {}
@@ -295,9 +299,9 @@ gpu::CacheConstants IrradianceCache::Impl::packed(const CacheSettings& settings)
     return c;
 }
 
-// States -> records and pool.
+// States -> records and pool; and what pixels see (atPixels).
 void IrradianceCache::Impl::commit(gl::ProgramLibrary& programs, gl::Profiler& profiler,
-                                   const CacheSettings& settings) {
+                                   const CacheSettings& settings, bool atPixels) {
     const gl::PassScope scope(profiler, "irradiance: bright faces");
     const gpu::CacheConstants block = packed(settings);
     constants.update(block);
@@ -307,7 +311,7 @@ void IrradianceCache::Impl::commit(gl::ProgramLibrary& programs, gl::Profiler& p
     chunks.bindStorage(CACHE_CHUNKS);
     pool.bindStorage(CACHE_POOL);
     faceLight.bindStorage(CACHE_FACE_LIGHT);
-    programs.get(pass("commit")).dispatchLinear(block.chunkCount);
+    programs.get(commitDesc(atPixels)).dispatchLinear(block.chunkCount);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
     programs.get(pass("sums")).dispatch(8);
     gl::barrier(gl::Access::ShaderStorage);
@@ -327,7 +331,7 @@ void IrradianceCache::update(gl::ProgramLibrary& programs, gl::Profiler& profile
     if (m.faceCount == 0) return;
     const gl::Defines lights = hitLightDefines(scene, light, settings.exactDirect);
     surface.bind();
-    if (!m.prepared) m.commit(programs, profiler, settings);
+    if (!m.prepared) m.commit(programs, profiler, settings, passes <= 0);
     for (int i = 0; i < passes; ++i) {
         const gpu::CacheConstants block = m.packed(settings);
         // Faces [first, end) of this update are looked at for dead ones.
@@ -361,7 +365,7 @@ void IrradianceCache::update(gl::ProgramLibrary& programs, gl::Profiler& profile
         m.facesVisited += block.faceCount;
         m.raysTested += std::uint64_t{end - first} * block.cosineRays;
         ++m.number;
-        m.commit(programs, profiler, settings);
+        m.commit(programs, profiler, settings, i + 1 == passes);
     }
 }
 
@@ -382,7 +386,8 @@ void IrradianceCache::bind() const {
 const gl::Buffer& IrradianceCache::state() const { return impl_->states; }
 
 std::vector<gl::ProgramDesc> IrradianceCache::programDescs() {
-    std::vector<gl::ProgramDesc> descs{pass("commit"), pass("sums"), pass("pool"), pass("carry")};
+    std::vector<gl::ProgramDesc> descs{commitDesc(false), commitDesc(true), pass("sums"), pass("pool"),
+                                       pass("carry")};
     for (int step = 0; step < 6; ++step) descs.push_back(orderDesc(step));
     for (const bool backs : {false, true})
         for (gl::ProgramDesc& desc : hitLightVariants({{"light/cache_update.comp.glsl"}, {}}))

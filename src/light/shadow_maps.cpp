@@ -406,7 +406,11 @@ void ShadowMaps::Impl::draw(gl::ProgramLibrary& programs, const scene::GpuScene&
         const auto accepted = [&](const gpu::Instance& instance) {
             return drawn[static_cast<std::size_t>(&instance - instances.data())] == (masked ? 2 : 1);
         };
-        scene.draw(accepted, gl::Cull::None, masked);
+        // Of a mesh in the middle of the scene each side of a cube sees a part only.
+        const auto isSeen = [&](const gpu::Instance& instance, const Aabb& objectBox) {
+            return !isOutside(view.clipFromWorld * instance.worldFromObject, objectBox);
+        };
+        scene.draw(accepted, gl::Cull::None, masked, 1, isSeen);
     }
 }
 

@@ -21,6 +21,8 @@ namespace {
 // Edge of the low-resolution copies of textures that compute shaders sample. A voxel rarely covers less than
 // 1/256 of a texture; 256^2 with mips costs 350 KB per texture.
 constexpr int kSurfaceEdge = 256;
+// Of a part of a mesh: large enough that a draw costs little beside its triangles, by eye.
+constexpr std::uint32_t kPartIndices = 3 * 256;
 
 std::uint32_t packUnorm8(const glm::vec4& color) {
     std::uint32_t bits = 0;
@@ -242,12 +244,17 @@ void GpuScene::uploadGeometry(const Scene& source) {
         std::uint32_t firstVertex, firstIndex, indexCount;
         Aabb bounds;
         bool wideColors;
+        std::size_t firstPart;
     };
     std::vector<Range> ranges;
     for (const Mesh& mesh : source.meshes) {
         hasVertexColors_ = hasVertexColors_ || !mesh.colors.empty();
-        Range range{static_cast<std::uint32_t>(vertices.size()), static_cast<std::uint32_t>(indices.size()),
-                    static_cast<std::uint32_t>(mesh.indices.size()), mesh.bounds(), hasWideColors(mesh)};
+        Range range{static_cast<std::uint32_t>(vertices.size()),
+                    static_cast<std::uint32_t>(indices.size()),
+                    static_cast<std::uint32_t>(mesh.indices.size()),
+                    mesh.bounds(),
+                    hasWideColors(mesh),
+                    partBounds_.size()};
         if (appendVertices(mesh, vertices)) {
             indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
         } else {
@@ -255,6 +262,10 @@ void GpuScene::uploadGeometry(const Scene& source) {
             std::iota(indices.end() - static_cast<std::ptrdiff_t>(mesh.indices.size()), indices.end(), 0u);
         }
         orderForReuse(vertices, range.firstVertex, indices, range.firstIndex);
+        for (std::size_t i = range.firstIndex; i < indices.size(); ++i) {
+            if ((i - range.firstIndex) % kPartIndices == 0) partBounds_.emplace_back();
+            partBounds_.back().grow(vertices[range.firstVertex + indices[i]].position);
+        }
         ranges.push_back(range);
     }
     const std::uint32_t defaultMaterial = static_cast<std::uint32_t>(source.materials.size());
@@ -272,6 +283,7 @@ void GpuScene::uploadGeometry(const Scene& source) {
         instanceIndices.push_back(static_cast<std::uint32_t>(instances_.size()));
         instances_.push_back(g);
         instanceObjectBounds_.push_back(range.bounds);
+        instanceParts_.push_back(range.firstPart);
     }
     vertexBuffer_ = gl::Buffer(vertices, "scene vertices");
     indexBuffer_ = gl::Buffer(indices, "scene indices");
@@ -481,7 +493,25 @@ void GpuScene::bindMaterialTextures(std::uint32_t material) const {
     }
 }
 
-void GpuScene::draw(const InstanceFilter& filter, gl::Cull cull, bool bindTextures, int copies) const {
+// Parts that follow each other in one draw.
+void GpuScene::drawParts(std::uint32_t index, const PartFilter& part, int copies) const {
+    const gpu::Instance& instance = instances_[index];
+    std::uint32_t begin = 0;  // of those that are accepted but not drawn yet
+    const auto drawTo = [&](std::uint32_t end) {
+        if (begin < end)
+            gl::drawIndexed({instance.firstIndex + begin, end - begin, instance.firstVertex, index, copies});
+    };
+    std::size_t number = instanceParts_[index];
+    for (std::uint32_t first = 0; first < instance.indexCount; first += kPartIndices, ++number) {
+        if (part(instance, partBounds_[number])) continue;
+        drawTo(first);
+        begin = first + kPartIndices;
+    }
+    drawTo(instance.indexCount);
+}
+
+void GpuScene::draw(const InstanceFilter& filter, gl::Cull cull, bool bindTextures, int copies,
+                    const PartFilter& part) const {
     vertexArray_.bind();
     std::uint32_t boundMaterial = ~0u;
     // -1: nothing set yet, so that the first instance sets both.
@@ -505,7 +535,10 @@ void GpuScene::draw(const InstanceFilter& filter, gl::Cull cull, bool bindTextur
             gl::setFrontFace(flipped == 0);
             boundFlipped = flipped;
         }
-        gl::drawIndexed({instance.firstIndex, instance.indexCount, instance.firstVertex, index, copies});
+        if (part)
+            drawParts(index, part, copies);
+        else
+            gl::drawIndexed({instance.firstIndex, instance.indexCount, instance.firstVertex, index, copies});
     }
 }
 

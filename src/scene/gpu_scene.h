@@ -34,9 +34,13 @@ class GpuScene {
     // (shared/scene.h), 5 the index into the instance table. `cull` holds for single-sided materials;
     // double-sided ones are never culled; flipped instances reverse the front face. `bindTextures`: the
     // material's six textures at UNIT_MATERIAL_*. `copies`: instances per draw, gl_InstanceID = 0..copies-1
-    // (layered rendering). GL state changed: vertex array, cull, front face, texture units 0-5.
+    // (layered rendering). `part`: asked for each part of a mesh, a few hundred triangles, by its box in
+    // object space; parts that it turns down are not drawn (empty: all are). GL state changed: vertex array,
+    // cull, front face, texture units 0-5.
     using InstanceFilter = std::function<bool(const gpu::Instance&)>;
-    void draw(const InstanceFilter& filter, gl::Cull cull, bool bindTextures, int copies = 1) const;
+    using PartFilter = std::function<bool(const gpu::Instance&, const Aabb& objectBox)>;
+    void draw(const InstanceFilter& filter, gl::Cull cull, bool bindTextures, int copies = 1,
+              const PartFilter& part = {}) const;
 
     // One entry each; geometry, index ranges and textures stay. setInstance keeps the mesh it has.
     // `material`: as the Scene counts them. Nothing is checked (scene/scene_checks.h).
@@ -81,10 +85,13 @@ class GpuScene {
     void setFlags(std::size_t instance, const Instance& source);
     void uploadInstance(std::size_t instance);
     void sortDraws();
+    void drawParts(std::uint32_t instance, const PartFilter& part, int copies) const;
     void bindMaterialTextures(std::uint32_t material) const;
 
     std::vector<gpu::Instance> instances_;
     std::vector<Aabb> instanceObjectBounds_, instanceBounds_;
+    std::vector<Aabb> partBounds_;            // object boxes of the parts of all meshes
+    std::vector<std::size_t> instanceParts_;  // the first of an instance's mesh
     std::vector<std::uint64_t> instanceRevisions_;
     std::vector<std::uint32_t> moved_;  // since the last endFrame()
     std::uint64_t identity_ = 0, geometryRevision_ = 0, lightRevision_ = 0;

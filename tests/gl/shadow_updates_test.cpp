@@ -3,8 +3,12 @@
 // one is the matter of tests/image/scene_changes_test.cpp.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <utility>
 
+#include "conelight/renderer.h"
 #include "light/shadow_maps.h"
 #include "scene/gpu_scene.h"
 #include "support/gl_fixture.h"
@@ -74,6 +78,59 @@ TEST_F(ShadowUpdates, OnlyMapsThatTheChangeTouchesAreDrawn) {
     scene.lights[0].castsShadow = false;
     gpu.setLights(scene.lights);
     EXPECT_EQ(redrawn(maps, gpu), 0);
+}
+
+// A shell with every other patch left out, around a lamp: each of its six maps sees a sixth of the mesh, some
+// parts of it and not the others. The shadows on the walls are those of the shell in pieces, which are drawn
+// whole.
+TEST_F(ShadowUpdates, PartsOfAMeshAreDrawnWhereAMapSeesThem) {
+    constexpr int kRows = 48, kColumns = 96;
+    const auto corner = [](int row, int column) {
+        const float theta = 3.14159265f * (static_cast<float>(row) + 0.5f) / (kRows + 1);
+        const float phi = 6.2831853f * static_cast<float>(column) / kColumns;
+        return 0.5f *
+               glm::vec3(std::sin(theta) * std::cos(phi), std::cos(theta), std::sin(theta) * std::sin(phi));
+    };
+    const auto picture = [&](bool inPieces) {
+        Scene scene;
+        for (int axis = 0; axis < 3; ++axis) {
+            glm::vec3 origin(-2), u(0), v(0);
+            u[(axis + 1) % 3] = 4;
+            v[(axis + 2) % 3] = 4;
+            addInstance(scene, quadMesh(origin, u, v), {.doubleSided = true});
+            origin[axis] = 2;
+            addInstance(scene, quadMesh(origin, u, v), {.doubleSided = true});
+        }
+        Mesh shell;
+        for (int row = 0; row < kRows; ++row) {
+            for (int column = 0; column < kColumns; ++column) {
+                if ((row / 4 + column / 4) % 2 != 0) continue;
+                const auto first = static_cast<std::uint32_t>(shell.positions.size());
+                for (const int k : {0, 1, 2, 3})
+                    shell.positions.push_back(corner(row + k / 2, column + k % 2));
+                for (const std::uint32_t k : {0u, 1u, 2u, 2u, 1u, 3u}) shell.indices.push_back(first + k);
+            }
+            if (inPieces) addInstance(scene, std::exchange(shell, {}), {.doubleSided = true});
+        }
+        if (!inPieces) addInstance(scene, shell, {.doubleSided = true});
+        scene.lights.push_back({.intensity = glm::vec3(5), .position = {0.05f, 0.02f, -0.03f}});
+        Settings phong;
+        phong.mode = Mode::Phong;
+        phong.light.shadowSize = 512;
+        Camera camera;
+        camera.eye = {-1.9f, 1.7f, -1.8f};
+        camera.target = {0.8f, -0.7f, 0.7f};
+        Renderer renderer;
+        renderer.setScene(scene);
+        renderer.render(camera, 160, 120, phong);
+        return renderer.readImage();
+    };
+    const Image whole = picture(false), pieces = picture(true);
+    EXPECT_TRUE(whole.pixels == pieces.pixels);
+    const auto dark = std::count_if(whole.pixels.begin(), whole.pixels.end(),
+                                    [](const glm::vec4& pixel) { return pixel.g == 0; });
+    EXPECT_GT(dark, 160 * 120 / 5);
+    EXPECT_LT(dark, 160 * 120 * 4 / 5);
 }
 
 }  // namespace
