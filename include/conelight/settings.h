@@ -195,6 +195,7 @@ struct TracedSettings {
     int faceBudget = 0;     // faces updated per call when budgeted; 0: all
     int bounces = 16;       // of indirect light; 16: all; 0..16
     bool exactHits = true;  // light of point, spot and directional lights is looked up where rays hit
+    bool exactMirrors = false;  // rays from smooth surfaces meet triangles, not what voxels keep of them
     // Off: a call returns a finished picture, with all updates and passes. On: each call does one update and
     // one pass, and what came before is reused where it is still seen.
     bool budgeted = false;

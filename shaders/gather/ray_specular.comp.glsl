@@ -3,6 +3,7 @@
 // G-buffer -> radiance in the specular lobe over the lobe's directional albedo, by rays along visible normals
 // of GGX (Heitz 2018, "Sampling the GGX Distribution of Visible Normals"), averaged with the passes and
 // frames before. What a ray meets shows its interpolated cached light, so that mirrors show no voxels.
+// TRIANGLE_HITS 1: rays into smooth lobes meet triangles, not plane pieces (lib/triangle_hit.glsl).
 // COUNT_LOOKUPS 1: adds what rays look up to the counters, shadow maps at hits included.
 //
 // LOBE_LISTED 1: the listed pixels (gather/lobe_select.comp.glsl), by an indirect dispatch of LOBE_GROUPS_X
@@ -13,6 +14,8 @@
 #define SMOOTH_HITS 1
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "lib/ggx_sample.glsl"
+#include "lib/scene_tables.glsl"
+#include "lib/surface_array.glsl"
 #define LOBE_LIST_ACCESS readonly
 #include "lib/lobe_list.glsl"
 #include "lib/temporal.glsl"
@@ -42,6 +45,12 @@ void main() {
         direction -= 2.0 * min(dot(direction, s.geometricNormal), 0.0) * s.geometricNormal;
         bool counts = glossy && weight.r + weight.g + weight.b > 0.0;
         VoxelHit hit;
+#if TRIANGLE_HITS
+        float pixelAngle = 2.0 * length(frame.viewUp) / float(frame.height);
+        rayCone =
+            RayCone(b.alpha <= kTriangleAlpha ? s.depth * pixelAngle * pixelRays.inverseVoxelSize : -1.0,
+                    pixelAngle + b.alpha);
+#endif
         vec3 radiance = rayRadiance(origin, s.geometricNormal, direction, counts ? 1e9 : -1.0, -1.0,
                                     counts ? int(pixelRays.reflections) : 0, b.alpha,
                                     pixelRays.reflectedLimit, random, hit);

@@ -13,6 +13,9 @@
 // block of 2^3, or an empty cube of bricks. Measured against seven other shapes: docs/theory/4_gather.md.
 // A surface that is met from behind is not there.
 //
+// TRIANGLE_HITS 1: rays of which rayCone.width is not negative meet the triangles of the voxels, not their
+// plane pieces (lib/triangle_hit.glsl).
+//
 // Before the call: SurfaceVoxels::bind, OctantWords::bind.
 #include "lib/lookup_count.glsl"
 #include "lib/record_steps.glsl"
@@ -24,9 +27,16 @@ layout(binding = UNIT_VOXEL_FACES) uniform usamplerBuffer voxelFaces;
 layout(binding = IMAGE_VOXEL_BRICKS, rgba32ui) readonly uniform uimage3D voxelBrickImage;
 layout(binding = IMAGE_VOXEL_OCTANTS, rg32ui) readonly uniform uimage3D voxelOctants;
 
+#ifndef TRIANGLE_HITS
+#define TRIANGLE_HITS 0
+#endif
 struct VoxelHit {
     int face;  // index of the face record; -1: nothing was met
     float t;   // distance in voxels; tMax when nothing was met
+#if TRIANGLE_HITS
+    int triangle;  // that was met; -1: a plane piece
+    vec2 at;       // barycentric coordinates of its second and third corner
+#endif
 };
 
 // A face is met when its normal turns against the ray by more than this: flatter crossings have no
@@ -100,6 +110,8 @@ void testVoxelFaces(ivec3 voxel, vec3 origin, vec3 direction, vec3 leaves, uint 
     } while (left != 0u);
 }
 
+#include "lib/triangle_hit.glsl"
+
 // `leaves`: normal of the surface that the ray starts from, or 0.
 VoxelHit traceVoxels(vec3 origin, vec3 direction, float tMax, vec3 leaves) {
     vec3 size = vec3(gridSize());
@@ -119,7 +131,11 @@ VoxelHit traceVoxels(vec3 origin, vec3 direction, float tMax, vec3 leaves) {
     vec3 leave = (size - from) * inverse;
     float tEnter = max(max(enter.x, enter.y), max(enter.z, 0.0));
     float tEnd = min(min(min(leave.x, leave.y), leave.z) - kRayEnd, tMax);
+#if TRIANGLE_HITS
+    VoxelHit hit = VoxelHit(-1, tMax, -1, vec2(0.0));
+#else
     VoxelHit hit = VoxelHit(-1, tMax);
+#endif
     bool alive = tEnd > tEnter;
     float t = alive ? tEnter : 0.0;
     tEnd = alive ? tEnd : -3e38;  // below every t, also those of cells behind the origin
@@ -155,6 +171,11 @@ VoxelHit traceVoxels(vec3 origin, vec3 direction, float tMax, vec3 leaves) {
             cell = mix(there, border, lessThanEqual(exits, vec3(t)));
         } while (!candidate && t < tEnd);
         uint tested = candidate && alive ? facing : 0u;
+#if TRIANGLE_HITS
+        bool triangles = rayCone.width >= 0.0;
+        testVoxelTriangles(mix(at, last - at, down), origin, direction, tested != 0u && triangles, tMax, hit);
+        tested = triangles ? 0u : tested;
+#endif
         testVoxelFaces(mix(at, last - at, down), origin, direction, leaves, tested, tMax, hit, weight);
     } while (hit.face < 0 && t < tEnd);
     return hit;

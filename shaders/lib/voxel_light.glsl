@@ -7,6 +7,7 @@
 // scene. FIND_BACKS 1: rays by the cosine are followed back as well, to see whether they met a surface from
 // behind.
 // LOBES 1: where a ray meets metal it goes on in its lobe (rayRadiance). 0: metals shine as if matt.
+// TRIANGLE_HITS 1: rays into smooth lobes meet triangles (lib/triangle_hit.glsl); needs SMOOTH_HITS 1.
 // SMOOTH_HITS 1: what is met shows irradiance and normal interpolated over the voxels about it, not those of
 // its face.
 //
@@ -40,7 +41,7 @@
 #endif
 #include "lib/lights.glsl"
 #endif
-#if LOBES
+#if LOBES || TRIANGLE_HITS
 layout(binding = UNIT_VOXEL_FACE_SOURCES) uniform usamplerBuffer faceSources;
 #endif
 #if SMOOTH_HITS
@@ -77,12 +78,17 @@ float faceBrightness(vec3 radiance) { return dot(radiance, vec3(1.0 / 3.0)); }
 
 vec3 faceNormalOf(int face) { return octDecode(unpackSnorm2x16(texelFetch(voxelFaces, 2 * face).x)); }
 
+#include "lib/triangle_surface.glsl"
+
 // Radiance at a hit, all surfaces matt; the sky where nothing was met. `s`: of the face that was hit; its
 // irradiance becomes that of the point, where it is looked up. `bent`: the normal there, in the same way.
 vec3 hitRadiance(VoxelHit hit, vec3 origin, vec3 direction, inout FaceShade s, out vec3 bent) {
     int face = max(hit.face, 0);
     vec3 normal = faceNormalOf(face);
     bent = normal;
+#if TRIANGLE_HITS
+    if (hit.triangle >= 0) return triangleRadiance(hit, origin, direction, s, bent);
+#endif
 #if EXACT_DIRECT || SMOOTH_HITS
     vec3 point = origin + (hit.face >= 0 ? hit.t : 0.0) * direction;
 #endif
@@ -140,9 +146,13 @@ struct LobeStep {
 };
 
 // `widening`: added to the square of the lobe's width. `bent`: the normal that the lobe is about.
-LobeStep reflectRay(int face, FaceShade s, vec2 lobe, float widening, vec3 matt, vec3 point, vec3 bent,
+LobeStep reflectRay(VoxelHit hit, FaceShade s, vec2 lobe, float widening, vec3 matt, vec3 point, vec3 bent,
                     vec3 direction, vec2 xi) {
+    int face = max(hit.face, 0);
     vec3 normal = faceNormalOf(face);
+#if TRIANGLE_HITS
+    normal = hit.triangle >= 0 ? metTriangle.geometricNormal : normal;
+#endif
     float alpha = max(lobe.y, kMinRoughness) * max(lobe.y, kMinRoughness);
     alpha = min(sqrt(alpha * alpha + widening), 1.0);
     Brdf b = makeBrdf(s.albedo, lobe.x, sqrt(alpha), vec3(0.04), -dot(bent, direction));
@@ -158,7 +168,11 @@ LobeStep reflectRay(int face, FaceShade s, vec2 lobe, float widening, vec3 matt,
     next.glossy = 1.0 - share;
     vec3 emission = unpackEmission(texelFetch(faceSources, face).xy);
     next.radiance = emission + share * max(matt - emission, vec3(0.0));
-    vec3 position = worldFromGrid(point + faceRise(texelFetch(voxelFaces, 2 * face), normal));
+    vec3 rise = faceRise(texelFetch(voxelFaces, 2 * face), normal);
+#if TRIANGLE_HITS
+    rise = hit.triangle >= 0 ? vec3(0.0) : rise;
+#endif
+    vec3 position = worldFromGrid(point + rise);
     if (alpha >= kNarrowLobe)
         next.radiance += reflectedRects(b, position, bent, normal, -direction, fract(7.0 * xi.x + xi.y));
 #if EXACT_DIRECT
@@ -210,12 +224,15 @@ vec3 rayRadiance(vec3 origin, vec3 leaves, vec3 direction, float reach, float ai
         vec2 lobe = unpackLobe(bits >> 16);
         vec3 bent;
         vec3 radiance = hitRadiance(hit, origin, direction, s, bent);
+#if TRIANGLE_HITS
+        lobe = hit.triangle >= 0 ? metTriangle.lobe : lobe;
+#endif
         bool lamp = (bits & FACE_AREA_LIGHT) != 0u;
         bool arrived = count > 0 || aim < 0.0 || abs(hit.t - aim) < 0.3;
         bool metal = hit.face >= 0 && lobe.x > 0.0 && lobe.y <= kRoughestLobe && s.usable && !lamp && arrived;
         if (narrow && hit.face >= 0 && lamp) radiance += unpackEmission(texelFetch(faceSources, face).xy);
         vec2 xi = vec2(randomNext(random), randomNext(random));
-        LobeStep next = reflectRay(face, s, lobe, spread2 * kLobeWidening / limit, radiance,
+        LobeStep next = reflectRay(hit, s, lobe, spread2 * kLobeWidening / limit, radiance,
                                    origin + hit.t * direction, bent, direction, xi);
         going = metal && count < reflections;
         // The lobe's part of what surfaces about it show; matt metal has it in its colour.
@@ -228,6 +245,11 @@ vec3 rayRadiance(vec3 origin, vec3 leaves, vec3 direction, float reach, float ai
         spread2 += next.alpha * next.alpha;
         narrow = next.alpha < kNarrowLobe;
         going = going && throughput.r + throughput.g + throughput.b > 0.0;
+#if TRIANGLE_HITS
+        bool sharp = rayCone.width >= 0.0 && spread2 <= kTriangleAlpha * kTriangleAlpha;
+        rayCone.width = sharp ? rayCone.width + hit.t * rayCone.growth : -1.0;
+        rayCone.growth += next.alpha;
+#endif
         if (going) {
             origin = next.origin;
             direction = next.direction;

@@ -38,6 +38,13 @@
 #define UNIT_VOXEL_RECORDS 17       // usamplerBuffer R32UI (voxRec)
 #define UNIT_VOXEL_FACES 18         // usamplerBuffer RGBA32UI, two texels per face (FaceRecord)
 #define UNIT_VOXEL_FACE_SOURCES 19  // usamplerBuffer RG32UI (faceSource)
+// What rays need that meet triangles (SurfaceVoxels::bindTriangles), among the units of the running pass.
+#define UNIT_VOXEL_CHAINS 11     // usamplerBuffer RG32UI: first fragment + 1, directions; of each record
+#define UNIT_VOXEL_FRAGMENTS 12  // usamplerBuffer RGBA32UI, two texels per fragment (surface_clip)
+#define UNIT_VOXEL_PAIRS 13      // usamplerBuffer RG32UI: triangle, voxel; of each fragment
+#define UNIT_VOXEL_TRIANGLES 14  // samplerBuffer RGBA32F, three texels per triangle: corners, voxels
+// In the first corner's fourth number, above the 24 bits of the instance.
+#define VOXEL_TRIANGLE_TWO_SIDED 0x1000000u
 // Image units, for reads that are many: software drivers fetch texels of such formats by a call each, and
 // load from images in line (rays 11 % faster, the cache at pixels 17 %).
 #define IMAGE_VOXEL_BRICKS 6   // uimage3D (brickWord)

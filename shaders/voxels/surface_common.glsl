@@ -75,7 +75,7 @@ layout(std140, binding = BINDING_PASS) uniform SurfaceBlock { SurfaceConstants s
 // the bounds are too wide from place faceCapacity - 1 downwards.
 
 // Flags of a triangle, above the 24 bits of its instance.
-#define TRIANGLE_TWO_SIDED 0x1000000u
+#define TRIANGLE_TWO_SIDED VOXEL_TRIANGLE_TWO_SIDED
 #define TRIANGLE_UNUSED 0x2000000u
 
 // Linear index of this invocation; groups may be folded into y.

@@ -90,6 +90,10 @@ void visitTraced(S& s, V& visit) {
     visit.integer("traced.bounces", s.bounces, 0, 16, 1, "", "bounces of indirect light; 16: all");
     visit.boolean("traced.exact_hits", s.exactHits,
                   "look up the light of point, spot and directional lights where rays hit, by shadow map");
+    visit.boolean(
+        "traced.exact_mirrors", s.exactMirrors,
+        "rays from mirrors (roughness up to 0.3) meet triangles with their textures, not what voxels keep "
+        "of them; off: voxels, faster");
     visit.boolean("traced.budgeted", s.budgeted,
                   "one update and one pass per frame, reusing frames before, for moving pictures; off: every "
                   "frame is finished");

@@ -233,6 +233,7 @@ void TracedMode::Impl::drawParts(const FrameContext& frame, const gather::Pictur
         irradiance = &diffuse.filtered(rayFrame(frame), settings.filterLevels);
     }
     if (settings.specularRays > 0 && shown.specular && hasGloss(frame.scene, settings.specularLimit)) {
+        if (settings.exactMirrors) surface.bindTriangles();
         gather(frame, specular, seenSpecular, settings.specularRays, settings.passes);
         lobe = &specular.filtered(rayFrame(frame), settings.filterLevels);
         lobes = specular.lobes();
@@ -299,8 +300,10 @@ void TracedMode::record(const FrameContext& frame, gather::StepRecorder& recorde
         m.diffuse.record(rays, settings, settings.pixelRays, settings.passes, recorder);
     else
         m.shade.recordCache(frame.programs, recorder);
-    if (settings.specularRays > 0 && hasGloss(frame.scene, settings.specularLimit))
+    if (settings.specularRays > 0 && hasGloss(frame.scene, settings.specularLimit)) {
+        if (settings.exactMirrors) m.surface.bindTriangles();
         m.specular.record(rays, settings, settings.specularRays, settings.passes, recorder);
+    }
 }
 
 std::vector<gl::ProgramDesc> TracedMode::programDescs() {

@@ -46,6 +46,14 @@ gl::ProgramDesc gatherDesc(RayPicture kind, Reuse reuse, bool motion, bool count
     return desc;
 }
 
+// What rays look up where they hit.
+gl::Defines hitDefines(RayPicture kind, const PixelRayFrame& frame, const TracedSettings& settings) {
+    if (kind == RayPicture::Occlusion) return kNoHitLights;
+    gl::Defines defines = light::hitLightDefines(frame.scene, frame.light, settings.exactHits);
+    if (kind == RayPicture::Specular && settings.exactMirrors) defines.emplace_back("TRIANGLE_HITS", "1");
+    return defines;
+}
+
 gl::ProgramDesc selectDesc() { return {{"gather/lobe_select.comp.glsl"}, {}}; }
 
 gl::ProgramDesc filterDesc(int step, bool specular) {
@@ -165,9 +173,7 @@ void PixelRays::record(const PixelRayFrame& frame, const TracedSettings& setting
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::PixelRayConstants), "pixel rays constants");
     bindPicture(current_.texture, PIXEL_UNIT_HISTORY);
     other_.texture.bindImage(0, 0, GL_WRITE_ONLY);
-    const gl::Defines lights = kind_ == RayPicture::Occlusion
-                                   ? kNoHitLights
-                                   : light::hitLightDefines(frame.scene, frame.light, settings.exactHits);
+    const gl::Defines lights = hitDefines(kind_, frame, settings);
     for (int pass = 0; pass < passes; ++pass) {
         constants_.update(packed(frame, settings, rays, static_cast<std::uint32_t>(pass), passes));
         constants_.bindUniform(BINDING_PASS);
@@ -193,9 +199,7 @@ void PixelRays::gather(const PixelRayFrame& frame, const TracedSettings& setting
     if (frame.motion != nullptr) frame.motion->bindStorage(PIXEL_MOTION);
     bindPicture(current_.texture, PIXEL_UNIT_HISTORY);
     other_.texture.bindImage(0, 0, GL_WRITE_ONLY);
-    const gl::Defines lights = kind_ == RayPicture::Occlusion
-                                   ? kNoHitLights
-                                   : light::hitLightDefines(frame.scene, frame.light, settings.exactHits);
+    const gl::Defines lights = hitDefines(kind_, frame, settings);
     const bool counts = frame.lookupCounters != nullptr;
     if (counts) frame.lookupCounters->bindStorage(LOOKUP_TABLE);
     const bool moving = frame.motion != nullptr;
@@ -275,6 +279,15 @@ std::vector<gl::ProgramDesc> PixelRays::programDescs() {
             descs.push_back(StepRecorder::variant(desc));
     descs.push_back(
         StepRecorder::variant(gatherDesc(RayPicture::Occlusion, Reuse::None, false, false, kNoHitLights)));
+    // Mirrors that show triangles.
+    const LobePixels listed = LobePixels::Listed;
+    for (gl::ProgramDesc& desc : light::hitLightVariants(gatherDesc(
+             RayPicture::Specular, Reuse::SameView, false, false, {{"TRIANGLE_HITS", "1"}}, listed)))
+        descs.push_back(std::move(desc));
+    descs.push_back(gatherDesc(RayPicture::Specular, Reuse::SameView, false, true,
+                               {{"EXACT_DIRECT", "0"}, {"TRIANGLE_HITS", "1"}}, listed));
+    descs.push_back(StepRecorder::variant(gatherDesc(RayPicture::Specular, Reuse::None, false, false,
+                                                     {{"EXACT_DIRECT", "0"}, {"TRIANGLE_HITS", "1"}})));
     for (const int step : {1, 2, 4, 8})
         for (const bool specular : {false, true}) descs.push_back(filterDesc(step, specular));
     return descs;

@@ -142,7 +142,7 @@ gl::ProgramDesc clipPass(int detail, bool emission, bool lobes, bool update) {
 struct Results {
     gl::Texture brickWords;
     gl::Buffer records, faces, faceSources, chains;
-    gl::Texture recordTexels, faceTexels, sourceTexels;
+    gl::Texture recordTexels, faceTexels, sourceTexels, chainTexels;
     std::uint32_t voxels = 0, faceCount = 0;  // there is room for
 
     void reserve(std::uint32_t wantedVoxels, std::uint32_t wantedFaces);
@@ -152,6 +152,7 @@ struct Results {
 void Results::reserve(std::uint32_t wantedVoxels, std::uint32_t wantedFaces) {
     if (wantedVoxels > voxels) {
         chains = gl::Buffer(std::size_t{8} * wantedVoxels, "voxelizer chains");
+        chainTexels = gl::Texture(chains, GL_RG32UI, "voxelizer chains");
         records = gl::Buffer(std::size_t{4} * wantedVoxels, "voxel records");
         recordTexels = gl::Texture(records, GL_R32UI, "voxel records");
         voxels = wantedVoxels;
@@ -668,6 +669,14 @@ void SurfaceVoxels::bind() const {
     m.now.recordTexels.bind(UNIT_VOXEL_RECORDS);
     m.now.faceTexels.bind(UNIT_VOXEL_FACES);
     m.now.sourceTexels.bind(UNIT_VOXEL_FACE_SOURCES);
+}
+
+void SurfaceVoxels::bindTriangles() const {
+    const Impl& m = *impl_;
+    m.now.chainTexels.bind(UNIT_VOXEL_CHAINS);
+    m.fragmentTexels.bind(UNIT_VOXEL_FRAGMENTS);
+    m.pairTexels.bind(UNIT_VOXEL_PAIRS);
+    m.triangleTexels.bind(UNIT_VOXEL_TRIANGLES);
 }
 
 const VoxelGrid& SurfaceVoxels::grid() const { return impl_->grid; }

@@ -68,6 +68,8 @@ class SurfaceVoxels {
 
     // Binds the grid block and the slots BINDING_VOXEL_* and UNIT_VOXEL_* of shared/voxels.h.
     void bind() const;
+    // Binds what rays need that meet triangles: the slots UNIT_VOXEL_CHAINS to UNIT_VOXEL_TRIANGLES.
+    void bindTriangles() const;
 
     const VoxelGrid& grid() const;
     std::uint32_t voxelCount() const;  // occupied voxels

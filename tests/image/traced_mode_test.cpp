@@ -196,6 +196,93 @@ TEST_F(TracedModeTest, MetalBallsShowEachOthersHighlights) {
     EXPECT_NEAR(meanOf(image) / meanOf(truth.indirect), 1.0, 0.04);
 }
 
+// What a mirror shows of a chequered wall and of a ball before it: pattern finer than voxels, a round edge.
+TEST_F(TracedModeTest, ExactMirrorsShowTexturesAndEdges) {
+    Scene scene = closedBox(mattMaterial(glm::vec3(0)));
+    Texture chequer;
+    chequer.width = chequer.height = 64;
+    for (int y = 0; y < 64; ++y)
+        for (int x = 0; x < 64; ++x) {
+            const bool light = (x / 4 + y / 4) % 2 == 0;
+            chequer.rgba.insert(chequer.rgba.end(), {static_cast<std::uint8_t>(light ? 255 : 0),
+                                                     static_cast<std::uint8_t>(light ? 0 : 255), 0, 255});
+        }
+    scene.textures.push_back(std::move(chequer));
+    Material& wall = scene.materials[static_cast<std::size_t>(scene.instances[5].material)];
+    wall.emission = glm::vec3(1);
+    wall.emissiveTexture.texture = 0;
+    Material metal = mattMaterial(glm::vec3(1));
+    metal.metallic = 1;
+    metal.roughness = 0.02f;
+    addInstance(scene, quadMesh({-0.9f, -0.9f, -0.95f}, {1.8f, 0, 0}, {0, 1.8f, 0}), metal);
+    addInstance(scene, sphereMesh(32, 16), mattMaterial(glm::vec3(0)),
+                glm::scale(glm::translate(glm::mat4(1), {0.45f, 0.45f, 0}), glm::vec3(0.3f)));
+    Camera& camera = scene.cameras.at(0);
+    camera.eye = {-0.35f, -0.2f, 0.1f};
+    camera.target = {0, 0.05f, -0.95f};
+    camera.fovY = 0.9f;
+    reference::PathTracerSettings path;
+    path.samplesPerPixel = 64;
+    path.emissiveQuads = false;
+    const reference::PathTracedPicture truth =
+        reference::PathTracer(scene).render(camera, kPixels, kPixels, path);
+    Settings settings = smallSettings(Quality::Interactive, Component::Indirect);
+    settings.light.emissiveQuads = false;
+    settings.traced.filterLevels = 0;
+    const double voxels = indirectError(draw(scene, settings), truth);
+    settings.traced.exactMirrors = true;
+    const double triangles = indirectError(draw(scene, settings), truth);
+    EXPECT_GT(voxels, 0.4) << "not a case that needs triangles";
+    EXPECT_LT(triangles, 0.1);
+}
+
+// A masked surface has holes in a mirror, and an instance that moved is where it is now.
+TEST_F(TracedModeTest, ExactMirrorsShowHolesAndWhatMoved) {
+    Scene scene = closedBox(mattMaterial(glm::vec3(0)));
+    Texture half;
+    half.width = half.height = 2;
+    for (int i = 0; i < 4; ++i)
+        half.rgba.insert(half.rgba.end(), {255, 255, 255, static_cast<std::uint8_t>(i % 2 == 0 ? 255 : 0)});
+    half.filter = TextureFilter::Nearest;
+    scene.textures.push_back(std::move(half));
+    Material sheet = mattMaterial(glm::vec3(0), glm::vec3(1));
+    sheet.baseColorTexture.texture = 0;
+    sheet.alphaMode = AlphaMode::Mask;
+    Material metal = mattMaterial(glm::vec3(1));
+    metal.metallic = 1;
+    metal.roughness = 0.02f;
+    addInstance(scene, quadMesh({-1, -1, -0.95f}, {2, 0, 0}, {0, 2, 0}), metal);
+    const std::size_t moving =
+        addInstance(scene, quadMesh({0.5f, -0.5f, 0.9f}, {-1, 0, 0}, {0, 1, 0}), sheet);
+    Camera& camera = scene.cameras.at(0);
+    camera.eye = {0, 0, 0.8f};
+    camera.target = {0, 0, -1};
+    camera.fovY = 0.6f;
+    Settings settings = smallSettings(Quality::Draft);
+    settings.light.emissiveQuads = false;
+    settings.traced.exactMirrors = true;
+    settings.traced.filterLevels = 0;
+    Renderer renderer;
+    renderer.setScene(scene);
+    // Pixels left and right of the middle show one half of the sheet each.
+    const auto halves = [&](const Image& image) {
+        const auto at = [&](int x) {
+            return image.pixels[static_cast<std::size_t>(kPixels / 2 * kPixels + x)].x;
+        };
+        return glm::vec2(at(kPixels / 2 - 6), at(kPixels / 2 + 6));
+    };
+    const glm::vec2 before = halves(draw(renderer, scene, settings));
+    EXPECT_NEAR(std::max(before.x, before.y), 1.0f, 0.05f);
+    EXPECT_NEAR(std::min(before.x, before.y), 0.0f, 0.05f);
+    // By half its width: the opaque half is now where the holes were.
+    scene.instances[moving].worldFromObject =
+        glm::translate(glm::mat4(1), {before.x < before.y ? -0.5f : 0.5f, 0, 0});
+    renderer.setInstance(moving, scene.instances[moving]);
+    const glm::vec2 after = halves(draw(renderer, scene, settings));
+    EXPECT_NEAR(after.x, before.y, 0.05f);
+    EXPECT_NEAR(after.y, before.x, 0.05f);
+}
+
 TEST_F(TracedModeTest, SameBitsTwice) {
     const Scene scene = io::generateScene("cornell");
     for (const Quality quality : {Quality::Draft, Quality::Interactive}) {
