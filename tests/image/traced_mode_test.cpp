@@ -237,8 +237,7 @@ TEST_F(TracedModeTest, ExactMirrorsShowHolesAndWhatMoved) {
     Scene scene = closedBox(mattMaterial(glm::vec3(0)));
     Texture half;
     half.width = half.height = 2;
-    for (int i = 0; i < 4; ++i)
-        half.rgba.insert(half.rgba.end(), {255, 255, 255, static_cast<std::uint8_t>(i % 2 == 0 ? 255 : 0)});
+    half.rgba = {255, 255, 255, 255, 255, 255, 255, 0, 255, 255, 255, 255, 255, 255, 255, 0};
     half.filter = TextureFilter::Nearest;
     scene.textures.push_back(std::move(half));
     Material sheet = mattMaterial(glm::vec3(0), glm::vec3(1));
