@@ -48,9 +48,10 @@ void Viewer::jobStrips(const glm::vec2& at, const glm::vec2& size) {
         if (secondsLeft >= 0) text += ", " + timeText(secondsLeft) + " left";
         ImGui::SetNextWindowPos({at.x + 0.5f * em, y});
         ImGui::SetNextWindowSize({std::min(36 * em, size.x - em), 2.3f * em});
-        ImGui::Begin(
-            (std::string("##") + name).c_str(), nullptr,
-            ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings);
+        // It does not take the keys from who types: `stop`, for example.
+        ImGui::Begin((std::string("##") + name).c_str(), nullptr,
+                     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                         ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
         ImGui::ProgressBar(static_cast<float>(done), {-5 * em, 0}, text.c_str());
         ImGui::SameLine();
         const bool stopped = ImGui::Button("stop", {-1, 0});
