@@ -273,15 +273,11 @@ vec3 cosineDirection(vec3 n, vec2 xi) {
 // A random point on a random bright face, in grid coordinates: face by its flux (faceFlux), point uniform in
 // its bounds as rays meet them (aimBounds), seen along its direction k, moved along k onto the plane: density
 // (4.11). Returns the face; -1 where that point is not in the bounds. xi.x chooses the face: the pool is
-// ordered as voxels are, so evenly spread numbers are spread over the scene.
+// ordered as voxels are but for close neighbours, so evenly spread numbers are spread over the scene.
 int sampleBrightFace(vec3 xi, vec3 origin, out vec3 point, out vec3 normal) {
     uint header = texelFetch(brightFaces, 0).x;
-    uint entry = uint(xi.x * float(BRIGHT_FACE_COUNT));
-    // Neighbours in the pool alternate as voxels do, two layers of a lamp for example, and evenly spread
-    // numbers would find the same one everywhere: within groups of 8 and 64 they are exchanged at random.
-    entry ^= randomHash(entry >> 3) & 7u;
-    entry ^= randomHash(entry >> 6) & 56u;
-    int face = int(texelFetch(brightFaces, 1 + int(entry)).x);
+    int entry = int(xi.x * float(BRIGHT_FACE_COUNT));
+    int face = int(texelFetch(brightFaces, 1 + entry).x);
     uvec4 r = texelFetch(voxelFaces, 2 * face);
     int axis = int(r.w >> 30);
     normal = octDecode(unpackSnorm2x16(r.x));

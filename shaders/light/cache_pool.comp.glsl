@@ -1,7 +1,8 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// Draws the pool of bright faces: entry i is the face at a random place in the i-th of equal parts of the
-// total flux (stratified). Finds its chunk by bisection, then walks through the chunk.
+// Draws the pool of bright faces: each entry is the face at a random place in one of equal parts of the
+// total flux (stratified), in their order but for close neighbours. Finds its chunk by bisection, then walks
+// through the chunk.
 layout(local_size_x = 64) in;
 #include "lib/random.glsl"
 #include "light/cache_common.glsl"
@@ -9,7 +10,11 @@ layout(std430, binding = CACHE_POOL) writeonly buffer PoolTable { uint pool[]; }
 layout(binding = UNIT_VOXEL_FACES) uniform usamplerBuffer faces;
 
 void main() {
-    uint entry = min(gl_GlobalInvocationID.x, BRIGHT_FACE_COUNT - 1u);
+    uint place = min(gl_GlobalInvocationID.x, BRIGHT_FACE_COUNT - 1u);
+    // Neighbours alternate as voxels do, two layers of a lamp for example, and evenly spread numbers would
+    // find the same one everywhere: within groups of 8 and 64 they are exchanged at random.
+    uint entry = place ^ (randomHash(place >> 3) & 7u);
+    entry ^= randomHash(entry >> 6) & 56u;
     float total = chunks[cache.chunkCount];
     uint state = randomHash(entry ^ randomHash(cache.update ^ randomHash(cache.seed ^ 0x51ed270bu)));
     float wanted = (float(entry) + randomNext(state)) * (total / float(BRIGHT_FACE_COUNT));
@@ -36,5 +41,5 @@ void main() {
         sum += flux;
         going = sum <= wanted;
     } while (++face < end && going);
-    pool[1u + entry] = found;
+    pool[1u + place] = found;
 }
