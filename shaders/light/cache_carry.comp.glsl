@@ -43,7 +43,9 @@ void main() {
         record = texelFetch(oldRecords, occupied ? int(voxelRecordIndex(word, bitOfVoxel(voxel))) : 0).x;
         had = occupied && (faceDirections(record) >> direction & 1u) != 0u;
     } while (!had && ++attempt < 3);
-    FaceCache state = unpackState(texelFetch(oldStates, int(had ? faceIndex(record, direction) : 0u)));
+    int old = had ? int(faceIndex(record, direction)) : 0;
+    uvec4 texel = texelFetch(oldStates, old);
+    FaceCache state = unpackState(texelFetch(oldStates, stateOwner(old, texel)));
     uint rays = (state.counts >> 16) & 0xffu;
     uint backs = state.counts >> 24;
     bool enough = rays >= 2u * IRRADIANCE_DEAD_RAYS;

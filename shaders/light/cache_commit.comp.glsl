@@ -5,9 +5,9 @@
 // invocation per chunk, so that sums have an order.
 //
 // AT_PIXELS 0: leaves faceLight alone, for a commit that is followed by another before pixels look.
+// SHARED 0: no face is of so few updates that pixels see it shared with its neighbours.
 layout(local_size_x = 64) in;
 #include "light/cache_common.glsl"
-#include "light/cache_state.glsl"
 layout(binding = CACHE_UNIT_STATE) uniform usamplerBuffer stateTexels;
 layout(std430, binding = BINDING_VOXEL_FACES) writeonly buffer FaceTable { uvec4 faces[]; };
 // The same once more: software drivers read storage lane by lane in loops.
@@ -16,17 +16,13 @@ layout(binding = UNIT_VOXEL_RECORDS) uniform usamplerBuffer voxelRecords;
 layout(binding = IMAGE_VOXEL_BRICKS, rgba32ui) readonly uniform uimage3D voxelBrickImage;
 layout(std430, binding = CACHE_FACE_LIGHT) writeonly buffer FaceLightTable { uvec2 faceLight[]; };
 
+#if SHARED && !AT_PIXELS
+#error only what pixels see is shared
+#endif
 #if AT_PIXELS
 // The inside of a solid lies next to its outside. Of a cloth that is seen from its other side nothing else is
 // there, so that a small weight does as well as a large one: this part of it.
 const uint kReversePart = 64u;
-
-// Neighbours count in full until a face has had as many updates as the first, and no more from the second on.
-const float kSharedFrom = 20.0;
-const float kSharedUntil = 32.0;
-// What is one plane: by the cosine between normals, and by the distance of the planes in voxels.
-const float kSamePlaneNormal = 0.95;
-const float kSamePlaneOffset = 0.2;
 
 // In 16 bits, as unpackWeight reads it from the upper half of a word.
 uint weightAtPixels(uvec4 hitTexel, bool lit) {
@@ -34,38 +30,50 @@ uint weightAtPixels(uvec4 hitTexel, bool lit) {
     if ((hitTexel.z & FACE_REVERSE) != 0u) weight = (weight + kReversePart - 1u) / kReversePart;
     return lit ? weight : 0u;
 }
+#endif
+#if SHARED
+// Neighbours count in full until a face has had as many updates as the first, and no more from the second on.
+const float kSharedFrom = 20.0;
+const float kSharedUntil = float(IRRADIANCE_SHARED_UPDATES);
+// What is one plane: by the cosine between normals, and by the distance of the planes in voxels.
+const float kSamePlaneNormal = 0.95;
+const float kSamePlaneOffset = 0.2;
 
-// The mean of a face and its neighbours on the same plane, for as long as its own is of few updates. Only
-// pixels see it: rays go on reading each face's own, whose noise they average.
-vec3 shownIrradiance(vec3 own, uvec4 hitTexel, uint updates) {
-    float share = clamp((kSharedUntil - float(updates)) / (kSharedUntil - kSharedFrom), 0.0, 1.0);
-    vec3 n = octDecode(unpackSnorm2x16(hitTexel.x));
+// What neighbour `side` of four of a face with the normal n adds to its mean, and 1; or nothing.
+vec4 neighbourIrradiance(int side, uvec4 hitTexel, vec3 n) {
     ivec3 voxel = unpackVoxel(hitTexel.w);
     int axis = int(hitTexel.w >> 30);
-    int direction = 2 * axis + (n[axis] < 0.0 ? 1 : 0);
-    ivec3 last = gridSize() - 1;
-    vec4 sum = vec4(own, 1.0);
+    float along = axis == 0 ? n.x : (axis == 1 ? n.y : n.z);
+    int direction = 2 * axis + (along < 0.0 ? 1 : 0);
+    int towards = (axis + 1 + (side >> 1)) % 3;
+    ivec3 step = ivec3(towards == 0, towards == 1, towards == 2) * (1 - 2 * (side & 1));
+    ivec3 at = clamp(voxel + step, ivec3(0), gridSize() - 1);
+    uvec4 word = imageLoad(voxelBrickImage, at >> 2);
+    bool there = brickHas(word.xy, bitOfVoxel(at));
+    uint record = there ? texelFetch(voxelRecords, int(voxelRecordIndex(word, bitOfVoxel(at)))).x : 0u;
+    there = there && (faceDirections(record) >> direction & 1u) != 0u;
+    int face = there ? int(faceIndex(record, direction)) : 0;
+    uvec4 other = texelFetch(faceTexels, 2 * face);
+    vec3 turned = octDecode(unpackSnorm2x16(other.x));
+    float apart = dot(n, vec3(step) + unpackOffset(other.y) * turned) - unpackOffset(hitTexel.y);
+    FaceCache state = unpackState(texelFetch(stateTexels, stateOwner(face, texelFetch(stateTexels, face))));
+    bool same = there && dot(n, turned) > kSamePlaneNormal && abs(apart) < kSamePlaneOffset &&
+                ((other.z ^ hitTexel.z) & FACE_REVERSE) == 0u && (state.counts & CACHE_UPDATES_MASK) != 0u &&
+                !isDead(state);
+    return same ? vec4(state.irradiance, 1.0) : vec4(0.0);
+}
+
+// The mean of a face and its neighbours on the same plane, for as long as its own is of few updates. Only
+// pixels see it: rays go on reading each face's own, whose noise they average. Four calls in place of a loop
+// take a tenth off the pass: loads side by side are cheap.
+vec3 shownIrradiance(vec3 own, uvec4 hitTexel, uint updates) {
+    float share = clamp((kSharedUntil - float(updates)) / (kSharedUntil - kSharedFrom), 0.0, 1.0);
     // Where every update replaces what was there, each has rays enough.
-    int i = share > 0.0 && updates > 0u && cache.longestWindow > 1u ? 0 : 4;
-    while (i < 4) {
-        ivec3 step = ivec3(0);
-        step[(axis + 1 + (i >> 1)) % 3] = 1 - 2 * (i & 1);
-        ivec3 at = clamp(voxel + step, ivec3(0), last);
-        uvec4 word = imageLoad(voxelBrickImage, at >> 2);
-        bool there = brickHas(word.xy, bitOfVoxel(at));
-        uint record = there ? texelFetch(voxelRecords, int(voxelRecordIndex(word, bitOfVoxel(at)))).x : 0u;
-        there = there && (faceDirections(record) >> direction & 1u) != 0u;
-        int face = there ? int(faceIndex(record, direction)) : 0;
-        uvec4 other = texelFetch(faceTexels, 2 * face);
-        vec3 turned = octDecode(unpackSnorm2x16(other.x));
-        float apart = dot(n, vec3(step) + unpackOffset(other.y) * turned) - unpackOffset(hitTexel.y);
-        FaceCache state = unpackState(texelFetch(stateTexels, face));
-        bool same = there && dot(n, turned) > kSamePlaneNormal && abs(apart) < kSamePlaneOffset &&
-                    ((other.z ^ hitTexel.z) & FACE_REVERSE) == 0u && (state.counts & 0xffffu) != 0u &&
-                    !isDead(state);
-        sum += same ? share * vec4(state.irradiance, 1.0) : vec4(0.0);
-        ++i;
-    }
+    share = updates > 0u && cache.longestWindow > 1u ? share : 0.0;
+    vec3 n = octDecode(unpackSnorm2x16(hitTexel.x));
+    vec4 sum = neighbourIrradiance(0, hitTexel, n) + neighbourIrradiance(1, hitTexel, n);
+    sum += neighbourIrradiance(2, hitTexel, n) + neighbourIrradiance(3, hitTexel, n);
+    sum = vec4(own, 1.0) + share * sum;
     return sum.rgb / sum.a;
 }
 #endif
@@ -79,10 +87,11 @@ void main() {
     do {
         bool inside = face < end;
         uint at = min(face, grid.faceCount - 1u);
-        FaceCache state = unpackState(texelFetch(stateTexels, int(at)));
+        int owner = stateOwner(int(at), texelFetch(stateTexels, int(at)));
+        FaceCache state = unpackState(texelFetch(stateTexels, owner));
         uvec4 hitTexel = texelFetch(faceTexels, 2 * int(at));
         uvec4 shade = texelFetch(faceTexels, 2 * int(at) + 1);
-        uint updates = state.counts & 0xffffu;
+        uint updates = state.counts & CACHE_UPDATES_MASK;
         bool dead = isDead(state);
         vec3 irradiance = dead ? vec3(0.0) : clamp(state.irradiance, 0.0, 65504.0);
         vec3 radiance = unpackRgb9e5(shade.y) + unpackAlbedo(shade.x) * irradiance;
@@ -94,13 +103,18 @@ void main() {
         if (inside) {
             faces[2u * at + 1u].zw = shade.zw;
 #if AT_PIXELS
+#if SHARED
             vec3 shown = clamp(shownIrradiance(irradiance, hitTexel, updates), 0.0, 65504.0);
+#else
+            vec3 shown = irradiance;
+#endif
             faceLight[at] =
                 uvec2(packHalf2x16(shown.rg), packHalf2x16(vec2(shown.b, 0.0)) |
                                                   weightAtPixels(hitTexel, !dead && updates != 0u) << 16);
 #endif
             // What was there is replaced by the next update, but is good until then.
-            if (cache.restart != 0u) states[at].counts = (state.counts & 0xffff0000u) | min(updates, 1u);
+            if (cache.restart != 0u && owner == int(at))
+                states[at].counts = (state.counts & 0xffff0000u) | min(updates, 1u);
         }
         ++face;
     } while (face < end);

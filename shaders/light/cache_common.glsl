@@ -4,16 +4,11 @@
 #include "lib/linear_index.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
-#include "shared/irradiance.h"
+#include "light/cache_state.glsl"
 layout(std140, binding = BINDING_PASS) uniform CacheBlock { CacheConstants cache; };
 layout(std430, binding = CACHE_STATE) buffer StateTable { FaceCache states[]; };
 // Per chunk of faces: its flux, then the flux of all chunks before it.
 layout(std430, binding = CACHE_CHUNKS) buffer ChunkTable { float chunks[]; };
-
-bool isDead(FaceCache state) {
-    uint rays = (state.counts >> 16) & 0xffu;
-    return rays >= IRRADIANCE_DEAD_RAYS && 4u * (state.counts >> 24) > rays;
-}
 
 // How much of the pool a face gets (docs/theory/4_gather.md, eq. 4.11).
 float faceFlux(uvec4 hitTexel, vec3 radiance) {

@@ -1,16 +1,19 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// The order in which updates visit faces: by block of 16^3 voxels, direction, place (lib/interleave.glsl),
-// brick. Eight neighbours in this order look the same way from places a few voxels apart and share their
-// directions (cache_update), so that their rays run side by side; faces next to each other in space do not
-// share theirs. A counting sort: a bin per block, direction and place, with a bit for each of the block's 64
-// bricks.
-//   STEP 0  faces -> bins
+// The order in which updates visit faces, those that gather: by block of 16^3 voxels, direction, place
+// (lib/interleave.glsl), brick. Eight neighbours in this order look the same way from places a few voxels
+// apart and share their directions (cache_update), so that their rays run side by side; faces next to each
+// other in space do not share theirs. A counting sort: a bin per block, direction and place, with a bit for
+// each of the block's 64 bricks. Faces that hold the surface of another one of their voxel do not gather;
+// they get its number (docs/theory/4_gather.md, "One surface, one mean"). Nor do those inside closed objects.
+// Faces that may be, or no longer be, inside of one are visited last, to be looked at: a half of them after
+// each sort.
+//   STEP 0  faces that gather -> bins; those that share -> states
 //   STEP 1  bins -> number of faces per chunk of bins
-//   STEP 2  the same -> faces before each chunk (one invocation)
+//   STEP 2  the same -> faces before each chunk, and at all (one invocation)
 //   STEP 3  bins -> faces before each bin
-//   STEP 4  faces -> order
-//   STEP 5  instead of all: faces as they are stored, for grids with too many bins
+//   STEP 4  faces that gather -> order
+//   STEP 5  instead of all: faces as they are stored, for grids with too many bins; all gather
 #ifndef STEP
 #error STEP must be 0 to 5
 #endif
@@ -19,11 +22,16 @@ layout(local_size_x = 64) in;
 #include "lib/linear_index.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
-#include "shared/irradiance.h"
+#include "light/cache_state.glsl"
 layout(std430, binding = CACHE_ORDER) buffer OrderTable { uint order[]; };
 layout(std430, binding = CACHE_BINS) buffer BinTable { uvec2 bins[]; };
 layout(std430, binding = CACHE_BIN_STARTS) buffer StartTable { uint starts[]; };
 layout(std430, binding = CACHE_CHUNKS) buffer ChunkTable { uint chunks[]; };
+#if STEP == 0
+layout(std430, binding = CACHE_STATE) writeonly buffer StateTable { uvec4 states[]; };
+#endif
+layout(std140, binding = BINDING_PASS) uniform OrderBlock { CacheOrder settings; };
+layout(binding = CACHE_UNIT_STATE) uniform usamplerBuffer stateTexels;
 layout(binding = UNIT_VOXEL_FACES) uniform usamplerBuffer faces;
 layout(binding = CACHE_UNIT_BINS) uniform usamplerBuffer binTexels;
 layout(binding = CACHE_UNIT_BIN_STARTS) uniform usamplerBuffer startTexels;
@@ -34,17 +42,85 @@ uint binCount() {
 }
 uint binsPerChunk() { return (binCount() + CACHE_ORDER_CHUNKS - 1u) / CACHE_ORDER_CHUNKS; }
 
+// Two faces of one voxel hold the same surface when the cosine between their normals is above the first, and
+// their planes and the middles of their bounds are no farther apart than this, in voxels.
+const float kSameSurfaceNormal = 0.92;
+const float kSameSurfaceOffset = 0.25;
+const float kSameSurfaceAside = 0.35;
+// One that covers less than this part of the other, and is turned from it by no more than this cosine, is a
+// sliver: what it gathered would be next to nothing of what is looked up there.
+const float kSliverPart = 0.1;
+const float kSliverNormal = 0.5;
+
+int directionOf(uvec4 hitTexel, vec3 n) {
+    int axis = int(hitTexel.w >> 30);
+    float along = axis == 0 ? n.x : (axis == 1 ? n.y : n.z);
+    return 2 * axis + (along < 0.0 ? 1 : 0);
+}
+// The direction in which a normal leans most.
+int mainDirection(vec3 n) {
+    vec3 a = abs(n);
+    int axis = a.x >= a.y && a.x >= a.z ? 0 : (a.y >= a.z ? 1 : 2);
+    float along = axis == 0 ? n.x : (axis == 1 ? n.y : n.z);
+    return 2 * axis + (along < 0.0 ? 1 : 0);
+}
+
+// Which face gathers for this one: that of its voxel which looks where the normal leans most, if it gathers
+// for itself and holds the same surface, or nearly all of it; else this one.
+uint gathererOf(uint face, uvec4 hitTexel) {
+    vec3 n = octDecode(unpackSnorm2x16(hitTexel.x));
+    int wanted = mainDirection(n);
+    int direction = directionOf(hitTexel, n);
+    // Faces of a voxel are stored side by side, by direction.
+    int step = wanted < direction ? -1 : 1;
+    int last = int(grid.faceCount) - 1;
+    int at = int(face);
+    uvec4 r = hitTexel;
+    bool found = false;
+    int left = abs(wanted - direction);
+    while (left > 0) {
+        at = clamp(at + step, 0, last);
+        r = texelFetch(faces, 2 * at);
+        bool here = ((r.w ^ hitTexel.w) & 0x3fffffffu) == 0u;
+        found = here && directionOf(r, octDecode(unpackSnorm2x16(r.x))) == wanted;
+        left = here && !found ? left - 1 : 0;
+    }
+    vec3 turned = octDecode(unpackSnorm2x16(r.x));
+    vec3 aside = unpackBoundsMin(r.z) + unpackBoundsMax(r.z) - unpackBoundsMin(hitTexel.z) -
+                 unpackBoundsMax(hitTexel.z);
+    bool same = dot(n, turned) > kSameSurfaceNormal &&
+                abs(unpackOffset(r.y) - unpackOffset(hitTexel.y)) < kSameSurfaceOffset &&
+                0.5 * length(aside) < kSameSurfaceAside;
+    bool sliver =
+        dot(n, turned) > kSliverNormal && unpackWeight(hitTexel.y) < kSliverPart * unpackWeight(r.y);
+    bool shares = found && mainDirection(turned) == wanted && (same || sliver) &&
+                  ((r.z ^ hitTexel.z) & FACE_REVERSE) == 0u;
+    return shares ? uint(at) : face;
+}
+
 // The bin of a face; `brick`: its brick in the block.
 uint binOf(uvec4 hitTexel, out uint brick) {
     ivec3 voxel = unpackVoxel(hitTexel.w);
     int axis = int(hitTexel.w >> 30);
     vec3 n = octDecode(unpackSnorm2x16(hitTexel.x));
-    float along = axis == 0 ? n.x : (axis == 1 ? n.y : n.z);
     ivec3 within = (voxel >> 2) & 3;
     brick = uint(within.x | within.y << 2 | within.z << 4);
     uint block = brickIndex(voxel >> 4, (gridBricks() + 3) >> 2);
-    return block * CACHE_BINS_PER_BLOCK + uint(2 * axis + (along < 0.0 ? 1 : 0)) * 64u +
+    return block * CACHE_BINS_PER_BLOCK + uint(directionOf(hitTexel, n)) * 64u +
            bitOfVoxel(ivec3(interleavedPlace(uvec3(voxel), uint(axis))));
+}
+
+// What becomes of a face that does not share, by its state.
+const uint kGathers = 0u;
+const uint kDoubtful = 1u;
+const uint kLeftOut = 2u;
+uint roleOf(uvec4 hitTexel, uvec4 state) {
+    bool dead = isDead(unpackState(state));
+    // Something was met from behind. Whoever gathers shows that in vain, or is about to.
+    bool doubtful = dead || 8u * (state.w >> 24) > (state.w >> 16 & 0xffu);
+    ivec3 voxel = unpackVoxel(hitTexel.w);
+    bool due = ((uint(voxel.x + voxel.y + voxel.z) + settings.number) & 1u) == 0u;
+    return doubtful && due && settings.searches != 0u ? kDoubtful : (dead ? kLeftOut : kGathers);
 }
 
 void main() {
@@ -53,8 +129,24 @@ void main() {
     if (index < grid.faceCount) order[index] = index;
 #elif STEP == 0 || STEP == 4
     if (index >= grid.faceCount) return;
+    uvec4 hitTexel = texelFetch(faces, 2 * int(index));
+    uvec4 state = texelFetch(stateTexels, int(index));
+#if STEP == 0
+    uint gatherer = gathererOf(index, hitTexel);
+    bool shares = gatherer != index;
+    if (shares) states[index] = uvec4(gatherer, 0u, 0u, CACHE_SHARES);
+#else
+    bool shares = (state.w & CACHE_SHARES) != 0u;
+#endif
+    uint role = shares ? kLeftOut : roleOf(hitTexel, state);
+#if STEP == 4
+    // In no order: what a face gathers does not depend on it.
+    if (role == kDoubtful)
+        order[chunks[CACHE_ORDER_CHUNKS] + atomicAdd(chunks[CACHE_ORDER_CHUNKS + 1u], 1u)] = index;
+#endif
+    if (role != kGathers) return;
     uint brick;
-    uint bin = binOf(texelFetch(faces, 2 * int(index)), brick);
+    uint bin = binOf(hitTexel, brick);
 #if STEP == 0
     if (brick < 32u)
         atomicOr(bins[bin].x, 1u << brick);
@@ -73,6 +165,8 @@ void main() {
         if (first) chunks[i] = before;
         before += count;
     } while (++i < CACHE_ORDER_CHUNKS);
+    if (first) chunks[CACHE_ORDER_CHUNKS] = before;
+    if (first) chunks[CACHE_ORDER_CHUNKS + 1u] = 0u;
 #else
     uint size = binsPerChunk();
     uint bin = min(index * size, binCount());

@@ -25,7 +25,7 @@ void main() {
     uint index = linearIndex();
     bool used = index < cache.faceCount;
     uint place = cache.firstFace + (used ? index : 0u);
-    uint face = texelFetch(order, int(place >= grid.faceCount ? place - grid.faceCount : place)).x;
+    uint face = texelFetch(order, int(place)).x;
     uvec4 r = texelFetch(voxelFaces, 2 * int(face));
     FaceRecord record = FaceRecord(r.x, r.y, r.z, r.w, 0u, 0u, 0u, 0u);
     vec3 normal = faceNormal(record);
@@ -44,7 +44,7 @@ void main() {
         int(cache.reflections), cache.reflectedLimit, seed, shift, cache.update, backs);
     if (!used) return;
     FaceCache state = unpackState(texelFetch(stateTexels, int(face)));
-    uint updates = state.counts & 0xffffu;
+    uint updates = state.counts & CACHE_UPDATES_MASK;
     // (4.13): replaces while bounces travel, then averages, in which the n-th update has a weight like
     // sqrt(n): what came before bounces had settled is soon outweighed.
     uint window = clamp(updates, IRRADIANCE_SETTLE, IRRADIANCE_SETTLE + cache.longestWindow - 1u);

@@ -23,6 +23,8 @@
 // less. Averages of all updates from the first one keep 2 to 4 % of the light out for good: bounces have not
 // settled (accuracy experiments, docs/theory/4_gather.md).
 #define IRRADIANCE_SETTLE 8
+// Until so many updates after a change pixels see a face's mean shared with its neighbours.
+#define IRRADIANCE_SHARED_UPDATES 32
 // A face lies inside a closed object when of at least so many cosine rays more than a quarter meet a surface
 // from behind first, farther than 1.5 voxels away.
 #define IRRADIANCE_DEAD_RAYS 16
@@ -50,18 +52,22 @@
 #define CACHE_BINS_PER_BLOCK 384u
 #define CACHE_ORDER_CHUNKS 4096u
 
+#define CACHE_SHARES 0x8000u
+#define CACHE_UPDATES_MASK 0x7fffu
+
 CONELIGHT_SHARED_BEGIN
 
 // State of one face of the cache.
 struct FaceCache {
     vec3 irradiance;  // irradiance / pi, the mean so far
     uint counts;  // updates since a change, 0: never | rays looked at for dead faces << 16 | of these, met a
-                  // surface from behind first << 24
+                  // surface from behind first << 24. CACHE_SHARES: the state is that of another face, whose
+                  // number stands in irradiance.x, as bits
 };                // 16 B
 
 // Uniform block at BINDING_PASS of the cache's passes.
 struct CacheConstants {
-    uint firstFace;  // of the faces to update, a place in their order, wrapping around
+    uint firstFace;  // of the faces to update, a place in their order
     uint faceCount;
     uint cosineRays;
     uint lightRays;
@@ -88,9 +94,18 @@ struct CacheCarry {
     uint pad0;
 };  // 32 B
 
+// Uniform block at BINDING_PASS of the passes that put faces in order.
+struct CacheOrder {
+    uint number;    // of the sort
+    uint searches;  // 1: faces that may be inside closed objects, or are, are visited to find out
+    uint pad0;
+    uint pad1;
+};  // 16 B
+
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::FaceCache) == 16);
 static_assert(sizeof(conelight::gpu::CacheConstants) == 48);
 static_assert(sizeof(conelight::gpu::CacheCarry) == 32);
+static_assert(sizeof(conelight::gpu::CacheOrder) == 16);
 #endif

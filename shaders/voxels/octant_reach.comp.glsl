@@ -9,7 +9,7 @@ layout(local_size_x = 64) in;
 #include "lib/voxel_grid.glsl"
 #include "voxels/octant_rows.glsl"
 #if OCTANT_REACH != 4
-#error reaches of 1, 2 and 4 are told apart
+#error reaches of 1 to 4 are told apart
 #endif
 layout(binding = OCTANT_UNIT_ROWS) uniform usamplerBuffer rows;
 layout(binding = 0, rg32ui) uniform writeonly uimage3D octants;
@@ -25,9 +25,9 @@ void main() {
     int z = index / (words * bricks.y) % bricks.z;
     int octant = index / (words * bricks.y * bricks.z);
 
-    // Rows of the cubes with edges of 1, 2 and 4 bricks, this word and the next.
+    // Rows of the cubes with edges of 1 to 4 bricks, this word and the next.
     uint taken1 = 0u;
-    uvec2 two = uvec2(0u), four = uvec2(0u);
+    uvec2 two = uvec2(0u), three = uvec2(0u), four = uvec2(0u);
     for (int i = 0; i < 16; ++i) {
         int dy = i & 3, dz = i >> 2;
         bool inside = y + dy < bricks.y && z + dz < bricks.z;
@@ -35,11 +35,13 @@ void main() {
         uvec2 row = uvec2(texelFetch(rows, at).x, word + 1 < words ? texelFetch(rows, at + 1).x : 0u);
         row = inside ? row : uvec2(0u);
         four |= row;
+        if (dy < 3 && dz < 3) three |= row;
         if (dy < 2 && dz < 2) two |= row;
         if (i == 0) taken1 = row.x;
     }
     // A bit for each brick whose cube is not empty.
     uint taken2 = two.x | two.x >> 1 | two.y << 31;
+    uint taken3 = three.x | three.x >> 1 | three.x >> 2 | three.y << 31 | three.y << 30;
     uint taken4 =
         four.x | four.x >> 1 | four.x >> 2 | four.x >> 3 | four.y << 31 | four.y << 30 | four.y << 29;
     uint left = used ? taken4 & ~taken1 : 0u;
@@ -48,8 +50,8 @@ void main() {
         int i = findLSB(left);
         left &= left - 1u;
         ivec3 at = ivec3(32 * word + i, y, z);
+        uint edge = (taken3 >> i & 1u) == 0u ? 3u : ((taken2 >> i & 1u) == 0u ? 2u : 1u);
         if (at.x < bricks.x)
-            imageStore(octants, ivec3(octant * bricks.x + at.x, y, z),
-                       uvec4((taken2 >> i & 1u) == 0u ? 2u : 1u, OCTANT_EMPTY, 0u, 0u));
+            imageStore(octants, ivec3(octant * bricks.x + at.x, y, z), uvec4(edge, OCTANT_EMPTY, 0u, 0u));
     } while (left != 0u);
 }

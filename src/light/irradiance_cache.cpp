@@ -17,9 +17,10 @@ namespace {
 constexpr std::uint32_t kMaxChunks = 4096;  // one invocation walks over all chunks
 constexpr std::uint32_t kLeastChunk = 16;   // fewer faces per invocation are not worth starting it
 constexpr double kSlack = 1.25;             // room for growth when memory is allocated anew
-// While voxels change every frame, an update looks for faces inside closed objects at one in so many faces
-// only, others at the next: looking costs as much as two more rays.
-constexpr std::uint32_t kDeadInterval = 4;
+// While voxels change with every call, an update looks for faces inside closed objects at one in so many
+// faces only, others at the next: looking costs as much as two more rays. Those of which a ray has met
+// something from behind are looked at each second time.
+constexpr std::uint32_t kDeadInterval = 16;
 // More lights than these are taken from faces, not looked up at every hit: the shadow maps of 4 cost as much
 // as the ray itself.
 constexpr std::uint32_t kMostExactLights = 4;
@@ -42,8 +43,12 @@ gl::ProgramDesc orderDesc(int step) {
     return {{"light/cache_order.comp.glsl"}, {{"STEP", std::to_string(step)}}};
 }
 gl::ProgramDesc pass(const char* name) { return {{std::string("light/cache_") + name + ".comp.glsl"}, {}}; }
-gl::ProgramDesc commitDesc(bool atPixels) {
-    return {{"light/cache_commit.comp.glsl"}, {{"AT_PIXELS", atPixels ? "1" : "0"}}};
+enum class Commit { ForRays, ForPixels, SharedForPixels };
+
+gl::ProgramDesc commitDesc(Commit kind) {
+    return {{"light/cache_commit.comp.glsl"},
+            {{"AT_PIXELS", kind != Commit::ForRays ? "1" : "0"},
+             {"SHARED", kind == Commit::SharedForPixels ? "1" : "0"}}};
 }
 
 gl::Defines exactDefines(const gl::Defines& lights, bool exact) {
@@ -105,7 +110,7 @@ std::vector<gl::ProgramDesc> hitLightVariants(const gl::ProgramDesc& base) {
 }
 
 struct IrradianceCache::Impl {
-    gl::Buffer states, oldStates, faceLight, chunks, pool, constants, carryBlock;
+    gl::Buffer states, oldStates, faceLight, chunks, pool, constants, carryBlock, orderBlock;
     gl::Texture steadyTexels, faceLightTexels, poolTexels, orderTexels, stateTexels, oldStateTexels;
     // Voxels before they were built anew.
     gl::Buffer oldRecords;
@@ -122,11 +127,22 @@ struct IrradianceCache::Impl {
     std::uint64_t facesVisited = 0;  // since light changed
     std::uint64_t raysTested = 0;    // cosine rays that looked for faces inside objects, since voxels changed
     bool carried = false;            // the last voxels took over light from those before
+    bool voxelsAreNew = false;       // no call of update() is behind them
     std::uint32_t faceCount = 0;
+    std::uint32_t gatherCount = 0;    // of these, those that updates visit in order
+    std::uint32_t doubtfulCount = 0;  // and those behind them, of which each is searched
+    std::uint32_t sorts = 0;          // ever
 
     void reserve(std::uint32_t faces);
-    void sortFaces(gl::ProgramLibrary& programs, const voxels::SurfaceVoxels& surface);
-    gpu::CacheConstants packed(const CacheSettings& settings) const;
+    void sortFaces(gl::ProgramLibrary& programs, const voxels::SurfaceVoxels& surface, bool searches);
+    std::uint32_t visited() const { return gatherCount + doubtfulCount; }
+    // Whole ones over all faces since light changed.
+    int rounds() const {
+        return visited() == 0 ? IRRADIANCE_SETTLE : static_cast<int>(facesVisited / visited());
+    }
+    std::uint32_t perUpdate(const CacheSettings& settings) const;
+    gpu::CacheConstants packed(const CacheSettings& settings, std::uint32_t first = 0,
+                               std::uint32_t count = 0) const;
     void commit(gl::ProgramLibrary& programs, gl::Profiler& profiler, const CacheSettings& settings,
                 bool atPixels);
 };
@@ -143,8 +159,9 @@ void IrradianceCache::Impl::reserve(std::uint32_t faces) {
     if (!pool) {
         pool = gl::Buffer(4 * (1 + BRIGHT_FACE_COUNT), "bright faces");
         poolTexels = gl::Texture(pool, GL_R32UI, "bright faces");
-        chunks = gl::Buffer(4 * (kMaxChunks + 1), "irradiance cache chunks");
+        chunks = gl::Buffer(4 * (kMaxChunks + 2), "irradiance cache chunks");
         constants = gl::Buffer(sizeof(gpu::CacheConstants), "irradiance cache constants");
+        orderBlock = gl::Buffer(sizeof(gpu::CacheOrder), "irradiance cache order");
         carryBlock = gl::Buffer(sizeof(gpu::CacheCarry), "irradiance cache carry-over");
     }
     // No room for growth before there was any.
@@ -164,8 +181,13 @@ void IrradianceCache::Impl::reserve(std::uint32_t faces) {
 }
 
 // The order in which updates visit faces (shaders/light/cache_order.comp.glsl), into the voxels' scratch
-// buffer.
-void IrradianceCache::Impl::sortFaces(gl::ProgramLibrary& programs, const voxels::SurfaceVoxels& surface) {
+// buffer; the states of those that they do not visit.
+// searches: faces that may be inside closed objects are visited, to find out.
+void IrradianceCache::Impl::sortFaces(gl::ProgramLibrary& programs, const voxels::SurfaceVoxels& surface,
+                                      bool searches) {
+    gatherCount = faceCount;
+    doubtfulCount = 0;
+    firstFace = 0;
     if (faceCount == 0) return;
     const glm::ivec3 blocks = (surface.grid().bricks() + 3) / 4;
     const auto blockCount = static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.y) *
@@ -194,11 +216,22 @@ void IrradianceCache::Impl::sortFaces(gl::ProgramLibrary& programs, const voxels
     binTexels.bind(CACHE_UNIT_BINS);
     binStartTexels.bind(CACHE_UNIT_BIN_STARTS);
     chunks.bindStorage(CACHE_CHUNKS);
+    states.bindStorage(CACHE_STATE);
+    stateTexels.bind(CACHE_UNIT_STATE);
+    gpu::CacheOrder block{};
+    block.number = sorts++;
+    block.searches = searches ? 1 : 0;
+    orderBlock.update(block);
+    orderBlock.bindUniform(BINDING_PASS);
     const std::size_t invocations[] = {faceCount, CACHE_ORDER_CHUNKS, 1, CACHE_ORDER_CHUNKS, faceCount};
     for (int step = 0; step < 5; ++step) {
         programs.get(orderDesc(step)).dispatchLinear(invocations[step]);
         gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
     }
+    gl::barrier(gl::Access::Update);
+    const auto counts = chunks.read<std::uint32_t>(2, sizeof(std::uint32_t) * CACHE_ORDER_CHUNKS);
+    gatherCount = counts[0];
+    doubtfulCount = counts[1];
     // They are as large as what they sort: kept only where voxels change again and again.
     if (!carried) {
         binTexels = {};
@@ -268,10 +301,10 @@ void IrradianceCache::afterVoxelize(gl::ProgramLibrary& programs, gl::Profiler& 
         m.states.clear();
     }
     m.carried = carries;
-    m.sortFaces(programs, surface);
+    m.sortFaces(programs, surface, true);
     m.oldFaces = 0;
-    m.firstFace = 0;
     m.raysTested = 0;
+    m.voxelsAreNew = true;
     lightChanged();
 }
 
@@ -281,10 +314,16 @@ void IrradianceCache::lightChanged() {
     impl_->facesVisited = 0;
 }
 
-gpu::CacheConstants IrradianceCache::Impl::packed(const CacheSettings& settings) const {
+// Faces that one update visits.
+std::uint32_t IrradianceCache::Impl::perUpdate(const CacheSettings& settings) const {
+    return settings.facesPerUpdate == 0 ? visited() : std::min(settings.facesPerUpdate, visited());
+}
+
+gpu::CacheConstants IrradianceCache::Impl::packed(const CacheSettings& settings, std::uint32_t first,
+                                                  std::uint32_t count) const {
     gpu::CacheConstants c{};
-    c.firstFace = firstFace;
-    c.faceCount = settings.facesPerUpdate == 0 ? faceCount : std::min(settings.facesPerUpdate, faceCount);
+    c.firstFace = first;
+    c.faceCount = count;
     c.cosineRays = static_cast<std::uint32_t>(settings.cosineRays);
     c.lightRays = static_cast<std::uint32_t>(settings.lightRays);
     c.update = number;
@@ -311,7 +350,10 @@ void IrradianceCache::Impl::commit(gl::ProgramLibrary& programs, gl::Profiler& p
     chunks.bindStorage(CACHE_CHUNKS);
     pool.bindStorage(CACHE_POOL);
     faceLight.bindStorage(CACHE_FACE_LIGHT);
-    programs.get(commitDesc(atPixels)).dispatchLinear(block.chunkCount);
+    const bool shared = rounds() <= IRRADIANCE_SHARED_UPDATES;
+    programs
+        .get(commitDesc(!atPixels ? Commit::ForRays : (shared ? Commit::SharedForPixels : Commit::ForPixels)))
+        .dispatchLinear(block.chunkCount);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
     programs.get(pass("sums")).dispatch(8);
     gl::barrier(gl::Access::ShaderStorage);
@@ -333,48 +375,60 @@ void IrradianceCache::update(gl::ProgramLibrary& programs, gl::Profiler& profile
     surface.bind();
     if (!m.prepared) m.commit(programs, profiler, settings, passes <= 0);
     for (int i = 0; i < passes; ++i) {
-        const gpu::CacheConstants block = m.packed(settings);
-        // Faces [first, end) of this update are looked at for dead ones.
-        std::uint32_t first = 0, end = 0;
-        if (m.raysTested < std::uint64_t{IRRADIANCE_DEAD_RAYS} * m.faceCount) {
-            const std::uint64_t parts = m.carried ? kDeadInterval : 1, part = m.number % parts;
-            first = static_cast<std::uint32_t>(part * block.faceCount / parts);
-            end = static_cast<std::uint32_t>((part + 1) * block.faceCount / parts);
-        }
+        const std::uint32_t count = m.perUpdate(settings);
+        const bool searches = m.raysTested < std::uint64_t{IRRADIANCE_DEAD_RAYS} * m.visited();
         {
             const gl::PassScope scope(profiler, "irradiance: update");
             m.states.bindStorage(CACHE_STATE);
             m.stateTexels.bind(CACHE_UNIT_STATE);
             m.orderTexels.bind(CACHE_UNIT_ORDER);
             bind();
-            const auto visit = [&](std::uint32_t from, std::uint32_t to, bool findsBacks) {
-                if (from >= to) return;
-                gpu::CacheConstants part = block;
-                part.firstFace = (block.firstFace + from) % m.faceCount;
-                part.faceCount = to - from;
-                m.constants.update(part);
+            const auto visit = [&](std::uint32_t first, std::uint32_t end, bool findsBacks) {
+                if (first >= end) return;
+                m.constants.update(m.packed(settings, first, end - first));
                 m.constants.bindUniform(BINDING_PASS);
-                programs.get(updateDesc(lights, findsBacks)).dispatchLinear(part.faceCount);
+                programs.get(updateDesc(lights, findsBacks)).dispatchLinear(end - first);
+                if (findsBacks)
+                    m.raysTested += (end - first) * static_cast<std::uint64_t>(settings.cosineRays);
             };
-            visit(0, first, false);
-            visit(first, end, true);
-            visit(end, block.faceCount, false);
+            // A part of the faces is searched, and all that are doubtful.
+            const auto visitRange = [&](std::uint32_t first, std::uint32_t end) {
+                const std::uint32_t middle = std::clamp(m.gatherCount, first, end);
+                const std::uint64_t parts = m.voxelsAreNew && m.carried ? kDeadInterval : 1,
+                                    part = m.number % parts;
+                const auto cut = [&](std::uint64_t at) {
+                    return first + static_cast<std::uint32_t>(at * (middle - first) / parts);
+                };
+                const std::uint32_t from = searches ? cut(part) : middle;
+                const std::uint32_t to = searches ? cut(part + 1) : middle;
+                visit(first, from, false);
+                visit(from, to, true);
+                visit(to, middle, false);
+                visit(middle, end, searches);
+            };
+            const std::uint32_t atEnd = std::min(count, m.visited() - m.firstFace);
+            visitRange(m.firstFace, m.firstFace + atEnd);
+            visitRange(0, count - atEnd);
             gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Update);
         }
-        m.firstFace = (m.firstFace + block.faceCount) % m.faceCount;
-        m.facesVisited += block.faceCount;
-        m.raysTested += std::uint64_t{end - first} * block.cosineRays;
+        m.firstFace = m.visited() > 0 ? (m.firstFace + count) % m.visited() : 0;
+        m.facesVisited += count;
         ++m.number;
         m.commit(programs, profiler, settings, i + 1 == passes);
+        // Faces inside closed objects are known now: no more rays from them.
+        if (searches && m.raysTested >= std::uint64_t{IRRADIANCE_DEAD_RAYS} * m.visited()) {
+            const gl::PassScope scope(profiler, "irradiance: order");
+            const int rounds = m.rounds();
+            m.sortFaces(programs, surface, false);
+            m.facesVisited = static_cast<std::uint64_t>(rounds) * m.visited();
+        }
     }
+    m.voxelsAreNew = m.voxelsAreNew && passes <= 0;
 }
 
 bool IrradianceCache::settled() const { return updates() >= IRRADIANCE_SETTLE; }
 
-int IrradianceCache::updates() const {
-    return impl_->faceCount == 0 ? IRRADIANCE_SETTLE
-                                 : static_cast<int>(impl_->facesVisited / impl_->faceCount);
-}
+int IrradianceCache::updates() const { return impl_->rounds(); }
 
 void IrradianceCache::bind() const {
     CONELIGHT_ASSERT(impl_->pool, "IrradianceCache::bind before afterVoxelize");
@@ -386,7 +440,11 @@ void IrradianceCache::bind() const {
 const gl::Buffer& IrradianceCache::state() const { return impl_->states; }
 
 std::vector<gl::ProgramDesc> IrradianceCache::programDescs() {
-    std::vector<gl::ProgramDesc> descs{commitDesc(false), commitDesc(true), pass("sums"), pass("pool"),
+    std::vector<gl::ProgramDesc> descs{commitDesc(Commit::ForRays),
+                                       commitDesc(Commit::ForPixels),
+                                       commitDesc(Commit::SharedForPixels),
+                                       pass("sums"),
+                                       pass("pool"),
                                        pass("carry")};
     for (int step = 0; step < 6; ++step) descs.push_back(orderDesc(step));
     for (const bool backs : {false, true})

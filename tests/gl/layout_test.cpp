@@ -127,6 +127,7 @@ const std::vector<Struct>& table() {
             faceCount, inverseVoxelSize, occupiedBricks, pad0, pad1),
         ROW(FaceRecord, normal, offsetWeight, bounds, voxel, albedo, radiance, irradiance0, irradiance1),
         ROW(FaceCache, irradiance, counts),
+        ROW(CacheOrder, number, searches, pad0, pad1),
         ROW(CacheConstants, firstFace, faceCount, cosineRays, lightRays, update, seed, longestWindow,
             facesPerChunk, chunkCount, restart, reflections, reflectedLimit),
         ROW(CacheCarry, oldOrigin, oldInverseVoxelSize, oldSizeX, oldSizeY, oldSizeZ, pad0),

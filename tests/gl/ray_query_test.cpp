@@ -244,7 +244,7 @@ void RayQueryTest::expectOctantWords(const Scene& scene, int gridEdge) {
                         wrongMasks += ((at < 32 ? w.x : w.y) >> (at % 32) & 1u) != facing ? 1 : 0;
                     }
                     int reach = (w.x | w.y) == 0 ? 1 : 0;
-                    while (reach != 0 && reach < OCTANT_REACH && isEmpty({x, y, z}, 2 * reach)) reach *= 2;
+                    while (reach != 0 && reach < OCTANT_REACH && isEmpty({x, y, z}, reach + 1)) ++reach;
                     wrongReach += static_cast<int>(w.z) != reach ? 1 : 0;
                 }
     }
