@@ -134,12 +134,14 @@ void rayBounds(uint bounds, vec3 n, out vec3 lower, out vec3 upper) {
 // Where rays from `origin` (grid coordinates) aim at a face: its bounds as rays meet them. Where a plane
 // along the grid goes on next door on both sides, bounds overlap, and rays meet those that they come to
 // first: there bounds are moved away from the origin instead of grown, so that each point is aimed at once.
-void aimBounds(uvec4 hitTexel, vec3 n, vec3 origin, out vec3 lower, out vec3 upper) {
+// `side` is 1 then. With -1 they are moved towards it: what is found there alone is where a plane that ends
+// at the voxel's side, which looks as if it went on, has nothing next door (kAimAside).
+void aimBounds(uvec4 hitTexel, vec3 n, vec3 origin, float side, out vec3 lower, out vec3 upper) {
     rayBounds(hitTexel.z, n, lower, upper);
     vec3 a = abs(n);
     bool alongGrid = max(a.x, max(a.y, a.z)) > 0.9999;
     vec3 from = vec3(unpackVoxel(hitTexel.w)) + 0.5 - origin;
-    vec3 moved = kRayBoundsOverlap * sign(from);
+    vec3 moved = side * kRayBoundsOverlap * sign(from);
     bvec3 goesOn =
         bvec3(alongGrid && lower.x < 0.0 && upper.x > 1.0, alongGrid && lower.y < 0.0 && upper.y > 1.0,
               alongGrid && lower.z < 0.0 && upper.z > 1.0);

@@ -14,7 +14,7 @@ layout(std430, binding = CACHE_CHUNKS) buffer ChunkTable { float chunks[]; };
 float faceFlux(uvec4 hitTexel, vec3 radiance) {
     vec3 n = octDecode(unpackSnorm2x16(hitTexel.x));
     vec3 lower, upper;
-    aimBounds(hitTexel, n, vec3(0.0), lower, upper);
+    aimBounds(hitTexel, n, vec3(0.0), 1.0, lower, upper);
     vec3 size = max(upper - lower, vec3(0.0));
     uint axis = hitTexel.w >> 30;
     float seen = axis == 0u ? size.y * size.z : (axis == 1u ? size.z * size.x : size.x * size.y);

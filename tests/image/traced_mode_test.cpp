@@ -565,11 +565,11 @@ TEST_F(TracedModeTest, SolidsMayBeTwoSided) {
 template <class IsDot>
 int dotsIn(const Image& image, IsDot isDot) {
     int dots = 0;
-    for (int y = 1; y + 1 < kPixels; ++y)
-        for (int x = 1; x + 1 < kPixels; ++x) {
+    for (int y = 1; y + 1 < image.height; ++y)
+        for (int x = 1; x + 1 < image.width; ++x) {
             std::array<float, 9> around;
             for (int i = 0; i < 9; ++i) {
-                const int at = (y + i / 3 - 1) * kPixels + x + i % 3 - 1;
+                const int at = (y + i / 3 - 1) * image.width + x + i % 3 - 1;
                 around[static_cast<std::size_t>(i)] = image.pixels[static_cast<std::size_t>(at)].x;
             }
             const float own = around[4];
@@ -596,6 +596,22 @@ TEST_F(TracedModeTest, MetalsThrowNoSpecklesOnWalls) {
     const double expected =
         meanOf(reference::PathTracer(scene).render(scene.cameras.at(0), kPixels, kPixels, truth).full);
     EXPECT_NEAR(meanOf(draw(scene, settings)) / expected, 1.0, 0.03);
+}
+
+// A lamp far away whose edges lie between voxels. Of what it sends no part is left to rays by the cosine
+// alone: the few that meet it would each be a white dot.
+TEST_F(TracedModeTest, FarLampsThrowNoDotsOnFloors) {
+    const Scene scene = io::generateScene("tunnel");
+    Settings settings = smallSettings(Quality::Converged, Component::Diffuse);
+    settings.voxels.size = 128;  // of these the lamp's near edge meets a side
+    settings.traced.passes = 16;
+    Renderer renderer;
+    renderer.setScene(scene);
+    renderer.render(scene.cameras.at(0), 160, 160, settings);
+    const int dots = dotsIn(renderer.readImage(), [](float own, const std::array<float, 9>& around) {
+        return around[3] > 0 && own > 1.5f * around[8 - 1];
+    });
+    EXPECT_LE(dots, 2);
 }
 
 // A room lit by one lamp that rays must find: where few did, a pixel is darker than all about it, and the
