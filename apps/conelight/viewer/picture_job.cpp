@@ -31,7 +31,8 @@ void PictureJob::start(const Request& request, const Session& session, const glm
     camera_ = session.camera();
     done_ = 0;
     traced_ = traced;
-    placed_ = stopped_ = tracing_ = waits_ = bakes_ = false;
+    placed_ = stopped_ = tracing_ = false;
+    waits_ = WaitsFor::Nothing;
     began_ = Clock::now();
 }
 
@@ -46,7 +47,7 @@ double PictureJob::secondsLeft() const {
 void PictureJob::end(Session& session) {
     if (request_->turntable || request_->alongPath) session.moveCamera(camera_);
     frame_.stop();
-    waits_ = bakes_ = false;
+    waits_ = WaitsFor::Nothing;
     request_.reset();
     video_.reset();
 }
@@ -54,12 +55,14 @@ void PictureJob::end(Session& session) {
 // The next picture, or a part of its work: what a mode needs until it is finished. Returns whether it is.
 bool PictureJob::draw(Session& session, PictureSlot& slot) {
     const std::string mode = session.shownMode();
-    waits_ = bakes_ = false;
+    waits_ = WaitsFor::Nothing;
     if (video_ && mode == "reference") {
         slot.restInBackground();
         if (!tracing_) tracing_ = frame_.start(session, size_, traced_, platform::Window::wake);
-        waits_ = !tracing_ || !frame_.ready();
-        if (waits_) return false;
+        if (!tracing_ || !frame_.ready()) {
+            waits_ = WaitsFor::PathTracer;
+            return false;
+        }
         tracing_ = false;
         Image picture = frame_.take();
         add(session, picture);
@@ -69,7 +72,7 @@ bool PictureJob::draw(Session& session, PictureSlot& slot) {
     // A mode that settles over frames is drawn until it has: what is written is finished.
     if (slot.draw(session, mode, size_.x, size_.y, {})) return false;
     if (video_ && mode == "radiosity" && !slot.finished()) {
-        waits_ = bakes_ = true;
+        waits_ = WaitsFor::Bake;
         // Pictures are quick: the bake does not count for what is left.
         if (done_ == 0) began_ = Clock::now();
         return false;
@@ -111,7 +114,7 @@ std::optional<std::string> PictureJob::step(Session& session, PictureSlot& slot)
                 if (request_->alongPath)
                     session.moveCamera(session.cameraPath().frame(done_, request_->count));
             }
-            if (!draw(session, slot) && waits_) break;
+            if (!draw(session, slot) && waits()) break;
             if (Clock::now() - start > kSlice) break;
         }
     } catch (...) {

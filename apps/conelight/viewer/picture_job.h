@@ -5,6 +5,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -32,12 +33,14 @@ class PictureJob {
     const std::string& file() const { return request_->file; }
     int frames() const { return request_->count; }
     int done() const { return done_; }
-    bool waits() const { return waits_; }  // for the background: the last step drew nothing
-    bool bakes() const { return bakes_; }  // the film begins when the light of mode radiosity is baked
-    double part() const;                   // of the whole work, 0..1
-    double secondsLeft() const;            // < 0: unknown
+    bool waits() const { return waits_ != WaitsFor::Nothing; }  // the last step drew nothing
+    bool bakes() const { return waits_ == WaitsFor::Bake; }
+    double part() const;         // of the whole work, 0..1
+    double secondsLeft() const;  // < 0: unknown
 
   private:
+    enum class WaitsFor : std::uint8_t { Nothing, PathTracer, Bake };  // in the background
+
     void end(Session& session);
     bool draw(Session& session, PictureSlot& slot);
     void add(const Session& session, const Image& linear);
@@ -48,7 +51,7 @@ class PictureJob {
     FilmFrame frame_;                   // mode reference
     reference::PathTracerSettings traced_;
     bool tracing_ = false;  // a frame of it was started
-    bool waits_ = false, bakes_ = false;
+    WaitsFor waits_ = WaitsFor::Nothing;
     glm::ivec2 size_{0};
     Camera camera_;  // where it stood at the start
     int done_ = 0;
