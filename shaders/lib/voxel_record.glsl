@@ -81,6 +81,13 @@ vec2 unpackLobe(uint bits) { return vec2((bits >> 5) & 15u, bits & 31u) / vec2(1
 
 // Plane of a face: unit normal, and its offset from the voxel's centre in voxels.
 vec3 faceNormal(FaceRecord face) { return octDecode(unpackSnorm2x16(face.normal)); }
+// The side of an axis that a normal looks to, as the number of a direction.
+int sideOfAxis(int axis, vec3 n) {
+    float along = axis == 0 ? n.x : (axis == 1 ? n.y : n.z);
+    return 2 * axis + (along < 0.0 ? 1 : 0);
+}
+// The direction that a face with the normal n looks to.
+int faceDirection(uvec4 hitTexel, vec3 n) { return sideOfAxis(int(hitTexel.w >> 30), n); }
 // The point of the plane nearest to the voxel's centre, in grid coordinates.
 vec3 facePoint(FaceRecord face) {
     return vec3(unpackVoxel(face.voxel)) + 0.5 + faceNormal(face) * unpackOffset(face.offsetWeight);

@@ -22,9 +22,7 @@ void main() {
     bool used = index < grid.faceCount;
     uvec4 r = texelFetch(faces, int(used ? index : 0u) * 2);
     vec3 n = octDecode(unpackSnorm2x16(r.x));
-    int axis = int(r.w >> 30);
-    float along = axis == 0 ? n.x : (axis == 1 ? n.y : n.z);
-    int direction = 2 * axis + (along < 0.0 ? 1 : 0);
+    int direction = faceDirection(r, n);
     FaceRecord face = FaceRecord(r.x, r.y, r.z, r.w, 0u, 0u, 0u, 0u);
     vec3 corner = vec3(unpackVoxel(r.w));
     vec3 center = corner + clamp(faceCenter(face) - corner, 0.001, 0.999);

@@ -43,8 +43,7 @@ const float kSamePlaneOffset = 0.2;
 vec4 neighbourIrradiance(int side, uvec4 hitTexel, vec3 n) {
     ivec3 voxel = unpackVoxel(hitTexel.w);
     int axis = int(hitTexel.w >> 30);
-    float along = axis == 0 ? n.x : (axis == 1 ? n.y : n.z);
-    int direction = 2 * axis + (along < 0.0 ? 1 : 0);
+    int direction = faceDirection(hitTexel, n);
     int towards = (axis + 1 + (side >> 1)) % 3;
     ivec3 step = ivec3(towards == 0, towards == 1, towards == 2) * (1 - 2 * (side & 1));
     ivec3 at = clamp(voxel + step, ivec3(0), gridSize() - 1);

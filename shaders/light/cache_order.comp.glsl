@@ -52,17 +52,10 @@ const float kSameSurfaceAside = 0.35;
 const float kSliverPart = 0.1;
 const float kSliverNormal = 0.5;
 
-int directionOf(uvec4 hitTexel, vec3 n) {
-    int axis = int(hitTexel.w >> 30);
-    float along = axis == 0 ? n.x : (axis == 1 ? n.y : n.z);
-    return 2 * axis + (along < 0.0 ? 1 : 0);
-}
 // The direction in which a normal leans most.
 int mainDirection(vec3 n) {
     vec3 a = abs(n);
-    int axis = a.x >= a.y && a.x >= a.z ? 0 : (a.y >= a.z ? 1 : 2);
-    float along = axis == 0 ? n.x : (axis == 1 ? n.y : n.z);
-    return 2 * axis + (along < 0.0 ? 1 : 0);
+    return sideOfAxis(a.x >= a.y && a.x >= a.z ? 0 : (a.y >= a.z ? 1 : 2), n);
 }
 
 // Which face gathers for this one: that of its voxel which looks where the normal leans most, if it gathers
@@ -70,7 +63,7 @@ int mainDirection(vec3 n) {
 uint gathererOf(uint face, uvec4 hitTexel) {
     vec3 n = octDecode(unpackSnorm2x16(hitTexel.x));
     int wanted = mainDirection(n);
-    int direction = directionOf(hitTexel, n);
+    int direction = faceDirection(hitTexel, n);
     // Faces of a voxel are stored side by side, by direction.
     int step = wanted < direction ? -1 : 1;
     int last = int(grid.faceCount) - 1;
@@ -82,7 +75,7 @@ uint gathererOf(uint face, uvec4 hitTexel) {
         at = clamp(at + step, 0, last);
         r = texelFetch(faces, 2 * at);
         bool here = ((r.w ^ hitTexel.w) & 0x3fffffffu) == 0u;
-        found = here && directionOf(r, octDecode(unpackSnorm2x16(r.x))) == wanted;
+        found = here && faceDirection(r, octDecode(unpackSnorm2x16(r.x))) == wanted;
         left = here && !found ? left - 1 : 0;
     }
     vec3 turned = octDecode(unpackSnorm2x16(r.x));
@@ -106,7 +99,7 @@ uint binOf(uvec4 hitTexel, out uint brick) {
     ivec3 within = (voxel >> 2) & 3;
     brick = uint(within.x | within.y << 2 | within.z << 4);
     uint block = brickIndex(voxel >> 4, (gridBricks() + 3) >> 2);
-    return block * CACHE_BINS_PER_BLOCK + uint(directionOf(hitTexel, n)) * 64u +
+    return block * CACHE_BINS_PER_BLOCK + uint(faceDirection(hitTexel, n)) * 64u +
            bitOfVoxel(ivec3(interleavedPlace(uvec3(voxel), uint(axis))));
 }
 
@@ -165,8 +158,10 @@ void main() {
         if (first) chunks[i] = before;
         before += count;
     } while (++i < CACHE_ORDER_CHUNKS);
-    if (first) chunks[CACHE_ORDER_CHUNKS] = before;
-    if (first) chunks[CACHE_ORDER_CHUNKS + 1u] = 0u;
+    if (first) {
+        chunks[CACHE_ORDER_CHUNKS] = before;
+        chunks[CACHE_ORDER_CHUNKS + 1u] = 0u;
+    }
 #else
     uint size = binsPerChunk();
     uint bin = min(index * size, binCount());

@@ -228,7 +228,6 @@ void IrradianceCache::Impl::sortFaces(gl::ProgramLibrary& programs, const voxels
         programs.get(orderDesc(step)).dispatchLinear(invocations[step]);
         gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
     }
-    gl::barrier(gl::Access::Update);
     const auto counts = chunks.read<std::uint32_t>(2, sizeof(std::uint32_t) * CACHE_ORDER_CHUNKS);
     gatherCount = counts[0];
     doubtfulCount = counts[1];
