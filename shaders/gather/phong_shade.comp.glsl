@@ -46,8 +46,8 @@ vec3 phongPoint(Phong m, Surface s, Light light, const bool single) {
     l *= inversesqrt(max(d2, 1e-20));
     float visible = 1.0;
 #if LIGHTS_SHADOWS
-    visible = single ? shadowVisibilitySpot(light, s.position, s.geometricNormal, 0.0)
-                     : shadowVisibilityPoint(light, s.position, s.geometricNormal, 0.0);
+    visible = single ? shadowVisibilitySpot(light, s.position, s.geometricNormal, vec2(0.0))
+                     : shadowVisibilityPoint(light, s.position, s.geometricNormal, vec2(0.0));
 #endif
     return phongTerm(m, s, l, light.intensity * (distanceFalloff(light, d2) * spotFalloff(light, l)),
                      visible);
@@ -56,7 +56,7 @@ vec3 phongPoint(Phong m, Surface s, Light light, const bool single) {
 vec3 phongDirectional(Phong m, Surface s, Light light) {
     float visible = 1.0;
 #if LIGHTS_SHADOWS
-    visible = shadowVisibilityDirectional(light, s.position, s.geometricNormal, 0.0);
+    visible = shadowVisibilityDirectional(light, s.position, s.geometricNormal, vec2(0.0));
 #endif
     return phongTerm(m, s, -light.direction, light.intensity, visible);
 }

@@ -41,7 +41,7 @@ vec4 tracedShade(ivec2 pixel) {
     Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));
     vec3 radiance = vec3(0.0);
 #if SHOW_DIRECT
-    DirectLight light = directLight(Receiver(s.position, s.normal, s.geometricNormal, s.toEye, 0.0), b);
+    DirectLight light = directLight(Receiver(s.position, s.normal, s.geometricNormal, s.toEye, vec2(0.0)), b);
 #if COUNT_LOOKUPS
     addLookups(LOOKUPS_OCCLUSION, seen);
 #endif

@@ -63,8 +63,8 @@ struct Receiver {
     vec3 position;
     vec3 normal;
     vec3 geometricNormal;
-    vec3 toEye;        // used for the specular part only
-    float shadowLift;  // 0 for an exact position, kShadowVoxelLift for a voxel's
+    vec3 toEye;       // used for the specular part only
+    vec2 shadowLift;  // 0 for an exact position, kShadowVoxelLift for a voxel's (lib/shadow.glsl)
 };
 
 // Intensity over distance: inverse square (not below 1 mm) or the light's own falloff, and glTF's range
@@ -239,12 +239,13 @@ DirectLight allLights(const bool specular, Receiver r, Brdf b) {
     return sum;
 }
 
-// Irradiance of all lights, shadows included, on a surface at `position`. `geometricNormal` is the normal of
-// the surface that casts shadows there (moves the look-up off it); equal to `normal` for a flat surface.
-vec3 directIrradiance(vec3 position, vec3 normal, vec3 geometricNormal) {
+// Irradiance of all lights, shadows included, on a surface at `position`, a voxel's. `geometricNormal` is the
+// normal of the surface that casts shadows there (moves the look-up off it); equal to `normal` for a flat
+// surface. `rise`: height in metres of what stands before the position and hides nothing of it.
+vec3 directIrradiance(vec3 position, vec3 normal, vec3 geometricNormal, float rise) {
     Brdf none;
-    return allLights(false, Receiver(position, normal, geometricNormal, normal, kShadowVoxelLift), none)
-        .irradiance;
+    vec2 lift = kShadowVoxelLift + vec2(0.0, rise);
+    return allLights(false, Receiver(position, normal, geometricNormal, normal, lift), none).irradiance;
 }
 
 // Irradiance, and radiance that the specular lobe sends to the eye.

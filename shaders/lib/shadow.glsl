@@ -22,7 +22,9 @@
 // the texels e that are compared, which puts it in front of its own plane at each of them:
 //   o = texel * (|n.a| + |n.b|), a and b the map's lateral axes.
 //
-// Positions of voxels are not exact: `lift` moves them likewise, by so many texels.
+// Positions of voxels are not exact: `lift` moves them towards the light, until they are so many of these
+// offsets (x) and so many metres (y) in front of their plane. Moved along the normal they would be looked up
+// beside their place, and shadows would lie there.
 #ifndef SHADOW_FILTER
 #define SHADOW_FILTER 0
 #endif
@@ -45,8 +47,10 @@ const float kShadowRectSlack = 0.1;
 // Up to how many texels from its centre a texel knows where its triangle ends; light/shadow.frag.glsl too.
 const float kShadowEnd = 2.0;
 
-// lift for the positions of voxels; src/light/shadow_maps.cpp keeps a guard for it.
-const float kShadowVoxelLift = 3.0;
+// lift for the positions of voxels.
+const vec2 kShadowVoxelLift = vec2(3.0, 0.0);
+// Where light comes in flatter than this cosine, it is not moved farther: it might pass through a wall.
+const float kShadowLiftCosine = 0.5;
 
 // Where an outline crosses the line from one texel's centre (0) to the next (1), of which the first is lit by
 // `lit0` and the second by `lit1`: where the hidden one's triangle ends.
@@ -189,16 +193,21 @@ vec3 cubeSide(vec3 v, vec3 chooser, out int side) {
     return vec3(turned.xy, along < 0.0 ? -turned.z : turned.z);
 }
 
+// How far a receiver is moved towards the light, which comes in under `cosine`.
+float shadowLift(vec2 lift, float texelSize, vec2 lateralNormal, float cosine) {
+    return (shadowOffset(lift.x * texelSize, lateralNormal) + lift.y) / max(cosine, kShadowLiftCosine);
+}
+
 // Visibility of a point light (or a wide spot) from p with geometric normal n.
-float shadowVisibilityPoint(Light light, vec3 p, vec3 n, float lift) {
+float shadowVisibilityPoint(Light light, vec3 p, vec3 n, vec2 lift) {
     int side;
     vec3 toP = p - light.position;
     vec3 lateral = cubeSide(toP, toP, side);
     vec3 ln = cubeSide(n, toP, side);
-    // The side stays that of p: it has a margin that takes the filter and the move.
-    lateral += shadowOffset(lift * lateral.z * light.shadowTexel, ln.xy) * ln;
-    float z = max(lateral.z, 1e-20);
-    vec2 at = lateral.xy / z;
+    vec2 at = lateral.xy / max(lateral.z, 1e-20);
+    float distance = max(length(toP), 1e-20);
+    float moved = shadowLift(lift, lateral.z * light.shadowTexel, ln.xy, -dot(n, toP) / distance);
+    float z = max(lateral.z * (1.0 - moved / distance), 1e-20);
     vec3 tile = shadowTile(max(light.shadow, 0) + side, 2);
     float centre = 0.25 * float(textureSize(shadowDepths, 0).x);
     float lit = shadowFilter(tile.xy + centre + at / light.shadowTexel, tile.z, light.shadowNear / z,
@@ -207,13 +216,14 @@ float shadowVisibilityPoint(Light light, vec3 p, vec3 n, float lift) {
 }
 
 // Visibility of a spot with one map.
-float shadowVisibilitySpot(Light light, vec3 p, vec3 n, float lift) {
+float shadowVisibilitySpot(Light light, vec3 p, vec3 n, vec2 lift) {
     vec3 toP = p - light.position;
     vec3 lateral = vec3(dot(toP, light.halfU), dot(toP, light.halfV), dot(toP, light.direction));
     vec3 ln = vec3(dot(n, light.halfU), dot(n, light.halfV), dot(n, light.direction));
-    lateral += shadowOffset(lift * max(lateral.z, 0.0) * light.shadowTexel, ln.xy) * ln;
-    float z = max(lateral.z, 1e-20);
-    vec2 at = lateral.xy / z;
+    vec2 at = lateral.xy / max(lateral.z, 1e-20);
+    float distance = max(length(toP), 1e-20);
+    float moved = shadowLift(lift, max(lateral.z, 0.0) * light.shadowTexel, ln.xy, -dot(n, toP) / distance);
+    float z = max(lateral.z * (1.0 - moved / distance), 1e-20);
     float size = float(textureSize(shadowDepths, 0).x);
     vec2 texel = clamp(0.5 * size + at / light.shadowTexel, 0.0, size);
     float lit = shadowFilter(texel, float(light.shadow), light.shadowNear / z, shadowPlane(ln, at),
@@ -222,10 +232,10 @@ float shadowVisibilitySpot(Light light, vec3 p, vec3 n, float lift) {
 }
 
 // Visibility of a directional light; light.position is the centre of the map's near side.
-float shadowVisibilityDirectional(Light light, vec3 p, vec3 n, float lift) {
+float shadowVisibilityDirectional(Light light, vec3 p, vec3 n, vec2 lift) {
     vec3 toP = p - light.position;
     vec3 ln = vec3(dot(n, light.halfU), dot(n, light.halfV), dot(n, light.direction));
-    toP += n * shadowOffset(lift * light.shadowTexel, ln.xy);
+    toP -= light.direction * shadowLift(lift, light.shadowTexel, ln.xy, -ln.z);
     float ref = 1.0 - dot(toP, light.direction) * light.shadowNear;
     float size = float(textureSize(shadowDepths, 0).x);
     vec2 texel = 0.5 * size + vec2(dot(toP, light.halfU), dot(toP, light.halfV)) / light.shadowTexel;

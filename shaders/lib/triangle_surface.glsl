@@ -65,7 +65,7 @@ vec3 triangleRadiance(VoxelHit hit, vec3 origin, vec3 direction, inout FaceShade
     vec3 reflected = vec3(0.0);  // by the face
     vec3 direct = vec3(0.0);
 #if EXACT_DIRECT
-    direct = directIrradiance(position, bent, n);
+    direct = directIrradiance(position, bent, n, 0.0);
 #else
     reflected += max(s.radiance - steady, vec3(0.0));
 #endif

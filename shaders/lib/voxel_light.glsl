@@ -98,8 +98,8 @@ vec3 hitRadiance(VoxelHit hit, vec3 origin, vec3 direction, inout FaceShade s, o
     s.irradiance = around.a > 0.0 ? around.rgb : s.irradiance;
 #endif
 #if EXACT_DIRECT
-    vec3 rise = faceRise(texelFetch(voxelFaces, 2 * face), normal);
-    vec3 direct = directIrradiance(worldFromGrid(point + rise), bent, normal) * (1.0 / kGatherPi);
+    float rise = dot(faceRise(texelFetch(voxelFaces, 2 * face), normal), normal) * grid.voxelSize;
+    vec3 direct = directIrradiance(worldFromGrid(point), bent, normal, rise) * (1.0 / kGatherPi);
     vec3 radiance = unpackRgb9e5(texelFetch(steadyLight, face).x) + s.albedo * (direct + s.irradiance);
 #else
     vec3 radiance = s.radiance + s.albedo * s.irradiance;

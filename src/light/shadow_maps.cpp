@@ -17,14 +17,9 @@ namespace {
 // same relative precision for any value, so it is only bounded by what must not vanish.
 constexpr float kNearFraction = 1e-5f;
 
-// lib/shadow.glsl's: by how many texels voxels' positions are moved along the normal.
-constexpr float kVoxelLift = 3;
-
-// Texels that a map keeps beyond the frustum it covers: the filter's reach, and the move along the normal
-// (times sqrt 2 for the worst direction), which may cross the border between two sides.
-int guardTexels(int filterRadius) {
-    return filterRadius + 2 + static_cast<int>(std::ceil(1.5f * kVoxelLift));
-}
+// Texels that a map keeps beyond the frustum it covers, which may lie on another side of a cube: the filter's
+// reach, and two for rounding.
+int guardTexels(int filterRadius) { return filterRadius + 2; }
 constexpr int kRectGuard = 2;  // lib/shadow.glsl: filter radius 0 and the move, each one texel
 
 struct Axes {

@@ -73,7 +73,7 @@ void main() {
     std::vector<glm::vec4> shaded(const Light& light, float roughness) {
         return atEachPoint(R"(
     DirectLight sum = DirectLight(vec3(0), vec3(0));
-    addRect(sum, true, Receiver(p, n, n, toEye, 0.0), b, lights[0]);
+    addRect(sum, true, Receiver(p, n, n, toEye, vec2(0.0)), b, lights[0]);
     data[i] = vec4(lights[0].intensity * rectSpecularQuick(lights[0], p, lobe, b), 0.0);
     data[i + 1u] = vec4(sum.specular, sum.irradiance.x);
 )",
