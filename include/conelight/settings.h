@@ -188,7 +188,7 @@ struct TracedSettings {
     int specularRays = 1;        // rays per pixel and pass into the specular lobe; 0..16
     float specularLimit = 0.6f;  // rougher surfaces reflect their irradiance instead; 0..1
     int passes = 16;             // of pixel rays that are averaged; 1..1024
-    int filterLevels = 2;        // of the edge-stopping filter: 0 none, 1 3x3, 2 7x7, 3 15x15 pixels; 0..4
+    int filterLevels = 3;        // of the edge-stopping filter: 0 none, 1 3x3, 2 7x7, 3 15x15 pixels; 0..4
     // Cache of irradiance
     int cacheRays = 2;      // rays by the cosine per face and update, as many again to bright faces; 1..64
     int cacheUpdates = 32;  // updates of all faces until the cache is left as it is; 1..4096

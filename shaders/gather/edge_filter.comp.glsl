@@ -29,6 +29,27 @@ ivec2 neighbour(int i) {
     return ivec2(k % 3, k / 3) - 1;
 }
 
+// Pixels that differ by more than so many standard deviations, and this part of what both show, show another
+// light.
+const float kUnlike = 4.0;
+const float kAlwaysAlike = 0.05;
+// The standard deviation of a ray's light, over the mean, is taken for this before any pass has shown it; it
+// counts as much as one pass.
+const float kAssumedNoise = 1.5;
+
+// Of the mean that a pixel shows. Passes complement each other: noise of n falls a little faster than n^-0.5.
+float meanVariance(uvec4 bits) {
+    float deviation = pixelHistoryDeviation(bits);
+    float variance = deviation * deviation;
+#if FILTER_STEP == 1
+    float passes = max(pixelHistoryCount(bits), 1.0);
+    float assumed = kAssumedNoise * pixelBrightness(pixelHistoryValue(bits));
+    float root = inversesqrt(passes);
+    variance = (variance + assumed * assumed / (float(pixelRays.rays) * passes)) * root * root * sqrt(root);
+#endif
+    return variance;
+}
+
 vec3 positionOf(ivec2 pixel, uvec4 bits) { return frame.eye + pixelHistoryDepth(bits) * pixelRay(pixel); }
 
 void main() {
@@ -62,25 +83,30 @@ void main() {
     }
 #if !SPECULAR
     vec3 alike = pixelHistoryValue(own);
+    float ownVariance = meanVariance(own);
+    float about = ownVariance;
 #if FILTER_STEP == 1
     // What is unlike all of its neighbours is noise, not another light: it is told from them by the least or
-    // most of them.
+    // most of them. How much noise there is, few passes do not say: the mean over neighbours does.
     vec3 least = vec3(1e30);
     vec3 most = vec3(0.0);
+    vec2 variance = 4.0 * vec2(ownVariance, 1.0);
     for (int i = 0; i < 8; ++i) {
         uvec4 bits = taps[i];
+        ivec2 offset = neighbour(i);
         bool same = inside[i] && bits.z != 0u && pixelHistoryInstance(bits) == pixelHistoryInstance(own);
         float offPlane =
-            dot(positionOf(pixel + neighbour(i), bits) - position, normal) * pixelRays.inverseVoxelSize;
+            dot(positionOf(pixel + offset, bits) - position, normal) * pixelRays.inverseVoxelSize;
         same = same && dot(pixelHistoryNormal(bits), normal) > 0.9 && abs(offPlane) < 0.5;
         least = same ? min(least, pixelHistoryValue(bits)) : least;
         most = same ? max(most, pixelHistoryValue(bits)) : most;
+        float tap = offset.x == 0 || offset.y == 0 ? 2.0 : 1.0;
+        variance += same ? tap * vec2(meanVariance(bits), 1.0) : vec2(0.0);
     }
     alike = least.r < 1e30 ? clamp(alike, least, most) : alike;
+    about = variance.x / variance.y;
 #endif
-    float rays = max(pixelHistoryCount(own), 1.0) * float(pixelRays.rays);
-    // From 8 rays on, a pixel six times as bright as another never counts for it.
-    float certainty = max(pow(rays, 0.6) / 4.25, min(0.5 * sqrt(rays), 1.4));
+    float variances = 16.0 * ownVariance;
 #endif
     for (int i = 0; i < 8; ++i) {
         ivec2 offset = neighbour(i);
@@ -106,20 +132,26 @@ void main() {
         // A normal turned by alpha shows what lies a whole lobe beside.
         tap *= max(1.0 - 2.0 * (1.0 - cosine) / (lobe * lobe), 0.0);
 #else
-        // Noise of a mean of n rays that complement each other falls as n^-0.6 (fitted); a difference far
-        // above it is another light, as across a wall too thin for a pixel.
-        vec3 a = alike;
-        vec3 b = pixelHistoryValue(bits);
-        float relative = dot(abs(a - b), vec3(1.0)) / max(dot(a + b, vec3(1.0)), 1e-6) * certainty;
-        tap *= max(1.0 - relative * relative, 0.0);
+        // A pixel with much noise is not told from the others by it, or the mean would be of dark ones only.
+        float tapVariance = meanVariance(bits);
+        float noise2 = kUnlike * kUnlike * (about + max(about, tapVariance));
+        float alwaysAlike = kAlwaysAlike * pixelBrightness(alike + pixelHistoryValue(bits));
+        float apart = pixelBrightness(abs(alike - pixelHistoryValue(bits)));
+        tap *= max(1.0 - apart * apart / max(noise2 + alwaysAlike * alwaysAlike, 1e-12), 0.0);
 #endif
         tap *= same ? turned * reach * max(1.0 - 4.0 * offPlane * offPlane, 0.0) : 0.0;
         sum += tap * pixelHistoryValue(bits);
         weights += tap;
+#if !SPECULAR
+        variances += tap * tap * tapVariance;
+#endif
     }
     if (any(greaterThanEqual(pixel, size))) return;
+#if SPECULAR
+    float deviation = pixelHistoryDeviation(own);
+#else
+    float deviation = sqrt(variances) / weights;
+#endif
     vec3 value = own.z != 0u ? sum / weights : vec3(0.0);
-    imageStore(
-        result, pixel,
-        uvec4(packHalf2x16(value.rg), packHalf2x16(vec2(value.b, 0.0)) | (own.y & 0xffff0000u), own.zw));
+    imageStore(result, pixel, uvec4(packHalf2x16(value.rg), packHistoryBlue(value.b, deviation), own.zw));
 }

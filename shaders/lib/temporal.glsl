@@ -19,13 +19,23 @@ layout(binding = PIXEL_UNIT_HISTORY) uniform usampler2D pixelHistory;
 layout(std430, binding = PIXEL_MOTION) readonly buffer Motion { mat4 oldFromWorld[]; };
 #endif
 
-// rgb and number of passes, 0 where there is nothing to go by.
-vec4 valueSoFar(ivec2 pixel, Surface s) {
+struct SoFar {
+    vec4 value;      // rgb and number of passes, 0 where there is nothing to go by
+    float variance;  // of the brightness of one pass
+};
+
+SoFar soFarOf(uvec4 bits) {
+    float deviation = pixelHistoryDeviation(bits);
+    return SoFar(vec4(pixelHistoryValue(bits), pixelHistoryCount(bits)), deviation * deviation);
+}
+
+SoFar valueSoFar(ivec2 pixel, Surface s) {
 #if TEMPORAL == 0
-    return vec4(0.0);
+    return SoFar(vec4(0.0), 0.0);
 #elif TEMPORAL == 1
     uvec4 bits = texelFetch(pixelHistory, pixel, 0);
-    return bits.z != 0u ? vec4(pixelHistoryValue(bits), pixelHistoryCount(bits)) : vec4(0.0);
+    SoFar own = soFarOf(bits);
+    return bits.z != 0u ? own : SoFar(vec4(0.0), 0.0);
 #else
     vec3 position = s.position;
     vec3 normal = s.normal;
@@ -44,7 +54,7 @@ vec4 valueSoFar(ivec2 pixel, Surface s) {
     place = mix(place, nearest, lessThan(abs(place - nearest), vec2(0.02)));
     vec2 base = floor(place);
     vec2 part = place - base;
-    vec4 sum = vec4(0.0);
+    SoFar sum = SoFar(vec4(0.0), 0.0);
     float weight = 0.0;
     for (int i = 0; i < 4; ++i) {
         ivec2 offset = ivec2(i & 1, i >> 1);
@@ -60,18 +70,26 @@ vec4 valueSoFar(ivec2 pixel, Surface s) {
                     abs(dot(there - position, planeNormal)) < pixelRays.planeTolerance;
         vec2 w = mix(1.0 - part, part, vec2(offset));
         float tap = same ? w.x * w.y : 0.0;
-        sum += tap * vec4(pixelHistoryValue(bits), pixelHistoryCount(bits));
+        SoFar there4 = soFarOf(bits);
+        sum.value += tap * there4.value;
+        sum.variance += tap * there4.variance;
         weight += tap;
     }
     // Less than a twentieth of a pixel is rounding.
-    return weight > 0.05 ? sum / weight : vec4(0.0);
+    float scale = weight > 0.05 ? 1.0 / weight : 0.0;
+    return SoFar(scale * sum.value, scale * sum.variance);
 #endif
 }
 
 // The mean of what was so far and one more pass; `longest` passes at most, so that change gets through.
 uvec4 withPass(ivec2 pixel, Surface s, bool seen, vec3 value, float longest) {
-    vec4 soFar = valueSoFar(pixel, s);
-    float count = min(floor(soFar.a), longest - 1.0) + 1.0;
-    vec3 mean = mix(soFar.rgb, value, 1.0 / count);
-    return packPixelHistory(PixelHistory(mean, count, seen ? s.depth : 0.0, s.normal, s.instance));
+    SoFar soFar = valueSoFar(pixel, s);
+    float count = min(floor(soFar.value.a), longest - 1.0) + 1.0;
+    vec3 mean = mix(soFar.value.rgb, value, 1.0 / count);
+    // Welford 1962, "Note on a Method for Calculating Corrected Sums of Squares and Products".
+    float square = (pixelBrightness(value) - pixelBrightness(soFar.value.rgb)) *
+                   (pixelBrightness(value) - pixelBrightness(mean));
+    float variance = count > 1.0 ? mix(soFar.variance, square, 1.0 / count) : 0.0;
+    return packPixelHistory(
+        PixelHistory(mean, sqrt(max(variance, 0.0)), count, seen ? s.depth : 0.0, s.normal, s.instance));
 }

@@ -583,6 +583,7 @@ void applyQuality(TracedSettings& settings, Quality quality) {
             break;
         case Quality::Converged:
             s.pixelRays = 8;
+            s.filterLevels = 2;
             s.specularRays = 8;
             s.specularLimit = 1;
             s.cacheRays = 8;

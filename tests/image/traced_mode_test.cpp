@@ -625,6 +625,29 @@ TEST_F(TracedModeTest, FewRaysLeaveNoDarkDots) {
         2);
 }
 
+// A room lit by small lamps alone, noisy, and how much differs from place to place: a filter whose tolerance
+// does not depend on it is 16 % off.
+TEST_F(TracedModeTest, FilterKnowsHowMuchNoiseThereIs) {
+    const Scene scene = io::generateScene("lounge");
+    Settings settings = smallSettings(Quality::Interactive, Component::Diffuse);
+    settings.voxels.size = 64;
+    settings.traced.passes = 16;
+    Renderer renderer;
+    renderer.setScene(scene);
+    const auto picture = [&] {
+        renderer.render(scene.cameras.at(0), 160, 160, settings);
+        return renderer.readImage();
+    };
+    const Image filtered = picture();
+    settings.traced.filterLevels = 0;
+    const Image plain = picture();
+    settings.traced.passes = 512;
+    const Image truth = picture();
+    EXPECT_LT(relRmse(filtered, truth), 0.145);
+    EXPECT_GT(relRmse(plain, truth), 0.3);
+    EXPECT_NEAR(meanOf(filtered) / meanOf(truth), 1.0, 0.02);
+}
+
 TEST_F(TracedModeTest, EveryComponentIsFinite) {
     const Scene scene = io::generateScene("spheres");
     Renderer renderer;
