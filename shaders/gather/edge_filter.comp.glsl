@@ -84,29 +84,30 @@ void main() {
 #if !SPECULAR
     vec3 alike = pixelHistoryValue(own);
     float ownVariance = meanVariance(own);
-    float about = ownVariance;
-#if FILTER_STEP == 1
-    // What is unlike all of its neighbours is noise, not another light: it is told from them by the least or
-    // most of them. How much noise there is, few passes do not say: the mean over neighbours does.
+    // How much noise there is, few passes do not say: the mean over neighbours does. Pixels that no ray found
+    // light for all seem to know that they are dark.
+    vec2 variance = 4.0 * vec2(ownVariance, 1.0);
     vec3 least = vec3(1e30);
     vec3 most = vec3(0.0);
-    vec2 variance = 4.0 * vec2(ownVariance, 1.0);
     for (int i = 0; i < 8; ++i) {
         uvec4 bits = taps[i];
         ivec2 offset = neighbour(i);
         bool same = inside[i] && bits.z != 0u && pixelHistoryInstance(bits) == pixelHistoryInstance(own);
-        float offPlane =
-            dot(positionOf(pixel + offset, bits) - position, normal) * pixelRays.inverseVoxelSize;
+        float offPlane = dot(positionOf(pixel + FILTER_STEP * offset, bits) - position, normal) *
+                         pixelRays.inverseVoxelSize;
         same = same && dot(pixelHistoryNormal(bits), normal) > 0.9 && abs(offPlane) < 0.5;
-        least = same ? min(least, pixelHistoryValue(bits)) : least;
-        most = same ? max(most, pixelHistoryValue(bits)) : most;
         float tap = offset.x == 0 || offset.y == 0 ? 2.0 : 1.0;
         variance += same ? tap * vec2(meanVariance(bits), 1.0) : vec2(0.0);
+        least = same ? min(least, pixelHistoryValue(bits)) : least;
+        most = same ? max(most, pixelHistoryValue(bits)) : most;
     }
+    float about = max(variance.x / variance.y, ownVariance);
+#if FILTER_STEP == 1
+    // What is unlike all of its neighbours is noise, not another light: it is told from them by the least or
+    // most of them.
     alike = least.r < 1e30 ? clamp(alike, least, most) : alike;
-    about = variance.x / variance.y;
 #endif
-    float variances = 16.0 * ownVariance;
+    float variances = 16.0 * about;
 #endif
     for (int i = 0; i < 8; ++i) {
         ivec2 offset = neighbour(i);

@@ -70,9 +70,9 @@ SoFar valueSoFar(ivec2 pixel, Surface s) {
                     abs(dot(there - position, planeNormal)) < pixelRays.planeTolerance;
         vec2 w = mix(1.0 - part, part, vec2(offset));
         float tap = same ? w.x * w.y : 0.0;
-        SoFar there4 = soFarOf(bits);
-        sum.value += tap * there4.value;
-        sum.variance += tap * there4.variance;
+        SoFar tapSoFar = soFarOf(bits);
+        sum.value += tap * tapSoFar.value;
+        sum.variance += tap * tapSoFar.variance;
         weight += tap;
     }
     // Less than a twentieth of a pixel is rounding.

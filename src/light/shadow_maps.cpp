@@ -215,7 +215,7 @@ class Layout {
         const auto snapped = [&](const glm::vec3& axis) {
             return std::floor(glm::dot(centre, axis) / light.shadowTexel) * light.shadowTexel;
         };
-        // One percent more on either side, for what is moved along its normal out of the bounds.
+        // One percent more on either side, for what rounding puts out of the bounds.
         const float range = std::max(farthest - nearest, 1e-6f) * 1.02f;
         light.position = light.halfU * snapped(light.halfU) + light.halfV * snapped(light.halfV) +
                          light.direction * (glm::dot(centre, light.direction) + nearest - range * 0.01f);
