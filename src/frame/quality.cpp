@@ -15,9 +15,9 @@ struct Measured {
 };
 constexpr Measured kMeasured[] = {
     {"draft", Quality::Draft, 0.052, 0.003},
-    {"interactive", Quality::Interactive, 0.045, 0.003},
-    {"high", Quality::High, 0.029, 0.001},
-    {"converged", Quality::Converged, 0.025, 0.001},
+    {"interactive", Quality::Interactive, 0.038, 0.002},
+    {"high", Quality::High, 0.024, 0.001},
+    {"converged", Quality::Converged, 0.019, 0.001},
 };
 
 }  // namespace
