@@ -29,6 +29,8 @@ ivec2 neighbour(int i) {
     return ivec2(k % 3, k / 3) - 1;
 }
 
+float tapWeight(ivec2 offset) { return offset.x == 0 || offset.y == 0 ? 2.0 : 1.0; }
+
 // Pixels that differ by more than so many standard deviations, and this part of what both show, show another
 // light.
 const float kUnlike = 4.0;
@@ -75,11 +77,17 @@ void main() {
     float lobe = max(roughness * roughness, 1e-3);  // GGX's alpha
 #endif
     uvec4 taps[8];
-    bool inside[8];
+    bool same[8];       // the pixel's instance
+    float cosines[8];   // of the normals
+    float offPlane[8];  // from the pixel's plane, voxels
     for (int i = 0; i < 8; ++i) {
         ivec2 q = pixel + FILTER_STEP * neighbour(i);
-        inside[i] = all(greaterThanEqual(q, ivec2(0))) && all(lessThan(q, size));
-        taps[i] = texelFetch(source, clamp(q, ivec2(0), size - 1), 0);
+        uvec4 bits = texelFetch(source, clamp(q, ivec2(0), size - 1), 0);
+        bool inside = all(greaterThanEqual(q, ivec2(0))) && all(lessThan(q, size));
+        same[i] = inside && bits.z != 0u && pixelHistoryInstance(bits) == pixelHistoryInstance(own);
+        cosines[i] = dot(pixelHistoryNormal(bits), normal);
+        offPlane[i] = dot(positionOf(q, bits) - position, normal) * pixelRays.inverseVoxelSize;
+        taps[i] = bits;
     }
 #if !SPECULAR
     vec3 alike = pixelHistoryValue(own);
@@ -90,16 +98,11 @@ void main() {
     vec3 least = vec3(1e30);
     vec3 most = vec3(0.0);
     for (int i = 0; i < 8; ++i) {
-        uvec4 bits = taps[i];
-        ivec2 offset = neighbour(i);
-        bool same = inside[i] && bits.z != 0u && pixelHistoryInstance(bits) == pixelHistoryInstance(own);
-        float offPlane = dot(positionOf(pixel + FILTER_STEP * offset, bits) - position, normal) *
-                         pixelRays.inverseVoxelSize;
-        same = same && dot(pixelHistoryNormal(bits), normal) > 0.9 && abs(offPlane) < 0.5;
-        float tap = offset.x == 0 || offset.y == 0 ? 2.0 : 1.0;
-        variance += same ? tap * vec2(meanVariance(bits), 1.0) : vec2(0.0);
-        least = same ? min(least, pixelHistoryValue(bits)) : least;
-        most = same ? max(most, pixelHistoryValue(bits)) : most;
+        vec3 value = pixelHistoryValue(taps[i]);
+        bool surface = same[i] && cosines[i] > 0.9 && abs(offPlane[i]) < 0.5;
+        variance += surface ? tapWeight(neighbour(i)) * vec2(meanVariance(taps[i]), 1.0) : vec2(0.0);
+        least = surface ? min(least, value) : least;
+        most = surface ? max(most, value) : most;
     }
     float about = max(variance.x / variance.y, ownVariance);
 #if FILTER_STEP == 1
@@ -112,26 +115,23 @@ void main() {
     for (int i = 0; i < 8; ++i) {
         ivec2 offset = neighbour(i);
         uvec4 bits = taps[i];
-        float tap = offset.x == 0 || offset.y == 0 ? 2.0 : 1.0;
-        float offPlane = dot(positionOf(pixel + FILTER_STEP * offset, bits) - position, normal) *
-                         pixelRays.inverseVoxelSize;
-        float cosine = dot(pixelHistoryNormal(bits), normal);
-        float turned = max(cosine, 0.0);
+        float tap = tapWeight(offset);
+        float turned = max(cosines[i], 0.0);
         turned *= turned;
         turned *= turned;
         turned *= turned;
         turned *= turned;
         turned *= turned;
-        bool same = inside[i] && bits.z != 0u && pixelHistoryInstance(bits) == pixelHistoryInstance(own);
+        bool counts = same[i];
 #if FILTER_STEP > 1
         uvec4 middle = texelFetch(source, clamp(pixel + FILTER_STEP / 2 * offset, ivec2(0), size - 1), 0);
         float middleOff = dot(positionOf(pixel + FILTER_STEP / 2 * offset, middle) - position, normal);
-        same = same && pixelHistoryInstance(middle) == pixelHistoryInstance(own) &&
-               abs(middleOff) * pixelRays.inverseVoxelSize < 0.5;
+        counts = counts && pixelHistoryInstance(middle) == pixelHistoryInstance(own) &&
+                 abs(middleOff) * pixelRays.inverseVoxelSize < 0.5;
 #endif
 #if SPECULAR
         // A normal turned by alpha shows what lies a whole lobe beside.
-        tap *= max(1.0 - 2.0 * (1.0 - cosine) / (lobe * lobe), 0.0);
+        tap *= max(1.0 - 2.0 * (1.0 - cosines[i]) / (lobe * lobe), 0.0);
 #else
         // A pixel with much noise is not told from the others by it, or the mean would be of dark ones only.
         float tapVariance = meanVariance(bits);
@@ -140,7 +140,7 @@ void main() {
         float apart = pixelBrightness(abs(alike - pixelHistoryValue(bits)));
         tap *= max(1.0 - apart * apart / max(noise2 + alwaysAlike * alwaysAlike, 1e-12), 0.0);
 #endif
-        tap *= same ? turned * reach * max(1.0 - 4.0 * offPlane * offPlane, 0.0) : 0.0;
+        tap *= counts ? turned * reach * max(1.0 - 4.0 * offPlane[i] * offPlane[i], 0.0) : 0.0;
         sum += tap * pixelHistoryValue(bits);
         weights += tap;
 #if !SPECULAR
