@@ -51,7 +51,7 @@ class Layers(Project):
         self.assertEqual(len(self.problems()), 1)
 
     def test_library_must_not_see_io_or_apps(self):
-        self.write("src/frame/a.cpp", '#include "io/import.h"\n#include "platform/headless_context.h"\n')
+        self.write("src/modes/a.cpp", '#include "io/import.h"\n#include "platform/headless_context.h"\n')
         self.assertEqual(len(self.problems()), 2)
 
     def test_program_sees_only_the_public_headers(self):

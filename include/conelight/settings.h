@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every knob of the renderer as plain structs with defaults. The same list, with unit, range and one line of
 // explanation, is given by settingInfos() and is what `--set KEY=VALUE`, `conelight settings`, the
-// documentation and the viewer show: src/frame/settings.cpp is the single source of those texts.
+// documentation and the viewer show: src/modes/settings.cpp is the single source of those texts.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The list of all shader variants is complete, and each is written out as the driver gets it.
-#include "frame/shader_variants.h"
+#include "modes/shader_variants.h"
 
 #include <gtest/gtest.h>
 
@@ -32,13 +32,13 @@ bool isEntry(const std::string& path) {
 
 TEST(ShaderVariantsTest, EveryEntryIsInAVariant) {
     std::set<std::string> used;
-    for (const gl::ProgramDesc& desc : frame::allShaderVariants())
+    for (const gl::ProgramDesc& desc : modes::allShaderVariants())
         used.insert(desc.files.begin(), desc.files.end());
     for (const gl::EmbeddedShader& shader : gl::embeddedShaders()) {
         if (!isEntry(shader.path)) continue;
         EXPECT_TRUE(used.count(shader.path))
             << "shaders/" << shader.path
-            << " is in no variant; add its stage's programDescs() to src/frame/shader_variants.cpp";
+            << " is in no variant; add its stage's programDescs() to src/modes/shader_variants.cpp";
     }
     for (const std::string& file : used) EXPECT_TRUE(isEntry(file)) << file;
 }
@@ -47,7 +47,7 @@ TEST(ShaderVariantsTest, ExpandedFilesAreWhatTheDriverGets) {
     const std::filesystem::path dir = std::filesystem::path(scratchDir()) / "expanded";
     const std::size_t count = expandAllShaders(dir.string());
     std::set<std::string> texts;
-    for (const gl::ProgramDesc& desc : frame::allShaderVariants())
+    for (const gl::ProgramDesc& desc : modes::allShaderVariants())
         for (const std::string& file : desc.files)
             texts.insert(gl::expandShader(gl::embeddedShaderProvider(), file, desc.defines).text);
     std::size_t files = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Every shader variant compiles and links on the driver.
-#include "frame/shader_variants.h"
+#include "modes/shader_variants.h"
 
 #include "conelight/error.h"
 #include "support/gl_fixture.h"
@@ -10,7 +10,7 @@ namespace conelight::test {
 using ShaderVariantsGlTest = GlTest;
 
 TEST_F(ShaderVariantsGlTest, EveryVariantLinks) {
-    const std::vector<gl::ProgramDesc> all = frame::allShaderVariants();
+    const std::vector<gl::ProgramDesc> all = modes::allShaderVariants();
     EXPECT_FALSE(all.empty());
     for (const gl::ProgramDesc& desc : all) {
         try {

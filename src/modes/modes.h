@@ -5,10 +5,10 @@
 #include <memory>
 
 #include "conelight/settings.h"
-#include "frame/frame_context.h"
+#include "modes/frame_context.h"
 
-namespace conelight::frame {
+namespace conelight::modes {
 
 std::unique_ptr<ModeRenderer> makeModeRenderer(Mode mode);
 
-}  // namespace conelight::frame
+}  // namespace conelight::modes

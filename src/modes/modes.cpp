@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "frame/modes.h"
+#include "modes/modes.h"
 
 #include "base/log.h"
-#include "frame/cones_mode.h"
-#include "frame/phong_mode.h"
-#include "frame/thesis_mode.h"
-#include "frame/traced_mode.h"
+#include "modes/cones_mode.h"
+#include "modes/phong_mode.h"
+#include "modes/thesis_mode.h"
+#include "modes/traced_mode.h"
 
-namespace conelight::frame {
+namespace conelight::modes {
 
 std::unique_ptr<ModeRenderer> makeModeRenderer(Mode mode) {
     switch (mode) {
@@ -26,4 +26,4 @@ std::unique_ptr<ModeRenderer> makeModeRenderer(Mode mode) {
     base::fail(ErrorKind::Usage, "mode: not built yet");
 }
 
-}  // namespace conelight::frame
+}  // namespace conelight::modes

@@ -8,9 +8,9 @@
 #include <memory>
 #include <vector>
 
-#include "frame/frame_context.h"
+#include "modes/frame_context.h"
 
-namespace conelight::frame {
+namespace conelight::modes {
 
 class ConesMode : public ModeRenderer {
   public:
@@ -27,4 +27,4 @@ class ConesMode : public ModeRenderer {
     std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace conelight::frame
+}  // namespace conelight::modes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "frame/shader_variants.h"
+#include "modes/shader_variants.h"
 
 #include <cctype>
 #include <cstdint>
@@ -9,9 +9,6 @@
 
 #include "base/log.h"
 #include "conelight/shaders.h"
-#include "frame/cones_mode.h"
-#include "frame/thesis_mode.h"
-#include "frame/traced_mode.h"
 #include "gather/cone_gather.h"
 #include "gather/direct_light.h"
 #include "gather/phong_shade.h"
@@ -23,6 +20,9 @@
 #include "light/inject_light.h"
 #include "light/irradiance_cache.h"
 #include "light/shadow_maps.h"
+#include "modes/cones_mode.h"
+#include "modes/thesis_mode.h"
+#include "modes/traced_mode.h"
 #include "view/gbuffer.h"
 #include "voxels/octant_words.h"
 #include "voxels/radiance_volume.h"
@@ -54,7 +54,7 @@ std::string variantFile(const std::string& path, const gl::Defines& defines) {
 
 }  // namespace
 
-namespace frame {
+namespace modes {
 
 std::vector<gl::ProgramDesc> allShaderVariants() {
     std::vector<gl::ProgramDesc> all;
@@ -73,7 +73,7 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     add(voxels::OctantWords::programDescs());
     add(light::IrradianceCache::programDescs());
     add(gather::ConeGather::programDescs());
-    add(frame::ConesMode::programDescs());
+    add(modes::ConesMode::programDescs());
     add(ThesisMode::programDescs());
     add(TracedMode::programDescs());
     add(gather::VoxelView::programDescs());
@@ -84,13 +84,13 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     return all;
 }
 
-}  // namespace frame
+}  // namespace modes
 
 std::size_t expandAllShaders(const std::string& directory, const std::string& shaderDirectory) {
     const gl::ShaderProvider provider =
         shaderDirectory.empty() ? gl::embeddedShaderProvider() : gl::directoryShaderProvider(shaderDirectory);
     std::set<std::string> written;
-    for (const gl::ProgramDesc& desc : frame::allShaderVariants())
+    for (const gl::ProgramDesc& desc : modes::allShaderVariants())
         for (const std::string& file : desc.files) {
             // Programs may share a stage.
             const std::string name = variantFile(file, desc.defines);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "frame/cones_mode.h"
+#include "modes/cones_mode.h"
 
 #include <optional>
 
@@ -12,7 +12,7 @@
 #include "shared/bindings.h"
 #include "voxels/radiance_volume.h"
 
-namespace conelight::frame {
+namespace conelight::modes {
 namespace {
 
 // Texture units of gather/cone_compose.comp.glsl.
@@ -202,4 +202,4 @@ std::vector<gl::ProgramDesc> ConesMode::programDescs() {
     return descs;
 }
 
-}  // namespace conelight::frame
+}  // namespace conelight::modes

@@ -5,12 +5,12 @@
 
 #include <optional>
 
-#include "frame/frame_context.h"
 #include "gather/thesis_cones.h"
 #include "gather/voxel_view.h"
+#include "modes/frame_context.h"
 #include "voxels/thesis_volume.h"
 
-namespace conelight::frame {
+namespace conelight::modes {
 
 class ThesisMode : public ModeRenderer {
   public:
@@ -31,4 +31,4 @@ class ThesisMode : public ModeRenderer {
     std::optional<voxels::ThesisVolumeOptions> builtFor_;
 };
 
-}  // namespace conelight::frame
+}  // namespace conelight::modes

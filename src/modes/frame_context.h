@@ -13,7 +13,7 @@
 #include "shared/frame.h"
 #include "view/gbuffer.h"
 
-namespace conelight::frame {
+namespace conelight::modes {
 
 struct FrameContext {
     gl::ProgramLibrary& programs;
@@ -54,4 +54,4 @@ class ModeRenderer {
     virtual bool cullsBackFaces() const { return true; }
 };
 
-}  // namespace conelight::frame
+}  // namespace conelight::modes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "frame/traced_mode.h"
+#include "modes/traced_mode.h"
 
 #include <algorithm>
 #include <optional>
@@ -13,7 +13,7 @@
 #include "shared/bindings.h"
 #include "shared/irradiance.h"
 
-namespace conelight::frame {
+namespace conelight::modes {
 namespace {
 
 constexpr int kAllBounces = 16;  // TracedSettings::bounces
@@ -313,4 +313,4 @@ std::vector<gl::ProgramDesc> TracedMode::programDescs() {
     return descs;
 }
 
-}  // namespace conelight::frame
+}  // namespace conelight::modes

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "frame/phong_mode.h"
+#include "modes/phong_mode.h"
 
 #include "gather/phong_shade.h"
 #include "gl/draw.h"
 
-namespace conelight::frame {
+namespace conelight::modes {
 
 bool PhongMode::needsShadows(const Settings& settings) const {
     return settings.phong.shadows != Toggle::Off && settings.light.shadowSize > 0;
@@ -27,4 +27,4 @@ void PhongMode::render(const FrameContext& frame) {
                            needsShadowsIn(frame.source, frame.settings), frame.output);
 }
 
-}  // namespace conelight::frame
+}  // namespace conelight::modes

@@ -7,9 +7,9 @@
 #include <memory>
 #include <vector>
 
-#include "frame/frame_context.h"
+#include "modes/frame_context.h"
 
-namespace conelight::frame {
+namespace conelight::modes {
 
 class TracedMode : public ModeRenderer {
   public:
@@ -26,4 +26,4 @@ class TracedMode : public ModeRenderer {
     std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace conelight::frame
+}  // namespace conelight::modes

@@ -3,9 +3,9 @@
 // program drew them: back faces culled, no shadows; others have shadow maps (setting phong.shadows).
 #pragma once
 
-#include "frame/frame_context.h"
+#include "modes/frame_context.h"
 
-namespace conelight::frame {
+namespace conelight::modes {
 
 class PhongMode : public ModeRenderer {
   public:
@@ -16,4 +16,4 @@ class PhongMode : public ModeRenderer {
     bool cullsBackFaces() const override { return true; }
 };
 
-}  // namespace conelight::frame
+}  // namespace conelight::modes

@@ -7,7 +7,6 @@
 
 #include "base/clock.h"
 #include "base/log.h"
-#include "frame/modes.h"
 #include "gather/thesis_cones.h"
 #include "gl/debug.h"
 #include "gl/gl.h"
@@ -17,6 +16,7 @@
 #include "image/shadow_view.h"
 #include "image/wireframe.h"
 #include "light/emissive_quads.h"
+#include "modes/modes.h"
 #include "scene/scene_checks.h"
 #include "shared/bindings.h"
 #include "shared/lookups.h"
@@ -70,7 +70,7 @@ struct Renderer::Impl {
     gl::Buffer lookupCounters{4 * LOOKUPS_WORDS, "lookup counters"};
 
     // What the current volumes were built for.
-    std::unique_ptr<frame::ModeRenderer> mode;
+    std::unique_ptr<modes::ModeRenderer> mode;
     Mode modeKind = Mode::Traced;
     std::optional<Settings> builtFor;
     bool sceneChanged = true;
@@ -95,7 +95,7 @@ struct Renderer::Impl {
 
     void render(const Camera& camera, int width, int height, const Settings& settings);
     void prepareMode(const Settings& settings);
-    frame::FrameContext context(const Settings& settings);
+    modes::FrameContext context(const Settings& settings);
     void markBuilt(const Settings& settings);
     void drawMode(const Settings& settings);
     void drawOverlays(const Settings& settings);
@@ -251,7 +251,7 @@ void Renderer::Impl::render(const Camera& camera, int width, int height, const S
 void Renderer::Impl::prepareMode(const Settings& settings) {
     if (!mode || modeKind != settings.mode) {
         mode.reset();  // frees the old volumes first
-        mode = frame::makeModeRenderer(settings.mode);
+        mode = modes::makeModeRenderer(settings.mode);
         modeKind = settings.mode;
         builtFor.reset();
     }
@@ -282,7 +282,7 @@ void Renderer::Impl::prepareMode(const Settings& settings) {
     shadows.bind();
 }
 
-frame::FrameContext Renderer::Impl::context(const Settings& settings) {
+modes::FrameContext Renderer::Impl::context(const Settings& settings) {
     return {programs,       profiler,        source,
             *scene,         settings,        constants,
             targets->width, targets->height, targets->gbuffer,
@@ -300,7 +300,7 @@ void Renderer::Impl::drawOverlays(const Settings& settings) {
     if (settings.view.voxels && settings.component != Component::Voxels && settings.mode != Mode::Phong) {
         Settings voxels = settings;
         voxels.component = Component::Voxels;
-        frame::FrameContext among = context(voxels);
+        modes::FrameContext among = context(voxels);
         // What the picture was drawn with is up to date.
         if (!image::isDebugView(settings.component)) among.geometryChanged = among.lightChanged = false;
         among.voxelsAmong = true;

@@ -8,9 +8,9 @@
 
 #include "gl/program.h"
 
-namespace conelight::frame {
+namespace conelight::modes {
 
 // Without repetition, in the order of the stages. No GL calls.
 std::vector<gl::ProgramDesc> allShaderVariants();
 
-}  // namespace conelight::frame
+}  // namespace conelight::modes

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "frame/thesis_mode.h"
+#include "modes/thesis_mode.h"
 
-namespace conelight::frame {
+namespace conelight::modes {
 namespace {
 
 voxels::ThesisVolumeOptions volumeOptions(const FrameContext& frame) {
@@ -55,4 +55,4 @@ std::vector<gl::ProgramDesc> ThesisMode::programDescs() {
     return descs;
 }
 
-}  // namespace conelight::frame
+}  // namespace conelight::modes
