@@ -17,7 +17,7 @@ layout(rgba32ui, binding = 1) writeonly uniform uimage3D occupied;
 #include "lib/voxel_grid.glsl"
 layout(rgba32ui, binding = IMAGE_VOXEL_BRICKS) readonly uniform uimage3D voxelBrickImage;
 #else
-#include "shared/thesis.h"
+#include "thesis/shaders/constants.h"
 layout(std140, binding = BINDING_THESIS_GRID) uniform ThesisGridBlock { ThesisGrid grid; };
 layout(binding = UNIT_PASS) uniform sampler3D volume;
 #endif
