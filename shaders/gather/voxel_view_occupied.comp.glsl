@@ -5,8 +5,8 @@
 // (voxel_view_reach), w 0. One invocation per brick.
 //
 //   SOURCE  0 from the surface voxels' words: right for all that is made of them
-//           1 from the volume of mode thesis: of bricks whose mean two levels up is not zero, every voxel.
-//             Outside of its box there is nothing
+//           1 from a volume of one colour and opacity a voxel (VoxelVolume of src/gather/voxel_view.h): of
+//             bricks whose mean two levels up is not zero, every voxel. Outside of its box there is nothing
 #ifndef SOURCE
 #error SOURCE must be 0 or 1
 #endif
@@ -17,8 +17,8 @@ layout(rgba32ui, binding = 1) writeonly uniform uimage3D occupied;
 #include "lib/voxel_grid.glsl"
 layout(rgba32ui, binding = IMAGE_VOXEL_BRICKS) readonly uniform uimage3D voxelBrickImage;
 #else
-#include "thesis/shaders/constants.h"
-layout(std140, binding = BINDING_THESIS_GRID) uniform ThesisGridBlock { ThesisGrid grid; };
+#include "shared/voxel_view.h"
+layout(std140, binding = BINDING_PASS) uniform ViewBlock { VoxelViewConstants view; };
 layout(binding = UNIT_PASS) uniform sampler3D volume;
 #endif
 
@@ -31,8 +31,8 @@ void main() {
     if (all(lessThan(brick, gridBricks()))) mask = imageLoad(voxelBrickImage, brick).xy;
 #else
     // Eight bits a channel may round a mean down to nothing; halves do not.
-    bool empty = any(greaterThanEqual(4 * brick, grid.boxMin.xyz + grid.boxSize.xyz)) ||
-                 any(lessThanEqual(4 * brick + 4, grid.boxMin.xyz));
+    bool empty = any(greaterThanEqual(4 * brick, view.filledMin.xyz + view.filledSize.xyz)) ||
+                 any(lessThanEqual(4 * brick + 4, view.filledMin.xyz));
 #if HALVES
     empty = empty || texelFetch(volume, brick, 2) == vec4(0.0);
 #endif

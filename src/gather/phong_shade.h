@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The thesis's Phong model per pixel: G-buffer, light table, materials (and shadow maps) -> RGBA32F image.
+// Phong's model per pixel: G-buffer, light table, materials (and shadow maps) -> RGBA32F image.
 //
 // Reads: G-buffer, frame block, scene tables, shadow maps (all bound). Writes: `output`; readers need a
 // texture-fetch barrier.

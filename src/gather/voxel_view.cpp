@@ -20,8 +20,8 @@ struct VoxelViewGrid {
 
 namespace {
 
-constexpr int kSurfaceVoxels = 0, kThesisVolume = 1, kRadianceVolume = 2;  // SOURCE of the shader
-constexpr int kCoarsest = 8;                                               // view.voxel_level
+constexpr int kSurfaceVoxels = 0, kVoxelVolume = 1, kRadianceVolume = 2;  // SOURCE of the shader
+constexpr int kCoarsest = 8;                                              // view.voxel_level
 // Bricks to each side that are known to be empty, a power of two: a leap of 68 voxels, half of a large room.
 constexpr int kReach = 8;
 
@@ -53,7 +53,7 @@ gl::ProgramDesc levelDesc(bool first) {
     return {{"gather/voxel_view_level.comp.glsl"}, {{"FIRST", first ? "1" : "0"}}};
 }
 
-// HALVES counts for the volume of mode thesis.
+// HALVES (zero means empty) counts for a VoxelVolume.
 gl::ProgramDesc occupiedDesc(int source, bool halves) {
     return {{"gather/voxel_view_occupied.comp.glsl"},
             {{"SOURCE", std::to_string(source)}, {"HALVES", halves ? "1" : "0"}}};
@@ -103,7 +103,7 @@ void VoxelView::run(const Target& target, int source, VoxelShape shape, bool dir
     gl::unbindSampler(UNIT_PASS);
 }
 
-// Of the voxels that are bound; the volume of mode thesis at UNIT_PASS. `size`: of level 0.
+// Of the voxels that are bound; a VoxelVolume at UNIT_PASS, its box in the constants. `size`: of level 0.
 void VoxelView::buildOccupied(const Target& target, int source, bool halves, const glm::ivec3& size) {
     const glm::ivec3 bricks = (size + 3) / 4;
     if (!occupied_ || occupied_.width() != bricks.x || occupied_.height() != bricks.y ||
@@ -201,29 +201,30 @@ void VoxelView::draw(const Target& target, const voxels::RadianceVolume& volume,
         target.settings.cones.voxelLevel, &volume.texture());
 }
 
-void VoxelView::draw(const Target& target, const voxels::ThesisVolume& volume) {
-    const gpu::ThesisGrid& grid = volume.grid();
-    const ThesisSettings& thesis = target.settings.thesis;
+void VoxelView::draw(const Target& target, const VoxelVolume& volume) {
     VoxelShape shape = target.settings.view.voxelShape;
-    if (shape == VoxelShape::Auto)
-        shape = thesis.voxelView == ThesisVoxelView::Surfaces ? VoxelShape::Surfaces : VoxelShape::Cubes;
+    if (shape == VoxelShape::Auto) shape = volume.onSurfaces ? VoxelShape::Surfaces : VoxelShape::Cubes;
     if (shape == VoxelShape::Faces) shape = VoxelShape::Cubes;
-    volume.bind(UNIT_PASS);
-    volume.bindGrid();
-    const bool halves = volume.texture().desc().format == GL_RGBA16F && grid.maxLevel >= 2;
-    if (castsRays(shape))
-        buildOccupied(target, kThesisVolume, halves, glm::ivec3(static_cast<int>(grid.size)));
+    volume.texture.bind(UNIT_PASS);
+    volume.sampler.bind(UNIT_PASS);
+    if (castsRays(shape)) {
+        gpu::VoxelViewConstants c{};
+        c.filledMin = glm::ivec4(volume.filledMin, 0);
+        c.filledSize = glm::ivec4(volume.filledSize, 0);
+        if (!constants_) constants_ = gl::Buffer(sizeof(gpu::VoxelViewConstants), "voxel view constants");
+        constants_.update(c);
+        constants_.bindUniform(BINDING_PASS);
+        buildOccupied(target, kVoxelVolume, volume.zeroMeansEmpty, glm::ivec3(volume.size));
+    }
     const gl::PassScope pass(target.profiler, "voxel view");
-    run(target, kThesisVolume, shape, false,
-        {grid.origin, grid.voxelSize, glm::ivec3(static_cast<int>(grid.size)),
-         static_cast<int>(grid.maxLevel)},
-        thesis.voxelLevel, nullptr);
+    run(target, kVoxelVolume, shape, false,
+        {volume.origin, volume.voxelSize, glm::ivec3(volume.size), volume.maxLevel}, volume.level, nullptr);
 }
 
 std::vector<gl::ProgramDesc> VoxelView::programDescs() {
     std::vector<gl::ProgramDesc> descs = {
         levelDesc(true), levelDesc(false), occupiedDesc(kSurfaceVoxels, true),
-        occupiedDesc(kThesisVolume, true), occupiedDesc(kThesisVolume, false)};
+        occupiedDesc(kVoxelVolume, true), occupiedDesc(kVoxelVolume, false)};
     for (int reach = 1; reach <= kReach; reach *= 2) descs.push_back(reachDesc(reach));
     for (const VoxelShape shape : {VoxelShape::Cubes, VoxelShape::Edges, VoxelShape::Faces,
                                    VoxelShape::Volume, VoxelShape::Surfaces}) {
@@ -231,7 +232,7 @@ std::vector<gl::ProgramDesc> VoxelView::programDescs() {
             if (among && shape == VoxelShape::Surfaces) continue;
             descs.push_back(viewDesc(kSurfaceVoxels, shape, among, false));
             if (shape == VoxelShape::Faces) continue;
-            descs.push_back(viewDesc(kThesisVolume, shape, among, false));
+            descs.push_back(viewDesc(kVoxelVolume, shape, among, false));
             descs.push_back(viewDesc(kRadianceVolume, shape, among, false));
             descs.push_back(viewDesc(kRadianceVolume, shape, among, true));
         }

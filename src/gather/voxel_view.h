@@ -19,13 +19,27 @@
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "shared/frame.h"
-#include "thesis/render/volume.h"
 #include "voxels/radiance_volume.h"
 #include "voxels/surface_voxels.h"
 
 namespace conelight::gather {
 
 struct VoxelViewGrid;
+
+// What a mode without surface voxels shows: a cube of RGBA texels, premultiplied colour and opacity, with
+// mips.
+struct VoxelVolume {
+    const gl::Texture& texture;
+    const gl::Sampler& sampler;  // linear
+    glm::vec3 origin;            // of the lowest corner, m
+    float voxelSize;             // m
+    int size;                    // voxels along an edge
+    int maxLevel;
+    glm::ivec3 filledMin, filledSize;  // box of voxels outside of which there is nothing
+    bool zeroMeansEmpty;               // a mean of zero two levels up: its voxels are zero
+    int level;                         // that is shown unless view.voxel_level says another
+    bool onSurfaces;                   // shape auto: on the picture's surfaces
+};
 
 class VoxelView {
   public:
@@ -43,7 +57,7 @@ class VoxelView {
     // `volume` holds what `surface` does; its grid is bound.
     void draw(const Target& target, const voxels::RadianceVolume& volume,
               const voxels::SurfaceVoxels& surface);
-    void draw(const Target& target, const voxels::ThesisVolume& volume);
+    void draw(const Target& target, const VoxelVolume& volume);
 
     // Before the next draw: other voxels, or other light on the same ones.
     void voxelsChanged() { occupiedValid_ = levelsValid_ = false; }

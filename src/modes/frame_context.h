@@ -50,7 +50,9 @@ class ModeRenderer {
     virtual bool needsShadowsIn(const Scene&, const Settings& settings) const {
         return needsShadows(settings);
     }
-    // Single-sided materials are not seen from behind (glTF's rule, and the original program's).
+    // Flat emitters become lights when light.emissive_quads is on.
+    virtual bool lightsFromEmitters(const Settings&) const { return true; }
+    // Single-sided materials are not seen from behind (glTF's rule).
     virtual bool cullsBackFaces() const { return true; }
 };
 

@@ -11,7 +11,7 @@ bool PhongMode::needsShadows(const Settings& settings) const {
 }
 
 bool PhongMode::needsShadowsIn(const Scene& scene, const Settings& settings) const {
-    const bool wanted = settings.phong.shadows == Toggle::On || !scene.thesisFormat;
+    const bool wanted = settings.phong.shadows == Toggle::On || scene.format.empty();
     return needsShadows(settings) && wanted;
 }
 

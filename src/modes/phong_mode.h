@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Mode `phong`: local illumination only, the thesis's model. Scenes of the thesis's format look as its
-// program drew them: back faces culled, no shadows; others have shadow maps (setting phong.shadows).
+// Mode `phong`: local illumination only, by Phong's model. Back faces are culled. Shadow maps are drawn, but
+// not in scenes with a format of their own (Scene::format), unless phong.shadows asks for them.
 #pragma once
 
 #include "modes/frame_context.h"
@@ -12,7 +12,7 @@ class PhongMode : public ModeRenderer {
     void render(const FrameContext& frame) override;
     bool needsShadows(const Settings& settings) const override;
     bool needsShadowsIn(const Scene& scene, const Settings& settings) const override;
-    // The rooms of the thesis are looked into through their front walls.
+    // Rooms are looked into through their front walls.
     bool cullsBackFaces() const override { return true; }
 };
 

@@ -19,7 +19,6 @@
 #include "scene/scene_checks.h"
 #include "shared/bindings.h"
 #include "shared/lookups.h"
-#include "thesis/render/cones.h"
 #include "view/camera.h"
 
 namespace conelight {
@@ -257,10 +256,7 @@ void Renderer::Impl::prepareMode(const Settings& settings) {
     }
     geometryChanged = sceneChanged || everyFrame || !builtFor || !(builtFor->voxels == settings.voxels) ||
                       geometryRevision != scene->geometryRevision();
-    // Flat emitters as lights; in the thesis's program emissive objects light nothing (a defect).
-    const bool emitters =
-        settings.light.emissiveQuads &&
-        !(settings.mode == Mode::Thesis && gather::effectiveDefects(settings.thesis).darkEmitters);
+    const bool emitters = settings.light.emissiveQuads && mode->lightsFromEmitters(settings);
     lightChanged = geometryChanged || skyChanged || lightRevision != scene->lightRevision() ||
                    !(builtFor->light == settings.light) || emitters != emittersAreLights;
     if (lightChanged) {

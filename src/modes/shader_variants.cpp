@@ -11,7 +11,6 @@
 #include "conelight/shaders.h"
 #include "gather/cone_gather.h"
 #include "gather/direct_light.h"
-#include "gather/phong_shade.h"
 #include "gather/voxel_view.h"
 #include "image/debug_view.h"
 #include "image/display.h"
@@ -20,9 +19,7 @@
 #include "light/inject_light.h"
 #include "light/irradiance_cache.h"
 #include "light/shadow_maps.h"
-#include "modes/cones_mode.h"
-#include "modes/traced_mode.h"
-#include "thesis/render/mode.h"
+#include "modes/modes.h"
 #include "view/gbuffer.h"
 #include "voxels/octant_words.h"
 #include "voxels/radiance_volume.h"
@@ -68,14 +65,11 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     add(voxels::SurfaceVoxels::programDescs());
     add(voxels::RadianceVolume::programDescs());
     add(gather::DirectLight::programDescs());
-    add(gather::phongShadeProgramDescs());
     add(light::injectLightProgramDescs());
     add(voxels::OctantWords::programDescs());
     add(light::IrradianceCache::programDescs());
     add(gather::ConeGather::programDescs());
-    add(modes::ConesMode::programDescs());
-    add(ThesisMode::programDescs());
-    add(TracedMode::programDescs());
+    for (const ModeEntry& mode : registeredModes()) add(mode.programDescs());
     add(gather::VoxelView::programDescs());
     add(image::debugViewProgramDescs());
     add(image::ShadowView::programDescs());

@@ -24,7 +24,7 @@ class GBuffer {
     GBuffer(int width, int height);
 
     // The frame block (BINDING_FRAME) and the scene's tables must be bound. `cullBackFaces`: single-sided
-    // materials are seen from their front only (the thesis's program; DESIGN's modes show back faces of
+    // materials are seen from their front only (mode phong and guests; other modes show back faces of
     // closed objects as well: false).
     void draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
               bool cullBackFaces);

@@ -97,7 +97,7 @@ const std::vector<Struct>& table() {
         ROW(WireframeConstants, radiance, opacity, halfWidth, pad0, pad1, pad2),
         ROW(ShadowViewConstants, light, tiles, tilesPerEdge, columns, rows, pad0, pad1, pad2),
         ROW(VoxelViewConstants, origin, voxelSize, sizeX, sizeY, sizeZ, data, level, spread, maxLevel,
-            density, pixelSize, pad0, pad1, pad2),
+            density, pixelSize, pad0, pad1, pad2, filledMin, filledSize),
         ROW(RecordHeader, pixelX, pixelY, paths, steps, pathSteps, share, seen, pad0, position, depth, normal,
             pad1),
         ROW(RecordedPart, value, used, scale, pad0),

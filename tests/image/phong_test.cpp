@@ -14,14 +14,13 @@ using PhongTest = GlTest;
 
 TEST_F(PhongTest, ThesisScenesShowItsFormula) {
     Scene scene;
-    scene.thesisFormat = true;
+    scene.format = "thesis";
     Material material;
-    material.isPhong = true;
-    material.phong.color = {0.3f, 0.6f, 0.9f};
-    material.phong.shininess = 20;
-    material.phong.ambientStrength = 0.08f;
-    material.phong.diffuseStrength = 1.4f;
-    material.phong.specularStrength = 0.7f;
+    material.phong.emplace().color = {0.3f, 0.6f, 0.9f};
+    material.phong->shininess = 20;
+    material.phong->ambientStrength = 0.08f;
+    material.phong->diffuseStrength = 1.4f;
+    material.phong->specularStrength = 0.7f;
     addInstance(scene, quadMesh({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}), material);
     // Hangs between the first light and the floor: no shadow in scenes of this format.
     addInstance(scene, quadMesh({-0.2f, 1, 0}, {0.1f, 0, 0}, {0, 0, -0.1f}), material);
@@ -65,7 +64,7 @@ TEST_F(PhongTest, ThesisScenesShowItsFormula) {
                 l /= d;
                 const double specular = std::pow(std::max(glm::dot(v, 2 * l.y * n - l), 0.0), 20.0);
                 want += (0.08 + 1.4 * std::max(l.y, 0.0) + 0.7 * specular) * glm::dvec3(colors[i]) /
-                        (1 + 0.15 * d + 0.45 * d * d) * glm::dvec3(material.phong.color);
+                        (1 + 0.15 * d + 0.45 * d * d) * glm::dvec3(material.phong->color);
             }
             for (int c = 0; c < 3; ++c)
                 worst = std::max(worst, std::abs(static_cast<double>(got[c]) - want[c]) / want[c]);
@@ -113,7 +112,7 @@ TEST_F(PhongTest, OtherScenesHaveShadowsUnlessSwitchedOff) {
     settings.phong.shadows = Toggle::Off;
     EXPECT_GT(centre(), 0.01f);
     settings.phong.shadows = Toggle::On;
-    scene.thesisFormat = true;
+    scene.format = "thesis";
     renderer.setScene(scene);
     EXPECT_EQ(centre(), 0);
     settings.phong.shadows = Toggle::Auto;

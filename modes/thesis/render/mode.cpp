@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "thesis/render/mode.h"
 
+#include "conelight/thesis/thesis.h"
+#include "gl/gl.h"
+
 namespace conelight::modes {
 namespace {
 
@@ -10,16 +13,37 @@ voxels::ThesisVolumeOptions volumeOptions(const FrameContext& frame) {
     options.padding = frame.settings.voxels.padding;
     options.shift = frame.settings.voxels.shift;
     options.defects = gather::effectiveDefects(frame.settings.thesis);
-    options.unitGrid = frame.source.thesisFormat && options.defects.wholeGrid;
+    options.unitGrid = frame.source.format == thesis::kSceneFormat && options.defects.wholeGrid;
     options.shadows = !options.defects.unshadowedVoxels && frame.settings.light.shadowSize > 0;
     if (options.shadows) options.lightDefines = light::lightDefines(frame.scene, frame.settings.light);
     return options;
+}
+
+gather::VoxelVolume shownVolume(const voxels::ThesisVolume& volume, const ThesisSettings& settings) {
+    const gpu::ThesisGrid& grid = volume.grid();
+    // Eight bits a channel may round a mean down to nothing; halves do not.
+    const bool halves = volume.texture().desc().format == GL_RGBA16F && grid.maxLevel >= 2;
+    return {volume.texture(),
+            volume.sampler(),
+            grid.origin,
+            grid.voxelSize,
+            static_cast<int>(grid.size),
+            static_cast<int>(grid.maxLevel),
+            glm::ivec3(grid.boxMin),
+            glm::ivec3(grid.boxSize),
+            halves,
+            settings.voxelLevel,
+            settings.voxelView == ThesisVoxelView::Surfaces};
 }
 
 }  // namespace
 
 bool ThesisMode::needsShadows(const Settings& settings) const {
     return settings.light.shadowSize > 0 && !gather::effectiveDefects(settings.thesis).unshadowedVoxels;
+}
+
+bool ThesisMode::lightsFromEmitters(const Settings& settings) const {
+    return !gather::effectiveDefects(settings.thesis).darkEmitters;
 }
 
 void ThesisMode::updateVolume(const FrameContext& frame) {
@@ -42,7 +66,7 @@ void ThesisMode::render(const FrameContext& frame) {
         frame.gbuffer.bind();
         return voxelView_.draw(
             {frame.programs, frame.profiler, frame.settings, frame.view, frame.output, frame.voxelsAmong},
-            volume_);
+            shownVolume(volume_, frame.settings.thesis));
     }
     cones_.render(frame.programs, frame.profiler, frame.scene, frame.gbuffer, volume_, frame.settings,
                   frame.output, frame.lookupCounters);

@@ -16,6 +16,8 @@ class ThesisMode : public ModeRenderer {
   public:
     void render(const FrameContext& frame) override;
     bool needsShadows(const Settings& settings) const override;
+    // In the original emissive objects light nothing (a defect).
+    bool lightsFromEmitters(const Settings& settings) const override;
     void record(const FrameContext& frame, gather::StepRecorder& recorder) override;
     // The original culls: its rooms are looked into through their front walls.
     bool cullsBackFaces() const override { return true; }

@@ -41,9 +41,10 @@ class ThesisVolume {
 
     const gpu::ThesisGrid& grid() const { return grid_; }
     const gl::Texture& texture() const { return texture_; }
-    // Texture with its sampler: trilinear within and between levels, edge texels repeated outside.
-    void bind(unsigned unit) const;
-    void bindGrid() const;  // at BINDING_THESIS_GRID
+    // Trilinear within and between levels, edge texels repeated outside.
+    const gl::Sampler& sampler() const { return sampler_; }
+    void bind(unsigned unit) const;  // texture and sampler
+    void bindGrid() const;           // at BINDING_THESIS_GRID
 
     // The grid that build() would use. The cube is fitted to `bounds`, the box in it that is filled to
     // `filled`.
