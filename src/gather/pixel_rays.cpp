@@ -23,7 +23,6 @@ constexpr float kOcclusionReach = 0.1f;
 // only where many are averaged: what few bring from a lobe is speckles.
 constexpr std::uint32_t kLobeReflections = 3;
 constexpr int kReflectedRays = 128;
-constexpr int kAllBounces = 16;  // TracedSettings::bounces
 
 // Occlusion asks for no light.
 const gl::Defines kNoHitLights = {{"EXACT_DIRECT", "0"}, {"LOBES", "0"}};
@@ -151,7 +150,7 @@ gpu::PixelRayConstants PixelRays::packed(const PixelRayFrame& frame, const Trace
     const int averaged = (lobes ? 1 : 2) * rays * longest;
     c.reflections = lobes ? kLobeReflections : (averaged >= kReflectedRays ? 1u : 0u);
     // With a limited number of bounces none: a reflection is a bounce more.
-    if (settings.bounces < kAllBounces) c.reflections = 0;
+    if (settings.bounces) c.reflections = 0;
     c.reflectedLimit = light::reflectedLimit(averaged);
     c.inverseVoxelSize = 1.0f / frame.voxelSize;
     return c;

@@ -16,7 +16,6 @@
 namespace conelight::modes {
 namespace {
 
-constexpr int kAllBounces = 16;  // TracedSettings::bounces
 // With a limited number of bounces updates are not averaged, so each has to do.
 constexpr int kRaysPerBounce = 32;
 // The first updates after a change only carry bounces around: what they find is replaced, so a quarter of the
@@ -94,7 +93,7 @@ void TracedMode::Impl::updateVoxels(const FrameContext& frame) {
     voxelsFor = frame.settings.voxels;
     geometryDirty = geometryDirty || anew;
     // Light of a limited number of bounces starts in the dark.
-    const bool limited = settings.bounces < kAllBounces;
+    const bool limited = settings.bounces.has_value();
     if (limited && lightDirty) geometryDirty = true;
     if (geometryDirty) {
         if (limited || anew) cache.reset();
@@ -131,13 +130,13 @@ bool TracedMode::Impl::sameUpdates(const TracedSettings& a, const TracedSettings
 
 // Rays at pixels add a bounce to what the cache holds.
 int TracedMode::Impl::updatesWanted(const TracedSettings& settings) const {
-    if (settings.bounces == kAllBounces) return settings.cacheUpdates;
-    return settings.bounces - (settings.pixelRays > 0 ? 1 : 0);
+    if (!settings.bounces) return settings.cacheUpdates;
+    return *settings.bounces - (settings.pixelRays > 0 ? 1 : 0);
 }
 
 void TracedMode::Impl::updateCache(const FrameContext& frame) {
     const TracedSettings& settings = frame.settings.traced;
-    const bool limited = settings.bounces < kAllBounces;
+    const bool limited = settings.bounces.has_value();
     light::CacheSettings cacheSettings;
     // A reflection is a bounce, which updates count.
     if (limited) cacheSettings.reflections = 0;
@@ -223,7 +222,7 @@ void TracedMode::Impl::gather(const FrameContext& frame, gather::PixelRays& pict
 
 void TracedMode::Impl::drawParts(const FrameContext& frame, const gather::PictureParts& parts) {
     const TracedSettings& settings = frame.settings.traced;
-    const bool gathers = settings.bounces > 0;
+    const bool gathers = settings.bounces != 0;
     const gather::PictureParts shown{parts.direct, parts.diffuse && gathers, parts.specular && gathers};
     const gl::Texture* irradiance = nullptr;
     const gl::Texture* lobe = nullptr;
@@ -255,7 +254,7 @@ void TracedMode::render(const FrameContext& frame) {
     const Component component = frame.settings.component;
     const gather::PictureParts parts = gather::partsOf(component);
     const bool usesVoxels = component == Component::Occlusion || component == Component::Voxels ||
-                            ((parts.diffuse || parts.specular) && frame.settings.traced.bounces > 0);
+                            ((parts.diffuse || parts.specular) && frame.settings.traced.bounces != 0);
     if (usesVoxels) {
         m.updateVoxels(frame);
         m.updateCache(frame);
