@@ -15,9 +15,9 @@
 #include "lib/cone_trace.glsl"
 #include "lib/gbuffer.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(rgba16f, binding = 0) writeonly uniform image2D result;
+layout(rgba16f) writeonly uniform image2D result;
 #if COUNT_LOOKUPS
-layout(std430, binding = BINDING_STORAGE_PASS) buffer LookupCounters { uint lookups[]; };
+layout(std430) buffer LookupCounters { uint lookups[]; };
 #endif
 
 const float kWidestTan = 2.8284271;  // tan(acos(1/3))

@@ -7,8 +7,8 @@
 #include "lib/lights.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0, rgba32f) writeonly uniform image2D diffuseImage;
-layout(binding = 1, rgba32f) writeonly uniform image2D specularImage;
+layout(rgba32f) writeonly uniform image2D diffuseImage;
+layout(rgba32f) writeonly uniform image2D specularImage;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

@@ -13,7 +13,7 @@
 #include "lib/lights.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0, rgba32f) writeonly uniform image2D outputImage;
+layout(rgba32f) writeonly uniform image2D outputImage;
 
 struct Phong {
     vec3 color;

@@ -20,7 +20,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "lib/lobe_list.glsl"
 #include "lib/temporal.glsl"
 #include "lib/voxel_light.glsl"
-layout(rgba32ui, binding = 0) writeonly uniform uimage2D result;
+layout(rgba32ui) writeonly uniform uimage2D result;
 
 void main() {
 #if LOBE_LISTED

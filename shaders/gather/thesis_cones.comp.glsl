@@ -33,12 +33,12 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #define REGULAR 1
 #define CUSTOMISED 2
 
-layout(std140, binding = BINDING_THESIS_GRID) uniform ThesisGridBlock { ThesisGrid grid; };
-layout(std140, binding = BINDING_PASS) uniform ThesisBlock { ThesisConstants thesis; };
-layout(binding = UNIT_PASS) uniform sampler3D volume;
-layout(binding = 0, rgba32f) uniform writeonly image2D picture;
+layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
+layout(std140) uniform ThesisBlock { ThesisConstants thesis; };
+uniform sampler3D volume;
+layout(rgba32f) uniform writeonly image2D picture;
 #if COUNT_LOOKUPS
-layout(std430, binding = BINDING_STORAGE_PASS) buffer LookupTable { uint lookups[]; };
+layout(std430) buffer LookupTable { uint lookups[]; };
 #endif
 
 // All loops of one kind together stay below this: llvmpipe ends loops at 65,535 turns per invocation.

@@ -29,10 +29,10 @@
 #include "lib/cache_lookup.glsl"
 #endif
 #if !FLAT_CONSTANTS
-layout(std140, binding = BINDING_PASS) uniform PixelRayBlock { PixelRayConstants pixelRays; };
+layout(std140) uniform PixelRayBlock { PixelRayConstants pixelRays; };
 #endif
-layout(binding = PIXEL_UNIT_IRRADIANCE) uniform usampler2D irradiancePicture;
-layout(binding = PIXEL_UNIT_LOBE) uniform usampler2D lobePicture;
+uniform usampler2D irradiancePicture;
+uniform usampler2D lobePicture;
 
 // `pixel` is within the picture.
 vec4 tracedShade(ivec2 pixel) {

@@ -8,9 +8,9 @@
 #include "lib/voxel_grid.glsl"
 #include "shared/gbuffer.h"
 #include "shared/pixel_rays.h"
-layout(std140, binding = BINDING_PASS) uniform PixelRayBlock { PixelRayConstants pixelRays; };
+layout(std140) uniform PixelRayBlock { PixelRayConstants pixelRays; };
 #if FLAT_LIGHTS
-layout(std140, binding = BINDING_FIXED_LIGHTS) uniform FixedLightRows {
+layout(std140) uniform FixedLightRows {
     uvec4 lightRows[7 * FLAT_LIGHTS_TOTAL];
 };
 #endif

@@ -21,10 +21,10 @@
 #include "lib/voxel_address.glsl"
 #include "shared/voxel_view.h"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(std140, binding = BINDING_PASS) uniform ViewBlock { VoxelViewConstants view; };
-layout(rgba32f, binding = 0) uniform image2D picture;
-layout(rgba32ui, binding = 1) readonly uniform uimage3D occupied;
-layout(binding = UNIT_PASS) uniform sampler3D volume;
+layout(std140) uniform ViewBlock { VoxelViewConstants view; };
+layout(rgba32f) uniform image2D picture;
+layout(rgba32ui) readonly uniform uimage3D occupied;
+uniform sampler3D volume;
 #if SOURCE == 0
 #include "lib/ray_query.glsl"
 #include "lib/voxel_data.glsl"

@@ -48,7 +48,7 @@ Light fixedLight(const int n) {
                  uintBitsToFloat(g.y), g.z, g.w);
 }
 #else
-layout(std140, binding = BINDING_FIXED_LIGHTS) uniform FixedLightBlock { Light fixedLights[LIGHTS_TOTAL]; };
+layout(std140) uniform FixedLightBlock { Light fixedLights[LIGHTS_TOTAL]; };
 Light fixedLight(const int n) { return fixedLights[n]; }
 #endif
 #endif

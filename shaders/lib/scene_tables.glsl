@@ -6,8 +6,8 @@
 #include "shared/frame.h"
 #include "shared/scene.h"
 #if !FLAT_CONSTANTS
-layout(std140, binding = BINDING_FRAME) uniform FrameBlock { FrameConstants frame; };
+layout(std140) uniform FrameBlock { FrameConstants frame; };
 #endif
-layout(std430, binding = BINDING_INSTANCES) readonly buffer InstanceTable { Instance instances[]; };
-layout(std430, binding = BINDING_MATERIALS) readonly buffer MaterialTable { Material materials[]; };
-layout(std430, binding = BINDING_LIGHTS) readonly buffer LightTable { Light lights[]; };
+layout(std430) readonly buffer InstanceTable { Instance instances[]; };
+layout(std430) readonly buffer MaterialTable { Material materials[]; };
+layout(std430) readonly buffer LightTable { Light lights[]; };

@@ -42,14 +42,14 @@
 #include "lib/lights.glsl"
 #endif
 #if LOBES || TRIANGLE_HITS
-layout(binding = UNIT_VOXEL_FACE_SOURCES) uniform usamplerBuffer faceSources;
+uniform usamplerBuffer faceSources;
 #endif
 #if SMOOTH_HITS
 #define CACHE_NORMALS 1
 #include "lib/cache_lookup.glsl"
 #endif
-layout(binding = UNIT_STEADY_LIGHT) uniform usamplerBuffer steadyLight;
-layout(binding = UNIT_BRIGHT_FACES) uniform usamplerBuffer brightFaces;
+uniform usamplerBuffer steadyLight;
+uniform usamplerBuffer brightFaces;
 
 const float kGatherPi = 3.14159265358979;
 

@@ -8,13 +8,13 @@
 // SHARED 0: no face is of so few updates that pixels see it shared with its neighbours.
 layout(local_size_x = 64) in;
 #include "light/cache_common.glsl"
-layout(binding = CACHE_UNIT_STATE) uniform usamplerBuffer stateTexels;
-layout(std430, binding = BINDING_VOXEL_FACES) writeonly buffer FaceTable { uvec4 faces[]; };
+uniform usamplerBuffer stateTexels;
+layout(std430) writeonly buffer FaceTable { uvec4 faces[]; };
 // The same once more: software drivers read storage lane by lane in loops.
-layout(binding = UNIT_VOXEL_FACES) uniform usamplerBuffer faceTexels;
-layout(binding = UNIT_VOXEL_RECORDS) uniform usamplerBuffer voxelRecords;
-layout(binding = IMAGE_VOXEL_BRICKS, rgba32ui) readonly uniform uimage3D voxelBrickImage;
-layout(std430, binding = CACHE_FACE_LIGHT) writeonly buffer FaceLightTable { uvec2 faceLight[]; };
+uniform usamplerBuffer faceTexels;
+uniform usamplerBuffer voxelRecords;
+layout(rgba32ui) readonly uniform uimage3D voxelBrickImage;
+layout(std430) writeonly buffer FaceLightTable { uvec2 faceLight[]; };
 
 #if SHARED && !AT_PIXELS
 #error only what pixels see is shared

@@ -23,18 +23,18 @@ layout(local_size_x = 64) in;
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
 #include "light/cache_state.glsl"
-layout(std430, binding = CACHE_ORDER) buffer OrderTable { uint order[]; };
-layout(std430, binding = CACHE_BINS) buffer BinTable { uvec2 bins[]; };
-layout(std430, binding = CACHE_BIN_STARTS) buffer StartTable { uint starts[]; };
-layout(std430, binding = CACHE_CHUNKS) buffer ChunkTable { uint chunks[]; };
+layout(std430) buffer OrderTable { uint order[]; };
+layout(std430) buffer BinTable { uvec2 bins[]; };
+layout(std430) buffer StartTable { uint starts[]; };
+layout(std430) buffer ChunkTable { uint chunks[]; };
 #if STEP == 0
-layout(std430, binding = CACHE_STATE) writeonly buffer StateTable { uvec4 states[]; };
+layout(std430) writeonly buffer StateTable { uvec4 states[]; };
 #endif
-layout(std140, binding = BINDING_PASS) uniform OrderBlock { CacheOrder settings; };
-layout(binding = CACHE_UNIT_STATE) uniform usamplerBuffer stateTexels;
-layout(binding = UNIT_VOXEL_FACES) uniform usamplerBuffer faces;
-layout(binding = CACHE_UNIT_BINS) uniform usamplerBuffer binTexels;
-layout(binding = CACHE_UNIT_BIN_STARTS) uniform usamplerBuffer startTexels;
+layout(std140) uniform OrderBlock { CacheOrder settings; };
+uniform usamplerBuffer stateTexels;
+uniform usamplerBuffer faces;
+uniform usamplerBuffer binTexels;
+uniform usamplerBuffer startTexels;
 
 uint binCount() {
     ivec3 blocks = (gridBricks() + 3) >> 2;

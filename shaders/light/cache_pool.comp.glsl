@@ -6,8 +6,8 @@
 layout(local_size_x = 64) in;
 #include "lib/random.glsl"
 #include "light/cache_common.glsl"
-layout(std430, binding = CACHE_POOL) writeonly buffer PoolTable { uint pool[]; };
-layout(binding = UNIT_VOXEL_FACES) uniform usamplerBuffer faces;
+layout(std430) writeonly buffer PoolTable { uint pool[]; };
+uniform usamplerBuffer faces;
 
 void main() {
     uint place = min(gl_GlobalInvocationID.x, BRIGHT_FACE_COUNT - 1u);

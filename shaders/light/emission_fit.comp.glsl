@@ -18,9 +18,9 @@ layout(local_size_x = 64) in;
 #include "lib/random.glsl"
 #include "lib/ray_query.glsl"
 #include "lib/tangent_frame.glsl"
-layout(binding = UNIT_VOXEL_FACE_SOURCES) uniform usamplerBuffer faceSources;
+uniform usamplerBuffer faceSources;
 // After step 0: 1 or 0; 1: both areas as halves; 2: the part, a float.
-layout(std430, binding = BINDING_STORAGE_PASS) buffer EmissionFit { uint parts[]; };
+layout(std430) buffer EmissionFit { uint parts[]; };
 
 const float kOnePlane = 0.98;    // cosine of normals up to which faces are of one plane
 const int kRays = 16;            // per face; sums over a brick are within 3 %, over a lamp within 1 %

@@ -15,13 +15,13 @@ layout(local_size_x = 64) in;  // before linear_index, which asks for it
 #include "lib/linear_index.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
-layout(std430, binding = BINDING_VOXEL_FACES) buffer Faces { FaceRecord faces[]; };
-layout(binding = UNIT_VOXEL_FACE_SOURCES) uniform usamplerBuffer faceSources;
+layout(std430) buffer Faces { FaceRecord faces[]; };
+uniform usamplerBuffer faceSources;
 #if KEEP_IRRADIANCE
-layout(std430, binding = BINDING_STORAGE_PASS) writeonly buffer SteadyLight { uint steadyLight[]; };
+layout(std430) writeonly buffer SteadyLight { uint steadyLight[]; };
 #endif
 #if EMISSION_FITS
-layout(binding = UNIT_PASS) uniform usamplerBuffer emissionParts;
+uniform usamplerBuffer emissionParts;
 #endif
 
 // Whether a face holds a part of a rectangle of the scene that shines as an area light: it looks the same

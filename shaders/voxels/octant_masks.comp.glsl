@@ -8,11 +8,11 @@ layout(local_size_x = 64) in;
 #include "lib/voxel_address.glsl"
 #include "lib/voxel_grid.glsl"
 #include "voxels/octant_rows.glsl"
-layout(binding = UNIT_VOXEL_BRICKS) uniform usampler3D brickWords;
-layout(binding = UNIT_VOXEL_RECORDS) uniform usamplerBuffer records;
-layout(std430, binding = BINDING_STORAGE_PASS) readonly buffer BrickTable { uint brickList[]; };
-layout(std430, binding = OCTANT_ROWS) buffer RowTable { uint rows[]; };
-layout(binding = 0, rg32ui) uniform writeonly uimage3D octants;
+uniform usampler3D brickWords;
+uniform usamplerBuffer records;
+layout(std430) readonly buffer BrickTable { uint brickList[]; };
+layout(std430) buffer RowTable { uint rows[]; };
+layout(rg32ui) uniform writeonly uimage3D octants;
 
 // The brick's voxels in the opposite order along the axes that rays of the octant go down.
 uvec2 mirrored(uvec2 m, int octant) {
