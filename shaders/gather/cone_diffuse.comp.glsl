@@ -22,13 +22,13 @@ void main() {
     vec3 origin = s.position + cones.offset * s.geometricNormal;
     uint samples;
 #if OCCLUSION
-    vec4 gathered = gatherCones(origin, s.normal, seen ? cones.count : 0u, frame.sky, cones.occlusionDistance,
+    vec4 gathered = gatherCones(origin, s.normal, seen ? cones.count : 0u, lighting.sky, cones.occlusionDistance,
                                 1.0 / max(cones.occlusionDistance, 1e-9), samples);
 #else
     // Metals and unlit surfaces have no diffuse part.
     bool matt = seen && !s.unlit && s.metallic < 1.0;
     vec4 gathered =
-        gatherCones(origin, s.normal, matt ? cones.count : 0u, frame.sky, cones.maxDistance, 0.0, samples);
+        gatherCones(origin, s.normal, matt ? cones.count : 0u, lighting.sky, cones.maxDistance, 0.0, samples);
 #endif
 #ifdef RECORD_STEPS
     Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));

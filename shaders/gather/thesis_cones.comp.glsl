@@ -189,7 +189,7 @@ vec3 traceDiffuse(Surface s, bool isLit, out uint samples) {
         bool left = coneEnded(t, origin + t * direction.xyz, cone.reach);
         if (left || got.opacity >= 0.999 || coneSamples >= thesis.maxSamples) {
 #if !SHORT_REACH
-            if (left) got.color += max(1.0 - got.opacity, 0.0) * frame.sky;
+            if (left) got.color += max(1.0 - got.opacity, 0.0) * lighting.sky;
 #endif
             sum += direction.w * got.color;
             if (running)
@@ -245,7 +245,7 @@ vec3 traceSpecular(Surface s, vec3 mirrored, float shininess, bool isTraced, ino
         t += stride;
         bool left = coneEnded(t, origin + t * mirrored, cone.reach);
 #if !SHORT_REACH
-        if (left && running) got.color += max(1.0 - got.opacity, 0.0) * frame.sky;
+        if (left && running) got.color += max(1.0 - got.opacity, 0.0) * lighting.sky;
 #endif
         running = running && !left && got.opacity < 0.999 && coneSamples < thesis.maxSamples;
     } while (running);
@@ -452,7 +452,7 @@ void main() {
 #endif
     shown = isLit ? shown : vec3(0.0);
 #if VIEW == VIEW_FULL || VIEW == VIEW_DIRECT
-    shown += seen ? s.emission : frame.sky;
+    shown += seen ? s.emission : lighting.sky;
 #endif
     if (inside) imageStore(picture, pixel, vec4(shown, seen ? 1.0 : 0.0));
 #if COUNT_LOOKUPS

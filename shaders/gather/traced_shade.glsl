@@ -76,6 +76,6 @@ vec4 tracedShade(ivec2 pixel) {
     RECORD_PART(PART_SPECULAR, gathers ? irradiance : vec3(0.0), b.albedo);
 #endif
 #endif
-    vec3 behind = SHOW_DIRECT == 1 ? frame.sky : vec3(0.0);
+    vec3 behind = SHOW_DIRECT == 1 ? lighting.sky : vec3(0.0);
     return seen ? vec4(radiance, 1.0) : vec4(behind, 0.0);
 }

@@ -238,6 +238,6 @@ void main() {
     if (result.a > 0.0) imageStore(picture, pixel, result + (1.0 - result.a) * imageLoad(picture, pixel));
 #else
     float shownPart = SHAPE == VOLUME ? result.a : result.a > 0.0 ? 1.0 : 0.0;
-    imageStore(picture, pixel, vec4(result.rgb + (1.0 - shownPart) * frame.sky, shownPart));
+    imageStore(picture, pixel, vec4(result.rgb + (1.0 - shownPart) * lighting.sky, shownPart));
 #endif
 }

@@ -204,15 +204,15 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
         } while (++n < (end));                           \
     }
 #endif
-#define FOR_POINT_LIGHTS(statement) FOR_LIGHTS(0, LIGHTS_POINT, 0u, frame.lightEnds.x, statement)
+#define FOR_POINT_LIGHTS(statement) FOR_LIGHTS(0, LIGHTS_POINT, 0u, lighting.lightEnds.x, statement)
 #define FOR_SPOT_LIGHTS(statement) \
-    FOR_LIGHTS(LIGHTS_POINT, LIGHTS_SPOT, frame.lightEnds.x, frame.lightEnds.y, statement)
+    FOR_LIGHTS(LIGHTS_POINT, LIGHTS_SPOT, lighting.lightEnds.x, lighting.lightEnds.y, statement)
 #define FOR_DIRECTIONAL_LIGHTS(statement)                                                            \
-    FOR_LIGHTS(LIGHTS_POINT + LIGHTS_SPOT, LIGHTS_DIRECTIONAL, frame.lightEnds.y, frame.lightEnds.z, \
+    FOR_LIGHTS(LIGHTS_POINT + LIGHTS_SPOT, LIGHTS_DIRECTIONAL, lighting.lightEnds.y, lighting.lightEnds.z, \
                statement)
 #define FOR_RECT_LIGHTS(statement)                                                              \
-    FOR_LIGHTS(LIGHTS_POINT + LIGHTS_SPOT + LIGHTS_DIRECTIONAL, LIGHTS_RECT, frame.lightEnds.z, \
-               frame.lightEnds.w, statement)
+    FOR_LIGHTS(LIGHTS_POINT + LIGHTS_SPOT + LIGHTS_DIRECTIONAL, LIGHTS_RECT, lighting.lightEnds.z, \
+               lighting.lightEnds.w, statement)
 
 void addPunctualLights(inout DirectLight sum, const bool specular, Receiver r, Brdf b) {
 #if LIGHTS_POINT

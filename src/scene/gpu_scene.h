@@ -17,7 +17,7 @@
 #include "gl/buffer.h"
 #include "gl/draw.h"
 #include "gl/program.h"
-#include "gl/texture.h"
+#include "scene/gpu_materials.h"
 #include "shared/scene.h"
 
 namespace conelight::scene {
@@ -38,7 +38,7 @@ class GpuScene {
     using InstanceFilter = std::function<bool(const gpu::Instance&)>;
     using PartFilter = std::function<bool(const gpu::Instance&, const Aabb& objectBox)>;
     struct Draw {
-        InstanceFilter filter;            // empty: every visible instance
+        InstanceFilter filter;  // empty: every visible instance
         gl::Cull cull = gl::Cull::None;   // of single-sided materials; double-sided ones are never culled
         const gl::Program* textured = nullptr;  // not null: its material textures are bound
         int copies = 1;                   // instances per draw call, gl_InstanceID = 0..copies-1
@@ -84,15 +84,16 @@ class GpuScene {
     const gl::Buffer& instanceBuffer() const { return instanceBuffer_; }
 
   private:
-    void uploadGeometry();
+    struct MeshRange;
+    std::vector<MeshRange> uploadMeshes();
+    void uploadInstances(const std::vector<MeshRange>& ranges);
+    void makeVertexArray();
     void uploadMaterials();
-    void uploadTextures();
     void place(std::size_t instance, const glm::mat4& worldFromObject);
     void setFlags(std::size_t instance, const Instance& source);
     void uploadInstance(std::size_t instance);
     void sortDraws();
     void drawParts(std::uint32_t instance, const Draw& draw) const;
-    void bindMaterialTextures(std::uint32_t material, const int (&units)[6]) const;
 
     Scene source_;
     std::vector<gpu::Instance> instances_;
@@ -102,16 +103,8 @@ class GpuScene {
     std::vector<base::Revision> instanceRevisions_;
     base::Revision identity_ = base::Revision::next(), geometryRevision_, lightRevision_, skyRevision_;
     std::vector<gpu::Material> materials_;
-    struct MaterialTextures {
-        int slots[6];  // base, metallic-roughness, normal, emissive, specular, specular colour; -1: white
-    };
-    static MaterialTextures texturesOf(const Material& material);
     std::vector<MaterialTextures> materialTextures_;
-    std::vector<gl::Texture> textures_;
-    std::vector<gl::Sampler> samplers_;  // per texture
-    gl::Texture white_;
-    gl::Texture surfaceArray_;
-    gl::Sampler surfaceSampler_;
+    SceneTextures textures_;
     gl::Buffer vertexBuffer_, indexBuffer_, instanceBuffer_, instanceIndexBuffer_, materialBuffer_;
     gl::VertexArray vertexArray_;
     std::vector<std::uint32_t> drawOrder_;  // instances sorted by material
