@@ -8,7 +8,7 @@ layout(local_size_x = 64) in;  // before linear_index, which asks for it
 #include "lib/scene_tables.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
-layout(std430) buffer Faces { FaceRecord faces[]; };
+layout(std430) buffer FaceTable { FaceRecord faces[]; };
 
 void main() {
     uint index = linearIndex();

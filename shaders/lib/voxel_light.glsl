@@ -42,7 +42,7 @@
 #include "lib/lights.glsl"
 #endif
 #if LOBES || TRIANGLE_HITS
-uniform usamplerBuffer faceSources;
+uniform usamplerBuffer voxelFaceSources;
 #endif
 #if SMOOTH_HITS
 #define CACHE_NORMALS 1
@@ -166,7 +166,7 @@ LobeStep reflectRay(VoxelHit hit, FaceShade s, vec2 lobe, float widening, vec3 m
     // The record reflects by all of its colour; its matt part is only this much of it.
     float share = dot(b.diffuse, vec3(1.0)) / max(dot(s.albedo, vec3(1.0)), 1e-4);
     next.glossy = 1.0 - share;
-    vec3 emission = unpackEmission(texelFetch(faceSources, face).xy);
+    vec3 emission = unpackEmission(texelFetch(voxelFaceSources, face).xy);
     next.radiance = emission + share * max(matt - emission, vec3(0.0));
     vec3 rise = faceRise(texelFetch(voxelFaces, 2 * face), normal);
 #if TRIANGLE_HITS
@@ -230,7 +230,8 @@ vec3 rayRadiance(vec3 origin, vec3 leaves, vec3 direction, float reach, float ai
         bool lamp = (bits & FACE_AREA_LIGHT) != 0u;
         bool arrived = count > 0 || aim < 0.0 || abs(hit.t - aim) < 0.3;
         bool metal = hit.face >= 0 && lobe.x > 0.0 && lobe.y <= kRoughestLobe && s.usable && !lamp && arrived;
-        if (narrow && hit.face >= 0 && lamp) radiance += unpackEmission(texelFetch(faceSources, face).xy);
+        if (narrow && hit.face >= 0 && lamp)
+            radiance += unpackEmission(texelFetch(voxelFaceSources, face).xy);
         vec2 xi = vec2(randomNext(random), randomNext(random));
         LobeStep next = reflectRay(hit, s, lobe, spread2 * kLobeWidening / limit, radiance,
                                    origin + hit.t * direction, bent, direction, xi);

@@ -13,14 +13,14 @@ layout(local_size_x = 64) in;
 layout(std140) uniform CarryBlock { CacheCarry carry; };
 layout(std430) writeonly buffer StateTable { FaceCache states[]; };
 uniform usamplerBuffer oldStates;
-uniform usamplerBuffer faces;
+uniform usamplerBuffer voxelFaces;
 uniform usampler3D oldBricks;
 uniform usamplerBuffer oldRecords;
 
 void main() {
     uint index = linearIndex();
     bool used = index < grid.faceCount;
-    uvec4 r = texelFetch(faces, int(used ? index : 0u) * 2);
+    uvec4 r = texelFetch(voxelFaces, int(used ? index : 0u) * 2);
     vec3 n = octDecode(unpackSnorm2x16(r.x));
     int direction = faceDirection(r, n);
     FaceRecord face = FaceRecord(r.x, r.y, r.z, r.w, 0u, 0u, 0u, 0u);

@@ -32,7 +32,7 @@ layout(std430) writeonly buffer StateTable { uvec4 states[]; };
 #endif
 layout(std140) uniform OrderBlock { CacheOrder settings; };
 uniform usamplerBuffer stateTexels;
-uniform usamplerBuffer faces;
+uniform usamplerBuffer voxelFaces;
 uniform usamplerBuffer binTexels;
 uniform usamplerBuffer startTexels;
 
@@ -73,7 +73,7 @@ uint gathererOf(uint face, uvec4 hitTexel) {
     int left = abs(wanted - direction);
     while (left > 0) {
         at = clamp(at + step, 0, last);
-        r = texelFetch(faces, 2 * at);
+        r = texelFetch(voxelFaces, 2 * at);
         bool here = ((r.w ^ hitTexel.w) & 0x3fffffffu) == 0u;
         found = here && faceDirection(r, octDecode(unpackSnorm2x16(r.x))) == wanted;
         left = here && !found ? left - 1 : 0;
@@ -122,7 +122,7 @@ void main() {
     if (index < grid.faceCount) order[index] = index;
 #elif STEP == 0 || STEP == 4
     if (index >= grid.faceCount) return;
-    uvec4 hitTexel = texelFetch(faces, 2 * int(index));
+    uvec4 hitTexel = texelFetch(voxelFaces, 2 * int(index));
     uvec4 state = texelFetch(stateTexels, int(index));
 #if STEP == 0
     uint gatherer = gathererOf(index, hitTexel);

@@ -15,8 +15,8 @@ layout(local_size_x = 64) in;  // before linear_index, which asks for it
 #include "lib/linear_index.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
-layout(std430) buffer Faces { FaceRecord faces[]; };
-uniform usamplerBuffer faceSources;
+layout(std430) buffer FaceTable { FaceRecord faces[]; };
+uniform usamplerBuffer voxelFaceSources;
 #if KEEP_IRRADIANCE
 layout(std430) writeonly buffer SteadyLight { uint steadyLight[]; };
 #endif
@@ -55,7 +55,7 @@ void main() {
     FaceRecord face = faces[index];
     vec3 normal = faceNormal(face);
     vec3 position = worldFromGrid(faceCenter(face));
-    vec3 emission = unpackEmission(texelFetch(faceSources, int(index)).xy);
+    vec3 emission = unpackEmission(texelFetch(voxelFaceSources, int(index)).xy);
     bool areaLight = emission != vec3(0.0) && isAreaLight(face, position, normal);
     if (areaLight) emission = vec3(0.0);
 #if EMISSION_FITS
