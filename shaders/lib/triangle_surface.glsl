@@ -80,8 +80,9 @@ vec3 triangleRadiance(VoxelHit hit, vec3 origin, vec3 direction, inout FaceShade
                   shadowVisibilityRect(light, k, rectSamplePoint(light, k), position, n);
         ++i;
     }
-    vec3 emitted =
-        (kept.w & FACE_AREA_LIGHT) != 0u ? vec3(0.0) : unpackEmission(texelFetch(voxelFaceSources, hit.face).xy);
+    vec3 emitted = (kept.w & FACE_AREA_LIGHT) != 0u
+                       ? vec3(0.0)
+                       : unpackEmission(texelFetch(voxelFaceSources, hit.face).xy);
     reflected += few ? vec3(0.0) : max(steady - emitted, vec3(0.0));
     return emission +
            s.albedo * (direct * (1.0 / kGatherPi) + s.irradiance + reflected / max(faceAlbedo, 1e-3));

@@ -230,7 +230,8 @@ vec3 rayRadiance(vec3 origin, vec3 leaves, vec3 direction, float reach, float ai
         bool lamp = (bits & FACE_AREA_LIGHT) != 0u;
         bool arrived = count > 0 || aim < 0.0 || abs(hit.t - aim) < 0.3;
         bool metal = hit.face >= 0 && lobe.x > 0.0 && lobe.y <= kRoughestLobe && s.usable && !lamp && arrived;
-        if (narrow && hit.face >= 0 && lamp) radiance += unpackEmission(texelFetch(voxelFaceSources, face).xy);
+        if (narrow && hit.face >= 0 && lamp)
+            radiance += unpackEmission(texelFetch(voxelFaceSources, face).xy);
         vec2 xi = vec2(randomNext(random), randomNext(random));
         LobeStep next = reflectRay(hit, s, lobe, spread2 * kLobeWidening / limit, radiance,
                                    origin + hit.t * direction, bent, direction, xi);

@@ -36,7 +36,8 @@ void main() {
         uvec4 shade = texelFetch(voxelFaces, 2 * int(face) + 1);
         vec3 irradiance = vec3(unpackHalf2x16(shade.z), unpackHalf2x16(shade.w).x);
         vec3 radiance = unpackRgb9e5(shade.y) + unpackAlbedo(shade.x) * irradiance;
-        float flux = (shade.w & FACE_DEAD) != 0u ? 0.0 : faceFlux(texelFetch(voxelFaces, 2 * int(face)), radiance);
+        float flux =
+            (shade.w & FACE_DEAD) != 0u ? 0.0 : faceFlux(texelFetch(voxelFaces, 2 * int(face)), radiance);
         found = flux > 0.0 ? face : found;
         sum += flux;
         going = sum <= wanted;

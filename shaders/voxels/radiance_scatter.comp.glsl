@@ -11,7 +11,7 @@ layout(local_size_x = 64) in;  // before linear_index, which asks for it
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
 layout(std430) readonly buffer FaceTable { FaceRecord faces[]; };
-layout(std430) readonly buffer Records { uint records[]; };
+layout(std430) readonly buffer RecordTable { uint records[]; };
 layout(rgba16f) writeonly uniform image3D level0;
 
 // Below the largest half (65504), with room for its rounding.

@@ -13,14 +13,14 @@ layout(std430) readonly buffer OldChainTable { uvec2 oldChains[]; };
 layout(std430) writeonly buffer ChainTable { uvec2 chains[]; };
 layout(std430) writeonly buffer OriginTable { uint origins[]; };
 uniform usampler3D brickWords;
-uniform usampler3D oldBrickWords;
+uniform usampler3D oldBricks;
 
 void main() {
     uint index = linearInvocation();
     bool used = index < min(counters[SURFACE_BRICKS], surface.brickCapacity);
     ivec3 brick = unpackVoxel(brickList[used ? index : 0u]);
     uvec4 word = texelFetch(brickWords, brick, 0);
-    uvec4 old = texelFetch(oldBrickWords, brick, 0);
+    uvec4 old = texelFetch(oldBricks, brick, 0);
     uvec2 bits = used ? word.xy : uvec2(0u);
     uint record = word.z;
     do {
