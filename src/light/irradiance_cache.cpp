@@ -8,7 +8,6 @@
 #include "base/assert.h"
 #include "gl/gl.h"
 #include "light/firefly_clamp.h"
-#include "shared/irradiance.h"
 
 namespace conelight::light {
 namespace {

@@ -13,6 +13,7 @@
 #include "light/face_order.h"
 #include "light/lights.h"
 #include "scene/gpu_scene.h"
+#include "shared/irradiance.h"
 #include "voxels/voxels.h"
 
 namespace conelight::light {

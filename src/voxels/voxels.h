@@ -29,6 +29,7 @@ class Voxels {
     bool hasOctants() const;  // of these voxels
     const OctantWords& octants() const { return octants_; }
     const VoxelGrid& grid() const { return surface_.grid(); }
+    const VoxelSettings& settings() const { return settings_; }  // that the voxels were made with
     // Keys of the voxels before the last change; null when there were none.
     const VoxelKeys* previous() const { return surface_.previous(); }
 
