@@ -15,7 +15,7 @@
 #include "io/assimp_import.h"
 #include "io/files.h"
 #include "io/gltf.h"
-#include "io/thesis_scene.h"
+#include "thesis/format/scene.h"
 #if __has_include("io/generated.h")
 #include "io/generated.h"
 #endif

@@ -8,7 +8,7 @@
 #include "conelight/error.h"
 #include "io/files.h"
 #include "io/gltf_write.h"
-#include "io/thesis_write.h"
+#include "thesis/format/write.h"
 
 namespace conelight::io {
 

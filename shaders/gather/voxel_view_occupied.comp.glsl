@@ -17,7 +17,7 @@ layout(rgba32ui) writeonly uniform uimage3D occupied;
 #include "lib/voxel_grid.glsl"
 layout(rgba32ui) readonly uniform uimage3D voxelBrickImage;
 #else
-#include "shared/thesis.h"
+#include "thesis/shaders/constants.h"
 layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
 uniform sampler3D volume;
 #endif

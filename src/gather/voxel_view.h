@@ -19,9 +19,9 @@
 #include "gl/program.h"
 #include "gl/texture.h"
 #include "shared/frame.h"
+#include "thesis/render/volume.h"
 #include "voxels/radiance_volume.h"
 #include "voxels/surface_voxels.h"
-#include "voxels/thesis_volume.h"
 
 namespace conelight::gather {
 

@@ -22,14 +22,17 @@ ShaderProvider embeddedShaderProvider() {
 ShaderProvider directoryShaderProvider(const std::string& directory) {
     return [directory,
             embedded = embeddedShaderProvider()](const std::string& path) -> std::optional<std::string> {
-        const std::string name = directory + "/" + path;
-        std::error_code ignored;
-        if (!std::filesystem::is_regular_file(name, ignored)) return embedded(path);
-        std::ifstream file(name, std::ios::binary);
-        if (!file) return embedded(path);
-        std::ostringstream text;
-        text << file.rdbuf();
-        return text.str();
+        for (const char* root : {"/", "/../modes/"}) {
+            const std::string name = directory + root + path;
+            std::error_code ignored;
+            if (!std::filesystem::is_regular_file(name, ignored)) continue;
+            std::ifstream file(name, std::ios::binary);
+            if (!file) continue;
+            std::ostringstream text;
+            text << file.rdbuf();
+            return text.str();
+        }
+        return embedded(path);
     };
 }
 

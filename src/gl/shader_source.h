@@ -26,7 +26,9 @@ std::span<const EmbeddedShader> embeddedShaders();  // generated at build time
 // Where shader files come from: path relative to the root -> text, nothing when there is no such file.
 using ShaderProvider = std::function<std::optional<std::string>(const std::string& path)>;
 ShaderProvider embeddedShaderProvider();
-ShaderProvider directoryShaderProvider(const std::string& directory);  // falls back to the embedded files
+// Files of modes with a folder of their own lie in modes/ beside `directory`. Falls back to the embedded
+// files.
+ShaderProvider directoryShaderProvider(const std::string& directory);
 
 using Defines = std::vector<std::pair<std::string, std::string>>;
 

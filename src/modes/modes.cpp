@@ -4,8 +4,8 @@
 #include "base/log.h"
 #include "modes/cones_mode.h"
 #include "modes/phong_mode.h"
-#include "modes/thesis_mode.h"
 #include "modes/traced_mode.h"
+#include "thesis/render/mode.h"
 
 namespace conelight::modes {
 

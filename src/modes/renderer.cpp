@@ -7,7 +7,6 @@
 
 #include "base/clock.h"
 #include "base/log.h"
-#include "gather/thesis_cones.h"
 #include "gl/debug.h"
 #include "gl/gl.h"
 #include "gl/host_state.h"
@@ -20,6 +19,7 @@
 #include "scene/scene_checks.h"
 #include "shared/bindings.h"
 #include "shared/lookups.h"
+#include "thesis/render/cones.h"
 #include "view/camera.h"
 
 namespace conelight {

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "console_test_support.h"
-#include "io/thesis_scene.h"
+#include "thesis/format/scene.h"
 
 namespace conelight::program {
 namespace {

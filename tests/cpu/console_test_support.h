@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "console/console.h"
-#include "io/thesis_scene.h"
+#include "thesis/format/scene.h"
 
 namespace conelight::test {
 

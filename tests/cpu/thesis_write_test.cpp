@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Scenes written to the thesis's format and read back: the same triangles in the world, materials, lights,
 // cameras, sky and settings; what cannot be kept is said; nothing is written over.
-#include "io/thesis_write.h"
+#include "thesis/format/write.h"
 
 #include <gtest/gtest.h>
 

@@ -14,10 +14,10 @@
 #include "shared/pixel_rays.h"
 #include "shared/radiance_volume.h"
 #include "shared/scene.h"
-#include "shared/thesis.h"
 #include "shared/voxel_view.h"
 #include "shared/voxels.h"
 #include "support/gl_fixture.h"
+#include "thesis/shaders/constants.h"
 
 namespace conelight::test {
 namespace {
@@ -142,13 +142,19 @@ struct Parsed {
     std::vector<std::string> members;
 };
 
-// The structs that the headers below shaders/shared declare.
+// Headers are what C++ and GLSL share.
+bool isShared(const gl::EmbeddedShader& file) {
+    const std::string path = file.path;
+    return path.size() > 2 && path.compare(path.size() - 2, 2, ".h") == 0;
+}
+
+// The structs that shared headers declare.
 std::vector<Parsed> parsedStructs() {
     std::vector<Parsed> found;
     const std::regex comments(R"(//[^\n]*)"), structs(R"(struct\s+(\w+)\s*\{([^}]*)\})");
     const std::regex members(R"((\w+)\s*(\[\s*\w+\s*\])?\s*[;,])");
     for (const gl::EmbeddedShader& file : gl::embeddedShaders()) {
-        if (std::string(file.path).rfind("shared/", 0) != 0) continue;
+        if (!isShared(file)) continue;
         EXPECT_EQ(std::string(file.text).find("/*"), std::string::npos)
             << file.path << ": this test reads // comments only";
         const std::string text = std::regex_replace(std::string(file.text), comments, " ");
@@ -166,8 +172,7 @@ std::vector<Parsed> parsedStructs() {
 std::string includesOfShared() {
     std::string text;
     for (const gl::EmbeddedShader& file : gl::embeddedShaders())
-        if (std::string(file.path).rfind("shared/", 0) == 0)
-            text += "#include \"" + std::string(file.path) + "\"\n";
+        if (isShared(file)) text += "#include \"" + std::string(file.path) + "\"\n";
     return text;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The thesis's volume: what lands in it, whatever the order of threads and the place of the grid.
-#include "voxels/thesis_volume.h"
+#include "thesis/render/volume.h"
 
 #include <cmath>
 #include <cstring>
@@ -8,10 +8,10 @@
 #include <random>
 
 #include "conelight/error.h"
-#include "gather/thesis_cones.h"
 #include "shared/bindings.h"
 #include "shared/frame.h"
 #include "support/gl_fixture.h"
+#include "thesis/render/cones.h"
 
 namespace conelight::test {
 namespace {

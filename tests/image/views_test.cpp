@@ -14,8 +14,8 @@
 #include "support/gl_fixture.h"
 #include "support/truth_rig.h"
 #include "support/view_rig.h"
+#include "thesis/render/volume.h"
 #include "voxels/surface_voxels.h"
-#include "voxels/thesis_volume.h"
 
 namespace conelight::test {
 namespace {

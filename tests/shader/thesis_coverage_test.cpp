@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// lib/thesis_coverage.glsl against polygon clipping on the CPU; lib/thesis_march.glsl's frames and weights.
+// modes/thesis/shaders/coverage.glsl against polygon clipping on the CPU; march.glsl's frames and weights.
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
@@ -63,7 +63,7 @@ using ThesisCoverageTest = GlTest;
 
 TEST_F(ThesisCoverageTest, AreaEqualsClippedPolygon) {
     addShader("test/coverage.comp.glsl", R"(#version 450 core
-#include "lib/thesis_coverage.glsl"
+#include "thesis/shaders/coverage.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) buffer Corners { vec2 corners[]; };
 layout(std430, binding = 1) buffer Areas { vec4 areas[]; };
@@ -98,7 +98,7 @@ void main() {
 
 TEST_F(ThesisCoverageTest, ConeFramesAreUnitAndFiniteForEveryNormal) {
     addShader("test/frame.comp.glsl", R"(#version 450 core
-#include "lib/thesis_march.glsl"
+#include "thesis/shaders/march.glsl"
 layout(local_size_x = 64) in;
 layout(std430, binding = 0) buffer Normals { vec4 normals[]; };
 layout(std430, binding = 1) buffer Cones { vec4 cones[]; };

@@ -88,9 +88,9 @@ void checkArgument(const Session& session, const Command& command, const Argumen
 std::vector<std::string> wordsOf(const Session& session, const Argument& argument);
 
 // Groups, by file.
-CommandGroup originalViewCommands();   // commands_original_view.cpp
-CommandGroup originalConeCommands();   // commands_original_cones.cpp
-CommandGroup originalModelCommands();  // commands_original_models.cpp
+CommandGroup originalViewCommands();   // modes/thesis/console/commands_view.cpp
+CommandGroup originalConeCommands();   // modes/thesis/console/commands_cones.cpp
+CommandGroup originalModelCommands();  // modes/thesis/console/commands_models.cpp
 CommandGroup settingCommands();        // commands_settings.cpp
 CommandGroup cameraCommands();         // commands_camera.cpp
 CommandGroup sceneCommands();          // commands_scene.cpp

@@ -4,7 +4,7 @@
 // ARGUMENTS makes the group counts of the passes over the list: one group per brick, per 8 and per 64 bricks.
 // The order of the list depends on timing, what is computed from it does not.
 #include "shared/bindings.h"
-#include "shared/thesis.h"
+#include "thesis/shaders/constants.h"
 layout(local_size_x = 64) in;
 layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
 layout(std430) buffer BrickFlags { uint brickFlags[]; };

@@ -12,9 +12,9 @@
 #include "gl/pass.h"
 #include "gl/program.h"
 #include "scene/gpu_scene.h"
-#include "shared/thesis.h"
+#include "thesis/render/volume.h"
+#include "thesis/shaders/constants.h"
 #include "view/gbuffer.h"
-#include "voxels/thesis_volume.h"
 
 namespace conelight::gather {
 

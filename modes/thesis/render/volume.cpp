@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "voxels/thesis_volume.h"
+#include "thesis/render/volume.h"
 
 #include <algorithm>
 #include <bit>
@@ -12,7 +12,7 @@ namespace conelight::voxels {
 namespace {
 
 constexpr int kBrick = THESIS_BRICK;
-constexpr float kSumSteps = 16777216.0f;  // 2^24, see thesis_voxelize.frag.glsl
+constexpr float kSumSteps = 16777216.0f;  // 2^24, see voxelize.frag.glsl
 constexpr float kMaxRadiance = 60000.0f;  // below the largest half float, 65,504
 constexpr std::size_t kListHeader = 16;   // words of the brick list before the bricks
 constexpr int kOriginalLevels = 7;
@@ -76,19 +76,19 @@ gl::ProgramDesc voxelizeDesc(const ThesisVolumeOptions& options, bool textured) 
     add("DARK_EMITTERS", d.darkEmitters);
     add("AMBIENT_TWICE", d.ambientTwice);
     add("CLIPPED_RADIANCE", d.racingStores && d.clippedRadiance);
-    return {{"voxels/thesis_voxelize.vert.glsl", "voxels/thesis_voxelize.geom.glsl",
-             "voxels/thesis_voxelize.frag.glsl"},
+    return {{"thesis/shaders/voxelize.vert.glsl", "thesis/shaders/voxelize.geom.glsl",
+             "thesis/shaders/voxelize.frag.glsl"},
             defines};
 }
 
 gl::ProgramDesc bricksDesc(bool arguments) {
-    return {{"voxels/thesis_bricks.comp.glsl"}, {{"ARGUMENTS", arguments ? "1" : "0"}}};
+    return {{"thesis/shaders/bricks.comp.glsl"}, {{"ARGUMENTS", arguments ? "1" : "0"}}};
 }
 
 gl::ProgramDesc resolveDesc(const ThesisDefects& d) {
     gl::Defines defines = volumeDefines(d);
     if (d.binaryOpacity) defines.emplace_back("BINARY_OPACITY", "1");
-    return {{"voxels/thesis_resolve.comp.glsl"}, defines};
+    return {{"thesis/shaders/resolve.comp.glsl"}, defines};
 }
 
 // `brickTexels`: of the coarse level, per brick; 0 for levels whose texels are larger than bricks.
@@ -96,7 +96,7 @@ gl::ProgramDesc mipDesc(const ThesisDefects& d, int brickTexels) {
     gl::Defines defines = volumeDefines(d);
     if (d.volumeMips) defines.emplace_back("VOLUME_MIPS", "1");
     defines.emplace_back("BRICK_TEXELS", std::to_string(brickTexels));
-    return {{"voxels/thesis_mip.comp.glsl"}, defines};
+    return {{"thesis/shaders/mip.comp.glsl"}, defines};
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "modes/thesis_mode.h"
+#include "thesis/render/mode.h"
 
 namespace conelight::modes {
 namespace {

@@ -7,10 +7,10 @@
 // Loops end at the bottom and their conditions hold "is there a surface": branches skip nothing on llvmpipe.
 #include "lib/gbuffer.glsl"
 #include "lib/record_steps.glsl"
-#include "lib/thesis_defects.glsl"
-#include "lib/thesis_light.glsl"
-#include "lib/thesis_march.glsl"
-#include "shared/thesis.h"
+#include "thesis/shaders/constants.h"
+#include "thesis/shaders/defects.glsl"
+#include "thesis/shaders/light.glsl"
+#include "thesis/shaders/march.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 
 #if !defined(FRONT_CONES) || !defined(INTERMEDIATE_CONES) || !defined(SIDE_CONES)
@@ -58,7 +58,7 @@ bool outsideGrid(vec3 position) {
     return any(greaterThan(abs((position - grid.origin) / grid.edge - 0.5), vec3(0.5)));
 }
 
-// One march (shared/thesis.h).
+// One march (constants.h).
 struct ThesisCone {
     float spread;
     float stepFactor;

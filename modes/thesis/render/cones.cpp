@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gather/thesis_cones.h"
+#include "thesis/render/cones.h"
 
 #include <algorithm>
 #include <cmath>
@@ -104,7 +104,7 @@ gl::ProgramDesc conesDesc(const ThesisSettings& settings, Component component, b
                         {"COUNT_LOOKUPS", countLookups ? "1" : "0"}};
     for (const Define& define : kDefines)
         if (defects.*define.flag) defines.emplace_back(define.name, "1");
-    return {{"gather/thesis_cones.comp.glsl"}, defines};
+    return {{"thesis/shaders/cones.comp.glsl"}, defines};
 }
 
 }  // namespace

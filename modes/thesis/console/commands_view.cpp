@@ -8,7 +8,7 @@
 
 #include "conelight/error.h"
 #include "console/console.h"
-#include "io/thesis_scene.h"
+#include "thesis/format/scene.h"
 
 namespace conelight::program {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Words and tree of the thesis's scene text format: see thesis_syntax.h. The tree is built with an own stack,
+// Words and tree of the thesis's scene text format: see syntax.h. The tree is built with an own stack,
 // so that depth costs memory, not the call stack.
-#include "io/thesis_syntax.h"
+#include "thesis/format/syntax.h"
 
 #include <fmt/core.h>
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 // Sums of the voxelizer -> level 0 of the volume, one group per marked brick; clears the sums behind it.
 // Opacity is the covered area, at most 1; colour is premultiplied by it. BINARY_OPACITY: 1 where anything is.
-#include "lib/thesis_defects.glsl"
 #include "shared/bindings.h"
-#include "shared/thesis.h"
+#include "thesis/shaders/constants.h"
+#include "thesis/shaders/defects.glsl"
 layout(local_size_x = 8, local_size_y = 8, local_size_z = 8) in;
 layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
 layout(std430) buffer SumTable { uint sums[]; };

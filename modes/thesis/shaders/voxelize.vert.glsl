@@ -1,6 +1,6 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// Vertices of the scene -> world space, for the thesis's voxelization (thesis_voxelize.geom.glsl).
+// Vertices of the scene -> world space, for the thesis's voxelization (voxelize.geom.glsl).
 #include "lib/octahedral.glsl"
 #include "lib/scene_tables.glsl"
 

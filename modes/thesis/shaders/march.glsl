@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The geometry of the thesis's cones, without textures: sizes along a cone, the cone sets, the angular
 // weight. Numbers and letters: docs/theory/4_gather.md, "The thesis's cones".
-#include "lib/thesis_defects.glsl"
+#include "thesis/shaders/defects.glsl"
 
 // A sample of size s reaches past its centre by 1.5 s (the tent of a texel whose centre is half a texel away)
 // and by up to twice that, with little weight, where the next coarser level is blended in. Sizes are kept

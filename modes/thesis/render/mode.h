@@ -5,10 +5,10 @@
 
 #include <optional>
 
-#include "gather/thesis_cones.h"
 #include "gather/voxel_view.h"
 #include "modes/frame_context.h"
-#include "voxels/thesis_volume.h"
+#include "thesis/render/cones.h"
+#include "thesis/render/volume.h"
 
 namespace conelight::modes {
 

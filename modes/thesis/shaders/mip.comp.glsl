@@ -6,9 +6,9 @@
 // A texel of twice the edge has four times the cross-section, so the covered areas of its eight children add
 // up to a quarter: a plane keeps its opacity in every level. VOLUME_MIPS, as in the original: an eighth, the
 // mean over the volume; a wall of one voxel then halves its opacity per level.
-#include "lib/thesis_defects.glsl"
 #include "shared/bindings.h"
-#include "shared/thesis.h"
+#include "thesis/shaders/constants.h"
+#include "thesis/shaders/defects.glsl"
 #ifndef BRICK_TEXELS
 #error BRICK_TEXELS must be 64, 8, 1 or 0
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Numbers that the passes of the thesis mode share: where its volume lies (uniform block at
-// BINDING_THESIS_GRID), and its cones (BINDING_PASS). Filled by src/voxels/thesis_volume.cpp and
-// src/gather/thesis_cones.cpp.
+// BINDING_THESIS_GRID), and its cones (BINDING_PASS). Filled by render/volume.cpp and
+// render/cones.cpp.
 #pragma once
 #include "shared/bindings.h"
 #include "shared/prelude.h"

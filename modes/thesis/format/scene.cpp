@@ -9,7 +9,7 @@
 // PhongMaterial, plus the metallic-roughness values closest to it. First of doubled keys wins. Meshes: the
 // first of a file, node transforms ignored, as the original does; missing normals are made. Additions: see
 // docs/reference/thesis_format.md.
-#include "io/thesis_scene.h"
+#include "thesis/format/scene.h"
 
 #include <fmt/core.h>
 #include <locale.h>
@@ -25,7 +25,7 @@
 #include "io/assimp_import.h"
 #include "io/files.h"
 #include "io/geometry.h"
-#include "io/thesis_syntax.h"
+#include "thesis/format/syntax.h"
 
 namespace conelight::io {
 

@@ -18,7 +18,7 @@
 #include "gl/pass.h"
 #include "gl/program.h"
 #include "scene/gpu_scene.h"
-#include "shared/thesis.h"
+#include "thesis/shaders/constants.h"
 
 namespace conelight::voxels {
 

@@ -4,24 +4,24 @@
 // model without gloss (thesis, "3D texture storage"), radiance leaving the front of the surface.
 //
 // RACING_STORES: stored as it comes, opacity 1; the last of several fragments stays. Else: summed with the
-// area it covers, in fixed point, so that the order does not matter; thesis_resolve.comp.glsl makes colours
+// area it covers, in fixed point, so that the order does not matter; resolve.comp.glsl makes colours
 // and opacities of the sums. The sum is shared by the two voxels along the dominant axis between whose
 // centres the surface lies, in proportion, unless FACE_ROUNDING: all of it to the voxel of the truncated
 // position.
 #include "lib/octahedral.glsl"
 #include "lib/scene_tables.glsl"
 #include "lib/surface_array.glsl"
-#include "lib/thesis_coverage.glsl"
-#include "lib/thesis_defects.glsl"
-#include "lib/thesis_light.glsl"
-#include "shared/thesis.h"
+#include "thesis/shaders/constants.h"
+#include "thesis/shaders/coverage.glsl"
+#include "thesis/shaders/defects.glsl"
+#include "thesis/shaders/light.glsl"
 #ifndef SHADOWED
 #error SHADOWED must be 0 or 1: 1 tests the lights' shadow maps, with the defines of light::lightDefines
 #endif
 #ifndef TEXTURED
 #error TEXTURED must be 0 or 1: 1 when a material of the scene has a base colour texture
 #endif
-#include "lib/thesis_visibility.glsl"
+#include "thesis/shaders/visibility.glsl"
 layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
 layout(std430) buffer SumTable { uint sums[]; };  // 4 per voxel of the box
 layout(std430) buffer BrickFlags { uint brickFlags[]; };  // of the box

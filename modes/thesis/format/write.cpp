@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/thesis_write.h"
+#include "thesis/format/write.h"
 
 #include <fmt/core.h>
 
@@ -12,7 +12,7 @@
 
 #include "conelight/error.h"
 #include "io/files.h"
-#include "io/thesis_scene.h"
+#include "thesis/format/scene.h"
 
 namespace conelight::io {
 
