@@ -22,8 +22,8 @@ void main() {
     vec3 origin = s.position + cones.offset * s.geometricNormal;
     uint samples;
 #if OCCLUSION
-    vec4 gathered = gatherCones(origin, s.normal, seen ? cones.count : 0u, lighting.sky, cones.occlusionDistance,
-                                1.0 / max(cones.occlusionDistance, 1e-9), samples);
+    vec4 gathered = gatherCones(origin, s.normal, seen ? cones.count : 0u, lighting.sky,
+                                cones.occlusionDistance, 1.0 / max(cones.occlusionDistance, 1e-9), samples);
 #else
     // Metals and unlit surfaces have no diffuse part.
     bool matt = seen && !s.unlit && s.metallic < 1.0;

@@ -10,9 +10,7 @@
 #include "shared/pixel_rays.h"
 layout(std140) uniform PixelRayBlock { PixelRayConstants pixelRays; };
 #if FLAT_LIGHTS
-layout(std140) uniform FixedLightRows {
-    uvec4 lightRows[7 * FLAT_LIGHTS_TOTAL];
-};
+layout(std140) uniform FixedLightRows { uvec4 lightRows[7 * FLAT_LIGHTS_TOTAL]; };
 #endif
 layout(location = 0) flat out uvec4 flatRows[FLAT_ROWS];
 

@@ -5,20 +5,19 @@
 // (voxel_view_reach), w 0. One invocation per brick.
 //
 //   SOURCE  0 from the surface voxels' words: right for all that is made of them
-//           1 from the volume of mode thesis: of bricks whose mean two levels up is not zero, every voxel.
-//             Outside of its box there is nothing
+//           1 from a volume of one colour and opacity a voxel (VoxelVolume of src/gather/voxel_view.h): of
+//             bricks whose mean two levels up is not zero, every voxel. Outside of its box there is nothing
 #ifndef SOURCE
 #error SOURCE must be 0 or 1
 #endif
 layout(local_size_x = 8, local_size_y = 4, local_size_z = 4) in;
-#include "shared/bindings.h"
 layout(rgba32ui) writeonly uniform uimage3D occupied;
 #if SOURCE == 0
 #include "lib/voxel_grid.glsl"
 layout(rgba32ui) readonly uniform uimage3D voxelBrickImage;
 #else
-#include "thesis/shaders/constants.h"
-layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
+#include "shared/voxel_view.h"
+layout(std140) uniform ViewBlock { VoxelViewConstants view; };
 uniform sampler3D volume;
 #endif
 
@@ -31,8 +30,8 @@ void main() {
     if (all(lessThan(brick, gridBricks()))) mask = imageLoad(voxelBrickImage, brick).xy;
 #else
     // Eight bits a channel may round a mean down to nothing; halves do not.
-    bool empty = any(greaterThanEqual(4 * brick, grid.boxMin.xyz + grid.boxSize.xyz)) ||
-                 any(lessThanEqual(4 * brick + 4, grid.boxMin.xyz));
+    bool empty = any(greaterThanEqual(4 * brick, view.filledMin.xyz + view.filledSize.xyz)) ||
+                 any(lessThanEqual(4 * brick + 4, view.filledMin.xyz));
 #if HALVES
     empty = empty || texelFetch(volume, brick, 2) == vec4(0.0);
 #endif

@@ -207,10 +207,10 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
 #define FOR_POINT_LIGHTS(statement) FOR_LIGHTS(0, LIGHTS_POINT, 0u, lighting.lightEnds.x, statement)
 #define FOR_SPOT_LIGHTS(statement) \
     FOR_LIGHTS(LIGHTS_POINT, LIGHTS_SPOT, lighting.lightEnds.x, lighting.lightEnds.y, statement)
-#define FOR_DIRECTIONAL_LIGHTS(statement)                                                            \
+#define FOR_DIRECTIONAL_LIGHTS(statement)                                                                  \
     FOR_LIGHTS(LIGHTS_POINT + LIGHTS_SPOT, LIGHTS_DIRECTIONAL, lighting.lightEnds.y, lighting.lightEnds.z, \
                statement)
-#define FOR_RECT_LIGHTS(statement)                                                              \
+#define FOR_RECT_LIGHTS(statement)                                                                 \
     FOR_LIGHTS(LIGHTS_POINT + LIGHTS_SPOT + LIGHTS_DIRECTIONAL, LIGHTS_RECT, lighting.lightEnds.z, \
                lighting.lightEnds.w, statement)
 

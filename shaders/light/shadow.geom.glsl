@@ -23,7 +23,8 @@ void main() {
     // 1997, "Triangle Scan Conversion using 2D Homogeneous Coordinates"): at (x, y) texels from the map's
     // middle, positive inside.
     vec3 corner[3];
-    for (int i = 0; i < 3; ++i) corner[i] = vec3(gl_in[i].gl_Position.xy * shadowMap.halfSize, gl_in[i].gl_Position.w);
+    for (int i = 0; i < 3; ++i)
+        corner[i] = vec3(gl_in[i].gl_Position.xy * shadowMap.halfSize, gl_in[i].gl_Position.w);
     vec3 edges[3];
     for (int i = 0; i < 3; ++i) edges[i] = cross(corner[i], corner[(i + 1) % 3]);
     float turn = dot(edges[0], corner[2]) < 0.0 ? -1.0 : 1.0;

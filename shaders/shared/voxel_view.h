@@ -35,9 +35,12 @@ struct VoxelViewConstants {
     uint pad0;
     uint pad1;
     uint pad2;
-};  // 64 B
+    // ---- 64 B: of SOURCE 1: box of voxels outside of which there is nothing
+    ivec4 filledMin;   // xyz
+    ivec4 filledSize;  // xyz
+};                     // 96 B
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
-static_assert(sizeof(conelight::gpu::VoxelViewConstants) == 64);
+static_assert(sizeof(conelight::gpu::VoxelViewConstants) == 96);
 #endif

@@ -26,7 +26,9 @@ class DirectLight {
   public:
     void draw(const gl::Device& device, const DirectInputs& inputs);
 
-    const gl::Texture& diffuse() const { return diffuse_; }  // reflected, plus emission; sky radiance; a: seen
+    const gl::Texture& diffuse() const {
+        return diffuse_;
+    }  // reflected, plus emission; sky radiance; a: seen
     const gl::Texture& specular() const { return specular_; }  // reflected; a: seen
 
     static std::vector<gl::ProgramDesc> programDescs();

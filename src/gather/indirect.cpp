@@ -8,7 +8,8 @@ namespace conelight::gather {
 namespace {
 
 // Means over frames while the cache is still on its way, so many passes: longer ones would show old light
-// (builtin:cornell-point, interactive: 16 frames to settle instead of 12 when they were long after 8 updates).
+// (builtin:cornell-point, interactive: 16 frames to settle instead of 12 when they were long after 8
+// updates).
 constexpr int kUnsettledMean = 4;
 constexpr int kOcclusionPasses = 16;
 constexpr int kOcclusionRays = 2;
@@ -92,14 +93,14 @@ void Indirect::gather(const gl::Device& device, const RayInputs& inputs, const W
     follow(inputs, settings);
     irradiance_ = lobe_ = nullptr;
     if (wantsIrradiance(wanted)) {
-        const RayPass pass{settings, settings.pixelRays, settings.passes, 0, Reuse::None, nullptr,
-                           wanted.lookupCounters};
+        const RayPass pass{settings, settings.pixelRays,   settings.passes, 0, Reuse::None,
+                           nullptr,  wanted.lookupCounters};
         addPasses(device, inputs, pass, diffuse_, diffuseHistory_);
         irradiance_ = &diffuse_.filtered(device, inputs.surfaces, settings.filterLevels);
     }
     if (wantsLobe(wanted, inputs.scene)) {
-        const RayPass pass{settings, settings.specularRays, settings.passes, 0, Reuse::None, nullptr,
-                           wanted.lookupCounters};
+        const RayPass pass{settings, settings.specularRays, settings.passes, 0, Reuse::None,
+                           nullptr,  wanted.lookupCounters};
         addPasses(device, inputs, pass, specular_, specularHistory_);
         lobe_ = &specular_.filtered(device, inputs.surfaces, settings.filterLevels);
     }
@@ -116,15 +117,17 @@ void Indirect::record(const gl::Device& device, const RayInputs& inputs, const W
                       StepRecorder& recorder) {
     const TracedSettings& settings = wanted.settings;
     if (wantsIrradiance(wanted))
-        diffuse_.record(device, inputs, {settings, settings.pixelRays, settings.passes}, settings.passes, recorder);
+        diffuse_.record(device, inputs, {settings, settings.pixelRays, settings.passes}, settings.passes,
+                        recorder);
     if (wantsLobe(wanted, inputs.scene))
         specular_.record(device, inputs, {settings, settings.specularRays, settings.passes}, settings.passes,
                          recorder);
 }
 
-void Indirect::recordOcclusion(const gl::Device& device, const RayInputs& inputs, const TracedSettings& settings,
-                               StepRecorder& recorder) {
-    occlusion_.record(device, inputs, {settings, kOcclusionRays, kOcclusionPasses}, kOcclusionPasses, recorder);
+void Indirect::recordOcclusion(const gl::Device& device, const RayInputs& inputs,
+                               const TracedSettings& settings, StepRecorder& recorder) {
+    occlusion_.record(device, inputs, {settings, kOcclusionRays, kOcclusionPasses}, kOcclusionPasses,
+                      recorder);
 }
 
 }  // namespace conelight::gather

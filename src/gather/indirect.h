@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Indirect light at pixels, as a value: surfaces + lit voxels -> irradiance for diffuse reflection, radiance in
-// the specular lobe, occlusion. Means over passes and frames are kept, and taken up again where the same
+// Indirect light at pixels, as a value: surfaces + lit voxels -> irradiance for diffuse reflection, radiance
+// in the specular lobe, occlusion. Means over passes and frames are kept, and taken up again where the same
 // surface is seen.
 #pragma once
 
@@ -26,12 +26,13 @@ class Indirect {
     void gather(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted);
     void gatherOcclusion(const gl::Device& device, const RayInputs& inputs, const TracedSettings& settings);
     // Records the recorder's pixel; what was gathered stays.
-    void record(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted, StepRecorder& recorder);
+    void record(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,
+                StepRecorder& recorder);
     void recordOcclusion(const gl::Device& device, const RayInputs& inputs, const TracedSettings& settings,
                          StepRecorder& recorder);
 
-    // Of the last gather(), pictures of lib/pixel_history.glsl; null: rays were not asked for it, and the cache,
-    // or the irradiance, stands in.
+    // Of the last gather(), pictures of lib/pixel_history.glsl; null: rays were not asked for it, and the
+    // cache, or the irradiance, stands in.
     const gl::Texture* irradiance() const { return irradiance_; }
     const gl::Texture* lobe() const { return lobe_; }
     const PixelRectangle& lobes() const { return specular_.lobes(); }  // where `lobe` has anything

@@ -17,9 +17,9 @@ enum class Reuse { None, SameView, Reproject };
 struct PixelRayKey {
     RayPicture kind = RayPicture::Diffuse;
     Reuse reuse = Reuse::None;
-    bool motion = false;  // instances have moved since; of Reuse::Reproject
-    bool counts = false;  // lookups
-    bool listed = false;  // of kind Specular: of the pixels in LobeList, else of all
+    bool motion = false;     // instances have moved since; of Reuse::Reproject
+    bool counts = false;     // lookups
+    bool listed = false;     // of kind Specular: of the pixels in LobeList, else of all
     bool triangles = false;  // of kind Specular: rays meet triangles, not plane pieces
     bool records = false;    // steps of one pixel, for the inspector
     light::HitKey hits;

@@ -17,8 +17,8 @@ constexpr float kPlaneTolerance = 0.5f;
 // Reach of component occlusion, as a part of the grid's longest side.
 constexpr float kOcclusionReach = 0.1f;
 // A ray into a lobe goes on so often where it meets metal; after that metals reflect lights in their lobe and
-// all else as if diffuse. Three mirrors in a row are seen, more are hardly told apart. Rays for irradiance go on
-// only where many are averaged: what few bring from a lobe is speckles.
+// all else as if diffuse. Three mirrors in a row are seen, more are hardly told apart. Rays for irradiance go
+// on only where many are averaged: what few bring from a lobe is speckles.
 constexpr std::uint32_t kLobeReflections = 3;
 constexpr int kReflectedRays = 128;
 
@@ -73,7 +73,10 @@ PixelRectangle lobeRectangle(const RayInputs& inputs, float roughest) {
 }  // namespace
 
 void RayInputs::declare(gl::Inputs& inputs) const {
-    inputs.add(scene).add(lights).add(voxels).add(lit).add(surfaces);
+    inputs.add(scene).add(lights).add(surfaces);
+    // Pictures of direct light alone are drawn without voxels.
+    if (!lit.revision()) return;
+    inputs.add(voxels).add(lit);
     voxels.surface().declareTriangles(inputs);
 }
 
@@ -177,10 +180,10 @@ void PixelRays::record(const gl::Device& device, const RayInputs& inputs, const 
 void PixelRays::listLobes(const gl::Device& device, gl::Inputs& inputs, const PixelRectangle& lobes) {
     constexpr std::array<std::uint32_t, 4> kEmptyList{LOBE_GROUPS_X, 0, 1, 0};
     if (!lobeList_)
-        lobeList_ = gl::Buffer(
-            sizeof kEmptyList + std::size_t{4} * static_cast<std::size_t>(current_.texture.width()) *
-                                    static_cast<std::size_t>(current_.texture.height()),
-            "pixels with lobes");
+        lobeList_ = gl::Buffer(sizeof kEmptyList + std::size_t{4} *
+                                                       static_cast<std::size_t>(current_.texture.width()) *
+                                                       static_cast<std::size_t>(current_.texture.height()),
+                               "pixels with lobes");
     lobeList_.update(kEmptyList);
     inputs.storage("LobeList", lobeList_);
     const glm::ivec2 extent = lobes.end - lobes.lowest;

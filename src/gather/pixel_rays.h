@@ -3,8 +3,8 @@
 // occlusion, as means over passes and frames (docs/theory/4_gather.md, "Over frames"), and the edge-stopping
 // filter over them. A picture is a texture of lib/pixel_history.glsl. Part of gather::Indirect.
 //
-// Readers need gl::barrier(TextureFetch). GL state changed: program and its slots, the indirect dispatch buffer
-// binding.
+// Readers need gl::barrier(TextureFetch). GL state changed: program and its slots, the indirect dispatch
+// buffer binding.
 #pragma once
 
 #include <glm/glm.hpp>

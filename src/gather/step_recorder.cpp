@@ -103,7 +103,8 @@ gl::ProgramDesc StepRecorder::variant(gl::ProgramDesc desc) {
     return desc;
 }
 
-void StepRecorder::record(const gl::Device& device, const gl::ProgramDesc& desc, gl::Inputs inputs, float share) {
+void StepRecorder::record(const gl::Device& device, const gl::ProgramDesc& desc, gl::Inputs inputs,
+                          float share) {
     gl::barrier(gl::Access::Update);
     buffer_.update(offsetof(gpu::RecordHeader, share), &share, sizeof(share));
     device.get(desc).dispatch(inputs.storage("RecordBuffer", buffer_), 1, 1);

@@ -19,7 +19,8 @@ class StepRecorder {
 
     // `desc` as its recording variant.
     static gl::ProgramDesc variant(gl::ProgramDesc desc);
-    // One pass that counts for `share` of the mean; `desc` is a recording variant, `inputs` what the pass reads.
+    // One pass that counts for `share` of the mean; `desc` is a recording variant, `inputs` what the pass
+    // reads.
     void record(const gl::Device& device, const gl::ProgramDesc& desc, gl::Inputs inputs, float share = 1.0f);
 
     // Everything but x, y, mode and picture. Waits for the GPU.

@@ -54,7 +54,8 @@ std::vector<ShadeKey> ShadeKey::all() {
             keys.push_back({parts, irradiance, lobe, (bits & 4) == 0, (bits & 8) != 0, lights});
         }
     };
-    for (const PictureParts& parts : {PictureParts{}, {false, true, false}, {false, false, true}, {false, true, true}})
+    for (const PictureParts& parts :
+         {PictureParts{}, {false, true, false}, {false, false, true}, {false, true, true}})
         add(parts, {});
     for (const light::LightKey& lights : light::LightKey::all())
         for (const bool indirect : {false, true}) add({true, indirect, indirect}, lights);
@@ -93,7 +94,11 @@ void TracedShade::draw(const gl::Device& device, const RayInputs& inputs, const 
     const glm::vec3 behind = parts.direct ? inputs.scene.source().sky : glm::vec3(0);
     target.clearColor(0, behind.r, behind.g, behind.b, 0);
     if (!noVertices_) noVertices_ = gl::VertexArray("no vertices");
-    ShadeKey key{parts, irradiance != nullptr, false, anyEmission(inputs.scene), wanted.lookupCounters != nullptr,
+    ShadeKey key{parts,
+                 irradiance != nullptr,
+                 false,
+                 anyEmission(inputs.scene),
+                 wanted.lookupCounters != nullptr,
                  parts.direct ? inputs.lights.key() : light::LightKey{}};
     const auto drawPicture = [&](bool withLobe) {
         key.lobe = withLobe;

@@ -23,13 +23,13 @@ class TracedShade {
     struct Wanted {
         const TracedSettings& settings;
         PictureParts parts;
-        const gl::Buffer* lookupCounters = nullptr;  // not null: adds lookups of the cache, and of shadow maps as
-                                                     // occlusion's
+        const gl::Buffer* lookupCounters = nullptr;  // not null: adds lookups of the cache, and of shadow
+                                                     // maps as occlusion's
     };
-    // Irradiance that `indirect` lacks is taken from the cache, and stands in for the lobe's radiance. Where no
-    // surface is seen there is the sky, with direct light. Writes all of `output`.
-    void draw(const gl::Device& device, const RayInputs& inputs, const Indirect& indirect, const Wanted& wanted,
-              const gl::Texture& output);
+    // Irradiance that `indirect` lacks is taken from the cache, and stands in for the lobe's radiance. Where
+    // no surface is seen there is the sky, with direct light. Writes all of `output`.
+    void draw(const gl::Device& device, const RayInputs& inputs, const Indirect& indirect,
+              const Wanted& wanted, const gl::Texture& output);
     // Records the faces of the cache that the recorder's pixel shows.
     void recordCache(const gl::Device& device, const RayInputs& inputs, StepRecorder& recorder);
     void drawOcclusion(const gl::Device& device, const view::Surfaces& surfaces, const gl::Texture& occlusion,

@@ -22,7 +22,8 @@ namespace conelight::gl {
 // A name and its hash (FNV-1a), made from a literal while compiling.
 class ResourceName {
   public:
-    consteval ResourceName(const char* text) : text_(text), hash_(hashOf(text)) {}  // NOLINT: a literal is one
+    consteval ResourceName(const char* text)
+        : text_(text), hash_(hashOf(text)) {}  // NOLINT: a literal is one
     std::string_view text() const { return text_; }
     std::uint64_t hash() const { return hash_; }
 

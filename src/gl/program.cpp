@@ -176,8 +176,8 @@ void Program::use(const Inputs& inputs) const {
             return item.name.hash() == slot.hash && item.kind == slot.kind;
         });
         if (given == inputs.items().end())
-            base::fail(ErrorKind::Runtime, "%s: reads %s %s, which the pass does not give it",
-                       label_.c_str(), kindName(slot.kind), slot.name.c_str());
+            base::fail(ErrorKind::Runtime, "%s: reads %s %s, which the pass does not give it", label_.c_str(),
+                       kindName(slot.kind), slot.name.c_str());
         if (given->object != 0) bindItem(*given, slot.slot);
     }
 }

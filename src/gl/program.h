@@ -23,8 +23,8 @@ struct ProgramDesc {
     std::string label() const;  // "voxels/mark.comp.glsl[A=1 B=2]"
 };
 
-// What a linked program reads, and the slot it reads it from: a binding point of uniform or storage buffers, a
-// texture unit, an image unit. Slots are given out in the order of the driver's list, from 0 for each kind.
+// What a linked program reads, and the slot it reads it from: a binding point of uniform or storage buffers,
+// a texture unit, an image unit. Slots are given out in the order of the driver's list, from 0 for each kind.
 struct ProgramSlot {
     std::string name;
     std::uint64_t hash;  // ResourceName::hashOf(name)
@@ -43,11 +43,11 @@ class Program : public Object<ObjectType::Program> {
     glm::ivec3 groupSize() const { return groupSize_; }  // compute only
     const std::vector<ProgramSlot>& slots() const { return slots_; }
 
-    // Binds what the program reads and makes it current, for draw calls. Throws Error(Runtime) that names what
-    // it reads and `inputs` lacks. GL state changed, here and below: program, the slots of slots().
+    // Binds what the program reads and makes it current, for draw calls. Throws Error(Runtime) that names
+    // what it reads and `inputs` lacks. GL state changed, here and below: program, the slots of slots().
     void use(const Inputs& inputs = {}) const;
-    // The unit of a texture that draw calls bind themselves (Inputs::perDraw); -1 if the program reads none of
-    // that name.
+    // The unit of a texture that draw calls bind themselves (Inputs::perDraw); -1 if the program reads none
+    // of that name.
     int unitOf(ResourceName texture) const;
     // Compute: use() and run at least this many invocations (rounded up to whole groups). Counts of zero run
     // nothing. dispatchLinear folds groups beyond 65,535 into y: the shader asks linearIndex() of

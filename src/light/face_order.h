@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The order in which updates of the irradiance cache visit faces (shaders/light/cache_order.comp.glsl): voxels
+// The order in which updates of the irradiance cache visit faces (shaders/light/cache_order.comp.glsl):
+// voxels
 // -> faces that gather, those of one place and direction in a block next to each other. Faces that share
 // another's irradiance, and faces found inside closed objects, are not visited.
 #pragma once
@@ -12,7 +13,7 @@ namespace conelight::light {
 class FaceOrder {
   public:
     struct Wanted {
-        bool searches;  // faces that may be inside closed objects are visited, to find out
+        bool searches;     // faces that may be inside closed objects are visited, to find out
         bool keepsMemory;  // for the next sort: where voxels change again and again
     };
     // `states` (gpu::FaceCache per face) of faces that are not visited are changed.
@@ -20,7 +21,7 @@ class FaceOrder {
               const gl::Texture& stateTexels, const Wanted& wanted);
 
     std::uint32_t gathering() const { return gathering_; }  // faces that updates visit in order
-    std::uint32_t doubtful() const { return doubtful_; }    // and those behind them, of which each is searched
+    std::uint32_t doubtful() const { return doubtful_; }  // and those behind them, of which each is searched
     std::uint32_t visited() const { return gathering_ + doubtful_; }
     const gl::Texture& texels() const { return orderTexels_; }  // R32UI: a face per place
 

@@ -147,7 +147,8 @@ void IrradianceCache::restartAverages() {
 
 // Faces that one update visits.
 std::uint32_t IrradianceCache::perUpdate(const CacheSettings& settings) const {
-    return settings.facesPerUpdate == 0 ? order_.visited() : std::min(settings.facesPerUpdate, order_.visited());
+    return settings.facesPerUpdate == 0 ? order_.visited()
+                                        : std::min(settings.facesPerUpdate, order_.visited());
 }
 
 std::uint64_t IrradianceCache::searchedRays() const {
@@ -199,7 +200,8 @@ void IrradianceCache::commit(const gl::Device& device, const voxels::SurfaceVoxe
     restarts_ = false;
 }
 
-void IrradianceCache::visitFaces(const Visit& visit, std::uint32_t first, std::uint32_t end, bool findsBacks) {
+void IrradianceCache::visitFaces(const Visit& visit, std::uint32_t first, std::uint32_t end,
+                                 bool findsBacks) {
     if (first >= end) return;
     constants_.update(packed(visit.settings, first, end - first));
     visit.device.get(UpdateKey{visit.hits, findsBacks}.desc()).dispatchLinear(visit.inputs, end - first);
@@ -248,7 +250,8 @@ void IrradianceCache::visitAll(const gl::Device& device, const Inputs& inputs, c
 void IrradianceCache::update(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
                              int passes) {
     const voxels::SurfaceVoxels& surface = inputs.voxels.surface();
-    CONELIGHT_ASSERT(voxelsFrom_ == inputs.voxels.revision(), "IrradianceCache::update: other voxels than adopted");
+    CONELIGHT_ASSERT(voxelsFrom_ == inputs.voxels.revision(),
+                     "IrradianceCache::update: other voxels than adopted");
     if (faceCount_ == 0) return;
     if (!prepared_) commit(device, surface, settings, passes <= 0);
     for (int i = 0; i < passes; ++i) {

@@ -37,26 +37,27 @@ class IrradianceCache {
     struct Inputs {
         const scene::GpuScene& scene;
         const Lights& lights;
-        const voxels::Voxels& voxels;  // with octant words
+        const voxels::Voxels& voxels;     // with octant words
         const gl::Texture& directTexels;  // R32UI: light of faces that is not looked up at hits
     };
 
-    // Takes up voxels. Each face gets the light of the face that lay there and looked the same way in the voxels
-    // before (voxels.previous()) if these are the ones that the cache holds; else it starts dark. Counts as a
-    // change of light.
+    // Takes up voxels. Each face gets the light of the face that lay there and looked the same way in the
+    // voxels before (voxels.previous()) if these are the ones that the cache holds; else it starts dark.
+    // Counts as a change of light.
     void adopt(const gl::Device& device, const voxels::Voxels& voxels);
     // Direct light, emission or the sky is another: short averages again, until bounces have settled.
     void restartAverages();
 
     // Visits faces `passes` times over (facesPerUpdate each). GL state changed: program and its slots.
-    void update(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings, int passes = 1);
+    void update(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
+                int passes = 1);
 
     // Whether bounces have settled since the last change, so that all further updates only average noise
     // away.
     bool settled() const;
     int updates() const;  // whole rounds over all faces since the last change
 
-    void declare(gl::Inputs& inputs) const;  // brightFaces, faceLight
+    void declare(gl::Inputs& inputs) const;              // brightFaces, faceLight
     const gl::Buffer& state() const { return states_; }  // gpu::FaceCache per face, for tests
 
     static std::vector<gl::ProgramDesc> programDescs();
@@ -74,8 +75,8 @@ class IrradianceCache {
     void visitFaces(const Visit& visit, std::uint32_t first, std::uint32_t end, bool findsBacks);
     void visitAll(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
                   std::uint32_t count);
-    void commit(const gl::Device& device, const voxels::SurfaceVoxels& surface,
-                const CacheSettings& settings, bool atPixels);
+    void commit(const gl::Device& device, const voxels::SurfaceVoxels& surface, const CacheSettings& settings,
+                bool atPixels);
 
     gl::Buffer states_, oldStates_, faceLight_, chunks_, pool_, constants_, carryBlock_;
     gl::Texture faceLightTexels_, poolTexels_, stateTexels_, oldStateTexels_;
@@ -86,11 +87,11 @@ class IrradianceCache {
 
     bool prepared_ = false;  // pool and records say what the states and the direct light say
     bool restarts_ = false;
-    std::uint32_t updatesMade_ = 0;        // ever
-    std::uint32_t updatesOfVoxels_ = 0;    // calls of update() for these voxels
-    std::uint32_t firstFace_ = 0;     // where the next update begins
-    std::uint64_t facesVisited_ = 0;  // since light changed
-    std::uint64_t raysTested_ = 0;    // cosine rays that looked for faces inside objects, since voxels changed
+    std::uint32_t updatesMade_ = 0;      // ever
+    std::uint32_t updatesOfVoxels_ = 0;  // calls of update() for these voxels
+    std::uint32_t firstFace_ = 0;        // where the next update begins
+    std::uint64_t facesVisited_ = 0;     // since light changed
+    std::uint64_t raysTested_ = 0;  // cosine rays that looked for faces inside objects, since voxels changed
 };
 
 }  // namespace conelight::light

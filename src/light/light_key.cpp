@@ -43,7 +43,8 @@ std::vector<LightKey> LightKey::all() {
     std::vector<LightKey> keys;
     // Every number of each kind; more than four lights are told by which kinds there are.
     for (int code = 0; code < 5 * 5 * 5 * 5; ++code) {
-        LightKey key{.point = code % 5, .spot = code / 5 % 5, .directional = code / 25 % 5, .rect = code / 125};
+        LightKey key{
+            .point = code % 5, .spot = code / 5 % 5, .directional = code / 25 % 5, .rect = code / 125};
         const int total = key.point + key.spot + key.directional + key.rect;
         const bool kinds = std::max({key.point, key.spot, key.directional, key.rect}) == 1;
         for (const bool fixed : {true, false}) {

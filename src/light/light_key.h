@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Which lights a shader is made for: variants of shaders that include lib/lights.glsl, and of those whose rays
-// look lights up where they hit (lib/voxel_light.glsl).
+// Which lights a shader is made for: variants of shaders that include lib/lights.glsl, and of those whose
+// rays look lights up where they hit (lib/voxel_light.glsl).
 #pragma once
 
 #include <compare>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lights, as a value: what shines straight onto surfaces, ready for shaders. Scene -> the light table (enabled
-// lights, and flat emitters as rectangles), their shadow maps, and the sky.
+// Lights, as a value: what shines straight onto surfaces, ready for shaders. Scene -> the light table
+// (enabled lights, and flat emitters as rectangles), their shadow maps, and the sky.
 //
 // Flat emitters (scene/emissive_quads.h) are in the table so that their light is exact and sharp in its
 // shadows, where voxels would blur it. What the camera sees of the emitter does not change.
@@ -38,7 +38,8 @@ class Lights {
     // know how many lights there are), and the shadow maps.
     void declare(gl::Inputs& inputs) const;
     LightKey key() const;  // the variant of shaders that these lights need
-    // Of shaders whose rays look punctual lights up where they hit; off where there are none, or more than pays.
+    // Of shaders whose rays look punctual lights up where they hit; off where there are none, or more than
+    // pays.
     HitKey hitKey(const scene::GpuScene& scene, bool exactDirect) const;
 
     const std::vector<gpu::Light>& table() const { return table_; }  // sorted by kind

@@ -29,8 +29,8 @@ void LitVoxels::relight(const gl::Device& device, const Inputs& inputs, const Re
     const bool otherGrid = !first && !(voxelSettings_ == inputs.voxels.settings());
     if (budget.nothing && !otherSources && !otherSettings) return;
 
-    // A finished picture must not be better or worse for the settings of those before it; moving ones keep what
-    // is there. Light of a limited number of bounces starts in the dark.
+    // A finished picture must not be better or worse for the settings of those before it; moving ones keep
+    // what is there. Light of a limited number of bounces starts in the dark.
     const bool otherBounces = !first && settings_.bounces != settings.bounces;
     const bool inTheDark = otherBounces || (settings.bounces && otherSources) ||
                            ((otherSettings || otherGrid) && !budget.oneUpdate);
@@ -90,7 +90,9 @@ void LitVoxels::update(const gl::Device& device, const Inputs& inputs, const Bud
 
 bool LitVoxels::steady() const { return cache_.updates() >= std::min(settings_.updates, kSteadyUpdates); }
 
-void LitVoxels::declare(gl::Inputs& inputs) const { inputs.texture("steadyLight", directTexels_).add(cache_); }
+void LitVoxels::declare(gl::Inputs& inputs) const {
+    inputs.texture("steadyLight", directTexels_).add(cache_);
+}
 
 std::vector<gl::ProgramDesc> LitVoxels::programDescs() {
     std::vector<gl::ProgramDesc> descs = injectLightProgramDescs();

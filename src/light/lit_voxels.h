@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Lit voxels, as a value: voxels + lights -> what light every voxel face holds, direct and indirect, ready for
-// rays and pixels. relight() brings it up to date by as much work as a call may do.
+// Lit voxels, as a value: voxels + lights -> what light every voxel face holds, direct and indirect, ready
+// for rays and pixels. relight() brings it up to date by as much work as a call may do.
 #pragma once
 
 #include <cstdint>
@@ -40,9 +40,9 @@ class LitVoxels {
         const voxels::Voxels& voxels;  // with octant words
     };
 
-    // Light of voxels and lights as they are. Light of other voxels is carried over to those that lie where it
-    // was; with a limited number of bounces, or other settings of a picture that is finished at once, it starts
-    // in the dark. GL state changed: programs and their slots.
+    // Light of voxels and lights as they are. Light of other voxels is carried over to those that lie where
+    // it was; with a limited number of bounces, or other settings of a picture that is finished at once, it
+    // starts in the dark. GL state changed: programs and their slots.
     void relight(const gl::Device& device, const Inputs& inputs, const RelightSettings& settings,
                  const Budget& budget);
 

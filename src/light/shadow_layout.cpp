@@ -50,7 +50,8 @@ struct Perspective {
 };
 
 // Reversed depth near / distance.
-ShadowView perspectiveView(const glm::vec3& origin, const Axes& axes, float nearDistance, const Perspective& map) {
+ShadowView perspectiveView(const glm::vec3& origin, const Axes& axes, float nearDistance,
+                           const Perspective& map) {
     const auto [texel, width, height, middleV] = map;
     const float su = 2.0f / (texel * static_cast<float>(width));
     const float sv = 2.0f / (texel * static_cast<float>(height));
@@ -136,8 +137,9 @@ class Layouter {
         light.shadowTexel = 2.0f / static_cast<float>(tile - 2 * guard_);
         for (int side = 0; side < 6; ++side) {
             const Axes axes = cubeSide(side, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
-            ShadowView view = perspectiveView(light.position, axes, near_,
-                                        {light.shadowTexel, tile, tile, 0.5f * static_cast<float>(tile)});
+            ShadowView view =
+                perspectiveView(light.position, axes, near_,
+                                {light.shadowTexel, tile, tile, 0.5f * static_cast<float>(tile)});
             place(view, light.shadow + side, 2, size_);
             views_.push_back(view);
         }
@@ -147,8 +149,9 @@ class Layouter {
         light.shadow = take(1, 1);
         const float tangent = std::tan(std::acos(light.cosOuter));
         light.shadowTexel = 2.0f * std::max(tangent, 1e-3f) / static_cast<float>(size_ - 2 * guard_);
-        ShadowView view = perspectiveView(light.position, {light.halfU, light.halfV, light.direction}, near_,
-                                    {light.shadowTexel, size_, size_, 0.5f * static_cast<float>(size_)});
+        ShadowView view =
+            perspectiveView(light.position, {light.halfU, light.halfV, light.direction}, near_,
+                            {light.shadowTexel, size_, size_, 0.5f * static_cast<float>(size_)});
         place(view, light.shadow, 1, size_);
         views_.push_back(view);
     }
@@ -204,10 +207,10 @@ class Layouter {
                 const bool front = side == 4;
                 Axes axes = cubeSide(side, u, v, light.direction);
                 if (side == 2 || side == 3) std::swap(axes.u, axes.v);
-                ShadowView view =
-                    perspectiveView(point, axes, near_,
-                                    {light.shadowTexel, tile, front ? tile : tile / 2,
-                                     front ? 0.5f * static_cast<float>(tile) : static_cast<float>(kRectGuard)});
+                ShadowView view = perspectiveView(
+                    point, axes, near_,
+                    {light.shadowTexel, tile, front ? tile : tile / 2,
+                     front ? 0.5f * static_cast<float>(tile) : static_cast<float>(kRectGuard)});
                 view.surfaces = false;
                 place(view, light.shadow + 3 * sample + (front ? 0 : 1 + side / 2), 4, size_);
                 if (!front && (side & 1) != 0) view.y += tile / 2;

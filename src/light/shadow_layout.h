@@ -28,7 +28,7 @@ struct ShadowView {
 bool isOutside(const glm::mat4& clipFromWorld, const Aabb& box);
 
 struct ShadowLayout {
-    int size = 0;           // texels per edge of a layer
+    int size = 0;  // texels per edge of a layer
     int layers = 0;
     int surfaceLayers = 0;  // the first ones: their views draw slopes and outlines
     std::vector<ShadowView> views;

@@ -141,8 +141,8 @@ void ShadowMaps::Impl::draw(const gl::Device& device, const scene::GpuScene& sce
     state.viewport[3] = view.height;
     gl::apply(state);
     const glm::vec2 half = 0.5f * glm::vec2(view.width, view.height);
-    viewBlock.update(gpu::ShadowMapConstants{view.clipFromWorld, view.slopeUnit, glm::vec2(view.x, view.y) + half,
-                                              half, {}});
+    viewBlock.update(gpu::ShadowMapConstants{
+        view.clipFromWorld, view.slopeUnit, glm::vec2(view.x, view.y) + half, half, {}});
     gl::Inputs inputs;
     inputs.uniform("ShadowMapBlock", viewBlock).add(scene);
     scene::GpuScene::declareMaterialTextures(inputs);

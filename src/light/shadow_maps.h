@@ -2,8 +2,8 @@
 // Shadow maps of all lights: scene + light table -> one array of depth textures, and the table's shadow
 // fields. Point lights have six maps (the sides of a cube), spots and directional lights one, rectangles five
 // per sample point (the sides of half a cube). All are tiles of one array texture, so that shaders need one
-// sampler and one way of filtering (light/shadow_layout.h). Maps other than rectangles' keep slopes and extents
-// of triangles too. Both sides of every surface cast shadows.
+// sampler and one way of filtering (light/shadow_layout.h). Maps other than rectangles' keep slopes and
+// extents of triangles too. Both sides of every surface cast shadows.
 //
 // Each map is one pass over the instances that its frustum meets: measured on llvmpipe, six culled passes
 // cost no more than one layered pass, and they need no extension. Part of light::Lights.
@@ -26,8 +26,8 @@ class ShadowMaps {
     ShadowMaps& operator=(ShadowMaps&&) noexcept;
 
     // Brings the maps up to date: draws those of lights that changed, and those that see an instance that
-    // changed, where it was or where it is. The depths are the same bit for bit as if all were drawn. GL state
-    // changed: raster state, program and its slots, vertex array, texture units of materials.
+    // changed, where it was or where it is. The depths are the same bit for bit as if all were drawn. GL
+    // state changed: raster state, program and its slots, vertex array, texture units of materials.
     void update(const gl::Device& device, const scene::GpuScene& scene, const LightSettings& settings,
                 std::vector<gpu::Light>& lights);
     int redrawn() const;  // maps that the last update drew

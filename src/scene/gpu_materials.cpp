@@ -188,8 +188,9 @@ void SceneTextures::bind(const MaterialTextures& textures, const MaterialUnits& 
 }
 
 namespace {
-constexpr gl::ResourceName kMaterialTextures[] = {"baseTexture",     "metalRoughTexture", "normalTexture",
-                                                  "emissiveTexture", "specularTexture",   "specularColorTexture"};
+constexpr gl::ResourceName kMaterialTextures[] = {"baseTexture",     "metalRoughTexture",
+                                                  "normalTexture",   "emissiveTexture",
+                                                  "specularTexture", "specularColorTexture"};
 }
 
 void SceneTextures::declarePerDraw(gl::Inputs& inputs) {
@@ -198,7 +199,8 @@ void SceneTextures::declarePerDraw(gl::Inputs& inputs) {
 
 MaterialUnits SceneTextures::unitsOf(const gl::Program& program) {
     MaterialUnits units;
-    for (std::size_t slot = 0; slot < units.size(); ++slot) units[slot] = program.unitOf(kMaterialTextures[slot]);
+    for (std::size_t slot = 0; slot < units.size(); ++slot)
+        units[slot] = program.unitOf(kMaterialTextures[slot]);
     return units;
 }
 

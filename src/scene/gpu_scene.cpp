@@ -234,7 +234,8 @@ void GpuScene::drawParts(std::uint32_t index, const Draw& draw) const {
 
 void GpuScene::draw(const Draw& draw) const {
     vertexArray_.bind();
-    const MaterialUnits units = draw.textured != nullptr ? SceneTextures::unitsOf(*draw.textured) : MaterialUnits{};
+    const MaterialUnits units =
+        draw.textured != nullptr ? SceneTextures::unitsOf(*draw.textured) : MaterialUnits{};
     std::uint32_t boundMaterial = ~0u;
     // -1: nothing set yet, so that the first instance sets both.
     int boundDoubleSided = -1;

@@ -29,8 +29,8 @@ class GpuScene {
 
     // What shaders may read: VertexTable, IndexTable, InstanceTable, MaterialTable, surfaceArray.
     void declare(gl::Inputs& inputs) const;
-    // The textures that draw() binds for programs that read them: baseTexture, metalRoughTexture and the others
-    // of view/gbuffer.frag.glsl.
+    // The textures that draw() binds for programs that read them: baseTexture, metalRoughTexture and the
+    // others of view/gbuffer.frag.glsl.
     static void declareMaterialTextures(gl::Inputs& inputs);
     const Scene& source() const { return source_; }  // with all changes
 
@@ -38,10 +38,10 @@ class GpuScene {
     using InstanceFilter = std::function<bool(const gpu::Instance&)>;
     using PartFilter = std::function<bool(const gpu::Instance&, const Aabb& objectBox)>;
     struct Draw {
-        InstanceFilter filter;  // empty: every visible instance
-        gl::Cull cull = gl::Cull::None;   // of single-sided materials; double-sided ones are never culled
+        InstanceFilter filter;           // empty: every visible instance
+        gl::Cull cull = gl::Cull::None;  // of single-sided materials; double-sided ones are never culled
         const gl::Program* textured = nullptr;  // not null: its material textures are bound
-        int copies = 1;                   // instances per draw call, gl_InstanceID = 0..copies-1
+        int copies = 1;                         // instances per draw call, gl_InstanceID = 0..copies-1
         // Asked for each part of a mesh, a few hundred triangles, by its box in object space; parts that it
         // turns down are not drawn (empty: all are).
         PartFilter part;

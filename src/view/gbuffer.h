@@ -23,8 +23,9 @@ class GBuffer {
   public:
     GBuffer(int width, int height);
 
-    // `frameBlock` holds gpu::FrameConstants. `cullBackFaces`: single-sided materials are seen from their front
-    // only. GL state changed: raster state, vertex array, program and its slots, texture units of materials.
+    // `frameBlock` holds gpu::FrameConstants. `cullBackFaces`: single-sided materials are seen from their
+    // front only. GL state changed: raster state, vertex array, program and its slots, texture units of
+    // materials.
     void draw(const gl::Device& device, const scene::GpuScene& scene, const gl::Buffer& frameBlock,
               bool cullBackFaces);
 

@@ -16,8 +16,8 @@ class Surfaces {
   public:
     Surfaces();
 
-    // Draws what the camera sees, width x height >= 1. GL state changed: as GBuffer::draw. Ends with the barrier
-    // for texture fetches.
+    // Draws what the camera sees, width x height >= 1. GL state changed: as GBuffer::draw. Ends with the
+    // barrier for texture fetches.
     struct Picture {
         Camera camera;
         int width, height;

@@ -23,7 +23,7 @@
 #endif
 #include "thesis/shaders/visibility.glsl"
 layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
-layout(std430) buffer SumTable { uint sums[]; };  // 4 per voxel of the box
+layout(std430) buffer SumTable { uint sums[]; };          // 4 per voxel of the box
 layout(std430) buffer BrickFlags { uint brickFlags[]; };  // of the box
 #if RACING_STORES
 #if CLIPPED_RADIANCE
