@@ -84,7 +84,7 @@ TEST_F(LightGBufferTest, PositionsAreThePixelCentresOnThePlane) {
             if (at(x, y).position.w == 0) continue;
             ++seen;
             const glm::dvec3 want =
-                pixelOnPlane(c, kWidth, kHeight, x, y, {0, 1, 0}, static_cast<double>(offset.y));
+                pixelOnPlane(c, {kWidth, kHeight}, {x, y}, {0, 1, 0}, static_cast<double>(offset.y));
             const double distance = glm::length(want - glm::dvec3(c.eye));
             // Half a float step at 1000 in three coordinates, and the interpolation of 1/w.
             EXPECT_LE(glm::length(glm::dvec3(at(x, y).position) - want), 1e-4 + 3e-5 * distance);

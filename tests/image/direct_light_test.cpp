@@ -66,7 +66,7 @@ class DirectLightTest : public GlTest {
     }
 
     static glm::dvec3 floorPoint(const Camera& camera, int x, int y) {
-        return pixelOnPlane(camera, kWidth, kHeight, x, y, {0, 1, 0}, 0);
+        return pixelOnPlane(camera, {kWidth, kHeight}, {x, y}, {0, 1, 0}, 0);
     }
 
     // Largest relative difference from expected(point on the floor) over all pixels where that is positive.

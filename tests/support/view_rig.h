@@ -7,6 +7,7 @@
 #include "gl/pass.h"
 #include "gl/program.h"
 #include "scene/gpu_scene.h"
+#include "support/scenes.h"
 #include "view/camera.h"
 #include "view/gbuffer.h"
 
@@ -26,15 +27,9 @@ struct ViewRig {
     view::GBuffer gbuffer;
 };
 
-// The world position of the centre of pixel (x, y), row 0 at the bottom, on the plane dot(normal, p) =
-// offset.
-glm::dvec3 pixelOnPlane(const Camera& camera, int width, int height, int x, int y, const glm::dvec3& normal,
-                        double offset);
-
-// One quad (two triangles) with its normal, counter-clockwise from the side of cross(edgeU, edgeV).
-Mesh quadMesh(const glm::vec3& origin, const glm::vec3& edgeU, const glm::vec3& edgeV);
-// Adds the mesh with a material as an instance; returns the instance's index.
-std::size_t addInstance(Scene& scene, Mesh mesh, const Material& material,
-                        const glm::mat4& worldFromObject = glm::mat4(1));
+// The world position of the centre of a pixel of a picture of `size`, row 0 at the bottom, on the plane
+// dot(normal, p) = offset.
+glm::dvec3 pixelOnPlane(const Camera& camera, const glm::ivec2& size, const glm::ivec2& pixel,
+                        const glm::dvec3& normal, double offset);
 
 }  // namespace conelight::test
