@@ -23,6 +23,7 @@ class FaceOrder {
     std::uint32_t gathering() const { return gathering_; }  // faces that updates visit in order
     std::uint32_t doubtful() const { return doubtful_; }  // and those behind them, of which each is searched
     std::uint32_t visited() const { return gathering_ + doubtful_; }
+    const gl::Buffer& buffer() const { return order_; }
     const gl::Texture& texels() const { return orderTexels_; }  // R32UI: a face per place
 
     static std::vector<gl::ProgramDesc> programDescs();

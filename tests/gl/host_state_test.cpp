@@ -283,10 +283,10 @@ void main() { color = vec4(0.25, 0.5, 0.75, 1.0); }
 )";
 constexpr char kComputeShader[] = R"(#version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D source;
-layout(binding = 0, rgba8) uniform writeonly image2D target;
-layout(std430, binding = 8) buffer Counter { uint count; };
-layout(std140, binding = 2) uniform Scale { vec4 scale; };
+uniform sampler2D source;
+layout(rgba8) uniform writeonly image2D target;
+layout(std430) buffer Counter { uint count; };
+layout(std140) uniform Scale { vec4 scale; };
 void main() {
     imageStore(target, ivec2(gl_GlobalInvocationID.xy), texelFetch(source, ivec2(gl_GlobalInvocationID.xy), 0) * scale);
     atomicAdd(count, 1u);
@@ -333,15 +333,16 @@ Picture copyByCompute(gl::ProgramLibrary& programs, gl::Texture& color, const Pi
     gl::Texture target({GL_TEXTURE_2D, GL_RGBA8, 64, 64}, "target");
     color.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, picture.data());
     const gl::Sampler sampler({GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE}, "sampler");
-    color.bind(0);
-    sampler.bind(0);
-    target.bindImage(0, 0, GL_WRITE_ONLY);
     const float one[4] = {1, 1, 1, 1};
     const gl::Buffer scale(one, sizeof one, "scale"), counter(16, "counter");
-    scale.bindUniform(2);
-    counter.bindStorage(8);
     const gl::Buffer groups(std::vector<std::uint32_t>{8, 8, 1}, "groups");
-    programs.compute("test/scale.comp.glsl").dispatchIndirect(groups);
+    programs.compute("test/scale.comp.glsl")
+        .dispatchIndirect(gl::Inputs()
+                              .texture("source", color, &sampler)
+                              .image("target", target, gl::ImageUse::Write)
+                              .uniform("Scale", scale)
+                              .storage("Counter", counter),
+                          groups);
     gl::barrier(gl::Access::Update);
     Picture copied(64 * 64 * 4);
     target.read(0, GL_RGBA, GL_UNSIGNED_BYTE, copied.data(), copied.size());

@@ -35,7 +35,7 @@ std::uint32_t placeOf(const glm::ivec3& voxel, int axis) {
 TEST_F(IrradianceCacheFacesTest, OrderPutsLikeFacesTogether) {
     const CacheRig rig(programs(), io::loadScene("builtin:spheres"), 48);
     const std::uint32_t count = rig.surface.faceCount();
-    const auto order = rig.surface.faceScratch().read<std::uint32_t>(count);
+    const auto order = rig.cache.order().read<std::uint32_t>(count);
     const auto records = rig.surface.faces().read<gpu::FaceRecord>(count);
     const auto states = rig.cache.state().read<gpu::FaceCache>(count);
     const auto gathering =

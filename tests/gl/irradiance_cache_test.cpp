@@ -278,7 +278,6 @@ TEST_F(IrradianceCacheTest, SwitchedLightLeavesNoGhost) {
     std::vector<Light> lights = scene.lights;
     for (Light& l : lights) l.intensity = glm::vec3(0);
     rig.scene.setLights(lights);
-    rig.source.lights = lights;
     rig.relight();
     rig.update(16);
     EXPECT_GT(lit, 0);

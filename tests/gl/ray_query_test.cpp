@@ -59,7 +59,7 @@ class RayQueryTest : public GlTest {
 layout(local_size_x = 64) in;
 #include "lib/linear_index.glsl"
 #include "lib/ray_query.glsl"
-layout(std430, binding = BINDING_STORAGE_PASS) buffer Data { vec4 data[]; };
+layout(std430) buffer Data { vec4 data[]; };
 void main() {
     uint i = 3u * linearIndex();
     if (i >= uint(data.length())) return;

@@ -8,8 +8,6 @@
 #include <random>
 
 #include "conelight/error.h"
-#include "shared/bindings.h"
-#include "shared/frame.h"
 #include "support/gl_fixture.h"
 #include "thesis/render/cones.h"
 
@@ -82,12 +80,10 @@ class ThesisVolumeTest : public GlTest {
     // All texels of a level.
     std::vector<glm::vec4> build(const Scene& source, const ThesisVolumeOptions& options, int level = 0) {
         const scene::GpuScene scene(source);
-        scene.bind();
-        const gl::Buffer frame(sizeof(gpu::FrameConstants), "frame");
-        frame.bindUniform(BINDING_FRAME);
+        light::Lights lights;
+        lights.update(device(), scene, {.emissiveQuads = false, .shadowMaps = false});
         ThesisVolume volume;
-        gl::Profiler profiler;
-        volume.build(programs(), profiler, scene, options);
+        volume.build(device(), {scene, lights}, options);
         return read(volume, level);
     }
     static std::vector<glm::vec4> read(const ThesisVolume& volume, int level) {

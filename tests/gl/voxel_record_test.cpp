@@ -47,8 +47,8 @@ TEST_F(VoxelRecordTest, PackingFunctionsAgreeInGlsl) {
     addShader("test/pack.comp.glsl", R"(#version 450
 layout(local_size_x = 64) in;
 #include "lib/voxel_record.glsl"
-layout(std430, binding = 8) readonly buffer In { vec4 values[]; };
-layout(std430, binding = 9) writeonly buffer Out { uvec4 packed_[]; };
+layout(std430) readonly buffer In { vec4 values[]; };
+layout(std430) writeonly buffer Out { uvec4 packed_[]; };
 void main() {
     uint i = gl_GlobalInvocationID.x;
     vec4 v = values[i];
@@ -91,8 +91,8 @@ TEST_F(VoxelRecordTest, UnpackingFunctionsAndAddressesAgreeInGlsl) {
     addShader("test/unpack.comp.glsl", R"(#version 450
 layout(local_size_x = 64) in;
 #include "lib/voxel_record.glsl"
-layout(std430, binding = 8) readonly buffer In { uvec4 bits[]; };
-layout(std430, binding = 9) writeonly buffer Out { vec4 values[]; };
+layout(std430) readonly buffer In { uvec4 bits[]; };
+layout(std430) writeonly buffer Out { vec4 values[]; };
 void main() {
     uint i = gl_GlobalInvocationID.x;
     uvec4 b = bits[i];

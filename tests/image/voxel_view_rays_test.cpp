@@ -11,7 +11,7 @@
 #include "support/view_rig.h"
 #include "support/views_rig.h"
 #include "voxels/surface_voxels.h"
-#include "voxels/thesis_volume.h"
+#include "thesis/render/volume.h"
 
 namespace conelight::test {
 namespace {
@@ -91,8 +91,8 @@ class VoxelViewRaysTest : public ViewsTest {
         options.padding = voxelSettings.padding;
         options.shadows = false;
         voxels::ThesisVolume volume;
-        rig.draw(programs());
-        volume.build(programs(), profiler_, rig.gpuScene, options);
+        rig.draw(device());
+        volume.build(device(), {rig.gpuScene, rig.lights}, options);
         const auto n = static_cast<int>(volume.grid().size);
         std::vector<glm::vec4> texels(static_cast<std::size_t>(n) * n * n);
         volume.texture().read(0, GL_RGBA, GL_FLOAT, texels.data(), texels.size() * sizeof(glm::vec4));
@@ -103,7 +103,7 @@ class VoxelViewRaysTest : public ViewsTest {
     }
     Cubes cubesOfSurfaces(ViewRig& rig, const Settings& settings, int level) {
         voxels::SurfaceVoxels surface;
-        surface.build(programs(), profiler_, rig.gpuScene, settings.voxels);
+        surface.build(device(), rig.gpuScene, settings.voxels);
         const voxels::VoxelGrid& grid = surface.grid();
         // The volume of mode cones has whole texels at its border.
         const glm::ivec3 end = settings.mode == Mode::Cones ? 2 * grid.size : grid.size;
@@ -120,8 +120,6 @@ class VoxelViewRaysTest : public ViewsTest {
         }
         return cubes;
     }
-
-    gl::Profiler profiler_;
 };
 
 // What is drawn is what a ray meets that tries every cube, though rays leap over what is empty.
@@ -134,7 +132,7 @@ TEST_F(VoxelViewRaysTest, RaysThatLeapMeetWhatRaysMeetThatDoNot) {
     settings.traced.bounces = 0;
     settings.view.voxelShape = VoxelShape::Cubes;
     ViewRig rig(scene, camera, kPixels, kPixels);
-    rig.draw(programs());
+    rig.draw(device());
     const glm::dvec3 eye(camera.eye), forward = glm::normalize(glm::dvec3(camera.target) - eye);
     for (const Mode mode : kModes)
         for (const int level : {0, 1, 2, 3}) {

@@ -3,23 +3,14 @@
 
 #include <cmath>
 
-#include "shared/bindings.h"
-
 namespace conelight::test {
 
-ViewRig::ViewRig(const Scene& source, const Camera& seenFrom, int width, int height)
-    : camera(seenFrom),
-      sky(source.sky),
-      gpuScene(source),
-      frameBlock(sizeof(gpu::FrameConstants), "frame"),
-      gbuffer(width, height) {}
+ViewRig::ViewRig(const Scene& source, const Camera& seenFrom, int w, int h)
+    : camera(seenFrom), width(w), height(h), gpuScene(source) {}
 
-void ViewRig::draw(gl::ProgramLibrary& programs, bool cullBackFaces) {
-    frameBlock.update(view::frameConstants(camera, gbuffer.width(), gbuffer.height(), gpuScene, sky, 0, 1));
-    frameBlock.bindUniform(BINDING_FRAME);
-    gpuScene.bind();
-    gbuffer.draw(programs, profiler, gpuScene, cullBackFaces);
-    gbuffer.bind();
+void ViewRig::draw(const gl::Device& device, bool cullBackFaces) {
+    lights.update(device, gpuScene, wanted);
+    surfaces.see(device, gpuScene, {camera, width, height, cullBackFaces});
 }
 
 glm::dvec3 pixelOnPlane(const Camera& camera, const glm::ivec2& size, const glm::ivec2& pixel,

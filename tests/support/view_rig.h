@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// A scene on the GPU with its frame block and G-buffer, without the renderer: what tests of single passes
-// start from.
+// A scene on the GPU with its lights and what a camera sees of it, without the renderer: what tests of single
+// passes start from.
 #pragma once
 
 #include "conelight/scene.h"
@@ -16,15 +16,15 @@ namespace conelight::test {
 struct ViewRig {
     ViewRig(const Scene& source, const Camera& camera, int width, int height);
 
-    // Uploads the frame block (light count included), binds it and the scene, draws and binds the G-buffer.
-    void draw(gl::ProgramLibrary& programs, bool cullBackFaces = false);
+    // Lights and surfaces as they are.
+    void draw(const gl::Device& device, bool cullBackFaces = false);
 
     Camera camera;
-    glm::vec3 sky;
+    int width, height;
     scene::GpuScene gpuScene;
-    gl::Profiler profiler;
-    gl::Buffer frameBlock;
-    view::GBuffer gbuffer;
+    light::LightsWanted wanted;
+    light::Lights lights;
+    view::Surfaces surfaces;
 };
 
 // The world position of the centre of a pixel of a picture of `size`, row 0 at the bottom, on the plane
