@@ -130,7 +130,7 @@ gpu::PixelRayConstants PixelRays::packed(const RayInputs& inputs, const RayPass&
     const int averaged = (lobes ? 1 : 2) * pass.rays * pass.longest;
     c.reflections = lobes ? kLobeReflections : (averaged >= kReflectedRays ? 1u : 0u);
     // With a limited number of bounces none: a reflection is a bounce more.
-    if (pass.settings.bounces < 16) c.reflections = 0;
+    if (pass.settings.bounces) c.reflections = 0;
     c.reflectedLimit = light::fireflyClamp(averaged);
     c.inverseVoxelSize = 1.0f / grid.voxelSize;
     return c;

@@ -14,11 +14,9 @@ gather::PictureParts partsOf(const Settings& settings) {
 light::RelightSettings relightSettings(const TracedSettings& settings) {
     light::RelightSettings relight;
     relight.updates = settings.cacheUpdates;
-    if (settings.bounces < 16) {
-        relight.bounces = settings.bounces;
-        // Rays at pixels add a bounce to what the cache holds.
-        relight.updates = settings.bounces - (settings.pixelRays > 0 ? 1 : 0);
-    }
+    relight.bounces = settings.bounces;
+    // Rays at pixels add a bounce to what the cache holds.
+    if (settings.bounces) relight.updates = *settings.bounces - (settings.pixelRays > 0 ? 1 : 0);
     relight.rays = settings.cacheRays;
     relight.exactHits = settings.exactHits;
     return relight;

@@ -189,16 +189,14 @@ TEST_F(ThesisVolumeTest, BuildingAgainLeavesNothingBehind) {
     const Scene blob = blobScene();
     Scene plane = whiteScene();
     addQuad(plane, {-0.25f, 0.1f, -0.25f}, {0, 0, 0.5f}, {0.5f, 0, 0});
-    const gl::Buffer frame(sizeof(gpu::FrameConstants), "frame");
-    frame.bindUniform(BINDING_FRAME);
-    gl::Profiler profiler;
     ThesisVolume used, fresh;
     const scene::GpuScene blobTables(blob), planeTables(plane);
-    blobTables.bind();
-    used.build(programs(), profiler, blobTables, optionsOf(32));
-    planeTables.bind();
-    used.build(programs(), profiler, planeTables, optionsOf(32));
-    fresh.build(programs(), profiler, planeTables, optionsOf(32));
+    light::Lights blobLights, planeLights;
+    blobLights.update(device(), blobTables, {.shadowMaps = false});
+    planeLights.update(device(), planeTables, {.shadowMaps = false});
+    used.build(device(), {blobTables, blobLights}, optionsOf(32));
+    used.build(device(), {planeTables, planeLights}, optionsOf(32));
+    fresh.build(device(), {planeTables, planeLights}, optionsOf(32));
     for (int level = 0; level < 6; ++level) {
         const std::vector<glm::vec4> a = read(used, level), b = read(fresh, level);
         EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(glm::vec4)), 0) << level;

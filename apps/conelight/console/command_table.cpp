@@ -143,7 +143,7 @@ std::vector<std::string> wordsOf(const Session& session, const Argument& argumen
             return sessionModes();
         case ArgumentKind::Setting: {
             std::vector<std::string> keys;
-            for (const SettingInfo& info : settingInfos()) keys.push_back(info.key);
+            for (const SettingInfo* info : listedSettings()) keys.push_back(info->key);
             return keys;
         }
         case ArgumentKind::Object:

@@ -106,12 +106,10 @@ Command numberCommand(const Number& row) {
     Command command;
     command.name = row.name;
     command.aliases = {row.alias};
-    SettingInfo setting;
-    for (const SettingInfo& info : settingInfos())
-        if (info.key == row.key) setting = info;
+    const SettingInfo& setting = *findSetting(row.key);
     Argument value{"VALUE", ArgumentKind::Text, true, false, setting.unit, 0, 0, {}};
     command.arguments = {value};
-    command.help = fmt::format("{}, {}{}{} ({})", setting.help, setting.range,
+    command.help = fmt::format("{}, {}{}{} ({})", setting.help, rangeText(setting),
                                setting.unit.empty() ? "" : " ", setting.unit, row.key);
     command.details = "Without VALUE it is printed.";
     command.run = [row](const CommandContext& context) {
