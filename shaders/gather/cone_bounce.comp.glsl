@@ -4,8 +4,8 @@
 // it is; the caller rebuilds the volume from it. One invocation per face.
 layout(local_size_x = 64) in;  // before linear_index, which asks for it
 #include "lib/cone_trace.glsl"
+#include "lib/lighting.glsl"
 #include "lib/linear_index.glsl"
-#include "lib/scene_tables.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
 layout(std430) buffer FaceTable { FaceRecord faces[]; };

@@ -9,6 +9,7 @@
 #include "lib/brdf.glsl"
 #include "lib/cone_trace.glsl"
 #include "lib/gbuffer.glsl"
+#include "lib/lighting.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f) writeonly uniform image2D result;
 #if COUNT_LOOKUPS

@@ -18,6 +18,7 @@
 #define RECORD_CACHE
 #include "lib/brdf.glsl"
 #include "lib/gbuffer.glsl"
+#include "lib/lighting.glsl"
 #include "lib/lookup_count.glsl"
 #if SHOW_DIRECT
 #include "lib/lights.glsl"

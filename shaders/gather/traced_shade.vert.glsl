@@ -4,7 +4,8 @@
 // with the G-buffer's depths and GL_GEQUAL only pixels are drawn that show a surface. Its vertices carry what
 // the fragments need of uniform blocks (lib/flat_constants.glsl).
 #include "lib/flat_constants.glsl"
-#include "lib/scene_tables.glsl"
+#include "lib/frame_block.glsl"
+#include "lib/lighting.glsl"
 #include "lib/voxel_grid.glsl"
 #include "shared/gbuffer.h"
 #include "shared/pixel_rays.h"

@@ -18,6 +18,7 @@
 #endif
 #include "lib/false_color.glsl"
 #include "lib/gbuffer.glsl"
+#include "lib/lighting.glsl"
 #include "lib/voxel_address.glsl"
 #include "shared/voxel_view.h"
 layout(local_size_x = 8, local_size_y = 8) in;

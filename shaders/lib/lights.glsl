@@ -31,8 +31,8 @@
 #define LIGHTS_SHADOWS 1
 #endif
 #include "lib/brdf.glsl"
+#include "lib/light_table.glsl"
 #include "lib/rect_light.glsl"
-#include "lib/scene_tables.glsl"
 #include "lib/shadow.glsl"
 
 #define LIGHTS_TOTAL (LIGHTS_POINT + LIGHTS_SPOT + LIGHTS_DIRECTIONAL + LIGHTS_RECT)

@@ -27,11 +27,11 @@
 #endif
 // Not within an #if: what arrives in one that is not taken is lost to those after it.
 #include "lib/ggx_sample.glsl"
+#include "lib/light_table.glsl"
 #include "lib/random.glsl"
 #include "lib/ray_query.glsl"
 #include "lib/record_face.glsl"
 #include "lib/rect_light.glsl"
-#include "lib/scene_tables.glsl"
 #include "lib/shadow.glsl"
 #include "lib/tangent_frame.glsl"
 #include "shared/irradiance.h"

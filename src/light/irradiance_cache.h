@@ -57,8 +57,8 @@ class IrradianceCache {
     bool settled() const;
     int updates() const;  // whole rounds over all faces since the last change
 
-    void declare(gl::Inputs& inputs) const;              // brightFaces, faceLight
-    const gl::Buffer& state() const { return states_; }         // gpu::FaceCache per face, for tests
+    void declare(gl::Inputs& inputs) const;                      // brightFaces, faceLight
+    const gl::Buffer& state() const { return states_; }          // gpu::FaceCache per face, for tests
     const gl::Buffer& order() const { return order_.buffer(); }  // a face per place, for tests
 
     static std::vector<gl::ProgramDesc> programDescs();

@@ -78,7 +78,9 @@ void RadianceVolume::build(const gl::Device& device, const SurfaceVoxels& surfac
         for (int level = 0; level <= std::min(kSparseLevels, layout_.maxLevel); ++level)
             texture_.clear(level, GL_RGBA, GL_FLOAT, nullptr);
         gl::Inputs inputs;
-        inputs.add(surface).uniform("RadianceVolumeBlock", block_).image("level0", texture_, gl::ImageUse::Write);
+        inputs.add(surface)
+            .uniform("RadianceVolumeBlock", block_)
+            .image("level0", texture_, gl::ImageUse::Write);
         device.get(scatterDesc(layout_.blocks)).dispatchLinear(inputs, surface.voxelCount());
     }
     const gl::PassScope pass(device.profiler, "radiance levels");
@@ -86,7 +88,8 @@ void RadianceVolume::build(const gl::Device& device, const SurfaceVoxels& surfac
     gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
 }
 
-void RadianceVolume::buildLevels(const gl::Device& device, const SurfaceVoxels& surface, OpacityModel opacity) {
+void RadianceVolume::buildLevels(const gl::Device& device, const SurfaceVoxels& surface,
+                                 OpacityModel opacity) {
     for (int level = 1; level <= layout_.maxLevel; ++level) {
         gl::barrier(gl::Access::ImageAccess);
         gl::Inputs inputs;

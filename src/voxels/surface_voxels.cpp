@@ -216,8 +216,7 @@ struct SurfaceVoxels::Impl {
     Edits editsOf(const scene::GpuScene& scene) const;
     void uploadEdits(const scene::GpuScene& scene, const Edits& edits);
     void drop(const gl::Device& device, const Edits& edits);
-    void markEdits(const gl::Device& device, const scene::GpuScene& scene,
-                   const Edits& edits);
+    void markEdits(const gl::Device& device, const scene::GpuScene& scene, const Edits& edits);
     void carry(const gl::Device& device);
     bool finishUpdate(const Edits& edits);
 };
@@ -379,8 +378,7 @@ gl::Inputs SurfaceVoxels::Impl::given() const {
 }
 
 // Triangles -> pairs (triangle, voxel), and a bit per voxel.
-void SurfaceVoxels::Impl::mark(const gl::Device& device,
-                               const scene::GpuScene& scene) {
+void SurfaceVoxels::Impl::mark(const gl::Device& device, const scene::GpuScene& scene) {
     const gl::PassScope scope(device.profiler, "voxelize: mark");
     clearWorkSpace();
     gl::Inputs given = this->given();
@@ -453,8 +451,7 @@ void SurfaceVoxels::build(const gl::Device& device, const scene::GpuScene& scene
     build(device, scene, gridOf(scene, settings));
 }
 
-void SurfaceVoxels::build(const gl::Device& device, const scene::GpuScene& scene,
-                          const VoxelGrid& grid) {
+void SurfaceVoxels::build(const gl::Device& device, const scene::GpuScene& scene, const VoxelGrid& grid) {
     Impl& m = *impl_;
     // The keys of the voxels there are stay for readers that carry something over.
     if (m.keys.revision) std::swap(m.keys, m.oldKeys);
@@ -559,8 +556,8 @@ void SurfaceVoxels::Impl::drop(const gl::Device& device, const Edits& edits) {
 }
 
 // New place: as mark(), for the triangles of changed instances.
-void SurfaceVoxels::Impl::markEdits(const gl::Device& device,
-                                    const scene::GpuScene& scene, const Edits& edits) {
+void SurfaceVoxels::Impl::markEdits(const gl::Device& device, const scene::GpuScene& scene,
+                                    const Edits& edits) {
     const gl::PassScope scope(device.profiler, "voxelize: mark");
     gl::Inputs given = this->given();
     given.add(scene);

@@ -198,8 +198,7 @@ class LayoutTest : public GlTest {
                                     bool storage) {
         const std::string path = "test/layout_" + structName + (storage ? "_430" : "_140") + ".comp.glsl";
         addShader(path, "#version 450 core\nlayout(local_size_x = 8) in;\n" + includesOfShared() +
-                            (storage ? "layout(std430) buffer Block { "
-                                     : "layout(std140) uniform Block { ") +
+                            (storage ? "layout(std430) buffer Block { " : "layout(std140) uniform Block { ") +
                             structName + (storage ? " items[]; };\n" : " items[2]; };\n") +
                             "layout(std430) buffer Sink { uint sink; };\n"
                             "void main() { if (items[1]." +

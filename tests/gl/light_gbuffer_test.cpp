@@ -49,8 +49,8 @@ class LightGBufferTest : public GlTest {
         const gl::Buffer out(sizeof(Pixel) * kWidth * kHeight, "dump");
         programs()
             .compute("test/dump.comp.glsl")
-            .dispatch(gl::Inputs().add(rig.gpuScene).add(rig.lights).add(rig.surfaces).storage("Out", out), kWidth,
-                      kHeight);
+            .dispatch(gl::Inputs().add(rig.gpuScene).add(rig.lights).add(rig.surfaces).storage("Out", out),
+                      kWidth, kHeight);
         gl::barrier(gl::Access::ShaderStorage);
         pixels_ = out.read<Pixel>(kWidth * kHeight);
     }

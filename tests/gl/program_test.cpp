@@ -42,8 +42,9 @@ bool contains(const std::string& text, const std::string& part) {
 
 // Writes `value` into word 0 of block Out.
 std::string writer(int value) {
-    return kHead + "layout(std430) buffer Out { uint word; };\nvoid main() { word = " +
-           std::to_string(value) + "u; }\n";
+    return kHead +
+           "layout(std430) buffer Out { uint word; };\nvoid main() { word = " + std::to_string(value) +
+           "u; }\n";
 }
 
 std::uint32_t run(const gl::Program& program) {
@@ -201,8 +202,7 @@ TEST_F(ProgramTest, IndirectDispatchReadsCountsThatAShaderWrote) {
                                      "void main() { if (gl_GlobalInvocationID.x < 3u) groups[4u + "
                                      "gl_GlobalInvocationID.x] = gl_GlobalInvocationID.x + 2u; }\n";
     files.texts["work.comp.glsl"] =
-        kHead +
-        "layout(std430) buffer Out { uint count; };\nvoid main() { atomicAdd(count, 1u); }\n";
+        kHead + "layout(std430) buffer Out { uint count; };\nvoid main() { atomicAdd(count, 1u); }\n";
     gl::ProgramLibrary library(files.provider());
     gl::Buffer groups(32, "groups"), out(16, "out");
     library.compute("count.comp.glsl").dispatch(gl::Inputs().storage("Groups", groups), 8);

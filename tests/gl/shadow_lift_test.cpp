@@ -25,7 +25,7 @@ struct ShadowLift : public GlTest {
         addShader("test/lift.comp.glsl", R"(#version 450
 layout(local_size_x = 64) in;
 #define SHADOW_FILTER -1
-#include "lib/scene_tables.glsl"
+#include "lib/light_table.glsl"
 #include "lib/shadow.glsl"
 layout(std430) writeonly buffer Out { float seen[]; };
 void main() {

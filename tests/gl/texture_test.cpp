@@ -151,7 +151,9 @@ TEST_F(TextureTest, BufferTexturesReadTheBuffer) {
     const gl::Buffer source(data, "source"), out(32, "out");
     const gl::Texture view(source, GL_RG32UI, "view");
     EXPECT_EQ(view.width(), 8);
-    programs().compute("test/fetch.comp.glsl").dispatch(gl::Inputs().texture("source", view).storage("Out", out), 8);
+    programs()
+        .compute("test/fetch.comp.glsl")
+        .dispatch(gl::Inputs().texture("source", view).storage("Out", out), 8);
     for (std::uint32_t i = 0; i < 8; ++i)
         EXPECT_EQ(out.read<std::uint32_t>(8)[i], (2 * i + 1) + 8 * (2 * i + 2));
 }

@@ -10,8 +10,8 @@
 #include "scene/gpu_scene.h"
 #include "support/view_rig.h"
 #include "support/views_rig.h"
-#include "voxels/surface_voxels.h"
 #include "thesis/render/volume.h"
+#include "voxels/surface_voxels.h"
 
 namespace conelight::test {
 namespace {

@@ -131,7 +131,9 @@ void main() {
         data.emplace_back(0);
     }
     gl::Buffer buffer(data, "brdf cases");
-    programs().compute("test/brdf.comp.glsl").dispatch(gl::Inputs().storage("Data", buffer), static_cast<int>(count));
+    programs()
+        .compute("test/brdf.comp.glsl")
+        .dispatch(gl::Inputs().storage("Data", buffer), static_cast<int>(count));
     gl::barrier(gl::Access::ShaderStorage);
     const std::vector<glm::vec4> got = buffer.read<glm::vec4>(data.size());
     for (std::size_t i = 0; i < count; ++i) {

@@ -63,7 +63,8 @@ void main() {
             }
         gl::Buffer buffer(data, "points");
         const gl::Buffer table(scene::packedLights({light}), "lights");
-        programs().compute("test/rect.comp.glsl")
+        programs()
+            .compute("test/rect.comp.glsl")
             .dispatch(gl::Inputs().storage("Data", buffer).storage("LightTable", table), kEdge * kEdge);
         gl::barrier(gl::Access::ShaderStorage);
         return buffer.read<glm::vec4>(data.size());

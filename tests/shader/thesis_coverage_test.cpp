@@ -77,7 +77,8 @@ void main() {
     const std::vector<glm::vec2> corners = triangles();
     const gl::Buffer in(corners, "corners");
     const gl::Buffer out(sizeof(glm::vec4) * kCount, "areas");
-    programs().compute("test/coverage.comp.glsl")
+    programs()
+        .compute("test/coverage.comp.glsl")
         .dispatch(gl::Inputs().storage("Corners", in).storage("Areas", out), kCount);
     gl::barrier(gl::Access::ShaderStorage);
     const std::vector<glm::vec4> areas = out.read<glm::vec4>(kCount);

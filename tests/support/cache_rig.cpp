@@ -37,7 +37,9 @@ void CacheRig::relight() {
     cache.restartAverages();
 }
 
-void CacheRig::update(int passes) { cache.update(device, {scene, lights, voxels, directTexels}, settings, passes); }
+void CacheRig::update(int passes) {
+    cache.update(device, {scene, lights, voxels, directTexels}, settings, passes);
+}
 
 std::vector<CachedFace> CacheRig::faces() const {
     const auto records = surface.faces().read<gpu::FaceRecord>(surface.faceCount());

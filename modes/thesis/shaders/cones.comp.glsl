@@ -6,6 +6,7 @@
 //
 // Loops end at the bottom and their conditions hold "is there a surface": branches skip nothing on llvmpipe.
 #include "lib/gbuffer.glsl"
+#include "lib/light_table.glsl"
 #include "lib/record_steps.glsl"
 #include "thesis/shaders/constants.h"
 #include "thesis/shaders/defects.glsl"

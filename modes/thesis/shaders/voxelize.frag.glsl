@@ -8,6 +8,7 @@
 // and opacities of the sums. The sum is shared by the two voxels along the dominant axis between whose
 // centres the surface lies, in proportion, unless FACE_ROUNDING: all of it to the voxel of the truncated
 // position.
+#include "lib/light_table.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/scene_tables.glsl"
 #include "lib/surface_array.glsl"
