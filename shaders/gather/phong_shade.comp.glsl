@@ -13,7 +13,7 @@
 #include "lib/lights.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0, rgba32f) writeonly uniform image2D outputImage;
+layout(rgba32f) writeonly uniform image2D outputImage;
 
 struct Phong {
     vec3 color;
@@ -102,5 +102,5 @@ void main() {
 #endif
     vec3 radiance = s.unlit ? s.emission : sum * m.color / kPi + s.emission;
     if (pixel.x >= int(frame.width) || pixel.y >= int(frame.height)) return;
-    imageStore(outputImage, pixel, seen ? vec4(radiance, 1.0) : vec4(frame.sky, 0.0));
+    imageStore(outputImage, pixel, seen ? vec4(radiance, 1.0) : vec4(lighting.sky, 0.0));
 }

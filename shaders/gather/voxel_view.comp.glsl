@@ -19,13 +19,14 @@
 #endif
 #include "lib/false_color.glsl"
 #include "lib/gbuffer.glsl"
+#include "lib/lighting.glsl"
 #include "lib/voxel_address.glsl"
 #include "shared/voxel_view.h"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(std140, binding = BINDING_PASS) uniform ViewBlock { VoxelViewConstants view; };
-layout(rgba32f, binding = 0) uniform image2D picture;
-layout(rgba32ui, binding = 1) readonly uniform uimage3D occupied;
-layout(binding = UNIT_PASS) uniform sampler3D volume;
+layout(std140) uniform ViewBlock { VoxelViewConstants view; };
+layout(rgba32f) uniform image2D picture;
+layout(rgba32ui) readonly uniform uimage3D occupied;
+uniform sampler3D volume;
 #if SOURCE == 0
 #include "lib/ray_query.glsl"
 #include "lib/voxel_data.glsl"
@@ -239,6 +240,6 @@ void main() {
     if (result.a > 0.0) imageStore(picture, pixel, result + (1.0 - result.a) * imageLoad(picture, pixel));
 #else
     float shownPart = SHAPE == VOLUME ? result.a : result.a > 0.0 ? 1.0 : 0.0;
-    imageStore(picture, pixel, vec4(result.rgb + (1.0 - shownPart) * frame.sky, shownPart));
+    imageStore(picture, pixel, vec4(result.rgb + (1.0 - shownPart) * lighting.sky, shownPart));
 #endif
 }

@@ -14,13 +14,13 @@ layout(local_size_x = 64) in;
 #include "lib/linear_index.glsl"
 #include "lib/ray_query.glsl"
 #include "lib/voxel_data.glsl"
-layout(std430, binding = BINDING_STORAGE_PASS) readonly buffer BrickTable { uint brickList[]; };
+layout(std430) readonly buffer BrickTable { uint brickList[]; };
 #else
 layout(local_size_x = 8, local_size_y = 4, local_size_z = 4) in;
-layout(rgba16f, binding = 1) readonly uniform image3D finer;
+layout(rgba16f) readonly uniform image3D finer;
 #endif
-layout(std140, binding = BINDING_PASS) uniform ViewBlock { VoxelViewConstants view; };
-layout(rgba16f, binding = 0) writeonly uniform image3D coarser;
+layout(std140) uniform ViewBlock { VoxelViewConstants view; };
+layout(rgba16f) writeonly uniform image3D coarser;
 
 #if FIRST
 vec4 finerTexel(ivec3 voxel) {

@@ -7,7 +7,7 @@
 #error REACH must be the reach that is looked for: 1, 2, 4 ...
 #endif
 layout(local_size_x = 8, local_size_y = 4, local_size_z = 4) in;
-layout(rgba32ui, binding = 1) uniform uimage3D occupied;
+layout(rgba32ui) uniform uimage3D occupied;
 
 void main() {
     ivec3 brick = ivec3(gl_GlobalInvocationID);

@@ -64,7 +64,7 @@
 #define SURFACE_UNIT_FRAGMENTS 10
 #define SURFACE_UNIT_OWNERS 11
 
-layout(std140, binding = BINDING_PASS) uniform SurfaceBlock { SurfaceConstants surface; };
+layout(std140) uniform SurfaceBlock { SurfaceConstants surface; };
 
 // Sums of weights are integers in units of 2^-shift voxel sides; this is the largest shift.
 #define SURFACE_FINEST_UNIT 26

@@ -8,17 +8,17 @@ layout(local_size_x = 64) in;
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
 #include "voxels/surface_common.glsl"
-layout(std430, binding = SURFACE_COUNTERS) buffer CounterTable { uint counters[]; };
-layout(std430, binding = SURFACE_DIRTY_BRICKS) readonly buffer DirtyTable { uint dirtyBricks[]; };
-layout(std430, binding = SURFACE_CHANGED_BRICKS) buffer ChangedTable { uint changedBricks[]; };
-layout(std430, binding = SURFACE_STALE) readonly buffer StaleTable { uint stale[]; };
-layout(std430, binding = SURFACE_MASKS) buffer MaskTable { uint masks[]; };
-layout(std430, binding = SURFACE_CHAINS) buffer ChainTable { uvec2 chains[]; };
-layout(std430, binding = SURFACE_FRAGMENT_DATA) buffer FragmentTable { uint fragments[]; };
-layout(std430, binding = SURFACE_FREE_LIST) writeonly buffer FreeTable { uint freeSlots[]; };
-layout(binding = UNIT_VOXEL_BRICKS) uniform usampler3D brickWords;
-layout(binding = SURFACE_UNIT_TRIANGLES) uniform samplerBuffer triangles;
-layout(binding = SURFACE_UNIT_PAIRS) uniform usamplerBuffer pairs;
+layout(std430) buffer CounterTable { uint counters[]; };
+layout(std430) readonly buffer DirtyTable { uint dirtyBricks[]; };
+layout(std430) buffer ChangedTable { uint changedBricks[]; };
+layout(std430) readonly buffer StaleTable { uint stale[]; };
+layout(std430) buffer MaskTable { uint masks[]; };
+layout(std430) buffer ChainTable { uvec2 chains[]; };
+layout(std430) buffer FragmentTable { uint fragments[]; };
+layout(std430) writeonly buffer FreeTable { uint freeSlots[]; };
+uniform usampler3D brickWords;
+uniform samplerBuffer triangles;
+uniform usamplerBuffer pairs;
 
 // Directions in which a stored fragment counts, none without area (surface_clip).
 uint storedDirections(uint base) {

@@ -11,18 +11,18 @@
 layout(local_size_x = 64) in;
 #include "voxels/surface_common.glsl"
 #if SURFACE_UPDATE
-layout(std430, binding = SURFACE_COUNTERS) buffer CounterTable { uint counters[]; };
-layout(std430, binding = SURFACE_CHAINS) buffer ChainTable { uvec2 chains[]; };
-layout(std430, binding = SURFACE_ORIGIN) readonly buffer OriginTable { uint origins[]; };
-layout(std430, binding = SURFACE_WORK_LIST) writeonly buffer WorkTable { uint work[]; };
-layout(binding = SURFACE_UNIT_OLD_RECORDS) uniform usamplerBuffer oldRecords;
+layout(std430) buffer CounterTable { uint counters[]; };
+layout(std430) buffer ChainTable { uvec2 chains[]; };
+layout(std430) readonly buffer OriginTable { uint origins[]; };
+layout(std430) writeonly buffer WorkTable { uint work[]; };
+uniform usamplerBuffer oldRecords;
 #else
-layout(std430, binding = SURFACE_COUNTERS) readonly buffer CounterTable { uint counters[]; };
-layout(std430, binding = SURFACE_CHAINS) readonly buffer ChainTable { uvec2 chains[]; };
+layout(std430) readonly buffer CounterTable { uint counters[]; };
+layout(std430) readonly buffer ChainTable { uvec2 chains[]; };
 #endif
-layout(std430, binding = SURFACE_CHUNKS) readonly buffer ChunkTable { uvec2 chunks[]; };
-layout(std430, binding = SURFACE_OWNERS) writeonly buffer OwnerTable { uint owners[]; };
-layout(std430, binding = BINDING_VOXEL_RECORDS) writeonly buffer RecordTable { uint records[]; };
+layout(std430) readonly buffer ChunkTable { uvec2 chunks[]; };
+layout(std430) writeonly buffer OwnerTable { uint owners[]; };
+layout(std430) writeonly buffer RecordTable { uint records[]; };
 
 void main() {
     uint count = min(counters[SURFACE_VOXELS], surface.voxelCapacity);

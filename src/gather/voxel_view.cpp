@@ -5,19 +5,8 @@
 #include <cmath>
 
 #include "gl/gl.h"
-#include "shared/bindings.h"
-#include "shared/voxel_view.h"
 
 namespace conelight::gather {
-
-// Where the voxels lie that are shown.
-struct VoxelViewGrid {
-    glm::vec3 origin;
-    float voxelSize;
-    glm::ivec3 size;
-    int maxLevel;
-};
-
 namespace {
 
 constexpr int kSurfaceVoxels = 0, kVoxelVolume = 1, kRadianceVolume = 2;  // SOURCE of the shader
@@ -41,27 +30,66 @@ int shapeNumber(VoxelShape shape) {
     }
 }
 
-gl::ProgramDesc viewDesc(int source, VoxelShape shape, bool among, bool directional) {
-    return {{"gather/voxel_view.comp.glsl"},
-            {{"SOURCE", std::to_string(source)},
-             {"SHAPE", std::to_string(shapeNumber(shape))},
-             {"AMONG", among ? "1" : "0"},
-             {"DIRECTIONAL", directional ? "1" : "0"}}};
-}
+struct ViewKey {
+    int source;
+    VoxelShape shape;
+    bool among, directional;
 
-gl::ProgramDesc levelDesc(bool first) {
-    return {{"gather/voxel_view_level.comp.glsl"}, {{"FIRST", first ? "1" : "0"}}};
-}
+    gl::ProgramDesc desc() const {
+        return {{"gather/voxel_view.comp.glsl"},
+                {{"SOURCE", std::to_string(source)},
+                 {"SHAPE", std::to_string(shapeNumber(shape))},
+                 {"AMONG", among ? "1" : "0"},
+                 {"DIRECTIONAL", directional ? "1" : "0"}}};
+    }
+    static std::vector<ViewKey> all() {
+        std::vector<ViewKey> keys;
+        for (const VoxelShape shape : {VoxelShape::Cubes, VoxelShape::Edges, VoxelShape::Faces,
+                                       VoxelShape::Volume, VoxelShape::Surfaces}) {
+            for (const bool among : {false, true}) {
+                if (among && shape == VoxelShape::Surfaces) continue;
+                keys.push_back({kSurfaceVoxels, shape, among, false});
+                if (shape == VoxelShape::Faces) continue;
+                keys.push_back({kVoxelVolume, shape, among, false});
+                keys.push_back({kRadianceVolume, shape, among, false});
+                keys.push_back({kRadianceVolume, shape, among, true});
+            }
+        }
+        return keys;
+    }
+};
 
-// HALVES (zero means empty) counts for a VoxelVolume.
-gl::ProgramDesc occupiedDesc(int source, bool halves) {
-    return {{"gather/voxel_view_occupied.comp.glsl"},
-            {{"SOURCE", std::to_string(source)}, {"HALVES", halves ? "1" : "0"}}};
-}
+struct LevelKey {
+    bool first;  // from faces, else from the level before
+    gl::ProgramDesc desc() const {
+        return {{"gather/voxel_view_level.comp.glsl"}, {{"FIRST", first ? "1" : "0"}}};
+    }
+    static std::vector<LevelKey> all() { return {{true}, {false}}; }
+};
 
-gl::ProgramDesc reachDesc(int reach) {
-    return {{"gather/voxel_view_reach.comp.glsl"}, {{"REACH", std::to_string(reach)}}};
-}
+struct OccupiedKey {
+    int source;
+    bool halves;  // zero means empty; counts for a VoxelVolume
+    gl::ProgramDesc desc() const {
+        return {{"gather/voxel_view_occupied.comp.glsl"},
+                {{"SOURCE", std::to_string(source)}, {"HALVES", halves ? "1" : "0"}}};
+    }
+    static std::vector<OccupiedKey> all() {
+        return {{kSurfaceVoxels, true}, {kVoxelVolume, true}, {kVoxelVolume, false}};
+    }
+};
+
+struct ReachKey {
+    int reach;
+    gl::ProgramDesc desc() const {
+        return {{"gather/voxel_view_reach.comp.glsl"}, {{"REACH", std::to_string(reach)}}};
+    }
+    static std::vector<ReachKey> all() {
+        std::vector<ReachKey> keys;
+        for (int reach = 1; reach <= kReach; reach *= 2) keys.push_back({reach});
+        return keys;
+    }
+};
 
 // Shapes for which rays go from cell to cell.
 bool castsRays(VoxelShape shape) { return shape != VoxelShape::Faces && shape != VoxelShape::Surfaces; }
@@ -75,37 +103,43 @@ int roundUp(int value, int step) { return (value + step - 1) / step * step; }
 
 }  // namespace
 
-void VoxelView::run(const Target& target, int source, VoxelShape shape, bool directional,
-                    const VoxelViewGrid& grid, int levelOfMode, const gl::Texture* volume) {
-    const ViewSettings& view = target.settings.view;
-    gpu::VoxelViewConstants c{};
-    c.origin = grid.origin;
-    c.voxelSize = grid.voxelSize;
-    c.sizeX = static_cast<std::uint32_t>(grid.size.x);
-    c.sizeY = static_cast<std::uint32_t>(grid.size.y);
-    c.sizeZ = static_cast<std::uint32_t>(grid.size.z);
-    c.data = static_cast<std::uint32_t>(view.voxelData);
-    c.level = std::round(view.voxelLevel.resolve(static_cast<float>(levelOfMode)));
-    c.spread = 2 * std::tan(0.5f * view.voxelAperture);
-    c.maxLevel = static_cast<float>(grid.maxLevel);
-    c.density = view.voxelDensity;
-    c.pixelSize = 2 * glm::length(target.view.viewUp) / static_cast<float>(target.view.height);
+const gl::Buffer& VoxelView::constants(const gpu::VoxelViewConstants& values) {
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::VoxelViewConstants), "voxel view constants");
-    constants_.update(c);
-    constants_.bindUniform(BINDING_PASS);
-    if (volume != nullptr) volume->bind(UNIT_PASS);
-    if (castsRays(shape)) occupied_.bindImage(1, 0, GL_READ_ONLY);
-    target.output.bindImage(0, 0, target.among ? GL_READ_WRITE : GL_WRITE_ONLY);
-    // On surfaces there is nothing to be in front of.
-    const bool among = target.among && shape != VoxelShape::Surfaces;
-    target.programs.get(viewDesc(source, shape, among, directional))
-        .dispatch(target.output.width(), target.output.height());
-    gl::unbindSampler(UNIT_PASS);
+    constants_.update(values);
+    return constants_;
 }
 
-// Of the voxels that are bound; a VoxelVolume at UNIT_PASS, its box in the constants. `size`: of level 0.
-void VoxelView::buildOccupied(const Target& target, int source, bool halves, const glm::ivec3& size) {
-    const glm::ivec3 bricks = (size + 3) / 4;
+void VoxelView::run(const gl::Device& device, const Target& target, const Shown& shown, gl::Inputs& inputs) {
+    const ViewSettings& view = target.settings.view;
+    const gpu::FrameConstants& frame = target.surfaces.view();
+    gpu::VoxelViewConstants c{};
+    c.origin = shown.origin;
+    c.voxelSize = shown.voxelSize;
+    c.sizeX = static_cast<std::uint32_t>(shown.size.x);
+    c.sizeY = static_cast<std::uint32_t>(shown.size.y);
+    c.sizeZ = static_cast<std::uint32_t>(shown.size.z);
+    c.data = static_cast<std::uint32_t>(view.voxelData);
+    c.level = std::round(view.voxelLevel.resolve(static_cast<float>(shown.levelOfMode)));
+    c.spread = 2 * std::tan(0.5f * view.voxelAperture);
+    c.maxLevel = static_cast<float>(shown.maxLevel);
+    c.density = view.voxelDensity;
+    c.pixelSize = 2 * glm::length(frame.viewUp) / static_cast<float>(frame.height);
+    inputs.add(target.scene)
+        .add(target.lights)
+        .add(target.surfaces)
+        .uniform("ViewBlock", constants(c))
+        .image("picture", target.output, target.among ? gl::ImageUse::ReadWrite : gl::ImageUse::Write);
+    if (castsRays(shown.shape)) inputs.image("occupied", occupied_, gl::ImageUse::Read);
+    // On surfaces there is nothing to be in front of.
+    const bool among = target.among && shown.shape != VoxelShape::Surfaces;
+    device.get(ViewKey{shown.source, shown.shape, among, shown.directional}.desc())
+        .dispatch(inputs, target.output.width(), target.output.height());
+}
+
+// `inputs`: the voxels that are shown, of revision `of`.
+void VoxelView::buildOccupied(const gl::Device& device, const Shown& shown, bool halves, gl::Inputs inputs,
+                              base::Revision of) {
+    const glm::ivec3 bricks = (shown.size + 3) / 4;
     if (!occupied_ || occupied_.width() != bricks.x || occupied_.height() != bricks.y ||
         occupied_.depth() != bricks.z) {
         occupied_ = {};
@@ -113,130 +147,126 @@ void VoxelView::buildOccupied(const Target& target, int source, bool halves, con
                                 "voxel view occupancy");
         occupied_.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         occupied_.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-        occupiedValid_ = false;
+        occupiedOf_ = {};
     }
-    if (occupiedValid_) return;
-    const gl::PassScope pass(target.profiler, "voxel view occupancy");
-    occupied_.bindImage(1, 0, GL_READ_WRITE);
-    target.programs.get(occupiedDesc(source, halves)).dispatch(bricks.x, bricks.y, bricks.z);
-    for (int reach = 1; reach <= kReach; reach *= 2) {
+    if (occupiedOf_ == of) return;
+    const gl::PassScope pass(device.profiler, "voxel view occupancy");
+    inputs.image("occupied", occupied_, gl::ImageUse::ReadWrite);
+    const int source = shown.source == kVoxelVolume ? kVoxelVolume : kSurfaceVoxels;
+    device.get(OccupiedKey{source, halves}.desc()).dispatch(inputs, bricks.x, bricks.y, bricks.z);
+    for (const ReachKey& key : ReachKey::all()) {
         gl::barrier(gl::Access::ImageAccess);
-        target.programs.get(reachDesc(reach)).dispatch(bricks.x, bricks.y, bricks.z);
+        device.get(key.desc()).dispatch(inputs, bricks.x, bricks.y, bricks.z);
     }
     gl::barrier(gl::Access::ImageAccess);
-    occupiedValid_ = true;
+    occupiedOf_ = of;
 }
 
 // Level 1 of the surface voxels' means and all above it; `size` is that of level 1.
-void VoxelView::buildLevels(const Target& target, const voxels::SurfaceVoxels& surface,
+void VoxelView::buildLevels(const gl::Device& device, VoxelData data, const voxels::SurfaceVoxels& surface,
                             const glm::ivec3& size, int maxLevel) {
+    const gl::PassScope pass(device.profiler, "voxel view levels");
     if (!levels_ || levels_.width() != size.x || levels_.height() != size.y || levels_.depth() != size.z) {
         levels_ = {};
         levels_ = gl::Texture({GL_TEXTURE_3D, GL_RGBA16F, size.x, size.y, size.z, maxLevel}, "voxel view");
         levels_.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST_MIPMAP_NEAREST);
         levels_.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-        levelsValid_ = false;
     }
-    if (levelsValid_ && levelsData_ == target.settings.view.voxelData) return;
-    const gl::PassScope pass(target.profiler, "voxel view levels");
     gpu::VoxelViewConstants c{};
-    c.data = static_cast<std::uint32_t>(target.settings.view.voxelData);
-    if (!constants_) constants_ = gl::Buffer(sizeof(gpu::VoxelViewConstants), "voxel view constants");
-    constants_.update(c);
-    constants_.bindUniform(BINDING_PASS);
-    surface.occupiedBricks().bindStorage(BINDING_STORAGE_PASS);
+    c.data = static_cast<std::uint32_t>(data);
     levels_.clear(0, GL_RGBA, GL_FLOAT, nullptr);
     for (int level = 0; level < maxLevel; ++level) {
-        if (level > 0) levels_.bindImage(1, level - 1, GL_READ_ONLY);
-        levels_.bindImage(0, level, GL_WRITE_ONLY);
-        const gl::Program& program = target.programs.get(levelDesc(level == 0));
+        gl::Inputs inputs;
+        inputs.add(surface).uniform("ViewBlock", constants(c));
+        if (level > 0) inputs.image("finer", levels_, gl::ImageUse::Read, level - 1);
+        inputs.image("coarser", levels_, gl::ImageUse::Write, level);
+        const gl::Program& program = device.get(LevelKey{level == 0}.desc());
         if (level == 0)
-            program.dispatchLinear(std::size_t{8} * surface.occupiedBrickCount());
+            program.dispatchLinear(inputs, std::size_t{8} * surface.occupiedBrickCount());
         else
-            program.dispatch(levels_.width(level), levels_.height(level), levels_.depth(level));
+            program.dispatch(inputs, levels_.width(level), levels_.height(level), levels_.depth(level));
         gl::barrier(gl::Access::ImageAccess | gl::Access::TextureFetch);
     }
-    levelsValid_ = true;
-    levelsData_ = target.settings.view.voxelData;
 }
 
-void VoxelView::draw(const Target& target, const voxels::SurfaceVoxels& surface, bool hasOctants) {
+void VoxelView::draw(const gl::Device& device, const Target& target, const voxels::Voxels& voxels,
+                     base::Revision light) {
     const ViewSettings& view = target.settings.view;
-    const voxels::VoxelGrid& grid = surface.grid();
+    const voxels::VoxelGrid& grid = voxels.grid();
     const bool coarse = needsCoarse(view);
     VoxelShape shape = view.voxelShape;
     if (shape == VoxelShape::Auto) shape = coarse ? VoxelShape::Cubes : VoxelShape::Faces;
-    if (shape == VoxelShape::Faces && !hasOctants) shape = VoxelShape::Cubes;
-    surface.bind();
+    if (shape == VoxelShape::Faces && !voxels.hasOctants()) shape = VoxelShape::Cubes;
     // Whole texels in every level.
     int maxLevel = 1;
     while (maxLevel < kCoarsest && (2 << maxLevel) <= std::max({grid.size.x, grid.size.y, grid.size.z}))
         ++maxLevel;
     if (coarse && shape != VoxelShape::Faces) {
         const int texel = 1 << maxLevel;
-        buildLevels(target, surface,
-                    {roundUp(grid.size.x, texel) / 2, roundUp(grid.size.y, texel) / 2,
-                     roundUp(grid.size.z, texel) / 2},
-                    maxLevel);
+        const glm::ivec3 size{roundUp(grid.size.x, texel) / 2, roundUp(grid.size.y, texel) / 2,
+                              roundUp(grid.size.z, texel) / 2};
+        if (!levels_ || levelsOf_ != light || levelsData_ != view.voxelData)
+            buildLevels(device, view.voxelData, voxels.surface(), size, maxLevel);
+        levelsOf_ = light;
+        levelsData_ = view.voxelData;
     } else {
         levels_ = {};
         maxLevel = 0;
     }
-    if (castsRays(shape)) buildOccupied(target, kSurfaceVoxels, true, grid.size);
-    const gl::PassScope pass(target.profiler, "voxel view");
-    run(target, kSurfaceVoxels, shape, false, {grid.origin, grid.voxelSize, grid.size, maxLevel},
-        view.voxelData == VoxelData::Bricks ? 2 : 0, levels_ ? &levels_ : nullptr);
+    const Shown shown{kSurfaceVoxels, shape,     false,    grid.origin,
+                      grid.voxelSize, grid.size, maxLevel, view.voxelData == VoxelData::Bricks ? 2 : 0};
+    gl::Inputs inputs;
+    inputs.add(voxels);
+    if (castsRays(shape)) buildOccupied(device, shown, true, inputs, voxels.revision());
+    // Shaders of level 0 name the coarser ones, too, and read nothing of them.
+    if (!levels_ && !nothing_) nothing_ = gl::Texture({GL_TEXTURE_3D, GL_RGBA16F, 1, 1, 1}, "no levels");
+    inputs.texture("volume", levels_ ? levels_ : nothing_);
+    const gl::PassScope pass(device.profiler, "voxel view");
+    run(device, target, shown, inputs);
 }
 
-void VoxelView::draw(const Target& target, const voxels::RadianceVolume& volume,
-                     const voxels::SurfaceVoxels& surface) {
+void VoxelView::draw(const gl::Device& device, const Target& target, const voxels::RadianceVolume& volume,
+                     const voxels::Voxels& voxels) {
     const voxels::RadianceLayout& layout = volume.layout();
     VoxelShape shape = target.settings.view.voxelShape;
     if (shape == VoxelShape::Auto || shape == VoxelShape::Faces) shape = VoxelShape::Cubes;
-    surface.bind();
-    if (castsRays(shape)) buildOccupied(target, kSurfaceVoxels, true, layout.size);
-    const gl::PassScope pass(target.profiler, "voxel view");
-    run(target, kRadianceVolume, shape, layout.blocks == 6,
-        {layout.grid.origin, layout.grid.voxelSize, layout.size, layout.maxLevel},
-        target.settings.cones.voxelLevel, &volume.texture());
+    const Shown shown{
+        kRadianceVolume,       shape,       layout.blocks == 6, layout.grid.origin,
+        layout.grid.voxelSize, layout.size, layout.maxLevel,    target.settings.cones.voxelLevel};
+    gl::Inputs inputs;
+    inputs.add(voxels).texture("volume", volume.texture());
+    if (castsRays(shape)) buildOccupied(device, shown, true, inputs, voxels.revision());
+    const gl::PassScope pass(device.profiler, "voxel view");
+    run(device, target, shown, inputs);
 }
 
-void VoxelView::draw(const Target& target, const VoxelVolume& volume) {
+void VoxelView::draw(const gl::Device& device, const Target& target, const VoxelVolume& volume) {
     VoxelShape shape = target.settings.view.voxelShape;
     if (shape == VoxelShape::Auto) shape = volume.onSurfaces ? VoxelShape::Surfaces : VoxelShape::Cubes;
     if (shape == VoxelShape::Faces) shape = VoxelShape::Cubes;
-    volume.texture.bind(UNIT_PASS);
-    volume.sampler.bind(UNIT_PASS);
+    const Shown shown{
+        kVoxelVolume,    shape,       false, volume.origin, volume.voxelSize, glm::ivec3(volume.size),
+        volume.maxLevel, volume.level};
+    gl::Inputs inputs;
+    inputs.texture("volume", volume.texture, &volume.sampler);
     if (castsRays(shape)) {
         gpu::VoxelViewConstants c{};
         c.filledMin = glm::ivec4(volume.filledMin, 0);
         c.filledSize = glm::ivec4(volume.filledSize, 0);
-        if (!constants_) constants_ = gl::Buffer(sizeof(gpu::VoxelViewConstants), "voxel view constants");
-        constants_.update(c);
-        constants_.bindUniform(BINDING_PASS);
-        buildOccupied(target, kVoxelVolume, volume.zeroMeansEmpty, glm::ivec3(volume.size));
+        gl::Inputs given = inputs;
+        given.uniform("ViewBlock", constants(c));
+        buildOccupied(device, shown, volume.zeroMeansEmpty, given, volume.revision);
     }
-    const gl::PassScope pass(target.profiler, "voxel view");
-    run(target, kVoxelVolume, shape, false,
-        {volume.origin, volume.voxelSize, glm::ivec3(volume.size), volume.maxLevel}, volume.level, nullptr);
+    const gl::PassScope pass(device.profiler, "voxel view");
+    run(device, target, shown, inputs);
 }
 
 std::vector<gl::ProgramDesc> VoxelView::programDescs() {
-    std::vector<gl::ProgramDesc> descs = {
-        levelDesc(true), levelDesc(false), occupiedDesc(kSurfaceVoxels, true),
-        occupiedDesc(kVoxelVolume, true), occupiedDesc(kVoxelVolume, false)};
-    for (int reach = 1; reach <= kReach; reach *= 2) descs.push_back(reachDesc(reach));
-    for (const VoxelShape shape : {VoxelShape::Cubes, VoxelShape::Edges, VoxelShape::Faces,
-                                   VoxelShape::Volume, VoxelShape::Surfaces}) {
-        for (const bool among : {false, true}) {
-            if (among && shape == VoxelShape::Surfaces) continue;
-            descs.push_back(viewDesc(kSurfaceVoxels, shape, among, false));
-            if (shape == VoxelShape::Faces) continue;
-            descs.push_back(viewDesc(kVoxelVolume, shape, among, false));
-            descs.push_back(viewDesc(kRadianceVolume, shape, among, false));
-            descs.push_back(viewDesc(kRadianceVolume, shape, among, true));
-        }
-    }
+    std::vector<gl::ProgramDesc> descs;
+    for (const ViewKey& key : ViewKey::all()) descs.push_back(key.desc());
+    for (const LevelKey& key : LevelKey::all()) descs.push_back(key.desc());
+    for (const OccupiedKey& key : OccupiedKey::all()) descs.push_back(key.desc());
+    for (const ReachKey& key : ReachKey::all()) descs.push_back(key.desc());
     return descs;
 }
 

@@ -4,27 +4,22 @@
 // they show: ViewSettings.
 //
 // Where there is nothing is found out once per voxelization, means of coarser levels once per state of the
-// light.
-//
-// Needs the frame block, the scene tables and the G-buffer bound, and for surface voxels SurfaceVoxels (shape
-// faces also OctantWords). Writes `output`; readers need a texture-fetch barrier. GL state changed: program,
-// images 0 and 1, BINDING_PASS, BINDING_STORAGE_PASS, UNIT_PASS.
+// light. Writes `output`; readers need a texture-fetch barrier. GL state changed: program and its slots.
 #pragma once
 
 #include <vector>
 
+#include "base/revision.h"
 #include "conelight/settings.h"
-#include "gl/buffer.h"
-#include "gl/pass.h"
-#include "gl/program.h"
+#include "gl/device.h"
 #include "gl/texture.h"
-#include "shared/frame.h"
+#include "light/lights.h"
+#include "shared/voxel_view.h"
+#include "view/surfaces.h"
 #include "voxels/radiance_volume.h"
-#include "voxels/surface_voxels.h"
+#include "voxels/voxels.h"
 
 namespace conelight::gather {
-
-struct VoxelViewGrid;
 
 // What a mode without surface voxels shows: a cube of RGBA texels, premultiplied colour and opacity, with
 // mips.
@@ -39,43 +34,55 @@ struct VoxelVolume {
     bool zeroMeansEmpty;               // a mean of zero two levels up: its voxels are zero
     int level;                         // that is shown unless view.voxel_level says another
     bool onSurfaces;                   // shape auto: on the picture's surfaces
+    base::Revision revision;           // of what it holds
 };
 
 class VoxelView {
   public:
     struct Target {
-        gl::ProgramLibrary& programs;
-        gl::Profiler& profiler;
         const Settings& settings;
-        const gpu::FrameConstants& view;
+        const scene::GpuScene& scene;
+        const light::Lights& lights;
+        const view::Surfaces& surfaces;
         const gl::Texture& output;
         bool among;  // on top of the picture in `output`
     };
 
-    // `hasOctants`: shape faces can be drawn.
-    void draw(const Target& target, const voxels::SurfaceVoxels& surface, bool hasOctants);
-    // `volume` holds what `surface` does; its grid is bound.
-    void draw(const Target& target, const voxels::RadianceVolume& volume,
-              const voxels::SurfaceVoxels& surface);
-    void draw(const Target& target, const VoxelVolume& volume);
-
-    // Before the next draw: other voxels, or other light on the same ones.
-    void voxelsChanged() { occupiedValid_ = levelsValid_ = false; }
-    void lightChanged() { levelsValid_ = false; }
+    // Surface voxels; shape faces is drawn where they have octant words. `light`: the revision of the light
+    // on them.
+    void draw(const gl::Device& device, const Target& target, const voxels::Voxels& voxels,
+              base::Revision light);
+    // `volume` holds what `voxels` do.
+    void draw(const gl::Device& device, const Target& target, const voxels::RadianceVolume& volume,
+              const voxels::Voxels& voxels);
+    void draw(const gl::Device& device, const Target& target, const VoxelVolume& volume);
 
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
-    void run(const Target& target, int source, VoxelShape shape, bool directional, const VoxelViewGrid& grid,
-             int levelOfMode, const gl::Texture* volume);
-    void buildOccupied(const Target& target, int source, bool halves, const glm::ivec3& size);
-    void buildLevels(const Target& target, const voxels::SurfaceVoxels& surface, const glm::ivec3& size,
-                     int maxLevel);
+    // Where the voxels lie that are shown, and how.
+    struct Shown {
+        int source;  // SOURCE of the shaders
+        VoxelShape shape;
+        bool directional;
+        glm::vec3 origin;
+        float voxelSize;
+        glm::ivec3 size;
+        int maxLevel;
+        int levelOfMode;
+    };
+    void run(const gl::Device& device, const Target& target, const Shown& shown, gl::Inputs& inputs);
+    void buildOccupied(const gl::Device& device, const Shown& shown, bool halves, gl::Inputs inputs,
+                       base::Revision of);
+    void buildLevels(const gl::Device& device, VoxelData data, const voxels::SurfaceVoxels& surface,
+                     const glm::ivec3& size, int maxLevel);
+    const gl::Buffer& constants(const gpu::VoxelViewConstants& values);
 
     gl::Texture occupied_;  // voxel_view_occupied.comp.glsl
-    bool occupiedValid_ = false;
+    base::Revision occupiedOf_;
     gl::Texture levels_;  // level 1 and up of surface voxels
-    bool levelsValid_ = false;
+    base::Revision levelsOf_;
+    gl::Texture nothing_;  // one texel, in place of levels
     VoxelData levelsData_ = VoxelData::Radiance;
     gl::Buffer constants_;
 };

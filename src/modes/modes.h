@@ -8,7 +8,7 @@
 
 #include "conelight/settings.h"
 #include "gl/program.h"
-#include "modes/frame_context.h"
+#include "modes/mode.h"
 
 namespace conelight::modes {
 

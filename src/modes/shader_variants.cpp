@@ -9,20 +9,14 @@
 
 #include "base/log.h"
 #include "conelight/shaders.h"
-#include "gather/cone_gather.h"
-#include "gather/direct_light.h"
-#include "gather/voxel_view.h"
 #include "image/debug_view.h"
 #include "image/display.h"
 #include "image/shadow_view.h"
 #include "image/wireframe.h"
-#include "light/inject_light.h"
-#include "light/irradiance_cache.h"
 #include "light/shadow_maps.h"
 #include "modes/modes.h"
 #include "view/gbuffer.h"
 #include "voxels/octant_words.h"
-#include "voxels/radiance_volume.h"
 #include "voxels/surface_voxels.h"
 
 namespace conelight {
@@ -60,21 +54,15 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
         for (const gl::ProgramDesc& desc : descs)
             if (labels.insert(desc.label()).second) all.push_back(desc);
     };
+    add(voxels::SurfaceVoxels::programDescs());
+    add(voxels::OctantWords::programDescs());
     add(light::ShadowMaps::programDescs());
     add(view::GBuffer::programDescs());
-    add(voxels::SurfaceVoxels::programDescs());
-    add(voxels::RadianceVolume::programDescs());
-    add(gather::DirectLight::programDescs());
-    add(light::injectLightProgramDescs());
-    add(voxels::OctantWords::programDescs());
-    add(light::IrradianceCache::programDescs());
-    add(gather::ConeGather::programDescs());
-    for (const ModeEntry& mode : registeredModes()) add(mode.programDescs());
-    add(gather::VoxelView::programDescs());
     add(image::debugViewProgramDescs());
     add(image::ShadowView::programDescs());
     add(image::WireframeView::programDescs());
     add(image::Display::programDescs());
+    for (const ModeEntry& mode : registeredModes()) add(mode.programDescs());
     return all;
 }
 

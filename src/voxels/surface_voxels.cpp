@@ -9,46 +9,9 @@
 #include "base/assert.h"
 #include "base/log.h"
 #include "gl/gl.h"
-#include "shared/bindings.h"
 
 namespace conelight::voxels {
 namespace {
-
-// Storage and texture slots of the passes; the same numbers as in shaders/voxels/surface_common.glsl.
-enum Slot : unsigned {
-    kCounters = 8,
-    kTriangles = 9,
-    kTiles = 10,
-    kPairs = 11,
-    kMasks = 12,
-    kChains = 13,
-    kFragments = 14,
-    kChunks = 15,
-    kBrickList = 10,
-    kOwners = 10,
-    kFaceSources = 9,
-    kLayerList = 14,
-    // Updates
-    kRuns = 13,
-    kFreeList = 15,
-    kChangedBricks = 10,
-    kDirtyBricks = 9,
-    kStale = 11,
-    kOldChains = 14,
-    kOrigin = 12,
-    kWorkList = 11,
-};
-enum Unit : unsigned {
-    kUnitTriangles = 8,
-    kUnitPairs = 9,
-    kUnitFragments = 10,
-    kUnitOwners = 11,
-    // Updates
-    kUnitOldBricks = 8,
-    kUnitOldFaces = 8,
-    kUnitOldSources = 9,
-    kUnitOldRecords = 10,
-};
 
 constexpr std::uint32_t kMaxChunks = 4096;  // one invocation walks over all chunks
 constexpr std::uint32_t kLeastChunk = 16;   // fewer elements per invocation are not worth starting it
@@ -138,23 +101,19 @@ gl::ProgramDesc clipPass(int detail, bool emission, bool lobes, bool update) {
                                  {"SURFACE_UPDATE", flag(update)}});
 }
 
-// What a build makes. Two of them take turns when there are updates.
+// What an update makes besides the keys. Two of them take turns when there are updates.
 struct Results {
-    gl::Texture brickWords;
-    gl::Buffer records, faces, faceSources, chains;
-    gl::Texture recordTexels, faceTexels, sourceTexels, chainTexels;
+    gl::Buffer faces, faceSources, chains;
+    gl::Texture faceTexels, sourceTexels, chainTexels;
     std::uint32_t voxels = 0, faceCount = 0;  // there is room for
 
     void reserve(std::uint32_t wantedVoxels, std::uint32_t wantedFaces);
-    void clearBricks(const glm::ivec3& bricks);
 };
 
 void Results::reserve(std::uint32_t wantedVoxels, std::uint32_t wantedFaces) {
     if (wantedVoxels > voxels) {
         chains = gl::Buffer(std::size_t{8} * wantedVoxels, "voxelizer chains");
         chainTexels = gl::Texture(chains, GL_RG32UI, "voxelizer chains");
-        records = gl::Buffer(std::size_t{4} * wantedVoxels, "voxel records");
-        recordTexels = gl::Texture(records, GL_R32UI, "voxel records");
         voxels = wantedVoxels;
     }
     if (wantedFaces > faceCount) {
@@ -166,16 +125,24 @@ void Results::reserve(std::uint32_t wantedVoxels, std::uint32_t wantedFaces) {
     }
 }
 
-void Results::clearBricks(const glm::ivec3& bricks) {
-    const gl::TextureDesc& have = brickWords.desc();
-    if (!brickWords || have.width != bricks.x || have.height != bricks.y || have.depth != bricks.z) {
-        brickWords =
+void reserveRecords(VoxelKeys& keys, std::uint32_t voxels) {
+    const std::size_t bytes = std::size_t{4} * voxels;
+    if (keys.records.bytes() >= bytes && keys.records) return;
+    keys.recordTexels = {};
+    keys.records = gl::Buffer(bytes, "voxel records");
+    keys.recordTexels = gl::Texture(keys.records, GL_R32UI, "voxel records");
+}
+
+void clearBricks(VoxelKeys& keys, const glm::ivec3& bricks) {
+    const gl::TextureDesc& have = keys.brickWords.desc();
+    if (!keys.brickWords || have.width != bricks.x || have.height != bricks.y || have.depth != bricks.z) {
+        keys.brickWords =
             gl::Texture({GL_TEXTURE_3D, GL_RGBA32UI, bricks.x, bricks.y, bricks.z, 1}, "voxel bricks");
         // Integer textures are incomplete, and read as zero, with the filters that textures are born with.
-        brickWords.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-        brickWords.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+        keys.brickWords.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        keys.brickWords.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     }
-    brickWords.clear(0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, nullptr);
+    keys.brickWords.clear(0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, nullptr);
 }
 
 // Which instances have changed since the last build, and what has to be done about them.
@@ -216,7 +183,8 @@ struct SurfaceVoxels::Impl {
     std::array<std::uint32_t, SURFACE_COUNTER_WORDS> counts{};
     Surfaces surfaces;
 
-    Results now, before;  // before: empty until the first update
+    VoxelKeys keys, oldKeys;  // oldKeys: of the voxels before, empty until the second build or update
+    Results now, before;      // before: empty until the first update
     gl::Buffer brickList, gridBlock, changedBricks;
     // Work space
     gl::Buffer counters, constants, triangles, tiles, pairs, masks, fragments, chunks, owners, layered;
@@ -224,8 +192,8 @@ struct SurfaceVoxels::Impl {
     gl::Buffer stale, runs, dirtyBricks, freeList, origins, workList;  // of updates
 
     // The scene as it was voxelized last.
-    std::uint64_t sceneIdentity = 0, geometryRevision = 0;
-    std::vector<std::uint64_t> revisions;
+    base::Revision sceneIdentity;
+    std::vector<base::Revision> revisions;
     std::vector<Aabb> boxes;  // empty: not voxelized
     // Slots of fragments: those below `tail` are in use or on the list of free ones.
     std::uint32_t tail = 0, freeSlots = 0;
@@ -236,21 +204,20 @@ struct SurfaceVoxels::Impl {
     bool grow();
     void upload(const scene::GpuScene& scene, const Edits* edits = nullptr);
     void clearWorkSpace();
-    void bindWorkSpace();
-    void mark(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene);
-    void compact(gl::ProgramLibrary& programs, gl::Profiler& profiler);
-    void clip(gl::ProgramLibrary& programs, gl::Profiler& profiler, bool update);
-    void resolve(gl::ProgramLibrary& programs, gl::Profiler& profiler, bool update);
+    gl::Inputs given() const;
+    void mark(const gl::Device& device, const scene::GpuScene& scene);
+    void compact(const gl::Device& device);
+    void clip(const gl::Device& device, const scene::GpuScene& scene, bool update);
+    void resolve(const gl::Device& device, bool update);
     void updateGridBlock();
 
     void remember(const scene::GpuScene& scene);
     bool canUpdate(const scene::GpuScene& scene, const VoxelGrid& wanted) const;
     Edits editsOf(const scene::GpuScene& scene) const;
     void uploadEdits(const scene::GpuScene& scene, const Edits& edits);
-    void drop(gl::ProgramLibrary& programs, gl::Profiler& profiler, const Edits& edits);
-    void markEdits(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
-                   const Edits& edits);
-    void carry(gl::ProgramLibrary& programs, gl::Profiler& profiler);
+    void drop(const gl::Device& device, const Edits& edits);
+    void markEdits(const gl::Device& device, const scene::GpuScene& scene, const Edits& edits);
+    void carry(const gl::Device& device);
     bool finishUpdate(const Edits& edits);
 };
 
@@ -301,6 +268,7 @@ void SurfaceVoxels::Impl::allocateFor(const Capacity& wanted) {
         fragmentTexels = gl::Texture(fragments, GL_RGBA32UI, "voxelizer fragments");
     }
     now.reserve(wanted.voxels, wanted.faces);
+    reserveRecords(keys, wanted.voxels);
     if (wanted.faces > capacity.faces) {
         owners = gl::Buffer(std::size_t{4} * wanted.faces, "voxelizer face owners");
         ownerTexels = gl::Texture(owners, GL_R32UI, "voxelizer face owners");
@@ -357,111 +325,119 @@ void SurfaceVoxels::Impl::updateGridBlock() {
 }
 
 void SurfaceVoxels::Impl::clearWorkSpace() {
-    now.clearBricks(grid.bricks());
+    clearBricks(keys, grid.bricks());
     counters.clear();
     masks.clear();
     now.chains.clear();
     changedBricks.fill(~0u);
-    bindWorkSpace();
 }
 
-void SurfaceVoxels::Impl::bindWorkSpace() {
-    counters.bindStorage(kCounters);
-    masks.bindStorage(kMasks);
-    chunks.bindStorage(kChunks);
-    constants.bindUniform(BINDING_PASS);
-    gridBlock.bindUniform(BINDING_VOXEL_GRID);
+// All that passes of the voxelizer read, as it is.
+gl::Inputs SurfaceVoxels::Impl::given() const {
+    gl::Inputs inputs;
+    const auto storage = [&](gl::ResourceName name, const gl::Buffer& buffer) {
+        if (buffer) inputs.storage(name, buffer);
+    };
+    const auto texture = [&](gl::ResourceName name, const gl::Texture& source) {
+        if (source) inputs.texture(name, source);
+    };
+    inputs.uniform("SurfaceBlock", constants).uniform("VoxelGridBlock", gridBlock);
+    storage("CounterTable", counters);
+    storage("MaskTable", masks);
+    storage("ChunkTable", chunks);
+    storage("TriangleTable", triangles);
+    storage("TileTable", tiles);
+    storage("PairTable", pairs);
+    storage("FragmentTable", fragments);
+    storage("ChainTable", now.chains);
+    storage("OldChainTable", before.chains);
+    storage("BrickTable", brickList);
+    storage("OwnerTable", owners);
+    storage("LayerTable", layered);
+    storage("RecordTable", keys.records);
+    storage("FaceTable", now.faces);
+    storage("SourceTable", now.faceSources);
+    storage("FreeTable", freeList);
+    storage("ChangedTable", changedBricks);
+    storage("DirtyTable", dirtyBricks);
+    storage("StaleTable", stale);
+    storage("RunTable", runs);
+    storage("OriginTable", origins);
+    storage("WorkTable", workList);
+    texture("triangles", triangleTexels);
+    texture("pairs", pairTexels);
+    texture("fragments", fragmentTexels);
+    texture("owners", ownerTexels);
+    texture("brickWords", keys.brickWords);
+    texture("oldBricks", oldKeys.brickWords);
+    texture("oldRecords", oldKeys.recordTexels);
+    texture("oldFaces", before.faceTexels);
+    texture("oldSources", before.sourceTexels);
+    if (keys.brickWords) inputs.image("brickWords", keys.brickWords, gl::ImageUse::Write);
+    return inputs;
 }
 
 // Triangles -> pairs (triangle, voxel), and a bit per voxel.
-void SurfaceVoxels::Impl::mark(gl::ProgramLibrary& programs, gl::Profiler& profiler,
-                               const scene::GpuScene& scene) {
-    const gl::PassScope scope(profiler, "voxelize: mark");
+void SurfaceVoxels::Impl::mark(const gl::Device& device, const scene::GpuScene& scene) {
+    const gl::PassScope scope(device.profiler, "voxelize: mark");
     clearWorkSpace();
-    scene.bind();
-    triangles.bindStorage(kTriangles);
-    tiles.bindStorage(kTiles);
-    pairs.bindStorage(kPairs);
-    programs.get(markPass("surface_setup", false)).dispatchLinear(scene.triangleCount());
+    gl::Inputs given = this->given();
+    given.add(scene);
+    device.get(markPass("surface_setup", false)).dispatchLinear(given, scene.triangleCount());
     gl::barrier(gl::Access::ShaderStorage);
-    programs.get(scanPass(0)).dispatch(1);
+    device.get(scanPass(0)).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect | gl::Access::TextureFetch);
-    triangleTexels.bind(kUnitTriangles);
-    programs.get(markPass("surface_tiles", false)).dispatchIndirect(counters, 4 * SURFACE_ARGS_TILES);
+    device.get(markPass("surface_tiles", false)).dispatchIndirect(given, counters, 4 * SURFACE_ARGS_TILES);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
 }
 
 // Bits -> brickWord and the list of occupied bricks.
-void SurfaceVoxels::Impl::compact(gl::ProgramLibrary& programs, gl::Profiler& profiler) {
-    const gl::PassScope scope(profiler, "voxelize: compact");
+void SurfaceVoxels::Impl::compact(const gl::Device& device) {
+    const gl::PassScope scope(device.profiler, "voxelize: compact");
+    gl::Inputs given = this->given();
     const auto bricks = static_cast<std::uint32_t>(grid.brickCount());
     const std::uint32_t chunkCount = (bricks + perChunk(bricks) - 1) / perChunk(bricks);
-    programs.get(countPass(true)).dispatchLinear(chunkCount);
+    device.get(countPass(true)).dispatchLinear(given, chunkCount);
     gl::barrier(gl::Access::ShaderStorage);
-    programs.get(scanPass(1)).dispatch(1);
+    device.get(scanPass(1)).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
-    brickList.bindStorage(kBrickList);
-    now.brickWords.bindImage(0, 0, GL_WRITE_ONLY);
-    programs.get(pass("surface_bricks")).dispatchLinear(chunkCount);
+    device.get(pass("surface_bricks")).dispatchLinear(given, chunkCount);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
 }
 
 // Pairs -> clipped fragments in the chains of their voxels.
-void SurfaceVoxels::Impl::clip(gl::ProgramLibrary& programs, gl::Profiler& profiler, bool update) {
-    const gl::PassScope scope(profiler, "voxelize: clip");
-    now.chains.bindStorage(kChains);
-    fragments.bindStorage(kFragments);
-    if (update) {
-        freeList.bindStorage(kFreeList);
-        changedBricks.bindStorage(kChangedBricks);
-    }
-    now.brickWords.bind(UNIT_VOXEL_BRICKS);
-    triangleTexels.bind(kUnitTriangles);
-    pairTexels.bind(kUnitPairs);
-    programs.get(clipPass(surfaces.detail, surfaces.emit(), surfaces.lobes, update))
-        .dispatchIndirect(counters, 4 * SURFACE_ARGS_FRAGMENTS);
+void SurfaceVoxels::Impl::clip(const gl::Device& device, const scene::GpuScene& scene, bool update) {
+    const gl::PassScope scope(device.profiler, "voxelize: clip");
+    gl::Inputs given = this->given();
+    given.add(scene);
+    device.get(clipPass(surfaces.detail, surfaces.emit(), surfaces.lobes, update))
+        .dispatchIndirect(given, counters, 4 * SURFACE_ARGS_FRAGMENTS);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
 }
 
 // Directions -> faces, chains -> what they show.
-void SurfaceVoxels::Impl::resolve(gl::ProgramLibrary& programs, gl::Profiler& profiler, bool update) {
-    const gl::PassScope scope(profiler, "voxelize: resolve");
-    chunks.bindStorage(kChunks);
-    programs.get(countPass(false)).dispatchIndirect(counters, 4 * SURFACE_ARGS_VOXELS);
+void SurfaceVoxels::Impl::resolve(const gl::Device& device, bool update) {
+    const gl::PassScope scope(device.profiler, "voxelize: resolve");
+    gl::Inputs given = this->given();
+    device.get(countPass(false)).dispatchIndirect(given, counters, 4 * SURFACE_ARGS_VOXELS);
     gl::barrier(gl::Access::ShaderStorage);
-    programs.get(scanPass(2)).dispatch(1);
+    device.get(scanPass(2)).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
-    owners.bindStorage(kOwners);
-    now.records.bindStorage(BINDING_VOXEL_RECORDS);
-    now.faces.bindStorage(BINDING_VOXEL_FACES);
-    now.faceSources.bindStorage(kFaceSources);
-    if (update) {
-        origins.bindStorage(kOrigin);
-        workList.bindStorage(kWorkList);
-        before.recordTexels.bind(kUnitOldRecords);
-    }
-    programs.get(markPass("surface_faces", update)).dispatchIndirect(counters, 4 * SURFACE_ARGS_VOXELS);
+    device.get(markPass("surface_faces", update)).dispatchIndirect(given, counters, 4 * SURFACE_ARGS_VOXELS);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
     if (update) {
-        programs.get(scanPass(3)).dispatch(1);
-        before.faceTexels.bind(kUnitOldFaces);
-        before.sourceTexels.bind(kUnitOldSources);
-        ownerTexels.bind(kUnitOwners);
-        programs.get(pass("surface_copy")).dispatchIndirect(counters, 4 * SURFACE_ARGS_FACES);
+        device.get(scanPass(3)).dispatch(given, 1);
+        device.get(pass("surface_copy")).dispatchIndirect(given, counters, 4 * SURFACE_ARGS_FACES);
         gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
     }
-    pairTexels.bind(kUnitPairs);
-    fragmentTexels.bind(kUnitFragments);
-    ownerTexels.bind(kUnitOwners);
-    layered.bindStorage(kLayerList);
-    programs.get(resolvePass(surfaces.emit(), surfaces.lobes, update))
-        .dispatchIndirect(counters, 4 * (update ? SURFACE_ARGS_WORK : SURFACE_ARGS_FACES));
+    device.get(resolvePass(surfaces.emit(), surfaces.lobes, update))
+        .dispatchIndirect(given, counters, 4 * (update ? SURFACE_ARGS_WORK : SURFACE_ARGS_FACES));
     gl::barrier(gl::Access::ShaderStorage);
-    programs.get(scanPass(4)).dispatch(1);
+    device.get(scanPass(4)).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
     for (const bool onlyWide : {false, true})
-        programs.get(layersPass(surfaces.emit(), surfaces.lobes, onlyWide))
-            .dispatchIndirect(counters, 4 * (onlyWide ? SURFACE_ARGS_WIDE : SURFACE_ARGS_LAYERS));
+        device.get(layersPass(surfaces.emit(), surfaces.lobes, onlyWide))
+            .dispatchIndirect(given, counters, 4 * (onlyWide ? SURFACE_ARGS_WIDE : SURFACE_ARGS_LAYERS));
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Indirect);
 }
 
@@ -470,31 +446,37 @@ VoxelGrid SurfaceVoxels::gridOf(const scene::GpuScene& scene, const VoxelSetting
                      scene.bounds());
 }
 
-void SurfaceVoxels::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
+void SurfaceVoxels::build(const gl::Device& device, const scene::GpuScene& scene,
                           const VoxelSettings& settings) {
-    build(programs, profiler, scene, gridOf(scene, settings));
+    build(device, scene, gridOf(scene, settings));
 }
 
-void SurfaceVoxels::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
-                          const VoxelGrid& grid) {
+void SurfaceVoxels::build(const gl::Device& device, const scene::GpuScene& scene, const VoxelGrid& grid) {
     Impl& m = *impl_;
+    // The keys of the voxels there are stay for readers that carry something over.
+    if (m.keys.revision) std::swap(m.keys, m.oldKeys);
+    m.keys.revision = {};
     m.grid = grid;
     m.surfaces = surfacesOf(scene);
     m.reserve(scene);
+    reserveRecords(m.keys, m.capacity.voxels);
     // A list that overflows hides the true size of those after it: tiles, fragments, voxels, faces.
     constexpr int kMaxAttempts = 5;
     for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
         m.upload(scene);
-        m.mark(programs, profiler, scene);
-        m.compact(programs, profiler);
-        m.clip(programs, profiler, false);
-        m.resolve(programs, profiler, false);
+        m.mark(device, scene);
+        m.compact(device);
+        m.clip(device, scene, false);
+        m.resolve(device, false);
         m.counters.read(0, m.counts.data(), sizeof m.counts);
         if (!m.grow()) break;
         CONELIGHT_ASSERT(attempt + 1 < kMaxAttempts,
                          "SurfaceVoxels::build: lists still too small after growing");
     }
     m.updateGridBlock();
+    m.keys.grid = m.grid;
+    m.keys.faceCount = m.counts[SURFACE_FACES];
+    m.keys.revision = base::Revision::next();
     m.remember(scene);
     m.tail = m.counts[SURFACE_FRAGMENTS];
     m.freeSlots = 0;
@@ -506,7 +488,6 @@ void SurfaceVoxels::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, 
 void SurfaceVoxels::Impl::remember(const scene::GpuScene& scene) {
     const std::size_t count = scene.instances().size();
     sceneIdentity = scene.identity();
-    geometryRevision = scene.geometryRevision();
     revisions.resize(count);
     boxes.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -567,49 +548,32 @@ void SurfaceVoxels::Impl::uploadEdits(const scene::GpuScene& scene, const Edits&
 }
 
 // Old place: fragments leave their chains, slots become free.
-void SurfaceVoxels::Impl::drop(gl::ProgramLibrary& programs, gl::Profiler& profiler, const Edits& edits) {
-    const gl::PassScope scope(profiler, "voxelize: drop");
-    bindWorkSpace();
-    dirtyBricks.bindStorage(kDirtyBricks);
-    changedBricks.bindStorage(kChangedBricks);
-    stale.bindStorage(kStale);
-    now.chains.bindStorage(kChains);
-    fragments.bindStorage(kFragments);
-    freeList.bindStorage(kFreeList);
-    now.brickWords.bind(UNIT_VOXEL_BRICKS);
-    triangleTexels.bind(kUnitTriangles);
-    pairTexels.bind(kUnitPairs);
-    programs.get(pass("surface_drop")).dispatchLinear(64 * edits.dirtyBricks.size());
+void SurfaceVoxels::Impl::drop(const gl::Device& device, const Edits& edits) {
+    const gl::PassScope scope(device.profiler, "voxelize: drop");
+    gl::Inputs given = this->given();
+    device.get(pass("surface_drop")).dispatchLinear(given, 64 * edits.dirtyBricks.size());
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
 }
 
 // New place: as mark(), for the triangles of changed instances.
-void SurfaceVoxels::Impl::markEdits(gl::ProgramLibrary& programs, gl::Profiler& profiler,
-                                    const scene::GpuScene& scene, const Edits& edits) {
-    const gl::PassScope scope(profiler, "voxelize: mark");
-    scene.bind();
-    triangles.bindStorage(kTriangles);
-    tiles.bindStorage(kTiles);
-    pairs.bindStorage(kPairs);
-    runs.bindStorage(kRuns);
-    programs.get(markPass("surface_setup", true)).dispatchLinear(edits.triangles);
+void SurfaceVoxels::Impl::markEdits(const gl::Device& device, const scene::GpuScene& scene,
+                                    const Edits& edits) {
+    const gl::PassScope scope(device.profiler, "voxelize: mark");
+    gl::Inputs given = this->given();
+    given.add(scene);
+    device.get(markPass("surface_setup", true)).dispatchLinear(given, edits.triangles);
     gl::barrier(gl::Access::ShaderStorage);
-    programs.get(scanPass(0)).dispatch(1);
+    device.get(scanPass(0)).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect | gl::Access::TextureFetch);
-    programs.get(markPass("surface_tiles", true)).dispatchIndirect(counters, 4 * SURFACE_ARGS_TILES);
+    device.get(markPass("surface_tiles", true)).dispatchIndirect(given, counters, 4 * SURFACE_ARGS_TILES);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
 }
 
 // Chains under the new numbers of their voxels. `before` is what was there, `now` what will be.
-void SurfaceVoxels::Impl::carry(gl::ProgramLibrary& programs, gl::Profiler& profiler) {
-    const gl::PassScope scope(profiler, "voxelize: carry");
-    brickList.bindStorage(kBrickList);
-    before.chains.bindStorage(kOldChains);
-    now.chains.bindStorage(kChains);
-    origins.bindStorage(kOrigin);
-    now.brickWords.bind(UNIT_VOXEL_BRICKS);
-    before.brickWords.bind(kUnitOldBricks);
-    programs.get(pass("surface_carry")).dispatchIndirect(counters, 4 * SURFACE_ARGS_BRICKS);
+void SurfaceVoxels::Impl::carry(const gl::Device& device) {
+    const gl::PassScope scope(device.profiler, "voxelize: carry");
+    gl::Inputs given = this->given();
+    device.get(pass("surface_carry")).dispatchIndirect(given, counters, 4 * SURFACE_ARGS_BRICKS);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
 }
 
@@ -626,57 +590,77 @@ bool SurfaceVoxels::Impl::finishUpdate(const Edits& edits) {
            counts[SURFACE_BRICKS] <= capacity.bricks;
 }
 
-void SurfaceVoxels::update(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
+void SurfaceVoxels::update(const gl::Device& device, const scene::GpuScene& scene,
                            const VoxelSettings& settings) {
     Impl& m = *impl_;
     const VoxelGrid grid = gridOf(scene, settings);
-    if (!m.canUpdate(scene, grid)) return build(programs, profiler, scene, grid);
+    if (!m.canUpdate(scene, grid)) return build(device, scene, grid);
     const Edits edits = m.editsOf(scene);
     // Beyond half of all triangles, to clip all is as cheap as to search for those to keep.
-    if (2 * edits.triangles > scene.triangleCount()) return build(programs, profiler, scene, grid);
+    if (2 * edits.triangles > scene.triangleCount()) return build(device, scene, grid);
     if (!edits.any) {
         m.changedBricks.clear();
         m.lastUpdate = {};
         return;
     }
     m.uploadEdits(scene, edits);
-    m.drop(programs, profiler, edits);
-    m.markEdits(programs, profiler, scene, edits);
+    m.drop(device, edits);
+    m.markEdits(device, scene, edits);
     std::swap(m.now, m.before);
-    m.now.clearBricks(m.grid.bricks());
-    m.bindWorkSpace();
-    m.compact(programs, profiler);
-    m.carry(programs, profiler);
-    m.clip(programs, profiler, true);
-    m.resolve(programs, profiler, true);
+    std::swap(m.keys, m.oldKeys);
+    m.keys.revision = {};
+    reserveRecords(m.keys, m.capacity.voxels);
+    clearBricks(m.keys, m.grid.bricks());
+    m.compact(device);
+    m.carry(device);
+    m.clip(device, scene, true);
+    m.resolve(device, true);
     if (!m.finishUpdate(edits)) {
         // A list is too small: grow() in build() sees what a whole scene needs.
-        m.sceneIdentity = 0;
-        return build(programs, profiler, scene, grid);
+        m.sceneIdentity = {};
+        return build(device, scene, grid);
     }
     m.updateGridBlock();
+    m.keys.grid = m.grid;
+    m.keys.faceCount = m.counts[SURFACE_FACES];
+    m.keys.revision = base::Revision::next();
     m.remember(scene);
 }
 
-void SurfaceVoxels::bind() const {
-    const Impl& m = *impl_;
-    CONELIGHT_ASSERT(m.gridBlock, "SurfaceVoxels::bind before build");
-    m.gridBlock.bindUniform(BINDING_VOXEL_GRID);
-    m.now.faces.bindStorage(BINDING_VOXEL_FACES);
-    m.now.records.bindStorage(BINDING_VOXEL_RECORDS);
-    m.now.brickWords.bind(UNIT_VOXEL_BRICKS);
-    m.now.brickWords.bindImage(IMAGE_VOXEL_BRICKS, 0, GL_READ_ONLY);
-    m.now.recordTexels.bind(UNIT_VOXEL_RECORDS);
-    m.now.faceTexels.bind(UNIT_VOXEL_FACES);
-    m.now.sourceTexels.bind(UNIT_VOXEL_FACE_SOURCES);
+void VoxelKeys::declare(gl::Inputs& inputs) const {
+    inputs.texture("voxelBricks", brickWords)
+        .image("voxelBrickImage", brickWords, gl::ImageUse::Read)
+        .texture("voxelRecords", recordTexels)
+        .storage("RecordTable", records);
+}
+void VoxelKeys::declareOld(gl::Inputs& inputs) const {
+    inputs.texture("oldBricks", brickWords).texture("oldRecords", recordTexels);
 }
 
-void SurfaceVoxels::bindTriangles() const {
+void SurfaceVoxels::declare(gl::Inputs& inputs) const {
     const Impl& m = *impl_;
-    m.now.chainTexels.bind(UNIT_VOXEL_CHAINS);
-    m.fragmentTexels.bind(UNIT_VOXEL_FRAGMENTS);
-    m.pairTexels.bind(UNIT_VOXEL_PAIRS);
-    m.triangleTexels.bind(UNIT_VOXEL_TRIANGLES);
+    CONELIGHT_ASSERT(m.keys.revision, "SurfaceVoxels::declare before build");
+    m.keys.declare(inputs);
+    inputs.uniform("VoxelGridBlock", m.gridBlock)
+        .texture("voxelFaces", m.now.faceTexels)
+        .texture("voxelFaceSources", m.now.sourceTexels)
+        .storage("FaceTable", m.now.faces)
+        .storage("SourceTable", m.now.faceSources)
+        .storage("BrickTable", m.brickList);
+}
+
+void SurfaceVoxels::declareTriangles(gl::Inputs& inputs) const {
+    const Impl& m = *impl_;
+    inputs.texture("voxelChains", m.now.chainTexels)
+        .texture("voxelFragments", m.fragmentTexels)
+        .texture("voxelPairs", m.pairTexels)
+        .texture("voxelTriangles", m.triangleTexels);
+}
+
+base::Revision SurfaceVoxels::revision() const { return impl_->keys.revision; }
+const VoxelKeys& SurfaceVoxels::keys() const { return impl_->keys; }
+const VoxelKeys* SurfaceVoxels::previous() const {
+    return impl_->oldKeys.revision ? &impl_->oldKeys : nullptr;
 }
 
 const VoxelGrid& SurfaceVoxels::grid() const { return impl_->grid; }
@@ -684,15 +668,13 @@ std::uint32_t SurfaceVoxels::voxelCount() const { return impl_->counts[SURFACE_V
 std::uint32_t SurfaceVoxels::faceCount() const { return impl_->counts[SURFACE_FACES]; }
 std::uint32_t SurfaceVoxels::occupiedBrickCount() const { return impl_->counts[SURFACE_BRICKS]; }
 std::uint32_t SurfaceVoxels::fragmentCount() const { return impl_->tail - impl_->freeSlots; }
-const gl::Texture& SurfaceVoxels::brickWords() const { return impl_->now.brickWords; }
-const gl::Buffer& SurfaceVoxels::records() const { return impl_->now.records; }
+const gl::Texture& SurfaceVoxels::brickWords() const { return impl_->keys.brickWords; }
+const gl::Buffer& SurfaceVoxels::records() const { return impl_->keys.records; }
 const gl::Buffer& SurfaceVoxels::faces() const { return impl_->now.faces; }
 const gl::Buffer& SurfaceVoxels::faceSources() const { return impl_->now.faceSources; }
 const gl::Buffer& SurfaceVoxels::occupiedBricks() const { return impl_->brickList; }
 const gl::Buffer& SurfaceVoxels::changedBricks() const { return impl_->changedBricks; }
 const SurfaceUpdate& SurfaceVoxels::lastUpdate() const { return impl_->lastUpdate; }
-const gl::Buffer& SurfaceVoxels::faceScratch() const { return impl_->owners; }
-const gl::Buffer& SurfaceVoxels::secondFaceScratch() const { return impl_->layered; }
 const gl::Buffer& SurfaceVoxels::fragments() const { return impl_->fragments; }
 
 std::vector<gl::ProgramDesc> SurfaceVoxels::programDescs() {

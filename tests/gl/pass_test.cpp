@@ -16,7 +16,7 @@ namespace conelight::test {
 namespace {
 
 constexpr char kWork[] =
-    "#version 450 core\nlayout(local_size_x = 8) in;\nlayout(std430, binding = 8) buffer Out { uint words[]; "
+    "#version 450 core\nlayout(local_size_x = 8) in;\nlayout(std430) buffer Out { uint words[]; "
     "};\n"
     "void main() { uint s = gl_GlobalInvocationID.x; for (int i = 0; i < 2000; ++i) s = s * 1664525u + "
     "1013904223u;\n"
@@ -29,9 +29,8 @@ class PassTest : public GlTest {
         if (!out_) {
             addShader("test/work.comp.glsl", kWork);
             out_ = gl::Buffer(4 * 8192, "out");
-            out_.bindStorage(8);
         }
-        programs().compute("test/work.comp.glsl").dispatch(8192);
+        programs().compute("test/work.comp.glsl").dispatch(gl::Inputs().storage("Out", out_), 8192);
     }
     void TearDown() override {
         out_.reset();

@@ -8,8 +8,6 @@
 #include <random>
 
 #include "conelight/error.h"
-#include "shared/bindings.h"
-#include "shared/frame.h"
 #include "support/gl_fixture.h"
 #include "thesis/render/cones.h"
 
@@ -81,12 +79,10 @@ class ThesisVolumeTest : public GlTest {
     // All texels of a level.
     std::vector<glm::vec4> build(const Scene& source, const ThesisVolumeOptions& options, int level = 0) {
         const scene::GpuScene scene(source);
-        scene.bind();
-        const gl::Buffer frame(sizeof(gpu::FrameConstants), "frame");
-        frame.bindUniform(BINDING_FRAME);
+        light::Lights lights;
+        lights.update(device(), scene, {.emissiveQuads = false, .shadowMaps = false});
         ThesisVolume volume;
-        gl::Profiler profiler;
-        volume.build(programs(), profiler, scene, options);
+        volume.build(device(), {scene, lights}, options);
         return read(volume, level);
     }
     static std::vector<glm::vec4> read(const ThesisVolume& volume, int level) {
@@ -192,16 +188,14 @@ TEST_F(ThesisVolumeTest, BuildingAgainLeavesNothingBehind) {
     const Scene blob = blobScene();
     Scene plane = whiteScene();
     addQuad(plane, {-0.25f, 0.1f, -0.25f}, {0, 0, 0.5f}, {0.5f, 0, 0});
-    const gl::Buffer frame(sizeof(gpu::FrameConstants), "frame");
-    frame.bindUniform(BINDING_FRAME);
-    gl::Profiler profiler;
     ThesisVolume used, fresh;
     const scene::GpuScene blobTables(blob), planeTables(plane);
-    blobTables.bind();
-    used.build(programs(), profiler, blobTables, optionsOf(32));
-    planeTables.bind();
-    used.build(programs(), profiler, planeTables, optionsOf(32));
-    fresh.build(programs(), profiler, planeTables, optionsOf(32));
+    light::Lights blobLights, planeLights;
+    blobLights.update(device(), blobTables, {.shadowMaps = false});
+    planeLights.update(device(), planeTables, {.shadowMaps = false});
+    used.build(device(), {blobTables, blobLights}, optionsOf(32));
+    used.build(device(), {planeTables, planeLights}, optionsOf(32));
+    fresh.build(device(), {planeTables, planeLights}, optionsOf(32));
     for (int level = 0; level < 6; ++level) {
         const std::vector<glm::vec4> a = read(used, level), b = read(fresh, level);
         EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(glm::vec4)), 0) << level;

@@ -325,8 +325,8 @@ TEST_F(VoxelLayers, LightIsLookedUpOnTopOfWhatStandsInFront) {
     addShader("test/rise.comp.glsl", R"(#version 450
 layout(local_size_x = 64) in;
 #include "lib/voxel_record.glsl"
-layout(std430, binding = 8) readonly buffer In { uvec4 texels[]; };
-layout(std430, binding = 9) writeonly buffer Out { vec4 rises[]; };
+layout(std430) readonly buffer In { uvec4 texels[]; };
+layout(std430) writeonly buffer Out { vec4 rises[]; };
 void main() {
     uvec4 r = texels[2u * gl_GlobalInvocationID.x];
     rises[gl_GlobalInvocationID.x] = vec4(faceRise(r, octDecode(unpackSnorm2x16(r.x))), 0.0);

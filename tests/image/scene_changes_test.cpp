@@ -28,15 +28,6 @@ Settings smallSettings(Mode mode) {
     return settings;
 }
 
-Mesh boxMesh() {
-    Mesh mesh;
-    for (int i = 0; i < 8; ++i)
-        mesh.positions.emplace_back((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
-    mesh.indices = {0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
-                    2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
-    return mesh;
-}
-
 glm::mat4 placed(const glm::vec3& position, float size = 0.2f) {
     return glm::scale(glm::translate(glm::mat4(1), position), glm::vec3(size));
 }

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "gl/device.h"
 #include "gl/gl.h"
 #include "gl/program.h"
 #include "gl/texture.h"
@@ -23,11 +24,14 @@ class GlTest : public ::testing::Test {
     void TearDown() override;
     // Programs of the embedded shaders, plus files of the test itself (path -> text), which win.
     gl::ProgramLibrary& programs();
+    // The same, and a profiler that is off.
+    gl::Device device() { return {programs(), profiler_}; }
     void addShader(const std::string& path, const std::string& text);
 
   private:
     std::vector<std::pair<std::string, std::string>> extra_;
     std::optional<gl::ProgramLibrary> programs_;
+    gl::Profiler profiler_;
 };
 
 // The file or folder PATH of the test data that is not ours to ship (CONELIGHT_TEST_DATA, else ../shared

@@ -8,7 +8,6 @@
 #include "base/log.h"
 #include "gather/picture_parts.h"
 #include "gl/gl.h"
-#include "shared/bindings.h"
 
 namespace conelight::gather {
 namespace {
@@ -166,42 +165,40 @@ gpu::ThesisConstants thesisConstants(const ThesisSettings& s, const gpu::ThesisG
     return c;
 }
 
-void ThesisConePass::bind(const scene::GpuScene& scene, const view::GBuffer& gbuffer,
-                          const voxels::ThesisVolume& volume, const Settings& settings) {
-    gpu::ThesisConstants constants = thesisConstants(settings.thesis, volume.grid(), settings.voxels.size);
-    const std::size_t lights = scene.lights().size();
+gl::Inputs ThesisConePass::given(const Inputs& inputs, const gl::Texture& output) {
+    const Settings& settings = inputs.settings;
+    gpu::ThesisConstants constants =
+        thesisConstants(settings.thesis, inputs.volume.grid(), settings.voxels.size);
+    const std::size_t lights = inputs.pixels.lights.table().size();
     constants.lightCount = static_cast<std::uint32_t>(
         effectiveDefects(settings.thesis).tenLights ? std::min<std::size_t>(lights, 10) : lights);
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::ThesisConstants), "thesis constants");
     constants_.update(constants);
-    constants_.bindUniform(BINDING_PASS);
-    gbuffer.bind();
-    volume.bind(UNIT_PASS);
-    volume.bindGrid();
+    gl::Inputs given;
+    given.add(inputs.pixels)
+        .add(inputs.volume)
+        .uniform("ThesisBlock", constants_)
+        .image("picture", output, gl::ImageUse::Write);
+    return given;
 }
 
-void ThesisConePass::record(gl::ProgramLibrary& programs, const scene::GpuScene& scene,
-                            const view::GBuffer& gbuffer, const voxels::ThesisVolume& volume,
-                            const Settings& settings, StepRecorder& recorder) {
-    bind(scene, gbuffer, volume, settings);
+void ThesisConePass::record(const gl::Device& device, const Inputs& inputs, const gl::Texture& output,
+                            StepRecorder& recorder) {
+    const Settings& settings = inputs.settings;
     const bool gathered = partsOf(settings.component).diffuse || partsOf(settings.component).specular ||
                           settings.component == Component::Occlusion;
-    recorder.record(programs,
-                    conesDesc(settings.thesis, gathered ? settings.component : Component::Full, false));
-    gl::unbindSampler(UNIT_PASS);
+    const Component component = gathered ? settings.component : Component::Full;
+    recorder.record(device, StepRecorder::variant(conesDesc(settings.thesis, component, false)),
+                    given(inputs, output));
 }
 
-void ThesisConePass::render(gl::ProgramLibrary& programs, gl::Profiler& profiler,
-                            const scene::GpuScene& scene, const view::GBuffer& gbuffer,
-                            const voxels::ThesisVolume& volume, const Settings& settings,
-                            const gl::Texture& output, const gl::Buffer* lookupCounters) {
-    const gl::PassScope pass(profiler, "thesis cones");
-    bind(scene, gbuffer, volume, settings);
-    output.bindImage(0, 0, GL_WRITE_ONLY);
-    if (lookupCounters != nullptr) lookupCounters->bindStorage(BINDING_STORAGE_PASS);
-    programs.get(conesDesc(settings.thesis, settings.component, lookupCounters != nullptr))
-        .dispatch(output.width(), output.height());
-    gl::unbindSampler(UNIT_PASS);
+void ThesisConePass::draw(const gl::Device& device, const Inputs& inputs, const gl::Texture& output,
+                          const gl::Buffer* lookupCounters) {
+    const gl::PassScope pass(device.profiler, "thesis cones");
+    gl::Inputs given = this->given(inputs, output);
+    if (lookupCounters != nullptr) given.storage("LookupTable", *lookupCounters);
+    device.get(conesDesc(inputs.settings.thesis, inputs.settings.component, lookupCounters != nullptr))
+        .dispatch(given, output.width(), output.height());
 }
 
 std::vector<gl::ProgramDesc> ThesisConePass::programDescs() {

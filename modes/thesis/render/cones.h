@@ -2,19 +2,15 @@
 // The thesis's cone pass: G-buffer + ThesisVolume -> picture. One compute pass per pixel; what is switched
 // on, regular or customised, and which defects, is compiled into the program (built when first asked for).
 //
-// Reads: frame block, scene tables, G-buffer, volume. Writes `output` (RGBA32F) as an image, every pixel;
-// readers need a barrier. GL state changed: program, image unit 0, UNIT_GBUFFER and the next, UNIT_PASS,
-// BINDING_PASS, BINDING_STORAGE_PASS.
+// Writes every pixel of `output` (RGBA32F); readers need a barrier. GL state changed: program and its slots.
 #pragma once
 
 #include "conelight/settings.h"
+#include "gather/direct_light.h"
 #include "gather/step_recorder.h"
-#include "gl/pass.h"
-#include "gl/program.h"
-#include "scene/gpu_scene.h"
+#include "gl/device.h"
 #include "thesis/render/volume.h"
 #include "thesis/shaders/constants.h"
-#include "view/gbuffer.h"
 
 namespace conelight::gather {
 
@@ -27,21 +23,24 @@ gpu::ThesisConstants thesisConstants(const ThesisSettings& settings, const gpu::
 
 class ThesisConePass {
   public:
+    struct Inputs {
+        const DirectInputs& pixels;
+        const voxels::ThesisVolume& volume;
+        const Settings& settings;
+    };
     // `lookupCounters` may be null; else three uints (diffuse, specular, occlusion) are added to.
-    void render(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
-                const view::GBuffer& gbuffer, const voxels::ThesisVolume& volume, const Settings& settings,
-                const gl::Texture& output, const gl::Buffer* lookupCounters);
+    void draw(const gl::Device& device, const Inputs& inputs, const gl::Texture& output,
+              const gl::Buffer* lookupCounters);
 
-    // Records the recorder's pixel of the picture that render() draws with these settings; of `output` only
-    // the size is asked. Views of the volume are recorded as component full.
-    void record(gl::ProgramLibrary& programs, const scene::GpuScene& scene, const view::GBuffer& gbuffer,
-                const voxels::ThesisVolume& volume, const Settings& settings, StepRecorder& recorder);
+    // Records the recorder's pixel of the picture that draw() draws with these settings. Views of the volume
+    // are recorded as component full.
+    void record(const gl::Device& device, const Inputs& inputs, const gl::Texture& output,
+                StepRecorder& recorder);
 
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
-    void bind(const scene::GpuScene& scene, const view::GBuffer& gbuffer, const voxels::ThesisVolume& volume,
-              const Settings& settings);
+    gl::Inputs given(const Inputs& inputs, const gl::Texture& output);
 
     gl::Buffer constants_;
 };

@@ -7,38 +7,21 @@
 namespace conelight::modes {
 namespace {
 
-voxels::ThesisVolumeOptions volumeOptions(const FrameContext& frame) {
+voxels::ThesisVolumeOptions volumeOptions(const Frame& frame) {
     voxels::ThesisVolumeOptions options;
     options.size = frame.settings.voxels.size;
     options.padding = frame.settings.voxels.padding;
     options.shift = frame.settings.voxels.shift;
     options.defects = gather::effectiveDefects(frame.settings.thesis);
-    options.unitGrid = frame.source.format == thesis::kSceneFormat && options.defects.wholeGrid;
+    options.unitGrid = frame.scene.source().format == thesis::kSceneFormat && options.defects.wholeGrid;
     options.shadows = !options.defects.unshadowedVoxels && frame.settings.light.shadowSize > 0;
-    if (options.shadows) options.lightDefines = light::lightDefines(frame.scene, frame.settings.light);
+    if (options.shadows) options.lights = frame.lights.key();
     return options;
-}
-
-gather::VoxelVolume shownVolume(const voxels::ThesisVolume& volume, const ThesisSettings& settings) {
-    const gpu::ThesisGrid& grid = volume.grid();
-    // Eight bits a channel may round a mean down to nothing; halves do not.
-    const bool halves = volume.texture().desc().format == GL_RGBA16F && grid.maxLevel >= 2;
-    return {volume.texture(),
-            volume.sampler(),
-            grid.origin,
-            grid.voxelSize,
-            static_cast<int>(grid.size),
-            static_cast<int>(grid.maxLevel),
-            glm::ivec3(grid.boxMin),
-            glm::ivec3(grid.boxSize),
-            halves,
-            settings.voxelLevel,
-            settings.voxelView == ThesisVoxelView::Surfaces};
 }
 
 }  // namespace
 
-bool ThesisMode::needsShadows(const Settings& settings) const {
+bool ThesisMode::needsShadows(const Scene&, const Settings& settings) const {
     return settings.light.shadowSize > 0 && !gather::effectiveDefects(settings.thesis).unshadowedVoxels;
 }
 
@@ -46,30 +29,47 @@ bool ThesisMode::lightsFromEmitters(const Settings& settings) const {
     return !gather::effectiveDefects(settings.thesis).darkEmitters;
 }
 
-void ThesisMode::updateVolume(const FrameContext& frame) {
+void ThesisMode::updateVolume(const Frame& frame) {
     const voxels::ThesisVolumeOptions options = volumeOptions(frame);
-    if (frame.geometryChanged || frame.lightChanged || builtFor_ != options) {
-        volume_.build(frame.programs, frame.profiler, frame.scene, options);
-        voxelView_.voxelsChanged();
-        builtFor_ = options;
-    }
+    if (sceneFrom_ == frame.scene.geometryRevision() && lightsFrom_ == frame.lights.revision() &&
+        options_ == options)
+        return;
+    volume_.build(frame.device, {frame.scene, frame.lights}, options);
+    sceneFrom_ = frame.scene.geometryRevision();
+    lightsFrom_ = frame.lights.revision();
+    options_ = options;
 }
 
-void ThesisMode::record(const FrameContext& frame, gather::StepRecorder& recorder) {
+void ThesisMode::draw(const Frame& frame) {
     updateVolume(frame);
-    cones_.record(frame.programs, frame.scene, frame.gbuffer, volume_, frame.settings, recorder);
+    const gather::DirectInputs pixels{frame.scene, frame.lights, frame.surfaces};
+    if (frame.recorder != nullptr)
+        cones_.record(frame.device, {pixels, volume_, frame.settings}, frame.output, *frame.recorder);
+    else if (frame.settings.component == Component::Voxels)
+        drawVoxels(frame);
+    else
+        cones_.draw(frame.device, {pixels, volume_, frame.settings}, frame.output, frame.lookupCounters);
 }
 
-void ThesisMode::render(const FrameContext& frame) {
-    updateVolume(frame);
-    if (frame.settings.component == Component::Voxels) {
-        frame.gbuffer.bind();
-        return voxelView_.draw(
-            {frame.programs, frame.profiler, frame.settings, frame.view, frame.output, frame.voxelsAmong},
-            shownVolume(volume_, frame.settings.thesis));
-    }
-    cones_.render(frame.programs, frame.profiler, frame.scene, frame.gbuffer, volume_, frame.settings,
-                  frame.output, frame.lookupCounters);
+void ThesisMode::drawVoxels(const Frame& frame) {
+    const gpu::ThesisGrid& grid = volume_.grid();
+    const ThesisSettings& thesis = frame.settings.thesis;
+    const gather::VoxelVolume volume{
+        .texture = volume_.texture(),
+        .sampler = volume_.sampler(),
+        .origin = grid.origin,
+        .voxelSize = grid.voxelSize,
+        .size = static_cast<int>(grid.size),
+        .maxLevel = static_cast<int>(grid.maxLevel),
+        .filledMin = glm::ivec3(grid.boxMin),
+        .filledSize = glm::ivec3(grid.boxSize),
+        .zeroMeansEmpty = volume_.texture().desc().format == GL_RGBA16F && grid.maxLevel >= 2,
+        .level = thesis.voxelLevel,
+        .onSurfaces = thesis.voxelView == ThesisVoxelView::Surfaces,
+        .revision = volume_.revision()};
+    voxelView_.draw(
+        frame.device,
+        {frame.settings, frame.scene, frame.lights, frame.surfaces, frame.output, frame.voxelsAmong}, volume);
 }
 
 std::vector<gl::ProgramDesc> ThesisMode::programDescs() {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "gather/voxel_view.h"
-#include "modes/frame_context.h"
+#include "modes/mode.h"
 #include "thesis/render/cones.h"
 #include "thesis/render/volume.h"
 
@@ -14,23 +14,23 @@ namespace conelight::modes {
 
 class ThesisMode : public ModeRenderer {
   public:
-    void render(const FrameContext& frame) override;
-    bool needsShadows(const Settings& settings) const override;
-    // In the original emissive objects light nothing (a defect).
+    void draw(const Frame& frame) override;
+    bool needsShadows(const Scene& scene, const Settings& settings) const override;
+    // In the thesis's program emissive objects light nothing (a defect).
     bool lightsFromEmitters(const Settings& settings) const override;
-    void record(const FrameContext& frame, gather::StepRecorder& recorder) override;
-    // The original culls: its rooms are looked into through their front walls.
-    bool cullsBackFaces() const override { return true; }
 
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
-    void updateVolume(const FrameContext& frame);
+    void updateVolume(const Frame& frame);
+    void drawVoxels(const Frame& frame);
 
     voxels::ThesisVolume volume_;
     gather::ThesisConePass cones_;
     gather::VoxelView voxelView_;
-    std::optional<voxels::ThesisVolumeOptions> builtFor_;
+    // What the volume was made from.
+    base::Revision sceneFrom_, lightsFrom_;
+    std::optional<voxels::ThesisVolumeOptions> options_;
 };
 
 }  // namespace conelight::modes

@@ -30,11 +30,11 @@ int levelCount(int edge, bool capped) {
 }
 
 // No light can make a matt surface brighter than this, at a distance of half a voxel or more.
-float radianceBound(const scene::GpuScene& scene, const ThesisDefects& defects, float voxelSize) {
+float radianceBound(const ThesisVolume::Inputs& inputs, const ThesisDefects& defects, float voxelSize) {
     constexpr float kPi = 3.14159265f;
     const auto largest = [](const glm::vec3& v) { return std::max({v.x, v.y, v.z, 0.0f}); };
     float light = 0;
-    for (const gpu::Light& l : scene.lights()) {
+    for (const gpu::Light& l : inputs.lights.table()) {
         const float d = 0.5f * voxelSize;
         float falloff = l.customFalloff != 0 ? l.falloff.x + l.falloff.y * d + l.falloff.z * d * d : d * d;
         if (defects.unattenuatedVoxels || l.type == LIGHT_DIRECTIONAL) falloff = 1.0f;
@@ -43,7 +43,7 @@ float radianceBound(const scene::GpuScene& scene, const ThesisDefects& defects, 
         light += strength / std::max(falloff, 1e-6f);
     }
     float bound = 1e-3f;
-    for (const gpu::Material& m : scene.materials()) {
+    for (const gpu::Material& m : inputs.scene.materials()) {
         const bool phong = (m.flags & MATERIAL_HAS_PHONG) != 0;
         const float color = largest(phong ? m.phongColor : glm::vec3(m.baseColor));
         bound = std::max({bound, light * color * (m.phongDiffuse + m.phongAmbient), largest(m.emission)});
@@ -63,7 +63,7 @@ gl::Defines volumeDefines(const ThesisDefects& d) {
 
 gl::ProgramDesc voxelizeDesc(const ThesisVolumeOptions& options, bool textured) {
     const ThesisDefects& d = options.defects;
-    gl::Defines defines = options.shadows ? options.lightDefines : gl::Defines{};
+    gl::Defines defines = options.shadows ? options.lights.defines() : gl::Defines{};
     defines.emplace_back("SHADOWED", options.shadows ? "1" : "0");
     defines.emplace_back("TEXTURED", textured ? "1" : "0");
     const auto add = [&](const char* name, bool on) {
@@ -146,7 +146,7 @@ void ThesisVolume::allocate(const ThesisVolumeOptions& options) {
         texture_.reset();
         texture_ = gl::Texture({GL_TEXTURE_3D, format, edge, edge, edge, levels}, "thesis volume");
         viewport_ = gl::Framebuffer(edge, edge, "thesis voxelization");
-        dirtySize_ = glm::ivec3(0);
+        filledSize_ = glm::ivec3(0);
     }
     if (!sampler_)
         sampler_ = gl::Sampler({GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE}, "thesis volume");
@@ -168,56 +168,61 @@ void ThesisVolume::allocate(const ThesisVolumeOptions& options) {
     }
 }
 
-void ThesisVolume::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
-                         const ThesisVolumeOptions& options) {
-    const gl::PassScope pass(profiler, "thesis voxels");
-    grid_ = fitGrid(scene.firstBounds(), scene.bounds(), options);
-    const float bound = radianceBound(scene, options.defects, grid_.voxelSize);
+gl::Inputs ThesisVolume::bricks() const {
+    gl::Inputs inputs;
+    inputs.uniform("ThesisGridBlock", constants_)
+        .storage("SumTable", sums_)
+        .storage("BrickFlags", brickFlags_)
+        .storage("BrickList", brickList_);
+    return inputs;
+}
+
+void ThesisVolume::build(const gl::Device& device, const Inputs& inputs, const ThesisVolumeOptions& options) {
+    const gl::PassScope pass(device.profiler, "thesis voxels");
+    grid_ = fitGrid(inputs.scene.firstBounds(), inputs.scene.bounds(), options);
+    const float bound = radianceBound(inputs, options.defects, grid_.voxelSize);
     grid_.sumScale = kSumSteps / (options.defects.clippedRadiance ? std::min(bound, 1.0f) : bound);
-    const std::size_t lights = scene.lights().size();
+    const std::size_t lights = inputs.lights.table().size();
     grid_.boxMin.w = static_cast<int>(options.defects.tenLights ? std::min<std::size_t>(lights, 10) : lights);
-    for (const gpu::Light& light : scene.lights())
+    for (const gpu::Light& light : inputs.lights.table())
         if ((light.flags & LIGHT_FROM_EMITTER) != 0) grid_.boxSize.w = 1;
     allocate(options);
     constants_.update(grid_);
-    bindGrid();
-    sums_.bindStorage(BINDING_STORAGE_PASS);
-    brickFlags_.bindStorage(BINDING_STORAGE_PASS + 1);
-    brickList_.bindStorage(BINDING_STORAGE_PASS + 2);
 
     {
-        const gl::PassScope step(profiler, "thesis clear");
+        const gl::PassScope step(device.profiler, "thesis clear");
         clearBox();
     }
     {
-        const gl::PassScope step(profiler, "thesis voxelize");
-        drawTriangles(programs, scene, options);
+        const gl::PassScope step(device.profiler, "thesis voxelize");
+        drawTriangles(device, inputs, options);
     }
     {
-        const gl::PassScope step(profiler, "thesis mips");
-        resolve(programs, options.defects);
-        buildMips(programs, options.defects);
+        const gl::PassScope step(device.profiler, "thesis mips");
+        resolve(device, options.defects);
+        buildMips(device, options.defects);
     }
     gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
+    revision_ = base::Revision::next();
 }
 
 // Only the box of the last build holds anything.
 void ThesisVolume::clearBox() {
     for (int level = 0; level < texture_.desc().levels; ++level) {
-        if (dirtySize_.x == 0) {
+        if (filledSize_.x == 0) {
             texture_.clear(level, GL_RGBA, GL_FLOAT, nullptr);
             continue;
         }
         const glm::ivec3 edge(texture_.width(level));
-        const glm::ivec3 first = dirtyMin_ >> level;
-        const glm::ivec3 last = glm::min(((dirtyMin_ + dirtySize_ - 1) >> level) + 1, edge);
+        const glm::ivec3 first = filledMin_ >> level;
+        const glm::ivec3 last = glm::min(((filledMin_ + filledSize_ - 1) >> level) + 1, edge);
         texture_.clearRegion(level, first, last - first, GL_RGBA, GL_FLOAT);
     }
-    dirtyMin_ = glm::ivec3(grid_.boxMin);
-    dirtySize_ = glm::ivec3(grid_.boxSize);
+    filledMin_ = glm::ivec3(grid_.boxMin);
+    filledSize_ = glm::ivec3(grid_.boxSize);
 }
 
-void ThesisVolume::drawTriangles(gl::ProgramLibrary& programs, const scene::GpuScene& scene,
+void ThesisVolume::drawTriangles(const gl::Device& device, const Inputs& inputs,
                                  const ThesisVolumeOptions& options) {
     gl::RasterState state;
     state.framebuffer = &viewport_;
@@ -227,41 +232,45 @@ void ThesisVolume::drawTriangles(gl::ProgramLibrary& programs, const scene::GpuS
     state.cull = gl::Cull::None;
     gl::apply(state);
     const auto hasTexture = [](const gpu::Material& material) { return material.layers.x >= 0; };
-    const bool textured = std::any_of(scene.materials().begin(), scene.materials().end(), hasTexture);
-    programs.get(voxelizeDesc(options, textured)).use();
-    texture_.bindImage(0, 0, GL_WRITE_ONLY);
-    scene.draw([](const gpu::Instance& instance) { return (instance.flags & INSTANCE_VOXELIZED) != 0; },
-               gl::Cull::None, false);
+    const std::vector<gpu::Material>& materials = inputs.scene.materials();
+    const bool textured = std::any_of(materials.begin(), materials.end(), hasTexture);
+    gl::Inputs given = bricks();
+    given.add(inputs.scene).add(inputs.lights).image("volume", texture_, gl::ImageUse::Write);
+    device.get(voxelizeDesc(options, textured)).use(given);
+    inputs.scene.draw(
+        {.filter = [](const gpu::Instance& instance) { return (instance.flags & INSTANCE_VOXELIZED) != 0; }});
     gl::barrier(gl::Access::ShaderStorage | gl::Access::ImageAccess);
 }
 
-void ThesisVolume::resolve(gl::ProgramLibrary& programs, const ThesisDefects& defects) {
+void ThesisVolume::resolve(const gl::Device& device, const ThesisDefects& defects) {
     // The marked bricks.
     const std::uint32_t zero = 0;
     brickList_.update(0, &zero, sizeof(zero));
-    const std::size_t bricks = static_cast<std::size_t>(grid_.boxSize.x / kBrick) *
-                               static_cast<std::size_t>(grid_.boxSize.y / kBrick) *
-                               static_cast<std::size_t>(grid_.boxSize.z / kBrick);
-    programs.get(bricksDesc(false)).dispatchLinear(bricks);
+    const std::size_t count = static_cast<std::size_t>(grid_.boxSize.x / kBrick) *
+                              static_cast<std::size_t>(grid_.boxSize.y / kBrick) *
+                              static_cast<std::size_t>(grid_.boxSize.z / kBrick);
+    gl::Inputs given = bricks();
+    device.get(bricksDesc(false)).dispatchLinear(given, count);
     gl::barrier(gl::Access::ShaderStorage);
-    programs.get(bricksDesc(true)).dispatch(1);
+    device.get(bricksDesc(true)).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
     if (defects.racingStores) return;
 
-    texture_.bindImage(0, 0, GL_WRITE_ONLY);
-    programs.get(resolveDesc(defects)).dispatchIndirect(brickList_, 16);
+    given.image("volume", texture_, gl::ImageUse::Write);
+    device.get(resolveDesc(defects)).dispatchIndirect(given, brickList_, 16);
     gl::barrier(gl::Access::ImageAccess);
 }
 
-void ThesisVolume::buildMips(gl::ProgramLibrary& programs, const ThesisDefects& defects) {
+void ThesisVolume::buildMips(const gl::Device& device, const ThesisDefects& defects) {
     for (int level = 1; level < texture_.desc().levels; ++level) {
-        texture_.bindImage(0, level - 1, GL_READ_ONLY);
-        texture_.bindImage(1, level, GL_WRITE_ONLY);
+        gl::Inputs given = bricks();
+        given.image("fine", texture_, gl::ImageUse::Read, level - 1)
+            .image("coarse", texture_, gl::ImageUse::Write, level);
         if (level <= 3) {
             // 4^3, 2^3 or 1 texels per brick; arguments for as many groups of 64.
             const int texels = 64 >> (3 * (level - 1));
-            programs.get(mipDesc(defects, texels))
-                .dispatchIndirect(brickList_, 16 + 12 * static_cast<std::size_t>(level - 1));
+            device.get(mipDesc(defects, texels))
+                .dispatchIndirect(given, brickList_, 16 + 12 * static_cast<std::size_t>(level - 1));
         } else {
             const int edge = texture_.width(level);
             const int ratio = static_cast<int>(grid_.size) / edge;
@@ -269,17 +278,14 @@ void ThesisVolume::buildMips(gl::ProgramLibrary& programs, const ThesisDefects& 
             const glm::ivec3 last =
                 (glm::ivec3(grid_.boxMin) + glm::ivec3(grid_.boxSize) + ratio - 1) / ratio;
             const glm::ivec3 count = last - first;
-            programs.get(mipDesc(defects, 0)).dispatch(count.x, count.y, count.z);
+            device.get(mipDesc(defects, 0)).dispatch(given, count.x, count.y, count.z);
         }
         gl::barrier(gl::Access::ImageAccess);
     }
 }
 
-void ThesisVolume::bindGrid() const { constants_.bindUniform(BINDING_THESIS_GRID); }
-
-void ThesisVolume::bind(unsigned unit) const {
-    texture_.bind(unit);
-    sampler_.bind(unit);
+void ThesisVolume::declare(gl::Inputs& inputs) const {
+    inputs.texture("volume", texture_, &sampler_).uniform("ThesisGridBlock", constants_);
 }
 
 std::vector<gl::ProgramDesc> ThesisVolume::programDescs() {

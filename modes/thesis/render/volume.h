@@ -13,38 +13,42 @@
 // Limits: one colour per voxel for both faces of a wall; 255 layers of surface per voxel.
 #pragma once
 
+#include "base/revision.h"
 #include "conelight/settings.h"
+#include "gl/device.h"
 #include "gl/draw.h"
-#include "gl/pass.h"
-#include "gl/program.h"
+#include "light/lights.h"
 #include "scene/gpu_scene.h"
 #include "thesis/shaders/constants.h"
 
 namespace conelight::voxels {
 
 struct ThesisVolumeOptions {
-    int size = 64;             // voxels along the cube's edge; 8..512, divisible by 4
-    float padding = 0.03f;     // of the fitted grid, fraction of the scene's extent per side
-    glm::vec3 shift{0};        // moves the grid toward lower coordinates, voxels; 0..1
-    bool unitGrid = false;     // [-1,1]^3 instead of the fitted grid
-    bool shadows = true;       // light is tested against the shadow maps
-    gl::Defines lightDefines;  // of light::lightDefines: which kinds of light there are
-    ThesisDefects defects;     // those of the volume count
+    int size = 64;           // voxels along the cube's edge; 8..512, divisible by 4
+    float padding = 0.03f;   // of the fitted grid, fraction of the scene's extent per side
+    glm::vec3 shift{0};      // moves the grid toward lower coordinates, voxels; 0..1
+    bool unitGrid = false;   // [-1,1]^3 instead of the fitted grid
+    bool shadows = true;     // light is tested against the shadow maps
+    light::LightKey lights;  // which kinds of light there are, with shadows
+    ThesisDefects defects;   // those of the volume count
     bool operator==(const ThesisVolumeOptions&) const = default;
 };
 
 class ThesisVolume {
   public:
     // Voxelizes `scene` anew. Storage is kept while size and format stay.
-    void build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
-               const ThesisVolumeOptions& options);
+    struct Inputs {
+        const scene::GpuScene& scene;
+        const light::Lights& lights;
+    };
+    void build(const gl::Device& device, const Inputs& inputs, const ThesisVolumeOptions& options);
+    base::Revision revision() const { return revision_; }  // raised by each build
 
     const gpu::ThesisGrid& grid() const { return grid_; }
     const gl::Texture& texture() const { return texture_; }
     // Trilinear within and between levels, edge texels repeated outside.
     const gl::Sampler& sampler() const { return sampler_; }
-    void bind(unsigned unit) const;  // texture and sampler
-    void bindGrid() const;           // at BINDING_THESIS_GRID
+    void declare(gl::Inputs& inputs) const;  // volume (with its sampler), ThesisGridBlock
 
     // The grid that build() would use. The cube is fitted to `bounds`, the box in it that is filled to
     // `filled`.
@@ -59,17 +63,19 @@ class ThesisVolume {
   private:
     void allocate(const ThesisVolumeOptions& options);
     void clearBox();
-    void drawTriangles(gl::ProgramLibrary& programs, const scene::GpuScene& scene,
-                       const ThesisVolumeOptions& options);
-    void resolve(gl::ProgramLibrary& programs, const ThesisDefects& defects);
-    void buildMips(gl::ProgramLibrary& programs, const ThesisDefects& defects);
+    void drawTriangles(const gl::Device& device, const Inputs& inputs, const ThesisVolumeOptions& options);
+    void resolve(const gl::Device& device, const ThesisDefects& defects);
+    void buildMips(const gl::Device& device, const ThesisDefects& defects);
+    gl::Inputs bricks() const;  // what passes over bricks read
 
-    glm::ivec3 dirtyMin_{0}, dirtySize_{0};  // box of the texture's voxels that may not be zero; size 0: all
+    glm::ivec3 filledMin_{0},
+        filledSize_{0};  // box of the texture's voxels that may not be zero; size 0: all
     gpu::ThesisGrid grid_{};
     gl::Texture texture_;
     gl::Sampler sampler_;
     gl::Framebuffer viewport_;
     gl::Buffer constants_, sums_, brickFlags_, brickList_;
+    base::Revision revision_;
 };
 
 }  // namespace conelight::voxels

@@ -6,10 +6,10 @@
 #include "shared/bindings.h"
 #include "thesis/shaders/constants.h"
 layout(local_size_x = 64) in;
-layout(std140, binding = BINDING_THESIS_GRID) uniform ThesisGridBlock { ThesisGrid grid; };
-layout(std430, binding = BINDING_STORAGE_PASS + 1) buffer BrickFlags { uint brickFlags[]; };
+layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
+layout(std430) buffer BrickFlags { uint brickFlags[]; };
 // [0] number of marked bricks, [4..12] indirect arguments, [16..] packed bricks
-layout(std430, binding = BINDING_STORAGE_PASS + 2) buffer BrickList { uint brickList[]; };
+layout(std430) buffer BrickList { uint brickList[]; };
 
 #ifndef ARGUMENTS
 #error ARGUMENTS must be 0 or 1

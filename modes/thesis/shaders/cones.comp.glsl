@@ -6,6 +6,7 @@
 //
 // Loops end at the bottom and their conditions hold "is there a surface": branches skip nothing on llvmpipe.
 #include "lib/gbuffer.glsl"
+#include "lib/light_table.glsl"
 #include "lib/record_steps.glsl"
 #include "thesis/shaders/constants.h"
 #include "thesis/shaders/defects.glsl"
@@ -33,12 +34,12 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #define REGULAR 1
 #define CUSTOMISED 2
 
-layout(std140, binding = BINDING_THESIS_GRID) uniform ThesisGridBlock { ThesisGrid grid; };
-layout(std140, binding = BINDING_PASS) uniform ThesisBlock { ThesisConstants thesis; };
-layout(binding = UNIT_PASS) uniform sampler3D volume;
-layout(binding = 0, rgba32f) uniform writeonly image2D picture;
+layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
+layout(std140) uniform ThesisBlock { ThesisConstants thesis; };
+uniform sampler3D volume;
+layout(rgba32f) uniform writeonly image2D picture;
 #if COUNT_LOOKUPS
-layout(std430, binding = BINDING_STORAGE_PASS) buffer LookupTable { uint lookups[]; };
+layout(std430) buffer LookupTable { uint lookups[]; };
 #endif
 
 #include "thesis/shaders/cone_samples.glsl"
@@ -239,7 +240,7 @@ void main() {
 
     vec3 shown = isLit ? shownPart(sum, diffuse) : vec3(0.0);
 #if VIEW == VIEW_FULL || VIEW == VIEW_DIRECT
-    shown += seen ? s.emission : frame.sky;
+    shown += seen ? s.emission : lighting.sky;
 #endif
     if (inside) imageStore(picture, pixel, vec4(shown, seen ? 1.0 : 0.0));
 #if COUNT_LOOKUPS

@@ -95,7 +95,7 @@ vec3 traceDiffuse(Surface s, bool isLit, out uint samples) {
         bool left = coneEnded(t, origin + t * direction.xyz, cone.reach);
         if (left || got.opacity >= 0.999 || coneSamples >= thesis.maxSamples) {
 #if !SHORT_REACH
-            if (left) got.color += max(1.0 - got.opacity, 0.0) * frame.sky;
+            if (left) got.color += max(1.0 - got.opacity, 0.0) * lighting.sky;
 #endif
             sum += direction.w * got.color;
             if (running)

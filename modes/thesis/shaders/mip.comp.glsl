@@ -19,13 +19,13 @@
 #endif
 #if BRICK_TEXELS
 layout(local_size_x = 64) in;
-layout(std430, binding = BINDING_STORAGE_PASS + 2) readonly buffer BrickList { uint brickList[]; };
+layout(std430) readonly buffer BrickList { uint brickList[]; };
 #else
 layout(local_size_x = 8, local_size_y = 4, local_size_z = 4) in;
 #endif
-layout(std140, binding = BINDING_THESIS_GRID) uniform ThesisGridBlock { ThesisGrid grid; };
-layout(binding = 0, VOLUME_FORMAT) uniform readonly image3D fine;
-layout(binding = 1, VOLUME_FORMAT) uniform writeonly image3D coarse;
+layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
+layout(VOLUME_FORMAT) uniform readonly image3D fine;
+layout(VOLUME_FORMAT) uniform writeonly image3D coarse;
 
 void main() {
 #if BRICK_TEXELS

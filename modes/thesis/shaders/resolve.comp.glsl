@@ -6,13 +6,13 @@
 #include "thesis/shaders/constants.h"
 #include "thesis/shaders/defects.glsl"
 layout(local_size_x = 8, local_size_y = 8, local_size_z = 8) in;
-layout(std140, binding = BINDING_THESIS_GRID) uniform ThesisGridBlock { ThesisGrid grid; };
-layout(std430, binding = BINDING_STORAGE_PASS) buffer SumTable { uint sums[]; };
-layout(std430, binding = BINDING_STORAGE_PASS + 2) readonly buffer BrickList { uint brickList[]; };
+layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
+layout(std430) buffer SumTable { uint sums[]; };
+layout(std430) readonly buffer BrickList { uint brickList[]; };
 #if CLIPPED_RADIANCE
-layout(binding = 0, rgba8) uniform writeonly image3D volume;
+layout(rgba8) uniform writeonly image3D volume;
 #else
-layout(binding = 0, rgba16f) uniform writeonly image3D volume;
+layout(rgba16f) uniform writeonly image3D volume;
 #endif
 
 void main() {

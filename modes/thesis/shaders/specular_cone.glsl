@@ -29,7 +29,7 @@ vec3 traceSpecular(Surface s, vec3 mirrored, float shininess, bool isTraced, ino
         t += stride;
         bool left = coneEnded(t, origin + t * mirrored, cone.reach);
 #if !SHORT_REACH
-        if (left && running) got.color += max(1.0 - got.opacity, 0.0) * frame.sky;
+        if (left && running) got.color += max(1.0 - got.opacity, 0.0) * lighting.sky;
 #endif
         running = running && !left && got.opacity < 0.999 && coneSamples < thesis.maxSamples;
     } while (running);

@@ -8,6 +8,7 @@
 // and opacities of the sums. The sum is shared by the two voxels along the dominant axis between whose
 // centres the surface lies, in proportion, unless FACE_ROUNDING: all of it to the voxel of the truncated
 // position.
+#include "lib/light_table.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/scene_tables.glsl"
 #include "lib/surface_array.glsl"
@@ -22,14 +23,14 @@
 #error TEXTURED must be 0 or 1: 1 when a material of the scene has a base colour texture
 #endif
 #include "thesis/shaders/visibility.glsl"
-layout(std140, binding = BINDING_THESIS_GRID) uniform ThesisGridBlock { ThesisGrid grid; };
-layout(std430, binding = BINDING_STORAGE_PASS) buffer SumTable { uint sums[]; };  // 4 per voxel of the box
-layout(std430, binding = BINDING_STORAGE_PASS + 1) buffer BrickFlags { uint brickFlags[]; };  // of the box
+layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
+layout(std430) buffer SumTable { uint sums[]; };          // 4 per voxel of the box
+layout(std430) buffer BrickFlags { uint brickFlags[]; };  // of the box
 #if RACING_STORES
 #if CLIPPED_RADIANCE
-layout(binding = 0, rgba8) uniform writeonly image3D volume;
+layout(rgba8) uniform writeonly image3D volume;
 #else
-layout(binding = 0, rgba16f) uniform writeonly image3D volume;
+layout(rgba16f) uniform writeonly image3D volume;
 #endif
 #endif
 

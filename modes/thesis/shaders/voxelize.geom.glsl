@@ -14,7 +14,7 @@
 #include "thesis/shaders/defects.glsl"
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 4) out;
-layout(std140, binding = BINDING_THESIS_GRID) uniform ThesisGridBlock { ThesisGrid grid; };
+layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
 
 layout(location = 0) in vec3 position[];
 layout(location = 1) in vec3 normal[];
