@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include "conelight/thesis/settings.h"
 
 #include "base/log.h"
 #include "gather/picture_parts.h"
@@ -32,7 +33,7 @@ void checkCone(const char* name, const glm::vec4& cone, bool fromShininess) {
                name);
 }
 
-using Flag = bool ThesisDefects::*;
+using Flag = bool thesis::ThesisDefects::*;
 struct Define {
     const char* name;
     Flag flag;
@@ -40,27 +41,27 @@ struct Define {
 
 // Defects that the cone kernel knows.
 constexpr Define kDefines[] = {
-    {"COARSE_LOD", &ThesisDefects::coarseLod},
-    {"NO_STEP_CORRECTION", &ThesisDefects::noStepCorrection},
-    {"FORGET_NEAR_COLOR", &ThesisDefects::forgetNearColor},
-    {"DOUBLE_ALPHA", &ThesisDefects::doubleAlpha},
-    {"LAST_STEP", &ThesisDefects::lastStep},
-    {"PREMULTIPLIED_FIRST_HIT", &ThesisDefects::premultipliedFirstHit},
-    {"HARD_FIRST_HIT", &ThesisDefects::hardFirstHit},
-    {"FIXED_OFFSETS", &ThesisDefects::fixedOffsets},
-    {"SHORT_REACH", &ThesisDefects::shortReach},
-    {"NAN_AXES", &ThesisDefects::nanAxes},
-    {"SHORT_SIDE_AXIS", &ThesisDefects::shortSideAxis},
-    {"GRAZING_SIDE_CONES", &ThesisDefects::grazingSideCones},
-    {"NO_COSINE_WEIGHTS", &ThesisDefects::noCosineWeights},
-    {"NO_ALBEDO", &ThesisDefects::noAlbedo},
-    {"OCCLUSION_FUDGE", &ThesisDefects::occlusionFudge},
-    {"OCCLUDED_INDIRECT", &ThesisDefects::occludedIndirect},
-    {"SPECULAR_PER_LIGHT", &ThesisDefects::specularPerLight},
-    {"OCCLUDED_SPECULAR", &ThesisDefects::occludedSpecular},
-    {"SHININESS_SATURATION", &ThesisDefects::shininessSaturation},
-    {"UNBOUNDED_SPECULAR", &ThesisDefects::unboundedSpecular},
-    {"FINE_STEPS", &ThesisDefects::fineSteps},
+    {"COARSE_LOD", &thesis::ThesisDefects::coarseLod},
+    {"NO_STEP_CORRECTION", &thesis::ThesisDefects::noStepCorrection},
+    {"FORGET_NEAR_COLOR", &thesis::ThesisDefects::forgetNearColor},
+    {"DOUBLE_ALPHA", &thesis::ThesisDefects::doubleAlpha},
+    {"LAST_STEP", &thesis::ThesisDefects::lastStep},
+    {"PREMULTIPLIED_FIRST_HIT", &thesis::ThesisDefects::premultipliedFirstHit},
+    {"HARD_FIRST_HIT", &thesis::ThesisDefects::hardFirstHit},
+    {"FIXED_OFFSETS", &thesis::ThesisDefects::fixedOffsets},
+    {"SHORT_REACH", &thesis::ThesisDefects::shortReach},
+    {"NAN_AXES", &thesis::ThesisDefects::nanAxes},
+    {"SHORT_SIDE_AXIS", &thesis::ThesisDefects::shortSideAxis},
+    {"GRAZING_SIDE_CONES", &thesis::ThesisDefects::grazingSideCones},
+    {"NO_COSINE_WEIGHTS", &thesis::ThesisDefects::noCosineWeights},
+    {"NO_ALBEDO", &thesis::ThesisDefects::noAlbedo},
+    {"OCCLUSION_FUDGE", &thesis::ThesisDefects::occlusionFudge},
+    {"OCCLUDED_INDIRECT", &thesis::ThesisDefects::occludedIndirect},
+    {"SPECULAR_PER_LIGHT", &thesis::ThesisDefects::specularPerLight},
+    {"OCCLUDED_SPECULAR", &thesis::ThesisDefects::occludedSpecular},
+    {"SHININESS_SATURATION", &thesis::ThesisDefects::shininessSaturation},
+    {"UNBOUNDED_SPECULAR", &thesis::ThesisDefects::unboundedSpecular},
+    {"FINE_STEPS", &thesis::ThesisDefects::fineSteps},
 };
 
 // Numbers of the kernel's VIEW.
@@ -81,10 +82,12 @@ int viewOf(Component component) {
     }
 }
 
-int coneKind(bool on, ConeVariant variant) { return !on ? 0 : variant == ConeVariant::Regular ? 1 : 2; }
+int coneKind(bool on, thesis::ConeVariant variant) {
+    return !on ? 0 : variant == thesis::ConeVariant::Regular ? 1 : 2;
+}
 
-gl::ProgramDesc conesDesc(const ThesisSettings& settings, Component component, bool countLookups) {
-    const ThesisDefects defects = effectiveDefects(settings);
+gl::ProgramDesc conesDesc(const thesis::ThesisSettings& settings, Component component, bool countLookups) {
+    const thesis::ThesisDefects defects = effectiveDefects(settings);
     const int view = viewOf(component);
     const bool full = view == 0;
     const bool anySet = settings.frontCone || settings.sideCones || settings.intermediateCones;
@@ -109,15 +112,15 @@ gl::ProgramDesc conesDesc(const ThesisSettings& settings, Component component, b
 
 }  // namespace
 
-ThesisDefects effectiveDefects(const ThesisSettings& settings) {
+thesis::ThesisDefects effectiveDefects(const thesis::ThesisSettings& settings) {
     if (!settings.published) return settings.defects;
-    ThesisDefects d;
-    for (bool* flag : thesisDefectFlags(d)) *flag = true;
+    thesis::ThesisDefects d;
+    for (bool* flag : thesis::thesisDefectFlags(d)) *flag = true;
     return d;
 }
 
-gpu::ThesisConstants thesisConstants(const ThesisSettings& s, const gpu::ThesisGrid& grid, int size) {
-    const ThesisDefects d = effectiveDefects(s);
+gpu::ThesisConstants thesisConstants(const thesis::ThesisSettings& s, const gpu::ThesisGrid& grid, int size) {
+    const thesis::ThesisDefects d = effectiveDefects(s);
     gpu::ThesisConstants c{};
     // Without a defect's table: first sample half a voxel from the origin, which is itself clear of the
     // surface.
@@ -168,10 +171,13 @@ gpu::ThesisConstants thesisConstants(const ThesisSettings& s, const gpu::ThesisG
 
 void ThesisConePass::bind(const scene::GpuScene& scene, const view::GBuffer& gbuffer,
                           const voxels::ThesisVolume& volume, const Settings& settings) {
-    gpu::ThesisConstants constants = thesisConstants(settings.thesis, volume.grid(), settings.voxels.size);
+    gpu::ThesisConstants constants =
+        thesisConstants(settings.groups.of<thesis::ThesisSettings>(), volume.grid(), settings.voxels.size);
     const std::size_t lights = scene.lights().size();
-    constants.lightCount = static_cast<std::uint32_t>(
-        effectiveDefects(settings.thesis).tenLights ? std::min<std::size_t>(lights, 10) : lights);
+    constants.lightCount =
+        static_cast<std::uint32_t>(effectiveDefects(settings.groups.of<thesis::ThesisSettings>()).tenLights
+                                       ? std::min<std::size_t>(lights, 10)
+                                       : lights);
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::ThesisConstants), "thesis constants");
     constants_.update(constants);
     constants_.bindUniform(BINDING_PASS);
@@ -186,8 +192,8 @@ void ThesisConePass::record(gl::ProgramLibrary& programs, const scene::GpuScene&
     bind(scene, gbuffer, volume, settings);
     const bool gathered = partsOf(settings.component).diffuse || partsOf(settings.component).specular ||
                           settings.component == Component::Occlusion;
-    recorder.record(programs,
-                    conesDesc(settings.thesis, gathered ? settings.component : Component::Full, false));
+    recorder.record(programs, conesDesc(settings.groups.of<thesis::ThesisSettings>(),
+                                        gathered ? settings.component : Component::Full, false));
     gl::unbindSampler(UNIT_PASS);
 }
 
@@ -199,19 +205,22 @@ void ThesisConePass::render(gl::ProgramLibrary& programs, gl::Profiler& profiler
     bind(scene, gbuffer, volume, settings);
     output.bindImage(0, 0, GL_WRITE_ONLY);
     if (lookupCounters != nullptr) lookupCounters->bindStorage(BINDING_STORAGE_PASS);
-    programs.get(conesDesc(settings.thesis, settings.component, lookupCounters != nullptr))
+    programs
+        .get(conesDesc(settings.groups.of<thesis::ThesisSettings>(), settings.component,
+                       lookupCounters != nullptr))
         .dispatch(output.width(), output.height());
     gl::unbindSampler(UNIT_PASS);
 }
 
 std::vector<gl::ProgramDesc> ThesisConePass::programDescs() {
     std::vector<gl::ProgramDesc> descs;
-    const auto add = [&](const ThesisSettings& settings, Component component, bool count = false) {
+    const auto add = [&](const thesis::ThesisSettings& settings, Component component, bool count = false) {
         descs.push_back(conesDesc(settings, component, count));
     };
-    ThesisSettings mended, published, regular;
+    thesis::ThesisSettings mended, published, regular;
     published.published = true;
-    regular.diffuse.variant = regular.specular.variant = regular.occlusion.variant = ConeVariant::Regular;
+    regular.diffuse.variant = regular.specular.variant = regular.occlusion.variant =
+        thesis::ConeVariant::Regular;
     for (const Component component : {Component::Full, Component::Direct, Component::Indirect,
                                       Component::Diffuse, Component::Specular, Component::Occlusion})
         add(mended, component);
@@ -225,12 +234,12 @@ std::vector<gl::ProgramDesc> ThesisConePass::programDescs() {
     regular.published = true;
     add(regular, Component::Full);
     // Each defect alone, with all cones.
-    ThesisDefects names;
-    const std::size_t count = thesisDefectFlags(names).size();
+    thesis::ThesisDefects names;
+    const std::size_t count = thesis::thesisDefectFlags(names).size();
     for (std::size_t i = 0; i < count; ++i) {
-        ThesisSettings one;
+        thesis::ThesisSettings one;
         one.sideCones = true;
-        *thesisDefectFlags(one.defects)[i] = true;
+        *thesis::thesisDefectFlags(one.defects)[i] = true;
         add(one, Component::Full);
     }
     return descs;

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "conelight/settings.h"
+#include "conelight/thesis/settings.h"
 #include "gather/step_recorder.h"
 #include "gl/pass.h"
 #include "gl/program.h"
@@ -19,11 +20,12 @@
 namespace conelight::gather {
 
 // Every defect on when `published`, else those that are switched on one by one.
-ThesisDefects effectiveDefects(const ThesisSettings& settings);
+thesis::ThesisDefects effectiveDefects(const thesis::ThesisSettings& settings);
 
 // The numbers of the march for a volume of `size` voxels per axis: `auto` settings resolved, angles turned
 // into spreads. Throws Error(Usage) for numbers with which a march would not end.
-gpu::ThesisConstants thesisConstants(const ThesisSettings& settings, const gpu::ThesisGrid& grid, int size);
+gpu::ThesisConstants thesisConstants(const thesis::ThesisSettings& settings, const gpu::ThesisGrid& grid,
+                                     int size);
 
 class ThesisConePass {
   public:

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include "conelight/thesis/settings.h"
 
 #include "gl/gl.h"
 #include "shared/bindings.h"
@@ -203,10 +204,11 @@ void VoxelView::draw(const Target& target, const voxels::RadianceVolume& volume,
 
 void VoxelView::draw(const Target& target, const voxels::ThesisVolume& volume) {
     const gpu::ThesisGrid& grid = volume.grid();
-    const ThesisSettings& thesis = target.settings.thesis;
+    const thesis::ThesisSettings& thesis = target.settings.groups.of<thesis::ThesisSettings>();
     VoxelShape shape = target.settings.view.voxelShape;
     if (shape == VoxelShape::Auto)
-        shape = thesis.voxelView == ThesisVoxelView::Surfaces ? VoxelShape::Surfaces : VoxelShape::Cubes;
+        shape =
+            thesis.voxelView == thesis::ThesisVoxelView::Surfaces ? VoxelShape::Surfaces : VoxelShape::Cubes;
     if (shape == VoxelShape::Faces) shape = VoxelShape::Cubes;
     volume.bind(UNIT_PASS);
     volume.bindGrid();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <optional>
+#include "conelight/thesis/settings.h"
 
 #include "base/clock.h"
 #include "base/log.h"
@@ -260,7 +261,8 @@ void Renderer::Impl::prepareMode(const Settings& settings) {
     // Flat emitters as lights; in the thesis's program emissive objects light nothing (a defect).
     const bool emitters =
         settings.light.emissiveQuads &&
-        !(settings.mode == Mode::Thesis && gather::effectiveDefects(settings.thesis).darkEmitters);
+        !(settings.mode == thesis::kMode &&
+          gather::effectiveDefects(settings.groups.of<thesis::ThesisSettings>()).darkEmitters);
     lightChanged = geometryChanged || skyChanged || lightRevision != scene->lightRevision() ||
                    !(builtFor->light == settings.light) || emitters != emittersAreLights;
     if (lightChanged) {

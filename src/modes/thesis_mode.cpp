@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "modes/thesis_mode.h"
 
+#include "conelight/thesis/settings.h"
 namespace conelight::modes {
 namespace {
 
@@ -9,7 +10,7 @@ voxels::ThesisVolumeOptions volumeOptions(const FrameContext& frame) {
     options.size = frame.settings.voxels.size;
     options.padding = frame.settings.voxels.padding;
     options.shift = frame.settings.voxels.shift;
-    options.defects = gather::effectiveDefects(frame.settings.thesis);
+    options.defects = gather::effectiveDefects(frame.settings.groups.of<thesis::ThesisSettings>());
     options.unitGrid = frame.source.thesisFormat && options.defects.wholeGrid;
     options.shadows = !options.defects.unshadowedVoxels && frame.settings.light.shadowSize > 0;
     if (options.shadows) options.lightDefines = light::lightDefines(frame.scene, frame.settings.light);
@@ -19,7 +20,8 @@ voxels::ThesisVolumeOptions volumeOptions(const FrameContext& frame) {
 }  // namespace
 
 bool ThesisMode::needsShadows(const Settings& settings) const {
-    return settings.light.shadowSize > 0 && !gather::effectiveDefects(settings.thesis).unshadowedVoxels;
+    return settings.light.shadowSize > 0 &&
+           !gather::effectiveDefects(settings.groups.of<thesis::ThesisSettings>()).unshadowedVoxels;
 }
 
 void ThesisMode::updateVolume(const FrameContext& frame) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include "conelight/thesis/settings.h"
 
 #include "gl/gl.h"
 #include "shared/bindings.h"
@@ -30,7 +31,7 @@ int levelCount(int edge, bool capped) {
 }
 
 // No light can make a matt surface brighter than this, at a distance of half a voxel or more.
-float radianceBound(const scene::GpuScene& scene, const ThesisDefects& defects, float voxelSize) {
+float radianceBound(const scene::GpuScene& scene, const thesis::ThesisDefects& defects, float voxelSize) {
     constexpr float kPi = 3.14159265f;
     const auto largest = [](const glm::vec3& v) { return std::max({v.x, v.y, v.z, 0.0f}); };
     float light = 0;
@@ -52,7 +53,7 @@ float radianceBound(const scene::GpuScene& scene, const ThesisDefects& defects, 
     return std::min(bound, kMaxRadiance);
 }
 
-gl::Defines volumeDefines(const ThesisDefects& d) {
+gl::Defines volumeDefines(const thesis::ThesisDefects& d) {
     gl::Defines defines;
     const auto add = [&](const char* name, bool on) {
         if (on) defines.emplace_back(name, "1");
@@ -62,7 +63,7 @@ gl::Defines volumeDefines(const ThesisDefects& d) {
 }
 
 gl::ProgramDesc voxelizeDesc(const ThesisVolumeOptions& options, bool textured) {
-    const ThesisDefects& d = options.defects;
+    const thesis::ThesisDefects& d = options.defects;
     gl::Defines defines = options.shadows ? options.lightDefines : gl::Defines{};
     defines.emplace_back("SHADOWED", options.shadows ? "1" : "0");
     defines.emplace_back("TEXTURED", textured ? "1" : "0");
@@ -85,14 +86,14 @@ gl::ProgramDesc bricksDesc(bool arguments) {
     return {{"voxels/thesis_bricks.comp.glsl"}, {{"ARGUMENTS", arguments ? "1" : "0"}}};
 }
 
-gl::ProgramDesc resolveDesc(const ThesisDefects& d) {
+gl::ProgramDesc resolveDesc(const thesis::ThesisDefects& d) {
     gl::Defines defines = volumeDefines(d);
     if (d.binaryOpacity) defines.emplace_back("BINARY_OPACITY", "1");
     return {{"voxels/thesis_resolve.comp.glsl"}, defines};
 }
 
 // `brickTexels`: of the coarse level, per brick; 0 for levels whose texels are larger than bricks.
-gl::ProgramDesc mipDesc(const ThesisDefects& d, int brickTexels) {
+gl::ProgramDesc mipDesc(const thesis::ThesisDefects& d, int brickTexels) {
     gl::Defines defines = volumeDefines(d);
     if (d.volumeMips) defines.emplace_back("VOLUME_MIPS", "1");
     defines.emplace_back("BRICK_TEXELS", std::to_string(brickTexels));
@@ -235,7 +236,7 @@ void ThesisVolume::drawTriangles(gl::ProgramLibrary& programs, const scene::GpuS
     gl::barrier(gl::Access::ShaderStorage | gl::Access::ImageAccess);
 }
 
-void ThesisVolume::resolve(gl::ProgramLibrary& programs, const ThesisDefects& defects) {
+void ThesisVolume::resolve(gl::ProgramLibrary& programs, const thesis::ThesisDefects& defects) {
     // The marked bricks.
     const std::uint32_t zero = 0;
     brickList_.update(0, &zero, sizeof(zero));
@@ -253,7 +254,7 @@ void ThesisVolume::resolve(gl::ProgramLibrary& programs, const ThesisDefects& de
     gl::barrier(gl::Access::ImageAccess);
 }
 
-void ThesisVolume::buildMips(gl::ProgramLibrary& programs, const ThesisDefects& defects) {
+void ThesisVolume::buildMips(gl::ProgramLibrary& programs, const thesis::ThesisDefects& defects) {
     for (int level = 1; level < texture_.desc().levels; ++level) {
         texture_.bindImage(0, level - 1, GL_READ_ONLY);
         texture_.bindImage(1, level, GL_WRITE_ONLY);
@@ -286,7 +287,7 @@ std::vector<gl::ProgramDesc> ThesisVolume::programDescs() {
     ThesisVolumeOptions mended, shadowed, published;
     mended.shadows = false;
     published.shadows = false;
-    ThesisDefects& d = published.defects;
+    thesis::ThesisDefects& d = published.defects;
     d.racingStores = d.centerCoverage = d.binaryOpacity = d.faceRounding = d.unattenuatedVoxels = true;
     d.clippedRadiance = d.darkEmitters = d.volumeMips = d.ambientTwice = true;
     std::vector<gl::ProgramDesc> descs{bricksDesc(false), bricksDesc(true)};

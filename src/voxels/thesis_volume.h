@@ -14,6 +14,7 @@
 #pragma once
 
 #include "conelight/settings.h"
+#include "conelight/thesis/settings.h"
 #include "gl/draw.h"
 #include "gl/pass.h"
 #include "gl/program.h"
@@ -23,13 +24,13 @@
 namespace conelight::voxels {
 
 struct ThesisVolumeOptions {
-    int size = 64;             // voxels along the cube's edge; 8..512, divisible by 4
-    float padding = 0.03f;     // of the fitted grid, fraction of the scene's extent per side
-    glm::vec3 shift{0};        // moves the grid toward lower coordinates, voxels; 0..1
-    bool unitGrid = false;     // [-1,1]^3 instead of the fitted grid
-    bool shadows = true;       // light is tested against the shadow maps
-    gl::Defines lightDefines;  // of light::lightDefines: which kinds of light there are
-    ThesisDefects defects;     // those of the volume count
+    int size = 64;                  // voxels along the cube's edge; 8..512, divisible by 4
+    float padding = 0.03f;          // of the fitted grid, fraction of the scene's extent per side
+    glm::vec3 shift{0};             // moves the grid toward lower coordinates, voxels; 0..1
+    bool unitGrid = false;          // [-1,1]^3 instead of the fitted grid
+    bool shadows = true;            // light is tested against the shadow maps
+    gl::Defines lightDefines;       // of light::lightDefines: which kinds of light there are
+    thesis::ThesisDefects defects;  // those of the volume count
     bool operator==(const ThesisVolumeOptions&) const = default;
 };
 
@@ -60,8 +61,8 @@ class ThesisVolume {
     void clearBox();
     void drawTriangles(gl::ProgramLibrary& programs, const scene::GpuScene& scene,
                        const ThesisVolumeOptions& options);
-    void resolve(gl::ProgramLibrary& programs, const ThesisDefects& defects);
-    void buildMips(gl::ProgramLibrary& programs, const ThesisDefects& defects);
+    void resolve(gl::ProgramLibrary& programs, const thesis::ThesisDefects& defects);
+    void buildMips(gl::ProgramLibrary& programs, const thesis::ThesisDefects& defects);
 
     glm::ivec3 dirtyMin_{0}, dirtySize_{0};  // box of the texture's voxels that may not be zero; size 0: all
     gpu::ThesisGrid grid_{};

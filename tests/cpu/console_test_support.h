@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "console/console.h"
+
+#include "conelight/thesis/settings.h"
 #include "io/thesis_scene.h"
 
 namespace conelight::test {
@@ -44,7 +46,7 @@ struct ConsoleRig {
 
     static Settings settings() {
         Settings start;
-        start.mode = Mode::Thesis;
+        start.mode = thesis::kMode;
         return start;
     }
     void run(const std::string& text) {

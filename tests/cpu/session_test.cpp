@@ -4,6 +4,7 @@
 #include "session/session.h"
 
 #include <gtest/gtest.h>
+#include "conelight/thesis/settings.h"
 
 #include <cmath>
 #include <functional>
@@ -255,7 +256,8 @@ TEST(Session, VoxelFlagsChangeWhatIsShown) {
     flags = {};
     flags.localizedLod = true;
     s.setFlags(flags, "lod");
-    EXPECT_EQ(s.shownSettings().thesis.voxelView, ThesisVoxelView::Surfaces);
+    EXPECT_EQ(s.shownSettings().groups.of<thesis::ThesisSettings>().voxelView,
+              thesis::ThesisVoxelView::Surfaces);
     s.setMode("cones");
     EXPECT_EQ(s.shownMode(), "thesis");
     flags = {};

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 #include <random>
+#include "conelight/thesis/settings.h"
 
 #include "conelight/error.h"
 #include "gather/thesis_cones.h"
@@ -264,7 +265,7 @@ TEST_F(ThesisVolumeTest, GridHoldsTheSceneAndHalvesEvenly) {
 
 // The original's tables, and what replaces them.
 TEST(ThesisConstantsTest, AutomaticNumbersFollowTheTable) {
-    ThesisSettings published;
+    thesis::ThesisSettings published;
     published.published = true;
     gpu::ThesisGrid grid{};
     grid.voxelSize = 0.01f;
@@ -307,7 +308,7 @@ TEST(ThesisConstantsTest, MarchesThatWouldNotEndAreRefused) {
                     << cone << "." << name << " = " << value;
     EXPECT_THROW(setSetting(settings, "thesis.max_samples", "0"), Error);
     // Also when set past the list of settings.
-    ThesisSettings direct;
+    thesis::ThesisSettings direct;
     direct.specular.offset = {false, 0.0f};
     EXPECT_THROW(gather::thesisConstants(direct, gpu::ThesisGrid{}, 64), Error);
 }

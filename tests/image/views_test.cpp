@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "conelight/renderer.h"
+
+#include "conelight/thesis/settings.h"
 #include "gl/pass.h"
 #include "io/generated_shapes.h"
 #include "scene/gpu_scene.h"
@@ -226,7 +228,7 @@ TEST_F(ViewsTest, VoxelsShowTheCubeAtEveryLevel) {
 TEST_F(ViewsTest, EveryShapeAndKindOfDataDraws) {
     const Scene scene = redCube();
     const double truth = covered(draw(scene, settingsOf(Mode::Phong, Component::Albedo)));
-    for (const Mode mode : {Mode::Traced, Mode::Cones, Mode::Thesis}) {
+    for (const Mode mode : {Mode::Traced, Mode::Cones, thesis::kMode}) {
         Settings settings = settingsOf(mode, Component::Voxels);
         draw(scene, settings);
         for (const VoxelShape shape : {VoxelShape::Auto, VoxelShape::Cubes, VoxelShape::Edges,
@@ -235,7 +237,7 @@ TEST_F(ViewsTest, EveryShapeAndKindOfDataDraws) {
                 settings.view.voxelShape = shape;
                 settings.view.voxelData = static_cast<VoxelData>(data);
                 const Image image = again(scene, settings);
-                SCOPED_TRACE(testing::Message() << "mode " << static_cast<int>(mode) << " shape "
+                SCOPED_TRACE(testing::Message() << "mode " << mode.name() << " shape "
                                                 << static_cast<int>(shape) << " data " << data);
                 const double part = covered(image);
                 EXPECT_GT(part, shape == VoxelShape::Edges ? 0.02 : 0.15);
@@ -294,7 +296,7 @@ TEST_F(ViewsTest, TheLevelGrowsWithTheDistance) {
     camera.target = {0, 0.3f, 0};
     camera.fovY = 1.2f;
     scene.cameras.push_back(camera);
-    for (const Mode mode : {Mode::Traced, Mode::Cones, Mode::Thesis})
+    for (const Mode mode : {Mode::Traced, Mode::Cones, thesis::kMode})
         for (const VoxelShape shape : {VoxelShape::Cubes, VoxelShape::Surfaces}) {
             Settings settings = settingsOf(mode, Component::Voxels);
             settings.view.voxelShape = shape;
@@ -312,7 +314,7 @@ TEST_F(ViewsTest, TheLevelGrowsWithTheDistance) {
                 levels += order > last + 1e-4f ? 1 : 0;
                 last = std::max(last, order);
             }
-            EXPECT_GE(levels, 3) << static_cast<int>(mode) << " " << static_cast<int>(shape);
+            EXPECT_GE(levels, 3) << mode.name() << " " << static_cast<int>(shape);
         }
 }
 
@@ -324,16 +326,16 @@ TEST_F(ViewsTest, VoxelsStandAmongTheObjects) {
     const std::size_t plate =
         addInstance(scene, quadMesh({-1, -1, 1}, {1, 0, 0}, {0, 2, 0}), mattMaterial({0, 0, 1}));
     scene.instances[plate].voxelized = false;
-    for (const Mode mode : {Mode::Traced, Mode::Cones, Mode::Thesis}) {
+    for (const Mode mode : {Mode::Traced, Mode::Cones, thesis::kMode}) {
         Settings settings = settingsOf(mode, Component::Albedo);
         const Image picture = draw(scene, settings);
         settings.view.voxels = true;
         settings.view.voxelShape = VoxelShape::Cubes;
         settings.view.voxelData = VoxelData::Level;
         const Image among = draw(scene, settings);
-        EXPECT_EQ(at(among, 16, 32), at(picture, 16, 32)) << static_cast<int>(mode);  // the plate is in front
+        EXPECT_EQ(at(among, 16, 32), at(picture, 16, 32)) << mode.name();  // the plate is in front
         EXPECT_EQ(at(picture, 16, 32), glm::vec3(0, 0, 1));
-        EXPECT_GT(differing(among, picture), 0.05) << static_cast<int>(mode);
+        EXPECT_GT(differing(among, picture), 0.05) << mode.name();
     }
 }
 
@@ -390,9 +392,9 @@ TEST_F(ViewsTest, RaysThatLeapMeetWhatRaysMeetThatDoNot) {
     gl::Profiler profiler;
     ViewRig rig(scene, camera, kPixels, kPixels);
     rig.draw(programs());
-    for (const Mode mode : {Mode::Traced, Mode::Cones, Mode::Thesis})
+    for (const Mode mode : {Mode::Traced, Mode::Cones, thesis::kMode})
         for (const int level : {0, 1, 2, 3}) {
-            SCOPED_TRACE(testing::Message() << "mode " << static_cast<int>(mode) << " level " << level);
+            SCOPED_TRACE(testing::Message() << "mode " << mode.name() << " level " << level);
             Cubes cubes;
             const auto add = [&](const glm::vec3& origin, float edge, const glm::ivec3& voxel,
                                  const glm::ivec3& end) {
@@ -401,7 +403,7 @@ TEST_F(ViewsTest, RaysThatLeapMeetWhatRaysMeetThatDoNot) {
                 cubes.lows.push_back(glm::dvec3(origin) + static_cast<double>(edge) * glm::dvec3(low));
                 cubes.highs.push_back(glm::dvec3(origin) + static_cast<double>(edge) * glm::dvec3(high));
             };
-            if (mode == Mode::Thesis) {
+            if (mode == thesis::kMode) {
                 voxels::ThesisVolumeOptions options;
                 options.size = settings.voxels.size;
                 options.padding = settings.voxels.padding;
@@ -457,9 +459,9 @@ TEST_F(ViewsTest, RaysThatLeapMeetWhatRaysMeetThatDoNot) {
 
 // The coarser levels and what is empty are kept from frame to frame: not when the scene or its light changes.
 TEST_F(ViewsTest, WhatIsKeptForVoxelsFollowsTheScene) {
-    for (const Mode mode : {Mode::Traced, Mode::Cones, Mode::Thesis})
+    for (const Mode mode : {Mode::Traced, Mode::Cones, thesis::kMode})
         for (const int level : {0, 2}) {
-            SCOPED_TRACE(testing::Message() << "mode " << static_cast<int>(mode) << " level " << level);
+            SCOPED_TRACE(testing::Message() << "mode " << mode.name() << " level " << level);
             Scene scene = redCube();
             Settings settings = settingsOf(mode, Component::Voxels);
             settings.traced.bounces = 0;

@@ -2,6 +2,7 @@
 #include "session/session.h"
 
 #include <fmt/core.h>
+#include "conelight/thesis/settings.h"
 
 #include <algorithm>
 #include <utility>
@@ -55,7 +56,7 @@ Settings startSettings(const Scene& scene, const std::string& mode) {
     // The original wrote linear values to the screen; its look is kept in its own modes unless asked
     // otherwise. Its rooms (closed, albedo 0.85) gather several times their direct light: 1.5 stops less, by
     // eye.
-    const bool itsOwn = settings.mode == Mode::Thesis || settings.mode == Mode::Phong;
+    const bool itsOwn = settings.mode == thesis::kMode || settings.mode == Mode::Phong;
     if (scene.thesisFormat && itsOwn) {
         settings.image.toneMap = ToneMap::None;
         settings.image.srgb = false;
@@ -173,14 +174,14 @@ Settings Session::shownSettings() const {
         // Among the objects, unless these are not drawn or are only wires.
         shown.view.voxels = flags_.drawObjects && !flags_.wireframeObjects;
         if (!shown.view.voxels) shown.component = Component::Voxels;
-        shown.thesis.voxelView = ThesisVoxelView::Cubes;
+        shown.groups.of<thesis::ThesisSettings>().voxelView = thesis::ThesisVoxelView::Cubes;
         if (flags_.wireframeVoxels)
             shown.view.voxelShape = VoxelShape::Edges;
         else if (shown.view.voxelShape == VoxelShape::Auto)
             shown.view.voxelShape = VoxelShape::Cubes;
     } else if (flags_.localizedLod) {
         shown.component = Component::Voxels;
-        shown.thesis.voxelView = ThesisVoxelView::Surfaces;
+        shown.groups.of<thesis::ThesisSettings>().voxelView = thesis::ThesisVoxelView::Surfaces;
         shown.view.voxelShape = VoxelShape::Surfaces;
     }
     if (flags_.drawObjects && (flags_.wireframeObjects || flags_.wireframeOverlay))
