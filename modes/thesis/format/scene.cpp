@@ -28,7 +28,14 @@
 #include "io/geometry.h"
 #include "thesis/format/syntax.h"
 
-namespace conelight::io {
+namespace conelight::thesis {
+
+using io::Bytes;
+using io::loadFirstMesh;
+using io::LoadOptions;
+using io::oneLine;
+using io::removeMirrors;
+using io::readFile;
 
 namespace fs = std::filesystem;
 
@@ -414,7 +421,7 @@ Scene Loader::load() {
     const Bytes bytes =
         readFile(path_, std::uint64_t(64) << 20);  // 64 MB of text: a thousand times any scene
     ThesisText text = parseThesisText({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file_);
-    scene_.format = thesis::kSceneFormat;
+    scene_.format = kSceneFormat;
     scene_.name = "unnamedScene";
     scene_.notes = std::move(text.notes);
 
@@ -485,4 +492,4 @@ Scene loadThesisScene(const fs::path& path, const LoadOptions& options) {
     return Loader(path, options).load();
 }
 
-}  // namespace conelight::io
+}  // namespace conelight::thesis
