@@ -51,7 +51,6 @@ class Loader : BlockValues {
     Scene load();
 
   private:
-
     void readScene(const Item& scene);
     void readModel(const Item& model);
     void readMaterial(const Item& model, Material& material);
