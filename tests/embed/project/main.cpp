@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A host program outside the project: its own OpenGL context (EGL, no display), a scene made by hand, one
-// picture, and one of a guest's mode. Input: nothing. Output: exit status 0 and one line when the picture is right, else the reason and
-// status 1.
+// picture, and one of a guest's mode. Input: nothing. Output: exit status 0 and one line when the picture is
+// right, else the reason and status 1.
 #include <conelight/error.h>
 #include <conelight/renderer.h>
 #include <conelight/thesis/settings.h>
