@@ -3,7 +3,8 @@
 // Camera -> voxels by ray casting, alone or among the objects of a picture (component voxels, view.voxels).
 //
 //   SOURCE  0 surface voxels: level 0 from their faces, coarser ones from means (voxel_view_level)
-//           1 the volume of mode thesis   2 the radiance volume of mode cones (DIRECTIONAL: six blocks)
+//           1 a volume of one colour and opacity a voxel (VoxelVolume)   2 the radiance volume of mode cones
+//           (DIRECTIONAL: six blocks)
 //   SHAPE   0 cubes   1 their edges   2 plane pieces as rays meet them (SOURCE 0)   3 by opacity, front to
 //           back   4 on the surfaces of the picture
 //   AMONG   1: in front of what the G-buffer holds, on the picture; 0: alone, on the sky
@@ -211,7 +212,7 @@ void main() {
     float edge = exp2(float(level));
     vec4 result = vec4(0.0);
 #if SOURCE == 1
-    // As the thesis's program did: interpolated.
+    // Interpolated, as cones read it.
     vec4 texel = textureLod(volume, at / vec3(view.sizeX, view.sizeY, view.sizeZ), float(level));
     if (seen) result = vec4(shown(texel, level), 1.0);
 #else

@@ -5,8 +5,8 @@
 // Defines (light::lightDefines gives them for a scene; unset: everything on):
 // - LIGHTS_POINT, _SPOT, _DIRECTIONAL, _RECT: whether the table holds such lights. Others are left out.
 // - LIGHTS_FIXED 1: these four are the exact numbers of lights, at most 4 together. Loops are then unrolled
-//   and read the table at constant places of a uniform block (mode phong on the thesis's scene: 21 instead of
-//   25 cpu-ms on llvmpipe, which reads storage once per lane wherever lanes may be idle, as in the loop over
+//   and read the table at constant places of a uniform block (mode phong: 21 instead of 25 cpu-ms on
+//   llvmpipe, which reads storage once per lane wherever lanes may be idle, as in the loop over
 //   a face's rays). Unrolled here, not by the compiler: Mesa leaves loops of this size as they are, and then
 //   reads a light's numbers lane by lane.
 // - LIGHTS_SHADOWS 0: everything is visible.

@@ -8,7 +8,6 @@
 #include "modes/cones_mode.h"
 #include "modes/phong_mode.h"
 #include "modes/traced_mode.h"
-#include "thesis/render/mode.h"
 
 namespace conelight::modes {
 namespace {
@@ -23,7 +22,6 @@ std::vector<ModeEntry>& all() {
         {Mode::Phong, make<PhongMode>, gather::phongShadeProgramDescs},
         {Mode::Cones, make<ConesMode>, ConesMode::programDescs},
         {Mode::Traced, make<TracedMode>, TracedMode::programDescs},
-        {Mode::Thesis, make<ThesisMode>, ThesisMode::programDescs},
     };
     return modes;
 }

@@ -8,7 +8,7 @@ namespace conelight::modes {
 
 bool PhongMode::needsShadows(const Scene& scene, const Settings& settings) const {
     const bool wanted = settings.phong.shadows == Toggle::On ||
-                        (settings.phong.shadows == Toggle::Auto && !scene.thesisFormat);
+                        (settings.phong.shadows == Toggle::Auto && scene.format.empty());
     return wanted && settings.light.shadowSize > 0;
 }
 

@@ -104,7 +104,7 @@ gpu::Material packedMaterial(const Material& m) {
     g.flags = (m.alphaMode == AlphaMode::Mask ? MATERIAL_ALPHA_MASK : 0u) |
               (m.alphaMode == AlphaMode::Blend ? MATERIAL_ALPHA_BLEND : 0u) |
               (m.doubleSided ? MATERIAL_DOUBLE_SIDED : 0u) | (m.unlit ? MATERIAL_UNLIT : 0u) |
-              (m.isPhong ? MATERIAL_HAS_PHONG : 0u);
+              (m.phong ? MATERIAL_HAS_PHONG : 0u);
     const TextureRef* uses[6] = {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture,
                                  &m.emissiveTexture,  &m.specularTexture,          &m.specularColorTexture};
     for (int i = 0; i < 6; ++i) {
@@ -114,7 +114,7 @@ gpu::Material packedMaterial(const Material& m) {
         g.uvRow[2 * i] = {t[0][0], t[1][0], t[2][0], 0};
         g.uvRow[2 * i + 1] = {t[0][1], t[1][1], t[2][1], 0};
     }
-    const PhongMaterial phong = m.isPhong ? m.phong : phongFromPbr(m);
+    const PhongMaterial phong = phongOf(m);
     g.phongColor = phong.color;
     g.phongShininess = phong.shininess;
     g.phongAmbient = phong.ambientStrength;

@@ -19,8 +19,7 @@ inline Scene consoleScene() {
     scene.meshes.push_back(io::thesisCube());
     scene.materials.resize(2);
     scene.materials[0].name = "white";
-    scene.materials[0].isPhong = true;
-    setPbrFromPhong(scene.materials[0]);
+    setPbrFromPhong(scene.materials[0], scene.materials[0].phong.emplace());
     scene.materials[1].name = "blue";
     scene.materials[1].baseColor = {0.1f, 0.2f, 0.9f, 1};
     scene.instances.push_back({"box", 0, 0});

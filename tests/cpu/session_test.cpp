@@ -286,7 +286,7 @@ TEST(Session, WireframeFlagsChangeWhatIsShown) {
 
 TEST(Session, StartSettingsFollowTheModeUnlessTouched) {
     Scene scene = twoSquares();
-    scene.thesisFormat = true;
+    scene.format = "thesis";
     const Camera camera = scene.cameras.front();
     const Settings start = startSettings(scene);
     Session s(std::move(scene), "t.txt", start, "", camera);

@@ -32,9 +32,8 @@ void addQuad(Scene& scene, const glm::vec3& corner, const glm::vec3& u, const gl
 Scene whiteScene() {
     Scene scene;
     Material material;
-    material.isPhong = true;
-    material.phong.color = glm::vec3(1);
-    material.phong.ambientStrength = 0;
+    material.phong.emplace().color = glm::vec3(1);
+    material.phong->ambientStrength = 0;
     scene.materials.push_back(material);
     Light light;
     light.type = LightType::Directional;

@@ -126,7 +126,7 @@ TEST_F(InspectTest, FacesOfTheCacheAddUpToThePicture) {
 TEST_F(InspectTest, ThesisConesAddUpToThePicture) {
     for (const bool published : {false, true}) {
         Scene scene = roomWithGloss();
-        for (Material& material : scene.materials) setPbrFromPhong(material);
+        for (Material& material : scene.materials) setPbrFromPhong(material, PhongMaterial{});
         Settings settings = settingsOf(Mode::Thesis, Component::Indirect);
         settings.thesis.published = published;
         expectExplained(scene, settings, 1e-4f);

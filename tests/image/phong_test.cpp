@@ -19,14 +19,13 @@ const glm::vec3 kPositions[2] = {{-0.2f, 1.5f, 0.1f}, {1, 0.7f, -0.5f}};
 // A floor of the thesis's material below two lights, and a small quad between.
 Scene thesisFloor() {
     Scene scene;
-    scene.thesisFormat = true;
+    scene.format = "thesis";
     Material material;
-    material.isPhong = true;
-    material.phong.color = {0.3f, 0.6f, 0.9f};
-    material.phong.shininess = 20;
-    material.phong.ambientStrength = 0.08f;
-    material.phong.diffuseStrength = 1.4f;
-    material.phong.specularStrength = 0.7f;
+    material.phong.emplace().color = {0.3f, 0.6f, 0.9f};
+    material.phong->shininess = 20;
+    material.phong->ambientStrength = 0.08f;
+    material.phong->diffuseStrength = 1.4f;
+    material.phong->specularStrength = 0.7f;
     addInstance(scene, quadMesh({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}), material);
     // Hangs between the first light and the floor: no shadow in scenes of this format.
     addInstance(scene, quadMesh({-0.2f, 1, 0}, {0.1f, 0, 0}, {0, 0, -0.1f}), material);
@@ -79,7 +78,7 @@ TEST_F(PhongTest, ThesisScenesShowItsFormula) {
             // Inside the floor, and not where the small quad is seen.
             if (std::abs(p.x) > 1.9 || std::abs(p.z) > 1.9 || got.a == 0 || p.z < 0) continue;
             ++compared;
-            const glm::dvec3 want = formulaAt(p, camera.eye, glm::dvec3(scene.materials[0].phong.color));
+            const glm::dvec3 want = formulaAt(p, camera.eye, glm::dvec3(scene.materials[0].phong->color));
             for (int c = 0; c < 3; ++c)
                 worst = std::max(worst, std::abs(static_cast<double>(got[c]) - want[c]) / want[c]);
         }
@@ -126,7 +125,7 @@ TEST_F(PhongTest, OtherScenesHaveShadowsUnlessSwitchedOff) {
     settings.phong.shadows = Toggle::Off;
     EXPECT_GT(centre(), 0.01f);
     settings.phong.shadows = Toggle::On;
-    scene.thesisFormat = true;
+    scene.format = "thesis";
     renderer.setScene(scene);
     EXPECT_EQ(centre(), 0);
     settings.phong.shadows = Toggle::Auto;

@@ -24,11 +24,10 @@ void addQuad(Scene& scene, const glm::vec3& corner, const glm::vec3& u, const gl
 
 int addMaterial(Scene& scene, const glm::vec3& color, float shininess, float specular) {
     Material material;
-    material.isPhong = true;
-    material.phong.color = color;
-    material.phong.shininess = shininess;
-    material.phong.specularStrength = specular;
-    setPbrFromPhong(material);
+    material.phong.emplace().color = color;
+    material.phong->shininess = shininess;
+    material.phong->specularStrength = specular;
+    setPbrFromPhong(material, *material.phong);
     scene.materials.push_back(material);
     return static_cast<int>(scene.materials.size()) - 1;
 }
@@ -68,7 +67,7 @@ Light lamp(const glm::vec3& position, const glm::vec3& color) {
 // The thesis's empty room: a cube of edge 1 with red and green side walls, its right wall at `right`.
 Scene room(float right = 0.5f) {
     Scene scene;
-    scene.thesisFormat = true;
+    scene.format = "thesis";
     const int grey = addMaterial(scene, glm::vec3(0.85f), 1, 0.01f);
     const int red = addMaterial(scene, {1, 0.4f, 0.4f}, 1, 0.01f);
     const int green = addMaterial(scene, {0.4f, 1, 0.4f}, 1, 0.01f);
@@ -89,7 +88,7 @@ Scene furnishedRoom() {
     Scene scene = room();
     const int mirror = addMaterial(scene, glm::vec3(0.8f), 256, 1.3f);
     const int gloss = addMaterial(scene, {0.9f, 0.7f, 0.4f}, 20, 0.8f);
-    scene.materials[static_cast<std::size_t>(gloss)].phong.diffuseStrength = 2.0f;
+    scene.materials[static_cast<std::size_t>(gloss)].phong->diffuseStrength = 2.0f;
     const int glow = addMaterial(scene, {0.2f, 0.4f, 1.0f}, 1, 0.0f);
     scene.materials[static_cast<std::size_t>(glow)].emission = {0.5f, 1.0f, 2.0f};
     addSphere(scene, {-0.33f, -0.1f, 0.0f}, 0.16f, mirror);

@@ -52,14 +52,14 @@ Edit editOf(const T& before, const T& after) {
 Settings startSettings(const Scene& scene, const std::string& mode) {
     Settings settings;
     if (!mode.empty()) setSetting(settings, "mode", mode);
-    // The original wrote linear values to the screen; its look is kept in its own modes unless asked
-    // otherwise. Its rooms (closed, albedo 0.85) gather several times their direct light: 1.5 stops less, by
-    // eye.
-    const bool itsOwn = settings.mode == Mode::Thesis || settings.mode == Mode::Phong;
-    if (scene.thesisFormat && itsOwn) {
+    // Scenes with a format of their own were made for linear values on the screen: modes of that look keep it
+    // unless asked otherwise. Their rooms (closed, albedo 0.85) gather several times their direct light: 1.5
+    // stops less, by eye.
+    const bool keepsLook = settings.mode == Mode::Phong || getSetting(settings, "mode") == scene.format;
+    if (!scene.format.empty() && keepsLook) {
         settings.image.toneMap = ToneMap::None;
         settings.image.srgb = false;
-    } else if (scene.thesisFormat) {
+    } else if (!scene.format.empty()) {
         settings.image.exposure = -1.5f;
     }
     for (const auto& [key, value] : scene.settings) {

@@ -8,8 +8,12 @@
 
 #include "conelight/error.h"
 #include "console/console.h"
+#include "thesis/console/commands.h"
 
-namespace conelight::program {
+namespace conelight::thesis {
+
+using namespace program;
+
 namespace {
 
 // In other modes these settings change nothing that can be seen: say so rather than leave somebody wondering.
@@ -149,7 +153,7 @@ Command levelCommand() {
 
 }  // namespace
 
-CommandGroup originalConeCommands() {
+CommandGroup coneCommands() {
     CommandGroup group{"The thesis's program: cones (mode thesis)", {}};
     for (const Toggle& row : kToggles) group.commands.push_back(toggleCommand(row));
     group.commands.push_back(
@@ -166,4 +170,4 @@ CommandGroup originalConeCommands() {
     return group;
 }
 
-}  // namespace conelight::program
+}  // namespace conelight::thesis

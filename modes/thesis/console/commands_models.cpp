@@ -9,8 +9,12 @@
 #include "console/console.h"
 #include "console/names.h"
 #include "session/material_edit.h"
+#include "thesis/console/commands.h"
 
-namespace conelight::program {
+namespace conelight::thesis {
+
+using namespace program;
+
 namespace {
 
 using Changes = std::vector<std::pair<std::size_t, Instance>>;
@@ -77,7 +81,7 @@ void setMaterial(const CommandContext& context) {
     std::vector<std::pair<std::size_t, Material>> changes;
     for (const std::size_t index : indices) {
         Material material = context.session.scene().materials[index];
-        PhongMaterial phong = material.isPhong ? material.phong : phongFromPbr(material);
+        PhongMaterial phong = phongOf(material);
         for (const auto& [name, property] : kProperties)
             if (context.words[1] == name) phong.*property = static_cast<float>(context.number(2));
         setPhong(material, phong);
@@ -98,7 +102,7 @@ Command originalCommand(const char* name, std::vector<Argument> arguments, const
 
 }  // namespace
 
-CommandGroup originalModelCommands() {
+CommandGroup modelCommands() {
     const Argument object{"OBJECT", ArgumentKind::Object};
     const Argument axis{"AXIS", ArgumentKind::Choice, false, false, "", 0, 0, {"x", "y", "z"}};
     return {
@@ -134,4 +138,4 @@ CommandGroup originalModelCommands() {
         }};
 }
 
-}  // namespace conelight::program
+}  // namespace conelight::thesis

@@ -8,9 +8,13 @@
 
 #include "conelight/error.h"
 #include "console/console.h"
+#include "thesis/console/commands.h"
 #include "thesis/format/scene.h"
 
-namespace conelight::program {
+namespace conelight::thesis {
+
+using namespace program;
+
 namespace {
 
 Command toggle(const char* name, const char* label, bool ViewFlags::*flag, const char* help,
@@ -50,7 +54,8 @@ void iLight(const CommandContext& context) {
     Session& session = context.session;
     const bool on = session.mode() == "phong";
     // Back to what was shown before, if anything was; else the thesis's renderer, which `iLight` stands for.
-    session.setMode(on ? context.console.litMode() : "phong");
+    const std::string lit = context.console.litMode();
+    session.setMode(!on ? "phong" : lit.empty() ? "thesis" : lit);
     context.print(fmt::format("VXCT: {}", on ? "ON" : "OFF"));
 }
 
@@ -142,7 +147,7 @@ void setPeriod(const CommandContext& context) {
 
 }  // namespace
 
-CommandGroup originalViewCommands() {
+CommandGroup viewCommands() {
     CommandGroup group{"The thesis's program: view", {}};
     std::vector<Command>& c = group.commands;
     c = {
@@ -201,4 +206,4 @@ CommandGroup originalViewCommands() {
     return group;
 }
 
-}  // namespace conelight::program
+}  // namespace conelight::thesis

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The thesis's scene text format -> Scene (input: file; output: tables with thesisFormat = true).
+// The thesis's scene text format -> Scene (input: file; output: tables with Scene::format = "thesis").
 //
 // What its words become: active = false -> Instance::visible false. static = true -> voxelized and
 // castsShadow false (it is drawn, but lights pass through it). shader: COLOR -> lit; EMIT -> Material::unlit,
@@ -22,6 +22,7 @@
 #include <set>
 
 #include "conelight/error.h"
+#include "conelight/thesis/thesis.h"
 #include "io/assimp_import.h"
 #include "io/files.h"
 #include "io/geometry.h"
@@ -216,8 +217,7 @@ void Loader::readMaterial(const Item& model, Material& material) {
               {"color", "shininess", "ambient_str", "diffuse_str", "specular_str", "emission", "roughness",
                "metallic", "double_sided", "base_color", "ior", "specular", "specular_color"});
 
-    PhongMaterial& phong = material.phong;
-    material.isPhong = true;
+    PhongMaterial& phong = material.phong.emplace();
     phong.color = triple(block, "color", "rgb", phong.color);
     phong.shininess = number(block, "shininess", phong.shininess);
     phong.ambientStrength = number(block, "ambient_str", phong.ambientStrength);
@@ -227,7 +227,7 @@ void Loader::readMaterial(const Item& model, Material& material) {
                           phong.ambientStrength < 0 || phong.diffuseStrength < 0 ||
                           phong.specularStrength < 0;
     if (negative) fail(block.line, "material: a negative value; all must be 0 or more");
-    setPbrFromPhong(material);
+    setPbrFromPhong(material, phong);
 
     // Additions for the physically based modes.
     material.emission = glm::max(triple(block, "emission", "rgb", glm::vec3(0)), glm::vec3(0));
@@ -277,7 +277,7 @@ void Loader::readModel(const Item& model) {
     const std::string shader = shaderWord != nullptr ? *shaderWord : "COLOR";
     if (shader == "EMIT") {
         material.unlit = true;
-        material.baseColor = glm::vec4(material.phong.color, 1.0f);
+        material.baseColor = glm::vec4(material.phong->color, 1.0f);
     } else if (shader == "EMITRGBA") {
         instance.visible = false;
         note(model.line,
@@ -414,7 +414,7 @@ Scene Loader::load() {
     const Bytes bytes =
         readFile(path_, std::uint64_t(64) << 20);  // 64 MB of text: a thousand times any scene
     ThesisText text = parseThesisText({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file_);
-    scene_.thesisFormat = true;
+    scene_.format = thesis::kSceneFormat;
     scene_.name = "unnamedScene";
     scene_.notes = std::move(text.notes);
 

@@ -11,6 +11,7 @@
 #include <set>
 
 #include "conelight/error.h"
+#include "conelight/thesis/thesis.h"
 #include "io/files.h"
 #include "thesis/format/scene.h"
 
@@ -205,7 +206,7 @@ void Writer::material(const Material& m) {
     if (m.alphaMode != AlphaMode::Opaque && noted_.insert("alpha of " + m.name).second)
         notes_.push_back(fmt::format("material {}: opacity is left out", oneLine(m.name, 60)));
 
-    PhongMaterial phong = m.isPhong ? m.phong : phongFromPbr(m);
+    PhongMaterial phong = phongOf(m);
     if (m.unlit) {
         phong.color = glm::vec3(m.baseColor);
         value(2, "shader", "EMIT");
@@ -217,8 +218,7 @@ void Writer::material(const Material& m) {
                         number(phong.specularStrength)));
     // What the reader would derive from these need not be said.
     Material derived;
-    derived.phong = phong;
-    setPbrFromPhong(derived);
+    setPbrFromPhong(derived, phong);
     if (m.roughness != derived.roughness) value(3, "roughness", number(m.roughness));
     if (m.metallic != derived.metallic) value(3, "metallic", number(m.metallic));
     if (m.ior != derived.ior) value(3, "ior", number(m.ior));
@@ -275,7 +275,7 @@ void Writer::camera(const Camera& one) {
 void Writer::settings() {
     auto all = scene_.settings;
     // Scenes of other formats start otherwise than the thesis's do: say what theirs would be.
-    if (!scene_.thesisFormat) {
+    if (scene_.format != thesis::kSceneFormat) {
         for (const auto& [key, start] : {std::pair<const char*, const char*>{"image.exposure", "0"},
                                          {"image.tone_map", "aces"},
                                          {"image.srgb", "true"},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "thesis/render/mode.h"
 
+#include "conelight/thesis/thesis.h"
 #include "gl/gl.h"
 
 namespace conelight::modes {
@@ -12,7 +13,7 @@ voxels::ThesisVolumeOptions volumeOptions(const Frame& frame) {
     options.padding = frame.settings.voxels.padding;
     options.shift = frame.settings.voxels.shift;
     options.defects = gather::effectiveDefects(frame.settings.thesis);
-    options.unitGrid = frame.scene.source().thesisFormat && options.defects.wholeGrid;
+    options.unitGrid = frame.scene.source().format == thesis::kSceneFormat && options.defects.wholeGrid;
     options.shadows = !options.defects.unshadowedVoxels && frame.settings.light.shadowSize > 0;
     if (options.shadows) options.lights = frame.lights.key();
     return options;

@@ -42,287 +42,15 @@ layout(rgba32f) uniform writeonly image2D picture;
 layout(std430) buffer LookupTable { uint lookups[]; };
 #endif
 
-// All loops of one kind together stay below this: llvmpipe ends loops at 65,535 turns per invocation.
-const uint kMaxTurns = 20000u;
-// Opacity at which the customised diffuse cone calls a sample a hit.
-const float kHitOpacity = 0.01;
-// The smooth hit: counts as full at half a surface. Chosen by eye: at 1 far walls darken (regular
-// cone), at 0.05 the rims of near objects show.
-const float kHitGain = 2.0;
-
-vec4 sampleVolume(vec3 position, float size) {
-    return textureLod(volume, (position - grid.origin) / grid.edge,
-                      sampleLevel(size, grid.voxelSize, grid.maxLevel));
-}
-
-bool outsideGrid(vec3 position) {
-    return any(greaterThan(abs((position - grid.origin) / grid.edge - 0.5), vec3(0.5)));
-}
-
-// One march (constants.h).
-struct ThesisCone {
-    float spread;
-    float stepFactor;
-    float start;
-    float reach;
-};
-ThesisCone coneOf(vec4 v) { return ThesisCone(v.x, v.y, v.z, v.w); }
-
-// What a cone has gathered.
-struct Gathered {
-    vec3 color;
-    float opacity;
-};
-
-// Opacity that a step of length `length` through a sample of size `size` adds: its part of a surface that the
-// sample holds. Pieces of one surface add up, they do not hide each other.
-float stepOpacity(float opacity, float length, float size) {
-#if NO_STEP_CORRECTION
-    return opacity;
-#else
-    return min(opacity * (length / size), 1.0);
-#endif
-}
-
-// Front to back. `texel` is premultiplied (mips average empty space in).
-void accumulate(inout Gathered sum, vec4 texel, float added) {
-#if NO_STEP_CORRECTION
-    float seen = (1.0 - sum.opacity) * added;
-#else
-    float seen = min(added, 1.0 - sum.opacity);
-#endif
-#if DOUBLE_ALPHA
-    vec3 color = seen * texel.rgb;
-#else
-    vec3 color = seen * texel.rgb / max(texel.a, 1e-6);
-#endif
-#if FORGET_NEAR_COLOR
-    sum.color = sum.opacity * sum.color + color;
-#else
-    sum.color += color;
-#endif
-    sum.opacity += seen;
-}
-
-float stepLength(ThesisCone cone, float diameter, float size) {
-#if FINE_STEPS
-    return cone.stepFactor * diameter;
-#else
-    return cone.stepFactor * size;
-#endif
-}
-
-// Where cones begin: the original at fixed distances in world units; here just clear of the own surface.
-float originOffset(float fixedOffset) {
-#if FIXED_OFFSETS
-    return fixedOffset;
-#else
-    return kOriginOffset * grid.voxelSize;
-#endif
-}
-
-bool coneEnded(float t, vec3 position, float reach) {
-#if SHORT_REACH
-    return t >= reach;
-#else
-    return outsideGrid(position);
-#endif
-}
-
+#include "thesis/shaders/cone_samples.glsl"
 #if DIFFUSE && DIFFUSE_CONES > 0
-#ifdef RECORD_STEPS
-// What the sum over cones is multiplied by in the end.
-float setShare(float lift) {
-#if NO_COSINE_WEIGHTS
-    return 5.0 / float(DIFFUSE_CONES);
-#else
-    return 1.0 / weightOfSets(FRONT_CONES, INTERMEDIATE_CONES, SIDE_CONES, lift);
+#include "thesis/shaders/diffuse_cones.glsl"
 #endif
-}
-#endif
-
-// Light from all diffuse cones, weighted to a mean: what a white surface shows. One loop over all cones.
-vec3 traceDiffuse(Surface s, bool isLit, out uint samples) {
-    ConeFrame axes = coneFrame(s.normal);
-    ThesisCone cone = coneOf(thesis.diffuseCone);
-    float offset = originOffset(thesis.originOffset);
-    vec3 origin = s.position + offset * s.normal;
-    // Sine of half the aperture.
-    float lift = cone.spread * inversesqrt(4.0 + cone.spread * cone.spread);
-    vec3 sum = vec3(0.0);
-    samples = 0u;
-    uint coneSamples = 0u;
-    int k = 0;
-    vec4 direction = coneOfSets(0, FRONT_CONES, INTERMEDIATE_CONES, s.normal, axes, lift);
-    float t = cone.start;
-    Gathered got = Gathered(vec3(0.0), 0.0);
-    bool running = isLit;
-    do {
-        float diameter = cone.spread * t;
-        float size = sampleSize(diameter, offset + t * dot(direction.xyz, s.normal), grid.voxelSize);
-        float texelEdge = max(size, grid.voxelSize);
-        float stride = stepLength(cone, diameter, texelEdge);
-        vec4 texel = sampleVolume(origin + t * direction.xyz, size);
-        ++samples;
-        ++coneSamples;
-        Gathered before = got;
-#if DIFFUSE == CUSTOMISED
-#if PREMULTIPLIED_FIRST_HIT
-        vec3 color = texel.rgb;
-#else
-        vec3 color = texel.rgb / max(texel.a, 1e-6);
-#endif
-#if HARD_FIRST_HIT
-        float hit = texel.a > kHitOpacity ? 1.0 : 0.0;
-#else
-        float hit = min(stepOpacity(texel.a, stride, texelEdge) * kHitGain, 1.0 - got.opacity);
-#endif
-        got.color += hit * color;
-        got.opacity += hit;
-#else
-        accumulate(got, texel, stepOpacity(texel.a, stride, texelEdge));
-#endif
-        if (running)
-            RECORD_STEP(STEP_SAMPLE, origin + t * direction.xyz, t, texelEdge,
-                        sampleLevel(size, grid.voxelSize, grid.maxLevel), got.color - before.color,
-                        got.opacity - before.opacity, got.opacity);
-        t += stride;
-        bool left = coneEnded(t, origin + t * direction.xyz, cone.reach);
-        if (left || got.opacity >= 0.999 || coneSamples >= thesis.maxSamples) {
-#if !SHORT_REACH
-            if (left) got.color += max(1.0 - got.opacity, 0.0) * lighting.sky;
-#endif
-            sum += direction.w * got.color;
-            if (running)
-                RECORD_PATH(PATH_DIFFUSE_CONE, origin, direction.xyz, 0.5 * cone.spread,
-                            vec3(direction.w * setShare(lift)), got.color, got.opacity, t,
-                            got.opacity >= 0.999 ? END_FULL : END_OPEN);
-            ++k;
-#if NAN_AXES
-            // The original's cones along an undefined axis read an empty corner of the volume: black.
-            if (!axes.defined && k >= FRONT_CONES && ((k - FRONT_CONES) & 2) != 0) k += 2;
-#endif
-            direction = coneOfSets(k, FRONT_CONES, INTERMEDIATE_CONES, s.normal, axes, lift);
-            t = cone.start;
-            got = Gathered(vec3(0.0), 0.0);
-            coneSamples = 0u;
-        }
-        running = running && k < DIFFUSE_CONES && samples < kMaxTurns;
-    } while (running);
-#if NO_COSINE_WEIGHTS
-    // The original's factor, tuned to five cones.
-    return sum * (5.0 / float(DIFFUSE_CONES));
-#else
-    return sum / weightOfSets(FRONT_CONES, INTERMEDIATE_CONES, SIDE_CONES, lift);
-#endif
-}
-#endif
-
 #if SPECULAR
-// Light from the mirrored direction.
-vec3 traceSpecular(Surface s, vec3 mirrored, float shininess, bool isTraced, inout uint samples) {
-    ThesisCone cone = coneOf(thesis.specularCone);
-    if (cone.spread == 0.0) cone.spread = spreadOfShininess(shininess);
-    float offset = originOffset(0.0);
-    vec3 origin = s.position + offset * s.normal;
-    float climb = dot(mirrored, s.normal);
-    float t = cone.start;
-    uint coneSamples = 0u;
-    Gathered got = Gathered(vec3(0.0), 0.0);
-    bool running = isTraced && t < cone.reach;
-    do {
-        float diameter = cone.spread * t;
-        float size = sampleSize(diameter, offset + t * climb, grid.voxelSize);
-        float texelEdge = max(size, grid.voxelSize);
-        float stride = stepLength(cone, diameter, texelEdge);
-        vec4 texel = sampleVolume(origin + t * mirrored, size);
-        ++coneSamples;
-        Gathered before = got;
-        accumulate(got, texel, stepOpacity(texel.a, stride, texelEdge));
-        if (running)
-            RECORD_STEP(STEP_SAMPLE, origin + t * mirrored, t, texelEdge,
-                        sampleLevel(size, grid.voxelSize, grid.maxLevel), got.color - before.color,
-                        got.opacity - before.opacity, got.opacity);
-        t += stride;
-        bool left = coneEnded(t, origin + t * mirrored, cone.reach);
-#if !SHORT_REACH
-        if (left && running) got.color += max(1.0 - got.opacity, 0.0) * lighting.sky;
+#include "thesis/shaders/specular_cone.glsl"
 #endif
-        running = running && !left && got.opacity < 0.999 && coneSamples < thesis.maxSamples;
-    } while (running);
-    samples += isTraced ? coneSamples : 0u;
-    if (isTraced)
-        RECORD_PATH(PATH_SPECULAR_CONE, origin, mirrored, 0.5 * cone.spread, vec3(1.0), got.color,
-                    got.opacity, t, got.opacity >= 0.999 ? END_FULL : END_OPEN);
-    return isTraced ? got.color : vec3(0.0);
-}
-#endif
-
 #if OCCLUSION
-// Share of the light that does not arrive.
-float traceOcclusion(Surface s, ThesisLight light, bool isTraced, inout uint samples) {
-    ThesisCone cone = coneOf(thesis.occlusionCone);
-    float offset = originOffset(0.0);
-    vec3 origin = s.position + offset * s.normal;
-    vec3 toLight = s.position + light.toLight * light.distance - origin;
-    // Lights far outside act from just outside.
-    float distance = min(length(toLight), 2.0 * grid.edge);
-    vec3 direction = normalize(toLight);
-    float climb = dot(direction, s.normal);
-#if FIXED_OFFSETS
-    float end = distance;
-#else
-    // The cone ends where its samples would touch what the light hangs on.
-    float end = distance - kOriginOffset * grid.voxelSize;
-#endif
-    float t = cone.start;
-    float opacity = 0.0;
-    uint coneSamples = 0u;
-    bool running = isTraced && t < end;
-    bool started = running;
-    do {
-        float diameter = cone.spread * t;
-        float size = sampleSize(diameter, min(offset + t * climb, distance - t), grid.voxelSize);
-        float texelEdge = max(size, grid.voxelSize);
-        float stride = stepLength(cone, diameter, texelEdge);
-        float sampled = sampleVolume(origin + t * direction, size).a;
-        ++coneSamples;
-#if LAST_STEP
-        float length = stride;
-#else
-        float length = min(stride, end - t);
-#if NO_STEP_CORRECTION
-        sampled *= length / stride;
-#endif
-#endif
-#if OCCLUSION == CUSTOMISED
-#if OCCLUSION_FUDGE
-        float x = clamp(thesis.shadowStrength * sqrt(t) / distance, 0.0, 1.0);
-#else
-        float x = clamp(thesis.shadowStrength * sqrt(t / distance), 0.0, 1.0);
-#endif
-        sampled *= x * x * (3.0 - 2.0 * x);
-#endif
-        float added = stepOpacity(sampled, length, texelEdge);
-        float opacityBefore = opacity;
-#if NO_STEP_CORRECTION
-        opacity += (1.0 - opacity) * added;
-#else
-        opacity = min(opacity + added, 1.0);
-#endif
-        if (running)
-            RECORD_STEP(STEP_SAMPLE, origin + t * direction, t, texelEdge,
-                        sampleLevel(size, grid.voxelSize, grid.maxLevel), vec3(0.0), opacity - opacityBefore,
-                        opacity);
-        t += stride;
-        running = running && t < end && opacity < 0.999 && coneSamples < thesis.maxSamples;
-    } while (running);
-    samples += started ? coneSamples : 0u;
-    RECORD_PATH(PATH_OCCLUSION_CONE, origin, direction, 0.5 * cone.spread,
-                vec3(1.0 / float(max(thesis.lightCount, 1u))), vec3(started ? 1.0 - opacity : 1.0),
-                started ? opacity : 0.0, min(t, end), opacity >= 0.999 ? END_FULL : END_OPEN);
-    return started ? opacity : 0.0;
-}
+#include "thesis/shaders/occlusion_cone.glsl"
 #endif
 
 bool has(uint switchBit) { return (thesis.switches & switchBit) != 0u; }
@@ -350,51 +78,90 @@ float reflectance(float phongSpecular, float shininess) {
 #endif
 }
 
-void main() {
-    ivec2 pixel = INVOCATION_PIXEL;
-    bool inside = all(lessThan(pixel, ivec2(frame.width, frame.height)));
-    Surface s;
-    bool seen = fetchSurface(min(pixel, ivec2(frame.width, frame.height) - 1), s) && inside;
-    bool isLit = seen && !s.unlit;
-    uint material = s.material;
-    vec3 color =
-        (materials[material].flags & MATERIAL_HAS_PHONG) != 0u ? materials[material].phongColor : s.albedo;
-    float shininess = materials[material].phongShininess;
-    float strength = reflectance(materials[material].phongSpecular, shininess);
-    vec3 mirrored = reflect(-s.toEye, s.normal);
-    uint diffuseSamples = 0u, specularSamples = 0u, occlusionSamples = 0u;
+// What the cones need of a pixel's material.
+struct Paint {
+    uint material;
+    vec3 color;
+    float shininess;
+    float strength;  // share that is reflected as by a mirror
+    vec3 mirrored;   // direction, away from the surface
+};
 
-    // Direct light, light by light.
-    vec3 direct = vec3(0.0), specular = vec3(0.0);
-    float leastOcclusion = 1.0, visibleSum = 0.0, mirrorWeight = 0.0;
-    for (uint i = 0u; i < thesis.lightCount; ++i) {
-        ThesisLight light = thesisLight(lights[i], s.position);
-        float occlusion = 0.0;
+Paint paintOf(Surface s) {
+    Paint paint;
+    paint.material = s.material;
+    paint.color = (materials[s.material].flags & MATERIAL_HAS_PHONG) != 0u ? materials[s.material].phongColor
+                                                                           : s.albedo;
+    paint.shininess = materials[s.material].phongShininess;
+    paint.strength = reflectance(materials[s.material].phongSpecular, paint.shininess);
+    paint.mirrored = reflect(-s.toEye, s.normal);
+    return paint;
+}
+
+// Samples that a pixel's cones took, by kind.
+struct SampleCounts {
+    uint diffuse;
+    uint specular;
+    uint occlusion;
+};
+
+float occlusionOf(Surface s, ThesisLight light, bool isLit, inout SampleCounts samples) {
 #if OCCLUSION
 #if OCCLUDED_INDIRECT || OCCLUDED_SPECULAR || VIEW == VIEW_OCCLUSION
-        bool isTraced = isLit;
+    bool isTraced = isLit;
 #else
-        // Light from behind adds nothing that could be hidden, unless ambient light is on.
-        bool isTraced = isLit && (dot(s.normal, light.toLight) > 0.0 || has(THESIS_PHONG_AMBIENT));
+    // Light from behind adds nothing that could be hidden, unless ambient light is on.
+    bool isTraced = isLit && (dot(s.normal, light.toLight) > 0.0 || has(THESIS_PHONG_AMBIENT));
 #endif
-        occlusion = traceOcclusion(s, light, isTraced, occlusionSamples);
+    return traceOcclusion(s, light, isTraced, samples.occlusion);
+#else
+    return 0.0;
 #endif
-        leastOcclusion = min(leastOcclusion, occlusion);
-        visibleSum += 1.0 - occlusion;
-        float visible = has(THESIS_SHADOWS) ? 1.0 - occlusion : 1.0;
-        if (has(THESIS_PHONG)) direct += visible * phong(s, color, material, light);
+}
+
 #if SPECULAR
-        float weight = 1.0;
+float specularWeight(Paint paint, ThesisLight light, float visible) {
+    float weight = 1.0;
 #if SPECULAR == CUSTOMISED
-        weight = angularWeight(dot(mirrored, light.toLight), shininess, thesis.shininessFalloff);
+    weight = angularWeight(dot(paint.mirrored, light.toLight), paint.shininess, thesis.shininessFalloff);
 #endif
 #if OCCLUDED_SPECULAR
-        weight *= visible;
+    weight *= visible;
 #endif
+    return weight;
+}
+
+// The specular cone times its weight.
+vec3 reflectedLight(Surface s, Paint paint, bool isLit, float weight, inout SampleCounts samples) {
+    bool reflects = isLit && weight > thesis.minSpecular;
+    vec3 light = weight * traceSpecular(s, paint.mirrored, paint.shininess, reflects, samples.specular);
+    if (reflects) RECORD_WEIGHT(weight);
+    return light;
+}
+#endif
+
+// What a pixel has from its lights and its mirrored direction.
+struct LightSum {
+    vec3 direct;
+    vec3 specular;
+    float leastOcclusion;
+    float visible;  // sum over lights
+};
+
+LightSum lightByLight(Surface s, Paint paint, bool isLit, inout SampleCounts samples) {
+    LightSum sum = LightSum(vec3(0.0), vec3(0.0), 1.0, 0.0);
+    float mirrorWeight = 0.0;
+    for (uint i = 0u; i < thesis.lightCount; ++i) {
+        ThesisLight light = thesisLight(lights[i], s.position);
+        float occlusion = occlusionOf(s, light, isLit, samples);
+        sum.leastOcclusion = min(sum.leastOcclusion, occlusion);
+        sum.visible += 1.0 - occlusion;
+        float visible = has(THESIS_SHADOWS) ? 1.0 - occlusion : 1.0;
+        if (has(THESIS_PHONG)) sum.direct += visible * phong(s, paint.color, paint.material, light);
+#if SPECULAR
+        float weight = specularWeight(paint, light, visible);
 #if SPECULAR_PER_LIGHT
-        bool reflects = isLit && strength * weight > thesis.minSpecular;
-        specular += strength * weight * traceSpecular(s, mirrored, shininess, reflects, specularSamples);
-        if (reflects) RECORD_WEIGHT(strength * weight);
+        sum.specular += reflectedLight(s, paint, isLit, paint.strength * weight, samples);
 #else
         mirrorWeight = max(mirrorWeight, weight);
 #endif
@@ -402,65 +169,85 @@ void main() {
     }
 #if SPECULAR && !SPECULAR_PER_LIGHT
     // The light nearest to the mirrored direction sets the weight; without lights there is none to be near.
-    mirrorWeight = strength * (thesis.lightCount == 0u ? 1.0 : mirrorWeight);
-    bool reflects = isLit && mirrorWeight > thesis.minSpecular;
-    specular = mirrorWeight * traceSpecular(s, mirrored, shininess, reflects, specularSamples);
-    if (reflects) RECORD_WEIGHT(mirrorWeight);
+    mirrorWeight = paint.strength * (thesis.lightCount == 0u ? 1.0 : mirrorWeight);
+    sum.specular = reflectedLight(s, paint, isLit, mirrorWeight, samples);
 #endif
+    return sum;
+}
 
+// Indirect light that a pixel reflects diffusely.
+vec3 diffuseLight(Surface s, Paint paint, bool isLit, float leastOcclusion, inout SampleCounts samples) {
     vec3 diffuse = vec3(0.0);
-    vec3 diffuseScale = vec3(1.0);
 #if DIFFUSE && DIFFUSE_CONES > 0
-    diffuse = traceDiffuse(s, isLit, diffuseSamples);
+    vec3 scale = vec3(1.0);
+    diffuse = traceDiffuse(s, isLit, samples.diffuse);
     vec3 gathered = isLit ? diffuse : vec3(0.0);
 #if !NO_ALBEDO
-    vec3 albedo = color * materials[material].phongDiffuse;
+    vec3 albedo = paint.color * materials[paint.material].phongDiffuse;
 #if !UNBOUNDED_SPECULAR
-    albedo = min(albedo, 1.0) * (1.0 - strength);
+    albedo = min(albedo, 1.0) * (1.0 - paint.strength);
 #endif
     diffuse *= albedo;
-    diffuseScale = albedo;
+    scale = albedo;
 #endif
 #if OCCLUDED_INDIRECT
     diffuse *= 1.0 - leastOcclusion;
-    diffuseScale *= 1.0 - leastOcclusion;
+    scale *= 1.0 - leastOcclusion;
 #endif
-    RECORD_PART(PART_DIFFUSE, gathered, diffuseScale);
+    RECORD_PART(PART_DIFFUSE, gathered, scale);
 #endif
+    return diffuse;
+}
+
+// The part of the picture that is asked for, without emission and sky.
+vec3 shownPart(LightSum sum, vec3 diffuse) {
+#if VIEW == VIEW_FULL
+    return sum.direct + sum.specular + diffuse;
+#elif VIEW == VIEW_DIRECT
+    return sum.direct;
+#elif VIEW == VIEW_INDIRECT
+    return sum.specular + diffuse;
+#elif VIEW == VIEW_DIFFUSE
+    return diffuse;
+#elif VIEW == VIEW_SPECULAR
+    return sum.specular;
+#else
+    return vec3(sum.visible / max(float(thesis.lightCount), 1.0));
+#endif
+}
+
+void main() {
+    ivec2 pixel = INVOCATION_PIXEL;
+    bool inside = all(lessThan(pixel, ivec2(frame.width, frame.height)));
+    Surface s;
+    bool seen = fetchSurface(min(pixel, ivec2(frame.width, frame.height) - 1), s) && inside;
+    bool isLit = seen && !s.unlit;
+    Paint paint = paintOf(s);
+    SampleCounts samples = SampleCounts(0u, 0u, 0u);
+
+    LightSum sum = lightByLight(s, paint, isLit, samples);
+    vec3 diffuse = diffuseLight(s, paint, isLit, sum.leastOcclusion, samples);
 #ifdef RECORD_STEPS
     RECORD_SURFACE(seen, s);
 #if SPECULAR
-    RECORD_PART(PART_SPECULAR, isLit ? specular : vec3(0.0), vec3(1.0));
+    RECORD_PART(PART_SPECULAR, isLit ? sum.specular : vec3(0.0), vec3(1.0));
 #endif
 #if OCCLUSION
-    RECORD_PART(PART_OCCLUSION, vec3(visibleSum / max(float(thesis.lightCount), 1.0)), vec3(1.0));
+    RECORD_PART(PART_OCCLUSION, vec3(sum.visible / max(float(thesis.lightCount), 1.0)), vec3(1.0));
 #endif
     return;
 #endif
 
-#if VIEW == VIEW_FULL
-    vec3 shown = direct + specular + diffuse;
-#elif VIEW == VIEW_DIRECT
-    vec3 shown = direct;
-#elif VIEW == VIEW_INDIRECT
-    vec3 shown = specular + diffuse;
-#elif VIEW == VIEW_DIFFUSE
-    vec3 shown = diffuse;
-#elif VIEW == VIEW_SPECULAR
-    vec3 shown = specular;
-#else
-    vec3 shown = vec3(visibleSum / max(float(thesis.lightCount), 1.0));
-#endif
-    shown = isLit ? shown : vec3(0.0);
+    vec3 shown = isLit ? shownPart(sum, diffuse) : vec3(0.0);
 #if VIEW == VIEW_FULL || VIEW == VIEW_DIRECT
     shown += seen ? s.emission : lighting.sky;
 #endif
     if (inside) imageStore(picture, pixel, vec4(shown, seen ? 1.0 : 0.0));
 #if COUNT_LOOKUPS
     if (isLit) {
-        atomicAdd(lookups[0], diffuseSamples);
-        atomicAdd(lookups[1], specularSamples);
-        atomicAdd(lookups[2], occlusionSamples);
+        atomicAdd(lookups[0], samples.diffuse);
+        atomicAdd(lookups[1], samples.specular);
+        atomicAdd(lookups[2], samples.occlusion);
     }
 #endif
 }
