@@ -96,13 +96,13 @@ void Indirect::gather(const gl::Device& device, const RayInputs& inputs, const W
         const RayPass pass{settings, settings.pixelRays,   settings.passes, 0, Reuse::None,
                            nullptr,  wanted.lookupCounters};
         addPasses(device, inputs, pass, diffuse_, diffuseHistory_);
-        irradiance_ = &diffuse_.filtered(device, inputs.surfaces, settings.filterLevels);
+        irradiance_ = &diffuse_.filtered(device, inputs, settings.filterLevels);
     }
     if (wantsLobe(wanted, inputs.scene)) {
         const RayPass pass{settings, settings.specularRays, settings.passes, 0, Reuse::None,
                            nullptr,  wanted.lookupCounters};
         addPasses(device, inputs, pass, specular_, specularHistory_);
-        lobe_ = &specular_.filtered(device, inputs.surfaces, settings.filterLevels);
+        lobe_ = &specular_.filtered(device, inputs, settings.filterLevels);
     }
 }
 
@@ -110,7 +110,7 @@ void Indirect::gatherOcclusion(const gl::Device& device, const RayInputs& inputs
                                const TracedSettings& settings) {
     follow(inputs, settings);
     addPasses(device, inputs, {settings, kOcclusionRays, kOcclusionPasses}, occlusion_, occlusionHistory_);
-    occlusionPicture_ = &occlusion_.filtered(device, inputs.surfaces, 1);
+    occlusionPicture_ = &occlusion_.filtered(device, inputs, 1);
 }
 
 void Indirect::record(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,

@@ -217,7 +217,7 @@ void PixelRays::gather(const gl::Device& device, const RayInputs& inputs, const 
     seenFrom_ = surfaces.view();
 }
 
-const gl::Texture& PixelRays::filtered(const gl::Device& device, const view::Surfaces& surfaces, int levels) {
+const gl::Texture& PixelRays::filtered(const gl::Device& device, const RayInputs& inputs, int levels) {
     if (levels == 0) return current_.texture;
     const gl::PassScope scope(device.profiler, "edge filter");
     const int width = current_.texture.width(), height = current_.texture.height();
@@ -229,7 +229,7 @@ const gl::Texture& PixelRays::filtered(const gl::Device& device, const view::Sur
         Picture* to = level % 2 == 0 ? &filtered_ : &other_;
         const bool lobes = kind_ == RayPicture::Specular;
         gl::Inputs given;
-        given.add(surfaces)
+        given.add(inputs)
             .uniform("PixelRayBlock", constants_)
             .texture("source", from->texture)
             .image("result", to->texture, gl::ImageUse::Write);

@@ -65,7 +65,7 @@ class PixelRays {
     // One more pass.
     void gather(const gl::Device& device, const RayInputs& inputs, const RayPass& pass);
     // The picture, filtered by so many levels; what the next gather() goes on from stays as it is.
-    const gl::Texture& filtered(const gl::Device& device, const view::Surfaces& surfaces, int levels);
+    const gl::Texture& filtered(const gl::Device& device, const RayInputs& inputs, int levels);
 
     // Where the picture of kind Specular has anything.
     const PixelRectangle& lobes() const { return current_.written; }

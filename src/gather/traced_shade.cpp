@@ -127,11 +127,11 @@ void TracedShade::recordCache(const gl::Device& device, const RayInputs& inputs,
     recorder.record(device, key.desc(), given);
 }
 
-void TracedShade::drawOcclusion(const gl::Device& device, const view::Surfaces& surfaces,
+void TracedShade::drawOcclusion(const gl::Device& device, const RayInputs& inputs,
                                 const gl::Texture& occlusion, const gl::Texture& output) {
     const gl::PassScope pass(device.profiler, "shade");
     gl::Inputs given;
-    given.add(surfaces).texture("occlusion", occlusion).image("result", output, gl::ImageUse::Write);
+    given.add(inputs).texture("occlusion", occlusion).image("result", output, gl::ImageUse::Write);
     device.get(occlusionDesc()).dispatch(given, output.width(), output.height());
 }
 

@@ -2,6 +2,7 @@
 #include "gl/program.h"
 
 #include <algorithm>
+#include <mutex>
 #include <set>
 
 #include "base/assert.h"
@@ -226,11 +227,35 @@ void Program::dispatchIndirect(const Inputs& inputs, const Buffer& buffer, std::
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
 }
 
+namespace {
+
+struct BuiltPrograms {
+    std::mutex mutex;
+    std::map<std::string, ProgramDesc> byLabel;
+};
+
+BuiltPrograms& built() {
+    static BuiltPrograms* const instance = new BuiltPrograms;  // outlives every library
+    return *instance;
+}
+
+}  // namespace
+
+std::vector<ProgramDesc> builtPrograms() {
+    BuiltPrograms& all = built();
+    const std::lock_guard lock(all.mutex);
+    std::vector<ProgramDesc> descs;
+    for (const auto& [label, desc] : all.byLabel) descs.push_back(desc);
+    return descs;
+}
+
 const Program& ProgramLibrary::get(const ProgramDesc& desc) {
     std::unique_ptr<Entry>& entry = programs_[desc.label()];
     if (!entry) {
         try {
             entry = std::make_unique<Entry>(Entry{desc, Program(provider_, desc), false});
+            const std::lock_guard lock(built().mutex);
+            built().byLabel.emplace(desc.label(), desc);
         } catch (...) {
             programs_.erase(desc.label());
             throw;

@@ -95,4 +95,8 @@ class ProgramLibrary {
     std::map<std::string, std::unique_ptr<Entry>> programs_;
 };
 
+// What libraries of this process have built so far, by label: tests compare it with the lists of
+// variants.
+std::vector<ProgramDesc> builtPrograms();
+
 }  // namespace conelight::gl

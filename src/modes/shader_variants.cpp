@@ -66,13 +66,30 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     return all;
 }
 
+std::vector<gl::ProgramDesc> pairwiseVariants(const std::vector<gl::ProgramDesc>& all) {
+    std::vector<gl::ProgramDesc> kept;
+    std::set<std::string> met;
+    for (const gl::ProgramDesc& desc : all) {
+        std::string files;
+        for (const std::string& file : desc.files) files += file + ' ';
+        bool isNew = met.insert(files).second;
+        for (std::size_t i = 0; i < desc.defines.size(); ++i)
+            for (std::size_t k = i; k < desc.defines.size(); ++k) {
+                const auto& [a, b] = std::pair(desc.defines[i], desc.defines[k]);
+                isNew |= met.insert(files + a.first + '=' + a.second + ' ' + b.first + '=' + b.second).second;
+            }
+        if (isNew) kept.push_back(desc);
+    }
+    return kept;
+}
+
 }  // namespace modes
 
 std::size_t expandAllShaders(const std::string& directory, const std::string& shaderDirectory) {
     const gl::ShaderProvider provider =
         shaderDirectory.empty() ? gl::embeddedShaderProvider() : gl::directoryShaderProvider(shaderDirectory);
     std::set<std::string> written;
-    for (const gl::ProgramDesc& desc : modes::allShaderVariants())
+    for (const gl::ProgramDesc& desc : modes::pairwiseVariants(modes::allShaderVariants()))
         for (const std::string& file : desc.files) {
             // Programs may share a stage.
             const std::string name = variantFile(file, desc.defines);

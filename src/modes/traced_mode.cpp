@@ -53,7 +53,7 @@ void TracedMode::draw(const Frame& frame) {
         record(frame, inputs);
     } else if (component == Component::Occlusion) {
         indirect_.gatherOcclusion(frame.device, inputs, settings);
-        shade_.drawOcclusion(frame.device, frame.surfaces, indirect_.occlusion(), frame.output);
+        shade_.drawOcclusion(frame.device, inputs, indirect_.occlusion(), frame.output);
     } else if (component == Component::Voxels) {
         voxelView_.draw(
             frame.device,

@@ -258,21 +258,7 @@ class Host {
     GLuint textures_[6] = {}, framebuffers_[2] = {};
 };
 
-// Sets all state back to what a fresh context has, so that other tests of this process find it.
-class HostStateTest : public GlTest {
-  protected:
-    void SetUp() override {
-        GlTest::SetUp();
-        if (!HasFatalFailure() && !IsSkipped()) fresh_.emplace();
-    }
-    void TearDown() override {
-        fresh_.reset();
-        GlTest::TearDown();
-    }
-
-  private:
-    std::optional<gl::HostStateGuard> fresh_;
-};
+using HostStateTest = GlTest;  // which sets all state back after each test
 
 constexpr char kVertexShader[] = R"(#version 450 core
 void main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0); }
@@ -391,20 +377,24 @@ TEST_F(HostStateTest, AnyChangeUnderTheGuardIsUndone) {
     for (const auto& [key, value] : snapshot()) EXPECT_EQ(value, fresh.at(key)) << key;
 }
 
-TEST_F(HostStateTest, CostsLessThanAFifthOfAMillisecond) {
+// Saving and restoring takes no longer than this test's own list takes to ask for. The least of some rounds
+// each, as other programs may run beside.
+TEST_F(HostStateTest, CostsNoMoreThanAskingForTheState) {
     const Host host;
     host.set();
-    double best = 1e9;
-    for (int run = 0; run < 50; ++run) {
+    double guarded = 1e9, asked = 1e9;
+    for (int round = 0; round < 20; ++round) {
         const double start = base::processCpuMs();
         for (int i = 0; i < 10; ++i) const gl::HostStateGuard guard;
-        best = std::min(best, (base::processCpuMs() - start) / 10);
+        const double middle = base::processCpuMs();
+        for (int i = 0; i < 10; ++i) snapshot();
+        guarded = std::min(guarded, (middle - start) / 10);
+        asked = std::min(asked, (base::processCpuMs() - middle) / 10);
     }
-    RecordProperty("guardMs", std::to_string(best));
-    std::printf("HostStateGuard: %.4f ms\n", best);
-#ifndef __SANITIZE_ADDRESS__
-    EXPECT_LT(best, 0.2);
-#endif
+    RecordProperty("guardMs", std::to_string(guarded));
+    RecordProperty("askedMs", std::to_string(asked));
+    std::printf("HostStateGuard: %.4f ms; asking for the state: %.4f ms\n", guarded, asked);
+    EXPECT_LT(guarded, asked);
 }
 
 }  // namespace conelight::test

@@ -16,7 +16,6 @@
 #include "io/scene_file.h"
 #include "math/octahedral.h"
 #include "scene/gpu_scene.h"
-#include "shared/bindings.h"
 #include "support/gl_fixture.h"
 #include "support/view_rig.h"
 #include "voxels/octant_words.h"
@@ -49,8 +48,8 @@ class RayQueryTest : public GlTest {
     }
     void voxelize(const Scene& scene, int size) {
         const scene::GpuScene gpuScene(scene);
-        surface_.build(programs(), profiler_, gpuScene, VoxelSettings{size});
-        octants_.build(programs(), profiler_, surface_);
+        surface_.build(device(), gpuScene, VoxelSettings{size});
+        octants_.build(device(), surface_);
         tables_ = voxels::downloadVoxels(surface_);
     }
 
@@ -68,10 +67,9 @@ void main() {
 }
 )");
         gl::Buffer buffer(rays, "rays");
-        surface_.bind();
-        octants_.bind();
-        buffer.bindStorage(BINDING_STORAGE_PASS);
-        programs().compute("test/rays.comp.glsl").dispatchLinear(rays.size());
+        programs()
+            .compute("test/rays.comp.glsl")
+            .dispatchLinear(gl::Inputs().add(surface_).add(octants_).storage("Data", buffer), rays.size());
         gl::barrier(gl::Access::ShaderStorage);
         return buffer.read<glm::vec4>(3 * rays.size());
     }
@@ -164,7 +162,6 @@ void main() {
 
     void expectOctantWords(const Scene& scene, int gridEdge);
 
-    gl::Profiler profiler_;
     voxels::SurfaceVoxels surface_;
     voxels::OctantWords octants_;
     voxels::VoxelTables tables_;

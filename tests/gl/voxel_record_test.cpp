@@ -68,9 +68,9 @@ void main() {
     values[2] = {0.5f, 1, 0, 0.5f};
     const gl::Buffer in(values, "in");
     const gl::Buffer out(kCount * 32, "out");
-    in.bindStorage(8);
-    out.bindStorage(9);
-    programs().compute("test/pack.comp.glsl").dispatch(static_cast<int>(kCount));
+    programs()
+        .compute("test/pack.comp.glsl")
+        .dispatch(gl::Inputs().storage("In", in).storage("Out", out), static_cast<int>(kCount));
     gl::barrier(gl::Access::ShaderStorage);
     const auto got = out.read<std::uint32_t>(8 * kCount);
     for (std::size_t i = 0; i < kCount; ++i) {
@@ -108,9 +108,9 @@ void main() {
     for (std::uint32_t& b : bits) b = static_cast<std::uint32_t>(random());
     const gl::Buffer in(bits, "in");
     const gl::Buffer out(kCount * 80, "out");
-    in.bindStorage(8);
-    out.bindStorage(9);
-    programs().compute("test/unpack.comp.glsl").dispatch(static_cast<int>(kCount));
+    programs()
+        .compute("test/unpack.comp.glsl")
+        .dispatch(gl::Inputs().storage("In", in).storage("Out", out), static_cast<int>(kCount));
     gl::barrier(gl::Access::ShaderStorage);
     const auto got = out.read<glm::vec4>(5 * kCount);
     for (std::size_t i = 0; i < kCount; ++i) {

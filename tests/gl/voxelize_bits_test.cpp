@@ -47,16 +47,16 @@ TEST_F(VoxelizeBitsTest, RebuildingGivesTheSameBitsWhateverWasBuiltBefore) {
     const scene::GpuScene gpuSmall(small);
     const scene::GpuScene gpuLarge(large);
     voxels::SurfaceVoxels surface;
-    surface.build(programs(), profiler_, gpuSmall, VoxelSettings{16, 0.03f});
+    surface.build(device(), gpuSmall, VoxelSettings{16, 0.03f});
     const std::uint64_t first = download(surface).hash();
-    surface.build(programs(), profiler_, gpuLarge, VoxelSettings{128, 0.03f});  // every list grows
+    surface.build(device(), gpuLarge, VoxelSettings{128, 0.03f});  // every list grows
     EXPECT_EQ(download(surface).hash(), fresh);
     for (int i = 0; i < 4; ++i) {
-        surface.build(programs(), profiler_, gpuLarge, VoxelSettings{128, 0.03f});
+        surface.build(device(), gpuLarge, VoxelSettings{128, 0.03f});
         EXPECT_EQ(download(surface).hash(), fresh);
     }
     const std::size_t objects = gl::liveObjectCount();
-    surface.build(programs(), profiler_, gpuSmall, VoxelSettings{16, 0.03f});
+    surface.build(device(), gpuSmall, VoxelSettings{16, 0.03f});
     EXPECT_EQ(download(surface).hash(), first);
     EXPECT_EQ(gl::liveObjectCount(), objects);
 }

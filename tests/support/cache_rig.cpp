@@ -4,6 +4,7 @@
 #include <bit>
 #include <glm/gtc/packing.hpp>
 
+#include "gl/gl.h"
 #include "light/inject_light.h"
 #include "math/octahedral.h"
 #include "shared/irradiance.h"

@@ -4,12 +4,11 @@
 #pragma once
 
 #include "conelight/scene.h"
-#include "gl/pass.h"
-#include "gl/program.h"
+#include "gl/device.h"
+#include "light/lights.h"
 #include "scene/gpu_scene.h"
 #include "support/scenes.h"
-#include "view/camera.h"
-#include "view/gbuffer.h"
+#include "view/surfaces.h"
 
 namespace conelight::test {
 

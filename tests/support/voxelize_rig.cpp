@@ -125,14 +125,14 @@ double meshArea(const std::vector<ReferenceTriangle>& triangles) {
 VoxelizeResult VoxelizeTest::voxelize(const Scene& scene, int size, float padding) {
     const scene::GpuScene gpuScene(scene);
     voxels::SurfaceVoxels surface;
-    surface.build(programs(), profiler_, gpuScene, VoxelSettings{size, padding});
+    surface.build(device(), gpuScene, VoxelSettings{size, padding});
     return download(surface);
 }
 
 VoxelizeResult VoxelizeTest::voxelize(const Scene& scene, const voxels::VoxelGrid& grid) {
     const scene::GpuScene gpuScene(scene);
     voxels::SurfaceVoxels surface;
-    surface.build(programs(), profiler_, gpuScene, grid);
+    surface.build(device(), gpuScene, grid);
     return download(surface);
 }
 

@@ -55,8 +55,6 @@ class VoxelizeTest : public GlTest {
     VoxelizeResult voxelize(const Scene& scene, const voxels::VoxelGrid& grid);
     // No voxel missed; none marked that no triangle comes within 1e-4 voxel of.
     static void expectSameVoxels(const Scene& scene, const VoxelizeResult& result);
-
-    gl::Profiler profiler_;
 };
 
 }  // namespace conelight::test
