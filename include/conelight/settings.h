@@ -9,14 +9,10 @@
 #include <string>
 #include <vector>
 
-namespace conelight {
+#include "conelight/mode.h"
+#include "conelight/settings_groups.h"
 
-enum class Mode {
-    Phong,   // local illumination only, the thesis's Phong model with its attenuation
-    Thesis,  // the thesis's renderer
-    Cones,   // energy-normalised cone tracing, physically based shading
-    Traced,  // rays through surface voxels, irradiance cached per voxel face, unlimited bounces
-};
+namespace conelight {
 
 // What is shown. Indirect = Diffuse + Specular (the gathered parts).
 enum class Component {
@@ -67,90 +63,6 @@ enum class Toggle { Auto, Off, On };
 struct PhongSettings {
     Toggle shadows = Toggle::Auto;  // shadow maps in mode `phong`
     bool operator==(const PhongSettings&) const = default;
-};
-
-// Defects of the original program (docs/guide/thesis_mode.md: what each does, its cure, how to see it). All
-// are mended unless switched on.
-struct ThesisDefects {
-    // Volume
-    bool racingStores = false;        // the last of several fragments stays in a voxel
-    bool centerCoverage = false;      // only triangles that cover pixel centres become voxels
-    bool binaryOpacity = false;       // whatever is touched is opaque
-    bool faceRounding = false;        // surfaces on voxel faces fall to a side by rounding
-    bool unattenuatedVoxels = false;  // voxel light does not fall off
-    bool unshadowedVoxels = false;    // voxel light passes through everything
-    bool clippedRadiance = false;     // 8 bits per channel, at most 1
-    bool darkEmitters = false;        // emission is left out of the volume
-    bool volumeMips = false;          // opacity averaged over volume: walls fade in coarse levels
-    bool wholeGrid = false;           // the grid is [-1,1]^3 whatever the scene (thesis-format scenes)
-    bool cappedLevels = false;        // seven levels
-    bool tenLights = false;           // the first ten lights only
-    // Cones
-    bool coarseLod = false;              // one level too coarse
-    bool noStepCorrection = false;       // a sample's opacity counts in full whatever the step
-    bool forgetNearColor = false;        // near colour is scaled down by what comes later
-    bool doubleAlpha = false;            // opacity multiplied into premultiplied colour
-    bool lastStep = false;               // the last occlusion sample counts in full: rings
-    bool premultipliedFirstHit = false;  // the first hit's colour fades with its opacity
-    bool hardFirstHit = false;           // the first sample with opacity above 0.01 is all
-    bool fixedOffsets = false;           // cones start and grow regardless of the own surface
-    bool shortReach = false;             // cones end after 1 m
-    bool nanAxes = false;                // undefined cone axes where the normal is parallel to z
-    bool shortSideAxis = false;          // a cone axis of less than unit length
-    bool grazingSideCones = false;       // side cones lie in the surface
-    bool noCosineWeights = false;        // every diffuse cone counts alike, times 5
-    bool noAlbedo = false;               // indirect diffuse light takes no colour from the surface
-    bool occlusionFudge = false;         // damping of occlusion in absolute units
-    bool occludedIndirect = false;       // indirect light where a lamp shines only
-    bool specularPerLight = false;       // one equal specular cone per light
-    bool occludedSpecular = false;       // reflections where a lamp shines only
-    bool shininessSaturation = false;    // no angular effect above shininess 125
-    bool fixedSpecularAperture = false;  // all materials reflect through the same aperture
-    bool ambientTwice = false;           // ambient light on top of indirect light
-    bool unboundedSpecular = false;      // reflections on top of all diffuse light, strength above 1 allowed
-    bool fineSteps = false;              // steps in diameters, down to 1/100 voxel
-    bool operator==(const ThesisDefects&) const = default;
-};
-// Pointers to all of them, in the order above.
-std::vector<bool*> thesisDefectFlags(ThesisDefects& defects);
-
-// Regular: as in the thesis's chapter 4. Customised: as its chapter 5 changed it.
-enum class ConeVariant { Regular, Customised };
-
-enum class ThesisVoxelView { Cubes, Surfaces };
-
-// The thesis's VoxSettings. `auto` numbers: with the defect that goes with them on, the original's table for
-// 64, 128 and 256 voxels; else a value that does not depend on the size (docs/guide/thesis_mode.md).
-struct ThesisCones {
-    ConeVariant variant = ConeVariant::Customised;
-    AutoFloat aperture;    // full angle, rad; 0.001..3
-    AutoFloat distFactor;  // step as part of the diameter; 0.001..4
-    AutoFloat offset;      // distance of the first sample, m; 0.0001..10
-    bool operator==(const ThesisCones&) const = default;
-};
-
-struct ThesisSettings {
-    bool published = false;  // every defect on: the picture of the original program
-    // Parts of the picture
-    bool phong = true;           // direct light
-    bool phongAmbient = true;    // its ambient part; only without diffuse cones, unless defects.ambient_twice
-    bool phongDiffuse = true;    // its diffuse part
-    bool phongSpecular = false;  // its gloss
-    bool voxDiffuse = true;      // indirect diffuse light
-    bool voxSpecular = true;     // reflections
-    bool voxShadows = true;      // occlusion of direct light
-    bool frontCone = true, sideCones = false, intermediateCones = true;
-    ThesisCones diffuse, specular, occlusion;
-    AutoFloat diffuseOriginOffset;  // diffuse cones start this far along the normal, m; 0..10
-    AutoFloat shininessFalloff;     // exponent of the angular weight; 0..100
-    float shadowStr = 1.5f;         // gain of the customised occlusion; 0..100
-    float minSpecular =
-        0.004f;             // reflections of less weight are not traced (1/256 of white); 0 traces all; 0..1
-    int maxSamples = 4096;  // per cone; 1..16384
-    int voxelLevel = 0;     // level that component `voxels` shows; 0..8
-    ThesisVoxelView voxelView = ThesisVoxelView::Cubes;  // cubes, or their colours on the surfaces
-    ThesisDefects defects;
-    bool operator==(const ThesisSettings&) const = default;
 };
 
 // Cones that gather light at diffuse surfaces (docs/theory/4_gather.md): one, or a polar cone and rings of
@@ -253,11 +165,11 @@ struct Settings {
     VoxelSettings voxels;
     LightSettings light;
     PhongSettings phong;
-    ThesisSettings thesis;
     ConesSettings cones;
     TracedSettings traced;
     ViewSettings view;
     ImageSettings image;
+    SettingsGroups groups;  // of guests
     bool operator==(const Settings&) const = default;
 };
 

@@ -1,33 +1,46 @@
 // SPDX-License-Identifier: MIT
 // Settings and preset words by key: one list, found through a hash map.
 #include <algorithm>
+#include <iterator>
 #include <limits>
+#include <set>
 #include <unordered_map>
 
 #include "base/log.h"
 #include "settings/presets.h"
-#include "settings/table.h"
+#include "settings/registry.h"
 
 namespace conelight {
 namespace {
 
 struct Registry {
-    settings::Table table;
+    std::vector<Mode> modes{Mode::Phong, Mode::Cones, Mode::Traced};
+    std::set<std::string> guests;  // prefixes of the tables that were added
+    settings::Table table = settings::coreTable();
     std::vector<SettingInfo> infos;                       // of the table, in its order
     std::unordered_map<std::string, std::size_t> places;  // key -> index in both
 
-    Registry() : table(settings::coreTable()) {
-        const Settings defaults;
-        for (settings::Setting<Settings>& row : table) {
-            row.info.defaultValue = textOf(row, defaults);
-            places.emplace(row.info.key, infos.size());
-            infos.push_back(row.info);
-        }
-    }
+    Registry() { list(); }
+    void list();
 };
 
-const Registry& registry() {
-    static const Registry all;
+// The choices of setting `mode`, then the list that programs see.
+void Registry::list() {
+    settings::Setting<Settings>& mode = table.front();
+    mode.info.choices.clear();
+    for (const Mode& one : modes) mode.info.choices.emplace_back(one.name());
+    infos.clear();
+    places.clear();
+    const Settings defaults;
+    for (settings::Setting<Settings>& row : table) {
+        row.info.defaultValue = textOf(row, defaults);
+        places.emplace(row.info.key, infos.size());
+        infos.push_back(row.info);
+    }
+}
+
+Registry& registry() {
+    static Registry all;
     return all;
 }
 
@@ -72,6 +85,35 @@ const settings::Setting<Settings>& settingOf(const std::string& key) {
 }
 
 }  // namespace
+
+namespace settings {
+
+void registerTable(const std::string& prefix, Table rows, const std::string& before) {
+    Registry& all = registry();
+    if (all.guests.count(prefix) != 0) return;
+    for (const Setting<Settings>& row : rows)
+        if (all.places.count(row.info.key) != 0)
+            base::fail(ErrorKind::Usage,
+                       "setting %s: is there already; another prefix than '%s' would be right",
+                       row.info.key.c_str(), prefix.c_str());
+    all.guests.insert(prefix);
+    const auto place = std::find_if(all.table.begin(), all.table.end(), [&](const Setting<Settings>& row) {
+        return !before.empty() && row.info.key.compare(0, before.size(), before) == 0;
+    });
+    all.table.insert(place, std::make_move_iterator(rows.begin()), std::make_move_iterator(rows.end()));
+    all.list();
+}
+
+void registerModeName(Mode mode, Mode before) {
+    Registry& all = registry();
+    if (std::find(all.modes.begin(), all.modes.end(), mode) != all.modes.end()) return;
+    all.modes.insert(std::find(all.modes.begin(), all.modes.end(), before), mode);
+    all.list();
+}
+
+const std::vector<Mode>& knownModes() { return registry().modes; }
+
+}  // namespace settings
 
 const std::vector<SettingInfo>& settingInfos() { return registry().infos; }
 

@@ -2,15 +2,13 @@
 // The table of settings: for each its place in the structs, its range, its unit and its help. Every other
 // list of settings (--set, `conelight settings`, the documentation, the viewer's panels, checks) is made from
 // it.
-#include "settings/table.h"
+#include "settings/registry.h"
 
 namespace conelight::settings {
 namespace {
 
 constexpr const char* kShiftHelp = "moves the grid, to see what its place changes (conelight score shift)";
 
-constexpr Choice<Mode> kModes[] = {
-    {"phong", Mode::Phong}, {"thesis", Mode::Thesis}, {"cones", Mode::Cones}, {"traced", Mode::Traced}};
 constexpr Choice<Component> kComponents[] = {
     {"full", Component::Full},       {"direct", Component::Direct},     {"indirect", Component::Indirect},
     {"diffuse", Component::Diffuse}, {"specular", Component::Specular}, {"occlusion", Component::Occlusion},
@@ -39,9 +37,23 @@ constexpr Choice<VoxelShape> kVoxelShapes[] = {
 constexpr Choice<ToneMap> kToneMaps[] = {
     {"none", ToneMap::None}, {"reinhard", ToneMap::Reinhard}, {"aces", ToneMap::Aces}};
 
+// A mode is one of those that are registered.
+Setting<Settings> modeSetting() {
+    SettingInfo info;
+    info.key = "mode";
+    info.kind = SettingKind::Choice;
+    info.help = "how the picture is made";
+    return {info,
+            Chosen<Settings>{
+                [](const Settings& s) { return std::string(s.mode.name()); },
+                [](Settings& s, std::size_t index) { s.mode = knownModes()[index]; },
+            },
+            std::nullopt};
+}
+
 std::vector<Setting<Settings>> pictureSettings() {
     return {
-        {"mode", &Settings::mode, kModes, "how the picture is made"},
+        modeSetting(),
         {"component", &Settings::component, kComponents, "the part of the picture that is shown"},
     };
 }
@@ -74,7 +86,7 @@ std::vector<Setting<LightSettings>> lightSettings() {
 std::vector<Setting<PhongSettings>> phongSettings() {
     return {
         {"shadows", &PhongSettings::shadows, kToggles,
-         "shadow maps in mode phong; auto: not in scenes of the thesis's format"},
+         "shadow maps in mode phong; auto: off in scenes whose lights follow other conventions"},
     };
 }
 
@@ -143,13 +155,13 @@ std::vector<Setting<ViewSettings>> viewSettings() {
          "voxels among the objects, whichever is nearer, but in mode phong (component voxels: alone)"},
         {"voxel_data", &ViewSettings::voxelData, kVoxelData,
          "what voxels show; age, bricks and level as colours from blue (none, 1, 0) to red (256 "
-         "updates, 64 voxels, level 6); mode thesis has radiance, coverage and level"},
+         "updates, 64 voxels, level 6); modes without surface voxels have radiance, coverage and level"},
         {"voxel_shape", &ViewSettings::voxelShape, kVoxelShapes,
          "how voxels are drawn; auto: as the mode's rays or cones meet them; faces: plane pieces, "
          "mode traced only; surfaces: their colours on the objects"},
         {"voxel_level", &ViewSettings::voxelLevel, Numbers{0, 8}, "",
-         "level that is shown, voxels of 2^level; auto: cones.voxel_level or "
-         "thesis.voxel_level, in mode traced 0"},
+         "level that is shown, voxels of 2^level; auto: the mode's "
+         "voxel_level, in mode traced 0"},
         {"voxel_aperture", &ViewSettings::voxelAperture, Numbers{0, 1.5}, "rad",
          "show the level that a cone of this full angle from the eye reads at the distance; 0: one "
          "level everywhere"},
@@ -177,9 +189,6 @@ Table coreTable() {
     add(table, "voxels.", placeOf<Settings>(&Settings::voxels), voxelSettings());
     add(table, "light.", placeOf<Settings>(&Settings::light), lightSettings());
     add(table, "phong.", placeOf<Settings>(&Settings::phong), phongSettings());
-    add(table, "thesis.", placeOf<Settings>(&Settings::thesis), thesisSettings());
-    add(table, "thesis.defects.", placeOf<Settings>(within(&Settings::thesis, &ThesisSettings::defects)),
-        thesisDefects());
     add(table, "cones.", placeOf<Settings>(&Settings::cones), conesSettings());
     add(table, "traced.", placeOf<Settings>(&Settings::traced), tracedSettings());
     add(table, "view.", placeOf<Settings>(&Settings::view), viewSettings());

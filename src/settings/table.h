@@ -15,8 +15,7 @@ void add(Table& table, const std::string& prefix, const Place<Settings, Group>& 
     for (const Setting<Group>& row : rows) table.push_back(within(prefix, place, row));
 }
 
+// The choices of setting `mode`, its first row, are the registry's.
 Table coreTable();
-std::vector<Setting<ThesisSettings>> thesisSettings();
-std::vector<Setting<ThesisDefects>> thesisDefects();
 
 }  // namespace conelight::settings

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "conelight/thesis/settings.h"
 #include "console/console.h"
 #include "thesis/format/scene.h"
 
@@ -16,7 +17,7 @@ namespace conelight::test {
 inline Scene consoleScene() {
     Scene scene;
     scene.name = "boxes";
-    scene.meshes.push_back(io::thesisCube());
+    scene.meshes.push_back(thesis::thesisCube());
     scene.materials.resize(2);
     scene.materials[0].name = "white";
     setPbrFromPhong(scene.materials[0], scene.materials[0].phong.emplace());
@@ -43,7 +44,7 @@ struct ConsoleRig {
 
     static Settings settings() {
         Settings start;
-        start.mode = Mode::Thesis;
+        start.mode = thesis::kMode;
         return start;
     }
     void run(const std::string& text) {

@@ -255,7 +255,8 @@ TEST(Session, VoxelFlagsChangeWhatIsShown) {
     flags = {};
     flags.localizedLod = true;
     s.setFlags(flags, "lod");
-    EXPECT_EQ(s.shownSettings().thesis.voxelView, ThesisVoxelView::Surfaces);
+    EXPECT_EQ(s.shownSettings().component, Component::Voxels);
+    EXPECT_EQ(s.shownSettings().view.voxelShape, VoxelShape::Surfaces);
     s.setMode("cones");
     EXPECT_EQ(s.shownMode(), "thesis");
     flags = {};

@@ -206,7 +206,7 @@ TEST(SettingsTest, ValuesWrittenIntoTheStructsAreChecked) {
     EXPECT_NE(failure([](Settings& s) { s.image.exposure = std::numeric_limits<float>::quiet_NaN(); }), "");
     EXPECT_NE(failure([](Settings& s) { s.cones.maxDistance = {false, -1.0f}; }), "");
     EXPECT_EQ(failure([](Settings& s) { s.cones.maxDistance = {true, -1.0f}; }), "");
-    EXPECT_NE(failure([](Settings& s) { s.mode = static_cast<Mode>(99); }), "");
+    EXPECT_NE(failure([](Settings& s) { s.mode = Mode("nobody"); }), "");
     EXPECT_NE(failure([](Settings& s) { s.light.areaSamples = 2; }), "");
 }
 

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 #include <random>
+#include "conelight/thesis/settings.h"
 
 #include "conelight/error.h"
 #include "support/gl_fixture.h"
@@ -14,8 +15,8 @@
 namespace conelight::test {
 namespace {
 
-using voxels::ThesisVolume;
-using voxels::ThesisVolumeOptions;
+using thesis::ThesisVolume;
+using thesis::ThesisVolumeOptions;
 
 // A parallelogram as two triangles, white and matt, counter-clockwise from `normal`'s side.
 void addQuad(Scene& scene, const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v) {
@@ -257,7 +258,7 @@ TEST_F(ThesisVolumeTest, GridHoldsTheSceneAndHalvesEvenly) {
 
 // The original's tables, and what replaces them.
 TEST(ThesisConstantsTest, AutomaticNumbersFollowTheTable) {
-    ThesisSettings published;
+    thesis::ThesisSettings published;
     published.published = true;
     gpu::ThesisGrid grid{};
     grid.voxelSize = 0.01f;
@@ -269,7 +270,7 @@ TEST(ThesisConstantsTest, AutomaticNumbersFollowTheTable) {
                  {128, 0.01f, 0.35f, 0.3f, 0.15f, 0.02f, 3},
                  {256, 0.1f, 0.1f, 0.15f, 0.05f, 0.01f, 2}};
     for (const auto& row : table) {
-        const gpu::ThesisConstants c = gather::thesisConstants(published, grid, row.size);
+        const gpu::ThesisConstants c = thesis::thesisConstants(published, grid, row.size);
         EXPECT_FLOAT_EQ(c.diffuseCone.y, row.diffuseFactor);
         EXPECT_FLOAT_EQ(c.occlusionCone.y, row.occlusionFactor);
         EXPECT_FLOAT_EQ(c.specularCone.y, row.specularFactor);
@@ -283,12 +284,12 @@ TEST(ThesisConstantsTest, AutomaticNumbersFollowTheTable) {
         EXPECT_FLOAT_EQ(c.shininessFalloff, row.falloff);
     }
     // Between the tuned sizes the numbers lie between.
-    const float between = gather::thesisConstants(published, grid, 96).specularCone.y;
+    const float between = thesis::thesisConstants(published, grid, 96).specularCone.y;
     EXPECT_GT(between, 0.3f);
     EXPECT_LT(between, 0.8f);
     // A number wins over the table.
     published.diffuse.aperture = {false, 0.7f};
-    EXPECT_FLOAT_EQ(gather::thesisConstants(published, grid, 64).diffuseCone.x, spread(0.7f));
+    EXPECT_FLOAT_EQ(thesis::thesisConstants(published, grid, 64).diffuseCone.x, spread(0.7f));
 }
 
 TEST(ThesisConstantsTest, MarchesThatWouldNotEndAreRefused) {
@@ -300,9 +301,9 @@ TEST(ThesisConstantsTest, MarchesThatWouldNotEndAreRefused) {
                     << cone << "." << name << " = " << value;
     EXPECT_THROW(setSetting(settings, "thesis.max_samples", "0"), Error);
     // Also when set past the list of settings.
-    ThesisSettings direct;
+    thesis::ThesisSettings direct;
     direct.specular.offset = {false, 0.0f};
-    EXPECT_THROW(gather::thesisConstants(direct, gpu::ThesisGrid{}, 64), Error);
+    EXPECT_THROW(thesis::thesisConstants(direct, gpu::ThesisGrid{}, 64), Error);
 }
 
 }  // namespace conelight::test

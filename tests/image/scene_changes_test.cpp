@@ -9,7 +9,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "conelight/error.h"
+
 #include "conelight/renderer.h"
+#include "conelight/thesis/settings.h"
 #include "support/gl_fixture.h"
 #include "support/view_rig.h"
 
@@ -143,7 +145,7 @@ std::vector<Change> changes() {
 class SceneChanges : public GlTest {};
 
 TEST_F(SceneChanges, ThePictureIsThatOfAFreshRenderer) {
-    for (const Mode mode : {Mode::Phong, Mode::Thesis, Mode::Cones}) {
+    for (const Mode mode : {Mode::Phong, thesis::kMode, Mode::Cones}) {
         const Scene first = roomScene();
         Renderer renderer;
         renderer.setScene(first);
@@ -153,10 +155,10 @@ TEST_F(SceneChanges, ThePictureIsThatOfAFreshRenderer) {
             change.edit(scene);
             change.apply(renderer, scene);
             EXPECT_TRUE(sameBits(drawnBy(renderer, scene, mode), drawnAfresh(scene, mode)))
-                << change.name << ", mode " << static_cast<int>(mode);
+                << change.name << ", mode " << mode.name();
             change.apply(renderer, first);
             EXPECT_TRUE(sameBits(drawnBy(renderer, first, mode), before))
-                << change.name << " and back, mode " << static_cast<int>(mode);
+                << change.name << " and back, mode " << mode.name();
         }
     }
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "conelight/thesis/settings.h"
 #include "gl/pass.h"
 #include "io/generated_shapes.h"
 #include "scene/gpu_scene.h"
@@ -74,23 +75,23 @@ struct Cubes {
     }
 };
 
-constexpr Mode kModes[] = {Mode::Traced, Mode::Cones, Mode::Thesis};
+constexpr Mode kModes[] = {Mode::Traced, Mode::Cones, thesis::kMode};
 
 class VoxelViewRaysTest : public ViewsTest {
   protected:
     // The cubes of a level of what the mode shows: 2^level voxels on edge, cut at the end of the grid.
     Cubes cubesOf(ViewRig& rig, const Settings& settings, int level) {
-        return settings.mode == Mode::Thesis ? cubesOfThesis(rig, settings.voxels, level)
-                                             : cubesOfSurfaces(rig, settings, level);
+        return settings.mode == thesis::kMode ? cubesOfThesis(rig, settings.voxels, level)
+                                              : cubesOfSurfaces(rig, settings, level);
     }
 
   private:
     Cubes cubesOfThesis(ViewRig& rig, const VoxelSettings& voxelSettings, int level) {
-        voxels::ThesisVolumeOptions options;
+        thesis::ThesisVolumeOptions options;
         options.size = voxelSettings.size;
         options.padding = voxelSettings.padding;
         options.shadows = false;
-        voxels::ThesisVolume volume;
+        thesis::ThesisVolume volume;
         rig.draw(device());
         volume.build(device(), {rig.gpuScene, rig.lights}, options);
         const auto n = static_cast<int>(volume.grid().size);
@@ -136,7 +137,7 @@ TEST_F(VoxelViewRaysTest, RaysThatLeapMeetWhatRaysMeetThatDoNot) {
     const glm::dvec3 eye(camera.eye), forward = glm::normalize(glm::dvec3(camera.target) - eye);
     for (const Mode mode : kModes)
         for (const int level : {0, 1, 2, 3}) {
-            SCOPED_TRACE(testing::Message() << "mode " << static_cast<int>(mode) << " level " << level);
+            SCOPED_TRACE(testing::Message() << "mode " << mode.name() << " level " << level);
             settings.mode = mode;
             settings.view.voxelLevel = {false, static_cast<float>(level)};
             const Cubes cubes = cubesOf(rig, settings, level);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "conelight/thesis/settings.h"
 #include "support/views_rig.h"
 
 namespace conelight::test {
@@ -45,7 +46,7 @@ TEST_F(VoxelViewsTest, VoxelsShowTheCubeAtEveryLevel) {
 TEST_F(VoxelViewsTest, EveryShapeAndKindOfDataDraws) {
     const Scene scene = redCube();
     const double truth = covered(draw(scene, viewSettings(Mode::Phong, Component::Albedo)));
-    for (const Mode mode : {Mode::Traced, Mode::Cones, Mode::Thesis}) {
+    for (const Mode mode : {Mode::Traced, Mode::Cones, thesis::kMode}) {
         Settings settings = viewSettings(mode, Component::Voxels);
         draw(scene, settings);
         for (const VoxelShape shape : {VoxelShape::Auto, VoxelShape::Cubes, VoxelShape::Edges,
@@ -54,7 +55,7 @@ TEST_F(VoxelViewsTest, EveryShapeAndKindOfDataDraws) {
                 settings.view.voxelShape = shape;
                 settings.view.voxelData = static_cast<VoxelData>(data);
                 const Image image = again(scene, settings);
-                SCOPED_TRACE(testing::Message() << "mode " << static_cast<int>(mode) << " shape "
+                SCOPED_TRACE(testing::Message() << "mode " << mode.name() << " shape "
                                                 << static_cast<int>(shape) << " data " << data);
                 const double part = covered(image);
                 EXPECT_GT(part, shape == VoxelShape::Edges ? 0.02 : 0.15);
@@ -113,7 +114,7 @@ TEST_F(VoxelViewsTest, TheLevelGrowsWithTheDistance) {
     camera.target = {0, 0.3f, 0};
     camera.fovY = 1.2f;
     scene.cameras.push_back(camera);
-    for (const Mode mode : {Mode::Traced, Mode::Cones, Mode::Thesis})
+    for (const Mode mode : {Mode::Traced, Mode::Cones, thesis::kMode})
         for (const VoxelShape shape : {VoxelShape::Cubes, VoxelShape::Surfaces}) {
             Settings settings = viewSettings(mode, Component::Voxels);
             settings.view.voxelShape = shape;
@@ -131,7 +132,7 @@ TEST_F(VoxelViewsTest, TheLevelGrowsWithTheDistance) {
                 levels += order > last + 1e-4f ? 1 : 0;
                 last = std::max(last, order);
             }
-            EXPECT_GE(levels, 3) << static_cast<int>(mode) << " " << static_cast<int>(shape);
+            EXPECT_GE(levels, 3) << mode.name() << " " << static_cast<int>(shape);
         }
 }
 
@@ -143,25 +144,24 @@ TEST_F(VoxelViewsTest, VoxelsStandAmongTheObjects) {
     const std::size_t plate =
         addInstance(scene, quadMesh({-1, -1, 1}, {1, 0, 0}, {0, 2, 0}), mattMaterial({0, 0, 1}));
     scene.instances[plate].voxelized = false;
-    for (const Mode mode : {Mode::Traced, Mode::Cones, Mode::Thesis}) {
+    for (const Mode mode : {Mode::Traced, Mode::Cones, thesis::kMode}) {
         Settings settings = viewSettings(mode, Component::Albedo);
         const Image picture = draw(scene, settings);
         settings.view.voxels = true;
         settings.view.voxelShape = VoxelShape::Cubes;
         settings.view.voxelData = VoxelData::Level;
         const Image among = draw(scene, settings);
-        EXPECT_EQ(colorAt(among, 16, 32), colorAt(picture, 16, 32))
-            << static_cast<int>(mode);  // the plate is in front
+        EXPECT_EQ(colorAt(among, 16, 32), colorAt(picture, 16, 32)) << mode.name();  // the plate is in front
         EXPECT_EQ(colorAt(picture, 16, 32), glm::vec3(0, 0, 1));
-        EXPECT_GT(differing(among, picture), 0.05) << static_cast<int>(mode);
+        EXPECT_GT(differing(among, picture), 0.05) << mode.name();
     }
 }
 
 // The coarser levels and what is empty are kept from frame to frame: not when the scene or its light changes.
 TEST_F(VoxelViewsTest, WhatIsKeptForVoxelsFollowsTheScene) {
-    for (const Mode mode : {Mode::Traced, Mode::Cones, Mode::Thesis})
+    for (const Mode mode : {Mode::Traced, Mode::Cones, thesis::kMode})
         for (const int level : {0, 2}) {
-            SCOPED_TRACE(testing::Message() << "mode " << static_cast<int>(mode) << " level " << level);
+            SCOPED_TRACE(testing::Message() << "mode " << mode.name() << " level " << level);
             Scene scene = redCube();
             Settings settings = viewSettings(mode, Component::Voxels);
             settings.traced.bounces = 0;

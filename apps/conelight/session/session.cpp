@@ -173,14 +173,12 @@ Settings Session::shownSettings() const {
         // Among the objects, unless these are not drawn or are only wires.
         shown.view.voxels = flags_.drawObjects && !flags_.wireframeObjects;
         if (!shown.view.voxels) shown.component = Component::Voxels;
-        shown.thesis.voxelView = ThesisVoxelView::Cubes;
         if (flags_.wireframeVoxels)
             shown.view.voxelShape = VoxelShape::Edges;
         else if (shown.view.voxelShape == VoxelShape::Auto)
             shown.view.voxelShape = VoxelShape::Cubes;
     } else if (flags_.localizedLod) {
         shown.component = Component::Voxels;
-        shown.thesis.voxelView = ThesisVoxelView::Surfaces;
         shown.view.voxelShape = VoxelShape::Surfaces;
     }
     if (flags_.drawObjects && (flags_.wireframeObjects || flags_.wireframeOverlay))

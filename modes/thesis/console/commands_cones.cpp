@@ -7,6 +7,8 @@
 #include <array>
 
 #include "conelight/error.h"
+
+#include "conelight/thesis/settings.h"
 #include "console/console.h"
 #include "thesis/console/commands.h"
 
@@ -140,9 +142,11 @@ Command levelCommand() {
     command.details = "Without LEVEL it is printed.";
     command.run = [](const CommandContext& context) {
         Settings settings = context.session.settings();
-        if (context.count() == 0) return context.print(fmt::format("LOD: {}", settings.thesis.voxelLevel));
+        if (context.count() == 0)
+            return context.print(
+                fmt::format("LOD: {}", settings.groups.of<thesis::ThesisSettings>().voxelLevel));
         const int level = static_cast<int>(context.number(0));
-        settings.thesis.voxelLevel = level;
+        settings.groups.of<thesis::ThesisSettings>().voxelLevel = level;
         settings.cones.voxelLevel = std::min(level, 6);  // that mode's range ends there
         context.session.setSettings(settings, "lod");
     };

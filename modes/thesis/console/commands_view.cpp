@@ -40,7 +40,7 @@ Command preset(const char* name, const glm::vec3& eye, float yawDeg, float pitch
     command.help =
         fmt::format("camera preset {} of the thesis's program, or the scene's camera of that name", name + 3);
     command.run = [name, eye, yawDeg, pitchDeg](const CommandContext& context) {
-        Camera camera = io::thesisCamera(name, eye, yawDeg, pitchDeg);
+        Camera camera = thesis::thesisCamera(name, eye, yawDeg, pitchDeg);
         for (const Camera& one : context.session.scene().cameras)
             if (one.name == name) camera = one;
         context.session.jumpCamera(camera, name);

@@ -10,7 +10,7 @@ namespace conelight::thesis {
 
 void registerThesisFormat() {
     io::registerSceneFormat(
-        {kSceneFormat, "the thesis's format", {".txt", ".scene"}, io::loadThesisScene, io::writeThesisScene});
+        {kSceneFormat, "the thesis's format", {".txt", ".scene"}, loadThesisScene, writeThesisScene});
 }
 
 }  // namespace conelight::thesis

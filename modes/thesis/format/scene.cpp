@@ -12,14 +12,11 @@
 #include "thesis/format/scene.h"
 
 #include <fmt/core.h>
-#include <locale.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
-#include <set>
 
 #include "conelight/error.h"
 #include "conelight/thesis/thesis.h"
@@ -27,8 +24,16 @@
 #include "io/files.h"
 #include "io/geometry.h"
 #include "thesis/format/syntax.h"
+#include "thesis/format/values.h"
 
-namespace conelight::io {
+namespace conelight::thesis {
+
+using io::Bytes;
+using io::loadFirstMesh;
+using io::LoadOptions;
+using io::oneLine;
+using io::readFile;
+using io::removeMirrors;
 
 namespace fs = std::filesystem;
 
@@ -37,42 +42,21 @@ namespace {
 constexpr float kPi = 3.14159265358979f;
 constexpr float kDegree = kPi / 180.0f;
 
-// strtof in the "C" locale whatever the program has set.
-float cStrtof(const char* text, char** end) {
-    static const locale_t kLocale = ::newlocale(LC_ALL_MASK, "C", locale_t(0));
-    return ::strtof_l(text, end, kLocale);
-}
-
-// Reads one file; every reader method takes the block and a key and falls back to the default.
-class Loader {
+// Reads one file.
+class Loader : BlockValues {
   public:
     Loader(const fs::path& path, const LoadOptions& options)
-        : path_(path), file_(oneLine(path.string())), options_(options) {}
+        : BlockValues(oneLine(path.string()), scene_.notes), path_(path), options_(options) {}
 
     Scene load();
 
   private:
-    using Item = ThesisItem;
-
-    [[noreturn]] void fail(int line, const std::string& why) const {
-        throw Error(ErrorKind::BadInput, fmt::format("{}:{}: {}", file_, line, why));
-    }
-    void note(int line, const std::string& text) {
-        scene_.notes.push_back(fmt::format("line {}: {}", line, text));
-    }
-
-    // First item of the block with that key; null when absent.
-    const Item* first(const Item& block, const char* key) const;
-    const std::string* word(const Item& block, const char* key);
-    float number(const Item& block, const char* key, float otherwise);
-    float toNumber(const Item& item, const std::string& text);
-    bool boolean(const Item& block, const char* key, bool otherwise);
-    glm::vec3 triple(const Item& block, const char* key, const char* names, const glm::vec3& otherwise);
-    void checkKeys(const Item& block, std::initializer_list<const char*> known);
-
     void readScene(const Item& scene);
     void readModel(const Item& model);
     void readMaterial(const Item& model, Material& material);
+    LightType lightType(const Item& light);
+    void readIntensity(const Item& block, Light& light);
+    void readRectangle(const Item& block, Light& light);
     void readLight(const Item& light);
     void readCamera(const Item& camera);
     void readSettings(const Item& settings, const std::string& prefix);
@@ -80,86 +64,10 @@ class Loader {
     std::optional<fs::path> locate(const std::string& path) const;
 
     fs::path path_;
-    std::string file_;
     LoadOptions options_;
     Scene scene_;
     std::map<std::string, int> meshes_;  // by resolved path, "cube" for the primitive
-    std::set<std::string> unknownKeys_;  // already noted
 };
-
-const ThesisItem* Loader::first(const Item& block, const char* key) const {
-    const auto found = std::find_if(block.children.begin(), block.children.end(),
-                                    [&](const Item& item) { return item.key == key; });
-    return found == block.children.end() ? nullptr : &*found;
-}
-
-const std::string* Loader::word(const Item& block, const char* key) {
-    const Item* item = first(block, key);
-    if (item == nullptr) return nullptr;
-    if (item->isBlock) fail(item->line, fmt::format("{}: a single word expected, found a block", key));
-    return &item->word;
-}
-
-float Loader::toNumber(const Item& item, const std::string& text) {
-    char* end = nullptr;
-    const float value = cStrtof(text.c_str(), &end);
-    if (end == text.c_str())
-        note(item.line, fmt::format("{}: '{}' is no number; read as 0", oneLine(item.key), oneLine(text)));
-    if (!std::isfinite(value))
-        fail(item.line, fmt::format("{}: '{}' is not a finite number", oneLine(item.key), oneLine(text)));
-    return value;
-}
-
-float Loader::number(const Item& block, const char* key, float otherwise) {
-    const std::string* text = word(block, key);
-    return text == nullptr ? otherwise : toNumber(*first(block, key), *text);
-}
-
-bool Loader::boolean(const Item& block, const char* key, bool otherwise) {
-    const std::string* text = word(block, key);
-    if (text == nullptr) return otherwise;
-    const Item& item = *first(block, key);
-    if (item.cut && *text == "true")
-        note(item.line, fmt::format("{}: 'true' with a comma read as true (the original reads false)", key));
-    if (*text != "true" && *text != "false")
-        note(item.line, fmt::format("{}: '{}' read as false; only 'true' is true", key, oneLine(*text)));
-    return *text == "true";
-}
-
-// A block of three named numbers, or (an addition) three bare ones.
-glm::vec3 Loader::triple(const Item& block, const char* key, const char* names, const glm::vec3& otherwise) {
-    const Item* item = first(block, key);
-    if (item == nullptr) return otherwise;
-    if (!item->isBlock)
-        fail(item->line, fmt::format("{}: a block {{ {} = .. {} = .. {} = .. }} expected", key, names[0],
-                                     names[1], names[2]));
-    if (item->children.empty() && item->words.size() == 3) {
-        glm::vec3 out(0);
-        for (int c = 0; c < 3; ++c) out[c] = toNumber(*item, item->words[std::size_t(c)]);
-        return out;
-    }
-    if (item->children.empty()) {
-        note(item->line, fmt::format("{}: empty block; the default is used", key));
-        return otherwise;
-    }
-    glm::vec3 out(0);
-    for (int c = 0; c < 3; ++c) {
-        const char name[2] = {names[c], 0};
-        if (first(*item, name) == nullptr)
-            note(item->line, fmt::format("{}: '{}' is missing; read as 0", key, name));
-        out[c] = number(*item, name, 0.0f);
-    }
-    return out;
-}
-
-void Loader::checkKeys(const Item& block, std::initializer_list<const char*> known) {
-    for (const Item& item : block.children) {
-        const bool isKnown =
-            std::any_of(known.begin(), known.end(), [&](const char* key) { return item.key == key; });
-        if (!isKnown && unknownKeys_.insert(item.key).second)
-            note(item.line, fmt::format("unknown key '{}' skipped", oneLine(item.key, 60)));
-    }
-}
 
 std::optional<fs::path> Loader::locate(const std::string& given) const {
     std::string slashed = given;
@@ -294,32 +202,18 @@ void Loader::readModel(const Item& model) {
     scene_.instances.push_back(std::move(instance));
 }
 
-void Loader::readLight(const Item& block) {
-    checkKeys(block, {"name", "type", "position", "color", "att_constant", "att_linear", "att_quadratic",
-                      "intensity", "direction", "inner_angle", "outer_angle", "width", "height", "range",
-                      "active", "casts_shadow", "up"});
-    Light light;
-    const std::string* name = word(block, "name");
-    light.name = name != nullptr ? oneLine(*name) : fmt::format("light{}", scene_.lights.size());
+LightType Loader::lightType(const Item& block) {
     const std::string* type = word(block, "type");
-    if (type == nullptr || *type == "point")
-        light.type = LightType::Point;
-    else if (*type == "spot")
-        light.type = LightType::Spot;
-    else if (*type == "directional")
-        light.type = LightType::Directional;
-    else if (*type == "rect")
-        light.type = LightType::Rect;
-    else
-        fail(
-            first(block, "type")->line,
-            fmt::format("light type '{}' is unknown; known: point, spot, directional, rect", oneLine(*type)));
+    if (type == nullptr || *type == "point") return LightType::Point;
+    if (*type == "spot") return LightType::Spot;
+    if (*type == "directional") return LightType::Directional;
+    if (*type == "rect") return LightType::Rect;
+    fail(first(block, "type")->line,
+         fmt::format("light type '{}' is unknown; known: point, spot, directional, rect", oneLine(*type)));
+}
 
-    light.position = triple(block, "position", "xyz", glm::vec3(0));
-    const glm::vec3 direction = triple(block, "direction", "xyz", glm::vec3(0, -1, 0));
-    if (!(glm::length(direction) > 0.0f)) fail(block.line, "light: direction has no length");
-    light.direction = glm::normalize(direction);
-
+// Intensity and falloff, once the type is known.
+void Loader::readIntensity(const Item& block, Light& light) {
     // `color`: shows kd * color on a facing surface at attenuation 1. `intensity`: radiometric, in the unit
     // of the type; then the falloff is the inverse square unless an attenuation is given.
     const glm::vec3 color = triple(block, "color", "rgb", glm::vec3(1));
@@ -337,27 +231,44 @@ void Loader::readLight(const Item& block) {
     if (light.customFalloff &&
         (glm::any(glm::lessThan(light.falloff, glm::vec3(0))) || light.falloff == glm::vec3(0)))
         fail(block.line, "light: attenuation must be 0 or more, and not 0 in all three");
+}
 
+void Loader::readRectangle(const Item& block, Light& light) {
+    // Height runs along `up`, else the world's, as far as the direction allows; width at right angles to
+    // both.
+    const bool upright = std::abs(light.direction.y) <= 0.999f;
+    const glm::vec3 up = triple(block, "up", "xyz", upright ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, -1));
+    if (!(glm::length(glm::cross(up, light.direction)) > 0))
+        fail(block.line, "light: up and direction are parallel");
+    const glm::vec3 u = glm::normalize(glm::cross(up, light.direction));
+    const glm::vec3 v = glm::cross(light.direction, u);
+    light.halfU = 0.5f * std::max(number(block, "width", 1.0f), 0.0f) * u;
+    light.halfV = 0.5f * std::max(number(block, "height", 1.0f), 0.0f) * v;
+    if (light.halfU == glm::vec3(0) || light.halfV == glm::vec3(0))
+        fail(block.line, "light: width and height must be above 0");
+}
+
+void Loader::readLight(const Item& block) {
+    checkKeys(block, {"name", "type", "position", "color", "att_constant", "att_linear", "att_quadratic",
+                      "intensity", "direction", "inner_angle", "outer_angle", "width", "height", "range",
+                      "active", "casts_shadow", "up"});
+    Light light;
+    const std::string* name = word(block, "name");
+    light.name = name != nullptr ? oneLine(*name) : fmt::format("light{}", scene_.lights.size());
+    light.type = lightType(block);
+    light.position = triple(block, "position", "xyz", glm::vec3(0));
+    const glm::vec3 direction = triple(block, "direction", "xyz", glm::vec3(0, -1, 0));
+    if (!(glm::length(direction) > 0.0f)) fail(block.line, "light: direction has no length");
+    light.direction = glm::normalize(direction);
+
+    readIntensity(block, light);
     light.outerAngle = std::clamp(number(block, "outer_angle", 45.0f), 0.1f, 90.0f) * kDegree;
     light.innerAngle =
         std::clamp(number(block, "inner_angle", 0.0f) * kDegree, 0.0f, 0.999f * light.outerAngle);
     light.range = std::max(number(block, "range", 0.0f), 0.0f);
     light.enabled = boolean(block, "active", true);
     light.castsShadow = boolean(block, "casts_shadow", true);
-    if (light.type == LightType::Rect) {
-        // Height runs along `up`, else the world's, as far as the direction allows; width at right angles to
-        // both.
-        const bool upright = std::abs(light.direction.y) <= 0.999f;
-        const glm::vec3 up = triple(block, "up", "xyz", upright ? glm::vec3(0, 1, 0) : glm::vec3(0, 0, -1));
-        if (!(glm::length(glm::cross(up, light.direction)) > 0))
-            fail(block.line, "light: up and direction are parallel");
-        const glm::vec3 u = glm::normalize(glm::cross(up, light.direction));
-        const glm::vec3 v = glm::cross(light.direction, u);
-        light.halfU = 0.5f * std::max(number(block, "width", 1.0f), 0.0f) * u;
-        light.halfV = 0.5f * std::max(number(block, "height", 1.0f), 0.0f) * v;
-        if (light.halfU == glm::vec3(0) || light.halfV == glm::vec3(0))
-            fail(block.line, "light: width and height must be above 0");
-    }
+    if (light.type == LightType::Rect) readRectangle(block, light);
     scene_.lights.push_back(std::move(light));
 }
 
@@ -413,8 +324,8 @@ void Loader::readScene(const Item& block) {
 Scene Loader::load() {
     const Bytes bytes =
         readFile(path_, std::uint64_t(64) << 20);  // 64 MB of text: a thousand times any scene
-    ThesisText text = parseThesisText({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file_);
-    scene_.format = thesis::kSceneFormat;
+    ThesisText text = parseThesisText({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file());
+    scene_.format = kSceneFormat;
     scene_.name = "unnamedScene";
     scene_.notes = std::move(text.notes);
 
@@ -429,7 +340,7 @@ Scene Loader::load() {
     } else if (root == text.items.end()) {
         throw Error(
             ErrorKind::BadInput,
-            fmt::format("{}: holds no 'scene = {{ ... }}'; not a scene of the thesis's format", file_));
+            fmt::format("{}: holds no 'scene = {{ ... }}'; not a scene of the thesis's format", file()));
     } else {
         if (text.items.size() > 1)
             note(text.items[1].line, "more than one item at the top level; only the first is used");
@@ -485,4 +396,4 @@ Scene loadThesisScene(const fs::path& path, const LoadOptions& options) {
     return Loader(path, options).load();
 }
 
-}  // namespace conelight::io
+}  // namespace conelight::thesis

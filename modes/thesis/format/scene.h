@@ -8,9 +8,9 @@
 #include "conelight/scene.h"
 #include "io/scene_file.h"
 
-namespace conelight::io {
+namespace conelight::thesis {
 
-Scene loadThesisScene(const std::filesystem::path& path, const LoadOptions& options);
+Scene loadThesisScene(const std::filesystem::path& path, const io::LoadOptions& options);
 
 // The camera of the thesis's program: yaw -90 looks along -z, degrees.
 Camera thesisCamera(const std::string& name, const glm::vec3& eye, float yawDeg, float pitchDeg);
@@ -18,4 +18,4 @@ Camera thesisCamera(const std::string& name, const glm::vec3& eye, float yawDeg,
 // Edge 1, centred, 8 shared corners with diagonal normals (made unit here), 12 triangles.
 Mesh thesisCube();
 
-}  // namespace conelight::io
+}  // namespace conelight::thesis

@@ -11,7 +11,9 @@
 #include "conelight/error.h"
 #include "io/files.h"
 
-namespace conelight::io {
+namespace conelight::thesis {
+
+using io::oneLine;
 
 namespace {
 
@@ -208,4 +210,4 @@ ThesisText parseThesisText(std::string_view text, const std::string& file) {
     return Parser(tokensOf(text, file), file).parse();
 }
 
-}  // namespace conelight::io
+}  // namespace conelight::thesis

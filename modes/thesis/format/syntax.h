@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-namespace conelight::io {
+namespace conelight::thesis {
 
 struct ThesisItem {
     std::string key;
@@ -34,4 +34,4 @@ struct ThesisText {
 // `file` starts error lines. Throws Error(BadInput) "FILE:LINE: ...".
 ThesisText parseThesisText(std::string_view text, const std::string& file);
 
-}  // namespace conelight::io
+}  // namespace conelight::thesis

@@ -15,7 +15,12 @@
 #include "io/files.h"
 #include "thesis/format/scene.h"
 
-namespace conelight::io {
+namespace conelight::thesis {
+
+using io::Bytes;
+using io::oneLine;
+using io::refuseOverwriting;
+using io::writeFiles;
 
 namespace fs = std::filesystem;
 
@@ -275,7 +280,7 @@ void Writer::camera(const Camera& one) {
 void Writer::settings() {
     auto all = scene_.settings;
     // Scenes of other formats start otherwise than the thesis's do: say what theirs would be.
-    if (scene_.format != thesis::kSceneFormat) {
+    if (scene_.format != kSceneFormat) {
         for (const auto& [key, start] : {std::pair<const char*, const char*>{"image.exposure", "0"},
                                          {"image.tone_map", "aces"},
                                          {"image.srgb", "true"},
@@ -334,4 +339,4 @@ std::vector<std::string> writeThesisScene(const std::string& path, const Scene& 
     return Writer(path, scene).write(force);
 }
 
-}  // namespace conelight::io
+}  // namespace conelight::thesis

@@ -11,10 +11,10 @@
 
 #include "conelight/scene.h"
 
-namespace conelight::io {
+namespace conelight::thesis {
 
 // Throws Error(Usage) for a file that is there already unless `force`; Error(Runtime) when one cannot be
 // written.
 std::vector<std::string> writeThesisScene(const std::string& path, const Scene& scene, bool force);
 
-}  // namespace conelight::io
+}  // namespace conelight::thesis

@@ -9,7 +9,7 @@
 #include "gather/picture_parts.h"
 #include "gl/gl.h"
 
-namespace conelight::gather {
+namespace conelight::thesis {
 namespace {
 
 // One column of the original's tables (its VoxSettings for 64, 128 and 256 voxels), between them interpolated
@@ -168,10 +168,11 @@ gpu::ThesisConstants thesisConstants(const ThesisSettings& s, const gpu::ThesisG
 gl::Inputs ThesisConePass::given(const Inputs& inputs, const gl::Texture& output) {
     const Settings& settings = inputs.settings;
     gpu::ThesisConstants constants =
-        thesisConstants(settings.thesis, inputs.volume.grid(), settings.voxels.size);
+        thesisConstants(settings.groups.of<ThesisSettings>(), inputs.volume.grid(), settings.voxels.size);
     const std::size_t lights = inputs.pixels.lights.table().size();
     constants.lightCount = static_cast<std::uint32_t>(
-        effectiveDefects(settings.thesis).tenLights ? std::min<std::size_t>(lights, 10) : lights);
+        effectiveDefects(settings.groups.of<ThesisSettings>()).tenLights ? std::min<std::size_t>(lights, 10)
+                                                                         : lights);
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::ThesisConstants), "thesis constants");
     constants_.update(constants);
     gl::Inputs given;
@@ -183,13 +184,16 @@ gl::Inputs ThesisConePass::given(const Inputs& inputs, const gl::Texture& output
 }
 
 void ThesisConePass::record(const gl::Device& device, const Inputs& inputs, const gl::Texture& output,
-                            StepRecorder& recorder) {
+                            gather::StepRecorder& recorder) {
     const Settings& settings = inputs.settings;
-    const bool gathered = partsOf(settings.component).diffuse || partsOf(settings.component).specular ||
+    const bool gathered = gather::partsOf(settings.component).diffuse ||
+                          gather::partsOf(settings.component).specular ||
                           settings.component == Component::Occlusion;
     const Component component = gathered ? settings.component : Component::Full;
-    recorder.record(device, StepRecorder::variant(conesDesc(settings.thesis, component, false)),
-                    given(inputs, output));
+    recorder.record(
+        device,
+        gather::StepRecorder::variant(conesDesc(settings.groups.of<ThesisSettings>(), component, false)),
+        given(inputs, output));
 }
 
 void ThesisConePass::draw(const gl::Device& device, const Inputs& inputs, const gl::Texture& output,
@@ -197,7 +201,9 @@ void ThesisConePass::draw(const gl::Device& device, const Inputs& inputs, const 
     const gl::PassScope pass(device.profiler, "thesis cones");
     gl::Inputs given = this->given(inputs, output);
     if (lookupCounters != nullptr) given.storage("LookupTable", *lookupCounters);
-    device.get(conesDesc(inputs.settings.thesis, inputs.settings.component, lookupCounters != nullptr))
+    device
+        .get(conesDesc(inputs.settings.groups.of<ThesisSettings>(), inputs.settings.component,
+                       lookupCounters != nullptr))
         .dispatch(given, output.width(), output.height());
 }
 
@@ -212,9 +218,9 @@ std::vector<gl::ProgramDesc> ThesisConePass::programDescs() {
     for (const Component component : {Component::Full, Component::Direct, Component::Indirect,
                                       Component::Diffuse, Component::Specular, Component::Occlusion})
         add(mended, component);
-    descs.push_back(StepRecorder::variant(conesDesc(mended, Component::Full, false)));
-    descs.push_back(StepRecorder::variant(conesDesc(mended, Component::Occlusion, false)));
-    descs.push_back(StepRecorder::variant(conesDesc(published, Component::Full, false)));
+    descs.push_back(gather::StepRecorder::variant(conesDesc(mended, Component::Full, false)));
+    descs.push_back(gather::StepRecorder::variant(conesDesc(mended, Component::Occlusion, false)));
+    descs.push_back(gather::StepRecorder::variant(conesDesc(published, Component::Full, false)));
     add(mended, Component::Full, true);
     add(regular, Component::Full);
     add(published, Component::Full);
@@ -233,4 +239,4 @@ std::vector<gl::ProgramDesc> ThesisConePass::programDescs() {
     return descs;
 }
 
-}  // namespace conelight::gather
+}  // namespace conelight::thesis

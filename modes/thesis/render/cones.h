@@ -5,14 +5,14 @@
 // Writes every pixel of `output` (RGBA32F); readers need a barrier. GL state changed: program and its slots.
 #pragma once
 
-#include "conelight/settings.h"
+#include "conelight/thesis/settings.h"
 #include "gather/direct_light.h"
 #include "gather/step_recorder.h"
 #include "gl/device.h"
 #include "thesis/render/volume.h"
 #include "thesis/shaders/constants.h"
 
-namespace conelight::gather {
+namespace conelight::thesis {
 
 // Every defect on when `published`, else those that are switched on one by one.
 ThesisDefects effectiveDefects(const ThesisSettings& settings);
@@ -24,8 +24,8 @@ gpu::ThesisConstants thesisConstants(const ThesisSettings& settings, const gpu::
 class ThesisConePass {
   public:
     struct Inputs {
-        const DirectInputs& pixels;
-        const voxels::ThesisVolume& volume;
+        const gather::DirectInputs& pixels;
+        const ThesisVolume& volume;
         const Settings& settings;
     };
     // `lookupCounters` may be null; else three uints (diffuse, specular, occlusion) are added to.
@@ -35,7 +35,7 @@ class ThesisConePass {
     // Records the recorder's pixel of the picture that draw() draws with these settings. Views of the volume
     // are recorded as component full.
     void record(const gl::Device& device, const Inputs& inputs, const gl::Texture& output,
-                StepRecorder& recorder);
+                gather::StepRecorder& recorder);
 
     static std::vector<gl::ProgramDesc> programDescs();
 
@@ -45,4 +45,4 @@ class ThesisConePass {
     gl::Buffer constants_;
 };
 
-}  // namespace conelight::gather
+}  // namespace conelight::thesis

@@ -4,16 +4,16 @@
 #include "conelight/thesis/thesis.h"
 #include "gl/gl.h"
 
-namespace conelight::modes {
+namespace conelight::thesis {
 namespace {
 
-voxels::ThesisVolumeOptions volumeOptions(const Frame& frame) {
-    voxels::ThesisVolumeOptions options;
+ThesisVolumeOptions volumeOptions(const modes::Frame& frame) {
+    ThesisVolumeOptions options;
     options.size = frame.settings.voxels.size;
     options.padding = frame.settings.voxels.padding;
     options.shift = frame.settings.voxels.shift;
-    options.defects = gather::effectiveDefects(frame.settings.thesis);
-    options.unitGrid = frame.scene.source().format == thesis::kSceneFormat && options.defects.wholeGrid;
+    options.defects = effectiveDefects(frame.settings.groups.of<ThesisSettings>());
+    options.unitGrid = frame.scene.source().format == kSceneFormat && options.defects.wholeGrid;
     options.shadows = !options.defects.unshadowedVoxels && frame.settings.light.shadowSize > 0;
     if (options.shadows) options.lights = frame.lights.key();
     return options;
@@ -22,15 +22,16 @@ voxels::ThesisVolumeOptions volumeOptions(const Frame& frame) {
 }  // namespace
 
 bool ThesisMode::needsShadows(const Scene&, const Settings& settings) const {
-    return settings.light.shadowSize > 0 && !gather::effectiveDefects(settings.thesis).unshadowedVoxels;
+    return settings.light.shadowSize > 0 &&
+           !effectiveDefects(settings.groups.of<ThesisSettings>()).unshadowedVoxels;
 }
 
 bool ThesisMode::lightsFromEmitters(const Settings& settings) const {
-    return !gather::effectiveDefects(settings.thesis).darkEmitters;
+    return !effectiveDefects(settings.groups.of<ThesisSettings>()).darkEmitters;
 }
 
-void ThesisMode::updateVolume(const Frame& frame) {
-    const voxels::ThesisVolumeOptions options = volumeOptions(frame);
+void ThesisMode::updateVolume(const modes::Frame& frame) {
+    const ThesisVolumeOptions options = volumeOptions(frame);
     if (sceneFrom_ == frame.scene.geometryRevision() && lightsFrom_ == frame.lights.revision() &&
         options_ == options)
         return;
@@ -40,7 +41,7 @@ void ThesisMode::updateVolume(const Frame& frame) {
     options_ = options;
 }
 
-void ThesisMode::draw(const Frame& frame) {
+void ThesisMode::draw(const modes::Frame& frame) {
     updateVolume(frame);
     const gather::DirectInputs pixels{frame.scene, frame.lights, frame.surfaces};
     if (frame.recorder != nullptr)
@@ -51,9 +52,9 @@ void ThesisMode::draw(const Frame& frame) {
         cones_.draw(frame.device, {pixels, volume_, frame.settings}, frame.output, frame.lookupCounters);
 }
 
-void ThesisMode::drawVoxels(const Frame& frame) {
+void ThesisMode::drawVoxels(const modes::Frame& frame) {
     const gpu::ThesisGrid& grid = volume_.grid();
-    const ThesisSettings& thesis = frame.settings.thesis;
+    const ThesisSettings& own = frame.settings.groups.of<ThesisSettings>();
     const gather::VoxelVolume volume{
         .texture = volume_.texture(),
         .sampler = volume_.sampler(),
@@ -64,8 +65,8 @@ void ThesisMode::drawVoxels(const Frame& frame) {
         .filledMin = glm::ivec3(grid.boxMin),
         .filledSize = glm::ivec3(grid.boxSize),
         .zeroMeansEmpty = volume_.texture().desc().format == GL_RGBA16F && grid.maxLevel >= 2,
-        .level = thesis.voxelLevel,
-        .onSurfaces = thesis.voxelView == ThesisVoxelView::Surfaces,
+        .level = own.voxelLevel,
+        .onSurfaces = own.voxelView == ThesisVoxelView::Surfaces,
         .revision = volume_.revision()};
     voxelView_.draw(
         frame.device,
@@ -73,10 +74,10 @@ void ThesisMode::drawVoxels(const Frame& frame) {
 }
 
 std::vector<gl::ProgramDesc> ThesisMode::programDescs() {
-    std::vector<gl::ProgramDesc> descs = voxels::ThesisVolume::programDescs();
-    const std::vector<gl::ProgramDesc> cones = gather::ThesisConePass::programDescs();
+    std::vector<gl::ProgramDesc> descs = ThesisVolume::programDescs();
+    const std::vector<gl::ProgramDesc> cones = ThesisConePass::programDescs();
     descs.insert(descs.end(), cones.begin(), cones.end());
     return descs;
 }
 
-}  // namespace conelight::modes
+}  // namespace conelight::thesis

@@ -10,11 +10,11 @@
 #include "thesis/render/cones.h"
 #include "thesis/render/volume.h"
 
-namespace conelight::modes {
+namespace conelight::thesis {
 
-class ThesisMode : public ModeRenderer {
+class ThesisMode : public modes::ModeRenderer {
   public:
-    void draw(const Frame& frame) override;
+    void draw(const modes::Frame& frame) override;
     bool needsShadows(const Scene& scene, const Settings& settings) const override;
     // In the thesis's program emissive objects light nothing (a defect).
     bool lightsFromEmitters(const Settings& settings) const override;
@@ -22,15 +22,15 @@ class ThesisMode : public ModeRenderer {
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
-    void updateVolume(const Frame& frame);
-    void drawVoxels(const Frame& frame);
+    void updateVolume(const modes::Frame& frame);
+    void drawVoxels(const modes::Frame& frame);
 
-    voxels::ThesisVolume volume_;
-    gather::ThesisConePass cones_;
+    ThesisVolume volume_;
+    ThesisConePass cones_;
     gather::VoxelView voxelView_;
     // What the volume was made from.
     base::Revision sceneFrom_, lightsFrom_;
-    std::optional<voxels::ThesisVolumeOptions> options_;
+    std::optional<ThesisVolumeOptions> options_;
 };
 
-}  // namespace conelight::modes
+}  // namespace conelight::thesis

@@ -8,7 +8,7 @@
 #include "gl/gl.h"
 #include "shared/bindings.h"
 
-namespace conelight::voxels {
+namespace conelight::thesis {
 namespace {
 
 constexpr int kBrick = THESIS_BRICK;
@@ -305,4 +305,4 @@ std::vector<gl::ProgramDesc> ThesisVolume::programDescs() {
     return descs;
 }
 
-}  // namespace conelight::voxels
+}  // namespace conelight::thesis

@@ -14,14 +14,14 @@
 #pragma once
 
 #include "base/revision.h"
-#include "conelight/settings.h"
+#include "conelight/thesis/settings.h"
 #include "gl/device.h"
 #include "gl/draw.h"
 #include "light/lights.h"
 #include "scene/gpu_scene.h"
 #include "thesis/shaders/constants.h"
 
-namespace conelight::voxels {
+namespace conelight::thesis {
 
 struct ThesisVolumeOptions {
     int size = 64;           // voxels along the cube's edge; 8..512, divisible by 4
@@ -78,4 +78,4 @@ class ThesisVolume {
     base::Revision revision_;
 };
 
-}  // namespace conelight::voxels
+}  // namespace conelight::thesis

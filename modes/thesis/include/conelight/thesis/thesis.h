@@ -8,8 +8,9 @@ namespace conelight::thesis {
 // Scene::format of scenes with the thesis's conventions.
 inline constexpr const char* kSceneFormat = "thesis";
 
-// Adds the mode and its shaders to the library's lists. Call before the first Renderer, from one thread; a
-// second call does nothing. Scene format and console commands: format/format.h and console/commands.h.
+// Adds the mode, its settings and its shaders to the library's lists. Call before the first Renderer, from
+// one thread; a second call does nothing. Scene format and console commands: format/format.h and
+// console/commands.h.
 void registerThesis();
 
 }  // namespace conelight::thesis

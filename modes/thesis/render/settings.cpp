@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: MIT
-// The table of the settings of mode `thesis`.
-#include "settings/table.h"
+// The table of the settings of mode `thesis`: for each its place in the structs, its range, its unit, its
+// help.
+#include "conelight/thesis/settings.h"
 
-namespace conelight {
-namespace settings {
+#include "settings/registry.h"
+
+namespace conelight::thesis {
 namespace {
+
+using settings::Choice;
+using settings::Numbers;
+using settings::Place;
+using settings::Setting;
+using settings::within;
 
 constexpr Choice<ConeVariant> kConeVariants[] = {{"regular", ConeVariant::Regular},
                                                  {"customised", ConeVariant::Customised}};
 constexpr Choice<ThesisVoxelView> kThesisVoxelViews[] = {{"cubes", ThesisVoxelView::Cubes},
                                                          {"surfaces", ThesisVoxelView::Surfaces}};
 
-}  // namespace
-
-std::vector<Setting<ThesisSettings>> thesisSettings() {
+std::vector<Setting<ThesisSettings>> pictureTable() {
     return {
         {"published", &ThesisSettings::published, "all of thesis.defects.* on: the original's picture"},
         {"phong", &ThesisSettings::phong, "direct light"},
@@ -66,7 +72,7 @@ std::vector<Setting<ThesisSettings>> thesisSettings() {
     };
 }
 
-std::vector<Setting<ThesisDefects>> thesisDefects() {
+std::vector<Setting<ThesisDefects>> defectTable() {
     return {
         {"racing_stores", &ThesisDefects::racingStores, "the last of several fragments stays in a voxel"},
         {"center_coverage", &ThesisDefects::centerCoverage,
@@ -123,14 +129,22 @@ std::vector<Setting<ThesisDefects>> thesisDefects() {
     };
 }
 
-}  // namespace settings
+}  // namespace
 
 std::vector<bool*> thesisDefectFlags(ThesisDefects& defects) {
-    static const std::vector<settings::Setting<ThesisDefects>> rows = settings::thesisDefects();
+    static const std::vector<Setting<ThesisDefects>> rows = defectTable();
     std::vector<bool*> flags;
-    for (const settings::Setting<ThesisDefects>& row : rows)
-        flags.push_back(&std::get<settings::Place<ThesisDefects, bool>>(row.field).edit(defects));
+    for (const Setting<ThesisDefects>& row : rows)
+        flags.push_back(&std::get<Place<ThesisDefects, bool>>(row.field).edit(defects));
     return flags;
 }
 
-}  // namespace conelight
+void registerSettings() {
+    std::vector<Setting<ThesisSettings>> rows = pictureTable();
+    const auto defects = settings::placeOf<ThesisSettings>(&ThesisSettings::defects);
+    for (const Setting<ThesisDefects>& row : defectTable()) rows.push_back(within("defects.", defects, row));
+    settings::registerSettings("thesis.", rows, "cones.");
+    settings::registerModeName(kMode, Mode::Cones);
+}
+
+}  // namespace conelight::thesis
