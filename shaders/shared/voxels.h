@@ -127,7 +127,7 @@ struct SurfaceConstants {
     uint voxelsPerChunk;
     float emissionScale;  // power of two >= largest emission of any material: sums of emission are relative
                           // to it
-    uint dirtyBricks;     // updates: bricks whose chains are searched for fragments to drop
+    uint editedBricks;    // updates: bricks whose chains are searched for fragments to drop
     uint pad0;
 };  // 48 B
 

@@ -9,7 +9,7 @@ layout(local_size_x = 64) in;
 #include "lib/voxel_record.glsl"
 #include "voxels/surface_common.glsl"
 layout(std430) buffer CounterTable { uint counters[]; };
-layout(std430) readonly buffer DirtyTable { uint dirtyBricks[]; };
+layout(std430) readonly buffer EditedTable { uint editedBricks[]; };
 layout(std430) buffer ChangedTable { uint changedBricks[]; };
 layout(std430) readonly buffer StaleTable { uint stale[]; };
 layout(std430) buffer MaskTable { uint masks[]; };
@@ -31,8 +31,8 @@ uint storedDirections(uint base) {
 
 void main() {
     uint index = linearInvocation();
-    bool used = index < 64u * surface.dirtyBricks;
-    uint brick = dirtyBricks[used ? index >> 6 : 0u];
+    bool used = index < 64u * surface.editedBricks;
+    uint brick = editedBricks[used ? index >> 6 : 0u];
     uint bit = index & 63u;
     uvec4 word = texelFetch(brickWords, brickOfIndex(brick, gridBricks()), 0);
     bool occupied = used && (((bit & 32u) != 0u ? word.y : word.x) >> (bit & 31u) & 1u) != 0u;

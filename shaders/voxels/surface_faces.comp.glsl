@@ -34,10 +34,10 @@ void main() {
         uvec2 chain = chains[i];
         uint directions = chain.y & CHAIN_DIRECTIONS;
 #if SURFACE_UPDATE
-        bool dirty = (chain.y & CHAIN_DIRTY) != 0u;
-        if (dirty) chains[i].y = directions;
-        // A voxel that is not dirty was there before, with the same directions.
-        uint old = texelFetch(oldRecords, dirty ? 0 : int(origins[i])).x & 0x3ffffffu;
+        bool edited = (chain.y & CHAIN_DIRTY) != 0u;
+        if (edited) chains[i].y = directions;
+        // A voxel that is not edited was there before, with the same directions.
+        uint old = texelFetch(oldRecords, edited ? 0 : int(origins[i])).x & 0x3ffffffu;
 #endif
         records[i] = min(next, 0x3ffffffu) | (directions << 26);
         uint remaining = directions;
@@ -45,9 +45,9 @@ void main() {
         while (remaining != 0u) {
             uint owner = chain.x | (uint(findLSB(remaining)) << 29);
 #if SURFACE_UPDATE
-            owner = dirty ? owner : old | (OWNER_IS_FACE << 29);
+            owner = edited ? owner : old | (OWNER_IS_FACE << 29);
             ++old;
-            if (dirty && next < surface.faceCapacity) work[atomicAdd(counters[SURFACE_WORK], 1u)] = next;
+            if (edited && next < surface.faceCapacity) work[atomicAdd(counters[SURFACE_WORK], 1u)] = next;
 #endif
             if (next < surface.faceCapacity) owners[next] = owner;
             remaining &= remaining - 1u;

@@ -70,7 +70,7 @@ Edits SurfaceVoxels::Impl::editsOf(const scene::GpuScene& scene) const {
         edits.triangles += instance.indexCount / 3;
     }
     for (std::size_t i = 0; i < marked.size(); ++i)
-        if (marked[i]) edits.dirtyBricks.push_back(static_cast<std::uint32_t>(i));
+        if (marked[i]) edits.editedBricks.push_back(static_cast<std::uint32_t>(i));
     return edits;
 }
 
@@ -86,7 +86,7 @@ void SurfaceVoxels::Impl::uploadEdits(const scene::GpuScene& scene, const Edits&
     };
     fill(stale, edits.stale, "voxelizer stale instances");
     fill(runs, edits.runs, "voxelizer changed instances");
-    fill(dirtyBricks, edits.dirtyBricks, "voxelizer dirty bricks");
+    fill(editedBricks, edits.editedBricks, "voxelizer edited bricks");
     if (!freeList || freeList.bytes() < std::size_t{4} * capacity.fragments)
         freeList = gl::Buffer(std::size_t{4} * capacity.fragments, "voxelizer free slots");
     room(origins, std::size_t{4} * capacity.voxels, "voxelizer origins");
@@ -104,7 +104,7 @@ void SurfaceVoxels::Impl::uploadEdits(const scene::GpuScene& scene, const Edits&
 void SurfaceVoxels::Impl::drop(const gl::Device& device, const Edits& edits) {
     const gl::PassScope scope(device.profiler, "voxelize: drop");
     gl::Inputs given = this->given();
-    device.get(descOf(SurfacePass::Drop)).dispatchLinear(given, 64 * edits.dirtyBricks.size());
+    device.get(descOf(SurfacePass::Drop)).dispatchLinear(given, 64 * edits.editedBricks.size());
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
 }
 

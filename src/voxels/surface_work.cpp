@@ -155,7 +155,7 @@ void SurfaceVoxels::Impl::upload(const scene::GpuScene& scene, const Edits* edit
     c.triangleCount = edits != nullptr ? edits->triangles : scene.triangleCount();
     c.instanceCount =
         static_cast<std::uint32_t>(edits != nullptr ? edits->runs.size() : scene.instances().size());
-    c.dirtyBricks = edits != nullptr ? static_cast<std::uint32_t>(edits->dirtyBricks.size()) : 0;
+    c.editedBricks = edits != nullptr ? static_cast<std::uint32_t>(edits->editedBricks.size()) : 0;
     c.tileCapacity = capacity.tiles;
     c.fragmentCapacity = capacity.fragments;
     c.voxelCapacity = capacity.voxels;
@@ -211,7 +211,7 @@ gl::Inputs SurfaceVoxels::Impl::given() const {
     storage("SourceTable", now.faceSources);
     storage("FreeTable", freeList);
     storage("ChangedTable", changedBricks);
-    storage("DirtyTable", dirtyBricks);
+    storage("EditedTable", editedBricks);
     storage("StaleTable", stale);
     storage("RunTable", runs);
     storage("OriginTable", origins);

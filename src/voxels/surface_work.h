@@ -54,10 +54,10 @@ void clearBricks(VoxelKeys& keys, const glm::ivec3& bricks);
 
 // Which instances have changed since the last build, and what has to be done about them.
 struct Edits {
-    std::vector<std::uint32_t> stale;        // bit per instance
-    std::vector<glm::uvec2> runs;            // instances to voxelize: index, first triangle of the work
-    std::vector<std::uint32_t> dirtyBricks;  // where changed instances were
-    std::uint32_t triangles = 0;             // of the work
+    std::vector<std::uint32_t> stale;         // bit per instance
+    std::vector<glm::uvec2> runs;             // instances to voxelize: index, first triangle of the work
+    std::vector<std::uint32_t> editedBricks;  // where changed instances were
+    std::uint32_t triangles = 0;              // of the work
     bool any = false;
 };
 
@@ -73,7 +73,7 @@ struct SurfaceVoxels::Impl {
     // Work space
     gl::Buffer counters, constants, triangles, tiles, pairs, masks, fragments, chunks, owners, layered;
     gl::Texture triangleTexels, pairTexels, fragmentTexels, ownerTexels;
-    gl::Buffer stale, runs, dirtyBricks, freeList, origins, workList;  // of updates
+    gl::Buffer stale, runs, editedBricks, freeList, origins, workList;  // of updates
 
     // The scene as it was voxelized last.
     base::Revision sceneIdentity;

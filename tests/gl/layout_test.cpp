@@ -138,7 +138,7 @@ const std::vector<Struct>& table() {
             facesPerChunk, chunkCount, restart, reflections, reflectedLimit),
         ROW(CacheCarry, oldOrigin, oldInverseVoxelSize, oldSizeX, oldSizeY, oldSizeZ, pad0),
         ROW(SurfaceConstants, triangleCount, instanceCount, tileCapacity, fragmentCapacity, voxelCapacity,
-            faceCapacity, brickCapacity, bricksPerChunk, voxelsPerChunk, emissionScale, dirtyBricks, pad0),
+            faceCapacity, brickCapacity, bricksPerChunk, voxelsPerChunk, emissionScale, editedBricks, pad0),
     };
     return structs;
 }
