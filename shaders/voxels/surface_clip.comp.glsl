@@ -114,7 +114,7 @@ void main() {
     uint directions = facingDirections(stored) | (twoSided ? facingDirections(-stored) : 0u);
     directions = kept ? directions : 0u;
 #if SURFACE_UPDATE
-    directions |= CHAIN_DIRTY;
+    directions |= CHAIN_EDITED;
     if (chained) {
         uint brick = brickIndex(voxel >> 2, gridBricks());
         atomicOr(changedBricks[brick >> 5], 1u << (brick & 31u));

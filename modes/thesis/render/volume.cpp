@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "gl/gl.h"
-#include "shared/bindings.h"
 
 namespace conelight::thesis {
 namespace {
