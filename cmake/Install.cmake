@@ -1,8 +1,8 @@
-# Installs the public headers, the library and a package file for find_package(conelight).
+# Installs the public headers, the library, its guests and a package file for find_package(conelight).
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
-install(TARGETS conelight EXPORT conelightTargets)
-install(DIRECTORY include/conelight DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+install(TARGETS conelight conelight_thesis EXPORT conelightTargets)
+install(DIRECTORY include/conelight modes/thesis/include/conelight DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT conelightTargets NAMESPACE conelight:: DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/conelight)
 configure_package_config_file(cmake/conelightConfig.cmake.in ${PROJECT_BINARY_DIR}/conelightConfig.cmake
   INSTALL_DESTINATION ${CMAKE_INSTALL_LIBDIR}/cmake/conelight)

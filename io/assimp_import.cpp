@@ -312,7 +312,7 @@ Scene importWhole(const fs::path& path) {
 
 Scene importFirstMesh(const fs::path& path) {
     Scene scene;
-    // As the thesis's program, plus welding and the normals it crashes without.
+    // As stored, plus welding, and normals where there are none.
     constexpr unsigned kFlags = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                                 aiProcess_GenSmoothNormals | aiProcess_FlipUVs;
     withAssimp(path, kFlags, [&](const aiScene& source) {

@@ -16,7 +16,7 @@ namespace conelight::io {
 // format says its units and axes. Missing normals are made smooth up to 60 degrees.
 Scene loadAssimp(const std::filesystem::path& path, const LoadOptions& options);
 
-// Only the first mesh of the file, in its own space and without materials: what the thesis's program uses.
+// Only the first mesh of the file, in its own space and without materials.
 Mesh loadFirstMesh(const std::filesystem::path& path, const LoadOptions& options);
 
 // Extensions the linked Assimp knows, lower case with dot.

@@ -147,7 +147,7 @@ GltfValue ownExtras(const GltfValue& value) {
 
 void Reader::readOwnExtras(const GltfValue& scene) {
     const GltfValue own = ownExtras(scene);
-    scene_.thesisFormat = own["thesisFormat"].boolean(false);
+    scene_.format = oneLine(own["format"].text(own["thesisFormat"].boolean(false) ? "thesis" : ""));
     const GltfValue settings = own["settings"];
     for (std::size_t i = 0; i < settings.size(); ++i)
         scene_.settings.emplace_back(settings[i][std::size_t(0)].text(""),

@@ -237,13 +237,13 @@ Material GltfMaterials::convert(const GltfValue& from) {
     const GltfValue extras = from["extras"];
     if (extras.isObject() && extras["conelight"].isObject()) {
         const GltfValue phong = extras["conelight"]["phong"];
-        to.isPhong = phong.isObject();
-        if (to.isPhong) {
-            to.phong.color = glm::clamp(phong["color"].vector<3>(to.phong.color), 0.0f, 1.0f);
-            to.phong.shininess = std::max(phong["shininess"].number(to.phong.shininess), 0.0f);
-            to.phong.ambientStrength = std::max(phong["ambient"].number(to.phong.ambientStrength), 0.0f);
-            to.phong.diffuseStrength = std::max(phong["diffuse"].number(to.phong.diffuseStrength), 0.0f);
-            to.phong.specularStrength = std::max(phong["specular"].number(to.phong.specularStrength), 0.0f);
+        if (phong.isObject()) {
+            PhongMaterial& own = to.phong.emplace();
+            own.color = glm::clamp(phong["color"].vector<3>(own.color), 0.0f, 1.0f);
+            own.shininess = std::max(phong["shininess"].number(own.shininess), 0.0f);
+            own.ambientStrength = std::max(phong["ambient"].number(own.ambientStrength), 0.0f);
+            own.diffuseStrength = std::max(phong["diffuse"].number(own.diffuseStrength), 0.0f);
+            own.specularStrength = std::max(phong["specular"].number(own.specularStrength), 0.0f);
         }
     }
     return to;

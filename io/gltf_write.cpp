@@ -160,7 +160,7 @@ void Writer::addCamera(const Camera& camera) {
 
 void Writer::addSceneExtras(Json& scene) {
     if (scene_.sky != glm::vec3(0)) scene["extras"]["sky"] = listOf(scene_.sky);
-    if (scene_.thesisFormat) scene["extras"]["conelight"]["thesisFormat"] = true;
+    if (!scene_.format.empty()) scene["extras"]["conelight"]["format"] = scene_.format;
     for (const auto& [key, value] : scene_.settings)
         scene["extras"]["conelight"]["settings"].push_back(Json::array({key, value}));
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Scene -> glTF 2.0: meshes, instances as nodes, metallic-roughness materials with the KHR extensions that
 // io/gltf_*.cpp reads, textures as PNG, lights (KHR_lights_punctual), cameras. What glTF has no words for
-// (rectangular lights, the thesis's falloff and materials, flags of instances, settings) is kept in
+// (rectangular lights, falloffs, Phong materials, flags of instances, settings) is kept in
 // `extras.conelight`, which loadScene reads back and other programs ignore.
 #pragma once
 

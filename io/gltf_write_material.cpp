@@ -107,12 +107,12 @@ void writeGltfMaterial(Json& root, const Material& m, std::set<std::string>& ext
     }
     if (m.doubleSided) to["doubleSided"] = true;
     writeExtensions(to, m, strength, extensions);
-    if (m.isPhong)
-        to["extras"]["conelight"]["phong"] = {{"color", listOf(m.phong.color)},
-                                              {"shininess", m.phong.shininess},
-                                              {"ambient", m.phong.ambientStrength},
-                                              {"diffuse", m.phong.diffuseStrength},
-                                              {"specular", m.phong.specularStrength}};
+    if (m.phong)
+        to["extras"]["conelight"]["phong"] = {{"color", listOf(m.phong->color)},
+                                              {"shininess", m.phong->shininess},
+                                              {"ambient", m.phong->ambientStrength},
+                                              {"diffuse", m.phong->diffuseStrength},
+                                              {"specular", m.phong->specularStrength}};
     root["materials"].push_back(to);
 }
 

@@ -15,7 +15,7 @@
 #include "io/assimp_import.h"
 #include "io/files.h"
 #include "io/gltf.h"
-#include "io/thesis_scene.h"
+#include "io/scene_format.h"
 #if __has_include("io/generated.h")
 #include "io/generated.h"
 #endif
@@ -45,6 +45,14 @@ bool isGltf1(const fs::path& path) {
     return false;
 }
 
+// " .ext (its title)," for each.
+std::string registeredFormats() {
+    std::string text;
+    for (const SceneFormat& format : sceneFormats())
+        text += fmt::format(" {} ({}),", format.extensions.front(), format.title);
+    return text;
+}
+
 Scene read(const fs::path& path, const LoadOptions& options) {
     const std::string extension = lowerExtension(path);
     if (extension == ".gltf" || extension == ".glb" || extension == ".vrm") {
@@ -55,18 +63,16 @@ Scene read(const fs::path& path, const LoadOptions& options) {
             return loadAssimp(path, options);
         }
     }
-    if (extension == ".txt" || extension == ".scene") return loadThesisScene(path, options);
+    if (const SceneFormat* format = sceneFormatOf(extension)) return format->read(path, options);
     const std::vector<std::string> known = assimpExtensions();
     if (std::find(known.begin(), known.end(), extension) != known.end()) return loadAssimp(path, options);
     if (!fs::exists(path))
         throw Error(ErrorKind::BadInput, fmt::format("{}: no such file", oneLine(path.string())));
-    throw Error(
-        ErrorKind::Usage,
-        fmt::format(
-            "{}: unknown scene extension '{}'; known: .gltf .glb, .txt (the thesis's format), .obj .fbx .ply "
-            ".stl .dae .3ds .ifc and {} more, or builtin:NAME",
-            oneLine(path.string()), oneLine(extension),
-            known.size() - std::min<std::size_t>(known.size(), 7)));
+    throw Error(ErrorKind::Usage, fmt::format("{}: unknown scene extension '{}'; known: .gltf .glb,{} .obj "
+                                              ".fbx .ply .stl .dae .3ds .ifc and {} "
+                                              "more, or builtin:NAME",
+                                              oneLine(path.string()), oneLine(extension), registeredFormats(),
+                                              known.size() - std::min<std::size_t>(known.size(), 7)));
 }
 
 }  // namespace
@@ -94,7 +100,9 @@ Scene loadScene(const std::string& pathOrBuiltin, const LoadOptions& options) {
 std::vector<std::string> sceneExtensions() {
     const std::vector<std::string> foreign = assimpExtensions();
     std::set<std::string> all(foreign.begin(), foreign.end());
-    all.insert({".gltf", ".glb", ".txt", ".scene"});
+    all.insert({".gltf", ".glb"});
+    for (const SceneFormat& format : sceneFormats())
+        all.insert(format.extensions.begin(), format.extensions.end());
     return {all.begin(), all.end()};
 }
 

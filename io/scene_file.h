@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes from files: glTF 2.0 (.gltf .glb), the thesis's text format (.txt .scene), generated scenes
+// Scenes from files: glTF 2.0 (.gltf .glb), registered formats (scene_format.h), generated scenes
 // (builtin:NAME) and every format Assimp reads (.obj .fbx .ply .stl .dae .3ds .ifc ...).
 #pragma once
 
@@ -13,7 +13,8 @@ namespace conelight::io {
 
 struct LoadOptions {
     // Processor seconds a foreign importer may use, plus one for every 5 MB of the file; 0 = no limit. A file
-    // that needs more is an error. Does not apply to glTF and the text format, whose cost is bounded by size.
+    // that needs more is an error. Does not apply to glTF and registered formats, whose cost is bounded by
+    // size.
     double timeLimitSeconds = 10.0;
     // Memory a foreign importer may take, plus 100 bytes for every byte of the file; 0 = no limit.
     std::uint64_t memoryLimitBytes = std::uint64_t(4) << 30;

@@ -8,6 +8,8 @@
 #include <iterator>
 #include <set>
 
+#include "io/scene_format.h"
+
 namespace conelight::io {
 
 namespace {
@@ -62,14 +64,22 @@ class Report {
     std::string out_;
 };
 
+// " (the format's title without its article)"; by its name when nobody registered it.
+std::string formatOf(const Scene& scene) {
+    if (scene.format.empty()) return "";
+    const SceneFormat* known = sceneFormatNamed(scene.format);
+    const std::string title = known != nullptr ? known->title : scene.format;
+    return fmt::format(" ({})", title.rfind("the ", 0) == 0 ? title.substr(4) : title);
+}
+
 std::string describe(const Material& m) {
     std::string out =
         fmt::format("{}: base {}", m.name.empty() ? "(unnamed)" : m.name, text(glm::vec3(m.baseColor)));
     if (m.baseColor.a < 1.0f) out += fmt::format(", opacity {:.3g}", m.baseColor.a);
-    if (m.isPhong)
+    if (m.phong)
         out += fmt::format(", Phong ambient {:.3g} diffuse {:.3g} specular {:.3g} shininess {:.3g}",
-                           m.phong.ambientStrength, m.phong.diffuseStrength, m.phong.specularStrength,
-                           m.phong.shininess);
+                           m.phong->ambientStrength, m.phong->diffuseStrength, m.phong->specularStrength,
+                           m.phong->shininess);
     else
         out += fmt::format(", metallic {:.3g}, roughness {:.3g}", m.metallic, m.roughness);
     if (m.specular != 1.0f) out += fmt::format(", specular {:.3g}", m.specular);
@@ -162,8 +172,7 @@ std::string describeScene(const Scene& scene, std::size_t maxRows) {
     for (const Texture& texture : scene.textures) textureBytes += texture.rgba.size();
 
     const Aabb bounds = scene.bounds();
-    report.line("scene      {}{}", scene.name.empty() ? "(unnamed)" : scene.name,
-                scene.thesisFormat ? " (thesis's format)" : "");
+    report.line("scene      {}{}", scene.name.empty() ? "(unnamed)" : scene.name, formatOf(scene));
     report.line("triangles  {} drawn, {} voxelized, {} emissive", triangles, voxelized, emissive);
     report.line("instances  {}{}", scene.instances.size(),
                 hidden > 0 ? fmt::format(", {} hidden", hidden) : "");

@@ -30,6 +30,11 @@ class Writer {
         append(value.data(), value.size());
     }
     template <typename T>
+    void optional(const std::optional<T>& value) {
+        plain(value.has_value());
+        if (value) plain(*value);
+    }
+    template <typename T>
     std::size_t count(const std::vector<T>& values) {
         plain(std::uint64_t(values.size()));
         return values.size();
@@ -59,6 +64,12 @@ class Reader {
     void text(std::string& value) {
         value.resize(length(1));
         take(value.data(), value.size());
+    }
+    template <typename T>
+    void optional(std::optional<T>& value) {
+        bool given = false;
+        plain(given);
+        if (given) plain(value.emplace());
     }
     template <typename T>
     std::size_t count(std::vector<T>& values) {
@@ -127,8 +138,7 @@ void visitMaterial(Stream& s, M& material) {
     s.plain(material.emissiveTexture);
     s.plain(material.specularTexture);
     s.plain(material.specularColorTexture);
-    s.plain(material.isPhong);
-    s.plain(material.phong);
+    s.optional(material.phong);
 }
 
 template <typename Stream, typename I>
@@ -182,7 +192,7 @@ void visitScene(Stream& s, S& scene) {
     for (std::size_t i = 0, n = s.count(scene.lights); i < n; ++i) visitLight(s, scene.lights[i]);
     for (std::size_t i = 0, n = s.count(scene.cameras); i < n; ++i) visitCamera(s, scene.cameras[i]);
     s.plain(scene.sky);
-    s.plain(scene.thesisFormat);
+    s.text(scene.format);
     for (std::size_t i = 0, n = s.count(scene.settings); i < n; ++i) {
         s.text(scene.settings[i].first);
         s.text(scene.settings[i].second);

@@ -8,11 +8,17 @@
 #include "conelight/error.h"
 #include "io/files.h"
 #include "io/gltf_write.h"
-#include "io/thesis_write.h"
+#include "io/scene_format.h"
 
 namespace conelight::io {
 
-std::vector<std::string> writtenSceneExtensions() { return {".glb", ".gltf", ".scene", ".txt"}; }
+std::vector<std::string> writtenSceneExtensions() {
+    std::vector<std::string> all{".glb", ".gltf"};
+    for (const SceneFormat& format : sceneFormats())
+        all.insert(all.end(), format.extensions.begin(), format.extensions.end());
+    std::sort(all.begin(), all.end());
+    return all;
+}
 
 std::vector<std::string> writeScene(const std::string& path, const Scene& scene, bool force) {
     const std::vector<std::string> known = writtenSceneExtensions();
@@ -22,8 +28,8 @@ std::vector<std::string> writeScene(const std::string& path, const Scene& scene,
                     fmt::format("{}: scenes are not written as '{}'; one of {} would be right", oneLine(path),
                                 oneLine(extension), fmt::join(known, " ")));
     refuseOverwriting(path, force);
-    if (extension == ".gltf" || extension == ".glb") return writeGltf(path, scene, force);
-    return writeThesisScene(path, scene, force);
+    if (const SceneFormat* format = sceneFormatOf(extension)) return format->write(path, scene, force);
+    return writeGltf(path, scene, force);
 }
 
 }  // namespace conelight::io

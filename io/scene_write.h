@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scenes to files: glTF 2.0 (.gltf .glb) and the thesis's text format (.txt .scene).
+// Scenes to files: glTF 2.0 (.gltf .glb) and registered formats (scene_format.h).
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Radiosity: the other pole of the thesis's comparison. Diffuse light between patches, solved once for the
-// whole scene, looked at from anywhere. Methods and citations: radiosity.cpp.
+// Radiosity: the other pole of a comparison with the path tracer. Diffuse light between patches, solved once
+// for the whole scene, looked at from anywhere. Methods and citations: radiosity.cpp.
 //
 // Result: a Scene of the same look whose vertices carry the light: vertex colours are the irradiance over pi
 // of diffuse surfaces (times base colour and texture = radiance), materials are unlit, emitters show their

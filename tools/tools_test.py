@@ -66,6 +66,25 @@ class Layers(Project):
         self.write("src/voxels/a.cpp", "#include <epoxy/gl.h>\n// glFinish() waits\nformat = GL_RGBA8;\nglFinish();\n")
         self.assertEqual(len(self.problems()), 2)
 
+    def test_nobody_includes_a_guest_but_the_program_in_one_place(self):
+        self.write("modes/visitor/render/a.h", '#include "gl/buffer.h"\n#include "visitor/shaders/a.h"\n')
+        self.write("modes/visitor/format/b.cpp", '#include "io/files.h"\n#include "conelight/visitor/visitor.h"\n')
+        self.write("modes/visitor/console/c.cpp", '#include "session/session.h"\n#include "visitor/format/b.h"\n')
+        self.write("apps/conelight/guests.cpp", '#include "conelight/visitor/visitor.h"\n')
+        self.assertEqual(self.problems(), [])
+        self.write("apps/conelight/d.cpp", '#include "visitor/format/b.h"\n')
+        self.write("modes/visitor/render/e.cpp", '#include "io/files.h"\n#include "visitor/format/b.h"\n')
+        self.write("modes/visitor/format/f.cpp", '#include "gl/buffer.h"\n')
+        self.assertEqual(len(self.problems()), 4)
+
+    def test_the_library_names_no_guest(self):
+        self.write("modes/visitor/render/a.h", "// visitor\n")
+        self.write("src/modes/a.cpp", "// revisitors' visits\n")
+        self.assertEqual(self.problems(), [])
+        self.write("src/modes/b.cpp", "// a visitor's\nMode::Visitor\nisVisitor\nVISITOR_SIZE\n")
+        self.write("include/conelight/c.h", "#include <conelight/visitor/visitor.h>\n")
+        self.assertEqual(len(self.problems()), 6)
+
     def test_public_headers_stand_alone(self):
         self.write("include/conelight/a.h", "#include <conelight/b.h>\n#include <glm/glm.hpp>\n#include <vector>\n")
         self.assertEqual(self.problems(), [])

@@ -91,8 +91,8 @@ void ViewOptions::addTo(CLI::App& command) {
     command
         .add_option(
             "--quality", quality,
-            "work of mode traced (same as --set traced.quality=NAME before all others); errors are those "
-            "in builtin:cornell against the path tracer:" +
+            "work of mode traced (same as --set traced.quality=NAME before all others); errors are in "
+            "docs/measurements/modes_vs_reference.md; costs:" +
                 qualities)
         ->type_name("NAME");
     command.add_option("--camera", camera, "a camera of the scene: its name, or its number from 0")

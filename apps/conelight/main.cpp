@@ -12,6 +12,7 @@
 #include "command_line.h"
 #include "conelight/error.h"
 #include "conelight/version.h"
+#include "guests.h"
 #include "platform/headless_context.h"
 #include "script_run.h"
 
@@ -43,6 +44,7 @@ int main(int argc, char** argv) {
     conelight::setLogCallback(printMessage);
     conelight::program::installInterruptHandler();
     conelight::program::keepCommandLine(argc, argv);
+    conelight::program::registerGuests();
 
     CLI::App app("Conelight: global illumination by voxel cone tracing, measured against ground truth.",
                  "conelight");

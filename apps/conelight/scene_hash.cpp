@@ -29,16 +29,17 @@ void addMesh(Hash& hash, const Mesh& mesh) {
 }
 
 void addMaterial(Hash& hash, const Material& m) {
+    const PhongMaterial phong = m.phong.value_or(PhongMaterial{});
     hash.add(m.baseColor);
     hash.add(m.specularColor);
     hash.add(m.emission);
     for (const float value :
-         {m.metallic, m.roughness, m.ior, m.specular, m.normalScale, m.alphaCutoff, m.phong.shininess,
-          m.phong.ambientStrength, m.phong.diffuseStrength, m.phong.specularStrength})
+         {m.metallic, m.roughness, m.ior, m.specular, m.normalScale, m.alphaCutoff, phong.shininess,
+          phong.ambientStrength, phong.diffuseStrength, phong.specularStrength})
         hash.add(value);
-    hash.add(m.phong.color);
+    hash.add(phong.color);
     hash.add(static_cast<int>(m.alphaMode));
-    for (const bool value : {m.doubleSided, m.unlit, m.isPhong}) hash.add(value);
+    for (const bool value : {m.doubleSided, m.unlit, m.phong.has_value()}) hash.add(value);
     for (const TextureRef* reference : {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture,
                                         &m.emissiveTexture, &m.specularTexture, &m.specularColorTexture})
         addReference(hash, *reference);
@@ -118,7 +119,7 @@ void addScene(Hash& hash, const Scene& scene) {
     for (const Instance& instance : scene.instances) addInstance(hash, instance);
     for (const Light& light : scene.lights) addLight(hash, light);
     hash.add(scene.sky);
-    hash.add(scene.thesisFormat);
+    hash.add(!scene.format.empty());
 }
 
 void addCamera(Hash& hash, const Camera& camera) {

@@ -4,6 +4,7 @@
 
 #include "command.h"
 #include "conelight/quality.h"
+#include "session/session.h"
 
 namespace conelight::program {
 
@@ -16,11 +17,11 @@ void printQualities(bool markdown) {
         return;
     }
     fmt::print(
-        "| quality | rays per pixel | into lobes | rays per voxel face | indirect light: relRMSE | bias |\n"
-        "|---|--:|--:|--:|--:|--:|\n");
+        "| quality | rays per pixel | into lobes | rays per voxel face |\n"
+        "|---|--:|--:|--:|\n");
     for (const QualityInfo& info : qualityInfos())
-        fmt::print("| `{}` | {} | {} | {} | {:.1f} % | {:+.1f} % |\n", info.name, info.raysPerPixel,
-                   info.lobeRays, info.raysPerFace, 100 * info.relativeError, 100 * info.bias);
+        fmt::print("| `{}` | {} | {} | {} |\n", info.name, info.raysPerPixel, info.lobeRays,
+                   info.raysPerFace);
 }
 
 }  // namespace
@@ -32,18 +33,19 @@ void addSettings(CLI::App& app) {
     command->add_option("filter", *filter, "show only settings whose key contains this");
     command->add_flag("--markdown", *markdown, "as the table of docs/reference/settings.md");
     auto qualities = std::make_shared<bool>(false);
-    command->add_flag("--qualities", *qualities, "instead: what each --quality costs and how good it is");
+    command->add_flag("--qualities", *qualities, "instead: what each --quality costs");
     command->callback([filter, markdown, qualities] {
         if (*qualities) return printQualities(*markdown);
         if (*markdown)
             fmt::print("| setting | default | range | unit | what it does |\n|---|---|---|---|---|\n");
-        for (const SettingInfo& info : settingInfos()) {
+        for (const SettingInfo* listed : listedSettings()) {
+            const SettingInfo& info = *listed;
             if (info.key.find(*filter) == std::string::npos) continue;
             if (*markdown)
-                fmt::print("| `{}` | `{}` | {} | {} | {} |\n", info.key, info.defaultValue, info.range,
+                fmt::print("| `{}` | `{}` | {} | {} | {} |\n", info.key, info.defaultValue, rangeText(info),
                            info.unit, info.help);
             else
-                fmt::print("{:<36} {:<10} {}{}{}\n{:<36} {}\n", info.key, info.defaultValue, info.range,
+                fmt::print("{:<36} {:<10} {}{}{}\n{:<36} {}\n", info.key, info.defaultValue, rangeText(info),
                            info.unit.empty() ? "" : " ", info.unit, "", info.help);
         }
     });

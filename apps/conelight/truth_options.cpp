@@ -141,9 +141,9 @@ int parseBounces(const std::string& text, int most) {
 void applyBounces(Settings& settings, const std::string& bounces) {
     if (bounces.empty()) return;
     if (settings.mode == Mode::Traced) {
-        constexpr int kMost = 15;  // the next number, 16, stands for all
+        constexpr int kMost = 15;  // of traced.bounces
         const int count = parseBounces(bounces, kMost);
-        settings.traced.bounces = count < 0 ? kMost + 1 : count;
+        settings.traced.bounces = count < 0 ? std::nullopt : std::optional<int>(count);
         if (count == 0 && settings.component == Component::Full) settings.component = Component::Direct;
         return;
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The scene as plain tables on the CPU: what exists, in metres and radiometric units, before anything is
-// uploaded. Filled by hand or by conelight_io (glTF, OBJ, the thesis's text format, generated scenes);
+// uploaded. Filled by hand or by conelight_io (glTF, OBJ, other formats, generated scenes);
 // read by the renderer and by the path tracer, which both see exactly this.
 //
 // Conventions: right-handed, y up, metres, radians, linear Rec.709 RGB. Column vectors, worldFromObject.
@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -87,9 +88,8 @@ struct TextureRef {
 
 enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
 
-// The material model of the thesis (its sections on Phong shading), used by modes `thesis` and `phong`.
-// Radiance per light: (ambient + diffuse * n.l + specular * (v.r)^shininess) * lightColor * color /
-// attenuation.
+// Phong's model with an ambient part, as mode `phong` shows it. Radiance per light: (ambient + diffuse * n.l
+// + specular * (v.r)^shininess) * lightColor * color / attenuation.
 struct PhongMaterial {
     glm::vec3 color{0.85f};  // linear, [0,1]
     float shininess = 32.0f;
@@ -121,15 +121,16 @@ struct Material {
     TextureRef specularTexture;           // a: specular
     TextureRef specularColorTexture;      // rgb: specularColor
 
-    bool isPhong =
-        false;  // `phong` is given by the scene (thesis's format); else it is derived from the above
-    PhongMaterial phong;  // see phongFromPbr / pbrFromPhong
+    std::optional<PhongMaterial> phong;  // what modes of that model show; none: phongFromPbr of the above
 };
 
-// Fills the Phong model of a metallic-roughness material, and the other way round. The mapping is chosen so
+// The Phong model of a metallic-roughness material, and the other way round: setPbrFromPhong sets what the
+// model says and leaves the rest, `phong` too. The mapping is chosen so
 // that a diffuse surface shows the same radiance in both (docs/theory/1_scene.md, "Two material models").
 PhongMaterial phongFromPbr(const Material& material);
-void setPbrFromPhong(Material& material);
+void setPbrFromPhong(Material& material, const PhongMaterial& phong);
+// As the scene gives it, or else derived.
+PhongMaterial phongOf(const Material& material);
 
 // One placement of a mesh.
 struct Instance {
@@ -137,9 +138,8 @@ struct Instance {
     int mesh = -1;
     int material = -1;  // -1: the default Material
     glm::mat4 worldFromObject{1.0f};
-    bool visible = true;  // false: in no pass at all (the thesis's active = false)
-    bool voxelized =
-        true;  // false: drawn, but neither occludes nor bounces nor emits (the thesis's static = true)
+    bool visible = true;      // false: in no pass at all
+    bool voxelized = true;    // false: drawn, but neither occludes nor bounces nor emits
     bool castsShadow = true;  // false: left out of shadow maps and shadow rays
     bool dynamic = false;     // a hint that it moves; whatever changes is made anew, with or without it
 };
@@ -163,7 +163,7 @@ struct Light {
     float range = 0.0f;              // glTF's range in metres, 0 = unlimited
     bool enabled = true;
     bool castsShadow = true;
-    // The thesis's falloff instead of the inverse square: intensity / (constant + linear d + quadratic d^2).
+    // A falloff of its own instead of the inverse square: intensity / (constant + linear d + quadratic d^2).
     bool customFalloff = false;
     glm::vec3 falloff{1.0f, 0.15f, 0.45f};  // constant, linear, quadratic
 };
@@ -188,8 +188,9 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<Camera> cameras;
     glm::vec3 sky{0.0f};  // constant radiance of the surroundings, W/(sr m^2)
-    // Scenes of the thesis's format are lit and shaded with its own conventions (section 5.6 of its sheet).
-    bool thesisFormat = false;
+    // Name of the format whose conventions hold here, beside those above; empty: none. Such scenes were made
+    // to be seen by Phong's model alone, without shadow maps or tone map, or in the mode of that name.
+    std::string format;
     // Settings that the scene file asks for, KEY=VALUE in order (see settings.h); the caller applies them.
     std::vector<std::pair<std::string, std::string>> settings;
     // What the importer left out or changed, one line each, without the file name.

@@ -4,11 +4,11 @@
 // it is; the caller rebuilds the volume from it. One invocation per face.
 layout(local_size_x = 64) in;  // before linear_index, which asks for it
 #include "lib/cone_trace.glsl"
+#include "lib/lighting.glsl"
 #include "lib/linear_index.glsl"
-#include "lib/scene_tables.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
-layout(std430, binding = BINDING_VOXEL_FACES) buffer Faces { FaceRecord faces[]; };
+layout(std430) buffer FaceTable { FaceRecord faces[]; };
 
 void main() {
     uint index = linearIndex();
@@ -18,7 +18,7 @@ void main() {
     vec3 origin = worldFromGrid(faceCenter(face)) + cones.offset * normal;
     uint samples;
     vec3 irradiance =
-        gatherCones(origin, normal, inside ? cones.count : 0u, frame.sky, cones.maxDistance, 0.0, samples)
+        gatherCones(origin, normal, inside ? cones.count : 0u, lighting.sky, cones.maxDistance, 0.0, samples)
             .rgb;
     if (!inside) return;
     // Below the largest half.

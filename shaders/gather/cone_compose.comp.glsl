@@ -11,16 +11,16 @@
 #include "lib/brdf.glsl"
 #include "lib/gbuffer.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(rgba32f, binding = 0) writeonly uniform image2D result;
+layout(rgba32f) writeonly uniform image2D result;
 #if SHOW_DIRECT
-layout(binding = UNIT_PASS + 1) uniform sampler2D directDiffuse;  // with emission and sky
-layout(binding = UNIT_PASS + 2) uniform sampler2D directSpecular;
+uniform sampler2D directDiffuse;  // with emission and sky
+uniform sampler2D directSpecular;
 #endif
 #if SHOW_DIFFUSE
-layout(binding = UNIT_PASS + 3) uniform sampler2D diffuseIrradiance;  // / pi
+uniform sampler2D diffuseIrradiance;  // / pi
 #endif
 #if SHOW_SPECULAR
-layout(binding = UNIT_PASS + 4) uniform sampler2D specularRadiance;
+uniform sampler2D specularRadiance;
 #endif
 
 void main() {

@@ -9,10 +9,11 @@
 #include "lib/brdf.glsl"
 #include "lib/cone_trace.glsl"
 #include "lib/gbuffer.glsl"
+#include "lib/lighting.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(rgba16f, binding = 0) writeonly uniform image2D result;
+layout(rgba16f) writeonly uniform image2D result;
 #if COUNT_LOOKUPS
-layout(std430, binding = BINDING_STORAGE_PASS) buffer LookupCounters { uint lookups[]; };
+layout(std430) buffer LookupCounters { uint lookups[]; };
 #endif
 
 void main() {
@@ -22,13 +23,13 @@ void main() {
     vec3 origin = s.position + cones.offset * s.geometricNormal;
     uint samples;
 #if OCCLUSION
-    vec4 gathered = gatherCones(origin, s.normal, seen ? cones.count : 0u, frame.sky, cones.occlusionDistance,
-                                1.0 / max(cones.occlusionDistance, 1e-9), samples);
+    vec4 gathered = gatherCones(origin, s.normal, seen ? cones.count : 0u, lighting.sky,
+                                cones.occlusionDistance, 1.0 / max(cones.occlusionDistance, 1e-9), samples);
 #else
     // Metals and unlit surfaces have no diffuse part.
     bool matt = seen && !s.unlit && s.metallic < 1.0;
     vec4 gathered =
-        gatherCones(origin, s.normal, matt ? cones.count : 0u, frame.sky, cones.maxDistance, 0.0, samples);
+        gatherCones(origin, s.normal, matt ? cones.count : 0u, lighting.sky, cones.maxDistance, 0.0, samples);
 #endif
 #ifdef RECORD_STEPS
     Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));

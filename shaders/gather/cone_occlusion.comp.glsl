@@ -4,8 +4,8 @@
 // in the background.
 #include "lib/gbuffer.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(rgba32f, binding = 0) writeonly uniform image2D result;
-layout(binding = UNIT_PASS + 3) uniform sampler2D occlusion;
+layout(rgba32f) writeonly uniform image2D result;
+uniform sampler2D occlusion;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

@@ -14,10 +14,11 @@
 #include "lib/brdf.glsl"
 #include "lib/cone_trace.glsl"
 #include "lib/gbuffer.glsl"
+#include "lib/lighting.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(rgba16f, binding = 0) writeonly uniform image2D result;
+layout(rgba16f) writeonly uniform image2D result;
 #if COUNT_LOOKUPS
-layout(std430, binding = BINDING_STORAGE_PASS) buffer LookupCounters { uint lookups[]; };
+layout(std430) buffer LookupCounters { uint lookups[]; };
 #endif
 
 const float kWidestTan = 2.8284271;  // tan(acos(1/3))
@@ -50,12 +51,12 @@ void main() {
     RECORD_SURFACE(seen, s);
     if (seen) {
         RECORD_PATH(PATH_SPECULAR_CONE, m.origin, direction, tanHalf, vec3(1.0),
-                    marchedRadiance(m, frame.sky), 1.0 - open, m.t, open == 0.0 ? END_FULL : END_OPEN);
-        RECORD_PART(PART_SPECULAR, marchedRadiance(m, frame.sky),
+                    marchedRadiance(m, lighting.sky), 1.0 - open, m.t, open == 0.0 ? END_FULL : END_OPEN);
+        RECORD_PART(PART_SPECULAR, marchedRadiance(m, lighting.sky),
                     specularAlbedo(b, directionalAlbedo(b.nov, sqrt(b.alpha))));
     }
 #else
-    imageStore(result, pixel, vec4(marchedRadiance(m, frame.sky), open));
+    imageStore(result, pixel, vec4(marchedRadiance(m, lighting.sky), open));
 #endif
 #if COUNT_LOOKUPS
     if (seen) atomicAdd(lookups[LOOKUPS_SPECULAR], samples * kFetchesPerSample);

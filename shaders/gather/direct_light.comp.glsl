@@ -7,8 +7,8 @@
 #include "lib/lights.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0, rgba32f) writeonly uniform image2D diffuseImage;
-layout(binding = 1, rgba32f) writeonly uniform image2D specularImage;
+layout(rgba32f) writeonly uniform image2D diffuseImage;
+layout(rgba32f) writeonly uniform image2D specularImage;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -19,6 +19,6 @@ void main() {
     vec3 diffuse = b.diffuse / kPi * light.irradiance + s.emission;
     vec3 specular = s.unlit ? vec3(0.0) : light.specular;
     if (pixel.x >= int(frame.width) || pixel.y >= int(frame.height)) return;
-    imageStore(diffuseImage, pixel, seen ? vec4(diffuse, 1.0) : vec4(frame.sky, 0.0));
+    imageStore(diffuseImage, pixel, seen ? vec4(diffuse, 1.0) : vec4(lighting.sky, 0.0));
     imageStore(specularImage, pixel, seen ? vec4(specular, 1.0) : vec4(0.0));
 }

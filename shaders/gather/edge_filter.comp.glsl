@@ -14,14 +14,14 @@
 #include "lib/gbuffer.glsl"
 #include "lib/pixel_history.glsl"
 #include "shared/pixel_rays.h"
-layout(std140, binding = BINDING_PASS) uniform PixelRayBlock { PixelRayConstants pixelRays; };
-layout(binding = PIXEL_UNIT_HISTORY) uniform usampler2D source;
+layout(std140) uniform PixelRayBlock { PixelRayConstants pixelRays; };
+uniform usampler2D source;
 layout(local_size_x = 8, local_size_y = 8) in;
 #if SPECULAR
 #define LOBE_LIST_ACCESS readonly
 #include "lib/lobe_list.glsl"
 #endif
-layout(rgba32ui, binding = 0) writeonly uniform uimage2D result;
+layout(rgba32ui) writeonly uniform uimage2D result;
 
 // The eight neighbours, row by row: all but the middle of 3x3.
 ivec2 neighbour(int i) {

@@ -9,7 +9,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "lib/brdf.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/lobe_list.glsl"
-layout(std140, binding = BINDING_PASS) uniform PixelRayBlock { PixelRayConstants pixelRays; };
+layout(std140) uniform PixelRayBlock { PixelRayConstants pixelRays; };
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(pixelRays.lobesX, pixelRays.lobesY);

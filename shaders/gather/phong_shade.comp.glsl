@@ -1,10 +1,10 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// G-buffer + lights -> radiance by the thesis's Phong model: per light
+// G-buffer + lights -> radiance by Phong's model: per light
 //   (ka + kd max(0, n.l) + ks max(0, v.r)^shininess) * C * c / attenuation,   r = reflect(-l, n),
 // C = intensity / pi (docs/theory/1_scene.md, two material models), attenuation of the light's own kind and
 // on every term, the ambient one included. Unlit surfaces show their colour. PHONG_SHADOWS: shadow maps on
-// the diffuse and specular terms (the thesis's program has none).
+// the diffuse and specular terms (the model has none).
 #ifndef PHONG_SHADOWS
 #error PHONG_SHADOWS must be 0 or 1
 #endif
@@ -13,7 +13,7 @@
 #include "lib/lights.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0, rgba32f) writeonly uniform image2D outputImage;
+layout(rgba32f) writeonly uniform image2D outputImage;
 
 struct Phong {
     vec3 color;
@@ -102,5 +102,5 @@ void main() {
 #endif
     vec3 radiance = s.unlit ? s.emission : sum * m.color / kPi + s.emission;
     if (pixel.x >= int(frame.width) || pixel.y >= int(frame.height)) return;
-    imageStore(outputImage, pixel, seen ? vec4(radiance, 1.0) : vec4(frame.sky, 0.0));
+    imageStore(outputImage, pixel, seen ? vec4(radiance, 1.0) : vec4(lighting.sky, 0.0));
 }

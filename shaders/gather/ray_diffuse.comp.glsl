@@ -11,7 +11,7 @@
 #include "lib/temporal.glsl"
 #include "lib/voxel_light.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(rgba32ui, binding = 0) writeonly uniform uimage2D result;
+layout(rgba32ui) writeonly uniform uimage2D result;
 
 #if OCCLUSION
 float openness(vec3 origin, vec3 normal, vec3 leaves, uint seed) {

@@ -13,14 +13,14 @@
 #endif
 #define SMOOTH_HITS 1
 layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/frame_block.glsl"
 #include "lib/ggx_sample.glsl"
-#include "lib/scene_tables.glsl"
 #include "lib/surface_array.glsl"
 #define LOBE_LIST_ACCESS readonly
 #include "lib/lobe_list.glsl"
 #include "lib/temporal.glsl"
 #include "lib/voxel_light.glsl"
-layout(rgba32ui, binding = 0) writeonly uniform uimage2D result;
+layout(rgba32ui) writeonly uniform uimage2D result;
 
 void main() {
 #if LOBE_LISTED

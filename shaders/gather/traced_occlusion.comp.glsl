@@ -5,8 +5,8 @@
 #include "lib/pixel_history.glsl"
 #include "shared/pixel_rays.h"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = PIXEL_UNIT_IRRADIANCE) uniform usampler2D occlusion;
-layout(rgba32f, binding = 0) writeonly uniform image2D result;
+uniform usampler2D occlusion;
+layout(rgba32f) writeonly uniform image2D result;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

@@ -5,10 +5,10 @@
 //   SHOW_DIRECT    emission and light that comes straight from lights; the sky behind
 //   SHOW_DIFFUSE   indirect irradiance, reflected by the matt part
 //   SHOW_SPECULAR  indirect radiance, reflected by the glossy part
-//   IRRADIANCE     0 from the cache, 1 from the picture at PIXEL_UNIT_IRRADIANCE
-//   LOBE           1: radiance of lobes from the picture at PIXEL_UNIT_LOBE where roughness is within the
-//   limit.
-//                  Elsewhere, and with 0, the irradiance stands in for it: the same in even light.
+//   IRRADIANCE     0 from the cache, 1 from irradiancePicture
+//   LOBE           1: radiance of lobes from lobePicture where roughness is within the limit; elsewhere, and
+//   with
+//                  0, the irradiance stands in for it: the same in even light
 #if !defined(SHOW_DIRECT) || !defined(SHOW_DIFFUSE) || !defined(SHOW_SPECULAR) || !defined(IRRADIANCE) || \
     !defined(LOBE)
 #error SHOW_DIRECT, SHOW_DIFFUSE, SHOW_SPECULAR, IRRADIANCE and LOBE must be 0 or 1
@@ -18,6 +18,7 @@
 #define RECORD_CACHE
 #include "lib/brdf.glsl"
 #include "lib/gbuffer.glsl"
+#include "lib/lighting.glsl"
 #include "lib/lookup_count.glsl"
 #if SHOW_DIRECT
 #include "lib/lights.glsl"
@@ -29,10 +30,10 @@
 #include "lib/cache_lookup.glsl"
 #endif
 #if !FLAT_CONSTANTS
-layout(std140, binding = BINDING_PASS) uniform PixelRayBlock { PixelRayConstants pixelRays; };
+layout(std140) uniform PixelRayBlock { PixelRayConstants pixelRays; };
 #endif
-layout(binding = PIXEL_UNIT_IRRADIANCE) uniform usampler2D irradiancePicture;
-layout(binding = PIXEL_UNIT_LOBE) uniform usampler2D lobePicture;
+uniform usampler2D irradiancePicture;
+uniform usampler2D lobePicture;
 
 // `pixel` is within the picture.
 vec4 tracedShade(ivec2 pixel) {
@@ -76,6 +77,6 @@ vec4 tracedShade(ivec2 pixel) {
     RECORD_PART(PART_SPECULAR, gathers ? irradiance : vec3(0.0), b.albedo);
 #endif
 #endif
-    vec3 behind = SHOW_DIRECT == 1 ? frame.sky : vec3(0.0);
+    vec3 behind = SHOW_DIRECT == 1 ? lighting.sky : vec3(0.0);
     return seen ? vec4(radiance, 1.0) : vec4(behind, 0.0);
 }

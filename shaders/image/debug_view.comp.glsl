@@ -6,10 +6,9 @@
 #error one VIEW_ define is needed
 #endif
 layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/frame_block.glsl"
 #include "lib/gbuffer.glsl"
-#include "lib/scene_tables.glsl"
-#include "shared/bindings.h"
-layout(rgba32f, binding = 0) uniform writeonly image2D outputImage;
+layout(rgba32f) uniform writeonly image2D outputImage;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

@@ -3,11 +3,10 @@
 // Linear radiance -> 8-bit picture for a screen: exposure, tone curve, sRGB. GPU twin of
 // src/image/tone_map.cpp, which has the sources of the curves; turned so that row 0 is the top row.
 layout(local_size_x = 8, local_size_y = 8) in;
-#include "shared/bindings.h"
 #include "shared/image.h"
-layout(std140, binding = BINDING_PASS) uniform DisplayBlock { DisplayConstants display; };
-layout(binding = UNIT_PASS) uniform sampler2D linearImage;
-layout(rgba8, binding = 0) uniform writeonly image2D displayImage;
+layout(std140) uniform DisplayBlock { DisplayConstants display; };
+uniform sampler2D linearImage;
+layout(rgba8) uniform writeonly image2D displayImage;
 
 const float kWhite = 1e6;  // see tone_map.cpp
 

@@ -3,14 +3,13 @@
 // The shadow maps of one light -> picture: distance along the map's axis in m, 0 where nothing was drawn
 // (component shadow_map). The light's tiles side by side, row by row from the upper left: one for spots and
 // directional lights, +x -x +y / -y +z -z for points, all sample points for rectangles.
-#include "shared/bindings.h"
 #include "shared/image.h"
 #include "shared/scene.h"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(std140, binding = BINDING_PASS) uniform ShadowViewBlock { ShadowViewConstants view; };
-layout(std430, binding = BINDING_LIGHTS) readonly buffer LightTable { Light lights[]; };
-layout(binding = UNIT_SHADOW_DEPTHS) uniform sampler2DArray shadowDepths;
-layout(rgba32f, binding = 0) writeonly uniform image2D picture;
+layout(std140) uniform ShadowViewBlock { ShadowViewConstants view; };
+layout(std430) readonly buffer LightTable { Light lights[]; };
+uniform sampler2DArray shadowDepths;
+layout(rgba32f) writeonly uniform image2D picture;
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);

@@ -1,6 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
 // Vertices of the scene -> clip space, as the G-buffer has them, for the edges of triangles.
+#include "lib/frame_block.glsl"
 #include "lib/scene_tables.glsl"
 
 layout(location = 0) in vec3 position;

@@ -10,7 +10,7 @@
 #include "lib/ray_query.glsl"
 #include "lib/record_face.glsl"
 #include "shared/irradiance.h"
-layout(binding = UNIT_FACE_LIGHT) uniform usamplerBuffer faceLight;
+uniform usamplerBuffer faceLight;
 
 // Squares of components below this are left out: 3 % of the normal's length.
 const float kLeastAxis = 1e-3;

@@ -14,8 +14,8 @@
 #include "lib/radiance_volume.glsl"
 #include "lib/record_steps.glsl"
 #include "shared/cones.h"
-layout(std140, binding = BINDING_CONES) uniform ConeBlock { ConeConstants cones; };
-layout(binding = UNIT_RADIANCE_VOLUME) uniform sampler3D radianceVolume;
+layout(std140) uniform ConeBlock { ConeConstants cones; };
+uniform sampler3D radianceVolume;
 
 #if DIRECTIONAL
 const uint kFetchesPerSample = 3u;

@@ -27,12 +27,14 @@ layout(location = 0) flat in uvec4 flatRows[FLAT_ROWS];
 
 struct FlatFrame {
     vec3 eye;
-    vec3 sky;
     vec3 viewForward;
     vec3 viewRight;
     vec3 viewUp;
     uint width;
     uint height;
+};
+struct FlatLighting {
+    vec3 sky;
     uvec4 lightEnds;
 };
 struct FlatGrid {
@@ -53,8 +55,8 @@ struct FlatPixelRays {
 vec3 flatVec3(int row) { return uintBitsToFloat(flatRows[row].xyz); }
 float flatFloat(int row) { return uintBitsToFloat(flatRows[row].w); }
 
-FlatFrame frame = FlatFrame(flatVec3(0), flatVec3(1), flatVec3(2), flatVec3(3), flatVec3(4), flatRows[0].w,
-                            flatRows[1].w, flatRows[8]);
+FlatFrame frame = FlatFrame(flatVec3(0), flatVec3(2), flatVec3(3), flatVec3(4), flatRows[0].w, flatRows[1].w);
+FlatLighting lighting = FlatLighting(flatVec3(1), flatRows[8]);
 FlatPixelRays pixelRays = FlatPixelRays(flatFloat(2));
 FlatGrid grid = FlatGrid(flatVec3(5), flatFloat(5), flatFloat(3), flatRows[6].x, flatRows[6].y, flatRows[6].z,
                          flatRows[7].x, flatRows[7].y, flatRows[7].z);

@@ -5,12 +5,13 @@
 #ifndef SURFACE_EMISSION
 #define SURFACE_EMISSION 1
 #endif
+#include "lib/frame_block.glsl"
 #include "lib/gbuffer_pack.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/scene_tables.glsl"
 #include "lib/surface.glsl"
-layout(binding = UNIT_GBUFFER) uniform usampler2D gbufferGeometry;
-layout(binding = UNIT_GBUFFER + 1) uniform usampler2D gbufferMaterial;
+uniform usampler2D gbufferGeometry;
+uniform usampler2D gbufferMaterial;
 
 // World-space direction, not unit: position = eye + view depth * direction. Row 0 is the bottom row.
 vec3 pixelRay(ivec2 pixel) {

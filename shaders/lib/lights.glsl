@@ -5,8 +5,8 @@
 // Defines (light::lightDefines gives them for a scene; unset: everything on):
 // - LIGHTS_POINT, _SPOT, _DIRECTIONAL, _RECT: whether the table holds such lights. Others are left out.
 // - LIGHTS_FIXED 1: these four are the exact numbers of lights, at most 4 together. Loops are then unrolled
-//   and read the table at constant places of a uniform block (mode phong on the thesis's scene: 21 instead of
-//   25 cpu-ms on llvmpipe, which reads storage once per lane wherever lanes may be idle, as in the loop over
+//   and read the table at constant places of a uniform block (mode phong: 21 instead of 25 cpu-ms on
+//   llvmpipe, which reads storage once per lane wherever lanes may be idle, as in the loop over
 //   a face's rays). Unrolled here, not by the compiler: Mesa leaves loops of this size as they are, and then
 //   reads a light's numbers lane by lane.
 // - LIGHTS_SHADOWS 0: everything is visible.
@@ -31,8 +31,8 @@
 #define LIGHTS_SHADOWS 1
 #endif
 #include "lib/brdf.glsl"
+#include "lib/light_table.glsl"
 #include "lib/rect_light.glsl"
-#include "lib/scene_tables.glsl"
 #include "lib/shadow.glsl"
 
 #define LIGHTS_TOTAL (LIGHTS_POINT + LIGHTS_SPOT + LIGHTS_DIRECTIONAL + LIGHTS_RECT)
@@ -48,7 +48,7 @@ Light fixedLight(const int n) {
                  uintBitsToFloat(g.y), g.z, g.w);
 }
 #else
-layout(std140, binding = BINDING_FIXED_LIGHTS) uniform FixedLightBlock { Light fixedLights[LIGHTS_TOTAL]; };
+layout(std140) uniform FixedLightBlock { Light fixedLights[LIGHTS_TOTAL]; };
 Light fixedLight(const int n) { return fixedLights[n]; }
 #endif
 #endif
@@ -204,15 +204,15 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
         } while (++n < (end));                           \
     }
 #endif
-#define FOR_POINT_LIGHTS(statement) FOR_LIGHTS(0, LIGHTS_POINT, 0u, frame.lightEnds.x, statement)
+#define FOR_POINT_LIGHTS(statement) FOR_LIGHTS(0, LIGHTS_POINT, 0u, lighting.lightEnds.x, statement)
 #define FOR_SPOT_LIGHTS(statement) \
-    FOR_LIGHTS(LIGHTS_POINT, LIGHTS_SPOT, frame.lightEnds.x, frame.lightEnds.y, statement)
-#define FOR_DIRECTIONAL_LIGHTS(statement)                                                            \
-    FOR_LIGHTS(LIGHTS_POINT + LIGHTS_SPOT, LIGHTS_DIRECTIONAL, frame.lightEnds.y, frame.lightEnds.z, \
+    FOR_LIGHTS(LIGHTS_POINT, LIGHTS_SPOT, lighting.lightEnds.x, lighting.lightEnds.y, statement)
+#define FOR_DIRECTIONAL_LIGHTS(statement)                                                                  \
+    FOR_LIGHTS(LIGHTS_POINT + LIGHTS_SPOT, LIGHTS_DIRECTIONAL, lighting.lightEnds.y, lighting.lightEnds.z, \
                statement)
-#define FOR_RECT_LIGHTS(statement)                                                              \
-    FOR_LIGHTS(LIGHTS_POINT + LIGHTS_SPOT + LIGHTS_DIRECTIONAL, LIGHTS_RECT, frame.lightEnds.z, \
-               frame.lightEnds.w, statement)
+#define FOR_RECT_LIGHTS(statement)                                                                 \
+    FOR_LIGHTS(LIGHTS_POINT + LIGHTS_SPOT + LIGHTS_DIRECTIONAL, LIGHTS_RECT, lighting.lightEnds.z, \
+               lighting.lightEnds.w, statement)
 
 void addPunctualLights(inout DirectLight sum, const bool specular, Receiver r, Brdf b) {
 #if LIGHTS_POINT

@@ -5,7 +5,7 @@
 #include "lib/linear_index.glsl"
 #include "lib/surface.glsl"
 #include "shared/pixel_rays.h"
-layout(std430, binding = PIXEL_LOBE_LIST) LOBE_LIST_ACCESS buffer LobeList {
+layout(std430) LOBE_LIST_ACCESS buffer LobeList {
     uvec3 groups;
     uint count;
     uint pixels[];  // x | y << 16

@@ -7,7 +7,7 @@
 #endif
 #include "shared/lookups.h"
 #if COUNT_LOOKUPS
-layout(std430, binding = LOOKUP_TABLE) buffer LookupTable { uint lookups[]; };
+layout(std430) buffer LookupTable { uint lookups[]; };
 uint lookupsMade = 0u;
 #define COUNT_LOOKUP(n) lookupsMade += uint(n)
 

@@ -21,11 +21,11 @@
 #include "lib/record_steps.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
-layout(binding = UNIT_VOXEL_BRICKS) uniform usampler3D voxelBricks;
-layout(binding = UNIT_VOXEL_RECORDS) uniform usamplerBuffer voxelRecords;
-layout(binding = UNIT_VOXEL_FACES) uniform usamplerBuffer voxelFaces;
-layout(binding = IMAGE_VOXEL_BRICKS, rgba32ui) readonly uniform uimage3D voxelBrickImage;
-layout(binding = IMAGE_VOXEL_OCTANTS, rg32ui) readonly uniform uimage3D voxelOctants;
+uniform usampler3D voxelBricks;
+uniform usamplerBuffer voxelRecords;
+uniform usamplerBuffer voxelFaces;
+layout(rgba32ui) readonly uniform uimage3D voxelBrickImage;
+layout(rg32ui) readonly uniform uimage3D voxelOctants;
 
 #ifndef TRIANGLE_HITS
 #define TRIANGLE_HITS 0

@@ -4,7 +4,7 @@
 // invocation is the pixel and writes, the others are its neighbours and do not. Pictures are not stored then.
 #include "shared/inspect.h"
 #ifdef RECORD_STEPS
-layout(std430, binding = RECORD_STORAGE) buffer RecordBuffer {
+layout(std430) buffer RecordBuffer {
     RecordHeader header;
     RecordedPart parts[RECORD_PARTS];
     RecordedPath paths[RECORD_MAX_PATHS];

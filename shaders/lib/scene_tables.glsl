@@ -1,13 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Read access to the scene tables (shared/scene.h) for every shader that needs them.
-#include "lib/flat_constants.glsl"
+// Instances and materials (shared/scene.h).
 #include "lib/vertex_color.glsl"
-#include "shared/bindings.h"
-#include "shared/frame.h"
 #include "shared/scene.h"
-#if !FLAT_CONSTANTS
-layout(std140, binding = BINDING_FRAME) uniform FrameBlock { FrameConstants frame; };
-#endif
-layout(std430, binding = BINDING_INSTANCES) readonly buffer InstanceTable { Instance instances[]; };
-layout(std430, binding = BINDING_MATERIALS) readonly buffer MaterialTable { Material materials[]; };
-layout(std430, binding = BINDING_LIGHTS) readonly buffer LightTable { Light lights[]; };
+layout(std430) readonly buffer InstanceTable { Instance instances[]; };
+layout(std430) readonly buffer MaterialTable { Material materials[]; };

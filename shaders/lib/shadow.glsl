@@ -30,11 +30,10 @@
 #endif
 #include "lib/lookup_count.glsl"
 #include "lib/rect_points.glsl"
-#include "shared/bindings.h"
 #include "shared/scene.h"
-layout(binding = UNIT_SHADOW) uniform sampler2DArrayShadow shadowMaps;
-layout(binding = UNIT_SHADOW_DEPTHS) uniform sampler2DArray shadowDepths;
-layout(binding = UNIT_SHADOW_SURFACES) uniform usampler2DArray shadowSurfaces;
+uniform sampler2DArrayShadow shadowMaps;
+uniform sampler2DArray shadowDepths;
+uniform usampler2DArray shadowSurfaces;
 
 // Texels along the surface by which one is taken for another, at most: vertices are snapped to 1/256 texel
 // when drawn, slopes are halves, positions rebuilt from the G-buffer err by up to 3e-5 of their distance, and

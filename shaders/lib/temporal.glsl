@@ -13,10 +13,10 @@
 #include "lib/gbuffer.glsl"
 #include "lib/pixel_history.glsl"
 #include "shared/pixel_rays.h"
-layout(std140, binding = BINDING_PASS) uniform PixelRayBlock { PixelRayConstants pixelRays; };
-layout(binding = PIXEL_UNIT_HISTORY) uniform usampler2D pixelHistory;
+layout(std140) uniform PixelRayBlock { PixelRayConstants pixelRays; };
+uniform usampler2D pixelHistory;
 #if MOTION
-layout(std430, binding = PIXEL_MOTION) readonly buffer Motion { mat4 oldFromWorld[]; };
+layout(std430) readonly buffer Motion { mat4 oldFromWorld[]; };
 #endif
 
 struct SoFar {

@@ -8,12 +8,12 @@
 // Includers that set TRIANGLE_HITS include before: lib/scene_tables.glsl, lib/surface_array.glsl. Before the
 // call: SurfaceVoxels::bindTriangles, GpuScene::bind.
 #if TRIANGLE_HITS
-layout(binding = UNIT_VOXEL_CHAINS) uniform usamplerBuffer voxelChains;
-layout(binding = UNIT_VOXEL_FRAGMENTS) uniform usamplerBuffer voxelFragments;
-layout(binding = UNIT_VOXEL_PAIRS) uniform usamplerBuffer voxelPairs;
-layout(binding = UNIT_VOXEL_TRIANGLES) uniform samplerBuffer voxelTriangles;
-layout(std430, binding = BINDING_VERTICES) readonly buffer VertexTable { Vertex vertices[]; };
-layout(std430, binding = BINDING_INDICES) readonly buffer IndexTable { uint indices[]; };
+uniform usamplerBuffer voxelChains;
+uniform usamplerBuffer voxelFragments;
+uniform usamplerBuffer voxelPairs;
+uniform samplerBuffer voxelTriangles;
+layout(std430) readonly buffer VertexTable { Vertex vertices[]; };
+layout(std430) readonly buffer IndexTable { uint indices[]; };
 
 // Width of what a ray stands for, voxels: at its start, and growth per voxel. A negative width: the ray meets
 // plane pieces.

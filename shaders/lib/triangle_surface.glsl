@@ -69,10 +69,10 @@ vec3 triangleRadiance(VoxelHit hit, vec3 origin, vec3 direction, inout FaceShade
 #else
     reflected += max(s.radiance - steady, vec3(0.0));
 #endif
-    bool few = frame.lightEnds.w - frame.lightEnds.z <= kTriangleMostRects;
-    uint i = few ? frame.lightEnds.z : frame.lightEnds.w;
+    bool few = lighting.lightEnds.w - lighting.lightEnds.z <= kTriangleMostRects;
+    uint i = few ? lighting.lightEnds.z : lighting.lightEnds.w;
     uint random = randomHash(floatBitsToUint(hit.t)) ^ floatBitsToUint(hit.at.x);
-    while (i < frame.lightEnds.w) {
+    while (i < lighting.lightEnds.w) {
         Light light = lights[i];
         uint count = light.sampleGrid * light.sampleGrid;
         uint k = min(uint(randomNext(random) * float(count)), count - 1u);
@@ -80,8 +80,9 @@ vec3 triangleRadiance(VoxelHit hit, vec3 origin, vec3 direction, inout FaceShade
                   shadowVisibilityRect(light, k, rectSamplePoint(light, k), position, n);
         ++i;
     }
-    vec3 emitted =
-        (kept.w & FACE_AREA_LIGHT) != 0u ? vec3(0.0) : unpackEmission(texelFetch(faceSources, hit.face).xy);
+    vec3 emitted = (kept.w & FACE_AREA_LIGHT) != 0u
+                       ? vec3(0.0)
+                       : unpackEmission(texelFetch(voxelFaceSources, hit.face).xy);
     reflected += few ? vec3(0.0) : max(steady - emitted, vec3(0.0));
     return emission +
            s.albedo * (direct * (1.0 / kGatherPi) + s.irradiance + reflected / max(faceAlbedo, 1e-3));

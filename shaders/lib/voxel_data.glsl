@@ -4,7 +4,7 @@
 #include "lib/false_color.glsl"
 #include "shared/irradiance.h"
 #include "shared/voxel_view.h"
-layout(binding = UNIT_VOXEL_FACE_SOURCES) uniform usamplerBuffer voxelFaceSources;
+uniform usamplerBuffer voxelFaceSources;
 
 vec3 faceData(int face, uint data) {
     uvec4 a = texelFetch(voxelFaces, 2 * face);

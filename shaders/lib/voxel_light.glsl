@@ -27,11 +27,11 @@
 #endif
 // Not within an #if: what arrives in one that is not taken is lost to those after it.
 #include "lib/ggx_sample.glsl"
+#include "lib/light_table.glsl"
 #include "lib/random.glsl"
 #include "lib/ray_query.glsl"
 #include "lib/record_face.glsl"
 #include "lib/rect_light.glsl"
-#include "lib/scene_tables.glsl"
 #include "lib/shadow.glsl"
 #include "lib/tangent_frame.glsl"
 #include "shared/irradiance.h"
@@ -42,14 +42,14 @@
 #include "lib/lights.glsl"
 #endif
 #if LOBES || TRIANGLE_HITS
-layout(binding = UNIT_VOXEL_FACE_SOURCES) uniform usamplerBuffer faceSources;
+uniform usamplerBuffer voxelFaceSources;
 #endif
 #if SMOOTH_HITS
 #define CACHE_NORMALS 1
 #include "lib/cache_lookup.glsl"
 #endif
-layout(binding = UNIT_STEADY_LIGHT) uniform usamplerBuffer steadyLight;
-layout(binding = UNIT_BRIGHT_FACES) uniform usamplerBuffer brightFaces;
+uniform usamplerBuffer steadyLight;
+uniform usamplerBuffer brightFaces;
 
 const float kGatherPi = 3.14159265358979;
 
@@ -104,7 +104,7 @@ vec3 hitRadiance(VoxelHit hit, vec3 origin, vec3 direction, inout FaceShade s, o
 #else
     vec3 radiance = s.radiance + s.albedo * s.irradiance;
 #endif
-    return hit.face >= 0 ? radiance : frame.sky;
+    return hit.face >= 0 ? radiance : lighting.sky;
 }
 
 #if LOBES
@@ -118,8 +118,8 @@ const float kNarrowLobe = 0.015;
 // of their sample points is seen, drawn by its share of the lobe.
 vec3 reflectedRects(Brdf b, vec3 position, vec3 normal, vec3 geometricNormal, vec3 toEye, float xi) {
     vec3 reflected = vec3(0.0);
-    uint i = frame.lightEnds.z;
-    if (i < frame.lightEnds.w) {
+    uint i = lighting.lightEnds.z;
+    if (i < lighting.lightEnds.w) {
         RectLobe lobe = rectLobe(normal, toEye, b.alpha, b.nov);
         do {
             Light light = lights[i];
@@ -127,7 +127,7 @@ vec3 reflectedRects(Brdf b, vec3 position, vec3 normal, vec3 geometricNormal, ve
             vec3 point = rectSamplePoint(light, k);
             reflected += light.intensity * rectSpecularQuick(light, position, lobe, b) *
                          shadowVisibilityRect(light, k, point, position, geometricNormal);
-        } while (++i < frame.lightEnds.w);
+        } while (++i < lighting.lightEnds.w);
     }
     return reflected;
 }
@@ -166,7 +166,7 @@ LobeStep reflectRay(VoxelHit hit, FaceShade s, vec2 lobe, float widening, vec3 m
     // The record reflects by all of its colour; its matt part is only this much of it.
     float share = dot(b.diffuse, vec3(1.0)) / max(dot(s.albedo, vec3(1.0)), 1e-4);
     next.glossy = 1.0 - share;
-    vec3 emission = unpackEmission(texelFetch(faceSources, face).xy);
+    vec3 emission = unpackEmission(texelFetch(voxelFaceSources, face).xy);
     next.radiance = emission + share * max(matt - emission, vec3(0.0));
     vec3 rise = faceRise(texelFetch(voxelFaces, 2 * face), normal);
 #if TRIANGLE_HITS
@@ -230,7 +230,8 @@ vec3 rayRadiance(vec3 origin, vec3 leaves, vec3 direction, float reach, float ai
         bool lamp = (bits & FACE_AREA_LIGHT) != 0u;
         bool arrived = count > 0 || aim < 0.0 || abs(hit.t - aim) < 0.3;
         bool metal = hit.face >= 0 && lobe.x > 0.0 && lobe.y <= kRoughestLobe && s.usable && !lamp && arrived;
-        if (narrow && hit.face >= 0 && lamp) radiance += unpackEmission(texelFetch(faceSources, face).xy);
+        if (narrow && hit.face >= 0 && lamp)
+            radiance += unpackEmission(texelFetch(voxelFaceSources, face).xy);
         vec2 xi = vec2(randomNext(random), randomNext(random));
         LobeStep next = reflectRay(hit, s, lobe, spread2 * kLobeWidening / limit, radiance,
                                    origin + hit.t * direction, bent, direction, xi);

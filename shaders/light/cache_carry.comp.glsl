@@ -10,17 +10,17 @@ layout(local_size_x = 64) in;
 #include "lib/voxel_record.glsl"
 #include "light/cache_state.glsl"
 #include "shared/irradiance.h"
-layout(std140, binding = BINDING_PASS) uniform CarryBlock { CacheCarry carry; };
-layout(std430, binding = CACHE_STATE) writeonly buffer StateTable { FaceCache states[]; };
-layout(binding = CACHE_UNIT_OLD_STATE) uniform usamplerBuffer oldStates;
-layout(binding = UNIT_VOXEL_FACES) uniform usamplerBuffer faces;
-layout(binding = CACHE_UNIT_OLD_BRICKS) uniform usampler3D oldBricks;
-layout(binding = CACHE_UNIT_OLD_RECORDS) uniform usamplerBuffer oldRecords;
+layout(std140) uniform CarryBlock { CacheCarry carry; };
+layout(std430) writeonly buffer StateTable { FaceCache states[]; };
+uniform usamplerBuffer oldStates;
+uniform usamplerBuffer voxelFaces;
+uniform usampler3D oldBricks;
+uniform usamplerBuffer oldRecords;
 
 void main() {
     uint index = linearIndex();
     bool used = index < grid.faceCount;
-    uvec4 r = texelFetch(faces, int(used ? index : 0u) * 2);
+    uvec4 r = texelFetch(voxelFaces, int(used ? index : 0u) * 2);
     vec3 n = octDecode(unpackSnorm2x16(r.x));
     int direction = faceDirection(r, n);
     FaceRecord face = FaceRecord(r.x, r.y, r.z, r.w, 0u, 0u, 0u, 0u);

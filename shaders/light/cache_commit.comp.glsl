@@ -8,13 +8,13 @@
 // SHARED 0: no face is of so few updates that pixels see it shared with its neighbours.
 layout(local_size_x = 64) in;
 #include "light/cache_common.glsl"
-layout(binding = CACHE_UNIT_STATE) uniform usamplerBuffer stateTexels;
-layout(std430, binding = BINDING_VOXEL_FACES) writeonly buffer FaceTable { uvec4 faces[]; };
+uniform usamplerBuffer stateTexels;
+layout(std430) writeonly buffer FaceTable { uvec4 faces[]; };
 // The same once more: software drivers read storage lane by lane in loops.
-layout(binding = UNIT_VOXEL_FACES) uniform usamplerBuffer faceTexels;
-layout(binding = UNIT_VOXEL_RECORDS) uniform usamplerBuffer voxelRecords;
-layout(binding = IMAGE_VOXEL_BRICKS, rgba32ui) readonly uniform uimage3D voxelBrickImage;
-layout(std430, binding = CACHE_FACE_LIGHT) writeonly buffer FaceLightTable { uvec2 faceLight[]; };
+uniform usamplerBuffer voxelFaces;
+uniform usamplerBuffer voxelRecords;
+layout(rgba32ui) readonly uniform uimage3D voxelBrickImage;
+layout(std430) writeonly buffer FaceLightTable { uvec2 faceLight[]; };
 
 #if SHARED && !AT_PIXELS
 #error only what pixels see is shared
@@ -52,7 +52,7 @@ vec4 neighbourIrradiance(int side, uvec4 hitTexel, vec3 n) {
     uint record = there ? texelFetch(voxelRecords, int(voxelRecordIndex(word, bitOfVoxel(at)))).x : 0u;
     there = there && (faceDirections(record) >> direction & 1u) != 0u;
     int face = there ? int(faceIndex(record, direction)) : 0;
-    uvec4 other = texelFetch(faceTexels, 2 * face);
+    uvec4 other = texelFetch(voxelFaces, 2 * face);
     vec3 turned = octDecode(unpackSnorm2x16(other.x));
     float apart = dot(n, vec3(step) + unpackOffset(other.y) * turned) - unpackOffset(hitTexel.y);
     FaceCache state = unpackState(texelFetch(stateTexels, stateOwner(face, texelFetch(stateTexels, face))));
@@ -88,8 +88,8 @@ void main() {
         uint at = min(face, grid.faceCount - 1u);
         int owner = stateOwner(int(at), texelFetch(stateTexels, int(at)));
         FaceCache state = unpackState(texelFetch(stateTexels, owner));
-        uvec4 hitTexel = texelFetch(faceTexels, 2 * int(at));
-        uvec4 shade = texelFetch(faceTexels, 2 * int(at) + 1);
+        uvec4 hitTexel = texelFetch(voxelFaces, 2 * int(at));
+        uvec4 shade = texelFetch(voxelFaces, 2 * int(at) + 1);
         uint updates = state.counts & CACHE_UPDATES_MASK;
         bool dead = isDead(state);
         vec3 irradiance = dead ? vec3(0.0) : clamp(state.irradiance, 0.0, 65504.0);

@@ -5,10 +5,10 @@
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
 #include "light/cache_state.glsl"
-layout(std140, binding = BINDING_PASS) uniform CacheBlock { CacheConstants cache; };
-layout(std430, binding = CACHE_STATE) buffer StateTable { FaceCache states[]; };
+layout(std140) uniform CacheBlock { CacheConstants cache; };
+layout(std430) buffer StateTable { FaceCache states[]; };
 // Per chunk of faces: its flux, then the flux of all chunks before it.
-layout(std430, binding = CACHE_CHUNKS) buffer ChunkTable { float chunks[]; };
+layout(std430) buffer ChunkTable { float chunks[]; };
 
 // How much of the pool a face gets (docs/theory/4_gather.md, eq. 4.11).
 float faceFlux(uvec4 hitTexel, vec3 radiance) {

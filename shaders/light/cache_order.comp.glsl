@@ -23,18 +23,18 @@ layout(local_size_x = 64) in;
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
 #include "light/cache_state.glsl"
-layout(std430, binding = CACHE_ORDER) buffer OrderTable { uint order[]; };
-layout(std430, binding = CACHE_BINS) buffer BinTable { uvec2 bins[]; };
-layout(std430, binding = CACHE_BIN_STARTS) buffer StartTable { uint starts[]; };
-layout(std430, binding = CACHE_CHUNKS) buffer ChunkTable { uint chunks[]; };
+layout(std430) buffer OrderTable { uint order[]; };
+layout(std430) buffer BinTable { uvec2 bins[]; };
+layout(std430) buffer StartTable { uint starts[]; };
+layout(std430) buffer ChunkTable { uint chunks[]; };
 #if STEP == 0
-layout(std430, binding = CACHE_STATE) writeonly buffer StateTable { uvec4 states[]; };
+layout(std430) writeonly buffer StateTable { uvec4 states[]; };
 #endif
-layout(std140, binding = BINDING_PASS) uniform OrderBlock { CacheOrder settings; };
-layout(binding = CACHE_UNIT_STATE) uniform usamplerBuffer stateTexels;
-layout(binding = UNIT_VOXEL_FACES) uniform usamplerBuffer faces;
-layout(binding = CACHE_UNIT_BINS) uniform usamplerBuffer binTexels;
-layout(binding = CACHE_UNIT_BIN_STARTS) uniform usamplerBuffer startTexels;
+layout(std140) uniform OrderBlock { CacheOrder settings; };
+uniform usamplerBuffer stateTexels;
+uniform usamplerBuffer voxelFaces;
+uniform usamplerBuffer binTexels;
+uniform usamplerBuffer startTexels;
 
 uint binCount() {
     ivec3 blocks = (gridBricks() + 3) >> 2;
@@ -73,7 +73,7 @@ uint gathererOf(uint face, uvec4 hitTexel) {
     int left = abs(wanted - direction);
     while (left > 0) {
         at = clamp(at + step, 0, last);
-        r = texelFetch(faces, 2 * at);
+        r = texelFetch(voxelFaces, 2 * at);
         bool here = ((r.w ^ hitTexel.w) & 0x3fffffffu) == 0u;
         found = here && faceDirection(r, octDecode(unpackSnorm2x16(r.x))) == wanted;
         left = here && !found ? left - 1 : 0;
@@ -122,7 +122,7 @@ void main() {
     if (index < grid.faceCount) order[index] = index;
 #elif STEP == 0 || STEP == 4
     if (index >= grid.faceCount) return;
-    uvec4 hitTexel = texelFetch(faces, 2 * int(index));
+    uvec4 hitTexel = texelFetch(voxelFaces, 2 * int(index));
     uvec4 state = texelFetch(stateTexels, int(index));
 #if STEP == 0
     uint gatherer = gathererOf(index, hitTexel);

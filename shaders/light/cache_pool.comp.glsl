@@ -6,8 +6,8 @@
 layout(local_size_x = 64) in;
 #include "lib/random.glsl"
 #include "light/cache_common.glsl"
-layout(std430, binding = CACHE_POOL) writeonly buffer PoolTable { uint pool[]; };
-layout(binding = UNIT_VOXEL_FACES) uniform usamplerBuffer faces;
+layout(std430) writeonly buffer PoolTable { uint pool[]; };
+uniform usamplerBuffer voxelFaces;
 
 void main() {
     uint place = min(gl_GlobalInvocationID.x, BRIGHT_FACE_COUNT - 1u);
@@ -33,10 +33,11 @@ void main() {
     uint found = face;
     bool going = true;
     do {
-        uvec4 shade = texelFetch(faces, 2 * int(face) + 1);
+        uvec4 shade = texelFetch(voxelFaces, 2 * int(face) + 1);
         vec3 irradiance = vec3(unpackHalf2x16(shade.z), unpackHalf2x16(shade.w).x);
         vec3 radiance = unpackRgb9e5(shade.y) + unpackAlbedo(shade.x) * irradiance;
-        float flux = (shade.w & FACE_DEAD) != 0u ? 0.0 : faceFlux(texelFetch(faces, 2 * int(face)), radiance);
+        float flux =
+            (shade.w & FACE_DEAD) != 0u ? 0.0 : faceFlux(texelFetch(voxelFaces, 2 * int(face)), radiance);
         found = flux > 0.0 ? face : found;
         sum += flux;
         going = sum <= wanted;

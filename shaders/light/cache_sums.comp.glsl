@@ -4,7 +4,7 @@
 // order, and the list is short.
 layout(local_size_x = 8) in;
 #include "light/cache_common.glsl"
-layout(std430, binding = CACHE_POOL) writeonly buffer PoolTable { uint pool[]; };
+layout(std430) writeonly buffer PoolTable { uint pool[]; };
 
 void main() {
     float total = 0.0;

@@ -10,10 +10,10 @@ layout(local_size_x = 64) in;
 #include "lib/linear_index.glsl"
 #include "lib/voxel_light.glsl"
 #include "light/cache_state.glsl"
-layout(std140, binding = BINDING_PASS) uniform CacheBlock { CacheConstants cache; };
-layout(binding = CACHE_UNIT_ORDER) uniform usamplerBuffer order;
-layout(binding = CACHE_UNIT_STATE) uniform usamplerBuffer stateTexels;
-layout(std430, binding = CACHE_STATE) writeonly buffer StateTable { FaceCache states[]; };
+layout(std140) uniform CacheBlock { CacheConstants cache; };
+uniform usamplerBuffer order;
+uniform usamplerBuffer stateTexels;
+layout(std430) writeonly buffer StateTable { FaceCache states[]; };
 
 // Places 0 to 3 along three axes -> 4 x 4 shifts, all of them on any plane along two of the axes.
 vec2 spreadPlace(uvec3 place) {

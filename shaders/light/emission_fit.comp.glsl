@@ -18,9 +18,9 @@ layout(local_size_x = 64) in;
 #include "lib/random.glsl"
 #include "lib/ray_query.glsl"
 #include "lib/tangent_frame.glsl"
-layout(binding = UNIT_VOXEL_FACE_SOURCES) uniform usamplerBuffer faceSources;
+uniform usamplerBuffer voxelFaceSources;
 // After step 0: 1 or 0; 1: both areas as halves; 2: the part, a float.
-layout(std430, binding = BINDING_STORAGE_PASS) buffer EmissionFit { uint parts[]; };
+layout(std430) buffer EmissionFit { uint parts[]; };
 
 const float kOnePlane = 0.98;    // cosine of normals up to which faces are of one plane
 const int kRays = 16;            // per face; sums over a brick are within 3 %, over a lamp within 1 %
@@ -28,7 +28,7 @@ const float kFromOutside = 1.5;  // voxels: what reaches beyond the surface is n
 const float kLeast = 0.5, kMost = 1.5;
 
 vec3 normalOf(int face) { return octDecode(unpackSnorm2x16(texelFetch(voxelFaces, 2 * face).x)); }
-bool emits(int face) { return unpackEmission(texelFetch(faceSources, face).xy) != vec3(0.0); }
+bool emits(int face) { return unpackEmission(texelFetch(voxelFaceSources, face).xy) != vec3(0.0); }
 
 #if STEP == 1
 // Area of what is within the face's bounds, times the part of rays from outside towards it that find it
@@ -69,7 +69,7 @@ float seenArea(int face, bool asked) {
 void main() {
     int face = int(min(linearIndex(), grid.faceCount - 1u));
     bool used = linearIndex() < grid.faceCount;
-    float area = unpackArea(texelFetch(faceSources, face).xy);
+    float area = unpackArea(texelFetch(voxelFaceSources, face).xy);
     bool asked = used && parts[face] != 0u && emits(face);
     float seen = seenArea(face, asked);
     if (used) parts[face] = packHalf2x16(vec2(asked ? seen : area, area));

@@ -15,13 +15,13 @@ layout(local_size_x = 64) in;  // before linear_index, which asks for it
 #include "lib/linear_index.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
-layout(std430, binding = BINDING_VOXEL_FACES) buffer Faces { FaceRecord faces[]; };
-layout(binding = UNIT_VOXEL_FACE_SOURCES) uniform usamplerBuffer faceSources;
+layout(std430) buffer FaceTable { FaceRecord faces[]; };
+uniform usamplerBuffer voxelFaceSources;
 #if KEEP_IRRADIANCE
-layout(std430, binding = BINDING_STORAGE_PASS) writeonly buffer SteadyLight { uint steadyLight[]; };
+layout(std430) writeonly buffer SteadyLight { uint steadyLight[]; };
 #endif
 #if EMISSION_FITS
-layout(binding = UNIT_PASS) uniform usamplerBuffer emissionParts;
+uniform usamplerBuffer emissionParts;
 #endif
 
 // Whether a face holds a part of a rectangle of the scene that shines as an area light: it looks the same
@@ -33,8 +33,8 @@ bool isAreaLight(FaceRecord face, vec3 position, vec3 normal) {
 #if LIGHTS_RECT
     vec3 reach =
         (0.5 * (unpackBoundsMax(face.bounds) - unpackBoundsMin(face.bounds)) + 0.25) * grid.voxelSize;
-    uint i = frame.lightEnds.z;
-    if (i < frame.lightEnds.w) do {
+    uint i = lighting.lightEnds.z;
+    if (i < lighting.lightEnds.w) do {
             Light light = lights[i];
             vec3 d = position - light.position;
             vec3 u = normalize(light.halfU), v = normalize(light.halfV);
@@ -44,7 +44,7 @@ bool isAreaLight(FaceRecord face, vec3 position, vec3 normal) {
                       abs(dot(d, u)) < length(light.halfU) + dot(abs(u), reach) &&
                       abs(dot(d, v)) < length(light.halfV) + dot(abs(v), reach);
             found = found || on;
-        } while (++i < frame.lightEnds.w);
+        } while (++i < lighting.lightEnds.w);
 #endif
     return found;
 }
@@ -55,7 +55,7 @@ void main() {
     FaceRecord face = faces[index];
     vec3 normal = faceNormal(face);
     vec3 position = worldFromGrid(faceCenter(face));
-    vec3 emission = unpackEmission(texelFetch(faceSources, int(index)).xy);
+    vec3 emission = unpackEmission(texelFetch(voxelFaceSources, int(index)).xy);
     bool areaLight = emission != vec3(0.0) && isAreaLight(face, position, normal);
     if (areaLight) emission = vec3(0.0);
 #if EMISSION_FITS

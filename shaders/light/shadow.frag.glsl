@@ -20,7 +20,7 @@ const float kShadowEnd = 2.0;  // lib/shadow.glsl
 layout(location = 0) in vec2 uv;
 layout(location = 1) in float alpha;
 layout(location = 2) flat in uint material;
-layout(binding = UNIT_MATERIAL_BASE) uniform sampler2D baseTexture;
+uniform sampler2D baseTexture;
 #endif
 
 void main() {

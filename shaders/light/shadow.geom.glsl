@@ -23,14 +23,15 @@ void main() {
     // 1997, "Triangle Scan Conversion using 2D Homogeneous Coordinates"): at (x, y) texels from the map's
     // middle, positive inside.
     vec3 corner[3];
-    for (int i = 0; i < 3; ++i) corner[i] = vec3(gl_in[i].gl_Position.xy * halfSize, gl_in[i].gl_Position.w);
+    for (int i = 0; i < 3; ++i)
+        corner[i] = vec3(gl_in[i].gl_Position.xy * shadowMap.halfSize, gl_in[i].gl_Position.w);
     vec3 edges[3];
     for (int i = 0; i < 3; ++i) edges[i] = cross(corner[i], corner[(i + 1) % 3]);
     float turn = dot(edges[0], corner[2]) < 0.0 ? -1.0 : 1.0;
     for (int i = 0; i < 3; ++i) {
         gl_Position = gl_in[i].gl_Position;
         for (int k = 0; k < 3; ++k) edge[k] = edges[k] * turn;
-        viewConstants = vec4(slopeUnit, middle);
+        viewConstants = vec4(shadowMap.slopeUnit, shadowMap.middle);
 #if MASKED
         outUv = uv[i];
         outAlpha = alpha[i];

@@ -21,7 +21,7 @@ layout(location = 2) flat out uint outMaterial;
 
 void main() {
     vec3 world = (instances[instanceIndex].worldFromObject * vec4(position, 1.0)).xyz;
-    gl_Position = clipFromWorld * vec4(world, 1.0);
+    gl_Position = shadowMap.clipFromWorld * vec4(world, 1.0);
 #if MASKED
     outUv = uv;
     outMaterial = instances[instanceIndex].material;

@@ -7,8 +7,6 @@
 #pragma once
 #include "shared/prelude.h"
 
-#define RECORD_STORAGE 15  // storage slot
-
 // Rays of the dearest preset, 8 x 2 and 8 in 16 passes, are 384; cones are few but long.
 #define RECORD_MAX_PATHS 2048
 #define RECORD_MAX_STEPS 131072

@@ -19,9 +19,6 @@ struct Vertex {
 #define INSTANCE_VISIBLE 1u
 #define INSTANCE_VOXELIZED 2u
 #define INSTANCE_CASTS_SHADOW 4u
-#define INSTANCE_DYNAMIC 8u
-#define INSTANCE_LIT_EXACTLY \
-    32u  // its emission is in the light table: voxels leave it out (light/emissive_quads.h)
 #define INSTANCE_WIDE_COLORS 64u  // vertex colours are RGB9E5: above 1, or finer than 8 bits
 #define INSTANCE_FLIPPED 16u      // negative determinant: winding is reversed
 
@@ -41,9 +38,7 @@ struct Instance {
     uint firstTriangle;  // number of triangles of all instances before this one, counting every instance
     uint pad0;
     uint pad1;
-    // ---- 144 B: worldFromObject at the picture before (motion vectors); equal when it has not moved since
-    mat4 prevWorldFromObject;
-};  // 208 B
+};  // 144 B
 
 #define MATERIAL_ALPHA_MASK 1u
 #define MATERIAL_ALPHA_BLEND 2u
@@ -121,7 +116,7 @@ struct Light {
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::Vertex) == 32);
-static_assert(sizeof(conelight::gpu::Instance) == 208);
+static_assert(sizeof(conelight::gpu::Instance) == 144);
 static_assert(sizeof(conelight::gpu::Material) == 304);
 static_assert(sizeof(conelight::gpu::Light) == 112);
 #endif

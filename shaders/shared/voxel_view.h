@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the views of voxels are told (src/gather/voxel_view.cpp, gather/voxel_view.comp.glsl).
+// What the views of voxels are told (src/image/voxel_view.cpp, image/voxel_view.comp.glsl).
 #pragma once
 #include "shared/prelude.h"
 
@@ -16,7 +16,7 @@
 
 CONELIGHT_SHARED_BEGIN
 
-// Uniform block at BINDING_PASS of these passes.
+// Uniform block of these passes.
 struct VoxelViewConstants {
     vec3 origin;      // lowest corner of level 0, m
     float voxelSize;  // m
@@ -35,9 +35,12 @@ struct VoxelViewConstants {
     uint pad0;
     uint pad1;
     uint pad2;
-};  // 64 B
+    // ---- 64 B: of SOURCE 1: box of voxels outside of which there is nothing
+    ivec4 filledMin;   // xyz
+    ivec4 filledSize;  // xyz
+};                     // 96 B
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
-static_assert(sizeof(conelight::gpu::VoxelViewConstants) == 64);
+static_assert(sizeof(conelight::gpu::VoxelViewConstants) == 96);
 #endif

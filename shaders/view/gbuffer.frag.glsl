@@ -19,15 +19,15 @@ layout(location = 2) in vec4 interpolatedBase;
 layout(location = 3) flat in uvec4 constant;
 #if TEXTURES >= 1
 layout(location = 4) in vec2 uv;
-layout(binding = UNIT_MATERIAL_BASE) uniform sampler2D baseTexture;
+uniform sampler2D baseTexture;
 #endif
 #if TEXTURES >= 2
 layout(location = 5) in vec4 interpolatedTangent;
-layout(binding = UNIT_MATERIAL_METAL_ROUGH) uniform sampler2D metalRoughTexture;
-layout(binding = UNIT_MATERIAL_NORMAL) uniform sampler2D normalTexture;
-layout(binding = UNIT_MATERIAL_EMISSIVE) uniform sampler2D emissiveTexture;
-layout(binding = UNIT_MATERIAL_SPECULAR) uniform sampler2D specularTexture;
-layout(binding = UNIT_MATERIAL_SPECULAR_COLOR) uniform sampler2D specularColorTexture;
+uniform sampler2D metalRoughTexture;
+uniform sampler2D normalTexture;
+uniform sampler2D emissiveTexture;
+uniform sampler2D specularTexture;
+uniform sampler2D specularColorTexture;
 #endif
 
 layout(location = 0) out uvec4 outGeometry;

@@ -8,11 +8,11 @@ layout(local_size_x = 64) in;
 #include "lib/voxel_address.glsl"
 #include "lib/voxel_grid.glsl"
 #include "voxels/octant_rows.glsl"
-layout(binding = UNIT_VOXEL_BRICKS) uniform usampler3D brickWords;
-layout(binding = UNIT_VOXEL_RECORDS) uniform usamplerBuffer records;
-layout(std430, binding = BINDING_STORAGE_PASS) readonly buffer BrickTable { uint brickList[]; };
-layout(std430, binding = OCTANT_ROWS) buffer RowTable { uint rows[]; };
-layout(binding = 0, rg32ui) uniform writeonly uimage3D octants;
+uniform usampler3D voxelBricks;
+uniform usamplerBuffer voxelRecords;
+layout(std430) readonly buffer BrickTable { uint brickList[]; };
+layout(std430) buffer RowTable { uint rows[]; };
+layout(rg32ui) uniform writeonly uimage3D octants;
 
 // The brick's voxels in the opposite order along the axes that rays of the octant go down.
 uvec2 mirrored(uvec2 m, int octant) {
@@ -30,7 +30,7 @@ void main() {
     uint index = linearIndex();
     bool used = index < grid.occupiedBricks;
     ivec3 brick = unpackVoxel(brickList[used ? index : 0u]);
-    uvec4 word = texelFetch(brickWords, brick, 0);
+    uvec4 word = texelFetch(voxelBricks, brick, 0);
     uvec2 mask[6] = uvec2[6](uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u), uvec2(0u));
     uvec2 left = word.xy;
     int record = int(word.z);
@@ -39,7 +39,7 @@ void main() {
         bool low = left.x != 0u;
         uint lowest = low ? left.x & (0u - left.x) : left.y & (0u - left.y);
         uvec2 bit = low ? uvec2(lowest, 0u) : uvec2(0u, lowest);
-        uint directions = texelFetch(records, record).x >> 26;
+        uint directions = texelFetch(voxelRecords, record).x >> 26;
         for (int k = 0; k < 6; ++k) mask[k] |= (directions >> k & 1u) != 0u ? bit : uvec2(0u);
         left ^= bit;
         ++record;

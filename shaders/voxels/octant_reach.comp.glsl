@@ -11,8 +11,8 @@ layout(local_size_x = 64) in;
 #if OCTANT_REACH != 4
 #error reaches of 1 to 4 are told apart
 #endif
-layout(binding = OCTANT_UNIT_ROWS) uniform usamplerBuffer rows;
-layout(binding = 0, rg32ui) uniform writeonly uimage3D octants;
+uniform usamplerBuffer rows;
+layout(rg32ui) uniform writeonly uimage3D octants;
 
 void main() {
     ivec3 bricks = gridBricks();

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Rows of bricks along x, per octant, in its mirrored coordinates: a bit for each brick that holds a face
 // towards the octant. octant_masks writes them, octant_reach reads them.
-#define OCTANT_ROWS 9
-#define OCTANT_UNIT_ROWS 8
 
 // Words per row.
 int octantRowWords(ivec3 bricks) { return (bricks.x + 31) / 32; }

@@ -16,12 +16,12 @@ layout(local_size_x = 64) in;  // before linear_index, which asks for it
 #include "lib/linear_index.glsl"
 #include "lib/voxel_address.glsl"
 #include "lib/voxel_grid.glsl"
-layout(std430, binding = BINDING_STORAGE_PASS) readonly buffer OccupiedBricks { uint occupiedBricks[]; };
+layout(std430) readonly buffer BrickTable { uint brickList[]; };
 #else
 layout(local_size_x = 8, local_size_y = 4, local_size_z = 4) in;
 #endif
-layout(rgba16f, binding = 0) readonly uniform image3D fine;
-layout(rgba16f, binding = 1) writeonly uniform image3D coarse;
+layout(rgba16f) readonly uniform image3D fine;
+layout(rgba16f) writeonly uniform image3D coarse;
 
 // Opacity and colour of `front` with `back` behind it, both premultiplied.
 vec4 compositeColumn(vec4 front, vec4 back) {
@@ -54,7 +54,7 @@ void main() {
 #endif
     if (number >= grid.occupiedBricks) return;
     ivec3 local = ivec3(inBrick % edge, (inBrick / edge) % edge, inBrick / (edge * edge));
-    ivec3 texel = unpackVoxel(occupiedBricks[number]) * edge + local;
+    ivec3 texel = unpackVoxel(brickList[number]) * edge + local;
     texel.x += block * blockWidth;
 #else
     ivec3 texel = ivec3(gl_GlobalInvocationID);

@@ -10,9 +10,9 @@ layout(local_size_x = 64) in;  // before linear_index, which asks for it
 #include "lib/radiance_volume.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
-layout(std430, binding = BINDING_VOXEL_FACES) readonly buffer Faces { FaceRecord faces[]; };
-layout(std430, binding = BINDING_VOXEL_RECORDS) readonly buffer Records { uint records[]; };
-layout(rgba16f, binding = 1) writeonly uniform image3D level0;
+layout(std430) readonly buffer FaceTable { FaceRecord faces[]; };
+layout(std430) readonly buffer RecordTable { uint records[]; };
+layout(rgba16f) writeonly uniform image3D level0;
 
 // Below the largest half (65504), with room for its rounding.
 const float kMaxRadiance = 65000.0;

@@ -6,10 +6,10 @@ layout(local_size_x = 64) in;
 #include "lib/voxel_address.glsl"
 #include "lib/voxel_grid.glsl"
 #include "voxels/surface_common.glsl"
-layout(std430, binding = SURFACE_MASKS) readonly buffer MaskTable { uvec2 masks[]; };
-layout(std430, binding = SURFACE_CHUNKS) readonly buffer ChunkTable { uvec2 chunks[]; };
-layout(std430, binding = SURFACE_BRICK_LIST) writeonly buffer BrickTable { uint brickList[]; };
-layout(binding = 0, rgba32ui) uniform writeonly uimage3D brickWords;
+layout(std430) readonly buffer MaskTable { uvec2 masks[]; };
+layout(std430) readonly buffer ChunkTable { uvec2 chunks[]; };
+layout(std430) writeonly buffer BrickTable { uint brickList[]; };
+layout(rgba32ui) uniform writeonly uimage3D brickWords;
 
 void main() {
     ivec3 bricks = gridBricks();

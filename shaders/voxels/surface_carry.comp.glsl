@@ -7,20 +7,20 @@ layout(local_size_x = 64) in;
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
 #include "voxels/surface_common.glsl"
-layout(std430, binding = SURFACE_COUNTERS) readonly buffer CounterTable { uint counters[]; };
-layout(std430, binding = SURFACE_BRICK_LIST) readonly buffer BrickTable { uint brickList[]; };
-layout(std430, binding = SURFACE_OLD_CHAINS) readonly buffer OldChainTable { uvec2 oldChains[]; };
-layout(std430, binding = SURFACE_CHAINS) writeonly buffer ChainTable { uvec2 chains[]; };
-layout(std430, binding = SURFACE_ORIGIN) writeonly buffer OriginTable { uint origins[]; };
-layout(binding = UNIT_VOXEL_BRICKS) uniform usampler3D brickWords;
-layout(binding = SURFACE_UNIT_OLD_BRICKS) uniform usampler3D oldBrickWords;
+layout(std430) readonly buffer CounterTable { uint counters[]; };
+layout(std430) readonly buffer BrickTable { uint brickList[]; };
+layout(std430) readonly buffer OldChainTable { uvec2 oldChains[]; };
+layout(std430) writeonly buffer ChainTable { uvec2 chains[]; };
+layout(std430) writeonly buffer OriginTable { uint origins[]; };
+uniform usampler3D brickWords;
+uniform usampler3D oldBricks;
 
 void main() {
     uint index = linearInvocation();
     bool used = index < min(counters[SURFACE_BRICKS], surface.brickCapacity);
     ivec3 brick = unpackVoxel(brickList[used ? index : 0u]);
     uvec4 word = texelFetch(brickWords, brick, 0);
-    uvec4 old = texelFetch(oldBrickWords, brick, 0);
+    uvec4 old = texelFetch(oldBricks, brick, 0);
     uvec2 bits = used ? word.xy : uvec2(0u);
     uint record = word.z;
     do {

@@ -32,16 +32,16 @@ layout(local_size_x = 64) in;
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
 #include "voxels/surface_common.glsl"
-layout(std430, binding = SURFACE_COUNTERS) readonly buffer CounterTable { uint counters[]; };
-layout(std430, binding = SURFACE_CHAINS) buffer ChainTable { uint chains[]; };
-layout(std430, binding = SURFACE_FRAGMENT_DATA) writeonly buffer FragmentTable { uvec4 fragments[]; };
-layout(binding = SURFACE_UNIT_TRIANGLES) uniform samplerBuffer triangles;
-layout(binding = SURFACE_UNIT_PAIRS) uniform usamplerBuffer pairs;
-layout(binding = UNIT_VOXEL_BRICKS) uniform usampler3D brickWords;
+layout(std430) readonly buffer CounterTable { uint counters[]; };
+layout(std430) buffer ChainTable { uint chains[]; };
+layout(std430) writeonly buffer FragmentTable { uvec4 fragments[]; };
+uniform samplerBuffer triangles;
+uniform usamplerBuffer pairs;
+uniform usampler3D brickWords;
 
 #if SURFACE_UPDATE
-layout(std430, binding = SURFACE_FREE_LIST) readonly buffer FreeTable { uint freeSlots[]; };
-layout(std430, binding = SURFACE_CHANGED_BRICKS) buffer ChangedTable { uint changedBricks[]; };
+layout(std430) readonly buffer FreeTable { uint freeSlots[]; };
+layout(std430) buffer ChangedTable { uint changedBricks[]; };
 #endif
 
 struct Surface {
@@ -114,7 +114,7 @@ void main() {
     uint directions = facingDirections(stored) | (twoSided ? facingDirections(-stored) : 0u);
     directions = kept ? directions : 0u;
 #if SURFACE_UPDATE
-    directions |= CHAIN_DIRTY;
+    directions |= CHAIN_EDITED;
     if (chained) {
         uint brick = brickIndex(voxel >> 2, gridBricks());
         atomicOr(changedBricks[brick >> 5], 1u << (brick & 31u));

@@ -3,12 +3,12 @@
 #version 450
 layout(local_size_x = 64) in;
 #include "voxels/surface_common.glsl"
-layout(std430, binding = SURFACE_COUNTERS) readonly buffer CounterTable { uint counters[]; };
-layout(std430, binding = BINDING_VOXEL_FACES) writeonly buffer FaceTable { uvec4 faces[]; };
-layout(std430, binding = SURFACE_FACE_SOURCES) writeonly buffer SourceTable { uvec2 faceSources[]; };
-layout(binding = SURFACE_UNIT_OLD_FACES) uniform usamplerBuffer oldFaces;
-layout(binding = SURFACE_UNIT_OLD_SOURCES) uniform usamplerBuffer oldSources;
-layout(binding = SURFACE_UNIT_OWNERS) uniform usamplerBuffer owners;
+layout(std430) readonly buffer CounterTable { uint counters[]; };
+layout(std430) writeonly buffer FaceTable { uvec4 faces[]; };
+layout(std430) writeonly buffer SourceTable { uvec2 faceSources[]; };
+uniform usamplerBuffer oldFaces;
+uniform usamplerBuffer oldSources;
+uniform usamplerBuffer owners;
 
 void main() {
     uint index = linearInvocation();

@@ -8,10 +8,10 @@
 layout(local_size_x = 64) in;
 #include "lib/voxel_grid.glsl"
 #include "voxels/surface_common.glsl"
-layout(std430, binding = SURFACE_COUNTERS) readonly buffer CounterTable { uint counters[]; };
-layout(std430, binding = SURFACE_MASKS) readonly buffer MaskTable { uvec2 masks[]; };
-layout(std430, binding = SURFACE_CHAINS) readonly buffer ChainTable { uvec2 chains[]; };
-layout(std430, binding = SURFACE_CHUNKS) writeonly buffer ChunkTable { uvec2 chunks[]; };
+layout(std430) readonly buffer CounterTable { uint counters[]; };
+layout(std430) readonly buffer MaskTable { uvec2 masks[]; };
+layout(std430) readonly buffer ChainTable { uvec2 chains[]; };
+layout(std430) writeonly buffer ChunkTable { uvec2 chunks[]; };
 
 void main() {
     uint chunk = linearInvocation();

@@ -8,17 +8,17 @@ layout(local_size_x = 64) in;
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
 #include "voxels/surface_common.glsl"
-layout(std430, binding = SURFACE_COUNTERS) buffer CounterTable { uint counters[]; };
-layout(std430, binding = SURFACE_DIRTY_BRICKS) readonly buffer DirtyTable { uint dirtyBricks[]; };
-layout(std430, binding = SURFACE_CHANGED_BRICKS) buffer ChangedTable { uint changedBricks[]; };
-layout(std430, binding = SURFACE_STALE) readonly buffer StaleTable { uint stale[]; };
-layout(std430, binding = SURFACE_MASKS) buffer MaskTable { uint masks[]; };
-layout(std430, binding = SURFACE_CHAINS) buffer ChainTable { uvec2 chains[]; };
-layout(std430, binding = SURFACE_FRAGMENT_DATA) buffer FragmentTable { uint fragments[]; };
-layout(std430, binding = SURFACE_FREE_LIST) writeonly buffer FreeTable { uint freeSlots[]; };
-layout(binding = UNIT_VOXEL_BRICKS) uniform usampler3D brickWords;
-layout(binding = SURFACE_UNIT_TRIANGLES) uniform samplerBuffer triangles;
-layout(binding = SURFACE_UNIT_PAIRS) uniform usamplerBuffer pairs;
+layout(std430) buffer CounterTable { uint counters[]; };
+layout(std430) readonly buffer EditedTable { uint editedBricks[]; };
+layout(std430) buffer ChangedTable { uint changedBricks[]; };
+layout(std430) readonly buffer StaleTable { uint stale[]; };
+layout(std430) buffer MaskTable { uint masks[]; };
+layout(std430) buffer ChainTable { uvec2 chains[]; };
+layout(std430) buffer FragmentTable { uint fragments[]; };
+layout(std430) writeonly buffer FreeTable { uint freeSlots[]; };
+uniform usampler3D brickWords;
+uniform samplerBuffer triangles;
+uniform usamplerBuffer pairs;
 
 // Directions in which a stored fragment counts, none without area (surface_clip).
 uint storedDirections(uint base) {
@@ -31,8 +31,8 @@ uint storedDirections(uint base) {
 
 void main() {
     uint index = linearInvocation();
-    bool used = index < 64u * surface.dirtyBricks;
-    uint brick = dirtyBricks[used ? index >> 6 : 0u];
+    bool used = index < 64u * surface.editedBricks;
+    uint brick = editedBricks[used ? index >> 6 : 0u];
     uint bit = index & 63u;
     uvec4 word = texelFetch(brickWords, brickOfIndex(brick, gridBricks()), 0);
     bool occupied = used && (((bit & 32u) != 0u ? word.y : word.x) >> (bit & 31u) & 1u) != 0u;
@@ -61,7 +61,7 @@ void main() {
     } while (at != 0u);
     if (dropped) {
         if (last != 0u) fragments[8u * (last - 1u)] = 0u;
-        chains[record] = uvec2(head, directions | CHAIN_DIRTY);
+        chains[record] = uvec2(head, directions | CHAIN_EDITED);
         if (head == 0u) atomicAnd(masks[2u * brick + (bit >> 5)], ~(1u << (bit & 31u)));
         atomicOr(changedBricks[brick >> 5], 1u << (brick & 31u));
     }

@@ -4,12 +4,12 @@
 #include "lib/voxel_address.glsl"
 #include "lib/voxel_grid.glsl"
 #include "voxels/surface_columns.glsl"
-layout(std430, binding = SURFACE_COUNTERS) buffer CounterTable { uint counters[]; };
-layout(std430, binding = SURFACE_PAIRS) writeonly buffer PairTable { uvec2 pairs[]; };
+layout(std430) buffer CounterTable { uint counters[]; };
+layout(std430) writeonly buffer PairTable { uvec2 pairs[]; };
 #if SURFACE_UPDATE
-layout(std430, binding = SURFACE_FREE_LIST) readonly buffer FreeTable { uint freeSlots[]; };
+layout(std430) readonly buffer FreeTable { uint freeSlots[]; };
 #endif
-layout(std430, binding = SURFACE_MASKS) buffer MaskTable { uint masks[]; };
+layout(std430) buffer MaskTable { uint masks[]; };
 
 // The columns of one invocation: `width` cells per row, counted from cell (0,0) at the anchor.
 // bits: four per column, column after column.

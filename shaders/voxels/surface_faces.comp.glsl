@@ -11,18 +11,18 @@
 layout(local_size_x = 64) in;
 #include "voxels/surface_common.glsl"
 #if SURFACE_UPDATE
-layout(std430, binding = SURFACE_COUNTERS) buffer CounterTable { uint counters[]; };
-layout(std430, binding = SURFACE_CHAINS) buffer ChainTable { uvec2 chains[]; };
-layout(std430, binding = SURFACE_ORIGIN) readonly buffer OriginTable { uint origins[]; };
-layout(std430, binding = SURFACE_WORK_LIST) writeonly buffer WorkTable { uint work[]; };
-layout(binding = SURFACE_UNIT_OLD_RECORDS) uniform usamplerBuffer oldRecords;
+layout(std430) buffer CounterTable { uint counters[]; };
+layout(std430) buffer ChainTable { uvec2 chains[]; };
+layout(std430) readonly buffer OriginTable { uint origins[]; };
+layout(std430) writeonly buffer WorkTable { uint work[]; };
+uniform usamplerBuffer oldRecords;
 #else
-layout(std430, binding = SURFACE_COUNTERS) readonly buffer CounterTable { uint counters[]; };
-layout(std430, binding = SURFACE_CHAINS) readonly buffer ChainTable { uvec2 chains[]; };
+layout(std430) readonly buffer CounterTable { uint counters[]; };
+layout(std430) readonly buffer ChainTable { uvec2 chains[]; };
 #endif
-layout(std430, binding = SURFACE_CHUNKS) readonly buffer ChunkTable { uvec2 chunks[]; };
-layout(std430, binding = SURFACE_OWNERS) writeonly buffer OwnerTable { uint owners[]; };
-layout(std430, binding = BINDING_VOXEL_RECORDS) writeonly buffer RecordTable { uint records[]; };
+layout(std430) readonly buffer ChunkTable { uvec2 chunks[]; };
+layout(std430) writeonly buffer OwnerTable { uint owners[]; };
+layout(std430) writeonly buffer RecordTable { uint records[]; };
 
 void main() {
     uint count = min(counters[SURFACE_VOXELS], surface.voxelCapacity);
@@ -34,10 +34,10 @@ void main() {
         uvec2 chain = chains[i];
         uint directions = chain.y & CHAIN_DIRECTIONS;
 #if SURFACE_UPDATE
-        bool dirty = (chain.y & CHAIN_DIRTY) != 0u;
-        if (dirty) chains[i].y = directions;
-        // A voxel that is not dirty was there before, with the same directions.
-        uint old = texelFetch(oldRecords, dirty ? 0 : int(origins[i])).x & 0x3ffffffu;
+        bool edited = (chain.y & CHAIN_EDITED) != 0u;
+        if (edited) chains[i].y = directions;
+        // A voxel that is not edited was there before, with the same directions.
+        uint old = texelFetch(oldRecords, edited ? 0 : int(origins[i])).x & 0x3ffffffu;
 #endif
         records[i] = min(next, 0x3ffffffu) | (directions << 26);
         uint remaining = directions;
@@ -45,9 +45,9 @@ void main() {
         while (remaining != 0u) {
             uint owner = chain.x | (uint(findLSB(remaining)) << 29);
 #if SURFACE_UPDATE
-            owner = dirty ? owner : old | (OWNER_IS_FACE << 29);
+            owner = edited ? owner : old | (OWNER_IS_FACE << 29);
             ++old;
-            if (dirty && next < surface.faceCapacity) work[atomicAdd(counters[SURFACE_WORK], 1u)] = next;
+            if (edited && next < surface.faceCapacity) work[atomicAdd(counters[SURFACE_WORK], 1u)] = next;
 #endif
             if (next < surface.faceCapacity) owners[next] = owner;
             remaining &= remaining - 1u;

@@ -23,9 +23,9 @@ layout(local_size_x = 64) in;
 #include "lib/voxel_record.glsl"
 #include "voxels/surface_common.glsl"
 #include "voxels/surface_sums.glsl"
-layout(std430, binding = SURFACE_COUNTERS) readonly buffer CounterTable { uint counters[]; };
-layout(std430, binding = BINDING_VOXEL_FACES) buffer FaceTable { uvec4 faces[]; };
-layout(std430, binding = SURFACE_LAYER_LIST) readonly buffer LayerTable { uint layered[]; };
+layout(std430) readonly buffer CounterTable { uint counters[]; };
+layout(std430) buffer FaceTable { uvec4 faces[]; };
+layout(std430) readonly buffer LayerTable { uint layered[]; };
 
 // Depths that differ by less than this in all, in voxels, are one: centroids and normals have 16 bits.
 const float kLeastRange = 1.0 / 256.0;

@@ -7,10 +7,10 @@
 #include "lib/brdf.glsl"
 #include "lib/surface_array.glsl"
 #include "lib/vertex_color.glsl"
-layout(std430, binding = BINDING_VERTICES) readonly buffer VertexTable { Vertex vertices[]; };
-layout(std430, binding = BINDING_INDICES) readonly buffer IndexTable { uint indices[]; };
-layout(std430, binding = BINDING_INSTANCES) readonly buffer InstanceTable { Instance instances[]; };
-layout(std430, binding = BINDING_MATERIALS) readonly buffer MaterialTable { Material materials[]; };
+layout(std430) readonly buffer VertexTable { Vertex vertices[]; };
+layout(std430) readonly buffer IndexTable { uint indices[]; };
+layout(std430) readonly buffer InstanceTable { Instance instances[]; };
+layout(std430) readonly buffer MaterialTable { Material materials[]; };
 
 // Barycentric coordinates of a point of the triangle's plane; cr = n * (2 area).
 vec3 barycentric(vec3 p, vec3 q0, vec3 q1, vec3 q2, vec3 n, float twiceArea) {

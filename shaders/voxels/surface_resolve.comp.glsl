@@ -21,11 +21,11 @@ layout(local_size_x = 64) in;
 #include "lib/voxel_record.glsl"
 #include "voxels/surface_common.glsl"
 #include "voxels/surface_sums.glsl"
-layout(std430, binding = SURFACE_COUNTERS) buffer CounterTable { uint counters[]; };
-layout(std430, binding = BINDING_VOXEL_FACES) writeonly buffer FaceTable { uvec4 faces[]; };
-layout(std430, binding = SURFACE_LAYER_LIST) writeonly buffer LayerTable { uint layered[]; };
+layout(std430) buffer CounterTable { uint counters[]; };
+layout(std430) writeonly buffer FaceTable { uvec4 faces[]; };
+layout(std430) writeonly buffer LayerTable { uint layered[]; };
 #if SURFACE_UPDATE
-layout(std430, binding = SURFACE_WORK_LIST) readonly buffer WorkTable { uint work[]; };
+layout(std430) readonly buffer WorkTable { uint work[]; };
 #endif
 
 void main() {

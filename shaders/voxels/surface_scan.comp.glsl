@@ -10,8 +10,8 @@
 layout(local_size_x = 8) in;
 #include "lib/voxel_grid.glsl"
 #include "voxels/surface_common.glsl"
-layout(std430, binding = SURFACE_COUNTERS) buffer CounterTable { uint counters[]; };
-layout(std430, binding = SURFACE_CHUNKS) buffer ChunkTable { uvec2 chunks[]; };
+layout(std430) buffer CounterTable { uint counters[]; };
+layout(std430) buffer ChunkTable { uvec2 chunks[]; };
 
 // Groups of 64 invocations; more than fit along x are folded into y (linearInvocation).
 void writeArguments(int at, uint invocations) {

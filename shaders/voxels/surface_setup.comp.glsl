@@ -12,17 +12,17 @@ layout(local_size_x = 64) in;
 #include "lib/voxel_record.glsl"
 #include "voxels/surface_common.glsl"
 #include "voxels/surface_emit.glsl"
-layout(std430, binding = BINDING_VERTICES) readonly buffer VertexTable { Vertex vertices[]; };
-layout(std430, binding = BINDING_INDICES) readonly buffer IndexTable { uint indices[]; };
-layout(std430, binding = BINDING_INSTANCES) readonly buffer InstanceTable { Instance instances[]; };
-layout(std430, binding = BINDING_MATERIALS) readonly buffer MaterialTable { Material materials[]; };
-layout(std430, binding = SURFACE_TRIANGLES) writeonly buffer TriangleTable { vec4 triangles[]; };
-layout(std430, binding = SURFACE_TILE_LIST) writeonly buffer TileTable { uvec2 tiles[]; };
+layout(std430) readonly buffer VertexTable { Vertex vertices[]; };
+layout(std430) readonly buffer IndexTable { uint indices[]; };
+layout(std430) readonly buffer InstanceTable { Instance instances[]; };
+layout(std430) readonly buffer MaterialTable { Material materials[]; };
+layout(std430) writeonly buffer TriangleTable { vec4 triangles[]; };
+layout(std430) writeonly buffer TileTable { uvec2 tiles[]; };
 
 const int kSmallColumns = 16;
 
 #if SURFACE_UPDATE
-layout(std430, binding = SURFACE_RUNS) readonly buffer RunTable { uvec2 runs[]; };
+layout(std430) readonly buffer RunTable { uvec2 runs[]; };
 
 // The changed instance that the n-th triangle of the work belongs to: last run that starts at or before it.
 uvec2 runOf(uint n) {

@@ -9,11 +9,11 @@
 #endif
 #include "lib/clip.glsl"
 #include "lib/plane_piece.glsl"
-layout(std430, binding = SURFACE_FACE_SOURCES) writeonly buffer SourceTable { uvec2 faceSources[]; };
-layout(binding = SURFACE_UNIT_FRAGMENTS) uniform usamplerBuffer fragments;
-layout(binding = SURFACE_UNIT_OWNERS) uniform usamplerBuffer owners;
+layout(std430) writeonly buffer SourceTable { uvec2 faceSources[]; };
+uniform usamplerBuffer fragments;
+uniform usamplerBuffer owners;
 #if SURFACE_EMISSION
-layout(binding = SURFACE_UNIT_PAIRS) uniform usamplerBuffer pairs;
+uniform usamplerBuffer pairs;
 #endif
 
 // A fragment as a face sees it.

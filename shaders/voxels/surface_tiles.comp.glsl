@@ -7,8 +7,8 @@
 layout(local_size_x = 64) in;
 #include "voxels/surface_common.glsl"
 #include "voxels/surface_emit.glsl"
-layout(std430, binding = SURFACE_TILE_LIST) readonly buffer TileTable { uvec2 tiles[]; };
-layout(binding = SURFACE_UNIT_TRIANGLES) uniform samplerBuffer triangles;
+layout(std430) readonly buffer TileTable { uvec2 tiles[]; };
+uniform samplerBuffer triangles;
 
 void main() {
     uint index = linearInvocation();

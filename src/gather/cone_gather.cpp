@@ -8,7 +8,6 @@
 
 #include "gather/cone_set.h"
 #include "gl/gl.h"
-#include "shared/bindings.h"
 #include "shared/cones.h"
 
 namespace conelight::gather {
@@ -16,25 +15,56 @@ namespace {
 
 static_assert(kMaxCones == MAX_CONES);
 
-gl::Defines volumeDefines(int blocks, OpacityModel opacity) {
-    return {{"DIRECTIONAL", blocks == 6 ? "1" : "0"}, {"AREA", opacity == OpacityModel::Area ? "1" : "0"}};
+using Part = ConeGather::Part;
+
+// What all cones ask of the volume.
+struct VolumeKey {
+    int blocks;
+    OpacityModel opacity;
+
+    gl::Defines defines() const {
+        return {{"DIRECTIONAL", blocks == 6 ? "1" : "0"},
+                {"AREA", opacity == OpacityModel::Area ? "1" : "0"}};
+    }
+    static std::vector<VolumeKey> all() {
+        return {
+            {1, OpacityModel::Fog}, {1, OpacityModel::Area}, {6, OpacityModel::Fog}, {6, OpacityModel::Area}};
+    }
+};
+
+struct ConeKey {
+    VolumeKey volume;
+    Part part;
+    bool counts = false;   // lookups
+    bool records = false;  // steps of one pixel
+
+    gl::ProgramDesc desc() const {
+        gl::ProgramDesc desc{
+            {part == Part::Specular ? "gather/cone_specular.comp.glsl" : "gather/cone_diffuse.comp.glsl"},
+            volume.defines()};
+        if (part != Part::Specular)
+            desc.defines.emplace_back("OCCLUSION", part == Part::Occlusion ? "1" : "0");
+        desc.defines.emplace_back("COUNT_LOOKUPS", counts ? "1" : "0");
+        return records ? StepRecorder::variant(std::move(desc)) : desc;
+    }
+    static std::vector<ConeKey> all() {
+        std::vector<ConeKey> keys;
+        for (const VolumeKey& volume : VolumeKey::all())
+            for (const Part part : {Part::Diffuse, Part::Specular, Part::Occlusion}) {
+                for (const bool counts : {false, true}) keys.push_back({volume, part, counts});
+                keys.push_back({volume, part, false, true});
+            }
+        return keys;
+    }
+};
+
+gl::ProgramDesc bounceDesc(const VolumeKey& volume) {
+    return {{"gather/cone_bounce.comp.glsl"}, volume.defines()};
 }
 
-gl::ProgramDesc diffuseDesc(int blocks, OpacityModel opacity, bool occlusion, bool count) {
-    gl::Defines defines = volumeDefines(blocks, opacity);
-    defines.emplace_back("OCCLUSION", occlusion ? "1" : "0");
-    defines.emplace_back("COUNT_LOOKUPS", count ? "1" : "0");
-    return {{"gather/cone_diffuse.comp.glsl"}, defines};
-}
-
-gl::ProgramDesc specularDesc(int blocks, OpacityModel opacity, bool count) {
-    gl::Defines defines = volumeDefines(blocks, opacity);
-    defines.emplace_back("COUNT_LOOKUPS", count ? "1" : "0");
-    return {{"gather/cone_specular.comp.glsl"}, defines};
-}
-
-gl::ProgramDesc bounceDesc(int blocks, OpacityModel opacity) {
-    return {{"gather/cone_bounce.comp.glsl"}, volumeDefines(blocks, opacity)};
+const char* passName(Part part) {
+    return part == Part::Diffuse ? "diffuse cones"
+                                 : (part == Part::Specular ? "specular cones" : "occlusion cones");
 }
 
 }  // namespace
@@ -64,79 +94,44 @@ void ConeGather::configure(const ConesSettings& settings, const voxels::Radiance
     block_.update(constants);
 }
 
-void ConeGather::bind(const voxels::RadianceVolume& volume) const {
-    volume.bind();
-    block_.bindUniform(BINDING_CONES);
+gl::Inputs ConeGather::given(const ConeInputs& inputs, const gl::Texture& result) const {
+    gl::Inputs given;
+    given.add(inputs.pixels)
+        .add(inputs.volume)
+        .uniform("ConeBlock", block_)
+        .image("result", result, gl::ImageUse::Write);
+    return given;
 }
 
-void ConeGather::run(gl::ProgramLibrary& programs, const gl::ProgramDesc& desc,
-                     const voxels::RadianceVolume& volume, const gl::Texture& result,
-                     const gl::Buffer* counters) const {
-    bind(volume);
-    if (counters != nullptr) counters->bindStorage(BINDING_STORAGE_PASS);
-    result.bindImage(0, 0, GL_WRITE_ONLY);
-    programs.get(desc).dispatch(result.width(), result.height());
+void ConeGather::gather(const gl::Device& device, const ConeInputs& inputs, Part part,
+                        const gl::Texture& result, const gl::Buffer* counters) const {
+    const gl::PassScope pass(device.profiler, passName(part));
+    gl::Inputs given = this->given(inputs, result);
+    if (counters != nullptr) given.storage("LookupCounters", *counters);
+    const ConeKey key{{inputs.volume.layout().blocks, opacity_}, part, counters != nullptr};
+    device.get(key.desc()).dispatch(given, result.width(), result.height());
 }
 
-void ConeGather::gatherDiffuse(gl::ProgramLibrary& programs, gl::Profiler& profiler,
-                               const voxels::RadianceVolume& volume, const gl::Texture& result,
-                               const gl::Buffer* counters) const {
-    const gl::PassScope pass(profiler, "diffuse cones");
-    run(programs, diffuseDesc(volume.layout().blocks, opacity_, false, counters != nullptr), volume, result,
-        counters);
+void ConeGather::record(const gl::Device& device, const ConeInputs& inputs, Part part,
+                        const gl::Texture& result, StepRecorder& recorder) const {
+    const ConeKey key{{inputs.volume.layout().blocks, opacity_}, part, false, true};
+    recorder.record(device, key.desc(), given(inputs, result));
 }
 
-void ConeGather::gatherOcclusion(gl::ProgramLibrary& programs, gl::Profiler& profiler,
-                                 const voxels::RadianceVolume& volume, const gl::Texture& result,
-                                 const gl::Buffer* counters) const {
-    const gl::PassScope pass(profiler, "occlusion cones");
-    run(programs, diffuseDesc(volume.layout().blocks, opacity_, true, counters != nullptr), volume, result,
-        counters);
-}
-
-void ConeGather::gatherSpecular(gl::ProgramLibrary& programs, gl::Profiler& profiler,
-                                const voxels::RadianceVolume& volume, const gl::Texture& result,
-                                const gl::Buffer* counters) const {
-    const gl::PassScope pass(profiler, "specular cones");
-    run(programs, specularDesc(volume.layout().blocks, opacity_, counters != nullptr), volume, result,
-        counters);
-}
-
-void ConeGather::record(gl::ProgramLibrary& programs, const voxels::RadianceVolume& volume,
-                        const gl::Texture& result, Recorded what, StepRecorder& recorder) const {
-    const int blocks = volume.layout().blocks;
-    bind(volume);
-    result.bindImage(0, 0, GL_WRITE_ONLY);
-    recorder.record(programs, what == Recorded::Specular
-                                  ? specularDesc(blocks, opacity_, false)
-                                  : diffuseDesc(blocks, opacity_, what == Recorded::Occlusion, false));
-}
-
-void ConeGather::gatherBounce(gl::ProgramLibrary& programs, gl::Profiler& profiler,
+void ConeGather::gatherBounce(const gl::Device& device, const light::Lights& lights,
                               const voxels::RadianceVolume& volume,
                               const voxels::SurfaceVoxels& surface) const {
-    const gl::PassScope pass(profiler, "bounce cones");
-    bind(volume);
-    surface.bind();
-    programs.get(bounceDesc(volume.layout().blocks, opacity_)).dispatchLinear(surface.faceCount());
+    const gl::PassScope pass(device.profiler, "bounce cones");
+    gl::Inputs given;
+    given.add(lights).add(volume).add(surface).uniform("ConeBlock", block_);
+    device.get(bounceDesc({volume.layout().blocks, opacity_})).dispatchLinear(given, surface.faceCount());
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
 }
 
 std::vector<gl::ProgramDesc> ConeGather::programDescs() {
     std::vector<gl::ProgramDesc> descs;
-    for (const int blocks : {1, 6}) {
-        for (const OpacityModel opacity : {OpacityModel::Fog, OpacityModel::Area}) {
-            for (const bool count : {false, true}) {
-                descs.push_back(diffuseDesc(blocks, opacity, false, count));
-                descs.push_back(diffuseDesc(blocks, opacity, true, count));
-                descs.push_back(specularDesc(blocks, opacity, count));
-            }
-            descs.push_back(bounceDesc(blocks, opacity));
-            for (const bool occlusion : {false, true})
-                descs.push_back(StepRecorder::variant(diffuseDesc(blocks, opacity, occlusion, false)));
-            descs.push_back(StepRecorder::variant(specularDesc(blocks, opacity, false)));
-        }
-    }
+    for (const ConeKey& key : ConeKey::all()) descs.push_back(key.desc());
+    for (const VolumeKey& key : VolumeKey::all()) descs.push_back(bounceDesc(key));
     return descs;
 }
 

@@ -1,27 +1,35 @@
 // SPDX-License-Identifier: MIT
-// Light that reaches the eye without a bounce: G-buffer, light table and shadow maps -> two RGBA32F textures.
-//
-// Reads: G-buffer, frame block, scene tables, shadow maps (all bound). Writes: `diffuse` and `specular`;
-// readers need a texture-fetch barrier.
+// Light that reaches the eye without a bounce: surfaces + lights -> two RGBA32F textures. Readers need a
+// texture-fetch barrier. GL state changed: program and its slots.
 #pragma once
 
-#include "conelight/settings.h"
-#include "gl/pass.h"
-#include "gl/program.h"
+#include <vector>
+
+#include "gl/device.h"
 #include "gl/texture.h"
+#include "light/lights.h"
 #include "scene/gpu_scene.h"
+#include "view/surfaces.h"
 
 namespace conelight::gather {
 
+// What shading by lights alone reads.
+struct DirectInputs {
+    const scene::GpuScene& scene;
+    const light::Lights& lights;
+    const view::Surfaces& surfaces;
+
+    void declare(gl::Inputs& inputs) const { inputs.add(scene).add(lights).add(surfaces); }
+};
+
 class DirectLight {
   public:
-    void draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
-              const LightSettings& settings, int width, int height);
+    void draw(const gl::Device& device, const DirectInputs& inputs);
 
     const gl::Texture& diffuse() const {
         return diffuse_;
-    }  // diffuse reflection plus emission; sky radiance; a: seen
-    const gl::Texture& specular() const { return specular_; }  // specular reflection; a: seen
+    }  // reflected, plus emission; sky radiance; a: seen
+    const gl::Texture& specular() const { return specular_; }  // reflected; a: seen
 
     static std::vector<gl::ProgramDesc> programDescs();
 

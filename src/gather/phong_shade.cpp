@@ -1,35 +1,46 @@
 // SPDX-License-Identifier: MIT
 #include "gather/phong_shade.h"
 
-#include <algorithm>
-
 #include "gl/gl.h"
-#include "light/shadow_maps.h"
 
 namespace conelight::gather {
 namespace {
 
-// The stage's own switch takes the place of LIGHTS_SHADOWS.
-gl::ProgramDesc programDesc(gl::Defines lightDefines, bool shadows) {
-    std::erase_if(lightDefines, [](const auto& define) { return define.first == "LIGHTS_SHADOWS"; });
-    lightDefines.emplace_back("PHONG_SHADOWS", shadows ? "1" : "0");
-    return {{"gather/phong_shade.comp.glsl"}, std::move(lightDefines)};
-}
+struct PhongKey {
+    light::LightKey lights;
+    bool shadows = false;
+
+    // The stage's own switch takes the place of LIGHTS_SHADOWS.
+    gl::ProgramDesc desc() const {
+        gl::Defines defines = lights.defines();
+        std::erase_if(defines, [](const auto& define) { return define.first == "LIGHTS_SHADOWS"; });
+        defines.emplace_back("PHONG_SHADOWS", shadows ? "1" : "0");
+        return {{"gather/phong_shade.comp.glsl"}, std::move(defines)};
+    }
+    static std::vector<PhongKey> all() {
+        std::vector<PhongKey> keys;
+        for (const light::LightKey& lights : light::LightKey::all())
+            for (const bool shadows : {false, true})
+                if (lights.shadows || !shadows) keys.push_back({lights, shadows});
+        return keys;
+    }
+};
 
 }  // namespace
 
-void drawPhongShade(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
-                    const LightSettings& settings, bool shadows, const gl::Texture& output) {
-    const gl::PassScope pass(profiler, "phong");
-    output.bindImage(0, 0, GL_WRITE_ONLY);
-    programs.get(programDesc(light::lightDefines(scene, settings), shadows && settings.shadowSize > 0))
-        .dispatch(output.width(), output.height());
+void drawPhongShade(const gl::Device& device, const DirectInputs& inputs, bool shadows,
+                    const gl::Texture& output) {
+    const gl::PassScope pass(device.profiler, "phong");
+    const light::LightKey lights = inputs.lights.key();
+    gl::Inputs given;
+    given.add(inputs).image("outputImage", output, gl::ImageUse::Write);
+    device.get(PhongKey{lights, shadows && lights.shadows}.desc())
+        .dispatch(given, output.width(), output.height());
 }
 
 std::vector<gl::ProgramDesc> phongShadeProgramDescs() {
     std::vector<gl::ProgramDesc> descs;
-    for (const gl::ProgramDesc& base : light::lightVariants({}))
-        for (const bool shadows : {false, true}) descs.push_back(programDesc(base.defines, shadows));
+    for (const PhongKey& key : PhongKey::all()) descs.push_back(key.desc());
     return descs;
 }
 

@@ -1,21 +1,19 @@
 // SPDX-License-Identifier: MIT
-// The thesis's Phong model per pixel: G-buffer, light table, materials (and shadow maps) -> RGBA32F image.
-//
-// Reads: G-buffer, frame block, scene tables, shadow maps (all bound). Writes: `output`; readers need a
-// texture-fetch barrier.
+// The Phong model per pixel: surfaces, lights, materials -> RGBA32F image. Readers of `output` need a
+// texture-fetch barrier. GL state changed: program and its slots.
 #pragma once
 
-#include "conelight/settings.h"
-#include "gl/pass.h"
-#include "gl/program.h"
+#include <vector>
+
+#include "gather/direct_light.h"
+#include "gl/device.h"
 #include "gl/texture.h"
-#include "scene/gpu_scene.h"
 
 namespace conelight::gather {
 
-// `shadows`: with the shadow maps of `settings`; else every light reaches every surface that faces it.
-void drawPhongShade(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
-                    const LightSettings& settings, bool shadows, const gl::Texture& output);
+// `shadows`: with the shadow maps of the lights; else every light reaches every surface that faces it.
+void drawPhongShade(const gl::Device& device, const DirectInputs& inputs, bool shadows,
+                    const gl::Texture& output);
 
 std::vector<gl::ProgramDesc> phongShadeProgramDescs();
 

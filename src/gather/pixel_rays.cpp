@@ -6,9 +6,7 @@
 #include <utility>
 
 #include "gl/gl.h"
-#include "light/irradiance_cache.h"
-#include "shared/bindings.h"
-#include "shared/lookups.h"
+#include "light/firefly_clamp.h"
 
 namespace conelight::gather {
 namespace {
@@ -19,47 +17,14 @@ constexpr float kPlaneTolerance = 0.5f;
 // Reach of component occlusion, as a part of the grid's longest side.
 constexpr float kOcclusionReach = 0.1f;
 // A ray into a lobe goes on so often where it meets metal; after that metals reflect lights in their lobe and
-// all else as if matt. Three mirrors in a row are seen, more are hardly told apart. Rays for irradiance go on
-// only where many are averaged: what few bring from a lobe is speckles.
+// all else as if diffuse. Three mirrors in a row are seen, more are hardly told apart. Rays for irradiance go
+// on only where many are averaged: what few bring from a lobe is speckles.
 constexpr std::uint32_t kLobeReflections = 3;
 constexpr int kReflectedRays = 128;
-constexpr int kAllBounces = 16;  // TracedSettings::bounces
 
-// Occlusion asks for no light.
-const gl::Defines kNoHitLights = {{"EXACT_DIRECT", "0"}, {"LOBES", "0"}};
-
-// Which pixels get rays into their lobe (LOBE_LISTED).
-enum class LobePixels { All, Listed };
-
-gl::ProgramDesc gatherDesc(RayPicture kind, Reuse reuse, bool motion, bool countLookups,
-                           const gl::Defines& hitLights, LobePixels lobes = LobePixels::All) {
-    gl::ProgramDesc desc;
-    desc.files = {kind == RayPicture::Specular ? "gather/ray_specular.comp.glsl"
-                                               : "gather/ray_diffuse.comp.glsl"};
-    desc.defines = {{"TEMPORAL", std::to_string(static_cast<int>(reuse))},
-                    {"MOTION", motion && reuse == Reuse::Reproject ? "1" : "0"}};
-    if (kind != RayPicture::Specular)
-        desc.defines.emplace_back("OCCLUSION", kind == RayPicture::Occlusion ? "1" : "0");
-    if (lobes == LobePixels::Listed) desc.defines.emplace_back("LOBE_LISTED", "1");
-    if (countLookups) desc.defines.emplace_back("COUNT_LOOKUPS", "1");
-    desc.defines.insert(desc.defines.end(), hitLights.begin(), hitLights.end());
-    return desc;
-}
-
-// What rays look up where they hit.
-gl::Defines hitDefines(RayPicture kind, const PixelRayFrame& frame, const TracedSettings& settings) {
-    if (kind == RayPicture::Occlusion) return kNoHitLights;
-    gl::Defines defines = light::hitLightDefines(frame.scene, frame.light, settings.exactHits);
-    if (kind == RayPicture::Specular && settings.exactMirrors) defines.emplace_back("TRIANGLE_HITS", "1");
-    return defines;
-}
+constexpr std::array<std::uint32_t, 4> kEmptyLobeList{LOBE_GROUPS_X, 0, 1, 0};
 
 gl::ProgramDesc selectDesc() { return {{"gather/lobe_select.comp.glsl"}, {}}; }
-
-gl::ProgramDesc filterDesc(int step, bool specular) {
-    return {{"gather/edge_filter.comp.glsl"},
-            {{"FILTER_STEP", std::to_string(step)}, {"SPECULAR", specular ? "1" : "0"}}};
-}
 
 const char* const kGatherPass[] = {"diffuse rays", "specular rays", "occlusion rays"};
 const char* const kLabel[] = {"gathered diffuse", "gathered specular", "gathered occlusion"};
@@ -72,42 +37,23 @@ gl::Texture makePicture(int width, int height, const char* label) {
     return picture;
 }
 
-void bindPicture(const gl::Texture& picture, unsigned unit) {
-    picture.bind(unit);
-    gl::unbindSampler(unit);
-}
-
-}  // namespace
-
-bool mayHaveLobe(const scene::GpuScene& scene, const gpu::Instance& instance, float roughest) {
-    const gpu::Material& m = scene.materials()[instance.material];
-    const bool textured = (m.flags & MATERIAL_DETAIL_TEXTURES) != 0;
-    const bool reflects = m.metallic > 0 || m.specularF0 != glm::vec3(0);
-    return (instance.flags & INSTANCE_VISIBLE) != 0 && (m.flags & MATERIAL_UNLIT) == 0 && reflects &&
-           (textured || m.roughness <= roughest);
-}
-
-bool PixelRays::has(int width, int height) const {
-    const gl::Texture& picture = current_.texture;
-    return picture && picture.width() == width && picture.height() == height;
-}
-
 // About the boxes of all instances that may have lobes. One that reaches behind the eye may be anywhere.
-PixelRectangle PixelRays::lobeRectangle(const PixelRayFrame& frame, float roughest) {
-    const glm::ivec2 size(frame.view.width, frame.view.height);
+PixelRectangle lobeRectangle(const RayInputs& inputs, float roughest) {
+    const gpu::FrameConstants& view = inputs.surfaces.view();
+    const glm::ivec2 size(view.width, view.height);
     PixelRectangle all{size, glm::ivec2(0)};
-    const std::vector<gpu::Instance>& instances = frame.scene.instances();
+    const std::vector<gpu::Instance>& instances = inputs.scene.instances();
     for (std::size_t i = 0; i < instances.size(); ++i) {
-        if (!mayHaveLobe(frame.scene, instances[i], roughest)) continue;
-        const Aabb& box = frame.scene.instanceBounds(i);
+        if (!mayHaveLobe(inputs.scene, instances[i], roughest)) continue;
+        const Aabb& box = inputs.scene.instanceBounds(i);
         glm::vec2 lowest(1e9f), highest(-1e9f);
         int before = 0;
         for (int corner = 0; corner < 8; ++corner) {
             const glm::vec3 at((corner & 1) != 0 ? box.max.x : box.min.x,
                                (corner & 2) != 0 ? box.max.y : box.min.y,
                                (corner & 4) != 0 ? box.max.z : box.min.z);
-            const glm::vec4 clip = frame.view.clipFromWorld * glm::vec4(at, 1);
-            if (clip.w < 1e-3f * frame.voxelSize) continue;
+            const glm::vec4 clip = view.clipFromWorld * glm::vec4(at, 1);
+            if (clip.w < 1e-3f * inputs.voxels.grid().voxelSize) continue;
             ++before;
             // Far outside all is the same; numbers stay small enough for integers.
             const glm::vec2 place = glm::clamp(glm::vec2(clip) / clip.w, -2.0f, 2.0f);
@@ -126,6 +72,29 @@ PixelRectangle PixelRays::lobeRectangle(const PixelRayFrame& frame, float roughe
     return all;
 }
 
+}  // namespace
+
+void RayInputs::declare(gl::Inputs& inputs) const {
+    inputs.add(scene).add(lights).add(surfaces);
+    // Pictures of direct light alone are drawn without voxels.
+    if (!lit.revision()) return;
+    inputs.add(voxels).add(lit);
+    voxels.surface().declareTriangles(inputs);
+}
+
+bool mayHaveLobe(const scene::GpuScene& scene, const gpu::Instance& instance, float roughest) {
+    const gpu::Material& m = scene.materials()[instance.material];
+    const bool textured = (m.flags & MATERIAL_DETAIL_TEXTURES) != 0;
+    const bool reflects = m.metallic > 0 || m.specularF0 != glm::vec3(0);
+    return (instance.flags & INSTANCE_VISIBLE) != 0 && (m.flags & MATERIAL_UNLIT) == 0 && reflects &&
+           (textured || m.roughness <= roughest);
+}
+
+bool PixelRays::has(int width, int height) const {
+    const gl::Texture& picture = current_.texture;
+    return picture && picture.width() == width && picture.height() == height;
+}
+
 void PixelRays::clearWritten(Picture& picture) {
     const glm::ivec2 size = picture.written.end - picture.written.lowest;
     if (size.x > 0 && size.y > 0)
@@ -133,32 +102,45 @@ void PixelRays::clearWritten(Picture& picture) {
                                     GL_RGBA_INTEGER, GL_UNSIGNED_INT);
 }
 
-gpu::PixelRayConstants PixelRays::packed(const PixelRayFrame& frame, const TracedSettings& settings, int rays,
-                                         std::uint32_t pass, int longest) const {
+PixelRayKey PixelRays::key(const RayInputs& inputs, const RayPass& pass) const {
+    PixelRayKey key{.kind = kind_,
+                    .reuse = pass.reuse,
+                    .motion = pass.motion != nullptr && pass.reuse == Reuse::Reproject,
+                    .counts = pass.lookupCounters != nullptr,
+                    .listed = kind_ == RayPicture::Specular};
+    if (kind_ == RayPicture::Occlusion) return key;
+    key.hits = inputs.lights.hitKey(inputs.scene, pass.settings.exactHits);
+    key.triangles = kind_ == RayPicture::Specular && pass.settings.exactMirrors;
+    return key;
+}
+
+gpu::PixelRayConstants PixelRays::packed(const RayInputs& inputs, const RayPass& pass) const {
+    const voxels::VoxelGrid& grid = inputs.voxels.grid();
     gpu::PixelRayConstants c{};
     c.oldClipFromWorld = seenFrom_.clipFromWorld;
     c.oldEye = seenFrom_.eye;
     c.oldForward = seenFrom_.viewForward;
     c.oldRight = seenFrom_.viewRight;
     c.oldUp = seenFrom_.viewUp;
-    c.planeTolerance = kPlaneTolerance * frame.voxelSize;
-    c.pass = pass;
-    c.rays = static_cast<std::uint32_t>(std::max(rays, 1));
-    c.longestMean = static_cast<float>(std::max(longest, 1));
-    c.specularLimit = settings.specularLimit;
-    c.reach = kOcclusionReach * frame.gridLength;
+    c.planeTolerance = kPlaneTolerance * grid.voxelSize;
+    c.pass = pass.number;
+    c.rays = static_cast<std::uint32_t>(std::max(pass.rays, 1));
+    c.longestMean = static_cast<float>(std::max(pass.longest, 1));
+    c.specularLimit = pass.settings.specularLimit;
+    c.reach = kOcclusionReach * static_cast<float>(std::max({grid.size.x, grid.size.y, grid.size.z}));
     const bool lobes = kind_ == RayPicture::Specular;
-    const int averaged = (lobes ? 1 : 2) * rays * longest;
+    const int averaged = (lobes ? 1 : 2) * pass.rays * pass.longest;
     c.reflections = lobes ? kLobeReflections : (averaged >= kReflectedRays ? 1u : 0u);
     // With a limited number of bounces none: a reflection is a bounce more.
-    if (settings.bounces < kAllBounces) c.reflections = 0;
-    c.reflectedLimit = light::reflectedLimit(averaged);
-    c.inverseVoxelSize = 1.0f / frame.voxelSize;
+    if (pass.settings.bounces) c.reflections = 0;
+    c.reflectedLimit = light::fireflyClamp(averaged);
+    c.inverseVoxelSize = 1.0f / grid.voxelSize;
     return c;
 }
 
 // Returns whether what was there is gone.
 bool PixelRays::resize(int width, int height) {
+    if (!constants_) constants_ = gl::Buffer(sizeof(gpu::PixelRayConstants), "pixel rays constants");
     if (has(width, height)) return false;
     filtered_ = {};
     lobeList_ = {};
@@ -167,89 +149,104 @@ bool PixelRays::resize(int width, int height) {
     return true;
 }
 
-void PixelRays::record(const PixelRayFrame& frame, const TracedSettings& settings, int rays, int passes,
+gl::Inputs PixelRays::passInputs(const RayInputs& inputs, const RayPass& pass) const {
+    gl::Inputs given;
+    given.add(inputs)
+        .uniform("PixelRayBlock", constants_)
+        .texture("pixelHistory", current_.texture)
+        .image("result", other_.texture, gl::ImageUse::Write);
+    if (pass.motion != nullptr) given.storage("Motion", *pass.motion);
+    if (pass.lookupCounters != nullptr) given.storage("LookupTable", *pass.lookupCounters);
+    return given;
+}
+
+void PixelRays::record(const gl::Device& device, const RayInputs& inputs, const RayPass& pass, int passes,
                        StepRecorder& recorder) {
-    resize(static_cast<int>(frame.view.width), static_cast<int>(frame.view.height));
-    if (!constants_) constants_ = gl::Buffer(sizeof(gpu::PixelRayConstants), "pixel rays constants");
-    bindPicture(current_.texture, PIXEL_UNIT_HISTORY);
-    other_.texture.bindImage(0, 0, GL_WRITE_ONLY);
-    const gl::Defines lights = hitDefines(kind_, frame, settings);
-    for (int pass = 0; pass < passes; ++pass) {
-        constants_.update(packed(frame, settings, rays, static_cast<std::uint32_t>(pass), passes));
-        constants_.bindUniform(BINDING_PASS);
-        recorder.record(frame.programs, gatherDesc(kind_, Reuse::None, false, false, lights),
-                        1.0f / static_cast<float>(passes));
+    resize(inputs.surfaces.width(), inputs.surfaces.height());
+    RayPass one = pass;
+    one.reuse = Reuse::None;
+    one.motion = one.lookupCounters = nullptr;
+    PixelRayKey key = this->key(inputs, one);
+    key.listed = false;
+    key.records = true;
+    gl::Inputs given = passInputs(inputs, one);
+    // Declared by the shader; the one pixel is not looked up there.
+    if (kind_ == RayPicture::Specular) given.storage("LobeList", lobeList());
+    for (int i = 0; i < passes; ++i) {
+        one.number = static_cast<std::uint32_t>(i);
+        one.longest = passes;
+        constants_.update(packed(inputs, one));
+        recorder.record(device, key.desc(), given, 1.0f / static_cast<float>(passes));
     }
 }
 
-void PixelRays::gather(const PixelRayFrame& frame, const TracedSettings& settings, Reuse reuse, int rays,
-                       std::uint32_t pass, int longest) {
-    const gl::PassScope scope(frame.profiler, kGatherPass[static_cast<int>(kind_)]);
-    const int width = static_cast<int>(frame.view.width);
-    const int height = static_cast<int>(frame.view.height);
-    if (resize(width, height)) reuse = Reuse::None;
-    if (!constants_) constants_ = gl::Buffer(sizeof(gpu::PixelRayConstants), "pixel rays constants");
-    gpu::PixelRayConstants constants = packed(frame, settings, rays, pass, longest);
+// The list of pixels that need rays into their lobe, for pictures of this size.
+const gl::Buffer& PixelRays::lobeList() {
+    const std::size_t pixels = static_cast<std::size_t>(current_.texture.width()) *
+                               static_cast<std::size_t>(current_.texture.height());
+    if (!lobeList_) lobeList_ = gl::Buffer(sizeof kEmptyLobeList + 4 * pixels, "pixels with lobes");
+    return lobeList_;
+}
+
+// Lists the pixels that need rays into their lobe; those that are not listed hold nothing.
+void PixelRays::listLobes(const gl::Device& device, gl::Inputs& inputs, const PixelRectangle& lobes) {
+    inputs.storage("LobeList", lobeList());
+    lobeList_.update(kEmptyLobeList);
+    const glm::ivec2 extent = lobes.end - lobes.lowest;
+    if (extent.x > 0 && extent.y > 0) device.get(selectDesc()).dispatch(inputs, extent.x, extent.y);
+    clearWritten(other_);
+    other_.written = lobes;
+    gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
+}
+
+void PixelRays::gather(const gl::Device& device, const RayInputs& inputs, const RayPass& wanted) {
+    const gl::PassScope scope(device.profiler, kGatherPass[static_cast<int>(kind_)]);
+    const view::Surfaces& surfaces = inputs.surfaces;
+    RayPass pass = wanted;
+    if (resize(surfaces.width(), surfaces.height())) pass.reuse = Reuse::None;
     PixelRectangle lobes;
-    if (kind_ == RayPicture::Specular) lobes = lobeRectangle(frame, settings.specularLimit);
+    if (kind_ == RayPicture::Specular) lobes = lobeRectangle(inputs, pass.settings.specularLimit);
+    gpu::PixelRayConstants constants = packed(inputs, pass);
     constants.lobesX = static_cast<std::uint32_t>(lobes.lowest.x);
     constants.lobesY = static_cast<std::uint32_t>(lobes.lowest.y);
     constants_.update(constants);
-    constants_.bindUniform(BINDING_PASS);
-    if (frame.motion != nullptr) frame.motion->bindStorage(PIXEL_MOTION);
-    bindPicture(current_.texture, PIXEL_UNIT_HISTORY);
-    other_.texture.bindImage(0, 0, GL_WRITE_ONLY);
-    const gl::Defines lights = hitDefines(kind_, frame, settings);
-    const bool counts = frame.lookupCounters != nullptr;
-    if (counts) frame.lookupCounters->bindStorage(LOOKUP_TABLE);
-    const bool moving = frame.motion != nullptr;
+    gl::Inputs given = passInputs(inputs, pass);
+    const gl::ProgramDesc desc = key(inputs, pass).desc();
     if (kind_ == RayPicture::Specular) {
-        constexpr std::array<std::uint32_t, 4> kEmptyList{LOBE_GROUPS_X, 0, 1, 0};
-        if (!lobeList_)
-            lobeList_ = gl::Buffer(sizeof kEmptyList + std::size_t{4} * static_cast<std::size_t>(width) *
-                                                           static_cast<std::size_t>(height),
-                                   "pixels with lobes");
-        lobeList_.update(kEmptyList);
-        lobeList_.bindStorage(PIXEL_LOBE_LIST);
-        const glm::ivec2 extent = lobes.end - lobes.lowest;
-        if (extent.x > 0 && extent.y > 0) frame.programs.get(selectDesc()).dispatch(extent.x, extent.y);
-        // Pixels that are not listed hold nothing.
-        clearWritten(other_);
-        other_.written = lobes;
-        gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
-        frame.programs.get(gatherDesc(kind_, reuse, moving, counts, lights, LobePixels::Listed))
-            .dispatchIndirect(lobeList_);
+        listLobes(device, given, lobes);
+        device.get(desc).dispatchIndirect(given, lobeList_);
     } else {
-        frame.programs.get(gatherDesc(kind_, reuse, moving, counts, lights)).dispatch(width, height);
+        device.get(desc).dispatch(given, surfaces.width(), surfaces.height());
     }
     gl::barrier(gl::Access::TextureFetch | gl::Access::Update);
     std::swap(current_, other_);
-    seenFrom_ = frame.view;
+    seenFrom_ = surfaces.view();
 }
 
-const gl::Texture& PixelRays::filtered(const PixelRayFrame& frame, int levels) {
+const gl::Texture& PixelRays::filtered(const gl::Device& device, const RayInputs& inputs, int levels) {
     if (levels == 0) return current_.texture;
-    const gl::PassScope scope(frame.profiler, "edge filter");
+    const gl::PassScope scope(device.profiler, "edge filter");
     const int width = current_.texture.width(), height = current_.texture.height();
     if (!filtered_.texture) filtered_ = {makePicture(width, height, "filtered picture"), {}};
-    constants_.bindUniform(BINDING_PASS);
     // From level to level between two textures; the second is what gather() writes next, so its content is
     // free. An even number of levels ends there as well.
     const Picture* from = &current_;
     for (int level = 0; level < levels; ++level) {
         Picture* to = level % 2 == 0 ? &filtered_ : &other_;
-        bindPicture(from->texture, PIXEL_UNIT_HISTORY);
-        to->texture.bindImage(0, 0, GL_WRITE_ONLY);
         const bool lobes = kind_ == RayPicture::Specular;
-        const gl::Program& filter = frame.programs.get(filterDesc(1 << level, lobes));
+        gl::Inputs given;
+        given.add(inputs)
+            .uniform("PixelRayBlock", constants_)
+            .texture("source", from->texture)
+            .image("result", to->texture, gl::ImageUse::Write);
+        const gl::Program& filter = device.get(EdgeFilterKey{1 << level, lobes}.desc());
         if (lobes) {
             // Pixels that are not listed count for nothing.
             clearWritten(*to);
             to->written = current_.written;
-            lobeList_.bindStorage(PIXEL_LOBE_LIST);
-            filter.dispatchIndirect(lobeList_);
+            filter.dispatchIndirect(given.storage("LobeList", lobeList_), lobeList_);
         } else {
-            filter.dispatch(width, height);
+            filter.dispatch(given, width, height);
         }
         gl::barrier(gl::Access::TextureFetch | gl::Access::Update);
         from = to;
@@ -259,37 +256,8 @@ const gl::Texture& PixelRays::filtered(const PixelRayFrame& frame, int levels) {
 
 std::vector<gl::ProgramDesc> PixelRays::programDescs() {
     std::vector<gl::ProgramDesc> descs = {selectDesc()};
-    const auto add = [&](RayPicture kind, Reuse reuse, bool motion) {
-        const bool lobes = kind == RayPicture::Specular;
-        for (gl::ProgramDesc& desc : light::hitLightVariants(
-                 gatherDesc(kind, reuse, motion, false, {}, lobes ? LobePixels::Listed : LobePixels::All)))
-            descs.push_back(std::move(desc));
-    };
-    for (const RayPicture kind : {RayPicture::Diffuse, RayPicture::Specular}) {
-        for (const Reuse reuse : {Reuse::None, Reuse::SameView, Reuse::Reproject}) add(kind, reuse, false);
-        add(kind, Reuse::Reproject, true);
-        descs.push_back(gatherDesc(kind, Reuse::SameView, false, true, {{"EXACT_DIRECT", "0"}},
-                                   kind == RayPicture::Specular ? LobePixels::Listed : LobePixels::All));
-    }
-    for (const Reuse reuse : {Reuse::None, Reuse::SameView, Reuse::Reproject})
-        descs.push_back(gatherDesc(RayPicture::Occlusion, reuse, false, false, kNoHitLights));
-    for (const RayPicture kind : {RayPicture::Diffuse, RayPicture::Specular})
-        for (const gl::ProgramDesc& desc :
-             light::hitLightVariants(gatherDesc(kind, Reuse::None, false, false, {})))
-            descs.push_back(StepRecorder::variant(desc));
-    descs.push_back(
-        StepRecorder::variant(gatherDesc(RayPicture::Occlusion, Reuse::None, false, false, kNoHitLights)));
-    // Mirrors that show triangles.
-    const LobePixels listed = LobePixels::Listed;
-    for (gl::ProgramDesc& desc : light::hitLightVariants(gatherDesc(
-             RayPicture::Specular, Reuse::SameView, false, false, {{"TRIANGLE_HITS", "1"}}, listed)))
-        descs.push_back(std::move(desc));
-    descs.push_back(gatherDesc(RayPicture::Specular, Reuse::SameView, false, true,
-                               {{"EXACT_DIRECT", "0"}, {"TRIANGLE_HITS", "1"}}, listed));
-    descs.push_back(StepRecorder::variant(gatherDesc(RayPicture::Specular, Reuse::None, false, false,
-                                                     {{"EXACT_DIRECT", "0"}, {"TRIANGLE_HITS", "1"}})));
-    for (const int step : {1, 2, 4, 8})
-        for (const bool specular : {false, true}) descs.push_back(filterDesc(step, specular));
+    for (const PixelRayKey& key : PixelRayKey::all()) descs.push_back(key.desc());
+    for (const EdgeFilterKey& key : EdgeFilterKey::all()) descs.push_back(key.desc());
     return descs;
 }
 

@@ -1,45 +1,49 @@
 // SPDX-License-Identifier: MIT
-// Pictures gathered by rays at pixels: G-buffer + lit voxels -> irradiance, radiance in the specular lobe, or
+// Pictures gathered by rays at pixels: surfaces + lit voxels -> irradiance, radiance in the specular lobe, or
 // occlusion, as means over passes and frames (docs/theory/4_gather.md, "Over frames"), and the edge-stopping
-// filter over them. A picture is a texture of lib/pixel_history.glsl.
+// filter over them. A picture is a texture of lib/pixel_history.glsl. Part of gather::Indirect.
 //
-// Every pass needs the frame block, the scene's tables, G-buffer, shadow maps, SurfaceVoxels, OctantWords and
-// IrradianceCache bound. Readers need gl::barrier(TextureFetch). GL state changed: program, image 0,
-// BINDING_PASS, PIXEL_MOTION, PIXEL_LOBE_LIST, the indirect dispatch buffer binding, texture unit
-// PIXEL_UNIT_HISTORY.
+// Readers need gl::barrier(TextureFetch). GL state changed: program and its slots, the indirect dispatch
+// buffer binding.
 #pragma once
 
 #include <glm/glm.hpp>
 #include <vector>
 
 #include "conelight/settings.h"
+#include "gather/pixel_ray_key.h"
 #include "gather/step_recorder.h"
-#include "gl/buffer.h"
-#include "gl/pass.h"
-#include "gl/program.h"
+#include "gl/device.h"
 #include "gl/texture.h"
+#include "light/lit_voxels.h"
 #include "scene/gpu_scene.h"
-#include "shared/frame.h"
 #include "shared/pixel_rays.h"
+#include "view/surfaces.h"
+#include "voxels/voxels.h"
 
 namespace conelight::gather {
 
-enum class RayPicture { Diffuse, Specular, Occlusion };
-
-// How a pass takes up what was there (TEMPORAL of lib/temporal.glsl).
-enum class Reuse { None, SameView, Reproject };
-
-// What passes of one frame have in common.
-struct PixelRayFrame {
-    gl::ProgramLibrary& programs;
-    gl::Profiler& profiler;
+// What rays at pixels read.
+struct RayInputs {
     const scene::GpuScene& scene;
-    const LightSettings& light;
-    const gpu::FrameConstants& view;
-    float voxelSize;           // m
-    float gridLength;          // voxels, longest side
-    const gl::Buffer* motion;  // mat4 per instance, where it was in the frame before; null: nothing moved
-    const gl::Buffer* lookupCounters;  // not null: what rays look up is added (shared/lookups.h)
+    const light::Lights& lights;
+    const voxels::Voxels& voxels;
+    const light::LitVoxels& lit;
+    const view::Surfaces& surfaces;
+
+    void declare(gl::Inputs& inputs) const;
+};
+
+// What a pass is to do.
+struct RayPass {
+    const TracedSettings& settings;
+    int rays;                                    // of each technique, per pixel
+    int longest;                                 // passes that are averaged at most
+    std::uint32_t number = 0;                    // of the pass
+    Reuse reuse = Reuse::None;                   // of what was there
+    const gl::Buffer* motion = nullptr;          // mat4 per instance, where it was in the frame before; null:
+                                                 // nothing moved
+    const gl::Buffer* lookupCounters = nullptr;  // not null: what rays look up is added (shared/lookups.h)
 };
 
 // Pixels lowest <= p < end.
@@ -58,18 +62,16 @@ class PixelRays {
 
     // Whether there is a picture of this size.
     bool has(int width, int height) const;
-    // One more pass, number `pass`, of `rays` rays (of each kind), averaged with `longest` passes at most.
-    void gather(const PixelRayFrame& frame, const TracedSettings& settings, Reuse reuse, int rays,
-                std::uint32_t pass, int longest);
+    // One more pass.
+    void gather(const gl::Device& device, const RayInputs& inputs, const RayPass& pass);
     // The picture, filtered by so many levels; what the next gather() goes on from stays as it is.
-    const gl::Texture& filtered(const PixelRayFrame& frame, int levels);
+    const gl::Texture& filtered(const gl::Device& device, const RayInputs& inputs, int levels);
 
     // Where the picture of kind Specular has anything.
     const PixelRectangle& lobes() const { return current_.written; }
 
-    // Records the recorder's pixel of passes 0 to `passes` - 1, each of `rays` rays (of each kind); pictures
-    // stay as they are.
-    void record(const PixelRayFrame& frame, const TracedSettings& settings, int rays, int passes,
+    // Records the recorder's pixel of passes 0 to `passes` - 1; pictures stay as they are.
+    void record(const gl::Device& device, const RayInputs& inputs, const RayPass& pass, int passes,
                 StepRecorder& recorder);
 
     static std::vector<gl::ProgramDesc> programDescs();
@@ -80,15 +82,17 @@ class PixelRays {
         PixelRectangle written;  // of kind Specular: zeros outside
     };
     static void clearWritten(Picture& picture);
-    static PixelRectangle lobeRectangle(const PixelRayFrame& frame, float roughest);
     bool resize(int width, int height);
-    gpu::PixelRayConstants packed(const PixelRayFrame& frame, const TracedSettings& settings, int rays,
-                                  std::uint32_t pass, int longest) const;
+    PixelRayKey key(const RayInputs& inputs, const RayPass& pass) const;
+    gpu::PixelRayConstants packed(const RayInputs& inputs, const RayPass& pass) const;
+    gl::Inputs passInputs(const RayInputs& inputs, const RayPass& pass) const;
+    const gl::Buffer& lobeList();
+    void listLobes(const gl::Device& device, gl::Inputs& inputs, const PixelRectangle& lobes);
 
     RayPicture kind_;
     Picture current_, other_, filtered_;
     gl::Buffer constants_;
-    gl::Buffer lobeList_;             // of kind Specular: PIXEL_LOBE_LIST
+    gl::Buffer lobeList_;             // of kind Specular: LobeList
     gpu::FrameConstants seenFrom_{};  // the view of current_
 };
 

@@ -103,11 +103,11 @@ gl::ProgramDesc StepRecorder::variant(gl::ProgramDesc desc) {
     return desc;
 }
 
-void StepRecorder::record(gl::ProgramLibrary& programs, const gl::ProgramDesc& desc, float share) {
+void StepRecorder::record(const gl::Device& device, const gl::ProgramDesc& desc, gl::Inputs inputs,
+                          float share) {
     gl::barrier(gl::Access::Update);
     buffer_.update(offsetof(gpu::RecordHeader, share), &share, sizeof(share));
-    buffer_.bindStorage(RECORD_STORAGE);
-    programs.get(variant(desc)).dispatch(1, 1);
+    device.get(desc).dispatch(inputs.storage("RecordBuffer", buffer_), 1, 1);
     gl::barrier(gl::Access::ShaderStorage);
 }
 

@@ -3,12 +3,7 @@
 
 #include <algorithm>
 
-#include "gl/draw.h"
 #include "gl/gl.h"
-#include "light/shadow_maps.h"
-#include "shared/bindings.h"
-#include "shared/lookups.h"
-#include "shared/pixel_rays.h"
 
 namespace conelight::gather {
 namespace {
@@ -18,73 +13,103 @@ bool anyEmission(const scene::GpuScene& scene) {
                        [](const gpu::Material& m) { return m.emission != glm::vec3(0); });
 }
 
-gl::ProgramDesc shadeDesc(const PictureParts& parts, bool picture, bool lobe, const gl::Defines& lights,
-                          bool countLookups = false, bool emission = true) {
+struct ShadeKey {
+    PictureParts parts;
+    bool irradiance = false;  // from a picture, else from the cache
+    bool lobe = false;        // from a picture, else the irradiance
+    bool emission = true;     // surfaces may glow
+    bool counts = false;      // lookups
+    light::LightKey lights;   // of direct light
+    bool records = false;     // one pixel, as a compute shader, for the inspector
+
+    gl::ProgramDesc desc() const;
+    static std::vector<ShadeKey> all();
+};
+
+gl::ProgramDesc ShadeKey::desc() const {
     const bool gathers = parts.diffuse || parts.specular;
     gl::ProgramDesc desc{{"gather/traced_shade.vert.glsl", "gather/traced_shade.frag.glsl"},
                          {{"SHOW_DIRECT", parts.direct ? "1" : "0"},
                           {"SHOW_DIFFUSE", parts.diffuse ? "1" : "0"},
                           {"SHOW_SPECULAR", parts.specular ? "1" : "0"},
-                          {"IRRADIANCE", picture && gathers ? "1" : "0"},
+                          {"IRRADIANCE", irradiance && gathers ? "1" : "0"},
                           {"LOBE", lobe && parts.specular ? "1" : "0"}}};
     if (!emission) desc.defines.emplace_back("SURFACE_EMISSION", "0");
-    if (countLookups) desc.defines.emplace_back("COUNT_LOOKUPS", "1");
-    if (parts.direct) desc.defines.insert(desc.defines.end(), lights.begin(), lights.end());
-    return desc;
+    if (counts) desc.defines.emplace_back("COUNT_LOOKUPS", "1");
+    if (parts.direct)
+        for (auto& define : lights.defines()) desc.defines.push_back(std::move(define));
+    if (!records) return desc;
+    desc.files = {"gather/traced_shade.comp.glsl"};
+    return StepRecorder::variant(std::move(desc));
 }
 
-// For the recorder, which runs a compute shader for one pixel.
-gl::ProgramDesc recordDesc() {
-    gl::ProgramDesc desc = shadeDesc({false, true, false}, false, false, {});
-    desc.files = {"gather/traced_shade.comp.glsl"};
-    return desc;
+std::vector<ShadeKey> ShadeKey::all() {
+    std::vector<ShadeKey> keys;
+    // The sums that components are made of (partsOf), each as its parts are known.
+    const auto add = [&](const PictureParts& parts, const light::LightKey& lights) {
+        const bool gathers = parts.diffuse || parts.specular;
+        for (int bits = 0; bits < 16; ++bits) {
+            const bool irradiance = (bits & 1) != 0, lobe = (bits & 2) != 0;
+            if ((irradiance && !gathers) || (lobe && !parts.specular)) continue;
+            keys.push_back({parts, irradiance, lobe, (bits & 4) == 0, (bits & 8) != 0, lights});
+        }
+    };
+    for (const PictureParts& parts :
+         {PictureParts{}, {false, true, false}, {false, false, true}, {false, true, true}})
+        add(parts, {});
+    for (const light::LightKey& lights : light::LightKey::all())
+        for (const bool indirect : {false, true}) add({true, indirect, indirect}, lights);
+    keys.push_back({.parts = {false, true, false}, .records = true});
+    return keys;
 }
 
 gl::ProgramDesc occlusionDesc() { return {{"gather/traced_occlusion.comp.glsl"}, {}}; }
 
-void bindPicture(const gl::Texture* picture, unsigned unit) {
-    if (picture == nullptr) return;
-    picture->bind(unit);
-    gl::unbindSampler(unit);
-}
-
 }  // namespace
 
-void TracedShade::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
-                       const Settings& settings, const PictureParts& parts, const gl::Texture* irradiance,
-                       const gl::Texture* lobe, const PixelRectangle& lobes, const view::GBuffer& gbuffer,
-                       const glm::vec3& sky, const gl::Texture& output, const gl::Buffer* lookupCounters) {
-    const gl::PassScope pass(profiler, "shade");
+void TracedShade::draw(const gl::Device& device, const RayInputs& inputs, const Indirect& indirect,
+                       const Wanted& wanted, const gl::Texture& output) {
+    const gl::PassScope pass(device.profiler, "shade");
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::PixelRayConstants), "shade constants");
     gpu::PixelRayConstants constants{};
-    constants.specularLimit = settings.traced.specularLimit;
+    constants.specularLimit = wanted.settings.specularLimit;
     constants_.update(constants);
-    constants_.bindUniform(BINDING_PASS);
-    bindPicture(irradiance, PIXEL_UNIT_IRRADIANCE);
-    bindPicture(lobe, PIXEL_UNIT_LOBE);
-    const gl::Defines lights = light::lightDefines(scene, settings.light);
-    const bool counts = lookupCounters != nullptr;
-    if (counts) lookupCounters->bindStorage(LOOKUP_TABLE);
+    const gl::Texture* const irradiance = indirect.irradiance();
+    const gl::Texture* const lobe = indirect.lobe();
+    const PictureParts& parts = wanted.parts;
+    gl::Inputs given;
+    given.add(inputs).uniform("PixelRayBlock", constants_);
+    if (irradiance != nullptr) given.texture("irradiancePicture", *irradiance);
+    if (lobe != nullptr) given.texture("lobePicture", *lobe);
+    if (wanted.lookupCounters != nullptr) given.storage("LookupTable", *wanted.lookupCounters);
+
     // The depth test leaves out the background (shared/gbuffer.h), which the clear has drawn.
-    const gl::Framebuffer target({&output}, &gbuffer.depth(), "traced picture");
+    const gl::Framebuffer target({&output}, &inputs.surfaces.depth(), "traced picture");
     gl::RasterState state;
     state.framebuffer = &target;
     state.depthWrite = false;
     state.reversedDepth = true;
     state.cull = gl::Cull::None;
     gl::apply(state);
-    const glm::vec3 behind = parts.direct ? sky : glm::vec3(0);
+    const glm::vec3 behind = parts.direct ? inputs.scene.source().sky : glm::vec3(0);
     target.clearColor(0, behind.r, behind.g, behind.b, 0);
     if (!noVertices_) noVertices_ = gl::VertexArray("no vertices");
+    ShadeKey key{parts,
+                 irradiance != nullptr,
+                 false,
+                 anyEmission(inputs.scene),
+                 wanted.lookupCounters != nullptr,
+                 parts.direct ? inputs.lights.key() : light::LightKey{}};
     const auto drawPicture = [&](bool withLobe) {
-        programs.get(shadeDesc(parts, irradiance != nullptr, withLobe, lights, counts, anyEmission(scene)))
-            .use();
+        key.lobe = withLobe;
+        device.get(key.desc()).use(given);
         gl::drawTriangle(noVertices_);
     };
     // The picture of lobes is read where it has anything; again, if that is a small part of the picture.
+    const PixelRectangle& lobes = indirect.lobes();
     const glm::ivec2 extent = lobes.end - lobes.lowest;
     const bool small = 4 * extent.x * extent.y < output.width() * output.height();
-    const bool apart = lobe != nullptr && small && !counts;
+    const bool apart = lobe != nullptr && small && !key.counts;
     drawPicture(lobe != nullptr && !apart);
     if (apart && extent.x > 0 && extent.y > 0) {
         const int viewport[4] = {lobes.lowest.x, lobes.lowest.y, extent.x, extent.y};
@@ -94,41 +119,25 @@ void TracedShade::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, con
     }
 }
 
-void TracedShade::recordCache(gl::ProgramLibrary& programs, StepRecorder& recorder) {
-    recorder.record(programs, recordDesc());
+void TracedShade::recordCache(const gl::Device& device, const RayInputs& inputs, StepRecorder& recorder) {
+    if (!constants_) constants_ = gl::Buffer(sizeof(gpu::PixelRayConstants), "shade constants");
+    gl::Inputs given;
+    given.add(inputs).uniform("PixelRayBlock", constants_);
+    const ShadeKey key{.parts = {false, true, false}, .records = true};
+    recorder.record(device, key.desc(), given);
 }
 
-void TracedShade::drawOcclusion(gl::ProgramLibrary& programs, gl::Profiler& profiler,
+void TracedShade::drawOcclusion(const gl::Device& device, const RayInputs& inputs,
                                 const gl::Texture& occlusion, const gl::Texture& output) {
-    const gl::PassScope pass(profiler, "shade");
-    bindPicture(&occlusion, PIXEL_UNIT_IRRADIANCE);
-    output.bindImage(0, 0, GL_WRITE_ONLY);
-    programs.get(occlusionDesc()).dispatch(output.width(), output.height());
+    const gl::PassScope pass(device.profiler, "shade");
+    gl::Inputs given;
+    given.add(inputs).texture("occlusion", occlusion).image("result", output, gl::ImageUse::Write);
+    device.get(occlusionDesc()).dispatch(given, output.width(), output.height());
 }
 
 std::vector<gl::ProgramDesc> TracedShade::programDescs() {
-    std::vector<gl::ProgramDesc> descs = {occlusionDesc(), StepRecorder::variant(recordDesc())};
-    const auto add = [&](const PictureParts& parts, bool picture, bool lobe) {
-        descs.push_back(shadeDesc(parts, picture, lobe, {}));
-    };
-    for (const bool picture : {false, true}) {
-        add({false, true, false}, picture, false);
-        add({true, true, false}, picture, false);
-        for (const bool lobe : {false, true}) {
-            add({false, false, true}, picture, lobe);
-            add({false, true, true}, picture, lobe);
-        }
-    }
-    add({false, false, false}, false, false);
-    add({true, false, false}, false, false);
-    // With direct light: each kind of light.
-    for (const bool picture : {false, true})
-        for (const bool lobe : {false, true})
-            for (gl::ProgramDesc& desc :
-                 light::lightVariants(shadeDesc({true, true, true}, picture, lobe, {})))
-                descs.push_back(std::move(desc));
-    descs.push_back(shadeDesc({true, true, true}, false, false, {}, true));
-    descs.push_back(shadeDesc({true, true, true}, false, false, {}, false, false));
+    std::vector<gl::ProgramDesc> descs = {occlusionDesc()};
+    for (const ShadeKey& key : ShadeKey::all()) descs.push_back(key.desc());
     return descs;
 }
 

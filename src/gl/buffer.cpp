@@ -64,15 +64,4 @@ void Buffer::read(std::size_t offset, void* data, std::size_t bytes) const {
     glGetNamedBufferSubData(name(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
 }
 
-void Buffer::bindUniform(unsigned binding) const { glBindBufferBase(GL_UNIFORM_BUFFER, binding, name()); }
-void Buffer::bindStorage(unsigned binding) const {
-    glBindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, name());
-}
-void Buffer::bindStorage(unsigned binding, std::size_t offset, std::size_t bytes) const {
-    CONELIGHT_ASSERT(bytes > 0 && inRange(offset, bytes, this->bytes()),
-                     "Buffer::bindStorage reaches past the end of the buffer");
-    glBindBufferRange(GL_SHADER_STORAGE_BUFFER, binding, name(), static_cast<GLintptr>(offset),
-                      static_cast<GLsizeiptr>(bytes));
-}
-
 }  // namespace conelight::gl

@@ -49,10 +49,6 @@ class Buffer : public Object<ObjectType::Buffer> {
         return data;
     }
 
-    void bindUniform(unsigned binding) const;
-    void bindStorage(unsigned binding) const;
-    void bindStorage(unsigned binding, std::size_t offset, std::size_t bytes) const;
-
   private:
     std::size_t bytes_ = 0;
 };

@@ -2,6 +2,7 @@
 #include "gl/program.h"
 
 #include <algorithm>
+#include <mutex>
 #include <set>
 
 #include "base/assert.h"
@@ -51,6 +52,66 @@ void attachStage(GLuint program, const ExpandedShader& source) {
     glDeleteShader(shader);
 }
 
+GLuint resourceCount(GLuint program, GLenum interface) {
+    GLint count = 0;
+    glGetProgramInterfaceiv(program, interface, GL_ACTIVE_RESOURCES, &count);
+    return static_cast<GLuint>(count);
+}
+
+std::string resourceName(GLuint program, GLenum interface, GLuint index) {
+    const GLenum wanted = GL_NAME_LENGTH;
+    GLint length = 0;  // with the terminator
+    glGetProgramResourceiv(program, interface, index, 1, &wanted, 1, nullptr, &length);
+    std::string name(static_cast<std::size_t>(length), '\0');
+    glGetProgramResourceName(program, interface, index, length, nullptr, name.data());
+    name.resize(static_cast<std::size_t>(std::max(length - 1, 0)));
+    return name;
+}
+
+// Whether a uniform of this type is an image, of the dimensions that shaders of this library use.
+bool isImage(GLenum type) {
+    switch (type) {
+        case GL_IMAGE_2D:
+        case GL_IMAGE_3D:
+        case GL_IMAGE_2D_ARRAY:
+        case GL_UNSIGNED_INT_IMAGE_2D:
+        case GL_UNSIGNED_INT_IMAGE_3D:
+        case GL_UNSIGNED_INT_IMAGE_2D_ARRAY:
+        case GL_IMAGE_BUFFER:
+        case GL_UNSIGNED_INT_IMAGE_BUFFER:
+            return true;
+        default:
+            return false;
+    }
+}
+
+const char* kindName(ResourceKind kind) {
+    constexpr const char* kNames[] = {"uniform block", "storage block", "texture", "image"};
+    return kNames[static_cast<std::size_t>(kind)];
+}
+
+GLenum accessOf(ImageUse use) {
+    return use == ImageUse::Read ? GL_READ_ONLY : (use == ImageUse::Write ? GL_WRITE_ONLY : GL_READ_WRITE);
+}
+
+void bindItem(const Inputs::Item& item, unsigned slot) {
+    switch (item.kind) {
+        case ResourceKind::Uniform:
+            glBindBufferBase(GL_UNIFORM_BUFFER, slot, item.object);
+            break;
+        case ResourceKind::Storage:
+            glBindBufferBase(GL_SHADER_STORAGE_BUFFER, slot, item.object);
+            break;
+        case ResourceKind::Texture:
+            glBindTextureUnit(slot, item.object);
+            glBindSampler(slot, item.sampler);
+            break;
+        case ResourceKind::Image:
+            glBindImageTexture(slot, item.object, item.level, GL_TRUE, 0, accessOf(item.use), item.format);
+            break;
+    }
+}
+
 }  // namespace
 
 std::string ProgramDesc::label() const {
@@ -63,10 +124,10 @@ std::string ProgramDesc::label() const {
     return text + "]";
 }
 
-Program::Program(const ShaderProvider& provider, const ProgramDesc& desc) {
+Program::Program(const ShaderProvider& provider, const ProgramDesc& desc) : label_(desc.label()) {
     // Owned from the start, so that a failure below frees it.
     const GLuint program = glCreateProgram();
-    adopt(program, desc.label(), 0);
+    adopt(program, label_, 0);
     for (const std::string& file : desc.files) {
         const ExpandedShader source = expandShader(provider, file, desc.defines);
         attachStage(program, source);
@@ -76,26 +137,71 @@ Program::Program(const ShaderProvider& provider, const ProgramDesc& desc) {
     GLint ok = 0;
     glGetProgramiv(program, GL_LINK_STATUS, &ok);
     if (ok == GL_FALSE)
-        base::fail(ErrorKind::Runtime, "%s: does not link: %s", desc.label().c_str(),
+        base::fail(ErrorKind::Runtime, "%s: does not link: %s", label_.c_str(),
                    infoLog(program, glGetProgramiv, glGetProgramInfoLog).c_str());
     if (stageOf(desc.files.front()) == GL_COMPUTE_SHADER)
         glGetProgramiv(program, GL_COMPUTE_WORK_GROUP_SIZE, &groupSize_.x);
+    assignSlots();
 }
 
-void Program::use() const { glUseProgram(name()); }
+// Gives every buffer block, texture and image that the linked program reads a slot of its own.
+void Program::assignSlots() {
+    unsigned next[4] = {0, 0, 0, 0};
+    const auto add = [&](const std::string& resource, ResourceKind kind) {
+        slots_.push_back(
+            {resource, ResourceName::hashOf(resource), kind, next[static_cast<std::size_t>(kind)]++});
+        return slots_.back().slot;
+    };
+    for (GLuint i = 0; i < resourceCount(name(), GL_UNIFORM_BLOCK); ++i)
+        glUniformBlockBinding(name(), i,
+                              add(resourceName(name(), GL_UNIFORM_BLOCK, i), ResourceKind::Uniform));
+    for (GLuint i = 0; i < resourceCount(name(), GL_SHADER_STORAGE_BLOCK); ++i)
+        glShaderStorageBlockBinding(
+            name(), i, add(resourceName(name(), GL_SHADER_STORAGE_BLOCK, i), ResourceKind::Storage));
+    for (GLuint i = 0; i < resourceCount(name(), GL_UNIFORM); ++i) {
+        const GLenum wanted[3] = {GL_TYPE, GL_LOCATION, GL_BLOCK_INDEX};
+        GLint values[3];
+        glGetProgramResourceiv(name(), GL_UNIFORM, i, 3, wanted, 3, nullptr, values);
+        if (values[2] != -1) continue;  // a member of a block
+        const ResourceKind kind =
+            isImage(static_cast<GLenum>(values[0])) ? ResourceKind::Image : ResourceKind::Texture;
+        const unsigned slot = add(resourceName(name(), GL_UNIFORM, i), kind);
+        glProgramUniform1i(name(), values[1], static_cast<GLint>(slot));
+    }
+}
 
-void Program::dispatch(int x, int y, int z) const {
+void Program::use(const Inputs& inputs) const {
+    glUseProgram(name());
+    for (const ProgramSlot& slot : slots_) {
+        const auto given = std::find_if(inputs.items().begin(), inputs.items().end(), [&](const auto& item) {
+            return item.name.hash() == slot.hash && item.kind == slot.kind;
+        });
+        if (given == inputs.items().end())
+            base::fail(ErrorKind::Runtime, "%s: reads %s %s, which the pass does not give it", label_.c_str(),
+                       kindName(slot.kind), slot.name.c_str());
+        if (given->object != 0) bindItem(*given, slot.slot);
+    }
+}
+
+int Program::unitOf(ResourceName texture) const {
+    for (const ProgramSlot& slot : slots_)
+        if (slot.kind == ResourceKind::Texture && slot.hash == texture.hash())
+            return static_cast<int>(slot.slot);
+    return -1;
+}
+
+void Program::dispatch(const Inputs& inputs, int x, int y, int z) const {
     CONELIGHT_ASSERT(groupSize_.x > 0, "Program::dispatch: not a compute program");
     if (x <= 0 || y <= 0 || z <= 0) return;
     const glm::ivec3 groups = (glm::ivec3(x, y, z) + groupSize_ - 1) / groupSize_;
     CONELIGHT_ASSERT(groups.x <= kMaxGroups && groups.y <= kMaxGroups && groups.z <= kMaxGroups,
                      "Program::dispatch: too many groups; dispatchLinear folds them");
-    use();
+    use(inputs);
     glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y),
                       static_cast<GLuint>(groups.z));
 }
 
-void Program::dispatchLinear(std::size_t invocations) const {
+void Program::dispatchLinear(const Inputs& inputs, std::size_t invocations) const {
     CONELIGHT_ASSERT(groupSize_.x > 0, "Program::dispatchLinear: not a compute program");
     if (invocations == 0) return;
     const std::size_t perGroup = static_cast<std::size_t>(groupSize_.x) *
@@ -107,18 +213,40 @@ void Program::dispatchLinear(std::size_t invocations) const {
     const std::size_t columns = (groups + rows - 1) / rows;
     CONELIGHT_ASSERT(rows <= static_cast<std::size_t>(kMaxGroups),
                      "Program::dispatchLinear: too many invocations");
-    use();
+    use(inputs);
     glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(rows), 1);
 }
 
-void Program::dispatchIndirect(const Buffer& buffer, std::size_t offset) const {
+void Program::dispatchIndirect(const Inputs& inputs, const Buffer& buffer, std::size_t offset) const {
     CONELIGHT_ASSERT(groupSize_.x > 0, "Program::dispatchIndirect: not a compute program");
     CONELIGHT_ASSERT(offset % 4 == 0 && buffer.bytes() >= 12 && offset <= buffer.bytes() - 12,
                      "Program::dispatchIndirect reaches past the end of the buffer");
-    use();
+    use(inputs);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer.name());
     glDispatchComputeIndirect(static_cast<GLintptr>(offset));
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+}
+
+namespace {
+
+struct BuiltPrograms {
+    std::mutex mutex;
+    std::map<std::string, ProgramDesc> byLabel;
+};
+
+BuiltPrograms& built() {
+    static BuiltPrograms* const instance = new BuiltPrograms;  // outlives every library
+    return *instance;
+}
+
+}  // namespace
+
+std::vector<ProgramDesc> builtPrograms() {
+    BuiltPrograms& all = built();
+    const std::lock_guard lock(all.mutex);
+    std::vector<ProgramDesc> descs;
+    for (const auto& [label, desc] : all.byLabel) descs.push_back(desc);
+    return descs;
 }
 
 const Program& ProgramLibrary::get(const ProgramDesc& desc) {
@@ -126,6 +254,8 @@ const Program& ProgramLibrary::get(const ProgramDesc& desc) {
     if (!entry) {
         try {
             entry = std::make_unique<Entry>(Entry{desc, Program(provider_, desc), false});
+            const std::lock_guard lock(built().mutex);
+            built().byLabel.emplace(desc.label(), desc);
         } catch (...) {
             programs_.erase(desc.label());
             throw;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "gl/buffer.h"
+#include "gl/inputs.h"
 #include "gl/object.h"
 #include "gl/shader_source.h"
 
@@ -22,6 +23,15 @@ struct ProgramDesc {
     std::string label() const;  // "voxels/mark.comp.glsl[A=1 B=2]"
 };
 
+// What a linked program reads, and the slot it reads it from: a binding point of uniform or storage buffers,
+// a texture unit, an image unit. Slots are given out in the order of the driver's list, from 0 for each kind.
+struct ProgramSlot {
+    std::string name;
+    std::uint64_t hash;  // ResourceName::hashOf(name)
+    ResourceKind kind;
+    unsigned slot;
+};
+
 class Program : public Object<ObjectType::Program> {
   public:
     Program() = default;
@@ -31,19 +41,29 @@ class Program : public Object<ObjectType::Program> {
 
     const std::vector<std::string>& sourceFiles() const { return sourceFiles_; }
     glm::ivec3 groupSize() const { return groupSize_; }  // compute only
+    const std::vector<ProgramSlot>& slots() const { return slots_; }
 
-    void use() const;
+    // Binds what the program reads and makes it current, for draw calls. Throws Error(Runtime) that names
+    // what it reads and `inputs` lacks. GL state changed, here and below: program, the slots of slots().
+    void use(const Inputs& inputs = {}) const;
+    // The unit of a texture that draw calls bind themselves (Inputs::perDraw); -1 if the program reads none
+    // of that name.
+    int unitOf(ResourceName texture) const;
     // Compute: use() and run at least this many invocations (rounded up to whole groups). Counts of zero run
     // nothing. dispatchLinear folds groups beyond 65,535 into y: the shader asks linearIndex() of
     // lib/linear_index.glsl, which is below `invocations` for each exactly once (and above for some more).
-    void dispatch(int x, int y = 1, int z = 1) const;
-    void dispatchLinear(std::size_t invocations) const;
+    void dispatch(const Inputs& inputs, int x, int y = 1, int z = 1) const;
+    void dispatchLinear(const Inputs& inputs, std::size_t invocations) const;
     // Group counts read from `buffer` at `offset` (three uints); each at most 65,535. GL state changed: the
-    // indirect dispatch buffer binding.
-    void dispatchIndirect(const Buffer& buffer, std::size_t offset = 0) const;
+    // indirect dispatch buffer binding, too.
+    void dispatchIndirect(const Inputs& inputs, const Buffer& buffer, std::size_t offset = 0) const;
 
   private:
+    void assignSlots();
+
+    std::string label_;
     std::vector<std::string> sourceFiles_;
+    std::vector<ProgramSlot> slots_;
     glm::ivec3 groupSize_{0};
 };
 
@@ -74,5 +94,9 @@ class ProgramLibrary {
     ShaderProvider provider_;
     std::map<std::string, std::unique_ptr<Entry>> programs_;
 };
+
+// What libraries of this process have built so far, by label: tests compare it with the lists of
+// variants.
+std::vector<ProgramDesc> builtPrograms();
 
 }  // namespace conelight::gl

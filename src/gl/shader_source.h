@@ -21,12 +21,17 @@ struct EmbeddedShader {
     const char* path;
     const char* text;
 };
-std::span<const EmbeddedShader> embeddedShaders();  // generated at build time
+// The library's own files, generated at build time, and those that were added. Add before any shader is asked
+// for, from one thread; a table that is there already is passed over. Tables live as long as the program.
+const std::vector<EmbeddedShader>& embeddedShaders();
+void addEmbeddedShaders(std::span<const EmbeddedShader> files);
 
 // Where shader files come from: path relative to the root -> text, nothing when there is no such file.
 using ShaderProvider = std::function<std::optional<std::string>(const std::string& path)>;
 ShaderProvider embeddedShaderProvider();
-ShaderProvider directoryShaderProvider(const std::string& directory);  // falls back to the embedded files
+// Files of modes with a folder of their own lie in modes/ beside `directory`. Falls back to the embedded
+// files.
+ShaderProvider directoryShaderProvider(const std::string& directory);
 
 using Defines = std::vector<std::pair<std::string, std::string>>;
 

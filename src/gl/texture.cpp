@@ -196,14 +196,18 @@ void Texture::read(int level, std::uint32_t layout, std::uint32_t type, void* da
     glGetTextureImage(name(), level, layout, type, static_cast<GLsizei>(bytes), data);
 }
 
+void Texture::readRegion(const glm::ivec3& offset, const glm::ivec3& size, std::uint32_t layout,
+                         std::uint32_t type, void* data, std::size_t bytes) const {
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glGetTextureSubImage(name(), 0, offset.x, offset.y, offset.z, size.x, size.y, size.z, layout, type,
+                         static_cast<GLsizei>(bytes), data);
+}
+
 void Texture::parameter(std::uint32_t parameterName, int value) {
     glTextureParameteri(name(), parameterName, value);
 }
 void Texture::bind(unsigned unit) const { glBindTextureUnit(unit, name()); }
-void Texture::bindImage(unsigned unit, int level, std::uint32_t access, std::uint32_t format) const {
-    glBindImageTexture(unit, name(), level, GL_TRUE, 0, access, format != 0 ? format : desc_.format);
-}
-
 Sampler::Sampler(const SamplerDesc& desc, const std::string& label) {
     Name name = 0;
     glCreateSamplers(1, &name);

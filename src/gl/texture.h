@@ -47,11 +47,12 @@ class Texture : public Object<ObjectType::Texture> {
                      std::uint32_t type);
     void copyFrom(const Texture& source);  // level 0, of a texture of the same size and format
     void read(int level, std::uint32_t layout, std::uint32_t type, void* data, std::size_t bytes) const;
+    // A box of level 0.
+    void readRegion(const glm::ivec3& offset, const glm::ivec3& size, std::uint32_t layout,
+                    std::uint32_t type, void* data, std::size_t bytes) const;
 
     void parameter(std::uint32_t name, int value);
-    void bind(unsigned unit) const;  // texture unit
-    // Image unit; access GL_READ_ONLY, _WRITE_ONLY, _READ_WRITE; all layers. format 0: the texture's own.
-    void bindImage(unsigned unit, int level, std::uint32_t access, std::uint32_t format = 0) const;
+    void bind(unsigned unit) const;  // texture unit, for draw calls that bind textures themselves
 
     // Bytes of the storage of `desc`, all levels.
     static std::size_t storageBytes(const TextureDesc& desc);

@@ -3,7 +3,6 @@
 
 #include "base/assert.h"
 #include "gl/gl.h"
-#include "shared/bindings.h"
 
 namespace conelight::image {
 namespace {
@@ -23,28 +22,30 @@ const char* viewDefine(Component component) {
     }
 }
 
-gl::ProgramDesc programDesc(Component component) {
-    return {{"image/debug_view.comp.glsl"}, {{viewDefine(component), "1"}}};
-}
+struct DebugViewKey {
+    Component component;
+    gl::ProgramDesc desc() const { return {{"image/debug_view.comp.glsl"}, {{viewDefine(component), "1"}}}; }
+    static std::vector<DebugViewKey> all() {
+        return {{Component::Albedo}, {Component::Normal}, {Component::Depth}, {Component::Emission}};
+    }
+};
 
 }  // namespace
 
 bool isDebugView(Component component) { return viewDefine(component) != nullptr; }
 
-void drawDebugView(gl::ProgramLibrary& programs, gl::Profiler& profiler, const view::GBuffer& gbuffer,
+void drawDebugView(const gl::Device& device, const scene::GpuScene& scene, const view::Surfaces& surfaces,
                    Component component, const gl::Texture& output) {
     CONELIGHT_ASSERT(isDebugView(component), "drawDebugView: the component is no picture of the G-buffer");
-    const gl::PassScope pass(profiler, "debug view");
-    gbuffer.bind(UNIT_GBUFFER);
-    output.bindImage(0, 0, GL_WRITE_ONLY);
-    programs.get(programDesc(component)).dispatch(gbuffer.width(), gbuffer.height());
+    const gl::PassScope pass(device.profiler, "debug view");
+    gl::Inputs inputs;
+    inputs.add(scene).add(surfaces).image("outputImage", output, gl::ImageUse::Write);
+    device.get(DebugViewKey{component}.desc()).dispatch(inputs, surfaces.width(), surfaces.height());
 }
 
 std::vector<gl::ProgramDesc> debugViewProgramDescs() {
     std::vector<gl::ProgramDesc> descs;
-    for (const Component component :
-         {Component::Albedo, Component::Normal, Component::Depth, Component::Emission})
-        descs.push_back(programDesc(component));
+    for (const DebugViewKey& key : DebugViewKey::all()) descs.push_back(key.desc());
     return descs;
 }
 

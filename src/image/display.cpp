@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "gl/gl.h"
-#include "gl/pass.h"
-#include "shared/bindings.h"
 #include "shared/image.h"
 
 namespace conelight::image {
@@ -27,7 +25,7 @@ std::uint32_t curveOf(ToneMap curve) {
 
 }  // namespace
 
-void Display::draw(gl::ProgramLibrary& programs, const gl::Texture& linear, const ImageSettings& settings) {
+void Display::draw(const gl::Device& device, const gl::Texture& linear, const ImageSettings& settings) {
     if (!texture_ || texture_.width() != linear.width() || texture_.height() != linear.height()) {
         texture_ = {};
         texture_ = gl::Texture({GL_TEXTURE_2D, GL_RGBA8, linear.width(), linear.height()}, "display image");
@@ -38,10 +36,11 @@ void Display::draw(gl::ProgramLibrary& programs, const gl::Texture& linear, cons
     constants.curve = curveOf(settings.toneMap);
     constants.srgb = settings.srgb ? 1 : 0;
     constants_.update(constants);
-    constants_.bindUniform(BINDING_PASS);
-    linear.bind(UNIT_PASS);
-    texture_.bindImage(0, 0, GL_WRITE_ONLY);
-    programs.get(programDesc()).dispatch(linear.width(), linear.height());
+    gl::Inputs inputs;
+    inputs.uniform("DisplayBlock", constants_)
+        .texture("linearImage", linear)
+        .image("displayImage", texture_, gl::ImageUse::Write);
+    device.get(programDesc()).dispatch(inputs, linear.width(), linear.height());
     gl::barrier(gl::Access::TextureFetch);
 }
 

@@ -5,7 +5,6 @@
 
 #include "gl/gl.h"
 #include "scene/gpu_lights.h"
-#include "shared/bindings.h"
 #include "shared/image.h"
 
 namespace conelight::image {
@@ -61,21 +60,21 @@ int tableEntry(const Scene& source, const std::vector<gpu::Light>& table, int li
     });
 }
 
-void ShadowView::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const Scene& source,
-                      const scene::GpuScene& scene, int light, const gl::Texture& output) {
-    const gl::PassScope pass(profiler, "shadow map view");
-    const int entry = tableEntry(source, scene.lights(), light);
+void ShadowView::draw(const gl::Device& device, const Scene& source, const light::Lights& lights, int light,
+                      const gl::Texture& output) {
+    const gl::PassScope pass(device.profiler, "shadow map view");
+    const int entry = tableEntry(source, lights.table(), light);
     gpu::ShadowViewConstants c{};
     c.tilesPerEdge = c.columns = c.rows = 1;
-    if (entry >= 0 && scene.lights()[static_cast<std::size_t>(entry)].shadow >= 0) {
+    if (entry >= 0 && lights.table()[static_cast<std::size_t>(entry)].shadow >= 0) {
         c.light = static_cast<std::uint32_t>(entry);
-        setTiles(scene.lights()[static_cast<std::size_t>(entry)], c);
+        setTiles(lights.table()[static_cast<std::size_t>(entry)], c);
     }
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::ShadowViewConstants), "shadow view constants");
     constants_.update(c);
-    constants_.bindUniform(BINDING_PASS);
-    output.bindImage(0, 0, GL_WRITE_ONLY);
-    programs.get(desc()).dispatch(output.width(), output.height());
+    gl::Inputs inputs;
+    inputs.add(lights).uniform("ShadowViewBlock", constants_).image("picture", output, gl::ImageUse::Write);
+    device.get(desc()).dispatch(inputs, output.width(), output.height());
 }
 
 std::vector<gl::ProgramDesc> ShadowView::programDescs() { return {desc()}; }

@@ -3,14 +3,15 @@
 // are laid out).
 //
 // Reads: light table, shadow maps (ShadowMaps::bind). Writes `output` (RGBA32F) as an image. GL state
-// changed: program, image 0, BINDING_PASS.
+// changed: program and its slots.
 #pragma once
 
+#include <vector>
+
 #include "conelight/scene.h"
-#include "gl/pass.h"
-#include "gl/program.h"
+#include "gl/device.h"
 #include "gl/texture.h"
-#include "scene/gpu_scene.h"
+#include "light/lights.h"
 
 namespace conelight::image {
 
@@ -18,8 +19,8 @@ class ShadowView {
   public:
     // `light`: in the scene's order, then the emitters that are lights; beyond the last: the last. A light
     // without shadow map is black.
-    void draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const Scene& source,
-              const scene::GpuScene& scene, int light, const gl::Texture& output);
+    void draw(const gl::Device& device, const Scene& source, const light::Lights& lights, int light,
+              const gl::Texture& output);
 
     static std::vector<gl::ProgramDesc> programDescs();
 

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "gl/gl.h"
-#include "shared/bindings.h"
 #include "shared/gbuffer.h"
 #include "shared/image.h"
 
@@ -27,20 +26,18 @@ gl::ProgramDesc desc() {
 
 }  // namespace
 
-void WireframeView::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
-                         const view::GBuffer& gbuffer, Wireframe kind, float exposure, const glm::vec3& sky,
-                         bool culls, const gl::Texture& output) {
-    const gl::PassScope pass(profiler, "wireframe");
-    const bool over = kind == Wireframe::Over;
+void WireframeView::draw(const gl::Device& device, const scene::GpuScene& scene,
+                         const view::Surfaces& surfaces, const Wanted& wanted, const gl::Texture& output) {
+    const gl::PassScope pass(device.profiler, "wireframe");
+    const bool over = wanted.kind == Wireframe::Over;
     gpu::WireframeConstants c{};
-    c.radiance = (over ? kOverColor : kAloneColor) * std::exp2(-exposure);
+    c.radiance = (over ? kOverColor : kAloneColor) * std::exp2(-wanted.exposure);
     c.opacity = over ? kOverOpacity : kAloneOpacity;
     c.halfWidth = kHalfWidth;
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::WireframeConstants), "wireframe constants");
     constants_.update(c);
-    constants_.bindUniform(BINDING_PASS);
 
-    const gl::Framebuffer target({&output}, &gbuffer.depth(), "wireframe");
+    const gl::Framebuffer target({&output}, &surfaces.depth(), "wireframe");
     gl::RasterState state;
     state.framebuffer = &target;
     state.depthTest = over;
@@ -50,9 +47,12 @@ void WireframeView::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, c
     state.depthBiasSlope = kBiasSlope;
     state.depthBiasUnits = kBiasUnits;
     gl::apply(state);
+    const glm::vec3& sky = scene.source().sky;
     if (!over) target.clearColor(0, sky.r, sky.g, sky.b, 0);
-    programs.get(desc()).use();
-    scene.draw({}, over && culls ? gl::Cull::Back : gl::Cull::None, false);
+    gl::Inputs inputs;
+    inputs.add(scene).add(surfaces).uniform("WireframeBlock", constants_);
+    device.get(desc()).use(inputs);
+    scene.draw({.cull = over && wanted.culls ? gl::Cull::Back : gl::Cull::None});
 }
 
 std::vector<gl::ProgramDesc> WireframeView::programDescs() { return {desc()}; }

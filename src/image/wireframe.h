@@ -3,24 +3,25 @@
 // the G-buffer's depth. Alone: all of them, on the sky.
 //
 // Reads: frame block, scene tables. Writes `output` (RGBA32F, as a framebuffer). GL state changed: raster
-// state, program, BINDING_PASS.
+// state, program and its slots.
 #pragma once
 
 #include "conelight/settings.h"
-#include "gl/pass.h"
-#include "gl/program.h"
+#include "gl/device.h"
 #include "scene/gpu_scene.h"
-#include "view/gbuffer.h"
+#include "view/surfaces.h"
 
 namespace conelight::image {
 
 class WireframeView {
   public:
-    // `exposure` of the picture, stops: lines have the same brightness on the screen whatever it is. `culls`:
-    // as the G-buffer was drawn.
-    void draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
-              const view::GBuffer& gbuffer, Wireframe kind, float exposure, const glm::vec3& sky, bool culls,
-              const gl::Texture& output);
+    struct Wanted {
+        Wireframe kind;
+        float exposure;  // of the picture, stops: lines have the same brightness on the screen whatever it is
+        bool culls;      // as the surfaces were drawn
+    };
+    void draw(const gl::Device& device, const scene::GpuScene& scene, const view::Surfaces& surfaces,
+              const Wanted& wanted, const gl::Texture& output);
 
     static std::vector<gl::ProgramDesc> programDescs();
 

@@ -1,22 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Shadow maps of all lights: GpuScene -> one array of depth textures, and the light table's shadow fields.
-// Point lights have six maps (the sides of a cube), spots and directional lights one, rectangles five per
-// sample point (the sides of half a cube). All are tiles of one array texture, so that shaders need one
-// sampler and one way of filtering; shaders/lib/shadow.glsl documents tiles, depths and what hides what, and
-// is the other half of this file. Maps other than rectangles' keep slopes and extents of triangles too.
+// Shadow maps of all lights: scene + light table -> one array of depth textures, and the table's shadow
+// fields. Point lights have six maps (the sides of a cube), spots and directional lights one, rectangles five
+// per sample point (the sides of half a cube). All are tiles of one array texture, so that shaders need one
+// sampler and one way of filtering (light/shadow_layout.h). Maps other than rectangles' keep slopes and
+// extents of triangles too. Both sides of every surface cast shadows.
 //
 // Each map is one pass over the instances that its frustum meets: measured on llvmpipe, six culled passes
-// cost no more than one layered pass, and they need no extension.
-//
-// Reads: scene tables. Writes: the textures at UNIT_SHADOW, _DEPTHS, _SURFACES. Both sides of every surface
-// cast shadows.
+// cost no more than one layered pass, and they need no extension. Part of light::Lights.
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "conelight/settings.h"
-#include "gl/pass.h"
-#include "gl/program.h"
+#include "gl/device.h"
 #include "scene/gpu_scene.h"
 
 namespace conelight::light {
@@ -25,15 +22,17 @@ class ShadowMaps {
   public:
     ShadowMaps();
     ~ShadowMaps();
+    ShadowMaps(ShadowMaps&&) noexcept;
+    ShadowMaps& operator=(ShadowMaps&&) noexcept;
 
     // Brings the maps up to date: draws those of lights that changed, and those that see an instance that
-    // changed, where it was or where it is; with `everything` all. The depths are the same bit for bit.
-    // Updates `scene`'s light table (GpuScene::updateLights). The scene must be bound.
-    void update(gl::ProgramLibrary& programs, gl::Profiler& profiler, scene::GpuScene& scene,
-                const LightSettings& settings, bool everything = false);
+    // changed, where it was or where it is. The depths are the same bit for bit as if all were drawn. GL
+    // state changed: raster state, program and its slots, vertex array, texture units of materials.
+    void update(const gl::Device& device, const scene::GpuScene& scene, const LightSettings& settings,
+                std::vector<gpu::Light>& lights);
     int redrawn() const;  // maps that the last update drew
-    // UNIT_SHADOW, _DEPTHS, _SURFACES; before the first update a map without shadows.
-    void bind() const;
+    // shadowMaps, shadowDepths, shadowSurfaces; before the first update maps without shadows.
+    void declare(gl::Inputs& inputs) const;
 
     static std::vector<gl::ProgramDesc> programDescs();
 
@@ -41,13 +40,5 @@ class ShadowMaps {
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };
-
-// Defines for shaders that include lib/lights.glsl: how many lights of each kind the scene has (or whether
-// any, when they are many), the filter radius, whether there are shadows at all.
-gl::Defines lightDefines(const scene::GpuScene& scene, const LightSettings& settings);
-
-// `base` with lightDefines' defines added, for a programDescs(): every kind of light alone and all together,
-// every filter radius, and without shadows. Other combinations are made of the same code.
-std::vector<gl::ProgramDesc> lightVariants(const gl::ProgramDesc& base);
 
 }  // namespace conelight::light

@@ -1,30 +1,33 @@
 // SPDX-License-Identifier: MIT
-// Mode `cones`: surface voxels -> injected light -> radiance volume -> diffuse and specular cones at every
-// pixel, over shadow-mapped direct light. The order of passes and barriers of the mode is render().
-// Voxels are rebuilt when the geometry changed, light when lights changed, and neither until a component
-// needs them. docs/guide/cones_mode.md
+// Mode `cones`: voxels -> radiance volume -> diffuse and specular cones at every pixel, over shadow-mapped
+// direct light. docs/guide/cones_mode.md
 #pragma once
 
-#include <memory>
 #include <vector>
 
-#include "modes/frame_context.h"
+#include "gather/cone_picture.h"
+#include "gather/cone_volume.h"
+#include "image/voxel_view.h"
+#include "modes/mode.h"
+#include "voxels/voxels.h"
 
 namespace conelight::modes {
 
 class ConesMode : public ModeRenderer {
   public:
-    ConesMode();
-    ~ConesMode() override;
-    void render(const FrameContext& frame) override;
-    bool needsShadows(const Settings& settings) const override;
-    void record(const FrameContext& frame, gather::StepRecorder& recorder) override;
+    void draw(const Frame& frame) override;
+    // Every component that this mode draws has lit voxels or direct light in it.
+    bool needsShadows(const Scene&, const Settings&) const override { return true; }
 
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
-    struct Impl;
-    std::unique_ptr<Impl> impl_;
+    void drawVoxels(const Frame& frame);
+
+    voxels::Voxels voxels_;
+    gather::ConeVolume volume_;
+    gather::ConePicture picture_;
+    image::VoxelView voxelView_;
 };
 
 }  // namespace conelight::modes

@@ -1,19 +1,16 @@
 // SPDX-License-Identifier: MIT
-// Mode `phong`: local illumination only, the thesis's model. Scenes of the thesis's format look as its
-// program drew them: back faces culled, no shadows; others have shadow maps (setting phong.shadows).
+// Mode `phong`: local illumination only, by Phong's model. Shadow maps are drawn, but not in scenes with a
+// format of their own (Scene::format), unless phong.shadows asks for them.
 #pragma once
 
-#include "modes/frame_context.h"
+#include "modes/mode.h"
 
 namespace conelight::modes {
 
 class PhongMode : public ModeRenderer {
   public:
-    void render(const FrameContext& frame) override;
-    bool needsShadows(const Settings& settings) const override;
-    bool needsShadowsIn(const Scene& scene, const Settings& settings) const override;
-    // The rooms of the thesis are looked into through their front walls.
-    bool cullsBackFaces() const override { return true; }
+    void draw(const Frame& frame) override;
+    bool needsShadows(const Scene& scene, const Settings& settings) const override;
 };
 
 }  // namespace conelight::modes

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The frame, top to bottom: what is uploaded, what is rebuilt, which passes run in which order.
+// The public face of the library: scene, lights and surfaces are values that every mode starts from; the
+// mode's recipe (modes/*_mode.cpp) makes the image of them.
 #include "conelight/renderer.h"
 
 #include <algorithm>
@@ -7,38 +8,24 @@
 
 #include "base/clock.h"
 #include "base/log.h"
-#include "gather/thesis_cones.h"
 #include "gl/debug.h"
 #include "gl/gl.h"
 #include "gl/host_state.h"
 #include "image/debug_view.h"
 #include "image/display.h"
+#include "image/image.h"
 #include "image/shadow_view.h"
 #include "image/wireframe.h"
-#include "light/emissive_quads.h"
+#include "light/lights.h"
 #include "modes/modes.h"
 #include "scene/scene_checks.h"
-#include "shared/bindings.h"
 #include "shared/lookups.h"
-#include "view/camera.h"
+#include "view/surfaces.h"
 
 namespace conelight {
 namespace {
 
 constexpr int kMaxEdge = 16384;  // GL's minimum for GL_MAX_TEXTURE_SIZE in 4.5
-
-// Textures of one picture size.
-struct Targets {
-    int width, height;
-    view::GBuffer gbuffer;
-    gl::Texture output;
-
-    Targets(int w, int h)
-        : width(w),
-          height(h),
-          gbuffer(w, h),
-          output({GL_TEXTURE_2D, GL_RGBA32F, w, h, 1, 1}, "output image") {}
-};
 
 std::vector<MemoryStats> memoryStats() {
     std::vector<MemoryStats> memory;
@@ -54,36 +41,24 @@ std::vector<MemoryStats> memoryStats() {
 struct Renderer::Impl {
     gl::ProgramLibrary programs;
     gl::Profiler profiler;
-    std::string device;
+    gl::Device device{programs, profiler};
+    std::string deviceName;
     bool countLookups = false;
     bool everyFrame = false;
 
-    Scene source;
+    // The values of a picture, in the order in which they are made.
     std::optional<scene::GpuScene> scene;
-    light::ShadowMaps shadows;
-    std::optional<Targets> targets;
+    light::Lights lights;
+    view::Surfaces surfaces;
+    std::unique_ptr<modes::ModeRenderer> mode;  // holds those between surfaces and image
+    Mode modeKind = Mode::Traced;
+    image::LinearImage image;
+    // Other looks at them.
     image::Display display;
     image::ShadowView shadowMapView;
     image::WireframeView wireframe;
-    gpu::FrameConstants constants{};
-    gl::Buffer frameBlock{sizeof(gpu::FrameConstants), "frame constants"};
     gl::Buffer lookupCounters{4 * LOOKUPS_WORDS, "lookup counters"};
-
-    // What the current volumes were built for.
-    std::unique_ptr<modes::ModeRenderer> mode;
-    Mode modeKind = Mode::Traced;
-    std::optional<Settings> builtFor;
-    bool sceneChanged = true;
-    std::uint64_t geometryRevision = 0, lightRevision = 0;
-    bool shadowsCurrent = false;
-    bool allShadows = false;  // also those that see no change
-    bool emittersAreLights = false;
-    bool geometryChanged = true;
-    bool lightChanged = true;
-    bool skyChanged = false;
-    std::uint32_t frameIndex = 0;
     // Of the last picture.
-    Camera shownCamera;
     Settings shownSettings;
     FrameStats stats;
 
@@ -94,10 +69,8 @@ struct Renderer::Impl {
     static void requireIndex(const char* call, const char* what, std::size_t index, std::size_t count);
 
     void render(const Camera& camera, int width, int height, const Settings& settings);
-    void prepareMode(const Settings& settings);
-    modes::FrameContext context(const Settings& settings);
-    void markBuilt(const Settings& settings);
-    void drawMode(const Settings& settings);
+    void prepare(const Settings& settings);
+    modes::Frame frame(const Settings& settings) const;
     void drawOverlays(const Settings& settings);
     PixelInspection inspect(int x, int y);
     void collectStats(double cpuStart, double wallStart);
@@ -109,7 +82,7 @@ Renderer::Renderer(const RendererOptions& options) {
     impl_ = std::make_unique<Impl>(options.shaderDirectory.empty()
                                        ? gl::embeddedShaderProvider()
                                        : gl::directoryShaderProvider(options.shaderDirectory));
-    impl_->device = gl::rendererName();
+    impl_->deviceName = gl::rendererName();
 }
 
 Renderer::~Renderer() = default;
@@ -117,11 +90,9 @@ Renderer::~Renderer() = default;
 void Renderer::setScene(const Scene& scene) {
     scene.validate();  // a scene that is refused leaves the old one in place
     const gl::HostStateGuard guard;
+    impl_->mode.reset();  // light of another scene says nothing of this one
     impl_->scene.reset();
-    impl_->source = scene;
-    impl_->scene.emplace(impl_->source);
-    impl_->sceneChanged = true;
-    impl_->mode.reset();  // light and dead faces of another scene say nothing of this one
+    impl_->scene.emplace(scene);
 }
 
 void Renderer::Impl::requireScene(const char* call) const {
@@ -137,30 +108,29 @@ void Renderer::Impl::requireIndex(const char* call, const char* what, std::size_
 
 void Renderer::setInstance(std::size_t index, const Instance& instance) {
     impl_->requireScene("setInstance");
-    std::vector<Instance>& instances = impl_->source.instances;
-    Impl::requireIndex("setInstance", "instance", index, instances.size());
-    scene::validateInstance(impl_->source, instance, index);
-    if (instance.mesh != instances[index].mesh)
+    const Scene& source = impl_->scene->source();
+    Impl::requireIndex("setInstance", "instance", index, source.instances.size());
+    scene::validateInstance(source, instance, index);
+    if (instance.mesh != source.instances[index].mesh)
         base::fail(ErrorKind::BadInput, "instance %zu '%s': mesh %d; the mesh it has, %d, would be right",
-                   index, instance.name.c_str(), instance.mesh, instances[index].mesh);
+                   index, instance.name.c_str(), instance.mesh, source.instances[index].mesh);
     const gl::HostStateGuard guard;
-    instances[index] = instance;
     impl_->scene->setInstance(index, instance);
 }
 
 void Renderer::setMaterial(std::size_t index, const Material& material) {
     impl_->requireScene("setMaterial");
-    Impl::requireIndex("setMaterial", "material", index, impl_->source.materials.size());
-    scene::validateMaterial(impl_->source, material);
+    const Scene& source = impl_->scene->source();
+    Impl::requireIndex("setMaterial", "material", index, source.materials.size());
+    scene::validateMaterial(source, material);
     const gl::HostStateGuard guard;
-    impl_->source.materials[index] = material;
     impl_->scene->setMaterial(index, material);
 }
 
 void Renderer::setLight(std::size_t index, const Light& light) {
     impl_->requireScene("setLight");
-    Impl::requireIndex("setLight", "light", index, impl_->source.lights.size());
-    std::vector<Light> lights = impl_->source.lights;
+    std::vector<Light> lights = impl_->scene->source().lights;
+    Impl::requireIndex("setLight", "light", index, lights.size());
     lights[index] = light;
     setLights(lights);
 }
@@ -168,21 +138,18 @@ void Renderer::setLight(std::size_t index, const Light& light) {
 void Renderer::setLights(const std::vector<Light>& lights) {
     impl_->requireScene("setLights");
     for (const Light& light : lights) scene::validateLight(light);
-    const gl::HostStateGuard guard;
-    impl_->source.lights = lights;
     impl_->scene->setLights(lights);
 }
 
 void Renderer::setSky(const glm::vec3& radiance) {
     impl_->requireScene("setSky");
     scene::validateSky(radiance);
-    impl_->source.sky = radiance;
-    impl_->skyChanged = true;
+    impl_->scene->setSky(radiance);
 }
 
 const Scene& Renderer::scene() const {
     impl_->requireScene("scene");
-    return impl_->source;
+    return impl_->scene->source();
 }
 
 void Renderer::setProfiling(bool passes, bool lookups) {
@@ -196,8 +163,7 @@ std::vector<std::string> Renderer::reloadShaders() {
     const gl::HostStateGuard guard;
     std::vector<std::string> failures = impl_->programs.reload(impl_->programs.sourceFiles());
     impl_->mode.reset();  // what the old programs left in volumes and shadow maps is theirs
-    impl_->allShadows = true;
-    impl_->sceneChanged = true;
+    impl_->lights = {};
     return failures;
 }
 
@@ -215,84 +181,47 @@ void Renderer::Impl::render(const Camera& camera, int width, int height, const S
     const double cpuStart = base::processCpuMs();
     const double wallStart = base::wallMs();
     profiler.beginFrame();
-    if (!targets || targets->width != width || targets->height != height) {
-        targets.reset();
-        targets.emplace(width, height);
-    }
-
-    // Frame constants. Shadow maps come first where they are needed: they complete the light table.
-    const bool debugView = image::isDebugView(settings.component);
-    scene->bind();
-    const bool shadowView = settings.component == Component::ShadowMap;
-    if (!debugView || settings.view.voxels) prepareMode(settings);
-    constants = view::frameConstants(camera, width, height, *scene, source.sky, frameIndex++, 0);
-    frameBlock.update(constants);
-    frameBlock.bindUniform(BINDING_FRAME);
+    if (everyFrame) scene->touch();
     lookupCounters.clear();
-
-    // What the camera sees, then the mode's picture of it.
-    targets->gbuffer.draw(programs, profiler, *scene, debugView || mode->cullsBackFaces());
-    gl::barrier(gl::Access::TextureFetch | gl::Access::ShaderStorage);
+    image.resize(width, height);
+    // Views of surfaces need neither lights nor a mode.
+    const bool debugView = image::isDebugView(settings.component);
+    if (!debugView || settings.view.voxels) prepare(settings);
+    surfaces.see(device, *scene, {camera, width, height, true});
     if (debugView)
-        image::drawDebugView(programs, profiler, targets->gbuffer, settings.component, targets->output);
-    else if (shadowView)
-        shadowMapView.draw(programs, profiler, source, *scene, settings.view.light, targets->output);
+        image::drawDebugView(device, *scene, surfaces, settings.component, image.texture());
+    else if (settings.component == Component::ShadowMap)
+        shadowMapView.draw(device, scene->source(), lights, settings.view.light, image.texture());
     else
-        drawMode(settings);
+        mode->draw(frame(settings));
     gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess);
-    if (!shadowView) drawOverlays(settings);
-    scene->endFrame();
-    shownCamera = camera;
+    if (settings.component != Component::ShadowMap) drawOverlays(settings);
     shownSettings = settings;
     collectStats(cpuStart, wallStart);
 }
 
-// The mode's renderer, what it has to rebuild, and the shadow maps it reads.
-void Renderer::Impl::prepareMode(const Settings& settings) {
+// The mode, and the lights as it needs them.
+void Renderer::Impl::prepare(const Settings& settings) {
     if (!mode || modeKind != settings.mode) {
         mode.reset();  // frees the old volumes first
         mode = modes::makeModeRenderer(settings.mode);
         modeKind = settings.mode;
-        builtFor.reset();
     }
-    geometryChanged = sceneChanged || everyFrame || !builtFor || !(builtFor->voxels == settings.voxels) ||
-                      geometryRevision != scene->geometryRevision();
-    // Flat emitters as lights; in the thesis's program emissive objects light nothing (a defect).
-    const bool emitters =
-        settings.light.emissiveQuads &&
-        !(settings.mode == Mode::Thesis && gather::effectiveDefects(settings.thesis).darkEmitters);
-    lightChanged = geometryChanged || skyChanged || lightRevision != scene->lightRevision() ||
-                   !(builtFor->light == settings.light) || emitters != emittersAreLights;
-    if (lightChanged) {
-        shadowsCurrent = false;
-        light::setEmissiveQuads(*scene, source, emitters);
-        emittersAreLights = emitters;
-        scene->bind();  // the light table may have moved
-    }
-
-    // Shadow maps; they fill in the light table that later passes read.
-    const bool wantsShadows =
-        settings.component == Component::ShadowMap || mode->needsShadowsIn(source, settings);
-    if (wantsShadows && !shadowsCurrent) {
-        shadows.update(programs, profiler, *scene, settings.light, everyFrame || allShadows);
-        allShadows = false;
-        scene->bind();
-        shadowsCurrent = true;
-    }
-    shadows.bind();
+    const bool shadows =
+        settings.component == Component::ShadowMap || mode->needsShadows(scene->source(), settings);
+    lights.update(
+        device, *scene,
+        {settings.light, settings.light.emissiveQuads && mode->lightsFromEmitters(settings), shadows});
 }
 
-modes::FrameContext Renderer::Impl::context(const Settings& settings) {
-    return {programs,       profiler,        source,
-            *scene,         settings,        constants,
-            targets->width, targets->height, targets->gbuffer,
-            shadows,        targets->output, geometryChanged,
-            everyFrame,     lightChanged,    countLookups ? &lookupCounters : nullptr};
-}
-
-void Renderer::Impl::drawMode(const Settings& settings) {
-    mode->render(context(settings));
-    markBuilt(settings);
+modes::Frame Renderer::Impl::frame(const Settings& settings) const {
+    return {.device = device,
+            .scene = *scene,
+            .lights = lights,
+            .surfaces = surfaces,
+            .settings = settings,
+            .output = image.texture(),
+            .lookupCounters = countLookups ? &lookupCounters : nullptr};
 }
 
 // Voxels among the objects, edges of triangles.
@@ -300,42 +229,28 @@ void Renderer::Impl::drawOverlays(const Settings& settings) {
     if (settings.view.voxels && settings.component != Component::Voxels && settings.mode != Mode::Phong) {
         Settings voxels = settings;
         voxels.component = Component::Voxels;
-        modes::FrameContext among = context(voxels);
-        // What the picture was drawn with is up to date.
-        if (!image::isDebugView(settings.component)) among.geometryChanged = among.lightChanged = false;
+        modes::Frame among = frame(voxels);
         among.voxelsAmong = true;
-        mode->render(among);
-        markBuilt(settings);
+        mode->draw(among);
         gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer);
     }
     if (settings.view.wireframe != Wireframe::Off)
-        wireframe.draw(programs, profiler, *scene, targets->gbuffer, settings.view.wireframe,
-                       settings.image.exposure, source.sky, true, targets->output);
-}
-
-void Renderer::Impl::markBuilt(const Settings& settings) {
-    sceneChanged = skyChanged = false;
-    geometryRevision = scene->geometryRevision();
-    lightRevision = scene->lightRevision();
-    builtFor = settings;
+        wireframe.draw(device, *scene, surfaces, {settings.view.wireframe, settings.image.exposure, true},
+                       image.texture());
 }
 
 void Renderer::Impl::collectStats(double cpuStart, double wallStart) {
     stats = FrameStats{};
-    stats.device = device;
-    if (!profiler.enabled()) {
-        stats.memory = memoryStats();
-        return;
-    }
+    stats.device = deviceName;
+    if (!profiler.enabled()) return;
     if (gl::isSoftwareDriver()) gl::finish();
     stats.cpuMs = base::processCpuMs() - cpuStart;
     stats.wallMs = base::wallMs() - wallStart;
     for (const gl::PassTime& pass : profiler.endFrame())
         stats.passes.push_back({pass.name, pass.cpuMs, pass.wallMs, pass.gpuMs});
-    stats.memory = memoryStats();
     if (!countLookups) return;
     const std::vector<std::uint32_t> counts = lookupCounters.read<std::uint32_t>(LOOKUPS_WORDS);
-    const double pixels = static_cast<double>(targets->width) * static_cast<double>(targets->height);
+    const double pixels = static_cast<double>(image.width()) * static_cast<double>(image.height());
     const char* const kinds[3] = {"diffuse", "specular", "occlusion"};
     for (std::size_t i = 0; i < 3; ++i)
         stats.lookupsPerPixel.emplace_back(kinds[i],
@@ -343,68 +258,52 @@ void Renderer::Impl::collectStats(double cpuStart, double wallStart) {
 }
 
 Image Renderer::readImage() const {
-    if (!impl_->targets)
+    if (!impl_->image)
         base::fail(ErrorKind::Usage, "readImage: nothing was rendered; render before it would be right");
     const gl::HostStateGuard guard;
-    const Targets& targets = *impl_->targets;
-    Image image{targets.width, targets.height, {}};
-    const std::size_t width = static_cast<std::size_t>(targets.width);
-    image.pixels.resize(width * static_cast<std::size_t>(targets.height));
-    targets.output.read(0, GL_RGBA, GL_FLOAT, image.pixels.data(), image.pixels.size() * sizeof(glm::vec4));
-    // GL's first row is the lowest.
-    for (std::size_t low = 0, high = static_cast<std::size_t>(targets.height) - 1; low < high; ++low, --high)
-        std::swap_ranges(&image.pixels[low * width], &image.pixels[low * width] + width,
-                         &image.pixels[high * width]);
-    return image;
+    return impl_->image.read();
 }
 
 PixelInspection Renderer::inspectPixel(int x, int y) {
-    if (!impl_->targets)
+    const image::LinearImage& image = impl_->image;
+    if (!image)
         base::fail(ErrorKind::Usage, "inspectPixel: nothing was rendered; render before it would be right");
-    const Targets& targets = *impl_->targets;
-    if (x < 0 || y < 0 || x >= targets.width || y >= targets.height)
+    if (x < 0 || y < 0 || x >= image.width() || y >= image.height())
         base::fail(ErrorKind::Usage,
                    "inspectPixel: pixel %d,%d of a picture of %d x %d; 0,0 to %d,%d would be right", x, y,
-                   targets.width, targets.height, targets.width - 1, targets.height - 1);
-    PixelInspection found;
-    {
-        const gl::HostStateGuard guard;
-        found = impl_->inspect(x, y);
-    }
-    found.picture = readImage().pixels[static_cast<std::size_t>(y * targets.width + x)];
-    return found;
+                   image.width(), image.height(), image.width() - 1, image.height() - 1);
+    const gl::HostStateGuard guard;
+    return impl_->inspect(x, y);
 }
 
-// The mode's passes once more, for one pixel, on the G-buffer of the last picture.
+// The mode's passes once more, for one pixel, on the surfaces of the last picture.
 PixelInspection Renderer::Impl::inspect(int x, int y) {
-    const bool wasEveryFrame = everyFrame;
-    everyFrame = false;
-    scene->bind();
-    prepareMode(shownSettings);
-    constants = view::frameConstants(shownCamera, targets->width, targets->height, *scene, source.sky,
-                                     constants.frameIndex, 0);
-    frameBlock.update(constants);
-    frameBlock.bindUniform(BINDING_FRAME);
-    gather::StepRecorder recorder({x, targets->height - 1 - y});
-    mode->record(context(shownSettings), recorder);
-    markBuilt(shownSettings);
-    everyFrame = wasEveryFrame;
+    prepare(shownSettings);
+    gather::StepRecorder recorder({x, image.height() - 1 - y});
+    modes::Frame recorded = frame(shownSettings);
+    recorded.recorder = &recorder;
+    recorded.lookupCounters = nullptr;
+    mode->draw(recorded);
     PixelInspection found = recorder.read();
     found.x = x;
     found.y = y;
     found.mode = shownSettings.mode;
+    found.picture = image.readPixel(x, y);
     return found;
 }
 
-std::uint32_t Renderer::imageTexture() const { return impl_->targets ? impl_->targets->output.name() : 0; }
+std::uint32_t Renderer::imageTexture() const { return impl_->image ? impl_->image.texture().name() : 0; }
 
 std::uint32_t Renderer::displayTexture(const ImageSettings& settings) {
-    if (!impl_->targets) return 0;
+    if (!impl_->image) return 0;
     const gl::HostStateGuard guard;
-    impl_->display.draw(impl_->programs, impl_->targets->output, settings);
+    impl_->display.draw(impl_->device, impl_->image.texture(), settings);
     return impl_->display.texture().name();
 }
 
-const FrameStats& Renderer::stats() const { return impl_->stats; }
+const FrameStats& Renderer::stats() const {
+    impl_->stats.memory = memoryStats();
+    return impl_->stats;
+}
 
 }  // namespace conelight

@@ -9,23 +9,14 @@
 
 #include "base/log.h"
 #include "conelight/shaders.h"
-#include "gather/cone_gather.h"
-#include "gather/direct_light.h"
-#include "gather/phong_shade.h"
-#include "gather/voxel_view.h"
 #include "image/debug_view.h"
 #include "image/display.h"
 #include "image/shadow_view.h"
 #include "image/wireframe.h"
-#include "light/inject_light.h"
-#include "light/irradiance_cache.h"
 #include "light/shadow_maps.h"
-#include "modes/cones_mode.h"
-#include "modes/thesis_mode.h"
-#include "modes/traced_mode.h"
+#include "modes/modes.h"
 #include "view/gbuffer.h"
 #include "voxels/octant_words.h"
-#include "voxels/radiance_volume.h"
 #include "voxels/surface_voxels.h"
 
 namespace conelight {
@@ -63,25 +54,33 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
         for (const gl::ProgramDesc& desc : descs)
             if (labels.insert(desc.label()).second) all.push_back(desc);
     };
+    add(voxels::SurfaceVoxels::programDescs());
+    add(voxels::OctantWords::programDescs());
     add(light::ShadowMaps::programDescs());
     add(view::GBuffer::programDescs());
-    add(voxels::SurfaceVoxels::programDescs());
-    add(voxels::RadianceVolume::programDescs());
-    add(gather::DirectLight::programDescs());
-    add(gather::phongShadeProgramDescs());
-    add(light::injectLightProgramDescs());
-    add(voxels::OctantWords::programDescs());
-    add(light::IrradianceCache::programDescs());
-    add(gather::ConeGather::programDescs());
-    add(modes::ConesMode::programDescs());
-    add(ThesisMode::programDescs());
-    add(TracedMode::programDescs());
-    add(gather::VoxelView::programDescs());
     add(image::debugViewProgramDescs());
     add(image::ShadowView::programDescs());
     add(image::WireframeView::programDescs());
     add(image::Display::programDescs());
+    for (const ModeEntry& mode : registeredModes()) add(mode.programDescs());
     return all;
+}
+
+std::vector<gl::ProgramDesc> pairwiseVariants(const std::vector<gl::ProgramDesc>& all) {
+    std::vector<gl::ProgramDesc> kept;
+    std::set<std::string> met;
+    for (const gl::ProgramDesc& desc : all) {
+        std::string files;
+        for (const std::string& file : desc.files) files += file + ' ';
+        bool isNew = met.insert(files).second;
+        for (std::size_t i = 0; i < desc.defines.size(); ++i)
+            for (std::size_t k = i; k < desc.defines.size(); ++k) {
+                const auto& [a, b] = std::pair(desc.defines[i], desc.defines[k]);
+                isNew |= met.insert(files + a.first + '=' + a.second + ' ' + b.first + '=' + b.second).second;
+            }
+        if (isNew) kept.push_back(desc);
+    }
+    return kept;
 }
 
 }  // namespace modes
@@ -90,7 +89,7 @@ std::size_t expandAllShaders(const std::string& directory, const std::string& sh
     const gl::ShaderProvider provider =
         shaderDirectory.empty() ? gl::embeddedShaderProvider() : gl::directoryShaderProvider(shaderDirectory);
     std::set<std::string> written;
-    for (const gl::ProgramDesc& desc : modes::allShaderVariants())
+    for (const gl::ProgramDesc& desc : modes::pairwiseVariants(modes::allShaderVariants()))
         for (const std::string& file : desc.files) {
             // Programs may share a stage.
             const std::string name = variantFile(file, desc.defines);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Every program the renderer can ask for, put together from the stages' lists. Tests link each of them, and
-// `conelight shaders --expand` writes each for glslangValidator. A shader that is in no list fails
-// tests/cpu/shader_variants_test.cpp.
+// Every program the renderer can ask for, put together from the keys of the stages and modes (`Key::all()`),
+// and a part of them that stands for all. Tests link each of that part, and `conelight shaders --expand`
+// writes each for glslangValidator. A shader that is in no list fails tests/cpu/shader_variants_test.cpp; a
+// program that is asked for and is in no list fails the test that asked (tests/support/variant_check.h).
 #pragma once
 
 #include <vector>
@@ -12,5 +13,9 @@ namespace conelight::modes {
 
 // Without repetition, in the order of the stages. No GL calls.
 std::vector<gl::ProgramDesc> allShaderVariants();
+
+// Variants of which every two values of two defines that occur together in any variant of a program's files
+// occur together in one. Faults of more than two at a time are not met by checks of this part.
+std::vector<gl::ProgramDesc> pairwiseVariants(const std::vector<gl::ProgramDesc>& all);
 
 }  // namespace conelight::modes

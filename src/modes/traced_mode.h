@@ -1,29 +1,36 @@
 // SPDX-License-Identifier: MIT
-// Mode `traced`: surface voxels -> irradiance per voxel face by rays, over and over -> at pixels the cache,
-// or more rays -> picture. The order of passes of the mode is render(). Voxels are rebuilt when the geometry
-// changed, light when lights changed. docs/guide/traced_mode.md
+// Mode `traced`: voxels -> irradiance per voxel face by rays, over and over -> at pixels the cache, or more
+// rays
+// -> picture. docs/guide/traced_mode.md
 #pragma once
 
-#include <memory>
 #include <vector>
 
-#include "modes/frame_context.h"
+#include "gather/indirect.h"
+#include "gather/traced_shade.h"
+#include "image/voxel_view.h"
+#include "light/lit_voxels.h"
+#include "modes/mode.h"
+#include "voxels/voxels.h"
 
 namespace conelight::modes {
 
 class TracedMode : public ModeRenderer {
   public:
-    TracedMode();
-    ~TracedMode() override;
-    void render(const FrameContext& frame) override;
-    bool needsShadows(const Settings& settings) const override;
-    void record(const FrameContext& frame, gather::StepRecorder& recorder) override;
+    void draw(const Frame& frame) override;
+    // Every component has lit voxels or direct light in it, or leaves them behind for the next.
+    bool needsShadows(const Scene&, const Settings&) const override { return true; }
 
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
-    struct Impl;
-    std::unique_ptr<Impl> impl_;
+    void record(const Frame& frame, const gather::RayInputs& inputs);
+
+    voxels::Voxels voxels_;
+    light::LitVoxels lit_;
+    gather::Indirect indirect_;
+    gather::TracedShade shade_;
+    image::VoxelView voxelView_;
 };
 
 }  // namespace conelight::modes

@@ -89,9 +89,10 @@ void validateNumbers(const Material& m) {
     require("the specular colour", isFinite(m.specularColor));
     require("the emission", isFinite(m.emission));
     require("the normal scale or alpha cutoff", std::isfinite(m.normalScale) && std::isfinite(m.alphaCutoff));
+    if (!m.phong) return;
     require("a Phong value",
-            isFinite(m.phong.color) && std::isfinite(m.phong.shininess) &&
-                isFinite({m.phong.ambientStrength, m.phong.diffuseStrength, m.phong.specularStrength}));
+            isFinite(m.phong->color) && std::isfinite(m.phong->shininess) &&
+                isFinite({m.phong->ambientStrength, m.phong->diffuseStrength, m.phong->specularStrength}));
 }
 
 // Beyond it squares of lengths overflow in float, and the fault would show somewhere else.
@@ -181,10 +182,13 @@ PhongMaterial phongFromPbr(const Material& material) {
     return phong;
 }
 
-void setPbrFromPhong(Material& material) {
-    const PhongMaterial& phong = material.phong;
-    // Inverse of the rule above; the specular weight grows with shininess so that walls of the thesis's rooms
-    // (shininess 1, strength 0.01) stay matt and its mirror sphere (256, 1.3) mirrors. Chosen by eye.
+PhongMaterial phongOf(const Material& material) {
+    return material.phong ? *material.phong : phongFromPbr(material);
+}
+
+void setPbrFromPhong(Material& material, const PhongMaterial& phong) {
+    // Inverse of the rule above; the specular weight grows with shininess so that walls of
+    // shininess 1 and strength 0.01 stay matt and a mirror sphere of 256 and 1.3 mirrors. Chosen by eye.
     const float weight =
         std::clamp(phong.specularStrength, 0.0f, 1.0f) * phong.shininess / (phong.shininess + 62.0f);
     material.roughness = std::pow(2.0f / (std::max(phong.shininess, 0.0f) + 2.0f), 0.25f);

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "scene/gpu_lights.h"
-
 namespace conelight::view {
 namespace {
 
@@ -62,32 +60,18 @@ glm::mat4 clipFromView(const Camera& camera, int width, int height) {
     return glm::mat4(projection(camera, width, height));
 }
 
-gpu::FrameConstants frameConstants(const Camera& camera, int width, int height, const scene::GpuScene& scene,
-                                   const glm::vec3& sky, std::uint32_t frameIndex, std::uint32_t seed) {
+gpu::FrameConstants frameConstants(const Camera& camera, int width, int height) {
     const Axes axes = axesOf(camera);
     const double tanY = std::tan(0.5 * static_cast<double>(camera.fovY));
     const double tanX = tanY * static_cast<double>(width) / static_cast<double>(height);
-    // In double: the inverse of a projection with zFar/zNear = 1e5 loses all digits in float.
-    const glm::dmat4 clipFromWorld = projection(camera, width, height) * viewMatrix(camera);
-
     gpu::FrameConstants frame{};
-    frame.clipFromWorld = glm::mat4(clipFromWorld);
-    frame.worldFromClip = glm::mat4(glm::inverse(clipFromWorld));
+    frame.clipFromWorld = glm::mat4(projection(camera, width, height) * viewMatrix(camera));
     frame.eye = camera.eye;
-    frame.zNear = camera.zNear;
-    frame.zFar = camera.zFar;
     frame.viewForward = glm::vec3(axes.forward);
     frame.viewRight = glm::vec3(axes.right * tanX);
     frame.viewUp = glm::vec3(axes.up * tanY);
-    frame.sky = sky;
     frame.width = static_cast<std::uint32_t>(width);
     frame.height = static_cast<std::uint32_t>(height);
-    frame.lightCount = static_cast<std::uint32_t>(scene.lights().size());
-    frame.frameIndex = frameIndex;
-    frame.instanceCount = static_cast<std::uint32_t>(scene.instances().size());
-    frame.triangleCount = scene.triangleCount();
-    frame.seed = seed;
-    frame.lightEnds = scene::lightEnds(scene.lights());
     return frame;
 }
 

@@ -19,10 +19,21 @@ bool isMasked(const gpu::Material& material) {
     return (material.flags & (MATERIAL_ALPHA_MASK | MATERIAL_ALPHA_BLEND)) != 0;
 }
 
-gl::ProgramDesc programDesc(int textures, bool masked) {
-    return {{"view/gbuffer.vert.glsl", "view/gbuffer.frag.glsl"},
-            {{"TEXTURES", std::to_string(textures)}, {"MASKED", masked ? "1" : "0"}}};
-}
+struct GBufferKey {
+    int textures;  // kTextureUses
+    bool masked;
+
+    gl::ProgramDesc desc() const {
+        return {{"view/gbuffer.vert.glsl", "view/gbuffer.frag.glsl"},
+                {{"TEXTURES", std::to_string(textures)}, {"MASKED", masked ? "1" : "0"}}};
+    }
+    static std::vector<GBufferKey> all() {
+        std::vector<GBufferKey> keys;
+        for (int textures = 0; textures < kTextureUses; ++textures)
+            for (const bool masked : {false, true}) keys.push_back({textures, masked});
+        return keys;
+    }
+};
 
 }  // namespace
 
@@ -40,9 +51,12 @@ GBuffer::GBuffer(int width, int height)
     }
 }
 
-void GBuffer::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
+void GBuffer::draw(const gl::Device& device, const scene::GpuScene& scene, const gl::Buffer& frameBlock,
                    bool cullBackFaces) {
-    const gl::PassScope pass(profiler, "gbuffer");
+    const gl::PassScope pass(device.profiler, "gbuffer");
+    gl::Inputs inputs;
+    inputs.uniform("FrameBlock", frameBlock).add(scene);
+    scene::GpuScene::declareMaterialTextures(inputs);
     gl::RasterState state;
     state.framebuffer = &framebuffer_;
     state.farthest = GBUFFER_FARTHEST;
@@ -65,23 +79,20 @@ void GBuffer::draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const s
             for (const gpu::Instance& instance : scene.instances())
                 any = any || ((instance.flags & INSTANCE_VISIBLE) != 0 && accepted(instance));
             if (!any) continue;
-            programs.get(programDesc(textures, masked)).use();
-            scene.draw(accepted, cull, textures != 0);
+            const gl::Program& program = device.get(GBufferKey{textures, masked}.desc());
+            program.use(inputs);
+            scene.draw({.filter = accepted, .cull = cull, .textured = textures != 0 ? &program : nullptr});
         }
     }
 }
 
-void GBuffer::bind(unsigned unit) const {
-    geometry_.bind(unit);
-    material_.bind(unit + 1);
-    gl::unbindSampler(unit);
-    gl::unbindSampler(unit + 1);
+void GBuffer::declare(gl::Inputs& inputs) const {
+    inputs.texture("gbufferGeometry", geometry_).texture("gbufferMaterial", material_);
 }
 
 std::vector<gl::ProgramDesc> GBuffer::programDescs() {
     std::vector<gl::ProgramDesc> descs;
-    for (int textures = 0; textures < kTextureUses; ++textures)
-        for (const bool masked : {false, true}) descs.push_back(programDesc(textures, masked));
+    for (const GBufferKey& key : GBufferKey::all()) descs.push_back(key.desc());
     return descs;
 }
 

@@ -6,16 +6,16 @@
 // without conversion (8 words in two stores: G-buffer pass and readers cost less than with five typed
 // targets).
 //
-// Reads: scene tables, material textures. Writes: the textures below. Readers need a texture-fetch barrier
-// only if they are compute (framebuffer writes are coherent with later texture fetches).
+// Readers need a texture-fetch barrier only if they are compute (framebuffer writes are coherent with later
+// texture fetches). Part of view::Surfaces.
 #pragma once
 
+#include <vector>
+
+#include "gl/device.h"
 #include "gl/draw.h"
-#include "gl/pass.h"
-#include "gl/program.h"
 #include "gl/texture.h"
 #include "scene/gpu_scene.h"
-#include "shared/bindings.h"
 
 namespace conelight::view {
 
@@ -23,14 +23,13 @@ class GBuffer {
   public:
     GBuffer(int width, int height);
 
-    // The frame block (BINDING_FRAME) and the scene's tables must be bound. `cullBackFaces`: single-sided
-    // materials are seen from their front only (the thesis's program; DESIGN's modes show back faces of
-    // closed objects as well: false).
-    void draw(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
+    // `frameBlock` holds gpu::FrameConstants. `cullBackFaces`: single-sided materials are seen from their
+    // front only. GL state changed: raster state, vertex array, program and its slots, texture units of
+    // materials.
+    void draw(const gl::Device& device, const scene::GpuScene& scene, const gl::Buffer& frameBlock,
               bool cullBackFaces);
 
-    // Binds both textures, at `unit` and the next; lib/gbuffer.glsl expects UNIT_GBUFFER.
-    void bind(unsigned unit = UNIT_GBUFFER) const;
+    void declare(gl::Inputs& inputs) const;  // gbufferGeometry, gbufferMaterial
 
     int width() const { return width_; }
     int height() const { return height_; }

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "voxels/octant_words.h"
 
-#include "base/assert.h"
 #include "gl/gl.h"
-#include "shared/bindings.h"
 
 namespace conelight::voxels {
 namespace {
@@ -11,13 +9,10 @@ namespace {
 gl::ProgramDesc masksDesc() { return {{"voxels/octant_masks.comp.glsl"}, {}}; }
 gl::ProgramDesc reachDesc() { return {{"voxels/octant_reach.comp.glsl"}, {}}; }
 
-// shaders/voxels/octant_rows.glsl
-constexpr unsigned kRows = 9, kUnitRows = 8;
-
 }  // namespace
 
-void OctantWords::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const SurfaceVoxels& surface) {
-    const gl::PassScope pass(profiler, "octant words");
+void OctantWords::build(const gl::Device& device, const SurfaceVoxels& surface) {
+    const gl::PassScope pass(device.profiler, "octant words");
     const glm::ivec3 bricks = surface.grid().bricks();
     if (!texture_ || texture_.width() != 8 * bricks.x || texture_.height() != bricks.y ||
         texture_.depth() != bricks.z) {
@@ -38,20 +33,19 @@ void OctantWords::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, co
     rows_.clear();
     const std::uint32_t empty[2] = {OCTANT_REACH, OCTANT_EMPTY};
     texture_.clear(0, GL_RG_INTEGER, GL_UNSIGNED_INT, empty);
-    surface.bind();
-    surface.occupiedBricks().bindStorage(BINDING_STORAGE_PASS);
-    rows_.bindStorage(kRows);
-    texture_.bindImage(0, 0, GL_WRITE_ONLY);
-    programs.get(masksDesc()).dispatchLinear(surface.occupiedBrickCount());
+    gl::Inputs inputs;
+    inputs.add(surface)
+        .storage("RowTable", rows_)
+        .texture("rows", rowTexels_)
+        .image("octants", texture_, gl::ImageUse::Write);
+    device.get(masksDesc()).dispatchLinear(inputs, surface.occupiedBrickCount());
     gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
-    rowTexels_.bind(kUnitRows);
-    programs.get(reachDesc()).dispatchLinear(rowWords);
+    device.get(reachDesc()).dispatchLinear(inputs, rowWords);
     gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
 }
 
-void OctantWords::bind() const {
-    CONELIGHT_ASSERT(texture_, "OctantWords::bind before build");
-    texture_.bindImage(IMAGE_VOXEL_OCTANTS, 0, GL_READ_ONLY);
+void OctantWords::declare(gl::Inputs& inputs) const {
+    inputs.image("voxelOctants", texture_, gl::ImageUse::Read);
 }
 
 std::vector<gl::ProgramDesc> OctantWords::programDescs() { return {masksDesc(), reachDesc()}; }

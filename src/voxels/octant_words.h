@@ -8,8 +8,7 @@
 
 #include <vector>
 
-#include "gl/pass.h"
-#include "gl/program.h"
+#include "gl/device.h"
 #include "gl/texture.h"
 #include "voxels/surface_voxels.h"
 
@@ -17,17 +16,19 @@ namespace conelight::voxels {
 
 class OctantWords {
   public:
-    // GL state changed: program, image 0, BINDING_STORAGE_PASS, storage slot 9, texture unit 8, what
-    // SurfaceVoxels::bind binds. Ends with the barrier for texture fetches and image loads.
-    void build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const SurfaceVoxels& surface);
+    // Ends with the barrier for texture fetches and image loads.
+    void build(const gl::Device& device, const SurfaceVoxels& surface);
 
-    void bind() const;  // IMAGE_VOXEL_OCTANTS
+    // What shaders may read: voxelOctants.
+    void declare(gl::Inputs& inputs) const;
 
     const gl::Texture& texture() const { return texture_; }
 
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
+    void reserve(const glm::ivec3& bricks);
+
     gl::Texture texture_;
     gl::Buffer rows_;
     gl::Texture rowTexels_;

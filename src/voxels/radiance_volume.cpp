@@ -6,13 +6,9 @@
 
 #include "base/assert.h"
 #include "gl/gl.h"
-#include "shared/bindings.h"
 
 namespace conelight::voxels {
 namespace {
-
-constexpr unsigned kImageSource = 0;
-constexpr unsigned kImageTarget = 1;
 
 // Levels of which only the texels of occupied bricks are computed; the rest is cleared. Level 2 is one texel
 // per brick of 4^3.
@@ -75,44 +71,46 @@ RadianceVolume::RadianceVolume(const RadianceLayout& layout)
         texture_.parameter(axis, GL_CLAMP_TO_EDGE);
 }
 
-void RadianceVolume::build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const SurfaceVoxels& surface,
-                           OpacityModel opacity) {
+void RadianceVolume::build(const gl::Device& device, const SurfaceVoxels& surface, OpacityModel opacity) {
     CONELIGHT_ASSERT(surface.grid() == layout_.grid, "the volume is laid out for another grid");
-    block_.bindUniform(BINDING_RADIANCE_VOLUME);
     {
-        gl::PassScope pass(profiler, "radiance volume");
+        const gl::PassScope pass(device.profiler, "radiance volume");
         for (int level = 0; level <= std::min(kSparseLevels, layout_.maxLevel); ++level)
             texture_.clear(level, GL_RGBA, GL_FLOAT, nullptr);
-        texture_.bindImage(kImageTarget, 0, GL_WRITE_ONLY);
-        programs.get(scatterDesc(layout_.blocks)).dispatchLinear(surface.voxelCount());
+        gl::Inputs inputs;
+        inputs.add(surface)
+            .uniform("RadianceVolumeBlock", block_)
+            .image("level0", texture_, gl::ImageUse::Write);
+        device.get(scatterDesc(layout_.blocks)).dispatchLinear(inputs, surface.voxelCount());
     }
-    gl::PassScope pass(profiler, "radiance levels");
-    buildLevels(programs, surface, opacity);
+    const gl::PassScope pass(device.profiler, "radiance levels");
+    buildLevels(device, surface, opacity);
     gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
 }
 
-void RadianceVolume::buildLevels(gl::ProgramLibrary& programs, const SurfaceVoxels& surface,
+void RadianceVolume::buildLevels(const gl::Device& device, const SurfaceVoxels& surface,
                                  OpacityModel opacity) {
-    surface.occupiedBricks().bindStorage(BINDING_STORAGE_PASS);
     for (int level = 1; level <= layout_.maxLevel; ++level) {
         gl::barrier(gl::Access::ImageAccess);
-        texture_.bindImage(kImageSource, level - 1, GL_READ_ONLY);
-        texture_.bindImage(kImageTarget, level, GL_WRITE_ONLY);
+        gl::Inputs inputs;
+        inputs.add(surface)
+            .uniform("RadianceVolumeBlock", block_)
+            .image("fine", texture_, gl::ImageUse::Read, level - 1)
+            .image("coarse", texture_, gl::ImageUse::Write, level);
         const bool sparse = level <= kSparseLevels;
-        const gl::Program& program = programs.get(levelDesc(layout_.blocks, opacity, sparse));
+        const gl::Program& program = device.get(levelDesc(layout_.blocks, opacity, sparse));
         if (sparse) {
             const std::size_t texelsPerBrick = level == 1 ? 8 : 1;
-            program.dispatchLinear(surface.occupiedBrickCount() * texelsPerBrick *
-                                   static_cast<std::size_t>(layout_.blocks));
+            program.dispatchLinear(inputs, surface.occupiedBrickCount() * texelsPerBrick *
+                                               static_cast<std::size_t>(layout_.blocks));
         } else {
-            program.dispatch(texture_.width(level), texture_.height(level), texture_.depth(level));
+            program.dispatch(inputs, texture_.width(level), texture_.height(level), texture_.depth(level));
         }
     }
 }
 
-void RadianceVolume::bind() const {
-    block_.bindUniform(BINDING_RADIANCE_VOLUME);
-    texture_.bind(UNIT_RADIANCE_VOLUME);
+void RadianceVolume::declare(gl::Inputs& inputs) const {
+    inputs.uniform("RadianceVolumeBlock", block_).texture("radianceVolume", texture_);
 }
 
 std::vector<gl::ProgramDesc> RadianceVolume::programDescs() {

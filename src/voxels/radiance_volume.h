@@ -15,8 +15,7 @@
 
 #include "conelight/settings.h"
 #include "gl/buffer.h"
-#include "gl/pass.h"
-#include "gl/program.h"
+#include "gl/device.h"
 #include "gl/texture.h"
 #include "shared/radiance_volume.h"
 #include "voxels/surface_voxels.h"
@@ -43,13 +42,12 @@ class RadianceVolume {
     // Allocates all levels; contents undefined until build().
     explicit RadianceVolume(const RadianceLayout& layout);
 
-    // Fills every level from the faces' radiance + albedo * irradiance. `surface` must have the layout's grid
-    // and be bound. GL state changed: program, storage and image bindings of passes.
-    void build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const SurfaceVoxels& surface,
-               OpacityModel opacity);
+    // Fills every level from the faces' radiance + albedo * irradiance. `surface` must have the layout's
+    // grid.
+    void build(const gl::Device& device, const SurfaceVoxels& surface, OpacityModel opacity);
 
-    // BINDING_RADIANCE_VOLUME and UNIT_RADIANCE_VOLUME.
-    void bind() const;
+    // What shaders may read: RadianceVolumeBlock, radianceVolume.
+    void declare(gl::Inputs& inputs) const;
 
     const RadianceLayout& layout() const { return layout_; }
     const gl::Texture& texture() const { return texture_; }
@@ -57,7 +55,7 @@ class RadianceVolume {
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
-    void buildLevels(gl::ProgramLibrary& programs, const SurfaceVoxels& surface, OpacityModel opacity);
+    void buildLevels(const gl::Device& device, const SurfaceVoxels& surface, OpacityModel opacity);
 
     RadianceLayout layout_;
     gl::Texture texture_;

@@ -26,13 +26,19 @@ constexpr double kOtherNear = 0.5;
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
+struct Ray {
+    glm::dvec3 origin, direction;
+    double tMax;
+    glm::dvec3 leaves;  // normal of the surface that it starts from, or 0
+};
+
 struct Search {
     VoxelHit hit;
     double weight = 0;
 };
 
-void testFaces(const VoxelTables& voxels, const glm::ivec3& voxel, const glm::dvec3& origin,
-               const glm::dvec3& direction, double tMax, const glm::dvec3& leaves, Search& s) {
+void testFaces(const VoxelTables& voxels, const glm::ivec3& voxel, const Ray& ray, Search& s) {
+    const auto& [origin, direction, tMax, leaves] = ray;
     const std::uint32_t record = voxels.record(voxel);
     std::uint32_t face = record & 0x3ffffffu;
     for (int k = 0; k < 6; ++k) {
@@ -126,7 +132,7 @@ VoxelHit traceVoxels(const VoxelTables& voxels, const glm::dvec3& origin, const 
     }
     while (true) {
         if (voxels.has(cell)) {
-            testFaces(voxels, cell, origin, direction, tMax, leaves, search);
+            testFaces(voxels, cell, {origin, direction, tMax, leaves}, search);
             if (search.hit.face >= 0) return search.hit;
         }
         const int axis = next.x <= next.y && next.x <= next.z ? 0 : (next.y <= next.z ? 1 : 2);

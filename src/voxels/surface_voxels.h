@@ -14,13 +14,14 @@
 #include <memory>
 #include <vector>
 
+#include "base/revision.h"
 #include "conelight/settings.h"
 #include "gl/buffer.h"
-#include "gl/pass.h"
-#include "gl/program.h"
+#include "gl/device.h"
 #include "gl/texture.h"
 #include "scene/gpu_scene.h"
 #include "voxels/voxel_grid.h"
+#include "voxels/voxel_keys.h"
 
 namespace conelight::voxels {
 
@@ -39,24 +40,26 @@ class SurfaceVoxels {
     SurfaceVoxels(SurfaceVoxels&&) noexcept;
     SurfaceVoxels& operator=(SurfaceVoxels&&) noexcept;
 
-    // Voxelizes `scene` anew into its grid (gridOf, or `grid`), cheap enough for every frame:
-    // memory is kept and only grows. Waits for the GPU once, to read the counts. Radiance of every face is
-    // its emission, irradiance zero. GL state changed: program, storage bindings 0-4 and 8-15,
-    // BINDING_VOXEL_GRID, BINDING_PASS, the surface array's unit, units UNIT_PASS and up to UNIT_PASS + 7.
-    // Leaves the results visible to later shaders, as storage, textures and indirect arguments.
-    void build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
-               const VoxelSettings& settings);
-    void build(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
-               const VoxelGrid& grid);
+    // Voxelizes `scene` anew into its grid (gridOf, or `grid`), cheap enough for every frame: from the second
+    // call on memory is kept and only grows. Waits for the GPU once, to read the counts. Radiance of every
+    // face is its emission, irradiance zero. Leaves the results visible to later shaders, as storage,
+    // textures and indirect arguments.
+    void build(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings);
+    void build(const gl::Device& device, const scene::GpuScene& scene, const VoxelGrid& grid);
 
     // As build(), but does again only what `scene` has changed since the last build or update: bit for bit
     // the same voxels, light apart. Faces of voxels in which nothing changed keep their radiance and
     // irradiance; the others get their emission and zero. Falls back to build() for another scene or grid,
     // when materials need another variant of the passes, when more than half of the triangles changed, and
-    // when a list has become too small. Buffers and textures may be others than before (bind() again). GL
-    // state changed: as build(), and units up to UNIT_PASS + 7.
-    void update(gl::ProgramLibrary& programs, gl::Profiler& profiler, const scene::GpuScene& scene,
-                const VoxelSettings& settings);
+    // when a list has become too small. Does nothing when nothing changed.
+    void update(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings);
+
+    // Raised by each build(), and by each update() that changed voxels; none before the first. Buffers and
+    // textures may be others at another revision.
+    base::Revision revision() const;
+    const VoxelKeys& keys() const;
+    // Those of the voxels before the last change; null when there were none.
+    const VoxelKeys* previous() const;
 
     // Of the last build or update: bit i % 32 of word i / 32 is set when something changed in brick i
     // (brickIndex); all are set after a build.
@@ -66,10 +69,11 @@ class SurfaceVoxels {
     // The grid fitted to the scene as it was handed over, grown by whole bricks to what has left it since.
     static VoxelGrid gridOf(const scene::GpuScene& scene, const VoxelSettings& settings);
 
-    // Binds the grid block and the slots BINDING_VOXEL_* and UNIT_VOXEL_* of shared/voxels.h.
-    void bind() const;
-    // Binds what rays need that meet triangles: the slots UNIT_VOXEL_CHAINS to UNIT_VOXEL_TRIANGLES.
-    void bindTriangles() const;
+    // What shaders may read: VoxelGridBlock, voxelBricks, voxelBrickImage, voxelRecords, voxelFaces,
+    // voxelFaceSources; and as storage RecordTable, FaceTable, SourceTable, BrickTable (the occupied bricks).
+    void declare(gl::Inputs& inputs) const;
+    // What rays read that meet triangles: voxelChains, voxelFragments, voxelPairs, voxelTriangles.
+    void declareTriangles(gl::Inputs& inputs) const;
 
     const VoxelGrid& grid() const;
     std::uint32_t voxelCount() const;  // occupied voxels
@@ -77,20 +81,15 @@ class SurfaceVoxels {
     std::uint32_t occupiedBrickCount() const;
     std::uint32_t fragmentCount() const;  // pairs (triangle, voxel)
 
-    const gl::Texture& brickWords() const;  // RGBA32UI, size of grid().bricks()
-    const gl::Buffer& records() const;      // voxRec; voxelCount() uints are in use
-    const gl::Buffer& faces() const;        // gpu::FaceRecord; faceCount() are in use
-    const gl::Buffer& faceSources() const;  // two uints per face
-    // Each a uint per face for others to use until the next build or update, which needs it itself.
-    const gl::Buffer& faceScratch() const;
-    const gl::Buffer& secondFaceScratch() const;
-    const gl::Buffer& occupiedBricks()
-        const;  // packVoxel(brick) of each occupied brick, in order of brick index
+    const gl::Texture& brickWords() const;     // RGBA32UI, size of grid().bricks()
+    const gl::Buffer& records() const;         // voxRec; voxelCount() uints are in use
+    const gl::Buffer& faces() const;           // gpu::FaceRecord; faceCount() are in use
+    const gl::Buffer& faceSources() const;     // two uints per face
+    const gl::Buffer& occupiedBricks() const;  // packVoxel(brick) of each, in order of brick index
 
     static std::vector<gl::ProgramDesc> programDescs();
 
-    // The voxelizer's own work list, for tests: 32 bytes per fragment, see
-    // shaders/voxels/surface_clip.comp.glsl.
+    // The voxelizer's own list, for tests: 32 bytes per fragment, see shaders/voxels/surface_clip.comp.glsl.
     const gl::Buffer& fragments() const;
 
   private:

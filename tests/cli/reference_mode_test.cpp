@@ -86,7 +86,7 @@ TEST(ReferenceMode, InterruptWritesWhatThereIs) {
     std::filesystem::remove(out);
     // Before its first pass there is nothing to write: a busy machine is given longer.
     CommandResult result;
-    for (int seconds = 2; seconds <= 64 && !std::filesystem::exists(out); seconds *= 2) {
+    for (int seconds = 2; seconds <= 1024 && !std::filesystem::exists(out); seconds *= 2) {
         result = runCommand("timeout --preserve-status -s INT " + std::to_string(seconds) + " '" +
                             std::string(CONELIGHT_PROGRAM) + "' render builtin:cornell -o '" + out +
                             "' --mode reference --size 64x48 --spp 1000000");

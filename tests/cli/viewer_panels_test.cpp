@@ -541,13 +541,22 @@ TEST_F(ViewerPanelsTest, ShadersAreBuiltAgainWhenTheyChange) {
     const std::string file = folder + "/gather/phong_shade.comp.glsl";
     const std::string text = bytesOf(file);
     ASSERT_NE(text, "");
-    std::this_thread::sleep_for(std::chrono::milliseconds(1200));  // it has looked at the folder once
-    std::ofstream(file) << text << "\nbroken";
-    EXPECT_TRUE(heard("phong_shade.comp.glsl: does not compile")) << viewer->output();
+    // Until it has looked at the folder once, a change is none: the file is written again until one was seen.
+    const auto writeUntil = [&](const std::string& content, const std::string& line) {
+        const std::size_t from = viewer->output().size();
+        return eventually([&] {
+            std::ofstream(file) << content;
+            for (int i = 0; i < 20 && viewer->output().find(line, from) == std::string::npos; ++i) {
+                std::this_thread::sleep_for(std::chrono::milliseconds(100));
+                viewer->status("frames");
+            }
+            return viewer->output().find(line, from) != std::string::npos;
+        });
+    };
+    EXPECT_TRUE(writeUntil(text + "\nbroken", "phong_shade.comp.glsl: does not compile")) << viewer->output();
     settle();
     EXPECT_TRUE(near(shownAt(at), lit, 3)) << "the picture stays";
-    std::ofstream(file) << text;
-    EXPECT_TRUE(heard("shaders: built again")) << viewer->output();
+    EXPECT_TRUE(writeUntil(text, "shaders: built again")) << viewer->output();
     viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
 }

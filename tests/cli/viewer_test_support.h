@@ -66,16 +66,22 @@ class ViewerTest : public ::testing::Test {
         ASSERT_GT(place.z, 0) << viewer->output();
         click(glm::ivec2(place) + glm::ivec2(place.z, place.w) / 2);
     }
-    // As by someone who looks at the screen: waits until all of it stands in the box (x y width height).
+    // As by someone who looks at the screen: waits until all of it stands in the box (x y width height), that
+    // is, nothing changes there any more while the program draws or waits for input. Commands may be waiting.
     void type(const std::string& text, const glm::ivec4& box) {
         screen->xdotool("type --delay 30 '" + text + "'");
         int still = 0;
-        ScreenPixels last = screen->pixels();
+        ScreenPixels rest = screen->pixels();
+        double cpuMs = viewer->cpuMs();
         EXPECT_TRUE(eventually([&] {
             std::this_thread::sleep_for(std::chrono::milliseconds(100));
+            // 50 ms of its own time are a frame or more, chosen for the small window.
+            if (!viewer->waits() && viewer->cpuMs() < cpuMs + 50) return false;
+            cpuMs = viewer->cpuMs();
             const ScreenPixels now = screen->pixels();
-            still = now.changedFrom(last, box) <= 2 * box.w ? still + 1 : 0;  // a cursor blinks
-            last = now;
+            const bool same = now.changedFrom(rest, box) <= 2 * box.w;  // a cursor blinks
+            still = same ? still + 1 : 0;
+            if (!same) rest = now;
             return still == 5;
         })) << text;
     }

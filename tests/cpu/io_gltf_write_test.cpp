@@ -43,11 +43,11 @@ void expectSameMaterial(const Material& a, const Material& b, const Scene& from,
     EXPECT_EQ(a.alphaMode, b.alphaMode);
     EXPECT_EQ(a.doubleSided, b.doubleSided);
     EXPECT_EQ(a.unlit, b.unlit);
-    EXPECT_EQ(a.isPhong, b.isPhong);
-    if (b.isPhong) {
-        EXPECT_EQ(a.phong.color, b.phong.color);
-        EXPECT_EQ(a.phong.shininess, b.phong.shininess);
-        EXPECT_EQ(a.phong.specularStrength, b.phong.specularStrength);
+    ASSERT_EQ(a.phong.has_value(), b.phong.has_value());
+    if (b.phong) {
+        EXPECT_EQ(a.phong->color, b.phong->color);
+        EXPECT_EQ(a.phong->shininess, b.phong->shininess);
+        EXPECT_EQ(a.phong->specularStrength, b.phong->specularStrength);
     }
     ASSERT_EQ(a.baseColorTexture.used(), b.baseColorTexture.used());
     if (!b.baseColorTexture.used()) return;
@@ -63,7 +63,7 @@ void expectSameMaterial(const Material& a, const Material& b, const Scene& from,
 
 void expectSame(const Scene& read, const Scene& written) {
     EXPECT_EQ(read.sky, written.sky);
-    EXPECT_EQ(read.thesisFormat, written.thesisFormat);
+    EXPECT_EQ(read.format, written.format);
     EXPECT_EQ(read.settings, written.settings);
     ASSERT_EQ(read.instances.size(), written.instances.size());
     EXPECT_EQ(read.triangleCount(), written.triangleCount());
@@ -126,13 +126,12 @@ TEST(GltfWrite, EveryGeneratedSceneComesBack) {
 
 TEST(GltfWrite, WhatGltfHasNoWordsForComesBackAndIsNamed) {
     Scene scene = io::loadScene("builtin:cornell");
-    scene.thesisFormat = true;
+    scene.format = "thesis";
     scene.settings = {{"voxels.size", "64"}, {"image.exposure", "1"}};
     scene.sky = {0.25f, 0.5f, 1};
     scene.instances[0].castsShadow = false;
     scene.instances[1].dynamic = true;
-    scene.materials[0].isPhong = true;
-    scene.materials[0].phong.shininess = 17;
+    scene.materials[0].phong.emplace().shininess = 17;
     Light rect;
     rect.name = "panel";
     rect.type = LightType::Rect;

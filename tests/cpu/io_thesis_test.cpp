@@ -30,7 +30,7 @@ void expectNear(const glm::vec3& a, const glm::vec3& b, float tolerance = 1e-5f)
 
 TEST(Thesis, DefaultsOfModelMaterialAndLight) {
     const Scene scene = loadText("scene = { model = { primitive = cube } light = { name = l } }");
-    EXPECT_TRUE(scene.thesisFormat);
+    EXPECT_EQ(scene.format, "thesis");
     EXPECT_EQ(scene.name, "unnamedScene");
     ASSERT_EQ(scene.instances.size(), 1u);
     const Instance& instance = scene.instances[0];
@@ -39,13 +39,13 @@ TEST(Thesis, DefaultsOfModelMaterialAndLight) {
     EXPECT_TRUE(instance.voxelized);
     EXPECT_EQ(instance.worldFromObject, glm::mat4(1.0f));
     const Material& m = scene.materials.at(std::size_t(instance.material));
-    EXPECT_TRUE(m.isPhong);
+    ASSERT_TRUE(m.phong.has_value());
     EXPECT_FALSE(m.unlit);
-    expectNear(m.phong.color, {0.85f, 0.85f, 0.85f});
-    EXPECT_EQ(m.phong.shininess, 32.0f);
-    EXPECT_EQ(m.phong.ambientStrength, 0.08f);
-    EXPECT_EQ(m.phong.diffuseStrength, 1.0f);
-    EXPECT_EQ(m.phong.specularStrength, 0.5f);
+    expectNear(m.phong->color, {0.85f, 0.85f, 0.85f});
+    EXPECT_EQ(m.phong->shininess, 32.0f);
+    EXPECT_EQ(m.phong->ambientStrength, 0.08f);
+    EXPECT_EQ(m.phong->diffuseStrength, 1.0f);
+    EXPECT_EQ(m.phong->specularStrength, 0.5f);
     ASSERT_EQ(scene.lights.size(), 1u);
     expectNear(scene.lights[0].intensity, {kPi, kPi, kPi});
     expectNear(scene.lights[0].position, {0, 0, 0});
@@ -88,7 +88,7 @@ TEST(Thesis, LexingQuirksOfTheOriginal) {
     ASSERT_EQ(scene.instances.size(), 2u) << "models are all used, names may repeat";
     EXPECT_EQ(scene.name, "s");
     EXPECT_FLOAT_EQ(scene.instances[0].worldFromObject[0][0], 0.5f);
-    expectNear(scene.materials[0].phong.color, {0.4f, 0.5f, 1.0f});
+    expectNear(scene.materials[0].phong->color, {0.4f, 0.5f, 1.0f});
     EXPECT_FALSE(scene.instances[0].visible);
     EXPECT_FALSE(scene.instances[1].visible) << "only 'true' is true";
     EXPECT_TRUE(hasNote(scene, "only 'true' is true"));
@@ -290,7 +290,7 @@ TEST(Thesis, ReadsTheOriginalsScenes) {
     for (const Material& material : complex.materials)
         if (material.name == "RightWall") {
             found = true;
-            expectNear(material.phong.color, {0.4f, 1.0f, 0.4f});
+            expectNear(material.phong->color, {0.4f, 1.0f, 0.4f});
         }
     EXPECT_TRUE(found);
 }

@@ -3,12 +3,12 @@
 #include "console/line_reader.h"
 
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <unistd.h>
 
 #include <atomic>
 #include <chrono>
-#include <ctime>
+#include <filesystem>
+#include <iterator>
 #include <thread>
 #include <vector>
 
@@ -33,11 +33,14 @@ struct Pipe {
 
 void sleepMs(int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); }
 
-// Waits for so many lines, ten seconds at most.
+// Rounds of 2 ms: only what hangs waits for so many.
+constexpr int kPatience = 300000;
+
+// Waits for so many lines.
 std::vector<std::string> lines(LineReader& reader, std::size_t count) {
     std::vector<std::string> all;
     std::string line;
-    for (int i = 0; i < 5000 && all.size() < count; ++i) {
+    for (int i = 0; i < kPatience && all.size() < count; ++i) {
         while (reader.take(line)) all.push_back(line);
         if (all.size() < count) sleepMs(2);
     }
@@ -45,14 +48,14 @@ std::vector<std::string> lines(LineReader& reader, std::size_t count) {
 }
 
 bool endsSoon(LineReader& reader) {
-    for (int i = 0; i < 5000 && !reader.ended(); ++i) sleepMs(2);
+    for (int i = 0; i < kPatience && !reader.ended(); ++i) sleepMs(2);
     return reader.ended();
 }
 
-double threadsCpuMs() {
-    timespec now{};
-    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-    return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+// Threads of this process.
+std::ptrdiff_t threads() {
+    namespace fs = std::filesystem;
+    return std::distance(fs::directory_iterator("/proc/self/task"), fs::directory_iterator());
 }
 
 TEST(LineReader, LinesComeWholeAndInOrder) {
@@ -85,21 +88,21 @@ TEST(LineReader, ManyLinesGetThrough) {
     for (int i = 0; i < 20000; ++i) ASSERT_EQ(all[static_cast<std::size_t>(i)], std::to_string(i));
 }
 
+// At the end of input its thread ends: nothing is left that could spin.
 TEST(LineReader, EndOfInputDoesNotSpin) {
     Pipe pipe;
+    const std::ptrdiff_t before = threads();
     LineReader reader(pipe.ends[0]);
+    EXPECT_EQ(threads(), before + 1);
     pipe.closeWriter();
     ASSERT_TRUE(endsSoon(reader));
-    const double before = threadsCpuMs();
-    sleepMs(300);
-    EXPECT_LT(threadsCpuMs() - before, 60);  // a thread that spins uses 300
+    for (int i = 0; i < kPatience && threads() > before; ++i) sleepMs(2);
+    EXPECT_EQ(threads(), before);
 }
 
 TEST(LineReader, EndsWhileNothingIsTyped) {
     Pipe pipe;
-    const auto start = std::chrono::steady_clock::now();
-    { LineReader reader(pipe.ends[0]); }
-    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+    LineReader reader(pipe.ends[0]);  // a destructor that waits for a line would hang here
 }
 
 }  // namespace

@@ -255,7 +255,8 @@ TEST(Session, VoxelFlagsChangeWhatIsShown) {
     flags = {};
     flags.localizedLod = true;
     s.setFlags(flags, "lod");
-    EXPECT_EQ(s.shownSettings().thesis.voxelView, ThesisVoxelView::Surfaces);
+    EXPECT_EQ(s.shownSettings().component, Component::Voxels);
+    EXPECT_EQ(s.shownSettings().view.voxelShape, VoxelShape::Surfaces);
     s.setMode("cones");
     EXPECT_EQ(s.shownMode(), "thesis");
     flags = {};
@@ -286,7 +287,7 @@ TEST(Session, WireframeFlagsChangeWhatIsShown) {
 
 TEST(Session, StartSettingsFollowTheModeUnlessTouched) {
     Scene scene = twoSquares();
-    scene.thesisFormat = true;
+    scene.format = "thesis";
     const Camera camera = scene.cameras.front();
     const Settings start = startSettings(scene);
     Session s(std::move(scene), "t.txt", start, "", camera);

@@ -28,50 +28,26 @@ std::string failureOf(const std::string& key, const std::string& value) {
     return "";
 }
 
-std::vector<std::string> split(const std::string& text, char at) {
-    std::vector<std::string> parts(1);
-    for (const char c : text) {
-        if (c == at)
-            parts.emplace_back();
-        else
-            parts.back().push_back(c);
-    }
-    return parts;
-}
-
-// The two ends of "0.1..2", "0, 64..8192", "8..512 by 4" or "auto, 0..1e+06".
-std::pair<double, double> endsOf(const std::string& range) {
-    const std::size_t comma = range.find(", ");
-    const std::string numbers = comma == std::string::npos ? range : range.substr(comma + 2);
-    const std::size_t dots = numbers.find("..");
-    EXPECT_NE(dots, std::string::npos) << range;
-    return {std::stod(numbers), std::stod(numbers.substr(dots + 2))};
-}
-
-bool isNumber(const SettingInfo& info) {
-    return info.type == "int" || info.type == "float" || info.type == "auto float";
+std::string textOf(double value) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.9g", value);
+    return text;
 }
 
 // Values that the setting must take, from its own description.
 std::vector<std::string> goodValues(const SettingInfo& info) {
-    if (!isNumber(info)) return split(info.range, ',');
-    if (info.range.find("..") == std::string::npos) return split(info.range, ',');
-    std::vector<std::string> values{info.defaultValue};
-    const auto [low, high] = endsOf(info.range);
-    char text[64];
-    for (const double value : {low, high}) {
-        std::snprintf(text, sizeof text, "%.9g", value);
-        values.emplace_back(text);
-    }
-    if (info.type == "auto float") values.emplace_back("auto");
-    if (info.range.rfind("0, ", 0) == 0) values.emplace_back("0");
+    if (!info.isNumber()) return info.choices;
+    std::vector<std::string> values{info.defaultValue, textOf(info.low), textOf(info.high)};
+    if (!info.word.empty()) values.push_back(info.word);
+    if (info.zeroToo) values.emplace_back("0");
+    for (int root = 1; info.squares && root * root <= info.high; ++root)
+        values.push_back(std::to_string(root * root));
     return values;
 }
 
 }  // namespace
 
 TEST(SettingsTest, EachHasWhatTheManualShows) {
-    const std::set<std::string> types{"bool", "int", "float", "auto float", "choice"};
     const std::set<std::string> units{"",          "rad",   "m",   "voxels",  "texels", "stops", "footprints",
                                       "diameters", "cones", "deg", "samples", "steps",  "faces"};
     std::set<std::string> keys;
@@ -79,17 +55,18 @@ TEST(SettingsTest, EachHasWhatTheManualShows) {
         EXPECT_TRUE(keys.insert(info.key).second) << info.key << " twice";
         EXPECT_EQ(info.key.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789._"), std::string::npos)
             << info.key;
-        EXPECT_TRUE(types.count(info.type)) << info.key << ": " << info.type;
         EXPECT_TRUE(units.count(info.unit))
             << info.key << ": unit '" << info.unit << "'; add it here if it is one";
-        EXPECT_FALSE(info.range.empty()) << info.key;
+        EXPECT_FALSE(rangeText(info).empty()) << info.key;
         EXPECT_FALSE(info.defaultValue.empty()) << info.key;
         EXPECT_GE(info.help.size(), 10u) << info.key;
         EXPECT_EQ(info.help.find('\n'), std::string::npos) << info.key;
         EXPECT_NE(info.help.back(), '.') << info.key << ": a phrase, no sentence";
-        if (isNumber(info) && info.range.find("..") != std::string::npos) {
-            EXPECT_LT(endsOf(info.range).first, endsOf(info.range).second) << info.key;
-        }
+        if (info.isNumber())
+            EXPECT_LT(info.low, info.high) << info.key;
+        else
+            EXPECT_GE(info.choices.size(), 2u) << info.key;
+        EXPECT_EQ(findSetting(info.key), &info);
     }
     EXPECT_GE(keys.size(), 20u);
 }
@@ -117,19 +94,18 @@ TEST(SettingsTest, QualityFillsInItsGroup) {
     setSetting(settings, "traced.pixel_rays", "5");
     EXPECT_EQ(settings.traced.pixelRays, 5);
     setSetting(settings, "traced.quality", "interactive");
-    setSetting(settings, "traced.bounces", "16");
+    setSetting(settings, "traced.bounces", "all");
     setSetting(settings, "traced.budgeted", "false");
     EXPECT_EQ(settings.traced, TracedSettings{});
 }
 
 TEST(SettingsTest, EachTakesItsRangeAndGivesItBack) {
     for (const SettingInfo& info : settingInfos()) {
-        if (info.key == "traced.quality") continue;  // sets others as well: the test above
         for (const std::string& value : goodValues(info)) {
             Settings settings;
             ASSERT_NO_THROW(setSetting(settings, info.key, value)) << info.key << "=" << value;
             const std::string text = getSetting(settings, info.key);
-            if (!isNumber(info) || value == "auto")
+            if (!info.isNumber() || value == info.word)
                 EXPECT_EQ(text, value) << info.key;
             else
                 EXPECT_EQ(std::stof(text), std::stof(value)) << info.key;
@@ -159,12 +135,13 @@ TEST(SettingsTest, FloatsKeepEveryBit) {
 TEST(SettingsTest, EachRejectsWhatIsOutOfRange) {
     for (const SettingInfo& info : settingInfos()) {
         std::vector<std::string> bad{"", " ", "nonsense", "nan", "inf", "1e999", "--1", "0x10", "1,5", "1 "};
-        if (isNumber(info) && info.range.find("..") != std::string::npos) {
-            const auto [low, high] = endsOf(info.range);
-            bad.push_back(std::to_string(low - 1));
-            bad.push_back(std::to_string(high + 1));
+        if (info.isNumber()) {
+            bad.push_back(std::to_string(info.low - 1));
+            // The number after the last bounce is read as `all`.
+            bad.push_back(std::to_string(info.high + (info.word == "all" ? 2 : 1)));
         }
-        if (info.type == "int") bad.insert(bad.end(), {"1.5", "1e10", "-99999999999999", "2147483648"});
+        if (info.kind == SettingKind::Int)
+            bad.insert(bad.end(), {"1.5", "1e10", "-99999999999999", "2147483648"});
         for (const std::string& value : bad) {
             Settings settings;
             EXPECT_THROW(setSetting(settings, info.key, value), Error) << info.key << "='" << value << "'";
@@ -229,8 +206,94 @@ TEST(SettingsTest, ValuesWrittenIntoTheStructsAreChecked) {
     EXPECT_NE(failure([](Settings& s) { s.image.exposure = std::numeric_limits<float>::quiet_NaN(); }), "");
     EXPECT_NE(failure([](Settings& s) { s.cones.maxDistance = {false, -1.0f}; }), "");
     EXPECT_EQ(failure([](Settings& s) { s.cones.maxDistance = {true, -1.0f}; }), "");
-    EXPECT_NE(failure([](Settings& s) { s.mode = static_cast<Mode>(99); }), "");
+    EXPECT_NE(failure([](Settings& s) { s.mode = Mode("nobody"); }), "");
     EXPECT_NE(failure([](Settings& s) { s.light.areaSamples = 2; }), "");
+}
+
+TEST(SettingsTest, RangesAreNumbers) {
+    const SettingInfo& size = *findSetting("voxels.size");
+    EXPECT_EQ(size.kind, SettingKind::Int);
+    EXPECT_EQ(size.low, 8);
+    EXPECT_EQ(size.high, 512);
+    EXPECT_EQ(size.step, 4);
+    EXPECT_EQ(rangeText(size), "8..512 by 4");
+    EXPECT_TRUE(findSetting("light.shadow_size")->zeroToo);
+    EXPECT_EQ(rangeText(*findSetting("light.shadow_size")), "0, 64..8192");
+    EXPECT_TRUE(findSetting("light.area_samples")->squares);
+    EXPECT_EQ(rangeText(*findSetting("light.area_samples")), "1,4,9,16,25,36,49,64");
+    EXPECT_EQ(findSetting("cones.max_distance")->word, "auto");
+    EXPECT_EQ(rangeText(*findSetting("cones.max_distance")), "auto, 0..1e+06");
+    EXPECT_EQ(rangeText(*findSetting("image.tone_map")), "none,reinhard,aces");
+    EXPECT_EQ(rangeText(*findSetting("image.srgb")), "true,false");
+    EXPECT_EQ(findSetting("nothing.of.the.kind"), nullptr);
+}
+
+// Two settings are equal when every value is: each changed value is seen, and setting it back is too.
+TEST(SettingsTest, EqualityLooksAtEveryValue) {
+    for (const SettingInfo& info : settingInfos()) {
+        Settings settings;
+        EXPECT_EQ(settings, Settings{});
+        for (const std::string& value : goodValues(info)) {
+            setSetting(settings, info.key, value);
+            EXPECT_EQ(settings == Settings{}, getSetting(settings, info.key) == info.defaultValue)
+                << info.key << "=" << value;
+        }
+        setSetting(settings, info.key, info.defaultValue);
+        EXPECT_EQ(settings, Settings{}) << info.key;
+    }
+}
+
+TEST(SettingsTest, AutomaticNumbersAreEqualWhateverTheyHold) {
+    EXPECT_EQ((AutoFloat{true, 1}), (AutoFloat{true, 2}));
+    EXPECT_FALSE((AutoFloat{false, 1}) == (AutoFloat{false, 2}));
+    EXPECT_FALSE((AutoFloat{true, 1}) == (AutoFloat{false, 1}));
+}
+
+// The word in the settings is found from the settings: one change makes them nobody's, taking it back undoes
+// that. Bounces and budgeted belong to none.
+TEST(SettingsTest, PresetWordsAreFoundFromTheSettings) {
+    ASSERT_EQ(presetInfos().size(), 1u);
+    const SettingInfo& quality = presetInfos().front();
+    EXPECT_EQ(quality.key, "traced.quality");
+    EXPECT_EQ(quality.defaultValue, "interactive");
+    EXPECT_EQ(findSetting(quality.key), &quality);
+    Settings settings;
+    for (const std::string& word : quality.choices) {
+        setSetting(settings, quality.key, word);
+        EXPECT_EQ(getSetting(settings, quality.key), word);
+        setSetting(settings, "traced.bounces", "2");
+        EXPECT_EQ(getSetting(settings, quality.key), word);
+        const Settings preset = settings;
+        setSetting(settings, "traced.passes", "77");
+        EXPECT_EQ(getSetting(settings, quality.key), "custom");
+        EXPECT_FALSE(qualityOf(settings.traced));
+        setSetting(settings, "traced.passes", getSetting(preset, "traced.passes"));
+        EXPECT_EQ(settings, preset);
+    }
+    EXPECT_EQ(
+        failureOf("traced.quality", "best"),
+        "setting traced.quality: 'best' is not usable; one of draft,interactive,high,converged would be "
+        "right");
+}
+
+// Scripts and files say 16 for all bounces; the value itself is no number.
+TEST(SettingsTest, AllBouncesAreAWord) {
+    Settings settings;
+    EXPECT_EQ(settings.traced.bounces, std::nullopt);
+    setSetting(settings, "traced.bounces", "0");
+    EXPECT_EQ(settings.traced.bounces, 0);
+    for (const char* all : {"all", "16"}) {
+        setSetting(settings, "traced.bounces", "15");
+        EXPECT_EQ(settings.traced.bounces, 15);
+        setSetting(settings, "traced.bounces", all);
+        EXPECT_EQ(settings.traced.bounces, std::nullopt);
+        EXPECT_EQ(getSetting(settings, "traced.bounces"), "all");
+    }
+    EXPECT_EQ(
+        failureOf("traced.bounces", "17"),
+        "setting traced.bounces: '17' is not usable; a whole number from 0 to 15 or all would be right");
+    settings.traced.bounces = 16;
+    EXPECT_THROW(validateSettings(settings), Error);
 }
 
 // The host's locale must not change how numbers are read.

@@ -47,7 +47,7 @@ TEST(ShaderVariantsTest, ExpandedFilesAreWhatTheDriverGets) {
     const std::filesystem::path dir = std::filesystem::path(scratchDir()) / "expanded";
     const std::size_t count = expandAllShaders(dir.string());
     std::set<std::string> texts;
-    for (const gl::ProgramDesc& desc : modes::allShaderVariants())
+    for (const gl::ProgramDesc& desc : modes::pairwiseVariants(modes::allShaderVariants()))
         for (const std::string& file : desc.files)
             texts.insert(gl::expandShader(gl::embeddedShaderProvider(), file, desc.defines).text);
     std::size_t files = 0;
@@ -63,6 +63,22 @@ TEST(ShaderVariantsTest, ExpandedFilesAreWhatTheDriverGets) {
     EXPECT_EQ(files, count);
     EXPECT_GT(files, 0u);
     EXPECT_TRUE(texts.empty()) << "variants that were not written, or two files of one text";
+}
+
+// Every pair of values that any variant has is in one of those that stand for all.
+TEST(ShaderVariantsTest, PairwiseVariantsHaveEveryPair) {
+    const std::vector<gl::ProgramDesc> all = modes::allShaderVariants();
+    const std::vector<gl::ProgramDesc> part = modes::pairwiseVariants(all);
+    const auto pairsOf = [](const std::vector<gl::ProgramDesc>& descs) {
+        std::set<std::string> pairs;
+        for (const gl::ProgramDesc& desc : descs)
+            for (const auto& [a, x] : desc.defines)
+                for (const auto& [b, y] : desc.defines)
+                    pairs.insert(desc.files.back() + ' ' + a + '=' + x + ' ' + b + '=' + y);
+        return pairs;
+    };
+    EXPECT_EQ(pairsOf(all), pairsOf(part));
+    EXPECT_LT(4 * part.size(), all.size());
 }
 
 TEST(ShaderVariantsTest, UnwritableFolderIsAnError) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Scenes written to the thesis's format and read back: the same triangles in the world, materials, lights,
 // cameras, sky and settings; what cannot be kept is said; nothing is written over.
-#include "io/thesis_write.h"
+#include "thesis/format/write.h"
 
 #include <gtest/gtest.h>
 
@@ -40,13 +40,13 @@ void expectNear(const glm::vec3& a, const glm::vec3& b, float tolerance, const s
 }
 
 void expectSameMaterial(Material a, const Material& b, const std::string& name) {
-    EXPECT_TRUE(b.isPhong) << name;
-    if (!a.isPhong) a.phong = phongFromPbr(a);
-    expectNear(a.phong.color, b.phong.color, 1e-6f, name);
-    EXPECT_EQ(a.phong.shininess, b.phong.shininess) << name;
-    EXPECT_EQ(a.phong.ambientStrength, b.phong.ambientStrength) << name;
-    EXPECT_EQ(a.phong.diffuseStrength, b.phong.diffuseStrength) << name;
-    EXPECT_EQ(a.phong.specularStrength, b.phong.specularStrength) << name;
+    EXPECT_TRUE(b.phong.has_value()) << name;
+    a.phong = phongOf(a);
+    expectNear(a.phong->color, b.phong->color, 1e-6f, name);
+    EXPECT_EQ(a.phong->shininess, b.phong->shininess) << name;
+    EXPECT_EQ(a.phong->ambientStrength, b.phong->ambientStrength) << name;
+    EXPECT_EQ(a.phong->diffuseStrength, b.phong->diffuseStrength) << name;
+    EXPECT_EQ(a.phong->specularStrength, b.phong->specularStrength) << name;
     EXPECT_EQ(a.roughness, b.roughness) << name;
     EXPECT_EQ(a.metallic, b.metallic) << name;
     EXPECT_EQ(a.ior, b.ior) << name;

@@ -15,7 +15,7 @@ step(install ${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${WORK_DIR}/prefix
 # Nothing but the public headers may be installed.
 file(GLOB_RECURSE headers RELATIVE ${WORK_DIR}/prefix/include ${WORK_DIR}/prefix/include/*)
 foreach(header IN LISTS headers)
-  if(NOT header MATCHES "^conelight/[a-z_]+\\.h$")
+  if(NOT header MATCHES "^conelight/(thesis/)?[a-z_]+\\.h$")
     message(FATAL_ERROR "embed: ${header} is installed, but is no public header")
   endif()
 endforeach()

@@ -258,21 +258,7 @@ class Host {
     GLuint textures_[6] = {}, framebuffers_[2] = {};
 };
 
-// Sets all state back to what a fresh context has, so that other tests of this process find it.
-class HostStateTest : public GlTest {
-  protected:
-    void SetUp() override {
-        GlTest::SetUp();
-        if (!HasFatalFailure() && !IsSkipped()) fresh_.emplace();
-    }
-    void TearDown() override {
-        fresh_.reset();
-        GlTest::TearDown();
-    }
-
-  private:
-    std::optional<gl::HostStateGuard> fresh_;
-};
+using HostStateTest = GlTest;  // which sets all state back after each test
 
 constexpr char kVertexShader[] = R"(#version 450 core
 void main() { gl_Position = vec4(vec2(gl_VertexID & 1, gl_VertexID >> 1) * 4.0 - 1.0, 0.0, 1.0); }
@@ -283,25 +269,21 @@ void main() { color = vec4(0.25, 0.5, 0.75, 1.0); }
 )";
 constexpr char kComputeShader[] = R"(#version 450 core
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(binding = 0) uniform sampler2D source;
-layout(binding = 0, rgba8) uniform writeonly image2D target;
-layout(std430, binding = 8) buffer Counter { uint count; };
-layout(std140, binding = 2) uniform Scale { vec4 scale; };
+uniform sampler2D source;
+layout(rgba8) uniform writeonly image2D target;
+layout(std430) buffer Counter { uint count; };
+layout(std140) uniform Scale { vec4 scale; };
 void main() {
     imageStore(target, ivec2(gl_GlobalInvocationID.xy), texelFetch(source, ivec2(gl_GlobalInvocationID.xy), 0) * scale);
     atomicAdd(count, 1u);
 }
 )";
 
-}  // namespace
+using Picture = std::vector<std::uint8_t>;  // 64 x 64 RGBA
 
-TEST_F(HostStateTest, PassesUnderTheGuardLeaveNoTrace) {
-    const Host host;
-    const Snapshot before = snapshot();
-    host.set();
-    const Snapshot odd = snapshot();
-    // Proves that the host really changed everything. Of the image units one half is layered and the other is
-    // not, so that of either property (0x8f3c, 0x8f3d) one half keeps the default.
+// Proves that the host really changed everything. Of the image units one half is layered and the other is
+// not, so that of either property (0x8f3c, 0x8f3d) one half keeps the default.
+void expectAllChanged(const Snapshot& before, const Snapshot& odd) {
     int unchanged = 0;
     for (const auto& [key, value] : odd)
         if (value == before.at(key)) {
@@ -310,43 +292,67 @@ TEST_F(HostStateTest, PassesUnderTheGuardLeaveNoTrace) {
                 << key << " was not changed";
         }
     EXPECT_LE(unchanged, 16);
-    std::vector<std::uint8_t> picture(64 * 64 * 4), copied(64 * 64 * 4);
+}
+
+// A triangle that covers a picture, by a framebuffer with depth.
+Picture drawFlat(gl::ProgramLibrary& programs, const gl::Texture& color) {
+    const gl::Texture depth({GL_TEXTURE_2D, GL_DEPTH_COMPONENT32F, 64, 64}, "depth");
+    gl::Framebuffer framebuffer({&color}, &depth, "framebuffer");
+    framebuffer.clearColor(0, 1, 1, 1, 1);
+    framebuffer.clearDepth(1);
+    gl::RasterState state;
+    state.framebuffer = &framebuffer;
+    state.cull = gl::Cull::None;
+    state.depthBiasSlope = 3;
+    gl::apply(state);
+    gl::VertexArray none("none");
+    none.bind();
+    programs.get({{"test/flat.vert.glsl", "test/flat.frag.glsl"}, {}}).use();
+    glDrawArrays(GL_TRIANGLES, 0, 3);
+    Picture picture(64 * 64 * 4);
+    color.read(0, GL_RGBA, GL_UNSIGNED_BYTE, picture.data(), picture.size());
+    return picture;
+}
+
+// The same picture through upload, texture, image, uniform, storage and indirect dispatch.
+Picture copyByCompute(gl::ProgramLibrary& programs, gl::Texture& color, const Picture& picture) {
+    gl::Texture target({GL_TEXTURE_2D, GL_RGBA8, 64, 64}, "target");
+    color.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, picture.data());
+    const gl::Sampler sampler({GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE}, "sampler");
+    const float one[4] = {1, 1, 1, 1};
+    const gl::Buffer scale(one, sizeof one, "scale"), counter(16, "counter");
+    const gl::Buffer groups(std::vector<std::uint32_t>{8, 8, 1}, "groups");
+    programs.compute("test/scale.comp.glsl")
+        .dispatchIndirect(gl::Inputs()
+                              .texture("source", color, &sampler)
+                              .image("target", target, gl::ImageUse::Write)
+                              .uniform("Scale", scale)
+                              .storage("Counter", counter),
+                          groups);
+    gl::barrier(gl::Access::Update);
+    Picture copied(64 * 64 * 4);
+    target.read(0, GL_RGBA, GL_UNSIGNED_BYTE, copied.data(), copied.size());
+    EXPECT_EQ(counter.read<std::uint32_t>(1)[0], 64u * 64);
+    return copied;
+}
+
+}  // namespace
+
+TEST_F(HostStateTest, PassesUnderTheGuardLeaveNoTrace) {
+    const Host host;
+    const Snapshot before = snapshot();
+    host.set();
+    const Snapshot odd = snapshot();
+    expectAllChanged(before, odd);
+    Picture picture, copied;
     {
         const gl::HostStateGuard guard;
         addShader("test/flat.vert.glsl", kVertexShader);
         addShader("test/flat.frag.glsl", kFragmentShader);
         addShader("test/scale.comp.glsl", kComputeShader);
-        gl::Texture color({GL_TEXTURE_2D, GL_RGBA8, 64, 64}, "color"),
-            depth({GL_TEXTURE_2D, GL_DEPTH_COMPONENT32F, 64, 64}, "depth");
-        gl::Texture target({GL_TEXTURE_2D, GL_RGBA8, 64, 64}, "target");
-        gl::Framebuffer framebuffer({&color}, &depth, "framebuffer");
-        framebuffer.clearColor(0, 1, 1, 1, 1);
-        framebuffer.clearDepth(1);
-        gl::RasterState state;
-        state.framebuffer = &framebuffer;
-        state.cull = gl::Cull::None;
-        state.depthBiasSlope = 3;
-        gl::apply(state);
-        gl::VertexArray none("none");
-        none.bind();
-        programs().get({{"test/flat.vert.glsl", "test/flat.frag.glsl"}, {}}).use();
-        glDrawArrays(GL_TRIANGLES, 0, 3);
-        color.read(0, GL_RGBA, GL_UNSIGNED_BYTE, picture.data(), picture.size());
-        // Through upload, texture, image, uniform, storage and indirect dispatch.
-        color.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, picture.data());
-        const gl::Sampler sampler({GL_NEAREST, GL_NEAREST, GL_CLAMP_TO_EDGE}, "sampler");
-        color.bind(0);
-        sampler.bind(0);
-        target.bindImage(0, 0, GL_WRITE_ONLY);
-        const float one[4] = {1, 1, 1, 1};
-        const gl::Buffer scale(one, sizeof one, "scale"), counter(16, "counter");
-        scale.bindUniform(2);
-        counter.bindStorage(8);
-        const gl::Buffer groups(std::vector<std::uint32_t>{8, 8, 1}, "groups");
-        programs().compute("test/scale.comp.glsl").dispatchIndirect(groups);
-        gl::barrier(gl::Access::Update);
-        target.read(0, GL_RGBA, GL_UNSIGNED_BYTE, copied.data(), copied.size());
-        EXPECT_EQ(counter.read<std::uint32_t>(1)[0], 64u * 64);
+        gl::Texture color({GL_TEXTURE_2D, GL_RGBA8, 64, 64}, "color");
+        picture = drawFlat(programs(), color);
+        copied = copyByCompute(programs(), color, picture);
     }
     // What the host had set did not reach our passes ...
     for (std::size_t i = 0; i < picture.size(); i += 4) {
@@ -371,20 +377,24 @@ TEST_F(HostStateTest, AnyChangeUnderTheGuardIsUndone) {
     for (const auto& [key, value] : snapshot()) EXPECT_EQ(value, fresh.at(key)) << key;
 }
 
-TEST_F(HostStateTest, CostsLessThanAFifthOfAMillisecond) {
+// Saving and restoring takes no longer than this test's own list takes to ask for. The least of some rounds
+// each, as other programs may run beside.
+TEST_F(HostStateTest, CostsNoMoreThanAskingForTheState) {
     const Host host;
     host.set();
-    double best = 1e9;
-    for (int run = 0; run < 50; ++run) {
+    double guarded = 1e9, asked = 1e9;
+    for (int round = 0; round < 20; ++round) {
         const double start = base::processCpuMs();
         for (int i = 0; i < 10; ++i) const gl::HostStateGuard guard;
-        best = std::min(best, (base::processCpuMs() - start) / 10);
+        const double middle = base::processCpuMs();
+        for (int i = 0; i < 10; ++i) snapshot();
+        guarded = std::min(guarded, (middle - start) / 10);
+        asked = std::min(asked, (base::processCpuMs() - middle) / 10);
     }
-    RecordProperty("guardMs", std::to_string(best));
-    std::printf("HostStateGuard: %.4f ms\n", best);
-#ifndef __SANITIZE_ADDRESS__
-    EXPECT_LT(best, 0.2);
-#endif
+    RecordProperty("guardMs", std::to_string(guarded));
+    RecordProperty("askedMs", std::to_string(asked));
+    std::printf("HostStateGuard: %.4f ms; asking for the state: %.4f ms\n", guarded, asked);
+    EXPECT_LT(guarded, asked);
 }
 
 }  // namespace conelight::test

@@ -4,35 +4,19 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
-#include <functional>
 #include <glm/gtc/matrix_transform.hpp>
-#include <map>
 
 #include "io/generated_shapes.h"
 #include "io/scene_file.h"
 #include "math/brdf.h"
-#include "math/octahedral.h"
-#include "shared/irradiance.h"
 #include "support/cache_rig.h"
 #include "support/gl_fixture.h"
-#include "support/view_rig.h"
-#include "voxels/voxel_record.h"
+#include "support/scenes.h"
 
 namespace conelight::test {
 namespace {
-
-Material matt(const glm::vec3& albedo, const glm::vec3& emission = glm::vec3(0)) {
-    Material m;
-    m.baseColor = glm::vec4(albedo, 1);
-    m.emission = emission;
-    m.specular = 0;
-    return m;
-}
 
 // A box of [0,1]^3 seen from its inside (turned = false) or its outside.
 Mesh boxOfQuads(bool outside) {
@@ -70,7 +54,7 @@ Light pointLight(const glm::vec3& position, float intensity) {
 
 Scene room(float albedo) {
     Scene scene;
-    addInstance(scene, boxOfQuads(false), matt(glm::vec3(albedo)));
+    addInstance(scene, boxOfQuads(false), mattMaterial(glm::vec3(albedo)));
     scene.lights.push_back(pointLight({0.5f, 0.8f, 0.5f}, 1));
     return scene;
 }
@@ -84,7 +68,7 @@ class IrradianceCacheTest : public GlTest {};
 TEST_F(IrradianceCacheTest, DielectricsCountTheirLobeMetalsDoNot) {
     const glm::vec3 base(0.1f, 0.5f, 0.3f);
     for (const float metallic : {0.0f, 1.0f}) {
-        Material material = matt(base);
+        Material material = mattMaterial(base);
         material.specular = 1;
         material.roughness = 0.3f;
         material.metallic = metallic;
@@ -103,12 +87,12 @@ TEST_F(IrradianceCacheTest, DielectricsCountTheirLobeMetalsDoNot) {
 // twice.
 TEST_F(IrradianceCacheTest, EdgesOfLampsDoNotGlow) {
     Scene scene;
-    addInstance(scene, boxOfQuads(false), matt(glm::vec3(0.5f)));
+    addInstance(scene, boxOfQuads(false), mattMaterial(glm::vec3(0.5f)));
     Mesh lamp;
     lamp.positions = {
         {0.33f, 0.999f, 0.41f}, {0.71f, 0.999f, 0.41f}, {0.71f, 0.999f, 0.62f}, {0.33f, 0.999f, 0.62f}};
     lamp.indices = {0, 1, 2, 0, 2, 3};
-    addInstance(scene, lamp, matt(glm::vec3(0), glm::vec3(5)));
+    addInstance(scene, lamp, mattMaterial(glm::vec3(0), glm::vec3(5)));
     for (const int voxels : {24, 32, 44}) {
         CacheRig rig(programs(), scene, voxels);
         rig.relight();
@@ -138,7 +122,7 @@ double furnace(CacheRig& rig) {
 
 Scene furnaceScene(float rho, float e) {
     Scene scene;
-    addInstance(scene, boxOfQuads(false), matt(glm::vec3(rho), glm::vec3(e)));
+    addInstance(scene, boxOfQuads(false), mattMaterial(glm::vec3(rho), glm::vec3(e)));
     return scene;
 }
 
@@ -202,8 +186,9 @@ TEST_F(IrradianceCacheTest, LampsSendWhatTheirSurfaceSends) {
                               glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0))));
         }
         Scene scene;
-        addInstance(scene, boxOfQuads(false), matt(glm::vec3(0)), glm::scale(glm::mat4(1), glm::vec3(side)));
-        addInstance(scene, *lamp, matt(glm::vec3(0), glm::vec3(emission)),
+        addInstance(scene, boxOfQuads(false), mattMaterial(glm::vec3(0)),
+                    glm::scale(glm::mat4(1), glm::vec3(side)));
+        addInstance(scene, *lamp, mattMaterial(glm::vec3(0), glm::vec3(emission)),
                     glm::translate(glm::mat4(1), {14.3f, 15.6f, 15.1f}) * askew);
         CacheRig rig(programs(), scene, 32);
         rig.settings.cosineRays = rig.settings.lightRays = 4;
@@ -224,8 +209,10 @@ TEST_F(IrradianceCacheTest, EmissionFitsAnewWhereALampHasMoved) {
     io::shapes::appendPatch(ball, io::shapes::uvSphere(glm::vec3(0), glm::vec3(2.5f), 48, 24));
     const auto sceneWith = [&](const glm::vec3& place) {
         Scene scene;
-        addInstance(scene, boxOfQuads(false), matt(glm::vec3(0)), glm::scale(glm::mat4(1), glm::vec3(30)));
-        addInstance(scene, ball, matt(glm::vec3(0), glm::vec3(3)), glm::translate(glm::mat4(1), place));
+        addInstance(scene, boxOfQuads(false), mattMaterial(glm::vec3(0)),
+                    glm::scale(glm::mat4(1), glm::vec3(30)));
+        addInstance(scene, ball, mattMaterial(glm::vec3(0), glm::vec3(3)),
+                    glm::translate(glm::mat4(1), place));
         return scene;
     };
     const auto radiance = [](const CacheRig& rig) {
@@ -291,7 +278,6 @@ TEST_F(IrradianceCacheTest, SwitchedLightLeavesNoGhost) {
     std::vector<Light> lights = scene.lights;
     for (Light& l : lights) l.intensity = glm::vec3(0);
     rig.scene.setLights(lights);
-    rig.source.lights = lights;
     rig.relight();
     rig.update(16);
     EXPECT_GT(lit, 0);
@@ -323,7 +309,7 @@ TEST_F(IrradianceCacheTest, NoLightThroughAThinWall) {
 TEST_F(IrradianceCacheTest, FacesInsideClosedObjectsAreLeftOut) {
     Scene scene = room(0.5f);
     scene.lights[0].position = {0.5f, 0.9f, 0.5f};
-    addInstance(scene, boxOfQuads(true), matt(glm::vec3(0.5f)),
+    addInstance(scene, boxOfQuads(true), mattMaterial(glm::vec3(0.5f)),
                 glm::scale(glm::translate(glm::mat4(1), {0.3f, 0.0f, 0.3f}), glm::vec3(0.4f)));
     CacheRig rig(programs(), scene, 64);
     rig.update(24);
@@ -370,136 +356,6 @@ TEST_F(IrradianceCacheTest, LightSurvivesNewVoxels) {
     rig.update(1);
     EXPECT_NEAR(rig.meanIrradiance() / mean, 1, 0.1);
     EXPECT_GT(rig.meanIrradiance() / mean, 0.8);
-}
-
-// Not a test: prints what passes cost (docs/theory/4_gather.md). Process CPU time, medians of 7.
-//   test_gl --gtest_also_run_disabled_tests --gtest_filter=*Costs
-TEST_F(IrradianceCacheTest, DISABLED_Costs) {
-    for (const char* name : {"builtin:cornell", "builtin:cornell-point", "builtin:sunroom"}) {
-        CacheRig rig(programs(), io::loadScene(name), 128);
-        rig.update(20);
-        const auto report = [&](const char* what, const std::function<void()>& run) {
-            std::map<std::string, std::vector<double>> times;
-            for (int i = 0; i < 7; ++i) {
-                rig.profiler.setEnabled(true);
-                rig.profiler.beginFrame();
-                run();
-                std::map<std::string, double> sums;
-                for (const gl::PassTime& t : rig.profiler.endFrame()) sums[t.name] += t.cpuMs;
-                rig.profiler.setEnabled(false);
-                for (const auto& [pass, ms] : sums) times[pass].push_back(ms);
-            }
-            for (auto& [pass, list] : times) {
-                std::nth_element(list.begin(), list.begin() + 3, list.end());
-                std::printf("%-22s %-10s %-28s %8.1f cpu-ms\n", name, what, pass.c_str(), list[3]);
-            }
-        };
-        std::printf("%s: %u voxels, %u faces\n", name, rig.surface.voxelCount(), rig.surface.faceCount());
-        report("2+2", [&] { rig.update(1); });
-        rig.settings.exactDirect = false;
-        report("2+2 stored", [&] { rig.update(1); });
-        rig.settings.cosineRays = 4;
-        rig.settings.lightRays = 0;
-        report("4+0 stored", [&] { rig.update(1); });
-        rig.settings = {};
-        report("new voxels", [&] {
-            rig.voxelize();
-            rig.relight();
-            rig.update(1);
-        });
-        report("octants", [&] { rig.octants.build(programs(), rig.profiler, rig.surface); });
-    }
-}
-
-// Updates visit every face once, those of a block of 16^3 voxels together, by direction and place in the
-// brick; so do they in the next run.
-// interleavedPlace of shaders/lib/interleave.glsl, as the bit of a voxel.
-std::uint32_t placeOf(const glm::ivec3& voxel, int axis) {
-    const glm::uvec3 brick = glm::uvec3(voxel) / 4u;
-    const std::uint32_t state = (brick.x | brick.y << 10 | brick.z << 20) * 747796405u + 2891336453u;
-    const std::uint32_t word = ((state >> ((state >> 28u) + 4u)) ^ state) * 277803737u;
-    const std::uint32_t hash = (word >> 22u) ^ word;
-    glm::uvec3 turn(hash, hash >> 2, hash >> 4);
-    turn[axis] = 0;
-    return voxels::bitOfVoxel(glm::ivec3((glm::uvec3(voxel) ^ turn) & 3u));
-}
-
-TEST_F(IrradianceCacheTest, OrderPutsLikeFacesTogether) {
-    const CacheRig rig(programs(), io::loadScene("builtin:spheres"), 48);
-    const std::uint32_t count = rig.surface.faceCount();
-    const auto order = rig.surface.faceScratch().read<std::uint32_t>(count);
-    const auto records = rig.surface.faces().read<gpu::FaceRecord>(count);
-    const auto states = rig.cache.state().read<gpu::FaceCache>(count);
-    const auto gathering =
-        static_cast<std::uint32_t>(std::count_if(states.begin(), states.end(), [](const gpu::FaceCache& s) {
-            return (s.counts & CACHE_SHARES) == 0;
-        }));
-    const glm::ivec3 blocks = (rig.surface.grid().bricks() + 3) / 4;
-    std::vector<int> visits(count);
-    std::array<int, 4> last{};
-    for (std::uint32_t i = 0; i < gathering; ++i) {
-        ASSERT_LT(order[i], count);
-        ++visits[order[i]];
-        const gpu::FaceRecord& r = records[order[i]];
-        const glm::ivec3 voxel = voxels::unpackVoxel(r.voxel & 0x3fffffffu);
-        const auto axis = static_cast<int>(r.voxel >> 30);
-        const bool down = math::octDecode(math::unpackSnorm2x16(r.normal))[axis] < 0;
-        const glm::ivec3 block = voxel / 16, brick = voxel / 4 % 4;
-        const std::array<int, 4> key{block.x + blocks.x * (block.y + blocks.y * block.z),
-                                     2 * axis + (down ? 1 : 0), static_cast<int>(placeOf(voxel, axis)),
-                                     brick.x + 4 * brick.y + 16 * brick.z};
-        if (i > 0) {
-            ASSERT_LT(last, key) << i;
-        }
-        last = key;
-    }
-    for (std::uint32_t i = 0; i < count; ++i)
-        ASSERT_EQ(visits[i], (states[i].counts & CACHE_SHARES) == 0 ? 1 : 0) << i;
-}
-
-// Faces that do not gather name one of their own voxel that does, and hold its surface or next to nothing of
-// it. On curved surfaces that is many of them, on walls along the axes none.
-TEST_F(IrradianceCacheTest, FacesOfOneSurfaceShareOneMean) {
-    const auto sharing = [&](const char* name) {
-        CacheRig rig(programs(), io::loadScene(name), 48);
-        rig.update(2);
-        const std::uint32_t count = rig.surface.faceCount();
-        const auto records = rig.surface.faces().read<gpu::FaceRecord>(count);
-        const auto states = rig.cache.state().read<gpu::FaceCache>(count);
-        std::uint32_t share = 0;
-        for (std::uint32_t i = 0; i < count; ++i) {
-            if ((states[i].counts & CACHE_SHARES) == 0) continue;
-            ++share;
-            const auto other = std::bit_cast<std::uint32_t>(states[i].irradiance.x);
-            EXPECT_LT(other, count);
-            if (other >= count) return -1.0;
-            EXPECT_EQ(states[other].counts & CACHE_SHARES, 0u) << i;
-            EXPECT_EQ((records[i].voxel ^ records[other].voxel) & 0x3fffffffu, 0u) << i;
-            EXPECT_EQ(records[i].irradiance0, records[other].irradiance0) << i;
-            const auto normal = [](const gpu::FaceRecord& r) {
-                return math::octDecode(math::unpackSnorm2x16(r.normal));
-            };
-            const bool sliver = records[i].offsetWeight >> 16 < (records[other].offsetWeight >> 16) / 9;
-            EXPECT_GT(glm::dot(normal(records[i]), normal(records[other])), sliver ? 0.49f : 0.919f) << i;
-        }
-        return static_cast<double>(share) / count;
-    };
-    EXPECT_GT(sharing("builtin:vases"), 0.1);
-    EXPECT_EQ(sharing("builtin:furnace"), 0.0);
-}
-
-// Slices of the faces add up to whole rounds.
-TEST_F(IrradianceCacheTest, BudgetVisitsEveryFace) {
-    CacheRig rig(programs(), io::loadScene("builtin:cornell"), 32);
-    rig.settings.facesPerUpdate = rig.surface.faceCount() / 7;
-    EXPECT_FALSE(rig.cache.settled());
-    rig.update(8);
-    EXPECT_EQ(rig.cache.updates(), 1);
-    const auto states = rig.cache.state().read<gpu::FaceCache>(rig.surface.faceCount());
-    for (const gpu::FaceCache& state : states)
-        ASSERT_GE(state.counts & CACHE_UPDATES_MASK, (state.counts & CACHE_SHARES) == 0 ? 1u : 0u);
-    rig.update(8 * 14);
-    EXPECT_TRUE(rig.cache.settled());
 }
 
 }  // namespace

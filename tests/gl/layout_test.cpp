@@ -11,13 +11,15 @@
 #include "shared/image.h"
 #include "shared/inspect.h"
 #include "shared/irradiance.h"
+#include "shared/lighting.h"
 #include "shared/pixel_rays.h"
 #include "shared/radiance_volume.h"
 #include "shared/scene.h"
-#include "shared/thesis.h"
+#include "shared/shadow_map.h"
 #include "shared/voxel_view.h"
 #include "shared/voxels.h"
 #include "support/gl_fixture.h"
+#include "thesis/shaders/constants.h"
 
 namespace conelight::test {
 namespace {
@@ -48,6 +50,10 @@ struct TypeOf<std::int32_t> {
 template <>
 struct TypeOf<std::uint32_t> {
     static constexpr GLenum value = GL_UNSIGNED_INT;
+};
+template <>
+struct TypeOf<glm::vec2> {
+    static constexpr GLenum value = GL_FLOAT_VEC2;
 };
 template <>
 struct TypeOf<glm::vec3> {
@@ -97,7 +103,7 @@ const std::vector<Struct>& table() {
         ROW(WireframeConstants, radiance, opacity, halfWidth, pad0, pad1, pad2),
         ROW(ShadowViewConstants, light, tiles, tilesPerEdge, columns, rows, pad0, pad1, pad2),
         ROW(VoxelViewConstants, origin, voxelSize, sizeX, sizeY, sizeZ, data, level, spread, maxLevel,
-            density, pixelSize, pad0, pad1, pad2),
+            density, pixelSize, pad0, pad1, pad2, filledMin, filledSize),
         ROW(RecordHeader, pixelX, pixelY, paths, steps, pathSteps, share, seen, pad0, position, depth, normal,
             pad1),
         ROW(RecordedPart, value, used, scale, pad0),
@@ -108,14 +114,14 @@ const std::vector<Struct>& table() {
         ROW(PixelRayConstants, oldClipFromWorld, oldEye, planeTolerance, oldForward, pass, oldRight, rays,
             oldUp, longestMean, specularLimit, reach, inverseVoxelSize, reflections, reflectedLimit, lobesX,
             lobesY, pad0),
-        ROW(FrameConstants, clipFromWorld, worldFromClip, eye, zNear, sky, zFar, width, height, lightCount,
-            frameIndex, instanceCount, triangleCount, seed, pad0, viewForward, pad1, viewRight, pad2, viewUp,
-            pad3, lightEnds),
+        ROW(FrameConstants, clipFromWorld, eye, width, viewForward, height, viewRight, pad0, viewUp, pad1),
+        ROW(LightingConstants, sky, pad0, lightEnds),
+        ROW(ShadowMapConstants, clipFromWorld, slopeUnit, middle, halfSize, pad0),
         ROW(RadianceVolume, origin, voxelSize, inverseExtent, inverseVoxelSize, extent, maxLevel, sizeX,
             sizeY, sizeZ, halfTexelX),
         ROW(Vertex, position, normalOct, u, v, tangentOct, color),
         ROW(Instance, worldFromObject, normalColumn0, normalColumn1, normalColumn2, firstIndex, indexCount,
-            firstVertex, material, flags, firstTriangle, pad0, pad1, prevWorldFromObject),
+            firstVertex, material, flags, firstTriangle, pad0, pad1),
         ROW(Material, baseColor, emission, alphaCutoff, specularF0, metallic, roughness, normalScale, flags,
             pad0, layers, uvRow, phongColor, phongShininess, phongAmbient, phongDiffuse, phongSpecular, pad1),
         ROW(Light, position, type, direction, shadow, intensity, range, halfU, cosInner, halfV, cosOuter,
@@ -132,7 +138,7 @@ const std::vector<Struct>& table() {
             facesPerChunk, chunkCount, restart, reflections, reflectedLimit),
         ROW(CacheCarry, oldOrigin, oldInverseVoxelSize, oldSizeX, oldSizeY, oldSizeZ, pad0),
         ROW(SurfaceConstants, triangleCount, instanceCount, tileCapacity, fragmentCapacity, voxelCapacity,
-            faceCapacity, brickCapacity, bricksPerChunk, voxelsPerChunk, emissionScale, dirtyBricks, pad0),
+            faceCapacity, brickCapacity, bricksPerChunk, voxelsPerChunk, emissionScale, editedBricks, pad0),
     };
     return structs;
 }
@@ -142,13 +148,19 @@ struct Parsed {
     std::vector<std::string> members;
 };
 
-// The structs that the headers below shaders/shared declare.
+// Headers are what C++ and GLSL share.
+bool isShared(const gl::EmbeddedShader& file) {
+    const std::string path = file.path;
+    return path.size() > 2 && path.compare(path.size() - 2, 2, ".h") == 0;
+}
+
+// The structs that shared headers declare.
 std::vector<Parsed> parsedStructs() {
     std::vector<Parsed> found;
     const std::regex comments(R"(//[^\n]*)"), structs(R"(struct\s+(\w+)\s*\{([^}]*)\})");
     const std::regex members(R"((\w+)\s*(\[\s*\w+\s*\])?\s*[;,])");
     for (const gl::EmbeddedShader& file : gl::embeddedShaders()) {
-        if (std::string(file.path).rfind("shared/", 0) != 0) continue;
+        if (!isShared(file)) continue;
         EXPECT_EQ(std::string(file.text).find("/*"), std::string::npos)
             << file.path << ": this test reads // comments only";
         const std::string text = std::regex_replace(std::string(file.text), comments, " ");
@@ -166,8 +178,7 @@ std::vector<Parsed> parsedStructs() {
 std::string includesOfShared() {
     std::string text;
     for (const gl::EmbeddedShader& file : gl::embeddedShaders())
-        if (std::string(file.path).rfind("shared/", 0) == 0)
-            text += "#include \"" + std::string(file.path) + "\"\n";
+        if (isShared(file)) text += "#include \"" + std::string(file.path) + "\"\n";
     return text;
 }
 
@@ -187,10 +198,9 @@ class LayoutTest : public GlTest {
                                     bool storage) {
         const std::string path = "test/layout_" + structName + (storage ? "_430" : "_140") + ".comp.glsl";
         addShader(path, "#version 450 core\nlayout(local_size_x = 8) in;\n" + includesOfShared() +
-                            (storage ? "layout(std430, binding = 0) buffer Block { "
-                                     : "layout(std140, binding = 0) uniform Block { ") +
+                            (storage ? "layout(std430) buffer Block { " : "layout(std140) uniform Block { ") +
                             structName + (storage ? " items[]; };\n" : " items[2]; };\n") +
-                            "layout(std430, binding = 1) buffer Sink { uint sink; };\n"
+                            "layout(std430) buffer Sink { uint sink; };\n"
                             "void main() { if (items[1]." +
                             firstMember + " == items[0]." + firstMember + ") sink = 1u; }\n");
         return programs().compute(path);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which emitters become lights, and what the tables hold then.
-#include "light/emissive_quads.h"
+#include "light/lights.h"
 
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -80,16 +80,51 @@ TEST_F(EmissiveQuadTableTest, TablesFollowTheSwitch) {
     addInstance(scene, quadMesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), emitter());
     scene.lights.emplace_back();
     scene::GpuScene gpuScene(scene);
+    light::Lights lights;
     for (int round = 0; round < 2; ++round) {
-        light::setEmissiveQuads(gpuScene, scene, true);
-        ASSERT_EQ(gpuScene.lights().size(), 2u);
-        EXPECT_EQ(gpuScene.lights()[1].type, LIGHT_RECT);
-        EXPECT_NE(gpuScene.instances()[0].flags & INSTANCE_LIT_EXACTLY, 0u);
-        EXPECT_NE(gpuScene.instanceBuffer().read<gpu::Instance>(1)[0].flags & INSTANCE_LIT_EXACTLY, 0u);
+        lights.update(device(), gpuScene, {.emissiveQuads = true});
+        ASSERT_EQ(lights.table().size(), 2u);
+        EXPECT_EQ(lights.table()[1].type, LIGHT_RECT);
+        EXPECT_TRUE(lights.areInTable(0));
+        lights.update(device(), gpuScene, {.emissiveQuads = false});
+        EXPECT_EQ(lights.table().size(), 1u);
+        EXPECT_FALSE(lights.areInTable(0));
     }
-    light::setEmissiveQuads(gpuScene, scene, false);
-    EXPECT_EQ(gpuScene.lights().size(), 1u);
-    EXPECT_EQ(gpuScene.instances()[0].flags & INSTANCE_LIT_EXACTLY, 0u);
+}
+
+// Returns at once where nothing changed, and sees each change that lights are made from.
+TEST_F(EmissiveQuadTableTest, LightsAreMadeAnewWhereSomethingChanged) {
+    Scene scene;
+    addInstance(scene, quadMesh({0, 0, 0}, {1, 0, 0}, {0, 1, 0}), Material{});
+    scene.lights.emplace_back();
+    scene::GpuScene gpuScene(scene);
+    light::Lights lights;
+    light::LightsWanted wanted;
+    EXPECT_FALSE(lights.revision());
+    const auto changes = [&] {
+        const base::Revision before = lights.revision();
+        lights.update(device(), gpuScene, wanted);
+        return lights.revision() != before;
+    };
+    EXPECT_TRUE(changes());
+    EXPECT_FALSE(changes());
+    gpuScene.setSky(glm::vec3(1));
+    EXPECT_TRUE(changes());
+    gpuScene.setLights(scene.lights);
+    EXPECT_TRUE(changes());
+    Instance moved = scene.instances[0];
+    moved.worldFromObject[3].x = 1;
+    gpuScene.setInstance(0, moved);
+    EXPECT_TRUE(changes());
+    gpuScene.setInstance(0, moved);
+    EXPECT_FALSE(changes());
+    gpuScene.setMaterial(0, scene.materials[0]);
+    EXPECT_TRUE(changes());
+    wanted.settings.shadowFilter = 1;
+    EXPECT_TRUE(changes());
+    wanted.shadowMaps = false;
+    EXPECT_TRUE(changes());
+    EXPECT_FALSE(changes());
 }
 
 }  // namespace

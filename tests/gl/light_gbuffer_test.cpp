@@ -22,7 +22,7 @@ struct Pixel {
 const char* const kDumpShader = R"(#version 450 core
 #include "lib/gbuffer.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
-layout(std430, binding = BINDING_STORAGE_PASS) writeonly buffer Out { vec4 words[]; };
+layout(std430) writeonly buffer Out { vec4 words[]; };
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (pixel.x >= int(frame.width) || pixel.y >= int(frame.height)) return;
@@ -44,11 +44,13 @@ class LightGBufferTest : public GlTest {
 
     void draw(const Scene& scene, const Camera& camera, bool cull = false) {
         ViewRig rig(scene, camera, kWidth, kHeight);
-        rig.draw(programs(), cull);
+        rig.draw(device(), cull);
         addShader("test/dump.comp.glsl", kDumpShader);
-        gl::Buffer out(sizeof(Pixel) * kWidth * kHeight, "dump");
-        out.bindStorage(BINDING_STORAGE_PASS);
-        programs().compute("test/dump.comp.glsl").dispatch(kWidth, kHeight);
+        const gl::Buffer out(sizeof(Pixel) * kWidth * kHeight, "dump");
+        programs()
+            .compute("test/dump.comp.glsl")
+            .dispatch(gl::Inputs().add(rig.gpuScene).add(rig.lights).add(rig.surfaces).storage("Out", out),
+                      kWidth, kHeight);
         gl::barrier(gl::Access::ShaderStorage);
         pixels_ = out.read<Pixel>(kWidth * kHeight);
     }
@@ -84,7 +86,7 @@ TEST_F(LightGBufferTest, PositionsAreThePixelCentresOnThePlane) {
             if (at(x, y).position.w == 0) continue;
             ++seen;
             const glm::dvec3 want =
-                pixelOnPlane(c, kWidth, kHeight, x, y, {0, 1, 0}, static_cast<double>(offset.y));
+                pixelOnPlane(c, {kWidth, kHeight}, {x, y}, {0, 1, 0}, static_cast<double>(offset.y));
             const double distance = glm::length(want - glm::dvec3(c.eye));
             // Half a float step at 1000 in three coordinates, and the interpolation of 1/w.
             EXPECT_LE(glm::length(glm::dvec3(at(x, y).position) - want), 1e-4 + 3e-5 * distance);

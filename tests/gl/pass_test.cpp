@@ -2,6 +2,7 @@
 // Pass scopes and their two ways of timing; and what of the driver's messages counts as an error.
 #include "gl/pass.h"
 
+#include <algorithm>
 #include <atomic>
 #include <stdexcept>
 #include <thread>
@@ -16,7 +17,7 @@ namespace conelight::test {
 namespace {
 
 constexpr char kWork[] =
-    "#version 450 core\nlayout(local_size_x = 8) in;\nlayout(std430, binding = 8) buffer Out { uint words[]; "
+    "#version 450 core\nlayout(local_size_x = 8) in;\nlayout(std430) buffer Out { uint words[]; "
     "};\n"
     "void main() { uint s = gl_GlobalInvocationID.x; for (int i = 0; i < 2000; ++i) s = s * 1664525u + "
     "1013904223u;\n"
@@ -29,9 +30,8 @@ class PassTest : public GlTest {
         if (!out_) {
             addShader("test/work.comp.glsl", kWork);
             out_ = gl::Buffer(4 * 8192, "out");
-            out_.bindStorage(8);
         }
-        programs().compute("test/work.comp.glsl").dispatch(8192);
+        programs().compute("test/work.comp.glsl").dispatch(gl::Inputs().storage("Out", out_), 8192);
     }
     void TearDown() override {
         out_.reset();
@@ -141,13 +141,22 @@ TEST_F(PassTest, DisabledCostsNoObjectsAndNoWaiting) {
     const std::vector<gl::PassTime> times = profiler.endFrame();
     ASSERT_EQ(times.size(), 1u);
     EXPECT_EQ(times[0].name, "next");
-    // 10,000 scopes; a millisecond each would be a wait or an allocation in the driver.
-    profiler.setEnabled(false);
-    const double start = base::processCpuMs();
-    for (int i = 0; i < 10000; ++i) const gl::PassScope pass(profiler, "pass");
-    const double each = (base::processCpuMs() - start) / 10000;
-    RecordProperty("disabledScopeMs", std::to_string(each));
-    EXPECT_LT(each, 0.05);
+    // It waits for nothing: far cheaper than an enabled one, which does. The least of some rounds each, as
+    // other programs may run beside.
+    double off = 1e9, on = 1e9;
+    for (int round = 0; round < 5; ++round)
+        for (const bool enabled : {false, true}) {
+            profiler.setEnabled(enabled);
+            profiler.beginFrame();
+            const double start = base::processCpuMs();
+            for (int i = 0; i < 1000; ++i) const gl::PassScope pass(profiler, "pass");
+            double& least = enabled ? on : off;
+            least = std::min(least, base::processCpuMs() - start);
+            profiler.endFrame();
+        }
+    RecordProperty("disabledScopesMs", std::to_string(off));
+    RecordProperty("enabledScopesMs", std::to_string(on));
+    EXPECT_LT(2 * off, on);
 }
 
 // Values of the timer are wrong on llvmpipe, but they come, and the queries go.

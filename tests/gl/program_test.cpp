@@ -40,16 +40,16 @@ bool contains(const std::string& text, const std::string& part) {
     return text.find(part) != std::string::npos;
 }
 
-// Writes `value` into word 0 of storage buffer 8.
+// Writes `value` into word 0 of block Out.
 std::string writer(int value) {
-    return kHead + "layout(std430, binding = 8) buffer Out { uint word; };\nvoid main() { word = " +
-           std::to_string(value) + "u; }\n";
+    return kHead +
+           "layout(std430) buffer Out { uint word; };\nvoid main() { word = " + std::to_string(value) +
+           "u; }\n";
 }
 
 std::uint32_t run(const gl::Program& program) {
-    gl::Buffer out(16, "out");
-    out.bindStorage(8);
-    program.dispatch(8);
+    const gl::Buffer out(16, "out");
+    program.dispatch(gl::Inputs().storage("Out", out), 8);
     return out.read<std::uint32_t>(1)[0];
 }
 
@@ -94,7 +94,7 @@ TEST_F(ProgramTest, StageComesFromTheName) {
 
 TEST_F(ProgramTest, LibraryBuildsEachVariantOnce) {
     files.texts["a.comp.glsl"] =
-        kHead + "layout(std430, binding = 8) buffer Out { uint word; };\nvoid main() { word = N; }\n";
+        kHead + "layout(std430) buffer Out { uint word; };\nvoid main() { word = N; }\n";
     gl::ProgramLibrary library(files.provider());
     const gl::Program& three = library.compute("a.comp.glsl", {{"N", "3"}});
     const gl::Program& four = library.compute("a.comp.glsl", {{"N", "4"}});
@@ -151,14 +151,13 @@ TEST_F(ProgramTest, ReloadAfterAFailureWatchesNewIncludes) {
 TEST_F(ProgramTest, DispatchRoundsUpToWholeGroups) {
     files.texts["a.comp.glsl"] =
         "#version 450 core\nlayout(local_size_x = 8, local_size_y = 4, local_size_z = 2) in;\n"
-        "layout(std430, binding = 8) buffer Out { uint count; };\nvoid main() { atomicAdd(count, 1u); }\n";
+        "layout(std430) buffer Out { uint count; };\nvoid main() { atomicAdd(count, 1u); }\n";
     gl::ProgramLibrary library(files.provider());
     const gl::Program& program = library.compute("a.comp.glsl");
     EXPECT_EQ(program.groupSize(), glm::ivec3(8, 4, 2));
     const auto invocations = [&](int x, int y, int z) {
-        gl::Buffer out(16, "out");
-        out.bindStorage(8);
-        program.dispatch(x, y, z);
+        const gl::Buffer out(16, "out");
+        program.dispatch(gl::Inputs().storage("Out", out), x, y, z);
         return out.read<std::uint32_t>(1)[0];
     };
     EXPECT_EQ(invocations(8, 4, 2), 64u);
@@ -173,7 +172,7 @@ TEST_F(ProgramTest, LinearDispatchCoversEveryIndexOnce) {
     const auto shader = [](const std::string& size) {
         return "#version 450 core\nlayout(" + size +
                ") in;\n#include \"lib/linear_index.glsl\"\n"
-               "layout(std430, binding = 8) buffer Out { uint hits[]; };\n"
+               "layout(std430) buffer Out { uint hits[]; };\n"
                "void main() { uint i = linearIndex(); if (i < hits.length()) atomicAdd(hits[i], 1u); }\n";
     };
     files.texts["a.comp.glsl"] = shader("local_size_x = 8");
@@ -187,37 +186,73 @@ TEST_F(ProgramTest, LinearDispatchCoversEveryIndexOnce) {
         for (const std::size_t count : {std::size_t{4}, std::size_t{1000}, row, row + 4, 2 * row + 36}) {
             const std::vector<std::uint32_t> zeros(count, 0);
             gl::Buffer hits(zeros, "hits");
-            hits.bindStorage(8);
-            program.dispatchLinear(count);
+            program.dispatchLinear(gl::Inputs().storage("Out", hits), count);
             EXPECT_EQ(hits.read<std::uint32_t>(count), std::vector<std::uint32_t>(count, 1))
                 << name << ", " << count;
         }
         gl::Buffer hits(64, "hits");
-        hits.bindStorage(8);
-        program.dispatchLinear(0);
+        program.dispatchLinear(gl::Inputs().storage("Out", hits), 0);
         EXPECT_EQ(hits.read<std::uint32_t>(16), std::vector<std::uint32_t>(16, 0));
     }
 }
 
 TEST_F(ProgramTest, IndirectDispatchReadsCountsThatAShaderWrote) {
     files.texts["count.comp.glsl"] = kHead +
-                                     "layout(std430, binding = 9) buffer Groups { uint groups[]; };\n"
+                                     "layout(std430) buffer Groups { uint groups[]; };\n"
                                      "void main() { if (gl_GlobalInvocationID.x < 3u) groups[4u + "
                                      "gl_GlobalInvocationID.x] = gl_GlobalInvocationID.x + 2u; }\n";
     files.texts["work.comp.glsl"] =
-        kHead +
-        "layout(std430, binding = 8) buffer Out { uint count; };\nvoid main() { atomicAdd(count, 1u); }\n";
+        kHead + "layout(std430) buffer Out { uint count; };\nvoid main() { atomicAdd(count, 1u); }\n";
     gl::ProgramLibrary library(files.provider());
     gl::Buffer groups(32, "groups"), out(16, "out");
-    groups.bindStorage(9);
-    out.bindStorage(8);
-    library.compute("count.comp.glsl").dispatch(8);
+    library.compute("count.comp.glsl").dispatch(gl::Inputs().storage("Groups", groups), 8);
     gl::barrier(gl::Access::Indirect);
-    library.compute("work.comp.glsl").dispatchIndirect(groups, 16);
+    library.compute("work.comp.glsl").dispatchIndirect(gl::Inputs().storage("Out", out), groups, 16);
     EXPECT_EQ(out.read<std::uint32_t>(1)[0], 2u * 3 * 4 * 8);
     GLint bound = -1;
     glGetIntegerv(GL_DISPATCH_INDIRECT_BUFFER_BINDING, &bound);
     EXPECT_EQ(bound, 0);
+}
+
+// Of every kind that a program reads; whatever a pass before has left bound does not count.
+TEST_F(ProgramTest, WhatAPassDoesNotGiveIsAnErrorThatNamesIt) {
+    files.texts["a.comp.glsl"] =
+        kHead +
+        "layout(std140) uniform Constants { uvec4 constants; };\n"
+        "layout(std430) buffer Out { uint word; };\nuniform usampler2D picture;\n"
+        "layout(r32ui) writeonly uniform uimage2D target;\n"
+        "void main() { uint x = texelFetch(picture, ivec2(0), 0).x + constants.x; word = x;\n"
+        "imageStore(target, ivec2(0), uvec4(x)); }\n";
+    gl::ProgramLibrary library(files.provider());
+    const gl::Program& program = library.compute("a.comp.glsl");
+    const gl::Buffer constants(16, "constants"), out(16, "out");
+    const gl::Texture picture({GL_TEXTURE_2D, GL_R32UI, 1, 1}, "picture");
+    const gl::Texture target({GL_TEXTURE_2D, GL_R32UI, 1, 1}, "target");
+    const auto given = [&](int without) {
+        gl::Inputs inputs;
+        if (without != 0) inputs.uniform("Constants", constants);
+        if (without != 1) inputs.storage("Out", out);
+        if (without != 2) inputs.texture("picture", picture);
+        if (without != 3) inputs.image("target", target, gl::ImageUse::Write);
+        return inputs;
+    };
+    EXPECT_EQ(program.slots().size(), 4u);
+    const char* const missing[] = {"uniform block Constants", "storage block Out", "texture picture",
+                                   "image target"};
+    for (int i = 0; i < 4; ++i) {
+        program.dispatch(given(-1), 8);  // leaves all of them bound
+        try {
+            program.dispatch(given(i), 8);
+            ADD_FAILURE() << missing[i];
+        } catch (const Error& error) {
+            EXPECT_EQ(std::string(error.what()),
+                      "a.comp.glsl: reads " + std::string(missing[i]) + ", which the pass does not give it");
+        }
+    }
+    // What a program does not read may be given.
+    program.dispatch(given(-1).storage("Other", out), 8);
+    // A buffer under the name of a texture is none.
+    EXPECT_THROW(program.dispatch(given(2).storage("picture", out), 8), Error);
 }
 
 using ProgramDeathTest = ProgramTest;
@@ -228,9 +263,9 @@ TEST_F(ProgramDeathTest, MisuseStopsTheProgram) {
     gl::ProgramLibrary library(files.provider());
     const gl::Program& program = library.compute("a.comp.glsl");
     gl::Buffer groups(16, "groups");
-    EXPECT_DEATH(program.dispatch(65536 * 8), "too many groups; dispatchLinear folds them");
-    EXPECT_DEATH(program.dispatchIndirect(groups, 8), "reaches past the end");
-    EXPECT_DEATH(gl::Program().dispatch(8), "not a compute program");
+    EXPECT_DEATH(program.dispatch({}, 65536 * 8), "too many groups; dispatchLinear folds them");
+    EXPECT_DEATH(program.dispatchIndirect({}, groups, 8), "reaches past the end");
+    EXPECT_DEATH(gl::Program().dispatch({}, 8), "not a compute program");
 }
 
 }  // namespace conelight::test

@@ -103,14 +103,12 @@ class RadianceVolumeTest : public GlTest {
     void build(const Scene& scene, int size, VolumeDirections directional, OpacityModel opacity,
                float maxFootprint = 0.25f) {
         gpuScene_.emplace(scene);
-        gpuScene_->bind();
         surface_.emplace();
         VoxelSettings settings;
         settings.size = size;
-        surface_->build(programs(), profiler_, *gpuScene_, settings);
-        surface_->bind();
+        surface_->build(device(), *gpuScene_, settings);
         volume_ = RadianceVolume(voxels::radianceLayout(surface_->grid(), directional, maxFootprint));
-        volume_.build(programs(), profiler_, *surface_, opacity);
+        volume_.build(device(), *surface_, opacity);
     }
     void TearDown() override {
         volume_ = {};
@@ -119,7 +117,6 @@ class RadianceVolumeTest : public GlTest {
         GlTest::TearDown();
     }
 
-    gl::Profiler profiler_;
     std::optional<scene::GpuScene> gpuScene_;
     std::optional<voxels::SurfaceVoxels> surface_;
     RadianceVolume volume_;

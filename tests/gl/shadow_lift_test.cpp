@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "conelight/scene.h"
-#include "light/shadow_maps.h"
+#include "light/lights.h"
 #include "scene/gpu_scene.h"
 #include "support/gl_fixture.h"
 #include "support/view_rig.h"
@@ -25,22 +25,18 @@ struct ShadowLift : public GlTest {
         addShader("test/lift.comp.glsl", R"(#version 450
 layout(local_size_x = 64) in;
 #define SHADOW_FILTER -1
-#include "lib/scene_tables.glsl"
+#include "lib/light_table.glsl"
 #include "lib/shadow.glsl"
-layout(std430, binding = 9) writeonly buffer Out { float seen[]; };
+layout(std430) writeonly buffer Out { float seen[]; };
 void main() {
     float part = (float(gl_GlobalInvocationID.x) + 0.5) / PLACES;
     vec3 p = vec3(mix(-HALF, HALF, part), HEIGHT, 0.013);
     seen[gl_GlobalInvocationID.x] = VISIBILITY(lights[0], p, vec3(0.0, 1.0, 0.0), LIFT);
 })");
-        gl::Profiler profiler;
         scene::GpuScene gpu(scene);
-        light::ShadowMaps maps;
-        gpu.bind();
-        maps.update(programs(), profiler, gpu, {.shadowSize = 256});
-        maps.bind();
+        light::Lights lights;
+        lights.update(device(), gpu, {.settings = {.shadowSize = 256}});
         const gl::Buffer out(kPlaces * sizeof(float), "out");
-        out.bindStorage(9);
         programs()
             .get({{"test/lift.comp.glsl"},
                   {{"PLACES", std::to_string(kPlaces) + ".0"},
@@ -48,7 +44,7 @@ void main() {
                    {"HEIGHT", std::to_string(y)},
                    {"VISIBILITY", visibility},
                    {"LIFT", lift}}})
-            .dispatch(kPlaces);
+            .dispatch(gl::Inputs().add(gpu).add(lights).storage("Out", out), kPlaces);
         gl::barrier(gl::Access::ShaderStorage);
         return out.read<float>(kPlaces);
     }

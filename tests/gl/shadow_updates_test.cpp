@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "conelight/renderer.h"
-#include "light/shadow_maps.h"
+#include "light/lights.h"
 #include "scene/gpu_scene.h"
 #include "support/gl_fixture.h"
 #include "support/view_rig.h"
@@ -18,13 +18,13 @@ namespace conelight::test {
 namespace {
 
 struct ShadowUpdates : public GlTest {
-    gl::Profiler profiler;
     LightSettings settings{.shadowSize = 128};
 
-    int redrawn(light::ShadowMaps& maps, scene::GpuScene& scene) {
-        scene.bind();
-        maps.update(programs(), profiler, scene, settings);
-        return maps.redrawn();
+    // Maps that an update draws; none where the lights have not changed.
+    int redrawn(light::Lights& lights, scene::GpuScene& scene) {
+        const base::Revision before = lights.revision();
+        lights.update(device(), scene, {.settings = settings});
+        return lights.revision() == before ? 0 : lights.redrawnShadowMaps();
     }
 };
 
@@ -37,7 +37,7 @@ TEST_F(ShadowUpdates, OnlyMapsThatTheChangeTouchesAreDrawn) {
     scene.lights.push_back({.position = {0, 1, 0}});  // six maps; the card is on its +x side
     scene.lights.push_back({.type = LightType::Spot, .position = {-4, 2, 0}});  // looks down at x = -4
     scene::GpuScene gpu(scene);
-    light::ShadowMaps maps;
+    light::Lights maps;
     EXPECT_EQ(redrawn(maps, gpu), 7);
     EXPECT_EQ(redrawn(maps, gpu), 0);
 

@@ -141,9 +141,9 @@ TEST_F(TextureTest, StorageBytesCountAllLevelsAndLayers) {
 
 TEST_F(TextureTest, BufferTexturesReadTheBuffer) {
     addShader("test/fetch.comp.glsl",
-              "#version 450 core\nlayout(local_size_x = 8) in;\nlayout(binding = 8) uniform usamplerBuffer "
+              "#version 450 core\nlayout(local_size_x = 8) in;\nuniform usamplerBuffer "
               "source;\n"
-              "layout(std430, binding = 8) buffer Out { uint sums[8]; };\n"
+              "layout(std430) buffer Out { uint sums[8]; };\n"
               "void main() { uint i = gl_LocalInvocationIndex; uvec4 t = texelFetch(source, int(i)); sums[i] "
               "= t.x + t.y * uint(textureSize(source)); }\n");
     std::vector<std::uint32_t> data(16);
@@ -151,9 +151,9 @@ TEST_F(TextureTest, BufferTexturesReadTheBuffer) {
     const gl::Buffer source(data, "source"), out(32, "out");
     const gl::Texture view(source, GL_RG32UI, "view");
     EXPECT_EQ(view.width(), 8);
-    view.bind(8);
-    out.bindStorage(8);
-    programs().compute("test/fetch.comp.glsl").dispatch(8);
+    programs()
+        .compute("test/fetch.comp.glsl")
+        .dispatch(gl::Inputs().texture("source", view).storage("Out", out), 8);
     for (std::uint32_t i = 0; i < 8; ++i)
         EXPECT_EQ(out.read<std::uint32_t>(8)[i], (2 * i + 1) + 8 * (2 * i + 2));
 }
@@ -193,7 +193,6 @@ TEST_F(TextureTest, BuffersAreZeroWordsAndKeepUpdates) {
     EXPECT_EQ(small.read<std::uint8_t>(16), (Bytes{1, 2, 3, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0}));
     const gl::Buffer empty(std::vector<float>{}, "empty");
     EXPECT_EQ(empty.bytes(), 16u);
-    empty.bindStorage(8);
     buffer.reset();
     EXPECT_EQ(buffer.bytes(), 0u);
 }
@@ -208,7 +207,6 @@ TEST_F(TextureDeathTest, RangesOutsideABufferStopTheProgram) {
     EXPECT_DEATH(buffer.read(17, bytes, 0), "reaches past the end");
     // Offset + size wraps around to a small number.
     EXPECT_DEATH(buffer.read(8, bytes, ~std::size_t{0}), "reaches past the end");
-    EXPECT_DEATH(buffer.bindStorage(8, 0, 17), "reaches past the end");
     EXPECT_DEATH(gl::Texture({GL_TEXTURE_2D, GL_RGBA8, 0, 4}, "flat"), "at least one texel");
 }
 

@@ -1,23 +1,22 @@
 // SPDX-License-Identifier: MIT
 // The thesis's volume: what lands in it, whatever the order of threads and the place of the grid.
-#include "voxels/thesis_volume.h"
+#include "thesis/render/volume.h"
 
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
 #include <random>
+#include "conelight/thesis/settings.h"
 
 #include "conelight/error.h"
-#include "gather/thesis_cones.h"
-#include "shared/bindings.h"
-#include "shared/frame.h"
 #include "support/gl_fixture.h"
+#include "thesis/render/cones.h"
 
 namespace conelight::test {
 namespace {
 
-using voxels::ThesisVolume;
-using voxels::ThesisVolumeOptions;
+using thesis::ThesisVolume;
+using thesis::ThesisVolumeOptions;
 
 // A parallelogram as two triangles, white and matt, counter-clockwise from `normal`'s side.
 void addQuad(Scene& scene, const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v) {
@@ -34,9 +33,8 @@ void addQuad(Scene& scene, const glm::vec3& corner, const glm::vec3& u, const gl
 Scene whiteScene() {
     Scene scene;
     Material material;
-    material.isPhong = true;
-    material.phong.color = glm::vec3(1);
-    material.phong.ambientStrength = 0;
+    material.phong.emplace().color = glm::vec3(1);
+    material.phong->ambientStrength = 0;
     scene.materials.push_back(material);
     Light light;
     light.type = LightType::Directional;
@@ -82,12 +80,10 @@ class ThesisVolumeTest : public GlTest {
     // All texels of a level.
     std::vector<glm::vec4> build(const Scene& source, const ThesisVolumeOptions& options, int level = 0) {
         const scene::GpuScene scene(source);
-        scene.bind();
-        const gl::Buffer frame(sizeof(gpu::FrameConstants), "frame");
-        frame.bindUniform(BINDING_FRAME);
+        light::Lights lights;
+        lights.update(device(), scene, {.emissiveQuads = false, .shadowMaps = false});
         ThesisVolume volume;
-        gl::Profiler profiler;
-        volume.build(programs(), profiler, scene, options);
+        volume.build(device(), {scene, lights}, options);
         return read(volume, level);
     }
     static std::vector<glm::vec4> read(const ThesisVolume& volume, int level) {
@@ -193,16 +189,14 @@ TEST_F(ThesisVolumeTest, BuildingAgainLeavesNothingBehind) {
     const Scene blob = blobScene();
     Scene plane = whiteScene();
     addQuad(plane, {-0.25f, 0.1f, -0.25f}, {0, 0, 0.5f}, {0.5f, 0, 0});
-    const gl::Buffer frame(sizeof(gpu::FrameConstants), "frame");
-    frame.bindUniform(BINDING_FRAME);
-    gl::Profiler profiler;
     ThesisVolume used, fresh;
     const scene::GpuScene blobTables(blob), planeTables(plane);
-    blobTables.bind();
-    used.build(programs(), profiler, blobTables, optionsOf(32));
-    planeTables.bind();
-    used.build(programs(), profiler, planeTables, optionsOf(32));
-    fresh.build(programs(), profiler, planeTables, optionsOf(32));
+    light::Lights blobLights, planeLights;
+    blobLights.update(device(), blobTables, {.shadowMaps = false});
+    planeLights.update(device(), planeTables, {.shadowMaps = false});
+    used.build(device(), {blobTables, blobLights}, optionsOf(32));
+    used.build(device(), {planeTables, planeLights}, optionsOf(32));
+    fresh.build(device(), {planeTables, planeLights}, optionsOf(32));
     for (int level = 0; level < 6; ++level) {
         const std::vector<glm::vec4> a = read(used, level), b = read(fresh, level);
         EXPECT_EQ(std::memcmp(a.data(), b.data(), a.size() * sizeof(glm::vec4)), 0) << level;
@@ -264,7 +258,7 @@ TEST_F(ThesisVolumeTest, GridHoldsTheSceneAndHalvesEvenly) {
 
 // The original's tables, and what replaces them.
 TEST(ThesisConstantsTest, AutomaticNumbersFollowTheTable) {
-    ThesisSettings published;
+    thesis::ThesisSettings published;
     published.published = true;
     gpu::ThesisGrid grid{};
     grid.voxelSize = 0.01f;
@@ -276,7 +270,7 @@ TEST(ThesisConstantsTest, AutomaticNumbersFollowTheTable) {
                  {128, 0.01f, 0.35f, 0.3f, 0.15f, 0.02f, 3},
                  {256, 0.1f, 0.1f, 0.15f, 0.05f, 0.01f, 2}};
     for (const auto& row : table) {
-        const gpu::ThesisConstants c = gather::thesisConstants(published, grid, row.size);
+        const gpu::ThesisConstants c = thesis::thesisConstants(published, grid, row.size);
         EXPECT_FLOAT_EQ(c.diffuseCone.y, row.diffuseFactor);
         EXPECT_FLOAT_EQ(c.occlusionCone.y, row.occlusionFactor);
         EXPECT_FLOAT_EQ(c.specularCone.y, row.specularFactor);
@@ -290,12 +284,12 @@ TEST(ThesisConstantsTest, AutomaticNumbersFollowTheTable) {
         EXPECT_FLOAT_EQ(c.shininessFalloff, row.falloff);
     }
     // Between the tuned sizes the numbers lie between.
-    const float between = gather::thesisConstants(published, grid, 96).specularCone.y;
+    const float between = thesis::thesisConstants(published, grid, 96).specularCone.y;
     EXPECT_GT(between, 0.3f);
     EXPECT_LT(between, 0.8f);
     // A number wins over the table.
     published.diffuse.aperture = {false, 0.7f};
-    EXPECT_FLOAT_EQ(gather::thesisConstants(published, grid, 64).diffuseCone.x, spread(0.7f));
+    EXPECT_FLOAT_EQ(thesis::thesisConstants(published, grid, 64).diffuseCone.x, spread(0.7f));
 }
 
 TEST(ThesisConstantsTest, MarchesThatWouldNotEndAreRefused) {
@@ -307,9 +301,9 @@ TEST(ThesisConstantsTest, MarchesThatWouldNotEndAreRefused) {
                     << cone << "." << name << " = " << value;
     EXPECT_THROW(setSetting(settings, "thesis.max_samples", "0"), Error);
     // Also when set past the list of settings.
-    ThesisSettings direct;
+    thesis::ThesisSettings direct;
     direct.specular.offset = {false, 0.0f};
-    EXPECT_THROW(gather::thesisConstants(direct, gpu::ThesisGrid{}, 64), Error);
+    EXPECT_THROW(thesis::thesisConstants(direct, gpu::ThesisGrid{}, 64), Error);
 }
 
 }  // namespace conelight::test

@@ -55,14 +55,13 @@ struct Face {
 };
 
 struct VoxelLayers : public GlTest {
-    gl::Profiler profiler;
     voxels::VoxelTables tables;
     std::vector<std::uint32_t> sources;
 
     void voxelize(const Scene& scene, const VoxelGrid& grid) {
         const scene::GpuScene gpu(scene);
         voxels::SurfaceVoxels surface;
-        surface.build(programs(), profiler, gpu, grid);
+        surface.build(device(), gpu, grid);
         tables = voxels::downloadVoxels(surface);
         sources = surface.faceSources().read<std::uint32_t>(2 * std::size_t{surface.faceCount()});
     }
@@ -325,8 +324,8 @@ TEST_F(VoxelLayers, LightIsLookedUpOnTopOfWhatStandsInFront) {
     addShader("test/rise.comp.glsl", R"(#version 450
 layout(local_size_x = 64) in;
 #include "lib/voxel_record.glsl"
-layout(std430, binding = 8) readonly buffer In { uvec4 texels[]; };
-layout(std430, binding = 9) writeonly buffer Out { vec4 rises[]; };
+layout(std430) readonly buffer In { uvec4 texels[]; };
+layout(std430) writeonly buffer Out { vec4 rises[]; };
 void main() {
     uvec4 r = texels[2u * gl_GlobalInvocationID.x];
     rises[gl_GlobalInvocationID.x] = vec4(faceRise(r, octDecode(unpackSnorm2x16(r.x))), 0.0);
@@ -336,9 +335,9 @@ void main() {
         faces.resize((faces.size() + 63) / 64 * 64);
         const gl::Buffer in(faces, "in");
         const gl::Buffer out(faces.size() * 16, "out");
-        in.bindStorage(8);
-        out.bindStorage(9);
-        programs().compute("test/rise.comp.glsl").dispatch(static_cast<int>(faces.size()));
+        programs()
+            .compute("test/rise.comp.glsl")
+            .dispatch(gl::Inputs().storage("In", in).storage("Out", out), static_cast<int>(faces.size()));
         gl::barrier(gl::Access::ShaderStorage);
         return out.read<glm::vec4>(tables.faces.size());
     };

@@ -52,15 +52,6 @@ std::map<std::uint32_t, std::vector<std::uint32_t>> byBrick(const SurfaceVoxels&
     return bricks;
 }
 
-Mesh boxMesh() {
-    Mesh mesh;
-    for (int i = 0; i < 8; ++i)
-        mesh.positions.emplace_back((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
-    mesh.indices = {0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
-                    2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
-    return mesh;
-}
-
 // A floor that many things stand on, in and above: voxels shared by several instances are the hard case.
 Scene crowd() {
     Scene scene;
@@ -123,26 +114,25 @@ void changeSomething(Scene& scene, scene::GpuScene& gpu, std::mt19937& random) {
 }
 
 struct VoxelUpdates : public GlTest {
-    gl::Profiler profiler;
     VoxelSettings settings{.size = 32};
 
     Content built(const scene::GpuScene& scene) {
         SurfaceVoxels surface;
-        surface.build(programs(), profiler, scene, settings);
+        surface.build(device(), scene, settings);
         return download(surface);
     }
     // 20 steps of one to three changes each; returns how many of them were updates, not builds.
     int checkSequence(Scene scene, unsigned seed) {
         scene::GpuScene gpu(scene);
         SurfaceVoxels surface;
-        surface.update(programs(), profiler, gpu, settings);
+        surface.update(device(), gpu, settings);
         EXPECT_TRUE(surface.lastUpdate().whole);
         EXPECT_EQ(download(surface), built(gpu));
         std::mt19937 random(seed);
         int updates = 0;
         for (int step = 0; step < 20; ++step) {
             for (unsigned i = 0; i <= random() % 3; ++i) changeSomething(scene, gpu, random);
-            surface.update(programs(), profiler, gpu, settings);
+            surface.update(device(), gpu, settings);
             updates += surface.lastUpdate().whole ? 0 : 1;
             EXPECT_EQ(download(surface), built(gpu)) << "seed " << seed << ", step " << step;
             if (HasFailure()) break;
@@ -168,11 +158,11 @@ TEST_F(VoxelUpdates, DoNoMoreThanWasChanged) {
     Scene scene = crowd();
     scene::GpuScene gpu(scene);
     SurfaceVoxels surface;
-    surface.build(programs(), profiler, gpu, settings);
+    surface.build(device(), gpu, settings);
     const voxels::SurfaceUpdate whole = surface.lastUpdate();
     const Content first = download(surface);
 
-    surface.update(programs(), profiler, gpu, settings);
+    surface.update(device(), gpu, settings);
     EXPECT_EQ(surface.lastUpdate().triangles + surface.lastUpdate().fragments + surface.lastUpdate().faces,
               0u);
 
@@ -181,7 +171,7 @@ TEST_F(VoxelUpdates, DoNoMoreThanWasChanged) {
         scene.instances[5].worldFromObject[3] = home[3] + 0.003f * static_cast<float>(i);
         gpu.setInstance(5, scene.instances[5]);
         const auto before = byBrick(surface, download(surface));
-        surface.update(programs(), profiler, gpu, settings);
+        surface.update(device(), gpu, settings);
         ASSERT_FALSE(surface.lastUpdate().whole) << i;  // slots are used again: no list fills up
         EXPECT_EQ(surface.lastUpdate().triangles, 12u);
         EXPECT_LT(surface.lastUpdate().fragments, whole.fragments / 5);
@@ -206,7 +196,7 @@ TEST_F(VoxelUpdates, DoNoMoreThanWasChanged) {
     // And back.
     scene.instances[5].worldFromObject = home;
     gpu.setInstance(5, scene.instances[5]);
-    surface.update(programs(), profiler, gpu, settings);
+    surface.update(device(), gpu, settings);
     EXPECT_EQ(download(surface), first);
 }
 
@@ -215,7 +205,7 @@ TEST_F(VoxelUpdates, KeepLightWhereNothingChanged) {
     Scene scene = crowd();
     scene::GpuScene gpu(scene);
     SurfaceVoxels surface;
-    surface.build(programs(), profiler, gpu, settings);
+    surface.build(device(), gpu, settings);
     std::vector<gpu::FaceRecord> lit = surface.faces().read<gpu::FaceRecord>(surface.faceCount());
     const auto mark = [](const gpu::FaceRecord& face) { return 7u * face.voxel + face.normal; };
     for (gpu::FaceRecord& face : lit) face.irradiance0 = mark(face);
@@ -223,7 +213,7 @@ TEST_F(VoxelUpdates, KeepLightWhereNothingChanged) {
 
     scene.instances[5].worldFromObject[3].x += 0.05f;
     gpu.setInstance(5, scene.instances[5]);
-    surface.update(programs(), profiler, gpu, settings);
+    surface.update(device(), gpu, settings);
     std::uint32_t fresh = 0;
     for (const gpu::FaceRecord& face : surface.faces().read<gpu::FaceRecord>(surface.faceCount())) {
         EXPECT_TRUE(face.irradiance0 == mark(face) || face.irradiance0 == 0);

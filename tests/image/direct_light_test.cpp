@@ -5,8 +5,6 @@
 #include <cmath>
 
 #include "gather/direct_light.h"
-#include "light/shadow_maps.h"
-#include "shared/bindings.h"
 #include "support/gl_fixture.h"
 #include "support/view_rig.h"
 
@@ -49,13 +47,10 @@ class DirectLightTest : public GlTest {
     std::vector<float> irradiance(const Scene& scene, const Camera& camera,
                                   const LightSettings& settings = {}) {
         ViewRig rig(scene, camera, kWidth, kHeight);
-        light::ShadowMaps shadows;
-        rig.gpuScene.bind();
-        shadows.update(programs(), rig.profiler, rig.gpuScene, settings);
-        shadows.bind();
-        rig.draw(programs());
+        rig.wanted = {.settings = settings, .emissiveQuads = false};
+        rig.draw(device());
         gather::DirectLight direct;
-        direct.draw(programs(), rig.profiler, rig.gpuScene, settings, kWidth, kHeight);
+        direct.draw(device(), {rig.gpuScene, rig.lights, rig.surfaces});
         gl::barrier(gl::Access::TextureFetch);
         std::vector<glm::vec4> pixels(kWidth * kHeight);
         direct.diffuse().read(0, GL_RGBA, GL_FLOAT, pixels.data(), pixels.size() * sizeof(glm::vec4));
@@ -66,7 +61,7 @@ class DirectLightTest : public GlTest {
     }
 
     static glm::dvec3 floorPoint(const Camera& camera, int x, int y) {
-        return pixelOnPlane(camera, kWidth, kHeight, x, y, {0, 1, 0}, 0);
+        return pixelOnPlane(camera, {kWidth, kHeight}, {x, y}, {0, 1, 0}, 0);
     }
 
     // Largest relative difference from expected(point on the floor) over all pixels where that is positive.

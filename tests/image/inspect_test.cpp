@@ -6,6 +6,7 @@
 
 #include "conelight/error.h"
 #include "conelight/renderer.h"
+#include "conelight/thesis/settings.h"
 #include "io/generated.h"
 #include "support/gl_fixture.h"
 #include "support/truth_rig.h"
@@ -126,15 +127,15 @@ TEST_F(InspectTest, FacesOfTheCacheAddUpToThePicture) {
 TEST_F(InspectTest, ThesisConesAddUpToThePicture) {
     for (const bool published : {false, true}) {
         Scene scene = roomWithGloss();
-        for (Material& material : scene.materials) setPbrFromPhong(material);
-        Settings settings = settingsOf(Mode::Thesis, Component::Indirect);
-        settings.thesis.published = published;
+        for (Material& material : scene.materials) setPbrFromPhong(material, PhongMaterial{});
+        Settings settings = settingsOf(thesis::kMode, Component::Indirect);
+        settings.groups.of<thesis::ThesisSettings>().published = published;
         expectExplained(scene, settings, 1e-4f);
     }
 }
 
 TEST_F(InspectTest, OcclusionAddsUpInEveryMode) {
-    for (const Mode mode : {Mode::Cones, Mode::Traced, Mode::Thesis}) {
+    for (const Mode mode : {Mode::Cones, Mode::Traced, thesis::kMode}) {
         Settings settings = settingsOf(mode, Component::Occlusion);
         settings.traced.filterLevels = 1;
         Renderer renderer;
@@ -142,7 +143,7 @@ TEST_F(InspectTest, OcclusionAddsUpInEveryMode) {
         renderer.setScene(scene);
         renderer.render(scene.cameras.at(0), kPixels, kPixels, settings);
         const PixelInspection pixel = renderer.inspectPixel(20, 36);
-        ASSERT_TRUE(pixel.occlusion.used) << static_cast<int>(mode);
+        ASSERT_TRUE(pixel.occlusion.used) << mode.name();
         expectClose(sumOf(pixel, PathPart::Occlusion), pixel.occlusion.value, 1e-4f, "paths");
         // The traced picture is filtered over its neighbours.
         expectClose(pixel.occlusion.value, glm::vec3(pixel.picture), mode == Mode::Traced ? 0.1f : 2e-3f,
@@ -151,7 +152,7 @@ TEST_F(InspectTest, OcclusionAddsUpInEveryMode) {
 }
 
 TEST_F(InspectTest, StepsAddUpToTheirCone) {
-    for (const Mode mode : {Mode::Cones, Mode::Thesis}) {
+    for (const Mode mode : {Mode::Cones, thesis::kMode}) {
         Renderer renderer;
         const Scene scene = roomWithGloss();  // its sky is black
         renderer.setScene(scene);

@@ -9,7 +9,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "conelight/error.h"
+
 #include "conelight/renderer.h"
+#include "conelight/thesis/settings.h"
 #include "support/gl_fixture.h"
 #include "support/view_rig.h"
 
@@ -26,15 +28,6 @@ Settings smallSettings(Mode mode) {
     settings.light.shadowSize = 256;
     settings.light.areaSamples = 4;
     return settings;
-}
-
-Mesh boxMesh() {
-    Mesh mesh;
-    for (int i = 0; i < 8; ++i)
-        mesh.positions.emplace_back((i & 1) != 0 ? 1 : -1, (i & 2) != 0 ? 1 : -1, (i & 4) != 0 ? 1 : -1);
-    mesh.indices = {0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4,
-                    2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6};
-    return mesh;
 }
 
 glm::mat4 placed(const glm::vec3& position, float size = 0.2f) {
@@ -152,7 +145,7 @@ std::vector<Change> changes() {
 class SceneChanges : public GlTest {};
 
 TEST_F(SceneChanges, ThePictureIsThatOfAFreshRenderer) {
-    for (const Mode mode : {Mode::Phong, Mode::Thesis, Mode::Cones}) {
+    for (const Mode mode : {Mode::Phong, thesis::kMode, Mode::Cones}) {
         const Scene first = roomScene();
         Renderer renderer;
         renderer.setScene(first);
@@ -162,10 +155,10 @@ TEST_F(SceneChanges, ThePictureIsThatOfAFreshRenderer) {
             change.edit(scene);
             change.apply(renderer, scene);
             EXPECT_TRUE(sameBits(drawnBy(renderer, scene, mode), drawnAfresh(scene, mode)))
-                << change.name << ", mode " << static_cast<int>(mode);
+                << change.name << ", mode " << mode.name();
             change.apply(renderer, first);
             EXPECT_TRUE(sameBits(drawnBy(renderer, first, mode), before))
-                << change.name << " and back, mode " << static_cast<int>(mode);
+                << change.name << " and back, mode " << mode.name();
         }
     }
 }

@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "conelight/renderer.h"
+
+#include "conelight/thesis/settings.h"
 #include "support/gl_fixture.h"
 
 namespace conelight::test {
@@ -24,11 +26,10 @@ void addQuad(Scene& scene, const glm::vec3& corner, const glm::vec3& u, const gl
 
 int addMaterial(Scene& scene, const glm::vec3& color, float shininess, float specular) {
     Material material;
-    material.isPhong = true;
-    material.phong.color = color;
-    material.phong.shininess = shininess;
-    material.phong.specularStrength = specular;
-    setPbrFromPhong(material);
+    material.phong.emplace().color = color;
+    material.phong->shininess = shininess;
+    material.phong->specularStrength = specular;
+    setPbrFromPhong(material, *material.phong);
     scene.materials.push_back(material);
     return static_cast<int>(scene.materials.size()) - 1;
 }
@@ -68,7 +69,7 @@ Light lamp(const glm::vec3& position, const glm::vec3& color) {
 // The thesis's empty room: a cube of edge 1 with red and green side walls, its right wall at `right`.
 Scene room(float right = 0.5f) {
     Scene scene;
-    scene.thesisFormat = true;
+    scene.format = "thesis";
     const int grey = addMaterial(scene, glm::vec3(0.85f), 1, 0.01f);
     const int red = addMaterial(scene, {1, 0.4f, 0.4f}, 1, 0.01f);
     const int green = addMaterial(scene, {0.4f, 1, 0.4f}, 1, 0.01f);
@@ -89,7 +90,7 @@ Scene furnishedRoom() {
     Scene scene = room();
     const int mirror = addMaterial(scene, glm::vec3(0.8f), 256, 1.3f);
     const int gloss = addMaterial(scene, {0.9f, 0.7f, 0.4f}, 20, 0.8f);
-    scene.materials[static_cast<std::size_t>(gloss)].phong.diffuseStrength = 2.0f;
+    scene.materials[static_cast<std::size_t>(gloss)].phong->diffuseStrength = 2.0f;
     const int glow = addMaterial(scene, {0.2f, 0.4f, 1.0f}, 1, 0.0f);
     scene.materials[static_cast<std::size_t>(glow)].emission = {0.5f, 1.0f, 2.0f};
     addSphere(scene, {-0.33f, -0.1f, 0.0f}, 0.16f, mirror);
@@ -111,7 +112,7 @@ Camera pos2() {
 
 Settings thesisSettings(int voxels = 64) {
     Settings settings;
-    settings.mode = Mode::Thesis;
+    settings.mode = thesis::kMode;
     settings.voxels.size = voxels;
     settings.light.shadowSize = 256;
     return settings;
@@ -193,7 +194,7 @@ TEST_F(ThesisModeTest, RingsAroundTheLampAppearAndDisappear) {
 
     // The published march samples at t_k = 0.08 r^k and has one sample more wherever the lamp's distance
     // passes one of them.
-    settings.thesis.published = true;
+    settings.groups.of<thesis::ThesisSettings>().published = true;
     const std::vector<double> published = jumps();
     EXPECT_GE(published.size(), 8u);
     const double ratio = 1 + 0.35 * 2 * std::tan(0.2);
@@ -203,9 +204,10 @@ TEST_F(ThesisModeTest, RingsAroundTheLampAppearAndDisappear) {
     }
 
     // The cut last step alone makes the rings: with all else as published, weighting it removes them.
-    settings.thesis.published = false;
-    for (bool* flag : thesisDefectFlags(settings.thesis.defects)) *flag = true;
-    settings.thesis.defects.lastStep = false;
+    settings.groups.of<thesis::ThesisSettings>().published = false;
+    for (bool* flag : thesis::thesisDefectFlags(settings.groups.of<thesis::ThesisSettings>().defects))
+        *flag = true;
+    settings.groups.of<thesis::ThesisSettings>().defects.lastStep = false;
     EXPECT_EQ(jumps().size(), 0u);
 }
 
@@ -224,9 +226,10 @@ TEST_F(ThesisModeTest, MendedPicturesAreFinite) {
     }
     // All diffuse cones off is a picture too: the original divides by their number.
     Settings none = thesisSettings();
-    none.thesis.frontCone = none.thesis.intermediateCones = false;
+    none.groups.of<thesis::ThesisSettings>().frontCone =
+        none.groups.of<thesis::ThesisSettings>().intermediateCones = false;
     for (const bool published : {false, true}) {
-        none.thesis.published = published;
+        none.groups.of<thesis::ThesisSettings>().published = published;
         for (const glm::vec4& p : render(scene, none).pixels) ASSERT_TRUE(std::isfinite(p.r));
     }
 }
@@ -235,12 +238,13 @@ TEST_F(ThesisModeTest, ComponentsAddUpToThePicture) {
     const Scene scene = furnishedRoom();
     for (const bool published : {false, true}) {
         Settings settings = thesisSettings();
-        settings.thesis.published = published;
+        settings.groups.of<thesis::ThesisSettings>().published = published;
         // The one thing in a published picture that two runs may differ in.
         if (published) {
-            settings.thesis.published = false;
-            for (bool* flag : thesisDefectFlags(settings.thesis.defects)) *flag = true;
-            settings.thesis.defects.racingStores = false;
+            settings.groups.of<thesis::ThesisSettings>().published = false;
+            for (bool* flag : thesis::thesisDefectFlags(settings.groups.of<thesis::ThesisSettings>().defects))
+                *flag = true;
+            settings.groups.of<thesis::ThesisSettings>().defects.racingStores = false;
         }
         const auto part = [&](Component component) {
             settings.component = component;
@@ -282,8 +286,9 @@ TEST_F(ThesisModeTest, EverySwitchOfThePictureDoesSomething) {
     }
     // Ambient light shows only where no cones bring indirect light.
     Settings local = settings, dark = settings;
-    local.thesis.voxDiffuse = dark.thesis.voxDiffuse = false;
-    dark.thesis.phongAmbient = false;
+    local.groups.of<thesis::ThesisSettings>().voxDiffuse =
+        dark.groups.of<thesis::ThesisSettings>().voxDiffuse = false;
+    dark.groups.of<thesis::ThesisSettings>().phongAmbient = false;
     EXPECT_GT(largestDifference(render(scene, local), render(scene, dark)), 0.01);
 }
 
@@ -296,36 +301,36 @@ TEST_F(ThesisModeTest, EveryDefectChangesThePicture) {
     Renderer renderer;
     renderer.setScene(scene);
     int size = 64;
-    const auto picture = [&](const ThesisDefects& defects) {
+    const auto picture = [&](const thesis::ThesisDefects& defects) {
         Settings settings = thesisSettings(size);
         // They can graze.
-        settings.thesis.sideCones = true;
-        settings.thesis.minSpecular = 0;
-        settings.thesis.defects = defects;
+        settings.groups.of<thesis::ThesisSettings>().sideCones = true;
+        settings.groups.of<thesis::ThesisSettings>().minSpecular = 0;
+        settings.groups.of<thesis::ThesisSettings>().defects = defects;
         renderer.render(pos2(), 48, 36, settings);
         return renderer.readImage();
     };
-    ThesisDefects none, all;
-    for (bool* flag : thesisDefectFlags(all)) *flag = true;
+    thesis::ThesisDefects none, all;
+    for (bool* flag : thesis::thesisDefectFlags(all)) *flag = true;
     // Stores that race differ from run to run anyway.
     all.racingStores = false;
     Image mended = picture(none), published = picture(all);
     std::vector<std::string> names;
     for (const SettingInfo& info : settingInfos())
         if (info.key.rfind("thesis.defects.", 0) == 0) names.push_back(info.key);
-    ASSERT_EQ(names.size(), thesisDefectFlags(none).size());
+    ASSERT_EQ(names.size(), thesis::thesisDefectFlags(none).size());
     for (std::size_t i = 0; i < names.size(); ++i) {
-        ThesisDefects one = none, others = all;
+        thesis::ThesisDefects one = none, others = all;
         if (names[i] == "thesis.defects.capped_levels") {
             // 64 voxels have no more levels than seven.
             size = 256;
             mended = picture(none);
             published = picture(all);
         }
-        *thesisDefectFlags(one)[i] = true;
+        *thesis::thesisDefectFlags(one)[i] = true;
         double difference = largestDifference(mended, picture(one));
         if (difference < 1e-3) {
-            *thesisDefectFlags(others)[i] = !*thesisDefectFlags(others)[i];
+            *thesis::thesisDefectFlags(others)[i] = !*thesis::thesisDefectFlags(others)[i];
             difference = largestDifference(published, picture(others));
         }
         EXPECT_GT(difference, 1e-3) << names[i];
@@ -357,9 +362,9 @@ TEST_F(ThesisModeTest, AHairOfShiftDoesNotMoveTheShade) {
     };
     EXPECT_LT(shift(), 0.01);
     // The grid of the original has its faces on the walls.
-    settings.thesis.defects.wholeGrid = true;
+    settings.groups.of<thesis::ThesisSettings>().defects.wholeGrid = true;
     EXPECT_LT(shift(), 0.01);
-    settings.thesis.published = true;
+    settings.groups.of<thesis::ThesisSettings>().published = true;
     EXPECT_GT(shift(), 0.1);
 }
 
@@ -373,7 +378,7 @@ TEST_F(ThesisModeTest, AnEmptyRoomShadowsNothing) {
     Settings settings = thesisSettings();
     settings.component = Component::Occlusion;
     EXPECT_GT(meanOf(render(room(), settings, camera)), 0.95);
-    settings.thesis.published = true;
+    settings.groups.of<thesis::ThesisSettings>().published = true;
     EXPECT_LT(meanOf(render(room(), settings, camera)), 0.6);
 }
 
@@ -387,8 +392,9 @@ TEST_F(ThesisModeTest, BrightnessDoesNotDependOnTheSize) {
     const double coarse = mean(64), fine = mean(128);
     EXPECT_NEAR(fine / coarse, 1.0, 0.15);
     // The original's first hit fades with the size (the weight by occlusion would hide some of it).
-    for (bool* flag : thesisDefectFlags(settings.thesis.defects)) *flag = true;
-    settings.thesis.defects.occludedIndirect = false;
+    for (bool* flag : thesis::thesisDefectFlags(settings.groups.of<thesis::ThesisSettings>().defects))
+        *flag = true;
+    settings.groups.of<thesis::ThesisSettings>().defects.occludedIndirect = false;
     setSetting(settings, "thesis.diffuse.dist_factor", "0.1");
     const double dimCoarse = mean(64), dimFine = mean(128);
     EXPECT_LT(dimFine / dimCoarse, 0.75);
@@ -416,10 +422,11 @@ TEST_F(ThesisModeTest, LookupsAreCounted) {
     };
     const double usual = lookups();
     EXPECT_GT(usual, 5.0);
-    settings.thesis.voxSpecular = settings.thesis.voxShadows = false;
+    settings.groups.of<thesis::ThesisSettings>().voxSpecular =
+        settings.groups.of<thesis::ThesisSettings>().voxShadows = false;
     const double diffuse = lookups();
     EXPECT_LT(diffuse, usual);
-    settings.thesis.voxDiffuse = false;
+    settings.groups.of<thesis::ThesisSettings>().voxDiffuse = false;
     EXPECT_EQ(lookups(), 0.0);
 }
 

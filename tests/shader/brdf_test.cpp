@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "gl/pass.h"
-#include "shared/bindings.h"
 #include "support/gl_fixture.h"
 
 namespace conelight::test {
@@ -105,9 +104,8 @@ class BrdfShaderTest : public GlTest {};
 TEST_F(BrdfShaderTest, ShaderEqualsItsTwin) {
     addShader("test/brdf.comp.glsl", R"(#version 450 core
 #include "lib/brdf.glsl"
-#include "shared/bindings.h"
 layout(local_size_x = 64) in;
-layout(std430, binding = BINDING_STORAGE_PASS) buffer Data { vec4 data[]; };
+layout(std430) buffer Data { vec4 data[]; };
 void main() {
     uint i = gl_GlobalInvocationID.x * 4u;
     vec4 a = data[i], b = data[i + 1u], c = data[i + 2u];
@@ -133,8 +131,9 @@ void main() {
         data.emplace_back(0);
     }
     gl::Buffer buffer(data, "brdf cases");
-    buffer.bindStorage(BINDING_STORAGE_PASS);
-    programs().compute("test/brdf.comp.glsl").dispatch(static_cast<int>(count));
+    programs()
+        .compute("test/brdf.comp.glsl")
+        .dispatch(gl::Inputs().storage("Data", buffer), static_cast<int>(count));
     gl::barrier(gl::Access::ShaderStorage);
     const std::vector<glm::vec4> got = buffer.read<glm::vec4>(data.size());
     for (std::size_t i = 0; i < count; ++i) {

@@ -5,7 +5,6 @@
 #include "gl/pass.h"
 #include "math/brdf.h"
 #include "scene/gpu_lights.h"
-#include "shared/bindings.h"
 #include "support/gl_fixture.h"
 
 namespace conelight::test {
@@ -49,7 +48,7 @@ class RectLightTest : public GlTest {
 #define LIGHTS_SHADOWS 0
 #include "lib/lights.glsl"
 layout(local_size_x = 64) in;
-layout(std430, binding = BINDING_STORAGE_PASS) buffer Data { vec4 data[]; };
+layout(std430) buffer Data { vec4 data[]; };
 void main() {
     uint i = gl_GlobalInvocationID.x * 2u;
     vec3 p = data[i].xyz, toEye = normalize(data[i + 1u].xyz - p), n = vec3(0, 1, 0);
@@ -64,9 +63,9 @@ void main() {
             }
         gl::Buffer buffer(data, "points");
         const gl::Buffer table(scene::packedLights({light}), "lights");
-        buffer.bindStorage(BINDING_STORAGE_PASS);
-        table.bindStorage(BINDING_LIGHTS);
-        programs().compute("test/rect.comp.glsl").dispatch(kEdge * kEdge);
+        programs()
+            .compute("test/rect.comp.glsl")
+            .dispatch(gl::Inputs().storage("Data", buffer).storage("LightTable", table), kEdge * kEdge);
         gl::barrier(gl::Access::ShaderStorage);
         return buffer.read<glm::vec4>(data.size());
     }
@@ -165,9 +164,8 @@ TEST_F(RectLightTest, PointsAreDrawnAsTheLobeSeesThem) {
 TEST_F(RectLightTest, AnyNumberOfPointsSpreadsOverTheRectangle) {
     addShader("test/places.comp.glsl", R"(#version 450 core
 #include "lib/rect_points.glsl"
-#include "shared/bindings.h"
 layout(local_size_x = 64) in;
-layout(std430, binding = BINDING_STORAGE_PASS) buffer Data { vec4 data[]; };
+layout(std430) buffer Data { vec4 data[]; };
 void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= 512u) return;
@@ -175,8 +173,7 @@ void main() {
 }
 )");
     gl::Buffer buffer(std::vector<glm::vec4>(512), "places");
-    buffer.bindStorage(BINDING_STORAGE_PASS);
-    programs().compute("test/places.comp.glsl").dispatch(512);
+    programs().compute("test/places.comp.glsl").dispatch(gl::Inputs().storage("Data", buffer), 512);
     gl::barrier(gl::Access::ShaderStorage);
     const std::vector<glm::vec4> places = buffer.read<glm::vec4>(512);
     for (std::size_t grid = 1; grid <= 8; ++grid) {

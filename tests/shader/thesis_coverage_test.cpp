@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// lib/thesis_coverage.glsl against polygon clipping on the CPU; lib/thesis_march.glsl's frames and weights.
+// modes/thesis/shaders/coverage.glsl against polygon clipping on the CPU; march.glsl's frames and weights.
 #include <algorithm>
 #include <cmath>
 #include <glm/glm.hpp>
@@ -63,10 +63,10 @@ using ThesisCoverageTest = GlTest;
 
 TEST_F(ThesisCoverageTest, AreaEqualsClippedPolygon) {
     addShader("test/coverage.comp.glsl", R"(#version 450 core
-#include "lib/thesis_coverage.glsl"
+#include "thesis/shaders/coverage.glsl"
 layout(local_size_x = 64) in;
-layout(std430, binding = 0) buffer Corners { vec2 corners[]; };
-layout(std430, binding = 1) buffer Areas { vec4 areas[]; };
+layout(std430) buffer Corners { vec2 corners[]; };
+layout(std430) buffer Areas { vec4 areas[]; };
 void main() {
     uint i = gl_GlobalInvocationID.x;
     vec2 a = corners[3u * i], b = corners[3u * i + 1u], c = corners[3u * i + 2u];
@@ -77,9 +77,9 @@ void main() {
     const std::vector<glm::vec2> corners = triangles();
     const gl::Buffer in(corners, "corners");
     const gl::Buffer out(sizeof(glm::vec4) * kCount, "areas");
-    in.bindStorage(0);
-    out.bindStorage(1);
-    programs().compute("test/coverage.comp.glsl").dispatch(kCount);
+    programs()
+        .compute("test/coverage.comp.glsl")
+        .dispatch(gl::Inputs().storage("Corners", in).storage("Areas", out), kCount);
     gl::barrier(gl::Access::ShaderStorage);
     const std::vector<glm::vec4> areas = out.read<glm::vec4>(kCount);
     double largest = 0;
@@ -98,10 +98,10 @@ void main() {
 
 TEST_F(ThesisCoverageTest, ConeFramesAreUnitAndFiniteForEveryNormal) {
     addShader("test/frame.comp.glsl", R"(#version 450 core
-#include "lib/thesis_march.glsl"
+#include "thesis/shaders/march.glsl"
 layout(local_size_x = 64) in;
-layout(std430, binding = 0) buffer Normals { vec4 normals[]; };
-layout(std430, binding = 1) buffer Cones { vec4 cones[]; };
+layout(std430) buffer Normals { vec4 normals[]; };
+layout(std430) buffer Cones { vec4 cones[]; };
 void main() {
     uint i = gl_GlobalInvocationID.x;
     ConeFrame f = coneFrame(normals[i].xyz);
@@ -116,10 +116,9 @@ void main() {
         normals.emplace_back(glm::normalize(glm::vec3(normal(random), normal(random), normal(random))), 0.0f);
     const gl::Buffer in(normals, "normals");
     const gl::Buffer out(sizeof(glm::vec4) * 9 * normals.size(), "cones");
-    in.bindStorage(0);
-    out.bindStorage(1);
+    const gl::Inputs given = gl::Inputs().storage("Normals", in).storage("Cones", out);
     const auto trace = [&](const gl::Defines& defines) {
-        programs().compute("test/frame.comp.glsl", defines).dispatch(static_cast<int>(normals.size()));
+        programs().compute("test/frame.comp.glsl", defines).dispatch(given, static_cast<int>(normals.size()));
         gl::barrier(gl::Access::ShaderStorage);
         return out.read<glm::vec4>(9 * normals.size());
     };

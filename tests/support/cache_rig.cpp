@@ -4,51 +4,42 @@
 #include <bit>
 #include <glm/gtc/packing.hpp>
 
-#include "light/emissive_quads.h"
+#include "gl/gl.h"
 #include "light/inject_light.h"
 #include "math/octahedral.h"
-#include "shared/bindings.h"
 #include "shared/irradiance.h"
-#include "view/camera.h"
 #include "voxels/voxel_record.h"
 
 namespace conelight::test {
 
-CacheRig::CacheRig(gl::ProgramLibrary& library, const Scene& from, int voxels)
-    : programs(library), source(from), scene(source), frameBlock(sizeof(gpu::FrameConstants), "frame") {
-    voxelSettings.size = voxels;
+CacheRig::CacheRig(gl::ProgramLibrary& library, const Scene& from, int voxelSize)
+    : device{library, profiler}, scene(from), surface(voxels.surface()) {
+    voxelSettings.size = voxelSize;
     voxelize();
     relight();
 }
 
 void CacheRig::voxelize() {
-    cache.beforeVoxelize(profiler, surface);
-    surface.build(programs, profiler, scene, voxelSettings);
-    octants.build(programs, profiler, surface);
-    emissionFit.known = false;
-    cache.afterVoxelize(programs, profiler, surface);
+    voxels.build(device, scene, voxelSettings, voxels::Rays::Yes);
+    cache.adopt(device, voxels);
+    const std::size_t bytes = std::size_t{4} * surface.faceCount();
+    if (directLight.bytes() >= bytes) return;
+    directTexels = {};
+    directLight = gl::Buffer(bytes, "direct light");
+    directTexels = gl::Texture(directLight, GL_R32UI, "direct light");
 }
 
 void CacheRig::relight() {
-    light::setEmissiveQuads(scene, source, light.emissiveQuads);
-    scene.bind();
-    shadows.update(programs, profiler, scene, light);
-    frameBlock.update(view::frameConstants(frameCamera(scene.bounds()), 8, 8, scene, source.sky, 0, 1));
-    frameBlock.bindUniform(BINDING_FRAME);
-    scene.bind();
-    shadows.bind();
-    octants.bind();
-    light::injectLight(programs, profiler, scene, light, surface, &surface.secondFaceScratch(), &emissionFit);
-    cache.lightChanged();
+    lights.update(device, scene, {.settings = light, .emissiveQuads = light.emissiveQuads});
+    const bool fits = light::hasOtherEmitters(scene, lights);
+    if (fits) fit.update(device, voxels);
+    const light::RayLight rays{directLight, fits ? &fit : nullptr};
+    light::injectLight(device, {scene, lights, surface}, &rays);
+    cache.restartAverages();
 }
 
 void CacheRig::update(int passes) {
-    frameBlock.bindUniform(BINDING_FRAME);
-    scene.bind();
-    shadows.bind();
-    surface.bind();
-    octants.bind();
-    cache.update(programs, profiler, scene, light, surface, settings, passes);
+    cache.update(device, {scene, lights, voxels, directTexels}, settings, passes);
 }
 
 std::vector<CachedFace> CacheRig::faces() const {

@@ -8,13 +8,12 @@
 
 #include "conelight/scene.h"
 #include "conelight/settings.h"
-#include "gl/pass.h"
-#include "light/inject_light.h"
+#include "gl/device.h"
+#include "light/emission_fit.h"
 #include "light/irradiance_cache.h"
-#include "light/shadow_maps.h"
+#include "light/lights.h"
 #include "scene/gpu_scene.h"
-#include "voxels/octant_words.h"
-#include "voxels/surface_voxels.h"
+#include "voxels/voxels.h"
 
 namespace conelight::test {
 
@@ -43,18 +42,18 @@ struct CacheRig {
                 const std::function<bool(const CachedFace&)>& counts = {}) const;
     double meanIrradiance() const;
 
-    gl::ProgramLibrary& programs;
-    Scene source;
+    gl::Profiler profiler;
+    gl::Device device;
     LightSettings light;
     VoxelSettings voxelSettings;
     light::CacheSettings settings;
     scene::GpuScene scene;
-    gl::Profiler profiler;
-    gl::Buffer frameBlock;
-    light::ShadowMaps shadows;
-    voxels::SurfaceVoxels surface;
-    voxels::OctantWords octants;
-    light::EmissionFit emissionFit;
+    light::Lights lights;
+    voxels::Voxels voxels;
+    const voxels::SurfaceVoxels& surface;  // of `voxels`
+    gl::Buffer directLight;                // a uint per face, as light::RayLight
+    gl::Texture directTexels;
+    light::EmissionFit fit;
     light::IrradianceCache cache;
 };
 

@@ -4,6 +4,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
@@ -45,15 +46,19 @@ void GlTest::SetUp() {
         GTEST_SKIP() << sharedContext().failure;
     }
     gl::resetDebugErrors();
-    ASSERT_EQ(gl::liveObjectCount(), 0u) << "an earlier test left GL objects";
+    // What an earlier test left is that test's failure alone.
+    for (const gl::LiveObject& object : gl::liveObjects()) aliveBefore_.emplace(object.type, object.name);
+    fresh_.emplace();
 }
 
 void GlTest::TearDown() {
     programs_.reset();
     if (!sharedContext().failure.empty()) return;
     EXPECT_EQ(gl::debugErrorCount(), 0) << gl::lastDebugError();
+    fresh_.reset();
     for (const gl::LiveObject& object : gl::liveObjects())
-        ADD_FAILURE() << "leaked GL object '" << object.label << "'";
+        if (!aliveBefore_.contains({object.type, object.name}))
+            ADD_FAILURE() << "leaked GL object '" << object.label << "'";
 }
 
 gl::ProgramLibrary& GlTest::programs() {
@@ -92,7 +97,12 @@ std::string scratchDir() {
         }
     };
     static const Dir dir;
-    return dir.path.string();
+    const ::testing::TestInfo* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    if (test == nullptr) return dir.path.string();
+    std::string name = std::string(test->test_suite_name()) + "." + test->name();
+    std::replace(name.begin(), name.end(), '/', '.');
+    std::filesystem::create_directories(dir.path / name);
+    return (dir.path / name).string();
 }
 
 CommandResult runCommand(const std::string& commandLine) {

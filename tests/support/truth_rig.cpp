@@ -3,55 +3,7 @@
 
 #include <cmath>
 
-#include "support/view_rig.h"
-
 namespace conelight::test {
-
-Material mattMaterial(const glm::vec3& albedo, const glm::vec3& emission) {
-    Material material;
-    material.baseColor = glm::vec4(albedo, 1);
-    material.emission = emission;
-    material.specular = 0;
-    return material;
-}
-
-Scene closedBox(const Material& material) {
-    Scene scene;
-    for (int axis = 0; axis < 3; ++axis)
-        for (const float side : {-1.0f, 1.0f}) {
-            glm::vec3 n(0), u(0), v(0);
-            n[axis] = -side;
-            u[(axis + 1) % 3] = 2;
-            v[(axis + 2) % 3] = 2;
-            const glm::vec3 corner = -n - 0.5f * (u + v);
-            addInstance(scene, side < 0 ? quadMesh(corner, u, v) : quadMesh(corner, v, u), material);
-        }
-    Camera camera;
-    camera.eye = {0.3f, 0.2f, 0.8f};
-    camera.target = {-0.2f, -0.1f, -1};
-    camera.fovY = 1.5f;
-    scene.cameras.push_back(camera);
-    return scene;
-}
-
-Mesh sphereMesh(int columns, int rows) {
-    Mesh mesh;
-    for (int y = 0; y <= rows; ++y)
-        for (int x = 0; x <= columns; ++x) {
-            const float theta = 3.14159265f * static_cast<float>(y) / static_cast<float>(rows);
-            const float phi = 6.28318531f * static_cast<float>(x % columns) / static_cast<float>(columns);
-            mesh.positions.emplace_back(std::sin(theta) * std::sin(phi), std::cos(theta),
-                                        std::sin(theta) * std::cos(phi));
-        }
-    mesh.normals = mesh.positions;
-    for (int y = 0; y < rows; ++y)
-        for (int x = 0; x < columns; ++x) {
-            const auto a = static_cast<std::uint32_t>(y * (columns + 1) + x);
-            const auto b = a + static_cast<std::uint32_t>(columns) + 1;
-            for (const std::uint32_t i : {a, b, b + 1, a, b + 1, a + 1}) mesh.indices.push_back(i);
-        }
-    return mesh;
-}
 
 Camera cameraAbove(const glm::vec3& point, float height, float width) {
     Camera camera;

@@ -1,40 +1,34 @@
 // SPDX-License-Identifier: MIT
-// A scene on the GPU with its frame block and G-buffer, without the renderer: what tests of single passes
-// start from.
+// A scene on the GPU with its lights and what a camera sees of it, without the renderer: what tests of single
+// passes start from.
 #pragma once
 
 #include "conelight/scene.h"
-#include "gl/pass.h"
-#include "gl/program.h"
+#include "gl/device.h"
+#include "light/lights.h"
 #include "scene/gpu_scene.h"
-#include "view/camera.h"
-#include "view/gbuffer.h"
+#include "support/scenes.h"
+#include "view/surfaces.h"
 
 namespace conelight::test {
 
 struct ViewRig {
     ViewRig(const Scene& source, const Camera& camera, int width, int height);
 
-    // Uploads the frame block (light count included), binds it and the scene, draws and binds the G-buffer.
-    void draw(gl::ProgramLibrary& programs, bool cullBackFaces = false);
+    // Lights and surfaces as they are.
+    void draw(const gl::Device& device, bool cullBackFaces = false);
 
     Camera camera;
-    glm::vec3 sky;
+    int width, height;
     scene::GpuScene gpuScene;
-    gl::Profiler profiler;
-    gl::Buffer frameBlock;
-    view::GBuffer gbuffer;
+    light::LightsWanted wanted;
+    light::Lights lights;
+    view::Surfaces surfaces;
 };
 
-// The world position of the centre of pixel (x, y), row 0 at the bottom, on the plane dot(normal, p) =
-// offset.
-glm::dvec3 pixelOnPlane(const Camera& camera, int width, int height, int x, int y, const glm::dvec3& normal,
-                        double offset);
-
-// One quad (two triangles) with its normal, counter-clockwise from the side of cross(edgeU, edgeV).
-Mesh quadMesh(const glm::vec3& origin, const glm::vec3& edgeU, const glm::vec3& edgeV);
-// Adds the mesh with a material as an instance; returns the instance's index.
-std::size_t addInstance(Scene& scene, Mesh mesh, const Material& material,
-                        const glm::mat4& worldFromObject = glm::mat4(1));
+// The world position of the centre of a pixel of a picture of `size`, row 0 at the bottom, on the plane
+// dot(normal, p) = offset.
+glm::dvec3 pixelOnPlane(const Camera& camera, const glm::ivec2& size, const glm::ivec2& pixel,
+                        const glm::dvec3& normal, double offset);
 
 }  // namespace conelight::test

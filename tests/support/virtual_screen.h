@@ -66,6 +66,10 @@ class ViewerProcess {
     glm::ivec4 placeOf(const std::string& widget);  // x y width height
     // Asks again until `good`; returns the last answer.
     std::string statusUntil(const std::string& key, const std::function<bool(const std::string&)>& good);
+    // CPU time of the program, and whether all its threads wait for something: what has used time, or waits,
+    // has looked at its input, however busy the machine.
+    double cpuMs() const;
+    bool waits() const;
     // Waits for the end; -1: it did not end.
     int exitStatus();
     bool running();

@@ -35,6 +35,12 @@ void checkNumber(const Command& command, const Argument& argument, const std::st
                       argument.unit.empty() ? "" : " " + argument.unit));
 }
 
+std::vector<CommandGroup (*)()>& groupMakers() {
+    static std::vector<CommandGroup (*)()> makers = {settingCommands, cameraCommands,  sceneCommands,
+                                                     inspectCommands, programCommands, windowCommands};
+    return makers;
+}
+
 }  // namespace
 
 double CommandContext::number(std::size_t i) const { return numberFrom("argument", words.at(i)); }
@@ -60,11 +66,17 @@ std::string Command::usage() const {
 }
 
 const std::vector<CommandGroup>& commandGroups() {
-    static const std::vector<CommandGroup> kGroups = {
-        settingCommands(),      cameraCommands(),       sceneCommands(),
-        inspectCommands(),      programCommands(),      windowCommands(),
-        originalViewCommands(), originalConeCommands(), originalModelCommands()};
+    static const std::vector<CommandGroup> kGroups = [] {
+        std::vector<CommandGroup> groups;
+        for (const auto& group : groupMakers()) groups.push_back(group());
+        return groups;
+    }();
     return kGroups;
+}
+
+void registerCommands(CommandGroup (*group)()) {
+    auto& makers = groupMakers();
+    if (std::find(makers.begin(), makers.end(), group) == makers.end()) makers.push_back(group);
 }
 
 std::vector<const Command*> commandsNamed(const std::string& word) {
@@ -143,7 +155,7 @@ std::vector<std::string> wordsOf(const Session& session, const Argument& argumen
             return sessionModes();
         case ArgumentKind::Setting: {
             std::vector<std::string> keys;
-            for (const SettingInfo& info : settingInfos()) keys.push_back(info.key);
+            for (const SettingInfo* info : listedSettings()) keys.push_back(info->key);
             return keys;
         }
         case ArgumentKind::Object:

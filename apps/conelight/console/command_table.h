@@ -74,6 +74,9 @@ struct CommandGroup {
     std::vector<Command> commands;
 };
 const std::vector<CommandGroup>& commandGroups();
+// Groups of modes with a folder of their own come last, in the order of registration. Call before the first
+// use of commandGroups(), from one thread; the same function twice counts once.
+void registerCommands(CommandGroup (*group)());
 
 // All commands with this name or alias, those of the name first.
 std::vector<const Command*> commandsNamed(const std::string& word);
@@ -88,15 +91,12 @@ void checkArgument(const Session& session, const Command& command, const Argumen
 std::vector<std::string> wordsOf(const Session& session, const Argument& argument);
 
 // Groups, by file.
-CommandGroup originalViewCommands();   // commands_original_view.cpp
-CommandGroup originalConeCommands();   // commands_original_cones.cpp
-CommandGroup originalModelCommands();  // commands_original_models.cpp
-CommandGroup settingCommands();        // commands_settings.cpp
-CommandGroup cameraCommands();         // commands_camera.cpp
-CommandGroup sceneCommands();          // commands_scene.cpp
-CommandGroup inspectCommands();        // commands_inspect.cpp
-CommandGroup programCommands();        // commands_program.cpp
-CommandGroup windowCommands();         // commands_window.cpp
+CommandGroup settingCommands();  // commands_settings.cpp
+CommandGroup cameraCommands();   // commands_camera.cpp
+CommandGroup sceneCommands();    // commands_scene.cpp
+CommandGroup inspectCommands();  // commands_inspect.cpp
+CommandGroup programCommands();  // commands_program.cpp
+CommandGroup windowCommands();   // commands_window.cpp
 
 Command lightCommand();    // commands_light.cpp
 Command pathCommand();     // commands_path.cpp

@@ -51,11 +51,11 @@ void preset(const CommandContext& context) {
 }  // namespace
 
 Command qualityCommand() {
-    return command(
-        "quality", {{"NAME", ArgumentKind::Choice, true, false, "", 0, 0, settingChoices("traced.quality")}},
-        "work of mode traced, as --quality takes it", quality,
-        "Without NAME it is printed, with what each costs and how far its picture is from the path "
-        "tracer's.");
+    return command("quality",
+                   {{"NAME", ArgumentKind::Choice, true, false, "", 0, 0, settingChoices("traced.quality")}},
+                   "work of mode traced, as --quality takes it", quality,
+                   "Without NAME it is printed, with what each costs; errors are in "
+                   "docs/measurements/modes_vs_reference.md.");
 }
 
 Command presetCommand() {

@@ -30,12 +30,10 @@ std::string valuesOf(const Argument& argument) {
 void helpFor(const CommandContext& context, const std::string& word) {
     const std::vector<const Command*> found = commandsNamed(word);
     if (found.empty()) {
-        for (const SettingInfo& info : settingInfos()) {
-            if (info.key != word) continue;
-            return context.print(fmt::format("setting {}: {}; {}{}{}, default {}", info.key, info.help,
-                                             info.range, info.unit.empty() ? "" : " ", info.unit,
-                                             info.defaultValue));
-        }
+        if (const SettingInfo* info = findSetting(word))
+            return context.print(fmt::format("setting {}: {}; {}{}{}, default {}", info->key, info->help,
+                                             rangeText(*info), info->unit.empty() ? "" : " ", info->unit,
+                                             info->defaultValue));
         const std::string near = nearest(word, commandWords());
         throw Error(ErrorKind::Usage,
                     fmt::format("help: there is no command '{}'{}", word,

@@ -42,7 +42,7 @@ void listMaterials(const CommandContext& context) {
     const std::vector<Material>& materials = context.session.scene().materials;
     for (std::size_t i = 0; i < materials.size(); ++i) {
         const Material& one = materials[i];
-        const glm::vec3 color = one.isPhong ? one.phong.color : glm::vec3(one.baseColor);
+        const glm::vec3 color = one.phong ? one.phong->color : glm::vec3(one.baseColor);
         context.print(fmt::format("{:3} {:<20} color {}  roughness {:.3g}  metallic {:.3g}{}", i, one.name,
                                   text(color), one.roughness, one.metallic,
                                   one.emission == glm::vec3(0) ? "" : "  emission " + text(one.emission)));
@@ -146,7 +146,7 @@ void change(Material& material, const CommandContext& context) {
         return;
     }
     const std::array<float, 3> v = valuesOf(context, property);
-    PhongMaterial phong = material.isPhong ? material.phong : phongFromPbr(material);
+    PhongMaterial phong = phongOf(material);
     if (name == "color") setColor(material, {v[0], v[1], v[2]});
     if (name == "emission") material.emission = {v[0], v[1], v[2]};
     if (name == "opacity") {
@@ -171,11 +171,11 @@ void printMaterial(const CommandContext& context, const Material& m) {
     context.print(fmt::format("  roughness {:.6g}  metallic {:.6g}  ior {:.6g}  specular {:.6g}", m.roughness,
                               m.metallic, m.ior, m.specular));
     context.print(fmt::format("  emission {} W/(sr m^2)", text(m.emission)));
-    const PhongMaterial phong = m.isPhong ? m.phong : phongFromPbr(m);
+    const PhongMaterial phong = phongOf(m);
     context.print(
         fmt::format("  Phong{}: color {}  shininess {:.6g}  ambient_str {:.6g}  diffuse_str {:.6g}"
                     "  specular_str {:.6g}",
-                    m.isPhong ? "" : " (derived)", text(phong.color), phong.shininess, phong.ambientStrength,
+                    m.phong ? "" : " (derived)", text(phong.color), phong.shininess, phong.ambientStrength,
                     phong.diffuseStrength, phong.specularStrength));
     context.print(
         fmt::format("  double_sided {}  unlit {}", m.doubleSided ? "on" : "off", m.unlit ? "on" : "off"));

@@ -28,13 +28,13 @@ void set(const CommandContext& context) {
 
 std::vector<const SettingInfo*> infosOf(const std::string& command, const std::string& key) {
     std::vector<const SettingInfo*> found;
-    for (const SettingInfo& info : settingInfos())
-        if (info.key == key) return {&info};
-    for (const SettingInfo& info : settingInfos())
-        if (info.key.compare(0, key.size(), key) == 0) found.push_back(&info);
-    if (!found.empty()) return found;
+    if (const SettingInfo* info = findSetting(key)) return {info};
     std::vector<std::string> keys;
-    for (const SettingInfo& info : settingInfos()) keys.push_back(info.key);
+    for (const SettingInfo* info : listedSettings()) {
+        keys.push_back(info->key);
+        if (info->key.compare(0, key.size(), key) == 0) found.push_back(info);
+    }
+    if (!found.empty()) return found;
     const std::string near = nearest(key, keys);
     throw Error(ErrorKind::Usage,
                 fmt::format("{}: there is no setting '{}'{}", command, key,
@@ -49,16 +49,20 @@ void get(const CommandContext& context) {
             info->key == "mode" ? context.session.mode() : getSetting(context.session.settings(), info->key),
             info->unit.empty() ? "" : " ", info->unit));
     if (infos.size() == 1)
-        context.print(
-            fmt::format("  {}; {}, default {}", infos[0]->help, infos[0]->range, infos[0]->defaultValue));
+        context.print(fmt::format("  {}; {}, default {}", infos[0]->help, rangeText(*infos[0]),
+                                  infos[0]->defaultValue));
 }
 
 void reset(const CommandContext& context) {
     const Settings start = context.session.startingSettings();
     Settings settings = context.session.settings();
     const std::string key = context.count() > 0 ? context.words[0] : "";
-    for (const SettingInfo* info : infosOf("reset", key))
-        if (info->key != "mode") setSetting(settings, info->key, getSetting(start, info->key));
+    const std::vector<const SettingInfo*> infos = infosOf("reset", key);
+    for (const SettingInfo* info : infos) {
+        // A preset word only by its own name: its settings are in the list.
+        if (info->key != "mode" && (!info->isPreset || infos.size() == 1))
+            setSetting(settings, info->key, getSetting(start, info->key));
+    }
     context.session.setSettings(settings, "reset " + key);
 }
 

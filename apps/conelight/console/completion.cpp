@@ -69,13 +69,10 @@ std::vector<std::string> filesFor(const std::string& partial) {
 }
 
 std::vector<std::string> valuesOfSetting(const std::string& key) {
-    for (const SettingInfo& info : settingInfos()) {
-        if (info.key != key) continue;
-        if (info.type == "auto float") return {"auto"};
-        if (info.type != "bool" && info.type != "choice") return {info.defaultValue};
-        return settingChoices(key);
-    }
-    return {};
+    const SettingInfo* info = findSetting(key);
+    if (info == nullptr) return {};
+    if (!info->isNumber()) return info->choices;
+    return {info->word.empty() ? info->defaultValue : info->word};
 }
 
 std::vector<std::string> candidatesFor(const Session& session, const Place& place) {

@@ -57,7 +57,7 @@ class Console {
     void print(const std::string& line);
     void fail(const Error& error);  // of a request: as if its command had failed
 
-    // The mode that `iLight` goes back to: the last one that was not phong.
+    // The last mode that was not phong; empty when there was none.
     std::string litMode() const { return litMode_; }
     void keepLitMode();
 
@@ -81,7 +81,7 @@ class Console {
     int waitFrames_ = 0;
     bool stopOnError_ = false;
     std::optional<Error> firstError_;
-    std::string litMode_ = "thesis";
+    std::string litMode_;
     History history_;
     Picker picker_;
 };

@@ -6,22 +6,19 @@
 namespace conelight::program {
 
 void setPhong(Material& material, const PhongMaterial& phong) {
-    if (!material.isPhong) {
+    if (!material.phong) {
         // The metallic-roughness model was given and stays, but for what is the same property by another
         // name.
         const PhongMaterial before = phongFromPbr(material);
         Material probe;
-        probe.phong = phong;
-        setPbrFromPhong(probe);
+        setPbrFromPhong(probe, phong);
         if (phong.shininess != before.shininess) material.roughness = probe.roughness;
         material.phong = phong;
-        material.isPhong = true;
         return;
     }
     Material old = material, now = material;
-    setPbrFromPhong(old);
-    now.phong = phong;
-    setPbrFromPhong(now);
+    setPbrFromPhong(old, *material.phong);
+    setPbrFromPhong(now, phong);
     if (material.roughness == old.roughness) material.roughness = now.roughness;
     if (material.metallic == old.metallic) material.metallic = now.metallic;
     if (material.ior == old.ior) material.ior = now.ior;
@@ -32,15 +29,15 @@ void setPhong(Material& material, const PhongMaterial& phong) {
 }
 
 void setColor(Material& material, const glm::vec3& color) {
-    if (material.isPhong && material.phong.color != color) {
-        PhongMaterial phong = material.phong;
+    if (material.phong && material.phong->color != color) {
+        PhongMaterial phong = *material.phong;
         phong.color = color;
         const glm::vec4 before = material.baseColor;
         setPhong(material, phong);
         // A base colour of its own: it becomes the new one as it is.
         if (material.baseColor == before && !material.unlit) material.baseColor = glm::vec4(color, before.a);
     }
-    if (!material.isPhong || material.unlit) material.baseColor = glm::vec4(color, material.baseColor.a);
+    if (!material.phong || material.unlit) material.baseColor = glm::vec4(color, material.baseColor.a);
 }
 
 std::string othersWith(const Session& session, const std::set<std::size_t>& materials,

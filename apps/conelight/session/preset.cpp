@@ -37,9 +37,9 @@ std::string textOf(const io::JsonFile& file, const std::string& pointer, const s
 }  // namespace
 
 void Preset::apply(Settings& settings) const {
-    for (const SettingInfo& info : settingInfos())
+    for (const SettingInfo* info : listedSettings())
         for (const auto& [key, value] : values)
-            if (key == info.key) setSetting(settings, key, value);
+            if (key == info->key) setSetting(settings, key, value);
 }
 
 std::vector<std::pair<std::string, std::string>> differences(const Settings& from, const Settings& to) {

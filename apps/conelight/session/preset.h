@@ -14,7 +14,7 @@ struct Preset {
     std::string mode;                                         // one of the program's; empty: not said
     std::vector<std::pair<std::string, std::string>> values;  // key, value; never the mode
 
-    // In the order of settingInfos(), so that presets of groups come before what they fill in.
+    // Preset words such as traced.quality are read before the settings that they fill in.
     void apply(Settings& settings) const;
 };
 

@@ -15,13 +15,6 @@ namespace {
 // Steps kept. A step holds tables of lights or single materials: far below a megabyte each.
 constexpr std::size_t kSteps = 1000;
 
-// Settings have no ==; their texts read back as the same values.
-bool same(const Settings& a, const Settings& b) {
-    return std::all_of(settingInfos().begin(), settingInfos().end(), [&](const SettingInfo& info) {
-        return getSetting(a, info.key) == getSetting(b, info.key);
-    });
-}
-
 bool same(const Camera& a, const Camera& b) {
     return a.name == b.name && a.eye == b.eye && a.target == b.target && a.up == b.up && a.fovY == b.fovY &&
            a.zNear == b.zNear && a.zFar == b.zFar;
@@ -59,14 +52,14 @@ Edit editOf(const T& before, const T& after) {
 Settings startSettings(const Scene& scene, const std::string& mode) {
     Settings settings;
     if (!mode.empty()) setSetting(settings, "mode", mode);
-    // The original wrote linear values to the screen; its look is kept in its own modes unless asked
-    // otherwise. Its rooms (closed, albedo 0.85) gather several times their direct light: 1.5 stops less, by
-    // eye.
-    const bool itsOwn = settings.mode == Mode::Thesis || settings.mode == Mode::Phong;
-    if (scene.thesisFormat && itsOwn) {
+    // Scenes with a format of their own were made for linear values on the screen: modes of that look keep it
+    // unless asked otherwise. Their rooms (closed, albedo 0.85) gather several times their direct light: 1.5
+    // stops less, by eye.
+    const bool keepsLook = settings.mode == Mode::Phong || getSetting(settings, "mode") == scene.format;
+    if (!scene.format.empty() && keepsLook) {
         settings.image.toneMap = ToneMap::None;
         settings.image.srgb = false;
-    } else if (scene.thesisFormat) {
+    } else if (!scene.format.empty()) {
         settings.image.exposure = -1.5f;
     }
     for (const auto& [key, value] : scene.settings) {
@@ -77,16 +70,23 @@ Settings startSettings(const Scene& scene, const std::string& mode) {
 }
 
 std::vector<std::string> settingChoices(const std::string& key) {
-    std::vector<std::string> names;
+    const SettingInfo* info = findSetting(key);
+    return info == nullptr ? std::vector<std::string>{} : info->choices;
+}
+
+std::vector<const SettingInfo*> listedSettings() {
+    const auto groupOf = [](const std::string& key) { return key.substr(0, key.find('.')); };
+    std::vector<const SettingInfo*> listed;
+    std::string group;
     for (const SettingInfo& info : settingInfos()) {
-        if (info.key != key || (info.type != "choice" && info.type != "bool")) continue;
-        for (std::size_t from = 0; from < info.range.size();) {
-            const std::size_t comma = std::min(info.range.find(',', from), info.range.size());
-            names.push_back(info.range.substr(from, comma - from));
-            from = comma + 1;
+        if (groupOf(info.key) != group) {
+            group = groupOf(info.key);
+            for (const SettingInfo& preset : presetInfos())
+                if (groupOf(preset.key) == group) listed.push_back(&preset);
         }
+        listed.push_back(&info);
     }
-    return names;
+    return listed;
 }
 
 bool isSettingsMode(const std::string& mode) { return mode != "reference" && mode != "radiosity"; }
@@ -173,14 +173,12 @@ Settings Session::shownSettings() const {
         // Among the objects, unless these are not drawn or are only wires.
         shown.view.voxels = flags_.drawObjects && !flags_.wireframeObjects;
         if (!shown.view.voxels) shown.component = Component::Voxels;
-        shown.thesis.voxelView = ThesisVoxelView::Cubes;
         if (flags_.wireframeVoxels)
             shown.view.voxelShape = VoxelShape::Edges;
         else if (shown.view.voxelShape == VoxelShape::Auto)
             shown.view.voxelShape = VoxelShape::Cubes;
     } else if (flags_.localizedLod) {
         shown.component = Component::Voxels;
-        shown.thesis.voxelView = ThesisVoxelView::Surfaces;
         shown.view.voxelShape = VoxelShape::Surfaces;
     }
     if (flags_.drawObjects && (flags_.wireframeObjects || flags_.wireframeOverlay))
@@ -200,12 +198,11 @@ bool Session::showsNothing() const { return !flags_.drawObjects && !flags_.drawV
 
 void Session::setSettings(const Settings& settings, const std::string& label, const std::string& mergeKey) {
     validateSettings(settings);
-    const std::string renderMode = getSetting(settings, "mode");
-    const bool otherMode = renderMode != getSetting(settings_, "mode");
-    if (same(settings, settings_)) return;
+    const bool otherMode = settings.mode != settings_.mode;
+    if (settings == settings_) return;
     Step step{label, mergeKey, {}};
-    step.edits.push_back(editOf<SettingsEdit, PictureSettings>({settings_, mode_},
-                                                               {settings, otherMode ? renderMode : mode_}));
+    step.edits.push_back(editOf<SettingsEdit, PictureSettings>(
+        {settings_, mode_}, {settings, otherMode ? getSetting(settings, "mode") : mode_}));
     commit(std::move(step));
 }
 
@@ -314,7 +311,7 @@ void Session::applyPreset(const Preset& preset, const std::string& label) {
     const std::string mode = preset.mode.empty() ? mode_ : preset.mode;
     Settings changed = startSettings(scene_, isSettingsMode(mode) ? mode : getSetting(settings_, "mode"));
     preset.apply(changed);
-    if (same(changed, settings_) && mode == mode_) return;
+    if (changed == settings_ && mode == mode_) return;
     Step step{label, {}, {}};
     step.edits.push_back(editOf<SettingsEdit, PictureSettings>({settings_, mode_}, {changed, mode}));
     commit(std::move(step));

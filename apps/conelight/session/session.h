@@ -41,8 +41,10 @@ struct RayMark {
 // Settings that a scene starts with in a mode ("": the default or the scene's own): its format's look, then
 // its own block.
 Settings startSettings(const Scene& scene, const std::string& mode = {});
-// Values of a setting that is one of several names (or true,false); empty for numbers and unknown keys.
+// Words that a setting or preset takes (or true, false); empty for numbers and unknown keys.
 std::vector<std::string> settingChoices(const std::string& key);
+// All settings, preset words before the group that they fill in: what lists show.
+std::vector<const SettingInfo*> listedSettings();
 // All modes of the program: those of the renderer, then those on the CPU.
 std::vector<std::string> sessionModes();
 // What a mode is, in a line; empty for other names. README.md has the same words.

@@ -38,15 +38,10 @@ struct PictureKey {
 };
 PictureKey keyOf(const Revisions& r) { return {r.sceneTables(), r.settings, r.camera, r.flags}; }
 
-bool sameLook(const ImageSettings& a, const ImageSettings& b) {
-    return a.exposure == b.exposure && a.srgb == b.srgb && a.toneMap == b.toneMap;
-}
-
 // Whether two settings give the same linear picture: all but exposure, tone map and encoding.
-bool sameButLook(const Settings& a, const Settings& b) {
-    return std::all_of(settingInfos().begin(), settingInfos().end(), [&](const SettingInfo& info) {
-        return info.key.compare(0, 6, "image.") == 0 || getSetting(a, info.key) == getSetting(b, info.key);
-    });
+bool sameButLook(Settings a, const Settings& b) {
+    a.image = b.image;
+    return a == b;
 }
 
 double wallMs() {
@@ -304,7 +299,7 @@ bool PictureSlot::Impl::drawReference(const Session& session, int w, int h, cons
             linearJob = reference.jobs();
         }
         own = linear && linearJob == reference.jobs();
-        if (own && (isNew || !sameLook(look, cpuLook) || texture != cpuTexture.name())) showImage(look);
+        if (own && (isNew || look != cpuLook || texture != cpuTexture.name())) showImage(look);
         if (own) {
             preview = false;
             shown = keyOf(session.revisions());

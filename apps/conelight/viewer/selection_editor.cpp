@@ -98,17 +98,21 @@ void editMaterial(Session& session, std::size_t index) {
     ImGui::SameLine();
     changed |= ImGui::Checkbox("unlit", &m.unlit);
     if (ImGui::TreeNode("Phong (modes thesis, phong)")) {
-        changed |= ImGui::Checkbox("own values", &m.isPhong);
-        if (m.isPhong) {
+        bool own = m.phong.has_value();
+        if (ImGui::Checkbox("own values", &own)) {
+            changed = true;
+            m.phong = own ? std::optional(phongFromPbr(m)) : std::nullopt;
+        }
+        if (m.phong) {
             const auto value = [&](bool edited, const char* name) {
                 seals(session, name);
                 changed |= edited;
             };
-            value(ImGui::ColorEdit3("colour", &m.phong.color.x, ImGuiColorEditFlags_Float), "phong colour");
-            value(ImGui::DragFloat("shininess", &m.phong.shininess, 0.5f, 0.0f, 1000.0f), "shininess");
-            value(ImGui::SliderFloat("ambient", &m.phong.ambientStrength, 0, 1), "ambient");
-            value(ImGui::SliderFloat("diffuse", &m.phong.diffuseStrength, 0, 1), "diffuse");
-            value(ImGui::SliderFloat("gloss", &m.phong.specularStrength, 0, 1), "gloss");
+            value(ImGui::ColorEdit3("colour", &m.phong->color.x, ImGuiColorEditFlags_Float), "phong colour");
+            value(ImGui::DragFloat("shininess", &m.phong->shininess, 0.5f, 0.0f, 1000.0f), "shininess");
+            value(ImGui::SliderFloat("ambient", &m.phong->ambientStrength, 0, 1), "ambient");
+            value(ImGui::SliderFloat("diffuse", &m.phong->diffuseStrength, 0, 1), "diffuse");
+            value(ImGui::SliderFloat("gloss", &m.phong->specularStrength, 0, 1), "gloss");
         }
         ImGui::TreePop();
     }

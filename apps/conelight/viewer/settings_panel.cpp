@@ -33,7 +33,7 @@ void tooltip(const SettingInfo& info) {
     ImGui::BeginTooltip();
     ImGui::PushTextWrapPos(26 * ImGui::GetFontSize());
     ImGui::TextUnformatted(info.help.c_str());
-    ImGui::TextDisabled("%s", fmt::format("{}\nrange {}{}{}\ndefault {}", info.key, info.range,
+    ImGui::TextDisabled("%s", fmt::format("{}\nrange {}{}{}\ndefault {}", info.key, rangeText(info),
                                           info.unit.empty() ? "" : " ", info.unit, info.defaultValue)
                                   .c_str());
     ImGui::PopTextWrapPos();
@@ -42,25 +42,16 @@ void tooltip(const SettingInfo& info) {
 
 }  // namespace
 
-bool rangeOf(const SettingInfo& info, double& low, double& high) {
-    const std::size_t dots = info.range.find("..");
-    if (dots == std::string::npos) return false;
-    low = std::strtod(info.range.c_str(), nullptr);
-    high = std::strtod(info.range.c_str() + dots + 2, nullptr);
-    return high > low;
-}
-
 void SettingsPanel::showNumber(const Row& row, const SettingEdit& edit) {
     const SettingInfo& info = *row.info;
-    const double low = row.low, high = row.high;
-    const bool bounded = row.bounded;
-    const bool whole = info.type == "int";
+    const double low = info.low, high = info.high;
+    const bool whole = info.kind == SettingKind::Int;
     float number = std::strtof(row.value.c_str(), nullptr);
     bool changed;
     if (whole) {
         int count = static_cast<int>(number);
         // A slider over thousands of numbers cannot be set to one of them.
-        changed = bounded && high - low <= 512
+        changed = high - low <= 512
                       ? ImGui::SliderInt("##v", &count, static_cast<int>(low), static_cast<int>(high))
                       : ImGui::InputInt("##v", &count, 1, 16);
         if (changed)
@@ -70,12 +61,11 @@ void SettingsPanel::showNumber(const Row& row, const SettingEdit& edit) {
         ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp;
         if (isLogarithmic(low, high)) flags |= ImGuiSliderFlags_Logarithmic;
         const float span = static_cast<float>(high - low);
-        changed =
-            bounded && high <= 1000
-                ? ImGui::SliderFloat("##v", &number, static_cast<float>(low), static_cast<float>(high),
-                                     "%.4g", flags)
-                : ImGui::DragFloat("##v", &number, std::min(0.01f, 0.001f * span), static_cast<float>(low),
-                                   static_cast<float>(high), "%.4g", ImGuiSliderFlags_AlwaysClamp);
+        changed = high <= 1000 ? ImGui::SliderFloat("##v", &number, static_cast<float>(low),
+                                                    static_cast<float>(high), "%.4g", flags)
+                               : ImGui::DragFloat("##v", &number, std::min(0.01f, 0.001f * span),
+                                                  static_cast<float>(low), static_cast<float>(high), "%.4g",
+                                                  ImGuiSliderFlags_AlwaysClamp);
         if (changed) edit(info.key, fmt::format("{}", number), false);
     }
     if (ImGui::IsItemDeactivatedAfterEdit()) edit(info.key, "", true);
@@ -84,22 +74,23 @@ void SettingsPanel::showNumber(const Row& row, const SettingEdit& edit) {
 void SettingsPanel::showValue(const Row& row, const SettingEdit& edit) {
     const SettingInfo& info = *row.info;
     const std::string& value = row.value;
-    if (info.type == "bool") {
+    if (info.kind == SettingKind::Bool) {
         bool on = value == "true";
         if (ImGui::Checkbox("##v", &on)) edit(info.key, on ? "true" : "false", true);
-    } else if (info.type == "choice") {
+    } else if (info.kind == SettingKind::Choice) {
         if (ImGui::BeginCombo("##v", value.c_str())) {
-            for (const std::string& name : settingChoices(info.key))
+            for (const std::string& name : info.choices)
                 if (ImGui::Selectable(name.c_str(), name == value)) edit(info.key, name, true);
             ImGui::EndCombo();
         }
-    } else if (info.type == "auto float") {
-        bool isAuto = value == "auto";
-        if (ImGui::Checkbox("##auto", &isAuto)) edit(info.key, isAuto ? "auto" : "1", true);
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("chosen by the program");
+    } else if (!info.word.empty()) {
+        bool isWord = value == info.word;
+        if (ImGui::Checkbox("##word", &isWord)) edit(info.key, isWord ? info.word : "1", true);
+        if (ImGui::IsItemHovered())
+            ImGui::SetTooltip("%s", info.word == "auto" ? "chosen by the program" : info.word.c_str());
         ImGui::SameLine();
-        if (isAuto)
-            ImGui::TextDisabled("auto");
+        if (isWord)
+            ImGui::TextDisabled("%s", info.word.c_str());
         else {
             ImGui::SetNextItemWidth(-1);
             showNumber(row, edit);
@@ -119,12 +110,12 @@ void SettingsPanel::showRow(const Row& row, bool inTable, const SettingEdit& edi
         ImGui::TableNextRow();
         ImGui::TableSetColumnIndex(0);
     }
-    if (inTable || info.type == "bool") ImGui::AlignTextToFramePadding();
+    if (inTable || info.kind == SettingKind::Bool) ImGui::AlignTextToFramePadding();
     ImGui::TextUnformatted(row.label.c_str());
     if (ImGui::IsItemHovered()) tooltip(info);
     if (inTable)
         ImGui::TableSetColumnIndex(1);
-    else if (info.type == "bool")
+    else if (info.kind == SettingKind::Bool)
         ImGui::SameLine(std::max(ImGui::GetContentRegionAvail().x - 3.2f * em, 1.0f));
     ImGui::SetNextItemWidth(inTable ? -1 : -1.8f * em);
     showValue(row, edit);
@@ -148,14 +139,12 @@ void SettingsPanel::showRow(const Row& row, bool inTable, const SettingEdit& edi
 
 void SettingsPanel::gather(const Settings& settings) {
     rows_.clear();
-    for (const SettingInfo& info : settingInfos()) {
+    for (const SettingInfo* info : listedSettings()) {
         const bool ours = std::any_of(prefixes_.begin(), prefixes_.end(), [&](const std::string& prefix) {
-            return info.key.compare(0, prefix.size(), prefix) == 0;
+            return info->key.compare(0, prefix.size(), prefix) == 0;
         });
-        if (!ours || info.key.find(filter_) == std::string::npos) continue;
-        Row row{&info, labelOf(info.key), getSetting(settings, info.key)};
-        row.bounded = rangeOf(info, row.low, row.high);
-        rows_.push_back(row);
+        if (!ours || info->key.find(filter_) == std::string::npos) continue;
+        rows_.push_back({info, labelOf(info->key), getSetting(settings, info->key)});
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A widget for every setting, made from settingInfos(): slider, box, list; unit, range, default, reset and
+// A widget for every setting, made from listedSettings(): slider, box, list; unit, range, default, reset and
 // the help text as tool tip. The same texts as `conelight settings` and the documentation.
 #pragma once
 
@@ -27,8 +27,6 @@ class SettingsPanel {
     struct Row {
         const SettingInfo* info = nullptr;
         std::string label, value;
-        double low = 0, high = 1;  // where the setting has a range of numbers
-        bool bounded = false;
     };
     void gather(const Settings& settings);
     static void showRow(const Row& row, bool inTable, const SettingEdit& edit);
@@ -40,8 +38,5 @@ class SettingsPanel {
     std::string filter_;
     std::optional<std::uint64_t> revision_;
 };
-
-// The two numbers of a range like "0.1..2"; false for lists.
-bool rangeOf(const SettingInfo& info, double& low, double& high);
 
 }  // namespace conelight::program

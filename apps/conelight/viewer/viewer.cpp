@@ -28,12 +28,10 @@ constexpr double kIdleWait = 0.5;    // s; the files are looked at this often wh
 constexpr double kPace = 0.008;      // s between frames in which only the GUI changes
 constexpr double kUserPause = 0.15;  // s after the last input until a slow picture is refined further
 
-// Of a bake: those of mode traced, where 16 stands for all, as -1 does here. All in other modes: cones
-// bounces as often as it can pay for.
+// Of a bake: those of mode traced; -1 stands for all. All in other modes: cones bounces as often as it can
+// pay for.
 int bouncesOf(const Settings& settings) {
-    constexpr int kAll = 16;
-    const bool limited = settings.mode == Mode::Traced && settings.traced.bounces < kAll;
-    return limited ? settings.traced.bounces : -1;
+    return settings.mode == Mode::Traced ? settings.traced.bounces.value_or(-1) : -1;
 }
 
 double threadCpuMs() {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // A host program outside the project: its own OpenGL context (EGL, no display), a scene made by hand, one
-// picture. Input: nothing. Output: exit status 0 and one line when the picture is right, else the reason and
-// status 1.
+// picture, and one of a guest's mode. Input: nothing. Output: exit status 0 and one line when the picture is
+// right, else the reason and status 1.
 #include <conelight/error.h>
 #include <conelight/renderer.h>
+#include <conelight/thesis/settings.h>
+#include <conelight/thesis/thesis.h>
 #include <conelight/version.h>
 #include <epoxy/egl.h>
 #include <epoxy/gl.h>
@@ -73,9 +75,20 @@ conelight::Scene floorAndWall() {
     return scene;
 }
 
+// A mode that the library does not bring: it draws the floor, too.
+void checkGuest(conelight::Renderer& renderer, const conelight::Camera& camera, int size) {
+    conelight::Settings settings;
+    settings.mode = conelight::thesis::kMode;
+    settings.voxels.size = 32;
+    renderer.render(camera, size, size, settings);
+    const glm::vec4 floor = renderer.readImage().pixels[static_cast<std::size_t>(size / 2 * size + size / 2)];
+    if (!std::isfinite(floor.g) || floor.g <= 0 || floor.a < 0.5f) fail("mode thesis draws no lit floor");
+}
+
 }  // namespace
 
 int main() try {
+    conelight::thesis::registerThesis();
     makeContext();
     glEnable(GL_DEBUG_OUTPUT);
     glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
@@ -126,6 +139,7 @@ int main() try {
     const float near = redness(kSize * 5 / 16), far = redness(kSize * 11 / 16);
     if (!(near > far * 1.01f))
         fail("no light bounces off the wall: " + std::to_string(near) + " " + std::to_string(far));
+    checkGuest(renderer, camera, kSize);
     if (glErrors != 0) fail("OpenGL errors");
     std::printf("embed: Conelight %s drew %d x %d pixels\n", CONELIGHT_VERSION_STRING, image.width,
                 image.height);

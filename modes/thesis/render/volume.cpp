@@ -1,0 +1,311 @@
+// SPDX-License-Identifier: MIT
+#include "thesis/render/volume.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "gl/gl.h"
+
+namespace conelight::thesis {
+namespace {
+
+constexpr int kBrick = THESIS_BRICK;
+constexpr float kSumSteps = 16777216.0f;  // 2^24, see voxelize.frag.glsl
+constexpr float kMaxRadiance = 60000.0f;  // below the largest half float, 65,504
+constexpr std::size_t kListHeader = 16;   // words of the brick list before the bricks
+constexpr int kOriginalLevels = 7;
+
+// Voxels per axis of the texture: `size`, or a little more, so that it halves evenly often enough: to 1 for
+// powers of two, five times for sizes from 32 on.
+int textureEdge(int size) {
+    const int unit = std::min(32, static_cast<int>(std::bit_floor(static_cast<unsigned>(size))));
+    return (size + unit - 1) / unit * unit;
+}
+
+int levelCount(int edge, bool capped) {
+    const int even = std::countr_zero(static_cast<unsigned>(edge)) + 1;
+    return capped ? std::min(even, kOriginalLevels) : even;
+}
+
+// No light can make a matt surface brighter than this, at a distance of half a voxel or more.
+float radianceBound(const ThesisVolume::Inputs& inputs, const ThesisDefects& defects, float voxelSize) {
+    constexpr float kPi = 3.14159265f;
+    const auto largest = [](const glm::vec3& v) { return std::max({v.x, v.y, v.z, 0.0f}); };
+    float light = 0;
+    for (const gpu::Light& l : inputs.lights.table()) {
+        const float d = 0.5f * voxelSize;
+        float falloff = l.customFalloff != 0 ? l.falloff.x + l.falloff.y * d + l.falloff.z * d * d : d * d;
+        if (defects.unattenuatedVoxels || l.type == LIGHT_DIRECTIONAL) falloff = 1.0f;
+        float strength = largest(l.intensity) / kPi;
+        if (l.type == LIGHT_RECT) strength *= 4.0f * glm::length(glm::cross(l.halfU, l.halfV));
+        light += strength / std::max(falloff, 1e-6f);
+    }
+    float bound = 1e-3f;
+    for (const gpu::Material& m : inputs.scene.materials()) {
+        const bool phong = (m.flags & MATERIAL_HAS_PHONG) != 0;
+        const float color = largest(phong ? m.phongColor : glm::vec3(m.baseColor));
+        bound = std::max({bound, light * color * (m.phongDiffuse + m.phongAmbient), largest(m.emission)});
+        if ((m.flags & MATERIAL_UNLIT) != 0) bound = std::max(bound, color);
+    }
+    return std::min(bound, kMaxRadiance);
+}
+
+gl::Defines volumeDefines(const ThesisDefects& d) {
+    gl::Defines defines;
+    const auto add = [&](const char* name, bool on) {
+        if (on) defines.emplace_back(name, "1");
+    };
+    add("CLIPPED_RADIANCE", d.clippedRadiance);
+    return defines;
+}
+
+gl::ProgramDesc voxelizeDesc(const ThesisVolumeOptions& options, bool textured) {
+    const ThesisDefects& d = options.defects;
+    gl::Defines defines = options.shadows ? options.lights.defines() : gl::Defines{};
+    defines.emplace_back("SHADOWED", options.shadows ? "1" : "0");
+    defines.emplace_back("TEXTURED", textured ? "1" : "0");
+    const auto add = [&](const char* name, bool on) {
+        if (on) defines.emplace_back(name, "1");
+    };
+    add("RACING_STORES", d.racingStores);
+    add("CENTER_COVERAGE", d.centerCoverage);
+    add("FACE_ROUNDING", d.faceRounding);
+    add("UNATTENUATED_VOXELS", d.unattenuatedVoxels);
+    add("DARK_EMITTERS", d.darkEmitters);
+    add("AMBIENT_TWICE", d.ambientTwice);
+    add("CLIPPED_RADIANCE", d.racingStores && d.clippedRadiance);
+    return {{"thesis/shaders/voxelize.vert.glsl", "thesis/shaders/voxelize.geom.glsl",
+             "thesis/shaders/voxelize.frag.glsl"},
+            defines};
+}
+
+gl::ProgramDesc bricksDesc(bool arguments) {
+    return {{"thesis/shaders/bricks.comp.glsl"}, {{"ARGUMENTS", arguments ? "1" : "0"}}};
+}
+
+gl::ProgramDesc resolveDesc(const ThesisDefects& d) {
+    gl::Defines defines = volumeDefines(d);
+    if (d.binaryOpacity) defines.emplace_back("BINARY_OPACITY", "1");
+    return {{"thesis/shaders/resolve.comp.glsl"}, defines};
+}
+
+// `brickTexels`: of the coarse level, per brick; 0 for levels whose texels are larger than bricks.
+gl::ProgramDesc mipDesc(const ThesisDefects& d, int brickTexels) {
+    gl::Defines defines = volumeDefines(d);
+    if (d.volumeMips) defines.emplace_back("VOLUME_MIPS", "1");
+    defines.emplace_back("BRICK_TEXELS", std::to_string(brickTexels));
+    return {{"thesis/shaders/mip.comp.glsl"}, defines};
+}
+
+}  // namespace
+
+gpu::ThesisGrid ThesisVolume::fitGrid(const Aabb& bounds, const Aabb& filled,
+                                      const ThesisVolumeOptions& options) {
+    gpu::ThesisGrid grid{};
+    const int edge = textureEdge(options.size);
+    if (options.unitGrid || bounds.empty()) {
+        grid.voxelSize = 2.0f / static_cast<float>(options.size);
+        grid.edge = grid.voxelSize * static_cast<float>(edge);
+        grid.origin = glm::vec3(-1.0f);
+    } else {
+        const glm::vec3 extent = bounds.extent();
+        const float longest = std::max({extent.x, extent.y, extent.z, 1e-6f});
+        // At least one voxel free on each side: light of a surface is shared by two layers of voxels.
+        const float n = static_cast<float>(options.size);
+        const float cube = std::max(longest * (1.0f + 2.0f * options.padding), longest * n / (n - 2.0f));
+        grid.voxelSize = cube / n;
+        grid.edge = grid.voxelSize * static_cast<float>(edge);
+        grid.origin = bounds.center() - 0.5f * grid.edge;
+    }
+    grid.origin -= grid.voxelSize * options.shift;
+    grid.size = static_cast<float>(edge);
+    grid.maxLevel = static_cast<float>(levelCount(edge, options.defects.cappedLevels) - 1);
+
+    // The box: whole bricks around the bounds and the layer of voxels that shares.
+    const Aabb box = filled.empty() ? Aabb{glm::vec3(0), glm::vec3(0)} : filled;
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto voxel = [&](float world) { return (world - grid.origin[axis]) / grid.voxelSize; };
+        const float limit = grid.size;
+        const int low =
+            static_cast<int>(std::clamp(std::floor(voxel(box.min[axis])) - 1.0f, 0.0f, limit - 1.0f));
+        const int high = static_cast<int>(std::clamp(std::floor(voxel(box.max[axis])) + 2.0f, 1.0f, limit));
+        grid.boxMin[axis] = low / kBrick * kBrick;
+        grid.boxSize[axis] = (std::max(high, low + 1) + kBrick - 1) / kBrick * kBrick - grid.boxMin[axis];
+    }
+    return grid;
+}
+
+void ThesisVolume::allocate(const ThesisVolumeOptions& options) {
+    const int edge = static_cast<int>(grid_.size);
+    const int levels = static_cast<int>(grid_.maxLevel) + 1;
+    const std::uint32_t format = options.defects.clippedRadiance ? GL_RGBA8 : GL_RGBA16F;
+    const gl::TextureDesc& now = texture_.desc();
+    if (!texture_ || now.width != edge || now.levels != levels || now.format != format) {
+        texture_.reset();
+        texture_ = gl::Texture({GL_TEXTURE_3D, format, edge, edge, edge, levels}, "thesis volume");
+        viewport_ = gl::Framebuffer(edge, edge, "thesis voxelization");
+        filledSize_ = glm::ivec3(0);
+    }
+    if (!sampler_)
+        sampler_ = gl::Sampler({GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE}, "thesis volume");
+    if (!constants_) constants_ = gl::Buffer(sizeof(gpu::ThesisGrid), "thesis grid");
+
+    const std::size_t voxels = static_cast<std::size_t>(grid_.boxSize.x) *
+                               static_cast<std::size_t>(grid_.boxSize.y) *
+                               static_cast<std::size_t>(grid_.boxSize.z);
+    const std::size_t bricks = voxels / (kBrick * kBrick * kBrick);
+    // New buffers are zero; the passes leave sums and flags at zero again.
+    const std::size_t sumBytes = options.defects.racingStores ? 16 : 16 * voxels;
+    if (sums_.bytes() < sumBytes) {
+        sums_.reset();
+        sums_ = gl::Buffer(sumBytes, "thesis voxel sums");
+    }
+    if (brickFlags_.bytes() < 4 * bricks) {
+        brickFlags_ = gl::Buffer(4 * bricks, "thesis brick flags");
+        brickList_ = gl::Buffer(4 * (kListHeader + bricks), "thesis brick list");
+    }
+}
+
+gl::Inputs ThesisVolume::bricks() const {
+    gl::Inputs inputs;
+    inputs.uniform("ThesisGridBlock", constants_)
+        .storage("SumTable", sums_)
+        .storage("BrickFlags", brickFlags_)
+        .storage("BrickList", brickList_);
+    return inputs;
+}
+
+void ThesisVolume::build(const gl::Device& device, const Inputs& inputs, const ThesisVolumeOptions& options) {
+    const gl::PassScope pass(device.profiler, "thesis voxels");
+    grid_ = fitGrid(inputs.scene.firstBounds(), inputs.scene.bounds(), options);
+    const float bound = radianceBound(inputs, options.defects, grid_.voxelSize);
+    grid_.sumScale = kSumSteps / (options.defects.clippedRadiance ? std::min(bound, 1.0f) : bound);
+    const std::size_t lights = inputs.lights.table().size();
+    grid_.boxMin.w = static_cast<int>(options.defects.tenLights ? std::min<std::size_t>(lights, 10) : lights);
+    for (const gpu::Light& light : inputs.lights.table())
+        if ((light.flags & LIGHT_FROM_EMITTER) != 0) grid_.boxSize.w = 1;
+    allocate(options);
+    constants_.update(grid_);
+
+    {
+        const gl::PassScope step(device.profiler, "thesis clear");
+        clearBox();
+    }
+    {
+        const gl::PassScope step(device.profiler, "thesis voxelize");
+        drawTriangles(device, inputs, options);
+    }
+    {
+        const gl::PassScope step(device.profiler, "thesis mips");
+        resolve(device, options.defects);
+        buildMips(device, options.defects);
+    }
+    gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
+    revision_ = base::Revision::next();
+}
+
+// Only the box of the last build holds anything.
+void ThesisVolume::clearBox() {
+    for (int level = 0; level < texture_.desc().levels; ++level) {
+        if (filledSize_.x == 0) {
+            texture_.clear(level, GL_RGBA, GL_FLOAT, nullptr);
+            continue;
+        }
+        const glm::ivec3 edge(texture_.width(level));
+        const glm::ivec3 first = filledMin_ >> level;
+        const glm::ivec3 last = glm::min(((filledMin_ + filledSize_ - 1) >> level) + 1, edge);
+        texture_.clearRegion(level, first, last - first, GL_RGBA, GL_FLOAT);
+    }
+    filledMin_ = glm::ivec3(grid_.boxMin);
+    filledSize_ = glm::ivec3(grid_.boxSize);
+}
+
+void ThesisVolume::drawTriangles(const gl::Device& device, const Inputs& inputs,
+                                 const ThesisVolumeOptions& options) {
+    gl::RasterState state;
+    state.framebuffer = &viewport_;
+    state.depthTest = false;
+    state.depthWrite = false;
+    state.colorWrite = false;
+    state.cull = gl::Cull::None;
+    gl::apply(state);
+    const auto hasTexture = [](const gpu::Material& material) { return material.layers.x >= 0; };
+    const std::vector<gpu::Material>& materials = inputs.scene.materials();
+    const bool textured = std::any_of(materials.begin(), materials.end(), hasTexture);
+    gl::Inputs given = bricks();
+    given.add(inputs.scene).add(inputs.lights).image("volume", texture_, gl::ImageUse::Write);
+    device.get(voxelizeDesc(options, textured)).use(given);
+    inputs.scene.draw(
+        {.filter = [](const gpu::Instance& instance) { return (instance.flags & INSTANCE_VOXELIZED) != 0; }});
+    gl::barrier(gl::Access::ShaderStorage | gl::Access::ImageAccess);
+}
+
+void ThesisVolume::resolve(const gl::Device& device, const ThesisDefects& defects) {
+    // The marked bricks.
+    const std::uint32_t zero = 0;
+    brickList_.update(0, &zero, sizeof(zero));
+    const std::size_t count = static_cast<std::size_t>(grid_.boxSize.x / kBrick) *
+                              static_cast<std::size_t>(grid_.boxSize.y / kBrick) *
+                              static_cast<std::size_t>(grid_.boxSize.z / kBrick);
+    gl::Inputs given = bricks();
+    device.get(bricksDesc(false)).dispatchLinear(given, count);
+    gl::barrier(gl::Access::ShaderStorage);
+    device.get(bricksDesc(true)).dispatch(given, 1);
+    gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
+    if (defects.racingStores) return;
+
+    given.image("volume", texture_, gl::ImageUse::Write);
+    device.get(resolveDesc(defects)).dispatchIndirect(given, brickList_, 16);
+    gl::barrier(gl::Access::ImageAccess);
+}
+
+void ThesisVolume::buildMips(const gl::Device& device, const ThesisDefects& defects) {
+    for (int level = 1; level < texture_.desc().levels; ++level) {
+        gl::Inputs given = bricks();
+        given.image("fine", texture_, gl::ImageUse::Read, level - 1)
+            .image("coarse", texture_, gl::ImageUse::Write, level);
+        if (level <= 3) {
+            // 4^3, 2^3 or 1 texels per brick; arguments for as many groups of 64.
+            const int texels = 64 >> (3 * (level - 1));
+            device.get(mipDesc(defects, texels))
+                .dispatchIndirect(given, brickList_, 16 + 12 * static_cast<std::size_t>(level - 1));
+        } else {
+            const int edge = texture_.width(level);
+            const int ratio = static_cast<int>(grid_.size) / edge;
+            const glm::ivec3 first = glm::ivec3(grid_.boxMin) / ratio;
+            const glm::ivec3 last =
+                (glm::ivec3(grid_.boxMin) + glm::ivec3(grid_.boxSize) + ratio - 1) / ratio;
+            const glm::ivec3 count = last - first;
+            device.get(mipDesc(defects, 0)).dispatch(given, count.x, count.y, count.z);
+        }
+        gl::barrier(gl::Access::ImageAccess);
+    }
+}
+
+void ThesisVolume::declare(gl::Inputs& inputs) const {
+    inputs.texture("volume", texture_, &sampler_).uniform("ThesisGridBlock", constants_);
+}
+
+std::vector<gl::ProgramDesc> ThesisVolume::programDescs() {
+    ThesisVolumeOptions mended, shadowed, published;
+    mended.shadows = false;
+    published.shadows = false;
+    ThesisDefects& d = published.defects;
+    d.racingStores = d.centerCoverage = d.binaryOpacity = d.faceRounding = d.unattenuatedVoxels = true;
+    d.clippedRadiance = d.darkEmitters = d.volumeMips = d.ambientTwice = true;
+    std::vector<gl::ProgramDesc> descs{bricksDesc(false), bricksDesc(true)};
+    for (const ThesisVolumeOptions& options : {mended, shadowed, published})
+        for (const bool textured : {false, true}) descs.push_back(voxelizeDesc(options, textured));
+    for (const light::LightKey& lights : light::LightKey::all()) {
+        shadowed.lights = lights;
+        descs.push_back(voxelizeDesc(shadowed, false));
+    }
+    for (const ThesisVolumeOptions& options : {mended, published}) {
+        descs.push_back(resolveDesc(options.defects));
+        for (const int texels : {64, 8, 1, 0}) descs.push_back(mipDesc(options.defects, texels));
+    }
+    return descs;
+}
+
+}  // namespace conelight::thesis

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// The thesis's lit volume: GpuScene -> one 3D texture of direct light with its mips (thesis, chapter 4,
+// "Voxelization Process"; chapter 5, "Voxelization"). Raster: every triangle is seen along its dominant axis
+// by a viewport of one pixel per voxel; fragments carry the Phong light into the volume.
+//
+// RGBA16F premultiplied radiance and opacity (RGBA8 with the defect clippedRadiance). The grid is a cube:
+// fitted to the scene, or [-1,1]^3 with the defect wholeGrid. Work and memory beyond the texture go with the
+// box of voxels that the scene's bounds touch, and with the bricks of 8^3 voxels in it that hold surface.
+//
+// Leaves the texture visible to texture fetches. GL state changed: raster state, programs and their slots.
+// Limits: one colour per voxel for both faces of a wall; 255 layers of surface per voxel.
+#pragma once
+
+#include "base/revision.h"
+#include "conelight/thesis/settings.h"
+#include "gl/device.h"
+#include "gl/draw.h"
+#include "light/lights.h"
+#include "scene/gpu_scene.h"
+#include "thesis/shaders/constants.h"
+
+namespace conelight::thesis {
+
+struct ThesisVolumeOptions {
+    int size = 64;           // voxels along the cube's edge; 8..512, divisible by 4
+    float padding = 0.03f;   // of the fitted grid, fraction of the scene's extent per side
+    glm::vec3 shift{0};      // moves the grid toward lower coordinates, voxels; 0..1
+    bool unitGrid = false;   // [-1,1]^3 instead of the fitted grid
+    bool shadows = true;     // light is tested against the shadow maps
+    light::LightKey lights;  // which kinds of light there are, with shadows
+    ThesisDefects defects;   // those of the volume count
+    bool operator==(const ThesisVolumeOptions&) const = default;
+};
+
+class ThesisVolume {
+  public:
+    // Voxelizes `scene` anew. Storage is kept while size and format stay.
+    struct Inputs {
+        const scene::GpuScene& scene;
+        const light::Lights& lights;
+    };
+    void build(const gl::Device& device, const Inputs& inputs, const ThesisVolumeOptions& options);
+    base::Revision revision() const { return revision_; }  // raised by each build
+
+    const gpu::ThesisGrid& grid() const { return grid_; }
+    const gl::Texture& texture() const { return texture_; }
+    // Trilinear within and between levels, edge texels repeated outside.
+    const gl::Sampler& sampler() const { return sampler_; }
+    void declare(gl::Inputs& inputs) const;  // volume (with its sampler), ThesisGridBlock
+
+    // The grid that build() would use. The cube is fitted to `bounds`, the box in it that is filled to
+    // `filled`.
+    static gpu::ThesisGrid fitGrid(const Aabb& bounds, const Aabb& filled,
+                                   const ThesisVolumeOptions& options);
+    static gpu::ThesisGrid fitGrid(const Aabb& bounds, const ThesisVolumeOptions& options) {
+        return fitGrid(bounds, bounds, options);
+    }
+
+    static std::vector<gl::ProgramDesc> programDescs();
+
+  private:
+    void allocate(const ThesisVolumeOptions& options);
+    void clearBox();
+    void drawTriangles(const gl::Device& device, const Inputs& inputs, const ThesisVolumeOptions& options);
+    void resolve(const gl::Device& device, const ThesisDefects& defects);
+    void buildMips(const gl::Device& device, const ThesisDefects& defects);
+    gl::Inputs bricks() const;  // what passes over bricks read
+
+    glm::ivec3 filledMin_{0},
+        filledSize_{0};  // box of the texture's voxels that may not be zero; size 0: all
+    gpu::ThesisGrid grid_{};
+    gl::Texture texture_;
+    gl::Sampler sampler_;
+    gl::Framebuffer viewport_;
+    gl::Buffer constants_, sums_, brickFlags_, brickList_;
+    base::Revision revision_;
+};
+
+}  // namespace conelight::thesis

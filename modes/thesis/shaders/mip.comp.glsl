@@ -1,0 +1,54 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// Level l of the thesis's volume -> level l+1, within marked bricks (BRICK_TEXELS texels of level l+1 per
+// brick: 64, 8 or 1) or, when BRICK_TEXELS is 0, over the whole box. Colour stays premultiplied.
+//
+// A texel of twice the edge has four times the cross-section, so the covered areas of its eight children add
+// up to a quarter: a plane keeps its opacity in every level. VOLUME_MIPS, as in the original: an eighth, the
+// mean over the volume; a wall of one voxel then halves its opacity per level.
+#include "thesis/shaders/constants.h"
+#include "thesis/shaders/defects.glsl"
+#ifndef BRICK_TEXELS
+#error BRICK_TEXELS must be 64, 8, 1 or 0
+#endif
+#if CLIPPED_RADIANCE
+#define VOLUME_FORMAT rgba8
+#else
+#define VOLUME_FORMAT rgba16f
+#endif
+#if BRICK_TEXELS
+layout(local_size_x = 64) in;
+layout(std430) readonly buffer BrickList { uint brickList[]; };
+#else
+layout(local_size_x = 8, local_size_y = 4, local_size_z = 4) in;
+#endif
+layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
+layout(VOLUME_FORMAT) uniform readonly image3D fine;
+layout(VOLUME_FORMAT) uniform writeonly image3D coarse;
+
+void main() {
+#if BRICK_TEXELS
+    const int kEdge = BRICK_TEXELS == 64 ? 4 : BRICK_TEXELS == 8 ? 2 : 1;
+    uint linear = (gl_WorkGroupID.y * 1024u + gl_WorkGroupID.x) * 64u + gl_LocalInvocationID.x;
+    uint index = linear / BRICK_TEXELS;
+    if (index >= brickList[0]) return;
+    uint bits = brickList[16u + index];
+    ivec3 brick = ivec3(bits & 1023u, bits >> 10 & 1023u, bits >> 20);
+    int inBrick = int(linear) % BRICK_TEXELS;
+    ivec3 texel = (grid.boxMin.xyz / THESIS_BRICK + brick) * kEdge +
+                  ivec3(inBrick % kEdge, inBrick / kEdge % kEdge, inBrick / (kEdge * kEdge));
+#else
+    // The image is as large as the box of this level, rounded outward, needs.
+    ivec3 ratio = ivec3(int(grid.size)) / imageSize(coarse);
+    ivec3 texel = grid.boxMin.xyz / ratio + ivec3(gl_GlobalInvocationID);
+    if (any(greaterThanEqual(texel, (grid.boxMin.xyz + grid.boxSize.xyz + ratio - 1) / ratio))) return;
+#endif
+    vec4 sum = vec4(0.0);
+    for (int i = 0; i < 8; ++i) sum += imageLoad(fine, 2 * texel + ivec3(i & 1, i >> 1 & 1, i >> 2));
+#if VOLUME_MIPS
+    imageStore(coarse, texel, sum * 0.125);
+#else
+    sum *= 0.25;
+    imageStore(coarse, texel, sum / max(sum.a, 1.0));
+#endif
+}

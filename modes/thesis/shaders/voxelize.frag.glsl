@@ -1,0 +1,190 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// Fragment of a triangle seen along its dominant axis -> its direct light, put into the volume: the Phong
+// model without gloss (thesis, "3D texture storage"), radiance leaving the front of the surface.
+//
+// RACING_STORES: stored as it comes, opacity 1; the last of several fragments stays. Else: summed with the
+// area it covers, in fixed point, so that the order does not matter; resolve.comp.glsl makes colours
+// and opacities of the sums. The sum is shared by the two voxels along the dominant axis between whose
+// centres the surface lies, in proportion, unless FACE_ROUNDING: all of it to the voxel of the truncated
+// position.
+#include "lib/light_table.glsl"
+#include "lib/octahedral.glsl"
+#include "lib/scene_tables.glsl"
+#include "lib/surface_array.glsl"
+#include "thesis/shaders/constants.h"
+#include "thesis/shaders/coverage.glsl"
+#include "thesis/shaders/defects.glsl"
+#include "thesis/shaders/light.glsl"
+#ifndef SHADOWED
+#error SHADOWED must be 0 or 1: 1 tests the lights' shadow maps, with the defines of light::lightDefines
+#endif
+#ifndef TEXTURED
+#error TEXTURED must be 0 or 1: 1 when a material of the scene has a base colour texture
+#endif
+#include "thesis/shaders/visibility.glsl"
+layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
+layout(std430) buffer SumTable { uint sums[]; };          // 4 per voxel of the box
+layout(std430) buffer BrickFlags { uint brickFlags[]; };  // of the box
+#if RACING_STORES
+#if CLIPPED_RADIANCE
+layout(rgba8) uniform writeonly image3D volume;
+#else
+layout(rgba16f) uniform writeonly image3D volume;
+#endif
+#endif
+
+layout(location = 0) flat in uvec3 constant;
+#if CENTER_COVERAGE
+layout(location = 1) in vec3 gridPositionIn;
+layout(location = 2) in vec3 normalIn;
+layout(location = 3) in vec2 uvIn;
+#else
+layout(location = 1) flat in vec4 corner0;
+layout(location = 2) flat in vec4 corner1;
+layout(location = 3) flat in vec4 corner2;
+layout(location = 4) flat in vec4 uv01;
+layout(location = 5) flat in vec2 uv2;
+#endif
+
+// A piece of surface within one column of voxels.
+struct Piece {
+    vec3 gridPosition;  // in voxels
+    vec3 normal;        // unit
+    vec2 uv;
+    float coverage;  // of the column's cross-section
+};
+
+vec3 permuted(vec3 v, uint axis) { return axis == 0u ? v.zyx : axis == 1u ? v.xzy : v; }
+
+Piece piece() {
+    Piece result;
+#if CENTER_COVERAGE
+    result.gridPosition = gridPositionIn;
+    result.normal = normalize(normalIn);
+    result.uv = uvIn;
+    result.coverage = 1.0;
+#else
+    // Relative to the pixel, so that the digits are spent on the pixel.
+    vec2 corner = floor(gl_FragCoord.xy);
+    vec2 a = corner0.xy - corner, b = corner1.xy - corner, c = corner2.xy - corner;
+    result.coverage = triangleCoverage(a, b, c);
+    vec3 w = nearestBarycentrics(a, b, c, vec2(0.5));
+    result.gridPosition = permuted(w.x * corner0.xyz + w.y * corner1.xyz + w.z * corner2.xyz, constant.x);
+    vec3 n = w.x * octDecode(unpackSnorm2x16(floatBitsToUint(corner0.w))) +
+             w.y * octDecode(unpackSnorm2x16(floatBitsToUint(corner1.w))) +
+             w.z * octDecode(unpackSnorm2x16(floatBitsToUint(corner2.w)));
+    result.normal = n * inversesqrt(max(dot(n, n), 1e-12));
+    result.uv = w.x * uv01.xy + w.y * uv01.zw + w.z * uv2;
+#endif
+    return result;
+}
+
+// Colour and opacity of the surface: the Phong colour of the scene's file, else the base colour.
+vec4 surfaceColor(uint index, vec2 uv) {
+    if ((materials[index].flags & MATERIAL_HAS_PHONG) != 0u) return vec4(materials[index].phongColor, 1.0);
+    vec4 color = materials[index].baseColor * unpackUnorm4x8(constant.z);
+#if TEXTURED
+    int layer = materials[index].layers.x;
+    vec3 row0 = materials[index].uvRow[0].xyz, row1 = materials[index].uvRow[1].xyz;
+    vec2 textureUv = vec2(dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z);
+    // A sixteenth of the texture: voxels rarely see less of it, and the finest level would shimmer.
+    vec4 texel = sampleSurfaceArray(max(layer, 0), textureUv, 1.0 / 16.0);
+    return layer >= 0 ? color * texel : color;
+#else
+    return color;
+#endif
+}
+
+vec3 directLight(uint index, vec3 color, vec3 position, vec3 n) {
+    float diffuse = materials[index].phongDiffuse;
+#if AMBIENT_TWICE
+    float ambient = materials[index].phongAmbient;
+#else
+    float ambient = 0.0;
+#endif
+    vec3 sum = vec3(0.0);
+    for (uint i = 0u; i < uint(grid.boxMin.w); ++i) {
+        ThesisLight light = thesisLight(lights[i], position);
+        vec3 part = light.color;
+#if !UNATTENUATED_VOXELS
+        part *= light.falloff;
+#endif
+        part *= lightVisibility(lights[i], position, n);
+        sum += part * (ambient + diffuse * max(dot(n, light.toLight), 0.0));
+    }
+    return sum * color;
+}
+
+void markBrick(ivec3 voxel) {
+    ivec3 brick = (voxel - grid.boxMin.xyz) / THESIS_BRICK;
+    ivec3 bricks = grid.boxSize.xyz / THESIS_BRICK;
+    atomicOr(brickFlags[(brick.z * bricks.y + brick.y) * bricks.x + brick.x], 1u);
+}
+
+#if !RACING_STORES
+void addToVoxel(ivec3 voxel, vec3 radiance, float weight) {
+    ivec3 inBox = voxel - grid.boxMin.xyz;
+    if (weight <= 0.0 || any(lessThan(inBox, ivec3(0))) || any(greaterThanEqual(inBox, grid.boxSize.xyz)))
+        return;
+    markBrick(voxel);
+    int at = 4 * ((inBox.z * grid.boxSize.y + inBox.y) * grid.boxSize.x + inBox.x);
+    // Radiance is at most 2^24 steps (ThesisVolume chooses the scale), weights 2^24 per full column: up to
+    // 255 layers of surface fit into one voxel.
+    uvec3 color = uvec3(radiance * (weight * grid.sumScale) + 0.5);
+    atomicAdd(sums[at], color.r);
+    atomicAdd(sums[at + 1], color.g);
+    atomicAdd(sums[at + 2], color.b);
+    atomicAdd(sums[at + 3], uint(weight * 16777216.0 + 0.5));
+}
+#endif
+
+void main() {
+    uint material = constant.y;
+    Piece p = piece();
+    vec3 position = grid.origin + p.gridPosition * grid.voxelSize;
+    vec4 color = surfaceColor(material, p.uv);
+    uint flags = materials[material].flags;
+    // Masked surfaces are there or not; blended ones cover in proportion, double-sided ones are lit from
+    // the side the light comes from only as far as the thesis goes: their front.
+    if ((flags & MATERIAL_ALPHA_MASK) != 0u)
+        p.coverage *= color.a < materials[material].alphaCutoff ? 0.0 : 1.0;
+    if ((flags & MATERIAL_ALPHA_BLEND) != 0u) p.coverage *= color.a;
+    bool unlit = (flags & MATERIAL_UNLIT) != 0u;
+    vec3 radiance = unlit ? vec3(0.0) : directLight(material, color.rgb, position, p.normal);
+#if !DARK_EMITTERS
+    // Emitters that are lights as well (LIGHT_FROM_EMITTER) would light everything twice.
+    radiance += unlit ? color.rgb : grid.boxSize.w == 0 ? materials[material].emission : vec3(0.0);
+#endif
+    // The sums' scale holds radiance up to this; half floats hold 65,504.
+    radiance = clamp(radiance, vec3(0.0), vec3(16777216.0 / grid.sumScale));
+
+    ivec3 axisStep = constant.x == 0u ? ivec3(1, 0, 0) : constant.x == 1u ? ivec3(0, 1, 0) : ivec3(0, 0, 1);
+#if RACING_STORES
+#if FACE_ROUNDING
+    ivec3 voxel = ivec3(p.gridPosition);
+#else
+    // Half-open, and on a face the voxel behind the surface: 1/1000 voxel against the normal decides.
+    ivec3 voxel = ivec3(floor(p.gridPosition - 1e-3 * p.normal));
+#endif
+    ivec3 inBox = voxel - grid.boxMin.xyz;
+    if (p.coverage > 0.0 && all(greaterThanEqual(inBox, ivec3(0))) &&
+        all(lessThan(inBox, grid.boxSize.xyz))) {
+        markBrick(voxel);
+        imageStore(volume, voxel, vec4(radiance, 1.0));
+    }
+#else
+#if FACE_ROUNDING
+    addToVoxel(ivec3(p.gridPosition), radiance, p.coverage);
+#else
+    float depth = dot(p.gridPosition, vec3(axisStep)) - 0.5;
+    float low = floor(depth);
+    float share = depth - low;
+    // The column is the pixel's, whatever rounding did to the point inside it.
+    vec3 column = permuted(vec3(floor(gl_FragCoord.xy), 0.0), constant.x);
+    ivec3 voxel = ivec3(column) + axisStep * int(low);
+    addToVoxel(voxel, radiance, p.coverage * (1.0 - share));
+    addToVoxel(voxel + axisStep, radiance, p.coverage * share);
+#endif
+#endif
+}

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "gather/cone_picture.h"
+
+#include "gl/gl.h"
+
+namespace conelight::gather {
+namespace {
+
+struct ComposeKey {
+    PictureParts parts;
+
+    gl::ProgramDesc desc() const {
+        return {{"gather/cone_compose.comp.glsl"},
+                {{"SHOW_DIRECT", parts.direct ? "1" : "0"},
+                 {"SHOW_DIFFUSE", parts.diffuse ? "1" : "0"},
+                 {"SHOW_SPECULAR", parts.specular ? "1" : "0"}}};
+    }
+    static std::vector<ComposeKey> all() {
+        std::vector<ComposeKey> keys;
+        for (int bits = 0; bits < 8; ++bits)
+            keys.push_back({{(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0}});
+        return keys;
+    }
+};
+
+gl::ProgramDesc occlusionDesc() { return {{"gather/cone_occlusion.comp.glsl"}, {}}; }
+
+const gl::Texture& resized(gl::Texture& picture, const view::Surfaces& surfaces, const char* label) {
+    if (!picture || picture.width() != surfaces.width() || picture.height() != surfaces.height()) {
+        picture = {};
+        picture = gl::Texture({GL_TEXTURE_2D, GL_RGBA16F, surfaces.width(), surfaces.height()}, label);
+    }
+    return picture;
+}
+
+}  // namespace
+
+void ConePicture::drawOcclusion(const gl::Device& device, const DirectInputs& pixels,
+                                const ConeVolume& volume, const Target& target) {
+    const gl::Texture& open = resized(diffuse_, pixels.surfaces, "gathered diffuse");
+    volume.cones().gather(device, {pixels, volume.volume()}, ConeGather::Part::Occlusion, open,
+                          target.lookupCounters);
+    gl::barrier(gl::Access::TextureFetch);
+    const gl::PassScope pass(device.profiler, "compose");
+    gl::Inputs given;
+    given.add(pixels).texture("occlusion", open).image("result", target.output, gl::ImageUse::Write);
+    device.get(occlusionDesc()).dispatch(given, open.width(), open.height());
+}
+
+void ConePicture::draw(const gl::Device& device, const DirectInputs& pixels, const ConeVolume& volume,
+                       const PictureParts& parts, const Target& target) {
+    gl::Inputs given;
+    given.add(pixels).image("result", target.output, gl::ImageUse::Write);
+    if (parts.direct) {
+        direct_.draw(device, pixels);
+        given.texture("directDiffuse", direct_.diffuse()).texture("directSpecular", direct_.specular());
+    }
+    if (parts.diffuse) {
+        const gl::Texture& picture = resized(diffuse_, pixels.surfaces, "gathered diffuse");
+        volume.cones().gather(device, {pixels, volume.volume()}, ConeGather::Part::Diffuse, picture,
+                              target.lookupCounters);
+        given.texture("diffuseIrradiance", picture);
+    }
+    if (parts.specular) {
+        const gl::Texture& picture = resized(specular_, pixels.surfaces, "gathered specular");
+        volume.cones().gather(device, {pixels, volume.volume()}, ConeGather::Part::Specular, picture,
+                              target.lookupCounters);
+        given.texture("specularRadiance", picture);
+    }
+    gl::barrier(gl::Access::TextureFetch);
+    const gl::PassScope pass(device.profiler, "compose");
+    device.get(ComposeKey{parts}.desc()).dispatch(given, pixels.surfaces.width(), pixels.surfaces.height());
+}
+
+void ConePicture::record(const gl::Device& device, const DirectInputs& pixels, const ConeVolume& volume,
+                         ConeGather::Part part, StepRecorder& recorder) {
+    const gl::Texture& picture = resized(diffuse_, pixels.surfaces, "gathered diffuse");
+    volume.cones().record(device, {pixels, volume.volume()}, part, picture, recorder);
+}
+
+std::vector<gl::ProgramDesc> ConePicture::programDescs() {
+    std::vector<gl::ProgramDesc> descs = {occlusionDesc()};
+    for (const ComposeKey& key : ComposeKey::all()) descs.push_back(key.desc());
+    for (const auto& more : {ConeGather::programDescs(), DirectLight::programDescs()})
+        descs.insert(descs.end(), more.begin(), more.end());
+    return descs;
+}
+
+}  // namespace conelight::gather

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// The picture of mode `cones`: surfaces, lights, radiance volume -> direct light, diffuse and specular cones,
+// put together. Also its view of occlusion. Readers of `output` need a texture-fetch barrier. GL state
+// changed: program and its slots.
+#pragma once
+
+#include <vector>
+
+#include "gather/cone_volume.h"
+#include "gather/direct_light.h"
+#include "gather/picture_parts.h"
+
+namespace conelight::gather {
+
+class ConePicture {
+  public:
+    struct Target {
+        const gl::Texture& output;
+        const gl::Buffer* lookupCounters = nullptr;  // not null: adds lookups of cones
+    };
+    void draw(const gl::Device& device, const DirectInputs& pixels, const ConeVolume& volume,
+              const PictureParts& parts, const Target& target);
+    void drawOcclusion(const gl::Device& device, const DirectInputs& pixels, const ConeVolume& volume,
+                       const Target& target);
+    // Records what the picture shows of one pixel.
+    void record(const gl::Device& device, const DirectInputs& pixels, const ConeVolume& volume,
+                ConeGather::Part part, StepRecorder& recorder);
+
+    static std::vector<gl::ProgramDesc> programDescs();
+
+  private:
+    DirectLight direct_;
+    gl::Texture diffuse_, specular_;  // what was gathered, of the frame's size
+};
+
+}  // namespace conelight::gather

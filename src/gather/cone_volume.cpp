@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "gather/cone_volume.h"
+
+#include "light/inject_light.h"
+
+namespace conelight::gather {
+
+void ConeVolume::update(const gl::Device& device, const Inputs& inputs, const ConesSettings& settings) {
+    const voxels::SurfaceVoxels& surface = inputs.voxels.surface();
+    const voxels::RadianceLayout layout =
+        voxels::radianceLayout(surface.grid(), settings.directional, settings.maxFootprint);
+    const bool otherLayout = !volume_.texture() || !(volume_.layout() == layout);
+    const bool otherSources =
+        voxelsFrom_ != inputs.voxels.revision() || lightsFrom_ != inputs.lights.revision();
+    const bool otherSettings = !settings_ || !(*settings_ == settings);
+    // How light is gathered at faces is part of the volume when there is more than one bounce.
+    const bool otherBounces =
+        otherSettings && (settings.bounces > 1 || (settings_ && settings_->bounces > 1));
+    const bool otherOpacity = !settings_ || settings_->opacity != settings.opacity;
+    if (otherSettings || otherSources || otherLayout) cones_.configure(settings, layout);
+    settings_ = settings;
+    voxelsFrom_ = inputs.voxels.revision();
+    lightsFrom_ = inputs.lights.revision();
+    if (!otherLayout && !otherSources && !otherBounces && !otherOpacity) return;
+
+    if (otherLayout) {
+        volume_ = {};  // frees the old one first
+        volume_ = voxels::RadianceVolume(layout);
+    }
+    light::injectLight(device, {inputs.scene, inputs.lights, surface});
+    volume_.build(device, surface, settings.opacity);
+    // Each further bounce reads the volume with one bounce less.
+    for (int bounce = 1; bounce < settings.bounces; ++bounce) {
+        cones_.gatherBounce(device, inputs.lights, volume_, surface);
+        volume_.build(device, surface, settings.opacity);
+    }
+    revision_ = base::Revision::next();
+}
+
+}  // namespace conelight::gather

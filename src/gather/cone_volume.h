@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// The radiance volume, as a value: voxels + lights -> prefiltered radiance of all bounces that are wanted,
+// and the cones that read it. Each bounce gathers by cones at faces what the volume of the bounces before
+// holds.
+#pragma once
+
+#include <optional>
+
+#include "base/revision.h"
+#include "conelight/settings.h"
+#include "gather/cone_gather.h"
+#include "light/lights.h"
+#include "scene/gpu_scene.h"
+#include "voxels/radiance_volume.h"
+#include "voxels/voxels.h"
+
+namespace conelight::gather {
+
+class ConeVolume {
+  public:
+    struct Inputs {
+        const scene::GpuScene& scene;
+        const light::Lights& lights;
+        const voxels::Voxels& voxels;
+    };
+    // Returns at once when nothing changed that it is made from. GL state changed: programs and their slots.
+    void update(const gl::Device& device, const Inputs& inputs, const ConesSettings& settings);
+    base::Revision revision() const { return revision_; }
+
+    const voxels::RadianceVolume& volume() const { return volume_; }
+    const ConeGather& cones() const { return cones_; }  // as the settings say
+
+  private:
+    voxels::RadianceVolume volume_;
+    ConeGather cones_;
+    // What it was made from.
+    base::Revision voxelsFrom_, lightsFrom_;
+    std::optional<ConesSettings> settings_;
+    base::Revision revision_;
+};
+
+}  // namespace conelight::gather

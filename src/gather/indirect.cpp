@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: MIT
+#include "gather/indirect.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace conelight::gather {
+namespace {
+
+// Means over frames while the cache is still on its way, so many passes: longer ones would show old light
+// (builtin:cornell-point, interactive: 16 frames to settle instead of 12 when they were long after 8
+// updates).
+constexpr int kUnsettledMean = 4;
+constexpr int kOcclusionPasses = 16;
+constexpr int kOcclusionRays = 2;
+
+bool sameView(const gpu::FrameConstants& a, const gpu::FrameConstants& b) {
+    return a.clipFromWorld == b.clipFromWorld && a.eye == b.eye && a.viewForward == b.viewForward &&
+           a.viewRight == b.viewRight && a.viewUp == b.viewUp && a.width == b.width && a.height == b.height;
+}
+
+// Whether any surface may be as smooth as `limit`.
+bool hasGloss(const scene::GpuScene& scene, float limit) {
+    return std::any_of(scene.instances().begin(), scene.instances().end(),
+                       [&](const gpu::Instance& instance) { return mayHaveLobe(scene, instance, limit); });
+}
+
+bool wantsIrradiance(const Indirect::Wanted& wanted) {
+    return wanted.settings.pixelRays > 0 && (wanted.parts.diffuse || wanted.parts.specular);
+}
+
+bool wantsLobe(const Indirect::Wanted& wanted, const scene::GpuScene& scene) {
+    return wanted.settings.specularRays > 0 && wanted.parts.specular &&
+           hasGloss(scene, wanted.settings.specularLimit);
+}
+
+}  // namespace
+
+// Histories of other light or of other settings are old.
+void Indirect::follow(const RayInputs& inputs, const TracedSettings& settings) {
+    if (lightFrom_ != inputs.lit.sources() || !settings_ || !(*settings_ == settings))
+        diffuseHistory_.passes = specularHistory_.passes = occlusionHistory_.passes = 0;
+    lightFrom_ = inputs.lit.sources();
+    settings_ = settings;
+    followInstances(inputs.scene);
+}
+
+// Where each instance was in the frame before, for means that follow them.
+void Indirect::followInstances(const scene::GpuScene& scene) {
+    const std::vector<gpu::Instance>& instances = scene.instances();
+    const bool known = placed_.size() == instances.size();
+    if (!known) diffuseHistory_ = specularHistory_ = occlusionHistory_ = {};
+    moved_ = false;
+    std::vector<glm::mat4> places, oldFromWorld;
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        places.push_back(instances[i].worldFromObject);
+        if (!known) continue;
+        const bool still = placed_[i] == places[i];
+        oldFromWorld.push_back(still ? glm::mat4(1) : placed_[i] * glm::inverse(places[i]));
+        moved_ = moved_ || !still;
+    }
+    if (moved_) motion_ = gl::Buffer(oldFromWorld, "instance motion");
+    placed_ = std::move(places);
+}
+
+// Finished at once, or one more pass on top of what is known.
+void Indirect::addPasses(const gl::Device& device, const RayInputs& inputs, const RayPass& pass,
+                         PixelRays& picture, History& history) {
+    RayPass next = pass;
+    next.motion = moved_ ? &motion_ : nullptr;
+    const gpu::FrameConstants& view = inputs.surfaces.view();
+    const bool known = history.view && picture.has(inputs.surfaces.width(), inputs.surfaces.height());
+    const bool still = known && sameView(*history.view, view) && !moved_;
+    if (pass.settings.budgeted) {
+        next.reuse = !known ? Reuse::None : (still ? Reuse::SameView : Reuse::Reproject);
+        next.number = static_cast<std::uint32_t>(history.passes);
+        if (!inputs.lit.steady()) next.longest = std::min(pass.longest, kUnsettledMean);
+        picture.gather(device, inputs, next);
+        ++history.passes;
+    } else {
+        if (!still) history.passes = 0;
+        for (; history.passes < pass.longest; ++history.passes) {
+            next.reuse = history.passes == 0 ? Reuse::None : Reuse::SameView;
+            next.number = static_cast<std::uint32_t>(history.passes);
+            picture.gather(device, inputs, next);
+        }
+    }
+    history.view = view;
+}
+
+void Indirect::gather(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted) {
+    const TracedSettings& settings = wanted.settings;
+    follow(inputs, settings);
+    irradiance_ = lobe_ = nullptr;
+    if (wantsIrradiance(wanted)) {
+        const RayPass pass{settings, settings.pixelRays,   settings.passes, 0, Reuse::None,
+                           nullptr,  wanted.lookupCounters};
+        addPasses(device, inputs, pass, diffuse_, diffuseHistory_);
+        irradiance_ = &diffuse_.filtered(device, inputs, settings.filterLevels);
+    }
+    if (wantsLobe(wanted, inputs.scene)) {
+        const RayPass pass{settings, settings.specularRays, settings.passes, 0, Reuse::None,
+                           nullptr,  wanted.lookupCounters};
+        addPasses(device, inputs, pass, specular_, specularHistory_);
+        lobe_ = &specular_.filtered(device, inputs, settings.filterLevels);
+    }
+}
+
+void Indirect::gatherOcclusion(const gl::Device& device, const RayInputs& inputs,
+                               const TracedSettings& settings) {
+    follow(inputs, settings);
+    addPasses(device, inputs, {settings, kOcclusionRays, kOcclusionPasses}, occlusion_, occlusionHistory_);
+    occlusionPicture_ = &occlusion_.filtered(device, inputs, 1);
+}
+
+void Indirect::record(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,
+                      StepRecorder& recorder) {
+    const TracedSettings& settings = wanted.settings;
+    if (wantsIrradiance(wanted))
+        diffuse_.record(device, inputs, {settings, settings.pixelRays, settings.passes}, settings.passes,
+                        recorder);
+    if (wantsLobe(wanted, inputs.scene))
+        specular_.record(device, inputs, {settings, settings.specularRays, settings.passes}, settings.passes,
+                         recorder);
+}
+
+void Indirect::recordOcclusion(const gl::Device& device, const RayInputs& inputs,
+                               const TracedSettings& settings, StepRecorder& recorder) {
+    occlusion_.record(device, inputs, {settings, kOcclusionRays, kOcclusionPasses}, kOcclusionPasses,
+                      recorder);
+}
+
+}  // namespace conelight::gather

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: MIT
+// Indirect light at pixels, as a value: surfaces + lit voxels -> irradiance for diffuse reflection, radiance
+// in the specular lobe, occlusion. Means over passes and frames are kept, and taken up again where the same
+// surface is seen.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "base/revision.h"
+#include "gather/picture_parts.h"
+#include "gather/pixel_rays.h"
+
+namespace conelight::gather {
+
+class Indirect {
+  public:
+    // Which parts a picture needs of it; a finished picture, or one more pass on top of what is known.
+    struct Wanted {
+        const TracedSettings& settings;
+        PictureParts parts;
+        const gl::Buffer* lookupCounters = nullptr;
+    };
+
+    // Gathers what the settings ask rays for. GL state changed: as PixelRays.
+    void gather(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted);
+    void gatherOcclusion(const gl::Device& device, const RayInputs& inputs, const TracedSettings& settings);
+    // Records the recorder's pixel; what was gathered stays.
+    void record(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,
+                StepRecorder& recorder);
+    void recordOcclusion(const gl::Device& device, const RayInputs& inputs, const TracedSettings& settings,
+                         StepRecorder& recorder);
+
+    // Of the last gather(), pictures of lib/pixel_history.glsl; null: rays were not asked for it, and the
+    // cache, or the irradiance, stands in.
+    const gl::Texture* irradiance() const { return irradiance_; }
+    const gl::Texture* lobe() const { return lobe_; }
+    const PixelRectangle& lobes() const { return specular_.lobes(); }  // where `lobe` has anything
+    const gl::Texture& occlusion() const { return *occlusionPicture_; }
+
+  private:
+    // The means so far: from where, of how many passes.
+    struct History {
+        std::optional<gpu::FrameConstants> view;
+        int passes = 0;
+    };
+    void follow(const RayInputs& inputs, const TracedSettings& settings);
+    void followInstances(const scene::GpuScene& scene);
+    void addPasses(const gl::Device& device, const RayInputs& inputs, const RayPass& pass, PixelRays& picture,
+                   History& history);
+
+    PixelRays diffuse_{RayPicture::Diffuse};
+    PixelRays specular_{RayPicture::Specular};
+    PixelRays occlusion_{RayPicture::Occlusion};
+    History diffuseHistory_, specularHistory_, occlusionHistory_;
+    const gl::Texture* irradiance_ = nullptr;
+    const gl::Texture* lobe_ = nullptr;
+    const gl::Texture* occlusionPicture_ = nullptr;
+
+    // Where instances were, and where from they have come since.
+    std::vector<glm::mat4> placed_;
+    gl::Buffer motion_;
+    bool moved_ = false;
+
+    // What the histories were gathered from.
+    base::Revision lightFrom_;
+    std::optional<TracedSettings> settings_;
+};
+
+}  // namespace conelight::gather

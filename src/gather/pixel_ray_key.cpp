@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "gather/pixel_ray_key.h"
+
+#include "gather/step_recorder.h"
+
+namespace conelight::gather {
+namespace {
+
+// Passes of one kind: first ones, further ones, such as follow what has moved; as they count or record.
+void addPasses(std::vector<PixelRayKey>& keys, PixelRayKey key) {
+    key.listed = key.kind == RayPicture::Specular;
+    for (const bool counts : {false, true}) {
+        key.counts = counts;
+        for (const Reuse reuse : {Reuse::None, Reuse::SameView, Reuse::Reproject}) {
+            key.reuse = reuse;
+            key.motion = false;
+            keys.push_back(key);
+        }
+        key.motion = true;
+        keys.push_back(key);
+    }
+    keys.push_back({.kind = key.kind, .triangles = key.triangles, .records = true, .hits = key.hits});
+}
+
+}  // namespace
+
+gl::ProgramDesc PixelRayKey::desc() const {
+    gl::ProgramDesc desc;
+    desc.files = {kind == RayPicture::Specular ? "gather/ray_specular.comp.glsl"
+                                               : "gather/ray_diffuse.comp.glsl"};
+    desc.defines = {{"TEMPORAL", std::to_string(static_cast<int>(reuse))},
+                    {"MOTION", motion && reuse == Reuse::Reproject ? "1" : "0"}};
+    if (kind != RayPicture::Specular)
+        desc.defines.emplace_back("OCCLUSION", kind == RayPicture::Occlusion ? "1" : "0");
+    if (listed) desc.defines.emplace_back("LOBE_LISTED", "1");
+    if (counts) desc.defines.emplace_back("COUNT_LOOKUPS", "1");
+    for (auto& define : hits.defines()) desc.defines.push_back(std::move(define));
+    if (triangles) desc.defines.emplace_back("TRIANGLE_HITS", "1");
+    return records ? StepRecorder::variant(std::move(desc)) : desc;
+}
+
+std::vector<PixelRayKey> PixelRayKey::all() {
+    std::vector<PixelRayKey> keys;
+    // Occlusion asks for no light.
+    addPasses(keys, {.kind = RayPicture::Occlusion});
+    for (const light::HitKey& hits : light::HitKey::all(0)) {
+        addPasses(keys, {.kind = RayPicture::Diffuse, .hits = hits});
+        for (const bool triangles : {false, true})
+            addPasses(keys, {.kind = RayPicture::Specular, .triangles = triangles, .hits = hits});
+    }
+    return keys;
+}
+
+gl::ProgramDesc EdgeFilterKey::desc() const {
+    return {{"gather/edge_filter.comp.glsl"},
+            {{"FILTER_STEP", std::to_string(step)}, {"SPECULAR", specular ? "1" : "0"}}};
+}
+
+std::vector<EdgeFilterKey> EdgeFilterKey::all() {
+    std::vector<EdgeFilterKey> keys;
+    for (const int step : {1, 2, 4, 8})
+        for (const bool specular : {false, true}) keys.push_back({step, specular});
+    return keys;
+}
+
+}  // namespace conelight::gather

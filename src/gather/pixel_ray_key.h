@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// Variants of the shaders that gather by rays at pixels (gather/ray_diffuse, gather/ray_specular).
+#pragma once
+
+#include <vector>
+
+#include "gl/program.h"
+#include "light/light_key.h"
+
+namespace conelight::gather {
+
+enum class RayPicture { Diffuse, Specular, Occlusion };
+
+// How a pass takes up what was there (TEMPORAL of lib/temporal.glsl).
+enum class Reuse { None, SameView, Reproject };
+
+struct PixelRayKey {
+    RayPicture kind = RayPicture::Diffuse;
+    Reuse reuse = Reuse::None;
+    bool motion = false;     // instances have moved since; of Reuse::Reproject
+    bool counts = false;     // lookups
+    bool listed = false;     // of kind Specular: of the pixels in LobeList, else of all
+    bool triangles = false;  // of kind Specular: rays meet triangles, not plane pieces
+    bool records = false;    // steps of one pixel, for the inspector
+    light::HitKey hits;
+
+    gl::ProgramDesc desc() const;
+    static std::vector<PixelRayKey> all();
+};
+
+// The edge-stopping filter over a picture, of a level: 1, 2, 4, 8 pixels between samples.
+struct EdgeFilterKey {
+    int step = 1;
+    bool specular = false;
+
+    gl::ProgramDesc desc() const;
+    static std::vector<EdgeFilterKey> all();
+};
+
+}  // namespace conelight::gather

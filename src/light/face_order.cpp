@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include "light/face_order.h"
+
+#include "gl/gl.h"
+#include "shared/irradiance.h"
+
+namespace conelight::light {
+namespace {
+
+// Grids with more blocks of 16^3 voxels (256^3 has half of that) keep faces as they are stored: bins would
+// take too much memory.
+constexpr std::size_t kMaxBlocks = 8192;
+
+struct OrderKey {
+    int step;
+    gl::ProgramDesc desc() const {
+        return {{"light/cache_order.comp.glsl"}, {{"STEP", std::to_string(step)}}};
+    }
+    static std::vector<OrderKey> all() { return {{0}, {1}, {2}, {3}, {4}, {5}}; }
+};
+
+}  // namespace
+
+void FaceOrder::reserveBins(std::size_t count) {
+    if (bins_.bytes() == 8 * count) return;
+    releaseBins();
+    bins_ = gl::Buffer(8 * count, "bins of faces");
+    binStarts_ = gl::Buffer(4 * count, "starts of bins of faces");
+    binTexels_ = gl::Texture(bins_, GL_RG32UI, "bins of faces");
+    binStartTexels_ = gl::Texture(binStarts_, GL_R32UI, "starts of bins of faces");
+}
+
+void FaceOrder::releaseBins() {
+    binTexels_ = {};
+    binStartTexels_ = {};
+    bins_ = {};
+    binStarts_ = {};
+}
+
+void FaceOrder::sort(const gl::Device& device, const voxels::SurfaceVoxels& surface, const gl::Buffer& states,
+                     const gl::Texture& stateTexels, const Wanted& wanted) {
+    const std::uint32_t faces = surface.faceCount();
+    gathering_ = faces;
+    doubtful_ = 0;
+    if (faces == 0) return;
+    if (!order_ || order_.bytes() < std::size_t{4} * faces) {
+        orderTexels_ = {};
+        const bool grows = static_cast<bool>(order_);
+        order_ = {};
+        order_ = gl::Buffer(std::size_t{4} * (grows ? faces + faces / 4 : faces), "order of faces");
+        orderTexels_ = gl::Texture(order_, GL_R32UI, "order of faces");
+    }
+    if (!chunks_) {
+        chunks_ = gl::Buffer(4 * (CACHE_ORDER_CHUNKS + 2), "chunks of bins");
+        block_ = gl::Buffer(sizeof(gpu::CacheOrder), "order of faces constants");
+    }
+    gl::Inputs inputs;
+    inputs.add(surface).storage("OrderTable", order_);
+    const glm::ivec3 blocks = (surface.grid().bricks() + 3) / 4;
+    const auto blockCount = static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.y) *
+                            static_cast<std::size_t>(blocks.z);
+    if (blockCount > kMaxBlocks) {
+        device.get(OrderKey{5}.desc()).dispatchLinear(inputs, faces);
+        gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+        return;
+    }
+    reserveBins(blockCount * CACHE_BINS_PER_BLOCK);
+    bins_.clear();
+    gpu::CacheOrder block{};
+    block.number = sorts_++;
+    block.searches = wanted.searches ? 1 : 0;
+    block_.update(block);
+    inputs.uniform("OrderBlock", block_)
+        .storage("BinTable", bins_)
+        .storage("StartTable", binStarts_)
+        .storage("ChunkTable", chunks_)
+        .storage("StateTable", states)
+        .texture("binTexels", binTexels_)
+        .texture("startTexels", binStartTexels_)
+        .texture("stateTexels", stateTexels);
+    const std::size_t invocations[] = {faces, CACHE_ORDER_CHUNKS, 1, CACHE_ORDER_CHUNKS, faces};
+    for (int step = 0; step < 5; ++step) {
+        device.get(OrderKey{step}.desc()).dispatchLinear(inputs, invocations[step]);
+        gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+    }
+    const auto counts = chunks_.read<std::uint32_t>(2, sizeof(std::uint32_t) * CACHE_ORDER_CHUNKS);
+    gathering_ = counts[0];
+    doubtful_ = counts[1];
+    // They are as large as what they sort.
+    if (!wanted.keepsMemory) releaseBins();
+}
+
+std::vector<gl::ProgramDesc> FaceOrder::programDescs() {
+    std::vector<gl::ProgramDesc> descs;
+    for (const OrderKey& key : OrderKey::all()) descs.push_back(key.desc());
+    return descs;
+}
+
+}  // namespace conelight::light

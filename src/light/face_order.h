@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// The order in which updates of the irradiance cache visit faces (shaders/light/cache_order.comp.glsl):
+// voxels
+// -> faces that gather, those of one place and direction in a block next to each other. Faces that share
+// another's irradiance, and faces found inside closed objects, are not visited.
+#pragma once
+
+#include "gl/device.h"
+#include "voxels/surface_voxels.h"
+
+namespace conelight::light {
+
+class FaceOrder {
+  public:
+    struct Wanted {
+        bool searches;     // faces that may be inside closed objects are visited, to find out
+        bool keepsMemory;  // for the next sort: where voxels change again and again
+    };
+    // `states` (gpu::FaceCache per face) of faces that are not visited are changed.
+    void sort(const gl::Device& device, const voxels::SurfaceVoxels& surface, const gl::Buffer& states,
+              const gl::Texture& stateTexels, const Wanted& wanted);
+
+    std::uint32_t gathering() const { return gathering_; }  // faces that updates visit in order
+    std::uint32_t doubtful() const { return doubtful_; }  // and those behind them, of which each is searched
+    std::uint32_t visited() const { return gathering_ + doubtful_; }
+    const gl::Buffer& buffer() const { return order_; }
+    const gl::Texture& texels() const { return orderTexels_; }  // R32UI: a face per place
+
+    static std::vector<gl::ProgramDesc> programDescs();
+
+  private:
+    void reserveBins(std::size_t count);
+    void releaseBins();
+
+    gl::Buffer order_, bins_, binStarts_, chunks_, block_;
+    gl::Texture orderTexels_, binTexels_, binStartTexels_;
+    std::uint32_t gathering_ = 0, doubtful_ = 0;
+    std::uint32_t sorts_ = 0;  // ever
+};
+
+}  // namespace conelight::light

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include "light/light_key.h"
+
+#include <algorithm>
+
+namespace conelight::light {
+namespace {
+
+// More would make unrolled programs long.
+constexpr int kFixedLights = 4;
+constexpr int kLargestFilter = 4;  // LightSettings::shadowFilter
+
+}  // namespace
+
+LightKey LightKey::of(const glm::uvec4& ends, bool shadows, int filter) {
+    const auto total = static_cast<int>(ends.w);
+    LightKey key;
+    key.fixed = total <= kFixedLights;
+    const auto number = [&](std::uint32_t first, std::uint32_t end) {
+        const auto count = static_cast<int>(end - first);
+        return key.fixed ? count : std::min(count, 1);
+    };
+    key.point = number(0, ends.x);
+    key.spot = number(ends.x, ends.y);
+    key.directional = number(ends.y, ends.z);
+    key.rect = number(ends.z, ends.w);
+    key.shadows = shadows && total > 0;
+    key.filter = key.shadows ? filter : 0;
+    return key;
+}
+
+gl::Defines LightKey::defines() const {
+    return {{"LIGHTS_POINT", std::to_string(point)},
+            {"LIGHTS_SPOT", std::to_string(spot)},
+            {"LIGHTS_DIRECTIONAL", std::to_string(directional)},
+            {"LIGHTS_RECT", std::to_string(rect)},
+            {"LIGHTS_FIXED", fixed ? "1" : "0"},
+            {"LIGHTS_SHADOWS", shadows ? "1" : "0"},
+            {"SHADOW_FILTER", std::to_string(filter)}};
+}
+
+std::vector<LightKey> LightKey::all() {
+    std::vector<LightKey> keys;
+    // Every number of each kind; more than four lights are told by which kinds there are.
+    for (int code = 0; code < 5 * 5 * 5 * 5; ++code) {
+        LightKey key{
+            .point = code % 5, .spot = code / 5 % 5, .directional = code / 25 % 5, .rect = code / 125};
+        const int total = key.point + key.spot + key.directional + key.rect;
+        const bool kinds = std::max({key.point, key.spot, key.directional, key.rect}) == 1;
+        for (const bool fixed : {true, false}) {
+            if (fixed ? total > kFixedLights : !kinds) continue;
+            key.fixed = fixed;
+            key.shadows = false;
+            key.filter = 0;
+            keys.push_back(key);
+            key.shadows = true;
+            for (int filter = 0; total > 0 && filter <= kLargestFilter; ++filter) {
+                key.filter = filter;
+                keys.push_back(key);
+            }
+        }
+    }
+    return keys;
+}
+
+gl::Defines HitKey::defines() const {
+    gl::Defines defines{{"EXACT_DIRECT", exact ? "1" : "0"}};
+    if (exact)
+        for (auto& define : lights.defines()) defines.push_back(std::move(define));
+    defines.emplace_back("LOBES", lobes ? "1" : "0");
+    return defines;
+}
+
+std::vector<HitKey> HitKey::all(int filter) {
+    std::vector<HitKey> keys;
+    for (const bool lobes : {false, true}) {
+        keys.push_back({.lobes = lobes});
+        for (LightKey lights : LightKey::all()) {
+            const bool punctual = lights.point + lights.spot + lights.directional > 0;
+            if (!punctual || lights.rect != 0 || lights.filter != 0) continue;
+            if (lights.shadows) lights.filter = filter;
+            keys.push_back({.exact = true, .lobes = lobes, .lights = lights});
+        }
+    }
+    return keys;
+}
+
+}  // namespace conelight::light

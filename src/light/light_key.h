@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// Which lights a shader is made for: variants of shaders that include lib/lights.glsl, and of those whose
+// rays look lights up where they hit (lib/voxel_light.glsl).
+#pragma once
+
+#include <compare>
+#include <vector>
+
+#include "gl/shader_source.h"
+#include "shared/scene.h"
+
+namespace conelight::light {
+
+// Lights of each kind: their numbers while there are at most four in all (`fixed`), so that shaders read them
+// at constant places; else whether there are any.
+struct LightKey {
+    int point = 0, spot = 0, directional = 0, rect = 0;
+    bool fixed = true;
+    bool shadows = false;
+    int filter = 0;  // radius of the shadow filter, texels; 0 without shadows; -1: one texel, unfiltered
+
+    // `ends`: of the kinds in the sorted light table.
+    static LightKey of(const glm::uvec4& ends, bool shadows, int filter);
+    gl::Defines defines() const;
+    static std::vector<LightKey> all();  // but those with filter -1, which hits ask for
+    auto operator<=>(const LightKey&) const = default;
+};
+
+// What rays do where they hit.
+struct HitKey {
+    bool exact = false;  // punctual lights are looked up; else faces give all light
+    bool lobes = false;  // metals reflect in their lobe
+    LightKey lights;     // of `exact`: the punctual ones, filter 0 or -1
+
+    gl::Defines defines() const;
+    // `filter`: of exact ones, 0 or -1.
+    static std::vector<HitKey> all(int filter);
+    auto operator<=>(const HitKey&) const = default;
+};
+
+}  // namespace conelight::light

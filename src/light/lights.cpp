@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "light/lights.h"
+
+#include <algorithm>
+
+#include "scene/emissive_quads.h"
+#include "scene/gpu_lights.h"
+#include "shared/lighting.h"
+
+namespace conelight::light {
+namespace {
+
+// More lights than these are taken from faces, not looked up at every hit: the shadow maps of 4 cost as much
+// as the ray itself.
+constexpr std::uint32_t kMostExactLights = 4;
+
+// Whether rays may meet metal.
+bool hasMetals(const scene::GpuScene& scene) {
+    return std::any_of(scene.instances().begin(), scene.instances().end(),
+                       [&](const gpu::Instance& instance) {
+                           const gpu::Material& m = scene.materials()[instance.material];
+                           return (instance.flags & INSTANCE_VOXELIZED) != 0 &&
+                                  (m.flags & MATERIAL_UNLIT) == 0 && m.metallic > 0;
+                       });
+}
+
+}  // namespace
+
+Lights::Lights() : block_(sizeof(gpu::LightingConstants), "lighting") {}
+
+void Lights::update(const gl::Device& device, const scene::GpuScene& scene, const LightsWanted& wanted) {
+    const Sources sources{scene.identity(), scene.geometryRevision(), scene.lightRevision(),
+                          scene.skyRevision(), wanted};
+    if (revision_ && from_ == sources) return;
+    fillTable(scene.source(), wanted.emissiveQuads);
+    if (wanted.shadowMaps) shadows_.update(device, scene, wanted.settings, table_);
+    upload(scene.source().sky);
+    from_ = sources;
+    revision_ = base::Revision::next();
+}
+
+void Lights::fillTable(const Scene& scene, bool emissiveQuads) {
+    table_ = scene::packedLights(scene.lights);
+    emitters_.assign(scene.instances.size(), 0);
+    if (emissiveQuads)
+        for (const scene::EmissiveQuad& quad : scene::emissiveQuads(scene)) {
+            // Rectangles are the last kind, so the table stays sorted.
+            table_.push_back(scene::packedLights({quad.light}).front());
+            table_.back().flags |= LIGHT_FROM_EMITTER;
+            emitters_[quad.instance] = 1;
+        }
+    ends_ = scene::lightEnds(table_);
+}
+
+void Lights::upload(const glm::vec3& sky) {
+    if (!tableBuffer_ || table_.size() * sizeof(gpu::Light) > tableBuffer_.bytes())
+        tableBuffer_ = gl::Buffer(table_, "lights");
+    else
+        tableBuffer_.update(0, table_.data(), table_.size() * sizeof(gpu::Light));
+    block_.update(gpu::LightingConstants{sky, 0, ends_});
+}
+
+void Lights::declare(gl::Inputs& inputs) const {
+    inputs.storage("LightTable", tableBuffer_)
+        .uniform("LightingBlock", block_)
+        .uniform("FixedLightBlock", tableBuffer_)
+        .uniform("FixedLightRows", tableBuffer_)
+        .add(shadows_);
+}
+
+LightKey Lights::key() const {
+    return LightKey::of(ends_, from_.wanted.settings.shadowSize > 0, from_.wanted.settings.shadowFilter);
+}
+
+HitKey Lights::hitKey(const scene::GpuScene& scene, bool exactDirect) const {
+    HitKey key;
+    key.lobes = hasMetals(scene);
+    key.exact = exactDirect && ends_.z > 0 && ends_.z <= kMostExactLights;
+    if (!key.exact) return key;
+    // One comparison of four texels per light: rays average edges anyway.
+    key.lights = this->key();
+    key.lights.rect = 0;
+    key.lights.filter = 0;
+    return key;
+}
+
+}  // namespace conelight::light

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Lights, as a value: what shines straight onto surfaces, ready for shaders. Scene -> the light table
+// (enabled lights, and flat emitters as rectangles), their shadow maps, and the sky.
+//
+// Flat emitters (scene/emissive_quads.h) are in the table so that their light is exact and sharp in its
+// shadows, where voxels would blur it. What the camera sees of the emitter does not change.
+#pragma once
+
+#include <vector>
+
+#include "base/revision.h"
+#include "conelight/settings.h"
+#include "gl/device.h"
+#include "light/light_key.h"
+#include "light/shadow_maps.h"
+#include "scene/gpu_scene.h"
+
+namespace conelight::light {
+
+// What a picture asks of the lights.
+struct LightsWanted {
+    LightSettings settings;
+    bool emissiveQuads = true;  // flat emitters are in the table
+    bool shadowMaps = true;     // they are drawn; else the table says that nothing is in shadow
+    bool operator==(const LightsWanted&) const = default;
+};
+
+class Lights {
+  public:
+    Lights();
+
+    // Returns at once when neither the scene nor what is wanted has changed. GL state changed: as
+    // ShadowMaps::update.
+    void update(const gl::Device& device, const scene::GpuScene& scene, const LightsWanted& wanted);
+    base::Revision revision() const { return revision_; }
+
+    // LightTable, LightingBlock, FixedLightBlock and FixedLightRows (the table once more, for shaders that
+    // know how many lights there are), and the shadow maps.
+    void declare(gl::Inputs& inputs) const;
+    LightKey key() const;  // the variant of shaders that these lights need
+    // Of shaders whose rays look punctual lights up where they hit; off where there are none, or more than
+    // pays.
+    HitKey hitKey(const scene::GpuScene& scene, bool exactDirect) const;
+
+    const std::vector<gpu::Light>& table() const { return table_; }  // sorted by kind
+    const glm::uvec4& ends() const { return ends_; }  // of the points, spots, directional lights, rectangles
+    // Whether an instance's emission arrives from a rectangle of the table: voxels leave it out.
+    bool areInTable(std::size_t instance) const { return emitters_[instance] != 0; }
+    int redrawnShadowMaps() const { return shadows_.redrawn(); }
+
+  private:
+    void fillTable(const Scene& scene, bool emissiveQuads);
+    void upload(const glm::vec3& sky);
+
+    std::vector<gpu::Light> table_;
+    glm::uvec4 ends_{0};
+    std::vector<char> emitters_;  // per instance
+    gl::Buffer tableBuffer_, block_;
+    ShadowMaps shadows_;
+
+    // What it was made from.
+    struct Sources {
+        base::Revision scene, geometry, lights, sky;
+        LightsWanted wanted;
+        bool operator==(const Sources&) const = default;
+    };
+    Sources from_;
+    base::Revision revision_;
+};
+
+}  // namespace conelight::light

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "light/lit_voxels.h"
+
+#include <algorithm>
+
+#include "gl/gl.h"
+#include "light/inject_light.h"
+#include "shared/irradiance.h"
+
+namespace conelight::light {
+namespace {
+
+// With a limited number of bounces updates are not averaged, so each has to do.
+constexpr int kRaysPerBounce = 32;
+// The first updates after a change only carry bounces around: what they find is replaced, so a quarter of the
+// rays will do.
+constexpr int kCoarseUpdates = IRRADIANCE_SETTLE;
+// Means over frames while the cache is still on its way would show old light.
+constexpr int kSteadyUpdates = 14;
+
+}  // namespace
+
+void LitVoxels::relight(const gl::Device& device, const Inputs& inputs, const RelightSettings& settings,
+                        const Budget& budget) {
+    const bool first = !revision_;
+    const bool otherVoxels = voxelsFrom_ != inputs.voxels.revision();
+    const bool otherSources = otherVoxels || lightsFrom_ != inputs.lights.revision();
+    const bool otherSettings = !first && !(settings_ == settings);
+    const bool otherGrid = !first && !(voxelSettings_ == inputs.voxels.settings());
+    if (budget.nothing && !otherSources && !otherSettings) return;
+
+    // A finished picture must not be better or worse for the settings of those before it; moving ones keep
+    // what is there. Light of a limited number of bounces starts in the dark.
+    const bool otherBounces = !first && settings_.bounces != settings.bounces;
+    const bool inTheDark = otherBounces || (settings.bounces && otherSources) ||
+                           ((otherSettings || otherGrid) && !budget.oneUpdate);
+    if (inTheDark) cache_ = {};
+    if (inTheDark || otherVoxels) cache_.adopt(device, inputs.voxels);
+    if (inTheDark || otherSources) putDirectLight(device, inputs);
+    if (inTheDark || otherSources || otherSettings) cache_.restartAverages();
+    if (inTheDark || otherSources) sources_ = revision_ = base::Revision::next();
+    voxelsFrom_ = inputs.voxels.revision();
+    lightsFrom_ = inputs.lights.revision();
+    voxelSettings_ = inputs.voxels.settings();
+    settings_ = settings;
+    update(device, inputs, budget);
+}
+
+// Direct light, emission and sky on every face.
+void LitVoxels::putDirectLight(const gl::Device& device, const Inputs& inputs) {
+    const voxels::SurfaceVoxels& surface = inputs.voxels.surface();
+    const std::size_t bytes = std::size_t{4} * surface.faceCount();
+    if (!directLight_ || directLight_.bytes() < bytes) {
+        const bool grows = static_cast<bool>(directLight_);
+        directTexels_ = {};
+        directLight_ = {};
+        directLight_ = gl::Buffer(grows ? bytes + bytes / 4 : bytes, "steady light");
+        directTexels_ = gl::Texture(directLight_, GL_R32UI, "steady light");
+    }
+    const bool fits = surface.faceCount() > 0 && hasOtherEmitters(inputs.scene, inputs.lights);
+    if (fits) fit_.update(device, inputs.voxels);
+    const RayLight rays{directLight_, fits ? &fit_ : nullptr};
+    injectLight(device, {inputs.scene, inputs.lights, surface}, &rays);
+}
+
+void LitVoxels::update(const gl::Device& device, const Inputs& inputs, const Budget& budget) {
+    const IrradianceCache::Inputs given{inputs.scene, inputs.lights, inputs.voxels, directTexels_};
+    CacheSettings cache;
+    // A reflection is a bounce, which updates count.
+    if (settings_.bounces) cache.reflections = 0;
+    cache.averages = !settings_.bounces;
+    cache.exactDirect = settings_.exactHits;
+    cache.facesPerUpdate = budget.oneUpdate ? budget.faces : 0;
+    const auto run = [&](int rays, int passes) {
+        cache.cosineRays = cache.lightRays = rays;
+        cache_.update(device, given, cache, passes);
+        if (passes > 0) revision_ = base::Revision::next();
+    };
+    const int missing = std::max(settings_.updates - cache_.updates(), 0);
+    if (settings_.bounces) {
+        run(std::max(settings_.rays, kRaysPerBounce), missing);
+    } else if (budget.oneUpdate) {
+        run(settings_.rays, std::min(missing, 1));
+    } else {
+        const int coarse = std::clamp(kCoarseUpdates - cache_.updates(), 0, missing);
+        run(std::max(settings_.rays / 4, 1), coarse);
+        run(settings_.rays, missing - coarse);
+    }
+}
+
+bool LitVoxels::steady() const { return cache_.updates() >= std::min(settings_.updates, kSteadyUpdates); }
+
+void LitVoxels::declare(gl::Inputs& inputs) const {
+    inputs.texture("steadyLight", directTexels_).add(cache_);
+}
+
+std::vector<gl::ProgramDesc> LitVoxels::programDescs() {
+    std::vector<gl::ProgramDesc> descs = injectLightProgramDescs();
+    for (const auto& more : {EmissionFit::programDescs(), IrradianceCache::programDescs()})
+        descs.insert(descs.end(), more.begin(), more.end());
+    return descs;
+}
+
+}  // namespace conelight::light

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// Lit voxels, as a value: voxels + lights -> what light every voxel face holds, direct and indirect, ready
+// for rays and pixels. relight() brings it up to date by as much work as a call may do.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "base/revision.h"
+#include "gl/device.h"
+#include "light/emission_fit.h"
+#include "light/irradiance_cache.h"
+#include "light/lights.h"
+#include "scene/gpu_scene.h"
+#include "voxels/voxels.h"
+
+namespace conelight::light {
+
+// How indirect light is gathered. Other settings make other light: it starts anew.
+struct RelightSettings {
+    int updates = 32;            // of all faces until light is left as it is
+    int rays = 2;                // of each technique, per face and update
+    std::optional<int> bounces;  // of the picture; none: all. Limited: an update is a bounce
+    bool exactHits = true;       // CacheSettings::exactDirect
+    bool operator==(const RelightSettings&) const = default;
+};
+
+// How much a call of relight() does.
+struct Budget {
+    bool oneUpdate = false;   // else all updates that are missing
+    std::uint32_t faces = 0;  // of one update; 0: all
+    bool nothing = false;     // unless there is no light at all for these voxels and lights
+};
+
+class LitVoxels {
+  public:
+    struct Inputs {
+        const scene::GpuScene& scene;
+        const Lights& lights;
+        const voxels::Voxels& voxels;  // with octant words
+    };
+
+    // Light of voxels and lights as they are. Light of other voxels is carried over to those that lie where
+    // it was; with a limited number of bounces, or other settings of a picture that is finished at once, it
+    // starts in the dark. GL state changed: programs and their slots.
+    void relight(const gl::Device& device, const Inputs& inputs, const RelightSettings& settings,
+                 const Budget& budget);
+
+    // Raised by each call that changed any light.
+    base::Revision revision() const { return revision_; }
+    // Raised by each call that found other voxels or lights: what was gathered from the light before is old.
+    base::Revision sources() const { return sources_; }
+    int updates() const { return cache_.updates(); }
+    // Whether means are long enough to be averaged over many frames.
+    bool steady() const;
+    const IrradianceCache& cache() const { return cache_; }
+
+    void declare(gl::Inputs& inputs) const;  // steadyLight, brightFaces, faceLight
+
+    static std::vector<gl::ProgramDesc> programDescs();
+
+  private:
+    void putDirectLight(const gl::Device& device, const Inputs& inputs);
+    void update(const gl::Device& device, const Inputs& inputs, const Budget& budget);
+
+    gl::Buffer directLight_;  // a uint per face (steadyLight of shared/irradiance.h)
+    gl::Texture directTexels_;
+    EmissionFit fit_;
+    IrradianceCache cache_;
+
+    // What it was made from.
+    base::Revision voxelsFrom_, lightsFrom_;
+    VoxelSettings voxelSettings_;
+    RelightSettings settings_;
+    base::Revision revision_, sources_;
+};
+
+}  // namespace conelight::light

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+#include "light/shadow_layout.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "shared/rect_points.h"
+
+namespace conelight::light {
+namespace {
+
+// The nearest thing that casts a shadow, as a fraction of the scene's diagonal. Reversed float depth has the
+// same relative precision for any value, so it is only bounded by what must not vanish.
+constexpr float kNearFraction = 1e-5f;
+
+// Texels that a map keeps beyond the frustum it covers, which may lie on another side of a cube: the filter's
+// reach, and two for rounding.
+int guardTexels(int filterRadius) { return filterRadius + 2; }
+constexpr int kRectGuard = 2;  // lib/shadow.glsl: filter radius 0 and the move, each one texel
+
+struct Axes {
+    glm::vec3 u, v, forward;
+};
+
+// Sides of a cube in the order of lib/shadow.glsl's cubeSide, in the frame (x, y, z).
+Axes cubeSide(int side, const glm::vec3& x, const glm::vec3& y, const glm::vec3& z) {
+    const std::array<glm::vec3, 3> axes{x, y, z};
+    const auto axis = static_cast<std::size_t>(side / 2);
+    return {axes[(axis + 1) % 3], axes[(axis + 2) % 3], (side & 1) != 0 ? -axes[axis] : axes[axis]};
+}
+
+// Rows of a matrix that acts on world points: row_i . (p - origin) + constant_i.
+glm::mat4 rows(const glm::vec3& origin, const std::array<glm::vec4, 4>& rowsAndConstants) {
+    glm::mat4 m(0.0f);
+    for (int i = 0; i < 4; ++i) {
+        const glm::vec4& row = rowsAndConstants[static_cast<std::size_t>(i)];
+        for (int c = 0; c < 3; ++c) m[c][i] = row[c];
+        m[3][i] = row.w - glm::dot(glm::vec3(row), origin);
+    }
+    return m;
+}
+
+// A perspective map: the edge of a texel at distance 1, texels, and the texel in v that the axis meets.
+struct Perspective {
+    float texel;
+    int width, height;
+    float middleV;
+};
+
+// Reversed depth near / distance.
+ShadowView perspectiveView(const glm::vec3& origin, const Axes& axes, float nearDistance,
+                           const Perspective& map) {
+    const auto [texel, width, height, middleV] = map;
+    const float su = 2.0f / (texel * static_cast<float>(width));
+    const float sv = 2.0f / (texel * static_cast<float>(height));
+    const float shiftV = 2.0f * middleV / static_cast<float>(height) - 1.0f;
+    ShadowView view{};
+    view.clipFromWorld =
+        rows(origin, {glm::vec4(axes.u * su, 0), glm::vec4(axes.v * sv + axes.forward * shiftV, 0),
+                      glm::vec4(0, 0, 0, nearDistance), glm::vec4(axes.forward, 0)});
+    view.slopeUnit = {0, texel};
+    view.surfaces = true;
+    view.width = width;
+    view.height = height;
+    return view;
+}
+
+// Places a view in tile `tile` of an array whose layers are cut into n x n tiles.
+void place(ShadowView& view, int tile, int n, int layerSize) {
+    const int size = layerSize / n;
+    view.layer = tile / (n * n);
+    view.x = (tile % n) * size;
+    view.y = (tile / n % n) * size;
+}
+
+// Lays out the maps of a scene's lights and fills in the lights' shadow fields.
+class Layouter {
+  public:
+    // `first`: bounds that do not change when something moves, for the near distance.
+    Layouter(const Aabb& bounds, const Aabb& first, const LightSettings& settings)
+        : bounds_(bounds),
+          size_(std::max(settings.shadowSize / 8 * 8, 64)),
+          guard_(std::min(guardTexels(settings.shadowFilter), size_ / 8)),
+          near_(std::max(kNearFraction * glm::length(first.extent()), 1e-12f)) {}
+
+    void add(std::vector<gpu::Light>& lights) {
+        // Kinds one after the other, each from a new layer on: tiles of a kind have consecutive numbers.
+        // Rectangles last: their layers have no surfaces.
+        for (const std::uint32_t kind : {LIGHT_SPOT, LIGHT_DIRECTIONAL, LIGHT_POINT, LIGHT_RECT}) {
+            if (kind == LIGHT_RECT) surfaceLayers_ = layers_;
+            for (gpu::Light& light : lights)
+                if (light.type == kind && (light.flags & LIGHT_CASTS_SHADOW) != 0) addLight(light);
+        }
+    }
+    int size() const { return size_; }
+    int layers() const { return layers_; }
+    int surfaceLayers() const { return surfaceLayers_; }  // the first ones
+    const std::vector<ShadowView>& views() const { return views_; }
+
+  private:
+    void addLight(gpu::Light& light) {
+        light.shadowNear = near_;
+        switch (light.type) {
+            case LIGHT_POINT:
+                addPoint(light);
+                break;
+            case LIGHT_SPOT:
+                addSpot(light);
+                break;
+            case LIGHT_DIRECTIONAL:
+                addDirectional(light);
+                break;
+            default:
+                addRect(light);
+                break;
+        }
+    }
+
+    // Takes `count` tiles of layers cut in n x n; returns the number of the first.
+    int take(int n, int count) {
+        if (n != tilesPerEdge_) {
+            tilesPerEdge_ = n;
+            nextTile_ = layers_ * n * n;
+        }
+        const int first = nextTile_;
+        nextTile_ += count;
+        layers_ = (nextTile_ + n * n - 1) / (n * n);
+        return first;
+    }
+
+    void addPoint(gpu::Light& light) {
+        const int tile = size_ / 2;
+        light.shadow = take(2, 6);
+        // The square of the side, tangent 1, plus the guard on each edge.
+        light.shadowTexel = 2.0f / static_cast<float>(tile - 2 * guard_);
+        for (int side = 0; side < 6; ++side) {
+            const Axes axes = cubeSide(side, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+            ShadowView view =
+                perspectiveView(light.position, axes, near_,
+                                {light.shadowTexel, tile, tile, 0.5f * static_cast<float>(tile)});
+            place(view, light.shadow + side, 2, size_);
+            views_.push_back(view);
+        }
+    }
+
+    void addSpot(gpu::Light& light) {
+        light.shadow = take(1, 1);
+        const float tangent = std::tan(std::acos(light.cosOuter));
+        light.shadowTexel = 2.0f * std::max(tangent, 1e-3f) / static_cast<float>(size_ - 2 * guard_);
+        ShadowView view =
+            perspectiveView(light.position, {light.halfU, light.halfV, light.direction}, near_,
+                            {light.shadowTexel, size_, size_, 0.5f * static_cast<float>(size_)});
+        place(view, light.shadow, 1, size_);
+        views_.push_back(view);
+    }
+
+    // Fits the map to the scene's bounds. Texel size and centre move in steps, so that shadows do not crawl
+    // when the bounds change: sizes by powers of 2^(1/8), the centre by whole texels.
+    void addDirectional(gpu::Light& light) {
+        light.shadow = take(1, 1);
+        float half = 0, nearest = 1e30f, farthest = -1e30f;
+        const Aabb box = bounds_.empty() ? Aabb{glm::vec3(0), glm::vec3(0)} : bounds_;
+        const glm::vec3 centre = box.center();
+        for (const glm::vec3& p : box.corners()) {
+            half = std::max({half, std::abs(glm::dot(p - centre, light.halfU)),
+                             std::abs(glm::dot(p - centre, light.halfV))});
+            nearest = std::min(nearest, glm::dot(p - centre, light.direction));
+            farthest = std::max(farthest, glm::dot(p - centre, light.direction));
+        }
+        half = std::exp2(std::ceil(8.0f * std::log2(std::max(half, 1e-6f))) / 8.0f);
+        // One more texel for the snapped centre.
+        light.shadowTexel = 2.0f * half / static_cast<float>(size_ - 2 * guard_ - 2);
+        const auto snapped = [&](const glm::vec3& axis) {
+            return std::floor(glm::dot(centre, axis) / light.shadowTexel) * light.shadowTexel;
+        };
+        // One percent more on either side, for what rounding puts out of the bounds.
+        const float range = std::max(farthest - nearest, 1e-6f) * 1.02f;
+        light.position = light.halfU * snapped(light.halfU) + light.halfV * snapped(light.halfV) +
+                         light.direction * (glm::dot(centre, light.direction) + nearest - range * 0.01f);
+        light.shadowNear = 1.0f / range;
+
+        const float scale = 2.0f / (light.shadowTexel * static_cast<float>(size_));
+        ShadowView view{};
+        view.clipFromWorld =
+            rows(light.position, {glm::vec4(light.halfU * scale, 0), glm::vec4(light.halfV * scale, 0),
+                                  glm::vec4(-light.direction * light.shadowNear, 1), glm::vec4(0, 0, 0, 1)});
+        view.slopeUnit = {light.shadowNear * light.shadowTexel, 0};
+        view.surfaces = true;
+        view.width = view.height = size_;
+        place(view, light.shadow, 1, size_);
+        views_.push_back(view);
+    }
+
+    void addRect(gpu::Light& light) {
+        const int tile = size_ / 4;
+        const int samples = static_cast<int>(light.sampleGrid * light.sampleGrid);
+        light.shadow = take(4, 3 * samples);
+        // A half side holds tangents 0 to 1 and a guard at both ends in half a tile.
+        light.shadowTexel = 1.0f / static_cast<float>(tile / 2 - 2 * kRectGuard);
+        const glm::vec3 u = glm::normalize(light.halfU);
+        const glm::vec3 v = glm::cross(light.direction, u);
+        for (int sample = 0; sample < samples; ++sample) {
+            const glm::vec3 point = rectSamplePoint(light, sample);
+            for (int side = 0; side < 5; ++side) {
+                const bool front = side == 4;
+                Axes axes = cubeSide(side, u, v, light.direction);
+                if (side == 2 || side == 3) std::swap(axes.u, axes.v);
+                ShadowView view = perspectiveView(
+                    point, axes, near_,
+                    {light.shadowTexel, tile, front ? tile : tile / 2,
+                     front ? 0.5f * static_cast<float>(tile) : static_cast<float>(kRectGuard)});
+                view.surfaces = false;
+                place(view, light.shadow + 3 * sample + (front ? 0 : 1 + side / 2), 4, size_);
+                if (!front && (side & 1) != 0) view.y += tile / 2;
+                views_.push_back(view);
+            }
+        }
+    }
+
+    // C++ twin of lib/shadow.glsl's.
+    static glm::vec3 rectSamplePoint(const gpu::Light& light, int k) {
+        const auto column = static_cast<std::uint32_t>(k);
+        const std::uint32_t grid = light.sampleGrid, count = grid * grid;
+        const std::uint32_t row =
+            count == RECT_POINT_COUNT ? RECT_POINT_ROW(column) : column % grid * grid + column / grid;
+        const glm::vec2 uv = (glm::vec2(column, row) + 0.5f) * (2.0f / static_cast<float>(count)) - 1.0f;
+        const float lift = 1e-3f * std::min(glm::length(light.halfU), glm::length(light.halfV));
+        return light.position + uv.x * light.halfU + uv.y * light.halfV + lift * light.direction;
+    }
+
+    Aabb bounds_;
+    int size_, guard_;
+    float near_;
+    int tilesPerEdge_ = 1, nextTile_ = 0, layers_ = 0, surfaceLayers_ = 0;
+    std::vector<ShadowView> views_;
+};
+
+}  // namespace
+
+bool isOutside(const glm::mat4& clipFromWorld, const Aabb& box) {
+    int outside[5] = {0, 0, 0, 0, 0};
+    for (const glm::vec3& corner : box.corners()) {
+        const glm::vec4 p = clipFromWorld * glm::vec4(corner, 1);
+        outside[0] += p.x < -p.w;
+        outside[1] += p.x > p.w;
+        outside[2] += p.y < -p.w;
+        outside[3] += p.y > p.w;
+        outside[4] += p.z > p.w;
+    }
+    return std::any_of(std::begin(outside), std::end(outside), [](int count) { return count == 8; });
+}
+
+ShadowLayout layOutShadows(const Aabb& bounds, const Aabb& firstBounds, const LightSettings& settings,
+                           std::vector<gpu::Light>& lights) {
+    const auto grid =
+        static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<float>(settings.areaSamples))));
+    for (gpu::Light& light : lights) {
+        light.shadow = -1;
+        light.sampleGrid = std::max(grid, 1u);
+    }
+    Layouter layouter(bounds, firstBounds, settings);
+    if (settings.shadowSize > 0) layouter.add(lights);
+    return {layouter.size(), layouter.layers(), layouter.surfaceLayers(), layouter.views()};
+}
+
+}  // namespace conelight::light

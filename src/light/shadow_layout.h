@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Where shadow maps lie: light table -> views, tiles of one array texture, and the table's shadow fields.
+// shaders/lib/shadow.glsl documents tiles and depths, and is the other half of this file.
+#pragma once
+
+#include <vector>
+
+#include "conelight/scene.h"
+#include "conelight/settings.h"
+#include "shared/scene.h"
+
+namespace conelight::light {
+
+// One map: where it lies in the array and how the world is projected into it.
+struct ShadowView {
+    glm::mat4 clipFromWorld;
+    glm::vec2 slopeUnit;  // depth per texel of a slope of 1: x + y * depth
+    int layer, x, y, width, height;
+    bool surfaces;  // whether slopes and outlines are drawn
+
+    bool samePlace(const ShadowView& other) const {
+        return layer == other.layer && x == other.x && y == other.y && width == other.width &&
+               height == other.height;
+    }
+};
+
+// True when the box is outside one of the planes of clip space (no far plane: depth is reversed, far is 0).
+bool isOutside(const glm::mat4& clipFromWorld, const Aabb& box);
+
+struct ShadowLayout {
+    int size = 0;  // texels per edge of a layer
+    int layers = 0;
+    int surfaceLayers = 0;  // the first ones: their views draw slopes and outlines
+    std::vector<ShadowView> views;
+};
+
+// `bounds` of what casts shadows; `firstBounds`: bounds that do not change when something moves, for the near
+// distance. Fills in the shadow fields of `lights`; no maps for settings without shadows.
+ShadowLayout layOutShadows(const Aabb& bounds, const Aabb& firstBounds, const LightSettings& settings,
+                           std::vector<gpu::Light>& lights);
+
+}  // namespace conelight::light

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// A mode: one way of making a picture from a scene, as a recipe of stages. What it is given, and what it says
+// of itself.
+#pragma once
+
+#include "conelight/scene.h"
+#include "conelight/settings.h"
+#include "gather/step_recorder.h"
+#include "gl/device.h"
+#include "gl/texture.h"
+#include "light/lights.h"
+#include "scene/gpu_scene.h"
+#include "view/surfaces.h"
+
+namespace conelight::modes {
+
+// The values that every picture starts from, made by the renderer, and where the picture goes.
+struct Frame {
+    const gl::Device& device;
+    const scene::GpuScene& scene;
+    const light::Lights& lights;
+    const view::Surfaces& surfaces;
+    const Settings& settings;
+    // RGBA32F, of the surfaces' size; the mode writes every pixel, row 0 at the bottom.
+    const gl::Texture& output;
+    const gl::Buffer* lookupCounters =
+        nullptr;               // not null: count lookups of cones or rays (shared/lookups.h)
+    bool voxelsAmong = false;  // with component voxels: on top of the picture in `output`
+    // Not null: the picture stays as it is, and what it shows of the recorder's pixel, or would show in
+    // component full, is gathered once more for the record.
+    gather::StepRecorder* recorder = nullptr;
+};
+
+class ModeRenderer {
+  public:
+    virtual ~ModeRenderer() = default;
+    // Owns the values between frame and picture, and brings up to date what the picture needs of them.
+    virtual void draw(const Frame& frame) = 0;
+    // Whether pictures of a scene need shadow maps.
+    virtual bool needsShadows(const Scene& scene, const Settings& settings) const = 0;
+    // Whether flat emitters become lights where light.emissive_quads is on.
+    virtual bool lightsFromEmitters(const Settings&) const { return true; }
+};
+
+}  // namespace conelight::modes

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include "scene/gpu_materials.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "gl/gl.h"
+#include "gl/pass.h"
+
+namespace conelight::scene {
+namespace {
+
+// Edge of the low-resolution copies of textures that compute shaders sample. A voxel rarely covers less than
+// 1/256 of a texture; 256^2 with mips costs 350 KB per texture.
+constexpr int kSurfaceEdge = 256;
+// Of a part of a mesh: large enough that a draw costs little beside its triangles, by eye.
+
+GLenum wrapMode(TextureWrap wrap) {
+    switch (wrap) {
+        case TextureWrap::Repeat:
+            return GL_REPEAT;
+        case TextureWrap::Clamp:
+            return GL_CLAMP_TO_EDGE;
+        case TextureWrap::Mirror:
+            return GL_MIRRORED_REPEAT;
+    }
+    return GL_REPEAT;
+}
+
+float srgbToLinear(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
+
+float linearToSrgb(float c) {
+    return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
+}
+
+// Box-filters (or repeats) a texture to kSurfaceEdge^2 linear values.
+std::vector<glm::vec4> linearSurface(const Texture& texture) {
+    std::vector<glm::vec4> level(static_cast<std::size_t>(kSurfaceEdge) * kSurfaceEdge);
+    float toLinear[256];
+    for (int i = 0; i < 256; ++i) {
+        const float value = static_cast<float>(i) / 255.0f;
+        toLinear[i] = texture.srgb ? srgbToLinear(value) : value;
+    }
+    const std::size_t pitch = static_cast<std::size_t>(texture.width);
+    for (int y = 0; y < kSurfaceEdge; ++y) {
+        const int y0 = y * texture.height / kSurfaceEdge;
+        const int y1 = std::max(y0 + 1, (y + 1) * texture.height / kSurfaceEdge);
+        for (int x = 0; x < kSurfaceEdge; ++x) {
+            const int x0 = x * texture.width / kSurfaceEdge;
+            const int x1 = std::max(x0 + 1, (x + 1) * texture.width / kSurfaceEdge);
+            glm::vec4 sum(0);
+            for (int sy = y0; sy < y1; ++sy)
+                for (int sx = x0; sx < x1; ++sx) {
+                    const std::uint8_t* t =
+                        &texture
+                             .rgba[4 * (static_cast<std::size_t>(sy) * pitch + static_cast<std::size_t>(sx))];
+                    sum += glm::vec4(toLinear[t[0]], toLinear[t[1]], toLinear[t[2]],
+                                     static_cast<float>(t[3]) / 255.0f);
+                }
+            level[static_cast<std::size_t>(y) * kSurfaceEdge + static_cast<std::size_t>(x)] =
+                sum / static_cast<float>((y1 - y0) * (x1 - x0));
+        }
+    }
+    return level;
+}
+
+// 2x2 box.
+std::vector<glm::vec4> halved(const std::vector<glm::vec4>& level, std::size_t edge) {
+    std::vector<glm::vec4> half(edge * edge / 4);
+    for (std::size_t y = 0; y < edge / 2; ++y)
+        for (std::size_t x = 0; x < edge / 2; ++x) {
+            const glm::vec4* t = &level[2 * y * edge + 2 * x];
+            half[y * (edge / 2) + x] = 0.25f * (t[0] + t[1] + t[edge] + t[edge + 1]);
+        }
+    return half;
+}
+
+// Stored sRGB-encoded, whatever the texture holds, in an sRGB format: 8 bits then err by less than 1 % above
+// 0.02 of full scale, and the hardware decodes before it filters. (Square roots that the shader squares were
+// tried: filtering between them darkened high-contrast textures by up to half.)
+std::vector<std::uint8_t> encodedSurface(const std::vector<glm::vec4>& level) {
+    std::vector<std::uint8_t> bytes;
+    bytes.reserve(4 * level.size());
+    for (const glm::vec4& texel : level)
+        for (int i = 0; i < 4; ++i)
+            bytes.push_back(
+                static_cast<std::uint8_t>(std::lround((i < 3 ? linearToSrgb(texel[i]) : texel[i]) * 255.0f)));
+    return bytes;
+}
+
+}  // namespace
+
+gpu::Material packedMaterial(const Material& m) {
+    gpu::Material g{};
+    g.baseColor = m.baseColor;
+    g.emission = m.emission;
+    g.alphaCutoff = m.alphaCutoff;
+    // KHR_materials_ior and _specular: F0 = min(((ior-1)/(ior+1))^2 * specularColor, 1) * specular.
+    const float ratio = m.ior > 0 ? (m.ior - 1) / (m.ior + 1) : 1.0f;
+    g.specularF0 = glm::min(m.specularColor * (ratio * ratio), glm::vec3(1)) * m.specular;
+    g.metallic = m.metallic;
+    g.roughness = m.roughness;
+    g.normalScale = m.normalScale;
+    g.flags = (m.alphaMode == AlphaMode::Mask ? MATERIAL_ALPHA_MASK : 0u) |
+              (m.alphaMode == AlphaMode::Blend ? MATERIAL_ALPHA_BLEND : 0u) |
+              (m.doubleSided ? MATERIAL_DOUBLE_SIDED : 0u) | (m.unlit ? MATERIAL_UNLIT : 0u) |
+              (m.phong ? MATERIAL_HAS_PHONG : 0u);
+    const TextureRef* uses[6] = {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture,
+                                 &m.emissiveTexture,  &m.specularTexture,          &m.specularColorTexture};
+    for (int i = 0; i < 6; ++i) {
+        if (i < 4) g.layers[i] = uses[i]->texture;  // layers follow the order of the scene's textures
+        if (uses[i]->used()) g.flags |= i == 0 ? MATERIAL_BASE_TEXTURE : MATERIAL_DETAIL_TEXTURES;
+        const glm::mat3& t = uses[i]->uvFromUv;
+        g.uvRow[2 * i] = {t[0][0], t[1][0], t[2][0], 0};
+        g.uvRow[2 * i + 1] = {t[0][1], t[1][1], t[2][1], 0};
+    }
+    const PhongMaterial phong = phongOf(m);
+    g.phongColor = phong.color;
+    g.phongShininess = phong.shininess;
+    g.phongAmbient = phong.ambientStrength;
+    g.phongDiffuse = phong.diffuseStrength;
+    g.phongSpecular = phong.specularStrength;
+    return g;
+}
+
+MaterialTextures texturesOf(const Material& material) {
+    return {{material.baseColorTexture.texture, material.metallicRoughnessTexture.texture,
+             material.normalTexture.texture, material.emissiveTexture.texture,
+             material.specularTexture.texture, material.specularColorTexture.texture}};
+}
+
+SceneTextures::SceneTextures(const std::vector<Texture>& sources) {
+    const std::uint8_t white[4] = {255, 255, 255, 255};
+    white_ = gl::Texture({GL_TEXTURE_2D, GL_RGBA8, 1, 1, 1, 1}, "white");
+    white_.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, white);
+    // Mesa's software driver compiles and runs anisotropic lookups tens of times slower than trilinear ones.
+    const float anisotropy = gl::isSoftwareDriver() ? 1.0f : 8.0f;
+    for (const Texture& texture : sources) {
+        const std::string label = "texture " + texture.name;
+        gl::Texture t({GL_TEXTURE_2D, static_cast<std::uint32_t>(texture.srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8),
+                       texture.width, texture.height, 1, 0},
+                      label);
+        t.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, texture.rgba.data());
+        t.generateMipmaps();
+        textures_.push_back(std::move(t));
+        const bool nearest = texture.filter == TextureFilter::Nearest;
+        samplers_.emplace_back(
+            gl::SamplerDesc{
+                static_cast<std::uint32_t>(nearest ? GL_NEAREST_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_LINEAR),
+                static_cast<std::uint32_t>(nearest ? GL_NEAREST : GL_LINEAR), wrapMode(texture.wrapU),
+                wrapMode(texture.wrapV), false, anisotropy},
+            label);
+    }
+    // The surface array has at least one (white) layer so that it can always be bound.
+    const int layers = std::max<int>(static_cast<int>(sources.size()), 1);
+    const int edge = sources.empty() ? 1 : kSurfaceEdge;
+    surfaceArray_ =
+        gl::Texture({GL_TEXTURE_2D_ARRAY, GL_SRGB8_ALPHA8, edge, edge, layers, 0}, "surface array");
+    if (sources.empty()) surfaceArray_.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, white);
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        std::vector<glm::vec4> level = linearSurface(sources[i]);
+        for (int mip = 0; mip < surfaceArray_.desc().levels; ++mip) {
+            surfaceArray_.uploadLayer(mip, static_cast<int>(i), GL_RGBA, GL_UNSIGNED_BYTE,
+                                      encodedSurface(level).data());
+            level = halved(level, static_cast<std::size_t>(surfaceArray_.width(mip)));
+        }
+    }
+    surfaceSampler_ = gl::Sampler({GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT}, "surface array");
+}
+
+void SceneTextures::declare(gl::Inputs& inputs) const {
+    inputs.texture("surfaceArray", surfaceArray_, &surfaceSampler_);
+}
+
+void SceneTextures::bind(const MaterialTextures& textures, const MaterialUnits& units) const {
+    for (std::size_t slot = 0; slot < units.size(); ++slot) {
+        if (units[slot] < 0) continue;
+        const int texture = textures.slots[slot];
+        const auto unit = static_cast<unsigned>(units[slot]);
+        if (texture < 0) {
+            white_.bind(unit);
+            gl::unbindSampler(unit);
+        } else {
+            textures_[static_cast<std::size_t>(texture)].bind(unit);
+            samplers_[static_cast<std::size_t>(texture)].bind(unit);
+        }
+    }
+}
+
+namespace {
+constexpr gl::ResourceName kMaterialTextures[] = {"baseTexture",     "metalRoughTexture",
+                                                  "normalTexture",   "emissiveTexture",
+                                                  "specularTexture", "specularColorTexture"};
+}
+
+void SceneTextures::declarePerDraw(gl::Inputs& inputs) {
+    for (const gl::ResourceName name : kMaterialTextures) inputs.perDraw(name);
+}
+
+MaterialUnits SceneTextures::unitsOf(const gl::Program& program) {
+    MaterialUnits units;
+    for (std::size_t slot = 0; slot < units.size(); ++slot)
+        units[slot] = program.unitOf(kMaterialTextures[slot]);
+    return units;
+}
+
+}  // namespace conelight::scene

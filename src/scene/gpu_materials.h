@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// Materials -> materials of shared/scene.h, and the textures of a scene on the GPU: one each for drawing, and
+// all at low resolution in one array that compute shaders can index.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "conelight/scene.h"
+#include "gl/inputs.h"
+#include "gl/program.h"
+#include "gl/texture.h"
+#include "shared/scene.h"
+
+namespace conelight::scene {
+
+gpu::Material packedMaterial(const Material& material);
+
+// Textures of a material: base, metallic-roughness, normal, emissive, specular, specular colour; -1: white.
+struct MaterialTextures {
+    int slots[6];
+};
+MaterialTextures texturesOf(const Material& material);
+// Texture units of a program for them; -1: it does not read that one.
+using MaterialUnits = std::array<int, 6>;
+
+class SceneTextures {
+  public:
+    SceneTextures() = default;
+    explicit SceneTextures(const std::vector<Texture>& sources);
+
+    void declare(gl::Inputs& inputs) const;  // surfaceArray
+    // For draw calls that bind a material's textures: names, a program's units for them, the binding.
+    static void declarePerDraw(gl::Inputs& inputs);
+    static MaterialUnits unitsOf(const gl::Program& program);
+    void bind(const MaterialTextures& textures, const MaterialUnits& units) const;
+
+  private:
+    std::vector<gl::Texture> textures_;
+    std::vector<gl::Sampler> samplers_;  // per texture
+    gl::Texture white_;
+    gl::Texture surfaceArray_;
+    gl::Sampler surfaceSampler_;
+};
+
+}  // namespace conelight::scene

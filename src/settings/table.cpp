@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+// The table of settings: for each its place in the structs, its range, its unit and its help. Every other
+// list of settings (--set, `conelight settings`, the documentation, the viewer's panels, checks) is made from
+// it.
+#include "settings/registry.h"
+
+namespace conelight::settings {
+namespace {
+
+constexpr const char* kShiftHelp = "moves the grid, to see what its place changes (conelight score shift)";
+
+constexpr Choice<Component> kComponents[] = {
+    {"full", Component::Full},       {"direct", Component::Direct},     {"indirect", Component::Indirect},
+    {"diffuse", Component::Diffuse}, {"specular", Component::Specular}, {"occlusion", Component::Occlusion},
+    {"albedo", Component::Albedo},   {"normal", Component::Normal},     {"depth", Component::Depth},
+    {"voxels", Component::Voxels},   {"emission", Component::Emission}, {"shadow_map", Component::ShadowMap}};
+constexpr Choice<Toggle> kToggles[] = {{"auto", Toggle::Auto}, {"off", Toggle::Off}, {"on", Toggle::On}};
+constexpr Choice<DiffuseSet> kDiffuseSets[] = {{"1", DiffuseSet::One},
+                                               {"5", DiffuseSet::Five},
+                                               {"6", DiffuseSet::Six},
+                                               {"9", DiffuseSet::Nine},
+                                               {"fibonacci", DiffuseSet::Fibonacci}};
+constexpr Choice<VolumeDirections> kVolumeDirections[] = {{"isotropic", VolumeDirections::Isotropic},
+                                                          {"six", VolumeDirections::Six}};
+constexpr Choice<OpacityModel> kOpacityModels[] = {{"fog", OpacityModel::Fog}, {"area", OpacityModel::Area}};
+constexpr Choice<Wireframe> kWireframes[] = {
+    {"off", Wireframe::Off}, {"over", Wireframe::Over}, {"alone", Wireframe::Alone}};
+constexpr Choice<VoxelData> kVoxelData[] = {
+    {"radiance", VoxelData::Radiance}, {"irradiance", VoxelData::Irradiance},
+    {"age", VoxelData::Age},           {"albedo", VoxelData::Albedo},
+    {"normal", VoxelData::Normal},     {"emission", VoxelData::Emission},
+    {"coverage", VoxelData::Coverage}, {"bricks", VoxelData::Bricks},
+    {"level", VoxelData::Level}};
+constexpr Choice<VoxelShape> kVoxelShapes[] = {
+    {"auto", VoxelShape::Auto},   {"cubes", VoxelShape::Cubes},   {"edges", VoxelShape::Edges},
+    {"faces", VoxelShape::Faces}, {"volume", VoxelShape::Volume}, {"surfaces", VoxelShape::Surfaces}};
+constexpr Choice<ToneMap> kToneMaps[] = {
+    {"none", ToneMap::None}, {"reinhard", ToneMap::Reinhard}, {"aces", ToneMap::Aces}};
+
+// A mode is one of those that are registered.
+Setting<Settings> modeSetting() {
+    SettingInfo info;
+    info.key = "mode";
+    info.kind = SettingKind::Choice;
+    info.help = "how the picture is made";
+    return {info,
+            Chosen<Settings>{
+                [](const Settings& s) { return std::string(s.mode.name()); },
+                [](Settings& s, std::size_t index) { s.mode = knownModes()[index]; },
+            },
+            std::nullopt};
+}
+
+std::vector<Setting<Settings>> pictureSettings() {
+    return {
+        modeSetting(),
+        {"component", &Settings::component, kComponents, "the part of the picture that is shown"},
+    };
+}
+
+std::vector<Setting<VoxelSettings>> voxelSettings() {
+    return {
+        {"size", &VoxelSettings::size, Numbers{8, 512, 4}, "voxels",
+         "voxels along the longest axis of the grid"},
+        {"padding", &VoxelSettings::padding, Numbers{0, 1}, "",
+         "grid beyond the scene's bounds, as a fraction per side"},
+        {"shift_x", within(&VoxelSettings::shift, &glm::vec3::x), Numbers{0, 1}, "voxels", kShiftHelp},
+        {"shift_y", within(&VoxelSettings::shift, &glm::vec3::y), Numbers{0, 1}, "voxels", kShiftHelp},
+        {"shift_z", within(&VoxelSettings::shift, &glm::vec3::z), Numbers{0, 1}, "voxels", kShiftHelp},
+    };
+}
+
+std::vector<Setting<LightSettings>> lightSettings() {
+    return {
+        {"shadow_size", &LightSettings::shadowSize, Numbers{64, 8192, 1, true, false}, "texels",
+         "edge of a shadow map; 0: no shadows"},
+        {"shadow_filter", &LightSettings::shadowFilter, Numbers{0, 4}, "texels",
+         "blur of shadow edges to either side; 0: as sharp as the map"},
+        {"area_samples", &LightSettings::areaSamples, Numbers{1, 64, 1, false, true}, "",
+         "points per rectangular light, a square number"},
+        {"emissive_quads", &LightSettings::emissiveQuads,
+         "light flat rectangular emitters exactly, as area lights"},
+    };
+}
+
+std::vector<Setting<PhongSettings>> phongSettings() {
+    return {
+        {"shadows", &PhongSettings::shadows, kToggles,
+         "shadow maps in mode phong; auto: off in scenes whose lights follow other conventions"},
+    };
+}
+
+std::vector<Setting<ConesSettings>> conesSettings() {
+    return {
+        {"diffuse_set", &ConesSettings::diffuseSet, kDiffuseSets,
+         "cones per hemisphere at matt surfaces; the time grows with them"},
+        {"count", &ConesSettings::count, Numbers{1, 64}, "", "number of cones of the set fibonacci"},
+        {"directional", &ConesSettings::directional, kVolumeDirections,
+         "radiance per voxel: one value, or six by facing direction (six times the memory, closed walls)"},
+        {"opacity", &ConesSettings::opacity, kOpacityModels,
+         "how opacity adds up: as fog of unrelated droplets, or as connected surface area"},
+        {"step", &ConesSettings::step, Numbers{0.1, 2}, "footprints",
+         "distance between samples along a cone"},
+        {"offset", &ConesSettings::offset, Numbers{0, 4}, "voxels", "where cones start, above the surface"},
+        {"max_footprint", &ConesSettings::maxFootprint, Numbers{0.01, 1}, "",
+         "largest footprint as a fraction of the grid; smaller is slower, leaks less and may miss "
+         "small lights"},
+        {"max_distance", &ConesSettings::maxDistance, Numbers{0, 1e6}, "m",
+         "length of cones; beyond it they see the sky; auto: through the grid"},
+        {"specular_min_aperture", &ConesSettings::specularMinAperture, Numbers{0.01, 1}, "rad",
+         "full angle of the narrowest specular cone; narrower is sharper and slower"},
+        {"occlusion_distance", &ConesSettings::occlusionDistance, Numbers{0, 1e6}, "m",
+         "reach of component occlusion; auto: a tenth of the grid"},
+        {"bounces", &ConesSettings::bounces, Numbers{0, 8}, "", "bounces of indirect light; 0: none"},
+        {"voxel_level", &ConesSettings::voxelLevel, Numbers{0, 6}, "",
+         "level of the volume that component voxels shows"},
+    };
+}
+
+std::vector<Setting<TracedSettings>> tracedSettings() {
+    return {
+        {"pixel_rays", &TracedSettings::pixelRays, Numbers{0, 64}, "",
+         "rays by the cosine per pixel and pass, as many again to bright faces; 0: the cache alone"},
+        {"specular_rays", &TracedSettings::specularRays, Numbers{0, 16}, "",
+         "rays per pixel and pass into the specular lobe"},
+        {"specular_limit", &TracedSettings::specularLimit, Numbers{0, 1}, "",
+         "surfaces of more roughness reflect their irradiance, without rays"},
+        {"passes", &TracedSettings::passes, Numbers{1, 1024}, "", "passes of pixel rays that are averaged"},
+        {"filter_levels", &TracedSettings::filterLevels, Numbers{0, 4}, "",
+         "edge-stopping filter: 0 none, 1 3x3, 2 7x7, 3 15x15, 4 31x31 pixels"},
+        {"cache_rays", &TracedSettings::cacheRays, Numbers{1, 64}, "",
+         "rays by the cosine per voxel face and update, as many again to bright faces"},
+        {"cache_updates", &TracedSettings::cacheUpdates, Numbers{1, 4096}, "",
+         "updates of all faces after a change, until the cache is left as it is"},
+        {"face_budget", &TracedSettings::faceBudget, Numbers{0, 100000000}, "faces",
+         "faces updated per budgeted frame; 0: all"},
+        {"bounces", &TracedSettings::bounces, Numbers{.low = 0, .high = 15, .word = 16}, "",
+         "bounces of indirect light; 16 is read as all"},
+        {"exact_hits", &TracedSettings::exactHits,
+         "look up the light of point, spot and directional lights where rays hit, by shadow map"},
+        {"exact_mirrors", &TracedSettings::exactMirrors,
+         "rays from mirrors (roughness up to 0.3) meet triangles with their textures, not what voxels keep "
+         "of them; off: voxels, faster"},
+        {"budgeted", &TracedSettings::budgeted,
+         "one update and one pass per frame, reusing frames before, for moving pictures; off: every "
+         "frame is finished"},
+    };
+}
+
+std::vector<Setting<ViewSettings>> viewSettings() {
+    return {
+        {"wireframe", &ViewSettings::wireframe, kWireframes,
+         "edges of the triangles: over the picture without hidden ones, or alone"},
+        {"voxels", &ViewSettings::voxels,
+         "voxels among the objects, whichever is nearer, but in mode phong (component voxels: alone)"},
+        {"voxel_data", &ViewSettings::voxelData, kVoxelData,
+         "what voxels show; age, bricks and level as colours from blue (none, 1, 0) to red (256 "
+         "updates, 64 voxels, level 6); modes without surface voxels have radiance, coverage and level"},
+        {"voxel_shape", &ViewSettings::voxelShape, kVoxelShapes,
+         "how voxels are drawn; auto: as the mode's rays or cones meet them; faces: plane pieces, "
+         "mode traced only; surfaces: their colours on the objects"},
+        {"voxel_level", &ViewSettings::voxelLevel, Numbers{0, 8}, "",
+         "level that is shown, voxels of 2^level; auto: the mode's "
+         "voxel_level, in mode traced 0"},
+        {"voxel_aperture", &ViewSettings::voxelAperture, Numbers{0, 1.5}, "rad",
+         "show the level that a cone of this full angle from the eye reads at the distance; 0: one "
+         "level everywhere"},
+        {"voxel_density", &ViewSettings::voxelDensity, Numbers{0.001, 1}, "",
+         "of shape volume: a voxel hides 1 - (1 - coverage)^density"},
+        {"light", &ViewSettings::light, Numbers{0, 4095}, "",
+         "number of the light whose shadow map component shadow_map shows"},
+    };
+}
+
+std::vector<Setting<ImageSettings>> imageSettings() {
+    return {
+        {"exposure", &ImageSettings::exposure, Numbers{-20, 20}, "stops",
+         "brightness before the tone map: 2^exposure"},
+        {"tone_map", &ImageSettings::toneMap, kToneMaps, "curve from linear radiance to the 8-bit picture"},
+        {"srgb", &ImageSettings::srgb, "encode 8-bit pictures as sRGB"},
+    };
+}
+
+}  // namespace
+
+Table coreTable() {
+    Table table;
+    add(table, "", placeOf<Settings>([](auto& s) -> auto& { return s; }), pictureSettings());
+    add(table, "voxels.", placeOf<Settings>(&Settings::voxels), voxelSettings());
+    add(table, "light.", placeOf<Settings>(&Settings::light), lightSettings());
+    add(table, "phong.", placeOf<Settings>(&Settings::phong), phongSettings());
+    add(table, "cones.", placeOf<Settings>(&Settings::cones), conesSettings());
+    add(table, "traced.", placeOf<Settings>(&Settings::traced), tracedSettings());
+    add(table, "view.", placeOf<Settings>(&Settings::view), viewSettings());
+    add(table, "image.", placeOf<Settings>(&Settings::image), imageSettings());
+    return table;
+}
+
+}  // namespace conelight::settings

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Surfaces, as a value: what each pixel of a picture sees, and the matrices that it was seen with. Scene +
+// camera -> G-buffer and frame block.
+#pragma once
+
+#include <optional>
+
+#include "gl/device.h"
+#include "scene/gpu_scene.h"
+#include "shared/frame.h"
+#include "view/gbuffer.h"
+
+namespace conelight::view {
+
+class Surfaces {
+  public:
+    Surfaces();
+
+    // Draws what the camera sees, width x height >= 1. GL state changed: as GBuffer::draw. Ends with the
+    // barrier for texture fetches.
+    struct Picture {
+        Camera camera;
+        int width, height;
+        bool cullBackFaces;
+    };
+    void see(const gl::Device& device, const scene::GpuScene& scene, const Picture& picture);
+    explicit operator bool() const { return gbuffer_.has_value(); }
+
+    // FrameBlock, gbufferGeometry, gbufferMaterial.
+    void declare(gl::Inputs& inputs) const;
+    int width() const { return gbuffer_->width(); }
+    int height() const { return gbuffer_->height(); }
+    const gpu::FrameConstants& view() const { return view_; }
+    const gl::Texture& depth() const { return gbuffer_->depth(); }  // GBuffer::depth
+
+  private:
+    std::optional<GBuffer> gbuffer_;
+    gpu::FrameConstants view_{};
+    gl::Buffer block_;
+};
+
+}  // namespace conelight::view

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+// Noise of mode `traced` and its filter: means over frames, a moving camera, thin walls under the filter,
+// speckles and dots that few rays would leave.
+#include <algorithm>
+#include <cmath>
+
+#include "io/generated.h"
+#include "support/traced_rig.h"
+
+namespace conelight::test {
+namespace {
+
+constexpr int kPixels = kTracedPixels;
+
+using TracedNoiseTest = TracedModeTest;
+
+// A room 2 wide with a wall from side to side that is much thinner than a voxel; light on one side only,
+// seen from above through the missing ceiling... of both floors.
+Scene dividedRoom() {
+    Scene scene = closedBox(mattMaterial(glm::vec3(0.7f)));
+    // Two faces 0.02 apart: a third of a voxel of 2.1 m / 32.
+    addInstance(scene, quadMesh({0.01f, -1, -1}, {0, 2, 0}, {0, 0, 2}), mattMaterial(glm::vec3(0.7f)));
+    addInstance(scene, quadMesh({-0.01f, -1, -1}, {0, 0, 2}, {0, 2, 0}), mattMaterial(glm::vec3(0.7f)));
+    Light light;
+    light.type = LightType::Point;
+    light.position = {0.5f, 0.5f, 0};
+    light.intensity = glm::vec3(1);
+    scene.lights.push_back(light);
+    return scene;
+}
+
+// Front and back of a thin lamp alternate among the bright faces: no pixel's rays find the back alone.
+TEST_F(TracedNoiseTest, RaysToBrightFacesDoNotKeepStepWithVoxels) {
+    const Scene scene = io::generateScene("lobby");
+    Settings settings;
+    settings.mode = Mode::Traced;
+    settings.component = Component::Diffuse;
+    settings.voxels.size = 128;
+    applyQuality(settings.traced, Quality::Converged);
+    settings.traced.cacheUpdates = 6;
+    settings.traced.filterLevels = 0;
+    constexpr int kSize = 64;
+    Renderer renderer;
+    renderer.setScene(scene);
+    renderer.render(scene.cameras.front(), kSize, kSize, settings);
+    const Image image = renderer.readImage();
+    // Neighbours on the floor, an even surface.
+    double square = 0, sum = 0;
+    int count = 0;
+    for (int y = kSize - 12; y < kSize; ++y)
+        for (int x = 20; x < 44; ++x, ++count) {
+            const auto at = static_cast<std::size_t>(y * kSize + x);
+            const double p = static_cast<double>(image.pixels[at].y);
+            square += 0.5 * std::pow(p - static_cast<double>(image.pixels[at + 1].y), 2);
+            sum += p;
+        }
+    EXPECT_GT(sum, 0);
+    EXPECT_LT(std::sqrt(square / count) / (sum / count), 0.15);  // 0.19 when they did
+}
+
+// Independent passes: the error of the mean falls as 1 / sqrt(n), so n = 4 -> 64 by a factor of 4.
+TEST_F(TracedNoiseTest, MoreFramesLessNoise) {
+    const Scene scene = io::generateScene("cornell-point");
+    Renderer renderer;
+    renderer.setScene(scene);
+    Settings settings = tracedSettings(Quality::Interactive, Component::Diffuse);
+    settings.traced.filterLevels = 0;
+    const auto noise = [&](int passes) {
+        settings.traced.passes = passes;
+        return draw(renderer, scene, settings);
+    };
+    const Image truth = noise(512);
+    const double few = relRmse(noise(4), truth);
+    const double many = relRmse(noise(64), truth);
+    EXPECT_GT(few / many, 3.0);
+    EXPECT_LT(many, 0.2);
+}
+
+// What the cache shows after few updates is shared between neighbours of one plane: 13.5 % off without that.
+// After many it is each face's own.
+TEST_F(TracedNoiseTest, FewUpdatesOfTheCacheShowLittleNoise) {
+    const Scene scene = io::generateScene("cornell-point");
+    Settings settings = tracedSettings(Quality::Draft, Component::Diffuse);
+    const auto after = [&](int updates) {
+        settings.traced.cacheUpdates = updates;
+        return draw(scene, settings);
+    };
+    const Image settled = after(250);
+    EXPECT_LT(relRmse(after(12), settled), 0.1);
+    EXPECT_LT(relRmse(after(48), settled), 0.06);
+}
+
+// A camera that moves over a still scene, frame by frame with reuse, ends up near a picture made at rest.
+TEST_F(TracedNoiseTest, MovingCameraLeavesNoGhosts) {
+    const Scene scene = io::generateScene("cornell");
+    Renderer renderer;
+    renderer.setScene(scene);
+    Settings settings = tracedSettings(Quality::Interactive, Component::Diffuse);
+    draw(renderer, scene, settings);  // settles the cache
+    Camera camera = scene.cameras.at(0);
+    settings.traced.budgeted = true;
+    for (int frame = 0; frame < 16; ++frame) {
+        camera.eye.x += 0.03f;
+        renderer.render(camera, kPixels, kPixels, settings);
+    }
+    const Image moving = renderer.readImage();
+    settings.traced.budgeted = false;
+    settings.traced.passes = 128;
+    settings.traced.filterLevels = 0;
+    renderer.render(camera, kPixels, kPixels, settings);
+    const Image rest = renderer.readImage();
+    // As good as a camera at rest for as many frames, within what resampling blurs.
+    Renderer other;
+    other.setScene(scene);
+    settings.traced.passes = 8;
+    settings.traced.filterLevels = 2;
+    other.render(camera, kPixels, kPixels, settings);
+    EXPECT_LT(relRmse(moving, rest), 1.5 * relRmse(other.readImage(), rest));
+    EXPECT_NEAR(meanOf(moving) / meanOf(rest), 1.0, 0.02);
+}
+
+// The dark half of a divided room stays dark, under the filter, too.
+TEST_F(TracedNoiseTest, FilterDoesNotCrossThinWalls) {
+    Scene scene = dividedRoom();
+    scene.cameras.clear();
+    Camera camera;  // sees the edge of the wall, the floor on both sides of it
+    camera.eye = {0, 0.95f, 0.9f};
+    camera.target = {0, -1, -0.2f};
+    camera.fovY = 1.2f;
+    scene.cameras.push_back(camera);
+    const auto leak = [&](const Image& image) {
+        double dark = 0, lit = 0;
+        for (int y = 0; y < kPixels; ++y)
+            for (int x = 0; x < kPixels; ++x)
+                (x < kPixels / 2 - 1 ? dark : lit) +=
+                    static_cast<double>(image.pixels[static_cast<std::size_t>(y * kPixels + x)].y);
+        return dark / lit;
+    };
+    Settings settings = tracedSettings(Quality::Interactive, Component::Indirect);
+    settings.traced.filterLevels = 0;
+    const double plain = leak(draw(scene, settings));
+    settings.traced.filterLevels = 3;
+    const double filtered = leak(draw(scene, settings));
+    EXPECT_LT(plain, 0.02);
+    EXPECT_LT(filtered, plain + 0.005);
+}
+
+// Of the light that a metal floor and metal things send to walls few rays find much. It must arrive without
+// speckles, pixels far brighter than those about them, and all of it.
+TEST_F(TracedNoiseTest, MetalsThrowNoSpecklesOnWalls) {
+    const Scene scene = io::generateScene("glossy");
+    Settings settings = tracedSettings(Quality::Interactive, Component::Diffuse);
+    const Image image = draw(scene, settings);
+    // Six of nine are of the same surface.
+    const int speckles = dotsIn(image, [](float own, const std::array<float, 9>& around) {
+        return around[3] > 0 && own > 1.5f * around[8 - 1];
+    });
+    EXPECT_LE(speckles, 4);
+    settings.component = Component::Full;
+    reference::PathTracerSettings truth;
+    truth.samplesPerPixel = 64;
+    const double expected =
+        meanOf(reference::PathTracer(scene).render(scene.cameras.at(0), kPixels, kPixels, truth).full);
+    EXPECT_NEAR(meanOf(draw(scene, settings)) / expected, 1.0, 0.03);
+}
+
+// A lamp far away whose edges lie between voxels. Of what it sends no part is left to rays by the cosine
+// alone: the few that meet it would each be a white dot.
+TEST_F(TracedNoiseTest, FarLampsThrowNoDotsOnFloors) {
+    const Scene scene = io::generateScene("tunnel");
+    Settings settings = tracedSettings(Quality::Converged, Component::Diffuse);
+    settings.voxels.size = 128;  // of these the lamp's near edge meets a side
+    settings.traced.passes = 16;
+    Renderer renderer;
+    renderer.setScene(scene);
+    renderer.render(scene.cameras.at(0), 160, 160, settings);
+    const int dots = dotsIn(renderer.readImage(), [](float own, const std::array<float, 9>& around) {
+        return around[3] > 0 && own > 1.5f * around[8 - 1];
+    });
+    EXPECT_LE(dots, 2);
+}
+
+// A room lit by one lamp that rays must find: where few did, a pixel is darker than all about it, and the
+// filter must share nonetheless.
+TEST_F(TracedNoiseTest, FewRaysLeaveNoDarkDots) {
+    const Image image =
+        draw(io::generateScene("lobby"), tracedSettings(Quality::Interactive, Component::Diffuse));
+    EXPECT_LE(
+        dotsIn(image, [](float own,
+                         const std::array<float, 9>& around) { return own > 0 && own < 0.8f * around[1]; }),
+        2);
+}
+
+// A room lit by small lamps alone, noisy, and how much differs from place to place: a filter whose tolerance
+// does not depend on it is 16 % off.
+TEST_F(TracedNoiseTest, FilterKnowsHowMuchNoiseThereIs) {
+    const Scene scene = io::generateScene("lounge");
+    Settings settings = tracedSettings(Quality::Interactive, Component::Diffuse);
+    settings.voxels.size = 64;
+    settings.traced.passes = 16;
+    Renderer renderer;
+    renderer.setScene(scene);
+    const auto picture = [&] {
+        renderer.render(scene.cameras.at(0), 160, 160, settings);
+        return renderer.readImage();
+    };
+    const Image filtered = picture();
+    settings.traced.filterLevels = 0;
+    const Image plain = picture();
+    settings.traced.passes = 512;
+    const Image truth = picture();
+    EXPECT_LT(relRmse(filtered, truth), 0.145);
+    EXPECT_GT(relRmse(plain, truth), 0.3);
+    EXPECT_NEAR(meanOf(filtered) / meanOf(truth), 1.0, 0.02);
+}
+
+}  // namespace
+}  // namespace conelight::test

@@ -1,0 +1,20 @@
+# Read by ctest: asks a test program for its tests and adds one entry LABEL/SUITE for each class of tests. All tests of
+# a class run in one process, which makes one OpenGL context. Tests of a class that ends its process are lost; those of
+# other classes are not. The including file sets label, program and results (a folder: support/test_main.cpp).
+if(NOT EXISTS ${program})
+  add_test(${label}/not_built ${program})
+  set_tests_properties(${label}/not_built PROPERTIES LABELS ${label})
+  return()
+endif()
+file(MAKE_DIRECTORY ${results})
+execute_process(COMMAND ${program} --gtest_list_tests OUTPUT_VARIABLE list COMMAND_ERROR_IS_FATAL ANY)
+# Names of classes stand at the beginning of a line and end with a dot.
+string(REGEX MATCHALL "(^|\n)[^ \n][^ \n]*\\.( |\n)" suites "${list}")
+foreach(suite IN LISTS suites)
+  string(REGEX REPLACE "[ \n.]*([^ \n]+)\\.[ \n]" "\\1" suite "${suite}")
+  string(REPLACE "/" "." file "${suite}")
+  add_test(${label}/${suite} ${program} --gtest_filter=${suite}.* --gtest_color=no)
+  # The time limit ends what hangs; a busy machine must not reach it.
+  set_tests_properties(${label}/${suite} PROPERTIES LABELS ${label} TIMEOUT 3000 SKIP_RETURN_CODE 77
+    ENVIRONMENT "CONELIGHT_TEST_RESULTS=${results}/${label}.${file}.txt;MESA_SHADER_CACHE_DIR=${shader_cache}")
+endforeach()
