@@ -80,6 +80,27 @@ class Layers(Project):
         self.assertEqual(len(self.problems()), 2)
 
 
+class Values(Project):
+    def problems(self):
+        _, output = self.run_tool("check_values", self.root)
+        return [line for line in output.splitlines() if "no longer used" not in line]
+
+    def test_values_with_revisions(self):
+        self.write("src/light/a.cpp", "if (built.from == voxels.revision) return;\nconst bool changed = true;\n"
+                   "// Scratch memory of this pass. A buffer that is bound here.\n")
+        self.write("apps/a.cpp", "settingsChanged();\n")
+        self.assertEqual(self.problems(), [])
+
+    def test_flags_and_calls(self):
+        self.write("src/light/a.cpp", "bool geometryDirty = true;\nif (dirty_) update();\nvoxelsChanged();\n")
+        self.assertEqual([line.split(":")[1] for line in self.problems()], ["1", "2", "3"])
+
+    def test_lent_buffers_and_foreign_bindings(self):
+        self.write("modes/x/a.h", "Buffer& faceScratch();\nBuffer& layerScratch();\n// Its inputs must be\n//   bound by then.\n")
+        self.write("shaders/b.glsl", "// The table is bound before.\n")
+        self.assertEqual([line.split(":")[1] for line in self.problems()], ["1", "2", "3", "1"])
+
+
 class Docs(Project):
     def faults(self, *arguments):
         return self.run_tool("check_docs", "--root", self.root, *arguments)[1].splitlines()
