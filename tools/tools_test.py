@@ -172,6 +172,17 @@ class Docs(Project):
         self.assertEqual(self.faults("--program", self.root / "program", "--update"), [])
         self.assertEqual((self.root / "a.md").read_text(), block)
 
+    def test_options_of_another_command_are_left_out(self):
+        more = " " * 20
+        self.write("program", f"#!/bin/sh\necho Options:\necho '  --size N  of the picture'\necho '{more}in pixels'\n"
+                              "[ $1 = one ] || echo '  --own  option'\n")
+        os.chmod(self.root / "program", 0o755)
+        block = "<!-- output: conelight two; less conelight one -->\nOptions:\n  --own  option\n<!-- /output -->\n"
+        self.write("a.md", block.replace("Options:\n", ""))
+        self.assertEqual(self.faults("--program", self.root / "program", "--update"), [])
+        # What both print, but for options, stays: it is the frame of the text.
+        self.assertEqual((self.root / "a.md").read_text(), block)
+
 
 class Files(Project):
     def problems(self):
