@@ -92,8 +92,8 @@ VoxelTriangle readTriangle(uint triangle, ivec3 voxel) {
     float twiceArea = length(cr);
     uint flags = floatBitsToUint(t0.w);
     return VoxelTriangle(triangle, flags & 0xffffffu, t0.xyz - center, t1.xyz - center, t2.xyz - center,
-                         cr / twiceArea, twiceArea, (flags & TRIANGLE_TWO_SIDED) != 0u,
-                         floatBitsToUint(t1.w), floatBitsToUint(t2.w));
+                         cr / twiceArea, twiceArea, (flags & TRIANGLE_TWO_SIDED) != 0u, floatBitsToUint(t1.w),
+                         floatBitsToUint(t2.w));
 }
 
 // A normal as three 16-bit numbers, and the directions that it faces as it is stored: surface_resolve must

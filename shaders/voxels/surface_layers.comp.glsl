@@ -114,8 +114,7 @@ vec4 shareOf(vec2 reach, float first) {
     return clamp(inside, 0.0, 1.0) / (reach.y - reach.x);
 }
 SliceShares sharesOf(vec2 depth, Slices slices) {
-    vec2 reach =
-        (depth.x - slices.farthest + vec2(-depth.y, depth.y)) * slices.perVoxel + vec2(0.0, 1.0);
+    vec2 reach = (depth.x - slices.farthest + vec2(-depth.y, depth.y)) * slices.perVoxel + vec2(0.0, 1.0);
     return SliceShares(shareOf(reach, 0.0), shareOf(reach, 4.0), shareOf(reach, 8.0), shareOf(reach, 12.0));
 }
 

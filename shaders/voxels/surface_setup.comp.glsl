@@ -73,8 +73,8 @@ GridTriangle gridTriangle(uint triangle, uint instance, bool wanted) {
     vec3 n = cross(e0, e1);
     float twiceArea = length(n);
     float longest = max(max(dot(e0, e0), dot(e1, e1)), dot(e2, e2));
-    bool used = wanted && (instanceFlags & INSTANCE_VOXELIZED) != 0u && twiceArea > 1e-6 * longest &&
-                longest < 1e18;
+    bool used =
+        wanted && (instanceFlags & INSTANCE_VOXELIZED) != 0u && twiceArea > 1e-6 * longest && longest < 1e18;
     n = used ? n / twiceArea : vec3(0.0, 0.0, 1.0);
     return GridTriangle(triangle, instance, p0, p1, p2, n, used);
 }
