@@ -17,9 +17,9 @@ void main() {
     vec3 normal = faceNormal(face);
     vec3 origin = worldFromGrid(faceCenter(face)) + cones.offset * normal;
     uint samples;
+    ConeReach reach = ConeReach(cones.maxDistance, 0.0);
     vec3 irradiance =
-        gatherCones(origin, normal, inside ? cones.count : 0u, lighting.sky, cones.maxDistance, 0.0, samples)
-            .rgb;
+        gatherCones(origin, normal, inside ? cones.count : 0u, lighting.sky, reach, samples).rgb;
     if (!inside) return;
     // Below the largest half.
     irradiance = min(irradiance, 65000.0);

@@ -23,14 +23,14 @@ void main() {
     vec3 origin = s.position + cones.offset * s.geometricNormal;
     uint samples;
 #if OCCLUSION
-    vec4 gathered = gatherCones(origin, s.normal, seen ? cones.count : 0u, lighting.sky,
-                                cones.occlusionDistance, 1.0 / max(cones.occlusionDistance, 1e-9), samples);
+    bool asks = seen;
+    ConeReach reach = ConeReach(cones.occlusionDistance, 1.0 / max(cones.occlusionDistance, 1e-9));
 #else
     // Metals and unlit surfaces have no diffuse part.
-    bool matt = seen && !s.unlit && s.metallic < 1.0;
-    vec4 gathered =
-        gatherCones(origin, s.normal, matt ? cones.count : 0u, lighting.sky, cones.maxDistance, 0.0, samples);
+    bool asks = seen && !s.unlit && s.metallic < 1.0;
+    ConeReach reach = ConeReach(cones.maxDistance, 0.0);
 #endif
+    vec4 gathered = gatherCones(origin, s.normal, asks ? cones.count : 0u, lighting.sky, reach, samples);
 #ifdef RECORD_STEPS
     Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));
     RECORD_SURFACE(seen, s);

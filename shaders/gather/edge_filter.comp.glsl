@@ -54,46 +54,76 @@ float meanVariance(uvec4 bits) {
 
 vec3 positionOf(ivec2 pixel, uvec4 bits) { return frame.eye + pixelHistoryDepth(bits) * pixelRay(pixel); }
 
-void main() {
-    ivec2 size = imageSize(result);
+// The pixel that is filtered.
+struct OwnPixel {
+    ivec2 at;
+    uvec4 bits;
+    vec3 position;
+    vec3 normal;
+};
+
+OwnPixel ownPixel(ivec2 size) {
 #if SPECULAR
     ivec2 pixel = listedPixel(size);
 #else
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
 #endif
-    uvec4 own = texelFetch(source, min(pixel, size - 1), 0);
-    vec3 position = positionOf(pixel, own);
-    vec3 normal = pixelHistoryNormal(own);
-    vec3 sum = 4.0 * pixelHistoryValue(own);
-    float weights = 4.0;
-    float reach = 1.0;
-#if SPECULAR
-    float roughness = unpackUnorm2x16(texelFetch(gbufferMaterial, min(pixel, size - 1), 0).y).y;
-    // Neighbours share the less the more rays there are: from 5 with 16 of them down to 2 with 100.
-    float count = max(pixelHistoryCount(own), 1.0) * float(pixelRays.rays);
-    float nearby = clamp(20.0 * inversesqrt(count), 2.0, 5.0);
-    reach = clamp((FILTER_STEP == 1 ? nearby : 2.0 / float(FILTER_STEP)) * roughness, 0.0, 1.0);
-    reach *= reach;
-    float lobe = max(roughness * roughness, 1e-3);  // GGX's alpha
-#endif
-    uvec4 taps[8];
-    bool same[8];       // the pixel's instance
-    float cosines[8];   // of the normals
-    float offPlane[8];  // from the pixel's plane, voxels
+    uvec4 bits = texelFetch(source, min(pixel, size - 1), 0);
+    return OwnPixel(pixel, bits, positionOf(pixel, bits), pixelHistoryNormal(bits));
+}
+
+// Its neighbours, as readTaps finds them.
+uvec4 taps[8];
+bool same[8];       // the pixel's instance
+float cosines[8];   // of the normals
+float offPlane[8];  // from the pixel's plane, voxels
+
+void readTaps(OwnPixel own, ivec2 size) {
     for (int i = 0; i < 8; ++i) {
-        ivec2 q = pixel + FILTER_STEP * neighbour(i);
+        ivec2 q = own.at + FILTER_STEP * neighbour(i);
         uvec4 bits = texelFetch(source, clamp(q, ivec2(0), size - 1), 0);
         bool inside = all(greaterThanEqual(q, ivec2(0))) && all(lessThan(q, size));
-        same[i] = inside && bits.z != 0u && pixelHistoryInstance(bits) == pixelHistoryInstance(own);
-        cosines[i] = dot(pixelHistoryNormal(bits), normal);
-        offPlane[i] = dot(positionOf(q, bits) - position, normal) * pixelRays.inverseVoxelSize;
+        same[i] = inside && bits.z != 0u && pixelHistoryInstance(bits) == pixelHistoryInstance(own.bits);
+        cosines[i] = dot(pixelHistoryNormal(bits), own.normal);
+        offPlane[i] = dot(positionOf(q, bits) - own.position, own.normal) * pixelRays.inverseVoxelSize;
         taps[i] = bits;
     }
-#if !SPECULAR
-    vec3 alike = pixelHistoryValue(own);
-    float ownVariance = meanVariance(own);
-    // How much noise there is, few passes do not say: the mean over neighbours does. Pixels that no ray found
-    // light for all seem to know that they are dark.
+}
+
+#if SPECULAR
+// What neighbours may share of the lobe.
+struct Likeness {
+    float reach;
+    float alpha;  // GGX's
+};
+
+Likeness likenessOf(OwnPixel own, ivec2 size) {
+    float roughness = unpackUnorm2x16(texelFetch(gbufferMaterial, min(own.at, size - 1), 0).y).y;
+    // Neighbours share the less the more rays there are: from 5 with 16 of them down to 2 with 100.
+    float count = max(pixelHistoryCount(own.bits), 1.0) * float(pixelRays.rays);
+    float nearby = clamp(20.0 * inversesqrt(count), 2.0, 5.0);
+    float reach = clamp((FILTER_STEP == 1 ? nearby : 2.0 / float(FILTER_STEP)) * roughness, 0.0, 1.0);
+    reach *= reach;
+    return Likeness(reach, max(roughness * roughness, 1e-3));
+}
+
+// A normal turned by alpha shows what lies a whole lobe beside.
+float shareOf(int i, Likeness own) {
+    return max(1.0 - 2.0 * (1.0 - cosines[i]) / (own.alpha * own.alpha), 0.0);
+}
+#else
+// The light that neighbours are compared with, and how much noise there is in it.
+struct Likeness {
+    float reach;
+    vec3 value;
+    float variance;
+};
+
+// How much noise there is, few passes do not say: the mean over neighbours does. Pixels that no ray found
+// light for all seem to know that they are dark.
+Likeness likenessOf(OwnPixel own, ivec2 size) {
+    vec3 alike = pixelHistoryValue(own.bits);
+    float ownVariance = meanVariance(own.bits);
     vec2 variance = 4.0 * vec2(ownVariance, 1.0);
     vec3 least = vec3(1e30);
     vec3 most = vec3(0.0);
@@ -104,55 +134,78 @@ void main() {
         least = surface ? min(least, value) : least;
         most = surface ? max(most, value) : most;
     }
-    float about = max(variance.x / variance.y, ownVariance);
 #if FILTER_STEP == 1
     // What is unlike all of its neighbours is noise, not another light: it is told from them by the least or
     // most of them.
     alike = least.r < 1e30 ? clamp(alike, least, most) : alike;
 #endif
-    float variances = 16.0 * about;
+    return Likeness(1.0, alike, max(variance.x / variance.y, ownVariance));
+}
+
+// A pixel with much noise is not told from the others by it, or the mean would be of dark ones only.
+float shareOf(int i, Likeness own) {
+    float noise2 = kUnlike * kUnlike * (own.variance + max(own.variance, meanVariance(taps[i])));
+    float alwaysAlike = kAlwaysAlike * pixelBrightness(own.value + pixelHistoryValue(taps[i]));
+    float apart = pixelBrightness(abs(own.value - pixelHistoryValue(taps[i])));
+    return max(1.0 - apart * apart / max(noise2 + alwaysAlike * alwaysAlike, 1e-12), 0.0);
+}
+#endif
+
+// Whether no other surface lies half way to a tap.
+bool isFreeBetween(int i, OwnPixel own, ivec2 size) {
+#if FILTER_STEP > 1
+    ivec2 pixel = own.at + FILTER_STEP / 2 * neighbour(i);
+    uvec4 middle = texelFetch(source, clamp(pixel, ivec2(0), size - 1), 0);
+    float middleOff = dot(positionOf(pixel, middle) - own.position, own.normal);
+    return pixelHistoryInstance(middle) == pixelHistoryInstance(own.bits) &&
+           abs(middleOff) * pixelRays.inverseVoxelSize < 0.5;
+#else
+    return true;
+#endif
+}
+
+// Weight of a tap that counts, by how its surface lies.
+float surfaceWeight(int i, float reach) {
+    float turned = max(cosines[i], 0.0);
+    turned *= turned;
+    turned *= turned;
+    turned *= turned;
+    turned *= turned;
+    turned *= turned;
+    return turned * reach * max(1.0 - 4.0 * offPlane[i] * offPlane[i], 0.0);
+}
+
+void main() {
+    ivec2 size = imageSize(result);
+    OwnPixel own = ownPixel(size);
+    readTaps(own, size);
+    Likeness likeness = likenessOf(own, size);
+
+    // Sum what shows the same surface in the same light.
+    vec3 sum = 4.0 * pixelHistoryValue(own.bits);
+    float weights = 4.0;
+#if !SPECULAR
+    float variances = 16.0 * likeness.variance;
 #endif
     for (int i = 0; i < 8; ++i) {
-        ivec2 offset = neighbour(i);
-        uvec4 bits = taps[i];
-        float tap = tapWeight(offset);
-        float turned = max(cosines[i], 0.0);
-        turned *= turned;
-        turned *= turned;
-        turned *= turned;
-        turned *= turned;
-        turned *= turned;
-        bool counts = same[i];
-#if FILTER_STEP > 1
-        uvec4 middle = texelFetch(source, clamp(pixel + FILTER_STEP / 2 * offset, ivec2(0), size - 1), 0);
-        float middleOff = dot(positionOf(pixel + FILTER_STEP / 2 * offset, middle) - position, normal);
-        counts = counts && pixelHistoryInstance(middle) == pixelHistoryInstance(own) &&
-                 abs(middleOff) * pixelRays.inverseVoxelSize < 0.5;
-#endif
-#if SPECULAR
-        // A normal turned by alpha shows what lies a whole lobe beside.
-        tap *= max(1.0 - 2.0 * (1.0 - cosines[i]) / (lobe * lobe), 0.0);
-#else
-        // A pixel with much noise is not told from the others by it, or the mean would be of dark ones only.
-        float tapVariance = meanVariance(bits);
-        float noise2 = kUnlike * kUnlike * (about + max(about, tapVariance));
-        float alwaysAlike = kAlwaysAlike * pixelBrightness(alike + pixelHistoryValue(bits));
-        float apart = pixelBrightness(abs(alike - pixelHistoryValue(bits)));
-        tap *= max(1.0 - apart * apart / max(noise2 + alwaysAlike * alwaysAlike, 1e-12), 0.0);
-#endif
-        tap *= counts ? turned * reach * max(1.0 - 4.0 * offPlane[i] * offPlane[i], 0.0) : 0.0;
-        sum += tap * pixelHistoryValue(bits);
+        float tap = tapWeight(neighbour(i)) * shareOf(i, likeness);
+        bool counts = same[i] && isFreeBetween(i, own, size);
+        tap *= counts ? surfaceWeight(i, likeness.reach) : 0.0;
+        sum += tap * pixelHistoryValue(taps[i]);
         weights += tap;
 #if !SPECULAR
-        variances += tap * tap * tapVariance;
+        variances += tap * tap * meanVariance(taps[i]);
 #endif
     }
-    if (any(greaterThanEqual(pixel, size))) return;
+
+    // Store the mean, with the deviation that is left in it.
+    if (any(greaterThanEqual(own.at, size))) return;
 #if SPECULAR
-    float deviation = pixelHistoryDeviation(own);
+    float deviation = pixelHistoryDeviation(own.bits);
 #else
     float deviation = sqrt(variances) / weights;
 #endif
-    vec3 value = own.z != 0u ? sum / weights : vec3(0.0);
-    imageStore(result, pixel, uvec4(packHalf2x16(value.rg), packHistoryBlue(value.b, deviation), own.zw));
+    vec3 value = own.bits.z != 0u ? sum / weights : vec3(0.0);
+    imageStore(result, own.at,
+               uvec4(packHalf2x16(value.rg), packHistoryBlue(value.b, deviation), own.bits.zw));
 }

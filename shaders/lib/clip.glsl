@@ -53,18 +53,58 @@ void addSegment(inout BoundarySum sum, vec3 a, vec3 b, bool inside, float orient
 vec3 safeInverse(vec3 d) { return 1.0 / mix(d, vec3(1e-20), lessThan(abs(d), vec3(1e-20))); }
 vec2 safeInverse(vec2 d) { return 1.0 / mix(d, vec2(1e-20), lessThan(abs(d), vec2(1e-20))); }
 
-// Piece of the side (coordinate = `at`) between the points where the triangle's boundary leaves it upwards
-// and comes back. `f`: vertex i is below the side. a, d: starts and directions of the edges in the side's two
-// coordinates; t: edge parameters of the crossings. Returns the ends (xy, zw) and whether it is inside.
-bool sideSegment(bvec3 f, vec2 a0, vec2 d0, vec2 a1, vec2 d1, vec2 a2, vec2 d2, vec3 t, out vec4 ends) {
+// One edge of the triangle, and the parameters at which it crosses the cube's lower and upper sides, an axis
+// per component.
+struct ClippedEdge {
+    vec3 start;
+    vec3 way;  // to its end
+    vec3 low;
+    vec3 high;
+};
+
+struct ClippedTriangle {
+    ClippedEdge ab, bc, ca;
+};
+
+ClippedEdge clippedEdge(vec3 from, vec3 to) {
+    vec3 way = to - from;
+    vec3 inverse = safeInverse(way);
+    return ClippedEdge(from, way, (-0.5 - from) * inverse, (0.5 - from) * inverse);
+}
+
+// Adds the piece of the edge that lies in the cube.
+void addEdge(inout BoundarySum sum, ClippedEdge e) {
+    vec3 first = min(e.low, e.high);
+    vec3 last = max(e.low, e.high);
+    float begin = max(max(first.x, first.y), max(first.z, 0.0));
+    float end = min(min(last.x, last.y), min(last.z, 1.0));
+    addSegment(sum, e.start + begin * e.way, e.start + end * e.way, begin < end, 1.0);
+}
+
+// The two coordinates of a side across `axis`, and a point of it where the third is `at`.
+vec2 alongSide(vec3 p, int axis) { return axis == 0 ? p.yz : (axis == 1 ? p.xz : p.xy); }
+vec3 onSide(vec2 p, float at, int axis) {
+    return axis == 0 ? vec3(at, p) : (axis == 1 ? vec3(p.x, at, p.y) : vec3(p, at));
+}
+
+// Piece of the side (coordinate = `at`, -1/2 or 1/2) between the points where the triangle's boundary leaves
+// it upwards and comes back. Returns the ends (xy, zw) and whether it is inside.
+bool sideSegment(ClippedTriangle c, int axis, float at, out vec4 ends) {
+    // Find where the edges cross the side. Edge i goes from vertex i to i+1.
+    bvec3 below = lessThan(vec3(c.ab.start[axis], c.bc.start[axis], c.ca.start[axis]), vec3(at));
+    vec3 t = at > 0.0 ? vec3(c.ab.high[axis], c.bc.high[axis], c.ca.high[axis])
+                      : vec3(c.ab.low[axis], c.bc.low[axis], c.ca.low[axis]);
     vec3 s = clamp(t, 0.0, 1.0);
-    vec2 p0 = a0 + s.x * d0;
-    vec2 p1 = a1 + s.y * d1;
-    vec2 p2 = a2 + s.z * d2;
-    // Edge i goes from vertex i to i+1. Exactly one leaves and one comes back when the vertices differ.
-    vec2 leave = f.x && !f.y ? p0 : (f.y && !f.z ? p1 : p2);
-    vec2 enter = !f.x && f.y ? p0 : (!f.y && f.z ? p1 : p2);
-    bool crossed = any(f) && !all(f);
+    vec2 p0 = alongSide(c.ab.start, axis) + s.x * alongSide(c.ab.way, axis);
+    vec2 p1 = alongSide(c.bc.start, axis) + s.y * alongSide(c.bc.way, axis);
+    vec2 p2 = alongSide(c.ca.start, axis) + s.z * alongSide(c.ca.way, axis);
+
+    // Exactly one edge leaves and one comes back when the vertices differ.
+    vec2 leave = below.x && !below.y ? p0 : (below.y && !below.z ? p1 : p2);
+    vec2 enter = !below.x && below.y ? p0 : (!below.y && below.z ? p1 : p2);
+    bool crossed = any(below) && !all(below);
+
+    // Clip the line between them by the side's own borders.
     vec2 d = enter - leave;
     vec2 inverse = safeInverse(d);
     vec2 u = (-0.5 - leave) * inverse;
@@ -75,6 +115,16 @@ bool sideSegment(bvec3 f, vec2 a0, vec2 d0, vec2 a1, vec2 d1, vec2 a2, vec2 d2, 
     float end = min(min(last.x, last.y), 1.0);
     ends = vec4(leave + begin * d, leave + end * d);
     return crossed && begin < end;
+}
+
+// Adds the pieces in the two sides across an axis: on the upper side the boundary runs from leaving to coming
+// back, on the lower one the other way round.
+void addSides(inout BoundarySum sum, ClippedTriangle c, int axis) {
+    vec4 e;
+    bool inside = sideSegment(c, axis, 0.5, e);
+    addSegment(sum, onSide(e.xy, 0.5, axis), onSide(e.zw, 0.5, axis), inside, 1.0);
+    inside = sideSegment(c, axis, -0.5, e);
+    addSegment(sum, onSide(e.xy, -0.5, axis), onSide(e.zw, -0.5, axis), inside, -1.0);
 }
 
 // A plane that holds an edge of the cube meets two sides there, and rounding would say of each by itself
@@ -94,70 +144,8 @@ float edgeShift(vec3 q0, vec3 n) {
     return alongEdge && min(min(off.x, off.y), min(off.z, off.w)) < kEdgeNear ? kEdgeShift : 0.0;
 }
 
-// Vertices relative to the cube's centre in units of its edge; n: unit normal (counter-clockwise side).
-ClippedPolygon clipToVoxel(vec3 q0, vec3 q1, vec3 q2, vec3 n) {
-    int axis = dominantAxis(n);
-    vec3 normal = toDominant(n, axis);
-    vec3 shift = edgeShift(q0, n) * sign(normal.z) * normal;
-    vec3 a = toDominant(q0, axis) + shift;
-    vec3 b = toDominant(q1, axis) + shift;
-    vec3 c = toDominant(q2, axis) + shift;
-    BoundarySum sum = BoundarySum(0.0, vec2(0.0), vec3(1.0), vec3(-1.0));
-
-    // Parameters at which each edge crosses the lower and upper sides.
-    vec3 ab = b - a;
-    vec3 bc = c - b;
-    vec3 ca = a - c;
-    vec3 iab = safeInverse(ab);
-    vec3 ibc = safeInverse(bc);
-    vec3 ica = safeInverse(ca);
-    vec3 lowAb = (-0.5 - a) * iab;
-    vec3 highAb = (0.5 - a) * iab;
-    vec3 lowBc = (-0.5 - b) * ibc;
-    vec3 highBc = (0.5 - b) * ibc;
-    vec3 lowCa = (-0.5 - c) * ica;
-    vec3 highCa = (0.5 - c) * ica;
-
-    // Pieces of the three edges.
-    vec3 first = min(lowAb, highAb);
-    vec3 last = max(lowAb, highAb);
-    float begin = max(max(first.x, first.y), max(first.z, 0.0));
-    float end = min(min(last.x, last.y), min(last.z, 1.0));
-    addSegment(sum, a + begin * ab, a + end * ab, begin < end, 1.0);
-    first = min(lowBc, highBc);
-    last = max(lowBc, highBc);
-    begin = max(max(first.x, first.y), max(first.z, 0.0));
-    end = min(min(last.x, last.y), min(last.z, 1.0));
-    addSegment(sum, b + begin * bc, b + end * bc, begin < end, 1.0);
-    first = min(lowCa, highCa);
-    last = max(lowCa, highCa);
-    begin = max(max(first.x, first.y), max(first.z, 0.0));
-    end = min(min(last.x, last.y), min(last.z, 1.0));
-    addSegment(sum, c + begin * ca, c + end * ca, begin < end, 1.0);
-
-    // Pieces in the six sides: on an upper side the boundary runs from leaving to coming back, on a lower
-    // side the other way round.
-    vec4 e;
-    bool in_;
-    in_ = sideSegment(bvec3(a.x < 0.5, b.x < 0.5, c.x < 0.5), a.yz, ab.yz, b.yz, bc.yz, c.yz, ca.yz,
-                      vec3(highAb.x, highBc.x, highCa.x), e);
-    addSegment(sum, vec3(0.5, e.xy), vec3(0.5, e.zw), in_, 1.0);
-    in_ = sideSegment(bvec3(a.x < -0.5, b.x < -0.5, c.x < -0.5), a.yz, ab.yz, b.yz, bc.yz, c.yz, ca.yz,
-                      vec3(lowAb.x, lowBc.x, lowCa.x), e);
-    addSegment(sum, vec3(-0.5, e.xy), vec3(-0.5, e.zw), in_, -1.0);
-    in_ = sideSegment(bvec3(a.y < 0.5, b.y < 0.5, c.y < 0.5), a.xz, ab.xz, b.xz, bc.xz, c.xz, ca.xz,
-                      vec3(highAb.y, highBc.y, highCa.y), e);
-    addSegment(sum, vec3(e.x, 0.5, e.y), vec3(e.z, 0.5, e.w), in_, 1.0);
-    in_ = sideSegment(bvec3(a.y < -0.5, b.y < -0.5, c.y < -0.5), a.xz, ab.xz, b.xz, bc.xz, c.xz, ca.xz,
-                      vec3(lowAb.y, lowBc.y, lowCa.y), e);
-    addSegment(sum, vec3(e.x, -0.5, e.y), vec3(e.z, -0.5, e.w), in_, -1.0);
-    in_ = sideSegment(bvec3(a.z < 0.5, b.z < 0.5, c.z < 0.5), a.xy, ab.xy, b.xy, bc.xy, c.xy, ca.xy,
-                      vec3(highAb.z, highBc.z, highCa.z), e);
-    addSegment(sum, vec3(e.xy, 0.5), vec3(e.zw, 0.5), in_, 1.0);
-    in_ = sideSegment(bvec3(a.z < -0.5, b.z < -0.5, c.z < -0.5), a.xy, ab.xy, b.xy, bc.xy, c.xy, ca.xy,
-                      vec3(lowAb.z, lowBc.z, lowCa.z), e);
-    addSegment(sum, vec3(e.xy, -0.5), vec3(e.zw, -0.5), in_, -1.0);
-
+// Area, centroid and bounds from the sums; p: a point of the plane; coordinates are dominant-axis ones.
+ClippedPolygon polygonOf(BoundarySum sum, vec3 p, vec3 normal, int axis) {
     // Projected area is positive when the normal points up. The largest section of a cube is the diagonal
     // one.
     ClippedPolygon polygon;
@@ -165,11 +153,33 @@ ClippedPolygon clipToVoxel(vec3 q0, vec3 q1, vec3 q2, vec3 n) {
     polygon.area = clamp(0.5 * twice / abs(normal.z), 0.0, kLargestSection);
     vec2 center = twice > 1e-12 ? sum.moment / (3.0 * sum.twiceArea) : 0.5 * (sum.lower.xy + sum.upper.xy);
     center = clamp(center, sum.lower.xy, sum.upper.xy);
-    // Height from the plane, through the vertex nearest in the projection.
-    float height = a.z - dot(normal.xy, center - a.xy) / normal.z;
+    // Height from the plane.
+    float height = p.z - dot(normal.xy, center - p.xy) / normal.z;
     height = clamp(height, sum.lower.z, sum.upper.z);
     polygon.center = fromDominant(vec3(center, height), axis);
     polygon.lower = fromDominant(sum.lower, axis);
     polygon.upper = fromDominant(sum.upper, axis);
     return polygon;
+}
+
+// Vertices relative to the cube's centre in units of its edge; n: unit normal (counter-clockwise side).
+ClippedPolygon clipToVoxel(vec3 q0, vec3 q1, vec3 q2, vec3 n) {
+    // Turn to the dominant axis, off the cube's edges.
+    int axis = dominantAxis(n);
+    vec3 normal = toDominant(n, axis);
+    vec3 shift = edgeShift(q0, n) * sign(normal.z) * normal;
+    vec3 a = toDominant(q0, axis) + shift;
+    vec3 b = toDominant(q1, axis) + shift;
+    vec3 c = toDominant(q2, axis) + shift;
+
+    // Sum over the boundary: pieces of the three edges, pieces in the six sides.
+    ClippedTriangle t = ClippedTriangle(clippedEdge(a, b), clippedEdge(b, c), clippedEdge(c, a));
+    BoundarySum sum = BoundarySum(0.0, vec2(0.0), vec3(1.0), vec3(-1.0));
+    addEdge(sum, t.ab);
+    addEdge(sum, t.bc);
+    addEdge(sum, t.ca);
+    addSides(sum, t, 0);
+    addSides(sum, t, 1);
+    addSides(sum, t, 2);
+    return polygonOf(sum, a, normal, axis);
 }

@@ -138,17 +138,22 @@ mat3 frameAbout(vec3 n) {
     return mat3(vec3(1.0 - n.x * n.x * a, -n.x, b), vec3(b, -n.z, 1.0 - n.z * n.z * a), n);
 }
 
+// How far the cones of a set go.
+struct ConeReach {
+    float distance;  // m
+    float fade;      // March::fade
+};
+
 // Irradiance / pi (rgb) at a surface by the set of cones of ConeBlock (eq. 4.5), and how much of the cosine-
 // weighted hemisphere is open (a). `count` cones from the front of the table; 0: none, with little work done.
 // One loop over all samples of all cones: nested loops would wait for the longest cone of eight pixels once
 // per cone.
-vec4 gatherCones(vec3 origin, vec3 normal, uint count, vec3 sky, float maxDistance, float fade,
-                 out uint samples) {
+vec4 gatherCones(vec3 origin, vec3 normal, uint count, vec3 sky, ConeReach reach, out uint samples) {
     mat3 frame = frameAbout(normal);
     vec4 sum = vec4(0.0);
     uint cone = 0u;
     samples = 0u;
-    March m = startMarch(origin, frame * cones.cone[0].xyz, cones.aperture[0].x, maxDistance, fade);
+    March m = startMarch(origin, frame * cones.cone[0].xyz, cones.aperture[0].x, reach.distance, reach.fade);
     if (count == 0u) return sum;
     do {
         stepMarch(m, cones.step);
@@ -156,12 +161,14 @@ vec4 gatherCones(vec3 origin, vec3 normal, uint count, vec3 sky, float maxDistan
         if (isFinished(m)) {
             float open = m.gathered.a >= kFullOpacity ? 0.0 : 1.0 - m.gathered.a;
             sum += cones.cone[cone].w * vec4(marchedRadiance(m, sky), open);
-            RECORD_PATH(fade > 0.0 ? PATH_OCCLUSION_CONE : PATH_DIFFUSE_CONE, origin, m.direction, m.tanHalf,
-                        vec3(cones.cone[cone].w), fade > 0.0 ? vec3(open) : marchedRadiance(m, sky),
-                        1.0 - open, m.t, open == 0.0 ? END_FULL : END_OPEN);
+            RECORD_PATH(reach.fade > 0.0 ? PATH_OCCLUSION_CONE : PATH_DIFFUSE_CONE, origin, m.direction,
+                        m.tanHalf, vec3(cones.cone[cone].w),
+                        reach.fade > 0.0 ? vec3(open) : marchedRadiance(m, sky), 1.0 - open, m.t,
+                        open == 0.0 ? END_FULL : END_OPEN);
             ++cone;
             uint next = min(cone, MAX_CONES - 1u);
-            m = startMarch(origin, frame * cones.cone[next].xyz, cones.aperture[next].x, maxDistance, fade);
+            m = startMarch(origin, frame * cones.cone[next].xyz, cones.aperture[next].x, reach.distance,
+                           reach.fade);
         }
     } while (cone < count && samples < kMaxSamples);
     return sum;

@@ -134,8 +134,7 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
     if (specular) lobe = rectLobe(r.normal, r.toEye, b.alpha, b.nov);
     vec2 width2 = lobe.width * lobe.width;
     vec2 weights = vec2(0.0), visibleWeights = vec2(0.0);  // irradiance, reflection
-    vec2 exact = vec2(0.0);                                // sums of rectSpecular
-    float cosine = 0.0, most = 0.0;
+    RectSums points = RectSums(vec2(0.0), 0.0, 0.0);
     uint k = 0u;
     do {
         vec3 point = rectSamplePoint(light, k);
@@ -157,11 +156,12 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
             float noh = clamp(0.5 * (height + b.nov) * perHalf, 0.0, 1.0);
             float c = 1.0 - half2 * perHalf;
             float c2 = c * c;
-            exact += weight.x * ggxVisible(b.alpha, noh, max(nol, 1e-4), b.nov) * vec2(1.0, c2 * c2 * c);
+            points.exact +=
+                weight.x * ggxVisible(b.alpha, noh, max(nol, 1e-4), b.nov) * vec2(1.0, c2 * c2 * c);
             vec3 inSpace = rectLobeSpace(lobe, l, height);
             float transformed = emitted * rectLobeDensity(inSpace, width2);
-            cosine += transformed;
-            most = max(most, transformed);
+            points.cosine += transformed;
+            points.most = max(points.most, transformed);
             weight.y = emitted * rectLobeDensity(inSpace, width2 + kRectCellWidening * cellArea * emitted);
         }
         weights += weight;
@@ -171,11 +171,11 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
     vec2 share = vec2(weights.x > 0.0 ? visibleWeights.x / weights.x : 1.0,
                       weights.y > 0.0 ? visibleWeights.y / weights.y : 1.0);
     sum.irradiance += light.intensity * (whole * share.x);
+    RectSums sums =
+        RectSums(points.exact * cellArea, points.cosine * cellArea / kPi, points.most * cellArea / kPi);
     if (specular)
-        sum.specular += light.intensity *
-                        rectSpecular(light, r.position, lobe, b, exact * cellArea, cosine * cellArea / kPi,
-                                     most * cellArea / kPi) *
-                        (whole > 0.0 ? share.y : 0.0);
+        sum.specular +=
+            light.intensity * rectSpecular(light, r.position, lobe, b, sums) * (whole > 0.0 ? share.y : 0.0);
 }
 
 // Runs `statement` for every light of one kind: `light` in lights[begin..end). The table begins with `before`

@@ -117,19 +117,26 @@ float rectLobeDensity(vec3 inSpace, vec2 width2) {
 // points. From the errors in tests/shader/rect_light_test.cpp.
 const vec2 kRectMended = vec2(0.1, 0.25);
 
+// Sums over the rectangle's sample points.
+struct RectSums {
+    vec2 exact;    // of the lobe; x: without Fresnel's factor, y: its grazing part
+    float cosine;  // of the transformed cosine
+    float most;    // the largest term of that
+};
+
 // Unshadowed reflection towards the eye per unit radiance. The integral of the transformed cosine over the
 // rectangle is that of a cosine over the transformed rectangle, closed; Fresnel's factor is the lobe's mean.
-// `exact` and `cosine` are sums over the rectangle's sample points: of the lobe (x: without Fresnel's factor,
-// y: its grazing part) and of the transformed cosine. Their difference is small and smooth, so that few
-// points do, where the lobe alone would take hundreds. `most`: the largest term of the latter.
-vec3 rectSpecular(Light light, vec3 p, RectLobe lobe, Brdf b, vec2 exact, float cosine, float most) {
+// The difference between the two sums is small and smooth, so that few points do, where the lobe alone would
+// take hundreds.
+vec3 rectSpecular(Light light, vec3 p, RectLobe lobe, Brdf b, RectSums sums) {
     vec3 corner[4];
     rectCorners(light, p, corner);
     for (int i = 0; i < 4; ++i)
         corner[i] = rectLobeSpace(lobe, corner[i], dot(corner[i], lobe.normal)) / vec3(lobe.width, 1.0);
     float whole = polygonIrradiance(corner, vec3(0.0, 0.0, 1.0)) / kPi;
-    vec3 missing = b.compensation * (b.f0 * (exact.x - exact.y) + b.f90 * exact.y) - b.albedo * cosine;
-    float mended = 1.0 - smoothstep(kRectMended.x, kRectMended.y, most);
+    vec3 missing = b.compensation * (b.f0 * (sums.exact.x - sums.exact.y) + b.f90 * sums.exact.y) -
+                   b.albedo * sums.cosine;
+    float mended = 1.0 - smoothstep(kRectMended.x, kRectMended.y, sums.most);
     return max(b.albedo * whole + mended * missing, vec3(0.0));
 }
 

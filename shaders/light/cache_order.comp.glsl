@@ -116,12 +116,10 @@ uint roleOf(uvec4 hitTexel, uvec4 state) {
     return doubtful && due && settings.searches != 0u ? kDoubtful : (dead ? kLeftOut : kGathers);
 }
 
-void main() {
-    uint index = linearIndex();
-#if STEP == 5
-    if (index < grid.faceCount) order[index] = index;
-#elif STEP == 0 || STEP == 4
-    if (index >= grid.faceCount) return;
+#if STEP == 0 || STEP == 4
+// A face that gathers goes to its bin, or from there into the order; one that shares learns who gathers for
+// it.
+void sortFace(uint index) {
     uvec4 hitTexel = texelFetch(voxelFaces, 2 * int(index));
     uvec4 state = texelFetch(stateTexels, int(index));
 #if STEP == 0
@@ -149,10 +147,14 @@ void main() {
     uint before = texelFetch(startTexels, int(bin)).x;
     order[before + brickRank(texelFetch(binTexels, int(bin)).xy, brick)] = index;
 #endif
-#elif STEP == 2
+}
+#endif
+
+#if STEP == 2
+// Numbers per chunk -> numbers before each, and at all; `first`: this invocation writes them.
+void sumChunks(bool first) {
     uint before = 0u;
     uint i = 0u;
-    bool first = index == 0u;
     do {
         uint count = chunks[i];
         if (first) chunks[i] = before;
@@ -162,11 +164,16 @@ void main() {
         chunks[CACHE_ORDER_CHUNKS] = before;
         chunks[CACHE_ORDER_CHUNKS + 1u] = 0u;
     }
-#else
+}
+#endif
+
+#if STEP == 1 || STEP == 3
+// Counts the faces in the bins of a chunk, or numbers on from those before it.
+void walkBins(uint chunk) {
     uint size = binsPerChunk();
-    uint bin = min(index * size, binCount());
-    uint end = index < CACHE_ORDER_CHUNKS ? min(bin + size, binCount()) : bin;
-    uint sum = STEP == 3 && index < CACHE_ORDER_CHUNKS ? chunks[index] : 0u;
+    uint bin = min(chunk * size, binCount());
+    uint end = chunk < CACHE_ORDER_CHUNKS ? min(bin + size, binCount()) : bin;
+    uint sum = STEP == 3 && chunk < CACHE_ORDER_CHUNKS ? chunks[chunk] : 0u;
     while (bin < end) {
         uvec2 mask = texelFetch(binTexels, int(bin)).xy;
 #if STEP == 3
@@ -176,7 +183,20 @@ void main() {
         ++bin;
     }
 #if STEP == 1
-    if (index < CACHE_ORDER_CHUNKS) chunks[index] = sum;
+    if (chunk < CACHE_ORDER_CHUNKS) chunks[chunk] = sum;
 #endif
+}
+#endif
+
+void main() {
+    uint index = linearIndex();
+#if STEP == 0 || STEP == 4
+    if (index < grid.faceCount) sortFace(index);
+#elif STEP == 1 || STEP == 3
+    walkBins(index);
+#elif STEP == 2
+    sumChunks(index == 0u);
+#else
+    if (index < grid.faceCount) order[index] = index;
 #endif
 }

@@ -50,6 +50,18 @@ struct Surface {
     float coverage;
     uint lobe;
 };
+
+// A triangle as a voxel sees it: corners from the voxel's centre.
+struct VoxelTriangle {
+    uint triangle;
+    uint instance;
+    vec3 q0, q1, q2;
+    vec3 normal;  // unit
+    float twiceArea;
+    bool twoSided;
+    uint albedo;    // packed, of materials that are the same all over
+    uint emission;  // packed
+};
 #if SURFACE_DETAIL > 0
 #include "voxels/surface_material.glsl"
 #endif
@@ -58,81 +70,102 @@ struct Surface {
 // fragment stays in its chain, which says with it that the voxel is occupied.
 const float kLeastArea = 1e-7;
 
-void main() {
-    uint index = linearInvocation();
+// Place of this invocation's fragment; `used`: there is one.
+uint slotOf(uint index, out bool used) {
 #if SURFACE_UPDATE
-    bool used = index < counters[SURFACE_FRAGMENTS];
+    used = index < counters[SURFACE_FRAGMENTS];
     uint slot = used ? FRAGMENT_SLOT(index) : 0u;
     used = used && slot < surface.fragmentCapacity;
-    slot = used ? slot : 0u;
+    return used ? slot : 0u;
 #else
-    bool used = index < min(counters[SURFACE_FRAGMENTS], surface.fragmentCapacity);
-    uint slot = used ? index : 0u;
+    used = index < min(counters[SURFACE_FRAGMENTS], surface.fragmentCapacity);
+    return used ? index : 0u;
 #endif
-    uvec2 pair = texelFetch(pairs, int(slot)).xy;
-    int triangle = int(pair.x);
-    vec4 t0 = texelFetch(triangles, 3 * triangle);
-    vec4 t1 = texelFetch(triangles, 3 * triangle + 1);
-    vec4 t2 = texelFetch(triangles, 3 * triangle + 2);
-    ivec3 voxel = unpackVoxel(pair.y);
+}
 
+VoxelTriangle readTriangle(uint triangle, ivec3 voxel) {
+    vec4 t0 = texelFetch(triangles, 3 * int(triangle));
+    vec4 t1 = texelFetch(triangles, 3 * int(triangle) + 1);
+    vec4 t2 = texelFetch(triangles, 3 * int(triangle) + 2);
     vec3 center = vec3(voxel) + 0.5;
-    vec3 q0 = t0.xyz - center;
-    vec3 q1 = t1.xyz - center;
-    vec3 q2 = t2.xyz - center;
     vec3 cr = cross(t1.xyz - t0.xyz, t2.xyz - t0.xyz);
     float twiceArea = length(cr);
-    vec3 n = cr / twiceArea;
-    ClippedPolygon polygon = clipToVoxel(q0, q1, q2, n);
-
     uint flags = floatBitsToUint(t0.w);
-    bool twoSided = (flags & TRIANGLE_TWO_SIDED) != 0u;
-    Surface s = Surface(vec3(0.0), vec3(0.0), 1.0, 0u);
-    uint albedoBits = floatBitsToUint(t1.w);
-    uint emissionBits = floatBitsToUint(t2.w);
-#if SURFACE_DETAIL > 0
-    s = evaluateSurface(uint(triangle), flags & 0xffffffu, q0, q1, q2, n, twiceArea, polygon);
-    albedoBits = packAlbedo(s.albedo);
-    emissionBits = packRgb9e5(s.emission);
-#endif
-    float area = polygon.area * clamp(s.coverage, 0.0, 1.0);
+    return VoxelTriangle(triangle, flags & 0xffffffu, t0.xyz - center, t1.xyz - center, t2.xyz - center,
+                         cr / twiceArea, twiceArea, (flags & TRIANGLE_TWO_SIDED) != 0u, floatBitsToUint(t1.w),
+                         floatBitsToUint(t2.w));
+}
 
-#if !SURFACE_EMISSION
-    emissionBits = pair.y;
-#endif
+// A normal as three 16-bit numbers, and the directions that it faces as it is stored: surface_resolve must
+// come to the same.
+struct StoredNormal {
+    uint x, y, z;
+    uint directions;
+};
 
-    // Into the chain of the voxel, which has a record because its bit was set with this fragment.
-    uvec4 word = texelFetch(brickWords, voxel >> 2, 0);
-    uint record = voxelRecordIndex(word, bitOfVoxel(voxel));
-    bool chained = used && record < surface.voxelCapacity;
-    bool kept = chained && area >= kLeastArea;
-    // The directions of the normal as it is stored: surface_resolve must come to the same.
+StoredNormal storedNormal(vec3 n, bool twoSided) {
     uint nx = packSnorm16(n.x);
     uint ny = packSnorm16(n.y);
     uint nz = packSnorm16(n.z);
     vec3 stored = vec3(unpackSnorm16(nx), unpackSnorm16(ny), unpackSnorm16(nz));
     uint directions = facingDirections(stored) | (twoSided ? facingDirections(-stored) : 0u);
-    directions = kept ? directions : 0u;
+    return StoredNormal(nx, ny, nz, directions);
+}
+
+// Puts a fragment before the others of its voxel, and says which directions are faced there. Returns the
+// next one of the chain.
+uint enchain(uint record, uint slot, ivec3 voxel, uint directions) {
 #if SURFACE_UPDATE
     directions |= CHAIN_EDITED;
-    if (chained) {
-        uint brick = brickIndex(voxel >> 2, gridBricks());
-        atomicOr(changedBricks[brick >> 5], 1u << (brick & 31u));
-    }
+    uint brick = brickIndex(voxel >> 2, gridBricks());
+    atomicOr(changedBricks[brick >> 5], 1u << (brick & 31u));
 #endif
+    uint next = atomicExchange(chains[2u * record], slot + 1u);
+    atomicOr(chains[2u * record + 1u], directions);
+    return next;
+}
+
+void main() {
+    // Clip the triangle to the voxel.
+    bool used;
+    uint slot = slotOf(linearInvocation(), used);
+    uvec2 pair = texelFetch(pairs, int(slot)).xy;
+    ivec3 voxel = unpackVoxel(pair.y);
+    VoxelTriangle t = readTriangle(pair.x, voxel);
+    ClippedPolygon polygon = clipToVoxel(t.q0, t.q1, t.q2, t.normal);
+
+    // Evaluate its material there.
+    Surface s = Surface(vec3(0.0), vec3(0.0), 1.0, 0u);
+    uint albedoBits = t.albedo;
+    uint emissionBits = t.emission;
+#if SURFACE_DETAIL > 0
+    s = evaluateSurface(t, polygon);
+    albedoBits = packAlbedo(s.albedo);
+    emissionBits = packRgb9e5(s.emission);
+#endif
+#if !SURFACE_EMISSION
+    emissionBits = pair.y;
+#endif
+    float area = polygon.area * clamp(s.coverage, 0.0, 1.0);
+
+    // Put it into the chain of the voxel, which has a record because its bit was set with this fragment.
+    uvec4 word = texelFetch(brickWords, voxel >> 2, 0);
+    uint record = voxelRecordIndex(word, bitOfVoxel(voxel));
+    bool chained = used && record < surface.voxelCapacity;
+    bool kept = chained && area >= kLeastArea;
+    StoredNormal n = storedNormal(t.normal, t.twoSided);
     uint next = 0u;
-    if (chained) {
-        next = atomicExchange(chains[2u * record], slot + 1u);
-        atomicOr(chains[2u * record + 1u], directions);
-    }
+    if (chained) next = enchain(record, slot, voxel, kept ? n.directions : 0u);
+
+    // Store both.
     uvec3 c = uvec3(floor(clamp(polygon.center + 0.5, 0.0, 1.0) * 65535.0 + 0.5));
-    uint bounds = packBounds(polygon.lower + 0.5, polygon.upper + 0.5) | (twoSided ? 0x40000000u : 0u);
+    uint bounds = packBounds(polygon.lower + 0.5, polygon.upper + 0.5) | (t.twoSided ? 0x40000000u : 0u);
     uint areaBits = floatBitsToUint(kept ? area : 0.0);
 #if SURFACE_LOBES
     areaBits = kept ? ((areaBits + 0x100u) & ~0x1ffu) | s.lobe : 0u;
 #endif
     if (used) {
-        fragments[2u * slot] = uvec4(next, areaBits, bounds, nx | (ny << 16));
-        fragments[2u * slot + 1u] = uvec4(nz | (c.x << 16), c.y | (c.z << 16), albedoBits, emissionBits);
+        fragments[2u * slot] = uvec4(next, areaBits, bounds, n.x | (n.y << 16));
+        fragments[2u * slot + 1u] = uvec4(n.z | (c.x << 16), c.y | (c.z << 16), albedoBits, emissionBits);
     }
 }

@@ -10,37 +10,40 @@
 // and of the edge functions stays below; the clipping that follows is exact.
 const float kTouch = 4e-5;
 
+// Edge functions of one projection, a component per edge: value = a first + b second + c, >= 0 where the edge
+// leaves room for the cell. Scaled so that one unit is one voxel.
+struct EdgeFunctions {
+    vec3 a, b, c;
+};
+
 struct ColumnTest {
-    // Edge functions of the three projections (uv, vw, wu), three edges each: value = A first + B second + C,
-    // >= 0 where the edge leaves room for the cell. Scaled so that one unit is one voxel.
-    vec3 uvA, uvB, uvC;
-    vec3 vwA, vwB, vwC;
-    vec3 wuA, wuB, wuC;
+    EdgeFunctions uv, vw, wu;  // projections along w, u and v
     // Lowest height of the plane over cell (0,0), its slopes, and how much it rises within a cell.
     float height, slopeU, slopeV, rise;
     float lowest, highest;  // of the triangle along w
 };
 
-// Edges of one projection: x, y of the three vertices in order; side: sign of the normal along the third
-// axis.
-void projectedEdges(vec2 a, vec2 b, vec2 c, float side, out vec3 A, out vec3 B, out vec3 C) {
-    A = vec3(a.y - b.y, b.y - c.y, c.y - a.y) * side;
-    B = vec3(b.x - a.x, c.x - b.x, a.x - c.x) * side;
-    vec3 scale = 1.0 / max(abs(A) + abs(B), 1e-20);
-    A *= scale;
-    B *= scale;
+// The three vertices of one projection in order; side: sign of the normal along the third axis.
+EdgeFunctions projectedEdges(vec2 p0, vec2 p1, vec2 p2, float side) {
+    EdgeFunctions e;
+    e.a = vec3(p0.y - p1.y, p1.y - p2.y, p2.y - p0.y) * side;
+    e.b = vec3(p1.x - p0.x, p2.x - p1.x, p0.x - p2.x) * side;
+    vec3 scale = 1.0 / max(abs(e.a) + abs(e.b), 1e-20);
+    e.a *= scale;
+    e.b *= scale;
     // The corner of the unit cell that lies farthest inside decides.
-    C = max(A, 0.0) + max(B, 0.0) - A * vec3(a.x, b.x, c.x) - B * vec3(a.y, b.y, c.y);
+    e.c = max(e.a, 0.0) + max(e.b, 0.0) - e.a * vec3(p0.x, p1.x, p2.x) - e.b * vec3(p0.y, p1.y, p2.y);
     // An edge seen end-on has no direction and excludes nothing.
-    C += kTouch;
+    e.c += kTouch;
+    return e;
 }
 
 // Vertices relative to the anchor; n: any normal of the triangle.
 ColumnTest columnTest(vec3 a, vec3 b, vec3 c, vec3 n) {
     ColumnTest t;
-    projectedEdges(a.xy, b.xy, c.xy, n.z >= 0.0 ? 1.0 : -1.0, t.uvA, t.uvB, t.uvC);
-    projectedEdges(a.yz, b.yz, c.yz, n.x >= 0.0 ? 1.0 : -1.0, t.vwA, t.vwB, t.vwC);
-    projectedEdges(a.zx, b.zx, c.zx, n.y >= 0.0 ? 1.0 : -1.0, t.wuA, t.wuB, t.wuC);
+    t.uv = projectedEdges(a.xy, b.xy, c.xy, n.z >= 0.0 ? 1.0 : -1.0);
+    t.vw = projectedEdges(a.yz, b.yz, c.yz, n.x >= 0.0 ? 1.0 : -1.0);
+    t.wu = projectedEdges(a.zx, b.zx, c.zx, n.y >= 0.0 ? 1.0 : -1.0);
     t.slopeU = -n.x / n.z;
     t.slopeV = -n.y / n.z;
     t.height = a.z - t.slopeU * a.x - t.slopeV * a.y + min(t.slopeU, 0.0) + min(t.slopeV, 0.0);
@@ -50,29 +53,29 @@ ColumnTest columnTest(vec3 a, vec3 b, vec3 c, vec3 n) {
     return t;
 }
 
-// Cells of the column that may be met: first and number (0..4), within [wBegin, wEnd).
-int columnCandidates(ColumnTest t, vec2 cell, int wBegin, int wEnd, out int first) {
+// Cells of the column that may be met: first and number (0..4), within [0, depth).
+int columnCandidates(ColumnTest t, vec2 cell, int depth, out int first) {
     precise float low = t.height + t.slopeU * cell.x + t.slopeV * cell.y;
     precise float high = min(low + t.rise, t.highest) + kTouch;
     low = max(low, t.lowest) - kTouch;
-    vec3 e = t.uvA * cell.x + t.uvB * cell.y + t.uvC;
-    first = max(int(floor(low)), wBegin);
-    int last = min(int(floor(high)), wEnd - 1);
+    vec3 e = t.uv.a * cell.x + t.uv.b * cell.y + t.uv.c;
+    first = max(int(floor(low)), 0);
+    int last = min(int(floor(high)), depth - 1);
     bool inside = min(min(e.x, e.y), e.z) >= 0.0 && low <= high;
     return inside ? clamp(last - first + 1, 0, 4) : 0;
 }
 
 // Bit i: cell first + i of the column is met.
-uint columnMask(ColumnTest t, vec2 cell, int wBegin, int wEnd) {
+uint columnMask(ColumnTest t, vec2 cell, int depth) {
     int first;
-    int count = columnCandidates(t, cell, wBegin, wEnd, first);
-    vec3 vw = t.vwA * cell.y + t.vwC;
-    vec3 wu = t.wuB * cell.x + t.wuC;
+    int count = columnCandidates(t, cell, depth, first);
+    vec3 vw = t.vw.a * cell.y + t.vw.c;
+    vec3 wu = t.wu.b * cell.x + t.wu.c;
     uint mask = 0u;
     int i = 0;
     do {
         float w = float(first + i);
-        vec3 e = min(vw + t.vwB * w, wu + t.wuA * w);
+        vec3 e = min(vw + t.vw.b * w, wu + t.wu.a * w);
         mask |= i < count && min(min(e.x, e.y), e.z) >= 0.0 ? 1u << i : 0u;
         ++i;
     } while (i < count);

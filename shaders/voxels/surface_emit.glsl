@@ -11,25 +11,32 @@ layout(std430) readonly buffer FreeTable { uint freeSlots[]; };
 #endif
 layout(std430) buffer MaskTable { uint masks[]; };
 
-// The columns of one invocation: `width` cells per row, counted from cell (0,0) at the anchor.
-// bits: four per column, column after column.
-void emitFragments(ColumnTest t, uint triangle, uvec2 bits, int width, ivec3 anchor, int axis, int wBegin,
-                   int wEnd) {
+// The columns of one invocation, row after row, in dominant-axis coordinates.
+struct ColumnBlock {
+    ivec3 anchor;  // voxel of cell (0,0)
+    int axis;      // the dominant one
+    int width;     // cells per row
+    int depth;     // cells per column that the triangle's bounds leave
+};
+
+// bits: the cells that the triangle meets, four bits per column (columnMask).
+void emitFragments(ColumnTest t, uint triangle, uvec2 bits, ColumnBlock block) {
     uint total = uint(bitCount(bits.x) + bitCount(bits.y));
     uint slot = 0u;
     if (total != 0u) slot = atomicAdd(counters[SURFACE_FRAGMENTS], total);
     ivec3 bricks = gridBricks();
-    float perWidth = 1.0 / float(width);
+    float perWidth = 1.0 / float(block.width);
     do {
+        // The voxel of the lowest bit that is left.
         bool inLow = bits.x != 0u;
         int bit = inLow ? findLSB(bits.x) : 32 + findLSB(bits.y);
         bool alive = (bits.x | bits.y) != 0u;
         int column = bit >> 2;
         int row = int((float(column) + 0.5) * perWidth);
-        ivec2 cell = ivec2(column - row * width, row);
+        ivec2 cell = ivec2(column - row * block.width, row);
         int first;
-        columnCandidates(t, vec2(cell), wBegin, wEnd, first);
-        ivec3 voxel = fromDominant(anchor + ivec3(cell, first + (bit & 3)), axis);
+        columnCandidates(t, vec2(cell), block.depth, first);
+        ivec3 voxel = fromDominant(block.anchor + ivec3(cell, first + (bit & 3)), block.axis);
         if (alive) {
             uint b = bitOfVoxel(voxel);
             atomicOr(masks[2u * brickIndex(voxel >> 2, bricks) + (b >> 5)], 1u << (b & 31u));

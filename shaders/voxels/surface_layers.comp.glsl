@@ -33,6 +33,55 @@ const float kLeastRange = 1.0 / 256.0;
 // where bounds are rounded outwards.
 const float kLeastSeen = 1.0 / 8.0;
 
+// A face of the list, and the head of its chain; 0: none.
+struct ListedFace {
+    uint index;
+    uint head;
+    int direction;
+    int coarser;  // binary digits by which its units are coarser than the finest
+};
+
+ListedFace listedFace(uint invocation, out bool used) {
+#if SURFACE_ONLY_WIDE
+    used = invocation < min(counters[SURFACE_WIDE], surface.faceCapacity);
+    uint entry = layered[surface.faceCapacity - 1u - (used ? invocation : 0u)];
+#else
+    used = invocation < min(counters[SURFACE_LAYERS], surface.faceCapacity);
+    uint entry = layered[used ? invocation : 0u];
+#endif
+    uint index = entry & 0x3ffffffu;
+    uint owner = texelFetch(owners, int(index)).x;
+    return ListedFace(index, used ? owner & 0x1fffffffu : 0u, int(owner >> 29), int(entry >> 26));
+}
+
+#if SURFACE_ONLY_WIDE
+// Sums of all fragments: nothing is covered.
+FaceSums sumAll(uint head, vec3 k) {
+    FaceSums sums = emptySums();
+    uint at = head;
+    do {
+        Fragment f = readFragment(at, k);
+        addFragment(sums, f, f.area * unitsOf(SURFACE_FINEST_UNIT), f.area > 0.0);
+        at = f.next;
+    } while (at != 0u);
+    return sums;
+}
+#else
+// The 16 slices of a face.
+struct Slices {
+    vec3 normal;     // depth is measured along it
+    float farthest;  // depth of the rearmost, voxels
+    float perVoxel;
+};
+
+// A number per slice, the rearmost first: of slices 0-3, 4-7, 8-11 and 12-15.
+struct SliceUnits {
+    ivec4 from0, from4, from8, from12;
+};
+struct SliceShares {
+    vec4 from0, from4, from8, from12;
+};
+
 // Depth of a fragment along n: middle and half its extent, from the voxel's centre. In its plane, n changes
 // along the part of n that lies in the plane.
 vec2 depthOf(Fragment f, vec3 n) {
@@ -41,11 +90,49 @@ vec2 depthOf(Fragment f, vec3 n) {
     return vec2(dot(n, vec3(f.center) * (1.0 / 65535.0) - 0.5), 0.5 * dot(abs(along), size));
 }
 
-// Share of [lower, upper] in the four slices from `first` on; a slice is 1 long.
+// Cuts the range of depth of a face with mean normal n.
+Slices slicesOf(uint head, vec3 k, vec3 n) {
+    float nearest = -1e9;
+    float farthest = 1e9;
+    uint at = head;
+    do {
+        Fragment f = readFragment(at, k);
+        vec2 depth = depthOf(f, n);
+        nearest = f.area > 0.0 ? max(nearest, depth.x + depth.y) : nearest;
+        farthest = f.area > 0.0 ? min(farthest, depth.x - depth.y) : farthest;
+        at = f.next;
+    } while (at != 0u);
+    // The ends of the range are the middles of the first slice and the last, so that flat layers there have a
+    // slice each.
+    return Slices(n, farthest, 15.0 / max(nearest - farthest, kLeastRange));
+}
+
+// Shares of a fragment in the slices; a slice is 1 long.
 vec4 shareOf(vec2 reach, float first) {
     vec4 begin = first + vec4(0.0, 1.0, 2.0, 3.0);
     vec4 inside = min(vec4(reach.y), begin + 1.0) - max(vec4(reach.x), begin);
     return clamp(inside, 0.0, 1.0) / (reach.y - reach.x);
+}
+SliceShares sharesOf(vec2 depth, Slices slices) {
+    vec2 reach = (depth.x - slices.farthest + vec2(-depth.y, depth.y)) * slices.perVoxel + vec2(0.0, 1.0);
+    return SliceShares(shareOf(reach, 0.0), shareOf(reach, 4.0), shareOf(reach, 8.0), shareOf(reach, 12.0));
+}
+
+// Cover of the slices; `units`: per voxel side.
+SliceUnits coverOf(uint head, vec3 k, Slices slices, float units) {
+    SliceUnits cover = SliceUnits(ivec4(0), ivec4(0), ivec4(0), ivec4(0));
+    uint at = head;
+    do {
+        Fragment f = readFragment(at, k);
+        SliceShares share = sharesOf(depthOf(f, slices.normal), slices);
+        float w = f.area * units * f.facing;
+        cover.from0 += ivec4(w * share.from0 + 0.5);
+        cover.from4 += ivec4(w * share.from4 + 0.5);
+        cover.from8 += ivec4(w * share.from8 + 0.5);
+        cover.from12 += ivec4(w * share.from12 + 0.5);
+        at = f.next;
+    } while (at != 0u);
+    return cover;
 }
 
 // What of slices with these covers is seen; `room`: what those before leave, and after the call what is left.
@@ -59,103 +146,88 @@ vec4 seenOf(ivec4 cover, inout int room) {
     room -= seen.x + seen.y + seen.z + seen.w;
     return vec4(seen) / vec4(max(cover, 1));
 }
+SliceShares seenShares(SliceUnits cover, int room) {
+    SliceShares seen;
+    seen.from12 = seenOf(cover.from12, room);
+    seen.from8 = seenOf(cover.from8, room);
+    seen.from4 = seenOf(cover.from4, room);
+    seen.from0 = seenOf(cover.from0, room);
+    return seen;
+}
 
-void main() {
-    uint invocation = linearInvocation();
-#if SURFACE_ONLY_WIDE
-    bool used = invocation < min(counters[SURFACE_WIDE], surface.faceCapacity);
-    uint entry = layered[surface.faceCapacity - 1u - (used ? invocation : 0u)];
-#else
-    bool used = invocation < min(counters[SURFACE_LAYERS], surface.faceCapacity);
-    uint entry = layered[used ? invocation : 0u];
-#endif
-    uint index = entry & 0x3ffffffu;
-    uint owner = texelFetch(owners, int(index)).x;
-    int direction = int(owner >> 29);
-    uint head = owner & 0x1fffffffu;
-    vec3 k = directionVector(direction);
-    uvec4 hit = faces[2u * index];
-#if SURFACE_ONLY_WIDE
+// The least that is seen of a fragment that widens the bounds.
+float leastSeenOf(SliceUnits cover, int room) {
+    ivec4 all4 = cover.from0 + cover.from4 + cover.from8 + cover.from12;
+    return kLeastSeen * float(room) / float(max(all4.x + all4.y + all4.z + all4.w, 1));
+}
+
+// Sums of what is seen, which is at most 1 and fits into the finest unit. `rear`: depth of the rearmost.
+FaceSums sumSeen(ListedFace face, Slices slices, SliceShares seen, float leastSeen, out float rear) {
+    vec3 k = directionVector(face.direction);
     FaceSums sums = emptySums();
-    uint at = used ? head : 0u;
+    rear = 1.0;
+    uint at = face.head;
     do {
         Fragment f = readFragment(at, k);
-        addFragment(sums, f, f.area * unitsOf(SURFACE_FINEST_UNIT), f.area > 0.0);
-        at = f.next;
-    } while (at != 0u);
-    ResolvedFace face = resolvedFace(sums, SURFACE_FINEST_UNIT, direction, hit.w & 0x3fffffffu);
-#else
-    vec3 n = octDecode(unpackSnorm2x16(hit.x));
-
-    // Range of depth.
-    float nearest = -1e9;
-    float farthest = 1e9;
-    uint at = used ? head : 0u;
-    do {
-        Fragment f = readFragment(at, k);
-        vec2 depth = depthOf(f, n);
-        nearest = f.area > 0.0 ? max(nearest, depth.x + depth.y) : nearest;
-        farthest = f.area > 0.0 ? min(farthest, depth.x - depth.y) : farthest;
-        at = f.next;
-    } while (at != 0u);
-    // Slices per voxel; the ends of the range are the middles of the first slice and the last, so that flat
-    // layers there have a slice each.
-    float slices = 15.0 / max(nearest - farthest, kLeastRange);
-
-    // Cover of the slices, in units that surface_resolve found to be coarse enough.
-    float units = unitsOf(SURFACE_FINEST_UNIT - int(entry >> 26));
-    ivec4 cover0 = ivec4(0), cover1 = ivec4(0), cover2 = ivec4(0), cover3 = ivec4(0);
-    at = used ? head : 0u;
-    do {
-        Fragment f = readFragment(at, k);
-        vec2 depth = depthOf(f, n);
-        vec2 reach = (depth.x - farthest + vec2(-depth.y, depth.y)) * slices + vec2(0.0, 1.0);
-        float w = f.area * units * f.facing;
-        cover0 += ivec4(w * shareOf(reach, 0.0) + 0.5);
-        cover1 += ivec4(w * shareOf(reach, 4.0) + 0.5);
-        cover2 += ivec4(w * shareOf(reach, 8.0) + 0.5);
-        cover3 += ivec4(w * shareOf(reach, 12.0) + 0.5);
-        at = f.next;
-    } while (at != 0u);
-
-    // Seen share of the slices. All that is seen along k fits into the bounds.
-    ivec3 lower = ivec3(uvec3(hit.z, hit.z >> 5, hit.z >> 10) & 31u);
-    ivec3 upper = ivec3(uvec3(hit.z >> 15, hit.z >> 20, hit.z >> 25) & 31u);
-    int room = int(boundsArea(lower, upper, direction >> 1) * units);
-    ivec4 cover = cover0 + cover1 + cover2 + cover3;
-    float leastSeen = kLeastSeen * float(room) / float(max(cover.x + cover.y + cover.z + cover.w, 1));
-    vec4 seen3 = seenOf(cover3, room);
-    vec4 seen2 = seenOf(cover2, room);
-    vec4 seen1 = seenOf(cover1, room);
-    vec4 seen0 = seenOf(cover0, room);
-
-    // Sums of what is seen. It is at most 1, and fits into the finest unit.
-    FaceSums sums = emptySums();
-    float rear = 1.0;
-    at = used ? head : 0u;
-    do {
-        Fragment f = readFragment(at, k);
-        vec2 depth = depthOf(f, n);
-        vec2 reach = (depth.x - farthest + vec2(-depth.y, depth.y)) * slices + vec2(0.0, 1.0);
-        float seen = dot(shareOf(reach, 0.0), seen0) + dot(shareOf(reach, 4.0), seen1) +
-                     dot(shareOf(reach, 8.0), seen2) + dot(shareOf(reach, 12.0), seen3);
-        seen = clamp(seen, 0.0, 1.0);
-        bool shows = f.area > 0.0 && seen > leastSeen;
-        addFragment(sums, f, f.area * seen * unitsOf(SURFACE_FINEST_UNIT), shows);
+        vec2 depth = depthOf(f, slices.normal);
+        SliceShares share = sharesOf(depth, slices);
+        float part = dot(share.from0, seen.from0) + dot(share.from4, seen.from4) +
+                     dot(share.from8, seen.from8) + dot(share.from12, seen.from12);
+        part = clamp(part, 0.0, 1.0);
+        bool shows = f.area > 0.0 && part > leastSeen;
+        addFragment(sums, f, f.area * part * unitsOf(SURFACE_FINEST_UNIT), shows);
         rear = shows ? min(rear, depth.x) : rear;
         at = f.next;
     } while (at != 0u);
+    return sums;
+}
 
-    ResolvedFace face = resolvedFace(sums, SURFACE_FINEST_UNIT, direction, hit.w & 0x3fffffffu);
+// Weighs each fragment by how much of it is seen. `hit`: what surface_resolve made of the face. All that is
+// seen along k fits into the bounds.
+ResolvedFace resolveSeen(ListedFace listed, uvec4 hit, out FaceSums sums) {
+    vec3 k = directionVector(listed.direction);
+    vec3 n = octDecode(unpackSnorm2x16(hit.x));
+    Slices slices = slicesOf(listed.head, k, n);
+
+    // Share the room out to the slices, in units that surface_resolve found to be coarse enough.
+    float units = unitsOf(SURFACE_FINEST_UNIT - listed.coarser);
+    SliceUnits cover = coverOf(listed.head, k, slices, units);
+    ivec3 lower = ivec3(uvec3(hit.z, hit.z >> 5, hit.z >> 10) & 31u);
+    ivec3 upper = ivec3(uvec3(hit.z >> 15, hit.z >> 20, hit.z >> 25) & 31u);
+    int room = int(boundsArea(lower, upper, listed.direction >> 1) * units);
+
+    // Sum up again, and put the plane through the rearmost.
+    float rear;
+    sums = sumSeen(listed, slices, seenShares(cover, room), leastSeenOf(cover, room), rear);
+    ResolvedFace face = resolvedFace(sums, SURFACE_FINEST_UNIT, listed.direction, hit.w & 0x3fffffffu);
     float behind = dot(n, vec3(sums.center) / float(max(sums.weightLow, 1)) - 0.5) - rear;
     float offset = unpackOffset(face.hit.y) - max(behind, 0.0);
     face.hit.y = (face.hit.y & 0xffff0000u) | (packOffsetWeight(offset, 0.0) & 0xffffu);
+    return face;
+}
 #endif
+
+void main() {
+    bool used;
+    ListedFace listed = listedFace(linearInvocation(), used);
+    vec3 k = directionVector(listed.direction);
+    uvec4 hit = faces[2u * listed.index];
+
+    // Sum up again what is seen.
+#if SURFACE_ONLY_WIDE
+    FaceSums sums = sumAll(listed.head, k);
+    ResolvedFace face = resolvedFace(sums, SURFACE_FINEST_UNIT, listed.direction, hit.w & 0x3fffffffu);
+#else
+    FaceSums sums;
+    ResolvedFace face = resolveSeen(listed, hit, sums);
+#endif
+
+    // Fit the bounds.
     FacePlane plane = facePlane(sums, SURFACE_FINEST_UNIT, k, face.hit);
-    fitBounds(sums, plane, k, used && boundsTooWide(plane) ? head : 0u, face);
+    fitBounds(sums, plane, k, boundsTooWide(plane) ? listed.head : 0u, face);
     if (used) {
-        faces[2u * index] = face.hit;
-        faces[2u * index + 1u] = face.shade;
-        faceSources[index] = face.source;
+        faces[2u * listed.index] = face.hit;
+        faces[2u * listed.index + 1u] = face.shade;
+        faceSources[listed.index] = face.source;
     }
 }

@@ -12,10 +12,7 @@ layout(local_size_x = 64) in;
 #include "lib/voxel_record.glsl"
 #include "voxels/surface_common.glsl"
 #include "voxels/surface_emit.glsl"
-layout(std430) readonly buffer VertexTable { Vertex vertices[]; };
-layout(std430) readonly buffer IndexTable { uint indices[]; };
-layout(std430) readonly buffer InstanceTable { Instance instances[]; };
-layout(std430) readonly buffer MaterialTable { Material materials[]; };
+#include "voxels/surface_vertices.glsl"
 layout(std430) writeonly buffer TriangleTable { vec4 triangles[]; };
 layout(std430) writeonly buffer TileTable { uvec2 tiles[]; };
 
@@ -51,9 +48,97 @@ uint instanceOfTriangle(uint triangle) {
     return low;
 }
 
+// The triangle of an invocation, in grid coordinates.
+struct GridTriangle {
+    uint triangle;
+    uint instance;
+    vec3 p0, p1, p2;
+    vec3 normal;  // unit; z when the triangle is not used
+    bool used;    // voxelized
+};
+
+GridTriangle gridTriangle(uint triangle, uint instance, bool wanted) {
+    uint instanceFlags = instances[instance].flags;
+    mat4 worldFromObject = instances[instance].worldFromObject;
+    uvec3 v = cornersOfTriangle(triangle, instance);
+    vec3 p0 = gridFromWorld((worldFromObject * vec4(vertices[v.x].position, 1.0)).xyz);
+    vec3 p1 = gridFromWorld((worldFromObject * vec4(vertices[v.y].position, 1.0)).xyz);
+    vec3 p2 = gridFromWorld((worldFromObject * vec4(vertices[v.z].position, 1.0)).xyz);
+
+    // Leave out triangles whose height is below a millionth of their longest edge: they have no reliable
+    // normal and next to no area. NaN fails the comparison too.
+    vec3 e0 = p1 - p0;
+    vec3 e1 = p2 - p0;
+    vec3 e2 = p2 - p1;
+    vec3 n = cross(e0, e1);
+    float twiceArea = length(n);
+    float longest = max(max(dot(e0, e0), dot(e1, e1)), dot(e2, e2));
+    bool used =
+        wanted && (instanceFlags & INSTANCE_VOXELIZED) != 0u && twiceArea > 1e-6 * longest && longest < 1e18;
+    n = used ? n / twiceArea : vec3(0.0, 0.0, 1.0);
+    return GridTriangle(triangle, instance, p0, p1, p2, n, used);
+}
+
+// Keeps corners, flags and the material without its textures for the later passes.
+void writeTriangle(GridTriangle t) {
+    uint material = instances[t.instance].material;
+    uint materialFlags = materials[material].flags;
+    uint bits = t.instance | ((materialFlags & MATERIAL_DOUBLE_SIDED) != 0u ? TRIANGLE_TWO_SIDED : 0u) |
+                (t.used ? 0u : TRIANGLE_UNUSED);
+    bool unlit = (materialFlags & MATERIAL_UNLIT) != 0u;
+    vec3 albedo = evenAlbedo(materials[material].baseColor.rgb, materials[material].metallic,
+                             materials[material].roughness, materials[material].specularF0);
+    albedo = unlit ? vec3(0.0) : albedo;
+    vec3 emission = unlit ? vec3(0.0) : materials[material].emission;
+    triangles[3u * t.triangle] = vec4(t.p0, uintBitsToFloat(bits));
+    triangles[3u * t.triangle + 1u] = vec4(t.p1, uintBitsToFloat(packAlbedo(albedo)));
+    triangles[3u * t.triangle + 2u] = vec4(t.p2, uintBitsToFloat(packRgb9e5(emission)));
+}
+
+// Cells that a triangle meets in the first `count` columns of a block, as emitFragments takes them.
+uvec2 metCells(ColumnTest t, ColumnBlock block, int count) {
+    uvec2 met = uvec2(0u);
+    int column = 0;
+    int u = 0;
+    int v = 0;
+    do {
+        uint mask = column < count ? columnMask(t, vec2(u, v), block.depth) : 0u;
+        met.x |= column < 8 ? mask << (4 * column) : 0u;
+        met.y |= column < 8 ? 0u : mask << (4 * (column & 7));
+        ++column;
+        bool rowEnds = u + 1 == block.width;
+        u = rowEnds ? 0 : u + 1;
+        v += rowEnds ? 1 : 0;
+    } while (column < count);
+    return met;
+}
+
+// Lists every tile that the triangle's projection reaches, of `columns` columns from `low` on.
+void emitTiles(ColumnTest t, uint triangle, ivec2 low, ivec2 columns) {
+    ivec2 tileCount = (columns + 7) >> 3;
+    int tileTotal = tileCount.x * tileCount.y;
+    int tile = 0;
+    ivec2 at = ivec2(0);
+    // A cell of 8 columns moves the deciding corner seven cells further than a single one.
+    vec3 reach = t.uv.c + 7.0 * (max(t.uv.a, 0.0) + max(t.uv.b, 0.0));
+    do {
+        vec2 cell = vec2(at * 8);
+        vec3 e = t.uv.a * cell.x + t.uv.b * cell.y + reach;
+        if (tile < tileTotal && min(min(e.x, e.y), e.z) >= 0.0) {
+            uint slot = atomicAdd(counters[SURFACE_TILES], 1u);
+            if (slot < surface.tileCapacity)
+                tiles[slot] = uvec2(triangle, uint(low.x + at.x * 8) | (uint(low.y + at.y * 8) << 16));
+        }
+        ++tile;
+        bool rowEnds = at.x + 1 >= tileCount.x;
+        at = rowEnds ? ivec2(0, at.y + 1) : ivec2(at.x + 1, at.y);
+    } while (tile < tileTotal);
+}
+
 void main() {
+    // Find the triangle, and keep it for the later passes.
     uint index = linearInvocation();
-    bool used = index < surface.triangleCount;
+    bool inside = index < surface.triangleCount;
 #if SURFACE_UPDATE
     // surface.triangleCount and .instanceCount are those of the work.
     uint work = min(index, surface.triangleCount - 1u);
@@ -64,95 +149,24 @@ void main() {
     uint triangle = min(index, surface.triangleCount - 1u);
     uint instance = instanceOfTriangle(triangle);
 #endif
-    uint firstIndex = instances[instance].firstIndex + 3u * (triangle - instances[instance].firstTriangle);
-    uint firstVertex = instances[instance].firstVertex;
-    uint instanceFlags = instances[instance].flags;
-    uint material = instances[instance].material;
-    mat4 worldFromObject = instances[instance].worldFromObject;
+    GridTriangle t = gridTriangle(triangle, instance, inside);
+    if (inside) writeTriangle(t);
 
-    // Vertices, counter-clockwise also in mirrored instances.
-    bool flipped = (instanceFlags & INSTANCE_FLIPPED) != 0u;
-    uint i0 = firstVertex + indices[firstIndex];
-    uint i1 = firstVertex + indices[firstIndex + (flipped ? 2u : 1u)];
-    uint i2 = firstVertex + indices[firstIndex + (flipped ? 1u : 2u)];
-    vec3 p0 = gridFromWorld((worldFromObject * vec4(vertices[i0].position, 1.0)).xyz);
-    vec3 p1 = gridFromWorld((worldFromObject * vec4(vertices[i1].position, 1.0)).xyz);
-    vec3 p2 = gridFromWorld((worldFromObject * vec4(vertices[i2].position, 1.0)).xyz);
-
-    // Triangles whose height is below a millionth of their longest edge have no reliable normal and next to
-    // no area; NaN fails the comparison too.
-    vec3 e0 = p1 - p0;
-    vec3 e1 = p2 - p0;
-    vec3 e2 = p2 - p1;
-    vec3 n = cross(e0, e1);
-    float twiceArea = length(n);
-    float longest = max(max(dot(e0, e0), dot(e1, e1)), dot(e2, e2));
-    used = used && (instanceFlags & INSTANCE_VOXELIZED) != 0u && twiceArea > 1e-6 * longest && longest < 1e18;
-    n = used ? n / twiceArea : vec3(0.0, 0.0, 1.0);
-
-    uint materialFlags = materials[material].flags;
-    uint bits = instance | ((materialFlags & MATERIAL_DOUBLE_SIDED) != 0u ? TRIANGLE_TWO_SIDED : 0u) |
-                (used ? 0u : TRIANGLE_UNUSED);
-    bool unlit = (materialFlags & MATERIAL_UNLIT) != 0u;
-    vec3 albedo = evenAlbedo(materials[material].baseColor.rgb, materials[material].metallic,
-                             materials[material].roughness, materials[material].specularF0);
-    albedo = unlit ? vec3(0.0) : albedo;
-    vec3 emission = unlit ? vec3(0.0) : materials[material].emission;
-    if (index < surface.triangleCount) {
-        triangles[3u * triangle] = vec4(p0, uintBitsToFloat(bits));
-        triangles[3u * triangle + 1u] = vec4(p1, uintBitsToFloat(packAlbedo(albedo)));
-        triangles[3u * triangle + 2u] = vec4(p2, uintBitsToFloat(packRgb9e5(emission)));
-    }
-
-    // Columns it may meet, within the grid, in dominant-axis coordinates.
-    int axis = dominantAxis(n);
-    vec3 a = toDominant(p0, axis);
-    vec3 b = toDominant(p1, axis);
-    vec3 c = toDominant(p2, axis);
+    // Bound the columns it may meet, within the grid, in dominant-axis coordinates.
+    int axis = dominantAxis(t.normal);
+    vec3 a = toDominant(t.p0, axis);
+    vec3 b = toDominant(t.p1, axis);
+    vec3 c = toDominant(t.p2, axis);
     ivec3 low, high;
     columnBounds(a, b, c, axis, low, high);
-    ivec2 columns = used && all(greaterThan(high, low)) ? high.xy - low.xy : ivec2(0);
-    ivec3 anchor = ivec3(low.xy, low.z);
-    vec3 origin = vec3(anchor);
-    ColumnTest t = columnTest(a - origin, b - origin, c - origin, toDominant(n, axis));
+    ivec2 columns = t.used && all(greaterThan(high, low)) ? high.xy - low.xy : ivec2(0);
+    vec3 origin = vec3(low);
+    ColumnTest test = columnTest(a - origin, b - origin, c - origin, toDominant(t.normal, axis));
 
-    // Small: test all columns, then write what was met.
+    // Turn a small triangle into fragments, a big one into tiles.
     int total = columns.x * columns.y;
     bool small = total > 0 && total <= kSmallColumns;
-    int count = small ? total : 0;
-    int width = max(columns.x, 1);
-    uvec2 met = uvec2(0u);
-    int column = 0;
-    int u = 0;
-    int v = 0;
-    do {
-        uint mask = column < count ? columnMask(t, vec2(u, v), 0, high.z - low.z) : 0u;
-        met.x |= column < 8 ? mask << (4 * column) : 0u;
-        met.y |= column < 8 ? 0u : mask << (4 * (column & 7));
-        ++column;
-        bool rowEnds = u + 1 == width;
-        u = rowEnds ? 0 : u + 1;
-        v += rowEnds ? 1 : 0;
-    } while (column < count);
-    emitFragments(t, triangle, met, width, anchor, axis, 0, high.z - low.z);
-
-    // Big: every tile that the triangle's projection reaches.
-    ivec2 tileCount = small ? ivec2(0) : (columns + 7) >> 3;
-    int tileTotal = tileCount.x * tileCount.y;
-    int tile = 0;
-    ivec2 at = ivec2(0);
-    // A cell of 8 columns moves the deciding corner seven cells further than a single one.
-    vec3 reach = t.uvC + 7.0 * (max(t.uvA, 0.0) + max(t.uvB, 0.0));
-    do {
-        vec2 cell = vec2(at * 8);
-        vec3 e = t.uvA * cell.x + t.uvB * cell.y + reach;
-        if (tile < tileTotal && min(min(e.x, e.y), e.z) >= 0.0) {
-            uint slot = atomicAdd(counters[SURFACE_TILES], 1u);
-            if (slot < surface.tileCapacity)
-                tiles[slot] = uvec2(triangle, uint(low.x + at.x * 8) | (uint(low.y + at.y * 8) << 16));
-        }
-        ++tile;
-        bool rowEnds = at.x + 1 >= tileCount.x;
-        at = rowEnds ? ivec2(0, at.y + 1) : ivec2(at.x + 1, at.y);
-    } while (tile < tileTotal);
+    ColumnBlock block = ColumnBlock(low, axis, max(columns.x, 1), high.z - low.z);
+    emitFragments(test, triangle, metCells(test, block, small ? total : 0), block);
+    emitTiles(test, triangle, low.xy, small ? ivec2(0) : columns);
 }

@@ -32,13 +32,14 @@ void main() {
     ivec3 anchor = ivec3(int(entry.y & 0xffffu), int(entry.y >> 16) + row, low.z);
     vec3 origin = vec3(anchor);
     ColumnTest t = columnTest(a - origin, b - origin, c - origin, toDominant(n, axis));
+    ColumnBlock block = ColumnBlock(anchor, axis, 8, high.z - low.z);
     int count = used && anchor.y < high.y ? min(high.x - anchor.x, 8) : 0;
     uint met = 0u;
     int column = 0;
     do {
-        uint mask = column < count ? columnMask(t, vec2(column, 0), 0, high.z - low.z) : 0u;
+        uint mask = column < count ? columnMask(t, vec2(column, 0), block.depth) : 0u;
         met |= mask << (4 * column);
         ++column;
     } while (column < count);
-    emitFragments(t, uint(triangle), uvec2(met, 0u), 8, anchor, axis, 0, high.z - low.z);
+    emitFragments(t, uint(triangle), uvec2(met, 0u), block);
 }
