@@ -8,7 +8,6 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "lib/frame_block.glsl"
 #include "lib/gbuffer.glsl"
-#include "shared/bindings.h"
 layout(rgba32f) uniform writeonly image2D outputImage;
 
 void main() {

@@ -3,7 +3,6 @@
 // Linear radiance -> 8-bit picture for a screen: exposure, tone curve, sRGB. GPU twin of
 // src/image/tone_map.cpp, which has the sources of the curves; turned so that row 0 is the top row.
 layout(local_size_x = 8, local_size_y = 8) in;
-#include "shared/bindings.h"
 #include "shared/image.h"
 layout(std140) uniform DisplayBlock { DisplayConstants display; };
 uniform sampler2D linearImage;

@@ -1,7 +1,6 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
 // Distance to the edges of a triangle -> a line along them, premultiplied.
-#include "shared/bindings.h"
 #include "shared/image.h"
 layout(std140) uniform WireframeBlock { WireframeConstants wireframe; };
 layout(location = 0) flat in vec3 edge0;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // The block of the radiance volume, and its texels.
-#include "shared/bindings.h"
 #include "shared/radiance_volume.h"
 layout(std140) uniform RadianceVolumeBlock { RadianceVolume volume; };
 

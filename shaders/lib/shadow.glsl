@@ -30,7 +30,6 @@
 #endif
 #include "lib/lookup_count.glsl"
 #include "lib/rect_points.glsl"
-#include "shared/bindings.h"
 #include "shared/scene.h"
 uniform sampler2DArrayShadow shadowMaps;
 uniform sampler2DArray shadowDepths;

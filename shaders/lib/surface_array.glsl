@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The scene's textures at low resolution for compute shaders, in an sRGB format whatever they hold: what is
 // sampled is linear. Layer = index of the texture in the scene.
-#include "shared/bindings.h"
 uniform sampler2DArray surfaceArray;
 
 // Linear rgba of a layer at uv, averaged over `footprint` (edge in uv units, 0: finest level).

@@ -2,7 +2,6 @@
 // The block of the voxel grid and the change between world and grid coordinates. C++ twin:
 // src/voxels/voxel_grid.h.
 #include "lib/flat_constants.glsl"
-#include "shared/bindings.h"
 #include "shared/voxels.h"
 #if !FLAT_CONSTANTS
 layout(std140) uniform VoxelGridBlock { VoxelGrid grid; };

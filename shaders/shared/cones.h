@@ -3,8 +3,7 @@
 #pragma once
 #include "shared/prelude.h"
 
-#define BINDING_CONES 4  // uniform block ConeConstants
-#define MAX_CONES 64     // src/gather/cone_set.h
+#define MAX_CONES 64  // src/gather/cone_set.h
 
 // Counters of lookups (texture fetches), in the order of FrameContext::lookupCounters.
 #define LOOKUPS_DIFFUSE 0

@@ -5,7 +5,7 @@
 
 CONELIGHT_SHARED_BEGIN
 
-// Uniform block at BINDING_PASS of image/display.comp.glsl.
+// Uniform block of image/display.comp.glsl.
 struct DisplayConstants {
     float scale;  // 2^exposure
     uint curve;   // ToneMap: 0 none, 1 Reinhard, 2 ACES
@@ -13,7 +13,7 @@ struct DisplayConstants {
     uint pad0;
 };  // 16 B
 
-// Uniform block at BINDING_PASS of image/wireframe.*.
+// Uniform block of image/wireframe.*.
 struct WireframeConstants {
     vec3 radiance;
     float opacity;
@@ -24,7 +24,7 @@ struct WireframeConstants {
     uint pad2;
 };  // 32 B
 
-// Uniform block at BINDING_PASS of image/shadow_view.comp.glsl.
+// Uniform block of image/shadow_view.comp.glsl.
 struct ShadowViewConstants {
     uint light;  // in the light table
     uint tiles;

@@ -11,9 +11,9 @@
 #pragma once
 #include "shared/prelude.h"
 
-#define UNIT_STEADY_LIGHT 21  // usamplerBuffer R32UI
-#define UNIT_BRIGHT_FACES 25  // usamplerBuffer R32UI
-#define UNIT_FACE_LIGHT 28    // usamplerBuffer RG32UI
+// Names: brightFaces, steadyLight (usamplerBuffer R32UI) and faceLight (usamplerBuffer RG32UI) for readers;
+// the cache's passes read tables of their own through buffer textures, too (`...Texels`), because software
+// drivers read storage lane by lane in loops.
 
 // Entries of the pool. Searching the whole list for each ray instead costs 11 to 17 % more
 // (docs/theory/4_gather.md).
@@ -28,24 +28,6 @@
 // A face lies inside a closed object when of at least so many cosine rays more than a quarter meet a surface
 // from behind first, farther than 1.5 voxels away.
 #define IRRADIANCE_DEAD_RAYS 16
-
-// Storage slots of the cache's passes.
-#define CACHE_STATE 8
-#define CACHE_CHUNKS 9
-#define CACHE_POOL 10
-#define CACHE_ORDER 11
-#define CACHE_BINS 12
-#define CACHE_BIN_STARTS 13
-#define CACHE_FACE_LIGHT 14
-// Texture units of the cache's passes. What they read of their own tables comes through buffer textures:
-// software drivers read storage lane by lane in loops.
-#define CACHE_UNIT_OLD_BRICKS 8
-#define CACHE_UNIT_OLD_RECORDS 9
-#define CACHE_UNIT_OLD_STATE 10
-#define CACHE_UNIT_STATE 11
-#define CACHE_UNIT_ORDER 12
-#define CACHE_UNIT_BINS 13
-#define CACHE_UNIT_BIN_STARTS 14
 
 // Order in which updates visit faces (cache_order): six directions and 64 places in a brick per block of 4^3
 // bricks; chunks of the prefix sum over bins.
@@ -65,7 +47,7 @@ struct FaceCache {
                   // number stands in irradiance.x, as bits
 };                // 16 B
 
-// Uniform block at BINDING_PASS of the cache's passes.
+// Uniform block of the cache's passes.
 struct CacheConstants {
     uint firstFace;  // of the faces to update, a place in their order
     uint faceCount;
@@ -83,7 +65,7 @@ struct CacheConstants {
     float reflectedLimit;  // as in PixelRayConstants
 };                         // 48 B
 
-// Uniform block at BINDING_PASS of the pass that carries light over.
+// Uniform block of the pass that carries light over.
 struct CacheCarry {
     vec3 oldOrigin;
     float oldInverseVoxelSize;
@@ -94,7 +76,7 @@ struct CacheCarry {
     uint pad0;
 };  // 32 B
 
-// Uniform block at BINDING_PASS of the passes that put faces in order.
+// Uniform block of the passes that put faces in order.
 struct CacheOrder {
     uint number;    // of the sort
     uint searches;  // 1: faces that may be inside closed objects, or are, are visited to find out

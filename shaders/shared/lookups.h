@@ -6,4 +6,3 @@
 
 #define LOOKUPS_CARRY 4  // word of the first kind's carries
 #define LOOKUPS_WORDS 8
-#define LOOKUP_TABLE 9  // storage slot in passes of mode traced

@@ -3,17 +3,17 @@
 #pragma once
 #include "shared/prelude.h"
 
-// Texture units of these passes, besides those of voxels, G-buffer and shadow maps.
-#define PIXEL_UNIT_HISTORY 8     // usampler2D: the picture so far (lib/pixel_history.glsl)
-#define PIXEL_UNIT_IRRADIANCE 9  // usampler2D: gathered irradiance, for composition
-#define PIXEL_UNIT_LOBE 10       // usampler2D: radiance in the specular lobe, for composition
-#define PIXEL_MOTION 8      // storage: mat4 per instance, world of the frame before from world of this one
-#define PIXEL_LOBE_LIST 10  // storage: group counts of an indirect dispatch, number of pixels, pixels
-#define LOBE_GROUPS_X 32u   // in x of that dispatch; y may be 65,535
+// Names, besides those of voxels, surfaces and lights:
+//   pixelHistory       usampler2D: the picture so far (lib/pixel_history.glsl)
+//   irradiancePicture  usampler2D: gathered irradiance, for composition
+//   lobePicture        usampler2D: radiance in the specular lobe, for composition
+//   Motion             storage: mat4 per instance, world of the frame before from world of this one
+//   LobeList           storage: group counts of an indirect dispatch, number of pixels, pixels
+#define LOBE_GROUPS_X 32u  // in x of that dispatch; y may be 65,535
 
 CONELIGHT_SHARED_BEGIN
 
-// Uniform block at BINDING_PASS of these passes.
+// Uniform block of these passes.
 struct PixelRayConstants {
     mat4 oldClipFromWorld;  // of the picture so far
     // ---- 64 B

@@ -10,9 +10,6 @@
 #pragma once
 #include "shared/prelude.h"
 
-#define BINDING_RADIANCE_VOLUME 3  // uniform block
-#define UNIT_RADIANCE_VOLUME 8     // sampler3D
-
 CONELIGHT_SHARED_BEGIN
 
 struct RadianceVolume {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the views of voxels are told (src/gather/voxel_view.cpp, gather/voxel_view.comp.glsl).
+// What the views of voxels are told (src/image/voxel_view.cpp, image/voxel_view.comp.glsl).
 #pragma once
 #include "shared/prelude.h"
 
@@ -16,7 +16,7 @@
 
 CONELIGHT_SHARED_BEGIN
 
-// Uniform block at BINDING_PASS of these passes.
+// Uniform block of these passes.
 struct VoxelViewConstants {
     vec3 origin;      // lowest corner of level 0, m
     float voxelSize;  // m

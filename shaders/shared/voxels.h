@@ -31,24 +31,24 @@
 // usable crossing. From the accuracy experiments behind docs/theory/2_voxels.md.
 #define VOXEL_FACING_THRESHOLD 0.02
 
-// Fixed slots of the voxel stage, besides BINDING_VOXEL_GRID.
-#define BINDING_VOXEL_FACES 6       // storage: FaceRecord[], for passes that write light into faces
-#define BINDING_VOXEL_RECORDS 7     // storage: uint[] (voxRec)
-#define UNIT_VOXEL_BRICKS 16        // usampler3D (brickWord)
-#define UNIT_VOXEL_RECORDS 17       // usamplerBuffer R32UI (voxRec)
-#define UNIT_VOXEL_FACES 18         // usamplerBuffer RGBA32UI, two texels per face (FaceRecord)
-#define UNIT_VOXEL_FACE_SOURCES 19  // usamplerBuffer RG32UI (faceSource)
-// What rays need that meet triangles (SurfaceVoxels::bindTriangles), among the units of the running pass.
-#define UNIT_VOXEL_CHAINS 11     // usamplerBuffer RG32UI: first fragment + 1, directions; of each record
-#define UNIT_VOXEL_FRAGMENTS 12  // usamplerBuffer RGBA32UI, two texels per fragment (surface_clip)
-#define UNIT_VOXEL_PAIRS 13      // usamplerBuffer RG32UI: triangle, voxel; of each fragment
-#define UNIT_VOXEL_TRIANGLES 14  // samplerBuffer RGBA32F, three texels per triangle: corners, voxels
+// Names under which shaders read voxels (SurfaceVoxels::declare, OctantWords::declare):
+//   VoxelGridBlock         uniform block: VoxelGrid
+//   voxelBricks            usampler3D (brickWord); voxelBrickImage  uimage3D, the same
+//   voxelRecords           usamplerBuffer R32UI (voxRec); RecordTable  storage, the same
+//   voxelFaces             usamplerBuffer RGBA32UI, two texels per face; FaceTable  storage, FaceRecord[]
+//   voxelFaceSources       usamplerBuffer RG32UI (faceSource); SourceTable  storage, the same
+//   BrickTable             storage: packVoxel(brick) of each occupied brick
+//   voxelOctants           uimage3D RG32UI (octWord)
+// and triangles (SurfaceVoxels::declareTriangles):
+//   voxelChains            usamplerBuffer RG32UI: first fragment + 1, directions; of each record
+//   voxelFragments         usamplerBuffer RGBA32UI, two texels per fragment (surface_clip)
+//   voxelPairs             usamplerBuffer RG32UI: triangle, voxel; of each fragment
+//   voxelTriangles         samplerBuffer RGBA32F, three texels per triangle: corners, voxels
+// Images are for reads that are many: software drivers fetch texels of such formats by a call each, and load
+// from images in line (rays 11 % faster, the cache at pixels 17 %).
+
 // In the first corner's fourth number, above the 24 bits of the instance.
 #define VOXEL_TRIANGLE_TWO_SIDED 0x1000000u
-// Image units, for reads that are many: software drivers fetch texels of such formats by a call each, and
-// load from images in line (rays 11 % faster, the cache at pixels 17 %).
-#define IMAGE_VOXEL_BRICKS 6   // uimage3D (brickWord)
-#define IMAGE_VOXEL_OCTANTS 7  // uimage3D (octWord)
 
 // Longest step over empty bricks. 2 costs rays 15 to 30 % more, 6 and 8 gain no more than they cost to find.
 #define OCTANT_REACH 4
@@ -73,7 +73,7 @@
 
 CONELIGHT_SHARED_BEGIN
 
-// Uniform block at BINDING_VOXEL_GRID. Voxel (i,j,k) is the cube origin + voxelSize * [i,i+1) x [j,j+1) x
+// Uniform block. Voxel (i,j,k) is the cube origin + voxelSize * [i,i+1) x [j,j+1) x
 // [k,k+1).
 struct VoxelGrid {
     vec3 origin;      // world position of the lowest corner, m
@@ -112,7 +112,7 @@ struct FaceRecord {
     uint irradiance1;  // half b | FACE_* in the upper half
 };                     // 32 B
 
-// Uniform block at BINDING_PASS of the voxelizer's own passes (shaders/voxels/surface_*).
+// Uniform block of the voxelizer's own passes (shaders/voxels/surface_*).
 struct SurfaceConstants {
     uint triangleCount;
     uint instanceCount;

@@ -116,7 +116,7 @@ StoredNormal storedNormal(vec3 n, bool twoSided) {
 // next one of the chain.
 uint enchain(uint record, uint slot, ivec3 voxel, uint directions) {
 #if SURFACE_UPDATE
-    directions |= CHAIN_DIRTY;
+    directions |= CHAIN_EDITED;
     uint brick = brickIndex(voxel >> 2, gridBricks());
     atomicOr(changedBricks[brick >> 5], 1u << (brick & 31u));
 #endif

@@ -22,47 +22,27 @@
 //
 // A fragment is a pair (triangle, voxel). Lists are filled in any order; everything that survives is ordered
 // by prefix sums or summed in integers.
-#include "shared/bindings.h"
 #include "shared/scene.h"
 #include "shared/voxels.h"
 
-#define SURFACE_COUNTERS 8
-#define SURFACE_TRIANGLES 9
-#define SURFACE_TILE_LIST 10
-#define SURFACE_PAIRS 11
-#define SURFACE_MASKS 12
-#define SURFACE_CHAINS 13
-#define SURFACE_FRAGMENT_DATA 14
-#define SURFACE_CHUNKS 15
-// Numbers used again by passes that need few of the above
-#define SURFACE_BRICK_LIST 10
-#define SURFACE_OWNERS 10
-#define SURFACE_FACE_SOURCES 9
-#define SURFACE_LAYER_LIST 14  // resolve, layers: faces to be done again
-// Updates
-#define SURFACE_RUNS 13            // setup: (instance, its first place in the work) per changed instance
-#define SURFACE_FREE_LIST 15       // setup, tiles, clip, drop: slots of dropped fragments
-#define SURFACE_CHANGED_BRICKS 10  // clip, drop: bit per brick
-#define SURFACE_DIRTY_BRICKS 9     // drop: indices of bricks to search
-#define SURFACE_STALE 11           // drop: bit per instance that changed
-#define SURFACE_OLD_CHAINS 14      // carry
-#define SURFACE_ORIGIN 12          // carry, faces: record that a voxel had before, ~0: none
-#define SURFACE_WORK_LIST 11       // faces, resolve: faces to be summed up
-#define SURFACE_UNIT_OLD_BRICKS 8
-#define SURFACE_UNIT_OLD_FACES 8
-#define SURFACE_UNIT_OLD_SOURCES 9
-#define SURFACE_UNIT_OLD_RECORDS 10
+// Names of lists (src/voxels/surface_work.cpp, SurfaceVoxels::Impl::given):
+//   CounterTable  SURFACE_* words   TriangleTable  triangles   TileTable  tiles of triangles   PairTable
+//   (triangle, voxel)   MaskTable  bit per voxel   ChainTable  first fragment, directions; per voxel
+//   FragmentTable   ChunkTable  sums of chunks   BrickTable  occupied bricks   OwnerTable  of faces
+//   SourceTable faceSource   LayerTable  faces to be done again
+// of updates:
+//   RunTable  (instance, its first place in the work) per changed instance   FreeTable  slots of dropped
+//   fragments   ChangedTable  bit per brick   EditedTable  indices of bricks to search   StaleTable  bit per
+//   instance that changed   OldChainTable   OriginTable  record that a voxel had before, ~0: none   WorkTable
+//   faces to be summed up
+// Buffer textures of lists (triangles, pairs, fragments, owners): reading through them costs a third of a
+// storage read on a software driver.
+
 // In the word of directions of a chain: the voxel's fragments changed in this update.
-#define CHAIN_DIRTY 0x80000000u
+#define CHAIN_EDITED 0x80000000u
 #define CHAIN_DIRECTIONS 63u
 // In place of a direction (0..5) of an owner.
 #define OWNER_IS_FACE 7u
-
-// Buffer textures: reading through them costs a third of a storage read on a software driver
-#define SURFACE_UNIT_TRIANGLES 8
-#define SURFACE_UNIT_PAIRS 9
-#define SURFACE_UNIT_FRAGMENTS 10
-#define SURFACE_UNIT_OWNERS 11
 
 layout(std140) uniform SurfaceBlock { SurfaceConstants surface; };
 

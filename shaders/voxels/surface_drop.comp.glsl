@@ -61,7 +61,7 @@ void main() {
     } while (at != 0u);
     if (dropped) {
         if (last != 0u) fragments[8u * (last - 1u)] = 0u;
-        chains[record] = uvec2(head, directions | CHAIN_DIRTY);
+        chains[record] = uvec2(head, directions | CHAIN_EDITED);
         if (head == 0u) atomicAnd(masks[2u * brick + (bit >> 5)], ~(1u << (bit & 31u)));
         atomicOr(changedBricks[brick >> 5], 1u << (brick & 31u));
     }

@@ -34,7 +34,7 @@ void main() {
         uvec2 chain = chains[i];
         uint directions = chain.y & CHAIN_DIRECTIONS;
 #if SURFACE_UPDATE
-        bool edited = (chain.y & CHAIN_DIRTY) != 0u;
+        bool edited = (chain.y & CHAIN_EDITED) != 0u;
         if (edited) chains[i].y = directions;
         // A voxel that is not edited was there before, with the same directions.
         uint old = texelFetch(oldRecords, edited ? 0 : int(origins[i])).x & 0x3ffffffu;

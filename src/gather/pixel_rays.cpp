@@ -22,6 +22,8 @@ constexpr float kOcclusionReach = 0.1f;
 constexpr std::uint32_t kLobeReflections = 3;
 constexpr int kReflectedRays = 128;
 
+constexpr std::array<std::uint32_t, 4> kEmptyLobeList{LOBE_GROUPS_X, 0, 1, 0};
+
 gl::ProgramDesc selectDesc() { return {{"gather/lobe_select.comp.glsl"}, {}}; }
 
 const char* const kGatherPass[] = {"diffuse rays", "specular rays", "occlusion rays"};
@@ -167,7 +169,9 @@ void PixelRays::record(const gl::Device& device, const RayInputs& inputs, const 
     PixelRayKey key = this->key(inputs, one);
     key.listed = false;
     key.records = true;
-    const gl::Inputs given = passInputs(inputs, one);
+    gl::Inputs given = passInputs(inputs, one);
+    // Declared by the shader; the one pixel is not looked up there.
+    if (kind_ == RayPicture::Specular) given.storage("LobeList", lobeList());
     for (int i = 0; i < passes; ++i) {
         one.number = static_cast<std::uint32_t>(i);
         one.longest = passes;
@@ -176,16 +180,18 @@ void PixelRays::record(const gl::Device& device, const RayInputs& inputs, const 
     }
 }
 
+// The list of pixels that need rays into their lobe, for pictures of this size.
+const gl::Buffer& PixelRays::lobeList() {
+    const std::size_t pixels = static_cast<std::size_t>(current_.texture.width()) *
+                               static_cast<std::size_t>(current_.texture.height());
+    if (!lobeList_) lobeList_ = gl::Buffer(sizeof kEmptyLobeList + 4 * pixels, "pixels with lobes");
+    return lobeList_;
+}
+
 // Lists the pixels that need rays into their lobe; those that are not listed hold nothing.
 void PixelRays::listLobes(const gl::Device& device, gl::Inputs& inputs, const PixelRectangle& lobes) {
-    constexpr std::array<std::uint32_t, 4> kEmptyList{LOBE_GROUPS_X, 0, 1, 0};
-    if (!lobeList_)
-        lobeList_ = gl::Buffer(sizeof kEmptyList + std::size_t{4} *
-                                                       static_cast<std::size_t>(current_.texture.width()) *
-                                                       static_cast<std::size_t>(current_.texture.height()),
-                               "pixels with lobes");
-    lobeList_.update(kEmptyList);
-    inputs.storage("LobeList", lobeList_);
+    inputs.storage("LobeList", lobeList());
+    lobeList_.update(kEmptyLobeList);
     const glm::ivec2 extent = lobes.end - lobes.lowest;
     if (extent.x > 0 && extent.y > 0) device.get(selectDesc()).dispatch(inputs, extent.x, extent.y);
     clearWritten(other_);

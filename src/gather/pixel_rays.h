@@ -86,6 +86,7 @@ class PixelRays {
     PixelRayKey key(const RayInputs& inputs, const RayPass& pass) const;
     gpu::PixelRayConstants packed(const RayInputs& inputs, const RayPass& pass) const;
     gl::Inputs passInputs(const RayInputs& inputs, const RayPass& pass) const;
+    const gl::Buffer& lobeList();
     void listLobes(const gl::Device& device, gl::Inputs& inputs, const PixelRectangle& lobes);
 
     RayPicture kind_;

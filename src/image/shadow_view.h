@@ -3,7 +3,7 @@
 // are laid out).
 //
 // Reads: light table, shadow maps (ShadowMaps::bind). Writes `output` (RGBA32F) as an image. GL state
-// changed: program, image 0, BINDING_PASS.
+// changed: program and its slots.
 #pragma once
 
 #include <vector>

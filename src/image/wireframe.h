@@ -3,7 +3,7 @@
 // the G-buffer's depth. Alone: all of them, on the sky.
 //
 // Reads: frame block, scene tables. Writes `output` (RGBA32F, as a framebuffer). GL state changed: raster
-// state, program, BINDING_PASS.
+// state, program and its slots.
 #pragma once
 
 #include "conelight/settings.h"

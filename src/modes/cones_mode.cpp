@@ -50,8 +50,8 @@ void ConesMode::draw(const Frame& frame) {
 
 // What the volume holds is shown as cones read it, the rest by the faces behind it.
 void ConesMode::drawVoxels(const Frame& frame) {
-    const gather::VoxelView::Target target{frame.settings, frame.scene,  frame.lights,
-                                           frame.surfaces, frame.output, frame.voxelsAmong};
+    const image::VoxelView::Target target{frame.settings, frame.scene,  frame.lights,
+                                          frame.surfaces, frame.output, frame.voxelsAmong};
     const VoxelData data = frame.settings.view.voxelData;
     if (data == VoxelData::Radiance || data == VoxelData::Coverage || data == VoxelData::Level)
         voxelView_.draw(frame.device, target, volume_.volume(), voxels_);
@@ -61,7 +61,7 @@ void ConesMode::drawVoxels(const Frame& frame) {
 
 std::vector<gl::ProgramDesc> ConesMode::programDescs() {
     std::vector<gl::ProgramDesc> descs = gather::ConePicture::programDescs();
-    for (const auto& more : {voxels::RadianceVolume::programDescs(), gather::VoxelView::programDescs()})
+    for (const auto& more : {voxels::RadianceVolume::programDescs(), image::VoxelView::programDescs()})
         descs.insert(descs.end(), more.begin(), more.end());
     return descs;
 }

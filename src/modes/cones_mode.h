@@ -7,7 +7,7 @@
 
 #include "gather/cone_picture.h"
 #include "gather/cone_volume.h"
-#include "gather/voxel_view.h"
+#include "image/voxel_view.h"
 #include "modes/mode.h"
 #include "voxels/voxels.h"
 
@@ -27,7 +27,7 @@ class ConesMode : public ModeRenderer {
     voxels::Voxels voxels_;
     gather::ConeVolume volume_;
     gather::ConePicture picture_;
-    gather::VoxelView voxelView_;
+    image::VoxelView voxelView_;
 };
 
 }  // namespace conelight::modes

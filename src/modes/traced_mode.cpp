@@ -80,7 +80,7 @@ void TracedMode::record(const Frame& frame, const gather::RayInputs& inputs) {
 std::vector<gl::ProgramDesc> TracedMode::programDescs() {
     std::vector<gl::ProgramDesc> descs = light::LitVoxels::programDescs();
     for (const auto& more : {gather::PixelRays::programDescs(), gather::TracedShade::programDescs(),
-                             gather::VoxelView::programDescs()})
+                             image::VoxelView::programDescs()})
         descs.insert(descs.end(), more.begin(), more.end());
     return descs;
 }

@@ -8,7 +8,7 @@
 
 #include "gather/indirect.h"
 #include "gather/traced_shade.h"
-#include "gather/voxel_view.h"
+#include "image/voxel_view.h"
 #include "light/lit_voxels.h"
 #include "modes/mode.h"
 #include "voxels/voxels.h"
@@ -30,7 +30,7 @@ class TracedMode : public ModeRenderer {
     light::LitVoxels lit_;
     gather::Indirect indirect_;
     gather::TracedShade shade_;
-    gather::VoxelView voxelView_;
+    image::VoxelView voxelView_;
 };
 
 }  // namespace conelight::modes

@@ -108,7 +108,7 @@ void SurfaceVoxels::Impl::allocateFor(const Capacity& wanted) {
         masks = gl::Buffer(std::size_t{8} * wanted.gridBricks, "voxelizer masks");
         changedBricks = gl::Buffer(std::size_t{4} * ((wanted.gridBricks + 31) / 32), "changed bricks");
     }
-    if (wanted.triangles > capacity.triangles) {
+    if (!triangles || wanted.triangles > capacity.triangles) {
         triangles = gl::Buffer(std::size_t{48} * wanted.triangles, "voxelizer triangles");
         triangleTexels = gl::Texture(triangles, GL_RGBA32F, "voxelizer triangles");
     }

@@ -5,6 +5,7 @@
 #include "gl/pass.h"
 #include "math/brdf.h"
 #include "scene/gpu_lights.h"
+#include "shared/lighting.h"
 #include "support/gl_fixture.h"
 
 namespace conelight::test {
@@ -63,9 +64,14 @@ void main() {
             }
         gl::Buffer buffer(data, "points");
         const gl::Buffer table(scene::packedLights({light}), "lights");
+        const gl::Buffer lighting(sizeof(gpu::LightingConstants), "lighting");
         programs()
             .compute("test/rect.comp.glsl")
-            .dispatch(gl::Inputs().storage("Data", buffer).storage("LightTable", table), kEdge * kEdge);
+            .dispatch(gl::Inputs()
+                          .storage("Data", buffer)
+                          .storage("LightTable", table)
+                          .uniform("LightingBlock", lighting),
+                      kEdge * kEdge);
         gl::barrier(gl::Access::ShaderStorage);
         return buffer.read<glm::vec4>(data.size());
     }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The main function of every test program. Beside what gtest prints, it writes one line per test into the
-// file CONELIGHT_TEST_RESULTS: `passed`, `failed` or `skipped`, the CPU milliseconds of the test and its
-// children, its name. A line `running` that no other follows names a test that ended its process. Exit
+// The main function of every test program. The guests that the program brings along are there for tests, too;
+// which shaders they asked for is checked at the end. Beside what gtest prints, it writes one line per test
+// into the file CONELIGHT_TEST_RESULTS: `passed`, `failed` or `skipped`, the CPU milliseconds of the test and
+// its children, its name. A line `running` that no other follows names a test that ended its process. Exit
 // status: gtest's, but 77 where every test was skipped.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
@@ -9,6 +10,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+
+#include "conelight/guests.h"
+#include "support/variant_check.h"
 
 namespace conelight::test {
 namespace {
@@ -56,7 +60,9 @@ class ResultLines : public ::testing::EmptyTestEventListener {
 }  // namespace conelight::test
 
 int main(int argc, char** argv) {
+    conelight::program::registerGuests();
     ::testing::InitGoogleTest(&argc, argv);
+    conelight::test::checkVariantsAtTheEnd();
     const ::testing::UnitTest& tests = *::testing::UnitTest::GetInstance();
     if (const char* path = std::getenv("CONELIGHT_TEST_RESULTS"); path != nullptr) {
         ::testing::UnitTest::GetInstance()->listeners().Append(new conelight::test::ResultLines(path));

@@ -55,7 +55,7 @@ void ThesisMode::draw(const modes::Frame& frame) {
 void ThesisMode::drawVoxels(const modes::Frame& frame) {
     const gpu::ThesisGrid& grid = volume_.grid();
     const ThesisSettings& own = frame.settings.groups.of<ThesisSettings>();
-    const gather::VoxelVolume volume{
+    const image::VoxelVolume volume{
         .texture = volume_.texture(),
         .sampler = volume_.sampler(),
         .origin = grid.origin,

@@ -5,7 +5,7 @@
 
 #include <optional>
 
-#include "gather/voxel_view.h"
+#include "image/voxel_view.h"
 #include "modes/mode.h"
 #include "thesis/render/cones.h"
 #include "thesis/render/volume.h"
@@ -27,7 +27,7 @@ class ThesisMode : public modes::ModeRenderer {
 
     ThesisVolume volume_;
     ThesisConePass cones_;
-    gather::VoxelView voxelView_;
+    image::VoxelView voxelView_;
     // What the volume was made from.
     base::Revision sceneFrom_, lightsFrom_;
     std::optional<ThesisVolumeOptions> options_;

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "gl/gl.h"
-#include "shared/bindings.h"
 
 namespace conelight::thesis {
 namespace {
@@ -298,6 +297,10 @@ std::vector<gl::ProgramDesc> ThesisVolume::programDescs() {
     std::vector<gl::ProgramDesc> descs{bricksDesc(false), bricksDesc(true)};
     for (const ThesisVolumeOptions& options : {mended, shadowed, published})
         for (const bool textured : {false, true}) descs.push_back(voxelizeDesc(options, textured));
+    for (const light::LightKey& lights : light::LightKey::all()) {
+        shadowed.lights = lights;
+        descs.push_back(voxelizeDesc(shadowed, false));
+    }
     for (const ThesisVolumeOptions& options : {mended, published}) {
         descs.push_back(resolveDesc(options.defects));
         for (const int texels : {64, 8, 1, 0}) descs.push_back(mipDesc(options.defects, texels));

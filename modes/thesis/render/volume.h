@@ -7,9 +7,7 @@
 // fitted to the scene, or [-1,1]^3 with the defect wholeGrid. Work and memory beyond the texture go with the
 // box of voxels that the scene's bounds touch, and with the bricks of 8^3 voxels in it that hold surface.
 //
-// Reads: scene tables, frame block, shadow maps (unless unshadowed). Writes the texture; leaves it visible to
-// texture fetches. GL state changed: raster state, program, image units 0 and 1, storage bindings
-// BINDING_STORAGE_PASS to +2, BINDING_THESIS_GRID.
+// Leaves the texture visible to texture fetches. GL state changed: raster state, programs and their slots.
 // Limits: one colour per voxel for both faces of a wall; 255 layers of surface per voxel.
 #pragma once
 

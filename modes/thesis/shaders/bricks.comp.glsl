@@ -3,7 +3,6 @@
 // Flags of bricks -> list of the marked ones, and flags cleared for the next time. A second run with
 // ARGUMENTS makes the group counts of the passes over the list: one group per brick, per 8 and per 64 bricks.
 // The order of the list depends on timing, what is computed from it does not.
-#include "shared/bindings.h"
 #include "thesis/shaders/constants.h"
 layout(local_size_x = 64) in;
 layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };

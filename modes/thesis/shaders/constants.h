@@ -1,13 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Numbers that the passes of the thesis mode share: where its volume lies (uniform block at
-// BINDING_THESIS_GRID), and its cones (BINDING_PASS). Filled by render/volume.cpp and
-// render/cones.cpp.
+// Numbers that the passes of the thesis mode share: where its volume lies (uniform block
+// ThesisGridBlock), and its cones (ThesisBlock). Filled by render/volume.cpp and render/cones.cpp.
 #pragma once
-#include "shared/bindings.h"
 #include "shared/prelude.h"
 CONELIGHT_SHARED_BEGIN
-
-#define BINDING_THESIS_GRID (BINDING_PASS + 1)
 
 // The cube of voxels, and the part of it that the scene touches.
 struct ThesisGrid {

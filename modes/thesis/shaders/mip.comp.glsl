@@ -6,7 +6,6 @@
 // A texel of twice the edge has four times the cross-section, so the covered areas of its eight children add
 // up to a quarter: a plane keeps its opacity in every level. VOLUME_MIPS, as in the original: an eighth, the
 // mean over the volume; a wall of one voxel then halves its opacity per level.
-#include "shared/bindings.h"
 #include "thesis/shaders/constants.h"
 #include "thesis/shaders/defects.glsl"
 #ifndef BRICK_TEXELS

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: MIT
 // Sums of the voxelizer -> level 0 of the volume, one group per marked brick; clears the sums behind it.
 // Opacity is the covered area, at most 1; colour is premultiplied by it. BINARY_OPACITY: 1 where anything is.
-#include "shared/bindings.h"
 #include "thesis/shaders/constants.h"
 #include "thesis/shaders/defects.glsl"
 layout(local_size_x = 8, local_size_y = 8, local_size_z = 8) in;

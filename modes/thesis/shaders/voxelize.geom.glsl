@@ -9,7 +9,6 @@
 // Gems 2 chapter 42: the triangle with its edges moved outward by half a pixel; or its bounding rectangle
 // where that is smaller), with the triangle itself as flat data for the fragment shader's exact coverage.
 #include "lib/octahedral.glsl"
-#include "shared/bindings.h"
 #include "thesis/shaders/constants.h"
 #include "thesis/shaders/defects.glsl"
 layout(triangles) in;

@@ -5,7 +5,7 @@
 // (voxel_view_reach), w 0. One invocation per brick.
 //
 //   SOURCE  0 from the surface voxels' words: right for all that is made of them
-//           1 from a volume of one colour and opacity a voxel (VoxelVolume of src/gather/voxel_view.h): of
+//           1 from a volume of one colour and opacity a voxel (VoxelVolume of src/image/voxel_view.h): of
 //             bricks whose mean two levels up is not zero, every voxel. Outside of its box there is nothing
 #ifndef SOURCE
 #error SOURCE must be 0 or 1

@@ -7,7 +7,6 @@
 #ifndef FIRST
 #error FIRST must be 0 or 1
 #endif
-#include "shared/bindings.h"
 #include "shared/voxel_view.h"
 #if FIRST
 layout(local_size_x = 64) in;

@@ -19,7 +19,7 @@
 #include "voxels/radiance_volume.h"
 #include "voxels/voxels.h"
 
-namespace conelight::gather {
+namespace conelight::image {
 
 // What a mode without surface voxels shows: a cube of RGBA texels, premultiplied colour and opacity, with
 // mips.
@@ -87,4 +87,4 @@ class VoxelView {
     gl::Buffer constants_;
 };
 
-}  // namespace conelight::gather
+}  // namespace conelight::image

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "gather/voxel_view.h"
+#include "image/voxel_view.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "gl/gl.h"
 
-namespace conelight::gather {
+namespace conelight::image {
 namespace {
 
 constexpr int kSurfaceVoxels = 0, kVoxelVolume = 1, kRadianceVolume = 2;  // SOURCE of the shader
@@ -36,7 +36,7 @@ struct ViewKey {
     bool among, directional;
 
     gl::ProgramDesc desc() const {
-        return {{"gather/voxel_view.comp.glsl"},
+        return {{"image/voxel_view.comp.glsl"},
                 {{"SOURCE", std::to_string(source)},
                  {"SHAPE", std::to_string(shapeNumber(shape))},
                  {"AMONG", among ? "1" : "0"},
@@ -62,7 +62,7 @@ struct ViewKey {
 struct LevelKey {
     bool first;  // from faces, else from the level before
     gl::ProgramDesc desc() const {
-        return {{"gather/voxel_view_level.comp.glsl"}, {{"FIRST", first ? "1" : "0"}}};
+        return {{"image/voxel_view_level.comp.glsl"}, {{"FIRST", first ? "1" : "0"}}};
     }
     static std::vector<LevelKey> all() { return {{true}, {false}}; }
 };
@@ -71,7 +71,7 @@ struct OccupiedKey {
     int source;
     bool halves;  // zero means empty; counts for a VoxelVolume
     gl::ProgramDesc desc() const {
-        return {{"gather/voxel_view_occupied.comp.glsl"},
+        return {{"image/voxel_view_occupied.comp.glsl"},
                 {{"SOURCE", std::to_string(source)}, {"HALVES", halves ? "1" : "0"}}};
     }
     static std::vector<OccupiedKey> all() {
@@ -82,7 +82,7 @@ struct OccupiedKey {
 struct ReachKey {
     int reach;
     gl::ProgramDesc desc() const {
-        return {{"gather/voxel_view_reach.comp.glsl"}, {{"REACH", std::to_string(reach)}}};
+        return {{"image/voxel_view_reach.comp.glsl"}, {{"REACH", std::to_string(reach)}}};
     }
     static std::vector<ReachKey> all() {
         std::vector<ReachKey> keys;
@@ -270,4 +270,4 @@ std::vector<gl::ProgramDesc> VoxelView::programDescs() {
     return descs;
 }
 
-}  // namespace conelight::gather
+}  // namespace conelight::image
