@@ -4,6 +4,7 @@
 Every test builds a small project in a temporary folder. Run by tools/check."""
 import os
 import pathlib
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -98,6 +99,27 @@ class Layers(Project):
         self.assertEqual(len(self.problems()), 2)
 
 
+class Values(Project):
+    def problems(self):
+        _, output = self.run_tool("check_values", self.root)
+        return [line for line in output.splitlines() if "no longer used" not in line]
+
+    def test_values_with_revisions(self):
+        self.write("src/light/a.cpp", "if (built.from == voxels.revision) return;\nconst bool changed = true;\n"
+                   "// Scratch memory of this pass. A buffer that is bound here.\n")
+        self.write("apps/a.cpp", "settingsChanged();\n")
+        self.assertEqual(self.problems(), [])
+
+    def test_flags_and_calls(self):
+        self.write("src/light/a.cpp", "bool geometryDirty = true;\nif (dirty_) update();\nvoxelsChanged();\n")
+        self.assertEqual([line.split(":")[1] for line in self.problems()], ["1", "2", "3"])
+
+    def test_lent_buffers_and_foreign_bindings(self):
+        self.write("modes/x/a.h", "Buffer& faceScratch();\nBuffer& layerScratch();\n// Its inputs must be\n//   bound by then.\n")
+        self.write("shaders/b.glsl", "// The table is bound before.\n")
+        self.assertEqual([line.split(":")[1] for line in self.problems()], ["1", "2", "3", "1"])
+
+
 class Docs(Project):
     def faults(self, *arguments):
         return self.run_tool("check_docs", "--root", self.root, *arguments)[1].splitlines()
@@ -150,6 +172,17 @@ class Docs(Project):
         self.assertEqual(self.faults("--program", self.root / "program", "--update"), [])
         self.assertEqual((self.root / "a.md").read_text(), block)
 
+    def test_options_of_another_command_are_left_out(self):
+        more = " " * 20
+        self.write("program", f"#!/bin/sh\necho Options:\necho '  --size N  of the picture'\necho '{more}in pixels'\n"
+                              "[ $1 = one ] || echo '  --own  option'\n")
+        os.chmod(self.root / "program", 0o755)
+        block = "<!-- output: conelight two; less conelight one -->\nOptions:\n  --own  option\n<!-- /output -->\n"
+        self.write("a.md", block.replace("Options:\n", ""))
+        self.assertEqual(self.faults("--program", self.root / "program", "--update"), [])
+        # What both print, but for options, stays: it is the frame of the text.
+        self.assertEqual((self.root / "a.md").read_text(), block)
+
 
 class Files(Project):
     def problems(self):
@@ -166,9 +199,58 @@ class Files(Project):
         self.write("src/blank.h", "// SPDX-License-Identifier: MIT \n")
         self.write("src/tab.h", "// SPDX-License-Identifier: MIT\n\tint a;\n")
         self.write("src/end.h", "// SPDX-License-Identifier: MIT")
-        self.write("src/long.h", "// SPDX-License-Identifier: MIT\n" * 801)
         self.write("tools/x", "#!/bin/sh\ntrue\n")
-        self.assertEqual(len(self.problems()), 7, self.problems())
+        self.assertEqual(len(self.problems()), 6, self.problems())
+
+
+@unittest.skipUnless(shutil.which("ctags"), "universal-ctags is not installed")
+class Sizes(Project):
+    def problems(self):
+        subprocess.run(["git", "init", "-q", self.root], check=True)
+        # The exceptions of the real project are unneeded in this one; that is not what is tested here.
+        return [line for line in self.run_tool("check_sizes", self.root)[1].splitlines() if "no longer needed" not in line]
+
+    @staticmethod
+    def body(lines, head):
+        return head + " {\n" + "    work();\n" * (lines - 2) + "}\n"
+
+    def test_what_is_within_the_limits(self):
+        self.write("src/a.cpp", self.body(60, "void fill(int a, std::map<int, int> b, int c, int d, int e, int f)"))
+        self.write("src/b.h", "// line\n" * 500)
+        self.write("docs/data/long.h", "// line\n" * 501)
+        self.write("tools/tool", "#!/usr/bin/env python3\ndef f(a, b, c, d, e, g):\n" + "    pass\n" * 59)
+        self.assertEqual(self.problems(), [])
+
+    def test_long_files(self):
+        self.write("src/a.h", "// line\n" * 501)
+        self.write("shaders/b.glsl", "// line\n" * 501)
+        self.write("tools/c", "#!/usr/bin/env python3\n" * 501)
+        self.write("apps/d.js", "// line\n" * 501)
+        self.assertEqual([line.split(":")[0] for line in self.problems()],
+                         ["apps/d.js", "shaders/b.glsl", "src/a.h", "tools/c"])
+
+    def test_long_functions(self):
+        self.write("src/a.cpp", self.body(61, "void plain()"))
+        self.write("src/b.h", "template <typename T>\nclass B {\n" + self.body(61, "B() : b_(1)") +
+                   self.body(61, "template <typename U>\nU method(T t) const") + "};\n")
+        self.write("tests/c.cpp", self.body(61, "TEST_F(Suite, Name)") + self.body(61, "INSTANTIATED(Suite)"))
+        self.write("shaders/d.comp.glsl", "layout(local_size_x = 64) in;\n" + self.body(61, "void main()"))
+        self.write("tools/e.py", "class E:\n    def method(self):\n" + "        pass\n" * 60)
+        found = self.problems()
+        for what in ("a.cpp:1: plain has 61", "b.h:3: B has 61", "b.h:65: method has 61", "TEST_F(Suite,Name) has 61",
+                     "d.comp.glsl:2: main has 61", "e.py:2: method has 61"):
+            self.assertTrue(any(what in line for line in found), (what, found))
+
+    def test_long_parameter_lists(self):
+        self.write("src/a.cpp", "void f(int a, int b, int c, int d, int e, int g, int h) {}\n"
+                   "struct S { void m(int a, int b, int c, int d, int e, int g, std::array<int, 2> h) {} };\n"
+                   "void ok(int a, int b, int c, int d, int e, std::function<void(int, int)> g) {}\n")
+        self.write("shaders/b.glsl", "float f(float a, out float b, int c, int d, int e, vec3 g, inout vec3 h) {\n"
+                   "    return a;\n}\n")
+        self.write("tools/c.py", "def f(a, b, c, d, e, g, *, h):\n    pass\n")
+        found = self.problems()
+        self.assertEqual(len(found), 4, found)
+        self.assertTrue(all("7 parameters" in line for line in found), found)
 
 
 if __name__ == "__main__":

@@ -11,6 +11,7 @@
 #error SOURCE must be 0 or 1
 #endif
 layout(local_size_x = 8, local_size_y = 4, local_size_z = 4) in;
+#include "shared/voxel_view.h"
 layout(rgba32ui) writeonly uniform uimage3D occupied;
 #include "shared/voxel_view.h"
 #if SOURCE == 0

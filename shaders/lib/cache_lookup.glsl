@@ -5,8 +5,7 @@
 // Only axes along which the normal has a part worth a fetch are visited: on walls along the axes one of
 // three.
 //
-// Before the call: SurfaceVoxels::bind, IrradianceCache::bind. Includers that also trace rays share the
-// samplers with lib/ray_query.glsl.
+// Reads what voxels::Voxels and light::LitVoxels declare.
 #include "lib/ray_query.glsl"
 #include "lib/record_face.glsl"
 #include "shared/irradiance.h"

@@ -11,7 +11,7 @@
 //   reads a light's numbers lane by lane.
 // - LIGHTS_SHADOWS 0: everything is visible.
 // - SHADOW_FILTER: radius of the shadow filter in texels.
-// Before the call: ShadowMaps::bind, the scene's tables and the frame block.
+// Reads what light::Lights declares.
 #ifndef LIGHTS_POINT
 #define LIGHTS_POINT 1
 #endif

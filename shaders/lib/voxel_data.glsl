@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a face or a voxel of the surface voxels shows in the views of voxels (conelight::VoxelData). After
-// lib/ray_query.glsl; SurfaceVoxels::bind.
+// lib/ray_query.glsl.
 #include "lib/false_color.glsl"
 #include "shared/irradiance.h"
 #include "shared/voxel_view.h"

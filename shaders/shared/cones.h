@@ -5,7 +5,7 @@
 
 #define MAX_CONES 64  // src/gather/cone_set.h
 
-// Counters of lookups (texture fetches), in the order of FrameContext::lookupCounters.
+// Counters of lookups (texture fetches), in the order of Frame::lookupCounters.
 #define LOOKUPS_DIFFUSE 0
 #define LOOKUPS_SPECULAR 1
 #define LOOKUPS_OCCLUSION 2

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The counters of lookups behind FrameContext::lookupCounters: one word per kind (LOOKUPS_* of
+// The counters of lookups behind Frame::lookupCounters: one word per kind (LOOKUPS_* of
 // shared/cones.h), and its carries.
 #pragma once
 #include "shared/cones.h"

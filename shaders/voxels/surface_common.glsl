@@ -11,7 +11,7 @@
 //                    are too wide -> bounds that fit
 //
 // Updates of what changed (SURFACE_UPDATE 1; docs/theory/2_voxels.md, "Updates"):
-//   surface_drop     voxel in a dirty brick -> chain without the fragments of changed instances
+//   surface_drop     voxel in an edited brick -> chain without the fragments of changed instances
 //   surface_setup, surface_tiles             of changed instances only; fragments take free slots
 //   surface_count, surface_scan, surface_bricks   as above
 //   surface_carry    brick -> chains under their new numbers

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Update: one invocation per voxel of each dirty brick. Takes the fragments of changed instances out of the
+// Update: one invocation per voxel of each edited brick. Takes the fragments of changed instances out of the
 // voxel's chain, puts their slots on the list of free ones, and finds anew in which directions the rest
 // faces. A voxel with nothing left is empty.
 #version 450
