@@ -127,73 +127,95 @@ bool onEdge(vec3 inCell, int axis, float halfWidth) {
 }
 #endif
 
-// What the ray meets until `end` (m): colour, opacity; the distance of it in m.
-vec4 castRay(vec3 ray, float end, out float distance) {
-    distance = end;
-    vec3 d = mix(ray, vec3(1e-7), lessThan(abs(ray), vec3(1e-7)));
-    vec3 o = (frame.eye - view.origin) / view.voxelSize;
-    vec3 inverse = 1.0 / d;
+// A ray on its way from cell to cell, in voxels; the way is in multiples of its direction.
+struct CellWalk {
+    vec3 origin;
+    vec3 direction;
+    vec3 inverse;  // 1 / direction
+    float last;    // where the way ends; -1: it never was in the grid
+    float t;       // where the cell is entered, through a side of `axis`
+    int axis;
+    float leave;  // where it is left, through a side of `exitAxis`
+    int exitAxis;
+    ivec3 cell;
+    int level;
+    float edge;  // of the cell
+    int budget;  // cells that are left to pass
+};
+
+// `end`: m.
+CellWalk startWalk(vec3 ray, float end) {
+    CellWalk w;
+    w.direction = mix(ray, vec3(1e-7), lessThan(abs(ray), vec3(1e-7)));
+    w.origin = (frame.eye - view.origin) / view.voxelSize;
+    w.inverse = 1.0 / w.direction;
     vec3 size = vec3(view.sizeX, view.sizeY, view.sizeZ);
-    vec3 toLow = -o * inverse, toHigh = (size - o) * inverse;
+    vec3 toLow = -w.origin * w.inverse, toHigh = (size - w.origin) * w.inverse;
     vec3 near = min(toLow, toHigh), far = max(toLow, toHigh);
-    float t = max(max(near.x, near.y), max(near.z, 0.0));
+    w.leave = max(max(near.x, near.y), max(near.z, 0.0));
     float last = min(min(far.x, min(far.y, far.z)), end / view.voxelSize);
-    int axis = near.x >= near.y && near.x >= near.z ? 0 : near.y >= near.z ? 1 : 2;
-    vec4 result = vec4(0.0);
-    int budget = kMostCells;
-    bool going = t < last;
-    last = going ? last : -1.0;
-    do {
-        // To the next cell that may hold something: `t` where it is entered, `leave` where it is left. The
-        // loop is tested at its top: tested at its end, llvmpipe lost hits of rays that leave it before their
-        // neighbours.
-        ivec3 cell;
-        int level, exitAxis = axis;
-        float edge, leave = t;
-        bool may = false;
-        while (!may && leave < last && --budget > 0) {
-            t = leave;
-            axis = exitAxis;
-            level = levelShown(t);
-            edge = float(1 << level);
-            cell = clamp(ivec3(floor((o + (t + kNudge) * d) / edge)), ivec3(0), levelSize(level) - 1);
-            ivec3 low, high;
-            may = mayHold(cell, level, low, high);
-            vec3 exits = (vec3(mix(low, high, greaterThan(d, vec3(0.0)))) - o) * inverse;
-            leave = max(min(exits.x, min(exits.y, exits.z)), t + kNudge);
-            exitAxis = exits.x <= exits.y && exits.x <= exits.z ? 0 : exits.y <= exits.z ? 1 : 2;
-        }
-        vec4 found = may && going ? cellOf(cell, level, ray, axis) : vec4(0.0);
-        if (found.a > kLeastOpacity) {
-            vec3 color = shown(found, level);
+    w.last = w.leave < last ? last : -1.0;
+    w.exitAxis = near.x >= near.y && near.x >= near.z ? 0 : near.y >= near.z ? 1 : 2;
+    w.t = w.leave;
+    w.axis = w.exitAxis;
+    w.budget = kMostCells;
+    return w;
+}
+
+// To the next cell that may hold something; whether there is one. The loop is tested at its top: tested at
+// its end, llvmpipe lost hits of rays that leave it before their neighbours.
+bool nextCell(inout CellWalk w) {
+    bool may = false;
+    while (!may && w.leave < w.last && --w.budget > 0) {
+        w.t = w.leave;
+        w.axis = w.exitAxis;
+        w.level = levelShown(w.t);
+        w.edge = float(1 << w.level);
+        ivec3 cell = ivec3(floor((w.origin + (w.t + kNudge) * w.direction) / w.edge));
+        w.cell = clamp(cell, ivec3(0), levelSize(w.level) - 1);
+        ivec3 low, high;
+        may = mayHold(w.cell, w.level, low, high);
+        vec3 exits = (vec3(mix(low, high, greaterThan(w.direction, vec3(0.0)))) - w.origin) * w.inverse;
+        w.leave = max(min(exits.x, min(exits.y, exits.z)), w.t + kNudge);
+        w.exitAxis = exits.x <= exits.y && exits.x <= exits.z ? 0 : exits.y <= exits.z ? 1 : 2;
+    }
+    return may;
+}
+
+// Adds a cell that the ray is in to what it met, colour and opacity; whether the ray goes on behind.
+bool meetCell(inout vec4 met, CellWalk w, vec4 found, vec3 ray) {
+    vec3 color = shown(found, w.level);
 #if SHAPE == VOLUME
-            float part = clamp((min(leave, last) - t) / edge, 0.0, 1.0);
-            float opacity = 1.0 - pow(1.0 - min(found.a, 0.9999), view.density * part);
-            distance = result.a == 0.0 ? t * view.voxelSize : distance;
-            result += (1.0 - result.a) * opacity * vec4(color, 1.0);
-            going = result.a < 0.995;
+    float part = clamp((min(w.leave, w.last) - w.t) / w.edge, 0.0, 1.0);
+    float opacity = 1.0 - pow(1.0 - min(found.a, 0.9999), view.density * part);
+    met += (1.0 - met.a) * opacity * vec4(color, 1.0);
+    return met.a < 0.995;
 #elif SHAPE == EDGES
-            // The edges of the side that is entered, and behind them those of the side that is left.
-            float depthOfMeter = dot(ray, frame.viewForward);
-            vec2 halfWidth = kHalfEdge * view.pixelSize * depthOfMeter * vec2(t, leave) / edge;
-            bool front = onEdge((o + t * d) / edge - vec3(cell), axis, halfWidth.x);
-            bool back = onEdge((o + leave * d) / edge - vec3(cell), exitAxis, halfWidth.y);
-            if (front || back) {
-                result = vec4(color, 1.0);
-                distance = (front ? t : leave) * view.voxelSize;
-                going = false;
-            }
+    // The edges of the side that is entered, and behind them those of the side that is left.
+    float depthOfMeter = dot(ray, frame.viewForward);
+    vec2 halfWidth = kHalfEdge * view.pixelSize * depthOfMeter * vec2(w.t, w.leave) / w.edge;
+    bool front = onEdge((w.origin + w.t * w.direction) / w.edge - vec3(w.cell), w.axis, halfWidth.x);
+    bool back = onEdge((w.origin + w.leave * w.direction) / w.edge - vec3(w.cell), w.exitAxis, halfWidth.y);
+    if (front || back) met = vec4(color, 1.0);
+    return !front && !back;
 #else
-            result = vec4(color, 1.0);
-            distance = t * view.voxelSize;
-            going = false;
+    met = vec4(color, 1.0);
+    return false;
 #endif
-        }
-        t = leave;
-        axis = exitAxis;
-        going = going && t < last;
-    } while (going && --budget > 0);
-    return result;
+}
+
+// What the ray meets until `end` (m): colour, opacity.
+vec4 castRay(vec3 ray, float end) {
+    vec4 met = vec4(0.0);
+    CellWalk w = startWalk(ray, end);
+    bool going = w.last >= 0.0;
+    do {
+        bool may = nextCell(w);
+        vec4 found = may && going ? cellOf(w.cell, w.level, ray, w.axis) : vec4(0.0);
+        if (found.a > kLeastOpacity) going = meetCell(met, w, found, ray);
+        going = going && w.leave < w.last;
+    } while (going && --w.budget > 0);
+    return met;
 }
 
 void main() {
@@ -204,7 +226,6 @@ void main() {
     vec3 perDepth = pixelRay(pixel);
     vec3 ray = normalize(perDepth);
     float end = AMONG == 1 && seen ? s.depth * length(perDepth) : 1e9;
-    float distance;
 #if SHAPE == SURFACES
     // The cell about the surface; with the surface exactly between two, the one behind it.
     vec3 at = (s.position - view.origin) / view.voxelSize;
@@ -225,16 +246,14 @@ void main() {
         if (result.a == 0.0 && found.a > kLeastOpacity) result = vec4(shown(found, level), 1.0);
     }
 #endif
-    distance = end;
 #elif SHAPE == FACES
     vec3 origin = gridFromWorld(frame.eye);
     VoxelHit hit = traceVoxels(origin, ray, end / view.voxelSize, vec3(0.0));
-    distance = hit.t * view.voxelSize;
     vec4 result = vec4(0.0);
     if (hit.face >= 0)
         result = vec4(view.data == VIEW_LEVEL ? falseColor(0.0) : faceData(hit.face, view.data), 1.0);
 #else
-    vec4 result = castRay(ray, end, distance);
+    vec4 result = castRay(ray, end);
 #endif
 #if AMONG
     if (result.a > 0.0) imageStore(picture, pixel, result + (1.0 - result.a) * imageLoad(picture, pixel));

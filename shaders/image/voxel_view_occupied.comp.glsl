@@ -13,6 +13,7 @@
 layout(local_size_x = 8, local_size_y = 4, local_size_z = 4) in;
 #include "shared/voxel_view.h"
 layout(rgba32ui) writeonly uniform uimage3D occupied;
+#include "shared/voxel_view.h"
 #if SOURCE == 0
 #include "lib/voxel_grid.glsl"
 layout(rgba32ui) readonly uniform uimage3D voxelBrickImage;

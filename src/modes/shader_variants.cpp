@@ -66,7 +66,7 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     return all;
 }
 
-std::vector<gl::ProgramDesc> pairwiseVariants(const std::vector<gl::ProgramDesc>& all) {
+std::vector<gl::ProgramDesc> coveringVariants(const std::vector<gl::ProgramDesc>& all, int together) {
     std::vector<gl::ProgramDesc> kept;
     std::set<std::string> met;
     for (const gl::ProgramDesc& desc : all) {
@@ -74,7 +74,7 @@ std::vector<gl::ProgramDesc> pairwiseVariants(const std::vector<gl::ProgramDesc>
         for (const std::string& file : desc.files) files += file + ' ';
         bool isNew = met.insert(files).second;
         for (std::size_t i = 0; i < desc.defines.size(); ++i)
-            for (std::size_t k = i; k < desc.defines.size(); ++k) {
+            for (std::size_t k = i; k < (together == 1 ? i + 1 : desc.defines.size()); ++k) {
                 const auto& [a, b] = std::pair(desc.defines[i], desc.defines[k]);
                 isNew |= met.insert(files + a.first + '=' + a.second + ' ' + b.first + '=' + b.second).second;
             }
@@ -89,7 +89,7 @@ std::size_t expandAllShaders(const std::string& directory, const std::string& sh
     const gl::ShaderProvider provider =
         shaderDirectory.empty() ? gl::embeddedShaderProvider() : gl::directoryShaderProvider(shaderDirectory);
     std::set<std::string> written;
-    for (const gl::ProgramDesc& desc : modes::pairwiseVariants(modes::allShaderVariants()))
+    for (const gl::ProgramDesc& desc : modes::coveringVariants(modes::allShaderVariants(), 2))
         for (const std::string& file : desc.files) {
             // Programs may share a stage.
             const std::string name = variantFile(file, desc.defines);

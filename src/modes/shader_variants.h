@@ -14,8 +14,9 @@ namespace conelight::modes {
 // Without repetition, in the order of the stages. No GL calls.
 std::vector<gl::ProgramDesc> allShaderVariants();
 
-// Variants of which every two values of two defines that occur together in any variant of a program's files
-// occur together in one. Faults of more than two at a time are not met by checks of this part.
-std::vector<gl::ProgramDesc> pairwiseVariants(const std::vector<gl::ProgramDesc>& all);
+// A part of `all` that stands for it: every value of a define that any variant of a program's files has
+// (`together` 1), or every two values of two defines that any has together (2). Faults of more at a time are
+// not met by checks of this part.
+std::vector<gl::ProgramDesc> coveringVariants(const std::vector<gl::ProgramDesc>& all, int together);
 
 }  // namespace conelight::modes

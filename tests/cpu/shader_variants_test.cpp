@@ -47,7 +47,7 @@ TEST(ShaderVariantsTest, ExpandedFilesAreWhatTheDriverGets) {
     const std::filesystem::path dir = std::filesystem::path(scratchDir()) / "expanded";
     const std::size_t count = expandAllShaders(dir.string());
     std::set<std::string> texts;
-    for (const gl::ProgramDesc& desc : modes::pairwiseVariants(modes::allShaderVariants()))
+    for (const gl::ProgramDesc& desc : modes::coveringVariants(modes::allShaderVariants(), 2))
         for (const std::string& file : desc.files)
             texts.insert(gl::expandShader(gl::embeddedShaderProvider(), file, desc.defines).text);
     std::size_t files = 0;
@@ -66,9 +66,9 @@ TEST(ShaderVariantsTest, ExpandedFilesAreWhatTheDriverGets) {
 }
 
 // Every pair of values that any variant has is in one of those that stand for all.
-TEST(ShaderVariantsTest, PairwiseVariantsHaveEveryPair) {
+TEST(ShaderVariantsTest, CoveringVariantsHaveEveryPair) {
     const std::vector<gl::ProgramDesc> all = modes::allShaderVariants();
-    const std::vector<gl::ProgramDesc> part = modes::pairwiseVariants(all);
+    const std::vector<gl::ProgramDesc> part = modes::coveringVariants(all, 2);
     const auto pairsOf = [](const std::vector<gl::ProgramDesc>& descs) {
         std::set<std::string> pairs;
         for (const gl::ProgramDesc& desc : descs)

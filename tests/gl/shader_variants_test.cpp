@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Shader variants compile and link on the driver: those that stand for all.
+// Shader variants compile and link on the driver: those that have every value of every define.
+// tools/check_shaders looks at every two values.
 #include "modes/shader_variants.h"
 
 #include "conelight/error.h"
@@ -10,7 +11,7 @@ namespace conelight::test {
 using ShaderVariantsGlTest = GlTest;
 
 TEST_F(ShaderVariantsGlTest, EveryVariantLinks) {
-    const std::vector<gl::ProgramDesc> all = modes::pairwiseVariants(modes::allShaderVariants());
+    const std::vector<gl::ProgramDesc> all = modes::coveringVariants(modes::allShaderVariants(), 1);
     EXPECT_FALSE(all.empty());
     for (const gl::ProgramDesc& desc : all) {
         try {

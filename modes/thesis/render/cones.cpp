@@ -227,6 +227,9 @@ std::vector<gl::ProgramDesc> ThesisConePass::programDescs() {
     add(published, Component::Full, true);
     regular.published = true;
     add(regular, Component::Full);
+    ThesisSettings noCones;
+    noCones.frontCone = noCones.intermediateCones = false;
+    add(noCones, Component::Full);
     // Each defect alone, with all cones.
     ThesisDefects names;
     const std::size_t count = thesisDefectFlags(names).size();
