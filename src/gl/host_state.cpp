@@ -10,8 +10,8 @@
 namespace conelight::gl {
 namespace {
 
-constexpr GLuint kTextureUnits = 32;     // programs read fewer, here and below
-constexpr GLuint kImageUnits = 8;        // GL minimum
+constexpr GLuint kTextureUnits = 32;  // programs read fewer, here and below
+constexpr GLuint kImageUnits = 8;     // GL minimum
 constexpr GLuint kUniformBindings = 8;
 constexpr GLuint kStorageBindings = 16;  // GL minimum is 8, so the driver is asked
 constexpr GLuint kViewports = 16;        // GL minimum of GL_MAX_VIEWPORTS
