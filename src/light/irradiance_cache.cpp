@@ -127,9 +127,8 @@ void IrradianceCache::carry(const gl::Device& device, const voxels::Voxels& voxe
     inputs.add(voxels)
         .uniform("CarryBlock", carryBlock_)
         .storage("StateTable", states_)
-        .texture("oldStates", oldStateTexels_)
-        .texture("oldBricks", old.brickWords)
-        .texture("oldRecords", old.recordTexels);
+        .texture("oldStates", oldStateTexels_);
+    old.declareOld(inputs);
     device.get(light::pass("carry")).dispatchLinear(inputs, faceCount_);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
 }

@@ -14,15 +14,36 @@ namespace {
 // per brick of 4^3.
 constexpr int kSparseLevels = 2;
 
-gl::ProgramDesc scatterDesc(int blocks) {
-    return {{"voxels/radiance_scatter.comp.glsl"}, {{"DIRECTIONAL", blocks == 6 ? "1" : "0"}}};
-}
+// Variants of radiance_scatter and radiance_level.
+struct ScatterKey {
+    int blocks;  // 1 or 6
+    gl::ProgramDesc desc() const {
+        return {{"voxels/radiance_scatter.comp.glsl"}, {{"DIRECTIONAL", blocks == 6 ? "1" : "0"}}};
+    }
+    static std::vector<ScatterKey> all() { return {{1}, {6}}; }
+};
 
-gl::ProgramDesc levelDesc(int blocks, OpacityModel opacity, bool sparse) {
+struct LevelKey {
+    int blocks;
+    OpacityModel opacity;
+    bool sparse;
+    gl::ProgramDesc desc() const;
+    static std::vector<LevelKey> all();
+};
+
+gl::ProgramDesc LevelKey::desc() const {
     return {{"voxels/radiance_level.comp.glsl"},
             {{"DIRECTIONAL", blocks == 6 ? "1" : "0"},
              {"AREA", opacity == OpacityModel::Area ? "1" : "0"},
              {"SPARSE", sparse ? "1" : "0"}}};
+}
+
+std::vector<LevelKey> LevelKey::all() {
+    std::vector<LevelKey> keys;
+    for (const int blocks : {1, 6})
+        for (const OpacityModel opacity : {OpacityModel::Fog, OpacityModel::Area})
+            for (const bool sparse : {false, true}) keys.push_back({blocks, opacity, sparse});
+    return keys;
 }
 
 int roundUp(int value, int multiple) { return (value + multiple - 1) / multiple * multiple; }
@@ -81,7 +102,7 @@ void RadianceVolume::build(const gl::Device& device, const SurfaceVoxels& surfac
         inputs.add(surface)
             .uniform("RadianceVolumeBlock", block_)
             .image("level0", texture_, gl::ImageUse::Write);
-        device.get(scatterDesc(layout_.blocks)).dispatchLinear(inputs, surface.voxelCount());
+        device.get(ScatterKey{layout_.blocks}.desc()).dispatchLinear(inputs, surface.voxelCount());
     }
     const gl::PassScope pass(device.profiler, "radiance levels");
     buildLevels(device, surface, opacity);
@@ -98,7 +119,7 @@ void RadianceVolume::buildLevels(const gl::Device& device, const SurfaceVoxels& 
             .image("fine", texture_, gl::ImageUse::Read, level - 1)
             .image("coarse", texture_, gl::ImageUse::Write, level);
         const bool sparse = level <= kSparseLevels;
-        const gl::Program& program = device.get(levelDesc(layout_.blocks, opacity, sparse));
+        const gl::Program& program = device.get(LevelKey{layout_.blocks, opacity, sparse}.desc());
         if (sparse) {
             const std::size_t texelsPerBrick = level == 1 ? 8 : 1;
             program.dispatchLinear(inputs, surface.occupiedBrickCount() * texelsPerBrick *
@@ -115,11 +136,8 @@ void RadianceVolume::declare(gl::Inputs& inputs) const {
 
 std::vector<gl::ProgramDesc> RadianceVolume::programDescs() {
     std::vector<gl::ProgramDesc> descs;
-    for (const int blocks : {1, 6}) {
-        descs.push_back(scatterDesc(blocks));
-        for (const OpacityModel opacity : {OpacityModel::Fog, OpacityModel::Area})
-            for (const bool sparse : {false, true}) descs.push_back(levelDesc(blocks, opacity, sparse));
-    }
+    for (const ScatterKey& key : ScatterKey::all()) descs.push_back(key.desc());
+    for (const LevelKey& key : LevelKey::all()) descs.push_back(key.desc());
     return descs;
 }
 

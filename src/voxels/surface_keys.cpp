@@ -27,7 +27,7 @@ gl::ProgramDesc SurfaceCountKey::desc() const {
 }
 
 gl::ProgramDesc SurfaceScanKey::desc() const {
-    return shader("surface_scan", {{"STEP", std::to_string(step)}});
+    return shader("surface_scan", {{"STEP", std::to_string(static_cast<int>(counted))}});
 }
 
 gl::ProgramDesc SurfaceMarkKey::desc() const {

@@ -14,10 +14,17 @@ struct SurfaceCountKey {
     static std::vector<SurfaceCountKey> all() { return {{true}, {false}}; }
 };
 
+// What has been counted, in the order of STEP of surface_scan.comp.glsl: Bricks and Faces are turned into
+// starts; of the others only the group counts of the passes that follow are written.
+enum class SurfaceCounted { Tiles, Bricks, Faces, Work, Layers };
+
 struct SurfaceScanKey {
-    int step;  // of surface_scan.comp.glsl
+    SurfaceCounted counted;
     gl::ProgramDesc desc() const;
-    static std::vector<SurfaceScanKey> all() { return {{0}, {1}, {2}, {3}, {4}}; }
+    static std::vector<SurfaceScanKey> all() {
+        using enum SurfaceCounted;
+        return {{Tiles}, {Bricks}, {Faces}, {Work}, {Layers}};
+    }
 };
 
 // Passes that differ only in whether they update voxels or make all.

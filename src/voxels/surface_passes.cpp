@@ -13,7 +13,7 @@ void SurfaceVoxels::Impl::mark(const gl::Device& device, const scene::GpuScene& 
     device.get(SurfaceMarkKey{SurfaceMarkKey::Pass::Setup, false}.desc())
         .dispatchLinear(given, scene.triangleCount());
     gl::barrier(gl::Access::ShaderStorage);
-    device.get(SurfaceScanKey{0}.desc()).dispatch(given, 1);
+    device.get(SurfaceScanKey{SurfaceCounted::Tiles}.desc()).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect | gl::Access::TextureFetch);
     device.get(SurfaceMarkKey{SurfaceMarkKey::Pass::Tiles, false}.desc())
         .dispatchIndirect(given, counters, 4 * SURFACE_ARGS_TILES);
@@ -28,7 +28,7 @@ void SurfaceVoxels::Impl::compact(const gl::Device& device) {
     const std::uint32_t chunkCount = (bricks + perChunk(bricks) - 1) / perChunk(bricks);
     device.get(SurfaceCountKey{true}.desc()).dispatchLinear(given, chunkCount);
     gl::barrier(gl::Access::ShaderStorage);
-    device.get(SurfaceScanKey{1}.desc()).dispatch(given, 1);
+    device.get(SurfaceScanKey{SurfaceCounted::Bricks}.desc()).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
     device.get(descOf(SurfacePass::Bricks)).dispatchLinear(given, chunkCount);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
@@ -50,20 +50,20 @@ void SurfaceVoxels::Impl::resolve(const gl::Device& device, bool update) {
     gl::Inputs given = this->given();
     device.get(SurfaceCountKey{false}.desc()).dispatchIndirect(given, counters, 4 * SURFACE_ARGS_VOXELS);
     gl::barrier(gl::Access::ShaderStorage);
-    device.get(SurfaceScanKey{2}.desc()).dispatch(given, 1);
+    device.get(SurfaceScanKey{SurfaceCounted::Faces}.desc()).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
     device.get(SurfaceMarkKey{SurfaceMarkKey::Pass::Faces, update}.desc())
         .dispatchIndirect(given, counters, 4 * SURFACE_ARGS_VOXELS);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
     if (update) {
-        device.get(SurfaceScanKey{3}.desc()).dispatch(given, 1);
+        device.get(SurfaceScanKey{SurfaceCounted::Work}.desc()).dispatch(given, 1);
         device.get(descOf(SurfacePass::Copy)).dispatchIndirect(given, counters, 4 * SURFACE_ARGS_FACES);
         gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
     }
     device.get(SurfaceResolveKey{surfaces.key(), update}.desc())
         .dispatchIndirect(given, counters, 4 * (update ? SURFACE_ARGS_WORK : SURFACE_ARGS_FACES));
     gl::barrier(gl::Access::ShaderStorage);
-    device.get(SurfaceScanKey{4}.desc()).dispatch(given, 1);
+    device.get(SurfaceScanKey{SurfaceCounted::Layers}.desc()).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
     for (const bool onlyWide : {false, true})
         device.get(SurfaceLayersKey{surfaces.key(), onlyWide}.desc())

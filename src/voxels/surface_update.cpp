@@ -50,7 +50,9 @@ void SurfaceVoxels::Impl::remember(const scene::GpuScene& scene) {
 }
 
 bool SurfaceVoxels::Impl::canUpdate(const scene::GpuScene& scene, const VoxelGrid& wanted) const {
-    return sceneIdentity == scene.identity() && grid == wanted && surfaces == surfacesOf(scene);
+    // No revision: a build or update did not come to its end.
+    return keys.revision && sceneIdentity == scene.identity() && grid == wanted &&
+           surfaces == surfacesOf(scene);
 }
 
 Edits SurfaceVoxels::Impl::editsOf(const scene::GpuScene& scene) const {
@@ -117,7 +119,7 @@ void SurfaceVoxels::Impl::markEdits(const gl::Device& device, const scene::GpuSc
     device.get(SurfaceMarkKey{SurfaceMarkKey::Pass::Setup, true}.desc())
         .dispatchLinear(given, edits.triangles);
     gl::barrier(gl::Access::ShaderStorage);
-    device.get(SurfaceScanKey{0}.desc()).dispatch(given, 1);
+    device.get(SurfaceScanKey{SurfaceCounted::Tiles}.desc()).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect | gl::Access::TextureFetch);
     device.get(SurfaceMarkKey{SurfaceMarkKey::Pass::Tiles, true}.desc())
         .dispatchIndirect(given, counters, 4 * SURFACE_ARGS_TILES);
@@ -173,7 +175,6 @@ void SurfaceVoxels::update(const gl::Device& device, const scene::GpuScene& scen
     m.resolve(device, true);
     if (!m.finishUpdate(edits)) {
         // A list is too small: grow() in build() sees what a whole scene needs.
-        m.sceneIdentity = {};
         return build(device, scene, grid);
     }
     m.updateGridBlock();
