@@ -38,10 +38,12 @@ void main() {
          coarsest = spreadPlace(voxel >> 6);
     float ofPool = fine.x + fine.y / 4.0 + coarse.x / 16.0 + coarse.y / 64.0;
     vec3 shift = vec3(fine + coarse / 4.0 + coarsest / 16.0, ofPool);
-    float backs;
-    vec3 gathered = gatherIrradianceSequence(
-        rayOrigin(faceCenter(record), normal), normal, normal, int(cache.cosineRays), int(cache.lightRays),
-        int(cache.reflections), cache.reflectedLimit, seed, shift, cache.update, backs);
+    SurfacePoint point = SurfacePoint(rayOrigin(faceCenter(record), normal), normal, normal);
+    EstimatorSettings settings = EstimatorSettings(int(cache.cosineRays), int(cache.lightRays),
+                                                   int(cache.reflections), cache.reflectedLimit);
+    float backFaceShare;
+    vec3 gathered =
+        estimateIrradiance(point, settings, SequenceState(seed, cache.update, shift), backFaceShare);
     if (!used) return;
     FaceCache state = unpackState(texelFetch(stateTexels, int(face)));
     uint updates = state.counts & CACHE_UPDATES_MASK;
@@ -53,7 +55,8 @@ void main() {
 #if FIND_BACKS
     uint rays = (state.counts >> 16) & 0xffu;
     if (rays + cache.cosineRays < 256u)
-        state.counts += (cache.cosineRays << 16) + (uint(backs * float(cache.cosineRays) + 0.5) << 24);
+        state.counts +=
+            (cache.cosineRays << 16) + (uint(backFaceShare * float(cache.cosineRays) + 0.5) << 24);
 #endif
     states[face] = state;
 }
