@@ -6,9 +6,12 @@
 #include "lib/flat_constants.glsl"
 #include "lib/frame_block.glsl"
 #include "lib/lighting.glsl"
-#include "lib/voxel_grid.glsl"
 #include "shared/gbuffer.h"
 #include "shared/pixel_rays.h"
+// Pictures of direct light alone are drawn without voxels.
+#if SHOW_DIFFUSE || SHOW_SPECULAR
+#include "lib/voxel_grid.glsl"
+#endif
 layout(std140) uniform PixelRayBlock { PixelRayConstants pixelRays; };
 #if FLAT_LIGHTS
 layout(std140) uniform FixedLightRows { uvec4 lightRows[7 * FLAT_LIGHTS_TOTAL]; };
@@ -20,11 +23,16 @@ void main() {
     flatRows[0] = uvec4(floatBitsToUint(frame.eye), frame.width);
     flatRows[1] = uvec4(floatBitsToUint(lighting.sky), frame.height);
     flatRows[2] = floatBitsToUint(vec4(frame.viewForward, pixelRays.specularLimit));
-    flatRows[3] = floatBitsToUint(vec4(frame.viewRight, grid.inverseVoxelSize));
     flatRows[4] = floatBitsToUint(vec4(frame.viewUp, 0.0));
+#if SHOW_DIFFUSE || SHOW_SPECULAR
+    flatRows[3] = floatBitsToUint(vec4(frame.viewRight, grid.inverseVoxelSize));
     flatRows[5] = floatBitsToUint(vec4(grid.origin, grid.voxelSize));
     flatRows[6] = uvec4(gridSize(), 0);
     flatRows[7] = uvec4(gridBricks(), 0);
+#else
+    flatRows[3] = floatBitsToUint(vec4(frame.viewRight, 0.0));
+    flatRows[5] = flatRows[6] = flatRows[7] = uvec4(0);
+#endif
     flatRows[8] = lighting.lightEnds;
 #if FLAT_LIGHTS
     for (int i = 0; i < 7 * FLAT_LIGHTS_TOTAL; ++i) flatRows[FLAT_LIGHT_ROW + i] = lightRows[i];

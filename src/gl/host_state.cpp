@@ -10,10 +10,10 @@
 namespace conelight::gl {
 namespace {
 
-constexpr GLuint kTextureUnits = 32;     // shared/bindings.h stays below
-constexpr GLuint kImageUnits = 8;        // GL minimum
-constexpr GLuint kUniformBindings = 8;   // shared/bindings.h stays below
-constexpr GLuint kStorageBindings = 16;  // as above; GL's minimum is 8, so the driver's number is asked
+constexpr GLuint kTextureUnits = 32;  // programs read fewer, here and below
+constexpr GLuint kImageUnits = 8;     // GL minimum
+constexpr GLuint kUniformBindings = 8;
+constexpr GLuint kStorageBindings = 16;  // GL minimum is 8, so the driver is asked
 constexpr GLuint kViewports = 16;        // GL minimum of GL_MAX_VIEWPORTS
 constexpr GLuint kTargets = 8;           // GL minimum of GL_MAX_DRAW_BUFFERS
 

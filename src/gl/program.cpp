@@ -146,8 +146,12 @@ Program::Program(const ShaderProvider& provider, const ProgramDesc& desc) : labe
 
 // Gives every buffer block, texture and image that the linked program reads a slot of its own.
 void Program::assignSlots() {
+    // HostStateGuard saves so many of each kind.
+    constexpr unsigned kMost[4] = {8, 16, 32, 8};
     unsigned next[4] = {0, 0, 0, 0};
     const auto add = [&](const std::string& resource, ResourceKind kind) {
+        CONELIGHT_ASSERT(next[static_cast<std::size_t>(kind)] < kMost[static_cast<std::size_t>(kind)],
+                         "a program reads more resources of a kind than HostStateGuard saves");
         slots_.push_back(
             {resource, ResourceName::hashOf(resource), kind, next[static_cast<std::size_t>(kind)]++});
         return slots_.back().slot;

@@ -158,6 +158,7 @@ void SurfaceVoxels::update(const gl::Device& device, const scene::GpuScene& scen
         m.lastUpdate = {};
         return;
     }
+    m.allocateFor(m.capacity);
     m.uploadEdits(scene, edits);
     m.drop(device, edits);
     m.markEdits(device, scene, edits);

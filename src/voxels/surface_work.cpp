@@ -112,7 +112,8 @@ void SurfaceVoxels::Impl::allocateFor(const Capacity& wanted) {
         triangles = gl::Buffer(std::size_t{48} * wanted.triangles, "voxelizer triangles");
         triangleTexels = gl::Texture(triangles, GL_RGBA32F, "voxelizer triangles");
     }
-    if (wanted.tiles > capacity.tiles) tiles = gl::Buffer(std::size_t{8} * wanted.tiles, "voxelizer tiles");
+    if (!tiles || wanted.tiles > capacity.tiles)
+        tiles = gl::Buffer(std::size_t{8} * wanted.tiles, "voxelizer tiles");
     if (wanted.fragments > capacity.fragments) {
         pairs = gl::Buffer(std::size_t{8} * wanted.fragments, "voxelizer pairs");
         pairTexels = gl::Texture(pairs, GL_RG32UI, "voxelizer pairs");
@@ -121,7 +122,7 @@ void SurfaceVoxels::Impl::allocateFor(const Capacity& wanted) {
     }
     now.reserve(wanted.voxels, wanted.faces);
     reserveRecords(keys, wanted.voxels);
-    if (wanted.faces > capacity.faces) {
+    if (!owners || wanted.faces > capacity.faces) {
         owners = gl::Buffer(std::size_t{4} * wanted.faces, "voxelizer face owners");
         ownerTexels = gl::Texture(owners, GL_R32UI, "voxelizer face owners");
         layered = gl::Buffer(std::size_t{4} * wanted.faces, "voxelizer layered faces");
@@ -129,6 +130,15 @@ void SurfaceVoxels::Impl::allocateFor(const Capacity& wanted) {
     if (wanted.bricks > capacity.bricks)
         brickList = gl::Buffer(std::size_t{4} * wanted.bricks, "occupied bricks");
     capacity = wanted;
+}
+
+// Lists that nothing reads after a build. They are kept from the second build or update on: voxels then
+// change again and again.
+void SurfaceVoxels::Impl::releaseLists() {
+    tiles = {};
+    ownerTexels = {};
+    owners = {};
+    layered = {};
 }
 
 // After a build: false when everything fitted, else the lists that did not are enlarged. The counts of lists

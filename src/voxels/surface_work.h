@@ -85,6 +85,7 @@ struct SurfaceVoxels::Impl {
 
     void reserve(const scene::GpuScene& scene);
     void allocateFor(const Capacity& wanted);
+    void releaseLists();
     bool grow();
     void upload(const scene::GpuScene& scene, const Edits* edits = nullptr);
     void clearWorkSpace();

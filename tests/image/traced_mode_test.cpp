@@ -115,6 +115,19 @@ TEST_F(TracedModeTest, PartsAddUp) {
     }
 }
 
+// A part alone, also one that needs no voxels, is the same whether they were made for a picture before or
+// not.
+TEST_F(TracedModeTest, PartsAreTheSameInAFreshRenderer) {
+    const Scene scene = io::generateScene("glossy");
+    Renderer used;
+    used.setScene(scene);
+    draw(used, scene, tracedSettings(Quality::Draft));
+    for (const Component part : {Component::Direct, Component::Diffuse, Component::Specular}) {
+        const Settings settings = tracedSettings(Quality::Draft, part);
+        EXPECT_EQ(draw(scene, settings).pixels, draw(used, scene, settings).pixels) << static_cast<int>(part);
+    }
+}
+
 // Furnace of albedo 1/2 and emission 1: n bounces show 2 - 2^-n.
 TEST_F(TracedModeTest, BouncesAddUpOneByOne) {
     const Scene scene = closedBox(mattMaterial(glm::vec3(0.5f), glm::vec3(1)));
