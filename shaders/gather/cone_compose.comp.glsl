@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 // The picture of the cones mode from its parts: G-buffer, direct light, gathered light -> radiance (rgb), and
 // 1 where a surface is seen, 0 in the background (a).
-//   SHOW_DIRECT    emission and light that comes straight from lights (direct_light.comp.glsl); the sky
-//   behind SHOW_DIFFUSE   gathered irradiance, reflected by the matt part SHOW_SPECULAR  gathered radiance,
-//   reflected by the glossy part: times the lobe's directional albedo
+//   SHOW_DIRECT    emission and direct light (direct_light.comp.glsl); the sky behind
+//   SHOW_DIFFUSE   gathered irradiance, reflected by the diffuse part
+//   SHOW_SPECULAR  gathered radiance, reflected by the lobe: times its directional albedo
 #if !defined(SHOW_DIRECT) || !defined(SHOW_DIFFUSE) || !defined(SHOW_SPECULAR)
 #error SHOW_DIRECT, SHOW_DIFFUSE and SHOW_SPECULAR must be 0 or 1
 #endif

@@ -6,7 +6,7 @@
 // (Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based Rendering", section 4.9.3).
 // Aperture: half of the lobe's energy. Microfacet normals of GGX lie within atan(alpha) of the normal with
 // probability 1/2 (Walter et al. 2007, eq. 35 at xi = 1/2), reflected directions within twice that. The upper
-// limit is the single cone of a matt surface (cos = 1/3, src/gather/cone_set.cpp), to which alpha = 1 comes.
+// limit is the single cone of a diffuse surface (cos = 1/3, src/gather/cone_set.cpp), which alpha = 1 gives.
 // COUNT_LOOKUPS: adds the texture fetches to the counters.
 #ifndef COUNT_LOOKUPS
 #error COUNT_LOOKUPS must be 0 or 1

@@ -32,8 +32,8 @@ GlossySurface glossySurface(VoxelHit hit, FaceShading s) {
     return GlossySurface(normal, lobe.x, lobe.y, reflects, areaLight);
 }
 
-// Specular reflection of all rectangular lights: each analytically as a whole (lib/rect_light.glsl), times the
-// visibility of one sample point, which is drawn by its share of the lobe.
+// Specular reflection of all rectangular lights: each analytically as a whole (lib/rect_light.glsl), times
+// the visibility of one sample point, which is drawn by its share of the lobe.
 vec3 reflectedRects(Brdf b, vec3 position, vec3 shadingNormal, vec3 geometricNormal, vec3 toEye, float xi) {
     vec3 reflected = vec3(0.0);
     uint i = lighting.lightEnds.z;

@@ -4,9 +4,9 @@
 // light/cache_pool.comp.glsl fills. Part of lib/voxel_light.glsl.
 
 // One light sample in this many uses bounds that are moved the other way (lightSampleBounds). Without them
-// only cosine-sampled rays would find the rim of a light face that ends at a voxel's side: white dots far away
-// from it, because one such ray carries as much as a hundred light-sampled ones. A smaller number wastes more
-// rays.
+// only cosine-sampled rays would find the rim of a light face that ends at a voxel's side: white dots far
+// away from it, because one such ray carries as much as a hundred light-sampled ones. A smaller number wastes
+// more rays.
 const int kMovedBoundsPeriod = 16;
 
 struct LightSample {
@@ -16,8 +16,8 @@ struct LightSample {
 };
 
 // A random point on a random light face, in grid coordinates. xi.x chooses the face: the list is ordered like
-// the voxels but for close neighbours, so that evenly spread numbers are spread over the scene. xi.yz choose a
-// point, uniform in the face's bounds as seen along its direction k, projected along k onto its plane.
+// the voxels but for close neighbours, so that evenly spread numbers are spread over the scene. xi.yz choose
+// a point, uniform in the face's bounds as seen along its direction k, projected along k onto its plane.
 LightSample sampleLightFace(vec3 xi, vec3 origin) {
     // Choose a face by its flux
     uint header = texelFetch(brightFaces, 0).x;
@@ -53,7 +53,8 @@ float lightSampleShare(uvec4 hitTexel, vec3 n, vec3 origin, vec3 point) {
     return (inBounds ? 1.0 - moved : 0.0) + (inMoved ? moved : 0.0);
 }
 
-// Density per steradian with which sampleLightFace chooses the ray's direction, given what the ray hit (4.11).
+// Density per steradian with which sampleLightFace chooses the ray's direction, given what the ray hit
+// (4.11).
 float lightFacePdf(Ray ray, VoxelHit hit, float inverseFlux) {
     uvec4 r = texelFetch(voxelFaces, 2 * max(hit.face, 0));
     vec3 n = octDecode(unpackSnorm2x16(r.x));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Hooks that record the steps of one pixel's gathering for the inspector. Without RECORD_STEPS they are empty.
-// With it a dispatch of one group covers the pixel of the header: the first invocation is the pixel and
-// records; the others are its neighbours and do not. No picture is stored then.
+// Hooks that record the steps of one pixel's gathering for the inspector. Without RECORD_STEPS they are
+// empty. With it a dispatch of one group covers the pixel of the header: the first invocation is the pixel
+// and records; the others are its neighbours and do not. No picture is stored then.
 #include "shared/inspect.h"
 #ifdef RECORD_STEPS
 layout(std430) buffer RecordBuffer {

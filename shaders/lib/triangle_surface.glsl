@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Outgoing radiance of a triangle that a ray hit (TRIANGLE_HITS 1; otherwise the file is empty): Ray, VoxelHit
-// -> albedo, emission and lobe of the material there, direct light at the point, and the interpolated cache.
-// Part of lib/voxel_light.glsl.
+// Outgoing radiance of a triangle that a ray hit (TRIANGLE_HITS 1; otherwise the file is empty): Ray,
+// VoxelHit -> albedo, emission and lobe of the material there, direct light at the point, and the
+// interpolated cache. Part of lib/voxel_light.glsl.
 #if TRIANGLE_HITS
 // Rays in lobes wider than this (GGX alpha; roughness 0.3) hit plane pieces: triangles would not be resolved.
 const float kTriangleAlpha = 0.09;
@@ -87,8 +87,8 @@ TriangleMaterial triangleMaterial(TrianglePoint p, VoxelHit hit) {
 
 bool fewRects() { return lighting.lightEnds.w - lighting.lightEnds.z <= kTriangleMostRects; }
 
-// Irradiance at the point by the rectangular lights, added to `irradiance`. One sample point of each is tested
-// for visibility, because rays are many.
+// Irradiance at the point by the rectangular lights, added to `irradiance`. One sample point of each is
+// tested for visibility, because rays are many.
 void addTriangleRects(TrianglePoint p, vec3 position, VoxelHit hit, inout vec3 irradiance) {
     uint i = fewRects() ? lighting.lightEnds.z : lighting.lightEnds.w;
     uint random = randomHash(floatBitsToUint(hit.t)) ^ floatBitsToUint(hit.barycentric.x);

@@ -355,8 +355,8 @@ vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, Sequence
         }
 #endif
 
-        // Compute the MIS weight: both techniques' densities for this direction. A light sample counts only if
-        // it reached its own face: others are occluded, or their density is that of another face.
+        // Compute the MIS weight: both techniques' densities for this direction. A light sample counts only
+        // if it reached its own face: others are occluded, or their density is that of another face.
         bool reached = !lightSampled || (hit.face >= 0 && hit.face == drawn.lightFace);
         float lightPdf = lightFacePdf(drawn.ray, hit, inverseFlux);
         float pdfSum = float(settings.cosineSamples) * drawn.cosine / kGatherPi +

@@ -139,10 +139,10 @@ void rayBounds(uint bounds, vec3 n, out vec3 lower, out vec3 upper) {
 }
 
 // Bounds within which light-sampled rays from `origin` (grid coordinates) choose their points: those of
-// rayBounds. Where a plane along the grid goes on in the voxels on both sides, the bounds of neighbours overlap,
-// and rays hit the nearer one. There the bounds are moved away from the origin instead of grown, so that each
-// point is sampled once. `side`: 1; with -1 they are moved towards the origin, for planes that end at the
-// voxel's side and only seem to go on (kMovedBoundsPeriod).
+// rayBounds. Where a plane along the grid goes on in the voxels on both sides, the bounds of neighbours
+// overlap, and rays hit the nearer one. There the bounds are moved away from the origin instead of grown, so
+// that each point is sampled once. `side`: 1; with -1 they are moved towards the origin, for planes that end
+// at the voxel's side and only seem to go on (kMovedBoundsPeriod).
 void lightSampleBounds(uvec4 hitTexel, vec3 n, vec3 origin, float side, out vec3 lower, out vec3 upper) {
     rayBounds(hitTexel.z, n, lower, upper);
     vec3 a = abs(n);
@@ -156,9 +156,9 @@ void lightSampleBounds(uvec4 hitTexel, vec3 n, vec3 origin, float side, out vec3
     upper = mix(upper, 1.0 + moved, goesOn);
 }
 
-// Share of the light samples of a voxel that a face gets (docs/theory/4_gather.md, eq. 4.11). Up to three faces
-// hold the same surface, and rays hit the one of largest coverage: 1 for the face of the normal's largest
-// component, little for the others.
+// Share of the light samples of a voxel that a face gets (docs/theory/4_gather.md, eq. 4.11). Up to three
+// faces hold the same surface, and rays hit the one of largest coverage: 1 for the face of the normal's
+// largest component, little for the others.
 float dominantFaceShare(vec3 n, uint axis) {
     vec3 a = abs(n);
     float part = (axis == 0u ? a.x : (axis == 1u ? a.y : a.z)) / max(a.x, max(a.y, a.z));

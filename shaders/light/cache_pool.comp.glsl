@@ -1,6 +1,6 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// Draws the pool of bright faces: each entry is the face at a random place in one of equal parts of the
+// Draws the pool of light samples: each entry is the face at a random place in one of equal parts of the
 // total flux (stratified), in their order but for close neighbours. Finds its chunk by bisection, then walks
 // through the chunk.
 layout(local_size_x = 64) in;

@@ -188,7 +188,7 @@ PhongMaterial phongOf(const Material& material) {
 
 void setPbrFromPhong(Material& material, const PhongMaterial& phong) {
     // Inverse of the rule above; the specular weight grows with shininess so that walls of
-    // shininess 1 and strength 0.01 stay matt and a mirror sphere of 256 and 1.3 mirrors. Chosen by eye.
+    // shininess 1 and strength 0.01 stay diffuse and a mirror sphere of 256 and 1.3 mirrors. Chosen by eye.
     const float weight =
         std::clamp(phong.specularStrength, 0.0f, 1.0f) * phong.shininess / (phong.shininess + 62.0f);
     material.roughness = std::pow(2.0f / (std::max(phong.shininess, 0.0f) + 2.0f), 0.25f);
