@@ -28,8 +28,8 @@ void main() {
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
     Surface s;
     bool seen = fetchSurface(pixel, s);
-    float nov = dot(s.normal, s.toEye);
-    Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, nov);
+    float NoV = dot(s.normal, s.toEye);
+    Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, NoV);
     vec3 direct = vec3(0.0);
 #if SHOW_DIRECT
     direct = texelFetch(directDiffuse, pixel, 0).rgb + texelFetch(directSpecular, pixel, 0).rgb;
@@ -39,7 +39,7 @@ void main() {
     gathered += b.diffuse * texelFetch(diffuseIrradiance, pixel, 0).rgb;
 #endif
 #if SHOW_SPECULAR
-    vec2 dfg = directionalAlbedo(b.nov, sqrt(b.alpha));
+    vec2 dfg = directionalAlbedo(b.NoV, sqrt(b.alpha));
     gathered += specularAlbedo(b, dfg) * texelFetch(specularRadiance, pixel, 0).rgb;
 #endif
     bool gathers = seen && !s.unlit;

@@ -53,7 +53,7 @@ void main() {
         RECORD_PATH(PATH_SPECULAR_CONE, m.origin, direction, tanHalf, vec3(1.0),
                     marchedRadiance(m, lighting.sky), 1.0 - open, m.t, open == 0.0 ? END_FULL : END_OPEN);
         RECORD_PART(PART_SPECULAR, marchedRadiance(m, lighting.sky),
-                    specularAlbedo(b, directionalAlbedo(b.nov, sqrt(b.alpha))));
+                    specularAlbedo(b, directionalAlbedo(b.NoV, sqrt(b.alpha))));
     }
 #else
     imageStore(result, pixel, vec4(marchedRadiance(m, lighting.sky), open));

@@ -47,7 +47,7 @@ void main() {
 #else
     SurfacePoint point = SurfacePoint(origin, diffuse ? s.geometricNormal : away, normal);
     EstimatorSettings settings = EstimatorSettings(int(pixelRays.rays), int(pixelRays.rays),
-                                                   int(pixelRays.reflections), pixelRays.reflectedLimit);
+                                                   int(pixelRays.reflections), pixelRays.fireflyClamp);
     float backFaceShare;
     vec3 value =
         estimateIrradiance(point, settings, SequenceState(seed, pixelRays.pass, vec3(0.0)), backFaceShare);

@@ -53,7 +53,7 @@ void main() {
 #endif
         Ray ray = Ray(origin, direction, counts ? 1e9 : -1.0, s.geometricNormal);
         PathSettings path =
-            PathSettings(-1.0, counts ? int(pixelRays.reflections) : 0, b.alpha, pixelRays.reflectedLimit);
+            PathSettings(-1.0, counts ? int(pixelRays.reflections) : 0, b.alpha, pixelRays.fireflyClamp);
         vec3 radiance = traceRadiance(ray, path, random, hit);
         sum += weight * radiance;
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);

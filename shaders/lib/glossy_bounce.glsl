@@ -38,7 +38,7 @@ vec3 reflectedRects(Brdf b, vec3 position, vec3 shadingNormal, vec3 geometricNor
     vec3 reflected = vec3(0.0);
     uint i = lighting.lightEnds.z;
     if (i < lighting.lightEnds.w) {
-        RectLobe lobe = rectLobe(shadingNormal, toEye, b.alpha, b.nov);
+        RectLobe lobe = rectLobe(shadingNormal, toEye, b.alpha, b.NoV);
         do {
             Light light = lights[i];
             uint k = rectPointInLobe(light, position, lobe, xi);
@@ -104,7 +104,7 @@ GlossyBounce sampleGlossyBounce(Ray ray, VoxelHit hit, FaceShading s, GlossySurf
     next.radiance += light.specular;
 #else
     next.radiance += (1.0 - diffuseShare) *
-                     max(s.directRadiance - unpackRgb9e5(texelFetch(steadyLight, face).x), vec3(0.0));
+                     max(s.directRadiance - unpackRgb9e5(texelFetch(cachedDirect, face).x), vec3(0.0));
 #endif
     return next;
 }

@@ -20,9 +20,9 @@ struct LightSample {
 // a point, uniform in the face's bounds as seen along its direction k, projected along k onto its plane.
 LightSample sampleLightFace(vec3 xi, vec3 origin) {
     // Choose a face by its flux
-    uint header = texelFetch(brightFaces, 0).x;
-    int entry = int(xi.x * float(BRIGHT_FACE_COUNT));
-    int face = int(texelFetch(brightFaces, 1 + entry).x);
+    uint header = texelFetch(lightSamples, 0).x;
+    int entry = int(xi.x * float(LIGHT_SAMPLE_COUNT));
+    int face = int(texelFetch(lightSamples, 1 + entry).x);
     uvec4 r = texelFetch(voxelFaces, 2 * face);
     int axis = int(r.w >> 30);
     vec3 normal = octDecode(unpackSnorm2x16(r.x));

@@ -104,7 +104,7 @@ void addTriangleRects(TrianglePoint p, vec3 position, VoxelHit hit, inout vec3 i
 
 // Reflected direct light of the face, by those lights that are not evaluated at the point.
 vec3 faceReflected(int face, vec3 directRadiance) {
-    vec3 steady = unpackRgb9e5(texelFetch(steadyLight, face).x);
+    vec3 steady = unpackRgb9e5(texelFetch(cachedDirect, face).x);
     vec3 reflected = vec3(0.0);
 #if !EXACT_DIRECT
     reflected += max(directRadiance - steady, vec3(0.0));

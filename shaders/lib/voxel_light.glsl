@@ -2,11 +2,11 @@
 // Radiance along rays through the voxels, and the irradiance estimator that the cache and the pixels share.
 //   Ray -> traceRadiance: radiance along the ray, with glossy bounces on metals
 //   SurfacePoint -> estimateIrradiance: irradiance / pi by multiple importance sampling
-// Method: docs/theory/4_gather.md, "Rays to bright faces" and "Metal".
+// Method: docs/theory/4_gather.md, "Light-sampled rays" and "Metal".
 //
 // EXACT_DIRECT 1: point, spot and directional lights are evaluated at the hit by shadow map, not taken from
 // the face. Rectangles and emission always come from the face. light::hitLightDefines chooses for a scene.
-// FIND_BACKS 1: cosine-sampled rays are traced backwards as well, to find back faces.
+// FIND_BACK_FACES 1: cosine-sampled rays are traced backwards as well, to find back faces.
 // LOBES 1: rays are reflected by metals (traceRadiance). 0: metals reflect like diffuse surfaces.
 // TRIANGLE_HITS 1: rays in smooth lobes hit triangles (lib/triangle_hit.glsl); needs SMOOTH_HITS 1.
 // SMOOTH_HITS 1: irradiance and normal of a hit are interpolated over the voxels around it.
@@ -16,8 +16,8 @@
 #ifndef EXACT_DIRECT
 #define EXACT_DIRECT 0
 #endif
-#ifndef FIND_BACKS
-#define FIND_BACKS 0
+#ifndef FIND_BACK_FACES
+#define FIND_BACK_FACES 0
 #endif
 #ifndef LOBES
 #define LOBES 0
@@ -48,8 +48,8 @@ uniform usamplerBuffer voxelFaceSources;
 #define CACHE_NORMALS 1
 #include "lib/cache_lookup.glsl"
 #endif
-uniform usamplerBuffer steadyLight;
-uniform usamplerBuffer brightFaces;
+uniform usamplerBuffer cachedDirect;
+uniform usamplerBuffer lightSamples;
 
 const float kGatherPi = 3.14159265358979;
 
@@ -66,7 +66,7 @@ FaceShading faceShading(int face) {
     uvec4 r = texelFetch(voxelFaces, 2 * face + 1);
     vec2 high = unpackHalf2x16(r.w);
     return FaceShading(unpackAlbedo(r.x), unpackRgb9e5(r.y), vec3(unpackHalf2x16(r.z), high.x),
-                       (r.w & (FACE_LIT | FACE_DEAD)) == FACE_LIT);
+                       (r.w & (FACE_LIT | FACE_INTERIOR)) == FACE_LIT);
 }
 
 // Outgoing radiance of a diffuse face: emission, reflected direct light, reflected cached light.
@@ -108,7 +108,7 @@ vec3 hitRadiance(Ray ray, VoxelHit hit, inout FaceShading s, out vec3 shadingNor
         dot(faceFrontOffset(texelFetch(voxelFaces, 2 * face), normal), normal) * grid.voxelSize;
     vec3 direct =
         directIrradiance(worldFromGrid(point), shadingNormal, normal, frontHeight) * (1.0 / kGatherPi);
-    vec3 radiance = unpackRgb9e5(texelFetch(steadyLight, face).x) + s.albedo * (direct + s.irradiance);
+    vec3 radiance = unpackRgb9e5(texelFetch(cachedDirect, face).x) + s.albedo * (direct + s.irradiance);
 #else
     vec3 radiance = s.directRadiance + s.albedo * s.irradiance;
 #endif
@@ -245,7 +245,7 @@ vec3 cosineDirection(vec3 n, vec2 xi) {
     return r * cos(phi) * u + r * sin(phi) * v + sqrt(max(1.0 - xi.x, 0.0)) * n;
 }
 
-#if FIND_BACKS
+#if FIND_BACK_FACES
 // Whether a ray that found `hit` passed a back face on its way, beyond kRayBackNear. Traced backwards, a ray
 // meets those faces from the front. One more ray is cheaper than testing both sides at once, which costs two
 // to three: then octant words cannot skip empty space.
@@ -326,7 +326,7 @@ SampledRay sampleRay(SurfacePoint point, EstimatorSettings settings, SequenceSta
 // back face.
 vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, SequenceState sequence,
                         out float backFaceShare) {
-    float inverseFlux = uintBitsToFloat(texelFetch(brightFaces, 0).x);
+    float inverseFlux = uintBitsToFloat(texelFetch(lightSamples, 0).x);
     uint random = randomHash(sequence.seed) ^ randomHash(sequence.index * 0x9e3779b9u + 0x85ebca6bu);
     vec3 sum = vec3(0.0);
     float backFaces = 0.0;
@@ -343,8 +343,8 @@ vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, Sequence
         PathSettings path =
             PathSettings(drawn.targetDistance, settings.maxBounces, kCosineAlpha, settings.fireflyClamp);
         vec3 radiance = traceRadiance(drawn.ray, path, random, hit);
-        COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);  // the record, and its steady light
-#if FIND_BACKS
+        COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);  // the record, and its cached direct light
+#if FIND_BACK_FACES
         // Discard rays that passed a back face
         VoxelHit searched = hit;
         if (lightSampled) searched.t = -1.0;

@@ -74,7 +74,7 @@ uint packLobe(float metallic, float roughness) {
 // From FaceRecord::irradiance1.
 uint faceUpdates(uint irradiance1) {
     uint age = (irradiance1 >> FACE_AGE_SHIFT) & FACE_AGE_MASK;
-    return (irradiance1 & FACE_DEAD) != 0u ? FACE_UPDATES_DEAD : (age == 0u ? 0u : 1u << (age - 1u));
+    return (irradiance1 & FACE_INTERIOR) != 0u ? FACE_UPDATES_INTERIOR : (age == 0u ? 0u : 1u << (age - 1u));
 }
 
 vec2 unpackLobe(uint bits) { return vec2((bits >> 5) & 15u, bits & 31u) / vec2(15.0, 31.0); }
@@ -88,10 +88,6 @@ int sideOfAxis(int axis, vec3 n) {
 }
 // The direction that a face with the normal n looks to.
 int faceDirection(uvec4 hitTexel, vec3 n) { return sideOfAxis(int(hitTexel.w >> 30), n); }
-// The point of the plane nearest to the voxel's centre, in grid coordinates.
-vec3 facePoint(FaceRecord face) {
-    return vec3(unpackVoxel(face.voxel)) + 0.5 + faceNormal(face) * unpackOffset(face.offsetWeight);
-}
 // Offset from the plane of a face to the highest surface in front of it, along the face's axis: how far the
 // bounds reach beyond a plane piece. Direct light on the face is evaluated there, not inside the surface in
 // front. Zero for plane pieces, unless the rounding of the bounds exceeds its mean.

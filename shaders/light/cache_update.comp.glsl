@@ -4,7 +4,7 @@
 // before, and blends it into its mean (docs/theory/4_gather.md, "The cache"). Rays read the packed irradiance
 // of the records, which cache_commit writes afterwards: who comes first does not matter.
 //
-// FIND_BACKS 1: also counts rays that meet a surface from behind, to find faces inside closed objects.
+// FIND_BACK_FACES 1: also counts rays that meet a surface from behind, to find faces inside closed objects.
 layout(local_size_x = 64) in;
 #include "lib/interleave.glsl"
 #include "lib/linear_index.glsl"
@@ -40,7 +40,7 @@ void main() {
     vec3 shift = vec3(fine + coarse / 4.0 + coarsest / 16.0, ofPool);
     SurfacePoint point = SurfacePoint(rayOrigin(faceCenter(record), normal), normal, normal);
     EstimatorSettings settings = EstimatorSettings(int(cache.cosineRays), int(cache.lightRays),
-                                                   int(cache.reflections), cache.reflectedLimit);
+                                                   int(cache.reflections), cache.fireflyClamp);
     float backFaceShare;
     vec3 gathered =
         estimateIrradiance(point, settings, SequenceState(seed, cache.update, shift), backFaceShare);
@@ -52,7 +52,7 @@ void main() {
     uint window = clamp(updates, IRRADIANCE_SETTLE, IRRADIANCE_SETTLE + cache.longestWindow - 1u);
     state.irradiance += (gathered - state.irradiance) * (1.5 / (float(window - IRRADIANCE_SETTLE) + 1.5));
     state.counts = (state.counts & 0xffff0000u) | min(updates + 1u, 0x7fffu);
-#if FIND_BACKS
+#if FIND_BACK_FACES
     uint rays = (state.counts >> 16) & 0xffu;
     if (rays + cache.cosineRays < 256u)
         state.counts +=

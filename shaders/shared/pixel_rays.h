@@ -34,8 +34,8 @@ struct PixelRayConstants {
     float inverseVoxelSize;
     uint reflections;  // on metals, of one ray
     // ---- 144 B
-    float reflectedLimit;  // firefly clamp: of radiance by glossy bounces, over that of the diffuse metal
-    uint lobesX;           // lowest pixel that may need rays into its lobe
+    float fireflyClamp;  // firefly clamp: of radiance by glossy bounces, over that of the diffuse metal
+    uint lobesX;         // lowest pixel that may need rays into its lobe
     uint lobesY;
     uint pad0;
 };  // 160 B
