@@ -306,55 +306,36 @@ std::size_t GltfFile::accessorCount(const GltfValue& accessorIndex) const {
     return std::size_t(layoutOf(accessorIndex).count);
 }
 
-template <typename Number>
-std::vector<Number> GltfFile::read(const GltfValue& accessorIndex, std::size_t components, bool allowFewer,
-                                   Number padding) {
-    const Layout layout = layoutOf(accessorIndex);
-    if (layout.components != components && !(allowFewer && layout.components < components))
-        layout.value["type"].fail(
-            fmt::format("{} components expected, found {}", components, layout.components));
-    const std::size_t elementSize = layout.elementSize();
-
-    // Where the elements lie; all of them must lie inside the view.
+struct GltfFile::Elements {
     std::span<const std::uint8_t> data;
-    std::uint64_t stride = elementSize, offset = 0;
-    const bool hasView = layout.value["bufferView"].exists();
-    if (hasView) {
-        data = bufferView(layout.value["bufferView"]);
-        const GltfValue view = array("bufferViews")[layout.value["bufferView"].whole(0)];
-        stride = view["byteStride"].whole(elementSize);
-        offset = layout.value["byteOffset"].whole(0);
-        if (stride < elementSize)
-            view["byteStride"].fail(
-                fmt::format("{} is less than an element's {} bytes", stride, elementSize));
-        if (layout.count > 0 && (offset > data.size() || elementSize > data.size() - offset ||
-                                 (layout.count - 1) > (data.size() - offset - elementSize) / stride))
-            layout.value.fail(fmt::format("{} elements reach beyond their buffer view of {} bytes",
-                                          layout.count, data.size()));
-    } else if (layout.count > kMaxEmptyCount) {
-        layout.value["count"].fail("is too large for an accessor without data");
+    std::uint64_t stride, offset;
+};
+
+std::optional<GltfFile::Elements> GltfFile::elementsOf(const Layout& layout) {
+    const std::size_t elementSize = layout.elementSize();
+    if (!layout.value["bufferView"].exists()) {
+        if (layout.count > kMaxEmptyCount)
+            layout.value["count"].fail("is too large for an accessor without data");
+        return {};
     }
-    numbersRead_ += layout.count * components;
-    if (numbersRead_ > kMaxNumbers) layout.value.fail("the file has more than 500 million numbers");
+    const std::span<const std::uint8_t> data = bufferView(layout.value["bufferView"]);
+    const GltfValue view = array("bufferViews")[layout.value["bufferView"].whole(0)];
+    const std::uint64_t stride = view["byteStride"].whole(elementSize);
+    const std::uint64_t offset = layout.value["byteOffset"].whole(0);
+    if (stride < elementSize)
+        view["byteStride"].fail(fmt::format("{} is less than an element's {} bytes", stride, elementSize));
+    if (layout.count > 0 && (offset > data.size() || elementSize > data.size() - offset ||
+                             (layout.count - 1) > (data.size() - offset - elementSize) / stride))
+        layout.value.fail(
+            fmt::format("{} elements reach beyond their buffer view of {} bytes", layout.count, data.size()));
+    return Elements{data, stride, offset};
+}
 
-    std::vector<Number> out(std::size_t(layout.count) * components, padding);
-    const auto put = [&](std::uint64_t element, const std::uint8_t* from) {
-        for (std::size_t c = 0; c < layout.components; ++c) {
-            const double number =
-                component(from + c * componentSize(layout.type), layout.type, layout.normalized);
-            if (!std::isfinite(number))
-                layout.value.fail(fmt::format("element {} is not a finite number", element));
-            out[std::size_t(element) * components + c] = Number(number);
-        }
-    };
-    if (hasView)
-        for (std::uint64_t i = 0; i < layout.count; ++i) put(i, data.data() + offset + i * stride);
-    else
-        std::fill(out.begin(), out.end(), Number(0));
-
-    // Sparse: some elements replaced.
+template <typename Put>
+void GltfFile::putSparse(const Layout& layout, const Put& put) {
     const GltfValue sparse = layout.value["sparse"];
-    if (!sparse.exists()) return out;
+    if (!sparse.exists()) return;
+    const std::size_t elementSize = layout.elementSize();
     const std::uint64_t count = sparse["count"].whole(0);
     const GltfValue indices = sparse["indices"], values = sparse["values"];
     const std::uint64_t indexType = indices["componentType"].whole(0);
@@ -375,6 +356,35 @@ std::vector<Number> GltfFile::read(const GltfValue& accessorIndex, std::size_t c
             sparse.fail(fmt::format("index {} is out of range; there are {}", element, layout.count));
         put(element, valueData.data() + valueOffset + i * elementSize);
     }
+}
+
+template <typename Number>
+std::vector<Number> GltfFile::read(const GltfValue& accessorIndex, std::size_t components, bool allowFewer,
+                                   Number padding) {
+    const Layout layout = layoutOf(accessorIndex);
+    if (layout.components != components && !(allowFewer && layout.components < components))
+        layout.value["type"].fail(
+            fmt::format("{} components expected, found {}", components, layout.components));
+    const std::optional<Elements> elements = elementsOf(layout);
+    numbersRead_ += layout.count * components;
+    if (numbersRead_ > kMaxNumbers) layout.value.fail("the file has more than 500 million numbers");
+
+    std::vector<Number> out(std::size_t(layout.count) * components, padding);
+    const auto put = [&](std::uint64_t element, const std::uint8_t* from) {
+        for (std::size_t c = 0; c < layout.components; ++c) {
+            const double number =
+                component(from + c * componentSize(layout.type), layout.type, layout.normalized);
+            if (!std::isfinite(number))
+                layout.value.fail(fmt::format("element {} is not a finite number", element));
+            out[std::size_t(element) * components + c] = Number(number);
+        }
+    };
+    if (elements)
+        for (std::uint64_t i = 0; i < layout.count; ++i)
+            put(i, elements->data.data() + elements->offset + i * elements->stride);
+    else
+        std::fill(out.begin(), out.end(), Number(0));
+    putSparse(layout, put);
     return out;
 }
 

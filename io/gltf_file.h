@@ -82,7 +82,13 @@ class GltfFile {
 
   private:
     struct Layout;
+    struct Elements;
     Layout layoutOf(const GltfValue& accessorIndex) const;
+    // Where the elements lie, all of them inside their buffer view; nothing for an accessor without one.
+    std::optional<Elements> elementsOf(const Layout& layout);
+    // Calls put(element, bytes) for each element that a sparse accessor replaces.
+    template <typename Put>
+    void putSparse(const Layout& layout, const Put& put);
     void readJson(std::string_view text);
     const Bytes& buffer(std::size_t index);
     template <typename Number>

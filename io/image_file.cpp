@@ -91,8 +91,7 @@ void writeHdr(const fs::path& path, const FloatImage& image) {
 
 ByteImage decodeRgba(std::span<const std::uint8_t> encoded, const std::string& what) {
     ByteImage image;
-    const std::string why = stb::decodeBytes(encoded.data(), encoded.size(), 4, image.width, image.height,
-                                             image.channels, image.pixels);
+    const std::string why = stb::decodeBytes(encoded, 4, image);
     if (!why.empty()) failRead(what, why);
     return image;
 }
@@ -100,8 +99,7 @@ ByteImage decodeRgba(std::span<const std::uint8_t> encoded, const std::string& w
 ByteImage readByteImage(const fs::path& path) {
     const Bytes bytes = readFile(path);
     ByteImage image;
-    const std::string why = stb::decodeBytes(bytes.data(), bytes.size(), 0, image.width, image.height,
-                                             image.channels, image.pixels);
+    const std::string why = stb::decodeBytes(bytes, 0, image);
     if (!why.empty()) failRead(oneLine(path.string()), why);
     return image;
 }

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <iterator>
 #include <set>
+#include <type_traits>
 
+#include "conelight/scene_fields.h"
 #include "io/scene_format.h"
 
 namespace conelight::io {
@@ -87,15 +89,13 @@ std::string describe(const Material& m) {
     if (m.ior != 1.5f) out += fmt::format(", ior {:.3g}", m.ior);
     if (m.emission != glm::vec3(0)) out += fmt::format(", emission {} W/(sr m^2)", text(m.emission));
     std::string maps;
-    const auto map = [&](const TextureRef& ref, const char* name) {
-        if (ref.used()) maps += fmt::format("{}{} #{}", maps.empty() ? "" : ", ", name, ref.texture);
-    };
-    map(m.baseColorTexture, "base");
-    map(m.metallicRoughnessTexture, "metallic-roughness");
-    map(m.normalTexture, "normal");
-    map(m.emissiveTexture, "emissive");
-    map(m.specularTexture, "specular");
-    map(m.specularColorTexture, "specular colour");
+    visitFields(
+        [&maps](const char* name, const auto& value) {
+            if constexpr (std::is_same_v<decltype(value), const TextureRef&>)
+                if (value.used())
+                    maps += fmt::format("{}{} #{}", maps.empty() ? "" : ", ", name, value.texture);
+        },
+        m);
     if (!maps.empty()) out += fmt::format(", textures {}", maps);
     if (m.alphaMode == AlphaMode::Mask) out += fmt::format(", mask below {:.3g}", m.alphaCutoff);
     if (m.alphaMode == AlphaMode::Blend) out += ", blended";

@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "conelight/error.h"
+#include "conelight/scene_fields.h"
 
 namespace conelight::io {
 
@@ -117,80 +118,31 @@ void visitTexture(Stream& s, T& texture) {
     s.array(texture.rgba);
 }
 
-template <typename Stream, typename M>
-void visitMaterial(Stream& s, M& material) {
-    s.text(material.name);
-    s.plain(material.baseColor);
-    s.plain(material.metallic);
-    s.plain(material.roughness);
-    s.plain(material.ior);
-    s.plain(material.specular);
-    s.plain(material.specularColor);
-    s.plain(material.emission);
-    s.plain(material.normalScale);
-    s.plain(material.alphaCutoff);
-    s.plain(material.alphaMode);
-    s.plain(material.doubleSided);
-    s.plain(material.unlit);
-    s.plain(material.baseColorTexture);
-    s.plain(material.metallicRoughnessTexture);
-    s.plain(material.normalTexture);
-    s.plain(material.emissiveTexture);
-    s.plain(material.specularTexture);
-    s.plain(material.specularColorTexture);
-    s.optional(material.phong);
-}
-
-template <typename Stream, typename I>
-void visitInstance(Stream& s, I& instance) {
-    s.text(instance.name);
-    s.plain(instance.mesh);
-    s.plain(instance.material);
-    s.plain(instance.worldFromObject);
-    s.plain(instance.visible);
-    s.plain(instance.voxelized);
-    s.plain(instance.castsShadow);
-    s.plain(instance.dynamic);
-}
-
-template <typename Stream, typename L>
-void visitLight(Stream& s, L& light) {
-    s.text(light.name);
-    s.plain(light.type);
-    s.plain(light.intensity);
-    s.plain(light.position);
-    s.plain(light.direction);
-    s.plain(light.halfU);
-    s.plain(light.halfV);
-    s.plain(light.innerAngle);
-    s.plain(light.outerAngle);
-    s.plain(light.range);
-    s.plain(light.enabled);
-    s.plain(light.castsShadow);
-    s.plain(light.customFalloff);
-    s.plain(light.falloff);
-}
-
-template <typename Stream, typename C>
-void visitCamera(Stream& s, C& camera) {
-    s.text(camera.name);
-    s.plain(camera.eye);
-    s.plain(camera.target);
-    s.plain(camera.up);
-    s.plain(camera.fovY);
-    s.plain(camera.zNear);
-    s.plain(camera.zFar);
+// Materials, instances, lights, cameras: their fields stand in scene_fields.h.
+template <typename Stream, typename T>
+void visitAll(Stream& s, T& object) {
+    visitFields(
+        [&s](const char*, auto& value) {
+            using Value = std::remove_cvref_t<decltype(value)>;
+            if constexpr (std::is_same_v<Value, std::string>)
+                s.text(value);
+            else if constexpr (std::is_same_v<Value, std::optional<PhongMaterial>>)
+                s.optional(value);
+            else
+                s.plain(value);
+        },
+        object);
 }
 
 template <typename Stream, typename S>
 void visitScene(Stream& s, S& scene) {
     s.text(scene.name);
     for (std::size_t i = 0, n = s.count(scene.meshes); i < n; ++i) visitMesh(s, scene.meshes[i]);
-    for (std::size_t i = 0, n = s.count(scene.materials); i < n; ++i) visitMaterial(s, scene.materials[i]);
+    for (std::size_t i = 0, n = s.count(scene.materials); i < n; ++i) visitAll(s, scene.materials[i]);
     for (std::size_t i = 0, n = s.count(scene.textures); i < n; ++i) visitTexture(s, scene.textures[i]);
-    for (std::size_t i = 0, n = s.count(scene.instances); i < n; ++i) visitInstance(s, scene.instances[i]);
-    for (std::size_t i = 0, n = s.count(scene.lights); i < n; ++i) visitLight(s, scene.lights[i]);
-    for (std::size_t i = 0, n = s.count(scene.cameras); i < n; ++i) visitCamera(s, scene.cameras[i]);
+    for (std::size_t i = 0, n = s.count(scene.instances); i < n; ++i) visitAll(s, scene.instances[i]);
+    for (std::size_t i = 0, n = s.count(scene.lights); i < n; ++i) visitAll(s, scene.lights[i]);
+    for (std::size_t i = 0, n = s.count(scene.cameras); i < n; ++i) visitAll(s, scene.cameras[i]);
     s.plain(scene.sky);
     s.text(scene.format);
     for (std::size_t i = 0, n = s.count(scene.settings); i < n; ++i) {

@@ -114,21 +114,23 @@ std::vector<std::uint8_t> encodeHdr(int width, int height, const float* rgb) {
     return out;
 }
 
-std::string decodeBytes(const std::uint8_t* data, std::size_t size, int wantedChannels, int& width,
-                        int& height, int& channels, std::vector<std::uint8_t>& pixels) {
+std::string decodeBytes(std::span<const std::uint8_t> file, int wantedChannels, ByteImage& image) {
+    const std::uint8_t* const data = file.data();
+    const std::size_t size = file.size();
     if (size > INT_MAX) return "is larger than 2 GiB";
     if (size > 2 && data[0] == 0xFF && data[1] == 0xD8 && !jpgTablesFit(data, size))
         return "is damaged (a Huffman table lists more than 256 codes)";
     int inFile = 0;
-    if (stbi_info_from_memory(data, int(size), &width, &height, &inFile) == 0)
+    if (stbi_info_from_memory(data, int(size), &image.width, &image.height, &inFile) == 0)
         return "is not a PNG, JPG, BMP or TGA picture";
-    if (!plausible(width, height, size)) return "has an unusable size";
+    if (!plausible(image.width, image.height, size)) return "has an unusable size";
     int asked = wantedChannels;
     if (asked == 0) asked = inFile == 2 ? 4 : inFile;
-    stbi_uc* decoded = stbi_load_from_memory(data, int(size), &width, &height, &inFile, asked);
+    stbi_uc* decoded = stbi_load_from_memory(data, int(size), &image.width, &image.height, &inFile, asked);
     if (decoded == nullptr) return std::string("cannot be decoded (") + stbi_failure_reason() + ")";
-    channels = asked;
-    pixels.assign(decoded, decoded + std::size_t(width) * std::size_t(height) * std::size_t(asked));
+    image.channels = asked;
+    image.pixels.assign(decoded,
+                        decoded + std::size_t(image.width) * std::size_t(image.height) * std::size_t(asked));
     stbi_image_free(decoded);
     return {};
 }

@@ -40,6 +40,70 @@ bool holdsSum(const Material& material) {
     return material.emission.r > 0 || material.emission.g > 0 || material.emission.b > 0;
 }
 
+const Material& materialOf(const Scene& scene, const Instance& instance) {
+    return instance.material < 0 ? kDefaultMaterial
+                                 : scene.materials[static_cast<std::size_t>(instance.material)];
+}
+
+// Shows what the vertices hold, times the base colour where they hold reflected light alone.
+Material unlitMaterial(const Material& material) {
+    const bool sum = holdsSum(material);
+    Material unlit;
+    unlit.name = material.name;
+    unlit.unlit = true;
+    unlit.baseColor = sum ? glm::vec4(1, 1, 1, material.baseColor.a) : material.baseColor;
+    if (!sum || material.alphaMode != AlphaMode::Opaque) unlit.baseColorTexture = material.baseColorTexture;
+    unlit.alphaMode = material.alphaMode;
+    unlit.alphaCutoff = material.alphaCutoff;
+    return unlit;
+}
+
+// Makes one mesh of each surface, its light in the colours of its vertices.
+class LitMeshes {
+  public:
+    LitMeshes(const Scene& scene, const ElementMesh& mesh, const std::vector<glm::vec3>& irradiance)
+        : scene_(scene), mesh_(mesh), irradiance_(irradiance), newIndex_(mesh.vertices.size(), kNoElement) {}
+
+    // `leaves`: the surface's elements that are not divided.
+    Mesh of(const RadiositySurface& surface, const std::vector<std::uint32_t>& leaves) {
+        const Instance& instance = scene_.instances[surface.instance];
+        const Mesh& source = scene_.meshes[static_cast<std::size_t>(instance.mesh)];
+        const bool sum = holdsSum(materialOf(scene_, instance));
+        Mesh result;
+        result.name = source.name + (surface.back ? " (back)" : "");
+        for (const std::uint32_t e : leaves) {
+            std::array<std::uint32_t, 3> corners = mesh_.elements[e].vertices;
+            if (surface.reversed) std::swap(corners[1], corners[2]);
+            for (const std::uint32_t corner : corners) {
+                if (newIndex_[corner] == kNoElement) {
+                    newIndex_[corner] = static_cast<std::uint32_t>(result.positions.size());
+                    append(result, source, corner, sum);
+                }
+                result.indices.push_back(newIndex_[corner]);
+            }
+        }
+        return result;
+    }
+
+  private:
+    void append(Mesh& result, const Mesh& source, std::uint32_t vertex, bool sum) const {
+        const ElementVertex& v = mesh_.vertices[vertex];
+        const Surface at = surfaceOfVertex(scene_, mesh_, vertex);
+        result.positions.push_back(glm::vec3(v.position));
+        result.normals.push_back(at.geometricNormal);
+        if (!source.uvs.empty()) result.uvs.push_back(interpolated(source, source.uvs, v, glm::vec2(0)));
+        const glm::vec4 tint = interpolated(source, source.colors, v, glm::vec4(1));
+        const glm::vec3 reflected = irradiance_[vertex] * (diffusePart(at) / kPi);
+        result.colors.push_back(sum ? glm::vec4(reflected * at.baseColor + at.emission, tint.a)
+                                    : glm::vec4(reflected * glm::vec3(tint), tint.a));
+    }
+
+    const Scene& scene_;
+    const ElementMesh& mesh_;
+    const std::vector<glm::vec3>& irradiance_;
+    std::vector<std::uint32_t> newIndex_;  // each vertex belongs to one surface
+};
+
 }  // namespace
 
 float diffusePart(const Surface& s) {
@@ -64,49 +128,15 @@ Scene litScene(const Scene& scene, const ElementMesh& mesh, const std::vector<gl
     for (std::size_t i = 0; i < scene.instances.size(); ++i)
         if (!replaced[i]) lit.instances.push_back(scene.instances[i]);
 
-    // Each vertex belongs to one surface.
-    std::vector<std::uint32_t> newIndex(mesh.vertices.size(), kNoElement);
     std::vector<std::vector<std::uint32_t>> leaves(mesh.surfaces.size());
     for (std::uint32_t e = 0; e < mesh.elements.size(); ++e)
         if (mesh.isLeaf(e)) leaves[mesh.surfaceOf(e)].push_back(e);
+    LitMeshes meshes(scene, mesh, irradiance);
     for (std::uint32_t s = 0; s < mesh.surfaces.size(); ++s) {
         const RadiositySurface& surface = mesh.surfaces[s];
         const Instance& instance = scene.instances[surface.instance];
-        const Mesh& source = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-        Material material = instance.material < 0
-                                ? kDefaultMaterial
-                                : scene.materials[static_cast<std::size_t>(instance.material)];
-        const bool sum = holdsSum(material);
-        Mesh result;
-        result.name = source.name + (surface.back ? " (back)" : "");
-        for (const std::uint32_t e : leaves[s]) {
-            std::array<std::uint32_t, 3> corners = mesh.elements[e].vertices;
-            if (surface.reversed) std::swap(corners[1], corners[2]);
-            for (const std::uint32_t corner : corners) {
-                if (newIndex[corner] == kNoElement) {
-                    newIndex[corner] = static_cast<std::uint32_t>(result.positions.size());
-                    const ElementVertex& v = mesh.vertices[corner];
-                    const Surface at = surfaceOfVertex(scene, mesh, corner);
-                    result.positions.push_back(glm::vec3(v.position));
-                    result.normals.push_back(at.geometricNormal);
-                    if (!source.uvs.empty())
-                        result.uvs.push_back(interpolated(source, source.uvs, v, glm::vec2(0)));
-                    const glm::vec4 tint = interpolated(source, source.colors, v, glm::vec4(1));
-                    const glm::vec3 reflected = irradiance[corner] * (diffusePart(at) / kPi);
-                    result.colors.push_back(sum ? glm::vec4(reflected * at.baseColor + at.emission, tint.a)
-                                                : glm::vec4(reflected * glm::vec3(tint), tint.a));
-                }
-                result.indices.push_back(newIndex[corner]);
-            }
-        }
-        Material unlit;
-        unlit.name = material.name;
-        unlit.unlit = true;
-        unlit.baseColor = sum ? glm::vec4(1, 1, 1, material.baseColor.a) : material.baseColor;
-        if (!sum || material.alphaMode != AlphaMode::Opaque)
-            unlit.baseColorTexture = material.baseColorTexture;
-        unlit.alphaMode = material.alphaMode;
-        unlit.alphaCutoff = material.alphaCutoff;
+        Mesh result = meshes.of(surface, leaves[s]);
+        Material unlit = unlitMaterial(materialOf(scene, instance));
         Instance placed = instance;
         placed.worldFromObject = glm::mat4(1);
         placed.mesh = static_cast<int>(lit.meshes.size());

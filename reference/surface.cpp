@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
+#include <type_traits>
+
+#include "conelight/scene_fields.h"
 
 namespace conelight::reference {
 namespace {
@@ -16,11 +18,14 @@ const Material& materialOf(const Scene& scene, const Instance& instance) {
                                  : scene.materials[static_cast<std::size_t>(instance.material)];
 }
 
-bool isTextured(const Material& m) {
-    const TextureRef* const all[] = {&m.baseColorTexture, &m.metallicRoughnessTexture,
-                                     &m.normalTexture,    &m.emissiveTexture,
-                                     &m.specularTexture,  &m.specularColorTexture};
-    return std::any_of(std::begin(all), std::end(all), [](const TextureRef* one) { return one->used(); });
+bool isTextured(const Material& material) {
+    bool textured = false;
+    visitFields(
+        [&](const char*, const auto& value) {
+            if constexpr (std::is_same_v<decltype(value), const TextureRef&>) textured |= value.used();
+        },
+        material);
+    return textured;
 }
 
 std::array<std::uint32_t, 3> cornersOf(const Mesh& mesh, std::uint32_t triangle) {

@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
     conelight::program::keepCommandLine(argc, argv);
     conelight::program::registerGuests();
 
-    CLI::App app("Conelight: global illumination by voxel cone tracing, measured against ground truth.",
+    CLI::App app("Conelight: real-time global illumination by tracing voxels, measured against ground truth.",
                  "conelight");
     app.set_version_flag("--version", std::string("conelight ") + CONELIGHT_VERSION_STRING);
     app.require_subcommand(1);

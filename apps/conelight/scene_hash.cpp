@@ -4,6 +4,10 @@
 #include <fmt/core.h>
 
 #include <cstring>
+#include <optional>
+#include <type_traits>
+
+#include "conelight/scene_fields.h"
 
 namespace conelight::program {
 namespace {
@@ -12,11 +16,6 @@ template <class T>
 void addVector(Hash& hash, const std::vector<T>& values) {
     hash.add(static_cast<std::uint64_t>(values.size()));
     hash.add(values.data(), values.size() * sizeof(T));
-}
-
-void addReference(Hash& hash, const TextureRef& reference) {
-    hash.add(reference.texture);
-    for (int column = 0; column < 3; ++column) hash.add(reference.uvFromUv[column]);
 }
 
 void addMesh(Hash& hash, const Mesh& mesh) {
@@ -28,23 +27,6 @@ void addMesh(Hash& hash, const Mesh& mesh) {
     addVector(hash, mesh.indices);
 }
 
-void addMaterial(Hash& hash, const Material& m) {
-    const PhongMaterial phong = m.phong.value_or(PhongMaterial{});
-    hash.add(m.baseColor);
-    hash.add(m.specularColor);
-    hash.add(m.emission);
-    for (const float value :
-         {m.metallic, m.roughness, m.ior, m.specular, m.normalScale, m.alphaCutoff, phong.shininess,
-          phong.ambientStrength, phong.diffuseStrength, phong.specularStrength})
-        hash.add(value);
-    hash.add(phong.color);
-    hash.add(static_cast<int>(m.alphaMode));
-    for (const bool value : {m.doubleSided, m.unlit, m.phong.has_value()}) hash.add(value);
-    for (const TextureRef* reference : {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture,
-                                        &m.emissiveTexture, &m.specularTexture, &m.specularColorTexture})
-        addReference(hash, *reference);
-}
-
 void addTexture(Hash& hash, const Texture& texture) {
     for (const int value :
          {texture.width, texture.height, static_cast<int>(texture.srgb), static_cast<int>(texture.wrapU),
@@ -53,20 +35,42 @@ void addTexture(Hash& hash, const Texture& texture) {
     addVector(hash, texture.rgba);
 }
 
-void addInstance(Hash& hash, const Instance& instance) {
-    hash.add(instance.mesh);
-    hash.add(instance.material);
-    for (int column = 0; column < 4; ++column) hash.add(instance.worldFromObject[column]);
-    for (const bool value : {instance.visible, instance.voxelized, instance.castsShadow}) hash.add(value);
+template <class T>
+void addFields(Hash& hash, const T& object);
+
+// Names show in no picture.
+void addField(Hash&, const std::string&) {}
+void addField(Hash& hash, const glm::mat3& matrix) {
+    for (int column = 0; column < 3; ++column) hash.add(matrix[column]);
+}
+void addField(Hash& hash, const glm::mat4& matrix) {
+    for (int column = 0; column < 4; ++column) hash.add(matrix[column]);
+}
+void addField(Hash& hash, const TextureRef& reference) {
+    hash.add(reference.texture);
+    addField(hash, reference.uvFromUv);
+}
+void addField(Hash& hash, const std::optional<PhongMaterial>& phong) {
+    hash.add(phong.has_value());
+    if (phong) addFields(hash, *phong);
+}
+template <class T>
+void addField(Hash& hash, const T& value) {
+    if constexpr (std::is_enum_v<T>)
+        hash.add(static_cast<int>(value));
+    else
+        hash.add(value);
 }
 
-void addLight(Hash& hash, const Light& light) {
-    hash.add(static_cast<int>(light.type));
-    for (const glm::vec3& value :
-         {light.intensity, light.position, light.direction, light.halfU, light.halfV, light.falloff})
-        hash.add(value);
-    for (const float value : {light.innerAngle, light.outerAngle, light.range}) hash.add(value);
-    for (const bool value : {light.enabled, light.castsShadow, light.customFalloff}) hash.add(value);
+template <class T>
+void addFields(Hash& hash, const T& object) {
+    visitFields([&hash](const char*, const auto& value) { addField(hash, value); }, object);
+}
+
+// A hint shows in no picture either.
+void addInstance(Hash& hash, Instance instance) {
+    instance.dynamic = false;
+    addFields(hash, instance);
 }
 
 }  // namespace
@@ -114,17 +118,14 @@ std::string Hash::hex() const { return fmt::format("{:016x}", state_); }
 
 void addScene(Hash& hash, const Scene& scene) {
     for (const Mesh& mesh : scene.meshes) addMesh(hash, mesh);
-    for (const Material& material : scene.materials) addMaterial(hash, material);
+    for (const Material& material : scene.materials) addFields(hash, material);
     for (const Texture& texture : scene.textures) addTexture(hash, texture);
     for (const Instance& instance : scene.instances) addInstance(hash, instance);
-    for (const Light& light : scene.lights) addLight(hash, light);
+    for (const Light& light : scene.lights) addFields(hash, light);
     hash.add(scene.sky);
     hash.add(!scene.format.empty());
 }
 
-void addCamera(Hash& hash, const Camera& camera) {
-    for (const glm::vec3& value : {camera.eye, camera.target, camera.up}) hash.add(value);
-    for (const float value : {camera.fovY, camera.zNear, camera.zFar}) hash.add(value);
-}
+void addCamera(Hash& hash, const Camera& camera) { addFields(hash, camera); }
 
 }  // namespace conelight::program

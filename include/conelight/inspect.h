@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How the light of one pixel was gathered: every cone or ray, step by step, written down by the same shader
 // functions that draw the picture (Renderer::inspectPixel). Lengths in m, radiance in W/(sr m^2), irradiance
-// divided by pi (the radiance that a white matt surface would show), world coordinates.
+// divided by pi (the radiance that a white diffuse surface would show), world coordinates.
 //
 // A part of the picture is scale * value, and value is the sum of weight * radiance over the part's paths.
 #pragma once
@@ -19,8 +19,8 @@ enum class PathKind {
     DiffuseCone,
     SpecularCone,
     OcclusionCone,  // radiance is the open part, 0..1
-    CosineRay,      // by the cosine
-    LightRay,       // to a bright face
+    CosineRay,      // cosine-sampled
+    LightRay,       // light-sampled
     SpecularRay,
     OcclusionRay,  // radiance is the open part, 0..1
     CacheFace      // no ray: a face of the cache that was read at the pixel
@@ -29,7 +29,7 @@ enum class PathEnd {
     Open,   // left the grid or reached its length: the rest sees the sky
     Full,   // the cone became opaque
     Face,   // a face was met
-    Unused  // weight 0: would start below the surface, or did not arrive at its bright face
+    Unused  // weight 0: would start below the surface, or did not reach its light face
 };
 enum class StepKind {
     Sample,  // a cone read the volume

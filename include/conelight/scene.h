@@ -84,6 +84,7 @@ struct TextureRef {
     int texture = -1;
     glm::mat3 uvFromUv{1.0f};
     bool used() const { return texture >= 0; }
+    bool operator==(const TextureRef&) const = default;
 };
 
 enum class AlphaMode : std::uint8_t { Opaque, Mask, Blend };
@@ -96,6 +97,7 @@ struct PhongMaterial {
     float ambientStrength = 0.08f;
     float diffuseStrength = 1.0f;
     float specularStrength = 0.5f;
+    bool operator==(const PhongMaterial&) const = default;
 };
 
 // glTF metallic-roughness with KHR_materials_specular, _ior, _emissive_strength and _unlit.
@@ -122,6 +124,8 @@ struct Material {
     TextureRef specularColorTexture;      // rgb: specularColor
 
     std::optional<PhongMaterial> phong;  // what modes of that model show; none: phongFromPbr of the above
+
+    bool operator==(const Material&) const = default;
 };
 
 // The Phong model of a metallic-roughness material, and the other way round: setPbrFromPhong sets what the
@@ -142,6 +146,7 @@ struct Instance {
     bool voxelized = true;    // false: drawn, but neither occludes nor bounces nor emits
     bool castsShadow = true;  // false: left out of shadow maps and shadow rays
     bool dynamic = false;     // a hint that it moves; whatever changes is made anew, with or without it
+    bool operator==(const Instance&) const = default;
 };
 
 enum class LightType : std::uint8_t { Point, Spot, Directional, Rect };
@@ -166,6 +171,7 @@ struct Light {
     // A falloff of its own instead of the inverse square: intensity / (constant + linear d + quadratic d^2).
     bool customFalloff = false;
     glm::vec3 falloff{1.0f, 0.15f, 0.45f};  // constant, linear, quadratic
+    bool operator==(const Light&) const = default;
 };
 
 // A perspective camera. Looks from eye to target.
@@ -177,6 +183,7 @@ struct Camera {
     float fovY = 0.78539816f;  // vertical field of view, rad; kept when the picture's aspect changes
     float zNear = 0.01f;
     float zFar = 1000.0f;
+    bool operator==(const Camera&) const = default;
 };
 
 struct Scene {

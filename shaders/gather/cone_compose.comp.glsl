@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: MIT
 // The picture of the cones mode from its parts: G-buffer, direct light, gathered light -> radiance (rgb), and
 // 1 where a surface is seen, 0 in the background (a).
-//   SHOW_DIRECT    emission and light that comes straight from lights (direct_light.comp.glsl); the sky
-//   behind SHOW_DIFFUSE   gathered irradiance, reflected by the matt part SHOW_SPECULAR  gathered radiance,
-//   reflected by the glossy part: times the lobe's directional albedo
+//   SHOW_DIRECT    emission and direct light (direct_light.comp.glsl); the sky behind
+//   SHOW_DIFFUSE   gathered irradiance, reflected by the diffuse part
+//   SHOW_SPECULAR  gathered radiance, reflected by the lobe: times its directional albedo
 #if !defined(SHOW_DIRECT) || !defined(SHOW_DIFFUSE) || !defined(SHOW_SPECULAR)
 #error SHOW_DIRECT, SHOW_DIFFUSE and SHOW_SPECULAR must be 0 or 1
 #endif
@@ -28,8 +28,8 @@ void main() {
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
     Surface s;
     bool seen = fetchSurface(pixel, s);
-    float nov = dot(s.normal, s.toEye);
-    Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, nov);
+    float NoV = dot(s.normal, s.toEye);
+    Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, NoV);
     vec3 direct = vec3(0.0);
 #if SHOW_DIRECT
     direct = texelFetch(directDiffuse, pixel, 0).rgb + texelFetch(directSpecular, pixel, 0).rgb;
@@ -39,7 +39,7 @@ void main() {
     gathered += b.diffuse * texelFetch(diffuseIrradiance, pixel, 0).rgb;
 #endif
 #if SHOW_SPECULAR
-    vec2 dfg = directionalAlbedo(b.nov, sqrt(b.alpha));
+    vec2 dfg = directionalAlbedo(b.NoV, sqrt(b.alpha));
     gathered += specularAlbedo(b, dfg) * texelFetch(specularRadiance, pixel, 0).rgb;
 #endif
     bool gathers = seen && !s.unlit;

@@ -6,7 +6,7 @@
 // (Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based Rendering", section 4.9.3).
 // Aperture: half of the lobe's energy. Microfacet normals of GGX lie within atan(alpha) of the normal with
 // probability 1/2 (Walter et al. 2007, eq. 35 at xi = 1/2), reflected directions within twice that. The upper
-// limit is the single cone of a matt surface (cos = 1/3, src/gather/cone_set.cpp), to which alpha = 1 comes.
+// limit is the single cone of a diffuse surface (cos = 1/3, src/gather/cone_set.cpp), which alpha = 1 gives.
 // COUNT_LOOKUPS: adds the texture fetches to the counters.
 #ifndef COUNT_LOOKUPS
 #error COUNT_LOOKUPS must be 0 or 1
@@ -53,7 +53,7 @@ void main() {
         RECORD_PATH(PATH_SPECULAR_CONE, m.origin, direction, tanHalf, vec3(1.0),
                     marchedRadiance(m, lighting.sky), 1.0 - open, m.t, open == 0.0 ? END_FULL : END_OPEN);
         RECORD_PART(PART_SPECULAR, marchedRadiance(m, lighting.sky),
-                    specularAlbedo(b, directionalAlbedo(b.nov, sqrt(b.alpha))));
+                    specularAlbedo(b, directionalAlbedo(b.NoV, sqrt(b.alpha))));
     }
 #else
     imageStore(result, pixel, vec4(marchedRadiance(m, lighting.sky), open));

@@ -14,17 +14,18 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba32ui) writeonly uniform uimage2D result;
 
 #if OCCLUSION
-float openness(vec3 origin, vec3 normal, vec3 leaves, uint seed) {
+// Ambient openness: mean over cosine-sampled rays of their distance over the reach; 1 for a miss.
+float openness(vec3 origin, vec3 shadingNormal, vec3 geometricNormal, uint seed) {
     float sum = 0.0;
     int i = 0;
     do {
-        vec3 direction =
-            cosineDirection(normal, sequencePoint(seed, pixelRays.pass * pixelRays.rays + uint(i)));
-        VoxelHit hit = traceVoxels(origin, direction, pixelRays.reach, leaves);
+        vec2 xi = sequencePoint(seed, pixelRays.pass * pixelRays.rays + uint(i));
+        Ray ray = Ray(origin, cosineDirection(shadingNormal, xi), pixelRays.reach, geometricNormal);
+        VoxelHit hit = traceVoxels(ray);
         float open = hit.face >= 0 ? hit.t / pixelRays.reach : 1.0;
         sum += open;
-        RECORD_RAY(PATH_OCCLUSION_RAY, origin, direction, hit, 1.0 - open, vec3(1.0 / float(pixelRays.rays)),
-                   vec3(open), true);
+        RECORD_RAY(PATH_OCCLUSION_RAY, ray, hit, 1.0 - open, vec3(1.0 / float(pixelRays.rays)), vec3(open),
+                   true);
     } while (++i < int(pixelRays.rays));
     return sum / float(pixelRays.rays);
 }
@@ -34,34 +35,37 @@ void main() {
     ivec2 pixel = INVOCATION_PIXEL;
     Surface s;
     bool seen = fetchSurface(min(pixel, imageSize(result) - 1), s);
-    bool matt = seen && !s.unlit && (s.metallic < 1.0 || s.roughness > pixelRays.specularLimit);
+    bool diffuse = seen && !s.unlit && (s.metallic < 1.0 || s.roughness > pixelRays.specularLimit);
     // Pixels without need of it send rays out of the grid, which end at once.
     const vec3 away = vec3(-1.0, 0.0, 0.0);
-    vec3 normal = matt ? s.normal : away;
-    vec3 origin = matt ? seenRayOrigin(gridFromWorld(s.position), s.geometricNormal, s.toEye) : 16.0 * away;
+    vec3 normal = diffuse ? s.normal : away;
+    vec3 origin =
+        diffuse ? seenRayOrigin(gridFromWorld(s.position), s.geometricNormal, s.toEye) : 16.0 * away;
     uint seed = randomHash(uint(pixel.x) | uint(pixel.y) << 16);
 #if OCCLUSION
     vec3 value = vec3(openness(origin, normal, s.geometricNormal, seed));
 #else
-    float backs;
-    vec3 value = gatherIrradianceSequence(
-        origin, matt ? s.geometricNormal : away, normal, int(pixelRays.rays), int(pixelRays.rays),
-        int(pixelRays.reflections), pixelRays.reflectedLimit, seed, vec3(0.0), pixelRays.pass, backs);
+    SurfacePoint point = SurfacePoint(origin, diffuse ? s.geometricNormal : away, normal);
+    EstimatorSettings settings = EstimatorSettings(int(pixelRays.rays), int(pixelRays.rays),
+                                                   int(pixelRays.reflections), pixelRays.fireflyClamp);
+    float backFaceShare;
+    vec3 value =
+        estimateIrradiance(point, settings, SequenceState(seed, pixelRays.pass, vec3(0.0)), backFaceShare);
 #endif
 #if COUNT_LOOKUPS
-    addLookups(OCCLUSION == 1 ? LOOKUPS_OCCLUSION : LOOKUPS_DIFFUSE, matt);
+    addLookups(OCCLUSION == 1 ? LOOKUPS_OCCLUSION : LOOKUPS_DIFFUSE, diffuse);
 #endif
 #ifdef RECORD_STEPS
     Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));
     RECORD_SURFACE(seen, s);
-    RECORD_PART(OCCLUSION == 1 ? PART_OCCLUSION : PART_DIFFUSE, matt ? value : vec3(0.0),
+    RECORD_PART(OCCLUSION == 1 ? PART_OCCLUSION : PART_DIFFUSE, diffuse ? value : vec3(0.0),
                 OCCLUSION == 1 ? vec3(1.0) : b.diffuse);
 #if !OCCLUSION
     // Unless the pixel has rays of its own into the lobe, which are recorded after this.
-    RECORD_PART(PART_SPECULAR, matt ? value : vec3(0.0), b.albedo);
+    RECORD_PART(PART_SPECULAR, diffuse ? value : vec3(0.0), b.albedo);
 #endif
     return;
 #endif
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
-    imageStore(result, pixel, withPass(pixel, s, seen, matt ? value : vec3(0.0), pixelRays.longestMean));
+    imageStore(result, pixel, withPass(pixel, s, seen, diffuse ? value : vec3(0.0), pixelRays.longestMean));
 }

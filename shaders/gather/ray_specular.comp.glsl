@@ -51,13 +51,14 @@ void main() {
             RayCone(b.alpha <= kTriangleAlpha ? s.depth * pixelAngle * pixelRays.inverseVoxelSize : -1.0,
                     pixelAngle + b.alpha);
 #endif
-        vec3 radiance = rayRadiance(origin, s.geometricNormal, direction, counts ? 1e9 : -1.0, -1.0,
-                                    counts ? int(pixelRays.reflections) : 0, b.alpha,
-                                    pixelRays.reflectedLimit, random, hit);
+        Ray ray = Ray(origin, direction, counts ? 1e9 : -1.0, s.geometricNormal);
+        PathSettings path =
+            PathSettings(-1.0, counts ? int(pixelRays.reflections) : 0, b.alpha, pixelRays.fireflyClamp);
+        vec3 radiance = traceRadiance(ray, path, random, hit);
         sum += weight * radiance;
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);
         if (glossy)
-            RECORD_RAY(PATH_SPECULAR_RAY, origin, direction, hit, 1.0,
+            RECORD_RAY(PATH_SPECULAR_RAY, ray, hit, 1.0,
                        weight / (float(pixelRays.rays) * max(b.albedo, 1e-6)), radiance, counts);
     } while (++i < int(pixelRays.rays));
     vec3 value = glossy ? sum / (float(pixelRays.rays) * max(b.albedo, 1e-6)) : vec3(0.0);

@@ -3,12 +3,11 @@
 // and 1 where a surface is seen, 0 in the background (a). One pass, so that no direct light travels through
 // memory.
 //   SHOW_DIRECT    emission and light that comes straight from lights; the sky behind
-//   SHOW_DIFFUSE   indirect irradiance, reflected by the matt part
+//   SHOW_DIFFUSE   indirect irradiance, reflected by the diffuse part
 //   SHOW_SPECULAR  indirect radiance, reflected by the glossy part
 //   IRRADIANCE     0 from the cache, 1 from irradiancePicture
 //   LOBE           1: radiance of lobes from lobePicture where roughness is within the limit; elsewhere, and
-//   with
-//                  0, the irradiance stands in for it: the same in even light
+//                  with 0, the irradiance stands in for it: the same in even light
 #if !defined(SHOW_DIRECT) || !defined(SHOW_DIFFUSE) || !defined(SHOW_SPECULAR) || !defined(IRRADIANCE) || \
     !defined(LOBE)
 #error SHOW_DIRECT, SHOW_DIFFUSE, SHOW_SPECULAR, IRRADIANCE and LOBE must be 0 or 1

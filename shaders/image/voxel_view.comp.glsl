@@ -248,7 +248,7 @@ void main() {
 #endif
 #elif SHAPE == FACES
     vec3 origin = gridFromWorld(frame.eye);
-    VoxelHit hit = traceVoxels(origin, ray, end / view.voxelSize, vec3(0.0));
+    VoxelHit hit = traceVoxels(Ray(origin, ray, end / view.voxelSize, vec3(0.0)));
     vec4 result = vec4(0.0);
     if (hit.face >= 0)
         result = vec4(view.data == VIEW_LEVEL ? falseColor(0.0) : faceData(hit.face, view.data), 1.0);

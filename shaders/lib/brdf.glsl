@@ -22,16 +22,16 @@ struct Brdf {
     vec3 compensation;  // factor on the specular lobe
     vec3 albedo;        // directional albedo of the specular lobe, compensation included
     float alpha;        // GGX width
-    float nov;
+    float NoV;
 };
 
 // Directional albedo of the single-scattering lobe for F0 = 1, F90 = 0 (x) and F0 = 0, F90 = 1 (y), so that
 // it is F0 x + F90 y with Schlick's Fresnel. Polynomials fitted by us (2026-11) to a quadrature over the
 // visible normals (Heitz 2018) for NoV in [0.005, 1] and perceptual roughness in [0.045, 1]; largest error of
 // x + y 0.6 percent of it, of y 0.0026. `roughness` is perceptual.
-vec2 directionalAlbedo(float nov, float roughness) {
+vec2 directionalAlbedo(float NoV, float roughness) {
     float a = roughness * roughness;
-    float s = nov / (nov + a);  // facets hide each other at grazing angles by the ratio of these two
+    float s = NoV / (NoV + a);  // facets hide each other at grazing angles by the ratio of these two
     float both =
         (0.959575 + s * (0.438832 + s * (-3.25298 + s * (5.54518 + s * -2.68982)))) +
         a * ((0.285436 + s * (-3.13559 + s * (10.8832 + s * (-14.5516 + s * 6.2423)))) +
@@ -39,7 +39,7 @@ vec2 directionalAlbedo(float nov, float roughness) {
                   a * ((0.645843 + s * (-3.86254 + s * (10.699 + s * (-2.09599 + s * -18.0685)))) +
                        a * (-0.217635 + s * (1.4135 + s * (-1.41486 + s * (-8.25343 + s * 18.5846)))))));
     float r = roughness;
-    float c = 1.0 - nov;
+    float c = 1.0 - NoV;
     float grazing =
         (1.2406 + s * (-0.0343653 + s * (-3.78446 + s * (6.60108 + s * -3.02584)))) +
         r * ((-4.05669 + s * (0.801049 + s * (20.2115 + s * (-18.1767 + s * 1.51945)))) +
@@ -52,8 +52,8 @@ vec2 directionalAlbedo(float nov, float roughness) {
 }
 
 // Schlick's approximation.
-vec3 fresnel(vec3 f0, vec3 f90, float voh) {
-    float c = 1.0 - voh;
+vec3 fresnel(vec3 f0, vec3 f90, float VoH) {
+    float c = 1.0 - VoH;
     float c2 = c * c;
     return f0 + (f90 - f0) * (c2 * c2 * c);
 }
@@ -85,16 +85,16 @@ vec3 evenAlbedo(vec3 baseColor, float metallic, float roughness, vec3 dielectric
 // directionalAlbedo of the surface.
 vec3 specularAlbedo(Brdf b, vec2 dfg) { return (b.f0 * dfg.x + b.f90 * dfg.y) * b.compensation; }
 
-Brdf makeBrdf(vec3 baseColor, float metallic, float roughness, vec3 dielectricF0, float nov) {
+Brdf makeBrdf(vec3 baseColor, float metallic, float roughness, vec3 dielectricF0, float NoV) {
     Brdf b;
-    b.nov = clamp(nov, 1e-4, 1.0);
+    b.NoV = clamp(NoV, 1e-4, 1.0);
     float r = max(roughness, kMinRoughness);
     b.alpha = r * r;
     b.f0 = mix(dielectricF0, baseColor, metallic);
     // No material reflects less than 2 % at normal incidence but by intent (KHR_materials_specular): then its
     // grazing reflection goes as well.
     b.f90 = vec3(clamp(50.0 * max(b.f0.r, max(b.f0.g, b.f0.b)), 0.0, 1.0));
-    vec2 dfg = directionalAlbedo(b.nov, r);
+    vec2 dfg = directionalAlbedo(b.NoV, r);
     b.compensation = 1.0 + b.f0 * (1.0 / (dfg.x + dfg.y) - 1.0);
     b.albedo = specularAlbedo(b, dfg);
     // The dielectric's own lobe decides what reaches the diffuse part, by its strongest channel, so that a
@@ -107,20 +107,20 @@ Brdf makeBrdf(vec3 baseColor, float metallic, float roughness, vec3 dielectricF0
 }
 
 // GGX times visibility, D V = D G2 / (4 NoL NoV).
-float ggxVisible(float alpha, float noh, float nol, float nov) {
+float ggxVisible(float alpha, float NoH, float NoL, float NoV) {
     float a2 = alpha * alpha;
     // 1 - NoH^2 (1 - a2) by the complement keeps its digits near the peak.
-    float d = (1.0 - noh * noh) + noh * noh * a2;
-    float smithV = nol * sqrt(nov * nov * (1.0 - a2) + a2);
-    float smithL = nov * sqrt(nol * nol * (1.0 - a2) + a2);
+    float d = (1.0 - NoH * NoH) + NoH * NoH * a2;
+    float smithV = NoL * sqrt(NoV * NoV * (1.0 - a2) + a2);
+    float smithL = NoV * sqrt(NoL * NoL * (1.0 - a2) + a2);
     return a2 / (kPi * d * d) * 0.5 / max(smithV + smithL, 1e-7);
 }
 
 // The specular BRDF (1/sr) for unit vectors to the light and to the eye.
 vec3 brdfSpecular(Brdf b, vec3 n, vec3 toLight, vec3 toEye) {
     vec3 h = normalize(toLight + toEye);
-    float voh = clamp(dot(toEye, h), 0.0, 1.0);
-    float noh = clamp(dot(n, h), 0.0, 1.0);
-    float nol = clamp(dot(n, toLight), 1e-4, 1.0);
-    return fresnel(b.f0, b.f90, voh) * b.compensation * ggxVisible(b.alpha, noh, nol, b.nov);
+    float VoH = clamp(dot(toEye, h), 0.0, 1.0);
+    float NoH = clamp(dot(n, h), 0.0, 1.0);
+    float NoL = clamp(dot(n, toLight), 1e-4, 1.0);
+    return fresnel(b.f0, b.f90, VoH) * b.compensation * ggxVisible(b.alpha, NoH, NoL, b.NoV);
 }

@@ -3,8 +3,7 @@
 //
 // The polygon that Sutherland and Hodgman (1974) would build has at most nine vertices, but building it needs
 // lists that grow as they are indexed. Its area and centroid need only its boundary, in any order: Green's
-// theorem sums over boundary segments (a, b) the terms (a x b)/2 and (a + b)(a x b)/6. The boundary consists
-// of
+// theorem sums over boundary segments (a, b) the terms (a x b)/2 and (a + b)(a x b)/6. The boundary is
 //   3 pieces of triangle edges inside the cube, and
 //   6 pieces of the lines in which the triangle meets the cube's sides, inside the side.
 // Each is one segment, clipped by slabs (Liang and Barsky 1984). No list, no branch, the same work in each

@@ -30,12 +30,12 @@ float smithLambda(float alpha, float z) {
 vec3 lobeDirection(Brdf b, vec3 normal, vec3 toEye, vec2 xi, out vec3 weight) {
     vec3 u, v;
     tangentFrame(normal, u, v);
-    vec3 eye = normalize(vec3(dot(toEye, u), dot(toEye, v), b.nov));
+    vec3 eye = normalize(vec3(dot(toEye, u), dot(toEye, v), b.NoV));
     vec3 h = visibleNormal(eye, b.alpha, xi);
-    float voh = max(dot(eye, h), 0.0);
-    vec3 l = 2.0 * voh * h - eye;
+    float VoH = max(dot(eye, h), 0.0);
+    vec3 l = 2.0 * VoH * h - eye;
     float lambdaEye = smithLambda(b.alpha, eye.z);
     float shadowing = (1.0 + lambdaEye) / (1.0 + lambdaEye + smithLambda(b.alpha, l.z));
-    weight = l.z > 0.0 ? fresnel(b.f0, b.f90, voh) * b.compensation * shadowing : vec3(0.0);
+    weight = l.z > 0.0 ? fresnel(b.f0, b.f90, VoH) * b.compensation * shadowing : vec3(0.0);
     return l.x * u + l.y * v + l.z * normal;
 }

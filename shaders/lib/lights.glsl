@@ -131,7 +131,7 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
     uint count = light.sampleGrid * light.sampleGrid;
     float cellArea = 4.0 * length(cross(light.halfU, light.halfV)) / float(count);
     RectLobe lobe;
-    if (specular) lobe = rectLobe(r.normal, r.toEye, b.alpha, b.nov);
+    if (specular) lobe = rectLobe(r.normal, r.toEye, b.alpha, b.NoV);
     vec2 width2 = lobe.width * lobe.width;
     vec2 weights = vec2(0.0), visibleWeights = vec2(0.0);  // irradiance, reflection
     RectSums points = RectSums(vec2(0.0), 0.0, 0.0);
@@ -143,21 +143,21 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
         l *= inversesqrt(max(d2, 1e-20));
         float emitted = max(-dot(l, light.direction), 0.0) / max(d2, cellArea);
         float height = dot(l, r.normal);
-        float nol = max(height, 0.0);
+        float NoL = max(height, 0.0);
         float visible = 1.0;
 #if LIGHTS_SHADOWS
         visible = shadowVisibilityRect(light, k, point, r.position, r.geometricNormal);
 #endif
-        vec2 weight = vec2(emitted * nol, 0.0);
+        vec2 weight = vec2(emitted * NoL, 0.0);
         if (specular) {
             // With h half way between l and the eye: n.h and 1 - v.h.
             float half2 = 0.5 + 0.5 * dot(l, r.toEye);
             float perHalf = inversesqrt(max(half2, 1e-6));
-            float noh = clamp(0.5 * (height + b.nov) * perHalf, 0.0, 1.0);
+            float NoH = clamp(0.5 * (height + b.NoV) * perHalf, 0.0, 1.0);
             float c = 1.0 - half2 * perHalf;
             float c2 = c * c;
             points.exact +=
-                weight.x * ggxVisible(b.alpha, noh, max(nol, 1e-4), b.nov) * vec2(1.0, c2 * c2 * c);
+                weight.x * ggxVisible(b.alpha, NoH, max(NoL, 1e-4), b.NoV) * vec2(1.0, c2 * c2 * c);
             vec3 inSpace = rectLobeSpace(lobe, l, height);
             float transformed = emitted * rectLobeDensity(inSpace, width2);
             points.cosine += transformed;

@@ -18,19 +18,32 @@ void recordFace(uint path, int face) {
     record.paths[path].faceUpdates = faceUpdates(b.w);
 }
 
-// A ray from `origin` (grid coordinates) that went by traceVoxels; its steps are those since the last path.
-void recordRay(uint kind, vec3 origin, vec3 direction, VoxelHit hit, float opacity, vec3 weight,
-               vec3 radiance, bool used) {
+// What a ray contributes to the value of its pixel.
+struct RaySample {
+    float opacity;
+    vec3 weight;
+    vec3 radiance;
+    bool used;
+};
+
+// A ray that traceVoxels followed; its steps are those since the last path.
+void recordRay(uint kind, Ray ray, VoxelHit hit, RaySample s) {
     bool met = hit.face >= 0;
-    // What leaves the grid ends where the last step began.
-    float t =
-        met ? hit.t : min(hit.t, distance(origin, 0.5 * vec3(gridSize())) + 0.5 * length(vec3(gridSize())));
-    vec3 at = worldFromGrid(origin + t * direction);
-    if (met) recordStep(STEP_HIT, at, t * grid.voxelSize, grid.voxelSize, 0.0, radiance, opacity, opacity);
-    uint end = !used ? END_UNUSED : met ? END_FACE : END_OPEN;
-    uint path = recordPath(kind, worldFromGrid(origin), direction, 0.0, used ? weight : vec3(0.0), radiance,
-                           met ? opacity : 0.0, t * grid.voxelSize, end);
-    recordFace(path, hit.face);
+    // A miss ends where the grid ends.
+    float t = met ? hit.t
+                  : min(hit.t, distance(ray.origin, 0.5 * vec3(gridSize())) + 0.5 * length(vec3(gridSize())));
+    vec3 end = worldFromGrid(ray.origin + t * ray.direction);
+    float meters = t * grid.voxelSize;
+    if (met)
+        recordStep(
+            RecordedStep(end, grid.voxelSize, s.radiance, s.opacity, meters, 0.0, s.opacity, STEP_HIT));
+    uint reason = !s.used ? END_UNUSED : met ? END_FACE : END_OPEN;
+    vec3 weight = s.used ? s.weight : vec3(0.0);
+    RecordedPath recorded =
+        newPath(kind, worldFromGrid(ray.origin), ray.direction, weight, s.radiance, meters);
+    recorded.opacity = met ? s.opacity : 0.0;
+    recorded.end = reason;
+    recordFace(recordPath(recorded), hit.face);
 }
 
 // A face that the cache's lookup about `point` (grid coordinates) read.
@@ -38,15 +51,17 @@ void recordCacheFace(vec3 point, int face, float weight, vec3 irradiance) {
     if (!recording() || weight <= 0.0) return;
     vec3 toVoxel = vec3(unpackVoxel(texelFetch(voxelFaces, 2 * face).w)) + 0.5 - point;
     float t = max(length(toVoxel), 1e-6);
-    uint path = recordPath(PATH_CACHE_FACE, worldFromGrid(point), toVoxel / t, 0.0, vec3(weight), irradiance,
-                           1.0, t * grid.voxelSize, END_FACE);
-    recordFace(path, face);
+    RecordedPath recorded = newPath(PATH_CACHE_FACE, worldFromGrid(point), toVoxel / t, vec3(weight),
+                                    irradiance, t * grid.voxelSize);
+    recorded.opacity = 1.0;
+    recorded.end = END_FACE;
+    recordFace(recordPath(recorded), face);
 }
 
-#define RECORD_RAY(kind, origin, direction, hit, opacity, weight, radiance, used) \
-    recordRay(kind, origin, direction, hit, opacity, weight, radiance, used)
+#define RECORD_RAY(kind, ray, hit, opacity, weight, radiance, used) \
+    recordRay(kind, ray, hit, RaySample(opacity, weight, radiance, used))
 #else
-#define RECORD_RAY(kind, origin, direction, hit, opacity, weight, radiance, used)
+#define RECORD_RAY(kind, ray, hit, opacity, weight, radiance, used)
 #endif
 #if defined(RECORD_STEPS) && defined(RECORD_CACHE)
 #define RECORD_CACHE_FACE(point, face, weight, irradiance) recordCacheFace(point, face, weight, irradiance)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Hooks by which the gathering of one pixel writes down its steps, for the inspector. Without RECORD_STEPS
-// all of them are nothing. With it a dispatch of one group stands for the pixel of the header: its first
-// invocation is the pixel and writes, the others are its neighbours and do not. Pictures are not stored then.
+// Hooks that record the steps of one pixel's gathering for the inspector. Without RECORD_STEPS they are
+// empty. With it a dispatch of one group covers the pixel of the header: the first invocation is the pixel
+// and records; the others are its neighbours and do not. No picture is stored then.
 #include "shared/inspect.h"
 #ifdef RECORD_STEPS
 layout(std430) buffer RecordBuffer {
@@ -25,25 +25,37 @@ void recordSurface(bool seen, vec3 position, vec3 normal, float depth) {
 }
 
 // Steps belong to the path that is recorded next.
-void recordStep(uint kind, vec3 position, float distance, float size, float level, vec3 radiance,
-                float opacity, float total) {
+void recordStep(RecordedStep recorded) {
     if (!recording()) return;
     uint index = record.header.steps++;
     if (index >= RECORD_MAX_STEPS) return;
-    record.steps[index] = RecordedStep(position, size, radiance, opacity, distance, level, total, kind);
+    record.steps[index] = recorded;
+}
+
+// A path without opacity and face, that leaves the grid.
+RecordedPath newPath(uint kind, vec3 origin, vec3 direction, vec3 weight, vec3 radiance, float distance) {
+    return RecordedPath(origin, kind, direction, 0.0, weight, 0.0, radiance, distance, 0u, 0u, END_OPEN, -1,
+                        vec3(0.0), 0.0, vec3(0.0), 0u, vec3(0.0), 0.0, vec3(0.0), 0u);
+}
+
+// A cone's path.
+RecordedPath conePath(RecordedPath path, float tanHalf, float opacity, uint end) {
+    path.tanHalf = tanHalf;
+    path.opacity = opacity;
+    path.end = end;
+    return path;
 }
 
 // Returns the path's index; RECORD_MAX_PATHS when it is not kept.
-uint recordPath(uint kind, vec3 origin, vec3 direction, float tanHalf, vec3 weight, vec3 radiance,
-                float opacity, float distance, uint end) {
+uint recordPath(RecordedPath path) {
     if (!recording()) return RECORD_MAX_PATHS;
-    uint first = record.header.pathSteps;
+    path.firstStep = record.header.pathSteps;
+    path.stepCount = record.header.steps - path.firstStep;
+    path.weight *= record.header.share;
     record.header.pathSteps = record.header.steps;
     uint index = record.header.paths++;
     if (index >= RECORD_MAX_PATHS) return RECORD_MAX_PATHS;
-    record.paths[index] = RecordedPath(origin, kind, direction, tanHalf, weight * record.header.share,
-                                       opacity, radiance, distance, first, record.header.steps - first, end,
-                                       -1, vec3(0.0), 0.0, vec3(0.0), 0u, vec3(0.0), 0.0, vec3(0.0), 0u);
+    record.paths[index] = path;
     return index;
 }
 
@@ -62,9 +74,9 @@ void recordPart(int part, vec3 value, vec3 scale) {
 
 #define RECORD_SURFACE(seen, s) recordSurface(seen, (s).position, (s).normal, (s).depth)
 #define RECORD_STEP(kind, position, distance, size, level, radiance, opacity, total) \
-    recordStep(kind, position, distance, size, level, radiance, opacity, total)
+    recordStep(RecordedStep(position, size, radiance, opacity, distance, level, total, kind))
 #define RECORD_PATH(kind, origin, direction, tanHalf, weight, radiance, opacity, distance, end) \
-    recordPath(kind, origin, direction, tanHalf, weight, radiance, opacity, distance, end)
+    recordPath(conePath(newPath(kind, origin, direction, weight, radiance, distance), tanHalf, opacity, end))
 #define RECORD_WEIGHT(factor) recordWeight(factor)
 #define RECORD_PART(part, value, scale) recordPart(part, value, scale)
 #else

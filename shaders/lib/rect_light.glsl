@@ -68,7 +68,7 @@ struct RectLobe {
     float shift;
 };
 
-RectLobe rectLobe(vec3 n, vec3 toEye, float alpha, float nov) {
+RectLobe rectLobe(vec3 n, vec3 toEye, float alpha, float NoV) {
     RectLobe lobe;
     lobe.normal = n;
     vec3 along = dot(n, toEye) * n - toEye;
@@ -76,7 +76,7 @@ RectLobe rectLobe(vec3 n, vec3 toEye, float alpha, float nov) {
     lobe.along = alongLength > 1e-4 ? along / alongLength : normalize(cross(n.yzx, n) + vec3(1e-6));
     lobe.across = cross(n, lobe.along);
     float r = sqrt(alpha);
-    float s = nov / (nov + alpha);
+    float s = NoV / (NoV + alpha);
     float wideX =
         (1.29227 + s * (-5.47364 + s * (14.8254 + s * (-13.2592 + s * (3.61848))))) +
         r * ((-5.52999 + s * (27.8312 + s * (-56.654 + s * (50.7816 + s * (-16.5467))))) +
@@ -95,9 +95,9 @@ RectLobe rectLobe(vec3 n, vec3 toEye, float alpha, float nov) {
              r * ((6.72048 + s * (9.90489 + s * (-20.6585 + s * (-53.1321 + s * (56.1935))))) +
                   r * ((-5.0604 + s * (-10.0926 + s * (-37.6492 + s * (219.072 + s * (-166.697))))) +
                        r * ((1.12677 + s * (-3.92632 + s * (69.7312 + s * (-208.799 + s * (145.081)))))))));
-    wideX = max(wideX, 0.05) * s / nov;
+    wideX = max(wideX, 0.05) * s / NoV;
     lobe.width = 2.0 * alpha * vec2(wideX * wideX, max(wideY, 0.05));
-    lobe.shift = max(shift, 0.0) * s / nov * sqrt(max(1.0 - nov * nov, 0.0));
+    lobe.shift = max(shift, 0.0) * s / NoV * sqrt(max(1.0 - NoV * NoV, 0.0));
     return lobe;
 }
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The triangles of a voxel as rays meet them, where plane pieces are not enough (TRIANGLE_HITS 1; else
-// nothing): the voxelizer's chain of fragments names them (voxels/surface_clip.comp.glsl), its table has
-// their corners in grid coordinates. Test of ray and triangle: Moeller and Trumbore 1997, "Fast, Minimum
-// Storage Ray/Triangle Intersection". Method and figures: docs/theory/4_gather.md, "Mirrors that show
-// triangles".
+// Ray-triangle intersection within a voxel (TRIANGLE_HITS 1; otherwise the file is empty). The voxelizer's
+// chain of fragments (voxels/surface_clip.comp.glsl) lists the triangles; its table holds their corners in
+// grid coordinates. Test: Moeller and Trumbore 1997, "Fast, Minimum Storage Ray/Triangle Intersection".
+// Method: docs/theory/4_gather.md, "Mirrors that show triangles".
 //
 // Includers that set TRIANGLE_HITS include before: lib/scene_tables.glsl, lib/surface_array.glsl. Before the
 // call: SurfaceVoxels::bindTriangles, GpuScene::bind.
@@ -15,7 +14,7 @@ uniform samplerBuffer voxelTriangles;
 layout(std430) readonly buffer VertexTable { Vertex vertices[]; };
 layout(std430) readonly buffer IndexTable { uint indices[]; };
 
-// Width of what a ray stands for, voxels: at its start, and growth per voxel. A negative width: the ray meets
+// Footprint of a ray, voxels: its width at the start, and growth per voxel. A negative width: the ray hits
 // plane pieces.
 struct RayCone {
     float width;
@@ -23,11 +22,11 @@ struct RayCone {
 };
 RayCone rayCone = RayCone(-1.0, 0.0);
 
-const float kTriangleEdge = 1e-5;    // barycentric: neighbours overlap by this, so that no ray goes between
-const float kTriangleSide = 1e-3;    // voxels: so do cells
-const float kTriangleLeast = 1e-20;  // less is seen from its edge
+const float kTriangleEdge = 1e-5;    // barycentric overlap of neighbours, so that no ray passes between them
+const float kTriangleSide = 1e-3;    // overlap of cells, voxels
+const float kTriangleLeast = 1e-20;  // smaller determinants: the triangle is seen edge-on
 
-// A triangle of the voxelizer's table: corners, and the vertices that belong to them.
+// A triangle of the voxelizer's table, in grid coordinates.
 struct TriangleCorners {
     vec3 origin;
     vec3 edge1;
@@ -52,84 +51,101 @@ uvec3 triangleVertices(int triangle, uint instance) {
            uvec3(indices[first], indices[first + order.x], indices[first + order.y]);
 }
 
-vec2 triangleUv(uvec3 v, vec3 at) {
-    return at.x * vec2(vertices[v.x].u, vertices[v.x].v) + at.y * vec2(vertices[v.y].u, vertices[v.y].v) +
-           at.z * vec2(vertices[v.z].u, vertices[v.z].v);
+vec2 triangleUv(uvec3 v, vec3 barycentric) {
+    return barycentric.x * vec2(vertices[v.x].u, vertices[v.x].v) +
+           barycentric.y * vec2(vertices[v.y].u, vertices[v.y].v) +
+           barycentric.z * vec2(vertices[v.z].u, vertices[v.z].v);
 }
 
 // Texture `layer` of the use-th kind (order of Material::uvRow); white where there is none.
 vec4 triangleTexel(uint material, int layer, int use, vec2 uv, float footprint) {
     vec3 row0 = materials[material].uvRow[2 * use].xyz;
     vec3 row1 = materials[material].uvRow[2 * use + 1].xyz;
-    vec2 at = vec2(dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z);
+    vec2 transformed = vec2(dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z);
     float scale = sqrt(abs(row0.x * row1.y - row0.y * row1.x));
-    vec4 texel = sampleSurfaceArray(max(layer, 0), at, footprint * scale);
+    vec4 texel = sampleSurfaceArray(max(layer, 0), transformed, footprint * scale);
     return layer >= 0 ? texel : vec4(1.0);
 }
 
-// Whether a masked surface is there at barycentric coordinates `at`.
-bool triangleCovers(int triangle, uint instance, vec3 at) {
+// Alpha test of a masked material.
+bool triangleCovers(int triangle, uint instance, vec3 barycentric) {
     uint material = instances[instance].material;
     if ((materials[material].flags & MATERIAL_ALPHA_MASK) == 0u) return true;
     uvec3 v = triangleVertices(triangle, instance);
     uint wide = instances[instance].flags;
-    float opacity =
-        dot(at, vec3(vertexColor(vertices[v.x].color, wide).a, vertexColor(vertices[v.y].color, wide).a,
-                     vertexColor(vertices[v.z].color, wide).a));
-    vec4 texel = triangleTexel(material, materials[material].layers.x, 0, triangleUv(v, at), 0.0);
+    float opacity = dot(
+        barycentric, vec3(vertexColor(vertices[v.x].color, wide).a, vertexColor(vertices[v.y].color, wide).a,
+                          vertexColor(vertices[v.z].color, wide).a));
+    vec4 texel = triangleTexel(material, materials[material].layers.x, 0, triangleUv(v, barycentric), 0.0);
     return opacity * texel.a * materials[material].baseColor.a >= materials[material].alphaCutoff;
 }
 
-// The nearest triangle within a voxel; of equally near ones the first of the scene, whatever the chain's
-// order. The face is the one that holds most of it: there is the light that voxels keep.
-void testVoxelTriangles(ivec3 voxel, vec3 origin, vec3 direction, bool wanted, float tMax,
-                        inout VoxelHit hit) {
+// A crossing of a ray and a triangle.
+struct TriangleCrossing {
+    int triangle;
+    float t;
+    vec2 barycentric;
+    vec3 normal;  // against the ray, not normalized
+};
+
+// The face of a record that holds most of a surface with this normal; its light stands for the triangle's.
+int faceOfNormal(uint record, vec3 normal) {
+    uint directions = faceDirections(record);
+    uint facing = (normal.x > 0.0 ? 1u : 2u) | (normal.y > 0.0 ? 4u : 8u) | (normal.z > 0.0 ? 16u : 32u);
+    uint usable = (directions & facing) != 0u ? directions & facing : directions;
+    vec3 share =
+        mix(vec3(-1.0), abs(normal), bvec3((usable & 3u) != 0u, (usable & 12u) != 0u, (usable & 48u) != 0u));
+    uint axis = share.x >= max(share.y, share.z) ? 3u : (share.y >= share.z ? 12u : 48u);
+    uint chosen = usable & axis;
+    chosen &= 0u - chosen;
+    return int(faceBase(record)) + bitCount(directions & (chosen - 1u));
+}
+
+// Intersects the triangle of one fragment; keeps the nearest crossing within the voxel. `toCenter`: from the
+// ray's origin to the voxel's centre.
+void testTriangle(int triangle, Ray ray, vec3 toCenter, bool valid, inout TriangleCrossing nearest) {
+    TriangleCorners c = triangleCorners(triangle);
+    vec3 p = cross(ray.direction, c.edge2);
+    float determinant = dot(c.edge1, p);
+    float inverse = 1.0 / (abs(determinant) > kTriangleLeast ? determinant : kTriangleLeast);
+    vec3 fromCorner = ray.origin - c.origin;
+    vec3 q = cross(fromCorner, c.edge1);
+    vec2 barycentric = vec2(dot(fromCorner, p), dot(ray.direction, q)) * inverse;
+    float t = dot(c.edge2, q) * inverse;
+    vec3 offset = abs(t * ray.direction - toCenter);
+    bool hit = valid && (determinant > kTriangleLeast || (c.twoSided && determinant < -kTriangleLeast)) &&
+               min(barycentric.x, barycentric.y) >= -kTriangleEdge &&
+               barycentric.x + barycentric.y <= 1.0 + kTriangleEdge && t > kRayStart &&
+               max(offset.x, max(offset.y, offset.z)) <= 0.5 + kTriangleSide &&
+               (t < nearest.t || (t == nearest.t && triangle < nearest.triangle));
+    if (hit)
+        hit = triangleCovers(triangle, c.instance, vec3(1.0 - barycentric.x - barycentric.y, barycentric));
+    nearest.t = hit ? t : nearest.t;
+    nearest.triangle = hit ? triangle : nearest.triangle;
+    nearest.barycentric = hit ? barycentric : nearest.barycentric;
+    nearest.normal = hit ? cross(c.edge1, c.edge2) * sign(determinant) : nearest.normal;
+}
+
+// Tests the triangles of a voxel where `wanted`. Among equally near ones the first of the scene wins,
+// whatever the order of the chain.
+void testVoxelTriangles(ivec3 voxel, Ray ray, bool wanted, inout VoxelHit hit) {
     uvec4 word = imageLoad(voxelBrickImage, voxel >> 2);
-    bool there = wanted && brickHas(word.xy, bitOfVoxel(voxel));
-    int index = there ? int(voxelRecordIndex(word, bitOfVoxel(voxel))) : 0;
-    uint link = there ? texelFetch(voxelChains, index).x : 0u;
+    bool present = wanted && brickHas(word.xy, bitOfVoxel(voxel));
+    int index = present ? int(voxelRecordIndex(word, bitOfVoxel(voxel))) : 0;
+    uint link = present ? texelFetch(voxelChains, index).x : 0u;
     COUNT_LOOKUP(wanted ? 2 : 0);
-    vec3 toCenter = vec3(voxel) + 0.5 - origin;
-    float nearest = tMax;
-    int best = -1;
-    vec2 bestAt = vec2(0.0);
-    vec3 bestNormal = vec3(0.0);
+    vec3 toCenter = vec3(voxel) + 0.5 - ray.origin;
+    TriangleCrossing nearest = TriangleCrossing(-1, ray.tMax, vec2(0.0), vec3(0.0));
     do {
         COUNT_LOOKUP(link != 0u ? 5 : 0);
         int slot = max(int(link), 1) - 1;
         uint next = texelFetch(voxelFragments, 2 * slot).x;
         int triangle = int(texelFetch(voxelPairs, slot).x);
-        TriangleCorners c = triangleCorners(triangle);
-        vec3 p = cross(direction, c.edge2);
-        float towards = dot(c.edge1, p);
-        float inverse = 1.0 / (abs(towards) > kTriangleLeast ? towards : kTriangleLeast);
-        vec3 from = origin - c.origin;
-        vec3 q = cross(from, c.edge1);
-        vec2 at = vec2(dot(from, p), dot(direction, q)) * inverse;
-        float t = dot(c.edge2, q) * inverse;
-        vec3 off = abs(t * direction - toCenter);
-        bool met = link != 0u && (towards > kTriangleLeast || (c.twoSided && towards < -kTriangleLeast)) &&
-                   min(at.x, at.y) >= -kTriangleEdge && at.x + at.y <= 1.0 + kTriangleEdge && t > kRayStart &&
-                   max(off.x, max(off.y, off.z)) <= 0.5 + kTriangleSide &&
-                   (t < nearest || (t == nearest && triangle < best));
-        if (met) met = triangleCovers(triangle, c.instance, vec3(1.0 - at.x - at.y, at));
-        nearest = met ? t : nearest;
-        best = met ? triangle : best;
-        bestAt = met ? at : bestAt;
-        bestNormal = met ? cross(c.edge1, c.edge2) * sign(towards) : bestNormal;
+        testTriangle(triangle, ray, toCenter, link != 0u, nearest);
         link = link != 0u ? next : 0u;
     } while (link != 0u);
-    if (best < 0) return;
+    if (nearest.triangle < 0) return;
     uint record = texelFetch(voxelRecords, index).x;
-    uint directions = faceDirections(record);
-    uint facing =
-        (bestNormal.x > 0.0 ? 1u : 2u) | (bestNormal.y > 0.0 ? 4u : 8u) | (bestNormal.z > 0.0 ? 16u : 32u);
-    uint usable = (directions & facing) != 0u ? directions & facing : directions;
-    vec3 share = mix(vec3(-1.0), abs(bestNormal),
-                     bvec3((usable & 3u) != 0u, (usable & 12u) != 0u, (usable & 48u) != 0u));
-    uint axis = share.x >= max(share.y, share.z) ? 3u : (share.y >= share.z ? 12u : 48u);
-    uint chosen = usable & axis;
-    chosen &= 0u - chosen;
-    hit = VoxelHit(int(faceBase(record)) + bitCount(directions & (chosen - 1u)), nearest, best, bestAt);
+    hit = VoxelHit(faceOfNormal(record, nearest.normal), nearest.t, nearest.triangle, nearest.barycentric);
 }
 #endif

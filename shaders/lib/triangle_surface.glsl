@@ -1,48 +1,51 @@
 // SPDX-License-Identifier: MIT
-// What a ray shows of a triangle that it met (TRIANGLE_HITS 1; else nothing): colour, emission and lobe of
-// the material there, light that falls on the point, and the voxels' irradiance interpolated. Part of
-// lib/voxel_light.glsl.
+// Outgoing radiance of a triangle that a ray hit (TRIANGLE_HITS 1; otherwise the file is empty): Ray,
+// VoxelHit -> albedo, emission and lobe of the material there, direct light at the point, and the
+// interpolated cache. Part of lib/voxel_light.glsl.
 #if TRIANGLE_HITS
-// Lobes wider than this (GGX's alpha; roughness 0.3) show nothing so small: their rays meet plane pieces.
+// Rays in lobes wider than this (GGX alpha; roughness 0.3) hit plane pieces: triangles would not be resolved.
 const float kTriangleAlpha = 0.09;
-// With more rectangles their light is the face's.
+// With more rectangular lights than this their irradiance is the face's.
 const uint kTriangleMostRects = 4u;
 
 struct TriangleSurface {
     vec3 geometricNormal;  // unit, against the ray
     vec2 lobe;             // metalness, roughness
 };
-TriangleSurface metTriangle;  // of the last triangleRadiance
+TriangleSurface hitTriangle;  // of the last triangleRadiance
 
-// The point of a triangle that a ray met.
+// The point where a ray hit a triangle.
 struct TrianglePoint {
     uint instance;
     uvec3 vertices;
-    vec3 at;      // barycentric coordinates
-    vec3 normal;  // unit, against the ray
-    vec3 bent;    // that of the vertices, on the same side
+    vec3 barycentric;
+    vec3 geometricNormal;  // unit, against the ray
+    vec3 shadingNormal;    // interpolated between the vertices, on the same side
     float twiceArea;
 };
 
-TrianglePoint trianglePoint(VoxelHit hit, vec3 direction) {
+TrianglePoint trianglePoint(Ray ray, VoxelHit hit) {
+    // Compute the geometric normal
     TriangleCorners c = triangleCorners(hit.triangle);
     vec3 twice = cross(c.edge1, c.edge2);
     float twiceArea = length(twice);
-    vec3 n = twice / twiceArea;
-    n = dot(n, direction) > 0.0 ? -n : n;
-    vec3 at = vec3(1.0 - hit.at.x - hit.at.y, hit.at);
+    vec3 normal = twice / twiceArea;
+    normal = dot(normal, ray.direction) > 0.0 ? -normal : normal;
+
+    // Interpolate the shading normal
+    vec3 at = vec3(1.0 - hit.barycentric.x - hit.barycentric.y, hit.barycentric);
     uvec3 v = triangleVertices(hit.triangle, c.instance);
     vec3 object = at.x * octDecode(unpackSnorm2x16(vertices[v.x].normalOct)) +
                   at.y * octDecode(unpackSnorm2x16(vertices[v.y].normalOct)) +
                   at.z * octDecode(unpackSnorm2x16(vertices[v.z].normalOct));
-    vec3 bent = normalize(instances[c.instance].normalColumn0.xyz * object.x +
-                          instances[c.instance].normalColumn1.xyz * object.y +
-                          instances[c.instance].normalColumn2.xyz * object.z);
-    bent = dot(bent, n) < 0.0 ? -bent : bent;
-    return TrianglePoint(c.instance, v, at, n, bent, twiceArea);
+    vec3 shadingNormal = normalize(instances[c.instance].normalColumn0.xyz * object.x +
+                                   instances[c.instance].normalColumn1.xyz * object.y +
+                                   instances[c.instance].normalColumn2.xyz * object.z);
+    shadingNormal = dot(shadingNormal, normal) < 0.0 ? -shadingNormal : shadingNormal;
+    return TrianglePoint(c.instance, v, at, normal, shadingNormal, twiceArea);
 }
 
-// The material there, textures averaged over what the ray stands for.
+// The material there; textures are filtered over the footprint of the ray.
 struct TriangleMaterial {
     vec3 albedo;
     vec3 emission;
@@ -50,24 +53,30 @@ struct TriangleMaterial {
 };
 
 TriangleMaterial triangleMaterial(TrianglePoint p, VoxelHit hit) {
+    // Compute the footprint of the ray in texture coordinates
     uvec3 v = p.vertices;
-    vec3 at = p.at;
-    uint material = instances[p.instance].material;
-    uint wide = instances[p.instance].flags;
-    ivec4 layers = materials[material].layers;
+    vec3 at = p.barycentric;
     vec2 uv = triangleUv(v, at);
     vec2 du = triangleUv(v, vec3(-1.0, 1.0, 0.0));
     vec2 dv = triangleUv(v, vec3(-1.0, 0.0, 1.0));
     float footprint =
         sqrt(abs(du.x * dv.y - du.y * dv.x) / p.twiceArea) * (rayCone.width + hit.t * rayCone.growth);
+
+    // Look up the base color
+    uint material = instances[p.instance].material;
+    uint wide = instances[p.instance].flags;
+    ivec4 layers = materials[material].layers;
     vec3 color = at.x * vertexColor(vertices[v.x].color, wide).rgb +
                  at.y * vertexColor(vertices[v.y].color, wide).rgb +
                  at.z * vertexColor(vertices[v.z].color, wide).rgb;
     color *= materials[material].baseColor.rgb * triangleTexel(material, layers.x, 0, uv, footprint).rgb;
+
+    // Look up the emission, unless a rectangular light stands for it
     vec3 emission = materials[material].emission * triangleTexel(material, layers.w, 3, uv, footprint).rgb;
     uint shadeBits = texelFetch(voxelFaces, 2 * hit.face + 1).w;
     emission = (shadeBits & FACE_AREA_LIGHT) != 0u ? vec3(0.0) : emission;
-    // Textures of metalness and roughness: as the voxel has them.
+
+    // Look up the lobe; textured metalness and roughness are the voxel's
     vec2 lobe = layers.y >= 0 ? unpackLobe(shadeBits >> 16)
                               : vec2(materials[material].metallic, materials[material].roughness);
     vec3 albedo = evenAlbedo(color, lobe.x, lobe.y, materials[material].specularF0);
@@ -78,26 +87,27 @@ TriangleMaterial triangleMaterial(TrianglePoint p, VoxelHit hit) {
 
 bool fewRects() { return lighting.lightEnds.w - lighting.lightEnds.z <= kTriangleMostRects; }
 
-// Adds the irradiance at the point by the rectangles. Of each one point is asked: rays are many.
-void addTriangleRects(inout vec3 direct, TrianglePoint p, vec3 position, VoxelHit hit) {
+// Irradiance at the point by the rectangular lights, added to `irradiance`. One sample point of each is
+// tested for visibility, because rays are many.
+void addTriangleRects(TrianglePoint p, vec3 position, VoxelHit hit, inout vec3 irradiance) {
     uint i = fewRects() ? lighting.lightEnds.z : lighting.lightEnds.w;
-    uint random = randomHash(floatBitsToUint(hit.t)) ^ floatBitsToUint(hit.at.x);
+    uint random = randomHash(floatBitsToUint(hit.t)) ^ floatBitsToUint(hit.barycentric.x);
     while (i < lighting.lightEnds.w) {
         Light light = lights[i];
         uint count = light.sampleGrid * light.sampleGrid;
         uint k = min(uint(randomNext(random) * float(count)), count - 1u);
-        direct += light.intensity * rectIrradiance(light, position, p.bent) *
-                  shadowVisibilityRect(light, k, rectSamplePoint(light, k), position, p.normal);
+        irradiance += light.intensity * rectIrradiance(light, position, p.shadingNormal) *
+                      shadowVisibilityRect(light, k, rectSamplePoint(light, k), position, p.geometricNormal);
         ++i;
     }
 }
 
-// Direct light that the face reflects, of lights that are not asked at the point. `radiance`: the face's.
-vec3 faceReflected(int face, vec3 radiance) {
-    vec3 steady = unpackRgb9e5(texelFetch(steadyLight, face).x);
+// Reflected direct light of the face, by those lights that are not evaluated at the point.
+vec3 faceReflected(int face, vec3 directRadiance) {
+    vec3 steady = unpackRgb9e5(texelFetch(cachedDirect, face).x);
     vec3 reflected = vec3(0.0);
 #if !EXACT_DIRECT
-    reflected += max(radiance - steady, vec3(0.0));
+    reflected += max(directRadiance - steady, vec3(0.0));
 #endif
     bool areaLight = (texelFetch(voxelFaces, 2 * face + 1).w & FACE_AREA_LIGHT) != 0u;
     vec3 emitted = areaLight ? vec3(0.0) : unpackEmission(texelFetch(voxelFaceSources, face).xy);
@@ -105,27 +115,31 @@ vec3 faceReflected(int face, vec3 radiance) {
     return reflected;
 }
 
-// Radiance at the point, matt, as hitRadiance; `s` becomes that of the point but for its radiance.
-vec3 triangleRadiance(VoxelHit hit, vec3 origin, vec3 direction, inout FaceShade s, out vec3 bent) {
-    TrianglePoint p = trianglePoint(hit, direction);
+// Outgoing radiance at the point as if it were diffuse, as hitRadiance. `s` becomes the shading of the point,
+// but for its directRadiance.
+vec3 triangleRadiance(Ray ray, VoxelHit hit, inout FaceShading s, out vec3 shadingNormal) {
+    // Look up the material
+    TrianglePoint p = trianglePoint(ray, hit);
     TriangleMaterial m = triangleMaterial(p, hit);
-    metTriangle = TriangleSurface(p.normal, m.lobe);
-    bent = p.bent;
+    hitTriangle = TriangleSurface(p.geometricNormal, m.lobe);
+    shadingNormal = p.shadingNormal;
     vec3 faceAlbedo = s.albedo;
     s.albedo = m.albedo;
 
-    // Gather the light there.
-    vec3 point = origin + hit.t * direction;
-    vec4 around = cachedIrradiance(point, p.normal, true);
-    s.irradiance = around.a > 0.0 ? around.rgb : s.irradiance;
+    // Interpolate the cache
+    vec3 point = ray.origin + hit.t * ray.direction;
+    vec4 cached = cachedIrradiance(point, p.geometricNormal, true);
+    s.irradiance = cached.a > 0.0 ? cached.rgb : s.irradiance;
+
+    // Evaluate the lights at the point
     vec3 position = worldFromGrid(point);
-    vec3 direct = vec3(0.0);
+    vec3 irradiance = vec3(0.0);
 #if EXACT_DIRECT
-    direct = directIrradiance(position, bent, p.normal, 0.0);
+    irradiance = directIrradiance(position, shadingNormal, p.geometricNormal, 0.0);
 #endif
-    addTriangleRects(direct, p, position, hit);
-    vec3 reflected = faceReflected(hit.face, s.radiance);
+    addTriangleRects(p, position, hit, irradiance);
+    vec3 reflected = faceReflected(hit.face, s.directRadiance);
     return m.emission +
-           s.albedo * (direct * (1.0 / kGatherPi) + s.irradiance + reflected / max(faceAlbedo, 1e-3));
+           s.albedo * (irradiance * (1.0 / kGatherPi) + s.irradiance + reflected / max(faceAlbedo, 1e-3));
 }
 #endif

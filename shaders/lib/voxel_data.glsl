@@ -15,8 +15,8 @@ vec3 faceData(int face, uint data) {
         case VIEW_IRRADIANCE:
             return irradiance;
         case VIEW_AGE:
-            return updates == FACE_UPDATES_DEAD ? vec3(1.0, 0.0, 1.0)
-                                                : falseColor(log2(1.0 + float(updates)) / 8.0);
+            return updates == FACE_UPDATES_INTERIOR ? vec3(1.0, 0.0, 1.0)
+                                                    : falseColor(log2(1.0 + float(updates)) / 8.0);
         case VIEW_ALBEDO:
             return unpackAlbedo(b.x);
         case VIEW_NORMAL:

@@ -74,7 +74,7 @@ uint packLobe(float metallic, float roughness) {
 // From FaceRecord::irradiance1.
 uint faceUpdates(uint irradiance1) {
     uint age = (irradiance1 >> FACE_AGE_SHIFT) & FACE_AGE_MASK;
-    return (irradiance1 & FACE_DEAD) != 0u ? FACE_UPDATES_DEAD : (age == 0u ? 0u : 1u << (age - 1u));
+    return (irradiance1 & FACE_INTERIOR) != 0u ? FACE_UPDATES_INTERIOR : (age == 0u ? 0u : 1u << (age - 1u));
 }
 
 vec2 unpackLobe(uint bits) { return vec2((bits >> 5) & 15u, bits & 31u) / vec2(15.0, 31.0); }
@@ -88,14 +88,10 @@ int sideOfAxis(int axis, vec3 n) {
 }
 // The direction that a face with the normal n looks to.
 int faceDirection(uvec4 hitTexel, vec3 n) { return sideOfAxis(int(hitTexel.w >> 30), n); }
-// The point of the plane nearest to the voxel's centre, in grid coordinates.
-vec3 facePoint(FaceRecord face) {
-    return vec3(unpackVoxel(face.voxel)) + 0.5 + faceNormal(face) * unpackOffset(face.offsetWeight);
-}
-// From the plane of a face to what stands highest before it, along the face's axis: how far the bounds reach
-// beyond what a plane piece fills. Light that falls on the face is looked up there, not inside of what stands
-// before the plane. Zero for plane pieces, but where rounding of the bounds is more than its mean.
-vec3 faceRise(uvec4 hitTexel, vec3 n) {
+// Offset from the plane of a face to the highest surface in front of it, along the face's axis: how far the
+// bounds reach beyond a plane piece. Direct light on the face is evaluated there, not inside the surface in
+// front. Zero for plane pieces, unless the rounding of the bounds exceeds its mean.
+vec3 faceFrontOffset(uvec4 hitTexel, vec3 n) {
     uint axis = hitTexel.w >> 30;
     vec3 k = vec3(axis == 0u, axis == 1u, axis == 2u);
     k = dot(n, k) < 0.0 ? -k : k;
@@ -113,9 +109,9 @@ vec3 faceRise(uvec4 hitTexel, vec3 n) {
 vec3 faceCenter(FaceRecord face) {
     vec3 n = faceNormal(face);
     vec3 middle = 0.5 * (unpackBoundsMin(face.bounds) + unpackBoundsMax(face.bounds)) - 0.5;
-    vec3 rise = faceRise(uvec4(face.normal, face.offsetWeight, face.bounds, face.voxel), n);
+    vec3 frontOffset = faceFrontOffset(uvec4(face.normal, face.offsetWeight, face.bounds, face.voxel), n);
     return vec3(unpackVoxel(face.voxel)) + 0.5 + middle +
-           n * (unpackOffset(face.offsetWeight) - dot(n, middle)) + rise;
+           n * (unpackOffset(face.offsetWeight) - dot(n, middle)) + frontOffset;
 }
 
 // Bounds that reach the voxel's side are grown, voxels: by the first along the normal, by the second, which
@@ -138,12 +134,12 @@ void rayBounds(uint bounds, vec3 n, out vec3 lower, out vec3 upper) {
     upper += mix(grown, shrunk, lessThan(upper, vec3(1.0)));
 }
 
-// Where rays from `origin` (grid coordinates) aim at a face: its bounds as rays meet them. Where a plane
-// along the grid goes on next door on both sides, bounds overlap, and rays meet those that they come to
-// first: there bounds are moved away from the origin instead of grown, so that each point is aimed at once.
-// `side` is 1 then. With -1 they are moved towards it: what is found there alone is where a plane that ends
-// at the voxel's side, which looks as if it went on, has nothing next door (kAimAside).
-void aimBounds(uvec4 hitTexel, vec3 n, vec3 origin, float side, out vec3 lower, out vec3 upper) {
+// Bounds within which light-sampled rays from `origin` (grid coordinates) choose their points: those of
+// rayBounds. Where a plane along the grid goes on in the voxels on both sides, the bounds of neighbours
+// overlap, and rays hit the nearer one. There the bounds are moved away from the origin instead of grown, so
+// that each point is sampled once. `side`: 1; with -1 they are moved towards the origin, for planes that end
+// at the voxel's side and only seem to go on (kMovedBoundsPeriod).
+void lightSampleBounds(uvec4 hitTexel, vec3 n, vec3 origin, float side, out vec3 lower, out vec3 upper) {
     rayBounds(hitTexel.z, n, lower, upper);
     vec3 a = abs(n);
     bool alongGrid = max(a.x, max(a.y, a.z)) > 0.9999;
@@ -156,10 +152,10 @@ void aimBounds(uvec4 hitTexel, vec3 n, vec3 origin, float side, out vec3 lower, 
     upper = mix(upper, 1.0 + moved, goesOn);
 }
 
-// Up to three faces of a voxel hold the same surface, and rays meet the one that covers most. So that is
-// where rays are aimed at (docs/theory/4_gather.md, eq. 4.11): 1 for the face of the normal's largest
-// component, little for others.
-float flowShare(vec3 n, uint axis) {
+// Share of the light samples of a voxel that a face gets (docs/theory/4_gather.md, eq. 4.11). Up to three
+// faces hold the same surface, and rays hit the one of largest coverage: 1 for the face of the normal's
+// largest component, little for the others.
+float dominantFaceShare(vec3 n, uint axis) {
     vec3 a = abs(n);
     float part = (axis == 0u ? a.x : (axis == 1u ? a.y : a.z)) / max(a.x, max(a.y, a.z));
     return part * part * part * part;

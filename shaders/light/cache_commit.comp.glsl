@@ -58,7 +58,7 @@ vec4 neighbourIrradiance(int side, uvec4 hitTexel, vec3 n) {
     FaceCache state = unpackState(texelFetch(stateTexels, stateOwner(face, texelFetch(stateTexels, face))));
     bool same = there && dot(n, turned) > kSamePlaneNormal && abs(apart) < kSamePlaneOffset &&
                 ((other.z ^ hitTexel.z) & FACE_REVERSE) == 0u && (state.counts & CACHE_UPDATES_MASK) != 0u &&
-                !isDead(state);
+                !isInterior(state);
     return same ? vec4(state.irradiance, 1.0) : vec4(0.0);
 }
 
@@ -91,14 +91,14 @@ void main() {
         uvec4 hitTexel = texelFetch(voxelFaces, 2 * int(at));
         uvec4 shade = texelFetch(voxelFaces, 2 * int(at) + 1);
         uint updates = state.counts & CACHE_UPDATES_MASK;
-        bool dead = isDead(state);
+        bool dead = isInterior(state);
         vec3 irradiance = dead ? vec3(0.0) : clamp(state.irradiance, 0.0, 65504.0);
         vec3 radiance = unpackRgb9e5(shade.y) + unpackAlbedo(shade.x) * irradiance;
         flux += inside && !dead ? faceFlux(hitTexel, radiance) : 0.0;
         shade.z = packHalf2x16(irradiance.rg);
         shade.w = packHalf2x16(vec2(irradiance.b, 0.0)) | (shade.w & (FACE_LOBE_BITS | FACE_AREA_LIGHT)) |
                   (uint(findMSB(updates) + 1) << FACE_AGE_SHIFT) |
-                  (dead ? FACE_DEAD : (updates != 0u ? FACE_LIT : 0u));
+                  (dead ? FACE_INTERIOR : (updates != 0u ? FACE_LIT : 0u));
         if (inside) {
             faces[2u * at + 1u].zw = shade.zw;
 #if AT_PIXELS

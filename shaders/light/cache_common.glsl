@@ -14,10 +14,10 @@ layout(std430) buffer ChunkTable { float chunks[]; };
 float faceFlux(uvec4 hitTexel, vec3 radiance) {
     vec3 n = octDecode(unpackSnorm2x16(hitTexel.x));
     vec3 lower, upper;
-    aimBounds(hitTexel, n, vec3(0.0), 1.0, lower, upper);
+    lightSampleBounds(hitTexel, n, vec3(0.0), 1.0, lower, upper);
     vec3 size = max(upper - lower, vec3(0.0));
     uint axis = hitTexel.w >> 30;
     float seen = axis == 0u ? size.y * size.z : (axis == 1u ? size.z * size.x : size.x * size.y);
     float facing = axis == 0u ? n.x : (axis == 1u ? n.y : n.z);
-    return dot(radiance, vec3(1.0 / 3.0)) * seen * flowShare(n, axis) / max(abs(facing), 1e-3);
+    return dot(radiance, vec3(1.0 / 3.0)) * seen * dominantFaceShare(n, axis) / max(abs(facing), 1e-3);
 }

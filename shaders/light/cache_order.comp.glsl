@@ -108,7 +108,7 @@ const uint kGathers = 0u;
 const uint kDoubtful = 1u;
 const uint kLeftOut = 2u;
 uint roleOf(uvec4 hitTexel, uvec4 state) {
-    bool dead = isDead(unpackState(state));
+    bool dead = isInterior(unpackState(state));
     // Something was met from behind. Whoever gathers shows that in vain, or is about to.
     bool doubtful = dead || 8u * (state.w >> 24) > (state.w >> 16 & 0xffu);
     ivec3 voxel = unpackVoxel(hitTexel.w);

@@ -1,6 +1,6 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// Draws the pool of bright faces: each entry is the face at a random place in one of equal parts of the
+// Draws the pool of light samples: each entry is the face at a random place in one of equal parts of the
 // total flux (stratified), in their order but for close neighbours. Finds its chunk by bisection, then walks
 // through the chunk.
 layout(local_size_x = 64) in;
@@ -10,14 +10,14 @@ layout(std430) writeonly buffer PoolTable { uint pool[]; };
 uniform usamplerBuffer voxelFaces;
 
 void main() {
-    uint place = min(gl_GlobalInvocationID.x, BRIGHT_FACE_COUNT - 1u);
+    uint place = min(gl_GlobalInvocationID.x, LIGHT_SAMPLE_COUNT - 1u);
     // Neighbours alternate as voxels do, two layers of a lamp for example, and evenly spread numbers would
     // find the same one everywhere: within groups of 8 and 64 they are exchanged at random.
     uint entry = place ^ (randomHash(place >> 3) & 7u);
     entry ^= randomHash(entry >> 6) & 56u;
     float total = chunks[cache.chunkCount];
     uint state = randomHash(entry ^ randomHash(cache.update ^ randomHash(cache.seed ^ 0x51ed270bu)));
-    float wanted = (float(entry) + randomNext(state)) * (total / float(BRIGHT_FACE_COUNT));
+    float wanted = (float(entry) + randomNext(state)) * (total / float(LIGHT_SAMPLE_COUNT));
     uint low = 0u;
     uint high = cache.chunkCount;
     do {
@@ -37,7 +37,7 @@ void main() {
         vec3 irradiance = vec3(unpackHalf2x16(shade.z), unpackHalf2x16(shade.w).x);
         vec3 radiance = unpackRgb9e5(shade.y) + unpackAlbedo(shade.x) * irradiance;
         float flux =
-            (shade.w & FACE_DEAD) != 0u ? 0.0 : faceFlux(texelFetch(voxelFaces, 2 * int(face)), radiance);
+            (shade.w & FACE_INTERIOR) != 0u ? 0.0 : faceFlux(texelFetch(voxelFaces, 2 * int(face)), radiance);
         found = flux > 0.0 ? face : found;
         sum += flux;
         going = sum <= wanted;

@@ -5,7 +5,7 @@
 int stateOwner(int face, uvec4 texel) { return (texel.w & CACHE_SHARES) != 0u ? int(texel.x) : face; }
 FaceCache unpackState(uvec4 texel) { return FaceCache(uintBitsToFloat(texel.xyz), texel.w); }
 
-bool isDead(FaceCache state) {
+bool isInterior(FaceCache state) {
     uint rays = (state.counts >> 16) & 0xffu;
-    return rays >= IRRADIANCE_DEAD_RAYS && 4u * (state.counts >> 24) > rays;
+    return rays >= IRRADIANCE_INTERIOR_RAYS && 4u * (state.counts >> 24) > rays;
 }

@@ -4,7 +4,7 @@
 // before, and blends it into its mean (docs/theory/4_gather.md, "The cache"). Rays read the packed irradiance
 // of the records, which cache_commit writes afterwards: who comes first does not matter.
 //
-// FIND_BACKS 1: also counts rays that meet a surface from behind, to find faces inside closed objects.
+// FIND_BACK_FACES 1: also counts rays that meet a surface from behind, to find faces inside closed objects.
 layout(local_size_x = 64) in;
 #include "lib/interleave.glsl"
 #include "lib/linear_index.glsl"
@@ -38,10 +38,12 @@ void main() {
          coarsest = spreadPlace(voxel >> 6);
     float ofPool = fine.x + fine.y / 4.0 + coarse.x / 16.0 + coarse.y / 64.0;
     vec3 shift = vec3(fine + coarse / 4.0 + coarsest / 16.0, ofPool);
-    float backs;
-    vec3 gathered = gatherIrradianceSequence(
-        rayOrigin(faceCenter(record), normal), normal, normal, int(cache.cosineRays), int(cache.lightRays),
-        int(cache.reflections), cache.reflectedLimit, seed, shift, cache.update, backs);
+    SurfacePoint point = SurfacePoint(rayOrigin(faceCenter(record), normal), normal, normal);
+    EstimatorSettings settings = EstimatorSettings(int(cache.cosineRays), int(cache.lightRays),
+                                                   int(cache.reflections), cache.fireflyClamp);
+    float backFaceShare;
+    vec3 gathered =
+        estimateIrradiance(point, settings, SequenceState(seed, cache.update, shift), backFaceShare);
     if (!used) return;
     FaceCache state = unpackState(texelFetch(stateTexels, int(face)));
     uint updates = state.counts & CACHE_UPDATES_MASK;
@@ -50,10 +52,11 @@ void main() {
     uint window = clamp(updates, IRRADIANCE_SETTLE, IRRADIANCE_SETTLE + cache.longestWindow - 1u);
     state.irradiance += (gathered - state.irradiance) * (1.5 / (float(window - IRRADIANCE_SETTLE) + 1.5));
     state.counts = (state.counts & 0xffff0000u) | min(updates + 1u, 0x7fffu);
-#if FIND_BACKS
+#if FIND_BACK_FACES
     uint rays = (state.counts >> 16) & 0xffu;
     if (rays + cache.cosineRays < 256u)
-        state.counts += (cache.cosineRays << 16) + (uint(backs * float(cache.cosineRays) + 0.5) << 24);
+        state.counts +=
+            (cache.cosineRays << 16) + (uint(backFaceShare * float(cache.cosineRays) + 0.5) << 24);
 #endif
     states[face] = state;
 }

@@ -57,7 +57,7 @@ float seenArea(int face, bool asked) {
         float phi = 6.28318530718 * turn.y;
         vec3 leaves = across * cos(phi) * u + across * sin(phi) * v + sqrt(max(1.0 - turn.x, 0.0)) * n;
         vec3 from = vec3(unpackVoxel(r.w)) + 0.5 + fromDominant(point, axis) + kFromOutside * leaves;
-        VoxelHit hit = traceVoxels(from, -leaves, inside ? kFromOutside + 0.5 : -1.0, vec3(0.0));
+        VoxelHit hit = traceVoxels(Ray(from, -leaves, inside ? kFromOutside + 0.5 : -1.0, vec3(0.0)));
         // What else stands before the lamp takes light of it, but does not make it smaller.
         bool counts = inside && hit.face >= 0 && emits(max(hit.face, 0));
         tried += counts ? 1.0 : 0.0;

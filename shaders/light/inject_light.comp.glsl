@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Face records: radiance = emission + albedo / pi * irradiance of the lights. One invocation per face.
 // KEEP_IRRADIANCE 0: gathered irradiance is cleared. 1: it stays, and what does not come from point, spot and
-// directional lights is written once more by itself (steadyLight of shared/irradiance.h).
+// directional lights is written once more by itself (cachedDirect of shared/irradiance.h).
 // EMISSION_FITS 1: each face shows a part of its emission (emission_fit.comp.glsl).
 #ifndef KEEP_IRRADIANCE
 #error KEEP_IRRADIANCE must be 0 or 1
@@ -18,7 +18,7 @@ layout(local_size_x = 64) in;  // before linear_index, which asks for it
 layout(std430) buffer FaceTable { FaceRecord faces[]; };
 uniform usamplerBuffer voxelFaceSources;
 #if KEEP_IRRADIANCE
-layout(std430) writeonly buffer SteadyLight { uint steadyLight[]; };
+layout(std430) writeonly buffer CachedDirect { uint cachedDirect[]; };
 #endif
 #if EMISSION_FITS
 uniform usamplerBuffer emissionParts;
@@ -73,7 +73,7 @@ void main() {
     if (!inside) return;
     faces[index].radiance = packRgb9e5(emission + reflectance * light.irradiance);
 #if KEEP_IRRADIANCE
-    steadyLight[index] = packRgb9e5(steady);
+    cachedDirect[index] = packRgb9e5(steady);
     faces[index].irradiance1 = (face.irradiance1 & ~FACE_AREA_LIGHT) | (areaLight ? FACE_AREA_LIGHT : 0u);
 #else
     faces[index].irradiance0 = 0u;

@@ -25,7 +25,7 @@
 #define END_OPEN 0u    // left the grid, or reached its length: what is left sees the sky
 #define END_FULL 1u    // a cone that is opaque
 #define END_FACE 2u    // a ray met a face
-#define END_UNUSED 3u  // counts for nothing: below the surface, or did not arrive at its bright face
+#define END_UNUSED 3u  // counts for nothing: below the surface, or did not reach its light face
 
 // RecordedStep::kind; conelight::StepKind
 #define STEP_SAMPLE 0u  // a cone read the volume

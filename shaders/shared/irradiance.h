@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // What the irradiance cache (src/light/irradiance_cache.h) and its readers (lib/voxel_light.glsl) share.
 //
-//   brightFaces  uints: [0] 1 / flux of all faces as a float, per voxel side; [1 + i] entry i of the pool: a
+//   lightSamples  uints: [0] 1 / flux of all faces as a float, per voxel side; [1 + i] entry i of the pool: a
 //                face. Entries are drawn by flux, anew for every update.
-//   steadyLight  uint per face: RGB9E5 of its radiance less what point, spot and directional lights give
+//   cachedDirect  uint per face: RGB9E5 of its radiance less what point, spot and directional lights give
 //   faceLight    two uints per face, what lookups at pixels read: irradiance / pi as three halves, and 16
 //   bits of its
 //                weight as in FaceRecord::offsetWeight: its coverage, less for reverse faces, 0 for those
@@ -11,13 +11,13 @@
 #pragma once
 #include "shared/prelude.h"
 
-// Names: brightFaces, steadyLight (usamplerBuffer R32UI) and faceLight (usamplerBuffer RG32UI) for readers;
+// Names: lightSamples, cachedDirect (usamplerBuffer R32UI) and faceLight (usamplerBuffer RG32UI) for readers;
 // the cache's passes read tables of their own through buffer textures, too (`...Texels`), because software
 // drivers read storage lane by lane in loops.
 
 // Entries of the pool. Searching the whole list for each ray instead costs 11 to 17 % more
 // (docs/theory/4_gather.md).
-#define BRIGHT_FACE_COUNT 4096
+#define LIGHT_SAMPLE_COUNT 4096
 
 // Updates after a change that replace what was there; averages begin then, in which early ones count for
 // less. Averages of all updates from the first one keep 2 to 4 % of the light out for good: bounces have not
@@ -27,7 +27,7 @@
 #define IRRADIANCE_SHARED_UPDATES 32
 // A face lies inside a closed object when of at least so many cosine rays more than a quarter meet a surface
 // from behind first, farther than 1.5 voxels away.
-#define IRRADIANCE_DEAD_RAYS 16
+#define IRRADIANCE_INTERIOR_RAYS 16
 
 // Order in which updates visit faces (cache_order): six directions and 64 places in a brick per block of 4^3
 // bricks; chunks of the prefix sum over bins.
@@ -42,10 +42,11 @@ CONELIGHT_SHARED_BEGIN
 // State of one face of the cache.
 struct FaceCache {
     vec3 irradiance;  // irradiance / pi, the mean so far
-    uint counts;  // updates since a change, 0: never | rays looked at for dead faces << 16 | of these, met a
-                  // surface from behind first << 24. CACHE_SHARES: the state is that of another face, whose
-                  // number stands in irradiance.x, as bits
-};                // 16 B
+    // Updates since a change, 0: never | rays looked at for interior faces << 16 | of these, met a surface from
+    // behind first << 24. CACHE_SHARES: the state is that of another face, whose number stands in
+    // irradiance.x, as bits.
+    uint counts;
+};  // 16 B
 
 // Uniform block of the cache's passes.
 struct CacheConstants {
@@ -60,13 +61,13 @@ struct CacheConstants {
     uint facesPerChunk;
     // ---- 32 B
     uint chunkCount;
-    uint restart;          // 1: light changed, windows are short again
-    uint reflections;      // on metals, of one ray
-    float reflectedLimit;  // as in PixelRayConstants
-};                         // 48 B
+    uint restart;        // 1: light changed, windows are short again
+    uint reflections;    // on metals, of one ray
+    float fireflyClamp;  // as in PixelRayConstants
+};                       // 48 B
 
 // Uniform block of the pass that carries light over.
-struct CacheCarry {
+struct CacheReprojection {
     vec3 oldOrigin;
     float oldInverseVoxelSize;
     // ---- 16 B
@@ -88,6 +89,6 @@ CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::FaceCache) == 16);
 static_assert(sizeof(conelight::gpu::CacheConstants) == 48);
-static_assert(sizeof(conelight::gpu::CacheCarry) == 32);
+static_assert(sizeof(conelight::gpu::CacheReprojection) == 32);
 static_assert(sizeof(conelight::gpu::CacheOrder) == 16);
 #endif

@@ -34,8 +34,8 @@ struct PixelRayConstants {
     float inverseVoxelSize;
     uint reflections;  // on metals, of one ray
     // ---- 144 B
-    float reflectedLimit;  // of what a ray sees by reflections, over what the metal shows if matt
-    uint lobesX;           // lowest pixel that may need rays into its lobe
+    float fireflyClamp;  // firefly clamp: of radiance by glossy bounces, over that of the diffuse metal
+    uint lobesX;         // lowest pixel that may need rays into its lobe
     uint lobesY;
     uint pad0;
 };  // 160 B

@@ -18,9 +18,7 @@
     using glm::mat4;           \
     using uint = std::uint32_t;
 #define CONELIGHT_SHARED_END }
-#define CONELIGHT_CONSTANT constexpr
 #else
 #define CONELIGHT_SHARED_BEGIN
 #define CONELIGHT_SHARED_END
-#define CONELIGHT_CONSTANT const
 #endif

@@ -5,8 +5,9 @@
 //
 //   brickWord  RGBA32UI 3D texture, one texel per brick of 4^3 voxels:
 //              x, y  occupancy: bit i (lo: 0..31, hi: 32..63) is voxel i = x + 4 y + 16 z of the brick
-//              z     index of the brick's first voxel record; voxel i has index z + (occupied voxels below
-//              bit i) w     0, reserved
+//              z     index of the brick's first voxel record; voxel i has index
+//                    z + (occupied voxels below bit i)
+//              w     0, reserved
 //   voxRec     one uint per occupied voxel, ordered by brick (x fastest) and voxel: bits 0..25 index of its
 //              first face, bits 26..31 the directions in which it has faces (bit 26 + k)
 //   face       FaceRecord per voxel and facing direction, ordered by voxel and direction
@@ -25,7 +26,6 @@
 #include "shared/prelude.h"
 
 // Facing directions k, in the order of face indices and of the flags in voxRec: +x -x +y -y +z -z.
-#define VOXEL_DIRECTIONS 6
 // A triangle with normal n has a face in direction k when n.k exceeds this (sine of 1.1 degrees): below it,
 // what it adds to the coverage seen along k is less than 2 % of its area, and a plane seen that flatly has no
 // usable crossing. From the accuracy experiments behind docs/theory/2_voxels.md.
@@ -57,15 +57,14 @@
 #define OCTANT_EMPTY_SPARE 0x00000002u
 
 // Upper half of FaceRecord::irradiance1. Written by surface_resolve (lobe) and whoever lights faces.
-#define FACE_ROUGHNESS_SHIFT 16u     // 5 bit: roughness of what is metallic
-#define FACE_METALLIC_SHIFT 21u      // 4 bit: metalness
+// Bits 16 to 20: roughness of what is metallic. Bits 21 to 24: metalness.
 #define FACE_LOBE_BITS 0x01ff0000u   // both
 #define FACE_AREA_LIGHT 0x02000000u  // its emission is the light of a rectangle, not in `radiance`
 #define FACE_AGE_SHIFT 26u           // 4 bit: updates behind the irradiance, 0: none, n: 2^(n-1) to 2^n - 1
 #define FACE_AGE_MASK 15u
-#define FACE_UPDATES_DEAD 0xffffffffu  // faceUpdates of what is inside a closed object
-#define FACE_LIT 0x40000000u           // irradiance was gathered at least once
-#define FACE_DEAD 0x80000000u          // inside a closed object: left out
+#define FACE_UPDATES_INTERIOR 0xffffffffu  // faceUpdates of what is inside a closed object
+#define FACE_LIT 0x40000000u               // irradiance was gathered at least once
+#define FACE_INTERIOR 0x80000000u          // inside a closed object: left out
 
 // In FaceRecord::bounds, above them: what most of the face is made of.
 #define FACE_TWO_SIDED 0x40000000u  // triangles with a face on their other side, too

@@ -11,7 +11,7 @@
 // several slices. Three walks over the chain: range of depth, cover of the slices, sums.
 //
 // The plane goes through the rearmost that is seen: a ray that starts at a step's foot must not start below
-// it. Light is looked up where faceRise says, on top of the front.
+// it. Light is looked up where faceFrontOffset says, on top of the front.
 #version 450
 #ifndef SURFACE_ONLY_WIDE
 #error SURFACE_ONLY_WIDE must be 0 or 1

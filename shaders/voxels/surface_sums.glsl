@@ -223,7 +223,7 @@ void fitBounds(FaceSums sums, FacePlane plane, vec3 k, uint at, inout ResolvedFa
         vec2 at2 = clamp(c.xy, low.xy + h, high.xy - h);
         float height = (offset - dot(m.xy, at2)) / m.z;
         float reach = dot(slope, h);
-        // What stands before the plane stays as far before it (faceRise).
+        // What stands before the plane stays as far before it (faceFrontOffset).
         a = vec3(at2 - h, low.z + max(height - reach - bottom, 0.0));
         b = vec3(at2 + h, high.z - max(top - height - reach, 0.0));
         vec3 inner = a;

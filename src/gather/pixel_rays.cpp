@@ -133,7 +133,7 @@ gpu::PixelRayConstants PixelRays::packed(const RayInputs& inputs, const RayPass&
     c.reflections = lobes ? kLobeReflections : (averaged >= kReflectedRays ? 1u : 0u);
     // With a limited number of bounces none: a reflection is a bounce more.
     if (pass.settings.bounces) c.reflections = 0;
-    c.reflectedLimit = light::fireflyClamp(averaged);
+    c.fireflyClamp = light::fireflyClamp(averaged);
     c.inverseVoxelSize = 1.0f / grid.voxelSize;
     return c;
 }

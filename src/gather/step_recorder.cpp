@@ -72,7 +72,7 @@ InspectedFace faceOf(const gpu::RecordedPath& p) {
     face.albedo = p.faceAlbedo;
     face.radiance = p.faceRadiance;
     face.irradiance = p.faceIrradiance;
-    face.updates = p.faceUpdates == FACE_UPDATES_DEAD ? -1 : static_cast<int>(p.faceUpdates);
+    face.updates = p.faceUpdates == FACE_UPDATES_INTERIOR ? -1 : static_cast<int>(p.faceUpdates);
     return face;
 }
 

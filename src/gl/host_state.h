@@ -7,17 +7,15 @@
 //   textures      units 0-31: 2D, 2D array, 3D, cube, cube array, buffer, and the sampler (left bound)
 //   images        units 0-7 (left bound)
 //   buffers       uniform 0-7 and storage 0-15 with their ranges and the two generic points (left bound);
-//   pixel
-//                 pack and unpack, draw and dispatch indirect
+//                 pixel pack and unpack, draw and dispatch indirect
 //   viewports     16 viewports, depth ranges, scissor boxes and tests
 //   per target    8 times: blend switch, functions and equations, colour mask; blend colour
 //   depth         test, mask, function, clamp
 //   polygons      cull switch and face, front face, mode, offset switches, factor and units, line width,
 //                 provoking vertex, clip origin and depth mode, clip distances, point size by program
 //   switches      colour logic operation, dither (off), sRGB framebuffer, multisample, sample shading, mask
-//   and
-//                 coverage, alpha to coverage and to one, stencil test, line and polygon smooth, primitive
-//                 restart and its index, rasterizer discard, seamless cubes (on)
+//                 and coverage, alpha to coverage and to one, stencil test, line and polygon smooth,
+//                 primitive restart and its index, rasterizer discard, seamless cubes (on)
 //   pixel store   pack and unpack: alignment, row length, image height, skips, byte and bit order
 //
 // Untouched by this library, hence not saved: everything else (renderbuffers, other texture targets and

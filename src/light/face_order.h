@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
-// The order in which updates of the irradiance cache visit faces (shaders/light/cache_order.comp.glsl):
-// voxels
-// -> faces that gather, those of one place and direction in a block next to each other. Faces that share
-// another's irradiance, and faces found inside closed objects, are not visited.
+// The order in which updates of the irradiance cache visit faces (shaders/light/cache_order.comp.glsl).
+// Voxels -> faces that gather, those of one place and direction in a block next to each other. Faces that
+// share another's irradiance, and faces found inside closed objects, are not visited.
 #pragma once
 
 #include "gl/device.h"

@@ -45,7 +45,7 @@ void injectLight(const gl::Device& device, const InjectInputs& inputs, const Ray
     const gl::PassScope pass(device.profiler, "inject light");
     gl::Inputs given;
     given.add(inputs.scene).add(inputs.lights).add(inputs.surface);
-    if (rays != nullptr) given.storage("SteadyLight", rays->steadyLight);
+    if (rays != nullptr) given.storage("CachedDirect", rays->cachedDirect);
     const bool fits = rays != nullptr && rays->fit != nullptr;
     if (fits) given.add(*rays->fit);
     device.get(InjectKey{inputs.lights.key(), rays != nullptr, fits}.desc())

@@ -18,8 +18,8 @@ namespace conelight::light {
 // For rays: irradiance that was gathered stays, and the part of the radiance that is not looked up at hits is
 // written once more by itself.
 struct RayLight {
-    const gl::Buffer& steadyLight;  // a uint per face: RGB9E5
-    const EmissionFit* fit;         // of these voxels; null where nothing glows but rectangles of the table
+    const gl::Buffer& cachedDirect;  // a uint per face: RGB9E5
+    const EmissionFit* fit;          // of these voxels; null where nothing glows but rectangles of the table
 };
 
 struct InjectInputs {

@@ -18,7 +18,7 @@ constexpr double kSlack = 1.25;             // room for growth when memory is al
 // While voxels change with every call, an update looks for faces inside closed objects at one in so many
 // faces only, others at the next: looking costs as much as two more rays. Those of which a ray has met
 // something from behind are looked at each second time.
-constexpr std::uint32_t kDeadInterval = 16;
+constexpr std::uint32_t kInteriorInterval = 16;
 // Updates behind a mean of the cache, when it is shown: for what one ray may bring by reflections.
 constexpr int kUsualWindow = 32;
 
@@ -27,7 +27,7 @@ struct UpdateKey {
     bool findsBacks;
     gl::ProgramDesc desc() const {
         gl::Defines defines = hits.defines();
-        defines.emplace_back("FIND_BACKS", findsBacks ? "1" : "0");
+        defines.emplace_back("FIND_BACK_FACES", findsBacks ? "1" : "0");
         return {{"light/cache_update.comp.glsl"}, std::move(defines)};
     }
     // One texel per light: what a face keeps is a mean of many rays.
@@ -71,11 +71,11 @@ struct IrradianceCache::Visit {
 // Makes room for so many faces. What is there may be lost.
 void IrradianceCache::reserve(std::uint32_t faces) {
     if (!pool_) {
-        pool_ = gl::Buffer(4 * (1 + BRIGHT_FACE_COUNT), "bright faces");
+        pool_ = gl::Buffer(4 * (1 + LIGHT_SAMPLE_COUNT), "bright faces");
         poolTexels_ = gl::Texture(pool_, GL_R32UI, "bright faces");
         chunks_ = gl::Buffer(4 * (kMaxChunks + 2), "irradiance cache chunks");
         constants_ = gl::Buffer(sizeof(gpu::CacheConstants), "irradiance cache constants");
-        carryBlock_ = gl::Buffer(sizeof(gpu::CacheCarry), "irradiance cache carry-over");
+        reprojectionBlock_ = gl::Buffer(sizeof(gpu::CacheReprojection), "irradiance cache reprojection");
     }
     // No room for growth before there was any.
     const auto room = static_cast<std::size_t>(std::ceil((states_ ? kSlack : 1.0) * faces)) + 64;
@@ -94,7 +94,7 @@ void IrradianceCache::reserve(std::uint32_t faces) {
 }
 
 void IrradianceCache::adopt(const gl::Device& device, const voxels::Voxels& voxels) {
-    const gl::PassScope pass(device.profiler, "irradiance: carry over");
+    const gl::PassScope pass(device.profiler, "irradiance: reproject");
     const voxels::SurfaceVoxels& surface = voxels.surface();
     const voxels::VoxelKeys* old = voxels.previous();
     carried_ = faceCount_ > 0 && old != nullptr && voxelsFrom_ && old->revision == voxelsFrom_;
@@ -104,7 +104,7 @@ void IrradianceCache::adopt(const gl::Device& device, const voxels::Voxels& voxe
     reserve(surface.faceCount());
     faceCount_ = surface.faceCount();
     if (carried_ && faceCount_ > 0)
-        carry(device, voxels, *old);
+        reproject(device, voxels, *old);
     else
         states_.clear();
     sort(device, surface, true);
@@ -114,22 +114,22 @@ void IrradianceCache::adopt(const gl::Device& device, const voxels::Voxels& voxe
     restartAverages();
 }
 
-void IrradianceCache::carry(const gl::Device& device, const voxels::Voxels& voxels,
-                            const voxels::VoxelKeys& old) {
-    gpu::CacheCarry block{};
+void IrradianceCache::reproject(const gl::Device& device, const voxels::Voxels& voxels,
+                                const voxels::VoxelKeys& old) {
+    gpu::CacheReprojection block{};
     block.oldOrigin = old.grid.origin;
     block.oldInverseVoxelSize = 1.0f / old.grid.voxelSize;
     block.oldSizeX = static_cast<std::uint32_t>(old.grid.size.x);
     block.oldSizeY = static_cast<std::uint32_t>(old.grid.size.y);
     block.oldSizeZ = static_cast<std::uint32_t>(old.grid.size.z);
-    carryBlock_.update(block);
+    reprojectionBlock_.update(block);
     gl::Inputs inputs;
     inputs.add(voxels)
-        .uniform("CarryBlock", carryBlock_)
+        .uniform("ReprojectionBlock", reprojectionBlock_)
         .storage("StateTable", states_)
         .texture("oldStates", oldStateTexels_);
     old.declareOld(inputs);
-    device.get(light::pass("carry")).dispatchLinear(inputs, faceCount_);
+    device.get(light::pass("reproject")).dispatchLinear(inputs, faceCount_);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
 }
 
@@ -151,7 +151,7 @@ std::uint32_t IrradianceCache::perUpdate(const CacheSettings& settings) const {
 }
 
 std::uint64_t IrradianceCache::searchedRays() const {
-    return std::uint64_t{IRRADIANCE_DEAD_RAYS} * order_.visited();
+    return std::uint64_t{IRRADIANCE_INTERIOR_RAYS} * order_.visited();
 }
 
 gpu::CacheConstants IrradianceCache::packed(const CacheSettings& settings, std::uint32_t first,
@@ -167,8 +167,8 @@ gpu::CacheConstants IrradianceCache::packed(const CacheSettings& settings, std::
     c.facesPerChunk = std::max((faceCount_ + kMaxChunks - 1) / kMaxChunks, kLeastChunk);
     c.chunkCount = (faceCount_ + c.facesPerChunk - 1) / c.facesPerChunk;
     c.reflections = static_cast<std::uint32_t>(std::max(settings.reflections, 0));
-    c.reflectedLimit = fireflyClamp((settings.cosineRays + settings.lightRays) *
-                                    std::min(settings.longestWindow, kUsualWindow));
+    c.fireflyClamp = fireflyClamp((settings.cosineRays + settings.lightRays) *
+                                  std::min(settings.longestWindow, kUsualWindow));
     c.restart = restarts_ ? 1 : 0;
     return c;
 }
@@ -193,7 +193,7 @@ void IrradianceCache::commit(const gl::Device& device, const voxels::SurfaceVoxe
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
     device.get(pass("sums")).dispatch(inputs, 8);
     gl::barrier(gl::Access::ShaderStorage);
-    device.get(pass("pool")).dispatch(inputs, BRIGHT_FACE_COUNT);
+    device.get(pass("pool")).dispatch(inputs, LIGHT_SAMPLE_COUNT);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Update);
     prepared_ = true;
     restarts_ = false;
@@ -211,7 +211,7 @@ void IrradianceCache::visitFaces(const Visit& visit, std::uint32_t first, std::u
 void IrradianceCache::visitRange(const Visit& visit, std::uint32_t first, std::uint32_t end) {
     const std::uint32_t middle = std::clamp(order_.gathering(), first, end);
     const bool changeAgainAndAgain = updatesOfVoxels_ == 0 && carried_;
-    const std::uint64_t parts = changeAgainAndAgain ? kDeadInterval : 1, part = updatesMade_ % parts;
+    const std::uint64_t parts = changeAgainAndAgain ? kInteriorInterval : 1, part = updatesMade_ % parts;
     const auto cut = [&](std::uint64_t at) {
         return first + static_cast<std::uint32_t>(at * (middle - first) / parts);
     };
@@ -232,7 +232,7 @@ void IrradianceCache::visitAll(const gl::Device& device, const Inputs& inputs, c
         .add(inputs.lights)
         .add(inputs.voxels)
         .add(*this)
-        .texture("steadyLight", inputs.directTexels)
+        .texture("cachedDirect", inputs.directTexels)
         .uniform("CacheBlock", constants_)
         .storage("StateTable", states_)
         .texture("stateTexels", stateTexels_)
@@ -280,11 +280,11 @@ int IrradianceCache::updates() const {
 }
 
 void IrradianceCache::declare(gl::Inputs& inputs) const {
-    inputs.texture("brightFaces", poolTexels_).texture("faceLight", faceLightTexels_);
+    inputs.texture("lightSamples", poolTexels_).texture("faceLight", faceLightTexels_);
 }
 
 std::vector<gl::ProgramDesc> IrradianceCache::programDescs() {
-    std::vector<gl::ProgramDesc> descs{pass("sums"), pass("pool"), pass("carry")};
+    std::vector<gl::ProgramDesc> descs{pass("sums"), pass("pool"), pass("reproject")};
     for (const CommitKey& key : CommitKey::all()) descs.push_back(key.desc());
     for (const UpdateKey& key : UpdateKey::all()) descs.push_back(key.desc());
     const std::vector<gl::ProgramDesc> order = FaceOrder::programDescs();

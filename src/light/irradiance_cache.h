@@ -57,7 +57,7 @@ class IrradianceCache {
     bool settled() const;
     int updates() const;  // whole rounds over all faces since the last change
 
-    void declare(gl::Inputs& inputs) const;                      // brightFaces, faceLight
+    void declare(gl::Inputs& inputs) const;                      // lightSamples, faceLight
     const gl::Buffer& state() const { return states_; }          // gpu::FaceCache per face, for tests
     const gl::Buffer& order() const { return order_.buffer(); }  // a face per place, for tests
 
@@ -65,7 +65,7 @@ class IrradianceCache {
 
   private:
     void reserve(std::uint32_t faces);
-    void carry(const gl::Device& device, const voxels::Voxels& voxels, const voxels::VoxelKeys& old);
+    void reproject(const gl::Device& device, const voxels::Voxels& voxels, const voxels::VoxelKeys& old);
     void sort(const gl::Device& device, const voxels::SurfaceVoxels& surface, bool searches);
     std::uint32_t perUpdate(const CacheSettings& settings) const;
     std::uint64_t searchedRays() const;  // after so many all faces inside closed objects are known
@@ -79,7 +79,7 @@ class IrradianceCache {
     void commit(const gl::Device& device, const voxels::SurfaceVoxels& surface, const CacheSettings& settings,
                 bool atPixels);
 
-    gl::Buffer states_, oldStates_, faceLight_, chunks_, pool_, constants_, carryBlock_;
+    gl::Buffer states_, oldStates_, faceLight_, chunks_, pool_, constants_, reprojectionBlock_;
     gl::Texture faceLightTexels_, poolTexels_, stateTexels_, oldStateTexels_;
     FaceOrder order_;
     base::Revision voxelsFrom_;  // whose faces these are

@@ -54,8 +54,8 @@ void LitVoxels::putDirectLight(const gl::Device& device, const Inputs& inputs) {
         const bool grows = static_cast<bool>(directLight_);
         directTexels_ = {};
         directLight_ = {};
-        directLight_ = gl::Buffer(grows ? bytes + bytes / 4 : bytes, "steady light");
-        directTexels_ = gl::Texture(directLight_, GL_R32UI, "steady light");
+        directLight_ = gl::Buffer(grows ? bytes + bytes / 4 : bytes, "cached direct light");
+        directTexels_ = gl::Texture(directLight_, GL_R32UI, "cached direct light");
     }
     const bool fits = surface.faceCount() > 0 && hasOtherEmitters(inputs.scene, inputs.lights);
     if (fits) fit_.update(device, inputs.voxels);
@@ -91,7 +91,7 @@ void LitVoxels::update(const gl::Device& device, const Inputs& inputs, const Bud
 bool LitVoxels::steady() const { return cache_.updates() >= std::min(settings_.updates, kSteadyUpdates); }
 
 void LitVoxels::declare(gl::Inputs& inputs) const {
-    inputs.texture("steadyLight", directTexels_).add(cache_);
+    inputs.texture("cachedDirect", directTexels_).add(cache_);
 }
 
 std::vector<gl::ProgramDesc> LitVoxels::programDescs() {

@@ -55,7 +55,7 @@ class LitVoxels {
     bool steady() const;
     const IrradianceCache& cache() const { return cache_; }
 
-    void declare(gl::Inputs& inputs) const;  // steadyLight, brightFaces, faceLight
+    void declare(gl::Inputs& inputs) const;  // cachedDirect, lightSamples, faceLight
 
     static std::vector<gl::ProgramDesc> programDescs();
 
@@ -63,7 +63,7 @@ class LitVoxels {
     void putDirectLight(const gl::Device& device, const Inputs& inputs);
     void update(const gl::Device& device, const Inputs& inputs, const Budget& budget);
 
-    gl::Buffer directLight_;  // a uint per face (steadyLight of shared/irradiance.h)
+    gl::Buffer directLight_;  // a uint per face (cachedDirect of shared/irradiance.h)
     gl::Texture directTexels_;
     EmissionFit fit_;
     IrradianceCache cache_;

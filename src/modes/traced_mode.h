@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Mode `traced`: voxels -> irradiance per voxel face by rays, over and over -> at pixels the cache, or more
-// rays
-// -> picture. docs/guide/traced_mode.md
+// rays -> picture. docs/guide/traced_mode.md
 #pragma once
 
 #include <vector>

@@ -4,8 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <type_traits>
 
 #include "base/log.h"
+#include "conelight/scene_fields.h"
 #include "scene/scene_checks.h"
 
 namespace conelight {
@@ -40,11 +43,22 @@ using base::fail;
 
 bool isFinite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
+bool isFinite(const glm::vec4& v) { return isFinite(glm::vec3(v)) && std::isfinite(v.w); }
+
 bool isFinite(const glm::mat4& m) {
     for (int c = 0; c < 4; ++c)
         for (int r = 0; r < 4; ++r)
             if (!std::isfinite(m[c][r])) return false;
     return true;
+}
+
+// Names, choices, indices are.
+template <class T>
+bool isFinite(const T& value) {
+    if constexpr (std::is_floating_point_v<T>)
+        return std::isfinite(value);
+    else
+        return true;
 }
 
 void validateMesh(const Mesh& mesh, std::size_t index) {
@@ -71,28 +85,16 @@ void validateMesh(const Mesh& mesh, std::size_t index) {
             fail(ErrorKind::BadInput, "%s: position %zu is not finite", where().c_str(), i);
 }
 
-void validateTextureRef(const Scene& scene, const TextureRef& ref, const Material& material,
-                        const char* use) {
-    if (ref.texture >= static_cast<int>(scene.textures.size()))
-        fail(ErrorKind::BadInput, "material '%s': %s names texture %d; less than %zu would be right",
-             material.name.c_str(), use, ref.texture, scene.textures.size());
-}
-
-// One number that is not finite would spread over the picture through every bounce.
-void validateNumbers(const Material& m) {
-    const auto require = [&](const char* what, bool finite) {
-        if (!finite) fail(ErrorKind::BadInput, "material '%s': %s is not finite", m.name.c_str(), what);
-    };
-    require("the base colour", isFinite(glm::vec3(m.baseColor)) && std::isfinite(m.baseColor.a));
-    require("metallic, roughness, ior or specular",
-            isFinite({m.metallic, m.roughness, m.ior}) && std::isfinite(m.specular));
-    require("the specular colour", isFinite(m.specularColor));
-    require("the emission", isFinite(m.emission));
-    require("the normal scale or alpha cutoff", std::isfinite(m.normalScale) && std::isfinite(m.alphaCutoff));
-    if (!m.phong) return;
-    require("a Phong value",
-            isFinite(m.phong->color) && std::isfinite(m.phong->shininess) &&
-                isFinite({m.phong->ambientStrength, m.phong->diffuseStrength, m.phong->specularStrength}));
+// One number that is not finite would spread over the picture through every bounce. `kind` and `name`: of the
+// object.
+template <class T>
+void validateNumbers(const T& object, const char* kind, const std::string& name) {
+    visitFields(
+        [&](const char* field, const auto& value) {
+            if (!isFinite(value))
+                fail(ErrorKind::BadInput, "%s '%s': %s is not finite", kind, name.c_str(), field);
+        },
+        object);
 }
 
 // Beyond it squares of lengths overflow in float, and the fault would show somewhere else.
@@ -112,24 +114,20 @@ void validateReach(const Instance& instance, std::size_t index, const Aabb& mesh
 
 }  // namespace
 
-void scene::validateLight(const Light& light) {
-    if (!isFinite(light.position) || !isFinite(light.direction) || !isFinite(light.intensity))
-        fail(ErrorKind::BadInput, "light '%s': position, direction or intensity is not finite",
-             light.name.c_str());
-    if (!isFinite(light.halfU) || !isFinite(light.halfV) || !isFinite(light.falloff) ||
-        !isFinite({light.innerAngle, light.outerAngle, light.range}))
-        fail(ErrorKind::BadInput, "light '%s': edges, angles, range or falloff are not finite",
-             light.name.c_str());
-}
+void scene::validateLight(const Light& light) { validateNumbers(light, "light", light.name); }
 
 void scene::validateMaterial(const Scene& scene, const Material& material) {
-    validateNumbers(material);
-    validateTextureRef(scene, material.baseColorTexture, material, "base colour");
-    validateTextureRef(scene, material.metallicRoughnessTexture, material, "metallic-roughness");
-    validateTextureRef(scene, material.normalTexture, material, "normal");
-    validateTextureRef(scene, material.emissiveTexture, material, "emission");
-    validateTextureRef(scene, material.specularTexture, material, "specular");
-    validateTextureRef(scene, material.specularColorTexture, material, "specular colour");
+    validateNumbers(material, "material", material.name);
+    if (material.phong) validateNumbers(*material.phong, "material", material.name);
+    visitFields(
+        [&](const char* use, const auto& value) {
+            if constexpr (std::is_same_v<decltype(value), const TextureRef&>)
+                if (value.texture >= static_cast<int>(scene.textures.size()))
+                    fail(ErrorKind::BadInput,
+                         "material '%s': %s names texture %d; less than %zu would be right",
+                         material.name.c_str(), use, value.texture, scene.textures.size());
+        },
+        material);
 }
 
 void scene::validateInstance(const Scene& scene, const Instance& instance, std::size_t index) {
@@ -188,7 +186,7 @@ PhongMaterial phongOf(const Material& material) {
 
 void setPbrFromPhong(Material& material, const PhongMaterial& phong) {
     // Inverse of the rule above; the specular weight grows with shininess so that walls of
-    // shininess 1 and strength 0.01 stay matt and a mirror sphere of 256 and 1.3 mirrors. Chosen by eye.
+    // shininess 1 and strength 0.01 stay diffuse and a mirror sphere of 256 and 1.3 mirrors. Chosen by eye.
     const float weight =
         std::clamp(phong.specularStrength, 0.0f, 1.0f) * phong.shininess / (phong.shininess + 62.0f);
     material.roughness = std::pow(2.0f / (std::max(phong.shininess, 0.0f) + 2.0f), 0.25f);

@@ -120,7 +120,7 @@ std::vector<Setting<ConesSettings>> conesSettings() {
 std::vector<Setting<TracedSettings>> tracedSettings() {
     return {
         {"pixel_rays", &TracedSettings::pixelRays, Numbers{0, 64}, "",
-         "rays by the cosine per pixel and pass, as many again to bright faces; 0: the cache alone"},
+         "cosine-sampled rays per pixel and pass, as many again to bright faces; 0: the cache alone"},
         {"specular_rays", &TracedSettings::specularRays, Numbers{0, 16}, "",
          "rays per pixel and pass into the specular lobe"},
         {"specular_limit", &TracedSettings::specularLimit, Numbers{0, 1}, "",
@@ -129,7 +129,7 @@ std::vector<Setting<TracedSettings>> tracedSettings() {
         {"filter_levels", &TracedSettings::filterLevels, Numbers{0, 4}, "",
          "edge-stopping filter: 0 none, 1 3x3, 2 7x7, 3 15x15, 4 31x31 pixels"},
         {"cache_rays", &TracedSettings::cacheRays, Numbers{1, 64}, "",
-         "rays by the cosine per voxel face and update, as many again to bright faces"},
+         "cosine-sampled rays per voxel face and update, as many again to bright faces"},
         {"cache_updates", &TracedSettings::cacheUpdates, Numbers{1, 4096}, "",
          "updates of all faces after a change, until the cache is left as it is"},
         {"face_budget", &TracedSettings::faceBudget, Numbers{0, 100000000}, "faces",

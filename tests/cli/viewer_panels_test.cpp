@@ -1,51 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The viewer's menus, panels and dialogs on a screen without a monitor: what they change is asked of the
-// console, read from files, and seen on the screen.
-#include <cstdio>
-#include <cstdlib>
+// console, read from files, and seen on the screen. Films: viewer_film_test.cpp.
 #include <filesystem>
 #include <fstream>
 
-#include "cli/viewer_test_support.h"
-#include "io/image_file.h"
-#include "support/program.h"
+#include "cli/viewer_panels_support.h"
 #include "support/x11_client.h"
 
 namespace conelight::test {
 namespace {
 
 namespace fs = std::filesystem;
-
-class ViewerPanelsTest : public ViewerTest {
-  protected:
-    // A name is typed into the dialog that is open, and its button pressed.
-    void name(const std::string& file) {
-        type(file, viewer->placeOf("dialog:name"));
-        click("dialog:take");
-    }
-    // The answer to a command that begins with `begin`.
-    std::string answer(const std::string& command, const std::string& begin) {
-        viewer->send(command);
-        return viewer->expect(begin);
-    }
-    // Whether it has said so, also while widgets were looked for.
-    bool heard(const std::string& part) {
-        return eventually([&] {
-            viewer->status("frames");
-            return viewer->output().find(part) != std::string::npos;
-        });
-    }
-    void openMenu(const std::string& menu, const std::string& item) {
-        click("menu:" + menu);
-        click(item);
-    }
-    std::string freshFolder(const std::string& folder) {
-        const std::string path = scratchPath(folder);
-        fs::remove_all(path);
-        fs::create_directories(path);
-        return path;
-    }
-};
 
 TEST_F(ViewerPanelsTest, PresetsAreSavedAndLoadedInTheMenu) {
     const std::string file = freshFolder("presets") + "/look.json";
@@ -97,97 +62,6 @@ TEST_F(ViewerPanelsTest, PresetsAreSavedAndLoadedInTheMenu) {
     EXPECT_EQ(viewer->exitStatus(), 0);
 }
 
-TEST_F(ViewerPanelsTest, KeyFramesAreKeptPlayedSavedAndRecorded) {
-    const std::string folder = freshFolder("path");
-    start(std::string(kSmall) + "builtin:cornell");
-    settle();
-    const std::string first = viewer->status("camera");
-    click("header:Camera");
-    click("path:add");
-    EXPECT_EQ(viewer->status("path"), "1 keys, 0 s");
-    viewer->send("camera orbit 40");
-    const std::string second = viewer->status("camera");
-    click("path:add");
-    EXPECT_EQ(viewer->status("path"), "2 keys, 1 s");
-    click("key:0");
-    EXPECT_EQ(viewer->status("camera"), first) << "a click on a key goes there";
-
-    settle();
-    ScreenPixels last = screen->pixels();
-    const glm::ivec4 place = picture();
-    click("path:play");  // commands wait until it has arrived
-    EXPECT_EQ(viewer->status("camera"), second);
-    settle();
-    EXPECT_GT(screen->pixels().changedFrom(last, place, 12), place.z * place.w / 10);
-
-    click("path:save");
-    name(folder + "/way.json");
-    EXPECT_TRUE(heard("saved " + folder)) << viewer->output();
-    click("path:clear");
-    EXPECT_EQ(viewer->status("path"), "0 keys, 0 s");
-    click("path:load");
-    type(folder + "/way.json", viewer->placeOf("dialog:name"));
-    screen->xdotool("key Return");
-    EXPECT_TRUE(heard("2 keys, 1 s")) << viewer->output();
-    EXPECT_EQ(viewer->status("path"), "2 keys, 1 s");
-
-    // A film: the window shows how far it is and can end it; what was asked for behind it comes then.
-    viewer->send("camera orbit 5");
-    const std::string before = viewer->status("camera");
-    click("path:record");
-    type(folder + "/frame%03d.png", viewer->placeOf("dialog:name"));
-    moveTo(viewer->middleOf("dialog:take"));
-    pass();
-    screen->xdotool("mousedown 1");
-    pass();
-    screen->xdotool("mouseup 1");  // from here on commands wait for the film
-    EXPECT_TRUE(eventually([&] { return fs::exists(folder + "/frame003.png"); })) << viewer->output();
-    pressStop(place);
-    EXPECT_TRUE(heard("record: stopped at frame")) << viewer->output();
-    EXPECT_EQ(viewer->status("camera"), before) << "it is where it was";
-    EXPECT_FALSE(fs::exists(folder + "/frame119.png"));
-    viewer->send("record " + folder + "/turn%d.png 3 turntable; echo behind");
-    EXPECT_TRUE(heard("written " + folder + "/turn%d.png (3 frames)")) << viewer->output();
-    EXPECT_TRUE(heard("behind"));
-    EXPECT_EQ(viewer->status("camera"), before);
-    EXPECT_NE(bytesOf(folder + "/turn0.png"), bytesOf(folder + "/turn1.png"));
-    viewer->send("quit");
-    EXPECT_EQ(viewer->exitStatus(), 0);
-}
-
-// What is waited for can be ended by whoever sits in front of it; a script's commands wait.
-TEST_F(ViewerPanelsTest, WaitsAreEndedByHand) {
-    const std::string folder = freshFolder("stop");
-    start(std::string(kSmall) + "builtin:cornell");
-    settle();
-    viewer->send("path add; camera orbit 40; path add");
-    const glm::ivec4 box = viewer->placeOf("console");
-    click("console");
-    const auto enter = [&](const std::string& line) {
-        type(line, box);
-        screen->xdotool("key Return");
-    };
-    // Of 3,000 s: who waits for the end of it does not get an answer.
-    enter("path play 3000");
-    enter("path stop");
-    EXPECT_EQ(viewer->status("path"), "2 keys, 1 s");
-    enter("path play 3000");
-    screen->xdotool("key Escape");
-    EXPECT_EQ(viewer->status("path"), "2 keys, 1 s");
-    // The line still has the keys; what is queued goes on.
-    enter("path play 3000; echo behind");
-    enter("stop");
-    EXPECT_TRUE(heard("stopped\nbehind")) << viewer->output();
-    enter("record " + folder + "/%d.png 99999 path");
-    EXPECT_TRUE(eventually([&] { return fs::exists(folder + "/1.png"); })) << viewer->output();
-    enter("stop");
-    EXPECT_TRUE(heard("record: stopped at frame")) << viewer->output();
-    enter("stop");
-    EXPECT_TRUE(heard("stop: nothing is waited for")) << viewer->output();
-    viewer->send("quit");
-    EXPECT_EQ(viewer->exitStatus(), 0);
-}
-
 // Where someone looks for them who has just chosen component voxels.
 TEST_F(ViewerPanelsTest, HowVoxelsAreShownStandsWithVoxels) {
     start(std::string(kSmall) + "builtin:cornell");
@@ -195,64 +69,6 @@ TEST_F(ViewerPanelsTest, HowVoxelsAreShownStandsWithVoxels) {
     click("tab:Voxels");
     for (const char* key : {"voxels.size", "view.voxels", "view.voxel_data", "view.voxel_shape"})
         EXPECT_GT(viewer->placeOf(key).z, 0) << key;
-    viewer->send("quit");
-    EXPECT_EQ(viewer->exitStatus(), 0);
-}
-
-// They are those of the program without a window, bit for bit.
-TEST_F(ViewerPanelsTest, FilmsOfThePathTracerAreDrawnInTheWindow) {
-    const std::string folder = freshFolder("cpu_film"), way = folder + "/way.json";
-    start("--window 720x600 --voxels 32 --mode phong --no-state --spp 2 builtin:cornell");
-    settle();
-    viewer->send("path add; camera orbit 30; path add; path save " + way);
-    const std::string picture = viewer->status("picture");
-    int width = 0, height = 0;
-    ASSERT_EQ(std::sscanf(picture.c_str(), "%*d x %*d of %d x %d", &width, &height), 2) << picture;
-    viewer->send("mode reference; record " + folder + "/window%d.exr 2 path");
-    EXPECT_TRUE(heard("written " + folder + "/window%d.exr (2 frames)")) << viewer->output();
-    const CommandResult alone = conelight("render builtin:cornell --mode reference --spp 2 --path " + way +
-                                          " --frames 2 --size " + std::to_string(width / 2 * 2) + "x" +
-                                          std::to_string(height / 2 * 2) + " -o " + folder + "/alone%d.exr");
-    EXPECT_EQ(alone.status, 0) << alone.output;
-    for (const char* frame : {"0", "1"}) {
-        const std::string drawn = bytesOf(folder + "/window" + frame + ".exr");
-        EXPECT_FALSE(drawn.empty());
-        EXPECT_TRUE(drawn == bytesOf(folder + "/alone" + frame + ".exr")) << frame;
-    }
-    EXPECT_NE(bytesOf(folder + "/window0.exr"), bytesOf(folder + "/window1.exr"));
-    click("header:Camera");
-    EXPECT_GT(viewer->placeOf("film samples").z, 0);
-    // The strip stops one within a frame.
-    const glm::ivec4 place = viewer->placeOf("picture");
-    viewer->send("record " + folder + "/%d.png 99999 turntable");
-    pressStop(place);
-    EXPECT_TRUE(heard("record: stopped at frame")) << viewer->output();
-    EXPECT_FALSE(fs::exists(folder + "/99998.png"));
-    viewer->send("quit");
-    EXPECT_EQ(viewer->exitStatus(), 0);
-}
-
-// A film of mode radiosity waits for the bake: none of its frames is a picture without bounced light.
-TEST_F(ViewerPanelsTest, FilmsOfRadiosityBeginWhenItIsBaked) {
-    const std::string folder = freshFolder("baked_film");
-    start(
-        "--window 720x480 --voxels 32 --mode phong --no-state --patch 0.25 --subdivide 0 --gather-rays 64 "
-        "builtin:cornell");
-    settle();
-    const auto film = [&](const std::string& mode) {
-        viewer->send("mode " + mode + "; record " + folder + "/" + mode + "%d.exr 2 turntable");
-        EXPECT_TRUE(heard("written " + folder + "/" + mode + "%d.exr (2 frames)")) << viewer->output();
-    };
-    film("phong");
-    film("radiosity");
-    const auto sum = [&](const std::string& frame) {
-        double all = 0;
-        for (const float value : io::readExr(folder + "/" + frame + ".exr").pixels) all += double(value);
-        return all;
-    };
-    for (const char* frame : {"0", "1"})
-        EXPECT_GT(sum(std::string("radiosity") + frame), 1.1 * sum(std::string("phong") + frame)) << frame;
-    EXPECT_NE(bytesOf(folder + "/radiosity0.exr"), bytesOf(folder + "/radiosity1.exr"));
     viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0);
 }
@@ -337,82 +153,6 @@ TEST_F(ViewerPanelsTest, ChangesAreNotLostUnasked) {
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
     EXPECT_NE(bytesOf(kept), bytesOf(scene));
     EXPECT_FALSE(bytesOf(kept).empty());
-}
-
-TEST_F(ViewerPanelsTest, SceneTreeAndEditorsChangeTheScene) {
-    start("--window 900x600 --voxels 32 --mode phong --no-state builtin:cornell");
-    viewer->send("camera orbit 30 15");
-    settle();
-    const glm::ivec4 place = picture();
-    const std::string camera = viewer->status("camera");
-
-    click("object:tall block");
-    EXPECT_NE(viewer->status("selection").find("tall block"), std::string::npos);
-    ScreenPixels last = screen->pixels();
-    click("visible:tall block");
-    EXPECT_TRUE(eventually([&] { return screen->pixels().changedFrom(last, place, 20) > 2000; })) << "gone";
-    viewer->send("undo");
-    const std::string before = viewer->status("selection");
-    dragWidget("edit:position", {0.1f, 0.5f}, {30, 0});
-    EXPECT_NE(viewer->status("selection"), before);
-    EXPECT_EQ(viewer->status("steps").substr(0, 1), "2")
-        << "camera, and one drag: " << viewer->status("steps");
-    openMenu("Edit", "menu:Undo");
-    EXPECT_TRUE(eventually([&] { return viewer->status("selection") == before; }));
-    screen->xdotool("key ctrl+y");
-    EXPECT_TRUE(eventually([&] { return viewer->status("selection") != before; }));
-
-    click("menu:Edit");
-    EXPECT_GT(viewer->placeOf("menu:Undo").z, 0);
-    screen->xdotool("key Escape");
-    EXPECT_TRUE(eventually([&] { return viewer->placeOf("menu:Undo").z == 0; })) << "Escape closes menus";
-
-    // Its material.
-    click("edit:material");
-    EXPECT_NE(viewer->status("selection").find("material"), std::string::npos);
-    const std::string colour = answer("material white", "  color");
-    ASSERT_NE(colour, "") << viewer->output();
-    dragWidget("edit:base colour", {0.05f, 0.5f}, {-40, 0});
-    EXPECT_NE(viewer->status("selection").find("material"), std::string::npos)
-        << "a drag that ends over the picture is no click into it";
-    EXPECT_NE(answer("material white", "  color"), colour);
-    const std::string rough = answer("material white", "  roughness");
-    dragWidget("edit:roughness", {0.5f, 0.5f}, {-30, 0});
-    EXPECT_NE(answer("material white", "  roughness"), rough);
-
-    // What glows stands with the lights.
-    click("entry:lamp (glows)");
-    EXPECT_NE(viewer->status("selection").find("material"), std::string::npos) << viewer->status("selection");
-
-    // A light is added where the eye is, moved away from there by its handle, its strength dragged, deleted.
-    click("add light");
-    click("add light:point");
-    EXPECT_EQ(viewer->status("selection"), "light 0");
-    viewer->send("light light0 position 0 0.6 0.4");
-    settle();
-    const std::string light = answer("light light0", "  0 light0");
-    const glm::ivec2 handle = viewer->middleOf("gizmo:y");
-    ASSERT_GT(handle.x, 0) << viewer->output();
-    drag(1, handle, handle + glm::ivec2(0, 40));
-    const std::string moved = answer("light light0", "  0 light0");
-    EXPECT_NE(moved, light);
-    EXPECT_EQ(moved.substr(0, moved.find("at ")), light.substr(0, light.find("at "))) << "its place alone";
-    EXPECT_EQ(viewer->status("camera"), camera) << "the handle took the drag";
-    settle();
-    last = screen->pixels();
-    dragWidget("edit:strength", {0.2f, 0.5f}, {60, 0});
-    EXPECT_NE(answer("light light0", "  0 light0"), moved);
-    EXPECT_TRUE(eventually([&] { return screen->pixels().changedFrom(last, place, 8) > 2000; }))
-        << "brighter";
-    click("edit:delete");
-    EXPECT_EQ(answer("light", "no lights"), "no lights") << viewer->output();
-
-    // Camera by numbers.
-    click("header:Camera");
-    dragWidget("edit:eye", {0.1f, 0.5f}, {30, 0});
-    EXPECT_NE(viewer->status("camera"), camera);
-    viewer->send("quit");
-    EXPECT_EQ(viewer->exitStatus(), 0);
 }
 
 TEST_F(ViewerPanelsTest, MeasuresToolTipsAndViewsOfVoxels) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // `conelight view` on a screen without a monitor, driven by mouse, keys and its console, watched by what it
-// prints and by the screen's pixels. Skipped where Xvfb or xdotool is not installed.
+// prints and by the screen's pixels. The window itself: viewer_window_test.cpp. Skipped where Xvfb or xdotool
+// is not installed.
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -86,35 +87,56 @@ TEST_F(ViewerTest, MouseAndKeysMoveTheCameraAndChooseObjects) {
     EXPECT_EQ(viewer->statusUntil("camera", [&](const std::string& now) { return now == rest; }), rest);
 }
 
+// "at x y z" and "x axis x y z" of what is selected.
+std::vector<float> placeAndAxis(const std::string& text) {
+    std::vector<float> found;
+    for (const char* word : {" at ", "x axis "}) {
+        std::istringstream stream(text.substr(std::min(text.size(), text.find(word) + std::strlen(word))));
+        float value = 0;
+        for (int i = 0; i < 3 && stream >> value; ++i) {
+            found.push_back(value);
+            if (stream.peek() == ',') break;
+        }
+    }
+    found.resize(6);
+    return found;
+}
+
+// A tool by its key, one of its handles, and how far that is dragged, in pixels.
+struct HandleDrag {
+    const char *key, *handle;
+    glm::ivec2 by;
+};
+
+// Tool 1 moves, tool 2 turns, tool 3 scales.
+void expectDone(const HandleDrag& drag, const std::vector<float>& first, const std::vector<float>& now) {
+    const glm::vec3 move(now[0] - first[0], now[1] - first[1], now[2] - first[2]);
+    const glm::vec3 axis(now[3], now[4], now[5]), axisBefore(first[3], first[4], first[5]);
+    if (drag.key[0] == '1') {
+        const int c = drag.handle[6] - 'x';
+        EXPECT_GT(move[c], 0.02f) << "towards the arrow";
+        EXPECT_NEAR(glm::length(move), std::fabs(move[c]), 1e-4f) << "along the axis alone";
+        EXPECT_EQ(axis, axisBefore);
+    } else if (drag.key[0] == '2') {
+        EXPECT_GT(glm::length(axis - axisBefore), 0.1f);
+        EXPECT_NEAR(glm::length(axis), glm::length(axisBefore), 1e-3f) << "turned, not scaled";
+        EXPECT_NEAR(axis.y, axisBefore.y, 1e-3f);
+    } else {
+        EXPECT_GT(glm::length(axis), 1.1f * glm::length(axisBefore));
+    }
+}
+
 // Handles on what is selected: each tool by the mouse, each drag one step of undo, and the camera stays.
 TEST_F(ViewerTest, HandlesMoveTurnAndScaleTheSelection) {
     start(std::string(kSmall) + "builtin:cornell");
     viewer->send("camera orbit 30 20; select 'short block'");
     settle();
-    const auto numbers = [&] {  // at x y z, x axis x y z
-        const std::string text = viewer->status("selection");
-        std::vector<float> found;
-        for (const char* word : {" at ", "x axis "}) {
-            std::istringstream stream(
-                text.substr(std::min(text.size(), text.find(word) + std::strlen(word))));
-            float value = 0;
-            for (int i = 0; i < 3 && stream >> value; ++i) {
-                found.push_back(value);
-                if (stream.peek() == ',') break;
-            }
-        }
-        found.resize(6);
-        return found;
-    };
+    const auto numbers = [&] { return placeAndAxis(viewer->status("selection")); };
     const std::vector<float> first = numbers();
     const std::string camera = viewer->status("camera");
-    struct Case {
-        const char *key, *handle;
-        glm::ivec2 by;
-    };
-    for (const Case& one :
-         {Case{"1", "gizmo:x", {25, 0}}, Case{"1", "gizmo:y", {0, -25}}, Case{"2", "gizmo:y", {-20, 8}},
-          Case{"3", "gizmo:x", {20, 0}}, Case{"3", "gizmo:all", {40, 0}}}) {
+    for (const HandleDrag& one : {HandleDrag{"1", "gizmo:x", {25, 0}}, HandleDrag{"1", "gizmo:y", {0, -25}},
+                                  HandleDrag{"2", "gizmo:y", {-20, 8}}, HandleDrag{"3", "gizmo:x", {20, 0}},
+                                  HandleDrag{"3", "gizmo:all", {40, 0}}}) {
         SCOPED_TRACE(std::string(one.key) + one.handle);
         moveTo(inPicture(0.5f, 0.95f));
         screen->xdotool(std::string("key ") + one.key);
@@ -141,20 +163,7 @@ TEST_F(ViewerTest, HandlesMoveTurnAndScaleTheSelection) {
         pass();
         const std::vector<float> now = numbers();
         EXPECT_NE(viewer->status("steps"), steps);
-        const glm::vec3 move(now[0] - first[0], now[1] - first[1], now[2] - first[2]);
-        const glm::vec3 axis(now[3], now[4], now[5]), axisBefore(first[3], first[4], first[5]);
-        if (one.key[0] == '1') {
-            const int c = one.handle[6] - 'x';
-            EXPECT_GT(move[c], 0.02f) << "towards the arrow";
-            EXPECT_NEAR(glm::length(move), std::fabs(move[c]), 1e-4f) << "along the axis alone";
-            EXPECT_EQ(axis, axisBefore);
-        } else if (one.key[0] == '2') {
-            EXPECT_GT(glm::length(axis - axisBefore), 0.1f);
-            EXPECT_NEAR(glm::length(axis), glm::length(axisBefore), 1e-3f) << "turned, not scaled";
-            EXPECT_NEAR(axis.y, axisBefore.y, 1e-3f);
-        } else {
-            EXPECT_GT(glm::length(axis), 1.1f * glm::length(axisBefore));
-        }
+        expectDone(one, first, now);
         EXPECT_EQ(viewer->status("camera"), camera);
         viewer->send("undo");
         EXPECT_EQ(numbers(), first) << "one step";
@@ -377,159 +386,6 @@ TEST_F(ViewerTest, InspectorListsAndDrawsRays) {
     EXPECT_GT(viewer->placeOf("step:0").z, 0) << "its steps are listed";
     viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0);
-}
-
-TEST_F(ViewerTest, LinesAreTypedIntoTheWindowAndRemembered) {
-    const std::string state = scratchPath("state");
-    std::filesystem::remove_all(state);
-    const std::string environment = "XDG_STATE_HOME=" + state;
-    const std::string options = "--window 720x480 --voxels 32 --mode phong builtin:cornell";
-    start(options, environment);
-    settle();
-    click("console");
-    const glm::ivec4 line = viewer->placeOf("console");
-    const auto enter = [&](const std::string& text) {
-        type(text, line);
-        screen->xdotool("key Return");
-    };
-    enter("set image.exposure 1.5");
-    EXPECT_TRUE(eventually([&] { return viewer->setting("image.exposure") == "1.5"; })) << viewer->output();
-    enter("set image.exposure 2");
-    EXPECT_TRUE(eventually([&] { return viewer->setting("image.exposure") == "2"; })) << viewer->output();
-    viewer->send("quit");
-    EXPECT_EQ(viewer->exitStatus(), 0);
-    EXPECT_EQ(bytesOf(state + "/conelight/recent"), "builtin:cornell\n");
-    EXPECT_EQ(bytesOf(state + "/conelight/history"), "set image.exposure 1.5\nset image.exposure 2\n");
-
-    // The next run knows them: the arrow goes back past the last to the first.
-    start(options, environment);
-    settle();
-    const glm::ivec4 box = viewer->placeOf("console");
-    click("console");
-    // Each step is waited for on the screen: lines of the standard input are history too.
-    for (const char* action : {"type --delay 30 'set im'", "key Up", "key Up"}) {
-        const ScreenPixels last = screen->pixels();
-        screen->xdotool(action);
-        // Text of other length: the cursor that blinks is no change.
-        EXPECT_TRUE(eventually([&] { return screen->pixels().changedFrom(last, box) > 2 * box.w; }))
-            << action;
-    }
-    screen->xdotool("key Return");
-    EXPECT_TRUE(eventually([&] { return viewer->setting("image.exposure") == "1.5"; })) << viewer->output();
-    // And the menu has the scene.
-    click("menu:File");
-    click("menu:Open recent");
-    click("recent:builtin:cornell");
-    EXPECT_TRUE(eventually([&] {
-        viewer->status("frames");
-        return viewer->output().find("loaded builtin:cornell") != std::string::npos;
-    })) << viewer->output();
-}
-
-TEST_F(ViewerTest, BadFilesAndBadNumbersAreLinesNotTheEnd) {
-    const std::string broken = scratchPath("broken.gltf");
-    std::ofstream(broken) << "{";
-    start(std::string(kSmall) + "builtin:cornell");
-    settle();
-    for (const std::string& path : {broken, scratchPath(""), scratchPath("nowhere.glb")}) {
-        viewer->send("open '" + path + "'");
-        EXPECT_NE(viewer->expect(path), "") << viewer->output();
-    }
-    viewer->send("set voxels.size 7");
-    EXPECT_NE(viewer->expect("setting voxels.size"), "") << viewer->output();
-    // Each is a line in the log, in the colour of errors, however long.
-    EXPECT_NE(viewer->status("log").find("4 errors"), std::string::npos) << viewer->status("log");
-    const glm::ivec4 box = viewer->placeOf("console");
-    const auto redRows = [&] {
-        const ScreenPixels now = screen->pixels();
-        int rows = 0;
-        for (int y = picture().y + picture().w; y < box.y; ++y)
-            for (int x = box.x; x < box.x + box.z; ++x)
-                if (const glm::ivec3 p = now.at({x, y}); p.x > 180 && p.z < 140) {
-                    ++rows;
-                    break;
-                }
-        return rows;
-    };
-    for (int i = 0; i < 12; ++i) viewer->send("echo a line without an error");
-    pass();
-    EXPECT_TRUE(eventually([&] { return redRows() == 0; })) << "they have gone up";
-    viewer->send("open " + std::string(150, 'x'));
-    EXPECT_NE(viewer->expect(std::string(150, 'x')), "") << viewer->output();
-    EXPECT_TRUE(eventually([&] { return redRows() > 12; })) << "it takes two lines at least";
-    // What the renderer refuses while it draws.
-    viewer->send("mode reference; component voxels; wait 3; mode phong; component full; settle; echo alive");
-    EXPECT_NE(viewer->expect("alive"), "") << viewer->output();
-    viewer->send("where nowhere");
-    EXPECT_NE(viewer->expect("where: 'nowhere' is not on the screen"), "");
-    // A window of nothing draws nothing, and comes back.
-    screen->xdotool("search --name Conelight windowsize 20 12");
-    viewer->statusUntil("window",
-                        [](const std::string& now) { return now.find("20 x 12") != std::string::npos; });
-    viewer->send("mode cones; wait 2; mode phong");
-    screen->xdotool("search --name Conelight windowsize 720 480");
-    viewer->statusUntil("window",
-                        [](const std::string& now) { return now.find("720 x 480") != std::string::npos; });
-    settle();
-    EXPECT_EQ(viewer->status("picture").rfind(std::to_string(picture().z) + " x", 0), 0u);
-    viewer->send("quit");
-    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
-}
-
-TEST_F(ViewerTest, WindowChangesSizeFillsTheScreenAndCloses) {
-    start(std::string(kSmall) + "--ui-scale 1.5 builtin:cornell");
-    settle();
-    EXPECT_NE(viewer->status("window").find("scale 1.50"), std::string::npos);
-    const glm::ivec4 before = picture();
-    screen->xdotool("search --name Conelight windowsize 700 500");
-    const std::string small = viewer->statusUntil(
-        "window", [](const std::string& now) { return now.find("700 x 500") != std::string::npos; });
-    EXPECT_NE(small.find("700 x 500"), std::string::npos) << small;
-    settle();
-    EXPECT_LT(picture().z, before.z);
-    EXPECT_NE(viewer->status("picture").find(std::to_string(picture().z) + " x"), std::string::npos)
-        << "drawn at the size it is shown at";
-    screen->xdotool("key F11");
-    const std::string full = viewer->statusUntil(
-        "window", [](const std::string& now) { return now.find("full screen") != std::string::npos; });
-    EXPECT_NE(full.find("960 x 640"), std::string::npos) << full;
-    viewer->send("fullscreen off; panels off");
-    settle();
-    EXPECT_EQ(picture().x, 0) << "the picture has the whole width";
-    viewer->send("quit");
-    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
-}
-
-TEST_F(ViewerTest, TheCloseButtonEndsIt) {
-    if (const std::string missing = x11Missing(); !missing.empty()) GTEST_SKIP() << missing;
-    start(std::string(kSmall) + "--timing builtin:cornell");
-    settle();
-    pressCloseButton(screen->display(), "Conelight");
-    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
-    EXPECT_NE(viewer->output().find("timing: GUI"), std::string::npos) << "it ended in order";
-}
-
-// As a file manager drops them: the first is opened, and what cannot be is a line.
-TEST_F(ViewerTest, DroppedFilesAreOpened) {
-    if (const std::string missing = x11Missing(); !missing.empty()) GTEST_SKIP() << missing;
-    const std::string folder = scratchPath("dropped");
-    std::filesystem::create_directories(folder);
-    const std::string scene = folder + "/a scene's file.glb", broken = folder + "/broken.gltf";
-    start(std::string(kSmall) + "builtin:cornell");
-    settle();
-    viewer->send("save '" + folder + "/a.glb' overwrite; echo saved");
-    ASSERT_NE(viewer->expect("saved " + folder), "") << viewer->output();
-    std::filesystem::rename(folder + "/a.glb", scene);
-    std::ofstream(broken) << "{";
-    ASSERT_TRUE(dropFiles(screen->display(), "Conelight", {scene, broken}));
-    EXPECT_NE(viewer->expect("loaded " + scene), "") << viewer->output();
-    EXPECT_EQ(viewer->status("scene"), scene);
-    settle();
-    ASSERT_TRUE(dropFiles(screen->display(), "Conelight", {broken}));
-    EXPECT_NE(viewer->expect(broken), "") << viewer->output();
-    EXPECT_EQ(viewer->status("scene"), scene) << "what was there stays";
-    viewer->send("quit");
-    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
 }
 
 // Right button and W held, at the size that people have: picture follows picture, and when it is over the

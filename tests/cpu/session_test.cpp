@@ -113,13 +113,15 @@ TEST(Session, UnsavedIsASceneOtherThanTheFile) {
     EXPECT_TRUE(s.unsaved());
 }
 
-TEST(Session, EveryChangeIsCountedAloneAndUndone) {
-    Session s = session();
-    struct Case {
-        const char* counters;
-        std::function<void()> change;
-    };
-    const Case cases[] = {
+// A change of a session, and the counters that it raises.
+struct Case {
+    const char* counters;
+    std::function<void()> change;
+};
+
+// One of each kind, in this order: one builds on those above it.
+std::vector<Case> casesOf(Session& s) {
+    return {
         {"settings", [&] { s.setSetting("image.exposure", "2"); }},
         {"settings", [&] { s.setMode("thesis"); }},
         {"settings", [&] { s.setMode("reference"); }},
@@ -158,6 +160,11 @@ TEST(Session, EveryChangeIsCountedAloneAndUndone) {
         {"cameras", [&] { s.setCameras({}, "no cameras"); }},
         {"sky", [&] { s.setSky(glm::vec3(1), "sky"); }},
     };
+}
+
+TEST(Session, EveryChangeIsCountedAloneAndUndone) {
+    Session s = session();
+    const std::vector<Case> cases = casesOf(s);
     std::vector<std::string> states = {stateOf(s)};
     for (const Case& one : cases) {
         const Revisions before = s.revisions();
@@ -166,9 +173,9 @@ TEST(Session, EveryChangeIsCountedAloneAndUndone) {
         states.push_back(stateOf(s));
         EXPECT_NE(states[states.size() - 2], states.back()) << one.counters;
     }
-    ASSERT_EQ(s.undoSteps(), std::size(cases));
+    ASSERT_EQ(s.undoSteps(), cases.size());
     EXPECT_TRUE(s.unsaved());
-    for (std::size_t i = std::size(cases); i-- > 0;) {
+    for (std::size_t i = cases.size(); i-- > 0;) {
         const Revisions before = s.revisions();
         ASSERT_TRUE(s.undo());
         EXPECT_EQ(changed(before, s.revisions()), cases[i].counters);
@@ -176,7 +183,7 @@ TEST(Session, EveryChangeIsCountedAloneAndUndone) {
     }
     EXPECT_FALSE(s.undo());
     EXPECT_FALSE(s.unsaved()) << "as it was opened";
-    for (std::size_t i = 0; i < std::size(cases); ++i) {
+    for (std::size_t i = 0; i < cases.size(); ++i) {
         ASSERT_TRUE(s.redo());
         EXPECT_EQ(stateOf(s), states[i + 1]);
     }

@@ -62,7 +62,7 @@ layout(std430) buffer Data { vec4 data[]; };
 void main() {
     uint i = 3u * linearIndex();
     if (i >= uint(data.length())) return;
-    VoxelHit hit = traceVoxels(data[i].xyz, data[i + 1u].xyz, data[i].w, data[i + 2u].xyz);
+    VoxelHit hit = traceVoxels(Ray(data[i].xyz, data[i + 1u].xyz, data[i].w, data[i + 2u].xyz));
     data[i] = vec4(intBitsToFloat(hit.face), hit.t, 0.0, 0.0);
 }
 )");

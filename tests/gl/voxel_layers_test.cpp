@@ -328,7 +328,7 @@ layout(std430) readonly buffer In { uvec4 texels[]; };
 layout(std430) writeonly buffer Out { vec4 rises[]; };
 void main() {
     uvec4 r = texels[2u * gl_GlobalInvocationID.x];
-    rises[gl_GlobalInvocationID.x] = vec4(faceRise(r, octDecode(unpackSnorm2x16(r.x))), 0.0);
+    rises[gl_GlobalInvocationID.x] = vec4(faceFrontOffset(r, octDecode(unpackSnorm2x16(r.x))), 0.0);
 })");
     const auto rises = [&] {
         std::vector<gpu::FaceRecord> faces = tables.faces;

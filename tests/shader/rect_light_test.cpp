@@ -54,7 +54,7 @@ void main() {
     uint i = gl_GlobalInvocationID.x * 2u;
     vec3 p = data[i].xyz, toEye = normalize(data[i + 1u].xyz - p), n = vec3(0, 1, 0);
     Brdf b = makeBrdf(vec3(1), 1.0, data[i].w, vec3(0.04), toEye.y);
-    RectLobe lobe = rectLobe(n, toEye, b.alpha, b.nov);
+    RectLobe lobe = rectLobe(n, toEye, b.alpha, b.NoV);
 )" + body + "}\n");
         std::vector<glm::vec4> data;
         for (int z = 0; z < kEdge; ++z)

@@ -59,7 +59,7 @@ std::vector<CachedFace> CacheRig::faces() const {
         const glm::vec2 rg = glm::unpackHalf2x16(r.irradiance0), b = glm::unpackHalf2x16(r.irradiance1);
         face.irradiance = {rg.x, rg.y, b.x};
         face.area = voxels::unpackArea({sources[2 * i], sources[2 * i + 1]}) * h * h;
-        face.dead = (r.irradiance1 & FACE_DEAD) != 0;
+        face.dead = (r.irradiance1 & FACE_INTERIOR) != 0;
         faces.push_back(face);
     }
     return faces;

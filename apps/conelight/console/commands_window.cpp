@@ -26,27 +26,51 @@ Argument choice(const char* name, std::vector<std::string> choices) {
     return argument;
 }
 
+Argument statusKey() {
+    return choice("KEY",
+                  {"scene", "window", "picture", "mode", "split", "settled", "selection", "pixel", "camera",
+                   "steps", "path", "log", "hint", "frames", "moving", "gui", "first_frame"});
+}
+
+Command splitCommand() {
+    Argument mode = choice("MODE", sessionModes());
+    mode.choices.emplace_back("off");
+    return command(
+        "split", {mode, {"POSITION", ArgumentKind::Number, true, false, "", 0, 1, {}}},
+        "another mode on the right side of the picture",
+        [](const CommandContext& context) { askWindow(context, "split"); },
+        "POSITION: where it begins, as a part of the width. Without MODE: on, or off again.");
+}
+
+Command errorCommand() {
+    return command(
+        "error", {onOff(), {"SCALE", ArgumentKind::Number, true, false, "", 0.05, 4, {}}},
+        "the right side of a split shows the left one's error against it",
+        [](const CommandContext& context) { askWindow(context, "error"); },
+        "SCALE: the error that gets the strongest colour, in parts of the mean radiance.");
+}
+
+Command screenshotCommand() {
+    return command("screenshot_window", {{"FILE", ArgumentKind::File}},
+                   "write the window with its panels: .png or .jpg", [](const CommandContext& context) {
+                       const io::ImageFormat format = io::imageFormatOf(context.words[0]);
+                       if (format != io::ImageFormat::Png && format != io::ImageFormat::Jpg)
+                           throw Error(ErrorKind::Usage,
+                                       "screenshot_window: " + context.words[0] +
+                                           ": a name ending in .png or .jpg would be right");
+                       io::checkWritable(context.words[0]);
+                       askWindow(context, "screenshot_window");
+                   });
+}
+
 }  // namespace
 
 CommandGroup windowCommands() {
-    Argument splitMode = choice("MODE", sessionModes());
-    splitMode.choices.emplace_back("off");
-    Argument key =
-        choice("KEY", {"scene", "window", "picture", "mode", "split", "settled", "selection", "pixel",
-                       "camera", "steps", "path", "log", "hint", "frames", "moving", "gui", "first_frame"});
     return {
         "Window (conelight view)",
         {
-            command(
-                "split", {splitMode, {"POSITION", ArgumentKind::Number, true, false, "", 0, 1, {}}},
-                "another mode on the right side of the picture",
-                [](const CommandContext& context) { askWindow(context, "split"); },
-                "POSITION: where it begins, as a part of the width. Without MODE: on, or off again."),
-            command(
-                "error", {onOff(), {"SCALE", ArgumentKind::Number, true, false, "", 0.05, 4, {}}},
-                "the right side of a split shows the left one's error against it",
-                [](const CommandContext& context) { askWindow(context, "error"); },
-                "SCALE: the error that gets the strongest colour, in parts of the mean radiance."),
+            splitCommand(),
+            errorCommand(),
             command("fullscreen", {onOff()}, "fill the screen, or not",
                     [](const CommandContext& context) { askWindow(context, "fullscreen"); }),
             command("panels", {onOff()}, "show panels and console beside the picture, or the picture alone",
@@ -77,19 +101,9 @@ CommandGroup windowCommands() {
             command("ui_scale", {{"SCALE", ArgumentKind::Number, false, false, "", 0.5, 4, {}}},
                     "size of text and widgets, 1 on ordinary screens",
                     [](const CommandContext& context) { askWindow(context, "ui_scale"); }),
-            command("status", {key}, "what the window shows and what that costs",
+            command("status", {statusKey()}, "what the window shows and what that costs",
                     [](const CommandContext& context) { askWindow(context, "status"); }),
-            command("screenshot_window", {{"FILE", ArgumentKind::File}},
-                    "write the window with its panels: .png or .jpg",
-                    [](const CommandContext& context) {
-                        const io::ImageFormat format = io::imageFormatOf(context.words[0]);
-                        if (format != io::ImageFormat::Png && format != io::ImageFormat::Jpg)
-                            throw Error(ErrorKind::Usage,
-                                        "screenshot_window: " + context.words[0] +
-                                            ": a name ending in .png or .jpg would be right");
-                        io::checkWritable(context.words[0]);
-                        askWindow(context, "screenshot_window");
-                    }),
+            screenshotCommand(),
             command(
                 "where", {{"WIDGET", ArgumentKind::Text, false, true}},
                 "the place of a widget in the window, to drive it from a script: x y width height",

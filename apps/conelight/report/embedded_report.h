@@ -8,6 +8,7 @@ namespace conelight::program::embedded {
 extern const char* const report_html;
 extern const char* const report_css;
 extern const char* const pixels_js;
+extern const char* const tables_js;
 extern const char* const report_js;
 
 }  // namespace conelight::program::embedded

@@ -246,13 +246,14 @@ std::string reportHtml(const Report& report) {
     data["settings"] = ordered_json::array();
     for (const auto& [key, value] : report.settings) data["settings"].push_back({key, value});
 
-    return filled(embedded::report_html, {{"title", escapedHtml(report.title)},
-                                          {"summary", escapedHtml(report.summary)},
-                                          {"version", CONELIGHT_VERSION_STRING},
-                                          {"style", embedded::report_css},
-                                          {"script", std::string(embedded::pixels_js) + embedded::report_js},
-                                          {"data", scriptJson(data)},
-                                          {"blocks", blocks.html}});
+    return filled(embedded::report_html,
+                  {{"title", escapedHtml(report.title)},
+                   {"summary", escapedHtml(report.summary)},
+                   {"version", CONELIGHT_VERSION_STRING},
+                   {"style", embedded::report_css},
+                   {"script", std::string(embedded::pixels_js) + embedded::tables_js + embedded::report_js},
+                   {"data", scriptJson(data)},
+                   {"blocks", blocks.html}});
 }
 
 void prepareReport(const std::string& directory) {

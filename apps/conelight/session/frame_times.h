@@ -2,8 +2,10 @@
 // Times of the last frames, oldest first.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <deque>
+#include <vector>
 
 namespace conelight::program {
 
@@ -21,6 +23,13 @@ class FrameTimes {
         double sum = 0;
         for (const double time : times_) sum += time;
         return times_.empty() ? 0 : sum / static_cast<double>(times_.size());
+    }
+    double median() const {  // 0 without frames; the upper one of two in the middle
+        std::vector<double> sorted(times_.begin(), times_.end());
+        if (sorted.empty()) return 0;
+        const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+        std::nth_element(sorted.begin(), middle, sorted.end());
+        return *middle;
     }
 
   private:

@@ -3,6 +3,8 @@
 
 #include <fmt/core.h>
 
+#include "conelight/scene_fields.h"
+
 namespace conelight::program {
 
 void setPhong(Material& material, const PhongMaterial& phong) {
@@ -19,12 +21,11 @@ void setPhong(Material& material, const PhongMaterial& phong) {
     Material old = material, now = material;
     setPbrFromPhong(old, *material.phong);
     setPbrFromPhong(now, phong);
-    if (material.roughness == old.roughness) material.roughness = now.roughness;
-    if (material.metallic == old.metallic) material.metallic = now.metallic;
-    if (material.ior == old.ior) material.ior = now.ior;
-    if (material.specular == old.specular) material.specular = now.specular;
-    if (material.specularColor == old.specularColor) material.specularColor = now.specularColor;
-    if (material.baseColor == old.baseColor) material.baseColor = now.baseColor;
+    visitFields(
+        [](const char*, auto& value, const auto& derived, const auto& derivedNow) {
+            if (value == derived) value = derivedNow;
+        },
+        material, old, now);
     material.phong = phong;
 }
 

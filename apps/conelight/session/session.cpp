@@ -15,11 +15,6 @@ namespace {
 // Steps kept. A step holds tables of lights or single materials: far below a megabyte each.
 constexpr std::size_t kSteps = 1000;
 
-bool same(const Camera& a, const Camera& b) {
-    return a.name == b.name && a.eye == b.eye && a.target == b.target && a.up == b.up && a.fovY == b.fovY &&
-           a.zNear == b.zNear && a.zFar == b.zFar;
-}
-
 bool changesScene(const Step& step) { return std::any_of(step.edits.begin(), step.edits.end(), isOfScene); }
 
 // Whether two steps change the same things, so that the later one can take the place of the earlier.
@@ -237,7 +232,7 @@ void Session::setMode(const std::string& mode) {
 }
 
 void Session::jumpCamera(const Camera& camera, const std::string& label, const std::string& mergeKey) {
-    if (same(camera, camera_)) return;
+    if (camera == camera_) return;
     Step step{label, mergeKey, {}};
     step.edits.push_back(editOf<CameraEdit>(camera_, camera));
     commit(std::move(step));
@@ -339,7 +334,7 @@ void Session::setSky(const glm::vec3& sky, const std::string& label, const std::
 }
 
 void Session::moveCamera(const Camera& camera) {
-    if (same(camera, camera_)) return;
+    if (camera == camera_) return;
     playing_.reset();
     place(camera);
 }
@@ -411,11 +406,7 @@ void Session::apply(const Edit& edit, bool forward) {
         if (instance->before.worldFromObject != instance->after.worldFromObject) ++revisions_.transforms;
         Instance rest = instance->after;
         rest.worldFromObject = instance->before.worldFromObject;
-        const Instance& before = instance->before;
-        if (rest.name != before.name || rest.material != before.material || rest.visible != before.visible ||
-            rest.voxelized != before.voxelized || rest.castsShadow != before.castsShadow ||
-            rest.dynamic != before.dynamic || rest.mesh != before.mesh)
-            ++revisions_.instances;
+        if (rest != instance->before) ++revisions_.instances;
         target = side(*instance);
         ++instanceRevisions_[instance->index];
     } else if (const auto* material = std::get_if<MaterialEdit>(&edit)) {

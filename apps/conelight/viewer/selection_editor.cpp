@@ -120,22 +120,9 @@ void editMaterial(Session& session, std::size_t index) {
     if (changed) session.setMaterials({{index, m}}, "edit " + m.name, fmt::format("material {}", index));
 }
 
-void editLight(Session& session, std::size_t index) {
-    std::vector<Light> lights = session.scene().lights;
-    Light& light = lights[index];
-    const char* kinds[4];
-    for (int i = 0; i < 4; ++i) kinds[i] = io::lightTypeName(static_cast<LightType>(i));
-    int type = static_cast<int>(light.type);
-    bool changed = ImGui::Checkbox("on", &light.enabled);
-    ImGui::SameLine();
-    changed |= ImGui::Checkbox("casts shadow", &light.castsShadow);
-    if (ImGui::Combo("kind", &type, kinds, 4)) {
-        light.type = static_cast<LightType>(type);
-        aimLight(light, light.direction);
-        changed = true;
-    }
-    notePlace("edit:kind");
-    // Intensities span decades: colour and strength apart.
+// Intensities span decades: colour and strength apart.
+bool editIntensity(Session& session, Light& light) {
+    bool changed = false;
     float strength = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
     glm::vec3 color = strength > 0 ? light.intensity / strength : glm::vec3(1);
     if (ImGui::ColorEdit3("colour", &color.x, ImGuiColorEditFlags_Float)) {
@@ -149,16 +136,12 @@ void editLight(Session& session, std::size_t index) {
         changed = true;
     }
     seals(session, "strength");
-    if (light.type != LightType::Directional)
-        changed |= ImGui::DragFloat3("position (m)", &light.position.x, 0.01f);
-    seals(session, "light position");
-    glm::vec3 direction = light.direction;
-    if (light.type != LightType::Point && ImGui::DragFloat3("direction", &direction.x, 0.01f) &&
-        glm::length(direction) > 1e-4f) {
-        aimLight(light, direction);
-        changed = true;
-    }
-    seals(session, "direction");
+    return changed;
+}
+
+// The cone of a spot, the size of a rectangle.
+bool editShape(Session& session, Light& light) {
+    bool changed = false;
     if (light.type == LightType::Spot) {
         changed |= ImGui::SliderAngle("inner", &light.innerAngle, 0, 89);
         seals(session, "inner");
@@ -175,6 +158,36 @@ void editLight(Session& session, std::size_t index) {
         }
         seals(session, "size");
     }
+    return changed;
+}
+
+void editLight(Session& session, std::size_t index) {
+    std::vector<Light> lights = session.scene().lights;
+    Light& light = lights[index];
+    const char* kinds[4];
+    for (int i = 0; i < 4; ++i) kinds[i] = io::lightTypeName(static_cast<LightType>(i));
+    int type = static_cast<int>(light.type);
+    bool changed = ImGui::Checkbox("on", &light.enabled);
+    ImGui::SameLine();
+    changed |= ImGui::Checkbox("casts shadow", &light.castsShadow);
+    if (ImGui::Combo("kind", &type, kinds, 4)) {
+        light.type = static_cast<LightType>(type);
+        aimLight(light, light.direction);
+        changed = true;
+    }
+    notePlace("edit:kind");
+    changed |= editIntensity(session, light);
+    if (light.type != LightType::Directional)
+        changed |= ImGui::DragFloat3("position (m)", &light.position.x, 0.01f);
+    seals(session, "light position");
+    glm::vec3 direction = light.direction;
+    if (light.type != LightType::Point && ImGui::DragFloat3("direction", &direction.x, 0.01f) &&
+        glm::length(direction) > 1e-4f) {
+        aimLight(light, direction);
+        changed = true;
+    }
+    seals(session, "direction");
+    changed |= editShape(session, light);
     const bool deleted = ImGui::Button("delete");
     notePlace("edit:delete");
     if (deleted) {

@@ -28,7 +28,7 @@ int levelCount(int edge, bool capped) {
     return capped ? std::min(even, kOriginalLevels) : even;
 }
 
-// No light can make a matt surface brighter than this, at a distance of half a voxel or more.
+// No light can make a diffuse surface brighter than this, at a distance of half a voxel or more.
 float radianceBound(const ThesisVolume::Inputs& inputs, const ThesisDefects& defects, float voxelSize) {
     constexpr float kPi = 3.14159265f;
     const auto largest = [](const glm::vec3& v) { return std::max({v.x, v.y, v.z, 0.0f}); };

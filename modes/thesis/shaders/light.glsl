@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The thesis's view of a light: a point with a colour C and a falloff. Radiance of a matt surface of colour c
-// is k_d c C (n.l) / falloff(D), without 1/pi (docs/theory/1_scene.md, "Two material models"): C = I / pi.
-// Spot lights have their cone; rectangular ones act from their centre, with the intensity they have in the
-// direction of the surface; directional ones are 1e4 m away and do not fall off.
+// The thesis's view of a light: a point with a colour C and a falloff. Radiance of a diffuse surface of
+// colour c is k_d c C (n.l) / falloff(D), without 1/pi (docs/theory/1_scene.md, "Two material models"): C = I
+// / pi. Spot lights have their cone; rectangular ones act from their centre, with the intensity they have in
+// the direction of the surface; directional ones are 1e4 m away and do not fall off.
 #include "shared/scene.h"
 
 struct ThesisLight {

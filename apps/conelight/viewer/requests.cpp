@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "viewer/viewer_requests.h"
+#include "viewer/requests.h"
 
 #include <fmt/core.h>
 
@@ -13,44 +13,43 @@ namespace {
 
 constexpr int kMaxScreenshots = 9999;
 
-void inspect(PictureView& view, Console& console, const Request& request) {
-    Renderer* renderer = view.slot(false).renderer();
+void inspect(const RequestInputs& in, const Request& request) {
+    Renderer* renderer = in.view.slot(false).renderer();
     if (renderer == nullptr)
         throw Error(ErrorKind::Usage,
                     "inspect: this mode keeps no cones or rays; traced, cones or thesis "
                     "would be right");
     for (const std::string& line :
          inspectionText(renderer->inspectPixel(request.x, request.y), request.steps))
-        console.print(line);
+        in.console.say(line);
+    in.probe.inspectPixel({request.x, request.y});  // as if it were clicked
 }
 
-void carryOut(Session& session, PictureView& view, Console& console, ViewerState& state,
-              const Request& request, const std::function<void(const Request&)>& window) {
+void carryOut(const RequestInputs& in, const Request& request) {
     switch (request.kind) {
         case RequestKind::Screenshot:
         case RequestKind::Record:
-            state.job.start(request, session, view.fullSize(), state.traced);
+            in.work.startPictures(request);
             break;
         case RequestKind::Bake:
-            state.bake = request;
+            in.work.startBake(request);
             break;
         case RequestKind::Load:
-            for (const std::string& note : session.open(request.file, request.keepView)) console.print(note);
-            console.print("loaded " + request.file);
+            for (const std::string& note : in.session.open(request.file, request.keepView))
+                in.console.say(note);
+            in.console.say("loaded " + request.file);
             break;
         case RequestKind::Window:
-            window(request);
+            in.window(request);
             break;
         case RequestKind::Quit:
-            state.quit = true;
-            state.status = request.status;
+            in.ending = {true, request.status};
             break;
         case RequestKind::Inspect:
-            inspect(view, console, request);
-            state.inspect = glm::ivec2(request.x, request.y);
+            inspect(in, request);
             break;
         case RequestKind::SingleFrame:
-            view.slot(false).redraw();
+            in.view.slot(false).redraw();
             break;
         case RequestKind::Revoxelize:  // the session's counters make the next frame do it
         case RequestKind::Wait:
@@ -69,15 +68,14 @@ std::string nextScreenshot() {
     return "conelight.png";
 }
 
-bool carryOutRequest(Session& session, PictureView& view, Console& console, ViewerState& state,
-                     const std::function<void(const Request&)>& window) {
-    if (state.job.busy()) return false;  // what comes behind it waits
-    const std::optional<Request> request = session.takeRequest();
+bool carryOutRequest(const RequestInputs& in) {
+    if (in.work.holdsRequests()) return false;
+    const std::optional<Request> request = in.session.takeRequest();
     if (!request) return false;
     try {
-        carryOut(session, view, console, state, *request, window);
+        carryOut(in, *request);
     } catch (const Error& error) {
-        console.fail(error);
+        in.console.commands().fail(error);
     }
     return true;
 }

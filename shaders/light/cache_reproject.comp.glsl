@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // After voxels were built anew: each face takes over the state of the face that lay where its own centre is,
 // or a quarter voxel in front of or behind it, and looked in the same direction; where there was none it
-// starts dark. Counts of rays for dead faces are halved once they can be, so that what has moved is found
+// starts dark. Counts of rays for interior faces are halved once they can be, so that what has moved is found
 // again.
 layout(local_size_x = 64) in;
 #include "lib/linear_index.glsl"
@@ -10,7 +10,7 @@ layout(local_size_x = 64) in;
 #include "lib/voxel_record.glsl"
 #include "light/cache_state.glsl"
 #include "shared/irradiance.h"
-layout(std140) uniform CarryBlock { CacheCarry carry; };
+layout(std140) uniform ReprojectionBlock { CacheReprojection reprojection; };
 layout(std430) writeonly buffer StateTable { FaceCache states[]; };
 uniform usamplerBuffer oldStates;
 uniform usamplerBuffer voxelFaces;
@@ -32,9 +32,10 @@ void main() {
     do {
         float aside = attempt == 0 ? 0.0 : (attempt == 1 ? 0.25 : -0.25);
         vec3 world = worldFromGrid(center + aside * directionVector(direction));
-        ivec3 voxel = ivec3(floor((world - carry.oldOrigin) * carry.oldInverseVoxelSize));
-        bool inside = all(greaterThanEqual(voxel, ivec3(0))) &&
-                      all(lessThan(voxel, ivec3(carry.oldSizeX, carry.oldSizeY, carry.oldSizeZ)));
+        ivec3 voxel = ivec3(floor((world - reprojection.oldOrigin) * reprojection.oldInverseVoxelSize));
+        bool inside =
+            all(greaterThanEqual(voxel, ivec3(0))) &&
+            all(lessThan(voxel, ivec3(reprojection.oldSizeX, reprojection.oldSizeY, reprojection.oldSizeZ)));
         voxel = inside ? voxel : ivec3(0);
         uvec4 word = texelFetch(oldBricks, voxel >> 2, 0);
         bool occupied = inside && brickHas(word.xy, bitOfVoxel(voxel));
@@ -46,7 +47,7 @@ void main() {
     FaceCache state = unpackState(texelFetch(oldStates, stateOwner(old, texel)));
     uint rays = (state.counts >> 16) & 0xffu;
     uint backs = state.counts >> 24;
-    bool enough = rays >= 2u * IRRADIANCE_DEAD_RAYS;
+    bool enough = rays >= 2u * IRRADIANCE_INTERIOR_RAYS;
     rays = enough ? rays / 2u : rays;
     backs = enough ? (backs + 1u) / 2u : backs;
     state.counts = (state.counts & 0xffffu) | (rays << 16) | (backs << 24);

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT
+// The camera sees all of the selection, or of the scene: one step of undo.
+#pragma once
+
+#include <glm/glm.hpp>
+
+#include "session/session.h"
+
+namespace conelight::program {
+
+void focusOnSelection(Session& session, const glm::ivec2& pictureSize);
+
+}  // namespace conelight::program

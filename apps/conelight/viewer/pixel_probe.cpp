@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/pixel_probe.h"
+
+namespace conelight::program {
+
+void PixelProbe::inspectPixel(const glm::ivec2& pixel) {
+    const Image& linear = view_.slot(false).linear();
+    inspect({(glm::vec2(pixel) + 0.5f) / glm::max(glm::vec2(linear.width, linear.height), 1.0f)});
+}
+
+void PixelProbe::inspect(const PictureView::Click& click) {
+    PictureSlot& slot = view_.slotAt(click.part.x);
+    const Image& linear = slot.linear();
+    const glm::ivec2 size(linear.width, linear.height);
+    if (size.x == 0) return;
+    Inspection inspection;
+    const glm::ivec2 pixel = glm::clamp(glm::ivec2(click.part * glm::vec2(size)), glm::ivec2(0), size - 1);
+    inspection.pixel = pixel;
+    inspection.radiance = linear.pixels[static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(size.x) +
+                                        static_cast<std::size_t>(pixel.x)];
+    inspection.hit = picker_.atPixel(session_, size.x, size.y, pixel.x, pixel.y);
+    session_.select(inspection.hit ? Selection{SelectionKind::Instance, inspection.hit->instance}
+                                   : Selection{});
+    inspectGathering(inspection, slot.renderer());
+    found_ = inspection;
+}
+
+}  // namespace conelight::program

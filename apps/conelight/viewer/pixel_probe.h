@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// What lies under a pixel: a click selects the object there and keeps what the pixel gathered, for the panel
+// beside the picture and the lines over it.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <optional>
+
+#include "session/picker.h"
+#include "session/session.h"
+#include "viewer/panels.h"
+#include "viewer/picture_view.h"
+
+namespace conelight::program {
+
+class PixelProbe {
+  public:
+    PixelProbe(Session& session, PictureView& view) : session_(session), view_(view) {}
+
+    void inspect(const PictureView::Click& click);
+    void inspectPixel(const glm::ivec2& pixel);  // of the left picture
+    void showPanel() { inspectorPanel(session_, found_); }
+    void drawOverPicture(const glm::vec2& at, const glm::vec2& size) {
+        drawInspection(session_, picker_, found_, at, size);
+    }
+    const std::optional<Inspection>& found() const { return found_; }
+    Picker& picker() { return picker_; }
+
+  private:
+    Session& session_;
+    PictureView& view_;
+    Picker picker_;
+    std::optional<Inspection> found_;
+};
+
+}  // namespace conelight::program

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "viewer/window_commands.h"
+
+#include <fmt/core.h>
+
+#include <cstdlib>
+#include <functional>
+#include <map>
+#include <utility>
+
+#include "interrupt.h"
+#include "io/image_file.h"
+#include "viewer/focus.h"
+
+namespace conelight::program {
+namespace {
+
+using Words = std::vector<std::string>;
+
+float number(const std::string& word) { return std::strtof(word.c_str(), nullptr); }
+
+bool switched(const Words& words, bool now) { return words.size() > 1 ? words[1] == "on" : !now; }
+
+}  // namespace
+
+void WindowCommands::carryOut(const Request& request) {
+    const std::map<std::string, std::function<void(const Words&)>> commands = {
+        {"split", [&](const Words& words) { split(words); }},
+        {"error", [&](const Words& words) { error(words); }},
+        {"fullscreen",
+         [&](const Words& words) { in_.window.setFullscreen(switched(words, in_.window.fullscreen())); }},
+        {"panels", [&](const Words& words) { in_.panels.showAll(switched(words, in_.panels.showSide)); }},
+        {"focus", [&](const Words&) { focusOnSelection(in_.session, in_.view.pictureSize()); }},
+        {"pick",
+         [&](const Words& words) {
+             in_.probe.inspect({{number(words[1]), number(words[2])}});
+         }},
+        {"resolution", [&](const Words& words) { resolution(words); }},
+        {"ui_scale",
+         [&](const Words& words) {
+             if (words.size() > 1) in_.gui.setScale(number(words[1]));
+         }},
+        {"settle", [&](const Words&) { in_.work.settle(); }},
+        {"stop", [&](const Words&) { in_.work.stop(); }},
+        {"status", [&](const Words& words) { status(words); }},
+        {"screenshot_window", [&](const Words& words) { windowShot_ = words[1]; }},
+        {"where", [&](const Words& words) { where(words); }},
+    };
+    const auto command = commands.find(request.words.front());
+    if (command != commands.end()) command->second(request.words);
+}
+
+void WindowCommands::split(const Words& words) {
+    Split& split = in_.view.split;
+    if (words.size() == 1) {
+        split.on = !split.on;
+        return;
+    }
+    split.on = words[1] != "off";
+    if (split.on) split.mode = words[1];
+    if (words.size() > 2) split.position = number(words[2]);
+}
+
+void WindowCommands::error(const Words& words) {
+    Split& split = in_.view.split;
+    split.errors = switched(words, split.errors);
+    if (split.errors) split.on = true;
+    if (words.size() > 2) split.errorScale = number(words[2]);
+}
+
+void WindowCommands::resolution(const Words& words) {
+    if (words.size() > 1) in_.view.resolutionScale = number(words[1]);
+    in_.console.say(fmt::format("resolution: {:g}", in_.view.resolutionScale));
+}
+
+void WindowCommands::status(const Words& words) {
+    const StatusInputs inputs{in_.session, in_.window, in_.gui,    in_.view,   in_.console,
+                              in_.probe,   in_.hint,   in_.panels, in_.timings};
+    for (const auto& [name, text] : statusLines(inputs))
+        if (words.size() == 1 || words[1] == name) in_.console.say("status " + name + ": " + text);
+}
+
+void WindowCommands::where(const Words& words) {
+    std::string widget = words[1];
+    for (std::size_t i = 2; i < words.size(); ++i) widget += " " + words[i];
+    in_.places.ask(widget);
+}
+
+void WindowCommands::writeWindow() {
+    if (windowShot_.empty()) return;
+    const std::string file = std::exchange(windowShot_, {});
+    in_.console.attempt([&] {
+        const glm::ivec2 size = in_.window.framebufferSize();
+        const io::ByteImage image{size.x, size.y, 3, in_.window.pixels()};
+        const WritingScope writing;
+        if (io::imageFormatOf(file) == io::ImageFormat::Png)
+            io::writePng(file, image);
+        else
+            io::writeJpg(file, image);
+        in_.console.say(fmt::format("written {} ({} x {})", file, size.x, size.y));
+    });
+}
+
+}  // namespace conelight::program

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Reflection of a path by a metal: hit -> direct specular light, and the ray that samples the GGX lobe. Part
+// of lib/voxel_light.glsl (LOBES 1; otherwise the file is empty).
+#if LOBES
+
+// Rougher metals are treated as diffuse: their lobe is nearly as wide as the cosine.
+const float kMaxLobeRoughness = 0.75;
+// Lobes at least this wide (GGX alpha) reflect rectangular lights analytically, without a ray. In narrower
+// lobes rays must hit the light: few miss it then, and shadows on it are sharp. Chosen by eye.
+const float kNarrowLobe = 0.015;
+
+// The lobe of the surface at a hit.
+struct GlossySurface {
+    vec3 normal;  // geometric
+    float metallic;
+    float roughness;
+    bool reflects;   // a metal smooth enough to have a lobe of its own
+    bool areaLight;  // its emission is that of a rectangular light
+};
+
+GlossySurface glossySurface(VoxelHit hit, FaceShading s) {
+    int face = max(hit.face, 0);
+    uint bits = texelFetch(voxelFaces, 2 * face + 1).w;
+    vec2 lobe = unpackLobe(bits >> 16);
+    vec3 normal = faceNormalOf(face);
+#if TRIANGLE_HITS
+    lobe = hit.triangle >= 0 ? hitTriangle.lobe : lobe;
+    normal = hit.triangle >= 0 ? hitTriangle.geometricNormal : normal;
+#endif
+    bool areaLight = (bits & FACE_AREA_LIGHT) != 0u;
+    bool reflects = hit.face >= 0 && lobe.x > 0.0 && lobe.y <= kMaxLobeRoughness && s.cached && !areaLight;
+    return GlossySurface(normal, lobe.x, lobe.y, reflects, areaLight);
+}
+
+// Specular reflection of all rectangular lights: each analytically as a whole (lib/rect_light.glsl), times
+// the visibility of one sample point, which is drawn by its share of the lobe.
+vec3 reflectedRects(Brdf b, vec3 position, vec3 shadingNormal, vec3 geometricNormal, vec3 toEye, float xi) {
+    vec3 reflected = vec3(0.0);
+    uint i = lighting.lightEnds.z;
+    if (i < lighting.lightEnds.w) {
+        RectLobe lobe = rectLobe(shadingNormal, toEye, b.alpha, b.NoV);
+        do {
+            Light light = lights[i];
+            uint k = rectPointInLobe(light, position, lobe, xi);
+            vec3 point = rectSamplePoint(light, k);
+            reflected += light.intensity * rectSpecularQuick(light, position, lobe, b) *
+                         shadowVisibilityRect(light, k, point, position, geometricNormal);
+        } while (++i < lighting.lightEnds.w);
+    }
+    return reflected;
+}
+
+struct GlossyBounce {
+    vec3 radiance;        // diffuse part, and specular reflection of the lights that rays do not hit
+    Ray ray;              // drawn from the lobe
+    vec3 weight;          // BRDF times cosine over density
+    float alpha;          // width of the lobe
+    float specularShare;  // share of the surface's albedo that is its lobe's
+};
+
+struct GlossySample {
+    float widening;        // added to alpha^2
+    vec3 diffuseRadiance;  // of the hit, as if it were diffuse
+    vec3 shadingNormal;
+    vec2 xi;
+};
+
+GlossyBounce sampleGlossyBounce(Ray ray, VoxelHit hit, FaceShading s, GlossySurface surface, GlossySample g) {
+    // Widen the lobe
+    float alpha = max(surface.roughness, kMinRoughness) * max(surface.roughness, kMinRoughness);
+    alpha = min(sqrt(alpha * alpha + g.widening), 1.0);
+    Brdf b =
+        makeBrdf(s.albedo, surface.metallic, sqrt(alpha), vec3(0.04), -dot(g.shadingNormal, ray.direction));
+
+    // Sample it; reflections that a shading normal turns into the surface are mirrored out of it
+    GlossyBounce next;
+    next.alpha = alpha;
+    vec3 direction = lobeDirection(b, g.shadingNormal, -ray.direction, g.xi, next.weight);
+    direction -= 2.0 * min(dot(direction, surface.normal), 0.0) * surface.normal;
+    vec3 point = ray.origin + hit.t * ray.direction;
+    next.ray = Ray(rayOrigin(point, surface.normal), direction, 1e9, surface.normal);
+
+    // Add emission and the diffuse part; the record reflects by its whole albedo
+    int face = max(hit.face, 0);
+    float diffuseShare = dot(b.diffuse, vec3(1.0)) / max(dot(s.albedo, vec3(1.0)), 1e-4);
+    next.specularShare = 1.0 - diffuseShare;
+    vec3 emission = unpackEmission(texelFetch(voxelFaceSources, face).xy);
+    next.radiance = emission + diffuseShare * max(g.diffuseRadiance - emission, vec3(0.0));
+
+    // Add the specular reflection of the lights
+    vec3 frontOffset = faceFrontOffset(texelFetch(voxelFaces, 2 * face), faceNormalOf(face));
+#if TRIANGLE_HITS
+    frontOffset = hit.triangle >= 0 ? vec3(0.0) : frontOffset;
+#endif
+    vec3 position = worldFromGrid(point + frontOffset);
+    if (alpha >= kNarrowLobe)
+        next.radiance += reflectedRects(b, position, g.shadingNormal, surface.normal, -ray.direction,
+                                        fract(7.0 * g.xi.x + g.xi.y));
+#if EXACT_DIRECT
+    DirectLight light = DirectLight(vec3(0.0), vec3(0.0));
+    addPunctualLights(light, true,
+                      Receiver(position, g.shadingNormal, surface.normal, -ray.direction, kShadowVoxelLift),
+                      b);
+    next.radiance += light.specular;
+#else
+    next.radiance += (1.0 - diffuseShare) *
+                     max(s.directRadiance - unpackRgb9e5(texelFetch(cachedDirect, face).x), vec3(0.0));
+#endif
+    return next;
+}
+#endif

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Fixture of tests of the viewer's menus, panels and dialogs: names typed, answers of commands read.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "cli/viewer_test_support.h"
+#include "support/program.h"
+
+namespace conelight::test {
+
+class ViewerPanelsTest : public ViewerTest {
+  protected:
+    // A scene seen from one side, panels beside it.
+    void startTurned() {
+        start("--window 900x600 --voxels 32 --mode phong --no-state builtin:cornell");
+        viewer->send("camera orbit 30 15");
+        settle();
+    }
+    // A name is typed into the dialog that is open, and its button pressed.
+    void name(const std::string& file) {
+        type(file, viewer->placeOf("dialog:name"));
+        click("dialog:take");
+    }
+    // The answer to a command that begins with `begin`.
+    std::string answer(const std::string& command, const std::string& begin) {
+        viewer->send(command);
+        return viewer->expect(begin);
+    }
+    // Whether it has said so, also while widgets were looked for.
+    bool heard(const std::string& part) {
+        return eventually([&] {
+            viewer->status("frames");
+            return viewer->output().find(part) != std::string::npos;
+        });
+    }
+    void openMenu(const std::string& menu, const std::string& item) {
+        click("menu:" + menu);
+        click(item);
+    }
+    std::string freshFolder(const std::string& folder) {
+        const std::string path = scratchPath(folder);
+        std::filesystem::remove_all(path);
+        std::filesystem::create_directories(path);
+        return path;
+    }
+};
+
+}  // namespace conelight::test

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+// glTF: materials with their extensions, textures from every source, tangents of normal maps.
+#include <cstddef>
+
+#include "cpu/gltf_test_support.h"
+
+namespace conelight {
+namespace {
+
+using namespace test;
+
+TEST(Gltf, MaterialsWithExtensions) {
+    GltfBuilder b;
+    b.triangle()["material"] = 0;
+    b.json["materials"] = {
+        {{"name", "m"},
+         {"pbrMetallicRoughness",
+          {{"baseColorFactor", {0.1, 0.2, 0.3, 0.4}}, {"metallicFactor", 0.5}, {"roughnessFactor", 0.25}}},
+         {"emissiveFactor", {1, 0.5, 0}},
+         {"alphaMode", "MASK"},
+         {"alphaCutoff", 0.75},
+         {"doubleSided", true},
+         {"extensions",
+          {{"KHR_materials_emissive_strength", {{"emissiveStrength", 8}}},
+           {"KHR_materials_ior", {{"ior", 1.33}}},
+           {"KHR_materials_specular", {{"specularFactor", 0.3}, {"specularColorFactor", {1, 2, 3}}}},
+           {"KHR_materials_unlit", Json::object()}}}}};
+    b.node({{"mesh", 0}});
+    const Material m = loadGlb(b, "material").materials.at(0);
+    EXPECT_EQ(m.name, "m");
+    expectNear(glm::vec3(m.baseColor), {0.1f, 0.2f, 0.3f});
+    EXPECT_FLOAT_EQ(m.baseColor.a, 0.4f);
+    EXPECT_FLOAT_EQ(m.metallic, 0.5f);
+    EXPECT_FLOAT_EQ(m.roughness, 0.25f);
+    expectNear(m.emission, {8, 4, 0});
+    EXPECT_EQ(m.alphaMode, AlphaMode::Mask);
+    EXPECT_FLOAT_EQ(m.alphaCutoff, 0.75f);
+    EXPECT_TRUE(m.doubleSided);
+    EXPECT_TRUE(m.unlit);
+    EXPECT_FLOAT_EQ(m.ior, 1.33f);
+    EXPECT_FLOAT_EQ(m.specular, 0.3f);
+    expectNear(m.specularColor, {1, 2, 3});
+}
+
+TEST(Gltf, PrimitiveWithoutMaterialGetsTheFormatsDefault) {
+    GltfBuilder b;
+    b.triangle();
+    b.node({{"mesh", 0}});
+    const Scene scene = loadGlb(b, "default");
+    const Material& m = scene.materials.at(std::size_t(scene.instances.at(0).material));
+    EXPECT_EQ(m.baseColor, glm::vec4(1));
+    EXPECT_EQ(m.metallic, 1.0f);
+    EXPECT_EQ(m.roughness, 1.0f);
+}
+
+TEST(Gltf, TexturesFromBufferUriAndFile) {
+    const std::string picture = png(2, 3, {10, 20, 30, 40});
+    GltfBuilder b;
+    b.triangle()["material"] = 0;
+    b.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = b.floats({0, 0, 1, 0, 0, 1}, 2);
+    const int view = b.view(std::vector<char>(picture.begin(), picture.end()));
+    write(folderOf("gltf") / "with space.png", picture);
+    b.json["images"] = {{{"bufferView", view}, {"mimeType", "image/png"}},
+                        {{"uri", "data:image/png;base64," + base64(picture)}},
+                        {{"uri", "with%20space.png"}}};
+    b.json["samplers"] = {{{"wrapS", 33071}, {"wrapT", 33648}, {"magFilter", 9728}}};
+    b.json["textures"] = {{{"source", 0}, {"sampler", 0}}, {{"source", 1}}, {{"source", 2}}};
+    b.json["materials"] = {
+        {{"pbrMetallicRoughness",
+          {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 1}}}}},
+         {"emissiveTexture", {{"index", 2}}}}};
+    b.node({{"mesh", 0}});
+    const Scene scene = loadGlb(b, "textures");
+    ASSERT_EQ(scene.textures.size(), 3u);
+    for (const Texture& t : scene.textures) {
+        EXPECT_EQ(t.width, 2);
+        EXPECT_EQ(t.height, 3);
+        ASSERT_EQ(t.rgba.size(), 24u);
+        EXPECT_EQ(t.rgba[1], 20);
+    }
+    const Material& m = scene.materials[0];
+    const Texture& base = scene.textures[std::size_t(m.baseColorTexture.texture)];
+    EXPECT_TRUE(base.srgb);
+    EXPECT_EQ(base.wrapU, TextureWrap::Clamp);
+    EXPECT_EQ(base.wrapV, TextureWrap::Mirror);
+    EXPECT_EQ(base.filter, TextureFilter::Nearest);
+    EXPECT_FALSE(scene.textures[std::size_t(m.metallicRoughnessTexture.texture)].srgb);
+    EXPECT_TRUE(scene.textures[std::size_t(m.emissiveTexture.texture)].srgb);
+}
+
+TEST(Gltf, BrokenPictureIsANote) {
+    GltfBuilder b;
+    b.triangle()["material"] = 0;
+    b.json["images"] = {{{"uri", "data:image/png;base64,iVBORw0KGgo="}}};
+    b.json["textures"] = {{{"source", 0}}};
+    b.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+    b.node({{"mesh", 0}});
+    const Scene scene = loadGlb(b, "broken_picture");
+    EXPECT_FALSE(scene.materials[0].baseColorTexture.used());
+    EXPECT_TRUE(hasNote(scene, "images[0]"));
+}
+
+// Numbers of the extension's own test model: its arrow's tip at uv (0.778, 0.778) must show up, turned
+// by 22.5 degrees, at uv (0.421, 1.016).
+TEST(Gltf, TextureTransformTurnsAsTheTestModelSays) {
+    const std::string picture = png(1, 1, {255, 255, 255, 255});
+    GltfBuilder b;
+    b.triangle()["material"] = 0;
+    b.json["images"] = {{{"uri", "data:image/png;base64," + base64(picture)}}};
+    b.json["textures"] = {{{"source", 0}}};
+    const auto material = [](const Json& transform) {
+        return Json{
+            {"pbrMetallicRoughness",
+             {{"baseColorTexture", {{"index", 0}, {"extensions", {{"KHR_texture_transform", transform}}}}}}}};
+    };
+    b.json["materials"] = {material({{"rotation", 0.39269908}}),
+                           material({{"offset", {0.5, 0.25}}, {"scale", {2, 3}}})};
+    b.node({{"mesh", 0}});
+    const Scene scene = loadGlb(b, "transform");
+    const glm::vec3 turned = scene.materials[0].baseColorTexture.uvFromUv * glm::vec3(0.42095f, 1.01627f, 1);
+    EXPECT_NEAR(turned.x, 0.7778f, 1e-3f);
+    EXPECT_NEAR(turned.y, 0.7778f, 1e-3f);
+    expectNear(scene.materials[1].baseColorTexture.uvFromUv * glm::vec3(1, 1, 1), {2.5f, 3.25f, 1});
+}
+
+TEST(Gltf, MakesTangentsForNormalMaps) {
+    const std::string picture = png(1, 1, {128, 128, 255, 255});
+    GltfBuilder b;
+    b.triangle()["material"] = 0;
+    // Upright mapping: u to the right, v down; the bitangent must point up.
+    b.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = b.floats({0, 1, 1, 1, 0, 0}, 2);
+    b.json["images"] = {{{"uri", "data:image/png;base64," + base64(picture)}}};
+    b.json["textures"] = {{{"source", 0}}};
+    b.json["materials"] = {{{"normalTexture", {{"index", 0}, {"scale", 0.5}}}}};
+    b.node({{"mesh", 0}});
+    const Scene scene = loadGlb(b, "tangents");
+    const Mesh& mesh = scene.meshes.at(0);
+    ASSERT_EQ(mesh.tangents.size(), 3u);
+    EXPECT_FLOAT_EQ(scene.materials[0].normalScale, 0.5f);
+    for (std::size_t i = 0; i < 3; ++i) {
+        expectNear(glm::vec3(mesh.tangents[i]), {1, 0, 0});
+        expectNear(mesh.tangents[i].w * glm::cross(mesh.normals[i], glm::vec3(mesh.tangents[i])), {0, 1, 0});
+    }
+}
+
+TEST(Gltf, SplitsVerticesWhereTheMappingIsMirrored) {
+    const std::string picture = png(1, 1, {128, 128, 255, 255});
+    GltfBuilder b;
+    const int positions = b.floats({-1, 0, 0, 0, 0, 0, 0, 1, 0, 1, 0, 0}, 3);
+    const int uvs = b.floats({1, 1, 0, 1, 0, 0, 1, 1}, 2);  // u grows away from the middle on both sides
+    const int indices = b.indices({0, 1, 2, 1, 3, 2});
+    b.json["meshes"] = {{{"primitives",
+                          {{{"attributes",
+                             {{"POSITION", positions},
+                              {"TEXCOORD_0", uvs},
+                              {"NORMAL", b.floats({0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1}, 3)}}},
+                            {"indices", indices},
+                            {"material", 0}}}}}};
+    b.json["images"] = {{{"uri", "data:image/png;base64," + base64(picture)}}};
+    b.json["textures"] = {{{"source", 0}}};
+    b.json["materials"] = {{{"normalTexture", {{"index", 0}}}}};
+    b.node({{"mesh", 0}});
+    const Mesh mesh = loadGlb(b, "mirrored_uv").meshes.at(0);
+    EXPECT_EQ(mesh.positions.size(), 6u) << "the two shared vertices exist twice";
+    for (std::size_t t = 0; t < 2; ++t)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::uint32_t at = mesh.indices[3 * t + c];
+            EXPECT_NEAR(mesh.tangents[at].x, t == 0 ? -1.0f : 1.0f, kTight);
+            EXPECT_EQ(mesh.tangents[at].w, t == 0 ? -1.0f : 1.0f);
+        }
+}
+
+}  // namespace
+}  // namespace conelight
