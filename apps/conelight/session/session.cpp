@@ -101,7 +101,7 @@ const char* aboutMode(const std::string& mode) {
          "the renderer of the bachelor's thesis that Conelight grew from, its defects mended or shown"},
         {"phong", "direct light alone, by the Phong model"},
         {"reference", "path tracer on the CPU, all bounces: the truth the others are measured against"},
-        {"radiosity", "light between matt surfaces solved once on the CPU and kept at vertices"}};
+        {"radiosity", "light between diffuse surfaces solved once on the CPU and kept at vertices"}};
     for (const auto& [name, about] : kModes)
         if (mode == name) return about;
     return "";
