@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What cones bring in: RadianceVolume + GBuffer -> pictures of irradiance, occlusion and specular radiance,
-// and RadianceVolume + face records -> one more bounce. docs/theory/4_gather.md, "Matt surfaces" and "Glossy
+// and RadianceVolume + face records -> one more bounce. docs/theory/4_gather.md, "Diffuse surfaces" and "Glossy
 // surfaces".
 //
 // Pictures are RGBA16F of the frame's size; their readers need gl::barrier(TextureFetch) after it. GL state
