@@ -119,6 +119,15 @@ class Values(Project):
         self.write("shaders/b.glsl", "// The table is bound before.\n")
         self.assertEqual([line.split(":")[1] for line in self.problems()], ["1", "2", "3", "1"])
 
+    def test_tables_are_written_by_their_stage(self):
+        self.write("src/voxels/a.cpp", 'void Voxels::declare(gl::Inputs& inputs) const {\n    inputs.storage("FaceTable", faces_);\n}\n')
+        self.write("shaders/voxels/a.comp.glsl", "layout(std430) writeonly buffer FaceTable { uint faces[]; };\n")
+        self.write("shaders/light/a.comp.glsl", "layout(std430) readonly buffer FaceTable { uint faces[]; };\n"
+                   "layout(std430) buffer OwnTable { uint own[]; };\n")
+        self.assertEqual(self.problems(), [])
+        self.write("shaders/light/b.comp.glsl", "\nlayout(std430) buffer FaceTable { uint faces[]; };\n")
+        self.assertEqual([line.split(":")[:2] for line in self.problems()], [["shaders/light/b.comp.glsl", "2"]])
+
 
 class Docs(Project):
     def faults(self, *arguments):

@@ -8,7 +8,9 @@ layout(local_size_x = 64) in;  // before linear_index, which asks for it
 #include "lib/linear_index.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
-layout(std430) buffer FaceTable { FaceRecord faces[]; };
+#include "shared/irradiance.h"
+layout(std430) readonly buffer FaceTable { FaceRecord faces[]; };
+layout(std430) buffer LitFaceTable { LitFace litFaces[]; };
 
 void main() {
     uint index = linearIndex();
@@ -23,6 +25,6 @@ void main() {
     if (!inside) return;
     // Below the largest half.
     irradiance = min(irradiance, 65000.0);
-    faces[index].irradiance0 = packHalf2x16(irradiance.rg);
-    faces[index].irradiance1 = packHalf2x16(vec2(irradiance.b, 0.0)) | FACE_LIT | (1u << FACE_AGE_SHIFT);
+    litFaces[index].irradiance0 = packHalf2x16(irradiance.rg);
+    litFaces[index].irradiance1 = packHalf2x16(vec2(irradiance.b, 0.0)) | FACE_LIT | (1u << FACE_AGE_SHIFT);
 }

@@ -68,7 +68,7 @@ vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
             sum += weight * vec4(irradiance, 1.0);
 #if CACHE_NORMALS
             COUNT_LOOKUP(left != 0u ? 1 : 0);
-            vec3 turned = octDecode(unpackSnorm2x16(texelFetch(voxelFaces, 2 * face).x));
+            vec3 turned = octDecode(unpackSnorm2x16(texelFetch(voxelFaces, face).x));
             bent += weight * clamp((dot(turned, normal) - kSameBend) / kSameBendRange, 0.0, 1.0) * turned;
 #endif
             RECORD_CACHE_FACE(point, face, weight, irradiance);

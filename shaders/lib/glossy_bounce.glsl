@@ -20,7 +20,7 @@ struct GlossySurface {
 
 GlossySurface glossySurface(VoxelHit hit, FaceShading s) {
     int face = max(hit.face, 0);
-    uint bits = texelFetch(voxelFaces, 2 * face + 1).w;
+    uint bits = texelFetch(litFaces, face).w;
     vec2 lobe = unpackLobe(bits >> 16);
     vec3 normal = faceNormalOf(face);
 #if TRIANGLE_HITS
@@ -84,11 +84,11 @@ GlossyBounce sampleGlossyBounce(Ray ray, VoxelHit hit, FaceShading s, GlossySurf
     int face = max(hit.face, 0);
     float diffuseShare = dot(b.diffuse, vec3(1.0)) / max(dot(s.albedo, vec3(1.0)), 1e-4);
     next.specularShare = 1.0 - diffuseShare;
-    vec3 emission = unpackEmission(texelFetch(voxelFaceSources, face).xy);
+    vec3 emission = unpackEmission(texelFetch(voxelFaceMaterials, face));
     next.radiance = emission + diffuseShare * max(g.diffuseRadiance - emission, vec3(0.0));
 
     // Add the specular reflection of the lights
-    vec3 frontOffset = faceFrontOffset(texelFetch(voxelFaces, 2 * face), faceNormalOf(face));
+    vec3 frontOffset = faceFrontOffset(texelFetch(voxelFaces, face), faceNormalOf(face));
 #if TRIANGLE_HITS
     frontOffset = hit.triangle >= 0 ? vec3(0.0) : frontOffset;
 #endif

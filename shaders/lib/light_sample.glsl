@@ -23,7 +23,7 @@ LightSample sampleLightFace(vec3 xi, vec3 origin) {
     uint header = texelFetch(lightSamples, 0).x;
     int entry = int(xi.x * float(LIGHT_SAMPLE_COUNT));
     int face = int(texelFetch(lightSamples, 1 + entry).x);
-    uvec4 r = texelFetch(voxelFaces, 2 * face);
+    uvec4 r = texelFetch(voxelFaces, face);
     int axis = int(r.w >> 30);
     vec3 normal = octDecode(unpackSnorm2x16(r.x));
 
@@ -56,7 +56,7 @@ float lightSampleShare(uvec4 hitTexel, vec3 n, vec3 origin, vec3 point) {
 // Density per steradian with which sampleLightFace chooses the ray's direction, given what the ray hit
 // (4.11).
 float lightFacePdf(Ray ray, VoxelHit hit, float inverseFlux) {
-    uvec4 r = texelFetch(voxelFaces, 2 * max(hit.face, 0));
+    uvec4 r = texelFetch(voxelFaces, max(hit.face, 0));
     vec3 n = octDecode(unpackSnorm2x16(r.x));
     float radiance = hit.face >= 0 ? brightness(outgoingRadiance(max(hit.face, 0))) : 0.0;
     float cosine = max(-dot(n, ray.direction), 1e-3);

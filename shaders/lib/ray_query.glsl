@@ -107,7 +107,7 @@ void testVoxelFaces(ivec3 voxel, Ray ray, uint facing, inout VoxelHit hit, inout
         COUNT_LOOKUP(remaining != 0u ? 1 : 0);
         uint lowest = remaining & (0u - remaining);
         int face = base + bitCount(directions & (max(lowest, 1u) - 1u));
-        uvec4 r = texelFetch(voxelFaces, 2 * (remaining != 0u ? face : 0));
+        uvec4 r = texelFetch(voxelFaces, remaining != 0u ? face : 0);
 
         // Intersect its plane (4.10)
         vec3 n = octDecode(unpackSnorm2x16(r.x));

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Hooks of lib/record_steps.glsl for paths that end at a face of a voxel: rays, and lookups in the cache.
 // After lib/ray_query.glsl.
+#include "lib/lit_face.glsl"
 #include "lib/record_steps.glsl"
 #ifdef RECORD_STEPS
 void recordFace(uint path, int face) {
     if (path >= RECORD_MAX_PATHS || face < 0) return;
-    uvec4 a = texelFetch(voxelFaces, 2 * face);
-    uvec4 b = texelFetch(voxelFaces, 2 * face + 1);
+    uvec4 a = texelFetch(voxelFaces, face);
+    uvec4 b = texelFetch(litFaces, face);
     record.paths[path].face = face;
     record.paths[path].faceNormal = octDecode(unpackSnorm2x16(a.x));
     record.paths[path].facePlane = unpackOffset(a.y);
@@ -14,7 +15,7 @@ void recordFace(uint path, int face) {
     record.paths[path].faceVoxel = a.w;
     record.paths[path].faceAlbedo = unpackAlbedo(b.x);
     record.paths[path].faceRadiance = unpackRgb9e5(b.y);
-    record.paths[path].faceIrradiance = vec3(unpackHalf2x16(b.z), unpackHalf2x16(b.w).x);
+    record.paths[path].faceIrradiance = litIrradiance(b);
     record.paths[path].faceUpdates = faceUpdates(b.w);
 }
 
@@ -49,7 +50,7 @@ void recordRay(uint kind, Ray ray, VoxelHit hit, RaySample s) {
 // A face that the cache's lookup about `point` (grid coordinates) read.
 void recordCacheFace(vec3 point, int face, float weight, vec3 irradiance) {
     if (!recording() || weight <= 0.0) return;
-    vec3 toVoxel = vec3(unpackVoxel(texelFetch(voxelFaces, 2 * face).w)) + 0.5 - point;
+    vec3 toVoxel = vec3(unpackVoxel(texelFetch(voxelFaces, face).w)) + 0.5 - point;
     float t = max(length(toVoxel), 1e-6);
     RecordedPath recorded = newPath(PATH_CACHE_FACE, worldFromGrid(point), toVoxel / t, vec3(weight),
                                     irradiance, t * grid.voxelSize);

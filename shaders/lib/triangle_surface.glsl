@@ -73,11 +73,11 @@ TriangleMaterial triangleMaterial(TrianglePoint p, VoxelHit hit) {
 
     // Look up the emission, unless a rectangular light stands for it
     vec3 emission = materials[material].emission * triangleTexel(material, layers.w, 3, uv, footprint).rgb;
-    uint shadeBits = texelFetch(voxelFaces, 2 * hit.face + 1).w;
-    emission = (shadeBits & FACE_AREA_LIGHT) != 0u ? vec3(0.0) : emission;
+    uint faceBits = texelFetch(litFaces, hit.face).w;
+    emission = (faceBits & FACE_AREA_LIGHT) != 0u ? vec3(0.0) : emission;
 
     // Look up the lobe; textured metalness and roughness are the voxel's
-    vec2 lobe = layers.y >= 0 ? unpackLobe(shadeBits >> 16)
+    vec2 lobe = layers.y >= 0 ? unpackLobe(faceBits >> 16)
                               : vec2(materials[material].metallic, materials[material].roughness);
     vec3 albedo = evenAlbedo(color, lobe.x, lobe.y, materials[material].specularF0);
     bool unlit = (materials[material].flags & MATERIAL_UNLIT) != 0u;
@@ -109,8 +109,8 @@ vec3 faceReflected(int face, vec3 directRadiance) {
 #if !EXACT_DIRECT
     reflected += max(directRadiance - steady, vec3(0.0));
 #endif
-    bool areaLight = (texelFetch(voxelFaces, 2 * face + 1).w & FACE_AREA_LIGHT) != 0u;
-    vec3 emitted = areaLight ? vec3(0.0) : unpackEmission(texelFetch(voxelFaceSources, face).xy);
+    bool areaLight = (texelFetch(litFaces, face).w & FACE_AREA_LIGHT) != 0u;
+    vec3 emitted = areaLight ? vec3(0.0) : unpackEmission(texelFetch(voxelFaceMaterials, face));
     reflected += fewRects() ? vec3(0.0) : max(steady - emitted, vec3(0.0));
     return reflected;
 }

@@ -2,18 +2,18 @@
 // What a face or a voxel of the surface voxels shows in the views of voxels (conelight::VoxelData). After
 // lib/ray_query.glsl.
 #include "lib/false_color.glsl"
+#include "lib/lit_face.glsl"
 #include "shared/irradiance.h"
 #include "shared/voxel_view.h"
-uniform usamplerBuffer voxelFaceSources;
+uniform usamplerBuffer voxelFaceMaterials;
 
 vec3 faceData(int face, uint data) {
-    uvec4 a = texelFetch(voxelFaces, 2 * face);
-    uvec4 b = texelFetch(voxelFaces, 2 * face + 1);
-    vec3 irradiance = vec3(unpackHalf2x16(b.z), unpackHalf2x16(b.w).x);
+    uvec4 a = texelFetch(voxelFaces, face);
+    uvec4 b = texelFetch(litFaces, face);
     uint updates = faceUpdates(b.w);
     switch (data) {
         case VIEW_IRRADIANCE:
-            return irradiance;
+            return litIrradiance(b);
         case VIEW_AGE:
             return updates == FACE_UPDATES_INTERIOR ? vec3(1.0, 0.0, 1.0)
                                                     : falseColor(log2(1.0 + float(updates)) / 8.0);
@@ -22,7 +22,7 @@ vec3 faceData(int face, uint data) {
         case VIEW_NORMAL:
             return 0.5 + 0.5 * octDecode(unpackSnorm2x16(a.x));
         case VIEW_EMISSION:
-            return unpackEmission(texelFetch(voxelFaceSources, face).xy);
+            return unpackEmission(texelFetch(voxelFaceMaterials, face));
         case VIEW_COVERAGE:
             return vec3(min(unpackWeight(a.y), 1.0));
         case VIEW_BRICKS: {
@@ -32,9 +32,9 @@ vec3 faceData(int face, uint data) {
         default: {
             // Emitters that are lights as well are dark to rays, which count them as lights; they glow all
             // the same.
-            vec3 glow = (b.w & FACE_AREA_LIGHT) != 0u ? unpackEmission(texelFetch(voxelFaceSources, face).xy)
+            vec3 glow = (b.w & FACE_AREA_LIGHT) != 0u ? unpackEmission(texelFetch(voxelFaceMaterials, face))
                                                       : vec3(0.0);
-            return unpackRgb9e5(b.y) + glow + unpackAlbedo(b.x) * irradiance;
+            return unpackRgb9e5(b.y) + glow + unpackAlbedo(b.x) * litIrradiance(b);
         }
     }
 }
@@ -52,7 +52,7 @@ vec4 voxelMean(uint record, vec3 ray, uint data) {
         int k = findLSB(directions);
         directions &= directions - 1u;
         vec3 along = directionVector(k);
-        float coverage = unpackWeight(texelFetch(voxelFaces, 2 * face).y);
+        float coverage = unpackWeight(texelFetch(voxelFaces, face).y);
         float weight = coverage * (any ? max(-dot(along, ray), 1e-4) : 1.0);
         sum += weight * vec4(faceData(face, data), 1.0);
         axes = max(axes, abs(along) * coverage);

@@ -28,6 +28,7 @@
 // Not within an #if: a file that is included in a branch not taken is lost to later includers.
 #include "lib/ggx_sample.glsl"
 #include "lib/light_table.glsl"
+#include "lib/lit_face.glsl"
 #include "lib/random.glsl"
 #include "lib/ray_query.glsl"
 #include "lib/record_face.glsl"
@@ -42,7 +43,7 @@
 #include "lib/lights.glsl"
 #endif
 #if LOBES || TRIANGLE_HITS
-uniform usamplerBuffer voxelFaceSources;
+uniform usamplerBuffer voxelFaceMaterials;
 #endif
 #if SMOOTH_HITS
 #define CACHE_NORMALS 1
@@ -63,10 +64,9 @@ struct FaceShading {
 };
 
 FaceShading faceShading(int face) {
-    uvec4 r = texelFetch(voxelFaces, 2 * face + 1);
-    vec2 high = unpackHalf2x16(r.w);
-    return FaceShading(unpackAlbedo(r.x), unpackRgb9e5(r.y), vec3(unpackHalf2x16(r.z), high.x),
-                       (r.w & (FACE_LIT | FACE_INTERIOR)) == FACE_LIT);
+    uvec4 lit = texelFetch(litFaces, face);
+    return FaceShading(unpackAlbedo(lit.x), unpackRgb9e5(lit.y), litIrradiance(lit),
+                       (lit.w & (FACE_LIT | FACE_INTERIOR)) == FACE_LIT);
 }
 
 // Outgoing radiance of a diffuse face: emission, reflected direct light, reflected cached light.
@@ -78,7 +78,7 @@ vec3 outgoingRadiance(int face) {
 // Importance of a radiance for sampling. The plain mean of the channels: blue light counts as much.
 float brightness(vec3 radiance) { return dot(radiance, vec3(1.0 / 3.0)); }
 
-vec3 faceNormalOf(int face) { return octDecode(unpackSnorm2x16(texelFetch(voxelFaces, 2 * face).x)); }
+vec3 faceNormalOf(int face) { return octDecode(unpackSnorm2x16(texelFetch(voxelFaces, face).x)); }
 
 // ---- Radiance at a hit ----------------------------------------------------------------------------------
 
@@ -105,7 +105,7 @@ vec3 hitRadiance(Ray ray, VoxelHit hit, inout FaceShading s, out vec3 shadingNor
 #if EXACT_DIRECT
     // Evaluate the punctual lights at the point
     float frontHeight =
-        dot(faceFrontOffset(texelFetch(voxelFaces, 2 * face), normal), normal) * grid.voxelSize;
+        dot(faceFrontOffset(texelFetch(voxelFaces, face), normal), normal) * grid.voxelSize;
     vec3 direct =
         directIrradiance(worldFromGrid(point), shadingNormal, normal, frontHeight) * (1.0 / kGatherPi);
     vec3 radiance = unpackRgb9e5(texelFetch(cachedDirect, face).x) + s.albedo * (direct + s.irradiance);
@@ -159,7 +159,7 @@ PathVertex pathVertex(Ray ray, VoxelHit hit, PathSettings path, PathState state,
     // Add the emission of area lights, which narrow lobes do not reflect analytically
     GlossySurface surface = glossySurface(hit, s);
     if (state.fromNarrowLobe && hit.face >= 0 && surface.areaLight)
-        vertex.radiance += unpackEmission(texelFetch(voxelFaceSources, max(hit.face, 0)).xy);
+        vertex.radiance += unpackEmission(texelFetch(voxelFaceMaterials, max(hit.face, 0)));
 
     // Sample the GGX lobe of a metal
     bool arrived = state.bounce > 0 || path.targetDistance < 0.0 || abs(hit.t - path.targetDistance) < 0.3;

@@ -56,27 +56,23 @@ vec3 unpackRgb9e5(uint bits) {
            uintBitsToFloat(((bits >> 27) + 103u) << 23);
 }
 
-// faceSource: emission as halves, area / h^2 in [0,4]: of the surface what is the face's own, (n.k)^2 of it,
-// so that the faces of a voxel add up to it.
-uvec2 packFaceSource(vec3 emission, float area) {
+// FaceMaterial. Area / h^2 in [0,4]: of the surface what is the face's own, (n.k)^2 of it, so that the faces
+// of a voxel add up to it. `lobe`: packLobe.
+uvec4 packFaceMaterial(vec3 albedo, vec3 emission, float area, uint lobe) {
     vec3 e = clamp(emission, 0.0, 65504.0);
     uint high = uint(floor(clamp(area, 0.0, 4.0) * kVoxelWeightScale + 0.5));
-    return uvec2(packHalf2x16(e.rg), packHalf2x16(vec2(e.b, 0.0)) | (high << 16));
+    return uvec4(packAlbedo(albedo), packHalf2x16(e.rg), packHalf2x16(vec2(e.b, 0.0)) | (high << 16), lobe);
 }
-vec3 unpackEmission(uvec2 bits) { return vec3(unpackHalf2x16(bits.x), unpackHalf2x16(bits.y).x); }
-float unpackArea(uvec2 bits) { return float(bits.y >> 16) / kVoxelWeightScale; }
+vec3 unpackEmission(uvec4 material) {
+    return vec3(unpackHalf2x16(material.y), unpackHalf2x16(material.z).x);
+}
+float unpackArea(uvec4 material) { return float(material.z >> 16) / kVoxelWeightScale; }
 
-// Metalness in 4 bits, roughness in 5: the lowest 9 bits, FACE_LOBE_BITS >> 16.
+// Metalness in 4 bits, roughness in 5: the lowest 9 bits.
 uint packLobe(float metallic, float roughness) {
     return (uint(floor(clamp(metallic, 0.0, 1.0) * 15.0 + 0.5)) << 5) |
            uint(floor(clamp(roughness, 0.0, 1.0) * 31.0 + 0.5));
 }
-// From FaceRecord::irradiance1.
-uint faceUpdates(uint irradiance1) {
-    uint age = (irradiance1 >> FACE_AGE_SHIFT) & FACE_AGE_MASK;
-    return (irradiance1 & FACE_INTERIOR) != 0u ? FACE_UPDATES_INTERIOR : (age == 0u ? 0u : 1u << (age - 1u));
-}
-
 vec2 unpackLobe(uint bits) { return vec2((bits >> 5) & 15u, bits & 31u) / vec2(15.0, 31.0); }
 
 // Plane of a face: unit normal, and its offset from the voxel's centre in voxels.

@@ -1,6 +1,6 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// After an update: means into the face records, where rays read them, and into faceLight, where pixels do,
+// After an update: means into the lit faces, where rays read them, and into faceLight, where pixels do,
 // shared there with neighbours while they are of few updates; and the flux of each chunk of faces. One
 // invocation per chunk, so that sums have an order.
 //
@@ -9,8 +9,9 @@
 layout(local_size_x = 64) in;
 #include "light/cache_common.glsl"
 uniform usamplerBuffer stateTexels;
-layout(std430) writeonly buffer FaceTable { uvec4 faces[]; };
+layout(std430) writeonly buffer LitFaceTable { uvec4 litTable[]; };
 // The same once more: software drivers read storage lane by lane in loops.
+uniform usamplerBuffer litFaces;
 uniform usamplerBuffer voxelFaces;
 uniform usamplerBuffer voxelRecords;
 layout(rgba32ui) readonly uniform uimage3D voxelBrickImage;
@@ -52,7 +53,7 @@ vec4 neighbourIrradiance(int side, uvec4 hitTexel, vec3 n) {
     uint record = there ? texelFetch(voxelRecords, int(voxelRecordIndex(word, bitOfVoxel(at)))).x : 0u;
     there = there && (faceDirections(record) >> direction & 1u) != 0u;
     int face = there ? int(faceIndex(record, direction)) : 0;
-    uvec4 other = texelFetch(voxelFaces, 2 * face);
+    uvec4 other = texelFetch(voxelFaces, face);
     vec3 turned = octDecode(unpackSnorm2x16(other.x));
     float apart = dot(n, vec3(step) + unpackOffset(other.y) * turned) - unpackOffset(hitTexel.y);
     FaceCache state = unpackState(texelFetch(stateTexels, stateOwner(face, texelFetch(stateTexels, face))));
@@ -88,19 +89,19 @@ void main() {
         uint at = min(face, grid.faceCount - 1u);
         int owner = stateOwner(int(at), texelFetch(stateTexels, int(at)));
         FaceCache state = unpackState(texelFetch(stateTexels, owner));
-        uvec4 hitTexel = texelFetch(voxelFaces, 2 * int(at));
-        uvec4 shade = texelFetch(voxelFaces, 2 * int(at) + 1);
+        uvec4 hitTexel = texelFetch(voxelFaces, int(at));
+        uvec4 lit = texelFetch(litFaces, int(at));
         uint updates = state.counts & CACHE_UPDATES_MASK;
         bool dead = isInterior(state);
         vec3 irradiance = dead ? vec3(0.0) : clamp(state.irradiance, 0.0, 65504.0);
-        vec3 radiance = unpackRgb9e5(shade.y) + unpackAlbedo(shade.x) * irradiance;
+        vec3 radiance = unpackRgb9e5(lit.y) + unpackAlbedo(lit.x) * irradiance;
         flux += inside && !dead ? faceFlux(hitTexel, radiance) : 0.0;
-        shade.z = packHalf2x16(irradiance.rg);
-        shade.w = packHalf2x16(vec2(irradiance.b, 0.0)) | (shade.w & (FACE_LOBE_BITS | FACE_AREA_LIGHT)) |
-                  (uint(findMSB(updates) + 1) << FACE_AGE_SHIFT) |
-                  (dead ? FACE_INTERIOR : (updates != 0u ? FACE_LIT : 0u));
+        lit.z = packHalf2x16(irradiance.rg);
+        lit.w = packHalf2x16(vec2(irradiance.b, 0.0)) | (lit.w & (FACE_LOBE_BITS | FACE_AREA_LIGHT)) |
+                (uint(findMSB(updates) + 1) << FACE_AGE_SHIFT) |
+                (dead ? FACE_INTERIOR : (updates != 0u ? FACE_LIT : 0u));
         if (inside) {
-            faces[2u * at + 1u].zw = shade.zw;
+            litTable[at].zw = lit.zw;
 #if AT_PIXELS
 #if SHARED
             vec3 shown = clamp(shownIrradiance(irradiance, hitTexel, updates), 0.0, 65504.0);

@@ -73,7 +73,7 @@ uint gathererOf(uint face, uvec4 hitTexel) {
     int left = abs(wanted - direction);
     while (left > 0) {
         at = clamp(at + step, 0, last);
-        r = texelFetch(voxelFaces, 2 * at);
+        r = texelFetch(voxelFaces, at);
         bool here = ((r.w ^ hitTexel.w) & 0x3fffffffu) == 0u;
         found = here && faceDirection(r, octDecode(unpackSnorm2x16(r.x))) == wanted;
         left = here && !found ? left - 1 : 0;
@@ -120,7 +120,7 @@ uint roleOf(uvec4 hitTexel, uvec4 state) {
 // A face that gathers goes to its bin, or from there into the order; one that shares learns who gathers for
 // it.
 void sortFace(uint index) {
-    uvec4 hitTexel = texelFetch(voxelFaces, 2 * int(index));
+    uvec4 hitTexel = texelFetch(voxelFaces, int(index));
     uvec4 state = texelFetch(stateTexels, int(index));
 #if STEP == 0
     uint gatherer = gathererOf(index, hitTexel);

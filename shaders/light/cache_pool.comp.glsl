@@ -4,6 +4,7 @@
 // total flux (stratified), in their order but for close neighbours. Finds its chunk by bisection, then walks
 // through the chunk.
 layout(local_size_x = 64) in;
+#include "lib/lit_face.glsl"
 #include "lib/random.glsl"
 #include "light/cache_common.glsl"
 layout(std430) writeonly buffer PoolTable { uint pool[]; };
@@ -33,11 +34,10 @@ void main() {
     uint found = face;
     bool going = true;
     do {
-        uvec4 shade = texelFetch(voxelFaces, 2 * int(face) + 1);
-        vec3 irradiance = vec3(unpackHalf2x16(shade.z), unpackHalf2x16(shade.w).x);
-        vec3 radiance = unpackRgb9e5(shade.y) + unpackAlbedo(shade.x) * irradiance;
+        uvec4 lit = texelFetch(litFaces, int(face));
+        vec3 radiance = litRadiance(lit);
         float flux =
-            (shade.w & FACE_INTERIOR) != 0u ? 0.0 : faceFlux(texelFetch(voxelFaces, 2 * int(face)), radiance);
+            (lit.w & FACE_INTERIOR) != 0u ? 0.0 : faceFlux(texelFetch(voxelFaces, int(face)), radiance);
         found = flux > 0.0 ? face : found;
         sum += flux;
         going = sum <= wanted;

@@ -20,10 +20,10 @@ uniform usamplerBuffer oldRecords;
 void main() {
     uint index = linearIndex();
     bool used = index < grid.faceCount;
-    uvec4 r = texelFetch(voxelFaces, int(used ? index : 0u) * 2);
+    uvec4 r = texelFetch(voxelFaces, int(used ? index : 0u));
     vec3 n = octDecode(unpackSnorm2x16(r.x));
     int direction = faceDirection(r, n);
-    FaceRecord face = FaceRecord(r.x, r.y, r.z, r.w, 0u, 0u, 0u, 0u);
+    FaceRecord face = FaceRecord(r.x, r.y, r.z, r.w);
     vec3 corner = vec3(unpackVoxel(r.w));
     vec3 center = corner + clamp(faceCenter(face) - corner, 0.001, 0.999);
     bool had = false;

@@ -26,8 +26,8 @@ void main() {
     bool used = index < cache.faceCount;
     uint place = cache.firstFace + (used ? index : 0u);
     uint face = texelFetch(order, int(place)).x;
-    uvec4 r = texelFetch(voxelFaces, 2 * int(face));
-    FaceRecord record = FaceRecord(r.x, r.y, r.z, r.w, 0u, 0u, 0u, 0u);
+    uvec4 r = texelFetch(voxelFaces, int(face));
+    FaceRecord record = FaceRecord(r.x, r.y, r.z, r.w);
     vec3 normal = faceNormal(record);
     // Faces keep their directions from one run to the next by voxel and axis, not by number. Those of one
     // place in the bricks of a block share them, and are next to each other in order.

@@ -18,7 +18,7 @@ layout(local_size_x = 64) in;
 #include "lib/random.glsl"
 #include "lib/ray_query.glsl"
 #include "lib/tangent_frame.glsl"
-uniform usamplerBuffer voxelFaceSources;
+uniform usamplerBuffer voxelFaceMaterials;
 // After step 0: 1 or 0; 1: both areas as halves; 2: the part, a float.
 layout(std430) buffer EmissionFit { uint parts[]; };
 
@@ -27,14 +27,14 @@ const int kRays = 16;            // per face; sums over a brick are within 3 %, 
 const float kFromOutside = 1.5;  // voxels: what reaches beyond the surface is nearer
 const float kLeast = 0.5, kMost = 1.5;
 
-vec3 normalOf(int face) { return octDecode(unpackSnorm2x16(texelFetch(voxelFaces, 2 * face).x)); }
-bool emits(int face) { return unpackEmission(texelFetch(voxelFaceSources, face).xy) != vec3(0.0); }
+vec3 normalOf(int face) { return octDecode(unpackSnorm2x16(texelFetch(voxelFaces, face).x)); }
+bool emits(int face) { return unpackEmission(texelFetch(voxelFaceMaterials, face)) != vec3(0.0); }
 
 #if STEP == 1
 // Area of what is within the face's bounds, times the part of rays from outside towards it that find it
 // first.
 float seenArea(int face, bool asked) {
-    uvec4 r = texelFetch(voxelFaces, 2 * face);
+    uvec4 r = texelFetch(voxelFaces, face);
     vec3 n = octDecode(unpackSnorm2x16(r.x));
     vec3 lower, upper, u, v;
     rayBounds(r.z, n, lower, upper);
@@ -69,7 +69,7 @@ float seenArea(int face, bool asked) {
 void main() {
     int face = int(min(linearIndex(), grid.faceCount - 1u));
     bool used = linearIndex() < grid.faceCount;
-    float area = unpackArea(texelFetch(voxelFaceSources, face).xy);
+    float area = unpackArea(texelFetch(voxelFaceMaterials, face));
     bool asked = used && parts[face] != 0u && emits(face);
     float seen = seenArea(face, asked);
     if (used) parts[face] = packHalf2x16(vec2(asked ? seen : area, area));

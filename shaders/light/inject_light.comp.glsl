@@ -1,11 +1,12 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// Face records: radiance = emission + albedo / pi * irradiance of the lights. One invocation per face.
-// KEEP_IRRADIANCE 0: gathered irradiance is cleared. 1: it stays, and what does not come from point, spot and
-// directional lights is written once more by itself (cachedDirect of shared/irradiance.h).
+// Lit faces: radiance = emission + albedo / pi * irradiance of the lights; no indirect irradiance. One
+// invocation per face.
+// FOR_RAYS 1: what does not come from point, spot and directional lights is written once more by itself
+// (cachedDirect of shared/irradiance.h), and faces know their lobes and area lights.
 // EMISSION_FITS 1: each face shows a part of its emission (emission_fit.comp.glsl).
-#ifndef KEEP_IRRADIANCE
-#error KEEP_IRRADIANCE must be 0 or 1
+#ifndef FOR_RAYS
+#error FOR_RAYS must be 0 or 1
 #endif
 #ifndef EMISSION_FITS
 #error EMISSION_FITS must be 0 or 1
@@ -15,9 +16,11 @@ layout(local_size_x = 64) in;  // before linear_index, which asks for it
 #include "lib/linear_index.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
-layout(std430) buffer FaceTable { FaceRecord faces[]; };
-uniform usamplerBuffer voxelFaceSources;
-#if KEEP_IRRADIANCE
+#include "shared/irradiance.h"
+layout(std430) readonly buffer FaceTable { FaceRecord faces[]; };
+layout(std430) writeonly buffer LitFaceTable { LitFace litFaces[]; };
+uniform usamplerBuffer voxelFaceMaterials;
+#if FOR_RAYS
 layout(std430) writeonly buffer CachedDirect { uint cachedDirect[]; };
 #endif
 #if EMISSION_FITS
@@ -55,28 +58,28 @@ void main() {
     FaceRecord face = faces[index];
     vec3 normal = faceNormal(face);
     vec3 position = worldFromGrid(faceCenter(face));
-    vec3 emission = unpackEmission(texelFetch(voxelFaceSources, int(index)).xy);
+    uvec4 material = texelFetch(voxelFaceMaterials, int(index));
+    vec3 emission = unpackEmission(material);
     bool areaLight = emission != vec3(0.0) && isAreaLight(face, position, normal);
     if (areaLight) emission = vec3(0.0);
 #if EMISSION_FITS
     emission *= uintBitsToFloat(texelFetch(emissionParts, int(index)).x);
 #endif
-    vec3 reflectance = unpackAlbedo(face.albedo) * (1.0 / 3.14159265358979);
+    vec3 reflectance = unpackAlbedo(material.x) * (1.0 / 3.14159265358979);
     Receiver receiver = Receiver(position, normal, normal, normal, kShadowVoxelLift);
     Brdf none;
     DirectLight light = DirectLight(vec3(0.0), vec3(0.0));
     addRectLights(light, false, receiver, none);
-#if KEEP_IRRADIANCE
+#if FOR_RAYS
     vec3 steady = emission + reflectance * light.irradiance;
 #endif
     addPunctualLights(light, false, receiver, none);
     if (!inside) return;
-    faces[index].radiance = packRgb9e5(emission + reflectance * light.irradiance);
-#if KEEP_IRRADIANCE
+    uint bits = 0u;
+#if FOR_RAYS
     cachedDirect[index] = packRgb9e5(steady);
-    faces[index].irradiance1 = (face.irradiance1 & ~FACE_AREA_LIGHT) | (areaLight ? FACE_AREA_LIGHT : 0u);
-#else
-    faces[index].irradiance0 = 0u;
-    faces[index].irradiance1 = 0u;
+    bits = (material.w << FACE_LOBE_SHIFT) | (areaLight ? FACE_AREA_LIGHT : 0u);
 #endif
+    litFaces[index] =
+        LitFace(material.x, packRgb9e5(emission + reflectance * light.irradiance), 0u, bits);
 }

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT
 // What the irradiance cache (src/light/irradiance_cache.h) and its readers (lib/voxel_light.glsl) share.
 //
+//   litFaces      LitFace per face, what rays read where they hit
 //   lightSamples  uints: [0] 1 / flux of all faces as a float, per voxel side; [1 + i] entry i of the pool: a
 //                face. Entries are drawn by flux, anew for every update.
 //   cachedDirect  uint per face: RGB9E5 of its radiance less what point, spot and directional lights give
-//   faceLight    two uints per face, what lookups at pixels read: irradiance / pi as three halves, and 16
-//   bits of its
-//                weight as in FaceRecord::offsetWeight: its coverage, less for reverse faces, 0 for those
-//                that are dead or were never updated
+//   faceLight     two uints per face, what lookups at pixels read: irradiance / pi as three halves, and 16
+//                 bits of its weight as in FaceRecord::offsetWeight: its coverage, less for reverse faces, 0
+//                 for those that are dead or were never updated
 #pragma once
 #include "shared/prelude.h"
 
-// Names: lightSamples, cachedDirect (usamplerBuffer R32UI) and faceLight (usamplerBuffer RG32UI) for readers;
+// Names: litFaces (usamplerBuffer RGBA32UI; as storage LitFaceTable), lightSamples, cachedDirect
+// (usamplerBuffer R32UI) and faceLight (usamplerBuffer RG32UI) for readers;
 // the cache's passes read tables of their own through buffer textures, too (`...Texels`), because software
 // drivers read storage lane by lane in loops.
 
@@ -37,7 +38,26 @@
 #define CACHE_SHARES 0x8000u
 #define CACHE_UPDATES_MASK 0x7fffu
 
+// Upper half of LitFace::irradiance1.
+#define FACE_LOBE_SHIFT 16u  // 9 bit: FaceMaterial::lobe
+#define FACE_LOBE_BITS 0x01ff0000u
+#define FACE_AREA_LIGHT 0x02000000u  // its emission is the light of a rectangle, not in `radiance`
+#define FACE_AGE_SHIFT 26u           // 4 bit: updates behind the irradiance, 0: none, n: 2^(n-1) to 2^n - 1
+#define FACE_AGE_MASK 15u
+#define FACE_UPDATES_INTERIOR 0xffffffffu  // faceUpdates of what is inside a closed object
+#define FACE_LIT 0x40000000u               // irradiance was gathered at least once
+#define FACE_INTERIOR 0x80000000u          // inside a closed object: left out
+
 CONELIGHT_SHARED_BEGIN
+
+// What a face sends out, complete, so that a ray that hit it needs one texel.
+struct LitFace {
+    uint albedo;    // FaceMaterial::albedo
+    uint radiance;  // RGB9E5: emission + reflected direct light, W/(sr m^2)
+    // Indirect irradiance / pi: the radiance of a white diffuse surface there
+    uint irradiance0;  // halves r, g
+    uint irradiance1;  // half b | FACE_* in the upper half
+};                     // 16 B
 
 // State of one face of the cache.
 struct FaceCache {
@@ -87,6 +107,7 @@ struct CacheOrder {
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
+static_assert(sizeof(conelight::gpu::LitFace) == 16);
 static_assert(sizeof(conelight::gpu::FaceCache) == 16);
 static_assert(sizeof(conelight::gpu::CacheConstants) == 48);
 static_assert(sizeof(conelight::gpu::CacheReprojection) == 32);

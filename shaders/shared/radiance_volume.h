@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The radiance volume: what C++ and GLSL share. Written by src/voxels/radiance_volume.cpp, read by cones
+// The radiance volume: what C++ and GLSL share. Written by src/gather/radiance_volume.cpp, read by cones
 // (lib/cone_trace.glsl) and by the view of voxels.
 //
 // One RGBA16F 3D texture with levels, premultiplied radiance and opacity. Level l has texels of 2^l voxels.

@@ -10,8 +10,8 @@
 //              w     0, reserved
 //   voxRec     one uint per occupied voxel, ordered by brick (x fastest) and voxel: bits 0..25 index of its
 //              first face, bits 26..31 the directions in which it has faces (bit 26 + k)
-//   face       FaceRecord per voxel and facing direction, ordered by voxel and direction
-//   faceSource two uints per face: emission as three halves, area (lib/voxel_record.glsl)
+//   face       FaceRecord per voxel and facing direction, ordered by voxel and direction: what rays test
+//   material   FaceMaterial per face: what light reads
 //
 //   octWord    RG32UI 3D texture (8 Bx, By, Bz), for rays (src/voxels/octant_words.h): at x = brick.x +
 //              octant * Bx, with bit i of the octant set for rays that go down along axis i; bricks, and the
@@ -35,8 +35,9 @@
 //   VoxelGridBlock         uniform block: VoxelGrid
 //   voxelBricks            usampler3D (brickWord); voxelBrickImage  uimage3D, the same
 //   voxelRecords           usamplerBuffer R32UI (voxRec); RecordTable  storage, the same
-//   voxelFaces             usamplerBuffer RGBA32UI, two texels per face; FaceTable  storage, FaceRecord[]
-//   voxelFaceSources       usamplerBuffer RG32UI (faceSource); SourceTable  storage, the same
+//   voxelFaces             usamplerBuffer RGBA32UI, a texel per face; FaceTable  storage, FaceRecord[]
+//   voxelFaceMaterials     usamplerBuffer RGBA32UI, a texel per face; FaceMaterialTable  storage,
+//                          FaceMaterial[]
 //   BrickTable             storage: packVoxel(brick) of each occupied brick
 //   voxelOctants           uimage3D RG32UI (octWord)
 // and triangles (SurfaceVoxels::declareTriangles):
@@ -55,16 +56,6 @@
 // Any pattern that few surfaces make will do; the spare bit is one that it does not have.
 #define OCTANT_EMPTY 0x9d2c5681u
 #define OCTANT_EMPTY_SPARE 0x00000002u
-
-// Upper half of FaceRecord::irradiance1. Written by surface_resolve (lobe) and whoever lights faces.
-// Bits 16 to 20: roughness of what is metallic. Bits 21 to 24: metalness.
-#define FACE_LOBE_BITS 0x01ff0000u   // both
-#define FACE_AREA_LIGHT 0x02000000u  // its emission is the light of a rectangle, not in `radiance`
-#define FACE_AGE_SHIFT 26u           // 4 bit: updates behind the irradiance, 0: none, n: 2^(n-1) to 2^n - 1
-#define FACE_AGE_MASK 15u
-#define FACE_UPDATES_INTERIOR 0xffffffffu  // faceUpdates of what is inside a closed object
-#define FACE_LIT 0x40000000u               // irradiance was gathered at least once
-#define FACE_INTERIOR 0x80000000u          // inside a closed object: left out
 
 // In FaceRecord::bounds, above them: what most of the face is made of.
 #define FACE_TWO_SIDED 0x40000000u  // triangles with a face on their other side, too
@@ -94,9 +85,8 @@ struct VoxelGrid {
     uint pad1;
 };  // 64 B
 
-// What a voxel shows towards one facing direction k: the plane piece that rays hit, and its light.
+// What a voxel shows towards one facing direction k: the plane piece that rays hit.
 struct FaceRecord {
-    // Texel 0, the hit test
     uint
         normal;  // octahedral, 2 x 16 bit snorm: mean of the triangle normals, weighted by w = area (n.k)/h^2
     uint offsetWeight;  // low 16: plane offset n.(c - voxel centre) / h, snorm; high 16: coverage W = sum of
@@ -104,12 +94,15 @@ struct FaceRecord {
     uint bounds;        // 6 x 5 bit: min x y z, max x y z of the surface in the voxel, in 1/31 voxel, rounded
                         // outwards; FACE_TWO_SIDED, FACE_REVERSE
     uint voxel;         // 3 x 10 bit: x, y, z of the voxel; bits 30, 31: axis of the direction (0 x .. 2 z)
-    // ---- 16 B: texel 1, shading
-    uint albedo;       // 11 | 11 | 10 bit unorm, linear
-    uint radiance;     // RGB9E5: emission + reflected direct light, W/(sr m^2); emission alone after build()
-    uint irradiance0;  // irradiance / pi (the radiance a white Lambert surface would show): halves r, g
-    uint irradiance1;  // half b | FACE_* in the upper half
-};                     // 32 B
+};                      // 16 B
+
+// What that piece is made of: means over its surface.
+struct FaceMaterial {
+    uint albedo;         // 11 | 11 | 10 bit unorm, linear
+    uint emission;       // W/(sr m^2): halves r, g
+    uint emissionBArea;  // half b | area of the surface that is the face's own, in voxel sides^2, 0..4
+    uint lobe;           // bits 0..4 roughness of what is metallic, 5..8 metalness
+};                       // 16 B
 
 // Uniform block of the voxelizer's own passes (shaders/voxels/surface_*).
 struct SurfaceConstants {
@@ -157,5 +150,6 @@ CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::VoxelGrid) == 64);
 static_assert(sizeof(conelight::gpu::SurfaceConstants) == 48);
-static_assert(sizeof(conelight::gpu::FaceRecord) == 32);
+static_assert(sizeof(conelight::gpu::FaceRecord) == 16);
+static_assert(sizeof(conelight::gpu::FaceMaterial) == 16);
 #endif

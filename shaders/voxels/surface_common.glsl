@@ -29,7 +29,7 @@
 //   CounterTable  SURFACE_* words   TriangleTable  triangles   TileTable  tiles of triangles   PairTable
 //   (triangle, voxel)   MaskTable  bit per voxel   ChainTable  first fragment, directions; per voxel
 //   FragmentTable   ChunkTable  sums of chunks   BrickTable  occupied bricks   OwnerTable  of faces
-//   SourceTable faceSource   LayerTable  faces to be done again
+//   FaceMaterialTable material   LayerTable  faces to be done again
 // of updates:
 //   RunTable  (instance, its first place in the work) per changed instance   FreeTable  slots of dropped
 //   fragments   ChangedTable  bit per brick   EditedTable  indices of bricks to search   StaleTable  bit per

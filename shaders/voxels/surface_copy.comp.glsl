@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Update: one invocation per face. Faces of voxels in which nothing changed are taken over, light included.
+// Update: one invocation per face. Faces of voxels in which nothing changed are taken over.
 #version 450
 layout(local_size_x = 64) in;
 #include "voxels/surface_common.glsl"
 layout(std430) readonly buffer CounterTable { uint counters[]; };
 layout(std430) writeonly buffer FaceTable { uvec4 faces[]; };
-layout(std430) writeonly buffer SourceTable { uvec2 faceSources[]; };
+layout(std430) writeonly buffer FaceMaterialTable { uvec4 faceMaterials[]; };
 uniform usamplerBuffer oldFaces;
-uniform usamplerBuffer oldSources;
+uniform usamplerBuffer oldMaterials;
 uniform usamplerBuffer owners;
 
 void main() {
@@ -16,8 +16,7 @@ void main() {
     uint owner = texelFetch(owners, int(used ? index : 0u)).x;
     int old = int(owner & 0x1fffffffu);
     if (used && owner >> 29 == OWNER_IS_FACE) {
-        faces[2u * index] = texelFetch(oldFaces, 2 * old);
-        faces[2u * index + 1u] = texelFetch(oldFaces, 2 * old + 1);
-        faceSources[index] = texelFetch(oldSources, old).xy;
+        faces[index] = texelFetch(oldFaces, old);
+        faceMaterials[index] = texelFetch(oldMaterials, old);
     }
 }

@@ -211,7 +211,7 @@ void main() {
     bool used;
     ListedFace listed = listedFace(linearInvocation(), used);
     vec3 k = directionVector(listed.direction);
-    uvec4 hit = faces[2u * listed.index];
+    uvec4 hit = faces[listed.index];
 
     // Sum up again what is seen.
 #if SURFACE_ONLY_WIDE
@@ -226,8 +226,7 @@ void main() {
     FacePlane plane = facePlane(sums, SURFACE_FINEST_UNIT, k, face.hit);
     fitBounds(sums, plane, k, boundsTooWide(plane) ? listed.head : 0u, face);
     if (used) {
-        faces[2u * listed.index] = face.hit;
-        faces[2u * listed.index + 1u] = face.shade;
-        faceSources[listed.index] = face.source;
+        faces[listed.index] = face.hit;
+        faceMaterials[listed.index] = face.material;
     }
 }

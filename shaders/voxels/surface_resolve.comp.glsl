@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // One invocation per face: walks the chain of its voxel, sums up the fragments that face its direction
-// (docs/theory/2_voxels.md, eq. 2.2), writes FaceRecord and faceSource. Faces in which something may cover
+// (docs/theory/2_voxels.md, eq. 2.2), writes FaceRecord and FaceMaterial. Faces in which something may cover
 // something else, or whose bounds are too wide, are put on the lists of surface_layers, which does them
 // again.
 //
@@ -70,9 +70,8 @@ void main() {
     bool covers = weight > boundsArea(sums.lower, sums.upper, direction >> 1) + SURFACE_LEAST_EXCESS;
     bool wide = !covers && boundsTooWide(facePlane(sums, shift, k, face.hit));
     if (used) {
-        faces[2u * index] = face.hit;
-        faces[2u * index + 1u] = face.shade;
-        faceSources[index] = face.source;
+        faces[index] = face.hit;
+        faceMaterials[index] = face.material;
         uint entry = index | (uint(SURFACE_FINEST_UNIT - shift) << 26);
         if (covers) layered[atomicAdd(counters[SURFACE_LAYERS], 1u)] = entry;
         if (wide) layered[surface.faceCapacity - 1u - atomicAdd(counters[SURFACE_WIDE], 1u)] = entry;

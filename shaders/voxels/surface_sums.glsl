@@ -9,7 +9,7 @@
 #endif
 #include "lib/clip.glsl"
 #include "lib/plane_piece.glsl"
-layout(std430) writeonly buffer SourceTable { uvec2 faceSources[]; };
+layout(std430) writeonly buffer FaceMaterialTable { uvec4 faceMaterials[]; };
 uniform usamplerBuffer fragments;
 uniform usamplerBuffer owners;
 #if SURFACE_EMISSION
@@ -108,9 +108,8 @@ float boundsArea(ivec3 lower, ivec3 upper, int axis) {
 }
 
 struct ResolvedFace {
-    uvec4 hit;  // the two texels of FaceRecord
-    uvec4 shade;
-    uvec2 source;
+    uvec4 hit;       // FaceRecord
+    uvec4 material;  // FaceMaterial
 };
 
 ResolvedFace resolvedFace(FaceSums sums, int shift, int direction, uint voxel) {
@@ -137,8 +136,7 @@ ResolvedFace resolvedFace(FaceSums sums, int shift, int direction, uint voxel) {
     bounds |= sums.turned > sums.weightLow / 2 ? FACE_REVERSE : 0u;
     return ResolvedFace(uvec4(packSnorm2x16(octEncode(n)), packOffsetWeight(offset, total * unit), bounds,
                               voxel | (uint(direction >> 1) << 30)),
-                        uvec4(packAlbedo(vec3(sums.albedo) / total), packRgb9e5(glow), 0u, lobe << 16),
-                        packFaceSource(glow, float(sums.area) * unit));
+                        packFaceMaterial(vec3(sums.albedo) / total, glow, float(sums.area) * unit, lobe));
 }
 
 // --- Bounds that fit (docs/theory/2_voxels.md, eq. 2.8)

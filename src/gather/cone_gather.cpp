@@ -71,7 +71,7 @@ const char* passName(Part part) {
 
 ConeGather::ConeGather() : block_(sizeof(gpu::ConeConstants), "cone constants") {}
 
-void ConeGather::configure(const ConesSettings& settings, const voxels::RadianceLayout& layout) {
+void ConeGather::configure(const ConesSettings& settings, const RadianceLayout& layout) {
     opacity_ = settings.opacity;
     const float h = layout.grid.voxelSize;
     const glm::vec3 extent = glm::vec3(layout.grid.size) * h;
@@ -119,11 +119,11 @@ void ConeGather::record(const gl::Device& device, const ConeInputs& inputs, Part
 }
 
 void ConeGather::gatherBounce(const gl::Device& device, const light::Lights& lights,
-                              const voxels::RadianceVolume& volume,
-                              const voxels::SurfaceVoxels& surface) const {
+                              const RadianceVolume& volume, const voxels::SurfaceVoxels& surface,
+                              const light::LitFaces& faces) const {
     const gl::PassScope pass(device.profiler, "bounce cones");
     gl::Inputs given;
-    given.add(lights).add(volume).add(surface).uniform("ConeBlock", block_);
+    given.add(lights).add(volume).add(surface).add(faces).uniform("ConeBlock", block_);
     device.get(bounceDesc({volume.layout().blocks, opacity_})).dispatchLinear(given, surface.faceCount());
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What cones bring in: RadianceVolume + GBuffer -> pictures of irradiance, occlusion and specular radiance,
-// and RadianceVolume + face records -> one more bounce. docs/theory/4_gather.md, "Diffuse surfaces" and "Glossy
+// and RadianceVolume + faces -> one more bounce. docs/theory/4_gather.md, "Diffuse surfaces" and "Glossy
 // surfaces".
 //
 // Pictures are RGBA16F of the frame's size; their readers need gl::barrier(TextureFetch) after it. GL state
@@ -11,10 +11,10 @@
 
 #include "conelight/settings.h"
 #include "gather/direct_light.h"
+#include "gather/radiance_volume.h"
 #include "gather/step_recorder.h"
 #include "gl/device.h"
 #include "gl/texture.h"
-#include "voxels/radiance_volume.h"
 #include "voxels/surface_voxels.h"
 
 namespace conelight::gather {
@@ -22,7 +22,7 @@ namespace conelight::gather {
 // What cones at pixels read.
 struct ConeInputs {
     const DirectInputs& pixels;
-    const voxels::RadianceVolume& volume;
+    const RadianceVolume& volume;
 };
 
 class ConeGather {
@@ -30,7 +30,7 @@ class ConeGather {
     ConeGather();
 
     // Sets up the cones for later passes; cheap unless they changed.
-    void configure(const ConesSettings& settings, const voxels::RadianceLayout& layout);
+    void configure(const ConesSettings& settings, const RadianceLayout& layout);
 
     // What a pass at pixels gathers:
     // Diffuse    rgb irradiance / pi, a the open part of the hemisphere
@@ -43,9 +43,10 @@ class ConeGather {
     // Records the recorder's pixel (gather/step_recorder.h); `result` as there, not written.
     void record(const gl::Device& device, const ConeInputs& inputs, Part part, const gl::Texture& result,
                 StepRecorder& recorder) const;
-    // Irradiance of every face from the volume as it is. Ends with the barrier for shader storage.
-    void gatherBounce(const gl::Device& device, const light::Lights& lights,
-                      const voxels::RadianceVolume& volume, const voxels::SurfaceVoxels& surface) const;
+    // Irradiance of every face from the volume as it is, into `faces`. Ends with the barrier for shader
+    // storage.
+    void gatherBounce(const gl::Device& device, const light::Lights& lights, const RadianceVolume& volume,
+                      const voxels::SurfaceVoxels& surface, const light::LitFaces& faces) const;
 
     static std::vector<gl::ProgramDesc> programDescs();
 

@@ -7,8 +7,7 @@ namespace conelight::gather {
 
 void ConeVolume::update(const gl::Device& device, const Inputs& inputs, const ConesSettings& settings) {
     const voxels::SurfaceVoxels& surface = inputs.voxels.surface();
-    const voxels::RadianceLayout layout =
-        voxels::radianceLayout(surface.grid(), settings.directional, settings.maxFootprint);
+    const RadianceLayout layout = radianceLayout(surface.grid(), settings.directional, settings.maxFootprint);
     const bool otherLayout = !volume_.texture() || !(volume_.layout() == layout);
     const bool otherSources =
         voxelsFrom_ != inputs.voxels.revision() || lightsFrom_ != inputs.lights.revision();
@@ -25,14 +24,14 @@ void ConeVolume::update(const gl::Device& device, const Inputs& inputs, const Co
 
     if (otherLayout) {
         volume_ = {};  // frees the old one first
-        volume_ = voxels::RadianceVolume(layout);
+        volume_ = RadianceVolume(layout);
     }
-    light::injectLight(device, {inputs.scene, inputs.lights, surface});
-    volume_.build(device, surface, settings.opacity);
+    light::injectLight(device, {inputs.scene, inputs.lights, surface}, faces_);
+    volume_.build(device, surface, faces_, settings.opacity);
     // Each further bounce reads the volume with one bounce less.
     for (int bounce = 1; bounce < settings.bounces; ++bounce) {
-        cones_.gatherBounce(device, inputs.lights, volume_, surface);
-        volume_.build(device, surface, settings.opacity);
+        cones_.gatherBounce(device, inputs.lights, volume_, surface, faces_);
+        volume_.build(device, surface, faces_, settings.opacity);
     }
     revision_ = base::Revision::next();
 }

@@ -9,9 +9,10 @@
 #include "base/revision.h"
 #include "conelight/settings.h"
 #include "gather/cone_gather.h"
+#include "gather/radiance_volume.h"
 #include "light/lights.h"
+#include "light/lit_faces.h"
 #include "scene/gpu_scene.h"
-#include "voxels/radiance_volume.h"
 #include "voxels/voxels.h"
 
 namespace conelight::gather {
@@ -27,11 +28,13 @@ class ConeVolume {
     void update(const gl::Device& device, const Inputs& inputs, const ConesSettings& settings);
     base::Revision revision() const { return revision_; }
 
-    const voxels::RadianceVolume& volume() const { return volume_; }
-    const ConeGather& cones() const { return cones_; }  // as the settings say
+    const RadianceVolume& volume() const { return volume_; }
+    const light::LitFaces& faces() const { return faces_; }  // what the volume was made of
+    const ConeGather& cones() const { return cones_; }       // as the settings say
 
   private:
-    voxels::RadianceVolume volume_;
+    light::LitFaces faces_;
+    RadianceVolume volume_;
     ConeGather cones_;
     // What it was made from.
     base::Revision voxelsFrom_, lightsFrom_;

@@ -8,7 +8,7 @@
 #include "gl/gl.h"
 #include "gl/pass.h"
 #include "shared/inspect.h"
-#include "shared/voxels.h"
+#include "shared/irradiance.h"
 
 namespace conelight {
 

@@ -163,8 +163,8 @@ void VoxelView::buildOccupied(const gl::Device& device, const Shown& shown, bool
 }
 
 // Level 1 of the surface voxels' means and all above it; `size` is that of level 1.
-void VoxelView::buildLevels(const gl::Device& device, VoxelData data, const voxels::SurfaceVoxels& surface,
-                            const glm::ivec3& size, int maxLevel) {
+void VoxelView::buildLevels(const gl::Device& device, VoxelData data, const Lit& lit, const glm::ivec3& size,
+                            int maxLevel) {
     const gl::PassScope pass(device.profiler, "voxel view levels");
     if (!levels_ || levels_.width() != size.x || levels_.height() != size.y || levels_.depth() != size.z) {
         levels_ = {};
@@ -177,20 +177,20 @@ void VoxelView::buildLevels(const gl::Device& device, VoxelData data, const voxe
     levels_.clear(0, GL_RGBA, GL_FLOAT, nullptr);
     for (int level = 0; level < maxLevel; ++level) {
         gl::Inputs inputs;
-        inputs.add(surface).uniform("ViewBlock", constants(c));
+        inputs.add(lit.voxels).add(lit.faces).uniform("ViewBlock", constants(c));
         if (level > 0) inputs.image("finer", levels_, gl::ImageUse::Read, level - 1);
         inputs.image("coarser", levels_, gl::ImageUse::Write, level);
         const gl::Program& program = device.get(LevelKey{level == 0}.desc());
         if (level == 0)
-            program.dispatchLinear(inputs, std::size_t{8} * surface.occupiedBrickCount());
+            program.dispatchLinear(inputs, std::size_t{8} * lit.voxels.surface().occupiedBrickCount());
         else
             program.dispatch(inputs, levels_.width(level), levels_.height(level), levels_.depth(level));
         gl::barrier(gl::Access::ImageAccess | gl::Access::TextureFetch);
     }
 }
 
-void VoxelView::draw(const gl::Device& device, const Target& target, const voxels::Voxels& voxels,
-                     base::Revision light) {
+void VoxelView::draw(const gl::Device& device, const Target& target, const Lit& lit) {
+    const voxels::Voxels& voxels = lit.voxels;
     const ViewSettings& view = target.settings.view;
     const voxels::VoxelGrid& grid = voxels.grid();
     const bool coarse = needsCoarse(view);
@@ -205,9 +205,9 @@ void VoxelView::draw(const gl::Device& device, const Target& target, const voxel
         const int texel = 1 << maxLevel;
         const glm::ivec3 size{roundUp(grid.size.x, texel) / 2, roundUp(grid.size.y, texel) / 2,
                               roundUp(grid.size.z, texel) / 2};
-        if (!levels_ || levelsOf_ != light || levelsData_ != view.voxelData)
-            buildLevels(device, view.voxelData, voxels.surface(), size, maxLevel);
-        levelsOf_ = light;
+        if (!levels_ || levelsOf_ != lit.light || levelsData_ != view.voxelData)
+            buildLevels(device, view.voxelData, lit, size, maxLevel);
+        levelsOf_ = lit.light;
         levelsData_ = view.voxelData;
     } else {
         levels_ = {};
@@ -216,7 +216,7 @@ void VoxelView::draw(const gl::Device& device, const Target& target, const voxel
     const Shown shown{kSurfaceVoxels, shape,     false,    grid.origin,
                       grid.voxelSize, grid.size, maxLevel, view.voxelData == VoxelData::Bricks ? 2 : 0};
     gl::Inputs inputs;
-    inputs.add(voxels);
+    inputs.add(voxels).add(lit.faces);
     if (castsRays(shape)) buildOccupied(device, shown, true, inputs, voxels.revision());
     // Shaders of level 0 name the coarser ones, too, and read nothing of them.
     if (!levels_ && !nothing_) nothing_ = gl::Texture({GL_TEXTURE_3D, GL_RGBA16F, 1, 1, 1}, "no levels");
@@ -225,9 +225,9 @@ void VoxelView::draw(const gl::Device& device, const Target& target, const voxel
     run(device, target, shown, inputs);
 }
 
-void VoxelView::draw(const gl::Device& device, const Target& target, const voxels::RadianceVolume& volume,
+void VoxelView::draw(const gl::Device& device, const Target& target, const gather::RadianceVolume& volume,
                      const voxels::Voxels& voxels) {
-    const voxels::RadianceLayout& layout = volume.layout();
+    const gather::RadianceLayout& layout = volume.layout();
     VoxelShape shape = target.settings.view.voxelShape;
     if (shape == VoxelShape::Auto || shape == VoxelShape::Faces) shape = VoxelShape::Cubes;
     const Shown shown{

@@ -11,12 +11,13 @@
 
 #include "base/revision.h"
 #include "conelight/settings.h"
+#include "gather/radiance_volume.h"
 #include "gl/device.h"
 #include "gl/texture.h"
 #include "light/lights.h"
+#include "light/lit_faces.h"
 #include "shared/voxel_view.h"
 #include "view/surfaces.h"
-#include "voxels/radiance_volume.h"
 #include "voxels/voxels.h"
 
 namespace conelight::image {
@@ -48,12 +49,16 @@ class VoxelView {
         bool among;  // on top of the picture in `output`
     };
 
-    // Surface voxels; shape faces is drawn where they have octant words. `light`: the revision of the light
-    // on them.
-    void draw(const gl::Device& device, const Target& target, const voxels::Voxels& voxels,
-              base::Revision light);
+    // Surface voxels, and the light on their faces, of a revision.
+    struct Lit {
+        const voxels::Voxels& voxels;
+        const light::LitFaces& faces;
+        base::Revision light;
+    };
+    // Shape faces is drawn where the voxels have octant words.
+    void draw(const gl::Device& device, const Target& target, const Lit& lit);
     // `volume` holds what `voxels` do.
-    void draw(const gl::Device& device, const Target& target, const voxels::RadianceVolume& volume,
+    void draw(const gl::Device& device, const Target& target, const gather::RadianceVolume& volume,
               const voxels::Voxels& voxels);
     void draw(const gl::Device& device, const Target& target, const VoxelVolume& volume);
 
@@ -74,8 +79,8 @@ class VoxelView {
     void run(const gl::Device& device, const Target& target, const Shown& shown, gl::Inputs& inputs);
     void buildOccupied(const gl::Device& device, const Shown& shown, bool halves, gl::Inputs inputs,
                        base::Revision of);
-    void buildLevels(const gl::Device& device, VoxelData data, const voxels::SurfaceVoxels& surface,
-                     const glm::ivec3& size, int maxLevel);
+    void buildLevels(const gl::Device& device, VoxelData data, const Lit& lit, const glm::ivec3& size,
+                     int maxLevel);
     const gl::Buffer& constants(const gpu::VoxelViewConstants& values);
 
     gl::Texture occupied_;  // voxel_view_occupied.comp.glsl

@@ -10,20 +10,20 @@ namespace {
 
 struct InjectKey {
     LightKey lights;
-    bool keepsIrradiance = false;
+    bool forRays = false;
     bool fits = false;
 
     gl::ProgramDesc desc() const {
         gl::Defines defines = lights.defines();
-        defines.emplace_back("KEEP_IRRADIANCE", keepsIrradiance ? "1" : "0");
+        defines.emplace_back("FOR_RAYS", forRays ? "1" : "0");
         defines.emplace_back("EMISSION_FITS", fits ? "1" : "0");
         return {{"light/inject_light.comp.glsl"}, std::move(defines)};
     }
     static std::vector<InjectKey> all() {
         std::vector<InjectKey> keys;
         for (const LightKey& lights : LightKey::all())
-            for (const auto& [keeps, fits] : {std::pair{false, false}, {true, false}, {true, true}})
-                keys.push_back({lights, keeps, fits});
+            for (const auto& [rays, fits] : {std::pair{false, false}, {true, false}, {true, true}})
+                keys.push_back({lights, rays, fits});
         return keys;
     }
 };
@@ -41,10 +41,12 @@ bool hasOtherEmitters(const scene::GpuScene& scene, const Lights& lights) {
     return false;
 }
 
-void injectLight(const gl::Device& device, const InjectInputs& inputs, const RayLight* rays) {
+void injectLight(const gl::Device& device, const InjectInputs& inputs, LitFaces& faces,
+                 const RayLight* rays) {
     const gl::PassScope pass(device.profiler, "inject light");
+    faces.reserve(inputs.surface.faceCount());
     gl::Inputs given;
-    given.add(inputs.scene).add(inputs.lights).add(inputs.surface);
+    given.add(inputs.scene).add(inputs.lights).add(inputs.surface).add(faces);
     if (rays != nullptr) given.storage("CachedDirect", rays->cachedDirect);
     const bool fits = rays != nullptr && rays->fit != nullptr;
     if (fits) given.add(*rays->fit);

@@ -173,14 +173,15 @@ gpu::CacheConstants IrradianceCache::packed(const CacheSettings& settings, std::
     return c;
 }
 
-// States -> records and pool; and what pixels see (atPixels).
-void IrradianceCache::commit(const gl::Device& device, const voxels::SurfaceVoxels& surface,
-                             const CacheSettings& settings, bool atPixels) {
+// States -> lit faces and pool; and what pixels see (atPixels).
+void IrradianceCache::commit(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
+                             bool atPixels) {
     const gl::PassScope scope(device.profiler, "irradiance: bright faces");
     const gpu::CacheConstants block = packed(settings);
     constants_.update(block);
-    gl::Inputs inputs;
-    inputs.add(surface)
+    gl::Inputs given;
+    given.add(inputs.voxels.surface())
+        .add(inputs.faces)
         .uniform("CacheBlock", constants_)
         .storage("StateTable", states_)
         .texture("stateTexels", stateTexels_)
@@ -189,11 +190,11 @@ void IrradianceCache::commit(const gl::Device& device, const voxels::SurfaceVoxe
         .storage("FaceLightTable", faceLight_);
     const bool shared = updates() <= IRRADIANCE_SHARED_UPDATES;
     const Commit kind = !atPixels ? Commit::ForRays : (shared ? Commit::SharedForPixels : Commit::ForPixels);
-    device.get(CommitKey{kind}.desc()).dispatchLinear(inputs, block.chunkCount);
+    device.get(CommitKey{kind}.desc()).dispatchLinear(given, block.chunkCount);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
-    device.get(pass("sums")).dispatch(inputs, 8);
+    device.get(pass("sums")).dispatch(given, 8);
     gl::barrier(gl::Access::ShaderStorage);
-    device.get(pass("pool")).dispatch(inputs, LIGHT_SAMPLE_COUNT);
+    device.get(pass("pool")).dispatch(given, LIGHT_SAMPLE_COUNT);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Update);
     prepared_ = true;
     restarts_ = false;
@@ -232,6 +233,7 @@ void IrradianceCache::visitAll(const gl::Device& device, const Inputs& inputs, c
         .add(inputs.lights)
         .add(inputs.voxels)
         .add(*this)
+        .add(inputs.faces)
         .texture("cachedDirect", inputs.directTexels)
         .uniform("CacheBlock", constants_)
         .storage("StateTable", states_)
@@ -248,11 +250,10 @@ void IrradianceCache::visitAll(const gl::Device& device, const Inputs& inputs, c
 
 void IrradianceCache::update(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
                              int passes) {
-    const voxels::SurfaceVoxels& surface = inputs.voxels.surface();
     CONELIGHT_ASSERT(voxelsFrom_ == inputs.voxels.revision(),
                      "IrradianceCache::update: other voxels than adopted");
     if (faceCount_ == 0) return;
-    if (!prepared_) commit(device, surface, settings, passes <= 0);
+    if (!prepared_) commit(device, inputs, settings, passes <= 0);
     for (int i = 0; i < passes; ++i) {
         const std::uint32_t count = perUpdate(settings);
         const bool searches = raysTested_ < searchedRays();
@@ -260,12 +261,12 @@ void IrradianceCache::update(const gl::Device& device, const Inputs& inputs, con
         firstFace_ = order_.visited() > 0 ? (firstFace_ + count) % order_.visited() : 0;
         facesVisited_ += count;
         ++updatesMade_;
-        commit(device, surface, settings, i + 1 == passes);
+        commit(device, inputs, settings, i + 1 == passes);
         // Faces inside closed objects are known: no more rays from them.
         if (searches && raysTested_ >= searchedRays()) {
             const gl::PassScope scope(device.profiler, "irradiance: order");
             const int rounds = updates();
-            sort(device, surface, false);
+            sort(device, inputs.voxels.surface(), false);
             facesVisited_ = static_cast<std::uint64_t>(rounds) * order_.visited();
         }
     }

@@ -12,6 +12,7 @@
 #include "gl/device.h"
 #include "light/face_order.h"
 #include "light/lights.h"
+#include "light/lit_faces.h"
 #include "scene/gpu_scene.h"
 #include "shared/irradiance.h"
 #include "voxels/voxels.h"
@@ -33,12 +34,13 @@ struct CacheSettings {
 
 class IrradianceCache {
   public:
-    // What updates read.
+    // What updates read; they write the irradiance of `faces`.
     struct Inputs {
         const scene::GpuScene& scene;
         const Lights& lights;
         const voxels::Voxels& voxels;     // with octant words
         const gl::Texture& directTexels;  // R32UI: light of faces that is not looked up at hits
+        const LitFaces& faces;            // lit directly (injectLight)
     };
 
     // Takes up voxels. Each face gets the light of the face that lay there and looked the same way in the
@@ -76,8 +78,7 @@ class IrradianceCache {
     void visitFaces(const Visit& visit, std::uint32_t first, std::uint32_t end, bool findsBacks);
     void visitAll(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
                   std::uint32_t count);
-    void commit(const gl::Device& device, const voxels::SurfaceVoxels& surface, const CacheSettings& settings,
-                bool atPixels);
+    void commit(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings, bool atPixels);
 
     gl::Buffer states_, oldStates_, faceLight_, chunks_, pool_, constants_, reprojectionBlock_;
     gl::Texture faceLightTexels_, poolTexels_, stateTexels_, oldStateTexels_;
@@ -86,7 +87,7 @@ class IrradianceCache {
     std::uint32_t faceCount_ = 0;
     bool carried_ = false;  // the voxels took over light from those before
 
-    bool prepared_ = false;  // pool and records say what the states and the direct light say
+    bool prepared_ = false;  // pool and lit faces say what the states and the direct light say
     bool restarts_ = false;
     std::uint32_t updatesMade_ = 0;      // ever
     std::uint32_t updatesOfVoxels_ = 0;  // calls of update() for these voxels

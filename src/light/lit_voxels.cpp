@@ -60,11 +60,11 @@ void LitVoxels::putDirectLight(const gl::Device& device, const Inputs& inputs) {
     const bool fits = surface.faceCount() > 0 && hasOtherEmitters(inputs.scene, inputs.lights);
     if (fits) fit_.update(device, inputs.voxels);
     const RayLight rays{directLight_, fits ? &fit_ : nullptr};
-    injectLight(device, {inputs.scene, inputs.lights, surface}, &rays);
+    injectLight(device, {inputs.scene, inputs.lights, surface}, faces_, &rays);
 }
 
 void LitVoxels::update(const gl::Device& device, const Inputs& inputs, const Budget& budget) {
-    const IrradianceCache::Inputs given{inputs.scene, inputs.lights, inputs.voxels, directTexels_};
+    const IrradianceCache::Inputs given{inputs.scene, inputs.lights, inputs.voxels, directTexels_, faces_};
     CacheSettings cache;
     // A reflection is a bounce, which updates count.
     if (settings_.bounces) cache.reflections = 0;
@@ -91,7 +91,7 @@ void LitVoxels::update(const gl::Device& device, const Inputs& inputs, const Bud
 bool LitVoxels::steady() const { return cache_.updates() >= std::min(settings_.updates, kSteadyUpdates); }
 
 void LitVoxels::declare(gl::Inputs& inputs) const {
-    inputs.texture("cachedDirect", directTexels_).add(cache_);
+    inputs.add(faces_).texture("cachedDirect", directTexels_).add(cache_);
 }
 
 std::vector<gl::ProgramDesc> LitVoxels::programDescs() {

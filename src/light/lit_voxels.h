@@ -11,6 +11,7 @@
 #include "light/emission_fit.h"
 #include "light/irradiance_cache.h"
 #include "light/lights.h"
+#include "light/lit_faces.h"
 #include "scene/gpu_scene.h"
 #include "voxels/voxels.h"
 
@@ -53,9 +54,10 @@ class LitVoxels {
     int updates() const { return cache_.updates(); }
     // Whether means are long enough to be averaged over many frames.
     bool steady() const;
+    const LitFaces& faces() const { return faces_; }
     const IrradianceCache& cache() const { return cache_; }
 
-    void declare(gl::Inputs& inputs) const;  // cachedDirect, lightSamples, faceLight
+    void declare(gl::Inputs& inputs) const;  // litFaces, cachedDirect, lightSamples, faceLight
 
     static std::vector<gl::ProgramDesc> programDescs();
 
@@ -63,6 +65,7 @@ class LitVoxels {
     void putDirectLight(const gl::Device& device, const Inputs& inputs);
     void update(const gl::Device& device, const Inputs& inputs, const Budget& budget);
 
+    LitFaces faces_;
     gl::Buffer directLight_;  // a uint per face (cachedDirect of shared/irradiance.h)
     gl::Texture directTexels_;
     EmissionFit fit_;

@@ -56,12 +56,12 @@ void ConesMode::drawVoxels(const Frame& frame) {
     if (data == VoxelData::Radiance || data == VoxelData::Coverage || data == VoxelData::Level)
         voxelView_.draw(frame.device, target, volume_.volume(), voxels_);
     else
-        voxelView_.draw(frame.device, target, voxels_, volume_.revision());
+        voxelView_.draw(frame.device, target, {voxels_, volume_.faces(), volume_.revision()});
 }
 
 std::vector<gl::ProgramDesc> ConesMode::programDescs() {
     std::vector<gl::ProgramDesc> descs = gather::ConePicture::programDescs();
-    for (const auto& more : {voxels::RadianceVolume::programDescs(), image::VoxelView::programDescs()})
+    for (const auto& more : {gather::RadianceVolume::programDescs(), image::VoxelView::programDescs()})
         descs.insert(descs.end(), more.begin(), more.end());
     return descs;
 }

@@ -58,7 +58,7 @@ void TracedMode::draw(const Frame& frame) {
         voxelView_.draw(
             frame.device,
             {frame.settings, frame.scene, frame.lights, frame.surfaces, frame.output, frame.voxelsAmong},
-            voxels_, lit_.revision());
+            {voxels_, lit_.faces(), lit_.revision()});
     } else {
         indirect_.gather(frame.device, inputs, {settings, parts, frame.lookupCounters});
         shade_.draw(frame.device, inputs, indirect_, {settings, parts, frame.lookupCounters}, frame.output);

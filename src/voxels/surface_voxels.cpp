@@ -72,9 +72,9 @@ void SurfaceVoxels::declare(gl::Inputs& inputs) const {
     m.keys.declare(inputs);
     inputs.uniform("VoxelGridBlock", m.gridBlock)
         .texture("voxelFaces", m.now.faceTexels)
-        .texture("voxelFaceSources", m.now.sourceTexels)
+        .texture("voxelFaceMaterials", m.now.materialTexels)
         .storage("FaceTable", m.now.faces)
-        .storage("SourceTable", m.now.faceSources)
+        .storage("FaceMaterialTable", m.now.faceMaterials)
         .storage("BrickTable", m.brickList);
 }
 
@@ -100,7 +100,7 @@ std::uint32_t SurfaceVoxels::fragmentCount() const { return impl_->tail - impl_-
 const gl::Texture& SurfaceVoxels::brickWords() const { return impl_->keys.brickWords; }
 const gl::Buffer& SurfaceVoxels::records() const { return impl_->keys.records; }
 const gl::Buffer& SurfaceVoxels::faces() const { return impl_->now.faces; }
-const gl::Buffer& SurfaceVoxels::faceSources() const { return impl_->now.faceSources; }
+const gl::Buffer& SurfaceVoxels::faceMaterials() const { return impl_->now.faceMaterials; }
 const gl::Buffer& SurfaceVoxels::occupiedBricks() const { return impl_->brickList; }
 const gl::Buffer& SurfaceVoxels::changedBricks() const { return impl_->changedBricks; }
 const SurfaceUpdate& SurfaceVoxels::lastUpdate() const { return impl_->lastUpdate; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The surface voxels of a scene: GpuScene -> brickWord, voxRec, face, faceSource of shared/voxels.h.
+// The surface voxels of a scene: GpuScene -> brickWord, voxRec, face, material of shared/voxels.h.
 // Every triangle is clipped exactly against the voxels it meets (docs/theory/2_voxels.md, eq. 2.2) by compute
 // passes. Sums are integers, so the result is the same bit for bit, whatever the order of threads.
 //
@@ -41,15 +41,13 @@ class SurfaceVoxels {
     SurfaceVoxels& operator=(SurfaceVoxels&&) noexcept;
 
     // Voxelizes `scene` anew into its grid (gridOf, or `grid`), cheap enough for every frame: from the second
-    // call on memory is kept and only grows. Waits for the GPU once, to read the counts. Radiance of every
-    // face is its emission, irradiance zero. Leaves the results visible to later shaders, as storage,
-    // textures and indirect arguments.
+    // call on memory is kept and only grows. Waits for the GPU once, to read the counts. Leaves the results
+    // visible to later shaders, as storage, textures and indirect arguments.
     void build(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings);
     void build(const gl::Device& device, const scene::GpuScene& scene, const VoxelGrid& grid);
 
     // As build(), but does again only what `scene` has changed since the last build or update: bit for bit
-    // the same voxels, light apart. Faces of voxels in which nothing changed keep their radiance and
-    // irradiance; the others get their emission and zero. Falls back to build() for another scene or grid,
+    // the same voxels. Falls back to build() for another scene or grid,
     // when materials need another variant of the passes, when more than half of the triangles changed, and
     // when a list has become too small. Does nothing when nothing changed.
     void update(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings);
@@ -70,7 +68,8 @@ class SurfaceVoxels {
     static VoxelGrid gridOf(const scene::GpuScene& scene, const VoxelSettings& settings);
 
     // What shaders may read: VoxelGridBlock, voxelBricks, voxelBrickImage, voxelRecords, voxelFaces,
-    // voxelFaceSources; and as storage RecordTable, FaceTable, SourceTable, BrickTable (the occupied bricks).
+    // voxelFaceMaterials; and as storage RecordTable, FaceTable, FaceMaterialTable, BrickTable (the occupied
+    // bricks).
     void declare(gl::Inputs& inputs) const;
     // What rays read that meet triangles: voxelChains, voxelFragments, voxelPairs, voxelTriangles.
     void declareTriangles(gl::Inputs& inputs) const;
@@ -84,7 +83,7 @@ class SurfaceVoxels {
     const gl::Texture& brickWords() const;     // RGBA32UI, size of grid().bricks()
     const gl::Buffer& records() const;         // voxRec; voxelCount() uints are in use
     const gl::Buffer& faces() const;           // gpu::FaceRecord; faceCount() are in use
-    const gl::Buffer& faceSources() const;     // two uints per face
+    const gl::Buffer& faceMaterials() const;   // gpu::FaceMaterial, likewise
     const gl::Buffer& occupiedBricks() const;  // packVoxel(brick) of each, in order of brick index
 
     static std::vector<gl::ProgramDesc> programDescs();

@@ -52,8 +52,8 @@ void Results::reserve(std::uint32_t wantedVoxels, std::uint32_t wantedFaces) {
     if (wantedFaces > faceCount) {
         faces = gl::Buffer(sizeof(gpu::FaceRecord) * wantedFaces, "voxel faces");
         faceTexels = gl::Texture(faces, GL_RGBA32UI, "voxel faces");
-        faceSources = gl::Buffer(std::size_t{8} * wantedFaces, "voxel face sources");
-        sourceTexels = gl::Texture(faceSources, GL_RG32UI, "voxel face sources");
+        faceMaterials = gl::Buffer(sizeof(gpu::FaceMaterial) * wantedFaces, "voxel face materials");
+        materialTexels = gl::Texture(faceMaterials, GL_RGBA32UI, "voxel face materials");
         faceCount = wantedFaces;
     }
 }
@@ -218,7 +218,7 @@ gl::Inputs SurfaceVoxels::Impl::given() const {
     storage("LayerTable", layered);
     storage("RecordTable", keys.records);
     storage("FaceTable", now.faces);
-    storage("SourceTable", now.faceSources);
+    storage("FaceMaterialTable", now.faceMaterials);
     storage("FreeTable", freeList);
     storage("ChangedTable", changedBricks);
     storage("EditedTable", editedBricks);
@@ -234,7 +234,7 @@ gl::Inputs SurfaceVoxels::Impl::given() const {
     texture("oldBricks", oldKeys.brickWords);
     texture("oldRecords", oldKeys.recordTexels);
     texture("oldFaces", before.faceTexels);
-    texture("oldSources", before.sourceTexels);
+    texture("oldMaterials", before.materialTexels);
     if (keys.brickWords) inputs.image("brickWords", keys.brickWords, gl::ImageUse::Write);
     return inputs;
 }

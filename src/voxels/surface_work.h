@@ -42,8 +42,8 @@ std::uint32_t perChunk(std::uint32_t count);  // elements that one invocation ad
 
 // What an update makes besides the keys. Two of them take turns when there are updates.
 struct Results {
-    gl::Buffer faces, faceSources, chains;
-    gl::Texture faceTexels, sourceTexels, chainTexels;
+    gl::Buffer faces, faceMaterials, chains;
+    gl::Texture faceTexels, materialTexels, chainTexels;
     std::uint32_t voxels = 0, faceCount = 0;  // there is room for
 
     void reserve(std::uint32_t wantedVoxels, std::uint32_t wantedFaces);

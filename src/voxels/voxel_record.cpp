@@ -98,20 +98,22 @@ glm::vec3 unpackRgb9e5(std::uint32_t bits) {
            scale;
 }
 
-std::array<std::uint32_t, 2> packFaceSource(const glm::vec3& emission, float area) {
+gpu::FaceMaterial packFaceMaterial(const glm::vec3& albedo, const glm::vec3& emission, float area,
+                                   std::uint32_t lobe) {
     const auto high =
         static_cast<std::uint32_t>(std::floor(std::clamp(area, 0.0f, 4.0f) * kWeightScale + 0.5f));
-    return {packHalf(emission.r) | (packHalf(emission.g) << 16), packHalf(emission.b) | (high << 16)};
+    return {packAlbedo(albedo), packHalf(emission.r) | (packHalf(emission.g) << 16),
+            packHalf(emission.b) | (high << 16), lobe};
 }
 
-glm::vec3 unpackEmission(const std::array<std::uint32_t, 2>& bits) {
-    return {glm::unpackHalf1x16(static_cast<glm::uint16>(bits[0] & 0xffffu)),
-            glm::unpackHalf1x16(static_cast<glm::uint16>(bits[0] >> 16)),
-            glm::unpackHalf1x16(static_cast<glm::uint16>(bits[1] & 0xffffu))};
+glm::vec3 unpackEmission(const gpu::FaceMaterial& material) {
+    return {glm::unpackHalf1x16(static_cast<glm::uint16>(material.emission & 0xffffu)),
+            glm::unpackHalf1x16(static_cast<glm::uint16>(material.emission >> 16)),
+            glm::unpackHalf1x16(static_cast<glm::uint16>(material.emissionBArea & 0xffffu))};
 }
 
-float unpackArea(const std::array<std::uint32_t, 2>& bits) {
-    return static_cast<float>(bits[1] >> 16) / kWeightScale;
+float unpackArea(const gpu::FaceMaterial& material) {
+    return static_cast<float>(material.emissionBArea >> 16) / kWeightScale;
 }
 
 }  // namespace conelight::voxels

@@ -3,7 +3,6 @@
 // GLSL twin: shaders/lib/voxel_record.glsl; each function gives the same bits there.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 
@@ -33,10 +32,11 @@ glm::vec3 unpackAlbedo(std::uint32_t bits);
 std::uint32_t packRgb9e5(const glm::vec3& color);
 glm::vec3 unpackRgb9e5(std::uint32_t bits);
 
-// faceSource: emission as halves (0..65504, relative error 0.05 %) and area / h^2 in [0,4), 16 bit: of the
-// surface what is the face's own, (n.k)^2 of it.
-std::array<std::uint32_t, 2> packFaceSource(const glm::vec3& emission, float area);
-glm::vec3 unpackEmission(const std::array<std::uint32_t, 2>& bits);
-float unpackArea(const std::array<std::uint32_t, 2>& bits);
+// Emission as halves (0..65504, relative error 0.05 %) and area / h^2 in [0,4), 16 bit: of the surface what
+// is the face's own, (n.k)^2 of it. `lobe`: as packed.
+gpu::FaceMaterial packFaceMaterial(const glm::vec3& albedo, const glm::vec3& emission, float area,
+                                   std::uint32_t lobe = 0);
+glm::vec3 unpackEmission(const gpu::FaceMaterial& material);
+float unpackArea(const gpu::FaceMaterial& material);
 
 }  // namespace conelight::voxels

@@ -183,9 +183,11 @@ TEST(VoxelRecord, PackedNumbersComeBackWithinTheirStep) {
         const glm::vec3 shared = unpackRgb9e5(packRgb9e5(light));
         const float largest = glm::max(light.x, glm::max(light.y, light.z));
         for (int k = 0; k < 3; ++k) EXPECT_NEAR(shared[k], light[k], largest / 511 + 6e-8f);
-        const auto source = packFaceSource(light, weight);
-        for (int k = 0; k < 3; ++k) EXPECT_NEAR(unpackEmission(source)[k], light[k], light[k] / 2047 + 6e-8f);
-        EXPECT_NEAR(unpackArea(source), weight, 2.01f / 65535);
+        const gpu::FaceMaterial material = packFaceMaterial(a, light, weight);
+        EXPECT_EQ(material.albedo, packAlbedo(a));
+        for (int k = 0; k < 3; ++k)
+            EXPECT_NEAR(unpackEmission(material)[k], light[k], light[k] / 2047 + 6e-8f);
+        EXPECT_NEAR(unpackArea(material), weight, 2.01f / 65535);
     }
 }
 
@@ -197,7 +199,7 @@ TEST(VoxelRecord, ExtremesAreClampedNotWrapped) {
     EXPECT_EQ(unpackRgb9e5(packRgb9e5(glm::vec3(0))), glm::vec3(0));
     // Rounds up to the next power of two: the exponent must follow.
     EXPECT_EQ(unpackRgb9e5(packRgb9e5(glm::vec3(1.9999f, 0, 0))), glm::vec3(2, 0, 0));
-    EXPECT_EQ(unpackEmission(packFaceSource(glm::vec3(1e6f), 0)).x, 65504.0f);
+    EXPECT_EQ(unpackEmission(packFaceMaterial({}, glm::vec3(1e6f), 0)).x, 65504.0f);
 }
 
 }  // namespace

@@ -258,14 +258,14 @@ TEST_F(IrradianceCacheTest, EnergyGrowsWithBouncesAndIsBounded) {
 }
 
 TEST_F(IrradianceCacheTest, SameBitsEveryTime) {
-    std::vector<gpu::FaceRecord> first;
+    std::vector<gpu::LitFace> first;
     for (int run = 0; run < 2; ++run) {
         CacheRig rig(programs(), io::loadScene("builtin:cornell-point"), 32);
         rig.update(6);
-        const auto faces = rig.surface.faces().read<gpu::FaceRecord>(rig.surface.faceCount());
+        const auto faces = rig.lit.buffer().read<gpu::LitFace>(rig.surface.faceCount());
         if (run == 0) first = faces;
         ASSERT_EQ(first.size(), faces.size());
-        EXPECT_EQ(std::memcmp(first.data(), faces.data(), first.size() * sizeof(gpu::FaceRecord)), 0);
+        EXPECT_EQ(std::memcmp(first.data(), faces.data(), first.size() * sizeof(gpu::LitFace)), 0);
     }
 }
 

@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT
 // The radiance volume of real voxels against what must be in it: a wall's area and colour in every level, the
 // eight children of every texel, nothing in blocks no face looks towards.
-#include "voxels/radiance_volume.h"
+#include "gather/radiance_volume.h"
 
 #include <glm/gtc/packing.hpp>
 
 #include <cmath>
 
+#include "light/inject_light.h"
 #include "support/gl_fixture.h"
 #include "support/view_rig.h"
 
 namespace conelight::test {
 namespace {
 
-using voxels::RadianceLayout;
-using voxels::RadianceVolume;
+using gather::RadianceLayout;
+using gather::RadianceVolume;
 
 // Rounding of a half: 2^-11 relative, and a half's smallest step for tiny values.
 constexpr float kHalf = 1.0f / 2048;
@@ -107,8 +108,12 @@ class RadianceVolumeTest : public GlTest {
         VoxelSettings settings;
         settings.size = size;
         surface_->build(device(), *gpuScene_, settings);
-        volume_ = RadianceVolume(voxels::radianceLayout(surface_->grid(), directional, maxFootprint));
-        volume_.build(device(), *surface_, opacity);
+        volume_ = RadianceVolume(gather::radianceLayout(surface_->grid(), directional, maxFootprint));
+        light::Lights lights;
+        lights.update(device(), *gpuScene_, {.emissiveQuads = false});
+        light::LitFaces faces;
+        light::injectLight(device(), {*gpuScene_, lights, *surface_}, faces);
+        volume_.build(device(), *surface_, faces, opacity);
     }
     void TearDown() override {
         volume_ = {};
@@ -128,7 +133,7 @@ TEST_F(RadianceVolumeTest, LayoutKeepsLevelsWhole) {
             voxels::VoxelGrid grid;
             grid.size = {size, std::max(4, size / 8 * 4), 4};
             for (const VolumeDirections directional : {VolumeDirections::Isotropic, VolumeDirections::Six}) {
-                const RadianceLayout layout = voxels::radianceLayout(grid, directional, footprint);
+                const RadianceLayout layout = gather::radianceLayout(grid, directional, footprint);
                 const int texel = 1 << layout.maxLevel;
                 // Nearest power of two, and never finer than a voxel.
                 const float ratio =

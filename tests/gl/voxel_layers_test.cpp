@@ -56,14 +56,14 @@ struct Face {
 
 struct VoxelLayers : public GlTest {
     voxels::VoxelTables tables;
-    std::vector<std::uint32_t> sources;
+    std::vector<gpu::FaceMaterial> materials;
 
     void voxelize(const Scene& scene, const VoxelGrid& grid) {
         const scene::GpuScene gpu(scene);
         voxels::SurfaceVoxels surface;
         surface.build(device(), gpu, grid);
         tables = voxels::downloadVoxels(surface);
-        sources = surface.faceSources().read<std::uint32_t>(2 * std::size_t{surface.faceCount()});
+        materials = surface.faceMaterials().read<gpu::FaceMaterial>(surface.faceCount());
     }
     std::optional<Face> face(const glm::ivec3& voxel, int direction) const {
         if (!tables.has(voxel)) return {};
@@ -72,15 +72,15 @@ struct VoxelLayers : public GlTest {
         if ((record >> (26 + direction) & 1u) == 0) return {};
         for (int k = 0; k < direction; ++k) index += record >> (26 + k) & 1u;
         const gpu::FaceRecord& r = tables.faces[index];
-        const std::array<std::uint32_t, 2> source{sources[2 * index], sources[2 * index + 1]};
+        const gpu::FaceMaterial& material = materials[index];
         Face f{voxels::unpackWeight(r.offsetWeight),
                voxels::unpackOffset(r.offsetWeight),
-               voxels::unpackArea(source),
-               voxels::unpackAlbedo(r.albedo),
+               voxels::unpackArea(material),
+               voxels::unpackAlbedo(material.albedo),
                math::octDecode(math::unpackSnorm2x16(r.normal)),
                {},
                {},
-               voxels::unpackEmission(source)};
+               voxels::unpackEmission(material)};
         voxels::unpackBounds(r.bounds, f.lower, f.upper);
         return f;
     }
@@ -327,7 +327,7 @@ layout(local_size_x = 64) in;
 layout(std430) readonly buffer In { uvec4 texels[]; };
 layout(std430) writeonly buffer Out { vec4 rises[]; };
 void main() {
-    uvec4 r = texels[2u * gl_GlobalInvocationID.x];
+    uvec4 r = texels[gl_GlobalInvocationID.x];
     rises[gl_GlobalInvocationID.x] = vec4(faceFrontOffset(r, octDecode(unpackSnorm2x16(r.x))), 0.0);
 })");
     const auto rises = [&] {

@@ -25,13 +25,13 @@ std::array<std::uint32_t, 8> packed(const glm::vec4& v) {
     const glm::vec3 a(v);
     const glm::vec3 b(v.y, v.z, v.x);
     const glm::ivec3 voxel(a * 1023.0f);
-    const auto source = voxels::packFaceSource(a * 1000.0f, v.w * 4.0f);
+    const gpu::FaceMaterial material = voxels::packFaceMaterial(a, a * 1000.0f, v.w * 4.0f);
     return {voxels::packOffsetWeight(v.x * 2.0f - 1.0f, v.w * 4.0f),
             voxels::packBounds(glm::min(a, b), glm::max(a, b)),
-            voxels::packAlbedo(a),
+            material.albedo,
             voxels::packRgb9e5(a * std::exp2(std::floor(v.w * 40.0f - 20.0f))),
-            source[0],
-            source[1],
+            material.emission,
+            material.emissionBArea,
             voxels::packVoxel(voxel),
             voxels::bitOfVoxel(voxel) | (voxels::brickIndex(voxel / 4, glm::ivec3(256)) << 6)};
 }
@@ -52,11 +52,11 @@ layout(std430) writeonly buffer Out { uvec4 packed_[]; };
 void main() {
     uint i = gl_GlobalInvocationID.x;
     vec4 v = values[i];
-    uvec2 source = packFaceSource(v.rgb * 1000.0, v.a * 4.0);
+    uvec4 material = packFaceMaterial(v.rgb, v.rgb * 1000.0, v.a * 4.0, 0u);
     ivec3 voxel = ivec3(v.xyz * 1023.0);
     packed_[2u * i] = uvec4(packOffsetWeight(v.x * 2.0 - 1.0, v.w * 4.0), packBounds(min(v.xyz, v.yzx), max(v.xyz, v.yzx)),
-                            packAlbedo(v.xyz), packRgb9e5(v.xyz * exp2(floor(v.w * 40.0 - 20.0))));
-    packed_[2u * i + 1u] = uvec4(source, packVoxel(voxel), bitOfVoxel(voxel) | (brickIndex(voxel >> 2, ivec3(256, 256, 256)) << 6));
+                            material.x, packRgb9e5(v.xyz * exp2(floor(v.w * 40.0 - 20.0))));
+    packed_[2u * i + 1u] = uvec4(material.yz, packVoxel(voxel), bitOfVoxel(voxel) | (brickIndex(voxel >> 2, ivec3(256, 256, 256)) << 6));
 })");
     std::mt19937 random(7);
     std::uniform_real_distribution<float> unit(0, 1);
@@ -96,7 +96,7 @@ layout(std430) writeonly buffer Out { vec4 values[]; };
 void main() {
     uint i = gl_GlobalInvocationID.x;
     uvec4 b = bits[i];
-    values[5u * i] = vec4(unpackOffset(b.x), unpackWeight(b.x), unpackArea(b.xy), float(brickRank(b.xy, b.z & 63u)));
+    values[5u * i] = vec4(unpackOffset(b.x), unpackWeight(b.x), unpackArea(uvec4(0u, b.xy, 0u)), float(brickRank(b.xy, b.z & 63u)));
     values[5u * i + 1u] = vec4(unpackAlbedo(b.x), float(faceIndex(b.x, int(b.z % 6u))));
     values[5u * i + 2u] = vec4(unpackRgb9e5(b.y), brickHas(b.xy, b.z & 63u) ? 1.0 : 0.0);
     values[5u * i + 3u] = vec4(unpackBoundsMin(b.x), 0.0);
@@ -120,7 +120,7 @@ void main() {
         const glm::vec4* g = &got[5 * i];
         EXPECT_NEAR(g[0].x, voxels::unpackOffset(x), 1e-6f);
         EXPECT_NEAR(g[0].y, voxels::unpackWeight(x), 1e-6f);
-        EXPECT_NEAR(g[0].z, voxels::unpackArea({x, y}), 1e-6f);
+        EXPECT_NEAR(g[0].z, voxels::unpackArea({0, x, y, 0}), 1e-6f);
         EXPECT_EQ(static_cast<int>(g[0].w), std::popcount(mask & ((std::uint64_t{1} << bit) - 1)));
         const glm::vec3 albedo = voxels::unpackAlbedo(x);
         const glm::vec3 light = voxels::unpackRgb9e5(y);

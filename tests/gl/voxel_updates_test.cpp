@@ -22,7 +22,7 @@ namespace {
 using voxels::SurfaceVoxels;
 
 struct Content {
-    std::vector<std::uint32_t> bricks, records, faces, sources, occupied;
+    std::vector<std::uint32_t> bricks, records, faces, materials, occupied;
     bool operator==(const Content&) const = default;
 };
 
@@ -31,8 +31,8 @@ Content download(const SurfaceVoxels& surface) {
     c.bricks.resize(4 * surface.grid().brickCount());
     surface.brickWords().read(0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, c.bricks.data(), 4 * c.bricks.size());
     c.records = surface.records().read<std::uint32_t>(surface.voxelCount());
-    c.faces = surface.faces().read<std::uint32_t>(8 * std::size_t{surface.faceCount()});
-    c.sources = surface.faceSources().read<std::uint32_t>(2 * std::size_t{surface.faceCount()});
+    c.faces = surface.faces().read<std::uint32_t>(4 * std::size_t{surface.faceCount()});
+    c.materials = surface.faceMaterials().read<std::uint32_t>(4 * std::size_t{surface.faceCount()});
     c.occupied = surface.occupiedBricks().read<std::uint32_t>(surface.occupiedBrickCount());
     return c;
 }
@@ -43,11 +43,11 @@ std::map<std::uint32_t, std::vector<std::uint32_t>> byBrick(const SurfaceVoxels&
     for (std::size_t i = 0; i < c.bricks.size() / 4; ++i)
         if ((c.bricks[4 * i] | c.bricks[4 * i + 1]) != 0)
             bricks[static_cast<std::uint32_t>(i)] = {c.bricks[4 * i], c.bricks[4 * i + 1]};
-    for (std::size_t face = 0; face < c.faces.size() / 8; ++face) {
-        const glm::ivec3 voxel = voxels::unpackVoxel(c.faces[8 * face + 3] & 0x3fffffffu);
+    for (std::size_t face = 0; face < c.faces.size() / 4; ++face) {
+        const glm::ivec3 voxel = voxels::unpackVoxel(c.faces[4 * face + 3] & 0x3fffffffu);
         std::vector<std::uint32_t>& words = bricks[voxels::brickIndex(voxel / 4, surface.grid().bricks())];
-        words.insert(words.end(), &c.faces[8 * face], &c.faces[8 * face] + 8);
-        words.insert(words.end(), &c.sources[2 * face], &c.sources[2 * face] + 2);
+        words.insert(words.end(), &c.faces[4 * face], &c.faces[4 * face] + 4);
+        words.insert(words.end(), &c.materials[4 * face], &c.materials[4 * face] + 4);
     }
     return bricks;
 }
@@ -200,24 +200,33 @@ TEST_F(VoxelUpdates, DoNoMoreThanWasChanged) {
     EXPECT_EQ(download(surface), first);
 }
 
-// Light of faces in which nothing changed stays with them.
-TEST_F(VoxelUpdates, KeepLightWhereNothingChanged) {
+// Faces in which nothing changed are taken over as they are: each is marked, and all that are not summed up
+// again keep their marks.
+TEST_F(VoxelUpdates, TakeOverFacesInWhichNothingChanged) {
     Scene scene = crowd();
     scene::GpuScene gpu(scene);
     SurfaceVoxels surface;
     surface.build(device(), gpu, settings);
-    std::vector<gpu::FaceRecord> lit = surface.faces().read<gpu::FaceRecord>(surface.faceCount());
+    const auto faces = [&] { return surface.faces().read<gpu::FaceRecord>(surface.faceCount()); };
+    const auto materials = [&] {
+        return surface.faceMaterials().read<gpu::FaceMaterial>(surface.faceCount());
+    };
     const auto mark = [](const gpu::FaceRecord& face) { return 7u * face.voxel + face.normal; };
-    for (gpu::FaceRecord& face : lit) face.irradiance0 = mark(face);
-    const_cast<gl::Buffer&>(surface.faces()).update(0, lit.data(), lit.size() * sizeof lit[0]);
+    const std::vector<gpu::FaceRecord> old = faces();
+    std::vector<gpu::FaceMaterial> marked = materials();
+    for (std::size_t i = 0; i < old.size(); ++i) marked[i].lobe = mark(old[i]);
+    const_cast<gl::Buffer&>(surface.faceMaterials())
+        .update(0, marked.data(), marked.size() * sizeof marked[0]);
 
     scene.instances[5].worldFromObject[3].x += 0.05f;
     gpu.setInstance(5, scene.instances[5]);
     surface.update(device(), gpu, settings);
     std::uint32_t fresh = 0;
-    for (const gpu::FaceRecord& face : surface.faces().read<gpu::FaceRecord>(surface.faceCount())) {
-        EXPECT_TRUE(face.irradiance0 == mark(face) || face.irradiance0 == 0);
-        fresh += face.irradiance0 == 0 ? 1 : 0;
+    const std::vector<gpu::FaceRecord> records = faces();
+    marked = materials();
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        EXPECT_TRUE(marked[i].lobe == mark(records[i]) || marked[i].lobe == 0);
+        fresh += marked[i].lobe == 0 ? 1 : 0;
     }
     EXPECT_EQ(fresh, surface.lastUpdate().faces);
 }

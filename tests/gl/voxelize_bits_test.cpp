@@ -83,9 +83,10 @@ TEST_F(VoxelizeBitsTest, ManyTrianglesInOneVoxelAreSummedExactly) {
     grid.size = {16, 16, 4};
     const VoxelizeResult sheets = voxelize(stack, grid);
     ASSERT_EQ(sheets.faces.size(), 64u);
+    for (const gpu::FaceMaterial& seen : sheets.materials)
+        EXPECT_NEAR(voxels::unpackAlbedo(seen.albedo).b, 0.8f, 1e-3f);
     for (const gpu::FaceRecord& face : sheets.faces) {
         EXPECT_NEAR(voxels::unpackWeight(face.offsetWeight), 1.0f, 1e-3f);
-        EXPECT_NEAR(voxels::unpackAlbedo(face.albedo).b, 0.8f, 1e-3f);
         // A slice of depth holds the last three, 0.074 to 0.078; the plane is the rearmost's of them.
         EXPECT_NEAR(voxels::unpackOffset(face.offsetWeight), (0.1f + 0.074f) / 0.25f - 0.5f, 1e-3f);
     }

@@ -33,13 +33,14 @@ int directionOf(const VoxelizeResult& result, std::size_t index) {
 }
 
 // Normal, offset, bounds and colour. Returns whether the bounds are narrower than the voxel.
-bool expectAsReference(const gpu::FaceRecord& face, const ReferenceFace& expected, int direction) {
+bool expectAsReference(const gpu::FaceRecord& face, const gpu::FaceMaterial& material,
+                       const ReferenceFace& expected, int direction) {
     const glm::dvec3 n = glm::normalize(expected.normal);
     const glm::dvec3 normal(math::octDecode(math::unpackSnorm2x16(face.normal)));
     EXPECT_GT(glm::dot(normal, n), 0.99999);
     EXPECT_NEAR(static_cast<double>(voxels::unpackOffset(face.offsetWeight)),
                 glm::dot(n, expected.center) / expected.weight, 1e-3);
-    const glm::vec3 albedo = voxels::unpackAlbedo(face.albedo);
+    const glm::vec3 albedo = voxels::unpackAlbedo(material.albedo);
     glm::vec3 low, high;
     voxels::unpackBounds(face.bounds, low, high);
     EXPECT_EQ(wrongBounds(expected, direction, low, high), "");
@@ -70,7 +71,7 @@ TEST_F(VoxelizeFacesTest, FacesSayWhatTheReferenceComputes) {
     double weightOf = 0, weightReference = 0;
     for (std::size_t index = 0; index < result.faces.size(); ++index) {
         const gpu::FaceRecord& face = result.faces[index];
-        const std::uint32_t* source = &result.sources[2 * index];
+        const gpu::FaceMaterial& material = result.materials[index];
         const glm::ivec3 voxel = voxels::unpackVoxel(face.voxel);
         ASSERT_TRUE(result.has(voxel));
         const int direction = directionOf(result, index);
@@ -89,10 +90,10 @@ TEST_F(VoxelizeFacesTest, FacesSayWhatTheReferenceComputes) {
         // Faces with something to hide: voxel_layers_test.cpp.
         if (f.layered) continue;
         EXPECT_NEAR(weight, f.weight, 2e-4);
-        EXPECT_NEAR(static_cast<double>(voxels::unpackArea({source[0], source[1]})), f.area, 2e-4);
+        EXPECT_NEAR(static_cast<double>(voxels::unpackArea(material)), f.area, 2e-4);
         if (f.weight < 0.01) continue;
         ++compared;
-        fitted += expectAsReference(face, f, direction) ? 1 : 0;
+        fitted += expectAsReference(face, material, f, direction) ? 1 : 0;
         if (HasFailure())
             FAIL() << "voxel " << voxel.x << " " << voxel.y << " " << voxel.z << " direction " << direction;
     }
@@ -140,10 +141,10 @@ TEST_F(VoxelizeFacesTest, DirectionsStayApart) {
     ASSERT_EQ(r.faces.size(), 128u);
     for (std::size_t i = 0; i < r.faces.size(); i += 2) {
         EXPECT_NEAR(voxels::unpackWeight(r.faces[i].offsetWeight), 1.0f, 1e-3f);
-        EXPECT_EQ(voxels::unpackAlbedo(r.faces[i].albedo), glm::vec3(0, 0, 1));
+        EXPECT_EQ(voxels::unpackAlbedo(r.materials[i].albedo), glm::vec3(0, 0, 1));
         EXPECT_NEAR(voxels::unpackOffset(r.faces[i].offsetWeight), 0.4f + 0.1f - 0.5f, 1e-3f);
         EXPECT_NEAR(voxels::unpackWeight(r.faces[i + 1].offsetWeight), 1.0f, 1e-3f);
-        EXPECT_EQ(voxels::unpackAlbedo(r.faces[i + 1].albedo), glm::vec3(1, 0, 0));
+        EXPECT_EQ(voxels::unpackAlbedo(r.materials[i + 1].albedo), glm::vec3(1, 0, 0));
         EXPECT_NEAR(voxels::unpackOffset(r.faces[i + 1].offsetWeight), -(0.4f - 0.5f), 1e-3f);
     }
 }
@@ -156,7 +157,7 @@ TEST_F(VoxelizeFacesTest, EmissionIsKeptOfTheFrontOnly) {
     ASSERT_FALSE(r.faces.empty());
     for (std::size_t i = 0; i < r.faces.size(); ++i) {
         EXPECT_GT(math::octDecode(math::unpackSnorm2x16(r.faces[i].normal)).z, 0.999f);
-        const glm::vec3 e = voxels::unpackEmission({r.sources[2 * i], r.sources[2 * i + 1]});
+        const glm::vec3 e = voxels::unpackEmission(r.materials[i]);
         for (int k = 0; k < 3; ++k)
             EXPECT_NEAR(e[k] / scene.materials[0].emission[k], 1.0f, k == 1 ? 0.05f : 0.004f);
     }
@@ -186,9 +187,9 @@ Scene texturedQuad(const Texture& texture, float repeats, const glm::mat4& world
 glm::dvec3 meanAlbedo(const VoxelizeResult& r) {
     glm::dvec3 sum(0);
     double weight = 0;
-    for (const gpu::FaceRecord& face : r.faces) {
-        const double w = static_cast<double>(voxels::unpackWeight(face.offsetWeight));
-        sum += w * glm::dvec3(voxels::unpackAlbedo(face.albedo));
+    for (std::size_t i = 0; i < r.faces.size(); ++i) {
+        const double w = static_cast<double>(voxels::unpackWeight(r.faces[i].offsetWeight));
+        sum += w * glm::dvec3(voxels::unpackAlbedo(r.materials[i].albedo));
         weight += w;
     }
     return sum / weight;
@@ -208,8 +209,8 @@ TEST_F(VoxelizeFacesTest, CheckerTextureAveragesToItsMean) {
     // Large cells are seen as such, not smeared.
     const VoxelizeResult sharp = voxelize(texturedQuad(texture, 1), 128);
     std::size_t pure = 0;
-    for (const gpu::FaceRecord& face : sharp.faces)
-        pure += std::abs(voxels::unpackAlbedo(face.albedo).x - 0.5f) > 0.45f ? 1 : 0;
+    for (const gpu::FaceMaterial& material : sharp.materials)
+        pure += std::abs(voxels::unpackAlbedo(material.albedo).x - 0.5f) > 0.45f ? 1 : 0;
     EXPECT_GT(static_cast<double>(pure), 0.7 * static_cast<double>(sharp.faces.size()));
 }
 
@@ -243,14 +244,15 @@ TEST_F(VoxelizeFacesTest, VertexColoursAndBlendingCount) {
     quad.colors = {{0, 1, 1, 1}, {1, 1, 1, 1}, {1, 1, 1, 1}, {0, 1, 1, 1}};  // red rises with x
     addInstance(scene, quad, material);
     const VoxelizeResult r = voxelize(scene, 64);
-    for (const gpu::FaceRecord& face : r.faces) {
+    for (std::size_t i = 0; i < r.faces.size(); ++i) {
+        const gpu::FaceRecord& face = r.faces[i];
         const glm::ivec3 voxel = voxels::unpackVoxel(face.voxel);
         const float x = r.grid.worldFromGrid(glm::vec3(voxel) + 0.5f).x;
         const float weight = voxels::unpackWeight(face.offsetWeight);
         if (weight < 0.249f) continue;  // the rim
         EXPECT_NEAR(weight, 0.25f, 1e-3f);
-        EXPECT_NEAR(voxels::unpackAlbedo(face.albedo).r, 0.5f * (0.5f + 0.5f * x), 0.01f);
-        EXPECT_NEAR(voxels::unpackAlbedo(face.albedo).g, 0.5f, 0.002f);
+        EXPECT_NEAR(voxels::unpackAlbedo(r.materials[i].albedo).r, 0.5f * (0.5f + 0.5f * x), 0.01f);
+        EXPECT_NEAR(voxels::unpackAlbedo(r.materials[i].albedo).g, 0.5f, 0.002f);
     }
 }
 

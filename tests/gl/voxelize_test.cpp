@@ -96,8 +96,8 @@ TEST_F(VoxelizeTest, TheDiagonalSectionOfAVoxelHasItsFullArea) {
     const VoxelizeResult r = voxelize(scene, grid);
     EXPECT_NEAR(r.area, 64.0, 0.01);
     float largest = 0;
-    for (std::size_t i = 0; i < r.faces.size(); ++i)
-        largest = std::max(largest, voxels::unpackArea({r.sources[2 * i], r.sources[2 * i + 1]}));
+    for (const gpu::FaceMaterial& material : r.materials)
+        largest = std::max(largest, voxels::unpackArea(material));
     EXPECT_NEAR(2 * largest, glm::root_two<float>(), 0.01f);
 }
 
@@ -169,8 +169,9 @@ TEST_F(VoxelizeTest, DegenerateTrianglesAddNothingAndNothingIsNan) {
     for (const gpu::FaceRecord& face : with.faces) {
         const glm::vec3 n = math::octDecode(math::unpackSnorm2x16(face.normal));
         EXPECT_NEAR(glm::length(n), 1.0f, 1e-5f);
-        EXPECT_TRUE(std::isfinite(voxels::unpackRgb9e5(face.radiance).x));
     }
+    for (const gpu::FaceMaterial& material : with.materials)
+        EXPECT_TRUE(std::isfinite(voxels::unpackEmission(material).x));
 }
 
 TEST_F(VoxelizeTest, InvisibleAndUnvoxelizedInstancesAreLeftOutUnlitOnesAreBlack) {
@@ -184,9 +185,9 @@ TEST_F(VoxelizeTest, InvisibleAndUnvoxelizedInstancesAreLeftOutUnlitOnesAreBlack
     scene.instances[2].visible = false;
     const VoxelizeResult r = voxelize(scene, 64);
     expectSameVoxels(scene, r);
-    for (const gpu::FaceRecord& face : r.faces) {
-        EXPECT_EQ(face.albedo, 0u);
-        EXPECT_EQ(voxels::unpackRgb9e5(face.radiance), glm::vec3(0));
+    for (const gpu::FaceMaterial& material : r.materials) {
+        EXPECT_EQ(material.albedo, 0u);
+        EXPECT_EQ(voxels::unpackEmission(material), glm::vec3(0));
     }
 }
 

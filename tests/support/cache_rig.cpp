@@ -34,32 +34,34 @@ void CacheRig::relight() {
     const bool fits = light::hasOtherEmitters(scene, lights);
     if (fits) fit.update(device, voxels);
     const light::RayLight rays{directLight, fits ? &fit : nullptr};
-    light::injectLight(device, {scene, lights, surface}, &rays);
+    light::injectLight(device, {scene, lights, surface}, lit, &rays);
     cache.restartAverages();
 }
 
 void CacheRig::update(int passes) {
-    cache.update(device, {scene, lights, voxels, directTexels}, settings, passes);
+    cache.update(device, {scene, lights, voxels, directTexels, lit}, settings, passes);
 }
 
 std::vector<CachedFace> CacheRig::faces() const {
     const auto records = surface.faces().read<gpu::FaceRecord>(surface.faceCount());
-    const auto sources = surface.faceSources().read<std::uint32_t>(2 * std::size_t{surface.faceCount()});
+    const auto materials = surface.faceMaterials().read<gpu::FaceMaterial>(surface.faceCount());
+    const auto litFaces = lit.buffer().read<gpu::LitFace>(surface.faceCount());
     const float h = surface.grid().voxelSize;
     std::vector<CachedFace> faces;
     for (std::size_t i = 0; i < records.size(); ++i) {
         const gpu::FaceRecord& r = records[i];
+        const gpu::LitFace& l = litFaces[i];
         CachedFace face;
         face.normal = math::octDecode(math::unpackSnorm2x16(r.normal));
         face.position =
             surface.grid().worldFromGrid(glm::vec3(voxels::unpackVoxel(r.voxel & 0x3fffffffu)) + 0.5f +
                                          face.normal * voxels::unpackOffset(r.offsetWeight));
-        face.albedo = voxels::unpackAlbedo(r.albedo);
-        face.radiance = voxels::unpackRgb9e5(r.radiance);
-        const glm::vec2 rg = glm::unpackHalf2x16(r.irradiance0), b = glm::unpackHalf2x16(r.irradiance1);
+        face.albedo = voxels::unpackAlbedo(l.albedo);
+        face.radiance = voxels::unpackRgb9e5(l.radiance);
+        const glm::vec2 rg = glm::unpackHalf2x16(l.irradiance0), b = glm::unpackHalf2x16(l.irradiance1);
         face.irradiance = {rg.x, rg.y, b.x};
-        face.area = voxels::unpackArea({sources[2 * i], sources[2 * i + 1]}) * h * h;
-        face.dead = (r.irradiance1 & FACE_INTERIOR) != 0;
+        face.area = voxels::unpackArea(materials[i]) * h * h;
+        face.dead = (l.irradiance1 & FACE_INTERIOR) != 0;
         faces.push_back(face);
     }
     return faces;

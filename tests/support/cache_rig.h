@@ -12,6 +12,7 @@
 #include "light/emission_fit.h"
 #include "light/irradiance_cache.h"
 #include "light/lights.h"
+#include "light/lit_faces.h"
 #include "scene/gpu_scene.h"
 #include "voxels/voxels.h"
 
@@ -51,7 +52,8 @@ struct CacheRig {
     light::Lights lights;
     voxels::Voxels voxels;
     const voxels::SurfaceVoxels& surface;  // of `voxels`
-    gl::Buffer directLight;                // a uint per face, as light::RayLight
+    light::LitFaces lit;
+    gl::Buffer directLight;  // a uint per face, as light::RayLight
     gl::Texture directTexels;
     light::EmissionFit fit;
     light::IrradianceCache cache;

@@ -88,7 +88,7 @@ std::uint64_t VoxelizeResult::hash() const {
     add(brickWords.data(), 4 * brickWords.size());
     add(records.data(), 4 * records.size());
     add(faces.data(), sizeof(gpu::FaceRecord) * faces.size());
-    add(sources.data(), 4 * sources.size());
+    add(materials.data(), sizeof(gpu::FaceMaterial) * materials.size());
     add(bricks.data(), 4 * bricks.size());
     return h;
 }
@@ -101,7 +101,7 @@ VoxelizeResult download(const voxels::SurfaceVoxels& surface) {
                               4 * r.brickWords.size());
     r.records = surface.records().read<std::uint32_t>(surface.voxelCount());
     r.faces = surface.faces().read<gpu::FaceRecord>(surface.faceCount());
-    r.sources = surface.faceSources().read<std::uint32_t>(2 * std::size_t{surface.faceCount()});
+    r.materials = surface.faceMaterials().read<gpu::FaceMaterial>(surface.faceCount());
     r.bricks = surface.occupiedBricks().read<std::uint32_t>(surface.occupiedBrickCount());
     const auto fragments = surface.fragments().read<std::uint32_t>(8 * std::size_t{surface.fragmentCount()});
     for (std::size_t i = 1; i < fragments.size(); i += 8)

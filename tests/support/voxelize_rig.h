@@ -34,7 +34,7 @@ struct VoxelizeResult {
     std::vector<std::uint32_t> brickWords;
     std::vector<std::uint32_t> records;
     std::vector<gpu::FaceRecord> faces;
-    std::vector<std::uint32_t> sources;
+    std::vector<gpu::FaceMaterial> materials;
     std::vector<std::uint32_t> bricks;
     double area = 0;  // in voxel sides
     std::vector<glm::ivec3> occupied;

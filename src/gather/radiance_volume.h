@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Lit face records -> dense volume of premultiplied radiance with levels, for cones. Layout:
+// Lit faces -> dense volume of premultiplied radiance with levels, for cones. Layout:
 // shared/radiance_volume.h. Method: docs/theory/2_voxels.md, "Levels"; six directions after Crassin et al.
 // 2011, "Interactive Indirect Illumination Using Voxel Cone Tracing", section 4.2.
 //
@@ -8,7 +8,7 @@
 // Coarser levels average four columns of two texels; along the column a texel hides what is behind it
 // (OpacityModel::Fog), or adds its area to it (OpacityModel::Area).
 //
-// Reads: voxRec, face. Writes: the texture. build() ends with the barrier for texture fetches.
+// Reads: voxRec, face, litFaces. Writes: the texture. build() ends with the barrier for texture fetches.
 #pragma once
 
 #include <vector>
@@ -17,14 +17,15 @@
 #include "gl/buffer.h"
 #include "gl/device.h"
 #include "gl/texture.h"
+#include "light/lit_faces.h"
 #include "shared/radiance_volume.h"
 #include "voxels/surface_voxels.h"
 
-namespace conelight::voxels {
+namespace conelight::gather {
 
 // Where the texels of a volume lie.
 struct RadianceLayout {
-    VoxelGrid grid;
+    voxels::VoxelGrid grid;
     int blocks = 1;      // 6 with directions
     int maxLevel = 0;    // coarsest level
     glm::ivec3 size{4};  // texels of level 0 per block; texel 0 is voxel 0
@@ -34,7 +35,8 @@ struct RadianceLayout {
 };
 
 // `maxFootprint`: fraction of the grid's longest side (ConesSettings).
-RadianceLayout radianceLayout(const VoxelGrid& grid, VolumeDirections directional, float maxFootprint);
+RadianceLayout radianceLayout(const voxels::VoxelGrid& grid, VolumeDirections directional,
+                              float maxFootprint);
 
 class RadianceVolume {
   public:
@@ -44,7 +46,8 @@ class RadianceVolume {
 
     // Fills every level from the faces' radiance + albedo * irradiance. `surface` must have the layout's
     // grid.
-    void build(const gl::Device& device, const SurfaceVoxels& surface, OpacityModel opacity);
+    void build(const gl::Device& device, const voxels::SurfaceVoxels& surface, const light::LitFaces& faces,
+               OpacityModel opacity);
 
     // What shaders may read: RadianceVolumeBlock, radianceVolume.
     void declare(gl::Inputs& inputs) const;
@@ -55,11 +58,11 @@ class RadianceVolume {
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
-    void buildLevels(const gl::Device& device, const SurfaceVoxels& surface, OpacityModel opacity);
+    void buildLevels(const gl::Device& device, const voxels::SurfaceVoxels& surface, OpacityModel opacity);
 
     RadianceLayout layout_;
     gl::Texture texture_;
     gl::Buffer block_;
 };
 
-}  // namespace conelight::voxels
+}  // namespace conelight::gather

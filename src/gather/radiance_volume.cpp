@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "voxels/radiance_volume.h"
+#include "gather/radiance_volume.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "base/assert.h"
 #include "gl/gl.h"
 
-namespace conelight::voxels {
+namespace conelight::gather {
 namespace {
 
 // Levels of which only the texels of occupied bricks are computed; the rest is cleared. Level 2 is one texel
@@ -18,7 +18,7 @@ constexpr int kSparseLevels = 2;
 struct ScatterKey {
     int blocks;  // 1 or 6
     gl::ProgramDesc desc() const {
-        return {{"voxels/radiance_scatter.comp.glsl"}, {{"DIRECTIONAL", blocks == 6 ? "1" : "0"}}};
+        return {{"gather/radiance_scatter.comp.glsl"}, {{"DIRECTIONAL", blocks == 6 ? "1" : "0"}}};
     }
     static std::vector<ScatterKey> all() { return {{1}, {6}}; }
 };
@@ -32,7 +32,7 @@ struct LevelKey {
 };
 
 gl::ProgramDesc LevelKey::desc() const {
-    return {{"voxels/radiance_level.comp.glsl"},
+    return {{"gather/radiance_level.comp.glsl"},
             {{"DIRECTIONAL", blocks == 6 ? "1" : "0"},
              {"AREA", opacity == OpacityModel::Area ? "1" : "0"},
              {"SPARSE", sparse ? "1" : "0"}}};
@@ -66,7 +66,8 @@ gpu::RadianceVolume RadianceLayout::packed() const {
     return v;
 }
 
-RadianceLayout radianceLayout(const VoxelGrid& grid, VolumeDirections directional, float maxFootprint) {
+RadianceLayout radianceLayout(const voxels::VoxelGrid& grid, VolumeDirections directional,
+                              float maxFootprint) {
     RadianceLayout layout;
     layout.grid = grid;
     layout.blocks = directional == VolumeDirections::Six ? 6 : 1;
@@ -92,7 +93,8 @@ RadianceVolume::RadianceVolume(const RadianceLayout& layout)
         texture_.parameter(axis, GL_CLAMP_TO_EDGE);
 }
 
-void RadianceVolume::build(const gl::Device& device, const SurfaceVoxels& surface, OpacityModel opacity) {
+void RadianceVolume::build(const gl::Device& device, const voxels::SurfaceVoxels& surface,
+                           const light::LitFaces& faces, OpacityModel opacity) {
     CONELIGHT_ASSERT(surface.grid() == layout_.grid, "the volume is laid out for another grid");
     {
         const gl::PassScope pass(device.profiler, "radiance volume");
@@ -100,6 +102,7 @@ void RadianceVolume::build(const gl::Device& device, const SurfaceVoxels& surfac
             texture_.clear(level, GL_RGBA, GL_FLOAT, nullptr);
         gl::Inputs inputs;
         inputs.add(surface)
+            .add(faces)
             .uniform("RadianceVolumeBlock", block_)
             .image("level0", texture_, gl::ImageUse::Write);
         device.get(ScatterKey{layout_.blocks}.desc()).dispatchLinear(inputs, surface.voxelCount());
@@ -109,7 +112,7 @@ void RadianceVolume::build(const gl::Device& device, const SurfaceVoxels& surfac
     gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
 }
 
-void RadianceVolume::buildLevels(const gl::Device& device, const SurfaceVoxels& surface,
+void RadianceVolume::buildLevels(const gl::Device& device, const voxels::SurfaceVoxels& surface,
                                  OpacityModel opacity) {
     for (int level = 1; level <= layout_.maxLevel; ++level) {
         gl::barrier(gl::Access::ImageAccess);
@@ -141,4 +144,4 @@ std::vector<gl::ProgramDesc> RadianceVolume::programDescs() {
     return descs;
 }
 
-}  // namespace conelight::voxels
+}  // namespace conelight::gather

@@ -1,12 +1,13 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// Face records -> level 0 of the radiance volume. One invocation per occupied voxel, so no two store to one
+// Lit faces -> level 0 of the radiance volume. One invocation per occupied voxel, so no two store to one
 // texel. A face sends out radiance + albedo * irradiance / pi; its opacity is its coverage W, at most 1.
 #ifndef DIRECTIONAL
 #error DIRECTIONAL must be 0 or 1
 #endif
 layout(local_size_x = 64) in;  // before linear_index, which asks for it
 #include "lib/linear_index.glsl"
+#include "lib/lit_face.glsl"
 #include "lib/radiance_volume.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
@@ -29,10 +30,9 @@ void main() {
     do {
         int k = findLSB(directions);
         directions &= directions - 1u;
-        FaceRecord face = faces[faceNumber++];
-        vec3 irradiance = vec3(unpackHalf2x16(face.irradiance0), unpackHalf2x16(face.irradiance1).x);
-        vec3 radiance = unpackRgb9e5(face.radiance) + unpackAlbedo(face.albedo) * irradiance;
-        radiance = min(radiance, kMaxRadiance);
+        FaceRecord face = faces[faceNumber];
+        vec3 radiance = min(litRadiance(texelFetch(litFaces, int(faceNumber))), kMaxRadiance);
+        ++faceNumber;
 #if DIRECTIONAL
         float opacity = faceOpacity(face.offsetWeight);
         imageStore(level0, radianceTexel(voxel, k), vec4(radiance * opacity, opacity));
