@@ -53,7 +53,9 @@ void SurfaceVoxels::build(const gl::Device& device, const scene::GpuScene& scene
     m.tail = m.counts[SURFACE_FRAGMENTS];
     m.freeSlots = 0;
     m.lastUpdate = {true, scene.triangleCount(), m.tail, m.counts[SURFACE_FACES]};
-    if (!m.oldKeys.revision) m.releaseLists();
+    if (m.oldKeys.revision) return;
+    m.releaseLists();
+    m.trim();
 }
 
 void VoxelKeys::declare(gl::Inputs& inputs) const {

@@ -11,8 +11,30 @@ namespace {
 
 constexpr std::uint32_t kLeastChunk = 16;  // fewer elements per invocation are not worth starting it
 constexpr double kSlack = 1.25;            // room for growth when memory is allocated anew
+constexpr std::uint32_t kSpareShare = 8;   // of what a first build found, one in so many is left as room
 constexpr std::size_t kFragmentBytes = 32;
 constexpr float kLargestEmission = 65504.0f;  // what a half holds
+
+// Room for what is there and a little more, if that is less than there is.
+std::uint32_t trimmed(std::uint32_t have, std::uint32_t used) {
+    return std::min(have, used + used / kSpareShare + 64);
+}
+
+void trimBuffer(gl::Buffer& buffer, std::size_t bytes, const char* label) {
+    if (bytes >= buffer.bytes()) return;
+    gl::Buffer smaller(bytes, label);
+    smaller.copyFrom(buffer, bytes);
+    buffer = std::move(smaller);
+}
+
+// A list and the texture over it, which is made anew.
+void trimList(gl::Buffer& buffer, gl::Texture& texels, std::size_t bytes, const char* label) {
+    if (bytes >= buffer.bytes()) return;
+    const unsigned format = texels.desc().format;
+    texels = {};
+    trimBuffer(buffer, bytes, label);
+    texels = gl::Texture(buffer, format, label);
+}
 
 }  // namespace
 
@@ -56,6 +78,14 @@ void Results::reserve(std::uint32_t wantedVoxels, std::uint32_t wantedFaces) {
         materialTexels = gl::Texture(faceMaterials, GL_RGBA32UI, "voxel face materials");
         faceCount = wantedFaces;
     }
+}
+
+void Results::trim(std::uint32_t wantedVoxels, std::uint32_t wantedFaces) {
+    trimList(chains, chainTexels, std::size_t{8} * wantedVoxels, "voxelizer chains");
+    trimList(faces, faceTexels, sizeof(gpu::FaceRecord) * wantedFaces, "voxel faces");
+    trimList(faceMaterials, materialTexels, sizeof(gpu::FaceMaterial) * wantedFaces, "voxel face materials");
+    voxels = wantedVoxels;
+    faceCount = wantedFaces;
 }
 
 void reserveRecords(VoxelKeys& keys, std::uint32_t voxels) {
@@ -139,6 +169,18 @@ void SurfaceVoxels::Impl::releaseLists() {
     ownerTexels = {};
     owners = {};
     layered = {};
+}
+
+// After a first build, whose lists were sized by a guess: gives back what they have too much. A scene that
+// never changes needs no more; one that does gets more as it grows.
+void SurfaceVoxels::Impl::trim() {
+    capacity.fragments = trimmed(capacity.fragments, counts[SURFACE_FRAGMENTS]);
+    capacity.voxels = trimmed(capacity.voxels, counts[SURFACE_VOXELS]);
+    capacity.faces = trimmed(capacity.faces, counts[SURFACE_FACES]);
+    trimList(pairs, pairTexels, std::size_t{8} * capacity.fragments, "voxelizer pairs");
+    trimList(fragments, fragmentTexels, kFragmentBytes * capacity.fragments, "voxelizer fragments");
+    trimList(keys.records, keys.recordTexels, std::size_t{4} * capacity.voxels, "voxel records");
+    now.trim(capacity.voxels, capacity.faces);
 }
 
 // After a build: false when everything fitted, else the lists that did not are enlarged. The counts of lists

@@ -47,6 +47,8 @@ struct Results {
     std::uint32_t voxels = 0, faceCount = 0;  // there is room for
 
     void reserve(std::uint32_t wantedVoxels, std::uint32_t wantedFaces);
+    // Keeps the first so many.
+    void trim(std::uint32_t wantedVoxels, std::uint32_t wantedFaces);
 };
 
 void reserveRecords(VoxelKeys& keys, std::uint32_t voxels);
@@ -86,6 +88,7 @@ struct SurfaceVoxels::Impl {
     void reserve(const scene::GpuScene& scene);
     void allocateFor(const Capacity& wanted);
     void releaseLists();
+    void trim();
     bool grow();
     void upload(const scene::GpuScene& scene, const Edits* edits = nullptr);
     void clearWorkSpace();
