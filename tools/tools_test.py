@@ -184,6 +184,73 @@ class Docs(Project):
         self.assertEqual((self.root / "a.md").read_text(), block)
 
 
+class Words(Project):
+    """A project of one type and one glossary row, in which all is right."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("src/light/lamp.h", "// How bright a lamp is.\nstruct LampTable {\n};\n")
+        self.glossary("| lamp | what shines (`LampTable`, `src/light/lamp.h`) |\n")
+        self.write("tools/words/standard.txt", "# Plain.\ntable\n")
+        self.write("tools/words/replaced.txt", "# Light.\nmatt -> diffuse\nbright face -> light sample\n")
+
+    def glossary(self, rows):
+        self.write("docs/glossary.md", "| word | meaning |\n|---|---|\n" + rows)
+
+    def problems(self):
+        subprocess.run(["git", "init", "-q", self.root], check=True)
+        return self.run_tool("check_words", self.root)[1].splitlines()
+
+    def assert_one(self, *parts):
+        found = self.problems()
+        self.assertEqual(len(found), 1, found)
+        for part in parts:
+            self.assertIn(part, found[0])
+
+    def test_right_words(self):
+        self.write("src/light/lamps.cpp", "struct OnlyInHere {};\n")
+        self.write("CHANGELOG.md", "Matt surfaces are called diffuse.\n")
+        self.write("docs/notes/old.md", "Bright faces, as they were called.\n")
+        self.write("docs/quote.md", "> A matt wall.\n\nThe mattress, never called matt.\n")
+        self.assertEqual(self.problems(), [])
+
+    def test_names_without_an_explanation(self):
+        self.write("include/conelight/a.h", "struct Lamp;\nclass LampGlow {};\n")
+        self.write("tools/words/standard.txt", "table\na\n")
+        self.assert_one("include/conelight/a.h:2", "LampGlow", "glow")
+        self.write("include/conelight/a.h", "")
+        self.write("shaders/light/a.glsl", "struct Glow { int a; };\n")
+        self.assert_one("shaders/light/a.glsl:1", "glow")
+        self.write("shaders/light/a.glsl", "")
+        self.write("src/light/glow_table.cpp", "")
+        self.assertIn("glow_table", "".join(self.problems()))
+
+    def test_standard_words_that_are_none(self):
+        self.write("tools/words/standard.txt", "table\nlamps\n")
+        self.assert_one("standard.txt:2", "in the glossary")
+        self.write("tools/words/standard.txt", "table chair\n")
+        self.assert_one("chair", "in no name")
+        self.write("tools/words/standard.txt", "table table\n")
+        self.assert_one("twice")
+
+    def test_rows_that_the_sources_do_not_know(self):
+        self.glossary("| lamp | what shines |\n| lamp, wick | what burns |\n")
+        self.assert_one("docs/glossary.md:4", "wick")
+        self.glossary("| lamp | what shines (`src/light/gone.h`) |\n")
+        self.assert_one("src/light/gone.h", "no such file")
+        self.glossary("| lamp | what shines (`LampList`, `src/light/lamp.h`) |\n")
+        self.assert_one("does not contain LampList")
+
+    def test_replaced_words_however_they_are_joined(self):
+        for path, text in (("docs/a.md", "A Matt wall.\n"), ("docs/a.md", "bright\nfaces\n"),
+                           ("tests/a.cpp", "// Rays to bright\n// faces.\n"), ("tests/a.cpp", "int brightFaces;\n"),
+                           ("tests/a.cpp", "int BRIGHT_FACE;\n"), ("tests/a.cpp", "addMattMaterial();\n"),
+                           ("tools/a", "#!/bin/sh\n# matt\n"), ("CMakeLists.txt", "add_library(matt)\n")):
+            self.write(path, text)
+            self.assert_one(path, ": write ")
+            (self.root / path).unlink()
+
+
 class Files(Project):
     def problems(self):
         subprocess.run(["git", "init", "-q", self.root], check=True)
