@@ -138,6 +138,18 @@ class Docs(Project):
         subprocess.run(["git", "-C", self.root, "add", "."], check=True)
         self.assertEqual(self.faults(), ["src/a.h:1: names docs/theory/b.md: no such file"])
 
+    def test_comments_name_existing_headings_and_equations(self):
+        subprocess.run(["git", "init", "-q", self.root], check=True)
+        self.write("docs/theory/a.md", "# A\n\n## A ray: how\n\n$$x \\qquad (4.1)$$\n")
+        self.write("src/a.h", '// See docs/theory/a.md, "A\n// ray" and (4.1).\n// docs/theory/a.md, "A cone", (4.2)\n')
+        subprocess.run(["git", "-C", self.root, "add", "."], check=True)
+        self.assertEqual(self.faults(), ['src/a.h:3: names docs/theory/a.md: no heading "A cone"',
+                                         "src/a.h:3: names docs/theory/a.md: no equation (4.2)"])
+
+    def test_equations_have_numbers_of_their_own(self):
+        self.write("docs/theory/a.md", "$$x \\qquad (4.1)$$\n\n$$y \\quad (4.1)$$\n")
+        self.assertEqual(self.faults(), ["docs/theory/a.md:3: equation (4.1) has its number from docs/theory/a.md:1"])
+
     def test_snippets_equal_their_source(self):
         self.write("examples/e.cpp", "int a;\n// [part]\n    int b;\n      int c;\n// [/part]\n")
         self.write("README.md", "<!-- snippet: examples/e.cpp#part -->\n```cpp\nint b;\n  int c;\n```\n")
