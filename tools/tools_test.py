@@ -146,6 +146,16 @@ class Docs(Project):
         self.assertEqual(self.faults(), ['src/a.h:3: names docs/theory/a.md: no heading "A cone"',
                                          "src/a.h:3: names docs/theory/a.md: no equation (4.2)"])
 
+    def test_long_sentences(self):
+        long, short = "Word" + " word" * 25, "Word" + " word" * 24
+        self.write("docs/a.md", f"# {long}\n\nText. {short}. {short}: {short};\n{short}.\n\n| {long} |\n\n```\n{long}\n```\n\n"
+                                f"    {long}\n\n{short} (Some, *One*, 2011).\n\n`{long}` $x {long}$ [{short}](a.md).\n")
+        self.write("CHANGELOG.md", f"{long}\n")
+        self.assertEqual(self.faults(), ["docs/a.md:16: 27 words, at most 25: X X Word word word word ..."])
+        self.write("docs/a.md", f"Text.\n\n- item\n- {short}\n  word and more.\n\n{long}\n")
+        self.assertEqual([fault.split(" at ")[0] for fault in self.faults()],
+                         ["docs/a.md:4: 28 words,", "docs/a.md:7: 26 words,"])
+
     def test_equations_have_numbers_of_their_own(self):
         self.write("docs/theory/a.md", "$$x \\qquad (4.1)$$\n\n$$y \\quad (4.1)$$\n")
         self.assertEqual(self.faults(), ["docs/theory/a.md:3: equation (4.1) has its number from docs/theory/a.md:1"])
