@@ -214,7 +214,7 @@ class Words(Project):
         self.write("src/light/lamp.h", "// How bright a lamp is.\nstruct LampTable {\n};\n")
         self.glossary("| lamp | what shines (`LampTable`, `src/light/lamp.h`) |\n")
         self.write("tools/words/standard.txt", "# Plain.\ntable\n")
-        self.write("tools/words/replaced.txt", "# Light.\nmatt -> diffuse\nbright face -> light sample\n")
+        self.write("tools/words/replaced.txt", "# Light.\nmatt -> diffuse\nbright face -> light sample\n=nol -> NoL\n")
 
     def glossary(self, rows):
         self.write("docs/glossary.md", "| word | meaning |\n|---|---|\n" + rows)
@@ -233,7 +233,7 @@ class Words(Project):
         self.write("src/light/lamps.cpp", "struct OnlyInHere {};\n")
         self.write("CHANGELOG.md", "Matt surfaces are called diffuse.\n")
         self.write("docs/notes/old.md", "Bright faces, as they were called.\n")
-        self.write("docs/quote.md", "> A matt wall.\n\nThe mattress, never called matt.\n")
+        self.write("docs/quote.md", "> A matt wall.\n\nThe mattress, never called matt. NoL.\n")
         self.assertEqual(self.problems(), [])
 
     def test_names_without_an_explanation(self):
@@ -267,7 +267,7 @@ class Words(Project):
         for path, text in (("docs/a.md", "A Matt wall.\n"), ("docs/a.md", "bright\nfaces\n"),
                            ("tests/a.cpp", "// Rays to bright\n// faces.\n"), ("tests/a.cpp", "int brightFaces;\n"),
                            ("tests/a.cpp", "int BRIGHT_FACE;\n"), ("tests/a.cpp", "addMattMaterial();\n"),
-                           ("tools/a", "#!/bin/sh\n# matt\n"), ("CMakeLists.txt", "add_library(matt)\n")):
+                           ("tools/a", "#!/bin/sh\n# matt\n"), ("tests/b.cpp", "float nol;\n"), ("CMakeLists.txt", "add_library(matt)\n")):
             self.write(path, text)
             self.assert_one(path, ": write ")
             (self.root / path).unlink()

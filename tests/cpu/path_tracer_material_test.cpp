@@ -67,12 +67,12 @@ double specularQuadrature(const math::Brdf& brdf, const glm::vec3& toEye) {
         for (int j = 0; j < kPhi; ++j) {
             const double phi = 2 * kPi * (j + 0.5) / kPhi;
             const glm::dvec3 h(sine * std::cos(phi), sine * std::sin(phi), cosine);
-            const double voh = glm::dot(glm::dvec3(toEye), h);
-            if (voh <= 0) continue;
-            const glm::dvec3 l = 2 * voh * h - glm::dvec3(toEye);
+            const double VoH = glm::dot(glm::dvec3(toEye), h);
+            if (VoH <= 0) continue;
+            const glm::dvec3 l = 2 * VoH * h - glm::dvec3(toEye);
             if (l.z <= 0) continue;
             const glm::vec3 f = math::brdfSpecular(brdf, {0, 0, 1}, glm::vec3(l), toEye);
-            sum += static_cast<double>(f.g) * l.z * 4 * voh / density / kU / kPhi;
+            sum += static_cast<double>(f.g) * l.z * 4 * VoH / density / kU / kPhi;
         }
     }
     return sum;
