@@ -23,8 +23,8 @@ float ggx(float alpha2, const glm::vec3& h) {
 }
 
 // Density of reflected directions when visible normals are sampled: G1 D / (4 NoV).
-float visibleDensity(float alpha2, float distribution, float nov) {
-    return distribution * 0.5f / (nov + std::sqrt(alpha2 + (1 - alpha2) * nov * nov));
+float visibleDensity(float alpha2, float distribution, float NoV) {
+    return distribution * 0.5f / (NoV + std::sqrt(alpha2 + (1 - alpha2) * NoV * NoV));
 }
 
 glm::vec3 sampleVisibleNormal(const glm::vec3& toEye, float alpha, const glm::vec2& u) {
@@ -77,11 +77,11 @@ Reflection::Value Reflection::evaluate(const glm::vec3& toLight) const {
     if (length > 1e-12f) {
         const glm::vec3 h = sum / length;
         if (h.z > 0) {
-            const float nov = brdf_.nov, nol = std::max(l.z, kMinNoV);
-            const float smith = nol * std::sqrt(nov * nov * (1 - alpha2) + alpha2) +
-                                nov * std::sqrt(nol * nol * (1 - alpha2) + alpha2);
-            const float voh = std::clamp(glm::dot(toEye_, h), 0.0f, 1.0f);
-            value.specular = math::fresnel(brdf_.f0, brdf_.f90, voh) * brdf_.compensation *
+            const float NoV = brdf_.NoV, NoL = std::max(l.z, kMinNoV);
+            const float smith = NoL * std::sqrt(NoV * NoV * (1 - alpha2) + alpha2) +
+                                NoV * std::sqrt(NoL * NoL * (1 - alpha2) + alpha2);
+            const float VoH = std::clamp(glm::dot(toEye_, h), 0.0f, 1.0f);
+            value.specular = math::fresnel(brdf_.f0, brdf_.f90, VoH) * brdf_.compensation *
                              (ggx(alpha2, h) * 0.5f / std::max(smith, 1e-7f) * l.z);
         }
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Form factor from a point to a polygon, unoccluded: the part of the light from a matt surface that comes
+// Form factor from a point to a polygon, unoccluded: the part of the light from a diffuse surface that comes
 // from the polygon. Lambert's formula (Baum, Rushmeier and Winget 1989, "Improving radiosity solutions
 // through the use of analytically determined form-factors"), after clipping to the horizon of the receiver.
 // Exact.

@@ -61,8 +61,8 @@ struct Lobe {
     }
 };
 
-Lobe makeLobe(double roughness, double nov) {
-    Lobe lobe{roughness * roughness, {-std::sqrt(1 - nov * nov), 0, nov}};
+Lobe makeLobe(double roughness, double NoV) {
+    Lobe lobe{roughness * roughness, {-std::sqrt(1 - NoV * NoV), 0, NoV}};
     double sum = 0;
     constexpr int kFine = 64;
     for (int i = 0; i < kFine * kFine; ++i) {
@@ -78,8 +78,8 @@ using Shape = std::array<double, 3>;
 
 struct Stretched {
     double wideX, wideY, shift;
-    Stretched(const Shape& s, double nov)
-        : wideX(std::exp(s[0])), wideY(std::exp(s[1])), shift(std::exp(s[2]) * std::sqrt(1 - nov * nov)) {}
+    Stretched(const Shape& s, double NoV)
+        : wideX(std::exp(s[0])), wideY(std::exp(s[1])), shift(std::exp(s[2]) * std::sqrt(1 - NoV * NoV)) {}
     Vec sample(double x1, double x2) const {
         const double r = std::sqrt(x1), z = std::sqrt(1 - x1);
         return unit({wideX * r * std::cos(2 * kPi * x2) + shift * z, wideY * r * std::sin(2 * kPi * x2), z});
@@ -155,21 +155,21 @@ Shape nearest(const Lobe& lobe, const Shape& start, double step) {
 }
 
 struct Node {
-    double roughness, nov;
+    double roughness, NoV;
     Shape shape;
-    double s() const { return nov / (nov + roughness * roughness); }
+    double s() const { return NoV / (NoV + roughness * roughness); }
     // What the polynomials give. For small alpha all three are 1: reflection doubles the angle of the facet,
     // so wide = 2 alpha (1 / NoV^2, 1) and shift = tan; facets that hide each other at grazing angles, by the
     // ratio s of NoV and alpha, keep them finite.
     std::array<double, 3> targets() const {
         const double a = roughness * roughness;
-        return {std::sqrt(std::exp(shape[0]) / (2 * a)) * nov / s(), std::exp(shape[1]) / (2 * a),
-                std::exp(shape[2]) * nov / s()};
+        return {std::sqrt(std::exp(shape[0]) / (2 * a)) * NoV / s(), std::exp(shape[1]) / (2 * a),
+                std::exp(shape[2]) * NoV / s()};
     }
-    static Shape shapeOf(const std::array<double, 3>& t, double roughness, double nov) {
-        const double a = roughness * roughness, s = nov / (nov + a);
-        return {2 * std::log(std::max(t[0], 1e-6) * s / nov) + std::log(2 * a),
-                std::log(std::max(t[1], 1e-6) * 2 * a), std::log(std::max(t[2], 1e-6) * s / nov)};
+    static Shape shapeOf(const std::array<double, 3>& t, double roughness, double NoV) {
+        const double a = roughness * roughness, s = NoV / (NoV + a);
+        return {2 * std::log(std::max(t[0], 1e-6) * s / NoV) + std::log(2 * a),
+                std::log(std::max(t[1], 1e-6) * 2 * a), std::log(std::max(t[2], 1e-6) * s / NoV)};
     }
 };
 
@@ -195,7 +195,7 @@ Polynomial fitted(const std::vector<Node>& nodes, std::size_t which) {
             for (int i = 0; i < kS; ++i)
                 basis[static_cast<std::size_t>(j * kS + i)] =
                     std::pow(node.s(), i) * std::pow(node.roughness, j);
-        const long double weight = node.nov + 0.05;
+        const long double weight = node.NoV + 0.05;
         for (std::size_t a = 0; a < n; ++a) {
             for (std::size_t b = 0; b < n; ++b) m[a][b] += weight * basis[a] * basis[b];
             m[a][n] += weight * basis[a] * node.targets()[which];
@@ -243,10 +243,10 @@ int main() {
         Shape shape{width, width, 0};
         for (int j = 0; j < kViews; ++j) {  // from above to grazing, each from the one before
             const double t = static_cast<double>(j) / (kViews - 1);
-            const double nov = std::clamp(1 - t * t, 0.01, 0.9999);
-            lobes.push_back(makeLobe(roughness, nov));
+            const double NoV = std::clamp(1 - t * t, 0.01, 0.9999);
+            lobes.push_back(makeLobe(roughness, NoV));
             shape = nearest(lobes.back(), nearest(lobes.back(), shape, 0.1), 0.05);
-            nodes.push_back({roughness, nov, shape});
+            nodes.push_back({roughness, NoV, shape});
             least += difference(lobes.back(), shape);
         }
     }
@@ -261,10 +261,10 @@ int main() {
         const Shape shape =
             Node::shapeOf({value(p[0], node.s(), node.roughness), value(p[1], node.s(), node.roughness),
                            value(p[2], node.s(), node.roughness)},
-                          node.roughness, node.nov);
+                          node.roughness, node.NoV);
         const double d = difference(lobes[i], shape);
         reached += d;
-        if (node.nov > 0.2) worst = std::max(worst, d - difference(lobes[i], node.shape));
+        if (node.NoV > 0.2) worst = std::max(worst, d - difference(lobes[i], node.shape));
     }
     const double count = static_cast<double>(nodes.size());
     std::printf("// difference, mean: nearest %.4f, by polynomials %.4f; lost at most, NoV > 0.2: %.4f\n",

@@ -147,6 +147,28 @@ class Docs(Project):
         subprocess.run(["git", "-C", self.root, "add", "."], check=True)
         self.assertEqual(self.faults(), ["src/a.h:1: names docs/theory/b.md: no such file"])
 
+    def test_comments_name_existing_headings_and_equations(self):
+        subprocess.run(["git", "init", "-q", self.root], check=True)
+        self.write("docs/theory/a.md", "# A\n\n## A ray: how\n\n$$x \\qquad (4.1)$$\n")
+        self.write("src/a.h", '// See docs/theory/a.md, "A\n// ray" and (4.1).\n// docs/theory/a.md, "A cone", (4.2)\n')
+        subprocess.run(["git", "-C", self.root, "add", "."], check=True)
+        self.assertEqual(self.faults(), ['src/a.h:3: names docs/theory/a.md: no heading "A cone"',
+                                         "src/a.h:3: names docs/theory/a.md: no equation (4.2)"])
+
+    def test_long_sentences(self):
+        long, short = "Word" + " word" * 25, "Word" + " word" * 24
+        self.write("docs/a.md", f"# {long}\n\nText. {short}. {short}: {short};\n{short}.\n\n| {long} |\n\n```\n{long}\n```\n\n"
+                                f"    {long}\n\n{short} (Some, *One*, 2011).\n\n`{long}` $x {long}$ [{short}](a.md).\n")
+        self.write("CHANGELOG.md", f"{long}\n")
+        self.assertEqual(self.faults(), ["docs/a.md:16: 27 words, at most 25: X X Word word word word ..."])
+        self.write("docs/a.md", f"Text.\n\n- item\n- {short}\n  word and more.\n\n{long}\n")
+        self.assertEqual([fault.split(" at ")[0] for fault in self.faults()],
+                         ["docs/a.md:4: 28 words,", "docs/a.md:7: 26 words,"])
+
+    def test_equations_have_numbers_of_their_own(self):
+        self.write("docs/theory/a.md", "$$x \\qquad (4.1)$$\n\n$$y \\quad (4.1)$$\n")
+        self.assertEqual(self.faults(), ["docs/theory/a.md:3: equation (4.1) has its number from docs/theory/a.md:1"])
+
     def test_snippets_equal_their_source(self):
         self.write("examples/e.cpp", "int a;\n// [part]\n    int b;\n      int c;\n// [/part]\n")
         self.write("README.md", "<!-- snippet: examples/e.cpp#part -->\n```cpp\nint b;\n  int c;\n```\n")
@@ -191,6 +213,73 @@ class Docs(Project):
         self.assertEqual(self.faults("--program", self.root / "program", "--update"), [])
         # What both print, but for options, stays: it is the frame of the text.
         self.assertEqual((self.root / "a.md").read_text(), block)
+
+
+class Words(Project):
+    """A project of one type and one glossary row, in which all is right."""
+
+    def setUp(self):
+        super().setUp()
+        self.write("src/light/lamp.h", "// How bright a lamp is.\nstruct LampTable {\n};\n")
+        self.glossary("| lamp | what shines (`LampTable`, `src/light/lamp.h`) |\n")
+        self.write("tools/words/standard.txt", "# Plain.\ntable\n")
+        self.write("tools/words/replaced.txt", "# Light.\nmatt -> diffuse\nbright face -> light sample\n=nol -> NoL\n")
+
+    def glossary(self, rows):
+        self.write("docs/glossary.md", "| word | meaning |\n|---|---|\n" + rows)
+
+    def problems(self):
+        subprocess.run(["git", "init", "-q", self.root], check=True)
+        return self.run_tool("check_words", self.root)[1].splitlines()
+
+    def assert_one(self, *parts):
+        found = self.problems()
+        self.assertEqual(len(found), 1, found)
+        for part in parts:
+            self.assertIn(part, found[0])
+
+    def test_right_words(self):
+        self.write("src/light/lamps.cpp", "struct OnlyInHere {};\n")
+        self.write("CHANGELOG.md", "Matt surfaces are called diffuse.\n")
+        self.write("docs/notes/old.md", "Bright faces, as they were called.\n")
+        self.write("docs/quote.md", "> A matt wall.\n\nThe mattress, never called matt. NoL.\n")
+        self.assertEqual(self.problems(), [])
+
+    def test_names_without_an_explanation(self):
+        self.write("include/conelight/a.h", "struct Lamp;\nclass LampGlow {};\n")
+        self.write("tools/words/standard.txt", "table\na\n")
+        self.assert_one("include/conelight/a.h:2", "LampGlow", "glow")
+        self.write("include/conelight/a.h", "")
+        self.write("shaders/light/a.glsl", "struct Glow { int a; };\n")
+        self.assert_one("shaders/light/a.glsl:1", "glow")
+        self.write("shaders/light/a.glsl", "")
+        self.write("src/light/glow_table.cpp", "")
+        self.assertIn("glow_table", "".join(self.problems()))
+
+    def test_standard_words_that_are_none(self):
+        self.write("tools/words/standard.txt", "table\nlamps\n")
+        self.assert_one("standard.txt:2", "in the glossary")
+        self.write("tools/words/standard.txt", "table chair\n")
+        self.assert_one("chair", "in no name")
+        self.write("tools/words/standard.txt", "table table\n")
+        self.assert_one("twice")
+
+    def test_rows_that_the_sources_do_not_know(self):
+        self.glossary("| lamp | what shines |\n| lamp, wick | what burns |\n")
+        self.assert_one("docs/glossary.md:4", "wick")
+        self.glossary("| lamp | what shines (`src/light/gone.h`) |\n")
+        self.assert_one("src/light/gone.h", "no such file")
+        self.glossary("| lamp | what shines (`LampList`, `src/light/lamp.h`) |\n")
+        self.assert_one("does not contain LampList")
+
+    def test_replaced_words_however_they_are_joined(self):
+        for path, text in (("docs/a.md", "A Matt wall.\n"), ("docs/a.md", "bright\nfaces\n"),
+                           ("tests/a.cpp", "// Rays to bright\n// faces.\n"), ("tests/a.cpp", "int brightFaces;\n"),
+                           ("tests/a.cpp", "int BRIGHT_FACE;\n"), ("tests/a.cpp", "addMattMaterial();\n"),
+                           ("tools/a", "#!/bin/sh\n# matt\n"), ("tests/b.cpp", "float nol;\n"), ("CMakeLists.txt", "add_library(matt)\n")):
+            self.write(path, text)
+            self.assert_one(path, ": write ")
+            (self.root / path).unlink()
 
 
 class Files(Project):

@@ -65,7 +65,7 @@ struct PhongSettings {
     bool operator==(const PhongSettings&) const = default;
 };
 
-// Cones that gather light at diffuse surfaces (docs/theory/4_gather.md): one, or a polar cone and rings of
+// Cones that gather light at diffuse surfaces (docs/theory/4a_cones.md): one, or a polar cone and rings of
 // 4, 5 or 4 + 4 round it, or Fibonacci of any number.
 enum class DiffuseSet { One, Five, Six, Nine, Fibonacci };
 // What a texel of the radiance volume keeps: one colour and opacity, or one per facing direction.

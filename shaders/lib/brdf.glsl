@@ -67,7 +67,7 @@ const float kEvenLobe = 0.5;
 // even light a dielectric reflects base + (1 - base) R: its own lobe, and the base what that leaves
 // (makeBrdf). R is the mean of specularAlbedo over the hemisphere, from means of directionalAlbedo by
 // polynomials (2026-11; largest error of R at F0 = 0.04: 0.002): 0.04 at roughness 0.65, 0.09 when smooth.
-// Metals count with their base colour: their lobe is added where rays meet them. docs/theory/4_gather.md,
+// Metals count with their base colour: their lobe is added where rays meet them. docs/theory/4f_glossy.md,
 // (4.35). C++ twin: math::evenAlbedo.
 vec3 evenAlbedo(vec3 baseColor, float metallic, float roughness, vec3 dielectricF0) {
     float r = max(roughness, kMinRoughness);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The irradiance cache at a point of a surface: faces of the eight voxels about it that look as the normal
 // does, by trilinear weight, square of the normal's component and coverage:
-//   E(p) = sum t n_k^2 W E(F) / sum t n_k^2 W      (docs/theory/4_gather.md, "The cache at pixels")
+//   E(p) = sum t n_k^2 W E(F) / sum t n_k^2 W      (docs/theory/4e_pixels.md, "The cache at pixels")
 // Only axes along which the normal has a part worth a fetch are visited: on walls along the axes one of
 // three.
 //
@@ -25,7 +25,7 @@ const float kSameBendRange = 0.1;
 // rgb irradiance / pi; a: sum of weights, 0 where no face was found. `bent`, with CACHE_NORMALS 1: sum of the
 // normals of these faces, of any length, as far as they are near `normal`. Which of the eight voxels are
 // there is asked first, then only those are visited, and of their faces those that count: on a wall four of
-// eight voxels and one face each (platform figures: docs/theory/4_gather.md, "The cache at pixels").
+// eight voxels and one face each (platform figures: docs/theory/4e_pixels.md, "The cache at pixels").
 vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
     vec3 corner = floor(point - 0.5);
     vec3 part = point - 0.5 - corner;

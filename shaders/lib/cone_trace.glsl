@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Cones through the radiance volume (docs/theory/4_gather.md; Crassin et al. 2011, section 5): apex, axis,
+// Cones through the radiance volume (docs/theory/4a_cones.md; Crassin et al. 2011, section 5): apex, axis,
 // aperture -> premultiplied radiance and opacity.
 //
 // The way is cut into stretches that are a fixed part of the footprint; each is sampled once, in its middle,

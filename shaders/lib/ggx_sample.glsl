@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Directions of the GGX lobe drawn by the visible normals (Heitz 2018, "Sampling the GGX Distribution of
-// Visible Normals"), and what a ray in such a direction weighs: docs/theory/4_gather.md, (4.33).
+// Visible Normals"), and what a ray in such a direction weighs: docs/theory/4f_glossy.md, (4.33).
 #include "lib/brdf.glsl"
 #include "lib/tangent_frame.glsl"
 

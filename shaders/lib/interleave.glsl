@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which faces of the cache share their directions (interleaved sampling, Keller and Heidrich 2001): a voxel's
 // place in its brick, turned about in each brick by a hash. Without the turn what is left of the noise would
-// repeat every four voxels, as a weave. docs/theory/4_gather.md, "The cache".
+// repeat every four voxels, as a weave. docs/theory/4d_cache.md, "Directions".
 #include "lib/random.glsl"
 
 // 0 to 3 along each axis; the 64 voxels of a brick have 64 places. Along `axis`, that of the face's

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Ray casting through the surface voxels: Ray -> VoxelHit, the first face that the ray hits. Faces are hit by
 // their plane piece and bounds (shared/voxels.h), not by the voxel's cube. Back faces are transparent.
-// Method: docs/theory/4_gather.md, "A ray"; C++ twin: src/voxels/ray_query.h.
+// Method: docs/theory/4b_rays.md, "A ray"; C++ twin: src/voxels/ray_query.h.
 //
 // Coordinates are those of the grid, in voxels (lib/voxel_grid.glsl), so that t is a distance in voxels. Rays
 // may start and end outside the grid and may be parallel to axes.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a pixel's surface showed in the picture so far, and how many passes are behind that; and the mean with
 // a new value. Reprojection with rejection after Nehab et al. 2007, "Accelerating Real-Time Shading with
-// Reverse Reprojection Caching"; docs/theory/4_gather.md, "Over frames".
+// Reverse Reprojection Caching"; docs/theory/4e_pixels.md, "Over frames".
 //
 // TEMPORAL 0: nothing so far. 1: the picture so far has the same view: its pixel is ours. 2: it has another
 //   view (pixelRays.old*): of the four pixels about the place, those count that show our surface, by plane,

@@ -2,7 +2,7 @@
 // Ray-triangle intersection within a voxel (TRIANGLE_HITS 1; otherwise the file is empty). The voxelizer's
 // chain of fragments (voxels/surface_clip.comp.glsl) lists the triangles; its table holds their corners in
 // grid coordinates. Test: Moeller and Trumbore 1997, "Fast, Minimum Storage Ray/Triangle Intersection".
-// Method: docs/theory/4_gather.md, "Mirrors that show triangles".
+// Method: docs/theory/4f_glossy.md, "Mirrors that show triangles".
 //
 // Includers that set TRIANGLE_HITS include before: lib/scene_tables.glsl, lib/surface_array.glsl. Before the
 // call: SurfaceVoxels::bindTriangles, GpuScene::bind.

@@ -2,7 +2,7 @@
 // Radiance along rays through the voxels, and the irradiance estimator that the cache and the pixels share.
 //   Ray -> traceRadiance: radiance along the ray, with glossy bounces on metals
 //   SurfacePoint -> estimateIrradiance: irradiance / pi by multiple importance sampling
-// Method: docs/theory/4_gather.md, "Light-sampled rays" and "Metal".
+// Method: docs/theory/4c_estimator.md; of metals: docs/theory/4f_glossy.md, "Metals that rays meet".
 //
 // EXACT_DIRECT 1: point, spot and directional lights are evaluated at the hit by shadow map, not taken from
 // the face. Rectangles and emission always come from the face. light::hitLightDefines chooses for a scene.

@@ -112,7 +112,7 @@ vec3 faceCenter(FaceRecord face) {
 
 // Bounds that reach the voxel's side are grown, voxels: by the first along the normal, by the second, which
 // is how far pieces of one surface overlap, along it. Second: more makes balls too wide, less opens gaps
-// between their pieces (docs/theory/4_gather.md, "A ray").
+// between their pieces (docs/theory/4b_rays.md, "Bounds as rays see them").
 const float kRayBoundsSlack = 0.1;
 const float kRayBoundsOverlap = 0.04;
 // Where they end within the voxel, they are shrunk by this along the surface, about as much as they are
@@ -148,7 +148,7 @@ void lightSampleBounds(uvec4 hitTexel, vec3 n, vec3 origin, float side, out vec3
     upper = mix(upper, 1.0 + moved, goesOn);
 }
 
-// Share of the light samples of a voxel that a face gets (docs/theory/4_gather.md, eq. 4.11). Up to three
+// Share of the light samples of a voxel that a face gets (docs/theory/4c_estimator.md, (4.11)). Up to three
 // faces hold the same surface, and rays hit the one of largest coverage: 1 for the face of the normal's
 // largest component, little for the others.
 float dominantFaceShare(vec3 n, uint axis) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What the passes of the irradiance cache share that deal with the flux of faces, for the pool of bright
-// faces.
+// What the passes of the irradiance cache share that deal with the flux of faces, for the pool of light
+// samples.
 #include "lib/linear_index.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
@@ -10,7 +10,7 @@ layout(std430) buffer StateTable { FaceCache states[]; };
 // Per chunk of faces: its flux, then the flux of all chunks before it.
 layout(std430) buffer ChunkTable { float chunks[]; };
 
-// How much of the pool a face gets (docs/theory/4_gather.md, eq. 4.11).
+// How much of the pool a face gets (docs/theory/4c_estimator.md, (4.11)).
 float faceFlux(uvec4 hitTexel, vec3 radiance) {
     vec3 n = octDecode(unpackSnorm2x16(hitTexel.x));
     vec3 lower, upper;

@@ -5,7 +5,7 @@
 // apart and share their directions (cache_update), so that their rays run side by side; faces next to each
 // other in space do not share theirs. A counting sort: a bin per block, direction and place, with a bit for
 // each of the block's 64 bricks. Faces that hold the surface of another one of their voxel do not gather;
-// they get its number (docs/theory/4_gather.md, "One surface, one mean"). Nor do those inside closed objects.
+// they get its number (docs/theory/4d_cache.md, "One surface, one mean"). Nor do those inside closed objects.
 // Faces that may be, or no longer be, inside of one are visited last, to be looked at: a half of them after
 // each sort.
 //   STEP 0  faces that gather -> bins; those that share -> states

@@ -1,7 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
 // One update of the irradiance cache: each face of the slice gathers with a few rays what other faces showed
-// before, and blends it into its mean (docs/theory/4_gather.md, "The cache"). Rays read the packed irradiance
+// before, and blends it into its mean (docs/theory/4d_cache.md, "The cache"). Rays read the packed irradiance
 // of the records, which cache_commit writes afterwards: who comes first does not matter.
 //
 // FIND_BACK_FACES 1: also counts rays that meet a surface from behind, to find faces inside closed objects.

@@ -1,9 +1,9 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
 // What part of its emission a face shows to rays, so that a lamp's voxels send what the lamp sends
-// (docs/theory/4_gather.md, eq. 4.36). Where several plane pieces stand for a curved surface or for an edge,
-// they reach beyond it, and to rays they are larger than the surface. Bricks in which all that shines lies in
-// one plane are left as they are.
+// (docs/theory/4c_estimator.md, (4.36)). Where several plane pieces stand for a curved surface or for an
+// edge, they reach beyond it, and to rays they are larger than the surface. Bricks in which all that shines
+// lies in one plane are left as they are.
 //
 // STEP 0, per brick of the grid: marks the faces whose size is asked for. 1, per face: its size as rays meet
 // it and the area of the surface that it stands for. 2, per brick: the quotient of the sums, the same for all

@@ -17,12 +17,12 @@
 // drivers read storage lane by lane in loops.
 
 // Entries of the pool. Searching the whole list for each ray instead costs 11 to 17 % more
-// (docs/theory/4_gather.md).
+// (docs/theory/4c_estimator.md, "The pool").
 #define LIGHT_SAMPLE_COUNT 4096
 
 // Updates after a change that replace what was there; averages begin then, in which early ones count for
 // less. Averages of all updates from the first one keep 2 to 4 % of the light out for good: bounces have not
-// settled (accuracy experiments, docs/theory/4_gather.md).
+// settled (docs/theory/4d_cache.md, "The cache").
 #define IRRADIANCE_SETTLE 8
 // Until so many updates after a change pixels see a face's mean shared with its neighbours.
 #define IRRADIANCE_SHARED_UPDATES 32

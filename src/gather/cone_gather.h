@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What cones bring in: RadianceVolume + GBuffer -> pictures of irradiance, occlusion and specular radiance,
-// and RadianceVolume + faces -> one more bounce. docs/theory/4_gather.md, "Diffuse surfaces" and "Glossy
-// surfaces".
+// and RadianceVolume + faces -> one more bounce. docs/theory/4a_cones.md, "Diffuse surfaces" and
+// "Glossy surfaces".
 //
 // Pictures are RGBA16F of the frame's size; their readers need gl::barrier(TextureFetch) after it. GL state
 // changed: program and its slots.

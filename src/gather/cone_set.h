@@ -2,7 +2,7 @@
 // Sets of cones that stand for a hemisphere: name and count -> directions, apertures, weights.
 //
 // Method: the hemisphere about +z is cut into one cell per cone; each cone takes over the moments of order
-// zero and one of its cell under the cosine weight (docs/theory/4_gather.md, (4.5) to (4.8)):
+// zero and one of its cell under the cosine weight (docs/theory/4a_cones.md, (4.5) to (4.8)):
 //   weight     the cell's cosine integral                    -> the weights of a set sum to pi
 //   direction  the cell's cosine-weighted mean direction, normalised
 //   aperture   such that the plain mean over the cone has the length of that mean direction; for a cap this

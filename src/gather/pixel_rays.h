@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Pictures gathered by rays at pixels: surfaces + lit voxels -> irradiance, radiance in the specular lobe, or
-// occlusion, as means over passes and frames (docs/theory/4_gather.md, "Over frames"), and the edge-stopping
+// occlusion, as means over passes and frames (docs/theory/4e_pixels.md, "Over frames"), and the edge-stopping
 // filter over them. A picture is a texture of lib/pixel_history.glsl. Part of gather::Indirect.
 //
 // Readers need gl::barrier(TextureFetch). GL state changed: program and its slots, the indirect dispatch

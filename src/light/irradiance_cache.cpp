@@ -71,8 +71,8 @@ struct IrradianceCache::Visit {
 // Makes room for so many faces. What is there may be lost.
 void IrradianceCache::reserve(std::uint32_t faces) {
     if (!pool_) {
-        pool_ = gl::Buffer(4 * (1 + LIGHT_SAMPLE_COUNT), "bright faces");
-        poolTexels_ = gl::Texture(pool_, GL_R32UI, "bright faces");
+        pool_ = gl::Buffer(4 * (1 + LIGHT_SAMPLE_COUNT), "light samples");
+        poolTexels_ = gl::Texture(pool_, GL_R32UI, "light samples");
         chunks_ = gl::Buffer(4 * (kMaxChunks + 2), "irradiance cache chunks");
         constants_ = gl::Buffer(sizeof(gpu::CacheConstants), "irradiance cache constants");
         reprojectionBlock_ = gl::Buffer(sizeof(gpu::CacheReprojection), "irradiance cache reprojection");
@@ -176,7 +176,7 @@ gpu::CacheConstants IrradianceCache::packed(const CacheSettings& settings, std::
 // States -> lit faces and pool; and what pixels see (atPixels).
 void IrradianceCache::commit(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
                              bool atPixels) {
-    const gl::PassScope scope(device.profiler, "irradiance: bright faces");
+    const gl::PassScope scope(device.profiler, "irradiance: light samples");
     const gpu::CacheConstants block = packed(settings);
     constants_.update(block);
     gl::Inputs given;

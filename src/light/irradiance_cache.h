@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Indirect light per voxel face, kept in world space over frames: rays from each face gather what other faces
 // show, their own cached light included, so that every update adds a bounce. Estimator and schedule:
-// docs/theory/4_gather.md, "The cache". Part of light::LitVoxels, which says when what is called.
+// docs/theory/4d_cache.md, "The cache". Part of light::LitVoxels, which says when what is called.
 //
 // The same calls give the same bits: rays read the light of the update before, and all sums have an order.
 #pragma once

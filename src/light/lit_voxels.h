@@ -41,8 +41,8 @@ class LitVoxels {
         const voxels::Voxels& voxels;  // with octant words
     };
 
-    // Light of voxels and lights as they are. Light of other voxels is carried over to those that lie where
-    // it was; with a limited number of bounces, or other settings of a picture that is finished at once, it
+    // Light of voxels and lights as they are. Light of other voxels is reprojected to those that lie where it
+    // was; with a limited number of bounces, or other settings of a picture that is finished at once, it
     // starts in the dark. GL state changed: programs and their slots.
     void relight(const gl::Device& device, const Inputs& inputs, const RelightSettings& settings,
                  const Budget& budget);

@@ -10,9 +10,9 @@ constexpr float kPi = 3.14159265358979f;
 float largest(const glm::vec3& v) { return std::max({v.r, v.g, v.b}); }
 }  // namespace
 
-glm::vec2 directionalAlbedo(float nov, float roughness) {
+glm::vec2 directionalAlbedo(float NoV, float roughness) {
     const float a = roughness * roughness;
-    const float s = nov / (nov + a);
+    const float s = NoV / (NoV + a);
     const float both =
         (0.959575f + s * (0.438832f + s * (-3.25298f + s * (5.54518f + s * -2.68982f)))) +
         a * ((0.285436f + s * (-3.13559f + s * (10.8832f + s * (-14.5516f + s * 6.2423f)))) +
@@ -20,7 +20,7 @@ glm::vec2 directionalAlbedo(float nov, float roughness) {
                   a * ((0.645843f + s * (-3.86254f + s * (10.699f + s * (-2.09599f + s * -18.0685f)))) +
                        a * (-0.217635f + s * (1.4135f + s * (-1.41486f + s * (-8.25343f + s * 18.5846f)))))));
     const float r = roughness;
-    const float c = 1.0f - nov;
+    const float c = 1.0f - NoV;
     const float grazing =
         (1.2406f + s * (-0.0343653f + s * (-3.78446f + s * (6.60108f + s * -3.02584f)))) +
         r * ((-4.05669f + s * (0.801049f + s * (20.2115f + s * (-18.1767f + s * 1.51945f)))) +
@@ -33,21 +33,21 @@ glm::vec2 directionalAlbedo(float nov, float roughness) {
     return {e - f, f};
 }
 
-glm::vec3 fresnel(const glm::vec3& f0, const glm::vec3& f90, float voh) {
-    const float c = 1.0f - voh;
+glm::vec3 fresnel(const glm::vec3& f0, const glm::vec3& f90, float VoH) {
+    const float c = 1.0f - VoH;
     const float c2 = c * c;
     return f0 + (f90 - f0) * (c2 * c2 * c);
 }
 
 Brdf makeBrdf(const glm::vec3& baseColor, float metallic, float roughness, const glm::vec3& dielectricF0,
-              float nov) {
+              float NoV) {
     Brdf b{};
-    b.nov = std::clamp(nov, 1e-4f, 1.0f);
+    b.NoV = std::clamp(NoV, 1e-4f, 1.0f);
     const float r = std::max(roughness, kMinRoughness);
     b.alpha = r * r;
     b.f0 = glm::mix(dielectricF0, baseColor, metallic);
     b.f90 = glm::vec3(std::clamp(50.0f * largest(b.f0), 0.0f, 1.0f));
-    const glm::vec2 dfg = directionalAlbedo(b.nov, r);
+    const glm::vec2 dfg = directionalAlbedo(b.NoV, r);
     const float lost = 1.0f / (dfg.x + dfg.y) - 1.0f;
     b.compensation = 1.0f + b.f0 * lost;
     b.albedo = (b.f0 * dfg.x + b.f90 * dfg.y) * b.compensation;
@@ -72,20 +72,20 @@ glm::vec3 evenAlbedo(const glm::vec3& baseColor, float metallic, float roughness
     return glm::mix(baseColor * (1.0f - largest(own)) + own, baseColor, metallic);
 }
 
-float ggxVisible(float alpha, float noh, float nol, float nov) {
+float ggxVisible(float alpha, float NoH, float NoL, float NoV) {
     const float a2 = alpha * alpha;
-    const float d = (1.0f - noh * noh) + noh * noh * a2;
-    const float smithV = nol * std::sqrt(nov * nov * (1.0f - a2) + a2);
-    const float smithL = nov * std::sqrt(nol * nol * (1.0f - a2) + a2);
+    const float d = (1.0f - NoH * NoH) + NoH * NoH * a2;
+    const float smithV = NoL * std::sqrt(NoV * NoV * (1.0f - a2) + a2);
+    const float smithL = NoV * std::sqrt(NoL * NoL * (1.0f - a2) + a2);
     return a2 / (kPi * d * d) * 0.5f / std::max(smithV + smithL, 1e-7f);
 }
 
 glm::vec3 brdfSpecular(const Brdf& b, const glm::vec3& n, const glm::vec3& toLight, const glm::vec3& toEye) {
     const glm::vec3 h = glm::normalize(toLight + toEye);
-    const float voh = std::clamp(glm::dot(toEye, h), 0.0f, 1.0f);
-    const float noh = std::clamp(glm::dot(n, h), 0.0f, 1.0f);
-    const float nol = std::clamp(glm::dot(n, toLight), 1e-4f, 1.0f);
-    return fresnel(b.f0, b.f90, voh) * b.compensation * ggxVisible(b.alpha, noh, nol, b.nov);
+    const float VoH = std::clamp(glm::dot(toEye, h), 0.0f, 1.0f);
+    const float NoH = std::clamp(glm::dot(n, h), 0.0f, 1.0f);
+    const float NoL = std::clamp(glm::dot(n, toLight), 1e-4f, 1.0f);
+    return fresnel(b.f0, b.f90, VoH) * b.compensation * ggxVisible(b.alpha, NoH, NoL, b.NoV);
 }
 
 }  // namespace conelight::math

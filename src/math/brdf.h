@@ -15,22 +15,22 @@ struct Brdf {
     glm::vec3 compensation;  // factor on the specular lobe
     glm::vec3 albedo;        // directional albedo of the specular lobe, compensation included
     float alpha;             // GGX width
-    float nov;
+    float NoV;
 };
 
 // Directional albedo of the single-scattering lobe: F0 x + F90 y. `roughness` is perceptual.
-glm::vec2 directionalAlbedo(float nov, float roughness);
+glm::vec2 directionalAlbedo(float NoV, float roughness);
 
-glm::vec3 fresnel(const glm::vec3& f0, const glm::vec3& f90, float voh);
+glm::vec3 fresnel(const glm::vec3& f0, const glm::vec3& f90, float VoH);
 Brdf makeBrdf(const glm::vec3& baseColor, float metallic, float roughness, const glm::vec3& dielectricF0,
-              float nov);
+              float NoV);
 
 // Reflectance in even light, both lobes; what voxels keep as a surface's colour.
 glm::vec3 evenAlbedo(const glm::vec3& baseColor, float metallic, float roughness,
                      const glm::vec3& dielectricF0);
 
 // GGX times visibility, D G2 / (4 NoL NoV).
-float ggxVisible(float alpha, float noh, float nol, float nov);
+float ggxVisible(float alpha, float NoH, float NoL, float NoV);
 
 // The specular BRDF (1/sr) for unit vectors to the light and to the eye.
 glm::vec3 brdfSpecular(const Brdf& brdf, const glm::vec3& n, const glm::vec3& toLight,

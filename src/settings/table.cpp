@@ -93,7 +93,7 @@ std::vector<Setting<PhongSettings>> phongSettings() {
 std::vector<Setting<ConesSettings>> conesSettings() {
     return {
         {"diffuse_set", &ConesSettings::diffuseSet, kDiffuseSets,
-         "cones per hemisphere at matt surfaces; the time grows with them"},
+         "cones per hemisphere at diffuse surfaces; the time grows with them"},
         {"count", &ConesSettings::count, Numbers{1, 64}, "", "number of cones of the set fibonacci"},
         {"directional", &ConesSettings::directional, kVolumeDirections,
          "radiance per voxel: one value, or six by facing direction (six times the memory, closed walls)"},
@@ -120,7 +120,7 @@ std::vector<Setting<ConesSettings>> conesSettings() {
 std::vector<Setting<TracedSettings>> tracedSettings() {
     return {
         {"pixel_rays", &TracedSettings::pixelRays, Numbers{0, 64}, "",
-         "cosine-sampled rays per pixel and pass, as many again to bright faces; 0: the cache alone"},
+         "cosine-sampled rays per pixel and pass, and as many light-sampled ones; 0: the cache alone"},
         {"specular_rays", &TracedSettings::specularRays, Numbers{0, 16}, "",
          "rays per pixel and pass into the specular lobe"},
         {"specular_limit", &TracedSettings::specularLimit, Numbers{0, 1}, "",
@@ -129,7 +129,7 @@ std::vector<Setting<TracedSettings>> tracedSettings() {
         {"filter_levels", &TracedSettings::filterLevels, Numbers{0, 4}, "",
          "edge-stopping filter: 0 none, 1 3x3, 2 7x7, 3 15x15, 4 31x31 pixels"},
         {"cache_rays", &TracedSettings::cacheRays, Numbers{1, 64}, "",
-         "cosine-sampled rays per voxel face and update, as many again to bright faces"},
+         "cosine-sampled rays per voxel face and update, and as many light-sampled ones"},
         {"cache_updates", &TracedSettings::cacheUpdates, Numbers{1, 4096}, "",
          "updates of all faces after a change, until the cache is left as it is"},
         {"face_budget", &TracedSettings::faceBudget, Numbers{0, 100000000}, "faces",

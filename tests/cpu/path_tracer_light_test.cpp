@@ -18,10 +18,10 @@ using namespace reference;
 constexpr double kPi = 3.14159265358979;
 constexpr double kTolerance = 0.005;
 
-// A white matt floor at y = 0, 20 m wide.
+// A white diffuse floor at y = 0, 20 m wide.
 Scene floorScene() {
     Scene scene;
-    addInstance(scene, quadMesh({-10, 0, 10}, {20, 0, 0}, {0, 0, -20}), mattMaterial());
+    addInstance(scene, quadMesh({-10, 0, 10}, {20, 0, 0}, {0, 0, -20}), diffuseMaterial());
     return scene;
 }
 
@@ -120,11 +120,11 @@ TEST(PathTracerLight, RectanglesAgreeWithTheClosedForm) {
     // The same as a quad of the scene: direct light, or light like any other.
     Scene quad = floorScene();
     addInstance(quad, quadMesh({0, 1, 0}, {0.8f, 0, 0}, {0, 0, 1.2f}),
-                mattMaterial(glm::vec3(0), glm::vec3(2)));
+                diffuseMaterial(glm::vec3(0), glm::vec3(2)));
     EXPECT_NEAR(irradianceAt(quad, at, samples(256)) / truth, 1, kTolerance);
     EXPECT_NEAR(irradianceAt(quad, at, samples(256, false)) / truth, 1, kTolerance);
     // Blockers of direct light and of bounces differ: then quads are met analytically.
-    addInstance(quad, quadMesh({5, 1, 5}, {1, 0, 0}, {0, 0, 1}), mattMaterial());
+    addInstance(quad, quadMesh({5, 1, 5}, {1, 0, 0}, {0, 0, 1}), diffuseMaterial());
     quad.instances.back().voxelized = false;
     EXPECT_NEAR(irradianceAt(quad, at, samples(256)) / truth, 1, kTolerance);
     // Turned inside out by its transform: glTF's front stays the front, so it shines up.
@@ -152,7 +152,7 @@ TEST(PathTracerLight, TexturedEmissionIsExactAtTheSample) {
     texture.wrapU = TextureWrap::Clamp;
     texture.rgba = {255, 255, 255, 255, 0, 0, 0, 255};
     scene.textures.push_back(texture);
-    Material material = mattMaterial(glm::vec3(0), glm::vec3(2));
+    Material material = diffuseMaterial(glm::vec3(0), glm::vec3(2));
     material.emissiveTexture.texture = 0;
     addInstance(scene, std::move(mesh), material);
     const double truth = kPi * 2 * cornerFactor(0.4, 1.2);
@@ -179,7 +179,7 @@ TEST(PathTracerLight, SphereAgreesWithTheClosedForm) {
     Scene scene = floorScene();
     glm::mat4 place(scale);
     place[3] = {0, distance, 0, 1};
-    addInstance(scene, std::move(mesh), mattMaterial(glm::vec3(0), glm::vec3(3)), place);
+    addInstance(scene, std::move(mesh), diffuseMaterial(glm::vec3(0), glm::vec3(3)), place);
     // Seen from beside the sphere, so that it does not hide the floor.
     Camera camera = cameraAbove({0, 0, 0}, 2, 0.001f);
     camera.eye = {1.5f, 1.2f, 0};
@@ -201,10 +201,10 @@ TEST(PathTracerLight, FormFactorsOfSquares) {
 
     Scene above, beside;
     const Mesh receiver = quadMesh({-0.5f, 0, 0.5f}, {1, 0, 0}, {0, 0, -1});
-    const Material glow = mattMaterial(glm::vec3(0), glm::vec3(1));
-    addInstance(above, receiver, mattMaterial());
+    const Material glow = diffuseMaterial(glm::vec3(0), glm::vec3(1));
+    addInstance(above, receiver, diffuseMaterial());
     addInstance(above, quadMesh({-0.5f, 1, -0.5f}, {1, 0, 0}, {0, 0, 1}), glow);
-    addInstance(beside, receiver, mattMaterial());
+    addInstance(beside, receiver, diffuseMaterial());
     addInstance(beside, quadMesh({-0.5f, 0, 0.5f}, {0, 0, -1}, {0, 1, 0}), glow);
     for (const bool quads : {true, false}) {
         EXPECT_NEAR(irradianceAt(above, {0, 0, 0}, samples(512, quads), 1) / kPi / parallel, 1, kTolerance);
@@ -215,7 +215,7 @@ TEST(PathTracerLight, FormFactorsOfSquares) {
 
 TEST(PathTracerLight, SkyLightsAPlaneWithItsRadiance) {
     Scene scene;
-    addInstance(scene, quadMesh({-10, 0, 10}, {20, 0, 0}, {0, 0, -20}), mattMaterial(glm::vec3(0.6f)));
+    addInstance(scene, quadMesh({-10, 0, 10}, {20, 0, 0}, {0, 0, -20}), diffuseMaterial(glm::vec3(0.6f)));
     scene.sky = {1, 2, 3};
     for (const Estimator estimator : {Estimator::Mis, Estimator::LightsOnly, Estimator::MaterialsOnly}) {
         PathTracerSettings settings = samples(1024);
@@ -242,7 +242,7 @@ TEST(PathTracerLight, BlockersAreThoseOfTheFlags) {
         scene.lights.push_back(light(LightType::Point, {0, 2, 0}, 4));
         scene.lights[0].castsShadow = lightCasts;
         scene.sky = glm::vec3(1);
-        addInstance(scene, quadMesh({-50, 1, 50}, {0, 0, -100}, {100, 0, 0}), mattMaterial(glm::vec3(0)));
+        addInstance(scene, quadMesh({-50, 1, 50}, {0, 0, -100}, {100, 0, 0}), diffuseMaterial(glm::vec3(0)));
         scene.instances.back().castsShadow = castsShadow;
         scene.instances.back().voxelized = voxelized;
         Camera camera = cameraAbove({0.2f, 0, 0}, 0.5f, 0.001f);  // below the blocker

@@ -67,12 +67,12 @@ double specularQuadrature(const math::Brdf& brdf, const glm::vec3& toEye) {
         for (int j = 0; j < kPhi; ++j) {
             const double phi = 2 * kPi * (j + 0.5) / kPhi;
             const glm::dvec3 h(sine * std::cos(phi), sine * std::sin(phi), cosine);
-            const double voh = glm::dot(glm::dvec3(toEye), h);
-            if (voh <= 0) continue;
-            const glm::dvec3 l = 2 * voh * h - glm::dvec3(toEye);
+            const double VoH = glm::dot(glm::dvec3(toEye), h);
+            if (VoH <= 0) continue;
+            const glm::dvec3 l = 2 * VoH * h - glm::dvec3(toEye);
             if (l.z <= 0) continue;
             const glm::vec3 f = math::brdfSpecular(brdf, {0, 0, 1}, glm::vec3(l), toEye);
-            sum += static_cast<double>(f.g) * l.z * 4 * voh / density / kU / kPhi;
+            sum += static_cast<double>(f.g) * l.z * 4 * VoH / density / kU / kPhi;
         }
     }
     return sum;
@@ -140,7 +140,7 @@ TEST(PathTracerMaterial, SmoothMetalMirrorsAnEmitter) {
     Scene scene;
     addInstance(scene, groundMesh(2), metal);
     addInstance(scene, quadMesh({-3, 0.1f, -1.5f}, {0, 0, 3}, {0, 4, 0}),
-                mattMaterial(glm::vec3(0), glm::vec3(5)));
+                diffuseMaterial(glm::vec3(0), glm::vec3(5)));
     scene.materials.back().doubleSided = true;
     const PathTracedPicture picture = render(scene, slanted(0.7854), 256);
     EXPECT_NEAR(meanOf(picture.direct), 5, 0.05);
@@ -168,12 +168,12 @@ Light sun(const glm::vec3& direction, float irradiance) {
 
 TEST(PathTracerMaterial, MaskedTexelsAreNotThere) {
     Scene scene;
-    addInstance(scene, groundMesh(4), mattMaterial());
+    addInstance(scene, groundMesh(4), diffuseMaterial());
     Mesh blocker = quadMesh({-1, 1, 1}, {2, 0, 0}, {0, 0, -2});
     blocker.uvs.resize(4);
     for (std::size_t i = 0; i < 4; ++i) blocker.uvs[i] = {blocker.positions[i].x > 0 ? 1 : 0, 0.5f};
     scene.textures.push_back(texture(2, 1, {255, 255, 255, 0, 255, 255, 255, 255}, true));
-    Material mask = mattMaterial(glm::vec3(0));
+    Material mask = diffuseMaterial(glm::vec3(0));
     mask.alphaMode = AlphaMode::Mask;
     mask.doubleSided = true;
     mask.baseColorTexture.texture = 0;
@@ -200,7 +200,7 @@ TEST(PathTracerMaterial, NormalMapsTurnTheNormal) {
     };
     scene.textures.push_back(
         texture(1, 1, {encoded(std::sin(0.5)), encoded(0), encoded(std::cos(0.5)), 255}, false));
-    Material material = mattMaterial();
+    Material material = diffuseMaterial();
     material.normalTexture.texture = 0;
     addInstance(scene, std::move(ground), material);
     for (const float angle : {0.0f, 0.3f}) {
@@ -213,7 +213,7 @@ TEST(PathTracerMaterial, NormalMapsTurnTheNormal) {
 // Unlit: shown as it is, lights nothing, blocks light.
 TEST(PathTracerMaterial, UnlitIsSeenAndLightsNothing) {
     Scene scene;
-    addInstance(scene, groundMesh(4), mattMaterial());
+    addInstance(scene, groundMesh(4), diffuseMaterial());
     Material unlit;
     unlit.baseColor = {0.25f, 0.5f, 0.75f, 1};
     unlit.unlit = true;
@@ -227,11 +227,11 @@ TEST(PathTracerMaterial, UnlitIsSeenAndLightsNothing) {
     EXPECT_EQ(meanOf(render(scene, cameraAbove({0, 0, 0}, 0.5f, 0.1f), 64).full), 0);
 }
 
-// Smooth sphere in a white furnace: white matt shows 1, but for what coarse silhouettes hide below the
+// Smooth sphere in a white furnace: white diffuse shows 1, but for what coarse silhouettes hide below the
 // geometric horizon.
 TEST(PathTracerMaterial, SphereVanishesInTheWhiteFurnace) {
     Scene scene;
-    addInstance(scene, sphereMesh(64, 32), mattMaterial());
+    addInstance(scene, sphereMesh(64, 32), diffuseMaterial());
     scene.sky = glm::vec3(1);
     // Mirrored instances keep their front.
     for (const float x : {1.0f, -1.0f}) {
@@ -267,7 +267,7 @@ TEST(PathTracerMaterial, NastyScenesGiveNumbers) {
         Mesh sliver;
         sliver.positions = {{0, 0, 0}, {scale, 0, 0}, {2 * scale, 0, 0}, {0, 0, 0}};
         sliver.indices = {0, 1, 2, 0, 0, 3};
-        addInstance(scene, sliver, mattMaterial(glm::vec3(0.5f), glm::vec3(1)));
+        addInstance(scene, sliver, diffuseMaterial(glm::vec3(0.5f), glm::vec3(1)));
         Light light;
         light.position = scale * glm::vec3(0, -1, 0);  // in the floor
         light.intensity = glm::vec3(scale * scale);

@@ -25,7 +25,7 @@ PathTracedPicture render(const Scene& scene, int width, int height, const PathTr
 // A closed box whose walls all have albedo rho and emission e shows e / (1 - rho) everywhere.
 TEST(PathTracer, FurnaceShowsTheGeometricSum) {
     for (const float rho : {0.2f, 0.5f, 0.8f, 0.9f}) {
-        const Scene scene = closedBox(mattMaterial(glm::vec3(rho), glm::vec3(1)));
+        const Scene scene = closedBox(diffuseMaterial(glm::vec3(rho), glm::vec3(1)));
         // The number of bounces spreads as much as its mean: 0.1 % for the last 590,000 paths.
         const int size = rho > 0.85f ? 24 : 16;
         for (const bool quads : {true, false}) {
@@ -44,7 +44,7 @@ TEST(PathTracer, FurnaceShowsTheGeometricSum) {
 // From the middle of the box its edges lie on the picture's diagonals, through centres of pixels: points
 // there, rounded, lie in the neighbouring wall. They once were black.
 TEST(PathTracer, EdgesBetweenWallsAreLit) {
-    Scene scene = closedBox(mattMaterial(glm::vec3(0.5f), glm::vec3(1)));
+    Scene scene = closedBox(diffuseMaterial(glm::vec3(0.5f), glm::vec3(1)));
     for (const float offset : {0.0f, 0.7f}) {
         for (Instance& instance : scene.instances)
             instance.worldFromObject[3] = glm::vec4(glm::vec3(offset), 1);
@@ -64,7 +64,7 @@ TEST(PathTracer, EdgesBetweenWallsAreLit) {
 // With every emitter indirect, bounce n gives rho^n.
 TEST(PathTracer, EnergyPerBounceFallsGeometricallyInTheFurnace) {
     const double rho = 0.6;
-    const Scene scene = closedBox(mattMaterial(glm::vec3(0.6f), glm::vec3(1)));
+    const Scene scene = closedBox(diffuseMaterial(glm::vec3(0.6f), glm::vec3(1)));
     PathTracerSettings settings;
     settings.samplesPerPixel = 1024;
     settings.emissiveQuads = false;
@@ -92,17 +92,17 @@ TEST(PathTracer, EnergyPerBounceFallsGeometricallyInTheFurnace) {
 
 // A room with every kind of light, a glossy floor, a textured and a curved emitter, and a window to the sky.
 Scene mixedScene() {
-    Scene scene = closedBox(mattMaterial(glm::vec3(0.7f, 0.6f, 0.5f)));
+    Scene scene = closedBox(diffuseMaterial(glm::vec3(0.7f, 0.6f, 0.5f)));
     scene.instances.erase(scene.instances.begin() + 5);  // the wall behind the camera
     scene.sky = {0.3f, 0.4f, 0.6f};
     scene.materials[2].roughness = 0.3f;
     scene.materials[2].specular = 1;
     scene.materials[2].metallic = 0.5f;
     addInstance(scene, quadMesh({-0.3f, 0.98f, -0.8f}, {0.6f, 0, 0}, {0, 0, 0.5f}),
-                mattMaterial(glm::vec3(0), glm::vec3(4)));
+                diffuseMaterial(glm::vec3(0), glm::vec3(4)));
     glm::mat4 place(0.2f);
     place[3] = {-0.5f, -0.6f, -0.4f, 1};
-    addInstance(scene, sphereMesh(12, 6), mattMaterial(glm::vec3(0.5f), glm::vec3(2, 1, 0.5f)), place);
+    addInstance(scene, sphereMesh(12, 6), diffuseMaterial(glm::vec3(0.5f), glm::vec3(2, 1, 0.5f)), place);
     Light light;
     light.position = {0.6f, 0.3f, 0.2f};
     light.intensity = glm::vec3(0.3f);
@@ -238,7 +238,7 @@ TEST(PathTracer, StopsAtTheNoiseAskedForAndWhenTold) {
 }
 
 TEST(PathTracer, RefusesWhatItCannotDo) {
-    const Scene scene = closedBox(mattMaterial());
+    const Scene scene = closedBox(diffuseMaterial());
     PathTracerSettings settings;
     const auto refused = [&](int width, const PathTracerSettings& s) {
         try {
@@ -266,7 +266,7 @@ TEST(PathTracer, EmptyAndDarkScenesAreBlack) {
     PathTracerSettings settings;
     settings.samplesPerPixel = 2;
     EXPECT_EQ(meanOf(render(empty, 4, 4, settings).full), 0);
-    const PathTracedPicture dark = render(closedBox(mattMaterial()), 4, 4, settings);
+    const PathTracedPicture dark = render(closedBox(diffuseMaterial()), 4, 4, settings);
     EXPECT_EQ(meanOf(dark.full), 0);
     EXPECT_EQ(dark.noise, 0);
 }

@@ -26,7 +26,7 @@ Scene noisyFloor() {
         noise.rgba.insert(noise.rgba.end(), {grey, grey, grey, 255});
     }
     scene.textures.push_back(noise);
-    Material material = mattMaterial(glm::vec3(0.8f));
+    Material material = diffuseMaterial(glm::vec3(0.8f));
     material.baseColorTexture.texture = 0;
     material.baseColorTexture.uvFromUv[0][0] = material.baseColorTexture.uvFromUv[1][1] = 10;
     Mesh floor = quadMesh({-10, 0, 10}, {20, 0, 0}, {0, 0, -20});
@@ -69,7 +69,7 @@ TEST(PathTracerTexture, PixelsShowTheMeanOverTheirArea) {
 
 // Surfaces without textures are those of the pixel's centre, sample by sample, beside textured ones, too.
 TEST(PathTracerTexture, OthersStayThatOfTheCentre) {
-    Scene scene = closedBox(mattMaterial(glm::vec3(0.5f), glm::vec3(1)));
+    Scene scene = closedBox(diffuseMaterial(glm::vec3(0.5f), glm::vec3(1)));
     PathTracerSettings settings;
     settings.samplesPerPixel = 4;
     const PathTracedPicture plain = PathTracer(scene).render(scene.cameras.at(0), 16, 16, settings);

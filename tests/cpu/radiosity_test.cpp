@@ -53,7 +53,7 @@ TEST(Radiosity, FormFactorsOfSquares) {
 
 TEST(Radiosity, FurnaceShowsTheGeometricSum) {
     for (const float rho : {0.1f, 0.5f, 0.9f}) {
-        const Scene lit = bakeRadiosity(closedBox(mattMaterial(glm::vec3(rho), glm::vec3(1))), quick());
+        const Scene lit = bakeRadiosity(closedBox(diffuseMaterial(glm::vec3(rho), glm::vec3(1))), quick());
         for (const Mesh& mesh : lit.meshes)
             for (const glm::vec4& c : mesh.colors) EXPECT_NEAR(c.g * (1 - rho), 1, 0.01) << rho;
     }
@@ -61,7 +61,7 @@ TEST(Radiosity, FurnaceShowsTheGeometricSum) {
 
 // Bounce n gives rho^n: the sum up to N is exact in a furnace whose emitters are direct light.
 TEST(Radiosity, BouncesAreCounted) {
-    const Scene box = closedBox(mattMaterial(glm::vec3(0.5f), glm::vec3(1)));
+    const Scene box = closedBox(diffuseMaterial(glm::vec3(0.5f), glm::vec3(1)));
     for (const int bounces : {0, 1, 3}) {
         RadiositySettings s = quick();
         s.bounces = bounces;
@@ -125,7 +125,7 @@ TEST(Radiosity, StopsWhenTold) {
 TEST(Radiosity, RefusesSettingsOutOfRange) {
     RadiositySettings s;
     s.maxSubdivision = 9;
-    EXPECT_THROW(bakeRadiosity(closedBox(mattMaterial()), s), Error);
+    EXPECT_THROW(bakeRadiosity(closedBox(diffuseMaterial()), s), Error);
 }
 
 }  // namespace

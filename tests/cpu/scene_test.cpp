@@ -199,17 +199,17 @@ TEST(SceneTest, CompletedScenesCanBeSeen) {
     EXPECT_TRUE(empty.lights.empty());
 }
 
-TEST(SceneTest, MattMaterialsLookTheSameInBothModels) {
-    Material matt;
-    matt.baseColor = {0.6f, 0.3f, 0.1f, 1};
-    PhongMaterial phong = phongFromPbr(matt);
+TEST(SceneTest, DiffuseMaterialsLookTheSameInBothModels) {
+    Material diffuse;
+    diffuse.baseColor = {0.6f, 0.3f, 0.1f, 1};
+    PhongMaterial phong = phongFromPbr(diffuse);
     EXPECT_EQ(phong.color * phong.diffuseStrength, glm::vec3(0.6f, 0.3f, 0.1f));
     EXPECT_EQ(phong.ambientStrength, 0.0f);
     // And back: what the specular lobe takes, the diffuse one loses.
     Material back;
     phong.specularStrength = 0;
     setPbrFromPhong(back, phong);
-    EXPECT_NEAR(glm::length(glm::vec3(back.baseColor) - glm::vec3(matt.baseColor)), 0.0f, 1e-6f);
+    EXPECT_NEAR(glm::length(glm::vec3(back.baseColor) - glm::vec3(diffuse.baseColor)), 0.0f, 1e-6f);
     EXPECT_EQ(back.specularColor, glm::vec3(0));
     EXPECT_EQ(back.metallic, 0.0f);
     // A mirror of the thesis's scenes: smooth, and no more light out than in.

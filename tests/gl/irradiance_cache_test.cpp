@@ -54,7 +54,7 @@ Light pointLight(const glm::vec3& position, float intensity) {
 
 Scene room(float albedo) {
     Scene scene;
-    addInstance(scene, boxOfQuads(false), mattMaterial(glm::vec3(albedo)));
+    addInstance(scene, boxOfQuads(false), diffuseMaterial(glm::vec3(albedo)));
     scene.lights.push_back(pointLight({0.5f, 0.8f, 0.5f}, 1));
     return scene;
 }
@@ -68,7 +68,7 @@ class IrradianceCacheTest : public GlTest {};
 TEST_F(IrradianceCacheTest, DielectricsCountTheirLobeMetalsDoNot) {
     const glm::vec3 base(0.1f, 0.5f, 0.3f);
     for (const float metallic : {0.0f, 1.0f}) {
-        Material material = mattMaterial(base);
+        Material material = diffuseMaterial(base);
         material.specular = 1;
         material.roughness = 0.3f;
         material.metallic = metallic;
@@ -87,12 +87,12 @@ TEST_F(IrradianceCacheTest, DielectricsCountTheirLobeMetalsDoNot) {
 // twice.
 TEST_F(IrradianceCacheTest, EdgesOfLampsDoNotGlow) {
     Scene scene;
-    addInstance(scene, boxOfQuads(false), mattMaterial(glm::vec3(0.5f)));
+    addInstance(scene, boxOfQuads(false), diffuseMaterial(glm::vec3(0.5f)));
     Mesh lamp;
     lamp.positions = {
         {0.33f, 0.999f, 0.41f}, {0.71f, 0.999f, 0.41f}, {0.71f, 0.999f, 0.62f}, {0.33f, 0.999f, 0.62f}};
     lamp.indices = {0, 1, 2, 0, 2, 3};
-    addInstance(scene, lamp, mattMaterial(glm::vec3(0), glm::vec3(5)));
+    addInstance(scene, lamp, diffuseMaterial(glm::vec3(0), glm::vec3(5)));
     for (const int voxels : {24, 32, 44}) {
         CacheRig rig(programs(), scene, voxels);
         rig.relight();
@@ -111,8 +111,8 @@ TEST_F(IrradianceCacheTest, EdgesOfLampsDoNotGlow) {
 }
 
 // Closed, albedo rho, every surface shines with e: radiance e / (1 - rho) everywhere, irradiance / pi the
-// same. Turned, so that no wall is along an axis: what rays to bright faces are off by (bounds are not quite
-// what a surface covers, O(h)) is largest there.
+// same. Turned, so that no wall is along an axis: the error of light-sampled rays is largest there (bounds
+// are not quite what a surface covers, O(h)).
 double furnace(CacheRig& rig) {
     rig.light.emissiveQuads = false;
     rig.relight();
@@ -122,7 +122,7 @@ double furnace(CacheRig& rig) {
 
 Scene furnaceScene(float rho, float e) {
     Scene scene;
-    addInstance(scene, boxOfQuads(false), mattMaterial(glm::vec3(rho), glm::vec3(e)));
+    addInstance(scene, boxOfQuads(false), diffuseMaterial(glm::vec3(rho), glm::vec3(e)));
     return scene;
 }
 
@@ -144,11 +144,11 @@ TEST_F(IrradianceCacheTest, TurnedFurnace) {
     EXPECT_NEAR(ratio, 1, 0.01);
 }
 
-// How many rays go which way must not matter: the trap of rays to bright faces that count whatever they meet,
-// with which the second mean is a fifth larger and the third several times. All faces of an update draw from
-// one pool of 4,096 bright faces, whose noise they share (4 % of the mean after 3 updates at 4+60 rays): 40
-// updates average it away. What is left is the grid's: in the corners of so coarse a one rays by the cosine
-// find light that aimed ones miss, 1.0 and 1.6 % of the mean; at 64 voxels all agree within 1 %.
+// The share of cosine-sampled and light-sampled rays must not matter. It does where light-sampled rays count
+// whatever they meet: the second mean is then a fifth larger, the third several times. All faces of an update
+// draw from one pool of 4,096 light samples and share its noise: 4 % of the mean after 3 updates at 4+60 rays.
+// 40 updates average it away. What is left is the grid's: in its corners cosine-sampled rays find light that
+// light-sampled ones miss, 1.0 and 1.6 % of the mean. At 64 voxels all agree within 1 %.
 TEST_F(IrradianceCacheTest, EstimatorsAgreeInTheMean) {
     const Scene scene = io::loadScene("builtin:cornell");
     double means[3];
@@ -186,9 +186,9 @@ TEST_F(IrradianceCacheTest, LampsSendWhatTheirSurfaceSends) {
                               glm::length(glm::cross(corner(1) - corner(0), corner(2) - corner(0))));
         }
         Scene scene;
-        addInstance(scene, boxOfQuads(false), mattMaterial(glm::vec3(0)),
+        addInstance(scene, boxOfQuads(false), diffuseMaterial(glm::vec3(0)),
                     glm::scale(glm::mat4(1), glm::vec3(side)));
-        addInstance(scene, *lamp, mattMaterial(glm::vec3(0), glm::vec3(emission)),
+        addInstance(scene, *lamp, diffuseMaterial(glm::vec3(0), glm::vec3(emission)),
                     glm::translate(glm::mat4(1), {14.3f, 15.6f, 15.1f}) * askew);
         CacheRig rig(programs(), scene, 32);
         rig.settings.cosineRays = rig.settings.lightRays = 4;
@@ -209,9 +209,9 @@ TEST_F(IrradianceCacheTest, EmissionFitsAnewWhereALampHasMoved) {
     io::shapes::appendPatch(ball, io::shapes::uvSphere(glm::vec3(0), glm::vec3(2.5f), 48, 24));
     const auto sceneWith = [&](const glm::vec3& place) {
         Scene scene;
-        addInstance(scene, boxOfQuads(false), mattMaterial(glm::vec3(0)),
+        addInstance(scene, boxOfQuads(false), diffuseMaterial(glm::vec3(0)),
                     glm::scale(glm::mat4(1), glm::vec3(30)));
-        addInstance(scene, ball, mattMaterial(glm::vec3(0), glm::vec3(3)),
+        addInstance(scene, ball, diffuseMaterial(glm::vec3(0), glm::vec3(3)),
                     glm::translate(glm::mat4(1), place));
         return scene;
     };
@@ -309,7 +309,7 @@ TEST_F(IrradianceCacheTest, NoLightThroughAThinWall) {
 TEST_F(IrradianceCacheTest, FacesInsideClosedObjectsAreLeftOut) {
     Scene scene = room(0.5f);
     scene.lights[0].position = {0.5f, 0.9f, 0.5f};
-    addInstance(scene, boxOfQuads(true), mattMaterial(glm::vec3(0.5f)),
+    addInstance(scene, boxOfQuads(true), diffuseMaterial(glm::vec3(0.5f)),
                 glm::scale(glm::translate(glm::mat4(1), {0.3f, 0.0f, 0.3f}), glm::vec3(0.4f)));
     CacheRig rig(programs(), scene, 64);
     rig.update(24);

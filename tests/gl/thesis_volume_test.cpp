@@ -18,7 +18,7 @@ namespace {
 using thesis::ThesisVolume;
 using thesis::ThesisVolumeOptions;
 
-// A parallelogram as two triangles, white and matt, counter-clockwise from `normal`'s side.
+// A parallelogram as two triangles, white and diffuse, counter-clockwise from `normal`'s side.
 void addQuad(Scene& scene, const glm::vec3& corner, const glm::vec3& u, const glm::vec3& v) {
     Mesh mesh;
     mesh.positions = {corner, corner + u, corner + u + v, corner + v};

@@ -31,7 +31,7 @@ constexpr int kUp = 2, kDown = 3;  // directions +y, -y
 Material painted(const glm::vec3& albedo, bool doubleSided = false) {
     Material material;
     material.baseColor = glm::vec4(albedo, 1);
-    material.specular = 0;  // matt: reflects what its colour says
+    material.specular = 0;  // diffuse: reflects what its colour says
     material.doubleSided = doubleSided;
     material.specular = 0;
     return material;

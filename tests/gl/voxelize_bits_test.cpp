@@ -21,7 +21,7 @@ using VoxelizeBitsTest = VoxelizeTest;
 // Prints a hash when asked to; else runs itself with 0, 1 and 2 driver threads and compares.
 TEST_F(VoxelizeBitsTest, SameBitsWithAnyNumberOfThreads) {
     Scene scene = torus();
-    addInstance(scene, squareMesh(), addMattMaterial(scene, {0.2f, 0.7f, 0.3f}, true),
+    addInstance(scene, squareMesh(), addDiffuseMaterial(scene, {0.2f, 0.7f, 0.3f}, true),
                 glm::rotate(glm::mat4(1), 0.6f, {1, 1, 0.3f}));
     scene.materials[0].emission = {1, 2, 3};
     const std::uint64_t mine = voxelize(scene, 128).hash();
@@ -73,7 +73,7 @@ TEST_F(VoxelizeBitsTest, ManyTrianglesInOneVoxelAreSummedExactly) {
     EXPECT_NEAR(weight / expected, 1.0, 1e-3);
     // 40 sheets in one voxel: more than the first unit of the sums can hold. The frontmost are seen.
     Scene stack;
-    const int material = addMattMaterial(stack, {0.2f, 0.4f, 0.8f});
+    const int material = addDiffuseMaterial(stack, {0.2f, 0.4f, 0.8f});
     for (int i = 0; i < 40; ++i)
         addInstance(stack, squareMesh(), material,
                     glm::translate(glm::mat4(1), {0, 0, 0.002f * static_cast<float>(i)}));

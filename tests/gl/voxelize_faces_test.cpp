@@ -52,9 +52,9 @@ bool expectAsReference(const gpu::FaceRecord& face, const gpu::FaceMaterial& mat
 // A torus, a two-sided square and a small mirrored box, which keeps facing outwards.
 Scene torusSquareAndMirroredBox() {
     Scene scene = torus();
-    addInstance(scene, squareMesh(), addMattMaterial(scene, {0.2f, 0.7f, 0.3f}, true),
+    addInstance(scene, squareMesh(), addDiffuseMaterial(scene, {0.2f, 0.7f, 0.3f}, true),
                 glm::rotate(glm::mat4(1), 0.6f, {1, 1, 0.3f}));
-    addInstance(scene, boxMesh(), addMattMaterial(scene, {1, 1, 1}),
+    addInstance(scene, boxMesh(), addDiffuseMaterial(scene, {1, 1, 1}),
                 glm::rotate(glm::scale(glm::translate(glm::mat4(1), {0.2f, 0.9f, 0}), {-0.3f, 0.2f, 0.25f}),
                             0.3f, {0, 1, 1}));
     scene.materials[0].specular = 1;  // reflects more than its colour
@@ -128,8 +128,8 @@ TEST_F(VoxelizeFacesTest, RecordsAreOrderedByBrickVoxelAndDirection) {
 TEST_F(VoxelizeFacesTest, DirectionsStayApart) {
     // Two quads facing +z a tenth of a voxel apart, of which the front one is seen; one facing -z.
     Scene scene;
-    const int red = addMattMaterial(scene, {1, 0, 0});
-    const int blue = addMattMaterial(scene, {0, 0, 1});
+    const int red = addDiffuseMaterial(scene, {1, 0, 0});
+    const int blue = addDiffuseMaterial(scene, {0, 0, 1});
     addInstance(scene, squareMesh(), red);
     addInstance(scene, squareMesh(), blue, glm::translate(glm::mat4(1), {0, 0, 0.1f * 0.25f}));
     addInstance(scene, squareMesh(), red, glm::rotate(glm::mat4(1), glm::pi<float>(), {1, 0, 0}));
@@ -151,7 +151,7 @@ TEST_F(VoxelizeFacesTest, DirectionsStayApart) {
 
 TEST_F(VoxelizeFacesTest, EmissionIsKeptOfTheFrontOnly) {
     Scene scene;
-    addInstance(scene, squareMesh(), addMattMaterial(scene, glm::vec3(0.5f)));
+    addInstance(scene, squareMesh(), addDiffuseMaterial(scene, glm::vec3(0.5f)));
     scene.materials[0].emission = {12.5f, 0.25f, 3.0f};
     const VoxelizeResult r = voxelize(scene, 64);
     ASSERT_FALSE(r.faces.empty());
@@ -178,7 +178,7 @@ Texture checker(int edge, int cell, const glm::u8vec4& a, const glm::u8vec4& b) 
 Scene texturedQuad(const Texture& texture, float repeats, const glm::mat4& worldFromObject = glm::mat4(1)) {
     Scene scene;
     scene.textures.push_back(texture);
-    const int material = addMattMaterial(scene, glm::vec3(1));
+    const int material = addDiffuseMaterial(scene, glm::vec3(1));
     scene.materials[0].baseColorTexture.texture = 0;
     addInstance(scene, squareMesh(repeats), material, worldFromObject);
     return scene;
@@ -237,7 +237,7 @@ TEST_F(VoxelizeFacesTest, MaskedTextureOfHalfCoverageGivesHalfTheWeight) {
 
 TEST_F(VoxelizeFacesTest, VertexColoursAndBlendingCount) {
     Scene scene;
-    const int material = addMattMaterial(scene, {0.5f, 0.5f, 0.5f});
+    const int material = addDiffuseMaterial(scene, {0.5f, 0.5f, 0.5f});
     scene.materials[0].alphaMode = AlphaMode::Blend;
     scene.materials[0].baseColor.a = 0.25f;
     Mesh quad = squareMesh();

@@ -87,7 +87,7 @@ TEST_F(VoxelizeTest, TheDiagonalSectionOfAVoxelHasItsFullArea) {
     // A plane at 45 degrees through the edges of voxels: area sqrt 2, the most a voxel can hold of a plane,
     // half of it each of its two faces'.
     Scene scene;
-    addInstance(scene, squareMesh(), addMattMaterial(scene, glm::vec3(1)),
+    addInstance(scene, squareMesh(), addDiffuseMaterial(scene, glm::vec3(1)),
                 glm::rotate(glm::mat4(1), glm::quarter_pi<float>(), {1, 0, 0}));
     VoxelGrid grid;
     grid.origin = {-2, -2, -2 + 0.001f};
@@ -118,7 +118,7 @@ TEST_F(VoxelizeTest, PlanesThroughEdgesKeepTheirArea) {
                 Mesh mesh;
                 mesh.positions = {-0.5f * (u + v), 0.5f * (u - v), 0.5f * (u + v), 0.5f * (v - u)};
                 mesh.indices = {0, 1, 2, 0, 2, 3};
-                addInstance(scene, std::move(mesh), addMattMaterial(scene, glm::vec3(1)));
+                addInstance(scene, std::move(mesh), addDiffuseMaterial(scene, glm::vec3(1)));
                 const VoxelGrid grid{glm::vec3(-12 * voxel), voxel, glm::ivec3(24)};
                 const double area = meshArea(referenceTriangles(scene, grid));
                 EXPECT_NEAR(voxelize(scene, grid).area / area, 1.0, 2e-3)
@@ -129,7 +129,7 @@ TEST_F(VoxelizeTest, PlanesThroughEdgesKeepTheirArea) {
 TEST_F(VoxelizeTest, ASurfaceExactlyOnABorderBelongsToTheUpperVoxelWhicheverWayItFaces) {
     for (const bool turned : {false, true}) {
         Scene scene;
-        addInstance(scene, squareMesh(), addMattMaterial(scene, glm::vec3(1)),
+        addInstance(scene, squareMesh(), addDiffuseMaterial(scene, glm::vec3(1)),
                     turned ? glm::rotate(glm::mat4(1), glm::pi<float>(), {1, 0, 0}) : glm::mat4(1));
         for (glm::vec3& p : scene.meshes[0].positions) p.z = 0;
         if (turned) {  // an exact half turn: the rotation above leaves 1e-7 behind

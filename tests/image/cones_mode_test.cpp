@@ -100,7 +100,7 @@ TEST_F(ConesModeTest, FurnaceBounceByBounce) {
 
 // A furnace of rough metal: the specular cone brings the same radiance, times the lobe's albedo of nearly 1.
 TEST_F(ConesModeTest, FurnaceOfMetal) {
-    Material metal = mattMaterial({1, 1, 1}, {1, 1, 1});
+    Material metal = diffuseMaterial({1, 1, 1}, {1, 1, 1});
     metal.metallic = 1;
     for (const float roughness : {0.05f, 0.3f, 0.6f, 1.0f}) {
         metal.roughness = roughness;
@@ -126,7 +126,8 @@ TEST_F(ConesModeTest, PlaneUnderTheSky) {
         Scene scene;
         const glm::vec3 u = glm::normalize(glm::cross(up, glm::vec3(0.3f, 0.2f, 1)));
         const glm::vec3 v = glm::cross(up, u);
-        addInstance(scene, quadMesh(-2.0f * (u + v), 4.0f * u, 4.0f * v), mattMaterial({0.5f, 0.5f, 0.5f}));
+        addInstance(scene, quadMesh(-2.0f * (u + v), 4.0f * u, 4.0f * v),
+                    diffuseMaterial({0.5f, 0.5f, 0.5f}));
         scene.sky = {1, 2, 3};
         Camera camera;
         camera.eye = up + 0.1f * u;
@@ -147,7 +148,7 @@ TEST_F(ConesModeTest, PlaneUnderTheSky) {
 }
 
 TEST_F(ConesModeTest, ClosedBlackBoxIsBlack) {
-    Scene scene = closedBox(mattMaterial({0, 0, 0}));
+    Scene scene = closedBox(diffuseMaterial({0, 0, 0}));
     scene.sky = {100, 100, 100};
     const Image image = render(scene, smallSettings());
     for (const glm::vec4& p : image.pixels) {
@@ -159,7 +160,7 @@ TEST_F(ConesModeTest, ClosedBlackBoxIsBlack) {
 // A closed room is dark inside though the sky is bright: what leaks through its corners
 // (FurnaceLosesNoLight).
 TEST_F(ConesModeTest, ClosedRoomKeepsTheSkyOut) {
-    Scene scene = closedBox(mattMaterial({0.8f, 0.8f, 0.8f}));
+    Scene scene = closedBox(diffuseMaterial({0.8f, 0.8f, 0.8f}));
     scene.sky = {1, 1, 1};
     EXPECT_LE(rangeOf(render(scene, smallSettings())).mean, 0.8 * 0.005);
 }
@@ -209,10 +210,10 @@ TEST_F(ConesModeTest, ColourBleeds) {
 
 // A lamp that is a rectangle shines exactly, by itself, and must not be met by cones a second time.
 TEST_F(ConesModeTest, LampsCountOnce) {
-    Scene scene = closedBox(mattMaterial({0, 0, 0}));
-    scene.materials[2] = mattMaterial({0.5f, 0.5f, 0.5f});  // the floor alone is not black
+    Scene scene = closedBox(diffuseMaterial({0, 0, 0}));
+    scene.materials[2] = diffuseMaterial({0.5f, 0.5f, 0.5f});  // the floor alone is not black
     addInstance(scene, quadMesh({-0.4f, 0.9f, -0.4f}, {0.8f, 0, 0}, {0, 0, 0.8f}),
-                mattMaterial({0, 0, 0}, {5, 5, 5}));
+                diffuseMaterial({0, 0, 0}, {5, 5, 5}));
     scene.cameras[0].target = {0, -1, -0.3f};
     Settings settings = smallSettings(Component::Diffuse);
     const double exact = rangeOf(render(scene, settings)).mean;
@@ -243,7 +244,7 @@ TEST_F(ConesModeTest, VoxelsShowTheirRadiance) {
 
 // The middle of a wall is open, the corner of a room less; everything is within [0,1].
 TEST_F(ConesModeTest, OcclusionDarkensCorners) {
-    Scene scene = closedBox(mattMaterial({0.5f, 0.5f, 0.5f}));
+    Scene scene = closedBox(diffuseMaterial({0.5f, 0.5f, 0.5f}));
     Settings settings = smallSettings(Component::Occlusion);
     settings.cones.occlusionDistance = {false, 0.5f};
     scene.cameras[0].eye = {0, 0, 0.9f};

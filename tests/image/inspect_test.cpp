@@ -32,9 +32,9 @@ Settings settingsOf(Mode mode, Component component) {
     return settings;
 }
 
-// Matt and glossy surfaces, direct light, red and green walls.
+// Diffuse and glossy surfaces, direct light, red and green walls.
 Scene roomWithGloss() {
-    Scene scene = closedBox(mattMaterial({0.7f, 0.6f, 0.5f}));
+    Scene scene = closedBox(diffuseMaterial({0.7f, 0.6f, 0.5f}));
     Material gloss;
     gloss.baseColor = {0.8f, 0.7f, 0.3f, 1};
     gloss.metallic = 0.5f;
@@ -185,7 +185,7 @@ TEST_F(InspectTest, StepsAddUpToTheirCone) {
 // From a wall of a box of edge 2 every ray meets another wall, at the distance that the box says.
 TEST_F(InspectTest, RaysEndAtTheWalls) {
     Renderer renderer;
-    const Scene scene = closedBox(mattMaterial(glm::vec3(0.5f), glm::vec3(1)));
+    const Scene scene = closedBox(diffuseMaterial(glm::vec3(0.5f), glm::vec3(1)));
     renderer.setScene(scene);
     renderer.render(scene.cameras.at(0), kPixels, kPixels, settingsOf(Mode::Traced, Component::Full));
     const PixelInspection pixel = renderer.inspectPixel(20, 20);

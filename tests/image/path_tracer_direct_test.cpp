@@ -118,7 +118,7 @@ TEST_F(PathTracerDirectTest, SunAtDefaultSettings) {
 // Spots with soft edges, a narrow and a wide one (which GL gives the six maps of a point light), one with
 // glTF's range, one with the thesis's falloff.
 TEST_F(PathTracerDirectTest, Spots) {
-    Scene scene = closedBox(mattMaterial(glm::vec3(0.7f, 0.5f, 0.3f)));
+    Scene scene = closedBox(diffuseMaterial(glm::vec3(0.7f, 0.5f, 0.3f)));
     scene.materials[3].specular = 1;
     scene.materials[3].roughness = 0.5f;
     glm::mat4 place(0.3f);

@@ -18,7 +18,7 @@ using TracedMirrorsTest = TracedModeTest;
 // Two metal walls face each other; each shows what the other shows of a lit room.
 TEST_F(TracedMirrorsTest, MetalSeenInMetalIsTheTruth) {
     for (const bool lamp : {false, true}) {
-        Scene scene = closedBox(mattMaterial(glm::vec3(0.5f)));
+        Scene scene = closedBox(diffuseMaterial(glm::vec3(0.5f)));
         const auto wall = [&](std::size_t i) -> Material& {
             return scene.materials[static_cast<std::size_t>(scene.instances[i].material)];
         };
@@ -61,8 +61,8 @@ TEST_F(TracedMirrorsTest, MetalSeenInMetalIsTheTruth) {
 // Two metal balls under a lamp show each other's highlights, small and bright, where the truth has them:
 // about the balls' own normals, not those of their voxels, and only of the part of the lamp that is in sight.
 TEST_F(TracedMirrorsTest, MetalBallsShowEachOthersHighlights) {
-    Scene scene = closedBox(mattMaterial(glm::vec3(0.5f)));
-    Material metal = mattMaterial(glm::vec3(0.9f, 0.7f, 0.4f));
+    Scene scene = closedBox(diffuseMaterial(glm::vec3(0.5f)));
+    Material metal = diffuseMaterial(glm::vec3(0.9f, 0.7f, 0.4f));
     metal.metallic = 1;
     metal.roughness = 0.13f;
     for (const float x : {-0.48f, 0.48f})
@@ -70,7 +70,7 @@ TEST_F(TracedMirrorsTest, MetalBallsShowEachOthersHighlights) {
                     glm::scale(glm::translate(glm::mat4(1), {x, -0.6f, -0.1f}), glm::vec3(0.35f)));
     // 1.5 mm below the ceiling, its edges within voxels.
     addInstance(scene, quadMesh({-0.43f, 0.9985f, -0.27f}, {0.81f, 0, 0}, {0, 0, 0.55f}),
-                mattMaterial(glm::vec3(0), glm::vec3(6)));
+                diffuseMaterial(glm::vec3(0), glm::vec3(6)));
     Camera& camera = scene.cameras.at(0);
     camera.eye = {0, -0.45f, 0.95f};
     camera.target = {0, -0.6f, -0.1f};
@@ -91,7 +91,7 @@ TEST_F(TracedMirrorsTest, MetalBallsShowEachOthersHighlights) {
 
 // Half as wide as a voxel, the stripes of a wall are one colour to voxels; the mirror shows each of them.
 TEST_F(TracedMirrorsTest, ExactMirrorsShowTextures) {
-    Scene scene = closedBox(mattMaterial(glm::vec3(0)));
+    Scene scene = closedBox(diffuseMaterial(glm::vec3(0)));
     Texture stripes;
     stripes.width = stripes.height = 64;
     for (int i = 0; i < 64 * 64; ++i) {
@@ -103,7 +103,7 @@ TEST_F(TracedMirrorsTest, ExactMirrorsShowTextures) {
     Material& wall = scene.materials[static_cast<std::size_t>(scene.instances[5].material)];
     wall.emission = glm::vec3(1);
     wall.emissiveTexture.texture = 0;
-    Material metal = mattMaterial(glm::vec3(1));
+    Material metal = diffuseMaterial(glm::vec3(1));
     metal.metallic = 1;
     metal.roughness = 0.02f;
     addInstance(scene, quadMesh({-0.9f, -0.9f, -0.95f}, {1.8f, 0, 0}, {0, 1.8f, 0}), metal);
@@ -127,16 +127,16 @@ TEST_F(TracedMirrorsTest, ExactMirrorsShowTextures) {
 
 // A masked surface has holes in a mirror, and an instance that moved is where it is now.
 TEST_F(TracedMirrorsTest, ExactMirrorsShowHolesAndWhatMoved) {
-    Scene scene = closedBox(mattMaterial(glm::vec3(0)));
+    Scene scene = closedBox(diffuseMaterial(glm::vec3(0)));
     Texture half;
     half.width = half.height = 2;
     half.rgba = {255, 255, 255, 255, 255, 255, 255, 0, 255, 255, 255, 255, 255, 255, 255, 0};
     half.filter = TextureFilter::Nearest;
     scene.textures.push_back(std::move(half));
-    Material sheet = mattMaterial(glm::vec3(0), glm::vec3(1));
+    Material sheet = diffuseMaterial(glm::vec3(0), glm::vec3(1));
     sheet.baseColorTexture.texture = 0;
     sheet.alphaMode = AlphaMode::Mask;
-    Material metal = mattMaterial(glm::vec3(1));
+    Material metal = diffuseMaterial(glm::vec3(1));
     metal.metallic = 1;
     metal.roughness = 0.02f;
     addInstance(scene, quadMesh({-1, -1, -0.95f}, {2, 0, 0}, {0, 2, 0}), metal);
@@ -175,9 +175,9 @@ TEST_F(TracedMirrorsTest, ExactMirrorsShowHolesAndWhatMoved) {
 // ball that is elsewhere than in the picture before leaves nothing behind, and the whole picture, which is
 // drawn at once where lookups are counted, is the same but for rounding.
 TEST_F(TracedMirrorsTest, LobesAreWhereTheirInstancesAre) {
-    Scene scene = closedBox(mattMaterial(glm::vec3(0.5f)));
+    Scene scene = closedBox(diffuseMaterial(glm::vec3(0.5f)));
     scene.materials[static_cast<std::size_t>(scene.instances[2].material)].emission = glm::vec3(1);
-    Material metal = mattMaterial(glm::vec3(0.9f, 0.7f, 0.4f));
+    Material metal = diffuseMaterial(glm::vec3(0.9f, 0.7f, 0.4f));
     metal.metallic = 1;
     metal.roughness = 0.2f;
     addInstance(scene, sphereMesh(32, 16), metal,

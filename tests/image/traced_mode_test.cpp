@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Pictures of mode `traced` against what must be so: furnaces (matt and metal), bounces, parts that add up,
-// the same bits every time, memory, solids with two sides.
+// Pictures of mode `traced` against what must be so: furnaces (diffuse and metal), bounces, parts that add
+// up, the same bits every time, memory, solids with two sides.
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
@@ -14,7 +14,7 @@ constexpr int kPixels = kTracedPixels;
 
 // Every ray of a closed box ends at a wall that shows e + rho L: L = e / (1 - rho) after all bounces.
 TEST_F(TracedModeTest, FurnaceIsEvenAtEveryQuality) {
-    const Scene scene = closedBox(mattMaterial(glm::vec3(0.5f), glm::vec3(1)));
+    const Scene scene = closedBox(diffuseMaterial(glm::vec3(0.5f), glm::vec3(1)));
     for (const Quality quality : {Quality::Draft, Quality::Interactive, Quality::High, Quality::Converged}) {
         Settings settings = tracedSettings(quality);
         settings.light.emissiveQuads = false;  // the walls shine by their voxels
@@ -29,7 +29,7 @@ TEST_F(TracedModeTest, FurnaceIsEvenAtEveryQuality) {
 // White metal takes nothing away: a plate in a furnace of radiance 2 cannot be seen.
 TEST_F(TracedModeTest, WhiteMetalVanishesInTheFurnace) {
     for (const float roughness : {0.05f, 0.3f, 0.8f}) {
-        Scene scene = closedBox(mattMaterial(glm::vec3(0.5f), glm::vec3(1)));
+        Scene scene = closedBox(diffuseMaterial(glm::vec3(0.5f), glm::vec3(1)));
         Material metal;
         metal.baseColor = glm::vec4(1);
         metal.metallic = 1;
@@ -46,7 +46,7 @@ TEST_F(TracedModeTest, WhiteMetalVanishesInTheFurnace) {
 // The edges of a box run through the middles of the pixels on the diagonals. A ray that starts on such an
 // edge lies on two walls, and must meet the other one.
 TEST_F(TracedModeTest, CornersLoseNoLight) {
-    Scene scene = closedBox(mattMaterial(glm::vec3(0.5f), glm::vec3(1)));
+    Scene scene = closedBox(diffuseMaterial(glm::vec3(0.5f), glm::vec3(1)));
     Camera& camera = scene.cameras.at(0);
     camera.eye = {0, 0, 0.9f};
     camera.target = {0, 0, -1};
@@ -130,7 +130,7 @@ TEST_F(TracedModeTest, PartsAreTheSameInAFreshRenderer) {
 
 // Furnace of albedo 1/2 and emission 1: n bounces show 2 - 2^-n.
 TEST_F(TracedModeTest, BouncesAddUpOneByOne) {
-    const Scene scene = closedBox(mattMaterial(glm::vec3(0.5f), glm::vec3(1)));
+    const Scene scene = closedBox(diffuseMaterial(glm::vec3(0.5f), glm::vec3(1)));
     Renderer renderer;
     renderer.setScene(scene);
     for (const int rays : {0, 2}) {
@@ -182,9 +182,9 @@ TEST_F(TracedModeTest, SolidsMayBeTwoSided) {
         column.uvs.insert(column.uvs.end(), rib.uvs.begin(), rib.uvs.end());
         for (const std::uint32_t index : rib.indices) column.indices.push_back(first + index);
     }
-    Material stone = mattMaterial(glm::vec3(0.7f));
+    Material stone = diffuseMaterial(glm::vec3(0.7f));
     Scene scene;
-    addInstance(scene, quadMesh({-1, -1, 1}, {2, 0, 0}, {0, 0, -2}), mattMaterial(glm::vec3(0.5f)));
+    addInstance(scene, quadMesh({-1, -1, 1}, {2, 0, 0}, {0, 0, -2}), diffuseMaterial(glm::vec3(0.5f)));
     addInstance(scene, quadMesh({-0.5f, 0.6f, 0.5f}, {1, 0, 0}, {0, 0, -1}), stone);
     addInstance(scene, quadMesh({-0.5f, 0.6f, -0.5f}, {1, 0, 0}, {0, 0, 1}), stone);
     addInstance(scene, column, stone);

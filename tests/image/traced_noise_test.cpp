@@ -17,10 +17,10 @@ using TracedNoiseTest = TracedModeTest;
 // A room 2 wide with a wall from side to side that is much thinner than a voxel; light on one side only,
 // seen from above through the missing ceiling... of both floors.
 Scene dividedRoom() {
-    Scene scene = closedBox(mattMaterial(glm::vec3(0.7f)));
+    Scene scene = closedBox(diffuseMaterial(glm::vec3(0.7f)));
     // Two faces 0.02 apart: a third of a voxel of 2.1 m / 32.
-    addInstance(scene, quadMesh({0.01f, -1, -1}, {0, 2, 0}, {0, 0, 2}), mattMaterial(glm::vec3(0.7f)));
-    addInstance(scene, quadMesh({-0.01f, -1, -1}, {0, 0, 2}, {0, 2, 0}), mattMaterial(glm::vec3(0.7f)));
+    addInstance(scene, quadMesh({0.01f, -1, -1}, {0, 2, 0}, {0, 0, 2}), diffuseMaterial(glm::vec3(0.7f)));
+    addInstance(scene, quadMesh({-0.01f, -1, -1}, {0, 0, 2}, {0, 2, 0}), diffuseMaterial(glm::vec3(0.7f)));
     Light light;
     light.type = LightType::Point;
     light.position = {0.5f, 0.5f, 0};
@@ -29,8 +29,8 @@ Scene dividedRoom() {
     return scene;
 }
 
-// Front and back of a thin lamp alternate among the bright faces: no pixel's rays find the back alone.
-TEST_F(TracedNoiseTest, RaysToBrightFacesDoNotKeepStepWithVoxels) {
+// Front and back of a thin lamp alternate among the light samples: no pixel's rays find the back alone.
+TEST_F(TracedNoiseTest, LightSampledRaysDoNotKeepStepWithVoxels) {
     const Scene scene = io::generateScene("lobby");
     Settings settings;
     settings.mode = Mode::Traced;
@@ -164,7 +164,7 @@ TEST_F(TracedNoiseTest, MetalsThrowNoSpecklesOnWalls) {
     EXPECT_NEAR(meanOf(draw(scene, settings)) / expected, 1.0, 0.03);
 }
 
-// A lamp far away whose edges lie between voxels. Of what it sends no part is left to rays by the cosine
+// A lamp far away whose edges lie between voxels. No part of its light is left to cosine-sampled rays
 // alone: the few that meet it would each be a white dot.
 TEST_F(TracedNoiseTest, FarLampsThrowNoDotsOnFloors) {
     const Scene scene = io::generateScene("tunnel");

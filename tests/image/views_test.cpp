@@ -13,7 +13,7 @@ constexpr int kPixels = kViewPixels;
 // One quad that fills the view: its diagonal is an edge, the middles of its halves are not.
 TEST_F(ViewsTest, EdgesLieWhereTrianglesMeet) {
     Scene scene;
-    addInstance(scene, quadMesh({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), mattMaterial(glm::vec3(0.5f)));
+    addInstance(scene, quadMesh({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), diffuseMaterial(glm::vec3(0.5f)));
     scene.cameras.push_back(cameraAbove({0, 0, 0}, 2, 2));
     scene.sky = glm::vec3(0.25f);
     Settings settings = viewSettings(Mode::Phong, Component::Albedo);
@@ -71,7 +71,7 @@ TEST_F(ViewsTest, HiddenEdgesAreLeftOutUnlessAlone) {
 // A light 1.5 above a floor: below it the map holds that distance along its axis.
 TEST_F(ViewsTest, ShadowMapsHoldDistances) {
     Scene scene;
-    addInstance(scene, quadMesh({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}), mattMaterial(glm::vec3(0.5f)));
+    addInstance(scene, quadMesh({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}), diffuseMaterial(glm::vec3(0.5f)));
     scene.cameras.push_back(cameraAbove({0, 0, 0}, 2, 2));
     Light sun;
     sun.type = LightType::Directional;

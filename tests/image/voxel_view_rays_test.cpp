@@ -32,7 +32,7 @@ Scene scatteredPatches() {
         const glm::vec3 place(2 * hash(0) - 1, 2 * hash(1) - 1, 2 * hash(2) - 1);
         const glm::vec3 u = 0.1f * glm::normalize(glm::vec3(hash(3), hash(4), hash(5)) - 0.5f);
         const glm::vec3 v = glm::normalize(glm::cross(u, glm::vec3(hash(6), hash(7), 0.3f))) * 0.15f;
-        Material material = mattMaterial({0.1f + 0.8f * hash(8), 0.1f + 0.8f * hash(9), 0.5f});
+        Material material = diffuseMaterial({0.1f + 0.8f * hash(8), 0.1f + 0.8f * hash(9), 0.5f});
         material.doubleSided = true;
         addInstance(scene, quadMesh(place, u, v), material);
     }

@@ -87,7 +87,7 @@ TEST_F(VoxelViewsTest, LampsGlow) {
 
 // Age is the number of updates; the cache's irradiance alone is dark where there is nothing to reflect.
 TEST_F(VoxelViewsTest, AgeCountsUpdates) {
-    const Scene scene = closedBox(mattMaterial(glm::vec3(0.5f), glm::vec3(1)));
+    const Scene scene = closedBox(diffuseMaterial(glm::vec3(0.5f), glm::vec3(1)));
     Settings settings = viewSettings(Mode::Traced, Component::Voxels);
     settings.view.voxelData = VoxelData::Age;
     settings.traced.cacheUpdates = 1;
@@ -108,7 +108,7 @@ TEST_F(VoxelViewsTest, AgeCountsUpdates) {
 // A cone of the aperture has the diameter of a voxel at one distance, and of two at twice that.
 TEST_F(VoxelViewsTest, TheLevelGrowsWithTheDistance) {
     Scene scene;
-    addInstance(scene, quadMesh({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}), mattMaterial(glm::vec3(0.5f)));
+    addInstance(scene, quadMesh({-4, 0, 4}, {8, 0, 0}, {0, 0, -8}), diffuseMaterial(glm::vec3(0.5f)));
     Camera camera;
     camera.eye = {0, 0.8f, 3.9f};
     camera.target = {0, 0.3f, 0};
@@ -142,7 +142,7 @@ TEST_F(VoxelViewsTest, VoxelsStandAmongTheObjects) {
     Scene scene = redCube();
     // A plate in front of the cube's left half that is not voxelized.
     const std::size_t plate =
-        addInstance(scene, quadMesh({-1, -1, 1}, {1, 0, 0}, {0, 2, 0}), mattMaterial({0, 0, 1}));
+        addInstance(scene, quadMesh({-1, -1, 1}, {1, 0, 0}, {0, 2, 0}), diffuseMaterial({0, 0, 1}));
     scene.instances[plate].voxelized = false;
     for (const Mode mode : {Mode::Traced, Mode::Cones, thesis::kMode}) {
         Settings settings = viewSettings(mode, Component::Albedo);

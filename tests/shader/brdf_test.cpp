@@ -13,13 +13,13 @@ namespace {
 
 constexpr double kPi = 3.14159265358979;
 
-// Share of light that the lobe sends from a uniform environment to an eye at `nov`, by the midpoint rule over
+// Share of light that the lobe sends from a uniform environment to an eye at `NoV`, by the midpoint rule over
 // the half vector's distribution: theta of the half vector is spaced by the GGX distribution, so that narrow
 // lobes are resolved as well as wide ones.
-glm::dvec3 reflectedOfFurnace(const math::Brdf& brdf, double nov) {
+glm::dvec3 reflectedOfFurnace(const math::Brdf& brdf, double NoV) {
     const int rings = 400, sectors = 256;
     const double a2 = static_cast<double>(brdf.alpha) * static_cast<double>(brdf.alpha);
-    const glm::dvec3 eye(std::sqrt(1 - nov * nov), 0, nov);
+    const glm::dvec3 eye(std::sqrt(1 - NoV * NoV), 0, NoV);
     glm::dvec3 sum(0);
     for (int i = 0; i < rings; ++i) {
         // Inverse of the cumulative distribution of D cos over the sphere of half vectors.
@@ -30,11 +30,11 @@ glm::dvec3 reflectedOfFurnace(const math::Brdf& brdf, double nov) {
         for (int j = 0; j < sectors; ++j) {
             const double phi = 2 * kPi * (j + 0.5) / sectors;
             const glm::dvec3 h(sinTheta * std::cos(phi), sinTheta * std::sin(phi), cosTheta);
-            const double voh = glm::dot(eye, h);
-            const glm::dvec3 l = 2 * voh * h - eye;
-            if (voh <= 0 || l.z <= 0) continue;
+            const double VoH = glm::dot(eye, h);
+            const glm::dvec3 l = 2 * VoH * h - eye;
+            if (VoH <= 0 || l.z <= 0) continue;
             // Density over light directions: D cos(theta) / (4 VoH).
-            const double density = d * cosTheta / (4 * voh);
+            const double density = d * cosTheta / (4 * VoH);
             const glm::vec3 f = math::brdfSpecular(brdf, {0, 0, 1}, glm::vec3(l), glm::vec3(eye));
             sum += glm::dvec3(f) * (l.z / density);
         }
@@ -44,21 +44,21 @@ glm::dvec3 reflectedOfFurnace(const math::Brdf& brdf, double nov) {
 
 TEST(BrdfTest, WhiteMetalReturnsTheWhiteFurnace) {
     for (const float roughness : {0.1f, 0.2f, 0.35f, 0.5f, 0.7f, 0.85f, 1.0f})
-        for (const float nov : {0.05f, 0.15f, 0.3f, 0.5f, 0.75f, 1.0f}) {
-            const math::Brdf brdf = math::makeBrdf(glm::vec3(1), 1, roughness, glm::vec3(0.04f), nov);
-            EXPECT_NEAR(reflectedOfFurnace(brdf, static_cast<double>(nov)).x, 1, 0.01)
-                << "roughness " << roughness << ", NoV " << nov;
+        for (const float NoV : {0.05f, 0.15f, 0.3f, 0.5f, 0.75f, 1.0f}) {
+            const math::Brdf brdf = math::makeBrdf(glm::vec3(1), 1, roughness, glm::vec3(0.04f), NoV);
+            EXPECT_NEAR(reflectedOfFurnace(brdf, static_cast<double>(NoV)).x, 1, 0.01)
+                << "roughness " << roughness << ", NoV " << NoV;
             EXPECT_EQ(brdf.diffuse, glm::vec3(0));
         }
 }
 
 TEST(BrdfTest, WhiteDielectricReturnsTheWhiteFurnace) {
     for (const float roughness : {0.1f, 0.2f, 0.35f, 0.5f, 0.7f, 0.85f, 1.0f})
-        for (const float nov : {0.1f, 0.3f, 0.5f, 0.75f, 1.0f}) {
-            const math::Brdf brdf = math::makeBrdf(glm::vec3(1), 0, roughness, glm::vec3(0.04f), nov);
+        for (const float NoV : {0.1f, 0.3f, 0.5f, 0.75f, 1.0f}) {
+            const math::Brdf brdf = math::makeBrdf(glm::vec3(1), 0, roughness, glm::vec3(0.04f), NoV);
             const double total =
-                reflectedOfFurnace(brdf, static_cast<double>(nov)).x + static_cast<double>(brdf.diffuse.x);
-            EXPECT_NEAR(total, 1, 0.01) << "roughness " << roughness << ", NoV " << nov;
+                reflectedOfFurnace(brdf, static_cast<double>(NoV)).x + static_cast<double>(brdf.diffuse.x);
+            EXPECT_NEAR(total, 1, 0.01) << "roughness " << roughness << ", NoV " << NoV;
         }
 }
 
@@ -73,9 +73,9 @@ TEST(BrdfTest, EvenAlbedoIsHalfTheLobeOverTheBase) {
         double mean = 0;
         const int steps = 1000;
         for (int i = 0; i < steps; ++i) {
-            const float nov = (static_cast<float>(i) + 0.5f) / steps;
+            const float NoV = (static_cast<float>(i) + 0.5f) / steps;
             mean +=
-                2.0 * static_cast<double>(nov * math::makeBrdf(glm::vec3(0), 0, roughness, f0, nov).albedo.x);
+                2.0 * static_cast<double>(NoV * math::makeBrdf(glm::vec3(0), 0, roughness, f0, NoV).albedo.x);
         }
         mean /= steps;
         EXPECT_NEAR(static_cast<double>(math::evenAlbedo(glm::vec3(0), 0, roughness, f0).x), 0.5 * mean,
@@ -92,9 +92,9 @@ TEST(BrdfTest, NoSpecularMeansLambert) {
 
 TEST(BrdfTest, SpecularAlbedoPredictsTheFurnace) {
     for (const float roughness : {0.2f, 0.6f, 1.0f})
-        for (const float nov : {0.2f, 0.6f, 1.0f}) {
-            const math::Brdf brdf = math::makeBrdf({0.9f, 0.6f, 0.3f}, 1, roughness, glm::vec3(0.04f), nov);
-            const glm::dvec3 got = reflectedOfFurnace(brdf, static_cast<double>(nov));
+        for (const float NoV : {0.2f, 0.6f, 1.0f}) {
+            const math::Brdf brdf = math::makeBrdf({0.9f, 0.6f, 0.3f}, 1, roughness, glm::vec3(0.04f), NoV);
+            const glm::dvec3 got = reflectedOfFurnace(brdf, static_cast<double>(NoV));
             for (int c = 0; c < 3; ++c) EXPECT_NEAR(got[c], static_cast<double>(brdf.albedo[c]), 0.01);
         }
 }

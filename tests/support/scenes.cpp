@@ -5,7 +5,7 @@
 
 namespace conelight::test {
 
-Material mattMaterial(const glm::vec3& albedo, const glm::vec3& emission) {
+Material diffuseMaterial(const glm::vec3& albedo, const glm::vec3& emission) {
     Material material;
     material.baseColor = glm::vec4(albedo, 1);
     material.emission = emission;

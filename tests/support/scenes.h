@@ -8,7 +8,7 @@
 namespace conelight::test {
 
 // Lambert alone: no specular lobe. White unless said.
-Material mattMaterial(const glm::vec3& albedo = glm::vec3(1), const glm::vec3& emission = glm::vec3(0));
+Material diffuseMaterial(const glm::vec3& albedo = glm::vec3(1), const glm::vec3& emission = glm::vec3(0));
 
 // One quad (two triangles) with its normal, counter-clockwise from the side of cross(edgeU, edgeV).
 Mesh quadMesh(const glm::vec3& origin, const glm::vec3& edgeU, const glm::vec3& edgeV);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Cameras and reductions of pictures for tests of the path tracer: what a matt plane shows is the irradiance
-// on it.
+// Cameras and reductions of pictures for tests of the path tracer: what a diffuse plane shows is the
+// irradiance on it.
 #pragma once
 
 #include "conelight/scene.h"

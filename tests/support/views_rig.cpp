@@ -42,7 +42,7 @@ Scene redCube() {
             v[(axis + 2) % 3] = 1;
             const glm::vec3 corner = 0.5f * n - 0.5f * (u + v);
             addInstance(outside, side > 0 ? quadMesh(corner, u, v) : quadMesh(corner, v, u),
-                        mattMaterial({0.8f, 0.1f, 0.05f}));
+                        diffuseMaterial({0.8f, 0.1f, 0.05f}));
         }
     Light light;
     light.type = LightType::Point;

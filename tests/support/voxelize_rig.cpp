@@ -33,10 +33,10 @@ Mesh torusMesh(int rings, int sides) {
 
 }  // namespace
 
-int addMattMaterial(Scene& scene, const glm::vec3& albedo, bool doubleSided) {
+int addDiffuseMaterial(Scene& scene, const glm::vec3& albedo, bool doubleSided) {
     Material material;
     material.baseColor = glm::vec4(albedo, 1);
-    material.specular = 0;  // matt: reflects what its colour says
+    material.specular = 0;  // diffuse: reflects what its colour says
     material.doubleSided = doubleSided;
     scene.materials.push_back(material);
     return static_cast<int>(scene.materials.size()) - 1;
@@ -62,13 +62,13 @@ Mesh squareMesh(float repeats) {
 Scene rotatedBox() {
     Scene scene;
     const glm::mat4 turn = glm::rotate(glm::rotate(glm::mat4(1), 0.7f, {0.3f, 1, 0.2f}), 0.4f, {1, 0, 0.5f});
-    addInstance(scene, boxMesh(), addMattMaterial(scene, {0.25f, 0.5f, 0.75f}), turn);
+    addInstance(scene, boxMesh(), addDiffuseMaterial(scene, {0.25f, 0.5f, 0.75f}), turn);
     return scene;
 }
 
 Scene torus() {
     Scene scene;
-    addInstance(scene, torusMesh(90, 40), addMattMaterial(scene, {0.9f, 0.1f, 0.4f}),
+    addInstance(scene, torusMesh(90, 40), addDiffuseMaterial(scene, {0.9f, 0.1f, 0.4f}),
                 glm::rotate(glm::mat4(1), 0.5f, {1, 0.2f, 0.1f}));
     return scene;
 }

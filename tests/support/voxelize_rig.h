@@ -16,7 +16,7 @@
 namespace conelight::test {
 
 // A material without specular lobe; returns its index.
-int addMattMaterial(Scene& scene, const glm::vec3& albedo, bool doubleSided = false);
+int addDiffuseMaterial(Scene& scene, const glm::vec3& albedo, bool doubleSided = false);
 // Adds the mesh with material number `material`.
 void addInstance(Scene& scene, Mesh mesh, int material, const glm::mat4& worldFromObject = glm::mat4(1));
 
