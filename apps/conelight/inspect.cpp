@@ -102,9 +102,10 @@ void run(const InspectOptions& options) {
     Image& image = picture.images.front();
     Picker picker;
     const float aspect = static_cast<float>(request.size.width) / static_cast<float>(request.size.height);
+    const float exposure = request.settings.image.exposure.resolve(autoExposure(image));
     for (const PictureLine& line :
          inspectionLines(found, session.camera(), aspect, -1, seenFrom(picker, session)))
-        drawLine(image, line, std::exp2(-request.settings.image.exposure));
+        drawLine(image, line, std::exp2(-exposure));
     writePicture(options.output, image, request.settings.image);
 }
 

@@ -109,6 +109,10 @@ class Renderer {
     std::unique_ptr<Impl> impl_;
 };
 
+// Exposure, stops, that shows the picture's mean log luminance as middle grey; a tenth of its pixels, the
+// darkest, and a twentieth, the brightest, do not count. 0 where all is black.
+float autoExposure(const Image& image);
+
 // 8-bit picture bytes (RGB, first row on top) of a linear image: exposure, tone map, sRGB encoding.
 std::vector<std::uint8_t> toneMapped(const Image& image, const ImageSettings& settings);
 

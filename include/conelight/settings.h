@@ -30,7 +30,8 @@ enum class Component {
     ShadowMap
 };
 
-enum class ToneMap { None, Reinhard, Aces };
+// Agx and Neutral (Khronos PBR Neutral) keep hues; Neutral keeps colours below 0.76 as they are.
+enum class ToneMap { None, Reinhard, Aces, Agx, Neutral };
 
 struct VoxelSettings {
     int size = 128;
@@ -47,7 +48,7 @@ struct LightSettings {
     bool operator==(const LightSettings&) const = default;
 };
 
-// A number with a default that depends on the voxel size; set with `auto` or a number.
+// A number, or `auto`: one that follows from the scene, its voxels or its picture.
 struct AutoFloat {
     bool isAuto = true;
     float value = 0;
@@ -153,7 +154,7 @@ struct ViewSettings {
 };
 
 struct ImageSettings {
-    float exposure = 0.0f;
+    AutoFloat exposure{false, 0.0f};  // stops; auto: autoExposure() of the picture
     ToneMap toneMap = ToneMap::Aces;
     bool srgb = true;
     bool operator==(const ImageSettings&) const = default;

@@ -5,15 +5,43 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "shared/image.h"
 layout(std140) uniform DisplayBlock { DisplayConstants display; };
+layout(std140) uniform ExposureBlock { Exposure exposure; };
 uniform sampler2D linearImage;
 layout(rgba8) uniform writeonly image2D displayImage;
 
 const float kWhite = 1e6;  // see tone_map.cpp
 
+vec3 agx(vec3 c) {
+    const mat3 inset = mat3(0.842479062, 0.042328242, 0.042375655, 0.0784336, 0.878468636, 0.0784336,
+                            0.079223745, 0.079166127, 0.879142974);
+    const mat3 outset = mat3(1.196879005, -0.052896852, -0.052971636, -0.098020881, 1.151903130, -0.098043450,
+                             -0.099029744, -0.098961177, 1.151073673);
+    vec3 x = clamp((log2(max(inset * c, vec3(1e-10))) + 12.47393) / 16.5, 0.0, 1.0);
+    vec3 x2 = x * x, x4 = x2 * x2;
+    vec3 curved = 15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 +
+                  0.1191 * x - 0.00232;
+    return pow(max(outset * curved / 0.99858, vec3(0.0)), vec3(2.2));
+}
+
+vec3 neutral(vec3 c) {
+    const float start = 0.76, room = 0.24, desaturation = 0.15;
+    float least = min(c.r, min(c.g, c.b));
+    c -= least < 0.08 ? least - 6.25 * least * least : 0.04;
+    float peak = max(c.r, max(c.g, c.b));
+    float shown = 1.0 - room * room / (max(peak, start) + room - start);
+    vec3 white = vec3(shown);
+    vec3 squeezed = mix(white, c * (shown / max(peak, start)), 1.0 / (desaturation * (peak - shown) + 1.0));
+    return peak < start ? c : squeezed;
+}
+
 vec3 toneCurve(vec3 c) {
-    vec3 reinhard = c / (1.0 + dot(c, vec3(0.2126, 0.7152, 0.0722)));
-    vec3 aces = (c * (2.51 * c + 0.03)) / (c * (2.43 * c + 0.59) + 0.14);
-    return display.curve == 0u ? c : display.curve == 1u ? reinhard : aces;
+    switch (display.curve) {
+        case 1u: return c / (1.0 + dot(c, vec3(0.2126, 0.7152, 0.0722)));
+        case 2u: return (c * (2.51 * c + 0.03)) / (c * (2.43 * c + 0.59) + 0.14);
+        case 3u: return agx(c);
+        case 4u: return neutral(c);
+        default: return c;
+    }
 }
 
 vec3 srgbFromLinear(vec3 c) {
@@ -27,7 +55,7 @@ void main() {
     if (pixel.x >= size.x || pixel.y >= size.y) return;
     vec3 color = texelFetch(linearImage, ivec2(pixel.x, size.y - 1 - pixel.y), 0).rgb;
     color = mix(color, vec3(0.0), isnan(color));
-    color = clamp(toneCurve(clamp(color * display.scale, 0.0, kWhite)), 0.0, 1.0);
+    color = clamp(toneCurve(clamp(color * exposure.scale, 0.0, kWhite)), 0.0, 1.0);
     color = display.srgb != 0u ? srgbFromLinear(color) : color;
     imageStore(displayImage, pixel, vec4(color, 1.0));
 }

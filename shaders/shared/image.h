@@ -3,19 +3,38 @@
 #pragma once
 #include "shared/prelude.h"
 
+// Automatic exposure: pixels are counted in four bins a stop (the upper bits of a float), from 2^-32 to 2^32.
+#define EXPOSURE_BINS 256
+#define EXPOSURE_SHIFT 21
+#define EXPOSURE_FIRST 380u  // (127 - 32) * 4: the bin of 2^-32
+#define EXPOSURE_LEAST 2.3283064e-10f
+#define EXPOSURE_MOST 4.2949673e9f
+#define EXPOSURE_DARKEST 10u    // one pixel in so many is left out, the darkest
+#define EXPOSURE_BRIGHTEST 20u  // and one in so many, the brightest
+#define EXPOSURE_GREY 0.18f     // what the mean becomes: middle grey
+#define EXPOSURE_LIMIT 20.0f    // stops
+
 CONELIGHT_SHARED_BEGIN
+
+// Uniform block of passes that show a picture.
+struct Exposure {
+    float stops;
+    float scale;  // 2^stops
+    uint pad0;
+    uint pad1;
+};  // 16 B
 
 // Uniform block of image/display.comp.glsl.
 struct DisplayConstants {
-    float scale;  // 2^exposure
-    uint curve;   // ToneMap: 0 none, 1 Reinhard, 2 ACES
-    uint srgb;    // encode
+    uint curve;  // ToneMap: 0 none, 1 Reinhard, 2 ACES, 3 AgX, 4 Khronos PBR Neutral
+    uint srgb;   // encode
     uint pad0;
+    uint pad1;
 };  // 16 B
 
 // Uniform block of image/wireframe.*.
 struct WireframeConstants {
-    vec3 radiance;
+    vec3 color;  // on the screen, before the tone map
     float opacity;
     // ---- 16 B
     float halfWidth;  // pixels
@@ -39,6 +58,7 @@ struct ShadowViewConstants {
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
+static_assert(sizeof(conelight::gpu::Exposure) == 16);
 static_assert(sizeof(conelight::gpu::DisplayConstants) == 16);
 static_assert(sizeof(conelight::gpu::WireframeConstants) == 32);
 static_assert(sizeof(conelight::gpu::ShadowViewConstants) == 32);

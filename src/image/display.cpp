@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "image/display.h"
 
-#include <cmath>
-
 #include "gl/gl.h"
 #include "shared/image.h"
 
@@ -19,6 +17,10 @@ std::uint32_t curveOf(ToneMap curve) {
             return 1;
         case ToneMap::Aces:
             return 2;
+        case ToneMap::Agx:
+            return 3;
+        case ToneMap::Neutral:
+            return 4;
     }
     return 0;
 }
@@ -32,18 +34,23 @@ void Display::draw(const gl::Device& device, const gl::Texture& linear, const Im
     }
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::DisplayConstants), "display constants");
     gpu::DisplayConstants constants{};
-    constants.scale = std::exp2(settings.exposure);
+    exposure_.measure(device, linear, settings.exposure);
     constants.curve = curveOf(settings.toneMap);
     constants.srgb = settings.srgb ? 1 : 0;
     constants_.update(constants);
     gl::Inputs inputs;
-    inputs.uniform("DisplayBlock", constants_)
+    inputs.add(exposure_)
+        .uniform("DisplayBlock", constants_)
         .texture("linearImage", linear)
         .image("displayImage", texture_, gl::ImageUse::Write);
     device.get(programDesc()).dispatch(inputs, linear.width(), linear.height());
     gl::barrier(gl::Access::TextureFetch);
 }
 
-std::vector<gl::ProgramDesc> Display::programDescs() { return {programDesc()}; }
+std::vector<gl::ProgramDesc> Display::programDescs() {
+    std::vector<gl::ProgramDesc> descs = Exposure::programDescs();
+    descs.push_back(programDesc());
+    return descs;
+}
 
 }  // namespace conelight::image

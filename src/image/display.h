@@ -8,6 +8,7 @@
 #include "gl/buffer.h"
 #include "gl/device.h"
 #include "gl/texture.h"
+#include "image/exposure.h"
 
 namespace conelight::image {
 
@@ -22,6 +23,7 @@ class Display {
 
   private:
     gl::Texture texture_;
+    Exposure exposure_;
     gl::Buffer constants_;
 };
 

@@ -1,14 +1,42 @@
 // SPDX-License-Identifier: MIT
 // Linear radiance -> 8-bit picture: exposure, tone curve, sRGB (IEC 61966-2-1), rounding without dither.
 // Curves: Reinhard 2002 on luminance; the filmic curve is Narkowicz's rational fit of the ACES reference
-// transform ("ACES Filmic Tone Mapping Curve", 2015), applied per channel.
+// transform ("ACES Filmic Tone Mapping Curve", 2015), applied per channel; AgX is Sobotka's, with the
+// matrices and the polynomial that Wrensch fitted ("Minimal AgX Implementation", 2023); Neutral is the
+// Khronos PBR Neutral Tone Mapper (2024). Automatic exposure: shaders/image/exposure_sums.comp.glsl.
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 #include "conelight/renderer.h"
+#include "shared/image.h"
 
 namespace conelight {
 namespace {
+
+glm::vec3 agx(const glm::vec3& c) {
+    const glm::mat3 inset(0.842479062f, 0.042328242f, 0.042375655f, 0.0784336f, 0.878468636f, 0.0784336f,
+                          0.079223745f, 0.079166127f, 0.879142974f);
+    const glm::mat3 outset(1.196879005f, -0.052896852f, -0.052971636f, -0.098020881f, 1.151903130f,
+                           -0.098043450f, -0.099029744f, -0.098961177f, 1.151073673f);
+    const glm::vec3 x = glm::clamp((glm::log2(glm::max(inset * c, 1e-10f)) + 12.47393f) / 16.5f, 0.0f, 1.0f);
+    const glm::vec3 x2 = x * x, x4 = x2 * x2;
+    const glm::vec3 curved = 15.5f * x4 * x2 - 40.14f * x4 * x + 31.96f * x4 - 6.868f * x2 * x +
+                             0.4298f * x2 + 0.1191f * x - 0.00232f;
+    // The fit ends at 0.99858, which 8 bits would show as less than white.
+    return glm::pow(glm::max(outset * curved / 0.99858f, 0.0f), glm::vec3(2.2f));
+}
+
+glm::vec3 neutral(glm::vec3 c) {
+    constexpr float kStart = 0.76f, kRoom = 0.24f, kDesaturation = 0.15f;
+    const float least = std::min({c.r, c.g, c.b});
+    c -= least < 0.08f ? least - 6.25f * least * least : 0.04f;
+    const float peak = std::max({c.r, c.g, c.b});
+    if (peak < kStart) return c;
+    const float shown = 1 - kRoom * kRoom / (peak + kRoom - kStart);
+    return glm::mix(glm::vec3(shown), c * (shown / peak), 1 / (kDesaturation * (peak - shown) + 1));
+}
 
 glm::vec3 toneCurve(const glm::vec3& c, ToneMap curve) {
     switch (curve) {
@@ -20,6 +48,10 @@ glm::vec3 toneCurve(const glm::vec3& c, ToneMap curve) {
         }
         case ToneMap::Aces:
             return (c * (2.51f * c + 0.03f)) / (c * (2.43f * c + 0.59f) + 0.14f);
+        case ToneMap::Agx:
+            return agx(c);
+        case ToneMap::Neutral:
+            return neutral(c);
     }
     return c;
 }
@@ -33,8 +65,31 @@ float srgbFromLinear(float c) {
 
 }  // namespace
 
+float autoExposure(const Image& image) {
+    std::array<std::uint64_t, EXPOSURE_BINS> counts{};
+    std::uint64_t total = 0;
+    for (const glm::vec4& pixel : image.pixels) {
+        const float luminance = glm::dot(glm::vec3(pixel), glm::vec3(0.2126f, 0.7152f, 0.0722f));
+        if (!(luminance > EXPOSURE_LEAST && luminance < EXPOSURE_MOST)) continue;
+        ++counts[(std::bit_cast<std::uint32_t>(luminance) >> EXPOSURE_SHIFT) - EXPOSURE_FIRST];
+        ++total;
+    }
+    if (total == 0) return 0;
+    const std::uint64_t first = total / EXPOSURE_DARKEST, end = total - total / EXPOSURE_BRIGHTEST;
+    std::uint64_t seen = 0, sum = 0;
+    for (std::size_t bin = 0; bin < counts.size(); ++bin) {
+        const std::uint64_t from = std::max(seen, first), to = std::min(seen + counts[bin], end);
+        if (to > from) sum += bin * (to - from);
+        seen += counts[bin];
+    }
+    const double mean =
+        static_cast<double>(sum) / static_cast<double>(std::max<std::uint64_t>(end - first, 1));
+    const double stops = std::log2(static_cast<double>(EXPOSURE_GREY)) + 32 - 0.25 * (mean + 0.5);
+    return std::clamp(static_cast<float>(stops), -EXPOSURE_LIMIT, EXPOSURE_LIMIT);
+}
+
 std::vector<std::uint8_t> toneMapped(const Image& image, const ImageSettings& settings) {
-    const float scale = std::exp2(settings.exposure);
+    const float scale = std::exp2(settings.exposure.isAuto ? autoExposure(image) : settings.exposure.value);
     std::vector<std::uint8_t> bytes;
     bytes.reserve(image.pixels.size() * 3);
     for (const glm::vec4& pixel : image.pixels) {

@@ -31,7 +31,8 @@ void WireframeView::draw(const gl::Device& device, const scene::GpuScene& scene,
     const gl::PassScope pass(device.profiler, "wireframe");
     const bool over = wanted.kind == Wireframe::Over;
     gpu::WireframeConstants c{};
-    c.radiance = (over ? kOverColor : kAloneColor) * std::exp2(-wanted.exposure);
+    c.color = over ? kOverColor : kAloneColor;
+    exposure_.measure(device, output, wanted.exposure);
     c.opacity = over ? kOverOpacity : kAloneOpacity;
     c.halfWidth = kHalfWidth;
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::WireframeConstants), "wireframe constants");
@@ -50,7 +51,7 @@ void WireframeView::draw(const gl::Device& device, const scene::GpuScene& scene,
     const glm::vec3& sky = scene.source().sky;
     if (!over) target.clearColor(0, sky.r, sky.g, sky.b, 0);
     gl::Inputs inputs;
-    inputs.add(scene).add(surfaces).uniform("WireframeBlock", constants_);
+    inputs.add(scene).add(surfaces).add(exposure_).uniform("WireframeBlock", constants_);
     device.get(desc()).use(inputs);
     scene.draw({.cull = over && wanted.culls ? gl::Cull::Back : gl::Cull::None});
 }

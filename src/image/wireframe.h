@@ -8,6 +8,7 @@
 
 #include "conelight/settings.h"
 #include "gl/device.h"
+#include "image/exposure.h"
 #include "scene/gpu_scene.h"
 #include "view/surfaces.h"
 
@@ -17,8 +18,8 @@ class WireframeView {
   public:
     struct Wanted {
         Wireframe kind;
-        float exposure;  // of the picture, stops: lines have the same brightness on the screen whatever it is
-        bool culls;      // as the surfaces were drawn
+        AutoFloat exposure;  // of the picture: lines have the same brightness on the screen whatever it is
+        bool culls;          // as the surfaces were drawn
     };
     void draw(const gl::Device& device, const scene::GpuScene& scene, const view::Surfaces& surfaces,
               const Wanted& wanted, const gl::Texture& output);
@@ -26,6 +27,7 @@ class WireframeView {
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
+    Exposure exposure_;
     gl::Buffer constants_;
 };
 

@@ -34,8 +34,11 @@ constexpr Choice<VoxelData> kVoxelData[] = {
 constexpr Choice<VoxelShape> kVoxelShapes[] = {
     {"auto", VoxelShape::Auto},   {"cubes", VoxelShape::Cubes},   {"edges", VoxelShape::Edges},
     {"faces", VoxelShape::Faces}, {"volume", VoxelShape::Volume}, {"surfaces", VoxelShape::Surfaces}};
-constexpr Choice<ToneMap> kToneMaps[] = {
-    {"none", ToneMap::None}, {"reinhard", ToneMap::Reinhard}, {"aces", ToneMap::Aces}};
+constexpr Choice<ToneMap> kToneMaps[] = {{"none", ToneMap::None},
+                                         {"reinhard", ToneMap::Reinhard},
+                                         {"aces", ToneMap::Aces},
+                                         {"agx", ToneMap::Agx},
+                                         {"neutral", ToneMap::Neutral}};
 
 // A mode is one of those that are registered.
 Setting<Settings> modeSetting() {
@@ -175,7 +178,7 @@ std::vector<Setting<ViewSettings>> viewSettings() {
 std::vector<Setting<ImageSettings>> imageSettings() {
     return {
         {"exposure", &ImageSettings::exposure, Numbers{-20, 20}, "stops",
-         "brightness before the tone map: 2^exposure"},
+         "brightness before the tone map: 2^exposure; auto: the picture's mean becomes middle grey"},
         {"tone_map", &ImageSettings::toneMap, kToneMaps, "curve from linear radiance to the 8-bit picture"},
         {"srgb", &ImageSettings::srgb, "encode 8-bit pictures as sRGB"},
     };

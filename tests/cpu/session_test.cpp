@@ -304,7 +304,7 @@ TEST(Session, StartSettingsFollowTheModeUnlessTouched) {
     s.setMode("cones");
     EXPECT_EQ(getSetting(s.settings(), "image.tone_map"), "aces");
     EXPECT_EQ(getSetting(s.settings(), "image.srgb"), "true");
-    EXPECT_EQ(getSetting(s.settings(), "image.exposure"), "-1.5");
+    EXPECT_EQ(getSetting(s.settings(), "image.exposure"), "auto");
 }
 
 TEST(Picker, MeetsTurnedAndMovedSurfaces) {

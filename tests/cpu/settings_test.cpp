@@ -165,7 +165,7 @@ TEST(SettingsTest, MessagesSayWhatWouldBeRight) {
     EXPECT_EQ(failureOf("image.srgb", "maybe"),
               "setting image.srgb: 'maybe' is not usable; true or false would be right");
     EXPECT_EQ(failureOf("image.tone_map", "filmic"),
-              "setting image.tone_map: 'filmic' is not usable; one of none,reinhard,aces would be right");
+              "setting image.tone_map: 'filmic' is not usable; one of none,reinhard,aces,agx,neutral would be right");
     EXPECT_EQ(
         failureOf("cones.max_distance", "far"),
         "setting cones.max_distance: 'far' is not usable; a number from 0 to 1e+06 or auto would be right");
@@ -203,7 +203,10 @@ TEST(SettingsTest, ValuesWrittenIntoTheStructsAreChecked) {
     EXPECT_EQ(failure([](Settings& s) { s.voxels.size = 130; }),
               "setting voxels.size: '130' is not usable; a whole number from 8 to 512, a multiple of 4 would "
               "be right");
-    EXPECT_NE(failure([](Settings& s) { s.image.exposure = std::numeric_limits<float>::quiet_NaN(); }), "");
+    EXPECT_NE(failure([](Settings& s) {
+                  s.image.exposure = {false, std::numeric_limits<float>::quiet_NaN()};
+              }),
+              "");
     EXPECT_NE(failure([](Settings& s) { s.cones.maxDistance = {false, -1.0f}; }), "");
     EXPECT_EQ(failure([](Settings& s) { s.cones.maxDistance = {true, -1.0f}; }), "");
     EXPECT_NE(failure([](Settings& s) { s.mode = Mode("nobody"); }), "");
@@ -223,7 +226,7 @@ TEST(SettingsTest, RangesAreNumbers) {
     EXPECT_EQ(rangeText(*findSetting("light.area_samples")), "1,4,9,16,25,36,49,64");
     EXPECT_EQ(findSetting("cones.max_distance")->word, "auto");
     EXPECT_EQ(rangeText(*findSetting("cones.max_distance")), "auto, 0..1e+06");
-    EXPECT_EQ(rangeText(*findSetting("image.tone_map")), "none,reinhard,aces");
+    EXPECT_EQ(rangeText(*findSetting("image.tone_map")), "none,reinhard,aces,agx,neutral");
     EXPECT_EQ(rangeText(*findSetting("image.srgb")), "true,false");
     EXPECT_EQ(findSetting("nothing.of.the.kind"), nullptr);
 }

@@ -16,7 +16,7 @@ ImageSettings settings(ToneMap curve, bool srgb = false, float exposure = 0) {
     ImageSettings result;
     result.toneMap = curve;
     result.srgb = srgb;
-    result.exposure = exposure;
+    result.exposure = {false, exposure};
     return result;
 }
 
@@ -66,8 +66,61 @@ TEST(ToneMapTest, AcesHasItsPublishedValues) {
     EXPECT_EQ(grey(100.0f, settings(ToneMap::Aces)), 255);
 }
 
+// Middle grey stays in the middle of the screen's range, and strong colours fade to white as they get brighter.
+TEST(ToneMapTest, AgxKeepsGreyAndFadesToWhite) {
+    EXPECT_NEAR(grey(0.18f, settings(ToneMap::Agx, true)), 118, 12);
+    const std::vector<std::uint8_t> grey3 = mapped({{0.4f, 0.4f, 0.4f}}, settings(ToneMap::Agx, true));
+    EXPECT_NEAR(grey3[0], grey3[1], 1);
+    EXPECT_NEAR(grey3[1], grey3[2], 1);
+    const std::vector<std::uint8_t> red = mapped({{1, 0, 0}, {50, 0, 0}}, settings(ToneMap::Agx, true));
+    EXPECT_GT(red[0], red[1] + 100);
+    EXPECT_GT(red[4], red[1] + 60) << "brighter red is paler";
+}
+
+// The Khronos specification: colours without a common part stay as they are up to 0.76; the common part loses the
+// 0.04 that a dielectric reflects; highlights end at white.
+TEST(ToneMapTest, NeutralKeepsColoursOfTheMaterial) {
+    EXPECT_EQ(mapped({{0.5f, 0.2f, 0}}, settings(ToneMap::Neutral)), (std::vector<std::uint8_t>{128, 51, 0}));
+    EXPECT_EQ(grey(0.5f, settings(ToneMap::Neutral)), 117);  // 0.46
+    EXPECT_EQ(grey(0.04f, settings(ToneMap::Neutral)), 3);   // 6.25 c^2
+    EXPECT_EQ(grey(1.0f, settings(ToneMap::Neutral)), 222);  // 1 - 0.24^2 / (0.96 + 0.24 - 0.76)
+    EXPECT_EQ(grey(1000.0f, settings(ToneMap::Neutral)), 255);
+}
+
+// --- Automatic exposure
+
+Image evenImage(float value) { return {20, 10, std::vector<glm::vec4>(200, glm::vec4(glm::vec3(value), 1))}; }
+
+TEST(AutoExposureTest, MakesTheMeanMiddleGrey) {
+    // Bins are up to a third of a stop wide.
+    for (const float value : {0.18f, 1.44f, 1e-4f, 3000.0f})
+        EXPECT_NEAR(autoExposure(evenImage(value)), std::log2(0.18f / value), 0.2f) << value;
+    EXPECT_EQ(autoExposure(evenImage(0)), 0.0f) << "nothing to see";
+    EXPECT_EQ(autoExposure(Image{}), 0.0f);
+}
+
+TEST(AutoExposureTest, LampsAndTheBlackAroundARoomDoNotCount) {
+    Image image = evenImage(0.18f);
+    const float plain = autoExposure(image);
+    for (std::size_t i = 0; i < 5; ++i) image.pixels[i] = glm::vec4(5000.0f);
+    for (std::size_t i = 20; i < 100; ++i) image.pixels[i] = glm::vec4(0);
+    image.pixels[100] = glm::vec4(kInfinity);
+    image.pixels[101] = glm::vec4(std::numeric_limits<float>::quiet_NaN());
+    EXPECT_EQ(autoExposure(image), plain);
+}
+
+TEST(AutoExposureTest, IsWhatToneMappingUses) {
+    const Image image = evenImage(7.0f);
+    ImageSettings automatic = settings(ToneMap::None);
+    automatic.exposure = {};
+    EXPECT_EQ(toneMapped(image, automatic),
+              toneMapped(image, settings(ToneMap::None, false, autoExposure(image))));
+    EXPECT_NEAR(toneMapped(image, automatic)[0], 0.18f * 255, 5);
+}
+
 TEST(ToneMapTest, BrighterIsNeverDarker) {
-    for (const ToneMap curve : {ToneMap::None, ToneMap::Reinhard, ToneMap::Aces})
+    for (const ToneMap curve :
+         {ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::Agx, ToneMap::Neutral})
         for (const bool srgb : {false, true}) {
             int last = 0;
             for (float value = 1e-6f; value < 1e38f; value *= 1.1f) {
@@ -81,7 +134,8 @@ TEST(ToneMapTest, BrighterIsNeverDarker) {
 }
 
 TEST(ToneMapTest, WhatIsNoColourIsBlack) {
-    for (const ToneMap curve : {ToneMap::None, ToneMap::Reinhard, ToneMap::Aces}) {
+    for (const ToneMap curve :
+         {ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::Agx, ToneMap::Neutral}) {
         EXPECT_EQ(grey(-1.0f, settings(curve, true)), 0);
         EXPECT_EQ(grey(-kInfinity, settings(curve, true)), 0);
         EXPECT_EQ(grey(std::numeric_limits<float>::quiet_NaN(), settings(curve, true)), 0);

@@ -99,8 +99,9 @@ const std::vector<Struct>& table() {
     static const std::vector<Struct> structs = {
         ROW(ConeConstants, count, step, offset, maxDistance, specularMinTan, occlusionDistance, pad0, pad1,
             cone, aperture),
-        ROW(DisplayConstants, scale, curve, srgb, pad0),
-        ROW(WireframeConstants, radiance, opacity, halfWidth, pad0, pad1, pad2),
+        ROW(Exposure, stops, scale, pad0, pad1),
+        ROW(DisplayConstants, curve, srgb, pad0, pad1),
+        ROW(WireframeConstants, color, opacity, halfWidth, pad0, pad1, pad2),
         ROW(ShadowViewConstants, light, tiles, tilesPerEdge, columns, rows, pad0, pad1, pad2),
         ROW(VoxelViewConstants, origin, voxelSize, sizeX, sizeY, sizeZ, data, level, spread, maxLevel,
             density, pixelSize, pad0, pad1, pad2, filledMin, filledSize),

@@ -25,12 +25,13 @@ TEST_F(DisplayTest, AgreesWithToneMappedForAllCurves) {
     EXPECT_EQ(renderer.displayTexture(settings.image), 0u);
     renderer.render(scene.cameras.front(), kWidth, kHeight, settings);
     const Image linear = renderer.readImage();
-    for (const ToneMap curve : {ToneMap::None, ToneMap::Reinhard, ToneMap::Aces})
+    for (const ToneMap curve :
+         {ToneMap::None, ToneMap::Reinhard, ToneMap::Aces, ToneMap::Agx, ToneMap::Neutral})
         for (const bool srgb : {false, true}) {
             ImageSettings image;
             image.toneMap = curve;
             image.srgb = srgb;
-            image.exposure = 1.5f;
+            image.exposure = srgb ? AutoFloat{} : AutoFloat{false, 1.5f};
             const std::vector<std::uint8_t> expected = toneMapped(linear, image);
             std::vector<std::uint8_t> shown(4u * kWidth * kHeight);
             glGetTextureImage(renderer.displayTexture(image), 0, GL_RGBA, GL_UNSIGNED_BYTE,

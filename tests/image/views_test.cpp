@@ -36,7 +36,7 @@ TEST_F(ViewsTest, EdgesLieWhereTrianglesMeet) {
     EXPECT_EQ(colorAt(alone, 32, 10), glm::vec3(0.25f));  // the sky, not the surface
     EXPECT_GT(differing(alone, plain), 0.9);
     // As bright on the screen whatever the exposure.
-    settings.image.exposure = 3;
+    settings.image.exposure = {false, 3};
     const Image exposed = draw(scene, settings);
     float brightest = 0, brightestExposed = 0;
     for (int i = 8; i < kPixels - 8; ++i)

@@ -48,14 +48,14 @@ Settings startSettings(const Scene& scene, const std::string& mode) {
     Settings settings;
     if (!mode.empty()) setSetting(settings, "mode", mode);
     // Scenes with a format of their own were made for linear values on the screen: modes of that look keep it
-    // unless asked otherwise. Their rooms (closed, albedo 0.85) gather several times their direct light: 1.5
-    // stops less, by eye.
+    // unless asked otherwise. Their rooms (closed, albedo 0.85) gather several times their direct light,
+    // for which others find an exposure.
     const bool keepsLook = settings.mode == Mode::Phong || getSetting(settings, "mode") == scene.format;
     if (!scene.format.empty() && keepsLook) {
         settings.image.toneMap = ToneMap::None;
         settings.image.srgb = false;
     } else if (!scene.format.empty()) {
-        settings.image.exposure = -1.5f;
+        settings.image.exposure = AutoFloat{};
     }
     for (const auto& [key, value] : scene.settings) {
         if (key == "mode" && !mode.empty()) continue;  // the caller wins

@@ -124,7 +124,8 @@ std::string exposureReason(const Session& session, float radiance, const char* w
 
 bool tooDark(const Session& session, float radiance) {
     // Below 1/255 in sRGB, which is linear there: 1/12.92 of it.
-    return radiance * std::exp2(session.settings().image.exposure) < 2.0f / 255 / 12.92f;
+    const AutoFloat& exposure = session.settings().image.exposure;
+    return !exposure.isAuto && radiance * std::exp2(exposure.value) < 2.0f / 255 / 12.92f;
 }
 
 void lookAtCamera(const Session& session, const View& view, std::vector<std::string>& reasons) {
