@@ -2,7 +2,9 @@
 // Files as bytes: see files.h. Rename within a folder is atomic on every POSIX file system.
 #include "io/files.h"
 
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -94,30 +96,42 @@ std::optional<Staged> stage(const fs::path& path, std::span<const std::uint8_t> 
 
 }  // namespace
 
+std::string whyNotRegular(const fs::file_status& status) {
+    if (fs::is_regular_file(status)) return {};
+    if (fs::is_directory(status)) return "is a folder; a file is needed";
+    return "is a pipe, device or socket; only regular files are read";
+}
+
 Bytes readFile(const fs::path& path, std::uint64_t maxBytes) {
     std::error_code code;
     const fs::file_status status = fs::status(path, code);
     if (!fs::exists(status)) failRead(path, "no such file");
-    if (fs::is_directory(status)) failRead(path, "is a folder; a file is needed");
-    File file(std::fopen(path.c_str(), "rb"));
+    const std::string unusual = whyNotRegular(status);
+    if (!unusual.empty()) failRead(path, unusual);
+    // Should the file become a pipe in between, opening does not wait for a writer.
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0) failRead(path, "cannot be opened: " + lowerErrno(errno));
+    const File file(::fdopen(descriptor, "rb"));
     if (!file) failRead(path, "cannot be opened: " + lowerErrno(errno));
+    struct stat state {};
+    if (::fstat(descriptor, &state) != 0 || !S_ISREG(state.st_mode))
+        failRead(path, "is no regular file any more");
+    if (std::uint64_t(state.st_size) > maxBytes)
+        failRead(path, fmt::format("has {} bytes; at most {} are read", state.st_size, maxBytes));
 
-    // Read in growing pieces, which also serves pipes; the size of a regular file only reserves.
-    Bytes bytes;
-    if (fs::is_regular_file(status)) {
-        const std::uintmax_t size = fs::file_size(path, code);
-        if (!code && size > maxBytes)
-            failRead(path, fmt::format("has {} bytes; at most {} are read", size, maxBytes));
-        if (!code) bytes.reserve(std::size_t(size) + 1);
-    }
-    constexpr std::size_t kPiece = std::size_t(1) << 20;  // chosen: large enough that calls do not count
-    for (;;) {
-        const std::size_t used = bytes.size();
+    // The size may be wrong (/proc, a file that grows): pieces follow until the end.
+    constexpr std::size_t kPiece = std::size_t(1) << 16;  // chosen: large enough that calls do not count
+    Bytes bytes(std::size_t(state.st_size) + 1);
+    for (std::size_t used = 0;;) {
+        const std::size_t wanted = bytes.size() - used;
+        const std::size_t got = std::fread(bytes.data() + used, 1, wanted, file.get());
+        used += got;
+        if (used > maxBytes) failRead(path, fmt::format("is larger than {} bytes", maxBytes));
+        if (got < wanted) {
+            bytes.resize(used);
+            break;
+        }
         bytes.resize(used + kPiece);
-        const std::size_t got = std::fread(bytes.data() + used, 1, kPiece, file.get());
-        bytes.resize(used + got);
-        if (bytes.size() > maxBytes) failRead(path, fmt::format("is larger than {} bytes", maxBytes));
-        if (got < kPiece) break;
     }
     if (std::ferror(file.get()) != 0) failRead(path, "cannot be read: " + lowerErrno(errno));
     return bytes;

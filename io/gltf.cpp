@@ -40,7 +40,8 @@ bool contains(const std::array<const char*, N>& list, const std::string& name) {
 
 class Reader {
   public:
-    explicit Reader(const std::filesystem::path& path) : file_(path) {}
+    Reader(const std::filesystem::path& path, const LoadOptions& options)
+        : file_(path, options.allowOutside) {}
     Scene read();
 
   private:
@@ -406,6 +407,8 @@ Scene Reader::read() {
 
 }  // namespace
 
-Scene loadGltf(const std::filesystem::path& path) { return Reader(path).read(); }
+Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options) {
+    return Reader(path, options).read();
+}
 
 }  // namespace conelight::io

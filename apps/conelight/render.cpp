@@ -244,6 +244,7 @@ void run(RenderOptions options) {
     PictureSource source(options.view, options.shaderDirectory);
     request.settings.component = request.components.front();
     Session session(std::move(scene), options.scene, request.settings, request.mode, request.camera);
+    session.allowOutside(options.view.allowOutside);
     if (isFilm(options)) {
         runScript(options.script, session, &source, request, progress, filmRequest(options, session));
         takeSession(session, request);
