@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "conelight/error.h"
+#include "io/obj_text.h"
 
 namespace conelight::io {
 
@@ -38,7 +39,10 @@ bool AssimpFiles::Exists(const char* file) const {
 Assimp::IOStream* AssimpFiles::Open(const char* file, const char* mode) {
     if (std::strchr(mode, 'r') == nullptr || !Exists(file)) return nullptr;
     try {
-        return new MemoryFile(folder_.read(file));
+        const std::string extension = lowerExtension(file);
+        Bytes bytes = folder_.read(file);
+        if (extension == ".obj" || extension == ".mtl") bytes = plainObjText(bytes);
+        return new MemoryFile(std::move(bytes));
     } catch (const Error& error) {
         note(file, error.what());
         return nullptr;

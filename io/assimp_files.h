@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Files for Assimp's importers: what they open, they get through the door of SceneFolder, whole and in memory.
-// Nothing is written. Private to this room.
+// Files for Assimp's importers: what they open, they get through the door of SceneFolder, whole and in memory,
+// OBJ and MTL in plain spelling. Nothing is written. Private to this room.
 #pragma once
 
 #include <assimp/IOSystem.hpp>

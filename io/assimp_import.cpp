@@ -282,14 +282,14 @@ void withAssimp(const fs::path& path, const SceneFolder& folder, unsigned flags,
     work(*source, files->notes());
 }
 
-Scene importWhole(const fs::path& path, const SceneFolder& folder) {
+Scene importWhole(const fs::path& path, const SceneFolder& folder, const LoadOptions& options) {
     Scene scene;
     constexpr unsigned kFlags = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                                 aiProcess_SortByPType | aiProcess_GenSmoothNormals | aiProcess_FlipUVs |
                                 aiProcess_GlobalScale;
     withAssimp(path, folder, kFlags, [&](const aiScene& source, const std::vector<std::string>& notes) {
         scene.notes = notes;
-        importAssimpMaterials(source, folder, scene);
+        importAssimpMaterials(source, folder, options.maxTexels, scene);
         Converter converter{source, scene, {}, 0, 0};
         converter.convertMeshes();
         converter.place(yUpFromFile(source, lowerExtension(path)));
@@ -314,7 +314,7 @@ Scene importWhole(const fs::path& path, const SceneFolder& folder) {
     return scene;
 }
 
-Scene importFirstMesh(const fs::path& path, const SceneFolder& folder) {
+Scene importFirstMesh(const fs::path& path, const SceneFolder& folder, const LoadOptions&) {
     Scene scene;
     // As stored, plus welding, and normals where there are none.
     constexpr unsigned kFlags = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
@@ -328,7 +328,7 @@ Scene importFirstMesh(const fs::path& path, const SceneFolder& folder) {
     return scene;
 }
 
-using Import = Scene (*)(const fs::path&, const SceneFolder&);
+using Import = Scene (*)(const fs::path&, const SceneFolder&, const LoadOptions&);
 
 Scene isolated(const fs::path& path, const LoadOptions& options, Import import) {
     const std::string file = oneLine(path.string());
@@ -349,12 +349,13 @@ Scene isolated(const fs::path& path, const LoadOptions& options, Import import) 
         limits.extraMemoryBytes = options.memoryLimitBytes;
         if (limits.extraMemoryBytes > 0 && !code) limits.extraMemoryBytes += kMemoryPerByte * size;
         if (limits.cpuSeconds > 0.0 && !code) limits.cpuSeconds += double(size) / kBytesPerSecond;
-        ChildResult result = runInChild([&] { return bytesFromScene(import(path, folder)); }, limits);
+        ChildResult result =
+            runInChild([&] { return bytesFromScene(import(path, folder, options)); }, limits);
         if (result.failure.empty()) return sceneFromBytes(result.bytes);
         failure = oneLine(result.failure);
     } else {
         try {
-            return import(path, folder);
+            return import(path, folder, options);
         } catch (const std::exception& error) {
             failure = oneLine(error.what());
         }

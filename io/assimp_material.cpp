@@ -23,6 +23,7 @@
 #include "conelight/error.h"
 #include "io/files.h"
 #include "io/image_file.h"
+#include "io/texture_budget.h"
 
 namespace conelight::io {
 
@@ -43,8 +44,8 @@ enum class Use { Colour, Data, NormalFromHeight };
 
 class TextureTable {
   public:
-    TextureTable(const aiScene& source, const SceneFolder& folder, Scene& scene)
-        : source_(source), folder_(folder), scene_(scene) {}
+    TextureTable(const aiScene& source, const SceneFolder& folder, std::uint64_t maxTexels, Scene& scene)
+        : source_(source), folder_(folder), budget_(maxTexels), scene_(scene) {}
 
     // The texture of slot `type`, or unused when there is none or it cannot be read (then noted).
     TextureRef find(const aiMaterial& material, aiTextureType type, Use use);
@@ -64,6 +65,7 @@ class TextureTable {
 
     const aiScene& source_;
     const SceneFolder& folder_;
+    TextureBudget budget_;
     Scene& scene_;
     std::map<std::string, std::optional<Picture>> pictures_;
     std::map<std::string, int> textures_;
@@ -103,12 +105,14 @@ SceneFolder::Choice TextureTable::locate(const std::string& path) const {
 std::optional<TextureTable::Picture> TextureTable::decode(const std::string& path) {
     Picture out;
     out.name = oneLine(path);
+    std::vector<std::string> notes;
     try {
         if (const aiTexture* embedded = source_.GetEmbeddedTexture(path.c_str())) {
             const auto* bytes = reinterpret_cast<const std::uint8_t*>(embedded->pcData);
             if (bytes == nullptr) throw Error(ErrorKind::BadInput, "embedded picture is empty");
             if (embedded->mHeight == 0) {
-                out.image = decodeRgba({bytes, embedded->mWidth}, "embedded picture");
+                out.image = budget_.decode({bytes, embedded->mWidth}, "embedded picture", notes);
+                for (const std::string& note : notes) scene_.notes.push_back(note);
                 return out;
             }
             if (std::uint64_t(embedded->mWidth) * embedded->mHeight > (1u << 28) || embedded->mWidth == 0)
@@ -125,7 +129,9 @@ std::optional<TextureTable::Picture> TextureTable::decode(const std::string& pat
         const SceneFolder::Choice found = locate(path);
         if (found.file.empty()) throw Error(ErrorKind::BadInput, found.refusal);
         out.name = found.file.filename().string();
-        out.image = decodeRgba(folder_.read(found.file), "picture");
+        out.image = budget_.decode(folder_.read(found.file), "picture", notes);
+        for (const std::string& note : notes)
+            scene_.notes.push_back(fmt::format("texture {}: {}", oneLine(path), note));
         return out;
     } catch (const Error& error) {
         scene_.notes.push_back(fmt::format("texture {}: {}; left out", oneLine(path), error.what()));
@@ -351,8 +357,9 @@ Material convert(const aiMaterial& material, TextureTable& textures) {
 
 }  // namespace
 
-void importAssimpMaterials(const aiScene& source, const SceneFolder& folder, Scene& scene) {
-    TextureTable textures(source, folder, scene);
+void importAssimpMaterials(const aiScene& source, const SceneFolder& folder, std::uint64_t maxTexels,
+                           Scene& scene) {
+    TextureTable textures(source, folder, maxTexels, scene);
     for (unsigned i = 0; i < source.mNumMaterials; ++i)
         scene.materials.push_back(convert(*source.mMaterials[i], textures));
 }

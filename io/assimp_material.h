@@ -10,7 +10,9 @@ struct aiScene;
 namespace conelight::io {
 
 // Appends one Material per material of `source` (same order) and the textures they use to `scene`; texture
-// files are looked for in `folder`. Missing or broken textures become notes.
-void importAssimpMaterials(const aiScene& source, const SceneFolder& folder, Scene& scene);
+// files are looked for in `folder`. Missing, broken and too large textures
+// (TextureBudget) become notes.
+void importAssimpMaterials(const aiScene& source, const SceneFolder& folder, std::uint64_t maxTexels,
+                           Scene& scene);
 
 }  // namespace conelight::io

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Image files except EXR (exr_file.cpp): format by extension, PNG/JPG/HDR through stb, sRGB transfer curve.
+// Image files except EXR (exr_file.cpp): format by extension, PNG and JPG through picture_codec.h, HDR and
+// what is written through stb, sRGB transfer curve.
 #include "io/image_file.h"
 
 #include <fmt/core.h>
@@ -11,6 +12,7 @@
 
 #include "conelight/error.h"
 #include "io/files.h"
+#include "io/picture_codec.h"
 #include "io/stb_impl.h"
 
 namespace conelight::io {
@@ -91,16 +93,16 @@ void writeHdr(const fs::path& path, const FloatImage& image) {
 
 ByteImage decodeRgba(std::span<const std::uint8_t> encoded, const std::string& what) {
     ByteImage image;
-    const std::string why = stb::decodeBytes(encoded, 4, image);
-    if (!why.empty()) failRead(what, why);
+    const DecodeResult result = decodePicture(encoded, {4, kMostPixels}, image);
+    if (!result.failure.empty()) failRead(what, result.failure);
     return image;
 }
 
 ByteImage readByteImage(const fs::path& path) {
     const Bytes bytes = readFile(path);
     ByteImage image;
-    const std::string why = stb::decodeBytes(bytes, 0, image);
-    if (!why.empty()) failRead(oneLine(path.string()), why);
+    const DecodeResult result = decodePicture(bytes, {0, kMostPixels}, image);
+    if (!result.failure.empty()) failRead(oneLine(path.string()), result.failure);
     return image;
 }
 

@@ -21,6 +21,8 @@ struct LoadOptions {
     // Import foreign formats in a child process, so that an importer that crashes, hangs or eats memory ends
     // as one line of error. Off: faster for many tiny files, and the importer can take the program with it.
     bool isolate = true;
+    // Texels of all pictures of a scene together, about 4 bytes each; larger ones are read smaller, with a note.
+    std::uint64_t maxTexels = std::uint64_t(1) << 28;
     // Let a scene name files outside its own folder (scene_folder.h): only for scenes that are trusted.
     bool allowOutside = false;
 };

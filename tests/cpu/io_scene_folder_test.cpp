@@ -163,6 +163,47 @@ TEST(SceneFolder, PipesDevicesAndFoldersAreRefused) {
     }
 }
 
+// A stranger's few bytes may ask for gigabytes of texels.
+TEST(SceneFolder, TexturesShareABudget) {
+    const fs::path folder = folderOf("budget");
+    write(folder / "in.bin", triangleBytes());
+    const std::size_t side = 256;
+    io::writePng(folder / "t.png",
+                 {int(side), int(side), 3, std::vector<std::uint8_t>(side * side * 3, 200)});
+    Json json = Json::parse(gltf("in.bin", "t.png"));
+    for (int i = 1; i < 5; ++i) {
+        json["images"].push_back({{"uri", "t.png"}});
+        json["textures"].push_back({{"source", i}});
+        json["materials"].push_back({{"emissiveTexture", {{"index", i}}}});
+    }
+    const std::string path = write(folder / "s.gltf", json.dump());
+    io::LoadOptions tight;
+    tight.maxTexels = 2 * side * side;
+    const Scene scene = io::loadScene(path, tight);
+    ASSERT_EQ(scene.textures.size(), 5u);
+    std::size_t texels = 0;
+    for (const Texture& texture : scene.textures) {
+        texels += texture.rgba.size() / 4;
+        EXPECT_EQ(texture.rgba.at(1), 200);
+    }
+    EXPECT_LE(texels, tight.maxTexels);
+    EXPECT_EQ(scene.textures[0].width, 256);
+    EXPECT_TRUE(hasNote(scene, "images[1]: has 256x256 pixels, read as 128x128"));
+    io::LoadOptions tighter;
+    tighter.maxTexels = side * side / 2;  // three such pictures are decoded
+    const Scene few = io::loadScene(path, tighter);
+    EXPECT_EQ(few.textures.size(), 3u);
+    EXPECT_TRUE(hasNote(few, "images[3]: has 256x256 pixels, too many"));
+    for (const Texture& texture : io::loadScene(path).textures) EXPECT_EQ(texture.width, 256);
+
+    write(folder / "m.mtl", "newmtl m\nKd 1 1 1\nmap_Kd t.png\n");
+    tight.maxTexels = side * side;
+    const Scene obj =
+        io::loadScene(write(folder / "s.obj", std::string("mtllib m.mtl\nusemtl m\n") + kObj), tight);
+    EXPECT_EQ(obj.textures.at(0).width, 128);
+    EXPECT_TRUE(hasNote(obj, "texture t.png: picture: has 256x256 pixels"));
+}
+
 // Files that are holes: large on paper, nothing on the disk.
 TEST(SceneFolder, TooLargeFilesAreNotRead) {
     const Places at("large");
