@@ -34,6 +34,13 @@ void writeFile(const std::filesystem::path& path, std::span<const std::uint8_t> 
 // one fail, what was there before is there again. Throws Error(Runtime) that names the path.
 void writeFiles(const std::vector<std::pair<std::filesystem::path, Bytes>>& files);
 
+// Throws Error(Runtime) when no file could be written at `path`: to be called before long work.
+void checkWritable(const std::filesystem::path& path);
+
+// A new empty file in the folder of `path`, hidden, of a name that nothing had: whoever asks removes or
+// renames it. `ending` with its dot. Throws Error(Runtime) that names `path`.
+std::filesystem::path newFileBeside(const std::filesystem::path& path, const std::string& ending);
+
 // Throws Error(Usage) when there is anything of that name and `overwrite` is not given.
 void refuseOverwriting(const std::string& path, bool overwrite);
 

@@ -49,24 +49,6 @@ ImageFormat imageFormatOf(const fs::path& path) {
                             oneLine(path.string()), oneLine(extension)));
 }
 
-void checkWritable(const fs::path& path) {
-    // An existing file stays as it is; a new one is tried beside its place and removed again.
-    std::error_code code;
-    const fs::file_status status = fs::status(path, code);
-    if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) return;
-    if (fs::is_directory(status)) return writeFile(path, {});  // throws with the right words
-    const fs::path probe = path.parent_path() / (".probe." + path.filename().string());
-    try {
-        writeFile(probe, {});
-    } catch (const Error& error) {
-        std::string text = error.what();
-        const std::size_t at = text.find(probe.string());
-        if (at != std::string::npos) text.replace(at, probe.string().size(), path.string());
-        throw Error(error.kind(), text);
-    }
-    fs::remove(probe, code);
-}
-
 void writePng(const fs::path& path, const ByteImage& image) {
     assert(image.pixels.size() == valueCount(image.width, image.height, image.channels));
     writeEncoded(path, stb::encodePng(image.width, image.height, image.channels, image.pixels.data()));
