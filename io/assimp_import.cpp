@@ -20,6 +20,7 @@
 #include <set>
 
 #include "conelight/error.h"
+#include "io/assimp_files.h"
 #include "io/assimp_material.h"
 #include "io/child_process.h"
 #include "io/files.h"
@@ -267,25 +268,28 @@ std::string plainWords(const std::string& why) {
     return why;
 }
 
-// Runs the importer; `work` sees the aiScene before it dies.
+// Runs the importer; `work` sees the aiScene before it dies, and what was refused to it.
 template <typename Work>
-void withAssimp(const fs::path& path, unsigned flags, const Work& work) {
+void withAssimp(const fs::path& path, const SceneFolder& folder, unsigned flags, const Work& work) {
     Assimp::Importer importer;
+    auto* const files = new AssimpFiles(folder);
+    importer.SetIOHandler(files);  // which owns them now
     importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
     importer.SetPropertyFloat(AI_CONFIG_PP_GSN_MAX_SMOOTHING_ANGLE, kSmoothingAngleDeg);
     const aiScene* source = importer.ReadFile(path.string(), flags);
     if (source == nullptr) fail(plainWords(oneLine(importer.GetErrorString())));
     if (source->mRootNode == nullptr) fail("holds no scene");
-    work(*source);
+    work(*source, files->notes());
 }
 
-Scene importWhole(const fs::path& path) {
+Scene importWhole(const fs::path& path, const SceneFolder& folder, const LoadOptions& options) {
     Scene scene;
     constexpr unsigned kFlags = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                                 aiProcess_SortByPType | aiProcess_GenSmoothNormals | aiProcess_FlipUVs |
                                 aiProcess_GlobalScale;
-    withAssimp(path, kFlags, [&](const aiScene& source) {
-        importAssimpMaterials(source, path, scene);
+    withAssimp(path, folder, kFlags, [&](const aiScene& source, const std::vector<std::string>& notes) {
+        scene.notes = notes;
+        importAssimpMaterials(source, folder, options.maxTexels, scene);
         Converter converter{source, scene, {}, 0, 0};
         converter.convertMeshes();
         converter.place(yUpFromFile(source, lowerExtension(path)));
@@ -310,12 +314,12 @@ Scene importWhole(const fs::path& path) {
     return scene;
 }
 
-Scene importFirstMesh(const fs::path& path) {
+Scene importFirstMesh(const fs::path& path, const SceneFolder& folder, const LoadOptions&) {
     Scene scene;
     // As stored, plus welding, and normals where there are none.
     constexpr unsigned kFlags = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
                                 aiProcess_GenSmoothNormals | aiProcess_FlipUVs;
-    withAssimp(path, kFlags, [&](const aiScene& source) {
+    withAssimp(path, folder, kFlags, [&](const aiScene& source, const std::vector<std::string>&) {
         if (source.mNumMeshes == 0) fail("holds no mesh");
         Converter converter{source, scene, {}, 0, 0};
         scene.meshes.push_back(converter.convertMesh(*source.mMeshes[0]));
@@ -324,26 +328,34 @@ Scene importFirstMesh(const fs::path& path) {
     return scene;
 }
 
-Scene isolated(const fs::path& path, const LoadOptions& options, Scene (*import)(const fs::path&)) {
+using Import = Scene (*)(const fs::path&, const SceneFolder&, const LoadOptions&);
+
+Scene isolated(const fs::path& path, const LoadOptions& options, Import import) {
     const std::string file = oneLine(path.string());
     std::error_code code;
-    if (!fs::exists(path, code)) throw Error(ErrorKind::BadInput, fmt::format("{}: no such file", file));
-    if (fs::is_directory(path, code))
-        throw Error(ErrorKind::BadInput, fmt::format("{}: is a folder; a scene file is needed", file));
+    const fs::file_status status = fs::status(path, code);
+    if (!fs::exists(status)) throw Error(ErrorKind::BadInput, file + ": no such file");
+    const std::string unusual = whyNotRegular(status);
+    if (!unusual.empty()) throw Error(ErrorKind::BadInput, fmt::format("{}: {}", file, unusual));
+    const std::uintmax_t size = fs::file_size(path, code);
+    if (!code && size > kMostFileBytes)
+        throw Error(ErrorKind::BadInput,
+                    fmt::format("{}: has {} bytes; at most {} are read", file, size, kMostFileBytes));
+    const SceneFolder folder(path, options.allowOutside);
     std::string failure;
     if (options.isolate) {
         ChildLimits limits;
         limits.cpuSeconds = options.timeLimitSeconds;
         limits.extraMemoryBytes = options.memoryLimitBytes;
-        const std::uintmax_t size = fs::file_size(path, code);
         if (limits.extraMemoryBytes > 0 && !code) limits.extraMemoryBytes += kMemoryPerByte * size;
         if (limits.cpuSeconds > 0.0 && !code) limits.cpuSeconds += double(size) / kBytesPerSecond;
-        ChildResult result = runInChild([&] { return bytesFromScene(import(path)); }, limits);
+        ChildResult result =
+            runInChild([&] { return bytesFromScene(import(path, folder, options)); }, limits);
         if (result.failure.empty()) return sceneFromBytes(result.bytes);
         failure = oneLine(result.failure);
     } else {
         try {
-            return import(path);
+            return import(path, folder, options);
         } catch (const std::exception& error) {
             failure = oneLine(error.what());
         }

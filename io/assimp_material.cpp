@@ -23,6 +23,7 @@
 #include "conelight/error.h"
 #include "io/files.h"
 #include "io/image_file.h"
+#include "io/texture_budget.h"
 
 namespace conelight::io {
 
@@ -43,8 +44,8 @@ enum class Use { Colour, Data, NormalFromHeight };
 
 class TextureTable {
   public:
-    TextureTable(const aiScene& source, const fs::path& file, Scene& scene)
-        : source_(source), folder_(file.parent_path()), scene_(scene) {}
+    TextureTable(const aiScene& source, const SceneFolder& folder, std::uint64_t maxTexels, Scene& scene)
+        : source_(source), folder_(folder), budget_(maxTexels), scene_(scene) {}
 
     // The texture of slot `type`, or unused when there is none or it cannot be read (then noted).
     TextureRef find(const aiMaterial& material, aiTextureType type, Use use);
@@ -58,12 +59,13 @@ class TextureTable {
     };
     const Picture* picture(const std::string& path);
     std::optional<Picture> decode(const std::string& path);
-    std::optional<fs::path> locate(const std::string& path) const;
+    SceneFolder::Choice locate(const std::string& path) const;
     int add(const std::string& key, const Picture& picture, std::vector<std::uint8_t> rgba, bool srgb,
             aiTextureMapMode u, aiTextureMapMode v);
 
     const aiScene& source_;
-    fs::path folder_;
+    const SceneFolder& folder_;
+    TextureBudget budget_;
     Scene& scene_;
     std::map<std::string, std::optional<Picture>> pictures_;
     std::map<std::string, int> textures_;
@@ -83,34 +85,34 @@ TextureWrap wrapOf(aiTextureMapMode mode) {
 
 // A file named in a model, often with the author's own folders: as given, beside the model, and by its bare
 // name beside the model and in the folders people use.
-std::optional<fs::path> TextureTable::locate(const std::string& path) const {
+SceneFolder::Choice TextureTable::locate(const std::string& path) const {
     std::string slashed = path;
     std::replace(slashed.begin(), slashed.end(), '\\', '/');
     if (slashed.rfind("file://", 0) == 0) slashed.erase(0, 7);
     std::vector<fs::path> candidates;
     for (const std::string& spelled : {slashed, percentDecoded(slashed)}) {
         const fs::path given(spelled);
-        candidates.push_back(given.is_absolute() ? given : folder_ / given);
-        candidates.push_back(folder_ / given.filename());
+        const fs::path& folder = folder_.path();
+        candidates.push_back(folder / given);  // an absolute path stays as it is
+        candidates.push_back(folder / given.filename());
         for (const char* sub : {"textures", "Textures", "maps", "images"})
-            candidates.push_back(folder_ / sub / given.filename());
-        candidates.push_back(folder_.parent_path() / "textures" / given.filename());
+            candidates.push_back(folder / sub / given.filename());
+        candidates.push_back(folder / ".." / "textures" / given.filename());
     }
-    std::error_code code;
-    for (const fs::path& candidate : candidates)
-        if (fs::is_regular_file(candidate, code)) return candidate;
-    return std::nullopt;
+    return folder_.firstOf(candidates);
 }
 
 std::optional<TextureTable::Picture> TextureTable::decode(const std::string& path) {
     Picture out;
     out.name = oneLine(path);
+    std::vector<std::string> notes;
     try {
         if (const aiTexture* embedded = source_.GetEmbeddedTexture(path.c_str())) {
             const auto* bytes = reinterpret_cast<const std::uint8_t*>(embedded->pcData);
             if (bytes == nullptr) throw Error(ErrorKind::BadInput, "embedded picture is empty");
             if (embedded->mHeight == 0) {
-                out.image = decodeRgba({bytes, embedded->mWidth}, "embedded picture");
+                out.image = budget_.decode({bytes, embedded->mWidth}, "embedded picture", notes);
+                for (const std::string& note : notes) scene_.notes.push_back(note);
                 return out;
             }
             if (std::uint64_t(embedded->mWidth) * embedded->mHeight > (1u << 28) || embedded->mWidth == 0)
@@ -124,10 +126,12 @@ std::optional<TextureTable::Picture> TextureTable::decode(const std::string& pat
             }
             return out;
         }
-        const std::optional<fs::path> found = locate(path);
-        if (!found) throw Error(ErrorKind::BadInput, "no such file beside the scene");
-        out.name = found->filename().string();
-        out.image = decodeRgba(readFile(*found), "picture");
+        const SceneFolder::Choice found = locate(path);
+        if (found.file.empty()) throw Error(ErrorKind::BadInput, found.refusal);
+        out.name = found.file.filename().string();
+        out.image = budget_.decode(folder_.read(found.file), "picture", notes);
+        for (const std::string& note : notes)
+            scene_.notes.push_back(fmt::format("texture {}: {}", oneLine(path), note));
         return out;
     } catch (const Error& error) {
         scene_.notes.push_back(fmt::format("texture {}: {}; left out", oneLine(path), error.what()));
@@ -353,8 +357,9 @@ Material convert(const aiMaterial& material, TextureTable& textures) {
 
 }  // namespace
 
-void importAssimpMaterials(const aiScene& source, const fs::path& file, Scene& scene) {
-    TextureTable textures(source, file, scene);
+void importAssimpMaterials(const aiScene& source, const SceneFolder& folder, std::uint64_t maxTexels,
+                           Scene& scene) {
+    TextureTable textures(source, folder, maxTexels, scene);
     for (unsigned i = 0; i < source.mNumMaterials; ++i)
         scene.materials.push_back(convert(*source.mMaterials[i], textures));
 }

@@ -2,7 +2,9 @@
 // Files as bytes: see files.h. Rename within a folder is atomic on every POSIX file system.
 #include "io/files.h"
 
+#include <fcntl.h>
 #include <fmt/core.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +13,7 @@
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <utility>
 
 #include "conelight/error.h"
 
@@ -56,68 +59,92 @@ int writeAll(const fs::path& path, std::span<const std::uint8_t> bytes) {
     return std::fclose(raw) == 0 ? 0 : errno;
 }
 
-// A file's new content beside its place.
+// A file's new content beside its place, until it is renamed; else it goes with this.
 struct Staged {
     fs::path target, part;
+
+    Staged(fs::path place, fs::path beside) : target(std::move(place)), part(std::move(beside)) {}
+    Staged(Staged&& other) noexcept
+        : target(std::move(other.target)), part(std::exchange(other.part, fs::path())) {}
+    Staged& operator=(Staged&&) = delete;
+    ~Staged() {
+        std::error_code ignored;
+        if (!part.empty()) fs::remove(part, ignored);
+    }
+    std::error_code moveIntoPlace() {
+        std::error_code code;
+        fs::rename(part, target, code);
+        if (!code) part.clear();
+        return code;
+    }
 };
 
-// Nothing for special files, which are written at once.
-std::optional<Staged> stage(const fs::path& path, std::span<const std::uint8_t> bytes) {
+// A link is kept: what it leads to is replaced.
+fs::path withoutLink(const fs::path& path) {
+    std::error_code code;
+    if (!fs::is_symlink(fs::symlink_status(path, code))) return path;
+    const fs::path resolved = fs::weakly_canonical(path, code);
+    return code ? path : resolved;
+}
+
+// Throws for what no file can be written to; whether it is a special file, which is written at once.
+bool isSpecial(const fs::path& path) {
     if (path.empty()) throw Error(ErrorKind::Usage, "output: empty file name; give a path");
     std::error_code code;
     const fs::file_status status = fs::status(path, code);
     if (fs::is_directory(status)) failWrite(path, "it is a folder; give a file name");
-    if (fs::exists(status) && !fs::is_regular_file(status)) {
+    return fs::exists(status) && !fs::is_regular_file(status);
+}
+
+// Nothing for special files.
+std::optional<Staged> stage(const fs::path& path, std::span<const std::uint8_t> bytes) {
+    if (isSpecial(path)) {
         if (const int failure = writeAll(path, bytes)) failWrite(path, lowerErrno(failure));
         return std::nullopt;
     }
-    // A link is kept: its target is replaced.
-    fs::path target = path;
-    if (fs::is_symlink(fs::symlink_status(path, code))) {
-        const fs::path resolved = fs::weakly_canonical(path, code);
-        if (!code) target = resolved;
-    }
-    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
-    if (!fs::exists(folder, code))
-        failWrite(path, fmt::format("folder {} does not exist", oneLine(folder.string())));
-
-    // The process and a counter make the name unique among writers of the same folder.
-    static std::atomic<unsigned> counter{0};
-    const fs::path part =
-        folder / fmt::format(".{}.{}-{}.part", target.filename().string(), ::getpid(), counter++);
-    if (const int failure = writeAll(part, bytes)) {
-        fs::remove(part, code);
-        failWrite(path, lowerErrno(failure));
-    }
-    return Staged{target, part};
+    Staged staged(withoutLink(path), newFileBeside(path, ".part"));
+    if (const int failure = writeAll(staged.part, bytes)) failWrite(path, lowerErrno(failure));
+    return staged;
 }
 
 }  // namespace
+
+std::string whyNotRegular(const fs::file_status& status) {
+    if (fs::is_regular_file(status)) return {};
+    if (fs::is_directory(status)) return "is a folder; a file is needed";
+    return "is a pipe, device or socket; only regular files are read";
+}
 
 Bytes readFile(const fs::path& path, std::uint64_t maxBytes) {
     std::error_code code;
     const fs::file_status status = fs::status(path, code);
     if (!fs::exists(status)) failRead(path, "no such file");
-    if (fs::is_directory(status)) failRead(path, "is a folder; a file is needed");
-    File file(std::fopen(path.c_str(), "rb"));
+    const std::string unusual = whyNotRegular(status);
+    if (!unusual.empty()) failRead(path, unusual);
+    // Should the file become a pipe in between, opening does not wait for a writer.
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (descriptor < 0) failRead(path, "cannot be opened: " + lowerErrno(errno));
+    const File file(::fdopen(descriptor, "rb"));
     if (!file) failRead(path, "cannot be opened: " + lowerErrno(errno));
+    struct stat state {};
+    if (::fstat(descriptor, &state) != 0 || !S_ISREG(state.st_mode))
+        failRead(path, "is no regular file any more");
+    if (std::uint64_t(state.st_size) > maxBytes)
+        failRead(path, fmt::format("has {} bytes; at most {} are read", state.st_size, maxBytes));
 
-    // Read in growing pieces, which also serves pipes; the size of a regular file only reserves.
-    Bytes bytes;
-    if (fs::is_regular_file(status)) {
-        const std::uintmax_t size = fs::file_size(path, code);
-        if (!code && size > maxBytes)
-            failRead(path, fmt::format("has {} bytes; at most {} are read", size, maxBytes));
-        if (!code) bytes.reserve(std::size_t(size) + 1);
-    }
-    constexpr std::size_t kPiece = std::size_t(1) << 20;  // chosen: large enough that calls do not count
-    for (;;) {
-        const std::size_t used = bytes.size();
+    // The size may be wrong (/proc, a file that grows): pieces follow until the end.
+    constexpr std::size_t kPiece = std::size_t(1) << 16;  // chosen: large enough that calls do not count
+    Bytes bytes(std::size_t(state.st_size) + 1);
+    for (std::size_t used = 0;;) {
+        const std::size_t wanted = bytes.size() - used;
+        const std::size_t got = std::fread(bytes.data() + used, 1, wanted, file.get());
+        used += got;
+        if (used > maxBytes) failRead(path, fmt::format("is larger than {} bytes", maxBytes));
+        if (got < wanted) {
+            bytes.resize(used);
+            break;
+        }
         bytes.resize(used + kPiece);
-        const std::size_t got = std::fread(bytes.data() + used, 1, kPiece, file.get());
-        bytes.resize(used + got);
-        if (bytes.size() > maxBytes) failRead(path, fmt::format("is larger than {} bytes", maxBytes));
-        if (got < kPiece) break;
     }
     if (std::ferror(file.get()) != 0) failRead(path, "cannot be read: " + lowerErrno(errno));
     return bytes;
@@ -131,44 +158,58 @@ void refuseOverwriting(const std::string& path, bool overwrite) {
             fmt::format("{}: is there already; another name, or overwrite, would be right", oneLine(path)));
 }
 
-void writeFile(const fs::path& path, std::span<const std::uint8_t> bytes) {
-    if (const std::optional<Staged> staged = stage(path, bytes)) {
-        std::error_code code;
-        fs::rename(staged->part, staged->target, code);
-        if (!code) return;
-        const std::string why = code.message();
-        fs::remove(staged->part, code);
-        failWrite(path, why);
+fs::path newFileBeside(const fs::path& path, const std::string& ending) {
+    constexpr std::size_t kNameBytes = 100;  // of the target's: file systems take 255 in all
+    const fs::path target = withoutLink(path);
+    const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
+    std::error_code code;
+    if (!fs::exists(folder, code))
+        failWrite(path, fmt::format("folder {} does not exist", oneLine(folder.string())));
+    const std::string name = target.filename().string().substr(0, kNameBytes);
+    static std::atomic<unsigned> counter{0};
+    for (;;) {
+        fs::path made = folder / fmt::format(".{}.{}-{}{}", name, ::getpid(), counter++, ending);
+        const int descriptor = ::open(made.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+        if (descriptor >= 0) {
+            ::close(descriptor);
+            return made;
+        }
+        if (errno != EEXIST) failWrite(path, lowerErrno(errno));
     }
+}
+
+void checkWritable(const fs::path& path) {
+    if (isSpecial(path)) return;
+    std::error_code ignored;
+    fs::remove(newFileBeside(path, ".probe"), ignored);
+}
+
+void writeFile(const fs::path& path, std::span<const std::uint8_t> bytes) {
+    if (std::optional<Staged> staged = stage(path, bytes))
+        if (const std::error_code code = staged->moveIntoPlace()) failWrite(path, code.message());
 }
 
 void writeFiles(const std::vector<std::pair<fs::path, Bytes>>& files) {
     std::vector<Staged> staged;
-    std::error_code ignored;
-    try {
-        for (const auto& [path, bytes] : files)
-            if (std::optional<Staged> one = stage(path, bytes)) staged.push_back(std::move(*one));
-    } catch (const Error&) {
-        for (const Staged& one : staged) fs::remove(one.part, ignored);
-        throw;
-    }
+    for (const auto& [path, bytes] : files)
+        if (std::optional<Staged> one = stage(path, bytes)) staged.push_back(std::move(*one));
     // The old files live on under other names until all new ones are in place.
+    std::error_code ignored;
     std::vector<fs::path> backups(staged.size());
     for (std::size_t i = 0; i < staged.size(); ++i) {
         std::error_code code;
         if (fs::exists(staged[i].target, code)) {
-            backups[i] = staged[i].part;
-            backups[i] += ".old";
+            backups[i] = newFileBeside(staged[i].target, ".old");
+            fs::remove(backups[i], code);
             fs::create_hard_link(staged[i].target, backups[i], code);
             if (code) fs::rename(staged[i].target, backups[i], code);  // a file system without links
         }
-        if (!code) fs::rename(staged[i].part, staged[i].target, code);
+        if (!code) code = staged[i].moveIntoPlace();
         if (!code) continue;
         for (std::size_t k = 0; k <= i; ++k) {
             if (k < i && backups[k].empty()) fs::remove(staged[k].target, ignored);
             if (!backups[k].empty()) fs::rename(backups[k], staged[k].target, ignored);
         }
-        for (const Staged& one : staged) fs::remove(one.part, ignored);
         for (const fs::path& backup : backups) fs::remove(backup, ignored);
         failWrite(staged[i].target, code.message());
     }

@@ -16,9 +16,15 @@ namespace conelight::io {
 
 using Bytes = std::vector<std::uint8_t>;
 
-// Reads a whole file. Throws Error(BadInput) that names the path: missing, a folder, not readable, or larger
-// than `maxBytes`.
-Bytes readFile(const std::filesystem::path& path, std::uint64_t maxBytes = std::uint64_t(1) << 32);
+// What is read at most of a file without a limit of its own. Larger files of one scene are not known.
+constexpr std::uint64_t kMostFileBytes = std::uint64_t(2) << 30;
+
+// Reads a whole regular file; pipes and devices may never end and are refused unread. Throws Error(BadInput)
+// that names the path: missing, not regular, not readable, or larger than `maxBytes`.
+Bytes readFile(const std::filesystem::path& path, std::uint64_t maxBytes = kMostFileBytes);
+
+// Why something of that kind is not read: "" for a regular file.
+std::string whyNotRegular(const std::filesystem::file_status& status);
 
 // Writes `bytes` to a file beside `path` and renames it over `path`; a special file (/dev/stdout) is written
 // directly. Throws Error(Runtime) that names the path; nothing is left behind then.
@@ -27,6 +33,13 @@ void writeFile(const std::filesystem::path& path, std::span<const std::uint8_t> 
 // Writes files that belong together, in this order: all beside their places first, then all renamed. Should
 // one fail, what was there before is there again. Throws Error(Runtime) that names the path.
 void writeFiles(const std::vector<std::pair<std::filesystem::path, Bytes>>& files);
+
+// Throws Error(Runtime) when no file could be written at `path`: to be called before long work.
+void checkWritable(const std::filesystem::path& path);
+
+// A new empty file in the folder of `path`, hidden, of a name that nothing had: whoever asks removes or
+// renames it. `ending` with its dot. Throws Error(Runtime) that names `path`.
+std::filesystem::path newFileBeside(const std::filesystem::path& path, const std::string& ending);
 
 // Throws Error(Usage) when there is anything of that name and `overwrite` is not given.
 void refuseOverwriting(const std::string& path, bool overwrite);

@@ -40,7 +40,8 @@ bool contains(const std::array<const char*, N>& list, const std::string& name) {
 
 class Reader {
   public:
-    explicit Reader(const std::filesystem::path& path) : file_(path) {}
+    Reader(const std::filesystem::path& path, const LoadOptions& options)
+        : file_(path, options.allowOutside), maxTexels_(options.maxTexels) {}
     Scene read();
 
   private:
@@ -62,6 +63,7 @@ class Reader {
     void addRectLight(std::size_t node, const GltfValue& own);
 
     GltfFile file_;
+    std::uint64_t maxTexels_;
     Scene scene_;
     std::vector<glm::mat4> worldFromNode_;
     std::size_t skinned_ = 0;
@@ -384,7 +386,7 @@ void Reader::addCamera(std::size_t node, const GltfValue& value) {
 Scene Reader::read() {
     checkExtensions();
     findWorldTransforms();
-    GltfMaterials materials(file_, scene_);
+    GltfMaterials materials(file_, scene_, maxTexels_);
     GltfMeshes meshes(file_, scene_, materials);
     for (const std::size_t node : nodesOfScene()) {
         const GltfValue value = file_.array("nodes")[node];
@@ -406,6 +408,8 @@ Scene Reader::read() {
 
 }  // namespace
 
-Scene loadGltf(const std::filesystem::path& path) { return Reader(path).read(); }
+Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options) {
+    return Reader(path, options).read();
+}
 
 }  // namespace conelight::io

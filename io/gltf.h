@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "conelight/scene.h"
+#include "io/scene_file.h"
 
 namespace conelight::io {
 
@@ -22,6 +23,6 @@ struct GltfVersion1 : std::runtime_error {
 };
 
 // Throws Error(BadInput) "FILE: JSON.PATH: what is wrong", or GltfVersion1.
-Scene loadGltf(const std::filesystem::path& path);
+Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options);
 
 }  // namespace conelight::io

@@ -166,7 +166,8 @@ std::optional<std::size_t> GltfValue::index(std::size_t limit) const {
     return std::size_t(value);
 }
 
-GltfFile::GltfFile(const fs::path& path) : path_(path), file_(oneLine(path.string())) {
+GltfFile::GltfFile(const fs::path& path, bool allowOutside)
+    : folder_(path, allowOutside), file_(oneLine(path.string())) {
     Bytes bytes = readFile(path);
     if (bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0) {
         // GLB: 12 bytes head, then chunks of length, type, data: JSON first, then optionally BIN.
@@ -229,12 +230,11 @@ Bytes GltfFile::uriBytes(const GltfValue& uri) const {
     }
     if (text.find("://") != std::string::npos) uri.fail("only files beside the scene and data URIs are read");
     // Names with percent signs exist: the spelling of the file wins, then the decoded one.
-    const fs::path folder = path_.parent_path();
-    std::error_code code;
-    fs::path found = folder / text;
-    if (!fs::exists(found, code)) found = folder / percentDecoded(text);
+    const std::string decoded = percentDecoded(text);
+    const SceneFolder::Choice found = folder_.firstOf({folder_.path() / text, folder_.path() / decoded});
+    if (found.file.empty()) uri.fail(fmt::format("{}: {}", oneLine(decoded), found.refusal));
     try {
-        return readFile(found);
+        return folder_.read(found.file);
     } catch (const Error& error) {
         uri.fail(error.what());
     }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "io/files.h"
+#include "io/scene_folder.h"
 
 namespace conelight::io {
 
@@ -61,7 +62,7 @@ class GltfValue {
 class GltfFile {
   public:
     // Reads the file and the buffers it names. Throws Error(BadInput), or GltfVersion1 (gltf.h).
-    explicit GltfFile(const std::filesystem::path& path);
+    GltfFile(const std::filesystem::path& path, bool allowOutside);
     GltfFile(const GltfFile&) = delete;
     GltfFile& operator=(const GltfFile&) = delete;
 
@@ -77,7 +78,7 @@ class GltfFile {
     std::size_t accessorCount(const GltfValue& accessorIndex) const;
 
     std::span<const std::uint8_t> bufferView(const GltfValue& viewIndex);
-    // Bytes behind a "uri": data URI or a file beside the scene. Fails with a line that starts at the value.
+    // Bytes behind a "uri": data URI or a file in the scene's folder. Fails with a line that starts at the value.
     Bytes uriBytes(const GltfValue& uri) const;
 
   private:
@@ -95,7 +96,7 @@ class GltfFile {
     std::vector<Number> read(const GltfValue& accessorIndex, std::size_t components, bool allowFewer,
                              Number padding);
 
-    std::filesystem::path path_;
+    SceneFolder folder_;
     std::string file_;
     nlohmann::json json_;
     std::optional<Bytes> binaryChunk_;

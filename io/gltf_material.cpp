@@ -46,7 +46,8 @@ glm::mat3 transformOf(const GltfValue& extension) {
 
 }  // namespace
 
-GltfMaterials::GltfMaterials(GltfFile& file, Scene& scene) : file_(file), scene_(scene) {
+GltfMaterials::GltfMaterials(GltfFile& file, Scene& scene, std::uint64_t maxTexels)
+    : file_(file), scene_(scene), budget_(maxTexels) {
     const GltfValue materials = file_.array("materials");
     for (std::size_t i = 0; i < materials.size(); ++i) {
         uvSet_ = 0;
@@ -93,7 +94,7 @@ const ByteImage* GltfMaterials::image(std::size_t index) {
             bytes.size() > 4 && bytes[0] == 0x89 && bytes[1] == 'P' && bytes[2] == 'N' && bytes[3] == 'G';
         const bool jpeg = bytes.size() > 4 && bytes[0] == 0xFF && bytes[1] == 0xD8;
         if (!png && !jpeg) value.fail("is neither PNG nor JPEG");
-        slot = decodeRgba(bytes, value.path());
+        slot = budget_.decode(bytes, value.path(), scene_.notes);
     } catch (const Error& error) {
         // The file's name in front of the message would be repeated by the caller.
         std::string why = error.what();

@@ -8,14 +8,15 @@
 #include "conelight/scene.h"
 #include "io/gltf_file.h"
 #include "io/image_file.h"
+#include "io/texture_budget.h"
 
 namespace conelight::io {
 
 class GltfMaterials {
   public:
     // Converts all materials of the file into scene.materials (same order). Pictures that cannot be read
-    // become notes.
-    GltfMaterials(GltfFile& file, Scene& scene);
+    // become notes; together they have `maxTexels` at most.
+    GltfMaterials(GltfFile& file, Scene& scene, std::uint64_t maxTexels);
 
     // Index into scene.materials of a primitive's material; the glTF default when it names none.
     int indexOf(const GltfValue& primitive);
@@ -31,6 +32,7 @@ class GltfMaterials {
 
     GltfFile& file_;
     Scene& scene_;
+    TextureBudget budget_;
     std::map<std::size_t, std::optional<ByteImage>> images_;  // decoded; nothing: cannot be read
     std::map<std::vector<std::size_t>, int> textures_;
     std::vector<std::size_t> uvSets_;

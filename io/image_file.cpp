@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Image files except EXR (exr_file.cpp): format by extension, PNG/JPG/HDR through stb, sRGB transfer curve.
+// Image files except EXR (exr_file.cpp): format by extension, PNG and JPG through picture_codec.h, HDR and
+// what is written through stb, sRGB transfer curve.
 #include "io/image_file.h"
 
 #include <fmt/core.h>
@@ -11,6 +12,7 @@
 
 #include "conelight/error.h"
 #include "io/files.h"
+#include "io/picture_codec.h"
 #include "io/stb_impl.h"
 
 namespace conelight::io {
@@ -47,24 +49,6 @@ ImageFormat imageFormatOf(const fs::path& path) {
                             oneLine(path.string()), oneLine(extension)));
 }
 
-void checkWritable(const fs::path& path) {
-    // An existing file stays as it is; a new one is tried beside its place and removed again.
-    std::error_code code;
-    const fs::file_status status = fs::status(path, code);
-    if (fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status)) return;
-    if (fs::is_directory(status)) return writeFile(path, {});  // throws with the right words
-    const fs::path probe = path.parent_path() / (".probe." + path.filename().string());
-    try {
-        writeFile(probe, {});
-    } catch (const Error& error) {
-        std::string text = error.what();
-        const std::size_t at = text.find(probe.string());
-        if (at != std::string::npos) text.replace(at, probe.string().size(), path.string());
-        throw Error(error.kind(), text);
-    }
-    fs::remove(probe, code);
-}
-
 void writePng(const fs::path& path, const ByteImage& image) {
     assert(image.pixels.size() == valueCount(image.width, image.height, image.channels));
     writeEncoded(path, stb::encodePng(image.width, image.height, image.channels, image.pixels.data()));
@@ -91,16 +75,16 @@ void writeHdr(const fs::path& path, const FloatImage& image) {
 
 ByteImage decodeRgba(std::span<const std::uint8_t> encoded, const std::string& what) {
     ByteImage image;
-    const std::string why = stb::decodeBytes(encoded, 4, image);
-    if (!why.empty()) failRead(what, why);
+    const DecodeResult result = decodePicture(encoded, {4, kMostPixels}, image);
+    if (!result.failure.empty()) failRead(what, result.failure);
     return image;
 }
 
 ByteImage readByteImage(const fs::path& path) {
     const Bytes bytes = readFile(path);
     ByteImage image;
-    const std::string why = stb::decodeBytes(bytes, 0, image);
-    if (!why.empty()) failRead(oneLine(path.string()), why);
+    const DecodeResult result = decodePicture(bytes, {0, kMostPixels}, image);
+    if (!result.failure.empty()) failRead(oneLine(path.string()), result.failure);
     return image;
 }
 

@@ -19,9 +19,6 @@ enum class ImageFormat { Png, Jpg, Exr, Hdr };
 // Format by extension (.png .jpg .jpeg .exr .hdr, any case). Throws Error(Usage) that names the known ones.
 ImageFormat imageFormatOf(const std::filesystem::path& path);
 
-// Throws Error(Runtime) when no file could be written at `path`: to be called before long work.
-void checkWritable(const std::filesystem::path& path);
-
 // 8 bits per channel, interleaved; rgb is sRGB-encoded by whoever fills it, alpha linear.
 struct ByteImage {
     int width = 0;

@@ -6,9 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <set>
 
 #include "conelight/error.h"
@@ -36,15 +34,6 @@ Scene generate([[maybe_unused]] const std::string& spec) {
 #endif
 }
 
-// glTF 1.0 has another layout; Assimp reads it.
-bool isGltf1(const fs::path& path) {
-    char head[8] = {};
-    std::ifstream file(path, std::ios::binary);
-    file.read(head, sizeof head);
-    if (file.gcount() == sizeof head && std::memcmp(head, "glTF", 4) == 0) return head[4] == 1;
-    return false;
-}
-
 // " .ext (its title)," for each.
 std::string registeredFormats() {
     std::string text;
@@ -56,9 +45,8 @@ std::string registeredFormats() {
 Scene read(const fs::path& path, const LoadOptions& options) {
     const std::string extension = lowerExtension(path);
     if (extension == ".gltf" || extension == ".glb" || extension == ".vrm") {
-        if (isGltf1(path)) return loadAssimp(path, options);
         try {
-            return loadGltf(path);
+            return loadGltf(path, options);
         } catch (const GltfVersion1&) {
             return loadAssimp(path, options);
         }

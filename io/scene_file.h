@@ -21,12 +21,16 @@ struct LoadOptions {
     // Import foreign formats in a child process, so that an importer that crashes, hangs or eats memory ends
     // as one line of error. Off: faster for many tiny files, and the importer can take the program with it.
     bool isolate = true;
+    // Texels of all pictures of a scene together, about 4 bytes each; larger ones are read smaller, with a note.
+    std::uint64_t maxTexels = std::uint64_t(1) << 28;
+    // Let a scene name files outside its own folder (scene_folder.h): only for scenes that are trusted.
+    bool allowOutside = false;
 };
 
 // Reads a scene. The result fulfils Scene::validate(); it has the file's cameras and lights only (see
 // completeScene). What was left out or changed is in Scene::notes.
 // Throws Error(BadInput), one line "FILE: where: what is wrong; what would be right"; Error(Usage) for an
-// extension nobody reads and for an unknown builtin. Reads files beside the scene; no other effect.
+// extension nobody reads and for an unknown builtin. Reads files in the scene's folder; no other effect.
 // Thread-safe; on POSIX systems foreign formats fork the process.
 Scene loadScene(const std::string& pathOrBuiltin, const LoadOptions& options = {});
 

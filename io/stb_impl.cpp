@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "io/picture_codec.h"
+
 #if defined(__GNUC__)
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wall"
@@ -16,12 +18,11 @@
 #pragma GCC diagnostic ignored "-Wpedantic"
 #pragma GCC diagnostic ignored "-Wshadow"
 #pragma GCC diagnostic ignored "-Wunused-function"
+#pragma GCC diagnostic ignored "-Wunused-parameter"
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 #pragma GCC diagnostic ignored "-Wmisleading-indentation"
 #endif
 // Only the decoders we need: fewer decoders, fewer ways for a broken file to hurt.
-#define STBI_ONLY_PNG
-#define STBI_ONLY_JPEG
 #define STBI_ONLY_BMP
 #define STBI_ONLY_TGA
 #define STBI_NO_STDIO
@@ -44,51 +45,6 @@ void append(void* context, void* data, int size) {
     auto& out = *static_cast<std::vector<std::uint8_t>*>(context);
     const auto* bytes = static_cast<const std::uint8_t*>(data);
     out.insert(out.end(), bytes, bytes + size);
-}
-
-// Largest picture we decode: 2^28 pixels (16384^2) are 1 GiB of RGBA.
-constexpr long long kMaxPixels = 1LL << 28;
-
-// A header may lie about its size. No format here packs more than about 1000 pixels into a byte (deflate's
-// limit is 1032 to 1); beyond 4 million pixels a picture must be that plausible.
-bool plausible(long long width, long long height, std::size_t fileBytes) {
-    const long long pixels = width * height;
-    return pixels > 0 && pixels <= kMaxPixels &&
-           (pixels <= (1LL << 22) || pixels / 1100 <= static_cast<long long>(fileBytes));
-}
-
-// stb_image of 2022 writes past its tables when a Huffman table of a JPG (ITU T.81, B.2.4.2) lists more than
-// 256 codes. Here one marker segment at `at` (the length field): false if it does.
-bool huffmanTablesFit(const std::uint8_t* data, std::size_t size, std::size_t at) {
-    if (at + 2 > size) return true;
-    const std::size_t end = at + (std::size_t(data[at]) << 8 | data[at + 1]);
-    for (at += 2; at < end && at + 17 <= size;) {
-        int codes = 0;
-        for (int i = 1; i <= 16; ++i) codes += data[at + std::size_t(i)];
-        if (codes > 256) return false;
-        at += 17 + std::size_t(codes);
-    }
-    return true;
-}
-
-// Whether all Huffman tables of a JPG fit. Segments are followed up to the first scan; behind it, where
-// damage can lead a decoder anywhere, every occurrence of the table marker is looked at.
-bool jpgTablesFit(const std::uint8_t* data, std::size_t size) {
-    constexpr std::uint8_t kTables = 0xC4, kScan = 0xDA;
-    bool inScan = false;
-    for (std::size_t at = 2; at + 1 < size;) {
-        if (data[at] != 0xFF || data[at + 1] == 0xFF) {
-            ++at;
-            continue;
-        }
-        const std::uint8_t marker = data[at + 1];
-        at += 2;
-        if (marker == kTables && !huffmanTablesFit(data, size, at)) return false;
-        inScan = inScan || marker == kScan;
-        const bool alone = marker <= 0x01 || (marker >= 0xD0 && marker <= 0xD9);
-        if (!inScan && !alone && at + 1 < size) at += std::size_t(data[at]) << 8 | data[at + 1];
-    }
-    return true;
 }
 
 }  // namespace
@@ -118,12 +74,11 @@ std::string decodeBytes(std::span<const std::uint8_t> file, int wantedChannels, 
     const std::uint8_t* const data = file.data();
     const std::size_t size = file.size();
     if (size > INT_MAX) return "is larger than 2 GiB";
-    if (size > 2 && data[0] == 0xFF && data[1] == 0xD8 && !jpgTablesFit(data, size))
-        return "is damaged (a Huffman table lists more than 256 codes)";
     int inFile = 0;
     if (stbi_info_from_memory(data, int(size), &image.width, &image.height, &inFile) == 0)
         return "is not a PNG, JPG, BMP or TGA picture";
-    if (!plausible(image.width, image.height, size)) return "has an unusable size";
+    const std::string problem = sizeProblem(std::uint64_t(image.width), std::uint64_t(image.height), size);
+    if (!problem.empty()) return problem;
     int asked = wantedChannels;
     if (asked == 0) asked = inFile == 2 ? 4 : inFile;
     stbi_uc* decoded = stbi_load_from_memory(data, int(size), &image.width, &image.height, &inFile, asked);
@@ -150,7 +105,8 @@ std::string decodeHdr(const std::uint8_t* data, std::size_t size, int& width, in
     while (at < size && !line().empty()) {
     }
     if (std::sscanf(line().c_str(), "-Y %d +X %d", &height, &width) != 2) return "has no usable size line";
-    if (width <= 0 || height <= 0 || !plausible(width, height, size)) return "has an unusable size";
+    if (width <= 0 || height <= 0 || !sizeProblem(std::uint64_t(width), std::uint64_t(height), size).empty())
+        return "has an unusable size";
     rgb.assign(3 * std::size_t(width) * std::size_t(height), 0.0f);
     std::vector<std::uint8_t> row(4 * std::size_t(width));
     const auto w = std::size_t(width);

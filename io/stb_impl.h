@@ -18,7 +18,7 @@ std::vector<std::uint8_t> encodeJpg(int width, int height, int channels, const s
                                     int quality);
 std::vector<std::uint8_t> encodeHdr(int width, int height, const float* rgb);
 
-// Decodes into `image`; returns "" or what is wrong. wantedChannels 0: as in the file (1, 3, 4).
+// BMP and TGA. Decodes into `image`; returns "" or what is wrong. wantedChannels 0: as in the file (1, 3, 4).
 std::string decodeBytes(std::span<const std::uint8_t> file, int wantedChannels, ByteImage& image);
 // Decodes into the given variables; returns "" or what is wrong.
 std::string decodeHdr(const std::uint8_t* data, std::size_t size, int& width, int& height,

@@ -104,6 +104,8 @@ RTCRay makeRay(const Ray& ray) {
 
 [[noreturn]] void failed(RTCDevice device) {
     const RTCError error = rtcGetDeviceError(device);
+    if (error == RTC_ERROR_UNSUPPORTED_CPU)
+        base::fail(ErrorKind::Runtime, "ray structure: Embree does not start on this processor");
     base::fail(ErrorKind::Runtime, "ray structure: Embree reports error %d%s", static_cast<int>(error),
                error == RTC_ERROR_OUT_OF_MEMORY ? " (out of memory); a smaller scene would be right" : "");
 }
@@ -164,7 +166,7 @@ void RayScene::Impl::build() {
     // One builder thread: the order of the tree, and with it which of two equally near hits wins, must not
     // depend on the machine's load.
     device = rtcNewDevice("threads=1");
-    if (!device) base::fail(ErrorKind::Runtime, "ray structure: Embree does not start on this processor");
+    if (!device) failed(nullptr);
 
     std::vector<RTCGeometry> geometries(source.instances.size(), nullptr);
     for (std::size_t i = 0; i < geometries.size(); ++i)

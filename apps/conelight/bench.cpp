@@ -10,7 +10,7 @@
 
 #include "command.h"
 #include "conelight/error.h"
-#include "io/image_file.h"
+#include "outputs.h"
 #include "script_run.h"
 #include "stats_json.h"
 
@@ -240,7 +240,9 @@ void run(const BenchOptions& options) {
         setSetting(probe, "mode", modes.back());
         from = comma + 1;
     }
-    if (!options.jsonFile.empty()) io::checkWritable(options.jsonFile);
+    std::vector<std::string> inputs = options.scenes;
+    inputs.push_back(options.view.preset);
+    checkOutputs({{"--json", options.jsonFile, OutputKind::Json}}, inputs);
     const std::unique_ptr<platform::HeadlessContext> context = openContext(options.view);
     Progress progress;
     nlohmann::ordered_json json;

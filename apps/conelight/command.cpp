@@ -112,6 +112,12 @@ void ViewOptions::addTo(CLI::App& command) {
         ->check(CLI::NonNegativeNumber);
     command.add_flag("--gl-debug", debugGl,
                      "check every OpenGL call and report errors of the driver (slower)");
+    addAllowOutside(command, allowOutside);
+}
+
+void addAllowOutside(CLI::App& command, bool& allow) {
+    command.add_flag("--allow-outside", allow,
+                     "a scene may name files outside its own folder; only for scenes that you trust");
 }
 
 std::unique_ptr<platform::HeadlessContext> openContext(const ViewOptions& options) {
@@ -123,7 +129,9 @@ std::unique_ptr<platform::HeadlessContext> openContext(const ViewOptions& option
 
 Scene openScene(const std::string& path, const ViewOptions& options, Progress& progress) {
     progress.show("loading " + path);
-    Scene scene = io::loadScene(path);
+    io::LoadOptions load;
+    load.allowOutside = options.allowOutside;
+    Scene scene = io::loadScene(path, load);
     if (!options.sky.empty()) scene.sky = glm::max(parseVec3("--sky", options.sky), glm::vec3(0));
     completeScene(scene);
     progress.finish();

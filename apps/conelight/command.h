@@ -67,9 +67,13 @@ struct ViewOptions {
     std::vector<std::string> sets;
     int device = -1;
     bool debugGl = false;
+    bool allowOutside = false;
 
     void addTo(CLI::App& command);
 };
+
+// --allow-outside, of every command that reads scenes.
+void addAllowOutside(CLI::App& command, bool& allow);
 
 // The OpenGL context that --device and --gl-debug ask for.
 std::unique_ptr<platform::HeadlessContext> openContext(const ViewOptions& options);

@@ -13,6 +13,7 @@
 #include "comparison.h"
 #include "conelight/error.h"
 #include "io/image_file.h"
+#include "outputs.h"
 #include "picture_input.h"
 #include "report/report.h"
 
@@ -83,7 +84,6 @@ std::vector<std::pair<ErrorMap, std::string>> mapFiles(const ComparePicturesOpti
                         options.mapFile + ": --map: a name ending in .png or .exr would be right");
         if (options.mapKinds.size() > 1)
             file.replace_filename(file.stem().string() + "-" + name + file.extension().string());
-        io::checkWritable(file);
         files.emplace_back(*kind, file.string());
     }
     return files;
@@ -171,10 +171,13 @@ void comparePictures(const ComparePicturesOptions& options) {
     const reference::MetricOptions metricOptions = options.comparison.metricOptions();
     const auto maps = mapFiles(options);
     const std::string& jsonFile = options.comparison.jsonFile;
-    if (!jsonFile.empty() && jsonFile != "-") io::checkWritable(jsonFile);
-
     const std::string& reportFolder = options.comparison.report;
-    if (!reportFolder.empty()) prepareReport(reportFolder);
+    std::vector<std::string> inputs = {options.test, options.reference};
+    inputs.insert(inputs.end(), options.halves.begin(), options.halves.end());
+    std::vector<Output> outputs = {{"--json", jsonFile, OutputKind::Json}};
+    for (const auto& [kind, file] : maps) outputs.push_back({"--map", file});
+    checkOutputs(outputs, inputs);
+    if (!reportFolder.empty()) prepareReport(reportFolder, inputs);
 
     // Read everything, and see that it fits.
     const Image test = readPicture(options.test, options.layer);

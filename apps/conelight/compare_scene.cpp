@@ -8,6 +8,7 @@
 #include "command_line.h"
 #include "conelight/error.h"
 #include "io/image_file.h"
+#include "outputs.h"
 #include "report/report.h"
 #include "scene_comparison_output.h"
 
@@ -190,8 +191,10 @@ void compareScene(const CompareSceneOptions& options) {
     const SceneComparisonRequest request = requestOf(options);
     const std::string& jsonFile = options.comparison.jsonFile;
     const std::string& folder = options.comparison.report;
-    if (!jsonFile.empty() && jsonFile != "-") io::checkWritable(jsonFile);
-    if (!folder.empty()) prepareReport(folder);
+    std::vector<std::string> inputs = options.scenes;
+    inputs.insert(inputs.end(), {options.referenceFile, options.view.preset});
+    checkOutputs({{"--json", jsonFile, OutputKind::Json}}, inputs);
+    if (!folder.empty()) prepareReport(folder, inputs);
 
     PictureSource source(options.view);
     Progress progress;

@@ -12,6 +12,7 @@ void addConvert(CLI::App& app) {
     struct Options {
         std::string in, out;
         bool force = false;
+        io::LoadOptions load;
     };
     auto options = std::make_shared<Options>();
     CLI::App* command = app.add_subcommand("convert", "write a scene in another format");
@@ -20,10 +21,11 @@ void addConvert(CLI::App& app) {
     for (const std::string& extension : io::writtenSceneExtensions()) known += " " + extension;
     command->add_option("out", options->out, "what to write:" + known)->required();
     command->add_flag("--overwrite,--force", options->force, "write over files that are there");
+    addAllowOutside(*command, options->load.allowOutside);
     command->callback([options] {
         Progress progress;
         progress.show("loading " + options->in);
-        const Scene scene = io::loadScene(options->in);
+        const Scene scene = io::loadScene(options->in, options->load);
         for (const std::string& note : scene.notes)
             std::fprintf(stderr, "conelight: %s: %s\n", options->in.c_str(), note.c_str());
         progress.show("writing " + options->out);

@@ -16,6 +16,7 @@ namespace {
 struct InfoOptions {
     std::string scene;
     int device = -1;
+    io::LoadOptions load;
 };
 
 void printDevice(int device) {
@@ -41,7 +42,7 @@ void run(const InfoOptions& options) {
                            parameter.min, parameter.max, parameter.meaning);
         }
     } else {
-        fmt::print("{}", io::describeScene(io::loadScene(options.scene)));
+        fmt::print("{}", io::describeScene(io::loadScene(options.scene, options.load)));
     }
 }
 
@@ -54,6 +55,7 @@ void addInfo(CLI::App& app) {
     command->add_option("--device", options->device, "EGL device")
         ->type_name("N")
         ->check(CLI::NonNegativeNumber);
+    addAllowOutside(*command, options->load.allowOutside);
     command->callback([options] { run(*options); });
 }
 

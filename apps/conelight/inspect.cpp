@@ -10,6 +10,7 @@
 #include "conelight/error.h"
 #include "inspection_text.h"
 #include "io/image_file.h"
+#include "outputs.h"
 #include "picture_file.h"
 #include "picture_source.h"
 #include "script_run.h"
@@ -75,11 +76,10 @@ void run(const InspectOptions& options) {
     PictureRequest request;
     request.size = parseSize(options.view.size);
     const glm::ivec2 pixel = parsePixel(options.pixel, request.size);
-    if (!options.output.empty()) {
-        io::imageFormatOf(options.output);
-        io::checkWritable(options.output);
-    }
-    if (!options.jsonFile.empty()) io::checkWritable(options.jsonFile);
+    if (!options.output.empty()) io::imageFormatOf(options.output);
+    std::vector<std::string> inputs = options.script.files;
+    inputs.insert(inputs.end(), {options.scene, options.view.preset});
+    checkOutputs({{"--output", options.output}, {"--json", options.jsonFile, OutputKind::Json}}, inputs);
 
     Progress progress;
     Scene scene = openScene(options.scene, options.view, progress);

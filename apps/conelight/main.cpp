@@ -4,7 +4,11 @@
 // interrupted.
 #include <CLI/CLI.hpp>
 
+#include <unistd.h>
+
+#include <csignal>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -37,9 +41,31 @@ void printMessage(conelight::LogLevel level, std::string_view message) {
         std::fprintf(stderr, "conelight: %.*s\n", static_cast<int>(message.size()), message.data());
 }
 
+constexpr char kOutOfMemory[] =
+    "conelight: out of memory; a smaller scene, picture or voxel size would be right\n";
+
+// An exception that nobody caught: of a thread, of a destructor. Memory can end anywhere, so that is said
+// without asking for more of it; anything else is a fault of ours and leaves its trace.
+[[noreturn]] void onTerminate() {
+    try {
+        if (const std::exception_ptr last = std::current_exception()) std::rethrow_exception(last);
+    } catch (const std::bad_alloc&) {
+        [[maybe_unused]] const ssize_t ignored =
+            ::write(STDERR_FILENO, kOutOfMemory, sizeof kOutOfMemory - 1);
+        std::_Exit(1);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "conelight: internal error: %s\n", error.what());
+    } catch (...) {
+    }
+    std::abort();
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+    std::set_terminate(onTerminate);
+    // A file that grows beyond the system's limit (ulimit -f) is then a failed write, which is said.
+    std::signal(SIGXFSZ, SIG_IGN);
     conelight::platform::tuneAllocator();
     conelight::setLogCallback(printMessage);
     conelight::program::installInterruptHandler();
@@ -78,8 +104,7 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "conelight: %s\n", error.what());
         return exitStatus(error.kind());
     } catch (const std::bad_alloc&) {
-        std::fprintf(stderr,
-                     "conelight: out of memory; a smaller scene, picture or voxel size would be right\n");
+        std::fputs(kOutOfMemory, stderr);
         return 1;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "conelight: %s\n", error.what());

@@ -11,6 +11,7 @@
 #include "console/command_table.h"
 #include "io/gltf_write.h"
 #include "io/image_file.h"
+#include "outputs.h"
 #include "picture_file.h"
 #include "picture_source.h"
 #include "script_run.h"
@@ -93,17 +94,20 @@ void checkFiles(const RenderOptions& options) {
         if (!options.aovs.empty() && format != io::ImageFormat::Exr)
             usage(options.output +
                   ": --aov: this format holds one picture; a name ending in .exr would be right");
-        io::checkWritable(options.output);
     }
     if (!options.radiosity.bakeFile.empty()) {
         const std::string extension = std::filesystem::path(options.radiosity.bakeFile).extension().string();
         if (extension != ".glb" && extension != ".gltf")
             usage("--bake: " + options.radiosity.bakeFile +
                   ": a name ending in .glb or .gltf would be right");
-        io::checkWritable(options.radiosity.bakeFile);
         io::refuseForeignBuffer(options.radiosity.bakeFile, options.overwrite);
     }
-    if (!options.statsFile.empty()) io::checkWritable(options.statsFile);
+    std::vector<std::string> inputs = options.script.files;
+    inputs.insert(inputs.end(), {options.scene, options.view.preset, options.pathFile});
+    checkOutputs({{"--output", options.output},
+                  {"--bake", options.radiosity.bakeFile},
+                  {"--stats", options.statsFile, OutputKind::Json}},
+                 inputs);
 }
 
 // Components asked for: the picture's, then those of the layers; layers of the path tracer alone set what it
@@ -244,6 +248,7 @@ void run(RenderOptions options) {
     PictureSource source(options.view, options.shaderDirectory);
     request.settings.component = request.components.front();
     Session session(std::move(scene), options.scene, request.settings, request.mode, request.camera);
+    session.allowOutside(options.view.allowOutside);
     if (isFilm(options)) {
         runScript(options.script, session, &source, request, progress, filmRequest(options, session));
         takeSession(session, request);

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "conelight/error.h"
-#include "io/image_file.h"
+#include "outputs.h"
 #include "stats_json.h"
 
 namespace conelight::program {
@@ -30,7 +30,9 @@ std::vector<Variant> ScoreOptions::checked(const char* score, bool rendererModes
             throw Error(ErrorKind::Usage, fmt::format("score {}: mode {} has nothing that could be wrong "
                                                       "here; phong, thesis or cones would be right",
                                                       score, variant.mode));
-    if (!jsonFile.empty()) io::checkWritable(jsonFile);
+    std::vector<std::string> inputs = scenes;
+    inputs.push_back(view.preset);
+    checkOutputs({{"--json", jsonFile, OutputKind::Json}}, inputs);
     return all;
 }
 

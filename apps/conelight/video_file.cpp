@@ -9,7 +9,7 @@
 
 #include "command_line.h"
 #include "conelight/error.h"
-#include "io/image_file.h"
+#include "io/files.h"
 #include "picture_file.h"
 
 namespace conelight::program {
@@ -47,16 +47,19 @@ VideoFile::VideoFile(const std::string& file, int width, int height, int framesP
             fmt::format("{}: films need the program ffmpeg, which is not installed; numbered pictures "
                         "as in frame%04d.png would be right",
                         file));
-    const std::filesystem::path path(file);
-    partial_ =
-        (path.parent_path() / (path.stem().string() + ".partial" + path.extension().string())).string();
+    // ffmpeg knows the format by the ending.
+    partial_ = io::newFileBeside(file, ".part" + std::filesystem::path(file).extension().string()).string();
     // Even sizes: the usual pixel format of films holds colour at half resolution.
     const std::string command = fmt::format(
         "ffmpeg -y -loglevel error -f rawvideo -pix_fmt rgb24 -s {}x{} -r {} -i - "
         "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2' -pix_fmt yuv420p {} >/dev/null",
         width, height, framesPerSecond, shellWord(partial_));
     pipe_ = ::popen(command.c_str(), "w");
-    if (pipe_ == nullptr) throw Error(ErrorKind::Runtime, file + ": ffmpeg cannot be started");
+    if (pipe_ == nullptr) {
+        std::error_code ignored;
+        std::filesystem::remove(partial_, ignored);
+        throw Error(ErrorKind::Runtime, file + ": ffmpeg cannot be started");
+    }
 }
 
 VideoFile::~VideoFile() {

@@ -39,6 +39,7 @@ int run(const ViewCommand& options) {
     progress.finish();
     Session session(std::move(scene), options.scene, settings,
                     mode.empty() ? getSetting(settings, "mode") : mode, camera);
+    session.allowOutside(options.view.allowOutside);
     ViewerOptions viewer;
     viewer.width = size.width;
     viewer.height = size.height;

@@ -35,6 +35,18 @@ class ViewerPanelsTest : public ViewerTest {
             return viewer->output().find(part) != std::string::npos;
         });
     }
+    // Whether bright pixels stand on the widget's dark ground.
+    bool lettersShown(const std::string& widget) {
+        const glm::ivec4 place = viewer->placeOf(widget);
+        constexpr int kBright = 150, kPixels = 5;  // text is 224, grounds are below 70; a letter has more
+        return eventually([&] {
+            const ScreenPixels now = screen->pixels();
+            int bright = 0;
+            for (int y = place.y; y < place.y + place.w; ++y)
+                for (int x = place.x; x < place.x + place.z; ++x) bright += now.at({x, y}).x >= kBright;
+            return bright >= kPixels;
+        });
+    }
     void openMenu(const std::string& menu, const std::string& item) {
         click("menu:" + menu);
         click(item);

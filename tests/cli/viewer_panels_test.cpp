@@ -250,6 +250,7 @@ TEST_F(ViewerPanelsTest, TextFollowsTheScreensScale) {
     settle();
     const glm::ivec4 small = viewer->placeOf("tab:Scene");
     EXPECT_NEAR(large.w, 2 * small.w, 2);
+    EXPECT_TRUE(lettersShown("tab:Scene"));
     moveTo(inPicture(0.5f, 0.5f));
     screen->xdotool("key ctrl+equal");
     EXPECT_NE(
@@ -265,6 +266,12 @@ TEST_F(ViewerPanelsTest, TextFollowsTheScreensScale) {
                           [](const std::string& now) { return now.find("scale 1.00") != std::string::npos; })
             .find("scale 1.00"),
         std::string::npos);
+    // Sizes up and down again: the letters are on the screen, whatever the program says of them.
+    for (const char* scale : {"1.5", "0.8", "2", "1", "0.5", "1"}) {
+        viewer->send(std::string("ui_scale ") + scale);
+        settle();
+        EXPECT_TRUE(lettersShown("tab:Scene")) << scale;
+    }
     viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0);
 }

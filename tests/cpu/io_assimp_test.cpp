@@ -154,6 +154,31 @@ TEST(Assimp, PolygonsPointsAndLines) {
                          "no triangles"));
 }
 
+// All of these are valid, and the same triangle.
+TEST(Assimp, ObjSpellings) {
+    const char* const spellings[] = {
+        "\xEF\xBB\xBFv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+        "  v 0 0 0\n\tv 1 0 0\n \tv 0 1 0\n  f 1 2 3\n",
+        "v\t0\t0\t0\t\nv\t1\t0\t0\nv\t0\t1\t0\nf\t1\t2\t3\t\n",
+        "v 0 0 0 # a\nv 1 0 0 #b\nv 0 1 0# c\nf 1 2 3 # f 9\n",
+        "v .0 +.0 -.0\nv +.1e+1 0 0\nv .0e-3 10.E-001 0\nf 1 2 3\n",
+        "v 0 0 \\\n  .0\nv 1 0 0 \nv 0 1 0\nf 1 2 \\\n\t3 # end\n",
+        "v 0 0 0\r\nv 1 0 0 # x\r\nv 0 1 0\r\nf 1 2 3\r\n",
+    };
+    int number = 0;
+    for (const char* obj : spellings) {
+        const Scene scene = loadObj("spelling" + std::to_string(number++), obj);
+        ASSERT_EQ(scene.triangleCount(), 1u) << obj;
+        EXPECT_EQ(scene.bounds().min, glm::vec3(0)) << obj;
+        EXPECT_EQ(scene.bounds().max, glm::vec3(1, 1, 0)) << obj;
+    }
+    EXPECT_EQ(objMaterial("mtl_spelling", "\tKd .25 +.5 1e+0 # grey\n  Ns .2e2 # n\n").baseColor,
+              glm::vec4(0.25f, 0.5f, 1, 1));
+    const Scene named = loadObj("hash", std::string("mtllib m.mtl\n") + kTriangle + "usemtl a#b\nf 1 2 3\n",
+                                "newmtl a#b\nKd 0 1 0\n");
+    EXPECT_EQ(named.materials.at(std::size_t(named.instances.at(0).material)).name, "a#b");
+}
+
 TEST(Assimp, ColladaUnitsUpAxisLightAndCamera) {
     const char* const dae =
         R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">

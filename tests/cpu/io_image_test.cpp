@@ -9,6 +9,7 @@
 #include "cpu/io_test_support.h"
 #include "io/files.h"
 #include "io/image_file.h"
+#include "io/picture_codec.h"
 
 namespace conelight {
 namespace {
@@ -195,6 +196,52 @@ TEST(ImageFile, DamagedFilesAreErrors) {
             }
         }
         EXPECT_GT(refused, 20) << name;
+    }
+}
+
+// Codes of a Huffman table beyond 256 led an earlier decoder out of its tables; half a file is no picture.
+TEST(ImageFile, BrokenJpegsAreRefused) {
+    const std::filesystem::path folder = folderOf("jpeg_broken");
+    io::writeJpg(folder / "a.jpg", {40, 30, 3, std::vector<std::uint8_t>(40 * 30 * 3, 77)});
+    const io::Bytes whole = io::readFile(folder / "a.jpg");
+    io::Bytes tables = whole;
+    for (std::size_t i = 0; i + 20 < tables.size(); ++i)
+        if (tables[i] == 0xFF && tables[i + 1] == 0xC4) {
+            std::fill_n(tables.begin() + std::ptrdiff_t(i + 5), 16, std::uint8_t(255));
+            break;
+        }
+    EXPECT_THROW(io::decodeRgba(tables, "x"), Error);
+    for (std::size_t size = 0; size + 2 < whole.size(); size += 7)
+        EXPECT_THROW(io::decodeRgba({whole.data(), size}, "x"), Error) << size;
+    EXPECT_EQ(io::decodeRgba(whole, "x").pixels.size(), 40u * 30 * 4);
+}
+
+TEST(ImageFile, LargePicturesAreMadeSmallerWhileTheyAreRead) {
+    const std::filesystem::path folder = folderOf("image_shrunk");
+    io::ByteImage image{13, 9, 3, {}};
+    for (int y = 0; y < 9; ++y)
+        for (int x = 0; x < 13; ++x)
+            for (const int value : {x < 8 ? 40 : 200, 10 * (x % 2), 99})
+                image.pixels.push_back(std::uint8_t(value));
+    io::writePng(folder / "a.png", image);
+    io::writeJpg(folder / "a.jpg", image, 100);
+    for (const char* name : {"a.png", "a.jpg"}) {
+        io::ByteImage small;
+        const io::DecodeResult result = io::decodePicture(io::readFile(folder / name), {4, 7 * 5}, small);
+        EXPECT_EQ(result.failure, "");
+        EXPECT_EQ(result.width, 13);
+        ASSERT_EQ(small.width, 7);
+        ASSERT_EQ(small.height, 5);
+        // JPEG leaves some error, also in what it leaves out.
+        const int tolerance = name == std::string("a.png") ? 0 : 12;
+        for (int y = 0; y < 5; ++y)
+            for (int x = 0; x < 7; ++x) {
+                const std::uint8_t* texel = &small.pixels[std::size_t(4 * (7 * y + x))];
+                EXPECT_NEAR(texel[0], x < 4 ? 40 : 200, tolerance) << name << x << y;
+                EXPECT_NEAR(texel[1], x < 6 ? 5 : 0, tolerance) << name << x << y;
+                EXPECT_NEAR(texel[2], 99, tolerance) << name << x << y;
+                EXPECT_EQ(texel[3], 255);
+            }
     }
 }
 

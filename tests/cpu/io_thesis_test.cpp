@@ -143,7 +143,8 @@ TEST(Thesis, MessagesInsteadOfCrashesAndSilence) {
     EXPECT_TRUE(hasNote(loadText("scene = { model = { name = N } }"), "neither path nor primitive"));
     EXPECT_TRUE(hasNote(loadText("scene = { model = { primitive = ball } }"), "'ball' is unknown"));
     EXPECT_TRUE(hasNote(loadText("scene = { }\nscene = { }"), "only the first is used"));
-    EXPECT_TRUE(hasNote(loadText(""), "empty"));
+    EXPECT_TRUE(contains(loadError(write(folderOf("thesis") / "nothing.txt", "")), "is empty"));
+    EXPECT_TRUE(contains(loadError(write(folderOf("thesis") / "blank.txt", " \n# a\n")), "is empty"));
     EXPECT_TRUE(contains(textError("scene = {\n model = {\n"), "bad.txt:2: '{' of model is never closed"));
     EXPECT_TRUE(contains(textError("= 3"), ":1: '=' without a key"));
     EXPECT_TRUE(contains(textError("scene = { name ="), "where a value should be"));

@@ -4,6 +4,7 @@
 
 #include "conelight/error.h"
 #include "console/console.h"
+#include "io/files.h"
 #include "io/image_file.h"
 
 #include <algorithm>

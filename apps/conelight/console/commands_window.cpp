@@ -2,6 +2,7 @@
 // Commands that act on the viewer's window. The window carries them out between frames, as any request.
 #include "conelight/error.h"
 #include "console/console.h"
+#include "io/files.h"
 #include "io/image_file.h"
 
 namespace conelight::program {

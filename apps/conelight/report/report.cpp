@@ -17,6 +17,7 @@
 #include "embedded_report.h"
 #include "io/files.h"
 #include "io/image_file.h"
+#include "outputs.h"
 
 namespace conelight::program {
 namespace {
@@ -256,17 +257,18 @@ std::string reportHtml(const Report& report) {
                    {"blocks", blocks.html}});
 }
 
-void prepareReport(const std::string& directory) {
+void prepareReport(const std::string& directory, const std::vector<std::string>& inputs) {
     std::error_code failed;
     std::filesystem::create_directories(directory, failed);
     if (failed)
         throw Error(ErrorKind::Runtime,
                     fmt::format("{}: cannot be made a folder: {}", io::oneLine(directory), failed.message()));
-    io::checkWritable(std::filesystem::path(directory) / "index.html");
+    checkOutputs({{"--report", (std::filesystem::path(directory) / "index.html").string(), OutputKind::Page}},
+                 inputs);
 }
 
 void writeReport(const std::string& directory, const Report& report) {
-    prepareReport(directory);
+    prepareReport(directory, {});
     const std::string page = reportHtml(report);
     io::writeFile(std::filesystem::path(directory) / "index.html",
                   {reinterpret_cast<const std::uint8_t*>(page.data()), page.size()});

@@ -79,7 +79,8 @@ std::string reportHtml(const Report& report);
 // Writes DIR/index.html, making DIR. Throws Error(Runtime) that names the path.
 void writeReport(const std::string& directory, const Report& report);
 
-// Makes DIR and finds out whether the page can be written there: to be called before long work.
-void prepareReport(const std::string& directory);
+// Makes DIR and finds out whether the page can be written there, over no file of another kind and none of
+// `inputs` (outputs.h): to be called before long work.
+void prepareReport(const std::string& directory, const std::vector<std::string>& inputs);
 
 }  // namespace conelight::program

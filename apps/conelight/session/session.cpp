@@ -131,7 +131,9 @@ void Session::startRevisions() {
 }
 
 std::vector<std::string> Session::open(const std::string& path, bool keepView) {
-    Scene loaded = io::loadScene(path);
+    io::LoadOptions load;
+    load.allowOutside = allowOutside_;
+    Scene loaded = io::loadScene(path, load);
     completeScene(loaded);
     const Settings start = startSettings(loaded);
     scene_ = std::move(loaded);

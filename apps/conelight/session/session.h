@@ -61,6 +61,8 @@ class Session {
     // Reads and completes a scene; its notes are returned. On an error the session is as before. keepView:
     // camera, settings and flags stay.
     std::vector<std::string> open(const std::string& path, bool keepView);
+    // Scenes that are opened may name files outside their folders.
+    void allowOutside(bool allow) { allowOutside_ = allow; }
 
     const Scene& scene() const { return scene_; }
     const std::string& path() const { return path_; }
@@ -154,6 +156,7 @@ class Session {
     };
     void startRevisions();
 
+    bool allowOutside_ = false;
     Scene scene_;
     std::string path_;
     Settings settings_;

@@ -153,7 +153,12 @@ void Gui::beginFrame() {
     if (const float scale = followsScreen_ ? window_.contentScale() : wantedScale_; scale != scale_) {
         scale_ = scale;
         applyLook();
-        ImGui_ImplOpenGL3_DestroyDeviceObjects();  // made anew, with the font's texture, by the next line
+        // The font's texture alone: Dear ImGui 1.86 forgets the size of buffers that it makes anew, and draws
+        // nothing from then on. Before the first frame there is none.
+        if (ImGui::GetIO().Fonts->TexID != ImTextureID{}) {
+            ImGui_ImplOpenGL3_DestroyFontsTexture();
+            ImGui_ImplOpenGL3_CreateFontsTexture();
+        }
     }
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();

@@ -23,6 +23,7 @@
 #include "io/assimp_import.h"
 #include "io/files.h"
 #include "io/geometry.h"
+#include "io/scene_folder.h"
 #include "thesis/format/syntax.h"
 #include "thesis/format/values.h"
 
@@ -34,6 +35,7 @@ using io::LoadOptions;
 using io::oneLine;
 using io::readFile;
 using io::removeMirrors;
+using io::SceneFolder;
 
 namespace fs = std::filesystem;
 
@@ -46,7 +48,14 @@ constexpr float kDegree = kPi / 180.0f;
 class Loader : BlockValues {
   public:
     Loader(const fs::path& path, const LoadOptions& options)
-        : BlockValues(oneLine(path.string()), scene_.notes), path_(path), options_(options) {}
+        : BlockValues(oneLine(path.string()), scene_.notes),
+          path_(path),
+          options_(options),
+          folder_(path, options.allowOutside) {
+        // Where the format looks for meshes (locate).
+        folder_.alsoBelow(".");
+        folder_.alsoBelow(folder_.path() / "..");
+    }
 
     Scene load();
 
@@ -61,41 +70,40 @@ class Loader : BlockValues {
     void readCamera(const Item& camera);
     void readSettings(const Item& settings, const std::string& prefix);
     int meshOf(const Item& model, const std::string& name);
-    std::optional<fs::path> locate(const std::string& path) const;
+    SceneFolder::Choice locate(const std::string& path) const;
 
     fs::path path_;
     LoadOptions options_;
+    SceneFolder folder_;
     Scene scene_;
     std::map<std::string, int> meshes_;  // by resolved path, "cube" for the primitive
 };
 
-std::optional<fs::path> Loader::locate(const std::string& given) const {
+SceneFolder::Choice Loader::locate(const std::string& given) const {
     std::string slashed = given;
     std::replace(slashed.begin(), slashed.end(), '\\', '/');
     const fs::path relative(slashed);
-    const fs::path folder = path_.has_parent_path() ? path_.parent_path() : fs::path(".");
-    std::error_code code;
     // As given from the working folder (the original's rule), beside the scene file, then in its parent
     // folder.
-    for (const fs::path& candidate : {relative, folder / relative, folder / ".." / relative})
-        if (fs::is_regular_file(candidate, code)) return candidate.lexically_normal();
-    return std::nullopt;
+    return folder_.firstOf({relative, folder_.path() / relative, folder_.path() / ".." / relative});
 }
 
 int Loader::meshOf(const Item& model, const std::string& name) {
     if (const std::string* path = word(model, "path")) {
-        const std::optional<fs::path> found = locate(*path);
-        if (!found) {
-            note(model.line, fmt::format("model {}: {}: no such file; model skipped", name, oneLine(*path)));
+        const SceneFolder::Choice choice = locate(*path);
+        if (choice.file.empty()) {
+            note(model.line,
+                 fmt::format("model {}: {}: {}; model skipped", name, oneLine(*path), choice.refusal));
             return -1;
         }
-        const auto known = meshes_.find(found->string());
+        const fs::path found = choice.file.lexically_normal();
+        const auto known = meshes_.find(found.string());
         if (known != meshes_.end()) return known->second;
         try {
-            Mesh mesh = loadFirstMesh(*found, options_);
-            mesh.name = found->stem().string();
+            Mesh mesh = loadFirstMesh(found, options_);
+            mesh.name = found.stem().string();
             scene_.meshes.push_back(std::move(mesh));
-            return meshes_[found->string()] = int(scene_.meshes.size()) - 1;
+            return meshes_[found.string()] = int(scene_.meshes.size()) - 1;
         } catch (const Error& error) {
             note(model.line, fmt::format("model {}: {}; model skipped", name, error.what()));
             return -1;
@@ -336,7 +344,7 @@ Scene Loader::load() {
     };
     const auto root = std::find_if(text.items.begin(), text.items.end(), usable);
     if (text.blank) {
-        scene_.notes.push_back("the file is empty: an empty scene");
+        throw Error(ErrorKind::BadInput, file() + ": is empty; 'scene = { ... }' would be right");
     } else if (root == text.items.end()) {
         throw Error(
             ErrorKind::BadInput,
