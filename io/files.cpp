@@ -232,6 +232,23 @@ std::string percentDecoded(std::string_view text) {
     return out;
 }
 
+std::string base64Encoded(std::span<const std::uint8_t> bytes) {
+    static const char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t left = bytes.size() - i;
+        const std::uint32_t three = std::uint32_t(bytes[i]) << 16 |
+                                    (left > 1 ? std::uint32_t(bytes[i + 1]) << 8 : 0) |
+                                    (left > 2 ? bytes[i + 2] : 0u);
+        text += kDigits[three >> 18];
+        text += kDigits[three >> 12 & 63];
+        text += left > 1 ? kDigits[three >> 6 & 63] : '=';
+        text += left > 2 ? kDigits[three & 63] : '=';
+    }
+    return text;
+}
+
 std::optional<Bytes> base64Decoded(std::string_view text) {
     Bytes out;
     out.reserve(text.size() / 4 * 3);

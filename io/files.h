@@ -47,6 +47,7 @@ void refuseOverwriting(const std::string& path, bool overwrite);
 // "a%20b" -> "a b"; a percent sign without two hex digits stays.
 std::string percentDecoded(std::string_view text);
 
+std::string base64Encoded(std::span<const std::uint8_t> bytes);
 // Bytes of base64 text, white space ignored; nothing when a character does not belong there.
 std::optional<Bytes> base64Decoded(std::string_view text);
 

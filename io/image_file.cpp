@@ -49,6 +49,14 @@ ImageFormat imageFormatOf(const fs::path& path) {
                             oneLine(path.string()), oneLine(extension)));
 }
 
+std::vector<std::uint8_t> pngBytes(const ByteImage& image) {
+    assert(image.pixels.size() == valueCount(image.width, image.height, image.channels));
+    std::vector<std::uint8_t> bytes =
+        stb::encodePng(image.width, image.height, image.channels, image.pixels.data());
+    if (bytes.empty()) throw Error(ErrorKind::Runtime, "out of memory while encoding a picture");
+    return bytes;
+}
+
 void writePng(const fs::path& path, const ByteImage& image) {
     assert(image.pixels.size() == valueCount(image.width, image.height, image.channels));
     writeEncoded(path, stb::encodePng(image.width, image.height, image.channels, image.pixels.data()));

@@ -45,6 +45,8 @@ struct FloatImage {
     std::vector<std::pair<std::string, std::string>> attributes;  // EXR only: name, text
 };
 
+// The bytes of a PNG file. Throws Error(Runtime) when memory runs out.
+std::vector<std::uint8_t> pngBytes(const ByteImage& image);
 void writePng(const std::filesystem::path& path, const ByteImage& image);
 void writeJpg(const std::filesystem::path& path, const ByteImage& image, int quality = 92);
 

@@ -20,6 +20,7 @@ void addRender(CLI::App& app);
 void addCompare(CLI::App& app);
 void addBench(CLI::App& app);
 void addScore(CLI::App& app);
+void addFigures(CLI::App& app);
 void addInfo(CLI::App& app);
 void addInspect(CLI::App& app);
 void addSettings(CLI::App& app);

@@ -45,28 +45,6 @@ glm::ivec2 parsePixel(const std::string& text, const Size& size) {
     return {x, y};
 }
 
-// A line in the picture: points half a pixel apart, each shared between its four pixels.
-void drawLine(Image& image, const PictureLine& line, float brightness) {
-    const glm::vec2 size(static_cast<float>(image.width), static_cast<float>(image.height));
-    const glm::vec2 from = line.from * size - 0.5f, to = line.to * size - 0.5f;
-    const float length = glm::length(to - from);
-    // Lines far outside are cut, not walked.
-    const int points = std::clamp(static_cast<int>(2 * length), 1, 8 * std::max(image.width, image.height));
-    for (int i = 0; i <= points; ++i) {
-        const glm::vec2 p = glm::mix(from, to, static_cast<float>(i) / static_cast<float>(points));
-        if (!(p.x > -1 && p.y > -1 && p.x < size.x && p.y < size.y)) continue;
-        const glm::ivec2 corner(glm::floor(p));
-        const glm::vec2 part = p - glm::vec2(corner);
-        for (int k = 0; k < 4; ++k) {
-            const glm::ivec2 q = corner + glm::ivec2(k & 1, k >> 1);
-            if (q.x < 0 || q.y < 0 || q.x >= image.width || q.y >= image.height) continue;
-            const float share = ((k & 1) != 0 ? part.x : 1 - part.x) * ((k >> 1) != 0 ? part.y : 1 - part.y);
-            glm::vec4& pixel = image.pixels[static_cast<std::size_t>(q.y * image.width + q.x)];
-            pixel = glm::mix(pixel, glm::vec4(brightness * line.color, 1), 0.7f * share * line.opacity);
-        }
-    }
-}
-
 void run(const InspectOptions& options) {
     if (!options.mode.empty() && !isRendererMode(options.mode)) {
         requireModeName(options.mode);

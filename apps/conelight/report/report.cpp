@@ -24,23 +24,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string base64(const std::vector<std::uint8_t>& bytes) {
-    static const char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t left = bytes.size() - i;
-        const std::uint32_t three = std::uint32_t(bytes[i]) << 16 |
-                                    (left > 1 ? std::uint32_t(bytes[i + 1]) << 8 : 0) |
-                                    (left > 2 ? bytes[i + 2] : 0u);
-        text += kDigits[three >> 18];
-        text += kDigits[three >> 12 & 63];
-        text += left > 1 ? kDigits[three >> 6 & 63] : '=';
-        text += left > 2 ? kDigits[three & 63] : '=';
-    }
-    return text;
-}
-
 // Appends the bytes of a value, least significant first, whatever the machine's order.
 template <class Value>
 void append(std::vector<std::uint8_t>& bytes, Value value) {
@@ -75,7 +58,7 @@ ordered_json colorScale(bool isSigned) {
     for (int i = 0; i < 256; ++i)
         reference::colorOfError(isSigned ? float(i) / 127.5f - 1 : float(i) / 255, isSigned,
                                 &bytes[std::size_t(3 * i)]);
-    return base64(bytes);
+    return io::base64Encoded(bytes);
 }
 
 void check(const Report& report) {
@@ -167,7 +150,8 @@ struct Blocks {
     std::size_t count = 0;
 
     std::size_t add(const std::vector<std::uint8_t>& bytes) {
-        html += fmt::format("<script type=\"text/plain\" id=\"block{}\">{}</script>\n", count, base64(bytes));
+        html += fmt::format("<script type=\"text/plain\" id=\"block{}\">{}</script>\n", count,
+                            io::base64Encoded(bytes));
         return count++;
     }
 };

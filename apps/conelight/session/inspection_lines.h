@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "conelight/inspect.h"
+#include "conelight/renderer.h"
 #include "conelight/scene.h"
 
 namespace conelight::program {
@@ -24,6 +25,8 @@ using SeesPoint = std::function<bool(const glm::vec3&)>;
 // `chosen`: the path that stands out, -1 none. Hidden pieces are faint.
 std::vector<PictureLine> inspectionLines(const PixelInspection& pixel, const Camera& camera, float aspect,
                                          int chosen, const SeesPoint& sees);
+// The line in the picture: points half a pixel apart, each shared between its four pixels.
+void drawLine(Image& image, const PictureLine& line, float brightness);
 // Where the camera sees a point, in parts of the picture; nothing behind its near plane.
 std::optional<glm::vec2> pictureOf(const Camera& camera, float aspect, const glm::vec3& point);
 
