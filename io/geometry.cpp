@@ -208,8 +208,8 @@ void removeMirrors(Scene& scene) {
     }
     scene.instances = std::move(kept);
     if (dropped > 0)
-        scene.notes.push_back(fmt::format("{} instance{} without volume (zero scale) left out", dropped,
-                                          dropped == 1 ? "" : "s"));
+        scene.notes.push_back(fmt::format("{} instance{} left out: zero scale, or beyond what numbers hold",
+                                          dropped, dropped == 1 ? "" : "s"));
 }
 
 }  // namespace conelight::io

@@ -13,6 +13,7 @@ namespace conelight::io {
 namespace {
 
 constexpr std::uint64_t kMostBytes = std::uint64_t(16) << 20;
+constexpr std::size_t kMostLevels = 200;  // real files stay below 10; each value is kept with its whole path
 
 // Counts the line ends before the last character that was taken: a parser looks one character past a number,
 // which may be the line's end.
@@ -97,7 +98,9 @@ class LineFinder : public nlohmann::json_sax<nlohmann::ordered_json> {
     bool open(bool array) {
         lines_.emplace(pointer(), line_);
         levels_.push_back({array, 0, {}});
-        return true;
+        if (levels_.size() <= kMostLevels) return true;
+        failure = "is nested too deeply";
+        return false;
     }
     bool close() {
         levels_.pop_back();

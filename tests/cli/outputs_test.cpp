@@ -47,6 +47,25 @@ TEST_F(OutputsTest, NothingIsWrittenOverWhatIsRead) {
     EXPECT_FALSE(fs::exists(path("o.png")));
 }
 
+// A stranger's scene does not carry files of the user away, whichever command opens it.
+TEST_F(OutputsTest, WhatLiesOutsideIsReadWhenAllowed) {
+    fs::create_directories(path("scene"));
+    ASSERT_EQ(conelight("convert builtin:furnace " + path("scene/s.gltf")).status, 0);
+    fs::rename(path("scene/s.bin"), path("s.bin"));
+    fs::create_symlink("../s.bin", path("scene/s.bin"));
+    const std::string scene = path("scene/s.gltf"), out = path("o.glb"), picture = path("o.png");
+    const std::string draw = " --mode phong --size 16x16 -o " + picture;
+    for (const std::string& command :
+         {"info " + scene, "convert " + scene + " " + out, "render " + scene + draw,
+          "render builtin:furnace --exec 'open " + scene + "'" + draw}) {
+        expectOneLine(conelight(command), 3, "lies outside the scene's folder");
+        EXPECT_FALSE(fs::exists(out) || fs::exists(picture)) << command;
+        EXPECT_EQ(conelight(command + " --allow-outside").status, 0) << command;
+        fs::remove(out);
+        fs::remove(picture);
+    }
+}
+
 TEST_F(OutputsTest, NothingIsWrittenOverAnotherKind) {
     const std::string notes = path("notes.txt"), model = path("model.obj");
     put(notes, "dear diary");

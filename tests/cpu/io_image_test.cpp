@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Image files: what is written comes back, files appear whole or not at all, errors say what is wrong.
+#include <cstdio>  // jpeglib.h needs it
+
+#include <jpeglib.h>
+
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <functional>
 #include <limits>
 #include <random>
@@ -214,6 +220,54 @@ TEST(ImageFile, BrokenJpegsAreRefused) {
     for (std::size_t size = 0; size + 2 < whole.size(); size += 7)
         EXPECT_THROW(io::decodeRgba({whole.data(), size}, "x"), Error) << size;
     EXPECT_EQ(io::decodeRgba(whole, "x").pixels.size(), 40u * 30 * 4);
+}
+
+// One colour, as libjpeg writes it.
+io::Bytes jpegOf(const std::vector<std::uint8_t>& texel, J_COLOR_SPACE space, bool progressive) {
+    jpeg_compress_struct jpeg = {};
+    jpeg_error_mgr errors = {};
+    jpeg.err = jpeg_std_error(&errors);
+    jpeg_create_compress(&jpeg);
+    unsigned char* out = nullptr;
+    unsigned long size = 0;
+    jpeg_mem_dest(&jpeg, &out, &size);
+    jpeg.image_width = 20;
+    jpeg.image_height = 12;
+    jpeg.input_components = int(texel.size());
+    jpeg.in_color_space = space;
+    jpeg_set_defaults(&jpeg);
+    jpeg_set_quality(&jpeg, 100, TRUE);
+    if (progressive) jpeg_simple_progression(&jpeg);
+    jpeg_start_compress(&jpeg, TRUE);
+    std::vector<std::uint8_t> row;
+    for (int x = 0; x < 20; ++x) row.insert(row.end(), texel.begin(), texel.end());
+    for (int y = 0; y < 12; ++y) {
+        JSAMPROW line = row.data();
+        jpeg_write_scanlines(&jpeg, &line, 1);
+    }
+    jpeg_finish_compress(&jpeg);
+    jpeg_destroy_compress(&jpeg);
+    const io::Bytes bytes(out, out + size);
+    std::free(out);
+    return bytes;
+}
+
+TEST(ImageFile, JpegsOfAllKinds) {
+    const struct {
+        io::Bytes file;
+        std::array<int, 3> rgb;
+    } kinds[] = {{jpegOf({90, 160, 30}, JCS_RGB, false), {90, 160, 30}},
+                 {jpegOf({90, 160, 30}, JCS_RGB, true), {90, 160, 30}},
+                 {jpegOf({77}, JCS_GRAYSCALE, false), {77, 77, 77}},
+                 // Inks with Adobe's marker, which libjpeg writes, are stored inverted.
+                 {jpegOf({200, 100, 50, 255}, JCS_CMYK, false), {200, 100, 50}},
+                 {jpegOf({200, 100, 50, 128}, JCS_CMYK, true), {100, 50, 25}}};
+    for (const auto& kind : kinds) {
+        const io::ByteImage image = io::decodeRgba(kind.file, "x");
+        ASSERT_EQ(image.pixels.size(), 20u * 12 * 4);
+        for (std::size_t i = 0; i < image.pixels.size(); ++i)
+            EXPECT_NEAR(image.pixels[i], i % 4 == 3 ? 255 : kind.rgb[i % 4], 2);
+    }
 }
 
 TEST(ImageFile, LargePicturesAreMadeSmallerWhileTheyAreRead) {
