@@ -6,10 +6,10 @@
 #include "io/generated_scenes.h"
 
 #include <fmt/format.h>
-#include <array>
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 namespace conelight::io {
 namespace {
@@ -167,13 +167,20 @@ constexpr Entry kScenes[] = {
     {{"bends", "passage that turns back twice, lamp at its far end; cameras dark, lit", kBendsParameters},
      generated::buildBends},
 };
-constexpr std::size_t kSceneCount = std::size(kScenes);
 
-constexpr auto kInfos = [] {
-    std::array<GeneratedSceneInfo, kSceneCount> infos{};
-    for (std::size_t i = 0; i < kSceneCount; ++i) infos[i] = kScenes[i].info;
-    return infos;
-}();
+// All scenes: those above, then those of guests.
+struct Lists {
+    std::vector<Entry> entries{std::begin(kScenes), std::end(kScenes)};
+    std::vector<GeneratedSceneInfo> infos;
+    Lists() {
+        for (const Entry& entry : entries) infos.push_back(entry.info);
+    }
+};
+
+Lists& lists() {
+    static Lists all;
+    return all;
+}
 
 [[noreturn]] void failUsage(const std::string& spec, const std::string& what) {
     throw Error(ErrorKind::Usage, fmt::format("builtin:{}: {}", spec, what));
@@ -181,7 +188,8 @@ constexpr auto kInfos = [] {
 
 std::string knownScenes() {
     std::string list;
-    for (const Entry& entry : kScenes) list += fmt::format("{}{}", list.empty() ? "" : ", ", entry.info.name);
+    for (const Entry& entry : lists().entries)
+        list += fmt::format("{}{}", list.empty() ? "" : ", ", entry.info.name);
     return list;
 }
 
@@ -242,13 +250,20 @@ generated::Values parseValues(const std::string& spec, const GeneratedSceneInfo&
 
 }  // namespace
 
-std::span<const GeneratedSceneInfo> generatedScenes() { return kInfos; }
+void registerGeneratedScene(const GeneratedSceneInfo& info, Scene (*build)(const generated::Values&)) {
+    for (const Entry& entry : lists().entries)
+        if (entry.info.name == info.name) return;
+    lists().entries.push_back({info, build});
+    lists().infos.push_back(info);
+}
+
+std::span<const GeneratedSceneInfo> generatedScenes() { return lists().infos; }
 
 Scene generateScene(const std::string& spec) {
     const std::string_view text = spec;
     const std::size_t mark = text.find('?');
     const std::string_view name = text.substr(0, mark);
-    for (const Entry& entry : kScenes) {
+    for (const Entry& entry : lists().entries) {
         if (entry.info.name != name) continue;
         const std::string_view rest =
             mark == std::string_view::npos ? std::string_view() : text.substr(mark + 1);

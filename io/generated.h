@@ -28,7 +28,16 @@ struct GeneratedSceneInfo {
     std::span<const GeneratedParameter> parameters;
 };
 
-// All scenes that generateScene knows, in the order in which help should list them. Valid for ever.
+namespace generated {
+class Values;  // the parameters asked for: generated_scenes.h
+}
+
+// Adds a scene of a guest (modes/) behind those of this folder. First thing in a program, from one thread;
+// the texts of `info` last for ever. A name that is there already: nothing is done.
+void registerGeneratedScene(const GeneratedSceneInfo& info, Scene (*build)(const generated::Values&));
+
+// All scenes that generateScene knows, in the order in which help should list them. Valid until the next
+// registerGeneratedScene.
 std::span<const GeneratedSceneInfo> generatedScenes();
 
 // Makes the scene NAME or NAME?key=value&key=value, e.g. "atrium?triangles=1000000". Has at least one camera;

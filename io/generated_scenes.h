@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the files of the generated scenes share: the values asked for, helpers to fill the tables of a Scene,
-// and one builder per scene. Internal to conelight_io; the public face is generated.h.
+// and one builder per scene. For conelight_io and for guests (modes/) with scenes of their own; the public face is
+// generated.h.
 //
 // Albedos are linear Rec.709, measured-like values for paint and stone, never above 0.8. Light is chosen by
 // eye (2026) such that the first camera's picture at exposure 1 has a mean of 0.2 to 0.4 after tone mapping.

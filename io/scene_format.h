@@ -6,12 +6,20 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "conelight/scene.h"
 #include "io/scene_file.h"
 
 namespace conelight::io {
+
+// A line of a file's syntax tree.
+struct SyntaxLine {
+    int depth = 0;     // 0: top level
+    std::string text;  // key, or key = word
+    int line = 0;      // in the file, from 1
+};
 
 struct SceneFormat {
     std::string name;                     // Scene::format of scenes that keep its conventions
@@ -20,6 +28,8 @@ struct SceneFormat {
     std::function<Scene(const std::filesystem::path& path, const LoadOptions& options)> read;
     // As writeScene; the name is free or may be replaced.
     std::function<std::vector<std::string>(const std::string& path, const Scene& scene, bool force)> write;
+    // The tree of a text, from top to bottom; `file` starts error lines. Empty: the format is no text.
+    std::function<std::vector<SyntaxLine>(std::string_view text, const std::string& file)> syntax;
 };
 
 // Call before anything is loaded, from one thread. A format of the same name is replaced.

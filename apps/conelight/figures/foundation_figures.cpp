@@ -11,7 +11,7 @@ const Figure kFigures[] = {
     {"F01", "What it is good for", "A collage of demonstrations of voxel cone tracing",
      "Scenes of this project in its own modes: a sunlit courtyard, a box with a lamp, a room with curved "
      "things.",
-     Kind::Series, nullptr, "pictures of scenes"},
+     Kind::Series, renderUses},
     {"F02", "Solid angle", "The patch that two angles and their steps cut out of the unit sphere",
      "The patch (blue) at θ from the pole and φ round it. Its edges are dθ and sin θ dφ long, so its area, "
      "the solid "
@@ -32,7 +32,7 @@ const Figure kFigures[] = {
      "One room four times. The point lamp lights all walls; the spot draws a disc; the directional light "
      "falls alike "
      "everywhere and throws parallel shadows; the rectangle gives soft ones.",
-     Kind::Render, nullptr, "pictures of scenes"},
+     Kind::Render, renderLightKinds},
     {"F06", "Inverse square", "Light that spreads over an area which grows with the distance squared",
      "The light that passes through one square at r passes through four at 2r and nine at 3r.", Kind::Drawing,
      vectorFigure<drawInverseSquare>},
@@ -40,7 +40,7 @@ const Figure kFigures[] = {
      "One lamp over a floor. With the square the light stays near the lamp, with the distance it reaches "
      "further, and "
      "without falloff only the angle dims it.",
-     Kind::Render, nullptr, "pictures of scenes"},
+     Kind::Render, renderFalloffs},
     {"F08", "Parts of reflection", "Ideal specular, ideal diffuse and glossy reflection, and their sum",
      "Light comes in from the left (orange). The further a curve lies from the middle, the more light goes "
      "there. The "
@@ -65,7 +65,7 @@ const Figure kFigures[] = {
      "Left direct light alone: what the lamp does not see is black. Right all bounces: the white blocks turn "
      "red and "
      "green beside the walls.",
-     Kind::Render, nullptr, "pictures of scenes"},
+     Kind::Render, renderLocalAndGlobal},
     {"F13", "Graphics pipeline", "Stages of the OpenGL pipeline",
      "Stages that are programs are blue, fixed ones grey. Below each stands what this project uses it for.",
      Kind::Drawing, vectorFigure<drawPipeline>},
@@ -77,16 +77,16 @@ const Figure kFigures[] = {
      "a view setting whose geometry shader shrinks triangles"},
     {"F16", "Phong's model", "A dragon by Phong's model",
      "Direct light alone: ambient, diffuse and glossy part of Phong's model on a body made by code.",
-     Kind::Render, nullptr, "pictures of scenes"},
+     Kind::Render, renderDragon},
     {"F17", "Path tracing", "A photorealistic interior by ray tracing",
-     "A room with textures on every surface by the path tracer of mode `reference`.", Kind::Render, nullptr,
-     "pictures of scenes"},
+     "A room with textures on every surface by the path tracer of mode `reference`.", Kind::Render,
+     renderPathTraced},
     {"F18", "Bounces", "Radiosity after a growing number of bounces",
      "Each bounce lights what the one before it left dark, and adds less than the one before it.",
-     Kind::Series, nullptr, "pictures of scenes"},
+     Kind::Series, renderBounces},
     {"F19", "Radiosity and ray tracing", "The same scene by radiosity and by ray tracing",
      "Left radiosity, which knows diffuse light alone: metal is dark. Right the path tracer.", Kind::Render,
-     nullptr, "pictures of scenes"},
+     renderRadiosityBesideRays},
     {"F20", "Two approximations", "How radiosity and ray tracing approximate the rendering equation",
      "Left patches that exchange light along all lines of sight; those of one patch are drawn. Right one "
      "path from the "

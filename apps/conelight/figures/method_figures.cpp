@@ -17,7 +17,7 @@ const Figure kFigures[] = {
      "The cones that mode `thesis` traced for one pixel, drawn over the picture: diffuse cones in a fan, the "
      "specular "
      "cone along the mirrored view, the occlusion cone towards the lamp.",
-     Kind::Render, nullptr, "pictures of scenes"},
+     Kind::Render, renderConesOfPixel},
     {"F23", "Components", "How the components of voxel cone tracing flow together",
      "Direct light is weakened by occlusion cones; diffuse and specular cones add indirect light.",
      Kind::Drawing, vectorFigure<drawComponentFlow>},
@@ -46,8 +46,8 @@ const Figure kFigures[] = {
      "colour that was read.",
      Kind::Drawing, vectorFigure<drawFlatConeMarch>},
     {"F29", "Light and its voxels", "Direct light, and the 3D texture that keeps it",
-     "Left the lit room, right what the volume keeps of it: one colour per voxel.", Kind::Render, nullptr,
-     "pictures of scenes"},
+     "Left the lit room, right what the volume keeps of it: one colour per voxel.", Kind::Render,
+     renderLightAndVoxels},
     {"F30", "Onto the viewport", "A triangle is projected on the viewport, and its fragments become voxels",
      "The viewport has one pixel per column of voxels. A pixel is covered when the triangle covers its "
      "middle; its "
@@ -73,10 +73,10 @@ const Figure kFigures[] = {
      "The classes of this project: the program, the library's API, its values, and its modes.", Kind::Drawing,
      vectorFigure<drawClasses>},
     {"F36", "Primitives", "Primitive shapes in direct light by Phong's model",
-     "A cube, a ball, a cylinder and a cone in mode `phong`.", Kind::Render, nullptr, "pictures of scenes"},
+     "A cube, a ball, a cylinder and a cone in mode `phong`.", Kind::Render, renderPrimitives},
     {"F37", "Three resolutions", "A statue in a box, voxelized at three resolutions",
-     "The volume of mode `thesis` at three sizes, its front wall taken away.", Kind::Series, nullptr,
-     "pictures of scenes"},
+     "The volume of mode `thesis` at three sizes, its front wall taken away.", Kind::Series,
+     renderResolutions},
 };
 
 }  // namespace

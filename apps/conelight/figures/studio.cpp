@@ -23,18 +23,27 @@ constexpr int kSmallestVoxels = 32;
 }  // namespace
 
 Studio::Studio(program::Size size, bool small, const program::ViewOptions& view, program::Progress& progress)
-    : size_(size), small_(small), view_(view), progress_(progress), source_(view) {}
+    : size_(size),
+      small_(small),
+      view_(view),
+      progress_(progress),
+      source_(std::make_unique<program::PictureSource>(view)) {}
 
 Studio::~Studio() = default;
 
-std::string Studio::device() const { return source_.device(); }
+void Studio::restart() {
+    source_ = std::make_unique<program::PictureSource>(view_);
+    loadedName_.clear();
+}
+
+std::string Studio::device() const { return source_->device(); }
 
 const Scene& Studio::scene(const std::string& spec) {
     if (loadedName_ != spec) {
         progress_.show("loading " + spec);
         auto fresh = std::make_unique<Scene>(io::loadScene(spec));
         completeScene(*fresh);
-        source_.setScene(*fresh);
+        source_->setScene(*fresh);
         loaded_ = std::move(fresh);
         loadedName_ = spec;
     }
@@ -65,7 +74,7 @@ program::PictureRequest Studio::requestOf(const Shot& shot, const Scene& scene) 
 
 program::Picture Studio::picture(const Shot& shot, const Scene& scene) {
     const program::PictureRequest request = requestOf(shot, scene);
-    program::Picture picture = source_.draw(request, &progress_);
+    program::Picture picture = source_->draw(request, &progress_);
     if (picture.stopped) throw program::InterruptedError();
     return picture;
 }
@@ -88,7 +97,7 @@ Panel Studio::draw(const std::string& label, const Shot& shot) {
 Panel Studio::draw(const std::string& label, const Shot& shot, const Scene& changed) {
     auto kept = std::make_unique<Scene>(changed);
     completeScene(*kept);
-    source_.setScene(*kept);
+    source_->setScene(*kept);
     given_ = std::move(kept);
     loadedName_.clear();
     return panelOf(label, picture(shot, *given_).images.front(), requestOf(shot, *given_).settings.image);
@@ -98,8 +107,8 @@ Panel Studio::inspect(const std::string& label, const Shot& shot, double x, doub
     const Scene& loaded = scene(shot.scene);
     const program::PictureRequest request = requestOf(shot, loaded);
     program::Picture drawn = picture(shot, loaded);
-    const PixelInspection found = source_.inspect(request, std::min(int(x * size_.width), size_.width - 1),
-                                                  std::min(int(y * size_.height), size_.height - 1));
+    const PixelInspection found = source_->inspect(request, std::min(int(x * size_.width), size_.width - 1),
+                                                   std::min(int(y * size_.height), size_.height - 1));
     program::Session session(loaded, shot.scene, request.settings, request.mode, request.camera);
     program::Picker picker;
     const float aspect = float(size_.width) / float(size_.height);

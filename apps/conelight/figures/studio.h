@@ -41,6 +41,9 @@ class Studio {
     program::PictureRequest requestOf(const Shot& shot, const Scene& scene) const;
     program::Picture picture(const Shot& shot, const Scene& scene);
 
+    // Gives back OpenGL and the scene, so that a figure may have a context of its own.
+    void restart();
+
     program::Size size() const { return size_; }
     bool small() const { return small_; }
     const program::ViewOptions& view() const { return view_; }
@@ -52,7 +55,7 @@ class Studio {
     bool small_;
     program::ViewOptions view_;
     program::Progress& progress_;
-    program::PictureSource source_;
+    std::unique_ptr<program::PictureSource> source_;
     std::string loadedName_;
     std::unique_ptr<Scene> loaded_, given_;
 };

@@ -4,6 +4,9 @@
 #pragma once
 
 #include <string>
+#include <vector>
+
+#include "io/scene_format.h"
 
 namespace conelight::figures {
 
@@ -33,10 +36,12 @@ std::string drawOverview();
 std::string drawDataFlow();
 std::string drawClasses();
 std::string drawSummary();
+std::string drawSyntaxTree(const std::vector<io::SyntaxLine>& tree, const std::string& text);
 
 // Cones (cone_march.cpp)
 std::string drawConeMarch();
 std::string plotPowerOfTwo();
+std::string drawConeSet(bool side, bool intermediate);
 
 // Voxels (voxel_drawings.cpp)
 std::string drawViewportProjection();

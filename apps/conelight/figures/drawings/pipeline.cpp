@@ -105,7 +105,7 @@ std::string drawSpaces() {
     constexpr const char* kNames[3] = {"x", "y", "z"};
     for (int i = 0; i < 4; ++i) {
         const Step& step = steps[i];
-        const Point centre(i * 250.0, 0);
+        const Point centre(i * 270.0 + (i == 3 ? 50 : 0), 0);
         SpaceView at{.origin = centre, .scale = step.scale, .azimuthDeg = 28, .elevationDeg = 22};
         if (i == 2) at.origin += Point(50, -60);  // what the eye sees lies at negative z
         drawAxes(d, at, i == 2 ? 1.6 : 1.5, kNames);
@@ -130,7 +130,7 @@ std::string drawSpaces() {
         }
     }
     // The screen: x and y of clip space on pixels.
-    const Point corner(940, -70), size(200, 150);
+    const Point corner(1050, -70), size(200, 150);
     d.rect(corner, size, {.width = 2, .fill = "#f6f8fb"});
     const glm::dmat4 all = clip * view * world;
     for (const auto& edge : kEdges) {
@@ -141,8 +141,8 @@ std::string drawSpaces() {
         d.line(pixel(edge[0]), pixel(edge[1]), stroke(colour::kBlue, 1.8));
     }
     d.text(corner + Point(100, 220), "screen", {.size = 15, .bold = true});
-    d.arrow({822, 186}, {928, 186}, stroke(colour::kInk, 1.6));
-    d.text({875, 208}, "viewport", {.size = 12, .colour = colour::kRed});
+    d.arrow({932, 186}, {1038, 186}, stroke(colour::kInk, 1.6));
+    d.text({985, 208}, "viewport", {.size = 12, .colour = colour::kRed});
     return d.svg("Spaces from the mesh to the screen");
 }
 

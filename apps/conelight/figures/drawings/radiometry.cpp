@@ -219,15 +219,17 @@ std::string drawInverseSquare() {
                                         low + dvec3(0, 0, 2 * half)}),
                           {.stroke = colour::kOrange, .width = 1.4, .fill = kFills[n - 1], .opacity = 0.92});
             }
-        const Point top = view.at(dvec3(side, y, side));
-        d.text(top + Point(14 * n, -34), n == 1 ? "r" : fmt::format("{}r", n), {.size = 18, .italic = true});
-        d.text(top + Point(14 * n, -12), n == 1 ? "E" : fmt::format("E / {}", n * n),
-               {.size = 18, .colour = colour::kRed});
         for (const double u : {-1.0, 1.0})
             for (const double v : {-1.0, 1.0})
                 d.line(view.at(dvec3(side * u, y, side * v)),
                        view.at(dvec3(side * u, y, side * v) * ((n - 1.0) / n)),
                        stroke(colour::kOrange, 1, "4 3"));
+    }
+    for (int n = 1; n <= 3; ++n) {
+        const Point top = view.at(dvec3(-half * n, 1.7 * n, half * n));
+        const std::string far = n == 1 ? "r" : fmt::format("{}r", n),
+                          light = n == 1 ? "E" : fmt::format("E/{}", n * n);
+        d.text(top + Point(4, -10), fmt::format("{}: {}", far, light), {.size = 18, .colour = colour::kRed});
     }
     for (int i = 0; i < 12; ++i) {
         const double angle = 2 * kPi * i / 12;

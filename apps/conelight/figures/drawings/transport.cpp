@@ -22,16 +22,11 @@ void drawFormula(Drawing& d, Point at, const std::vector<std::pair<std::string, 
     }
 }
 
-}  // namespace
-
-std::string drawRenderingEquation() {
-    Drawing d;
-    const Point x(330, 330);
-    // Surfaces: the one in question, and another that sends light to it.
+// The point's surroundings: its surface, the wall that sends light to it, the hemisphere of directions.
+void drawPointOnSurface(Drawing& d, Point x, Point wall) {
     d.polygon({x + Point(-250, 0), x + Point(300, 0), x + Point(300, 16), x + Point(-250, 16)},
               filled("#d8dde6"));
     d.line(x + Point(-250, 0), x + Point(300, 0), stroke(colour::kInk, 2));
-    const Point wall = x + Point(300, -60);
     d.polygon({wall, wall + Point(0, -190), wall + Point(15, -190), wall + Point(15, 0)}, filled("#f1c7b4"));
     d.line(wall, wall + Point(0, -190), stroke(colour::kRed, 2));
     // The hemisphere of directions.
@@ -46,6 +41,15 @@ std::string drawRenderingEquation() {
     d.text(x + radius * upTurned(-1.25) + Point(-16, -2), "Ω", {.size = 18, .colour = kNote});
     d.arrow(x, x + Point(0, -165), stroke(colour::kInk, 1.6));
     d.text(x + Point(0, -174), "n", {.size = 18, .italic = true});
+}
+
+}  // namespace
+
+std::string drawRenderingEquation() {
+    Drawing d;
+    const Point x(330, 330);
+    const Point wall = x + Point(300, -60);
+    drawPointOnSurface(d, x, wall);
     // How the surface spreads light: a lobe about the mirrored direction on an even part.
     const double lampAngle = -0.62, eyeAngle = 1.0;
     std::vector<Point> lobe{x};
