@@ -64,7 +64,8 @@ Panels renderBounces(Studio& studio) {
 
 Panels renderRadiosityBesideRays(Studio& studio) {
     return {studio.draw("radiosity", {.scene = "builtin:mirrors?roughness=0.2", .mode = "radiosity"}),
-            studio.draw("ray tracing", {.scene = "builtin:mirrors?roughness=0.2", .mode = "reference", .samples = 128})};
+            studio.draw("ray tracing",
+                        {.scene = "builtin:mirrors?roughness=0.2", .mode = "reference", .samples = 128})};
 }
 
 }  // namespace conelight::figures

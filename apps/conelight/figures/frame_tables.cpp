@@ -17,7 +17,7 @@ constexpr std::array<int, 3> kSizes = {64, 128, 256};
 constexpr std::array<double, 3> kPrintedStill = {0.01666, 0.0313, 0.1274};
 constexpr std::array<double, 3> kPrintedDynamic = {0.02039, 0.06301, 0.33401};
 constexpr int kFrames = 100;         // as in the thesis
-constexpr double kMostSeconds = 60;  // per cell: software drivers measure fewer frames
+constexpr double kMostSeconds = 10;  // per cell: software drivers measure fewer frames
 constexpr int kFewest = 3, kSmallFrames = 2;
 
 struct Cell {

@@ -4,6 +4,8 @@
 
 #include <array>
 #include <cmath>
+#include <string>
+#include <tuple>
 
 #include "figures/drawings/drawings.h"
 #include "figures/renders.h"
@@ -113,7 +115,7 @@ Panels renderConeSets(Studio& studio) {
 
 Panels renderLeaks(Studio& studio) {
     Panels panels;
-    for (const int level : {0, 3, 4, 5})
+    for (const int level : {0, 2, 3, 4})
         panels.push_back(studio.draw(
             fmt::format("level {}", level),
             thesisShot("thesis-leak?front=0", "voxels",
@@ -148,10 +150,16 @@ Panels renderRings(Studio& studio) {
 Panels renderGallery(Studio& studio) {
     Panels panels;
     for (const char* mode : {"thesis", "cones", "traced"}) {
-        panels.push_back(studio.draw(fmt::format("statue, mode {}", mode),
-                                     {.scene = "builtin:thesis-room", .mode = mode, .camera = "pos2"}));
-        panels.push_back(studio.draw(fmt::format("three lamps, mode {}", mode),
-                                     {.scene = "builtin:thesis-complex", .mode = mode, .camera = "pos2"}));
+        // Physical modes keep all bounces of bright walls: less exposure, by eye.
+        const bool physical = std::string(mode) != "thesis";
+        for (const auto& [name, scene, stops] : {std::tuple("statue", "builtin:thesis-room", "-2.2"),
+                                                 std::tuple("three lamps", "builtin:thesis-complex", "-2.7")})
+            panels.push_back(
+                studio.draw(fmt::format("{}, mode {}", name, mode),
+                            {.scene = scene,
+                             .mode = mode,
+                             .camera = "pos2",
+                             .settings = physical ? Values{{"image.exposure", stops}} : Values{}}));
     }
     return panels;
 }
