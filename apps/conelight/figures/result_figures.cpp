@@ -82,9 +82,9 @@ const Figure kFigures[] = {
      "Right they start just clear of the surface.",
      Kind::Render, renderBallNearWall},
     {"F47", "Comparison", "Methods of global illumination compared",
-     "Error against the path tracer, CPU time of the first picture and of a further frame, GL memory, and "
-     "what may "
-     "move, for each mode on the box with a lamp. All numbers are measured when the figure is drawn.",
+     "Each mode on the box with a lamp: error against the path tracer, CPU time, GL memory, what may move. "
+     "Time is that of the first picture and of a further frame. All numbers are measured when the figure is "
+     "drawn.",
      Kind::Table, plotComparison},
     {"F48", "Jumping voxels", "A wall's voxel layer jumps when the wall is moved by a hair",
      "Visibility by the published program before and after the right wall moves by two millionths of the "
