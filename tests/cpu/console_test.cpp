@@ -228,7 +228,7 @@ TEST(Completion, OffersWhatFits) {
         {"mode th", "thesis"},
         {"set image.s", "image.srgb"},
         {"set image.srgb ", "true false"},
-        {"set image.tone_map ", "none reinhard aces"},
+        {"set image.tone_map ", "none reinhard aces agx neutral"},
         {"set cones.max_distance ", "auto"},
         {"translate box ", "x y z"},
         {"camera m", "main"},
