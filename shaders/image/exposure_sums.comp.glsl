@@ -33,7 +33,5 @@ void main() {
     if (bin != 0u) return;
     // Nothing to see: as it is.
     float stops = log2(EXPOSURE_GREY) + 32.0 - 0.25 * (weights[0] + 0.5);
-    stops = total == 0u ? 0.0 : clamp(stops, -EXPOSURE_LIMIT, EXPOSURE_LIMIT);
-    exposure.stops = stops;
-    exposure.scale = exp2(stops);
+    exposure.scale = exp2(total == 0u ? 0.0 : clamp(stops, -EXPOSURE_LIMIT, EXPOSURE_LIMIT));
 }

@@ -70,10 +70,7 @@ FaceShading faceShading(int face) {
 }
 
 // Outgoing radiance of a diffuse face: emission, reflected direct light, reflected cached light.
-vec3 outgoingRadiance(int face) {
-    FaceShading s = faceShading(face);
-    return s.directRadiance + s.albedo * s.irradiance;
-}
+vec3 outgoingRadiance(int face) { return litRadiance(texelFetch(litFaces, face)); }
 
 // Importance of a radiance for sampling. The plain mean of the channels: blue light counts as much.
 float brightness(vec3 radiance) { return dot(radiance, vec3(1.0 / 3.0)); }

@@ -18,10 +18,10 @@ CONELIGHT_SHARED_BEGIN
 
 // Uniform block of passes that show a picture.
 struct Exposure {
-    float stops;
     float scale;  // 2^stops
     uint pad0;
     uint pad1;
+    uint pad2;
 };  // 16 B
 
 // Uniform block of image/display.comp.glsl.

@@ -229,4 +229,14 @@ Sampler::Sampler(const SamplerDesc& desc, const std::string& label) {
 void Sampler::bind(unsigned unit) const { glBindSampler(unit, name()); }
 void unbindSampler(unsigned unit) { glBindSampler(unit, 0); }
 
+void reserveTexels(Buffer& buffer, Texture& texels, std::uint32_t format, std::size_t bytes,
+                   const std::string& label) {
+    if (buffer && buffer.bytes() >= bytes) return;
+    const bool grows = static_cast<bool>(buffer);
+    texels = {};
+    buffer = {};
+    buffer = Buffer(grows ? bytes + bytes / 4 : bytes, label);
+    texels = Texture(buffer, format, label);
+}
+
 }  // namespace conelight::gl

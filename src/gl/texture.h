@@ -80,4 +80,9 @@ class Sampler : public Object<ObjectType::Sampler> {
 // Forgets the sampler object of a unit: the texture's own parameters count again.
 void unbindSampler(unsigned unit);
 
+// Makes room for `bytes` in `buffer` and in `texels`, which reads it. What was there may be lost. A quarter is
+// left in reserve where a list grows, none where there was no list.
+void reserveTexels(Buffer& buffer, Texture& texels, std::uint32_t format, std::size_t bytes,
+                   const std::string& label);
+
 }  // namespace conelight::gl

@@ -22,7 +22,6 @@ void Exposure::measure(const gl::Device& device, const gl::Texture& linear, cons
     if (!block_) block_ = gl::Buffer(sizeof(gpu::Exposure), "exposure");
     if (!wanted.isAuto) {
         gpu::Exposure fixed{};
-        fixed.stops = wanted.value;
         fixed.scale = std::exp2(wanted.value);
         block_.update(fixed);
         return;

@@ -19,13 +19,7 @@ struct FitKey {
 void EmissionFit::update(const gl::Device& device, const voxels::Voxels& voxels) {
     if (voxelsFrom_ == voxels.revision()) return;
     const voxels::SurfaceVoxels& surface = voxels.surface();
-    const std::size_t bytes = std::size_t{4} * surface.faceCount();
-    if (parts_.bytes() < bytes) {
-        texels_ = {};
-        parts_ = {};
-        parts_ = gl::Buffer(bytes + bytes / 4, "emission that fits");
-        texels_ = gl::Texture(parts_, GL_R32UI, "emission that fits");
-    }
+    gl::reserveTexels(parts_, texels_, GL_R32UI, std::size_t{4} * surface.faceCount(), "emission that fits");
     gl::Inputs inputs;
     inputs.add(voxels).storage("EmissionFit", parts_);
     const glm::ivec3 size = surface.grid().bricks();

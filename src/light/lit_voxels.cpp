@@ -49,14 +49,8 @@ void LitVoxels::relight(const gl::Device& device, const Inputs& inputs, const Re
 // Direct light, emission and sky on every face.
 void LitVoxels::putDirectLight(const gl::Device& device, const Inputs& inputs) {
     const voxels::SurfaceVoxels& surface = inputs.voxels.surface();
-    const std::size_t bytes = std::size_t{4} * surface.faceCount();
-    if (!directLight_ || directLight_.bytes() < bytes) {
-        const bool grows = static_cast<bool>(directLight_);
-        directTexels_ = {};
-        directLight_ = {};
-        directLight_ = gl::Buffer(grows ? bytes + bytes / 4 : bytes, "cached direct light");
-        directTexels_ = gl::Texture(directLight_, GL_R32UI, "cached direct light");
-    }
+    gl::reserveTexels(directLight_, directTexels_, GL_R32UI, std::size_t{4} * surface.faceCount(),
+                      "cached direct light");
     const bool fits = surface.faceCount() > 0 && hasOtherEmitters(inputs.scene, inputs.lights);
     if (fits) fit_.update(device, inputs.voxels);
     const RayLight rays{directLight_, fits ? &fit_ : nullptr};

@@ -99,7 +99,7 @@ const std::vector<Struct>& table() {
     static const std::vector<Struct> structs = {
         ROW(ConeConstants, count, step, offset, maxDistance, specularMinTan, occlusionDistance, pad0, pad1,
             cone, aperture),
-        ROW(Exposure, stops, scale, pad0, pad1),
+        ROW(Exposure, scale, pad0, pad1, pad2),
         ROW(DisplayConstants, curve, srgb, pad0, pad1),
         ROW(WireframeConstants, color, opacity, halfWidth, pad0, pad1, pad2),
         ROW(ShadowViewConstants, light, tiles, tilesPerEdge, columns, rows, pad0, pad1, pad2),

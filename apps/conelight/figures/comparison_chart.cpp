@@ -17,7 +17,6 @@ namespace {
 
 constexpr const char* kScene = "builtin:cornell";
 constexpr const char* kModes[] = {"phong", "radiosity", "thesis", "cones", "traced", "reference"};
-constexpr const char* kNote = "#4a5160";
 
 struct Row {
     std::string mode;
@@ -29,7 +28,6 @@ struct Row {
 };
 
 const char* movingOf(const std::string& mode) {
-    if (mode == "phong") return "all";
     if (mode == "radiosity") return "camera only";
     return mode == "reference" ? "all, drawn anew" : "all";
 }
@@ -78,7 +76,8 @@ void drawBars(Drawing& d, double x, const std::string& title, const std::vector<
         const double y = 40.0 * double(i);
         const double length = value > 0 ? kWide * (std::log10(value) - from) / (to - from) : 0;
         if (value > 0) d.rect({x, y}, {std::max(length, 2.0), 22}, filled(tint), 2);
-        d.text({x + length + 7, y + 16}, label, {.size = 13, .anchor = Anchor::Start, .colour = kNote});
+        d.text({x + length + 7, y + 16}, label,
+               {.size = 13, .anchor = Anchor::Start, .colour = colour::kNote});
     }
 }
 
@@ -115,11 +114,11 @@ Panels plotComparison(Studio& studio) {
     d.text({1120, -16}, "may move", {.size = 14, .anchor = Anchor::Start, .bold = true});
     for (std::size_t i = 0; i < rows.size(); ++i)
         d.text({1120, 40.0 * double(i) + 16}, rows[i].moving,
-               {.size = 13, .anchor = Anchor::Start, .colour = kNote});
+               {.size = 13, .anchor = Anchor::Start, .colour = colour::kNote});
     d.text({-110, 40.0 * double(rows.size()) + 30},
            fmt::format("{}, {} x {}, against {} samples per pixel; scales are logarithmic; {}", kScene,
                        studio.size().width, studio.size().height, request.reference.samplesPerPixel, device),
-           {.size = 12, .anchor = Anchor::Start, .colour = kNote});
+           {.size = 12, .anchor = Anchor::Start, .colour = colour::kNote});
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
     for (const Row& r : rows)
         json.push_back(

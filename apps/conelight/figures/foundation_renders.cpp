@@ -17,11 +17,10 @@ Panels renderLightKinds(Studio& studio) {
     Panels panels;
     for (int kind = 0; kind < 4; ++kind) {
         constexpr const char* kNames[] = {"point", "spot", "directional", "area"};
-        constexpr const char* kExposures[] = {"-2.5", "0.5", "-1.5", "-2"};  // by eye, one per light
         panels.push_back(
             studio.draw(kNames[kind], {.scene = fmt::format("builtin:thesis-shapes?light={}", kind),
                                        .camera = "pos2",
-                                       .settings = {{"image.exposure", kExposures[kind]}}}));
+                                       .settings = {{"image.exposure", "auto"}}}));
     }
     return panels;
 }

@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 #include <string>
-#include <tuple>
+#include <utility>
 
 #include "figures/drawings/drawings.h"
 #include "figures/renders.h"
@@ -150,16 +150,10 @@ Panels renderRings(Studio& studio) {
 Panels renderGallery(Studio& studio) {
     Panels panels;
     for (const char* mode : {"thesis", "cones", "traced"}) {
-        // Physical modes keep all bounces of bright walls: less exposure, by eye.
-        const bool physical = std::string(mode) != "thesis";
-        for (const auto& [name, scene, stops] : {std::tuple("statue", "builtin:thesis-room", "-2.2"),
-                                                 std::tuple("three lamps", "builtin:thesis-complex", "-2.7")})
-            panels.push_back(
-                studio.draw(fmt::format("{}, mode {}", name, mode),
-                            {.scene = scene,
-                             .mode = mode,
-                             .camera = "pos2",
-                             .settings = physical ? Values{{"image.exposure", stops}} : Values{}}));
+        for (const auto& [name, scene] :
+             {std::pair("statue", "builtin:thesis-room"), std::pair("three lamps", "builtin:thesis-complex")})
+            panels.push_back(studio.draw(fmt::format("{}, mode {}", name, mode),
+                                         {.scene = scene, .mode = mode, .camera = "pos2"}));
     }
     return panels;
 }

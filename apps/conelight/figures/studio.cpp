@@ -72,8 +72,7 @@ program::PictureRequest Studio::requestOf(const Shot& shot, const Scene& scene) 
     return request;
 }
 
-program::Picture Studio::picture(const Shot& shot, const Scene& scene) {
-    const program::PictureRequest request = requestOf(shot, scene);
+program::Picture Studio::picture(const program::PictureRequest& request) {
     program::Picture picture = source_->draw(request, &progress_);
     if (picture.stopped) throw program::InterruptedError();
     return picture;
@@ -90,8 +89,8 @@ Panel panelOf(const std::string& label, const Image& image, const ImageSettings&
 }  // namespace
 
 Panel Studio::draw(const std::string& label, const Shot& shot) {
-    const Scene& loaded = scene(shot.scene);
-    return panelOf(label, picture(shot, loaded).images.front(), requestOf(shot, loaded).settings.image);
+    const program::PictureRequest request = requestOf(shot, scene(shot.scene));
+    return panelOf(label, picture(request).images.front(), request.settings.image);
 }
 
 Panel Studio::draw(const std::string& label, const Shot& shot, const Scene& changed) {
@@ -100,13 +99,14 @@ Panel Studio::draw(const std::string& label, const Shot& shot, const Scene& chan
     source_->setScene(*kept);
     given_ = std::move(kept);
     loadedName_.clear();
-    return panelOf(label, picture(shot, *given_).images.front(), requestOf(shot, *given_).settings.image);
+    const program::PictureRequest request = requestOf(shot, *given_);
+    return panelOf(label, picture(request).images.front(), request.settings.image);
 }
 
 Panel Studio::inspect(const std::string& label, const Shot& shot, double x, double y) {
     const Scene& loaded = scene(shot.scene);
     const program::PictureRequest request = requestOf(shot, loaded);
-    program::Picture drawn = picture(shot, loaded);
+    program::Picture drawn = picture(request);
     const PixelInspection found = source_->inspect(request, std::min(int(x * size_.width), size_.width - 1),
                                                    std::min(int(y * size_.height), size_.height - 1));
     program::Session session(loaded, shot.scene, request.settings, request.mode, request.camera);

@@ -39,7 +39,7 @@ class Studio {
     // Lasts until the next call with another name.
     const Scene& scene(const std::string& spec);
     program::PictureRequest requestOf(const Shot& shot, const Scene& scene) const;
-    program::Picture picture(const Shot& shot, const Scene& scene);
+    program::Picture picture(const program::PictureRequest& request);
 
     // Gives back OpenGL and the scene, so that a figure may have a context of its own.
     void restart();

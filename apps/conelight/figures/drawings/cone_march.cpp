@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "figures/drawings/drawings.h"
 #include "figures/drawings/flat_room.h"
@@ -12,9 +11,6 @@
 
 namespace conelight::figures {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-constexpr const char* kNote = "#4a5160";
 
 struct Sample {
     double t, diameter;
@@ -84,7 +80,7 @@ std::string drawConeMarch() {
         {300, 276},
         fmt::format("γ = {:.2f} rad, β = {:.1f}; left: light that still comes through when a sample is taken",
                     aperture, factor),
-        {.size = 13, .colour = kNote});
+        {.size = 13, .colour = colour::kNote});
     return d.svg("Samples along a cone");
 }
 
@@ -121,7 +117,7 @@ std::string plotPowerOfTwo() {
     d.text(at(3.15, 6.3), "nearest whole level",
            {.size = 14, .anchor = Anchor::Start, .colour = colour::kRed});
     d.text(at(0.2, 7.0), fmt::format("off by up to {:.2f} times", worst),
-           {.size = 14, .anchor = Anchor::Start, .colour = kNote});
+           {.size = 14, .anchor = Anchor::Start, .colour = colour::kNote});
     // Below: the cone and the texels that stand for it.
     const Point eye(0, 250);
     const double unit = wide / reach;

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "figures/drawings/drawings.h"
 #include "figures/drawings/space_view.h"
@@ -14,7 +13,6 @@ namespace conelight::figures {
 namespace {
 
 using glm::dvec3;
-constexpr double kPi = std::numbers::pi;
 
 struct ConeShape {
     dvec3 axis;

@@ -6,6 +6,7 @@
 
 #include <glm/glm.hpp>
 
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -15,9 +16,12 @@ namespace conelight::figures {
 
 using Point = glm::dvec2;
 
+constexpr double kPi = std::numbers::pi;
+
 // Colours of all drawings: told apart by people who do not see red and green alike (Okabe and Ito 2008).
 namespace colour {
 constexpr const char* kInk = "#1f2430";
+constexpr const char* kNote = "#4a5160";
 constexpr const char* kPale = "#8b93a3";
 constexpr const char* kPaper = "#ffffff";
 constexpr const char* kWash = "#eef1f6";

@@ -9,7 +9,6 @@
 namespace conelight::figures {
 namespace {
 
-constexpr const char* kNote = "#4a5160";
 constexpr const char* kWarm = "#fbe7c3";
 constexpr const char* kCool = "#d9ecf7";
 constexpr const char* kFresh = "#d5efe5";
@@ -45,7 +44,7 @@ std::string drawComponentFlow() {
     bend(d, lamp.right(), gloss.left(), kWay);
     bend(d, lamp.right(), occlusion.left(), kWay);
     connect(d, lamp, volume, kWay);
-    d.text({-8, 110}, "voxelize", {.size = 12, .anchor = Anchor::End, .colour = kNote});
+    d.text({-8, 110}, "voxelize", {.size = 12, .anchor = Anchor::End, .colour = colour::kNote});
     for (const Box* cone : {&occlusion, &diffuse, &specular}) bend(d, volume.right(), cone->left(), kDashed);
     bend(d, phong.right(), sum.left(), kWay);
     bend(d, gloss.right(), sum.left(), kWay);
@@ -59,7 +58,7 @@ std::string drawComponentFlow() {
     bend(d, direct.right(), picture.left() - Point(0, 6), kWay);
     bend(d, indirect.right(), picture.left() + Point(0, 6), kWay);
     d.text({480, 366}, "1 + n + u cones per pixel; dashed: reads of the 3D texture",
-           {.size = 14, .colour = kNote});
+           {.size = 14, .colour = colour::kNote});
     return d.svg("Flow of the components of voxel cone tracing");
 }
 
@@ -87,7 +86,8 @@ std::string drawOverview() {
              {pass.centre.x - 40, 78},
              pass.bottom() - Point(40, 0)},
             kDashed);
-    d.text({180, 262}, "anew, or what changed", {.size = 12, .anchor = Anchor::Start, .colour = kNote});
+    d.text({180, 262}, "anew, or what changed",
+           {.size = 12, .anchor = Anchor::Start, .colour = colour::kNote});
     return d.svg("Overview of voxel cone tracing");
 }
 

@@ -3,7 +3,6 @@
 // are those of the renderer's own sets.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "figures/drawings/drawings.h"
 #include "figures/drawings/flat_room.h"
@@ -11,9 +10,6 @@
 
 namespace conelight::figures {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-constexpr const char* kNote = "#4a5160";
 
 struct Patch {
     Point at, normal;
@@ -111,7 +107,7 @@ std::string drawTwoApproximations() {
     d.text(left.corner + Point(150, -22), "radiosity: all patches at once", {.size = 16, .bold = true});
     d.text(left.corner + Point(150, 268), "B_{i} = E_{i} + ρ_{i} Σ_{j} F_{ij} B_{j}", {.size = 18});
     d.text(left.corner + Point(150, 294), "one system for the scene, diffuse, any view",
-           {.size = 13, .colour = kNote});
+           {.size = 13, .colour = colour::kNote});
     // A path from the eye: at each hit one ray to the lamp, one further on.
     right.draw(d);
     const Point eye = right.corner + Point(48, 74);
@@ -141,7 +137,7 @@ std::string drawTwoApproximations() {
     d.text(right.corner + Point(150, 268), "L_{o} ≈ L_{e} + 1/N Σ f_{r} L_{i} cos θ_{i} / p(ω_{i})",
            {.size = 18});
     d.text(right.corner + Point(150, 294), "dashed: is the lamp seen from here?",
-           {.size = 13, .colour = kNote});
+           {.size = 13, .colour = colour::kNote});
     return d.svg("Two ways to approximate the rendering equation: radiosity and ray tracing");
 }
 
@@ -160,10 +156,11 @@ std::string drawThreeGatherings() {
     drawPatches(d, patches, 30, patches.receiver() - Point(0, 3));
     for (const auto& [room, title] : panels) drawReceiver(d, room->receiver());
     d.text(cones.corner + Point(150, 268), "what lies in a cone is averaged by voxels",
-           {.size = 13, .colour = kNote});
-    d.text(rays.corner + Point(150, 268), "each ray tests surfaces exactly", {.size = 13, .colour = kNote});
+           {.size = 13, .colour = colour::kNote});
+    d.text(rays.corner + Point(150, 268), "each ray tests surfaces exactly",
+           {.size = 13, .colour = colour::kNote});
     d.text(patches.corner + Point(150, 268), "view factors between all patches",
-           {.size = 13, .colour = kNote});
+           {.size = 13, .colour = colour::kNote});
     return d.svg("Cone tracing, ray tracing and radiosity at one point");
 }
 

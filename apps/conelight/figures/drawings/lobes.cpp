@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <numbers>
 
 #include "conelight/scene.h"
 #include "figures/drawings/drawing.h"
@@ -16,7 +15,6 @@
 namespace conelight::figures {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kIncoming = 0.7;  // rad from the normal, to the left
 
 // Direction at `angle` from the normal, positive to the right, in the plane y = 0.

@@ -10,7 +10,6 @@
 namespace conelight::figures {
 namespace {
 
-constexpr const char* kNote = "#4a5160";
 using glm::dvec3;
 using glm::dvec4;
 
@@ -41,7 +40,7 @@ void drawAxes(Drawing& d, const SpaceView& view, double length, const char* cons
         end[axis] = length;
         d.arrow(view.at(dvec3(0)), view.at(shown(end)), stroke(colour::kPale, 1.3));
         d.text(view.at(shown(end * 1.12)) + Point(0, 5), names[axis],
-               {.size = 13, .colour = kNote, .italic = true});
+               {.size = 13, .colour = colour::kNote, .italic = true});
     }
 }
 
@@ -68,7 +67,8 @@ std::string drawPipeline() {
         const int column = i < 4 ? i : 7 - i, row = i / 4;
         const Box now = box(d, {double(column) * 252, row * 150.0}, {kStages[i].name, kStages[i].does},
                             kStages[i].ours ? programmed : fixed, 222);
-        d.text(now.bottom() + Point(0, 22), kStages[i].used, {.size = 12, .colour = kNote, .italic = true});
+        d.text(now.bottom() + Point(0, 22), kStages[i].used,
+               {.size = 12, .colour = colour::kNote, .italic = true});
         if (i == 4) {
             d.arrow({last.bottom() + Point(84, 0), now.top() + Point(84, 0)}, stroke(colour::kInk, 1.8));
         } else if (i > 0) {
@@ -79,7 +79,7 @@ std::string drawPipeline() {
     const Box compute =
         box(d, {378, 290}, {"compute shader", "voxels, light, gathering: all other passes"}, programmed, 330);
     d.text(compute.bottom() + Point(0, 22), "beside the pipeline: reads and writes buffers and textures",
-           {.size = 12, .colour = kNote, .italic = true});
+           {.size = 12, .colour = colour::kNote, .italic = true});
     d.rect({-110, 270}, {18, 14}, {.fill = programmed});
     d.text({-84, 282}, "a program", {.size = 13, .anchor = Anchor::Start});
     d.rect({-110, 298}, {18, 14}, {.fill = fixed});

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "figures/drawings/drawings.h"
 #include "figures/drawings/space_view.h"
@@ -11,7 +10,6 @@
 namespace conelight::figures {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 using glm::dvec3;
 
 dvec3 onSphere(double theta, double phi, double radius = 1) {

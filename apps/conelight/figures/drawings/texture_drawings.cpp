@@ -11,7 +11,6 @@
 namespace conelight::figures {
 namespace {
 
-constexpr const char* kNote = "#4a5160";
 using glm::dvec2;
 using glm::dvec3;
 
@@ -66,17 +65,17 @@ std::string drawMipPyramid() {
         if (edge > 30) {
             d.text({x + 0.5 * edge, 322}, fmt::format("{}", i), {.size = 15, .bold = true});
             d.text({x + 0.5 * edge, 340}, fmt::format("{0}²", levels[i].width),
-                   {.size = 12, .colour = kNote});
+                   {.size = 12, .colour = colour::kNote});
         }
         x += edge + 16;
     }
-    d.text({-8, 322}, "level", {.size = 13, .anchor = Anchor::End, .colour = kNote});
+    d.text({-8, 322}, "level", {.size = 13, .anchor = Anchor::End, .colour = colour::kNote});
     // The same by whole picture: what is left of it in a coarse level.
     for (std::size_t i = 0; i < 5; ++i) {
         const Point corner(double(i) * 150, 372);
         d.image(corner, {136, 136}, bytesOf(levels[i + 2]));
         d.text(corner + Point(68, 156), fmt::format("level {} magnified", i + 2),
-               {.size = 12, .colour = kNote});
+               {.size = 12, .colour = colour::kNote});
     }
     return d.svg("Mip levels of a picture");
 }

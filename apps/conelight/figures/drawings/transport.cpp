@@ -2,16 +2,12 @@
 // Drawings of the rendering equation and of the local model.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "figures/drawings/drawings.h"
 #include "figures/drawings/flat_room.h"
 
 namespace conelight::figures {
 namespace {
-
-constexpr double kPi = std::numbers::pi;
-constexpr const char* kNote = "#4a5160";
 
 // Pieces of a formula side by side, each in its colour.
 void drawFormula(Drawing& d, Point at, const std::vector<std::pair<std::string, std::string>>& pieces,
@@ -38,7 +34,7 @@ void drawPointOnSurface(Drawing& d, Point x, Point wall) {
             return points;
         }(),
         {.stroke = colour::kPale, .width = 1.2, .fill = "#f6f8fb", .dash = "5 4"});
-    d.text(x + radius * upTurned(-1.25) + Point(-16, -2), "Ω", {.size = 18, .colour = kNote});
+    d.text(x + radius * upTurned(-1.25) + Point(-16, -2), "Ω", {.size = 18, .colour = colour::kNote});
     d.arrow(x, x + Point(0, -165), stroke(colour::kInk, 1.6));
     d.text(x + Point(0, -174), "n", {.size = 18, .italic = true});
 }
@@ -123,8 +119,9 @@ std::string drawLocalModel() {
     d.line(cross + Point(-9, 9), cross + Point(9, -9), stroke(colour::kRed, 3));
     d.text({300, 26}, "straight from the lamp", {.size = 14, .colour = "#8a6100"});
     d.text({170, 214}, "once reflected", {.size = 14, .anchor = Anchor::End, .colour = colour::kBlue});
-    d.text({580, 210}, "twice reflected:", {.size = 14, .anchor = Anchor::Start, .colour = kNote});
-    d.text({580, 230}, "not in the local model", {.size = 14, .anchor = Anchor::Start, .colour = kNote});
+    d.text({580, 210}, "twice reflected:", {.size = 14, .anchor = Anchor::Start, .colour = colour::kNote});
+    d.text({580, 230}, "not in the local model",
+           {.size = 14, .anchor = Anchor::Start, .colour = colour::kNote});
     d.text({290, 345}, "L_{o} = L_{e} + Σ_{lamps} f_{r} · E_{lamp}", {.size = 19});
     return d.svg("What a local illumination model takes in");
 }

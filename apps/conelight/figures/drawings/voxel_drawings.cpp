@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 #include <set>
 #include <tuple>
 
@@ -16,8 +15,6 @@
 namespace conelight::figures {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr const char* kNote = "#4a5160";
 using glm::dvec3;
 using glm::ivec3;
 using Triangle = std::array<dvec3, 3>;
@@ -142,7 +139,7 @@ std::string drawViewportProjection() {
            {.size = 14, .colour = colour::kBlue});
     d.text(view.at({8, 5, 0}) + Point(0, 66),
            fmt::format("{} pixels are covered, {} voxels are filled", voxels.size(), voxels.size()),
-           {.size = 14, .colour = kNote});
+           {.size = 14, .colour = colour::kNote});
     return d.svg("A triangle is projected on the viewport and stored as voxels");
 }
 
@@ -171,7 +168,7 @@ std::string drawThreeVoxelizations() {
         for (const ivec3& v : together) lost += all[std::size_t(way)].count(v) == 0;
         d.text(foot + Point(0, 22),
                fmt::format("{} voxels; {} more in the other directions", all[std::size_t(way)].size(), lost),
-               {.size = 13, .colour = kNote});
+               {.size = 13, .colour = colour::kNote});
     }
     return d.svg("One surface voxelized from three directions");
 }
@@ -223,7 +220,7 @@ std::string drawDominantAxis() {
            {.size = 16});
     d.text(foot + Point(0, 26),
            fmt::format("largest |n · axis|: {} is chosen, most pixels are covered", names[best]),
-           {.size = 14, .colour = kNote});
+           {.size = 14, .colour = colour::kNote});
     return d.svg("The dominant axis of a triangle");
 }
 
