@@ -108,6 +108,20 @@ constexpr GeneratedParameter kBendsParameters[] = {
     {"emission", 150, 0, 1e4, false, "radiance of the lamp, W/(sr m^2)"},
 };
 
+constexpr GeneratedParameter kParlourParameters[] = {
+    {"sun", 12, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
+    {"sky", 1.2, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
+    {"lamp", 120, 0, 1e6, false, "radiance of the bulb in the shade, W/(sr m^2)"},
+    {"buried", 0, 0, 1e6, false, "radiance of a bulb inside the lamp's closed stem, W/(sr m^2)"},
+    {"curtains", 1, 0, 1, true, "beside the window"},
+    {"plants", 1, 0, 1, true, "of loose leaves"},
+};
+constexpr GeneratedParameter kGardenParameters[] = {
+    {"sun", 6, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
+    {"sky", 0.7, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
+    {"leaves", 1500, 0, 1e5, true, "of the largest tree"},
+};
+
 struct Entry {
     GeneratedSceneInfo info;
     Scene (*build)(const generated::Values&);
@@ -166,6 +180,12 @@ constexpr Entry kScenes[] = {
      generated::buildHeap},
     {{"bends", "passage that turns back twice, lamp at its far end; cameras dark, lit", kBendsParameters},
      generated::buildBends},
+    {{"parlour",
+      "furnished room of two-sided things: curtains, cups, rug, plant, lamp; cameras front, table, window",
+      kParlourParameters},
+     generated::buildParlour},
+    {{"garden", "trees and a hedge of loose leaves, bench and fence before a house", kGardenParameters},
+     generated::buildGarden},
 };
 
 // All scenes: those above, then those of guests.

@@ -81,5 +81,7 @@ Scene buildNeon(const Values& values);
 Scene buildLibrary(const Values& values);
 Scene buildHeap(const Values& values);
 Scene buildBends(const Values& values);
+Scene buildParlour(const Values& values);
+Scene buildGarden(const Values& values);
 
 }  // namespace conelight::io::generated

@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: MIT
 // G-buffer -> irradiance / pi by rays through the voxels (lib/voxel_light.glsl), averaged with the passes and
 // frames before (lib/temporal.glsl). The surface's colour is left out, so that filters keep textures sharp.
+// NEAR_TRIANGLES 1: rays meet triangles within a voxel of their start (lib/ray_query.glsl).
 // OCCLUSION 1: instead the open part of the hemisphere; surfaces count less the farther they are.
 // COUNT_LOOKUPS 1: adds what rays look up to the counters, shadow maps at hits included.
 #ifndef OCCLUSION
 #error OCCLUSION must be 0 or 1
 #endif
 #include "lib/brdf.glsl"
+#include "lib/frame_block.glsl"
+#include "lib/scene_tables.glsl"
+#include "lib/surface_array.glsl"
 #include "lib/temporal.glsl"
 #include "lib/voxel_light.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;

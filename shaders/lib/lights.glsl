@@ -241,10 +241,10 @@ DirectLight allLights(const bool specular, Receiver r, Brdf b) {
 
 // Irradiance of all lights, shadows included, on a surface at `position`, a voxel's. `geometricNormal` is the
 // normal of the surface that casts shadows there (moves the look-up off it); equal to `normal` for a flat
-// surface. `rise`: height in metres of what stands before the position and hides nothing of it.
-vec3 directIrradiance(vec3 position, vec3 normal, vec3 geometricNormal, float rise) {
+// surface. `lift`: lib/shadow.glsl; for a voxel kShadowVoxelLift and the height in metres of what stands
+// before the position and hides nothing of it.
+vec3 directIrradiance(vec3 position, vec3 normal, vec3 geometricNormal, vec2 lift) {
     Brdf none;
-    vec2 lift = kShadowVoxelLift + vec2(0.0, rise);
     return allLights(false, Receiver(position, normal, geometricNormal, normal, lift), none).irradiance;
 }
 

@@ -12,7 +12,8 @@
 // empty block of 2^3 voxels, or one voxel.
 //
 // TRIANGLE_HITS 1: rays with rayCone.width >= 0 hit the triangles of the voxels instead of their plane pieces
-// (lib/triangle_hit.glsl).
+// (lib/triangle_hit.glsl). NEAR_TRIANGLES 1: all rays hit triangles in the voxels that they enter within
+// kRayNearReach of their start, and plane pieces after that.
 #include "lib/lookup_count.glsl"
 #include "lib/record_steps.glsl"
 #include "lib/voxel_grid.glsl"
@@ -26,12 +27,19 @@ layout(rg32ui) readonly uniform uimage3D voxelOctants;
 #ifndef TRIANGLE_HITS
 #define TRIANGLE_HITS 0
 #endif
+#ifndef NEAR_TRIANGLES
+#define NEAR_TRIANGLES 0
+#endif
 struct VoxelHit {
     int face;  // index of the face record; -1: a miss
     float t;   // distance in voxels; tMax for a miss
 #if TRIANGLE_HITS
     int triangle;      // -1: a plane piece
     vec2 barycentric;  // of the triangle's second and third corner
+#endif
+#if NEAR_TRIANGLES
+    bool near;    // a triangle within kRayNearReach of the ray's start
+    vec3 normal;  // of that, unit, against the ray
 #endif
 };
 
@@ -42,11 +50,12 @@ struct VoxelHit {
 // A face is hit only if the cosine between its normal and the reversed ray exceeds this. Flatter crossings
 // have no usable distance.
 const float kRayFacing = 1e-3;
-const float kRayNear = 0.05;     // offset of a ray's origin along the normal, voxels
-const float kRayStart = 1e-3;    // nearest crossing that counts, voxels
-const float kRayTie = 0.5;       // voxels: among crossings this close together the largest coverage wins
-const float kRayEnd = 1e-3;      // voxels: rays end this far inside the grid, so that rounding stays in it
-const float kRayBackNear = 1.5;  // voxels: back faces nearer than this belong to the ray's own surface
+const float kRayNear = 0.05;      // offset of a ray's origin along the normal, voxels
+const float kRayStart = 1e-3;     // nearest crossing that counts, voxels
+const float kRayTie = 0.5;        // voxels: among crossings this close together the largest coverage wins
+const float kRayEnd = 1e-3;       // voxels: rays end this far inside the grid, so that rounding stays in it
+const float kRayNearReach = 1.0;  // voxels, with NEAR_TRIANGLES
+const float kRayBackNear = 1.5;   // voxels: back faces nearer than this belong to the ray's own surface
 // A two-sided surface has faces on both sides. The far side of the surface that a ray starts on is ignored,
 // because plane pieces of a curved surface lie beside it: normals whose cosine with the start normal is below
 // the first value, on planes less than the second (voxels) in front of the origin.
@@ -62,13 +71,19 @@ struct Ray {
     vec3 startNormal;  // geometric normal of the surface that the ray starts on; 0: none
 };
 
-// The only offset along the normal.
-vec3 rayOrigin(vec3 pointGrid, vec3 geometricNormal) { return pointGrid + kRayNear * geometricNormal; }
+// The only offset along the normal, voxels. Triangles are where they are seen, but for the rounding of
+// positions: 3e-5 of their distance from the eye.
+#if NEAR_TRIANGLES
+const float kRayOffset = 0.01;
+#else
+const float kRayOffset = kRayNear;
+#endif
+vec3 rayOrigin(vec3 pointGrid, vec3 geometricNormal) { return pointGrid + kRayOffset * geometricNormal; }
 
 // Origin at a point that the camera sees: offset towards the eye as well, where space is empty. A pixel in a
 // corner lies on both walls, or behind one of them by rounding.
 vec3 seenRayOrigin(vec3 pointGrid, vec3 geometricNormal, vec3 toEye) {
-    return rayOrigin(pointGrid, geometricNormal) + kRayNear * toEye;
+    return rayOrigin(pointGrid, geometricNormal) + kRayOffset * toEye;
 }
 
 // 1 / direction; 1e7 where that is larger, so that no product with it is NaN.
@@ -183,6 +198,42 @@ bool leaveCell(Ray ray, OctantRay mirrored, bool alive, inout float t, inout ive
     return occupied;
 }
 
+#if NEAR_TRIANGLES
+// Tests the triangles of the voxels that a ray enters before `end` (negative: none); moves t and the cell to
+// where it stops.
+void testNearTriangles(Ray ray, OctantRay mirrored, float end, inout float t, inout ivec3 cell,
+                       inout VoxelHit hit) {
+    ivec3 last = gridSize() - 1;
+    bool alive = end >= 0.0;
+    do {
+        ivec3 left = cell;
+        bool occupied = leaveCell(ray, mirrored, alive, t, cell);
+        testVoxelTriangles(mix(left, last - left, mirrored.mirrored), ray, occupied && alive, hit);
+    } while (hit.face < 0 && t < end);
+}
+
+// The nearest triangle on a ray that starts within the grid. `reached`: it met none up to its tMax. Neither
+// where a software driver gave up.
+TriangleCrossing traceTriangles(Ray ray, out bool reached) {
+    ivec3 last = gridSize() - 1;
+    OctantRay mirrored = octantRay(ray);
+    vec3 leave = (vec3(gridSize()) - mirrored.origin) * mirrored.inverse;
+    bool alive = ray.tMax > 0.0;
+    float end = alive ? min(min(min(leave.x, leave.y), leave.z) - kRayEnd, ray.tMax) : -3e38;
+    float t = 0.0;
+    ivec3 cell = clamp(ivec3(floor(mirrored.origin)), ivec3(0), last);
+    TriangleCrossing hit;
+    do {
+        ivec3 left = cell;
+        bool occupied = leaveCell(ray, mirrored, alive, t, cell);
+        int record;
+        hit = nearestTriangle(mix(left, last - left, mirrored.mirrored), ray, occupied && alive, record);
+    } while (hit.triangle < 0 && t < end);
+    reached = hit.triangle < 0 && t >= end;
+    return hit;
+}
+#endif
+
 VoxelHit traceVoxels(Ray ray) {
     vec3 size = vec3(gridSize());
     ivec3 last = gridSize() - 1;
@@ -198,6 +249,8 @@ VoxelHit traceVoxels(Ray ray) {
     float tEnd = min(min(min(leave.x, leave.y), leave.z) - kRayEnd, ray.tMax);
 #if TRIANGLE_HITS
     VoxelHit hit = VoxelHit(-1, ray.tMax, -1, vec2(0.0));
+#elif NEAR_TRIANGLES
+    VoxelHit hit = VoxelHit(-1, ray.tMax, false, vec3(0.0));
 #else
     VoxelHit hit = VoxelHit(-1, ray.tMax);
 #endif
@@ -206,6 +259,10 @@ VoxelHit traceVoxels(Ray ray) {
     tEnd = alive ? tEnd : -3e38;  // below every t, also those of cells behind the origin
     ivec3 cell = clamp(ivec3(floor(mirrored.origin + t * mirrored.direction)), ivec3(0), last);
     float hitCoverage = 0.0;
+#if NEAR_TRIANGLES
+    testNearTriangles(ray, mirrored, min(tEnd, kRayNearReach), t, cell, hit);
+    if (hit.face >= 0 || t >= tEnd) return hit;
+#endif
     do {
         // Step to the next voxel with faces towards the octant
         bool occupied;

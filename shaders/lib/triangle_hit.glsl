@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-// Ray-triangle intersection within a voxel (TRIANGLE_HITS 1; otherwise the file is empty). The voxelizer's
-// chain of fragments (voxels/surface_clip.comp.glsl) lists the triangles; its table holds their corners in
+// Ray-triangle intersection within a voxel (TRIANGLE_HITS or NEAR_TRIANGLES 1; otherwise the file is empty).
+// The voxelizer's chain of fragments (voxels/surface_clip.comp.glsl) lists the triangles; its table holds their corners in
 // grid coordinates. Test: Moeller and Trumbore 1997, "Fast, Minimum Storage Ray/Triangle Intersection".
 // Method: docs/theory/4f_glossy.md, "Mirrors that show triangles".
 //
-// Includers that set TRIANGLE_HITS include before: lib/scene_tables.glsl, lib/surface_array.glsl. Before the
+// Includers that set one of them include before: lib/scene_tables.glsl, lib/surface_array.glsl. Before the
 // call: SurfaceVoxels::bindTriangles, GpuScene::bind.
-#if TRIANGLE_HITS
+#if TRIANGLE_HITS || NEAR_TRIANGLES
 uniform usamplerBuffer voxelChains;
 uniform usamplerBuffer voxelFragments;
 uniform usamplerBuffer voxelPairs;
@@ -22,7 +22,12 @@ struct RayCone {
 };
 RayCone rayCone = RayCone(-1.0, 0.0);
 
-const float kTriangleEdge = 1e-5;    // barycentric overlap of neighbours, so that no ray passes between them
+const float kTriangleEdge = 1e-5;  // barycentric overlap of neighbours, so that no ray passes between them
+#if NEAR_TRIANGLES
+const float kTriangleStart = 0.0;  // nearest crossing that counts, voxels
+#else
+const float kTriangleStart = kRayStart;
+#endif
 const float kTriangleSide = 1e-3;    // overlap of cells, voxels
 const float kTriangleLeast = 1e-20;  // smaller determinants: the triangle is seen edge-on
 
@@ -67,17 +72,19 @@ vec4 triangleTexel(uint material, int layer, int use, vec2 uv, float footprint) 
     return layer >= 0 ? texel : vec4(1.0);
 }
 
-// Alpha test of a masked material.
+// Alpha test of a masked material; a blended one is there from one half on, as for the eye and shadow maps.
 bool triangleCovers(int triangle, uint instance, vec3 barycentric) {
     uint material = instances[instance].material;
-    if ((materials[material].flags & MATERIAL_ALPHA_MASK) == 0u) return true;
+    uint alpha = materials[material].flags & (MATERIAL_ALPHA_MASK | MATERIAL_ALPHA_BLEND);
+    if (alpha == 0u) return true;
+    float cutoff = alpha == MATERIAL_ALPHA_BLEND ? 0.5 : materials[material].alphaCutoff;
     uvec3 v = triangleVertices(triangle, instance);
     uint wide = instances[instance].flags;
     float opacity = dot(
         barycentric, vec3(vertexColor(vertices[v.x].color, wide).a, vertexColor(vertices[v.y].color, wide).a,
                           vertexColor(vertices[v.z].color, wide).a));
     vec4 texel = triangleTexel(material, materials[material].layers.x, 0, triangleUv(v, barycentric), 0.0);
-    return opacity * texel.a * materials[material].baseColor.a >= materials[material].alphaCutoff;
+    return opacity * texel.a * materials[material].baseColor.a >= cutoff;
 }
 
 // A crossing of a ray and a triangle.
@@ -86,6 +93,7 @@ struct TriangleCrossing {
     float t;
     vec2 barycentric;
     vec3 normal;  // against the ray, not normalized
+    bool turned;  // the other side of a two-sided triangle
 };
 
 // The face of a record that holds most of a surface with this normal; its light stands for the triangle's.
@@ -101,6 +109,28 @@ int faceOfNormal(uint record, vec3 normal) {
     return int(faceBase(record)) + bitCount(directions & (chosen - 1u));
 }
 
+#if NEAR_TRIANGLES
+// The same among the faces that hold mostly that side of their triangles: where a sheet is folded, a face may
+// hold more of the sheet's other side, and its light. If there is none, whichever holds most.
+int faceOfSide(uint record, vec3 normal, bool turned) {
+    uint directions = faceDirections(record);
+    int best = -1;
+    float most = -1.0;
+    int axis = 0;
+    do {
+        float along = axis == 0 ? normal.x : (axis == 1 ? normal.y : normal.z);
+        int direction = 2 * axis + (along > 0.0 ? 0 : 1);
+        bool has = (directions >> direction & 1u) != 0u;
+        int face = int(faceBase(record)) + bitCount(directions & ((1u << direction) - 1u));
+        bool reverse = (texelFetch(voxelFaces, has ? face : 0).z & FACE_REVERSE) != 0u;
+        bool better = has && reverse == turned && abs(along) > most;
+        best = better ? face : best;
+        most = better ? abs(along) : most;
+    } while (++axis < 3);
+    return best >= 0 ? best : faceOfNormal(record, normal);
+}
+#endif
+
 // Intersects the triangle of one fragment; keeps the nearest crossing within the voxel. `toCenter`: from the
 // ray's origin to the voxel's centre.
 void testTriangle(int triangle, Ray ray, vec3 toCenter, bool valid, inout TriangleCrossing nearest) {
@@ -115,7 +145,7 @@ void testTriangle(int triangle, Ray ray, vec3 toCenter, bool valid, inout Triang
     vec3 offset = abs(t * ray.direction - toCenter);
     bool hit = valid && (determinant > kTriangleLeast || (c.twoSided && determinant < -kTriangleLeast)) &&
                min(barycentric.x, barycentric.y) >= -kTriangleEdge &&
-               barycentric.x + barycentric.y <= 1.0 + kTriangleEdge && t > kRayStart &&
+               barycentric.x + barycentric.y <= 1.0 + kTriangleEdge && t > kTriangleStart &&
                max(offset.x, max(offset.y, offset.z)) <= 0.5 + kTriangleSide &&
                (t < nearest.t || (t == nearest.t && triangle < nearest.triangle));
     if (hit)
@@ -124,18 +154,19 @@ void testTriangle(int triangle, Ray ray, vec3 toCenter, bool valid, inout Triang
     nearest.triangle = hit ? triangle : nearest.triangle;
     nearest.barycentric = hit ? barycentric : nearest.barycentric;
     nearest.normal = hit ? cross(c.edge1, c.edge2) * sign(determinant) : nearest.normal;
+    nearest.turned = hit ? determinant < 0.0 : nearest.turned;
 }
 
-// Tests the triangles of a voxel where `wanted`. Among equally near ones the first of the scene wins,
-// whatever the order of the chain.
-void testVoxelTriangles(ivec3 voxel, Ray ray, bool wanted, inout VoxelHit hit) {
+// The nearest crossing of a ray with the triangles of a voxel, where `wanted`; `record`: that of the voxel.
+// Among equally near ones the first of the scene wins, whatever the order of the chain.
+TriangleCrossing nearestTriangle(ivec3 voxel, Ray ray, bool wanted, out int record) {
     uvec4 word = imageLoad(voxelBrickImage, voxel >> 2);
     bool present = wanted && brickHas(word.xy, bitOfVoxel(voxel));
-    int index = present ? int(voxelRecordIndex(word, bitOfVoxel(voxel))) : 0;
-    uint link = present ? texelFetch(voxelChains, index).x : 0u;
+    record = present ? int(voxelRecordIndex(word, bitOfVoxel(voxel))) : 0;
+    uint link = present ? texelFetch(voxelChains, record).x : 0u;
     COUNT_LOOKUP(wanted ? 2 : 0);
     vec3 toCenter = vec3(voxel) + 0.5 - ray.origin;
-    TriangleCrossing nearest = TriangleCrossing(-1, ray.tMax, vec2(0.0), vec3(0.0));
+    TriangleCrossing nearest = TriangleCrossing(-1, ray.tMax, vec2(0.0), vec3(0.0), false);
     do {
         COUNT_LOOKUP(link != 0u ? 5 : 0);
         int slot = max(int(link), 1) - 1;
@@ -144,8 +175,19 @@ void testVoxelTriangles(ivec3 voxel, Ray ray, bool wanted, inout VoxelHit hit) {
         testTriangle(triangle, ray, toCenter, link != 0u, nearest);
         link = link != 0u ? next : 0u;
     } while (link != 0u);
+    return nearest;
+}
+
+void testVoxelTriangles(ivec3 voxel, Ray ray, bool wanted, inout VoxelHit hit) {
+    int index;
+    TriangleCrossing nearest = nearestTriangle(voxel, ray, wanted, index);
     if (nearest.triangle < 0) return;
     uint record = texelFetch(voxelRecords, index).x;
+#if NEAR_TRIANGLES
+    hit = VoxelHit(faceOfSide(record, nearest.normal, nearest.turned), nearest.t, true,
+                   normalize(nearest.normal));
+#else
     hit = VoxelHit(faceOfNormal(record, nearest.normal), nearest.t, nearest.triangle, nearest.barycentric);
+#endif
 }
 #endif

@@ -135,7 +135,7 @@ vec3 triangleRadiance(Ray ray, VoxelHit hit, inout FaceShading s, out vec3 shadi
     vec3 position = worldFromGrid(point);
     vec3 irradiance = vec3(0.0);
 #if EXACT_DIRECT
-    irradiance = directIrradiance(position, shadingNormal, p.geometricNormal, 0.0);
+    irradiance = directIrradiance(position, shadingNormal, p.geometricNormal, kShadowVoxelLift);
 #endif
     addTriangleRects(p, position, hit, irradiance);
     vec3 reflected = faceReflected(hit.face, s.directRadiance);

@@ -101,10 +101,15 @@ vec3 hitRadiance(Ray ray, VoxelHit hit, inout FaceShading s, out vec3 shadingNor
 #endif
 #if EXACT_DIRECT
     // Evaluate the punctual lights at the point
-    float frontHeight =
-        dot(faceFrontOffset(texelFetch(voxelFaces, face), normal), normal) * grid.voxelSize;
-    vec3 direct =
-        directIrradiance(worldFromGrid(point), shadingNormal, normal, frontHeight) * (1.0 / kGatherPi);
+    float frontHeight = dot(faceFrontOffset(texelFetch(voxelFaces, face), normal), normal) * grid.voxelSize;
+#if NEAR_TRIANGLES
+    // A triangle is where it is: it needs no lift, which might go through the next fold.
+    if (hit.near) shadingNormal = normal = hit.normal;
+    vec2 lift = hit.near ? vec2(0.0) : kShadowVoxelLift + vec2(0.0, frontHeight);
+#else
+    vec2 lift = kShadowVoxelLift + vec2(0.0, frontHeight);
+#endif
+    vec3 direct = directIrradiance(worldFromGrid(point), shadingNormal, normal, lift) * (1.0 / kGatherPi);
     vec3 radiance = unpackRgb9e5(texelFetch(cachedDirect, face).x) + s.albedo * (direct + s.irradiance);
 #else
     vec3 radiance = s.directRadiance + s.albedo * s.irradiance;
@@ -356,6 +361,11 @@ vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, Sequence
         // if it reached its own face: others are occluded, or their density is that of another face.
         bool reached = !lightSampled || (hit.face >= 0 && hit.face == drawn.lightFace);
         float lightPdf = lightFacePdf(drawn.ray, hit, inverseFlux);
+#if NEAR_TRIANGLES
+        // Light samples lie on plane pieces: near by, only cosine-sampled rays count.
+        reached = reached && !(lightSampled && hit.near);
+        lightPdf = hit.near ? 0.0 : lightPdf;
+#endif
         float pdfSum = float(settings.cosineSamples) * drawn.cosine / kGatherPi +
                        float(settings.lightSamples) * lightPdf;
         float misWeight = drawn.cosine / kGatherPi / max(pdfSum, 1e-12);

@@ -2,29 +2,56 @@
 // SPDX-License-Identifier: MIT
 // What part of its emission a face shows to rays, so that a lamp's voxels send what the lamp sends
 // (docs/theory/4c_estimator.md, (4.36)). Where several plane pieces stand for a curved surface or for an
-// edge, they reach beyond it, and to rays they are larger than the surface. Bricks in which all that shines
-// lies in one plane are left as they are.
+// edge, they reach beyond it, and to rays they are larger than the surface. Where a lamp is closer to what
+// hides it than a voxel, faces show what is hidden: the inside of a bulb, a bulb within a pipe.
 //
-// STEP 0, per brick of the grid: marks the faces whose size is asked for. 1, per face: its size as rays meet
-// it and the area of the surface that it stands for. 2, per brick: the quotient of the sums, the same for all
-// its faces. Faces of one brick are next to each other.
+// STEP 0, per brick of the grid: marks the faces whose size is asked for, those of bricks in which not all
+// that shines lies in one plane. 1, per face: its size as rays meet it. 2, per fragment: what it sends, and
+// what part of that gets away from the triangles around it. 3, per brick: what gets away, over what the faces
+// would show, the same for all its faces. Faces of one brick are next to each other.
 #ifndef STEP
-#error STEP must be 0, 1 or 2
+#error STEP must be 0, 1, 2 or 3
+#endif
+#if STEP == 2
+#define NEAR_TRIANGLES 1
 #endif
 layout(local_size_x = 64) in;
 #include "lib/clip.glsl"
 #include "lib/linear_index.glsl"
 #include "lib/plane_piece.glsl"
 #include "lib/random.glsl"
+#include "lib/scene_tables.glsl"
+#include "lib/surface_array.glsl"
+// These ask for the tables.
 #include "lib/ray_query.glsl"
 #include "lib/tangent_frame.glsl"
 uniform usamplerBuffer voxelFaceMaterials;
-// After step 0: 1 or 0; 1: both areas as halves; 2: the part, a float.
+// Per face. After step 0: 1 or 0; 1: the area as rays meet it (voxel sides), a float, negative where it is
+// not asked for; 3: the part of the emission that it shows, a float.
 layout(std430) buffer EmissionFit { uint parts[]; };
+#if STEP >= 2
+// Per face: areas that would send, with the face's emission, what its fragments send, and what of that gets
+// away; in voxel sides / 2^16.
+layout(std430) buffer SentLight {
+    uint fragmentSlots;
+    uint pad;
+    uvec2 sentLight[];
+};
+const float kSentUnit = 65536.0;
+#endif
 
 const float kOnePlane = 0.98;    // cosine of normals up to which faces are of one plane
 const int kRays = 16;            // per face; sums over a brick are within 3 %, over a lamp within 1 %
 const float kFromOutside = 1.5;  // voxels: what reaches beyond the surface is nearer
+
+// Walks: so far without meeting a triangle is away, voxels; turns until one is given up; walks per voxel side
+// of a fragment, and per fragment. Software drivers end all loops of an invocation together after 65,535
+// turns: these leave room for chains of 400.
+const float kWalkStart = 1e-3;  // off the surface, voxels
+const float kWalkReach = 2.5;
+const int kWalkTurns = 8;
+const float kWalks = 16.0;
+const int kLeastWalks = 4, kMostWalks = 6;
 const float kLeast = 0.5, kMost = 1.5;
 
 vec3 normalOf(int face) { return octDecode(unpackSnorm2x16(texelFetch(voxelFaces, face).x)); }
@@ -69,10 +96,88 @@ float seenArea(int face, bool asked) {
 void main() {
     int face = int(min(linearIndex(), grid.faceCount - 1u));
     bool used = linearIndex() < grid.faceCount;
-    float area = unpackArea(texelFetch(voxelFaceMaterials, face));
     bool asked = used && parts[face] != 0u && emits(face);
     float seen = seenArea(face, asked);
-    if (used) parts[face] = packHalf2x16(vec2(asked ? seen : area, area));
+    if (used) parts[face] = floatBitsToUint(asked ? seen : -1.0);
+}
+#elif STEP == 2
+// A direction of density cos / pi about n.
+vec3 walkDirection(vec3 n, vec2 xi) {
+    vec3 u, v;
+    tangentFrame(n, u, v);
+    float across = sqrt(xi.x);
+    float phi = 6.28318530718 * xi.y;
+    return across * cos(phi) * u + across * sin(phi) * v + sqrt(max(1.0 - xi.x, 0.0)) * n;
+}
+
+// Share of the walks that start at a point with normal n, and turn where they meet triangles, that get away.
+// The others are shut in with the lamp: light within a bulb, or of a bulb within a pipe.
+float leavingShare(vec3 point, vec3 n, uint seed, int walks) {
+    int away = 0;
+    int i = 0;
+    do {
+        vec3 normal = n;
+        vec3 origin = point + kWalkStart * n;
+        bool goesOn = i < walks;
+        int turns = 0;
+        do {
+            vec3 direction = walkDirection(normal, sequencePoint(seed + uint(turns) * 0x85ebca6bu, uint(i)));
+            bool reached;
+            TriangleCrossing hit =
+                traceTriangles(Ray(origin, direction, goesOn ? kWalkReach : -1.0, vec3(0.0)), reached);
+            away += goesOn && reached ? 1 : 0;
+            goesOn = goesOn && hit.triangle >= 0;
+            normal = goesOn ? normalize(hit.normal) : n;
+            origin += (goesOn ? hit.t : 0.0) * direction + kWalkStart * normal;
+        } while (goesOn && ++turns <= kWalkTurns);
+    } while (++i < walks);
+    return float(away) / float(max(walks, 1));
+}
+
+// Adds what a fragment sends to the sides that n leans to, and what of it gets away, to its voxel's faces.
+// Sums are of integers: they do not depend on the order.
+void addSent(ivec3 voxel, vec3 n, float area, float brightness, float leaving) {
+    uvec4 word = imageLoad(voxelBrickImage, voxel >> 2);
+    uint record = texelFetch(voxelRecords, int(voxelRecordIndex(word, bitOfVoxel(voxel)))).x;
+    uint directions = faceDirections(record);
+    int axis = 0;
+    do {
+        int direction = sideOfAxis(axis, n);
+        float facing = dot(n, directionVector(direction));
+        bool has = facing > VOXEL_FACING_THRESHOLD && (directions >> direction & 1u) != 0u && area > 0.0;
+        int face = int(faceBase(record)) + bitCount(directions & ((1u << direction) - 1u));
+        vec3 emission = unpackEmission(texelFetch(voxelFaceMaterials, has ? face : 0));
+        // The faces of a voxel add up to the surface.
+        float sent = area * facing * facing * brightness / max(dot(emission, vec3(1.0 / 3.0)), 1e-12);
+        sent = min(sent, 8.0) * kSentUnit;
+        if (has) {
+            atomicAdd(sentLight[face].x, uint(sent + 0.5));
+            atomicAdd(sentLight[face].y, uint(sent * leaving + 0.5));
+        }
+    } while (++axis < 3);
+}
+
+void main() {
+    int slots = textureSize(voxelPairs);
+    int slot = min(int(linearIndex()), slots - 1);
+    uvec4 a = texelFetch(voxelFragments, 2 * slot);
+    uvec4 b = texelFetch(voxelFragments, 2 * slot + 1);
+    uvec2 pair = texelFetch(voxelPairs, slot).xy;
+    float brightness = dot(unpackRgb9e5(b.w), vec3(1.0 / 3.0));
+    bool shines = linearIndex() < fragmentSlots && a.y != 0u && brightness > 0.0;
+    float area = shines ? uintBitsToFloat(a.y) : 0.0;
+    bool twoSided = (a.z & 0x40000000u) != 0u;
+    vec3 n = normalize(vec3(unpackSnorm2x16(a.w), unpackSnorm2x16(b.x).x));
+    ivec3 voxel = unpackVoxel(pair.y);
+    vec3 point = vec3(voxel) + vec3(b.x >> 16, b.y & 0xffffu, b.y >> 16) * (1.0 / 65535.0);
+    uint seed = randomHash(pair.x) ^ randomHash(pair.y);
+    int walks = shines ? clamp(int(area * kWalks + 0.5), kLeastWalks, kMostWalks) : 0;
+    int side = 0;
+    do {
+        vec3 outwards = side == 0 ? n : -n;
+        float leaving = leavingShare(point, outwards, seed + uint(side), walks);
+        addSent(voxel, outwards, area, brightness, leaving);
+    } while (++side < (shines && twoSided ? 2 : 1));
 }
 #else
 void main() {
@@ -100,14 +205,22 @@ void main() {
     do parts[face] = onePlane ? 0u : 1u;
     while (++face < end);
 #else
-    vec2 sums = vec2(0.0);  // as rays meet it, as it is
+    vec2 sums = vec2(0.0);  // of what faces show, of what gets away
     int face = first;
-    do sums += emits(face) ? unpackHalf2x16(parts[face]) : vec2(0.0);
-    while (++face < end);
-    float part = clamp(sums.y / max(sums.x, 1e-6), kLeast, kMost);
+    do {
+        vec2 sent = vec2(sentLight[face]) / kSentUnit;
+        float shown = uintBitsToFloat(parts[face]);
+        float emission = dot(unpackEmission(texelFetch(voxelFaceMaterials, face)), vec3(1.0 / 3.0));
+        float leaving = sent.y / max(sent.x, 1e-9);
+        sums += shown >= 0.0 ? emission * vec2(leaving * shown, sent.y) : vec2(0.0);
+    } while (++face < end);
+    float fit = sums.x > 0.0 ? clamp(sums.y / sums.x, kLeast, kMost) : 1.0;
     face = first;
-    do parts[face] = floatBitsToUint(sums.x > 0.0 ? part : 1.0);
-    while (++face < end);
+    do {
+        vec2 sent = vec2(sentLight[face]);
+        float leaving = sent.y / max(sent.x, 1e-9);
+        parts[face] = floatBitsToUint(leaving * (uintBitsToFloat(parts[face]) >= 0.0 ? fit : 1.0));
+    } while (++face < end);
 #endif
 }
 #endif

@@ -51,7 +51,10 @@ void main() {
         uint instance = floatBitsToUint(texelFetch(triangles, 3 * triangle).w) & 0xffffffu;
         bool goes = at != 0u && (stale[instance >> 5] >> (instance & 31u) & 1u) != 0u;
         bool stays = at != 0u && !goes;
-        if (goes) freeSlots[atomicAdd(counters[SURFACE_FREE], 1u)] = slot;
+        if (goes) {
+            freeSlots[atomicAdd(counters[SURFACE_FREE], 1u)] = slot;
+            fragments[base + 1u] = 0u;  // no area: whoever goes through all slots passes it over
+        }
         dropped = dropped || goes;
         if (stays && last != 0u) fragments[8u * (last - 1u)] = at;
         head = stays && last == 0u ? at : head;

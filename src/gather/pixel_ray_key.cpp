@@ -35,18 +35,19 @@ gl::ProgramDesc PixelRayKey::desc() const {
     if (listed) desc.defines.emplace_back("LOBE_LISTED", "1");
     if (counts) desc.defines.emplace_back("COUNT_LOOKUPS", "1");
     for (auto& define : hits.defines()) desc.defines.push_back(std::move(define));
-    if (triangles) desc.defines.emplace_back("TRIANGLE_HITS", "1");
+    if (triangles)
+        desc.defines.emplace_back(kind == RayPicture::Specular ? "TRIANGLE_HITS" : "NEAR_TRIANGLES", "1");
     return records ? StepRecorder::variant(std::move(desc)) : desc;
 }
 
 std::vector<PixelRayKey> PixelRayKey::all() {
     std::vector<PixelRayKey> keys;
-    // Occlusion asks for no light.
-    addPasses(keys, {.kind = RayPicture::Occlusion});
-    for (const light::HitKey& hits : light::HitKey::all(0)) {
-        addPasses(keys, {.kind = RayPicture::Diffuse, .hits = hits});
-        for (const bool triangles : {false, true})
-            addPasses(keys, {.kind = RayPicture::Specular, .triangles = triangles, .hits = hits});
+    for (const bool triangles : {false, true}) {
+        // Occlusion asks for no light.
+        addPasses(keys, {.kind = RayPicture::Occlusion, .triangles = triangles});
+        for (const light::HitKey& hits : light::HitKey::all(0))
+            for (const RayPicture kind : {RayPicture::Diffuse, RayPicture::Specular})
+                addPasses(keys, {.kind = kind, .triangles = triangles, .hits = hits});
     }
     return keys;
 }

@@ -20,7 +20,7 @@ struct PixelRayKey {
     bool motion = false;     // instances have moved since; of Reuse::Reproject
     bool counts = false;     // lookups
     bool listed = false;     // of kind Specular: of the pixels in LobeList, else of all
-    bool triangles = false;  // of kind Specular: rays meet triangles, not plane pieces
+    bool triangles = false;  // rays meet triangles: of kind Specular all over, else near their start
     bool records = false;    // steps of one pixel, for the inspector
     light::HitKey hits;
 

@@ -108,9 +108,9 @@ PixelRayKey PixelRays::key(const RayInputs& inputs, const RayPass& pass) const {
                     .motion = pass.motion != nullptr && pass.reuse == Reuse::Reproject,
                     .counts = pass.lookupCounters != nullptr,
                     .listed = kind_ == RayPicture::Specular};
+    key.triangles = kind_ == RayPicture::Specular ? pass.settings.exactMirrors : pass.settings.exactNear;
     if (kind_ == RayPicture::Occlusion) return key;
     key.hits = inputs.lights.hitKey(inputs.scene, pass.settings.exactHits);
-    key.triangles = kind_ == RayPicture::Specular && pass.settings.exactMirrors;
     return key;
 }
 

@@ -7,13 +7,14 @@
 
 #include "base/revision.h"
 #include "gl/device.h"
+#include "scene/gpu_scene.h"
 #include "voxels/voxels.h"
 
 namespace conelight::light {
 
 class EmissionFit {
   public:
-    void update(const gl::Device& device, const voxels::Voxels& voxels);
+    void update(const gl::Device& device, const scene::GpuScene& scene, const voxels::Voxels& voxels);
     void declare(gl::Inputs& inputs) const;  // emissionParts: R32UI, a float per face
 
     static std::vector<gl::ProgramDesc> programDescs();

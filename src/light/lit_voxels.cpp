@@ -52,7 +52,7 @@ void LitVoxels::putDirectLight(const gl::Device& device, const Inputs& inputs) {
     gl::reserveTexels(directLight_, directTexels_, GL_R32UI, std::size_t{4} * surface.faceCount(),
                       "cached direct light");
     const bool fits = surface.faceCount() > 0 && hasOtherEmitters(inputs.scene, inputs.lights);
-    if (fits) fit_.update(device, inputs.voxels);
+    if (fits) fit_.update(device, inputs.scene, inputs.voxels);
     const RayLight rays{directLight_, fits ? &fit_ : nullptr};
     injectLight(device, {inputs.scene, inputs.lights, surface}, faces_, &rays);
 }

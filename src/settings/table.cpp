@@ -144,6 +144,10 @@ std::vector<Setting<TracedSettings>> tracedSettings() {
         {"exact_mirrors", &TracedSettings::exactMirrors,
          "rays from mirrors (roughness up to 0.3) meet triangles with their textures, not what voxels keep "
          "of them; off: voxels, faster"},
+        {"exact_near", &TracedSettings::exactNear,
+         "rays of pixels meet triangles within a voxel of their start, so that folds, thin things and "
+         "contacts "
+         "hide light; off: voxels, faster"},
         {"budgeted", &TracedSettings::budgeted,
          "one update and one pass per frame, reusing frames before, for moving pictures; off: every "
          "frame is finished"},

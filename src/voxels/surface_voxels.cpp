@@ -99,6 +99,7 @@ std::uint32_t SurfaceVoxels::voxelCount() const { return impl_->counts[SURFACE_V
 std::uint32_t SurfaceVoxels::faceCount() const { return impl_->counts[SURFACE_FACES]; }
 std::uint32_t SurfaceVoxels::occupiedBrickCount() const { return impl_->counts[SURFACE_BRICKS]; }
 std::uint32_t SurfaceVoxels::fragmentCount() const { return impl_->tail - impl_->freeSlots; }
+std::uint32_t SurfaceVoxels::fragmentSlots() const { return impl_->tail; }
 const gl::Texture& SurfaceVoxels::brickWords() const { return impl_->keys.brickWords; }
 const gl::Buffer& SurfaceVoxels::records() const { return impl_->keys.records; }
 const gl::Buffer& SurfaceVoxels::faces() const { return impl_->now.faces; }

@@ -79,6 +79,7 @@ class SurfaceVoxels {
     std::uint32_t faceCount() const;
     std::uint32_t occupiedBrickCount() const;
     std::uint32_t fragmentCount() const;  // pairs (triangle, voxel)
+    std::uint32_t fragmentSlots() const;  // places of fragments; those not in use have no area
 
     const gl::Texture& brickWords() const;     // RGBA32UI, size of grid().bricks()
     const gl::Buffer& records() const;         // voxRec; voxelCount() uints are in use

@@ -32,7 +32,7 @@ void CacheRig::voxelize() {
 void CacheRig::relight() {
     lights.update(device, scene, {.settings = light, .emissiveQuads = light.emissiveQuads});
     const bool fits = light::hasOtherEmitters(scene, lights);
-    if (fits) fit.update(device, voxels);
+    if (fits) fit.update(device, this->scene, voxels);
     const light::RayLight rays{directLight, fits ? &fit : nullptr};
     light::injectLight(device, {scene, lights, surface}, lit, &rays);
     cache.restartAverages();

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Mode `traced` where things are thinner, or closer together, than a voxel: what shuts a lamp in, the two
+// sides of a bulb, folds of curtains, the gap below a board.
+#include "io/generated.h"
+#include "support/traced_rig.h"
+
+namespace conelight::test {
+namespace {
+
+class ThinThings : public TracedModeTest {
+  protected:
+    double indirectMean(const Scene& scene, bool near = true) const {
+        Settings settings = tracedSettings(Quality::Interactive, Component::Indirect);
+        settings.voxels.size = 128;
+        settings.traced.exactNear = near;
+        return meanOf(draw(scene, settings));
+    }
+};
+
+// A closed pipe with walls of 3 mm lets nothing out, though pipe and bulb share their voxels.
+TEST_F(ThinThings, ABulbWithinAPipeLightsNothing) {
+    Scene hidden = io::generateScene("parlour?sun=0&sky=0&lamp=0&buried=100");
+    Scene open = hidden;
+    std::erase_if(open.instances, [](const Instance& i) { return i.name.find("stem") != std::string::npos; });
+    ASSERT_LT(open.instances.size(), hidden.instances.size());
+    EXPECT_LT(indirectMean(hidden), 0.01 * indirectMean(open));
+}
+
+// Two sides of a closed bulb shine as one does: what shines within meets the bulb.
+TEST_F(ThinThings, ABulbOfTwoSidesIsNoBrighter) {
+    Scene two = io::generateScene("parlour?sun=0&sky=0&lamp=120");
+    Scene one = two;
+    for (Material& material : one.materials)
+        if (material.name == "bulb") material.doubleSided = false;
+    EXPECT_NEAR(indirectMean(two) / indirectMean(one), 1.0, 0.05);
+}
+
+// Curtains beside a window, frames on a wall, skirting, a rug: rays that meet triangles near their start come
+// closer to the path tracer than those that meet plane pieces alone.
+TEST_F(ThinThings, FoldsAndFramesHideLight) {
+    Scene scene = io::generateScene("parlour?lamp=0");
+    Camera& camera = scene.cameras.at(0);
+    camera.eye = {-1.2f, 1.5f, -0.5f};
+    camera.target = {-2.2f, 1.45f, -1.3f};
+    camera.fovY = 1.1f;
+    reference::PathTracerSettings reference;
+    reference.samplesPerPixel = 512;
+    const reference::PathTracedPicture truth =
+        reference::PathTracer(scene).render(scene.cameras.at(0), kTracedPixels, kTracedPixels, reference);
+    Settings settings = tracedSettings(Quality::Interactive, Component::Indirect);
+    settings.voxels.size = 128;
+    settings.traced.passes = 64;
+    settings.traced.cacheUpdates = 64;
+    settings.traced.filterLevels = 0;
+    const double near = indirectError(draw(scene, settings), truth);
+    settings.traced.exactNear = false;
+    const double far = indirectError(draw(scene, settings), truth);
+    EXPECT_LT(near, 0.85 * far) << far;
+}
+
+// A board hovers half a voxel above a white floor under an even sky: the floor below it is dark, and a strip
+// beside it as wide as the gap gets about half.
+TEST_F(ThinThings, GapsBelowAVoxelAreDark) {
+    Scene scene;
+    addInstance(scene, quadMesh({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), diffuseMaterial(glm::vec3(0.5f)));
+    Material board = diffuseMaterial(glm::vec3(0.05f));
+    board.doubleSided = true;
+    addInstance(scene, quadMesh({-0.5f, 0.008f, 0}, {1, 0, 0}, {0, 0, -0.8f}), board);
+    scene.sky = glm::vec3(1);
+    Camera camera;
+    camera.eye = {0, 0.004f, 0.3f};
+    camera.target = {0, 0.001f, 0};
+    camera.fovY = 0.02f;  // the floor at the gap alone
+    scene.cameras = {camera};
+    const double open = indirectMean([&] {
+        Scene without = scene;
+        without.instances.pop_back();
+        return without;
+    }());
+    EXPECT_LT(indirectMean(scene), 0.75 * open);
+    EXPECT_GT(indirectMean(scene, false), 0.9 * open);
+}
+
+}  // namespace
+}  // namespace conelight::test
