@@ -299,6 +299,7 @@ Scene importWhole(const fs::path& path, const SceneFolder& folder, const LoadOpt
         if (source.mNumAnimations > 0)
             scene.notes.push_back(fmt::format("{} animation{} left out", source.mNumAnimations,
                                               source.mNumAnimations == 1 ? "" : "s"));
+        scene.settings.emplace_back("image.exposure", "auto");
         if (!scene.lights.empty())
             scene.notes.push_back("light colours of this format have no unit; taken as W/sr and W/m^2");
     });
