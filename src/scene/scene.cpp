@@ -315,17 +315,18 @@ Light roomLight(const Aabb& bounds) {
     return light;
 }
 
-// A closed room keeps out what comes from outside: it is lit within.
+// A closed room keeps out what comes from outside, and is lit within as well. Things whose triangles are only
+// wound the wrong way round pass for rooms; they have the light outside.
 void addLight(Scene& scene, const Aabb& bounds) {
     const glm::vec3 size = bounds.extent();
-    if (enclosedVolume(scene, bounds.center()) < -0.5f * size.x * size.y * size.z) {
-        scene.lights.push_back(roomLight(bounds));
-        scene.notes.emplace_back("no light, lamp or sky in the room: a light under its ceiling was added");
-        return;
-    }
+    const bool isRoom = enclosedVolume(scene, bounds.center()) < -0.5f * size.x * size.y * size.z;
     scene.lights.push_back(keyLight(scene.cameras.front()));
+    if (isRoom) scene.lights.push_back(roomLight(bounds));
     scene.sky = glm::vec3(kAddedSky);
-    scene.notes.emplace_back("no light, lamp or sky in the scene: a key light and a grey sky were added");
+    scene.notes.emplace_back(
+        isRoom ? "no light, lamp or sky in the room: one under its ceiling, a key light and a grey sky were "
+                 "added"
+               : "no light, lamp or sky in the scene: a key light and a grey sky were added");
 }
 
 }  // namespace
@@ -338,7 +339,8 @@ void completeScene(Scene& scene) {
     }
     bool emits = glm::dot(scene.sky, glm::vec3(1)) > 0;
     bool needsLight = false;  // baked scenes are unlit throughout
-    for (const Light& light : scene.lights) emits |= light.enabled;
+    for (const Light& light : scene.lights)
+        emits |= light.enabled && glm::dot(light.intensity, glm::vec3(1)) > 0;
     for (const Instance& instance : scene.instances) {
         if (!instance.visible) continue;
         needsLight |=

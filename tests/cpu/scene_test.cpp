@@ -155,9 +155,16 @@ TEST(SceneTest, WhatIsAddedSuitsTheShape) {
         std::swap(room.meshes.back().indices[i], room.meshes.back().indices[i + 1]);
     completeScene(scene);
     completeScene(room);
-    EXPECT_EQ(scene.lights.at(0).type, LightType::Directional);
-    EXPECT_EQ(room.lights.at(0).type, LightType::Point);
-    EXPECT_LT(glm::length(room.lights.at(0).position), 1);
+    ASSERT_EQ(scene.lights.size(), 1u);
+    ASSERT_EQ(room.lights.size(), 2u);
+    EXPECT_EQ(room.lights[0].type, LightType::Directional);
+    EXPECT_EQ(room.lights[1].type, LightType::Point);
+    EXPECT_LT(glm::length(room.lights[1].position), 1);
+    // A light that is dark is none.
+    scene.lights[0].intensity = glm::vec3(0);
+    scene.sky = glm::vec3(0);
+    completeScene(scene);
+    EXPECT_EQ(scene.lights.size(), 2u);
     // A sheet is seen from the side that it faces.
     for (const float turned : {1.0f, -1.0f}) {
         Scene sheet;
