@@ -287,8 +287,9 @@ void withAssimp(const fs::path& path, const SceneFolder& folder, unsigned flags,
 // wide as high.
 bool seesNothing(const Camera& camera, const Aabb& bounds) {
     const glm::vec3 ahead = glm::normalize(camera.target - camera.eye);
-    const glm::vec3 side = glm::cross(ahead, camera.up);
-    if (!(glm::length(side) > 1e-3f)) return false;
+    glm::vec3 side = glm::cross(ahead, camera.up);
+    if (!(glm::length(side) > 1e-3f))
+        side = {ahead.y, ahead.z, -ahead.x};  // straight up or down: any will do
     const glm::vec3 right = glm::normalize(side), up = glm::cross(right, ahead);
     const float tanY = std::tan(0.5f * camera.fovY), tanX = 2 * tanY;
     int behind = 0, beyond[4] = {0, 0, 0, 0};
