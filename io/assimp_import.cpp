@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <set>
 
@@ -282,6 +283,31 @@ void withAssimp(const fs::path& path, const SceneFolder& folder, unsigned flags,
     work(*source, files->notes());
 }
 
+// Whether all corners of the bounds are beyond one side of what a camera sees, in a picture up to twice as
+// wide as high.
+bool seesNothing(const Camera& camera, const Aabb& bounds) {
+    const glm::vec3 ahead = glm::normalize(camera.target - camera.eye);
+    glm::vec3 side = glm::cross(ahead, camera.up);
+    if (!(glm::length(side) > 1e-3f))
+        side = {ahead.y, ahead.z, -ahead.x};  // straight up or down: any will do
+    const glm::vec3 right = glm::normalize(side), up = glm::cross(right, ahead);
+    const float tanY = std::tan(0.5f * camera.fovY), tanX = 2 * tanY;
+    int behind = 0, beyond[4] = {0, 0, 0, 0};
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 from = glm::vec3((corner & 1) != 0 ? bounds.max.x : bounds.min.x,
+                                         (corner & 2) != 0 ? bounds.max.y : bounds.min.y,
+                                         (corner & 4) != 0 ? bounds.max.z : bounds.min.z) -
+                               camera.eye;
+        const float x = glm::dot(from, right), y = glm::dot(from, up), z = glm::dot(from, ahead);
+        behind += z <= 0 ? 1 : 0;
+        beyond[0] += x > tanX * z ? 1 : 0;
+        beyond[1] += -x > tanX * z ? 1 : 0;
+        beyond[2] += y > tanY * z ? 1 : 0;
+        beyond[3] += -y > tanY * z ? 1 : 0;
+    }
+    return behind == 8 || *std::max_element(std::begin(beyond), std::end(beyond)) == 8;
+}
+
 Scene importWhole(const fs::path& path, const SceneFolder& folder, const LoadOptions& options) {
     Scene scene;
     constexpr unsigned kFlags = aiProcess_Triangulate | aiProcess_JoinIdenticalVertices |
@@ -299,6 +325,7 @@ Scene importWhole(const fs::path& path, const SceneFolder& folder, const LoadOpt
         if (source.mNumAnimations > 0)
             scene.notes.push_back(fmt::format("{} animation{} left out", source.mNumAnimations,
                                               source.mNumAnimations == 1 ? "" : "s"));
+        scene.settings.emplace_back("image.exposure", "auto");
         if (!scene.lights.empty())
             scene.notes.push_back("light colours of this format have no unit; taken as W/sr and W/m^2");
     });
@@ -310,6 +337,13 @@ Scene importWhole(const fs::path& path, const SceneFolder& folder, const LoadOpt
     for (Camera& camera : scene.cameras) {
         camera.zNear = std::clamp(1e-3f * size, 1e-5f, 0.1f);
         camera.zFar = std::max(1000.0f, 20.0f * size);
+    }
+    // Cameras that an animation turns look anywhere at rest.
+    if (!scene.instances.empty() && !scene.cameras.empty() &&
+        seesNothing(scene.cameras.front(), scene.bounds())) {
+        scene.cameras.insert(scene.cameras.begin(), frameCamera(scene.bounds()));
+        scene.notes.emplace_back(
+            "the first camera looks past the scene: one that frames it was put before it");
     }
     return scene;
 }

@@ -154,6 +154,9 @@ void Reader::readOwnExtras(const GltfValue& scene) {
     for (std::size_t i = 0; i < settings.size(); ++i)
         scene_.settings.emplace_back(settings[i][std::size_t(0)].text(""),
                                      settings[i][std::size_t(1)].text(""));
+    // Other programs' lights and emission are as bright as they like.
+    const bool ours = file_.root()["asset"]["generator"].text("").rfind("Conelight", 0) == 0;
+    if (!ours && settings.size() == 0) scene_.settings.emplace_back("image.exposure", "auto");
 }
 
 void Reader::readFlags(const GltfValue& node, Instance& instance) const {

@@ -141,11 +141,18 @@ Scene openScene(const std::string& path, const ViewOptions& options, Progress& p
 }
 
 Settings settingsFor(const Scene& scene, const std::string& mode, const ViewOptions& options) {
-    Settings settings = startSettings(scene, mode);
+    const auto start = [&](const std::string& startMode) {
+        Settings settings = startSettings(scene, startMode);
+        const bool set = std::any_of(scene.settings.begin(), scene.settings.end(),
+                                     [](const auto& one) { return one.first == "image.antialiasing"; });
+        if (!set) settings.image.antialiasing = options.stillViews.value_or(0);
+        return settings;
+    };
+    Settings settings = start(mode);
     if (!options.preset.empty()) {
         const Preset preset = readPreset(options.preset);
         if (mode.empty() && isSettingsMode(preset.mode) && !preset.mode.empty())
-            settings = startSettings(scene, preset.mode);
+            settings = start(preset.mode);
         preset.apply(settings);
     }
     if (!options.quality.empty()) setSetting(settings, "traced.quality", options.quality);

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -66,6 +67,7 @@ struct ViewOptions {
     double fovDeg = 0;
     std::string sky;
     std::vector<std::string> sets;
+    std::optional<int> stillViews;  // image.antialiasing where nothing else sets it
     int device = -1;
     bool debugGl = false;
     bool allowOutside = false;

@@ -56,6 +56,9 @@ SceneComparisonRequest requestOf(const CompareSceneOptions& options) {
     request.picture.timedFrames = options.timedFrames;
     request.metrics = options.comparison.metricOptions();
     request.view = options.view;
+    // The same filter on both sides.
+    if (request.picture.reference.filter == reference::PixelFilter::Box)
+        request.view.stillViews = kStillViews;
     return request;
 }
 
@@ -181,7 +184,10 @@ void CompareSceneOptions::addTo(CLI::App& command) {
     command.add_option("--timed", timedFrames, "frames whose cost is measured; 0: none")
         ->capture_default_str()
         ->check(CLI::Range(0, 10000));
-    tracer.addTo(command);
+    tracer.addTo(command,
+                 "what a pixel shows, in the reference and in every mode: center (one point of it, the "
+                 "default) or box (its "
+                 "area; image.antialiasing of the modes is 16 unless set)");
     view.addTo(command);
     const std::vector<CLI::Option*> all = command.get_options();
     for (std::size_t i = before; i < all.size(); ++i) all[i]->group("Scenes");

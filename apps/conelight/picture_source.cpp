@@ -192,6 +192,8 @@ void PictureSource::Impl::drawRenderer(const PictureRequest& request, Picture& p
     upload(*scene, progress);
     Settings settings = request.settings;
     setSetting(settings, "mode", request.mode);
+    if (settings.mode == Mode::Traced && settings.image.antialiasing == 0)
+        settings.image.antialiasing = request.tracedViews;
     for (const Component component : request.components) {
         settings.component = component;
         show(progress, "rendering " + getSetting(settings, "component"));

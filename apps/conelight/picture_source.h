@@ -35,6 +35,7 @@ struct PictureRequest {
     reference::RadiositySettings radiosity;
     bool radiositySpecular = false;  // reflections on top
     int frames = 1;                  // the first component is drawn this often: modes may settle over frames
+    int tracedViews = 0;             // image.antialiasing of mode traced where the settings have 0
     bool profile = false;            // fill Picture::stats with passes and lookups
     int timedFrames = 0;  // fill Picture::cost from this many further frames of the first component
 };

@@ -172,6 +172,15 @@ PictureRequest requestOf(const RenderOptions& options) {
     request.size = parseSize(options.view.size);
     request.profile = !options.statsFile.empty();
     request.reference = options.tracer.settings();
+    if (options.mode == "reference" && !options.tracer.filterGiven() && options.view.stillViews != 0)
+        request.reference.filter = reference::PixelFilter::Box;
+    // The other modes gather anew for each view: they take as much longer, and have them when asked.
+    const std::vector<std::string>& sets = options.view.sets;
+    const bool said =
+        options.view.stillViews || std::any_of(sets.begin(), sets.end(), [](const std::string& set) {
+            return set.rfind("image.antialiasing=", 0) == 0;
+        });
+    request.tracedViews = said ? 0 : kStillViews;
     request.radiosity = options.radiosity.values;
     request.radiosity.seed = options.tracer.seed;
     request.radiositySpecular = options.radiosity.specular;
@@ -278,6 +287,19 @@ void run(RenderOptions options) {
     if (picture.stopped) endStopped(options, request, picture);
 }
 
+void addFilmOptions(CLI::App& command, RenderOptions& options) {
+    command
+        .add_option("--path", options.pathFile,
+                    "a film along the camera path of this file (docs/reference/camera_path.md)")
+        ->type_name("FILE");
+    command.add_flag("--turntable", options.turntable, "a film once round what the camera looks at");
+    command
+        .add_option("--frames", options.frames,
+                    "frames of the film (default: 30 a second of the path; turntable 120)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 100000));
+}
+
 }  // namespace
 
 void addRender(CLI::App& app) {
@@ -291,16 +313,7 @@ void addRender(CLI::App& app) {
         "-o,--output", options->output,
         "picture: .png .jpg (tone-mapped), .exr .hdr (linear radiance); with --path or --turntable a film: "
         ".mp4, or numbered pictures as in frame%04d.png");
-    command
-        ->add_option("--path", options->pathFile,
-                     "a film along the camera path of this file (docs/reference/camera_path.md)")
-        ->type_name("FILE");
-    command->add_flag("--turntable", options->turntable, "a film once round what the camera looks at");
-    command
-        ->add_option("--frames", options->frames,
-                     "frames of the film (default: 30 a second of the path; turntable 120)")
-        ->type_name("N")
-        ->check(CLI::Range(1, 100000));
+    addFilmOptions(*command, *options);
     command->add_flag("--overwrite", options->overwrite,
                       "--bake NAME.gltf may replace a NAME.bin that belongs to another file");
     command->add_option("--mode", options->mode, modeNames() + " (default traced)");
@@ -316,6 +329,14 @@ void addRender(CLI::App& app) {
             "is 8; traced: 0 to 15 or all; modes reference and radiosity: any number, all is the default")
         ->type_name("N");
     command
+        ->add_option(
+            "--aa", options->view.stillViews,
+            "smooth edges: views at offsets within a pixel, whose mean is the picture; 0: one view, of the "
+            "pixels' centres (image.antialiasing; default 16 in mode traced, else 0; mode reference: "
+            "--filter)")
+        ->type_name("N")
+        ->check(CLI::Range(0, 64));
+    command
         ->add_option("--aov", options->aovs,
                      "components that become further layers of an .exr, comma-separated; mode reference: "
                      "also " +
@@ -329,7 +350,8 @@ void addRender(CLI::App& app) {
         ->add_option("--shader-dir", options->shaderDirectory,
                      "shaders from this folder instead of the built-in ones")
         ->type_name("DIR");
-    options->tracer.addTo(*command);
+    options->tracer.addTo(*command,
+                          "mode reference: box (a pixel's area, the default) or center (one point of it)");
     options->radiosity.addTo(*command);
     options->view.addTo(*command);
     options->script.addTo(*command);

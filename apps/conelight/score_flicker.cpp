@@ -204,7 +204,10 @@ void addScoreFlicker(CLI::App& score) {
     command->add_option("--component", options->component, "full or indirect")->capture_default_str();
     command->add_option("--cache", options->cache, "folder in which reference pictures are kept")
         ->type_name("DIR");
-    options->tracer.addTo(*command);
+    options->tracer.addTo(
+        *command,
+        "mode reference: center (a point per pixel, as the other modes; the default) or box "
+        "(its area)");
     options->addTo(*command, "cones", "160x120");
     command->callback([options] { run(*options); });
 }

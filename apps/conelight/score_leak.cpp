@@ -118,7 +118,10 @@ void addScoreLeak(CLI::App& score) {
         ->type_name("NAME");
     command->add_option("--cache", options->cache, "folder in which reference pictures are kept")
         ->type_name("DIR");
-    options->tracer.addTo(*command);
+    options->tracer.addTo(
+        *command,
+        "mode reference: center (a point per pixel, as the other modes; the default) or box "
+        "(its area)");
     options->addTo(*command, "thesis,cones", "128x128");
     command->callback([options] { run(*options); });
 }

@@ -38,7 +38,7 @@ double parseFraction(const std::string& option, const std::string& text) {
     return value;
 }
 
-void TracerOptions::addTo(CLI::App& command) {
+void TracerOptions::addTo(CLI::App& command, const std::string& filterHelp) {
     command_ = &command;
     command
         .add_option("--spp", samples,
@@ -51,11 +51,7 @@ void TracerOptions::addTo(CLI::App& command) {
     command.add_option("--seed", seed, "modes reference and radiosity: of the random numbers")
         ->capture_default_str()
         ->type_name("N");
-    command
-        .add_option("--filter", filter,
-                    "mode reference: center (a point per pixel, as the other modes) or box (its area)")
-        ->capture_default_str()
-        ->type_name("NAME");
+    command.add_option("--filter", filter, filterHelp)->type_name("NAME");
 }
 
 reference::PathTracerSettings TracerOptions::settings() const {

@@ -13,13 +13,18 @@
 
 namespace conelight::program {
 
+// Views of a picture through a box filter: edges in so many steps, as many passes as `traced` averages.
+constexpr int kStillViews = 16;
+
 struct TracerOptions {
     int samples = 0;  // 0: not given
     std::string noise;
     std::uint32_t seed = 1;
     std::string filter = "center";
 
-    void addTo(CLI::App& command);
+    // `filterHelp`: what --filter does there.
+    void addTo(CLI::App& command, const std::string& filterHelp);
+    bool filterGiven() const { return command_ != nullptr && command_->count("--filter") > 0; }
     // The settings asked for; throws Error(Usage). Without --spp: 256, or with --noise as many as it takes.
     reference::PathTracerSettings settings() const;
     // The first option that was given, as on the command line; empty: none.

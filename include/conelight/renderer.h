@@ -19,7 +19,7 @@
 namespace conelight {
 
 // Linear RGBA float pixels, first row on top. rgb is radiance (or what the component shows), a is 1 where a
-// surface was seen and 0 in the background.
+// surface was seen and 0 in the background; of anti-aliased stills, the part of the pixel that shows one.
 struct Image {
     int width = 0;
     int height = 0;

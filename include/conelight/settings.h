@@ -155,6 +155,9 @@ struct ViewSettings {
 };
 
 struct ImageSettings {
+    // Stills: the mean of so many views of the scene, at offsets within a pixel (traced.budgeted off). 0: one
+    // view, of the pixels' centres.
+    int antialiasing = 0;
     AutoFloat exposure{false, 0.0f};  // stops; auto: autoExposure() of the picture
     ToneMap toneMap = ToneMap::Aces;
     bool srgb = true;

@@ -135,8 +135,9 @@ float shadowFilter(vec2 texel, float layer, float ref, vec2 slope, vec2 unit) {
             vec4 e2 = unpackUnorm4x8(ends.z), e3 = unpackUnorm4x8(ends.w);
             vec4 endX = kShadowEnd * vec4(e0.x, e1.y, e2.y, e3.x);
             vec4 endY = kShadowEnd * vec4(e0.w, e1.w, e2.z, e3.z);
-            // Over the texel's triangle 2 alone decides: that is a ray against a triangle.
-            vec4 within = step(abs(dx) * endY + abs(dy) * endX, endX * endY);
+            // Over the texel's triangle 2 alone decides: that is a ray against a triangle. One that ends at
+            // the texel's centre, both ways 0, is over nothing.
+            vec4 within = step(abs(dx) * endY + abs(dy) * endX, endX * endY - 1e-6);
             vec4 lit = step(max(min(overReceiver, overTexel), overTexel * within), bound);
             // A triangle that a line through the texel's centre crosses in less than a texel is found by
             // chance. Its share of the area comes out right only if it then counts for the whole texel.

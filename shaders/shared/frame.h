@@ -11,12 +11,12 @@ struct FrameConstants {
     uint width;
     // ---- 80 B: the point at view depth z and clip position (x, y) is eye + z (viewForward + x viewRight +
     // y viewUp)
-    vec3 viewForward;  // unit
+    vec3 viewForward;  // unit, where pixels are seen at their centres
     uint height;
     vec3 viewRight;  // unit vector times the tangent of half the horizontal field of view
-    float pad0;
+    float footprint;  // edge of the part of a pixel that this view stands for, pixels: textures are as sharp
     vec3 viewUp;  // unit vector times the tangent of half the vertical field of view
-    float pad1;
+    float pad0;
 };  // 128 B
 
 CONELIGHT_SHARED_END

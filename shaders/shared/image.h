@@ -32,6 +32,14 @@ struct DisplayConstants {
     uint pad1;
 };  // 16 B
 
+// Uniform block of image/view_mean.comp.glsl.
+struct ViewMeanConstants {
+    uint views;  // in the mean, this one included
+    uint pad0;
+    uint pad1;
+    uint pad2;
+};  // 16 B
+
 // Uniform block of image/wireframe.*.
 struct WireframeConstants {
     vec3 color;  // on the screen, before the tone map
@@ -60,6 +68,7 @@ CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::Exposure) == 16);
 static_assert(sizeof(conelight::gpu::DisplayConstants) == 16);
+static_assert(sizeof(conelight::gpu::ViewMeanConstants) == 16);
 static_assert(sizeof(conelight::gpu::WireframeConstants) == 32);
 static_assert(sizeof(conelight::gpu::ShadowViewConstants) == 32);
 #endif

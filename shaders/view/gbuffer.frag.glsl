@@ -9,6 +9,7 @@
 #ifndef MASKED
 #error MASKED must be 0 or 1
 #endif
+#include "lib/frame_block.glsl"
 #include "lib/gbuffer_pack.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/scene_tables.glsl"
@@ -41,7 +42,8 @@ vec4 materialTexel(sampler2D map, uint material, int use) {
     vec3 row0 = materials[material].uvRow[2 * use].xyz;
     vec3 row1 = materials[material].uvRow[2 * use + 1].xyz;
     mat2 turn = mat2(row0.x, row1.x, row0.y, row1.y);
-    return textureGrad(map, turn * uv + vec2(row0.z, row1.z), turn * dFdx(uv), turn * dFdy(uv));
+    vec2 at = turn * uv + vec2(row0.z, row1.z);
+    return textureGrad(map, at, frame.footprint * (turn * dFdx(uv)), frame.footprint * (turn * dFdy(uv)));
 }
 #endif
 

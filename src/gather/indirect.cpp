@@ -104,6 +104,18 @@ void Indirect::gather(const gl::Device& device, const RayInputs& inputs, const W
         addPasses(device, inputs, pass, specular_, specularHistory_);
         lobe_ = &specular_.filtered(device, inputs, settings.filterLevels);
     }
+    gatheredIrradiance_ = irradiance_;
+    gatheredLobe_ = lobe_;
+    gatheredView_ = inputs.surfaces.view();
+}
+
+void Indirect::carry(const gl::Device& device, const RayInputs& inputs, const TracedSettings& settings) {
+    if (gatheredIrradiance_ != nullptr)
+        irradiance_ = &carriedIrradiance_.carry(
+            device, inputs, {*gatheredIrradiance_, gatheredView_, nullptr, settings.specularLimit});
+    if (gatheredLobe_ != nullptr)
+        lobe_ = &carriedLobe_.carry(device, inputs,
+                                    {*gatheredLobe_, gatheredView_, &lobes(), settings.specularLimit});
 }
 
 void Indirect::gatherOcclusion(const gl::Device& device, const RayInputs& inputs,

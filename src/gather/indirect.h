@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/revision.h"
+#include "gather/carried_picture.h"
 #include "gather/picture_parts.h"
 #include "gather/pixel_rays.h"
 
@@ -25,14 +26,17 @@ class Indirect {
     // Gathers what the settings ask rays for. GL state changed: as PixelRays.
     void gather(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted);
     void gatherOcclusion(const gl::Device& device, const RayInputs& inputs, const TracedSettings& settings);
+    // What the last gather() found, as `inputs.surfaces` see it, a part of a pixel beside: irradiance() and
+    // lobe() are of these then. GL state changed: as CarriedPicture.
+    void carry(const gl::Device& device, const RayInputs& inputs, const TracedSettings& settings);
     // Records the recorder's pixel; what was gathered stays.
     void record(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,
                 StepRecorder& recorder);
     void recordOcclusion(const gl::Device& device, const RayInputs& inputs, const TracedSettings& settings,
                          StepRecorder& recorder);
 
-    // Of the last gather(), pictures of lib/pixel_history.glsl; null: rays were not asked for it, and the
-    // cache, or the irradiance, stands in.
+    // Of the last gather() or carry(), pictures of lib/pixel_history.glsl; null: rays were not asked for it,
+    // and the cache, or the irradiance, stands in.
     const gl::Texture* irradiance() const { return irradiance_; }
     const gl::Texture* lobe() const { return lobe_; }
     const PixelRectangle& lobes() const { return specular_.lobes(); }  // where `lobe` has anything
@@ -55,6 +59,11 @@ class Indirect {
     History diffuseHistory_, specularHistory_, occlusionHistory_;
     const gl::Texture* irradiance_ = nullptr;
     const gl::Texture* lobe_ = nullptr;
+    // What gather() found, which carry() starts from.
+    const gl::Texture* gatheredIrradiance_ = nullptr;
+    const gl::Texture* gatheredLobe_ = nullptr;
+    gpu::FrameConstants gatheredView_{};
+    CarriedPicture carriedIrradiance_, carriedLobe_;
     const gl::Texture* occlusionPicture_ = nullptr;
 
     // Where instances were, and where from they have come since.

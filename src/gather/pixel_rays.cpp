@@ -29,14 +29,6 @@ gl::ProgramDesc selectDesc() { return {{"gather/lobe_select.comp.glsl"}, {}}; }
 const char* const kGatherPass[] = {"diffuse rays", "specular rays", "occlusion rays"};
 const char* const kLabel[] = {"gathered diffuse", "gathered specular", "gathered occlusion"};
 
-gl::Texture makePicture(int width, int height, const char* label) {
-    gl::Texture picture({GL_TEXTURE_2D, GL_RGBA32UI, width, height}, label);
-    picture.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    picture.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    picture.clear(0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, nullptr);
-    return picture;
-}
-
 // About the boxes of all instances that may have lobes. One that reaches behind the eye may be anywhere.
 PixelRectangle lobeRectangle(const RayInputs& inputs, float roughest) {
     const gpu::FrameConstants& view = inputs.surfaces.view();
@@ -82,6 +74,24 @@ void RayInputs::declare(gl::Inputs& inputs) const {
     voxels.surface().declareTriangles(inputs);
 }
 
+gl::Texture makePixelPicture(int width, int height, const char* label) {
+    gl::Texture picture({GL_TEXTURE_2D, GL_RGBA32UI, width, height}, label);
+    picture.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    picture.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    picture.clear(0, GL_RGBA_INTEGER, GL_UNSIGNED_INT, nullptr);
+    return picture;
+}
+
+void setPictureSoFar(gpu::PixelRayConstants& constants, const gpu::FrameConstants& view,
+                     const voxels::VoxelGrid& grid) {
+    constants.oldClipFromWorld = view.clipFromWorld;
+    constants.oldEye = view.eye;
+    constants.oldForward = view.viewForward;
+    constants.oldRight = view.viewRight;
+    constants.oldUp = view.viewUp;
+    constants.planeTolerance = kPlaneTolerance * grid.voxelSize;
+}
+
 bool mayHaveLobe(const scene::GpuScene& scene, const gpu::Instance& instance, float roughest) {
     const gpu::Material& m = scene.materials()[instance.material];
     const bool textured = (m.flags & MATERIAL_DETAIL_TEXTURES) != 0;
@@ -117,12 +127,7 @@ PixelRayKey PixelRays::key(const RayInputs& inputs, const RayPass& pass) const {
 gpu::PixelRayConstants PixelRays::packed(const RayInputs& inputs, const RayPass& pass) const {
     const voxels::VoxelGrid& grid = inputs.voxels.grid();
     gpu::PixelRayConstants c{};
-    c.oldClipFromWorld = seenFrom_.clipFromWorld;
-    c.oldEye = seenFrom_.eye;
-    c.oldForward = seenFrom_.viewForward;
-    c.oldRight = seenFrom_.viewRight;
-    c.oldUp = seenFrom_.viewUp;
-    c.planeTolerance = kPlaneTolerance * grid.voxelSize;
+    setPictureSoFar(c, seenFrom_, grid);
     c.pass = pass.number;
     c.rays = static_cast<std::uint32_t>(std::max(pass.rays, 1));
     c.longestMean = static_cast<float>(std::max(pass.longest, 1));
@@ -145,7 +150,7 @@ bool PixelRays::resize(int width, int height) {
     filtered_ = {};
     lobeList_ = {};
     for (Picture* picture : {&current_, &other_})
-        *picture = {makePicture(width, height, kLabel[static_cast<int>(kind_)]), {}};
+        *picture = {makePixelPicture(width, height, kLabel[static_cast<int>(kind_)]), {}};
     return true;
 }
 
@@ -227,7 +232,7 @@ const gl::Texture& PixelRays::filtered(const gl::Device& device, const RayInputs
     if (levels == 0) return current_.texture;
     const gl::PassScope scope(device.profiler, "edge filter");
     const int width = current_.texture.width(), height = current_.texture.height();
-    if (!filtered_.texture) filtered_ = {makePicture(width, height, "filtered picture"), {}};
+    if (!filtered_.texture) filtered_ = {makePixelPicture(width, height, "filtered picture"), {}};
     // From level to level between two textures; the second is what gather() writes next, so its content is
     // free. An even number of levels ends there as well.
     const Picture* from = &current_;

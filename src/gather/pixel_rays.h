@@ -52,6 +52,12 @@ struct PixelRectangle {
     glm::ivec2 end{0};
 };
 
+// A picture of lib/pixel_history.glsl, without anything in it.
+gl::Texture makePixelPicture(int width, int height, const char* label);
+// What lib/temporal.glsl has to know of the view that the picture so far was gathered with.
+void setPictureSoFar(gpu::PixelRayConstants& constants, const gpu::FrameConstants& view,
+                     const voxels::VoxelGrid& grid);
+
 // Whether a surface of the instance may be smooth enough for rays into its lobe (hasLobe in
 // lib/lobe_list.glsl).
 bool mayHaveLobe(const scene::GpuScene& scene, const gpu::Instance& instance, float roughest);

@@ -26,6 +26,9 @@ struct Frame {
     const gl::Buffer* lookupCounters =
         nullptr;               // not null: count lookups of cones or rays (shared/lookups.h)
     bool voxelsAmong = false;  // with component voxels: on top of the picture in `output`
+    // One of the views of an anti-aliased still: the same picture as the one before, but for where in its
+    // pixels `surfaces` were seen. What was gathered for the pixels' centres may stand in.
+    bool besideCenters = false;
     // Not null: the picture stays as it is, and what it shows of the recorder's pixel, or would show in
     // component full, is gathered once more for the record.
     gather::StepRecorder* recorder = nullptr;

@@ -15,6 +15,7 @@
 #include "image/display.h"
 #include "image/image.h"
 #include "image/shadow_view.h"
+#include "image/view_mean.h"
 #include "image/wireframe.h"
 #include "light/lights.h"
 #include "modes/modes.h"
@@ -36,6 +37,16 @@ std::vector<MemoryStats> memoryStats() {
     return memory;
 }
 
+// Stills of light; what pixels are of is told at their centres.
+bool isAntialiased(const Settings& settings) {
+    const Component component = settings.component;
+    const bool ofLight = component == Component::Full || component == Component::Direct ||
+                         component == Component::Indirect || component == Component::Diffuse ||
+                         component == Component::Specular;
+    const bool moves = settings.mode == Mode::Traced && settings.traced.budgeted;
+    return settings.image.antialiasing > 0 && ofLight && !moves;
+}
+
 }  // namespace
 
 struct Renderer::Impl {
@@ -49,10 +60,12 @@ struct Renderer::Impl {
     // The values of a picture, in the order in which they are made.
     std::optional<scene::GpuScene> scene;
     light::Lights lights;
-    view::Surfaces surfaces;
+    view::Surfaces surfaces;      // at the pixels' centres
+    view::Surfaces partSurfaces;  // beside them, of the view that is drawn for an anti-aliased still
     std::unique_ptr<modes::ModeRenderer> mode;  // holds those between surfaces and image
     Mode modeKind = Mode::Traced;
     image::LinearImage image;
+    image::ViewMean views;
     // Other looks at them.
     image::Display display;
     image::ShadowView shadowMapView;
@@ -71,6 +84,7 @@ struct Renderer::Impl {
     void render(const Camera& camera, int width, int height, const Settings& settings);
     void prepare(const Settings& settings);
     modes::Frame frame(const Settings& settings) const;
+    void drawParts(const Camera& camera, const Settings& settings);
     void drawOverlays(const Settings& settings);
     PixelInspection inspect(int x, int y);
     void collectStats(double cpuStart, double wallStart);
@@ -194,10 +208,28 @@ void Renderer::Impl::render(const Camera& camera, int width, int height, const S
         shadowMapView.draw(device, scene->source(), lights, settings.view.light, image.texture());
     else
         mode->draw(frame(settings));
+    if (isAntialiased(settings)) drawParts(camera, settings);
     gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess);
     if (settings.component != Component::ShadowMap) drawOverlays(settings);
     shownSettings = settings;
     collectStats(cpuStart, wallStart);
+}
+
+// Views through points beside the pixels' centres; their mean takes the place of the centres' picture.
+void Renderer::Impl::drawParts(const Camera& camera, const Settings& settings) {
+    const int count = settings.image.antialiasing;
+    for (int i = 0; i < count; ++i) {
+        partSurfaces.see(device, *scene,
+                         {camera, image.width(), image.height(), true, view::pixelPart(i, count)});
+        mode->draw({.device = device,
+                    .scene = *scene,
+                    .lights = lights,
+                    .surfaces = partSurfaces,
+                    .settings = settings,
+                    .output = views.view(image.width(), image.height()),
+                    .besideCenters = true});
+        views.add(device, i, image.texture());
+    }
 }
 
 // The mode, and the lights as it needs them.

@@ -12,6 +12,7 @@
 #include "image/debug_view.h"
 #include "image/display.h"
 #include "image/shadow_view.h"
+#include "image/view_mean.h"
 #include "image/wireframe.h"
 #include "light/shadow_maps.h"
 #include "modes/modes.h"
@@ -62,6 +63,7 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     add(image::ShadowView::programDescs());
     add(image::WireframeView::programDescs());
     add(image::Display::programDescs());
+    add(image::ViewMean::programDescs());
     for (const ModeEntry& mode : registeredModes()) add(mode.programDescs());
     return all;
 }

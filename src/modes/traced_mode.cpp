@@ -42,7 +42,7 @@ void TracedMode::draw(const Frame& frame) {
     // Voxels, and the light on them.
     const bool usesLight = component == Component::Occlusion || component == Component::Voxels ||
                            parts.diffuse || parts.specular || frame.recorder != nullptr;
-    if (usesLight) {
+    if (usesLight && !frame.besideCenters) {
         voxels_.update(frame.device, frame.scene, frame.settings.voxels, voxels::Rays::Yes);
         lit_.relight(frame.device, {frame.scene, frame.lights, voxels_}, relightSettings(settings),
                      budgetOf(frame));
@@ -60,7 +60,10 @@ void TracedMode::draw(const Frame& frame) {
             {frame.settings, frame.scene, frame.lights, frame.surfaces, frame.output, frame.voxelsAmong},
             {voxels_, lit_.faces(), lit_.revision()});
     } else {
-        indirect_.gather(frame.device, inputs, {settings, parts, frame.lookupCounters});
+        if (frame.besideCenters)
+            indirect_.carry(frame.device, inputs, settings);
+        else
+            indirect_.gather(frame.device, inputs, {settings, parts, frame.lookupCounters});
         shade_.draw(frame.device, inputs, indirect_, {settings, parts, frame.lookupCounters}, frame.output);
     }
 }
@@ -79,8 +82,8 @@ void TracedMode::record(const Frame& frame, const gather::RayInputs& inputs) {
 
 std::vector<gl::ProgramDesc> TracedMode::programDescs() {
     std::vector<gl::ProgramDesc> descs = light::LitVoxels::programDescs();
-    for (const auto& more : {gather::PixelRays::programDescs(), gather::TracedShade::programDescs(),
-                             image::VoxelView::programDescs()})
+    for (const auto& more : {gather::PixelRays::programDescs(), gather::CarriedPicture::programDescs(),
+                             gather::TracedShade::programDescs(), image::VoxelView::programDescs()})
         descs.insert(descs.end(), more.begin(), more.end());
     return descs;
 }

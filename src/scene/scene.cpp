@@ -199,18 +199,64 @@ void setPbrFromPhong(Material& material, const PhongMaterial& phong) {
     material.baseColor = glm::vec4(albedo, material.baseColor.a);
 }
 
-Camera frameCamera(const Aabb& bounds) {
+namespace {
+
+// From where a framed scene is seen: from the front, a little from the right and above.
+const glm::vec3 kFrontSide = glm::normalize(glm::vec3(0.35f, 0.25f, 1.0f));
+
+// All corners of the bounds in a square picture, with a margin; `side`: unit, from the target to the eye.
+Camera frameFrom(const Aabb& bounds, const glm::vec3& side) {
+    constexpr float kMargin = 1.05f;
     Camera camera;
     camera.name = "framed";
     if (bounds.empty()) return camera;
     const float radius = std::max(0.5f * glm::length(bounds.extent()), 1e-4f);
-    const glm::vec3 direction = glm::normalize(glm::vec3(0.35f, 0.25f, 1.0f));
+    if (std::abs(glm::dot(side, camera.up)) > 0.99f) camera.up = {0, 0, -1};
+    const glm::vec3 right = glm::normalize(glm::cross(camera.up, side)), up = glm::cross(side, right);
+    float distance = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 from =
+            0.5f * bounds.extent() *
+            glm::vec3((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
+        const float beside = std::max(std::abs(glm::dot(from, right)), std::abs(glm::dot(from, up)));
+        distance = std::max(distance, beside * kMargin / std::tan(0.5f * camera.fovY) + glm::dot(from, side));
+    }
     camera.target = bounds.center();
-    camera.eye = camera.target + direction * (radius / std::sin(0.5f * camera.fovY) * 1.02f);
+    camera.eye = camera.target + side * std::max(distance, 0.5f * radius);
     camera.zNear = radius * 0.01f;
     camera.zFar = radius * 20.0f;
     return camera;
 }
+
+// A scene that is one sheet, or nearly, is seen from the side that its triangles face: from behind,
+// single-sided ones are not there.
+glm::vec3 sideToSee(const Scene& scene) {
+    glm::vec3 facing(0);
+    float area = 0;
+    for (const Instance& instance : scene.instances) {
+        if (!instance.visible) continue;
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
+            const auto corner = [&](std::size_t k) {
+                return glm::vec3(instance.worldFromObject *
+                                 glm::vec4(mesh.positions[mesh.indices[i + k]], 1));
+            };
+            const glm::vec3 twice = glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+            facing += twice;
+            area += glm::length(twice);
+        }
+    }
+    const float alike = area > 0 ? glm::length(facing) / area : 0;
+    if (!(alike > 0.6f)) return kFrontSide;  // closed things have 0, a half of a sphere 0.5
+    const glm::vec3 front = facing / glm::length(facing);
+    const float cosine = glm::dot(front, kFrontSide);
+    const glm::vec3 side = cosine < 0 ? kFrontSide - 2.0f * cosine * front : kFrontSide;
+    return glm::normalize(side + 0.4f * front);
+}
+
+}  // namespace
+
+Camera frameCamera(const Aabb& bounds) { return frameFrom(bounds, kFrontSide); }
 
 namespace {
 
@@ -225,17 +271,76 @@ bool isMostlyLit(const Scene& scene, const TextureRef& use) {
     return sum > 0.25 * 255.0 * static_cast<double>(texture.rgba.size()) / 4.0;
 }
 
+// Volume that the triangles enclose, m^3: below 0 where they face inwards, as the walls of rooms do.
+float enclosedVolume(const Scene& scene, const glm::vec3& center) {
+    float sum = 0;
+    for (const Instance& instance : scene.instances) {
+        if (!instance.visible) continue;
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        const auto corner = [&](std::size_t k) {
+            return glm::vec3(instance.worldFromObject * glm::vec4(mesh.positions[mesh.indices[k]], 1)) -
+                   center;
+        };
+        for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3)
+            sum += glm::dot(corner(i), glm::cross(corner(i + 1), corner(i + 2))) / 6;
+    }
+    return sum;
+}
+
+// A white surface that faces the light gets a radiance below 1, so that glow and gloss stand out. From beside
+// and above the eye the light shows shapes, which one beside the eye hides. Metals show what is around them:
+// without a sky they would be black but for one highlight.
+constexpr float kAddedSky = 0.18f, kKeyLight = 0.68f;
+
+Light keyLight(const Camera& camera) {
+    const glm::vec3 ahead = glm::normalize(camera.target - camera.eye);
+    glm::vec3 right = glm::cross(ahead, camera.up);
+    right = glm::length(right) > 1e-3f ? glm::normalize(right) : glm::vec3(1, 0, 0);
+    Light light;
+    light.name = "key light";
+    light.type = LightType::Directional;
+    light.direction = glm::normalize(ahead + 0.8f * right - 0.9f * glm::cross(right, ahead));
+    light.intensity = glm::vec3(kKeyLight * 3.14159265f);
+    return light;
+}
+
+// Under the ceiling, so bright that the floor gets what a key light would give.
+Light roomLight(const Aabb& bounds) {
+    Light light;
+    light.name = "room light";
+    light.type = LightType::Point;
+    light.position = bounds.center() + glm::vec3(0, 0.35f * bounds.extent().y, 0);
+    const float height = 0.85f * bounds.extent().y;
+    light.intensity = glm::vec3(kKeyLight * 3.14159265f * height * height);
+    return light;
+}
+
+// A closed room keeps out what comes from outside, and is lit within as well. Things whose triangles are only
+// wound the wrong way round pass for rooms; they have the light outside.
+void addLight(Scene& scene, const Aabb& bounds) {
+    const glm::vec3 size = bounds.extent();
+    const bool isRoom = enclosedVolume(scene, bounds.center()) < -0.5f * size.x * size.y * size.z;
+    scene.lights.push_back(keyLight(scene.cameras.front()));
+    if (isRoom) scene.lights.push_back(roomLight(bounds));
+    scene.sky = glm::vec3(kAddedSky);
+    scene.notes.emplace_back(
+        isRoom ? "no light, lamp or sky in the room: one under its ceiling, a key light and a grey sky were "
+                 "added"
+               : "no light, lamp or sky in the scene: a key light and a grey sky were added");
+}
+
 }  // namespace
 
 void completeScene(Scene& scene) {
     const Aabb bounds = scene.bounds();
     if (scene.cameras.empty()) {
-        scene.cameras.push_back(frameCamera(bounds));
+        scene.cameras.push_back(frameFrom(bounds, sideToSee(scene)));
         scene.notes.emplace_back("no camera in the scene: one that frames it was added");
     }
     bool emits = glm::dot(scene.sky, glm::vec3(1)) > 0;
     bool needsLight = false;  // baked scenes are unlit throughout
-    for (const Light& light : scene.lights) emits |= light.enabled;
+    for (const Light& light : scene.lights)
+        emits |= light.enabled && glm::dot(light.intensity, glm::vec3(1)) > 0;
     for (const Instance& instance : scene.instances) {
         if (!instance.visible) continue;
         needsLight |=
@@ -245,23 +350,7 @@ void completeScene(Scene& scene) {
         emits |= !material.unlit && glm::dot(material.emission, glm::vec3(1)) > 0 &&
                  isMostlyLit(scene, material.emissiveTexture);
     }
-    if (!emits && needsLight && !bounds.empty()) {
-        // A white surface at the centre of the view that faces the light gets a radiance below 1, so that
-        // glow and gloss stand out. Metals show what is around them: without a sky they would be black but
-        // for one highlight.
-        constexpr float kSky = 0.25f, kHeadlight = 0.6f;
-        const Camera& camera = scene.cameras.front();
-        Light light;
-        light.name = "headlight";
-        light.type = LightType::Directional;
-        light.direction =
-            glm::normalize(camera.target - camera.eye +
-                           glm::vec3(0.35f, -0.5f, 0.1f) * glm::length(camera.target - camera.eye));
-        light.intensity = glm::vec3(kHeadlight * 3.14159265f);
-        scene.lights.push_back(light);
-        scene.sky = glm::vec3(kSky);
-        scene.notes.emplace_back("no light, lamp or sky in the scene: a headlight and a grey sky were added");
-    }
+    if (!emits && needsLight && !bounds.empty()) addLight(scene, bounds);
 }
 
 }  // namespace conelight

@@ -181,6 +181,9 @@ std::vector<Setting<ViewSettings>> viewSettings() {
 
 std::vector<Setting<ImageSettings>> imageSettings() {
     return {
+        {"antialiasing", &ImageSettings::antialiasing, Numbers{2, 64, 1, true, false}, "",
+         "smooth edges of stills: the picture is the mean of so many views at offsets within a pixel; 0: one "
+         "view, of the pixels' centres"},
         {"exposure", &ImageSettings::exposure, Numbers{-20, 20}, "stops",
          "brightness before the tone map: 2^exposure; auto: the picture's mean becomes middle grey"},
         {"tone_map", &ImageSettings::toneMap, kToneMaps, "curve from linear radiance to the 8-bit picture"},

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <numeric>
 
 namespace conelight::view {
 namespace {
@@ -60,16 +61,34 @@ glm::mat4 clipFromView(const Camera& camera, int width, int height) {
     return glm::mat4(projection(camera, width, height));
 }
 
-gpu::FrameConstants frameConstants(const Camera& camera, int width, int height) {
+PixelPart pixelPart(int index, int count) {
+    // The step next to the golden section of the count that meets every row: such lattices have few gaps.
+    int step = std::max(static_cast<int>(std::lround(0.618 * count)), 1);
+    while (std::gcd(step, count) != 1) ++step;
+    const double row = static_cast<double>(index) * step;
+    const double x = (index + 0.5) / count, y = (std::fmod(row, count) + 0.5) / count;
+    return {{x - 0.5, y - 0.5}, static_cast<float>(1 / std::sqrt(static_cast<double>(count)))};
+}
+
+gpu::FrameConstants frameConstants(const Camera& camera, int width, int height, const PixelPart& part) {
     const Axes axes = axesOf(camera);
     const double tanY = std::tan(0.5 * static_cast<double>(camera.fovY));
     const double tanX = tanY * static_cast<double>(width) / static_cast<double>(height);
     gpu::FrameConstants frame{};
-    frame.clipFromWorld = glm::mat4(projection(camera, width, height) * viewMatrix(camera));
+    const glm::dvec2 shift = 2.0 * part.offset / glm::dvec2(width, height);  // in clip space
+    const glm::dmat4 lens = projection(camera, width, height);
+    // Points are divided by w after the shift.
+    glm::dmat4 shifted = lens;
+    for (int i = 0; i < 4; ++i) {
+        shifted[i].x -= shift.x * lens[i].w;
+        shifted[i].y -= shift.y * lens[i].w;
+    }
+    frame.clipFromWorld = glm::mat4(shifted * viewMatrix(camera));
     frame.eye = camera.eye;
-    frame.viewForward = glm::vec3(axes.forward);
+    frame.viewForward = glm::vec3(axes.forward + axes.right * (shift.x * tanX) + axes.up * (shift.y * tanY));
     frame.viewRight = glm::vec3(axes.right * tanX);
     frame.viewUp = glm::vec3(axes.up * tanY);
+    frame.footprint = part.footprint;
     frame.width = static_cast<std::uint32_t>(width);
     frame.height = static_cast<std::uint32_t>(height);
     return frame;

@@ -10,6 +10,15 @@ namespace conelight::view {
 glm::mat4 viewFromWorld(const Camera& camera);
 glm::mat4 clipFromView(const Camera& camera, int width, int height);  // GL clip space, z in [-1,1]
 
-gpu::FrameConstants frameConstants(const Camera& camera, int width, int height);
+// A view of a picture: through points beside the pixels' centres, for a part of their area.
+struct PixelPart {
+    glm::dvec2 offset{0};    // from the centres, pixels, y up
+    float footprint = 1.0f;  // FrameConstants::footprint
+};
+// The views whose mean is a picture through a box filter of one pixel: one in each row and each column of
+// count x count cells of the pixel, so that also edges along the axes have as many steps (a rank-1 lattice).
+PixelPart pixelPart(int index, int count);
+
+gpu::FrameConstants frameConstants(const Camera& camera, int width, int height, const PixelPart& part = {});
 
 }  // namespace conelight::view

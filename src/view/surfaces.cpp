@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "view/surfaces.h"
 
-#include "view/camera.h"
-
 namespace conelight::view {
 
 Surfaces::Surfaces() : block_(sizeof(gpu::FrameConstants), "frame constants") {}
@@ -12,7 +10,7 @@ void Surfaces::see(const gl::Device& device, const scene::GpuScene& scene, const
         gbuffer_.reset();  // frees the old one first
         gbuffer_.emplace(picture.width, picture.height);
     }
-    view_ = frameConstants(picture.camera, picture.width, picture.height);
+    view_ = frameConstants(picture.camera, picture.width, picture.height, picture.part);
     block_.update(view_);
     gbuffer_->draw(device, scene, block_, picture.cullBackFaces);
     gl::barrier(gl::Access::TextureFetch | gl::Access::ShaderStorage);

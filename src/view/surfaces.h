@@ -8,6 +8,7 @@
 #include "gl/device.h"
 #include "scene/gpu_scene.h"
 #include "shared/frame.h"
+#include "view/camera.h"
 #include "view/gbuffer.h"
 
 namespace conelight::view {
@@ -22,6 +23,7 @@ class Surfaces {
         Camera camera;
         int width, height;
         bool cullBackFaces;
+        PixelPart part = {};
     };
     void see(const gl::Device& device, const scene::GpuScene& scene, const Picture& picture);
     explicit operator bool() const { return gbuffer_.has_value(); }

@@ -62,7 +62,7 @@ TEST(ReferenceMode, SameSeedSameBytesAndAnotherSeedAnotherPicture) {
     };
     EXPECT_EQ(render("a.exr", ""), render("b.exr", "--seed 1"));
     EXPECT_NE(render("a.exr", ""), render("c.exr", "--seed 2"));
-    EXPECT_NE(render("a.exr", ""), render("d.exr", "--filter box"));
+    EXPECT_NE(render("a.exr", ""), render("d.exr", "--filter center"));
     EXPECT_NE(render("a.exr", ""), render("e.exr", "--bounces 0"));
 }
 

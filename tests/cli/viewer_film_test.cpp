@@ -114,9 +114,10 @@ TEST_F(ViewerPanelsTest, FilmsOfThePathTracerAreDrawnInTheWindow) {
     ASSERT_EQ(std::sscanf(picture.c_str(), "%*d x %*d of %d x %d", &width, &height), 2) << picture;
     viewer->send("mode reference; record " + folder + "/window%d.exr 2 path");
     EXPECT_TRUE(heard("written " + folder + "/window%d.exr (2 frames)")) << viewer->output();
-    const CommandResult alone = conelight("render builtin:cornell --mode reference --spp 2 --path " + way +
-                                          " --frames 2 --size " + std::to_string(width / 2 * 2) + "x" +
-                                          std::to_string(height / 2 * 2) + " -o " + folder + "/alone%d.exr");
+    const CommandResult alone =
+        conelight("render builtin:cornell --mode reference --filter center --spp 2 --path " + way +
+                  " --frames 2 --size " + std::to_string(width / 2 * 2) + "x" +
+                  std::to_string(height / 2 * 2) + " -o " + folder + "/alone%d.exr");
     EXPECT_EQ(alone.status, 0) << alone.output;
     for (const char* frame : {"0", "1"}) {
         const std::string drawn = bytesOf(folder + "/window" + frame + ".exr");

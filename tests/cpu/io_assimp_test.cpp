@@ -179,9 +179,8 @@ TEST(Assimp, ObjSpellings) {
     EXPECT_EQ(named.materials.at(std::size_t(named.instances.at(0).material)).name, "a#b");
 }
 
-TEST(Assimp, ColladaUnitsUpAxisLightAndCamera) {
-    const char* const dae =
-        R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+const char* const kCollada =
+    R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
 <asset><unit name="centimeter" meter="0.01"/><up_axis>Z_UP</up_axis></asset>
 <library_lights><light id="L"><technique_common><point><color>1 0.5 0.25</color></point></technique_common></light></library_lights>
 <library_cameras><camera id="C"><optics><technique_common><perspective><yfov>30</yfov><aspect_ratio>1</aspect_ratio><znear>1</znear><zfar>1000</zfar></perspective></technique_common></optics></camera></library_cameras>
@@ -191,7 +190,9 @@ TEST(Assimp, ColladaUnitsUpAxisLightAndCamera) {
 <library_visual_scenes><visual_scene id="S"><node id="g"><instance_geometry url="#G"/></node><node id="g2"><translate>0 300 0</translate><instance_geometry url="#G"/></node>
 <node id="l"><translate>0 0 400</translate><instance_light url="#L"/></node><node id="c"><translate>0 -500 0</translate><rotate>1 0 0 90</rotate><instance_camera url="#C"/></node></visual_scene></library_visual_scenes>
 <scene><instance_visual_scene url="#S"/></scene></COLLADA>)";
-    const Scene scene = io::loadScene(write(folderOf("dae") / "a.dae", dae));
+
+TEST(Assimp, ColladaUnitsUpAxisLightAndCamera) {
+    const Scene scene = io::loadScene(write(folderOf("dae") / "a.dae", kCollada));
     ASSERT_EQ(scene.instances.size(), 2u);
     EXPECT_EQ(scene.instances[0].mesh, scene.instances[1].mesh) << "instanced";
     const Aabb bounds = scene.bounds();
@@ -205,6 +206,20 @@ TEST(Assimp, ColladaUnitsUpAxisLightAndCamera) {
     ASSERT_EQ(scene.cameras.size(), 1u);
     EXPECT_NEAR(scene.cameras[0].eye.z, 5.0f, 1e-4f);
     EXPECT_NEAR((scene.cameras[0].target - scene.cameras[0].eye).z, -1.0f, 1e-4f) << "looks at the origin";
+    // How bright a picture is to be, the file does not say.
+    const std::vector<std::pair<std::string, std::string>> automatic{{"image.exposure", "auto"}};
+    EXPECT_EQ(scene.settings, automatic);
+}
+
+TEST(Assimp, ACameraThatSeesNothingIsNotTheFirst) {
+    std::string turned = kCollada;
+    const std::string forward = "<rotate>1 0 0 90</rotate>";
+    ASSERT_NE(turned.find(forward), std::string::npos);
+    turned.replace(turned.find(forward), forward.size(), "<rotate>1 0 0 -90</rotate>");
+    const Scene scene = io::loadScene(write(folderOf("dae_turned") / "a.dae", turned));
+    ASSERT_EQ(scene.cameras.size(), 2u);
+    EXPECT_EQ(scene.cameras[0].name, "framed");
+    EXPECT_NEAR((scene.cameras[1].target - scene.cameras[1].eye).z, 1.0f, 1e-4f);
 }
 
 TEST(ChildProcess, HandsBytesBackAndReportsDeaths) {

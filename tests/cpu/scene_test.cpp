@@ -12,6 +12,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "conelight/error.h"
+#include "support/scenes.h"
 
 namespace conelight::test {
 namespace {
@@ -145,6 +146,34 @@ TEST(SceneTest, FrameCameraSeesAllCorners) {
     }
 }
 
+TEST(SceneTest, WhatIsAddedSuitsTheShape) {
+    // A room that is closed gets its light within: its box, turned inside out.
+    Scene scene;
+    addInstance(scene, boxMesh(), diffuseMaterial());
+    Scene room = scene;
+    for (std::size_t i = 0; i < room.meshes.back().indices.size(); i += 3)
+        std::swap(room.meshes.back().indices[i], room.meshes.back().indices[i + 1]);
+    completeScene(scene);
+    completeScene(room);
+    ASSERT_EQ(scene.lights.size(), 1u);
+    ASSERT_EQ(room.lights.size(), 2u);
+    EXPECT_EQ(room.lights[0].type, LightType::Directional);
+    EXPECT_EQ(room.lights[1].type, LightType::Point);
+    EXPECT_LT(glm::length(room.lights[1].position), 1);
+    // A light that is dark is none.
+    scene.lights[0].intensity = glm::vec3(0);
+    scene.sky = glm::vec3(0);
+    completeScene(scene);
+    EXPECT_EQ(scene.lights.size(), 2u);
+    // A sheet is seen from the side that it faces.
+    for (const float turned : {1.0f, -1.0f}) {
+        Scene sheet;
+        addInstance(sheet, quadMesh({0, 0, 0}, {turned, 0, 0}, {0, 1, 0}), diffuseMaterial());
+        completeScene(sheet);
+        EXPECT_GT(turned * sheet.cameras.at(0).eye.z, 0.5f);
+    }
+}
+
 TEST(SceneTest, CompletedScenesCanBeSeen) {
     Scene scene = smallScene();
     completeScene(scene);
@@ -155,8 +184,8 @@ TEST(SceneTest, CompletedScenesCanBeSeen) {
     completeScene(scene);
     EXPECT_EQ(scene.cameras.size(), 1u);
     EXPECT_EQ(scene.notes.size(), 1u);
-    // No light: a headlight, that a surface facing the camera gets, and a sky, for metals to show. Together
-    // they make a white surface that faces the light bright, but not more than a display shows.
+    // No light: one from before the scene and beside the camera, and a sky, for metals to show. Together they
+    // make a white surface that faces the light bright, but not more than a display shows.
     scene = smallScene();
     scene.lights[0].enabled = false;
     completeScene(scene);
@@ -165,9 +194,10 @@ TEST(SceneTest, CompletedScenesCanBeSeen) {
     EXPECT_NEAR(glm::length(scene.lights[1].direction), 1.0f, 1e-5f);
     EXPECT_GT(scene.sky.g, 0.1f);
     EXPECT_NEAR(scene.lights[1].intensity.g / 3.14159265f + scene.sky.g, 0.85f, 0.15f);
-    EXPECT_GT(
-        glm::dot(scene.lights[1].direction, glm::normalize(scene.cameras[0].target - scene.cameras[0].eye)),
-        0.8f);
+    const float ahead =
+        glm::dot(scene.lights[1].direction, glm::normalize(scene.cameras[0].target - scene.cameras[0].eye));
+    EXPECT_GT(ahead, 0.5f);
+    EXPECT_LT(ahead, 0.8f);
     EXPECT_NO_THROW(scene.validate());
     // Sky or emission are light enough.
     for (const bool sky : {true, false}) {

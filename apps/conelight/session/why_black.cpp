@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace conelight::program {
 namespace {
@@ -183,7 +184,8 @@ void lookAtVoxels(const Session& session, std::vector<std::string>& reasons) {
 bool isBlack(const Image& image, const ImageSettings& settings) {
     const std::vector<std::uint8_t> bytes = toneMapped(image, settings);
     const auto lit = std::count_if(bytes.begin(), bytes.end(), [](std::uint8_t byte) { return byte > 2; });
-    return 50 * static_cast<std::size_t>(lit) <= bytes.size();
+    const auto sum = std::accumulate(bytes.begin(), bytes.end(), std::size_t{0});
+    return 50 * static_cast<std::size_t>(lit) <= bytes.size() || sum < bytes.size();
 }
 
 std::vector<std::string> whyBlack(const Session& session, Picker& picker, const Image* image) {

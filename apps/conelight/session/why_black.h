@@ -12,7 +12,8 @@
 namespace conelight::program {
 
 // Whether all but 2 % of the picture is not told from black on a screen (8 bits, at most 2 of 255 after
-// exposure and tone map): where nothing is lit, voxels still let a spark through here and there.
+// exposure and tone map), or its mean is below 1 of 255: where nothing is lit, voxels still let a spark
+// through here and there.
 bool isBlack(const Image& image, const ImageSettings& settings);
 
 // Reasons, the likeliest first, each "what is; what would help"; empty when none is found. `image`: the

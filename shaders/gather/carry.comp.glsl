@@ -1,0 +1,56 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// A gathered picture, filtered, as a view sees it that lies a part of a pixel beside its own: for stills
+// that are anti-aliased (docs/theory/5_image.md, "Edges"). Each surface of this view takes what the pixels
+// about it were gathered for, where those show the same surface (lib/temporal.glsl). Things that no pixel of the gathered
+// picture shows, wires for example, take the nearest of nine that shows their instance, else the cache.
+//   LOBES 1: a picture of lobes, in a rectangle from pixelRays.lobesX, lobesY
+#ifndef LOBES
+#error LOBES must be 0 or 1
+#endif
+#define TEMPORAL 2
+#define MOTION 0
+#include "lib/cache_lookup.glsl"
+#include "lib/lookup_count.glsl"
+#include "lib/record_steps.glsl"
+#include "lib/temporal.glsl"
+layout(local_size_x = 8, local_size_y = 8) in;
+layout(rgba32ui) writeonly uniform uimage2D result;
+
+// Of the pixels about it, the one of its instance whose normal is most like its own; a: whether there is one.
+vec4 likestNear(ivec2 pixel, Surface s) {
+    ivec2 size = textureSize(pixelHistory, 0);
+    vec4 found = vec4(0.0);
+    float likest = 0.0;  // turned by less than a right angle
+    for (int i = 0; i < 9; ++i) {
+        ivec2 q = clamp(pixel + ivec2(i % 3, i / 3) - 1, ivec2(0), size - 1);
+        uvec4 bits = texelFetch(pixelHistory, q, 0);
+        float alike = dot(pixelHistoryNormal(bits), s.normal);
+        bool better = bits.z != 0u && pixelHistoryInstance(bits) == (s.instance & 0xffu) && alike > likest;
+        found = better ? vec4(pixelHistoryValue(bits), 1.0) : found;
+        likest = better ? alike : likest;
+    }
+    return found;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+#if LOBES
+    pixel += ivec2(pixelRays.lobesX, pixelRays.lobesY);
+#endif
+    ivec2 size = imageSize(result);
+    Surface s;
+    bool wanted = fetchSurface(min(pixel, size - 1), s) && !s.unlit;
+#if LOBES
+    wanted = wanted && s.roughness <= pixelRays.specularLimit;
+#endif
+    vec4 carried = valueSoFar(min(pixel, size - 1), s).value;
+    vec4 near = likestNear(pixel, s);
+    bool known = carried.a > 0.0;
+    vec3 cached =
+        cachedIrradiance(gridFromWorld(s.position), s.normal, wanted && !known && near.a == 0.0).rgb;
+    vec3 value = known ? carried.rgb : (near.a > 0.0 ? near.rgb : cached);
+    if (any(greaterThanEqual(pixel, size))) return;
+    imageStore(result, pixel,
+               packPixelHistory(PixelHistory(value, 0.0, 1.0, wanted ? s.depth : 0.0, s.normal, s.instance)));
+}

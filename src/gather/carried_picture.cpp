@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#include "gather/carried_picture.h"
+
+namespace conelight::gather {
+namespace {
+
+struct CarryKey {
+    bool lobes;
+    gl::ProgramDesc desc() const { return {{"gather/carry.comp.glsl"}, {{"LOBES", lobes ? "1" : "0"}}}; }
+    static std::vector<CarryKey> all() { return {{false}, {true}}; }
+};
+
+}  // namespace
+
+const gl::Texture& CarriedPicture::carry(const gl::Device& device, const RayInputs& inputs,
+                                         const From& from) {
+    const gl::PassScope pass(device.profiler, "carry to view");
+    const glm::ivec2 size(from.picture.width(), from.picture.height());
+    if (!texture_ || texture_.width() != size.x || texture_.height() != size.y)
+        texture_ = makePixelPicture(size.x, size.y, "carried picture");
+    if (!constants_) constants_ = gl::Buffer(sizeof(gpu::PixelRayConstants), "carry constants");
+    const PixelRectangle where = from.lobes != nullptr ? *from.lobes : PixelRectangle{glm::ivec2(0), size};
+    gpu::PixelRayConstants constants{};
+    setPictureSoFar(constants, from.view, inputs.voxels.grid());
+    constants.specularLimit = from.specularLimit;
+    constants.lobesX = static_cast<std::uint32_t>(where.lowest.x);
+    constants.lobesY = static_cast<std::uint32_t>(where.lowest.y);
+    constants_.update(constants);
+    gl::Inputs given;
+    given.add(inputs)
+        .uniform("PixelRayBlock", constants_)
+        .texture("pixelHistory", from.picture)
+        .image("result", texture_, gl::ImageUse::Write);
+    const glm::ivec2 extent = where.end - where.lowest;
+    if (extent.x > 0 && extent.y > 0)
+        device.get(CarryKey{from.lobes != nullptr}.desc()).dispatch(given, extent.x, extent.y);
+    gl::barrier(gl::Access::TextureFetch | gl::Access::Update);
+    return texture_;
+}
+
+std::vector<gl::ProgramDesc> CarriedPicture::programDescs() {
+    std::vector<gl::ProgramDesc> descs;
+    for (const CarryKey& key : CarryKey::all()) descs.push_back(key.desc());
+    return descs;
+}
+
+}  // namespace conelight::gather
