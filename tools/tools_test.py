@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: MIT
 """Tests of the checkers in this folder: each must report what it exists to report, and accept what is right.
 Every test builds a small project in a temporary folder. Run by tools/check."""
+import importlib.machinery
+import importlib.util
 import os
 import pathlib
 import shutil
@@ -302,6 +304,40 @@ class Files(Project):
 
 
 @unittest.skipUnless(shutil.which("ctags"), "universal-ctags is not installed")
+class ThesisSections(Project):
+    """check_thesis_sections on pages that it is given."""
+
+    def defects(self, rows, gallery="", tex="", program=None):
+        loader = importlib.machinery.SourceFileLoader("sections", str(TOOLS / "check_thesis_sections"))
+        tool = importlib.util.module_from_spec(importlib.util.spec_from_loader("sections", loader))
+        loader.exec_module(tool)
+        page = "| section | where | shown by |\n|---|---|---|\n" + "".join(row + "\n" for row in rows)
+        return list(tool.defects(page, gallery, tex, program))
+
+    def test_right_rows(self):
+        rows = ["| 1 A: F01 | [this](sections.md) | `tools/check` |", "| 1.1 B | [this](sections.md) | not there: no reason |"]
+        tex = "\\chapter{A}\n\\section{B}\\label{b}\n"
+        self.assertEqual(self.defects(rows, "### F01 Title\n", tex), [])
+
+    def test_each_fault(self):
+        wrong = {
+            "| 1 A | | `tools/check` |": "none of them empty",
+            "| 1 A | [this](nowhere.md) | `tools/check` |": "there is no nowhere.md",
+            "| 1 A | here | `tools/check` |": "has no link",
+            "| 1 A | [this](sections.md) | `tools/nothing` |": "there is no program tools/nothing",
+            "| 1 A | [this](sections.md) | `NoTest.OfThatName` |": "there is no test NoTest.OfThatName",
+            "| 1 A | [this](sections.md) | by looking |": "the last cell",
+        }
+        for row, message in wrong.items():
+            self.assertIn(message, "\n".join(self.defects([row])), row)
+
+    def test_what_has_no_row(self):
+        row = "| 1 A | [this](sections.md) | `tools/check` |"
+        found = "\n".join(self.defects([row], "### F07 Title\n", "\\chapter{A}\n\\section{B}\n"))
+        self.assertIn("F07 has no row", found)
+        self.assertIn("1.1 B has no row", found)
+
+
 class Sizes(Project):
     def problems(self):
         subprocess.run(["git", "init", "-q", self.root], check=True)
