@@ -109,17 +109,17 @@ constexpr GeneratedParameter kBendsParameters[] = {
 };
 
 constexpr GeneratedParameter kParlourParameters[] = {
-    {"sun", 12, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
-    {"sky", 1.2, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
-    {"lamp", 120, 0, 1e6, false, "radiance of the bulb in the shade, W/(sr m^2)"},
+    {"sun", 36, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
+    {"sky", 3.6, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
+    {"lamp", 360, 0, 1e6, false, "radiance of the bulb in the shade, W/(sr m^2)"},
     {"buried", 0, 0, 1e6, false, "radiance of a bulb inside the lamp's closed stem, W/(sr m^2)"},
     {"curtains", 1, 0, 1, true, "beside the window"},
     {"plants", 1, 0, 1, true, "of loose leaves"},
 };
 constexpr GeneratedParameter kGardenParameters[] = {
-    {"sun", 6, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
-    {"sky", 0.7, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
-    {"leaves", 1500, 0, 1e5, true, "of the largest tree"},
+    {"sun", 4.8, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
+    {"sky", 0.56, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
+    {"leaves", 1500, 100, 1e5, true, "of the largest tree"},
 };
 
 struct Entry {

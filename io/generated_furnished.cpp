@@ -192,7 +192,7 @@ Scene buildGarden(const Values& values) {
     scene.lights.push_back(
         sunLight("sun", {-0.5f, -0.72f, -0.48f}, float(values["sun"]) * glm::vec3(1.0f, 0.94f, 0.84f)));
     scene.sky = float(values["sky"]) * glm::vec3(0.55f, 0.75f, 1.0f);
-    scene.cameras.push_back(camera("front", {3.6f, 1.8f, 5.2f}, {-0.6f, 1.1f, -1.0f}, 62));
+    scene.cameras.push_back(camera("front", {3.6f, 1.8f, 5.2f}, {-0.6f, 0.8f, -1.0f}, 62));
     return scene;
 }
 

@@ -6,13 +6,14 @@
 // hides it than a voxel, faces show what is hidden: the inside of a bulb, a bulb within a pipe.
 //
 // STEP 0, per brick of the grid: marks the faces whose size is asked for, those of bricks in which not all
-// that shines lies in one plane. 1, per face: its size as rays meet it. 2, per fragment: what it sends, and
-// what part of that gets away from the triangles around it. 3, per brick: what gets away, over what the faces
-// would show, the same for all its faces. Faces of one brick are next to each other.
+// that shines lies in one plane. 1, per face: its size as rays meet it. 2, per fragment: lists those that
+// shine. 3, per fragment of the list: what it sends, and what part of that gets away from the triangles around
+// it. 4, per brick: what gets away, over what the faces would show, the same for all its faces. Faces of one
+// brick are next to each other.
 #ifndef STEP
-#error STEP must be 0, 1, 2 or 3
+#error STEP must be 0 to 4
 #endif
-#if STEP == 2
+#if STEP == 3
 #define NEAR_TRIANGLES 1
 #endif
 layout(local_size_x = 64) in;
@@ -27,16 +28,23 @@ layout(local_size_x = 64) in;
 #include "lib/tangent_frame.glsl"
 uniform usamplerBuffer voxelFaceMaterials;
 // Per face. After step 0: 1 or 0; 1: the area as rays meet it (voxel sides), a float, negative where it is
-// not asked for; 3: the part of the emission that it shows, a float.
+// not asked for; 4: the part of the emission that it shows, a float.
 layout(std430) buffer EmissionFit { uint parts[]; };
+#if STEP == 2 || STEP == 3
+// Fragments that shine, in any order.
+layout(std430) buffer ShiningFragments { uint shining[]; };
+#endif
 #if STEP >= 2
 // Per face: areas that would send, with the face's emission, what its fragments send, and what of that gets
 // away; in voxel sides / 2^16.
 layout(std430) buffer SentLight {
-    uint fragmentSlots;
+    uint groupsX, groupsY, groupsZ;  // of the indirect dispatch of step 3
+    uint shiningCount;
+    uint fragmentSlots;  // places of fragments; those not in use have no area
     uint pad;
     uvec2 sentLight[];
 };
+const uint kRowGroups = 64u;  // groupsX
 const float kSentUnit = 65536.0;
 #endif
 
@@ -46,12 +54,12 @@ const float kFromOutside = 1.5;  // voxels: what reaches beyond the surface is n
 
 // Walks: so far without meeting a triangle is away, voxels; turns until one is given up; walks per voxel side
 // of a fragment, and per fragment. Software drivers end all loops of an invocation together after 65,535
-// turns: these leave room for chains of 400.
+// turns: these leave room for chains of 600.
 const float kWalkStart = 1e-3;  // off the surface, voxels
 const float kWalkReach = 2.5;
 const int kWalkTurns = 8;
-const float kWalks = 16.0;
-const int kLeastWalks = 4, kMostWalks = 6;
+const float kWalks = 8.0;
+const int kLeastWalks = 2, kMostWalks = 4;
 const float kLeast = 0.5, kMost = 1.5;
 
 vec3 normalOf(int face) { return octDecode(unpackSnorm2x16(texelFetch(voxelFaces, face).x)); }
@@ -101,6 +109,18 @@ void main() {
     if (used) parts[face] = floatBitsToUint(asked ? seen : -1.0);
 }
 #elif STEP == 2
+uniform usamplerBuffer voxelFragments;
+void main() {
+    uint slot = linearIndex();
+    int i = 2 * int(min(slot, fragmentSlots - 1u));
+    bool shines = slot < fragmentSlots && texelFetch(voxelFragments, i).y != 0u &&
+                  unpackRgb9e5(texelFetch(voxelFragments, i + 1).w) != vec3(0.0);
+    if (!shines) return;
+    uint place = atomicAdd(shiningCount, 1u);
+    shining[place] = slot;
+    atomicMax(groupsY, place / (kRowGroups * gl_WorkGroupSize.x) + 1u);
+}
+#elif STEP == 3
 // A direction of density cos / pi about n.
 vec3 walkDirection(vec3 n, vec2 xi) {
     vec3 u, v;
@@ -158,13 +178,12 @@ void addSent(ivec3 voxel, vec3 n, float area, float brightness, float leaving) {
 }
 
 void main() {
-    int slots = textureSize(voxelPairs);
-    int slot = min(int(linearIndex()), slots - 1);
+    bool shines = linearIndex() < shiningCount;
+    int slot = int(shining[shines ? linearIndex() : 0u]);
     uvec4 a = texelFetch(voxelFragments, 2 * slot);
     uvec4 b = texelFetch(voxelFragments, 2 * slot + 1);
     uvec2 pair = texelFetch(voxelPairs, slot).xy;
     float brightness = dot(unpackRgb9e5(b.w), vec3(1.0 / 3.0));
-    bool shines = linearIndex() < fragmentSlots && a.y != 0u && brightness > 0.0;
     float area = shines ? uintBitsToFloat(a.y) : 0.0;
     bool twoSided = (a.z & 0x40000000u) != 0u;
     vec3 n = normalize(vec3(unpackSnorm2x16(a.w), unpackSnorm2x16(b.x).x));

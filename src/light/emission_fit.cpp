@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "light/emission_fit.h"
 
+#include <algorithm>
 #include <array>
 
 #include "gl/gl.h"
@@ -9,12 +10,15 @@
 namespace conelight::light {
 namespace {
 
+constexpr std::uint32_t kRowGroups = 64;  // as in the shader
+constexpr int kWalkStep = 3;              // per fragment of a list that the step before makes
+
 struct FitKey {
     int step;
     gl::ProgramDesc desc() const {
         return {{"light/emission_fit.comp.glsl"}, {{"STEP", std::to_string(step)}}};
     }
-    static std::vector<FitKey> all() { return {{0}, {1}, {2}, {3}}; }
+    static std::vector<FitKey> all() { return {{0}, {1}, {2}, {3}, {4}}; }
 };
 
 }  // namespace
@@ -26,19 +30,29 @@ void EmissionFit::update(const gl::Device& device, const scene::GpuScene& scene,
     const voxels::SurfaceVoxels& surface = voxels.surface();
     const std::uint32_t faces = surface.faceCount(), slots = surface.fragmentSlots();
     gl::reserveTexels(parts_, texels_, GL_R32UI, std::size_t{4} * faces, "emission that fits");
-    // Sums of the passes below: the count of slots, then two numbers per face.
-    gl::Buffer sent(std::size_t{8} * (faces + 1), "light that lamps send");
+    // Of the passes below: the header of SentLight, then two numbers per face; fragments that shine.
+    const std::array<std::uint32_t, 6> header{kRowGroups, 0, 1, 0, slots, 0};
+    gl::Buffer sent(sizeof header + std::size_t{8} * faces, "light that lamps send");
     sent.clear();
-    sent.update(std::array<std::uint32_t, 2>{slots, 0});
+    sent.update(header);
+    const gl::Buffer shining(std::size_t{4} * std::max(slots, 1u), "fragments that shine");
     gl::Inputs inputs;
-    inputs.add(scene).add(voxels).storage("EmissionFit", parts_).storage("SentLight", sent);
+    inputs.add(scene)
+        .add(voxels)
+        .storage("EmissionFit", parts_)
+        .storage("SentLight", sent)
+        .storage("ShiningFragments", shining);
     surface.declareTriangles(inputs);
     const glm::ivec3 size = surface.grid().bricks();
     const auto bricks = static_cast<std::size_t>(size.x * size.y * size.z);
-    const std::array<std::size_t, 4> invocations{bricks, faces, slots, bricks};
+    const std::array<std::size_t, 5> invocations{bricks, faces, slots, 0, bricks};
     for (const FitKey& key : FitKey::all()) {
-        device.get(key.desc()).dispatchLinear(inputs, invocations[static_cast<std::size_t>(key.step)]);
-        gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+        const gl::Program& program = device.get(key.desc());
+        if (key.step == kWalkStep)
+            program.dispatchIndirect(inputs, sent);
+        else
+            program.dispatchLinear(inputs, invocations[static_cast<std::size_t>(key.step)]);
+        gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Indirect);
     }
     voxelsFrom_ = voxels.revision();
 }
