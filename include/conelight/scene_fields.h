@@ -20,6 +20,9 @@ struct Field {
     const char* name;
     T& value;
 };
+// Compilers before P1816 (Clang 16 and older) deduce nothing for aggregates.
+template <class T>
+Field(const char*, T&) -> Field<T>;
 
 template <class T, class Struct>
 concept FieldsFrom = std::same_as<std::remove_const_t<T>, Struct>;

@@ -16,6 +16,14 @@ constexpr std::uint32_t kPartIndices = 3 * 256;
 
 }  // namespace
 
+// Where a mesh lies; instances name their ranges.
+struct GpuScene::MeshRange {
+    std::uint32_t firstVertex, firstIndex, indexCount;
+    Aabb bounds;
+    bool wideColors;
+    std::size_t firstPart;
+};
+
 GpuScene::GpuScene(const Scene& source) : source_(source) {
     source_.validate();
     uploadInstances(uploadMeshes());
@@ -26,14 +34,7 @@ GpuScene::GpuScene(const Scene& source) : source_(source) {
     firstBounds_ = bounds();
 }
 
-// Meshes one after the other; instances name their ranges.
-struct GpuScene::MeshRange {
-    std::uint32_t firstVertex, firstIndex, indexCount;
-    Aabb bounds;
-    bool wideColors;
-    std::size_t firstPart;
-};
-
+// Meshes one after the other.
 std::vector<GpuScene::MeshRange> GpuScene::uploadMeshes() {
     std::vector<gpu::Vertex> vertices;
     std::vector<std::uint32_t> indices;
