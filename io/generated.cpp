@@ -241,10 +241,11 @@ double parseValue(const std::string& spec, const GeneratedParameter& p, std::str
     return *value;
 }
 
-// Reads "key=value&key=value" over the defaults.
-generated::Values parseValues(const std::string& spec, const GeneratedSceneInfo& info,
-                              std::string_view text) {
-    generated::Values values;
+}  // namespace
+
+generated::Values generated::parseValues(const std::string& spec, const GeneratedSceneInfo& info,
+                                         std::string_view text) {
+    Values values;
     for (const GeneratedParameter& p : info.parameters) values.set(p.name, p.defaultValue);
     std::vector<std::string_view> seen;
     while (!text.empty()) {
@@ -268,8 +269,6 @@ generated::Values parseValues(const std::string& spec, const GeneratedSceneInfo&
     return values;
 }
 
-}  // namespace
-
 void registerGeneratedScene(const GeneratedSceneInfo& info, Scene (*build)(const generated::Values&)) {
     for (const Entry& entry : lists().entries)
         if (entry.info.name == info.name) return;
@@ -287,7 +286,7 @@ Scene generateScene(const std::string& spec) {
         if (entry.info.name != name) continue;
         const std::string_view rest =
             mark == std::string_view::npos ? std::string_view() : text.substr(mark + 1);
-        Scene scene = entry.build(parseValues(spec, entry.info, rest));
+        Scene scene = entry.build(generated::parseValues(spec, entry.info, rest));
         scene.name = spec;
         return scene;
     }

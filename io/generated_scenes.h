@@ -8,6 +8,7 @@
 #pragma once
 
 #include "conelight/scene.h"
+#include "io/generated.h"
 #include "io/generated_shapes.h"
 
 #include <initializer_list>
@@ -27,6 +28,9 @@ class Values {
   private:
     std::vector<std::pair<std::string_view, double>> values_;
 };
+
+// Reads "key=value&key=value" over the defaults of `info`; throws Error(Usage) that starts with "builtin:SPEC".
+Values parseValues(const std::string& spec, const GeneratedSceneInfo& info, std::string_view text);
 
 // Paint: no specular lobe at all, so that a path tracer sees exactly albedo / pi.
 Material matte(std::string name, glm::vec3 albedo);

@@ -8,10 +8,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <glm/gtc/quaternion.hpp>
 #include <map>
 #include <set>
 
+#include "conelight/error.h"
+#include "io/generated_surroundings.h"
 #include "io/geometry.h"
 #include "io/gltf_file.h"
 #include "io/gltf_material.h"
@@ -58,6 +61,7 @@ class Reader {
         return oneLine(file_.array("nodes")[node]["name"].text(fmt::format("node{}", node)));
     }
 
+    void readEnvironment(const GltfValue& own);
     void readOwnExtras(const GltfValue& scene);
     void readFlags(const GltfValue& node, Instance& instance) const;
     void addRectLight(std::size_t node, const GltfValue& own);
@@ -147,9 +151,41 @@ GltfValue ownExtras(const GltfValue& value) {
     return own.isObject() ? own : absent;
 }
 
+void Reader::readEnvironment(const GltfValue& own) {
+    if (!own.isObject()) return;
+    Environment& to = scene_.environment;
+    const std::string file = oneLine(own["file"].text(""));
+    if (own["bufferView"].exists()) {
+        auto image = std::make_shared<EnvironmentImage>();
+        image->width = static_cast<int>(own["width"].whole(0) & 0xffff);
+        image->height = static_cast<int>(own["height"].whole(0) & 0xffff);
+        const std::span<const std::uint8_t> bytes = file_.bufferView(own["bufferView"]);
+        image->radiance.resize(static_cast<std::size_t>(image->width) *
+                               static_cast<std::size_t>(image->height));
+        if (image->radiance.empty() || bytes.size() != image->radiance.size() * sizeof(glm::vec3))
+            own.fail(fmt::format("{} x {} texels and {} bytes do not belong together", image->width,
+                                 image->height, bytes.size()));
+        std::memcpy(image->radiance.data(), bytes.data(), bytes.size());
+        to.image = std::move(image);
+    } else {
+        try {
+            // Files are never read by name: a scene would reach out of its folder.
+            to.image =
+                generateSurroundings(file.substr(std::min<std::size_t>(file.find(':') + 1, file.size())))
+                    .environment.image;
+        } catch (const Error& error) {
+            own["file"].fail(error.what());
+        }
+    }
+    to.file = file;
+    to.rotation = own["rotation"].number(0);
+    to.strength = own["strength"].number(1);
+}
+
 void Reader::readOwnExtras(const GltfValue& scene) {
     const GltfValue own = ownExtras(scene);
     scene_.format = oneLine(own["format"].text(own["thesisFormat"].boolean(false) ? "thesis" : ""));
+    readEnvironment(own["environment"]);
     const GltfValue settings = own["settings"];
     for (std::size_t i = 0; i < settings.size(); ++i)
         scene_.settings.emplace_back(settings[i][std::size_t(0)].text(""),

@@ -53,6 +53,7 @@ class Writer {
     void addCamera(const Camera& camera);
     void addNode(Json node);
     void addSceneExtras(Json& scene);
+    Json environment();
 
     const Scene& scene_;
     Json root_;
@@ -158,7 +159,20 @@ void Writer::addCamera(const Camera& camera) {
              {"extras", {{"conelight", {{"distance", glm::length(forward)}}}}}});
 }
 
+// A generated picture is kept as its specification, another as floats in the buffer.
+Json Writer::environment() {
+    const Environment& from = scene_.environment;
+    Json json = {{"file", from.file}, {"rotation", from.rotation}, {"strength", from.strength}};
+    if (from.file.starts_with("builtin:")) return json;
+    json["width"] = from.image->width;
+    json["height"] = from.image->height;
+    json["bufferView"] = buffer_.view(from.image->radiance.data(),
+                                      from.image->radiance.size() * sizeof(from.image->radiance[0]));
+    return json;
+}
+
 void Writer::addSceneExtras(Json& scene) {
+    if (scene_.environment.image != nullptr) scene["extras"]["conelight"]["environment"] = environment();
     if (scene_.sky != glm::vec3(0)) scene["extras"]["sky"] = listOf(scene_.sky);
     if (!scene_.format.empty()) scene["extras"]["conelight"]["format"] = scene_.format;
     for (const auto& [key, value] : scene_.settings)

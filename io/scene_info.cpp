@@ -183,6 +183,10 @@ std::string describeScene(const Scene& scene, std::size_t maxRows) {
         report.line("bounds     {} to {} m, size {} m", text(bounds.min), text(bounds.max),
                     text(bounds.extent()));
     report.line("sky        {} W/(sr m^2)", text(scene.sky));
+    if (const EnvironmentImage* image = scene.environment.image.get())
+        report.line("environment {}: {} x {}, turned by {:.4g} degrees, times {:.4g}",
+                    scene.environment.file.empty() ? "(unnamed)" : scene.environment.file, image->width,
+                    image->height, glm::degrees(scene.environment.rotation), scene.environment.strength);
     report.line("materials  {}", scene.materials.size());
     report.list(scene.materials, [](const Material& m) { return describe(m); });
     report.line("textures   {}, {}", scene.textures.size(), bytesText(textureBytes));

@@ -134,6 +134,24 @@ void visitAll(Stream& s, T& object) {
         object);
 }
 
+void visitPicture(Writer& s, const std::shared_ptr<const EnvironmentImage>& picture) {
+    s.plain(picture != nullptr);
+    if (!picture) return;
+    s.plain(picture->width);
+    s.plain(picture->height);
+    s.array(picture->radiance);
+}
+void visitPicture(Reader& s, std::shared_ptr<const EnvironmentImage>& picture) {
+    bool given = false;
+    s.plain(given);
+    if (!given) return;
+    auto read = std::make_shared<EnvironmentImage>();
+    s.plain(read->width);
+    s.plain(read->height);
+    s.array(read->radiance);
+    picture = std::move(read);
+}
+
 template <typename Stream, typename S>
 void visitScene(Stream& s, S& scene) {
     s.text(scene.name);
@@ -144,6 +162,10 @@ void visitScene(Stream& s, S& scene) {
     for (std::size_t i = 0, n = s.count(scene.lights); i < n; ++i) visitAll(s, scene.lights[i]);
     for (std::size_t i = 0, n = s.count(scene.cameras); i < n; ++i) visitAll(s, scene.cameras[i]);
     s.plain(scene.sky);
+    s.text(scene.environment.file);
+    s.plain(scene.environment.rotation);
+    s.plain(scene.environment.strength);
+    visitPicture(s, scene.environment.image);
     s.text(scene.format);
     for (std::size_t i = 0, n = s.count(scene.settings); i < n; ++i) {
         s.text(scene.settings[i].first);

@@ -58,7 +58,8 @@ PathIntegrator::PathIntegrator(const Scene& scene, const RayScene& rays, const P
     : scene_(scene),
       rays_(rays),
       settings_(settings),
-      lights_(scene, settings.emissiveQuads, settings.estimator != Estimator::MaterialsOnly) {}
+      lights_(scene, settings.emissiveQuads, settings.estimator != Estimator::MaterialsOnly),
+      surroundings_(scene) {}
 
 void PathIntegrator::add(PathSample& result, const Vertex& vertex, int bounce, const glm::vec3& light,
                          const Reflection::Value& value) {
@@ -125,16 +126,32 @@ void PathIntegrator::gatherGroup(const Vertex& vertex, const Reflection& reflect
         add(result, vertex, bounce, light.radiance * value.sum() * (weight / light.density), value);
 }
 
+// Light of the surroundings from a direction drawn for it: of a picture by its light, else of the hemisphere.
 void PathIntegrator::gatherSky(const Vertex& vertex, const Reflection& reflection, const glm::vec2& u,
                                PathSample& result) const {
-    if (!wanted(vertex.depth + 1) || !(largest(scene_.sky) > 0)) return;
+    if (!wanted(vertex.depth + 1) || surroundings_.isBlack()) return;
     LightSample sky;
-    sky.toLight = uniformHemisphere(vertex.surface.shadingNormal, u);
     sky.distance = std::numeric_limits<float>::infinity();
     sky.extended = true;
+    sky.density = 1 / (2 * kPi);
+    if (surroundings_.hasPicture()) {
+        const scene::Surroundings::Draw drawn = surroundings_.draw(u);
+        sky.toLight = drawn.direction;
+        sky.density = drawn.density;
+    } else {
+        sky.toLight = uniformHemisphere(vertex.surface.shadingNormal, u);
+    }
     const Reflection::Value value = reflection.evaluate(sky.toLight);
-    if (largest(value.sum()) > 0 && arrives(vertex, sky, result))
-        add(result, vertex, vertex.depth + 1, scene_.sky * value.sum() * (2 * kPi), value);
+    if (!(sky.density > 0) || !(largest(value.sum()) > 0) || !arrives(vertex, sky, result)) return;
+    const float weight = settings_.estimator == Estimator::Mis ? misWeight(sky.density, value.density) : 1.0f;
+    add(result, vertex, vertex.depth + 1,
+        surroundings_.radiance(sky.toLight) * value.sum() * (weight / sky.density), value);
+}
+
+// Of a direction that the surface's reflection has drawn, when the surroundings are drawn as well.
+float PathIntegrator::skyWeight(const glm::vec3& direction, const Reflection::Value& value) const {
+    if (settings_.estimator != Estimator::Mis || !surroundings_.hasPicture()) return 1.0f;
+    return misWeight(value.density, surroundings_.density(direction));
 }
 
 bool PathIntegrator::arriveAt(Vertex& vertex, const Ray& ray, const Reflection::Value& value,
@@ -156,7 +173,8 @@ bool PathIntegrator::arriveAt(Vertex& vertex, const Ray& ray, const Reflection::
     RayHit hit;
     if (!rays_.intersect(RayKind::Bounce, ray, hit)) {
         if (!lightsOnly && wanted(vertex.depth + 1))
-            add(result, vertex, vertex.depth + 1, scene_.sky * reflected, value);
+            add(result, vertex, vertex.depth + 1,
+                surroundings_.radiance(ray.direction) * reflected * skyWeight(ray.direction, value), value);
         return false;
     }
     const Surface next = surfaceAt(scene_, ray, hit);
@@ -207,7 +225,7 @@ void PathIntegrator::trace(const Ray& cameraRay, const PixelTurns* pixel, Sample
     ++result.rays;
     RayHit hit;
     if (!rays_.intersect(RayKind::Camera, cameraRay, hit)) {
-        result.direct = scene_.sky;
+        result.direct = surroundings_.radiance(glm::normalize(cameraRay.direction));
         return;
     }
     result.seen = true;
@@ -229,8 +247,9 @@ void PathIntegrator::trace(const Ray& cameraRay, const PixelTurns* pixel, Sample
         lights_.choose(vertex.surface.position, vertex.surface.shadingNormal, vertex.depth == 0,
                        vertex.lights);
         gatherLights(vertex, reflection, sampler, result);
-        if (settings_.estimator == Estimator::LightsOnly)
-            gatherSky(vertex, reflection, sampler.next2(), result);
+        const bool drawsSky = surroundings_.hasPicture() ? settings_.estimator != Estimator::MaterialsOnly
+                                                         : settings_.estimator == Estimator::LightsOnly;
+        if (drawsSky) gatherSky(vertex, reflection, sampler.next2(), result);
         goesOn = advance(vertex, reflection, choices, direction, result);
     }
 }

@@ -12,6 +12,7 @@
 #include "reference/path_tracer.h"
 #include "reference/ray_scene.h"
 #include "reference/sampler.h"
+#include "scene/surroundings.h"
 
 namespace conelight::reference {
 
@@ -55,6 +56,7 @@ class PathIntegrator {
                      const glm::vec2& u, PathSample& result) const;
     void gatherSky(const Vertex& vertex, const Reflection& reflection, const glm::vec2& u,
                    PathSample& result) const;
+    float skyWeight(const glm::vec3& direction, const Reflection::Value& value) const;
     bool advance(Vertex& vertex, const Reflection& reflection, const glm::vec2& choices, const glm::vec2& u,
                  PathSample& result) const;
     bool arriveAt(Vertex& vertex, const Ray& ray, const Reflection::Value& value, PathSample& result) const;
@@ -63,6 +65,7 @@ class PathIntegrator {
     const RayScene& rays_;
     PathTracerSettings settings_;
     LightTable lights_;
+    scene::Surroundings surroundings_;
 };
 
 }  // namespace conelight::reference

@@ -27,6 +27,7 @@
 #include "reference/radiosity_result.h"
 #include "reference/sampler.h"
 #include "reference/surface.h"
+#include "scene/surroundings.h"
 
 namespace conelight::reference {
 namespace {
@@ -50,8 +51,9 @@ struct Patch {
     std::uint32_t element = 0;
     double area = 0;
     glm::vec3 albedo{0};
-    glm::vec3 emission{0};  // that rays find: not of area lights
-    glm::vec3 direct{0};    // irradiance straight from lights
+    glm::vec3 emission{0};     // that rays find: not of area lights
+    glm::vec3 direct{0};       // irradiance straight from lights
+    glm::vec3 fromPicture{0};  // radiance of the environment's picture, over all rays that met nothing
     glm::vec3 radiance{0};
     bool buried = false;
     std::vector<std::uint32_t> neighbours;  // of a buried patch: those that are not
@@ -71,6 +73,7 @@ class Baker {
         : scene_(scene),
           settings_(settings),
           onProgress_(onProgress),
+          surroundings_(scene),
           rays_(scene),
           lights_(scene),
           mesh_(scene),
@@ -104,6 +107,7 @@ class Baker {
     const Scene& scene_;
     RadiositySettings settings_;
     const std::function<bool(const RadiosityProgress&)>& onProgress_;
+    scene::Surroundings surroundings_;
     RayScene rays_;
     RadiosityLights lights_;
     ElementMesh mesh_;
@@ -205,7 +209,9 @@ void Baker::linkPatches() {
                 const glm::vec3 direction =
                     cosineDirection(at.shadingNormal, n, static_cast<std::uint32_t>(raysPerPatch_), shift);
                 if (!(glm::dot(direction, at.geometricNormal) > 0)) continue;
-                links_[i * raysPerPatch_ + n] = meets(at, direction);
+                const std::uint32_t met = meets(at, direction);
+                links_[i * raysPerPatch_ + n] = met;
+                if (met == kSky) patch.fromPicture += surroundings_.pictureRadiance(direction);
                 ++sent;
                 dark += links_[i * raysPerPatch_ + n] == kDark ? 1 : 0;
             }
@@ -246,7 +252,7 @@ void Baker::solve() {
     for (iterations_ = 0; iterations_ < kMostIterations && wanted(iterations_ + 2); ++iterations_) {
         if (!run(patches_.size(), [&](std::size_t begin, std::size_t end) {
                 for (std::size_t i = begin; i < end; ++i) {
-                    glm::vec3 sum(0);
+                    glm::vec3 sum = patches_[i].fromPicture;
                     for (std::size_t n = 0; n < raysPerPatch_; ++n)
                         sum += given(links_[i * raysPerPatch_ + n]);
                     next[i] = patches_[i].albedo * (patches_[i].direct / kPi + sum * perRay);
@@ -296,6 +302,7 @@ VertexLight Baker::gatherAt(std::uint32_t vertex, std::uint64_t& count) const {
         ++sent;
         if (met == kDark) ++dark;
         sum += given(met);
+        if (met == kSky) sum += surroundings_.pictureRadiance(direction);
     }
     count += sent;
     if (wanted(1)) result.irradiance += sum * (kPi / static_cast<float>(rays));

@@ -241,7 +241,7 @@ void run(const BenchOptions& options) {
         from = comma + 1;
     }
     std::vector<std::string> inputs = options.scenes;
-    inputs.push_back(options.view.preset);
+    inputs.insert(inputs.end(), {options.view.preset, options.view.environment});
     checkOutputs({{"--json", options.jsonFile, OutputKind::Json}}, inputs);
     const std::unique_ptr<platform::HeadlessContext> context = openContext(options.view);
     Progress progress;

@@ -10,6 +10,8 @@
 
 #include "conelight/error.h"
 #include "conelight/quality.h"
+#include "io/environment_file.h"
+#include "io/generated_surroundings.h"
 #include "io/scene_file.h"
 #include "session/session.h"
 
@@ -104,6 +106,7 @@ void ViewOptions::addTo(CLI::App& command) {
         ->check(CLI::Range(1.0, 170.0));
     command.add_option("--sky", sky, "constant sky radiance instead of the scene's, W/(sr m^2)")
         ->type_name("R,G,B");
+    addEnvironmentTo(command);
     command.add_option("--set", sets, "a setting (`conelight settings` lists them); may be repeated")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
@@ -113,6 +116,29 @@ void ViewOptions::addTo(CLI::App& command) {
     command.add_flag("--gl-debug", debugGl,
                      "check every OpenGL call and report errors of the driver (slower)");
     addAllowOutside(command, allowOutside);
+}
+
+void ViewOptions::addEnvironmentTo(CLI::App& command) {
+    std::string known;
+    for (const io::GeneratedSceneInfo& info : io::generatedSurroundings())
+        known += fmt::format("{}builtin:{}", known.empty() ? "" : ", ", info.name);
+    CLI::Option* file =
+        command
+            .add_option("--environment", environment,
+                        "surroundings instead of the scene's: a latitude-longitude picture (.exr .hdr), " +
+                            known + ", or none")
+            ->type_name("FILE");
+    command
+        .add_option("--rotate", rotateDeg, "turn of the environment, degrees, counter-clockwise from above")
+        ->type_name("DEG")
+        ->check(CLI::Range(-360.0, 360.0));
+    command.add_option("--environment-strength", environmentStrength, "factor of the environment's radiance")
+        ->type_name("X")
+        ->check(CLI::Range(0.0, 1e9));
+    command
+        .add_flag("--split-sun", splitsSun,
+                  "take the sun out of the environment's picture, as a light with sharp shadows")
+        ->needs(file);
 }
 
 void addAllowOutside(CLI::App& command, bool& allow) {
@@ -127,12 +153,33 @@ std::unique_ptr<platform::HeadlessContext> openContext(const ViewOptions& option
     return std::make_unique<platform::HeadlessContext>(contextOptions);
 }
 
+namespace {
+
+// What --environment and the options beside it ask for; without it they change what the scene has.
+void applyEnvironment(Scene& scene, const ViewOptions& options) {
+    const auto rotation = glm::radians(static_cast<float>(options.rotateDeg));
+    const auto strength = static_cast<float>(options.environmentStrength);
+    if (options.environment == "none") {
+        scene.environment = {};
+    } else if (!options.environment.empty()) {
+        io::useEnvironment(scene, io::loadEnvironment(options.environment), rotation, strength);
+    } else {
+        scene.environment.rotation += rotation;
+        scene.environment.strength *= strength;
+    }
+    if (options.splitsSun && !splitSun(scene))
+        scene.notes.push_back(options.environment + ": no sun in the picture; none was split off");
+}
+
+}  // namespace
+
 Scene openScene(const std::string& path, const ViewOptions& options, Progress& progress) {
     progress.show("loading " + path);
     io::LoadOptions load;
     load.allowOutside = options.allowOutside;
     Scene scene = io::loadScene(path, load);
     if (!options.sky.empty()) scene.sky = glm::max(parseVec3("--sky", options.sky), glm::vec3(0));
+    applyEnvironment(scene, options);
     completeScene(scene);
     progress.finish();
     for (const std::string& note : scene.notes)

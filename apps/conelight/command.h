@@ -66,6 +66,10 @@ struct ViewOptions {
     std::string eye, target;
     double fovDeg = 0;
     std::string sky;
+    std::string environment;
+    double rotateDeg = 0;
+    double environmentStrength = 1;
+    bool splitsSun = false;
     std::vector<std::string> sets;
     std::optional<int> stillViews;  // image.antialiasing where nothing else sets it
     int device = -1;
@@ -73,6 +77,7 @@ struct ViewOptions {
     bool allowOutside = false;
 
     void addTo(CLI::App& command);
+    void addEnvironmentTo(CLI::App& command);
 };
 
 // --allow-outside, of every command that reads scenes.
@@ -81,7 +86,7 @@ void addAllowOutside(CLI::App& command, bool& allow);
 // The OpenGL context that --device and --gl-debug ask for.
 std::unique_ptr<platform::HeadlessContext> openContext(const ViewOptions& options);
 
-// Loads a scene, prints its notes, completes it, applies --sky.
+// Loads a scene, prints its notes, completes it, applies --sky and --environment.
 Scene openScene(const std::string& path, const ViewOptions& options, Progress& progress);
 // The settings a scene starts with in a mode: the scene's own block, then --voxels and --set.
 Settings settingsFor(const Scene& scene, const std::string& mode, const ViewOptions& options);

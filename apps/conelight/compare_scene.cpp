@@ -198,7 +198,7 @@ void compareScene(const CompareSceneOptions& options) {
     const std::string& jsonFile = options.comparison.jsonFile;
     const std::string& folder = options.comparison.report;
     std::vector<std::string> inputs = options.scenes;
-    inputs.insert(inputs.end(), {options.referenceFile, options.view.preset});
+    inputs.insert(inputs.end(), {options.referenceFile, options.view.preset, options.view.environment});
     checkOutputs({{"--json", jsonFile, OutputKind::Json}}, inputs);
     if (!folder.empty()) prepareReport(folder, inputs);
 

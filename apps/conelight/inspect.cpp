@@ -56,7 +56,7 @@ void run(const InspectOptions& options) {
     const glm::ivec2 pixel = parsePixel(options.pixel, request.size);
     if (!options.output.empty()) io::imageFormatOf(options.output);
     std::vector<std::string> inputs = options.script.files;
-    inputs.insert(inputs.end(), {options.scene, options.view.preset});
+    inputs.insert(inputs.end(), {options.scene, options.view.preset, options.view.environment});
     checkOutputs({{"--output", options.output}, {"--json", options.jsonFile, OutputKind::Json}}, inputs);
 
     Progress progress;

@@ -103,7 +103,8 @@ void checkFiles(const RenderOptions& options) {
         io::refuseForeignBuffer(options.radiosity.bakeFile, options.overwrite);
     }
     std::vector<std::string> inputs = options.script.files;
-    inputs.insert(inputs.end(), {options.scene, options.view.preset, options.pathFile});
+    inputs.insert(inputs.end(),
+                  {options.scene, options.view.preset, options.view.environment, options.pathFile});
     checkOutputs({{"--output", options.output},
                   {"--bake", options.radiosity.bakeFile},
                   {"--stats", options.statsFile, OutputKind::Json}},

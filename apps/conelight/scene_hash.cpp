@@ -124,6 +124,11 @@ void addScene(Hash& hash, const Scene& scene) {
     for (const Light& light : scene.lights) addFields(hash, light);
     hash.add(scene.sky);
     hash.add(!scene.format.empty());
+    if (!scene.environment.used()) return;
+    hash.add(scene.environment.rotation);
+    hash.add(scene.environment.strength);
+    hash.add(scene.environment.image->width);
+    addVector(hash, scene.environment.image->radiance);
 }
 
 void addCamera(Hash& hash, const Camera& camera) { addFields(hash, camera); }

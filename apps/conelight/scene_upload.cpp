@@ -33,7 +33,11 @@ void SceneUpload::follow(Renderer& renderer, const Session& session) {
     seen_->transforms = now.transforms;
     seen_->instances = now.instances;
     if (std::exchange(seen_->lights, now.lights) != now.lights) renderer.setLights(session.scene().lights);
-    if (std::exchange(seen_->sky, now.sky) != now.sky) renderer.setSky(session.scene().sky);
+    if (seen_->sky != now.sky) {
+        renderer.setSky(session.scene().sky);
+        renderer.setEnvironment(session.scene().environment);
+        seen_->sky = now.sky;
+    }
 }
 
 void SceneUpload::takeInstances(Renderer& renderer, const Session& session) {

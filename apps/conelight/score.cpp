@@ -31,7 +31,7 @@ std::vector<Variant> ScoreOptions::checked(const char* score, bool rendererModes
                                                       "here; phong, thesis or cones would be right",
                                                       score, variant.mode));
     std::vector<std::string> inputs = scenes;
-    inputs.push_back(view.preset);
+    inputs.insert(inputs.end(), {view.preset, view.environment});
     checkOutputs({{"--json", jsonFile, OutputKind::Json}}, inputs);
     return all;
 }

@@ -75,6 +75,7 @@ class Renderer {
     void setLight(std::size_t index, const Light& light);
     void setLights(const std::vector<Light>& lights);  // all of them: adds and removes
     void setSky(const glm::vec3& radiance);            // W/(sr m^2)
+    void setEnvironment(const Environment& environment);
     // The renderer's copy, with all changes; valid until the next setScene.
     const Scene& scene() const;
 

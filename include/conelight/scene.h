@@ -11,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -186,6 +187,25 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
+// A picture of surroundings: radiance by direction, W/(sr m^2), linear Rec.709. Latitude-longitude: rows run
+// from straight up (+y) to straight down, columns once round the horizon.
+struct EnvironmentImage {
+    int width = 0;
+    int height = 0;
+    std::vector<glm::vec3> radiance;  // width * height, >= 0, finite
+};
+
+// Surroundings infinitely far away, from all directions. Their light adds to that of Scene::sky.
+// Unrotated, the middle of the picture is seen along -z, and its right half towards +x.
+struct Environment {
+    std::string file;                               // where the picture is from; empty: from nowhere
+    std::shared_ptr<const EnvironmentImage> image;  // shared by copies, never changed; null: black
+    float rotation = 0.0f;  // of the surroundings about +y, rad, counter-clockwise as seen from above
+    float strength = 1.0f;  // factor of the picture's radiance, >= 0
+    bool used() const { return image != nullptr && strength > 0.0f; }
+    bool operator==(const Environment&) const = default;
+};
+
 struct Scene {
     std::string name;
     std::vector<Mesh> meshes;
@@ -195,6 +215,7 @@ struct Scene {
     std::vector<Light> lights;
     std::vector<Camera> cameras;
     glm::vec3 sky{0.0f};  // constant radiance of the surroundings, W/(sr m^2)
+    Environment environment;
     // Name of the format whose conventions hold here, beside those above; empty: none. Such scenes were made
     // to be seen by Phong's model alone, without shadow maps or tone map, or in the mode of that name.
     std::string format;
@@ -215,6 +236,16 @@ struct Scene {
 
 // A camera that looks at the whole of `bounds` from the front (+z) and slightly above, 45 degrees vertical.
 Camera frameCamera(const Aabb& bounds);
+
+// Where a unit direction lies in an environment's picture, unrotated, and back: [0,1) from the left, [0,1] from
+// the top.
+glm::vec2 environmentUv(const glm::vec3& direction);
+glm::vec3 environmentDirection(const glm::vec2& uv);
+
+// Takes the sun out of the environment's picture and adds it as a directional light, whose shadows are sharp and
+// whose light is free of noise. False, and nothing is changed, when no spot of 4 degrees' radius gives more than a
+// twentieth of the picture's light.
+bool splitSun(Scene& scene);
 
 // Adds what a scene needs to be seen: a camera when there is none, a headlight at the first camera and
 // a grey sky when there is no light, no emission and no sky. What was added is appended to `notes`.

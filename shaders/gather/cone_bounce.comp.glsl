@@ -21,7 +21,7 @@ void main() {
     uint samples;
     ConeReach reach = ConeReach(cones.maxDistance, 0.0);
     vec3 irradiance =
-        gatherCones(origin, normal, inside ? cones.count : 0u, lighting.sky, reach, samples).rgb;
+        gatherCones(origin, normal, inside ? cones.count : 0u, reach, samples).rgb;
     if (!inside) return;
     // Below the largest half.
     irradiance = min(irradiance, 65000.0);

@@ -30,7 +30,7 @@ void main() {
     bool asks = seen && !s.unlit && s.metallic < 1.0;
     ConeReach reach = ConeReach(cones.maxDistance, 0.0);
 #endif
-    vec4 gathered = gatherCones(origin, s.normal, asks ? cones.count : 0u, lighting.sky, reach, samples);
+    vec4 gathered = gatherCones(origin, s.normal, asks ? cones.count : 0u, reach, samples);
 #ifdef RECORD_STEPS
     Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));
     RECORD_SURFACE(seen, s);

@@ -51,12 +51,12 @@ void main() {
     RECORD_SURFACE(seen, s);
     if (seen) {
         RECORD_PATH(PATH_SPECULAR_CONE, m.origin, direction, tanHalf, vec3(1.0),
-                    marchedRadiance(m, lighting.sky), 1.0 - open, m.t, open == 0.0 ? END_FULL : END_OPEN);
-        RECORD_PART(PART_SPECULAR, marchedRadiance(m, lighting.sky),
+                    marchedRadiance(m), 1.0 - open, m.t, open == 0.0 ? END_FULL : END_OPEN);
+        RECORD_PART(PART_SPECULAR, marchedRadiance(m),
                     specularAlbedo(b, directionalAlbedo(b.NoV, sqrt(b.alpha))));
     }
 #else
-    imageStore(result, pixel, vec4(marchedRadiance(m, lighting.sky), open));
+    imageStore(result, pixel, vec4(marchedRadiance(m), open));
 #endif
 #if COUNT_LOOKUPS
     if (seen) atomicAdd(lookups[LOOKUPS_SPECULAR], samples * kFetchesPerSample);

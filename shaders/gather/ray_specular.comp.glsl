@@ -22,6 +22,13 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "lib/voxel_light.glsl"
 layout(rgba32ui) writeonly uniform uimage2D result;
 
+// The radius of the solid angle that is a ray's among all that are averaged (Krivanek and Colbert 2008,
+// "Real-time Shading with Filtered Importance Sampling"): at the rim of the lobe it is wide.
+float skyWidth(Brdf b, Surface s, vec3 direction) {
+    float rays = float(pixelRays.rays) * pixelRays.longestMean;
+    return inversesqrt(kPi * rays * max(lobePdf(b, s.normal, s.toEye, direction), 1e-6));
+}
+
 void main() {
 #if LOBE_LISTED
     ivec2 pixel = listedPixel(imageSize(result));
@@ -52,8 +59,8 @@ void main() {
                     pixelAngle + b.alpha);
 #endif
         Ray ray = Ray(origin, direction, counts ? 1e9 : -1.0, s.geometricNormal);
-        PathSettings path =
-            PathSettings(-1.0, counts ? int(pixelRays.reflections) : 0, b.alpha, pixelRays.fireflyClamp);
+        PathSettings path = PathSettings(-1.0, counts ? int(pixelRays.reflections) : 0, b.alpha,
+                                         pixelRays.fireflyClamp, skyWidth(b, s, direction));
         vec3 radiance = traceRadiance(ray, path, random, hit);
         sum += weight * radiance;
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);

@@ -11,6 +11,7 @@
 #if !defined(DIRECTIONAL) || !defined(AREA)
 #error DIRECTIONAL and AREA must be 0 or 1
 #endif
+#include "lib/environment.glsl"
 #include "lib/radiance_volume.glsl"
 #include "lib/record_steps.glsl"
 #include "shared/cones.h"
@@ -124,9 +125,9 @@ void stepMarch(inout March m, float step) {
 bool isFinished(March m) { return m.t >= m.end || m.gathered.a >= kFullOpacity; }
 
 // What the cone sees in the end: a full one is all surface, another sees the sky behind.
-vec3 marchedRadiance(March m, vec3 sky) {
+vec3 marchedRadiance(March m) {
     if (m.gathered.a >= kFullOpacity) return m.gathered.rgb / m.gathered.a;
-    return m.gathered.rgb + (1.0 - m.gathered.a) * sky;
+    return m.gathered.rgb + (1.0 - m.gathered.a) * skyRadiance(m.direction, 2.0 * atan(m.tanHalf));
 }
 
 // Orthonormal frame with the third axis n (Frisvad 2012, "Building an Orthonormal Basis from a 3D Unit Vector
@@ -148,7 +149,7 @@ struct ConeReach {
 // weighted hemisphere is open (a). `count` cones from the front of the table; 0: none, with little work done.
 // One loop over all samples of all cones: nested loops would wait for the longest cone of eight pixels once
 // per cone.
-vec4 gatherCones(vec3 origin, vec3 normal, uint count, vec3 sky, ConeReach reach, out uint samples) {
+vec4 gatherCones(vec3 origin, vec3 normal, uint count, ConeReach reach, out uint samples) {
     mat3 frame = frameAbout(normal);
     vec4 sum = vec4(0.0);
     uint cone = 0u;
@@ -160,10 +161,10 @@ vec4 gatherCones(vec3 origin, vec3 normal, uint count, vec3 sky, ConeReach reach
         ++samples;
         if (isFinished(m)) {
             float open = m.gathered.a >= kFullOpacity ? 0.0 : 1.0 - m.gathered.a;
-            sum += cones.cone[cone].w * vec4(marchedRadiance(m, sky), open);
+            sum += cones.cone[cone].w * vec4(marchedRadiance(m), open);
             RECORD_PATH(reach.fade > 0.0 ? PATH_OCCLUSION_CONE : PATH_DIFFUSE_CONE, origin, m.direction,
                         m.tanHalf, vec3(cones.cone[cone].w),
-                        reach.fade > 0.0 ? vec3(open) : marchedRadiance(m, sky), 1.0 - open, m.t,
+                        reach.fade > 0.0 ? vec3(open) : marchedRadiance(m), 1.0 - open, m.t,
                         open == 0.0 ? END_FULL : END_OPEN);
             ++cone;
             uint next = min(cone, MAX_CONES - 1u);

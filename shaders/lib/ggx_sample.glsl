@@ -25,6 +25,14 @@ float smithLambda(float alpha, float z) {
     return 0.5 * (sqrt(1.0 + alpha * alpha * (1.0 - z2) / max(z2, 1e-8)) - 1.0);
 }
 
+// Density per steradian with which lobeDirection draws the direction `toLight`.
+float lobePdf(Brdf b, vec3 normal, vec3 toEye, vec3 toLight) {
+    float a2 = b.alpha * b.alpha;
+    float NoH = clamp(dot(normal, normalize(toEye + toLight)), 0.0, 1.0);
+    float d = NoH * NoH * (a2 - 1.0) + 1.0;
+    return a2 / (kPi * d * d) / (1.0 + smithLambda(b.alpha, b.NoV)) / (4.0 * b.NoV);
+}
+
 // A direction of the lobe of b about `normal`, seen from `toEye`; weight: its share of radiance, 0 where the
 // facet mirrors into the surface.
 vec3 lobeDirection(Brdf b, vec3 normal, vec3 toEye, vec2 xi, out vec3 weight) {

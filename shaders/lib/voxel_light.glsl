@@ -26,6 +26,7 @@
 #define SMOOTH_HITS 0
 #endif
 // Not within an #if: a file that is included in a branch not taken is lost to later includers.
+#include "lib/environment.glsl"
 #include "lib/ggx_sample.glsl"
 #include "lib/light_table.glsl"
 #include "lib/lit_face.glsl"
@@ -81,9 +82,9 @@ vec3 faceNormalOf(int face) { return octDecode(unpackSnorm2x16(texelFetch(voxelF
 
 #include "lib/triangle_surface.glsl"
 
-// Outgoing radiance at a hit as if all surfaces were diffuse; the sky for a miss. In: the shading of the face
-// that was hit. Out: its irradiance at the point, and the shading normal there.
-vec3 hitRadiance(Ray ray, VoxelHit hit, inout FaceShading s, out vec3 shadingNormal) {
+// Outgoing radiance at a hit as if all surfaces were diffuse; the sky for a miss, over an angle of `width`.
+// In: the shading of the face that was hit. Out: its irradiance at the point, and the shading normal there.
+vec3 hitRadiance(Ray ray, VoxelHit hit, float width, inout FaceShading s, out vec3 shadingNormal) {
     int face = max(hit.face, 0);
     vec3 normal = faceNormalOf(face);
     shadingNormal = normal;
@@ -114,7 +115,7 @@ vec3 hitRadiance(Ray ray, VoxelHit hit, inout FaceShading s, out vec3 shadingNor
 #else
     vec3 radiance = s.directRadiance + s.albedo * s.irradiance;
 #endif
-    return hit.face >= 0 ? radiance : lighting.sky;
+    return hit.face >= 0 ? radiance : skyRadiance(ray.direction, width);
 }
 
 // ---- Radiance along a path ------------------------------------------------------------------------------
@@ -124,12 +125,15 @@ struct PathSettings {
     int maxBounces;        // reflections on metals
     float alpha;           // width of the distribution that the ray was drawn from, as a GGX alpha
     float fireflyClamp;    // bound of radiance by reflection, over the diffuse radiance of the first hit
+    float skyWidth;        // a ray that hits nothing sees the sky over this angle, rad
 };
 
 #include "lib/glossy_bounce.glsl"
 
 // The cosine lobe's width as a GGX alpha.
 const float kCosineAlpha = 0.5;
+// Reflected rays see the sky over this share of the alpha of all lobes on their way: a few find a small sun.
+const float kSkyBlur = 0.5;
 // Variance of a lobe's width grows by this share of that of the lobes before it, over PathSettings'
 // fireflyClamp: features that few rays would find in a narrow lobe, many rays see blurred.
 const float kLobeWidening = 12.0;
@@ -156,7 +160,8 @@ PathVertex pathVertex(Ray ray, VoxelHit hit, PathSettings path, PathState state,
     PathVertex vertex;
     FaceShading s = faceShading(max(hit.face, 0));
     vec3 shadingNormal;
-    vertex.radiance = hitRadiance(ray, hit, s, shadingNormal);
+    float skyWidth = state.bounce == 0 ? path.skyWidth : kSkyBlur * sqrt(state.alpha2);
+    vertex.radiance = hitRadiance(ray, hit, skyWidth, s, shadingNormal);
 
     // Add the emission of area lights, which narrow lobes do not reflect analytically
     GlossySurface surface = glossySurface(hit, s);
@@ -187,7 +192,7 @@ vec3 traceRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit f
 #if !LOBES
     FaceShading s = faceShading(max(firstHit.face, 0));
     vec3 shadingNormal;
-    return hitRadiance(ray, firstHit, s, shadingNormal);
+    return hitRadiance(ray, firstHit, path.skyWidth, s, shadingNormal);
 #else
     VoxelHit hit = firstHit;
     vec3 firstRadiance = vec3(0.0);
@@ -237,6 +242,9 @@ vec3 traceRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit f
 // ---- The irradiance estimator ---------------------------------------------------------------------------
 
 #include "lib/light_sample.glsl"
+#if ENVIRONMENT
+#include "lib/environment_sample.glsl"
+#endif
 
 // Direction of density cos / pi about n (Malley's method).
 vec3 cosineDirection(vec3 n, vec2 xi) {
@@ -284,12 +292,23 @@ struct EstimatorSettings {
     float fireflyClamp;
 };
 
+const int kTowardsSky = -2;
+
+// Share of the light-sampled rays that go to the surroundings, not to faces.
+float skySampleShare(float inverseFlux) {
+#if ENVIRONMENT
+    return inverseFlux > 0.0 ? kEnvironmentShare : 1.0;
+#else
+    return 0.0;
+#endif
+}
+
 // A ray drawn by one of the two techniques.
 struct SampledRay {
     Ray ray;
     float cosine;  // about the shading normal
     bool valid;    // above the surface, and towards the front of a light face
-    int lightFace;
+    int lightFace;  // kTowardsSky: none, the surroundings
     float targetDistance;  // light-sampled ray: distance of its point; else negative
 };
 
@@ -300,8 +319,16 @@ SampledRay sampleRay(SurfacePoint point, EstimatorSettings settings, SequenceSta
 
     // Sample a point on a light face
     uint lightIndex = sequence.index * uint(settings.lightSamples) + uint(max(i - settings.cosineSamples, 0));
-    LightSample light =
-        sampleLightFace(fract(sequencePoint3(sequence.seed, lightIndex) + sequence.shift.zxy), point.origin);
+    vec3 xiLight = fract(sequencePoint3(sequence.seed, lightIndex) + sequence.shift.zxy);
+#if ENVIRONMENT
+    float skyShare = skySampleShare(inverseFlux);
+    bool towardsSky = lightSampled && xiLight.x < skyShare;
+    vec3 skyDirection = environmentDirection(vec2(xiLight.x / skyShare, xiLight.y));
+    xiLight.x = max(xiLight.x - skyShare, 0.0) / max(1.0 - skyShare, 1e-6);
+#else
+    const bool towardsSky = false;
+#endif
+    LightSample light = sampleLightFace(xiLight, point.origin);
     vec3 toLight = light.point - point.origin;
     float lightDistance = length(toLight);
 
@@ -311,21 +338,50 @@ SampledRay sampleRay(SurfacePoint point, EstimatorSettings settings, SequenceSta
     vec3 direction =
         lightSampled ? toLight / max(lightDistance, 1e-6) : cosineDirection(point.shadingNormal, xi);
 
+#if ENVIRONMENT
+    direction = towardsSky ? skyDirection : direction;
+#endif
+
     // Reject directions below the surface, and light faces that are turned away
     float cosine = dot(direction, point.shadingNormal);
     bool valid = cosine > 0.0 && dot(direction, point.geometricNormal) > 0.0;
-    valid = valid &&
-            (!lightSampled || (light.face >= 0 && dot(direction, light.normal) < 0.0 && inverseFlux > 0.0));
+    valid = valid && (!lightSampled || towardsSky ||
+                      (light.face >= 0 && dot(direction, light.normal) < 0.0 && inverseFlux > 0.0));
 
     // End a light-sampled ray behind its point
-    float tMax = lightSampled ? lightDistance + 1.0 : 1e9;
+    bool ends = lightSampled && !towardsSky;
+    float tMax = ends ? lightDistance + 1.0 : 1e9;
     Ray ray = Ray(point.origin, direction, valid ? tMax : -1.0, point.geometricNormal);
-    return SampledRay(ray, cosine, valid, light.face, lightSampled ? lightDistance : -1.0);
+    return SampledRay(ray, cosine, valid, towardsSky ? kTowardsSky : light.face,
+                      lightSampled ? (towardsSky ? 1e9 : lightDistance) : -1.0);
+}
+
+// A light sample counts only if it reached its own face: others are occluded, or their density is that of
+// another face. One towards the surroundings counts if it met nothing.
+bool reachesItsLight(SampledRay drawn, VoxelHit hit) {
+    bool reached = hit.face >= 0 ? hit.face == drawn.lightFace : drawn.lightFace == kTowardsSky;
+#if NEAR_TRIANGLES
+    // Light samples lie on plane pieces: near by, only cosine-sampled rays count.
+    reached = reached && !hit.near;
+#endif
+    return reached;
+}
+
+// Density per steradian among light-sampled rays, given what the ray hit; `skyPdf`: of its direction among those
+// that go to the surroundings.
+float lightPdf(Ray ray, VoxelHit hit, float inverseFlux, float skyPdf) {
+    float skyShare = skySampleShare(inverseFlux);
+    float pdf = (1.0 - skyShare) * lightFacePdf(ray, hit, inverseFlux);
+    pdf = hit.face >= 0 ? pdf : skyShare * skyPdf;
+#if NEAR_TRIANGLES
+    pdf = hit.near ? 0.0 : pdf;
+#endif
+    return pdf;
 }
 
 // Irradiance / pi at a point (4.12): cosine-sampled and light-sampled rays, combined by the balance heuristic
-// (Veach and Guibas 1995). A miss sees the sky. backFaceShare: share of cosine-sampled rays that passed a
-// back face.
+// (Veach and Guibas 1995). Light-sampled rays go to faces, and to the picture of the surroundings where there
+// is one. A miss sees the sky. backFaceShare: share of cosine-sampled rays that passed a back face.
 vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, SequenceState sequence,
                         out float backFaceShare) {
     float inverseFlux = uintBitsToFloat(texelFetch(lightSamples, 0).x);
@@ -343,9 +399,14 @@ vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, Sequence
         // Intersect the voxels and follow glossy bounces
         VoxelHit hit;
         PathSettings path =
-            PathSettings(drawn.targetDistance, settings.maxBounces, kCosineAlpha, settings.fireflyClamp);
+            PathSettings(drawn.targetDistance, settings.maxBounces, kCosineAlpha, settings.fireflyClamp, 0.0);
         vec3 radiance = traceRadiance(drawn.ray, path, random, hit);
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);  // the record, and its cached direct light
+        float skyPdf = 0.0;
+#if ENVIRONMENT
+        vec3 cell = environmentCell(drawn.ray.direction, skyPdf);
+        radiance = hit.face >= 0 ? radiance : cell;
+#endif
 #if FIND_BACK_FACES
         // Discard rays that passed a back face
         VoxelHit searched = hit;
@@ -357,17 +418,10 @@ vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, Sequence
         }
 #endif
 
-        // Compute the MIS weight: both techniques' densities for this direction. A light sample counts only
-        // if it reached its own face: others are occluded, or their density is that of another face.
-        bool reached = !lightSampled || (hit.face >= 0 && hit.face == drawn.lightFace);
-        float lightPdf = lightFacePdf(drawn.ray, hit, inverseFlux);
-#if NEAR_TRIANGLES
-        // Light samples lie on plane pieces: near by, only cosine-sampled rays count.
-        reached = reached && !(lightSampled && hit.near);
-        lightPdf = hit.near ? 0.0 : lightPdf;
-#endif
+        // Compute the MIS weight: both techniques' densities for this direction
+        bool reached = !lightSampled || reachesItsLight(drawn, hit);
         float pdfSum = float(settings.cosineSamples) * drawn.cosine / kGatherPi +
-                       float(settings.lightSamples) * lightPdf;
+                       float(settings.lightSamples) * lightPdf(drawn.ray, hit, inverseFlux, skyPdf);
         float misWeight = drawn.cosine / kGatherPi / max(pdfSum, 1e-12);
 
         // Add the contribution

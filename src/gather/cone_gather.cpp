@@ -21,14 +21,24 @@ using Part = ConeGather::Part;
 struct VolumeKey {
     int blocks;
     OpacityModel opacity;
+    bool environment = false;  // cones see a picture behind all surfaces, not the constant sky alone
 
     gl::Defines defines() const {
-        return {{"DIRECTIONAL", blocks == 6 ? "1" : "0"},
-                {"AREA", opacity == OpacityModel::Area ? "1" : "0"}};
+        gl::Defines defines{{"DIRECTIONAL", blocks == 6 ? "1" : "0"},
+                            {"AREA", opacity == OpacityModel::Area ? "1" : "0"}};
+        if (environment) defines.emplace_back("ENVIRONMENT", "1");
+        return defines;
+    }
+    static VolumeKey of(const RadianceVolume& volume, OpacityModel opacity, const light::Lights& lights) {
+        return {volume.layout().blocks, opacity, lights.hasEnvironment()};
     }
     static std::vector<VolumeKey> all() {
-        return {
-            {1, OpacityModel::Fog}, {1, OpacityModel::Area}, {6, OpacityModel::Fog}, {6, OpacityModel::Area}};
+        std::vector<VolumeKey> keys;
+        for (const bool environment : {false, true})
+            for (const int blocks : {1, 6})
+                for (const OpacityModel opacity : {OpacityModel::Fog, OpacityModel::Area})
+                    keys.push_back({blocks, opacity, environment});
+        return keys;
     }
 };
 
@@ -108,13 +118,14 @@ void ConeGather::gather(const gl::Device& device, const ConeInputs& inputs, Part
     const gl::PassScope pass(device.profiler, passName(part));
     gl::Inputs given = this->given(inputs, result);
     if (counters != nullptr) given.storage("LookupCounters", *counters);
-    const ConeKey key{{inputs.volume.layout().blocks, opacity_}, part, counters != nullptr};
+    const ConeKey key{VolumeKey::of(inputs.volume, opacity_, inputs.pixels.lights), part,
+                      counters != nullptr};
     device.get(key.desc()).dispatch(given, result.width(), result.height());
 }
 
 void ConeGather::record(const gl::Device& device, const ConeInputs& inputs, Part part,
                         const gl::Texture& result, StepRecorder& recorder) const {
-    const ConeKey key{{inputs.volume.layout().blocks, opacity_}, part, false, true};
+    const ConeKey key{VolumeKey::of(inputs.volume, opacity_, inputs.pixels.lights), part, false, true};
     recorder.record(device, key.desc(), given(inputs, result));
 }
 
@@ -124,7 +135,8 @@ void ConeGather::gatherBounce(const gl::Device& device, const light::Lights& lig
     const gl::PassScope pass(device.profiler, "bounce cones");
     gl::Inputs given;
     given.add(lights).add(volume).add(surface).add(faces).uniform("ConeBlock", block_);
-    device.get(bounceDesc({volume.layout().blocks, opacity_})).dispatchLinear(given, surface.faceCount());
+    device.get(bounceDesc(VolumeKey::of(volume, opacity_, lights)))
+        .dispatchLinear(given, surface.faceCount());
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
 }
 

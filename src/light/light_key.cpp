@@ -68,20 +68,22 @@ gl::Defines HitKey::defines() const {
     if (exact)
         for (auto& define : lights.defines()) defines.push_back(std::move(define));
     defines.emplace_back("LOBES", lobes ? "1" : "0");
+    if (environment) defines.emplace_back("ENVIRONMENT", "1");
     return defines;
 }
 
 std::vector<HitKey> HitKey::all(int filter) {
     std::vector<HitKey> keys;
-    for (const bool lobes : {false, true}) {
-        keys.push_back({.lobes = lobes});
-        for (LightKey lights : LightKey::all()) {
-            const bool punctual = lights.point + lights.spot + lights.directional > 0;
-            if (!punctual || lights.rect != 0 || lights.filter != 0) continue;
-            if (lights.shadows) lights.filter = filter;
-            keys.push_back({.exact = true, .lobes = lobes, .lights = lights});
+    for (const bool environment : {false, true})
+        for (const bool lobes : {false, true}) {
+            keys.push_back({.lobes = lobes, .environment = environment});
+            for (LightKey lights : LightKey::all()) {
+                const bool punctual = lights.point + lights.spot + lights.directional > 0;
+                if (!punctual || lights.rect != 0 || lights.filter != 0) continue;
+                if (lights.shadows) lights.filter = filter;
+                keys.push_back({.exact = true, .lobes = lobes, .environment = environment, .lights = lights});
+            }
         }
-    }
     return keys;
 }
 

@@ -28,9 +28,10 @@ struct LightKey {
 
 // What rays do where they hit.
 struct HitKey {
-    bool exact = false;  // punctual lights are looked up; else faces give all light
-    bool lobes = false;  // metals reflect in their lobe
-    LightKey lights;     // of `exact`: the punctual ones, filter 0 or -1
+    bool exact = false;        // punctual lights are looked up; else faces give all light
+    bool lobes = false;        // metals reflect in their lobe
+    bool environment = false;  // where they hit nothing they see a picture, not the constant sky alone
+    LightKey lights;           // of `exact`: the punctual ones, filter 0 or -1
 
     gl::Defines defines() const;
     // `filter`: of exact ones, 0 or -1.

@@ -34,7 +34,8 @@ void Lights::update(const gl::Device& device, const scene::GpuScene& scene, cons
     if (revision_ && from_ == sources) return;
     fillTable(scene.source(), wanted.emissiveQuads);
     if (wanted.shadowMaps) shadows_.update(device, scene, wanted.settings, table_);
-    upload(scene.source().sky);
+    environment_.update(scene.source().environment);
+    upload(scene.source());
     from_ = sources;
     revision_ = base::Revision::next();
 }
@@ -52,12 +53,16 @@ void Lights::fillTable(const Scene& scene, bool emissiveQuads) {
     ends_ = scene::lightEnds(table_);
 }
 
-void Lights::upload(const glm::vec3& sky) {
+void Lights::upload(const Scene& scene) {
     if (!tableBuffer_ || table_.size() * sizeof(gpu::Light) > tableBuffer_.bytes())
         tableBuffer_ = gl::Buffer(table_, "lights");
     else
         tableBuffer_.update(0, table_.data(), table_.size() * sizeof(gpu::Light));
-    block_.update(gpu::LightingConstants{sky, 0, ends_});
+    gpu::LightingConstants constants{};
+    constants.sky = scene.sky;
+    constants.lightEnds = ends_;
+    environment_.describe(scene.environment, constants);
+    block_.update(constants);
 }
 
 void Lights::declare(gl::Inputs& inputs) const {
@@ -65,7 +70,8 @@ void Lights::declare(gl::Inputs& inputs) const {
         .uniform("LightingBlock", block_)
         .uniform("FixedLightBlock", tableBuffer_)
         .uniform("FixedLightRows", tableBuffer_)
-        .add(shadows_);
+        .add(shadows_)
+        .add(environment_);
 }
 
 LightKey Lights::key() const {
@@ -75,6 +81,7 @@ LightKey Lights::key() const {
 HitKey Lights::hitKey(const scene::GpuScene& scene, bool exactDirect) const {
     HitKey key;
     key.lobes = hasMetals(scene);
+    key.environment = hasEnvironment();
     key.exact = exactDirect && ends_.z > 0 && ends_.z <= kMostExactLights;
     if (!key.exact) return key;
     // One comparison of four texels per light: rays average edges anyway.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Lights, as a value: what shines straight onto surfaces, ready for shaders. Scene -> the light table
-// (enabled lights, and flat emitters as rectangles), their shadow maps, and the sky.
+// (enabled lights, and flat emitters as rectangles), their shadow maps, the sky and the environment's picture.
 //
 // Flat emitters (scene/emissive_quads.h) are in the table so that their light is exact and sharp in its
 // shadows, where voxels would blur it. What the camera sees of the emitter does not change.
@@ -11,6 +11,7 @@
 #include "base/revision.h"
 #include "conelight/settings.h"
 #include "gl/device.h"
+#include "light/environment.h"
 #include "light/light_key.h"
 #include "light/shadow_maps.h"
 #include "scene/gpu_scene.h"
@@ -35,7 +36,7 @@ class Lights {
     base::Revision revision() const { return revision_; }
 
     // LightTable, LightingBlock, FixedLightBlock and FixedLightRows (the table once more, for shaders that
-    // know how many lights there are), and the shadow maps.
+    // know how many lights there are), the shadow maps, and the environment's picture where there is one.
     void declare(gl::Inputs& inputs) const;
     LightKey key() const;  // the variant of shaders that these lights need
     // Of shaders whose rays look punctual lights up where they hit; off where there are none, or more than
@@ -46,17 +47,19 @@ class Lights {
     const glm::uvec4& ends() const { return ends_; }  // of the points, spots, directional lights, rectangles
     // Whether an instance's emission arrives from a rectangle of the table: voxels leave it out.
     bool areInTable(std::size_t instance) const { return emitters_[instance] != 0; }
+    bool hasEnvironment() const { return environment_.hasPicture(); }
     int redrawnShadowMaps() const { return shadows_.redrawn(); }
 
   private:
     void fillTable(const Scene& scene, bool emissiveQuads);
-    void upload(const glm::vec3& sky);
+    void upload(const Scene& scene);
 
     std::vector<gpu::Light> table_;
     glm::uvec4 ends_{0};
     std::vector<char> emitters_;  // per instance
     gl::Buffer tableBuffer_, block_;
     ShadowMaps shadows_;
+    EnvironmentTable environment_;
 
     // What it was made from.
     struct Sources {

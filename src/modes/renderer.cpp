@@ -11,6 +11,7 @@
 #include "gl/debug.h"
 #include "gl/gl.h"
 #include "gl/host_state.h"
+#include "image/background.h"
 #include "image/debug_view.h"
 #include "image/display.h"
 #include "image/image.h"
@@ -84,6 +85,7 @@ struct Renderer::Impl {
     void render(const Camera& camera, int width, int height, const Settings& settings);
     void prepare(const Settings& settings);
     modes::Frame frame(const Settings& settings) const;
+    void drawLight(const modes::Frame& frame);
     void drawParts(const Camera& camera, const Settings& settings);
     void drawOverlays(const Settings& settings);
     PixelInspection inspect(int x, int y);
@@ -161,6 +163,12 @@ void Renderer::setSky(const glm::vec3& radiance) {
     impl_->scene->setSky(radiance);
 }
 
+void Renderer::setEnvironment(const Environment& environment) {
+    impl_->requireScene("setEnvironment");
+    scene::validateEnvironment(environment);
+    impl_->scene->setEnvironment(environment);
+}
+
 const Scene& Renderer::scene() const {
     impl_->requireScene("scene");
     return impl_->scene->source();
@@ -207,12 +215,20 @@ void Renderer::Impl::render(const Camera& camera, int width, int height, const S
     else if (settings.component == Component::ShadowMap)
         shadowMapView.draw(device, scene->source(), lights, settings.view.light, image.texture());
     else
-        mode->draw(frame(settings));
+        drawLight(frame(settings));
     if (isAntialiased(settings)) drawParts(camera, settings);
     gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess);
     if (settings.component != Component::ShadowMap) drawOverlays(settings);
     shownSettings = settings;
     collectStats(cpuStart, wallStart);
+}
+
+// By the mode, and the surroundings behind.
+void Renderer::Impl::drawLight(const modes::Frame& frame) {
+    mode->draw(frame);
+    const Component component = frame.settings.component;
+    if (component == Component::Full || component == Component::Direct)
+        image::drawBackground(frame.device, frame.scene, frame.lights, frame.surfaces, frame.output);
 }
 
 // Views through points beside the pixels' centres; their mean takes the place of the centres' picture.
@@ -221,13 +237,13 @@ void Renderer::Impl::drawParts(const Camera& camera, const Settings& settings) {
     for (int i = 0; i < count; ++i) {
         partSurfaces.see(device, *scene,
                          {camera, image.width(), image.height(), true, view::pixelPart(i, count)});
-        mode->draw({.device = device,
-                    .scene = *scene,
-                    .lights = lights,
-                    .surfaces = partSurfaces,
-                    .settings = settings,
-                    .output = views.view(image.width(), image.height()),
-                    .besideCenters = true});
+        drawLight({.device = device,
+                   .scene = *scene,
+                   .lights = lights,
+                   .surfaces = partSurfaces,
+                   .settings = settings,
+                   .output = views.view(image.width(), image.height()),
+                   .besideCenters = true});
         views.add(device, i, image.texture());
     }
 }

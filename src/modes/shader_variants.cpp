@@ -9,6 +9,7 @@
 
 #include "base/log.h"
 #include "conelight/shaders.h"
+#include "image/background.h"
 #include "image/debug_view.h"
 #include "image/display.h"
 #include "image/shadow_view.h"
@@ -60,6 +61,7 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     add(light::ShadowMaps::programDescs());
     add(view::GBuffer::programDescs());
     add(image::debugViewProgramDescs());
+    add(image::backgroundProgramDescs());
     add(image::ShadowView::programDescs());
     add(image::WireframeView::programDescs());
     add(image::Display::programDescs());

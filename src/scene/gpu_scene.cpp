@@ -175,6 +175,11 @@ void GpuScene::setLights(const std::vector<Light>& lights) {
     lightRevision_ = base::Revision::next();
 }
 
+void GpuScene::setEnvironment(const Environment& environment) {
+    source_.environment = environment;
+    skyRevision_ = base::Revision::next();
+}
+
 void GpuScene::setSky(const glm::vec3& radiance) {
     source_.sky = radiance;
     skyRevision_ = base::Revision::next();

@@ -3,7 +3,7 @@
 // shared/scene.h, textures per material, and all textures at low resolution in one array that compute shaders
 // can index (voxelizers). Materials are the scene's own plus a default one at the end.
 //
-// Changes in place (setInstance, setMaterial, setLights, setSky) upload just the entries they concern and
+// Changes in place (setInstance, setMaterial, setLights, setSky, setEnvironment) upload just the entries they concern and
 // raise revisions. Who derives something from the scene keeps the revisions it was derived from and compares.
 // Lights have no table here: the light stage makes one (light/lights.h).
 #pragma once
@@ -57,13 +57,14 @@ class GpuScene {
     void setMaterial(std::size_t index, const Material& material);
     void setLights(const std::vector<Light>& lights);  // all of them
     void setSky(const glm::vec3& radiance);
+    void setEnvironment(const Environment& environment);
     // As if every instance had changed: all that is derived from geometry is made anew.
     void touch();
 
     // Of the scene as it was handed over: equal as long as only changes in place have come since.
     base::Revision identity() const { return identity_; }
     // Raised by each change that voxels or shadows may show: of an instance (transform, flags, material, what
-    // its material says), of any instance, of the list of lights, of the sky.
+    // its material says), of any instance, of the list of lights, of sky or environment.
     base::Revision instanceRevision(std::size_t instance) const { return instanceRevisions_[instance]; }
     base::Revision geometryRevision() const { return geometryRevision_; }
     base::Revision lightRevision() const { return lightRevision_; }

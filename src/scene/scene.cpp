@@ -146,6 +146,26 @@ void scene::validateSky(const glm::vec3& sky) {
     if (!isFinite(sky)) fail(ErrorKind::BadInput, "sky: the radiance is not finite");
 }
 
+void scene::validateEnvironment(const Environment& environment) {
+    const char* file = environment.file.c_str();
+    if (!std::isfinite(environment.rotation) || !std::isfinite(environment.strength) ||
+        environment.strength < 0)
+        fail(ErrorKind::BadInput,
+             "environment '%s': rotation %g, strength %g; a finite angle and a factor of 0 or more would be "
+             "right",
+             file, static_cast<double>(environment.rotation), static_cast<double>(environment.strength));
+    if (environment.image == nullptr) return;
+    const EnvironmentImage& image = *environment.image;
+    const std::size_t texels = static_cast<std::size_t>(std::max(image.width, 0)) *
+                               static_cast<std::size_t>(std::max(image.height, 0));
+    if (texels == 0 || image.radiance.size() != texels)
+        fail(ErrorKind::BadInput, "environment '%s': %d x %d texels and %zu radiances do not belong together",
+             file, image.width, image.height, image.radiance.size());
+    for (const glm::vec3& radiance : image.radiance)
+        if (!isFinite(radiance) || glm::any(glm::lessThan(radiance, glm::vec3(0))))
+            fail(ErrorKind::BadInput, "environment '%s': a radiance is negative or not finite", file);
+}
+
 void Scene::validate() const {
     for (std::size_t i = 0; i < meshes.size(); ++i) validateMesh(meshes[i], i);
     for (const Texture& texture : textures) {
@@ -164,6 +184,7 @@ void Scene::validate() const {
     }
     for (const Light& light : lights) scene::validateLight(light);
     scene::validateSky(sky);
+    scene::validateEnvironment(environment);
 }
 
 // Lambert in both models: rho/pi * I and kd * color * c are equal when I = pi * c (docs/theory/1_scene.md).
@@ -337,7 +358,7 @@ void completeScene(Scene& scene) {
         scene.cameras.push_back(frameFrom(bounds, sideToSee(scene)));
         scene.notes.emplace_back("no camera in the scene: one that frames it was added");
     }
-    bool emits = glm::dot(scene.sky, glm::vec3(1)) > 0;
+    bool emits = glm::dot(scene.sky, glm::vec3(1)) > 0 || scene.environment.used();
     bool needsLight = false;  // baked scenes are unlit throughout
     for (const Light& light : scene.lights)
         emits |= light.enabled && glm::dot(light.intensity, glm::vec3(1)) > 0;

@@ -15,5 +15,6 @@ void validateInstance(const Scene& scene, const Instance& instance, std::size_t 
 void validateMaterial(const Scene& scene, const Material& material);
 void validateLight(const Light& light);
 void validateSky(const glm::vec3& sky);
+void validateEnvironment(const Environment& environment);
 
 }  // namespace conelight::scene

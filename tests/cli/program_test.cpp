@@ -44,6 +44,10 @@ TEST_F(ProgramTest, WrongUsageIsOneLineAndStatus2) {
     expectOneLine(render("builtin:cornell", path("never.bmp2")), 2, ".png");
     expectOneLine(render("builtin:nowhere", out), 2, "nowhere");
     expectOneLine(render("builtin:cornell", out, "--aov albedo"), 2, ".exr");
+    expectOneLine(render("builtin:cornell", out, "--environment builtin:moon"), 2, "sky, studio");
+    expectOneLine(render("builtin:cornell", out, "--environment 'builtin:sky?hour=1'"), 2,
+                  "above the horizon");
+    expectOneLine(render("builtin:cornell", out, "--split-sun"), 2, "--environment");
     EXPECT_FALSE(std::filesystem::exists(out));
 }
 
@@ -52,6 +56,11 @@ TEST_F(ProgramTest, BadInputIsOneLineAndStatus3) {
     expectOneLine(render("/nonexistent/scene.glb", out), 3, "/nonexistent/scene.glb");
     std::ofstream(path("broken.glb")) << "glTF but not really";
     expectOneLine(render(path("broken.glb"), out), 3, "broken.glb");
+    expectOneLine(render("builtin:cornell", out, "--environment /nonexistent/sky.hdr"), 3,
+                  "/nonexistent/sky.hdr");
+    io::writeHdr(path("square.hdr"), {8, 8, 3, std::vector<float>(8 * 8 * 3, 1.0f), {}, {}});
+    expectOneLine(render("builtin:cornell", out, "--environment '" + path("square.hdr") + "'"), 3,
+                  "twice as wide as high");
     EXPECT_FALSE(std::filesystem::exists(out));
 }
 

@@ -12,6 +12,7 @@
 
 #include "conelight/renderer.h"
 #include "conelight/thesis/settings.h"
+#include "support/environments.h"
 #include "support/gl_fixture.h"
 #include "support/view_rig.h"
 
@@ -134,11 +135,13 @@ std::vector<Change> changes() {
          },
          lights},
         {"lights removed", [](Scene& s) { s.lights.clear(); }, lights},
-        {"sky",
-         [](Scene& s) {
-             s.sky = {0.5f, 0.6f, 0.9f};
-         },
+        {"sky", [](Scene& s) { s.sky = glm::vec3(0.5f, 0.6f, 0.9f); },
          [](Renderer& r, const Scene& s) { r.setSky(s.sky); }},
+        {"environment",
+         [](Scene& s) {
+             s.environment = Environment{"", sunnyEnvironment(32), 0.5f, 2};
+         },
+         [](Renderer& r, const Scene& s) { r.setEnvironment(s.environment); }},
     };
 }
 
@@ -168,7 +171,8 @@ TEST_F(SceneChanges, AreSeen) {
     const Scene first = roomScene();
     const Image before = drawnAfresh(first, Mode::Cones);
     for (const Change& change : changes()) {
-        if (std::strcmp(change.name, "sky") == 0) continue;  // the room is closed
+        // The room is closed.
+        if (std::strcmp(change.name, "sky") == 0 || std::strcmp(change.name, "environment") == 0) continue;
         Scene scene = first;
         change.edit(scene);
         EXPECT_FALSE(sameBits(drawnAfresh(scene, Mode::Cones), before)) << change.name;

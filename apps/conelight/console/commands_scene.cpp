@@ -10,6 +10,7 @@
 #include "conelight/error.h"
 #include "console/console.h"
 #include "console/names.h"
+#include "io/environment_file.h"
 #include "io/files.h"
 #include "io/gltf_write.h"
 #include "io/image_file.h"
@@ -220,6 +221,25 @@ void sky(const CommandContext& context) {
     context.session.setSky(color, "sky");
 }
 
+// environment [FILE|none] [DEGREES] [STRENGTH]
+void environment(const CommandContext& context) {
+    Session& session = context.session;
+    const Environment& now = session.scene().environment;
+    if (context.count() == 0)
+        return context.print(now.image == nullptr
+                                 ? "environment: none"
+                                 : fmt::format("environment: {}, turned by {:.4g} degrees, times {:.4g}",
+                                               now.file, glm::degrees(now.rotation), now.strength));
+    const auto rotation = context.count() > 1 ? glm::radians(static_cast<float>(context.number(1))) : 0.0f;
+    const auto strength = context.count() > 2 ? static_cast<float>(context.number(2)) : 1.0f;
+    io::LoadedEnvironment loaded;
+    if (context.words[0] != "none") loaded = io::loadEnvironment(context.words[0]);
+    Scene changed;
+    changed.lights = session.scene().lights;
+    io::useEnvironment(changed, std::move(loaded), rotation, strength);
+    session.setEnvironment(changed.environment, changed.lights, "environment " + context.words[0]);
+}
+
 void save(const CommandContext& context) {
     for (const std::string& note : saveSession(context.session, context.words[0], context.count() > 1))
         context.print(note);
@@ -271,6 +291,14 @@ CommandGroup sceneCommands() {
             command("sky", {{"RADIANCE", ArgumentKind::Number, true, true, "W/(sr m^2)", 0, 1e9, {}}},
                     "radiance of the surroundings: R G B, or one number", sky,
                     "Without RADIANCE it is printed."),
+            command("environment",
+                    {{"FILE", ArgumentKind::SceneFile, true},
+                     {"DEGREES", ArgumentKind::Number, true, false, "turn", -360, 360, {}},
+                     {"STRENGTH", ArgumentKind::Number, true, false, "factor", 0, 1e9, {}}},
+                    "surroundings from a picture", environment,
+                    "FILE: a latitude-longitude picture (.exr .hdr), builtin:sky, builtin:studio, or none; "
+                    "without it "
+                    "what there is\nis printed. The turn is counter-clockwise as seen from above."),
             command("save",
                     {{"FILE", ArgumentKind::File},
                      {"OVERWRITE", ArgumentKind::Choice, true, false, "", 0, 0, {"overwrite", "force"}}},

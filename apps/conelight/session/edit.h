@@ -35,13 +35,14 @@ struct MaterialsEdit : BeforeAfter<std::vector<Material>> {};
 struct LightsEdit : BeforeAfter<std::vector<Light>> {};
 struct CamerasEdit : BeforeAfter<std::vector<Camera>> {};
 struct SkyEdit : BeforeAfter<glm::vec3> {};
+struct EnvironmentEdit : BeforeAfter<Environment> {};
 struct SettingsEdit : BeforeAfter<PictureSettings> {};
 struct CameraEdit : BeforeAfter<Camera> {};
 struct FlagsEdit : BeforeAfter<ViewFlags> {};
 struct PathEdit : BeforeAfter<CameraPath> {};
 
 using Edit = std::variant<InstanceEdit, MaterialEdit, MaterialsEdit, LightsEdit, CamerasEdit, SkyEdit,
-                          SettingsEdit, CameraEdit, FlagsEdit, PathEdit>;
+                          EnvironmentEdit, SettingsEdit, CameraEdit, FlagsEdit, PathEdit>;
 
 struct Step {
     std::string label;     // "translate Lucy"

@@ -335,6 +335,15 @@ void Session::setSky(const glm::vec3& sky, const std::string& label, const std::
     commit(std::move(step));
 }
 
+void Session::setEnvironment(const Environment& environment, const std::vector<Light>& lights,
+                             const std::string& label, const std::string& mergeKey) {
+    if (environment == scene_.environment && lights == scene_.lights) return;
+    Step step{label, mergeKey, {}};
+    step.edits.push_back(editOf<EnvironmentEdit>(scene_.environment, environment));
+    if (lights != scene_.lights) step.edits.push_back(editOf<LightsEdit>(scene_.lights, lights));
+    commit(std::move(step));
+}
+
 void Session::moveCamera(const Camera& camera) {
     if (camera == camera_) return;
     playing_.reset();
@@ -429,6 +438,9 @@ void Session::apply(const Edit& edit, bool forward) {
         ++revisions_.cameras;
     } else if (const auto* sky = std::get_if<SkyEdit>(&edit)) {
         scene_.sky = side(*sky);
+        ++revisions_.sky;
+    } else if (const auto* environment = std::get_if<EnvironmentEdit>(&edit)) {
+        scene_.environment = side(*environment);
         ++revisions_.sky;
     } else if (const auto* settings = std::get_if<SettingsEdit>(&edit)) {
         settings_ = side(*settings).settings;

@@ -109,6 +109,9 @@ class Session {
     // Settings and mode of a preset; what it does not name is as the scene starts.
     void applyPreset(const Preset& preset, const std::string& label);
     void setSky(const glm::vec3& sky, const std::string& label, const std::string& mergeKey = {});
+    // With the lights that go with it.
+    void setEnvironment(const Environment& environment, const std::vector<Light>& lights,
+                        const std::string& label, const std::string& mergeKey = {});
     void seal() { sealed_ = true; }
 
     // No steps of undo: flying, looking, choosing.

@@ -2,6 +2,8 @@
 #include <fmt/core.h>
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "io/scene_info.h"
 #include "viewer/panels.h"
 #include "viewer/widget_places.h"
@@ -82,6 +84,25 @@ void addLight(const RunLine& run) {
     notePlace("add light");
 }
 
+// Turn and strength of the surroundings; dragged values are one step.
+void drawEnvironment(Session& session) {
+    Environment environment = session.scene().environment;
+    float degrees = glm::degrees(environment.rotation);
+    bool changed = ImGui::SliderFloat("environment turn", &degrees, -180, 180, "%.0f deg");
+    notePlace("edit:environment turn");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", environment.file.c_str());
+    bool ended = ImGui::IsItemDeactivatedAfterEdit();
+    changed |= ImGui::DragFloat("environment strength", &environment.strength, 0.02f, 0, 1e6f, "%.2f");
+    notePlace("edit:environment strength");
+    ended |= ImGui::IsItemDeactivatedAfterEdit();
+    if (changed) {
+        environment.rotation = glm::radians(degrees);
+        environment.strength = std::max(environment.strength, 0.0f);
+        session.setEnvironment(environment, session.scene().lights, "environment", "environment");
+    }
+    if (ended) session.seal();
+}
+
 }  // namespace
 
 void sceneTree(Session& session, const std::string& filter, const RunLine& run) {
@@ -114,6 +135,7 @@ void sceneTree(Session& session, const std::string& filter, const RunLine& run) 
     notePlace("edit:sky");
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("radiance of the surroundings, W/(sr m^2)");
     if (ImGui::IsItemDeactivatedAfterEdit()) session.seal();
+    if (scene.environment.image != nullptr) drawEnvironment(session);
 }
 
 }  // namespace conelight::program

@@ -301,6 +301,8 @@ std::vector<std::string> Writer::write(bool force) {
     line(0, "scene = {");
     value(1, "name", wordOf(scene_.name, "unnamedScene"));
     if (scene_.sky != glm::vec3(0)) value(1, "sky", triple(scene_.sky, "rgb"));
+    if (scene_.environment.image != nullptr)
+        notes_.push_back("the environment is left out: the format has a constant sky alone; .glb keeps it");
     for (const Camera& one : scene_.cameras) camera(one);
     for (const Light& one : scene_.lights) light(one);
     for (const Instance& one : scene_.instances) model(one);
