@@ -107,6 +107,7 @@ std::string describe(const Material& m) {
 std::string describe(const Light& l) {
     std::string out = fmt::format("{}: {}, {} {}", l.name.empty() ? "(unnamed)" : l.name,
                                   lightTypeName(l.type), text(l.intensity), lightUnit(l.type));
+    if (const auto flux = radiantFlux(l)) out += fmt::format(", flux {} W", text(*flux));
     if (l.type != LightType::Directional) out += fmt::format(", at {}", text(l.position));
     if (l.type != LightType::Point) out += fmt::format(", towards {}", text(l.direction));
     if (l.type == LightType::Spot)

@@ -175,6 +175,14 @@ struct Light {
     bool operator==(const Light&) const = default;
 };
 
+// Radiant flux, W: all that a light sends out, per channel. Point lights and spots as their intensity over all
+// directions; rectangles as their radiance over area and hemisphere. Nothing for a directional light, which has no
+// end, and for a light with a falloff of its own, which has no physical unit.
+std::optional<glm::vec3> radiantFlux(const Light& light);
+// Sets the intensity by it, 0 or more, for the shape that the light has. False, and nothing is changed, where there
+// is none.
+bool setRadiantFlux(Light& light, const glm::vec3& flux);
+
 // A perspective camera. Looks from eye to target.
 struct Camera {
     std::string name;

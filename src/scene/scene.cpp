@@ -187,6 +187,40 @@ void Scene::validate() const {
     scene::validateEnvironment(environment);
 }
 
+namespace {
+
+// W for an intensity of 1; 0: there is none.
+float fluxPerIntensity(const Light& light) {
+    constexpr float kPi = 3.14159265358979f;
+    if (light.customFalloff) return 0;
+    const float inner = std::cos(light.innerAngle), outer = std::cos(light.outerAngle);
+    switch (light.type) {
+        case LightType::Point:
+            return 4 * kPi;
+        case LightType::Spot:
+            // Even within the inner cone; then the square of a ramp in the cosine, whose mean is a third.
+            return 2 * kPi * (1 - inner + (inner - outer) / 3);
+        case LightType::Rect:
+            return kPi * 4 * glm::length(glm::cross(light.halfU, light.halfV));
+        case LightType::Directional:
+            return 0;
+    }
+    return 0;
+}
+
+}  // namespace
+
+std::optional<glm::vec3> radiantFlux(const Light& light) {
+    const float each = fluxPerIntensity(light);
+    return each > 0 ? std::optional(each * light.intensity) : std::nullopt;
+}
+
+bool setRadiantFlux(Light& light, const glm::vec3& flux) {
+    const float each = fluxPerIntensity(light);
+    if (each > 0) light.intensity = flux / each;
+    return each > 0;
+}
+
 // Lambert in both models: rho/pi * I and kd * color * c are equal when I = pi * c (docs/theory/1_scene.md).
 PhongMaterial phongFromPbr(const Material& material) {
     PhongMaterial phong;

@@ -72,6 +72,7 @@ TEST(ConsoleErrors, NameTheMistakeAndWhatWouldBeRight) {
         {"light lamp bright 3", "there is no property 'bright'"},
         {"light lamp intensity 1 2", "takes 3 numbers, got 2"},
         {"light lamp size 1 1", "a point light has none"},
+        {"light lamp flux -1", "0 to 1e+09 W would be right"},
         {"light add bulb", "point, spot, directional or rect"},
         {"material whit roughness 1", "white would be right"},
         {"material white rough 1", "roughness would be right"},
@@ -149,6 +150,28 @@ TEST(Console, SourceRunsInPlaceAndEndsCircles) {
     rig.run("source '" + file + "'");
     ASSERT_EQ(rig.lines.size(), 1u);
     EXPECT_NE(rig.lines[0].text.find("16 deep"), std::string::npos) << rig.lines[0].text;
+}
+
+TEST(Console, SurroundingsAndFluxAreSetAndTakenBack) {
+    ConsoleRig rig;
+    rig.run("light lamp flux 12.566371; environment 'builtin:sky?hour=9' 30 2");
+    EXPECT_EQ(rig.error(), "");
+    EXPECT_NEAR(rig.session.scene().lights[0].intensity.g, 1, 1e-6f);
+    ASSERT_TRUE(rig.session.scene().environment.used());
+    EXPECT_NEAR(rig.session.scene().environment.rotation, 0.5235988f, 1e-6f);
+    EXPECT_EQ(rig.session.scene().environment.strength, 2);
+    // Another sky takes the first one's sun away with it.
+    ASSERT_EQ(rig.session.scene().lights.size(), 2u);
+    rig.run("environment builtin:sky");
+    EXPECT_EQ(rig.session.scene().lights.size(), 2u);
+    rig.run("environment none");
+    EXPECT_EQ(rig.session.scene().lights.size(), 1u);
+    EXPECT_FALSE(rig.session.scene().environment.used());
+    rig.run("undo");
+    EXPECT_TRUE(rig.session.scene().environment.used());
+    EXPECT_EQ(rig.session.scene().lights.size(), 2u);
+    rig.run("light lamp falloff 1 0 1; light lamp flux 1");
+    EXPECT_NE(rig.error().find("no physical unit"), std::string::npos) << rig.error();
 }
 
 TEST(Console, EditsCanBeTakenBack) {

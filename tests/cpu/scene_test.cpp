@@ -267,4 +267,35 @@ TEST(SceneTest, ShininessGrowsAsRoughnessFalls) {
     }
 }
 
+// Flux is what arrives on a sphere about the light, whatever its kind.
+TEST(Scene, FluxIsIntensityOverAllDirections) {
+    Light light;
+    light.intensity = {1, 2, 3};
+    EXPECT_NEAR(radiantFlux(light)->g, 4 * 3.14159265f * 2, 1e-4f);
+    light.type = LightType::Spot;
+    light.innerAngle = 0.3f;
+    light.outerAngle = 0.9f;
+    double spot = 0;
+    constexpr int kSteps = 20000;
+    for (int i = 0; i < kSteps; ++i) {
+        const double angle = 0.9 * (i + 0.5) / kSteps;
+        const double ramp =
+            std::clamp((std::cos(angle) - std::cos(0.9)) / (std::cos(0.3) - std::cos(0.9)), 0.0, 1.0);
+        spot += ramp * ramp * 2 * 3.14159265358979 * std::sin(angle) * 0.9 / kSteps;
+    }
+    EXPECT_NEAR(static_cast<double>(radiantFlux(light)->r) / spot, 1, 1e-4);
+    light.type = LightType::Rect;
+    light.halfU = {1, 0, 0};
+    light.halfV = {0, 0, 0.25f};
+    EXPECT_NEAR(radiantFlux(light)->b, 3.14159265f * 3, 1e-4f);  // one square metre
+    ASSERT_TRUE(setRadiantFlux(light, {3.14159265f, 0, 0}));
+    EXPECT_NEAR(light.intensity.r, 1, 1e-6f);
+    light.type = LightType::Directional;
+    EXPECT_FALSE(radiantFlux(light));
+    EXPECT_FALSE(setRadiantFlux(light, glm::vec3(1)));
+    light.type = LightType::Point;
+    light.customFalloff = true;
+    EXPECT_FALSE(radiantFlux(light));
+}
+
 }  // namespace conelight::test

@@ -25,6 +25,7 @@ void printLight(const CommandContext& context, std::size_t index) {
     std::string line =
         fmt::format("{:3} {:<16} {:<11} intensity {} {}", index, light.name, io::lightTypeName(light.type),
                     text(light.intensity), io::lightUnit(light.type));
+    if (const auto flux = radiantFlux(light)) line += "  flux " + text(*flux) + " W";
     if (light.type != LightType::Directional) line += "  at " + text(light.position);
     if (light.type != LightType::Point) line += "  direction " + text(light.direction);
     if (light.type == LightType::Spot)
@@ -74,8 +75,9 @@ void needs(const Light& light, const std::string& what, bool fits) {
     if (!fits) usage(fmt::format("light: {}: a {} light has none", what, io::lightTypeName(light.type)));
 }
 
-const std::vector<std::string> kWords = {"intensity", "position", "direction", "angles",  "size", "range",
-                                         "falloff",   "on",       "off",       "shadows", "name", "delete"};
+const std::vector<std::string> kWords = {"intensity", "flux",  "position", "direction", "angles",
+                                         "size",      "range", "falloff",  "on",        "off",
+                                         "shadows",   "name",  "delete"};
 
 void changeShape(Light& light, const std::string& what, const std::vector<std::string>& words) {
     if (what == "angles") {
@@ -108,6 +110,13 @@ void change(Light& light, const std::string& what, std::vector<std::string> word
     if (what == "intensity") {
         if (words.size() == 1) words.resize(3, words[0]);
         light.intensity = vector(numbers(what, words, 3, 0, 1e9, io::lightUnit(light.type)));
+    } else if (what == "flux") {
+        if (words.size() == 1) words.resize(3, words[0]);
+        if (!setRadiantFlux(light, vector(numbers(what, words, 3, 0, 1e9, "W"))))
+            usage(light.type == LightType::Directional
+                      ? "light: flux: a directional light has none; its irradiance (intensity) would be right"
+                      : "light: flux: with a falloff of its own it has no physical unit; `falloff off` first "
+                        "would be right");
     } else if (what == "position") {
         needs(light, what, light.type != LightType::Directional);
         light.position = vector(numbers(what, words, 3, -1e6, 1e6, "m"));
@@ -204,6 +213,7 @@ Command lightCommand() {
         "light NAME angles IN OUT   half angles of a spot, degrees\n"
         "light NAME size W H        of a rectangle, m\n"
         "light NAME range M         0: unlimited\n"
+        "light NAME flux R G B      all that it sends out, W: sets the intensity for its shape\n"
         "light NAME falloff C L Q   1 / (C + L d + Q d^2); off: the inverse square\n"
         "light NAME on|off          light NAME shadows on|off\n"
         "light NAME name NEW        light NAME delete";
