@@ -6,6 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "clip_film.h"
 #include "command.h"
 #include "conelight/error.h"
 #include "console/command_table.h"
@@ -33,6 +34,8 @@ struct RenderOptions {
     std::string statsFile;
     std::string shaderDirectory;
     std::string pathFile;
+    std::string clip;
+    float framesPerSecond = 30;
     int frames = 0;  // 0: not given
     bool turntable = false;
     bool overwrite = false;
@@ -64,18 +67,22 @@ void checkModeOptions(const RenderOptions& options) {
         usage(radiosity + ": belongs to mode radiosity; --mode radiosity would be right");
 }
 
-bool isFilm(const RenderOptions& options) { return !options.pathFile.empty() || options.turntable; }
+bool isFilm(const RenderOptions& options) {
+    return !options.pathFile.empty() || options.turntable || !options.clip.empty();
+}
 
 void checkFilm(const RenderOptions& options) {
     if (!options.pathFile.empty() && options.turntable)
         usage("--path, --turntable: both move the camera; one would be right");
     const bool films = isVideoName(options.output);
     if (!isFilm(options)) {
-        if (options.frames != 0) usage("--frames: belongs to --path FILE or --turntable");
-        if (films) usage(options.output + ": a film needs --path FILE or --turntable");
+        if (options.frames != 0) usage("--frames: belongs to --path FILE, --turntable or --animate CLIP");
+        if (films) usage(options.output + ": a film needs --path FILE, --turntable or --animate CLIP");
         return;
     }
-    const char* option = options.turntable ? "--turntable" : "--path";
+    const char* option = options.turntable          ? "--turntable"
+                         : options.pathFile.empty() ? "--animate"
+                                                    : "--path";
     if (!films)
         usage(fmt::format(
             "{}: {}: a name ending in .mp4, or numbered pictures as in frame%04d.png, would be right", option,
@@ -203,7 +210,7 @@ Request filmRequest(const RenderOptions& options, Session& session) {
     constexpr int kTurntableFrames = 120, kFramesPerSecond = 30;
     Request film{RequestKind::Record, options.output, options.frames};
     film.turntable = options.turntable;
-    film.alongPath = !options.turntable;
+    film.alongPath = !options.pathFile.empty();
     if (film.alongPath) {
         const CameraPath path = readCameraPath(options.pathFile);
         session.setCameraPath(path, "path load");
@@ -212,6 +219,15 @@ Request filmRequest(const RenderOptions& options, Session& session) {
     }
     if (film.count == 0) film.count = kTurntableFrames;
     return film;
+}
+
+// What moves in the film, and its frames where their number is not given.
+void addClip(RenderOptions& options, const Scene& scene) {
+    if (options.clip.empty()) return;
+    const ClipFilm film =
+        clipFilm(options.scene, scene, options.clip, options.framesPerSecond, options.view.allowOutside);
+    if (options.frames == 0) options.frames = film.frames;
+    options.script.beforeFrame = film.beforeFrame;
 }
 
 // A picture without light in it says why, where it should have some.
@@ -235,7 +251,6 @@ void run(RenderOptions options) {
     PictureRequest request = requestOf(options);
     checkFiles(options);
     if (!options.pathFile.empty()) readCameraPath(options.pathFile);
-
     Progress progress;
     Scene scene = openScene(options.scene, options.view, progress);
     const bool onCpu = !options.mode.empty() && !isRendererMode(options.mode);
@@ -257,6 +272,7 @@ void run(RenderOptions options) {
 
     PictureSource source(options.view, options.shaderDirectory);
     request.settings.component = request.components.front();
+    addClip(options, scene);
     Session session(std::move(scene), options.scene, request.settings, request.mode, request.camera);
     session.allowOutside(options.view.allowOutside);
     if (isFilm(options)) {
@@ -293,10 +309,17 @@ void addFilmOptions(CLI::App& command, RenderOptions& options) {
         .add_option("--path", options.pathFile,
                     "a film along the camera path of this file (docs/reference/camera_path.md)")
         ->type_name("FILE");
+    command
+        .add_option("--animate", options.clip,
+                    "a film of this clip of a glTF file, by name or number (`conelight info` lists them)")
+        ->type_name("CLIP");
+    command.add_option("--fps", options.framesPerSecond, "--animate: frames a second of the clip")
+        ->capture_default_str()
+        ->check(CLI::Range(0.01, 1000.0));
     command.add_flag("--turntable", options.turntable, "a film once round what the camera looks at");
     command
         .add_option("--frames", options.frames,
-                    "frames of the film (default: 30 a second of the path; turntable 120)")
+                    "frames of the film (default: 30 a second of the path; turntable 120; the whole clip)")
         ->type_name("N")
         ->check(CLI::Range(1, 100000));
 }

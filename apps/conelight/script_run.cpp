@@ -33,6 +33,7 @@ class Runner {
     }
 
     void run(const ScriptOptions& options, const std::optional<Request>& then) {
+        beforeFrame_ = options.beforeFrame;
         for (const std::string& file : options.files) {
             if (file == "-")
                 console_.submit({std::istreambuf_iterator<char>(std::cin), {}}, "standard input");
@@ -130,6 +131,7 @@ class Runner {
             const double left = frame == 0 ? 0 : gone.count() / frame * (request.count - frame);
             progress_.show(fmt::format("{}: frame {} of {}{}", request.file, frame + 1, request.count,
                                        frame == 0 ? "" : fmt::format(", {:.0f} s left", left)));
+            if (beforeFrame_) beforeFrame_(session_, frame);
             if (request.turntable) session_.moveCamera(turntableFrame(start, frame, request.count));
             if (request.alongPath) session_.moveCamera(session_.cameraPath().frame(frame, request.count));
             video.add(draw(), session_.shownSettings().image);
@@ -176,6 +178,7 @@ class Runner {
     Progress& progress_;
     Console console_;
     FrameStats stats_;
+    std::function<void(Session&, int frame)> beforeFrame_;
 };
 
 }  // namespace
