@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "conelight/error.h"
-#include "io/animation.h"
 
 namespace conelight::program {
 namespace {
@@ -37,12 +36,10 @@ struct Motion {
 
 }  // namespace
 
-ClipFilm clipFilm(const std::string& file, const Scene& rest, const std::string& clip, float framesPerSecond,
-                  bool allowOutside) {
+ClipFilm clipFilm(const std::string& file, const Scene& rest, io::SceneAnimation animation,
+                  const std::string& clip, float framesPerSecond) {
     const auto motion = std::make_shared<Motion>();
-    io::LoadOptions load;
-    load.allowOutside = allowOutside;
-    io::loadAnimatedScene(file, load, motion->animation);
+    motion->animation = std::move(animation);
     try {
         motion->clip = io::clipNumber(motion->animation, clip);
     } catch (const Error& error) {

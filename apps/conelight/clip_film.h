@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "io/animation.h"
 #include "session/session.h"
 
 namespace conelight::program {
@@ -14,8 +15,9 @@ struct ClipFilm {
     std::function<void(Session&, int frame)> beforeFrame;
 };
 
-// `rest`: the scene as a session holds it. Throws Error(Usage) for a clip that `file` does not have.
-ClipFilm clipFilm(const std::string& file, const Scene& rest, const std::string& clip, float framesPerSecond,
-                  bool allowOutside);
+// `rest`: the scene as a session holds it, with its movement. Throws Error(Usage), starting with `file`, for a clip
+// that is not there.
+ClipFilm clipFilm(const std::string& file, const Scene& rest, io::SceneAnimation animation,
+                  const std::string& clip, float framesPerSecond);
 
 }  // namespace conelight::program

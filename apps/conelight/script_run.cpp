@@ -123,7 +123,8 @@ class Runner {
 
     void record(const Request& request) {
         const PictureRequest shown = requestFor(session_, base_);
-        VideoFile video(request.file, shown.size.width, shown.size.height);
+        VideoFile video(request.file, shown.size.width, shown.size.height, request.framesPerSecond,
+                        request.first);
         const Camera start = session_.camera();
         const auto began = std::chrono::steady_clock::now();
         for (int frame = 0; frame < request.count; ++frame) {
@@ -131,7 +132,7 @@ class Runner {
             const double left = frame == 0 ? 0 : gone.count() / frame * (request.count - frame);
             progress_.show(fmt::format("{}: frame {} of {}{}", request.file, frame + 1, request.count,
                                        frame == 0 ? "" : fmt::format(", {:.0f} s left", left)));
-            if (beforeFrame_) beforeFrame_(session_, frame);
+            if (beforeFrame_) beforeFrame_(session_, request.first + frame);
             if (request.turntable) session_.moveCamera(turntableFrame(start, frame, request.count));
             if (request.alongPath) session_.moveCamera(session_.cameraPath().frame(frame, request.count));
             video.add(draw(), session_.shownSettings().image);
