@@ -177,7 +177,8 @@ void makeTangents(Mesh& mesh) {
     }
 }
 
-void removeMirrors(Scene& scene) {
+std::vector<KeptInstance> removeMirrors(Scene& scene) {
+    std::vector<KeptInstance> origins;
     std::map<int, int> mirroredOf;
     std::vector<Instance> kept;
     kept.reserve(scene.instances.size());
@@ -204,12 +205,14 @@ void removeMirrors(Scene& scene) {
             instance.mesh = entry->second;
             instance.worldFromObject[0] = -instance.worldFromObject[0];
         }
+        origins.push_back({std::size_t(&instance - scene.instances.data()), determinant < 0.0});
         kept.push_back(std::move(instance));
     }
     scene.instances = std::move(kept);
     if (dropped > 0)
         scene.notes.push_back(fmt::format("{} instance{} left out: zero scale, or beyond what numbers hold",
                                           dropped, dropped == 1 ? "" : "s"));
+    return origins;
 }
 
 }  // namespace conelight::io

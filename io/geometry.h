@@ -20,7 +20,11 @@ void makeTangents(Mesh& mesh);
 
 // Replaces instances whose transform mirrors (negative determinant) by a mirrored copy of their mesh and a
 // transform that does not, so that counter-clockwise stays the front everywhere. Drops instances with a
-// singular or non-finite transform. Adds a note for the latter.
-void removeMirrors(Scene& scene);
+// singular or non-finite transform. Adds a note for the latter. Returns what each kept instance was.
+struct KeptInstance {
+    std::size_t before = 0;  // its index
+    bool mirrored = false;
+};
+std::vector<KeptInstance> removeMirrors(Scene& scene);
 
 }  // namespace conelight::io

@@ -16,6 +16,7 @@
 #include "conelight/error.h"
 #include "io/generated_surroundings.h"
 #include "io/geometry.h"
+#include "io/gltf_animation.h"
 #include "io/gltf_file.h"
 #include "io/gltf_material.h"
 #include "io/gltf_mesh.h"
@@ -45,13 +46,13 @@ class Reader {
   public:
     Reader(const std::filesystem::path& path, const LoadOptions& options)
         : file_(path, options.allowOutside), maxTexels_(options.maxTexels) {}
-    Scene read();
+    Scene read(SceneAnimation* animation);  // null: movement is left out
 
   private:
     void checkExtensions();
+    void keepHung(const std::vector<KeptInstance>& kept);
     void findWorldTransforms();
     std::vector<std::size_t> nodesOfScene();
-    glm::mat4 localTransform(const GltfValue& node) const;
     void placeMesh(std::size_t node, const GltfValue& value, GltfMeshes& meshes);
     std::vector<glm::mat4> instanceTransforms(const GltfValue& node);
     std::vector<glm::mat4> jointTransforms(const GltfValue& skin);
@@ -70,6 +71,7 @@ class Reader {
     std::uint64_t maxTexels_;
     Scene scene_;
     std::vector<glm::mat4> worldFromNode_;
+    SceneAnimation animation_;
     std::size_t skinned_ = 0;
 };
 
@@ -89,23 +91,6 @@ void Reader::checkExtensions() {
     }
 }
 
-glm::mat4 Reader::localTransform(const GltfValue& node) const {
-    if (node["matrix"].exists()) {
-        glm::mat4 m;
-        node["matrix"].numbers(&m[0][0], 16);
-        return m;
-    }
-    const glm::vec3 t = node["translation"].vector<3>(glm::vec3(0));
-    const glm::vec4 r = node["rotation"].vector<4>(glm::vec4(0, 0, 0, 1));
-    const glm::vec3 s = node["scale"].vector<3>(glm::vec3(1));
-    const float length = glm::length(r);
-    if (!(length > 0.0f)) node["rotation"].fail("a quaternion without length");
-    glm::mat4 m = glm::mat4_cast(glm::quat(r.w / length, r.x / length, r.y / length, r.z / length));
-    for (int c = 0; c < 3; ++c) m[c] *= s[c];
-    m[3] = glm::vec4(t, 1.0f);
-    return m;
-}
-
 // World transforms of all nodes, parents first, with an own stack. Every node must have one parent at most,
 // and all must hang on roots: a second parent or a cycle is an error.
 void Reader::findWorldTransforms() {
@@ -122,20 +107,27 @@ void Reader::findWorldTransforms() {
         }
     }
     worldFromNode_.assign(count, glm::mat4(1.0f));
+    animation_.nodes.resize(count);
+    const auto poseOf = [&](std::size_t n) {
+        animation_.nodes[n].rest = readNodePose(nodes[n]);
+        return animation_.nodes[n].rest.parentFromNode();
+    };
     std::size_t reached = 0;
     std::vector<std::size_t> stack;
     for (std::size_t n = 0; n < count; ++n) {
         if (hasParent[n] != 0) continue;
-        worldFromNode_[n] = localTransform(nodes[n]);
+        worldFromNode_[n] = poseOf(n);
         stack.push_back(n);
         while (!stack.empty()) {
             const std::size_t node = stack.back();
             stack.pop_back();
             ++reached;
+            animation_.parentsFirst.push_back(node);
             const GltfValue children = nodes[node]["children"];
             for (std::size_t c = 0; c < children.size(); ++c) {
                 const std::size_t child = children[c].index(count).value();
-                worldFromNode_[child] = worldFromNode_[node] * localTransform(nodes[child]);
+                animation_.nodes[child].parent = int(node);
+                worldFromNode_[child] = worldFromNode_[node] * poseOf(child);
                 stack.push_back(child);
             }
         }
@@ -334,6 +326,7 @@ void Reader::placeMesh(std::size_t node, const GltfValue& value, GltfMeshes& mes
             instance.material = part.material;
             instance.worldFromObject = worldFromNode_[node] * transform;
             readFlags(value, instance);
+            animation_.instances.push_back({scene_.instances.size(), node, transform});
             scene_.instances.push_back(std::move(instance));
         }
 }
@@ -361,14 +354,8 @@ void Reader::addLight(std::size_t node, const GltfValue& value) {
         from["type"].fail(fmt::format("'{}' is unknown; known: point, spot, directional", oneLine(type)));
     to.intensity = from["color"].vector<3>(glm::vec3(1)) * from["intensity"].number(1.0f);
     if (glm::any(glm::lessThan(to.intensity, glm::vec3(0)))) from.fail("a negative intensity");
-    const glm::mat4& m = worldFromNode_[node];
-    to.position = glm::vec3(m[3]);
-    const glm::vec3 along = -glm::vec3(m[2]);
-    const float length = glm::length(along);
-    if (length > 0.0f && std::isfinite(length))
-        to.direction = along / length;
-    else
-        to.direction = {0, 0, -1};
+    placeLight(to, worldFromNode_[node]);
+    animation_.lights.push_back({scene_.lights.size(), node});
     to.range = std::max(from["range"].number(0.0f), 0.0f);
     const GltfValue own = ownExtras(from);
     to.enabled = own["enabled"].boolean(true);
@@ -395,17 +382,11 @@ void Reader::addCamera(std::size_t node, const GltfValue& value) {
     const GltfValue from = file_.array("cameras")[*at];
     Camera to;
     to.name = oneLine(from["name"].text(nameOf(node)));
-    const glm::mat4& m = worldFromNode_[node];
-    to.eye = glm::vec3(m[3]);
-    const glm::vec3 forward = -glm::vec3(m[2]), up = glm::vec3(m[1]);
-    const float slant = glm::length(glm::cross(forward, up));
-    if (!(slant > 0.0f) || !std::isfinite(slant)) {
+    const float given = ownExtras(value)["distance"].number(1.0f), distance = given > 0 ? given : 1.0f;
+    if (!placeCamera(to, worldFromNode_[node], distance)) {
         scene_.notes.push_back(fmt::format("camera {}: has no usable direction; left out", to.name));
         return;
     }
-    const float distance = ownExtras(value)["distance"].number(1.0f);
-    to.target = to.eye + glm::normalize(forward) * (distance > 0 ? distance : 1.0f);
-    to.up = glm::normalize(up);
     const std::string type = from["type"].text("perspective");
     const GltfValue lens = from[type == "orthographic" ? "orthographic" : "perspective"];
     if (type == "orthographic") {
@@ -419,10 +400,28 @@ void Reader::addCamera(std::size_t node, const GltfValue& value) {
     if (!(to.zNear > 0.0f)) to.zNear = 0.01f;
     to.zFar = lens["zfar"].number(std::max(to.zFar, 1e5f * to.zNear));  // absent: endless
     if (!(to.zFar > to.zNear)) to.zFar = 1e5f * to.zNear;
+    animation_.cameras.push_back({scene_.cameras.size(), node, glm::mat4(1.0f), distance});
     scene_.cameras.push_back(std::move(to));
 }
 
-Scene Reader::read() {
+// Instances that removeMirrors dropped are out of the list; meshes that it mirrored are turned back.
+void Reader::keepHung(const std::vector<KeptInstance>& kept) {
+    std::vector<SceneAnimation::Hung> hung;
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < kept.size(); ++i) {
+        while (next < animation_.instances.size() && animation_.instances[next].index < kept[i].before)
+            ++next;
+        if (next == animation_.instances.size() || animation_.instances[next].index != kept[i].before)
+            continue;
+        SceneAnimation::Hung one = animation_.instances[next];
+        one.index = i;
+        if (kept[i].mirrored) one.nodeFromThing[0] = -one.nodeFromThing[0];
+        hung.push_back(one);
+    }
+    animation_.instances = std::move(hung);
+}
+
+Scene Reader::read(SceneAnimation* animation) {
     checkExtensions();
     findWorldTransforms();
     GltfMaterials materials(file_, scene_, maxTexels_);
@@ -438,17 +437,20 @@ Scene Reader::read() {
         scene_.notes.push_back(
             fmt::format("{} skinned mesh{} shown in rest pose", skinned_, skinned_ == 1 ? "" : "es"));
     const std::size_t animations = file_.array("animations").size();
-    if (animations > 0)
+    if (animation != nullptr)
+        animation_.clips = readClips(file_, scene_.notes);
+    else if (animations > 0)
         scene_.notes.push_back(
             fmt::format("{} animation{} left out", animations, animations == 1 ? "" : "s"));
-    removeMirrors(scene_);
+    keepHung(removeMirrors(scene_));
+    if (animation != nullptr) *animation = std::move(animation_);
     return std::move(scene_);
 }
 
 }  // namespace
 
-Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options) {
-    return Reader(path, options).read();
+Scene loadGltf(const std::filesystem::path& path, const LoadOptions& options, SceneAnimation* animation) {
+    return Reader(path, options).read(animation);
 }
 
 }  // namespace conelight::io

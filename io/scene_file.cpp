@@ -10,6 +10,7 @@
 #include <set>
 
 #include "conelight/error.h"
+#include "io/animation.h"
 #include "io/assimp_import.h"
 #include "io/files.h"
 #include "io/gltf.h"
@@ -42,11 +43,11 @@ std::string registeredFormats() {
     return text;
 }
 
-Scene read(const fs::path& path, const LoadOptions& options) {
+Scene read(const fs::path& path, const LoadOptions& options, SceneAnimation* animation) {
     const std::string extension = lowerExtension(path);
     if (extension == ".gltf" || extension == ".glb" || extension == ".vrm") {
         try {
-            return loadGltf(path, options);
+            return loadGltf(path, options, animation);
         } catch (const GltfVersion1&) {
             return loadAssimp(path, options);
         }
@@ -63,13 +64,11 @@ Scene read(const fs::path& path, const LoadOptions& options) {
                                               known.size() - std::min<std::size_t>(known.size(), 7)));
 }
 
-}  // namespace
-
-Scene loadScene(const std::string& pathOrBuiltin, const LoadOptions& options) {
+Scene load(const std::string& pathOrBuiltin, const LoadOptions& options, SceneAnimation* animation) {
     if (pathOrBuiltin.rfind(kBuiltin, 0) == 0) return generate(pathOrBuiltin.substr(kBuiltin.size()));
     const std::string file = oneLine(pathOrBuiltin);
     try {
-        Scene scene = read(fs::path(pathOrBuiltin), options);
+        Scene scene = read(fs::path(pathOrBuiltin), options, animation);
         if (scene.name.empty()) scene.name = fs::path(pathOrBuiltin).stem().string();
         scene.validate();
         return scene;
@@ -83,6 +82,18 @@ Scene loadScene(const std::string& pathOrBuiltin, const LoadOptions& options) {
     } catch (const std::exception& error) {
         throw Error(ErrorKind::BadInput, fmt::format("{}: {}", file, oneLine(error.what())));
     }
+}
+
+}  // namespace
+
+Scene loadScene(const std::string& pathOrBuiltin, const LoadOptions& options) {
+    return load(pathOrBuiltin, options, nullptr);
+}
+
+Scene loadAnimatedScene(const std::string& pathOrBuiltin, const LoadOptions& options,
+                        SceneAnimation& animation) {
+    animation = {};
+    return load(pathOrBuiltin, options, &animation);
 }
 
 std::vector<std::string> sceneExtensions() {

@@ -10,6 +10,7 @@
 
 #include "conelight/error.h"
 #include "conelight/quality.h"
+#include "io/animation.h"
 #include "io/environment_file.h"
 #include "io/generated_surroundings.h"
 #include "io/scene_file.h"
@@ -173,11 +174,13 @@ void applyEnvironment(Scene& scene, const ViewOptions& options) {
 
 }  // namespace
 
-Scene openScene(const std::string& path, const ViewOptions& options, Progress& progress) {
+Scene openScene(const std::string& path, const ViewOptions& options, Progress& progress,
+                io::SceneAnimation* animation) {
     progress.show("loading " + path);
     io::LoadOptions load;
     load.allowOutside = options.allowOutside;
-    Scene scene = io::loadScene(path, load);
+    Scene scene =
+        animation == nullptr ? io::loadScene(path, load) : io::loadAnimatedScene(path, load, *animation);
     if (!options.sky.empty()) scene.sky = glm::max(parseVec3("--sky", options.sky), glm::vec3(0));
     applyEnvironment(scene, options);
     completeScene(scene);

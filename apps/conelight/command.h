@@ -13,6 +13,7 @@
 #include "conelight/scene.h"
 #include "conelight/settings.h"
 #include "interrupt.h"
+#include "io/animation.h"
 #include "platform/headless_context.h"
 
 namespace conelight::program {
@@ -87,7 +88,9 @@ void addAllowOutside(CLI::App& command, bool& allow);
 std::unique_ptr<platform::HeadlessContext> openContext(const ViewOptions& options);
 
 // Loads a scene, prints its notes, completes it, applies --sky and --environment.
-Scene openScene(const std::string& path, const ViewOptions& options, Progress& progress);
+// `animation`: with the movement of glTF files; null: without.
+Scene openScene(const std::string& path, const ViewOptions& options, Progress& progress,
+                io::SceneAnimation* animation = nullptr);
 // The settings a scene starts with in a mode: the scene's own block, then --voxels and --set.
 Settings settingsFor(const Scene& scene, const std::string& mode, const ViewOptions& options);
 Camera cameraFor(const Scene& scene, const ViewOptions& options);

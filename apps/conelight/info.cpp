@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "conelight/error.h"
+#include "io/animation.h"
 #include "io/files.h"
 #include "io/generated.h"
 #include "io/scene_file.h"
@@ -61,7 +62,12 @@ void run(const InfoOptions& options) {
                            parameter.min, parameter.max, parameter.meaning);
         }
     } else {
-        fmt::print("{}", io::describeScene(io::loadScene(options.scene, options.load)));
+        io::SceneAnimation animation;
+        fmt::print("{}", io::describeScene(io::loadAnimatedScene(options.scene, options.load, animation)));
+        if (animation.clips.empty()) return;
+        fmt::print("clips      {}\n", animation.clips.size());
+        for (const io::AnimationClip& clip : animation.clips)
+            fmt::print("  {}: {:.4g} s, {} tracks\n", clip.name, clip.duration, clip.tracks.size());
     }
 }
 

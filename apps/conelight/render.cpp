@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "clip_film.h"
 #include "command.h"
 #include "conelight/error.h"
 #include "console/command_table.h"
@@ -33,7 +35,11 @@ struct RenderOptions {
     std::string statsFile;
     std::string shaderDirectory;
     std::string pathFile;
+    std::string clip;
+    float framesPerSecond = 30;
+    std::string frameText;
     int frames = 0;  // 0: not given
+    int firstFrame = 0;
     bool turntable = false;
     bool overwrite = false;
     bool componentGiven = false;
@@ -64,18 +70,44 @@ void checkModeOptions(const RenderOptions& options) {
         usage(radiosity + ": belongs to mode radiosity; --mode radiosity would be right");
 }
 
-bool isFilm(const RenderOptions& options) { return !options.pathFile.empty() || options.turntable; }
+bool isFilm(const RenderOptions& options) {
+    return !options.pathFile.empty() || options.turntable || !options.clip.empty();
+}
+
+// --frames N, or A-B of a clip.
+void parseFrames(RenderOptions& options) {
+    if (options.frameText.empty()) return;
+    constexpr int kMost = 100000;
+    const std::string& text = options.frameText;
+    const char* const end = text.data() + text.size();
+    int first = 0, last = -1;
+    std::from_chars_result read = std::from_chars(text.data(), end, first);
+    const bool isRange = read.ec == std::errc() && read.ptr != end && *read.ptr == '-';
+    if (isRange) read = std::from_chars(read.ptr + 1, end, last);
+    const bool fits = isRange ? first >= 0 && last >= first && last < kMost : first >= 1 && first <= kMost;
+    if (read.ec != std::errc() || read.ptr != end || !fits)
+        usage(fmt::format(
+            "--frames: '{}' is not usable; a number from 1 to {}, or FIRST-LAST from 0, would be right", text,
+            kMost));
+    if (isRange && options.clip.empty())
+        usage("--frames: FIRST-LAST belongs to --animate CLIP; a number would be right");
+    options.firstFrame = isRange ? first : 0;
+    options.frames = isRange ? last - first + 1 : first;
+}
 
 void checkFilm(const RenderOptions& options) {
     if (!options.pathFile.empty() && options.turntable)
         usage("--path, --turntable: both move the camera; one would be right");
     const bool films = isVideoName(options.output);
     if (!isFilm(options)) {
-        if (options.frames != 0) usage("--frames: belongs to --path FILE or --turntable");
-        if (films) usage(options.output + ": a film needs --path FILE or --turntable");
+        if (!options.frameText.empty())
+            usage("--frames: belongs to --path FILE, --turntable or --animate CLIP");
+        if (films) usage(options.output + ": a film needs --path FILE, --turntable or --animate CLIP");
         return;
     }
-    const char* option = options.turntable ? "--turntable" : "--path";
+    const char* option = options.turntable          ? "--turntable"
+                         : options.pathFile.empty() ? "--animate"
+                                                    : "--path";
     if (!films)
         usage(fmt::format(
             "{}: {}: a name ending in .mp4, or numbered pictures as in frame%04d.png, would be right", option,
@@ -203,7 +235,10 @@ Request filmRequest(const RenderOptions& options, Session& session) {
     constexpr int kTurntableFrames = 120, kFramesPerSecond = 30;
     Request film{RequestKind::Record, options.output, options.frames};
     film.turntable = options.turntable;
-    film.alongPath = !options.turntable;
+    film.first = options.firstFrame;
+    if (!options.clip.empty())
+        film.framesPerSecond = std::max(1, static_cast<int>(std::lround(options.framesPerSecond)));
+    film.alongPath = !options.pathFile.empty();
     if (film.alongPath) {
         const CameraPath path = readCameraPath(options.pathFile);
         session.setCameraPath(path, "path load");
@@ -212,6 +247,15 @@ Request filmRequest(const RenderOptions& options, Session& session) {
     }
     if (film.count == 0) film.count = kTurntableFrames;
     return film;
+}
+
+// What moves in the film, and its frames where their number is not given.
+void addClip(RenderOptions& options, const Scene& scene, io::SceneAnimation animation) {
+    if (options.clip.empty()) return;
+    const ClipFilm film =
+        clipFilm(options.scene, scene, std::move(animation), options.clip, options.framesPerSecond);
+    if (options.frames == 0) options.frames = film.frames;
+    options.script.beforeFrame = film.beforeFrame;
 }
 
 // A picture without light in it says why, where it should have some.
@@ -227,21 +271,8 @@ void explainBlack(const Session& session, const PictureRequest& request, const I
                  reasons.empty() ? "" : reasons.front().c_str());
 }
 
-void run(RenderOptions options) {
-    options.mode = modeFor(options.mode, options.view);
-    // Everything that can be wrong on the command line is found before the work starts.
-    if (!options.mode.empty()) requireModeName(options.mode);
-    checkModeOptions(options);
-    PictureRequest request = requestOf(options);
-    checkFiles(options);
-    if (!options.pathFile.empty()) readCameraPath(options.pathFile);
-
-    Progress progress;
-    Scene scene = openScene(options.scene, options.view, progress);
-    const bool onCpu = !options.mode.empty() && !isRendererMode(options.mode);
-    request.settings = settingsFor(scene, onCpu ? "cones" : options.mode, options.view);
-    request.mode = onCpu ? options.mode : getSetting(request.settings, "mode");
-    request.camera = cameraFor(scene, options.view);
+// --component and --bounces, where the mode has its settings.
+void takeComponentAndBounces(const RenderOptions& options, bool onCpu, PictureRequest& request) {
     if (onCpu) {
         constexpr int kMost = 1000;
         if (!options.bounces.empty())
@@ -254,9 +285,30 @@ void run(RenderOptions options) {
         applyBounces(request.settings, options.bounces);
         request.components.front() = request.settings.component;
     }
+}
+
+void run(RenderOptions options) {
+    options.mode = modeFor(options.mode, options.view);
+    // Everything that can be wrong on the command line is found before the work starts.
+    if (!options.mode.empty()) requireModeName(options.mode);
+    checkModeOptions(options);
+    PictureRequest request = requestOf(options);
+    parseFrames(options);
+    checkFiles(options);
+    if (!options.pathFile.empty()) readCameraPath(options.pathFile);
+    Progress progress;
+    io::SceneAnimation animation;
+    Scene scene =
+        openScene(options.scene, options.view, progress, options.clip.empty() ? nullptr : &animation);
+    const bool onCpu = !options.mode.empty() && !isRendererMode(options.mode);
+    request.settings = settingsFor(scene, onCpu ? "cones" : options.mode, options.view);
+    request.mode = onCpu ? options.mode : getSetting(request.settings, "mode");
+    request.camera = cameraFor(scene, options.view);
+    takeComponentAndBounces(options, onCpu, request);
 
     PictureSource source(options.view, options.shaderDirectory);
     request.settings.component = request.components.front();
+    addClip(options, scene, std::move(animation));
     Session session(std::move(scene), options.scene, request.settings, request.mode, request.camera);
     session.allowOutside(options.view.allowOutside);
     if (isFilm(options)) {
@@ -293,12 +345,19 @@ void addFilmOptions(CLI::App& command, RenderOptions& options) {
         .add_option("--path", options.pathFile,
                     "a film along the camera path of this file (docs/reference/camera_path.md)")
         ->type_name("FILE");
+    command
+        .add_option("--animate", options.clip,
+                    "a film of this clip of a glTF file, by name or number (`conelight info` lists them)")
+        ->type_name("CLIP");
+    command.add_option("--fps", options.framesPerSecond, "--animate: frames a second of the clip")
+        ->capture_default_str()
+        ->check(CLI::Range(0.01, 1000.0));
     command.add_flag("--turntable", options.turntable, "a film once round what the camera looks at");
     command
-        .add_option("--frames", options.frames,
-                    "frames of the film (default: 30 a second of the path; turntable 120)")
-        ->type_name("N")
-        ->check(CLI::Range(1, 100000));
+        .add_option("--frames", options.frameText,
+                    "frames of the film (default: 30 a second of the path; turntable 120; the whole clip); "
+                    "of a clip also FIRST-LAST, counted from 0")
+        ->type_name("N");
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ class Runner {
     }
 
     void run(const ScriptOptions& options, const std::optional<Request>& then) {
+        beforeFrame_ = options.beforeFrame;
         for (const std::string& file : options.files) {
             if (file == "-")
                 console_.submit({std::istreambuf_iterator<char>(std::cin), {}}, "standard input");
@@ -122,7 +123,8 @@ class Runner {
 
     void record(const Request& request) {
         const PictureRequest shown = requestFor(session_, base_);
-        VideoFile video(request.file, shown.size.width, shown.size.height);
+        VideoFile video(request.file, shown.size.width, shown.size.height, request.framesPerSecond,
+                        request.first);
         const Camera start = session_.camera();
         const auto began = std::chrono::steady_clock::now();
         for (int frame = 0; frame < request.count; ++frame) {
@@ -130,6 +132,7 @@ class Runner {
             const double left = frame == 0 ? 0 : gone.count() / frame * (request.count - frame);
             progress_.show(fmt::format("{}: frame {} of {}{}", request.file, frame + 1, request.count,
                                        frame == 0 ? "" : fmt::format(", {:.0f} s left", left)));
+            if (beforeFrame_) beforeFrame_(session_, request.first + frame);
             if (request.turntable) session_.moveCamera(turntableFrame(start, frame, request.count));
             if (request.alongPath) session_.moveCamera(session_.cameraPath().frame(frame, request.count));
             video.add(draw(), session_.shownSettings().image);
@@ -176,6 +179,7 @@ class Runner {
     Progress& progress_;
     Console console_;
     FrameStats stats_;
+    std::function<void(Session&, int frame)> beforeFrame_;
 };
 
 }  // namespace

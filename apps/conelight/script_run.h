@@ -4,6 +4,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 
 #include <optional>
 #include <string>
@@ -15,8 +16,9 @@
 namespace conelight::program {
 
 struct ScriptOptions {
-    std::vector<std::string> commands;  // --exec
-    std::vector<std::string> files;     // --script
+    std::vector<std::string> commands;                     // --exec
+    std::vector<std::string> files;                        // --script
+    std::function<void(Session&, int frame)> beforeFrame;  // of each film, for what moves beside the camera
     bool given() const { return !commands.empty() || !files.empty(); }
     void addTo(CLI::App& command);
 };

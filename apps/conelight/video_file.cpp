@@ -35,9 +35,10 @@ std::string numbered(const std::string& pattern, int number) {
 
 }  // namespace
 
-VideoFile::VideoFile(const std::string& file, int width, int height, int framesPerSecond) : file_(file) {
+VideoFile::VideoFile(const std::string& file, int width, int height, int framesPerSecond, int first)
+    : file_(file), count_(first) {
     if (file.find('%') != std::string::npos) {
-        io::checkWritable(numbered(file, 0));
+        io::checkWritable(numbered(file, first));
         return;
     }
     io::checkWritable(file);

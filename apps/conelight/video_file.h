@@ -13,8 +13,9 @@ namespace conelight::program {
 
 class VideoFile {
   public:
-    // `file` as isVideoName() takes it. Throws Error(Runtime) when it cannot be written.
-    VideoFile(const std::string& file, int width, int height, int framesPerSecond = 30);
+    // `file` as isVideoName() takes it; numbered pictures start at `first`. Throws Error(Runtime) when it cannot
+    // be written.
+    VideoFile(const std::string& file, int width, int height, int framesPerSecond = 30, int first = 0);
     ~VideoFile();
     VideoFile(const VideoFile&) = delete;
     VideoFile& operator=(const VideoFile&) = delete;

@@ -5,7 +5,10 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <span>
 
+#include "io/files.h"
 #include "support/gl_fixture.h"
 #include "support/program.h"
 
@@ -70,6 +73,83 @@ TEST_F(FilmTest, FramesAreStillsAlongThePathBitForBit) {
     EXPECT_TRUE(bytesOf(scratchPath("film_a01.exr")) == bytesOf(key));
 }
 
+// The Cornell box as a .gltf whose short block rises by half a metre within a second; not moved at all, but placed
+// there, if `placed` is given.
+std::string risingBlock(const std::string& name, const std::vector<float>& placed = {}) {
+    const std::string path = file(name);
+    EXPECT_EQ(conelight("convert builtin:cornell '" + path + "' --overwrite").status, 0);
+    nlohmann::json json = nlohmann::json::parse(std::ifstream(path));
+    std::size_t block = 0;
+    while (json["nodes"][block]["name"] != "short block") ++block;
+    const std::size_t lift = json["nodes"].size();
+    json["nodes"].push_back({{"name", "lift"}, {"children", {block}}});
+    for (nlohmann::json& root : json["scenes"][0]["nodes"])
+        if (root == block) root = lift;
+    if (!placed.empty()) {
+        json["nodes"][lift]["translation"] = placed;
+    } else {
+        const float data[] = {0, 1, 0, 0, 0, 0, 0.5f, 0};  // two times, two places
+        const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(data), sizeof data);
+        json["buffers"].push_back(
+            {{"byteLength", sizeof data},
+             {"uri", "data:application/octet-stream;base64," + io::base64Encoded(bytes)}});
+        const std::size_t buffer = json["buffers"].size() - 1, view = json["bufferViews"].size(),
+                          accessor = json["accessors"].size();
+        json["bufferViews"].push_back({{"buffer", buffer}, {"byteOffset", 0}, {"byteLength", 8}});
+        json["bufferViews"].push_back({{"buffer", buffer}, {"byteOffset", 8}, {"byteLength", 24}});
+        json["accessors"].push_back(
+            {{"bufferView", view}, {"componentType", 5126}, {"count", 2}, {"type", "SCALAR"}});
+        json["accessors"].push_back(
+            {{"bufferView", view + 1}, {"componentType", 5126}, {"count", 2}, {"type", "VEC3"}});
+        json["animations"] = {
+            {{"name", "rise"},
+             {"samplers", {{{"input", accessor}, {"output", accessor + 1}}}},
+             {"channels", {{{"sampler", 0}, {"target", {{"node", lift}, {"path", "translation"}}}}}}}};
+    }
+    std::ofstream(path) << json;
+    return path;
+}
+
+TEST_F(FilmTest, FramesOfAClipAreStillsOfItsPoses) {
+    const std::string moving = risingBlock("moving.gltf"), placed = risingBlock("placed.gltf", {0, 0.25f, 0});
+    // In mode traced light is carried from frame to frame: like a still, not bit for bit.
+    for (const char* mode : {"cones", "reference --spp 4"}) {
+        const std::string options = kSmall + "--aa 0 --mode " + mode + " -o ";
+        const CommandResult film = conelight("render '" + moving + "' --animate rise --fps 2" + options +
+                                             scratchPath("film_c%02d.png"));
+        ASSERT_EQ(film.status, 0) << film.output;
+        EXPECT_EQ(film.output.find("left out"), std::string::npos) << film.output;
+        const std::string still = file("posed.png");
+        ASSERT_EQ(conelight("render '" + placed + "'" + options + still).status, 0);
+        EXPECT_TRUE(bytesOf(scratchPath("film_c01.png")) == bytesOf(still)) << mode;
+        EXPECT_TRUE(bytesOf(scratchPath("film_c00.png")) != bytesOf(still)) << mode;
+        EXPECT_TRUE(std::filesystem::exists(scratchPath("film_c02.png")));
+        EXPECT_FALSE(std::filesystem::exists(scratchPath("film_c03.png")));
+    }
+    // A part of it, numbered as in the whole.
+    ASSERT_EQ(conelight("render '" + moving + "' --animate 0 --fps 2 --frames 1-1 --mode cones --aa 0" +
+                        kSmall + "-o " + scratchPath("film_d%02d.png"))
+                  .status,
+              0);
+    EXPECT_FALSE(std::filesystem::exists(scratchPath("film_d00.png")));
+    const std::string still = file("cones.png");
+    ASSERT_EQ(conelight("render '" + placed + "' --mode cones --aa 0" + kSmall + "-o " + still).status, 0);
+    EXPECT_TRUE(bytesOf(scratchPath("film_d01.png")) == bytesOf(still));
+}
+
+TEST_F(FilmTest, ClipsThatAreNotThereAreRefused) {
+    const std::string moving = risingBlock("refused.gltf");
+    const auto film = [&](const std::string& more) {
+        return conelight("render '" + moving + "'" + kSmall + "-o " + scratchPath("film_e%02d.png ") + more);
+    };
+    expectOneLine(film("--animate fall"), 2, "rise");
+    expectOneLine(film("--animate rise --frames 3-1"), 2, "FIRST-LAST");
+    expectOneLine(film("--animate rise --frames x"), 2, "--frames");
+    expectOneLine(film("--turntable --frames 1-3"), 2, "--animate");
+    const CommandResult info = conelight("info '" + moving + "'");
+    EXPECT_NE(info.output.find("rise: 1 s"), std::string::npos) << info.output;
+}
+
 TEST_F(FilmTest, FilmsHaveTheLengthOfThePathOrTheFramesAskedFor) {
     const std::string folder = file("bin");
     std::filesystem::create_directories(folder);
@@ -99,7 +179,7 @@ TEST_F(FilmTest, FfmpegWritesFilmsThatPlay) {
 TEST_F(FilmTest, WhatDoesNotFitIsRefused) {
     const std::string path = keys(), film = file("never.mp4");
     expectOneLine(render("--frames 3 -o " + file("a.png")), 2, "--frames: belongs to --path");
-    expectOneLine(render("-o " + film), 2, "a film needs --path FILE or --turntable");
+    expectOneLine(render("-o " + film), 2, "a film needs --path FILE, --turntable or --animate CLIP");
     expectOneLine(render("--path " + path + " -o " + file("a.png")), 2, "frame%04d.png");
     expectOneLine(render("--path " + path), 2, "no --output");
     expectOneLine(render("--turntable --path " + path + " -o " + film), 2, "one would be right");

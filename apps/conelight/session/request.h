@@ -25,6 +25,8 @@ struct Request {
     RequestKind kind = RequestKind::Wait;
     std::string file;
     int count = 1;
+    int first = 0;             // Record: number of the first frame
+    int framesPerSecond = 30;  // Record: of a film
     int status = 0;
     bool keepView = false;   // Load: camera and settings stay
     bool turntable = false;  // Record: once round the target

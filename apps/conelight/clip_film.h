@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// `render --animate`: what a clip moves, frame by frame.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "io/animation.h"
+#include "session/session.h"
+
+namespace conelight::program {
+
+struct ClipFilm {
+    int frames = 1;  // of the whole clip
+    std::function<void(Session&, int frame)> beforeFrame;
+};
+
+// `rest`: the scene as a session holds it, with its movement. Throws Error(Usage), starting with `file`, for a clip
+// that is not there.
+ClipFilm clipFilm(const std::string& file, const Scene& rest, io::SceneAnimation animation,
+                  const std::string& clip, float framesPerSecond);
+
+}  // namespace conelight::program

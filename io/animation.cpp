@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+// Clip and time -> transforms. Interpolations as in the specification of glTF 2.0, appendix C.
+#include "io/animation.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "conelight/error.h"
+
+namespace conelight::io {
+
+namespace {
+
+glm::quat quatOf(const glm::vec4& v) { return {v.w, v.x, v.y, v.z}; }
+
+glm::vec4 unitOf(const glm::vec4& v) {
+    const float length = glm::length(v);
+    return length > 0.0f ? v / length : glm::vec4(0, 0, 0, 1);
+}
+
+bool invertible(const glm::mat4& m) {
+    const double determinant = glm::determinant(glm::dmat3(glm::dmat4(m)));
+    if (!std::isfinite(determinant) || determinant == 0.0) return false;
+    const glm::mat3 inverse = glm::inverse(glm::mat3(m));
+    for (int c = 0; c < 3; ++c)
+        for (int r = 0; r < 3; ++r)
+            if (!std::isfinite(inverse[c][r])) return false;
+    return true;
+}
+
+}  // namespace
+
+glm::mat4 NodePose::parentFromNode() const {
+    if (matrix) return *matrix;
+    glm::mat4 m = glm::mat4_cast(rotation);
+    for (int c = 0; c < 3; ++c) m[c] *= scale[c];
+    m[3] = glm::vec4(translation, 1.0f);
+    return m;
+}
+
+glm::vec4 NodeTrack::at(float time) const {
+    const bool cubic = interpolation == Interpolation::CubicSpline, turns = value == NodeValue::Rotation;
+    const auto key = [&](std::size_t k) { return values[cubic ? 3 * k + 1 : k]; };
+    const auto done = [&](const glm::vec4& v) { return turns ? unitOf(v) : v; };
+    // The last key at or before the time.
+    const std::size_t after = std::size_t(std::upper_bound(times.begin(), times.end(), time) - times.begin());
+    if (after == 0) return done(key(0));
+    const std::size_t k = after - 1;
+    if (after == times.size() || interpolation == Interpolation::Step) return done(key(k));
+    const float length = times[after] - times[k], s = (time - times[k]) / length;
+    if (interpolation == Interpolation::Linear) {
+        if (!turns) return glm::mix(key(k), key(after), s);
+        const glm::quat q = glm::slerp(quatOf(unitOf(key(k))), quatOf(unitOf(key(after))), s);
+        return unitOf({q.x, q.y, q.z, q.w});
+    }
+    // Hermite's polynomial; slopes are per second.
+    const float s2 = s * s, s3 = s2 * s;
+    const glm::vec4 leaving = values[3 * k + 2], arriving = values[3 * after];
+    return done((2 * s3 - 3 * s2 + 1) * key(k) + length * (s3 - 2 * s2 + s) * leaving +
+                (3 * s2 - 2 * s3) * key(after) + length * (s3 - s2) * arriving);
+}
+
+void placeLight(Light& light, const glm::mat4& worldFromNode) {
+    light.position = glm::vec3(worldFromNode[3]);
+    const glm::vec3 along = -glm::vec3(worldFromNode[2]);
+    const float length = glm::length(along);
+    light.direction = length > 0.0f && std::isfinite(length) ? along / length : glm::vec3(0, 0, -1);
+}
+
+bool placeCamera(Camera& camera, const glm::mat4& worldFromNode, float distance) {
+    const glm::vec3 forward = -glm::vec3(worldFromNode[2]), up = glm::vec3(worldFromNode[1]);
+    const float slant = glm::length(glm::cross(forward, up));
+    if (!(slant > 0.0f) || !std::isfinite(slant)) return false;
+    camera.eye = glm::vec3(worldFromNode[3]);
+    camera.target = camera.eye + glm::normalize(forward) * distance;
+    camera.up = glm::normalize(up);
+    return true;
+}
+
+void poseScene(const SceneAnimation& animation, std::size_t clip, float time, const Scene& rest,
+               Scene& scene) {
+    std::vector<NodePose> poses;
+    for (const AnimatedNode& node : animation.nodes) poses.push_back(node.rest);
+    for (const NodeTrack& track : animation.clips.at(clip).tracks) {
+        const glm::vec4 v = track.at(time);
+        NodePose& pose = poses[track.node];
+        if (track.value == NodeValue::Translation) pose.translation = glm::vec3(v);
+        if (track.value == NodeValue::Rotation) pose.rotation = quatOf(v);
+        if (track.value == NodeValue::Scale) pose.scale = glm::vec3(v);
+    }
+    std::vector<glm::mat4> worldFromNode(poses.size());
+    for (const std::size_t n : animation.parentsFirst) {
+        const int parent = animation.nodes[n].parent;
+        const glm::mat4 local = poses[n].parentFromNode();
+        worldFromNode[n] = parent < 0 ? local : worldFromNode[std::size_t(parent)] * local;
+    }
+    for (const SceneAnimation::Hung& hung : animation.instances) {
+        Instance& instance = scene.instances[hung.index];
+        const glm::mat4 placed = worldFromNode[hung.node] * hung.nodeFromThing;
+        const bool usable = invertible(placed);
+        instance.visible = usable && rest.instances[hung.index].visible;
+        if (usable) instance.worldFromObject = placed;
+    }
+    for (const SceneAnimation::Hung& hung : animation.lights)
+        placeLight(scene.lights[hung.index], worldFromNode[hung.node]);
+    for (const SceneAnimation::Hung& hung : animation.cameras)
+        placeCamera(scene.cameras[hung.index], worldFromNode[hung.node], hung.distance);
+}
+
+std::size_t clipNumber(const SceneAnimation& animation, const std::string& nameOrNumber) {
+    std::string known;
+    for (std::size_t i = 0; i < animation.clips.size(); ++i) {
+        if (animation.clips[i].name == nameOrNumber) return i;
+        known += fmt::format("{}{} ({})", i > 0 ? ", " : "", animation.clips[i].name, i);
+    }
+    std::size_t number = 0;
+    const char* const end = nameOrNumber.data() + nameOrNumber.size();
+    const auto [stop, error] = std::from_chars(nameOrNumber.data(), end, number);
+    if (error == std::errc() && stop == end && number < animation.clips.size()) return number;
+    throw Error(ErrorKind::Usage,
+                fmt::format("there is no clip '{}'; {}", nameOrNumber,
+                            known.empty() ? "the scene has none" : known + " would be right"));
+}
+
+}  // namespace conelight::io

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// Movement of a scene: nodes in trees, clips of key values over time, and what hangs on which node. A clip at
+// a time gives the transforms of instances, point, spot and directional lights, and cameras.
+//
+// Limits: skins and morph targets stay in rest pose, rectangular lights where they are. A clip that mirrors
+// what its rest pose does not mirror shows back sides.
+#pragma once
+
+#include <cstddef>
+#include <glm/gtc/quaternion.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "conelight/scene.h"
+#include "io/scene_file.h"
+
+namespace conelight::io {
+
+// A node's place in its parent: a matrix, or translation * rotation * scale.
+struct NodePose {
+    std::optional<glm::mat4> matrix;
+    glm::vec3 translation{0.0f};
+    glm::quat rotation{1, 0, 0, 0};
+    glm::vec3 scale{1.0f};
+    glm::mat4 parentFromNode() const;
+};
+
+struct AnimatedNode {
+    int parent = -1;
+    NodePose rest;
+};
+
+enum class NodeValue : std::uint8_t { Translation, Rotation, Scale };
+enum class Interpolation : std::uint8_t { Step, Linear, CubicSpline };
+
+// One value of one node over time, held before the first key and after the last. Rotations are (x, y, z, w).
+struct NodeTrack {
+    std::size_t node = 0;
+    NodeValue value = NodeValue::Translation;
+    Interpolation interpolation = Interpolation::Linear;
+    std::vector<float> times;        // s, ascending, at least one
+    std::vector<glm::vec4> values;   // one per time; CubicSpline three: slope in, value, slope out
+    glm::vec4 at(float time) const;  // of rotations: unit length
+};
+
+struct AnimationClip {
+    std::string name;
+    float duration = 0;  // s, time of the last key
+    std::vector<NodeTrack> tracks;
+};
+
+struct SceneAnimation {
+    // Thing number `index` of its vector hangs on `node`.
+    struct Hung {
+        std::size_t index = 0, node = 0;
+        glm::mat4 nodeFromThing{1.0f};  // of instances
+        float distance = 1;             // of cameras: to the target
+    };
+    std::vector<AnimatedNode> nodes;
+    std::vector<std::size_t> parentsFirst;  // all nodes in that order
+    std::vector<AnimationClip> clips;
+    std::vector<Hung> instances, lights, cameras;
+};
+
+// Puts the scene that `animation` was loaded with into the pose of clip number `clip` at `time`, s. An
+// instance whose transform has no inverse then is invisible; others are visible as `rest` has them.
+void poseScene(const SceneAnimation& animation, std::size_t clip, float time, const Scene& rest,
+               Scene& scene);
+
+// Number of the clip that a user names by name, or by number from 0. Throws Error(Usage) that lists them.
+std::size_t clipNumber(const SceneAnimation& animation, const std::string& nameOrNumber);
+
+// As loadScene, with the movement of glTF files; empty for all others. Throws Error(BadInput) for clips that
+// cannot be used, too.
+Scene loadAnimatedScene(const std::string& pathOrBuiltin, const LoadOptions& options,
+                        SceneAnimation& animation);
+
+// Where a node puts a light, and a camera of this distance to its target. False: no usable direction.
+void placeLight(Light& light, const glm::mat4& worldFromNode);
+bool placeCamera(Camera& camera, const glm::mat4& worldFromNode, float distance);
+
+}  // namespace conelight::io
