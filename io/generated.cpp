@@ -121,6 +121,14 @@ constexpr GeneratedParameter kGardenParameters[] = {
     {"sky", 0.56, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
     {"leaves", 1500, 100, 1e5, true, "of the largest tree"},
 };
+constexpr GeneratedParameter kGlassParameters[] = {
+    {"emission", 18, 0, 1e4, false, "radiance of the lamp, W/(sr m^2)"},
+    {"frost", 0.35, 0.05, 1, false, "roughness of the frosted pane"},
+};
+constexpr GeneratedParameter kConservatoryParameters[] = {
+    {"sun", 24, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
+    {"sky", 1.2, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
+};
 
 struct Entry {
     GeneratedSceneInfo info;
@@ -186,6 +194,11 @@ constexpr Entry kScenes[] = {
      generated::buildParlour},
     {{"garden", "trees and a hedge of loose leaves, bench and fence before a house", kGardenParameters},
      generated::buildGarden},
+    {{"glass", "closed room with a glass ball, a glass block, a tinted and a frosted pane", kGlassParameters},
+     generated::buildGlass},
+    {{"conservatory", "room behind window panes, sun and sky outside, things of solid glass on a table",
+      kConservatoryParameters},
+     generated::buildConservatory},
 };
 
 // All scenes: those above, then those of guests.

@@ -87,5 +87,7 @@ Scene buildHeap(const Values& values);
 Scene buildBends(const Values& values);
 Scene buildParlour(const Values& values);
 Scene buildGarden(const Values& values);
+Scene buildGlass(const Values& values);
+Scene buildConservatory(const Values& values);
 
 }  // namespace conelight::io::generated

@@ -31,6 +31,7 @@ constexpr std::size_t kMaxInstances = 10'000'000;  // 1 GB of table; more is a b
 constexpr std::array kKnown = {"KHR_lights_punctual",    "KHR_materials_emissive_strength",
                                "KHR_materials_ior",      "KHR_materials_specular",
                                "KHR_materials_unlit",    "KHR_materials_pbrSpecularGlossiness",
+                               "KHR_materials_volume",   "KHR_materials_transmission",
                                "KHR_texture_transform",  "KHR_mesh_quantization",
                                "EXT_mesh_gpu_instancing"};
 // Extensions that do not change a still picture.

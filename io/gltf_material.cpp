@@ -28,6 +28,9 @@ TextureWrap wrapOf(const GltfValue& value) {
     }
 }
 
+// Black takes an infinite logarithm.
+constexpr float kDarkestAttenuation = 1e-4f;
+
 glm::vec3 positive(const glm::vec3& v) { return glm::max(v, glm::vec3(0)); }
 glm::vec4 unit(const glm::vec4& v) { return glm::clamp(v, 0.0f, 1.0f); }
 
@@ -192,6 +195,21 @@ void GltfMaterials::convertSpecularGlossiness(const GltfValue& from, Material& t
     scene_.textures.push_back(std::move(roughness));
 }
 
+void GltfMaterials::convertGlass(const GltfValue& from, Material& to) {
+    const GltfValue transmission = from.extension("KHR_materials_transmission");
+    if (transmission.exists()) {
+        to.transmission = glm::clamp(transmission["transmissionFactor"].number(0.0f), 0.0f, 1.0f);
+        to.transmissionTexture = texture(transmission["transmissionTexture"], false);
+    }
+    const GltfValue volume = from.extension("KHR_materials_volume");
+    if (!volume.exists()) return;
+    // The thickness texture is for renderers that do not follow light through the mesh.
+    to.thickness = std::max(volume["thicknessFactor"].number(0.0f), 0.0f);
+    const glm::vec3 color = volume["attenuationColor"].vector<3>(glm::vec3(1));
+    to.attenuationColor = glm::clamp(color, kDarkestAttenuation, 1.0f);
+    to.attenuationDistance = std::max(volume["attenuationDistance"].number(0.0f), 0.0f);
+}
+
 Material GltfMaterials::convert(const GltfValue& from) {
     Material to;
     to.name = oneLine(from["name"].text(""));
@@ -234,6 +252,7 @@ Material GltfMaterials::convert(const GltfValue& from) {
         to.specularColorTexture = texture(specular["specularColorTexture"], true);
     }
     to.unlit = from.extension("KHR_materials_unlit").exists();
+    convertGlass(from, to);
     // Kept by io/gltf_write.cpp.
     const GltfValue extras = from["extras"];
     if (extras.isObject() && extras["conelight"].isObject()) {

@@ -26,6 +26,7 @@ class GltfMaterials {
   private:
     Material convert(const GltfValue& from);
     void convertSpecularGlossiness(const GltfValue& from, Material& to);
+    void convertGlass(const GltfValue& from, Material& to);
     TextureRef texture(const GltfValue& info, bool srgb);
     int textureIndex(const GltfValue& texture, bool srgb);
     const ByteImage* image(std::size_t index);

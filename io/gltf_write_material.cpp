@@ -61,6 +61,17 @@ void writeExtensions(Json& to, const Material& m, float strength, std::set<std::
             specular["specularColorTexture"] = textureInfo(m.specularColorTexture, extensions);
         extension("KHR_materials_specular", specular);
     }
+    if (m.transmission > 0 || m.transmissionTexture.used()) {
+        Json transmission = {{"transmissionFactor", m.transmission}};
+        if (m.transmissionTexture.used())
+            transmission["transmissionTexture"] = textureInfo(m.transmissionTexture, extensions);
+        extension("KHR_materials_transmission", transmission);
+    }
+    if (m.thickness > 0 || m.attenuationColor != glm::vec3(1) || m.attenuationDistance > 0) {
+        Json volume = {{"thicknessFactor", m.thickness}, {"attenuationColor", listOf(m.attenuationColor)}};
+        if (m.attenuationDistance > 0) volume["attenuationDistance"] = m.attenuationDistance;
+        extension("KHR_materials_volume", volume);
+    }
 }
 
 }  // namespace

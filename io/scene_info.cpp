@@ -87,6 +87,11 @@ std::string describe(const Material& m) {
     if (m.specular != 1.0f) out += fmt::format(", specular {:.3g}", m.specular);
     if (m.specularColor != glm::vec3(1)) out += fmt::format(", specular colour {}", text(m.specularColor));
     if (m.ior != 1.5f) out += fmt::format(", ior {:.3g}", m.ior);
+    if (m.transmission > 0) {
+        out += fmt::format(", transmission {:.3g}, {}", m.transmission, m.thickness > 0 ? "solid" : "thin");
+        if (m.attenuationDistance > 0)
+            out += fmt::format(", {} after {:.3g} m", text(m.attenuationColor), m.attenuationDistance);
+    }
     if (m.emission != glm::vec3(0)) out += fmt::format(", emission {} W/(sr m^2)", text(m.emission));
     std::string maps;
     visitFields(

@@ -267,6 +267,15 @@ void LightTable::choose(const glm::vec3& from, const glm::vec3& normal, bool fir
                 (1 - kEvenShare) * choice.probability[g] / sum + kEvenShare / static_cast<float>(giving);
 }
 
+void LightTable::chooseBothSides(const glm::vec3& from, const glm::vec3& normal, Choice& choice) const {
+    if (choice.each || groups_.size() == 1) return;
+    Choice back;
+    choose(from, -normal, false, back);
+    float sum = 0;
+    for (std::size_t g = 0; g < groups_.size(); ++g) sum += choice.probability[g] += back.probability[g];
+    for (std::size_t g = 0; g < groups_.size() && sum > 0; ++g) choice.probability[g] /= sum;
+}
+
 std::size_t LightTable::groupOf(const Choice& choice, float& number) const {
     std::size_t last = groups_.size();
     float rest = number;

@@ -44,6 +44,8 @@ class LightTable {
     };
     // `first`: of a path.
     void choose(const glm::vec3& from, const glm::vec3& normal, bool first, Choice& choice) const;
+    // For surfaces that scatter light through: the mean of the choices at both of their sides.
+    void chooseBothSides(const glm::vec3& from, const glm::vec3& normal, Choice& choice) const;
     std::size_t groupCount() const { return groups_.size(); }
 
     // A point of one group. False when nothing arrives (behind the emitter, out of range ...).

@@ -13,6 +13,9 @@ constexpr float kMinNoV = 1e-4f;  // as math::makeBrdf clamps it
 // much light it meets.
 constexpr float kLeastShare = 0.1f;
 
+// Between passing a pane and meeting it, neither is drawn more rarely.
+constexpr float kLeastPass = 0.1f;
+
 float luminance(const glm::vec3& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
 // D of GGX at a local half vector. 1 - NoH^2 comes from the lateral parts, which keeps its digits at the peak
@@ -55,21 +58,37 @@ Reflection::Reflection(const Surface& s, const glm::vec3& toEye)
       toEyeAbove_(toEye_.z >= kMinNoV
                       ? toEye_
                       : glm::normalize(glm::vec3(toEye_.x, toEye_.y, kMinNoV) + glm::vec3(1e-12f, 0, 0))) {
+    if (s.transmission > 0) {
+        if (!passesStraight(s)) through_ = brdf_.diffuse * s.transmission;
+        brdf_.diffuse *= 1 - s.transmission;
+        solid_ = s.solid;
+        inside_ = solid_ && !s.frontFace;
+        eta_ = inside_ ? 1 / std::max(s.material->ior, 1.0f) : std::max(s.material->ior, 1.0f);
+        const glm::vec2 facets = math::directionalAlbedo(brdf_.NoV, std::sqrt(brdf_.alpha));
+        facetAlbedo_ = facets.x + facets.y;
+        tint_ = s.baseColor * (s.transmission * (1 - s.metallic));
+    }
     const float diffuse = luminance(brdf_.diffuse), specular = luminance(brdf_.albedo);
-    black_ = !(diffuse + specular > 0);
+    const float through = luminance(through_);
+    black_ = !(diffuse + specular + through > 0);
     if (black_) return;
-    specularShare_ = specular / (diffuse + specular);
-    if (diffuse > 0 && specular > 0)
+    specularShare_ = specular / (diffuse + specular + through);
+    if (diffuse + through > 0 && specular > 0)
         specularShare_ = std::clamp(specularShare_, kLeastShare, 1 - kLeastShare);
+    if (through > 0) transmissionShare_ = (1 - specularShare_) * through / (diffuse + through);
 }
 
 Reflection::Value Reflection::evaluate(const glm::vec3& toLight) const {
     Value value;
-    const glm::vec3 l = frame_.toLocal(toLight);
+    glm::vec3 l = frame_.toLocal(toLight);
+    const bool below = scattersThrough() && l.z < 0;
+    if (below) l.z = -l.z;
     if (!(l.z > 0) || black_) return value;
-    value.diffuse = brdf_.diffuse * (l.z / kPi);
-    value.density = (1 - specularShare_) * l.z / kPi;
-    if (!(specularShare_ > 0)) return value;
+    if (!below) {
+        value.diffuse = brdf_.diffuse * (l.z / kPi);
+        value.density = (1 - specularShare_ - transmissionShare_) * l.z / kPi;
+        if (!(specularShare_ > 0)) return value;
+    }
 
     const glm::vec3 sum = l + toEye_;
     const float length = glm::length(sum);
@@ -81,13 +100,117 @@ Reflection::Value Reflection::evaluate(const glm::vec3& toLight) const {
             const float smith = NoL * std::sqrt(NoV * NoV * (1 - alpha2) + alpha2) +
                                 NoV * std::sqrt(NoL * NoL * (1 - alpha2) + alpha2);
             const float VoH = std::clamp(glm::dot(toEye_, h), 0.0f, 1.0f);
-            value.specular = math::fresnel(brdf_.f0, brdf_.f90, VoH) * brdf_.compensation *
-                             (ggx(alpha2, h) * 0.5f / std::max(smith, 1e-7f) * l.z);
+            // What a pane scatters through fills the mirrored lobe, whose facets then send all of it.
+            const glm::vec3 facets = below ? through_ / facetAlbedo_
+                                           : math::fresnel(brdf_.f0, brdf_.f90, VoH) * brdf_.compensation;
+            value.specular = facets * (ggx(alpha2, h) * 0.5f / std::max(smith, 1e-7f) * l.z);
         }
     }
     const glm::vec3 h = glm::normalize(l + toEyeAbove_);
-    value.density += specularShare_ * visibleDensity(alpha2, ggx(alpha2, h), toEyeAbove_.z);
+    value.density +=
+        (below ? transmissionShare_ : specularShare_) * visibleDensity(alpha2, ggx(alpha2, h), toEyeAbove_.z);
     return value;
+}
+
+Reflection::Draw Reflection::draw(float lobe, const glm::vec2& u) const {
+    if (inside_) return drawInside(lobe, u);
+    if (lobe >= 1 - transmissionShare_ && transmissionShare_ > 0) return drawThrough(u);
+    Draw drawn;
+    drawn.direction = glm::normalize(sample(lobe, u));
+    return drawn;
+}
+
+// Reflectance of a facet, by Schlick's cosine in air; `total`: there is no way out.
+glm::vec3 Reflection::facetFresnel(float VoH, bool& total) const {
+    const float sine2 = (1 - VoH * VoH) / (eta_ * eta_);
+    total = sine2 >= 1;
+    if (total) return glm::vec3(1);
+    return math::fresnel(brdf_.f0, brdf_.f90, inside_ ? std::sqrt(1 - sine2) : VoH);
+}
+
+Reflection::Draw Reflection::drawThrough(const glm::vec2& u) const {
+    Draw drawn;
+    drawn.below = true;
+    const glm::vec3 h = sampleVisibleNormal(toEyeAbove_, brdf_.alpha, u);
+    const float VoH = glm::dot(toEyeAbove_, h);
+    if (!solid_) {
+        glm::vec3 l = 2 * VoH * h - toEyeAbove_;
+        if (!(l.z > 0)) return {};
+        l.z = -l.z;
+        drawn.direction = glm::normalize(frame_.toWorld(l));
+        return drawn;
+    }
+    bool total = false;
+    const glm::vec3 reflected = facetFresnel(VoH, total);
+    const float cosine2 = 1 - (1 - VoH * VoH) / (eta_ * eta_);
+    const glm::vec3 l = (VoH / eta_ - std::sqrt(std::max(cosine2, 0.0f))) * h - toEyeAbove_ / eta_;
+    if (total || !(l.z < 0)) return {};
+    drawn.direction = glm::normalize(frame_.toWorld(l));
+    drawn.alone = true;
+    drawn.value.density = 1;
+    // Facets in each other's shadow lose light that others catch: the mean of what is drawn is through_.
+    const glm::vec2 lobe = math::directionalAlbedo(brdf_.NoV, std::sqrt(brdf_.alpha));
+    const glm::vec3 mean = lobe.x + lobe.y - (brdf_.f0 * lobe.x + brdf_.f90 * lobe.y);
+    drawn.value.specular =
+        through_ / glm::max(mean, 1e-3f) * (1.0f - reflected) * maskedShare(-l.z) / transmissionShare_;
+    return drawn;
+}
+
+// At the inner side of a solid: back into it, or out of it.
+Reflection::Draw Reflection::drawInside(float lobe, const glm::vec2& u) const {
+    Draw drawn;
+    drawn.alone = true;
+    drawn.value.density = 1;
+    const glm::vec3 h = sampleVisibleNormal(toEyeAbove_, brdf_.alpha, u);
+    const float VoH = glm::dot(toEyeAbove_, h);
+    bool total = false;
+    const glm::vec3 reflected = facetFresnel(VoH, total);
+    const float back = std::clamp(luminance(reflected), 0.0f, 1.0f);
+    if (total || lobe < back) {
+        const glm::vec3 l = 2 * VoH * h - toEyeAbove_;
+        if (!(l.z > 0)) return {};
+        drawn.direction = glm::normalize(frame_.toWorld(l));
+        drawn.value.specular = total ? glm::vec3(1) : reflected / back;
+        return drawn;
+    }
+    const float cosine2 = 1 - (1 - VoH * VoH) / (eta_ * eta_);
+    const glm::vec3 l = (VoH / eta_ - std::sqrt(std::max(cosine2, 0.0f))) * h - toEyeAbove_ / eta_;
+    if (!(l.z < 0)) return {};
+    drawn.below = true;
+    drawn.direction = glm::normalize(frame_.toWorld(l));
+    drawn.value.specular = tint_ * (1.0f - reflected) / (1 - back);
+    return drawn;
+}
+
+// G2 / G1 of the height-correlated Smith function: what is drawn by visible normals is left by this share.
+float Reflection::maskedShare(float NoL) const {
+    const float a2 = brdf_.alpha * brdf_.alpha, NoV = toEyeAbove_.z;
+    const float v = std::sqrt(NoV * NoV * (1 - a2) + a2), l = std::sqrt(NoL * NoL * (1 - a2) + a2);
+    return NoL * (NoV + v) / std::max(NoL * v + NoV * l, 1e-7f);
+}
+
+bool passesStraight(const Surface& surface) {
+    return surface.transmission > 0 && !surface.solid && surface.roughness <= math::kMinRoughness;
+}
+
+glm::vec3 straightTransmittance(const Surface& s, const glm::vec3& toEye) {
+    const math::Brdf brdf = math::makeBrdf(s.baseColor, s.metallic, s.roughness, s.dielectricF0,
+                                           glm::dot(s.shadingNormal, toEye));
+    return brdf.diffuse * s.transmission;
+}
+
+float straightShare(const Surface& s, const glm::vec3& toEye) {
+    const math::Brdf brdf = math::makeBrdf(s.baseColor, s.metallic, s.roughness, s.dielectricF0,
+                                           glm::dot(s.shadingNormal, toEye));
+    const float passes = luminance(brdf.diffuse) * s.transmission;
+    const float meets = luminance(brdf.diffuse) * (1 - s.transmission) + luminance(brdf.albedo);
+    if (!(passes > 0)) return 0;
+    return std::clamp(passes / (passes + meets), kLeastPass, 1 - kLeastPass);
+}
+
+glm::vec3 absorption(const Material& material) {
+    if (!(material.attenuationDistance > 0)) return glm::vec3(0);
+    return -glm::log(material.attenuationColor) / material.attenuationDistance;
 }
 
 glm::vec3 Reflection::sample(float lobe, const glm::vec2& u) const {

@@ -1,6 +1,13 @@
 // SPDX-License-Identifier: MIT
-// Reflection at a surface as the path tracer needs it: value, sampling and density of the BRDF of
+// Scattering at a surface as the path tracer needs it: value, sampling and density of the BRDF of
 // src/math/brdf.h (Lambert + GGX), for one direction to the eye.
+//
+// Glass: light below the gloss goes through instead of being scattered back. A rough pane scatters it into the
+// mirror image of its reflection lobe (KHR_materials_transmission). A solid bends it at its facets (Walter et
+// al. 2007, "Microfacet Models for Refraction through Rough Surfaces"); within it nothing leaves beyond the
+// critical angle. Radiance is that of air: its growth by the square of the index within a solid, which its
+// other side undoes, is left out. Smooth panes turn no ray: what they let through is straightTransmittance,
+// the tracing's business.
 //
 // Sampling: cosine-weighted for the diffuse part, visible normals for the lobe (Heitz 2018, "Sampling the GGX
 // Distribution of Visible Normals"; by spherical caps, Dupuy and Benyoub 2023), chosen by their albedos; the
@@ -32,20 +39,50 @@ class Reflection {
 
     Reflection(const Surface& surface, const glm::vec3& toEye);
 
-    // Zero below the horizon of the shading normal.
+    // Zero below the horizon of the shading normal, but for rough panes.
     Value evaluate(const glm::vec3& toLight) const;
-    // A direction (unit); `lobe` and `u` in [0,1).
+    // A direction; `lobe` and `u` in [0,1).
+    struct Draw {
+        glm::vec3 direction{0};  // unit; 0: none
+        bool below = false;      // through the surface
+        bool alone = false;      // at the facets of a solid: evaluate() knows nothing of it, and `value`,
+        Value value;             // of density 1, is the weight
+    };
+    Draw draw(float lobe, const glm::vec2& u) const;
+    // Of what stays above the surface alone.
     glm::vec3 sample(float lobe, const glm::vec2& u) const;
     bool black() const { return black_; }
+    // Of light that rays to lights find: none at the inner side of a solid.
+    bool inside() const { return inside_; }
+    bool scattersThrough() const { return transmissionShare_ > 0 && !solid_; }
 
   private:
+    Draw drawThrough(const glm::vec2& u) const;
+    Draw drawInside(float lobe, const glm::vec2& u) const;
+    glm::vec3 facetFresnel(float VoH, bool& total) const;
+    float maskedShare(float NoL) const;
+
     Frame frame_;
     math::Brdf brdf_;
     glm::vec3 toEye_;       // local
     glm::vec3 toEyeAbove_;  // local, above the horizon
     float specularShare_ = 0;
     bool black_ = false;
+    glm::vec3 tint_{0};     // of light at each side of a solid
+    glm::vec3 through_{0};  // directional albedo of what goes through
+    float transmissionShare_ = 0;
+    float facetAlbedo_ = 1;  // directional albedo of the lobe if its facets reflected all
+    float eta_ = 1;          // index of the other side over that of the eye's
+    bool solid_ = false, inside_ = false;
 };
+
+// Whether a ray that meets the surface may go on as if it were not there, and with which part of its light.
+bool passesStraight(const Surface& surface);
+glm::vec3 straightTransmittance(const Surface& surface, const glm::vec3& toEye);
+// How often it then should.
+float straightShare(const Surface& surface, const glm::vec3& toEye);
+// Of light in a solid, 1/m (Beer and Lambert).
+glm::vec3 absorption(const Material& material);
 
 // Uniform over the hemisphere around a unit vector; density 1 / (2 pi).
 glm::vec3 uniformHemisphere(const glm::vec3& normal, const glm::vec2& u);

@@ -28,6 +28,9 @@ constexpr float kLeastSurvival = 0.05f;
 constexpr float kMostSurvival = 0.98f;
 // Rays towards a point end by this share of their length before it.
 constexpr float kRayEnd = 1 - 1e-5f;
+// Rays through panes and blended surfaces go on this far behind them, m and share of the way.
+constexpr float kPaneStep = 1e-5f;
+constexpr int kMostPanes = 64;  // on one ray; then it is dark
 
 float largest(const glm::vec3& v) { return std::max({v.r, v.g, v.b}); }
 
@@ -75,25 +78,30 @@ void PathIntegrator::add(PathSample& result, const Vertex& vertex, int bounce, c
         result.bounces[static_cast<std::size_t>(bounce) - 1] += radiance;
 }
 
-bool PathIntegrator::arrives(const Vertex& vertex, const LightSample& light, PathSample& result) const {
-    if (light.direct && !light.castsShadow && !light.extended) return true;
+// What is left of a light's radiance on its way to a surface. `through`: the surface has a use for light from
+// behind it. Light of extended sources that solids and rough panes bend is found by paths alone; light without
+// extent, which no path would meet, goes straight through them.
+glm::vec3 PathIntegrator::arriving(const Vertex& vertex, const LightSample& light, bool through,
+                                   PathSample& result) const {
+    const glm::vec3 all(1), none(0);
+    if (light.direct && !light.castsShadow && !light.extended) return all;
     const Surface& s = vertex.surface;
     const bool above = glm::dot(s.geometricNormal, light.toLight) > 0;
     // A surface is in its own way, unless it casts no shadow.
-    if (!above && (light.extended || scene_.instances[vertex.instance].castsShadow)) return false;
-    if (light.direct && !light.castsShadow) return true;
+    if (!above && !through && (light.extended || scene_.instances[vertex.instance].castsShadow)) return none;
+    if (light.direct && !light.castsShadow) return all;
     Ray ray;
     ray.origin = RayScene::offsetOrigin(s.position, above ? s.geometricNormal : -s.geometricNormal);
     ray.direction = light.toLight;
     if (std::isfinite(light.distance)) {
         const glm::vec3 way = light.target - ray.origin;
         const float distance = glm::length(way);
-        if (!(distance > 0)) return true;
+        if (!(distance > 0)) return all;
         ray.direction = way / distance;
         ray.tMax = distance * kRayEnd;
     }
     ++result.rays;
-    return !rays_.occluded(light.direct ? RayKind::Shadow : RayKind::Bounce, ray);
+    return rays_.transmittance(light.direct ? RayKind::Shadow : RayKind::Bounce, ray, !light.extended);
 }
 
 void PathIntegrator::gatherLights(const Vertex& vertex, const Reflection& reflection, Sampler& sampler,
@@ -122,8 +130,9 @@ void PathIntegrator::gatherGroup(const Vertex& vertex, const Reflection& reflect
     float weight = 1;
     if (light.extended && settings_.estimator == Estimator::Mis)
         weight = misWeight(light.density, value.density);
-    if (arrives(vertex, light, result))
-        add(result, vertex, bounce, light.radiance * value.sum() * (weight / light.density), value);
+    const glm::vec3 left = arriving(vertex, light, reflection.scattersThrough(), result);
+    if (left != glm::vec3(0))
+        add(result, vertex, bounce, left * light.radiance * value.sum() * (weight / light.density), value);
 }
 
 // Light of the surroundings from a direction drawn for it: of a picture by its light, else of the hemisphere.
@@ -142,44 +151,79 @@ void PathIntegrator::gatherSky(const Vertex& vertex, const Reflection& reflectio
         sky.toLight = uniformHemisphere(vertex.surface.shadingNormal, u);
     }
     const Reflection::Value value = reflection.evaluate(sky.toLight);
-    if (!(sky.density > 0) || !(largest(value.sum()) > 0) || !arrives(vertex, sky, result)) return;
+    if (!(sky.density > 0) || !(largest(value.sum()) > 0)) return;
+    const glm::vec3 left = arriving(vertex, sky, reflection.scattersThrough(), result);
+    if (left == glm::vec3(0)) return;
     const float weight = settings_.estimator == Estimator::Mis ? misWeight(sky.density, value.density) : 1.0f;
     add(result, vertex, vertex.depth + 1,
-        surroundings_.radiance(sky.toLight) * value.sum() * (weight / sky.density), value);
+        left * surroundings_.radiance(sky.toLight) * value.sum() * (weight / sky.density), value);
 }
 
 // Of a direction that the surface's reflection has drawn, when the surroundings are drawn as well.
-float PathIntegrator::skyWeight(const glm::vec3& direction, const Reflection::Value& value) const {
-    if (settings_.estimator != Estimator::Mis || !surroundings_.hasPicture()) return 1.0f;
+float PathIntegrator::skyWeight(const Vertex& vertex, const glm::vec3& direction,
+                                const Reflection::Value& value) const {
+    if (settings_.estimator != Estimator::Mis || !surroundings_.hasPicture() || vertex.alone) return 1.0f;
     return misWeight(value.density, surroundings_.density(direction));
 }
 
+// The first surface along a ray. At blended surfaces and smooth panes a number decides whether it goes on.
+bool PathIntegrator::find(RayKind kind, Ray ray, const PixelTurns* pixel, Sampler& sampler,
+                          Arrival& arrival) const {
+    for (int panes = 0; panes < kMostPanes; ++panes) {
+        if (!rays_.intersect(kind, ray, arrival.hit, Blended::Met)) return false;
+        // Untextured surfaces take no number: their samples stay what they are.
+        glm::vec3 turn(0);
+        if (pixel != nullptr && isTextured(scene_, arrival.hit)) {
+            const glm::vec2 inPixel = sampler.next2() - 0.5f;
+            turn = inPixel.x * (*pixel)[0] + inPixel.y * (*pixel)[1];
+        }
+        arrival.surface = surfaceAt(scene_, ray, arrival.hit, turn);
+        const Surface& met = arrival.surface;
+        ray.tMin = arrival.hit.t + std::max(kPaneStep, kPaneStep * arrival.hit.t);
+        if (met.opacity < 1 && !(sampler.next2().x < met.opacity)) continue;
+        if (!passesStraight(met)) return true;
+        const float share = straightShare(met, -ray.direction);
+        if (!(sampler.next2().x < share)) {
+            arrival.passed /= 1 - share;
+            return true;
+        }
+        arrival.passed *= straightTransmittance(met, -ray.direction) / share;
+    }
+    arrival.passed = glm::vec3(0);
+    return true;
+}
+
 bool PathIntegrator::arriveAt(Vertex& vertex, const Ray& ray, const Reflection::Value& value,
-                              PathSample& result) const {
-    const bool lightsOnly = settings_.estimator == Estimator::LightsOnly;
-    const bool mis = settings_.estimator == Estimator::Mis;
-    const glm::vec3 reflected = value.sum() / value.density;
+                              Sampler& sampler, PathSample& result) const {
+    const bool lightsOnly = settings_.estimator == Estimator::LightsOnly && !vertex.alone;
+    const bool mis = settings_.estimator == Estimator::Mis && !vertex.alone;
+    glm::vec3 reflected = value.sum() / value.density;
 
     // Rectangles that are no triangles, or block other light than they are blocked by.
     if (!lightsOnly && lights_.hasRectsToTest())
         lights_.forRectsAlong(
             vertex.lights, vertex.surface.position, ray.direction, [&](const LightSample& rect) {
                 const float weight = mis ? misWeight(value.density, rect.density) : 1.0f;
-                if (arrives(vertex, rect, result))
-                    add(result, vertex, vertex.depth, rect.radiance * reflected * weight, value);
+                const glm::vec3 left = arriving(vertex, rect, true, result);
+                if (left != glm::vec3(0))
+                    add(result, vertex, vertex.depth, left * rect.radiance * reflected * weight, value);
             });
 
     ++result.rays;
-    RayHit hit;
-    if (!rays_.intersect(RayKind::Bounce, ray, hit)) {
+    Arrival arrival;
+    if (!find(RayKind::Bounce, ray, nullptr, sampler, arrival)) {
         if (!lightsOnly && wanted(vertex.depth + 1))
             add(result, vertex, vertex.depth + 1,
-                surroundings_.radiance(ray.direction) * reflected * skyWeight(ray.direction, value), value);
+                arrival.passed * surroundings_.radiance(ray.direction) * reflected *
+                    skyWeight(vertex, ray.direction, value),
+                value);
         return false;
     }
-    const Surface next = surfaceAt(scene_, ray, hit);
+    const Surface& next = arrival.surface;
     if (next.unlit) return false;  // is seen, and lights nothing
-    const LightTable::Found found = lights_.found(vertex.lights, hit, ray.direction);
+    reflected *= arrival.passed;
+    if (vertex.medium != nullptr) reflected *= glm::exp(-absorption(*vertex.medium) * arrival.hit.t);
+    const LightTable::Found found = lights_.found(vertex.lights, arrival.hit, ray.direction);
     const int bounce = vertex.depth + (found.quad ? 0 : 1);
     if (!lightsOnly && !(found.quad && found.elsewhere) && wanted(bounce) && largest(next.emission) > 0)
         add(result, vertex, bounce,
@@ -187,70 +231,82 @@ bool PathIntegrator::arriveAt(Vertex& vertex, const Ray& ray, const Reflection::
                 (mis && found.density > 0 ? misWeight(value.density, found.density) : 1),
             value);
 
-    // The back of a single-sided surface absorbs.
-    if (!wanted(vertex.depth + 1) || (!next.frontFace && !next.material->doubleSided)) return false;
+    // The back of a single-sided surface absorbs, unless light goes through it.
+    const bool absorbs = !next.frontFace && !next.material->doubleSided && !(next.transmission > 0);
+    if (!wanted(vertex.depth + 1) || absorbs) return false;
     if (vertex.depth == 0) vertex.diffuseShare = shareOf(value.diffuse, value.sum());
     vertex.throughput *= reflected;
     vertex.surface = next;
     vertex.toEye = -ray.direction;
-    vertex.instance = hit.instance;
+    vertex.instance = arrival.hit.instance;
     ++vertex.depth;
     return true;
 }
 
-bool PathIntegrator::advance(Vertex& vertex, const Reflection& reflection, const glm::vec2& choices,
-                             const glm::vec2& u, PathSample& result) const {
+// `numbers`: the lobe and the path's end, the direction.
+bool PathIntegrator::advance(Vertex& vertex, const Reflection& reflection,
+                             const std::array<glm::vec2, 2>& numbers, Sampler& sampler,
+                             PathSample& result) const {
     const bool last = !wanted(vertex.depth + 1);
     // The last direction only looks for direct light.
     if (last && (settings_.estimator == Estimator::LightsOnly || !lights_.hasQuadsOrRects())) return false;
+    const Reflection::Draw drawn = reflection.draw(numbers[0].x, numbers[1]);
     Ray ray;
-    ray.direction = glm::normalize(reflection.sample(choices.x, u));
-    if (!(glm::dot(ray.direction, vertex.surface.geometricNormal) > 0)) return false;
-    const Reflection::Value value = reflection.evaluate(ray.direction);
+    ray.direction = drawn.direction;
+    const float above = glm::dot(ray.direction, vertex.surface.geometricNormal);
+    if (!(drawn.below ? above < 0 : above > 0)) return false;
+    const Reflection::Value value = drawn.alone ? drawn.value : reflection.evaluate(ray.direction);
     if (!(value.density > 0) || !(largest(value.sum()) > 0)) return false;
 
     // Russian roulette, not on the first surface, where it would only add noise.
     if (vertex.depth > 0) {
         const float survival = std::clamp(largest(vertex.throughput * value.sum() / value.density),
                                           kLeastSurvival, kMostSurvival);
-        if (!(choices.y < survival)) return false;
+        if (!(numbers[0].y < survival)) return false;
         vertex.throughput /= survival;
     }
-    ray.origin = RayScene::offsetOrigin(vertex.surface.position, vertex.surface.geometricNormal);
-    return arriveAt(vertex, ray, value, result);
+    vertex.alone = drawn.alone || reflection.inside();
+    if (drawn.below && vertex.surface.solid)
+        vertex.medium = vertex.surface.frontFace ? vertex.surface.material : nullptr;
+    const glm::vec3& normal = vertex.surface.geometricNormal;
+    ray.origin = RayScene::offsetOrigin(vertex.surface.position, drawn.below ? -normal : normal);
+    return arriveAt(vertex, ray, value, sampler, result);
+}
+
+// Light that is looked for. Within a solid there is none.
+void PathIntegrator::gather(Vertex& vertex, const Reflection& reflection, Sampler& sampler,
+                            PathSample& result) const {
+    lights_.choose(vertex.surface.position, vertex.surface.shadingNormal, vertex.depth == 0, vertex.lights);
+    if (reflection.inside()) return;
+    if (reflection.scattersThrough())
+        lights_.chooseBothSides(vertex.surface.position, vertex.surface.shadingNormal, vertex.lights);
+    gatherLights(vertex, reflection, sampler, result);
+    const bool drawsSky = surroundings_.hasPicture() ? settings_.estimator != Estimator::MaterialsOnly
+                                                     : settings_.estimator == Estimator::LightsOnly;
+    if (drawsSky) gatherSky(vertex, reflection, sampler.next2(), result);
 }
 
 void PathIntegrator::trace(const Ray& cameraRay, const PixelTurns* pixel, Sampler& sampler,
                            PathSample& result) const {
     ++result.rays;
-    RayHit hit;
-    if (!rays_.intersect(RayKind::Camera, cameraRay, hit)) {
-        result.direct = surroundings_.radiance(glm::normalize(cameraRay.direction));
+    Arrival arrival;
+    if (!find(RayKind::Camera, cameraRay, pixel, sampler, arrival)) {
+        result.direct = arrival.passed * surroundings_.radiance(glm::normalize(cameraRay.direction));
         return;
     }
     result.seen = true;
     Vertex vertex;
-    // Untextured surfaces take no number: their samples stay what they are.
-    glm::vec3 turn(0);
-    if (pixel != nullptr && isTextured(scene_, hit)) {
-        const glm::vec2 inPixel = sampler.next2() - 0.5f;
-        turn = inPixel.x * (*pixel)[0] + inPixel.y * (*pixel)[1];
-    }
-    vertex.surface = surfaceAt(scene_, cameraRay, hit, turn);
-    vertex.instance = hit.instance;
-    result.direct = vertex.surface.emission;
+    vertex.surface = arrival.surface;
+    vertex.instance = arrival.hit.instance;
+    vertex.throughput = arrival.passed;
+    result.direct = arrival.passed * vertex.surface.emission;
     vertex.toEye = -cameraRay.direction;
     for (bool goesOn = !vertex.surface.unlit; goesOn;) {
         const Reflection reflection(vertex.surface, vertex.toEye);
         if (reflection.black()) return;
         const glm::vec2 choices = sampler.next2(), direction = sampler.next2();
-        lights_.choose(vertex.surface.position, vertex.surface.shadingNormal, vertex.depth == 0,
-                       vertex.lights);
-        gatherLights(vertex, reflection, sampler, result);
-        const bool drawsSky = surroundings_.hasPicture() ? settings_.estimator != Estimator::MaterialsOnly
-                                                         : settings_.estimator == Estimator::LightsOnly;
-        if (drawsSky) gatherSky(vertex, reflection, sampler.next2(), result);
-        goesOn = advance(vertex, reflection, choices, direction, result);
+        gather(vertex, reflection, sampler, result);
+        goesOn = advance(vertex, reflection, {choices, direction}, sampler, result);
     }
 }
 

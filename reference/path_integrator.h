@@ -41,25 +41,37 @@ class PathIntegrator {
         Surface surface;
         glm::vec3 toEye{0};  // unit; back along the path
         std::uint32_t instance = 0;
-        int depth = 0;              // surfaces before this one
-        glm::vec3 throughput{1};    // of what happens here towards the camera
-        LightTable::Choice lights;  // how they are sampled from here
-        glm::vec3 diffuseShare{0};  // of the first surface's reflection, from depth 1 on
+        int depth = 0;                     // surfaces before this one
+        glm::vec3 throughput{1};           // of what happens here towards the camera
+        LightTable::Choice lights;         // how they are sampled from here
+        glm::vec3 diffuseShare{0};         // of the first surface's reflection, from depth 1 on
+        const Material* medium = nullptr;  // the solid that the path is in
+        bool alone = false;                // the next direction is one that no ray to a light could have been
+    };
+    // Where a ray ends that goes on through smooth panes.
+    struct Arrival {
+        RayHit hit;
+        Surface surface;
+        glm::vec3 passed{1};  // what the panes left, over how often they are passed
     };
     bool wanted(int bounce) const { return settings_.bounces < 0 || bounce <= settings_.bounces; }
     static void add(PathSample& result, const Vertex& vertex, int bounce, const glm::vec3& light,
                     const Reflection::Value& value);
-    bool arrives(const Vertex& vertex, const LightSample& light, PathSample& result) const;
+    bool find(RayKind kind, Ray ray, const PixelTurns* pixel, Sampler& sampler, Arrival& arrival) const;
+    glm::vec3 arriving(const Vertex& vertex, const LightSample& light, bool through,
+                       PathSample& result) const;
     void gatherLights(const Vertex& vertex, const Reflection& reflection, Sampler& sampler,
                       PathSample& result) const;
     void gatherGroup(const Vertex& vertex, const Reflection& reflection, std::size_t group, float within,
                      const glm::vec2& u, PathSample& result) const;
     void gatherSky(const Vertex& vertex, const Reflection& reflection, const glm::vec2& u,
                    PathSample& result) const;
-    float skyWeight(const glm::vec3& direction, const Reflection::Value& value) const;
-    bool advance(Vertex& vertex, const Reflection& reflection, const glm::vec2& choices, const glm::vec2& u,
-                 PathSample& result) const;
-    bool arriveAt(Vertex& vertex, const Ray& ray, const Reflection::Value& value, PathSample& result) const;
+    void gather(Vertex& vertex, const Reflection& reflection, Sampler& sampler, PathSample& result) const;
+    float skyWeight(const Vertex& vertex, const glm::vec3& direction, const Reflection::Value& value) const;
+    bool advance(Vertex& vertex, const Reflection& reflection, const std::array<glm::vec2, 2>& numbers,
+                 Sampler& sampler, PathSample& result) const;
+    bool arriveAt(Vertex& vertex, const Ray& ray, const Reflection::Value& value, Sampler& sampler,
+                  PathSample& result) const;
 
     const Scene& scene_;
     const RayScene& rays_;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/log.h"
+#include "reference/materials.h"
 #include "reference/surface.h"
 
 #if CONELIGHT_EMBREE >= 4
@@ -32,6 +33,8 @@ struct GeometryInfo {
     bool mirrored = false;  // the instance turns its triangles inside out
     bool cullable = false;  // single-sided
     bool masked = false;
+    bool blended = false;
+    bool transmissive = false;
 };
 
 // The context that travels with a query; Embree's own part comes first.
@@ -42,6 +45,12 @@ struct QueryContext {
     RTCIntersectContext embree;
 #endif
     bool cullsBacks = false;
+    Blended blended = Blended::Cut;
+    // Of RayScene::transmittance.
+    const Ray* passing = nullptr;  // null: transmissive surfaces occlude
+    bool unbent = false;
+    glm::vec3 passed{1};
+    glm::vec3 depth{0};  // optical, of solids; ways between two sides, each counted where it ends
 };
 
 QueryContext makeContext(RayKind kind) {
@@ -68,8 +77,34 @@ void filterHit(const RTCFilterFunctionNArguments* arguments) {
             return;
         }
     }
-    if (info.masked && !coversAt(*info.scene, info.instance, hit.primID, {hit.u, hit.v}))
-        arguments->valid[0] = 0;
+    const bool cut = info.masked && !(info.blended && context.blended == Blended::Met);
+    if (cut && !coversAt(*info.scene, info.instance, hit.primID, {hit.u, hit.v})) arguments->valid[0] = 0;
+}
+
+// Of shadow rays: what they go on through is no hit.
+void filterOcclusion(const RTCFilterFunctionNArguments* arguments) {
+    filterHit(arguments);
+    if (arguments->valid[0] != -1) return;
+    const auto& info = *static_cast<const GeometryInfo*>(arguments->geometryUserPtr);
+    auto& context = *reinterpret_cast<QueryContext*>(arguments->context);
+    if (context.passing == nullptr || (!info.transmissive && !info.blended)) return;
+    const auto& hit = *reinterpret_cast<const RTCHit*>(arguments->hit);
+    const glm::vec3 normal(glm::normalize(glm::dvec3(hit.Ng_x, hit.Ng_y, hit.Ng_z)));
+    RayHit found;
+    found.t = reinterpret_cast<const RTCRay*>(arguments->ray)->tfar;
+    found.instance = info.instance;
+    found.triangle = hit.primID;
+    found.barycentric = {hit.u, hit.v};
+    found.geometricNormal = info.mirrored ? -normal : normal;
+    const Surface surface = surfaceAt(*info.scene, *context.passing, found);
+    const bool through = passesStraight(surface) || (context.unbent && surface.transmission > 0);
+    glm::vec3 passed(1 - surface.opacity);
+    if (through) passed += surface.opacity * straightTransmittance(surface, -context.passing->direction);
+    if (passed == glm::vec3(0)) return;
+    context.passed *= passed;
+    if (surface.solid)
+        context.depth += absorption(*surface.material) * (surface.frontFace ? -found.t : found.t);
+    arguments->valid[0] = 0;
 }
 
 bool participates(const Instance& instance, RayKind kind) {
@@ -129,6 +164,7 @@ struct RayScene::Impl {
 
     RTCGeometry makeGeometry(std::size_t instance);
     void build();
+    bool occluded(RayKind kind, const Ray& ray, QueryContext& context) const;
 };
 
 RTCGeometry RayScene::Impl::makeGeometry(std::size_t index) {
@@ -138,9 +174,13 @@ RTCGeometry RayScene::Impl::makeGeometry(std::size_t index) {
     const Material& material =
         instance.material < 0 ? fallback : source.materials[static_cast<std::size_t>(instance.material)];
     GeometryInfo& info = infos[index];
-    info = {&source, static_cast<std::uint32_t>(index),
-            glm::determinant(glm::mat3(instance.worldFromObject)) < 0, !material.doubleSided,
-            material.alphaMode != AlphaMode::Opaque};
+    info = {&source,
+            static_cast<std::uint32_t>(index),
+            glm::determinant(glm::mat3(instance.worldFromObject)) < 0,
+            !material.doubleSided,
+            material.alphaMode != AlphaMode::Opaque,
+            material.alphaMode == AlphaMode::Blend,
+            isTransmissive(material)};
 
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* positions = static_cast<glm::vec3*>(
@@ -157,7 +197,7 @@ RTCGeometry RayScene::Impl::makeGeometry(std::size_t index) {
     if (mesh.indices.empty()) std::fill(indices, indices + 3, 0u);
     rtcSetGeometryUserData(geometry, &info);
     if (info.cullable || info.masked) rtcSetGeometryIntersectFilterFunction(geometry, filterHit);
-    if (info.masked) rtcSetGeometryOccludedFilterFunction(geometry, filterHit);
+    if (info.masked || info.transmissive) rtcSetGeometryOccludedFilterFunction(geometry, filterOcclusion);
     rtcCommitGeometry(geometry);
     return geometry;
 }
@@ -208,12 +248,13 @@ RayScene::~RayScene() = default;
 RayScene::RayScene(RayScene&&) noexcept = default;
 RayScene& RayScene::operator=(RayScene&&) noexcept = default;
 
-bool RayScene::intersect(RayKind kind, const Ray& ray, RayHit& hit) const {
+bool RayScene::intersect(RayKind kind, const Ray& ray, RayHit& hit, Blended blended) const {
     RTCRayHit query;
     query.ray = makeRay(ray);
     query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     QueryContext context = makeContext(kind);
+    context.blended = blended;
     RTCScene scene = impl_->sceneOf[static_cast<std::size_t>(kind)];
 #if CONELIGHT_EMBREE >= 4
     RTCIntersectArguments arguments;
@@ -234,11 +275,10 @@ bool RayScene::intersect(RayKind kind, const Ray& ray, RayHit& hit) const {
     return true;
 }
 
-bool RayScene::occluded(RayKind kind, const Ray& ray) const {
+bool RayScene::Impl::occluded(RayKind kind, const Ray& ray, QueryContext& context) const {
     RTCRay query = makeRay(ray);
-    QueryContext context = makeContext(kind);
     context.cullsBacks = false;
-    RTCScene scene = impl_->sceneOf[static_cast<std::size_t>(kind)];
+    RTCScene scene = sceneOf[static_cast<std::size_t>(kind)];
 #if CONELIGHT_EMBREE >= 4
     RTCOccludedArguments arguments;
     rtcInitOccludedArguments(&arguments);
@@ -248,6 +288,20 @@ bool RayScene::occluded(RayKind kind, const Ray& ray) const {
     rtcOccluded1(scene, &context.embree, &query);
 #endif
     return query.tfar < 0;
+}
+
+bool RayScene::occluded(RayKind kind, const Ray& ray) const {
+    QueryContext context = makeContext(kind);
+    return impl_->occluded(kind, ray, context);
+}
+
+glm::vec3 RayScene::transmittance(RayKind kind, const Ray& ray, bool unbent) const {
+    QueryContext context = makeContext(kind);
+    context.passing = &ray;
+    context.blended = Blended::Met;
+    context.unbent = unbent;
+    if (impl_->occluded(kind, ray, context)) return glm::vec3(0);
+    return context.passed * glm::exp(-glm::max(context.depth, glm::vec3(0)));
 }
 
 glm::vec3 RayScene::offsetOrigin(const glm::vec3& point, const glm::vec3& n) {

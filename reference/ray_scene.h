@@ -16,6 +16,10 @@ namespace conelight::reference {
 // with castsShadow.
 enum class RayKind { Camera, Bounce, Shadow };
 
+// Blended surfaces (AlphaMode::Blend): there where they hide one half and more, as in voxels and shadow maps; or
+// met wherever they are, whatever they hide.
+enum class Blended { Cut, Met };
+
 struct Ray {
     glm::vec3 origin{0};
     glm::vec3 direction{0, 0, 1};  // unit
@@ -39,8 +43,12 @@ class RayScene {
     RayScene(RayScene&&) noexcept;
     RayScene& operator=(RayScene&&) noexcept;
 
-    bool intersect(RayKind kind, const Ray& ray, RayHit& hit) const;  // thread-safe
-    bool occluded(RayKind kind, const Ray& ray) const;                // thread-safe
+    // Thread-safe.
+    bool intersect(RayKind kind, const Ray& ray, RayHit& hit, Blended blended = Blended::Cut) const;
+    bool occluded(RayKind kind, const Ray& ray) const;  // thread-safe
+    // What is left of light along a ray that goes straight on through blended surfaces and smooth panes; with `unbent` through all
+    // that is transmissive. Thread-safe.
+    glm::vec3 transmittance(RayKind kind, const Ray& ray, bool unbent) const;
 
     // Start of a ray that leaves a surface point on the side of `normal`, clear of the surface whatever its
     // distance from the origin (Waechter and Binder 2019).

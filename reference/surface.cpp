@@ -106,6 +106,8 @@ glm::vec4 baseColorAt(const Scene& scene, const Mesh& mesh, const Material& mate
            sampleTexture(scene, material.baseColorTexture, uv);
 }
 
+float opacityOf(const glm::vec4& color) { return std::clamp(color.a, 0.0f, 1.0f); }
+
 // Normal map on an interpolated normal, as in view/gbuffer.frag.glsl.
 glm::vec3 mappedNormal(const glm::vec3& n, const glm::vec4& tangent, const glm::vec3& texel, float scale) {
     glm::vec3 t = glm::vec3(tangent) - n * glm::dot(n, glm::vec3(tangent));
@@ -114,6 +116,22 @@ glm::vec3 mappedNormal(const glm::vec3& n, const glm::vec4& tangent, const glm::
     t /= length;
     const glm::vec3 b = glm::cross(n, t) * (tangent.w < 0 ? -1.0f : 1.0f);
     return glm::normalize(t * (texel.x * scale) + b * (texel.y * scale) + n * std::max(texel.z, 1e-3f));
+}
+
+// What of a surface its material says beside colour and emission.
+void readMaterial(const Scene& scene, const glm::vec2& uv, Surface& s) {
+    const Material& material = *s.material;
+    const glm::vec4 metalRough = sampleTexture(scene, material.metallicRoughnessTexture, uv);
+    s.metallic = material.metallic * metalRough.b;
+    s.roughness = material.roughness * metalRough.g;
+    const float ratio = material.ior > 0 ? (material.ior - 1) / (material.ior + 1) : 1.0f;
+    s.dielectricF0 = glm::min(material.specularColor * (ratio * ratio), glm::vec3(1)) * material.specular *
+                     sampleTexture(scene, material.specularTexture, uv).a *
+                     glm::vec3(sampleTexture(scene, material.specularColorTexture, uv));
+    if (isTransmissive(material)) {
+        s.transmission = material.transmission * sampleTexture(scene, material.transmissionTexture, uv).r;
+        s.solid = s.transmission > 0 && material.thickness > 0;
+    }
 }
 
 }  // namespace
@@ -153,11 +171,14 @@ glm::vec3 emissionAt(const Scene& scene, std::uint32_t instanceIndex, std::uint3
                      const glm::vec2& b) {
     const Instance& instance = scene.instances[instanceIndex];
     const Material& material = materialOf(scene, instance);
-    if (material.unlit || !coversAt(scene, instanceIndex, triangle, b)) return glm::vec3(0);
-    if (!material.emissiveTexture.used()) return material.emission;
+    const bool blended = material.alphaMode == AlphaMode::Blend;
+    if (material.unlit || (!blended && !coversAt(scene, instanceIndex, triangle, b))) return glm::vec3(0);
+    if (!material.emissiveTexture.used() && !blended) return material.emission;
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
-    const glm::vec2 uv = interpolated(mesh.uvs, cornersOf(mesh, triangle), b, glm::vec2(0));
-    return material.emission * glm::vec3(sampleTexture(scene, material.emissiveTexture, uv));
+    const auto corners = cornersOf(mesh, triangle);
+    const glm::vec2 uv = interpolated(mesh.uvs, corners, b, glm::vec2(0));
+    const float opacity = blended ? opacityOf(baseColorAt(scene, mesh, material, corners, b, uv)) : 1.0f;
+    return opacity * material.emission * glm::vec3(sampleTexture(scene, material.emissiveTexture, uv));
 }
 
 bool isTextured(const Scene& scene, const RayHit& hit) {
@@ -210,7 +231,9 @@ Surface surfaceAt(const Scene& scene, const Ray& ray, const RayHit& hit, const g
     // The vertex normal decides which side the shading normal is on (view/gbuffer.frag.glsl).
     s.shadingNormal = glm::dot(vertexNormal, s.geometricNormal) < 0 ? -normal : normal;
 
-    const glm::vec3 base(baseColorAt(scene, mesh, material, corners, b, uv));
+    const glm::vec4 color = baseColorAt(scene, mesh, material, corners, b, uv);
+    const glm::vec3 base(color);
+    if (material.alphaMode == AlphaMode::Blend) s.opacity = opacityOf(color);
     const bool shines = s.frontFace || material.doubleSided;
     s.unlit = material.unlit;
     if (s.unlit) {
@@ -218,13 +241,7 @@ Surface surfaceAt(const Scene& scene, const Ray& ray, const RayHit& hit, const g
         return s;
     }
     s.baseColor = base;
-    const glm::vec4 metalRough = sampleTexture(scene, material.metallicRoughnessTexture, uv);
-    s.metallic = material.metallic * metalRough.b;
-    s.roughness = material.roughness * metalRough.g;
-    const float ratio = material.ior > 0 ? (material.ior - 1) / (material.ior + 1) : 1.0f;
-    s.dielectricF0 = glm::min(material.specularColor * (ratio * ratio), glm::vec3(1)) * material.specular *
-                     sampleTexture(scene, material.specularTexture, uv).a *
-                     glm::vec3(sampleTexture(scene, material.specularColorTexture, uv));
+    readMaterial(scene, uv, s);
     if (shines)
         s.emission = material.emission * glm::vec3(sampleTexture(scene, material.emissiveTexture, uv));
     return s;

@@ -18,8 +18,11 @@ struct Surface {
     glm::vec3 baseColor{0};
     float metallic = 0, roughness = 1;
     glm::vec3 dielectricF0{0.04f};
-    glm::vec3 emission{0};  // radiance toward the ray: 0 on the back of single-sided materials
-    bool unlit = false;     // emission is its colour; reflects nothing
+    glm::vec3 emission{0};   // radiance toward the ray: 0 on the back of single-sided materials
+    bool unlit = false;      // emission is its colour; reflects nothing
+    float opacity = 1;       // of a blended surface: how often it is met
+    float transmission = 0;  // share of the light below the gloss that goes through
+    bool solid = false;      // of what goes through: it is bent, and this is one side of a closed surface
 };
 
 // `turn`: textures are read where the ray would meet the plane of the triangle if this were added to its
@@ -30,11 +33,11 @@ Surface surfaceAt(const Scene& scene, const Ray& ray, const RayHit& hit,
 bool isTextured(const Scene& scene, const RayHit& hit);
 bool isTextured(const Scene& scene);
 // Whether there is a surface at a hit: masked materials below their cut-off, and blended ones below one half,
-// have none, as in the G-buffer and the shadow maps.
+// have none, as in voxels and shadow maps.
 bool coversAt(const Scene& scene, std::uint32_t instance, std::uint32_t triangle,
               const glm::vec2& barycentric);
-// Radiance that a point of a triangle gives off (from the sides that shine): 0 where coversAt is false, and
-// for unlit materials, which light nothing.
+// Radiance that a point of a triangle gives off (from the sides that shine): 0 where a mask leaves nothing, by
+// its opacity where it is blended, and 0 for unlit materials, which light nothing.
 glm::vec3 emissionAt(const Scene& scene, std::uint32_t instance, std::uint32_t triangle,
                      const glm::vec2& barycentric);
 // Linear RGBA of a texture at uv, bilinear or nearest, wrapped as it says; sRGB is decoded before filtering.

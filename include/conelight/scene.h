@@ -101,7 +101,8 @@ struct PhongMaterial {
     bool operator==(const PhongMaterial&) const = default;
 };
 
-// glTF metallic-roughness with KHR_materials_specular, _ior, _emissive_strength and _unlit.
+// glTF metallic-roughness with KHR_materials_specular, _ior, _transmission, _volume, _emissive_strength and
+// _unlit.
 struct Material {
     std::string name;
     glm::vec4 baseColor{0.8f, 0.8f, 0.8f, 1.0f};  // rgb: albedo (dielectric) or F0 (metal), [0,1]; a: opacity
@@ -116,6 +117,14 @@ struct Material {
     AlphaMode alphaMode = AlphaMode::Opaque;
     bool doubleSided = false;
     bool unlit = false;  // shows baseColor as radiance; neither receives nor bounces light
+    // Glass: share of the light below a dielectric's gloss, [0,1], that goes through, tinted by baseColor,
+    // instead of being scattered back.
+    float transmission = 0.0f;
+    // 0: a thin pane, which bends no light; above, m: the closed surface of a solid that bends it by `ior`.
+    // How far light goes in it is the mesh's business.
+    float thickness = 0.0f;
+    glm::vec3 attenuationColor{1.0f};  // (0,1], what white light is after attenuationDistance in the solid
+    float attenuationDistance = 0.0f;  // m, >= 0; 0: the solid is clear
 
     TextureRef baseColorTexture;          // rgb * baseColor.rgb, a * baseColor.a
     TextureRef metallicRoughnessTexture;  // g: roughness, b: metallic
@@ -123,11 +132,15 @@ struct Material {
     TextureRef emissiveTexture;           // rgb * emission
     TextureRef specularTexture;           // a: specular
     TextureRef specularColorTexture;      // rgb: specularColor
+    TextureRef transmissionTexture;       // r * transmission
 
     std::optional<PhongMaterial> phong;  // what modes of that model show; none: phongFromPbr of the above
 
     bool operator==(const Material&) const = default;
 };
+
+// Whether light goes through it.
+inline bool isTransmissive(const Material& m) { return m.transmission > 0 && m.metallic < 1 && !m.unlit; }
 
 // The Phong model of a metallic-roughness material, and the other way round: setPbrFromPhong sets what the
 // model says and leaves the rest, `phong` too. The mapping is chosen so

@@ -41,8 +41,9 @@ auto fieldsOf(P& phong) {
 template <FieldsFrom<Material> M>
 auto fieldsOf(M& material) {
     auto& [name, baseColor, metallic, roughness, ior, specular, specularColor, emission, normalScale,
-           alphaCutoff, alphaMode, doubleSided, unlit, baseColorTexture, metallicRoughnessTexture,
-           normalTexture, emissiveTexture, specularTexture, specularColorTexture, phong] = material;
+           alphaCutoff, alphaMode, doubleSided, unlit, transmission, thickness, attenuationColor,
+           attenuationDistance, baseColorTexture, metallicRoughnessTexture, normalTexture, emissiveTexture,
+           specularTexture, specularColorTexture, transmissionTexture, phong] = material;
     return std::tuple{Field{"name", name},
                       Field{"base colour", baseColor},
                       Field{"metallic", metallic},
@@ -56,12 +57,17 @@ auto fieldsOf(M& material) {
                       Field{"alpha mode", alphaMode},
                       Field{"double-sided", doubleSided},
                       Field{"unlit", unlit},
+                      Field{"transmission", transmission},
+                      Field{"thickness", thickness},
+                      Field{"attenuation colour", attenuationColor},
+                      Field{"attenuation distance", attenuationDistance},
                       Field{"base colour", baseColorTexture},
                       Field{"metallic-roughness", metallicRoughnessTexture},
                       Field{"normal", normalTexture},
                       Field{"emission", emissiveTexture},
                       Field{"specular", specularTexture},
                       Field{"specular colour", specularColorTexture},
+                      Field{"transmission", transmissionTexture},
                       Field{"Phong", phong}};
 }
 

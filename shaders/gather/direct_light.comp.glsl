@@ -4,6 +4,10 @@
 // diffuse part reflects plus emission (background: the sky), `specular` what the specular lobe reflects.
 // a: 1 where there is a surface, 0 in the background.
 #include "lib/gbuffer.glsl"
+// For glass, before the others.
+#include "lib/scene_tables.glsl"
+#include "lib/surface_array.glsl"
+// The others.
 #include "lib/lights.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

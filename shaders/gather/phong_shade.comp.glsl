@@ -10,6 +10,10 @@
 #endif
 #define LIGHTS_SHADOWS PHONG_SHADOWS
 #include "lib/gbuffer.glsl"
+// For glass, before the others.
+#include "lib/scene_tables.glsl"
+#include "lib/surface_array.glsl"
+// The others.
 #include "lib/lights.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -61,7 +61,7 @@ void main() {
         Ray ray = Ray(origin, direction, counts ? 1e9 : -1.0, s.geometricNormal);
         PathSettings path = PathSettings(-1.0, counts ? int(pixelRays.reflections) : 0, b.alpha,
                                          pixelRays.fireflyClamp, skyWidth(b, s, direction));
-        vec3 radiance = traceRadiance(ray, path, random, hit);
+        vec3 radiance = throughGlass(traceRadiance(ray, path, random, hit), ray, hit);
         sum += weight * radiance;
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);
         if (glossy)

@@ -19,6 +19,10 @@
 #include "lib/gbuffer.glsl"
 #include "lib/lighting.glsl"
 #include "lib/lookup_count.glsl"
+// For glass, before the others.
+#include "lib/scene_tables.glsl"
+#include "lib/surface_array.glsl"
+// The others.
 #if SHOW_DIRECT
 #include "lib/lights.glsl"
 #endif

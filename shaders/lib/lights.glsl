@@ -11,6 +11,7 @@
 //   reads a light's numbers lane by lane.
 // - LIGHTS_SHADOWS 0: everything is visible.
 // - SHADOW_FILTER: radius of the shadow filter in texels.
+// - GLASS 1: what is not in shadow may lie behind glass (lib/glass_tree.glsl).
 // Reads what light::Lights declares.
 #ifndef LIGHTS_POINT
 #define LIGHTS_POINT 1
@@ -31,7 +32,9 @@
 #define LIGHTS_SHADOWS 1
 #endif
 #include "lib/brdf.glsl"
+#include "lib/glass_tree.glsl"
 #include "lib/light_table.glsl"
+#include "lib/random.glsl"
 #include "lib/rect_light.glsl"
 #include "lib/shadow.glsl"
 
@@ -91,6 +94,15 @@ void addLight(inout DirectLight sum, const bool specular, Receiver r, Brdf b, ve
     if (specular) sum.specular += irradiance * brdfSpecular(b, r.normal, toLight, r.toEye);
 }
 
+// `facing` as glass leaves it on its way of `distance` from a light that is seen.
+vec3 throughGlass(vec3 facing, Receiver r, vec3 toLight, float distance) {
+#if GLASS
+    if (facing.r + facing.g + facing.b > 0.0)
+        facing *= glassTransmittance(r.position, toLight, distance, kAnyBend);
+#endif
+    return facing;
+}
+
 void addPoint(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light) {
     vec3 l = light.position - r.position;
     float d2 = dot(l, l);
@@ -99,8 +111,8 @@ void addPoint(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Li
 #if LIGHTS_SHADOWS
     visible = shadowVisibilityPoint(light, r.position, r.geometricNormal, r.shadowLift);
 #endif
-    addLight(sum, specular, r, b, l,
-             light.intensity * (distanceFalloff(light, d2) * spotFalloff(light, l) * visible));
+    vec3 facing = light.intensity * (distanceFalloff(light, d2) * spotFalloff(light, l) * visible);
+    addLight(sum, specular, r, b, l, throughGlass(facing, r, l, sqrt(d2)));
 }
 
 void addSpot(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light) {
@@ -111,8 +123,8 @@ void addSpot(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
 #if LIGHTS_SHADOWS
     visible = shadowVisibilitySpot(light, r.position, r.geometricNormal, r.shadowLift);
 #endif
-    addLight(sum, specular, r, b, l,
-             light.intensity * (distanceFalloff(light, d2) * spotFalloff(light, l) * visible));
+    vec3 facing = light.intensity * (distanceFalloff(light, d2) * spotFalloff(light, l) * visible);
+    addLight(sum, specular, r, b, l, throughGlass(facing, r, l, sqrt(d2)));
 }
 
 void addDirectional(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light) {
@@ -120,8 +132,51 @@ void addDirectional(inout DirectLight sum, const bool specular, Receiver r, Brdf
 #if LIGHTS_SHADOWS
     visible = shadowVisibilityDirectional(light, r.position, r.geometricNormal, r.shadowLift);
 #endif
-    addLight(sum, specular, r, b, -light.direction, light.intensity * visible);
+    vec3 facing = throughGlass(light.intensity * visible, r, -light.direction, 1e9);
+    addLight(sum, specular, r, b, -light.direction, facing);
 }
+
+#if GLASS
+// Of a rectangle's points, so many are looked at through glass. Walks of the tree are long.
+const int kGlassPoints = 4;
+
+// What glass leaves of a rectangle's light.
+struct RectTint {
+    bool asked;  // any glass may be in the way
+    float turn;
+    vec3 irradiance, specular;  // of points that were looked at, by their weights
+    vec2 weights;               // the sums of these
+};
+
+RectTint rectTint(Receiver r, Light light) {
+    vec3 toMiddle = light.position - r.position;
+    bool asked = mayPassGlass(r.position, normalize(toMiddle), length(toMiddle),
+                              length(light.halfU) + length(light.halfV));
+    // Other points at each place: their mean over a still's views is smooth.
+    uint seed = randomHash(floatBitsToUint(r.position.y + 3.7 * r.position.z));
+    float turn = randomFloat(randomHash(floatBitsToUint(r.position.x) ^ seed));
+    return RectTint(asked, turn, vec3(0.0), vec3(0.0), vec2(0.0));
+}
+
+// The k-th point; `weight`: of what is visible.
+void addTint(inout RectTint tint, Receiver r, Light light, uint k, vec2 weight) {
+    vec3 toPoint = rectSamplePoint(light, k) - r.position;
+    float distance = max(length(toPoint), 1e-6);
+    float count = float(light.sampleGrid * light.sampleGrid);
+    vec2 number = floor(float(kGlassPoints) * vec2(k, k + 1u) / count + tint.turn);
+    if (!tint.asked || number.y <= number.x || weight.x <= 0.0) return;
+    float edge = 2.0 * sqrt(length(cross(light.halfU, light.halfV)));
+    vec3 left = glassTransmittance(r.position, toPoint / distance, distance, min(edge / distance, 1.0));
+    tint.irradiance += weight.x * left;
+    tint.specular += weight.y * left;
+    tint.weights += weight;
+}
+
+void applyTint(RectTint tint, inout DirectLight light) {
+    if (tint.weights.x > 0.0) light.irradiance *= tint.irradiance / tint.weights.x;
+    if (tint.weights.y > 0.0) light.specular *= tint.specular / tint.weights.y;
+}
+#endif
 
 // Diffuse: the exact irradiance of the whole rectangle times the visible share of its sample points, each
 // weighted by the irradiance its cell gives. Specular: likewise the unshadowed reflection of the whole
@@ -135,6 +190,9 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
     vec2 width2 = lobe.width * lobe.width;
     vec2 weights = vec2(0.0), visibleWeights = vec2(0.0);  // irradiance, reflection
     RectSums points = RectSums(vec2(0.0), 0.0, 0.0);
+#if GLASS
+    RectTint tint = rectTint(r, light);
+#endif
     uint k = 0u;
     do {
         vec3 point = rectSamplePoint(light, k);
@@ -165,17 +223,23 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
             weight.y = emitted * rectLobeDensity(inSpace, width2 + kRectCellWidening * cellArea * emitted);
         }
         weights += weight;
+#if GLASS
+        addTint(tint, r, light, k, weight * visible);
+#endif
         visibleWeights += weight * visible;
     } while (++k < count);
     // No sample above the horizon, but a corner of the rectangle: its light is small, and taken as visible.
-    vec2 share = vec2(weights.x > 0.0 ? visibleWeights.x / weights.x : 1.0,
-                      weights.y > 0.0 ? visibleWeights.y / weights.y : 1.0);
-    sum.irradiance += light.intensity * (whole * share.x);
+    vec2 share = mix(vec2(1.0), visibleWeights / weights, greaterThan(weights, vec2(0.0)));
+    DirectLight added = DirectLight(light.intensity * (whole * share.x), vec3(0.0));
     RectSums sums =
         RectSums(points.exact * cellArea, points.cosine * cellArea / kPi, points.most * cellArea / kPi);
     if (specular)
-        sum.specular +=
+        added.specular =
             light.intensity * rectSpecular(light, r.position, lobe, b, sums) * (whole > 0.0 ? share.y : 0.0);
+#if GLASS
+    applyTint(tint, added);
+#endif
+    sum = DirectLight(sum.irradiance + added.irradiance, sum.specular + added.specular);
 }
 
 // Runs `statement` for every light of one kind: `light` in lights[begin..end). The table begins with `before`

@@ -26,8 +26,13 @@
 #define SMOOTH_HITS 0
 #endif
 // Not within an #if: a file that is included in a branch not taken is lost to later includers.
+// For glass, before the others.
+#include "lib/scene_tables.glsl"
+#include "lib/surface_array.glsl"
+// The others.
 #include "lib/environment.glsl"
 #include "lib/ggx_sample.glsl"
+#include "lib/glass_tree.glsl"
 #include "lib/light_table.glsl"
 #include "lib/lit_face.glsl"
 #include "lib/random.glsl"
@@ -138,6 +143,10 @@ const float kSkyBlur = 0.5;
 // fireflyClamp: features that few rays would find in a narrow lobe, many rays see blurred.
 const float kLobeWidening = 12.0;
 
+// Whether rays come from a lobe that shows lamps by what rays hit (kNarrowLobe). Of all but glass: where a
+// surface is seen, its highlights show them.
+bool pathStartsNarrow = false;
+
 #if LOBES
 // What a path carries from one hit to the next.
 struct PathState {
@@ -198,7 +207,7 @@ vec3 traceRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit f
     vec3 firstRadiance = vec3(0.0);
     vec3 reflectedRadiance = vec3(0.0);
     float maxReflected = 0.0;
-    PathState state = PathState(0, vec3(1.0), path.alpha * path.alpha, false);
+    PathState state = PathState(0, vec3(1.0), path.alpha * path.alpha, pathStartsNarrow);
     bool continues;
     do {
         // Evaluate the surface and sample its lobe
@@ -237,6 +246,16 @@ vec3 traceRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit f
     return firstRadiance +
            reflectedRadiance * min(1.0, maxReflected / max(brightness(reflectedRadiance), 1e-12));
 #endif
+}
+
+// Radiance along a ray as glass leaves it; `hit` is where it ends.
+vec3 throughGlass(vec3 radiance, Ray ray, VoxelHit hit) {
+#if GLASS
+    if (ray.tMax > 0.0 && radiance.r + radiance.g + radiance.b > 0.0)
+        radiance *= glassTransmittance(worldFromGrid(ray.origin), ray.direction,
+                                       (hit.face >= 0 ? hit.t : 1e9) * grid.voxelSize, kAnyBend);
+#endif
+    return radiance;
 }
 
 // ---- The irradiance estimator ---------------------------------------------------------------------------
@@ -306,9 +325,9 @@ float skySampleShare(float inverseFlux) {
 // A ray drawn by one of the two techniques.
 struct SampledRay {
     Ray ray;
-    float cosine;  // about the shading normal
-    bool valid;    // above the surface, and towards the front of a light face
-    int lightFace;  // kTowardsSky: none, the surroundings
+    float cosine;          // about the shading normal
+    bool valid;            // above the surface, and towards the front of a light face
+    int lightFace;         // kTowardsSky: none, the surroundings
     float targetDistance;  // light-sampled ray: distance of its point; else negative
 };
 
@@ -407,6 +426,7 @@ vec3 estimateIrradiance(SurfacePoint point, EstimatorSettings settings, Sequence
         vec3 cell = environmentCell(drawn.ray.direction, skyPdf);
         radiance = hit.face >= 0 ? radiance : cell;
 #endif
+        radiance = throughGlass(radiance, drawn.ray, hit);
 #if FIND_BACK_FACES
         // Discard rays that passed a back face
         VoxelHit searched = hit;

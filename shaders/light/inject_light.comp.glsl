@@ -12,6 +12,10 @@
 #error EMISSION_FITS must be 0 or 1
 #endif
 layout(local_size_x = 64) in;  // before linear_index, which asks for it
+// For glass, before the others.
+#include "lib/scene_tables.glsl"
+#include "lib/surface_array.glsl"
+// The others.
 #include "lib/lights.glsl"
 #include "lib/linear_index.glsl"
 #include "lib/voxel_grid.glsl"
@@ -80,6 +84,5 @@ void main() {
     cachedDirect[index] = packRgb9e5(steady);
     bits = (material.w << FACE_LOBE_SHIFT) | (areaLight ? FACE_AREA_LIGHT : 0u);
 #endif
-    litFaces[index] =
-        LitFace(material.x, packRgb9e5(emission + reflectance * light.irradiance), 0u, bits);
+    litFaces[index] = LitFace(material.x, packRgb9e5(emission + reflectance * light.irradiance), 0u, bits);
 }

@@ -13,10 +13,12 @@ struct FrameConstants {
     // y viewUp)
     vec3 viewForward;  // unit, where pixels are seen at their centres
     uint height;
-    vec3 viewRight;  // unit vector times the tangent of half the horizontal field of view
+    vec3 viewRight;   // unit vector times the tangent of half the horizontal field of view
     float footprint;  // edge of the part of a pixel that this view stands for, pixels: textures are as sharp
-    vec3 viewUp;  // unit vector times the tangent of half the vertical field of view
-    float pad0;
+    vec3 viewUp;      // unit vector times the tangent of half the vertical field of view
+    // Which fragments of blended surfaces are there: below 0 those that hide a half and more, in [0,1) those above
+    // thresholds that this number turns, 2 those above thresholds that differ within each 3 x 3 pixels.
+    float blending;
 };  // 128 B
 
 CONELIGHT_SHARED_END

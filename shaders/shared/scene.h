@@ -20,7 +20,9 @@ struct Vertex {
 #define INSTANCE_VOXELIZED 2u
 #define INSTANCE_CASTS_SHADOW 4u
 #define INSTANCE_WIDE_COLORS 64u  // vertex colours are RGB9E5: above 1, or finer than 8 bits
-#define INSTANCE_FLIPPED 16u      // negative determinant: winding is reversed
+#define INSTANCE_GLASS \
+    128u  // transmissive: drawn in front of the picture (shared/glass.h), no voxels, no shadow
+#define INSTANCE_FLIPPED 16u  // negative determinant: winding is reversed
 
 struct Instance {
     mat4 worldFromObject;
@@ -47,6 +49,7 @@ struct Instance {
 #define MATERIAL_HAS_PHONG 16u        // phong* given by the scene, not derived
 #define MATERIAL_BASE_TEXTURE 32u     // has a base colour texture
 #define MATERIAL_DETAIL_TEXTURES 64u  // has any of the other five
+#define MATERIAL_SOLID 128u           // glass that bends light: a closed surface
 
 struct Material {
     vec4 baseColor;
@@ -74,8 +77,18 @@ struct Material {
     float phongAmbient;
     float phongDiffuse;
     float phongSpecular;
-    float pad1;
-};  // 304 B
+    float transmission;
+    // ---- 304 B: of glass
+    vec3 absorption;  // 1/m, in a solid
+    float ior;
+    // ---- 320 B
+    vec4 transmissionUvRow[2];  // as uvRow
+    // ---- 352 B
+    int transmissionLayer;  // of the surface array, -1 none
+    uint pad1;
+    uint pad2;
+    uint pad3;
+};  // 368 B
 
 // Kinds of lights by how they are evaluated; the table is sorted by them (FrameConstants::lightEnds).
 #define LIGHT_POINT 0u  // also spots wider than a single shadow map can cover
@@ -117,6 +130,6 @@ CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::Vertex) == 32);
 static_assert(sizeof(conelight::gpu::Instance) == 144);
-static_assert(sizeof(conelight::gpu::Material) == 304);
+static_assert(sizeof(conelight::gpu::Material) == 368);
 static_assert(sizeof(conelight::gpu::Light) == 112);
 #endif

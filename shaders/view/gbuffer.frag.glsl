@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Fragments of the scene -> the G-buffer's words (lib/gbuffer_pack.glsl). Material model of glTF 2.0 with
 // KHR_texture_transform, _specular, _unlit; MASKED: discards below the cut-off of masked materials, and below
-// one half of blended ones.
+// thresholds of blended ones (FrameConstants::blending; Enderton et al. 2010, "Stochastic Transparency").
 #ifndef TEXTURES
 #error TEXTURES must be 0 (none), 1 (base colour) or 2 (all)
 #endif
@@ -12,6 +12,7 @@
 #include "lib/frame_block.glsl"
 #include "lib/gbuffer_pack.glsl"
 #include "lib/octahedral.glsl"
+#include "lib/random.glsl"
 #include "lib/scene_tables.glsl"
 
 layout(location = 0) in vec3 fromEye;
@@ -56,6 +57,18 @@ vec3 faceNormal() {
     return dot(n, fromEye) > 0.0 ? -n : n;
 }
 
+#if MASKED
+// Above 0, so that what hides nothing is not there, and at most 1.
+float blendThreshold() {
+    if (frame.blending < 0.0) return 0.5;
+    uvec2 pixel = uvec2(gl_FragCoord.xy);
+    if (frame.blending >= 2.0) return (float(pixel.x % 3u + 3u * (pixel.y % 3u)) + 0.5) / 9.0;
+    // Layers are independent of each other.
+    uint bits = randomHash(pixel.x | pixel.y << 16) ^ randomHash(constant.x >> 2);
+    return 1.0 - fract(randomFloat(randomHash(bits)) + frame.blending);
+}
+#endif
+
 void main() {
     uint material = constant.z;
     vec4 base = interpolatedBase;
@@ -66,8 +79,8 @@ void main() {
     base *= materialTexel(baseTexture, material, 0);
 #endif
 #if MASKED
-    float cutoff =
-        (materials[material].flags & MATERIAL_ALPHA_MASK) != 0u ? materials[material].alphaCutoff : 0.5;
+    bool masked = (materials[material].flags & MATERIAL_ALPHA_MASK) != 0u;
+    float cutoff = masked ? materials[material].alphaCutoff : blendThreshold();
     if (base.a < cutoff) discard;
 #endif
 

@@ -30,13 +30,15 @@ LightKey LightKey::of(const glm::uvec4& ends, bool shadows, int filter) {
 }
 
 gl::Defines LightKey::defines() const {
-    return {{"LIGHTS_POINT", std::to_string(point)},
-            {"LIGHTS_SPOT", std::to_string(spot)},
-            {"LIGHTS_DIRECTIONAL", std::to_string(directional)},
-            {"LIGHTS_RECT", std::to_string(rect)},
-            {"LIGHTS_FIXED", fixed ? "1" : "0"},
-            {"LIGHTS_SHADOWS", shadows ? "1" : "0"},
-            {"SHADOW_FILTER", std::to_string(filter)}};
+    gl::Defines defines{{"LIGHTS_POINT", std::to_string(point)},
+                        {"LIGHTS_SPOT", std::to_string(spot)},
+                        {"LIGHTS_DIRECTIONAL", std::to_string(directional)},
+                        {"LIGHTS_RECT", std::to_string(rect)},
+                        {"LIGHTS_FIXED", fixed ? "1" : "0"},
+                        {"LIGHTS_SHADOWS", shadows ? "1" : "0"},
+                        {"SHADOW_FILTER", std::to_string(filter)}};
+    if (glass) defines.emplace_back("GLASS", "1");
+    return defines;
 }
 
 std::vector<LightKey> LightKey::all() {
@@ -56,8 +58,12 @@ std::vector<LightKey> LightKey::all() {
             key.shadows = true;
             for (int filter = 0; total > 0 && filter <= kLargestFilter; ++filter) {
                 key.filter = filter;
-                keys.push_back(key);
+                for (const bool glass : {false, true}) {
+                    key.glass = glass;
+                    keys.push_back(key);
+                }
             }
+            key.glass = false;
         }
     }
     return keys;
@@ -69,21 +75,25 @@ gl::Defines HitKey::defines() const {
         for (auto& define : lights.defines()) defines.push_back(std::move(define));
     defines.emplace_back("LOBES", lobes ? "1" : "0");
     if (environment) defines.emplace_back("ENVIRONMENT", "1");
+    if (glass) defines.emplace_back("GLASS", "1");
     return defines;
 }
 
 std::vector<HitKey> HitKey::all(int filter) {
     std::vector<HitKey> keys;
-    for (const bool environment : {false, true})
-        for (const bool lobes : {false, true}) {
-            keys.push_back({.lobes = lobes, .environment = environment});
-            for (LightKey lights : LightKey::all()) {
-                const bool punctual = lights.point + lights.spot + lights.directional > 0;
-                if (!punctual || lights.rect != 0 || lights.filter != 0) continue;
-                if (lights.shadows) lights.filter = filter;
-                keys.push_back({.exact = true, .lobes = lobes, .environment = environment, .lights = lights});
-            }
+    for (int bits = 0; bits < 8; ++bits) {
+        HitKey key{
+            .lobes = (bits & 2) != 0, .environment = (bits & 4) != 0, .glass = (bits & 1) != 0, .lights = {}};
+        keys.push_back(key);
+        key.exact = true;
+        for (const LightKey& lights : LightKey::all()) {
+            const bool punctual = lights.point + lights.spot + lights.directional > 0;
+            if (!punctual || lights.rect != 0 || lights.filter != 0 || lights.glass) continue;
+            key.lights = lights;
+            if (lights.shadows) key.lights.filter = filter;
+            keys.push_back(key);
         }
+    }
     return keys;
 }
 

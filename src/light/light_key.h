@@ -17,7 +17,8 @@ struct LightKey {
     int point = 0, spot = 0, directional = 0, rect = 0;
     bool fixed = true;
     bool shadows = false;
-    int filter = 0;  // radius of the shadow filter, texels; 0 without shadows; -1: one texel, unfiltered
+    bool glass = false;  // with shadows: glass tints them
+    int filter = 0;      // radius of the shadow filter, texels; 0 without shadows; -1: one texel, unfiltered
 
     // `ends`: of the kinds in the sorted light table.
     static LightKey of(const glm::uvec4& ends, bool shadows, int filter);
@@ -31,6 +32,7 @@ struct HitKey {
     bool exact = false;        // punctual lights are looked up; else faces give all light
     bool lobes = false;        // metals reflect in their lobe
     bool environment = false;  // where they hit nothing they see a picture, not the constant sky alone
+    bool glass = false;        // light passes glass on its way
     LightKey lights;           // of `exact`: the punctual ones, filter 0 or -1
 
     gl::Defines defines() const;

@@ -35,6 +35,7 @@ void Lights::update(const gl::Device& device, const scene::GpuScene& scene, cons
     fillTable(scene.source(), wanted.emissiveQuads);
     if (wanted.shadowMaps) shadows_.update(device, scene, wanted.settings, table_);
     environment_.update(scene.source().environment);
+    glass_.update(scene);
     upload(scene.source());
     from_ = sources;
     revision_ = base::Revision::next();
@@ -71,22 +72,28 @@ void Lights::declare(gl::Inputs& inputs) const {
         .uniform("FixedLightBlock", tableBuffer_)
         .uniform("FixedLightRows", tableBuffer_)
         .add(shadows_)
-        .add(environment_);
+        .add(environment_)
+        .add(glass_);
 }
 
 LightKey Lights::key() const {
-    return LightKey::of(ends_, from_.wanted.settings.shadowSize > 0, from_.wanted.settings.shadowFilter);
+    LightKey key =
+        LightKey::of(ends_, from_.wanted.settings.shadowSize > 0, from_.wanted.settings.shadowFilter);
+    key.glass = hasGlass() && key.shadows;
+    return key;
 }
 
 HitKey Lights::hitKey(const scene::GpuScene& scene, bool exactDirect) const {
     HitKey key;
     key.lobes = hasMetals(scene);
     key.environment = hasEnvironment();
+    key.glass = hasGlass();
     key.exact = exactDirect && ends_.z > 0 && ends_.z <= kMostExactLights;
     if (!key.exact) return key;
     // One comparison of four texels per light: rays average edges anyway.
     key.lights = this->key();
     key.lights.rect = 0;
+    key.lights.glass = false;  // the key's own
     key.lights.filter = 0;
     return key;
 }

@@ -14,6 +14,7 @@
 #include "light/environment.h"
 #include "light/light_key.h"
 #include "light/shadow_maps.h"
+#include "scene/glass_tree.h"
 #include "scene/gpu_scene.h"
 
 namespace conelight::light {
@@ -36,7 +37,7 @@ class Lights {
     base::Revision revision() const { return revision_; }
 
     // LightTable, LightingBlock, FixedLightBlock and FixedLightRows (the table once more, for shaders that
-    // know how many lights there are), the shadow maps, and the environment's picture where there is one.
+    // know how many lights there are), the shadow maps, and the environment's picture and the tree of glass where there are any.
     void declare(gl::Inputs& inputs) const;
     LightKey key() const;  // the variant of shaders that these lights need
     // Of shaders whose rays look punctual lights up where they hit; off where there are none, or more than
@@ -47,6 +48,7 @@ class Lights {
     const glm::uvec4& ends() const { return ends_; }  // of the points, spots, directional lights, rectangles
     // Whether an instance's emission arrives from a rectangle of the table: voxels leave it out.
     bool areInTable(std::size_t instance) const { return emitters_[instance] != 0; }
+    bool hasGlass() const { return !glass_.empty(); }
     bool hasEnvironment() const { return environment_.hasPicture(); }
     int redrawnShadowMaps() const { return shadows_.redrawn(); }
 
@@ -60,6 +62,7 @@ class Lights {
     gl::Buffer tableBuffer_, block_;
     ShadowMaps shadows_;
     EnvironmentTable environment_;
+    scene::GlassTree glass_;  // that light passes
 
     // What it was made from.
     struct Sources {

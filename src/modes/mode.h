@@ -5,6 +5,7 @@
 
 #include "conelight/scene.h"
 #include "conelight/settings.h"
+#include "gather/glass.h"
 #include "gather/step_recorder.h"
 #include "gl/device.h"
 #include "gl/texture.h"
@@ -29,6 +30,7 @@ struct Frame {
     // One of the views of an anti-aliased still: the same picture as the one before, but for where in its
     // pixels `surfaces` were seen. What was gathered for the pixels' centres may stand in.
     bool besideCenters = false;
+    int part = 0;  // which of these views
     // Not null: the picture stays as it is, and what it shows of the recorder's pixel, or would show in
     // component full, is gathered once more for the record.
     gather::StepRecorder* recorder = nullptr;
@@ -39,10 +41,19 @@ class ModeRenderer {
     virtual ~ModeRenderer() = default;
     // Owns the values between frame and picture, and brings up to date what the picture needs of them.
     virtual void draw(const Frame& frame) = 0;
+    // Draws what is transmissive in front of the picture that draw() has made. Where a mode has no way of its
+    // own: as panes that bend nothing.
+    virtual void drawGlass(const Frame& frame) {
+        glass_.drawStraight(frame.device, {frame.scene, frame.lights, frame.surfaces},
+                            gather::partsOf(frame.settings.component), frame.output);
+    }
     // Whether pictures of a scene need shadow maps.
     virtual bool needsShadows(const Scene& scene, const Settings& settings) const = 0;
     // Whether flat emitters become lights where light.emissive_quads is on.
     virtual bool lightsFromEmitters(const Settings&) const { return true; }
+
+  protected:
+    gather::Glass glass_;
 };
 
 }  // namespace conelight::modes

@@ -38,12 +38,15 @@ std::vector<MemoryStats> memoryStats() {
     return memory;
 }
 
+bool isOfLight(Component component) {
+    return component == Component::Full || component == Component::Direct ||
+           component == Component::Indirect || component == Component::Diffuse ||
+           component == Component::Specular;
+}
+
 // Stills of light; what pixels are of is told at their centres.
 bool isAntialiased(const Settings& settings) {
-    const Component component = settings.component;
-    const bool ofLight = component == Component::Full || component == Component::Direct ||
-                         component == Component::Indirect || component == Component::Diffuse ||
-                         component == Component::Specular;
+    const bool ofLight = isOfLight(settings.component);
     const bool moves = settings.mode == Mode::Traced && settings.traced.budgeted;
     return settings.image.antialiasing > 0 && ofLight && !moves;
 }
@@ -209,7 +212,8 @@ void Renderer::Impl::render(const Camera& camera, int width, int height, const S
     // Views of surfaces need neither lights nor a mode.
     const bool debugView = image::isDebugView(settings.component);
     if (!debugView || settings.view.voxels) prepare(settings);
-    surfaces.see(device, *scene, {camera, width, height, true});
+    const view::PixelPart centers = isAntialiased(settings) ? view::centersOfStill() : view::PixelPart{};
+    surfaces.see(device, *scene, {camera, width, height, true, centers, debugView});
     if (debugView)
         image::drawDebugView(device, *scene, surfaces, settings.component, image.texture());
     else if (settings.component == Component::ShadowMap)
@@ -229,6 +233,7 @@ void Renderer::Impl::drawLight(const modes::Frame& frame) {
     const Component component = frame.settings.component;
     if (component == Component::Full || component == Component::Direct)
         image::drawBackground(frame.device, frame.scene, frame.lights, frame.surfaces, frame.output);
+    if (frame.lights.hasGlass() && isOfLight(component)) mode->drawGlass(frame);
 }
 
 // Views through points beside the pixels' centres; their mean takes the place of the centres' picture.
@@ -243,7 +248,8 @@ void Renderer::Impl::drawParts(const Camera& camera, const Settings& settings) {
                    .surfaces = partSurfaces,
                    .settings = settings,
                    .output = views.view(image.width(), image.height()),
-                   .besideCenters = true});
+                   .besideCenters = true,
+                   .part = i});
         views.add(device, i, image.texture());
     }
 }

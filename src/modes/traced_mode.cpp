@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "modes/traced_mode.h"
 
+#include <algorithm>
+
 namespace conelight::modes {
 namespace {
+
+// A ray from glass goes on so often where it meets metal, as those from other gloss do.
+constexpr int kGlassReflections = 3;
+// Passes of glass for one of other gloss, in stills: surfaces behind the first choose by chance.
+constexpr int kGlassPasses = 4;
 
 // Nothing is gathered without a bounce; the parts are black then.
 gather::PictureParts partsOf(const Settings& settings) {
@@ -69,6 +76,23 @@ void TracedMode::draw(const Frame& frame) {
 }
 // [/recipe]
 
+// By rays, where the picture holds what they may bring.
+void TracedMode::drawGlass(const Frame& frame) {
+    const TracedSettings& settings = frame.settings.traced;
+    const gather::PictureParts parts = partsOf(frame.settings);
+    if (!parts.diffuse && !parts.specular) return ModeRenderer::drawGlass(frame);
+    gather::Glass::Wanted wanted{.parts = parts, .passes = settings.specularRays * settings.passes};
+    // The views of a still are averaged.
+    if (frame.besideCenters)
+        wanted.passes = kGlassPasses * wanted.passes / std::max(frame.settings.image.antialiasing, 1);
+    if (settings.budgeted) wanted.passes = settings.specularRays;
+    wanted.passes = std::max(wanted.passes, 1);
+    wanted.firstPass = frame.part * wanted.passes;
+    if (!settings.bounces) wanted.reflections = kGlassReflections;
+    glass_.drawByRays(frame.device, {frame.scene, frame.lights, voxels_, lit_, frame.surfaces}, wanted,
+                      frame.output);
+}
+
 // What the picture shows of one pixel, or would show in component full.
 void TracedMode::record(const Frame& frame, const gather::RayInputs& inputs) {
     const TracedSettings& settings = frame.settings.traced;
@@ -83,7 +107,8 @@ void TracedMode::record(const Frame& frame, const gather::RayInputs& inputs) {
 std::vector<gl::ProgramDesc> TracedMode::programDescs() {
     std::vector<gl::ProgramDesc> descs = light::LitVoxels::programDescs();
     for (const auto& more : {gather::PixelRays::programDescs(), gather::CarriedPicture::programDescs(),
-                             gather::TracedShade::programDescs(), image::VoxelView::programDescs()})
+                             gather::TracedShade::programDescs(), gather::Glass::programDescs(),
+                             image::VoxelView::programDescs()})
         descs.insert(descs.end(), more.begin(), more.end());
     return descs;
 }

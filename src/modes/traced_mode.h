@@ -17,6 +17,7 @@ namespace conelight::modes {
 class TracedMode : public ModeRenderer {
   public:
     void draw(const Frame& frame) override;
+    void drawGlass(const Frame& frame) override;
     // Every component has lit voxels or direct light in it, or leaves them behind for the next.
     bool needsShadows(const Scene&, const Settings&) const override { return true; }
 

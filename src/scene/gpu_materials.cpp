@@ -88,6 +88,16 @@ std::vector<std::uint8_t> encodedSurface(const std::vector<glm::vec4>& level) {
     return bytes;
 }
 
+void packGlass(const Material& m, gpu::Material& g) {
+    g.transmission = m.transmission;
+    g.ior = std::max(m.ior, 1.0f);
+    if (m.attenuationDistance > 0) g.absorption = -glm::log(m.attenuationColor) / m.attenuationDistance;
+    const glm::mat3& t = m.transmissionTexture.uvFromUv;
+    g.transmissionUvRow[0] = {t[0][0], t[1][0], t[2][0], 0};
+    g.transmissionUvRow[1] = {t[0][1], t[1][1], t[2][1], 0};
+    g.transmissionLayer = m.transmissionTexture.texture;
+}
+
 }  // namespace
 
 gpu::Material packedMaterial(const Material& m) {
@@ -104,7 +114,7 @@ gpu::Material packedMaterial(const Material& m) {
     g.flags = (m.alphaMode == AlphaMode::Mask ? MATERIAL_ALPHA_MASK : 0u) |
               (m.alphaMode == AlphaMode::Blend ? MATERIAL_ALPHA_BLEND : 0u) |
               (m.doubleSided ? MATERIAL_DOUBLE_SIDED : 0u) | (m.unlit ? MATERIAL_UNLIT : 0u) |
-              (m.phong ? MATERIAL_HAS_PHONG : 0u);
+              (m.phong ? MATERIAL_HAS_PHONG : 0u) | (m.thickness > 0 ? MATERIAL_SOLID : 0u);
     const TextureRef* uses[6] = {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture,
                                  &m.emissiveTexture,  &m.specularTexture,          &m.specularColorTexture};
     for (int i = 0; i < 6; ++i) {
@@ -114,6 +124,7 @@ gpu::Material packedMaterial(const Material& m) {
         g.uvRow[2 * i] = {t[0][0], t[1][0], t[2][0], 0};
         g.uvRow[2 * i + 1] = {t[0][1], t[1][1], t[2][1], 0};
     }
+    packGlass(m, g);
     const PhongMaterial phong = phongOf(m);
     g.phongColor = phong.color;
     g.phongShininess = phong.shininess;

@@ -117,9 +117,11 @@ void GpuScene::sortDraws() {
 
 void GpuScene::setFlags(std::size_t index, const Instance& source) {
     gpu::Instance& g = instances_[index];
-    g.flags = (source.visible ? INSTANCE_VISIBLE : 0u) |
-              (source.visible && source.voxelized ? INSTANCE_VOXELIZED : 0u) |
-              (source.visible && source.castsShadow ? INSTANCE_CASTS_SHADOW : 0u) |
+    const bool glass =
+        source.material >= 0 && isTransmissive(source_.materials[static_cast<std::size_t>(source.material)]);
+    g.flags = (source.visible ? INSTANCE_VISIBLE : 0u) | (glass ? INSTANCE_GLASS : 0u) |
+              (source.visible && source.voxelized && !glass ? INSTANCE_VOXELIZED : 0u) |
+              (source.visible && source.castsShadow && !glass ? INSTANCE_CASTS_SHADOW : 0u) |
               (g.flags & (INSTANCE_FLIPPED | INSTANCE_WIDE_COLORS));
 }
 
@@ -161,13 +163,19 @@ void GpuScene::setInstance(std::size_t index, const Instance& instance) {
 }
 
 void GpuScene::setMaterial(std::size_t index, const Material& material) {
+    const bool turnsGlass = isTransmissive(material) != isTransmissive(source_.materials[index]);
     source_.materials[index] = material;
     materials_[index] = packedMaterial(material);
     materialTextures_[index] = texturesOf(material);
     materialBuffer_.update(index * sizeof(gpu::Material), &materials_[index], sizeof(gpu::Material));
     geometryRevision_ = base::Revision::next();
     for (std::size_t i = 0; i < instances_.size(); ++i)
-        if (instances_[i].material == index) instanceRevisions_[i] = geometryRevision_;
+        if (instances_[i].material == index) {
+            instanceRevisions_[i] = geometryRevision_;
+            if (!turnsGlass) continue;
+            setFlags(i, source_.instances[i]);
+            uploadInstance(i);
+        }
 }
 
 void GpuScene::setLights(const std::vector<Light>& lights) {

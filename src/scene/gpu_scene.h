@@ -22,6 +22,11 @@
 
 namespace conelight::scene {
 
+// Whether an instance is drawn as glass (scene/glass_tree.h).
+inline bool isGlass(const gpu::Instance& instance) {
+    return (instance.flags & INSTANCE_GLASS) != 0 && (instance.flags & INSTANCE_VISIBLE) != 0;
+}
+
 class GpuScene {
   public:
     // Copies and uploads everything. Throws Error(BadInput) by Scene::validate.

@@ -119,6 +119,18 @@ void scene::validateLight(const Light& light) { validateNumbers(light, "light", 
 void scene::validateMaterial(const Scene& scene, const Material& material) {
     validateNumbers(material, "material", material.name);
     if (material.phong) validateNumbers(*material.phong, "material", material.name);
+    const glm::vec3& color = material.attenuationColor;
+    const bool glass = material.transmission >= 0 && material.transmission <= 1 && material.thickness >= 0 &&
+                       std::min({color.r, color.g, color.b}) > 0 &&
+                       std::max({color.r, color.g, color.b}) <= 1 && material.attenuationDistance >= 0;
+    if (!glass)
+        fail(ErrorKind::BadInput,
+             "material '%s': transmission %g, thickness %g, attenuation colour %g %g %g at %g m; a "
+             "transmission of 0 to 1, colours above 0 and up to 1, lengths of 0 or more would be right",
+             material.name.c_str(), static_cast<double>(material.transmission),
+             static_cast<double>(material.thickness), static_cast<double>(color.r),
+             static_cast<double>(color.g), static_cast<double>(color.b),
+             static_cast<double>(material.attenuationDistance));
     visitFields(
         [&](const char* use, const auto& value) {
             if constexpr (std::is_same_v<decltype(value), const TextureRef&>)

@@ -67,8 +67,14 @@ PixelPart pixelPart(int index, int count) {
     while (std::gcd(step, count) != 1) ++step;
     const double row = static_cast<double>(index) * step;
     const double x = (index + 0.5) / count, y = (std::fmod(row, count) + 0.5) / count;
-    return {{x - 0.5, y - 0.5}, static_cast<float>(1 / std::sqrt(static_cast<double>(count)))};
+    // Thresholds of blended surfaces go round by the plastic number's inverse, apart from the lattice's order.
+    const double turn = std::fmod(0.7548776662466927 * index, 1.0);
+    return {{x - 0.5, y - 0.5},
+            static_cast<float>(1 / std::sqrt(static_cast<double>(count))),
+            static_cast<float>(turn)};
 }
+
+PixelPart centersOfStill() { return {.blending = 2.0f}; }
 
 gpu::FrameConstants frameConstants(const Camera& camera, int width, int height, const PixelPart& part) {
     const Axes axes = axesOf(camera);
@@ -89,6 +95,7 @@ gpu::FrameConstants frameConstants(const Camera& camera, int width, int height, 
     frame.viewRight = glm::vec3(axes.right * tanX);
     frame.viewUp = glm::vec3(axes.up * tanY);
     frame.footprint = part.footprint;
+    frame.blending = part.blending;
     frame.width = static_cast<std::uint32_t>(width);
     frame.height = static_cast<std::uint32_t>(height);
     return frame;

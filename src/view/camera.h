@@ -14,10 +14,13 @@ glm::mat4 clipFromView(const Camera& camera, int width, int height);  // GL clip
 struct PixelPart {
     glm::dvec2 offset{0};    // from the centres, pixels, y up
     float footprint = 1.0f;  // FrameConstants::footprint
+    float blending = -1.0f;  // FrameConstants::blending
 };
 // The views whose mean is a picture through a box filter of one pixel: one in each row and each column of
 // count x count cells of the pixel, so that also edges along the axes have as many steps (a rank-1 lattice).
 PixelPart pixelPart(int index, int count);
+// The centres, for what the views of an anti-aliased still are to find of blended surfaces.
+PixelPart centersOfStill();
 
 gpu::FrameConstants frameConstants(const Camera& camera, int width, int height, const PixelPart& part = {});
 

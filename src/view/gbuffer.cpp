@@ -52,7 +52,7 @@ GBuffer::GBuffer(int width, int height)
 }
 
 void GBuffer::draw(const gl::Device& device, const scene::GpuScene& scene, const gl::Buffer& frameBlock,
-                   bool cullBackFaces) {
+                   bool cullBackFaces, bool withGlass) {
     const gl::PassScope pass(device.profiler, "gbuffer");
     gl::Inputs inputs;
     inputs.uniform("FrameBlock", frameBlock).add(scene);
@@ -69,11 +69,12 @@ void GBuffer::draw(const gl::Device& device, const scene::GpuScene& scene, const
     // Opaque materials first: their depths spare the dearer fragments behind them.
     const gl::Cull cull = cullBackFaces ? gl::Cull::Back : gl::Cull::None;
     const std::vector<gpu::Material>& materials = scene.materials();
+    const auto drawn = [&](const gpu::Instance& instance) { return withGlass || !scene::isGlass(instance); };
     for (const bool masked : {false, true}) {
         for (int textures = 0; textures < kTextureUses; ++textures) {
             const auto accepted = [&](const gpu::Instance& instance) {
                 const gpu::Material& material = materials[instance.material];
-                return textureUse(material) == textures && isMasked(material) == masked;
+                return textureUse(material) == textures && isMasked(material) == masked && drawn(instance);
             };
             bool any = false;
             for (const gpu::Instance& instance : scene.instances())

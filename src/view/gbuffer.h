@@ -23,11 +23,12 @@ class GBuffer {
   public:
     GBuffer(int width, int height);
 
-    // `frameBlock` holds gpu::FrameConstants. `cullBackFaces`: single-sided materials are seen from their
+    // `frameBlock` holds gpu::FrameConstants. `withGlass`: transmissive instances are drawn like others; else
+    // they are left out, for what lies behind. `cullBackFaces`: single-sided materials are seen from their
     // front only. GL state changed: raster state, vertex array, program and its slots, texture units of
     // materials.
     void draw(const gl::Device& device, const scene::GpuScene& scene, const gl::Buffer& frameBlock,
-              bool cullBackFaces);
+              bool cullBackFaces, bool withGlass);
 
     void declare(gl::Inputs& inputs) const;  // gbufferGeometry, gbufferMaterial
 

@@ -12,7 +12,7 @@ void Surfaces::see(const gl::Device& device, const scene::GpuScene& scene, const
     }
     view_ = frameConstants(picture.camera, picture.width, picture.height, picture.part);
     block_.update(view_);
-    gbuffer_->draw(device, scene, block_, picture.cullBackFaces);
+    gbuffer_->draw(device, scene, block_, picture.cullBackFaces, picture.withGlass);
     gl::barrier(gl::Access::TextureFetch | gl::Access::ShaderStorage);
 }
 

@@ -24,6 +24,7 @@ class Surfaces {
         int width, height;
         bool cullBackFaces;
         PixelPart part = {};
+        bool withGlass = false;  // else what is behind it
     };
     void see(const gl::Device& device, const scene::GpuScene& scene, const Picture& picture);
     explicit operator bool() const { return gbuffer_.has_value(); }

@@ -42,6 +42,32 @@ TEST(Gltf, MaterialsWithExtensions) {
     expectNear(m.specularColor, {1, 2, 3});
 }
 
+TEST(Gltf, ReadsGlass) {
+    GltfBuilder b;
+    b.triangle()["material"] = 0;
+    b.json["materials"] = {
+        {{"name", "glass"},
+         {"extensions",
+          {{"KHR_materials_transmission", {{"transmissionFactor", 0.9}}},
+           {"KHR_materials_volume",
+            {{"thicknessFactor", 0.5}, {"attenuationDistance", 2}, {"attenuationColor", {0.5, 0, 1}}}},
+           {"KHR_materials_ior", {{"ior", 1.4}}}}}},
+        {{"name", "pane"}, {"extensions", {{"KHR_materials_transmission", {{"transmissionFactor", 7}}}}}}};
+    b.node({{"mesh", 0}});
+    const Scene scene = loadGlb(b, "glass");
+    const Material& glass = scene.materials.at(0);
+    EXPECT_FLOAT_EQ(glass.transmission, 0.9f);
+    EXPECT_FLOAT_EQ(glass.thickness, 0.5f);
+    EXPECT_FLOAT_EQ(glass.attenuationDistance, 2);
+    EXPECT_FLOAT_EQ(glass.ior, 1.4f);
+    // Black would absorb without end.
+    expectNear(glass.attenuationColor, {0.5f, 1e-4f, 1});
+    EXPECT_TRUE(scene.notes.empty());
+    const Material& pane = scene.materials.at(1);
+    EXPECT_FLOAT_EQ(pane.transmission, 1);
+    EXPECT_FLOAT_EQ(pane.thickness, 0);
+}
+
 TEST(Gltf, PrimitiveWithoutMaterialGetsTheFormatsDefault) {
     GltfBuilder b;
     b.triangle();

@@ -165,7 +165,8 @@ TEST(SettingsTest, MessagesSayWhatWouldBeRight) {
     EXPECT_EQ(failureOf("image.srgb", "maybe"),
               "setting image.srgb: 'maybe' is not usable; true or false would be right");
     EXPECT_EQ(failureOf("image.tone_map", "filmic"),
-              "setting image.tone_map: 'filmic' is not usable; one of none,reinhard,aces,agx,neutral would be right");
+              "setting image.tone_map: 'filmic' is not usable; one of none,reinhard,aces,agx,neutral would "
+              "be right");
     EXPECT_EQ(
         failureOf("cones.max_distance", "far"),
         "setting cones.max_distance: 'far' is not usable; a number from 0 to 1e+06 or auto would be right");

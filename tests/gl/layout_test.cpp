@@ -8,6 +8,7 @@
 
 #include "shared/cones.h"
 #include "shared/frame.h"
+#include "shared/glass.h"
 #include "shared/image.h"
 #include "shared/inspect.h"
 #include "shared/irradiance.h"
@@ -117,7 +118,7 @@ const std::vector<Struct>& table() {
             oldUp, longestMean, specularLimit, reach, inverseVoxelSize, reflections, fireflyClamp, lobesX,
             lobesY, pad0),
         ROW(FrameConstants, clipFromWorld, eye, width, viewForward, height, viewRight, footprint, viewUp,
-            pad0),
+            blending),
         ROW(LightingConstants, sky, environmentScale, lightEnds, environmentTurn, environmentInverseFlux,
             environmentLevel0, environmentCellLevel),
         ROW(ShadowMapConstants, clipFromWorld, slopeUnit, middle, halfSize, pad0),
@@ -126,8 +127,14 @@ const std::vector<Struct>& table() {
         ROW(Vertex, position, normalOct, u, v, tangentOct, color),
         ROW(Instance, worldFromObject, normalColumn0, normalColumn1, normalColumn2, firstIndex, indexCount,
             firstVertex, material, flags, firstTriangle, pad0, pad1),
+        ROW(GlassNode, lower, skip, upper, triangles),
+        ROW(GlassTriangle, corner0, normal0, corner1, normal1, corner2, normal2, uv0, uv1, uv2, instance,
+            pad0),
+        ROW(GlassConstants, pass, passes, inverseVoxelSize, fireflyClamp, firstPass, reflections, direct,
+            specular),
         ROW(Material, baseColor, emission, alphaCutoff, specularF0, metallic, roughness, normalScale, flags,
-            pad0, layers, uvRow, phongColor, phongShininess, phongAmbient, phongDiffuse, phongSpecular, pad1),
+            pad0, layers, uvRow, phongColor, phongShininess, phongAmbient, phongDiffuse, phongSpecular,
+            transmission, absorption, ior, transmissionUvRow, transmissionLayer, pad1, pad2, pad3),
         ROW(Light, position, type, direction, shadow, intensity, range, halfU, cosInner, halfV, cosOuter,
             falloff, customFalloff, shadowNear, shadowTexel, flags, sampleGrid),
         ROW(ThesisGrid, origin, edge, voxelSize, size, maxLevel, sumScale, boxMin, boxSize),

@@ -91,6 +91,10 @@ constexpr Property kProperties[] = {
     {"metallic", 1, 0, 1, ""},
     {"ior", 1, 1, 10, ""},
     {"specular", 1, 0, 1, ""},
+    {"transmission", 1, 0, 1, ""},
+    {"thickness", 1, 0, 1e9, "m"},
+    {"attenuation_color", 3, 1e-4, 1, ""},
+    {"attenuation_distance", 1, 0, 1e9, "m"},
     {"emission", 3, 0, 1e9, "W/(sr m^2)"},
     {"shininess", 1, 0, 10000, ""},
     {"ambient_str", 1, 0, 100, ""},
@@ -158,6 +162,10 @@ void change(Material& material, const CommandContext& context) {
     if (name == "metallic") material.metallic = v[0];
     if (name == "ior") material.ior = v[0];
     if (name == "specular") material.specular = v[0];
+    if (name == "transmission") material.transmission = v[0];
+    if (name == "thickness") material.thickness = v[0];
+    if (name == "attenuation_color") material.attenuationColor = {v[0], v[1], v[2]};
+    if (name == "attenuation_distance") material.attenuationDistance = v[0];
     if (name == "shininess") phong.shininess = v[0];
     if (name == "ambient_str") phong.ambientStrength = v[0];
     if (name == "diffuse_str") phong.diffuseStrength = v[0];
@@ -171,6 +179,11 @@ void printMaterial(const CommandContext& context, const Material& m) {
                               m.baseColorTexture.used() ? "  times a texture" : ""));
     context.print(fmt::format("  roughness {:.6g}  metallic {:.6g}  ior {:.6g}  specular {:.6g}", m.roughness,
                               m.metallic, m.ior, m.specular));
+    if (m.transmission > 0)
+        context.print(
+            fmt::format("  transmission {:.6g}  thickness {:.6g} m  attenuation_color {}"
+                        "  attenuation_distance {:.6g} m",
+                        m.transmission, m.thickness, text(m.attenuationColor), m.attenuationDistance));
     context.print(fmt::format("  emission {} W/(sr m^2)", text(m.emission)));
     const PhongMaterial phong = phongOf(m);
     context.print(

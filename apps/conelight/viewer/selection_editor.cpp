@@ -78,6 +78,25 @@ void editInstance(Session& session, std::size_t index) {
     notePlace("edit:material");
 }
 
+bool editGlass(Session& session, Material& m) {
+    bool changed = ImGui::SliderFloat("transmission", &m.transmission, 0, 1);
+    seals(session, "transmission");
+    if (!(m.transmission > 0)) return changed;
+    bool solid = m.thickness > 0;
+    if (ImGui::Checkbox("solid", &solid)) {
+        m.thickness = solid ? 1.0f : 0.0f;
+        changed = true;
+    }
+    if (!solid) return changed;
+    changed |= ImGui::ColorEdit3("attenuation", &m.attenuationColor.x, ImGuiColorEditFlags_Float);
+    seals(session, "attenuation");
+    changed |=
+        ImGui::DragFloat("attenuation distance", &m.attenuationDistance, 0.01f, 0.0f, 1000.0f, "%.3f m");
+    seals(session, "attenuation distance");
+    m.attenuationColor = glm::clamp(m.attenuationColor, 1e-4f, 1.0f);
+    return changed;
+}
+
 void editMaterial(Session& session, std::size_t index) {
     Material m = session.scene().materials[index];
     ImGui::TextUnformatted(m.name.empty() ? fmt::format("material {}", index).c_str() : m.name.c_str());
@@ -91,6 +110,7 @@ void editMaterial(Session& session, std::size_t index) {
     seals(session, "ior");
     changed |= ImGui::SliderFloat("specular", &m.specular, 0, 1);
     seals(session, "specular");
+    changed |= editGlass(session, m);
     changed |=
         ImGui::ColorEdit3("emission", &m.emission.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR);
     seals(session, "emission");

@@ -210,6 +210,8 @@ void Writer::material(const Material& m) {
         notes_.push_back(fmt::format("material {}: textures are left out", oneLine(m.name, 60)));
     if (m.alphaMode != AlphaMode::Opaque && noted_.insert("alpha of " + m.name).second)
         notes_.push_back(fmt::format("material {}: opacity is left out", oneLine(m.name, 60)));
+    if (isTransmissive(m) && noted_.insert("glass of " + m.name).second)
+        notes_.push_back(fmt::format("material {}: transmission is left out", oneLine(m.name, 60)));
 
     PhongMaterial phong = phongOf(m);
     if (m.unlit) {

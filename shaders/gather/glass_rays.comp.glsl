@@ -1,0 +1,236 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// Glass in front of a finished picture: its tint on what lies behind, highlights, and what it reflects and
+// refracts. Two paths per pass and pixel, one that the first surface reflects and one that it lets through. Where
+// a path leaves the line of sight, its rays meet the triangles and the cached light of the voxels
+// (lib/voxel_light.glsl). `sums` holds their sum until the last pass. Pixels that see no glass stay as they are.
+// Method: docs/theory/4h_glass.md; C++ twin of the surface: reference/materials.cpp.
+layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/frame_block.glsl"
+#include "lib/ggx_sample.glsl"
+#include "lib/glass_sight.glsl"
+#include "lib/random.glsl"
+#include "lib/surface_array.glsl"
+// What needs them.
+#include "lib/glass_tree.glsl"
+#define SMOOTH_HITS 1
+#define TRIANGLE_HITS 1
+#include "lib/voxel_light.glsl"
+layout(rgba32f) uniform image2D sums;
+layout(rgba32f) uniform image2D picture;
+layout(std140) uniform GlassBlock { GlassConstants glassPass; };
+
+// Surfaces that one path meets at most.
+const int kMostGlass = 12;
+
+struct GlassPath {
+    vec3 origin;
+    vec3 direction;
+    vec3 throughput;
+    vec3 absorption;  // of the solid that the path is in, 1/m
+    float alpha;      // width of all lobes on the way
+    bool bent;        // has left the line of sight
+    bool narrow;      // its last lobe shows lamps by rays, not by highlights
+};
+
+// Light that lights send straight into the lobe of a surface.
+vec3 glassHighlights(GlassSurface s, vec3 toEye, float xi) {
+    if (s.back && s.solid) return vec3(0.0);
+    vec3 light = vec3(0.0);
+#if EXACT_DIRECT
+    DirectLight punctual = DirectLight(vec3(0.0), vec3(0.0));
+    addPunctualLights(punctual, true, Receiver(s.position, s.normal, s.geometricNormal, toEye, vec2(0.0)),
+                      s.brdf);
+    light += punctual.specular + punctual.irradiance * s.brdf.diffuse / kPi;
+#endif
+    if (s.brdf.alpha >= kNarrowLobe)
+        light += reflectedRects(s.brdf, s.position, s.normal, s.geometricNormal, toEye, xi);
+    return light;
+}
+
+// A facet's normal that the eye sees.
+vec3 glassFacet(GlassSurface s, vec3 toEye, vec2 xi) {
+    vec3 u, v;
+    tangentFrame(s.normal, u, v);
+    vec3 eye = normalize(vec3(dot(toEye, u), dot(toEye, v), s.brdf.NoV));
+    vec3 h = visibleNormal(eye, s.brdf.alpha, xi);
+    return h.x * u + h.y * v + h.z * s.normal;
+}
+
+// Share of the facets seen by the eye that are seen at this height on the other end too.
+float facetsSeen(GlassSurface s, float height) {
+    float eye = smithLambda(s.brdf.alpha, s.brdf.NoV);
+    return (1.0 + eye) / (1.0 + eye + smithLambda(s.brdf.alpha, height));
+}
+
+// Share of light that a facet reflects, by Schlick's cosine in air; 1 beyond the critical angle.
+vec3 facetFresnel(GlassSurface s, float VoH, float eta) {
+    float sine2 = (1.0 - VoH * VoH) / (eta * eta);
+    float cosine = s.back ? sqrt(max(1.0 - sine2, 0.0)) : VoH;
+    return sine2 >= 1.0 ? vec3(1.0) : fresnel(s.brdf.f0, s.brdf.f90, cosine);
+}
+
+// The path leaves a surface by its reflection: by its gloss, or by what it scatters back.
+void reflectPath(inout GlassPath path, GlassSurface s, vec2 xi, inout uint random) {
+    vec3 toEye = -path.direction;
+    float gloss = brightness(s.brdf.albedo), matte = brightness(s.brdf.diffuse);
+    float share = gloss / max(gloss + matte, 1e-6);
+    bool glossy = randomNext(random) < share;
+    vec3 weight;
+    vec3 direction = lobeDirection(s.brdf, s.normal, toEye, xi, weight);
+    weight /= max(share, 1e-6);
+    if (!glossy) {
+        direction = cosineDirection(s.normal, xi);
+        weight = s.brdf.diffuse / max(1.0 - share, 1e-6);
+    }
+    // A bent normal can mirror into the surface: keep to the side of the triangle.
+    direction -= 2.0 * min(dot(direction, s.geometricNormal), 0.0) * s.geometricNormal;
+    path.direction = normalize(direction);
+    path.throughput *= weight;
+    path.narrow = glossy && s.brdf.alpha < kNarrowLobe;
+    path.alpha = glossy ? sqrt(path.alpha * path.alpha + s.brdf.alpha * s.brdf.alpha) : 0.5;
+    path.bent = true;
+}
+
+// The path goes through a surface.
+void passThrough(inout GlassPath path, GlassSurface s, vec2 xi) {
+    if (passesStraight(s)) {
+        path.throughput *= s.through;
+        return;
+    }
+    vec3 toEye = -path.direction;
+    vec3 h = glassFacet(s, toEye, xi);
+    float VoH = clamp(dot(toEye, h), 0.0, 1.0);
+    path.narrow = path.bent = true;
+    path.alpha = sqrt(path.alpha * path.alpha + s.brdf.alpha * s.brdf.alpha);
+    vec2 lobe = directionalAlbedo(s.brdf.NoV, sqrt(s.brdf.alpha));
+    if (!s.solid) {
+        // Into the mirror image of the lobe of facets that reflect all.
+        vec3 l = 2.0 * VoH * h - toEye;
+        float above = dot(l, s.normal);
+        path.throughput *= above > 0.0 ? s.through / (lobe.x + lobe.y) * facetsSeen(s, above) : vec3(0.0);
+        path.direction = l - 2.0 * above * s.normal;
+        return;
+    }
+    float eta = s.back ? 1.0 / s.ior : s.ior;
+    vec3 reflected = facetFresnel(s, VoH, eta);
+    float cosine2 = 1.0 - (1.0 - VoH * VoH) / (eta * eta);
+    vec3 l = (VoH / eta - sqrt(max(cosine2, 0.0))) * h - toEye / eta;
+    // Facets in each other's shadow lose light that others catch.
+    vec3 mean = lobe.x + lobe.y - (s.brdf.f0 * lobe.x + s.brdf.f90 * lobe.y);
+    vec3 front = s.through / max(mean, vec3(1e-3)) * (1.0 - reflected) * facetsSeen(s, -dot(l, s.normal));
+    path.throughput *= s.back ? s.tint * (1.0 - reflected) : front;
+    path.direction = normalize(l);
+    path.absorption = s.back ? vec3(0.0) : s.absorption;
+}
+
+// At the inner side of a solid: back into it, or out of it.
+void leaveSolid(inout GlassPath path, GlassSurface s, vec2 xi, float choice) {
+    vec3 toEye = -path.direction;
+    float VoH = clamp(dot(toEye, glassFacet(s, toEye, xi)), 0.0, 1.0);
+    vec3 reflected = facetFresnel(s, VoH, 1.0 / s.ior);
+    float back = brightness(reflected);
+    if (choice >= back) {
+        passThrough(path, s, xi);
+        path.throughput /= max(1.0 - back, 1e-6);
+        return;
+    }
+    vec3 h = glassFacet(s, toEye, xi);
+    path.direction = normalize(2.0 * VoH * h - toEye);
+    path.direction -= 2.0 * min(dot(path.direction, s.geometricNormal), 0.0) * s.geometricNormal;
+    path.throughput *= reflected / max(back, 1e-6);
+    path.narrow = path.bent = true;
+}
+
+// Light along the path up to glass in its way at `end`, metres; `found`: it ends before.
+vec3 pathRadiance(GlassPath path, float end, bool open, inout uint random, out bool found) {
+    float pixelAngle = 2.0 * length(frame.viewUp) / float(frame.height);
+    rayCone = RayCone(path.alpha <= kTriangleAlpha ? 0.0 : -1.0, pixelAngle + path.alpha);
+    pathStartsNarrow = path.narrow;
+    Ray ray = Ray(gridFromWorld(path.origin), path.direction, open ? 1e9 : end * glassPass.inverseVoxelSize,
+                  vec3(0.0));
+    PathSettings settings = PathSettings(-1.0, int(glassPass.reflections), path.alpha, glassPass.fireflyClamp,
+                                         max(path.alpha, pixelAngle));
+    VoxelHit hit;
+    vec3 radiance = traceRadiance(ray, settings, random, hit);
+    found = hit.face >= 0 || open;
+    return radiance;
+}
+
+// What comes along one path. `kind` 0: the first surface reflects it; 1: it lets it through.
+vec3 glassLight(GlassHit hit, GlassSight sight, uint kind, uint pixelSeed, vec3 behind) {
+    GlassPath path = GlassPath(frame.eye, sight.direction, vec3(1.0), vec3(0.0), 0.0, false, false);
+    uint number = glassPass.firstPass + glassPass.pass;
+    uint random = randomHash(pixelSeed ^ randomHash(2u * number + kind));
+    vec2 choices = sequencePoint(pixelSeed + 2u + kind, number);  // at the second and third surface
+    vec3 light = vec3(0.0);
+    float left = sight.end;  // up to what the picture shows
+    int met = 0;
+    bool goesOn;
+    do {
+        GlassSurface s = glassSurface(path.origin, path.direction, hit);
+        path.throughput *= exp(-path.absorption * hit.t);
+        left -= hit.t;
+        vec2 xi =
+            met == 0 ? sequencePoint(pixelSeed + kind, number) : vec2(randomNext(random), randomNext(random));
+        float choice = met == 1 ? choices.x : (met == 2 ? choices.y : randomNext(random));
+        bool shines = glassPass.direct != 0u && (met > 0 || kind == 0u);
+        light +=
+            shines ? path.throughput * (s.emission + glassHighlights(s, -path.direction, xi.x)) : vec3(0.0);
+        bool below = true;
+        if (s.back && s.solid) {
+            vec3 side = s.geometricNormal;
+            leaveSolid(path, s, xi, choice);
+            below = dot(path.direction, side) < 0.0;
+            if (below) path.absorption = vec3(0.0);
+        } else {
+            float reflects = brightness(s.brdf.albedo + s.brdf.diffuse);
+            float passes = brightness(s.through);
+            float share = clamp(reflects / max(reflects + passes, 1e-6), 0.1, 0.9);
+            bool reflectedHere = met == 0 ? kind == 0u : choice < share;
+            float weight = met == 0 ? 1.0 : (reflectedHere ? 1.0 / share : 1.0 / (1.0 - share));
+            if (reflectedHere)
+                reflectPath(path, s, xi, random);
+            else
+                passThrough(path, s, xi);
+            path.throughput *= weight;
+            below = !reflectedHere;
+        }
+        // What is bent is of rays alone.
+        if (path.bent && glassPass.specular == 0u) path.throughput = vec3(0.0);
+        int on = hit.triangle;
+        path.origin = glassStep(s.position, below ? -s.geometricNormal : s.geometricNormal);
+        goesOn = path.throughput.r + path.throughput.g + path.throughput.b > 1e-4;
+        float reach = path.bent ? 1e9 : left;
+        hit = nearestGlass(path.origin, path.direction, goesOn ? reach : -1.0, on, !path.bent);
+        bool open = hit.triangle < 0;
+        vec3 arrives = behind;
+        bool found = open;
+        if (path.bent && goesOn) arrives = pathRadiance(path, hit.t, open, random, found);
+        light += goesOn && found ? path.throughput * arrives : vec3(0.0);
+        goesOn = goesOn && !found;
+    } while (goesOn && ++met < kMostGlass);
+    return light;
+}
+
+void main() {
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    if (any(greaterThanEqual(pixel, imageSize(picture)))) return;
+    GlassSight sight = glassSight(pixel);
+    GlassHit first = nearestGlass(frame.eye, sight.direction, sight.end, -1, true);
+    if (first.triangle < 0) return;
+    vec4 behind = imageLoad(picture, pixel);
+    uint seed = randomHash(uint(pixel.x) | uint(pixel.y) << 16) ^ 0x2545f491u;
+    vec3 light = vec3(0.0);
+    uint kind = 0u;
+    do {
+        light += glassLight(first, sight, kind, seed, behind.rgb);
+    } while (++kind < 2u);
+    if (glassPass.pass > 0u) light += imageLoad(sums, pixel).rgb;
+    if (glassPass.pass + 1u < glassPass.passes) {
+        imageStore(sums, pixel, vec4(light, 1.0));
+        return;
+    }
+    light /= float(glassPass.passes);
+    imageStore(picture, pixel, vec4(light, 1.0));
+}

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// What a pixel sees through glass: its direction, and how far it is to what the picture shows.
+#include "lib/gbuffer.glsl"
+
+struct GlassSight {
+    vec3 direction;  // unit
+    float end;       // m
+};
+
+GlassSight glassSight(ivec2 pixel) {
+    vec3 ray = pixelRay(pixel);
+    float along = length(ray);
+    float depth = uintBitsToFloat(texelFetch(gbufferGeometry, pixel, 0).x);
+    // Just before the surface: what lies on it is drawn with it.
+    return GlassSight(ray / along, depth > 0.0 ? depth * along * 0.99999 : 1e9);
+}

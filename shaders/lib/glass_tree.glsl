@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT
+// Rays against the triangles of glass (shared/glass.h), the surface where one is met, and what is left of light
+// that passes them. World space, metres. GLASS 0: the scene has none, and the file is empty. Includers that
+// set it include before: lib/scene_tables.glsl, lib/surface_array.glsl.
+// Test: Moeller and Trumbore 1997, "Fast, Minimum Storage Ray/Triangle Intersection".
+#include "lib/brdf.glsl"
+#include "lib/octahedral.glsl"
+#include "shared/glass.h"
+#ifndef GLASS
+#define GLASS 0
+#endif
+#if GLASS
+// As textures of buffers: Mesa's software driver reads storage at constant places for its first lane alone, which
+// a fragment may lack.
+uniform usamplerBuffer glassNodes;
+uniform usamplerBuffer glassTriangles;
+
+GlassNode glassNode(uint index) {
+    uvec4 a = texelFetch(glassNodes, 2 * int(index));
+    uvec4 b = texelFetch(glassNodes, 2 * int(index) + 1);
+    return GlassNode(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w);
+}
+
+GlassTriangle glassTriangle(int index) {
+    uvec4 a = texelFetch(glassTriangles, 5 * index), b = texelFetch(glassTriangles, 5 * index + 1);
+    uvec4 c = texelFetch(glassTriangles, 5 * index + 2), d = texelFetch(glassTriangles, 5 * index + 3);
+    uvec4 e = texelFetch(glassTriangles, 5 * index + 4);
+    return GlassTriangle(uintBitsToFloat(a.xyz), a.w, uintBitsToFloat(b.xyz), b.w, uintBitsToFloat(c.xyz),
+                         c.w, uintBitsToFloat(d.xy), uintBitsToFloat(d.zw), uintBitsToFloat(e.xy), e.z, e.w);
+}
+
+const float kGlassEdge = 1e-6;  // barycentric overlap of neighbours, so that no ray passes between them
+
+const float kGlassNear =
+    1e-5;  // part of the largest coordinate: surfaces nearer than this are the start's own
+
+struct GlassHit {
+    int triangle;  // -1: a miss
+    float t;       // m
+    vec2 barycentric;
+    bool back;  // seen from within
+};
+
+// Whether a ray enters a box before `end`.
+bool meetsGlassBox(vec3 lower, vec3 upper, vec3 origin, vec3 inverse, float end) {
+    vec3 a = (lower - origin) * inverse;
+    vec3 b = (upper - origin) * inverse;
+    vec3 near = min(a, b), far = max(a, b);
+    float enter = max(max(near.x, near.y), max(near.z, 0.0));
+    // Planes of flat boxes are met within rounding.
+    return enter <= min(min(far.x, far.y), min(far.z, end)) * 1.0000005;
+}
+
+void testGlassTriangle(int index, vec3 origin, vec3 direction, bool cullsBacks, inout GlassHit hit) {
+    GlassTriangle g = glassTriangle(index);
+    vec3 edge1 = g.corner1 - g.corner0, edge2 = g.corner2 - g.corner0;
+    vec3 p = cross(direction, edge2);
+    float determinant = dot(edge1, p);
+    float inverse = abs(determinant) > 1e-30 ? 1.0 / determinant : 0.0;
+    vec3 from = origin - g.corner0;
+    vec3 q = cross(from, edge1);
+    vec2 barycentric = vec2(dot(from, p), dot(direction, q)) * inverse;
+    float t = dot(edge2, q) * inverse;
+    bool back = determinant < 0.0;
+    bool culled =
+        cullsBacks && back && (materials[instances[g.instance].material].flags & MATERIAL_DOUBLE_SIDED) == 0u;
+    bool met = inverse != 0.0 && !culled && min(barycentric.x, barycentric.y) >= -kGlassEdge &&
+               barycentric.x + barycentric.y <= 1.0 + kGlassEdge && t > 0.0 && t < hit.t;
+    if (met) hit = GlassHit(index, t, barycentric, back);
+}
+
+// The nearest triangle before `end` but for `except`, the one that the ray starts on. `cullsBacks`: those of
+// single-sided materials are seen from their front alone.
+GlassHit nearestGlass(vec3 origin, vec3 direction, float end, int except, bool cullsBacks) {
+    vec3 inverse = 1.0 / mix(vec3(1e-12), direction, greaterThan(abs(direction), vec3(1e-12)));
+    GlassHit hit = GlassHit(-1, end, vec2(0.0), false);
+    uint node = 0u;
+    uint first = 0u, last = 0u;  // of the leaf's triangles
+    do {
+        GlassNode n = glassNode(node);
+        bool met = meetsGlassBox(n.lower, n.upper, origin, inverse, hit.t);
+        first = n.triangles / GLASS_LEAF;
+        last = met ? first + n.triangles % GLASS_LEAF : first;
+        while (first < last) {
+            if (int(first) != except) testGlassTriangle(int(first), origin, direction, cullsBacks, hit);
+            ++first;
+        }
+        node = met && n.triangles == 0u ? node + 1u : n.skip;
+    } while (node != GLASS_END);
+    return hit;
+}
+
+// ---- Sight ----------------------------------------------------------------------------------------------
+
+// Rays go on this far behind what they have met, as a part of the largest coordinate.
+const float kGlassStep = 4e-6;
+
+vec3 glassStep(vec3 position, vec3 normal) {
+    vec3 size = abs(position);
+    return position + normal * (kGlassStep * max(max(size.x, size.y), max(size.z, 1.0)));
+}
+
+// ---- Surfaces -------------------------------------------------------------------------------------------
+
+struct GlassSurface {
+    vec3 position;
+    vec3 geometricNormal;  // unit, against the ray
+    vec3 normal;           // interpolated, on the same side
+    Brdf brdf;             // its diffuse part is what is left beside what goes through
+    vec3 through;          // directional albedo of what goes through
+    vec3 tint;             // of light that leaves a solid
+    vec3 absorption;       // 1/m, in the solid
+    vec3 emission;
+    float ior;
+    bool solid;
+    bool back;  // seen from within
+};
+
+vec4 glassTexel(int layer, vec3 row0, vec3 row1, vec2 uv) {
+    vec2 at = vec2(dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z);
+    vec4 texel = sampleSurfaceArray(max(layer, 0), at, 0.0);
+    return layer >= 0 ? texel : vec4(1.0);
+}
+
+GlassSurface glassSurface(vec3 origin, vec3 direction, GlassHit hit) {
+    GlassTriangle g = glassTriangle(hit.triangle);
+    vec3 at = vec3(1.0 - hit.barycentric.x - hit.barycentric.y, hit.barycentric);
+    GlassSurface s;
+    s.position = at.x * g.corner0 + at.y * g.corner1 + at.z * g.corner2;
+    s.geometricNormal = normalize(cross(g.corner1 - g.corner0, g.corner2 - g.corner0));
+    s.geometricNormal = hit.back ? -s.geometricNormal : s.geometricNormal;
+    s.normal = normalize(at.x * octDecode(unpackSnorm2x16(g.normal0)) +
+                         at.y * octDecode(unpackSnorm2x16(g.normal1)) +
+                         at.z * octDecode(unpackSnorm2x16(g.normal2)));
+    s.normal = dot(s.normal, s.geometricNormal) < 0.0 ? -s.normal : s.normal;
+    vec2 uv = at.x * g.uv0 + at.y * g.uv1 + at.z * g.uv2;
+
+    uint index = instances[g.instance].material;
+    Material m = materials[index];
+    vec3 base = m.baseColor.rgb * glassTexel(m.layers.x, m.uvRow[0].xyz, m.uvRow[1].xyz, uv).rgb;
+    vec4 metalRough = glassTexel(m.layers.y, m.uvRow[2].xyz, m.uvRow[3].xyz, uv);
+    float share =
+        m.transmission *
+        glassTexel(m.transmissionLayer, m.transmissionUvRow[0].xyz, m.transmissionUvRow[1].xyz, uv).r;
+    s.brdf = makeBrdf(base, m.metallic * metalRough.b, m.roughness * metalRough.g, m.specularF0,
+                      -dot(s.normal, direction));
+    s.through = s.brdf.diffuse * share;
+    s.brdf.diffuse *= 1.0 - share;
+    s.tint = base * (share * (1.0 - m.metallic * metalRough.b));
+    s.absorption = m.absorption;
+    bool shines = !hit.back || (m.flags & MATERIAL_DOUBLE_SIDED) != 0u;
+    s.emission =
+        shines ? m.emission * glassTexel(m.layers.w, m.uvRow[6].xyz, m.uvRow[7].xyz, uv).rgb : vec3(0.0);
+    s.ior = m.ior;
+    s.solid = (m.flags & MATERIAL_SOLID) != 0u;
+    s.back = hit.back;
+    return s;
+}
+
+// Whether rays go straight through: a smooth pane.
+bool passesStraight(GlassSurface s) {
+    return !s.solid && s.brdf.alpha <= kMinRoughness * kMinRoughness * 1.001;
+}
+
+// ---- Light that passes glass ----------------------------------------------------------------------------
+
+// What is left of light that goes straight through all glass from `origin` to `end` metres. Where solids would
+// bend it by more than `mostBend`, rad, to first order, it misses its aim, and nothing is left.
+vec3 glassTransmittance(vec3 origin, vec3 direction, float end, float mostBend) {
+    vec3 inverse = 1.0 / mix(vec3(1e-12), direction, greaterThan(abs(direction), vec3(1e-12)));
+    vec3 left = vec3(1.0);
+    vec3 opticalDepth = vec3(0.0);  // of ways within solids, each added where it ends
+    vec3 bend = vec3(0.0);
+    // The surface that light starts on is passed.
+    vec3 size = abs(origin);
+    float near = kGlassNear * max(max(size.x, size.y), max(size.z, 1.0));
+    uint node = 0u;
+    uint first = 0u, last = 0u;  // of the leaf's triangles
+    do {
+        GlassNode n = glassNode(node);
+        bool met = meetsGlassBox(n.lower, n.upper, origin, inverse, end);
+        first = n.triangles / GLASS_LEAF;
+        last = met ? first + n.triangles % GLASS_LEAF : first;
+        while (first < last) {
+            GlassHit hit = GlassHit(-1, end, vec2(0.0), false);
+            testGlassTriangle(int(first), origin, direction, false, hit);
+            if (hit.triangle >= 0 && hit.t > near) {
+                GlassSurface s = glassSurface(origin, direction, hit);
+                left *= s.through;
+                float cosine = max(-dot(s.normal, direction), 0.05);
+                if (s.solid) {
+                    float side = hit.back ? 1.0 : -1.0;
+                    opticalDepth += side * hit.t * s.absorption;
+                    bend += side * (s.ior - 1.0) * (s.normal / cosine + direction);
+                }
+            }
+            ++first;
+        }
+        node = met && n.triangles == 0u ? node + 1u : n.skip;
+    } while (node != GLASS_END);
+    float strays = smoothstep(0.5, 1.5, length(bend) / mostBend);
+    return left * exp(-max(opticalDepth, vec3(0.0))) * (1.0 - strays);
+}
+const float kAnyBend = 1e9;
+
+// Whether rays from `origin` to within `radius` of a point at `distance` may pass any glass: by boxes alone.
+bool mayPassGlass(vec3 origin, vec3 direction, float distance, float radius) {
+    vec3 inverse = 1.0 / mix(vec3(1e-12), direction, greaterThan(abs(direction), vec3(1e-12)));
+    uint node = 0u;
+    bool found = false;
+    do {
+        GlassNode n = glassNode(node);
+        // As wide as the beam is where it leaves the box.
+        vec3 farthest = max(abs(n.lower - origin), abs(n.upper - origin));
+        float width = radius * min(length(farthest) / max(distance - radius, 1e-6), 1.0);
+        bool met = meetsGlassBox(n.lower - width, n.upper + width, origin, inverse, distance);
+        found = met && n.triangles != 0u;
+        node = met && n.triangles == 0u ? node + 1u : n.skip;
+    } while (node != GLASS_END && !found);
+    return found;
+}
+#endif

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Glass in front of a picture: picture + surfaces + lights' glass -> the picture with what glass tints, reflects
+// and refracts (docs/theory/4h_glass.md).
+//
+// Readers of the picture need gl::barrier(TextureFetch). GL state changed: program and its slots.
+#pragma once
+
+#include <vector>
+
+#include "gather/direct_light.h"
+#include "gather/picture_parts.h"
+#include "gather/pixel_rays.h"
+
+namespace conelight::gather {
+
+class Glass {
+  public:
+    struct Wanted {
+        PictureParts parts;
+        int passes = 1;       // of two rays each
+        int firstPass = 0;    // their number among all that make a picture
+        int reflections = 0;  // on metals, of one ray
+    };
+    // By rays through the voxels; `picture` holds what is behind, of the same parts.
+    void drawByRays(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,
+                    const gl::Texture& picture);
+    // As tinted panes that bend nothing and reflect lights alone.
+    void drawStraight(const gl::Device& device, const DirectInputs& inputs, const PictureParts& parts,
+                      const gl::Texture& picture);
+
+    static std::vector<gl::ProgramDesc> programDescs();
+
+  private:
+    gl::Buffer constants_;
+    gl::Texture sums_;
+};
+
+}  // namespace conelight::gather

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// The triangles of glass, as a value: GpuScene -> a bounding volume hierarchy in world space, for rays that are
+// to meet every one of them (lib/glass_tree.glsl). Glass is in no voxel and in no shadow map: light goes through
+// it, and it is drawn in front of a finished picture.
+#pragma once
+
+#include <vector>
+
+#include "base/revision.h"
+#include "gl/buffer.h"
+#include "gl/inputs.h"
+#include "gl/texture.h"
+#include "scene/gpu_scene.h"
+#include "shared/glass.h"
+
+namespace conelight::scene {
+
+class GlassTree {
+  public:
+    // Made anew when an instance of glass has changed, on the CPU; returns at once otherwise.
+    void update(const GpuScene& scene);
+    bool empty() const { return nodes_ == 0; }
+
+    void declare(gl::Inputs& inputs) const;  // glassNodes, glassTriangles; nothing when empty
+
+  private:
+    base::Revision scene_, geometry_;
+    std::vector<base::Revision> from_;  // of the instances
+    gl::Buffer nodeBuffer_, triangleBuffer_;
+    gl::Texture nodeTexture_, triangleTexture_;  // read them
+    std::uint32_t nodes_ = 0;
+};
+
+// Sorts `triangles` into leaves, and returns the nodes over them: splits by the surface area heuristic over
+// bins (Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies").
+std::vector<gpu::GlassNode> sortIntoTree(std::vector<gpu::GlassTriangle>& triangles);
+
+}  // namespace conelight::scene

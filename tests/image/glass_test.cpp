@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// Glass in front of pictures: what it tints, reflects, refracts and lets through, against closed forms and the
+// path tracer, whose own tests are in tests/cpu/glass_test.cpp.
+#include <cmath>
+
+#include "conelight/thesis/settings.h"
+#include "io/generated.h"
+#include "scene/glass_tree.h"
+#include "support/scenes.h"
+#include "support/traced_rig.h"
+
+namespace conelight::test {
+namespace {
+
+Material glassOf(const glm::vec3& tint, float thickness, float roughness = 0) {
+    Material m;
+    m.baseColor = glm::vec4(tint, 1);
+    m.roughness = roughness;
+    m.transmission = 1;
+    m.thickness = thickness;
+    m.doubleSided = thickness == 0;
+    return m;
+}
+
+class GlassTest : public TracedModeTest {
+  protected:
+    // A floor under a lamp, with a pane in between; the camera looks at the floor, below the pane.
+    static Scene floorUnderPane(const Material& pane, bool rectangle = false) {
+        Scene scene;
+        addInstance(scene, quadMesh({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}), diffuseMaterial(glm::vec3(0.6f)));
+        addInstance(scene, quadMesh({-2, 1, 2}, {4, 0, 0}, {0, 0, -4}), pane);
+        Light lamp;
+        lamp.type = rectangle ? LightType::Rect : LightType::Point;
+        lamp.position = {0, 1.8f, 0};
+        lamp.halfU = {0.3f, 0, 0};
+        lamp.halfV = {0, 0, 0.3f};
+        lamp.intensity = glm::vec3(10);
+        scene.lights.push_back(lamp);
+        Camera camera;
+        camera.eye = {0, 0.9f, 1.2f};
+        camera.target = {0, 0, 0};
+        scene.cameras.push_back(camera);
+        return scene;
+    }
+    static Scene builtin(const char* name) { return io::generateScene(name); }
+    static reference::PathTracedPicture truthOf(const Scene& scene, int samples) {
+        reference::PathTracerSettings settings;
+        settings.samplesPerPixel = samples;
+        return reference::PathTracer(scene).render(scene.cameras.at(0), kTracedPixels, kTracedPixels,
+                                                   settings);
+    }
+};
+
+// A ball of glass, or of panes, in even light cannot be seen.
+TEST_F(GlassTest, IsInvisibleInEvenLight) {
+    for (const float thickness : {0.0f, 1.0f})
+        for (const float roughness : {0.0f, 0.4f}) {
+            Scene scene;
+            scene.sky = glm::vec3(1);
+            addInstance(scene, sphereMesh(48, 24), glassOf(glm::vec3(1), thickness, roughness));
+            // Something for the voxels, out of the way.
+            addInstance(scene, quadMesh({-0.1f, -3, 0.1f}, {0.2f, 0, 0}, {0, 0, -0.2f}),
+                        diffuseMaterial(glm::vec3(0.5f)));
+            Camera camera;
+            camera.eye = {0, 0, 6};
+            camera.fovY = 0.25f;
+            scene.cameras.push_back(camera);
+            const double mean = meanOf(draw(scene, tracedSettings(Quality::Interactive)));
+            EXPECT_NEAR(mean, 1, 0.02) << thickness << " " << roughness;
+        }
+}
+
+// Lamps and their shadows: by points and rectangles, in every mode that looks lights up by the table.
+TEST_F(GlassTest, TintsTheLightThatPassesIt) {
+    const glm::vec3 tint(0.2f, 0.9f, 0.5f);
+    for (const bool rectangle : {false, true})
+        for (const Mode mode : {Mode::Traced, Mode::Cones}) {
+            Settings settings = tracedSettings(Quality::Interactive, Component::Direct);
+            settings.mode = mode;
+            Scene scene = floorUnderPane(glassOf(tint, 0), rectangle);
+            const glm::dvec3 with = meanColorOf(draw(scene, settings));
+            scene.instances.pop_back();
+            const glm::dvec3 without = meanColorOf(draw(scene, settings));
+            for (int i = 0; i < 3; ++i)
+                EXPECT_NEAR(with[i] / without[i], static_cast<double>(0.96f * tint[i]), 0.03)
+                    << mode.name() << " " << rectangle << " " << i;
+        }
+}
+
+// Light of the sky and of what it lights, through cached rays.
+TEST_F(GlassTest, TintsIndirectLight) {
+    const auto lit = [](bool pane) {
+        Scene scene = floorUnderPane(glassOf({0.2f, 0.9f, 0.5f}, 0));
+        scene.lights.clear();
+        scene.sky = glm::vec3(1);
+        // Walls below the pane, so that light comes through it alone.
+        for (const float x : {-2.0f, 2.0f})
+            addInstance(scene, quadMesh({x, 0, 2}, {0, 0, -4}, {0, 1, 0}), diffuseMaterial(glm::vec3(0)));
+        for (const float z : {-2.0f, 2.0f})
+            addInstance(scene, quadMesh({-2, 0, z}, {4, 0, 0}, {0, 1, 0}), diffuseMaterial(glm::vec3(0)));
+        for (std::size_t i = 2; i < 6; ++i) scene.materials[i].doubleSided = true;
+        if (!pane) scene.instances.erase(scene.instances.begin() + 1);
+        return meanColorOf(draw(scene, tracedSettings(Quality::Interactive, Component::Diffuse)));
+    };
+    const glm::dvec3 with = lit(true), without = lit(false);
+    // The hemisphere's mean of a pane's transmittance is some percent below that at normal incidence.
+    EXPECT_NEAR(with.r / without.r, 0.2 * 0.93, 0.03);
+    EXPECT_NEAR(with.g / without.g, 0.9 * 0.93, 0.05);
+}
+
+TEST_F(GlassTest, AgreesWithThePathTracer) {
+    const Scene scene = builtin("glass");
+    Settings settings = tracedSettings(Quality::Interactive);
+    settings.voxels.size = 64;
+    const reference::PathTracedPicture truth = truthOf(scene, 256);
+    const Image image = draw(scene, settings);
+    // Caustics are the path tracer's alone, and noise.
+    const glm::dvec3 own = meanColorOf(image), other = meanColorOf(truth.full);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(own[i] / other[i], 1, 0.06) << i;
+    EXPECT_LT(relRmse(image, truth.full), 0.4);
+    // What the ball shows: the window of pixels within it.
+    double sum = 0, difference = 0;
+    for (int y = 26; y < 38; ++y)
+        for (int x = 9; x < 18; ++x) {
+            const auto i = static_cast<std::size_t>(kTracedPixels * y + x);
+            sum += static_cast<double>(truth.full.pixels[i].g);
+            difference += static_cast<double>(image.pixels[i].g - truth.full.pixels[i].g);
+        }
+    EXPECT_LT(std::abs(difference / sum), 0.15);
+}
+
+// What changes in place shows at once, as if the scene had been made so.
+TEST_F(GlassTest, FollowsItsInstanceAndMaterial) {
+    Scene scene = floorUnderPane(glassOf({0.2f, 0.9f, 0.5f}, 0));
+    const Settings settings = tracedSettings(Quality::Draft, Component::Direct);
+    Renderer renderer;
+    renderer.setScene(scene);
+    draw(renderer, scene, settings);
+    scene.instances[1].worldFromObject[3] = glm::vec4(0, -0.5f, 0, 1);
+    renderer.setInstance(1, scene.instances[1]);
+    renderer.render(scene.cameras[0], kTracedPixels, kTracedPixels, settings);
+    EXPECT_EQ(renderer.readImage().pixels, draw(scene, settings).pixels);
+    scene.materials[1].transmission = 0;
+    renderer.setMaterial(1, scene.materials[1]);
+    renderer.render(scene.cameras[0], kTracedPixels, kTracedPixels, settings);
+    EXPECT_LT(relRmse(renderer.readImage(), draw(scene, settings)), 1e-3);
+}
+
+// Every mode shows what is behind a pane, tinted.
+TEST_F(GlassTest, IsDrawnInEveryMode) {
+    Scene scene;
+    addInstance(scene, quadMesh({-2, -2, -1}, {4, 0, 0}, {0, 4, 0}), diffuseMaterial({0, 0, 0}, {1, 1, 1}));
+    addInstance(scene, quadMesh({-2, -2, 0}, {4, 0, 0}, {0, 4, 0}), glassOf({0.2f, 0.9f, 0.5f}, 0));
+    Camera camera;
+    camera.eye = {0, 0, 2};
+    scene.cameras.push_back(camera);
+    for (const Mode mode : {Mode::Traced, Mode::Cones, Mode::Phong, thesis::kMode}) {
+        Settings settings = tracedSettings(Quality::Draft);
+        settings.mode = mode;
+        const glm::dvec3 mean = meanColorOf(draw(scene, settings));
+        EXPECT_NEAR(mean.r / mean.g, 0.2 / 0.9, 0.08) << mode.name();
+    }
+}
+
+// The tree finds what a search of all triangles finds.
+TEST_F(GlassTest, TreeHoldsEveryTriangle) {
+    std::vector<gpu::GlassTriangle> triangles;
+    std::uint32_t state = 7;
+    const auto random = [&] {
+        state = state * 747796405u + 2891336453u;
+        return static_cast<float>(state >> 8) * 0x1p-24f;
+    };
+    for (std::uint32_t i = 0; i < 500; ++i) {
+        gpu::GlassTriangle t{};
+        const glm::vec3 at(random(), random(), random());
+        t.corner0 = at;
+        t.corner1 = at + 0.1f * glm::vec3(random(), random(), random());
+        t.corner2 = at + 0.1f * glm::vec3(random(), random(), random());
+        t.instance = i;
+        triangles.push_back(t);
+    }
+    const std::vector<gpu::GlassNode> nodes = scene::sortIntoTree(triangles);
+    std::vector<int> found(500, 0);
+    std::size_t node = 0;
+    while (node != GLASS_END) {
+        const gpu::GlassNode& n = nodes.at(node);
+        for (std::uint32_t i = n.triangles / GLASS_LEAF;
+             i < n.triangles / GLASS_LEAF + n.triangles % GLASS_LEAF; ++i) {
+            const gpu::GlassTriangle& t = triangles.at(i);
+            ++found[t.instance];
+            for (const glm::vec3& corner : {t.corner0, t.corner1, t.corner2})
+                EXPECT_TRUE(glm::all(glm::lessThanEqual(n.lower, corner)) &&
+                            glm::all(glm::lessThanEqual(corner, n.upper)));
+        }
+        // Past a leaf, or past an inner node as if its box were met.
+        node = n.triangles != 0 ? n.skip : node + 1;
+    }
+    EXPECT_EQ(found, std::vector<int>(500, 1));
+}
+
+}  // namespace
+}  // namespace conelight::test
