@@ -27,8 +27,12 @@ class HeadlessContext {
     HeadlessContext& operator=(const HeadlessContext&) = delete;
 
     const std::string& description() const { return description_; }  // "EGL device 0, llvmpipe ..., 4.5 ..."
+    // Gives the creating thread back what was current before; from then on current as CurrentContext says.
+    void release();
 
   private:
+    friend class CurrentContext;
+    void keepCurrent();
     bool tryDisplay(void* display, const std::string& how, bool debug);
     void* display_ = nullptr;
     void* context_ = nullptr;
@@ -38,6 +42,19 @@ class HeadlessContext {
     Current previous_;
     std::string description_;
     std::string tried_;
+};
+
+// Makes a context that was released current on the calling thread; at its end, what was current there before
+// is again. For hosts whose calls come from several threads: one at a time per context. Throws Error(Runtime).
+class CurrentContext {
+  public:
+    explicit CurrentContext(HeadlessContext& context);
+    ~CurrentContext();
+    CurrentContext(const CurrentContext&) = delete;
+    CurrentContext& operator=(const CurrentContext&) = delete;
+
+  private:
+    HeadlessContext& context_;
 };
 
 // One line per EGL device: "0: hardware, /dev/dri/card0", "1: software". Empty without EGL.

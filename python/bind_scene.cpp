@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: MIT
+// Scenes: from files and builtins, or built from arrays.
+#include <fmt/core.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
+#include "arrays.h"
+#include "bindings.h"
+#include "calls.h"
+#include "camera_check.h"
+#include "io/environment_file.h"
+#include "io/generated.h"
+#include "io/gltf_write.h"
+#include "io/scene_file.h"
+#include "io/scene_info.h"
+#include "parts.h"
+#include "session/session.h"
+
+namespace conelight::python {
+namespace {
+
+using Handle = std::shared_ptr<SceneHandle>;
+
+Handle load(const std::string& path, bool complete, bool allowOutside) {
+    return unlocked([&] {
+        io::LoadOptions options;
+        options.allowOutside = allowOutside;
+        Scene scene = io::loadScene(path, options);
+        if (complete) completeScene(scene);
+        return std::make_shared<SceneHandle>(std::move(scene));
+    });
+}
+
+template <class PartOf, class T>
+py::tuple partsOf(const Handle& scene, const std::vector<T>& list) {
+    py::tuple all(list.size());
+    for (std::size_t i = 0; i < list.size(); ++i) all[i] = PartOf{scene, i};
+    return all;
+}
+
+MeshPart addMesh(const Handle& scene, const py::object& positions, const py::object& indices,
+                 const py::kwargs& attributes) {
+    Mesh mesh = meshOf(positions, indices, attributes);
+    scene->editGeometry().meshes.push_back(std::move(mesh));
+    return {scene, scene->get().meshes.size() - 1};
+}
+
+int addTexture(const Handle& scene, const py::object& pixels, const py::kwargs& options) {
+    Texture texture = textureOf(pixels, options);
+    scene->editGeometry().textures.push_back(std::move(texture));
+    return static_cast<int>(scene->get().textures.size()) - 1;
+}
+
+MaterialPart addMaterial(const Handle& scene, const py::kwargs& values) {
+    Material material;
+    setAttributes("add_material", materialAttributes(), material, values);
+    scene->edit().materials.push_back(std::move(material));
+    return {scene, scene->get().materials.size() - 1};
+}
+
+InstancePart addInstance(const Handle& scene, int mesh, const py::object& material,
+                         const py::object& transform, const py::kwargs& values) {
+    Instance instance;
+    if (mesh < 0 || mesh >= static_cast<int>(scene->get().meshes.size()))
+        throw Error(ErrorKind::Usage, fmt::format("mesh: {}; 0 or more and less than {} would be right", mesh,
+                                                  scene->get().meshes.size()));
+    instance.mesh = mesh;
+    if (!material.is_none()) instance.material = material.cast<int>();
+    if (instance.material < -1 || instance.material >= static_cast<int>(scene->get().materials.size()))
+        throw Error(ErrorKind::Usage, fmt::format("material: {}; less than {}, or None, would be right",
+                                                  instance.material, scene->get().materials.size()));
+    if (!transform.is_none()) instance.worldFromObject = mat4Of("transform", transform);
+    setAttributes("add_instance", instanceAttributes(), instance, values);
+    scene->edit().instances.push_back(std::move(instance));
+    return {scene, scene->get().instances.size() - 1};
+}
+
+LightPart addLight(const Handle& scene, const std::string& type, const py::kwargs& values) {
+    Light light;
+    light.type = lightTypeOf(type);
+    setAttributes("add_light", lightAttributes(), light, values);
+    scene->edit().lights.push_back(std::move(light));
+    return {scene, scene->get().lights.size() - 1};
+}
+
+void removeLight(const Handle& scene, std::size_t index) {
+    LightPart{scene, index}.check();
+    std::vector<Light>& lights = scene->edit().lights;
+    lights.erase(lights.begin() + static_cast<std::ptrdiff_t>(index));
+}
+
+void addCamera(const Handle& scene, const Camera& camera) {
+    checkCamera(camera);
+    scene->edit().cameras.push_back(camera);
+}
+
+// A picture (height, width, 3), or a file or builtin that io reads; None: no environment.
+void setEnvironment(const Handle& scene, const py::object& picture, float rotation, float strength) {
+    Scene& edited = scene->edit();
+    if (picture.is_none()) {
+        edited.environment = {};
+    } else if (py::isinstance<py::array>(picture)) {
+        const Image image = imageOf("picture", picture);
+        if (image.width != 2 * image.height)
+            throw Error(ErrorKind::Usage,
+                        fmt::format("picture: {}x{} pixels; twice as wide as high would be right",
+                                    image.width, image.height));
+        auto kept = std::make_shared<EnvironmentImage>();
+        kept->width = image.width;
+        kept->height = image.height;
+        for (const glm::vec4& pixel : image.pixels)
+            kept->radiance.emplace_back(glm::max(glm::vec3(pixel), 0.0f));
+        edited.environment = {"", std::move(kept), rotation, strength};
+    } else {
+        const std::string path = py::str(picture);
+        io::useEnvironment(edited, unlocked([&] { return io::loadEnvironment(path); }), rotation, strength);
+    }
+}
+
+py::object bounds(const SceneHandle& scene) {
+    const Aabb box = scene.get().bounds();
+    if (box.empty()) return py::none();
+    return py::make_tuple(tupleOf(box.min), tupleOf(box.max));
+}
+
+std::string represent(const SceneHandle& scene) {
+    const Scene& s = scene.get();
+    return fmt::format("<conelight.Scene '{}': {} triangles, {} instances, {} materials, {} lights>", s.name,
+                       s.triangleCount(), s.instances.size(), s.materials.size(), s.lights.size());
+}
+
+void bindParts(py::class_<SceneHandle, Handle>& type) {
+    type.def("add_mesh", &addMesh, py::arg("positions"), py::arg("indices"),
+             "Triangles: positions (N, 3), metres; indices (M, 3), counter-clockwise from the front.\n\n"
+             "By name: normals (N, 3), uvs (N, 2), tangents (N, 4), colors (N, 4), name. Drawn once an "
+             "instance\n"
+             "places it.")
+        .def("add_texture", &addTexture, py::arg("pixels"),
+             "A picture (height, width, 3 or 4) uint8; returns its index for materials.\n\n"
+             "By name: srgb (True for colours, False for normals and roughness), wrap 'repeat', 'clamp' or\n"
+             "'mirror', filter 'linear' or 'nearest', name.")
+        .def("add_material", &addMaterial, "A material; the attributes of Material by name.")
+        .def("add_instance", &addInstance, py::arg("mesh"), py::arg("material") = py::none(),
+             py::arg("transform") = py::none(),
+             "Places a mesh: transform (4, 4), world from object; other attributes of Instance by name.")
+        .def("add_light", &addLight, py::arg("type"),
+             "A light: 'point', 'spot', 'directional' or 'rect'; the attributes of Light by name.")
+        .def("remove_light", &removeLight, py::arg("light"), "Lights behind it move up by one.")
+        .def("add_camera", &addCamera, py::arg("camera"))
+        .def_property_readonly(
+            "meshes", [](const Handle& s) { return partsOf<MeshPart>(s, s->get().meshes); },
+            "Handles of all.")
+        .def_property_readonly(
+            "materials", [](const Handle& s) { return partsOf<MaterialPart>(s, s->get().materials); },
+            "Handles of all.")
+        .def_property_readonly(
+            "instances", [](const Handle& s) { return partsOf<InstancePart>(s, s->get().instances); },
+            "Handles of all.")
+        .def_property_readonly(
+            "lights", [](const Handle& s) { return partsOf<LightPart>(s, s->get().lights); },
+            "Handles of all.")
+        .def_property_readonly(
+            "cameras", [](const Handle& s) { return py::tuple(py::cast(s->get().cameras)); },
+            "Copies of all.");
+}
+
+void bindFacts(py::class_<SceneHandle, Handle>& type) {
+    type.def_property(
+            "name", [](const SceneHandle& s) { return s.get().name; },
+            [](SceneHandle& s, const std::string& name) { s.edit().name = name; })
+        .def_property(
+            "sky", [](const SceneHandle& s) { return tupleOf(s.get().sky); },
+            [](SceneHandle& s, const py::object& value) { s.edit().sky = vec3Of("sky", value); },
+            "Constant radiance of the surroundings, W/(sr m^2): (3,).")
+        .def_property_readonly(
+            "notes", [](const SceneHandle& s) { return s.get().notes; },
+            "What was left out or added when the scene was loaded.")
+        .def_property_readonly("bounds", &bounds, "(min, max) in metres, or None when there is nothing.")
+        .def_property_readonly(
+            "triangle_count", [](const SceneHandle& s) { return s.get().triangleCount(); },
+            "Over visible instances.");
+}
+
+}  // namespace
+
+void bindScene(py::module_& module) {
+    py::class_<SceneHandle, Handle> type(module, "Scene",
+                                         "Meshes, materials, instances, lights, surroundings. Metres, y up, "
+                                         "linear Rec.709, radiometric units.");
+    type.def(py::init([] { return std::make_shared<SceneHandle>(); }));
+    bindParts(type);
+    bindFacts(type);
+    type.def_static(
+            "load", &load, py::arg("path"), py::kw_only(), py::arg("complete") = true,
+            py::arg("allow_outside") = false,
+            "A scene from a file (glTF, OBJ, ...) or 'builtin:NAME'.\n\n"
+            "complete: what is missing to be seen, camera or light, is added; notes say so.\n"
+            "allow_outside: the file may name files outside its folder; only for files that are trusted.")
+        .def(
+            "save",
+            [](const Handle& s, const std::filesystem::path& path) { return io::writeGltf(path, s->get()); },
+            py::arg("path"), "Writes .glb or .gltf; returns lines that say what other programs will not see.")
+        .def(
+            "complete", [](const Handle& s) { completeScene(s->edit()); },
+            "Adds a camera, and light where there is none.")
+        .def(
+            "validate", [](const SceneHandle& s) { s.get().validate(); },
+            "Raises Error for what breaks a rule.")
+        .def(
+            "info", [](const SceneHandle& s) { return io::describeScene(s.get()); }, "The scene in words.")
+        .def(
+            "settings",
+            [](const SceneHandle& s, const std::string& mode) {
+                return program::startSettings(s.get(), mode);
+            },
+            py::arg("mode") = "",
+            "Settings that the scene starts with: the defaults, and what its file asks for.")
+        .def("copy", [](const Handle& s) { return std::make_shared<SceneHandle>(s->get()); })
+        .def("set_environment", &setEnvironment, py::arg("picture"), py::kw_only(),
+             py::arg("rotation") = 0.0f, py::arg("strength") = 1.0f,
+             "Surroundings: a latitude-longitude picture (H, 2 H, 3) of radiance, a file, 'builtin:sky', or "
+             "None.")
+        .def(
+            "frame_camera", [](const SceneHandle& s) { return frameCamera(s.get().bounds()); },
+            "A camera that sees the whole scene.")
+        .def("__repr__", &represent);
+    module.def(
+        "builtin_scenes",
+        [] {
+            std::vector<std::string> names;
+            for (const io::GeneratedSceneInfo& info : io::generatedScenes())
+                names.push_back("builtin:" + std::string(info.name));
+            return names;
+        },
+        "Names of generated scenes, for Scene.load.");
+}
+
+}  // namespace conelight::python
