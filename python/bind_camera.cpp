@@ -131,9 +131,9 @@ void bindCamera(py::module_& module) {
     defVector<&Camera::target>(type, "target", "What it looks at: x, y, z in metres.");
     defVector<&Camera::up>(type, "up", "Direction that is up in the picture.");
     type.def_readwrite("vfov", &Camera::fovY, "Vertical field of view, radians.")
-        .def_readwrite("near", &Camera::zNear, "Metres.")
-        .def_readwrite("far", &Camera::zFar, "Metres.")
-        .def_readwrite("name", &Camera::name)
+        .def_readwrite("near", &Camera::zNear, "Nothing nearer is seen; metres.")
+        .def_readwrite("far", &Camera::zFar, "Nothing farther is seen; metres.")
+        .def_readwrite("name", &Camera::name, "Text.")
         .def_static("from_opencv", &fromOpencv, py::arg("K"), py::arg("R"), py::arg("t"), py::arg("size"),
                     py::kw_only(), py::arg("pixel_center") = 0.0,
                     "The camera of OpenCV's matrices: pixel ~ K (R x + t), x right, y down, z forward.\n\n"
@@ -144,7 +144,8 @@ void bindCamera(py::module_& module) {
              "K (3, 3), R (3, 3) and t (3,) as from_opencv takes them.")
         .def("positions", &positions, py::arg("depth"),
              "World points, (height, width, 3) in metres, of a depth picture that this camera saw.")
-        .def("copy", [](const Camera& camera) { return camera; })
+        .def(
+            "copy", [](const Camera& camera) { return camera; }, "A camera of its own, the same.")
         .def("__eq__", [](const Camera& a, const Camera& b) { return a == b; })
         .def("__repr__",
              [](const Camera& c) {

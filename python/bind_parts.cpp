@@ -68,7 +68,8 @@ void replace(const MeshPart& part, const py::object& positions, const py::object
 
 void bindParts(py::module_& module) {
     bindPart<MeshPart>(module, "Mesh", "Triangles of a scene. Its arrays are copies.", kNoFields)
-        .def_property_readonly("name", [](const MeshPart& part) { return part.get().name; })
+        .def_property_readonly(
+            "name", [](const MeshPart& part) { return part.get().name; }, "Text.")
         .def_property_readonly(
             "positions", [](const MeshPart& part) { return arrayOf(part.get().positions); },
             "(N, 3) float32, metres.")
@@ -78,7 +79,9 @@ void bindParts(py::module_& module) {
         .def_property_readonly("tangents", &rowsOf<&Mesh::tangents>, "(N, 4) float32, or None.")
         .def_property_readonly("colors", &rowsOf<&Mesh::colors>, "(N, 4) float32, linear, or None.")
         .def("replace", &replace, py::arg("positions"), py::arg("indices"),
-             "Other triangles in their place, as Scene.add_mesh takes them.");
+             "Other triangles in their place: positions (N, 3), indices (M, 3).\n\n"
+             "By name: normals, uvs, tangents, colors, name, as Scene.add_mesh takes them; what is not given "
+             "is gone.");
     bindPart<MaterialPart>(module, "Material", "A material of a scene: metallic-roughness, as in glTF.",
                            materialAttributes());
     bindPart<InstancePart>(module, "Instance", "One placement of a mesh.", instanceAttributes());

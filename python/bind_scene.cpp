@@ -21,7 +21,18 @@ namespace {
 
 using Handle = std::shared_ptr<SceneHandle>;
 
-Handle load(const std::string& path, bool complete, bool allowOutside) {
+bool isPath(const py::object& given) {
+    return py::isinstance<py::str>(given) || py::hasattr(given, "__fspath__");
+}
+
+// A path or a builtin's name.
+std::string pathOf(const py::object& given) {
+    if (!isPath(given)) throw py::type_error("path: text or a path would be right");
+    return py::str(py::module_::import("os").attr("fspath")(given));
+}
+
+Handle load(const py::object& given, bool complete, bool allowOutside) {
+    const std::string path = pathOf(given);
     return unlocked([&] {
         io::LoadOptions options;
         options.allowOutside = allowOutside;
@@ -96,10 +107,9 @@ void addCamera(const Handle& scene, const Camera& camera) {
 
 // A picture (height, width, 3), or a file or builtin that io reads; None: no environment.
 void setEnvironment(const Handle& scene, const py::object& picture, float rotation, float strength) {
-    Scene& edited = scene->edit();
     if (picture.is_none()) {
-        edited.environment = {};
-    } else if (py::isinstance<py::array>(picture)) {
+        scene->edit().environment = {};
+    } else if (!isPath(picture)) {
         const Image image = imageOf("picture", picture);
         if (image.width != 2 * image.height)
             throw Error(ErrorKind::Usage,
@@ -110,10 +120,11 @@ void setEnvironment(const Handle& scene, const py::object& picture, float rotati
         kept->height = image.height;
         for (const glm::vec4& pixel : image.pixels)
             kept->radiance.emplace_back(glm::max(glm::vec3(pixel), 0.0f));
-        edited.environment = {"", std::move(kept), rotation, strength};
+        scene->edit().environment = {"", std::move(kept), rotation, strength};
     } else {
-        const std::string path = py::str(picture);
-        io::useEnvironment(edited, unlocked([&] { return io::loadEnvironment(path); }), rotation, strength);
+        const std::string path = pathOf(picture);
+        io::LoadedEnvironment loaded = unlocked([&] { return io::loadEnvironment(path); });
+        io::useEnvironment(scene->edit(), std::move(loaded), rotation, strength);
     }
 }
 
@@ -146,7 +157,8 @@ void bindParts(py::class_<SceneHandle, Handle>& type) {
         .def("add_light", &addLight, py::arg("type"),
              "A light: 'point', 'spot', 'directional' or 'rect'; the attributes of Light by name.")
         .def("remove_light", &removeLight, py::arg("light"), "Lights behind it move up by one.")
-        .def("add_camera", &addCamera, py::arg("camera"))
+        .def("add_camera", &addCamera, py::arg("camera"),
+             "The first one is what render shows without a camera.")
         .def_property_readonly(
             "meshes", [](const Handle& s) { return partsOf<MeshPart>(s, s->get().meshes); },
             "Handles of all.")
@@ -167,7 +179,7 @@ void bindParts(py::class_<SceneHandle, Handle>& type) {
 void bindFacts(py::class_<SceneHandle, Handle>& type) {
     type.def_property(
             "name", [](const SceneHandle& s) { return s.get().name; },
-            [](SceneHandle& s, const std::string& name) { s.edit().name = name; })
+            [](SceneHandle& s, const std::string& name) { s.edit().name = name; }, "Text.")
         .def_property(
             "sky", [](const SceneHandle& s) { return tupleOf(s.get().sky); },
             [](SceneHandle& s, const py::object& value) { s.edit().sky = vec3Of("sky", value); },
@@ -215,7 +227,9 @@ void bindScene(py::module_& module) {
             },
             py::arg("mode") = "",
             "Settings that the scene starts with: the defaults, and what its file asks for.")
-        .def("copy", [](const Handle& s) { return std::make_shared<SceneHandle>(s->get()); })
+        .def(
+            "copy", [](const Handle& s) { return std::make_shared<SceneHandle>(s->get()); },
+            "A scene of its own, the same.")
         .def("set_environment", &setEnvironment, py::arg("picture"), py::kw_only(),
              py::arg("rotation") = 0.0f, py::arg("strength") = 1.0f,
              "Surroundings: a latitude-longitude picture (H, 2 H, 3) of radiance, a file, 'builtin:sky', or "

@@ -115,7 +115,8 @@ void bindSettings(py::module_& module) {
         .def("set", &setValue, py::arg("key"), py::arg("value"),
              "Sets one value; raises Error out of its range.")
         .def("update", &update, py::arg("values"), "Sets all of a dict, in its order, or none of them.")
-        .def("copy", [](const Settings& settings) { return settings; })
+        .def(
+            "copy", [](const Settings& settings) { return settings; }, "Settings of their own, the same.")
         .def(
             "keys", [](const Settings&) { return keys(); }, "Names of all settings.")
         .def_static("describe", &describe, py::arg("key"),

@@ -183,8 +183,8 @@ constexpr const char* kOptions =
 
 void bindTracer(py::module_& module) {
     py::class_<PathTracerProgress>(module, "Progress", "How far a path-traced picture is.")
-        .def_readonly("samples_done", &PathTracerProgress::samplesDone)
-        .def_readonly("samples_planned", &PathTracerProgress::samplesPlanned)
+        .def_readonly("samples_done", &PathTracerProgress::samplesDone, "Per pixel.")
+        .def_readonly("samples_planned", &PathTracerProgress::samplesPlanned, "Per pixel, at most.")
         .def_readonly("noise", &PathTracerProgress::noise, "Estimated relative RMSE; 0: not known yet.")
         .def_readonly("seconds_left", &PathTracerProgress::secondsLeft, "Below 0: not known yet.");
     static const std::string renderDoc =
