@@ -27,6 +27,17 @@ class Examples(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         self.folder = folder.name
 
+    def test_quick_start(self):
+        printed = run_example("quick_start.py", self.folder, "64x48").split()
+        self.assertLess(float(printed[-1]), 0.2)  # noise of 64 samples
+        corner = conelight.read(os.path.join(self.folder, "corner.png"))["full"]
+        wall = corner[20, 64 * np.array([0, 1]) + 20]  # a pixel of the wall: red, then blue
+        self.assertGreater(wall[0, 0], 3 * wall[0, 2])
+        self.assertGreater(wall[1, 2], 3 * wall[1, 0])
+        points = conelight.read(os.path.join(self.folder, "points.exr"))["full"]
+        self.assertLess(np.abs(points[48 // 2, 64 // 2 - 1:64 // 2 + 1, 0]).max(), 0.05)  # the axis is x = 0
+        self.assertEqual(conelight.read(os.path.join(self.folder, "cornell.exr"))["depth"].shape, (48, 64))
+
     def test_random_rooms(self):
         for run in ("a", "b"):
             run_example("random_rooms.py", "--count", 2, "--size", "48x36", "--voxels", 64, "--truth", 32, "--out",

@@ -57,7 +57,12 @@ class Pictures(ErrorCase):
         for name, picture in pictures.items():
             self.assertEqual(picture.dtype, np.float32)
             self.assertEqual(picture.shape, (32, 48) if name in ("depth", "occlusion") else (32, 48, 3))
+            # The renderer's own pixels, four numbers each, without a copy.
+            self.assertEqual(picture.strides[1], 16)
+            self.assertIs(picture.flags.owndata, False)
+            self.assertIs(picture.flags.writeable, True)
         self.assertEqual(full(cornell(), alpha=True).shape, (32, 48, 4))
+        self.assertTrue(full(cornell(), alpha=True).flags.c_contiguous)
 
     def test_parts_add_up(self):
         pictures = renderer().render(cornell(), None, SIZE, SETTINGS, components=["full", "direct", "indirect"])
