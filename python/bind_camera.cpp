@@ -146,6 +146,18 @@ void bindCamera(py::module_& module) {
              "World points, (height, width, 3) in metres, of a depth picture that this camera saw.")
         .def(
             "copy", [](const Camera& camera) { return camera; }, "A camera of its own, the same.")
+        .def("__copy__", [](const Camera& camera) { return camera; })
+        .def("__deepcopy__", [](const Camera& camera, const py::dict&) { return camera; })
+        .def(py::pickle(
+            [](const Camera& c) {
+                return py::make_tuple(c.name, tupleOf(c.eye), tupleOf(c.target), tupleOf(c.up), c.fovY,
+                                      c.zNear, c.zFar);
+            },
+            [](const py::tuple& c) {
+                return Camera{c[0].cast<std::string>(), vec3Of("eye", c[1]), vec3Of("target", c[2]),
+                              vec3Of("up", c[3]),       c[4].cast<float>(),  c[5].cast<float>(),
+                              c[6].cast<float>()};
+            }))
         .def("__eq__", [](const Camera& a, const Camera& b) { return a == b; })
         .def("__repr__",
              [](const Camera& c) {

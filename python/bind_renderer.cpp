@@ -129,6 +129,15 @@ void decodeNormals(Image& image) {
     for (glm::vec4& pixel : image.pixels) pixel = {2.0f * glm::vec3(pixel) - pixel.a, pixel.a};
 }
 
+void checkDevice(const std::optional<int>& device) {
+    if (!device) return;
+    const int count = static_cast<int>(platform::listDevices().size());
+    if (count > 0 && (*device < 0 || *device >= count))
+        throw Error(ErrorKind::Usage,
+                    fmt::format("device: there is no EGL device {}; None, or 0 to {}, would be right",
+                                *device, count - 1));
+}
+
 Camera cameraOf(const SceneHandle* scene, const py::object& given) {
     if (py::isinstance<Camera>(given)) return given.cast<Camera>();
     if (!given.is_none()) throw py::type_error("camera: a Camera or None would be right");
@@ -193,6 +202,7 @@ void bindRenderer(py::module_& module) {
         "device: number of an EGL device (devices() lists them); None: a GPU, else software.\n"
         "Calls from several threads wait for each other.")
         .def(py::init([](std::optional<int> device, const std::string& shaders) {
+                 checkDevice(device);
                  return unlocked([&] {
                      return std::make_unique<RendererHandle>(device.value_or(platform::kAnyDevice), shaders);
                  });

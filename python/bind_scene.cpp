@@ -76,7 +76,9 @@ InstancePart addInstance(const Handle& scene, int mesh, const py::object& materi
         throw Error(ErrorKind::Usage, fmt::format("mesh: {}; 0 or more and less than {} would be right", mesh,
                                                   scene->get().meshes.size()));
     instance.mesh = mesh;
-    if (!material.is_none()) instance.material = material.cast<int>();
+    if (!material.is_none())
+        setAttributes("add_instance", instanceAttributes(), instance,
+                      py::kwargs(py::dict(py::arg("material") = material)));
     if (instance.material < -1 || instance.material >= static_cast<int>(scene->get().materials.size()))
         throw Error(ErrorKind::Usage, fmt::format("material: {}; less than {}, or None, would be right",
                                                   instance.material, scene->get().materials.size()));
@@ -230,6 +232,9 @@ void bindScene(py::module_& module) {
         .def(
             "copy", [](const Handle& s) { return std::make_shared<SceneHandle>(s->get()); },
             "A scene of its own, the same.")
+        .def("__copy__", [](const Handle& s) { return std::make_shared<SceneHandle>(s->get()); })
+        .def("__deepcopy__",
+             [](const Handle& s, const py::dict&) { return std::make_shared<SceneHandle>(s->get()); })
         .def("set_environment", &setEnvironment, py::arg("picture"), py::kw_only(),
              py::arg("rotation") = 0.0f, py::arg("strength") = 1.0f,
              "Surroundings: a latitude-longitude picture (H, 2 H, 3) of radiance, a file, 'builtin:sky', or "

@@ -125,6 +125,15 @@ void bindSettings(py::module_& module) {
             "quality", [](const Settings& settings) { return getSetting(settings, "traced.quality"); },
             [](Settings& settings, const std::string& name) { setSetting(settings, "traced.quality", name); },
             "Quality of mode traced that these settings are; 'custom' when they are none.")
+        .def("__copy__", [](const Settings& settings) { return settings; })
+        .def("__deepcopy__", [](const Settings& settings, const py::dict&) { return settings; })
+        .def(py::pickle(
+            [](const Settings& settings) {
+                py::dict values;
+                for (const std::string& key : keys()) values[key.c_str()] = getSetting(settings, key);
+                return values;
+            },
+            [](const py::dict& values) { return settingsOf(values); }))
         .def("__getitem__", &getValue)
         .def("__setitem__", &setValue)
         .def("__contains__",

@@ -136,7 +136,10 @@ PathTracedPicture trace(const TracerHandle& tracer, const Camera& camera, const 
             if (PyErr_CheckSignals() != 0) throw py::error_already_set();
             if (request.progress.is_none()) return true;
             const py::object answer = request.progress(now);
-            return answer.is_none() || answer.cast<bool>();
+            if (answer.is_none()) return true;
+            const int isTrue = PyObject_IsTrue(answer.ptr());
+            if (isTrue < 0) throw py::error_already_set();
+            return isTrue == 1;
         } catch (...) {
             failure = std::current_exception();
             return false;

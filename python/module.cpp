@@ -53,6 +53,7 @@ void bindError(py::module_& module) {
 PYBIND11_MODULE(_conelight, module) {
     using namespace conelight::python;
     conelight::program::registerGuests();
+    module.attr("__name__") = "conelight";  // where users find the types
     keepMessages();
     module.attr("__version__") = CONELIGHT_VERSION_STRING;
     bindError(module);
@@ -63,4 +64,5 @@ PYBIND11_MODULE(_conelight, module) {
     bindRenderer(module);
     bindTracer(module);
     bindPictures(module);
+    module.attr("__name__") = "conelight._conelight";
 }

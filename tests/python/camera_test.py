@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT
+import copy
 import math
+import pickle
 import unittest
 
 import conelight
@@ -83,7 +85,11 @@ class EyeAndTarget(ErrorCase):
         self.assertAlmostEqual(camera.vfov, math.pi / 4, places=6)
         camera.eye = np.array([1, 2, 3])
         self.assertEqual(camera.eye, (1, 2, 3))
-        self.assertEqual(camera.copy(), camera)
+        camera.name = "door"
+        for copied in (camera.copy(), copy.copy(camera), copy.deepcopy(camera), pickle.loads(pickle.dumps(camera))):
+            self.assertEqual(copied, camera)
+            copied.eye = (0, 0, 9)
+            self.assertEqual(camera.eye, (1, 2, 3))
 
     def test_cameras_that_see_nothing(self):
         for text, named in [("vfov 45", {"vfov": 45}), ("vfov 0", {"vfov": 0}), ("near 0", {"near": 0}),

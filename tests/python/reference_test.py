@@ -83,6 +83,8 @@ class Progress(ErrorCase):
         self.assertGreater(picture.mean(), 0)
 
     def test_errors_of_the_callback_arrive(self):
+        with self.assertRaises(TypeError):
+            trace(samples=1 << 16, progress=5)
         with self.assertRaises(ZeroDivisionError):
             trace(samples=1 << 16, progress=lambda now: 1 / 0)
 

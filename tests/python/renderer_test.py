@@ -2,6 +2,8 @@
 import gc
 import json
 import os
+import subprocess
+import sys
 import tempfile
 import threading
 import unittest
@@ -183,7 +185,28 @@ class Refusals(ErrorCase):
 
     def test_no_such_device(self):
         renderer()
-        self.assert_error("usage", "device 99", conelight.Renderer, 99)
+        self.assert_error("usage", "device: there is no EGL device 99", conelight.Renderer, 99)
+
+    def test_no_opengl(self):
+        code = "import conelight\ntry: conelight.Renderer()\nexcept conelight.Error as error: print(error.kind)"
+        done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True,
+                              env={**os.environ, "__EGL_VENDOR_LIBRARY_FILENAMES": "/dev/null"})
+        self.assertEqual(done.stdout.strip(), "no_gl")
+
+    def test_empty_scenes_are_black(self):
+        empty = conelight.Scene()
+        self.assertEqual(full(empty).max(), 0)
+        empty.add_instance(empty.add_mesh(np.zeros((0, 3)), np.zeros((0, 3), int)))
+        self.assertIsNone(empty.bounds)
+        self.assertEqual(full(empty).max(), 0)
+
+    def test_indices_that_lead_nowhere(self):
+        scene = cornell()
+        scene.instances[0].material = 99
+        self.assert_error("bad_input", "material 99; less than 4", full, scene)
+        scene = cornell()
+        scene.materials[0].base_color_texture = 3
+        self.assert_error("bad_input", "names texture 3", full, scene)
 
 
 class Threads(ErrorCase):

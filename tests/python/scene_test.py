@@ -106,6 +106,7 @@ class Building(ErrorCase):
         self.assert_error("usage", "alpha_mode: there is no 'glass'", scene.add_material, alpha_mode="glass")
         self.assert_error("usage", "mesh: 1; 0 or more and less than 1", scene.add_instance, 1)
         self.assert_error("usage", "material: 7", scene.add_instance, 0, 7)
+        self.assert_error("usage", "material: 'x' is of the wrong type", scene.add_instance, 0, "x")
         self.assert_error("usage", "transform: has shape (2, 2)", scene.add_instance, 0, 0, np.eye(2))
         self.assert_error("usage", "type: there is no 'lamp'", scene.add_light, "lamp")
         self.assert_error("usage", "direction: has no length", scene.add_light, "spot", direction=(0, 0, 0))

@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: MIT
+import copy
+import pickle
 import unittest
 
 import conelight
@@ -45,6 +47,14 @@ class Values(ErrorCase):
         self.assertEqual(conelight.Settings({"traced.passes": 3}, quality="high").quality, "custom")
         high.quality = "draft"
         self.assertEqual(high, conelight.Settings(quality="draft"))
+
+    def test_copies(self):
+        settings = conelight.Settings({"traced.bounces": 2, "image.exposure": "auto", "phong.shadows": True})
+        for copied in (settings.copy(), copy.copy(settings), copy.deepcopy(settings),
+                       pickle.loads(pickle.dumps(settings)), conelight.Settings(dict(settings))):
+            self.assertEqual(copied, settings)
+            copied["voxels.size"] = 64
+            self.assertNotEqual(copied, settings)
 
     def test_wrong_ones_change_nothing(self):
         settings = conelight.Settings()
