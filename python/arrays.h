@@ -62,6 +62,16 @@ py::array arrayOf(const std::vector<Vector>& rows) {
 enum class Channels { Grey, Rgb, Rgba };
 // (height, width), (height, width, 3) or (height, width, 4) over the image's own pixels, which it keeps alive.
 py::array pictureArray(Image image, Channels channels);
+// (height, width) or (height, width, components) over `rows`, one per pixel, which it keeps.
+template <class Number, class Row>
+py::array ownedArray(const glm::ivec2& size, std::vector<Row> rows) {
+    auto* kept = new std::vector<Row>(std::move(rows));
+    const py::capsule owner(kept, [](void* held) { delete static_cast<std::vector<Row>*>(held); });
+    std::vector<py::ssize_t> shape = {size.y, size.x};
+    constexpr py::ssize_t kComponents = sizeof(Row) / sizeof(Number);
+    if (kComponents > 1) shape.push_back(kComponents);
+    return py::array(py::dtype::of<Number>(), shape, kept->data(), owner);
+}
 // From any of these shapes; alpha is 1 where there is none.
 Image imageOf(const std::string& what, const py::handle& value);
 

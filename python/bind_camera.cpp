@@ -7,27 +7,11 @@
 
 #include "arrays.h"
 #include "bindings.h"
-#include "camera_check.h"
+#include "camera_axes.h"
 #include "conelight/error.h"
 #include "opencv_camera.h"
 
 namespace conelight::python {
-
-void checkCamera(const Camera& camera) {
-    const auto fail = [](const std::string& what) { throw Error(ErrorKind::Usage, "camera: " + what); };
-    if (!(camera.fovY > 0) || !(camera.fovY < 3.1415926f))
-        fail(fmt::format("vfov {} is out of range; an angle between 0 and pi, in radians, would be right",
-                         camera.fovY));
-    if (!(camera.zNear > 0) || !(camera.zFar > camera.zNear) || !std::isfinite(camera.zFar))
-        fail(fmt::format("near {} and far {}; 0 < near < far would be right", camera.zNear, camera.zFar));
-    const glm::vec3 view = camera.target - camera.eye;
-    if (!std::isfinite(glm::dot(view, view)) || !std::isfinite(glm::dot(camera.up, camera.up)))
-        fail("a number is not finite");
-    if (!(glm::length(view) > 1e-9f)) fail("eye and target are the same point; two points would be right");
-    const float across = glm::length(glm::cross(view, camera.up));
-    if (!(across > 1e-6f * glm::length(view) * glm::length(camera.up)))
-        fail("up points along the view; another direction would be right");
-}
 
 namespace {
 
@@ -87,8 +71,8 @@ py::array positions(const Camera& camera, const py::object& depth) {
         throw Error(ErrorKind::Usage,
                     "depth: has shape " + shapeText(z) + "; (height, width) would be right");
     const py::ssize_t height = z.shape(0), width = z.shape(1);
-    const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
-    const glm::vec3 right = glm::normalize(glm::cross(forward, camera.up)), up = glm::cross(right, forward);
+    const CameraAxes axes = axesOf(camera);
+    const glm::vec3 forward(axes.forward), right(axes.right), up(axes.up);
     const float perPixel = 2 * std::tan(0.5f * camera.fovY) / static_cast<float>(height);
     py::array_t<float> points({height, width, py::ssize_t(3)});
     float* out = points.mutable_data();

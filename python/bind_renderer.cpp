@@ -7,7 +7,7 @@
 
 #include "bindings.h"
 #include "calls.h"
-#include "camera_check.h"
+#include "camera_axes.h"
 #include "components.h"
 #include "conelight/renderer.h"
 #include "platform/headless_context.h"

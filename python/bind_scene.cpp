@@ -7,7 +7,7 @@
 #include "arrays.h"
 #include "bindings.h"
 #include "calls.h"
-#include "camera_check.h"
+#include "camera_axes.h"
 #include "io/environment_file.h"
 #include "io/generated.h"
 #include "io/gltf_write.h"

@@ -4,14 +4,16 @@
 #include <pybind11/stl.h>
 
 #include <exception>
+#include <mutex>
 #include <optional>
 
 #include "bindings.h"
 #include "calls.h"
-#include "camera_check.h"
+#include "camera_axes.h"
 #include "components.h"
 #include "reference/path_tracer.h"
 #include "scene_handle.h"
+#include "surfaces.h"
 
 namespace conelight::python {
 namespace {
@@ -26,11 +28,19 @@ class TracerHandle {
         unlocked([&] { tracer_.emplace(*scene_); });
     }
     const reference::PathTracer& tracer() const { return *tracer_; }
+    // Its rays are made at the first call; the path tracer keeps its own to itself.
+    SurfaceTables surfaces(const Camera& camera, const glm::ivec2& size) {
+        const std::lock_guard lock(mutex_);
+        if (!rays_) rays_.emplace(*scene_);
+        return surfacesOf(*scene_, *rays_, camera, size, 0);
+    }
     py::dict stats = py::dict();
 
   private:
     std::shared_ptr<const Scene> scene_;  // as it was; the tracer refers to it
     std::optional<reference::PathTracer> tracer_;
+    std::mutex mutex_;
+    std::optional<reference::RayScene> rays_;
 };
 
 // N of "bounceN", 1 to 64; 0 for every other name.
@@ -171,6 +181,26 @@ py::dict render(TracerHandle& tracer, const Camera& camera, const py::object& si
     return pictures;
 }
 
+// What the pixels' centres see; the arrays own the tables.
+py::dict surfaces(TracerHandle& tracer, const Camera& camera, const py::object& sizeGiven) {
+    checkCamera(camera);
+    const glm::ivec2 size = sizeOf(sizeGiven);
+    SurfaceTables tables = unlocked([&] { return tracer.surfaces(camera, size); });
+    py::dict all;
+    all["instance"] = ownedArray<std::int32_t>(size, std::move(tables.instance));
+    all["material"] = ownedArray<std::int32_t>(size, std::move(tables.material));
+    all["triangle"] = ownedArray<std::int32_t>(size, std::move(tables.triangle));
+    all["depth"] = ownedArray<float>(size, std::move(tables.depth));
+    all["position"] = ownedArray<float>(size, std::move(tables.position));
+    all["geometric_normal"] = ownedArray<float>(size, std::move(tables.geometricNormal));
+    all["normal"] = ownedArray<float>(size, std::move(tables.normal));
+    all["uv"] = ownedArray<float>(size, std::move(tables.uv));
+    all["base_color"] = ownedArray<float>(size, std::move(tables.baseColor));
+    all["metallic"] = ownedArray<float>(size, std::move(tables.metallic));
+    all["roughness"] = ownedArray<float>(size, std::move(tables.roughness));
+    return all;
+}
+
 constexpr const char* kOptions =
     "By name:\n"
     "samples: per pixel, at most (256). noise: stop below this estimated relative RMSE (0: never).\n"
@@ -197,6 +227,16 @@ void bindTracer(py::module_& module) {
                              "The path tracer of a scene as it is now; for several pictures of one scene.")
         .def(py::init<const SceneHandle&>(), py::arg("scene"))
         .def("render", &render, py::arg("camera"), py::arg("size"), renderDoc.c_str())
+        .def("surfaces", &surfaces, py::arg("camera"), py::arg("size"),
+             "What the pixels' centres see, as a dict of arrays, first row on top; by rays, without "
+             "OpenGL.\n\n"
+             "instance, material, triangle: (height, width) int32, numbers in the scene and the mesh; -1 is "
+             "none,\n"
+             "or the default material. depth: (height, width), metres along the view. position: (height, "
+             "width,\n"
+             "3), world, metres. geometric_normal, normal: (height, width, 3), of the triangle and as it is\n"
+             "shaded. uv: (height, width, 2). base_color: (height, width, 3). metallic, roughness: (height,\n"
+             "width). All but the first three are float32, and 0 where nothing is.")
         .def_property_readonly(
             "stats", [](const TracerHandle& tracer) { return tracer.stats; },
             "Of the last picture: samples, noise, rays, bad_samples, cpu_seconds, wall_seconds.");

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "camera_axes.h"
 #include "conelight/error.h"
 
 namespace conelight::python {
@@ -56,15 +57,13 @@ Camera cameraFrom(const OpencvCamera& opencv, const glm::ivec2& size) {
 }
 
 OpencvCamera opencvFrom(const Camera& camera, const glm::ivec2& size, double pixelCenter) {
-    const glm::dvec3 forward = glm::normalize(glm::dvec3(camera.target) - glm::dvec3(camera.eye));
-    const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(camera.up)));
-    const glm::dvec3 down = glm::cross(forward, right);
+    const CameraAxes axes = axesOf(camera);
     const double f = 0.5 * size.y / std::tan(0.5 * double(camera.fovY));
     OpencvCamera opencv;
     opencv.pixelCenter = pixelCenter;
     opencv.intrinsics =
         glm::dmat3(f, 0, 0, 0, f, 0, 0.5 * size.x - 0.5 + pixelCenter, 0.5 * size.y - 0.5 + pixelCenter, 1);
-    opencv.cameraFromWorld = glm::transpose(glm::dmat3(right, down, forward));
+    opencv.cameraFromWorld = glm::transpose(glm::dmat3(axes.right, -axes.up, axes.forward));
     opencv.translation = -(opencv.cameraFromWorld * glm::dvec3(camera.eye));
     return opencv;
 }

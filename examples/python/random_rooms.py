@@ -5,8 +5,8 @@
     python3 examples/python/random_rooms.py --count 100 --out rooms
     python3 examples/python/random_rooms.py --count 10 --truth 1024 --out rooms   # path-traced, too
 
-Writes NAME.npz with the arrays full, indirect, albedo, normal, depth, K, R, t (and truth), and NAME.png to look
-at. A room follows from its number and the seed alone.
+Writes NAME.npz with the arrays full, indirect, albedo, normal, depth, instance, K, R, t (and truth), and
+NAME.png to look at. A room follows from its number and the seed alone.
 """
 import argparse
 import pathlib
@@ -69,8 +69,10 @@ def write(folder, number, options, renderer):
     scene, camera = room(random)
     settings = conelight.Settings({"voxels.size": options.voxels}, quality=options.quality)
     arrays = renderer.render(scene, camera, options.size, settings, components=PARTS)
+    tracer = conelight.PathTracer(scene)
+    arrays["instance"] = tracer.surfaces(camera, options.size)["instance"]
     if options.truth:
-        arrays["truth"] = conelight.reference(scene, camera, options.size, samples=options.truth)["full"]
+        arrays["truth"] = tracer.render(camera, options.size, samples=options.truth)["full"]
     k, r, t = camera.to_opencv(options.size)
     name = f"room{number:04d}"
     np.savez_compressed(folder / f"{name}.npz", **arrays, K=k, R=r, t=t)

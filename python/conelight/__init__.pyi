@@ -218,12 +218,26 @@ class Progress:
     @property
     def seconds_left(self) -> float: ...
 
+class Surfaces(TypedDict):
+    instance: NDArray[np.int32]
+    material: NDArray[np.int32]
+    triangle: NDArray[np.int32]
+    depth: Floats
+    position: Floats
+    geometric_normal: Floats
+    normal: Floats
+    uv: Floats
+    base_color: Floats
+    metallic: Floats
+    roughness: Floats
+
 class PathTracer:
     def __init__(self, scene: Scene) -> None: ...
     def render(self, camera: Camera, size: tuple[int, int], *, samples: int = 256, noise: float = 0.0,
                bounces: int | Literal["all"] = "all", seed: int = 1, filter: Literal["center", "box"] = "center",
                threads: int = 0, components: str | Sequence[str] = "full", alpha: bool = False,
                progress: Callable[[Progress], bool | None] | None = None) -> dict[str, Floats]: ...
+    def surfaces(self, camera: Camera, size: tuple[int, int]) -> Surfaces: ...
     @property
     def stats(self) -> dict[str, Any]: ...
 

@@ -93,7 +93,7 @@ class EyeAndTarget(ErrorCase):
 
     def test_cameras_that_see_nothing(self):
         for text, named in [("vfov 45", {"vfov": 45}), ("vfov 0", {"vfov": 0}), ("near 0", {"near": 0}),
-                            ("near 2 and far 1", {"near": 2, "far": 1}), ("up points along", {"up": (0, 0, 1)}),
+                            ("near 2 and far 1", {"near": 2, "far": 1}),
                             ("not finite", {"up": (0, np.nan, 0)})]:
             self.assert_error("usage", text, conelight.Camera, (0, 0, 3), (0, 0, 0), **named)
         self.assert_error("usage", "same point", conelight.Camera, (0, 0, 3), (0, 0, 3))
@@ -104,6 +104,25 @@ class EyeAndTarget(ErrorCase):
         scene = conelight.Scene.load("builtin:cornell")
         self.assert_error("usage", "same point", renderer().render, scene, camera, SIZE)
         self.assert_error("usage", "same point", conelight.reference, scene, camera, SIZE)
+
+    def test_up_along_the_view(self):
+        """The renderer turns such a camera in a way of its own; positions and matrices know it."""
+        scene = conelight.Scene.load("builtin:cornell")
+        camera = conelight.Camera((0.1, 0.8, 0.1), (0.1, 0, 0.1), up=(0, 1, 0))
+        pictures = renderer().render(scene, camera, SIZE, SETTINGS, components=["depth", "normal"])
+        floor = pictures["normal"][..., 1] > 0.99
+        low = floor & (pictures["depth"] > 0.79)
+        self.assertGreater(low.sum(), 100)
+        points = camera.positions(pictures["depth"])
+        np.testing.assert_allclose(points[low][:, 1], 0, atol=1e-3)
+        k, rotation, t = camera.to_opencv(SIZE)
+        pixels = (points[low] @ rotation.T + t) @ k.T
+        rows, columns = np.nonzero(low)
+        np.testing.assert_allclose(pixels[:, 0] / pixels[:, 2], columns, atol=1e-3)
+        np.testing.assert_allclose(pixels[:, 1] / pixels[:, 2], rows, atol=1e-3)
+        again = conelight.Camera.from_opencv(k, rotation, t, SIZE)
+        np.testing.assert_allclose(
+            renderer().render(scene, again, SIZE, SETTINGS, components="depth")["depth"], pictures["depth"], atol=1e-3)
 
     def test_a_camera_that_sees_the_whole_scene(self):
         scene = conelight.Scene.load("builtin:cornell")

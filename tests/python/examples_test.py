@@ -45,7 +45,9 @@ class Examples(unittest.TestCase):
         rooms = [np.load(os.path.join(self.folder, run, f"room000{i}.npz")) for run in "ab" for i in range(2)]
         self.assertFalse(np.array_equal(rooms[0]["full"], rooms[1]["full"]))
         for first, again in zip(rooms[:2], rooms[2:], strict=True):
-            self.assertEqual(set(first.files), {"full", "indirect", "albedo", "normal", "depth", "truth", "K", "R", "t"})
+            self.assertEqual(set(first.files), {"full", "indirect", "albedo", "normal", "depth", "instance", "truth",
+                                                "K", "R", "t"})
+            self.assertGreaterEqual(len(np.unique(first["instance"])), 2)
             for name in first.files:
                 np.testing.assert_array_equal(first[name], again[name])
             # A closed room: something behind every pixel, some light on nearly all, and the truth is near.

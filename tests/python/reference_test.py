@@ -69,6 +69,58 @@ class Truth(ErrorCase):
         self.assertLess(tracer.stats["samples"], 4096)
 
 
+class Surfaces(ErrorCase):
+    def test_are_what_the_renderer_sees(self):
+        for name in ("builtin:cornell", "builtin:study"):
+            scene = conelight.Scene.load(name)
+            camera, size = scene.cameras[0], (96, 64)
+            seen = conelight.PathTracer(scene).surfaces(camera, size)
+            drawn = renderer().render(scene, camera, size, SETTINGS, components=["depth", "normal"])
+            # Edges may fall to either side of a pixel's centre, by rounding.
+            near = np.abs(seen["depth"] - drawn["depth"]) <= 1e-3 * drawn["depth"]
+            self.assertGreater(near.mean(), 0.99)
+            alike = (seen["geometric_normal"] * drawn["normal"]).sum(axis=-1)[near & (drawn["depth"] > 0)]
+            self.assertGreater((alike > 0.7).mean(), 0.98)
+            hit = seen["instance"] >= 0
+            np.testing.assert_array_equal(hit, seen["depth"] > 0)
+            np.testing.assert_allclose(camera.positions(seen["depth"])[hit], seen["position"][hit], atol=1e-4)
+
+    def test_numbers_are_the_scene_s(self):
+        scene = cornell()
+        seen = conelight.PathTracer(scene).surfaces(scene.cameras[0], (96, 64))
+        self.assertGreater(len(np.unique(seen["instance"])), 5)
+        for number in np.unique(seen["instance"]):
+            here = seen["instance"] == number
+            if number < 0:
+                self.assertEqual(set(seen["material"][here]) | set(seen["triangle"][here]), {-1})
+                self.assertEqual(np.abs(seen["position"][here]).max(), 0)
+                continue
+            instance = scene.instances[number]
+            material = scene.materials[instance.material]
+            self.assertEqual(set(seen["material"][here]), {instance.material})
+            np.testing.assert_allclose(seen["base_color"][here], [material.base_color[:3]] * here.sum(), rtol=1e-6)
+            self.assertEqual(set(seen["roughness"][here]), {np.float32(material.roughness)})
+            # The point lies in the plane of the triangle that is named.
+            mesh = scene.meshes[instance.mesh]
+            corners = mesh.positions[mesh.indices[seen["triangle"][here]]] @ instance.transform[:3, :3].T
+            corners = corners + instance.transform[:3, 3]
+            normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+            normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+            away = ((seen["position"][here] - corners[:, 0]) * normal).sum(axis=1)
+            self.assertLess(np.abs(away).max(), 1e-4)
+
+    def test_uv_runs_over_a_square(self):
+        scene = conelight.Scene()
+        square = scene.add_mesh([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], [[0, 1, 2], [0, 2, 3]],
+                                uvs=[[0, 1], [1, 1], [1, 0], [0, 0]])
+        scene.add_instance(square)
+        camera = conelight.Camera((0, 0, 1), (0, 0, 0), vfov=np.pi / 2)  # the square fills the picture
+        seen = conelight.PathTracer(scene).surfaces(camera, (8, 8))
+        centres = (np.arange(8) + 0.5) / 8
+        np.testing.assert_allclose(seen["uv"], np.stack(np.meshgrid(centres, centres), axis=-1), atol=1e-5)
+        self.assertEqual(set(seen["material"].ravel()), {-1})
+
+
 class Progress(ErrorCase):
     def test_is_called_and_stops(self):
         seen = []
