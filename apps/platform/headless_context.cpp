@@ -78,6 +78,11 @@ void closeDisplay(EGLDisplay display) {
     eglTerminate(display);
 }
 
+Current currentOfThread() {
+    return {eglGetCurrentDisplay(), eglGetCurrentContext(), eglGetCurrentSurface(EGL_DRAW),
+            eglGetCurrentSurface(EGL_READ)};
+}
+
 EGLContext createContext(EGLDisplay display, bool debug) {
     // NVIDIA wants a config for contexts; Mesa's surfaceless platform may have none.
     const EGLint configAttributes[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_DONT_CARE,
@@ -121,7 +126,7 @@ bool HeadlessContext::tryDisplay(void* display, const std::string& how, bool deb
     if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) return closed("no desktop OpenGL");
     const EGLContext context = createContext(display, debug);
     if (context == EGL_NO_CONTEXT) return closed("no OpenGL 4.5 core context");
-    keepCurrent();  // comes back when this context ends
+    previous_ = currentOfThread();  // comes back when this context ends
     if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_FALSE) {
         eglDestroyContext(display, context);
         return closed("context cannot be current without a surface");
@@ -171,29 +176,26 @@ HeadlessContext::~HeadlessContext() {
     closeDisplay(display_);
 }
 
-void HeadlessContext::keepCurrent() {
-    previous_ = {eglGetCurrentDisplay(), eglGetCurrentContext(), eglGetCurrentSurface(EGL_DRAW),
-                 eglGetCurrentSurface(EGL_READ)};
-}
+void HeadlessContext::release() { release(previous_); }
 
-void HeadlessContext::release() {
+void HeadlessContext::release(const Current& previous) {
     // Another context may have become current since; then it stays.
     if (eglGetCurrentContext() != context_) return;
-    if (previous_.context == EGL_NO_CONTEXT ||
-        eglMakeCurrent(previous_.display, previous_.draw, previous_.read, previous_.context) == EGL_FALSE)
+    if (previous.context == EGL_NO_CONTEXT ||
+        eglMakeCurrent(previous.display, previous.draw, previous.read, previous.context) == EGL_FALSE)
         eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
 }
 
 CurrentContext::CurrentContext(HeadlessContext& context) : context_(context) {
     // EGL keeps both, the API and what is current of it, per thread.
     eglBindAPI(EGL_OPENGL_API);
-    context.keepCurrent();
+    previous_ = currentOfThread();
     if (eglMakeCurrent(context.display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context.context_) == EGL_FALSE)
         throw Error(ErrorKind::Runtime,
                     "OpenGL: the context cannot be made current; it is in use on another thread");
 }
 
-CurrentContext::~CurrentContext() { context_.release(); }
+CurrentContext::~CurrentContext() { context_.release(previous_); }
 
 std::vector<DeviceLimit> deviceLimits() {
     const auto limit = [](const char* name, GLenum key, long long used) {

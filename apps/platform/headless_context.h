@@ -16,6 +16,11 @@ struct HeadlessOptions {
     bool debug = false;       // a debug context, which reports errors (RendererOptions::reportGlErrors)
 };
 
+// What EGL has current on a thread.
+struct Current {
+    void *display = nullptr, *context = nullptr, *draw = nullptr, *read = nullptr;
+};
+
 // Current on the creating thread from construction to destruction, when the context that was current before
 // comes back. Contexts of one process may live at the same time. Throws Error(NoGl) with what was tried,
 // Error(Usage) for a device that is not listed.
@@ -32,13 +37,10 @@ class HeadlessContext {
 
   private:
     friend class CurrentContext;
-    void keepCurrent();
+    void release(const Current& previous);
     bool tryDisplay(void* display, const std::string& how, bool debug);
     void* display_ = nullptr;
     void* context_ = nullptr;
-    struct Current {
-        void *display = nullptr, *context = nullptr, *draw = nullptr, *read = nullptr;
-    };
     Current previous_;
     std::string description_;
     std::string tried_;
@@ -55,6 +57,7 @@ class CurrentContext {
 
   private:
     HeadlessContext& context_;
+    Current previous_;
 };
 
 // One line per EGL device: "0: hardware, /dev/dri/card0", "1: software". Empty without EGL.
