@@ -142,7 +142,8 @@ void bindCamera(py::module_& module) {
                               vec3Of("up", c[3]),       c[4].cast<float>(),  c[5].cast<float>(),
                               c[6].cast<float>()};
             }))
-        .def("__eq__", [](const Camera& a, const Camera& b) { return a == b; })
+        .def(
+            "__eq__", [](const Camera& a, const Camera& b) { return a == b; }, py::is_operator())
         .def("__repr__",
              [](const Camera& c) {
                  return fmt::format("Camera(eye=({}, {}, {}), target=({}, {}, {}), up=({}, {}, {}), vfov={})",

@@ -28,8 +28,10 @@ py::class_<PartOf> bindPart(py::module_& module, const char* name, const char* d
     type.def_property_readonly(
             "index", [](const PartOf& part) { return part.index; }, "Its number in the scene.")
         .def("__index__", [](const PartOf& part) { return part.index; })
-        .def("__eq__",
-             [](const PartOf& a, const PartOf& b) { return a.scene == b.scene && a.index == b.index; })
+        .def(
+            "__eq__",
+            [](const PartOf& a, const PartOf& b) { return a.scene == b.scene && a.index == b.index; },
+            py::is_operator())
         .def("__hash__",
              [](const PartOf& part) { return std::hash<const void*>()(part.scene.get()) ^ part.index; })
         .def("__repr__", [word](const PartOf& part) {

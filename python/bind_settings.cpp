@@ -140,7 +140,8 @@ void bindSettings(py::module_& module) {
              [](const Settings&, const std::string& key) { return findSetting(key) != nullptr; })
         .def("__iter__", [](const Settings&) { return py::iter(py::cast(keys())); })
         .def("__len__", [](const Settings&) { return settingInfos().size(); })
-        .def("__eq__", [](const Settings& a, const Settings& b) { return a == b; })
+        .def(
+            "__eq__", [](const Settings& a, const Settings& b) { return a == b; }, py::is_operator())
         .def("__repr__", &represent)
         .attr("__hash__") = py::none();
 }

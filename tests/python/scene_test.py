@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT
 import os
+import pathlib
 import tempfile
 import unittest
 
@@ -27,7 +28,7 @@ class Loading(ErrorCase):
     def test_file_is_the_scene_that_was_written(self):
         with tempfile.TemporaryDirectory() as folder:
             for file in ("box.glb", "box.gltf"):
-                path = os.path.join(folder, file)
+                path = pathlib.Path(folder) / file
                 conelight.Scene.load("builtin:cornell").save(path)
                 self.assertEqual(conelight.Scene.load(path).triangle_count, 42)
             self.assertIn("42", run_program("info", os.path.join(folder, "box.glb")))
@@ -142,6 +143,15 @@ class Handles(ErrorCase):
         light = scene.add_light("point", intensity=(1, 1, 1))
         scene.remove_light(light)
         self.assert_error("usage", "no longer has this element", lambda: light.intensity)
+
+    def test_handles_are_compared_by_what_they_are_of(self):
+        scene = triangle_scene()
+        self.assertEqual(scene.materials[0], scene.materials[0])
+        self.assertEqual(len({scene.materials[0], scene.materials[0]}), 1)
+        self.assertNotEqual(scene.materials[0], triangle_scene().materials[0])
+        for thing in (scene.materials[0], conelight.Camera((0, 0, 1), (0, 0, 0)), conelight.Settings()):
+            self.assertNotEqual(thing, None)
+            self.assertNotEqual(thing, 5)
 
     def test_handles_keep_their_scene(self):
         material = triangle_scene().materials[0]
