@@ -4,10 +4,13 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include <cmath>
+
 #include "arrays.h"
 #include "bindings.h"
 #include "calls.h"
 #include "camera_axes.h"
+#include "io/animation.h"
 #include "io/environment_file.h"
 #include "io/generated.h"
 #include "io/gltf_write.h"
@@ -31,14 +34,32 @@ std::string pathOf(const py::object& given) {
     return py::str(py::module_::import("os").attr("fspath")(given));
 }
 
+// A scene whose clips alone are broken is one at rest, with a note.
+Scene loadMoving(const std::string& path, const io::LoadOptions& options, io::SceneAnimation& animation) {
+    try {
+        return io::loadAnimatedScene(path, options, animation);
+    } catch (const Error& error) {
+        animation = {};
+        Scene scene = io::loadScene(path, options);
+        scene.notes.push_back(std::string("clips are left out: ") + error.what());
+        return scene;
+    }
+}
+
 Handle load(const py::object& given, bool complete, bool allowOutside) {
     const std::string path = pathOf(given);
     return unlocked([&] {
         io::LoadOptions options;
         options.allowOutside = allowOutside;
-        Scene scene = io::loadScene(path, options);
+        auto movement = std::make_shared<Movement>();
+        Scene scene = loadMoving(path, options, movement->animation);
         if (complete) completeScene(scene);
-        return std::make_shared<SceneHandle>(std::move(scene));
+        movement->rest.instances = scene.instances;
+        movement->rest.lights = scene.lights;
+        movement->rest.cameras = scene.cameras;
+        auto handle = std::make_shared<SceneHandle>(std::move(scene));
+        if (!movement->animation.clips.empty()) handle->movement = std::move(movement);
+        return handle;
     });
 }
 
@@ -100,6 +121,35 @@ void removeLight(const Handle& scene, std::size_t index) {
     LightPart{scene, index}.check();
     std::vector<Light>& lights = scene->edit().lights;
     lights.erase(lights.begin() + static_cast<std::ptrdiff_t>(index));
+    if (!scene->movement) return;
+    auto movement = std::make_shared<Movement>(*scene->movement);
+    std::erase_if(movement->animation.lights, [&](const auto& hung) { return hung.index == index; });
+    for (auto& hung : movement->animation.lights)
+        if (hung.index > index) --hung.index;
+    scene->movement = std::move(movement);
+}
+
+Handle copyOf(const Handle& scene) {
+    auto copy = std::make_shared<SceneHandle>(scene->get());
+    copy->movement = scene->movement;
+    return copy;
+}
+
+py::tuple clips(const SceneHandle& scene) {
+    if (!scene.movement) return py::tuple();
+    return py::tuple(py::cast(scene.movement->animation.clips));
+}
+
+void pose(const Handle& scene, const py::object& clip, float time) {
+    if (!scene->movement)
+        throw Error(ErrorKind::Usage,
+                    "clip: nothing moves in this scene; one of a glTF file with clips would be right");
+    if (!std::isfinite(time)) throw Error(ErrorKind::Usage, "time: is not finite; seconds would be right");
+    const io::SceneAnimation& animation = scene->movement->animation;
+    const std::size_t number = py::isinstance<io::AnimationClip>(clip)
+                                   ? io::clipNumber(animation, clip.cast<const io::AnimationClip&>().name)
+                                   : io::clipNumber(animation, py::str(clip));
+    io::poseScene(animation, number, time, scene->movement->rest, scene->edit());
 }
 
 void addCamera(const Handle& scene, const Camera& camera) {
@@ -186,6 +236,13 @@ void bindFacts(py::class_<SceneHandle, Handle>& type) {
             "sky", [](const SceneHandle& s) { return tupleOf(s.get().sky); },
             [](SceneHandle& s, const py::object& value) { s.edit().sky = vec3Of("sky", value); },
             "Constant radiance of the surroundings, W/(sr m^2): (3,).")
+        .def_property_readonly("clips", &clips,
+                               "What moves in the glTF file that the scene is from: Clips, or none.")
+        .def("pose", &pose, py::arg("clip"), py::arg("time"),
+             "Puts instances, lights and cameras where a clip has them at a time, seconds.\n\n"
+             "clip: a Clip, its name or its number. What was moved by hand and hangs on the file's nodes "
+             "goes back\n"
+             "to them.")
         .def_property_readonly(
             "notes", [](const SceneHandle& s) { return s.get().notes; },
             "What was left out or added when the scene was loaded.")
@@ -198,6 +255,12 @@ void bindFacts(py::class_<SceneHandle, Handle>& type) {
 }  // namespace
 
 void bindScene(py::module_& module) {
+    py::class_<io::AnimationClip>(module, "Clip", "A movement of a scene: node tracks of a glTF animation.")
+        .def_readonly("name", &io::AnimationClip::name, "Text.")
+        .def_readonly("duration", &io::AnimationClip::duration, "Seconds, time of the last key.")
+        .def("__repr__", [](const io::AnimationClip& clip) {
+            return fmt::format("<conelight.Clip '{}': {} s>", clip.name, clip.duration);
+        });
     py::class_<SceneHandle, Handle> type(module, "Scene",
                                          "Meshes, materials, instances, lights, surroundings. Metres, y up, "
                                          "linear Rec.709, radiometric units.");
@@ -229,12 +292,9 @@ void bindScene(py::module_& module) {
             },
             py::arg("mode") = "",
             "Settings that the scene starts with: the defaults, and what its file asks for.")
-        .def(
-            "copy", [](const Handle& s) { return std::make_shared<SceneHandle>(s->get()); },
-            "A scene of its own, the same.")
-        .def("__copy__", [](const Handle& s) { return std::make_shared<SceneHandle>(s->get()); })
-        .def("__deepcopy__",
-             [](const Handle& s, const py::dict&) { return std::make_shared<SceneHandle>(s->get()); })
+        .def("copy", &copyOf, "A scene of its own, the same.")
+        .def("__copy__", &copyOf)
+        .def("__deepcopy__", [](const Handle& s, const py::dict&) { return copyOf(s); })
         .def("set_environment", &setEnvironment, py::arg("picture"), py::kw_only(),
              py::arg("rotation") = 0.0f, py::arg("strength") = 1.0f,
              "Surroundings: a latitude-longitude picture (H, 2 H, 3) of radiance, a file, 'builtin:sky', or "

@@ -9,8 +9,15 @@
 #include "conelight/error.h"
 #include "conelight/scene.h"
 #include "conelight/settings.h"
+#include "io/animation.h"
 
 namespace conelight::python {
+
+// What moves in the file that a scene was loaded from, and where it rests.
+struct Movement {
+    io::SceneAnimation animation;
+    Scene rest;  // instances, lights and cameras alone
+};
 
 class SceneHandle {
   public:
@@ -30,6 +37,9 @@ class SceneHandle {
         geometry_ = next();
         return edit();
     }
+    // Null: nothing moves.
+    std::shared_ptr<const Movement> movement;
+
     // Another number after each change of meshes and textures, and for each scene.
     std::uint64_t geometry() const { return geometry_; }
 

@@ -1,4 +1,6 @@
 # SPDX-License-Identifier: MIT
+import base64
+import json
 import os
 import pathlib
 import tempfile
@@ -121,6 +123,78 @@ class Building(ErrorCase):
         scene.validate()
         scene.materials[0].emission = (float("nan"), 0, 0)
         self.assert_error("bad_input", "emission is not finite", scene.validate)
+
+
+def moving_file(folder, last_time=2):
+    """A glTF file: a triangle, a lamp and a camera on one node, which goes 4 m along x in 2 s; another lamp at rest."""
+    data = np.concatenate([TRIANGLE.ravel(), np.float32([0, last_time]), np.float32([0, 0, 0, 4, 0, 0])]).astype("<f4").tobytes()
+    uri = "data:application/octet-stream;base64," + base64.b64encode(data).decode()
+    views = [{"buffer": 0, "byteOffset": start, "byteLength": length} for start, length in ((0, 36), (36, 8), (44, 24))]
+    accessors = [{"bufferView": i, "componentType": 5126, "count": count, "type": kind, **bounds}
+                 for i, (count, kind, bounds) in enumerate([(3, "VEC3", {"min": [0, 0, 0], "max": [1, 1, 0]}),
+                                                            (2, "SCALAR", {"min": [0], "max": [last_time]}), (2, "VEC3", {})])]
+    lamp = {"type": "point", "intensity": 100}
+    file = {"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [1, 0]}],
+            "buffers": [{"uri": uri, "byteLength": len(data)}], "bufferViews": views, "accessors": accessors,
+            "meshes": [{"primitives": [{"attributes": {"POSITION": 0}}]}],
+            "cameras": [{"type": "perspective", "perspective": {"yfov": 1, "znear": 0.1}}],
+            "extensionsUsed": ["KHR_lights_punctual"],
+            "extensions": {"KHR_lights_punctual": {"lights": [{**lamp, "name": "moves"}, {**lamp, "name": "rests"}]}},
+            "nodes": [{"mesh": 0, "camera": 0, "extensions": {"KHR_lights_punctual": {"light": 0}}},
+                      {"extensions": {"KHR_lights_punctual": {"light": 1}}}],
+            "animations": [{"name": "go", "samplers": [{"input": 1, "output": 2}],
+                            "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}]}]}
+    path = pathlib.Path(folder) / "moving.gltf"
+    path.write_text(json.dumps(file), encoding="utf-8")
+    return path
+
+
+class Clips(ErrorCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.scene = conelight.Scene.load(moving_file(folder.name))
+
+    def places(self, scene):
+        lamps = {light.name: light.position[0] for light in scene.lights}
+        return scene.instances[0].transform[0, 3], scene.cameras[0].eye[0], lamps
+
+    def test_poses(self):
+        clip, = self.scene.clips
+        self.assertEqual((clip.name, clip.duration), ("go", 2))
+        for named in (clip, "go", 0):
+            for time, x in ((0.5, 1), (2, 4), (9, 4), (0, 0)):
+                self.scene.pose(named, time)
+                self.assertEqual(self.places(self.scene), (x, x, {"moves": x, "rests": 0}))
+
+    def test_broken_clips_leave_the_scene(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = conelight.Scene.load(moving_file(folder, last_time=-1))  # times that go back
+        self.assertEqual((scene.clips, scene.triangle_count), ((), 1))
+        self.assertTrue(any("clips are left out" in note for note in scene.notes), scene.notes)
+
+    def test_lights_that_were_removed(self):
+        for gone, left in (("rests", {"moves": 2}), ("moves", {"rests": 0})):
+            copy = self.scene.copy()
+            copy.remove_light(next(light for light in copy.lights if light.name == gone))
+            copy.pose("go", 1)
+            self.assertEqual(self.places(copy), (2, 2, left))
+        self.assertEqual(len(self.scene.lights), 2)
+
+    def test_what_was_added_stays(self):
+        self.scene.add_light("point", position=(7, 0, 0), name="new")
+        self.scene.add_instance(0, transform=np.diag([2, 2, 2, 1]))
+        self.scene.instances[0].casts_shadow = False
+        self.scene.pose("go", 1)
+        self.assertEqual(self.places(self.scene)[2], {"moves": 2, "rests": 0, "new": 7})
+        self.assertEqual(self.scene.instances[1].transform[0, 3], 0)
+        self.assertFalse(self.scene.instances[0].casts_shadow)
+
+    def test_refusals(self):
+        self.assert_error("usage", "go", self.scene.pose, "stay", 0)
+        self.assert_error("usage", "time: is not finite", self.scene.pose, "go", float("nan"))
+        self.assert_error("usage", "nothing moves", conelight.Scene.load("builtin:cornell").pose, 0, 0)
+        self.assertEqual(conelight.Scene().clips, ())
 
 
 class Handles(ErrorCase):
