@@ -3,6 +3,7 @@ import os
 import signal
 import tempfile
 import threading
+import time
 import unittest
 
 import conelight
@@ -166,6 +167,23 @@ class Progress(ErrorCase):
 
         with self.assertRaises(KeyboardInterrupt):
             trace(samples=1 << 16, progress=interrupt)
+
+    def test_interrupts_end_it_without_a_callback(self):
+        scene = cornell()
+        tracer = conelight.PathTracer(scene)
+        start = time.process_time()
+
+        def interrupt():
+            while time.process_time() < start + 0.3:  # until it traces: nothing else here takes so much work
+                time.sleep(0.01)
+            os.kill(os.getpid(), signal.SIGINT)
+
+        thread = threading.Thread(target=interrupt)
+        with self.assertRaises(KeyboardInterrupt):
+            thread.start()
+            tracer.render(scene.cameras[0], SIZE, samples=1 << 18)
+        thread.join()
+        self.assertEqual(tracer.stats, {})  # it did not go on to its end
 
 
 class Refusals(ErrorCase):
