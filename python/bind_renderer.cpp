@@ -43,12 +43,14 @@ bool isChange(const Scene& held, const Scene& wanted) {
 
 class RendererHandle {
   public:
-    explicit RendererHandle(int device, const std::string& shaderDirectory) {
+    RendererHandle(int device, const std::string& shaderDirectory, bool debug) {
         platform::HeadlessOptions options;
         options.device = device;
+        options.debug = debug;
         context_ = std::make_unique<platform::HeadlessContext>(options);
         RendererOptions rendererOptions;
         rendererOptions.shaderDirectory = shaderDirectory;
+        rendererOptions.reportGlErrors = debug;
         renderer_ = std::make_unique<Renderer>(rendererOptions);
         context_->release();
     }
@@ -200,14 +202,17 @@ void bindRenderer(py::module_& module) {
         module, "Renderer",
         "Draws scenes by OpenGL, without a display. Holds its own context and the last scene.\n\n"
         "device: number of an EGL device (devices() lists them); None: a GPU, else software.\n"
-        "Calls from several threads wait for each other.")
-        .def(py::init([](std::optional<int> device, const std::string& shaders) {
+        "shader_directory: shaders there win over the built-in ones. debug: messages of the driver go to\n"
+        "logging.getLogger('conelight'); slower. Calls from several threads wait for each other.")
+        .def(py::init([](std::optional<int> device, const std::string& shaders, bool debug) {
                  checkDevice(device);
                  return unlocked([&] {
-                     return std::make_unique<RendererHandle>(device.value_or(platform::kAnyDevice), shaders);
+                     return std::make_unique<RendererHandle>(device.value_or(platform::kAnyDevice), shaders,
+                                                             debug);
                  });
              }),
-             py::arg("device") = py::none(), py::kw_only(), py::arg("shader_directory") = "")
+             py::arg("device") = py::none(), py::kw_only(), py::arg("shader_directory") = "",
+             py::arg("debug") = false)
         .def(
             "set_scene",
             [](RendererHandle& renderer, const SceneHandle& scene) {

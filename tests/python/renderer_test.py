@@ -234,6 +234,35 @@ class Threads(ErrorCase):
             np.testing.assert_array_equal(picture, wanted)
 
 
+class Development(ErrorCase):
+    def test_a_debug_context_has_nothing_to_say(self):
+        renderer()
+        with self.assertNoLogs("conelight", "WARNING"):
+            picture = conelight.Renderer(debug=True).render(cornell(), None, SIZE, SETTINGS)["full"]
+        np.testing.assert_array_equal(picture, full(cornell()))
+
+    def test_shaders_of_a_folder_win(self):
+        renderer()
+        name = os.path.join("image", "debug_view.comp.glsl")
+        with open(os.path.join(os.environ["CONELIGHT_SOURCE_DIR"], "shaders", name), encoding="utf-8") as file:
+            source = file.read()
+        with tempfile.TemporaryDirectory() as folder:
+            os.mkdir(os.path.join(folder, "image"))
+            for change, broken in (("vec3(7.0 * surface.depth)", False), ("vec3(surface.nothing)", True)):
+                self.assertIn("vec3(surface.depth)", source)
+                with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                    file.write(source.replace("vec3(surface.depth)", change))
+                own = conelight.Renderer(shader_directory=folder)
+                arguments = (cornell(), None, SIZE, SETTINGS)
+                if broken:
+                    with self.assertRaisesRegex(conelight.Error, "debug_view.comp.glsl") as caught:
+                        own.render(*arguments, components="depth")
+                    self.assertEqual(caught.exception.kind, "runtime")
+                else:
+                    wanted = renderer().render(*arguments, components="depth")["depth"]
+                    np.testing.assert_allclose(own.render(*arguments, components="depth")["depth"], 7 * wanted, rtol=1e-6)
+
+
 class Costs(ErrorCase):
     def test_stats_of_the_last_picture(self):
         full(cornell(), profile=True)

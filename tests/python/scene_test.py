@@ -3,6 +3,7 @@ import base64
 import json
 import os
 import pathlib
+import pickle
 import tempfile
 import unittest
 
@@ -47,6 +48,11 @@ class Loading(ErrorCase):
     def test_errors_name_the_file(self):
         self.assert_error("bad_input", "/nowhere/box.glb: no such file", conelight.Scene.load, "/nowhere/box.glb")
         self.assert_error("usage", "builtin:cornel", conelight.Scene.load, "builtin:cornel")
+        with self.assertRaises(conelight.Error) as caught:
+            conelight.Scene.load("/nowhere/box.glb")
+        again = pickle.loads(pickle.dumps(caught.exception))
+        self.assertEqual((type(again), str(again), again.kind),
+                         (conelight.Error, str(caught.exception), "bad_input"))
 
     def test_all_builtins_have_names(self):
         self.assertIn("builtin:cornell", conelight.builtin_scenes())
