@@ -63,11 +63,40 @@ Handle load(const py::object& given, bool complete, bool allowOutside) {
     });
 }
 
-template <class PartOf, class T>
-py::tuple partsOf(const Handle& scene, const std::vector<T>& list) {
-    py::tuple all(list.size());
-    for (std::size_t i = 0; i < list.size(); ++i) all[i] = PartOf{scene, i};
-    return all;
+// The elements of one of the scene's vectors as a sequence of handles.
+template <class T, std::vector<T> Scene::*List>
+struct PartList {
+    Handle scene;
+    std::size_t size() const { return (scene->get().*List).size(); }
+    Part<T, List> at(py::ssize_t index) const {
+        const auto count = static_cast<py::ssize_t>(size());
+        if (index < -count || index >= count) throw py::index_error("there is no such element in the scene");
+        return {scene, static_cast<std::size_t>(index < 0 ? index + count : index)};
+    }
+    py::tuple slice(const py::slice& wanted) const {
+        py::ssize_t start = 0, stop = 0, step = 0, count = 0;
+        if (!wanted.compute(static_cast<py::ssize_t>(size()), &start, &stop, &step, &count))
+            throw py::error_already_set();
+        py::tuple all(count);
+        for (py::ssize_t i = 0; i < count; ++i) all[static_cast<std::size_t>(i)] = at(start + i * step);
+        return all;
+    }
+};
+
+// The property of that name. Python iterates by number until there is none.
+template <class T, std::vector<T> Scene::*List>
+void bindList(py::class_<SceneHandle, Handle>& scene, const char* name) {
+    using Parts = PartList<T, List>;
+    const std::string word = name;
+    py::class_<Parts>(scene, ("_" + word).c_str(), "A sequence of handles.")
+        .def("__len__", &Parts::size)
+        .def("__getitem__", &Parts::at)
+        .def("__getitem__", &Parts::slice)
+        .def("__repr__", [word](const Parts& parts) {
+            return fmt::format("<{} {} of a conelight.Scene>", parts.size(), word);
+        });
+    scene.def_property_readonly(
+        name, [](const Handle& s) { return Parts{s}; }, "Handles of all, a sequence.");
 }
 
 MeshPart addMesh(const Handle& scene, const py::object& positions, const py::object& indices,
@@ -212,20 +241,12 @@ void bindParts(py::class_<SceneHandle, Handle>& type) {
         .def("add_camera", &addCamera, py::arg("camera"),
              "The first one is what render shows without a camera.")
         .def_property_readonly(
-            "meshes", [](const Handle& s) { return partsOf<MeshPart>(s, s->get().meshes); },
-            "Handles of all.")
-        .def_property_readonly(
-            "materials", [](const Handle& s) { return partsOf<MaterialPart>(s, s->get().materials); },
-            "Handles of all.")
-        .def_property_readonly(
-            "instances", [](const Handle& s) { return partsOf<InstancePart>(s, s->get().instances); },
-            "Handles of all.")
-        .def_property_readonly(
-            "lights", [](const Handle& s) { return partsOf<LightPart>(s, s->get().lights); },
-            "Handles of all.")
-        .def_property_readonly(
             "cameras", [](const Handle& s) { return py::tuple(py::cast(s->get().cameras)); },
             "Copies of all.");
+    bindList<Mesh, &Scene::meshes>(type, "meshes");
+    bindList<Material, &Scene::materials>(type, "materials");
+    bindList<Instance, &Scene::instances>(type, "instances");
+    bindList<Light, &Scene::lights>(type, "lights");
 }
 
 void bindFacts(py::class_<SceneHandle, Handle>& type) {

@@ -218,6 +218,18 @@ class Handles(ErrorCase):
             with self.assertRaises(ValueError):
                 array[0, 0] = 5
 
+    def test_parts_are_sequences(self):
+        materials = conelight.Scene.load("builtin:cornell").materials
+        names = [material.name for material in materials]
+        self.assertEqual(len(materials), len(names))
+        self.assertEqual([material.name for material in materials[1:]], names[1:])
+        self.assertEqual([material.name for material in materials[::-2]], names[::-2])
+        self.assertEqual((materials[-1].name, materials[-1].index), (names[-1], len(names) - 1))
+        self.assertIn(materials[1], materials)
+        for index in (len(names), -len(names) - 1):
+            with self.assertRaises(IndexError):
+                materials[index]
+
     def test_removed_parts_are_an_error(self):
         scene = triangle_scene()
         light = scene.add_light("point", intensity=(1, 1, 1))
