@@ -63,6 +63,12 @@ class Layers(Project):
         self.write("apps/conelight/b.cpp", '#include "voxels/grid.h"\n')
         self.assertEqual(len(self.problems()), 1)
 
+    def test_python_module_sees_what_the_program_sees_and_little_of_it(self):
+        self.write("python/a.cpp", '#include "io/files.h"\n#include "guests.h"\n#include "session/session.h"\n#include "own.h"\n')
+        self.assertEqual(self.problems(), [])
+        self.write("python/b.cpp", '#include "voxels/grid.h"\n#include "viewer/viewer.h"\n#include <epoxy/gl.h>\n')
+        self.assertEqual(len(self.problems()), 3)
+
     def test_gl_calls_stay_in_one_folder(self):
         self.write("src/gl/a.cpp", "#include <epoxy/gl.h>\n")
         self.assertEqual(self.problems(), [])

@@ -78,6 +78,11 @@ void closeDisplay(EGLDisplay display) {
     eglTerminate(display);
 }
 
+Current currentOfThread() {
+    return {eglGetCurrentDisplay(), eglGetCurrentContext(), eglGetCurrentSurface(EGL_DRAW),
+            eglGetCurrentSurface(EGL_READ)};
+}
+
 EGLContext createContext(EGLDisplay display, bool debug) {
     // NVIDIA wants a config for contexts; Mesa's surfaceless platform may have none.
     const EGLint configAttributes[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_DONT_CARE,
@@ -121,9 +126,7 @@ bool HeadlessContext::tryDisplay(void* display, const std::string& how, bool deb
     if (eglBindAPI(EGL_OPENGL_API) == EGL_FALSE) return closed("no desktop OpenGL");
     const EGLContext context = createContext(display, debug);
     if (context == EGL_NO_CONTEXT) return closed("no OpenGL 4.5 core context");
-    // What was current before comes back when this context ends.
-    previous_ = {eglGetCurrentDisplay(), eglGetCurrentContext(), eglGetCurrentSurface(EGL_DRAW),
-                 eglGetCurrentSurface(EGL_READ)};
+    previous_ = currentOfThread();  // comes back when this context ends
     if (eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context) == EGL_FALSE) {
         eglDestroyContext(display, context);
         return closed("context cannot be current without a surface");
@@ -168,15 +171,31 @@ HeadlessContext::HeadlessContext(const HeadlessOptions& options) {
 }
 
 HeadlessContext::~HeadlessContext() {
-    // Another context may have become current since; then it stays.
-    if (eglGetCurrentContext() == context_) {
-        if (previous_.context == EGL_NO_CONTEXT ||
-            eglMakeCurrent(previous_.display, previous_.draw, previous_.read, previous_.context) == EGL_FALSE)
-            eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    }
+    release();
     eglDestroyContext(display_, context_);
     closeDisplay(display_);
 }
+
+void HeadlessContext::release() { release(previous_); }
+
+void HeadlessContext::release(const Current& previous) {
+    // Another context may have become current since; then it stays.
+    if (eglGetCurrentContext() != context_) return;
+    if (previous.context == EGL_NO_CONTEXT ||
+        eglMakeCurrent(previous.display, previous.draw, previous.read, previous.context) == EGL_FALSE)
+        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+}
+
+CurrentContext::CurrentContext(HeadlessContext& context) : context_(context) {
+    // EGL keeps both, the API and what is current of it, per thread.
+    eglBindAPI(EGL_OPENGL_API);
+    previous_ = currentOfThread();
+    if (eglMakeCurrent(context.display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context.context_) == EGL_FALSE)
+        throw Error(ErrorKind::Runtime,
+                    "OpenGL: the context cannot be made current; it is in use on another thread");
+}
+
+CurrentContext::~CurrentContext() { context_.release(previous_); }
 
 std::vector<DeviceLimit> deviceLimits() {
     const auto limit = [](const char* name, GLenum key, long long used) {

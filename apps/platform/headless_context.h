@@ -16,6 +16,11 @@ struct HeadlessOptions {
     bool debug = false;       // a debug context, which reports errors (RendererOptions::reportGlErrors)
 };
 
+// What EGL has current on a thread.
+struct Current {
+    void *display = nullptr, *context = nullptr, *draw = nullptr, *read = nullptr;
+};
+
 // Current on the creating thread from construction to destruction, when the context that was current before
 // comes back. Contexts of one process may live at the same time. Throws Error(NoGl) with what was tried,
 // Error(Usage) for a device that is not listed.
@@ -27,17 +32,32 @@ class HeadlessContext {
     HeadlessContext& operator=(const HeadlessContext&) = delete;
 
     const std::string& description() const { return description_; }  // "EGL device 0, llvmpipe ..., 4.5 ..."
+    // Gives the creating thread back what was current before; from then on current as CurrentContext says.
+    void release();
 
   private:
+    friend class CurrentContext;
+    void release(const Current& previous);
     bool tryDisplay(void* display, const std::string& how, bool debug);
     void* display_ = nullptr;
     void* context_ = nullptr;
-    struct Current {
-        void *display = nullptr, *context = nullptr, *draw = nullptr, *read = nullptr;
-    };
     Current previous_;
     std::string description_;
     std::string tried_;
+};
+
+// Makes a context that was released current on the calling thread; at its end, what was current there before
+// is again. For hosts whose calls come from several threads: one at a time per context. Throws Error(Runtime).
+class CurrentContext {
+  public:
+    explicit CurrentContext(HeadlessContext& context);
+    ~CurrentContext();
+    CurrentContext(const CurrentContext&) = delete;
+    CurrentContext& operator=(const CurrentContext&) = delete;
+
+  private:
+    HeadlessContext& context_;
+    Current previous_;
 };
 
 // One line per EGL device: "0: hardware, /dev/dri/card0", "1: software". Empty without EGL.

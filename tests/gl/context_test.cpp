@@ -60,6 +60,31 @@ TEST_F(ContextTest, NestedContextsGiveTheOuterOneBack) {
     EXPECT_EQ(outer.read<std::uint32_t>(1)[0], 1u);
 }
 
+// Calls from any thread, one at a time; each thread has back what was current there.
+TEST_F(ContextTest, AReleasedContextIsCurrentWhereItIsAskedFor) {
+    const gl::Buffer outer(std::vector<std::uint32_t>{1, 2, 3, 4}, "outer");
+    platform::HeadlessContext context;
+    context.release();
+    EXPECT_EQ(outer.read<std::uint32_t>(1)[0], 1u);
+    std::optional<gl::Buffer> inner;
+    std::thread([&] {
+        {
+            const platform::CurrentContext current(context);
+            inner.emplace(std::vector<std::uint32_t>{5, 6, 7, 8}, "inner");
+        }
+        EXPECT_EQ(failureOf([] { gl::requireContext(); }).first, ErrorKind::NoGl);
+    }).join();
+    {
+        const platform::CurrentContext current(context);
+        EXPECT_EQ(inner->read<std::uint32_t>(1)[0], 5u);
+        std::pair<std::optional<ErrorKind>, std::string> elsewhere;
+        std::thread([&] { elsewhere = failureOf([&] { platform::CurrentContext second(context); }); }).join();
+        EXPECT_EQ(elsewhere.first, ErrorKind::Runtime) << elsewhere.second;
+        inner.reset();
+    }
+    EXPECT_EQ(outer.read<std::uint32_t>(1)[0], 1u);
+}
+
 TEST_F(ContextTest, DevicesAreListedByNumber) {
     const std::vector<std::string> lines = platform::listDevices();
     if (lines.empty()) GTEST_SKIP() << "EGL lists no device; only the surfaceless platform works here";

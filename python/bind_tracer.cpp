@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: MIT
+// The path tracer: the truth that pictures of the renderer are measured against.
+#include <fmt/core.h>
+#include <pybind11/stl.h>
+
+#include <exception>
+#include <mutex>
+#include <optional>
+
+#include "bindings.h"
+#include "calls.h"
+#include "camera_axes.h"
+#include "components.h"
+#include "reference/path_tracer.h"
+#include "scene_handle.h"
+#include "surfaces.h"
+
+namespace conelight::python {
+namespace {
+
+using reference::PathTracedPicture;
+using reference::PathTracerProgress;
+using reference::PathTracerSettings;
+
+class TracerHandle {
+  public:
+    explicit TracerHandle(const SceneHandle& scene) : scene_(scene.shared()) {
+        unlocked([&] { tracer_.emplace(*scene_); });
+    }
+    const reference::PathTracer& tracer() const { return *tracer_; }
+    // Its rays are made at the first call; the path tracer keeps its own to itself.
+    SurfaceTables surfaces(const Camera& camera, const glm::ivec2& size) {
+        const std::lock_guard lock(mutex_);
+        if (!rays_) rays_.emplace(*scene_);
+        return surfacesOf(*scene_, *rays_, camera, size, 0);
+    }
+    py::dict stats = py::dict();
+
+  private:
+    std::shared_ptr<const Scene> scene_;  // as it was; the tracer refers to it
+    std::optional<reference::PathTracer> tracer_;
+    std::mutex mutex_;
+    std::optional<reference::RayScene> rays_;
+};
+
+// N of "bounceN", 1 to 64; 0 for every other name.
+int bounceOf(const std::string& name) {
+    if (name.rfind("bounce", 0) != 0 || name.size() > 8) return 0;
+    int number = 0;
+    for (const char c : name.substr(6)) {
+        if (c < '0' || c > '9') return 0;
+        number = 10 * number + (c - '0');
+    }
+    return number <= 64 ? number : 0;
+}
+
+Image* partOf(PathTracedPicture& picture, const std::string& name) {
+    const std::pair<const char*, Image*> named[] = {{"full", &picture.full},
+                                                    {"direct", &picture.direct},
+                                                    {"indirect", &picture.indirect},
+                                                    {"diffuse", &picture.diffuse},
+                                                    {"specular", &picture.specular},
+                                                    {"half_a", &picture.halfA},
+                                                    {"half_b", &picture.halfB},
+                                                    {"indirect_half_a", &picture.indirectA},
+                                                    {"indirect_half_b", &picture.indirectB}};
+    for (const auto& [one, image] : named)
+        if (name == one) return image;
+    const int bounce = bounceOf(name);
+    if (bounce >= 1 && bounce <= static_cast<int>(picture.bounces.size()))
+        return &picture.bounces[static_cast<std::size_t>(bounce - 1)];
+    return nullptr;
+}
+
+void requirePart(const std::string& name) {
+    PathTracedPicture none;
+    if (bounceOf(name) > 0 || partOf(none, name) != nullptr) return;
+    throw Error(
+        ErrorKind::Usage,
+        fmt::format("components: the path tracer has no '{}'; full, direct, indirect, diffuse, specular, "
+                    "half_a, half_b, indirect_half_a, indirect_half_b or bounce1 to bounce64 would be right",
+                    name));
+}
+
+int bouncesOf(const py::object& given) {
+    if (given.is_none() || (py::isinstance<py::str>(given) && given.cast<std::string>() == "all")) return -1;
+    try {
+        const int bounces = given.cast<int>();
+        if (bounces >= 0 && bounces <= 1000) return bounces;
+    } catch (const py::cast_error&) {
+    }
+    throw Error(ErrorKind::Usage,
+                fmt::format("bounces: {} is out of range; 0 to 1000, or 'all', would be right",
+                            std::string(py::repr(given))));
+}
+
+reference::PixelFilter filterOf(const std::string& name) {
+    if (name == "center") return reference::PixelFilter::Center;
+    if (name == "box") return reference::PixelFilter::Box;
+    throw Error(ErrorKind::Usage, "filter: there is no '" + name + "'; 'center' or 'box' would be right");
+}
+
+struct TraceRequest {
+    std::vector<std::string> components;
+    PathTracerSettings settings;
+    py::object progress;
+    bool alpha = false;
+};
+
+TraceRequest requestOf(const py::kwargs& options) {
+    Keywords given("reference", options);
+    TraceRequest request;
+    const py::object named = given.take("components");
+    request.components = named.is_none() ? std::vector<std::string>{"full"} : componentNames(named);
+    PathTracerSettings& settings = request.settings;
+    settings.samplesPerPixel = given.take("samples", settings.samplesPerPixel);
+    settings.noise = given.take("noise", settings.noise);
+    settings.bounces = bouncesOf(given.take("bounces"));
+    settings.seed = given.take("seed", settings.seed);
+    settings.filter = filterOf(given.take("filter", std::string("center")));
+    settings.threads = given.take("threads", settings.threads);
+    request.progress = given.take("progress");
+    request.alpha = given.take("alpha", false);
+    given.finish();
+    for (const std::string& name : request.components) {
+        requirePart(name);
+        settings.perBounce = std::max(settings.perBounce, bounceOf(name));
+    }
+    if (settings.samplesPerPixel < 1 || settings.samplesPerPixel > 1 << 20)
+        throw Error(ErrorKind::Usage, fmt::format("samples: {} is out of range; 1 to {} would be right",
+                                                  settings.samplesPerPixel, 1 << 20));
+    if (!(settings.noise >= 0))
+        throw Error(ErrorKind::Usage, "noise: is below 0; 0.01 for 1 % would be right");
+    if (settings.threads < 0 || settings.threads > 4096)
+        throw Error(ErrorKind::Usage, "threads: is out of range; 0 for all cores would be right");
+    return request;
+}
+
+// Traces without Python's lock; takes it between rounds for the callback and for Ctrl-C.
+PathTracedPicture trace(const TracerHandle& tracer, const Camera& camera, const glm::ivec2& size,
+                        const TraceRequest& request) {
+    std::exception_ptr failure;
+    const auto onProgress = [&](const PathTracerProgress& now) {
+        const py::gil_scoped_acquire locked;
+        try {
+            if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+            if (request.progress.is_none()) return true;
+            const py::object answer = request.progress(now);
+            if (answer.is_none()) return true;
+            const int isTrue = PyObject_IsTrue(answer.ptr());
+            if (isTrue < 0) throw py::error_already_set();
+            return isTrue == 1;
+        } catch (...) {
+            failure = std::current_exception();
+            return false;
+        }
+    };
+    PathTracedPicture picture = unlocked(
+        [&] { return tracer.tracer().render(camera, size.x, size.y, request.settings, onProgress); });
+    if (failure) std::rethrow_exception(failure);
+    return picture;
+}
+
+py::dict render(TracerHandle& tracer, const Camera& camera, const py::object& sizeGiven,
+                const py::kwargs& options) {
+    const TraceRequest request = requestOf(options);
+    checkCamera(camera);
+    PathTracedPicture picture = trace(tracer, camera, sizeOf(sizeGiven), request);
+    py::dict stats, pictures;
+    stats["samples"] = picture.samplesPerPixel;
+    stats["noise"] = picture.noise;
+    stats["rays"] = picture.rays;
+    stats["bad_samples"] = picture.badSamples;
+    stats["cpu_seconds"] = picture.cpuSeconds;
+    stats["wall_seconds"] = picture.wallSeconds;
+    tracer.stats = stats;
+    for (const std::string& name : request.components)
+        if (!pictures.contains(name.c_str()))
+            pictures[name.c_str()] = pictureArray(std::move(*partOf(picture, name)),
+                                                  request.alpha ? Channels::Rgba : Channels::Rgb);
+    return pictures;
+}
+
+// What the pixels' centres see; the arrays own the tables.
+py::dict surfaces(TracerHandle& tracer, const Camera& camera, const py::object& sizeGiven) {
+    checkCamera(camera);
+    const glm::ivec2 size = sizeOf(sizeGiven);
+    SurfaceTables tables = unlocked([&] { return tracer.surfaces(camera, size); });
+    py::dict all;
+    all["instance"] = ownedArray<std::int32_t>(size, std::move(tables.instance));
+    all["material"] = ownedArray<std::int32_t>(size, std::move(tables.material));
+    all["triangle"] = ownedArray<std::int32_t>(size, std::move(tables.triangle));
+    all["depth"] = ownedArray<float>(size, std::move(tables.depth));
+    all["position"] = ownedArray<float>(size, std::move(tables.position));
+    all["geometric_normal"] = ownedArray<float>(size, std::move(tables.geometricNormal));
+    all["normal"] = ownedArray<float>(size, std::move(tables.normal));
+    all["uv"] = ownedArray<float>(size, std::move(tables.uv));
+    all["base_color"] = ownedArray<float>(size, std::move(tables.baseColor));
+    all["metallic"] = ownedArray<float>(size, std::move(tables.metallic));
+    all["roughness"] = ownedArray<float>(size, std::move(tables.roughness));
+    return all;
+}
+
+constexpr const char* kOptions =
+    "By name:\n"
+    "samples: per pixel, at most (256). noise: stop below this estimated relative RMSE (0: never).\n"
+    "bounces: of indirect light, a number or 'all' ('all'). seed: same seed, same bits (1).\n"
+    "filter: 'center', a point of the pixel as the renderer's pictures without anti-aliasing have it, or\n"
+    "'box', all of it ('center'). threads: 0 is all cores (0).\n"
+    "components: 'full', 'direct', 'indirect', 'diffuse', 'specular'; 'half_a', 'half_b',\n"
+    "'indirect_half_a', 'indirect_half_b', of half of the samples each; 'bounce1' to 'bounce64'.\n"
+    "alpha: a fourth channel (False). progress: called with a Progress between rounds; False stops, and\n"
+    "what there is is returned.";
+
+}  // namespace
+
+void bindTracer(py::module_& module) {
+    py::class_<PathTracerProgress>(module, "Progress", "How far a path-traced picture is.")
+        .def_readonly("samples_done", &PathTracerProgress::samplesDone, "Per pixel.")
+        .def_readonly("samples_planned", &PathTracerProgress::samplesPlanned, "Per pixel, at most.")
+        .def_readonly("noise", &PathTracerProgress::noise, "Estimated relative RMSE; 0: not known yet.")
+        .def_readonly("seconds_left", &PathTracerProgress::secondsLeft, "Below 0: not known yet.");
+    static const std::string renderDoc =
+        std::string("Radiance as a dict of float32 arrays (height, width, 3), first row on top.\n\n") +
+        kOptions;
+    py::class_<TracerHandle>(module, "PathTracer",
+                             "The path tracer of a scene as it is now; for several pictures of one scene.")
+        .def(py::init<const SceneHandle&>(), py::arg("scene"))
+        .def("render", &render, py::arg("camera"), py::arg("size"), renderDoc.c_str())
+        .def("surfaces", &surfaces, py::arg("camera"), py::arg("size"),
+             "What the pixels' centres see, as a dict of arrays, first row on top; by rays, without "
+             "OpenGL.\n\n"
+             "instance, material, triangle: (height, width) int32, numbers in the scene and the mesh; -1 is "
+             "none,\n"
+             "or the default material. depth: (height, width), metres along the view. position: (height, "
+             "width,\n"
+             "3), world, metres. geometric_normal, normal: (height, width, 3), of the triangle and as it is\n"
+             "shaded. uv: (height, width, 2). base_color: (height, width, 3). metallic, roughness: (height,\n"
+             "width). All but the first three are float32, and 0 where nothing is.")
+        .def_property_readonly(
+            "stats", [](const TracerHandle& tracer) { return tracer.stats; },
+            "Of the last picture: samples, noise, rays, bad_samples, cpu_seconds, wall_seconds.");
+    static const std::string referenceDoc =
+        std::string(
+            "The true picture of a scene by the path tracer: PathTracer(scene).render(camera, size).\n\n") +
+        kOptions;
+    module.def(
+        "reference",
+        [](const SceneHandle& scene, const Camera& camera, const py::object& size,
+           const py::kwargs& options) {
+            requestOf(options);  // wrong ones are found before the work starts
+            TracerHandle tracer(scene);
+            return render(tracer, camera, size, options);
+        },
+        py::arg("scene"), py::arg("camera"), py::arg("size"), referenceDoc.c_str());
+}
+
+}  // namespace conelight::python

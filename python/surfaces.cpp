@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "surfaces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <thread>
+
+#include "camera_axes.h"
+#include "reference/radiosity_parallel.h"
+#include "reference/surface.h"
+
+namespace conelight::python {
+namespace {
+
+glm::vec2 uvAt(const Mesh& mesh, const reference::RayHit& hit) {
+    if (mesh.uvs.empty()) return glm::vec2(0);
+    const std::uint32_t* corner = &mesh.indices[3 * std::size_t(hit.triangle)];
+    const glm::vec2 b = hit.barycentric;
+    return mesh.uvs[corner[0]] * (1 - b.x - b.y) + mesh.uvs[corner[1]] * b.x + mesh.uvs[corner[2]] * b.y;
+}
+
+void fill(SurfaceTables& tables, std::size_t pixel, const Scene& scene, const reference::Ray& ray,
+          const reference::RayHit& hit) {
+    const Instance& instance = scene.instances[hit.instance];
+    const reference::Surface surface = reference::surfaceAt(scene, ray, hit);
+    tables.instance[pixel] = static_cast<std::int32_t>(hit.instance);
+    tables.material[pixel] = instance.material;
+    tables.triangle[pixel] = static_cast<std::int32_t>(hit.triangle);
+    tables.position[pixel] = ray.origin + hit.t * ray.direction;
+    tables.geometricNormal[pixel] = surface.geometricNormal;
+    tables.normal[pixel] = surface.shadingNormal;
+    tables.uv[pixel] = uvAt(scene.meshes[static_cast<std::size_t>(instance.mesh)], hit);
+    tables.baseColor[pixel] = surface.baseColor;
+    tables.metallic[pixel] = surface.metallic;
+    tables.roughness[pixel] = surface.roughness;
+}
+
+}  // namespace
+
+SurfaceTables::SurfaceTables(std::size_t pixels)
+    : instance(pixels, -1),
+      material(pixels, -1),
+      triangle(pixels, -1),
+      depth(pixels),
+      position(pixels),
+      geometricNormal(pixels),
+      normal(pixels),
+      uv(pixels),
+      baseColor(pixels),
+      metallic(pixels),
+      roughness(pixels) {}
+
+SurfaceTables surfacesOf(const Scene& scene, const reference::RayScene& rays, const Camera& camera,
+                         const glm::ivec2& size, int threads) {
+    const auto width = static_cast<std::size_t>(size.x), height = static_cast<std::size_t>(size.y);
+    SurfaceTables tables(width * height);
+    const CameraAxes axes = axesOf(camera);
+    const double perPixel = 2 * std::tan(0.5 * double(camera.fovY)) / double(size.y);
+    const auto see = [&](std::size_t pixel) {
+        const double x = (double(pixel % width) + 0.5 - 0.5 * size.x) * perPixel;
+        const double y = (0.5 * size.y - double(pixel / width) - 0.5) * perPixel;
+        const glm::dvec3 along = axes.forward + x * axes.right + y * axes.up;
+        const double length = glm::length(along);  // of a step of 1 m in depth
+        const reference::Ray ray{camera.eye, glm::vec3(along / length), float(camera.zNear * length),
+                                 float(camera.zFar * length)};
+        reference::RayHit hit;
+        if (!rays.intersect(reference::RayKind::Camera, ray, hit)) return;
+        tables.depth[pixel] = static_cast<float>(hit.t / length);
+        fill(tables, pixel, scene, ray, hit);
+    };
+    const auto some = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t pixel = begin; pixel < end; ++pixel) see(pixel);
+    };
+    const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+    reference::parallelFor(width * height, threads > 0 ? threads : cores, some, {});
+    return tables;
+}
+
+}  // namespace conelight::python
