@@ -157,12 +157,19 @@ const std::vector<Attribute<Material>>& materialAttributes() {
         {"alpha_mode", readAlphaMode, writeAlphaMode, "'opaque', 'mask' or 'blend'."},
         plain<&Material::doubleSided>("double_sided", "Whether backs are surfaces, too."),
         plain<&Material::unlit>("unlit", "Shows base_color as radiance; neither receives nor bounces light."),
+        plain<&Material::transmission>("transmission", "Share of light that glass lets through, 0 to 1."),
+        plain<&Material::thickness>("thickness",
+                                    "Of glass: 0 a thin pane, above a solid that bends light; m."),
+        plain<&Material::attenuationColor>("attenuation_color",
+                                           "Of white light after attenuation_distance in a solid: (3,)."),
+        plain<&Material::attenuationDistance>("attenuation_distance", "m; 0: the solid is clear."),
         texture<&Material::baseColorTexture>("base_color_texture", "Index of a texture, or None."),
         texture<&Material::metallicRoughnessTexture>("metallic_roughness_texture", "Index or None; g, b."),
         texture<&Material::normalTexture>("normal_texture", "Index or None; tangent space."),
         texture<&Material::emissiveTexture>("emissive_texture", "Index or None."),
         texture<&Material::specularTexture>("specular_texture", "Index or None; alpha."),
         texture<&Material::specularColorTexture>("specular_color_texture", "Index or None."),
+        texture<&Material::transmissionTexture>("transmission_texture", "Index or None; r."),
     };
     return all;
 }

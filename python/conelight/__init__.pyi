@@ -103,12 +103,17 @@ class Material:
     alpha_mode: AlphaMode
     double_sided: bool
     unlit: bool
+    transmission: float
+    thickness: float
+    attenuation_color: Vector3
+    attenuation_distance: float
     base_color_texture: int | None
     metallic_roughness_texture: int | None
     normal_texture: int | None
     emissive_texture: int | None
     specular_texture: int | None
     specular_color_texture: int | None
+    transmission_texture: int | None
 
 class Instance:
     @property
@@ -165,9 +170,12 @@ class Scene:
                      roughness: float = ..., ior: float = ..., specular: float = ..., specular_color: ArrayLike = ...,
                      emission: ArrayLike = ..., normal_scale: float = ..., alpha_cutoff: float = ...,
                      alpha_mode: AlphaMode = ..., double_sided: bool = ..., unlit: bool = ...,
+                     transmission: float = ..., thickness: float = ..., attenuation_color: ArrayLike = ...,
+                     attenuation_distance: float = ...,
                      base_color_texture: int | None = ..., metallic_roughness_texture: int | None = ...,
                      normal_texture: int | None = ..., emissive_texture: int | None = ...,
-                     specular_texture: int | None = ..., specular_color_texture: int | None = ...) -> Material: ...
+                     specular_texture: int | None = ..., specular_color_texture: int | None = ...,
+                     transmission_texture: int | None = ...) -> Material: ...
     def add_instance(self, mesh: SupportsIndex, material: SupportsIndex | None = None,
                      transform: ArrayLike | None = None, *, name: str = ..., visible: bool = ...,
                      voxelized: bool = ..., casts_shadow: bool = ..., dynamic: bool = ...) -> Instance: ...
