@@ -63,9 +63,14 @@ float blendThreshold() {
     if (frame.blending < 0.0) return 0.5;
     uvec2 pixel = uvec2(gl_FragCoord.xy);
     if (frame.blending >= 2.0) return (float(pixel.x % 3u + 3u * (pixel.y % 3u)) + 0.5) / 9.0;
-    // Layers are independent of each other.
+    // Within the views' steps pixels differ by an ordered pattern (Bayer 1973). Where the steps begin is random, so
+    // that layers are independent of each other.
+    float steps = round(1.0 / (frame.footprint * frame.footprint));
     uint bits = randomHash(pixel.x | pixel.y << 16) ^ randomHash(constant.x >> 2);
-    return 1.0 - fract(randomFloat(randomHash(bits)) + frame.blending);
+    uvec2 fine = pixel & 1u, coarse = pixel >> 1 & 1u;
+    uint order = (fine.x ^ fine.y) << 3 | fine.y << 2 | (coarse.x ^ coarse.y) << 1 | coarse.y;
+    float within = (float(order) + 0.5) / 16.0;
+    return 1.0 - fract((floor(randomFloat(randomHash(bits)) * steps) + within) / steps + frame.blending);
 }
 #endif
 

@@ -67,11 +67,11 @@ PixelPart pixelPart(int index, int count) {
     while (std::gcd(step, count) != 1) ++step;
     const double row = static_cast<double>(index) * step;
     const double x = (index + 0.5) / count, y = (std::fmod(row, count) + 0.5) / count;
-    // Thresholds of blended surfaces go round by the plastic number's inverse, apart from the lattice's order.
-    const double turn = std::fmod(0.7548776662466927 * index, 1.0);
-    return {{x - 0.5, y - 0.5},
-            static_cast<float>(1 / std::sqrt(static_cast<double>(count))),
-            static_cast<float>(turn)};
+    // Thresholds of blended surfaces are even over the views, in an order apart from that of the places.
+    int leap = std::max(static_cast<int>(std::lround(0.382 * count)), 1);
+    while (std::gcd(leap, count) != 1) ++leap;
+    const float turn = static_cast<float>(index * leap % count) / static_cast<float>(count);
+    return {{x - 0.5, y - 0.5}, static_cast<float>(1 / std::sqrt(static_cast<double>(count))), turn};
 }
 
 PixelPart centersOfStill() { return {.blending = 2.0f}; }
