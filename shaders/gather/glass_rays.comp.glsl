@@ -142,19 +142,22 @@ void leaveSolid(inout GlassPath path, GlassSurface s, vec2 xi, float choice) {
     path.narrow = path.bent = true;
 }
 
-// Light along the path up to glass in its way at `end`, metres; `found`: it ends before.
-vec3 pathRadiance(GlassPath path, float end, bool open, inout uint random, out bool found) {
+// The ray of the path's last stretch, up to glass in its way at `end`, metres.
+Ray stretchOf(GlassPath path, float end, bool open) {
     float pixelAngle = 2.0 * length(frame.viewUp) / float(frame.height);
     rayCone = RayCone(path.alpha <= kTriangleAlpha ? 0.0 : -1.0, pixelAngle + path.alpha);
+    return Ray(gridFromWorld(path.origin), path.direction, open ? 1e9 : end * glassPass.inverseVoxelSize,
+               vec3(0.0));
+}
+
+// Light along it.
+vec3 pathRadiance(GlassPath path, float end, bool open, inout uint random) {
+    Ray ray = stretchOf(path, end, open);
     pathStartsNarrow = path.narrow;
-    Ray ray = Ray(gridFromWorld(path.origin), path.direction, open ? 1e9 : end * glassPass.inverseVoxelSize,
-                  vec3(0.0));
     PathSettings settings = PathSettings(-1.0, int(glassPass.reflections), path.alpha, glassPass.fireflyClamp,
-                                         max(path.alpha, pixelAngle));
+                                         max(path.alpha, rayCone.growth));
     VoxelHit hit;
-    vec3 radiance = traceRadiance(ray, settings, random, hit);
-    found = hit.face >= 0 || open;
-    return radiance;
+    return traceRadiance(ray, settings, random, hit);
 }
 
 // What comes along one path. `kind` 0: the first surface reflects it; 1: it lets it through.
@@ -166,7 +169,7 @@ vec3 glassLight(GlassHit hit, GlassSight sight, uint kind, uint pixelSeed, vec3 
     vec3 light = vec3(0.0);
     float left = sight.end;  // up to what the picture shows
     int met = 0;
-    bool goesOn;
+    bool goesOn, open = false, ended = false;
     do {
         GlassSurface s = glassSurface(path.origin, path.direction, hit);
         path.throughput *= exp(-path.absorption * hit.t);
@@ -203,14 +206,16 @@ vec3 glassLight(GlassHit hit, GlassSight sight, uint kind, uint pixelSeed, vec3 
         goesOn = path.throughput.r + path.throughput.g + path.throughput.b > 1e-4;
         float reach = path.bent ? 1e9 : left;
         hit = nearestGlass(path.origin, path.direction, goesOn ? reach : -1.0, on, !path.bent);
-        bool open = hit.triangle < 0;
-        vec3 arrives = behind;
+        open = hit.triangle < 0;
         bool found = open;
-        if (path.bent && goesOn) arrives = pathRadiance(path, hit.t, open, random, found);
-        light += goesOn && found ? path.throughput * arrives : vec3(0.0);
+        // What is in the way is shaded once, behind the loop.
+        if (path.bent && goesOn && !open) found = traceVoxels(stretchOf(path, hit.t, open)).face >= 0;
+        ended = goesOn && found;
         goesOn = goesOn && !found;
     } while (goesOn && ++met < kMostGlass);
-    return light;
+    vec3 arrives = behind;
+    if (ended && path.bent) arrives = pathRadiance(path, hit.t, open, random);
+    return ended ? light + path.throughput * arrives : light;
 }
 
 void main() {
