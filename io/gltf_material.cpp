@@ -28,9 +28,6 @@ TextureWrap wrapOf(const GltfValue& value) {
     }
 }
 
-// Black takes an infinite logarithm.
-constexpr float kDarkestAttenuation = 1e-4f;
-
 glm::vec3 positive(const glm::vec3& v) { return glm::max(v, glm::vec3(0)); }
 glm::vec4 unit(const glm::vec4& v) { return glm::clamp(v, 0.0f, 1.0f); }
 
@@ -206,7 +203,7 @@ void GltfMaterials::convertGlass(const GltfValue& from, Material& to) {
     // The thickness texture is for renderers that do not follow light through the mesh.
     to.thickness = std::max(volume["thicknessFactor"].number(0.0f), 0.0f);
     const glm::vec3 color = volume["attenuationColor"].vector<3>(glm::vec3(1));
-    to.attenuationColor = glm::clamp(color, kDarkestAttenuation, 1.0f);
+    to.attenuationColor = glm::clamp(color, kLeastAttenuationColor, 1.0f);
     to.attenuationDistance = std::max(volume["attenuationDistance"].number(0.0f), 0.0f);
 }
 

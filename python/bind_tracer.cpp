@@ -12,6 +12,7 @@
 #include "camera_axes.h"
 #include "components.h"
 #include "reference/path_tracer.h"
+#include "reference/picture_layers.h"
 #include "scene_handle.h"
 #include "surfaces.h"
 
@@ -43,43 +44,14 @@ class TracerHandle {
     std::optional<reference::RayScene> rays_;
 };
 
-// N of "bounceN", 1 to 64; 0 for every other name.
-int bounceOf(const std::string& name) {
-    if (name.rfind("bounce", 0) != 0 || name.size() > 8) return 0;
-    int number = 0;
-    for (const char c : name.substr(6)) {
-        if (c < '0' || c > '9') return 0;
-        number = 10 * number + (c - '0');
-    }
-    return number <= 64 ? number : 0;
-}
-
-Image* partOf(PathTracedPicture& picture, const std::string& name) {
-    const std::pair<const char*, Image*> named[] = {{"full", &picture.full},
-                                                    {"direct", &picture.direct},
-                                                    {"indirect", &picture.indirect},
-                                                    {"diffuse", &picture.diffuse},
-                                                    {"specular", &picture.specular},
-                                                    {"half_a", &picture.halfA},
-                                                    {"half_b", &picture.halfB},
-                                                    {"indirect_half_a", &picture.indirectA},
-                                                    {"indirect_half_b", &picture.indirectB}};
-    for (const auto& [one, image] : named)
-        if (name == one) return image;
-    const int bounce = bounceOf(name);
-    if (bounce >= 1 && bounce <= static_cast<int>(picture.bounces.size()))
-        return &picture.bounces[static_cast<std::size_t>(bounce - 1)];
-    return nullptr;
-}
-
 void requirePart(const std::string& name) {
-    PathTracedPicture none;
-    if (bounceOf(name) > 0 || partOf(none, name) != nullptr) return;
+    const PathTracedPicture none;
+    if (reference::isTracedLayer(name) || reference::layerOf(none, name) != nullptr) return;
     throw Error(
         ErrorKind::Usage,
-        fmt::format("components: the path tracer has no '{}'; full, direct, indirect, diffuse, specular, "
-                    "half_a, half_b, indirect_half_a, indirect_half_b or bounce1 to bounce64 would be right",
-                    name));
+        fmt::format("components: the path tracer has no '{}'; full, direct, indirect, diffuse, specular, {} "
+                    "would be right",
+                    name, reference::tracedLayerNames()));
 }
 
 int bouncesOf(const py::object& given) {
@@ -124,7 +96,7 @@ TraceRequest requestOf(const py::kwargs& options) {
     given.finish();
     for (const std::string& name : request.components) {
         requirePart(name);
-        settings.perBounce = std::max(settings.perBounce, bounceOf(name));
+        settings.perBounce = std::max(settings.perBounce, reference::bounceLayer(name));
     }
     if (settings.samplesPerPixel < 1 || settings.samplesPerPixel > 1 << 20)
         throw Error(ErrorKind::Usage, fmt::format("samples: {} is out of range; 1 to {} would be right",
@@ -176,7 +148,7 @@ py::dict render(TracerHandle& tracer, const Camera& camera, const py::object& si
     tracer.stats = stats;
     for (const std::string& name : request.components)
         if (!pictures.contains(name.c_str()))
-            pictures[name.c_str()] = pictureArray(std::move(*partOf(picture, name)),
+            pictures[name.c_str()] = pictureArray(std::move(*reference::layerOf(picture, name)),
                                                   request.alpha ? Channels::Rgba : Channels::Rgb);
     return pictures;
 }

@@ -64,8 +64,7 @@ Reflection::Reflection(const Surface& s, const glm::vec3& toEye)
         solid_ = s.solid;
         inside_ = solid_ && !s.frontFace;
         eta_ = inside_ ? 1 / std::max(s.material->ior, 1.0f) : std::max(s.material->ior, 1.0f);
-        const glm::vec2 facets = math::directionalAlbedo(brdf_.NoV, std::sqrt(brdf_.alpha));
-        facetAlbedo_ = facets.x + facets.y;
+        facets_ = math::directionalAlbedo(brdf_.NoV, std::sqrt(brdf_.alpha));
         tint_ = s.baseColor * (s.transmission * (1 - s.metallic));
     }
     const float diffuse = luminance(brdf_.diffuse), specular = luminance(brdf_.albedo);
@@ -101,7 +100,7 @@ Reflection::Value Reflection::evaluate(const glm::vec3& toLight) const {
                                 NoV * std::sqrt(NoL * NoL * (1 - alpha2) + alpha2);
             const float VoH = std::clamp(glm::dot(toEye_, h), 0.0f, 1.0f);
             // What a pane scatters through fills the mirrored lobe, whose facets then send all of it.
-            const glm::vec3 facets = below ? through_ / facetAlbedo_
+            const glm::vec3 facets = below ? through_ / (facets_.x + facets_.y)
                                            : math::fresnel(brdf_.f0, brdf_.f90, VoH) * brdf_.compensation;
             value.specular = facets * (ggx(alpha2, h) * 0.5f / std::max(smith, 1e-7f) * l.z);
         }
@@ -120,65 +119,52 @@ Reflection::Draw Reflection::draw(float lobe, const glm::vec2& u) const {
     return drawn;
 }
 
-// Reflectance of a facet, by Schlick's cosine in air; `total`: there is no way out.
-glm::vec3 Reflection::facetFresnel(float VoH, bool& total) const {
-    const float sine2 = (1 - VoH * VoH) / (eta_ * eta_);
-    total = sine2 >= 1;
-    if (total) return glm::vec3(1);
-    return math::fresnel(brdf_.f0, brdf_.f90, inside_ ? std::sqrt(1 - sine2) : VoH);
+// How a facet that the eye sees splits light.
+Reflection::Facet Reflection::facet(const glm::vec2& u) const {
+    const glm::vec3 h = sampleVisibleNormal(toEyeAbove_, brdf_.alpha, u);
+    const float VoH = glm::dot(toEyeAbove_, h), cosine2 = 1 - (1 - VoH * VoH) / (eta_ * eta_);
+    Facet f;
+    f.mirrored = 2 * VoH * h - toEyeAbove_;
+    // Beyond the critical angle there is no way through.
+    if (solid_ && !(cosine2 > 0)) return f;
+    const float cosine = std::sqrt(std::max(cosine2, 0.0f));
+    f.refracted = (VoH / eta_ - cosine) * h - toEyeAbove_ / eta_;
+    f.reflected = math::fresnel(brdf_.f0, brdf_.f90, inside_ ? cosine : VoH);  // by the cosine in air
+    return f;
 }
 
 Reflection::Draw Reflection::drawThrough(const glm::vec2& u) const {
+    const Facet f = facet(u);
     Draw drawn;
     drawn.below = true;
-    const glm::vec3 h = sampleVisibleNormal(toEyeAbove_, brdf_.alpha, u);
-    const float VoH = glm::dot(toEyeAbove_, h);
     if (!solid_) {
-        glm::vec3 l = 2 * VoH * h - toEyeAbove_;
-        if (!(l.z > 0)) return {};
-        l.z = -l.z;
-        drawn.direction = glm::normalize(frame_.toWorld(l));
+        if (!(f.mirrored.z > 0)) return {};
+        drawn.direction = glm::normalize(frame_.toWorld({f.mirrored.x, f.mirrored.y, -f.mirrored.z}));
         return drawn;
     }
-    bool total = false;
-    const glm::vec3 reflected = facetFresnel(VoH, total);
-    const float cosine2 = 1 - (1 - VoH * VoH) / (eta_ * eta_);
-    const glm::vec3 l = (VoH / eta_ - std::sqrt(std::max(cosine2, 0.0f))) * h - toEyeAbove_ / eta_;
-    if (total || !(l.z < 0)) return {};
-    drawn.direction = glm::normalize(frame_.toWorld(l));
+    if (!(f.refracted.z < 0)) return {};
+    drawn.direction = glm::normalize(frame_.toWorld(f.refracted));
     drawn.alone = true;
     drawn.value.density = 1;
     // Facets in each other's shadow lose light that others catch: the mean of what is drawn is through_.
-    const glm::vec2 lobe = math::directionalAlbedo(brdf_.NoV, std::sqrt(brdf_.alpha));
-    const glm::vec3 mean = lobe.x + lobe.y - (brdf_.f0 * lobe.x + brdf_.f90 * lobe.y);
-    drawn.value.specular =
-        through_ / glm::max(mean, 1e-3f) * (1.0f - reflected) * maskedShare(-l.z) / transmissionShare_;
+    const glm::vec3 mean = facets_.x + facets_.y - (brdf_.f0 * facets_.x + brdf_.f90 * facets_.y);
+    drawn.value.specular = through_ / glm::max(mean, 1e-3f) * (1.0f - f.reflected) *
+                           maskedShare(-f.refracted.z) / transmissionShare_;
     return drawn;
 }
 
 // At the inner side of a solid: back into it, or out of it.
 Reflection::Draw Reflection::drawInside(float lobe, const glm::vec2& u) const {
+    const Facet f = facet(u);
+    const float back = std::clamp(luminance(f.reflected), 0.0f, 1.0f);
     Draw drawn;
+    drawn.below = !(lobe < back);
+    const glm::vec3 l = drawn.below ? f.refracted : f.mirrored;
+    if (!(drawn.below ? l.z < 0 : l.z > 0)) return {};
+    drawn.direction = glm::normalize(frame_.toWorld(l));
     drawn.alone = true;
     drawn.value.density = 1;
-    const glm::vec3 h = sampleVisibleNormal(toEyeAbove_, brdf_.alpha, u);
-    const float VoH = glm::dot(toEyeAbove_, h);
-    bool total = false;
-    const glm::vec3 reflected = facetFresnel(VoH, total);
-    const float back = std::clamp(luminance(reflected), 0.0f, 1.0f);
-    if (total || lobe < back) {
-        const glm::vec3 l = 2 * VoH * h - toEyeAbove_;
-        if (!(l.z > 0)) return {};
-        drawn.direction = glm::normalize(frame_.toWorld(l));
-        drawn.value.specular = total ? glm::vec3(1) : reflected / back;
-        return drawn;
-    }
-    const float cosine2 = 1 - (1 - VoH * VoH) / (eta_ * eta_);
-    const glm::vec3 l = (VoH / eta_ - std::sqrt(std::max(cosine2, 0.0f))) * h - toEyeAbove_ / eta_;
-    if (!(l.z < 0)) return {};
-    drawn.below = true;
-    drawn.direction = glm::normalize(frame_.toWorld(l));
-    drawn.value.specular = tint_ * (1.0f - reflected) / (1 - back);
+    drawn.value.specular = drawn.below ? tint_ * (1.0f - f.reflected) / (1 - back) : f.reflected / back;
     return drawn;
 }
 
@@ -193,19 +179,14 @@ bool passesStraight(const Surface& surface) {
     return surface.transmission > 0 && !surface.solid && surface.roughness <= math::kMinRoughness;
 }
 
-glm::vec3 straightTransmittance(const Surface& s, const glm::vec3& toEye) {
+StraightPass straightPass(const Surface& s, const glm::vec3& toEye) {
     const math::Brdf brdf = math::makeBrdf(s.baseColor, s.metallic, s.roughness, s.dielectricF0,
                                            glm::dot(s.shadingNormal, toEye));
-    return brdf.diffuse * s.transmission;
-}
-
-float straightShare(const Surface& s, const glm::vec3& toEye) {
-    const math::Brdf brdf = math::makeBrdf(s.baseColor, s.metallic, s.roughness, s.dielectricF0,
-                                           glm::dot(s.shadingNormal, toEye));
-    const float passes = luminance(brdf.diffuse) * s.transmission;
+    StraightPass pass{brdf.diffuse * s.transmission, 0};
+    const float passes = luminance(pass.transmittance);
     const float meets = luminance(brdf.diffuse) * (1 - s.transmission) + luminance(brdf.albedo);
-    if (!(passes > 0)) return 0;
-    return std::clamp(passes / (passes + meets), kLeastPass, 1 - kLeastPass);
+    if (passes > 0) pass.share = std::clamp(passes / (passes + meets), kLeastPass, 1 - kLeastPass);
+    return pass;
 }
 
 glm::vec3 absorption(const Material& material) {

@@ -6,8 +6,8 @@
 // mirror image of its reflection lobe (KHR_materials_transmission). A solid bends it at its facets (Walter et
 // al. 2007, "Microfacet Models for Refraction through Rough Surfaces"); within it nothing leaves beyond the
 // critical angle. Radiance is that of air: its growth by the square of the index within a solid, which its
-// other side undoes, is left out. Smooth panes turn no ray: what they let through is straightTransmittance,
-// the tracing's business.
+// other side undoes, is left out. Smooth panes turn no ray: what they let through is straightPass, the
+// tracing's business.
 //
 // Sampling: cosine-weighted for the diffuse part, visible normals for the lobe (Heitz 2018, "Sampling the GGX
 // Distribution of Visible Normals"; by spherical caps, Dupuy and Benyoub 2023), chosen by their albedos; the
@@ -59,7 +59,11 @@ class Reflection {
   private:
     Draw drawThrough(const glm::vec2& u) const;
     Draw drawInside(float lobe, const glm::vec2& u) const;
-    glm::vec3 facetFresnel(float VoH, bool& total) const;
+    struct Facet {
+        glm::vec3 mirrored{0}, refracted{0};  // local directions; refracted: 0 where nothing goes through
+        glm::vec3 reflected{1};               // share of light
+    };
+    Facet facet(const glm::vec2& u) const;
     float maskedShare(float NoL) const;
 
     Frame frame_;
@@ -71,16 +75,19 @@ class Reflection {
     glm::vec3 tint_{0};     // of light at each side of a solid
     glm::vec3 through_{0};  // directional albedo of what goes through
     float transmissionShare_ = 0;
-    float facetAlbedo_ = 1;  // directional albedo of the lobe if its facets reflected all
-    float eta_ = 1;          // index of the other side over that of the eye's
+    glm::vec2 facets_{1, 0};  // math::directionalAlbedo
+    float eta_ = 1;           // index of the other side over that of the eye's
     bool solid_ = false, inside_ = false;
 };
 
-// Whether a ray that meets the surface may go on as if it were not there, and with which part of its light.
+// Whether a ray that meets the surface may go on as if it were not there; which part of its light then, and how
+// often it should.
 bool passesStraight(const Surface& surface);
-glm::vec3 straightTransmittance(const Surface& surface, const glm::vec3& toEye);
-// How often it then should.
-float straightShare(const Surface& surface, const glm::vec3& toEye);
+struct StraightPass {
+    glm::vec3 transmittance;
+    float share;
+};
+StraightPass straightPass(const Surface& surface, const glm::vec3& toEye);
 // Of light in a solid, 1/m (Beer and Lambert).
 glm::vec3 absorption(const Material& material);
 

@@ -182,12 +182,12 @@ bool PathIntegrator::find(RayKind kind, Ray ray, const PixelTurns* pixel, Sample
         ray.tMin = arrival.hit.t + std::max(kPaneStep, kPaneStep * arrival.hit.t);
         if (met.opacity < 1 && !(sampler.next2().x < met.opacity)) continue;
         if (!passesStraight(met)) return true;
-        const float share = straightShare(met, -ray.direction);
-        if (!(sampler.next2().x < share)) {
-            arrival.passed /= 1 - share;
+        const StraightPass pass = straightPass(met, -ray.direction);
+        if (!(sampler.next2().x < pass.share)) {
+            arrival.passed /= 1 - pass.share;
             return true;
         }
-        arrival.passed *= straightTransmittance(met, -ray.direction) / share;
+        arrival.passed *= pass.transmittance / pass.share;
     }
     arrival.passed = glm::vec3(0);
     return true;

@@ -99,7 +99,7 @@ void filterOcclusion(const RTCFilterFunctionNArguments* arguments) {
     const Surface surface = surfaceAt(*info.scene, *context.passing, found);
     const bool through = passesStraight(surface) || (context.unbent && surface.transmission > 0);
     glm::vec3 passed(1 - surface.opacity);
-    if (through) passed += surface.opacity * straightTransmittance(surface, -context.passing->direction);
+    if (through) passed += surface.opacity * straightPass(surface, -context.passing->direction).transmittance;
     if (passed == glm::vec3(0)) return;
     context.passed *= passed;
     if (surface.solid)

@@ -16,6 +16,7 @@
 #include "outputs.h"
 #include "picture_file.h"
 #include "picture_source.h"
+#include "reference/picture_layers.h"
 #include "script_run.h"
 #include "session/why_black.h"
 #include "stats_json.h"
@@ -148,13 +149,13 @@ void checkFiles(const RenderOptions& options) {
 void addComponents(const RenderOptions& options, PictureRequest& request) {
     request.components = {componentOf(options.component)};
     for (const std::string& aov : splitList(options.aovs)) {
-        if (!isTracedLayer(aov)) {
+        if (!reference::isTracedLayer(aov)) {
             request.components.push_back(componentOf(aov));
             continue;
         }
         if (options.mode != "reference")
             usage("--aov: layer " + aov + " belongs to mode reference; --mode reference would be right");
-        request.reference.perBounce = std::max(request.reference.perBounce, bounceLayer(aov));
+        request.reference.perBounce = std::max(request.reference.perBounce, reference::bounceLayer(aov));
     }
 }
 
@@ -162,8 +163,8 @@ Layers layersOf(const RenderOptions& options, const Picture& picture) {
     Layers layers;
     std::size_t next = 1;
     for (const std::string& aov : splitList(options.aovs)) {
-        if (isTracedLayer(aov))
-            layers.emplace_back(aov, *layerOf(*picture.traced, aov));
+        if (reference::isTracedLayer(aov))
+            layers.emplace_back(aov, *reference::layerOf(*picture.traced, aov));
         else
             layers.emplace_back(aov, picture.images[next++]);
     }
@@ -400,7 +401,7 @@ void addRender(CLI::App& app) {
         ->add_option("--aov", options->aovs,
                      "components that become further layers of an .exr, comma-separated; mode reference: "
                      "also " +
-                         tracedLayerNames())
+                         reference::tracedLayerNames())
         ->type_name("A,B");
     command
         ->add_option("--stats", options->statsFile,

@@ -18,15 +18,6 @@ reference::PathTracedPicture trace(const reference::PathTracer& tracer, const Ca
 // The part of it that shows `component`. Throws Error(Usage) for one that a path tracer does not have.
 const Image& imageOf(const reference::PathTracedPicture& picture, Component component);
 
-// Every picture it holds by the name of its layer: direct, indirect, diffuse, specular, half_a, half_b,
-// indirect_half_a, indirect_half_b, bounce1 ... ; null when there is none of this name.
-const Image* layerOf(const reference::PathTracedPicture& picture, const std::string& name);
-// N of "bounceN", N >= 1; 0 for every other name.
-int bounceLayer(const std::string& name);
-// Layers that are no components: halves and bounces; and their names, for messages.
-bool isTracedLayer(const std::string& name);
-std::string tracedLayerNames();
-
 // "12 s", "3 min 20 s", "2 h 5 min".
 std::string timeText(double seconds);
 

@@ -123,7 +123,7 @@ struct Material {
     // 0: a thin pane, which bends no light; above, m: the closed surface of a solid that bends it by `ior`.
     // How far light goes in it is the mesh's business.
     float thickness = 0.0f;
-    glm::vec3 attenuationColor{1.0f};  // (0,1], what white light is after attenuationDistance in the solid
+    glm::vec3 attenuationColor{1.0f};  // (0,1]; what white light is after attenuationDistance in the solid
     float attenuationDistance = 0.0f;  // m, >= 0; 0: the solid is clear
 
     TextureRef baseColorTexture;          // rgb * baseColor.rgb, a * baseColor.a
@@ -138,6 +138,9 @@ struct Material {
 
     bool operator==(const Material&) const = default;
 };
+
+// Readers and editors keep attenuation colours from here on: black would absorb without end.
+inline constexpr float kLeastAttenuationColor = 1e-4f;
 
 // Whether light goes through it.
 inline bool isTransmissive(const Material& m) { return m.transmission > 0 && m.metallic < 1 && !m.unlit; }

@@ -92,14 +92,13 @@ void reflectPath(inout GlassPath path, GlassSurface s, vec2 xi, inout uint rando
     path.bent = true;
 }
 
-// The path goes through a surface.
-void passThrough(inout GlassPath path, GlassSurface s, vec2 xi) {
+// The path goes through a surface, at a facet with normal h.
+void passThrough(inout GlassPath path, GlassSurface s, vec3 h) {
     if (passesStraight(s)) {
         path.throughput *= s.through;
         return;
     }
     vec3 toEye = -path.direction;
-    vec3 h = glassFacet(s, toEye, xi);
     float VoH = clamp(dot(toEye, h), 0.0, 1.0);
     path.narrow = path.bent = true;
     path.alpha = sqrt(path.alpha * path.alpha + s.brdf.alpha * s.brdf.alpha);
@@ -121,25 +120,24 @@ void passThrough(inout GlassPath path, GlassSurface s, vec2 xi) {
     vec3 front = s.through / max(mean, vec3(1e-3)) * (1.0 - reflected) * facetsSeen(s, -dot(l, s.normal));
     path.throughput *= s.back ? s.tint * (1.0 - reflected) : front;
     path.direction = normalize(l);
-    path.absorption = s.back ? vec3(0.0) : s.absorption;
 }
 
-// At the inner side of a solid: back into it, or out of it.
-void leaveSolid(inout GlassPath path, GlassSurface s, vec2 xi, float choice) {
+// At the inner side of a solid: back into it, or out of it. Returns whether it goes out.
+bool leaveSolid(inout GlassPath path, GlassSurface s, vec3 h, float choice) {
     vec3 toEye = -path.direction;
-    float VoH = clamp(dot(toEye, glassFacet(s, toEye, xi)), 0.0, 1.0);
+    float VoH = clamp(dot(toEye, h), 0.0, 1.0);
     vec3 reflected = facetFresnel(s, VoH, 1.0 / s.ior);
     float back = brightness(reflected);
     if (choice >= back) {
-        passThrough(path, s, xi);
+        passThrough(path, s, h);
         path.throughput /= max(1.0 - back, 1e-6);
-        return;
+        return dot(path.direction, s.geometricNormal) < 0.0;
     }
-    vec3 h = glassFacet(s, toEye, xi);
     path.direction = normalize(2.0 * VoH * h - toEye);
     path.direction -= 2.0 * min(dot(path.direction, s.geometricNormal), 0.0) * s.geometricNormal;
     path.throughput *= reflected / max(back, 1e-6);
     path.narrow = path.bent = true;
+    return false;
 }
 
 // The ray of the path's last stretch, up to glass in its way at `end`, metres.
@@ -180,25 +178,21 @@ vec3 glassLight(GlassHit hit, GlassSight sight, uint kind, uint pixelSeed, vec3 
         bool shines = glassPass.direct != 0u && (met > 0 || kind == 0u);
         light +=
             shines ? path.throughput * (s.emission + glassHighlights(s, -path.direction, xi.x)) : vec3(0.0);
-        bool below = true;
+        vec3 h = glassFacet(s, -path.direction, xi);
+        bool below;  // the path goes through
         if (s.back && s.solid) {
-            vec3 side = s.geometricNormal;
-            leaveSolid(path, s, xi, choice);
-            below = dot(path.direction, side) < 0.0;
-            if (below) path.absorption = vec3(0.0);
+            below = leaveSolid(path, s, h, choice);
         } else {
             float reflects = brightness(s.brdf.albedo + s.brdf.diffuse);
-            float passes = brightness(s.through);
-            float share = clamp(reflects / max(reflects + passes, 1e-6), 0.1, 0.9);
-            bool reflectedHere = met == 0 ? kind == 0u : choice < share;
-            float weight = met == 0 ? 1.0 : (reflectedHere ? 1.0 / share : 1.0 / (1.0 - share));
-            if (reflectedHere)
-                reflectPath(path, s, xi, random);
+            float share = clamp(reflects / max(reflects + brightness(s.through), 1e-6), 0.1, 0.9);
+            below = met == 0 ? kind == 1u : choice >= share;
+            if (below)
+                passThrough(path, s, h);
             else
-                passThrough(path, s, xi);
-            path.throughput *= weight;
-            below = !reflectedHere;
+                reflectPath(path, s, xi, random);
+            if (met > 0) path.throughput /= below ? 1.0 - share : share;
         }
+        if (s.solid) path.absorption = below != s.back ? s.absorption : vec3(0.0);
         // What is bent is of rays alone.
         if (path.bent && glassPass.specular == 0u) path.throughput = vec3(0.0);
         int on = hit.triangle;

@@ -31,8 +31,24 @@ GlassTriangle glassTriangle(int index) {
 
 const float kGlassEdge = 1e-6;  // barycentric overlap of neighbours, so that no ray passes between them
 
-const float kGlassNear =
-    1e-5;  // part of the largest coordinate: surfaces nearer than this are the start's own
+// Parts of the largest coordinate: surfaces nearer than the first are the start's own, and rays go on the second
+// behind what they have met.
+const float kGlassNear = 1e-5;
+const float kGlassStep = 4e-6;
+
+// At least 1.
+float largestCoordinate(vec3 position) {
+    vec3 size = abs(position);
+    return max(max(size.x, size.y), max(size.z, 1.0));
+}
+
+vec3 glassStep(vec3 position, vec3 normal) {
+    return position + normal * (kGlassStep * largestCoordinate(position));
+}
+
+vec3 glassInverse(vec3 direction) {
+    return 1.0 / mix(vec3(1e-12), direction, greaterThan(abs(direction), vec3(1e-12)));
+}
 
 struct GlassHit {
     int triangle;  // -1: a miss
@@ -72,7 +88,7 @@ void testGlassTriangle(int index, vec3 origin, vec3 direction, bool cullsBacks, 
 // The nearest triangle before `end` but for `except`, the one that the ray starts on. `cullsBacks`: those of
 // single-sided materials are seen from their front alone.
 GlassHit nearestGlass(vec3 origin, vec3 direction, float end, int except, bool cullsBacks) {
-    vec3 inverse = 1.0 / mix(vec3(1e-12), direction, greaterThan(abs(direction), vec3(1e-12)));
+    vec3 inverse = glassInverse(direction);
     GlassHit hit = GlassHit(-1, end, vec2(0.0), false);
     uint node = 0u;
     uint first = 0u, last = 0u;  // of the leaf's triangles
@@ -88,16 +104,6 @@ GlassHit nearestGlass(vec3 origin, vec3 direction, float end, int except, bool c
         node = met && n.triangles == 0u ? node + 1u : n.skip;
     } while (node != GLASS_END);
     return hit;
-}
-
-// ---- Sight ----------------------------------------------------------------------------------------------
-
-// Rays go on this far behind what they have met, as a part of the largest coordinate.
-const float kGlassStep = 4e-6;
-
-vec3 glassStep(vec3 position, vec3 normal) {
-    vec3 size = abs(position);
-    return position + normal * (kGlassStep * max(max(size.x, size.y), max(size.z, 1.0)));
 }
 
 // ---- Surfaces -------------------------------------------------------------------------------------------
@@ -167,13 +173,11 @@ bool passesStraight(GlassSurface s) {
 // What is left of light that goes straight through all glass from `origin` to `end` metres. Where solids would
 // bend it by more than `mostBend`, rad, to first order, it misses its aim, and nothing is left.
 vec3 glassTransmittance(vec3 origin, vec3 direction, float end, float mostBend) {
-    vec3 inverse = 1.0 / mix(vec3(1e-12), direction, greaterThan(abs(direction), vec3(1e-12)));
+    vec3 inverse = glassInverse(direction);
     vec3 left = vec3(1.0);
     vec3 opticalDepth = vec3(0.0);  // of ways within solids, each added where it ends
     vec3 bend = vec3(0.0);
-    // The surface that light starts on is passed.
-    vec3 size = abs(origin);
-    float near = kGlassNear * max(max(size.x, size.y), max(size.z, 1.0));
+    float near = kGlassNear * largestCoordinate(origin);
     uint node = 0u;
     uint first = 0u, last = 0u;  // of the leaf's triangles
     do {
@@ -205,7 +209,7 @@ const float kAnyBend = 1e9;
 
 // Whether rays from `origin` to within `radius` of a point at `distance` may pass any glass: by boxes alone.
 bool mayPassGlass(vec3 origin, vec3 direction, float distance, float radius) {
-    vec3 inverse = 1.0 / mix(vec3(1e-12), direction, greaterThan(abs(direction), vec3(1e-12)));
+    vec3 inverse = glassInverse(direction);
     uint node = 0u;
     bool found = false;
     do {

@@ -96,8 +96,8 @@ bool mayHaveLobe(const scene::GpuScene& scene, const gpu::Instance& instance, fl
     const gpu::Material& m = scene.materials()[instance.material];
     const bool textured = (m.flags & MATERIAL_DETAIL_TEXTURES) != 0;
     const bool reflects = m.metallic > 0 || m.specularF0 != glm::vec3(0);
-    return (instance.flags & INSTANCE_VISIBLE) != 0 && (m.flags & MATERIAL_UNLIT) == 0 && reflects &&
-           (textured || m.roughness <= roughest);
+    const bool drawn = (instance.flags & INSTANCE_VISIBLE) != 0 && !scene::isGlass(instance);
+    return drawn && (m.flags & MATERIAL_UNLIT) == 0 && reflects && (textured || m.roughness <= roughest);
 }
 
 bool PixelRays::has(int width, int height) const {

@@ -77,6 +77,8 @@ TEST(ConsoleErrors, NameTheMistakeAndWhatWouldBeRight) {
         {"material whit roughness 1", "white would be right"},
         {"material white rough 1", "roughness would be right"},
         {"material white roughness 2", "0 to 1"},
+        {"material white transmission 2", "0 to 1"},
+        {"material white attenuation_color 0", "0.0001 to 1"},
         {"select nobody", "there is no object, light or material 'nobody'"},
         {"echo \"open", "never closed"},
         {"undo", "nothing to undo"},
@@ -172,6 +174,27 @@ TEST(Console, SurroundingsAndFluxAreSetAndTakenBack) {
     EXPECT_EQ(rig.session.scene().lights.size(), 2u);
     rig.run("light lamp falloff 1 0 1; light lamp flux 1");
     EXPECT_NE(rig.error().find("no physical unit"), std::string::npos) << rig.error();
+}
+
+TEST(Console, MaterialsBecomeGlass) {
+    ConsoleRig rig;
+    rig.run(
+        "material blue transmission 0.9; material blue thickness 0.5; material blue attenuation_color 0.2 1 "
+        "0.5;"
+        "material blue attenuation_distance 3");
+    EXPECT_EQ(rig.error(), "");
+    const Material& glass = rig.session.scene().materials[1];
+    EXPECT_EQ(glass.transmission, 0.9f);
+    EXPECT_EQ(glass.thickness, 0.5f);
+    EXPECT_EQ(glass.attenuationColor, glm::vec3(0.2f, 1, 0.5f));
+    EXPECT_EQ(glass.attenuationDistance, 3.0f);
+    rig.run("material blue");
+    bool told = false;
+    for (const auto& line : rig.lines)
+        told |= line.text.find("transmission 0.9  thickness 0.5 m") != std::string::npos;
+    EXPECT_TRUE(told);
+    for (int i = 0; i < 4; ++i) rig.run("undo");
+    EXPECT_EQ(rig.session.scene().materials[1].transmission, 0.0f);
 }
 
 TEST(Console, EditsCanBeTakenBack) {

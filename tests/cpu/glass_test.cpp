@@ -48,11 +48,9 @@ TEST(Glass, IsInvisibleInEvenLight) {
             addPart(scene, io::generated::sphere(0.5f, 64), "ball",
                     add(scene, clearGlass(thickness, roughness)));
             scene.cameras.push_back(camera("front", {0, 0, 3}, {0, 0, 0}, 15));
-            // Rough solids lose what facets throw at each other from within.
-            const double loss = thickness > 0 ? 0.15 * static_cast<double>(roughness) : 0.0;
             const double mean = meanOf(traced(scene, 12, 256)).g;
             EXPECT_LT(mean, 1.02) << thickness << " " << roughness;
-            EXPECT_GT(mean, 0.985 - loss) << thickness << " " << roughness;
+            EXPECT_GT(mean, 0.98) << thickness << " " << roughness;
         }
 }
 
@@ -106,12 +104,9 @@ TEST(Glass, SlabsShiftWhatIsBehind) {
         scene.cameras.push_back(camera("front", {0, 0, 8}, {0, 0, 0}, 0.2f));
         return meanOf(traced(scene, 2, 512)).g;
     };
-    // The slab's normal leans to the right: the ray leaves it to the left of where it came in, or to the
-    // right; never straight on.
-    const bool left = lightBeyond(-0.5f * shift) > 0.5;
-    const float at = left ? -shift : shift;
-    EXPECT_GT(lightBeyond(at + 0.06f), 0.8);
-    EXPECT_LT(lightBeyond(at - 0.06f), 0.2);
+    // The slab's normal leans to the right (+x): within, light to the eye runs steeper, and comes from the left.
+    EXPECT_GT(lightBeyond(-shift + 0.06f), 0.8);
+    EXPECT_LT(lightBeyond(-shift - 0.06f), 0.2);
 }
 
 // Lamps without extent shine through glass: a tinted pane tints their light, and casts no black shadow.

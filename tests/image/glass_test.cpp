@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Glass in front of pictures: what it tints, reflects, refracts and lets through, against closed forms and the
 // path tracer, whose own tests are in tests/cpu/glass_test.cpp.
+#include <algorithm>
 #include <cmath>
 
 #include "conelight/thesis/settings.h"
@@ -180,6 +181,11 @@ TEST_F(GlassTest, TreeHoldsEveryTriangle) {
         triangles.push_back(t);
     }
     const std::vector<gpu::GlassNode> nodes = scene::sortIntoTree(triangles);
+    // A walk that meets a box meets all boxes about it.
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+        for (std::size_t j = i; j < std::min<std::size_t>(nodes[i].skip, nodes.size()); ++j)
+            EXPECT_TRUE(glm::all(glm::lessThanEqual(nodes[i].lower, nodes[j].lower)) &&
+                        glm::all(glm::lessThanEqual(nodes[j].upper, nodes[i].upper)));
     std::vector<int> found(500, 0);
     std::size_t node = 0;
     while (node != GLASS_END) {

@@ -93,7 +93,7 @@ constexpr Property kProperties[] = {
     {"specular", 1, 0, 1, ""},
     {"transmission", 1, 0, 1, ""},
     {"thickness", 1, 0, 1e9, "m"},
-    {"attenuation_color", 3, 1e-4, 1, ""},
+    {"attenuation_color", 3, kLeastAttenuationColor, 1, ""},
     {"attenuation_distance", 1, 0, 1e9, "m"},
     {"emission", 3, 0, 1e9, "W/(sr m^2)"},
     {"shininess", 1, 0, 10000, ""},

@@ -93,7 +93,7 @@ bool editGlass(Session& session, Material& m) {
     changed |=
         ImGui::DragFloat("attenuation distance", &m.attenuationDistance, 0.01f, 0.0f, 1000.0f, "%.3f m");
     seals(session, "attenuation distance");
-    m.attenuationColor = glm::clamp(m.attenuationColor, 1e-4f, 1.0f);
+    m.attenuationColor = glm::clamp(m.attenuationColor, kLeastAttenuationColor, 1.0f);
     return changed;
 }
 
