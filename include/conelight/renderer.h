@@ -71,6 +71,9 @@ class Renderer {
     // Scene::validate refuses; nothing is changed then. GL state stays as it was.
     // setInstance: transform, material, flags; the mesh must be the one it has.
     void setInstance(std::size_t index, const Instance& instance);
+    // setMesh: new positions, normals and so on, as many vertices and indices as the mesh has, normals where it
+    // has them: for things that bend and deform. Its instances are made anew.
+    void setMesh(std::size_t index, const Mesh& mesh);
     void setMaterial(std::size_t index, const Material& material);
     void setLight(std::size_t index, const Light& light);
     void setLights(const std::vector<Light>& lights);  // all of them: adds and removes

@@ -26,6 +26,13 @@ Inputs& Inputs::texture(ResourceName name, const Texture& texture, const Sampler
     return *this;
 }
 
+Inputs& Inputs::foreignTexture(ResourceName name, Name texture, const Sampler& sampler) {
+    CONELIGHT_ASSERT(texture != 0 && sampler, "Inputs::foreignTexture: no texture or no sampler");
+    items_.push_back(
+        {.name = name, .kind = ResourceKind::Texture, .object = texture, .sampler = sampler.name()});
+    return *this;
+}
+
 Inputs& Inputs::image(ResourceName name, const Texture& texture, ImageUse use, int level) {
     CONELIGHT_ASSERT(texture, "Inputs::image: an empty texture");
     items_.push_back({.name = name,

@@ -50,6 +50,8 @@ class Inputs {
     Inputs& storage(ResourceName block, const Buffer& buffer);
     // Without a sampler the texture's own parameters count.
     Inputs& texture(ResourceName name, const Texture& texture, const Sampler* sampler = nullptr);
+    // A texture of the host's, by its GL name, with a sampler of ours.
+    Inputs& foreignTexture(ResourceName name, Name texture, const Sampler& sampler);
     Inputs& image(ResourceName name, const Texture& texture, ImageUse use, int level = 0);
     // A texture that the draw calls of the pass bind themselves, one after the other (Program::unitOf).
     Inputs& perDraw(ResourceName name);

@@ -4,7 +4,6 @@
 #include "conelight/renderer.h"
 
 #include <algorithm>
-#include <optional>
 
 #include "base/clock.h"
 #include "base/log.h"
@@ -20,7 +19,7 @@
 #include "image/wireframe.h"
 #include "light/lights.h"
 #include "modes/modes.h"
-#include "scene/scene_checks.h"
+#include "scene/held_scene.h"
 #include "shared/lookups.h"
 #include "view/surfaces.h"
 
@@ -62,7 +61,7 @@ struct Renderer::Impl {
     bool everyFrame = false;
 
     // The values of a picture, in the order in which they are made.
-    std::optional<scene::GpuScene> scene;
+    scene::HeldScene scene;
     light::Lights lights;
     view::Surfaces surfaces;      // at the pixels' centres
     view::Surfaces partSurfaces;  // beside them, of the view that is drawn for an anti-aliased still
@@ -80,10 +79,6 @@ struct Renderer::Impl {
     FrameStats stats;
 
     explicit Impl(gl::ShaderProvider provider) : programs(std::move(provider)) {}
-
-    // Throw Error(Usage) without a scene or for an index out of range.
-    void requireScene(const char* call) const;
-    static void requireIndex(const char* call, const char* what, std::size_t index, std::size_t count);
 
     void render(const Camera& camera, int width, int height, const Settings& settings);
     void prepare(const Settings& settings);
@@ -110,72 +105,21 @@ void Renderer::setScene(const Scene& scene) {
     scene.validate();  // a scene that is refused leaves the old one in place
     const gl::HostStateGuard guard;
     impl_->mode.reset();  // light of another scene says nothing of this one
-    impl_->scene.reset();
-    impl_->scene.emplace(scene);
-}
-
-void Renderer::Impl::requireScene(const char* call) const {
-    if (!scene)
-        base::fail(ErrorKind::Usage, "%s: there is no scene; setScene before it would be right", call);
-}
-
-void Renderer::Impl::requireIndex(const char* call, const char* what, std::size_t index, std::size_t count) {
-    if (index >= count)
-        base::fail(ErrorKind::Usage, "%s: %s %zu of %zu; an index below that would be right", call, what,
-                   index, count);
+    impl_->scene.set(scene);
 }
 
 void Renderer::setInstance(std::size_t index, const Instance& instance) {
-    impl_->requireScene("setInstance");
-    const Scene& source = impl_->scene->source();
-    Impl::requireIndex("setInstance", "instance", index, source.instances.size());
-    scene::validateInstance(source, instance, index);
-    if (instance.mesh != source.instances[index].mesh)
-        base::fail(ErrorKind::BadInput, "instance %zu '%s': mesh %d; the mesh it has, %d, would be right",
-                   index, instance.name.c_str(), instance.mesh, source.instances[index].mesh);
-    const gl::HostStateGuard guard;
-    impl_->scene->setInstance(index, instance);
+    impl_->scene.setInstance(index, instance);
 }
-
+void Renderer::setMesh(std::size_t index, const Mesh& mesh) { impl_->scene.setMesh(index, mesh); }
 void Renderer::setMaterial(std::size_t index, const Material& material) {
-    impl_->requireScene("setMaterial");
-    const Scene& source = impl_->scene->source();
-    Impl::requireIndex("setMaterial", "material", index, source.materials.size());
-    scene::validateMaterial(source, material);
-    const gl::HostStateGuard guard;
-    impl_->scene->setMaterial(index, material);
+    impl_->scene.setMaterial(index, material);
 }
-
-void Renderer::setLight(std::size_t index, const Light& light) {
-    impl_->requireScene("setLight");
-    std::vector<Light> lights = impl_->scene->source().lights;
-    Impl::requireIndex("setLight", "light", index, lights.size());
-    lights[index] = light;
-    setLights(lights);
-}
-
-void Renderer::setLights(const std::vector<Light>& lights) {
-    impl_->requireScene("setLights");
-    for (const Light& light : lights) scene::validateLight(light);
-    impl_->scene->setLights(lights);
-}
-
-void Renderer::setSky(const glm::vec3& radiance) {
-    impl_->requireScene("setSky");
-    scene::validateSky(radiance);
-    impl_->scene->setSky(radiance);
-}
-
-void Renderer::setEnvironment(const Environment& environment) {
-    impl_->requireScene("setEnvironment");
-    scene::validateEnvironment(environment);
-    impl_->scene->setEnvironment(environment);
-}
-
-const Scene& Renderer::scene() const {
-    impl_->requireScene("scene");
-    return impl_->scene->source();
-}
+void Renderer::setLight(std::size_t index, const Light& light) { impl_->scene.setLight(index, light); }
+void Renderer::setLights(const std::vector<Light>& lights) { impl_->scene.setLights(lights); }
+void Renderer::setSky(const glm::vec3& radiance) { impl_->scene.setSky(radiance); }
+void Renderer::setEnvironment(const Environment& environment) { impl_->scene.setEnvironment(environment); }
+const Scene& Renderer::scene() const { return impl_->scene.require("scene").source(); }
 
 void Renderer::setProfiling(bool passes, bool lookups) {
     impl_->profiler.setEnabled(passes);
@@ -197,7 +141,7 @@ void Renderer::render(const Camera& camera, int width, int height, const Setting
         base::fail(ErrorKind::Usage, "picture of %d x %d; 1 to %d in each direction would be right", width,
                    height, kMaxEdge);
     validateSettings(settings);
-    impl_->requireScene("render");
+    impl_->scene.require("render");
     const gl::HostStateGuard guard;
     impl_->render(camera, width, height, settings);
 }
@@ -206,7 +150,7 @@ void Renderer::Impl::render(const Camera& camera, int width, int height, const S
     const double cpuStart = base::processCpuMs();
     const double wallStart = base::wallMs();
     profiler.beginFrame();
-    if (everyFrame) scene->touch();
+    if (everyFrame) scene.require("render").touch();
     lookupCounters.clear();
     image.resize(width, height);
     // Views of surfaces need neither lights nor a mode.

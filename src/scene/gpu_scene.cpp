@@ -16,17 +16,37 @@ constexpr std::uint32_t kPartIndices = 3 * 256;
 
 }  // namespace
 
-// Where a mesh lies; instances name their ranges.
-struct GpuScene::MeshRange {
-    std::uint32_t firstVertex, firstIndex, indexCount;
-    Aabb bounds;
-    bool wideColors;
-    std::size_t firstPart;
+namespace {
+
+// A mesh as the GPU has it; indices count from its own first vertex.
+struct PackedMesh {
+    std::vector<gpu::Vertex> vertices;
+    std::vector<std::uint32_t> indices;
+    std::vector<Aabb> parts;
 };
+
+PackedMesh packed(const Mesh& mesh) {
+    PackedMesh to;
+    if (appendVertices(mesh, to.vertices)) {
+        to.indices = mesh.indices;
+    } else {
+        to.indices.resize(mesh.indices.size());
+        std::iota(to.indices.begin(), to.indices.end(), 0u);
+    }
+    orderForReuse(to.vertices, 0, to.indices, 0);
+    for (std::size_t i = 0; i < to.indices.size(); ++i) {
+        if (i % kPartIndices == 0) to.parts.emplace_back();
+        to.parts.back().grow(to.vertices[to.indices[i]].position);
+    }
+    return to;
+}
+
+}  // namespace
 
 GpuScene::GpuScene(const Scene& source) : source_(source) {
     source_.validate();
-    uploadInstances(uploadMeshes());
+    uploadMeshes();
+    uploadInstances();
     makeVertexArray();
     uploadMaterials();
     textures_ = SceneTextures(source_.textures);
@@ -35,41 +55,29 @@ GpuScene::GpuScene(const Scene& source) : source_(source) {
 }
 
 // Meshes one after the other.
-std::vector<GpuScene::MeshRange> GpuScene::uploadMeshes() {
+void GpuScene::uploadMeshes() {
     std::vector<gpu::Vertex> vertices;
     std::vector<std::uint32_t> indices;
-    std::vector<MeshRange> ranges;
     for (const Mesh& mesh : source_.meshes) {
         hasVertexColors_ = hasVertexColors_ || !mesh.colors.empty();
-        MeshRange range{static_cast<std::uint32_t>(vertices.size()),
-                        static_cast<std::uint32_t>(indices.size()),
-                        static_cast<std::uint32_t>(mesh.indices.size()),
-                        mesh.bounds(),
-                        hasWideColors(mesh),
-                        partBounds_.size()};
-        if (appendVertices(mesh, vertices)) {
-            indices.insert(indices.end(), mesh.indices.begin(), mesh.indices.end());
-        } else {
-            indices.resize(indices.size() + mesh.indices.size());
-            std::iota(indices.end() - static_cast<std::ptrdiff_t>(mesh.indices.size()), indices.end(), 0u);
-        }
-        orderForReuse(vertices, range.firstVertex, indices, range.firstIndex);
-        for (std::size_t i = range.firstIndex; i < indices.size(); ++i) {
-            if ((i - range.firstIndex) % kPartIndices == 0) partBounds_.emplace_back();
-            partBounds_.back().grow(vertices[range.firstVertex + indices[i]].position);
-        }
-        ranges.push_back(range);
+        const PackedMesh own = packed(mesh);
+        meshRanges_.push_back({static_cast<std::uint32_t>(vertices.size()),
+                               static_cast<std::uint32_t>(indices.size()),
+                               static_cast<std::uint32_t>(own.indices.size()), mesh.bounds(),
+                               hasWideColors(mesh), partBounds_.size()});
+        vertices.insert(vertices.end(), own.vertices.begin(), own.vertices.end());
+        indices.insert(indices.end(), own.indices.begin(), own.indices.end());
+        partBounds_.insert(partBounds_.end(), own.parts.begin(), own.parts.end());
     }
     vertexBuffer_ = gl::Buffer(vertices, "scene vertices");
     indexBuffer_ = gl::Buffer(indices, "scene indices");
-    return ranges;
 }
 
-void GpuScene::uploadInstances(const std::vector<MeshRange>& ranges) {
+void GpuScene::uploadInstances() {
     const std::uint32_t defaultMaterial = static_cast<std::uint32_t>(source_.materials.size());
     std::vector<std::uint32_t> instanceIndices;
     for (const Instance& instance : source_.instances) {
-        const MeshRange& range = ranges[static_cast<std::size_t>(instance.mesh)];
+        const MeshRange& range = meshRanges_[static_cast<std::size_t>(instance.mesh)];
         gpu::Instance g{};
         g.firstIndex = range.firstIndex;
         g.indexCount = range.indexCount;
@@ -160,6 +168,31 @@ void GpuScene::setInstance(std::size_t index, const Instance& instance) {
     uploadInstance(index);
     if (recolored) sortDraws();
     geometryRevision_ = instanceRevisions_[index] = base::Revision::next();
+}
+
+void GpuScene::setMesh(std::size_t index, const Mesh& mesh) {
+    const PackedMesh own = packed(mesh);
+    MeshRange& range = meshRanges_[index];
+    vertexBuffer_.update(range.firstVertex * sizeof(gpu::Vertex), own.vertices.data(),
+                         own.vertices.size() * sizeof(gpu::Vertex));
+    indexBuffer_.update(range.firstIndex * sizeof(std::uint32_t), own.indices.data(),
+                        own.indices.size() * sizeof(std::uint32_t));
+    std::copy(own.parts.begin(), own.parts.end(),
+              partBounds_.begin() + static_cast<std::ptrdiff_t>(range.firstPart));
+    range.bounds = mesh.bounds();
+    range.wideColors = hasWideColors(mesh);
+    hasVertexColors_ = hasVertexColors_ || !mesh.colors.empty();
+    source_.meshes[index] = mesh;
+    geometryRevision_ = base::Revision::next();
+    for (std::size_t i = 0; i < instances_.size(); ++i) {
+        if (source_.instances[i].mesh != static_cast<int>(index)) continue;
+        gpu::Instance& g = instances_[i];
+        g.flags = range.wideColors ? g.flags | INSTANCE_WIDE_COLORS : g.flags & ~INSTANCE_WIDE_COLORS;
+        instanceObjectBounds_[i] = range.bounds;
+        place(i, g.worldFromObject);
+        uploadInstance(i);
+        instanceRevisions_[i] = geometryRevision_;
+    }
 }
 
 void GpuScene::setMaterial(std::size_t index, const Material& material) {

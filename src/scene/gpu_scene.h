@@ -3,7 +3,7 @@
 // shared/scene.h, textures per material, and all textures at low resolution in one array that compute shaders
 // can index (voxelizers). Materials are the scene's own plus a default one at the end.
 //
-// Changes in place (setInstance, setMaterial, setLights, setSky, setEnvironment) upload just the entries they concern and
+// Changes in place (setInstance, setMesh, setMaterial, setLights, setSky, setEnvironment) upload just the entries they concern and
 // raise revisions. Who derives something from the scene keeps the revisions it was derived from and compares.
 // Lights have no table here: the light stage makes one (light/lights.h).
 #pragma once
@@ -59,6 +59,8 @@ class GpuScene {
     // One entry each; geometry, index ranges and textures stay. setInstance keeps the mesh it has.
     // `material`: as the Scene counts them. Nothing is checked (scene/scene_checks.h).
     void setInstance(std::size_t index, const Instance& instance);
+    // As many vertices and indices as there are, normals for all or for none as there are.
+    void setMesh(std::size_t index, const Mesh& mesh);
     void setMaterial(std::size_t index, const Material& material);
     void setLights(const std::vector<Light>& lights);  // all of them
     void setSky(const glm::vec3& radiance);
@@ -90,9 +92,15 @@ class GpuScene {
     const gl::Buffer& instanceBuffer() const { return instanceBuffer_; }
 
   private:
-    struct MeshRange;
-    std::vector<MeshRange> uploadMeshes();
-    void uploadInstances(const std::vector<MeshRange>& ranges);
+    // Where a mesh lies; instances name their ranges.
+    struct MeshRange {
+        std::uint32_t firstVertex, firstIndex, indexCount;
+        Aabb bounds;
+        bool wideColors;
+        std::size_t firstPart;
+    };
+    void uploadMeshes();
+    void uploadInstances();
     void makeVertexArray();
     void uploadMaterials();
     void place(std::size_t instance, const glm::mat4& worldFromObject);
@@ -102,6 +110,7 @@ class GpuScene {
     void drawParts(std::uint32_t instance, const Draw& draw) const;
 
     Scene source_;
+    std::vector<MeshRange> meshRanges_;
     std::vector<gpu::Instance> instances_;
     std::vector<Aabb> instanceObjectBounds_, instanceBounds_;
     std::vector<Aabb> partBounds_;            // object boxes of the parts of all meshes

@@ -61,7 +61,7 @@ bool isFinite(const T& value) {
         return true;
 }
 
-void validateMesh(const Mesh& mesh, std::size_t index) {
+void checkMesh(const Mesh& mesh, std::size_t index) {
     const auto where = [&] { return base::format("mesh %zu '%s'", index, mesh.name.c_str()); };
     const std::size_t count = mesh.positions.size();
     const auto attribute = [&](const char* name, std::size_t size) {
@@ -113,6 +113,13 @@ void validateReach(const Instance& instance, std::size_t index, const Aabb& mesh
 }
 
 }  // namespace
+
+void scene::validateMesh(const Mesh& mesh, std::size_t index) { checkMesh(mesh, index); }
+
+void scene::validateReaches(const Scene& scene, std::size_t mesh, const Aabb& bounds) {
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+        if (scene.instances[i].mesh == static_cast<int>(mesh)) validateReach(scene.instances[i], i, bounds);
+}
 
 void scene::validateLight(const Light& light) { validateNumbers(light, "light", light.name); }
 
@@ -179,7 +186,7 @@ void scene::validateEnvironment(const Environment& environment) {
 }
 
 void Scene::validate() const {
-    for (std::size_t i = 0; i < meshes.size(); ++i) validateMesh(meshes[i], i);
+    for (std::size_t i = 0; i < meshes.size(); ++i) checkMesh(meshes[i], i);
     for (const Texture& texture : textures) {
         const std::size_t texels = static_cast<std::size_t>(std::max(texture.width, 0)) *
                                    static_cast<std::size_t>(std::max(texture.height, 0));

@@ -13,6 +13,10 @@ namespace conelight::scene {
 void validateInstance(const Scene& scene, const Instance& instance, std::size_t index);
 // Against the textures of `scene`.
 void validateMaterial(const Scene& scene, const Material& material);
+// `index` is for the message.
+void validateMesh(const Mesh& mesh, std::size_t index);
+// How far the instances of a mesh reach, were its bounds these.
+void validateReaches(const Scene& scene, std::size_t mesh, const Aabb& bounds);
 void validateLight(const Light& light);
 void validateSky(const glm::vec3& sky);
 void validateEnvironment(const Environment& environment);

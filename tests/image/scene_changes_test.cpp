@@ -63,6 +63,13 @@ Scene roomScene() {
     return scene;
 }
 
+// Twists it about the vertical, and stretches its upper end.
+void bend(Mesh& mesh) {
+    for (glm::vec3& p : mesh.positions)
+        p = glm::vec3(glm::rotate(glm::mat4(1), 0.5f * p.y, {0, 1, 0}) * glm::vec4(p, 1)) *
+            glm::vec3(1.0f, p.y > 0 ? 1.3f : 1.0f, 1.0f);
+}
+
 Image drawnBy(Renderer& renderer, const Scene& scene, Mode mode) {
     renderer.render(scene.cameras.front(), kPixels, kPixels, smallSettings(mode));
     return renderer.readImage();
@@ -90,6 +97,9 @@ std::vector<Change> changes() {
     const auto instance = [](std::size_t index) {
         return [index](Renderer& r, const Scene& s) { r.setInstance(index, s.instances[index]); };
     };
+    const auto mesh = [](std::size_t index) {
+        return [index](Renderer& r, const Scene& s) { r.setMesh(index, s.meshes[index]); };
+    };
     const auto lights = [](Renderer& r, const Scene& s) { r.setLights(s.lights); };
     return {
         {"box moves",
@@ -107,6 +117,8 @@ std::vector<Change> changes() {
              s.instances[kBox + 1].worldFromObject = placed({0, 0, -0.5f}, 0.1f);
          },
          instance(kBox + 1)},
+        {"box bends", [](Scene& s) { bend(s.meshes[kBox]); }, mesh(kBox)},
+        {"lamp bends", [](Scene& s) { bend(s.meshes[kBox + 1]); }, mesh(kBox + 1)},
         {"box painted",
          [](Scene& s) {
              s.materials[kBox].baseColor = {0.9f, 0.8f, 0.1f, 1};
@@ -203,6 +215,15 @@ TEST_F(SceneChanges, RefusedOnesChangeNothing) {
     refused("mesh it has", [&] { renderer.setInstance(kBox, instance); });
     instance.mesh = 6;
     instance.material = 99;
+    Mesh mesh = scene.meshes[kBox];
+    mesh.positions.pop_back();
+    mesh.normals.clear();
+    mesh.indices = {0, 1, 2};
+    refused("as many as it has", [&] { renderer.setMesh(kBox, mesh); });
+    mesh = scene.meshes[kBox];
+    mesh.positions[0].x = NAN;
+    refused("not finite", [&] { renderer.setMesh(kBox, mesh); });
+    refused("mesh 8 of 8", [&] { renderer.setMesh(8, mesh); });
     refused("material 99", [&] { renderer.setInstance(kBox, instance); });
     Material material;
     material.baseColorTexture.texture = 3;

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// The scene that a Renderer or a LightField holds: its calls as the public headers promise them, each checked,
+// and under a guard of the host's GL state.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "scene/gpu_scene.h"
+
+namespace conelight::scene {
+
+class HeldScene {
+  public:
+    // `scene` is valid. The old one is freed first.
+    void set(const Scene& scene);
+    explicit operator bool() const { return scene_.has_value(); }
+    // Throws Error(Usage) without a scene, in the name of a call.
+    GpuScene& require(const char* call);
+    const GpuScene& operator*() const { return *scene_; }
+    const GpuScene* operator->() const { return &*scene_; }
+
+    // Throw Error(Usage) without a scene and for indices out of range, Error(BadInput) for what
+    // Scene::validate refuses; nothing is changed then.
+    void setInstance(std::size_t index, const Instance& instance);
+    void setMesh(std::size_t index, const Mesh& mesh);
+    void setMaterial(std::size_t index, const Material& material);
+    void setLight(std::size_t index, const Light& light);
+    void setLights(const std::vector<Light>& lights);
+    void setSky(const glm::vec3& radiance);
+    void setEnvironment(const Environment& environment);
+
+  private:
+    std::optional<GpuScene> scene_;
+};
+
+}  // namespace conelight::scene
