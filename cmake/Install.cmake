@@ -15,7 +15,11 @@ foreach(set core io)
     endif()
   endforeach()
 endforeach()
-install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
+# Where Debian looks for it, once a package (cmake/Package.cmake).
+set(doc ${CMAKE_INSTALL_DATAROOTDIR}/doc)
+set(runtime_package libconelight${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
+install(FILES LICENSE DESTINATION ${doc}/${runtime_package} RENAME copyright COMPONENT runtime)
+install(FILES LICENSE DESTINATION ${doc}/libconelight-dev RENAME copyright COMPONENT development)
 if(CONELIGHT_BUILD_IO)
   install(FILES include/conelight.h DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 endif()
@@ -28,6 +32,7 @@ install(FILES ${PROJECT_BINARY_DIR}/conelightConfig.cmake ${PROJECT_BINARY_DIR}/
   DESTINATION ${package})
 if(TARGET conelight_program)
   install(TARGETS conelight_program COMPONENT program)
+  install(FILES LICENSE DESTINATION ${doc}/conelight RENAME copyright COMPONENT program)
 endif()
 
 # pkg-config. What static libraries need stands in Libs.private, not in Requires.private: with the shared ones nobody needs
