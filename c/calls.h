@@ -36,7 +36,8 @@ T& need(T* pointer, const char* what) {
     return *pointer;
 }
 
-// A struct of the caller, of whose fields this version knows all.
+// A struct of the caller; one of a later version has more fields, which are not looked at. Whoever adds a field here starts
+// from the INIT values and takes the first `size` bytes, so that the structs of this version are still taken.
 template <class Struct>
 const Struct& readStruct(const Struct* given, const char* what) {
     const std::size_t size = need(given, what).size;

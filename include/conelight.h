@@ -5,7 +5,8 @@
  * W/m^2. Triangles are counter-clockwise seen from their front. Matrices are column by column, worldFromObject.
  *
  * Results: every call that can fail returns a conelight_result, and conelight_message() says in one line what was wrong.
- * A call that fails changes nothing and writes no output. NULL where an object is wanted is CONELIGHT_USAGE.
+ * A call that fails changes nothing and writes no output; where the driver fails while it draws, there is no picture
+ * until the next. NULL where an object is wanted is CONELIGHT_USAGE.
  *
  * Objects: what a _create or _load returns is the caller's, and ends with _destroy (NULL is allowed there). Nothing is
  * kept of pointers that are handed in. Texts that are returned live as long as what they were asked of, unchanged.

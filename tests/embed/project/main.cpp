@@ -161,11 +161,40 @@ void checkCopies(conelight::Renderer& renderer, const conelight::Image& image) {
     glDeleteFramebuffers(1, &framebuffer);
 }
 
+void check(conelight_result result) {
+    if (result != CONELIGHT_OK) fail(conelight_message());
+}
+
+// By C: every material blue, then every instance out of sight.
+void checkChangesInC(conelight_renderer* renderer, const conelight_scene* scene, int size) {
+    std::vector<glm::vec4> read(static_cast<std::size_t>(size * size));
+    const auto draw = [&] {
+        check(conelight_renderer_render(renderer, nullptr, size, size, nullptr, "albedo"));
+        check(conelight_renderer_read(renderer, &read[0].x, 4 * read.size()));
+    };
+    conelight_counts counts = CONELIGHT_COUNTS_INIT;
+    check(conelight_scene_get_counts(scene, &counts));
+    conelight_material blue = CONELIGHT_MATERIAL_INIT;
+    blue.base_color[0] = blue.base_color[1] = 0;
+    for (std::size_t i = 0; i < counts.materials; ++i)
+        check(conelight_renderer_set_material(renderer, i, &blue));
+    draw();
+    for (const glm::vec4& pixel : read)
+        if (pixel.r != 0 || pixel.g != 0 || (pixel.a > 0) != (pixel.b > 0))
+            fail("C: a material did not change");
+    for (std::size_t i = 0; i < counts.instances; ++i) {
+        conelight_instance instance = CONELIGHT_INSTANCE_INIT;
+        check(conelight_scene_get_instance(scene, i, &instance));
+        instance.world_from_object[13] += 1000;  // m, up
+        check(conelight_renderer_set_transform(renderer, i, instance.world_from_object));
+    }
+    draw();
+    for (const glm::vec4& pixel : read)
+        if (pixel.a != 0) fail("C: an instance did not move");
+}
+
 // By C, in this context: the same picture in a texture of the host and in memory.
 void checkC() {
-    const auto check = [](conelight_result result) {
-        if (result != CONELIGHT_OK) fail(conelight_message());
-    };
     constexpr int kSize = 16;
     conelight_scene* scene = nullptr;
     conelight_renderer* renderer = nullptr;
@@ -174,11 +203,19 @@ void checkC() {
     check(conelight_renderer_set_scene(renderer, scene));
     check(conelight_renderer_render(renderer, nullptr, kSize, kSize, nullptr, "albedo"));
     const HostTexture texture(GL_RGBA32F, kSize);
+    const HostTexture target(GL_RGBA32F, kSize);
+    GLuint framebuffer = 0;
+    glCreateFramebuffers(1, &framebuffer);
+    glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, target.name, 0);
     check(conelight_renderer_copy_to_texture(renderer, texture.name));
+    check(conelight_renderer_copy_to_framebuffer(renderer, framebuffer, 0, 0));
+    glDeleteFramebuffers(1, &framebuffer);
     std::vector<glm::vec4> read(static_cast<std::size_t>(kSize * kSize));
     check(conelight_renderer_read(renderer, &read[0].x, 4 * read.size()));
-    if (read[0] != texture.pixels()[static_cast<std::size_t>(kSize * (kSize - 1))] || !(read[136].r > 0))
+    if (read[0] != texture.pixels()[static_cast<std::size_t>(kSize * (kSize - 1))] || !(read[136].r > 0) ||
+        texture.pixels() != target.pixels())
         fail("C: a copy of the picture has other pixels");
+    checkChangesInC(renderer, scene, kSize);
     conelight_renderer_destroy(renderer);
     conelight_scene_destroy(scene);
 }
