@@ -9,11 +9,14 @@ function(conelight_hide_symbols target)
 endfunction()
 
 # conelight_stage_headers(FOLDER HEADER...): makes headers of the sources public as <conelight/FOLDER/...>, for hosts
-# that build us in their project and for the installation. They may include nothing but public headers.
+# that build us in their project and for the installation. They may include public headers, and each other as "FOLDER/...".
 function(conelight_stage_headers folder)
   foreach(header IN LISTS ARGN)
     get_filename_component(name ${header} NAME)
-    configure_file(${header} ${PROJECT_BINARY_DIR}/include/conelight/${folder}/${name} COPYONLY)
+    file(READ ${header} text)
+    string(REPLACE "#include \"${folder}/" "#include \"conelight/${folder}/" text "${text}")
+    file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/include/conelight/${folder}/${name} CONTENT "${text}" @ONLY)
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${header})
   endforeach()
 endfunction()
 

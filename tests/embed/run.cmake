@@ -99,6 +99,14 @@ separate_arguments(flags UNIX_COMMAND "${flags}")
 step("compile C static" ${CC} -std=c11 ${example} -o ${WORK_DIR}/pc_static ${flags})
 run(pc_static ${WORK_DIR}/pc_static)
 
+# Every header, first and alone, without a warning.
+foreach(header IN LISTS headers)
+  string(MAKE_C_IDENTIFIER ${header} name)
+  file(WRITE ${WORK_DIR}/headers/${name}.cpp "#include <${header}>\n")
+  list(APPEND sources ${WORK_DIR}/headers/${name}.cpp)
+endforeach()
+step("headers" ${CXX} -std=c++20 -Wall -Wextra -Wpedantic -Wshadow -Werror -fsyntax-only -I${prefix}/include ${sources})
+
 # Other layouts of GLM's types are refused by the compiler, in words.
 file(WRITE ${WORK_DIR}/layout.cpp "#include <conelight/scene.h>\n")
 execute_process(COMMAND ${CXX} -std=gnu++20 -DGLM_FORCE_INTRINSICS -DGLM_FORCE_DEFAULT_ALIGNED_GENTYPES -fsyntax-only

@@ -2,6 +2,7 @@
 // A host program outside the project that reads and writes scenes and pictures, and draws in a context of the library's.
 // Input: the name of a folder. Output: a scene and a picture there, exit status 0; else the reason and status 1.
 #include <conelight/error.h>
+#include <conelight/io/animation.h>
 #include <conelight/io/environment_file.h>
 #include <conelight/io/image_file.h>
 #include <conelight/io/scene_file.h>
@@ -16,7 +17,8 @@ int main(int argc, char** argv) try {
     const std::string folder = argc > 1 ? argv[1] : ".";
     const conelight::Scene box = conelight::io::loadScene("builtin:cornell");
     conelight::io::writeScene(folder + "/box.glb", box, true);
-    conelight::Scene read = conelight::io::loadScene(folder + "/box.glb");
+    conelight::io::SceneAnimation animation;
+    conelight::Scene read = conelight::io::loadAnimatedScene(folder + "/box.glb", {}, animation);
     if (read.triangleCount() != box.triangleCount() || read.cameras.empty()) {
         std::puts("scenes: what was written is not what is read");
         return 1;
