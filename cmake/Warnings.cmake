@@ -1,6 +1,7 @@
 # conelight_warnings(TARGET): the warnings every target of ours builds with.
 function(conelight_warnings target)
   target_compile_options(${target} PRIVATE
+    $<$<COMPILE_LANG_AND_ID:C,GNU,Clang>:-Wall -Wextra -Wpedantic -Wshadow>
     $<$<COMPILE_LANG_AND_ID:CXX,GNU,Clang>:-Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Wformat=2
       -Wno-format-nonliteral -Wno-missing-field-initializers>
     # GCC 12 and 13 report overlapping copies inside std::string that do not exist (GCC bug 105651).

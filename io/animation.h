@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "conelight/export.h"
 #include "conelight/scene.h"
 #include "io/scene_file.h"
 
@@ -23,7 +24,7 @@ struct NodePose {
     glm::vec3 translation{0.0f};
     glm::quat rotation{1, 0, 0, 0};
     glm::vec3 scale{1.0f};
-    glm::mat4 parentFromNode() const;
+    CONELIGHT_API glm::mat4 parentFromNode() const;
 };
 
 struct AnimatedNode {
@@ -39,9 +40,9 @@ struct NodeTrack {
     std::size_t node = 0;
     NodeValue value = NodeValue::Translation;
     Interpolation interpolation = Interpolation::Linear;
-    std::vector<float> times;        // s, ascending, at least one
-    std::vector<glm::vec4> values;   // one per time; CubicSpline three: slope in, value, slope out
-    glm::vec4 at(float time) const;  // of rotations: unit length
+    std::vector<float> times;       // s, ascending, at least one
+    std::vector<glm::vec4> values;  // one per time; CubicSpline three: slope in, value, slope out
+    CONELIGHT_API glm::vec4 at(float time) const;  // of rotations: unit length
 };
 
 struct AnimationClip {
@@ -65,19 +66,19 @@ struct SceneAnimation {
 
 // Puts the scene that `animation` was loaded with into the pose of clip number `clip` at `time`, s. An
 // instance whose transform has no inverse then is invisible; others are visible as `rest` has them.
-void poseScene(const SceneAnimation& animation, std::size_t clip, float time, const Scene& rest,
-               Scene& scene);
+CONELIGHT_API void poseScene(const SceneAnimation& animation, std::size_t clip, float time, const Scene& rest,
+                             Scene& scene);
 
 // Number of the clip that a user names by name, or by number from 0. Throws Error(Usage) that lists them.
-std::size_t clipNumber(const SceneAnimation& animation, const std::string& nameOrNumber);
+CONELIGHT_API std::size_t clipNumber(const SceneAnimation& animation, const std::string& nameOrNumber);
 
 // As loadScene, with the movement of glTF files; empty for all others. Throws Error(BadInput) for clips that
 // cannot be used, too.
-Scene loadAnimatedScene(const std::string& pathOrBuiltin, const LoadOptions& options,
-                        SceneAnimation& animation);
+CONELIGHT_API Scene loadAnimatedScene(const std::string& pathOrBuiltin, const LoadOptions& options,
+                                      SceneAnimation& animation);
 
 // Where a node puts a light, and a camera of this distance to its target. False: no usable direction.
-void placeLight(Light& light, const glm::mat4& worldFromNode);
-bool placeCamera(Camera& camera, const glm::mat4& worldFromNode, float distance);
+CONELIGHT_API void placeLight(Light& light, const glm::mat4& worldFromNode);
+CONELIGHT_API bool placeCamera(Camera& camera, const glm::mat4& worldFromNode, float distance);
 
 }  // namespace conelight::io

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "conelight/export.h"
 #include "conelight/scene.h"
 
 namespace conelight::io {
@@ -18,10 +19,10 @@ struct LoadedEnvironment {
 // Throws Error(BadInput), one line that starts with the path: not readable, not twice as wide as high, a value
 // that is not finite. Negative values, which filters leave behind, are taken as 0. Throws Error(Usage) for an
 // unknown builtin, and for an extension nobody reads. Thread-safe.
-LoadedEnvironment loadEnvironment(const std::string& pathOrBuiltin);
+CONELIGHT_API LoadedEnvironment loadEnvironment(const std::string& pathOrBuiltin);
 
 // Puts it into a scene in place of what was there, turned counter-clockwise as seen from above (rad) and with all
 // its radiance multiplied by `strength`. Its sun takes the place of the one that a generated sky brought before.
-void useEnvironment(Scene& scene, LoadedEnvironment loaded, float rotation, float strength);
+CONELIGHT_API void useEnvironment(Scene& scene, LoadedEnvironment loaded, float rotation, float strength);
 
 }  // namespace conelight::io

@@ -12,12 +12,14 @@
 #include <utility>
 #include <vector>
 
+#include "conelight/export.h"
+
 namespace conelight::io {
 
 enum class ImageFormat { Png, Jpg, Exr, Hdr };
 
 // Format by extension (.png .jpg .jpeg .exr .hdr, any case). Throws Error(Usage) that names the known ones.
-ImageFormat imageFormatOf(const std::filesystem::path& path);
+CONELIGHT_API ImageFormat imageFormatOf(const std::filesystem::path& path);
 
 // 8 bits per channel, interleaved; rgb is sRGB-encoded by whoever fills it, alpha linear.
 struct ByteImage {
@@ -46,31 +48,31 @@ struct FloatImage {
 };
 
 // The bytes of a PNG file. Throws Error(Runtime) when memory runs out.
-std::vector<std::uint8_t> pngBytes(const ByteImage& image);
-void writePng(const std::filesystem::path& path, const ByteImage& image);
-void writeJpg(const std::filesystem::path& path, const ByteImage& image, int quality = 92);
+CONELIGHT_API std::vector<std::uint8_t> pngBytes(const ByteImage& image);
+CONELIGHT_API void writePng(const std::filesystem::path& path, const ByteImage& image);
+CONELIGHT_API void writeJpg(const std::filesystem::path& path, const ByteImage& image, int quality = 92);
 
 // Scanline EXR, 32-bit float, ZIP, first row on top, with the Rec.709 chromaticities. Values are stored as
 // they are (negative, infinite and NaN included).
-void writeExr(const std::filesystem::path& path, const FloatImage& image);
+CONELIGHT_API void writeExr(const std::filesystem::path& path, const FloatImage& image);
 // RGBE, 8 bits mantissa: alpha and layers are dropped, negatives become 0.
-void writeHdr(const std::filesystem::path& path, const FloatImage& image);
+CONELIGHT_API void writeHdr(const std::filesystem::path& path, const FloatImage& image);
 
 // All float, half and uint channels of the first part; R,G,B(,A) or Y become `pixels`, others layers (sorted
 // by name). A file without either has its first layer copied to `pixels`.
-FloatImage readExr(const std::filesystem::path& path);
+CONELIGHT_API FloatImage readExr(const std::filesystem::path& path);
 
 // PNG or JPG (and what else stb reads: BMP, TGA), with 1, 3 or 4 channels as in the file.
-ByteImage readByteImage(const std::filesystem::path& path);
+CONELIGHT_API ByteImage readByteImage(const std::filesystem::path& path);
 
 // Any known file as linear floats: EXR and HDR as they are, 8-bit ones sRGB-decoded.
-FloatImage readImage(const std::filesystem::path& path);
+CONELIGHT_API FloatImage readImage(const std::filesystem::path& path);
 
 // Encoded 8-bit picture in memory as RGBA; used for textures. `what` starts the error line.
-ByteImage decodeRgba(std::span<const std::uint8_t> encoded, const std::string& what);
+CONELIGHT_API ByteImage decodeRgba(std::span<const std::uint8_t> encoded, const std::string& what);
 
 // sRGB transfer function (IEC 61966-2-1) of one channel, both ways; [0,1] in, [0,1] out.
-float linearFromSrgb(float encoded);
-float srgbFromLinear(float linear);
+CONELIGHT_API float linearFromSrgb(float encoded);
+CONELIGHT_API float srgbFromLinear(float linear);
 
 }  // namespace conelight::io

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "conelight/export.h"
 #include "conelight/scene.h"
 
 namespace conelight::io {
@@ -32,9 +33,9 @@ struct LoadOptions {
 // Throws Error(BadInput), one line "FILE: where: what is wrong; what would be right"; Error(Usage) for an
 // extension nobody reads and for an unknown builtin. Reads files in the scene's folder; no other effect.
 // Thread-safe; on POSIX systems foreign formats fork the process.
-Scene loadScene(const std::string& pathOrBuiltin, const LoadOptions& options = {});
+CONELIGHT_API Scene loadScene(const std::string& pathOrBuiltin, const LoadOptions& options = {});
 
 // Extensions loadScene reads, in lower case with dot, sorted; for help texts and file dialogs.
-std::vector<std::string> sceneExtensions();
+CONELIGHT_API std::vector<std::string> sceneExtensions();
 
 }  // namespace conelight::io

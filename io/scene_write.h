@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "conelight/export.h"
 #include "conelight/scene.h"
 
 namespace conelight::io {
@@ -13,9 +14,9 @@ namespace conelight::io {
 // place for them. Returns what it could not hold, one line each. Throws Error(Usage) for an extension that is
 // not written, and when a file is there already and `force` is not given; Error(Runtime) when a file cannot
 // be written. Nothing is half-written.
-std::vector<std::string> writeScene(const std::string& path, const Scene& scene, bool force);
+CONELIGHT_API std::vector<std::string> writeScene(const std::string& path, const Scene& scene, bool force);
 
 // In lower case with dot, for help texts and completion.
-std::vector<std::string> writtenSceneExtensions();
+CONELIGHT_API std::vector<std::string> writtenSceneExtensions();
 
 }  // namespace conelight::io

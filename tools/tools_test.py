@@ -45,6 +45,16 @@ class Layers(Project):
         self.assertEqual(len(self.problems()), 1)
         self.assertIn("src/voxels/b.cpp:2", self.problems()[0])
 
+    def test_public_functions_are_marked(self):
+        self.write("include/conelight/a.h", "CONELIGHT_API int marked(int a);\ninline int one() { return 1; }\n"
+                   "struct Values {\n    int sum() const;\n};\nusing Call = void (*)(int);\n"
+                   "class CONELIGHT_API Kept {\n};\nclass Later;\n")
+        self.assertEqual(self.problems(), [])
+        self.write("include/conelight/b.h", "std::vector<int> lost(int a,\n                      int b);\nclass Hidden {\n};\n"
+                   "const Values* found();\n")
+        self.assertEqual([line.split(" is not")[0] for line in self.problems()],
+                         ["include/conelight/b.h:1: lost", "include/conelight/b.h:3: Hidden", "include/conelight/b.h:5: found"])
+
     def test_light_must_not_see_the_camera(self):
         self.write("src/light/a.cpp", '#include "view/camera.h"\n')
         self.assertEqual(len(self.problems()), 1)

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "conelight/export.h"
+
 namespace conelight::platform {
 
 constexpr int kAnyDevice = -1;
@@ -24,7 +26,7 @@ struct Current {
 // Current on the creating thread from construction to destruction, when the context that was current before
 // comes back. Contexts of one process may live at the same time. Throws Error(NoGl) with what was tried,
 // Error(Usage) for a device that is not listed.
-class HeadlessContext {
+class CONELIGHT_API HeadlessContext {
   public:
     explicit HeadlessContext(const HeadlessOptions& options = {});
     ~HeadlessContext();
@@ -48,7 +50,7 @@ class HeadlessContext {
 
 // Makes a context that was released current on the calling thread; at its end, what was current there before
 // is again. For hosts whose calls come from several threads: one at a time per context. Throws Error(Runtime).
-class CurrentContext {
+class CONELIGHT_API CurrentContext {
   public:
     explicit CurrentContext(HeadlessContext& context);
     ~CurrentContext();
@@ -61,7 +63,7 @@ class CurrentContext {
 };
 
 // One line per EGL device: "0: hardware, /dev/dri/card0", "1: software". Empty without EGL.
-std::vector<std::string> listDevices();
+CONELIGHT_API std::vector<std::string> listDevices();
 
 // What the current context offers beside what this library uses of it.
 struct DeviceLimit {
@@ -69,12 +71,12 @@ struct DeviceLimit {
     long long value;
     long long used;  // most that Conelight asks for
 };
-std::vector<DeviceLimit> deviceLimits();
+CONELIGHT_API std::vector<DeviceLimit> deviceLimits();
 // Extensions Conelight uses when they are there: name, present.
-std::vector<std::pair<std::string, bool>> optionalExtensions();
+CONELIGHT_API std::vector<std::pair<std::string, bool>> optionalExtensions();
 
 // Call first thing in main(): on software drivers the renderer's memory is freed and re-mapped for every
 // draw unless glibc's malloc is told to keep it (20-50 % of the CPU time of raster passes).
-void tuneAllocator();
+CONELIGHT_API void tuneAllocator();
 
 }  // namespace conelight::platform

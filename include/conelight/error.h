@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "conelight/export.h"
+
 namespace conelight {
 
 // What kind of failure an Error reports; the program turns each kind into an exit status.
@@ -18,7 +20,7 @@ enum class ErrorKind {
 };
 
 // A failure at run time. what() is one line: "FILE: where: what is wrong; what would be right".
-class Error : public std::runtime_error {
+class CONELIGHT_API Error : public std::runtime_error {
   public:
     Error(ErrorKind kind, const std::string& message) : std::runtime_error(message), kind_(kind) {}
     ErrorKind kind() const noexcept { return kind_; }
@@ -32,6 +34,6 @@ using LogCallback = std::function<void(LogLevel, std::string_view message)>;
 
 // Sets where messages go (process-wide; empty: nowhere, which is the default). The library itself prints
 // nothing. The callback may be called from any thread that calls the library, one call at a time.
-void setLogCallback(LogCallback callback);
+CONELIGHT_API void setLogCallback(LogCallback callback);
 
 }  // namespace conelight

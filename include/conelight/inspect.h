@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "conelight/export.h"
 #include "conelight/settings.h"
 
 namespace conelight {
@@ -100,11 +101,11 @@ struct PixelInspection {
 };
 
 // "diffuse cone", "face" ...: for tables and files.
-const char* nameOf(PathKind kind);
-const char* nameOf(PathEnd end);
-const char* nameOf(StepKind kind);
+CONELIGHT_API const char* nameOf(PathKind kind);
+CONELIGHT_API const char* nameOf(PathEnd end);
+CONELIGHT_API const char* nameOf(StepKind kind);
 // The part that paths of this kind add to.
 enum class PathPart { Diffuse, Specular, Occlusion };
-PathPart partOf(PathKind kind);
+CONELIGHT_API PathPart partOf(PathKind kind);
 
 }  // namespace conelight

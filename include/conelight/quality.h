@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "conelight/export.h"
 #include "conelight/settings.h"
 
 namespace conelight {
@@ -19,9 +20,9 @@ struct QualityInfo {
 };
 
 // In the order of Quality.
-std::vector<QualityInfo> qualityInfos();
+CONELIGHT_API std::vector<QualityInfo> qualityInfos();
 
 // "32 rays a pixel, 128 a voxel face"
-std::string qualityText(const QualityInfo& info);
+CONELIGHT_API std::string qualityText(const QualityInfo& info);
 
 }  // namespace conelight

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "conelight/export.h"
 #include "conelight/inspect.h"
 #include "conelight/scene.h"
 #include "conelight/settings.h"
@@ -53,7 +54,7 @@ struct RendererOptions {
         false;  // takes the context's KHR_debug callback: errors of the driver go to the log
 };
 
-class Renderer {
+class CONELIGHT_API Renderer {
   public:
     // Throws Error(NoGl) without a current 4.5 context.
     explicit Renderer(const RendererOptions& options = {});
@@ -106,6 +107,11 @@ class Renderer {
     // The picture as a screen shows it (what toneMapped gives): GL_TEXTURE_2D, RGBA8, row 0 is the top row.
     // Drawn anew at each call; owned by the renderer. 0 before the first render().
     std::uint32_t displayTexture(const ImageSettings& settings);
+    // Copies the last picture, linear, into what the host draws to: a framebuffer (0: the default one), lower left
+    // corner at (x, y), all its colour buffers; or a GL_TEXTURE_2D of the picture's size, row 0 the bottom row.
+    // Throw Error(Usage) before the first render() and for a target that does not do.
+    void copyToFramebuffer(std::uint32_t framebuffer, int x, int y) const;
+    void copyToTexture(std::uint32_t texture) const;
     const FrameStats& stats() const;
 
   private:
@@ -115,9 +121,9 @@ class Renderer {
 
 // Exposure, stops, that shows the picture's mean log luminance as middle grey; a tenth of its pixels, the
 // darkest, and a twentieth, the brightest, do not count. 0 where all is black.
-float autoExposure(const Image& image);
+CONELIGHT_API float autoExposure(const Image& image);
 
 // 8-bit picture bytes (RGB, first row on top) of a linear image: exposure, tone map, sRGB encoding.
-std::vector<std::uint8_t> toneMapped(const Image& image, const ImageSettings& settings);
+CONELIGHT_API std::vector<std::uint8_t> toneMapped(const Image& image, const ImageSettings& settings);
 
 }  // namespace conelight

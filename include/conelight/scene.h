@@ -16,6 +16,9 @@
 #include <string>
 #include <vector>
 
+#include "conelight/export.h"
+#include "conelight/glm_layout.h"
+
 namespace conelight {
 
 // Axis-aligned box; empty when min > max.
@@ -61,7 +64,7 @@ struct Mesh {
     std::vector<std::uint32_t> indices;  // multiple of 3
 
     std::size_t triangleCount() const { return indices.size() / 3; }
-    Aabb bounds() const;
+    CONELIGHT_API Aabb bounds() const;
 };
 
 enum class TextureWrap : std::uint8_t { Repeat, Clamp, Mirror };
@@ -148,10 +151,10 @@ inline bool isTransmissive(const Material& m) { return m.transmission > 0 && m.m
 // The Phong model of a metallic-roughness material, and the other way round: setPbrFromPhong sets what the
 // model says and leaves the rest, `phong` too. The mapping is chosen so
 // that a diffuse surface shows the same radiance in both (docs/theory/1_scene.md, "Two material models").
-PhongMaterial phongFromPbr(const Material& material);
-void setPbrFromPhong(Material& material, const PhongMaterial& phong);
+CONELIGHT_API PhongMaterial phongFromPbr(const Material& material);
+CONELIGHT_API void setPbrFromPhong(Material& material, const PhongMaterial& phong);
 // As the scene gives it, or else derived.
-PhongMaterial phongOf(const Material& material);
+CONELIGHT_API PhongMaterial phongOf(const Material& material);
 
 // One placement of a mesh.
 struct Instance {
@@ -194,10 +197,10 @@ struct Light {
 // Radiant flux, W: all that a light sends out, per channel. Point lights and spots as their intensity over all
 // directions; rectangles as their radiance over area and hemisphere. Nothing for a directional light, which has no
 // end, and for a light with a falloff of its own, which has no physical unit.
-std::optional<glm::vec3> radiantFlux(const Light& light);
+CONELIGHT_API std::optional<glm::vec3> radiantFlux(const Light& light);
 // Sets the intensity by it, 0 or more, for the shape that the light has. False, and nothing is changed, where there
 // is none.
-bool setRadiantFlux(Light& light, const glm::vec3& flux);
+CONELIGHT_API bool setRadiantFlux(Light& light, const glm::vec3& flux);
 
 // A perspective camera. Looks from eye to target.
 struct Camera {
@@ -249,30 +252,30 @@ struct Scene {
     std::vector<std::string> notes;
 
     // World bounds of all visible instances. O(vertices).
-    Aabb bounds() const;
-    std::size_t triangleCount() const;  // over visible instances
+    CONELIGHT_API Aabb bounds() const;
+    CONELIGHT_API std::size_t triangleCount() const;  // over visible instances
 
     // Throws Error(BadInput) that names the first element that breaks the rules above (an index out of range,
     // an attribute of the wrong length, a non-finite position or matrix, an instance that reaches further
     // than 1e15 m, a zero-size texture).
-    void validate() const;
+    CONELIGHT_API void validate() const;
 };
 
 // A camera that looks at the whole of `bounds` from the front (+z) and slightly above, 45 degrees vertical.
-Camera frameCamera(const Aabb& bounds);
+CONELIGHT_API Camera frameCamera(const Aabb& bounds);
 
 // Where a unit direction lies in an environment's picture, unrotated, and back: [0,1) from the left, [0,1] from
 // the top.
-glm::vec2 environmentUv(const glm::vec3& direction);
-glm::vec3 environmentDirection(const glm::vec2& uv);
+CONELIGHT_API glm::vec2 environmentUv(const glm::vec3& direction);
+CONELIGHT_API glm::vec3 environmentDirection(const glm::vec2& uv);
 
 // Takes the sun out of the environment's picture and adds it as a directional light, whose shadows are sharp and
 // whose light is free of noise. False, and nothing is changed, when no spot of 4 degrees' radius gives more than a
 // twentieth of the picture's light.
-bool splitSun(Scene& scene);
+CONELIGHT_API bool splitSun(Scene& scene);
 
 // Adds what a scene needs to be seen: a camera when there is none, a headlight at the first camera and
 // a grey sky when there is no light, no emission and no sky. What was added is appended to `notes`.
-void completeScene(Scene& scene);
+CONELIGHT_API void completeScene(Scene& scene);
 
 }  // namespace conelight

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "conelight/export.h"
+#include "conelight/glm_layout.h"
 #include "conelight/mode.h"
 #include "conelight/settings_groups.h"
 
@@ -116,9 +118,9 @@ struct TracedSettings {
     bool operator==(const TracedSettings&) const = default;
 };
 // Fills in all fields but `bounces` and `budgeted`.
-void applyQuality(TracedSettings& settings, Quality quality);
+CONELIGHT_API void applyQuality(TracedSettings& settings, Quality quality);
 // The quality that gives these settings, whatever `bounces` and `budgeted` are; nothing when none does.
-std::optional<Quality> qualityOf(const TracedSettings& settings);
+CONELIGHT_API std::optional<Quality> qualityOf(const TracedSettings& settings);
 
 // Edges of the scene's triangles: over the picture, hidden ones left out, or alone, all of them.
 enum class Wireframe { Off, Over, Alone };
@@ -199,25 +201,25 @@ struct SettingInfo {
 };
 
 // The range as the documentation prints it: "8..512 by 4", "auto, 0..8", "none,reinhard,aces".
-std::string rangeText(const SettingInfo& info);
+CONELIGHT_API std::string rangeText(const SettingInfo& info);
 
 // All settings, in the order of the table. The reference holds until a guest registers settings of its own.
-const std::vector<SettingInfo>& settingInfos();
+CONELIGHT_API const std::vector<SettingInfo>& settingInfos();
 
 // Words that fill in several settings at once, taken wherever a setting is: `traced.quality=draft`. A word
 // writes its settings when it is read; what is set after it stands.
-const std::vector<SettingInfo>& presetInfos();
+CONELIGHT_API const std::vector<SettingInfo>& presetInfos();
 
 // A setting or a preset word by its key; nullptr when there is none.
-const SettingInfo* findSetting(const std::string& key);
+CONELIGHT_API const SettingInfo* findSetting(const std::string& key);
 
 // Sets one value, or all values of a preset word. Throws Error(Usage): unknown key (names the nearest known
 // one), unreadable or out of range. `settings` is as before then.
-void setSetting(Settings& settings, const std::string& key, const std::string& value);
+CONELIGHT_API void setSetting(Settings& settings, const std::string& key, const std::string& value);
 // The value as text that setSetting reads back as the same value. Of a preset: the word that makes these
 // settings; "custom" when none does, which setSetting does not take.
-std::string getSetting(const Settings& settings, const std::string& key);
+CONELIGHT_API std::string getSetting(const Settings& settings, const std::string& key);
 // Throws Error(Usage) that names the first value out of range; for values written into the structs directly.
-void validateSettings(const Settings& settings);
+CONELIGHT_API void validateSettings(const Settings& settings);
 
 }  // namespace conelight

@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <string>
 
+#include "conelight/export.h"
+
 namespace conelight {
 
 // Writes every shader entry in every variant the renderer can ask for into `directory` (made if missing):
@@ -12,6 +14,7 @@ namespace conelight {
 // STAGE/NAME-DEFINES.comp.glsl (.vert .geom .frag), which glslangValidator understands. `shaderDirectory` as
 // in RendererOptions. Returns how many files were written. Needs no GL context.
 // Throws Error(Runtime): an include fails, a file cannot be written.
-std::size_t expandAllShaders(const std::string& directory, const std::string& shaderDirectory = "");
+CONELIGHT_API std::size_t expandAllShaders(const std::string& directory,
+                                           const std::string& shaderDirectory = "");
 
 }  // namespace conelight

@@ -45,6 +45,14 @@ void GLAPIENTRY onMessage(GLenum source, GLenum type, GLuint, GLenum severity, G
     }
 }
 
+}  // namespace
+
+void installDebugCallback() {
+    glEnable(GL_DEBUG_OUTPUT);
+    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    glDebugMessageCallback(onMessage, nullptr);
+}
+
 // Without a current context libepoxy ends the process at the first call, so ask the window-system libraries
 // that are already loaded: a context comes from one of them.
 bool hasCurrentContext() {
@@ -64,14 +72,6 @@ bool hasCurrentContext() {
 #else
     return true;  // unknown: libepoxy decides
 #endif
-}
-
-}  // namespace
-
-void installDebugCallback() {
-    glEnable(GL_DEBUG_OUTPUT);
-    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
-    glDebugMessageCallback(onMessage, nullptr);
 }
 
 int debugErrorCount() { return errorCount; }

@@ -18,5 +18,7 @@ void resetDebugErrors();
 
 // Throws Error(NoGl) unless a context is current and is desktop OpenGL >= 4.5.
 void requireContext();
+// Whether any context is current on this thread. Costs microseconds.
+bool hasCurrentContext();
 
 }  // namespace conelight::gl

@@ -5,6 +5,8 @@
 
 #include <array>
 
+#include "base/log.h"
+#include "gl/debug.h"
 #include "gl/gl.h"
 
 namespace conelight::gl {
@@ -352,6 +354,9 @@ void HostStateGuard::State::restore() const {
 }
 
 HostStateGuard::HostStateGuard() : saved_(std::make_unique<State>()) {
+    if (!hasCurrentContext())
+        base::fail(ErrorKind::NoGl,
+                   "OpenGL: no context is current on this thread; the renderer's would be right");
     saved_->save();
     State::setAssumed();
 }

@@ -30,7 +30,7 @@ namespace conelight::gl {
 class HostStateGuard {
   public:
     // The context must be current, and the same one in both. Costs 0.01 ms of CPU on llvmpipe (the test
-    // measures it).
+    // measures it). Throws Error(NoGl) where none is current.
     HostStateGuard();
     ~HostStateGuard();
     HostStateGuard(const HostStateGuard&) = delete;

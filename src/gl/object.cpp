@@ -21,6 +21,8 @@ Registry& registry() {
     return *instance;
 }
 
+thread_local int forgetting = 0;
+
 GLenum identifier(ObjectType type) {
     switch (type) {
         case ObjectType::Buffer:
@@ -57,6 +59,9 @@ std::size_t liveObjectCount() {
     return all.objects.size();
 }
 
+ForgetNames::ForgetNames() { ++forgetting; }
+ForgetNames::~ForgetNames() { --forgetting; }
+
 namespace detail {
 
 std::uint32_t created(ObjectType type, Name name, const std::string& label, std::size_t bytes) {
@@ -71,7 +76,7 @@ std::uint32_t created(ObjectType type, Name name, const std::string& label, std:
     return all.next++;
 }
 
-void deleteName(ObjectType type, Name name, std::uint32_t key) noexcept {
+static void deleteFromContext(ObjectType type, Name name) {
     switch (type) {
         case ObjectType::Buffer:
             glDeleteBuffers(1, &name);
@@ -95,6 +100,10 @@ void deleteName(ObjectType type, Name name, std::uint32_t key) noexcept {
             glDeleteQueries(1, &name);
             break;
     }
+}
+
+void deleteName(ObjectType type, Name name, std::uint32_t key) noexcept {
+    if (forgetting == 0) deleteFromContext(type, name);
     Registry& all = registry();
     const std::lock_guard lock(all.mutex);
     all.objects.erase(key);

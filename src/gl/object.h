@@ -29,6 +29,15 @@ struct LiveObject {
 std::vector<LiveObject> liveObjects();
 std::size_t liveObjectCount();
 
+// While one lives, owners on this thread forget their names instead of deleting them: for when the context is gone.
+class ForgetNames {
+  public:
+    ForgetNames();
+    ~ForgetNames();
+    ForgetNames(const ForgetNames&) = delete;
+    ForgetNames& operator=(const ForgetNames&) = delete;
+};
+
 namespace detail {
 // Labels `name` and puts it on the list; the result is its key there.
 std::uint32_t created(ObjectType type, Name name, const std::string& label, std::size_t bytes);

@@ -7,6 +7,7 @@
 
 #include "base/clock.h"
 #include "base/log.h"
+#include "gl/copy.h"
 #include "gl/debug.h"
 #include "gl/gl.h"
 #include "gl/host_state.h"
@@ -52,7 +53,7 @@ bool isAntialiased(const Settings& settings) {
 
 }  // namespace
 
-struct Renderer::Impl {
+struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in a public class
     gl::ProgramLibrary programs;
     gl::Profiler profiler;
     gl::Device device{programs, profiler};
@@ -99,7 +100,12 @@ Renderer::Renderer(const RendererOptions& options) {
     impl_->deviceName = gl::rendererName();
 }
 
-Renderer::~Renderer() = default;
+Renderer::~Renderer() {
+    // Without the context, what it held is gone with it or cannot be freed.
+    std::optional<gl::ForgetNames> forget;
+    if (!gl::hasCurrentContext()) forget.emplace();
+    impl_.reset();
+}
 
 void Renderer::setScene(const Scene& scene) {
     scene.validate();  // a scene that is refused leaves the old one in place
@@ -297,6 +303,19 @@ std::uint32_t Renderer::displayTexture(const ImageSettings& settings) {
     const gl::HostStateGuard guard;
     impl_->display.draw(impl_->device, impl_->image.texture(), settings);
     return impl_->display.texture().name();
+}
+
+void Renderer::copyToFramebuffer(std::uint32_t framebuffer, int x, int y) const {
+    if (!impl_->image)
+        base::fail(ErrorKind::Usage, "copyToFramebuffer: nothing was rendered; render before it");
+    const gl::HostStateGuard guard;
+    gl::copyToFramebuffer(impl_->image.texture(), framebuffer, {x, y});
+}
+
+void Renderer::copyToTexture(std::uint32_t texture) const {
+    if (!impl_->image) base::fail(ErrorKind::Usage, "copyToTexture: nothing was rendered; render before it");
+    const gl::HostStateGuard guard;
+    gl::copyToTexture(impl_->image.texture(), texture);
 }
 
 const FrameStats& Renderer::stats() const {

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // A host program outside the project: its own OpenGL context (EGL, no display), a scene made by hand, one
-// picture, and one of a guest's mode. Input: nothing. Output: exit status 0 and one line when the picture is
-// right, else the reason and status 1.
+// picture, one of a guest's mode, copies of the picture in the host's textures, and C in the same context. Input: the
+// name of a file. Output: the picture there (PFM), exit status 0 and one line when all is right, else the reason and
+// status 1.
+#include <conelight.h>
 #include <conelight/error.h>
 #include <conelight/renderer.h>
 #include <conelight/thesis/settings.h>
@@ -13,7 +15,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <string>
+#include <vector>
 
 namespace {
 
@@ -75,6 +79,20 @@ conelight::Scene floorAndWall() {
     return scene;
 }
 
+// Halfway down the picture lies the floor. Near the wall it must be redder than far from it: light that
+// bounced, which no direct light can imitate, since lamp and floor are white.
+void checkBounce(const conelight::Image& image) {
+    const int size = image.width;
+    const auto redness = [&](int x) {
+        const glm::vec4 pixel = image.pixels[static_cast<std::size_t>(size / 2 * size + x)];
+        if (pixel.a < 0.5f || pixel.g <= 0) fail("no lit floor where there should be");
+        return pixel.r / pixel.g;
+    };
+    const float near = redness(size * 5 / 16), far = redness(size * 11 / 16);
+    if (!(near > far * 1.01f))
+        fail("no light bounces off the wall: " + std::to_string(near) + " " + std::to_string(far));
+}
+
 // A mode that the library does not bring: it draws the floor, too.
 void checkGuest(conelight::Renderer& renderer, const conelight::Camera& camera, int size) {
     conelight::Settings settings;
@@ -85,9 +103,144 @@ void checkGuest(conelight::Renderer& renderer, const conelight::Camera& camera, 
     if (!std::isfinite(floor.g) || floor.g <= 0 || floor.a < 0.5f) fail("mode thesis draws no lit floor");
 }
 
+// The host's texture, of the picture's size or not.
+struct HostTexture {
+    GLuint name = 0;
+    int size = 0;
+    HostTexture(GLenum format, int edge) : size(edge) {
+        glCreateTextures(GL_TEXTURE_2D, 1, &name);
+        glTextureStorage2D(name, 1, format, edge, edge);
+    }
+    ~HostTexture() { glDeleteTextures(1, &name); }
+    HostTexture(const HostTexture&) = delete;
+    HostTexture& operator=(const HostTexture&) = delete;
+
+    // Row 0 is the lowest.
+    std::vector<glm::vec4> pixels() const {
+        std::vector<glm::vec4> all(static_cast<std::size_t>(size * size));
+        glGetTextureImage(name, 0, GL_RGBA, GL_FLOAT, static_cast<GLsizei>(all.size() * sizeof(glm::vec4)),
+                          all.data());
+        return all;
+    }
+};
+
+template <class Call>
+bool refused(conelight::ErrorKind kind, Call&& call) {
+    try {
+        call();
+    } catch (const conelight::Error& error) {
+        return error.kind() == kind;
+    }
+    return false;
+}
+
+void checkCopies(conelight::Renderer& renderer, const conelight::Image& image) {
+    const int size = image.width, margin = 5;
+    const HostTexture same(GL_RGBA32F, size), larger(GL_RGBA32F, size + 2 * margin),
+        integers(GL_RGBA8UI, size);
+    renderer.copyToTexture(same.name);
+    GLuint framebuffer = 0;
+    glCreateFramebuffers(1, &framebuffer);
+    glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, larger.name, 0);
+    renderer.copyToFramebuffer(framebuffer, margin, margin);
+    const std::vector<glm::vec4> copy = same.pixels(), inside = larger.pixels();
+    for (int y = 0; y < size; ++y) {
+        const auto row = static_cast<std::size_t>(size) * sizeof(glm::vec4);
+        const glm::vec4* shown = &image.pixels[static_cast<std::size_t>((size - 1 - y) * size)];
+        if (std::memcmp(shown, &copy[static_cast<std::size_t>(y * size)], row) != 0 ||
+            std::memcmp(shown, &inside[static_cast<std::size_t>((y + margin) * larger.size + margin)], row) !=
+                0)
+            fail("a copy of the picture has other pixels");
+    }
+    using conelight::ErrorKind;
+    if (!refused(ErrorKind::Usage, [&] { renderer.copyToTexture(larger.name); }) ||
+        !refused(ErrorKind::Usage, [&] { renderer.copyToTexture(integers.name); }) ||
+        !refused(ErrorKind::Usage, [&] { renderer.copyToTexture(12345); }) ||
+        !refused(ErrorKind::Usage, [&] { renderer.copyToFramebuffer(12345, 0, 0); }))
+        fail("a target that cannot hold the picture is taken");
+    glDeleteFramebuffers(1, &framebuffer);
+}
+
+void check(conelight_result result) {
+    if (result != CONELIGHT_OK) fail(conelight_message());
+}
+
+// By C: every material blue, then every instance out of sight.
+void checkChangesInC(conelight_renderer* renderer, const conelight_scene* scene, int size) {
+    std::vector<glm::vec4> read(static_cast<std::size_t>(size * size));
+    const auto draw = [&] {
+        check(conelight_renderer_render(renderer, nullptr, size, size, nullptr, "albedo"));
+        check(conelight_renderer_read(renderer, &read[0].x, 4 * read.size()));
+    };
+    conelight_counts counts = CONELIGHT_COUNTS_INIT;
+    check(conelight_scene_get_counts(scene, &counts));
+    conelight_material blue = CONELIGHT_MATERIAL_INIT;
+    blue.base_color[0] = blue.base_color[1] = 0;
+    for (std::size_t i = 0; i < counts.materials; ++i)
+        check(conelight_renderer_set_material(renderer, i, &blue));
+    draw();
+    for (const glm::vec4& pixel : read)
+        if (pixel.r != 0 || pixel.g != 0 || (pixel.a > 0) != (pixel.b > 0))
+            fail("C: a material did not change");
+    for (std::size_t i = 0; i < counts.instances; ++i) {
+        conelight_instance instance = CONELIGHT_INSTANCE_INIT;
+        check(conelight_scene_get_instance(scene, i, &instance));
+        instance.world_from_object[13] += 1000;  // m, up
+        check(conelight_renderer_set_transform(renderer, i, instance.world_from_object));
+    }
+    draw();
+    for (const glm::vec4& pixel : read)
+        if (pixel.a != 0) fail("C: an instance did not move");
+}
+
+// By C, in this context: the same picture in a texture of the host and in memory.
+void checkC() {
+    constexpr int kSize = 16;
+    conelight_scene* scene = nullptr;
+    conelight_renderer* renderer = nullptr;
+    check(conelight_scene_load("builtin:cornell", 0, &scene));
+    check(conelight_renderer_create(nullptr, &renderer));
+    check(conelight_renderer_set_scene(renderer, scene));
+    check(conelight_renderer_render(renderer, nullptr, kSize, kSize, nullptr, "albedo"));
+    const HostTexture texture(GL_RGBA32F, kSize);
+    const HostTexture target(GL_RGBA32F, kSize);
+    GLuint framebuffer = 0;
+    glCreateFramebuffers(1, &framebuffer);
+    glNamedFramebufferTexture(framebuffer, GL_COLOR_ATTACHMENT0, target.name, 0);
+    check(conelight_renderer_copy_to_texture(renderer, texture.name));
+    check(conelight_renderer_copy_to_framebuffer(renderer, framebuffer, 0, 0));
+    glDeleteFramebuffers(1, &framebuffer);
+    std::vector<glm::vec4> read(static_cast<std::size_t>(kSize * kSize));
+    check(conelight_renderer_read(renderer, &read[0].x, 4 * read.size()));
+    if (read[0] != texture.pixels()[static_cast<std::size_t>(kSize * (kSize - 1))] || !(read[136].r > 0) ||
+        texture.pixels() != target.pixels())
+        fail("C: a copy of the picture has other pixels");
+    checkChangesInC(renderer, scene, kSize);
+    conelight_renderer_destroy(renderer);
+    conelight_scene_destroy(scene);
+}
+
+// Without a context the renderer says so, and its end is no crash.
+void checkLostContext(conelight::Renderer& renderer, const conelight::Camera& camera) {
+    eglMakeCurrent(eglGetCurrentDisplay(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    const auto render = [&] { renderer.render(camera, 8, 8, conelight::Settings{}); };
+    if (!refused(conelight::ErrorKind::NoGl, render)) fail("a renderer draws without a context");
+}
+
+void writePfm(const char* path, const conelight::Image& image) {
+    std::FILE* file = std::fopen(path, "wb");
+    if (file == nullptr) fail("the picture cannot be written");
+    std::fprintf(file, "PF\n%d %d\n-1.0\n", image.width, image.height);
+    for (int y = image.height - 1; y >= 0; --y)
+        for (int x = 0; x < image.width; ++x)
+            std::fwrite(&image.pixels[static_cast<std::size_t>(y * image.width + x)], sizeof(float), 3, file);
+    std::fclose(file);
+}
+
 }  // namespace
 
-int main() try {
+int main(int argc, char** argv) try {
+    if (argc != 2) fail("usage: embed OUT.pfm");
     conelight::thesis::registerThesis();
     makeContext();
     glEnable(GL_DEBUG_OUTPUT);
@@ -129,17 +282,12 @@ int main() try {
     for (const glm::vec4& pixel : image.pixels)
         if (!std::isfinite(pixel.r + pixel.g + pixel.b) || pixel.r < 0) fail("a pixel that is no radiance");
 
-    // Halfway down the picture lies the floor. Near the wall it must be redder than far from it: light that
-    // bounced, which no direct light can imitate, since lamp and floor are white.
-    const auto redness = [&](int x) {
-        const glm::vec4 pixel = image.pixels[static_cast<std::size_t>(kSize / 2 * kSize + x)];
-        if (pixel.a < 0.5f || pixel.g <= 0) fail("no lit floor where there should be");
-        return pixel.r / pixel.g;
-    };
-    const float near = redness(kSize * 5 / 16), far = redness(kSize * 11 / 16);
-    if (!(near > far * 1.01f))
-        fail("no light bounces off the wall: " + std::to_string(near) + " " + std::to_string(far));
+    checkBounce(image);
+    checkCopies(renderer, image);
+    writePfm(argv[1], image);
     checkGuest(renderer, camera, kSize);
+    checkC();
+    checkLostContext(renderer, camera);
     if (glErrors != 0) fail("OpenGL errors");
     std::printf("embed: Conelight %s drew %d x %d pixels\n", CONELIGHT_VERSION_STRING, image.width,
                 image.height);

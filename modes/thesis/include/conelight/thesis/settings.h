@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "conelight/export.h"
 #include "conelight/mode.h"
 #include "conelight/settings.h"
 
@@ -59,7 +60,7 @@ struct ThesisDefects {
     bool operator==(const ThesisDefects&) const = default;
 };
 // Pointers to all of them, in the order above.
-std::vector<bool*> thesisDefectFlags(ThesisDefects& defects);
+CONELIGHT_API std::vector<bool*> thesisDefectFlags(ThesisDefects& defects);
 
 // Regular: as in the thesis's chapter 4. Customised: as its chapter 5 changed it.
 enum class ConeVariant { Regular, Customised };
@@ -77,7 +78,7 @@ struct ThesisCones {
     bool operator==(const ThesisCones&) const = default;
 };
 
-struct ThesisSettings {
+struct CONELIGHT_API ThesisSettings {
     bool published = false;
     // Parts of the picture
     bool phong = true;
@@ -102,6 +103,6 @@ struct ThesisSettings {
 
 // Adds the settings `thesis.*` and the name of the mode to the library's lists. Call at the start of a
 // program, before other threads use settings; a second call does nothing.
-void registerSettings();
+CONELIGHT_API void registerSettings();
 
 }  // namespace conelight::thesis

@@ -3,6 +3,8 @@
 // (docs/guide/thesis_mode.md). A host that wants it links conelight::thesis and registers it.
 #pragma once
 
+#include "conelight/export.h"
+
 namespace conelight::thesis {
 
 // Scene::format of scenes with the thesis's conventions.
@@ -11,6 +13,6 @@ inline constexpr const char* kSceneFormat = "thesis";
 // Adds the mode, its settings and its shaders to the library's lists. Call before the first Renderer, from
 // one thread; a second call does nothing. Scene format and console commands: format/format.h and
 // console/commands.h.
-void registerThesis();
+CONELIGHT_API void registerThesis();
 
 }  // namespace conelight::thesis

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// The structs of conelight.h as those of the library, and back. What the structs do not have stays as it was.
+#pragma once
+
+#include "calls.h"
+#include "conelight/scene.h"
+
+struct conelight_scene {
+    conelight::Scene scene;
+};
+
+namespace conelight::c {
+
+void assign(Material& material, const conelight_material& values);
+void assign(Light& light, const conelight_light& values);
+Instance instanceOf(const conelight_instance& values);
+Mesh meshOf(const conelight_mesh& values);
+Texture textureOf(const conelight_texture& values);
+// Throws Error(Usage) for a camera that sees nothing.
+Camera cameraOf(const conelight_camera& values);
+conelight_light valuesOf(const Light& light);
+conelight_instance valuesOf(const Instance& instance);
+conelight_camera valuesOf(const Camera& camera);
+
+glm::mat4 matrixOf(const float* columns);
+
+}  // namespace conelight::c

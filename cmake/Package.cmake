@@ -1,0 +1,37 @@
+# Debian packages: `cpack -G DEB` in the build folder makes libconelightX.Y (shared libraries), libconelight-dev (headers,
+# static libraries, package files) and conelight (the program). What they depend on is read off the files.
+set(CPACK_PACKAGE_NAME conelight)
+set(CPACK_PACKAGE_VENDOR "The Conelight authors")
+set(CPACK_PACKAGE_CONTACT "The Conelight authors <conelight@localhost>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "Global illumination in real time by tracing voxels")
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_COMPONENTS_ALL runtime development)
+if(TARGET conelight_program)
+  list(APPEND CPACK_COMPONENTS_ALL program)
+endif()
+
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${PROJECT_BINARY_DIR}/lib)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(drivers "libegl1, libgl1-mesa-dri")  # found at run time, so not in the files
+
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME ${runtime_package})
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "${drivers}")
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "${CPACK_PACKAGE_DESCRIPTION_SUMMARY}: shared libraries")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libconelight-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${runtime_package} (= ${PROJECT_VERSION}), libglm-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS
+  "libepoxy-dev, libassimp-dev, libopenexr-dev, libpng-dev, libjpeg-dev, libfmt-dev, pkg-config")
+set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${CPACK_PACKAGE_DESCRIPTION_SUMMARY}: headers and static libraries")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME conelight)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "${drivers}")
+set(CPACK_COMPONENT_PROGRAM_DESCRIPTION "${CPACK_PACKAGE_DESCRIPTION_SUMMARY}: renders, compares, shows scenes")
+include(CPack)
