@@ -19,6 +19,7 @@
 #include "guests.h"
 #include "platform/headless_context.h"
 #include "script_run.h"
+#include "usage_text.h"
 
 namespace {
 
@@ -95,7 +96,8 @@ int main(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
             return app.exit(error);  // --help, --version
-        std::fprintf(stderr, "conelight: %s; `conelight --help` lists commands and options\n", error.what());
+        const std::string text = conelight::program::usageText(app, error, {argv + 1, argv + argc});
+        std::fprintf(stderr, "conelight: %s\n", text.c_str());
         return 2;
     } catch (const conelight::program::QuitRequest& quit) {
         return quit.status;

@@ -63,9 +63,6 @@ void addView(CLI::App& app) {
     CLI::App* command = app.add_subcommand("view", "a window on a scene: fly through it, turn every knob");
     command->add_option("scene", options->scene, "a scene file, or builtin:NAME")->capture_default_str();
     command->add_option("--mode", options->mode, "mode to start in");
-    command->add_option("--window", options->window, "size of the window")
-        ->capture_default_str()
-        ->type_name("WxH");
     command
         ->add_option("--shader-dir", options->shaderDirectory,
                      "shaders from this folder instead of the built-in ones; changes show at once")
@@ -88,6 +85,10 @@ void addView(CLI::App& app) {
         ->type_name("N")
         ->check(CLI::Range(1, 1 << 20));
     options->view.addTo(*command);
+    command->remove_option(command->get_option("--size"));  // of pictures without a window
+    command->add_option("--window,--size", options->window, "size of the window")
+        ->capture_default_str()
+        ->type_name("WxH");
     options->radiosity.addSolverTo(*command);
     command->callback([options] {
         if (const int status = run(*options); status != 0) throw QuitRequest{status};
