@@ -29,17 +29,20 @@ struct ViewCommand {
     ViewOptions view;
 };
 
-int run(const ViewCommand& options) {
-    const Size size = parseSize(options.window);
+Session openSession(const ViewCommand& options) {
     Progress progress;
     Scene scene = openScene(options.scene, options.view, progress);
     const std::string mode = modeFor(options.mode, options.view);
     const Settings settings = settingsFor(scene, isSettingsMode(mode) ? mode : "cones", options.view);
     const Camera camera = cameraFor(scene, options.view);
-    progress.finish();
     Session session(std::move(scene), options.scene, settings,
                     mode.empty() ? getSetting(settings, "mode") : mode, camera);
     session.allowOutside(options.view.allowOutside);
+    return session;
+}
+
+int run(const ViewCommand& options) {
+    const Size size = parseSize(options.window);
     ViewerOptions viewer;
     viewer.width = size.width;
     viewer.height = size.height;
@@ -53,7 +56,9 @@ int run(const ViewCommand& options) {
     viewer.filmSamples = options.filmSamples;
     viewer.radiosity = options.radiosity.values;
     viewer.startedMs = std::chrono::duration<double, std::milli>(kStarted.time_since_epoch()).count();
-    return runViewer(session, viewer);
+    viewer.scene = options.scene;
+    viewer.open = [&options] { return openSession(options); };
+    return runViewer(viewer);
 }
 
 }  // namespace

@@ -80,11 +80,13 @@ CommandGroup windowCommands() {
                     [](const CommandContext& context) { askWindow(context, "focus"); }),
             command(
                 "pick",
-                {{"X", ArgumentKind::Number, false, false, "", 0, 1, {}},
-                 {"Y", ArgumentKind::Number, false, false, "", 0, 1, {}}},
+                {{"X", ArgumentKind::Number, true, false, "", 0, 1, {}},
+                 {"Y", ArgumentKind::Number, true, false, "", 0, 1, {}}},
                 "as a click into the picture: select and inspect what lies there",
                 [](const CommandContext& context) { askWindow(context, "pick"); },
-                "X and Y: parts of its width and height, from the upper left corner."),
+                "X and Y: parts of its width and height, from the upper left corner. Without them: takes "
+                "what "
+                "was found, and its cones or rays, off the picture, as the key Escape does."),
             command(
                 "settle", {}, "wait until the picture is as good as it gets",
                 [](const CommandContext& context) { askWindow(context, "settle"); },

@@ -142,6 +142,7 @@ class Session {
     void request(Request request) { requests_.push_back(std::move(request)); }
     std::optional<Request> takeRequest();
     bool hasRequests() const { return !requests_.empty(); }
+    const Request* nextRequest() const { return requests_.empty() ? nullptr : &requests_.front(); }
 
     FrameTimes& frameTimes() { return frameTimes_; }
     const FrameTimes& frameTimes() const { return frameTimes_; }

@@ -17,10 +17,12 @@ namespace {
 constexpr float kTextStep = 1.1f;
 
 // Menus and lists; dialogs answer the key themselves.
-void closeMenusOnEscape() {
-    if (escapePressed() && ImGui::GetCurrentContext()->OpenPopupStack.Size > 0 &&
-        ImGui::GetTopMostPopupModal() == nullptr)
+// Returns whether one is open.
+bool closeMenusOnEscape() {
+    const bool open = ImGui::GetCurrentContext()->OpenPopupStack.Size > 0;
+    if (open && escapePressed() && ImGui::GetTopMostPopupModal() == nullptr)
         ImGui::ClosePopupToLevel(0, true);
+    return open;
 }
 
 void askForScreenshot(Session& session) { session.request({RequestKind::Screenshot, nextScreenshot()}); }
@@ -28,16 +30,29 @@ void askForScreenshot(Session& session) { session.request({RequestKind::Screensh
 }  // namespace
 
 void Menus::takeKeys() {
-    closeMenusOnEscape();
+    const bool menuOpen = closeMenusOnEscape();
     const std::vector<platform::Window::KeyPress> presses = in_.window.takeKeyPresses();
     // Whoever typed `path play` still has the cursor in the console's line.
     for (const auto& press : presses)
         if (press.key == GLFW_KEY_ESCAPE && in_.session.playing()) {
             in_.session.stopPlaying();
             if (in_.gui.wantsKeyboard()) in_.console.panel().focus();
+            return;
         }
     if (in_.gui.wantsKeyboard() || in_.window.cursorCaptured()) return;
-    for (const auto& press : presses) press.control ? takeControlKey(press) : takeKey(press);
+    for (const auto& press : presses)
+        if (press.key == GLFW_KEY_ESCAPE && !menuOpen)
+            takeEscape();
+        else
+            press.control ? takeControlKey(press) : takeKey(press);
+}
+
+// First what was found under the pixel, then the selection.
+void Menus::takeEscape() {
+    if (in_.probe.found())
+        in_.probe.clear();
+    else
+        in_.session.select({});
 }
 
 void Menus::takeKey(const platform::Window::KeyPress& press) {

@@ -11,6 +11,7 @@
 #include "viewer/gui.h"
 #include "viewer/panel_layout.h"
 #include "viewer/picture_view.h"
+#include "viewer/pixel_probe.h"
 #include "viewer/viewer_console.h"
 
 namespace conelight::program {
@@ -22,6 +23,7 @@ class Menus {
         platform::Window& window;
         Gui& gui;
         PictureView& view;
+        PixelProbe& probe;
         ViewerConsole& console;
         Document& document;
         PanelLayout& panels;
@@ -32,6 +34,7 @@ class Menus {
     void showBar();
 
   private:
+    void takeEscape();
     void takeKey(const platform::Window::KeyPress& press);
     void takeControlKey(const platform::Window::KeyPress& press);
     void fileMenu();
