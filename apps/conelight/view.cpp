@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // `conelight view [SCENE]`: the window.
 #include <chrono>
+#include <filesystem>
 
 #include "command.h"
 #include "script_run.h"
@@ -43,6 +44,10 @@ Session openSession(const ViewCommand& options) {
 
 int run(const ViewCommand& options) {
     const Size size = parseSize(options.window);
+    // A file that is not there needs no window to be said.
+    std::error_code ignored;
+    if (options.scene.rfind("builtin:", 0) != 0 && !std::filesystem::exists(options.scene, ignored))
+        openSession(options);
     ViewerOptions viewer;
     viewer.width = size.width;
     viewer.height = size.height;

@@ -20,6 +20,17 @@ foreach(header IN LISTS headers)
   endif()
 endforeach()
 
+# With the program comes what shells and desktops know of it.
+if(EXISTS ${WORK_DIR}/prefix/bin/conelight)
+  foreach(file bash-completion/completions/conelight zsh/site-functions/_conelight fish/vendor_completions.d/conelight.fish
+      man/man1/conelight.1 applications/conelight.desktop mime/packages/conelight.xml
+      icons/hicolor/scalable/apps/conelight.svg)
+    if(NOT EXISTS ${WORK_DIR}/prefix/share/${file})
+      message(FATAL_ERROR "embed: share/${file} is not installed")
+    endif()
+  endforeach()
+endif()
+
 step(configure ${CMAKE_COMMAND} -S ${CMAKE_CURRENT_LIST_DIR}/project -B ${WORK_DIR}/build -G Ninja
      -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH=${WORK_DIR}/prefix -DCMAKE_CXX_COMPILER=${CXX})
 step(build ${CMAKE_COMMAND} --build ${WORK_DIR}/build)
