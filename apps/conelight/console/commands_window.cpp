@@ -67,6 +67,8 @@ Command screenshotCommand() {
 }  // namespace
 
 CommandGroup windowCommands() {
+    Argument side{"SIDE", ArgumentKind::Choice};
+    side.choices = {"front", "back", "right", "left", "top", "bottom"};
     return {
         "Window (conelight view)",
         {
@@ -78,6 +80,10 @@ CommandGroup windowCommands() {
                     [](const CommandContext& context) { askWindow(context, "panels"); }),
             command("focus", {}, "move the camera so that it sees all of the selection, or of the scene",
                     [](const CommandContext& context) { askWindow(context, "focus"); }),
+            command(
+                "view_from", {side}, "look along an axis of the world at the selection, or at the scene",
+                [](const CommandContext& context) { askWindow(context, "view_from"); },
+                "front: from +z; right: from +x; top: from +y"),
             command(
                 "pick",
                 {{"X", ArgumentKind::Number, true, false, "", 0, 1, {}},

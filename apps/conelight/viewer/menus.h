@@ -9,6 +9,7 @@
 #include "session/session.h"
 #include "viewer/document.h"
 #include "viewer/gui.h"
+#include "viewer/key_list.h"
 #include "viewer/panel_layout.h"
 #include "viewer/picture_view.h"
 #include "viewer/pixel_probe.h"
@@ -27,6 +28,7 @@ class Menus {
         ViewerConsole& console;
         Document& document;
         PanelLayout& panels;
+        KeyList& keys;
     };
     explicit Menus(const Inputs& inputs) : in_(inputs) {}
 
@@ -36,6 +38,7 @@ class Menus {
   private:
     void takeEscape();
     void takeKey(const platform::Window::KeyPress& press);
+    bool takeViewKey(const platform::Window::KeyPress& press);
     void takeControlKey(const platform::Window::KeyPress& press);
     void fileMenu();
     void presetMenu();

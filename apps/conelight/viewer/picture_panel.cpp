@@ -17,6 +17,7 @@ std::optional<PictureView::Click> PicturePanel::show(const glm::vec2& at, const 
                      ImGuiWindowFlags_NoBringToFrontOnFocus);
     ImGui::PopStyleVar();
     const std::optional<PictureView::Click> clicked = in_.view.show(in_.session, at, size, seconds);
+    if (in_.view.slot(false).texture() != 0) outline_.draw(in_.session, at, size);
     in_.probe.drawOverPicture(at, size);
     if (in_.view.slot(false).texture() != 0) showLabels(at, size);
     if (!in_.notice.empty())

@@ -10,6 +10,7 @@
 #include "session/session.h"
 #include "viewer/picture_view.h"
 #include "viewer/pixel_probe.h"
+#include "viewer/selection_outline.h"
 
 namespace conelight::program {
 
@@ -32,6 +33,7 @@ class PicturePanel {
     void showText(const std::string& text, const glm::vec2& at, const glm::vec2& size);
 
     Inputs in_;
+    SelectionOutline outline_;
 };
 
 }  // namespace conelight::program

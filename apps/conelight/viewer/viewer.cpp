@@ -83,6 +83,7 @@ class Viewer {
     Timings timings_;
     InputClock input_;
     PanelLayout panels_;
+    KeyList keys_;
     Menus menus_;
     LeftPanel left_;
     RightPanel right_;
@@ -112,7 +113,7 @@ Viewer::Viewer(const ViewerOptions& options)
       probe_(session_, view_),
       timings_(options.startedMs),
       panels_(window_, gui_),
-      menus_({session_, window_, gui_, view_, probe_, console_, document_, panels_}),
+      menus_({session_, window_, gui_, view_, probe_, console_, document_, panels_, keys_}),
       left_(session_, console_),
       right_({session_, view_, console_, probe_, document_, work_.film, timings_}),
       picture_({session_, view_, probe_, hint_.text(), notice_}),
@@ -282,6 +283,7 @@ std::optional<PictureView::Click> Viewer::showGui() {
     const std::optional<PictureView::Click> clicked =
         picture_.show(at, size, static_cast<float>(ImGui::GetTime() - lastFrame_));
     work_.showStrips(at, size);
+    keys_.show(at, size);
     document_.showDialogs();
     panels_.dragBorders(layout);
     return clicked;

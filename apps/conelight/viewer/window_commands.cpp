@@ -12,6 +12,7 @@
 #include "interrupt.h"
 #include "io/image_file.h"
 #include "viewer/focus.h"
+#include "viewer/standard_views.h"
 
 namespace conelight::program {
 namespace {
@@ -31,6 +32,7 @@ void WindowCommands::carryOut(const Request& request) {
         {"fullscreen",
          [&](const Words& words) { in_.window.setFullscreen(switched(words, in_.window.fullscreen())); }},
         {"panels", [&](const Words& words) { in_.panels.showAll(switched(words, in_.panels.showSide)); }},
+        {"view_from", [&](const Words& words) { viewFrom(in_.session, words[1], in_.view.pictureSize()); }},
         {"focus", [&](const Words&) { focusOnSelection(in_.session, in_.view.pictureSize()); }},
         {"pick", [&](const Words& words) { pick(words); }},
         {"resolution", [&](const Words& words) { resolution(words); }},
