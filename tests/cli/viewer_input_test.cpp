@@ -160,9 +160,15 @@ TEST_F(ViewerInputTest, HandlesAreDraggedAtTheResolutionOfMovement) {
         coarse += !full;
         between += full && coarse > 0;
     }
-    screen->xdotool("mouseup 1");
     EXPECT_GT(coarse, 20);
     EXPECT_EQ(between, 0) << "pictures at full resolution in the midst of the drag";
+    // A hand that rests on the handle for longer than a picture at rest waits for.
+    for (int i = 0; i < 20; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        between += fine();
+    }
+    EXPECT_EQ(between, 0) << "it is held still";
+    screen->xdotool("mouseup 1");
     EXPECT_TRUE(eventually(fine)) << "at rest it is as fine as its place";
     viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();

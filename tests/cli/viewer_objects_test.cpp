@@ -62,20 +62,20 @@ TEST_F(ViewerObjectsTest, TheSelectionIsOutlined) {
     start(std::string(kSmall) + "builtin:cornell");
     settle();
     const glm::ivec4 place = picture();
-    const auto orange = [&] {
+    const auto blue = [&] {
         const ScreenPixels now = screen->pixels();
         int count = 0;
         for (int y = place.y; y < place.y + place.w; ++y)
             for (int x = place.x; x < place.x + place.z; ++x)
-                count += near(glm::vec3(now.at({x, y})), glm::vec3(255, 130, 40), 25);
+                count += near(glm::vec3(now.at({x, y})), glm::vec3(70, 190, 255), 25);
         return count;
     };
-    EXPECT_EQ(orange(), 0);
+    EXPECT_EQ(blue(), 0);
     viewer->send("select 'back wall'");
     const glm::ivec2 size(place.z, place.w);
-    EXPECT_TRUE(eventually([&] { return orange() > size.x / 2; })) << orange();
+    EXPECT_TRUE(eventually([&] { return blue() > size.x / 2; })) << blue();
     viewer->send("select none");
-    EXPECT_TRUE(eventually([&] { return orange() == 0; }));
+    EXPECT_TRUE(eventually([&] { return blue() == 0; }));
     viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
 }

@@ -105,6 +105,8 @@ bool PictureView::update(const Session& session, const glm::ivec2& areaPx, bool 
         !left_->onlyLook(session))
         lastMove_ = ImGui::GetTime();
 
+    // A hand that holds a handle goes on: a picture in full would hold it up.
+    if (gizmo.active() && slow) lastMove_ = ImGui::GetTime();
     if (session.playing()) lastMove_ = lastFlight_ = ImGui::GetTime();
 
     const bool coarse = moving();

@@ -13,7 +13,7 @@ namespace conelight::program {
 namespace {
 
 constexpr std::size_t kMostTriangles = 20000;  // a few milliseconds a frame
-constexpr ImU32 kColor = IM_COL32(255, 130, 40, 255);
+constexpr ImU32 kColor = IM_COL32(70, 190, 255, 255);
 
 using Line = std::array<glm::vec3, 2>;
 
