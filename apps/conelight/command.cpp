@@ -5,8 +5,12 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <chrono>
+#include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
+#include <mutex>
+#include <thread>
 
 #include "conelight/error.h"
 #include "conelight/quality.h"
@@ -15,24 +19,64 @@
 #include "io/generated_surroundings.h"
 #include "io/scene_file.h"
 #include "session/session.h"
+#include "traced_picture.h"
 
 namespace conelight::program {
 
 [[noreturn]] void usage(const std::string& message) { throw Error(ErrorKind::Usage, message); }
 
-Progress::Progress() : terminal_(isatty(STDERR_FILENO) != 0) {}
-Progress::~Progress() { finish(); }
+struct Progress::Line {
+    std::mutex mutex;
+    std::condition_variable ended;
+    std::string text;
+    std::chrono::steady_clock::time_point since;
+    bool shown = false, ends = false;
+    std::thread clock;
+
+    void print(const std::string& now) {
+        std::fprintf(stderr, "\r\033[K%s", now.c_str());
+        std::fflush(stderr);
+    }
+    void count() {
+        constexpr auto kTick = std::chrono::seconds(1);
+        std::unique_lock lock(mutex);
+        while (!ended.wait_for(lock, kTick, [this] { return ends; })) {
+            const auto gone = std::chrono::steady_clock::now() - since;
+            if (shown && gone >= kTick)
+                print(text + ", " + timeText(std::chrono::duration<double>(gone).count()));
+        }
+    }
+};
+
+Progress::Progress() : line_(isatty(STDERR_FILENO) != 0 ? std::make_unique<Line>() : nullptr) {
+    if (line_) line_->clock = std::thread([this] { line_->count(); });
+}
+
+Progress::~Progress() {
+    finish();
+    if (!line_) return;
+    {
+        const std::lock_guard lock(line_->mutex);
+        line_->ends = true;
+    }
+    line_->ended.notify_one();
+    line_->clock.join();
+}
 
 void Progress::show(const std::string& text) {
-    if (!terminal_) return;
-    std::fprintf(stderr, "\r\033[K%s", text.c_str());
-    std::fflush(stderr);
-    shown_ = true;
+    if (!line_) return;
+    const std::lock_guard lock(line_->mutex);
+    line_->text = text;
+    line_->since = std::chrono::steady_clock::now();
+    line_->shown = true;
+    line_->print(text);
 }
 
 void Progress::finish() {
-    if (shown_) std::fprintf(stderr, "\r\033[K");
-    shown_ = false;
+    if (!line_) return;
+    const std::lock_guard lock(line_->mutex);
+    if (line_->shown) std::fprintf(stderr, "\r\033[K");
+    line_->shown = false;
 }
 
 Size parseSize(const std::string& text) {

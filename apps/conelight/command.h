@@ -34,17 +34,20 @@ void addView(CLI::App& app);
 // Throws Error(Usage).
 [[noreturn]] void usage(const std::string& message);
 
-// One status line on standard error, on a terminal only. finish() clears it.
+// One status line on standard error, on a terminal only; of work that says nothing for a while it counts
+// the seconds. finish() clears it.
 class Progress {
   public:
     Progress();
     ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
     void show(const std::string& text);
     void finish();
 
   private:
-    bool terminal_;
-    bool shown_ = false;
+    struct Line;
+    std::unique_ptr<Line> line_;  // null: no terminal
 };
 
 struct Size {

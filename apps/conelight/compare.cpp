@@ -137,6 +137,11 @@ std::pair<std::string, std::string> shortNames(const std::string& a, const std::
     return a != b ? std::pair(a, b) : std::pair(a, b + " (reference)");
 }
 
+bool isLinearFile(const std::string& path) {
+    const io::ImageFormat format = io::imageFormatOf(path);
+    return format == io::ImageFormat::Exr || format == io::ImageFormat::Hdr;
+}
+
 Report reportOf(const ComparePicturesOptions& options, const Image& test, const Image& reference,
                 const Metrics& metrics, const reference::FlipMaps& maps) {
     const reference::MetricOptions metricOptions = options.comparison.metricOptions();
@@ -149,6 +154,9 @@ Report reportOf(const ComparePicturesOptions& options, const Image& test, const 
     ReportView view;
     view.name = options.layer.empty() ? "picture" : options.layer;
     view.exposure = metricOptions.exposure;
+    // Radiance is shown as `render` writes it; other files are pictures already.
+    if (options.layer.empty() && isLinearFile(options.test) && isLinearFile(options.reference))
+        view.toneMap = getSetting(Settings{}, "image.tone_map");
     view.reference = 1;
     view.pictures = {{testName, test, metrics, maps.flip, maps.hdrFlip},
                      {referenceName, reference, {}, {}, {}}};

@@ -83,6 +83,7 @@ void addViews(Report& report, const SceneComparison& comparison, const reference
         ReportView view;
         view.name = (severalScenes ? comparison.scene + ", " : "") + components[c].name;
         view.exposure = metrics.exposure;
+        view.toneMap = getSetting(comparison.variants.front().settings, "image.tone_map");
         for (const VariantResult& result : comparison.variants) {
             const ComponentResult& component = result.components[c];
             ReportPicture picture{result.variant.label(), component.image, component.metrics, {}, {}};

@@ -11,6 +11,8 @@
 #include <cstdlib>
 #include <exception>
 #include <new>
+#include <string>
+#include <vector>
 
 #include "command.h"
 #include "command_line.h"
@@ -19,6 +21,8 @@
 #include "guests.h"
 #include "platform/headless_context.h"
 #include "script_run.h"
+#include "shell_words.h"
+#include "usage_text.h"
 
 namespace {
 
@@ -89,13 +93,18 @@ int main(int argc, char** argv) {
     conelight::program::addCommands(app);
     conelight::program::addConvert(app);
     conelight::program::addShaders(app);
+    conelight::program::addCompletion(app);
+    conelight::program::addManual(app);
 
+    const std::vector<std::string> words =
+        conelight::program::withCommand(app, std::vector<std::string>(argv + 1, argv + argc));
     try {
-        app.parse(argc, argv);
+        app.parse(std::vector<std::string>(words.rbegin(), words.rend()));  // CLI11 takes them from the end
     } catch (const CLI::ParseError& error) {
         if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
             return app.exit(error);  // --help, --version
-        std::fprintf(stderr, "conelight: %s; `conelight --help` lists commands and options\n", error.what());
+        const std::string text = conelight::program::usageText(app, error, words);
+        std::fprintf(stderr, "conelight: %s\n", text.c_str());
         return 2;
     } catch (const conelight::program::QuitRequest& quit) {
         return quit.status;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -288,7 +289,20 @@ void takeComponentAndBounces(const RenderOptions& options, bool onCpu, PictureRe
     }
 }
 
+// What there is now and how long it took.
+void sayWritten(const RenderOptions& options, const Size& size, std::chrono::steady_clock::time_point since) {
+    std::string files;
+    if (!options.output.empty() && !isFilm(options))
+        files = fmt::format("{} ({} x {} pixels)", options.output, size.width, size.height);
+    for (const std::string& more : {options.radiosity.bakeFile, options.statsFile})
+        if (!more.empty()) files += (files.empty() ? "" : ", ") + more;
+    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - since;
+    fmt::print("written {}, {}\n", files,
+               taken.count() < 10 ? fmt::format("{:.1f} s", taken.count()) : timeText(taken.count()));
+}
+
 void run(RenderOptions options) {
+    const auto started = std::chrono::steady_clock::now();
     options.mode = modeFor(options.mode, options.view);
     // Everything that can be wrong on the command line is found before the work starts.
     if (!options.mode.empty()) requireModeName(options.mode);
@@ -339,6 +353,7 @@ void run(RenderOptions options) {
     if (!options.statsFile.empty()) writeJson(options.statsFile, statsOf(options, request, picture));
     progress.finish();
     if (picture.stopped) endStopped(options, request, picture);
+    sayWritten(options, request.size, started);
 }
 
 void addFilmOptions(CLI::App& command, RenderOptions& options) {

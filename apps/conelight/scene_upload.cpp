@@ -12,9 +12,10 @@ bool SceneUpload::current(const Session& session) const {
 void SceneUpload::follow(Renderer& renderer, const Session& session) {
     if (current(session)) return;
     const Revisions& now = session.revisions();
-    // More or fewer materials move the default one behind them; voxels that are asked for get a grid that
+    // Instances that came or went have meshes of their own, more or fewer materials move the default one behind them; voxels that are asked for get a grid that
     // fits.
     const bool anew = !seen_ || seen_->scene != now.scene || seen_->voxels != now.voxels ||
+                      seen_->instanceList != now.instanceList ||
                       materials_.size() != session.materialRevisions().size();
     if (anew) {
         seen_.reset();  // a scene that is refused is none

@@ -4,6 +4,7 @@
 
 #include "command.h"
 #include "conelight/quality.h"
+#include "console/statements.h"
 #include "session/session.h"
 
 namespace conelight::program {
@@ -24,6 +25,18 @@ void printQualities(bool markdown) {
                    info.raysPerFace);
 }
 
+// Keys and parts of them, of which a filter may be meant.
+[[noreturn]] void refuseFilter(const std::string& filter) {
+    std::vector<std::string> words;
+    for (const SettingInfo* info : listedSettings()) {
+        words.push_back(info->key);
+        words.push_back(info->key.substr(info->key.rfind('.') + 1));
+    }
+    const std::string near = nearest(filter, words);
+    usage(fmt::format("settings: no key contains '{}'; {} would be right", filter,
+                      near.empty() ? "`conelight settings`, which lists all," : near));
+}
+
 }  // namespace
 
 void addSettings(CLI::App& app) {
@@ -36,11 +49,14 @@ void addSettings(CLI::App& app) {
     command->add_flag("--qualities", *qualities, "instead: what each --quality costs");
     command->callback([filter, markdown, qualities] {
         if (*qualities) return printQualities(*markdown);
+        std::vector<const SettingInfo*> listed = listedSettings();
+        std::erase_if(listed,
+                      [&](const SettingInfo* info) { return info->key.find(*filter) == std::string::npos; });
+        if (listed.empty()) refuseFilter(*filter);
         if (*markdown)
             fmt::print("| setting | default | range | unit | what it does |\n|---|---|---|---|---|\n");
-        for (const SettingInfo* listed : listedSettings()) {
-            const SettingInfo& info = *listed;
-            if (info.key.find(*filter) == std::string::npos) continue;
+        for (const SettingInfo* one : listed) {
+            const SettingInfo& info = *one;
             if (*markdown)
                 fmt::print("| `{}` | `{}` | {} | {} | {} |\n", info.key, info.defaultValue, rangeText(info),
                            info.unit, info.help);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // `conelight view [SCENE]`: the window.
 #include <chrono>
+#include <filesystem>
 
 #include "command.h"
 #include "script_run.h"
@@ -29,17 +30,24 @@ struct ViewCommand {
     ViewOptions view;
 };
 
-int run(const ViewCommand& options) {
-    const Size size = parseSize(options.window);
+Session openSession(const ViewCommand& options) {
     Progress progress;
     Scene scene = openScene(options.scene, options.view, progress);
     const std::string mode = modeFor(options.mode, options.view);
     const Settings settings = settingsFor(scene, isSettingsMode(mode) ? mode : "cones", options.view);
     const Camera camera = cameraFor(scene, options.view);
-    progress.finish();
     Session session(std::move(scene), options.scene, settings,
                     mode.empty() ? getSetting(settings, "mode") : mode, camera);
     session.allowOutside(options.view.allowOutside);
+    return session;
+}
+
+int run(const ViewCommand& options) {
+    const Size size = parseSize(options.window);
+    // A file that is not there needs no window to be said.
+    std::error_code ignored;
+    if (options.scene.rfind("builtin:", 0) != 0 && !std::filesystem::exists(options.scene, ignored))
+        openSession(options);
     ViewerOptions viewer;
     viewer.width = size.width;
     viewer.height = size.height;
@@ -53,7 +61,9 @@ int run(const ViewCommand& options) {
     viewer.filmSamples = options.filmSamples;
     viewer.radiosity = options.radiosity.values;
     viewer.startedMs = std::chrono::duration<double, std::milli>(kStarted.time_since_epoch()).count();
-    return runViewer(session, viewer);
+    viewer.scene = options.scene;
+    viewer.open = [&options] { return openSession(options); };
+    return runViewer(viewer);
 }
 
 }  // namespace
@@ -63,9 +73,6 @@ void addView(CLI::App& app) {
     CLI::App* command = app.add_subcommand("view", "a window on a scene: fly through it, turn every knob");
     command->add_option("scene", options->scene, "a scene file, or builtin:NAME")->capture_default_str();
     command->add_option("--mode", options->mode, "mode to start in");
-    command->add_option("--window", options->window, "size of the window")
-        ->capture_default_str()
-        ->type_name("WxH");
     command
         ->add_option("--shader-dir", options->shaderDirectory,
                      "shaders from this folder instead of the built-in ones; changes show at once")
@@ -88,6 +95,10 @@ void addView(CLI::App& app) {
         ->type_name("N")
         ->check(CLI::Range(1, 1 << 20));
     options->view.addTo(*command);
+    command->remove_option(command->get_option("--size"));  // of pictures without a window
+    command->add_option("--window,--size", options->window, "size of the window")
+        ->capture_default_str()
+        ->type_name("WxH");
     options->radiosity.addSolverTo(*command);
     command->callback([options] {
         if (const int status = run(*options); status != 0) throw QuitRequest{status};

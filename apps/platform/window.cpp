@@ -59,8 +59,16 @@ Window::Window(const WindowOptions& options) {
             self(window).keyPresses_.push_back(
                 {key, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0});
     });
-    glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double, double) { ++self(window).inputs_; });
-    glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int, int, int) { ++self(window).inputs_; });
+    glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
+        ++self(window).inputs_;
+        self(window).cursorThen_ = {x, y};
+    });
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int) {
+        Window& own = self(window);
+        ++own.inputs_;
+        ++own.buttonInputs_;
+        own.buttonChanges_.push_back({button, action == GLFW_PRESS, own.cursorThen_});
+    });
     glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double) { ++self(window).inputs_; });
     glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) {
         if (self(window).onRefresh) self(window).onRefresh();

@@ -57,8 +57,16 @@ class Window {
     // Keys that went down since the last call, in order: also those that are up again.
     const std::vector<KeyPress>& keyPresses() const { return keyPresses_; }
     std::vector<KeyPress> takeKeyPresses() { return std::exchange(keyPresses_, {}); }
-    // Counts what the user does with mouse and keys.
+    struct ButtonChange {
+        int button = 0;  // GLFW's
+        bool down = false;
+        glm::dvec2 at{0};  // where the cursor was, screen units
+    };
+    // Mouse buttons that went down or up since the last call, in order.
+    std::vector<ButtonChange> takeButtonChanges() { return std::exchange(buttonChanges_, {}); }
+    // Counts what the user does with mouse and keys, and with the mouse's buttons alone.
     std::uint64_t inputs() const { return inputs_; }
+    std::uint64_t buttonInputs() const { return buttonInputs_; }
     glm::dvec2 cursor() const;  // screen units from the top left corner
 
     std::function<void(const std::vector<std::string>& paths)> onDrop;
@@ -79,7 +87,9 @@ class Window {
     bool fullscreen_ = false;
     bool captured_ = false;
     std::vector<KeyPress> keyPresses_;
-    std::uint64_t inputs_ = 0;
+    std::vector<ButtonChange> buttonChanges_;
+    glm::dvec2 cursorThen_{0};  // by the events so far, where cursor() is what it is by now
+    std::uint64_t inputs_ = 0, buttonInputs_ = 0;
     glm::ivec2 windowedPosition_{0}, windowedSize_{0};
 };
 

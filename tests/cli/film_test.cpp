@@ -254,8 +254,9 @@ TEST_F(FilmTest, ABlackPictureSaysWhy) {
     const std::size_t at = dark.output.find("--set image.exposure=");
     ASSERT_NE(at, std::string::npos) << dark.output;
     const std::string remedy = dark.output.substr(at, dark.output.find(')', at) - at);
-    EXPECT_EQ(render("--quality draft " + remedy + " -o " + file("bright.png")).output, "");
-    EXPECT_EQ(render("--quality draft -o " + file("plain.png")).output, "");
+    for (const CommandResult& seen : {render("--quality draft " + remedy + " -o " + file("bright.png")),
+                                      render("--quality draft -o " + file("plain.png"))})
+        EXPECT_EQ(seen.output.rfind("written ", 0), 0u) << seen.output;
 }
 
 // Every command of the page, in its order, in an empty folder; what it says the program prints is printed.

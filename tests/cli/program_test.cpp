@@ -25,7 +25,7 @@ class ProgramTest : public GlTest {};
 TEST_F(ProgramTest, EveryCommandHasHelp) {
     for (const char* command :
          {"", "render", "compare", "bench", "score", "score leak", "score shift", "score flicker",
-          "score convergence", "figures", "info", "settings", "commands", "convert", "shaders"}) {
+          "score convergence", "figures", "info", "settings", "commands", "convert", "shaders", "completion", "manual"}) {
         const CommandResult result = conelight(std::string(command) + " --help");
         EXPECT_EQ(result.status, 0) << command;
         EXPECT_NE(result.output.find("Usage"), std::string::npos) << result.output;
@@ -49,6 +49,34 @@ TEST_F(ProgramTest, WrongUsageIsOneLineAndStatus2) {
                   "above the horizon");
     expectOneLine(render("builtin:cornell", out, "--split-sun"), 2, "--environment");
     EXPECT_FALSE(std::filesystem::exists(out));
+}
+
+TEST_F(ProgramTest, MistypedWordsAreNamedWithTheNearest) {
+    expectOneLine(conelight("rendr builtin:cornell"), 2, "no command 'rendr'; render would be right");
+    expectOneLine(conelight("score leek"), 2, "score: there is no command 'leek'; leak would be right");
+    expectOneLine(conelight("render builtin:cornell --mod phong"), 2,
+                  "render: there is no option '--mod'; --mode");
+    expectOneLine(conelight("render --voxel=9 builtin:cornell"), 2, "'--voxel'; --voxels would be right");
+    expectOneLine(conelight("render builtin:cornell --quux"), 2, "`conelight render --help`");
+    expectOneLine(conelight("settings exposre"), 2, "no key contains 'exposre'; exposure would be right");
+    EXPECT_NE(conelight("settings exposure").output.find("image.exposure"), std::string::npos);
+}
+
+// One line when it is done; on a terminal (that of `script`) one before it says what it does, and counts
+// seconds.
+TEST_F(ProgramTest, RenderSaysWhatItWroteAndOnATerminalWhatItDoes) {
+    const std::string out = path("said.png"), json = path("said.json");
+    const CommandResult piped = render("builtin:cornell", out, "--mode phong --stats '" + json + "'");
+    const std::string begin = "written " + out + " (64 x 48 pixels), " + json + ", ";
+    EXPECT_EQ(piped.output.rfind(begin, 0), 0u) << piped.output;
+    EXPECT_EQ(std::count(piped.output.begin(), piped.output.end(), '\n'), 1) << piped.output;
+    EXPECT_EQ(piped.output.substr(piped.output.size() - 3), " s\n");
+    if (runCommand("command -v script").status != 0) GTEST_SKIP() << "script is not installed (bsdutils)";
+    const std::string command = std::string(CONELIGHT_PROGRAM) + " render builtin:cornell -o " + out +
+                                " --size 320x240 --voxels 64 --quality converged";
+    const std::string shown = runCommand("script -qec '" + command + "' /dev/null </dev/null").output;
+    for (const char* part : {"loading builtin:cornell", "rendering full", "rendering full, ", "written "})
+        EXPECT_NE(shown.find(part), std::string::npos) << part << " in " << shown;
 }
 
 TEST_F(ProgramTest, BadInputIsOneLineAndStatus3) {

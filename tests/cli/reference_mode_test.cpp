@@ -17,7 +17,7 @@ TEST(ReferenceMode, NeedsNoOpenGl) {
         conelight("render builtin:furnace -o '" + out + "' --mode reference --size 16x12 --spp 64",
                   "__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent");
     ASSERT_EQ(result.status, 0) << result.output;
-    EXPECT_EQ(result.output, "");  // no progress in a pipe
+    EXPECT_EQ(result.output.rfind("written ", 0), 0u) << result.output;  // no progress in a pipe
     // Radiance emission / (1 - albedo) = 2 everywhere; 12,288 paths.
     double sum = 0;
     const io::FloatImage image = io::readExr(out);

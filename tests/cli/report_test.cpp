@@ -9,8 +9,12 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <limits>
+#include <sstream>
 
+#include "conelight/renderer.h"
+#include "conelight/settings.h"
 #include "io/image_file.h"
 #include "reference/metrics.h"
 #include "support/browser.h"
@@ -41,8 +45,10 @@ io::FloatImage picture(bool isTest) {
     return image;
 }
 
-int displayByte(float linear) {
-    return int(std::lround(255 * io::srgbFromLinear(std::clamp(linear, 0.0f, 1.0f))));
+// As `conelight render` writes it.
+Rgb displayedColor(const glm::vec3& radiance) {
+    const std::vector<std::uint8_t> bytes = toneMapped({1, 1, {glm::vec4(radiance, 1)}}, ImageSettings{});
+    return {bytes[0], bytes[1], bytes[2]};
 }
 
 class ReportTest : public ::testing::Test {
@@ -107,7 +113,7 @@ class ReportTest : public ::testing::Test {
 
     static Rgb displayed(const io::FloatImage& image, int x, int y, float gain = 1) {
         const float* v = &image.pixels[std::size_t(3 * (y * kWidth + x))];
-        return {displayByte(v[0] * gain), displayByte(v[1] * gain), displayByte(v[2] * gain)};
+        return displayedColor(gain * glm::vec3(v[0], v[1], v[2]));
     }
 
     std::vector<std::string> readout(const std::string& row) {
@@ -135,6 +141,45 @@ class ReportTest : public ::testing::Test {
 };
 
 }  // namespace
+
+// The page opens with the curve that `render` writes pictures with, and knows every one.
+TEST(ReportPage, ToneCurvesAreThoseOfPictures) {
+    const std::string folder = scratchDir();
+    io::writeExr(folder + "/a.exr", picture(true));
+    io::writeExr(folder + "/b.exr", picture(false));
+    const CommandResult made = runCommand(std::string("'") + CONELIGHT_PROGRAM + "' compare '" + folder +
+                                          "/a.exr' '" + folder + "/b.exr' --report '" + folder + "/tones'");
+    ASSERT_EQ(made.status, 0) << made.output;
+    std::ifstream page(folder + "/tones/index.html");
+    const std::string html((std::istreambuf_iterator<char>(page)), std::istreambuf_iterator<char>());
+    const std::string shown = getSetting(Settings{}, "image.tone_map");
+    EXPECT_NE(html.find("\"tone\":\"" + shown + "\""), std::string::npos);
+    for (const std::string& curve : findSetting("image.tone_map")->choices)
+        EXPECT_NE(html.find("<option value=\"" + curve + "\">"), std::string::npos) << curve;
+    if (runCommand("command -v node").status != 0) GTEST_SKIP() << "node is not installed (nodejs)";
+    const Image image{
+        4, 1, {{0.02f, 0.3f, 0.9f, 1}, {3, 0.5f, 0.1f, 1}, {40, 20, 10, 1}, {0.2f, 0.2f, 0.2f, 1}}};
+    for (const std::string& curve : findSetting("image.tone_map")->choices) {
+        std::ofstream(folder + "/tone.js")
+            << std::ifstream(CONELIGHT_SOURCE_DIR "/apps/conelight/report/pixels.js").rdbuf()
+            << "const out = []; pictureBytes([0.02,0.3,0.9, 3,0.5,0.1, 40,20,10, 0.2,0.2,0.2], 1, '" << curve
+            << "', out); console.log(out.join(' '));\n";
+        const CommandResult ran = runCommand("node '" + folder + "/tone.js'");
+        ASSERT_EQ(ran.status, 0) << ran.output;
+        Settings look;
+        setSetting(look, "image.tone_map", curve);
+        setSetting(look, "image.exposure", "1");
+        const std::vector<std::uint8_t> expected = toneMapped(image, look.image);
+        std::istringstream bytes(ran.output);
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            int value = -1, opaque = 255;
+            bytes >> value;
+            EXPECT_NEAR(value, expected[i], 1) << curve << ", byte " << i;
+            if (i % 3 == 2) bytes >> opaque;
+            EXPECT_EQ(opaque, 255);
+        }
+    }
+}
 
 TEST_F(ReportTest, DividerFollowsTheMouse) {
     expectNear(shown(16, 10), displayed(test_, 16, 10));       // left of the middle: A

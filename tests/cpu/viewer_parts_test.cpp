@@ -1,18 +1,22 @@
 // SPDX-License-Identifier: MIT
-// What of the viewer needs no window: how input moves the camera, how coarse moving pictures are, what is
-// remembered between runs.
+// What of the viewer needs no window: how input moves the camera, how coarse moving pictures are, how noisy a
+// picture is, what is remembered between runs; and of its session, objects that come and go.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <limits>
+#include <random>
 
+#include "session/session.h"
 #include "session/state_files.h"
 #include "support/gl_fixture.h"
 #include "viewer/camera_control.h"
 #include "viewer/face_budget.h"
 #include "viewer/moving_resolution.h"
+#include "viewer/picture_noise.h"
 
 namespace conelight::test {
 namespace {
@@ -150,6 +154,59 @@ TEST_F(StateFilesTest, NothingIsKeptWhenNotWanted) {
     blocked.opened("builtin:cornell");
     EXPECT_TRUE(blocked.recent().empty());
     std::filesystem::remove(folder);
+}
+
+// Means over passes of independent noise: its standard deviation falls with the root of their number.
+TEST(PictureNoise, IsThatOfTheMean) {
+    constexpr int kPixels = 2000, kPasses = 24;
+    constexpr float kMean = 2, kDeviation = 0.5f;
+    std::mt19937 random(7);
+    std::normal_distribution<float> sample(kMean, kDeviation);
+    Image sum{kPixels, 1, std::vector<glm::vec4>(kPixels, glm::vec4(0))}, mean = sum;
+    program::PictureNoise noise;
+    for (int pass = 1; pass <= kPasses; ++pass) {
+        for (std::size_t i = 0; i < kPixels; ++i) {
+            for (int c = 0; c < 3; ++c) sum.pixels[i][c] += sample(random);
+            mean.pixels[i] = sum.pixels[i] / static_cast<float>(pass);
+        }
+        mean.pixels[5].x = std::numeric_limits<float>::quiet_NaN();
+        noise.follow(pass, [&]() -> const Image& { return mean; });
+        EXPECT_EQ(noise.value().has_value(), pass >= 12) << pass;
+        if (pass != 12 && pass != 24) continue;
+        const double expected = static_cast<double>(kDeviation / kMean) / std::sqrt(pass);
+        EXPECT_NEAR(*noise.value(), expected, 0.05 * expected) << pass;
+    }
+    noise.follow(1, [&]() -> const Image& { return mean; });
+    EXPECT_FALSE(noise.value()) << "another picture";
+}
+
+TEST(Session, ObjectsAreAddedAndRemovedWithUndo) {
+    Scene scene;
+    scene.meshes.resize(2);
+    for (const char* name : {"a", "b", "c"}) scene.instances.push_back({.name = name, .mesh = 0});
+    program::Session session(scene, "test", Settings{}, "", Camera{});
+    const auto names = [&] {
+        std::string all;
+        for (const Instance& one : session.scene().instances) all += one.name;
+        return all + std::to_string(session.instanceRevisions().size());
+    };
+    session.select({program::SelectionKind::Instance, 2});
+    const std::uint64_t tables = session.revisions().sceneTables();
+    session.setInstanceList({scene.instances[0], scene.instances[2]}, "delete");
+    EXPECT_EQ(names(), "ac2");
+    EXPECT_EQ(session.selection(), program::Selection{}) << "its number is another object's";
+    EXPECT_NE(session.revisions().sceneTables(), tables);
+    EXPECT_TRUE(session.unsaved());
+    // As many as before, of other meshes: a renderer must take them as a new list.
+    const std::uint64_t list = session.revisions().instanceList;
+    session.setInstanceList({scene.instances[0], {.name = "d", .mesh = 1}}, "other");
+    EXPECT_NE(session.revisions().instanceList, list);
+    EXPECT_EQ(session.undo(), "other");
+    EXPECT_EQ(session.undo(), "delete");
+    EXPECT_EQ(names(), "abc3");
+    EXPECT_FALSE(session.unsaved());
+    EXPECT_EQ(session.redo(), "delete");
+    EXPECT_EQ(names(), "ac2");
 }
 
 }  // namespace

@@ -31,6 +31,17 @@ foreach(header conelight.h conelight/renderer.h conelight/thesis/thesis.h coneli
   endif()
 endforeach()
 
+# With the program comes what shells and desktops know of it.
+if(EXISTS ${prefix}/bin/conelight)
+  foreach(file bash-completion/completions/conelight zsh/site-functions/_conelight fish/vendor_completions.d/conelight.fish
+      man/man1/conelight.1 applications/conelight.desktop mime/packages/conelight.xml
+      icons/hicolor/scalable/apps/conelight.svg)
+    if(NOT EXISTS ${prefix}/share/${file})
+      message(FATAL_ERROR "embed: share/${file} is not installed")
+    endif()
+  endforeach()
+endif()
+
 # symbols(LIBRARY): what a shared library gives, in `output`. Nothing of namespaces that are not public.
 function(symbols library)
   step("nm of ${library}" nm -D --defined-only --demangle ${prefix}/${LIBDIR}/lib${library}.so)

@@ -275,7 +275,7 @@ void bake(const CommandContext& context) {
 }  // namespace
 
 CommandGroup sceneCommands() {
-    return {
+    CommandGroup group{
         "Scene",
         {
             command("list",
@@ -330,6 +330,9 @@ CommandGroup sceneCommands() {
                 "once.\nA window stays live meanwhile; with as many bounces as `traced.bounces` says in that "
                 "mode.\nWhat exists is left alone unless `overwrite` is said."),
         }};
+    const std::vector<Command> objects = objectCommands();
+    group.commands.insert(group.commands.begin() + 2, objects.begin(), objects.end());  // behind `select`
+    return group;
 }
 
 }  // namespace conelight::program

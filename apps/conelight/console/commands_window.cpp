@@ -67,6 +67,8 @@ Command screenshotCommand() {
 }  // namespace
 
 CommandGroup windowCommands() {
+    Argument side{"SIDE", ArgumentKind::Choice};
+    side.choices = {"front", "back", "right", "left", "top", "bottom"};
     return {
         "Window (conelight view)",
         {
@@ -79,12 +81,18 @@ CommandGroup windowCommands() {
             command("focus", {}, "move the camera so that it sees all of the selection, or of the scene",
                     [](const CommandContext& context) { askWindow(context, "focus"); }),
             command(
+                "view_from", {side}, "look along an axis of the world at the selection, or at the scene",
+                [](const CommandContext& context) { askWindow(context, "view_from"); },
+                "front: from +z; right: from +x; top: from +y"),
+            command(
                 "pick",
-                {{"X", ArgumentKind::Number, false, false, "", 0, 1, {}},
-                 {"Y", ArgumentKind::Number, false, false, "", 0, 1, {}}},
+                {{"X", ArgumentKind::Number, true, false, "", 0, 1, {}},
+                 {"Y", ArgumentKind::Number, true, false, "", 0, 1, {}}},
                 "as a click into the picture: select and inspect what lies there",
                 [](const CommandContext& context) { askWindow(context, "pick"); },
-                "X and Y: parts of its width and height, from the upper left corner."),
+                "X and Y: parts of its width and height, from the upper left corner. Without them: takes "
+                "what "
+                "was found, and its cones or rays, off the picture, as the key Escape does."),
             command(
                 "settle", {}, "wait until the picture is as good as it gets",
                 [](const CommandContext& context) { askWindow(context, "settle"); },

@@ -74,10 +74,37 @@ const srgbBytes = Uint8Array.from({length: srgbSteps + 1}, (_, i) => {
 });
 const displayByte = (c) => srgbBytes[c >= 1 ? srgbSteps : c > 0 ? (c * srgbSteps + 0.5) | 0 : 0];
 
+const each = (curve) => (r, g, b) => [curve(r), curve(g), curve(b)];
+const times = (m, r, g, b) => [0, 1, 2].map((i) => m[i] * r + m[i + 3] * g + m[i + 6] * b);  // columns
+
+function agx(r, g, b) {
+  const inset = [0.842479062, 0.042328242, 0.042375655, 0.0784336, 0.878468636, 0.0784336,
+    0.079223745, 0.079166127, 0.879142974];
+  const outset = [1.196879005, -0.052896852, -0.052971636, -0.098020881, 1.151903130, -0.098043450,
+    -0.099029744, -0.098961177, 1.151073673];
+  const curved = times(inset, r, g, b).map((c) => {
+    const x = Math.min(Math.max((Math.log2(Math.max(c, 1e-10)) + 12.47393) / 16.5, 0), 1);
+    const x2 = x * x, x4 = x2 * x2;
+    return 15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 + 0.1191 * x - 0.00232;
+  });
+  return times(outset, ...curved).map((c) => Math.max(c / 0.99858, 0) ** 2.2);
+}
+
+function neutral(r, g, b) {
+  const start = 0.76, room = 0.24, desaturation = 0.15;
+  const least = Math.min(r, g, b), offset = least < 0.08 ? least - 6.25 * least * least : 0.04;
+  const c = [r - offset, g - offset, b - offset], peak = Math.max(...c);
+  if (peak < start) return c;
+  const shown = 1 - room * room / (peak + room - start), part = 1 / (desaturation * (peak - shown) + 1);
+  return c.map((one) => shown + (one * shown / peak - shown) * part);
+}
+
+// By the names of image.tone_map.
 const toneCurves = {
-  none: (c) => c,
-  reinhard: (c, y) => c / (1 + y),
-  aces: (c) => (c * (2.51 * c + 0.03)) / (c * (2.43 * c + 0.59) + 0.14),
+  none: each((c) => c),
+  reinhard: (r, g, b) => each((c) => c / (1 + luminance(r, g, b)))(r, g, b),
+  aces: each((c) => (c * (2.51 * c + 0.03)) / (c * (2.43 * c + 0.59) + 0.14)),
+  agx, neutral,
 };
 
 // RGB radiance -> RGBA bytes; a pixel that is not finite shows green, as in error maps.
@@ -88,8 +115,8 @@ function pictureBytes(values, exposure, tone, out) {
     out[o + 3] = 255;
     if (!Number.isFinite(r + g + b)) { out[o] = 0; out[o + 1] = 255; out[o + 2] = 0; continue; }
     r = Math.min(Math.max(r, 0), white); g = Math.min(Math.max(g, 0), white); b = Math.min(Math.max(b, 0), white);
-    const y = luminance(r, g, b);
-    out[o] = displayByte(curve(r, y)); out[o + 1] = displayByte(curve(g, y)); out[o + 2] = displayByte(curve(b, y));
+    const shown = curve(r, g, b);
+    out[o] = displayByte(shown[0]); out[o + 1] = displayByte(shown[1]); out[o + 2] = displayByte(shown[2]);
   }
 }
 

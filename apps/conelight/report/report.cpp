@@ -158,8 +158,11 @@ struct Blocks {
 
 ordered_json viewJson(const ReportView& view, bool half, Blocks& blocks) {
     const Image& first = view.pictures.front().image;
-    ordered_json json = {
-        {"name", view.name}, {"width", first.width}, {"height", first.height}, {"exposure", view.exposure}};
+    ordered_json json = {{"name", view.name},
+                         {"width", first.width},
+                         {"height", first.height},
+                         {"exposure", view.exposure},
+                         {"tone", view.toneMap}};
     json["reference"] = view.reference ? ordered_json(*view.reference) : ordered_json();
     json["pictures"] = ordered_json::array();
     for (const ReportPicture& picture : view.pictures) {

@@ -33,6 +33,7 @@ struct ReportView {
     std::vector<ReportPicture> pictures;
     std::optional<std::size_t> reference;  // its index; signed and absolute maps are against it
     float exposure = 0;                    // stops with which the page opens
+    std::string toneMap = "none";          // and the curve, as image.tone_map names it
 };
 
 // A table whose columns can be sorted. A cell is text or a number; numbers are shown with the column's

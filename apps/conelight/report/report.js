@@ -248,6 +248,7 @@ function showView(index) {
   state.a = find(wanted[0], Math.max(notReference, 0));
   state.b = find(wanted[1], view.reference ?? Math.min(1, view.pictures.length - 1));
   if (first || old.exposure !== view.exposure) state.exposure = view.exposure;
+  if (first || old.tone !== view.tone) state.tone = view.tone;
   if (first || old.width !== view.width || old.height !== view.height) {
     state.zoom = state.panX = state.panY = 0;
     state.pixel = null;
@@ -255,6 +256,7 @@ function showView(index) {
   fillPick($("pickA"));
   fillPick($("pickB"));
   $("exposure").value = state.exposure;
+  $("tone").value = state.tone;
   [...$("views").children].forEach((button, i) => button.setAttribute("aria-pressed", i === index));
   resizeStage();
   choose("a", state.a);

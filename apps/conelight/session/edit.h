@@ -28,6 +28,7 @@ struct PictureSettings {
 struct InstanceEdit : BeforeAfter<Instance> {
     std::size_t index = 0;
 };
+struct InstancesEdit : BeforeAfter<std::vector<Instance>> {};
 struct MaterialEdit : BeforeAfter<Material> {
     std::size_t index = 0;
 };
@@ -41,8 +42,8 @@ struct CameraEdit : BeforeAfter<Camera> {};
 struct FlagsEdit : BeforeAfter<ViewFlags> {};
 struct PathEdit : BeforeAfter<CameraPath> {};
 
-using Edit = std::variant<InstanceEdit, MaterialEdit, MaterialsEdit, LightsEdit, CamerasEdit, SkyEdit,
-                          EnvironmentEdit, SettingsEdit, CameraEdit, FlagsEdit, PathEdit>;
+using Edit = std::variant<InstanceEdit, InstancesEdit, MaterialEdit, MaterialsEdit, LightsEdit, CamerasEdit,
+                          SkyEdit, EnvironmentEdit, SettingsEdit, CameraEdit, FlagsEdit, PathEdit>;
 
 struct Step {
     std::string label;     // "translate Lucy"

@@ -8,9 +8,10 @@
 namespace conelight::program {
 
 struct Revisions {
-    std::uint64_t scene = 0;       // another scene: meshes, textures, everything below
-    std::uint64_t transforms = 0;  // an instance's matrix
-    std::uint64_t instances = 0;   // an instance's visibility, flags, name or material index
+    std::uint64_t scene = 0;         // another scene: meshes, textures, everything below
+    std::uint64_t transforms = 0;    // an instance's matrix
+    std::uint64_t instances = 0;     // an instance's visibility, flags, name or material index
+    std::uint64_t instanceList = 0;  // instances came or went; instances grows, too
     std::uint64_t materials = 0;
     std::uint64_t lights = 0;
     std::uint64_t sky = 0;

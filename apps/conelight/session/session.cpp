@@ -44,69 +44,6 @@ Edit editOf(const T& before, const T& after) {
 
 }  // namespace
 
-Settings startSettings(const Scene& scene, const std::string& mode) {
-    Settings settings;
-    if (!mode.empty()) setSetting(settings, "mode", mode);
-    // Scenes with a format of their own were made for linear values on the screen: modes of that look keep it
-    // unless asked otherwise. Their rooms (closed, albedo 0.85) gather several times their direct light,
-    // for which others find an exposure.
-    const bool keepsLook = settings.mode == Mode::Phong || getSetting(settings, "mode") == scene.format;
-    if (!scene.format.empty() && keepsLook) {
-        settings.image.toneMap = ToneMap::None;
-        settings.image.srgb = false;
-    } else if (!scene.format.empty()) {
-        settings.image.exposure = AutoFloat{};
-    }
-    for (const auto& [key, value] : scene.settings) {
-        if (key == "mode" && !mode.empty()) continue;  // the caller wins
-        setSetting(settings, key, value);
-    }
-    return settings;
-}
-
-std::vector<std::string> settingChoices(const std::string& key) {
-    const SettingInfo* info = findSetting(key);
-    return info == nullptr ? std::vector<std::string>{} : info->choices;
-}
-
-std::vector<const SettingInfo*> listedSettings() {
-    const auto groupOf = [](const std::string& key) { return key.substr(0, key.find('.')); };
-    std::vector<const SettingInfo*> listed;
-    std::string group;
-    for (const SettingInfo& info : settingInfos()) {
-        if (groupOf(info.key) != group) {
-            group = groupOf(info.key);
-            for (const SettingInfo& preset : presetInfos())
-                if (groupOf(preset.key) == group) listed.push_back(&preset);
-        }
-        listed.push_back(&info);
-    }
-    return listed;
-}
-
-bool isSettingsMode(const std::string& mode) { return mode != "reference" && mode != "radiosity"; }
-
-std::vector<std::string> sessionModes() {
-    std::vector<std::string> modes = settingChoices("mode");
-    modes.insert(modes.end(), {"reference", "radiosity"});
-    return modes;
-}
-
-const char* aboutMode(const std::string& mode) {
-    static constexpr std::pair<const char*, const char*> kModes[] = {
-        {"traced",
-         "rays through surface voxels, irradiance cached per voxel face, unlimited bounces; the default"},
-        {"cones", "cone tracing through prefiltered radiance"},
-        {"thesis",
-         "the renderer of the bachelor's thesis that Conelight grew from, its defects mended or shown"},
-        {"phong", "direct light alone, by the Phong model"},
-        {"reference", "path tracer on the CPU, all bounces: the truth the others are measured against"},
-        {"radiosity", "light between diffuse surfaces solved once on the CPU and kept at vertices"}};
-    for (const auto& [name, about] : kModes)
-        if (mode == name) return about;
-    return "";
-}
-
 Session::Session() {
     scene_.name = "empty";
     completeScene(scene_);
@@ -256,6 +193,12 @@ void Session::setInstances(const std::vector<std::pair<std::size_t, Instance>>& 
         step.edits.push_back(std::move(edit));
     }
     if (!step.edits.empty()) commit(std::move(step));
+}
+
+void Session::setInstanceList(const std::vector<Instance>& instances, const std::string& label) {
+    Step step{label, {}, {}};
+    step.edits.push_back(editOf<InstancesEdit>(scene_.instances, instances));
+    commit(std::move(step));
 }
 
 void Session::setMaterials(const std::vector<std::pair<std::size_t, Material>>& changed,
@@ -410,6 +353,15 @@ void Session::commit(Step step) {
     done_.pop_front();
 }
 
+void Session::takeInstances(const std::vector<Instance>& instances) {
+    scene_.instances = instances;
+    instanceRevisions_.resize(instances.size());
+    for (std::uint64_t& revision : instanceRevisions_) ++revision;
+    ++revisions_.instances;
+    ++revisions_.instanceList;
+    if (selection_.kind == SelectionKind::Instance) select({});
+}
+
 void Session::apply(const Edit& edit, bool forward) {
     const auto side = [forward](const auto& one) -> const auto& { return forward ? one.after : one.before; };
     if (const auto* instance = std::get_if<InstanceEdit>(&edit)) {
@@ -420,6 +372,8 @@ void Session::apply(const Edit& edit, bool forward) {
         if (rest != instance->before) ++revisions_.instances;
         target = side(*instance);
         ++instanceRevisions_[instance->index];
+    } else if (const auto* list = std::get_if<InstancesEdit>(&edit)) {
+        takeInstances(side(*list));
     } else if (const auto* material = std::get_if<MaterialEdit>(&edit)) {
         scene_.materials[material->index] = side(*material);
         ++materialRevisions_[material->index];

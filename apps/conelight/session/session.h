@@ -98,6 +98,8 @@ class Session {
     void setFlags(const ViewFlags& flags, const std::string& label);
     void setInstances(const std::vector<std::pair<std::size_t, Instance>>& changed, const std::string& label,
                       const std::string& mergeKey = {});
+    // All of them: adds and removes. No instance is selected then.
+    void setInstanceList(const std::vector<Instance>& instances, const std::string& label);
     void setMaterials(const std::vector<std::pair<std::size_t, Material>>& changed, const std::string& label,
                       const std::string& mergeKey = {});
     // Gives an instance without material one of its own, which can be edited; returns its index.
@@ -142,6 +144,7 @@ class Session {
     void request(Request request) { requests_.push_back(std::move(request)); }
     std::optional<Request> takeRequest();
     bool hasRequests() const { return !requests_.empty(); }
+    const Request* nextRequest() const { return requests_.empty() ? nullptr : &requests_.front(); }
 
     FrameTimes& frameTimes() { return frameTimes_; }
     const FrameTimes& frameTimes() const { return frameTimes_; }
@@ -152,6 +155,7 @@ class Session {
     std::uint64_t sceneSerial() const;
     void apply(const Edit& edit, bool forward);
     void place(const Camera& camera);
+    void takeInstances(const std::vector<Instance>& instances);
 
     struct Playing {
         std::chrono::steady_clock::time_point from;

@@ -5,17 +5,22 @@
 
 namespace conelight::program {
 
-void focusOnSelection(Session& session, const glm::ivec2& pictureSize) {
+Aabb selectedBounds(const Session& session) {
     const Scene& scene = session.scene();
-    Aabb bounds = scene.bounds();
-    if (session.selection().kind == SelectionKind::Instance) {
-        const Instance& instance = scene.instances[session.selection().index];
-        bounds = scene.meshes[static_cast<std::size_t>(instance.mesh)].bounds().transformed(
-            instance.worldFromObject);
-    }
+    if (session.selection().kind != SelectionKind::Instance) return scene.bounds();
+    const Instance& instance = scene.instances[session.selection().index];
+    return scene.meshes[static_cast<std::size_t>(instance.mesh)].bounds().transformed(
+        instance.worldFromObject);
+}
+
+float aspectOf(const glm::ivec2& pictureSize) {
+    const glm::vec2 size = glm::max(pictureSize, glm::ivec2(1));
+    return size.x / size.y;
+}
+
+void focusOnSelection(Session& session, const glm::ivec2& pictureSize) {
     Camera camera = session.camera();
-    const glm::ivec2 size = glm::max(pictureSize, glm::ivec2(1));
-    focusOn(camera, bounds, static_cast<float>(size.x) / static_cast<float>(size.y));
+    focusOn(camera, selectedBounds(session), aspectOf(pictureSize));
     session.jumpCamera(camera, "focus");
 }
 

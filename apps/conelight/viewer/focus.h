@@ -8,6 +8,8 @@
 
 namespace conelight::program {
 
+Aabb selectedBounds(const Session& session);  // of the whole scene where no object is selected
+float aspectOf(const glm::ivec2& pictureSize);
 void focusOnSelection(Session& session, const glm::ivec2& pictureSize);
 
 }  // namespace conelight::program

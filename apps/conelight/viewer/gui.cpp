@@ -144,6 +144,25 @@ void Gui::holdTappedKeys() {
 #endif
 }
 
+// Of the mouse's buttons too Dear ImGui before 1.87 sees what they are at a frame, and the cursor then. Of
+// clicks that came while a picture was drawn it would see one, where the cursor is by now: it gets one change
+// a frame instead, where the cursor was.
+void Gui::takeButtons() {
+    const std::vector<platform::Window::ButtonChange> changes = window_.takeButtonChanges();
+#if IMGUI_VERSION_NUM < 18700
+    ImGuiIO& io = ImGui::GetIO();
+    for (const auto& change : changes)
+        if (change.button >= 0 && change.button < IM_ARRAYSIZE(io.MouseDown))
+            buttonChanges_.push_back(change);
+    std::copy(std::begin(buttonsDown_), std::end(buttonsDown_), std::begin(io.MouseDown));
+    if (buttonChanges_.empty()) return;
+    const platform::Window::ButtonChange next = buttonChanges_.front();
+    buttonChanges_.pop_front();
+    buttonsDown_[static_cast<std::size_t>(next.button)] = io.MouseDown[next.button] = next.down;
+    io.MousePos = {static_cast<float>(next.at.x), static_cast<float>(next.at.y)};
+#endif
+}
+
 void Gui::setScale(float scale) {
     followsScreen_ = false;
     wantedScale_ = std::clamp(scale, kMinScale, kMaxScale);
@@ -163,6 +182,7 @@ void Gui::beginFrame() {
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
     holdTappedKeys();
+    takeButtons();
     // A captured cursor belongs to the camera.
     if (window_.cursorCaptured()) ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
     ImGui::NewFrame();
@@ -181,7 +201,7 @@ bool Gui::hasInput() const {
 #if IMGUI_VERSION_NUM >= 18700
     return !ImGui::GetCurrentContext()->InputEventsQueue.empty();
 #else
-    return false;
+    return !buttonChanges_.empty();
 #endif
 }
 

@@ -2,6 +2,8 @@
 // Dear ImGui on the window: start, frame, look. Panels call ImGui themselves.
 #pragma once
 
+#include <array>
+#include <deque>
 #include <vector>
 
 #include "platform/window.h"
@@ -28,8 +30,11 @@ class Gui {
   private:
     void applyLook();
     void holdTappedKeys();
+    void takeButtons();
     platform::Window& window_;
     std::vector<int> tapped_;  // keys that went down and up again between two frames
+    std::deque<platform::Window::ButtonChange> buttonChanges_;  // for frames to come
+    std::array<bool, 5> buttonsDown_{};                         // as the GUI has been told
     bool followsScreen_;
     float scale_ = 1, wantedScale_ = 1;
 };

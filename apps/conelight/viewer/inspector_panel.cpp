@@ -134,6 +134,9 @@ void inspectorPanel(const Session& session, std::optional<Inspection>& inspectio
         ImGui::TextDisabled("click a pixel");
         return;
     }
+    const bool cleared = ImGui::SmallButton("clear");
+    notePlace("inspector:clear");
+    if (cleared) return inspection.reset();
     if (!beginRows("inspector")) return;
     row("pixel", fmt::format("{}, {}", inspection->pixel.x, inspection->pixel.y));
     row("radiance", text(glm::vec3(inspection->radiance)) + "  W/(sr m2)");

@@ -6,9 +6,12 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
+#include <tuple>
+
 #include "viewer/focus.h"
 #include "viewer/imgui_names.h"
 #include "viewer/requests.h"
+#include "viewer/standard_views.h"
 #include "viewer/widget_places.h"
 
 namespace conelight::program {
@@ -17,10 +20,12 @@ namespace {
 constexpr float kTextStep = 1.1f;
 
 // Menus and lists; dialogs answer the key themselves.
-void closeMenusOnEscape() {
-    if (escapePressed() && ImGui::GetCurrentContext()->OpenPopupStack.Size > 0 &&
-        ImGui::GetTopMostPopupModal() == nullptr)
+// Returns whether one is open.
+bool closeMenusOnEscape() {
+    const bool open = ImGui::GetCurrentContext()->OpenPopupStack.Size > 0;
+    if (open && escapePressed() && ImGui::GetTopMostPopupModal() == nullptr)
         ImGui::ClosePopupToLevel(0, true);
+    return open;
 }
 
 void askForScreenshot(Session& session) { session.request({RequestKind::Screenshot, nextScreenshot()}); }
@@ -28,20 +33,69 @@ void askForScreenshot(Session& session) { session.request({RequestKind::Screensh
 }  // namespace
 
 void Menus::takeKeys() {
-    closeMenusOnEscape();
+    const bool menuOpen = closeMenusOnEscape();
     const std::vector<platform::Window::KeyPress> presses = in_.window.takeKeyPresses();
     // Whoever typed `path play` still has the cursor in the console's line.
     for (const auto& press : presses)
         if (press.key == GLFW_KEY_ESCAPE && in_.session.playing()) {
             in_.session.stopPlaying();
             if (in_.gui.wantsKeyboard()) in_.console.panel().focus();
+            return;
         }
     if (in_.gui.wantsKeyboard() || in_.window.cursorCaptured()) return;
-    for (const auto& press : presses) press.control ? takeControlKey(press) : takeKey(press);
+    for (const auto& press : presses)
+        if (press.key == GLFW_KEY_ESCAPE && !menuOpen)
+            takeEscape();
+        else if (!takeViewKey(press))
+            press.control ? takeControlKey(press) : takeKey(press);
+}
+
+// First what was found under the pixel, then the selection.
+void Menus::takeEscape() {
+    if (in_.keys.open)
+        in_.keys.open = false;
+    else if (in_.probe.found())
+        in_.probe.clear();
+    else
+        in_.session.select({});
+}
+
+// Standard views as on the keypad of Blender, and by letters. Returns whether it was one.
+bool Menus::takeViewKey(const platform::Window::KeyPress& press) {
+    struct View {
+        int letter, keypad;
+        const char *side, *other;
+    };
+    constexpr View kViews[] = {{GLFW_KEY_N, GLFW_KEY_KP_1, "front", "back"},
+                               {GLFW_KEY_R, GLFW_KEY_KP_3, "right", "left"},
+                               {GLFW_KEY_T, GLFW_KEY_KP_7, "top", "bottom"}};
+    for (const View& view : kViews) {
+        const bool keypad = press.key == view.keypad, letter = press.key == view.letter && !press.control;
+        if (!keypad && !letter) continue;
+        viewFrom(in_.session, (keypad ? press.control : press.shift) ? view.other : view.side,
+                 in_.view.pictureSize());
+        return true;
+    }
+    return false;
 }
 
 void Menus::takeKey(const platform::Window::KeyPress& press) {
     switch (press.key) {
+        case GLFW_KEY_F1:
+            in_.keys.open = !in_.keys.open;
+            return;
+        case GLFW_KEY_SLASH:
+            in_.keys.open = in_.keys.open != press.shift;
+            return;
+        case GLFW_KEY_B:
+            return in_.console.say("kept the view as the camera " + keepView(in_.session));
+        case GLFW_KEY_PAGE_UP:
+        case GLFW_KEY_PAGE_DOWN:
+            return nextCamera(in_.session, press.key == GLFW_KEY_PAGE_UP);
+        case GLFW_KEY_H:
+            return in_.console.run(press.shift ? "isolate" : "hide");
+        case GLFW_KEY_DELETE:
+            return in_.console.run("delete");
         case GLFW_KEY_F:
             return focusOnSelection(in_.session, in_.view.pictureSize());
         case GLFW_KEY_1:
@@ -71,6 +125,10 @@ void Menus::takeControlKey(const platform::Window::KeyPress& press) {
         case GLFW_KEY_Y:
             in_.session.redo();
             return;
+        case GLFW_KEY_H:
+            return in_.console.run("show");
+        case GLFW_KEY_D:
+            return in_.console.run("duplicate");
         case GLFW_KEY_O:
             return in_.document.ask(FilePurpose::OpenScene);
         case GLFW_KEY_S:
@@ -155,6 +213,15 @@ void Menus::editMenu() {
     notePlace("menu:Undo");
     if (ImGui::MenuItem("Redo", "Ctrl+Y", false, in_.session.redoSteps() > 0)) in_.session.redo();
     notePlace("menu:Redo");
+    ImGui::Separator();
+    const bool object = in_.session.selection().kind == SelectionKind::Instance;
+    for (const auto& [text, keys, line, needsObject] :
+         {std::tuple("Hide", "H", "hide", true), std::tuple("Hide all others", "Shift+H", "isolate", true),
+          std::tuple("Show all", "Ctrl+H", "show", false), std::tuple("Delete", "Del", "delete", true),
+          std::tuple("Duplicate", "Ctrl+D", "duplicate", true)}) {
+        if (ImGui::MenuItem(text, keys, false, object || !needsObject)) in_.console.run(line);
+        notePlace(std::string("menu:") + text);
+    }
     ImGui::EndMenu();
 }
 
@@ -175,6 +242,8 @@ void Menus::viewMenu() {
     ImGui::Separator();
     if (ImGui::MenuItem("Larger text", "Ctrl++")) in_.gui.setScale(in_.gui.scale() * kTextStep);
     if (ImGui::MenuItem("Smaller text", "Ctrl+-")) in_.gui.setScale(in_.gui.scale() / kTextStep);
+    ImGui::MenuItem("Mouse and keys", "F1", &in_.keys.open);
+    notePlace("menu:Mouse and keys");
     if (ImGui::MenuItem("Fullscreen", "F11")) in_.window.setFullscreen(!in_.window.fullscreen());
     ImGui::EndMenu();
 }

@@ -9,8 +9,10 @@
 #include "session/session.h"
 #include "viewer/document.h"
 #include "viewer/gui.h"
+#include "viewer/key_list.h"
 #include "viewer/panel_layout.h"
 #include "viewer/picture_view.h"
+#include "viewer/pixel_probe.h"
 #include "viewer/viewer_console.h"
 
 namespace conelight::program {
@@ -22,9 +24,11 @@ class Menus {
         platform::Window& window;
         Gui& gui;
         PictureView& view;
+        PixelProbe& probe;
         ViewerConsole& console;
         Document& document;
         PanelLayout& panels;
+        KeyList& keys;
     };
     explicit Menus(const Inputs& inputs) : in_(inputs) {}
 
@@ -32,7 +36,9 @@ class Menus {
     void showBar();
 
   private:
+    void takeEscape();
     void takeKey(const platform::Window::KeyPress& press);
+    bool takeViewKey(const platform::Window::KeyPress& press);
     void takeControlKey(const platform::Window::KeyPress& press);
     void fileMenu();
     void presetMenu();

@@ -17,9 +17,13 @@ std::optional<PictureView::Click> PicturePanel::show(const glm::vec2& at, const 
                      ImGuiWindowFlags_NoBringToFrontOnFocus);
     ImGui::PopStyleVar();
     const std::optional<PictureView::Click> clicked = in_.view.show(in_.session, at, size, seconds);
+    if (in_.view.slot(false).texture() != 0) outline_.draw(in_.session, at, size);
     in_.probe.drawOverPicture(at, size);
-    showLabels(at, size);
-    if (in_.hint) showHint(at, size);
+    if (in_.view.slot(false).texture() != 0) showLabels(at, size);
+    if (!in_.notice.empty())
+        showText(in_.notice, at, size);
+    else if (in_.hint)
+        showText(*in_.hint, at, size);
     ImGui::End();
     return clicked;
 }
@@ -39,10 +43,11 @@ void PicturePanel::showLabels(const glm::vec2& at, const glm::vec2& size) {
               at.x + size.x - 0.5f * em, at.y + 0.5f * em, true);
 }
 
-void PicturePanel::showHint(const glm::vec2& at, const glm::vec2& size) {
+// In the middle.
+void PicturePanel::showText(const std::string& words, const glm::vec2& at, const glm::vec2& size) {
     ImDrawList* list = ImGui::GetWindowDrawList();
     const float em = ImGui::GetFontSize();
-    const char* text = in_.hint->c_str();
+    const char* text = words.c_str();
     const float wrap = std::min(30 * em, size.x - 4 * em);
     const ImVec2 extent = ImGui::CalcTextSize(text, nullptr, false, wrap);
     const ImVec2 low{at.x + 0.5f * (size.x - extent.x) - em, at.y + 0.5f * (size.y - extent.y) - em};

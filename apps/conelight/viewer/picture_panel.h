@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The middle of the window: the picture, what a click found over it, and labels: the mode of each half, what
-// the reference is at, why there may be nothing to see.
+// the reference is at, what the window is busy with, why there may be nothing to see.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -10,6 +10,7 @@
 #include "session/session.h"
 #include "viewer/picture_view.h"
 #include "viewer/pixel_probe.h"
+#include "viewer/selection_outline.h"
 
 namespace conelight::program {
 
@@ -20,6 +21,7 @@ class PicturePanel {
         PictureView& view;
         PixelProbe& probe;
         const std::optional<std::string>& hint;
+        const std::string& notice;  // work that holds the window; empty: none
     };
     explicit PicturePanel(const Inputs& inputs) : in_(inputs) {}
 
@@ -28,9 +30,10 @@ class PicturePanel {
 
   private:
     void showLabels(const glm::vec2& at, const glm::vec2& size);
-    void showHint(const glm::vec2& at, const glm::vec2& size);
+    void showText(const std::string& text, const glm::vec2& at, const glm::vec2& size);
 
     Inputs in_;
+    SelectionOutline outline_;
 };
 
 }  // namespace conelight::program

@@ -16,6 +16,7 @@
 #include "viewer/background_bake.h"
 #include "viewer/background_reference.h"
 #include "viewer/face_budget.h"
+#include "viewer/picture_noise.h"
 
 namespace conelight::program {
 namespace {
@@ -66,7 +67,8 @@ struct PictureSlot::Impl {
     bool preview = false;  // it is another mode's while the mode has none
     bool asked = false;    // redraw()
     int width = 0, height = 0;
-    int settling = 0;
+    int settling = 0;                  // passes to come
+    PictureNoise noise;                // of what settles
     double frameMs = 0, updateMs = 0;  // the light cache's part
     FaceBudget flyingFaces{kFlyingUpdateMs};
     bool flyingUpdate = false;  // the last update was of flyingFaces
@@ -90,6 +92,7 @@ struct PictureSlot::Impl {
     void drawNothing(const Session& session, int w, int h);
     void renderFrame(const Session& session, Settings settings, int w, int h);
     void showImage(const ImageSettings& look);
+    const Image& read();
     void followUpdateTime();
     void followLook(const Session& session);
     bool onlyLook(const Session& session) const;
@@ -117,6 +120,8 @@ void PictureSlot::Impl::startAnew() {
     own = preview = false;
     settling = 0;
 }
+
+void PictureSlot::blank() { impl_->startAnew(); }
 
 void PictureSlot::clear() {
     impl_->startAnew();
@@ -218,6 +223,8 @@ bool PictureSlot::Impl::drawScene(const Session& session, const std::string& dra
     renderFrame(session, settings, w, h);
     followUpdateTime();
     --settling;
+    if (settlesOverFrames(drawnMode))
+        noise.follow(kSettlingFrames - settling, [this]() -> const Image& { return read(); });
     return settling > 0;
 }
 
@@ -358,13 +365,15 @@ double PictureSlot::frameMs() const { return impl_->frameMs; }
 double PictureSlot::pixelsMs() const { return std::max(impl_->frameMs - impl_->updateMs, 0.0); }
 std::uint64_t PictureSlot::version() const { return impl_->version; }
 
-const Image& PictureSlot::linear() {
+const Image& PictureSlot::linear() { return impl_->read(); }
+
+const Image& PictureSlot::Impl::read() {
     static const Image none;
-    if (impl_->linear) return *impl_->linear;
+    if (linear) return *linear;
     // A texture of the renderer's is its last picture.
-    if (impl_->texture == 0 || !impl_->renderer || impl_->texture == impl_->cpuTexture.name()) return none;
-    impl_->linear = impl_->renderer->readImage();
-    return *impl_->linear;
+    if (texture == 0 || !renderer || texture == cpuTexture.name()) return none;
+    linear = renderer->readImage();
+    return *linear;
 }
 
 const FrameStats* PictureSlot::stats() const {
@@ -404,7 +413,12 @@ std::string PictureSlot::label() const {
         return fmt::format("radiosity: baking, {:.0f} %{}{}", 100 * status.done, left,
                            impl_->preview ? instead : "; light as it was before the change");
     }
-    return impl_->mode;
+    if (!settlesOverFrames(impl_->mode) || impl_->version == 0) return impl_->mode;
+    const std::string noise =
+        impl_->noise.value() ? fmt::format("  noise {:.1f} %", 100 * *impl_->noise.value()) : "";
+    if (impl_->settling == 0) return impl_->mode + noise + "  done";
+    return fmt::format("{}  pass {} of {}{}", impl_->mode, kSettlingFrames - impl_->settling, kSettlingFrames,
+                       noise);
 }
 
 }  // namespace conelight::program

@@ -38,6 +38,7 @@ class PictureSlot {
     void restInBackground();   // ends the work of mode reference there; draw() begins it again
     void setRadiosity(const reference::RadiositySettings& settings);  // of mode radiosity, before it is shown
     void redraw();  // the next draw draws although nothing changed, and although only single frames are asked
+    void blank();   // shows nothing until the next draw
     // Frees what the slot holds; the next draw starts anew.
     void clear();
     std::vector<std::string> reloadShaders();  // messages of those that fail

@@ -65,6 +65,11 @@ void PictureView::setRadiosity(const reference::RadiositySettings& settings) {
     right_->setRadiosity(settings);
 }
 
+void PictureView::blank() {
+    left_->blank();
+    right_->blank();
+}
+
 bool PictureView::moving() const { return lastMove_ >= 0 && ImGui::GetTime() - lastMove_ < kStillAfter; }
 
 glm::ivec2 PictureView::pictureSize() const { return {left_->width(), left_->height()}; }
@@ -94,11 +99,14 @@ bool PictureView::update(const Session& session, const glm::ivec2& areaPx, bool 
     // A slider that is dragged changes the scene at each frame, as a camera that moves does. (What only
     // changes the look costs nothing: left_ does not draw it anew.)
     const std::uint64_t edits = session.revisions().sceneTables() + session.revisions().settings;
-    const bool slow = left_->frameMs() + (split.on ? right_->frameMs() : 0) > kSlowFrameMs;
+    if (!wasMoving_) stillMs_ = left_->frameMs() + (split.on ? right_->frameMs() : 0);
+    const bool slow = stillMs_ > kSlowFrameMs;
     if (std::exchange(lastEdit_, edits) != edits && ImGui::IsAnyItemActive() && slow &&
         !left_->onlyLook(session))
         lastMove_ = ImGui::GetTime();
 
+    // A hand that holds a handle goes on: a picture in full would hold it up.
+    if (gizmo.active() && slow) lastMove_ = ImGui::GetTime();
     if (session.playing()) lastMove_ = lastFlight_ = ImGui::GetTime();
 
     const bool coarse = moving();
@@ -213,7 +221,8 @@ std::optional<PictureView::Click> PictureView::show(Session& session, const glm:
     // A press and release in place.
     if (hovered && letGo && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !wasDragging &&
         left_->width() > 0) {
-        const ImVec2 mouse = ImGui::GetIO().MousePos;
+        const ImVec2 mouse = ImGui::GetIO().MousePos, from = ImGui::GetIO().MouseClickedPos[0];
+        if (std::hypot(mouse.x - from.x, mouse.y - from.y) > kClickSlop) return std::nullopt;
         return Click{{(mouse.x - at.x) / size.x, (mouse.y - at.y) / size.y}};
     }
     return std::nullopt;

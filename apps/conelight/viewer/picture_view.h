@@ -40,6 +40,7 @@ class PictureView {
     // `userActs`: input came a moment ago, so that what only refines a slow picture waits. Returns whether
     // another call soon would improve them. Failures are said by takeError().
     bool update(const Session& session, const glm::ivec2& areaPx, bool userActs);
+    void blank();                                                     // shows nothing until the next update
     std::optional<std::string> takeError();                           // of update, each once
     void setRadiosity(const reference::RadiositySettings& settings);  // of mode radiosity, before it is shown
     // The GUI part: shows the textures at the cursor, moves the camera, returns where it was clicked.
@@ -87,6 +88,7 @@ class PictureView {
     MovingResolution movingResolution_;
     Movement movement_;
     bool wasMoving_ = false;
+    double stillMs_ = 0;  // of a picture at rest
     glm::ivec2 fullSize_{0};
     bool dragged_ = false;
     bool draggingSplit_ = false;

@@ -21,8 +21,20 @@ void PixelProbe::inspect(const PictureView::Click& click) {
     inspection.hit = picker_.atPixel(session_, size.x, size.y, pixel.x, pixel.y);
     session_.select(inspection.hit ? Selection{SelectionKind::Instance, inspection.hit->instance}
                                    : Selection{});
-    inspectGathering(inspection, slot.renderer());
+    if (inspection.hit) inspectGathering(inspection, slot.renderer());  // nothing gathers in the sky
     found_ = inspection;
+    tables_ = session_.revisions().sceneTables();
+    mode_ = session_.mode();
+    settings_ = session_.settings();
+}
+
+// Exposure and tone map change nothing of it, and lines follow the camera.
+void PixelProbe::follow() {
+    if (!found_) return;
+    settings_.image = session_.settings().image;
+    const bool same = tables_ == session_.revisions().sceneTables() && mode_ == session_.mode() &&
+                      settings_ == session_.settings();
+    if (!same) clear();
 }
 
 }  // namespace conelight::program

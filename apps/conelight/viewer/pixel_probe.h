@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What lies under a pixel: a click selects the object there and keeps what the pixel gathered, for the panel
-// beside the picture and the lines over it.
+// beside the picture and the lines over it, until the scene or the settings change.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <optional>
+#include <string>
 
 #include "session/picker.h"
 #include "session/session.h"
@@ -19,6 +21,8 @@ class PixelProbe {
 
     void inspect(const PictureView::Click& click);
     void inspectPixel(const glm::ivec2& pixel);  // of the left picture
+    void clear() { found_.reset(); }
+    void follow();  // forgets what is not so any more
     void showPanel() { inspectorPanel(session_, found_); }
     void drawOverPicture(const glm::vec2& at, const glm::vec2& size) {
         drawInspection(session_, picker_, found_, at, size);
@@ -31,6 +35,10 @@ class PixelProbe {
     PictureView& view_;
     Picker picker_;
     std::optional<Inspection> found_;
+    // What it was found in.
+    std::uint64_t tables_ = 0;
+    std::string mode_;
+    Settings settings_;
 };
 
 }  // namespace conelight::program

@@ -20,24 +20,36 @@ namespace {
 constexpr double kIdleWait = 0.5;    // s; the files are looked at this often while nothing else happens
 constexpr double kPace = 0.008;      // s between frames in which only the GUI changes
 constexpr double kUserPause = 0.15;  // s after the last input until a slow picture is refined further
+// s after a button of the mouse: a second click comes within ImGui's 0.3; a pass between would hold it up.
+constexpr double kClickPause = 0.4;
 
-// When input came last.
+// How long input keeps slow pictures from being refined.
 class InputClock {
   public:
     // Whether it came a moment ago.
     bool userActs(const platform::Window& window, double now) {
-        if (std::exchange(seen_, window.inputs()) != window.inputs()) last_ = now;
-        return last_ >= 0 && now - last_ < kUserPause;
+        if (std::exchange(seen_, window.inputs()) != window.inputs())
+            until_ = std::max(until_, now + kUserPause);
+        if (std::exchange(clicksSeen_, window.buttonInputs()) != window.buttonInputs())
+            until_ = now + kClickPause;
+        return now < until_;
     }
 
   private:
-    std::uint64_t seen_ = 0;
-    double last_ = -1;
+    std::uint64_t seen_ = 0, clicksSeen_ = 0;
+    double until_ = -1;
+};
+
+// A scene as it was read: its name, and how often one was.
+struct Drawn {
+    std::string path;
+    std::uint64_t readings = 0;
+    bool operator==(const Drawn&) const = default;
 };
 
 class Viewer {
   public:
-    Viewer(Session& session, const ViewerOptions& options);
+    explicit Viewer(const ViewerOptions& options);
     int run();
 
   private:
@@ -47,10 +59,15 @@ class Viewer {
     void frame();
     void updatePictures();
     bool drawPictureJob();
+    std::string workAhead() const;
+    bool announce();
+    void openScene();
     void carryOutRequests();
     std::optional<PictureView::Click> showGui();
 
-    Session& session_;
+    Session session_;  // without a scene until open_ was called
+    std::function<Session()> open_;
+    std::string sceneName_;
     bool timing_;
     Ending ending_;
     platform::Window window_;
@@ -66,6 +83,7 @@ class Viewer {
     Timings timings_;
     InputClock input_;
     PanelLayout panels_;
+    KeyList keys_;
     Menus menus_;
     LeftPanel left_;
     RightPanel right_;
@@ -75,32 +93,33 @@ class Viewer {
     bool more_ = true;          // another frame would change the picture
     bool lastWasIdle_ = false;  // the last frame drew no picture
     double lastFrame_ = 0;
+    std::string notice_;          // what the next frame is busy with for long
+    std::optional<Drawn> drawn_;  // the scene of the last picture
 };
 
-Viewer::Viewer(Session& session, const ViewerOptions& options)
-    : session_(session),
+Viewer::Viewer(const ViewerOptions& options)
+    : open_(options.open),
+      sceneName_(options.scene),
       timing_(options.timing),
       window_({options.width, options.height, "Conelight", true, options.debugGl}),
       gui_(window_, options.uiScale),
       view_(window_, options.shaderDirectory, options.debugGl),
       state_(options.keepState),
-      console_(session, state_,
+      console_(session_, state_,
                [this](const std::vector<std::string>& words) { return work_.stopAtOnce(words); }),
-      work_({session, view_, console_}, options.radiosity),
-      document_({session, window_, console_, state_, work_.film, ending_}),
+      work_({session_, view_, console_}, options.radiosity),
+      document_({session_, window_, console_, state_, work_.film, ending_}),
       shaders_(options.shaderDirectory),
-      probe_(session, view_),
+      probe_(session_, view_),
       timings_(options.startedMs),
       panels_(window_, gui_),
-      menus_({session, window_, gui_, view_, console_, document_, panels_}),
-      left_(session, console_),
-      right_({session, view_, console_, probe_, document_, work_.film, timings_}),
-      picture_({session, view_, probe_, hint_.text()}),
-      commands_({session, window_, gui_, view_, console_, work_, probe_, panels_, places_, hint_.text(),
+      menus_({session_, window_, gui_, view_, probe_, console_, document_, panels_, keys_}),
+      left_(session_, console_),
+      right_({session_, view_, console_, probe_, document_, work_.film, timings_}),
+      picture_({session_, view_, probe_, hint_.text(), notice_}),
+      commands_({session_, window_, gui_, view_, console_, work_, probe_, panels_, places_, hint_.text(),
                  timings_}) {
     view_.setRadiosity(options.radiosity);
-    for (const std::string& note : session.scene().notes)
-        console_.panel().say(note);  // the terminal has them
     window_.onDrop = [this](const std::vector<std::string>& paths) {
         if (!paths.empty()) document_.open(paths.front());
     };
@@ -124,6 +143,8 @@ int Viewer::run() {
         takeCommands();
         if (!window_.minimized())
             frame();
+        else if (open_)
+            openScene();
         else if (!drawPictureJob())
             carryOutRequests();  // what is not seen draws nothing, but does what is asked
     }
@@ -148,6 +169,7 @@ void Viewer::watchShaders() {
 }
 
 void Viewer::takeCommands() {
+    if (open_) return;
     console_.takeStandardInput();
     work_.lookWhetherSettled(more_);
     if (!work_.holdsCommands()) console_.commands().runQueued();
@@ -172,13 +194,50 @@ void Viewer::frame() {
     places_.answer(console_);
 }
 
+// What the next frame will be busy with for so long that it is to be said; empty: nothing.
+std::string Viewer::workAhead() const {
+    if (open_) return "loading " + sceneName_ + ": reading the scene";
+    if (const Request* next = session_.nextRequest();
+        next != nullptr && next->kind == RequestKind::Load && !work_.holdsRequests())
+        return "loading " + next->file + ": reading the scene";
+    if (!drawn_ || drawn_->readings != session_.revisions().scene)
+        return "loading " + session_.path() + ": voxels, light and the first picture";
+    return {};
+}
+
+// Shows a frame that names the work before it is begun. Returns whether that is this one.
+bool Viewer::announce() {
+    const std::string work = workAhead();
+    const bool isNew = !work.empty() && work != notice_;
+    notice_ = work;
+    if (!isNew) return false;
+    // Another scene's lists do not stand beside the picture of this one.
+    if (drawn_ && drawn_->path != session_.path()) view_.blank();
+    more_ = true;
+    lastWasIdle_ = false;
+    return true;
+}
+
+void Viewer::openScene() {
+    session_ = std::exchange(open_, nullptr)();
+    for (const std::string& note : session_.scene().notes)
+        console_.panel().say(note);  // the terminal has them
+    more_ = true;
+}
+
 void Viewer::updatePictures() {
-    if (drawPictureJob()) return;
+    if (drawPictureJob() || announce()) return;
+    if (open_) return openScene();
+    if (const Request* next = session_.nextRequest(); next != nullptr && next->kind == RequestKind::Load)
+        return carryOutRequests();
     const glm::vec2 pixels =
         glm::vec2(window_.framebufferSize()) / glm::max(glm::vec2(window_.size()), glm::vec2(1));
     const glm::ivec2 area(panels_.layout().pictureSize() * pixels);
     const std::uint64_t before = view_.slot(false).version();
-    more_ = view_.update(session_, area, input_.userActs(window_, ImGui::GetTime()));
+    const bool userActs = input_.userActs(window_, ImGui::GetTime()) || gui_.hasInput();
+    more_ = view_.update(session_, area, userActs);
+    drawn_ = Drawn{session_.path(), session_.revisions().scene};
+    notice_.clear();
     lastWasIdle_ = view_.slot(false).version() == before;
     if (!lastWasIdle_) session_.frameDrawn(view_.slot(false).frameMs());
     while (const std::optional<std::string> error = view_.takeError()) console_.fail(*error);
@@ -200,7 +259,9 @@ void Viewer::carryOutRequests() {
         session_, view_, console_, work_, probe_, ending_, [this](const Request& request) {
             commands_.carryOut(request);
         }};
-    while (carryOutRequest(inputs)) more_ = true;
+    // A scene to load is said first.
+    const auto waits = [&] { return !window_.minimized() && !workAhead().empty() && workAhead() != notice_; };
+    while (!waits() && carryOutRequest(inputs)) more_ = true;
 }
 
 std::optional<PictureView::Click> Viewer::showGui() {
@@ -208,6 +269,7 @@ std::optional<PictureView::Click> Viewer::showGui() {
     const glm::vec2 at = layout.pictureAt(), size = layout.pictureSize();
     places_.beginGui();
     menus_.takeKeys();
+    probe_.follow();
     menus_.showBar();
     if (panels_.showSide) {
         left_.show(layout);
@@ -221,6 +283,7 @@ std::optional<PictureView::Click> Viewer::showGui() {
     const std::optional<PictureView::Click> clicked =
         picture_.show(at, size, static_cast<float>(ImGui::GetTime() - lastFrame_));
     work_.showStrips(at, size);
+    keys_.show(at, size);
     document_.showDialogs();
     panels_.dragBorders(layout);
     return clicked;
@@ -228,6 +291,6 @@ std::optional<PictureView::Click> Viewer::showGui() {
 
 }  // namespace
 
-int runViewer(Session& session, const ViewerOptions& options) { return Viewer(session, options).run(); }
+int runViewer(const ViewerOptions& options) { return Viewer(options).run(); }
 
 }  // namespace conelight::program

@@ -3,7 +3,7 @@
 // GUI, swap; sleeps when nothing changes.
 #pragma once
 
-#include <memory>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,9 +24,12 @@ struct ViewerOptions {
     int filmSamples = 0;                     // a pixel and frame of films in mode reference; 0: as `render`
     reference::RadiositySettings radiosity;  // of mode radiosity and `bake`
     double startedMs = 0;                    // steady clock when the program started
+    std::string scene;                       // its name, shown while it is opened
+    std::function<Session()> open;           // reads it, when the window is there
 };
 
-// Runs until the window closes or `quit`; returns the exit status.
-int runViewer(Session& session, const ViewerOptions& options);
+// Runs until the window closes or `quit`; returns the exit status. Throws what opening a window and the scene
+// throw.
+int runViewer(const ViewerOptions& options);
 
 }  // namespace conelight::program

@@ -8,9 +8,11 @@
 #include <map>
 #include <utility>
 
+#include "conelight/error.h"
 #include "interrupt.h"
 #include "io/image_file.h"
 #include "viewer/focus.h"
+#include "viewer/standard_views.h"
 
 namespace conelight::program {
 namespace {
@@ -30,11 +32,9 @@ void WindowCommands::carryOut(const Request& request) {
         {"fullscreen",
          [&](const Words& words) { in_.window.setFullscreen(switched(words, in_.window.fullscreen())); }},
         {"panels", [&](const Words& words) { in_.panels.showAll(switched(words, in_.panels.showSide)); }},
+        {"view_from", [&](const Words& words) { viewFrom(in_.session, words[1], in_.view.pictureSize()); }},
         {"focus", [&](const Words&) { focusOnSelection(in_.session, in_.view.pictureSize()); }},
-        {"pick",
-         [&](const Words& words) {
-             in_.probe.inspect({{number(words[1]), number(words[2])}});
-         }},
+        {"pick", [&](const Words& words) { pick(words); }},
         {"resolution", [&](const Words& words) { resolution(words); }},
         {"ui_scale",
          [&](const Words& words) {
@@ -48,6 +48,15 @@ void WindowCommands::carryOut(const Request& request) {
     };
     const auto command = commands.find(request.words.front());
     if (command != commands.end()) command->second(request.words);
+}
+
+void WindowCommands::pick(const Words& words) {
+    if (words.size() == 2)
+        throw Error(ErrorKind::Usage, "pick: Y is missing; X and Y, or neither, would be right");
+    if (words.size() == 1)
+        in_.probe.clear();
+    else
+        in_.probe.inspect({{number(words[1]), number(words[2])}});
 }
 
 void WindowCommands::split(const Words& words) {

@@ -35,6 +35,7 @@ class WindowCommands {
 
   private:
     using Words = std::vector<std::string>;  // the command's name first
+    void pick(const Words& words);
     void split(const Words& words);
     void error(const Words& words);
     void resolution(const Words& words);
