@@ -20,10 +20,11 @@ layout(rgba32ui) writeonly uniform uimage2D result;
 // Of the pixels about it, the one of its instance whose normal is most like its own; a: whether there is one.
 vec4 likestNear(ivec2 pixel, Surface s) {
     ivec2 size = textureSize(pixelHistory, 0);
+    ivec2 middle = pixel * size / imageSize(result);  // where the pictures differ in size
     vec4 found = vec4(0.0);
     float likest = 0.0;  // turned by less than a right angle
     for (int i = 0; i < 9; ++i) {
-        ivec2 q = clamp(pixel + ivec2(i % 3, i / 3) - 1, ivec2(0), size - 1);
+        ivec2 q = clamp(middle + ivec2(i % 3, i / 3) - 1, ivec2(0), size - 1);
         uvec4 bits = texelFetch(pixelHistory, q, 0);
         float alike = dot(pixelHistoryNormal(bits), s.normal);
         bool better = bits.z != 0u && pixelHistoryInstance(bits) == (s.instance & 0xffu) && alike > likest;

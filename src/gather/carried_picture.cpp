@@ -15,11 +15,13 @@ struct CarryKey {
 const gl::Texture& CarriedPicture::carry(const gl::Device& device, const RayInputs& inputs,
                                          const From& from) {
     const gl::PassScope pass(device.profiler, "carry to view");
-    const glm::ivec2 size(from.picture.width(), from.picture.height());
+    const glm::ivec2 size(inputs.surfaces.width(), inputs.surfaces.height());
     if (!texture_ || texture_.width() != size.x || texture_.height() != size.y)
         texture_ = makePixelPicture(size.x, size.y, "carried picture");
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::PixelRayConstants), "carry constants");
-    const PixelRectangle where = from.lobes != nullptr ? *from.lobes : PixelRectangle{glm::ivec2(0), size};
+    const bool sameSize = size == glm::ivec2(from.picture.width(), from.picture.height());
+    const PixelRectangle where =
+        from.lobes != nullptr && sameSize ? *from.lobes : PixelRectangle{glm::ivec2(0), size};
     gpu::PixelRayConstants constants{};
     setPictureSoFar(constants, from.view, inputs.voxels.grid());
     constants.specularLimit = from.specularLimit;

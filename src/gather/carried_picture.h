@@ -20,7 +20,7 @@ class CarriedPicture {
         const PixelRectangle* lobes;      // where a picture of lobes has anything; null: one of irradiance
         float specularLimit;
     };
-    // `inputs.surfaces`: the other view, of the same size.
+    // `inputs.surfaces`: the other view; of another size it shows the same, with more pixels.
     const gl::Texture& carry(const gl::Device& device, const RayInputs& inputs, const From& from);
 
     static std::vector<gl::ProgramDesc> programDescs();

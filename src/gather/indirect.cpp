@@ -29,9 +29,10 @@ bool wantsIrradiance(const Indirect::Wanted& wanted) {
     return wanted.settings.pixelRays > 0 && (wanted.parts.diffuse || wanted.parts.specular);
 }
 
-bool wantsLobe(const Indirect::Wanted& wanted, const scene::GpuScene& scene) {
+bool wantsLobe(const Indirect::Wanted& wanted, const RayInputs& inputs) {
     return wanted.settings.specularRays > 0 && wanted.parts.specular &&
-           hasGloss(scene, wanted.settings.specularLimit);
+           (inputs.surfaces.areHosts() ? inputs.surfaces.mayHaveLobes()
+                                       : hasGloss(inputs.scene, wanted.settings.specularLimit));
 }
 
 }  // namespace
@@ -98,7 +99,7 @@ void Indirect::gather(const gl::Device& device, const RayInputs& inputs, const W
         addPasses(device, inputs, pass, diffuse_, diffuseHistory_);
         irradiance_ = &diffuse_.filtered(device, inputs, settings.filterLevels);
     }
-    if (wantsLobe(wanted, inputs.scene)) {
+    if (wantsLobe(wanted, inputs)) {
         const RayPass pass{settings, settings.specularRays, settings.passes, 0, Reuse::None,
                            nullptr,  wanted.lookupCounters};
         addPasses(device, inputs, pass, specular_, specularHistory_);
@@ -131,7 +132,7 @@ void Indirect::record(const gl::Device& device, const RayInputs& inputs, const W
     if (wantsIrradiance(wanted))
         diffuse_.record(device, inputs, {settings, settings.pixelRays, settings.passes}, settings.passes,
                         recorder);
-    if (wantsLobe(wanted, inputs.scene))
+    if (wantsLobe(wanted, inputs))
         specular_.record(device, inputs, {settings, settings.specularRays, settings.passes}, settings.passes,
                          recorder);
 }

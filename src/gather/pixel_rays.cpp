@@ -29,10 +29,11 @@ gl::ProgramDesc selectDesc() { return {{"gather/lobe_select.comp.glsl"}, {}}; }
 const char* const kGatherPass[] = {"diffuse rays", "specular rays", "occlusion rays"};
 const char* const kLabel[] = {"gathered diffuse", "gathered specular", "gathered occlusion"};
 
-// About the boxes of all instances that may have lobes. One that reaches behind the eye may be anywhere.
+// About the boxes of all instances that may have lobes; all of a host's picture. One that reaches behind the eye may be anywhere.
 PixelRectangle lobeRectangle(const RayInputs& inputs, float roughest) {
     const gpu::FrameConstants& view = inputs.surfaces.view();
     const glm::ivec2 size(view.width, view.height);
+    if (inputs.surfaces.areHosts()) return {glm::ivec2(0), size};
     PixelRectangle all{size, glm::ivec2(0)};
     const std::vector<gpu::Instance>& instances = inputs.scene.instances();
     for (std::size_t i = 0; i < instances.size(); ++i) {

@@ -20,6 +20,17 @@ constexpr int kSteadyUpdates = 14;
 
 }  // namespace
 
+RelightSettings relightSettings(const TracedSettings& settings) {
+    RelightSettings relight;
+    relight.updates = settings.cacheUpdates;
+    relight.bounces = settings.bounces;
+    // Rays at pixels add a bounce to what the cache holds.
+    if (settings.bounces) relight.updates = *settings.bounces - (settings.pixelRays > 0 ? 1 : 0);
+    relight.rays = settings.cacheRays;
+    relight.exactHits = settings.exactHits;
+    return relight;
+}
+
 void LitVoxels::relight(const gl::Device& device, const Inputs& inputs, const RelightSettings& settings,
                         const Budget& budget) {
     const bool first = !revision_;

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/revision.h"
+#include "conelight/settings.h"
 #include "gl/device.h"
 #include "light/emission_fit.h"
 #include "light/irradiance_cache.h"
@@ -25,6 +26,8 @@ struct RelightSettings {
     bool exactHits = true;       // CacheSettings::exactDirect
     bool operator==(const RelightSettings&) const = default;
 };
+
+RelightSettings relightSettings(const TracedSettings& settings);
 
 // How much a call of relight() does.
 struct Budget {

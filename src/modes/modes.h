@@ -25,4 +25,7 @@ const std::vector<ModeEntry>& registeredModes();
 // Throws Error(Usage) for a mode that nobody registered.
 std::unique_ptr<ModeRenderer> makeModeRenderer(Mode mode);
 
+// Of LightField (conelight/light_field.h).
+std::vector<gl::ProgramDesc> lightFieldProgramDescs();
+
 }  // namespace conelight::modes

@@ -66,6 +66,7 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     add(image::WireframeView::programDescs());
     add(image::Display::programDescs());
     add(image::ViewMean::programDescs());
+    add(lightFieldProgramDescs());
     for (const ModeEntry& mode : registeredModes()) add(mode.programDescs());
     return all;
 }

@@ -18,17 +18,6 @@ gather::PictureParts partsOf(const Settings& settings) {
     return {parts.direct, parts.diffuse && gathers, parts.specular && gathers};
 }
 
-light::RelightSettings relightSettings(const TracedSettings& settings) {
-    light::RelightSettings relight;
-    relight.updates = settings.cacheUpdates;
-    relight.bounces = settings.bounces;
-    // Rays at pixels add a bounce to what the cache holds.
-    if (settings.bounces) relight.updates = *settings.bounces - (settings.pixelRays > 0 ? 1 : 0);
-    relight.rays = settings.cacheRays;
-    relight.exactHits = settings.exactHits;
-    return relight;
-}
-
 // A recorded picture shows what is there.
 light::Budget budgetOf(const Frame& frame) {
     const TracedSettings& settings = frame.settings.traced;
@@ -51,7 +40,7 @@ void TracedMode::draw(const Frame& frame) {
                            parts.diffuse || parts.specular || frame.recorder != nullptr;
     if (usesLight && !frame.besideCenters) {
         voxels_.update(frame.device, frame.scene, frame.settings.voxels, voxels::Rays::Yes);
-        lit_.relight(frame.device, {frame.scene, frame.lights, voxels_}, relightSettings(settings),
+        lit_.relight(frame.device, {frame.scene, frame.lights, voxels_}, light::relightSettings(settings),
                      budgetOf(frame));
     }
 

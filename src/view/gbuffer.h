@@ -38,6 +38,9 @@ class GBuffer {
     // of the surfaces.
     const gl::Texture& depth() const { return depth_; }
 
+    // For passes that fill it otherwise: geometry, material, depth.
+    const gl::Framebuffer& framebuffer() const { return framebuffer_; }
+
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:

@@ -5,11 +5,25 @@ namespace conelight::view {
 
 Surfaces::Surfaces() : block_(sizeof(gpu::FrameConstants), "frame constants") {}
 
+void Surfaces::resize(int width, int height) {
+    if (gbuffer_ && gbuffer_->width() == width && gbuffer_->height() == height) return;
+    gbuffer_.reset();  // frees the old one first
+    gbuffer_.emplace(width, height);
+}
+
+void Surfaces::take(const gl::Device& device, const scene::GpuScene& scene, const HostSurfaces& host,
+                    int reduction) {
+    view_ = frameConstants(host, reduction);
+    resize(static_cast<int>(view_.width), static_cast<int>(view_.height));
+    block_.update(view_);
+    if (!import_) import_.emplace();
+    hostsLobes_ = host.roughness != 0;
+    import_->draw(device, {host, reduction, scene.instances().size()}, block_, *gbuffer_);
+    gl::barrier(gl::Access::TextureFetch | gl::Access::ShaderStorage);
+}
+
 void Surfaces::see(const gl::Device& device, const scene::GpuScene& scene, const Picture& picture) {
-    if (!gbuffer_ || gbuffer_->width() != picture.width || gbuffer_->height() != picture.height) {
-        gbuffer_.reset();  // frees the old one first
-        gbuffer_.emplace(picture.width, picture.height);
-    }
+    resize(picture.width, picture.height);
     view_ = frameConstants(picture.camera, picture.width, picture.height, picture.part);
     block_.update(view_);
     gbuffer_->draw(device, scene, block_, picture.cullBackFaces, picture.withGlass);

@@ -10,6 +10,7 @@
 #include "shared/frame.h"
 #include "view/camera.h"
 #include "view/gbuffer.h"
+#include "view/host_surfaces.h"
 
 namespace conelight::view {
 
@@ -27,7 +28,15 @@ class Surfaces {
         bool withGlass = false;  // else what is behind it
     };
     void see(const gl::Device& device, const scene::GpuScene& scene, const Picture& picture);
+    // What a host has drawn, usable (requireUsable), one of reduction x reduction pixels. GL state changed: as
+    // HostSurfaceImport. Ends with the barrier for texture fetches.
+    void take(const gl::Device& device, const scene::GpuScene& scene, const HostSurfaces& host,
+              int reduction);
     explicit operator bool() const { return gbuffer_.has_value(); }
+
+    // Whether a host drew them: what materials of the scene say of gloss does not hold then, but this.
+    bool areHosts() const { return import_.has_value(); }
+    bool mayHaveLobes() const { return hostsLobes_; }
 
     // FrameBlock, gbufferGeometry, gbufferMaterial.
     void declare(gl::Inputs& inputs) const;
@@ -40,6 +49,10 @@ class Surfaces {
     std::optional<GBuffer> gbuffer_;
     gpu::FrameConstants view_{};
     gl::Buffer block_;
+    std::optional<HostSurfaceImport> import_;
+    bool hostsLobes_ = false;
+
+    void resize(int width, int height);
 };
 
 }  // namespace conelight::view

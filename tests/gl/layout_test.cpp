@@ -9,6 +9,7 @@
 #include "shared/cones.h"
 #include "shared/frame.h"
 #include "shared/glass.h"
+#include "shared/host_surfaces.h"
 #include "shared/image.h"
 #include "shared/inspect.h"
 #include "shared/irradiance.h"
@@ -96,8 +97,8 @@ Member member(const char* name, std::size_t offset) {
 #S, sizeof(gpu::S), { EXPAND(EACH(S, __VA_ARGS__)) } \
     }
 
-const std::vector<Struct>& table() {
-    static const std::vector<Struct> structs = {
+std::vector<Struct> otherStructs() {
+    return {
         ROW(ConeConstants, count, step, offset, maxDistance, specularMinTan, occlusionDistance, pad0, pad1,
             cone, aperture),
         ROW(Exposure, scale, pad0, pad1, pad2),
@@ -153,6 +154,15 @@ const std::vector<Struct>& table() {
         ROW(SurfaceConstants, triangleCount, instanceCount, tileCapacity, fragmentCapacity, voxelCapacity,
             faceCapacity, brickCapacity, bricksPerChunk, voxelsPerChunk, emissionScale, editedBricks, pad0),
     };
+}
+
+const std::vector<Struct>& table() {
+    static const std::vector<Struct> structs = [] {
+        std::vector<Struct> all = otherStructs();
+        all.push_back(ROW(HostSurfaceConstants, worldFromView, depthRow, depthOfEye, depthScale, depthOffset,
+                          background, encoding, reduction, instances, roughnessChannel, pad0));
+        return all;
+    }();
     return structs;
 }
 

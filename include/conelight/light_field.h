@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Indirect light for a renderer of one's own: the host draws its picture, this tells the light that arrives
+// at each of its pixels. Scene + lights in, kept up to date by a budget per frame; G-buffer of the host in;
+// irradiance and radiance of reflections out, as textures. docs/guide/light_field.md
+//
+// Load time: make a 4.5 core context current, construct a LightField, setScene, addView. Each frame: changes
+// of the scene, update(), the host's G-buffer, gather(), the host's own shading. All calls leave the context's
+// state as they found it. One thread at a time, the one on which the context is current.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "conelight/renderer.h"
+#include "conelight/scene.h"
+#include "conelight/settings.h"
+
+namespace conelight {
+
+// How the texels of a normal texture say a unit vector.
+enum class NormalEncoding : std::uint8_t {
+    World,       // xyz, world space, as floats or signed
+    WorldUnorm,  // 0.5 xyz + 0.5
+    View,        // as World, of view space
+    ViewUnorm,
+    Octahedral  // xy in [-1,1], world space: Cigolle et al. 2014, "A Survey of Efficient Representations for
+                // Independent Unit Vectors"
+};
+
+// A picture that the host has drawn: GL names of textures of target GL_TEXTURE_2D, width x height texels, the
+// row at clip y = -1 first. They are read at level 0, by samplers of ours, and never written.
+struct HostSurfaces {
+    int width = 0, height = 0;
+    // From world to clip space, as the pixels were drawn: any perspective. Jittered, off-centre, mirrored,
+    // left-handed, reversed and infinite ones are; parallel rays are refused.
+    glm::mat4 viewFromWorld{1.0f};
+    glm::mat4 clipFromView{1.0f};
+    bool clipDepthZeroToOne = false;  // glClipControl(.., GL_ZERO_TO_ONE)
+    std::uint32_t depth = 0;          // x: as in the depth buffer, [0,1]
+    float background = 1.0f;          // depth where nothing was drawn; 0 with reversed depths
+    std::uint32_t normal = 0;         // for shading
+    // Of triangles; 0: from the depths of neighbouring pixels.
+    std::uint32_t geometricNormal = 0;
+    NormalEncoding normalEncoding = NormalEncoding::World;  // of both
+    // Perceptual roughness, [0,1], in one channel of it. 0: all is rough, no reflections are traced.
+    std::uint32_t roughness = 0;
+    int roughnessChannel = 0;
+    std::uint32_t reflectance = 0;  // rgb: at normal incidence (F0), linear; 0: 0.04
+    // GL_R16UI or GL_R32UI: index into the instances of the scene. Tells where the surface of a pixel was, when
+    // things move. 0: none; means of moving things are then kept where they happen to match.
+    std::uint32_t instances = 0;
+};
+
+// How much a call of update() does, when traced.budgeted is on.
+struct LightBudget {
+    int updates = 1;  // of the light of faces, at most
+    int faces = 0;    // in each of them, at most; 0: all
+};
+
+struct GatherOptions {
+    // Rays are traced for one of reduction x reduction pixels, 1 to 4; the others take what the nearest of these
+    // show of the same surface.
+    int reduction = 1;
+};
+
+// What arrives at the host's pixels: GL names of textures of target GL_TEXTURE_2D, GL_RGBA16F, of the size of
+// HostSurfaces, a: 1 where a surface was seen. Owned by the field; valid until the next gather() of the view.
+struct GatheredLight {
+    std::uint32_t diffuse = 0;  // indirect irradiance / pi, W/(sr m^2): times albedo is radiance
+    std::uint32_t specular =
+        0;  // mean radiance in the specular lobe, W/(sr m^2): times its albedo is radiance
+    int width = 0, height = 0;
+};
+
+// Settings for pictures that move: traced.budgeted is on. LightField reads the groups voxels, light, traced.
+CONELIGHT_API Settings realtimeSettings(Quality quality = Quality::Interactive);
+
+class CONELIGHT_API LightField {
+  public:
+    // Throws Error(NoGl) without a current 4.5 context.
+    explicit LightField(const RendererOptions& options = {});
+    ~LightField();
+    LightField(const LightField&) = delete;
+    LightField& operator=(const LightField&) = delete;
+
+    // As those of Renderer (conelight/renderer.h), which say what they throw. Materials and textures matter for
+    // the light that surfaces send out; how they look is the host's business.
+    void setScene(const Scene& scene);
+    void setInstance(std::size_t index, const Instance& instance);
+    void setMesh(std::size_t index, const Mesh& mesh);
+    void setMaterial(std::size_t index, const Material& material);
+    void setLight(std::size_t index, const Light& light);
+    void setLights(const std::vector<Light>& lights);
+    void setSky(const glm::vec3& radiance);
+    void setEnvironment(const Environment& environment);
+    const Scene& scene() const;
+
+    // From the next update() on; realtimeSettings() at first. Throws Error(Usage) for values out of range.
+    void setSettings(const Settings& settings);
+    const Settings& settings() const;
+
+    // Voxels and light of the scene as it is, by as much work as the budget allows; all of it when
+    // traced.budgeted is off. Returns the updates that faces have had since the light changed, at most
+    // traced.cache_updates: what they show is steady then.
+    int update(const LightBudget& budget = {});
+
+    // A view has a history of its own: means over frames, of one camera. Numbers of removed views are not
+    // given again.
+    int addView();
+    void removeView(int view);
+
+    // Light at the host's pixels. A call is one pass of rays with traced.budgeted on, all passes of a finished
+    // picture with it off. Call it once per view and frame. Throws Error(Usage) for an unknown view, before the
+    // first update(), and for surfaces that are incomplete or of parallel rays.
+    GatheredLight gather(int view, const HostSurfaces& surfaces, const GatherOptions& options = {});
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace conelight

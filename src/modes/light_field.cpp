@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: MIT
+// The embedding level of the library: the values of mode `traced`, with surfaces that a host has drawn.
+#include "conelight/light_field.h"
+
+#include <algorithm>
+#include <map>
+
+#include "base/log.h"
+#include "gather/indirect.h"
+#include "gather/light_outputs.h"
+#include "gl/debug.h"
+#include "gl/gl.h"
+#include "gl/host_state.h"
+#include "light/lights.h"
+#include "light/lit_voxels.h"
+#include "modes/modes.h"
+#include "scene/held_scene.h"
+#include "view/surfaces.h"
+#include "voxels/voxels.h"
+
+namespace conelight {
+namespace {
+
+constexpr int kMostReduction = 4;
+
+// What one camera of the host has seen so far.
+struct View {
+    view::Surfaces surfaces;  // of the pixels that rays are traced for
+    view::Surfaces all;       // of all pixels, where those are fewer
+    gather::Indirect indirect;
+    gather::LightOutputs outputs;
+};
+
+}  // namespace
+
+struct LightField::Impl {
+    gl::ProgramLibrary programs;
+    gl::Profiler profiler;
+    gl::Device device{programs, profiler};
+    Settings settings = realtimeSettings();
+
+    scene::HeldScene scene;
+    light::Lights lights;
+    voxels::Voxels voxels;
+    light::LitVoxels lit;
+    std::map<int, View> views;
+    int nextView = 1;
+
+    explicit Impl(gl::ShaderProvider provider) : programs(std::move(provider)) {}
+    void forget();
+    int update(const LightBudget& budget);
+    GatheredLight gather(View& view, const HostSurfaces& host, int reduction);
+};
+
+Settings realtimeSettings(Quality quality) {
+    Settings settings;
+    applyQuality(settings.traced, quality);
+    settings.traced.budgeted = true;
+    return settings;
+}
+
+LightField::LightField(const RendererOptions& options) {
+    gl::requireContext();
+    if (options.reportGlErrors) gl::installDebugCallback();
+    impl_ = std::make_unique<Impl>(options.shaderDirectory.empty()
+                                       ? gl::embeddedShaderProvider()
+                                       : gl::directoryShaderProvider(options.shaderDirectory));
+}
+
+LightField::~LightField() = default;
+
+void LightField::setScene(const Scene& scene) {
+    scene.validate();  // a scene that is refused leaves the old one in place
+    const gl::HostStateGuard guard;
+    impl_->forget();
+    impl_->scene.set(scene);
+}
+
+// Light of another scene says nothing of this one; views stay, without a past.
+void LightField::Impl::forget() {
+    lights = {};
+    voxels = {};
+    lit = {};
+    for (auto& [number, view] : views) view = {};
+}
+
+void LightField::setInstance(std::size_t index, const Instance& instance) {
+    impl_->scene.setInstance(index, instance);
+}
+void LightField::setMesh(std::size_t index, const Mesh& mesh) { impl_->scene.setMesh(index, mesh); }
+void LightField::setMaterial(std::size_t index, const Material& material) {
+    impl_->scene.setMaterial(index, material);
+}
+void LightField::setLight(std::size_t index, const Light& light) { impl_->scene.setLight(index, light); }
+void LightField::setLights(const std::vector<Light>& lights) { impl_->scene.setLights(lights); }
+void LightField::setSky(const glm::vec3& radiance) { impl_->scene.setSky(radiance); }
+void LightField::setEnvironment(const Environment& environment) { impl_->scene.setEnvironment(environment); }
+const Scene& LightField::scene() const { return impl_->scene.require("scene").source(); }
+
+void LightField::setSettings(const Settings& settings) {
+    validateSettings(settings);
+    impl_->settings = settings;
+}
+const Settings& LightField::settings() const { return impl_->settings; }
+
+int LightField::update(const LightBudget& budget) {
+    if (budget.updates < 0 || budget.faces < 0)
+        base::fail(ErrorKind::Usage, "update: a budget of %d updates of %d faces; 0 or more would be right",
+                   budget.updates, budget.faces);
+    impl_->scene.require("update");
+    const gl::HostStateGuard guard;
+    return impl_->update(budget);
+}
+
+int LightField::Impl::update(const LightBudget& budget) {
+    lights.update(device, *scene, {settings.light, /*emitters as lights*/ false, true});
+    voxels.update(device, *scene, settings.voxels, voxels::Rays::Yes);
+    const light::RelightSettings wanted = light::relightSettings(settings.traced);
+    const light::LitVoxels::Inputs inputs{*scene, lights, voxels};
+    light::Budget each{.oneUpdate = settings.traced.budgeted,
+                       .faces = static_cast<std::uint32_t>(budget.faces)};
+    if (each.oneUpdate && budget.updates == 0) each.nothing = true;
+    // The first call finds what has changed; the others go on from there.
+    lit.relight(device, inputs, wanted, each);
+    for (int i = 1; each.oneUpdate && i < budget.updates && lit.updates() < wanted.updates; ++i)
+        lit.relight(device, inputs, wanted, each);
+    return lit.updates();
+}
+
+int LightField::addView() {
+    const gl::HostStateGuard guard;
+    impl_->views.try_emplace(impl_->nextView);
+    return impl_->nextView++;
+}
+
+void LightField::removeView(int view) {
+    const gl::HostStateGuard guard;
+    if (impl_->views.erase(view) == 0)
+        base::fail(ErrorKind::Usage, "removeView: there is no view %d; one of addView would be right", view);
+}
+
+GatheredLight LightField::gather(int view, const HostSurfaces& surfaces, const GatherOptions& options) {
+    const auto found = impl_->views.find(view);
+    if (found == impl_->views.end())
+        base::fail(ErrorKind::Usage, "gather: there is no view %d; one of addView would be right", view);
+    if (!impl_->lit.revision())
+        base::fail(ErrorKind::Usage, "gather: there is no light yet; update before it would be right");
+    if (options.reduction < 1 || options.reduction > kMostReduction)
+        base::fail(ErrorKind::Usage, "gather: a reduction of %d; 1 to %d would be right", options.reduction,
+                   kMostReduction);
+    view::requireUsable(surfaces);
+    const gl::HostStateGuard guard;
+    return impl_->gather(found->second, surfaces, options.reduction);
+}
+
+GatheredLight LightField::Impl::gather(View& view, const HostSurfaces& host, int reduction) {
+    view.surfaces.take(device, *scene, host, reduction);
+    const gather::RayInputs traced{*scene, lights, voxels, lit, view.surfaces};
+    view.indirect.gather(device, traced, {settings.traced, {.diffuse = true, .specular = true}});
+    if (reduction > 1) {
+        view.all.take(device, *scene, host, 1);
+        const gather::RayInputs all{*scene, lights, voxels, lit, view.all};
+        view.indirect.carry(device, all, settings.traced);
+        view.outputs.draw(device, all, view.indirect, settings.traced.specularLimit);
+    } else {
+        view.outputs.draw(device, traced, view.indirect, settings.traced.specularLimit);
+    }
+    return {view.outputs.diffuse().name(), view.outputs.specular().name(), host.width, host.height};
+}
+
+namespace modes {
+
+std::vector<gl::ProgramDesc> lightFieldProgramDescs() {
+    std::vector<gl::ProgramDesc> descs = view::HostSurfaceImport::programDescs();
+    for (gl::ProgramDesc& desc : gather::LightOutputs::programDescs()) descs.push_back(std::move(desc));
+    return descs;
+}
+
+}  // namespace modes
+}  // namespace conelight
