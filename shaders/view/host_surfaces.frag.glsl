@@ -77,13 +77,14 @@ void main() {
     vec3 ray;
     float depth = depthAt(texel, ray);
     vec3 shading = decodedNormal(texelFetch(hostNormal, texel, 0));
-    if (shading == vec3(0.0)) depth = 0.0;
-    if (depth == 0.0) {
+    vec3 face = faceNormal(texel, depth, ray, shading);
+    // Slivers may have no normal of their own.
+    if (shading == vec3(0.0)) shading = face;
+    if (depth == 0.0 || face == vec3(0.0)) {
         outGeometry = outMaterial = uvec4(0);
         gl_FragDepth = 1.0;
         return;
     }
-    vec3 face = faceNormal(texel, depth, ray, shading);
     if (dot(shading, face) < 0.0) shading = -shading;
     float roughness = 1.0;
     vec3 reflectance = vec3(0.04);

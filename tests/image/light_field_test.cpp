@@ -375,6 +375,25 @@ TEST_F(LightFieldTest, FollowsMeshesThatBend) {
     EXPECT_LT(difference(image, pixelsOf(fresh.gather(fresh.addView(), host.surfaces()).diffuse), all), 0.03);
 }
 
+// A normal that is not a number is that of the triangle.
+TEST_F(LightFieldTest, TakesSliversWithoutNormals) {
+    LightField field;
+    field.setScene(scene_);
+    field.setSettings(smallSettings());
+    field.update();
+    Host host(scene_, lens(), false);
+    drawn(host);
+    host.surfaces().roughness = 0;
+    const std::vector<glm::vec4> expected = pixelsOf(field.gather(field.addView(), host.surfaces()).diffuse);
+    host.surfaces().geometricNormal = host.surfaces().normal;
+    const float nan[4] = {NAN, NAN, NAN, 1};
+    gl::Texture none({GL_TEXTURE_2D, GL_RGBA32F, kWidth, kHeight}, "no normals");
+    none.clear(0, GL_RGBA, GL_FLOAT, nan);
+    host.surfaces().normal = none.name();
+    const std::vector<glm::vec4> image = pixelsOf(field.gather(field.addView(), host.surfaces()).diffuse);
+    EXPECT_LT(difference(image, expected, [](std::size_t) { return true; }), 1e-3);
+}
+
 TEST_F(LightFieldTest, SaysWhatIsWrong) {
     LightField field;
     const auto refused = [](const char* words, const std::function<void()>& call) {
