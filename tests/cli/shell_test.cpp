@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What shells and desktops know of the program: a scene without a command, completion, the manual page.
+#include <filesystem>
 #include <sstream>
 
 #include "support/program.h"
@@ -15,9 +16,12 @@ TEST(Shell, ASceneAloneIsOpenedInAWindow) {
     expectOneLine(conelight("cornell", noDisplay), 2, "no command 'cornell'");
 }
 
-// What bash would offer for the words so far; the last is begun.
+// What bash would offer in an empty folder for the words so far; the last is begun.
 std::string offered(const std::string& words) {
-    return runCommand("bash -c 'eval \"$(\"" CONELIGHT_PROGRAM
+    const std::string empty = scratchPath("empty");
+    std::filesystem::create_directories(empty);
+    return runCommand("cd '" + empty +
+                      "' && bash -c 'eval \"$(\"" CONELIGHT_PROGRAM
                       "\" completion bash)\"; COMP_WORDS=(conelight " +
                       words + "); COMP_CWORD=$((${#COMP_WORDS[@]}-1)); _conelight; echo \"${COMPREPLY[*]}\"'")
         .output;
