@@ -54,6 +54,15 @@ void writeStruct(Struct* given, Struct values, const char* what) {
     std::memcpy(static_cast<void*>(given), &values, sizeof values);
 }
 
+// An element of a list; `what` is the list's name for messages.
+template <class List>
+const typename List::value_type& elementOf(const List& list, std::size_t index, const char* what) {
+    if (index >= list.size())
+        failUsage(std::string(what) + ": " + std::to_string(index) + " of " + std::to_string(list.size()) +
+                  "; an index below that would be right");
+    return list[index];
+}
+
 inline std::string textOf(const char* text) { return text != nullptr ? text : ""; }
 inline glm::vec3 vec3Of(const float* v) { return {v[0], v[1], v[2]}; }
 inline void put(float* to, const glm::vec3& v) { std::copy_n(&v.x, 3, to); }

@@ -36,14 +36,6 @@ class Use {
     std::optional<platform::CurrentContext> current_;
 };
 
-template <class T>
-T elementOf(const std::vector<T>& list, size_t index, const char* what) {
-    if (index >= list.size())
-        c::failUsage(std::string(what) + ": " + std::to_string(index) + " of " + std::to_string(list.size()) +
-                     "; an index below that would be right");
-    return list[index];
-}
-
 // Throws Error(Usage) unless the picture has `count` values at `channels` a pixel.
 void checkCount(const conelight_renderer* renderer, size_t channels, size_t count) {
     const conelight_renderer& of = need(renderer, "renderer");
@@ -111,7 +103,7 @@ conelight_result conelight_renderer_set_transform(conelight_renderer* renderer, 
                                                   const float world_from_object[16]) {
     return guarded([&] {
         const Use use(renderer);
-        Instance changed = elementOf(use->scene().instances, instance, "instance");
+        Instance changed = c::elementOf(use->scene().instances, instance, "instance");
         changed.worldFromObject = c::matrixOf(&need(world_from_object, "world_from_object"));
         use->setInstance(instance, changed);
     });
@@ -121,7 +113,7 @@ conelight_result conelight_renderer_set_material(conelight_renderer* renderer, s
                                                  const conelight_material* material) {
     return guarded([&] {
         const Use use(renderer);
-        Material changed = elementOf(use->scene().materials, index, "material");
+        Material changed = c::elementOf(use->scene().materials, index, "material");
         c::assign(changed, c::readStruct(material, "material"));
         use->setMaterial(index, changed);
     });
@@ -131,7 +123,7 @@ conelight_result conelight_renderer_set_light(conelight_renderer* renderer, size
                                               const conelight_light* light) {
     return guarded([&] {
         const Use use(renderer);
-        Light changed = elementOf(use->scene().lights, index, "light");
+        Light changed = c::elementOf(use->scene().lights, index, "light");
         c::assign(changed, c::readStruct(light, "light"));
         use->setLight(index, changed);
     });

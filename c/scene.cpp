@@ -23,14 +23,6 @@ void append(std::vector<T>& list, T&& element, int32_t* index) {
     if (index != nullptr) *index = static_cast<int32_t>(list.size()) - 1;
 }
 
-template <class T>
-const T& at(const std::vector<T>& list, size_t index, const char* what) {
-    if (index >= list.size())
-        c::failUsage(std::string(what) + ": " + std::to_string(index) + " of " + std::to_string(list.size()) +
-                     "; an index below that would be right");
-    return list[index];
-}
-
 }  // namespace
 
 conelight_result conelight_scene_create(conelight_scene** scene) {
@@ -139,7 +131,7 @@ conelight_result conelight_scene_get_camera(const conelight_scene* scene, size_t
                                             conelight_camera* camera) {
     return guarded([&] {
         const Scene& of = need(scene, "scene").scene;
-        c::writeStruct(camera, c::valuesOf(at(of.cameras, index, "camera")), "camera");
+        c::writeStruct(camera, c::valuesOf(c::elementOf(of.cameras, index, "camera")), "camera");
     });
 }
 
@@ -147,7 +139,7 @@ conelight_result conelight_scene_get_light(const conelight_scene* scene, size_t 
                                            conelight_light* light) {
     return guarded([&] {
         const Scene& of = need(scene, "scene").scene;
-        c::writeStruct(light, c::valuesOf(at(of.lights, index, "light")), "light");
+        c::writeStruct(light, c::valuesOf(c::elementOf(of.lights, index, "light")), "light");
     });
 }
 
@@ -155,7 +147,7 @@ conelight_result conelight_scene_get_instance(const conelight_scene* scene, size
                                               conelight_instance* instance) {
     return guarded([&] {
         const Scene& of = need(scene, "scene").scene;
-        c::writeStruct(instance, c::valuesOf(at(of.instances, index, "instance")), "instance");
+        c::writeStruct(instance, c::valuesOf(c::elementOf(of.instances, index, "instance")), "instance");
     });
 }
 

@@ -9,7 +9,7 @@ namespace {
 struct OutputKey {
     bool irradiance, lobe;
     gl::ProgramDesc desc() const {
-        return {{"view/host_surfaces.vert.glsl", "gather/light_outputs.frag.glsl"},
+        return {{"view/whole_picture.vert.glsl", "gather/light_outputs.frag.glsl"},
                 {{"IRRADIANCE", irradiance ? "1" : "0"}, {"LOBE", lobe ? "1" : "0"}}};
     }
     static std::vector<OutputKey> all() {

@@ -27,8 +27,6 @@
 namespace conelight {
 namespace {
 
-constexpr int kMaxEdge = 16384;  // GL's minimum for GL_MAX_TEXTURE_SIZE in 4.5
-
 std::vector<MemoryStats> memoryStats() {
     std::vector<MemoryStats> memory;
     for (const gl::LiveObject& object : gl::liveObjects())
@@ -143,9 +141,9 @@ std::vector<std::string> Renderer::reloadShaders() {
 }
 
 void Renderer::render(const Camera& camera, int width, int height, const Settings& settings) {
-    if (width < 1 || height < 1 || width > kMaxEdge || height > kMaxEdge)
+    if (width < 1 || height < 1 || width > view::kMaxEdge || height > view::kMaxEdge)
         base::fail(ErrorKind::Usage, "picture of %d x %d; 1 to %d in each direction would be right", width,
-                   height, kMaxEdge);
+                   height, view::kMaxEdge);
     validateSettings(settings);
     impl_->scene.require("render");
     const gl::HostStateGuard guard;

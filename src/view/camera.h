@@ -10,6 +10,9 @@ namespace conelight::view {
 glm::mat4 viewFromWorld(const Camera& camera);
 glm::mat4 clipFromView(const Camera& camera, int width, int height);  // GL clip space, z in [-1,1]
 
+// GL's minimum for GL_MAX_TEXTURE_SIZE in 4.5: pictures are no larger.
+constexpr int kMaxEdge = 16384;
+
 // A view of a picture: through points beside the pixels' centres, for a part of their area.
 struct PixelPart {
     glm::dvec2 offset{0};    // from the centres, pixels, y up

@@ -7,11 +7,10 @@
 #include "base/log.h"
 #include "gl/gl.h"
 #include "shared/host_surfaces.h"
+#include "view/camera.h"
 
 namespace conelight::view {
 namespace {
-
-constexpr int kMaxEdge = 16384;
 
 glm::dmat4 clipFromWorld(const HostSurfaces& host) {
     return glm::dmat4(host.clipFromView) * glm::dmat4(host.viewFromWorld);
@@ -46,7 +45,7 @@ struct ImportKey {
     bool faceNormals, roughness, reflectance, instances;
     gl::ProgramDesc desc() const {
         const auto word = [](bool on) { return on ? "1" : "0"; };
-        return {{"view/host_surfaces.vert.glsl", "view/host_surfaces.frag.glsl"},
+        return {{"view/whole_picture.vert.glsl", "view/host_surfaces.frag.glsl"},
                 {{"FACE_NORMALS", word(faceNormals)},
                  {"ROUGHNESS", word(roughness)},
                  {"REFLECTANCE", word(reflectance)},
@@ -139,8 +138,6 @@ void HostSurfaceImport::draw(const gl::Device& device, const Picture& picture, c
     if (host.instances != 0) inputs.foreignTexture("hostInstances", host.instances, nearest_);
     gl::RasterState state;
     state.framebuffer = &gbuffer.framebuffer();
-    state.depthTest = true;
-    state.farthest = 1.0f;
     state.cull = gl::Cull::None;
     gl::apply(state);
     gbuffer.framebuffer().clearDepth(1.0f);

@@ -43,7 +43,9 @@ class Surfaces {
     int width() const { return gbuffer_->width(); }
     int height() const { return gbuffer_->height(); }
     const gpu::FrameConstants& view() const { return view_; }
-    const gl::Texture& depth() const { return gbuffer_->depth(); }  // GBuffer::depth
+    const gl::Texture& depth() const {
+        return gbuffer_->depth();
+    }  // GBuffer::depth; of a host: 0 where there is a surface
 
   private:
     std::optional<GBuffer> gbuffer_;

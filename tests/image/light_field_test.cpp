@@ -26,20 +26,10 @@ constexpr std::size_t kMetal = 6;  // instance of the box that mirrors
 
 // A room of edge 2 without gloss, but for a box of white metal; boxes turned out of the grid's axes.
 Scene roomScene() {
-    Scene scene;
-    Material wall;
-    wall.specular = 0;
-    for (int axis = 0; axis < 3; ++axis)
-        for (const float side : {-1.0f, 1.0f}) {
-            glm::vec3 n(0), u(0), v(0);
-            n[axis] = -side;
-            u[(axis + 1) % 3] = 2;
-            v[(axis + 2) % 3] = 2;
-            const glm::vec3 corner = -n - 0.5f * (u + v);
-            wall.baseColor =
-                glm::vec4(axis == 0 && side < 0 ? glm::vec3(0.8f, 0.1f, 0.1f) : glm::vec3(0.7f), 1);
-            addInstance(scene, side < 0 ? quadMesh(corner, u, v) : quadMesh(corner, v, u), wall);
-        }
+    const Material wall = diffuseMaterial(glm::vec3(0.7f));
+    Scene scene = closedBox(wall);
+    scene.materials[0].baseColor = {0.8f, 0.1f, 0.1f, 1};
+    scene.cameras.clear();
     Material metal;
     metal.baseColor = glm::vec4(1);
     metal.metallic = 1;

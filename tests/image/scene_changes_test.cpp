@@ -37,19 +37,11 @@ glm::mat4 placed(const glm::vec3& position, float size = 0.2f) {
 
 // A room of edge 2 with a lamp, two boxes, the second glowing, and two lights. Walls keep the bounds.
 Scene roomScene() {
-    Scene scene;
     Material wall;
-    for (int axis = 0; axis < 3; ++axis)
-        for (const float side : {-1.0f, 1.0f}) {
-            glm::vec3 n(0), u(0), v(0);
-            n[axis] = -side;
-            u[(axis + 1) % 3] = 2;
-            v[(axis + 2) % 3] = 2;
-            const glm::vec3 corner = -n - 0.5f * (u + v);
-            wall.baseColor =
-                glm::vec4(axis == 0 && side < 0 ? glm::vec3(0.8f, 0.1f, 0.1f) : glm::vec3(0.7f), 1);
-            addInstance(scene, side < 0 ? quadMesh(corner, u, v) : quadMesh(corner, v, u), wall);
-        }
+    wall.baseColor = glm::vec4(glm::vec3(0.7f), 1);
+    Scene scene = closedBox(wall);
+    scene.cameras.clear();
+    scene.materials[0].baseColor = {0.8f, 0.1f, 0.1f, 1};
     Material box;
     box.baseColor = glm::vec4(0.2f, 0.3f, 0.9f, 1);
     addInstance(scene, boxMesh(), box, placed({-0.3f, -0.8f, -0.2f}));
