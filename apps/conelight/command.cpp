@@ -15,6 +15,7 @@
 #include "conelight/error.h"
 #include "conelight/quality.h"
 #include "io/animation.h"
+#include "io/cone_set_file.h"
 #include "io/environment_file.h"
 #include "io/generated_surroundings.h"
 #include "io/scene_file.h"
@@ -142,6 +143,11 @@ void ViewOptions::addTo(CLI::App& command) {
             "docs/measurements/modes_vs_reference.md; costs:" +
                 qualities)
         ->type_name("NAME");
+    command
+        .add_option("--cone-set", coneSet,
+                    "directions, apertures and weights of the diffuse cones of mode cones, from a file "
+                    "(cones.diffuse_set=own)")
+        ->type_name("FILE");
     command.add_option("--camera", camera, "a camera of the scene: its name, or its number from 0")
         ->type_name("NAME");
     command.add_option("--eye", eye, "camera position instead of a camera of the scene")->type_name("X,Y,Z");
@@ -250,6 +256,10 @@ Settings settingsFor(const Scene& scene, const std::string& mode, const ViewOpti
         preset.apply(settings);
     }
     if (!options.quality.empty()) setSetting(settings, "traced.quality", options.quality);
+    if (!options.coneSet.empty()) {
+        settings.cones.ownSet = io::readConeSet(options.coneSet);
+        settings.cones.diffuseSet = DiffuseSet::Own;
+    }
     if (options.voxels != 0) setSetting(settings, "voxels.size", std::to_string(options.voxels));
     for (const std::string& set : options.sets) {
         const std::size_t equals = set.find('=');

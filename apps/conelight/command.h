@@ -22,6 +22,7 @@ void addRender(CLI::App& app);
 void addCompare(CLI::App& app);
 void addBench(CLI::App& app);
 void addScore(CLI::App& app);
+void addStudy(CLI::App& app);
 void addFigures(CLI::App& app);
 void addInfo(CLI::App& app);
 void addInspect(CLI::App& app);
@@ -66,6 +67,7 @@ struct ViewOptions {
     int voxels = 0;  // 0: the setting's default
     std::string preset;
     std::string quality;
+    std::string coneSet;  // a file
     std::string camera;
     std::string eye, target;
     double fovDeg = 0;

@@ -69,17 +69,31 @@ struct PhongSettings {
 };
 
 // Cones that gather light at diffuse surfaces (docs/theory/4a_cones.md): one, or a polar cone and rings of
-// 4, 5 or 4 + 4 round it, or Fibonacci of any number.
-enum class DiffuseSet { One, Five, Six, Nine, Fibonacci };
+// 4, 5 or 4 + 4 round it, or Fibonacci of any number; the best of 6, 9, 12, 16 that a search found; or those of
+// ConesSettings::ownSet.
+enum class DiffuseSet { One, Five, Six, Nine, Fibonacci, Best6, Best9, Best12, Best16, Own };
+// A cone of a set that is given.
+struct SetCone {
+    glm::vec3 direction{0, 0, 1};  // any length > 0; z >= 0 is the surface's normal
+    float aperture = 1;            // full angle, rad, (0, 2.4]
+    float weight = 1;              // > 0; the weights of a set are scaled to the sum pi
+    bool operator==(const SetCone&) const = default;
+};
 // What a texel of the radiance volume keeps: one colour and opacity, or one per facing direction.
 enum class VolumeDirections { Isotropic, Six };
 // How opacity adds up along a cone and over levels. Fog: texels are mist of unrelated droplets (Crassin et
 // al. 2011). Area: texels hold connected surface, whose projected areas add up until nothing is left to see.
 enum class OpacityModel { Fog, Area };
+// Where the volume's indirect light comes from: cones at voxel faces, one bounce after the other, or the
+// cache of mode `traced`, filled by rays as TracedSettings say.
+enum class ConesIndirect { Cones, Cache };
+// What tells whether light reaches a pixel: shadow maps, or a cone to the light through the volume.
+enum class ConesShadows { Maps, Cones };
 
 struct ConesSettings {
     DiffuseSet diffuseSet = DiffuseSet::Six;
     int count = 16;
+    std::vector<SetCone> ownSet;  // where diffuseSet is Own: at most 64 cones; none: as Six
     VolumeDirections directional = VolumeDirections::Six;
     OpacityModel opacity = OpacityModel::Area;
     float step = 1.0f;
@@ -89,6 +103,10 @@ struct ConesSettings {
     float specularMinAperture = 0.1f;
     AutoFloat occlusionDistance;
     int bounces = 2;
+    ConesIndirect indirect = ConesIndirect::Cones;
+    bool fractionalLevels = false;
+    ConesShadows shadows = ConesShadows::Maps;
+    float shadowAperture = 0.2f;
     int voxelLevel = 0;
     bool operator==(const ConesSettings&) const = default;
 };

@@ -2,13 +2,17 @@
 // SPDX-License-Identifier: MIT
 // G-buffer + lights -> the light that reaches the eye without a bounce, per pixel: `diffuse` holds what the
 // diffuse part reflects plus emission (background: the sky), `specular` what the specular lobe reflects.
-// a: 1 where there is a surface, 0 in the background.
+// a: 1 where there is a surface, 0 in the background. CONE_SHADOWS 1: with the defines of lib/cone_trace.glsl.
 #include "lib/gbuffer.glsl"
 // For glass, before the others.
 #include "lib/scene_tables.glsl"
 #include "lib/surface_array.glsl"
 // The others.
 #include "lib/lights.glsl"
+// After all that include what it includes.
+#if CONE_SHADOWS
+#include "lib/cone_shadow.glsl"
+#endif
 
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba32f) writeonly uniform image2D diffuseImage;

@@ -11,6 +11,7 @@
 //   reads a light's numbers lane by lane.
 // - LIGHTS_SHADOWS 0: everything is visible.
 // - SHADOW_FILTER: radius of the shadow filter in texels.
+// - CONE_SHADOWS 1: shadows are soft, by cones (lib/cone_shadow.glsl, to be included), not by maps.
 // - GLASS 1: what is not in shadow may lie behind glass (lib/glass_tree.glsl).
 // Reads what light::Lights declares.
 #ifndef LIGHTS_POINT
@@ -30,6 +31,9 @@
 #endif
 #ifndef LIGHTS_SHADOWS
 #define LIGHTS_SHADOWS 1
+#endif
+#ifndef CONE_SHADOWS
+#define CONE_SHADOWS 0
 #endif
 #include "lib/brdf.glsl"
 #include "lib/glass_tree.glsl"
@@ -54,6 +58,13 @@ Light fixedLight(const int n) {
 layout(std140) uniform FixedLightBlock { Light fixedLights[LIGHTS_TOTAL]; };
 Light fixedLight(const int n) { return fixedLights[n]; }
 #endif
+#endif
+
+#if CONE_SHADOWS
+// Share of a light's disc that is seen, `tanHalf` the tangent of half its aperture; and that of lights without
+// a size.
+float coneShadow(vec3 position, vec3 geometricNormal, vec3 toLight, float distance, float tanHalf);
+float coneShadowTan();
 #endif
 
 struct DirectLight {
@@ -108,7 +119,9 @@ void addPoint(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Li
     float d2 = dot(l, l);
     l *= inversesqrt(max(d2, 1e-20));
     float visible = 1.0;
-#if LIGHTS_SHADOWS
+#if CONE_SHADOWS
+    if (light.shadow >= 0) visible = coneShadow(r.position, r.geometricNormal, l, sqrt(d2), coneShadowTan());
+#elif LIGHTS_SHADOWS
     visible = shadowVisibilityPoint(light, r.position, r.geometricNormal, r.shadowLift);
 #endif
     vec3 facing = light.intensity * (distanceFalloff(light, d2) * spotFalloff(light, l) * visible);
@@ -120,7 +133,9 @@ void addSpot(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
     float d2 = dot(l, l);
     l *= inversesqrt(max(d2, 1e-20));
     float visible = 1.0;
-#if LIGHTS_SHADOWS
+#if CONE_SHADOWS
+    if (light.shadow >= 0) visible = coneShadow(r.position, r.geometricNormal, l, sqrt(d2), coneShadowTan());
+#elif LIGHTS_SHADOWS
     visible = shadowVisibilitySpot(light, r.position, r.geometricNormal, r.shadowLift);
 #endif
     vec3 facing = light.intensity * (distanceFalloff(light, d2) * spotFalloff(light, l) * visible);
@@ -129,7 +144,10 @@ void addSpot(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
 
 void addDirectional(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light) {
     float visible = 1.0;
-#if LIGHTS_SHADOWS
+#if CONE_SHADOWS
+    if (light.shadow >= 0)
+        visible = coneShadow(r.position, r.geometricNormal, -light.direction, 1e9, coneShadowTan());
+#elif LIGHTS_SHADOWS
     visible = shadowVisibilityDirectional(light, r.position, r.geometricNormal, r.shadowLift);
 #endif
     vec3 facing = throughGlass(light.intensity * visible, r, -light.direction, 1e9);
@@ -178,6 +196,20 @@ void applyTint(RectTint tint, inout DirectLight light) {
 }
 #endif
 
+// The light as a cone to its middle sees it, as wide as the rectangle looks: a disc of its projected area.
+Light rectBehindCone(Receiver r, Light light) {
+#if CONE_SHADOWS
+    vec3 l = light.position - r.position;
+    float distance = max(length(l), 1e-6);
+    l /= distance;
+    float area = 4.0 * length(cross(light.halfU, light.halfV)) * max(-dot(l, light.direction), 0.0);
+    if (light.shadow >= 0)
+        light.intensity *=
+            coneShadow(r.position, r.geometricNormal, l, distance, sqrt(area / kPi) / distance);
+#endif
+    return light;
+}
+
 // Diffuse: the exact irradiance of the whole rectangle times the visible share of its sample points, each
 // weighted by the irradiance its cell gives. Specular: likewise the unshadowed reflection of the whole
 // (lib/rect_light.glsl) times the visible share, weighted by the reflection of each cell.
@@ -203,7 +235,7 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
         float height = dot(l, r.normal);
         float NoL = max(height, 0.0);
         float visible = 1.0;
-#if LIGHTS_SHADOWS
+#if LIGHTS_SHADOWS && !CONE_SHADOWS
         visible = shadowVisibilityRect(light, k, point, r.position, r.geometricNormal);
 #endif
         vec2 weight = vec2(emitted * NoL, 0.0);
@@ -292,7 +324,7 @@ void addPunctualLights(inout DirectLight sum, const bool specular, Receiver r, B
 
 void addRectLights(inout DirectLight sum, const bool specular, Receiver r, Brdf b) {
 #if LIGHTS_RECT
-    FOR_RECT_LIGHTS(addRect(sum, specular, r, b, light))
+    FOR_RECT_LIGHTS(addRect(sum, specular, r, b, rectBehindCone(r, light)))
 #endif
 }
 

@@ -20,8 +20,8 @@ struct ConeConstants {
     // ---- 16 B
     float specularMinTan;     // tangent of half the narrowest aperture
     float occlusionDistance;  // m
+    float shadowTan;          // tangent of half the aperture of cones to lights
     uint pad0;
-    uint pad1;
     // ---- 32 B
     vec4 cone[MAX_CONES];      // xyz direction about +z, w weight / pi
     vec4 aperture[MAX_CONES];  // x tangent of the half-angle

@@ -21,26 +21,32 @@ using Part = ConeGather::Part;
 struct VolumeKey {
     int blocks;
     OpacityModel opacity;
+    bool fractional = false;
     bool environment = false;  // cones see a picture behind all surfaces, not the constant sky alone
 
     gl::Defines defines() const {
         gl::Defines defines{{"DIRECTIONAL", blocks == 6 ? "1" : "0"},
                             {"AREA", opacity == OpacityModel::Area ? "1" : "0"}};
+        if (fractional) defines.emplace_back("FRACTIONAL", "1");
         if (environment) defines.emplace_back("ENVIRONMENT", "1");
         return defines;
     }
-    static VolumeKey of(const RadianceVolume& volume, OpacityModel opacity, const light::Lights& lights) {
-        return {volume.layout().blocks, opacity, lights.hasEnvironment()};
-    }
+
     static std::vector<VolumeKey> all() {
         std::vector<VolumeKey> keys;
         for (const bool environment : {false, true})
-            for (const int blocks : {1, 6})
-                for (const OpacityModel opacity : {OpacityModel::Fog, OpacityModel::Area})
-                    keys.push_back({blocks, opacity, environment});
+            for (const bool fractional : {false, true})
+                for (const int blocks : {1, 6})
+                    for (const OpacityModel opacity : {OpacityModel::Fog, OpacityModel::Area})
+                        keys.push_back({blocks, opacity, fractional, environment});
         return keys;
     }
 };
+
+VolumeKey keyOf(const RadianceVolume& volume, OpacityModel opacity, bool fractional,
+                const light::Lights& lights) {
+    return {volume.layout().blocks, opacity, fractional, lights.hasEnvironment()};
+}
 
 struct ConeKey {
     VolumeKey volume;
@@ -72,6 +78,14 @@ gl::ProgramDesc bounceDesc(const VolumeKey& volume) {
     return {{"gather/cone_bounce.comp.glsl"}, volume.defines()};
 }
 
+// Cones to lights see no sky.
+std::vector<VolumeKey> shadowKeys() {
+    std::vector<VolumeKey> keys;
+    for (const VolumeKey& key : VolumeKey::all())
+        if (!key.environment) keys.push_back(key);
+    return keys;
+}
+
 const char* passName(Part part) {
     return part == Part::Diffuse ? "diffuse cones"
                                  : (part == Part::Specular ? "specular cones" : "occlusion cones");
@@ -83,6 +97,7 @@ ConeGather::ConeGather() : block_(sizeof(gpu::ConeConstants), "cone constants") 
 
 void ConeGather::configure(const ConesSettings& settings, const RadianceLayout& layout) {
     opacity_ = settings.opacity;
+    fractional_ = settings.fractionalLevels;
     const float h = layout.grid.voxelSize;
     const glm::vec3 extent = glm::vec3(layout.grid.size) * h;
     const float longest = std::max({extent.x, extent.y, extent.z});
@@ -92,10 +107,11 @@ void ConeGather::configure(const ConesSettings& settings, const RadianceLayout& 
     constants.offset = settings.offset * h;
     // Twice the volume's diagonal is beyond its far side from wherever a surface is.
     constants.maxDistance = settings.maxDistance.resolve(2 * glm::length(glm::vec3(layout.size) * h));
+    constants.shadowTan = std::tan(0.5f * settings.shadowAperture);
     constants.specularMinTan = std::tan(0.5f * settings.specularMinAperture);
     constants.occlusionDistance = settings.occlusionDistance.resolve(0.1f * longest);
 
-    const std::vector<Cone> cones = coneSet(settings.diffuseSet, settings.count);
+    const std::vector<Cone> cones = coneSet(settings);
     constants.count = static_cast<std::uint32_t>(cones.size());
     for (std::size_t i = 0; i < cones.size(); ++i) {
         constants.cone[i] = glm::vec4(cones[i].direction, cones[i].weight / std::numbers::pi_v<float>);
@@ -118,14 +134,14 @@ void ConeGather::gather(const gl::Device& device, const ConeInputs& inputs, Part
     const gl::PassScope pass(device.profiler, passName(part));
     gl::Inputs given = this->given(inputs, result);
     if (counters != nullptr) given.storage("LookupCounters", *counters);
-    const ConeKey key{VolumeKey::of(inputs.volume, opacity_, inputs.pixels.lights), part,
+    const ConeKey key{keyOf(inputs.volume, opacity_, fractional_, inputs.pixels.lights), part,
                       counters != nullptr};
     device.get(key.desc()).dispatch(given, result.width(), result.height());
 }
 
 void ConeGather::record(const gl::Device& device, const ConeInputs& inputs, Part part,
                         const gl::Texture& result, StepRecorder& recorder) const {
-    const ConeKey key{VolumeKey::of(inputs.volume, opacity_, inputs.pixels.lights), part, false, true};
+    const ConeKey key{keyOf(inputs.volume, opacity_, fractional_, inputs.pixels.lights), part, false, true};
     recorder.record(device, key.desc(), given(inputs, result));
 }
 
@@ -135,9 +151,19 @@ void ConeGather::gatherBounce(const gl::Device& device, const light::Lights& lig
     const gl::PassScope pass(device.profiler, "bounce cones");
     gl::Inputs given;
     given.add(lights).add(volume).add(surface).add(faces).uniform("ConeBlock", block_);
-    device.get(bounceDesc(VolumeKey::of(volume, opacity_, lights)))
+    device.get(bounceDesc(keyOf(volume, opacity_, fractional_, lights)))
         .dispatchLinear(given, surface.faceCount());
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+}
+
+ConeShadows ConeGather::shadows(const RadianceVolume& volume) const {
+    return {volume, block_, VolumeKey{volume.layout().blocks, opacity_, fractional_}.defines()};
+}
+
+std::vector<gl::Defines> ConeGather::shadowDefines() {
+    std::vector<gl::Defines> all;
+    for (const VolumeKey& key : shadowKeys()) all.push_back(key.defines());
+    return all;
 }
 
 std::vector<gl::ProgramDesc> ConeGather::programDescs() {

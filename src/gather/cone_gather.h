@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "conelight/settings.h"
+#include "gather/cone_shadows.h"
 #include "gather/direct_light.h"
 #include "gather/radiance_volume.h"
 #include "gather/step_recorder.h"
@@ -48,12 +49,17 @@ class ConeGather {
     void gatherBounce(const gl::Device& device, const light::Lights& lights, const RadianceVolume& volume,
                       const voxels::SurfaceVoxels& surface, const light::LitFaces& faces) const;
 
+    // For cones from pixels to lights.
+    ConeShadows shadows(const RadianceVolume& volume) const;
+    static std::vector<gl::Defines> shadowDefines();  // all that shadows() may give
+
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
     gl::Inputs given(const ConeInputs& inputs, const gl::Texture& result) const;
 
     OpacityModel opacity_ = OpacityModel::Area;
+    bool fractional_ = false;
     gl::Buffer block_;
 };
 

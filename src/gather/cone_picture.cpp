@@ -52,7 +52,8 @@ void ConePicture::draw(const gl::Device& device, const DirectInputs& pixels, con
     gl::Inputs given;
     given.add(pixels).image("result", target.output, gl::ImageUse::Write);
     if (parts.direct) {
-        direct_.draw(device, pixels);
+        const ConeShadows shadows = volume.cones().shadows(volume.volume());
+        direct_.draw(device, pixels, volume.shadowsByCones() ? &shadows : nullptr);
         given.texture("directDiffuse", direct_.diffuse()).texture("directSpecular", direct_.specular());
     }
     if (parts.diffuse) {
@@ -81,7 +82,8 @@ void ConePicture::record(const gl::Device& device, const DirectInputs& pixels, c
 std::vector<gl::ProgramDesc> ConePicture::programDescs() {
     std::vector<gl::ProgramDesc> descs = {occlusionDesc()};
     for (const ComposeKey& key : ComposeKey::all()) descs.push_back(key.desc());
-    for (const auto& more : {ConeGather::programDescs(), DirectLight::programDescs()})
+    for (const auto& more : {ConeGather::programDescs(), DirectLight::programDescs(),
+                             DirectLight::coneDescs(ConeGather::shadowDefines())})
         descs.insert(descs.end(), more.begin(), more.end());
     return descs;
 }

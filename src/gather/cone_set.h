@@ -31,6 +31,11 @@ constexpr int kMaxCones = 64;  // size of the table in shared/cones.h
 //   Fibonacci             Voronoi cells of a spherical Fibonacci lattice (Gonzalez 2010, "Measurement of
 //   Areas
 //                         on a Sphere Using Fibonacci and Latitude-Longitude Lattices"), any count
+//   Best6 ...     a search over nine scenes (docs/measurements/cone_sets.md); apertures and weights are its own
+//   Own           none: they are given
 std::vector<Cone> coneSet(DiffuseSet set, int count);
+
+// The set that the settings name.
+std::vector<Cone> coneSet(const ConesSettings& settings);
 
 }  // namespace conelight::gather

@@ -9,8 +9,9 @@ void ConeVolume::update(const gl::Device& device, const Inputs& inputs, const Co
     const voxels::SurfaceVoxels& surface = inputs.voxels.surface();
     const RadianceLayout layout = radianceLayout(surface.grid(), settings.directional, settings.maxFootprint);
     const bool otherLayout = !volume_.texture() || !(volume_.layout() == layout);
-    const bool otherSources =
-        voxelsFrom_ != inputs.voxels.revision() || lightsFrom_ != inputs.lights.revision();
+    const base::Revision lights =
+        inputs.cache != nullptr ? inputs.cache->revision() : inputs.lights.revision();
+    const bool otherSources = voxelsFrom_ != inputs.voxels.revision() || lightsFrom_ != lights;
     const bool otherSettings = !settings_ || !(*settings_ == settings);
     // How light is gathered at faces is part of the volume when there is more than one bounce.
     const bool otherBounces =
@@ -18,13 +19,20 @@ void ConeVolume::update(const gl::Device& device, const Inputs& inputs, const Co
     const bool otherOpacity = !settings_ || settings_->opacity != settings.opacity;
     if (otherSettings || otherSources || otherLayout) cones_.configure(settings, layout);
     settings_ = settings;
+    if (!otherLayout) volume_.sampleBetweenLevels(settings.fractionalLevels);
     voxelsFrom_ = inputs.voxels.revision();
-    lightsFrom_ = inputs.lights.revision();
+    lightsFrom_ = lights;
     if (!otherLayout && !otherSources && !otherBounces && !otherOpacity) return;
 
     if (otherLayout) {
         volume_ = {};  // frees the old one first
         volume_ = RadianceVolume(layout);
+        volume_.sampleBetweenLevels(settings.fractionalLevels);
+    }
+    revision_ = base::Revision::next();
+    if (inputs.cache != nullptr) {
+        volume_.build(device, surface, inputs.cache->faces(), settings.opacity);
+        return;
     }
     light::injectLight(device, {inputs.scene, inputs.lights, surface}, faces_);
     volume_.build(device, surface, faces_, settings.opacity);
@@ -33,7 +41,6 @@ void ConeVolume::update(const gl::Device& device, const Inputs& inputs, const Co
         cones_.gatherBounce(device, inputs.lights, volume_, surface, faces_);
         volume_.build(device, surface, faces_, settings.opacity);
     }
-    revision_ = base::Revision::next();
 }
 
 }  // namespace conelight::gather

@@ -12,6 +12,7 @@
 #include "gather/radiance_volume.h"
 #include "light/lights.h"
 #include "light/lit_faces.h"
+#include "light/lit_voxels.h"
 #include "scene/gpu_scene.h"
 #include "voxels/voxels.h"
 
@@ -23,14 +24,17 @@ class ConeVolume {
         const scene::GpuScene& scene;
         const light::Lights& lights;
         const voxels::Voxels& voxels;
+        // Whose indirect light the volume holds; null: cones bounce it.
+        const light::LitVoxels* cache = nullptr;
     };
     // Returns at once when nothing changed that it is made from. GL state changed: programs and their slots.
     void update(const gl::Device& device, const Inputs& inputs, const ConesSettings& settings);
     base::Revision revision() const { return revision_; }
 
     const RadianceVolume& volume() const { return volume_; }
-    const light::LitFaces& faces() const { return faces_; }  // what the volume was made of
+    const light::LitFaces& faces() const { return faces_; }  // what the volume was made of, without a cache
     const ConeGather& cones() const { return cones_; }       // as the settings say
+    bool shadowsByCones() const { return settings_ && settings_->shadows == ConesShadows::Cones; }
 
   private:
     light::LitFaces faces_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "gather/direct_light.h"
 
+#include <algorithm>
+
 #include "gl/gl.h"
 
 namespace conelight::gather {
@@ -10,9 +12,21 @@ gl::ProgramDesc desc(const light::LightKey& lights) {
     return {{"gather/direct_light.comp.glsl"}, lights.defines()};
 }
 
+// Few programs: lights are told by which kinds there are.
+gl::ProgramDesc desc(light::LightKey lights, const gl::Defines& cones) {
+    lights.fixed = false;
+    lights.filter = 0;
+    for (int* kind : {&lights.point, &lights.spot, &lights.directional, &lights.rect})
+        *kind = std::min(*kind, 1);
+    gl::ProgramDesc desc{{"gather/direct_light.comp.glsl"}, lights.defines()};
+    desc.defines.insert(desc.defines.end(), cones.begin(), cones.end());
+    desc.defines.emplace_back("CONE_SHADOWS", "1");
+    return desc;
+}
+
 }  // namespace
 
-void DirectLight::draw(const gl::Device& device, const DirectInputs& inputs) {
+void DirectLight::draw(const gl::Device& device, const DirectInputs& inputs, const ConeShadows* cones) {
     const gl::PassScope pass(device.profiler, "direct light");
     const int width = inputs.surfaces.width(), height = inputs.surfaces.height();
     if (!diffuse_ || diffuse_.width() != width || diffuse_.height() != height) {
@@ -23,12 +37,23 @@ void DirectLight::draw(const gl::Device& device, const DirectInputs& inputs) {
     given.add(inputs)
         .image("diffuseImage", diffuse_, gl::ImageUse::Write)
         .image("specularImage", specular_, gl::ImageUse::Write);
-    device.get(desc(inputs.lights.key())).dispatch(given, width, height);
+    const light::LightKey& lights = inputs.lights.key();
+    const bool byCones = cones != nullptr && lights.shadows;
+    if (byCones) given.add(*cones);
+    device.get(byCones ? desc(lights, cones->defines) : desc(lights)).dispatch(given, width, height);
 }
 
 std::vector<gl::ProgramDesc> DirectLight::programDescs() {
     std::vector<gl::ProgramDesc> descs;
     for (const light::LightKey& key : light::LightKey::all()) descs.push_back(desc(key));
+    return descs;
+}
+
+std::vector<gl::ProgramDesc> DirectLight::coneDescs(const std::vector<gl::Defines>& defines) {
+    std::vector<gl::ProgramDesc> descs;
+    for (const light::LightKey& key : light::LightKey::all())
+        if (!key.fixed && key.shadows && key.filter == 0)
+            for (const gl::Defines& cones : defines) descs.push_back(desc(key, cones));
     return descs;
 }
 

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "gather/cone_shadows.h"
 #include "gl/device.h"
 #include "gl/texture.h"
 #include "light/lights.h"
@@ -24,7 +25,8 @@ struct DirectInputs {
 
 class DirectLight {
   public:
-    void draw(const gl::Device& device, const DirectInputs& inputs);
+    // `cones`: shadows by them; null: by shadow maps.
+    void draw(const gl::Device& device, const DirectInputs& inputs, const ConeShadows* cones = nullptr);
 
     const gl::Texture& diffuse() const {
         return diffuse_;
@@ -32,6 +34,8 @@ class DirectLight {
     const gl::Texture& specular() const { return specular_; }  // reflected; a: seen
 
     static std::vector<gl::ProgramDesc> programDescs();
+    // With shadows by cones; `defines` are all that ConeShadows may have.
+    static std::vector<gl::ProgramDesc> coneDescs(const std::vector<gl::Defines>& defines);
 
   private:
     gl::Texture diffuse_, specular_;

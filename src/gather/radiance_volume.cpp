@@ -133,6 +133,10 @@ void RadianceVolume::buildLevels(const gl::Device& device, const voxels::Surface
     }
 }
 
+void RadianceVolume::sampleBetweenLevels(bool between) {
+    texture_.parameter(GL_TEXTURE_MIN_FILTER, between ? GL_LINEAR_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_NEAREST);
+}
+
 void RadianceVolume::declare(gl::Inputs& inputs) const {
     inputs.uniform("RadianceVolumeBlock", block_).texture("radianceVolume", texture_);
 }

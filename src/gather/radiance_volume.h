@@ -49,6 +49,9 @@ class RadianceVolume {
     void build(const gl::Device& device, const voxels::SurfaceVoxels& surface, const light::LitFaces& faces,
                OpacityModel opacity);
 
+    // Samples lie between two levels, or in the nearest (the default).
+    void sampleBetweenLevels(bool between);
+
     // What shaders may read: RadianceVolumeBlock, radianceVolume.
     void declare(gl::Inputs& inputs) const;
 

@@ -13,6 +13,8 @@ gather::PictureParts partsOf(const Settings& settings) {
     return {parts.direct, parts.diffuse && gathers, parts.specular && gathers};
 }
 
+bool usesCache(const Settings& settings) { return settings.cones.indirect == ConesIndirect::Cache; }
+
 }  // namespace
 
 // [recipe]
@@ -23,12 +25,11 @@ void ConesMode::draw(const Frame& frame) {
     const gather::ConePicture::Target target{frame.output, frame.lookupCounters};
 
     // Voxels, and all light in them, prefiltered.
-    const bool usesVolume = component == Component::Occlusion || component == Component::Voxels ||
-                            parts.diffuse || parts.specular || frame.recorder != nullptr;
-    if (usesVolume) {
-        voxels_.update(frame.device, frame.scene, frame.settings.voxels, voxels::Rays::No);
-        volume_.update(frame.device, {frame.scene, frame.lights, voxels_}, frame.settings.cones);
-    }
+    const bool softShadows = parts.direct && frame.settings.cones.shadows == ConesShadows::Cones;
+    const bool usesVolume = softShadows || component == Component::Occlusion ||
+                            component == Component::Voxels || parts.diffuse || parts.specular ||
+                            frame.recorder != nullptr;
+    if (usesVolume) updateVolume(frame);
 
     // What arrives at pixels, and the picture.
     if (frame.recorder != nullptr) {
@@ -48,6 +49,20 @@ void ConesMode::draw(const Frame& frame) {
 }
 // [/recipe]
 
+// With a cache, rays fill it first.
+void ConesMode::updateVolume(const Frame& frame) {
+    const bool byRays = usesCache(frame.settings);
+    voxels_.update(frame.device, frame.scene, frame.settings.voxels,
+                   byRays ? voxels::Rays::Yes : voxels::Rays::No);
+    if (byRays)
+        lit_.relight(frame.device, {frame.scene, frame.lights, voxels_},
+                     light::relightSettings(frame.settings.traced), light::Budget{});
+    else
+        lit_ = {};
+    volume_.update(frame.device, {frame.scene, frame.lights, voxels_, byRays ? &lit_ : nullptr},
+                   frame.settings.cones);
+}
+
 // What the volume holds is shown as cones read it, the rest by the faces behind it.
 void ConesMode::drawVoxels(const Frame& frame) {
     const image::VoxelView::Target target{frame.settings, frame.scene,  frame.lights,
@@ -56,7 +71,9 @@ void ConesMode::drawVoxels(const Frame& frame) {
     if (data == VoxelData::Radiance || data == VoxelData::Coverage || data == VoxelData::Level)
         voxelView_.draw(frame.device, target, volume_.volume(), voxels_);
     else
-        voxelView_.draw(frame.device, target, {voxels_, volume_.faces(), volume_.revision()});
+        voxelView_.draw(
+            frame.device, target,
+            {voxels_, usesCache(frame.settings) ? lit_.faces() : volume_.faces(), volume_.revision()});
 }
 
 std::vector<gl::ProgramDesc> ConesMode::programDescs() {

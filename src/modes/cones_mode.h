@@ -8,6 +8,7 @@
 #include "gather/cone_picture.h"
 #include "gather/cone_volume.h"
 #include "image/voxel_view.h"
+#include "light/lit_voxels.h"
 #include "modes/mode.h"
 #include "voxels/voxels.h"
 
@@ -22,9 +23,11 @@ class ConesMode : public ModeRenderer {
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
+    void updateVolume(const Frame& frame);
     void drawVoxels(const Frame& frame);
 
     voxels::Voxels voxels_;
+    light::LitVoxels lit_;  // with cones.indirect=cache
     gather::ConeVolume volume_;
     gather::ConePicture picture_;
     image::VoxelView voxelView_;

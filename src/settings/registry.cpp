@@ -136,8 +136,37 @@ std::string getSetting(const Settings& settings, const std::string& key) {
     return textOf(settingOf(key), settings);
 }
 
+namespace {
+
+// Cones that are given, one by one.
+void checkOwnSet(const ConesSettings& cones) {
+    if (cones.diffuseSet != DiffuseSet::Own) return;
+    if (cones.ownSet.size() > 64)
+        base::fail(ErrorKind::Usage,
+                   "setting cones.diffuse_set: own has %zu cones; at most 64 would be right",
+                   cones.ownSet.size());
+    for (std::size_t i = 0; i < cones.ownSet.size(); ++i) {
+        const SetCone& cone = cones.ownSet[i];
+        const char* right = nullptr;
+        if (!(glm::length(cone.direction) > 1e-6f && glm::length(cone.direction) < 1e6f))
+            right = "direction: a length above 0";
+        else if (!(cone.direction.z >= 0))
+            right = "direction: z of 0 or more, above the surface,";
+        else if (!(cone.aperture > 0 && cone.aperture <= 2.4f))
+            right = "aperture: above 0 and at most 2.4 rad";
+        else if (!(cone.weight > 0 && cone.weight < 1e6f))
+            right = "weight: above 0 and below 1e6";
+        if (right != nullptr)
+            base::fail(ErrorKind::Usage, "setting cones.diffuse_set: own, cone %zu: %s would be right", i + 1,
+                       right);
+    }
+}
+
+}  // namespace
+
 void validateSettings(const Settings& settings) {
     for (const settings::Setting<Settings>& setting : registry().table) check(setting, settings);
+    checkOwnSet(settings.cones);
 }
 
 }  // namespace conelight

@@ -19,10 +19,19 @@ constexpr Choice<DiffuseSet> kDiffuseSets[] = {{"1", DiffuseSet::One},
                                                {"5", DiffuseSet::Five},
                                                {"6", DiffuseSet::Six},
                                                {"9", DiffuseSet::Nine},
-                                               {"fibonacci", DiffuseSet::Fibonacci}};
+                                               {"fibonacci", DiffuseSet::Fibonacci},
+                                               {"best_6", DiffuseSet::Best6},
+                                               {"best_9", DiffuseSet::Best9},
+                                               {"best_12", DiffuseSet::Best12},
+                                               {"best_16", DiffuseSet::Best16},
+                                               {"own", DiffuseSet::Own}};
 constexpr Choice<VolumeDirections> kVolumeDirections[] = {{"isotropic", VolumeDirections::Isotropic},
                                                           {"six", VolumeDirections::Six}};
 constexpr Choice<OpacityModel> kOpacityModels[] = {{"fog", OpacityModel::Fog}, {"area", OpacityModel::Area}};
+constexpr Choice<ConesIndirect> kConesIndirect[] = {{"cones", ConesIndirect::Cones},
+                                                    {"cache", ConesIndirect::Cache}};
+constexpr Choice<ConesShadows> kConesShadows[] = {{"maps", ConesShadows::Maps},
+                                                  {"cones", ConesShadows::Cones}};
 constexpr Choice<Wireframe> kWireframes[] = {
     {"off", Wireframe::Off}, {"over", Wireframe::Over}, {"alone", Wireframe::Alone}};
 constexpr Choice<VoxelData> kVoxelData[] = {
@@ -96,7 +105,9 @@ std::vector<Setting<PhongSettings>> phongSettings() {
 std::vector<Setting<ConesSettings>> conesSettings() {
     return {
         {"diffuse_set", &ConesSettings::diffuseSet, kDiffuseSets,
-         "cones per hemisphere at diffuse surfaces; the time grows with them"},
+         "cones per hemisphere at diffuse surfaces; the time grows with them; best_N: found by `conelight "
+         "study cones`; "
+         "own: those of --cone-set, 6 without"},
         {"count", &ConesSettings::count, Numbers{1, 64}, "", "number of cones of the set fibonacci"},
         {"directional", &ConesSettings::directional, kVolumeDirections,
          "radiance per voxel: one value, or six by facing direction (six times the memory, closed walls)"},
@@ -115,6 +126,15 @@ std::vector<Setting<ConesSettings>> conesSettings() {
         {"occlusion_distance", &ConesSettings::occlusionDistance, Numbers{0, 1e6}, "m",
          "reach of component occlusion; auto: a tenth of the grid"},
         {"bounces", &ConesSettings::bounces, Numbers{0, 8}, "", "bounces of indirect light; 0: none"},
+        {"indirect", &ConesSettings::indirect, kConesIndirect,
+         "who fills the volume with indirect light: cones at faces, or the rays of mode traced, all bounces, "
+         "by its settings"},
+        {"fractional_levels", &ConesSettings::fractionalLevels,
+         "samples between two levels of the volume, not from the nearest alone"},
+        {"shadows", &ConesSettings::shadows, kConesShadows,
+         "shadow maps, or soft shadows by a cone to each light"},
+        {"shadow_aperture", &ConesSettings::shadowAperture, Numbers{0.01, 1.2}, "rad",
+         "of the cone to a light that is a point or far: how wide the light looks"},
         {"voxel_level", &ConesSettings::voxelLevel, Numbers{0, 6}, "",
          "level of the volume that component voxels shows"},
     };

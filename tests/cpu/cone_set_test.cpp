@@ -71,6 +71,27 @@ double exactIrradiance(F&& radiance) {
     return sum * 2 * kPi / (kHeights * kAzimuths);
 }
 
+TEST(ConeSet, FoundSetsHaveTheirCountAndWeightsThatSumToPi) {
+    const std::pair<DiffuseSet, std::size_t> sets[] = {
+        {DiffuseSet::Best6, 6}, {DiffuseSet::Best9, 9}, {DiffuseSet::Best12, 12}, {DiffuseSet::Best16, 16}};
+    for (const auto& [set, count] : sets) {
+        const std::vector<Cone> cones = coneSet(set, 1);
+        EXPECT_EQ(cones.size(), count);
+        glm::dvec3 mean(0);
+        double sum = 0;
+        for (const Cone& cone : cones) {
+            EXPECT_NEAR(glm::length(cone.direction), 1, 1e-6);
+            EXPECT_GT(cone.direction.z, 0);
+            sum += double(cone.weight);
+            mean += double(cone.weight) * glm::dvec3(cone.direction);
+        }
+        EXPECT_NEAR(sum, kPi, 1e-5);
+        // Even about the normal: light from one side counts as much as from another.
+        EXPECT_NEAR(mean.x, 0, 1e-5);
+        EXPECT_NEAR(mean.y, 0, 1e-5);
+    }
+}
+
 TEST(ConeSet, HasTheCountAskedFor) {
     for (const Named& named : kSets)
         EXPECT_EQ(coneSet(named.set, named.count).size(), named.size) << named.name;

@@ -99,8 +99,8 @@ Member member(const char* name, std::size_t offset) {
 
 std::vector<Struct> otherStructs() {
     return {
-        ROW(ConeConstants, count, step, offset, maxDistance, specularMinTan, occlusionDistance, pad0, pad1,
-            cone, aperture),
+        ROW(ConeConstants, count, step, offset, maxDistance, specularMinTan, occlusionDistance, shadowTan,
+            pad0, cone, aperture),
         ROW(Exposure, scale, pad0, pad1, pad2),
         ROW(DisplayConstants, curve, srgb, pad0, pad1),
         ROW(ViewMeanConstants, views, pad0, pad1, pad2),

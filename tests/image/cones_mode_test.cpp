@@ -259,5 +259,35 @@ TEST_F(ConesModeTest, OcclusionDarkensCorners) {
     EXPECT_LE(rangeOf(image).high, 1.0f + 1.0f / 1024);
 }
 
+// Rays fill the cache with all bounces: the furnace is whole, where two bounces of cones hold three quarters of it.
+// What other light the volume holds is nobody else's: the bits come back.
+TEST_F(ConesModeTest, ReadsTheCacheOfRays) {
+    const Scene scene = io::generateScene("furnace?albedo=0.5&emission=1");
+    Settings settings = smallSettings(Component::Diffuse);
+    Renderer renderer;
+    renderer.setScene(scene);
+    const auto draw = [&] {
+        renderer.render(scene.cameras.at(0), kPixels, kPixels, settings);
+        return renderer.readImage();
+    };
+    const Image cones = draw();
+    settings.cones.indirect = ConesIndirect::Cache;
+    // emission / (1 - albedo) = 2, reflected by an albedo of 0.5.
+    EXPECT_NEAR(rangeOf(draw()).mean, 1.0, 0.04);
+    settings.cones.indirect = ConesIndirect::Cones;
+    EXPECT_EQ(draw().pixels, cones.pixels);
+}
+
+// The powers of two of levels are no more than a choice of texels: a picture between levels is nearly the same.
+TEST_F(ConesModeTest, FractionalLevelsChangeLittle) {
+    const Scene scene = io::generateScene("cornell-point");
+    Settings settings = smallSettings(Component::Diffuse);
+    const Image whole = render(scene, settings);
+    settings.cones.fractionalLevels = true;
+    const double change = relRmse(render(scene, settings), whole);
+    EXPECT_GT(change, 1e-4);  // it does something
+    EXPECT_LT(change, 0.15);
+}
+
 }  // namespace
 }  // namespace conelight::test
