@@ -73,6 +73,9 @@ struct PhongSettings {
 enum class DiffuseSet { One, Five, Six, Nine, Fibonacci };
 // What a texel of the radiance volume keeps: one colour and opacity, or one per facing direction.
 enum class VolumeDirections { Isotropic, Six };
+// Where those texels lie: in a texture with a texel for every voxel, or in an octree with bricks of texels where
+// surface is, which gives the same picture from less memory in more time.
+enum class VolumeStorage { Dense, Octree };
 // How opacity adds up along a cone and over levels. Fog: texels are mist of unrelated droplets (Crassin et
 // al. 2011). Area: texels hold connected surface, whose projected areas add up until nothing is left to see.
 enum class OpacityModel { Fog, Area };
@@ -81,6 +84,7 @@ struct ConesSettings {
     DiffuseSet diffuseSet = DiffuseSet::Six;
     int count = 16;
     VolumeDirections directional = VolumeDirections::Six;
+    VolumeStorage storage = VolumeStorage::Dense;
     OpacityModel opacity = OpacityModel::Area;
     float step = 1.0f;
     float offset = 1.0f;  // along the geometric normal

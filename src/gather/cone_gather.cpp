@@ -21,23 +21,26 @@ using Part = ConeGather::Part;
 struct VolumeKey {
     int blocks;
     OpacityModel opacity;
+    bool octree = false;
     bool environment = false;  // cones see a picture behind all surfaces, not the constant sky alone
 
     gl::Defines defines() const {
         gl::Defines defines{{"DIRECTIONAL", blocks == 6 ? "1" : "0"},
-                            {"AREA", opacity == OpacityModel::Area ? "1" : "0"}};
+                            {"AREA", opacity == OpacityModel::Area ? "1" : "0"},
+                            {"OCTREE", octree ? "1" : "0"}};
         if (environment) defines.emplace_back("ENVIRONMENT", "1");
         return defines;
     }
     static VolumeKey of(const RadianceVolume& volume, OpacityModel opacity, const light::Lights& lights) {
-        return {volume.layout().blocks, opacity, lights.hasEnvironment()};
+        return {volume.layout().blocks, opacity, volume.isOctree(), lights.hasEnvironment()};
     }
     static std::vector<VolumeKey> all() {
         std::vector<VolumeKey> keys;
         for (const bool environment : {false, true})
             for (const int blocks : {1, 6})
                 for (const OpacityModel opacity : {OpacityModel::Fog, OpacityModel::Area})
-                    keys.push_back({blocks, opacity, environment});
+                    for (const bool octree : {false, true})
+                        keys.push_back({blocks, opacity, octree, environment});
         return keys;
     }
 };

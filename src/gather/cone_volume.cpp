@@ -7,8 +7,9 @@ namespace conelight::gather {
 
 void ConeVolume::update(const gl::Device& device, const Inputs& inputs, const ConesSettings& settings) {
     const voxels::SurfaceVoxels& surface = inputs.voxels.surface();
-    const RadianceLayout layout = radianceLayout(surface.grid(), settings.directional, settings.maxFootprint);
-    const bool otherLayout = !volume_.texture() || !(volume_.layout() == layout);
+    const RadianceLayout layout =
+        radianceLayout(surface.grid(), settings.directional, settings.maxFootprint, settings.storage);
+    const bool otherLayout = !volume_.laidOut() || !(volume_.layout() == layout);
     const bool otherSources =
         voxelsFrom_ != inputs.voxels.revision() || lightsFrom_ != inputs.lights.revision();
     const bool otherSettings = !settings_ || !(*settings_ == settings);
