@@ -64,9 +64,9 @@ bool findTexels(out LevelPlace t) {
     t.coarse = octreeCorner(brick) + inBrick;
     // The eight lie in one node of the finer level.
     ivec3 texel = OCTREE_NODE_EDGE * octreeNodeOfSlot(entry & OCTREE_SLOT_MASK, level) + inBrick;
-    uvec2 finer = octreeNode(texel >> 1, level - 1);
+    uvec2 finer = octreeNode((2 * texel) >> OCTREE_NODE_BITS, level - 1);
     t.empty = !octreeHas(finer, t.block);
-    t.fine = t.empty ? ivec3(0) : octreeCornerOf(finer, t.block) + 2 * (texel & 1);
+    t.fine = t.empty ? ivec3(0) : octreeCornerOf(finer, t.block) + ((2 * texel) & (OCTREE_NODE_EDGE - 1));
     return true;
 }
 #elif SPARSE

@@ -7,8 +7,8 @@ uniform sampler3D radianceBricks;
 // the node's record, and the place in its bricks, in texels.
 uvec2 octreePlace(vec3 q, ivec3 size, int level, out vec3 place) {
     vec3 u = clamp(q * vec3(size) - 0.5, vec3(0.0), vec3(size - 1));
-    ivec3 node = ivec3(u) >> 2;
-    place = u - vec3(node << 2) + 0.5;
+    ivec3 node = ivec3(u) >> OCTREE_NODE_BITS;
+    place = u - vec3(node << OCTREE_NODE_BITS) + 0.5;
     return octreeNode(node, level);
 }
 
@@ -21,7 +21,7 @@ vec4 octreeSample(uvec2 record, int block, vec3 place) {
 
 // One texel of a level.
 vec4 octreeTexel(ivec3 texel, int level, int block) {
-    uvec2 record = octreeNode(texel >> 2, level);
+    uvec2 record = octreeNode(texel >> OCTREE_NODE_BITS, level);
     if (!octreeHas(record, block)) return vec4(0.0);
-    return texelFetch(radianceBricks, octreeCornerOf(record, block) + (texel & 3), 0);
+    return texelFetch(radianceBricks, octreeCornerOf(record, block) + (texel & (OCTREE_NODE_EDGE - 1)), 0);
 }

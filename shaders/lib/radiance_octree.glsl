@@ -92,5 +92,7 @@ int octreeBorders(ivec3 texel) {
 }
 // One of the nodes, by a part of these bits: the node before along those axes. Parts are counted down from all
 // of them to none; then comes -1.
-ivec3 octreeHolder(ivec3 texel, int axes) { return (texel >> 2) - (ivec3(axes, axes >> 1, axes >> 2) & 1); }
+ivec3 octreeHolder(ivec3 texel, int axes) {
+    return (texel >> OCTREE_NODE_BITS) - (ivec3(axes, axes >> 1, axes >> 2) & 1);
+}
 int octreeNextAxes(int axes, int borders) { return axes == 0 ? -1 : (axes - 1) & borders; }

@@ -19,6 +19,7 @@
 #pragma once
 #include "shared/prelude.h"
 
+#define OCTREE_NODE_BITS 2
 #define OCTREE_NODE_EDGE 4
 #define OCTREE_BRICK_EDGE 5
 #define OCTREE_BRICK_TEXELS 125
