@@ -81,6 +81,9 @@ struct SetCone {
 };
 // What a texel of the radiance volume keeps: one colour and opacity, or one per facing direction.
 enum class VolumeDirections { Isotropic, Six };
+// Where those texels lie: in a texture with a texel for every voxel, or in an octree with bricks of texels where
+// surface is, which gives the same picture from less memory in more time.
+enum class VolumeStorage { Dense, Octree };
 // How opacity adds up along a cone and over levels. Fog: texels are mist of unrelated droplets (Crassin et
 // al. 2011). Area: texels hold connected surface, whose projected areas add up until nothing is left to see.
 enum class OpacityModel { Fog, Area };
@@ -95,6 +98,7 @@ struct ConesSettings {
     int count = 16;
     std::vector<SetCone> ownSet;  // where diffuseSet is Own: at most 64 cones; none: as Six
     VolumeDirections directional = VolumeDirections::Six;
+    VolumeStorage storage = VolumeStorage::Dense;
     OpacityModel opacity = OpacityModel::Area;
     float step = 1.0f;
     float offset = 1.0f;  // along the geometric normal

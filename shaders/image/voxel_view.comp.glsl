@@ -4,7 +4,7 @@
 //
 //   SOURCE  0 surface voxels: level 0 from their faces, coarser ones from means (voxel_view_level)
 //           1 a volume of one colour and opacity a voxel (VoxelVolume)   2 the radiance volume of mode cones
-//           (DIRECTIONAL: six blocks)
+//           (DIRECTIONAL: six blocks)   3 the same, stored in an octree
 //   SHAPE   0 cubes   1 their edges   2 plane pieces as rays meet them (SOURCE 0)   3 by opacity, front to
 //           back   4 on the surfaces of the picture
 //   AMONG   1: in front of what the G-buffer holds, on the picture; 0: alone, on the sky
@@ -26,7 +26,11 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140) uniform ViewBlock { VoxelViewConstants view; };
 layout(rgba32f) uniform image2D picture;
 layout(rgba32ui) readonly uniform uimage3D occupied;
+#if SOURCE == 3
+#include "lib/radiance_bricks.glsl"
+#else
 uniform sampler3D volume;
+#endif
 #if SOURCE == 0
 #include "lib/ray_query.glsl"
 #include "lib/voxel_data.glsl"
@@ -55,6 +59,17 @@ int levelShown(float t) {
 
 ivec3 levelSize(int level) { return (ivec3(view.sizeX, view.sizeY, view.sizeZ) + (1 << level) - 1) >> level; }
 
+#if SOURCE >= 2
+// A texel of the radiance volume.
+vec4 radianceOf(ivec3 cell, int level, int block) {
+#if SOURCE == 3
+    return octreeTexel(cell, level, block);
+#else
+    return texelFetch(volume, cell + ivec3(block * (int(view.sizeX) >> level), 0, 0), level);
+#endif
+}
+#endif
+
 // Premultiplied data and opacity of a cell, seen along `ray` through the side of `axis`.
 vec4 cellOf(ivec3 cell, int level, vec3 ray, int axis) {
 #if SOURCE == 0
@@ -65,17 +80,17 @@ vec4 cellOf(ivec3 cell, int level, vec3 ray, int axis) {
         return voxelMean(texelFetch(voxelRecords, int(voxelRecordIndex(word, bit))).x, ray, view.data);
     }
     return texelFetch(volume, cell, level - 1);
+#elif SOURCE == 1
+    return texelFetch(volume, cell, level);
 #elif DIRECTIONAL
     // The block of the side that is entered, or the mean of all when nothing there looks that way.
-    int block = int(view.sizeX) >> level;
-    int facing = 2 * axis + (ray[axis] > 0.0 ? 1 : 0);
-    vec4 side = texelFetch(volume, cell + ivec3(facing * block, 0, 0), level);
+    vec4 side = radianceOf(cell, level, 2 * axis + (ray[axis] > 0.0 ? 1 : 0));
     if (side.a > 1.0 / 1024.0) return side;
     vec4 mean = vec4(0.0);
-    for (int k = 0; k < 6; ++k) mean += texelFetch(volume, cell + ivec3(k * block, 0, 0), level);
+    for (int k = 0; k < 6; ++k) mean += radianceOf(cell, level, k);
     return mean / max(mean.a, 1.0);
 #else
-    return texelFetch(volume, cell, level);
+    return radianceOf(cell, level, 0);
 #endif
 }
 

@@ -8,24 +8,29 @@
 //
 //   DIRECTIONAL  the volume has six blocks, of which a cone reads the three that look towards it
 //   AREA         opacity: projected area of connected surface, which adds up until the cone is full; else fog
+//   OCTREE       the volume lies in an octree
 //   FRACTIONAL   1: samples lie between two levels
 #ifndef FRACTIONAL
 #define FRACTIONAL 0
 #endif
-#if !defined(DIRECTIONAL) || !defined(AREA)
-#error DIRECTIONAL and AREA must be 0 or 1
+#if !defined(DIRECTIONAL) || !defined(AREA) || !defined(OCTREE)
+#error DIRECTIONAL, AREA and OCTREE must be 0 or 1
 #endif
 #include "lib/environment.glsl"
 #include "lib/radiance_volume.glsl"
 #include "lib/record_steps.glsl"
 #include "shared/cones.h"
 layout(std140) uniform ConeBlock { ConeConstants cones; };
+#if OCTREE
+#include "lib/radiance_bricks.glsl"
+#else
 uniform sampler3D radianceVolume;
+#endif
 
 #if DIRECTIONAL
-const uint kFetchesPerSample = 3u;
+const uint kFetchesPerSample = 3u * (1u + FRACTIONAL);
 #else
-const uint kFetchesPerSample = 1u;
+const uint kFetchesPerSample = 1u + FRACTIONAL;
 #endif
 
 // A cone that is this full is taken for full. 1/128: half a step of an 8-bit picture.
@@ -82,17 +87,26 @@ float levelAt(float tanHalf, float t) { return levelOf(2.0 * tanHalf * t); }
 // Premultiplied radiance and opacity of a stretch about p that is `part` of a texel of `level` long.
 vec4 sampleStretch(vec3 p, vec3 direction, float level, float part) {
     vec3 q = (p - volume.origin) * volume.inverseExtent;
+#if OCTREE
+    vec3 place;
+    uvec2 node = octreePlace(q, radianceSize() >> int(level), int(level), place);
+#endif
 #if DIRECTIONAL
+    // A cone that goes towards +x meets faces that look towards -x.
+    ivec3 block = ivec3(direction.x > 0.0 ? 1 : 0, direction.y > 0.0 ? 3 : 2, direction.z > 0.0 ? 5 : 4);
+#if OCTREE
+    vec4 x = octreeSample(node, block.x, place);
+    vec4 y = octreeSample(node, block.y, place);
+    vec4 z = octreeSample(node, block.z, place);
+#else
     // Stay half a texel away from the neighbouring block, as clamping to the edge does at the other sides.
     float inset = exp2(level) * volume.halfTexelX;
     q.x = clamp(q.x, inset, 1.0 - inset);
-    // A cone that goes towards +x meets faces that look towards -x.
-    vec3 block =
-        vec3(direction.x > 0.0 ? 1.0 : 0.0, direction.y > 0.0 ? 3.0 : 2.0, direction.z > 0.0 ? 5.0 : 4.0);
-    vec3 u = (q.x + block) * (1.0 / 6.0);
+    vec3 u = (q.x + vec3(block)) * (1.0 / 6.0);
     vec4 x = textureLod(radianceVolume, vec3(u.x, q.yz), level);
     vec4 y = textureLod(radianceVolume, vec3(u.y, q.yz), level);
     vec4 z = textureLod(radianceVolume, vec3(u.z, q.yz), level);
+#endif
 #if AREA
     // Coverage along axis k is area * n.k: the sum with |d.k| is area * |n.d|, what the cone sees of it.
     vec3 weight = abs(direction);
@@ -100,6 +114,8 @@ vec4 sampleStretch(vec3 p, vec3 direction, float level, float part) {
     vec3 weight = direction * direction;
 #endif
     vec4 s = x * weight.x + y * weight.y + z * weight.z;
+#elif OCTREE
+    vec4 s = octreeSample(node, 0, place);
 #else
     vec4 s = textureLod(radianceVolume, q, level);
 #endif
@@ -112,13 +128,24 @@ vec4 sampleStretch(vec3 p, vec3 direction, float level, float part) {
 #endif
 }
 
+// The same for a stretch of length `delta`, m. A level that is no whole number: between two.
+vec4 sampleLevels(vec3 p, vec3 direction, float level, float delta) {
+    vec2 levels = vec2(floor(level), ceil(level));
+    vec2 parts = delta / (volume.voxelSize * exp2(levels));
+    vec4 s = sampleStretch(p, direction, levels.x, parts.x);
+#if FRACTIONAL
+    s = mix(s, sampleStretch(p, direction, levels.y, parts.y), fract(level));
+#endif
+    return s;
+}
+
 // One more stretch.
 void stepMarch(inout March m, float step) {
     float level = levelAt(m.tanHalf, m.t);
     float texel = volume.voxelSize * exp2(level);
     float delta = min(step * texel, max(m.end - m.t, 0.0));
     float middle = m.t + 0.5 * delta;
-    vec4 s = sampleStretch(m.origin + middle * m.direction, m.direction, level, delta / texel);
+    vec4 s = sampleLevels(m.origin + middle * m.direction, m.direction, level, delta);
     s *= max(1.0 - middle * m.fade, 0.0);
     m.t += delta;
 #if AREA

@@ -21,12 +21,14 @@ using Part = ConeGather::Part;
 struct VolumeKey {
     int blocks;
     OpacityModel opacity;
+    bool octree = false;
     bool fractional = false;
     bool environment = false;  // cones see a picture behind all surfaces, not the constant sky alone
 
     gl::Defines defines() const {
         gl::Defines defines{{"DIRECTIONAL", blocks == 6 ? "1" : "0"},
-                            {"AREA", opacity == OpacityModel::Area ? "1" : "0"}};
+                            {"AREA", opacity == OpacityModel::Area ? "1" : "0"},
+                            {"OCTREE", octree ? "1" : "0"}};
         if (fractional) defines.emplace_back("FRACTIONAL", "1");
         if (environment) defines.emplace_back("ENVIRONMENT", "1");
         return defines;
@@ -34,18 +36,17 @@ struct VolumeKey {
 
     static std::vector<VolumeKey> all() {
         std::vector<VolumeKey> keys;
-        for (const bool environment : {false, true})
-            for (const bool fractional : {false, true})
-                for (const int blocks : {1, 6})
-                    for (const OpacityModel opacity : {OpacityModel::Fog, OpacityModel::Area})
-                        keys.push_back({blocks, opacity, fractional, environment});
+        for (int bits = 0; bits < 8; ++bits)
+            for (const int blocks : {1, 6})
+                for (const OpacityModel opacity : {OpacityModel::Fog, OpacityModel::Area})
+                    keys.push_back({blocks, opacity, (bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0});
         return keys;
     }
 };
 
 VolumeKey keyOf(const RadianceVolume& volume, OpacityModel opacity, bool fractional,
                 const light::Lights& lights) {
-    return {volume.layout().blocks, opacity, fractional, lights.hasEnvironment()};
+    return {volume.layout().blocks, opacity, volume.isOctree(), fractional, lights.hasEnvironment()};
 }
 
 struct ConeKey {
@@ -157,7 +158,8 @@ void ConeGather::gatherBounce(const gl::Device& device, const light::Lights& lig
 }
 
 ConeShadows ConeGather::shadows(const RadianceVolume& volume) const {
-    return {volume, block_, VolumeKey{volume.layout().blocks, opacity_, fractional_}.defines()};
+    return {volume, block_,
+            VolumeKey{volume.layout().blocks, opacity_, volume.isOctree(), fractional_}.defines()};
 }
 
 std::vector<gl::Defines> ConeGather::shadowDefines() {

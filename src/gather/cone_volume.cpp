@@ -7,8 +7,9 @@ namespace conelight::gather {
 
 void ConeVolume::update(const gl::Device& device, const Inputs& inputs, const ConesSettings& settings) {
     const voxels::SurfaceVoxels& surface = inputs.voxels.surface();
-    const RadianceLayout layout = radianceLayout(surface.grid(), settings.directional, settings.maxFootprint);
-    const bool otherLayout = !volume_.texture() || !(volume_.layout() == layout);
+    const RadianceLayout layout =
+        radianceLayout(surface.grid(), settings.directional, settings.maxFootprint, settings.storage);
+    const bool otherLayout = !volume_.laidOut() || !(volume_.layout() == layout);
     const base::Revision lights =
         inputs.cache != nullptr ? inputs.cache->revision() : inputs.lights.revision();
     const bool otherSources = voxelsFrom_ != inputs.voxels.revision() || lightsFrom_ != lights;
@@ -19,7 +20,6 @@ void ConeVolume::update(const gl::Device& device, const Inputs& inputs, const Co
     const bool otherOpacity = !settings_ || settings_->opacity != settings.opacity;
     if (otherSettings || otherSources || otherLayout) cones_.configure(settings, layout);
     settings_ = settings;
-    if (!otherLayout) volume_.sampleBetweenLevels(settings.fractionalLevels);
     voxelsFrom_ = inputs.voxels.revision();
     lightsFrom_ = lights;
     if (!otherLayout && !otherSources && !otherBounces && !otherOpacity) return;
@@ -27,7 +27,6 @@ void ConeVolume::update(const gl::Device& device, const Inputs& inputs, const Co
     if (otherLayout) {
         volume_ = {};  // frees the old one first
         volume_ = RadianceVolume(layout);
-        volume_.sampleBetweenLevels(settings.fractionalLevels);
     }
     revision_ = base::Revision::next();
     if (inputs.cache != nullptr) {

@@ -9,8 +9,9 @@
 namespace conelight::image {
 namespace {
 
-constexpr int kSurfaceVoxels = 0, kVoxelVolume = 1, kRadianceVolume = 2;  // SOURCE of the shader
-constexpr int kCoarsest = 8;                                              // view.voxel_level
+// SOURCE of the shader.
+constexpr int kSurfaceVoxels = 0, kVoxelVolume = 1, kRadianceVolume = 2, kRadianceOctree = 3;
+constexpr int kCoarsest = 8;  // view.voxel_level
 // Bricks to each side that are known to be empty, a power of two: a leap of 68 voxels, half of a large room.
 constexpr int kReach = 8;
 
@@ -51,8 +52,9 @@ struct ViewKey {
                 keys.push_back({kSurfaceVoxels, shape, among, false});
                 if (shape == VoxelShape::Faces) continue;
                 keys.push_back({kVoxelVolume, shape, among, false});
-                keys.push_back({kRadianceVolume, shape, among, false});
-                keys.push_back({kRadianceVolume, shape, among, true});
+                for (const int source : {kRadianceVolume, kRadianceOctree})
+                    for (const bool directional : {false, true})
+                        keys.push_back({source, shape, among, directional});
             }
         }
         return keys;
@@ -230,11 +232,20 @@ void VoxelView::draw(const gl::Device& device, const Target& target, const gathe
     const gather::RadianceLayout& layout = volume.layout();
     VoxelShape shape = target.settings.view.voxelShape;
     if (shape == VoxelShape::Auto || shape == VoxelShape::Faces) shape = VoxelShape::Cubes;
-    const Shown shown{
-        kRadianceVolume,       shape,       layout.blocks == 6, layout.grid.origin,
-        layout.grid.voxelSize, layout.size, layout.maxLevel,    target.settings.cones.voxelLevel};
+    const Shown shown{volume.isOctree() ? kRadianceOctree : kRadianceVolume,
+                      shape,
+                      layout.blocks == 6,
+                      layout.grid.origin,
+                      layout.grid.voxelSize,
+                      layout.size,
+                      layout.maxLevel,
+                      target.settings.cones.voxelLevel};
     gl::Inputs inputs;
-    inputs.add(voxels).texture("volume", volume.texture());
+    inputs.add(voxels);
+    if (volume.isOctree())
+        inputs.add(volume.octree());
+    else
+        inputs.texture("volume", volume.texture());
     if (castsRays(shape)) buildOccupied(device, shown, true, inputs, voxels.revision());
     const gl::PassScope pass(device.profiler, "voxel view");
     run(device, target, shown, inputs);

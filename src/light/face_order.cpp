@@ -60,6 +60,11 @@ void FaceOrder::sort(const gl::Device& device, const voxels::SurfaceVoxels& surf
     const auto blockCount = static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.y) *
                             static_cast<std::size_t>(blocks.z);
     if (blockCount > kMaxBlocks) {
+        // The block and the lists are declared in every step; nothing is read of them here.
+        inputs.uniform("OrderBlock", block_)
+            .storage("BinTable", chunks_)
+            .storage("StartTable", chunks_)
+            .storage("ChunkTable", chunks_);
         device.get(OrderKey{5}.desc()).dispatchLinear(inputs, faces);
         gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
         return;

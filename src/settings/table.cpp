@@ -27,6 +27,8 @@ constexpr Choice<DiffuseSet> kDiffuseSets[] = {{"1", DiffuseSet::One},
                                                {"own", DiffuseSet::Own}};
 constexpr Choice<VolumeDirections> kVolumeDirections[] = {{"isotropic", VolumeDirections::Isotropic},
                                                           {"six", VolumeDirections::Six}};
+constexpr Choice<VolumeStorage> kVolumeStorages[] = {{"dense", VolumeStorage::Dense},
+                                                     {"octree", VolumeStorage::Octree}};
 constexpr Choice<OpacityModel> kOpacityModels[] = {{"fog", OpacityModel::Fog}, {"area", OpacityModel::Area}};
 constexpr Choice<ConesIndirect> kConesIndirect[] = {{"cones", ConesIndirect::Cones},
                                                     {"cache", ConesIndirect::Cache}};
@@ -111,6 +113,9 @@ std::vector<Setting<ConesSettings>> conesSettings() {
         {"count", &ConesSettings::count, Numbers{1, 64}, "", "number of cones of the set fibonacci"},
         {"directional", &ConesSettings::directional, kVolumeDirections,
          "radiance per voxel: one value, or six by facing direction (six times the memory, closed walls)"},
+        {"storage", &ConesSettings::storage, kVolumeStorages,
+         "where radiance lies: a texture of all voxels, or a sparse octree: the same picture, less memory, "
+         "more time"},
         {"opacity", &ConesSettings::opacity, kOpacityModels,
          "how opacity adds up: as fog of unrelated droplets, or as connected surface area"},
         {"step", &ConesSettings::step, Numbers{0.1, 2}, "footprints",

@@ -244,6 +244,27 @@ TEST(Console, CameraOrbitsAndFrames) {
     EXPECT_EQ(rig.session.camera().eye, glm::vec3(0, 0, 3));
 }
 
+TEST(Console, ObjectsLookAtAPointAndGoBackToTheOrigin) {
+    ConsoleRig rig;
+    const auto placed = [&] { return rig.session.scene().instances[1].worldFromObject; };
+    rig.run("scale lid 0.5");
+    rig.run("look_at lid 4 0 -2");  // from (0, 0, -2): along +x
+    EXPECT_EQ(rig.error(), "");
+    EXPECT_NEAR(glm::distance(glm::vec3(placed()[2]), glm::vec3(0.5f, 0, 0)), 0, 1e-6);
+    EXPECT_NEAR(glm::distance(glm::vec3(placed()[1]), glm::vec3(0, 0.5f, 0)), 0, 1e-6);
+    EXPECT_NEAR(glm::determinant(glm::mat3(placed())), 0.125, 1e-6);  // not mirrored
+    EXPECT_EQ(glm::vec3(placed()[3]), glm::vec3(0, 0, -2));
+    rig.run("look_at lid 0 9 -2");  // straight up: some turn, of the same size
+    EXPECT_NEAR(glm::distance(glm::vec3(placed()[2]), glm::vec3(0, 0.5f, 0)), 0, 1e-6);
+    EXPECT_NEAR(glm::determinant(glm::mat3(placed())), 0.125, 1e-6);
+    rig.run("reset_place lid");
+    EXPECT_EQ(placed(), glm::mat4(1));
+    rig.run("undo");
+    EXPECT_NE(placed(), glm::mat4(1));
+    rig.run("look_at nobody 0 0 0");
+    EXPECT_NE(rig.error().find("nobody"), std::string::npos);
+}
+
 TEST(Console, HelpKnowsEveryCommandAndAlias) {
     ConsoleRig rig;
     rig.run("help");

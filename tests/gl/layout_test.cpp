@@ -15,6 +15,7 @@
 #include "shared/irradiance.h"
 #include "shared/lighting.h"
 #include "shared/pixel_rays.h"
+#include "shared/radiance_octree.h"
 #include "shared/radiance_volume.h"
 #include "shared/scene.h"
 #include "shared/shadow_map.h"
@@ -123,6 +124,8 @@ std::vector<Struct> otherStructs() {
         ROW(LightingConstants, sky, environmentScale, lightEnds, environmentTurn, environmentInverseFlux,
             environmentLevel0, environmentCellLevel),
         ROW(ShadowMapConstants, clipFromWorld, slopeUnit, middle, halfSize, pad0),
+        ROW(RadianceOctree, inverseTextureSize, rootLevel, topLevel, maxLevel, rowBits, slots, slotsPerChunk,
+            level, firstBrick, brickCount),
         ROW(RadianceVolume, origin, voxelSize, inverseExtent, inverseVoxelSize, extent, maxLevel, sizeX,
             sizeY, sizeZ, halfTexelX),
         ROW(Vertex, position, normalOct, u, v, tangentOct, color),

@@ -74,6 +74,23 @@ TEST_F(TracedModeTest, SameBitsTwice) {
     }
 }
 
+// Grids with too many bins keep faces in the order in which they are stored; they ended with an error.
+TEST_F(TracedModeTest, FinestGridIsAsBrightAsACoarseOne) {
+    const Scene scene = io::generateScene("cornell");
+    Settings settings = tracedSettings(Quality::Draft);
+    settings.traced.cacheUpdates = 1;
+    settings.traced.cacheRays = 1;
+    const auto brightness = [&](int voxels) {
+        settings.voxels.size = voxels;
+        const Image image = draw(scene, settings);
+        double sum = 0;
+        for (const glm::vec4& p : image.pixels) sum += p.g;
+        return sum;
+    };
+    const double coarse = brightness(128);
+    EXPECT_NEAR(brightness(512) / coarse, 1, 0.05);
+}
+
 // What was drawn before, with other settings, leaves nothing in a picture.
 TEST_F(TracedModeTest, QualitiesDoNotMix) {
     const Scene scene = io::generateScene("cornell");

@@ -2,6 +2,7 @@
 // Objects shown and hidden, deleted and duplicated: those of a name, or the one that is selected. Each is one
 // step of undo.
 #include <algorithm>
+#include <cmath>
 
 #include "conelight/error.h"
 #include "console/command_table.h"
@@ -68,6 +69,36 @@ void remove(const CommandContext& context) {
     context.session.setInstanceList(rest, "delete");
 }
 
+// Instances after `change`, as one step of undo.
+template <class Change>
+void changeEach(const CommandContext& context, const std::string& label, const Change& change) {
+    std::vector<std::pair<std::size_t, Instance>> changed;
+    for (const std::size_t i : objectsOf(context, label)) {
+        Instance instance = context.session.scene().instances[i];
+        change(instance.worldFromObject);
+        changed.emplace_back(i, std::move(instance));
+    }
+    context.session.setInstances(changed, label + " " + context.words[0]);
+}
+
+// The front of a model is its +z, up is y (glTF 2.0, 3.4). Sizes along its axes stay.
+void lookAt(const CommandContext& context) {
+    const glm::vec3 target(context.number(1), context.number(2), context.number(3));
+    changeEach(context, "look_at", [&](glm::mat4& m) {
+        const glm::vec3 way = target - glm::vec3(m[3]);
+        if (!(glm::length(way) > 1e-6f)) return;
+        const glm::vec3 front = glm::normalize(way);
+        const glm::vec3 up = std::abs(front.y) > 0.9999f ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
+        const glm::vec3 side = glm::normalize(glm::cross(up, front));
+        const glm::vec3 axes[] = {side, glm::cross(front, side), front};
+        for (int k = 0; k < 3; ++k) m[k] = glm::vec4(axes[k] * glm::length(glm::vec3(m[k])), 0);
+    });
+}
+
+void resetPlace(const CommandContext& context) {
+    changeEach(context, "reset_place", [](glm::mat4& m) { m = glm::mat4(1); });
+}
+
 // "chair" -> "chair 2", or the first number that is free.
 std::string freeName(const Session& session, const std::string& name) {
     const std::vector<std::string> names = objectNames(session);
@@ -97,13 +128,23 @@ void duplicate(const CommandContext& context) {
 
 std::vector<Command> objectCommands() {
     const Argument object{"NAME", ArgumentKind::Object, true};
+    const Argument named{"NAME", ArgumentKind::Object};
     const char* const kWhich = "Without NAME: what is selected.";
     return {command("hide", {object}, "take an object out of the picture and its light", hide, kWhich),
             command("isolate", {object}, "hide all objects but one", isolate, kWhich),
             command("show", {object}, "show an object again", show, "Without NAME: all that are hidden."),
             command("delete", {object}, "delete an object", remove, kWhich),
             command("duplicate", {object}, "put a copy of an object beside it, and select that", duplicate,
-                    kWhich)};
+                    kWhich),
+            command("look_at",
+                    {named,
+                     {"X", ArgumentKind::Number, false, false, "m", -1e6, 1e6, {}},
+                     {"Y", ArgumentKind::Number, false, false, "m", -1e6, 1e6, {}},
+                     {"Z", ArgumentKind::Number, false, false, "m", -1e6, 1e6, {}}},
+                    "turn an object's front to a point", lookAt,
+                    "The front is the object's +z, up is y; its size stays."),
+            command("reset_place", {named}, "put an object where its own coordinates are the world's",
+                    resetPlace, "Position, scale and rotation are forgotten.")};
 }
 
 }  // namespace conelight::program
