@@ -75,14 +75,13 @@ March startMarch(vec3 origin, vec3 direction, float tanHalf, float maxDistance, 
 // of one cone lie at the same distances, and so in the same levels, for all pixels, and no ring shows where
 // the level changes; and stretches that are a whole part of a texel add up to 1 across a wall, which filters
 // between levels would not.
-float levelOf(float footprint) {
-    float level = log2(footprint * volume.inverseVoxelSize);
+float levelAt(float tanHalf, float t) {
+    float level = log2(2.0 * tanHalf * t * volume.inverseVoxelSize);
 #if !FRACTIONAL
     level = round(level);
 #endif
     return clamp(level, 0.0, volume.maxLevel);
 }
-float levelAt(float tanHalf, float t) { return levelOf(2.0 * tanHalf * t); }
 
 // Premultiplied radiance and opacity of a stretch about p that is `part` of a texel of `level` long.
 vec4 sampleStretch(vec3 p, vec3 direction, float level, float part) {

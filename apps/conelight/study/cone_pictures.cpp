@@ -17,7 +17,6 @@ ConePictures::ConePictures(PictureSource& source, const Scene& scene, const View
 }
 
 ConePicture ConePictures::draw(bool countSamples) {
-    request_.mode = "cones";
     request_.profile = countSamples;
     Picture picture = source_.draw(request_, &progress_);
     if (picture.stopped || interrupted()) throw InterruptedError();
