@@ -403,5 +403,41 @@ class Sizes(Project):
         self.assertTrue(all("7 parameters" in line for line in found), found)
 
 
+class Site(Project):
+    @staticmethod
+    def module(name):
+        loader = importlib.machinery.SourceFileLoader(name, str(TOOLS / "site" / f"{name}.py"))
+        spec = importlib.util.spec_from_loader(name, loader)
+        module = importlib.util.module_from_spec(spec)
+        loader.exec_module(module)
+        return module
+
+    def test_pages_and_what_they_link_to(self):
+        self.write("docs/a.md", "[source](../src/b.h), [folder](../src), [web](https://x.y/z), ![](p.png)\n`[c](d.md)`\n")
+        self.write("src/b.h", "int b;  // [no](link.md)\n")
+        self.write("docs/p.png", "")
+        pages = self.module("make_pages").Pages(self.root)
+        pages.add("docs/a.md")
+        self.assertEqual(sorted(pages.texts), ["docs/a.md", "src/README.md", "src/b.h.md"])
+        self.assertIn("[source](../src/b.h.md), [folder](../src/README.md), [web](https://x.y/z), ![](p.png)",
+                      pages.texts["docs/a.md"])
+        self.assertIn("// [no](link.md)", pages.texts["src/b.h.md"])
+        self.assertEqual(pages.pictures, {"docs/p.png"})
+
+    def test_lists_and_equations_of_the_parser(self):
+        made = self.module("make_pages").for_parser
+        self.assertEqual(made(["Text:", "- a", "- b", "$$x$$"], str), ["Text:", "", "- a", "- b", "", "$$x$$"])
+        self.assertEqual(made(["1. a", "", "   b", "", "c"], str), ["1. a", "", "    b", "", "c"])
+        self.assertEqual(made(["```", "x", "- y", "```"], str), ["```", "x", "- y", "```"])
+
+    def test_dead_links(self):
+        self.write("site/index.html", '<a href="b/#here">b</a><a href="b/#gone">b</a><img src="p.png">'
+                   '<a href="https://x.y/">x</a>')
+        self.write("site/b/index.html", '<h1 id="here">b</h1><a href="../#">top</a>')
+        status, output = self.run_tool("site/check_links.py", self.root / "site")
+        self.assertEqual(status, 1)
+        self.assertEqual(output.splitlines(), ["index.html: b/#gone: no such anchor", "index.html: p.png: no such file"])
+
+
 if __name__ == "__main__":
     unittest.main()
