@@ -20,8 +20,7 @@ void main() {
     vec3 origin = worldFromGrid(faceCenter(face)) + cones.offset * normal;
     uint samples;
     ConeReach reach = ConeReach(cones.maxDistance, 0.0);
-    vec3 irradiance =
-        gatherCones(origin, normal, inside ? cones.count : 0u, reach, samples).rgb;
+    vec3 irradiance = gatherCones(origin, normal, inside ? cones.count : 0u, reach, samples).rgb;
     if (!inside) return;
     // Below the largest half.
     irradiance = min(irradiance, 65000.0);

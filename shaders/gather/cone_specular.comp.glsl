@@ -50,8 +50,8 @@ void main() {
     Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));
     RECORD_SURFACE(seen, s);
     if (seen) {
-        RECORD_PATH(PATH_SPECULAR_CONE, m.origin, direction, tanHalf, vec3(1.0),
-                    marchedRadiance(m), 1.0 - open, m.t, open == 0.0 ? END_FULL : END_OPEN);
+        RECORD_PATH(PATH_SPECULAR_CONE, m.origin, direction, tanHalf, vec3(1.0), marchedRadiance(m),
+                    1.0 - open, m.t, open == 0.0 ? END_FULL : END_OPEN);
         RECORD_PART(PART_SPECULAR, marchedRadiance(m),
                     specularAlbedo(b, directionalAlbedo(b.NoV, sqrt(b.alpha))));
     }

@@ -18,8 +18,8 @@ vec3 agx(vec3 c) {
                              -0.099029744, -0.098961177, 1.151073673);
     vec3 x = clamp((log2(max(inset * c, vec3(1e-10))) + 12.47393) / 16.5, 0.0, 1.0);
     vec3 x2 = x * x, x4 = x2 * x2;
-    vec3 curved = 15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 +
-                  0.1191 * x - 0.00232;
+    vec3 curved =
+        15.5 * x4 * x2 - 40.14 * x4 * x + 31.96 * x4 - 6.868 * x2 * x + 0.4298 * x2 + 0.1191 * x - 0.00232;
     return pow(max(outset * curved / 0.99858, vec3(0.0)), vec3(2.2));
 }
 
@@ -36,11 +36,16 @@ vec3 neutral(vec3 c) {
 
 vec3 toneCurve(vec3 c) {
     switch (display.curve) {
-        case 1u: return c / (1.0 + dot(c, vec3(0.2126, 0.7152, 0.0722)));
-        case 2u: return (c * (2.51 * c + 0.03)) / (c * (2.43 * c + 0.59) + 0.14);
-        case 3u: return agx(c);
-        case 4u: return neutral(c);
-        default: return c;
+        case 1u:
+            return c / (1.0 + dot(c, vec3(0.2126, 0.7152, 0.0722)));
+        case 2u:
+            return (c * (2.51 * c + 0.03)) / (c * (2.43 * c + 0.59) + 0.14);
+        case 3u:
+            return agx(c);
+        case 4u:
+            return neutral(c);
+        default:
+            return c;
     }
 }
 

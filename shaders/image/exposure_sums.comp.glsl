@@ -6,7 +6,7 @@
 layout(local_size_x = EXPOSURE_BINS) in;
 layout(std430) readonly buffer BinCounts { uint counts[]; };
 layout(std430) writeonly buffer ExposureTable { Exposure exposure; };
-shared uint below[EXPOSURE_BINS];   // pixels up to and with this bin
+shared uint below[EXPOSURE_BINS];  // pixels up to and with this bin
 shared float weights[EXPOSURE_BINS];
 
 void main() {

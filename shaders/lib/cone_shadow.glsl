@@ -40,8 +40,8 @@ float coneShadow(vec3 position, vec3 geometricNormal, vec3 toLight, float distan
             // Between levels: distances to a light differ from pixel to pixel, and so would the jumps.
             vec3 p = origin + middle * toLight;
             vec2 levels = vec2(floor(level), ceil(level));
-            vec2 parts = delta / (voxel * exp2(levels)) *
-                         vec2(insideVolume(p, levels.x), insideVolume(p, levels.y));
+            vec2 parts =
+                delta / (voxel * exp2(levels)) * vec2(insideVolume(p, levels.x), insideVolume(p, levels.y));
             float added = mix(sampleStretch(p, toLight, levels.x, parts.x).a,
                               sampleStretch(p, toLight, levels.y, parts.y).a, fract(level));
 #if AREA

@@ -63,9 +63,7 @@ uvec4 packFaceMaterial(vec3 albedo, vec3 emission, float area, uint lobe) {
     uint high = uint(floor(clamp(area, 0.0, 4.0) * kVoxelWeightScale + 0.5));
     return uvec4(packAlbedo(albedo), packHalf2x16(e.rg), packHalf2x16(vec2(e.b, 0.0)) | (high << 16), lobe);
 }
-vec3 unpackEmission(uvec4 material) {
-    return vec3(unpackHalf2x16(material.y), unpackHalf2x16(material.z).x);
-}
+vec3 unpackEmission(uvec4 material) { return vec3(unpackHalf2x16(material.y), unpackHalf2x16(material.z).x); }
 float unpackArea(uvec4 material) { return float(material.z >> 16) / kVoxelWeightScale; }
 
 // Metalness in 4 bits, roughness in 5: the lowest 9 bits.

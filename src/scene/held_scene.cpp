@@ -44,10 +44,11 @@ void HeldScene::setMesh(std::size_t index, const Mesh& mesh) {
     validateMesh(mesh, index);
     const Mesh& old = source.meshes[index];
     if (mesh.positions.size() != old.positions.size() || mesh.indices.size() != old.indices.size())
-        base::fail(ErrorKind::BadInput,
-                   "mesh %zu '%s': %zu vertices and %zu indices; as many as it has, %zu and %zu, would be right",
-                   index, mesh.name.c_str(), mesh.positions.size(), mesh.indices.size(), old.positions.size(),
-                   old.indices.size());
+        base::fail(
+            ErrorKind::BadInput,
+            "mesh %zu '%s': %zu vertices and %zu indices; as many as it has, %zu and %zu, would be right",
+            index, mesh.name.c_str(), mesh.positions.size(), mesh.indices.size(), old.positions.size(),
+            old.indices.size());
     if (mesh.normals.empty() != old.normals.empty())
         base::fail(ErrorKind::BadInput, "mesh %zu '%s': %s normals; normals %s, as it has, would be right",
                    index, mesh.name.c_str(), mesh.normals.empty() ? "no" : "has",

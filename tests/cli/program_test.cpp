@@ -23,9 +23,9 @@ CommandResult render(const std::string& scene, const std::string& output, const 
 class ProgramTest : public GlTest {};
 
 TEST_F(ProgramTest, EveryCommandHasHelp) {
-    for (const char* command :
-         {"", "render", "compare", "bench", "score", "score leak", "score shift", "score flicker",
-          "score convergence", "figures", "info", "settings", "commands", "convert", "shaders", "completion", "manual"}) {
+    for (const char* command : {"", "render", "compare", "bench", "score", "score leak", "score shift",
+                                "score flicker", "score convergence", "figures", "info", "settings",
+                                "commands", "convert", "shaders", "completion", "manual"}) {
         const CommandResult result = conelight(std::string(command) + " --help");
         EXPECT_EQ(result.status, 0) << command;
         EXPECT_NE(result.output.find("Usage"), std::string::npos) << result.output;
