@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// The rays of a camera: Camera + size of the picture -> a ray for each point of it.
+#pragma once
+
+#include <cmath>
+#include <glm/glm.hpp>
+
+#include "conelight/scene.h"
+#include "reference/ray_scene.h"
+
+namespace conelight::reference {
+
+// src/view/camera.cpp, axesOf, as rays.
+struct Lens {
+    glm::dvec3 eye, forward, right, up;
+    double zNear, zFar;
+
+    Lens(const Camera& camera, int width, int height)
+        : eye(camera.eye), zNear(static_cast<double>(camera.zNear)), zFar(static_cast<double>(camera.zFar)) {
+        const glm::dvec3 view = glm::dvec3(camera.target) - eye;
+        const double distance = glm::length(view);
+        forward = distance > 0 ? view / distance : glm::dvec3(0, 0, -1);
+        glm::dvec3 side = glm::cross(forward, glm::dvec3(camera.up));
+        if (!(glm::length(side) > 1e-6 * glm::length(glm::dvec3(camera.up)))) {
+            const glm::dvec3 away = glm::abs(forward);
+            side = glm::cross(forward, away.y <= away.x && away.y <= away.z ? glm::dvec3(0, 1, 0)
+                                       : away.z <= away.x                   ? glm::dvec3(0, 0, -1)
+                                                                            : glm::dvec3(1, 0, 0));
+        }
+        const double tanY = std::tan(0.5 * static_cast<double>(camera.fovY));
+        side = glm::normalize(side);
+        up = glm::cross(side, forward) * tanY;
+        right = side * (tanY * width / height);
+    }
+
+    // Through a point of the picture, [-1,1]^2 with y up.
+    Ray ray(const glm::dvec2& clip) const {
+        const glm::dvec3 way = forward + clip.x * right + clip.y * up;
+        const double length = glm::length(way);
+        Ray ray;
+        ray.origin = glm::vec3(eye);
+        ray.direction = glm::vec3(way / length);
+        ray.tMin = static_cast<float>(zNear * length);
+        ray.tMax = static_cast<float>(zFar * length);
+        return ray;
+    }
+
+    // What a step in the picture, [-1,1]^2, adds to the unit direction of ray(clip), to first order.
+    glm::vec3 turn(const glm::dvec2& clip, const glm::dvec2& step) const {
+        const glm::dvec3 way = forward + clip.x * right + clip.y * up;
+        const double length = glm::length(way);
+        const glm::dvec3 direction = way / length, change = (step.x * right + step.y * up) / length;
+        return glm::vec3(change - direction * glm::dot(direction, change));
+    }
+};
+
+}  // namespace conelight::reference

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: MIT
+// Rays of a probe are stratified over the sphere; each carries one path, so a probe is an unbiased estimate of
+// its projected radiance. Irradiance and distances are weighted means of the same rays.
+#include "reference/probes.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <thread>
+
+#include "base/log.h"
+#include "math/octahedral.h"
+#include "reference/path_integrator.h"
+#include "reference/radiosity_parallel.h"
+#include "scene/emissive_quads.h"
+
+namespace conelight::reference {
+namespace {
+
+constexpr float kPi = 3.14159265358979f;
+// A probe that sees backs along more than this share of its rays is in a wall (Majercik et al. 2019).
+constexpr float kMostBacks = 0.25f;
+// Probes keep this share of the spacing away from walls, and leave their place by at most the second share.
+constexpr float kClearance = 0.2f, kMostMove = 0.45f;
+constexpr int kMoves = 6;
+constexpr int kMoveRays = 128;
+// Distances count by this power of the cosine to a texel's direction, and up to this many cells.
+constexpr float kDistancePower = 50, kFarthest = 1.5f;
+
+struct Arriving {
+    glm::vec3 radiance{0};
+    float distance = 0;  // infinite: nothing met
+    bool back = false;   // of a single-sided surface
+};
+
+class Rays {
+  public:
+    Rays(const Scene& scene, const ProbeSettings& settings)
+        : scene_(scene),
+          rays_(scene),
+          settings_(tracerSettings(settings)),
+          integrator_(scene, rays_, settings_),
+          surroundings_(scene),
+          isQuad_(scene.instances.size(), false) {
+        for (const scene::EmissiveQuad& quad : scene::emissiveQuads(scene)) isQuad_[quad.instance] = true;
+    }
+
+    // Where a ray ends, without its light.
+    Arriving meet(const glm::vec3& origin, const glm::vec3& direction, RayHit& hit) const {
+        Arriving result;
+        const Ray ray{.origin = origin, .direction = direction};
+        result.distance = INFINITY;
+        if (!rays_.intersect(RayKind::Bounce, ray, hit)) return result;
+        result.distance = hit.t;
+        const Surface surface = surfaceAt(scene_, ray, hit);
+        result.back = !surface.frontFace && surface.material != nullptr && !surface.material->doubleSided;
+        return result;
+    }
+
+    Arriving arriving(const glm::vec3& origin, const glm::vec3& direction, Sampler& sampler,
+                      PathSample& path) const {
+        RayHit hit;
+        Arriving result = meet(origin, direction, hit);
+        if (!std::isfinite(result.distance)) {
+            result.radiance = surroundings_.radiance(direction);
+            return result;
+        }
+        if (result.back) return result;
+        Ray ray{.origin = origin, .direction = direction};
+        ray.tMin = hit.t * (1 - 1e-4f);
+        path.clear();
+        integrator_.trace(ray, nullptr, sampler, path);
+        if (!path.finite()) return result;
+        result.radiance = path.direct + path.diffuse + path.specular;
+        if (isQuad_[hit.instance])
+            result.radiance = glm::max(result.radiance - surfaceAt(scene_, ray, hit).emission, glm::vec3(0));
+        return result;
+    }
+
+  private:
+    static PathTracerSettings tracerSettings(const ProbeSettings& settings) {
+        PathTracerSettings result;
+        result.samplesPerPixel = settings.samples;
+        result.bounces = settings.bounces < 0 ? -1 : settings.bounces - 1;
+        result.seed = settings.seed;
+        return result;
+    }
+
+    const Scene& scene_;
+    RayScene rays_;
+    PathTracerSettings settings_;
+    PathIntegrator integrator_;
+    scene::Surroundings surroundings_;
+    std::vector<bool> isQuad_;
+};
+
+glm::vec3 onSphere(const glm::vec2& u) {
+    const float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * u.y;
+    return {r * std::cos(phi), r * std::sin(phi), z};
+}
+
+template <std::size_t N>
+std::vector<glm::vec3> directionsOf(int side) {
+    std::vector<glm::vec3> directions(N);
+    for (std::size_t i = 0; i < N; ++i) {
+        const glm::vec2 texel(static_cast<int>(i) % side, static_cast<int>(i) / side);
+        directions[i] = math::octDecode((2.0f * texel + 1.0f) / static_cast<float>(side) - 1.0f);
+    }
+    return directions;
+}
+
+class Bake {
+  public:
+    Bake(const Scene& scene, const ProbeGrid& grid, const ProbeSettings& settings)
+        : rays_(scene, settings), grid_(grid), settings_(settings) {}
+
+    Probe probe(const glm::ivec3& at) const {
+        Probe result;
+        settle(result, grid_.place(at));
+        if (result.active) gather(result, static_cast<std::uint32_t>(grid_.index(at)));
+        return result;
+    }
+
+  private:
+    float clearance() const {
+        return kClearance * std::min({grid_.spacing.x, grid_.spacing.y, grid_.spacing.z});
+    }
+
+    // What a look around from a point tells: is it in a wall, and where to go from here.
+    struct Look {
+        float backs = 0;
+        glm::vec3 move{0};
+    };
+    Look look(const glm::vec3& from) const {
+        float nearestBack = INFINITY, nearestFront = INFINITY;
+        glm::vec3 toBack(0), toFront(0);
+        int backs = 0;
+        for (int i = 0; i < kMoveRays; ++i) {
+            Sampler sampler(1, static_cast<std::uint32_t>(i), std::bit_width(unsigned(kMoveRays) - 1));
+            const glm::vec3 direction = onSphere(sampler.next2());
+            RayHit hit;
+            const Arriving met = rays_.meet(from, direction, hit);
+            if (!std::isfinite(met.distance)) continue;
+            backs += met.back ? 1 : 0;
+            float& nearest = met.back ? nearestBack : nearestFront;
+            if (met.distance >= nearest) continue;
+            nearest = met.distance;
+            (met.back ? toBack : toFront) = direction;
+        }
+        Look result;
+        result.backs = static_cast<float>(backs) / kMoveRays;
+        if (result.backs > kMostBacks)
+            result.move = toBack * (nearestBack + clearance());
+        else if (nearestFront < clearance())
+            result.move = toFront * (nearestFront - clearance());
+        return result;
+    }
+
+    void settle(Probe& probe, const glm::vec3& place) const {
+        glm::vec3 position = place;
+        Look seen = look(position);
+        probe.position = position;
+        probe.active = seen.backs <= kMostBacks;
+        for (int i = 0; i < kMoves && seen.move != glm::vec3(0); ++i) {
+            position = glm::clamp(position + seen.move, place - kMostMove * grid_.spacing,
+                                  place + kMostMove * grid_.spacing);
+            seen = look(position);
+            if (seen.backs > kMostBacks) continue;
+            probe.position = position;
+            probe.active = true;
+        }
+    }
+
+    void gather(Probe& probe, std::uint32_t index) const {
+        static const std::vector<glm::vec3> normals =
+            directionsOf<kIrradianceSide * kIrradianceSide>(kIrradianceSide);
+        static const std::vector<glm::vec3> ways = directionsOf<kDistanceSide * kDistanceSide>(kDistanceSide);
+        const float farthest = kFarthest * glm::length(grid_.spacing);
+        std::array<float, kIrradianceSide * kIrradianceSide> cosines{};
+        std::array<float, kDistanceSide * kDistanceSide> powers{};
+        const std::uint32_t key = combineBits(mixBits(settings_.seed), index);
+        const int bits = std::bit_width(static_cast<unsigned>(settings_.samples - 1));
+        PathSample path;
+        for (int i = 0; i < settings_.samples; ++i) {
+            Sampler sampler(key, static_cast<std::uint32_t>(i), bits);
+            const glm::vec3 direction = onSphere(sampler.next2());
+            const Arriving met = rays_.arriving(probe.position, direction, sampler, path);
+            const std::array<float, 9> basis = harmonicsAt(direction);
+            for (std::size_t k = 0; k < basis.size(); ++k) probe.harmonics[k] += met.radiance * basis[k];
+            for (std::size_t k = 0; k < normals.size(); ++k) {
+                const float cosine = std::max(glm::dot(normals[k], direction), 0.0f);
+                probe.irradiance[k] += met.radiance * cosine;
+                cosines[k] += cosine;
+            }
+            const float distance = std::min(met.distance, farthest);
+            for (std::size_t k = 0; k < ways.size(); ++k) {
+                const float cosine = glm::dot(ways[k], direction);
+                if (cosine <= 0.7f) continue;  // 0.7^50 is 2e-8
+                const float weight = std::pow(cosine, kDistancePower);
+                probe.distance[k] += glm::vec2(distance, distance * distance) * weight;
+                powers[k] += weight;
+            }
+        }
+        for (glm::vec3& c : probe.harmonics) c *= 4 * kPi / static_cast<float>(settings_.samples);
+        for (std::size_t k = 0; k < cosines.size(); ++k)
+            if (cosines[k] > 0) probe.irradiance[k] *= kPi / cosines[k];
+        for (std::size_t k = 0; k < powers.size(); ++k)
+            probe.distance[k] =
+                powers[k] > 0 ? probe.distance[k] / powers[k] : glm::vec2(farthest, farthest * farthest);
+    }
+
+    Rays rays_;
+    ProbeGrid grid_;
+    ProbeSettings settings_;
+};
+
+}  // namespace
+
+ProbeGrid fitProbeGrid(const Aabb& bounds, float spacing) {
+    if (!(spacing > 0) || !std::isfinite(spacing))
+        base::fail(ErrorKind::Usage, "probes %g m apart; right would be a distance above 0",
+                   static_cast<double>(spacing));
+    if (bounds.empty()) base::fail(ErrorKind::BadInput, "probes: the scene has no visible instance");
+    ProbeGrid grid;
+    double count = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double cells = std::max(
+            1.0, std::ceil(static_cast<double>(bounds.extent()[axis]) / static_cast<double>(spacing) - 1e-4));
+        count *= cells;
+        if (count > static_cast<double>(kMostProbes))
+            base::fail(ErrorKind::Usage,
+                       "probes %g m apart are more than %zu; right would be a larger spacing",
+                       static_cast<double>(spacing), kMostProbes);
+        grid.counts[axis] = static_cast<int>(cells);
+    }
+    grid.spacing = glm::max(bounds.extent() / glm::vec3(grid.counts), glm::vec3(1e-6f));
+    grid.origin = bounds.min + 0.5f * grid.spacing;
+    return grid;
+}
+
+ProbeVolume bakeProbes(const Scene& scene, const ProbeGrid& grid, const ProbeSettings& settings,
+                       const std::function<bool(double)>& onProgress) {
+    if (settings.samples < 16 || settings.samples > (1 << 20) || settings.bounces < -1 ||
+        settings.bounces == 0 || settings.threads < 0)
+        base::fail(ErrorKind::Usage,
+                   "probes: %d samples, %d bounces, %d threads; right would be 16 to 1048576, "
+                   "-1 or 1 and more, 0 or more",
+                   settings.samples, settings.bounces, settings.threads);
+    scene.validate();
+    const Bake bake(scene, grid, settings);
+    ProbeVolume volume{.grid = grid, .probes = std::vector<Probe>(grid.size())};
+    const int threads = settings.threads > 0
+                            ? settings.threads
+                            : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    const auto body = [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const int n = static_cast<int>(i);
+            volume.probes[i] = bake.probe(
+                {n % grid.counts.x, n / grid.counts.x % grid.counts.y, n / (grid.counts.x * grid.counts.y)});
+        }
+    };
+    return parallelFor(grid.size(), threads, body, onProgress) ? volume : ProbeVolume{};
+}
+
+}  // namespace conelight::reference
