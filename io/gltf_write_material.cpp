@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/stb_impl.h"
+#include "io/picture_codec.h"
 
 namespace conelight::io {
 namespace {
@@ -79,8 +79,7 @@ void writeExtensions(Json& to, const Material& m, float strength, std::set<std::
 void writeGltfTextures(Json& root, GltfBuffer& buffer, const Scene& scene) {
     for (std::size_t i = 0; i < scene.textures.size(); ++i) {
         const Texture& texture = scene.textures[i];
-        const std::vector<std::uint8_t> png =
-            stb::encodePng(texture.width, texture.height, 4, texture.rgba.data());
+        const std::vector<std::uint8_t> png = encodePng({texture.width, texture.height, 4, texture.rgba, {}});
         // First the bytes: they may move what `root` refers to.
         const int view = buffer.view(png.data(), png.size());
         root["images"].push_back({{"name", texture.name}, {"mimeType", "image/png"}, {"bufferView", view}});

@@ -51,15 +51,14 @@ ImageFormat imageFormatOf(const fs::path& path) {
 
 std::vector<std::uint8_t> pngBytes(const ByteImage& image) {
     assert(image.pixels.size() == valueCount(image.width, image.height, image.channels));
-    std::vector<std::uint8_t> bytes =
-        stb::encodePng(image.width, image.height, image.channels, image.pixels.data());
+    std::vector<std::uint8_t> bytes = encodePng(image);
     if (bytes.empty()) throw Error(ErrorKind::Runtime, "out of memory while encoding a picture");
     return bytes;
 }
 
 void writePng(const fs::path& path, const ByteImage& image) {
     assert(image.pixels.size() == valueCount(image.width, image.height, image.channels));
-    writeEncoded(path, stb::encodePng(image.width, image.height, image.channels, image.pixels.data()));
+    writeEncoded(path, encodePng(image));
 }
 
 void writeJpg(const fs::path& path, const ByteImage& image, int quality) {

@@ -27,6 +27,8 @@ struct ByteImage {
     int height = 0;
     int channels = 3;                  // 1 grey, 3 RGB, 4 RGBA
     std::vector<std::uint8_t> pixels;  // channels * width * height
+    // PNG only, UTF-8: key of 1 to 79 characters of Latin-1, text.
+    std::vector<std::pair<std::string, std::string>> attributes;
 };
 
 // A further layer of an EXR file. Channel names in the file: NAME (1 channel), NAME.X .Y (2), NAME.R .G .B

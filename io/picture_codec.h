@@ -29,6 +29,8 @@ struct DecodeResult {
 bool isPng(std::span<const std::uint8_t> file);
 bool isJpeg(std::span<const std::uint8_t> file);
 DecodeResult decodePng(std::span<const std::uint8_t> file, const DecodeRequest& request, ByteImage& image);
+// An encoded PNG with the picture's attributes as its texts; empty when memory runs out.
+std::vector<std::uint8_t> encodePng(const ByteImage& image);
 DecodeResult decodeJpeg(std::span<const std::uint8_t> file, const DecodeRequest& request, ByteImage& image);
 
 // PNG, JPEG and what stb_image reads (stb_impl.h).

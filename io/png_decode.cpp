@@ -53,6 +53,8 @@ class PngReader {
     char message_[200] = {};
     int width_ = 0, height_ = 0, channels_ = 0, passes_ = 1;
     std::size_t rowBytes_ = 0;
+    png_textp texts_ = nullptr;  // in front of the picture
+    int textCount_ = 0;
     std::vector<std::uint8_t> rows_;  // one row, or all of an interlaced picture
     std::unique_ptr<RowShrinker> shrinker_;
 };
@@ -77,6 +79,9 @@ bool PngReader::readHead() {
     png_read_update_info(png_, info_);
     channels_ = png_get_channels(png_, info_);
     rowBytes_ = png_get_rowbytes(png_, info_);
+    png_textp texts = nullptr;
+    textCount_ = png_get_text(png_, info_, &texts, nullptr);
+    texts_ = texts;
     return true;
 }
 
@@ -108,6 +113,9 @@ DecodeResult PngReader::read() {
     shrinker_ = std::make_unique<RowShrinker>(width_, height_, channels_,
                                               halvings(width_, height_, request_.maxPixels), image_);
     if (!readRows()) return failed();
+    for (int i = 0; i < textCount_; ++i)
+        if (texts_[i].key != nullptr && texts_[i].text != nullptr)
+            image_.attributes.emplace_back(texts_[i].key, texts_[i].text);
     return {{}, width_, height_};
 }
 

@@ -49,14 +49,6 @@ void append(void* context, void* data, int size) {
 
 }  // namespace
 
-std::vector<std::uint8_t> encodePng(int width, int height, int channels, const std::uint8_t* pixels) {
-    std::vector<std::uint8_t> out;
-    stbi_write_png_compression_level = 8;
-    if (stbi_write_png_to_func(append, &out, width, height, channels, pixels, width * channels) == 0)
-        out.clear();
-    return out;
-}
-
 std::vector<std::uint8_t> encodeJpg(int width, int height, int channels, const std::uint8_t* pixels,
                                     int quality) {
     std::vector<std::uint8_t> out;

@@ -13,7 +13,6 @@
 namespace conelight::io::stb {
 
 // Encoded file as bytes; empty when out of memory.
-std::vector<std::uint8_t> encodePng(int width, int height, int channels, const std::uint8_t* pixels);
 std::vector<std::uint8_t> encodeJpg(int width, int height, int channels, const std::uint8_t* pixels,
                                     int quality);
 std::vector<std::uint8_t> encodeHdr(int width, int height, const float* rgb);

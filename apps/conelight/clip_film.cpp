@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <memory>
+#include <utility>
 
 #include "conelight/error.h"
 
@@ -24,14 +25,16 @@ struct Motion {
                 changed.emplace_back(hung.index, posed.instances[hung.index]);
         if (!changed.empty()) session.setInstances(changed, "pose", "pose");
         if (!(posed.lights == session.scene().lights)) session.setLights(posed.lights, "pose", "pose");
+        const bool starts = std::exchange(starts_, false);
         for (std::size_t c = 0; c < rest.cameras.size(); ++c)
-            if (frame == 0 ? session.camera() == rest.cameras[c] : shown == int(c)) {
+            if (starts ? session.camera() == rest.cameras[c] : shown == int(c)) {
                 shown = int(c);
                 session.moveCamera(posed.cameras[c]);
                 break;
             }
     }
     int shown = -1;  // the file's camera that the film looks through
+    bool starts_ = true;
 };
 
 }  // namespace

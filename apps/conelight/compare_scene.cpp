@@ -217,7 +217,7 @@ void compareScene(const CompareSceneOptions& options) {
         const SceneComparison& done = comparisons.back();
         if (jsonFile != "-") printComparison(done, withFlip);
         json["scenes"].push_back(comparisonJson(done, withFlip));
-        if (!folder.empty()) writeVariants(done, folder);
+        if (!folder.empty()) writeVariants(done, folder, source.device());
         const std::vector<std::string> here = brokenBars(options, done);
         broken.insert(broken.end(), here.begin(), here.end());
         if (folder.empty()) comparisons.clear();  // several large pictures each

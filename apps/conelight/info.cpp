@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `conelight info [SCENE]`: the OpenGL device, or what a scene holds. `conelight info builtin:` lists the
+// `conelight info [FILE]`: the OpenGL device, or what a scene or a picture holds. `conelight info builtin:` lists the
 // generated scenes.
 #include <fmt/core.h>
 
@@ -8,6 +8,7 @@
 #include "io/animation.h"
 #include "io/files.h"
 #include "io/generated.h"
+#include "io/image_file.h"
 #include "io/scene_file.h"
 #include "io/scene_format.h"
 #include "io/scene_info.h"
@@ -47,7 +48,31 @@ void printTree(const std::string& path) {
         fmt::print("{:>5}  {:{}}{}\n", line.line, "", 2 * line.depth, line.text);
 }
 
+bool isPicture(const std::string& path) {
+    const std::string extension = io::lowerExtension(path);
+    return extension == ".png" || extension == ".exr";
+}
+
+// Size, layers, and how it was made.
+void printPicture(const std::string& path) {
+    std::vector<std::pair<std::string, std::string>> texts;
+    if (io::imageFormatOf(path) == io::ImageFormat::Exr) {
+        const io::FloatImage image = io::readExr(path);
+        fmt::print("size       {} x {}, {} channels\n", image.width, image.height, image.channels);
+        for (const io::ImageLayer& layer : image.layers)
+            fmt::print("layer      {}, {} channels\n", io::oneLine(layer.name), layer.channels);
+        texts = image.attributes;
+    } else {
+        const io::ByteImage image = io::readByteImage(path);
+        fmt::print("size       {} x {}, {} channels\n", image.width, image.height, image.channels);
+        texts = image.attributes;
+    }
+    for (const auto& [name, text] : texts)
+        fmt::print("{:<10} {}\n", io::oneLine(name, 40), io::oneLine(text, 2000));
+}
+
 void run(const InfoOptions& options) {
+    if (!options.tree && isPicture(options.scene)) return printPicture(options.scene);
     if (options.tree) {
         if (options.scene.empty()) usage("--tree: needs a scene file");
         return printTree(options.scene);
@@ -75,8 +100,9 @@ void run(const InfoOptions& options) {
 
 void addInfo(CLI::App& app) {
     auto options = std::make_shared<InfoOptions>();
-    CLI::App* command = app.add_subcommand("info", "the OpenGL device, or what a scene holds");
-    command->add_option("scene", options->scene, "a scene file, builtin:NAME, or builtin: for a list");
+    CLI::App* command = app.add_subcommand("info", "the OpenGL device, or what a scene or a picture holds");
+    command->add_option("scene", options->scene,
+                        "a scene file, builtin:NAME, builtin: for a list, or a picture (.png .exr)");
     command->add_flag("--tree", options->tree,
                       "the syntax tree of a file of the thesis's format: line number, blocks and words");
     command->add_option("--device", options->device, "EGL device")

@@ -15,11 +15,11 @@ std::vector<float> rgbOf(const Image& image) {
 }
 
 void writePicture(const std::string& path, const Image& image, const ImageSettings& settings,
-                  const std::vector<std::pair<std::string, Image>>& layers) {
+                  const PictureTexts& texts, const std::vector<std::pair<std::string, Image>>& layers) {
     const WritingScope writing;
     const io::ImageFormat format = io::imageFormatOf(path);
     if (format == io::ImageFormat::Png || format == io::ImageFormat::Jpg) {
-        const io::ByteImage bytes{image.width, image.height, 3, toneMapped(image, settings)};
+        const io::ByteImage bytes{image.width, image.height, 3, toneMapped(image, settings), texts};
         format == io::ImageFormat::Png ? io::writePng(path, bytes) : io::writeJpg(path, bytes);
         return;
     }
@@ -27,6 +27,7 @@ void writePicture(const std::string& path, const Image& image, const ImageSettin
     floats.width = image.width;
     floats.height = image.height;
     floats.pixels = rgbOf(image);
+    floats.attributes = texts;
     for (const auto& [name, layer] : layers) floats.layers.push_back({name, 3, rgbOf(layer)});
     format == io::ImageFormat::Exr ? io::writeExr(path, floats) : io::writeHdr(path, floats);
 }

@@ -10,8 +10,13 @@
 
 namespace conelight::program {
 
-// Format by extension; throws Error(Usage) for an unknown one. Layers are kept by .exr only.
+// Texts of a file's header, by name.
+using PictureTexts = std::vector<std::pair<std::string, std::string>>;
+
+// Format by extension; throws Error(Usage) for an unknown one. Layers are kept by .exr only, `texts` by .png
+// and .exr.
 void writePicture(const std::string& path, const Image& image, const ImageSettings& settings,
+                  const PictureTexts& texts = {},
                   const std::vector<std::pair<std::string, Image>>& layers = {});
 
 // rgb without the coverage in a, interleaved.

@@ -15,8 +15,8 @@
 #include "io/gltf_write.h"
 #include "io/image_file.h"
 #include "outputs.h"
-#include "picture_file.h"
 #include "picture_source.h"
+#include "provenance.h"
 #include "reference/picture_layers.h"
 #include "script_run.h"
 #include "session/why_black.h"
@@ -42,6 +42,8 @@ struct RenderOptions {
     std::string frameText;
     int frames = 0;  // 0: not given
     int firstFrame = 0;
+    int allFrames = 0;  // 0: not given
+    bool framesAreRange = false;
     bool turntable = false;
     bool overwrite = false;
     bool componentGiven = false;
@@ -76,25 +78,31 @@ bool isFilm(const RenderOptions& options) {
     return !options.pathFile.empty() || options.turntable || !options.clip.empty();
 }
 
-// --frames N, or A-B of a clip.
+// --frames N, FIRST-LAST, or FIRST-LAST/N.
 void parseFrames(RenderOptions& options) {
     if (options.frameText.empty()) return;
     constexpr int kMost = 100000;
     const std::string& text = options.frameText;
     const char* const end = text.data() + text.size();
-    int first = 0, last = -1;
+    int first = 0, last = -1, total = 0;
     std::from_chars_result read = std::from_chars(text.data(), end, first);
     const bool isRange = read.ec == std::errc() && read.ptr != end && *read.ptr == '-';
     if (isRange) read = std::from_chars(read.ptr + 1, end, last);
-    const bool fits = isRange ? first >= 0 && last >= first && last < kMost : first >= 1 && first <= kMost;
+    const bool hasTotal = isRange && read.ec == std::errc() && read.ptr != end && *read.ptr == '/';
+    if (hasTotal) read = std::from_chars(read.ptr + 1, end, total);
+    bool fits = isRange ? first >= 0 && last >= first && last < kMost : first >= 1 && first <= kMost;
+    if (hasTotal) fits = fits && total > last && total <= kMost;
     if (read.ec != std::errc() || read.ptr != end || !fits)
-        usage(fmt::format(
-            "--frames: '{}' is not usable; a number from 1 to {}, or FIRST-LAST from 0, would be right", text,
-            kMost));
-    if (isRange && options.clip.empty())
-        usage("--frames: FIRST-LAST belongs to --animate CLIP; a number would be right");
+        usage(
+            fmt::format("--frames: '{}' is not usable; a number from 1 to {}, FIRST-LAST from 0, or "
+                        "FIRST-LAST/ALL, would be right",
+                        text, kMost));
+    if (hasTotal && !options.clip.empty())
+        usage("--frames: a clip has as many frames as --fps makes; FIRST-LAST would be right");
     options.firstFrame = isRange ? first : 0;
     options.frames = isRange ? last - first + 1 : first;
+    options.allFrames = total;
+    options.framesAreRange = isRange;
 }
 
 void checkFilm(const RenderOptions& options) {
@@ -241,13 +249,19 @@ Request filmRequest(const RenderOptions& options, Session& session) {
     if (!options.clip.empty())
         film.framesPerSecond = std::max(1, static_cast<int>(std::lround(options.framesPerSecond)));
     film.alongPath = !options.pathFile.empty();
+    int natural = kTurntableFrames;
     if (film.alongPath) {
         const CameraPath path = readCameraPath(options.pathFile);
         session.setCameraPath(path, "path load");
-        if (film.count == 0)
-            film.count = 1 + static_cast<int>(std::lround(kFramesPerSecond * (path.end() - path.start())));
+        natural = 1 + static_cast<int>(std::lround(kFramesPerSecond * (path.end() - path.start())));
     }
-    if (film.count == 0) film.count = kTurntableFrames;
+    if (film.count == 0) film.count = natural;
+    if (!options.framesAreRange || !options.clip.empty()) return film;
+    film.total = options.allFrames > 0 ? options.allFrames : natural;
+    if (options.firstFrame + options.frames > film.total)
+        usage(fmt::format(
+            "--frames: '{}' goes beyond the film's {} frames; FIRST-LAST/ALL says how many it has",
+            options.frameText, film.total));
     return film;
 }
 
@@ -342,7 +356,7 @@ void run(RenderOptions options) {
     if (!options.output.empty() && !isFilm(options)) {
         progress.show("writing " + options.output);
         writePicture(options.output, picture.images.front(), request.settings.image,
-                     layersOf(options, picture));
+                     provenanceOf(request, options.scene, source.device()), layersOf(options, picture));
     }
     if (!options.radiosity.bakeFile.empty()) {
         progress.show("writing " + options.radiosity.bakeFile);
@@ -372,7 +386,7 @@ void addFilmOptions(CLI::App& command, RenderOptions& options) {
     command
         .add_option("--frames", options.frameText,
                     "frames of the film (default: 30 a second of the path; turntable 120; the whole clip); "
-                    "of a clip also FIRST-LAST, counted from 0")
+                    "or a part of them, FIRST-LAST or FIRST-LAST/ALL, counted from 0")
         ->type_name("N");
 }
 

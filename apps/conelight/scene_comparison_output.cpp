@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "comparison.h"
-#include "picture_file.h"
+#include "provenance.h"
 #include "stats_json.h"
 #include "table.h"
 
@@ -111,7 +111,8 @@ ordered_json comparisonJson(const SceneComparison& comparison, bool withFlip) {
     return json;
 }
 
-std::vector<std::string> writeVariants(const SceneComparison& comparison, const std::string& directory) {
+std::vector<std::string> writeVariants(const SceneComparison& comparison, const std::string& directory,
+                                       const std::string& device) {
     std::vector<std::string> files;
     for (const VariantResult& result : comparison.variants) {
         const std::string stem = fileStem(comparison.scene + "-" + result.variant.label());
@@ -119,7 +120,14 @@ std::vector<std::string> writeVariants(const SceneComparison& comparison, const 
         std::vector<std::pair<std::string, Image>> layers;
         for (std::size_t i = 1; i < result.components.size(); ++i)
             layers.emplace_back(result.components[i].name, result.components[i].image);
-        writePicture(file, result.components.front().image, result.settings.image, layers);
+        PictureRequest drawn;
+        drawn.mode = result.variant.mode;
+        drawn.settings = result.settings;
+        drawn.camera = comparison.camera;
+        drawn.size = comparison.size;
+        drawn.reference.samplesPerPixel = 0;
+        writePicture(file, result.components.front().image, result.settings.image,
+                     provenanceOf(drawn, comparison.scene, device), layers);
         files.push_back(file);
     }
     return files;

@@ -18,7 +18,8 @@ void printComparison(const SceneComparison& comparison, bool withFlip);
 nlohmann::ordered_json comparisonJson(const SceneComparison& comparison, bool withFlip);
 
 // Each variant's picture with its components as layers, as DIR/SCENE-VARIANT.exr. Returns the files, in
-// order.
-std::vector<std::string> writeVariants(const SceneComparison& comparison, const std::string& directory);
+// order. `device`: of OpenGL.
+std::vector<std::string> writeVariants(const SceneComparison& comparison, const std::string& directory,
+                                       const std::string& device);
 
 }  // namespace conelight::program

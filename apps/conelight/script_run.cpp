@@ -11,7 +11,7 @@
 #include "console/console.h"
 #include "inspection_text.h"
 #include "io/gltf_write.h"
-#include "picture_file.h"
+#include "provenance.h"
 #include "video_file.h"
 
 namespace conelight::program {
@@ -84,7 +84,7 @@ class Runner {
                 break;
             case RequestKind::Screenshot: {
                 const Image image = draw();
-                writePicture(request.file, image, session_.shownSettings().image);
+                writePicture(request.file, image, session_.shownSettings().image, texts());
                 console_.print("written " + request.file);
                 break;
             }
@@ -127,15 +127,18 @@ class Runner {
                         request.first);
         const Camera start = session_.camera();
         const auto began = std::chrono::steady_clock::now();
+        const int total = request.total > 0 ? request.total : request.count;
         for (int frame = 0; frame < request.count; ++frame) {
             const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - began;
             const double left = frame == 0 ? 0 : gone.count() / frame * (request.count - frame);
             progress_.show(fmt::format("{}: frame {} of {}{}", request.file, frame + 1, request.count,
                                        frame == 0 ? "" : fmt::format(", {:.0f} s left", left)));
-            if (beforeFrame_) beforeFrame_(session_, request.first + frame);
-            if (request.turntable) session_.moveCamera(turntableFrame(start, frame, request.count));
-            if (request.alongPath) session_.moveCamera(session_.cameraPath().frame(frame, request.count));
-            video.add(draw(), session_.shownSettings().image);
+            const int index = request.first + frame;
+            if (beforeFrame_) beforeFrame_(session_, index);
+            if (request.turntable) session_.moveCamera(turntableFrame(start, index, total));
+            if (request.alongPath) session_.moveCamera(session_.cameraPath().frame(index, total));
+            const Image image = draw();
+            video.add(image, session_.shownSettings().image, texts());
         }
         session_.moveCamera(start);
         video.finish();
@@ -150,6 +153,11 @@ class Runner {
         for (const std::string& note : io::writeGltf(request.file, lit, request.overwrite))
             console_.print(note);
         console_.print("written " + request.file);
+    }
+
+    // Of what was drawn last.
+    PictureTexts texts() const {
+        return provenanceOf(requestFor(session_, base_), session_.path(), source_->device());
     }
 
     Image draw() {

@@ -10,7 +10,6 @@
 #include "command_line.h"
 #include "conelight/error.h"
 #include "io/files.h"
-#include "picture_file.h"
 
 namespace conelight::program {
 namespace {
@@ -71,8 +70,8 @@ VideoFile::~VideoFile() {
     std::filesystem::remove(partial_, code);
 }
 
-void VideoFile::add(const Image& image, const ImageSettings& settings) {
-    if (partial_.empty()) return writePicture(numbered(file_, count_++), image, settings);
+void VideoFile::add(const Image& image, const ImageSettings& settings, const PictureTexts& texts) {
+    if (partial_.empty()) return writePicture(numbered(file_, count_++), image, settings, texts);
     const IgnorePipeSignal ignore;
     const std::vector<std::uint8_t> bytes = toneMapped(image, settings);
     if (std::fwrite(bytes.data(), 1, bytes.size(), pipe_) != bytes.size() || std::fflush(pipe_) != 0)

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string>
 
-#include "conelight/renderer.h"
+#include "picture_file.h"
 
 namespace conelight::program {
 
@@ -21,7 +21,8 @@ class VideoFile {
     VideoFile& operator=(const VideoFile&) = delete;
 
     // Throws Error(Runtime), of ffmpeg too: that it is not installed, or what it ended with.
-    void add(const Image& image, const ImageSettings& settings);
+    // `texts`: of numbered pictures.
+    void add(const Image& image, const ImageSettings& settings, const PictureTexts& texts = {});
     void finish();
 
   private:

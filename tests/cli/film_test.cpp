@@ -9,6 +9,7 @@
 #include <span>
 
 #include "io/files.h"
+#include "io/image_file.h"
 #include "support/gl_fixture.h"
 #include "support/program.h"
 
@@ -40,6 +41,9 @@ std::string keys() {
 })";
     return path;
 }
+
+// Without what the file's header says of how it was made.
+std::vector<std::uint8_t> pixelsOf(const std::string& png) { return io::readByteImage(png).pixels; }
 
 class FilmTest : public GlTest {};
 
@@ -73,14 +77,15 @@ TEST_F(FilmTest, FramesAreStillsAlongThePathBitForBit) {
     EXPECT_TRUE(bytesOf(scratchPath("film_a01.exr")) == bytesOf(key));
 }
 
-// The Cornell box as a .gltf whose short block rises by half a metre within a second; not moved at all, but placed
+// The Cornell box as a .gltf whose short block, or `what`, rises by half a metre within a second; not moved at all, but placed
 // there, if `placed` is given.
-std::string risingBlock(const std::string& name, const std::vector<float>& placed = {}) {
+std::string risingBlock(const std::string& name, const std::vector<float>& placed = {},
+                        const std::string& what = "short block") {
     const std::string path = file(name);
     EXPECT_EQ(conelight("convert builtin:cornell '" + path + "' --overwrite").status, 0);
     nlohmann::json json = nlohmann::json::parse(std::ifstream(path));
     std::size_t block = 0;
-    while (json["nodes"][block]["name"] != "short block") ++block;
+    while (json["nodes"].at(block)["name"] != what) ++block;
     const std::size_t lift = json["nodes"].size();
     json["nodes"].push_back({{"name", "lift"}, {"children", {block}}});
     for (nlohmann::json& root : json["scenes"][0]["nodes"])
@@ -121,8 +126,8 @@ TEST_F(FilmTest, FramesOfAClipAreStillsOfItsPoses) {
         EXPECT_EQ(film.output.find("left out"), std::string::npos) << film.output;
         const std::string still = file("posed.png");
         ASSERT_EQ(conelight("render '" + placed + "'" + options + still).status, 0);
-        EXPECT_TRUE(bytesOf(scratchPath("film_c01.png")) == bytesOf(still)) << mode;
-        EXPECT_TRUE(bytesOf(scratchPath("film_c00.png")) != bytesOf(still)) << mode;
+        EXPECT_TRUE(pixelsOf(scratchPath("film_c01.png")) == pixelsOf(still)) << mode;
+        EXPECT_TRUE(pixelsOf(scratchPath("film_c00.png")) != pixelsOf(still)) << mode;
         EXPECT_TRUE(std::filesystem::exists(scratchPath("film_c02.png")));
         EXPECT_FALSE(std::filesystem::exists(scratchPath("film_c03.png")));
     }
@@ -134,7 +139,38 @@ TEST_F(FilmTest, FramesOfAClipAreStillsOfItsPoses) {
     EXPECT_FALSE(std::filesystem::exists(scratchPath("film_d00.png")));
     const std::string still = file("cones.png");
     ASSERT_EQ(conelight("render '" + placed + "' --mode cones --aa 0" + kSmall + "-o " + still).status, 0);
-    EXPECT_TRUE(bytesOf(scratchPath("film_d01.png")) == bytesOf(still));
+    EXPECT_TRUE(pixelsOf(scratchPath("film_d01.png")) == pixelsOf(still));
+}
+
+TEST_F(FilmTest, PartsOfAFilmAreItsFrames) {
+    const std::string path = keys();
+    for (const std::string& how : {"--path " + path, std::string("--turntable")}) {
+        const std::string all = scratchPath("film_f%02d.png"), part = scratchPath("film_g%02d.png");
+        ASSERT_EQ(render("--mode phong --frames 5 " + how + " -o " + all).status, 0);
+        const std::string outside = file("g01.png");
+        const CommandResult parted = render("--mode phong --frames 2-3/5 " + how + " -o " + part);
+        ASSERT_EQ(parted.status, 0) << parted.output;
+        for (const char* number : {"02.png", "03.png"})
+            EXPECT_EQ(bytesOf(scratchPath("film_g" + std::string(number))),
+                      bytesOf(scratchPath("film_f" + std::string(number))))
+                << how;
+        EXPECT_NE(bytesOf(scratchPath("film_g02.png")), bytesOf(scratchPath("film_g03.png")));
+        EXPECT_FALSE(std::filesystem::exists(outside));
+    }
+    expectOneLine(render("--turntable --frames 118-130 -o " + scratchPath("film_h%02d.png")), 2,
+                  "120 frames");
+    expectOneLine(render("--turntable --frames 3-5/5 -o " + scratchPath("film_h%02d.png")), 2, "FIRST-LAST");
+}
+
+TEST_F(FilmTest, APartOfAClipLooksThroughItsCamera) {
+    const std::string moving = risingBlock("flight.gltf", {}, "front");
+    const std::string options = kSmall + "--aa 0 --mode phong --animate rise --fps 2 -o ";
+    ASSERT_EQ(conelight("render '" + moving + "'" + options + scratchPath("film_k%02d.png")).status, 0);
+    ASSERT_EQ(
+        conelight("render '" + moving + "' --frames 1-1" + options + scratchPath("film_l%02d.png")).status,
+        0);
+    EXPECT_NE(bytesOf(scratchPath("film_k01.png")), bytesOf(scratchPath("film_k00.png")));
+    EXPECT_EQ(bytesOf(scratchPath("film_k01.png")), bytesOf(scratchPath("film_l01.png")));
 }
 
 TEST_F(FilmTest, ClipsThatAreNotThereAreRefused) {
@@ -145,7 +181,7 @@ TEST_F(FilmTest, ClipsThatAreNotThereAreRefused) {
     expectOneLine(film("--animate fall"), 2, "rise");
     expectOneLine(film("--animate rise --frames 3-1"), 2, "FIRST-LAST");
     expectOneLine(film("--animate rise --frames x"), 2, "--frames");
-    expectOneLine(film("--turntable --frames 1-3"), 2, "--animate");
+    expectOneLine(film("--animate rise --frames 0-1/3"), 2, "--fps");
     const CommandResult info = conelight("info '" + moving + "'");
     EXPECT_NE(info.output.find("rise: 1 s"), std::string::npos) << info.output;
 }

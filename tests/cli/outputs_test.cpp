@@ -134,5 +134,30 @@ TEST_F(OutputsTest, OutOfMemoryIsOneLine) {
     EXPECT_GT(refused, 1);
 }
 
+TEST_F(OutputsTest, PicturesSayHowTheyWereMade) {
+    for (const char* name : {"made.png", "made.exr"}) {
+        const std::string picture = scratchPath(name);
+        ASSERT_EQ(conelight("render builtin:cornell --mode phong --size 16x12 --eye 0,1,2 --target 0,0.5,0 "
+                            "--set image.exposure=2 -o '" +
+                            picture + "'")
+                      .status,
+                  0);
+        const std::string said = conelight("info '" + picture + "'").output;
+        for (const char* line :
+             {"size       16 x 12, 3 channels", "Software   Conelight ", "Scene      builtin:cornell",
+              "Mode       phong", "--eye 0,1,2 --target 0,0.5,0", "Size       16x12", "image.exposure=2",
+              "Device     "})
+            EXPECT_NE(said.find(line), std::string::npos) << line << " in\n" << said;
+    }
+    const std::string traced = scratchPath("made_traced.exr");
+    ASSERT_EQ(
+        conelight("render builtin:cornell --mode reference --spp 6 --seed 5 --size 8x8 -o '" + traced + "'")
+            .status,
+        0);
+    const std::string said = conelight("info '" + traced + "'").output;
+    for (const char* line : {"Samples    6", "Seed       5", "Device     CPU"})
+        EXPECT_NE(said.find(line), std::string::npos) << line << " in\n" << said;
+}
+
 }  // namespace
 }  // namespace conelight::test

@@ -53,6 +53,15 @@ TEST(ImageFile, PngComesBackBitByBit) {
     }
 }
 
+TEST(ImageFile, PngKeepsTexts) {
+    const auto path = std::filesystem::path(scratchDir()) / "texts.png";
+    io::ByteImage image{2, 1, 1, {7, 9}, {{"Software", "a program"}, {"Place", "K\xc3\xb6ln\nat night"}}};
+    io::writePng(path, image);
+    const io::ByteImage read = io::readByteImage(path);
+    EXPECT_EQ(read.attributes, image.attributes);
+    EXPECT_EQ(read.pixels, image.pixels);
+}
+
 TEST(ImageFile, ExrKeepsEveryFloatAndLayer) {
     io::FloatImage image{5, 3, 4, {}, {}, {}};
     for (int i = 0; i < 5 * 3 * 4; ++i) image.pixels.push_back(1e-3f * float(i * i) - 0.01f);

@@ -26,6 +26,7 @@ struct Request {
     std::string file;
     int count = 1;
     int first = 0;             // Record: number of the first frame
+    int total = 0;             // Record: frames of the whole film; 0: `count`
     int framesPerSecond = 30;  // Record: of a film
     int status = 0;
     bool keepView = false;   // Load: camera and settings stay

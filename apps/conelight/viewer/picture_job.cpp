@@ -4,8 +4,9 @@
 #include <fmt/core.h>
 
 #include "conelight/error.h"
-#include "picture_file.h"
 #include "platform/window.h"
+#include "provenance.h"
+#include "script_run.h"
 
 namespace conelight::program {
 namespace {
@@ -92,10 +93,14 @@ Image PictureJob::finished(PictureSlot& slot) {
 
 void PictureJob::add(const Session& session, const Image& linear) {
     const ImageSettings look = session.shownSettings().image;
+    PictureRequest drawn = requestFor(session, {});
+    drawn.size = {linear.width, linear.height};
+    drawn.reference.samplesPerPixel = 0;  // as many as there were
+    const PictureTexts texts = provenanceOf(drawn, session.path(), {});
     if (video_)
-        video_->add(linear, look);
+        video_->add(linear, look, texts);
     else
-        writePicture(request_->file, linear, look);
+        writePicture(request_->file, linear, look, texts);
     ++done_;
     placed_ = false;
     if (video_ && done_ == request_->count) video_->finish();

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+#include "provenance.h"
+
+#include <fmt/core.h>
+
+#include <glm/trigonometric.hpp>
+
+#include "command_line.h"
+#include "conelight/version.h"
+#include "conelight_commit.h"
+#include "session/preset.h"
+
+namespace conelight::program {
+namespace {
+
+std::string textOf(const glm::vec3& v) { return fmt::format("{},{},{}", v.x, v.y, v.z); }
+
+std::string settingsText(const PictureRequest& request) {
+    std::string text;
+    Settings settings = request.settings;
+    if (request.mode == "traced" && settings.image.antialiasing == 0)
+        settings.image.antialiasing = request.tracedViews;
+    for (const auto& [key, value] : differences(Settings{}, settings)) {
+        if (key == "mode") continue;
+        text += (text.empty() ? "" : " ") + shellWord(key + "=" + value);
+    }
+    return text;
+}
+
+}  // namespace
+
+std::string softwareName() {
+    const std::string name = std::string("Conelight ") + CONELIGHT_VERSION_STRING;
+    const std::string commit = CONELIGHT_COMMIT;
+    return commit.empty() ? name : name + " (" + commit + ")";
+}
+
+PictureTexts provenanceOf(const PictureRequest& request, const std::string& scene,
+                          const std::string& device) {
+    const Camera& camera = request.camera;
+    PictureTexts texts = {
+        {"Software", softwareName()},
+        {"Scene", scene},
+        {"Mode", request.mode},
+        {"Camera", fmt::format("--eye {} --target {} --fov {}", textOf(camera.eye), textOf(camera.target),
+                               glm::degrees(camera.fovY))},
+        {"Size", fmt::format("{}x{}", request.size.width, request.size.height)},
+    };
+    if (const std::string settings = settingsText(request); !settings.empty())
+        texts.emplace_back("Settings", settings);
+    if (request.mode == "reference" && request.reference.samplesPerPixel > 0) {
+        texts.emplace_back("Samples", std::to_string(request.reference.samplesPerPixel));
+        texts.emplace_back("Seed", std::to_string(request.reference.seed));
+    } else if (request.mode == "radiosity") {
+        texts.emplace_back("Seed", std::to_string(request.radiosity.seed));
+    }
+    if (!isRendererMode(request.mode))
+        texts.emplace_back("Device", "CPU");
+    else if (!device.empty())
+        texts.emplace_back("Device", device);
+    return texts;
+}
+
+}  // namespace conelight::program

@@ -1,0 +1,16 @@
+# Script: writes OUTPUT with CONELIGHT_COMMIT of the checkout at SOURCE.
+set(commit "")
+if(EXISTS "${SOURCE}/.git")
+  execute_process(COMMAND git describe --always --dirty --abbrev=12 --exclude=* WORKING_DIRECTORY "${SOURCE}"
+    OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE status)
+  if(NOT status EQUAL 0)
+    set(commit "")
+  endif()
+endif()
+set(text "// Generated from the checkout.\n#pragma once\n#define CONELIGHT_COMMIT \"${commit}\"\n")
+if(EXISTS "${OUTPUT}")
+  file(READ "${OUTPUT}" before)
+endif()
+if(NOT "${before}" STREQUAL "${text}")
+  file(WRITE "${OUTPUT}" "${text}")
+endif()
