@@ -15,6 +15,7 @@ if(CONELIGHT_BUILD_PROGRAM)
   pkg_check_modules(GLFW REQUIRED IMPORTED_TARGET glfw3)
   pkg_check_modules(IMGUI REQUIRED IMPORTED_TARGET imgui)
   find_package(CLI11 REQUIRED)
+  pkg_check_modules(MD REQUIRED IMPORTED_TARGET libmd)
   find_package(embree REQUIRED)  # 3 (Debian 12) or 4
   find_package(Threads REQUIRED)
 endif()

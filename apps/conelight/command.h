@@ -24,6 +24,7 @@ void addBench(CLI::App& app);
 void addScore(CLI::App& app);
 void addStudy(CLI::App& app);
 void addBake(CLI::App& app);
+void addBatch(CLI::App& app);
 void addFigures(CLI::App& app);
 void addInfo(CLI::App& app);
 void addInspect(CLI::App& app);

@@ -87,6 +87,7 @@ int main(int argc, char** argv) {
     conelight::program::addBench(app);
     conelight::program::addScore(app);
     conelight::program::addBake(app);
+    conelight::program::addBatch(app);
     conelight::program::addStudy(app);
     conelight::program::addFigures(app);
     conelight::program::addInfo(app);

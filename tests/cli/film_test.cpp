@@ -9,7 +9,6 @@
 #include <span>
 
 #include "io/files.h"
-#include "io/image_file.h"
 #include "support/gl_fixture.h"
 #include "support/program.h"
 
@@ -41,9 +40,6 @@ std::string keys() {
 })";
     return path;
 }
-
-// Without what the file's header says of how it was made.
-std::vector<std::uint8_t> pixelsOf(const std::string& png) { return io::readByteImage(png).pixels; }
 
 class FilmTest : public GlTest {};
 

@@ -120,9 +120,9 @@ TEST_F(ViewerPanelsTest, FilmsOfThePathTracerAreDrawnInTheWindow) {
                   std::to_string(height / 2 * 2) + " -o " + folder + "/alone%d.exr");
     EXPECT_EQ(alone.status, 0) << alone.output;
     for (const char* frame : {"0", "1"}) {
-        const std::string drawn = bytesOf(folder + "/window" + frame + ".exr");
+        const std::vector<float> drawn = pixelsOf(folder + "/window" + frame + ".exr");
         EXPECT_FALSE(drawn.empty());
-        EXPECT_TRUE(drawn == bytesOf(folder + "/alone" + frame + ".exr")) << frame;
+        EXPECT_TRUE(drawn == pixelsOf(folder + "/alone" + frame + ".exr")) << frame;
     }
     EXPECT_NE(bytesOf(folder + "/window0.exr"), bytesOf(folder + "/window1.exr"));
     click("header:Camera");

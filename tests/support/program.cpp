@@ -5,6 +5,9 @@
 #include <fstream>
 #include <sstream>
 
+#include "conelight/error.h"
+#include "io/image_file.h"
+
 namespace conelight::test {
 
 std::string scratchPath(const std::string& name) { return scratchDir() + "/" + name; }
@@ -18,6 +21,19 @@ std::string bytesOf(const std::string& file) {
     std::ostringstream text;
     text << stream.rdbuf();
     return text.str();
+}
+
+std::vector<float> pixelsOf(const std::string& picture) {
+    try {
+        io::FloatImage image = io::readImage(picture);
+        std::vector<float> values = std::move(image.pixels);
+        for (const io::ImageLayer& layer : image.layers)
+            values.insert(values.end(), layer.pixels.begin(), layer.pixels.end());
+        return values;
+    } catch (const Error& error) {
+        ADD_FAILURE() << error.what();
+        return {};
+    }
 }
 
 void expectOneLine(const CommandResult& result, int status, const std::string& part) {
