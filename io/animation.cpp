@@ -41,26 +41,62 @@ glm::mat4 NodePose::parentFromNode() const {
     return m;
 }
 
+namespace {
+
+// Values between two keys: s of the way from key k to key k + 1, `length` seconds apart.
+struct Between {
+    std::size_t key = 0;
+    bool held = true;  // the key's own value
+    float s = 0, length = 0;
+};
+
+Between betweenAt(const NodeTrack& track, float time) {
+    const std::vector<float>& times = track.times;
+    // The last key at or before the time.
+    const std::size_t after = std::size_t(std::upper_bound(times.begin(), times.end(), time) - times.begin());
+    if (after == 0) return {};
+    const std::size_t k = after - 1;
+    if (after == times.size() || track.interpolation == Interpolation::Step) return {k};
+    const float length = times[after] - times[k];
+    return {k, false, (time - times[k]) / length, length};
+}
+
+// Hermite's polynomial; slopes are per second.
+template <class T>
+T hermite(const Between& at, const T& from, const T& leaving, const T& to, const T& arriving) {
+    const float s = at.s, s2 = s * s, s3 = s2 * s;
+    return (2 * s3 - 3 * s2 + 1) * from + at.length * (s3 - 2 * s2 + s) * leaving + (3 * s2 - 2 * s3) * to +
+           at.length * (s3 - s2) * arriving;
+}
+
+}  // namespace
+
 glm::vec4 NodeTrack::at(float time) const {
     const bool cubic = interpolation == Interpolation::CubicSpline, turns = value == NodeValue::Rotation;
     const auto key = [&](std::size_t k) { return values[cubic ? 3 * k + 1 : k]; };
     const auto done = [&](const glm::vec4& v) { return turns ? unitOf(v) : v; };
-    // The last key at or before the time.
-    const std::size_t after = std::size_t(std::upper_bound(times.begin(), times.end(), time) - times.begin());
-    if (after == 0) return done(key(0));
-    const std::size_t k = after - 1;
-    if (after == times.size() || interpolation == Interpolation::Step) return done(key(k));
-    const float length = times[after] - times[k], s = (time - times[k]) / length;
-    if (interpolation == Interpolation::Linear) {
-        if (!turns) return glm::mix(key(k), key(after), s);
-        const glm::quat q = glm::slerp(quatOf(unitOf(key(k))), quatOf(unitOf(key(after))), s);
-        return unitOf({q.x, q.y, q.z, q.w});
-    }
-    // Hermite's polynomial; slopes are per second.
-    const float s2 = s * s, s3 = s2 * s;
-    const glm::vec4 leaving = values[3 * k + 2], arriving = values[3 * after];
-    return done((2 * s3 - 3 * s2 + 1) * key(k) + length * (s3 - 2 * s2 + s) * leaving +
-                (3 * s2 - 2 * s3) * key(after) + length * (s3 - s2) * arriving);
+    const Between between = betweenAt(*this, time);
+    const std::size_t k = between.key, after = k + 1;
+    if (between.held) return done(key(k));
+    if (cubic) return done(hermite(between, key(k), values[3 * k + 2], key(after), values[3 * after]));
+    if (!turns) return glm::mix(key(k), key(after), between.s);
+    const glm::quat q = glm::slerp(quatOf(unitOf(key(k))), quatOf(unitOf(key(after))), between.s);
+    return unitOf({q.x, q.y, q.z, q.w});
+}
+
+std::vector<float> NodeTrack::weightsAt(float time) const {
+    const bool cubic = interpolation == Interpolation::CubicSpline;
+    const std::size_t rows = cubic ? 3 * times.size() : times.size(), count = weights.size() / rows;
+    const auto row = [&](std::size_t r, std::size_t i) { return weights[r * count + i]; };
+    const auto key = [&](std::size_t k, std::size_t i) { return row(cubic ? 3 * k + 1 : k, i); };
+    const Between between = betweenAt(*this, time);
+    const std::size_t k = between.key, after = k + 1;
+    std::vector<float> out(count);
+    for (std::size_t i = 0; i < count; ++i)
+        out[i] = between.held ? key(k, i)
+                 : cubic ? hermite(between, key(k, i), row(3 * k + 2, i), key(after, i), row(3 * after, i))
+                         : glm::mix(key(k, i), key(after, i), between.s);
+    return out;
 }
 
 void placeLight(Light& light, const glm::mat4& worldFromNode) {
@@ -80,23 +116,34 @@ bool placeCamera(Camera& camera, const glm::mat4& worldFromNode, float distance)
     return true;
 }
 
-void poseScene(const SceneAnimation& animation, std::size_t clip, float time, const Scene& rest,
-               Scene& scene) {
+NodePoses posesAt(const SceneAnimation& animation, std::size_t clip, float time) {
+    NodePoses out;
+    out.weights.resize(animation.nodes.size());
     std::vector<NodePose> poses;
     for (const AnimatedNode& node : animation.nodes) poses.push_back(node.rest);
     for (const NodeTrack& track : animation.clips.at(clip).tracks) {
+        if (track.value == NodeValue::Weights) {
+            out.weights[track.node] = track.weightsAt(time);
+            continue;
+        }
         const glm::vec4 v = track.at(time);
         NodePose& pose = poses[track.node];
         if (track.value == NodeValue::Translation) pose.translation = glm::vec3(v);
         if (track.value == NodeValue::Rotation) pose.rotation = quatOf(v);
         if (track.value == NodeValue::Scale) pose.scale = glm::vec3(v);
     }
-    std::vector<glm::mat4> worldFromNode(poses.size());
+    out.worldFromNode.resize(poses.size());
     for (const std::size_t n : animation.parentsFirst) {
         const int parent = animation.nodes[n].parent;
         const glm::mat4 local = poses[n].parentFromNode();
-        worldFromNode[n] = parent < 0 ? local : worldFromNode[std::size_t(parent)] * local;
+        out.worldFromNode[n] = parent < 0 ? local : out.worldFromNode[std::size_t(parent)] * local;
     }
+    return out;
+}
+
+void poseScene(const SceneAnimation& animation, std::size_t clip, float time, const Scene& rest,
+               Scene& scene) {
+    const std::vector<glm::mat4> worldFromNode = posesAt(animation, clip, time).worldFromNode;
     for (const SceneAnimation::Hung& hung : animation.instances) {
         Instance& instance = scene.instances[hung.index];
         const glm::mat4 placed = worldFromNode[hung.node] * hung.nodeFromThing;

@@ -52,11 +52,13 @@ class Reader {
   private:
     void checkExtensions();
     void keepHung(const std::vector<KeptInstance>& kept);
+    void mirrorMoving(std::size_t node, std::size_t instance);
     void findWorldTransforms();
     std::vector<std::size_t> nodesOfScene();
     void placeMesh(std::size_t node, const GltfValue& value, GltfMeshes& meshes);
     std::vector<glm::mat4> instanceTransforms(const GltfValue& node);
-    std::vector<glm::mat4> jointTransforms(const GltfValue& skin);
+    void findMovingWeights();
+    void poseAtRest();
     void addLight(std::size_t node, const GltfValue& value);
     void addCamera(std::size_t node, const GltfValue& value);
     std::string nameOf(std::size_t node) const {
@@ -73,6 +75,7 @@ class Reader {
     Scene scene_;
     std::vector<glm::mat4> worldFromNode_;
     SceneAnimation animation_;
+    std::set<std::size_t> movingWeights_;
     std::size_t skinned_ = 0;
 };
 
@@ -275,25 +278,23 @@ std::vector<glm::mat4> Reader::instanceTransforms(const GltfValue& node) {
     return out;
 }
 
-std::vector<glm::mat4> Reader::jointTransforms(const GltfValue& skin) {
-    const GltfValue joints = skin["joints"];
-    std::vector<float> inverse;
-    if (skin["inverseBindMatrices"].exists()) {
-        inverse = file_.floats(skin["inverseBindMatrices"], 16);
-        if (inverse.size() < 16 * joints.size())
-            skin["inverseBindMatrices"].fail("one matrix per joint is needed");
+// Nodes whose morph weights a clip moves.
+void Reader::findMovingWeights() {
+    for (const AnimationClip& clip : animation_.clips)
+        for (const NodeTrack& track : clip.tracks)
+            if (track.value == NodeValue::Weights) movingWeights_.insert(track.node);
+}
+
+// Moving meshes are read as they are without weights and joints.
+void Reader::poseAtRest() {
+    const NodePoses rest{worldFromNode_, std::vector<std::vector<float>>(worldFromNode_.size())};
+    for (const DeformedMesh& moving : animation_.meshes) {
+        Mesh& mesh = scene_.meshes[moving.mesh];
+        deform(moving, rest, mesh);
+        for (const glm::vec3& p : mesh.positions)
+            if (!std::isfinite(p.x + p.y + p.z))
+                file_.array("meshes").fail(mesh.name + ": positions leave the range of numbers");
     }
-    std::vector<glm::mat4> out;
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-        glm::mat4 m = worldFromNode_[joints[j].index(worldFromNode_.size()).value()];
-        if (!inverse.empty()) {
-            glm::mat4 bind;
-            std::copy_n(&inverse[16 * j], 16, &bind[0][0]);
-            m = m * bind;
-        }
-        out.push_back(m);
-    }
-    return out;
 }
 
 void Reader::placeMesh(std::size_t node, const GltfValue& value, GltfMeshes& meshes) {
@@ -304,9 +305,13 @@ void Reader::placeMesh(std::size_t node, const GltfValue& value, GltfMeshes& mes
 
     // A skinned mesh is placed by its joints alone.
     if (const auto skin = value["skin"].index(file_.array("skins").size())) {
-        const std::vector<glm::mat4> joints = jointTransforms(file_.array("skins")[*skin]);
+        const GltfSkin joints = readSkin(file_, file_.array("skins")[*skin], worldFromNode_);
         ++skinned_;
-        for (const GltfPart& part : meshes.parts(*mesh, weights, &joints)) {
+        const std::size_t known = animation_.meshes.size();
+        std::vector<DeformedMesh>* const moving = animation_.clips.empty() ? nullptr : &animation_.meshes;
+        const std::vector<GltfPart> parts = meshes.parts(*mesh, weights, &joints, moving);
+        for (std::size_t m = known; m < animation_.meshes.size(); ++m) animation_.meshes[m].node = node;
+        for (const GltfPart& part : parts) {
             Instance instance;
             instance.name = nameOf(node);
             instance.mesh = part.mesh;
@@ -315,7 +320,10 @@ void Reader::placeMesh(std::size_t node, const GltfValue& value, GltfMeshes& mes
         }
         return;
     }
-    const std::vector<GltfPart> parts = meshes.parts(*mesh, weights, nullptr);
+    const std::size_t known = animation_.meshes.size();
+    const std::vector<GltfPart> parts =
+        meshes.parts(*mesh, weights, nullptr, movingWeights_.count(node) > 0 ? &animation_.meshes : nullptr);
+    for (std::size_t m = known; m < animation_.meshes.size(); ++m) animation_.meshes[m].node = node;
     const std::vector<glm::mat4> transforms = instanceTransforms(value);
     if (scene_.instances.size() + transforms.size() * parts.size() > kMaxInstances)
         value.fail("the file has too many instances");
@@ -405,6 +413,23 @@ void Reader::addCamera(std::size_t node, const GltfValue& value) {
     scene_.cameras.push_back(std::move(to));
 }
 
+// A moving mesh whose instance, now number `instance`, was mirrored: it has a mesh of its own.
+void Reader::mirrorMoving(std::size_t node, std::size_t instance) {
+    const std::size_t mesh = std::size_t(scene_.instances[instance].mesh);
+    for (std::size_t m = 0; m < animation_.meshes.size(); ++m) {
+        DeformedMesh& moving = animation_.meshes[m];
+        if (moving.node != node || !moving.joints.empty() || moving.mesh == mesh) continue;
+        if (scene_.meshes[moving.mesh].name != scene_.meshes[mesh].name) continue;
+        DeformedMesh turned = moving;
+        turned.mesh = mesh;
+        turned.mirrored = true;
+        const bool known = std::any_of(animation_.meshes.begin(), animation_.meshes.end(),
+                                       [&](const DeformedMesh& one) { return one.mesh == mesh; });
+        if (!known) animation_.meshes.push_back(std::move(turned));
+        return;
+    }
+}
+
 // Instances that removeMirrors dropped are out of the list; meshes that it mirrored are turned back.
 void Reader::keepHung(const std::vector<KeptInstance>& kept) {
     std::vector<SceneAnimation::Hung> hung;
@@ -417,6 +442,7 @@ void Reader::keepHung(const std::vector<KeptInstance>& kept) {
         SceneAnimation::Hung one = animation_.instances[next];
         one.index = i;
         if (kept[i].mirrored) one.nodeFromThing[0] = -one.nodeFromThing[0];
+        if (kept[i].mirrored) mirrorMoving(one.node, i);
         hung.push_back(one);
     }
     animation_.instances = std::move(hung);
@@ -425,6 +451,8 @@ void Reader::keepHung(const std::vector<KeptInstance>& kept) {
 Scene Reader::read(SceneAnimation* animation) {
     checkExtensions();
     findWorldTransforms();
+    if (animation != nullptr) animation_.clips = readClips(file_, scene_.notes);
+    findMovingWeights();
     GltfMaterials materials(file_, scene_, maxTexels_);
     GltfMeshes meshes(file_, scene_, materials);
     for (const std::size_t node : nodesOfScene()) {
@@ -434,15 +462,14 @@ Scene Reader::read(SceneAnimation* animation) {
         addCamera(node, value);
     }
     meshes.addNotes();
-    if (skinned_ > 0)
+    if (skinned_ > 0 && animation == nullptr && file_.array("animations").size() > 0)
         scene_.notes.push_back(
             fmt::format("{} skinned mesh{} shown in rest pose", skinned_, skinned_ == 1 ? "" : "es"));
     const std::size_t animations = file_.array("animations").size();
-    if (animation != nullptr)
-        animation_.clips = readClips(file_, scene_.notes);
-    else if (animations > 0)
+    if (animation == nullptr && animations > 0)
         scene_.notes.push_back(
             fmt::format("{} animation{} left out", animations, animations == 1 ? "" : "s"));
+    poseAtRest();
     keepHung(removeMirrors(scene_));
     if (animation != nullptr) *animation = std::move(animation_);
     return std::move(scene_);

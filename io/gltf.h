@@ -2,7 +2,7 @@
 // glTF 2.0 and GLB -> Scene. Private to this room.
 //
 // Read: nodes, default scene, meshes (all modes; points and lines left out with a note), sparse and quantized
-// accessors, skins and morph targets in rest pose, metallic-roughness materials, samplers, PNG/JPEG images in
+// accessors, skins and morph targets, metallic-roughness materials, samplers, PNG/JPEG images in
 // files, buffers and data URIs, cameras, animations of nodes, `extras.sky = [r,g,b]` of the scene,
 // and the extensions
 // KHR_lights_punctual, KHR_materials_{emissive_strength,ior,specular,unlit,pbrSpecularGlossiness},

@@ -22,7 +22,7 @@ void requireFloats(GltfFile& file, const GltfValue& accessorIndex, bool normaliz
     if (accessor["componentType"].whole(0) == kFloat) return;
     if (!normalizedToo) accessor["componentType"].fail("must be 5126 (float) for times, places and sizes");
     if (!accessor["normalized"].boolean(false))
-        accessor["normalized"].fail("must be true for rotations that are no floats");
+        accessor["normalized"].fail("must be true for rotations and weights that are no floats");
 }
 
 Interpolation interpolationOf(const GltfValue& sampler) {
@@ -35,11 +35,22 @@ Interpolation interpolationOf(const GltfValue& sampler) {
     return Interpolation::Linear;
 }
 
-void readSampler(GltfFile& file, const GltfValue& sampler, NodeTrack& track) {
+// All targets of a key stand side by side.
+void readWeights(GltfFile& file, const GltfValue& output, std::size_t targets, NodeTrack& track) {
+    track.weights = file.floats(output, 1);
+    const std::size_t wanted =
+        track.times.size() * targets * (track.interpolation == Interpolation::CubicSpline ? 3 : 1);
+    if (track.weights.size() != wanted)
+        output.fail(fmt::format("has {} weights; {}, for {} morph targets, would be right",
+                                track.weights.size(), wanted, targets));
+}
+
+// `targets`: morph targets of the node's mesh.
+void readSampler(GltfFile& file, const GltfValue& sampler, std::size_t targets, NodeTrack& track) {
     const bool turns = track.value == NodeValue::Rotation;
     const GltfValue input = sampler["input"], output = sampler["output"];
     requireFloats(file, input, false);
-    requireFloats(file, output, turns);
+    requireFloats(file, output, turns || track.value == NodeValue::Weights);
     track.interpolation = interpolationOf(sampler);
     track.times = file.floats(input, 1);
     if (track.times.empty()) input.fail("has no keys; one time at least would be right");
@@ -48,6 +59,7 @@ void readSampler(GltfFile& file, const GltfValue& sampler, NodeTrack& track) {
         if (k > 0 && !(track.times[k] > track.times[k - 1]))
             input.fail(fmt::format("time {} is not after the one before it; ascending would be right", k));
     }
+    if (track.value == NodeValue::Weights) return readWeights(file, output, targets, track);
     const std::size_t components = turns ? 4 : 3;
     const std::vector<float> numbers = file.floats(output, components);
     const std::size_t wanted =
@@ -67,12 +79,19 @@ std::optional<NodeValue> valueOf(const GltfValue& target) {
     if (path == "translation") return NodeValue::Translation;
     if (path == "rotation") return NodeValue::Rotation;
     if (path == "scale") return NodeValue::Scale;
-    if (path == "weights" || path == "pointer") return std::nullopt;
+    if (path == "weights") return NodeValue::Weights;
+    if (path == "pointer") return std::nullopt;
     target["path"].fail(
         fmt::format("'{}' is unknown; known: translation, rotation, scale, weights", oneLine(path)));
 }
 
 }  // namespace
+
+std::size_t morphTargets(const GltfFile& file, const GltfValue& node) {
+    const GltfValue meshes = file.array("meshes");
+    const auto mesh = node["mesh"].index(meshes.size());
+    return mesh ? meshes[*mesh]["primitives"][std::size_t(0)]["targets"].size() : 0;
+}
 
 NodePose readNodePose(const GltfValue& node) {
     NodePose pose;
@@ -107,22 +126,28 @@ std::vector<AnimationClip> readClips(GltfFile& file, std::vector<std::string>& n
                 ++left;
                 continue;
             }
-            if (nodes[*node]["matrix"].exists())
+            const std::size_t targets = *value == NodeValue::Weights ? morphTargets(file, nodes[*node]) : 0;
+            if (*value == NodeValue::Weights && targets == 0) {
+                ++left;
+                continue;
+            }
+            if (*value != NodeValue::Weights && nodes[*node]["matrix"].exists())
                 target["node"].fail("is placed by a matrix; translation, rotation, scale would be right");
             const auto sampler = channels[c]["sampler"].index(samplers.size());
             if (!sampler) channels[c].fail("has no sampler");
             NodeTrack track;
             track.node = *node;
             track.value = *value;
-            readSampler(file, samplers[*sampler], track);
+            readSampler(file, samplers[*sampler], targets, track);
             clip.duration = std::max(clip.duration, track.times.back());
             clip.tracks.push_back(std::move(track));
         }
         clips.push_back(std::move(clip));
     }
     if (left > 0)
-        notes.push_back(fmt::format("{} channel{} of animations left out (weights, pointers)", left,
-                                    left == 1 ? "" : "s"));
+        notes.push_back(
+            fmt::format("{} channel{} of animations left out (pointers, or weights without morph targets)",
+                        left, left == 1 ? "" : "s"));
     return clips;
 }
 

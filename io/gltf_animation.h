@@ -13,6 +13,9 @@ namespace conelight::io {
 // A node's own place. Fails for a rotation without length.
 NodePose readNodePose(const GltfValue& node);
 
+// How many morph targets the node's mesh has.
+std::size_t morphTargets(const GltfFile& file, const GltfValue& node);
+
 // All clips; what is left out is one line each in `notes`. Fails with the JSON path of what cannot be used.
 std::vector<AnimationClip> readClips(GltfFile& file, std::vector<std::string>& notes);
 

@@ -31,8 +31,9 @@ void keep(std::vector<T>& values, const std::vector<std::uint32_t>& oldOfNew) {
     values = std::move(kept);
 }
 
-// Primitives often share long vertex arrays: keep only the vertices this one uses.
-void dropUnusedVertices(Mesh& mesh) {
+// Primitives often share long vertex arrays: keep only the vertices this one uses. Returns which they were;
+// empty: all, in their order.
+std::vector<std::uint32_t> dropUnusedVertices(Mesh& mesh) {
     constexpr std::uint32_t kUnused = ~0u;
     std::vector<std::uint32_t> newOfOld(mesh.positions.size(), kUnused), oldOfNew;
     for (std::uint32_t& index : mesh.indices) {
@@ -45,13 +46,31 @@ void dropUnusedVertices(Mesh& mesh) {
     if (oldOfNew.size() == newOfOld.size()) {
         // All used: restore the file's order.
         for (std::uint32_t& index : mesh.indices) index = oldOfNew[index];
-        return;
+        return {};
     }
     keep(mesh.positions, oldOfNew);
     keep(mesh.normals, oldOfNew);
     keep(mesh.uvs, oldOfNew);
     keep(mesh.tangents, oldOfNew);
     keep(mesh.colors, oldOfNew);
+    return oldOfNew;
+}
+
+// The same of what moves the vertices.
+void keepVertices(DeformedMesh& moving, const std::vector<std::uint32_t>& oldOfNew) {
+    if (oldOfNew.empty()) return;
+    for (MorphTarget& target : moving.targets) {
+        keep(target.positions, oldOfNew);
+        keep(target.normals, oldOfNew);
+        keep(target.tangents, oldOfNew);
+    }
+    if (moving.influences == 0) return;
+    std::vector<std::uint32_t> entries;
+    for (const std::uint32_t old : oldOfNew)
+        for (std::size_t k = 0; k < moving.influences; ++k)
+            entries.push_back(std::uint32_t(old * moving.influences + k));
+    keep(moving.jointNumbers, entries);
+    keep(moving.jointWeights, entries);
 }
 
 void repairTangents(Mesh& mesh) {
@@ -66,6 +85,26 @@ void repairTangents(Mesh& mesh) {
 }
 
 }  // namespace
+
+GltfSkin readSkin(GltfFile& file, const GltfValue& skin, const std::vector<glm::mat4>& worldFromNode) {
+    const GltfValue joints = skin["joints"];
+    std::vector<float> inverse;
+    if (skin["inverseBindMatrices"].exists()) {
+        inverse = file.floats(skin["inverseBindMatrices"], 16);
+        if (inverse.size() < 16 * joints.size())
+            skin["inverseBindMatrices"].fail("one matrix per joint is needed");
+    }
+    GltfSkin out;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+        glm::mat4 bind(1.0f);
+        if (!inverse.empty()) std::copy_n(&inverse[16 * j], 16, &bind[0][0]);
+        out.joints.push_back(joints[j].index(worldFromNode.size()).value());
+        out.jointFromBind.push_back(bind);
+        const glm::mat4& worldFromJoint = worldFromNode[out.joints.back()];
+        out.worldFromBind.push_back(inverse.empty() ? worldFromJoint : worldFromJoint * bind);
+    }
+    return out;
+}
 
 std::vector<std::uint32_t> GltfMeshes::readIndices(const GltfValue& primitive, std::size_t vertexCount) {
     std::vector<std::uint32_t> order;
@@ -101,53 +140,52 @@ std::vector<std::uint32_t> GltfMeshes::readIndices(const GltfValue& primitive, s
     return triangles;
 }
 
+std::vector<glm::vec3> GltfMeshes::readDeltas(const GltfValue& accessor, std::size_t count) {
+    if (!accessor.exists() || count == 0) return {};
+    std::vector<glm::vec3> delta = vectorsOf<3>(file_.floats(accessor, 3));
+    if (delta.size() != count)
+        accessor.fail(fmt::format("{} elements expected, found {}", count, delta.size()));
+    return delta;
+}
+
 void GltfMeshes::morph(const GltfValue& primitive, const std::vector<float>& weights, Mesh& mesh) {
     const GltfValue targets = primitive["targets"];
     for (std::size_t t = 0; t < std::min(targets.size(), weights.size()); ++t) {
         if (weights[t] == 0.0f) continue;
         const auto add = [&](const char* attribute, std::vector<glm::vec3>& to) {
-            const GltfValue accessor = targets[t][attribute];
-            if (!accessor.exists() || to.empty()) return;
-            const auto delta = vectorsOf<3>(file_.floats(accessor, 3));
-            if (delta.size() != to.size())
-                accessor.fail(fmt::format("{} elements expected, found {}", to.size(), delta.size()));
-            for (std::size_t i = 0; i < to.size(); ++i) to[i] += weights[t] * delta[i];
+            const std::vector<glm::vec3> delta = readDeltas(targets[t][attribute], to.size());
+            for (std::size_t i = 0; i < delta.size(); ++i) to[i] += weights[t] * delta[i];
         };
         add("POSITION", mesh.positions);
         add("NORMAL", mesh.normals);
     }
 }
 
-void GltfMeshes::skin(const GltfValue& attributes, const std::vector<glm::mat4>& worldFromBind, Mesh& mesh) {
-    const std::vector<std::uint32_t> joints = file_.wholes(attributes["JOINTS_0"], 4);
-    const std::vector<float> weights = file_.floats(attributes["WEIGHTS_0"], 4);
-    if (joints.size() != 4 * mesh.positions.size() || weights.size() != joints.size())
-        attributes.fail("joints and weights must have as many elements as positions");
-    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
-        glm::mat4 m(0.0f);
-        float sum = 0.0f;
-        for (std::size_t j = 0; j < 4; ++j) {
-            const float weight = weights[4 * i + j];
-            if (weight == 0.0f) continue;
-            if (joints[4 * i + j] >= worldFromBind.size())
-                attributes["JOINTS_0"].fail(fmt::format("joint {} is out of range", joints[4 * i + j]));
-            m += weight * worldFromBind[joints[4 * i + j]];
-            sum += weight;
+void GltfMeshes::readInfluences(const GltfValue& attributes, std::size_t jointCount, std::size_t vertices,
+                                DeformedMesh& to) {
+    std::size_t sets = 0;
+    while (attributes[fmt::format("JOINTS_{}", sets).c_str()].exists()) ++sets;
+    to.influences = 4 * sets;
+    to.jointNumbers.resize(to.influences * vertices);
+    to.jointWeights.resize(to.influences * vertices);
+    for (std::size_t set = 0; set < sets; ++set) {
+        const GltfValue numbersOf = attributes[fmt::format("JOINTS_{}", set).c_str()];
+        const std::vector<std::uint32_t> joints = file_.wholes(numbersOf, 4);
+        const std::vector<float> weights =
+            file_.floats(attributes[fmt::format("WEIGHTS_{}", set).c_str()], 4);
+        if (joints.size() != 4 * vertices || weights.size() != joints.size())
+            attributes.fail("joints and weights must have as many elements as positions");
+        for (std::size_t i = 0; i < joints.size(); ++i) {
+            const std::size_t at = i / 4 * to.influences + 4 * set + i % 4;
+            if (weights[i] == 0.0f) continue;
+            if (joints[i] >= jointCount) numbersOf.fail(fmt::format("joint {} is out of range", joints[i]));
+            to.jointNumbers[at] = joints[i];
+            to.jointWeights[at] = weights[i];
         }
-        if (!(sum > 0.0f))
-            m = glm::mat4(1.0f);
-        else
-            m /= sum;
-        mesh.positions[i] = glm::vec3(m * glm::vec4(mesh.positions[i], 1.0f));
-        if (!mesh.normals.empty())
-            mesh.normals[i] = glm::transpose(glm::inverse(glm::mat3(m))) * mesh.normals[i];
-        if (!mesh.tangents.empty())
-            mesh.tangents[i] = glm::vec4(glm::mat3(m) * glm::vec3(mesh.tangents[i]), mesh.tangents[i].w);
     }
 }
 
-Mesh GltfMeshes::read(const GltfValue& primitive, const std::vector<float>& weights,
-                      const std::vector<glm::mat4>* worldFromBind, int material) {
+Mesh GltfMeshes::readAttributes(const GltfValue& primitive, int material) {
     const GltfValue attributes = primitive["attributes"];
     Mesh mesh;
     mesh.positions = vectorsOf<3>(file_.floats(attributes["POSITION"], 3));
@@ -175,8 +213,19 @@ Mesh GltfMeshes::read(const GltfValue& primitive, const std::vector<float>& weig
         for (glm::vec4& color : mesh.colors) color = glm::max(color, glm::vec4(0));
     }
     mesh.indices = readIndices(primitive, mesh.positions.size());
+    return mesh;
+}
+
+Mesh GltfMeshes::read(const GltfValue& primitive, const std::vector<float>& weights, const GltfSkin* skin,
+                      int material) {
+    const GltfValue attributes = primitive["attributes"];
+    Mesh mesh = readAttributes(primitive, material);
     morph(primitive, weights, mesh);
-    if (worldFromBind != nullptr && attributes["JOINTS_0"].exists()) skin(attributes, *worldFromBind, mesh);
+    if (skin != nullptr && attributes["JOINTS_0"].exists()) {
+        DeformedMesh moving;
+        readInfluences(attributes, skin->joints.size(), mesh.positions.size(), moving);
+        skinVertices(moving, skin->worldFromBind, mesh);
+    }
     dropUnusedVertices(mesh);
     for (const glm::vec3& p : mesh.positions)
         if (!std::isfinite(p.x + p.y + p.z))
@@ -188,14 +237,47 @@ Mesh GltfMeshes::read(const GltfValue& primitive, const std::vector<float>& weig
     return mesh;
 }
 
+// As it is without weights and joints; `moving` has all but the place of its mesh.
+Mesh GltfMeshes::readMoving(const GltfValue& primitive, const GltfSkin* skin, int material,
+                            DeformedMesh& moving) {
+    const GltfValue attributes = primitive["attributes"], targets = primitive["targets"];
+    Mesh mesh = readAttributes(primitive, material);
+    for (std::size_t t = 0; t < targets.size(); ++t)
+        moving.targets.push_back({readDeltas(targets[t]["POSITION"], mesh.positions.size()),
+                                  readDeltas(targets[t]["NORMAL"], mesh.normals.size()),
+                                  readDeltas(targets[t]["TANGENT"], mesh.tangents.size())});
+    if (skin != nullptr && attributes["JOINTS_0"].exists()) {
+        moving.joints = skin->joints;
+        moving.jointFromBind = skin->jointFromBind;
+        readInfluences(attributes, skin->joints.size(), mesh.positions.size(), moving);
+    }
+    keepVertices(moving, dropUnusedVertices(mesh));
+    if (!mesh.normals.empty()) badNormals_ += repairNormals(mesh);
+    repairTangents(mesh);
+    if (mesh.tangents.empty() && scene_.materials[std::size_t(material)].normalTexture.used() &&
+        !mesh.uvs.empty()) {
+        const std::vector<std::uint32_t> before = mesh.indices;
+        makeTangents(mesh);  // which splits vertices
+        std::vector<std::uint32_t> oldOfNew(mesh.positions.size());
+        for (std::size_t i = 0; i < before.size(); ++i) oldOfNew[mesh.indices[i]] = before[i];
+        keepVertices(moving, oldOfNew);
+    }
+    moving.bind.positions = mesh.positions;
+    moving.bind.normals = mesh.normals;
+    moving.bind.tangents = mesh.tangents;
+    return mesh;
+}
+
 std::vector<GltfPart> GltfMeshes::parts(std::size_t index, const std::vector<float>& weights,
-                                        const std::vector<glm::mat4>* worldFromBind) {
+                                        const GltfSkin* skin, std::vector<DeformedMesh>* moving) {
+    const bool shared = skin == nullptr && moving == nullptr;
     const GltfValue meshValue = file_.array("meshes")[index];
     std::vector<float> used = weights;
     if (used.empty()) {
         used.resize(meshValue["weights"].size());
         for (std::size_t i = 0; i < used.size(); ++i) used[i] = meshValue["weights"][i].number(0.0f);
     }
+    const std::vector<float> all = used;
     if (std::all_of(used.begin(), used.end(), [](float weight) { return weight == 0.0f; })) used.clear();
 
     std::vector<GltfPart> out;
@@ -217,11 +299,13 @@ std::vector<GltfPart> GltfMeshes::parts(std::size_t index, const std::vector<flo
         for (const float weight : used) key += fmt::format("|{}", weight);
         if (!used.empty() && primitive["targets"].exists()) key += primitive["targets"].json().dump();
         const auto known = known_.find(key);
-        if (worldFromBind == nullptr && known != known_.end()) {
+        if (shared && known != known_.end()) {
             if (known->second >= 0) out.push_back({known->second, material});
             continue;
         }
-        Mesh mesh = read(primitive, used, worldFromBind, material);
+        DeformedMesh moved;
+        Mesh mesh = moving == nullptr ? read(primitive, used, skin, material)
+                                      : readMoving(primitive, skin, material, moved);
         mesh.name = oneLine(meshValue["name"].text(fmt::format("mesh{}", index)));
         if (primitives.size() > 1) mesh.name += fmt::format(".{}", p);
         int at = -1;
@@ -229,8 +313,13 @@ std::vector<GltfPart> GltfMeshes::parts(std::size_t index, const std::vector<flo
             at = int(scene_.meshes.size());
             scene_.meshes.push_back(std::move(mesh));
             out.push_back({at, material});
+            if (moving != nullptr) {
+                moved.mesh = std::size_t(at);
+                moved.weights = all;
+                moving->push_back(std::move(moved));
+            }
         }
-        if (worldFromBind == nullptr) known_[key] = at;
+        if (shared) known_[key] = at;
     }
     return out;
 }

@@ -179,6 +179,11 @@ void pose(const Handle& scene, const py::object& clip, float time) {
                                    ? io::clipNumber(animation, clip.cast<const io::AnimationClip&>().name)
                                    : io::clipNumber(animation, py::str(clip));
     io::poseScene(animation, number, time, scene->movement->rest, scene->edit());
+    const io::NodePoses poses = io::posesAt(animation, number, time);
+    for (const io::DeformedMesh& moving : animation.meshes) {
+        Mesh mesh = scene->get().meshes[moving.mesh];
+        if (io::deform(moving, poses, mesh)) scene->editGeometry().meshes[moving.mesh] = std::move(mesh);
+    }
 }
 
 void addCamera(const Handle& scene, const Camera& camera) {

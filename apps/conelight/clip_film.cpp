@@ -18,7 +18,13 @@ struct Motion {
     float framesPerSecond = 30;
 
     void show(Session& session, int frame) {
-        io::poseScene(animation, clip, float(frame) / framesPerSecond, rest, posed);
+        const float time = float(frame) / framesPerSecond;
+        io::poseScene(animation, clip, time, rest, posed);
+        const io::NodePoses poses = io::posesAt(animation, clip, time);
+        for (const io::DeformedMesh& moving : animation.meshes) {
+            Mesh mesh = session.scene().meshes[moving.mesh];
+            if (io::deform(moving, poses, mesh)) session.setMesh(moving.mesh, std::move(mesh));
+        }
         std::vector<std::pair<std::size_t, Instance>> changed;
         for (const io::SceneAnimation::Hung& hung : animation.instances)
             if (!(posed.instances[hung.index] == session.scene().instances[hung.index]))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `render --animate`: what a clip moves, frame by frame.
+// `render --animate`: what a clip moves, frame by frame: instances, lights, cameras, and vertices of meshes.
 #pragma once
 
 #include <functional>

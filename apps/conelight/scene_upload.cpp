@@ -22,6 +22,7 @@ void SceneUpload::follow(Renderer& renderer, const Session& session) {
         renderer.setScene(session.scene());
         instances_ = session.instanceRevisions();
         materials_ = session.materialRevisions();
+        meshes_ = session.meshRevisions();
         seen_ = now;
         return;
     }
@@ -29,6 +30,8 @@ void SceneUpload::follow(Renderer& renderer, const Session& session) {
     // call.
     if (seen_->materials != now.materials) takeMaterials(renderer, session);
     seen_->materials = now.materials;
+    if (seen_->meshes != now.meshes) takeMeshes(renderer, session);
+    seen_->meshes = now.meshes;
     if (seen_->transforms != now.transforms || seen_->instances != now.instances)
         takeInstances(renderer, session);
     seen_->transforms = now.transforms;
@@ -46,6 +49,13 @@ void SceneUpload::takeInstances(Renderer& renderer, const Session& session) {
         const std::uint64_t revision = session.instanceRevisions()[i];
         if (std::exchange(instances_[i], revision) != revision)
             renderer.setInstance(i, session.scene().instances[i]);
+    }
+}
+
+void SceneUpload::takeMeshes(Renderer& renderer, const Session& session) {
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
+        const std::uint64_t revision = session.meshRevisions()[i];
+        if (std::exchange(meshes_[i], revision) != revision) renderer.setMesh(i, session.scene().meshes[i]);
     }
 }
 

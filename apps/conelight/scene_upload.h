@@ -23,9 +23,10 @@ class SceneUpload {
   private:
     void takeInstances(Renderer& renderer, const Session& session);
     void takeMaterials(Renderer& renderer, const Session& session);
+    void takeMeshes(Renderer& renderer, const Session& session);
 
     std::optional<Revisions> seen_;
-    std::vector<std::uint64_t> instances_, materials_;
+    std::vector<std::uint64_t> instances_, materials_, meshes_;
 };
 
 }  // namespace conelight::program

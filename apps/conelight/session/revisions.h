@@ -12,6 +12,7 @@ struct Revisions {
     std::uint64_t transforms = 0;    // an instance's matrix
     std::uint64_t instances = 0;     // an instance's visibility, flags, name or material index
     std::uint64_t instanceList = 0;  // instances came or went; instances grows, too
+    std::uint64_t meshes = 0;        // vertices of a mesh moved
     std::uint64_t materials = 0;
     std::uint64_t lights = 0;
     std::uint64_t sky = 0;
@@ -25,10 +26,10 @@ struct Revisions {
     bool operator==(const Revisions&) const = default;
     // What the picture's scene tables depend on: when it differs, a renderer's are out of date (SceneUpload).
     std::uint64_t sceneTables() const {
-        return scene + transforms + instances + materials + lights + sky + voxels;
+        return scene + transforms + instances + meshes + materials + lights + sky + voxels;
     }
     // What rays against triangles depend on. Materials too: their alpha and two-sidedness.
-    std::uint64_t rayTables() const { return scene + transforms + instances + materials; }
+    std::uint64_t rayTables() const { return scene + transforms + instances + meshes + materials; }
 };
 
 }  // namespace conelight::program

@@ -65,6 +65,7 @@ Session::Session(Scene scene, std::string path, const Settings& settings, std::s
 void Session::startRevisions() {
     instanceRevisions_.assign(scene_.instances.size(), 0);
     materialRevisions_.assign(scene_.materials.size(), 0);
+    meshRevisions_.assign(scene_.meshes.size(), 0);
 }
 
 std::vector<std::string> Session::open(const std::string& path, bool keepView) {
@@ -193,6 +194,12 @@ void Session::setInstances(const std::vector<std::pair<std::size_t, Instance>>& 
         step.edits.push_back(std::move(edit));
     }
     if (!step.edits.empty()) commit(std::move(step));
+}
+
+void Session::setMesh(std::size_t index, Mesh mesh) {
+    scene_.meshes.at(index) = std::move(mesh);
+    ++meshRevisions_.at(index);
+    ++revisions_.meshes;
 }
 
 void Session::setInstanceList(const std::vector<Instance>& instances, const std::string& label) {

@@ -81,6 +81,7 @@ class Session {
     // Grow with every change of that one; another scene starts them anew (Revisions::scene).
     const std::vector<std::uint64_t>& instanceRevisions() const { return instanceRevisions_; }
     const std::vector<std::uint64_t>& materialRevisions() const { return materialRevisions_; }
+    const std::vector<std::uint64_t>& meshRevisions() const { return meshRevisions_; }
 
     // Settings and mode with the flags that change the picture in them: what is to be drawn.
     Settings shownSettings() const;
@@ -126,6 +127,8 @@ class Session {
     void finishPlaying();  // at once at the path's end
     void select(const Selection& selection);
     void setRayMark(const std::optional<RayMark>& mark);
+    // The same mesh with its vertices elsewhere. No step of undo: a clip's pose is none of the scene's.
+    void setMesh(std::size_t index, Mesh mesh);
     void askForVoxels() { ++revisions_.voxels; }
 
     // Return the label of what was undone or redone; nothing when there is none.
@@ -176,6 +179,7 @@ class Session {
     std::optional<Playing> playing_;
     Revisions revisions_;
     std::vector<std::uint64_t> instanceRevisions_, materialRevisions_;
+    std::vector<std::uint64_t> meshRevisions_;
     FrameTimes frameTimes_;
     std::deque<Request> requests_;
     std::deque<Step> done_;
