@@ -116,11 +116,35 @@ bool placeCamera(Camera& camera, const glm::mat4& worldFromNode, float distance)
     return true;
 }
 
+namespace {
+
+std::vector<glm::mat4> worldFromNodes(const SceneAnimation& animation, const std::vector<NodePose>& poses) {
+    std::vector<glm::mat4> worldFromNode(poses.size());
+    for (const std::size_t n : animation.parentsFirst) {
+        const int parent = animation.nodes[n].parent;
+        const glm::mat4 local = poses[n].parentFromNode();
+        worldFromNode[n] = parent < 0 ? local : worldFromNode[std::size_t(parent)] * local;
+    }
+    return worldFromNode;
+}
+
+std::vector<NodePose> restOf(const SceneAnimation& animation) {
+    std::vector<NodePose> poses;
+    for (const AnimatedNode& node : animation.nodes) poses.push_back(node.rest);
+    return poses;
+}
+
+}  // namespace
+
+NodePoses restPoses(const SceneAnimation& animation) {
+    return {worldFromNodes(animation, restOf(animation)),
+            std::vector<std::vector<float>>(animation.nodes.size())};
+}
+
 NodePoses posesAt(const SceneAnimation& animation, std::size_t clip, float time) {
     NodePoses out;
     out.weights.resize(animation.nodes.size());
-    std::vector<NodePose> poses;
-    for (const AnimatedNode& node : animation.nodes) poses.push_back(node.rest);
+    std::vector<NodePose> poses = restOf(animation);
     for (const NodeTrack& track : animation.clips.at(clip).tracks) {
         if (track.value == NodeValue::Weights) {
             out.weights[track.node] = track.weightsAt(time);
@@ -132,12 +156,7 @@ NodePoses posesAt(const SceneAnimation& animation, std::size_t clip, float time)
         if (track.value == NodeValue::Rotation) pose.rotation = quatOf(v);
         if (track.value == NodeValue::Scale) pose.scale = glm::vec3(v);
     }
-    out.worldFromNode.resize(poses.size());
-    for (const std::size_t n : animation.parentsFirst) {
-        const int parent = animation.nodes[n].parent;
-        const glm::mat4 local = poses[n].parentFromNode();
-        out.worldFromNode[n] = parent < 0 ? local : out.worldFromNode[std::size_t(parent)] * local;
-    }
+    out.worldFromNode = worldFromNodes(animation, poses);
     return out;
 }
 

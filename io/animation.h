@@ -95,6 +95,7 @@ struct NodePoses {
     std::vector<std::vector<float>> weights;  // by node; empty: as at rest
 };
 CONELIGHT_API NodePoses posesAt(const SceneAnimation& animation, std::size_t clip, float time);
+CONELIGHT_API NodePoses restPoses(const SceneAnimation& animation);
 
 // Puts the scene that `animation` was loaded with into the pose of clip number `clip` at `time`, s: all but its
 // meshes, which deform() poses. An

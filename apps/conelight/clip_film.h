@@ -15,9 +15,8 @@ struct ClipFilm {
     std::function<void(Session&, int frame)> beforeFrame;
 };
 
-// `rest`: the scene as a session holds it, with its movement. Throws Error(Usage), starting with `file`, for a clip
-// that is not there.
-ClipFilm clipFilm(const std::string& file, const Scene& rest, io::SceneAnimation animation,
-                  const std::string& clip, float framesPerSecond);
+// Of a session with this movement. Throws Error(Usage), starting with `file`, for a clip that is not there.
+ClipFilm clipFilm(const std::string& file, const io::SceneAnimation& animation, const std::string& clip,
+                  float framesPerSecond);
 
 }  // namespace conelight::program

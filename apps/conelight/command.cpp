@@ -225,12 +225,13 @@ void applyEnvironment(Scene& scene, const ViewOptions& options) {
 }  // namespace
 
 Scene openScene(const std::string& path, const ViewOptions& options, Progress& progress,
-                io::SceneAnimation* animation) {
+                io::SceneAnimation* animation, bool needsClips) {
     progress.show("loading " + path);
     io::LoadOptions load;
     load.allowOutside = options.allowOutside;
-    Scene scene =
-        animation == nullptr ? io::loadScene(path, load) : io::loadAnimatedScene(path, load, *animation);
+    Scene scene = animation == nullptr ? io::loadScene(path, load)
+                  : needsClips         ? io::loadAnimatedScene(path, load, *animation)
+                                       : loadWithClips(path, load, *animation);
     if (!options.sky.empty()) scene.sky = glm::max(parseVec3("--sky", options.sky), glm::vec3(0));
     applyEnvironment(scene, options);
     completeScene(scene);

@@ -95,9 +95,10 @@ void addAllowOutside(CLI::App& command, bool& allow);
 std::unique_ptr<platform::HeadlessContext> openContext(const ViewOptions& options);
 
 // Loads a scene, prints its notes, completes it, applies --sky and --environment.
-// `animation`: with the movement of glTF files; null: without.
+// `animation`: with the movement of glTF files; null: without. Clips that cannot be used are a note, and with
+// `needsClips` an error.
 Scene openScene(const std::string& path, const ViewOptions& options, Progress& progress,
-                io::SceneAnimation* animation = nullptr);
+                io::SceneAnimation* animation = nullptr, bool needsClips = false);
 // The settings a scene starts with in a mode: the scene's own block, then --voxels and --set.
 Settings settingsFor(const Scene& scene, const std::string& mode, const ViewOptions& options);
 Camera cameraFor(const Scene& scene, const ViewOptions& options);

@@ -266,10 +266,9 @@ Request filmRequest(const RenderOptions& options, Session& session) {
 }
 
 // What moves in the film, and its frames where their number is not given.
-void addClip(RenderOptions& options, const Scene& scene, io::SceneAnimation animation) {
+void addClip(RenderOptions& options, const io::SceneAnimation& animation) {
     if (options.clip.empty()) return;
-    const ClipFilm film =
-        clipFilm(options.scene, scene, std::move(animation), options.clip, options.framesPerSecond);
+    const ClipFilm film = clipFilm(options.scene, animation, options.clip, options.framesPerSecond);
     if (options.frames == 0) options.frames = film.frames;
     options.script.beforeFrame = film.beforeFrame;
 }
@@ -327,8 +326,9 @@ void run(RenderOptions options) {
     if (!options.pathFile.empty()) readCameraPath(options.pathFile);
     Progress progress;
     io::SceneAnimation animation;
-    Scene scene =
-        openScene(options.scene, options.view, progress, options.clip.empty() ? nullptr : &animation);
+    Scene scene = openScene(options.scene, options.view, progress,
+                            options.clip.empty() && !options.script.given() ? nullptr : &animation,
+                            !options.clip.empty());
     const bool onCpu = !options.mode.empty() && !isRendererMode(options.mode);
     request.settings = settingsFor(scene, onCpu ? "cones" : options.mode, options.view);
     request.mode = onCpu ? options.mode : getSetting(request.settings, "mode");
@@ -337,8 +337,9 @@ void run(RenderOptions options) {
 
     PictureSource source(options.view, options.shaderDirectory);
     request.settings.component = request.components.front();
-    addClip(options, scene, std::move(animation));
+    addClip(options, animation);
     Session session(std::move(scene), options.scene, request.settings, request.mode, request.camera);
+    session.setAnimation(std::move(animation));
     session.allowOutside(options.view.allowOutside);
     if (isFilm(options)) {
         runScript(options.script, session, &source, request, progress, filmRequest(options, session));

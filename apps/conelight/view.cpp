@@ -32,12 +32,14 @@ struct ViewCommand {
 
 Session openSession(const ViewCommand& options) {
     Progress progress;
-    Scene scene = openScene(options.scene, options.view, progress);
+    io::SceneAnimation animation;
+    Scene scene = openScene(options.scene, options.view, progress, &animation);
     const std::string mode = modeFor(options.mode, options.view);
     const Settings settings = settingsFor(scene, isSettingsMode(mode) ? mode : "cones", options.view);
     const Camera camera = cameraFor(scene, options.view);
     Session session(std::move(scene), options.scene, settings,
                     mode.empty() ? getSetting(settings, "mode") : mode, camera);
+    session.setAnimation(std::move(animation));
     session.allowOutside(options.view.allowOutside);
     return session;
 }

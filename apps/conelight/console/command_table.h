@@ -101,6 +101,7 @@ CommandGroup windowCommands();   // commands_window.cpp
 Command lightCommand();                 // commands_light.cpp
 std::vector<Command> objectCommands();  // commands_objects.cpp
 Command pathCommand();                  // commands_path.cpp
+Command clipCommand();                  // commands_clip.cpp
 Command presetCommand();                // commands_preset.cpp
 Command qualityCommand();               // commands_preset.cpp
 Command whyCommand();                   // commands_why.cpp

@@ -165,7 +165,7 @@ CommandGroup cameraCommands() {
         "camera frame OBJECT     an object in the middle, seen from this side\n"
         "camera add NAME         keep the view as a camera of the scene";
     command.run = camera;
-    return {"Camera", {command, pathCommand()}};
+    return {"Camera", {command, pathCommand(), clipCommand()}};
 }
 
 }  // namespace conelight::program

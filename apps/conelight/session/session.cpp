@@ -44,6 +44,18 @@ Edit editOf(const T& before, const T& after) {
 
 }  // namespace
 
+Scene loadWithClips(const std::string& path, const io::LoadOptions& options, io::SceneAnimation& animation) {
+    try {
+        return io::loadAnimatedScene(path, options, animation);
+    } catch (const Error& error) {
+        // Clips alone may be at fault: a scene without them is better than none.
+        animation = {};
+        Scene scene = io::loadScene(path, options);
+        scene.notes.push_back(std::string("without its clips: ") + error.what());
+        return scene;
+    }
+}
+
 Session::Session() {
     scene_.name = "empty";
     completeScene(scene_);
@@ -71,11 +83,13 @@ void Session::startRevisions() {
 std::vector<std::string> Session::open(const std::string& path, bool keepView) {
     io::LoadOptions load;
     load.allowOutside = allowOutside_;
-    Scene loaded = io::loadScene(path, load);
+    io::SceneAnimation animation;
+    Scene loaded = loadWithClips(path, load, animation);
     completeScene(loaded);
     const Settings start = startSettings(loaded);
     scene_ = std::move(loaded);
     startRevisions();
+    setAnimation(std::move(animation));
     path_ = path;
     if (!keepView) {
         settings_ = start;
@@ -194,12 +208,6 @@ void Session::setInstances(const std::vector<std::pair<std::size_t, Instance>>& 
         step.edits.push_back(std::move(edit));
     }
     if (!step.edits.empty()) commit(std::move(step));
-}
-
-void Session::setMesh(std::size_t index, Mesh mesh) {
-    scene_.meshes.at(index) = std::move(mesh);
-    ++meshRevisions_.at(index);
-    ++revisions_.meshes;
 }
 
 void Session::setInstanceList(const std::vector<Instance>& instances, const std::string& label) {

@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "io/animation.h"
 #include "session/camera_path.h"
 #include "session/edit.h"
 #include "session/frame_times.h"
@@ -30,6 +31,14 @@ struct Selection {
     SelectionKind kind = SelectionKind::None;
     std::size_t index = 0;
     bool operator==(const Selection&) const = default;
+};
+
+// The pose of a scene with clips.
+struct ClipState {
+    std::size_t clip = 0;
+    double seconds = 0;
+    bool posed = false;  // else: as it was opened
+    bool playing = false, loops = true;
 };
 
 // Where the last ray met a surface, to be drawn as a mark.
@@ -51,6 +60,9 @@ std::vector<std::string> sessionModes();
 const char* aboutMode(const std::string& mode);
 // `mode` as a mode of the renderer: those on the CPU have none of their own, and stand on `cones`.
 bool isSettingsMode(const std::string& mode);
+
+// A scene with its clips; when these cannot be used, without them and with a note.
+Scene loadWithClips(const std::string& path, const io::LoadOptions& options, io::SceneAnimation& animation);
 
 class Session {
   public:
@@ -127,8 +139,18 @@ class Session {
     void finishPlaying();  // at once at the path's end
     void select(const Selection& selection);
     void setRayMark(const std::optional<RayMark>& mark);
-    // The same mesh with its vertices elsewhere. No step of undo: a clip's pose is none of the scene's.
-    void setMesh(std::size_t index, Mesh mesh);
+    // Clips of the scene as it is now, which was loaded with `animation`. Poses are no steps of undo.
+    void setAnimation(io::SceneAnimation animation);
+    const io::SceneAnimation& animation() const { return animation_; }
+    const std::vector<io::AnimationClip>& clips() const { return animation_.clips; }
+    const ClipState& clipState() const { return clip_; }
+    // Throws Error(Usage) without such a clip, and when objects came or went since the scene was opened.
+    void poseClip(std::size_t clip, double seconds);
+    void playClip(std::size_t clip);  // from where it is, from its start at its end
+    void stopClip() { clip_.playing = false; }
+    void setClipLoops(bool loops) { clip_.loops = loops; }
+    void restClip();
+    void stepClip(double seconds);  // of the clock, while one plays
     void askForVoxels() { ++revisions_.voxels; }
 
     // Return the label of what was undone or redone; nothing when there is none.
@@ -159,6 +181,9 @@ class Session {
     void apply(const Edit& edit, bool forward);
     void place(const Camera& camera);
     void takeInstances(const std::vector<Instance>& instances);
+    void takePose(const io::NodePoses& poses);
+    void followClipCamera();
+    double clipDuration(std::size_t clip) const;
 
     struct Playing {
         std::chrono::steady_clock::time_point from;
@@ -180,6 +205,12 @@ class Session {
     Revisions revisions_;
     std::vector<std::uint64_t> instanceRevisions_, materialRevisions_;
     std::vector<std::uint64_t> meshRevisions_;
+    io::SceneAnimation animation_;
+    ClipState clip_;
+    Scene clipRest_, clipPosed_;            // instances, lights and cameras alone
+    std::vector<std::uint8_t> clipHidden_;  // instances that have no size in the pose
+    std::uint64_t clipList_ = 0;            // Revisions::instanceList that the clips fit to
+    std::optional<std::pair<std::size_t, Camera>> clipCamera_;  // of the file, and where a pose put it
     FrameTimes frameTimes_;
     std::deque<Request> requests_;
     std::deque<Step> done_;

@@ -34,6 +34,9 @@ struct FilmNumbers {
 void pathEditor(Session& session, const FilmNumbers& film, const RunLine& run,
                 const std::function<void(FilePurpose)>& ask);
 
+// Clips of the scene, which has some.
+void clipEditor(Session& session);
+
 // Times of passes and frames, memory.
 // `guiMs`: CPU time of a frame of the GUI.
 void statsPanel(const FrameStats& stats, const FrameTimes& times, double guiMs);

@@ -107,7 +107,7 @@ bool PictureView::update(const Session& session, const glm::ivec2& areaPx, bool 
 
     // A hand that holds a handle goes on: a picture in full would hold it up.
     if (gizmo.active() && slow) lastMove_ = ImGui::GetTime();
-    if (session.playing()) lastMove_ = lastFlight_ = ImGui::GetTime();
+    if (session.playing() || session.clipState().playing) lastMove_ = lastFlight_ = ImGui::GetTime();
 
     const bool coarse = moving();
     if (!std::exchange(wasMoving_, coarse) && coarse) beginMovement();

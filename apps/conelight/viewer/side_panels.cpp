@@ -66,6 +66,9 @@ void RightPanel::show(const Layout& layout) {
                {layout.right, layout.display.y - layout.top});
     if (ImGui::CollapsingHeader("Selection", ImGuiTreeNodeFlags_DefaultOpen)) selectionEditor(in_.session);
     if (ImGui::CollapsingHeader("Pixel", ImGuiTreeNodeFlags_DefaultOpen)) in_.probe.showPanel();
+    if (!in_.session.clips().empty()) {
+        if (ImGui::CollapsingHeader("Clips", ImGuiTreeNodeFlags_DefaultOpen)) clipEditor(in_.session);
+    }
     const bool camera = ImGui::CollapsingHeader("Camera");
     notePlace("header:Camera");
     if (camera) showCamera();

@@ -17,9 +17,10 @@
 namespace conelight::program {
 namespace {
 
-constexpr double kIdleWait = 0.5;    // s; the files are looked at this often while nothing else happens
-constexpr double kPace = 0.008;      // s between frames in which only the GUI changes
-constexpr double kUserPause = 0.15;  // s after the last input until a slow picture is refined further
+constexpr double kIdleWait = 0.5;      // s; the files are looked at this often while nothing else happens
+constexpr double kLongestStep = 0.25;  // s of a clip in one frame, however long that took
+constexpr double kPace = 0.008;        // s between frames in which only the GUI changes
+constexpr double kUserPause = 0.15;    // s after the last input until a slow picture is refined further
 // s after a button of the mouse: a second click comes within ImGui's 0.3; a pass between would hold it up.
 constexpr double kClickPause = 0.4;
 
@@ -155,7 +156,7 @@ int Viewer::run() {
 double Viewer::secondsToSleep() const {
     const bool commandsGoOn = !console_.commands().idle() && !work_.wakesWindow();
     const bool busy = more_ || session_.hasRequests() || commandsGoOn || places_.open() ||
-                      session_.playing() || gui_.hasInput();
+                      session_.playing() || session_.clipState().playing || gui_.hasInput();
     if (busy) return lastWasIdle_ ? kPace : 0;
     const ViewFlags& flags = session_.flags();
     return flags.dynamic ? std::min<double>(flags.period, kIdleWait) : kIdleWait;
@@ -178,6 +179,7 @@ void Viewer::takeCommands() {
 // Picture first, then the GUI round it, then what the GUI found out about the picture.
 void Viewer::frame() {
     const double now = ImGui::GetTime();
+    if (drawn_) session_.stepClip(std::min(now - lastFrame_, kLongestStep));
     updatePictures();
     window_.clear(glm::vec3(0.07f));
     timings_.beginGui();
