@@ -15,7 +15,7 @@ std::vector<float> rgbOf(const Image& image) {
 }
 
 void writePicture(const std::string& path, const Image& image, const ImageSettings& settings,
-                  const PictureTexts& texts, const std::vector<std::pair<std::string, Image>>& layers) {
+                  const PictureTexts& texts, const PictureLayers& layers) {
     const WritingScope writing;
     const io::ImageFormat format = io::imageFormatOf(path);
     if (format == io::ImageFormat::Png || format == io::ImageFormat::Jpg) {

@@ -53,8 +53,6 @@ struct RenderOptions {
     ScriptOptions script;
 };
 
-using Layers = std::vector<std::pair<std::string, Image>>;
-
 void reportBadPixels(const Image& image) {
     std::size_t bad = 0;
     for (const glm::vec4& pixel : image.pixels)
@@ -122,9 +120,13 @@ void checkFilm(const RenderOptions& options) {
         usage(fmt::format(
             "{}: {}: a name ending in .mp4, or numbered pictures as in frame%04d.png, would be right", option,
             options.output.empty() ? "no --output" : options.output));
-    for (const auto& [name, given] : {std::pair<const char*, bool>{"--aov", !options.aovs.empty()},
-                                      {"--stats", !options.statsFile.empty()}})
-        if (given) usage(fmt::format("{}: is of one picture; without {} would be right", name, option));
+    if (!options.statsFile.empty())
+        usage(fmt::format("--stats: is of one picture; without {} would be right", option));
+    const bool layered = options.output.find('%') != std::string::npos &&
+                         io::imageFormatOf(options.output) == io::ImageFormat::Exr;
+    if (!options.aovs.empty() && !layered)
+        usage(options.output +
+              ": --aov: this holds one picture a frame; a name as in frame%04d.exr would be right");
 }
 
 void checkFiles(const RenderOptions& options) {
@@ -168,14 +170,14 @@ void addComponents(const RenderOptions& options, PictureRequest& request) {
     }
 }
 
-Layers layersOf(const RenderOptions& options, const Picture& picture) {
-    Layers layers;
+PictureLayers layersOf(const RenderOptions& options, const Picture& picture) {
+    PictureLayers layers;
     std::size_t next = 1;
     for (const std::string& aov : splitList(options.aovs)) {
-        if (reference::isTracedLayer(aov))
-            layers.emplace_back(aov, *reference::layerOf(*picture.traced, aov));
-        else
+        if (!reference::isTracedLayer(aov))
             layers.emplace_back(aov, picture.images[next++]);
+        else if (picture.traced)  // not of a frame that shows nothing
+            layers.emplace_back(aov, *reference::layerOf(*picture.traced, aov));
     }
     return layers;
 }
@@ -342,6 +344,8 @@ void run(RenderOptions options) {
     session.setAnimation(std::move(animation));
     session.allowOutside(options.view.allowOutside);
     if (isFilm(options)) {
+        if (!options.aovs.empty())
+            options.script.layers = [&options](const Picture& drawn) { return layersOf(options, drawn); };
         runScript(options.script, session, &source, request, progress, filmRequest(options, session));
         takeSession(session, request);
         if (options.radiosity.bakeFile.empty()) return;
@@ -429,7 +433,8 @@ void addRender(CLI::App& app) {
         ->check(CLI::Range(0, 64));
     command
         ->add_option("--aov", options->aovs,
-                     "components that become further layers of an .exr, comma-separated; mode reference: "
+                     "components that become further layers of an .exr, or of each frame%04d.exr, "
+                     "comma-separated; mode reference: "
                      "also " +
                          reference::tracedLayerNames())
         ->type_name("A,B");

@@ -34,6 +34,7 @@ class Runner {
 
     void run(const ScriptOptions& options, const std::optional<Request>& then) {
         beforeFrame_ = options.beforeFrame;
+        layers_ = options.layers;
         for (const std::string& file : options.files) {
             if (file == "-")
                 console_.submit({std::istreambuf_iterator<char>(std::cin), {}}, "standard input");
@@ -137,8 +138,9 @@ class Runner {
             if (beforeFrame_) beforeFrame_(session_, index);
             if (request.turntable) session_.moveCamera(turntableFrame(start, index, total));
             if (request.alongPath) session_.moveCamera(session_.cameraPath().frame(index, total));
-            const Image image = draw();
-            video.add(image, session_.shownSettings().image, texts());
+            const Picture picture = drawPicture(layers_ != nullptr);
+            video.add(picture.images.front(), session_.shownSettings().image, texts(),
+                      layers_ ? layers_(picture) : PictureLayers{});
         }
         session_.moveCamera(start);
         video.finish();
@@ -160,16 +162,24 @@ class Runner {
         return provenanceOf(requestFor(session_, base_), session_.path(), source_->device());
     }
 
-    Image draw() {
+    Image draw() { return std::move(drawPicture(false).images.front()); }
+
+    // `withAll`: all components of `base`, else the one that is shown.
+    Picture drawPicture(bool withAll) {
         if (source_ == nullptr)
             throw Error(ErrorKind::Usage, "this command needs a picture, which only `render` draws");
-        const PictureRequest request = requestFor(session_, base_);
+        PictureRequest request = requestFor(session_, base_);
+        if (withAll)
+            request.components.insert(request.components.end(), base_.components.begin() + 1,
+                                      base_.components.end());
         if (session_.showsNothing()) {
             Image image{request.size.width, request.size.height, {}};
             image.pixels.assign(
                 static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
                 glm::vec4(session_.scene().sky, 0));
-            return image;
+            Picture nothing;
+            nothing.images.assign(request.components.size(), image);
+            return nothing;
         }
         source_->follow(session_);
         const auto start = std::chrono::steady_clock::now();
@@ -178,7 +188,7 @@ class Runner {
         stats_ = picture.stats;
         session_.frameDrawn(taken.count());
         if (picture.stopped) throw InterruptedError();  // half a picture is none of a script
-        return std::move(picture.images.front());
+        return picture;
     }
 
     Session& session_;
@@ -188,6 +198,7 @@ class Runner {
     Console console_;
     FrameStats stats_;
     std::function<void(Session&, int frame)> beforeFrame_;
+    std::function<PictureLayers(const Picture&)> layers_;
 };
 
 }  // namespace

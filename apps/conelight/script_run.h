@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "picture_file.h"
 #include "picture_source.h"
 #include "session/session.h"
 
@@ -19,6 +20,8 @@ struct ScriptOptions {
     std::vector<std::string> commands;                     // --exec
     std::vector<std::string> files;                        // --script
     std::function<void(Session&, int frame)> beforeFrame;  // of each film, for what moves beside the camera
+    // Of the film behind the commands, if any: its frames are drawn with all components of `base`.
+    std::function<PictureLayers(const Picture&)> layers;
     bool given() const { return !commands.empty() || !files.empty(); }
     void addTo(CLI::App& command);
 };

@@ -70,8 +70,9 @@ VideoFile::~VideoFile() {
     std::filesystem::remove(partial_, code);
 }
 
-void VideoFile::add(const Image& image, const ImageSettings& settings, const PictureTexts& texts) {
-    if (partial_.empty()) return writePicture(numbered(file_, count_++), image, settings, texts);
+void VideoFile::add(const Image& image, const ImageSettings& settings, const PictureTexts& texts,
+                    const PictureLayers& layers) {
+    if (partial_.empty()) return writePicture(numbered(file_, count_++), image, settings, texts, layers);
     const IgnorePipeSignal ignore;
     const std::vector<std::uint8_t> bytes = toneMapped(image, settings);
     if (std::fwrite(bytes.data(), 1, bytes.size(), pipe_) != bytes.size() || std::fflush(pipe_) != 0)

@@ -21,8 +21,9 @@ class VideoFile {
     VideoFile& operator=(const VideoFile&) = delete;
 
     // Throws Error(Runtime), of ffmpeg too: that it is not installed, or what it ended with.
-    // `texts`: of numbered pictures.
-    void add(const Image& image, const ImageSettings& settings, const PictureTexts& texts = {});
+    // `texts` and `layers`: of numbered pictures.
+    void add(const Image& image, const ImageSettings& settings, const PictureTexts& texts = {},
+             const PictureLayers& layers = {});
     void finish();
 
   private:

@@ -160,6 +160,24 @@ TEST_F(FilmTest, PartsOfAFilmAreItsFrames) {
     expectOneLine(render("--turntable --frames 3-5/5 -o " + scratchPath("film_h%02d.png")), 2, "FIRST-LAST");
 }
 
+TEST_F(FilmTest, FramesHaveLayersOfTheirOwn) {
+    const std::string path = keys();
+    const CommandResult film = render("--mode phong --frames 1-2/4 --aov albedo,depth --path " + path +
+                                      " -o " + scratchPath("film_n%02d.exr"));
+    ASSERT_EQ(film.status, 0) << film.output;
+    const std::string still = file("still_layers.exr");
+    ASSERT_EQ(render("--mode phong --aov albedo,depth --exec 'path load " + path + "; path at 1' -o " + still)
+                  .status,
+              0);
+    const std::vector<float> frame = pixelsOf(scratchPath("film_n01.exr"));
+    EXPECT_EQ(frame.size(), 3u * 3u * 48u * 32u);
+    EXPECT_TRUE(frame == pixelsOf(still));
+    EXPECT_TRUE(frame != pixelsOf(scratchPath("film_n02.exr")));
+    for (const char* name : {"film_n%02d.png", "film_n.mp4"})
+        expectOneLine(render("--turntable --frames 2 --aov depth -o " + scratchPath(name)), 2,
+                      "frame%04d.exr");
+}
+
 TEST_F(FilmTest, APartOfAClipLooksThroughItsCamera) {
     const std::string moving = risingBlock("flight.gltf", {}, "front");
     const std::string options = kSmall + "--aa 0 --mode phong --animate rise --fps 2 -o ";
