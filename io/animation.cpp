@@ -162,7 +162,11 @@ NodePoses posesAt(const SceneAnimation& animation, std::size_t clip, float time)
 
 void poseScene(const SceneAnimation& animation, std::size_t clip, float time, const Scene& rest,
                Scene& scene) {
-    const std::vector<glm::mat4> worldFromNode = posesAt(animation, clip, time).worldFromNode;
+    poseScene(animation, posesAt(animation, clip, time), rest, scene);
+}
+
+void poseScene(const SceneAnimation& animation, const NodePoses& poses, const Scene& rest, Scene& scene) {
+    const std::vector<glm::mat4>& worldFromNode = poses.worldFromNode;
     for (const SceneAnimation::Hung& hung : animation.instances) {
         Instance& instance = scene.instances[hung.index];
         const glm::mat4 placed = worldFromNode[hung.node] * hung.nodeFromThing;

@@ -3,8 +3,8 @@
 // a time gives the transforms of instances, point, spot and directional lights, and cameras, and the vertices of
 // meshes with skins or morph targets.
 //
-// Limits: rectangular lights stay where they are. A clip that mirrors
-// what its rest pose does not mirror shows back sides.
+// Limits: rectangular lights stay where they are. A clip that mirrors what its rest pose does not mirror shows back
+// sides.
 #pragma once
 
 #include <cstddef>
@@ -97,9 +97,11 @@ struct NodePoses {
 CONELIGHT_API NodePoses posesAt(const SceneAnimation& animation, std::size_t clip, float time);
 CONELIGHT_API NodePoses restPoses(const SceneAnimation& animation);
 
-// Puts the scene that `animation` was loaded with into the pose of clip number `clip` at `time`, s: all but its
-// meshes, which deform() poses. An
-// instance whose transform has no inverse then is invisible; others are visible as `rest` has them.
+// Puts the scene that `animation` was loaded with into a pose: of clip number `clip` at `time`, s, or the one given.
+// Meshes are deform()'s. An instance whose transform has no inverse then is invisible; others are visible as `rest`
+// has them.
+CONELIGHT_API void poseScene(const SceneAnimation& animation, const NodePoses& poses, const Scene& rest,
+                             Scene& scene);
 CONELIGHT_API void poseScene(const SceneAnimation& animation, std::size_t clip, float time, const Scene& rest,
                              Scene& scene);
 
@@ -114,6 +116,10 @@ CONELIGHT_API std::size_t clipNumber(const SceneAnimation& animation, const std:
 // cannot be used, too.
 CONELIGHT_API Scene loadAnimatedScene(const std::string& pathOrBuiltin, const LoadOptions& options,
                                       SceneAnimation& animation);
+
+// The same; clips that cannot be used are left out, with a note.
+CONELIGHT_API Scene loadMovingScene(const std::string& pathOrBuiltin, const LoadOptions& options,
+                                    SceneAnimation& animation);
 
 // Where a node puts a light, and a camera of this distance to its target. False: no usable direction.
 CONELIGHT_API void placeLight(Light& light, const glm::mat4& worldFromNode);

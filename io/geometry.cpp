@@ -196,6 +196,8 @@ std::vector<KeptInstance> removeMirrors(Scene& scene) {
             ++dropped;
             continue;
         }
+        origins.push_back(
+            {std::size_t(&instance - scene.instances.data()), determinant < 0.0, instance.mesh});
         if (determinant < 0.0) {
             const auto [entry, isNew] = mirroredOf.try_emplace(instance.mesh, int(scene.meshes.size()));
             if (isNew) {
@@ -205,7 +207,6 @@ std::vector<KeptInstance> removeMirrors(Scene& scene) {
             instance.mesh = entry->second;
             instance.worldFromObject[0] = -instance.worldFromObject[0];
         }
-        origins.push_back({std::size_t(&instance - scene.instances.data()), determinant < 0.0});
         kept.push_back(std::move(instance));
     }
     scene.instances = std::move(kept);

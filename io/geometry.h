@@ -24,6 +24,7 @@ void makeTangents(Mesh& mesh);
 struct KeptInstance {
     std::size_t before = 0;  // its index
     bool mirrored = false;
+    int mesh = -1;  // before it was mirrored
 };
 std::vector<KeptInstance> removeMirrors(Scene& scene);
 

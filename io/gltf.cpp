@@ -52,7 +52,7 @@ class Reader {
   private:
     void checkExtensions();
     void keepHung(const std::vector<KeptInstance>& kept);
-    void mirrorMoving(std::size_t node, std::size_t instance);
+    void mirrorMoving(std::size_t mesh, std::size_t copy);
     void findWorldTransforms();
     std::vector<std::size_t> nodesOfScene();
     void placeMesh(std::size_t node, const GltfValue& value, GltfMeshes& meshes);
@@ -413,21 +413,18 @@ void Reader::addCamera(std::size_t node, const GltfValue& value) {
     scene_.cameras.push_back(std::move(to));
 }
 
-// A moving mesh whose instance, now number `instance`, was mirrored: it has a mesh of its own.
-void Reader::mirrorMoving(std::size_t node, std::size_t instance) {
-    const std::size_t mesh = std::size_t(scene_.instances[instance].mesh);
-    for (std::size_t m = 0; m < animation_.meshes.size(); ++m) {
-        DeformedMesh& moving = animation_.meshes[m];
-        if (moving.node != node || !moving.joints.empty() || moving.mesh == mesh) continue;
-        if (scene_.meshes[moving.mesh].name != scene_.meshes[mesh].name) continue;
-        DeformedMesh turned = moving;
-        turned.mesh = mesh;
-        turned.mirrored = true;
-        const bool known = std::any_of(animation_.meshes.begin(), animation_.meshes.end(),
-                                       [&](const DeformedMesh& one) { return one.mesh == mesh; });
-        if (!known) animation_.meshes.push_back(std::move(turned));
-        return;
-    }
+// A mesh that moves, and its mirrored copy.
+void Reader::mirrorMoving(std::size_t mesh, std::size_t copy) {
+    const auto moving = [&](std::size_t number) {
+        return std::find_if(animation_.meshes.begin(), animation_.meshes.end(),
+                            [&](const DeformedMesh& one) { return one.mesh == number; });
+    };
+    const auto found = moving(mesh);
+    if (found == animation_.meshes.end() || moving(copy) != animation_.meshes.end()) return;
+    DeformedMesh turned = *found;
+    turned.mesh = copy;
+    turned.mirrored = true;
+    animation_.meshes.push_back(std::move(turned));
 }
 
 // Instances that removeMirrors dropped are out of the list; meshes that it mirrored are turned back.
@@ -441,8 +438,10 @@ void Reader::keepHung(const std::vector<KeptInstance>& kept) {
             continue;
         SceneAnimation::Hung one = animation_.instances[next];
         one.index = i;
-        if (kept[i].mirrored) one.nodeFromThing[0] = -one.nodeFromThing[0];
-        if (kept[i].mirrored) mirrorMoving(one.node, i);
+        if (kept[i].mirrored) {
+            one.nodeFromThing[0] = -one.nodeFromThing[0];
+            mirrorMoving(std::size_t(kept[i].mesh), std::size_t(scene_.instances[i].mesh));
+        }
         hung.push_back(one);
     }
     animation_.instances = std::move(hung);

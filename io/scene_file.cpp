@@ -96,6 +96,18 @@ Scene loadAnimatedScene(const std::string& pathOrBuiltin, const LoadOptions& opt
     return load(pathOrBuiltin, options, &animation);
 }
 
+Scene loadMovingScene(const std::string& pathOrBuiltin, const LoadOptions& options,
+                      SceneAnimation& animation) {
+    try {
+        return loadAnimatedScene(pathOrBuiltin, options, animation);
+    } catch (const Error& error) {
+        animation = {};
+        Scene scene = loadScene(pathOrBuiltin, options);
+        scene.notes.push_back(std::string("clips are left out: ") + error.what());
+        return scene;
+    }
+}
+
 std::vector<std::string> sceneExtensions() {
     const std::vector<std::string> foreign = assimpExtensions();
     std::set<std::string> all(foreign.begin(), foreign.end());

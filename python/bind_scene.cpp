@@ -34,25 +34,13 @@ std::string pathOf(const py::object& given) {
     return py::str(py::module_::import("os").attr("fspath")(given));
 }
 
-// A scene whose clips alone are broken is one at rest, with a note.
-Scene loadMoving(const std::string& path, const io::LoadOptions& options, io::SceneAnimation& animation) {
-    try {
-        return io::loadAnimatedScene(path, options, animation);
-    } catch (const Error& error) {
-        animation = {};
-        Scene scene = io::loadScene(path, options);
-        scene.notes.push_back(std::string("clips are left out: ") + error.what());
-        return scene;
-    }
-}
-
 Handle load(const py::object& given, bool complete, bool allowOutside) {
     const std::string path = pathOf(given);
     return unlocked([&] {
         io::LoadOptions options;
         options.allowOutside = allowOutside;
         auto movement = std::make_shared<Movement>();
-        Scene scene = loadMoving(path, options, movement->animation);
+        Scene scene = io::loadMovingScene(path, options, movement->animation);
         if (complete) completeScene(scene);
         movement->rest.instances = scene.instances;
         movement->rest.lights = scene.lights;
@@ -178,8 +166,8 @@ void pose(const Handle& scene, const py::object& clip, float time) {
     const std::size_t number = py::isinstance<io::AnimationClip>(clip)
                                    ? io::clipNumber(animation, clip.cast<const io::AnimationClip&>().name)
                                    : io::clipNumber(animation, py::str(clip));
-    io::poseScene(animation, number, time, scene->movement->rest, scene->edit());
     const io::NodePoses poses = io::posesAt(animation, number, time);
+    io::poseScene(animation, poses, scene->movement->rest, scene->edit());
     for (const io::DeformedMesh& moving : animation.meshes) {
         Mesh mesh = scene->get().meshes[moving.mesh];
         if (io::deform(moving, poses, mesh)) scene->editGeometry().meshes[moving.mesh] = std::move(mesh);

@@ -231,7 +231,7 @@ Scene openScene(const std::string& path, const ViewOptions& options, Progress& p
     load.allowOutside = options.allowOutside;
     Scene scene = animation == nullptr ? io::loadScene(path, load)
                   : needsClips         ? io::loadAnimatedScene(path, load, *animation)
-                                       : loadWithClips(path, load, *animation);
+                                       : io::loadMovingScene(path, load, *animation);
     if (!options.sky.empty()) scene.sky = glm::max(parseVec3("--sky", options.sky), glm::vec3(0));
     applyEnvironment(scene, options);
     completeScene(scene);

@@ -4,14 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <span>
 
-#include "io/files.h"
 #include "support/gl_fixture.h"
+#include "support/moving_scene.h"
 #include "support/program.h"
 
 namespace conelight::test {
@@ -75,46 +73,9 @@ TEST_F(FilmTest, FramesAreStillsAlongThePathBitForBit) {
     EXPECT_TRUE(bytesOf(scratchPath("film_a01.exr")) == bytesOf(key));
 }
 
-// The Cornell box as a .gltf whose short block, or `what`, rises by half a metre within a second; not moved at all, but placed
-// there, if `placed` is given.
-std::string risingBlock(const std::string& name, const std::vector<float>& placed = {},
-                        const std::string& what = "short block") {
-    const std::string path = file(name);
-    EXPECT_EQ(conelight("convert builtin:cornell '" + path + "' --overwrite").status, 0);
-    nlohmann::json json = nlohmann::json::parse(std::ifstream(path));
-    std::size_t block = 0;
-    while (json["nodes"].at(block)["name"] != what) ++block;
-    const std::size_t lift = json["nodes"].size();
-    json["nodes"].push_back({{"name", "lift"}, {"children", {block}}});
-    for (nlohmann::json& root : json["scenes"][0]["nodes"])
-        if (root == block) root = lift;
-    if (!placed.empty()) {
-        json["nodes"][lift]["translation"] = placed;
-    } else {
-        const float data[] = {0, 1, 0, 0, 0, 0, 0.5f, 0};  // two times, two places
-        const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(data), sizeof data);
-        json["buffers"].push_back(
-            {{"byteLength", sizeof data},
-             {"uri", "data:application/octet-stream;base64," + io::base64Encoded(bytes)}});
-        const std::size_t buffer = json["buffers"].size() - 1, view = json["bufferViews"].size(),
-                          accessor = json["accessors"].size();
-        json["bufferViews"].push_back({{"buffer", buffer}, {"byteOffset", 0}, {"byteLength", 8}});
-        json["bufferViews"].push_back({{"buffer", buffer}, {"byteOffset", 8}, {"byteLength", 24}});
-        json["accessors"].push_back(
-            {{"bufferView", view}, {"componentType", 5126}, {"count", 2}, {"type", "SCALAR"}});
-        json["accessors"].push_back(
-            {{"bufferView", view + 1}, {"componentType", 5126}, {"count", 2}, {"type", "VEC3"}});
-        json["animations"] = {
-            {{"name", "rise"},
-             {"samplers", {{{"input", accessor}, {"output", accessor + 1}}}},
-             {"channels", {{{"sampler", 0}, {"target", {{"node", lift}, {"path", "translation"}}}}}}}};
-    }
-    std::ofstream(path) << json;
-    return path;
-}
-
 TEST_F(FilmTest, FramesOfAClipAreStillsOfItsPoses) {
-    const std::string moving = risingBlock("moving.gltf"), placed = risingBlock("placed.gltf", {0, 0.25f, 0});
+    const std::string moving = risingBlock("film_moving.gltf"),
+                      placed = risingBlock("film_placed.gltf", {0, 0.25f, 0});
     // In mode traced light is carried from frame to frame: like a still, not bit for bit.
     for (const char* mode : {"cones", "reference --spp 4"}) {
         const std::string options = kSmall + "--aa 0 --mode " + mode + " -o ";
@@ -179,7 +140,7 @@ TEST_F(FilmTest, FramesHaveLayersOfTheirOwn) {
 }
 
 TEST_F(FilmTest, APartOfAClipLooksThroughItsCamera) {
-    const std::string moving = risingBlock("flight.gltf", {}, "front");
+    const std::string moving = risingBlock("film_flight.gltf", {}, "front");
     const std::string options = kSmall + "--aa 0 --mode phong --animate rise --fps 2 -o ";
     ASSERT_EQ(conelight("render '" + moving + "'" + options + scratchPath("film_k%02d.png")).status, 0);
     ASSERT_EQ(
@@ -189,41 +150,9 @@ TEST_F(FilmTest, APartOfAClipLooksThroughItsCamera) {
     EXPECT_EQ(bytesOf(scratchPath("film_k01.png")), bytesOf(scratchPath("film_l01.png")));
 }
 
-// The short block rises by a morph target's weight instead of its node: half a metre within a second.
-std::string growingBlock(const std::string& name) {
-    const std::string path = risingBlock(name);
-    nlohmann::json json = nlohmann::json::parse(std::ifstream(path));
-    std::size_t block = 0;
-    while (json["nodes"].at(block)["name"] != "short block") ++block;
-    nlohmann::json& primitive =
-        json["meshes"][json["nodes"][block]["mesh"].get<std::size_t>()]["primitives"][0];
-    const std::size_t count =
-        json["accessors"][primitive["attributes"]["POSITION"].get<std::size_t>()]["count"];
-    std::vector<float> deltas, weights = {0, 1};
-    for (std::size_t i = 0; i < count; ++i) deltas.insert(deltas.end(), {0, 0.5f, 0});
-    const auto accessor = [&](const std::vector<float>& values, const char* type, std::size_t elements) {
-        std::vector<std::uint8_t> bytes(4 * values.size());
-        std::memcpy(bytes.data(), values.data(), bytes.size());
-        json["bufferViews"].push_back({{"buffer", json["buffers"].size()}, {"byteLength", bytes.size()}});
-        json["buffers"].push_back(
-            {{"byteLength", bytes.size()},
-             {"uri", "data:application/octet-stream;base64," + io::base64Encoded(bytes)}});
-        json["accessors"].push_back({{"bufferView", json["bufferViews"].size() - 1},
-                                     {"componentType", 5126},
-                                     {"count", elements},
-                                     {"type", type}});
-        return json["accessors"].size() - 1;
-    };
-    primitive["targets"] = {{{"POSITION", accessor(deltas, "VEC3", count)}}};
-    json["animations"][0]["samplers"][0]["output"] = accessor(weights, "SCALAR", 2);
-    json["animations"][0]["channels"][0]["target"] = {{"node", block}, {"path", "weights"}};
-    std::ofstream(path) << json;
-    return path;
-}
-
 TEST_F(FilmTest, MovingVerticesAreDrawnWhereTheyAre) {
-    const std::string growing = growingBlock("growing.gltf"),
-                      placed = risingBlock("raised.gltf", {0, 0.25f, 0});
+    const std::string growing = growingBlock("film_growing.gltf"),
+                      placed = risingBlock("film_raised.gltf", {0, 0.25f, 0});
     // In mode traced, what the cache has learnt at rest is carried on: it is near the still, no more.
     for (const auto& [mode, bar] :
          {std::pair<std::string, double>{"reference --spp 16", 0.01}, {"cones", 0.01}, {"traced", 0.03}}) {
@@ -249,7 +178,7 @@ TEST_F(FilmTest, MovingVerticesAreDrawnWhereTheyAre) {
 }
 
 TEST_F(FilmTest, ClipsThatAreNotThereAreRefused) {
-    const std::string moving = risingBlock("refused.gltf");
+    const std::string moving = risingBlock("film_refused.gltf");
     const auto film = [&](const std::string& more) {
         return conelight("render '" + moving + "'" + kSmall + "-o " + scratchPath("film_e%02d.png ") + more);
     };

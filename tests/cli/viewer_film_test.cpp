@@ -6,6 +6,7 @@
 
 #include "cli/viewer_panels_support.h"
 #include "io/image_file.h"
+#include "support/moving_scene.h"
 
 namespace conelight::test {
 namespace {
@@ -99,6 +100,27 @@ TEST_F(ViewerPanelsTest, WaitsAreEndedByHand) {
     EXPECT_TRUE(heard("record: stopped at frame")) << viewer->output();
     enter("stop");
     EXPECT_TRUE(heard("stop: nothing is waited for")) << viewer->output();
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0);
+}
+
+TEST_F(ViewerPanelsTest, ClipsPlayHoldAndEndWithTheirObjects) {
+    start("--window 900x700 --voxels 32 --mode phong --no-state '" + risingBlock("viewer_rise.gltf") + "'");
+    settle();
+    EXPECT_NE(answer("clip", "  0 rise").find("1 s"), std::string::npos);
+    click("clip:play");
+    EXPECT_NE(answer("clip", "  0 rise").find("playing"), std::string::npos);
+    click("clip:play");
+    EXPECT_EQ(answer("clip", "  0 rise").find("playing"), std::string::npos);
+    click("clip:time");  // its middle
+    EXPECT_TRUE(eventually([&] { return answer("clip", "  0 rise").find("at 0.5") != std::string::npos; }));
+    click("clip:rest");
+    EXPECT_TRUE(eventually([&] { return answer("clip", "  0 rise").find("at ") == std::string::npos; }));
+    viewer->send("clip play");
+    viewer->send("delete 'tall block'");
+    EXPECT_GT(viewer->placeOf("clip:unfit").z, 0);
+    viewer->send("clip play");
+    EXPECT_TRUE(heard("objects were added or removed")) << viewer->output();
     viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0);
 }

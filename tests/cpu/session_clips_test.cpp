@@ -34,7 +34,7 @@ Session movingSession() {
     grows.value = io::NodeValue::Weights;
     grows.weights = {0, 1};
     animation.clips = {{"go", 1, {moves, grows}}, {"stay", 0.5f, {}}};
-    animation.instances = {{0, 0}};
+    animation.instances = {{0, 0}, {1, 1}};
     animation.lights = {{0, 0}};
     animation.cameras = {{0, 0}};
     io::DeformedMesh moving;
@@ -119,6 +119,32 @@ TEST(SessionClips, HiddenObjectsStayHidden) {
     session.poseClip(0, 1);
     EXPECT_FALSE(session.scene().instances[0].visible);
     EXPECT_FLOAT_EQ(place(session), 2);
+}
+
+TEST(SessionClips, WhatTheClipDoesNotMoveStaysWhereItWasPut) {
+    Session session = movingSession();
+    Instance put = session.scene().instances[1];
+    put.worldFromObject = glm::translate(glm::mat4(1), {0, 0, 9});
+    session.setInstances({{1, put}}, "translate");
+    session.poseClip(0, 0.5);
+    session.poseClip(0, 1);
+    session.restClip();
+    EXPECT_EQ(session.scene().instances[1].worldFromObject[3].z, 9);
+    EXPECT_EQ(place(session), 0);
+    Light lamp = session.scene().lights[0];
+    lamp.position = {0, 5, 0};
+    session.setLights({lamp}, "translate");
+    session.poseClip(1, 0.25);  // which moves nothing
+    EXPECT_EQ(session.scene().lights[0].position.y, 5);
+}
+
+TEST(SessionClips, PlayingEndsWhenObjectsComeOrGo) {
+    Session session = movingSession();
+    session.playClip(0);
+    session.setInstanceList({session.scene().instances[0]}, "delete");
+    EXPECT_NO_THROW(session.stepClip(0.25));
+    EXPECT_FALSE(session.clipState().playing);
+    EXPECT_FALSE(session.clipsFit());
 }
 
 TEST(SessionClips, RefusesWhatDoesNotFit) {

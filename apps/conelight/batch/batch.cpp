@@ -83,6 +83,8 @@ std::vector<std::string> collect(const BatchJob& job, BatchFolder& folder) {
     for (const BatchFile& file : files) sums += file.sha256 + "  " + file.name + "\n";
     io::writeFiles({{folder.at("manifest.json"), bytesOf(manifest.dump(1) + "\n")},
                     {folder.at("SHA256SUMS"), bytesOf(sums)}});
+    std::error_code ignored;
+    fs::remove_all(folder.at("batch/partial"), ignored);  // of attempts that were killed
     return {};
 }
 

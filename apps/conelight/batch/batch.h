@@ -19,7 +19,8 @@ Shard parseShard(const std::string& text);
 // Every count-th task, from the index-th: neighbours are alike, so the shards take about as long.
 std::vector<BatchTask> tasksOf(const BatchJob& job, const Shard& shard);
 
-// Checks every file against its record, then writes manifest.json and SHA256SUMS. Returns what is missing or
+// Checks every file against its record, then writes manifest.json and SHA256SUMS, and clears what attempts that were
+// killed have left. Returns what is missing or
 // not as recorded, one line each; then nothing is written.
 std::vector<std::string> collect(const BatchJob& job, BatchFolder& folder);
 

@@ -37,6 +37,8 @@ struct Frames {
     bool isClip = false;
 };
 
+bool isGenerated(const std::string& scene) { return scene.rfind("builtin:", 0) == 0; }
+
 // What of a value can stand in a file's name.
 std::string nameOf(std::string text) {
     for (char& c : text) {
@@ -136,7 +138,7 @@ void Reader::checkKey(const std::string& key, const std::string& pointer) const 
 
 // A file's name as seen from here.
 std::string Reader::resolved(const std::string& name) const {
-    if (name.rfind("builtin:", 0) == 0 || name == "none" || fs::path(name).is_absolute()) return name;
+    if (isGenerated(name) || name == "none" || fs::path(name).is_absolute()) return name;
     return (folder_ / name).lexically_normal().string();
 }
 
@@ -158,7 +160,7 @@ std::vector<std::string> Reader::scenes() const {
         const std::string pointer = fmt::format("/scenes/{}", i);
         if (!list[i].is_string()) fail(pointer, "a scene is named by a text");
         const std::string name = text(list[i], pointer);
-        const bool generated = name.rfind("builtin:", 0) == 0;
+        const bool generated = isGenerated(name);
         if (!generated && name.find_first_of("*?[") != std::string::npos)
             addGlob(name, pointer, found);
         else
@@ -299,7 +301,7 @@ std::string Reader::filled(const std::string& pattern, const std::string& scene,
             out += "%04d";
             continue;
         }
-        const bool generated = scene.rfind("builtin:", 0) == 0;
+        const bool generated = isGenerated(scene);
         std::string value =
             key == "scene" ? generated ? scene.substr(8) : fs::path(scene).stem().string() : "";
         bool known = key == "scene";
@@ -324,11 +326,11 @@ void Reader::addTask(const std::string& scene, const std::vector<Choice>& choice
         if (choice.key.rfind("scene.", 0) == 0)
             shown += (shown.find('?') == std::string::npos ? "?" : "&") + choice.key.substr(6) + "=" +
                      choice.value;
-    if (shown != scene && scene.rfind("builtin:", 0) != 0)
+    if (shown != scene && !isGenerated(scene))
         fail("/sweep",
              "scene.NAME: " + io::oneLine(scene) + " takes no parameters; a generated scene would be right");
     task.words = {"render", shown};
-    if (scene.rfind("builtin:", 0) != 0) task.inputs.push_back(scene);
+    if (!isGenerated(scene)) task.inputs.push_back(scene);
     for (const Choice& choice : choices) {
         if (choice.key.rfind("scene.", 0) == 0) continue;
         if (choice.key.rfind("set.", 0) == 0) {
@@ -341,7 +343,7 @@ void Reader::addTask(const std::string& scene, const std::vector<Choice>& choice
             continue;
         }
         const std::string value = known.isFile ? resolved(choice.value) : choice.value;
-        if (known.isFile && value.rfind("builtin:", 0) != 0 && value != "none") task.inputs.push_back(value);
+        if (known.isFile && !isGenerated(value) && value != "none") task.inputs.push_back(value);
         // In one word, for a value may start with a dash.
         task.words.push_back("--" + choice.key + "=" + value);
     }

@@ -77,6 +77,14 @@ std::string lastLine(const fs::path& log) {
     return io::oneLine(last, 300);
 }
 
+// Why a call failed; empty when it did not.
+std::string failureOf(int status, const fs::path& log) {
+    if (WIFSIGNALED(status)) return fmt::format("ended by signal {}", WTERMSIG(status));
+    if (WEXITSTATUS(status) == 0) return {};
+    const std::string said = lastLine(log);
+    return said.empty() ? fmt::format("ended with status {}", WEXITSTATUS(status)) : said;
+}
+
 class Work {
   public:
     Work(const std::vector<BatchTask>& tasks, BatchFolder& folder, int jobs)
@@ -120,20 +128,15 @@ class Work {
     void finish(const Running& ended, int status) {
         const BatchTask& task = tasks_[ended.task];
         const double seconds = secondsSince(ended.since);
-        std::string why;
-        if (WIFSIGNALED(status))
-            why = fmt::format("ended by signal {}", WTERMSIG(status));
-        else if (WEXITSTATUS(status) != 0)
-            why = lastLine(folder_.logOf(task));
+        std::string why = failureOf(status, folder_.logOf(task));
         try {
-            if (why.empty() && status == 0) folder_.take(task, ended.partial, seconds);
+            if (why.empty()) folder_.take(task, ended.partial, seconds);
         } catch (const Error& error) {
             why = error.what();
         }
         std::error_code ignored;
         fs::remove_all(ended.partial, ignored);
         const std::string name = task.files.front();
-        if (status != 0 && why.empty()) why = fmt::format("ended with status {}", WEXITSTATUS(status));
         if (why.empty())
             ++outcome_.done;
         else

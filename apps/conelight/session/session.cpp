@@ -44,18 +44,6 @@ Edit editOf(const T& before, const T& after) {
 
 }  // namespace
 
-Scene loadWithClips(const std::string& path, const io::LoadOptions& options, io::SceneAnimation& animation) {
-    try {
-        return io::loadAnimatedScene(path, options, animation);
-    } catch (const Error& error) {
-        // Clips alone may be at fault: a scene without them is better than none.
-        animation = {};
-        Scene scene = io::loadScene(path, options);
-        scene.notes.push_back(std::string("without its clips: ") + error.what());
-        return scene;
-    }
-}
-
 Session::Session() {
     scene_.name = "empty";
     completeScene(scene_);
@@ -84,7 +72,7 @@ std::vector<std::string> Session::open(const std::string& path, bool keepView) {
     io::LoadOptions load;
     load.allowOutside = allowOutside_;
     io::SceneAnimation animation;
-    Scene loaded = loadWithClips(path, load, animation);
+    Scene loaded = io::loadMovingScene(path, load, animation);
     completeScene(loaded);
     const Settings start = startSettings(loaded);
     scene_ = std::move(loaded);

@@ -61,9 +61,6 @@ const char* aboutMode(const std::string& mode);
 // `mode` as a mode of the renderer: those on the CPU have none of their own, and stand on `cones`.
 bool isSettingsMode(const std::string& mode);
 
-// A scene with its clips; when these cannot be used, without them and with a note.
-Scene loadWithClips(const std::string& path, const io::LoadOptions& options, io::SceneAnimation& animation);
-
 class Session {
   public:
     Session();
@@ -144,13 +141,16 @@ class Session {
     const io::SceneAnimation& animation() const { return animation_; }
     const std::vector<io::AnimationClip>& clips() const { return animation_.clips; }
     const ClipState& clipState() const { return clip_; }
-    // Throws Error(Usage) without such a clip, and when objects came or went since the scene was opened.
+    // Whether the objects are those that the scene was opened with: clips fit to no others.
+    bool clipsFit() const { return clipList_ == revisions_.instanceList; }
+    // What the clip does not move stays where it was put by hand. Throws Error(Usage) without such a clip, and
+    // when it does not fit.
     void poseClip(std::size_t clip, double seconds);
     void playClip(std::size_t clip);  // from where it is, from its start at its end
     void stopClip() { clip_.playing = false; }
     void setClipLoops(bool loops) { clip_.loops = loops; }
     void restClip();
-    void stepClip(double seconds);  // of the clock, while one plays
+    void stepClip(double seconds);  // of the clock, while one plays; ends it when it no longer fits
     void askForVoxels() { ++revisions_.voxels; }
 
     // Return the label of what was undone or redone; nothing when there is none.
@@ -208,7 +208,8 @@ class Session {
     io::SceneAnimation animation_;
     ClipState clip_;
     Scene clipRest_, clipPosed_;            // instances, lights and cameras alone
-    std::vector<std::uint8_t> clipHidden_;  // instances that have no size in the pose
+    std::vector<std::uint8_t> clipHidden_;  // by instance: whether it has no size in the pose
+    std::vector<glm::mat4> clipPlaced_;     // by instance: where the last pose had it
     std::uint64_t clipList_ = 0;            // Revisions::instanceList that the clips fit to
     std::optional<std::pair<std::size_t, Camera>> clipCamera_;  // of the file, and where a pose put it
     FrameTimes frameTimes_;

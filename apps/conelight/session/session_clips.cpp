@@ -12,48 +12,51 @@ namespace conelight::program {
 void Session::setAnimation(io::SceneAnimation animation) {
     animation_ = std::move(animation);
     clip_ = {};
-    clipRest_ = {};
+    clipList_ = revisions_.instanceList;
+    clipCamera_.reset();
+    clipRest_ = clipPosed_ = {};
+    clipHidden_.clear();
+    clipPlaced_.clear();
+    if (animation_.clips.empty()) return;
     clipRest_.instances = scene_.instances;
     clipRest_.lights = scene_.lights;
     clipRest_.cameras = scene_.cameras;
     clipPosed_ = clipRest_;
     clipHidden_.assign(scene_.instances.size(), 0);
-    clipList_ = revisions_.instanceList;
-    clipCamera_.reset();
+    for (const Instance& instance : scene_.instances) clipPlaced_.push_back(instance.worldFromObject);
 }
 
 void Session::poseClip(std::size_t clip, double seconds) {
     if (clip >= animation_.clips.size())
         throw Error(ErrorKind::Usage,
                     "clip: nothing moves in this scene; a glTF file with clips would be right");
-    if (clipList_ != revisions_.instanceList)
+    if (!clipsFit())
         throw Error(
             ErrorKind::Usage,
             "clip: objects were added or removed since the scene was opened; opening it anew would be right");
     clip_.clip = clip;
     clip_.seconds = std::clamp(seconds, 0.0, double(animation_.clips[clip].duration));
     clip_.posed = true;
-    const float time = static_cast<float>(clip_.seconds);
-    io::poseScene(animation_, clip, time, clipRest_, clipPosed_);
-    takePose(io::posesAt(animation_, clip, time));
+    takePose(io::posesAt(animation_, clip, static_cast<float>(clip_.seconds)));
 }
 
 void Session::restClip() {
     clip_.playing = clip_.posed = false;
     clip_.seconds = 0;
-    if (clipList_ != revisions_.instanceList) return;
-    clipPosed_ = clipRest_;
-    takePose(io::restPoses(animation_));
+    if (clipsFit()) takePose(io::restPoses(animation_));
 }
 
-// clipPosed_, and the vertices of these poses.
 void Session::takePose(const io::NodePoses& poses) {
+    const std::vector<Light> lightsBefore = clipPosed_.lights;
+    io::poseScene(animation_, poses, clipRest_, clipPosed_);
     for (const io::SceneAnimation::Hung& hung : animation_.instances) {
         Instance& mine = scene_.instances[hung.index];
         const Instance& posed = clipPosed_.instances[hung.index];
         const bool hides = !posed.visible && clipRest_.instances[hung.index].visible;
         const bool turns = std::exchange(clipHidden_[hung.index], hides ? 1 : 0) != (hides ? 1 : 0);
-        if (!turns && mine.worldFromObject == posed.worldFromObject) continue;
+        const bool moves =
+            std::exchange(clipPlaced_[hung.index], posed.worldFromObject) != posed.worldFromObject;
+        if (!turns && !moves) continue;
         if (turns) mine.visible = !hides;
         mine.worldFromObject = posed.worldFromObject;
         ++instanceRevisions_[hung.index];
@@ -66,12 +69,14 @@ void Session::takePose(const io::NodePoses& poses) {
         }
     bool lit = false;
     for (const io::SceneAnimation::Hung& hung : animation_.lights) {
-        if (scene_.lights.size() != clipRest_.lights.size()) break;  // some came or went
-        Light& mine = scene_.lights[hung.index];
-        const Light& posed = clipPosed_.lights[hung.index];
-        lit = lit || mine.position != posed.position || mine.direction != posed.direction;
-        mine.position = posed.position;
-        mine.direction = posed.direction;
+        const Light &posed = clipPosed_.lights[hung.index], &before = lightsBefore[hung.index];
+        const bool moves = posed.position != before.position || posed.direction != before.direction;
+        // Lights may have come and gone.
+        const bool isIt = hung.index < scene_.lights.size() && scene_.lights[hung.index].name == posed.name;
+        if (!moves || !isIt) continue;
+        scene_.lights[hung.index].position = posed.position;
+        scene_.lights[hung.index].direction = posed.direction;
+        lit = true;
     }
     if (lit) ++revisions_.lights;
     followClipCamera();
@@ -100,6 +105,7 @@ double Session::clipDuration(std::size_t clip) const {
 }
 
 void Session::stepClip(double seconds) {
+    clip_.playing = clip_.playing && clipsFit();
     if (!clip_.playing) return;
     const double duration = clipDuration(clip_.clip);
     double at = clip_.seconds + seconds;

@@ -28,6 +28,11 @@ std::size_t chosen(const Session& session) {
 }  // namespace
 
 void clipEditor(Session& session) {
+    if (!session.clipsFit()) {
+        ImGui::TextWrapped("objects came or went: clips play again when the scene is opened anew");
+        notePlace("clip:unfit");
+        return;
+    }
     const ClipState state = session.clipState();
     const std::size_t clip = chosen(session);
     if (clip != state.clip) state.playing ? session.playClip(clip) : session.poseClip(clip, 0);

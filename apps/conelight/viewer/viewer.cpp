@@ -179,7 +179,8 @@ void Viewer::takeCommands() {
 // Picture first, then the GUI round it, then what the GUI found out about the picture.
 void Viewer::frame() {
     const double now = ImGui::GetTime();
-    if (drawn_) session_.stepClip(std::min(now - lastFrame_, kLongestStep));
+    // A film has its own clock.
+    if (drawn_ && !work_.holdsRequests()) session_.stepClip(std::min(now - lastFrame_, kLongestStep));
     updatePictures();
     window_.clear(glm::vec3(0.07f));
     timings_.beginGui();
