@@ -129,6 +129,10 @@ constexpr GeneratedParameter kConservatoryParameters[] = {
     {"sun", 24, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
     {"sky", 1.2, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
 };
+constexpr GeneratedParameter kMirrorHallParameters[] = {
+    {"roughness", 0, 0, 1, false, "of the mirrors; below 0.045 they are ideal"},
+    {"intensity", 5, 0, 1e4, false, "of the warm lamp, W/sr; the cool one has about half"},
+};
 
 struct Entry {
     GeneratedSceneInfo info;
@@ -199,6 +203,9 @@ constexpr Entry kScenes[] = {
     {{"conservatory", "room behind window panes, sun and sky outside, things of solid glass on a table",
       kConservatoryParameters},
      generated::buildConservatory},
+    {{"mirror-hall", "hall of flat faces with three ideal mirrors and two point lamps, for mode beams",
+      kMirrorHallParameters},
+     generated::buildMirrorHall},
 };
 
 // All scenes: those above, then those of guests.

@@ -32,6 +32,25 @@ float spotFalloff(float cosine, float cosInner, float cosOuter) {
     return t * t;
 }
 
+// Of a spot; of a point light, which shines everywhere, the cosines are below -1.
+struct SpotCone {
+    glm::vec3 axis{0};
+    float cosInner = -2, cosOuter = -3;
+};
+
+bool pointLight(const Light& light, const SpotCone& spot, const glm::vec3& from, LightSample& result) {
+    const glm::vec3 l = light.position - from;
+    const float d2 = glm::dot(l, l);
+    if (!(d2 > 1e-20f)) return false;
+    result.distance = std::sqrt(d2);
+    result.toLight = l / result.distance;
+    result.target = light.position;
+    result.radiance =
+        light.intensity * (distanceFalloff(light, d2) *
+                           spotFalloff(-glm::dot(result.toLight, spot.axis), spot.cosInner, spot.cosOuter));
+    return result.radiance.r + result.radiance.g + result.radiance.b > 0;
+}
+
 glm::vec3 unitOrDown(const glm::vec3& v) {
     const float length = glm::length(v);
     return length > 0 ? v / length : glm::vec3(0, -1, 0);
@@ -62,6 +81,19 @@ glm::vec3 meanEmission(const Scene& scene, std::uint32_t instance, std::uint32_t
 }
 
 }  // namespace
+
+bool sampleLight(const Light& light, const glm::vec3& from, LightSample& result) {
+    const glm::vec3 axis = unitOrDown(light.direction);
+    if (light.type == LightType::Spot)
+        return pointLight(light, {axis, std::cos(light.innerAngle), std::cos(light.outerAngle)}, from,
+                          result);
+    if (light.type == LightType::Point) return pointLight(light, {axis}, from, result);
+    if (light.type == LightType::Rect) return false;
+    result.toLight = -axis;
+    result.distance = std::numeric_limits<float>::infinity();
+    result.radiance = light.intensity;
+    return true;
+}
 
 LightTable::LightTable(const Scene& scene, bool quads, bool extended)
     : scene_(scene), ofInstance_(scene.instances.size()) {
@@ -326,16 +358,8 @@ bool LightTable::samplePart(const Emitter& e, const glm::vec3& from, const glm::
 }
 
 bool LightTable::samplePoint(const Emitter& e, const glm::vec3& from, LightSample& result) const {
-    const glm::vec3 l = e.position - from;
-    const float d2 = glm::dot(l, l);
-    if (!(d2 > 1e-20f)) return false;
-    result.distance = std::sqrt(d2);
-    result.toLight = l / result.distance;
-    result.target = e.position;
-    result.radiance = e.radiance * (distanceFalloff(*e.light, d2) *
-                                    spotFalloff(-glm::dot(result.toLight, e.normal), e.cosInner, e.cosOuter));
     result.density = e.within;
-    return result.radiance.r + result.radiance.g + result.radiance.b > 0;
+    return pointLight(*e.light, {e.normal, e.cosInner, e.cosOuter}, from, result);
 }
 
 bool LightTable::sampleArea(const Emitter& e, const glm::vec3& from, const glm::vec2& u,

@@ -30,6 +30,10 @@ struct LightSample {
     bool castsShadow = true;
 };
 
+// What a light without extent gives at `from` when nothing is in the way: direction, distance, radiance. False when
+// nothing arrives.
+bool sampleLight(const Light& light, const glm::vec3& from, LightSample& result);
+
 class LightTable {
   public:
     // With `quads`, flat emissive quads are direct light. Without `extended`, only lights that no ray can hit

@@ -16,6 +16,7 @@ constexpr float kLeastShare = 0.1f;
 // Between passing a pane and meeting it, neither is drawn more rarely.
 constexpr float kLeastPass = 0.1f;
 
+float largest(const glm::vec3& c) { return std::max({c.r, c.g, c.b}); }
 float luminance(const glm::vec3& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
 // D of GGX at a local half vector. 1 - NoH^2 comes from the lateral parts, which keeps its digits at the peak
@@ -67,6 +68,15 @@ Reflection::Reflection(const Surface& s, const glm::vec3& toEye)
         facets_ = math::directionalAlbedo(brdf_.NoV, std::sqrt(brdf_.alpha));
         tint_ = s.baseColor * (s.transmission * (1 - s.metallic));
     }
+    if (isMirror(s)) {
+        // No lobe is left whose albedo would have to be fitted.
+        mirror_ = true;
+        brdf_.albedo = math::fresnel(brdf_.f0, brdf_.f90, brdf_.NoV);
+        const math::Brdf coat =
+            math::makeBrdf(s.baseColor, 0, s.roughness, s.dielectricF0, glm::dot(s.shadingNormal, toEye));
+        const glm::vec3 taken = math::fresnel(coat.f0, coat.f90, coat.NoV);
+        brdf_.diffuse = s.baseColor * ((1 - s.metallic) * (1 - std::min(largest(taken), 1.0f)));
+    }
     const float diffuse = luminance(brdf_.diffuse), specular = luminance(brdf_.albedo);
     const float through = luminance(through_);
     black_ = !(diffuse + specular + through > 0);
@@ -86,7 +96,7 @@ Reflection::Value Reflection::evaluate(const glm::vec3& toLight) const {
     if (!below) {
         value.diffuse = brdf_.diffuse * (l.z / kPi);
         value.density = (1 - specularShare_ - transmissionShare_) * l.z / kPi;
-        if (!(specularShare_ > 0)) return value;
+        if (!(specularShare_ > 0) || mirror_) return value;
     }
 
     const glm::vec3 sum = l + toEye_;
@@ -115,6 +125,13 @@ Reflection::Draw Reflection::draw(float lobe, const glm::vec2& u) const {
     if (inside_) return drawInside(lobe, u);
     if (lobe >= 1 - transmissionShare_ && transmissionShare_ > 0) return drawThrough(u);
     Draw drawn;
+    if (mirror_ && lobe < specularShare_) {
+        drawn.direction = glm::normalize(frame_.toWorld({-toEyeAbove_.x, -toEyeAbove_.y, toEyeAbove_.z}));
+        drawn.alone = drawn.mirrored = true;
+        drawn.value.density = 1;
+        drawn.value.specular = brdf_.albedo / specularShare_;
+        return drawn;
+    }
     drawn.direction = glm::normalize(sample(lobe, u));
     return drawn;
 }
@@ -173,6 +190,10 @@ float Reflection::maskedShare(float NoL) const {
     const float a2 = brdf_.alpha * brdf_.alpha, NoV = toEyeAbove_.z;
     const float v = std::sqrt(NoV * NoV * (1 - a2) + a2), l = std::sqrt(NoL * NoL * (1 - a2) + a2);
     return NoL * (NoV + v) / std::max(NoL * v + NoV * l, 1e-7f);
+}
+
+bool isMirror(const Surface& surface) {
+    return !(surface.transmission > 0) && surface.roughness < math::kMinRoughness;
 }
 
 bool passesStraight(const Surface& surface) {

@@ -9,6 +9,10 @@
 // other side undoes, is left out. Smooth panes turn no ray: what they let through is straightPass, the
 // tracing's business.
 //
+// Mirrors: opaque surfaces below math::kMinRoughness, the limit of the GL modes, reflect as an ideal mirror
+// does: one direction, by Schlick's Fresnel, which no ray to a light could have been. What the mirror leaves of
+// light is diffuse.
+//
 // Sampling: cosine-weighted for the diffuse part, visible normals for the lobe (Heitz 2018, "Sampling the GGX
 // Distribution of Visible Normals"; by spherical caps, Dupuy and Benyoub 2023), chosen by their albedos; the
 // density is that of the mixture. Shading normals that face away from the eye, as interpolation makes them at
@@ -45,8 +49,9 @@ class Reflection {
     struct Draw {
         glm::vec3 direction{0};  // unit; 0: none
         bool below = false;      // through the surface
-        bool alone = false;      // at the facets of a solid: evaluate() knows nothing of it, and `value`,
-        Value value;             // of density 1, is the weight
+        bool alone = false;      // at a mirror or the facets of a solid: evaluate() knows nothing of it, and
+        Value value;             // `value`, of density 1, is the weight
+        bool mirrored = false;   // at a mirror
     };
     Draw draw(float lobe, const glm::vec2& u) const;
     // Of what stays above the surface alone.
@@ -55,6 +60,8 @@ class Reflection {
     // Of light that rays to lights find: none at the inner side of a solid.
     bool inside() const { return inside_; }
     bool scattersThrough() const { return transmissionShare_ > 0 && !solid_; }
+    // Of an ideal mirror: the share of light that it mirrors towards the eye; 0 of all else.
+    glm::vec3 mirrorShare() const { return mirror_ ? brdf_.albedo : glm::vec3(0); }
 
   private:
     Draw drawThrough(const glm::vec2& u) const;
@@ -78,7 +85,11 @@ class Reflection {
     glm::vec2 facets_{1, 0};  // math::directionalAlbedo
     float eta_ = 1;           // index of the other side over that of the eye's
     bool solid_ = false, inside_ = false;
+    bool mirror_ = false;
 };
+
+// Whether a surface is an ideal mirror, on top of what it reflects diffusely.
+bool isMirror(const Surface& surface);
 
 // Whether a ray that meets the surface may go on as if it were not there; which part of its light then, and how
 // often it should.

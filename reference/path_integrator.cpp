@@ -124,7 +124,7 @@ void PathIntegrator::gatherGroup(const Vertex& vertex, const Reflection& reflect
     LightSample light;
     if (!lights_.sample(vertex.lights, group, vertex.surface.position, within, u, light)) return;
     const int bounce = vertex.depth + (light.direct ? 0 : 1);
-    if (!wanted(bounce)) return;
+    if (!wanted(vertex, bounce)) return;
     const Reflection::Value value = reflection.evaluate(light.toLight);
     if (!(largest(value.sum()) > 0)) return;
     float weight = 1;
@@ -138,7 +138,7 @@ void PathIntegrator::gatherGroup(const Vertex& vertex, const Reflection& reflect
 // Light of the surroundings from a direction drawn for it: of a picture by its light, else of the hemisphere.
 void PathIntegrator::gatherSky(const Vertex& vertex, const Reflection& reflection, const glm::vec2& u,
                                PathSample& result) const {
-    if (!wanted(vertex.depth + 1) || surroundings_.isBlack()) return;
+    if (!wanted(vertex, vertex.depth + 1) || surroundings_.isBlack()) return;
     LightSample sky;
     sky.distance = std::numeric_limits<float>::infinity();
     sky.extended = true;
@@ -212,7 +212,7 @@ bool PathIntegrator::arriveAt(Vertex& vertex, const Ray& ray, const Reflection::
     ++result.rays;
     Arrival arrival;
     if (!find(RayKind::Bounce, ray, nullptr, sampler, arrival)) {
-        if (!lightsOnly && wanted(vertex.depth + 1))
+        if (!lightsOnly && wanted(vertex, vertex.depth + 1))
             add(result, vertex, vertex.depth + 1,
                 arrival.passed * surroundings_.radiance(ray.direction) * reflected *
                     skyWeight(vertex, ray.direction, value),
@@ -225,7 +225,8 @@ bool PathIntegrator::arriveAt(Vertex& vertex, const Ray& ray, const Reflection::
     if (vertex.medium != nullptr) reflected *= glm::exp(-absorption(*vertex.medium) * arrival.hit.t);
     const LightTable::Found found = lights_.found(vertex.lights, arrival.hit, ray.direction);
     const int bounce = vertex.depth + (found.quad ? 0 : 1);
-    if (!lightsOnly && !(found.quad && found.elsewhere) && wanted(bounce) && largest(next.emission) > 0)
+    if (!lightsOnly && !(found.quad && found.elsewhere) && wanted(vertex, bounce) &&
+        largest(next.emission) > 0)
         add(result, vertex, bounce,
             next.emission * reflected *
                 (mis && found.density > 0 ? misWeight(value.density, found.density) : 1),
@@ -233,12 +234,13 @@ bool PathIntegrator::arriveAt(Vertex& vertex, const Ray& ray, const Reflection::
 
     // The back of a single-sided surface absorbs, unless light goes through it.
     const bool absorbs = !next.frontFace && !next.material->doubleSided && !(next.transmission > 0);
-    if (!wanted(vertex.depth + 1) || absorbs) return false;
+    if (!wanted(vertex, vertex.depth + 1) || absorbs) return false;
     if (vertex.depth == 0) vertex.diffuseShare = shareOf(value.diffuse, value.sum());
     vertex.throughput *= reflected;
     vertex.surface = next;
     vertex.toEye = -ray.direction;
     vertex.instance = arrival.hit.instance;
+    vertex.mirrored = false;
     ++vertex.depth;
     return true;
 }
@@ -248,8 +250,10 @@ bool PathIntegrator::advance(Vertex& vertex, const Reflection& reflection,
                              const std::array<glm::vec2, 2>& numbers, Sampler& sampler,
                              PathSample& result) const {
     const bool last = !wanted(vertex.depth + 1);
-    // The last direction only looks for direct light.
-    if (last && (settings_.estimator == Estimator::LightsOnly || !lights_.hasQuadsOrRects())) return false;
+    // The last direction only looks for direct light, which mirrors alone find in every way of finding it.
+    const bool looks =
+        settings_.estimator != Estimator::LightsOnly || reflection.mirrorShare() != glm::vec3(0);
+    if (last && !(looks && lights_.hasQuadsOrRects())) return false;
     const Reflection::Draw drawn = reflection.draw(numbers[0].x, numbers[1]);
     Ray ray;
     ray.direction = drawn.direction;
@@ -266,6 +270,7 @@ bool PathIntegrator::advance(Vertex& vertex, const Reflection& reflection,
         vertex.throughput /= survival;
     }
     vertex.alone = drawn.alone || reflection.inside();
+    vertex.mirrored = drawn.mirrored;
     if (drawn.below && vertex.surface.solid)
         vertex.medium = vertex.surface.frontFace ? vertex.surface.material : nullptr;
     const glm::vec3& normal = vertex.surface.geometricNormal;

@@ -47,6 +47,7 @@ class PathIntegrator {
         glm::vec3 diffuseShare{0};         // of the first surface's reflection, from depth 1 on
         const Material* medium = nullptr;  // the solid that the path is in
         bool alone = false;                // the next direction is one that no ray to a light could have been
+        bool mirrored = false;             // the next direction is that of an ideal mirror
     };
     // Where a ray ends that goes on through smooth panes.
     struct Arrival {
@@ -55,6 +56,11 @@ class PathIntegrator {
         glm::vec3 passed{1};  // what the panes left, over how often they are passed
     };
     bool wanted(int bounce) const { return settings_.bounces < 0 || bounce <= settings_.bounces; }
+    // Of light that bounces as often, which a path finds that ends like this.
+    bool wanted(const Vertex& end, int bounce) const {
+        const bool reached = settings_.paths == Paths::All || bounce <= end.depth + (end.mirrored ? 1 : 0);
+        return reached && wanted(bounce);
+    }
     static void add(PathSample& result, const Vertex& vertex, int bounce, const glm::vec3& light,
                     const Reflection::Value& value);
     bool find(RayKind kind, Ray ray, const PixelTurns* pixel, Sampler& sampler, Arrival& arrival) const;

@@ -25,6 +25,9 @@ enum class Estimator { Mis, LightsOnly, MaterialsOnly };
 // Center: one point of the pixel, as the GL modes have it, its textures averaged over the pixel as theirs are
 // by levels. Box: all of it over the pixel's area, edges of surfaces too.
 enum class PixelFilter { Center, Box };
+// All: the truth. Mirrors: direct light, seen straight or by way of ideal mirrors alone, which is what mode
+// `beams` draws.
+enum class Paths { All, Mirrors };
 
 struct PathTracerSettings {
     int samplesPerPixel = 256;  // at most; 1..2^20, rounded up to an even number (two halves)
@@ -32,6 +35,7 @@ struct PathTracerSettings {
     int bounces = -1;  // of indirect light; -1: all (Russian roulette, unbiased); 0: direct light only
     std::uint32_t seed = 1;
     PixelFilter filter = PixelFilter::Center;
+    Paths paths = Paths::All;
     Estimator estimator = Estimator::Mis;
     bool emissiveQuads = true;  // as light.emissive_quads: decides what is "direct"
     int perBounce = 0;          // fill PathTracedPicture::bounces for bounces 1..perBounce

@@ -27,7 +27,7 @@ struct FigureOptions {
 // "F2", "f02", "F02" are one figure.
 std::string normalised(std::string word) {
     for (char& c : word) c = char(std::toupper(static_cast<unsigned char>(c)));
-    if (word.size() == 2 && word[0] == 'F') word.insert(1, "0");
+    if (word.size() == 2 && (word[0] == 'F' || word[0] == 'B')) word.insert(1, "0");
     return word;
 }
 
@@ -44,10 +44,10 @@ std::vector<const Figure*> chosen(const std::string& only) {
     const std::span<const Figure> every = figures::allFigures();
     for (const std::string& word : words)
         if (std::none_of(every.begin(), every.end(), [&](const Figure& f) { return fits(f, word); }))
-            usage(
-                fmt::format("--only: there is no figure '{}'; F01 to F50, T1, T2, or drawing, plot, render, "
-                            "series, table would be right",
-                            word));
+            usage(fmt::format(
+                "--only: there is no figure '{}'; F01 to F50, T1, T2, B01, B02, or drawing, plot, render, "
+                "series, table would be right",
+                word));
     for (const Figure& figure : every)
         if (std::any_of(words.begin(), words.end(), [&](const std::string& w) { return fits(figure, w); }))
             all.push_back(&figure);

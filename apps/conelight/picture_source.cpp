@@ -34,6 +34,15 @@ std::string keyOf(const reference::RadiositySettings& s) {
                        s.residual, s.patchRays, s.gatherRays, s.visibilityRays, s.bounces, s.seed);
 }
 
+reference::BeamSettings beamSettings(const PictureRequest& request) {
+    reference::BeamSettings settings;
+    settings.bounces = request.reference.bounces;
+    settings.filter = request.reference.filter;
+    settings.emissiveQuads = request.settings.light.emissiveQuads;
+    settings.lampPoints = request.lampPoints;
+    return settings;
+}
+
 // image += sign * other, rgb only.
 void add(Image& image, const Image& other, float sign) {
     for (std::size_t i = 0; i < image.pixels.size(); ++i)
@@ -94,6 +103,7 @@ struct PictureSource::Impl {
     void drawRenderer(const PictureRequest& request, Picture& picture, Progress* progress);
     void drawTraced(const PictureRequest& request, Picture& picture, Progress* progress);
     void drawRadiosity(const PictureRequest& request, Picture& picture, Progress* progress);
+    void drawBeams(const PictureRequest& request, Picture& picture, Progress* progress) const;
 };
 
 PictureSource::PictureSource(const ViewOptions& view, const std::string& shaderDirectory)
@@ -291,6 +301,19 @@ void PictureSource::Impl::drawRadiosity(const PictureRequest& request, Picture& 
     }
 }
 
+void PictureSource::Impl::drawBeams(const PictureRequest& request, Picture& picture,
+                                    Progress* progress) const {
+    const reference::BeamPicture none;
+    for (const Component component : request.components) imageOf(none, component);  // refused before the work
+    const reference::BeamPicture drawn =
+        traceBeams(*scene, request.camera, request.size, beamSettings(request), progress);
+    for (const Component component : request.components) picture.images.push_back(imageOf(drawn, component));
+    picture.beams = drawn.stats;
+    picture.cost.cpuMs = 1e3 * drawn.stats.cpuSeconds;
+    picture.cost.wallMs = 1e3 * drawn.stats.wallSeconds;
+    picture.stopped = drawn.stopped;
+}
+
 const Scene& PictureSource::bakedScene(const reference::RadiositySettings& settings, Progress* progress) {
     Picture ignored;
     return impl_->bake(impl_->lit, settings, ignored, progress).scene;
@@ -313,6 +336,8 @@ Picture PictureSource::draw(const PictureRequest& request, Progress* progress) {
         impl_->drawTraced(request, picture, progress);
     else if (request.mode == "radiosity")
         impl_->drawRadiosity(request, picture, progress);
+    else if (request.mode == "beams")
+        impl_->drawBeams(request, picture, progress);
     else
         impl_->drawRenderer(request, picture, progress);
     return picture;

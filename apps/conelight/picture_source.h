@@ -11,17 +11,18 @@
 
 #include "command.h"
 #include "conelight/renderer.h"
+#include "reference/beam_tracer.h"
 #include "reference/path_tracer.h"
 #include "reference/radiosity.h"
 #include "session/session.h"
 
 namespace conelight::program {
 
-// A mode's name on the command line: those of the renderer, and `reference` and `radiosity`, which run on the
-// CPU and are no modes of it.
+// A mode's name on the command line: those of the renderer, and `reference`, `radiosity` and `beams`, which run on
+// the CPU and are no modes of it.
 bool isModeName(const std::string& name);
 bool isRendererMode(const std::string& name);
-std::string modeNames();                         // "phong, thesis, cones, traced, reference or radiosity"
+std::string modeNames();  // "phong, thesis, cones, traced, reference, radiosity or beams"
 void requireModeName(const std::string& name);   // throws Error(Usage) that names them
 Component componentOf(const std::string& name);  // throws Error(Usage) that names them
 
@@ -34,6 +35,7 @@ struct PictureRequest {
     reference::PathTracerSettings reference;  // also of the reflections on top of radiosity
     reference::RadiositySettings radiosity;
     bool radiositySpecular = false;  // reflections on top
+    int lampPoints = 4;              // mode beams: of lamps with an area, along each side
     int frames = 1;                  // the first component is drawn this often: modes may settle over frames
     int tracedViews = 0;             // image.antialiasing of mode traced where the settings have 0
     bool profile = false;            // fill Picture::stats with passes and lookups
@@ -51,9 +53,10 @@ struct FrameCost {
 struct Picture {
     std::vector<Image> images;                           // one per component asked for
     FrameStats stats;                                    // GL: of the last frame of the first component
-    FrameCost cost;                                      // in mode reference: of the whole picture
+    FrameCost cost;                                      // in modes reference and beams: of the whole picture
     std::optional<reference::PathTracedPicture> traced;  // mode reference: everything it knows
     std::optional<reference::RadiosityStats> baked;      // mode radiosity
+    std::optional<reference::BeamStats> beams;           // mode beams
     bool stopped = false;                                // by a signal; the images show what there was
 };
 

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 
@@ -21,6 +22,17 @@ constexpr int kTracerGeneration = 1;
 // The same for pictures that show textures by the point; others stay what they were.
 //   1: the texture's value at the pixel's centre; 2: its mean over the pixel.
 constexpr int kTextureGeneration = 2;
+
+// The same for scenes with roughness below the least that is no mirror.
+//   1: the lobe of that least; 2: ideal mirrors.
+constexpr int kMirrorGeneration = 2;
+
+bool hasMirrors(const Scene& scene) {
+    constexpr float kLeastRoughness = 0.045f;  // math::kMinRoughness
+    return std::any_of(scene.materials.begin(), scene.materials.end(), [](const Material& m) {
+        return m.roughness < kLeastRoughness || m.metallicRoughnessTexture.used();
+    });
+}
 
 std::vector<std::pair<std::string, Image ReferencePicture::*>> layerFields() {
     return {{"direct", &ReferencePicture::direct},
@@ -51,6 +63,7 @@ std::string keyOf(const Scene& scene, const PictureRequest& request) {
     hash.add(kTracerGeneration);
     if (request.reference.filter == reference::PixelFilter::Center && reference::isTextured(scene))
         hash.add(kTextureGeneration);
+    if (hasMirrors(scene)) hash.add(kMirrorGeneration);
     addScene(hash, scene);
     addCamera(hash, request.camera);
     hash.add(request.size.width);
@@ -63,6 +76,7 @@ std::string keyOf(const Scene& scene, const PictureRequest& request) {
     hash.add(static_cast<int>(s.filter));
     hash.add(static_cast<int>(s.estimator));
     hash.add(request.settings.light.emissiveQuads);
+    if (s.paths != reference::Paths::All) hash.add(static_cast<int>(s.paths));
     return hash.hex();
 }
 

@@ -50,6 +50,7 @@ struct RenderOptions {
     ViewOptions view;
     TracerOptions tracer;
     RadiosityOptions radiosity;
+    int lampPoints = 0;  // 0: not given
     ScriptOptions script;
 };
 
@@ -65,8 +66,11 @@ void checkModeOptions(const RenderOptions& options) {
     const bool traces = options.mode == "reference" || options.radiosity.specular;
     const std::string tracer = options.tracer.given();
     const bool seedOfBake = tracer == "--seed" && options.mode == "radiosity";
-    if (!tracer.empty() && !traces && !seedOfBake)
+    const bool filterOfBeams = tracer == "--filter" && options.mode == "beams";
+    if (!tracer.empty() && !traces && !seedOfBake && !filterOfBeams)
         usage(tracer + ": belongs to mode reference; --mode reference would be right");
+    if (options.lampPoints > 0 && options.mode != "beams")
+        usage("--lamp-points: belongs to mode beams; --mode beams would be right");
     const std::string radiosity = options.radiosity.given();
     if (!radiosity.empty() && options.mode != "radiosity")
         usage(radiosity + ": belongs to mode radiosity; --mode radiosity would be right");
@@ -190,6 +194,7 @@ nlohmann::ordered_json statsOf(const RenderOptions& options, const PictureReques
     else
         json = statsJson(picture.stats);
     if (picture.baked) json["radiosity"] = bakeJson(*picture.baked);
+    if (picture.beams) json["beams"] = beamsJson(*picture.beams);
     json["scene"] = options.scene;
     json["mode"] = request.mode;
     if (isRendererMode(request.mode)) json["voxels"] = request.settings.voxels.size;
@@ -217,7 +222,8 @@ PictureRequest requestOf(const RenderOptions& options) {
     request.size = parseSize(options.view.size);
     request.profile = !options.statsFile.empty();
     request.reference = options.tracer.settings();
-    if (options.mode == "reference" && !options.tracer.filterGiven() && options.view.stillViews != 0)
+    const bool filters = options.mode == "reference" || options.mode == "beams";
+    if (filters && !options.tracer.filterGiven() && options.view.stillViews != 0)
         request.reference.filter = reference::PixelFilter::Box;
     // The other modes gather anew for each view: they take as much longer, and have them when asked.
     const std::vector<std::string>& sets = options.view.sets;
@@ -229,6 +235,7 @@ PictureRequest requestOf(const RenderOptions& options) {
     request.radiosity = options.radiosity.values;
     request.radiosity.seed = options.tracer.seed;
     request.radiositySpecular = options.radiosity.specular;
+    if (options.lampPoints > 0) request.lampPoints = options.lampPoints;
     addComponents(options, request);
     return request;
 }
@@ -395,6 +402,18 @@ void addFilmOptions(CLI::App& command, RenderOptions& options) {
         ->type_name("N");
 }
 
+// Of the modes that run on the CPU.
+void addCpuOptions(CLI::App& command, RenderOptions& options) {
+    options.tracer.addTo(
+        command, "modes reference and beams: box (a pixel's area, the default) or center (one point of it)");
+    options.radiosity.addTo(command);
+    command
+        .add_option("--lamp-points", options.lampPoints,
+                    "mode beams: lamps with an area become so many points along each side (default 4)")
+        ->type_name("N")
+        ->check(CLI::Range(1, 16));
+}
+
 }  // namespace
 
 void addRender(CLI::App& app) {
@@ -413,22 +432,23 @@ void addRender(CLI::App& app) {
                       "--bake NAME.gltf may replace a NAME.bin that belongs to another file");
     command->add_option("--mode", options->mode, modeNames() + " (default traced)");
     command
-        ->add_option("--component", options->component,
-                     "full, direct, indirect, diffuse or specular; but for mode reference also occlusion, "
-                     "albedo, normal, depth, voxels or emission")
+        ->add_option(
+            "--component", options->component,
+            "full, direct, indirect, diffuse or specular; but for modes reference and beams also occlusion, "
+            "albedo, normal, depth, voxels or emission")
         ->capture_default_str();
     command
-        ->add_option(
-            "--bounces", options->bounces,
-            "indirect bounces, or all: 0 = direct light and emission seen; mode cones: 0 to 8, all "
-            "is 8; traced: 0 to 15 or all; modes reference and radiosity: any number, all is the default")
+        ->add_option("--bounces", options->bounces,
+                     "indirect bounces, or all: 0 = direct light and emission seen; mode cones: 0 to 8, all "
+                     "is 8; traced: 0 to 15 or all; modes reference, radiosity and beams: any number, all is "
+                     "the default; mode beams counts mirrors")
         ->type_name("N");
     command
         ->add_option(
             "--aa", options->view.stillViews,
             "smooth edges: views at offsets within a pixel, whose mean is the picture; 0: one view, of the "
-            "pixels' centres (image.antialiasing; default 16 in mode traced, else 0; mode reference: "
-            "--filter)")
+            "pixels' centres (image.antialiasing; default 16 in mode traced, else 0; modes reference "
+            "and beams: --filter)")
         ->type_name("N")
         ->check(CLI::Range(0, 64));
     command
@@ -446,9 +466,7 @@ void addRender(CLI::App& app) {
         ->add_option("--shader-dir", options->shaderDirectory,
                      "shaders from this folder instead of the built-in ones")
         ->type_name("DIR");
-    options->tracer.addTo(*command,
-                          "mode reference: box (a pixel's area, the default) or center (one point of it)");
-    options->radiosity.addTo(*command);
+    addCpuOptions(*command, *options);
     options->view.addTo(*command);
     options->script.addTo(*command);
     command->callback([options, command] {

@@ -129,7 +129,7 @@ SceneComparison compareVariants(const Scene& scene, const std::string& name,
         draw.components = request.components;
         Picture picture = source.draw(draw, &progress);
         if (picture.stopped) throw InterruptedError();
-        VariantResult result{variant, draw.settings, {}, picture.cost, picture.baked};
+        VariantResult result{variant, draw.settings, {}, picture.cost, picture.baked, picture.beams};
         progress.show(name + ": " + variant.label() + ": measuring");
         for (std::size_t i = 0; i < request.components.size(); ++i)
             result.components.push_back(

@@ -27,6 +27,7 @@ struct VariantResult {
     std::vector<ComponentResult> components;
     FrameCost cost;
     std::optional<reference::RadiosityStats> baked;
+    std::optional<reference::BeamStats> beams;
 };
 
 struct SceneComparison {

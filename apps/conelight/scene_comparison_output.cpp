@@ -46,6 +46,7 @@ ordered_json variantJson(const VariantResult& result, bool withFlip) {
     for (const auto& [kind, count] : cost.lookupsPerPixel) json["lookups_per_pixel"][kind] = count;
     json["memory_bytes"] = cost.memoryBytes > 0 ? ordered_json(cost.memoryBytes) : ordered_json();
     if (result.baked) json["radiosity"] = bakeJson(*result.baked);
+    if (result.beams) json["beams"] = beamsJson(*result.beams);
     return json;
 }
 

@@ -35,6 +35,17 @@ nlohmann::ordered_json tracedJson(const reference::PathTracedPicture& picture) {
             {"wall_seconds", picture.wallSeconds}};
 }
 
+nlohmann::ordered_json beamsJson(const reference::BeamStats& stats) {
+    return {{"polygons", stats.polygons},
+            {"ordered_parts", stats.orderedParts},
+            {"beams", stats.beams},
+            {"parts", stats.parts},
+            {"lamp_beams", stats.lampBeams},
+            {"lit_parts", stats.litParts},
+            {"cpu_seconds", stats.cpuSeconds},
+            {"wall_seconds", stats.wallSeconds}};
+}
+
 nlohmann::ordered_json bakeJson(const reference::RadiosityStats& stats) {
     return {{"patches", stats.patches},        {"elements", stats.elements},
             {"vertices", stats.vertices},      {"iterations", stats.iterations},

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "conelight/renderer.h"
+#include "reference/beam_tracer.h"
 #include "reference/path_tracer.h"
 #include "reference/radiosity.h"
 
@@ -19,6 +20,7 @@ nlohmann::ordered_json lookupsJson(const FrameStats& stats);
 nlohmann::ordered_json tracedJson(const reference::PathTracedPicture& picture);
 // {"patches", "elements", "vertices", "iterations", "residual", "rays", "cpu_seconds", "wall_seconds"}
 nlohmann::ordered_json bakeJson(const reference::RadiosityStats& stats);
+nlohmann::ordered_json beamsJson(const reference::BeamStats& stats);
 
 // Indented, with a line end.
 void writeJson(const std::string& path, const nlohmann::ordered_json& json);

@@ -53,4 +53,35 @@ const Image& imageOf(const reference::PathTracedPicture& picture, Component comp
     }
 }
 
+reference::BeamPicture traceBeams(const Scene& scene, const Camera& camera, const Size& size,
+                                  const reference::BeamSettings& settings, Progress* progress) {
+    const StoppableScope stoppable;
+    const auto onProgress = [&](double done) {
+        if (progress != nullptr) progress->show(fmt::format("beam tracing: {:.0f} %", 100 * done));
+        return !interrupted();
+    };
+    return reference::traceBeams(scene, camera, size.width, size.height, settings, onProgress);
+}
+
+Image imageOf(const reference::BeamPicture& picture, Component component) {
+    switch (component) {
+        case Component::Full:
+            return picture.full;
+        case Component::Direct:
+            return picture.direct;
+        case Component::Indirect:
+        case Component::Specular:
+            return picture.mirrored;
+        case Component::Diffuse: {
+            Image black = picture.full;  // no diffuse light between surfaces
+            for (glm::vec4& pixel : black.pixels) pixel = glm::vec4(0, 0, 0, pixel.a);
+            return black;
+        }
+        default:
+            throw Error(ErrorKind::Usage,
+                        "mode beams: this component belongs to the other modes; full, direct, indirect, "
+                        "diffuse or specular would be right");
+    }
+}
+
 }  // namespace conelight::program

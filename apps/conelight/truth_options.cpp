@@ -52,6 +52,13 @@ void TracerOptions::addTo(CLI::App& command, const std::string& filterHelp) {
         ->capture_default_str()
         ->type_name("N");
     command.add_option("--filter", filter, filterHelp)->type_name("NAME");
+    command
+        .add_option(
+            "--paths", paths,
+            "mode reference: all, or mirrors: direct light, straight and in ideal mirrors, as mode beams "
+            "has it")
+        ->capture_default_str()
+        ->type_name("NAME");
 }
 
 reference::PathTracerSettings TracerOptions::settings() const {
@@ -67,12 +74,16 @@ reference::PathTracerSettings TracerOptions::settings() const {
     if (filter != "center" && filter != "box")
         throw Error(ErrorKind::Usage,
                     "--filter: '" + filter + "' is not usable; center or box would be right");
+    if (paths != "all" && paths != "mirrors")
+        throw Error(ErrorKind::Usage,
+                    "--paths: '" + paths + "' is not usable; all or mirrors would be right");
+    result.paths = paths == "mirrors" ? reference::Paths::Mirrors : reference::Paths::All;
     result.filter = filter == "box" ? reference::PixelFilter::Box : reference::PixelFilter::Center;
     return result;
 }
 
 std::string TracerOptions::given() const {
-    return firstGiven(command_, {"--spp", "--noise", "--filter", "--seed"});
+    return firstGiven(command_, {"--spp", "--noise", "--paths", "--filter", "--seed"});
 }
 
 void RadiosityOptions::addTo(CLI::App& command) {

@@ -21,6 +21,7 @@ struct TracerOptions {
     std::string noise;
     std::uint32_t seed = 1;
     std::string filter = "center";
+    std::string paths = "all";
 
     // `filterHelp`: what --filter does there.
     void addTo(CLI::App& command, const std::string& filterHelp);

@@ -3,7 +3,8 @@
 // G-buffer -> radiance in the specular lobe over the lobe's directional albedo, by rays along visible normals
 // of GGX (Heitz 2018, "Sampling the GGX Distribution of Visible Normals"), averaged with the passes and
 // frames before. What a ray meets shows its interpolated cached light, so that mirrors show no voxels.
-// TRIANGLE_HITS 1: rays into smooth lobes meet triangles, not plane pieces (lib/triangle_hit.glsl).
+// TRIANGLE_HITS 1: rays into smooth lobes meet triangles, not plane pieces (lib/triangle_hit.glsl); below the least
+// roughness of a lobe they go exactly the mirrored way.
 // COUNT_LOOKUPS 1: adds what rays look up to the counters, shadow maps at hits included.
 //
 // LOBE_LISTED 1: the listed pixels (gather/lobe_select.comp.glsl), by an indirect dispatch of LOBE_GROUPS_X
@@ -29,6 +30,16 @@ float skyWidth(Brdf b, Surface s, vec3 direction) {
     return inversesqrt(kPi * rays * max(lobePdf(b, s.normal, s.toEye, direction), 1e-6));
 }
 
+vec3 reflectedDirection(Brdf b, Surface s, vec2 xi, out vec3 weight) {
+    vec3 direction = lobeDirection(b, s.normal, s.toEye, xi, weight);
+#if TRIANGLE_HITS
+    // An ideal mirror has no lobe; the surface keeps 16 bits of its roughness.
+    if (s.roughness < kMinRoughness - 1e-5) direction = reflect(-s.toEye, s.normal);
+#endif
+    // A bent normal can mirror into the surface: keep to the side of the triangle.
+    return direction - 2.0 * min(dot(direction, s.geometricNormal), 0.0) * s.geometricNormal;
+}
+
 void main() {
 #if LOBE_LISTED
     ivec2 pixel = listedPixel(imageSize(result));
@@ -47,9 +58,7 @@ void main() {
     do {
         vec2 xi = sequencePoint(seed, pixelRays.pass * pixelRays.rays + uint(i));
         vec3 weight;
-        vec3 direction = lobeDirection(b, s.normal, s.toEye, xi, weight);
-        // A bent normal can mirror into the surface: keep to the side of the triangle.
-        direction -= 2.0 * min(dot(direction, s.geometricNormal), 0.0) * s.geometricNormal;
+        vec3 direction = reflectedDirection(b, s, xi, weight);
         bool counts = glossy && weight.r + weight.g + weight.b > 0.0;
         VoxelHit hit;
 #if TRIANGLE_HITS

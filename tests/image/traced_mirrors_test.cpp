@@ -125,6 +125,40 @@ TEST_F(TracedMirrorsTest, ExactMirrorsShowTextures) {
     EXPECT_GT(contrast(), 0.6);
 }
 
+// Below the least roughness of a lobe the edge of a patch is as sharp in an exact mirror as straight ahead; at it,
+// pixels of 4 mm show what the lobe spreads over 8 mm.
+TEST_F(TracedMirrorsTest, ExactMirrorsWithoutRoughnessAreSharp) {
+    Scene scene = closedBox(diffuseMaterial(glm::vec3(0)));
+    Material metal = diffuseMaterial(glm::vec3(1));
+    metal.metallic = 1;
+    metal.roughness = 0;
+    addInstance(scene, quadMesh({-0.9f, -0.9f, -0.95f}, {1.8f, 0, 0}, {0, 1.8f, 0}), metal);
+    const auto mirror = scene.materials.size() - 1;
+    addInstance(scene, quadMesh({0.5f, -0.5f, 0.99f}, {-0.5f, 0, 0}, {0, 1, 0}),
+                diffuseMaterial(glm::vec3(0), glm::vec3(1)));
+    Camera& camera = scene.cameras.at(0);
+    camera.eye = {0, 0, 0.8f};
+    camera.target = {0, 0, -1};
+    camera.fovY = 0.05f;
+    Settings settings = tracedSettings(Quality::Draft);
+    settings.voxels.size = 16;
+    settings.light.emissiveQuads = false;
+    settings.traced.exactMirrors = true;
+    settings.traced.filterLevels = 0;
+    const auto between = [&] {
+        const Image image = draw(scene, settings);
+        int count = 0;
+        for (int x = 0; x < kPixels; ++x) {
+            const float shown = image.pixels[static_cast<std::size_t>(kPixels / 2 * kPixels + x)].g;
+            count += shown > 0.05f && shown < 0.95f ? 1 : 0;
+        }
+        return count;
+    };
+    EXPECT_LE(between(), 1);
+    scene.materials[mirror].roughness = 0.045f;
+    EXPECT_GE(between(), 2);
+}
+
 // A masked surface has holes in a mirror, and an instance that moved is where it is now.
 TEST_F(TracedMirrorsTest, ExactMirrorsShowHolesAndWhatMoved) {
     Scene scene = closedBox(diffuseMaterial(glm::vec3(0)));

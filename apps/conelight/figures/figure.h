@@ -25,7 +25,7 @@ struct Panel {
 class Studio;  // draws scenes; studio.h
 
 struct Figure {
-    std::string_view id;       // "F01" .. "F50", "T1", "T2"
+    std::string_view id;       // "F01" .. "F50", "T1", "T2"; "B01" .. beyond the thesis's
     std::string_view title;    // a few words
     std::string_view caption;  // what the thesis shows there, in our words
     std::string_view seen;     // what is to be seen in ours, a paragraph
@@ -35,7 +35,7 @@ struct Figure {
     std::string_view missing = {};
 };
 
-// All of them, in the thesis's order: figures, then tables.
+// All of them, in the thesis's order: figures, then tables; then those beyond it.
 std::span<const Figure> allFigures();
 
 // File of the panel of that number: "F05.svg"; of several "F05a.png", "F05b.png".

@@ -33,6 +33,10 @@ Panels renderJumpingVoxels(Studio& studio);
 Panels renderRings(Studio& studio);
 Panels renderGallery(Studio& studio);
 
+// Beyond the thesis (beam_renders.cpp)
+Panels drawBeams(Studio& studio);
+Panels renderMirrorHall(Studio& studio);
+
 // Measured (comparison_chart.cpp, frame_tables.cpp)
 Panels plotComparison(Studio& studio);
 Panels measureStill(Studio& studio);

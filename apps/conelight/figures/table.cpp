@@ -16,7 +16,8 @@ std::string_view nameOf(Kind kind) {
 std::span<const Figure> allFigures() {
     static const std::vector<Figure> all = [] {
         std::vector<Figure> figures;
-        for (const std::span<const Figure> part : {foundationFigures(), methodFigures(), resultFigures()})
+        for (const std::span<const Figure> part :
+             {foundationFigures(), methodFigures(), resultFigures(), beyondFigures()})
             figures.insert(figures.end(), part.begin(), part.end());
         return figures;
     }();

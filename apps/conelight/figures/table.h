@@ -12,6 +12,8 @@ std::span<const Figure> foundationFigures();  // chapters 1 to 3: F01 to F20
 std::span<const Figure> methodFigures();      // chapter 4 and the first half of 5: F21 to F37
 std::span<const Figure> resultFigures();      // the rest: F38 to F50, T1, T2
 
+std::span<const Figure> beyondFigures();  // of what the thesis names and does not draw: B01, B02
+
 // Any drawing as a figure of one file.
 template <std::string (*Draw)()>
 std::vector<Panel> vectorFigure(Studio&) {

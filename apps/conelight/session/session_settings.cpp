@@ -46,11 +46,13 @@ std::vector<const SettingInfo*> listedSettings() {
     return listed;
 }
 
-bool isSettingsMode(const std::string& mode) { return mode != "reference" && mode != "radiosity"; }
+bool isSettingsMode(const std::string& mode) {
+    return mode != "reference" && mode != "radiosity" && mode != "beams";
+}
 
 std::vector<std::string> sessionModes() {
     std::vector<std::string> modes = settingChoices("mode");
-    modes.insert(modes.end(), {"reference", "radiosity"});
+    modes.insert(modes.end(), {"reference", "radiosity", "beams"});
     return modes;
 }
 
@@ -63,7 +65,8 @@ const char* aboutMode(const std::string& mode) {
          "the renderer of the bachelor's thesis that Conelight grew from, its defects mended or shown"},
         {"phong", "direct light alone, by the Phong model"},
         {"reference", "path tracer on the CPU, all bounces: the truth the others are measured against"},
-        {"radiosity", "light between diffuse surfaces solved once on the CPU and kept at vertices"}};
+        {"radiosity", "light between diffuse surfaces solved once on the CPU and kept at vertices"},
+        {"beams", "beam tracing on the CPU: direct light and mirrors of polygons, exact at every edge"}};
     for (const auto& [name, about] : kModes)
         if (mode == name) return about;
     return "";

@@ -66,6 +66,7 @@ void accumulate(Image& mean, int before, const Image& round, int samples) {
 }  // namespace
 
 struct BackgroundReference::Impl {
+    Method method = Method::Paths;
     std::optional<Wanted> wanted;  // what the thread works on, or has finished
     std::uint64_t jobs = 0;
     std::shared_ptr<TracedScene> scene;
@@ -78,6 +79,8 @@ struct BackgroundReference::Impl {
     BackgroundJob job;  // last: it ends before what it works on does
 
     void run(const Wanted& work, TracedScene& traced, const Cancelled& cancelled, void (*wake)());
+    void refinePaths(const Wanted& work, TracedScene& traced, const Cancelled& cancelled, void (*wake)());
+    void drawBeams(const Wanted& work, const Scene& scene, const Cancelled& cancelled);
     void clear(bool running);
 };
 
@@ -92,32 +95,10 @@ void BackgroundReference::Impl::run(const Wanted& work, TracedScene& traced, con
                                     void (*wake)()) {
     std::string failure;
     try {
-        if (!traced.tracer) traced.tracer.emplace(traced.scene);
-        imageOf({}, work.component);  // refused before the work
-        Image sum;
-        int done = 0;
-        // Rounds grow, so that there is something to see at once and little is lost to overhead later.
-        for (std::uint32_t round = 0; done < work.samplesPerPixel && !cancelled; ++round) {
-            reference::PathTracerSettings settings;
-            settings.samplesPerPixel = std::clamp(done, 2, 32);
-            settings.seed = round + 1;
-            settings.emissiveQuads = work.emissiveQuads;
-            settings.threads = BackgroundJob::threads();
-            const reference::PathTracedPicture picture =
-                traced.tracer->render(work.camera, work.width, work.height, settings,
-                                      [&](const reference::PathTracerProgress&) { return !cancelled; });
-            if (cancelled || picture.samplesPerPixel == 0) break;
-            accumulate(sum, done, imageOf(picture, work.component), picture.samplesPerPixel);
-            done += picture.samplesPerPixel;
-            {
-                const std::lock_guard lock(mutex);
-                mean = sum;
-                ++version;
-                status.samplesPerPixel = done;
-                status.noise = picture.noise * std::sqrt(static_cast<double>(picture.samplesPerPixel) / done);
-            }
-            wake();
-        }
+        if (method == Method::Beams)
+            drawBeams(work, traced.scene, cancelled);
+        else
+            refinePaths(work, traced, cancelled, wake);
     } catch (const std::exception& error) {
         failure = error.what();
     }
@@ -127,7 +108,55 @@ void BackgroundReference::Impl::run(const Wanted& work, TracedScene& traced, con
     status.running = false;
 }
 
-BackgroundReference::BackgroundReference() : impl_(std::make_unique<Impl>()) {}
+void BackgroundReference::Impl::refinePaths(const Wanted& work, TracedScene& traced,
+                                            const Cancelled& cancelled, void (*wake)()) {
+    if (!traced.tracer) traced.tracer.emplace(traced.scene);
+    imageOf(reference::PathTracedPicture{}, work.component);  // refused before the work
+    Image sum;
+    int done = 0;
+    // Rounds grow, so that there is something to see at once and little is lost to overhead later.
+    for (std::uint32_t round = 0; done < work.samplesPerPixel && !cancelled; ++round) {
+        reference::PathTracerSettings settings;
+        settings.samplesPerPixel = std::clamp(done, 2, 32);
+        settings.seed = round + 1;
+        settings.emissiveQuads = work.emissiveQuads;
+        settings.threads = BackgroundJob::threads();
+        const reference::PathTracedPicture picture =
+            traced.tracer->render(work.camera, work.width, work.height, settings,
+                                  [&](const reference::PathTracerProgress&) { return !cancelled; });
+        if (cancelled || picture.samplesPerPixel == 0) break;
+        accumulate(sum, done, imageOf(picture, work.component), picture.samplesPerPixel);
+        done += picture.samplesPerPixel;
+        {
+            const std::lock_guard lock(mutex);
+            mean = sum;
+            ++version;
+            status.samplesPerPixel = done;
+            status.noise = picture.noise * std::sqrt(static_cast<double>(picture.samplesPerPixel) / done);
+        }
+        wake();
+    }
+}
+
+void BackgroundReference::Impl::drawBeams(const Wanted& work, const Scene& scene,
+                                          const Cancelled& cancelled) {
+    imageOf(reference::BeamPicture{}, work.component);  // refused before the work
+    reference::BeamSettings settings;
+    settings.filter = reference::PixelFilter::Box;
+    settings.emissiveQuads = work.emissiveQuads;
+    settings.threads = BackgroundJob::threads();
+    const reference::BeamPicture picture = reference::traceBeams(
+        scene, work.camera, work.width, work.height, settings, [&](double) { return !cancelled; });
+    if (cancelled || picture.stopped) return;
+    const std::lock_guard lock(mutex);
+    mean = imageOf(picture, work.component);
+    ++version;
+    status.samplesPerPixel = 1;
+}
+
+BackgroundReference::BackgroundReference(Method method) : impl_(std::make_unique<Impl>()) {
+    impl_->method = method;
+}
 BackgroundReference::~BackgroundReference() { stop(); }
 
 void BackgroundReference::stop() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The path tracer refining a picture in a thread of its own while the window stays live.
+// The path tracer refining a picture, or the beam tracer making one, in a thread of its own while the window stays
+// live.
 #pragma once
 
 #include <cstdint>
@@ -20,13 +21,14 @@ struct ReferenceStatus {
 
 class BackgroundReference {
   public:
-    BackgroundReference();
+    enum class Method : std::uint8_t { Paths, Beams };
+    explicit BackgroundReference(Method method = Method::Paths);
     ~BackgroundReference();  // stops and waits
     BackgroundReference(const BackgroundReference&) = delete;
     BackgroundReference& operator=(const BackgroundReference&) = delete;
 
     // Refines the session's view of `width` x `height` pixels, anew when scene, camera, component or size
-    // changed, until `samplesPerPixel`. Cheap to call every frame; never waits. `wake` is called from the
+    // changed, until `samplesPerPixel`, which beams do not need. Cheap to call every frame; never waits. `wake` is called from the
     // thread after each round.
     void refine(const Session& session, int width, int height, int samplesPerPixel, void (*wake)());
     void stop();  // asks the thread to end; its picture is gone

@@ -81,13 +81,13 @@ struct PictureSlot::Impl {
 
     platform::PictureTexture cpuTexture;
     ImageSettings cpuLook;
-    BackgroundReference reference;
+    BackgroundReference reference, beams{BackgroundReference::Method::Beams};
     std::uint64_t referenceVersion = 0, linearJob = 0;
     BackgroundBake bake;
 
     bool draw(const Session& session, int w, int h, const How& how);
     bool drawScene(const Session& session, const std::string& drawnMode, int w, int h, const How& how);
-    bool drawReference(const Session& session, int w, int h, const How& how);
+    bool drawTraced(BackgroundReference& traced, const Session& session, int w, int h, const How& how);
     bool drawRadiosity(const Session& session, int w, int h, const How& how);
     void drawNothing(const Session& session, int w, int h);
     void renderFrame(const Session& session, Settings settings, int w, int h);
@@ -114,6 +114,8 @@ void PictureSlot::redraw() { impl_->asked = true; }
 // Nothing is shown until the next picture: what there was is another mode's.
 void PictureSlot::Impl::startAnew() {
     reference.stop();
+    beams.stop();
+    referenceVersion = 0;
     shown.reset();
     linear.reset();
     texture = 0;
@@ -183,7 +185,8 @@ bool PictureSlot::Impl::draw(const Session& session, int w, int h, const How& ho
         drawNothing(session, w, h);
         return false;
     }
-    if (mode == "reference") return drawReference(session, w, h, how);
+    if (mode == "reference") return drawTraced(reference, session, w, h, how);
+    if (mode == "beams") return drawTraced(beams, session, w, h, how);
     if (mode == "radiosity") return drawRadiosity(session, w, h, how);
     own = true;
     return drawScene(session, mode, w, h, how);
@@ -293,19 +296,21 @@ void PictureSlot::Impl::drawNothing(const Session& session, int w, int h) {
     settling = 0;
 }
 
-bool PictureSlot::Impl::drawReference(const Session& session, int w, int h, const How& how) {
+// By paths or by beams, in the background.
+bool PictureSlot::Impl::drawTraced(BackgroundReference& traced, const Session& session, int w, int h,
+                                   const How& how) {
     // While the camera moves no new picture is begun: it would not come far.
-    if (how.still) reference.refine(session, w, h, kReferenceSamples, platform::Window::wake);
+    if (how.still) traced.refine(session, w, h, kReferenceSamples, platform::Window::wake);
     own = false;
-    if (reference.shows(session)) {
+    if (traced.shows(session)) {
         Image newest;
-        const bool isNew = reference.take(referenceVersion, newest);
+        const bool isNew = traced.take(referenceVersion, newest);
         const ImageSettings& look = session.settings().image;
         if (isNew) {
             linear = std::move(newest);
-            linearJob = reference.jobs();
+            linearJob = traced.jobs();
         }
-        own = linear && linearJob == reference.jobs();
+        own = linear && linearJob == traced.jobs();
         if (own && (isNew || look != cpuLook || texture != cpuTexture.name())) showImage(look);
         if (own) {
             preview = false;
@@ -313,7 +318,7 @@ bool PictureSlot::Impl::drawReference(const Session& session, int w, int h, cons
             shownSettings = session.settings();
             return false;
         }
-        if (const std::string failure = reference.status().error; !failure.empty())
+        if (const std::string failure = traced.status().error; !failure.empty())
             throw Error(ErrorKind::Runtime, failure);
     }
     if (!how.preview) return false;
@@ -377,7 +382,8 @@ const Image& PictureSlot::Impl::read() {
 }
 
 const FrameStats* PictureSlot::stats() const {
-    const bool drawn = impl_->renderer && (impl_->mode != "reference" || impl_->preview);
+    const bool traced = impl_->mode == "reference" || impl_->mode == "beams";
+    const bool drawn = impl_->renderer && (!traced || impl_->preview);
     return drawn ? &impl_->renderer->stats() : nullptr;
 }
 
@@ -391,6 +397,7 @@ bool PictureSlot::finished() const {
     if (!impl_->lastError.empty()) return true;  // until something changes
     if (!ownPicture() || impl_->settling > 0) return false;
     if (impl_->mode == "reference") return !impl_->reference.status().running;
+    if (impl_->mode == "beams") return !impl_->beams.status().running;
     return impl_->mode != "radiosity" || !impl_->bake.status().running;
 }
 
@@ -402,6 +409,11 @@ std::string PictureSlot::label() const {
         if (status.samplesPerPixel == 0) return "reference: tracing the first samples" + instead;
         return fmt::format("reference  {} spp  noise {:.1f} %{}", status.samplesPerPixel, 100 * status.noise,
                            status.running ? "" : "  done");
+    }
+    if (impl_->mode == "beams") {
+        const ReferenceStatus status = impl_->beams.status();
+        if (!status.error.empty()) return status.error;
+        return status.samplesPerPixel == 0 ? "beams: tracing" + instead : "beams  done";
     }
     if (impl_->mode == "radiosity") {
         const BakeStatus status = impl_->bake.status();

@@ -43,6 +43,10 @@ std::string drawConeMarch();
 std::string plotPowerOfTwo();
 std::string drawConeSet(bool side, bool intermediate);
 
+// Beams (beam_drawings.cpp)
+std::string drawBeamPlan();
+std::string drawBeamTree();
+
 // Voxels (voxel_drawings.cpp)
 std::string drawViewportProjection();
 std::string drawThreeVoxelizations();
