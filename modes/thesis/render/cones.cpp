@@ -35,23 +35,24 @@ using Flag = bool ThesisDefects::*;
 struct Define {
     const char* name;
     Flag flag;
+    bool ofDiffuse = false;  // diffuse cones know it, too
 };
 
 // Defects that the cone kernel knows.
 constexpr Define kDefines[] = {
-    {"COARSE_LOD", &ThesisDefects::coarseLod},
-    {"NO_STEP_CORRECTION", &ThesisDefects::noStepCorrection},
-    {"FORGET_NEAR_COLOR", &ThesisDefects::forgetNearColor},
-    {"DOUBLE_ALPHA", &ThesisDefects::doubleAlpha},
+    {"COARSE_LOD", &ThesisDefects::coarseLod, true},
+    {"NO_STEP_CORRECTION", &ThesisDefects::noStepCorrection, true},
+    {"FORGET_NEAR_COLOR", &ThesisDefects::forgetNearColor, true},
+    {"DOUBLE_ALPHA", &ThesisDefects::doubleAlpha, true},
     {"LAST_STEP", &ThesisDefects::lastStep},
-    {"PREMULTIPLIED_FIRST_HIT", &ThesisDefects::premultipliedFirstHit},
-    {"HARD_FIRST_HIT", &ThesisDefects::hardFirstHit},
-    {"FIXED_OFFSETS", &ThesisDefects::fixedOffsets},
-    {"SHORT_REACH", &ThesisDefects::shortReach},
-    {"NAN_AXES", &ThesisDefects::nanAxes},
-    {"SHORT_SIDE_AXIS", &ThesisDefects::shortSideAxis},
-    {"GRAZING_SIDE_CONES", &ThesisDefects::grazingSideCones},
-    {"NO_COSINE_WEIGHTS", &ThesisDefects::noCosineWeights},
+    {"PREMULTIPLIED_FIRST_HIT", &ThesisDefects::premultipliedFirstHit, true},
+    {"HARD_FIRST_HIT", &ThesisDefects::hardFirstHit, true},
+    {"FIXED_OFFSETS", &ThesisDefects::fixedOffsets, true},
+    {"SHORT_REACH", &ThesisDefects::shortReach, true},
+    {"NAN_AXES", &ThesisDefects::nanAxes, true},
+    {"SHORT_SIDE_AXIS", &ThesisDefects::shortSideAxis, true},
+    {"GRAZING_SIDE_CONES", &ThesisDefects::grazingSideCones, true},
+    {"NO_COSINE_WEIGHTS", &ThesisDefects::noCosineWeights, true},
     {"NO_ALBEDO", &ThesisDefects::noAlbedo},
     {"OCCLUSION_FUDGE", &ThesisDefects::occlusionFudge},
     {"OCCLUDED_INDIRECT", &ThesisDefects::occludedIndirect},
@@ -59,7 +60,7 @@ constexpr Define kDefines[] = {
     {"OCCLUDED_SPECULAR", &ThesisDefects::occludedSpecular},
     {"SHININESS_SATURATION", &ThesisDefects::shininessSaturation},
     {"UNBOUNDED_SPECULAR", &ThesisDefects::unboundedSpecular},
-    {"FINE_STEPS", &ThesisDefects::fineSteps},
+    {"FINE_STEPS", &ThesisDefects::fineSteps, true},
 };
 
 // Numbers of the kernel's VIEW.
@@ -80,11 +81,20 @@ int viewOf(Component component) {
     }
 }
 
+bool hasRectangles(const light::Lights& lights) { return lights.ends().w > lights.ends().z; }
+
 int coneKind(bool on, ConeVariant variant) { return !on ? 0 : variant == ConeVariant::Regular ? 1 : 2; }
 
-gl::ProgramDesc conesDesc(const ThesisSettings& settings, Component component, bool countLookups) {
+// What the kernel is made for, beside the settings.
+struct ConesKey {
+    Component component = Component::Full;
+    bool countLookups = false;
+    bool rectangles = false;  // some lights are rectangles
+};
+
+gl::ProgramDesc conesDesc(const ThesisSettings& settings, const ConesKey& key) {
     const ThesisDefects defects = effectiveDefects(settings);
-    const int view = viewOf(component);
+    const int view = viewOf(key.component);
     const bool full = view == 0;
     const bool anySet = settings.frontCone || settings.sideCones || settings.intermediateCones;
     const bool diffuse = settings.voxDiffuse && anySet && (full || view == 2 || view == 3);
@@ -100,7 +110,9 @@ gl::ProgramDesc conesDesc(const ThesisSettings& settings, Component component, b
                         {"FRONT_CONES", settings.frontCone ? "1" : "0"},
                         {"INTERMEDIATE_CONES", settings.intermediateCones ? "4" : "0"},
                         {"SIDE_CONES", settings.sideCones ? "4" : "0"},
-                        {"COUNT_LOOKUPS", countLookups ? "1" : "0"}};
+                        {"COUNT_LOOKUPS", key.countLookups ? "1" : "0"}};
+    if (key.rectangles && !defects.pointlikeRectangles) defines.emplace_back("RECTANGLES", "1");
+    if (!ThesisVolume::hasAreas(defects)) defines.emplace_back("ISOTROPIC_OPACITY", "1");
     for (const Define& define : kDefines)
         if (defects.*define.flag) defines.emplace_back(define.name, "1");
     return {{"thesis/shaders/cones.comp.glsl"}, defines};
@@ -113,6 +125,18 @@ ThesisDefects effectiveDefects(const ThesisSettings& settings) {
     ThesisDefects d;
     for (bool* flag : thesisDefectFlags(d)) *flag = true;
     return d;
+}
+
+gl::ProgramDesc bounceDesc(const ThesisSettings& settings) {
+    const ThesisDefects defects = effectiveDefects(settings);
+    gl::Defines defines{{"DIFFUSE", std::to_string(coneKind(true, settings.diffuse.variant))},
+                        {"FRONT_CONES", settings.frontCone ? "1" : "0"},
+                        {"INTERMEDIATE_CONES", settings.intermediateCones ? "4" : "0"},
+                        {"SIDE_CONES", settings.sideCones ? "4" : "0"}};
+    if (defects.clippedRadiance) defines.emplace_back("CLIPPED_RADIANCE", "1");
+    for (const Define& define : kDefines)
+        if (define.ofDiffuse && defects.*define.flag) defines.emplace_back(define.name, "1");
+    return {{"thesis/shaders/bounce.comp.glsl"}, defines};
 }
 
 gpu::ThesisConstants thesisConstants(const ThesisSettings& s, const gpu::ThesisGrid& grid, int size) {
@@ -133,9 +157,9 @@ gpu::ThesisConstants thesisConstants(const ThesisSettings& s, const gpu::ThesisG
     // leaves gaps.
     const int cones = (s.frontCone ? 1 : 0) + (s.intermediateCones ? 4 : 0) + (s.sideCones ? 4 : 0);
     const float shared = 2.0f * std::acos(1.0f - 1.0f / static_cast<float>(std::max(cones, 2)));
-    // Shadows of a lamp a tenth of its distance in radius; twice that needs the original's damping to keep
-    // walls beside the cone out of it (chosen by eye).
-    const float lamp = d.occlusionFudge ? 0.4f : 0.2f;
+    // The thesis's lamp. Where voxels are as opaque from every side, half of it: more needs the original's damping
+    // to keep walls beside the cone out of it (chosen by eye).
+    const float lamp = d.occlusionFudge || ThesisVolume::hasAreas(d) ? 0.4f : 0.2f;
     const bool fromShininess = s.specular.aperture.isAuto && !d.fixedSpecularAperture;
     const float specularTable = tableValue(size, 0.04f, 0.02f, 0.01f);
     c.diffuseCone = {spreadOf(s.diffuse.aperture.resolve(d.noCosineWeights ? 0.55f : shared)),
@@ -145,7 +169,8 @@ gpu::ThesisConstants thesisConstants(const ThesisSettings& s, const gpu::ThesisG
                       factor(s.specular.distFactor, tableValue(size, 0.8f, 0.3f, 0.15f), 0.8f),
                       start(s.specular.offset, tableValue(size, 0.15f, 0.15f, 0.05f)), 1.0f};
     c.occlusionCone = {spreadOf(s.occlusion.aperture.resolve(lamp)),
-                       factor(s.occlusion.distFactor, tableValue(size, 0.35f, 0.35f, 0.1f), 0.8f),
+                       factor(s.occlusion.distFactor, tableValue(size, 0.35f, 0.35f, 0.1f),
+                              ThesisVolume::hasAreas(d) ? 0.5f : 0.8f),
                        start(s.occlusion.offset, 0.08f), 0.0f};
     checkCone("diffuse", c.diffuseCone, false);
     checkCone("specular", c.specularCone, fromShininess);
@@ -192,7 +217,8 @@ void ThesisConePass::record(const gl::Device& device, const Inputs& inputs, cons
     const Component component = gathered ? settings.component : Component::Full;
     recorder.record(
         device,
-        gather::StepRecorder::variant(conesDesc(settings.groups.of<ThesisSettings>(), component, false)),
+        gather::StepRecorder::variant(conesDesc(settings.groups.of<ThesisSettings>(),
+                                                {component, false, hasRectangles(inputs.pixels.lights)})),
         given(inputs, output));
 }
 
@@ -202,15 +228,17 @@ void ThesisConePass::draw(const gl::Device& device, const Inputs& inputs, const 
     gl::Inputs given = this->given(inputs, output);
     if (lookupCounters != nullptr) given.storage("LookupTable", *lookupCounters);
     device
-        .get(conesDesc(inputs.settings.groups.of<ThesisSettings>(), inputs.settings.component,
-                       lookupCounters != nullptr))
+        .get(conesDesc(
+            inputs.settings.groups.of<ThesisSettings>(),
+            {inputs.settings.component, lookupCounters != nullptr, hasRectangles(inputs.pixels.lights)}))
         .dispatch(given, output.width(), output.height());
 }
 
 std::vector<gl::ProgramDesc> ThesisConePass::programDescs() {
     std::vector<gl::ProgramDesc> descs;
     const auto add = [&](const ThesisSettings& settings, Component component, bool count = false) {
-        descs.push_back(conesDesc(settings, component, count));
+        descs.push_back(conesDesc(settings, {component, count, false}));
+        descs.push_back(conesDesc(settings, {component, count, true}));
     };
     ThesisSettings mended, published, regular;
     published.published = true;
@@ -218,9 +246,9 @@ std::vector<gl::ProgramDesc> ThesisConePass::programDescs() {
     for (const Component component : {Component::Full, Component::Direct, Component::Indirect,
                                       Component::Diffuse, Component::Specular, Component::Occlusion})
         add(mended, component);
-    descs.push_back(gather::StepRecorder::variant(conesDesc(mended, Component::Full, false)));
-    descs.push_back(gather::StepRecorder::variant(conesDesc(mended, Component::Occlusion, false)));
-    descs.push_back(gather::StepRecorder::variant(conesDesc(published, Component::Full, false)));
+    descs.push_back(gather::StepRecorder::variant(conesDesc(mended, {Component::Full})));
+    descs.push_back(gather::StepRecorder::variant(conesDesc(mended, {Component::Occlusion})));
+    descs.push_back(gather::StepRecorder::variant(conesDesc(published, {Component::Full})));
     add(mended, Component::Full, true);
     add(regular, Component::Full);
     add(published, Component::Full);
@@ -238,6 +266,7 @@ std::vector<gl::ProgramDesc> ThesisConePass::programDescs() {
         one.sideCones = true;
         *thesisDefectFlags(one.defects)[i] = true;
         add(one, Component::Full);
+        descs.push_back(bounceDesc(one));
     }
     return descs;
 }

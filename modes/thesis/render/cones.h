@@ -21,6 +21,9 @@ ThesisDefects effectiveDefects(const ThesisSettings& settings);
 // into spreads. Throws Error(Usage) for numbers with which a march would not end.
 gpu::ThesisConstants thesisConstants(const ThesisSettings& settings, const gpu::ThesisGrid& grid, int size);
 
+// The pass that adds a bounce to the volume (bounces.cpp): its diffuse cones, and which defects they have.
+gl::ProgramDesc bounceDesc(const ThesisSettings& settings);
+
 class ThesisConePass {
   public:
     struct Inputs {

@@ -16,6 +16,19 @@ ThesisVolumeOptions volumeOptions(const modes::Frame& frame) {
     options.unitGrid = frame.scene.source().format == kSceneFormat && options.defects.wholeGrid;
     options.shadows = !options.defects.unshadowedVoxels && frame.settings.light.shadowSize > 0;
     if (options.shadows) options.lights = frame.lights.key();
+    const ThesisSettings& own = frame.settings.groups.of<ThesisSettings>();
+    const bool gathers = own.voxDiffuse && (own.frontCone || own.intermediateCones || own.sideCones);
+    if (gathers && own.bounces > 1) {
+        options.bounces = own.bounces;
+        // What bounceDesc and the diffuse part of thesisConstants read.
+        options.cones.defects = options.defects;
+        options.cones.diffuse = own.diffuse;
+        options.cones.diffuseOriginOffset = own.diffuseOriginOffset;
+        options.cones.frontCone = own.frontCone;
+        options.cones.intermediateCones = own.intermediateCones;
+        options.cones.sideCones = own.sideCones;
+        options.cones.maxSamples = own.maxSamples;
+    }
     return options;
 }
 

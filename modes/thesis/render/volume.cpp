@@ -60,26 +60,6 @@ gl::Defines volumeDefines(const ThesisDefects& d) {
     return defines;
 }
 
-gl::ProgramDesc voxelizeDesc(const ThesisVolumeOptions& options, bool textured) {
-    const ThesisDefects& d = options.defects;
-    gl::Defines defines = options.shadows ? options.lights.defines() : gl::Defines{};
-    defines.emplace_back("SHADOWED", options.shadows ? "1" : "0");
-    defines.emplace_back("TEXTURED", textured ? "1" : "0");
-    const auto add = [&](const char* name, bool on) {
-        if (on) defines.emplace_back(name, "1");
-    };
-    add("RACING_STORES", d.racingStores);
-    add("CENTER_COVERAGE", d.centerCoverage);
-    add("FACE_ROUNDING", d.faceRounding);
-    add("UNATTENUATED_VOXELS", d.unattenuatedVoxels);
-    add("DARK_EMITTERS", d.darkEmitters);
-    add("AMBIENT_TWICE", d.ambientTwice);
-    add("CLIPPED_RADIANCE", d.racingStores && d.clippedRadiance);
-    return {{"thesis/shaders/voxelize.vert.glsl", "thesis/shaders/voxelize.geom.glsl",
-             "thesis/shaders/voxelize.frag.glsl"},
-            defines};
-}
-
 gl::ProgramDesc bricksDesc(bool arguments) {
     return {{"thesis/shaders/bricks.comp.glsl"}, {{"ARGUMENTS", arguments ? "1" : "0"}}};
 }
@@ -87,18 +67,46 @@ gl::ProgramDesc bricksDesc(bool arguments) {
 gl::ProgramDesc resolveDesc(const ThesisDefects& d) {
     gl::Defines defines = volumeDefines(d);
     if (d.binaryOpacity) defines.emplace_back("BINARY_OPACITY", "1");
+    if (ThesisVolume::hasAreas(d)) defines.emplace_back("AXIS_AREAS", "1");
     return {{"thesis/shaders/resolve.comp.glsl"}, defines};
 }
 
 // `brickTexels`: of the coarse level, per brick; 0 for levels whose texels are larger than bricks.
-gl::ProgramDesc mipDesc(const ThesisDefects& d, int brickTexels) {
-    gl::Defines defines = volumeDefines(d);
+gl::ProgramDesc mipDesc(const ThesisDefects& d, int brickTexels, bool ofAreas) {
+    gl::Defines defines = ofAreas ? gl::Defines{{"AREAS", "1"}} : volumeDefines(d);
     if (d.volumeMips) defines.emplace_back("VOLUME_MIPS", "1");
     defines.emplace_back("BRICK_TEXELS", std::to_string(brickTexels));
     return {{"thesis/shaders/mip.comp.glsl"}, defines};
 }
 
 }  // namespace
+
+gl::ProgramDesc ThesisVolume::voxelizeDesc(const ThesisVolumeOptions& options, const SceneKey& scene,
+                                           Content content) {
+    const ThesisDefects& d = options.defects;
+    const bool light = content == Content::Light;
+    const bool shadowed = options.shadows && light;
+    gl::Defines defines = shadowed ? options.lights.defines() : gl::Defines{};
+    defines.emplace_back("SHADOWED", shadowed ? "1" : "0");
+    defines.emplace_back("TEXTURED", scene.textured ? "1" : "0");
+    if (!light) defines.emplace_back("CONTENT", std::to_string(static_cast<int>(content)));
+    const auto add = [&](const char* name, bool on) {
+        if (on) defines.emplace_back(name, "1");
+    };
+    add("CENTER_COVERAGE", d.centerCoverage);
+    add("FACE_ROUNDING", d.faceRounding);
+    add("UNBOUNDED_SPECULAR", d.unboundedSpecular && content == Content::Albedo);
+    add("AXIS_AREAS", light && hasAreas(d));
+    add("RECTANGLES", light && scene.rectangles && !d.pointlikeRectangles);
+    add("RACING_STORES", light && d.racingStores);
+    add("UNATTENUATED_VOXELS", light && d.unattenuatedVoxels);
+    add("DARK_EMITTERS", light && d.darkEmitters);
+    add("AMBIENT_TWICE", light && d.ambientTwice);
+    add("CLIPPED_RADIANCE", light && d.racingStores && d.clippedRadiance);
+    return {{"thesis/shaders/voxelize.vert.glsl", "thesis/shaders/voxelize.geom.glsl",
+             "thesis/shaders/voxelize.frag.glsl"},
+            defines};
+}
 
 gpu::ThesisGrid ThesisVolume::fitGrid(const Aabb& bounds, const Aabb& filled,
                                       const ThesisVolumeOptions& options) {
@@ -147,19 +155,36 @@ void ThesisVolume::allocate(const ThesisVolumeOptions& options) {
         viewport_ = gl::Framebuffer(edge, edge, "thesis voxelization");
         filledSize_ = glm::ivec3(0);
     }
-    if (!sampler_)
+    const bool hasAreas = ThesisVolume::hasAreas(options.defects);
+    for (gl::Texture& areas : areas_) {
+        if (!hasAreas) areas.reset();
+        if (!hasAreas || (areas && areas.desc().width == edge && areas.desc().levels == levels)) continue;
+        areas.reset();
+        areas = gl::Texture({GL_TEXTURE_3D, GL_RGBA8, edge, edge, edge, levels}, "thesis areas");
+        filledSize_ = glm::ivec3(0);
+    }
+    if (!sampler_) {
         sampler_ = gl::Sampler({GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE}, "thesis volume");
+        // Beyond the grid there is nothing in the way of a light.
+        areaSampler_ = gl::Sampler({GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_BORDER}, "thesis areas");
+    }
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::ThesisGrid), "thesis grid");
+    allocateBounces(options);
 
     const std::size_t voxels = static_cast<std::size_t>(grid_.boxSize.x) *
                                static_cast<std::size_t>(grid_.boxSize.y) *
                                static_cast<std::size_t>(grid_.boxSize.z);
     const std::size_t bricks = voxels / (kBrick * kBrick * kBrick);
     // New buffers are zero; the passes leave sums and flags at zero again.
-    const std::size_t sumBytes = options.defects.racingStores ? 16 : 16 * voxels;
+    const bool hasSums = !options.defects.racingStores || options.bounces > 1;
+    const std::size_t sumBytes = hasSums ? 16 * voxels : 16;
     if (sums_.bytes() < sumBytes) {
         sums_.reset();
         sums_ = gl::Buffer(sumBytes, "thesis voxel sums");
+    }
+    if (hasAreas && areaSums_.bytes() < 12 * voxels) {
+        areaSums_.reset();
+        areaSums_ = gl::Buffer(12 * voxels, "thesis area sums");
     }
     if (brickFlags_.bytes() < 4 * bricks) {
         brickFlags_ = gl::Buffer(4 * bricks, "thesis brick flags");
@@ -173,6 +198,7 @@ gl::Inputs ThesisVolume::bricks() const {
         .storage("SumTable", sums_)
         .storage("BrickFlags", brickFlags_)
         .storage("BrickList", brickList_);
+    if (areas_[0]) inputs.storage("AreaTable", areaSums_);
     return inputs;
 }
 
@@ -183,8 +209,6 @@ void ThesisVolume::build(const gl::Device& device, const Inputs& inputs, const T
     grid_.sumScale = kSumSteps / (options.defects.clippedRadiance ? std::min(bound, 1.0f) : bound);
     const std::size_t lights = inputs.lights.table().size();
     grid_.boxMin.w = static_cast<int>(options.defects.tenLights ? std::min<std::size_t>(lights, 10) : lights);
-    for (const gpu::Light& light : inputs.lights.table())
-        if ((light.flags & LIGHT_FROM_EMITTER) != 0) grid_.boxSize.w = 1;
     allocate(options);
     constants_.update(grid_);
 
@@ -194,12 +218,20 @@ void ThesisVolume::build(const gl::Device& device, const Inputs& inputs, const T
     }
     {
         const gl::PassScope step(device.profiler, "thesis voxelize");
-        drawTriangles(device, inputs, options);
+        drawTriangles(device, inputs, options, Content::Light);
     }
     {
         const gl::PassScope step(device.profiler, "thesis mips");
-        resolve(device, options.defects);
-        buildMips(device, options.defects);
+        resolve(device, options.defects, texture_);
+        buildMips(device, options.defects, texture_);
+        for (const gl::Texture& areas : areas_)
+            if (areas) buildMips(device, options.defects, areas);
+    }
+    if (options.bounces > 1) {
+        const gl::PassScope step(device.profiler, "thesis bounces");
+        gl::barrier(gl::Access::TextureFetch);
+        sumSurfaces(device, inputs, options);
+        bounce(device, inputs, options);
     }
     gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
     revision_ = base::Revision::next();
@@ -210,19 +242,21 @@ void ThesisVolume::clearBox() {
     for (int level = 0; level < texture_.desc().levels; ++level) {
         if (filledSize_.x == 0) {
             texture_.clear(level, GL_RGBA, GL_FLOAT, nullptr);
+            clearOthers(level, glm::ivec3(0), glm::ivec3(texture_.width(level)));
             continue;
         }
         const glm::ivec3 edge(texture_.width(level));
         const glm::ivec3 first = filledMin_ >> level;
         const glm::ivec3 last = glm::min(((filledMin_ + filledSize_ - 1) >> level) + 1, edge);
         texture_.clearRegion(level, first, last - first, GL_RGBA, GL_FLOAT);
+        clearOthers(level, first, last - first);
     }
     filledMin_ = glm::ivec3(grid_.boxMin);
     filledSize_ = glm::ivec3(grid_.boxSize);
 }
 
 void ThesisVolume::drawTriangles(const gl::Device& device, const Inputs& inputs,
-                                 const ThesisVolumeOptions& options) {
+                                 const ThesisVolumeOptions& options, Content content) {
     gl::RasterState state;
     state.framebuffer = &viewport_;
     state.depthTest = false;
@@ -230,18 +264,35 @@ void ThesisVolume::drawTriangles(const gl::Device& device, const Inputs& inputs,
     state.colorWrite = false;
     state.cull = gl::Cull::None;
     gl::apply(state);
-    const auto hasTexture = [](const gpu::Material& material) { return material.layers.x >= 0; };
+    const auto hasTexture = [](const gpu::Material& material) {
+        return material.layers.x >= 0 || material.layers.w >= 0;
+    };
     const std::vector<gpu::Material>& materials = inputs.scene.materials();
-    const bool textured = std::any_of(materials.begin(), materials.end(), hasTexture);
+    const SceneKey key{std::any_of(materials.begin(), materials.end(), hasTexture),
+                       inputs.lights.ends().w > inputs.lights.ends().z};
     gl::Inputs given = bricks();
     given.add(inputs.scene).add(inputs.lights).image("volume", texture_, gl::ImageUse::Write);
-    device.get(voxelizeDesc(options, textured)).use(given);
-    inputs.scene.draw(
-        {.filter = [](const gpu::Instance& instance) { return (instance.flags & INSTANCE_VOXELIZED) != 0; }});
+    const auto isLamp = [&](const gpu::Instance& instance) {
+        return inputs.lights.areInTable(
+            static_cast<std::size_t>(&instance - inputs.scene.instances().data()));
+    };
+    bool hasLamps = false;
+    for (const gpu::Instance& instance : inputs.scene.instances()) hasLamps = hasLamps || isLamp(instance);
+    // Emitters that are lights of the table shine from there, not from the volume.
+    for (const bool lamps : {false, true}) {
+        if (lamps && !hasLamps) break;
+        ThesisVolumeOptions kind = options;
+        kind.defects.darkEmitters = options.defects.darkEmitters || lamps;
+        device.get(voxelizeDesc(kind, key, content)).use(given);
+        inputs.scene.draw({.filter = [&](const gpu::Instance& instance) {
+            return (instance.flags & INSTANCE_VOXELIZED) != 0 && isLamp(instance) == lamps;
+        }});
+    }
     gl::barrier(gl::Access::ShaderStorage | gl::Access::ImageAccess);
 }
 
-void ThesisVolume::resolve(const gl::Device& device, const ThesisDefects& defects) {
+void ThesisVolume::resolve(const gl::Device& device, const ThesisDefects& defects,
+                           const gl::Texture& target) {
     // The marked bricks.
     const std::uint32_t zero = 0;
     brickList_.update(0, &zero, sizeof(zero));
@@ -255,36 +306,44 @@ void ThesisVolume::resolve(const gl::Device& device, const ThesisDefects& defect
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
     if (defects.racingStores) return;
 
-    given.image("volume", texture_, gl::ImageUse::Write);
+    given.image("volume", target, gl::ImageUse::Write);
+    if (areas_[0])
+        given.image("areasPlus", areas_[0], gl::ImageUse::Write)
+            .image("areasMinus", areas_[1], gl::ImageUse::Write);
     device.get(resolveDesc(defects)).dispatchIndirect(given, brickList_, 16);
     gl::barrier(gl::Access::ImageAccess);
 }
 
-void ThesisVolume::buildMips(const gl::Device& device, const ThesisDefects& defects) {
-    for (int level = 1; level < texture_.desc().levels; ++level) {
+void ThesisVolume::buildMips(const gl::Device& device, const ThesisDefects& defects,
+                             const gl::Texture& texture) {
+    const bool ofAreas = &texture == &areas_[0] || &texture == &areas_[1];
+    for (int level = 1; level < texture.desc().levels; ++level) {
         gl::Inputs given = bricks();
-        given.image("fine", texture_, gl::ImageUse::Read, level - 1)
-            .image("coarse", texture_, gl::ImageUse::Write, level);
+        given.image("fine", texture, gl::ImageUse::Read, level - 1)
+            .image("coarse", texture, gl::ImageUse::Write, level);
         if (level <= 3) {
             // 4^3, 2^3 or 1 texels per brick; arguments for as many groups of 64.
             const int texels = 64 >> (3 * (level - 1));
-            device.get(mipDesc(defects, texels))
+            device.get(mipDesc(defects, texels, ofAreas))
                 .dispatchIndirect(given, brickList_, 16 + 12 * static_cast<std::size_t>(level - 1));
         } else {
-            const int edge = texture_.width(level);
+            const int edge = texture.width(level);
             const int ratio = static_cast<int>(grid_.size) / edge;
             const glm::ivec3 first = glm::ivec3(grid_.boxMin) / ratio;
             const glm::ivec3 last =
                 (glm::ivec3(grid_.boxMin) + glm::ivec3(grid_.boxSize) + ratio - 1) / ratio;
             const glm::ivec3 count = last - first;
-            device.get(mipDesc(defects, 0)).dispatch(given, count.x, count.y, count.z);
+            device.get(mipDesc(defects, 0, ofAreas)).dispatch(given, count.x, count.y, count.z);
         }
         gl::barrier(gl::Access::ImageAccess);
     }
 }
 
 void ThesisVolume::declare(gl::Inputs& inputs) const {
-    inputs.texture("volume", texture_, &sampler_).uniform("ThesisGridBlock", constants_);
+    inputs.texture("volume", texture(), &sampler_).uniform("ThesisGridBlock", constants_);
+    if (areas_[0])
+        inputs.texture("areasPlus", areas_[0], &areaSampler_)
+            .texture("areasMinus", areas_[1], &areaSampler_);
 }
 
 std::vector<gl::ProgramDesc> ThesisVolume::programDescs() {
@@ -294,16 +353,24 @@ std::vector<gl::ProgramDesc> ThesisVolume::programDescs() {
     ThesisDefects& d = published.defects;
     d.racingStores = d.centerCoverage = d.binaryOpacity = d.faceRounding = d.unattenuatedVoxels = true;
     d.clippedRadiance = d.darkEmitters = d.volumeMips = d.ambientTwice = true;
+    d.isotropicOpacity = d.pointlikeRectangles = true;
     std::vector<gl::ProgramDesc> descs{bricksDesc(false), bricksDesc(true)};
     for (const ThesisVolumeOptions& options : {mended, shadowed, published})
-        for (const bool textured : {false, true}) descs.push_back(voxelizeDesc(options, textured));
+        for (const SceneKey& key : {SceneKey{}, SceneKey{true, false}, SceneKey{false, true}})
+            descs.push_back(voxelizeDesc(options, key, Content::Light));
     for (const light::LightKey& lights : light::LightKey::all()) {
         shadowed.lights = lights;
-        descs.push_back(voxelizeDesc(shadowed, false));
+        descs.push_back(voxelizeDesc(shadowed, {}, Content::Light));
+        if (lights.rect > 0) descs.push_back(voxelizeDesc(shadowed, {false, true}, Content::Light));
     }
+    for (const Content content : {Content::Albedo, Content::Normal})
+        for (const ThesisVolumeOptions& options : {mended, published})
+            descs.push_back(voxelizeDesc(options, {true, false}, content));
     for (const ThesisVolumeOptions& options : {mended, published}) {
         descs.push_back(resolveDesc(options.defects));
-        for (const int texels : {64, 8, 1, 0}) descs.push_back(mipDesc(options.defects, texels));
+        for (const int texels : {64, 8, 1, 0})
+            for (const bool ofAreas : {false, true})
+                descs.push_back(mipDesc(options.defects, texels, ofAreas));
     }
     return descs;
 }

@@ -3,12 +3,14 @@
 // "Voxelization Process"; chapter 5, "Voxelization"). Raster: every triangle is seen along its dominant axis
 // by a viewport of one pixel per voxel; fragments carry the Phong light into the volume.
 //
-// RGBA16F premultiplied radiance and opacity (RGBA8 with the defect clippedRadiance). The grid is a cube:
+// RGBA16F premultiplied radiance and opacity (RGBA8 with the defect clippedRadiance). For occlusion cones two
+// more, RGBA8: the area of surface in a texel as it is seen along x, y and z, in parts of a face, of what faces
+// the positive and the negative sides (unless isotropicOpacity; stores that race make none). The grid is a cube:
 // fitted to the scene, or [-1,1]^3 with the defect wholeGrid. Work and memory beyond the texture go with the
 // box of voxels that the scene's bounds touch, and with the bricks of 8^3 voxels in it that hold surface.
 //
-// Leaves the texture visible to texture fetches. GL state changed: raster state, programs and their slots.
-// Limits: one colour per voxel for both faces of a wall; 255 layers of surface per voxel.
+// Leaves the textures visible to texture fetches. GL state changed: raster state, programs and their slots.
+// Limits: one colour per voxel for both faces of a wall; 255 layers of surface per voxel, 127 with areas.
 #pragma once
 
 #include "base/revision.h"
@@ -29,6 +31,8 @@ struct ThesisVolumeOptions {
     bool shadows = true;     // light is tested against the shadow maps
     light::LightKey lights;  // which kinds of light there are, with shadows
     ThesisDefects defects;   // those of the volume count
+    int bounces = 1;         // of indirect light in what cones find: one less in the volume
+    ThesisSettings cones;    // above one bounce: their diffuse cones carry light on
     bool operator==(const ThesisVolumeOptions&) const = default;
 };
 
@@ -43,10 +47,15 @@ class ThesisVolume {
     base::Revision revision() const { return revision_; }  // raised by each build
 
     const gpu::ThesisGrid& grid() const { return grid_; }
-    const gl::Texture& texture() const { return texture_; }
+    const gl::Texture& texture() const { return lit_ < 0 ? texture_ : bounced_[lit_]; }
     // Trilinear within and between levels, edge texels repeated outside.
     const gl::Sampler& sampler() const { return sampler_; }
-    void declare(gl::Inputs& inputs) const;  // volume (with its sampler), ThesisGridBlock
+    // volume and, if there are any, areasPlus and areasMinus, with their samplers; ThesisGridBlock
+    void declare(gl::Inputs& inputs) const;
+    // Whether a build with these defects makes areas along the axes.
+    static bool hasAreas(const ThesisDefects& defects) {
+        return !defects.isotropicOpacity && !defects.racingStores;
+    }
 
     // The grid that build() would use. The cube is fitted to `bounds`, the box in it that is filled to
     // `filled`.
@@ -59,20 +68,39 @@ class ThesisVolume {
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
+    enum class Content : std::uint8_t { Light, Albedo, Normal };  // of the voxelizer's sums
+    // What a scene asks of the voxelizer.
+    struct SceneKey {
+        bool textured = false;
+        bool rectangles = false;  // some lights are rectangles
+    };
+
     void allocate(const ThesisVolumeOptions& options);
     void clearBox();
-    void drawTriangles(const gl::Device& device, const Inputs& inputs, const ThesisVolumeOptions& options);
-    void resolve(const gl::Device& device, const ThesisDefects& defects);
-    void buildMips(const gl::Device& device, const ThesisDefects& defects);
+    void drawTriangles(const gl::Device& device, const Inputs& inputs, const ThesisVolumeOptions& options,
+                       Content content);
+    void resolve(const gl::Device& device, const ThesisDefects& defects, const gl::Texture& target);
+    void buildMips(const gl::Device& device, const ThesisDefects& defects, const gl::Texture& texture);
+    static gl::ProgramDesc voxelizeDesc(const ThesisVolumeOptions& options, const SceneKey& scene,
+                                        Content content);
+    // bounces.cpp
+    void allocateBounces(const ThesisVolumeOptions& options);
+    void clearOthers(int level, const glm::ivec3& first, const glm::ivec3& size);
+    void sumSurfaces(const gl::Device& device, const Inputs& inputs, const ThesisVolumeOptions& options);
+    void bounce(const gl::Device& device, const Inputs& inputs, const ThesisVolumeOptions& options);
     gl::Inputs bricks() const;  // what passes over bricks read
 
     glm::ivec3 filledMin_{0},
         filledSize_{0};  // box of the texture's voxels that may not be zero; size 0: all
     gpu::ThesisGrid grid_{};
-    gl::Texture texture_;
-    gl::Sampler sampler_;
+    gl::Texture texture_, areas_[2];  // areas_: of what faces positive, negative sides; may be empty
+    // Above one bounce: two volumes in turn, and what surfaces are made of.
+    gl::Texture bounced_[2], albedo_, normal_;
+    gl::Buffer bounceConstants_;
+    int lit_ = -1;  // which of them has all bounces; -1: texture_
+    gl::Sampler sampler_, areaSampler_;
     gl::Framebuffer viewport_;
-    gl::Buffer constants_, sums_, brickFlags_, brickList_;
+    gl::Buffer constants_, sums_, areaSums_, brickFlags_, brickList_;
     base::Revision revision_;
 };
 

@@ -8,6 +8,7 @@
 #include "lib/gbuffer.glsl"
 #include "lib/light_table.glsl"
 #include "lib/record_steps.glsl"
+#include "thesis/shaders/albedo.glsl"
 #include "thesis/shaders/constants.h"
 #include "thesis/shaders/defects.glsl"
 #include "thesis/shaders/light.glsl"
@@ -37,6 +38,10 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
 layout(std140) uniform ThesisBlock { ThesisConstants thesis; };
 uniform sampler3D volume;
+#if OCCLUSION && !ISOTROPIC_OPACITY
+uniform sampler3D areasPlus;
+uniform sampler3D areasMinus;
+#endif
 layout(rgba32f) uniform writeonly image2D picture;
 #if COUNT_LOOKUPS
 layout(std430) buffer LookupTable { uint lookups[]; };
@@ -56,7 +61,7 @@ layout(std430) buffer LookupTable { uint lookups[]; };
 bool has(uint switchBit) { return (thesis.switches & switchBit) != 0u; }
 
 // Phong model at the surface (thesis, Phong listing), without occlusion.
-vec3 phong(Surface s, vec3 color, uint material, ThesisLight light) {
+vec3 phong(Surface s, vec3 color, uint material, Light source, ThesisLight light) {
     float ambient = has(THESIS_PHONG_AMBIENT) ? materials[material].phongAmbient : 0.0;
     float diffuse = has(THESIS_PHONG_DIFFUSE) ? materials[material].phongDiffuse : 0.0;
     float gloss = has(THESIS_PHONG_SPECULAR) ? materials[material].phongSpecular : 0.0;
@@ -64,18 +69,8 @@ vec3 phong(Surface s, vec3 color, uint material, ThesisLight light) {
         pow(max(dot(s.toEye, reflect(-light.toLight, s.normal)), 1e-6), materials[material].phongShininess);
     float NoL = dot(s.normal, light.toLight);
     return light.color * light.falloff * color *
-           (ambient + diffuse * max(NoL, 0.0) + (NoL > 0.0 ? gloss * lobe : 0.0));
-}
-
-// Share of light that is reflected as by a mirror. The Phong model's strength is the height of its lobe, not
-// a share; scenes give broad lobes strengths of 1 and more. The rule is that of setPbrFromPhong
-// (src/scene/scene.cpp), so that all modes see the same material.
-float reflectance(float phongSpecular, float shininess) {
-#if UNBOUNDED_SPECULAR
-    return phongSpecular;
-#else
-    return min(phongSpecular, 1.0) * shininess / (shininess + 62.0);
-#endif
+           (ambient + diffuse * thesisCosine(source, light, s.position, s.normal) +
+            (NoL > 0.0 ? gloss * lobe : 0.0));
 }
 
 // What the cones need of a pixel's material.
@@ -105,7 +100,7 @@ struct SampleCounts {
     uint occlusion;
 };
 
-float occlusionOf(Surface s, ThesisLight light, bool isLit, inout SampleCounts samples) {
+float occlusionOf(Surface s, Light source, ThesisLight light, bool isLit, inout SampleCounts samples) {
 #if OCCLUSION
 #if OCCLUDED_INDIRECT || OCCLUDED_SPECULAR || VIEW == VIEW_OCCLUSION
     bool isTraced = isLit;
@@ -113,7 +108,8 @@ float occlusionOf(Surface s, ThesisLight light, bool isLit, inout SampleCounts s
     // Light from behind adds nothing that could be hidden, unless ambient light is on.
     bool isTraced = isLit && (dot(s.normal, light.toLight) > 0.0 || has(THESIS_PHONG_AMBIENT));
 #endif
-    return traceOcclusion(s, light, isTraced, samples.occlusion);
+    float spread = thesisSpread(source, light, thesis.occlusionCone.x);
+    return traceOcclusion(s, light, spread, isTraced, samples.occlusion);
 #else
     return 0.0;
 #endif
@@ -153,11 +149,12 @@ LightSum lightByLight(Surface s, Paint paint, bool isLit, inout SampleCounts sam
     float mirrorWeight = 0.0;
     for (uint i = 0u; i < thesis.lightCount; ++i) {
         ThesisLight light = thesisLight(lights[i], s.position);
-        float occlusion = occlusionOf(s, light, isLit, samples);
+        float occlusion = occlusionOf(s, lights[i], light, isLit, samples);
         sum.leastOcclusion = min(sum.leastOcclusion, occlusion);
         sum.visible += 1.0 - occlusion;
         float visible = has(THESIS_SHADOWS) ? 1.0 - occlusion : 1.0;
-        if (has(THESIS_PHONG)) sum.direct += visible * phong(s, paint.color, paint.material, light);
+        if (has(THESIS_PHONG))
+            sum.direct += visible * phong(s, paint.color, paint.material, lights[i], light);
 #if SPECULAR
         float weight = specularWeight(paint, light, visible);
 #if SPECULAR_PER_LIGHT
@@ -183,10 +180,7 @@ vec3 diffuseLight(Surface s, Paint paint, bool isLit, float leastOcclusion, inou
     diffuse = traceDiffuse(s, isLit, samples.diffuse);
     vec3 gathered = isLit ? diffuse : vec3(0.0);
 #if !NO_ALBEDO
-    vec3 albedo = paint.color * materials[paint.material].phongDiffuse;
-#if !UNBOUNDED_SPECULAR
-    albedo = min(albedo, 1.0) * (1.0 - paint.strength);
-#endif
+    vec3 albedo = diffuseAlbedo(paint.color, materials[paint.material].phongDiffuse, paint.strength);
     diffuse *= albedo;
     scale = albedo;
 #endif

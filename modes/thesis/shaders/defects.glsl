@@ -28,6 +28,9 @@
 #ifndef VOLUME_MIPS
 #define VOLUME_MIPS 0
 #endif
+#ifndef ISOTROPIC_OPACITY
+#define ISOTROPIC_OPACITY 0
+#endif
 #ifndef COARSE_LOD
 #define COARSE_LOD 0
 #endif

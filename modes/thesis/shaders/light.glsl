@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The thesis's view of a light: a point with a colour C and a falloff. Radiance of a diffuse surface of
 // colour c is k_d c C (n.l) / falloff(D), without 1/pi (docs/theory/1_scene.md, "Two material models"): C = I
-// / pi. Spot lights have their cone; rectangular ones act from their centre, with the intensity they have in
-// the direction of the surface; directional ones are 1e4 m away and do not fall off.
-#include "shared/scene.h"
+// / pi. Spot lights have their cone; directional ones are 1e4 m away and do not fall off. What needs one
+// direction acts from a rectangle's centre, with the intensity that it has towards the surface.
+// RECTANGLES 1: rectangles among the lights have a size.
+#include "lib/rect_light.glsl"
+#ifndef RECTANGLES
+#define RECTANGLES 0
+#endif
 
 struct ThesisLight {
     vec3 toLight;    // unit
@@ -33,4 +37,30 @@ ThesisLight thesisLight(Light light, vec3 position) {
         result.color *= 4.0 * length(cross(light.halfU, light.halfV)) * max(fromAxis, 0.0);
     if (light.range > 0.0 && result.distance > light.range) result.color = vec3(0.0);
     return result;
+}
+
+// Of a rectangle: its area as it is seen from the surface.
+float thesisRectArea(Light light, ThesisLight seen) {
+    return 4.0 * length(cross(light.halfU, light.halfV)) * max(dot(light.direction, -seen.toLight), 0.0);
+}
+
+// Cosine between the normal n and the light, not below 0. Of a rectangle the one with which its colour over the
+// falloff gives what the whole of it does.
+float thesisCosine(Light light, ThesisLight seen, vec3 position, vec3 n) {
+    float cosine = max(dot(n, seen.toLight), 0.0);
+#if RECTANGLES
+    float fromCentre = thesisRectArea(light, seen) / (seen.distance * seen.distance);
+    if (light.type == LIGHT_RECT) cosine = rectIrradiance(light, position, n) / max(fromCentre, 1e-12);
+#endif
+    return cosine;
+}
+
+// Diameter per distance of the cone in which a light is seen: a rectangle is as wide as the disc of its
+// projected area, others as `lamp` says.
+float thesisSpread(Light light, ThesisLight seen, float lamp) {
+#if RECTANGLES
+    float wide = 2.0 * sqrt(thesisRectArea(light, seen) * 0.31830989) / seen.distance;
+    if (light.type == LIGHT_RECT) return max(wide, 1e-3);
+#endif
+    return lamp;
 }

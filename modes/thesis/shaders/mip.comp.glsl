@@ -5,13 +5,17 @@
 //
 // A texel of twice the edge has four times the cross-section, so the covered areas of its eight children add
 // up to a quarter: a plane keeps its opacity in every level. VOLUME_MIPS, as in the original: an eighth, the
-// mean over the volume; a wall of one voxel then halves its opacity per level.
+// mean over the volume; a wall of one voxel then halves its opacity per level. AREAS: the volume of areas along
+// the axes, each for itself.
 #include "thesis/shaders/constants.h"
 #include "thesis/shaders/defects.glsl"
 #ifndef BRICK_TEXELS
 #error BRICK_TEXELS must be 64, 8, 1 or 0
 #endif
-#if CLIPPED_RADIANCE
+#ifndef AREAS
+#define AREAS 0
+#endif
+#if CLIPPED_RADIANCE || AREAS
 #define VOLUME_FORMAT rgba8
 #else
 #define VOLUME_FORMAT rgba16f
@@ -49,6 +53,10 @@ void main() {
     imageStore(coarse, texel, sum * 0.125);
 #else
     sum *= 0.25;
+#if AREAS
+    imageStore(coarse, texel, min(sum, 1.0));
+#else
     imageStore(coarse, texel, sum / max(sum.a, 1.0));
+#endif
 #endif
 }

@@ -24,9 +24,47 @@ float withStep(float opacity, float added) {
 #endif
 }
 
+// Opacity that a step adds: x by what faces the cone, y by what faces away. A closed body has both, once each; a
+// sheet one of them.
+#if ISOTROPIC_OPACITY
+// Where in its step a sample lies: at the beginning.
+const float kSampleAt = 0.0;
+
+// Of a step of `length`, sampled at distance t in texels of edge `size`, times `gain`.
+vec2 stepOcclusion(vec3 origin, vec3 direction, float t, float size, float length, float gain) {
+    vec3 p = origin + t * direction;
+    return vec2(stepOpacity(sampleVolume(p, size).a * gain, length, max(size, grid.voxelSize)), 0.0);
+}
+#else
+const float kSampleAt = 0.5;  // in the middle
+const float kReach = 1.5;     // of a sample past its centre, texels: half a texel and a tent
+
+// A surface of normal n hides |n.d| of its area: the sum over its areas along the axes (theory 4a, "A cone").
+// Between two levels, as distances to a light differ from pixel to pixel, and so would the jumps of whole
+// levels; a step's part of their mean edge makes a plane whole.
+vec2 stepOcclusion(vec3 origin, vec3 direction, float t, float size, float length, float gain) {
+    vec3 q = (origin + t * direction - grid.origin) / grid.edge;
+    float level = sampleLevel(size, grid.voxelSize, grid.maxLevel);
+    vec3 plus = textureLod(areasPlus, q, level).rgb, minus = textureLod(areasMinus, q, level).rgb;
+    vec3 facing = mix(plus, minus, greaterThan(direction, vec3(0.0)));
+    vec3 share = gain * abs(direction);
+    float finer = floor(level);
+    float edge = grid.voxelSize * exp2(finer) * (1.0 + level - finer);
+    // What faces away and may have been beside the start, in reach of a sample, is a wall of the corner there.
+    vec3 left = clamp(abs(direction) * (t / (kReach * edge)) - 1.0, 0.0, 1.0);
+    vec2 seen = vec2(dot(facing, share), dot((plus + minus - facing) * left, share));
+#if NO_STEP_CORRECTION
+    return min(seen, 1.0);
+#else
+    return min(seen * (length / edge), 1.0);
+#endif
+}
+#endif
+
 // Share of the light that does not arrive.
-float traceOcclusion(Surface s, ThesisLight light, bool isTraced, inout uint samples) {
+float traceOcclusion(Surface s, ThesisLight light, float spread, bool isTraced, inout uint samples) {
     ThesisCone cone = coneOf(thesis.occlusionCone);
+    cone.spread = spread;
     float offset = originOffset(0.0);
     vec3 origin = s.position + offset * s.normal;
     vec3 toLight = s.position + light.toLight * light.distance - origin;
@@ -41,6 +79,7 @@ float traceOcclusion(Surface s, ThesisLight light, bool isTraced, inout uint sam
     float end = distance - kOriginOffset * grid.voxelSize;
 #endif
     float t = cone.start;
+    vec2 hidden = vec2(0.0);
     float opacity = 0.0;
     uint coneSamples = 0u;
     bool running = isTraced && t < end;
@@ -50,22 +89,23 @@ float traceOcclusion(Surface s, ThesisLight light, bool isTraced, inout uint sam
         float size = sampleSize(diameter, min(offset + t * climb, distance - t), grid.voxelSize);
         float texelEdge = max(size, grid.voxelSize);
         float stride = stepLength(cone, diameter, texelEdge);
-        float sampled = sampleVolume(origin + t * direction, size).a;
-        ++coneSamples;
 #if LAST_STEP
         float length = stride;
 #else
         float length = min(stride, end - t);
-#if NO_STEP_CORRECTION
-        sampled *= length / stride;
 #endif
+        float at = t + kSampleAt * length;
+        float gain = occlusionGain(at, distance);
+#if NO_STEP_CORRECTION && !LAST_STEP
+        gain *= length / stride;
 #endif
-        sampled *= occlusionGain(t, distance);
-        float added = stepOpacity(sampled, length, texelEdge);
+        vec2 added = stepOcclusion(origin, direction, at, size, length, gain);
+        ++coneSamples;
         float opacityBefore = opacity;
-        opacity = withStep(opacity, added);
+        hidden = vec2(withStep(hidden.x, added.x), withStep(hidden.y, added.y));
+        opacity = max(hidden.x, hidden.y);
         if (running)
-            RECORD_STEP(STEP_SAMPLE, origin + t * direction, t, texelEdge,
+            RECORD_STEP(STEP_SAMPLE, origin + at * direction, at, texelEdge,
                         sampleLevel(size, grid.voxelSize, grid.maxLevel), vec3(0.0), opacity - opacityBefore,
                         opacity);
         t += stride;

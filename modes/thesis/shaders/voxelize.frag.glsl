@@ -7,7 +7,9 @@
 // area it covers, in fixed point, so that the order does not matter; resolve.comp.glsl makes colours
 // and opacities of the sums. The sum is shared by the two voxels along the dominant axis between whose
 // centres the surface lies, in proportion, unless FACE_ROUNDING: all of it to the voxel of the truncated
-// position.
+// position. AXIS_AREAS: with its projections along the three axes, for occlusion cones. CONTENT: instead of light
+// what bounces need. DARK_EMITTERS: without emission, as for emitters that are lights as well
+// (LIGHT_FROM_EMITTER), which would light everything twice.
 #include "lib/light_table.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/scene_tables.glsl"
@@ -22,10 +24,25 @@
 #ifndef TEXTURED
 #error TEXTURED must be 0 or 1: 1 when a material of the scene has a base colour texture
 #endif
+// What is summed.
+#define CONTENT_LIGHT 0
+#define CONTENT_ALBEDO 1  // of diffuse light
+#define CONTENT_NORMAL 2  // 0..1 for -1..1
+#ifndef CONTENT
+#define CONTENT CONTENT_LIGHT
+#endif
+#ifndef AXIS_AREAS
+#define AXIS_AREAS 0
+#endif
+#include "thesis/shaders/albedo.glsl"
 #include "thesis/shaders/visibility.glsl"
 layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
 layout(std430) buffer SumTable { uint sums[]; };          // 4 per voxel of the box
 layout(std430) buffer BrickFlags { uint brickFlags[]; };  // of the box
+#if AXIS_AREAS
+// 3 per voxel of the box, one per axis: what faces its positive side in the lower half, the other in the upper.
+layout(std430) buffer AreaTable { uint areaSums[]; };
+#endif
 #if RACING_STORES
 #if CLIPPED_RADIANCE
 layout(rgba8) uniform writeonly image3D volume;
@@ -45,6 +62,9 @@ layout(location = 2) flat in vec4 corner1;
 layout(location = 3) flat in vec4 corner2;
 layout(location = 4) flat in vec4 uv01;
 layout(location = 5) flat in vec2 uv2;
+#endif
+#if AXIS_AREAS
+layout(location = 6) flat in vec3 areas;
 #endif
 
 // A piece of surface within one column of voxels.
@@ -96,6 +116,20 @@ vec4 surfaceColor(uint index, vec2 uv) {
 #endif
 }
 
+#if !DARK_EMITTERS && CONTENT == CONTENT_LIGHT
+vec3 emissionOf(uint index, vec2 uv) {
+    vec3 emission = materials[index].emission;
+#if TEXTURED
+    int layer = materials[index].layers.w;
+    vec3 row0 = materials[index].uvRow[6].xyz, row1 = materials[index].uvRow[7].xyz;
+    vec2 textureUv = vec2(dot(row0.xy, uv) + row0.z, dot(row1.xy, uv) + row1.z);
+    vec3 texel = sampleSurfaceArray(max(layer, 0), textureUv, 1.0 / 16.0).rgb;
+    if (layer >= 0) emission *= texel;
+#endif
+    return emission;
+}
+#endif
+
 vec3 directLight(uint index, vec3 color, vec3 position, vec3 n) {
     float diffuse = materials[index].phongDiffuse;
 #if AMBIENT_TWICE
@@ -111,7 +145,7 @@ vec3 directLight(uint index, vec3 color, vec3 position, vec3 n) {
         part *= light.falloff;
 #endif
         part *= lightVisibility(lights[i], position, n);
-        sum += part * (ambient + diffuse * max(dot(n, light.toLight), 0.0));
+        sum += part * (ambient + diffuse * thesisCosine(lights[i], light, position, n));
     }
     return sum * color;
 }
@@ -128,7 +162,8 @@ void addToVoxel(ivec3 voxel, vec3 radiance, float weight) {
     if (weight <= 0.0 || any(lessThan(inBox, ivec3(0))) || any(greaterThanEqual(inBox, grid.boxSize.xyz)))
         return;
     markBrick(voxel);
-    int at = 4 * ((inBox.z * grid.boxSize.y + inBox.y) * grid.boxSize.x + inBox.x);
+    int inOrder = (inBox.z * grid.boxSize.y + inBox.y) * grid.boxSize.x + inBox.x;
+    int at = 4 * inOrder;
     // Radiance is at most 2^24 steps (ThesisVolume chooses the scale), weights 2^24 per full column: up to
     // 255 layers of surface fit into one voxel.
     uvec3 color = uvec3(radiance * (weight * grid.sumScale) + 0.5);
@@ -136,6 +171,15 @@ void addToVoxel(ivec3 voxel, vec3 radiance, float weight) {
     atomicAdd(sums[at + 1], color.g);
     atomicAdd(sums[at + 2], color.b);
     atomicAdd(sums[at + 3], uint(weight * 16777216.0 + 0.5));
+#if AXIS_AREAS
+    // 1/512 per step, rounded up as often as it takes for small triangles to add up to their area: by a number
+    // that differs from place to place, golden ratio.
+    float dither = fract(dot(gl_FragCoord.xy, vec2(0.7548777, 0.5698403)) + radiance.g + 1e3 * weight);
+    uvec3 seen = uvec3(abs(areas) * (weight * 512.0) + dither);
+    // Axes along which a surface is not seen are most of all, and cost nothing.
+    for (int k = 0; k < 3; ++k)
+        if (seen[k] > 0u) atomicAdd(areaSums[3 * inOrder + k], areas[k] > 0.0 ? seen[k] : seen[k] << 16);
+#endif
 }
 #endif
 
@@ -151,10 +195,17 @@ void main() {
         p.coverage *= color.a < materials[material].alphaCutoff ? 0.0 : 1.0;
     if ((flags & MATERIAL_ALPHA_BLEND) != 0u) p.coverage *= color.a;
     bool unlit = (flags & MATERIAL_UNLIT) != 0u;
+#if CONTENT == CONTENT_ALBEDO
+    float mirrored = reflectance(materials[material].phongSpecular, materials[material].phongShininess);
+    vec3 radiance =
+        unlit ? vec3(0.0) : min(diffuseAlbedo(color.rgb, materials[material].phongDiffuse, mirrored), 1.0);
+#elif CONTENT == CONTENT_NORMAL
+    vec3 radiance = 0.5 + 0.5 * p.normal;
+#else
     vec3 radiance = unlit ? vec3(0.0) : directLight(material, color.rgb, position, p.normal);
 #if !DARK_EMITTERS
-    // Emitters that are lights as well (LIGHT_FROM_EMITTER) would light everything twice.
-    radiance += unlit ? color.rgb : grid.boxSize.w == 0 ? materials[material].emission : vec3(0.0);
+    radiance += unlit ? color.rgb : emissionOf(material, p.uv);
+#endif
 #endif
     // The sums' scale holds radiance up to this; half floats hold 65,504.
     radiance = clamp(radiance, vec3(0.0), vec3(16777216.0 / grid.sumScale));

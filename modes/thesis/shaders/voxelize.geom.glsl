@@ -8,9 +8,13 @@
 // are interpolated. Else: a shape that covers every pixel the triangle touches (Hasselgren et al. 2005, GPU
 // Gems 2 chapter 42: the triangle with its edges moved outward by half a pixel; or its bounding rectangle
 // where that is smaller), with the triangle itself as flat data for the fragment shader's exact coverage.
+// AXIS_AREAS: with what the fragment shader needs for areas along the other axes.
 #include "lib/octahedral.glsl"
 #include "thesis/shaders/constants.h"
 #include "thesis/shaders/defects.glsl"
+#ifndef AXIS_AREAS
+#define AXIS_AREAS 0
+#endif
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 4) out;
 layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
@@ -32,6 +36,10 @@ layout(location = 2) flat out vec4 outCorner1;
 layout(location = 3) flat out vec4 outCorner2;
 layout(location = 4) flat out vec4 outUv01;
 layout(location = 5) flat out vec2 outUv2;
+#endif
+#if AXIS_AREAS
+// Area seen along each axis, in parts of that along the dominant one; the signs are those of the normal.
+layout(location = 6) flat out vec3 outAreas;
 #endif
 
 // The dominant axis last; its own inverse.
@@ -57,11 +65,15 @@ float twiceArea(vec2 a, vec2 b, vec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.
 
 struct FlatData {
     uvec3 constant;
+    vec3 areas;
     vec4 corner0, corner1, corner2;
 };
 
 void emitPoint(vec2 p, FlatData data) {
     outConstant = data.constant;
+#if AXIS_AREAS
+    outAreas = data.areas;
+#endif
     outCorner0 = data.corner0;
     outCorner1 = data.corner1;
     outCorner2 = data.corner2;
@@ -74,16 +86,22 @@ void emitPoint(vec2 p, FlatData data) {
 
 void main() {
     vec3 world[3] = vec3[3](position[0], position[1], position[2]);
-    vec3 weight = abs(cross(world[1] - world[0], world[2] - world[0]));
+    vec3 across = cross(world[1] - world[0], world[2] - world[0]);
+    vec3 weight = abs(across);
     // Ties: x before y before z, as in the original.
     uint axis = weight.x >= weight.y && weight.x >= weight.z ? 0u : weight.y >= weight.z ? 1u : 2u;
     vec3 p[3];
     for (int i = 0; i < 3; ++i) p[i] = permuted((world[i] - grid.origin) / grid.voxelSize, axis);
     uvec3 constant = uvec3(axis, material[0], color[0]);
+    float front = dot(across, normal[0] + normal[1] + normal[2]) < 0.0 ? -1.0 : 1.0;
+    vec3 areas = across * (front / max(weight[axis], 1e-30));
 
 #if CENTER_COVERAGE
     for (int i = 0; i < 3; ++i) {
         outConstant = constant;
+#if AXIS_AREAS
+        outAreas = areas;
+#endif
         outGridPosition = (world[i] - grid.origin) / grid.voxelSize;
         outNormal = normal[i];
         outUv = uv[i];
@@ -106,7 +124,7 @@ void main() {
     // Also false when the intersections overflowed.
     bool grown = grownArea < extent.x * extent.y;
 
-    FlatData data = FlatData(constant, packedCorner(p[0], normal[0]), packedCorner(p[1], normal[1]),
+    FlatData data = FlatData(constant, areas, packedCorner(p[0], normal[0]), packedCorner(p[1], normal[1]),
                              packedCorner(p[2], normal[2]));
     emitPoint(grown ? grownA : low, data);
     emitPoint(grown ? grownB : vec2(high.x, low.y), data);

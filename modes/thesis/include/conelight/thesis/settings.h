@@ -30,9 +30,11 @@ struct ThesisDefects {
     bool clippedRadiance = false;
     bool darkEmitters = false;
     bool volumeMips = false;
+    bool isotropicOpacity = false;
     bool wholeGrid = false;
     bool cappedLevels = false;
     bool tenLights = false;
+    bool pointlikeRectangles = false;
     // Cones
     bool coarseLod = false;
     bool noStepCorrection = false;
@@ -95,6 +97,7 @@ struct CONELIGHT_API ThesisSettings {
     float shadowStr = 1.5f;
     float minSpecular = 0.004f;  // 1/256 of white; 0 traces all
     int maxSamples = 4096;
+    int bounces = 1;
     int voxelLevel = 0;
     ThesisVoxelView voxelView = ThesisVoxelView::Cubes;
     ThesisDefects defects;
