@@ -47,6 +47,7 @@ struct LightSettings {
     int shadowFilter = 0;
     int areaSamples = 16;
     bool emissiveQuads = true;  // of mode cones
+    int caustics = 65536;       // paths per solid of glass and light; 0: light goes straight through solids
     bool operator==(const LightSettings&) const = default;
 };
 
@@ -111,6 +112,7 @@ struct ConesSettings {
     bool fractionalLevels = false;
     ConesShadows shadows = ConesShadows::Maps;
     float shadowAperture = 0.2f;
+    bool refraction = true;  // glass by a reflected and a refracted cone per pixel; else as panes
     int voxelLevel = 0;
     bool operator==(const ConesSettings&) const = default;
 };

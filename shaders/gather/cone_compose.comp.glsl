@@ -5,10 +5,12 @@
 //   SHOW_DIRECT    emission and direct light (direct_light.comp.glsl); the sky behind
 //   SHOW_DIFFUSE   gathered irradiance, reflected by the diffuse part
 //   SHOW_SPECULAR  gathered radiance, reflected by the lobe: times its directional albedo
+// CAUSTICS 1: with what glass gathers, as a part of the irradiance.
 #if !defined(SHOW_DIRECT) || !defined(SHOW_DIFFUSE) || !defined(SHOW_SPECULAR)
 #error SHOW_DIRECT, SHOW_DIFFUSE and SHOW_SPECULAR must be 0 or 1
 #endif
 #include "lib/brdf.glsl"
+#include "lib/caustic_map.glsl"
 #include "lib/gbuffer.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba32f) writeonly uniform image2D result;
@@ -37,6 +39,9 @@ void main() {
     vec3 gathered = vec3(0.0);
 #if SHOW_DIFFUSE
     gathered += b.diffuse * texelFetch(diffuseIrradiance, pixel, 0).rgb;
+#if CAUSTICS
+    gathered += b.diffuse / kPi * causticIrradiance(s.position, s.geometricNormal, 0.0);
+#endif
 #endif
 #if SHOW_SPECULAR
     vec2 dfg = directionalAlbedo(b.NoV, sqrt(b.alpha));

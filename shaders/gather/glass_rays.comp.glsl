@@ -4,15 +4,14 @@
 // refracts. Two paths per pass and pixel, one that the first surface reflects and one that it lets through. Where
 // a path leaves the line of sight, its rays meet the triangles and the cached light of the voxels
 // (lib/voxel_light.glsl). `sums` holds their sum until the last pass. Pixels that see no glass stay as they are.
-// Method: docs/theory/4h_glass.md; C++ twin of the surface: reference/materials.cpp.
+// Method: docs/theory/4h_glass.md.
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "lib/frame_block.glsl"
-#include "lib/ggx_sample.glsl"
 #include "lib/glass_sight.glsl"
 #include "lib/random.glsl"
 #include "lib/surface_array.glsl"
 // What needs them.
-#include "lib/glass_tree.glsl"
+#include "lib/glass_path.glsl"
 #define SMOOTH_HITS 1
 #define TRIANGLE_HITS 1
 #include "lib/voxel_light.glsl"
@@ -22,16 +21,6 @@ layout(std140) uniform GlassBlock { GlassConstants glassPass; };
 
 // Surfaces that one path meets at most.
 const int kMostGlass = 12;
-
-struct GlassPath {
-    vec3 origin;
-    vec3 direction;
-    vec3 throughput;
-    vec3 absorption;  // of the solid that the path is in, 1/m
-    float alpha;      // width of all lobes on the way
-    bool bent;        // has left the line of sight
-    bool narrow;      // its last lobe shows lamps by rays, not by highlights
-};
 
 // Light that lights send straight into the lobe of a surface.
 vec3 glassHighlights(GlassSurface s, vec3 toEye, float xi) {
@@ -46,28 +35,6 @@ vec3 glassHighlights(GlassSurface s, vec3 toEye, float xi) {
     if (s.brdf.alpha >= kNarrowLobe)
         light += reflectedRects(s.brdf, s.position, s.normal, s.geometricNormal, toEye, xi);
     return light;
-}
-
-// A facet's normal that the eye sees.
-vec3 glassFacet(GlassSurface s, vec3 toEye, vec2 xi) {
-    vec3 u, v;
-    tangentFrame(s.normal, u, v);
-    vec3 eye = normalize(vec3(dot(toEye, u), dot(toEye, v), s.brdf.NoV));
-    vec3 h = visibleNormal(eye, s.brdf.alpha, xi);
-    return h.x * u + h.y * v + h.z * s.normal;
-}
-
-// Share of the facets seen by the eye that are seen at this height on the other end too.
-float facetsSeen(GlassSurface s, float height) {
-    float eye = smithLambda(s.brdf.alpha, s.brdf.NoV);
-    return (1.0 + eye) / (1.0 + eye + smithLambda(s.brdf.alpha, height));
-}
-
-// Share of light that a facet reflects, by Schlick's cosine in air; 1 beyond the critical angle.
-vec3 facetFresnel(GlassSurface s, float VoH, float eta) {
-    float sine2 = (1.0 - VoH * VoH) / (eta * eta);
-    float cosine = s.back ? sqrt(max(1.0 - sine2, 0.0)) : VoH;
-    return sine2 >= 1.0 ? vec3(1.0) : fresnel(s.brdf.f0, s.brdf.f90, cosine);
 }
 
 // The path leaves a surface by its reflection: by its gloss, or by what it scatters back.
@@ -90,36 +57,6 @@ void reflectPath(inout GlassPath path, GlassSurface s, vec2 xi, inout uint rando
     path.narrow = glossy && s.brdf.alpha < kNarrowLobe;
     path.alpha = glossy ? sqrt(path.alpha * path.alpha + s.brdf.alpha * s.brdf.alpha) : 0.5;
     path.bent = true;
-}
-
-// The path goes through a surface, at a facet with normal h.
-void passThrough(inout GlassPath path, GlassSurface s, vec3 h) {
-    if (passesStraight(s)) {
-        path.throughput *= s.through;
-        return;
-    }
-    vec3 toEye = -path.direction;
-    float VoH = clamp(dot(toEye, h), 0.0, 1.0);
-    path.narrow = path.bent = true;
-    path.alpha = sqrt(path.alpha * path.alpha + s.brdf.alpha * s.brdf.alpha);
-    vec2 lobe = directionalAlbedo(s.brdf.NoV, sqrt(s.brdf.alpha));
-    if (!s.solid) {
-        // Into the mirror image of the lobe of facets that reflect all.
-        vec3 l = 2.0 * VoH * h - toEye;
-        float above = dot(l, s.normal);
-        path.throughput *= above > 0.0 ? s.through / (lobe.x + lobe.y) * facetsSeen(s, above) : vec3(0.0);
-        path.direction = l - 2.0 * above * s.normal;
-        return;
-    }
-    float eta = s.back ? 1.0 / s.ior : s.ior;
-    vec3 reflected = facetFresnel(s, VoH, eta);
-    float cosine2 = 1.0 - (1.0 - VoH * VoH) / (eta * eta);
-    vec3 l = (VoH / eta - sqrt(max(cosine2, 0.0))) * h - toEye / eta;
-    // Facets in each other's shadow lose light that others catch.
-    vec3 mean = lobe.x + lobe.y - (s.brdf.f0 * lobe.x + s.brdf.f90 * lobe.y);
-    vec3 front = s.through / max(mean, vec3(1e-3)) * (1.0 - reflected) * facetsSeen(s, -dot(l, s.normal));
-    path.throughput *= s.back ? s.tint * (1.0 - reflected) : front;
-    path.direction = normalize(l);
 }
 
 // At the inner side of a solid: back into it, or out of it. Returns whether it goes out.

@@ -12,10 +12,12 @@
     !defined(LOBE)
 #error SHOW_DIRECT, SHOW_DIFFUSE, SHOW_SPECULAR, IRRADIANCE and LOBE must be 0 or 1
 #endif
+// CAUSTICS 1: with what glass gathers, as a part of the irradiance.
 // COUNT_LOOKUPS 1: adds lookups to the counters: of the cache, and of shadow maps as those of occlusion.
 #define GATHERS (SHOW_DIFFUSE || SHOW_SPECULAR)
 #define RECORD_CACHE
 #include "lib/brdf.glsl"
+#include "lib/caustic_map.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/lighting.glsl"
 #include "lib/lookup_count.glsl"
@@ -64,6 +66,9 @@ vec4 tracedShade(ivec2 pixel) {
     vec3 gathered = vec3(0.0);
 #if SHOW_DIFFUSE
     gathered += b.diffuse * irradiance;
+#if CAUSTICS
+    gathered += b.diffuse / kPi * causticIrradiance(s.position, s.geometricNormal, 0.0);
+#endif
 #endif
 #if SHOW_SPECULAR
     vec3 lobe = irradiance;

@@ -4,6 +4,7 @@
 // set it include before: lib/scene_tables.glsl, lib/surface_array.glsl.
 // Test: Moeller and Trumbore 1997, "Fast, Minimum Storage Ray/Triangle Intersection".
 #include "lib/brdf.glsl"
+#include "lib/caustic_map.glsl"
 #include "lib/octahedral.glsl"
 #include "shared/glass.h"
 #ifndef GLASS
@@ -119,7 +120,8 @@ struct GlassSurface {
     vec3 emission;
     float ior;
     bool solid;
-    bool back;  // seen from within
+    uint number;  // of a solid (shared/glass.h)
+    bool back;    // seen from within
 };
 
 vec4 glassTexel(int layer, vec3 row0, vec3 row1, vec2 uv) {
@@ -159,6 +161,7 @@ GlassSurface glassSurface(vec3 origin, vec3 direction, GlassHit hit) {
         shines ? m.emission * glassTexel(m.layers.w, m.uvRow[6].xyz, m.uvRow[7].xyz, uv).rgb : vec3(0.0);
     s.ior = m.ior;
     s.solid = (m.flags & MATERIAL_SOLID) != 0u;
+    s.number = g.solid;
     s.back = hit.back;
     return s;
 }
@@ -171,8 +174,9 @@ bool passesStraight(GlassSurface s) {
 // ---- Light that passes glass ----------------------------------------------------------------------------
 
 // What is left of light that goes straight through all glass from `origin` to `end` metres. Where solids would
-// bend it by more than `mostBend`, rad, to first order, it misses its aim, and nothing is left.
-vec3 glassTransmittance(vec3 origin, vec3 direction, float end, float mostBend) {
+// bend it by more than `mostBend`, rad, to first order, it misses its aim, and nothing is left. `ofLamp`: the
+// light that solids with maps of caustics send on arrives by these, and not here.
+vec3 glassTransmittance(vec3 origin, vec3 direction, float end, float mostBend, const bool ofLamp) {
     vec3 inverse = glassInverse(direction);
     vec3 left = vec3(1.0);
     vec3 opticalDepth = vec3(0.0);  // of ways within solids, each added where it ends
@@ -190,7 +194,8 @@ vec3 glassTransmittance(vec3 origin, vec3 direction, float end, float mostBend) 
             testGlassTriangle(int(first), origin, direction, false, hit);
             if (hit.triangle >= 0 && hit.t > near) {
                 GlassSurface s = glassSurface(origin, direction, hit);
-                left *= s.through;
+                bool mapped = ofLamp && s.number < caustics.count;
+                left *= mapped ? vec3(0.0) : s.through;
                 float cosine = max(-dot(s.normal, direction), 0.05);
                 if (s.solid) {
                     float side = hit.back ? 1.0 : -1.0;

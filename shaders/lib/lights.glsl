@@ -109,7 +109,7 @@ void addLight(inout DirectLight sum, const bool specular, Receiver r, Brdf b, ve
 vec3 throughGlass(vec3 facing, Receiver r, vec3 toLight, float distance) {
 #if GLASS
     if (facing.r + facing.g + facing.b > 0.0)
-        facing *= glassTransmittance(r.position, toLight, distance, kAnyBend);
+        facing *= glassTransmittance(r.position, toLight, distance, kAnyBend, true);
 #endif
     return facing;
 }
@@ -184,7 +184,7 @@ void addTint(inout RectTint tint, Receiver r, Light light, uint k, vec2 weight) 
     vec2 number = floor(float(kGlassPoints) * vec2(k, k + 1u) / count + tint.turn);
     if (!tint.asked || number.y <= number.x || weight.x <= 0.0) return;
     float edge = 2.0 * sqrt(length(cross(light.halfU, light.halfV)));
-    vec3 left = glassTransmittance(r.position, toPoint / distance, distance, min(edge / distance, 1.0));
+    vec3 left = glassTransmittance(r.position, toPoint / distance, distance, min(edge / distance, 1.0), true);
     tint.irradiance += weight.x * left;
     tint.specular += weight.y * left;
     tint.weights += weight;

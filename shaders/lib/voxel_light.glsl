@@ -253,7 +253,7 @@ vec3 throughGlass(vec3 radiance, Ray ray, VoxelHit hit) {
 #if GLASS
     if (ray.tMax > 0.0 && radiance.r + radiance.g + radiance.b > 0.0)
         radiance *= glassTransmittance(worldFromGrid(ray.origin), ray.direction,
-                                       (hit.face >= 0 ? hit.t : 1e9) * grid.voxelSize, kAnyBend);
+                                       (hit.face >= 0 ? hit.t : 1e9) * grid.voxelSize, kAnyBend, false);
 #endif
     return radiance;
 }

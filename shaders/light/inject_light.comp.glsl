@@ -74,6 +74,9 @@ void main() {
     Brdf none;
     DirectLight light = DirectLight(vec3(0.0), vec3(0.0));
     addRectLights(light, false, receiver, none);
+#if GLASS
+    light.irradiance += causticIrradiance(position, normal, grid.voxelSize);
+#endif
 #if FOR_RAYS
     vec3 steady = emission + reflectance * light.irradiance;
 #endif

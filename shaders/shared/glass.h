@@ -34,8 +34,8 @@ struct GlassTriangle {
     // ---- 64 B
     vec2 uv2;
     uint instance;
-    uint pad0;
-};  // 80 B
+    uint solid;  // its number among solids of glass; CAUSTIC_NO_SOLID (shared/caustics.h): none
+};               // 80 B
 
 // Uniform block of the passes that draw glass.
 struct GlassConstants {

@@ -8,17 +8,21 @@ namespace {
 
 struct ComposeKey {
     PictureParts parts;
+    bool caustics;  // with diffuse light
 
     gl::ProgramDesc desc() const {
-        return {{"gather/cone_compose.comp.glsl"},
-                {{"SHOW_DIRECT", parts.direct ? "1" : "0"},
-                 {"SHOW_DIFFUSE", parts.diffuse ? "1" : "0"},
-                 {"SHOW_SPECULAR", parts.specular ? "1" : "0"}}};
+        gl::ProgramDesc desc{{"gather/cone_compose.comp.glsl"},
+                             {{"SHOW_DIRECT", parts.direct ? "1" : "0"},
+                              {"SHOW_DIFFUSE", parts.diffuse ? "1" : "0"},
+                              {"SHOW_SPECULAR", parts.specular ? "1" : "0"}}};
+        if (caustics && parts.diffuse) desc.defines.emplace_back("CAUSTICS", "1");
+        return desc;
     }
     static std::vector<ComposeKey> all() {
         std::vector<ComposeKey> keys;
-        for (int bits = 0; bits < 8; ++bits)
-            keys.push_back({{(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0}});
+        for (int bits = 0; bits < 16; ++bits)
+            if ((bits & 2) != 0 || (bits & 8) == 0)
+                keys.push_back({{(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0}, (bits & 8) != 0});
         return keys;
     }
 };
@@ -70,7 +74,8 @@ void ConePicture::draw(const gl::Device& device, const DirectInputs& pixels, con
     }
     gl::barrier(gl::Access::TextureFetch);
     const gl::PassScope pass(device.profiler, "compose");
-    device.get(ComposeKey{parts}.desc()).dispatch(given, pixels.surfaces.width(), pixels.surfaces.height());
+    device.get(ComposeKey{parts, pixels.lights.hasCaustics()}.desc())
+        .dispatch(given, pixels.surfaces.width(), pixels.surfaces.height());
 }
 
 void ConePicture::record(const gl::Device& device, const DirectInputs& pixels, const ConeVolume& volume,

@@ -19,6 +19,17 @@ struct GlassKey {
     }
 };
 
+// Few programs: any light may be there.
+gl::ProgramDesc conesDesc(const gl::Defines& cones, bool shadows, bool environment) {
+    light::LightKey lights{.point = 1, .spot = 1, .directional = 1, .rect = 1, .fixed = false};
+    lights.shadows = shadows;
+    lights.glass = true;
+    gl::ProgramDesc desc{{"gather/glass_cones.comp.glsl"}, lights.defines()};
+    desc.defines.insert(desc.defines.end(), cones.begin(), cones.end());
+    if (environment) desc.defines.emplace_back("ENVIRONMENT", "1");
+    return desc;
+}
+
 gpu::GlassConstants packed(const PictureParts& parts) {
     gpu::GlassConstants c{};
     c.passes = 1;
@@ -61,6 +72,23 @@ void Glass::drawByRays(const gl::Device& device, const RayInputs& inputs, const 
     gl::barrier(gl::Access::ImageAccess | gl::Access::TextureFetch);
 }
 
+void Glass::drawByCones(const gl::Device& device, const DirectInputs& inputs, const ConeShadows& cones,
+                        const PictureParts& parts, const gl::Texture& picture) {
+    const gl::PassScope pass(device.profiler, "glass");
+    if (!constants_) constants_ = gl::Buffer(sizeof(gpu::GlassConstants), "glass constants");
+    constants_.update(packed(parts));
+    gl::Inputs given;
+    given.add(inputs)
+        .add(cones)
+        .uniform("GlassBlock", constants_)
+        .image("picture", picture, gl::ImageUse::ReadWrite);
+    gl::barrier(gl::Access::ImageAccess);
+    const gl::ProgramDesc desc =
+        conesDesc(cones.defines, inputs.lights.key().shadows, inputs.lights.hasEnvironment());
+    device.get(desc).dispatch(given, picture.width(), picture.height());
+    gl::barrier(gl::Access::ImageAccess | gl::Access::TextureFetch);
+}
+
 void Glass::drawStraight(const gl::Device& device, const DirectInputs& inputs, const PictureParts& parts,
                          const gl::Texture& picture) {
     const gl::PassScope pass(device.profiler, "glass");
@@ -86,6 +114,15 @@ std::vector<gl::ProgramDesc> Glass::programDescs() {
         lights.glass = true;
         descs.push_back(GlassKey{.rays = false, .hits = {}, .lights = lights}.desc());
     }
+    return descs;
+}
+
+std::vector<gl::ProgramDesc> Glass::coneDescs(const std::vector<gl::Defines>& defines) {
+    std::vector<gl::ProgramDesc> descs;
+    for (const gl::Defines& cones : defines)
+        for (const bool shadows : {false, true})
+            for (const bool environment : {false, true})
+                descs.push_back(conesDesc(cones, shadows, environment));
     return descs;
 }
 

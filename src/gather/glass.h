@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "gather/cone_shadows.h"
 #include "gather/direct_light.h"
 #include "gather/picture_parts.h"
 #include "gather/pixel_rays.h"
@@ -24,11 +25,16 @@ class Glass {
     // By rays through the voxels; `picture` holds what is behind, of the same parts.
     void drawByRays(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,
                     const gl::Texture& picture);
+    // By a reflected and a refracted cone per pixel through the volume that `cones` gives.
+    void drawByCones(const gl::Device& device, const DirectInputs& inputs, const ConeShadows& cones,
+                     const PictureParts& parts, const gl::Texture& picture);
     // As tinted panes that bend nothing and reflect lights alone.
     void drawStraight(const gl::Device& device, const DirectInputs& inputs, const PictureParts& parts,
                       const gl::Texture& picture);
 
     static std::vector<gl::ProgramDesc> programDescs();
+    // By cones; `defines` are all that ConeShadows may have.
+    static std::vector<gl::ProgramDesc> coneDescs(const std::vector<gl::Defines>& defines);
 
   private:
     gl::Buffer constants_;

@@ -20,6 +20,7 @@ struct ShadeKey {
     bool emission = true;     // surfaces may glow
     bool counts = false;      // lookups
     light::LightKey lights;   // of direct light
+    bool caustics = false;    // with diffuse light
     bool records = false;     // one pixel, as a compute shader, for the inspector
 
     gl::ProgramDesc desc() const;
@@ -35,6 +36,7 @@ gl::ProgramDesc ShadeKey::desc() const {
                           {"IRRADIANCE", irradiance && gathers ? "1" : "0"},
                           {"LOBE", lobe && parts.specular ? "1" : "0"}}};
     if (!emission) desc.defines.emplace_back("SURFACE_EMISSION", "0");
+    if (caustics && parts.diffuse) desc.defines.emplace_back("CAUSTICS", "1");
     if (counts) desc.defines.emplace_back("COUNT_LOOKUPS", "1");
     if (parts.direct)
         for (auto& define : lights.defines()) desc.defines.push_back(std::move(define));
@@ -51,7 +53,12 @@ std::vector<ShadeKey> ShadeKey::all() {
         for (int bits = 0; bits < 16; ++bits) {
             const bool irradiance = (bits & 1) != 0, lobe = (bits & 2) != 0;
             if ((irradiance && !gathers) || (lobe && !parts.specular)) continue;
-            keys.push_back({parts, irradiance, lobe, (bits & 4) == 0, (bits & 8) != 0, lights});
+            const ShadeKey key{parts, irradiance, lobe, (bits & 4) == 0, (bits & 8) != 0, lights};
+            keys.push_back(key);
+            // Without direct light, lights are not told.
+            if (!parts.diffuse || (parts.direct && !lights.glass)) continue;
+            keys.push_back(key);
+            keys.back().caustics = true;
         }
     };
     for (const PictureParts& parts :
@@ -99,7 +106,8 @@ void TracedShade::draw(const gl::Device& device, const RayInputs& inputs, const 
                  false,
                  anyEmission(inputs.scene),
                  wanted.lookupCounters != nullptr,
-                 parts.direct ? inputs.lights.key() : light::LightKey{}};
+                 parts.direct ? inputs.lights.key() : light::LightKey{},
+                 inputs.lights.hasCaustics()};
     const auto drawPicture = [&](bool withLobe) {
         key.lobe = withLobe;
         device.get(key.desc()).use(given);

@@ -38,6 +38,22 @@ void Lights::update(const gl::Device& device, const scene::GpuScene& scene, cons
     glass_.update(scene);
     upload(scene.source());
     from_ = sources;
+    if (hasGlass()) caustics_.clear();
+    revision_ = ownRevision_ = base::Revision::next();
+}
+
+bool Lights::castsCaustics() const {
+    return from_.wanted.caustics && from_.wanted.settings.caustics > 0 && key().glass &&
+           !glass_.solids().empty();
+}
+
+void Lights::castCaustics(const gl::Device& device, const scene::GpuScene& scene,
+                          const voxels::Voxels& voxels) {
+    if (!castsCaustics()) return;
+    if (lightsOfCaustics_ == ownRevision_ && voxelsOfCaustics_ == voxels.revision()) return;
+    caustics_.cast(device, {scene, *this, voxels}, glass_.solids(), from_.wanted.settings.caustics);
+    lightsOfCaustics_ = ownRevision_;
+    voxelsOfCaustics_ = voxels.revision();
     revision_ = base::Revision::next();
 }
 
@@ -74,6 +90,7 @@ void Lights::declare(gl::Inputs& inputs) const {
         .add(shadows_)
         .add(environment_)
         .add(glass_);
+    if (hasGlass()) inputs.add(caustics_);
 }
 
 LightKey Lights::key() const {

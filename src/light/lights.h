@@ -11,6 +11,7 @@
 #include "base/revision.h"
 #include "conelight/settings.h"
 #include "gl/device.h"
+#include "light/caustics.h"
 #include "light/environment.h"
 #include "light/light_key.h"
 #include "light/shadow_maps.h"
@@ -24,6 +25,7 @@ struct LightsWanted {
     LightSettings settings;
     bool emissiveQuads = true;  // flat emitters are in the table
     bool shadowMaps = true;     // they are drawn; else the table says that nothing is in shadow
+    bool caustics = false;      // castCaustics will follow
     bool operator==(const LightsWanted&) const = default;
 };
 
@@ -34,6 +36,9 @@ class Lights {
     // Returns at once when neither the scene nor what is wanted has changed. GL state changed: as
     // ShadowMaps::update.
     void update(const gl::Device& device, const scene::GpuScene& scene, const LightsWanted& wanted);
+    // The light that solids of glass send on, where it was wanted and there is any: of lights and voxels as they
+    // are, which have octant words then (castsCaustics). Returns at once when neither has changed.
+    void castCaustics(const gl::Device& device, const scene::GpuScene& scene, const voxels::Voxels& voxels);
     base::Revision revision() const { return revision_; }
 
     // LightTable, LightingBlock, FixedLightBlock and FixedLightRows (the table once more, for shaders that
@@ -49,6 +54,9 @@ class Lights {
     // Whether an instance's emission arrives from a rectangle of the table: voxels leave it out.
     bool areInTable(std::size_t instance) const { return emitters_[instance] != 0; }
     bool hasGlass() const { return !glass_.empty(); }
+    bool castsCaustics() const;
+    bool hasCaustics() const { return caustics_.any(); }
+    const Caustics& caustics() const { return caustics_; }
     bool hasEnvironment() const { return environment_.hasPicture(); }
     int redrawnShadowMaps() const { return shadows_.redrawn(); }
 
@@ -63,6 +71,9 @@ class Lights {
     ShadowMaps shadows_;
     EnvironmentTable environment_;
     scene::GlassTree glass_;  // that light passes
+    Caustics caustics_;
+    base::Revision lightsOfCaustics_, voxelsOfCaustics_;  // that they were made from
+    base::Revision ownRevision_;                          // of all but them
 
     // What it was made from.
     struct Sources {

@@ -101,7 +101,8 @@ void LitVoxels::declare(gl::Inputs& inputs) const {
 
 std::vector<gl::ProgramDesc> LitVoxels::programDescs() {
     std::vector<gl::ProgramDesc> descs = injectLightProgramDescs();
-    for (const auto& more : {EmissionFit::programDescs(), IrradianceCache::programDescs()})
+    for (const auto& more :
+         {EmissionFit::programDescs(), IrradianceCache::programDescs(), Caustics::programDescs()})
         descs.insert(descs.end(), more.begin(), more.end());
     return descs;
 }

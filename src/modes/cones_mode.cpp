@@ -28,7 +28,7 @@ void ConesMode::draw(const Frame& frame) {
     const bool softShadows = parts.direct && frame.settings.cones.shadows == ConesShadows::Cones;
     const bool usesVolume = softShadows || component == Component::Occlusion ||
                             component == Component::Voxels || parts.diffuse || parts.specular ||
-                            frame.recorder != nullptr;
+                            frame.lights.castsCaustics() || frame.recorder != nullptr;
     if (usesVolume) updateVolume(frame);
 
     // What arrives at pixels, and the picture.
@@ -49,11 +49,22 @@ void ConesMode::draw(const Frame& frame) {
 }
 // [/recipe]
 
+// By cones, where the picture holds what they may bring.
+void ConesMode::drawGlass(const Frame& frame) {
+    const gather::PictureParts parts = partsOf(frame.settings);
+    if (!frame.settings.cones.refraction || (!parts.diffuse && !parts.specular))
+        return ModeRenderer::drawGlass(frame);
+    glass_.drawByCones(frame.device, {frame.scene, frame.lights, frame.surfaces},
+                       volume_.cones().shadows(volume_.volume()), parts, frame.output);
+}
+
 // With a cache, rays fill it first.
 void ConesMode::updateVolume(const Frame& frame) {
     const bool byRays = usesCache(frame.settings);
+    const bool rays = byRays || frame.lights.castsCaustics();
     voxels_.update(frame.device, frame.scene, frame.settings.voxels,
-                   byRays ? voxels::Rays::Yes : voxels::Rays::No);
+                   rays ? voxels::Rays::Yes : voxels::Rays::No);
+    frame.lights.castCaustics(frame.device, frame.scene, voxels_);
     if (byRays)
         lit_.relight(frame.device, {frame.scene, frame.lights, voxels_},
                      light::relightSettings(frame.settings.traced), light::Budget{});
@@ -78,7 +89,9 @@ void ConesMode::drawVoxels(const Frame& frame) {
 
 std::vector<gl::ProgramDesc> ConesMode::programDescs() {
     std::vector<gl::ProgramDesc> descs = gather::ConePicture::programDescs();
-    for (const auto& more : {gather::RadianceVolume::programDescs(), image::VoxelView::programDescs()})
+    for (const auto& more :
+         {gather::RadianceVolume::programDescs(), gather::Glass::coneDescs(ConeGather::shadowDefines()),
+          image::VoxelView::programDescs()})
         descs.insert(descs.end(), more.begin(), more.end());
     return descs;
 }

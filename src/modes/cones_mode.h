@@ -17,8 +17,10 @@ namespace conelight::modes {
 class ConesMode : public ModeRenderer {
   public:
     void draw(const Frame& frame) override;
+    void drawGlass(const Frame& frame) override;
     // Every component that this mode draws has lit voxels or direct light in it.
     bool needsShadows(const Scene&, const Settings&) const override { return true; }
+    bool castsCaustics() const override { return true; }
 
     static std::vector<gl::ProgramDesc> programDescs();
 

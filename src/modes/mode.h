@@ -19,7 +19,7 @@ namespace conelight::modes {
 struct Frame {
     const gl::Device& device;
     const scene::GpuScene& scene;
-    const light::Lights& lights;
+    light::Lights& lights;  // the mode has caustics cast, from its voxels
     const view::Surfaces& surfaces;
     const Settings& settings;
     // RGBA32F, of the surfaces' size; the mode writes every pixel, row 0 at the bottom.
@@ -49,6 +49,8 @@ class ModeRenderer {
     }
     // Whether pictures of a scene need shadow maps.
     virtual bool needsShadows(const Scene& scene, const Settings& settings) const = 0;
+    // Whether the mode has caustics cast.
+    virtual bool castsCaustics() const { return false; }
     // Whether flat emitters become lights where light.emissive_quads is on.
     virtual bool lightsFromEmitters(const Settings&) const { return true; }
 

@@ -81,7 +81,7 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
 
     void render(const Camera& camera, int width, int height, const Settings& settings);
     void prepare(const Settings& settings);
-    modes::Frame frame(const Settings& settings) const;
+    modes::Frame frame(const Settings& settings);
     void drawLight(const modes::Frame& frame);
     void drawParts(const Camera& camera, const Settings& settings);
     void drawOverlays(const Settings& settings);
@@ -211,12 +211,12 @@ void Renderer::Impl::prepare(const Settings& settings) {
     }
     const bool shadows =
         settings.component == Component::ShadowMap || mode->needsShadows(scene->source(), settings);
-    lights.update(
-        device, *scene,
-        {settings.light, settings.light.emissiveQuads && mode->lightsFromEmitters(settings), shadows});
+    lights.update(device, *scene,
+                  {settings.light, settings.light.emissiveQuads && mode->lightsFromEmitters(settings),
+                   shadows, mode->castsCaustics()});
 }
 
-modes::Frame Renderer::Impl::frame(const Settings& settings) const {
+modes::Frame Renderer::Impl::frame(const Settings& settings) {
     return {.device = device,
             .scene = *scene,
             .lights = lights,

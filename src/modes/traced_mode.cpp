@@ -38,11 +38,13 @@ void TracedMode::draw(const Frame& frame) {
     // Voxels, and the light on them.
     const bool usesLight = component == Component::Occlusion || component == Component::Voxels ||
                            parts.diffuse || parts.specular || frame.recorder != nullptr;
-    if (usesLight && !frame.besideCenters) {
+    if ((usesLight || frame.lights.castsCaustics()) && !frame.besideCenters) {
         voxels_.update(frame.device, frame.scene, frame.settings.voxels, voxels::Rays::Yes);
+        frame.lights.castCaustics(frame.device, frame.scene, voxels_);
+    }
+    if (usesLight && !frame.besideCenters)
         lit_.relight(frame.device, {frame.scene, frame.lights, voxels_}, light::relightSettings(settings),
                      budgetOf(frame));
-    }
 
     // What arrives at pixels, and the picture.
     if (frame.recorder != nullptr) {

@@ -20,6 +20,7 @@ class TracedMode : public ModeRenderer {
     void drawGlass(const Frame& frame) override;
     // Every component has lit voxels or direct light in it, or leaves them behind for the next.
     bool needsShadows(const Scene&, const Settings&) const override { return true; }
+    bool castsCaustics() const override { return true; }
 
     static std::vector<gl::ProgramDesc> programDescs();
 

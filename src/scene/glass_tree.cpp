@@ -8,6 +8,7 @@
 
 #include "gl/gl.h"
 #include "math/octahedral.h"
+#include "shared/caustics.h"
 
 namespace conelight::scene {
 namespace {
@@ -99,7 +100,8 @@ void appendNodes(std::vector<Item>& items, std::size_t begin, std::size_t end,
 
 std::uint32_t packedNormal(const glm::vec3& n) { return math::packSnorm2x16(math::octEncode(n)); }
 
-void appendTriangles(const GpuScene& scene, std::size_t index, std::vector<gpu::GlassTriangle>& triangles) {
+void appendTriangles(const GpuScene& scene, std::size_t index, std::uint32_t solid,
+                     std::vector<gpu::GlassTriangle>& triangles) {
     const Instance& instance = scene.source().instances[index];
     const Mesh& mesh = scene.source().meshes[static_cast<std::size_t>(instance.mesh)];
     const gpu::Instance& placed = scene.instances()[index];
@@ -121,8 +123,29 @@ void appendTriangles(const GpuScene& scene, std::size_t index, std::vector<gpu::
         std::array<glm::vec2, 3> uvs{};
         for (std::size_t k = 0; k < 3 && !mesh.uvs.empty(); ++k) uvs[k] = mesh.uvs[v[k]];
         triangles.push_back({corners[0], normals[0], corners[1], normals[1], corners[2], normals[2], uvs[0],
-                             uvs[1], uvs[2], static_cast<std::uint32_t>(index), 0});
+                             uvs[1], uvs[2], static_cast<std::uint32_t>(index), solid});
     }
+}
+
+GlassSolid solidOf(const GpuScene& scene, std::size_t index) {
+    const Instance& instance = scene.source().instances[index];
+    const Mesh& mesh = scene.source().meshes[static_cast<std::size_t>(instance.mesh)];
+    Aabb box;
+    for (const glm::vec3& p : mesh.positions) box.grow(glm::vec3(instance.worldFromObject * glm::vec4(p, 1)));
+    GlassSolid solid{box.center(), 0, static_cast<std::uint32_t>(index)};
+    for (const glm::vec3& p : mesh.positions)
+        solid.radius = std::max(
+            solid.radius, glm::distance(solid.middle, glm::vec3(instance.worldFromObject * glm::vec4(p, 1))));
+    return solid;
+}
+
+std::vector<GlassSolid> solidsOf(const GpuScene& scene) {
+    std::vector<GlassSolid> solids;
+    const std::vector<gpu::Instance>& instances = scene.instances();
+    for (std::size_t i = 0; i < instances.size(); ++i)
+        if (isGlass(instances[i]) && (scene.materials()[instances[i].material].flags & MATERIAL_SOLID) != 0)
+            solids.push_back(solidOf(scene, i));
+    return solids;
 }
 
 }  // namespace
@@ -155,11 +178,19 @@ void GlassTree::update(const GpuScene& scene) {
     const std::vector<gpu::Instance>& instances = scene.instances();
     for (std::size_t i = 0; i < instances.size(); ++i)
         if (isGlass(instances[i])) from.push_back(scene.instanceRevision(i));
-    if (sameScene && from == from_) return;
+    std::vector<GlassSolid> solids = solidsOf(scene);
+    const bool sameSolids = solids == solids_;
+    solids_ = std::move(solids);
+    if (sameScene && from == from_ && sameSolids) return;
     from_ = std::move(from);
+    const auto numberOf = [&](std::size_t instance) {
+        for (std::uint32_t i = 0; i < solids_.size(); ++i)
+            if (solids_[i].instance == instance) return i;
+        return CAUSTIC_NO_SOLID;
+    };
     std::vector<gpu::GlassTriangle> triangles;
     for (std::size_t i = 0; i < instances.size(); ++i)
-        if (isGlass(instances[i])) appendTriangles(scene, i, triangles);
+        if (isGlass(instances[i])) appendTriangles(scene, i, numberOf(i), triangles);
     const std::vector<gpu::GlassNode> nodes = sortIntoTree(triangles);
     nodes_ = static_cast<std::uint32_t>(nodes.size());
     nodeTexture_ = {};

@@ -15,17 +15,28 @@
 
 namespace conelight::scene {
 
+// A closed surface of glass that bends light.
+struct GlassSolid {
+    glm::vec3 middle;
+    float radius;  // of a ball about the middle that holds it
+    std::uint32_t instance;
+    bool operator==(const GlassSolid&) const = default;
+};
+
 class GlassTree {
   public:
     // Made anew when an instance of glass has changed, on the CPU; returns at once otherwise.
     void update(const GpuScene& scene);
     bool empty() const { return nodes_ == 0; }
+    // In the order of their numbers (gpu::GlassTriangle::solid).
+    const std::vector<GlassSolid>& solids() const { return solids_; }
 
     void declare(gl::Inputs& inputs) const;  // glassNodes, glassTriangles; nothing when empty
 
   private:
     base::Revision scene_, geometry_;
     std::vector<base::Revision> from_;  // of the instances
+    std::vector<GlassSolid> solids_;
     gl::Buffer nodeBuffer_, triangleBuffer_;
     gl::Texture nodeTexture_, triangleTexture_;  // read them
     std::uint32_t nodes_ = 0;

@@ -94,6 +94,9 @@ std::vector<Setting<LightSettings>> lightSettings() {
          "points per rectangular light, a square number"},
         {"emissive_quads", &LightSettings::emissiveQuads,
          "light flat rectangular emitters exactly, as area lights"},
+        {"caustics", &LightSettings::caustics, Numbers{1024, 1048576, 1, true, false}, "",
+         "paths of light through each solid of glass from each light, in modes traced and cones; 0: none, "
+         "light goes straight through solids"},
     };
 }
 
@@ -140,6 +143,9 @@ std::vector<Setting<ConesSettings>> conesSettings() {
          "shadow maps, or soft shadows by a cone to each light"},
         {"shadow_aperture", &ConesSettings::shadowAperture, Numbers{0.01, 1.2}, "rad",
          "of the cone to a light that is a point or far: how wide the light looks"},
+        {"refraction", &ConesSettings::refraction,
+         "glass bends light: a reflected and a refracted cone per pixel that sees it; off: tinted panes that "
+         "bend nothing"},
         {"voxel_level", &ConesSettings::voxelLevel, Numbers{0, 6}, "",
          "level of the volume that component voxels shows"},
     };

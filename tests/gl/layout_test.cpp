@@ -6,6 +6,7 @@
 #include <regex>
 #include <set>
 
+#include "shared/caustics.h"
 #include "shared/cones.h"
 #include "shared/frame.h"
 #include "shared/glass.h"
@@ -98,6 +99,19 @@ Member member(const char* name, std::size_t offset) {
 #S, sizeof(gpu::S), { EXPAND(EACH(S, __VA_ARGS__)) } \
     }
 
+std::vector<Struct> glassStructs() {
+    return {
+        ROW(GlassNode, lower, skip, upper, triangles),
+        ROW(GlassTriangle, corner0, normal0, corner1, normal1, corner2, normal2, uv0, uv1, uv2, instance,
+            solid),
+        ROW(GlassConstants, pass, passes, inverseVoxelSize, fireflyClamp, firstPass, reflections, direct,
+            specular),
+        ROW(CausticConstants, count, edge, voxelSize, pad0, middle),
+        ROW(CausticPass, middle, radius, solid, light, grid, lampGrid, scale, far, edge, pad0),
+        ROW(CausticEnd, place, distance, history, flux, entry),
+    };
+}
+
 std::vector<Struct> otherStructs() {
     return {
         ROW(ConeConstants, count, step, offset, maxDistance, specularMinTan, occlusionDistance, shadowTan,
@@ -131,11 +145,6 @@ std::vector<Struct> otherStructs() {
         ROW(Vertex, position, normalOct, u, v, tangentOct, color),
         ROW(Instance, worldFromObject, normalColumn0, normalColumn1, normalColumn2, firstIndex, indexCount,
             firstVertex, material, flags, firstTriangle, pad0, pad1),
-        ROW(GlassNode, lower, skip, upper, triangles),
-        ROW(GlassTriangle, corner0, normal0, corner1, normal1, corner2, normal2, uv0, uv1, uv2, instance,
-            pad0),
-        ROW(GlassConstants, pass, passes, inverseVoxelSize, fireflyClamp, firstPass, reflections, direct,
-            specular),
         ROW(Material, baseColor, emission, alphaCutoff, specularF0, metallic, roughness, normalScale, flags,
             pad0, layers, uvRow, phongColor, phongShininess, phongAmbient, phongDiffuse, phongSpecular,
             transmission, absorption, ior, transmissionUvRow, transmissionLayer, pad1, pad2, pad3),
@@ -162,6 +171,7 @@ std::vector<Struct> otherStructs() {
 const std::vector<Struct>& table() {
     static const std::vector<Struct> structs = [] {
         std::vector<Struct> all = otherStructs();
+        for (Struct& glass : glassStructs()) all.push_back(std::move(glass));
         all.push_back(ROW(HostSurfaceConstants, worldFromView, depthRow, depthOfEye, depthScale, depthOffset,
                           background, encoding, reduction, instances, roughnessChannel, pad0));
         return all;

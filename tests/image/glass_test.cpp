@@ -3,6 +3,7 @@
 // path tracer, whose own tests are in tests/cpu/glass_test.cpp.
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "conelight/thesis/settings.h"
 #include "io/generated.h"
@@ -54,21 +55,23 @@ class GlassTest : public TracedModeTest {
 
 // A ball of glass, or of panes, in even light cannot be seen.
 TEST_F(GlassTest, IsInvisibleInEvenLight) {
-    for (const float thickness : {0.0f, 1.0f})
-        for (const float roughness : {0.0f, 0.4f}) {
-            Scene scene;
-            scene.sky = glm::vec3(1);
-            addInstance(scene, sphereMesh(48, 24), glassOf(glm::vec3(1), thickness, roughness));
-            // Something for the voxels, out of the way.
-            addInstance(scene, quadMesh({-0.1f, -3, 0.1f}, {0.2f, 0, 0}, {0, 0, -0.2f}),
-                        diffuseMaterial(glm::vec3(0.5f)));
-            Camera camera;
-            camera.eye = {0, 0, 6};
-            camera.fovY = 0.25f;
-            scene.cameras.push_back(camera);
-            const double mean = meanOf(draw(scene, tracedSettings(Quality::Interactive)));
-            EXPECT_NEAR(mean, 1, 0.02) << thickness << " " << roughness;
-        }
+    for (int kind = 0; kind < 8; ++kind) {
+        const float thickness = (kind & 1) != 0 ? 1.0f : 0.0f, roughness = (kind & 2) != 0 ? 0.4f : 0.0f;
+        Settings settings = tracedSettings(Quality::Interactive);
+        if ((kind & 4) != 0) settings.mode = Mode::Cones;
+        Scene scene;
+        scene.sky = glm::vec3(1);
+        addInstance(scene, sphereMesh(48, 24), glassOf(glm::vec3(1), thickness, roughness));
+        // Something for the voxels, out of the way.
+        addInstance(scene, quadMesh({-0.1f, -3, 0.1f}, {0.2f, 0, 0}, {0, 0, -0.2f}),
+                    diffuseMaterial(glm::vec3(0.5f)));
+        Camera camera;
+        camera.eye = {0, 0, 6};
+        camera.fovY = 0.25f;
+        scene.cameras.push_back(camera);
+        EXPECT_NEAR(meanOf(draw(scene, settings)), 1, 0.02)
+            << settings.mode.name() << " " << thickness << " " << roughness;
+    }
 }
 
 // Lamps and their shadows: by points and rectangles, in every mode that looks lights up by the table.
@@ -128,6 +131,65 @@ TEST_F(GlassTest, AgreesWithThePathTracer) {
             difference += static_cast<double>(image.pixels[i].g - truth.full.pixels[i].g);
         }
     EXPECT_LT(std::abs(difference / sum), 0.15);
+}
+
+// A ball shows what is behind it turned about: left is right.
+TEST_F(GlassTest, BallsTurnWhatIsBehindThem) {
+    Scene scene;
+    addInstance(scene, quadMesh({-2, -2, -2}, {2, 0, 0}, {0, 4, 0}), diffuseMaterial({0, 0, 0}, {1, 0, 0}));
+    addInstance(scene, quadMesh({0, -2, -2}, {2, 0, 0}, {0, 4, 0}), diffuseMaterial({0, 0, 0}, {0, 0, 1}));
+    addInstance(scene, sphereMesh(48, 24), glassOf(glm::vec3(1), 1));
+    Camera camera;
+    camera.eye = {0, 0, 4};
+    camera.fovY = 0.6f;
+    scene.cameras.push_back(camera);
+    for (const Mode mode : {Mode::Traced, Mode::Cones})
+        for (const bool bends : {true, false}) {
+            Settings settings = tracedSettings(Quality::Draft);
+            settings.mode = mode;
+            settings.cones.refraction = bends;
+            if (mode == Mode::Traced && !bends) continue;
+            const Image image = draw(scene, settings);
+            double red = 0, blue = 0;
+            for (int y = 20; y < 28; ++y)
+                for (int x = 14; x < 20; ++x) {
+                    const auto& pixel = image.pixels[static_cast<std::size_t>(kTracedPixels * y + x)];
+                    red += static_cast<double>(pixel.r);
+                    blue += static_cast<double>(pixel.b);
+                }
+            EXPECT_GT(bends ? blue : red, 4 * (bends ? red : blue)) << mode.name() << " " << bends;
+        }
+}
+
+// The light that a ball gathers on the floor is the path tracer's, in place and strength.
+TEST_F(GlassTest, CausticsAreThoseOfThePathTracer) {
+    Scene scene;
+    addInstance(scene, quadMesh({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), diffuseMaterial(glm::vec3(0.7f)));
+    addInstance(scene, sphereMesh(64, 32), glassOf(glm::vec3(1), 1),
+                glm::translate(glm::mat4(1), {0, 0.5f, 0}) * glm::scale(glm::mat4(1), glm::vec3(0.3f)));
+    Light lamp;
+    lamp.type = LightType::Rect;
+    lamp.position = {0.4f, 2, 0};
+    lamp.halfU = {0.15f, 0, 0};
+    lamp.halfV = {0, 0, 0.15f};
+    lamp.direction = {0, -1, 0};
+    lamp.intensity = glm::vec3(20);
+    scene.lights.push_back(lamp);
+    Camera camera;
+    camera.eye = {-0.2f, 0.35f, 1.6f};
+    camera.target = {-0.1f, 0, 0};
+    camera.fovY = 0.5f;
+    scene.cameras.push_back(camera);
+    const reference::PathTracedPicture truth = truthOf(scene, 1024);
+    for (const Mode mode : {Mode::Traced, Mode::Cones}) {
+        Settings settings = tracedSettings(Quality::Interactive, Component::Diffuse);
+        settings.mode = mode;
+        const Image image = draw(scene, settings);
+        EXPECT_NEAR(meanOf(image) / meanOf(truth.diffuse), 1, 0.05) << mode.name();
+        EXPECT_LT(relRmse(image, truth.diffuse), 0.25) << mode.name();
+        settings.light.caustics = 0;
+        EXPECT_LT(meanOf(draw(scene, settings)), 0.3 * meanOf(image)) << mode.name();
+    }
 }
 
 // What changes in place shows at once, as if the scene had been made so.

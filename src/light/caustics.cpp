@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "light/caustics.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "gl/gl.h"
+#include "light/lights.h"
+#include "voxels/voxel_grid.h"
+
+namespace conelight::light {
+namespace {
+
+constexpr float kPi = std::numbers::pi_v<float>;
+
+// Texels per edge of a map: 0.7 degrees each, half as much light as a path of the default number brings.
+constexpr int kEdge = 256;
+// Points of a rectangle per edge that paths start from. What lies between is filled in by their differences.
+constexpr std::uint32_t kLampGrid = 4;
+// All light of a solid comes to so many counts: no path brings more than a word, the rounding of the weakest is
+// below a thousandth, and a hundred such sums fit into two words.
+constexpr float kCounts = 0x1p34f;
+
+gl::ProgramDesc pathsDesc() {
+    return {{"light/caustic_paths.comp.glsl"}, {{"GLASS", "1"}, {"LIGHTS_SHADOWS", "0"}}};
+}
+gl::ProgramDesc sumsDesc() { return {{"light/caustic_sums.comp.glsl"}, {}}; }
+gl::ProgramDesc mapDesc() { return {{"light/caustic_map.comp.glsl"}, {}}; }
+
+// W that a light sends towards a ball, in its strongest channel; of those with a falloff of their own, about.
+float fluxTowards(const gpu::Light& light, const glm::vec3& middle, float radius) {
+    const float intensity = std::max({light.intensity.x, light.intensity.y, light.intensity.z});
+    if (light.type == LIGHT_DIRECTIONAL) return intensity * kPi * radius * radius;
+    const float distance = glm::length(middle - light.position);
+    const float sine = std::min(radius / std::max(distance, 1e-6f), 1.0f);
+    const float solidAngle = 2 * kPi * sine * sine / (1 + std::sqrt(1 - sine * sine));
+    if (light.type == LIGHT_RECT)
+        return intensity * solidAngle * 4 * glm::length(glm::cross(light.halfU, light.halfV));
+    if (light.customFalloff == 0) return intensity * solidAngle;
+    const float d2 = distance * distance;
+    return intensity * solidAngle * d2 / glm::dot(light.falloff, glm::vec3(1, distance, d2));
+}
+
+float farFrom(const glm::vec3& middle, const voxels::VoxelGrid& grid) {
+    const glm::vec3 extent = glm::vec3(grid.size) * grid.voxelSize;
+    return glm::length(middle - (grid.origin + 0.5f * extent)) + glm::length(extent);
+}
+
+}  // namespace
+
+void Caustics::clear() {
+    constants_ = {};
+    constants_.edge = kEdge;
+    if (!block_) block_ = gl::Buffer(sizeof(gpu::CausticConstants), "caustic constants");
+    block_.update(constants_);
+    if (!map_) map_ = gl::Texture({GL_TEXTURE_2D_ARRAY, GL_RGBA32F}, "caustic map");
+}
+
+void Caustics::layOut(std::size_t solids, int paths) {
+    if (!passBlock_) passBlock_ = gl::Buffer(sizeof(gpu::CausticPass), "caustic pass");
+    if (!sums_)
+        sums_ =
+            gl::Buffer(std::size_t{kEdge} * kEdge * CAUSTIC_WORDS * sizeof(std::uint32_t), "caustic sums");
+    const std::size_t bytes =
+        std::size_t{CAUSTIC_WAYS} * static_cast<std::size_t>(paths) * sizeof(gpu::CausticEnd);
+    if (ends_.bytes() < bytes) {
+        ends_ = {};
+        ends_ = gl::Buffer(bytes, "caustic ends");
+    }
+    const int layers = static_cast<int>(solids);
+    if (map_.width() == kEdge && map_.depth() == layers) return;
+    map_ = {};
+    map_ = gl::Texture({GL_TEXTURE_2D_ARRAY, GL_RGBA32F, kEdge, kEdge, layers, 0}, "caustic map");
+    map_.parameter(GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    map_.parameter(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    map_.parameter(GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    map_.parameter(GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
+void Caustics::cast(const gl::Device& device, const Inputs& inputs,
+                    const std::vector<scene::GlassSolid>& solids, int paths) {
+    const gl::PassScope pass(device.profiler, "caustics");
+    const std::size_t count = std::min(solids.size(), std::size_t{CAUSTIC_SOLIDS});
+    layOut(count, paths);
+    constants_ = {};
+    constants_.count = static_cast<std::uint32_t>(count);
+    constants_.edge = kEdge;
+    constants_.voxelSize = inputs.voxels.grid().voxelSize;
+    for (std::size_t i = 0; i < count; ++i)
+        constants_.middle[i] = glm::vec4(solids[i].middle, solids[i].radius);
+    block_.update(constants_);
+    for (std::uint32_t i = 0; i < count; ++i) castSolid(device, inputs, i, paths);
+    gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess);
+    map_.generateMipmaps();
+    gl::barrier(gl::Access::TextureFetch);
+}
+
+// The paths of one light after the other, and their sum.
+void Caustics::castSolid(const gl::Device& device, const Inputs& inputs, std::uint32_t solid, int paths) {
+    const std::vector<gpu::Light>& table = inputs.lights.table();
+    gpu::CausticPass cast{};
+    cast.middle = glm::vec3(constants_.middle[solid]);
+    cast.radius = constants_.middle[solid].w;
+    cast.solid = solid;
+    cast.edge = kEdge;
+    cast.far = farFrom(cast.middle, inputs.voxels.grid());
+    float flux = 0;
+    for (const gpu::Light& light : table) flux += fluxTowards(light, cast.middle, cast.radius);
+    cast.scale = kCounts / std::max(flux, 1e-20f);
+    gl::Inputs given;
+    given.add(inputs.scene).add(inputs.lights).add(inputs.voxels);
+    given.uniform("CausticPassBlock", passBlock_)
+        .storage("CausticEnds", ends_)
+        .storage("CausticSums", sums_)
+        .image("causticLayers", map_, gl::ImageUse::Write);
+    gl::barrier(gl::Access::ShaderStorage | gl::Access::Update);
+    sums_.clear();
+    for (std::uint32_t i = 0; i < table.size(); ++i) {
+        cast.light = i;
+        cast.lampGrid = table[i].type == LIGHT_RECT ? kLampGrid : 1;
+        cast.grid = static_cast<std::uint32_t>(std::sqrt(static_cast<float>(paths))) / cast.lampGrid;
+        const std::size_t starts = std::size_t{cast.grid} * cast.grid * cast.lampGrid * cast.lampGrid;
+        passBlock_.update(cast);
+        device.get(pathsDesc()).dispatchLinear(given, CAUSTIC_WAYS * starts);
+        gl::barrier(gl::Access::ShaderStorage);
+        device.get(sumsDesc()).dispatchLinear(given, CAUSTIC_WAYS * starts);
+        gl::barrier(gl::Access::ShaderStorage | gl::Access::Update);
+    }
+    device.get(mapDesc()).dispatch(given, kEdge, kEdge);
+}
+
+void Caustics::declare(gl::Inputs& inputs) const {
+    inputs.uniform("CausticBlock", block_).texture("causticMap", map_);
+}
+
+std::vector<gl::ProgramDesc> Caustics::programDescs() { return {pathsDesc(), sumsDesc(), mapDesc()}; }
+
+}  // namespace conelight::light
