@@ -55,18 +55,8 @@ std::vector<const Figure*> chosen(const std::string& only) {
 }
 
 void printList(const std::vector<const Figure*>& figures) {
-    for (const Figure* figure : figures) {
-        fmt::print("{:<4} {:<8} {}\n", figure->id, nameOf(figure->kind), figure->title);
-        if (figure->draw == nullptr) fmt::print("     not drawn yet; it waits for {}\n", figure->missing);
-    }
-}
-
-[[noreturn]] void failMissing(const std::vector<const Figure*>& figures) {
-    std::string names;
     for (const Figure* figure : figures)
-        names += fmt::format("{}{} (waits for {})", names.empty() ? "" : ", ", figure->id, figure->missing);
-    throw Error(ErrorKind::Runtime,
-                fmt::format("not drawn yet: {}; `conelight figures --list` names those that are", names));
+        fmt::print("{:<4} {:<8} {}\n", figure->id, nameOf(figure->kind), figure->title);
 }
 
 void run(const FigureOptions& options) {
@@ -75,22 +65,12 @@ void run(const FigureOptions& options) {
     if (options.list) return printList(wanted);
     if (options.directory.empty()) usage("--output is required; -o figures, for example, would be right");
     const Size size = options.small ? Size{96, 72} : parseSize(options.size);
-    std::vector<const Figure*> drawn, missing;
-    for (const Figure* figure : wanted) (figure->draw != nullptr ? drawn : missing).push_back(figure);
-    // What was asked for by name is drawn or refused; a call for all of them draws what there is.
-    const bool byName = std::any_of(missing.begin(), missing.end(), [&](const Figure* figure) {
-        const std::vector<std::string> words = splitList(options.only);
-        return std::any_of(words.begin(), words.end(),
-                           [&](const std::string& word) { return normalised(word) == figure->id; });
-    });
-    if (byName) failMissing(missing);
-
     ViewOptions view;
     view.device = options.device;
     Progress progress;
     figures::Gallery gallery(options.directory);
     figures::Studio studio(size, options.small, view, progress);
-    for (const Figure* figure : drawn) {
+    for (const Figure* figure : wanted) {
         progress.show(fmt::format("{} {}", figure->id, figure->title));
         try {
             gallery.add(*figure, figure->draw(studio));
@@ -100,9 +80,6 @@ void run(const FigureOptions& options) {
         progress.finish();
         for (const std::string& file : gallery.lastFiles()) fmt::print("{:<10} {}\n", file, figure->title);
     }
-    if (!missing.empty())
-        fmt::print("not drawn yet: {} of {}; `conelight figures --list` names them\n", missing.size(),
-                   wanted.size());
 }
 
 }  // namespace
@@ -125,7 +102,7 @@ void addFigures(CLI::App& app) {
         ->add_flag("--small", options->small,
                    "rendered pictures of 96x72 with few voxels and samples, tables of few frames: a trial")
         ->excludes(size);
-    command->add_flag("--list", options->list, "name the figures, and those that are not drawn yet");
+    command->add_flag("--list", options->list, "name the figures");
     command->add_flag("--markdown", options->markdown, "the gallery as a page of the documentation");
     command->add_option("--device", options->device, "EGL device (`conelight info` lists them)")
         ->type_name("N")

@@ -170,6 +170,7 @@ enum class VoxelShape { Auto, Cubes, Edges, Faces, Volume, Surfaces };
 // Views that look inside; they change what is drawn, not the light.
 struct ViewSettings {
     Wireframe wireframe = Wireframe::Off;
+    float shrink = 0;  // of each triangle's extent, about its middle
     bool voxels = false;
     VoxelData voxelData = VoxelData::Radiance;
     VoxelShape voxelShape = VoxelShape::Auto;

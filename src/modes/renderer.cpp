@@ -161,7 +161,8 @@ void Renderer::Impl::render(const Camera& camera, int width, int height, const S
     const bool debugView = image::isDebugView(settings.component);
     if (!debugView || settings.view.voxels) prepare(settings);
     const view::PixelPart centers = isAntialiased(settings) ? view::centersOfStill() : view::PixelPart{};
-    surfaces.see(device, *scene, {camera, width, height, true, centers, debugView});
+    const float shrink = settings.view.shrink;
+    surfaces.see(device, *scene, {camera, width, height, true, centers, debugView, shrink});
     if (debugView)
         image::drawDebugView(device, *scene, surfaces, settings.component, image.texture());
     else if (settings.component == Component::ShadowMap)
@@ -189,7 +190,12 @@ void Renderer::Impl::drawParts(const Camera& camera, const Settings& settings) {
     const int count = settings.image.antialiasing;
     for (int i = 0; i < count; ++i) {
         partSurfaces.see(device, *scene,
-                         {camera, image.width(), image.height(), true, view::pixelPart(i, count)});
+                         {.camera = camera,
+                          .width = image.width(),
+                          .height = image.height(),
+                          .cullBackFaces = true,
+                          .part = view::pixelPart(i, count),
+                          .shrink = settings.view.shrink});
         drawLight({.device = device,
                    .scene = *scene,
                    .lights = lights,

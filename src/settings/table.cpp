@@ -189,6 +189,9 @@ std::vector<Setting<ViewSettings>> viewSettings() {
     return {
         {"wireframe", &ViewSettings::wireframe, kWireframes,
          "edges of the triangles: over the picture without hidden ones, or alone"},
+        {"shrink", &ViewSettings::shrink, Numbers{0, 0.95}, "",
+         "draw each triangle smaller about its middle, by this part of its extent, so that one sees how "
+         "surfaces are made of triangles; 0: whole"},
         {"voxels", &ViewSettings::voxels,
          "voxels among the objects, whichever is nearer, but in mode phong (component voxels: alone)"},
         {"voxel_data", &ViewSettings::voxelData, kVoxelData,

@@ -22,15 +22,19 @@ bool isMasked(const gpu::Material& material) {
 struct GBufferKey {
     int textures;  // kTextureUses
     bool masked;
+    bool shrunk;  // triangles go through view/shrink.geom.glsl
 
     gl::ProgramDesc desc() const {
-        return {{"view/gbuffer.vert.glsl", "view/gbuffer.frag.glsl"},
-                {{"TEXTURES", std::to_string(textures)}, {"MASKED", masked ? "1" : "0"}}};
+        gl::ProgramDesc desc{{"view/gbuffer.vert.glsl", "view/gbuffer.frag.glsl"},
+                             {{"TEXTURES", std::to_string(textures)}, {"MASKED", masked ? "1" : "0"}}};
+        if (shrunk) desc.files.insert(desc.files.begin() + 1, "view/shrink.geom.glsl");
+        return desc;
     }
     static std::vector<GBufferKey> all() {
         std::vector<GBufferKey> keys;
         for (int textures = 0; textures < kTextureUses; ++textures)
-            for (const bool masked : {false, true}) keys.push_back({textures, masked});
+            for (const bool masked : {false, true})
+                for (const bool shrunk : {false, true}) keys.push_back({textures, masked, shrunk});
         return keys;
     }
 };
@@ -52,11 +56,17 @@ GBuffer::GBuffer(int width, int height)
 }
 
 void GBuffer::draw(const gl::Device& device, const scene::GpuScene& scene, const gl::Buffer& frameBlock,
-                   bool cullBackFaces, bool withGlass) {
+                   const Wanted& wanted) {
     const gl::PassScope pass(device.profiler, "gbuffer");
     gl::Inputs inputs;
     inputs.uniform("FrameBlock", frameBlock).add(scene);
     scene::GpuScene::declareMaterialTextures(inputs);
+    const bool shrunk = wanted.shrink > 0;
+    if (shrunk) {
+        if (!shrink_) shrink_ = gl::Buffer(sizeof(gpu::ShrinkConstants), "shrink constants");
+        shrink_.update(gpu::ShrinkConstants{.kept = 1.0f - wanted.shrink});
+        inputs.uniform("ShrinkBlock", shrink_);
+    }
     gl::RasterState state;
     state.framebuffer = &framebuffer_;
     state.farthest = GBUFFER_FARTHEST;
@@ -67,9 +77,11 @@ void GBuffer::draw(const gl::Device& device, const scene::GpuScene& scene, const
     framebuffer_.clearDepth(1.0f);
 
     // Opaque materials first: their depths spare the dearer fragments behind them.
-    const gl::Cull cull = cullBackFaces ? gl::Cull::Back : gl::Cull::None;
+    const gl::Cull cull = wanted.cullBackFaces ? gl::Cull::Back : gl::Cull::None;
     const std::vector<gpu::Material>& materials = scene.materials();
-    const auto drawn = [&](const gpu::Instance& instance) { return withGlass || !scene::isGlass(instance); };
+    const auto drawn = [&](const gpu::Instance& instance) {
+        return wanted.withGlass || !scene::isGlass(instance);
+    };
     for (const bool masked : {false, true}) {
         for (int textures = 0; textures < kTextureUses; ++textures) {
             const auto accepted = [&](const gpu::Instance& instance) {
@@ -80,7 +92,7 @@ void GBuffer::draw(const gl::Device& device, const scene::GpuScene& scene, const
             for (const gpu::Instance& instance : scene.instances())
                 any = any || ((instance.flags & INSTANCE_VISIBLE) != 0 && accepted(instance));
             if (!any) continue;
-            const gl::Program& program = device.get(GBufferKey{textures, masked}.desc());
+            const gl::Program& program = device.get(GBufferKey{textures, masked, shrunk}.desc());
             program.use(inputs);
             scene.draw({.filter = accepted, .cull = cull, .textured = textures != 0 ? &program : nullptr});
         }

@@ -23,12 +23,15 @@ class GBuffer {
   public:
     GBuffer(int width, int height);
 
-    // `frameBlock` holds gpu::FrameConstants. `withGlass`: transmissive instances are drawn like others; else
-    // they are left out, for what lies behind. `cullBackFaces`: single-sided materials are seen from their
-    // front only. GL state changed: raster state, vertex array, program and its slots, texture units of
-    // materials.
+    struct Wanted {
+        bool cullBackFaces;  // single-sided materials are seen from their front only
+        bool withGlass;  // transmissive instances are drawn like others; else left out, for what lies behind
+        float shrink = 0;  // part of its extent by which each triangle is smaller, about its middle
+    };
+    // `frameBlock` holds gpu::FrameConstants. GL state changed: raster state, vertex array, program and its
+    // slots, texture units of materials.
     void draw(const gl::Device& device, const scene::GpuScene& scene, const gl::Buffer& frameBlock,
-              bool cullBackFaces, bool withGlass);
+              const Wanted& wanted);
 
     void declare(gl::Inputs& inputs) const;  // gbufferGeometry, gbufferMaterial
 
@@ -47,6 +50,7 @@ class GBuffer {
     int width_, height_;
     gl::Texture geometry_, material_, depth_;
     gl::Framebuffer framebuffer_;
+    gl::Buffer shrink_;  // gpu::ShrinkConstants, when triangles are shrunk
 };
 
 }  // namespace conelight::view

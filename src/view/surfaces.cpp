@@ -26,7 +26,7 @@ void Surfaces::see(const gl::Device& device, const scene::GpuScene& scene, const
     resize(picture.width, picture.height);
     view_ = frameConstants(picture.camera, picture.width, picture.height, picture.part);
     block_.update(view_);
-    gbuffer_->draw(device, scene, block_, picture.cullBackFaces, picture.withGlass);
+    gbuffer_->draw(device, scene, block_, {picture.cullBackFaces, picture.withGlass, picture.shrink});
     gl::barrier(gl::Access::TextureFetch | gl::Access::ShaderStorage);
 }
 

@@ -26,6 +26,7 @@ class Surfaces {
         bool cullBackFaces;
         PixelPart part = {};
         bool withGlass = false;  // else what is behind it
+        float shrink = 0;        // ViewSettings::shrink
     };
     void see(const gl::Device& device, const scene::GpuScene& scene, const Picture& picture);
     // What a host has drawn, usable (requireUsable), one of reduction x reduction pixels. GL state changed: as

@@ -9,6 +9,7 @@
 #include "shared/caustics.h"
 #include "shared/cones.h"
 #include "shared/frame.h"
+#include "shared/gbuffer.h"
 #include "shared/glass.h"
 #include "shared/host_surfaces.h"
 #include "shared/image.h"
@@ -112,17 +113,24 @@ std::vector<Struct> glassStructs() {
     };
 }
 
-std::vector<Struct> otherStructs() {
+// Of the view and image stages.
+std::vector<Struct> structsOfPictures() {
     return {
-        ROW(ConeConstants, count, step, offset, maxDistance, specularMinTan, occlusionDistance, shadowTan,
-            pad0, cone, aperture),
         ROW(Exposure, scale, pad0, pad1, pad2),
         ROW(DisplayConstants, curve, srgb, pad0, pad1),
         ROW(ViewMeanConstants, views, pad0, pad1, pad2),
+        ROW(ShrinkConstants, kept, pad0, pad1, pad2),
         ROW(WireframeConstants, color, opacity, halfWidth, pad0, pad1, pad2),
         ROW(ShadowViewConstants, light, tiles, tilesPerEdge, columns, rows, pad0, pad1, pad2),
         ROW(VoxelViewConstants, origin, voxelSize, sizeX, sizeY, sizeZ, data, level, spread, maxLevel,
             density, pixelSize, pad0, pad1, pad2, filledMin, filledSize),
+    };
+}
+
+std::vector<Struct> otherStructs() {
+    return {
+        ROW(ConeConstants, count, step, offset, maxDistance, specularMinTan, occlusionDistance, shadowTan,
+            pad0, cone, aperture),
         ROW(RecordHeader, pixelX, pixelY, paths, steps, pathSteps, share, seen, pad0, position, depth, normal,
             pad1),
         ROW(RecordedPart, value, used, scale, pad0),
@@ -172,6 +180,7 @@ const std::vector<Struct>& table() {
     static const std::vector<Struct> structs = [] {
         std::vector<Struct> all = otherStructs();
         for (Struct& glass : glassStructs()) all.push_back(std::move(glass));
+        for (Struct& one : structsOfPictures()) all.push_back(std::move(one));
         all.push_back(ROW(HostSurfaceConstants, worldFromView, depthRow, depthOfEye, depthScale, depthOffset,
                           background, encoding, reduction, instances, roughnessChannel, pad0));
         return all;

@@ -48,6 +48,26 @@ TEST_F(ViewsTest, EdgesLieWhereTrianglesMeet) {
     EXPECT_LT(brightestExposed, brightest);
 }
 
+// A square of two triangles, seen straight: each keeps the square of what is left of its extent, about its middle.
+TEST_F(ViewsTest, ShrunkTrianglesStayAboutTheirMiddles) {
+    Scene scene;
+    addInstance(scene, quadMesh({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), diffuseMaterial(glm::vec3(0.5f)));
+    scene.cameras.push_back(cameraAbove({0, 0, 0}, 2, 2));
+    Settings settings = viewSettings(Mode::Phong, Component::Albedo);
+    const double whole = covered(draw(scene, settings));
+    ASSERT_GT(whole, 0.5);
+    for (const float shrink : {0.25f, 0.5f}) {
+        settings.view.shrink = shrink;
+        const Image small = draw(scene, settings);
+        // Outlines of six edges, each off by less than half a pixel.
+        EXPECT_NEAR(covered(small) / whole, (1 - shrink) * (1 - shrink), 6 * 0.5 / kPixels) << shrink;
+        EXPECT_EQ(colorAt(small, kPixels / 2, kPixels / 2), glm::vec3(0)) << "their common edge";
+    }
+    settings.image.antialiasing = 4;
+    EXPECT_NEAR(covered(draw(scene, settings)) / whole, 0.25, 8 * 0.5 / kPixels)
+        << "in every view of a still";
+}
+
 // Over: edges behind surfaces are hidden; alone: they are not. A far cube's edges behind a near quad.
 TEST_F(ViewsTest, HiddenEdgesAreLeftOutUnlessAlone) {
     Scene scene = redCube();

@@ -30,9 +30,7 @@ struct Figure {
     std::string_view caption;  // what the thesis shows there, in our words
     std::string_view seen;     // what is to be seen in ours, a paragraph
     Kind kind;
-    // Throws what drawing throws. Null: not drawn yet, and `missing` says what it waits for.
-    std::vector<Panel> (*draw)(Studio&) = nullptr;
-    std::string_view missing = {};
+    std::vector<Panel> (*draw)(Studio&);  // throws what drawing throws
 };
 
 // All of them, in the thesis's order: figures, then tables; then those beyond it.

@@ -46,6 +46,17 @@ Panels renderDragon(Studio& studio) {
     return {studio.draw("", {.scene = "builtin:thesis-room?body=2", .mode = "phong", .camera = "pos2"})};
 }
 
+Panels renderShrunkTriangles(Studio& studio) {
+    Panels panels;
+    for (const char* shrink : {"0", "0.4"})
+        panels.push_back(studio.draw(shrink == std::string("0") ? "whole" : "smaller by two fifths",
+                                     {.scene = "builtin:thesis-shapes",
+                                      .mode = "phong",
+                                      .camera = "pos2",
+                                      .settings = {{"view.shrink", shrink}}}));
+    return panels;
+}
+
 Panels renderPathTraced(Studio& studio) {
     return {studio.draw("", {.scene = "builtin:study", .mode = "reference", .samples = 256})};
 }

@@ -159,10 +159,7 @@ std::string galleryMarkdown() {
     std::string text;
     for (const Figure& figure : allFigures()) {
         text += fmt::format("### {} {}\n\n{}.\n\n", figure.id, figure.title, figure.caption);
-        if (figure.draw == nullptr)
-            text += fmt::format("Not drawn yet: it waits for {}.\n\n", figure.missing);
-        else
-            text += fmt::format("{}\n\n    conelight figures --only {} -o DIR\n\n", figure.seen, figure.id);
+        text += fmt::format("{}\n\n    conelight figures --only {} -o DIR\n\n", figure.seen, figure.id);
     }
     return text;
 }

@@ -13,6 +13,7 @@ Panels renderUses(Studio& studio);
 Panels renderLightKinds(Studio& studio);
 Panels renderFalloffs(Studio& studio);
 Panels renderLocalAndGlobal(Studio& studio);
+Panels renderShrunkTriangles(Studio& studio);
 Panels renderDragon(Studio& studio);
 Panels renderPathTraced(Studio& studio);
 Panels renderBounces(Studio& studio);
