@@ -131,7 +131,7 @@ typedef struct conelight_instance {
     int32_t visible;      /* 0: in no pass at all */
     int32_t voxelized;    /* 0: drawn, but neither occludes nor bounces nor emits */
     int32_t casts_shadow; /* 0: left out of shadows */
-    int32_t dynamic;      /* 1: a hint that it moves */
+    int32_t dynamic;      /* 1: it moves */
 } conelight_instance;
 #define CONELIGHT_INSTANCE_INIT                                          \
     {                                                                    \

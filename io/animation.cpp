@@ -180,6 +180,23 @@ void poseScene(const SceneAnimation& animation, const NodePoses& poses, const Sc
         placeCamera(scene.cameras[hung.index], worldFromNode[hung.node], hung.distance);
 }
 
+void markMoving(const SceneAnimation& animation, Scene& scene) {
+    std::vector<bool> moves(animation.nodes.size(), false), deforms(scene.meshes.size(), false);
+    for (const AnimationClip& clip : animation.clips)
+        for (const NodeTrack& track : clip.tracks)
+            if (track.value != NodeValue::Weights) moves[track.node] = true;
+    for (const std::size_t node : animation.parentsFirst) {
+        const int parent = animation.nodes[node].parent;
+        if (parent >= 0 && moves[static_cast<std::size_t>(parent)]) moves[node] = true;
+    }
+    if (!animation.clips.empty())
+        for (const DeformedMesh& mesh : animation.meshes) deforms[mesh.mesh] = true;
+    for (const SceneAnimation::Hung& hung : animation.instances)
+        if (moves[hung.node]) scene.instances[hung.index].dynamic = true;
+    for (Instance& instance : scene.instances)
+        if (deforms[static_cast<std::size_t>(instance.mesh)]) instance.dynamic = true;
+}
+
 std::size_t clipNumber(const SceneAnimation& animation, const std::string& nameOrNumber) {
     std::string known;
     for (std::size_t i = 0; i < animation.clips.size(); ++i) {

@@ -109,10 +109,13 @@ CONELIGHT_API void poseScene(const SceneAnimation& animation, std::size_t clip, 
 // A pose beyond what numbers hold changes nothing.
 CONELIGHT_API bool deform(const DeformedMesh& deformed, const NodePoses& poses, Mesh& mesh);
 
+// Marks the instances that any clip moves or deforms as dynamic.
+CONELIGHT_API void markMoving(const SceneAnimation& animation, Scene& scene);
+
 // Number of the clip that a user names by name, or by number from 0. Throws Error(Usage) that lists them.
 CONELIGHT_API std::size_t clipNumber(const SceneAnimation& animation, const std::string& nameOrNumber);
 
-// As loadScene, with the movement of glTF files; empty for all others. Throws Error(BadInput) for clips that
+// As loadScene, with the movement of glTF files, whose instances are marked (markMoving); empty for all others. Throws Error(BadInput) for clips that
 // cannot be used, too.
 CONELIGHT_API Scene loadAnimatedScene(const std::string& pathOrBuiltin, const LoadOptions& options,
                                       SceneAnimation& animation);

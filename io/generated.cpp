@@ -16,6 +16,8 @@ namespace {
 
 constexpr GeneratedParameter kCornellParameters[] = {
     {"emission", 40, 0, 1e4, false, "radiance of the lamp, W/(sr m^2)"},
+    {"block", 0, 0, 1, true, "1: a red block that moves (`dynamic`) before the back wall"},
+    {"block_x", 0.28, -0.4, 0.4, false, "of its middle, m"},
 };
 constexpr GeneratedParameter kCornellPointParameters[] = {
     {"intensity", 0.4, 0, 1e4, false, "of the lamp, W/sr"},

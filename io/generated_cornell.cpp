@@ -46,6 +46,16 @@ void addCornellBlocks(Scene& scene, int material) {
     addBlock("short block", {0.164f, 0, 0.199f}, 0.3f, -17.0f);
 }
 
+// A third block, which is meant to be moved along the white wall behind it: 1.5 cm before it, it colours the wall, and
+// hides light from it.
+void addMovingBlock(Scene& scene, int material, float x) {
+    constexpr float kHalf = 0.075f, kHeight = 0.55f;
+    Instance& block =
+        addPart(scene, box({{-kHalf, 0, -kHalf}, {kHalf, kHeight, kHalf}}), "moving block", material);
+    block.worldFromObject = translation({x, 0, -0.5f + 0.015f + kHalf});
+    block.dynamic = true;
+}
+
 }  // namespace
 
 Scene buildCornell(const Values& values) {
@@ -64,6 +74,7 @@ Scene buildCornell(const Values& values) {
             lamp);
 
     addCornellBlocks(scene, m.white);
+    if (values["block"] > 0) addMovingBlock(scene, m.red, float(values["block_x"]));
     // Distance from which the open front fills a square picture at the original's field of view.
     // Less than a tenth of a pixel off the axis: on it, edges of the room run through the middles of all
     // pixels on the diagonals, and rounding decides which wall a renderer sees there.

@@ -93,7 +93,9 @@ Scene loadScene(const std::string& pathOrBuiltin, const LoadOptions& options) {
 Scene loadAnimatedScene(const std::string& pathOrBuiltin, const LoadOptions& options,
                         SceneAnimation& animation) {
     animation = {};
-    return load(pathOrBuiltin, options, &animation);
+    Scene scene = load(pathOrBuiltin, options, &animation);
+    markMoving(animation, scene);
+    return scene;
 }
 
 Scene loadMovingScene(const std::string& pathOrBuiltin, const LoadOptions& options,

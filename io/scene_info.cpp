@@ -74,6 +74,11 @@ std::string formatOf(const Scene& scene) {
     return fmt::format(" ({})", title.rfind("the ", 0) == 0 ? title.substr(4) : title);
 }
 
+// ", 3 hidden"; nothing for none.
+std::string andSome(std::size_t count, const char* what) {
+    return count > 0 ? fmt::format(", {} {}", count, what) : "";
+}
+
 std::string describe(const Material& m) {
     std::string out =
         fmt::format("{}: base {}", m.name.empty() ? "(unnamed)" : m.name, text(glm::vec3(m.baseColor)));
@@ -157,7 +162,7 @@ const char* lightUnit(LightType type) {
 
 std::string describeScene(const Scene& scene, std::size_t maxRows) {
     Report report(maxRows);
-    std::size_t triangles = 0, voxelized = 0, hidden = 0, emissive = 0;
+    std::size_t triangles = 0, voxelized = 0, hidden = 0, emissive = 0, dynamic = 0;
     for (const Instance& instance : scene.instances) {
         const std::size_t count = scene.meshes[std::size_t(instance.mesh)].triangleCount();
         if (!instance.visible) {
@@ -165,6 +170,7 @@ std::string describeScene(const Scene& scene, std::size_t maxRows) {
             continue;
         }
         triangles += count;
+        if (instance.dynamic) ++dynamic;
         if (instance.voxelized) voxelized += count;
         if (instance.material >= 0 &&
             scene.materials[std::size_t(instance.material)].emission != glm::vec3(0))
@@ -180,8 +186,8 @@ std::string describeScene(const Scene& scene, std::size_t maxRows) {
     const Aabb bounds = scene.bounds();
     report.line("scene      {}{}", scene.name.empty() ? "(unnamed)" : scene.name, formatOf(scene));
     report.line("triangles  {} drawn, {} voxelized, {} emissive", triangles, voxelized, emissive);
-    report.line("instances  {}{}", scene.instances.size(),
-                hidden > 0 ? fmt::format(", {} hidden", hidden) : "");
+    report.line("instances  {}{}{}", scene.instances.size(), andSome(hidden, "hidden"),
+                andSome(dynamic, "dynamic"));
     report.line("meshes     {}, {} triangles, {}", scene.meshes.size(), meshTriangles, bytesText(meshBytes));
     if (bounds.empty())
         report.line("bounds     empty");

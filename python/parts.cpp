@@ -184,7 +184,7 @@ const std::vector<Attribute<Instance>>& instanceAttributes() {
         plain<&Instance::voxelized>("voxelized", "False: drawn, but neither occludes nor bounces nor emits."),
         plain<&Instance::castsShadow>("casts_shadow",
                                       "False: blocks no light that comes straight from lights."),
-        plain<&Instance::dynamic>("dynamic", "A hint that it moves."),
+        plain<&Instance::dynamic>("dynamic", "It moves: light is not baked on it."),
     };
     return all;
 }

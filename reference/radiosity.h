@@ -26,7 +26,8 @@ struct RadiositySettings {
     int visibilityRays = 256;      // per vertex and area light in its penumbra; 16..4096
     int bounces = -1;              // of indirect light; -1: all; 0: direct light only
     std::uint32_t seed = 1;
-    int threads = 0;  // 0: all cores
+    int threads = 0;            // 0: all cores
+    bool emissiveQuads = true;  // of bakeIndirect: light of flat emitters comes straight from lights
 };
 
 struct RadiosityStats {
@@ -48,5 +49,11 @@ struct RadiosityProgress {
 // range.
 Scene bakeRadiosity(const Scene& scene, const RadiositySettings& settings, RadiosityStats* stats = nullptr,
                     const std::function<bool(const RadiosityProgress&)>& onProgress = {});
+
+// Indirect light of what does not move, for mode `hybrid`: of `scene` without its dynamic instances, by its lights as
+// they are. The mesh follows indirect light alone: edges of shadows are none of its business. Else as bakeRadiosity.
+BakedLight bakeIndirect(const Scene& scene, const RadiositySettings& settings,
+                        RadiosityStats* stats = nullptr,
+                        const std::function<bool(const RadiosityProgress&)>& onProgress = {});
 
 }  // namespace conelight::reference

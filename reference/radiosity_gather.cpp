@@ -25,7 +25,8 @@ bool shines(const glm::vec3& c) { return c.r > 0 || c.g > 0 || c.b > 0; }
 
 }  // namespace
 
-RadiosityLights::RadiosityLights(const Scene& scene) : areaLight_(scene.instances.size(), false) {
+RadiosityLights::RadiosityLights(const Scene& scene, bool emissiveQuads)
+    : areaLight_(scene.instances.size(), false) {
     for (const Light& light : scene.lights) {
         if (!light.enabled || !shines(light.intensity)) continue;
         if (light.type == LightType::Rect) {
@@ -38,7 +39,9 @@ RadiosityLights::RadiosityLights(const Scene& scene) : areaLight_(scene.instance
         singles_.push_back(std::move(single));
     }
     for (const scene::EmissiveQuad& quad : scene::emissiveQuads(scene)) {
+        const std::size_t before = areas_.size();
         addRect(quad.light);
+        if (areas_.size() > before) areas_.back().direct = emissiveQuads;
         areaLight_[quad.instance] = true;
     }
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i)
@@ -129,13 +132,14 @@ double RadiosityLights::visiblePart(const RayScene& rays, const Receiver& at, co
     return all > 0 ? seen / all : 0;
 }
 
-glm::vec3 RadiosityLights::irradiance(const RayScene& rays, const Receiver& at, int lightRays, bool indirect,
-                                      std::uint64_t& count) const {
+glm::vec3 RadiosityLights::irradiance(const RayScene& rays, const Receiver& at, int lightRays,
+                                      const Kinds& kinds, std::uint64_t& count) const {
     glm::vec3 sum(0);
     // The one light of a table is certain.
     LightTable::Choice first{};
     first.probability[0] = 1;
     for (const std::unique_ptr<Single>& single : singles_) {
+        if (!kinds.direct) break;
         LightSample light;
         if (single->table->groupCount() == 0 ||
             !single->table->sample(first, 0, at.position, 0.5f, glm::vec2(0.5f), light))
@@ -157,7 +161,7 @@ glm::vec3 RadiosityLights::irradiance(const RayScene& rays, const Receiver& at, 
     }
     const int edge = std::max(kProbeEdge, static_cast<int>(std::lround(std::sqrt(lightRays))));
     for (const AreaLight& light : areas_) {
-        if (!light.direct && !indirect) continue;
+        if (light.direct ? !kinds.direct : !kinds.indirect) continue;
         if (!light.twoSided && !(glm::dot(glm::dvec3(at.position) - light.corner, light.normal) > 0))
             continue;
         const std::array<glm::dvec3, 4> corners{

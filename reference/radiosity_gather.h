@@ -24,11 +24,16 @@ struct Receiver {
 
 class RadiosityLights {
   public:
-    explicit RadiosityLights(const Scene& scene);
+    // `emissiveQuads`: flat emitters are direct light.
+    explicit RadiosityLights(const Scene& scene, bool emissiveQuads = true);
 
-    // Irradiance from lights without extent and from area lights; `indirect`: also from emitters that are not
-    // direct light (path_tracer.h). `rays` are counted up.
-    glm::vec3 irradiance(const RayScene& rays, const Receiver& at, int lightRays, bool indirect,
+    // Which light: direct, or from emitters that are not direct light (path_tracer.h).
+    struct Kinds {
+        bool direct = true;
+        bool indirect = true;
+    };
+    // Irradiance from lights without extent and from area lights. `rays` are counted up.
+    glm::vec3 irradiance(const RayScene& rays, const Receiver& at, int lightRays, const Kinds& kinds,
                          std::uint64_t& count) const;
     // Emission of this instance is counted above, and must not be met by rays again.
     bool isAreaLight(std::uint32_t instance) const { return areaLight_[instance]; }

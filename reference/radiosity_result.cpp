@@ -149,4 +149,29 @@ Scene litScene(const Scene& scene, const ElementMesh& mesh, const std::vector<gl
     return lit;
 }
 
+BakedLight bakedLight(const Scene& scene, const ElementMesh& mesh, const std::vector<glm::vec3>& irradiance) {
+    BakedLight baked;
+    for (const RadiositySurface& surface : mesh.surfaces)
+        baked.surfaces.push_back({static_cast<int>(surface.instance), surface.back,
+                                  scene.instances[surface.instance].worldFromObject});
+    // What is unlit takes no light, and stands there all the same.
+    std::vector<bool> known(scene.instances.size(), false);
+    for (const RadiositySurface& surface : mesh.surfaces) known[surface.instance] = true;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+        if (scene.instances[i].visible && !known[i])
+            baked.surfaces.push_back({static_cast<int>(i), false, scene.instances[i].worldFromObject});
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+        baked.positions.push_back(glm::vec3(mesh.vertices[i].position));
+        baked.surfaceOf.push_back(mesh.vertices[i].surface);
+        baked.irradiance.push_back(glm::max(irradiance[i], glm::vec3(0)));
+    }
+    for (std::uint32_t e = 0; e < mesh.elements.size(); ++e) {
+        if (!mesh.isLeaf(e)) continue;
+        std::array<std::uint32_t, 3> corners = mesh.elements[e].vertices;
+        if (mesh.surfaces[mesh.surfaceOf(e)].reversed) std::swap(corners[1], corners[2]);
+        baked.indices.insert(baked.indices.end(), corners.begin(), corners.end());
+    }
+    return baked;
+}
+
 }  // namespace conelight::reference

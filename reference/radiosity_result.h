@@ -17,4 +17,7 @@ float diffusePart(const Surface& surface);
 // `irradiance`: per vertex of the mesh.
 Scene litScene(const Scene& scene, const ElementMesh& mesh, const std::vector<glm::vec3>& irradiance);
 
+// As it is, over the same mesh.
+BakedLight bakedLight(const Scene& scene, const ElementMesh& mesh, const std::vector<glm::vec3>& irradiance);
+
 }  // namespace conelight::reference

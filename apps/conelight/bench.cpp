@@ -12,6 +12,7 @@
 #include "conelight/error.h"
 #include "outputs.h"
 #include "script_run.h"
+#include "static_light.h"
 #include "stats_json.h"
 
 namespace conelight::program {
@@ -49,6 +50,7 @@ struct Run {
     Settings settings;
     std::vector<FrameStats> frames;
     FrameStats counted;  // one extra frame with lookups counted
+    std::shared_ptr<const BakedLight> baked;
 
     Spread of(double FrameStats::*field) const {
         std::vector<double> values;
@@ -157,6 +159,18 @@ Instance movedInstance(const Scene& scene, std::size_t index, int frame) {
     return instance;
 }
 
+// Mode hybrid: light of what does not move, `moving` not counted among it; else none.
+std::shared_ptr<const BakedLight> bakedFor(const Run& run, const Scene& scene, const std::string& path,
+                                           const std::string& moving, Progress& progress) {
+    if (run.settings.mode != Mode::Hybrid) return nullptr;
+    Scene marked = scene;
+    if (!moving.empty()) marked.instances[findInstance(marked, path, moving)].dynamic = true;
+    reference::RadiositySettings settings;
+    settings.emissiveQuads = run.settings.light.emissiveQuads;
+    StaticBake bake;
+    return staticLight(bake, marked, settings, &progress);
+}
+
 // The scene as the commands of --exec and --script leave it, in one mode.
 std::unique_ptr<Session> sessionFor(const Scene& scene, const Camera& camera, const std::string& path,
                                     const std::string& mode, const BenchOptions& options,
@@ -183,10 +197,12 @@ std::vector<Run> benchScene(const std::string& path, const BenchOptions& options
     for (const std::string& mode : modes) {
         sessions.push_back(sessionFor(scene, camera, path, mode, options, progress));
         if (!options.moving.empty()) findInstance(sessions.back()->scene(), path, options.moving);
-        runs.push_back({mode, sessions.back()->shownSettings(), {}, {}});
+        runs.push_back({mode, sessions.back()->shownSettings(), {}, {}, nullptr});
         Renderer& renderer =
             *renderers.emplace_back(std::make_unique<Renderer>(RendererOptions{"", options.view.debugGl}));
         renderer.setScene(sessions.back()->scene());
+        runs.back().baked = bakedFor(runs.back(), sessions.back()->scene(), path, options.moving, progress);
+        renderer.setBakedLight(runs.back().baked);
         Settings& settings = runs.back().settings;
         // A frame of a moving picture is timed: with light settled first, or with all light made anew in
         // each.
@@ -222,6 +238,7 @@ std::vector<Run> benchScene(const std::string& path, const BenchOptions& options
         for (std::size_t i = 0; i < runs.size(); ++i) {
             Renderer alone;
             alone.setScene(sessions[i]->scene());
+            alone.setBakedLight(runs[i].baked);
             alone.render(sessions[i]->camera(), size.width, size.height, runs[i].settings);
             runs[i].frames.back().memory = alone.stats().memory;
         }

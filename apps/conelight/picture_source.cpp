@@ -8,6 +8,7 @@
 #include "conelight/error.h"
 #include "scene_upload.h"
 #include "session/session.h"
+#include "static_light.h"
 #include "traced_picture.h"
 
 namespace conelight::program {
@@ -91,6 +92,7 @@ struct PictureSource::Impl {
     SceneUpload changes;
     std::optional<reference::PathTracer> tracer;
     std::optional<Bake> lit, direct;  // by all light asked for; by light that comes straight from lights
+    StaticBake statics;               // of mode hybrid
 
     void dropTruths();
     void upload(const Scene& wanted, Progress* progress);
@@ -199,9 +201,19 @@ FrameCost PictureSource::Impl::costOf(const PictureRequest& request, const Setti
 }
 
 void PictureSource::Impl::drawRenderer(const PictureRequest& request, Picture& picture, Progress* progress) {
-    upload(*scene, progress);
     Settings settings = request.settings;
     setSetting(settings, "mode", request.mode);
+    std::shared_ptr<const BakedLight> baked;
+    if (settings.mode == Mode::Hybrid) {
+        reference::RadiositySettings bake = request.radiosity;
+        bake.emissiveQuads = settings.light.emissiveQuads;
+        const std::size_t before = statics.bakes();
+        baked = staticLight(statics, *scene, bake, progress);
+        if (statics.bakes() > before) picture.baked = statics.stats();
+        picture.stopped = interrupted();
+    }
+    upload(*scene, progress);
+    renderer->setBakedLight(baked);
     if (settings.mode == Mode::Traced && settings.image.antialiasing == 0)
         settings.image.antialiasing = request.tracedViews;
     for (const Component component : request.components) {

@@ -22,7 +22,7 @@ namespace conelight::program {
 // the CPU and are no modes of it.
 bool isModeName(const std::string& name);
 bool isRendererMode(const std::string& name);
-std::string modeNames();  // "phong, thesis, cones, traced, reference, radiosity or beams"
+std::string modeNames();  // "phong, thesis, cones, hybrid, traced, reference, radiosity or beams"
 void requireModeName(const std::string& name);   // throws Error(Usage) that names them
 Component componentOf(const std::string& name);  // throws Error(Usage) that names them
 
@@ -55,7 +55,7 @@ struct Picture {
     FrameStats stats;                                    // GL: of the last frame of the first component
     FrameCost cost;                                      // in modes reference and beams: of the whole picture
     std::optional<reference::PathTracedPicture> traced;  // mode reference: everything it knows
-    std::optional<reference::RadiosityStats> baked;      // mode radiosity
+    std::optional<reference::RadiosityStats> baked;      // mode radiosity; hybrid, when it baked for this one
     std::optional<reference::BeamStats> beams;           // mode beams
     bool stopped = false;                                // by a signal; the images show what there was
 };

@@ -65,12 +65,16 @@ void reportBadPixels(const Image& image) {
 void checkModeOptions(const RenderOptions& options) {
     const bool traces = options.mode == "reference" || options.radiosity.specular;
     const std::string tracer = options.tracer.given();
-    const bool seedOfBake = tracer == "--seed" && options.mode == "radiosity";
+    const bool bakes = options.mode == "radiosity" || options.mode == "hybrid";
+    const bool seedOfBake = tracer == "--seed" && bakes;
     const bool filterOfBeams = tracer == "--filter" && options.mode == "beams";
     if (!tracer.empty() && !traces && !seedOfBake && !filterOfBeams)
         usage(tracer + ": belongs to mode reference; --mode reference would be right");
     if (options.lampPoints > 0 && options.mode != "beams")
         usage("--lamp-points: belongs to mode beams; --mode beams would be right");
+    const std::string solver = options.radiosity.givenSolver();
+    if (!solver.empty() && !bakes)
+        usage(solver + ": belongs to modes radiosity and hybrid; --mode radiosity would be right");
     const std::string radiosity = options.radiosity.given();
     if (!radiosity.empty() && options.mode != "radiosity")
         usage(radiosity + ": belongs to mode radiosity; --mode radiosity would be right");

@@ -116,11 +116,14 @@ void Hash::add(const glm::vec4& v) {
 
 std::string Hash::hex() const { return fmt::format("{:016x}", state_); }
 
-void addScene(Hash& hash, const Scene& scene) {
-    for (const Mesh& mesh : scene.meshes) addMesh(hash, mesh);
+namespace {
+
+void addLook(Hash& hash, const Scene& scene) {
     for (const Material& material : scene.materials) addFields(hash, material);
     for (const Texture& texture : scene.textures) addTexture(hash, texture);
-    for (const Instance& instance : scene.instances) addInstance(hash, instance);
+}
+
+void addLights(Hash& hash, const Scene& scene) {
     for (const Light& light : scene.lights) addFields(hash, light);
     hash.add(scene.sky);
     hash.add(!scene.format.empty());
@@ -129,6 +132,27 @@ void addScene(Hash& hash, const Scene& scene) {
     hash.add(scene.environment.strength);
     hash.add(scene.environment.image->width);
     addVector(hash, scene.environment.image->radiance);
+}
+
+}  // namespace
+
+void addScene(Hash& hash, const Scene& scene) {
+    for (const Mesh& mesh : scene.meshes) addMesh(hash, mesh);
+    addLook(hash, scene);
+    for (const Instance& instance : scene.instances) addInstance(hash, instance);
+    addLights(hash, scene);
+}
+
+void addStatics(Hash& hash, const Scene& scene) {
+    for (std::size_t i = 0; i < scene.instances.size(); ++i) {
+        const Instance& instance = scene.instances[i];
+        if (instance.dynamic || !instance.visible) continue;
+        hash.add(static_cast<std::uint64_t>(i));
+        addFields(hash, instance);
+        addMesh(hash, scene.meshes[static_cast<std::size_t>(instance.mesh)]);
+    }
+    addLook(hash, scene);
+    addLights(hash, scene);
 }
 
 void addCamera(Hash& hash, const Camera& camera) { addFields(hash, camera); }

@@ -34,6 +34,8 @@ class Hash {
 
 // Geometry, materials, textures, instances, lights, sky; no names, cameras, settings or notes.
 void addScene(Hash& hash, const Scene& scene);
+// Of that what does not move, with the places of instances in the list: the name under which baked light is kept.
+void addStatics(Hash& hash, const Scene& scene);
 void addCamera(Hash& hash, const Camera& camera);
 
 }  // namespace conelight::program

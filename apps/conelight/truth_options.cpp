@@ -48,7 +48,7 @@ void TracerOptions::addTo(CLI::App& command, const std::string& filterHelp) {
     command
         .add_option("--noise", noise, "mode reference: stop when the noise is below, as relRMSE; 1% or 0.01")
         ->type_name("X");
-    command.add_option("--seed", seed, "modes reference and radiosity: of the random numbers")
+    command.add_option("--seed", seed, "modes reference, radiosity and hybrid: of the random numbers")
         ->capture_default_str()
         ->type_name("N");
     command.add_option("--filter", filter, filterHelp)->type_name("NAME");
@@ -100,38 +100,44 @@ void RadiosityOptions::addTo(CLI::App& command) {
 void RadiosityOptions::addSolverTo(CLI::App& command) {
     command
         .add_option("--patch", values.patchSize,
-                    "mode radiosity: longest edge of the patches that exchange light, m (default: a 16th of "
+                    "modes radiosity and hybrid: longest edge of the patches that exchange light, m "
+                    "(default: a 16th of "
                     "the scene)")
         ->type_name("M")
         ->check(CLI::PositiveNumber);
     command
         .add_option("--subdivide", values.maxSubdivision,
-                    "mode radiosity: further halvings where the light changes fast")
+                    "modes radiosity and hybrid: further halvings where the light changes fast")
         ->capture_default_str()
         ->type_name("N")
         ->check(CLI::Range(0, 8));
     command
-        .add_option("--residual", values.residual,
-                    "mode radiosity: stop when an iteration changes the light by less than this part")
+        .add_option(
+            "--residual", values.residual,
+            "modes radiosity and hybrid: stop when an iteration changes the light by less than this part")
         ->capture_default_str()
         ->type_name("X")
         ->check(CLI::Range(1e-6, 1.0));
-    command.add_option("--gather-rays", values.gatherRays, "mode radiosity: per vertex, for the last bounce")
+    command
+        .add_option("--gather-rays", values.gatherRays,
+                    "modes radiosity and hybrid: per vertex, for the last bounce")
         ->capture_default_str()
         ->type_name("N")
         ->check(CLI::Range(16, 65536));
     command
         .add_option("--visibility-rays", values.visibilityRays,
-                    "mode radiosity: per vertex and area light in its penumbra")
+                    "modes radiosity and hybrid: per vertex and area light in its penumbra")
         ->capture_default_str()
         ->type_name("N")
         ->check(CLI::Range(16, 4096));
 }
 
-std::string RadiosityOptions::given() const {
-    return firstGiven(command_, {"--patch", "--subdivide", "--residual", "--gather-rays", "--visibility-rays",
-                                 "--specular", "--bake"});
+std::string RadiosityOptions::givenSolver() const {
+    return firstGiven(command_,
+                      {"--patch", "--subdivide", "--residual", "--gather-rays", "--visibility-rays"});
 }
+
+std::string RadiosityOptions::given() const { return firstGiven(command_, {"--specular", "--bake"}); }
 
 int parseBounces(const std::string& text, int most) {
     if (text == "all") return -1;

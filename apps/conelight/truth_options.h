@@ -42,7 +42,8 @@ struct RadiosityOptions {
 
     void addTo(CLI::App& command);
     void addSolverTo(CLI::App& command);  // `values` alone
-    std::string given() const;
+    std::string givenSolver() const;      // the first option of addSolverTo that was given; empty: none
+    std::string given() const;            // the first of the others
 
   private:
     CLI::App* command_ = nullptr;

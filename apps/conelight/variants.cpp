@@ -27,7 +27,7 @@ Vary parseVary(const std::string& text) {
 
 bool applies(const std::string& key, const std::string& mode) {
     const std::string stem = key.substr(0, key.find('.'));
-    return !isModeName(stem) || stem == mode;
+    return !isModeName(stem) || stem == mode || (stem == "cones" && mode == "hybrid");
 }
 
 }  // namespace

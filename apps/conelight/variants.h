@@ -27,7 +27,7 @@ struct VariantOptions {
 
     void addTo(CLI::App& command, const std::string& defaultModes);
     // Every mode with every combination of the values. Keys that start with the name of a mode belong to
-    // that mode alone. Throws Error(Usage).
+    // that mode alone, those of cones to hybrid, too. Throws Error(Usage).
     std::vector<Variant> variants() const;
 };
 

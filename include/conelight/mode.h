@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Which mode draws the picture: a name. The library brings three; a guest has a constant of its own and
+// Which mode draws the picture: a name. The library brings four; a guest has a constant of its own and
 // registers it with its renderer.
 #pragma once
 
@@ -18,6 +18,7 @@ class Mode {
 
     static const Mode Phong;   // local illumination only, by the Phong model
     static const Mode Cones;   // energy-normalised cone tracing, physically based shading
+    static const Mode Hybrid;  // light baked on what does not move, cones for what does
     static const Mode Traced;  // rays through surface voxels, irradiance cached per voxel face, all bounces
 
   private:
@@ -26,6 +27,7 @@ class Mode {
 
 inline constexpr Mode Mode::Phong{"phong"};
 inline constexpr Mode Mode::Cones{"cones"};
+inline constexpr Mode Mode::Hybrid{"hybrid"};
 inline constexpr Mode Mode::Traced{"traced"};
 
 }  // namespace conelight

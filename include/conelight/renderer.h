@@ -80,6 +80,7 @@ class CONELIGHT_API Renderer {
     void setLights(const std::vector<Light>& lights);  // all of them: adds and removes
     void setSky(const glm::vec3& radiance);            // W/(sr m^2)
     void setEnvironment(const Environment& environment);
+    void setBakedLight(std::shared_ptr<const BakedLight> baked);  // null: none
     // The renderer's copy, with all changes; valid until the next setScene.
     const Scene& scene() const;
 

@@ -165,7 +165,7 @@ struct Instance {
     bool visible = true;      // false: in no pass at all
     bool voxelized = true;    // false: drawn, but neither occludes nor bounces nor emits
     bool castsShadow = true;  // false: left out of shadow maps and shadow rays
-    bool dynamic = false;     // a hint that it moves; whatever changes is made anew, with or without it
+    bool dynamic = false;     // it moves: light is not baked on it (mode hybrid), and nothing else
     bool operator==(const Instance&) const = default;
 };
 
@@ -233,6 +233,23 @@ struct Environment {
     bool operator==(const Environment&) const = default;
 };
 
+// Light computed once for what does not move: irradiance at points of its surfaces, interpolated between them. Mode
+// `hybrid` shows it. It holds for instances that stand where they stood then; others gather their light anew.
+struct BakedLight {
+    // One side of an instance.
+    struct Surface {
+        int instance = -1;
+        bool back = false;                // the side that its triangles face away from
+        glm::mat4 worldFromObject{1.0f};  // of the instance, when it was baked
+    };
+    std::vector<Surface> surfaces;
+    // Per vertex.
+    std::vector<glm::vec3> positions;      // world, m
+    std::vector<glm::vec3> irradiance;     // W/m^2, >= 0: all light but what comes straight from lights
+    std::vector<std::uint32_t> surfaceOf;  // index of a surface, the same for the corners of a triangle
+    std::vector<std::uint32_t> indices;    // multiple of 3; counter-clockwise seen from the surface's side
+};
+
 struct Scene {
     std::string name;
     std::vector<Mesh> meshes;
@@ -243,6 +260,7 @@ struct Scene {
     std::vector<Camera> cameras;
     glm::vec3 sky{0.0f};  // constant radiance of the surroundings, W/(sr m^2)
     Environment environment;
+    std::shared_ptr<const BakedLight> baked;  // shared by copies, never changed; null: nothing is baked
     // Name of the format whose conventions hold here, beside those above; empty: none. Such scenes were made
     // to be seen by Phong's model alone, without shadow maps or tone map, or in the mode of that name.
     std::string format;

@@ -75,8 +75,10 @@ struct ConeKey {
     }
 };
 
-gl::ProgramDesc bounceDesc(const VolumeKey& volume) {
-    return {{"gather/cone_bounce.comp.glsl"}, volume.defines()};
+gl::ProgramDesc bounceDesc(const VolumeKey& volume, bool corrected) {
+    gl::ProgramDesc desc{{"gather/cone_bounce.comp.glsl"}, volume.defines()};
+    if (corrected) desc.defines.emplace_back("CORRECTED", "1");
+    return desc;
 }
 
 // Cones to lights see no sky.
@@ -146,14 +148,15 @@ void ConeGather::record(const gl::Device& device, const ConeInputs& inputs, Part
     recorder.record(device, key.desc(), given(inputs, result));
 }
 
-void ConeGather::gatherBounce(const gl::Device& device, const light::Lights& lights,
-                              const RadianceVolume& volume, const voxels::SurfaceVoxels& surface,
+void ConeGather::gatherBounce(const gl::Device& device, const BounceInputs& inputs,
                               const light::LitFaces& faces) const {
     const gl::PassScope pass(device.profiler, "bounce cones");
     gl::Inputs given;
-    given.add(lights).add(volume).add(surface).add(faces).uniform("ConeBlock", block_);
-    device.get(bounceDesc(keyOf(volume, opacity_, fractional_, lights)))
-        .dispatchLinear(given, surface.faceCount());
+    given.add(inputs.lights).add(inputs.volume).add(inputs.surface).add(faces).uniform("ConeBlock", block_);
+    const bool corrected = inputs.corrections != nullptr;
+    if (corrected) given.storage("FaceCorrectionTable", *inputs.corrections);
+    device.get(bounceDesc(keyOf(inputs.volume, opacity_, fractional_, inputs.lights), corrected))
+        .dispatchLinear(given, inputs.surface.faceCount());
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
 }
 
@@ -171,7 +174,8 @@ std::vector<gl::Defines> ConeGather::shadowDefines() {
 std::vector<gl::ProgramDesc> ConeGather::programDescs() {
     std::vector<gl::ProgramDesc> descs;
     for (const ConeKey& key : ConeKey::all()) descs.push_back(key.desc());
-    for (const VolumeKey& key : VolumeKey::all()) descs.push_back(bounceDesc(key));
+    for (const VolumeKey& key : VolumeKey::all())
+        for (const bool corrected : {false, true}) descs.push_back(bounceDesc(key, corrected));
     return descs;
 }
 

@@ -46,8 +46,14 @@ class ConeGather {
                 StepRecorder& recorder) const;
     // Irradiance of every face from the volume as it is, into `faces`. Ends with the barrier for shader
     // storage.
-    void gatherBounce(const gl::Device& device, const light::Lights& lights, const RadianceVolume& volume,
-                      const voxels::SurfaceVoxels& surface, const light::LitFaces& faces) const;
+    struct BounceInputs {
+        const light::Lights& lights;
+        const RadianceVolume& volume;
+        const voxels::SurfaceVoxels& surface;
+        const gl::Buffer* corrections = nullptr;  // to add, of baked light (light::BakedFaces); null: none
+    };
+    void gatherBounce(const gl::Device& device, const BounceInputs& inputs,
+                      const light::LitFaces& faces) const;
 
     // For cones from pixels to lights.
     ConeShadows shadows(const RadianceVolume& volume) const;

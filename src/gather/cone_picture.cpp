@@ -60,7 +60,9 @@ void ConePicture::draw(const gl::Device& device, const DirectInputs& pixels, con
         direct_.draw(device, pixels, volume.shadowsByCones() ? &shadows : nullptr);
         given.texture("directDiffuse", direct_.diffuse()).texture("directSpecular", direct_.specular());
     }
-    if (parts.diffuse) {
+    if (parts.diffuse && target.diffuse != nullptr) {
+        given.texture("diffuseIrradiance", *target.diffuse);
+    } else if (parts.diffuse) {
         const gl::Texture& picture = resized(diffuse_, pixels.surfaces, "gathered diffuse");
         volume.cones().gather(device, {pixels, volume.volume()}, ConeGather::Part::Diffuse, picture,
                               target.lookupCounters);

@@ -17,6 +17,7 @@ class ConePicture {
     struct Target {
         const gl::Texture& output;
         const gl::Buffer* lookupCounters = nullptr;  // not null: adds lookups of cones
+        const gl::Texture* diffuse = nullptr;  // irradiance / pi that was gathered; null: cones gather it
     };
     void draw(const gl::Device& device, const DirectInputs& pixels, const ConeVolume& volume,
               const PictureParts& parts, const Target& target);

@@ -5,6 +5,16 @@
 
 namespace conelight::gather {
 
+namespace {
+
+// Of what the volume takes from baked light: corrections belong to bounces.
+base::Revision bakedRevision(const light::BakedFaces* baked, const ConesSettings& settings) {
+    if (baked == nullptr) return {};
+    return settings.bounces > 1 ? baked->correctionRevision() : baked->revision();
+}
+
+}  // namespace
+
 void ConeVolume::update(const gl::Device& device, const Inputs& inputs, const ConesSettings& settings) {
     const voxels::SurfaceVoxels& surface = inputs.voxels.surface();
     const RadianceLayout layout =
@@ -12,7 +22,9 @@ void ConeVolume::update(const gl::Device& device, const Inputs& inputs, const Co
     const bool otherLayout = !volume_.laidOut() || !(volume_.layout() == layout);
     const base::Revision lights =
         inputs.cache != nullptr ? inputs.cache->revision() : inputs.lights.revision();
-    const bool otherSources = voxelsFrom_ != inputs.voxels.revision() || lightsFrom_ != lights;
+    const base::Revision baked = bakedRevision(inputs.baked, settings);
+    const bool otherSources =
+        voxelsFrom_ != inputs.voxels.revision() || lightsFrom_ != lights || bakedFrom_ != baked;
     const bool otherSettings = !settings_ || !(*settings_ == settings);
     // How light is gathered at faces is part of the volume when there is more than one bounce.
     const bool otherBounces =
@@ -22,6 +34,7 @@ void ConeVolume::update(const gl::Device& device, const Inputs& inputs, const Co
     settings_ = settings;
     voxelsFrom_ = inputs.voxels.revision();
     lightsFrom_ = lights;
+    bakedFrom_ = baked;
     if (!otherLayout && !otherSources && !otherBounces && !otherOpacity) return;
 
     if (otherLayout) {
@@ -34,10 +47,12 @@ void ConeVolume::update(const gl::Device& device, const Inputs& inputs, const Co
         return;
     }
     light::injectLight(device, {inputs.scene, inputs.lights, surface}, faces_);
+    if (inputs.baked != nullptr) inputs.baked->light(device, surface, faces_, corrections_);
+    const gl::Buffer* corrections = inputs.baked != nullptr ? &corrections_ : nullptr;
     volume_.build(device, surface, faces_, settings.opacity);
     // Each further bounce reads the volume with one bounce less.
     for (int bounce = 1; bounce < settings.bounces; ++bounce) {
-        cones_.gatherBounce(device, inputs.lights, volume_, surface, faces_);
+        cones_.gatherBounce(device, {inputs.lights, volume_, surface, corrections}, faces_);
         volume_.build(device, surface, faces_, settings.opacity);
     }
 }

@@ -10,6 +10,7 @@
 #include "conelight/settings.h"
 #include "gather/cone_gather.h"
 #include "gather/radiance_volume.h"
+#include "light/baked_faces.h"
 #include "light/lights.h"
 #include "light/lit_faces.h"
 #include "light/lit_voxels.h"
@@ -26,6 +27,8 @@ class ConeVolume {
         const voxels::Voxels& voxels;
         // Whose indirect light the volume holds; null: cones bounce it.
         const light::LitVoxels* cache = nullptr;
+        // What faces of the voxels have as indirect light before the first bounce, in the same grid; null: none.
+        const light::BakedFaces* baked = nullptr;
     };
     // Returns at once when nothing changed that it is made from. GL state changed: programs and their slots.
     void update(const gl::Device& device, const Inputs& inputs, const ConesSettings& settings);
@@ -38,10 +41,11 @@ class ConeVolume {
 
   private:
     light::LitFaces faces_;
+    gl::Buffer corrections_;  // of baked light, per face
     RadianceVolume volume_;
     ConeGather cones_;
     // What it was made from.
-    base::Revision voxelsFrom_, lightsFrom_;
+    base::Revision voxelsFrom_, lightsFrom_, bakedFrom_;
     std::optional<ConesSettings> settings_;
     base::Revision revision_;
 };

@@ -6,6 +6,7 @@
 #include "base/log.h"
 #include "gather/phong_shade.h"
 #include "modes/cones_mode.h"
+#include "modes/hybrid_mode.h"
 #include "modes/phong_mode.h"
 #include "modes/traced_mode.h"
 
@@ -21,6 +22,7 @@ std::vector<ModeEntry>& all() {
     static std::vector<ModeEntry> modes{
         {Mode::Phong, make<PhongMode>, gather::phongShadeProgramDescs},
         {Mode::Cones, make<ConesMode>, ConesMode::programDescs},
+        {Mode::Hybrid, make<HybridMode>, HybridMode::programDescs},
         {Mode::Traced, make<TracedMode>, TracedMode::programDescs},
     };
     return modes;

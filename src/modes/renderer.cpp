@@ -4,6 +4,7 @@
 #include "conelight/renderer.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/clock.h"
 #include "base/log.h"
@@ -123,6 +124,9 @@ void Renderer::setLight(std::size_t index, const Light& light) { impl_->scene.se
 void Renderer::setLights(const std::vector<Light>& lights) { impl_->scene.setLights(lights); }
 void Renderer::setSky(const glm::vec3& radiance) { impl_->scene.setSky(radiance); }
 void Renderer::setEnvironment(const Environment& environment) { impl_->scene.setEnvironment(environment); }
+void Renderer::setBakedLight(std::shared_ptr<const BakedLight> baked) {
+    impl_->scene.setBakedLight(std::move(baked));
+}
 const Scene& Renderer::scene() const { return impl_->scene.require("scene").source(); }
 
 void Renderer::setProfiling(bool passes, bool lookups) {

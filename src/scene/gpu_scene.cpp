@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "gl/gl.h"
 #include "scene/gpu_vertices.h"
@@ -46,11 +47,12 @@ PackedMesh packed(const Mesh& mesh) {
 GpuScene::GpuScene(const Scene& source) : source_(source) {
     source_.validate();
     uploadMeshes();
+    placeBakedLight();
     uploadInstances();
     makeVertexArray();
     uploadMaterials();
     textures_ = SceneTextures(source_.textures);
-    geometryRevision_ = lightRevision_ = skyRevision_ = identity_;
+    geometryRevision_ = lightRevision_ = skyRevision_ = bakedRevision_ = identity_;
     firstBounds_ = bounds();
 }
 
@@ -127,7 +129,9 @@ void GpuScene::setFlags(std::size_t index, const Instance& source) {
     gpu::Instance& g = instances_[index];
     const bool glass =
         source.material >= 0 && isTransmissive(source_.materials[static_cast<std::size_t>(source.material)]);
+    const bool baked = source.visible && bakedPlaces_[index] == source.worldFromObject;
     g.flags = (source.visible ? INSTANCE_VISIBLE : 0u) | (glass ? INSTANCE_GLASS : 0u) |
+              (baked ? INSTANCE_BAKED : 0u) |
               (source.visible && source.voxelized && !glass ? INSTANCE_VOXELIZED : 0u) |
               (source.visible && source.castsShadow && !glass ? INSTANCE_CASTS_SHADOW : 0u) |
               (g.flags & (INSTANCE_FLIPPED | INSTANCE_WIDE_COLORS));
@@ -187,6 +191,8 @@ void GpuScene::setMesh(std::size_t index, const Mesh& mesh) {
     for (std::size_t i = 0; i < instances_.size(); ++i) {
         if (source_.instances[i].mesh != static_cast<int>(index)) continue;
         gpu::Instance& g = instances_[i];
+        bakedPlaces_[i].reset();  // light of another shape
+        g.flags &= ~INSTANCE_BAKED;
         g.flags = range.wideColors ? g.flags | INSTANCE_WIDE_COLORS : g.flags & ~INSTANCE_WIDE_COLORS;
         instanceObjectBounds_[i] = range.bounds;
         place(i, g.worldFromObject);
@@ -224,6 +230,21 @@ void GpuScene::setEnvironment(const Environment& environment) {
 void GpuScene::setSky(const glm::vec3& radiance) {
     source_.sky = radiance;
     skyRevision_ = base::Revision::next();
+}
+
+void GpuScene::placeBakedLight() {
+    bakedPlaces_.assign(source_.instances.size(), std::nullopt);
+    if (source_.baked == nullptr) return;
+    for (const BakedLight::Surface& surface : source_.baked->surfaces)
+        bakedPlaces_[static_cast<std::size_t>(surface.instance)] = surface.worldFromObject;
+}
+
+void GpuScene::setBakedLight(std::shared_ptr<const BakedLight> baked) {
+    source_.baked = std::move(baked);
+    placeBakedLight();
+    for (std::size_t i = 0; i < instances_.size(); ++i) setFlags(i, source_.instances[i]);
+    instanceBuffer_.update(0, instances_.data(), instances_.size() * sizeof(gpu::Instance));
+    bakedRevision_ = base::Revision::next();
 }
 
 void GpuScene::touch() {

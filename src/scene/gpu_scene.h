@@ -3,13 +3,15 @@
 // shared/scene.h, textures per material, and all textures at low resolution in one array that compute shaders
 // can index (voxelizers). Materials are the scene's own plus a default one at the end.
 //
-// Changes in place (setInstance, setMesh, setMaterial, setLights, setSky, setEnvironment) upload just the entries they concern and
+// Changes in place (setInstance, setMesh, setMaterial, setLights, setSky, setEnvironment, setBakedLight) upload just the entries they concern and
 // raise revisions. Who derives something from the scene keeps the revisions it was derived from and compares.
 // Lights have no table here: the light stage makes one (light/lights.h).
 #pragma once
 
 #include <cstdint>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <vector>
 
 #include "base/revision.h"
@@ -65,6 +67,7 @@ class GpuScene {
     void setLights(const std::vector<Light>& lights);  // all of them
     void setSky(const glm::vec3& radiance);
     void setEnvironment(const Environment& environment);
+    void setBakedLight(std::shared_ptr<const BakedLight> baked);
     // As if every instance had changed: all that is derived from geometry is made anew.
     void touch();
 
@@ -76,6 +79,9 @@ class GpuScene {
     base::Revision geometryRevision() const { return geometryRevision_; }
     base::Revision lightRevision() const { return lightRevision_; }
     base::Revision skyRevision() const { return skyRevision_; }
+    base::Revision bakedRevision() const { return bakedRevision_; }  // of the baked light
+    // Whether the instance is seen and stands, in its shape, where the baked light has it.
+    bool isBaked(std::size_t instance) const { return (instances_[instance].flags & INSTANCE_BAKED) != 0; }
 
     const Aabb& bounds() const;                               // of visible instances as they are now
     const Aabb& firstBounds() const { return firstBounds_; }  // as they were handed over: grids fit to these
@@ -106,6 +112,7 @@ class GpuScene {
     void place(std::size_t instance, const glm::mat4& worldFromObject);
     void setFlags(std::size_t instance, const Instance& source);
     void uploadInstance(std::size_t instance);
+    void placeBakedLight();
     void sortDraws();
     void drawParts(std::uint32_t instance, const Draw& draw) const;
 
@@ -116,7 +123,9 @@ class GpuScene {
     std::vector<Aabb> partBounds_;            // object boxes of the parts of all meshes
     std::vector<std::size_t> instanceParts_;  // the first of an instance's mesh
     std::vector<base::Revision> instanceRevisions_;
-    base::Revision identity_ = base::Revision::next(), geometryRevision_, lightRevision_, skyRevision_;
+    std::vector<std::optional<glm::mat4>> bakedPlaces_;  // where baked light has an instance
+    base::Revision identity_ = base::Revision::next(), geometryRevision_, lightRevision_, skyRevision_,
+                   bakedRevision_;
     std::vector<gpu::Material> materials_;
     std::vector<MaterialTextures> materialTextures_;
     SceneTextures textures_;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene/held_scene.h"
 
+#include <utility>
+
 #include "base/log.h"
 #include "gl/host_state.h"
 #include "scene/scene_checks.h"
@@ -89,6 +91,14 @@ void HeldScene::setEnvironment(const Environment& environment) {
     require("setEnvironment");
     validateEnvironment(environment);
     scene_->setEnvironment(environment);
+}
+
+void HeldScene::setBakedLight(std::shared_ptr<const BakedLight> baked) {
+    const Scene& source = require("setBakedLight").source();
+    if (source.baked == baked) return;
+    if (baked != nullptr) validateBakedLight(source, *baked);
+    const gl::HostStateGuard guard;
+    scene_->setBakedLight(std::move(baked));
 }
 
 }  // namespace conelight::scene

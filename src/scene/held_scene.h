@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -30,6 +31,7 @@ class HeldScene {
     void setLights(const std::vector<Light>& lights);
     void setSky(const glm::vec3& radiance);
     void setEnvironment(const Environment& environment);
+    void setBakedLight(std::shared_ptr<const BakedLight> baked);
 
   private:
     std::optional<GpuScene> scene_;

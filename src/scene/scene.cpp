@@ -185,6 +185,37 @@ void scene::validateEnvironment(const Environment& environment) {
             fail(ErrorKind::BadInput, "environment '%s': a radiance is negative or not finite", file);
 }
 
+void scene::validateBakedLight(const Scene& scene, const BakedLight& baked) {
+    const std::size_t count = baked.positions.size();
+    if (baked.irradiance.size() != count || baked.surfaceOf.size() != count)
+        fail(ErrorKind::BadInput,
+             "baked light: %zu positions, %zu irradiances and %zu surfaces; as many of each would be right",
+             count, baked.irradiance.size(), baked.surfaceOf.size());
+    for (const BakedLight::Surface& surface : baked.surfaces)
+        if (surface.instance < 0 || surface.instance >= static_cast<int>(scene.instances.size()) ||
+            !isFinite(surface.worldFromObject))
+            fail(ErrorKind::BadInput,
+                 "baked light: a surface of instance %d; a finite place of 0 or more and less than %zu would "
+                 "be "
+                 "right",
+                 surface.instance, scene.instances.size());
+    for (std::size_t i = 0; i < count; ++i)
+        if (!isFinite(baked.positions[i]) || !isFinite(baked.irradiance[i]) ||
+            glm::any(glm::lessThan(baked.irradiance[i], glm::vec3(0))) ||
+            baked.surfaceOf[i] >= baked.surfaces.size())
+            fail(ErrorKind::BadInput,
+                 "baked light: vertex %zu; finite numbers, an irradiance of 0 or more and a surface that is "
+                 "there "
+                 "would be right",
+                 i);
+    if (baked.indices.size() % 3 != 0)
+        fail(ErrorKind::BadInput, "baked light: %zu indices; a multiple of 3 would be right",
+             baked.indices.size());
+    for (const std::uint32_t index : baked.indices)
+        if (index >= count)
+            fail(ErrorKind::BadInput, "baked light: index %u; less than %zu would be right", index, count);
+}
+
 void Scene::validate() const {
     for (std::size_t i = 0; i < meshes.size(); ++i) checkMesh(meshes[i], i);
     for (const Texture& texture : textures) {
@@ -204,6 +235,7 @@ void Scene::validate() const {
     for (const Light& light : lights) scene::validateLight(light);
     scene::validateSky(sky);
     scene::validateEnvironment(environment);
+    if (baked != nullptr) scene::validateBakedLight(*this, *baked);
 }
 
 namespace {

@@ -20,5 +20,7 @@ void validateReaches(const Scene& scene, std::size_t mesh, const Aabb& bounds);
 void validateLight(const Light& light);
 void validateSky(const glm::vec3& sky);
 void validateEnvironment(const Environment& environment);
+// Against the instances of `scene`.
+void validateBakedLight(const Scene& scene, const BakedLight& baked);
 
 }  // namespace conelight::scene

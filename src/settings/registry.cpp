@@ -14,7 +14,7 @@ namespace conelight {
 namespace {
 
 struct Registry {
-    std::vector<Mode> modes{Mode::Phong, Mode::Cones, Mode::Traced};
+    std::vector<Mode> modes{Mode::Phong, Mode::Cones, Mode::Hybrid, Mode::Traced};
     std::set<std::string> guests;  // prefixes of the tables that were added
     settings::Table table = settings::coreTable();
     std::vector<SettingInfo> infos;                       // of the table, in its order

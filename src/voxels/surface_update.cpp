@@ -149,8 +149,11 @@ bool SurfaceVoxels::Impl::finishUpdate(const Edits& edits) {
 
 void SurfaceVoxels::update(const gl::Device& device, const scene::GpuScene& scene,
                            const VoxelSettings& settings) {
+    update(device, scene, gridOf(scene, settings));
+}
+
+void SurfaceVoxels::update(const gl::Device& device, const scene::GpuScene& scene, const VoxelGrid& grid) {
     Impl& m = *impl_;
-    const VoxelGrid grid = gridOf(scene, settings);
     if (!m.canUpdate(scene, grid)) return build(device, scene, grid);
     const Edits edits = m.editsOf(scene);
     // Beyond half of all triangles, to clip all is as cheap as to search for those to keep.

@@ -51,6 +51,7 @@ class SurfaceVoxels {
     // when materials need another variant of the passes, when more than half of the triangles changed, and
     // when a list has become too small. Does nothing when nothing changed.
     void update(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings);
+    void update(const gl::Device& device, const scene::GpuScene& scene, const VoxelGrid& grid);
 
     // Raised by each build(), and by each update() that changed voxels; none before the first. Buffers and
     // textures may be others at another revision.

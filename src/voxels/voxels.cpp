@@ -14,6 +14,16 @@ void Voxels::update(const gl::Device& device, const scene::GpuScene& scene, cons
     makeOctants(device, rays);
 }
 
+void Voxels::updateIn(const VoxelGrid& grid, const gl::Device& device, const scene::GpuScene& scene,
+                      const VoxelSettings& settings) {
+    const bool same = revision() && scene_ == scene.identity() && geometry_ == scene.geometryRevision() &&
+                      this->grid() == grid;
+    if (!same) surface_.update(device, scene, grid);
+    scene_ = scene.identity();
+    geometry_ = scene.geometryRevision();
+    settings_ = settings;
+}
+
 void Voxels::build(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings,
                    Rays rays) {
     surface_.build(device, scene, settings);

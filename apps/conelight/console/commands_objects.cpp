@@ -99,6 +99,18 @@ void resetPlace(const CommandContext& context) {
     changeEach(context, "reset_place", [](glm::mat4& m) { m = glm::mat4(1); });
 }
 
+void setMoving(const CommandContext& context) {
+    const bool moves = context.count() < 2 || context.words[1] == "on";
+    std::vector<std::pair<std::size_t, Instance>> changed;
+    for (const std::size_t i : objectsOf(context, "moving")) {
+        Instance instance = context.session.scene().instances[i];
+        if (instance.dynamic == moves) continue;
+        instance.dynamic = moves;
+        changed.emplace_back(i, std::move(instance));
+    }
+    context.session.setInstances(changed, "moving " + context.words[0]);
+}
+
 // "chair" -> "chair 2", or the first number that is free.
 std::string freeName(const Session& session, const std::string& name) {
     const std::vector<std::string> names = objectNames(session);
@@ -130,21 +142,25 @@ std::vector<Command> objectCommands() {
     const Argument object{"NAME", ArgumentKind::Object, true};
     const Argument named{"NAME", ArgumentKind::Object};
     const char* const kWhich = "Without NAME: what is selected.";
-    return {command("hide", {object}, "take an object out of the picture and its light", hide, kWhich),
-            command("isolate", {object}, "hide all objects but one", isolate, kWhich),
-            command("show", {object}, "show an object again", show, "Without NAME: all that are hidden."),
-            command("delete", {object}, "delete an object", remove, kWhich),
-            command("duplicate", {object}, "put a copy of an object beside it, and select that", duplicate,
-                    kWhich),
-            command("look_at",
-                    {named,
-                     {"X", ArgumentKind::Number, false, false, "m", -1e6, 1e6, {}},
-                     {"Y", ArgumentKind::Number, false, false, "m", -1e6, 1e6, {}},
-                     {"Z", ArgumentKind::Number, false, false, "m", -1e6, 1e6, {}}},
-                    "turn an object's front to a point", lookAt,
-                    "The front is the object's +z, up is y; its size stays."),
-            command("reset_place", {named}, "put an object where its own coordinates are the world's",
-                    resetPlace, "Position, scale and rotation are forgotten.")};
+    return {
+        command("hide", {object}, "take an object out of the picture and its light", hide, kWhich),
+        command("isolate", {object}, "hide all objects but one", isolate, kWhich),
+        command("show", {object}, "show an object again", show, "Without NAME: all that are hidden."),
+        command("delete", {object}, "delete an object", remove, kWhich),
+        command("duplicate", {object}, "put a copy of an object beside it, and select that", duplicate,
+                kWhich),
+        command("look_at",
+                {named,
+                 {"X", ArgumentKind::Number, false, false, "m", -1e6, 1e6, {}},
+                 {"Y", ArgumentKind::Number, false, false, "m", -1e6, 1e6, {}},
+                 {"Z", ArgumentKind::Number, false, false, "m", -1e6, 1e6, {}}},
+                "turn an object's front to a point", lookAt,
+                "The front is the object's +z, up is y; its size stays."),
+        command("moving", {named, {"WHETHER", ArgumentKind::Choice, true, false, "", 0, 0, {"on", "off"}}},
+                "say that an object moves, or with `off` that it does not", setMoving,
+                "Mode hybrid bakes light on what does not (`dynamic` in scene files)."),
+        command("reset_place", {named}, "put an object where its own coordinates are the world's", resetPlace,
+                "Position, scale and rotation are forgotten.")};
 }
 
 }  // namespace conelight::program

@@ -61,6 +61,7 @@ const char* aboutMode(const std::string& mode) {
         {"traced",
          "rays through surface voxels, irradiance cached per voxel face, unlimited bounces; the default"},
         {"cones", "cone tracing through prefiltered radiance"},
+        {"hybrid", "light baked on what does not move, cones for what does and what it changes"},
         {"thesis",
          "the renderer of the bachelor's thesis that Conelight grew from, its defects mended or shown"},
         {"phong", "direct light alone, by the Phong model"},

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/background_bake.h"
 
-#include <algorithm>
 #include <exception>
 #include <mutex>
 #include <optional>
@@ -20,15 +19,6 @@ struct Version {
 };
 Version versionOf(const Session& session) {
     return {session.revisions().scene, session.revisions().sceneTables()};
-}
-
-// Seconds in a small room, to have something to show: a quarter of the rays. Chosen by eye.
-reference::RadiositySettings draftOf(reference::RadiositySettings settings) {
-    settings.maxSubdivision = std::min(settings.maxSubdivision, 3);
-    settings.patchRays = std::min(settings.patchRays, 128);
-    settings.gatherRays = std::min(settings.gatherRays, 128);
-    settings.visibilityRays = std::min(settings.visibilityRays, 64);
-    return settings;
 }
 
 }  // namespace
@@ -58,7 +48,8 @@ void BackgroundBake::Impl::run(const Scene& scene, const Version& version,
         try {
             reference::RadiositySettings chosen = draft ? draftOf(full) : full;
             chosen.threads = BackgroundJob::threads();
-            baked = std::make_shared<const Scene>(bakeWatched(scene, chosen, cancelled, mutex, status, wake));
+            baked = std::make_shared<const Scene>(reference::bakeRadiosity(
+                scene, chosen, nullptr, bakeWatcher({cancelled, mutex, status, wake})));
         } catch (const std::exception& error) {
             failure = error.what();
         }

@@ -138,7 +138,7 @@ void BackgroundReference::Impl::refinePaths(const Wanted& work, TracedScene& tra
     }
 }
 
-void BackgroundReference::Impl::drawBeams(const Wanted& work, const Scene& scene,
+void BackgroundReference::Impl::drawBeams(const Wanted& work, const Scene& traced,
                                           const Cancelled& cancelled) {
     imageOf(reference::BeamPicture{}, work.component);  // refused before the work
     reference::BeamSettings settings;
@@ -146,7 +146,7 @@ void BackgroundReference::Impl::drawBeams(const Wanted& work, const Scene& scene
     settings.emissiveQuads = work.emissiveQuads;
     settings.threads = BackgroundJob::threads();
     const reference::BeamPicture picture = reference::traceBeams(
-        scene, work.camera, work.width, work.height, settings, [&](double) { return !cancelled; });
+        traced, work.camera, work.width, work.height, settings, [&](double) { return !cancelled; });
     if (cancelled || picture.stopped) return;
     const std::lock_guard lock(mutex);
     mean = imageOf(picture, work.component);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-// How far a bake in another thread is. That thread bakes through bakeWatched(), the window reads status().
+// How far a bake in another thread is. That thread reports through bakeWatcher(), the window reads the status.
 #pragma once
 
+#include <functional>
 #include <mutex>
 #include <string>
 
-#include "conelight/scene.h"
 #include "reference/radiosity.h"
 #include "viewer/background_job.h"
 
@@ -19,9 +19,17 @@ struct BakeStatus {
     std::string error;      // of the thread; empty: none
 };
 
-// bakeRadiosity that keeps `status`, guarded by `mutex`, up to date, wakes the window at each step and ends
-// when it is cancelled. Throws what bakeRadiosity throws.
-Scene bakeWatched(const Scene& scene, const reference::RadiositySettings& settings,
-                  const Cancelled& cancelled, std::mutex& mutex, BakeStatus& status, void (*wake)());
+// What a bake reports to: `status`, guarded by `mutex`, is kept up to date, the window woken at each step, and the
+// bake ends when it is cancelled. All outlive the bake.
+struct BakeWatch {
+    const Cancelled& cancelled;
+    std::mutex& mutex;
+    BakeStatus& status;
+    void (*wake)();
+};
+std::function<bool(const reference::RadiosityProgress&)> bakeWatcher(const BakeWatch& watch);
+
+// Seconds in a small room, to have something to show: a quarter of the rays. Chosen by eye.
+reference::RadiositySettings draftOf(reference::RadiositySettings settings);
 
 }  // namespace conelight::program

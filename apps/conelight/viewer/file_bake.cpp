@@ -30,7 +30,8 @@ void FileBake::Impl::run(const Scene& scene, const reference::RadiositySettings&
     std::optional<Scene> baked;
     std::optional<Error> error;
     try {
-        baked = bakeWatched(scene, settings, cancelled, mutex, status, wake);
+        baked =
+            reference::bakeRadiosity(scene, settings, nullptr, bakeWatcher({cancelled, mutex, status, wake}));
     } catch (const Error& one) {
         error = one;
     } catch (const std::exception& one) {

@@ -53,7 +53,7 @@ bool FilmFrame::start(const Session& session, const glm::ivec2& size,
          component = session.shownSettings().component](const Cancelled& cancelled) {
             try {
                 if (!scene->tracer) scene->tracer.emplace(scene->scene);
-                imageOf({}, component);  // refused before the work
+                imageOf(reference::PathTracedPicture{}, component);  // refused before the work
                 const auto onProgress = [&](const reference::PathTracerProgress& now) {
                     work->done = static_cast<double>(now.samplesDone) / std::max(now.samplesPlanned, 1);
                     return !cancelled;

@@ -72,8 +72,9 @@ bool PictureJob::draw(Session& session, PictureSlot& slot) {
     }
     // A mode that settles over frames is drawn until it has: what is written is finished.
     if (slot.draw(session, mode, size_.x, size_.y, {})) return false;
-    if (video_ && (mode == "radiosity" || mode == "beams") && !slot.finished()) {
-        waits_ = mode == "beams" ? WaitsFor::PathTracer : WaitsFor::Bake;
+    const bool bakes = mode == "radiosity" || mode == "hybrid";
+    if (video_ && (bakes || mode == "beams") && !slot.finished()) {
+        waits_ = bakes ? WaitsFor::Bake : WaitsFor::PathTracer;
         // Pictures are quick: the bake does not count for what is left.
         if (done_ == 0) began_ = Clock::now();
         return false;

@@ -15,6 +15,7 @@
 #include "traced_picture.h"
 #include "viewer/background_bake.h"
 #include "viewer/background_reference.h"
+#include "viewer/background_static_bake.h"
 #include "viewer/face_budget.h"
 #include "viewer/picture_noise.h"
 
@@ -43,6 +44,13 @@ PictureKey keyOf(const Revisions& r) { return {r.sceneTables(), r.settings, r.ca
 bool sameButLook(Settings a, const Settings& b) {
     a.image = b.image;
     return a == b;
+}
+
+std::string hybridLabel(const BakeStatus& status, bool baked) {
+    if (!status.error.empty()) return "hybrid: " + status.error;
+    if (!status.running) return "hybrid";
+    return fmt::format("hybrid: baking, {:.0f} %; until then {}", 100 * status.done,
+                       baked ? "light as it was, or a draft of it" : "all light by cones");
 }
 
 double wallMs() {
@@ -84,6 +92,8 @@ struct PictureSlot::Impl {
     BackgroundReference reference, beams{BackgroundReference::Method::Beams};
     std::uint64_t referenceVersion = 0, linearJob = 0;
     BackgroundBake bake;
+    BackgroundStaticBake statics;             // of mode hybrid
+    std::shared_ptr<const BakedLight> baked;  // that the last picture shows
 
     bool draw(const Session& session, int w, int h, const How& how);
     bool drawScene(const Session& session, const std::string& drawnMode, int w, int h, const How& how);
@@ -93,6 +103,8 @@ struct PictureSlot::Impl {
     void renderFrame(const Session& session, Settings settings, int w, int h);
     void showImage(const ImageSettings& look);
     const Image& read();
+    std::shared_ptr<const BakedLight> bakedFor(const Session& session, const std::string& drawnMode,
+                                               const How& how);
     void followUpdateTime();
     void followLook(const Session& session);
     bool onlyLook(const Session& session) const;
@@ -107,6 +119,7 @@ PictureSlot::~PictureSlot() = default;
 
 void PictureSlot::setRadiosity(const reference::RadiositySettings& settings) {
     impl_->bake.setSettings(settings);
+    impl_->statics.setSettings(settings);
 }
 
 void PictureSlot::redraw() { impl_->asked = true; }
@@ -128,6 +141,8 @@ void PictureSlot::blank() { impl_->startAnew(); }
 void PictureSlot::clear() {
     impl_->startAnew();
     impl_->bake.stop();
+    impl_->statics.stop();
+    impl_->baked.reset();
     impl_->renderer.reset();
     impl_->upload.forget();
     impl_->lit.reset();
@@ -196,9 +211,11 @@ bool PictureSlot::Impl::draw(const Session& session, int w, int h, const How& ho
 bool PictureSlot::Impl::drawScene(const Session& session, const std::string& drawnMode, int w, int h,
                                   const How& how) {
     followLook(session);
+    const std::shared_ptr<const BakedLight> newest = bakedFor(session, drawnMode, how);
     const ViewFlags& flags = session.flags();
     const bool voxelsDue = flags.dynamic && wallMs() - voxelsMadeAt > 1e3 * flags.period;
-    const bool changed = asked || !shown || !(*shown == keyOf(session.revisions())) || voxelsDue;
+    const bool changed =
+        asked || !shown || !(*shown == keyOf(session.revisions())) || voxelsDue || newest != baked;
     const bool resized = w != width || h != height;
     if (changed || (resized && !how.onlyChanges))
         settling = settlesOverFrames(drawnMode) ? kSettlingFrames : 1;
@@ -214,6 +231,8 @@ bool PictureSlot::Impl::drawScene(const Session& session, const std::string& dra
         upload.forget();
     }
     upload.follow(*renderer, session);
+    renderer->setBakedLight(newest);
+    baked = newest;
     if (voxelsDue) voxelsMadeAt = wallMs();
     Settings settings = session.shownSettings();
     conelight::setSetting(settings, "mode", drawnMode);
@@ -229,6 +248,16 @@ bool PictureSlot::Impl::drawScene(const Session& session, const std::string& dra
     if (settlesOverFrames(drawnMode))
         noise.follow(kSettlingFrames - settling, [this]() -> const Image& { return read(); });
     return settling > 0;
+}
+
+// Of mode hybrid, as far as it is baked; without it the mode shows all light by cones.
+std::shared_ptr<const BakedLight> PictureSlot::Impl::bakedFor(const Session& session,
+                                                              const std::string& drawnMode, const How& how) {
+    if (drawnMode != "hybrid") return nullptr;
+    if (how.still) statics.bake(session, platform::Window::wake);
+    if (const std::string failure = statics.status().error; !failure.empty() && how.still)
+        throw Error(ErrorKind::Runtime, failure);
+    return statics.light(session);
 }
 
 void PictureSlot::Impl::followUpdateTime() {
@@ -398,6 +427,7 @@ bool PictureSlot::finished() const {
     if (!ownPicture() || impl_->settling > 0) return false;
     if (impl_->mode == "reference") return !impl_->reference.status().running;
     if (impl_->mode == "beams") return !impl_->beams.status().running;
+    if (impl_->mode == "hybrid") return !impl_->statics.status().running;
     return impl_->mode != "radiosity" || !impl_->bake.status().running;
 }
 
@@ -425,6 +455,7 @@ std::string PictureSlot::label() const {
         return fmt::format("radiosity: baking, {:.0f} %{}{}", 100 * status.done, left,
                            impl_->preview ? instead : "; light as it was before the change");
     }
+    if (impl_->mode == "hybrid") return hybridLabel(impl_->statics.status(), impl_->baked != nullptr);
     if (!settlesOverFrames(impl_->mode) || impl_->version == 0) return impl_->mode;
     const std::string noise =
         impl_->noise.value() ? fmt::format("  noise {:.1f} %", 100 * *impl_->noise.value()) : "";
