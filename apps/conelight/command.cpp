@@ -144,9 +144,10 @@ void ViewOptions::addTo(CLI::App& command) {
                 qualities)
         ->type_name("NAME");
     command
-        .add_option("--cone-set", coneSet,
-                    "directions, apertures and weights of the diffuse cones of mode cones, from a file "
-                    "(cones.diffuse_set=own)")
+        .add_option(
+            "--cone-set", coneSet,
+            "directions, apertures and weights of the diffuse cones of modes cones and hybrid, from a file "
+            "(cones.diffuse_set=own)")
         ->type_name("FILE");
     command.add_option("--camera", camera, "a camera of the scene: its name, or its number from 0")
         ->type_name("NAME");

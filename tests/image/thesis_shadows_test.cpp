@@ -65,8 +65,9 @@ TEST_F(ThesisShadowsTest, RectanglesLightFromAllOverThem) {
     reference::PathTracerSettings tracer;
     tracer.samplesPerPixel = 64;
     tracer.bounces = 0;
-    const Image truth =
-        reference::PathTracer(scene).render(scene.cameras.front(), kShadowPixels, kShadowPixels, tracer).direct;
+    const Image truth = reference::PathTracer(scene)
+                            .render(scene.cameras.front(), kShadowPixels, kShadowPixels, tracer)
+                            .direct;
     Settings settings = shadowSettings(0.01f);
     settings.component = Component::Direct;
     settings.groups.of<thesis::ThesisSettings>().voxShadows = false;
@@ -83,7 +84,8 @@ TEST_F(ThesisShadowsTest, SheetsHideFromBothSides) {
     for (const bool turned : {false, true}) {
         Scene scene = plateScene(false);
         const glm::vec3 u(0.4f, 0, 0), v(0, 0, turned ? 0.4f : -0.4f);
-        addInstance(scene, quadMesh({0.3f, 0.75f, turned ? -0.2f : 0.2f}, u, v), diffuseMaterial(glm::vec3(0.8f)));
+        addInstance(scene, quadMesh({0.3f, 0.75f, turned ? -0.2f : 0.2f}, u, v),
+                    diffuseMaterial(glm::vec3(0.8f)));
         std::vector<float> shares = visibleByCones(scene, shadowSettings(0.2f));
         const auto [least, most] = std::minmax_element(shares.begin(), shares.end());
         EXPECT_LT(*least, 0.05f) << turned;

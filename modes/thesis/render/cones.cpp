@@ -258,6 +258,8 @@ std::vector<gl::ProgramDesc> ThesisConePass::programDescs() {
     ThesisSettings noCones;
     noCones.frontCone = noCones.intermediateCones = false;
     add(noCones, Component::Full);
+    descs.push_back(bounceDesc(mended));
+    descs.push_back(bounceDesc(regular));
     // Each defect alone, with all cones.
     ThesisDefects names;
     const std::size_t count = thesisDefectFlags(names).size();

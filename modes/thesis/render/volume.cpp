@@ -342,8 +342,7 @@ void ThesisVolume::buildMips(const gl::Device& device, const ThesisDefects& defe
 void ThesisVolume::declare(gl::Inputs& inputs) const {
     inputs.texture("volume", texture(), &sampler_).uniform("ThesisGridBlock", constants_);
     if (areas_[0])
-        inputs.texture("areasPlus", areas_[0], &areaSampler_)
-            .texture("areasMinus", areas_[1], &areaSampler_);
+        inputs.texture("areasPlus", areas_[0], &areaSampler_).texture("areasMinus", areas_[1], &areaSampler_);
 }
 
 std::vector<gl::ProgramDesc> ThesisVolume::programDescs() {

@@ -172,9 +172,9 @@ void addToVoxel(ivec3 voxel, vec3 radiance, float weight) {
     atomicAdd(sums[at + 2], color.b);
     atomicAdd(sums[at + 3], uint(weight * 16777216.0 + 0.5));
 #if AXIS_AREAS
-    // 1/512 per step, rounded up as often as it takes for small triangles to add up to their area: by a number
-    // that differs from place to place, golden ratio.
-    float dither = fract(dot(gl_FragCoord.xy, vec2(0.7548777, 0.5698403)) + radiance.g + 1e3 * weight);
+    // Steps of 1/512. Rounded up in proportion, by numbers that are even over the places of pieces and differ
+    // with their size (the R2 sequence, Roberts 2018), so that small triangles add up to their area.
+    float dither = fract(dot(gl_FragCoord.xy, vec2(0.7548777, 0.5698403)) + 1e3 * weight);
     uvec3 seen = uvec3(abs(areas) * (weight * 512.0) + dither);
     // Axes along which a surface is not seen are most of all, and cost nothing.
     for (int k = 0; k < 3; ++k)
