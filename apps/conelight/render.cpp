@@ -442,10 +442,11 @@ void addRender(CLI::App& app) {
             "albedo, normal, depth, voxels or emission")
         ->capture_default_str();
     command
-        ->add_option("--bounces", options->bounces,
-                     "indirect bounces, or all: 0 = direct light and emission seen; modes cones and hybrid: 0 to "
-                     "8, all is 8; traced: 0 to 15 or all; modes reference, radiosity and beams: any number, all "
-                     "is the default; mode beams counts mirrors")
+        ->add_option(
+            "--bounces", options->bounces,
+            "indirect bounces, or all: 0 = direct light and emission seen; modes cones and hybrid: 0 to "
+            "8, all is 8; traced: 0 to 15 or all; modes reference, radiosity and beams: any number, all "
+            "is the default; mode beams counts mirrors")
         ->type_name("N");
     command
         ->add_option(
