@@ -108,10 +108,24 @@ TEST(GltfAnimation, APoseIsTheFileOfThatPoseBitForBit) {
     b.json["animations"][0]["channels"].erase(1);
     still.json.erase("animations");
     still.json["nodes"][0]["translation"] = {0.25, 0.5, -1};
-    const Scene posed = load(b, "posed").at(0.5f), wanted = loadGlb(still, "still");
+    const Scene posed = load(b, "posed").at(0.5f);
+    Scene wanted = loadGlb(still, "still");
+    wanted.instances.at(0).dynamic = true;  // that of the clip is
     EXPECT_TRUE(posed.instances == wanted.instances);
     EXPECT_TRUE(posed.cameras == wanted.cameras);
     EXPECT_TRUE(posed.lights == wanted.lights);
+}
+
+TEST(GltfAnimation, WhatAClipMovesIsDynamic) {
+    GltfBuilder b = movedNode();
+    b.node({{"mesh", 0}});  // stands still
+    b.json["scenes"][0]["nodes"] = {0, 2};
+    EXPECT_FALSE(load(b, "unmoved").rest.instances.at(0).dynamic);
+    addTrack(b, "translation", "LINEAR", {0, 1}, {0, 0, 0, 1, 0, 0});
+    const Scene scene = load(b, "moving").rest;
+    ASSERT_EQ(scene.instances.size(), 2u);
+    EXPECT_TRUE(scene.instances[0].dynamic);  // below the node that moves
+    EXPECT_FALSE(scene.instances[1].dynamic);
 }
 
 TEST(GltfAnimation, AnInstanceOfNoSizeIsInvisible) {
