@@ -60,7 +60,7 @@ TEST_F(ConsoleCliTest, ModesAreAsReadmeSays) {
     for (std::string mode, about; lines >> mode && std::getline(lines >> std::ws, about); ++modes)
         EXPECT_NE(readme.str().find("| `" + mode + "` | " + about), std::string::npos)
             << mode << ": " << about;
-    EXPECT_EQ(modes, 6);
+    EXPECT_EQ(modes, 8);
 }
 
 TEST_F(ConsoleCliTest, ScreenshotsShowTheStateAtTheirPlace) {
