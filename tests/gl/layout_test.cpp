@@ -6,6 +6,7 @@
 #include <regex>
 #include <set>
 
+#include "shared/baked_light.h"
 #include "shared/caustics.h"
 #include "shared/cones.h"
 #include "shared/frame.h"
@@ -151,6 +152,7 @@ std::vector<Struct> otherStructs() {
         ROW(RadianceVolume, origin, voxelSize, inverseExtent, inverseVoxelSize, extent, maxLevel, sizeX,
             sizeY, sizeZ, halfTexelX),
         ROW(Vertex, position, normalOct, u, v, tangentOct, color),
+        ROW(BakedVertex, position, instance, irradiance, pad0),
         ROW(Instance, worldFromObject, normalColumn0, normalColumn1, normalColumn2, firstIndex, indexCount,
             firstVertex, material, flags, firstTriangle, pad0, pad1),
         ROW(Material, baseColor, emission, alphaCutoff, specularF0, metallic, roughness, normalScale, flags,
