@@ -16,7 +16,7 @@ layout(std140) uniform CausticBlock { CausticConstants caustics; };
 uniform sampler2DArray causticMap;
 
 // Light counts where it ends: within the first of these shares of its way in front or behind, and not beyond
-// the second. By eye, from a ball on a floor and a block in front of a wall.
+// the second. First guesses, looked at with a ball on a floor and a block before a wall; not tuned.
 const vec2 kCausticReach = vec2(0.1, 0.2);
 // The same, voxels: what paths meet are the voxels' plane pieces.
 const float kCausticSlack = 1.5;

@@ -14,7 +14,7 @@ layout(std430) readonly buffer CausticEnds { CausticEnd ends[]; };
 layout(std430) buffer CausticSums { uint sums[]; };
 
 // Neighbours farther apart than this on the octahedron, or where normals differ by more than this cosine, went
-// through other parts of the solid. By eye, from a ball and a block.
+// through other parts of the solid. First guesses, looked at with a ball and a block; not tuned.
 const float kApart = 0.25;
 const float kEntryCosine = 0.8;
 // A path spreads to so many places at most, and about one per so many texels that it covers.
