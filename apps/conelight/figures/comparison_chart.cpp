@@ -16,7 +16,8 @@ namespace conelight::figures {
 namespace {
 
 constexpr const char* kScene = "builtin:cornell";
-constexpr const char* kModes[] = {"phong", "radiosity", "thesis", "cones", "traced", "reference"};
+constexpr const char* kModes[] = {"phong", "radiosity", "beams",  "thesis",
+                                  "cones", "hybrid",    "traced", "reference"};
 
 struct Row {
     std::string mode;
@@ -29,7 +30,7 @@ struct Row {
 
 const char* movingOf(const std::string& mode) {
     if (mode == "radiosity") return "camera only";
-    return mode == "reference" ? "all, drawn anew" : "all";
+    return mode == "reference" || mode == "beams" ? "all, drawn anew" : "all";
 }
 
 Row measure(Studio& studio, const std::string& mode, const Image& truth, const Scene& scene,
