@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/background_bake.h"
 
-#include <exception>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -38,33 +37,19 @@ struct BackgroundBake::Impl {
              const Cancelled& cancelled, void (*wake)());
 };
 
-// A draft first, then what `render --mode radiosity` bakes.
+// What `render --mode radiosity` bakes.
 void BackgroundBake::Impl::run(const Scene& scene, const Version& version,
                                const reference::RadiositySettings& full, const Cancelled& cancelled,
                                void (*wake)()) {
-    for (const bool draft : {true, false}) {
-        std::string failure;
-        std::shared_ptr<const Scene> baked;
-        try {
-            reference::RadiositySettings chosen = draft ? draftOf(full) : full;
-            chosen.threads = BackgroundJob::threads();
-            baked = std::make_shared<const Scene>(reference::bakeRadiosity(
-                scene, chosen, nullptr, bakeWatcher({cancelled, mutex, status, wake})));
-        } catch (const std::exception& error) {
-            failure = error.what();
-        }
-        if (cancelled) return;  // half a bake is none
-        {
-            const std::lock_guard lock(mutex);
-            status = {};
-            status.running = status.refining = draft && failure.empty();
-            status.error = failure;
-            if (!failure.empty()) return;
-            lit = std::move(baked);
-            litVersion = version;
-        }
-        wake();
-    }
+    bakeTwice({cancelled, mutex, status, wake}, full,
+              [&](const reference::RadiositySettings& chosen, const BakeReport& report) {
+                  auto baked =
+                      std::make_shared<const Scene>(reference::bakeRadiosity(scene, chosen, nullptr, report));
+                  return [&, baked] {
+                      lit = baked;
+                      litVersion = version;
+                  };
+              });
 }
 
 BackgroundBake::BackgroundBake() : impl_(std::make_unique<Impl>()) {}

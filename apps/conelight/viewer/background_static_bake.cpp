@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/background_static_bake.h"
 
-#include <exception>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -44,29 +43,15 @@ bool BackgroundStaticBake::Impl::sees(const Session& session) {
 void BackgroundStaticBake::Impl::run(const Scene& scene, std::uint64_t number,
                                      const reference::RadiositySettings& full, const Cancelled& cancelled,
                                      void (*wake)()) {
-    for (const bool draft : {true, false}) {
-        std::string failure;
-        std::shared_ptr<const BakedLight> baked;
-        try {
-            reference::RadiositySettings chosen = draft ? draftOf(full) : full;
-            chosen.threads = BackgroundJob::threads();
-            baked = std::make_shared<const BakedLight>(reference::bakeIndirect(
-                scene, chosen, nullptr, bakeWatcher({cancelled, mutex, status, wake})));
-        } catch (const std::exception& error) {
-            failure = error.what();
-        }
-        if (cancelled) return;  // half a bake is none
-        {
-            const std::lock_guard lock(mutex);
-            status = {};
-            status.running = status.refining = draft && failure.empty();
-            status.error = failure;
-            if (!failure.empty()) return;
-            light = std::move(baked);
-            lightScene = number;
-        }
-        wake();
-    }
+    bakeTwice({cancelled, mutex, status, wake}, full,
+              [&](const reference::RadiositySettings& chosen, const BakeReport& report) {
+                  auto baked = std::make_shared<const BakedLight>(
+                      reference::bakeIndirect(scene, chosen, nullptr, report));
+                  return [&, baked] {
+                      light = baked;
+                      lightScene = number;
+                  };
+              });
 }
 
 BackgroundStaticBake::BackgroundStaticBake() : impl_(std::make_unique<Impl>()) {}

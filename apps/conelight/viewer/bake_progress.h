@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How far a bake in another thread is. That thread reports through bakeWatcher(), the window reads the status.
+// Bakes in another thread, and how far they are. That thread reports through bakeWatcher(), the window reads the status.
 #pragma once
 
 #include <functional>
@@ -27,9 +27,13 @@ struct BakeWatch {
     BakeStatus& status;
     void (*wake)();
 };
-std::function<bool(const reference::RadiosityProgress&)> bakeWatcher(const BakeWatch& watch);
+using BakeReport = std::function<bool(const reference::RadiosityProgress&)>;
+BakeReport bakeWatcher(const BakeWatch& watch);
 
-// Seconds in a small room, to have something to show: a quarter of the rays. Chosen by eye.
-reference::RadiositySettings draftOf(reference::RadiositySettings settings);
+// A draft first, a quarter of the rays (seconds in a small room; chosen by eye), then what `full` asks for. `bake` may
+// throw, which ends both and is the status's error; what it returns takes the result, called under the mutex. The
+// window is woken after each.
+using BakeStep = std::function<std::function<void()>(const reference::RadiositySettings&, const BakeReport&)>;
+void bakeTwice(const BakeWatch& watch, const reference::RadiositySettings& full, const BakeStep& bake);
 
 }  // namespace conelight::program
