@@ -39,6 +39,12 @@ const gl::Texture& resized(gl::Texture& picture, const view::Surfaces& surfaces,
 
 }  // namespace
 
+PictureParts ConePicture::partsOf(const Settings& settings) {
+    const PictureParts parts = gather::partsOf(settings.component);
+    const bool gathers = settings.cones.bounces > 0;
+    return {parts.direct, parts.diffuse && gathers, parts.specular && gathers};
+}
+
 void ConePicture::drawOcclusion(const gl::Device& device, const DirectInputs& pixels,
                                 const ConeVolume& volume, const Target& target) {
     const gl::Texture& open = resized(diffuse_, pixels.surfaces, "gathered diffuse");

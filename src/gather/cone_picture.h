@@ -27,6 +27,9 @@ class ConePicture {
     void record(const gl::Device& device, const DirectInputs& pixels, const ConeVolume& volume,
                 ConeGather::Part part, StepRecorder& recorder);
 
+    // Nothing is gathered without a bounce; the parts are black then.
+    static PictureParts partsOf(const Settings& settings);
+
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:

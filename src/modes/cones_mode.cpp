@@ -6,13 +6,6 @@ namespace {
 
 using gather::ConeGather;
 
-// Nothing is gathered without a bounce; the parts are black then.
-gather::PictureParts partsOf(const Settings& settings) {
-    gather::PictureParts parts = gather::partsOf(settings.component);
-    const bool gathers = settings.cones.bounces > 0;
-    return {parts.direct, parts.diffuse && gathers, parts.specular && gathers};
-}
-
 bool usesCache(const Settings& settings) { return settings.cones.indirect == ConesIndirect::Cache; }
 
 }  // namespace
@@ -20,7 +13,7 @@ bool usesCache(const Settings& settings) { return settings.cones.indirect == Con
 // [recipe]
 void ConesMode::draw(const Frame& frame) {
     const Component component = frame.settings.component;
-    const gather::PictureParts parts = partsOf(frame.settings);
+    const gather::PictureParts parts = gather::ConePicture::partsOf(frame.settings);
     const gather::DirectInputs pixels{frame.scene, frame.lights, frame.surfaces};
     const gather::ConePicture::Target target{frame.output, frame.lookupCounters};
 
@@ -51,7 +44,7 @@ void ConesMode::draw(const Frame& frame) {
 
 // By cones, where the picture holds what they may bring.
 void ConesMode::drawGlass(const Frame& frame) {
-    const gather::PictureParts parts = partsOf(frame.settings);
+    const gather::PictureParts parts = gather::ConePicture::partsOf(frame.settings);
     if (!frame.settings.cones.refraction || (!parts.diffuse && !parts.specular))
         return ModeRenderer::drawGlass(frame);
     glass_.drawByCones(frame.device, {frame.scene, frame.lights, frame.surfaces},

@@ -6,13 +6,6 @@ namespace {
 
 using gather::ConeGather;
 
-// Nothing is gathered without a bounce, as in mode cones.
-gather::PictureParts partsOf(const Settings& settings) {
-    gather::PictureParts parts = gather::partsOf(settings.component);
-    const bool gathers = settings.cones.bounces > 0;
-    return {parts.direct, parts.diffuse && gathers, parts.specular && gathers};
-}
-
 bool movesAnything(const scene::GpuScene& scene) {
     bool moves = false;
     for (std::size_t i = 0; i < scene.instances().size(); ++i)
@@ -25,7 +18,7 @@ bool movesAnything(const scene::GpuScene& scene) {
 // [recipe]
 void HybridMode::draw(const Frame& frame) {
     const Component component = frame.settings.component;
-    const gather::PictureParts parts = partsOf(frame.settings);
+    const gather::PictureParts parts = gather::ConePicture::partsOf(frame.settings);
     const gather::DirectInputs pixels{frame.scene, frame.lights, frame.surfaces};
 
     // Voxels of what does not move and of all, with the light that they send out.
