@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Baked irradiance / pi of the pixels whose G-buffer holds this very surface: the instance, at this depth, where it
 // stands as it was baked.
+#include "lib/gbuffer_pack.glsl"
 #include "lib/scene_tables.glsl"
 uniform usampler2D gbufferGeometry;
 
@@ -15,7 +16,8 @@ const float kSameDepth = 1e-3;
 void main() {
     uvec4 geometry = texelFetch(gbufferGeometry, ivec2(gl_FragCoord.xy), 0);
     float depth = 1.0 / gl_FragCoord.w;
-    bool same = geometry.w >> 2 == instance && abs(uintBitsToFloat(geometry.x) - depth) <= kSameDepth * depth;
+    bool same = instanceOfWord(geometry.w) == instance &&
+                abs(uintBitsToFloat(geometry.x) - depth) <= kSameDepth * depth;
     if (!same || (instances[instance].flags & INSTANCE_BAKED) == 0u) discard;
     // Below the largest half.
     result = vec4(min(irradiance, 65000.0), 1.0);

@@ -6,6 +6,7 @@
 #ifndef MOVES
 #error MOVES must be 0 or 1
 #endif
+#include "lib/gbuffer_pack.glsl"
 #include "lib/scene_tables.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f) writeonly uniform image2D result;
@@ -28,7 +29,7 @@ vec4 bakedAt(ivec2 pixel, uint instance) {
             ivec2 at = pixel + ivec2(i % (2 * reach + 1), i / (2 * reach + 1)) - reach;
             bool inside = all(greaterThanEqual(at, ivec2(0))) && all(lessThanEqual(at, last));
             at = clamp(at, ivec2(0), last);
-            bool same = inside && texelFetch(gbufferGeometry, at, 0).w >> 2 == instance;
+            bool same = inside && instanceOfWord(texelFetch(gbufferGeometry, at, 0).w) == instance;
             sum += same ? texelFetch(bakedIrradiance, at, 0) : vec4(0.0);
         }
     return sum.a > 0.0 ? sum / sum.a : vec4(0.0);
@@ -38,7 +39,7 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
     uvec4 geometry = texelFetch(gbufferGeometry, pixel, 0);
-    uint instance = geometry.w >> 2;
+    uint instance = instanceOfWord(geometry.w);
     bool isBaked = geometry.x != 0u && (instances[instance].flags & INSTANCE_BAKED) != 0u;
     vec4 baked = isBaked ? bakedAt(pixel, instance) : vec4(0.0);
     vec3 irradiance = baked.rgb;

@@ -30,7 +30,8 @@ bool fetchSurface(ivec2 pixel, out Surface s) {
     s.toEye = -normalize(ray);
     s.normal = octDecode(unpackSnorm2x16(geometry.y));
     s.geometricNormal = octDecode(unpackSnorm2x16(geometry.z));
-    s.instance = geometry.w >> 2;
+    s.instance = instanceOfWord(geometry.w);
+    s.normalMean = 1.0 - spreadOfWord(geometry.w);
     s.backFacing = (geometry.w & 1u) != 0u;
     s.unlit = (geometry.w & 2u) != 0u;
     s.material = instances[s.instance].material;

@@ -4,7 +4,7 @@
 //   geometry  x  view depth, float bits; 0: background
 //             y  shading normal, octahedral, 2 x 16 bit signed
 //             z  geometric normal, likewise; both face the eye
-//             w  instance index << 2 | unlit << 1 | back-facing
+//             w  spread of normals, 6 bit square root << 26 | instance index << 2 | unlit << 1 | back-facing
 //   material  x  albedo r, g, 16 bit each
 //             y  albedo b, perceptual roughness, 16 bit each
 //                unlit: radiance r, g, b, 16 bit each, and 16 bit of exponent in the roughness's place
@@ -13,6 +13,14 @@
 // Emission itself stays in the material table in full precision: untextured emitters show it exactly.
 
 uint packInstanceWord(uint instance, bool unlit) { return (instance << 2) | (unlit ? 2u : 0u); }
+uint instanceOfWord(uint word) { return word >> 2 & 0xffffffu; }
+
+// How far the length of the mean of a pixel's normals is below 1; finer where it is small.
+uint packSpread(float spread) { return uint(round(sqrt(clamp(spread, 0.0, 1.0)) * 63.0)) << 26; }
+float spreadOfWord(uint word) {
+    float root = float(word >> 26) * (1.0 / 63.0);
+    return root * root;
+}
 
 // Radiance of an unlit surface, which may be far above 1 (baked light): parts of a power of two not below the
 // largest channel. Its exponent stands 64 up, so that 0 is free for black.

@@ -7,6 +7,7 @@ struct Surface {
     vec3 toEye;            // unit
     vec3 normal;           // shading normal, unit, facing the eye
     vec3 geometricNormal;  // of the triangle, unit, facing the eye
+    float normalMean;      // length of the mean of the normals that it stands for: its share of direct light
     vec3 albedo;           // base colour: diffuse albedo of a dielectric, F0 of a metal; 0 when unlit
     float metallic;
     float roughness;    // perceptual, [0,1]

@@ -14,6 +14,9 @@
 #include "lib/octahedral.glsl"
 #include "lib/random.glsl"
 #include "lib/scene_tables.glsl"
+#if TEXTURES >= 1
+#include "lib/texture_filter.glsl"
+#endif
 
 layout(location = 0) in vec3 fromEye;
 layout(location = 1) in vec3 interpolatedNormal;
@@ -39,12 +42,38 @@ layout(location = 1) out uvec4 outMaterial;
 // Texel of the use-th texture (order of Material::uvRow). The gradients come from the interpolated uv: helper
 // invocations beside the triangle may read zeros from the material table (Mesa's software driver does), so
 // that implicit ones are wrong along every edge.
-vec4 materialTexel(sampler2D map, uint material, int use) {
+vec4 materialTexel(sampler2D map, uint material, int use, out TexelFootprint footprint) {
     vec3 row0 = materials[material].uvRow[2 * use].xyz;
     vec3 row1 = materials[material].uvRow[2 * use + 1].xyz;
     mat2 turn = mat2(row0.x, row1.x, row0.y, row1.y);
     vec2 at = turn * uv + vec2(row0.z, row1.z);
-    return textureGrad(map, at, frame.footprint * (turn * dFdx(uv)), frame.footprint * (turn * dFdy(uv)));
+    footprint = texelFootprint(map, frame.footprint * (turn * dFdx(uv)), frame.footprint * (turn * dFdy(uv)));
+    return filteredTexel(map, at, footprint);
+}
+vec4 materialTexel(sampler2D map, uint material, int use) {
+    TexelFootprint footprint;
+    return materialTexel(map, material, use, footprint);
+}
+#endif
+
+#if TEXTURES >= 2
+// Normals of a map have lengths of 1 within this: it has 8 bits.
+const float kNormalRounding = 4e-3;
+
+// How far the length of the mean of normals is below 1, where a footprint covers several texels.
+float normalSpread(vec3 mean, float scale, TexelFootprint footprint) {
+    float several = clamp(footprint.longer - 1.0, 0.0, 1.0);
+    return clamp(several * scale * scale * (1.0 - kNormalRounding - length(mean)), 0.0, 0.9);
+}
+
+// Perceptual roughness with that of the spread of normals. The spread is that of a von Mises-Fisher lobe (Banerjee and
+// others 2005), whose slopes vary by 1 / concentration along each axis; squared widths of lobes add up (Toksvig 2005,
+// "Mipmapping Normal Maps").
+float spreadRoughness(float roughness, float spread) {
+    float mean = 1.0 - spread;
+    float variance = (1.0 - mean * mean) / (3.0 * mean - mean * mean * mean);
+    float alpha = roughness * roughness;
+    return sqrt(sqrt(min(alpha * alpha + 2.0 * variance, 1.0)));
 }
 #endif
 
@@ -90,6 +119,7 @@ void main() {
 #endif
 
     vec3 n = normalize(interpolatedNormal);
+    float spread = 0.0;
 #if TEXTURES >= 2
     vec4 metalRough = materialTexel(metalRoughTexture, material, 1);
     roughness *= metalRough.g;
@@ -101,7 +131,8 @@ void main() {
 
     // Normal map: x along the tangent, y along the bitangent. Without a map the texel is white: leave n
     // alone.
-    vec3 texel = materialTexel(normalTexture, material, 2).xyz * 2.0 - 1.0;
+    TexelFootprint footprint;
+    vec3 texel = materialTexel(normalTexture, material, 2, footprint).xyz * 2.0 - 1.0;
     vec3 t = interpolatedTangent.xyz - n * dot(n, interpolatedTangent.xyz);
     float tLength = length(t);
     if (materials[material].layers.z >= 0 && tLength > 1e-6) {
@@ -109,6 +140,8 @@ void main() {
         vec3 b = cross(n, t) * (interpolatedTangent.w < 0.0 ? -1.0 : 1.0);
         float scale = materials[material].normalScale;
         n = normalize(t * (texel.x * scale) + b * (texel.y * scale) + n * max(texel.z, 1e-3));
+        spread = normalSpread(texel, scale, footprint);
+        if (spread > 0.0) roughness = spreadRoughness(roughness, spread);
     }
 #endif
 
@@ -122,7 +155,7 @@ void main() {
     if (back && (materials[material].flags & MATERIAL_DOUBLE_SIDED) == 0u) emissionFactor = vec3(0.0);
 
     outGeometry = uvec4(floatBitsToUint(1.0 / gl_FragCoord.w), packSnorm2x16(octEncode(n)),
-                        packSnorm2x16(octEncode(face)), constant.x | (back ? 1u : 0u));
+                        packSnorm2x16(octEncode(face)), constant.x | packSpread(spread) | (back ? 1u : 0u));
     outMaterial = uvec4(packUnorm2x16(base.rg), packUnorm2x16(vec2(base.b, roughness)), reflectance,
                         packEmissionFactor(emissionFactor));
     if ((constant.x & 2u) != 0u) outMaterial.xy = packUnlit(base.rgb);
