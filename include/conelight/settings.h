@@ -136,6 +136,7 @@ struct TracedSettings {
     bool exactHits = true;
     bool exactMirrors = false;
     bool exactNear = true;
+    bool exactShadows = true;
     // Off: a call returns a finished picture, with all updates and passes. On: each call does one update and
     // one pass, and reuses what was gathered for pixels that are still seen.
     bool budgeted = false;

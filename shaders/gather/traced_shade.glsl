@@ -12,6 +12,7 @@
     !defined(LOBE)
 #error SHOW_DIRECT, SHOW_DIFFUSE, SHOW_SPECULAR, IRRADIANCE and LOBE must be 0 or 1
 #endif
+// VISIBILITY_PICTURE 1: which lights without extent are seen is told by visibilityPicture, not by shadow maps.
 // CAUSTICS 1: with what glass gathers, as a part of the irradiance.
 // COUNT_LOOKUPS 1: adds lookups to the counters: of the cache, and of shadow maps as those of occlusion.
 #define GATHERS (SHOW_DIFFUSE || SHOW_SPECULAR)
@@ -39,6 +40,9 @@ layout(std140) uniform PixelRayBlock { PixelRayConstants pixelRays; };
 #endif
 uniform usampler2D irradiancePicture;
 uniform usampler2D lobePicture;
+#if SHOW_DIRECT && VISIBILITY_PICTURE
+uniform usampler2D visibilityPicture;
+#endif
 
 // `pixel` is within the picture.
 vec4 tracedShade(ivec2 pixel) {
@@ -47,11 +51,15 @@ vec4 tracedShade(ivec2 pixel) {
     Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));
     vec3 radiance = vec3(0.0);
 #if SHOW_DIRECT
+#if VISIBILITY_PICTURE
+    visibleLights = texelFetch(visibilityPicture, pixel, 0).x;
+#endif
     DirectLight light = directLight(Receiver(s.position, s.normal, s.geometricNormal, s.toEye, vec2(0.0)), b);
 #if COUNT_LOOKUPS
     addLookups(LOOKUPS_OCCLUSION, seen);
 #endif
-    radiance = b.diffuse / kPi * light.irradiance + s.emission + (s.unlit ? vec3(0.0) : light.specular);
+    radiance = b.diffuse / kPi * (s.normalMean * light.irradiance) + s.emission +
+               (s.unlit ? vec3(0.0) : light.specular);
 #endif
 #if GATHERS
     bool gathers = seen && !s.unlit;

@@ -12,6 +12,7 @@
 // - LIGHTS_SHADOWS 0: everything is visible.
 // - SHADOW_FILTER: radius of the shadow filter in texels.
 // - CONE_SHADOWS 1: shadows are soft, by cones (lib/cone_shadow.glsl, to be included), not by maps.
+// - VISIBILITY_PICTURE 1: which of the first 32 lights without extent are seen is known (visibleLights).
 // - GLASS 1: what is not in shadow may lie behind glass (lib/glass_tree.glsl).
 // Reads what light::Lights declares.
 #ifndef LIGHTS_POINT
@@ -34,6 +35,9 @@
 #endif
 #ifndef CONE_SHADOWS
 #define CONE_SHADOWS 0
+#endif
+#ifndef VISIBILITY_PICTURE
+#define VISIBILITY_PICTURE 0
 #endif
 #include "lib/brdf.glsl"
 #include "lib/glass_tree.glsl"
@@ -65,6 +69,12 @@ Light fixedLight(const int n) { return fixedLights[n]; }
 // a size.
 float coneShadow(vec3 position, vec3 geometricNormal, vec3 toLight, float distance, float tanHalf);
 float coneShadowTan();
+#endif
+
+// Lights of the table whose visibility gather/visibility_maps.comp.glsl tells, one bit each.
+const uint kVisibilityLights = 32u;
+#if VISIBILITY_PICTURE
+uint visibleLights = 0u;  // of the pixel; set before lights are added
 #endif
 
 struct DirectLight {
@@ -114,7 +124,14 @@ vec3 throughGlass(vec3 facing, Receiver r, vec3 toLight, float distance) {
     return facing;
 }
 
-void addPoint(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light) {
+float pointVisibility(Receiver r, Light light, uint number) {
+#if VISIBILITY_PICTURE
+    if (number < kVisibilityLights) return float(visibleLights >> number & 1u);
+#endif
+    return shadowVisibilityPoint(light, r.position, r.geometricNormal, r.shadowLift);
+}
+
+void addPoint(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light, uint number) {
     vec3 l = light.position - r.position;
     float d2 = dot(l, l);
     l *= inversesqrt(max(d2, 1e-20));
@@ -122,13 +139,20 @@ void addPoint(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Li
 #if CONE_SHADOWS
     if (light.shadow >= 0) visible = coneShadow(r.position, r.geometricNormal, l, sqrt(d2), coneShadowTan());
 #elif LIGHTS_SHADOWS
-    visible = shadowVisibilityPoint(light, r.position, r.geometricNormal, r.shadowLift);
+    visible = pointVisibility(r, light, number);
 #endif
     vec3 facing = light.intensity * (distanceFalloff(light, d2) * spotFalloff(light, l) * visible);
     addLight(sum, specular, r, b, l, throughGlass(facing, r, l, sqrt(d2)));
 }
 
-void addSpot(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light) {
+float spotVisibility(Receiver r, Light light, uint number) {
+#if VISIBILITY_PICTURE
+    if (number < kVisibilityLights) return float(visibleLights >> number & 1u);
+#endif
+    return shadowVisibilitySpot(light, r.position, r.geometricNormal, r.shadowLift);
+}
+
+void addSpot(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light, uint number) {
     vec3 l = light.position - r.position;
     float d2 = dot(l, l);
     l *= inversesqrt(max(d2, 1e-20));
@@ -136,19 +160,27 @@ void addSpot(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
 #if CONE_SHADOWS
     if (light.shadow >= 0) visible = coneShadow(r.position, r.geometricNormal, l, sqrt(d2), coneShadowTan());
 #elif LIGHTS_SHADOWS
-    visible = shadowVisibilitySpot(light, r.position, r.geometricNormal, r.shadowLift);
+    visible = spotVisibility(r, light, number);
 #endif
     vec3 facing = light.intensity * (distanceFalloff(light, d2) * spotFalloff(light, l) * visible);
     addLight(sum, specular, r, b, l, throughGlass(facing, r, l, sqrt(d2)));
 }
 
-void addDirectional(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light) {
+float directionalVisibility(Receiver r, Light light, uint number) {
+#if VISIBILITY_PICTURE
+    if (number < kVisibilityLights) return float(visibleLights >> number & 1u);
+#endif
+    return shadowVisibilityDirectional(light, r.position, r.geometricNormal, r.shadowLift);
+}
+
+void addDirectional(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light,
+                    uint number) {
     float visible = 1.0;
 #if CONE_SHADOWS
     if (light.shadow >= 0)
         visible = coneShadow(r.position, r.geometricNormal, -light.direction, 1e9, coneShadowTan());
 #elif LIGHTS_SHADOWS
-    visible = shadowVisibilityDirectional(light, r.position, r.geometricNormal, r.shadowLift);
+    visible = directionalVisibility(r, light, number);
 #endif
     vec3 facing = throughGlass(light.intensity * visible, r, -light.direction, 1e9);
     addLight(sum, specular, r, b, -light.direction, facing);
@@ -274,7 +306,7 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
     sum = DirectLight(sum.irradiance + added.irradiance, sum.specular + added.specular);
 }
 
-// Runs `statement` for every light of one kind: `light` in lights[begin..end). The table begins with `before`
+// Runs `statement` for every light of one kind: `light`, with its `number` in the table, begin..end. The table begins with `before`
 // lights of other kinds and has `count` of this one when LIGHTS_FIXED.
 #if LIGHTS_FIXED
 #if LIGHTS_TOTAL > 4
@@ -283,6 +315,7 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
 #define FIXED_LIGHT(n, before, count, statement)                         \
     if ((n) < (count)) {                                                 \
         Light light = fixedLight(min((before) + (n), LIGHTS_TOTAL - 1)); \
+        const uint number = uint((before) + (n));                        \
         statement;                                                       \
     }
 #define FOR_LIGHTS(before, count, begin, end, statement) \
@@ -293,11 +326,11 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
 #else
 #define FOR_LIGHTS(before, count, begin, end, statement) \
     if ((begin) < (end)) {                               \
-        uint n = (begin);                                \
+        uint number = (begin);                           \
         do {                                             \
-            Light light = lights[n];                     \
+            Light light = lights[number];                \
             statement;                                   \
-        } while (++n < (end));                           \
+        } while (++number < (end));                      \
     }
 #endif
 #define FOR_POINT_LIGHTS(statement) FOR_LIGHTS(0, LIGHTS_POINT, 0u, lighting.lightEnds.x, statement)
@@ -312,13 +345,13 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
 
 void addPunctualLights(inout DirectLight sum, const bool specular, Receiver r, Brdf b) {
 #if LIGHTS_POINT
-    FOR_POINT_LIGHTS(addPoint(sum, specular, r, b, light))
+    FOR_POINT_LIGHTS(addPoint(sum, specular, r, b, light, number))
 #endif
 #if LIGHTS_SPOT
-    FOR_SPOT_LIGHTS(addSpot(sum, specular, r, b, light))
+    FOR_SPOT_LIGHTS(addSpot(sum, specular, r, b, light, number))
 #endif
 #if LIGHTS_DIRECTIONAL
-    FOR_DIRECTIONAL_LIGHTS(addDirectional(sum, specular, r, b, light))
+    FOR_DIRECTIONAL_LIGHTS(addDirectional(sum, specular, r, b, light, number))
 #endif
 }
 

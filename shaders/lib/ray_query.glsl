@@ -212,6 +212,39 @@ void testNearTriangles(Ray ray, OctantRay mirrored, float end, inout float t, in
     } while (hit.face < 0 && t < end);
 }
 
+#if BLOCKING_TRIANGLES
+// Whether a ray that starts within the grid meets no triangle up to its tMax; `otherwise` where a software driver gave
+// up. Looks into every voxel on the way, not only those with faces towards the ray: single-sided sheets have none on
+// their back.
+bool reachesEnd(Ray ray, bool otherwise) {
+    vec3 inverse = rayInverse(ray.direction);
+    bvec3 forward = greaterThan(ray.direction, vec3(0.0));
+    ivec3 last = gridSize() - 1;
+    bool alive = ray.tMax > 0.0;
+    float end = alive ? ray.tMax : -3e38;
+    float t = 0.0;
+    ivec3 cell = clamp(ivec3(floor(ray.origin)), ivec3(0), last);
+    TriangleCrossing hit;
+    do {
+        COUNT_LOOKUP(alive ? 1 : 0);
+        bool emptyBrick = imageLoad(voxelBrickImage, cell >> 2).xy == uvec2(0u);
+        int record;
+        hit = nearestTriangle(cell, ray, alive && !emptyBrick, record);
+
+        // Step through the exit plane of the brick or the voxel
+        int edge = emptyBrick ? 4 : 1;
+        ivec3 lower = cell & ~(edge - 1);
+        vec3 exits = (vec3(lower) + mix(vec3(0.0), vec3(edge), forward) - ray.origin) * inverse;
+        t = min(exits.x, min(exits.y, exits.z));
+        ivec3 next = clamp(ivec3(floor(ray.origin + t * ray.direction)), lower, lower + (edge - 1));
+        cell = mix(next, mix(lower - 1, lower + edge, forward), lessThanEqual(exits, vec3(t)));
+        end = all(equal(cell, clamp(cell, ivec3(0), last))) ? end : -3e38;
+        cell = clamp(cell, ivec3(0), last);
+    } while (hit.triangle < 0 && t < end);
+    return hit.triangle < 0 && (t >= end || otherwise);
+}
+#endif
+
 // The nearest triangle on a ray that starts within the grid. `reached`: it met none up to its tMax. Neither
 // where a software driver gave up.
 TriangleCrossing traceTriangles(Ray ray, out bool reached) {

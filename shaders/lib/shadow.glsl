@@ -16,7 +16,8 @@
 //
 // SHADOW_FILTER 0: the outline between texels is that of their triangles. Above: share of visible texels in a
 // box of (2 SHADOW_FILTER + 1)^2 texels around the point with fractional edges (Reeves et al. 1987). -1: the
-// nearest texel says yes or no; for rays whose mean is taken.
+// nearest texel says yes or no; for rays whose mean is taken. SHADOW_DIVIDED 1, with SHADOW_FILTER 0: shadowDivided
+// tells of the last lookup whether the texels around the point disagree.
 //
 // Maps of rectangles have depths alone. There the receiver is moved along its normal n by o >= max |n.e| over
 // the texels e that are compared, which puts it in front of its own plane at each of them:
@@ -27,6 +28,9 @@
 // beside their place, and shadows would lie there.
 #ifndef SHADOW_FILTER
 #define SHADOW_FILTER 0
+#endif
+#ifndef SHADOW_DIVIDED
+#define SHADOW_DIVIDED 0
 #endif
 #include "lib/lookup_count.glsl"
 #include "lib/rect_points.glsl"
@@ -42,6 +46,10 @@ const float kShadowSlack = 0.03;
 // For the maps of rectangles, in texels too, for the same reasons; three times as much, as nothing but the
 // move separates a surface from itself.
 const float kShadowRectSlack = 0.1;
+
+#if SHADOW_DIVIDED
+bool shadowDivided = false;
+#endif
 
 // Up to how many texels from its centre a texel knows where its triangle ends; light/shadow.frag.glsl too.
 const float kShadowEnd = 2.0;
@@ -139,6 +147,9 @@ float shadowFilter(vec2 texel, float layer, float ref, vec2 slope, vec2 unit) {
             // the texel's centre, both ways 0, is over nothing.
             vec4 within = step(abs(dx) * endY + abs(dy) * endX, endX * endY - 1e-6);
             vec4 lit = step(max(min(overReceiver, overTexel), overTexel * within), bound);
+#if SHADOW_DIVIDED
+            shadowDivided = any(notEqual(lit, lit.xxxx));
+#endif
             // A triangle that a line through the texel's centre crosses in less than a texel is found by
             // chance. Its share of the area comes out right only if it then counts for the whole texel.
             vec4 acrossX = vec4(e0.x + e0.y, e1.x + e1.y, e2.x + e2.y, e3.x + e3.y);

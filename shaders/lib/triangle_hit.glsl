@@ -4,8 +4,13 @@
 // grid coordinates. Test: Moeller and Trumbore 1997, "Fast, Minimum Storage Ray/Triangle Intersection".
 // Method: docs/theory/4f_glossy.md, "Mirrors that show triangles".
 //
+// BLOCKING_TRIANGLES 1: of shadow rays. Both sides of triangles count, of instances that cast shadows alone.
+//
 // Includers that set one of them include before: lib/scene_tables.glsl, lib/surface_array.glsl. Before the
 // call: SurfaceVoxels::bindTriangles, GpuScene::bind.
+#ifndef BLOCKING_TRIANGLES
+#define BLOCKING_TRIANGLES 0
+#endif
 #if TRIANGLE_HITS || NEAR_TRIANGLES
 uniform usamplerBuffer voxelChains;
 uniform usamplerBuffer voxelFragments;
@@ -142,11 +147,18 @@ void testTriangle(int triangle, Ray ray, vec3 toCenter, bool valid, inout Triang
     vec3 q = cross(fromCorner, c.edge1);
     vec2 barycentric = vec2(dot(fromCorner, p), dot(ray.direction, q)) * inverse;
     float t = dot(c.edge2, q) * inverse;
+#if BLOCKING_TRIANGLES
+    bool faces =
+        abs(determinant) > kTriangleLeast && (instances[c.instance].flags & INSTANCE_CASTS_SHADOW) != 0u;
+    // Where it is crossed does not matter: so a piece too small for a voxel counts in the next one.
+    bool here = true;
+#else
     vec3 offset = abs(t * ray.direction - toCenter);
-    bool hit = valid && (determinant > kTriangleLeast || (c.twoSided && determinant < -kTriangleLeast)) &&
-               min(barycentric.x, barycentric.y) >= -kTriangleEdge &&
+    bool here = max(offset.x, max(offset.y, offset.z)) <= 0.5 + kTriangleSide;
+    bool faces = determinant > kTriangleLeast || (c.twoSided && determinant < -kTriangleLeast);
+#endif
+    bool hit = valid && faces && here && min(barycentric.x, barycentric.y) >= -kTriangleEdge &&
                barycentric.x + barycentric.y <= 1.0 + kTriangleEdge && t > kTriangleStart &&
-               max(offset.x, max(offset.y, offset.z)) <= 0.5 + kTriangleSide &&
                (t < nearest.t || (t == nearest.t && triangle < nearest.triangle));
     if (hit)
         hit = triangleCovers(triangle, c.instance, vec3(1.0 - barycentric.x - barycentric.y, barycentric));
@@ -174,6 +186,9 @@ TriangleCrossing nearestTriangle(ivec3 voxel, Ray ray, bool wanted, out int reco
         int triangle = int(texelFetch(voxelPairs, slot).x);
         testTriangle(triangle, ray, toCenter, link != 0u, nearest);
         link = link != 0u ? next : 0u;
+#if BLOCKING_TRIANGLES
+        if (nearest.triangle >= 0) link = 0u;  // any will do
+#endif
     } while (link != 0u);
     return nearest;
 }

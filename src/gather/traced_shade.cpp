@@ -20,6 +20,7 @@ struct ShadeKey {
     bool emission = true;     // surfaces may glow
     bool counts = false;      // lookups
     light::LightKey lights;   // of direct light
+    bool visibility = false;  // of lights without extent, from a picture
     bool caustics = false;    // with diffuse light
     bool records = false;     // one pixel, as a compute shader, for the inspector
 
@@ -36,6 +37,7 @@ gl::ProgramDesc ShadeKey::desc() const {
                           {"IRRADIANCE", irradiance && gathers ? "1" : "0"},
                           {"LOBE", lobe && parts.specular ? "1" : "0"}}};
     if (!emission) desc.defines.emplace_back("SURFACE_EMISSION", "0");
+    if (visibility) desc.defines.emplace_back("VISIBILITY_PICTURE", "1");
     if (caustics && parts.diffuse) desc.defines.emplace_back("CAUSTICS", "1");
     if (counts) desc.defines.emplace_back("COUNT_LOOKUPS", "1");
     if (parts.direct)
@@ -43,6 +45,12 @@ gl::ProgramDesc ShadeKey::desc() const {
     if (!records) return desc;
     desc.files = {"gather/traced_shade.comp.glsl"};
     return StepRecorder::variant(std::move(desc));
+}
+
+// As PixelVisibility::serves.
+bool mayHaveVisibility(const PictureParts& parts, const light::LightKey& lights) {
+    return parts.direct && lights.shadows && lights.filter == 0 &&
+           lights.point + lights.spot + lights.directional > 0;
 }
 
 std::vector<ShadeKey> ShadeKey::all() {
@@ -53,12 +61,16 @@ std::vector<ShadeKey> ShadeKey::all() {
         for (int bits = 0; bits < 16; ++bits) {
             const bool irradiance = (bits & 1) != 0, lobe = (bits & 2) != 0;
             if ((irradiance && !gathers) || (lobe && !parts.specular)) continue;
-            const ShadeKey key{parts, irradiance, lobe, (bits & 4) == 0, (bits & 8) != 0, lights};
-            keys.push_back(key);
-            // Without direct light, lights are not told.
-            if (!parts.diffuse || (parts.direct && !lights.glass)) continue;
-            keys.push_back(key);
-            keys.back().caustics = true;
+            ShadeKey key{parts, irradiance, lobe, (bits & 4) == 0, (bits & 8) != 0, lights};
+            for (const bool visibility : {false, true}) {
+                if (visibility && !mayHaveVisibility(parts, lights)) continue;
+                key.visibility = visibility;
+                keys.push_back(key);
+                // Without direct light, lights are not told.
+                if (!parts.diffuse || (parts.direct && !lights.glass)) continue;
+                keys.push_back(key);
+                keys.back().caustics = true;
+            }
         }
     };
     for (const PictureParts& parts :
@@ -89,6 +101,7 @@ void TracedShade::draw(const gl::Device& device, const RayInputs& inputs, const 
     if (irradiance != nullptr) given.texture("irradiancePicture", *irradiance);
     if (lobe != nullptr) given.texture("lobePicture", *lobe);
     if (wanted.lookupCounters != nullptr) given.storage("LookupTable", *wanted.lookupCounters);
+    if (wanted.visibility != nullptr) given.texture("visibilityPicture", *wanted.visibility);
 
     // The depth test leaves out the background (shared/gbuffer.h), which the clear has drawn.
     const gl::Framebuffer target({&output}, &inputs.surfaces.depth(), "traced picture");
@@ -107,6 +120,7 @@ void TracedShade::draw(const gl::Device& device, const RayInputs& inputs, const 
                  anyEmission(inputs.scene),
                  wanted.lookupCounters != nullptr,
                  parts.direct ? inputs.lights.key() : light::LightKey{},
+                 wanted.visibility != nullptr,
                  inputs.lights.hasCaustics()};
     const auto drawPicture = [&](bool withLobe) {
         key.lobe = withLobe;

@@ -25,6 +25,7 @@ class TracedShade {
         PictureParts parts;
         const gl::Buffer* lookupCounters = nullptr;  // not null: adds lookups of the cache, and of shadow
                                                      // maps as occlusion's
+        const gl::Texture* visibility = nullptr;     // of lights (PixelVisibility); null: by shadow maps
     };
     // Irradiance that `indirect` lacks is taken from the cache, and stands in for the lobe's radiance. Where
     // no surface is seen there is the sky, with direct light. Writes all of `output`.

@@ -38,7 +38,9 @@ void TracedMode::draw(const Frame& frame) {
     // Voxels, and the light on them.
     const bool usesLight = component == Component::Occlusion || component == Component::Voxels ||
                            parts.diffuse || parts.specular || frame.recorder != nullptr;
-    if ((usesLight || frame.lights.castsCaustics()) && !frame.besideCenters) {
+    const bool exactShadows = parts.direct && component != Component::Voxels && settings.exactShadows &&
+                              gather::PixelVisibility::serves(frame.scene, frame.lights);
+    if ((usesLight || exactShadows || frame.lights.castsCaustics()) && !frame.besideCenters) {
         voxels_.update(frame.device, frame.scene, frame.settings.voxels, voxels::Rays::Yes);
         frame.lights.castCaustics(frame.device, frame.scene, voxels_);
     }
@@ -62,7 +64,12 @@ void TracedMode::draw(const Frame& frame) {
             indirect_.carry(frame.device, inputs, settings);
         else
             indirect_.gather(frame.device, inputs, {settings, parts, frame.lookupCounters});
-        shade_.draw(frame.device, inputs, indirect_, {settings, parts, frame.lookupCounters}, frame.output);
+        const gl::Texture* visibility = nullptr;
+        if (exactShadows)
+            visibility = &visibility_.look(frame.device, {frame.scene, frame.lights, voxels_, frame.surfaces},
+                                           frame.lookupCounters);
+        shade_.draw(frame.device, inputs, indirect_, {settings, parts, frame.lookupCounters, visibility},
+                    frame.output);
     }
 }
 // [/recipe]
@@ -98,8 +105,8 @@ void TracedMode::record(const Frame& frame, const gather::RayInputs& inputs) {
 std::vector<gl::ProgramDesc> TracedMode::programDescs() {
     std::vector<gl::ProgramDesc> descs = light::LitVoxels::programDescs();
     for (const auto& more : {gather::PixelRays::programDescs(), gather::CarriedPicture::programDescs(),
-                             gather::TracedShade::programDescs(), gather::Glass::programDescs(),
-                             image::VoxelView::programDescs()})
+                             gather::PixelVisibility::programDescs(), gather::TracedShade::programDescs(),
+                             gather::Glass::programDescs(), image::VoxelView::programDescs()})
         descs.insert(descs.end(), more.begin(), more.end());
     return descs;
 }

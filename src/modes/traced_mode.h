@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gather/indirect.h"
+#include "gather/pixel_visibility.h"
 #include "gather/traced_shade.h"
 #include "image/voxel_view.h"
 #include "light/lit_voxels.h"
@@ -30,6 +31,7 @@ class TracedMode : public ModeRenderer {
     voxels::Voxels voxels_;
     light::LitVoxels lit_;
     gather::Indirect indirect_;
+    gather::PixelVisibility visibility_;
     gather::TracedShade shade_;
     image::VoxelView voxelView_;
 };

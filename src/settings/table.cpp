@@ -179,6 +179,10 @@ std::vector<Setting<TracedSettings>> tracedSettings() {
          "rays of pixels meet triangles within a voxel of their start, so that folds, thin things and "
          "contacts "
          "hide light; off: voxels, faster"},
+        {"exact_shadows", &TracedSettings::exactShadows,
+         "where shadow maps leave open what a pixel sees of a point, spot or directional light, a ray asks "
+         "the "
+         "triangles: sharp edges of shadows at every size of map; off: maps alone, faster"},
         {"budgeted", &TracedSettings::budgeted,
          "one update and one pass per frame, reusing frames before, for moving pictures; off: every "
          "frame is finished"},
