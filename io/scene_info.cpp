@@ -211,9 +211,12 @@ std::string describeScene(const Scene& scene, std::size_t maxRows) {
     report.list(scene.lights, [](const Light& l) { return describe(l); });
     report.line("cameras    {}", scene.cameras.size());
     report.list(scene.cameras, [](const Camera& c) {
-        return fmt::format("{}: at {}, to {}, {:.4g} deg vertical, {:.3g} to {:.3g} m",
+        const std::string lens =
+            c.lensDiameter > 0 ? fmt::format(", lens {:.4g} m, focus {:.4g} m", c.lensDiameter, c.focus())
+                               : std::string();
+        return fmt::format("{}: at {}, to {}, {:.4g} deg vertical, {:.3g} to {:.3g} m{}",
                            c.name.empty() ? "(unnamed)" : c.name, text(c.eye), text(c.target),
-                           c.fovY * kDegreesPerRadian, c.zNear, c.zFar);
+                           c.fovY * kDegreesPerRadian, c.zNear, c.zFar, lens);
     });
     if (!scene.settings.empty()) report.line("settings   {}", scene.settings.size());
     for (const auto& [key, value] : scene.settings) report.line("  {} = {}", key, value);
