@@ -13,7 +13,7 @@ namespace conelight::image {
 namespace {
 
 // Views in a mean. At rest: as many as a still has at most. On the way: longer ones blur and lag, shorter ones
-// flicker (chosen by `conelight score shimmer`).
+// flicker (`conelight score edges`).
 constexpr std::uint32_t kLongestAtRest = 64;
 constexpr std::uint32_t kLongestMoving = 16;
 

@@ -201,7 +201,8 @@ void Renderer::Impl::render(const Camera& camera, int width, int height, const S
     else
         drawLight(frame(settings));
     if (count > 0) drawParts(camera, settings, count);
-    if (temporal && !isTemporal(settings)) {
+    // Pictures of surfaces between those of light leave it as it is.
+    if (temporal && settings.image.temporal != Toggle::On) {
         temporal.reset();
         partSurfaces = {};
     }

@@ -31,12 +31,15 @@ constexpr int kReferenceSamples = 4096;
 // time that PictureView aims at.
 constexpr double kFlyingUpdateMs = 25;
 
-// Smooth edges are the mean of so many pictures of a view at rest (a quarter of what the mean holds at most: by eye,
-// later ones change nothing).
-constexpr int kSmoothingFrames = 16;
+// Smooth edges are the mean of so many pictures of a view at rest (by eye: later ones hardly change it).
+constexpr int kSmoothingFrames = 8;
 
 bool smoothsEdges(const Settings& settings) {
-    return settings.image.temporal != Toggle::Off && settings.component != Component::Voxels;
+    const Component component = settings.component;
+    const bool ofLight = component == Component::Full || component == Component::Direct ||
+                         component == Component::Indirect || component == Component::Diffuse ||
+                         component == Component::Specular;
+    return settings.image.temporal != Toggle::Off && ofLight;
 }
 
 int settlingFrames(const std::string& mode, const Settings& settings) {
