@@ -396,6 +396,8 @@ void Reader::addCamera(std::size_t node, const GltfValue& value) {
         scene_.notes.push_back(fmt::format("camera {}: has no usable direction; left out", to.name));
         return;
     }
+    to.lensDiameter = std::max(ownExtras(value)["lensDiameter"].number(0.0f), 0.0f);
+    to.focusDistance = std::max(ownExtras(value)["focusDistance"].number(0.0f), 0.0f);
     const std::string type = from["type"].text("perspective");
     const GltfValue lens = from[type == "orthographic" ? "orthographic" : "perspective"];
     if (type == "orthographic") {

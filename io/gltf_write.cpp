@@ -149,6 +149,9 @@ void Writer::addLight(const Light& light) {
 
 void Writer::addCamera(const Camera& camera) {
     const glm::vec3 forward = camera.target - camera.eye;
+    Json own = {{"distance", glm::length(forward)}};
+    if (camera.lensDiameter > 0) own["lensDiameter"] = camera.lensDiameter;
+    if (camera.focusDistance > 0) own["focusDistance"] = camera.focusDistance;
     root_["cameras"].push_back(
         {{"name", camera.name},
          {"type", "perspective"},
@@ -156,7 +159,7 @@ void Writer::addCamera(const Camera& camera) {
     addNode({{"name", camera.name},
              {"camera", root_["cameras"].size() - 1},
              {"matrix", listOf(lookingAlong(camera.eye, forward, camera.up))},
-             {"extras", {{"conelight", {{"distance", glm::length(forward)}}}}}});
+             {"extras", {{"conelight", own}}}});
 }
 
 // A generated picture is kept as its specification, another as floats in the buffer.

@@ -134,6 +134,11 @@ std::string describe(const Light& l) {
     return out;
 }
 
+std::string lensText(const Camera& camera) {
+    if (!(camera.lensDiameter > 0)) return {};
+    return fmt::format(", lens {:.4g} m, focus {:.4g} m", camera.lensDiameter, camera.focus());
+}
+
 }  // namespace
 
 const char* lightTypeName(LightType type) {
@@ -211,9 +216,9 @@ std::string describeScene(const Scene& scene, std::size_t maxRows) {
     report.list(scene.lights, [](const Light& l) { return describe(l); });
     report.line("cameras    {}", scene.cameras.size());
     report.list(scene.cameras, [](const Camera& c) {
-        return fmt::format("{}: at {}, to {}, {:.4g} deg vertical, {:.3g} to {:.3g} m",
+        return fmt::format("{}: at {}, to {}, {:.4g} deg vertical, {:.3g} to {:.3g} m{}",
                            c.name.empty() ? "(unnamed)" : c.name, text(c.eye), text(c.target),
-                           c.fovY * kDegreesPerRadian, c.zNear, c.zFar);
+                           c.fovY * kDegreesPerRadian, c.zNear, c.zFar, lensText(c));
     });
     if (!scene.settings.empty()) report.line("settings   {}", scene.settings.size());
     for (const auto& [key, value] : scene.settings) report.line("  {} = {}", key, value);

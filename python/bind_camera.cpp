@@ -117,6 +117,10 @@ void bindCamera(py::module_& module) {
     type.def_readwrite("vfov", &Camera::fovY, "Vertical field of view, radians.")
         .def_readwrite("near", &Camera::zNear, "Nothing nearer is seen; metres.")
         .def_readwrite("far", &Camera::zFar, "Nothing farther is seen; metres.")
+        .def_readwrite("lens_diameter", &Camera::lensDiameter,
+                       "Metres; what is out of focus is blurred. 0: a pinhole.")
+        .def_readwrite("focus_distance", &Camera::focusDistance,
+                       "To the plane in focus, metres. 0: through the target.")
         .def_readwrite("name", &Camera::name, "Text.")
         .def_static("from_opencv", &fromOpencv, py::arg("K"), py::arg("R"), py::arg("t"), py::arg("size"),
                     py::kw_only(), py::arg("pixel_center") = 0.0,
@@ -135,12 +139,12 @@ void bindCamera(py::module_& module) {
         .def(py::pickle(
             [](const Camera& c) {
                 return py::make_tuple(c.name, tupleOf(c.eye), tupleOf(c.target), tupleOf(c.up), c.fovY,
-                                      c.zNear, c.zFar);
+                                      c.zNear, c.zFar, c.lensDiameter, c.focusDistance);
             },
             [](const py::tuple& c) {
                 return Camera{c[0].cast<std::string>(), vec3Of("eye", c[1]), vec3Of("target", c[2]),
                               vec3Of("up", c[3]),       c[4].cast<float>(),  c[5].cast<float>(),
-                              c[6].cast<float>()};
+                              c[6].cast<float>(),       c[7].cast<float>(),  c[8].cast<float>()};
             }))
         .def(
             "__eq__", [](const Camera& a, const Camera& b) { return a == b; }, py::is_operator())

@@ -32,6 +32,10 @@ void checkCamera(const Camera& camera) {
                          camera.fovY));
     if (!(camera.zNear > 0) || !(camera.zFar > camera.zNear) || !std::isfinite(camera.zFar))
         fail(fmt::format("near {} and far {}; 0 < near < far would be right", camera.zNear, camera.zFar));
+    if (!(camera.lensDiameter >= 0) || !std::isfinite(camera.lensDiameter))
+        fail(fmt::format("lens_diameter {}; 0 or more would be right", camera.lensDiameter));
+    if (!(camera.focusDistance >= 0) || !std::isfinite(camera.focusDistance))
+        fail(fmt::format("focus_distance {}; 0 or more would be right", camera.focusDistance));
     const glm::vec3 view = camera.target - camera.eye;
     if (!std::isfinite(glm::dot(view, view)) || !std::isfinite(glm::dot(camera.up, camera.up)))
         fail("a number is not finite");

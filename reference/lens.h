@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The rays of a camera: Camera + size of the picture -> a ray for each point of it.
+// The rays of a camera: Camera + size of the picture -> a ray for each point of it, through a pinhole or a thin lens.
 #pragma once
 
 #include <cmath>
@@ -14,6 +14,7 @@ namespace conelight::reference {
 struct Lens {
     glm::dvec3 eye, forward, right, up;
     double zNear, zFar;
+    double radius = 0, focus = 1;  // of the lens, and the distance of the plane in focus; radius 0: a pinhole
 
     Lens(const Camera& camera, int width, int height)
         : eye(camera.eye), zNear(static_cast<double>(camera.zNear)), zFar(static_cast<double>(camera.zFar)) {
@@ -28,17 +29,23 @@ struct Lens {
                                                                             : glm::dvec3(1, 0, 0));
         }
         const double tanY = std::tan(0.5 * static_cast<double>(camera.fovY));
+        if (camera.lensDiameter > 0 && camera.focus() > 0) {
+            radius = 0.5 * static_cast<double>(camera.lensDiameter);
+            focus = static_cast<double>(camera.focus());
+        }
         side = glm::normalize(side);
         up = glm::cross(side, forward) * tanY;
         right = side * (tanY * width / height);
     }
 
-    // Through a point of the picture, [-1,1]^2 with y up.
-    Ray ray(const glm::dvec2& clip) const {
-        const glm::dvec3 way = forward + clip.x * right + clip.y * up;
+    // Through a point of the picture, [-1,1]^2 with y up, and one of the lens, unit disc: all rays of a point of the
+    // picture meet on the plane in focus.
+    Ray ray(const glm::dvec2& clip, const glm::dvec2& point = glm::dvec2(0)) const {
+        const glm::dvec3 beside = radius * (point.x * glm::normalize(right) + point.y * glm::normalize(up));
+        const glm::dvec3 way = forward + clip.x * right + clip.y * up - beside / focus;
         const double length = glm::length(way);
         Ray ray;
-        ray.origin = glm::vec3(eye);
+        ray.origin = glm::vec3(eye + beside);
         ray.direction = glm::vec3(way / length);
         ray.tMin = static_cast<float>(zNear * length);
         ray.tMax = static_cast<float>(zFar * length);

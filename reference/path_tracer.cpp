@@ -18,6 +18,7 @@
 
 #include "base/clock.h"
 #include "base/log.h"
+#include "math/disc.h"
 #include "reference/lens.h"
 #include "reference/path_integrator.h"
 
@@ -151,8 +152,10 @@ void Round::renderTile(int tile, PathSample& sample, std::uint64_t& bad) {
                 Sampler sampler(combineBits(key, half), static_cast<std::uint32_t>(i >> 1), bits);
                 const glm::dvec2 inPixel = box ? glm::dvec2(sampler.next2()) : glm::dvec2(0.5);
                 const glm::dvec2 clip = (glm::dvec2(x, y) + inPixel) / size;
+                const glm::dvec2 inLens =
+                    lens_.radius > 0 ? math::discFromSquare(glm::dvec2(sampler.next2())) : glm::dvec2(0);
                 sample.clear();
-                integrator_.trace(lens_.ray({2 * clip.x - 1, 1 - 2 * clip.y}), box ? nullptr : &turns,
+                integrator_.trace(lens_.ray({2 * clip.x - 1, 1 - 2 * clip.y}, inLens), box ? nullptr : &turns,
                                   sampler, sample);
                 if (!sample.finite()) {
                     ++bad;

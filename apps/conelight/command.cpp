@@ -19,6 +19,7 @@
 #include "io/environment_file.h"
 #include "io/generated_surroundings.h"
 #include "io/scene_file.h"
+#include "session/lens_range.h"
 #include "session/session.h"
 #include "traced_picture.h"
 
@@ -156,6 +157,17 @@ void ViewOptions::addTo(CLI::App& command) {
     command.add_option("--fov", fovDeg, "vertical field of view in degrees")
         ->type_name("DEG")
         ->check(CLI::Range(1.0, 170.0));
+    command
+        .add_option("--lens", lensDiameter,
+                    "diameter of the camera's lens in m: what is out of focus is blurred, in stills and mode "
+                    "reference; 0: a pinhole")
+        ->type_name("M")
+        ->check(CLI::Range(0.0, static_cast<double>(kWidestLens)));
+    command
+        .add_option("--focus", focusDistance,
+                    "distance of the plane in focus in m, along the view; 0: through the target")
+        ->type_name("M")
+        ->check(CLI::Range(0.0, 1e6));
     command.add_option("--sky", sky, "constant sky radiance instead of the scene's, W/(sr m^2)")
         ->type_name("R,G,B");
     addEnvironmentTo(command);
@@ -296,6 +308,8 @@ Camera cameraFor(const Scene& scene, const ViewOptions& options) {
     if (!options.eye.empty()) camera.eye = parseVec3("--eye", options.eye);
     if (!options.target.empty()) camera.target = parseVec3("--target", options.target);
     if (options.fovDeg > 0) camera.fovY = static_cast<float>(options.fovDeg * 3.14159265358979 / 180.0);
+    if (options.lensDiameter) camera.lensDiameter = static_cast<float>(*options.lensDiameter);
+    if (options.focusDistance) camera.focusDistance = static_cast<float>(*options.focusDistance);
     if (glm::length(camera.target - camera.eye) < 1e-9f) usage("--eye and --target: both are the same point");
     return camera;
 }

@@ -73,6 +73,7 @@ struct ViewOptions {
     std::string camera;
     std::string eye, target;
     double fovDeg = 0;
+    std::optional<double> lensDiameter, focusDistance;  // m
     std::string sky;
     std::string environment;
     double rotateDeg = 0;

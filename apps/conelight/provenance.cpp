@@ -35,6 +35,15 @@ std::string softwareName() {
     return commit.empty() ? name : name + " (" + commit + ")";
 }
 
+namespace {
+
+std::string lensText(const Camera& camera) {
+    if (!(camera.lensDiameter > 0)) return {};
+    return fmt::format(" --lens {} --focus {}", camera.lensDiameter, camera.focus());
+}
+
+}  // namespace
+
 PictureTexts provenanceOf(const PictureRequest& request, const std::string& scene,
                           const std::string& device) {
     const Camera& camera = request.camera;
@@ -42,8 +51,8 @@ PictureTexts provenanceOf(const PictureRequest& request, const std::string& scen
         {"Software", softwareName()},
         {"Scene", scene},
         {"Mode", request.mode},
-        {"Camera", fmt::format("--eye {} --target {} --fov {}", textOf(camera.eye), textOf(camera.target),
-                               glm::degrees(camera.fovY))},
+        {"Camera", fmt::format("--eye {} --target {} --fov {}{}", textOf(camera.eye), textOf(camera.target),
+                               glm::degrees(camera.fovY), lensText(camera))},
         {"Size", fmt::format("{}x{}", request.size.width, request.size.height)},
     };
     if (const std::string settings = settingsText(request); !settings.empty())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// `conelight score leak|shift|flicker|convergence`: faults that one picture does not show, as numbers.
+// `conelight score leak|shift|flicker|convergence|edges`: faults that one picture does not show, as numbers.
 #include "score.h"
 
 #include <fmt/core.h>
@@ -72,6 +72,7 @@ void addScore(CLI::App& app) {
     addScoreShift(*score);
     addScoreFlicker(*score);
     addScoreConvergence(*score);
+    addScoreEdges(*score);
 }
 
 }  // namespace conelight::program

@@ -21,6 +21,7 @@ void addScoreLeak(CLI::App& score);
 void addScoreShift(CLI::App& score);
 void addScoreFlicker(CLI::App& score);
 void addScoreConvergence(CLI::App& score);
+void addScoreEdges(CLI::App& score);
 
 struct ScoreOptions {
     std::vector<std::string> scenes;

@@ -211,6 +211,10 @@ struct Camera {
     float fovY = 0.78539816f;  // vertical field of view, rad; kept when the picture's aspect changes
     float zNear = 0.01f;
     float zFar = 1000.0f;
+    // A thin lens: what lies nearer or farther than the plane in focus is blurred.
+    float lensDiameter = 0;   // m; 0: a pinhole, all is sharp
+    float focusDistance = 0;  // along the view to the plane in focus, m; 0: through the target
+    float focus() const { return focusDistance > 0 ? focusDistance : glm::distance(eye, target); }
     bool operator==(const Camera&) const = default;
 };
 

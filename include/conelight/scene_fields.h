@@ -106,10 +106,16 @@ auto fieldsOf(L& light) {
 
 template <FieldsFrom<Camera> C>
 auto fieldsOf(C& camera) {
-    auto& [name, eye, target, up, fovY, zNear, zFar] = camera;
-    return std::tuple{
-        Field{"name", name},          Field{"eye", eye},          Field{"target", target}, Field{"up", up},
-        Field{"field of view", fovY}, Field{"near plane", zNear}, Field{"far plane", zFar}};
+    auto& [name, eye, target, up, fovY, zNear, zFar, lensDiameter, focusDistance] = camera;
+    return std::tuple{Field{"name", name},
+                      Field{"eye", eye},
+                      Field{"target", target},
+                      Field{"up", up},
+                      Field{"field of view", fovY},
+                      Field{"near plane", zNear},
+                      Field{"far plane", zFar},
+                      Field{"lens diameter", lensDiameter},
+                      Field{"focus distance", focusDistance}};
 }
 
 // Calls visit(name, value, ...) for each field, with the values of all objects, which are of one struct.

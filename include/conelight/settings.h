@@ -61,7 +61,7 @@ struct AutoFloat {
     }
 };
 
-// Auto: the scene's conventions decide.
+// Auto: who draws decides, or the scene's conventions.
 enum class Toggle { Auto, Off, On };
 
 struct PhongSettings {
@@ -186,6 +186,11 @@ struct ImageSettings {
     // Stills: the mean of so many views of the scene, at offsets within a pixel (traced.budgeted off). 0: one
     // view, of the pixels' centres.
     int antialiasing = 0;
+    // Moving pictures: each call draws one view at an offset within a pixel and adds it to the pictures before, which
+    // follow what moves (docs/theory/5_image.md, "Over frames"). Takes the place of antialiasing. Auto: Renderer and
+    // stills: off; the viewer: on.
+    Toggle temporal = Toggle::Auto;
+    float bloom = 0;                  // part of the light that spreads, in 8-bit pictures only; 0: none
     AutoFloat exposure{false, 0.0f};  // stops; auto: autoExposure() of the picture
     ToneMap toneMap = ToneMap::Aces;
     bool srgb = true;

@@ -2,11 +2,19 @@
 // SPDX-License-Identifier: MIT
 // Linear radiance -> 8-bit picture for a screen: exposure, tone curve, sRGB. GPU twin of
 // src/image/tone_map.cpp, which has the sources of the curves; turned so that row 0 is the top row.
+//   BLOOM 1: part of the light has spread (bloom_up.comp.glsl)
+#ifndef BLOOM
+#error BLOOM must be 0 or 1
+#endif
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "shared/image.h"
 layout(std140) uniform DisplayBlock { DisplayConstants display; };
 layout(std140) uniform ExposureBlock { Exposure exposure; };
 uniform sampler2D linearImage;
+#if BLOOM
+uniform sampler2D bloomChain;
+#include "image/bloom_tent.glsl"
+#endif
 layout(rgba8) uniform writeonly image2D displayImage;
 
 const float kWhite = 1e6;  // see tone_map.cpp
@@ -59,6 +67,10 @@ void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (pixel.x >= size.x || pixel.y >= size.y) return;
     vec3 color = texelFetch(linearImage, ivec2(pixel.x, size.y - 1 - pixel.y), 0).rgb;
+#if BLOOM
+    vec3 spread = bloomTent(bloomChain, 0, ivec2(pixel.x, size.y - 1 - pixel.y));
+    color = display.kept * color + display.spread * spread;
+#endif
     color = mix(color, vec3(0.0), isnan(color));
     color = clamp(toneCurve(clamp(color * exposure.scale, 0.0, kWhite)), 0.0, 1.0);
     color = display.srgb != 0u ? srgbFromLinear(color) : color;

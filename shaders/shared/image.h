@@ -26,11 +26,11 @@ struct Exposure {
 
 // Uniform block of image/display.comp.glsl.
 struct DisplayConstants {
-    uint curve;  // ToneMap: 0 none, 1 Reinhard, 2 ACES, 3 AgX, 4 Khronos PBR Neutral
-    uint srgb;   // encode
-    uint pad0;
-    uint pad1;
-};  // 16 B
+    uint curve;    // ToneMap: 0 none, 1 Reinhard, 2 ACES, 3 AgX, 4 Khronos PBR Neutral
+    uint srgb;     // encode
+    float kept;    // of bloom: part of a pixel's light that stays
+    float spread;  // and part of the first level of what spreads
+};                 // 16 B
 
 // Uniform block of image/view_mean.comp.glsl.
 struct ViewMeanConstants {
@@ -38,6 +38,24 @@ struct ViewMeanConstants {
     uint pad0;
     uint pad1;
     uint pad2;
+};  // 16 B
+
+// Uniform block of image/temporal_picture.comp.glsl.
+struct TemporalPictureConstants {
+    mat4 oldClipFromWorld;  // of the pixels' centres in the picture before
+    // ---- 64 B
+    uint longest;  // views that are averaged at most
+    uint fresh;    // 1: there is no picture before
+    uint pad0;
+    uint pad1;
+};  // 80 B
+
+// Uniform block of image/bloom_*.comp.glsl.
+struct BloomConstants {
+    float weight;    // of the level that is written, in what spreads
+    float coarser;   // 1: the next coarser level is added; 0: there is none
+    uint fromLevel;  // of the texture that is read
+    uint pad0;
 };  // 16 B
 
 // Uniform block of image/wireframe.*.
@@ -69,6 +87,8 @@ CONELIGHT_SHARED_END
 static_assert(sizeof(conelight::gpu::Exposure) == 16);
 static_assert(sizeof(conelight::gpu::DisplayConstants) == 16);
 static_assert(sizeof(conelight::gpu::ViewMeanConstants) == 16);
+static_assert(sizeof(conelight::gpu::TemporalPictureConstants) == 80);
+static_assert(sizeof(conelight::gpu::BloomConstants) == 16);
 static_assert(sizeof(conelight::gpu::WireframeConstants) == 32);
 static_assert(sizeof(conelight::gpu::ShadowViewConstants) == 32);
 #endif

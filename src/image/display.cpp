@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "image/display.h"
 
+#include <utility>
+
 #include "gl/gl.h"
 #include "shared/image.h"
 
 namespace conelight::image {
 namespace {
 
-gl::ProgramDesc programDesc() { return {{"image/display.comp.glsl"}, {}}; }
+struct DisplayKey {
+    bool bloom;
+    gl::ProgramDesc desc() const { return {{"image/display.comp.glsl"}, {{"BLOOM", bloom ? "1" : "0"}}}; }
+};
 
 std::uint32_t curveOf(ToneMap curve) {
     switch (curve) {
@@ -37,19 +42,29 @@ void Display::draw(const gl::Device& device, const gl::Texture& linear, const Im
     exposure_.measure(device, linear, settings.exposure);
     constants.curve = curveOf(settings.toneMap);
     constants.srgb = settings.srgb ? 1 : 0;
-    constants_.update(constants);
+    const bool blooms = settings.bloom > 0 && linear.width() > 1 && linear.height() > 1;
+    if (!blooms) bloom_.reset();
     gl::Inputs inputs;
+    if (blooms) {
+        if (!bloom_) bloom_.emplace();
+        bloom_->spread(device, linear);
+        constants.kept = 1 - settings.bloom + settings.bloom * bloom_->weightOfPicture();
+        constants.spread = settings.bloom;
+        inputs.add(*bloom_);
+    }
+    constants_.update(constants);
     inputs.add(exposure_)
         .uniform("DisplayBlock", constants_)
         .texture("linearImage", linear)
         .image("displayImage", texture_, gl::ImageUse::Write);
-    device.get(programDesc()).dispatch(inputs, linear.width(), linear.height());
+    device.get(DisplayKey{blooms}.desc()).dispatch(inputs, linear.width(), linear.height());
     gl::barrier(gl::Access::TextureFetch);
 }
 
 std::vector<gl::ProgramDesc> Display::programDescs() {
     std::vector<gl::ProgramDesc> descs = Exposure::programDescs();
-    descs.push_back(programDesc());
+    for (gl::ProgramDesc& desc : Bloom::programDescs()) descs.push_back(std::move(desc));
+    for (const bool bloom : {false, true}) descs.push_back(DisplayKey{bloom}.desc());
     return descs;
 }
 

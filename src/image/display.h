@@ -2,12 +2,14 @@
 // The picture as a screen shows it, on the GPU: what toneMapped() gives, as a texture, without a read-back.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "conelight/settings.h"
 #include "gl/buffer.h"
 #include "gl/device.h"
 #include "gl/texture.h"
+#include "image/bloom.h"
 #include "image/exposure.h"
 
 namespace conelight::image {
@@ -24,6 +26,7 @@ class Display {
   private:
     gl::Texture texture_;
     Exposure exposure_;
+    std::optional<Bloom> bloom_;  // while there is any
     gl::Buffer constants_;
 };
 

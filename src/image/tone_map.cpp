@@ -8,8 +8,10 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <optional>
 
 #include "conelight/renderer.h"
+#include "image/bloom.h"
 #include "shared/image.h"
 
 namespace conelight {
@@ -89,10 +91,12 @@ float autoExposure(const Image& image) {
 }
 
 std::vector<std::uint8_t> toneMapped(const Image& image, const ImageSettings& settings) {
+    std::optional<Image> spread;
+    if (settings.bloom > 0) spread = image::bloomed(image, settings.bloom);
     const float scale = std::exp2(settings.exposure.isAuto ? autoExposure(image) : settings.exposure.value);
     std::vector<std::uint8_t> bytes;
     bytes.reserve(image.pixels.size() * 3);
-    for (const glm::vec4& pixel : image.pixels) {
+    for (const glm::vec4& pixel : (spread ? *spread : image).pixels) {
         const glm::vec3 color =
             toneCurve(glm::clamp(glm::vec3(pixel) * scale, 0.0f, kWhite), settings.toneMap);
         for (int i = 0; i < 3; ++i) {

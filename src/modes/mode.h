@@ -27,10 +27,11 @@ struct Frame {
     const gl::Buffer* lookupCounters =
         nullptr;               // not null: count lookups of cones or rays (shared/lookups.h)
     bool voxelsAmong = false;  // with component voxels: on top of the picture in `output`
-    // One of the views of an anti-aliased still: the same picture as the one before, but for where in its
+    // One of the views of an anti-aliased picture: the same picture as the one before, but for where in its
     // pixels `surfaces` were seen. What was gathered for the pixels' centres may stand in.
     bool besideCenters = false;
-    int part = 0;  // which of these views
+    int part = 0;   // which of these views
+    int parts = 1;  // how many are averaged
     // Not null: the picture stays as it is, and what it shows of the recorder's pixel, or would show in
     // component full, is gathered once more for the record.
     gather::StepRecorder* recorder = nullptr;
@@ -47,6 +48,10 @@ class ModeRenderer {
         glass_.drawStraight(frame.device, {frame.scene, frame.lights, frame.surfaces},
                             gather::partsOf(frame.settings.component), frame.output);
     }
+    // Whether draw() gathers for the pixels' centres what views beside them take over (Frame::besideCenters).
+    virtual bool gathersForCenters() const { return false; }
+    // Whether the same picture again would be of the same light.
+    virtual bool settled() const { return true; }
     // Whether pictures of a scene need shadow maps.
     virtual bool needsShadows(const Scene& scene, const Settings& settings) const = 0;
     // Whether the mode has caustics cast.

@@ -17,6 +17,7 @@
 #include "image/display.h"
 #include "image/image.h"
 #include "image/shadow_view.h"
+#include "image/temporal_picture.h"
 #include "image/view_mean.h"
 #include "image/wireframe.h"
 #include "light/lights.h"
@@ -43,11 +44,31 @@ bool isOfLight(Component component) {
            component == Component::Specular;
 }
 
-// Stills of light; what pixels are of is told at their centres.
-bool isAntialiased(const Settings& settings) {
+// Views of a still whose picture is out of focus, where it is not said how many.
+constexpr int kLensViews = 64;
+// Views that share the work of a picture that gathers over frames.
+constexpr int kTemporalViews = 16;
+
+bool isTemporal(const Settings& settings) {
+    return settings.image.temporal == Toggle::On && isOfLight(settings.component);
+}
+
+// Of which the picture is the mean; 0: it is that of the pixels' centres. Stills of light have them; what pixels
+// are of is told at their centres.
+int viewsOfStill(const Settings& settings, const Camera& camera) {
     const bool ofLight = isOfLight(settings.component);
     const bool moves = settings.mode == Mode::Traced && settings.traced.budgeted;
-    return settings.image.antialiasing > 0 && ofLight && !moves;
+    if (!ofLight || moves || isTemporal(settings)) return 0;
+    const bool hasLens = camera.lensDiameter > 0 && camera.focus() > 0;
+    return settings.image.antialiasing > 0 ? settings.image.antialiasing : hasLens ? kLensViews : 0;
+}
+
+// Through points of the pixel, or their centres, and points of the lens.
+view::PixelPart partOfStill(const Settings& settings, int index) {
+    view::PixelPart part;
+    if (settings.image.antialiasing > 0) part = view::pixelPart(index, settings.image.antialiasing);
+    part.lens = view::lensPoint(index);
+    return part;
 }
 
 }  // namespace
@@ -64,11 +85,12 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
     scene::HeldScene scene;
     light::Lights lights;
     view::Surfaces surfaces;      // at the pixels' centres
-    view::Surfaces partSurfaces;  // beside them, of the view that is drawn for an anti-aliased still
+    view::Surfaces partSurfaces;  // beside them, of the view that is drawn for an anti-aliased picture
     std::unique_ptr<modes::ModeRenderer> mode;  // holds those between surfaces and image
     Mode modeKind = Mode::Traced;
     image::LinearImage image;
     image::ViewMean views;
+    std::optional<image::TemporalPicture> temporal;
     // Other looks at them.
     image::Display display;
     image::ShadowView shadowMapView;
@@ -84,7 +106,9 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
     void prepare(const Settings& settings);
     modes::Frame frame(const Settings& settings);
     void drawLight(const modes::Frame& frame);
-    void drawParts(const Camera& camera, const Settings& settings);
+    void drawParts(const Camera& camera, const Settings& settings, int count);
+    void drawTemporal(const Camera& camera, const Settings& settings);
+    void seePart(const Camera& camera, const Settings& settings, const view::PixelPart& part);
     void drawOverlays(const Settings& settings);
     PixelInspection inspect(int x, int y);
     void collectStats(double cpuStart, double wallStart);
@@ -164,16 +188,24 @@ void Renderer::Impl::render(const Camera& camera, int width, int height, const S
     // Views of surfaces need neither lights nor a mode.
     const bool debugView = image::isDebugView(settings.component);
     if (!debugView || settings.view.voxels) prepare(settings);
-    const view::PixelPart centers = isAntialiased(settings) ? view::centersOfStill() : view::PixelPart{};
+    const int count = viewsOfStill(settings, camera);
+    const view::PixelPart centers = count > 0 ? view::centersOfStill() : view::PixelPart{};
     const float shrink = settings.view.shrink;
     surfaces.see(device, *scene, {camera, width, height, true, centers, debugView, shrink});
     if (debugView)
         image::drawDebugView(device, *scene, surfaces, settings.component, image.texture());
     else if (settings.component == Component::ShadowMap)
         shadowMapView.draw(device, scene->source(), lights, settings.view.light, image.texture());
+    else if (isTemporal(settings))
+        drawTemporal(camera, settings);
     else
         drawLight(frame(settings));
-    if (isAntialiased(settings)) drawParts(camera, settings);
+    if (count > 0) drawParts(camera, settings, count);
+    // Pictures of surfaces between those of light leave it as it is.
+    if (temporal && settings.image.temporal != Toggle::On) {
+        temporal.reset();
+        partSurfaces = {};
+    }
     gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess);
     if (settings.component != Component::ShadowMap) drawOverlays(settings);
     shownSettings = settings;
@@ -189,17 +221,20 @@ void Renderer::Impl::drawLight(const modes::Frame& frame) {
     if (frame.lights.hasGlass() && isOfLight(component)) mode->drawGlass(frame);
 }
 
+void Renderer::Impl::seePart(const Camera& camera, const Settings& settings, const view::PixelPart& part) {
+    partSurfaces.see(device, *scene,
+                     {.camera = camera,
+                      .width = image.width(),
+                      .height = image.height(),
+                      .cullBackFaces = true,
+                      .part = part,
+                      .shrink = settings.view.shrink});
+}
+
 // Views through points beside the pixels' centres; their mean takes the place of the centres' picture.
-void Renderer::Impl::drawParts(const Camera& camera, const Settings& settings) {
-    const int count = settings.image.antialiasing;
+void Renderer::Impl::drawParts(const Camera& camera, const Settings& settings, int count) {
     for (int i = 0; i < count; ++i) {
-        partSurfaces.see(device, *scene,
-                         {.camera = camera,
-                          .width = image.width(),
-                          .height = image.height(),
-                          .cullBackFaces = true,
-                          .part = view::pixelPart(i, count),
-                          .shrink = settings.view.shrink});
+        seePart(camera, settings, partOfStill(settings, i));
         drawLight({.device = device,
                    .scene = *scene,
                    .lights = lights,
@@ -207,9 +242,38 @@ void Renderer::Impl::drawParts(const Camera& camera, const Settings& settings) {
                    .settings = settings,
                    .output = views.view(image.width(), image.height()),
                    .besideCenters = true,
-                   .part = i});
+                   .part = i,
+                   .parts = count});
         views.add(device, i, image.texture());
     }
+}
+
+// One view, and the pictures before. The first picture is that of the pixels' centres.
+void Renderer::Impl::drawTemporal(const Camera& camera, const Settings& settings) {
+    if (!temporal) temporal.emplace();
+    temporal->follow({*scene, camera, image.width(), image.height(), settings});
+    if (temporal->fresh())
+        drawLight(frame(settings));
+    else if (mode->gathersForCenters())
+        mode->draw(frame(settings));
+    const view::PixelPart part = temporal->part(mode->settled());
+    if (temporal->fresh()) {
+        gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess |
+                    gl::Access::Update);
+        temporal->takeCenters(image.texture());
+    } else {
+        seePart(camera, settings, part);
+        drawLight({.device = device,
+                   .scene = *scene,
+                   .lights = lights,
+                   .surfaces = partSurfaces,
+                   .settings = settings,
+                   .output = temporal->view(),
+                   .besideCenters = true,
+                   .part = temporal->frame(),
+                   .parts = kTemporalViews});
+    }
+    temporal->add(device, *scene, surfaces, image.texture());
 }
 
 // The mode, and the lights as it needs them.

@@ -13,6 +13,7 @@
 #include "image/debug_view.h"
 #include "image/display.h"
 #include "image/shadow_view.h"
+#include "image/temporal_picture.h"
 #include "image/view_mean.h"
 #include "image/wireframe.h"
 #include "light/shadow_maps.h"
@@ -66,6 +67,7 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     add(image::WireframeView::programDescs());
     add(image::Display::programDescs());
     add(image::ViewMean::programDescs());
+    add(image::TemporalPicture::programDescs());
     add(lightFieldProgramDescs());
     for (const ModeEntry& mode : registeredModes()) add(mode.programDescs());
     return all;

@@ -81,8 +81,7 @@ void TracedMode::drawGlass(const Frame& frame) {
     if (!parts.diffuse && !parts.specular) return ModeRenderer::drawGlass(frame);
     gather::Glass::Wanted wanted{.parts = parts, .passes = settings.specularRays * settings.passes};
     // The views of a still are averaged.
-    if (frame.besideCenters)
-        wanted.passes = kGlassPasses * wanted.passes / std::max(frame.settings.image.antialiasing, 1);
+    if (frame.besideCenters) wanted.passes = kGlassPasses * wanted.passes / std::max(frame.parts, 1);
     if (settings.budgeted) wanted.passes = settings.specularRays;
     wanted.passes = std::max(wanted.passes, 1);
     wanted.firstPass = frame.part * wanted.passes;

@@ -19,6 +19,8 @@ class TracedMode : public ModeRenderer {
   public:
     void draw(const Frame& frame) override;
     void drawGlass(const Frame& frame) override;
+    bool gathersForCenters() const override { return true; }
+    bool settled() const override { return lit_.steady(); }
     // Every component has lit voxels or direct light in it, or leaves them behind for the next.
     bool needsShadows(const Scene&, const Settings&) const override { return true; }
     bool castsCaustics() const override { return true; }

@@ -96,6 +96,7 @@ void GpuScene::uploadInstances() {
     instanceIndexBuffer_ = gl::Buffer(instanceIndices, "scene instance indices");
     instanceBounds_.resize(instances_.size());
     instanceRevisions_.resize(instances_.size(), identity_);
+    shapeRevisions_.resize(instances_.size(), identity_);
     for (std::size_t i = 0; i < instances_.size(); ++i) {
         setFlags(i, source_.instances[i]);
         place(i, source_.instances[i].worldFromObject);
@@ -197,7 +198,7 @@ void GpuScene::setMesh(std::size_t index, const Mesh& mesh) {
         instanceObjectBounds_[i] = range.bounds;
         place(i, g.worldFromObject);
         uploadInstance(i);
-        instanceRevisions_[i] = geometryRevision_;
+        instanceRevisions_[i] = shapeRevisions_[i] = geometryRevision_;
     }
 }
 

@@ -76,6 +76,8 @@ class GpuScene {
     // Raised by each change that voxels or shadows may show: of an instance (transform, flags, material, what
     // its material says), of any instance, of the list of lights, of sky or environment.
     base::Revision instanceRevision(std::size_t instance) const { return instanceRevisions_[instance]; }
+    // Raised when the vertices of the instance's mesh change.
+    base::Revision shapeRevision(std::size_t instance) const { return shapeRevisions_[instance]; }
     base::Revision geometryRevision() const { return geometryRevision_; }
     base::Revision lightRevision() const { return lightRevision_; }
     base::Revision skyRevision() const { return skyRevision_; }
@@ -122,7 +124,7 @@ class GpuScene {
     std::vector<Aabb> instanceObjectBounds_, instanceBounds_;
     std::vector<Aabb> partBounds_;            // object boxes of the parts of all meshes
     std::vector<std::size_t> instanceParts_;  // the first of an instance's mesh
-    std::vector<base::Revision> instanceRevisions_;
+    std::vector<base::Revision> instanceRevisions_, shapeRevisions_;
     std::vector<std::optional<glm::mat4>> bakedPlaces_;  // where baked light has an instance
     base::Revision identity_ = base::Revision::next(), geometryRevision_, lightRevision_, skyRevision_,
                    bakedRevision_;

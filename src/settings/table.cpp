@@ -222,6 +222,15 @@ std::vector<Setting<ImageSettings>> imageSettings() {
         {"antialiasing", &ImageSettings::antialiasing, Numbers{2, 64, 1, true, false}, "",
          "smooth edges of stills: the picture is the mean of so many views at offsets within a pixel; 0: one "
          "view, of the pixels' centres"},
+        {"temporal", &ImageSettings::temporal, kToggles,
+         "smooth edges of moving pictures: each picture is a view at an offset within a pixel, added to "
+         "those "
+         "before, which follow what moves; takes the place of antialiasing; auto: on in the viewer, else "
+         "off"},
+        {"bloom", &ImageSettings::bloom, Numbers{0, 1}, "",
+         "part of the light that spreads about where it falls, as in an eye or a lens; of 8-bit pictures, "
+         "not "
+         "of linear ones; 0: none"},
         {"exposure", &ImageSettings::exposure, Numbers{-20, 20}, "stops",
          "brightness before the tone map: 2^exposure; auto: the picture's mean becomes middle grey"},
         {"tone_map", &ImageSettings::toneMap, kToneMaps, "curve from linear radiance to the 8-bit picture"},

@@ -6,6 +6,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <numeric>
 
+#include "math/disc.h"
+
 namespace conelight::view {
 namespace {
 
@@ -74,6 +76,37 @@ PixelPart pixelPart(int index, int count) {
     return {{x - 0.5, y - 0.5}, static_cast<float>(1 / std::sqrt(static_cast<double>(count))), turn};
 }
 
+namespace {
+
+// Element `index` of a sequence in one dimension that steps by `step`: as even as any, when `step` is badly
+// approximated by fractions.
+double stepped(int index, double start, double step) {
+    const double place = start + index * step;
+    return place - std::floor(place);
+}
+
+// Inverse powers of the root of x^5 = x + 1: steps of the sequence in four dimensions of Roberts 2018, "The
+// Unreasonable Effectiveness of Quasirandom Sequences".
+constexpr double kStep[4] = {0.85667488385450290, 0.73389185662712600, 0.62870672103780860,
+                             0.53859725722361000};
+
+}  // namespace
+
+glm::dvec2 lensPoint(int index) {
+    return math::discFromSquare({stepped(index, 0.5, kStep[2]), stepped(index, 0.5, kStep[3])});
+}
+
+PixelPart pixelPartOfFrame(int frame) {
+    if (frame == 0) return {};
+    // Textures as sharp as a quarter of a pixel's area asks for: what is added up makes them even.
+    constexpr float kFootprint = 0.5f;
+    const float turn = static_cast<float>(stepped(frame, 0.5, 0.61803398874989485));
+    return {.offset = {stepped(frame, 0.5, kStep[0]) - 0.5, stepped(frame, 0.5, kStep[1]) - 0.5},
+            .footprint = kFootprint,
+            .blending = turn,
+            .lens = lensPoint(frame)};
+}
+
 PixelPart centersOfStill() { return {.blending = 2.0f}; }
 
 gpu::FrameConstants frameConstants(const Camera& camera, int width, int height, const PixelPart& part) {
@@ -81,7 +114,14 @@ gpu::FrameConstants frameConstants(const Camera& camera, int width, int height, 
     const double tanY = std::tan(0.5 * static_cast<double>(camera.fovY));
     const double tanX = tanY * static_cast<double>(width) / static_cast<double>(height);
     gpu::FrameConstants frame{};
-    const glm::dvec2 shift = 2.0 * part.offset / glm::dvec2(width, height);  // in clip space
+    glm::dvec2 shift = 2.0 * part.offset / glm::dvec2(width, height);  // in clip space
+    // Another point of the lens sees the plane in focus where the middle sees it.
+    glm::dvec2 besideEye(0);
+    const double focus = static_cast<double>(camera.focus());
+    if (camera.lensDiameter > 0 && focus > 0) {
+        besideEye = 0.5 * static_cast<double>(camera.lensDiameter) * part.lens;
+        shift -= besideEye / (focus * glm::dvec2(tanX, tanY));
+    }
     const glm::dmat4 lens = projection(camera, width, height);
     // Points are divided by w after the shift.
     glm::dmat4 shifted = lens;
@@ -89,8 +129,11 @@ gpu::FrameConstants frameConstants(const Camera& camera, int width, int height, 
         shifted[i].x -= shift.x * lens[i].w;
         shifted[i].y -= shift.y * lens[i].w;
     }
-    frame.clipFromWorld = glm::mat4(shifted * viewMatrix(camera));
-    frame.eye = camera.eye;
+    glm::dmat4 view = viewMatrix(camera);
+    view[3].x -= besideEye.x;
+    view[3].y -= besideEye.y;
+    frame.clipFromWorld = glm::mat4(shifted * view);
+    frame.eye = glm::vec3(glm::dvec3(camera.eye) + axes.right * besideEye.x + axes.up * besideEye.y);
     frame.viewForward = glm::vec3(axes.forward + axes.right * (shift.x * tanX) + axes.up * (shift.y * tanY));
     frame.viewRight = glm::vec3(axes.right * tanX);
     frame.viewUp = glm::vec3(axes.up * tanY);

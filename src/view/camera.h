@@ -18,10 +18,16 @@ struct PixelPart {
     glm::dvec2 offset{0};    // from the centres, pixels, y up
     float footprint = 1.0f;  // FrameConstants::footprint
     float blending = -1.0f;  // FrameConstants::blending
+    glm::dvec2 lens{0};      // through which point of the lens, unit disc, y up
 };
 // The views whose mean is a picture through a box filter of one pixel: one in each row and each column of
 // count x count cells of the pixel, so that also edges along the axes have as many steps (a rank-1 lattice).
 PixelPart pixelPart(int index, int count);
+// The same for a lens: points that are even over its disc. The mean of `count` views is out of focus as it is.
+glm::dvec2 lensPoint(int index);
+// Views without an end, any number of which in a row are even over the pixel and the lens (Roberts 2018): the first
+// is through the pixels' centres and the middle of the lens.
+PixelPart pixelPartOfFrame(int frame);
 // The centres, for what the views of an anti-aliased still are to find of blended surfaces.
 PixelPart centersOfStill();
 

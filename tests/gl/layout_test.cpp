@@ -118,8 +118,10 @@ std::vector<Struct> glassStructs() {
 std::vector<Struct> structsOfPictures() {
     return {
         ROW(Exposure, scale, pad0, pad1, pad2),
-        ROW(DisplayConstants, curve, srgb, pad0, pad1),
+        ROW(DisplayConstants, curve, srgb, kept, spread),
         ROW(ViewMeanConstants, views, pad0, pad1, pad2),
+        ROW(TemporalPictureConstants, oldClipFromWorld, longest, fresh, pad0, pad1),
+        ROW(BloomConstants, weight, coarser, fromLevel, pad0),
         ROW(ShrinkConstants, kept, pad0, pad1, pad2),
         ROW(WireframeConstants, color, opacity, halfWidth, pad0, pad1, pad2),
         ROW(ShadowViewConstants, light, tiles, tilesPerEdge, columns, rows, pad0, pad1, pad2),

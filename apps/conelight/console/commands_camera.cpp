@@ -9,6 +9,7 @@
 #include "conelight/error.h"
 #include "console/console.h"
 #include "console/names.h"
+#include "session/lens_range.h"
 
 namespace conelight::program {
 namespace {
@@ -21,6 +22,9 @@ void printCamera(const CommandContext& context, const Camera& camera) {
     context.print("  target " + text(camera.target) + " m");
     context.print("  up     " + text(camera.up));
     context.print(fmt::format("  fov    {:.6g} deg", glm::degrees(camera.fovY)));
+    if (camera.lensDiameter > 0)
+        context.print(
+            fmt::format("  lens   {:.6g} m, focus at {:.6g} m", camera.lensDiameter, camera.focus()));
 }
 
 [[noreturn]] void usage(const std::string& message) { throw Error(ErrorKind::Usage, message); }
@@ -112,6 +116,19 @@ void frame(const CommandContext& context, Camera camera) {
     jump(context, camera, "camera frame");
 }
 
+// Its diameter, or the distance of the plane in focus.
+void lens(const CommandContext& context, Camera camera) {
+    const std::string& word = context.words[0];
+    const bool isFocus = word == "focus";
+    const double most = isFocus ? 1e6 : static_cast<double>(kWidestLens);
+    const double value = numbers(context, 1, "M")[0];
+    if (!(value >= 0 && value <= most))
+        usage(fmt::format("camera {}: '{}' is not usable; a number from 0 to {:g} m would be right", word,
+                          context.words[1], most));
+    (isFocus ? camera.focusDistance : camera.lensDiameter) = static_cast<float>(value);
+    jump(context, camera, "camera " + word);
+}
+
 void camera(const CommandContext& context) {
     Session& session = context.session;
     Camera camera = session.camera();
@@ -137,10 +154,11 @@ void camera(const CommandContext& context) {
         camera.fovY = static_cast<float>(fov * 3.14159265358979 / 180.0);
         return jump(context, camera, "camera fov");
     }
+    if (word == "lens" || word == "focus") return lens(context, camera);
     if (context.count() > 1)
         usage(
-            fmt::format("camera: '{}' takes no arguments; list, eye, target, up, fov, orbit, frame, add or "
-                        "a camera's name would be right",
+            fmt::format("camera: '{}' takes no arguments; list, eye, target, up, fov, lens, focus, orbit, "
+                        "frame, add or a camera's name would be right",
                         word));
     requireName("camera", "camera", cameraNames(session), word);
     session.jumpCamera(session.scene().cameras[camerasNamed(session, word).front()], "camera " + word);
@@ -161,6 +179,8 @@ CommandGroup cameraCommands() {
         "camera target X Y Z     look at a point, m\n"
         "camera up X Y Z         what is up\n"
         "camera fov DEG          vertical field of view, 1 to 170 degrees\n"
+        "camera lens M           diameter of its lens, m: what is out of focus is blurred; 0: a pinhole\n"
+        "camera focus M          distance of the plane in focus, m; 0: through the target\n"
         "camera orbit DEG [DEG]  round the target: to the right, and upward\n"
         "camera frame OBJECT     an object in the middle, seen from this side\n"
         "camera add NAME         keep the view as a camera of the scene";

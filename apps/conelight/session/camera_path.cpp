@@ -165,6 +165,11 @@ Camera CameraPath::at(double seconds) const {
     camera.fovY = static_cast<float>(value([](const Camera& c) { return double(c.fovY); }));
     camera.zNear = static_cast<float>(value([](const Camera& c) { return double(c.zNear); }));
     camera.zFar = static_cast<float>(value([](const Camera& c) { return double(c.zFar); }));
+    camera.lensDiameter =
+        std::max(static_cast<float>(value([](const Camera& c) { return double(c.lensDiameter); })), 0.0f);
+    if (std::any_of(keys_.begin(), keys_.end(), [](const auto& key) { return key.camera.focusDistance > 0; }))
+        camera.focusDistance =
+            std::max(static_cast<float>(value([](const Camera& c) { return double(c.focus()); })), 0.0f);
     return camera;
 }
 

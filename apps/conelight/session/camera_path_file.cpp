@@ -8,6 +8,7 @@
 #include "io/files.h"
 #include "io/json_file.h"
 #include "session/camera_path.h"
+#include "session/lens_range.h"
 
 namespace conelight::program {
 namespace {
@@ -62,11 +63,14 @@ PathKey keyOf(const io::JsonFile& file, const Json& json, const std::string& poi
             key.camera.zNear = static_cast<float>(number(file, value, at, what, 1e-6, 1e6));
         else if (field == "far")
             key.camera.zFar = static_cast<float>(number(file, value, at, what, 1e-6, 1e9));
+        else if (field == "lens")
+            key.camera.lensDiameter = static_cast<float>(number(file, value, at, what, 0, kWidestLens));
+        else if (field == "focus")
+            key.camera.focusDistance = static_cast<float>(number(file, value, at, what, 0, 1e6));
         else
-            file.fail(at,
-                      fmt::format("{} has no field '{}'; time, eye, target, up, fov, near or far would be "
-                                  "right",
-                                  name, io::oneLine(field, 40)));
+            file.fail(at, fmt::format("{} has no field '{}'; time, eye, target, up, fov, near, far, lens or "
+                                      "focus would be right",
+                                      name, io::oneLine(field, 40)));
     }
     for (const char* needed : {"eye", "target"})
         if (!json.contains(needed))
@@ -76,6 +80,12 @@ PathKey keyOf(const io::JsonFile& file, const Json& json, const std::string& poi
     if (!(glm::length(key.camera.up) > 0)) file.fail(pointer + "/up", name + ": up has no length");
     if (!(key.camera.zNear < key.camera.zFar)) file.fail(pointer, name + ": near is not below far");
     return key;
+}
+
+// Nothing for a pinhole.
+std::string lensText(const Camera& camera) {
+    if (camera.lensDiameter == 0) return {};
+    return fmt::format(", \"lens\": {:.9g}, \"focus\": {:.9g}", camera.lensDiameter, camera.focusDistance);
 }
 
 }  // namespace
@@ -114,9 +124,9 @@ void writeCameraPath(const std::string& name, const CameraPath& path, bool overw
         out += fmt::format(
             "{}\n    {{\"time\": {}, \"eye\": {}, \"target\": {}, \"up\": {}, \"fov\": {:.10g}, \"near\": "
             "{:.9g}, "
-            "\"far\": {:.9g}}}",
+            "\"far\": {:.9g}{}}}",
             i == 0 ? "" : ",", seconds, text(camera.eye), text(camera.target), text(camera.up),
-            double(camera.fovY) / kDegree, camera.zNear, camera.zFar);
+            double(camera.fovY) / kDegree, camera.zNear, camera.zFar, lensText(camera));
     }
     out += "\n  ]\n}\n";
     io::writeFile(name, {reinterpret_cast<const std::uint8_t*>(out.data()), out.size()});

@@ -11,7 +11,8 @@ namespace conelight::program {
 namespace {
 
 bool sameView(const Camera& a, const Camera& b) {
-    return a.eye == b.eye && a.target == b.target && a.up == b.up && a.fovY == b.fovY;
+    return a.eye == b.eye && a.target == b.target && a.up == b.up && a.fovY == b.fovY &&
+           a.lensDiameter == b.lensDiameter && a.focusDistance == b.focusDistance;
 }
 
 }  // namespace

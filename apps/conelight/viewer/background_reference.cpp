@@ -39,7 +39,9 @@ struct Wanted {
         return tables == other.tables && component == other.component &&
                emissiveQuads == other.emissiveQuads && camera.eye == other.camera.eye &&
                camera.target == other.camera.target && camera.up == other.camera.up &&
-               camera.fovY == other.camera.fovY && camera.zNear == other.camera.zNear;
+               camera.fovY == other.camera.fovY && camera.zNear == other.camera.zNear &&
+               camera.lensDiameter == other.camera.lensDiameter &&
+               camera.focusDistance == other.camera.focusDistance;
     }
 };
 

@@ -31,7 +31,20 @@ constexpr int kReferenceSamples = 4096;
 // time that PictureView aims at.
 constexpr double kFlyingUpdateMs = 25;
 
-bool settlesOverFrames(const std::string& mode) { return mode == "traced"; }
+// Smooth edges are the mean of so many pictures of a view at rest (by eye: later ones hardly change it).
+constexpr int kSmoothingFrames = 8;
+
+bool smoothsEdges(const Settings& settings) {
+    const Component component = settings.component;
+    const bool ofLight = component == Component::Full || component == Component::Direct ||
+                         component == Component::Indirect || component == Component::Diffuse ||
+                         component == Component::Specular;
+    return settings.image.temporal != Toggle::Off && ofLight;
+}
+
+int settlingFrames(const std::string& mode, const Settings& settings) {
+    return mode == "traced" ? kSettlingFrames : smoothsEdges(settings) ? kSmoothingFrames : 1;
+}
 
 // What the picture depends on; selection and the list of cameras are not part of it.
 struct PictureKey {
@@ -40,10 +53,11 @@ struct PictureKey {
 };
 PictureKey keyOf(const Revisions& r) { return {r.sceneTables(), r.settings, r.camera, r.flags}; }
 
-// Whether two settings give the same linear picture: all but exposure, tone map and encoding.
+// Whether two settings give the same linear picture: all but exposure, bloom, tone map and encoding.
 bool sameButLook(Settings a, const Settings& b) {
+    const ImageSettings own = a.image;
     a.image = b.image;
-    return a == b;
+    return a == b && own.antialiasing == b.image.antialiasing && own.temporal == b.image.temporal;
 }
 
 std::string hybridLabel(const BakeStatus& status, bool baked) {
@@ -217,8 +231,7 @@ bool PictureSlot::Impl::drawScene(const Session& session, const std::string& dra
     const bool changed =
         asked || !shown || !(*shown == keyOf(session.revisions())) || voxelsDue || newest != baked;
     const bool resized = w != width || h != height;
-    if (changed || (resized && !how.onlyChanges))
-        settling = settlesOverFrames(drawnMode) ? kSettlingFrames : 1;
+    if (changed || (resized && !how.onlyChanges)) settling = settlingFrames(drawnMode, session.settings());
     if (settling == 0) return resized && how.onlyChanges;
     if (how.onlyChanges && !changed) return true;
 
@@ -237,6 +250,7 @@ bool PictureSlot::Impl::drawScene(const Session& session, const std::string& dra
     Settings settings = session.shownSettings();
     conelight::setSetting(settings, "mode", drawnMode);
     settings.traced.budgeted = true;  // the window stays live; the picture settles over frames
+    if (smoothsEdges(settings)) settings.image.temporal = Toggle::On;
     const int faces = flyingFaces.faces();
     flyingUpdate = how.flying && faces > 0;
     if (flyingUpdate && (settings.traced.faceBudget == 0 || settings.traced.faceBudget > faces))
@@ -245,7 +259,7 @@ bool PictureSlot::Impl::drawScene(const Session& session, const std::string& dra
     renderFrame(session, settings, w, h);
     followUpdateTime();
     --settling;
-    if (settlesOverFrames(drawnMode))
+    if (drawnMode == "traced")
         noise.follow(kSettlingFrames - settling, [this]() -> const Image& { return read(); });
     return settling > 0;
 }
@@ -456,7 +470,7 @@ std::string PictureSlot::label() const {
                            impl_->preview ? instead : "; light as it was before the change");
     }
     if (impl_->mode == "hybrid") return hybridLabel(impl_->statics.status(), impl_->baked != nullptr);
-    if (!settlesOverFrames(impl_->mode) || impl_->version == 0) return impl_->mode;
+    if (impl_->mode != "traced" || impl_->version == 0) return impl_->mode;
     const std::string noise =
         impl_->noise.value() ? fmt::format("  noise {:.1f} %", 100 * *impl_->noise.value()) : "";
     if (impl_->settling == 0) return impl_->mode + noise + "  done";

@@ -8,6 +8,7 @@
 #include <glm/gtx/euler_angles.hpp>
 
 #include "io/scene_info.h"
+#include "session/lens_range.h"
 #include "session/light_edit.h"
 #include "viewer/panels.h"
 #include "viewer/widget_places.h"
@@ -248,6 +249,16 @@ void cameraEditor(Session& session) {
     seals(session, "target");
     changed |= ImGui::SliderAngle("field of view", &camera.fovY, 1, 150);
     seals(session, "field of view");
+    // Wide lenses, of models of towns, are typed.
+    changed |= ImGui::SliderFloat("lens (m)", &camera.lensDiameter, 0, 0.5f, "%.4g", ImGuiSliderFlags_None);
+    seals(session, "lens");
+    if (camera.lensDiameter > 0) {
+        changed |= ImGui::DragFloat("focus (m)", &camera.focusDistance, 0.01f, 0, 1e6f,
+                                    camera.focusDistance > 0 ? "%.4g" : "at the target");
+        seals(session, "focus");
+    }
+    camera.lensDiameter = std::clamp(camera.lensDiameter, 0.0f, kWidestLens);
+    camera.focusDistance = std::max(camera.focusDistance, 0.0f);
     ImGui::PopItemWidth();
     if (changed && glm::length(camera.target - camera.eye) > 1e-6f)
         session.jumpCamera(camera, "edit camera", "camera");

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+#include "image/temporal_picture.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "gl/gl.h"
+#include "shared/image.h"
+#include "view/surfaces.h"
+
+namespace conelight::image {
+namespace {
+
+// Views in a mean. At rest: as many as a still has at most. On the way: longer ones blur and lag, shorter ones
+// flicker (`conelight score edges`).
+constexpr std::uint32_t kLongestAtRest = 64;
+constexpr std::uint32_t kLongestMoving = 16;
+
+struct TemporalKey {
+    bool still;
+    gl::ProgramDesc desc() const {
+        return {{"image/temporal_picture.comp.glsl"}, {{"STILL", still ? "1" : "0"}}};
+    }
+    static std::vector<TemporalKey> all() { return {{false}, {true}}; }
+};
+
+// What has no part in linear radiance, or changes from frame to frame and leaves the picture what it is.
+Settings withoutLook(Settings settings) {
+    settings.image = ImageSettings{};
+    settings.traced.faceBudget = 0;
+    return settings;
+}
+
+glm::vec3 directionOf(const Camera& camera) {
+    const glm::vec3 view = camera.target - camera.eye;
+    const float length = glm::length(view);
+    return length > 0 ? view / length : glm::vec3(0, 0, -1);
+}
+
+}  // namespace
+
+// Turned by more than half of what it sees: little of the picture before is left. Steps aside are found by
+// the pixels.
+bool TemporalPicture::isCut(const Camera& camera) const {
+    const float turned =
+        std::acos(std::clamp(glm::dot(directionOf(camera), directionOf(*camera_)), -1.0f, 1.0f));
+    return turned > 0.5f * camera.fovY;
+}
+
+void TemporalPicture::resize(int width, int height) {
+    if (width_ == width && height_ == height) return;
+    for (gl::Texture* old : {&view_, &history_, &places_[0], &places_[1]}) *old = {};  // freed first
+    view_ = gl::Texture({GL_TEXTURE_2D, GL_RGBA32F, width, height}, "temporal: view");
+    history_ = gl::Texture({GL_TEXTURE_2D, GL_RGBA32F, width, height}, "temporal: picture before");
+    for (gl::Texture& places : places_) {
+        places = gl::Texture({GL_TEXTURE_2D, GL_R32UI, width, height}, "temporal: depth and views");
+        places.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        places.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    }
+    width_ = width;
+    height_ = height;
+    frame_ = 0;
+}
+
+// Where each instance was in the frame before. A matrix of zeros: its shape has changed, nothing is known of where its
+// points were.
+void TemporalPicture::followInstances(const scene::GpuScene& scene) {
+    const std::size_t count = scene.instances().size();
+    std::vector<glm::mat4> oldFromWorld(std::max<std::size_t>(count, 1), glm::mat4(1));
+    const bool known = worldFromObject_.size() == count && frame_ > 0;
+    const bool before = std::exchange(moved_, false);
+    worldFromObject_.resize(count);
+    shapes_.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const glm::mat4& place = scene.instances()[i].worldFromObject;
+        if (known && worldFromObject_[i] != place) {
+            oldFromWorld[i] = worldFromObject_[i] * glm::inverse(place);
+            moved_ = true;
+        }
+        if (known && shapes_[i] != scene.shapeRevision(i)) {
+            oldFromWorld[i] = glm::mat4(0);
+            moved_ = true;
+        }
+        worldFromObject_[i] = place;
+        shapes_[i] = scene.shapeRevision(i);
+    }
+    if (moved_ || before || !motion_ || !known) motion_ = gl::Buffer(oldFromWorld, "temporal: motion");
+}
+
+void TemporalPicture::follow(const Shown& shown) {
+    frame_ += drawn_ ? 1 : 0;
+    drawn_ = false;
+    resize(shown.width, shown.height);
+    const scene::GpuScene& scene = shown.scene;
+    const From now{scene.identity(), scene.geometryRevision(), scene.lightRevision(), scene.skyRevision(),
+                   scene.bakedRevision()};
+    const Settings settings = withoutLook(shown.settings);
+    if (!camera_ || from_.scene != now.scene || !(settings_ == settings) || isCut(shown.camera) ||
+        worldFromObject_.size() != scene.instances().size())
+        frame_ = 0;
+    followInstances(scene);
+    still_ = frame_ > 0 && from_ == now && camera_ == shown.camera;
+    camera_ = shown.camera;
+    settings_ = settings;
+    from_ = now;
+}
+
+view::PixelPart TemporalPicture::part(bool settled) {
+    still_ = still_ && settled;
+    view::PixelPart part = view::pixelPartOfFrame(frame_);
+    if (!still_) part.lens = glm::dvec2(0);
+    return part;
+}
+
+void TemporalPicture::add(const gl::Device& device, const scene::GpuScene& scene,
+                          const view::Surfaces& centers, const gl::Texture& picture) {
+    const gl::PassScope pass(device.profiler, "temporal");
+    if (!constants_) constants_ = gl::Buffer(sizeof(gpu::TemporalPictureConstants), "temporal constants");
+    gpu::TemporalPictureConstants constants{};
+    constants.oldClipFromWorld = clipFromWorld_;
+    constants.longest = still_ ? kLongestAtRest : kLongestMoving;
+    constants.fresh = fresh() ? 1 : 0;
+    constants_.update(constants);
+    gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
+    gl::Inputs given;
+    given.add(scene)
+        .add(centers)
+        .uniform("TemporalBlock", constants_)
+        .storage("Motion", motion_)
+        .texture("view", view_)
+        .texture("pictureBefore", history_)
+        .texture("placesBefore", places_[0])
+        .image("places", places_[1], gl::ImageUse::Write)
+        .image("picture", picture, gl::ImageUse::Write);
+    device.get(TemporalKey{still_}.desc()).dispatch(given, width_, height_);
+    gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess |
+                gl::Access::Update);
+    history_.copyFrom(picture);
+    std::swap(places_[0], places_[1]);
+    clipFromWorld_ = centers.view().clipFromWorld;
+    drawn_ = true;
+}
+
+std::vector<gl::ProgramDesc> TemporalPicture::programDescs() {
+    std::vector<gl::ProgramDesc> descs;
+    for (const TemporalKey& key : TemporalKey::all()) descs.push_back(key.desc());
+    return descs;
+}
+
+}  // namespace conelight::image
