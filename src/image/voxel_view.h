@@ -26,6 +26,7 @@ namespace conelight::image {
 // mips.
 struct VoxelVolume {
     const gl::Texture& texture;
+    const gather::RadianceOctree* octree = nullptr;  // whose bricks the texture holds; null: it is dense
     const gl::Sampler& sampler;  // linear
     glm::vec3 origin;            // of the lowest corner, m
     float voxelSize;             // m

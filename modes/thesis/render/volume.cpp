@@ -14,6 +14,7 @@ constexpr int kBrick = THESIS_BRICK;
 constexpr float kSumSteps = 16777216.0f;  // 2^24, see voxelize.frag.glsl
 constexpr float kMaxRadiance = 60000.0f;  // below the largest half float, 65,504
 constexpr std::size_t kListHeader = 16;   // words of the brick list before the bricks
+constexpr std::size_t kBrickVoxels = THESIS_BRICK_VOXELS;
 constexpr int kOriginalLevels = 7;
 
 // Voxels per axis of the texture: `size`, or a little more, so that it halves evenly often enough: to 1 for
@@ -60,12 +61,19 @@ gl::Defines volumeDefines(const ThesisDefects& d) {
     return defines;
 }
 
+gl::ProgramDesc markDesc() {
+    return {{"thesis/shaders/voxelize.vert.glsl", "thesis/shaders/voxelize.geom.glsl",
+             "thesis/shaders/mark_bricks.frag.glsl"},
+            {{"MARK_BRICKS", "1"}}};
+}
+
 gl::ProgramDesc bricksDesc(bool arguments) {
     return {{"thesis/shaders/bricks.comp.glsl"}, {{"ARGUMENTS", arguments ? "1" : "0"}}};
 }
 
-gl::ProgramDesc resolveDesc(const ThesisDefects& d) {
+gl::ProgramDesc resolveDesc(const ThesisDefects& d, bool octree) {
     gl::Defines defines = volumeDefines(d);
+    if (octree) defines.emplace_back("OCTREE", "1");
     if (d.binaryOpacity) defines.emplace_back("BINARY_OPACITY", "1");
     if (ThesisVolume::hasAreas(d)) defines.emplace_back("AXIS_AREAS", "1");
     return {{"thesis/shaders/resolve.comp.glsl"}, defines};
@@ -77,6 +85,16 @@ gl::ProgramDesc mipDesc(const ThesisDefects& d, int brickTexels, bool ofAreas) {
     if (d.volumeMips) defines.emplace_back("VOLUME_MIPS", "1");
     defines.emplace_back("BRICK_TEXELS", std::to_string(brickTexels));
     return {{"thesis/shaders/mip.comp.glsl"}, defines};
+}
+
+gl::RasterState rasterTo(const gl::Framebuffer& viewport) {
+    gl::RasterState state;
+    state.framebuffer = &viewport;
+    state.depthTest = false;
+    state.depthWrite = false;
+    state.colorWrite = false;
+    state.cull = gl::Cull::None;
+    return state;
 }
 
 }  // namespace
@@ -103,6 +121,7 @@ gl::ProgramDesc ThesisVolume::voxelizeDesc(const ThesisVolumeOptions& options, c
     add("DARK_EMITTERS", light && d.darkEmitters);
     add("AMBIENT_TWICE", light && d.ambientTwice);
     add("CLIPPED_RADIANCE", light && d.racingStores && d.clippedRadiance);
+    add("OCTREE", light && d.racingStores && options.storage == VolumeStorage::Octree);
     return {{"thesis/shaders/voxelize.vert.glsl", "thesis/shaders/voxelize.geom.glsl",
              "thesis/shaders/voxelize.frag.glsl"},
             defines};
@@ -146,13 +165,37 @@ gpu::ThesisGrid ThesisVolume::fitGrid(const Aabb& bounds, const Aabb& filled,
 
 void ThesisVolume::allocate(const ThesisVolumeOptions& options) {
     const int edge = static_cast<int>(grid_.size);
+    if (!viewport_ || viewport_.width() != edge) {
+        viewport_ = gl::Framebuffer(edge, edge, "thesis voxelization");
+        brickViewport_ = gl::Framebuffer(edge / kBrick, edge / kBrick, "thesis bricks");
+    }
+    if (!sampler_) {
+        sampler_ = gl::Sampler({GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE}, "thesis volume");
+        // Beyond the grid there is nothing in the way of a light.
+        areaSampler_ = gl::Sampler({GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_BORDER}, "thesis areas");
+    }
+    if (!constants_) constants_ = gl::Buffer(sizeof(gpu::ThesisGrid), "thesis grid");
+    // From one storage to the other.
+    if (isOctree_ != (options.storage == VolumeStorage::Octree)) {
+        for (gl::Texture* texture :
+             {&texture_, &areas_[0], &areas_[1], &bounced_[0], &bounced_[1], &albedo_, &normal_})
+            texture->reset();
+        octree_ = {};
+        isOctree_ = !isOctree_;
+    }
+    if (!isOctree_) allocateDense(options);
+    allocateLists();
+}
+
+// Textures of all voxels.
+void ThesisVolume::allocateDense(const ThesisVolumeOptions& options) {
+    const int edge = static_cast<int>(grid_.size);
     const int levels = static_cast<int>(grid_.maxLevel) + 1;
     const std::uint32_t format = options.defects.clippedRadiance ? GL_RGBA8 : GL_RGBA16F;
     const gl::TextureDesc& now = texture_.desc();
     if (!texture_ || now.width != edge || now.levels != levels || now.format != format) {
         texture_.reset();
         texture_ = gl::Texture({GL_TEXTURE_3D, format, edge, edge, edge, levels}, "thesis volume");
-        viewport_ = gl::Framebuffer(edge, edge, "thesis voxelization");
         filledSize_ = glm::ivec3(0);
     }
     const bool hasAreas = ThesisVolume::hasAreas(options.defects);
@@ -163,42 +206,43 @@ void ThesisVolume::allocate(const ThesisVolumeOptions& options) {
         areas = gl::Texture({GL_TEXTURE_3D, GL_RGBA8, edge, edge, edge, levels}, "thesis areas");
         filledSize_ = glm::ivec3(0);
     }
-    if (!sampler_) {
-        sampler_ = gl::Sampler({GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE}, "thesis volume");
-        // Beyond the grid there is nothing in the way of a light.
-        areaSampler_ = gl::Sampler({GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_BORDER}, "thesis areas");
-    }
-    if (!constants_) constants_ = gl::Buffer(sizeof(gpu::ThesisGrid), "thesis grid");
     allocateBounces(options);
+}
 
-    const std::size_t voxels = static_cast<std::size_t>(grid_.boxSize.x) *
-                               static_cast<std::size_t>(grid_.boxSize.y) *
-                               static_cast<std::size_t>(grid_.boxSize.z);
-    const std::size_t bricks = voxels / (kBrick * kBrick * kBrick);
-    // New buffers are zero; the passes leave sums and flags at zero again.
-    const bool hasSums = !options.defects.racingStores || options.bounces > 1;
-    const std::size_t sumBytes = hasSums ? 16 * voxels : 16;
-    if (sums_.bytes() < sumBytes) {
-        sums_.reset();
-        sums_ = gl::Buffer(sumBytes, "thesis voxel sums");
-    }
-    if (hasAreas && areaSums_.bytes() < 12 * voxels) {
+// Marks and list of the box's bricks.
+void ThesisVolume::allocateLists() {
+    const glm::ivec3 size = glm::ivec3(grid_.boxSize) / kBrick;
+    const std::size_t bricks =
+        static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
+    if (brickSlots_.bytes() >= 4 * bricks) return;
+    brickSlots_ = gl::Buffer(4 * bricks, "thesis brick slots");
+    brickList_ = gl::Buffer(4 * (kListHeader + bricks), "thesis brick list");
+}
+
+// Sums of the listed bricks' voxels. New buffers are zero; the passes leave sums at zero again.
+void ThesisVolume::allocateSums(const ThesisVolumeOptions& options) {
+    const std::size_t voxels = brickCount_ * kBrickVoxels;
+    // An eighth to spare where their number grows, none at first.
+    const auto fit = [](gl::Buffer& buffer, std::size_t bytes, const char* label) {
+        if (buffer.bytes() >= std::max<std::size_t>(bytes, 16)) return;
+        const std::size_t spare = buffer.bytes() > 16 ? bytes / 8 : 0;
+        buffer.reset();
+        buffer = gl::Buffer(bytes + spare, label);
+    };
+    fit(sums_, 16 * voxels, "thesis voxel sums");
+    if (hasAreas(options.defects))
+        fit(areaSums_, 12 * voxels, "thesis area sums");
+    else
         areaSums_.reset();
-        areaSums_ = gl::Buffer(12 * voxels, "thesis area sums");
-    }
-    if (brickFlags_.bytes() < 4 * bricks) {
-        brickFlags_ = gl::Buffer(4 * bricks, "thesis brick flags");
-        brickList_ = gl::Buffer(4 * (kListHeader + bricks), "thesis brick list");
-    }
 }
 
 gl::Inputs ThesisVolume::bricks() const {
     gl::Inputs inputs;
     inputs.uniform("ThesisGridBlock", constants_)
-        .storage("SumTable", sums_)
-        .storage("BrickFlags", brickFlags_)
+        .storage("BrickSlots", brickSlots_)
         .storage("BrickList", brickList_);
-    if (areas_[0]) inputs.storage("AreaTable", areaSums_);
+    if (sums_) inputs.storage("SumTable", sums_);
+    if (areaSums_) inputs.storage("AreaTable", areaSums_);
     return inputs;
 }
 
@@ -211,15 +255,25 @@ void ThesisVolume::build(const gl::Device& device, const Inputs& inputs, const T
     grid_.boxMin.w = static_cast<int>(options.defects.tenLights ? std::min<std::size_t>(lights, 10) : lights);
     allocate(options);
     constants_.update(grid_);
+    const bool races = options.defects.racingStores && !isOctree_;  // into textures
 
     {
         const gl::PassScope step(device.profiler, "thesis clear");
-        clearBox();
+        if (!isOctree_) clearBox();
+        brickSlots_.clear();
+    }
+    {
+        const gl::PassScope step(device.profiler, "thesis bricks");
+        brickCount_ = 0;
+        if (!races || options.bounces > 1) markBricks(device, inputs);
+        allocateSums(options);
     }
     {
         const gl::PassScope step(device.profiler, "thesis voxelize");
         drawTriangles(device, inputs, options, Content::Light);
+        if (races && options.bounces == 1) listBricks(device);
     }
+    if (isOctree_) growOctree(device, options);
     {
         const gl::PassScope step(device.profiler, "thesis mips");
         resolve(device, options.defects, texture_);
@@ -233,8 +287,27 @@ void ThesisVolume::build(const gl::Device& device, const Inputs& inputs, const T
         sumSurfaces(device, inputs, options);
         bounce(device, inputs, options);
     }
+    // Who asks for an octree has little memory; the sums are as large as its bricks.
+    if (isOctree_) {
+        sums_.reset();
+        areaSums_.reset();
+    }
     gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
     revision_ = base::Revision::next();
+}
+
+// The bricks that light will be summed in, and how many they are.
+void ThesisVolume::markBricks(const gl::Device& device, const Inputs& inputs) {
+    gl::apply(rasterTo(brickViewport_));
+    gl::Inputs given = bricks();
+    device.get(markDesc()).use(given.add(inputs.scene));
+    inputs.scene.draw({.filter = [](const gpu::Instance& instance) {
+        return (instance.flags & INSTANCE_VOXELIZED) != 0;
+    }});
+    gl::barrier(gl::Access::ShaderStorage);
+    listBricks(device);
+    gl::barrier(gl::Access::Update);
+    brickCount_ = brickList_.read<std::uint32_t>(1).front();
 }
 
 // Only the box of the last build holds anything.
@@ -257,13 +330,7 @@ void ThesisVolume::clearBox() {
 
 void ThesisVolume::drawTriangles(const gl::Device& device, const Inputs& inputs,
                                  const ThesisVolumeOptions& options, Content content) {
-    gl::RasterState state;
-    state.framebuffer = &viewport_;
-    state.depthTest = false;
-    state.depthWrite = false;
-    state.colorWrite = false;
-    state.cull = gl::Cull::None;
-    gl::apply(state);
+    gl::apply(rasterTo(viewport_));
     const auto hasTexture = [](const gpu::Material& material) {
         return material.layers.x >= 0 || material.layers.w >= 0;
     };
@@ -271,7 +338,8 @@ void ThesisVolume::drawTriangles(const gl::Device& device, const Inputs& inputs,
     const SceneKey key{std::any_of(materials.begin(), materials.end(), hasTexture),
                        inputs.lights.ends().w > inputs.lights.ends().z};
     gl::Inputs given = bricks();
-    given.add(inputs.scene).add(inputs.lights).image("volume", texture_, gl::ImageUse::Write);
+    given.add(inputs.scene).add(inputs.lights);
+    if (!isOctree_) given.image("volume", texture_, gl::ImageUse::Write);  // of stores that race
     const auto isLamp = [&](const gpu::Instance& instance) {
         return inputs.lights.areInTable(
             static_cast<std::size_t>(&instance - inputs.scene.instances().data()));
@@ -291,32 +359,40 @@ void ThesisVolume::drawTriangles(const gl::Device& device, const Inputs& inputs,
     gl::barrier(gl::Access::ShaderStorage | gl::Access::ImageAccess);
 }
 
-void ThesisVolume::resolve(const gl::Device& device, const ThesisDefects& defects,
-                           const gl::Texture& target) {
-    // The marked bricks.
+// The marked bricks.
+void ThesisVolume::listBricks(const gl::Device& device) {
     const std::uint32_t zero = 0;
     brickList_.update(0, &zero, sizeof(zero));
     const std::size_t count = static_cast<std::size_t>(grid_.boxSize.x / kBrick) *
                               static_cast<std::size_t>(grid_.boxSize.y / kBrick) *
                               static_cast<std::size_t>(grid_.boxSize.z / kBrick);
-    gl::Inputs given = bricks();
+    const gl::Inputs given = bricks();
     device.get(bricksDesc(false)).dispatchLinear(given, count);
     gl::barrier(gl::Access::ShaderStorage);
     device.get(bricksDesc(true)).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
-    if (defects.racingStores) return;
+}
 
+void ThesisVolume::resolve(const gl::Device& device, const ThesisDefects& defects,
+                           const gl::Texture& target) {
+    if (defects.racingStores && !isOctree_) return;
+    gl::Inputs given = bricks();
+    if (isOctree_) given.add(octree_);
     given.image("volume", target, gl::ImageUse::Write);
     if (areas_[0])
         given.image("areasPlus", areas_[0], gl::ImageUse::Write)
             .image("areasMinus", areas_[1], gl::ImageUse::Write);
-    device.get(resolveDesc(defects)).dispatchIndirect(given, brickList_, 16);
+    device.get(resolveDesc(defects, isOctree_)).dispatchIndirect(given, brickList_, 16);
     gl::barrier(gl::Access::ImageAccess);
 }
 
 void ThesisVolume::buildMips(const gl::Device& device, const ThesisDefects& defects,
                              const gl::Texture& texture) {
-    const bool ofAreas = &texture == &areas_[0] || &texture == &areas_[1];
+    if (isOctree_) {
+        buildOctreeMips(device, defects, texture);
+        return;
+    }
+    const bool ofAreas = areAreas(texture);
     for (int level = 1; level < texture.desc().levels; ++level) {
         gl::Inputs given = bricks();
         given.image("fine", texture, gl::ImageUse::Read, level - 1)
@@ -343,6 +419,7 @@ void ThesisVolume::declare(gl::Inputs& inputs) const {
     inputs.texture("volume", texture(), &sampler_).uniform("ThesisGridBlock", constants_);
     if (areas_[0])
         inputs.texture("areasPlus", areas_[0], &areaSampler_).texture("areasMinus", areas_[1], &areaSampler_);
+    if (isOctree_) inputs.add(octree_);
 }
 
 std::vector<gl::ProgramDesc> ThesisVolume::programDescs() {
@@ -353,7 +430,7 @@ std::vector<gl::ProgramDesc> ThesisVolume::programDescs() {
     d.racingStores = d.centerCoverage = d.binaryOpacity = d.faceRounding = d.unattenuatedVoxels = true;
     d.clippedRadiance = d.darkEmitters = d.volumeMips = d.ambientTwice = true;
     d.isotropicOpacity = d.pointlikeRectangles = true;
-    std::vector<gl::ProgramDesc> descs{bricksDesc(false), bricksDesc(true)};
+    std::vector<gl::ProgramDesc> descs{markDesc(), bricksDesc(false), bricksDesc(true)};
     for (const ThesisVolumeOptions& options : {mended, shadowed, published})
         for (const SceneKey& key : {SceneKey{}, SceneKey{true, false}, SceneKey{false, true}})
             descs.push_back(voxelizeDesc(options, key, Content::Light));
@@ -366,11 +443,15 @@ std::vector<gl::ProgramDesc> ThesisVolume::programDescs() {
         for (const ThesisVolumeOptions& options : {mended, published})
             descs.push_back(voxelizeDesc(options, {true, false}, content));
     for (const ThesisVolumeOptions& options : {mended, published}) {
-        descs.push_back(resolveDesc(options.defects));
+        for (const bool octree : {false, true}) descs.push_back(resolveDesc(options.defects, octree));
         for (const int texels : {64, 8, 1, 0})
             for (const bool ofAreas : {false, true})
                 descs.push_back(mipDesc(options.defects, texels, ofAreas));
     }
+    published.storage = VolumeStorage::Octree;
+    descs.push_back(voxelizeDesc(published, {}, Content::Light));
+    const std::vector<gl::ProgramDesc> ofOctree = octreeDescs();
+    descs.insert(descs.end(), ofOctree.begin(), ofOctree.end());
     return descs;
 }
 

@@ -19,7 +19,8 @@ struct ThesisGrid {
     ivec4 boxSize;  // xyz: voxels, multiples of THESIS_BRICK; w: 0
 };                  // 64 B
 
-#define THESIS_BRICK 8  // voxels per axis of a brick: unit of clearing, resolving and averaging
+#define THESIS_BRICK 8  // voxels per axis of a brick: unit of sums, resolving and averaging
+#define THESIS_BRICK_VOXELS 512
 
 #define THESIS_PHONG 1u
 #define THESIS_PHONG_AMBIENT 2u

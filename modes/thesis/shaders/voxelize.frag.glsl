@@ -3,7 +3,8 @@
 // Fragment of a triangle seen along its dominant axis -> its direct light, put into the volume: the Phong
 // model without gloss (thesis, "3D texture storage"), radiance leaving the front of the surface.
 //
-// RACING_STORES: stored as it comes, opacity 1; the last of several fragments stays. Else: summed with the
+// RACING_STORES: stored as it comes, opacity 1; the last of several fragments stays; OCTREE: in place of the sums,
+// as places in a tree are known only later. Else: summed with the
 // area it covers, in fixed point, so that the order does not matter; resolve.comp.glsl makes colours
 // and opacities of the sums. The sum is shared by the two voxels along the dominant axis between whose
 // centres the surface lies, in proportion, unless FACE_ROUNDING: all of it to the voxel of the truncated
@@ -34,16 +35,19 @@
 #ifndef AXIS_AREAS
 #define AXIS_AREAS 0
 #endif
+#ifndef OCTREE
+#define OCTREE 0
+#endif
 #include "thesis/shaders/albedo.glsl"
 #include "thesis/shaders/visibility.glsl"
 layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
-layout(std430) buffer SumTable { uint sums[]; };          // 4 per voxel of the box
-layout(std430) buffer BrickFlags { uint brickFlags[]; };  // of the box
+#include "thesis/shaders/brick_slots.glsl"
+layout(std430) buffer SumTable { uint sums[]; };  // 4 per voxel of the marked bricks
 #if AXIS_AREAS
-// 3 per voxel of the box, one per axis: what faces its positive side in the lower half, the other in the upper.
+// 3 per such voxel, one per axis: what faces its positive side in the lower half, the other in the upper.
 layout(std430) buffer AreaTable { uint areaSums[]; };
 #endif
-#if RACING_STORES
+#if RACING_STORES && !OCTREE
 #if CLIPPED_RADIANCE
 layout(rgba8) uniform writeonly image3D volume;
 #else
@@ -150,27 +154,19 @@ vec3 directLight(uint index, vec3 color, vec3 position, vec3 n) {
     return sum * color;
 }
 
-void markBrick(ivec3 voxel) {
-    ivec3 brick = (voxel - grid.boxMin.xyz) / THESIS_BRICK;
-    ivec3 bricks = grid.boxSize.xyz / THESIS_BRICK;
-    atomicOr(brickFlags[(brick.z * bricks.y + brick.y) * bricks.x + brick.x], 1u);
-}
-
 #if !RACING_STORES
 void addToVoxel(ivec3 voxel, vec3 radiance, float weight) {
-    ivec3 inBox = voxel - grid.boxMin.xyz;
-    if (weight <= 0.0 || any(lessThan(inBox, ivec3(0))) || any(greaterThanEqual(inBox, grid.boxSize.xyz)))
-        return;
-    markBrick(voxel);
-    int inOrder = (inBox.z * grid.boxSize.y + inBox.y) * grid.boxSize.x + inBox.x;
-    int at = 4 * inOrder;
     // Radiance is at most 2^24 steps (ThesisVolume chooses the scale), weights 2^24 per full column: up to
-    // 255 layers of surface fit into one voxel.
+    // 255 layers of surface fit into one voxel. What weighs less than half a step is nothing.
+    uint steps = uint(weight * 16777216.0 + 0.5);
+    int place = sumPlace(voxel);
+    if (steps == 0u || place < 0) return;
+    int at = 4 * place;
     uvec3 color = uvec3(radiance * (weight * grid.sumScale) + 0.5);
     atomicAdd(sums[at], color.r);
     atomicAdd(sums[at + 1], color.g);
     atomicAdd(sums[at + 2], color.b);
-    atomicAdd(sums[at + 3], uint(weight * 16777216.0 + 0.5));
+    atomicAdd(sums[at + 3], steps);
 #if AXIS_AREAS
     // Steps of 1/512. Rounded up in proportion, by numbers that are even over the places of pieces and differ
     // with their size (the R2 sequence, Roberts 2018), so that small triangles add up to their area.
@@ -178,7 +174,7 @@ void addToVoxel(ivec3 voxel, vec3 radiance, float weight) {
     uvec3 seen = uvec3(abs(areas) * (weight * 512.0) + dither);
     // Axes along which a surface is not seen are most of all, and cost nothing.
     for (int k = 0; k < 3; ++k)
-        if (seen[k] > 0u) atomicAdd(areaSums[3 * inOrder + k], areas[k] > 0.0 ? seen[k] : seen[k] << 16);
+        if (seen[k] > 0u) atomicAdd(areaSums[3 * place + k], areas[k] > 0.0 ? seen[k] : seen[k] << 16);
 #endif
 }
 #endif
@@ -218,12 +214,24 @@ void main() {
     // Half-open, and on a face the voxel behind the surface: 1/1000 voxel against the normal decides.
     ivec3 voxel = ivec3(floor(p.gridPosition - 1e-3 * p.normal));
 #endif
+#if OCTREE
+    int place = sumPlace(voxel);
+    if (p.coverage > 0.0 && place >= 0) {
+        uvec3 steps = uvec3(radiance * grid.sumScale + 0.5);
+        sums[4 * place] = steps.r;
+        sums[4 * place + 1] = steps.g;
+        sums[4 * place + 2] = steps.b;
+        sums[4 * place + 3] = 16777216u;
+    }
+#else
     ivec3 inBox = voxel - grid.boxMin.xyz;
-    if (p.coverage > 0.0 && all(greaterThanEqual(inBox, ivec3(0))) &&
-        all(lessThan(inBox, grid.boxSize.xyz))) {
-        markBrick(voxel);
+    if (p.coverage > 0.0 && isInBox(inBox)) {
+        // A brick that is in the list already has its number here.
+        uint brick = brickIndex(inBox / THESIS_BRICK);
+        if (brickSlots[brick] == 0u) atomicOr(brickSlots[brick], 1u);
         imageStore(volume, voxel, vec4(radiance, 1.0));
     }
+#endif
 #else
 #if FACE_ROUNDING
     addToVoxel(ivec3(p.gridPosition), radiance, p.coverage);

@@ -8,12 +8,16 @@
 // are interpolated. Else: a shape that covers every pixel the triangle touches (Hasselgren et al. 2005, GPU
 // Gems 2 chapter 42: the triangle with its edges moved outward by half a pixel; or its bounding rectangle
 // where that is smaller), with the triangle itself as flat data for the fragment shader's exact coverage.
-// AXIS_AREAS: with what the fragment shader needs for areas along the other axes.
+// AXIS_AREAS: with what the fragment shader needs for areas along the other axes. MARK_BRICKS: pixels are columns
+// of bricks, and every one is covered that a covered column of voxels lies in, with some room for rounding.
 #include "lib/octahedral.glsl"
 #include "thesis/shaders/constants.h"
 #include "thesis/shaders/defects.glsl"
 #ifndef AXIS_AREAS
 #define AXIS_AREAS 0
+#endif
+#ifndef MARK_BRICKS
+#define MARK_BRICKS 0
 #endif
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 4) out;
@@ -42,6 +46,15 @@ layout(location = 5) flat out vec2 outUv2;
 layout(location = 6) flat out vec3 outAreas;
 #endif
 
+// Voxels along the edge of a pixel, and room in pixels about what is covered: an eighth of a voxel.
+#if MARK_BRICKS
+const float kPixel = float(THESIS_BRICK);
+const float kRoom = 0.125 / kPixel;
+#else
+const float kPixel = 1.0;
+const float kRoom = 0.0;
+#endif
+
 // The dominant axis last; its own inverse.
 vec3 permuted(vec3 v, uint axis) { return axis == 0u ? v.zyx : axis == 1u ? v.xzy : v; }
 
@@ -58,7 +71,7 @@ vec2 intersection(vec3 e, vec3 f) {
 // norm.
 vec3 movedEdge(vec2 p, vec2 q) {
     vec2 outward = vec2(q.y - p.y, p.x - q.x);
-    return vec3(outward, dot(outward, p) + 0.5 * (abs(outward.x) + abs(outward.y)));
+    return vec3(outward, dot(outward, p) + (0.5 + kRoom) * (abs(outward.x) + abs(outward.y)));
 }
 
 float twiceArea(vec2 a, vec2 b, vec2 c) { return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x); }
@@ -79,7 +92,7 @@ void emitPoint(vec2 p, FlatData data) {
     outCorner2 = data.corner2;
     outUv01 = vec4(uv[0], uv[1]);
     outUv2 = uv[2];
-    gl_Position = vec4(p * (2.0 / grid.size) - 1.0, 0.0, 1.0);
+    gl_Position = vec4(p * (2.0 * kPixel / grid.size) - 1.0, 0.0, 1.0);
     EmitVertex();
 }
 #endif
@@ -91,7 +104,7 @@ void main() {
     // Ties: x before y before z, as in the original.
     uint axis = weight.x >= weight.y && weight.x >= weight.z ? 0u : weight.y >= weight.z ? 1u : 2u;
     vec3 p[3];
-    for (int i = 0; i < 3; ++i) p[i] = permuted((world[i] - grid.origin) / grid.voxelSize, axis);
+    for (int i = 0; i < 3; ++i) p[i] = permuted((world[i] - grid.origin) / (kPixel * grid.voxelSize), axis);
     uvec3 constant = uvec3(axis, material[0], color[0]);
     float front = dot(across, normal[0] + normal[1] + normal[2]) < 0.0 ? -1.0 : 1.0;
     vec3 areas = across * (front / max(weight[axis], 1e-30));
@@ -110,8 +123,8 @@ void main() {
     }
     EndPrimitive();
 #else
-    vec2 low = floor(min(min(p[0].xy, p[1].xy), p[2].xy));
-    vec2 high = ceil(max(max(p[0].xy, p[1].xy), p[2].xy));
+    vec2 low = floor(min(min(p[0].xy, p[1].xy), p[2].xy) - kRoom);
+    vec2 high = ceil(max(max(p[0].xy, p[1].xy), p[2].xy) + kRoom);
     float doubled = twiceArea(p[0].xy, p[1].xy, p[2].xy);
     // Degenerate triangles cover nothing.
     if (!(abs(doubled) > 0.0)) return;
