@@ -61,19 +61,22 @@ gl::Defines volumeDefines(const ThesisDefects& d) {
     return defines;
 }
 
-gl::ProgramDesc markDesc() {
-    return {{"thesis/shaders/voxelize.vert.glsl", "thesis/shaders/voxelize.geom.glsl",
-             "thesis/shaders/mark_bricks.frag.glsl"},
-            {{"MARK_BRICKS", "1"}}};
-}
+gl::ProgramDesc markDesc() { return {{"thesis/shaders/mark_bricks.comp.glsl"}, {}}; }
 
 gl::ProgramDesc bricksDesc(bool arguments) {
     return {{"thesis/shaders/bricks.comp.glsl"}, {{"ARGUMENTS", arguments ? "1" : "0"}}};
 }
 
-gl::ProgramDesc resolveDesc(const ThesisDefects& d, bool octree) {
+// Where the voxels' values go.
+enum class ResolvedTo { Level, TwoLevels, Octree };
+
+gl::ProgramDesc resolveDesc(const ThesisDefects& d, ResolvedTo target) {
     gl::Defines defines = volumeDefines(d);
-    if (octree) defines.emplace_back("OCTREE", "1");
+    if (target == ResolvedTo::Octree) defines.emplace_back("OCTREE", "1");
+    if (target == ResolvedTo::TwoLevels) {
+        defines.emplace_back("LEVEL_1", "1");
+        if (d.volumeMips) defines.emplace_back("VOLUME_MIPS", "1");
+    }
     if (d.binaryOpacity) defines.emplace_back("BINARY_OPACITY", "1");
     if (ThesisVolume::hasAreas(d)) defines.emplace_back("AXIS_AREAS", "1");
     return {{"thesis/shaders/resolve.comp.glsl"}, defines};
@@ -111,7 +114,6 @@ gl::ProgramDesc ThesisVolume::voxelizeDesc(const ThesisVolumeOptions& options, c
     const auto add = [&](const char* name, bool on) {
         if (on) defines.emplace_back(name, "1");
     };
-    add("CENTER_COVERAGE", d.centerCoverage);
     add("FACE_ROUNDING", d.faceRounding);
     add("UNBOUNDED_SPECULAR", d.unboundedSpecular && content == Content::Albedo);
     add("AXIS_AREAS", light && hasAreas(d));
@@ -122,9 +124,12 @@ gl::ProgramDesc ThesisVolume::voxelizeDesc(const ThesisVolumeOptions& options, c
     add("AMBIENT_TWICE", light && d.ambientTwice);
     add("CLIPPED_RADIANCE", light && d.racingStores && d.clippedRadiance);
     add("OCTREE", light && d.racingStores && options.storage == VolumeStorage::Octree);
-    return {{"thesis/shaders/voxelize.vert.glsl", "thesis/shaders/voxelize.geom.glsl",
-             "thesis/shaders/voxelize.frag.glsl"},
-            defines};
+    if (d.centerCoverage)
+        return {{"thesis/shaders/voxelize.vert.glsl", "thesis/shaders/voxelize.geom.glsl",
+                 "thesis/shaders/voxelize.frag.glsl"},
+                defines};
+    defines.emplace_back("TILES", scene.tiles ? "1" : "0");
+    return {{"thesis/shaders/voxelize.comp.glsl"}, defines};
 }
 
 gpu::ThesisGrid ThesisVolume::fitGrid(const Aabb& bounds, const Aabb& filled,
@@ -165,10 +170,7 @@ gpu::ThesisGrid ThesisVolume::fitGrid(const Aabb& bounds, const Aabb& filled,
 
 void ThesisVolume::allocate(const ThesisVolumeOptions& options) {
     const int edge = static_cast<int>(grid_.size);
-    if (!viewport_ || viewport_.width() != edge) {
-        viewport_ = gl::Framebuffer(edge, edge, "thesis voxelization");
-        brickViewport_ = gl::Framebuffer(edge / kBrick, edge / kBrick, "thesis bricks");
-    }
+    if (!viewport_ || viewport_.width() != edge) viewport_ = gl::Framebuffer(edge, edge, "thesis voxelization");
     if (!sampler_) {
         sampler_ = gl::Sampler({GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE}, "thesis volume");
         // Beyond the grid there is nothing in the way of a light.
@@ -252,10 +254,15 @@ void ThesisVolume::build(const gl::Device& device, const Inputs& inputs, const T
     const float bound = radianceBound(inputs, options.defects, grid_.voxelSize);
     grid_.sumScale = kSumSteps / (options.defects.clippedRadiance ? std::min(bound, 1.0f) : bound);
     const std::size_t lights = inputs.lights.table().size();
+    grid_.boxSize.w = static_cast<int>(inputs.scene.instances().size());
     grid_.boxMin.w = static_cast<int>(options.defects.tenLights ? std::min<std::size_t>(lights, 10) : lights);
     allocate(options);
     constants_.update(grid_);
-    const bool races = options.defects.racingStores && !isOctree_;  // into textures
+    const std::uint32_t none[3] = {};
+    brickList_.update(0, none, sizeof(none));
+    // Stores of the original's raster that race into textures need no list of bricks before.
+    const bool asPublished =
+        options.defects.racingStores && options.defects.centerCoverage && !isOctree_ && options.bounces == 1;
 
     {
         const gl::PassScope step(device.profiler, "thesis clear");
@@ -265,21 +272,23 @@ void ThesisVolume::build(const gl::Device& device, const Inputs& inputs, const T
     {
         const gl::PassScope step(device.profiler, "thesis bricks");
         brickCount_ = 0;
-        if (!races || options.bounces > 1) markBricks(device, inputs);
+        if (!asPublished) markBricks(device, inputs);
         allocateSums(options);
     }
     {
         const gl::PassScope step(device.profiler, "thesis voxelize");
         drawTriangles(device, inputs, options, Content::Light);
-        if (races && options.bounces == 1) listBricks(device);
+        if (asPublished) listBricks(device);
     }
     if (isOctree_) growOctree(device, options);
     {
         const gl::PassScope step(device.profiler, "thesis mips");
         resolve(device, options.defects, texture_);
-        buildMips(device, options.defects, texture_);
+        // Stores that race leave level 1 to be made; sums bring it along.
+        const int first = isOctree_ || options.defects.racingStores ? 1 : 2;
+        buildMips(device, options.defects, texture_, first);
         for (const gl::Texture& areas : areas_)
-            if (areas) buildMips(device, options.defects, areas);
+            if (areas) buildMips(device, options.defects, areas, first);
     }
     if (options.bounces > 1) {
         const gl::PassScope step(device.profiler, "thesis bounces");
@@ -298,16 +307,18 @@ void ThesisVolume::build(const gl::Device& device, const Inputs& inputs, const T
 
 // The bricks that light will be summed in, and how many they are.
 void ThesisVolume::markBricks(const gl::Device& device, const Inputs& inputs) {
-    gl::apply(rasterTo(brickViewport_));
-    gl::Inputs given = bricks();
-    device.get(markDesc()).use(given.add(inputs.scene));
-    inputs.scene.draw({.filter = [](const gpu::Instance& instance) {
-        return (instance.flags & INSTANCE_VOXELIZED) != 0;
-    }});
-    gl::barrier(gl::Access::ShaderStorage);
+    if (inputs.scene.triangleCount() > 0) {
+        gl::Inputs given = bricks();
+        device.get(markDesc()).dispatchLinear(given.add(inputs.scene), inputs.scene.triangleCount());
+        gl::barrier(gl::Access::ShaderStorage);
+    }
     listBricks(device);
     gl::barrier(gl::Access::Update);
-    brickCount_ = brickList_.read<std::uint32_t>(1).front();
+    const std::vector<std::uint32_t> counts = brickList_.read<std::uint32_t>(2);
+    brickCount_ = counts[0];
+    tileCount_ = counts[1];
+    if (tiles_.bytes() < 8 * std::max<std::size_t>(tileCount_, 2))
+        tiles_ = gl::Buffer(8 * tileCount_, "thesis tiles");
 }
 
 // Only the box of the last build holds anything.
@@ -330,7 +341,6 @@ void ThesisVolume::clearBox() {
 
 void ThesisVolume::drawTriangles(const gl::Device& device, const Inputs& inputs,
                                  const ThesisVolumeOptions& options, Content content) {
-    gl::apply(rasterTo(viewport_));
     const auto hasTexture = [](const gpu::Material& material) {
         return material.layers.x >= 0 || material.layers.w >= 0;
     };
@@ -340,6 +350,17 @@ void ThesisVolume::drawTriangles(const gl::Device& device, const Inputs& inputs,
     gl::Inputs given = bricks();
     given.add(inputs.scene).add(inputs.lights);
     if (!isOctree_) given.image("volume", texture_, gl::ImageUse::Write);  // of stores that race
+    if (options.defects.centerCoverage)
+        rasterTriangles(device, inputs, {options, key, content}, given);
+    else
+        sumTriangles(device, inputs, {options, key, content}, given);
+    gl::barrier(gl::Access::ShaderStorage | gl::Access::ImageAccess);
+}
+
+// As in the original: by pixel centres.
+void ThesisVolume::rasterTriangles(const gl::Device& device, const Inputs& inputs, const Wanted& wanted,
+                                   const gl::Inputs& given) {
+    gl::apply(rasterTo(viewport_));
     const auto isLamp = [&](const gpu::Instance& instance) {
         return inputs.lights.areInTable(
             static_cast<std::size_t>(&instance - inputs.scene.instances().data()));
@@ -349,20 +370,36 @@ void ThesisVolume::drawTriangles(const gl::Device& device, const Inputs& inputs,
     // Emitters that are lights of the table shine from there, not from the volume.
     for (const bool lamps : {false, true}) {
         if (lamps && !hasLamps) break;
-        ThesisVolumeOptions kind = options;
-        kind.defects.darkEmitters = options.defects.darkEmitters || lamps;
-        device.get(voxelizeDesc(kind, key, content)).use(given);
+        ThesisVolumeOptions kind = wanted.options;
+        kind.defects.darkEmitters = wanted.options.defects.darkEmitters || lamps;
+        device.get(voxelizeDesc(kind, wanted.scene, wanted.content)).use(given);
         inputs.scene.draw({.filter = [&](const gpu::Instance& instance) {
             return (instance.flags & INSTANCE_VOXELIZED) != 0 && isLamp(instance) == lamps;
         }});
     }
+}
+
+// By the area that triangles cover of each column of voxels: small ones, then tiles of wide ones.
+void ThesisVolume::sumTriangles(const gl::Device& device, const Inputs& inputs, const Wanted& wanted,
+                                gl::Inputs& given) {
+    if (inputs.scene.triangleCount() == 0) return;
+    std::vector<std::uint32_t> lamps(inputs.scene.instances().size());
+    for (std::size_t i = 0; i < lamps.size(); ++i) lamps[i] = inputs.lights.areInTable(i) ? 1 : 0;
+    const gl::Buffer lampTable(lamps, "thesis lamps");
+    const std::uint32_t none = 0;
+    brickList_.update(8, &none, sizeof(none));
+    given.storage("LampTable", lampTable).storage("TileTable", tiles_);
+    SceneKey key = wanted.scene;
+    device.get(voxelizeDesc(wanted.options, key, wanted.content))
+        .dispatchLinear(given, inputs.scene.triangleCount());
     gl::barrier(gl::Access::ShaderStorage | gl::Access::ImageAccess);
+    key.tiles = true;
+    device.get(voxelizeDesc(wanted.options, key, wanted.content))
+        .dispatchLinear(given, tileCount_ * std::size_t{kBrick});
 }
 
 // The marked bricks.
 void ThesisVolume::listBricks(const gl::Device& device) {
-    const std::uint32_t zero = 0;
-    brickList_.update(0, &zero, sizeof(zero));
     const std::size_t count = static_cast<std::size_t>(grid_.boxSize.x / kBrick) *
                               static_cast<std::size_t>(grid_.boxSize.y / kBrick) *
                               static_cast<std::size_t>(grid_.boxSize.z / kBrick);
@@ -382,18 +419,28 @@ void ThesisVolume::resolve(const gl::Device& device, const ThesisDefects& defect
     if (areas_[0])
         given.image("areasPlus", areas_[0], gl::ImageUse::Write)
             .image("areasMinus", areas_[1], gl::ImageUse::Write);
-    device.get(resolveDesc(defects, isOctree_)).dispatchIndirect(given, brickList_, 16);
+    const bool hasLevels = !isOctree_ && target.desc().levels > 1;
+    if (hasLevels) {
+        given.image("volume1", target, gl::ImageUse::Write, 1);
+        if (areas_[0])
+            given.image("areasPlus1", areas_[0], gl::ImageUse::Write, 1)
+                .image("areasMinus1", areas_[1], gl::ImageUse::Write, 1);
+    }
+    const ResolvedTo where = isOctree_   ? ResolvedTo::Octree
+                             : hasLevels ? ResolvedTo::TwoLevels
+                                         : ResolvedTo::Level;
+    device.get(resolveDesc(defects, where)).dispatchIndirect(given, brickList_, 16);
     gl::barrier(gl::Access::ImageAccess);
 }
 
 void ThesisVolume::buildMips(const gl::Device& device, const ThesisDefects& defects,
-                             const gl::Texture& texture) {
+                             const gl::Texture& texture, int first) {
     if (isOctree_) {
         buildOctreeMips(device, defects, texture);
         return;
     }
     const bool ofAreas = areAreas(texture);
-    for (int level = 1; level < texture.desc().levels; ++level) {
+    for (int level = first; level < texture.desc().levels; ++level) {
         gl::Inputs given = bricks();
         given.image("fine", texture, gl::ImageUse::Read, level - 1)
             .image("coarse", texture, gl::ImageUse::Write, level);
@@ -405,10 +452,10 @@ void ThesisVolume::buildMips(const gl::Device& device, const ThesisDefects& defe
         } else {
             const int edge = texture.width(level);
             const int ratio = static_cast<int>(grid_.size) / edge;
-            const glm::ivec3 first = glm::ivec3(grid_.boxMin) / ratio;
-            const glm::ivec3 last =
+            const glm::ivec3 low = glm::ivec3(grid_.boxMin) / ratio;
+            const glm::ivec3 high =
                 (glm::ivec3(grid_.boxMin) + glm::ivec3(grid_.boxSize) + ratio - 1) / ratio;
-            const glm::ivec3 count = last - first;
+            const glm::ivec3 count = high - low;
             device.get(mipDesc(defects, 0, ofAreas)).dispatch(given, count.x, count.y, count.z);
         }
         gl::barrier(gl::Access::ImageAccess);
@@ -431,25 +478,35 @@ std::vector<gl::ProgramDesc> ThesisVolume::programDescs() {
     d.clippedRadiance = d.darkEmitters = d.volumeMips = d.ambientTwice = true;
     d.isotropicOpacity = d.pointlikeRectangles = true;
     std::vector<gl::ProgramDesc> descs{markDesc(), bricksDesc(false), bricksDesc(true)};
+    const auto addVoxelize = [&](ThesisVolumeOptions options, SceneKey key, Content content) {
+        options.defects.centerCoverage = true;
+        descs.push_back(voxelizeDesc(options, key, content));
+        options.defects.centerCoverage = false;
+        for (const bool tiles : {false, true}) {
+            key.tiles = tiles;
+            descs.push_back(voxelizeDesc(options, key, content));
+        }
+    };
     for (const ThesisVolumeOptions& options : {mended, shadowed, published})
         for (const SceneKey& key : {SceneKey{}, SceneKey{true, false}, SceneKey{false, true}})
-            descs.push_back(voxelizeDesc(options, key, Content::Light));
+            addVoxelize(options, key, Content::Light);
     for (const light::LightKey& lights : light::LightKey::all()) {
         shadowed.lights = lights;
-        descs.push_back(voxelizeDesc(shadowed, {}, Content::Light));
-        if (lights.rect > 0) descs.push_back(voxelizeDesc(shadowed, {false, true}, Content::Light));
+        addVoxelize(shadowed, {}, Content::Light);
+        if (lights.rect > 0) addVoxelize(shadowed, {false, true}, Content::Light);
     }
     for (const Content content : {Content::Albedo, Content::Normal})
         for (const ThesisVolumeOptions& options : {mended, published})
-            descs.push_back(voxelizeDesc(options, {true, false}, content));
+            addVoxelize(options, {true, false}, content);
     for (const ThesisVolumeOptions& options : {mended, published}) {
-        for (const bool octree : {false, true}) descs.push_back(resolveDesc(options.defects, octree));
+        for (const ResolvedTo where : {ResolvedTo::Level, ResolvedTo::TwoLevels, ResolvedTo::Octree})
+            descs.push_back(resolveDesc(options.defects, where));
         for (const int texels : {64, 8, 1, 0})
             for (const bool ofAreas : {false, true})
                 descs.push_back(mipDesc(options.defects, texels, ofAreas));
     }
     published.storage = VolumeStorage::Octree;
-    descs.push_back(voxelizeDesc(published, {}, Content::Light));
+    addVoxelize(published, {}, Content::Light);
     const std::vector<gl::ProgramDesc> ofOctree = octreeDescs();
     descs.insert(descs.end(), ofOctree.begin(), ofOctree.end());
     return descs;

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The thesis's lit volume: GpuScene -> one 3D texture of direct light with its mips (thesis, chapter 4,
-// "Voxelization Process"; chapter 5, "Voxelization"). Raster: every triangle is seen along its dominant axis
-// by a viewport of one pixel per voxel; fragments carry the Phong light into the volume.
+// "Voxelization Process"; chapter 5, "Voxelization"). Every triangle is seen along its dominant axis, and cut into
+// columns of voxels; pieces carry the Phong light into the volume. Compute passes: one invocation per small triangle,
+// eight per tile of a wide one. With the defect centerCoverage a raster pass instead, as in the original.
 //
 // RGBA16F premultiplied radiance and opacity (RGBA8 with the defect clippedRadiance). For occlusion cones two
 // more, RGBA8: the area of surface in a texel as it is seen along x, y and z, in parts of a face, of what faces
 // the positive and the negative sides (unless isotropicOpacity; stores that race make none). All lie in dense
-// textures, or in bricks of one octree (gather/radiance_octree.h). The grid is a cube:
-// fitted to the scene, or [-1,1]^3 with the defect wholeGrid. Work and memory beyond the volume go with the
-// bricks of 8^3 voxels that hold surface, which a first raster pass marks; their number is read back, one wait for
-// the GPU per build (none with dense stores that race).
+// textures, or in bricks of one octree (gather/radiance_octree.h). The grid is a cube: fitted to the scene, or
+// [-1,1]^3 with the defect wholeGrid. Work and memory beyond the volume go with the bricks of 8^3 voxels that hold
+// surface, which a first pass marks; their number is read back, one wait for the GPU per build (none with the
+// original's stores). With an octree, sums are freed after each build.
 //
 // Leaves the textures visible to texture fetches. GL state changed: raster state, programs and their slots.
 // Limits: one colour per voxel for both faces of a wall; 255 layers of surface per voxel, 127 with areas.
@@ -80,6 +81,7 @@ class ThesisVolume {
     struct SceneKey {
         bool textured = false;
         bool rectangles = false;  // some lights are rectangles
+        bool tiles = false;       // tiles of wide triangles
     };
 
     void allocate(const ThesisVolumeOptions& options);
@@ -91,9 +93,20 @@ class ThesisVolume {
     void listBricks(const gl::Device& device);
     void drawTriangles(const gl::Device& device, const Inputs& inputs, const ThesisVolumeOptions& options,
                        Content content);
+    // What of the triangles is voxelized, and how.
+    struct Wanted {
+        const ThesisVolumeOptions& options;
+        SceneKey scene;
+        Content content;
+    };
+    void rasterTriangles(const gl::Device& device, const Inputs& inputs, const Wanted& wanted,
+                         const gl::Inputs& given);
+    void sumTriangles(const gl::Device& device, const Inputs& inputs, const Wanted& wanted, gl::Inputs& given);
     void resolve(const gl::Device& device, const ThesisDefects& defects, const gl::Texture& target);
     bool areAreas(const gl::Texture& texture) const { return &texture == &areas_[0] || &texture == &areas_[1]; }
-    void buildMips(const gl::Device& device, const ThesisDefects& defects, const gl::Texture& texture);
+    // From level `first` on.
+    void buildMips(const gl::Device& device, const ThesisDefects& defects, const gl::Texture& texture,
+                   int first = 1);
     static gl::ProgramDesc voxelizeDesc(const ThesisVolumeOptions& options, const SceneKey& scene,
                                         Content content);
     // bounces.cpp
@@ -118,9 +131,10 @@ class ThesisVolume {
     gl::Buffer bounceConstants_;
     int lit_ = -1;  // which of them has all bounces; -1: texture_
     gl::Sampler sampler_, areaSampler_;
-    gl::Framebuffer viewport_, brickViewport_;
-    gl::Buffer constants_, sums_, areaSums_, brickSlots_, brickList_, brickMarks_;
-    std::size_t brickCount_ = 0;  // of the list; 0 with stores that race into textures
+    gl::Framebuffer viewport_;
+    gl::Buffer constants_, sums_, areaSums_, brickSlots_, brickList_, brickMarks_, tiles_;
+    // Of the list, and of wide triangles' tiles; 0 with the original's stores.
+    std::size_t brickCount_ = 0, tileCount_ = 0;
     base::Revision revision_;
 };
 

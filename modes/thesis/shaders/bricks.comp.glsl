@@ -7,7 +7,7 @@
 layout(local_size_x = 64) in;
 layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
 layout(std430) buffer BrickSlots { uint brickSlots[]; };
-// [0] number of marked bricks, [4..12] indirect arguments, [16..] packed bricks
+// [0] number of marked bricks, [1] and [2] of tiles (voxelize.comp.glsl), [4..12] indirect arguments, [16..] packed bricks
 layout(std430) buffer BrickList { uint brickList[]; };
 
 #ifndef ARGUMENTS

@@ -1,14 +1,11 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
 // Level l of the thesis's volume -> level l+1, within marked bricks (BRICK_TEXELS texels of level l+1 per
-// brick: 64, 8 or 1) or, when BRICK_TEXELS is 0, over the whole box. Colour stays premultiplied.
-//
-// A texel of twice the edge has four times the cross-section, so the covered areas of its eight children add
-// up to a quarter: a plane keeps its opacity in every level. VOLUME_MIPS, as in the original: an eighth, the
-// mean over the volume; a wall of one voxel then halves its opacity per level. AREAS: the volume of areas along
-// the axes, each for itself. OCTREE: all texels of the tree's bricks of level l+1.
+// brick: 64, 8 or 1) or, when BRICK_TEXELS is 0, over the whole box. Where level 0 is made of sums in a dense texture,
+// level 1 is made with it (resolve.comp.glsl). AREAS: the volume of areas along the axes. OCTREE: all texels of the tree's bricks of level l+1.
 #include "thesis/shaders/constants.h"
 #include "thesis/shaders/defects.glsl"
+#include "thesis/shaders/mip_texel.glsl"
 #ifndef OCTREE
 #define OCTREE 0
 #endif
@@ -84,14 +81,9 @@ void main() {
     vec4 sum = vec4(0.0);
     for (int i = 0; i < (p.empty ? 0 : 8); ++i)
         sum += imageLoad(fine, p.fine + ivec3(i & 1, i >> 1 & 1, i >> 2));
-#if VOLUME_MIPS
-    imageStore(coarse, p.coarse, sum * 0.125);
-#else
-    sum *= 0.25;
 #if AREAS
-    imageStore(coarse, p.coarse, min(sum, 1.0));
+    imageStore(coarse, p.coarse, mipAreas(sum));
 #else
-    imageStore(coarse, p.coarse, sum / max(sum.a, 1.0));
-#endif
+    imageStore(coarse, p.coarse, mipTexel(sum));
 #endif
 }
