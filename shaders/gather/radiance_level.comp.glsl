@@ -20,7 +20,7 @@ layout(local_size_x = 64) in;  // before linear_index, which asks for it
 layout(local_size_x = 8, local_size_y = 4, local_size_z = 4) in;
 #endif
 #if OCTREE
-#include "lib/octree_fill.glsl"
+#include "lib/octree_levels.glsl"
 #elif SPARSE
 #include "lib/voxel_address.glsl"
 #include "lib/voxel_grid.glsl"
@@ -51,7 +51,7 @@ struct LevelPlace {
 // Whether the invocation makes one.
 #if OCTREE
 bool findTexels(out LevelPlace t) {
-    OctreeTexel texel;
+    OctreeLevelPlace texel;
     bool found = octreeTexelToFill(linearIndex(), texel);
     t = LevelPlace(texel.coarse, texel.fine, texel.block, texel.empty);
     return found;

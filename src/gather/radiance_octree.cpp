@@ -79,8 +79,8 @@ void RadianceOctree::allocate(std::uint32_t nodes, std::uint32_t bricks) {
 
 void RadianceOctree::fitBricks(gl::Texture& texture, std::uint32_t format, const std::string& label) const {
     const glm::ivec3& size = brickTexels_;
-    if (!texture || texture.desc().format != format || texture.width() != size.x || texture.depth() != size.z ||
-        texture.desc().levels != 1) {
+    if (!texture || texture.desc().format != format || texture.width() != size.x ||
+        texture.depth() != size.z || texture.desc().levels != 1) {
         texture.reset();
         texture = gl::Texture({GL_TEXTURE_3D, format, size.x, size.y, size.z}, label);
         texture.parameter(GL_TEXTURE_MIN_FILTER, GL_LINEAR);
@@ -167,8 +167,7 @@ void RadianceOctree::declare(gl::Inputs& inputs) const {
 void RadianceOctree::declareFill(gl::Inputs& inputs, int level) {
     // Bricks are numbered from the root's level down.
     constants_.firstBrick = 0;
-    for (int above = level + 1; above <= shape_.maxLevel; ++above)
-        constants_.firstBrick += brickCount(above);
+    for (int above = level + 1; above <= shape_.maxLevel; ++above) constants_.firstBrick += brickCount(above);
     constants_.level = static_cast<std::uint32_t>(level);
     constants_.brickCount = brickCount(level);
     block_.update(constants_);

@@ -275,7 +275,8 @@ void VoxelView::draw(const gl::Device& device, const Target& target, const Voxel
         c.filledSize = glm::ivec4(volume.filledSize, 0);
         gl::Inputs given = inputs;
         given.uniform("ViewBlock", constants(c));
-        buildOccupied(device, shown, volume.zeroMeansEmpty || volume.octree != nullptr, given, volume.revision);
+        buildOccupied(device, shown, volume.zeroMeansEmpty || volume.octree != nullptr, given,
+                      volume.revision);
     }
     const gl::PassScope pass(device.profiler, "voxel view");
     run(device, target, shown, inputs);

@@ -36,7 +36,8 @@ Image draw(const Scene& scene, const Settings& settings) {
 constexpr double kRounding = 1e-3;
 
 // Of the octree's picture from the dense one, with the setting `text` ("key=value", or empty) in both.
-double difference(const Scene& scene, const std::vector<std::string>& texts, Component component, int size = 64) {
+double difference(const Scene& scene, const std::vector<std::string>& texts, Component component,
+                  int size = 64) {
     Image images[2];
     for (const VolumeStorage storage : {VolumeStorage::Dense, VolumeStorage::Octree}) {
         Settings settings = storageSettings(storage, size);
@@ -57,8 +58,9 @@ TEST_F(ThesisOctreeTest, GivesThePictureOfTheDenseVolume) {
         const Scene scene = io::generateScene(name);
         for (const Component component : {Component::Full, Component::Occlusion, Component::Voxels})
             EXPECT_LT(difference(scene, {}, component), kRounding) << name;
-        EXPECT_LT(difference(scene, {"thesis.voxel_view=surfaces", "thesis.voxel_level=2"}, Component::Voxels),
-                  kRounding)
+        EXPECT_LT(
+            difference(scene, {"thesis.voxel_view=surfaces", "thesis.voxel_level=2"}, Component::Voxels),
+            kRounding)
             << name;
     }
 }
@@ -66,7 +68,8 @@ TEST_F(ThesisOctreeTest, GivesThePictureOfTheDenseVolume) {
 TEST_F(ThesisOctreeTest, WithBouncesAndAtAnySize) {
     const Scene scene = io::generateScene("cornell");
     EXPECT_LT(difference(scene, {"thesis.bounces=3"}, Component::Indirect), kRounding);
-    for (const int size : {8, 36, 100}) EXPECT_LT(difference(scene, {}, Component::Full, size), kRounding) << size;
+    for (const int size : {8, 36, 100})
+        EXPECT_LT(difference(scene, {}, Component::Full, size), kRounding) << size;
     // Nothing to be voxelized: the one light is beside the point.
     Scene empty;
     empty.cameras = scene.cameras;

@@ -36,8 +36,8 @@ struct ThesisVolumeOptions {
     light::LightKey lights;  // which kinds of light there are, with shadows
     ThesisDefects defects;   // those of the volume count
     VolumeStorage storage = VolumeStorage::Dense;
-    int bounces = 1;         // of indirect light in what cones find: one less in the volume
-    ThesisSettings cones;    // above one bounce: their diffuse cones carry light on
+    int bounces = 1;       // of indirect light in what cones find: one less in the volume
+    ThesisSettings cones;  // above one bounce: their diffuse cones carry light on
     bool operator==(const ThesisVolumeOptions&) const = default;
 };
 
@@ -101,9 +101,12 @@ class ThesisVolume {
     };
     void rasterTriangles(const gl::Device& device, const Inputs& inputs, const Wanted& wanted,
                          const gl::Inputs& given);
-    void sumTriangles(const gl::Device& device, const Inputs& inputs, const Wanted& wanted, gl::Inputs& given);
+    void sumTriangles(const gl::Device& device, const Inputs& inputs, const Wanted& wanted,
+                      gl::Inputs& given);
     void resolve(const gl::Device& device, const ThesisDefects& defects, const gl::Texture& target);
-    bool areAreas(const gl::Texture& texture) const { return &texture == &areas_[0] || &texture == &areas_[1]; }
+    bool areAreas(const gl::Texture& texture) const {
+        return &texture == &areas_[0] || &texture == &areas_[1];
+    }
     // From level `first` on.
     void buildMips(const gl::Device& device, const ThesisDefects& defects, const gl::Texture& texture,
                    int first = 1);

@@ -23,7 +23,7 @@
 #if OCTREE
 layout(local_size_x = 64) in;
 #include "lib/linear_index.glsl"
-#include "lib/octree_fill.glsl"
+#include "lib/octree_levels.glsl"
 #elif BRICK_TEXELS
 layout(local_size_x = 64) in;
 layout(std430) readonly buffer BrickList { uint brickList[]; };
@@ -44,7 +44,7 @@ struct MipPlace {
 // Whether the invocation makes one.
 #if OCTREE
 bool findTexel(out MipPlace p) {
-    OctreeTexel t;
+    OctreeLevelPlace t;
     bool found = octreeTexelToFill(linearIndex(), t);
     p = MipPlace(t.coarse, t.fine, t.empty);
     return found;

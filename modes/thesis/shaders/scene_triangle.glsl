@@ -11,9 +11,9 @@ struct GridTriangle {
     vec3 across;   // normal in world axes, twice the area long, by the order of corners
     uint axis;
     uint instance;
-    uvec3 vertex;  // places in VertexTable
-    bool used;     // voxelized, and covers something
-    bool isWide;   // over more columns than one invocation should walk through
+    uvec3 vertex;     // places in VertexTable
+    bool used;        // voxelized, and covers something
+    bool isWide;      // over more columns than one invocation should walk through
     ivec2 low, high;  // columns that it may touch, from low to below high, within the box
 };
 
@@ -46,7 +46,8 @@ GridTriangle gridTriangle(uint index) {
     uint triangle = inside ? index : 0u;
     t.instance = instanceOfTriangle(triangle);
     uint first = instances[t.instance].firstIndex + 3u * (triangle - instances[t.instance].firstTriangle);
-    t.vertex = instances[t.instance].firstVertex + uvec3(indices[first], indices[first + 1u], indices[first + 2u]);
+    t.vertex =
+        instances[t.instance].firstVertex + uvec3(indices[first], indices[first + 1u], indices[first + 2u]);
     mat4 place = instances[t.instance].worldFromObject;
     vec3 p = (place * vec4(vertices[t.vertex.x].position, 1.0)).xyz;
     vec3 q = (place * vec4(vertices[t.vertex.y].position, 1.0)).xyz;

@@ -36,8 +36,8 @@
 #define OCTREE 0
 #endif
 #include "thesis/shaders/albedo.glsl"
-#include "thesis/shaders/visibility.glsl"
 #include "thesis/shaders/brick_slots.glsl"
+#include "thesis/shaders/visibility.glsl"
 layout(std430) buffer SumTable { uint sums[]; };  // 4 per voxel of the marked bricks
 #if AXIS_AREAS
 // 3 per such voxel, one per axis: what faces its positive side in the lower half, the other in the upper.
@@ -51,7 +51,6 @@ layout(rgba16f) uniform writeonly image3D volume;
 #endif
 #endif
 
-
 // A piece of surface within one column of voxels.
 struct Piece {
     vec3 gridPosition;  // in voxels
@@ -64,13 +63,13 @@ struct Piece {
 struct SurfaceOfPiece {
     uint axis;  // the dominant one
     uint material;
-    uint flags;    // of the material
-    vec4 color;    // without textures
+    uint flags;      // of the material
+    vec4 color;      // without textures
     vec3 strengths;  // x ambient, y diffuse; z: cutoff of opacity
     vec3 emission;
-    vec3 areas;    // seen along each axis, in parts of that along the dominant one; signs of the normal
-    bool isLamp;   // shines as a light of the table, not from the volume
-    Light light;   // the first of the table
+    vec3 areas;   // seen along each axis, in parts of that along the dominant one; signs of the normal
+    bool isLamp;  // shines as a light of the table, not from the volume
+    Light light;  // the first of the table
 };
 
 // `ofVertices`: RGBA8.
@@ -166,34 +165,40 @@ void addToVoxel(ivec3 voxel, vec3 radiance, float weight, vec3 areas, vec2 colum
 }
 #endif
 
-// `column`: the lowest corner of the piece's, in the plane across the dominant axis.
-void addPiece(Piece p, SurfaceOfPiece surface, vec2 column) {
-    vec3 position = grid.origin + p.gridPosition * grid.voxelSize;
-    vec4 color = surfaceColor(surface, p.uv);
-    uint flags = surface.flags;
-    // Masked surfaces are there or not; blended ones cover in proportion, double-sided ones are lit from
-    // the side the light comes from only as far as the thesis goes: their front.
-    if ((flags & MATERIAL_ALPHA_MASK) != 0u)
-        p.coverage *= color.a < surface.strengths.z ? 0.0 : 1.0;
-    if ((flags & MATERIAL_ALPHA_BLEND) != 0u) p.coverage *= color.a;
-    bool unlit = (flags & MATERIAL_UNLIT) != 0u;
+// Light that the piece sends out, or what else is summed; `color` as of surfaceColor.
+vec3 contentOf(Piece p, SurfaceOfPiece surface, vec4 color) {
+    bool unlit = (surface.flags & MATERIAL_UNLIT) != 0u;
 #if CONTENT == CONTENT_ALBEDO
-    float mirrored = reflectance(materials[surface.material].phongSpecular,
-                                 materials[surface.material].phongShininess);
-    vec3 radiance =
-        unlit ? vec3(0.0) : min(diffuseAlbedo(color.rgb, surface.strengths.y, mirrored), 1.0);
+    float mirrored =
+        reflectance(materials[surface.material].phongSpecular, materials[surface.material].phongShininess);
+    vec3 radiance = unlit ? vec3(0.0) : min(diffuseAlbedo(color.rgb, surface.strengths.y, mirrored), 1.0);
 #elif CONTENT == CONTENT_NORMAL
     vec3 radiance = 0.5 + 0.5 * p.normal;
 #else
+    vec3 position = grid.origin + p.gridPosition * grid.voxelSize;
     vec3 radiance = unlit ? vec3(0.0) : directLight(surface, color.rgb, position, p.normal);
 #if !DARK_EMITTERS
     if (!surface.isLamp) radiance += unlit ? color.rgb : emissionOf(surface, p.uv);
 #endif
 #endif
+    return radiance;
+}
+
+// `column`: the lowest corner of the piece's, in the plane across the dominant axis.
+void addPiece(Piece p, SurfaceOfPiece surface, vec2 column) {
+    vec4 color = surfaceColor(surface, p.uv);
+    uint flags = surface.flags;
+    // Masked surfaces are there or not; blended ones cover in proportion, double-sided ones are lit from
+    // the side the light comes from only as far as the thesis goes: their front.
+    if ((flags & MATERIAL_ALPHA_MASK) != 0u) p.coverage *= color.a < surface.strengths.z ? 0.0 : 1.0;
+    if ((flags & MATERIAL_ALPHA_BLEND) != 0u) p.coverage *= color.a;
+    vec3 radiance = contentOf(p, surface, color);
     // The sums' scale holds radiance up to this; half floats hold 65,504.
     radiance = clamp(radiance, vec3(0.0), vec3(16777216.0 / grid.sumScale));
 
-    ivec3 axisStep = surface.axis == 0u ? ivec3(1, 0, 0) : surface.axis == 1u ? ivec3(0, 1, 0) : ivec3(0, 0, 1);
+    ivec3 axisStep = surface.axis == 0u   ? ivec3(1, 0, 0)
+                     : surface.axis == 1u ? ivec3(0, 1, 0)
+                                          : ivec3(0, 0, 1);
 #if RACING_STORES
 #if FACE_ROUNDING
     ivec3 voxel = ivec3(p.gridPosition);

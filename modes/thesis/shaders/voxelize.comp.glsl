@@ -54,8 +54,8 @@ SurfaceOfPiece surfaceOf(GridTriangle t, Corners c) {
     if ((flags & INSTANCE_WIDE_COLORS) != 0u) color = packUnorm4x8(vertexColor(color, flags));
     float front = dot(t.across, c.normalA + c.normalB + c.normalC) < 0.0 ? -1.0 : 1.0;
     float largest = max(max(abs(t.across.x), abs(t.across.y)), abs(t.across.z));
-    return surfaceOfPiece(t.axis, instances[t.instance].material, color, t.across * (front / max(largest, 1e-30)),
-                          lamps[t.instance] != 0u);
+    return surfaceOfPiece(t.axis, instances[t.instance].material, color,
+                          t.across * (front / max(largest, 1e-30)), lamps[t.instance] != 0u);
 }
 
 float coverageOf(GridTriangle t, vec2 column) {

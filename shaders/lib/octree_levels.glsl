@@ -5,7 +5,7 @@ layout(std430) readonly buffer OctreeBricks { uint brickNodes[]; };
 
 // Places in a texture of bricks: of a texel of the level that is filled, and of the first of the eight that it is
 // made of, which lie in one node of the finer level.
-struct OctreeTexel {
+struct OctreeLevelPlace {
     ivec3 coarse;
     ivec3 fine;
     int block;   // direction
@@ -13,7 +13,7 @@ struct OctreeTexel {
 };
 
 // Texel number `index` of all bricks of the level; whether there are so many.
-bool octreeTexelToFill(uint index, out OctreeTexel t) {
+bool octreeTexelToFill(uint index, out OctreeLevelPlace t) {
     if (index >= octree.brickCount * uint(OCTREE_BRICK_TEXELS)) return false;
     uint brick = octree.firstBrick + index / uint(OCTREE_BRICK_TEXELS);
     int i = int(index % uint(OCTREE_BRICK_TEXELS));
