@@ -20,8 +20,7 @@ layout(local_size_x = 64) in;  // before linear_index, which asks for it
 layout(local_size_x = 8, local_size_y = 4, local_size_z = 4) in;
 #endif
 #if OCTREE
-#include "lib/radiance_octree.glsl"
-layout(std430) readonly buffer OctreeBricks { uint brickNodes[]; };
+#include "lib/octree_levels.glsl"
 #elif SPARSE
 #include "lib/voxel_address.glsl"
 #include "lib/voxel_grid.glsl"
@@ -52,22 +51,10 @@ struct LevelPlace {
 // Whether the invocation makes one.
 #if OCTREE
 bool findTexels(out LevelPlace t) {
-    uint index = linearIndex();
-    if (index >= octree.brickCount * uint(OCTREE_BRICK_TEXELS)) return false;
-    uint brick = octree.firstBrick + index / uint(OCTREE_BRICK_TEXELS);
-    int i = int(index % uint(OCTREE_BRICK_TEXELS));
-    ivec3 inBrick = ivec3(i % OCTREE_BRICK_EDGE, (i / OCTREE_BRICK_EDGE) % OCTREE_BRICK_EDGE,
-                          i / (OCTREE_BRICK_EDGE * OCTREE_BRICK_EDGE));
-    int level = int(octree.level);
-    uint entry = brickNodes[brick];
-    t.block = int(entry >> OCTREE_BLOCK_SHIFT);
-    t.coarse = octreeCorner(brick) + inBrick;
-    // The eight lie in one node of the finer level.
-    ivec3 texel = OCTREE_NODE_EDGE * octreeNodeOfSlot(entry & OCTREE_SLOT_MASK, level) + inBrick;
-    uvec2 finer = octreeNode((2 * texel) >> OCTREE_NODE_BITS, level - 1);
-    t.empty = !octreeHas(finer, t.block);
-    t.fine = t.empty ? ivec3(0) : octreeCornerOf(finer, t.block) + ((2 * texel) & (OCTREE_NODE_EDGE - 1));
-    return true;
+    OctreeLevelPlace texel;
+    bool found = octreeTexelToFill(linearIndex(), texel);
+    t = LevelPlace(texel.coarse, texel.fine, texel.block, texel.empty);
+    return found;
 }
 #elif SPARSE
 bool findTexels(out LevelPlace t) {

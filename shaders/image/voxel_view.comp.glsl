@@ -4,7 +4,7 @@
 //
 //   SOURCE  0 surface voxels: level 0 from their faces, coarser ones from means (voxel_view_level)
 //           1 a volume of one colour and opacity a voxel (VoxelVolume)   2 the radiance volume of mode cones
-//           (DIRECTIONAL: six blocks)   3 the same, stored in an octree
+//           (DIRECTIONAL: six blocks)   3 the same, stored in an octree   4 as 1, stored in an octree
 //   SHAPE   0 cubes   1 their edges   2 plane pieces as rays meet them (SOURCE 0)   3 by opacity, front to
 //           back   4 on the surfaces of the picture
 //   AMONG   1: in front of what the G-buffer holds, on the picture; 0: alone, on the sky
@@ -26,6 +26,9 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140) uniform ViewBlock { VoxelViewConstants view; };
 layout(rgba32f) uniform image2D picture;
 layout(rgba32ui) readonly uniform uimage3D occupied;
+#if SOURCE >= 3
+#include "lib/radiance_octree.glsl"
+#endif
 #if SOURCE == 3
 #include "lib/radiance_bricks.glsl"
 #else
@@ -59,7 +62,7 @@ int levelShown(float t) {
 
 ivec3 levelSize(int level) { return (ivec3(view.sizeX, view.sizeY, view.sizeZ) + (1 << level) - 1) >> level; }
 
-#if SOURCE >= 2
+#if SOURCE == 2 || SOURCE == 3
 // A texel of the radiance volume.
 vec4 radianceOf(ivec3 cell, int level, int block) {
 #if SOURCE == 3
@@ -82,6 +85,8 @@ vec4 cellOf(ivec3 cell, int level, vec3 ray, int axis) {
     return texelFetch(volume, cell, level - 1);
 #elif SOURCE == 1
     return texelFetch(volume, cell, level);
+#elif SOURCE == 4
+    return octreeFetched(volume, cell, level, 0);
 #elif DIRECTIONAL
     // The block of the side that is entered, or the mean of all when nothing there looks that way.
     vec4 side = radianceOf(cell, level, 2 * axis + (ray[axis] > 0.0 ? 1 : 0));
@@ -247,9 +252,16 @@ void main() {
     int level = levelShown(length(s.position - frame.eye) / view.voxelSize);
     float edge = exp2(float(level));
     vec4 result = vec4(0.0);
-#if SOURCE == 1
+#if SOURCE == 1 || SOURCE == 4
     // Interpolated, as cones read it.
-    vec4 texel = textureLod(volume, at / vec3(view.sizeX, view.sizeY, view.sizeZ), float(level));
+    vec3 q = at / vec3(view.sizeX, view.sizeY, view.sizeZ);
+#if SOURCE == 4
+    vec3 place;
+    uvec2 node = octreePlace(q, levelSize(level), level, place);
+    vec4 texel = octreeFiltered(volume, node, 0, place);
+#else
+    vec4 texel = textureLod(volume, q, float(level));
+#endif
     if (seen) result = vec4(shown(texel, level), 1.0);
 #else
     vec3 n = s.geometricNormal;

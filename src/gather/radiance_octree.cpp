@@ -37,8 +37,8 @@ struct NodesKey {
 int ceilDiv(int value, int by) { return (value + by - 1) / by; }
 
 // Level of the one node that holds all texels.
-int rootLevelOf(const RadianceLayout& layout) {
-    int nodes = ceilDiv(std::max({layout.size.x, layout.size.y, layout.size.z}), OCTREE_NODE_EDGE);
+int rootLevelOf(const glm::ivec3& size) {
+    int nodes = ceilDiv(std::max({size.x, size.y, size.z}), OCTREE_NODE_EDGE);
     int level = 0;
     for (; nodes > 1; nodes = ceilDiv(nodes, 2)) ++level;
     CONELIGHT_ASSERT(level <= OCTREE_DEEPEST, "grids have at most 1024 voxels along an axis");
@@ -57,8 +57,8 @@ std::uint32_t rowBitsFor(std::uint32_t bricks) {
 void RadianceOctree::allocate(std::uint32_t nodes, std::uint32_t bricks) {
     if (nodes > OCTREE_CHILD_MASK || bricks > OCTREE_NUMBER_MASK)
         base::fail(ErrorKind::Runtime,
-                   "cones.storage: an octree of %u nodes and %u bricks; at most %u and %u would be right, as "
-                   "fewer voxels give",
+                   "storage: an octree of %u nodes and %u bricks; at most %u and %u would be right, as fewer "
+                   "voxels give",
                    nodes, bricks, OCTREE_CHILD_MASK, OCTREE_NUMBER_MASK);
     // Of a tree without voxels, the nodes at which look-ups start are read all the same.
     const std::size_t nodeBytes = std::size_t{8} * std::max(nodes, std::uint32_t{kLevels});
@@ -73,43 +73,58 @@ void RadianceOctree::allocate(std::uint32_t nodes, std::uint32_t bricks) {
     const int row = 1 << constants_.rowBits;
     const int slices = std::max(ceilDiv(static_cast<int>(bricks), row * row), 1);
     const glm::ivec3 texels = OCTREE_BRICK_EDGE * glm::ivec3(row, row, slices);
-    if (!bricks_ || bricks_.width() != texels.x || bricks_.depth() != texels.z) {
-        bricks_ = {};
-        bricks_ = gl::Texture({GL_TEXTURE_3D, GL_RGBA16F, texels.x, texels.y, texels.z}, "radiance bricks");
-        bricks_.parameter(GL_TEXTURE_MIN_FILTER, GL_LINEAR);
-        bricks_.parameter(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-        for (const unsigned axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
-            bricks_.parameter(axis, GL_CLAMP_TO_EDGE);
-    }
-    bricks_.clear(0, GL_RGBA, GL_FLOAT, nullptr);
     constants_.inverseTextureSize = 1.0f / glm::vec3(texels);
+    brickTexels_ = texels;
+}
+
+void RadianceOctree::fitBricks(gl::Texture& texture, std::uint32_t format, const std::string& label) const {
+    const glm::ivec3& size = brickTexels_;
+    if (!texture || texture.desc().format != format || texture.width() != size.x ||
+        texture.depth() != size.z || texture.desc().levels != 1) {
+        texture.reset();
+        texture = gl::Texture({GL_TEXTURE_3D, format, size.x, size.y, size.z}, label);
+        texture.parameter(GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+        texture.parameter(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+        for (const unsigned axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+            texture.parameter(axis, GL_CLAMP_TO_EDGE);
+    }
+    texture.clear(0, GL_RGBA, GL_FLOAT, nullptr);
 }
 
 void RadianceOctree::build(const gl::Device& device, const RadianceLayout& layout,
                            const voxels::SurfaceVoxels& surface) {
     if (bricks_ && layout_ == layout && voxelsFrom_ == surface.revision()) return;
+    build(device, {layout.size, layout.maxLevel, layout.blocks}, [&](const gl::Inputs& tree) {
+        gl::Inputs marks = tree;
+        marks.add(surface);
+        device.get(MarkKey{layout.blocks}.desc()).dispatchLinear(marks, surface.voxelCount());
+    });
+    fitBricks(bricks_, GL_RGBA16F, "radiance bricks");
+    layout_ = layout;
+    voxelsFrom_ = surface.revision();
+}
+
+void RadianceOctree::build(const gl::Device& device, const Shape& shape, const Mark& mark) {
     const gl::PassScope pass(device.profiler, "radiance octree");
+    shape_ = shape;
     if (!block_) block_ = gl::Buffer(sizeof(gpu::RadianceOctree), "octree constants");
-    const int root = rootLevelOf(layout);
+    const int root = rootLevelOf(shape.size);
     constants_.rootLevel = static_cast<std::uint32_t>(root);
-    constants_.maxLevel = static_cast<std::uint32_t>(layout.maxLevel);
+    constants_.maxLevel = static_cast<std::uint32_t>(shape.maxLevel);
     constants_.topLevel = std::max(constants_.rootLevel, constants_.maxLevel);
     constants_.slots = constants_.topLevel - constants_.rootLevel + ((1u << (3 * (root + 1))) - 1) / 7;
     constants_.slotsPerChunk = std::max((constants_.slots + kMostChunks - 1) / kMostChunks, kLeastChunk);
     block_.update(constants_);
-    const std::uint32_t chunks = (constants_.slots + constants_.slotsPerChunk - 1) / constants_.slotsPerChunk;
     const gl::Buffer slots(std::size_t{4} * constants_.slots, "octree slots");
-    const gl::Buffer sums(std::size_t{8} * chunks, "octree chunks");
     const gl::Buffer counted(sizeof(counts_), "octree counts");
     const gl::Buffer none(8, "octree nodes");
 
     gl::Inputs marks;
-    marks.add(surface)
-        .uniform("RadianceOctreeBlock", block_)
+    marks.uniform("RadianceOctreeBlock", block_)
         .storage("OctreeNodes", none)
         .storage("OctreeSlots", slots)
         .storage("OctreeCounts", counted);
-    device.get(MarkKey{layout.blocks}.desc()).dispatchLinear(marks, surface.voxelCount());
+    mark(marks);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Update);
     counted.read(0, counts_.data(), sizeof(counts_));
 
@@ -118,6 +133,13 @@ void RadianceOctree::build(const gl::Device& device, const RadianceLayout& layou
     };
     allocate(sum(0), sum(kLevels));
     block_.update(constants_);
+    number(device, slots);
+}
+
+// Numbers for the marked slots.
+void RadianceOctree::number(const gl::Device& device, const gl::Buffer& slots) {
+    const std::uint32_t chunks = (constants_.slots + constants_.slotsPerChunk - 1) / constants_.slotsPerChunk;
+    const gl::Buffer sums(std::size_t{8} * chunks, "octree chunks");
     gl::Inputs numbers;
     numbers.uniform("RadianceOctreeBlock", block_)
         .storage("OctreeSlots", slots)
@@ -129,8 +151,6 @@ void RadianceOctree::build(const gl::Device& device, const RadianceLayout& layou
         device.get(key.desc()).dispatchLinear(numbers, invocations[key.step]);
         gl::barrier(gl::Access::ShaderStorage);
     }
-    layout_ = layout;
-    voxelsFrom_ = surface.revision();
 }
 
 std::uint32_t RadianceOctree::nodeCount(int level) const { return counts_[static_cast<std::size_t>(level)]; }
@@ -140,16 +160,14 @@ std::uint32_t RadianceOctree::brickCount(int level) const {
 }
 
 void RadianceOctree::declare(gl::Inputs& inputs) const {
-    inputs.uniform("RadianceOctreeBlock", block_)
-        .storage("OctreeNodes", nodes_)
-        .texture("radianceBricks", bricks_);
+    inputs.uniform("RadianceOctreeBlock", block_).storage("OctreeNodes", nodes_);
+    if (bricks_) inputs.texture("radianceBricks", bricks_);
 }
 
 void RadianceOctree::declareFill(gl::Inputs& inputs, int level) {
     // Bricks are numbered from the root's level down.
     constants_.firstBrick = 0;
-    for (int above = level + 1; above <= layout_.maxLevel; ++above)
-        constants_.firstBrick += brickCount(above);
+    for (int above = level + 1; above <= shape_.maxLevel; ++above) constants_.firstBrick += brickCount(above);
     constants_.level = static_cast<std::uint32_t>(level);
     constants_.brickCount = brickCount(level);
     block_.update(constants_);

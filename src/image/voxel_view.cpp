@@ -10,7 +10,8 @@ namespace conelight::image {
 namespace {
 
 // SOURCE of the shader.
-constexpr int kSurfaceVoxels = 0, kVoxelVolume = 1, kRadianceVolume = 2, kRadianceOctree = 3;
+constexpr int kSurfaceVoxels = 0, kVoxelVolume = 1, kRadianceVolume = 2, kRadianceOctree = 3,
+              kVoxelOctree = 4;
 constexpr int kCoarsest = 8;  // view.voxel_level
 // Bricks to each side that are known to be empty, a power of two: a leap of 68 voxels, half of a large room.
 constexpr int kReach = 8;
@@ -52,6 +53,7 @@ struct ViewKey {
                 keys.push_back({kSurfaceVoxels, shape, among, false});
                 if (shape == VoxelShape::Faces) continue;
                 keys.push_back({kVoxelVolume, shape, among, false});
+                keys.push_back({kVoxelOctree, shape, among, false});
                 for (const int source : {kRadianceVolume, kRadianceOctree})
                     for (const bool directional : {false, true})
                         keys.push_back({source, shape, among, directional});
@@ -77,7 +79,7 @@ struct OccupiedKey {
                 {{"SOURCE", std::to_string(source)}, {"HALVES", halves ? "1" : "0"}}};
     }
     static std::vector<OccupiedKey> all() {
-        return {{kSurfaceVoxels, true}, {kVoxelVolume, true}, {kVoxelVolume, false}};
+        return {{kSurfaceVoxels, true}, {kVoxelVolume, true}, {kVoxelVolume, false}, {kVoxelOctree, true}};
     }
 };
 
@@ -154,7 +156,8 @@ void VoxelView::buildOccupied(const gl::Device& device, const Shown& shown, bool
     if (occupiedOf_ == of) return;
     const gl::PassScope pass(device.profiler, "voxel view occupancy");
     inputs.image("occupied", occupied_, gl::ImageUse::ReadWrite);
-    const int source = shown.source == kVoxelVolume ? kVoxelVolume : kSurfaceVoxels;
+    const bool isVolume = shown.source == kVoxelVolume || shown.source == kVoxelOctree;
+    const int source = isVolume ? shown.source : kSurfaceVoxels;
     device.get(OccupiedKey{source, halves}.desc()).dispatch(inputs, bricks.x, bricks.y, bricks.z);
     for (const ReachKey& key : ReachKey::all()) {
         gl::barrier(gl::Access::ImageAccess);
@@ -255,18 +258,25 @@ void VoxelView::draw(const gl::Device& device, const Target& target, const Voxel
     VoxelShape shape = target.settings.view.voxelShape;
     if (shape == VoxelShape::Auto) shape = volume.onSurfaces ? VoxelShape::Surfaces : VoxelShape::Cubes;
     if (shape == VoxelShape::Faces) shape = VoxelShape::Cubes;
-    const Shown shown{
-        kVoxelVolume,    shape,       false, volume.origin, volume.voxelSize, glm::ivec3(volume.size),
-        volume.maxLevel, volume.level};
+    const Shown shown{volume.octree != nullptr ? kVoxelOctree : kVoxelVolume,
+                      shape,
+                      false,
+                      volume.origin,
+                      volume.voxelSize,
+                      glm::ivec3(volume.size),
+                      volume.maxLevel,
+                      volume.level};
     gl::Inputs inputs;
     inputs.texture("volume", volume.texture, &volume.sampler);
+    if (volume.octree != nullptr) inputs.add(*volume.octree);
     if (castsRays(shape)) {
         gpu::VoxelViewConstants c{};
         c.filledMin = glm::ivec4(volume.filledMin, 0);
         c.filledSize = glm::ivec4(volume.filledSize, 0);
         gl::Inputs given = inputs;
         given.uniform("ViewBlock", constants(c));
-        buildOccupied(device, shown, volume.zeroMeansEmpty, given, volume.revision);
+        buildOccupied(device, shown, volume.zeroMeansEmpty || volume.octree != nullptr, given,
+                      volume.revision);
     }
     const gl::PassScope pass(device.profiler, "voxel view");
     run(device, target, shown, inputs);

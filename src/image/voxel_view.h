@@ -26,10 +26,11 @@ namespace conelight::image {
 // mips.
 struct VoxelVolume {
     const gl::Texture& texture;
-    const gl::Sampler& sampler;  // linear
-    glm::vec3 origin;            // of the lowest corner, m
-    float voxelSize;             // m
-    int size;                    // voxels along an edge
+    const gather::RadianceOctree* octree = nullptr;  // whose bricks the texture holds; null: it is dense
+    const gl::Sampler& sampler;                      // linear
+    glm::vec3 origin;                                // of the lowest corner, m
+    float voxelSize;                                 // m
+    int size;                                        // voxels along an edge
     int maxLevel;
     glm::ivec3 filledMin, filledSize;  // box of voxels outside of which there is nothing
     bool zeroMeansEmpty;               // a mean of zero two levels up: its voxels are zero

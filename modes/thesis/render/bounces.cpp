@@ -73,6 +73,7 @@ void ThesisVolume::bounce(const gl::Device& device, const Inputs& inputs,
             .texture("surfaceAlbedo", albedo_)
             .texture("surfaceNormal", normal_)
             .image("bounced", bounced_[target], gl::ImageUse::Write);
+        if (isOctree_) given.add(octree_);
         device.get(bounceDesc(options.cones)).dispatchIndirect(given, brickList_, 16);
         gl::barrier(gl::Access::ImageAccess);
         buildMips(device, options.defects, bounced_[target]);

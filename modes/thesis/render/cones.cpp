@@ -113,6 +113,7 @@ gl::ProgramDesc conesDesc(const ThesisSettings& settings, const ConesKey& key) {
                         {"COUNT_LOOKUPS", key.countLookups ? "1" : "0"}};
     if (key.rectangles && !defects.pointlikeRectangles) defines.emplace_back("RECTANGLES", "1");
     if (!ThesisVolume::hasAreas(defects)) defines.emplace_back("ISOTROPIC_OPACITY", "1");
+    if (settings.storage == VolumeStorage::Octree) defines.emplace_back("OCTREE", "1");
     for (const Define& define : kDefines)
         if (defects.*define.flag) defines.emplace_back(define.name, "1");
     return {{"thesis/shaders/cones.comp.glsl"}, defines};
@@ -134,6 +135,7 @@ gl::ProgramDesc bounceDesc(const ThesisSettings& settings) {
                         {"INTERMEDIATE_CONES", settings.intermediateCones ? "4" : "0"},
                         {"SIDE_CONES", settings.sideCones ? "4" : "0"}};
     if (defects.clippedRadiance) defines.emplace_back("CLIPPED_RADIANCE", "1");
+    if (settings.storage == VolumeStorage::Octree) defines.emplace_back("OCTREE", "1");
     for (const Define& define : kDefines)
         if (define.ofDiffuse && defects.*define.flag) defines.emplace_back(define.name, "1");
     return {{"thesis/shaders/bounce.comp.glsl"}, defines};
@@ -258,6 +260,13 @@ std::vector<gl::ProgramDesc> ThesisConePass::programDescs() {
     ThesisSettings noCones;
     noCones.frontCone = noCones.intermediateCones = false;
     add(noCones, Component::Full);
+    for (ThesisSettings octree : {mended, published}) {
+        octree.storage = VolumeStorage::Octree;
+        add(octree, Component::Full);
+        add(octree, Component::Full, true);
+        add(octree, Component::Occlusion);
+        descs.push_back(bounceDesc(octree));
+    }
     descs.push_back(bounceDesc(mended));
     descs.push_back(bounceDesc(regular));
     // Each defect alone, with all cones.

@@ -13,6 +13,7 @@ ThesisVolumeOptions volumeOptions(const modes::Frame& frame) {
     options.padding = frame.settings.voxels.padding;
     options.shift = frame.settings.voxels.shift;
     options.defects = effectiveDefects(frame.settings.groups.of<ThesisSettings>());
+    options.storage = frame.settings.groups.of<ThesisSettings>().storage;
     options.unitGrid = frame.scene.source().format == kSceneFormat && options.defects.wholeGrid;
     options.shadows = !options.defects.unshadowedVoxels && frame.settings.light.shadowSize > 0;
     if (options.shadows) options.lights = frame.lights.key();
@@ -22,6 +23,7 @@ ThesisVolumeOptions volumeOptions(const modes::Frame& frame) {
         options.bounces = own.bounces;
         // What bounceDesc and the diffuse part of thesisConstants read.
         options.cones.defects = options.defects;
+        options.cones.storage = own.storage;
         options.cones.diffuse = own.diffuse;
         options.cones.diffuseOriginOffset = own.diffuseOriginOffset;
         options.cones.frontCone = own.frontCone;
@@ -70,6 +72,7 @@ void ThesisMode::drawVoxels(const modes::Frame& frame) {
     const ThesisSettings& own = frame.settings.groups.of<ThesisSettings>();
     const image::VoxelVolume volume{
         .texture = volume_.texture(),
+        .octree = volume_.octree(),
         .sampler = volume_.sampler(),
         .origin = grid.origin,
         .voxelSize = grid.voxelSize,

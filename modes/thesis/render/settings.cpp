@@ -16,6 +16,8 @@ using settings::within;
 
 constexpr Choice<ConeVariant> kConeVariants[] = {{"regular", ConeVariant::Regular},
                                                  {"customised", ConeVariant::Customised}};
+constexpr Choice<VolumeStorage> kVolumeStorages[] = {{"dense", VolumeStorage::Dense},
+                                                     {"octree", VolumeStorage::Octree}};
 constexpr Choice<ThesisVoxelView> kThesisVoxelViews[] = {{"cubes", ThesisVoxelView::Cubes},
                                                          {"surfaces", ThesisVoxelView::Surfaces}};
 
@@ -66,6 +68,8 @@ std::vector<Setting<ThesisSettings>> pictureTable() {
         {"occlusion.shadow_str", &ThesisSettings::shadowStr, Numbers{0, 100}, "",
          "gain of the customised occlusion"},
         {"bounces", &ThesisSettings::bounces, Numbers{1, 8}, "", "bounces of indirect light"},
+        {"storage", &ThesisSettings::storage, kVolumeStorages,
+         "where the volume lies: in textures of all voxels, or in a sparse octree: the same picture"},
         {"max_samples", &ThesisSettings::maxSamples, Numbers{1, 16384}, "samples", "limit per cone"},
         {"voxel_level", &ThesisSettings::voxelLevel, Numbers{0, 8}, "", "level that component voxels shows"},
         {"voxel_view", &ThesisSettings::voxelView, kThesisVoxelViews,

@@ -13,7 +13,6 @@ namespace {
 constexpr int kBrick = THESIS_BRICK;
 constexpr float kSumSteps = 16777216.0f;  // 2^24, see voxelize.frag.glsl
 constexpr float kMaxRadiance = 60000.0f;  // below the largest half float, 65,504
-constexpr std::size_t kListHeader = 16;   // words of the brick list before the bricks
 constexpr int kOriginalLevels = 7;
 
 // Voxels per axis of the texture: `size`, or a little more, so that it halves evenly often enough: to 1 for
@@ -60,12 +59,22 @@ gl::Defines volumeDefines(const ThesisDefects& d) {
     return defines;
 }
 
+gl::ProgramDesc markDesc() { return {{"thesis/shaders/mark_bricks.comp.glsl"}, {}}; }
+
 gl::ProgramDesc bricksDesc(bool arguments) {
     return {{"thesis/shaders/bricks.comp.glsl"}, {{"ARGUMENTS", arguments ? "1" : "0"}}};
 }
 
-gl::ProgramDesc resolveDesc(const ThesisDefects& d) {
+// Where the voxels' values go.
+enum class ResolvedTo { Level, TwoLevels, Octree };
+
+gl::ProgramDesc resolveDesc(const ThesisDefects& d, ResolvedTo target) {
     gl::Defines defines = volumeDefines(d);
+    if (target == ResolvedTo::Octree) defines.emplace_back("OCTREE", "1");
+    if (target == ResolvedTo::TwoLevels) {
+        defines.emplace_back("LEVEL_1", "1");
+        if (d.volumeMips) defines.emplace_back("VOLUME_MIPS", "1");
+    }
     if (d.binaryOpacity) defines.emplace_back("BINARY_OPACITY", "1");
     if (ThesisVolume::hasAreas(d)) defines.emplace_back("AXIS_AREAS", "1");
     return {{"thesis/shaders/resolve.comp.glsl"}, defines};
@@ -77,6 +86,16 @@ gl::ProgramDesc mipDesc(const ThesisDefects& d, int brickTexels, bool ofAreas) {
     if (d.volumeMips) defines.emplace_back("VOLUME_MIPS", "1");
     defines.emplace_back("BRICK_TEXELS", std::to_string(brickTexels));
     return {{"thesis/shaders/mip.comp.glsl"}, defines};
+}
+
+gl::RasterState rasterTo(const gl::Framebuffer& viewport) {
+    gl::RasterState state;
+    state.framebuffer = &viewport;
+    state.depthTest = false;
+    state.depthWrite = false;
+    state.colorWrite = false;
+    state.cull = gl::Cull::None;
+    return state;
 }
 
 }  // namespace
@@ -93,7 +112,6 @@ gl::ProgramDesc ThesisVolume::voxelizeDesc(const ThesisVolumeOptions& options, c
     const auto add = [&](const char* name, bool on) {
         if (on) defines.emplace_back(name, "1");
     };
-    add("CENTER_COVERAGE", d.centerCoverage);
     add("FACE_ROUNDING", d.faceRounding);
     add("UNBOUNDED_SPECULAR", d.unboundedSpecular && content == Content::Albedo);
     add("AXIS_AREAS", light && hasAreas(d));
@@ -103,9 +121,13 @@ gl::ProgramDesc ThesisVolume::voxelizeDesc(const ThesisVolumeOptions& options, c
     add("DARK_EMITTERS", light && d.darkEmitters);
     add("AMBIENT_TWICE", light && d.ambientTwice);
     add("CLIPPED_RADIANCE", light && d.racingStores && d.clippedRadiance);
-    return {{"thesis/shaders/voxelize.vert.glsl", "thesis/shaders/voxelize.geom.glsl",
-             "thesis/shaders/voxelize.frag.glsl"},
-            defines};
+    add("OCTREE", light && d.racingStores && options.storage == VolumeStorage::Octree);
+    if (d.centerCoverage)
+        return {{"thesis/shaders/voxelize.vert.glsl", "thesis/shaders/voxelize.geom.glsl",
+                 "thesis/shaders/voxelize.frag.glsl"},
+                defines};
+    defines.emplace_back("TILES", scene.tiles ? "1" : "0");
+    return {{"thesis/shaders/voxelize.comp.glsl"}, defines};
 }
 
 gpu::ThesisGrid ThesisVolume::fitGrid(const Aabb& bounds, const Aabb& filled,
@@ -144,61 +166,13 @@ gpu::ThesisGrid ThesisVolume::fitGrid(const Aabb& bounds, const Aabb& filled,
     return grid;
 }
 
-void ThesisVolume::allocate(const ThesisVolumeOptions& options) {
-    const int edge = static_cast<int>(grid_.size);
-    const int levels = static_cast<int>(grid_.maxLevel) + 1;
-    const std::uint32_t format = options.defects.clippedRadiance ? GL_RGBA8 : GL_RGBA16F;
-    const gl::TextureDesc& now = texture_.desc();
-    if (!texture_ || now.width != edge || now.levels != levels || now.format != format) {
-        texture_.reset();
-        texture_ = gl::Texture({GL_TEXTURE_3D, format, edge, edge, edge, levels}, "thesis volume");
-        viewport_ = gl::Framebuffer(edge, edge, "thesis voxelization");
-        filledSize_ = glm::ivec3(0);
-    }
-    const bool hasAreas = ThesisVolume::hasAreas(options.defects);
-    for (gl::Texture& areas : areas_) {
-        if (!hasAreas) areas.reset();
-        if (!hasAreas || (areas && areas.desc().width == edge && areas.desc().levels == levels)) continue;
-        areas.reset();
-        areas = gl::Texture({GL_TEXTURE_3D, GL_RGBA8, edge, edge, edge, levels}, "thesis areas");
-        filledSize_ = glm::ivec3(0);
-    }
-    if (!sampler_) {
-        sampler_ = gl::Sampler({GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE}, "thesis volume");
-        // Beyond the grid there is nothing in the way of a light.
-        areaSampler_ = gl::Sampler({GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_BORDER}, "thesis areas");
-    }
-    if (!constants_) constants_ = gl::Buffer(sizeof(gpu::ThesisGrid), "thesis grid");
-    allocateBounces(options);
-
-    const std::size_t voxels = static_cast<std::size_t>(grid_.boxSize.x) *
-                               static_cast<std::size_t>(grid_.boxSize.y) *
-                               static_cast<std::size_t>(grid_.boxSize.z);
-    const std::size_t bricks = voxels / (kBrick * kBrick * kBrick);
-    // New buffers are zero; the passes leave sums and flags at zero again.
-    const bool hasSums = !options.defects.racingStores || options.bounces > 1;
-    const std::size_t sumBytes = hasSums ? 16 * voxels : 16;
-    if (sums_.bytes() < sumBytes) {
-        sums_.reset();
-        sums_ = gl::Buffer(sumBytes, "thesis voxel sums");
-    }
-    if (hasAreas && areaSums_.bytes() < 12 * voxels) {
-        areaSums_.reset();
-        areaSums_ = gl::Buffer(12 * voxels, "thesis area sums");
-    }
-    if (brickFlags_.bytes() < 4 * bricks) {
-        brickFlags_ = gl::Buffer(4 * bricks, "thesis brick flags");
-        brickList_ = gl::Buffer(4 * (kListHeader + bricks), "thesis brick list");
-    }
-}
-
 gl::Inputs ThesisVolume::bricks() const {
     gl::Inputs inputs;
     inputs.uniform("ThesisGridBlock", constants_)
-        .storage("SumTable", sums_)
-        .storage("BrickFlags", brickFlags_)
+        .storage("BrickSlots", brickSlots_)
         .storage("BrickList", brickList_);
-    if (areas_[0]) inputs.storage("AreaTable", areaSums_);
+    if (sums_) inputs.storage("SumTable", sums_);
+    if (areaSums_) inputs.storage("AreaTable", areaSums_);
     return inputs;
 }
 
@@ -208,24 +182,41 @@ void ThesisVolume::build(const gl::Device& device, const Inputs& inputs, const T
     const float bound = radianceBound(inputs, options.defects, grid_.voxelSize);
     grid_.sumScale = kSumSteps / (options.defects.clippedRadiance ? std::min(bound, 1.0f) : bound);
     const std::size_t lights = inputs.lights.table().size();
+    grid_.boxSize.w = static_cast<int>(inputs.scene.instances().size());
     grid_.boxMin.w = static_cast<int>(options.defects.tenLights ? std::min<std::size_t>(lights, 10) : lights);
     allocate(options);
     constants_.update(grid_);
+    const std::uint32_t none[3] = {};
+    brickList_.update(0, none, sizeof(none));
+    // Stores of the original's raster that race into textures need no list of bricks before.
+    const bool asPublished =
+        options.defects.racingStores && options.defects.centerCoverage && !isOctree_ && options.bounces == 1;
 
     {
         const gl::PassScope step(device.profiler, "thesis clear");
-        clearBox();
+        if (!isOctree_) clearBox();
+        brickSlots_.clear();
+    }
+    {
+        const gl::PassScope step(device.profiler, "thesis bricks");
+        brickCount_ = 0;
+        if (!asPublished) markBricks(device, inputs);
+        allocateSums(options);
     }
     {
         const gl::PassScope step(device.profiler, "thesis voxelize");
         drawTriangles(device, inputs, options, Content::Light);
+        if (asPublished) listBricks(device);
     }
+    if (isOctree_) growOctree(device, options);
     {
         const gl::PassScope step(device.profiler, "thesis mips");
         resolve(device, options.defects, texture_);
-        buildMips(device, options.defects, texture_);
+        // Stores that race leave level 1 to be made; sums bring it along.
+        const int first = isOctree_ || options.defects.racingStores ? 1 : 2;
+        buildMips(device, options.defects, texture_, first);
         for (const gl::Texture& areas : areas_)
-            if (areas) buildMips(device, options.defects, areas);
+            if (areas) buildMips(device, options.defects, areas, first);
     }
     if (options.bounces > 1) {
         const gl::PassScope step(device.profiler, "thesis bounces");
@@ -233,8 +224,29 @@ void ThesisVolume::build(const gl::Device& device, const Inputs& inputs, const T
         sumSurfaces(device, inputs, options);
         bounce(device, inputs, options);
     }
+    // Who asks for an octree has little memory; the sums are as large as its bricks.
+    if (isOctree_) {
+        sums_.reset();
+        areaSums_.reset();
+    }
     gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
     revision_ = base::Revision::next();
+}
+
+// The bricks that light will be summed in, and how many they are.
+void ThesisVolume::markBricks(const gl::Device& device, const Inputs& inputs) {
+    if (inputs.scene.triangleCount() > 0) {
+        gl::Inputs given = bricks();
+        device.get(markDesc()).dispatchLinear(given.add(inputs.scene), inputs.scene.triangleCount());
+        gl::barrier(gl::Access::ShaderStorage);
+    }
+    listBricks(device);
+    gl::barrier(gl::Access::Update);
+    const std::vector<std::uint32_t> counts = brickList_.read<std::uint32_t>(2);
+    brickCount_ = counts[0];
+    tileCount_ = counts[1];
+    if (tiles_.bytes() < 8 * std::max<std::size_t>(tileCount_, 2))
+        tiles_ = gl::Buffer(8 * tileCount_, "thesis tiles");
 }
 
 // Only the box of the last build holds anything.
@@ -257,13 +269,6 @@ void ThesisVolume::clearBox() {
 
 void ThesisVolume::drawTriangles(const gl::Device& device, const Inputs& inputs,
                                  const ThesisVolumeOptions& options, Content content) {
-    gl::RasterState state;
-    state.framebuffer = &viewport_;
-    state.depthTest = false;
-    state.depthWrite = false;
-    state.colorWrite = false;
-    state.cull = gl::Cull::None;
-    gl::apply(state);
     const auto hasTexture = [](const gpu::Material& material) {
         return material.layers.x >= 0 || material.layers.w >= 0;
     };
@@ -271,7 +276,19 @@ void ThesisVolume::drawTriangles(const gl::Device& device, const Inputs& inputs,
     const SceneKey key{std::any_of(materials.begin(), materials.end(), hasTexture),
                        inputs.lights.ends().w > inputs.lights.ends().z};
     gl::Inputs given = bricks();
-    given.add(inputs.scene).add(inputs.lights).image("volume", texture_, gl::ImageUse::Write);
+    given.add(inputs.scene).add(inputs.lights);
+    if (!isOctree_) given.image("volume", texture_, gl::ImageUse::Write);  // of stores that race
+    if (options.defects.centerCoverage)
+        rasterTriangles(device, inputs, {options, key, content}, given);
+    else
+        sumTriangles(device, inputs, {options, key, content}, given);
+    gl::barrier(gl::Access::ShaderStorage | gl::Access::ImageAccess);
+}
+
+// As in the original: by pixel centres.
+void ThesisVolume::rasterTriangles(const gl::Device& device, const Inputs& inputs, const Wanted& wanted,
+                                   const gl::Inputs& given) {
+    gl::apply(rasterTo(viewport_));
     const auto isLamp = [&](const gpu::Instance& instance) {
         return inputs.lights.areInTable(
             static_cast<std::size_t>(&instance - inputs.scene.instances().data()));
@@ -281,43 +298,77 @@ void ThesisVolume::drawTriangles(const gl::Device& device, const Inputs& inputs,
     // Emitters that are lights of the table shine from there, not from the volume.
     for (const bool lamps : {false, true}) {
         if (lamps && !hasLamps) break;
-        ThesisVolumeOptions kind = options;
-        kind.defects.darkEmitters = options.defects.darkEmitters || lamps;
-        device.get(voxelizeDesc(kind, key, content)).use(given);
+        ThesisVolumeOptions kind = wanted.options;
+        kind.defects.darkEmitters = wanted.options.defects.darkEmitters || lamps;
+        device.get(voxelizeDesc(kind, wanted.scene, wanted.content)).use(given);
         inputs.scene.draw({.filter = [&](const gpu::Instance& instance) {
             return (instance.flags & INSTANCE_VOXELIZED) != 0 && isLamp(instance) == lamps;
         }});
     }
-    gl::barrier(gl::Access::ShaderStorage | gl::Access::ImageAccess);
 }
 
-void ThesisVolume::resolve(const gl::Device& device, const ThesisDefects& defects,
-                           const gl::Texture& target) {
-    // The marked bricks.
-    const std::uint32_t zero = 0;
-    brickList_.update(0, &zero, sizeof(zero));
+// By the area that triangles cover of each column of voxels: small ones, then tiles of wide ones.
+void ThesisVolume::sumTriangles(const gl::Device& device, const Inputs& inputs, const Wanted& wanted,
+                                gl::Inputs& given) {
+    if (inputs.scene.triangleCount() == 0) return;
+    std::vector<std::uint32_t> lamps(inputs.scene.instances().size());
+    for (std::size_t i = 0; i < lamps.size(); ++i) lamps[i] = inputs.lights.areInTable(i) ? 1 : 0;
+    const gl::Buffer lampTable(lamps, "thesis lamps");
+    const std::uint32_t none = 0;
+    brickList_.update(8, &none, sizeof(none));
+    given.storage("LampTable", lampTable).storage("TileTable", tiles_);
+    SceneKey key = wanted.scene;
+    device.get(voxelizeDesc(wanted.options, key, wanted.content))
+        .dispatchLinear(given, inputs.scene.triangleCount());
+    gl::barrier(gl::Access::ShaderStorage | gl::Access::ImageAccess);
+    key.tiles = true;
+    device.get(voxelizeDesc(wanted.options, key, wanted.content))
+        .dispatchLinear(given, tileCount_ * std::size_t{kBrick});
+}
+
+// The marked bricks.
+void ThesisVolume::listBricks(const gl::Device& device) {
     const std::size_t count = static_cast<std::size_t>(grid_.boxSize.x / kBrick) *
                               static_cast<std::size_t>(grid_.boxSize.y / kBrick) *
                               static_cast<std::size_t>(grid_.boxSize.z / kBrick);
-    gl::Inputs given = bricks();
+    const gl::Inputs given = bricks();
     device.get(bricksDesc(false)).dispatchLinear(given, count);
     gl::barrier(gl::Access::ShaderStorage);
     device.get(bricksDesc(true)).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
-    if (defects.racingStores) return;
+}
 
+void ThesisVolume::resolve(const gl::Device& device, const ThesisDefects& defects,
+                           const gl::Texture& target) {
+    if (defects.racingStores && !isOctree_) return;
+    gl::Inputs given = bricks();
+    if (isOctree_) given.add(octree_);
     given.image("volume", target, gl::ImageUse::Write);
     if (areas_[0])
         given.image("areasPlus", areas_[0], gl::ImageUse::Write)
             .image("areasMinus", areas_[1], gl::ImageUse::Write);
-    device.get(resolveDesc(defects)).dispatchIndirect(given, brickList_, 16);
+    const bool hasLevels = !isOctree_ && target.desc().levels > 1;
+    if (hasLevels) {
+        given.image("volume1", target, gl::ImageUse::Write, 1);
+        if (areas_[0])
+            given.image("areasPlus1", areas_[0], gl::ImageUse::Write, 1)
+                .image("areasMinus1", areas_[1], gl::ImageUse::Write, 1);
+    }
+    const ResolvedTo where = isOctree_   ? ResolvedTo::Octree
+                             : hasLevels ? ResolvedTo::TwoLevels
+                                         : ResolvedTo::Level;
+    device.get(resolveDesc(defects, where)).dispatchIndirect(given, brickList_, 16);
     gl::barrier(gl::Access::ImageAccess);
 }
 
 void ThesisVolume::buildMips(const gl::Device& device, const ThesisDefects& defects,
-                             const gl::Texture& texture) {
-    const bool ofAreas = &texture == &areas_[0] || &texture == &areas_[1];
-    for (int level = 1; level < texture.desc().levels; ++level) {
+                             const gl::Texture& texture, int first) {
+    if (isOctree_) {
+        buildOctreeMips(device, defects, texture);
+        return;
+    }
+    const bool ofAreas = areAreas(texture);
+    for (int level = first; level < texture.desc().levels; ++level) {
         gl::Inputs given = bricks();
         given.image("fine", texture, gl::ImageUse::Read, level - 1)
             .image("coarse", texture, gl::ImageUse::Write, level);
@@ -329,10 +380,10 @@ void ThesisVolume::buildMips(const gl::Device& device, const ThesisDefects& defe
         } else {
             const int edge = texture.width(level);
             const int ratio = static_cast<int>(grid_.size) / edge;
-            const glm::ivec3 first = glm::ivec3(grid_.boxMin) / ratio;
-            const glm::ivec3 last =
+            const glm::ivec3 low = glm::ivec3(grid_.boxMin) / ratio;
+            const glm::ivec3 high =
                 (glm::ivec3(grid_.boxMin) + glm::ivec3(grid_.boxSize) + ratio - 1) / ratio;
-            const glm::ivec3 count = last - first;
+            const glm::ivec3 count = high - low;
             device.get(mipDesc(defects, 0, ofAreas)).dispatch(given, count.x, count.y, count.z);
         }
         gl::barrier(gl::Access::ImageAccess);
@@ -343,6 +394,7 @@ void ThesisVolume::declare(gl::Inputs& inputs) const {
     inputs.texture("volume", texture(), &sampler_).uniform("ThesisGridBlock", constants_);
     if (areas_[0])
         inputs.texture("areasPlus", areas_[0], &areaSampler_).texture("areasMinus", areas_[1], &areaSampler_);
+    if (isOctree_) inputs.add(octree_);
 }
 
 std::vector<gl::ProgramDesc> ThesisVolume::programDescs() {
@@ -353,24 +405,38 @@ std::vector<gl::ProgramDesc> ThesisVolume::programDescs() {
     d.racingStores = d.centerCoverage = d.binaryOpacity = d.faceRounding = d.unattenuatedVoxels = true;
     d.clippedRadiance = d.darkEmitters = d.volumeMips = d.ambientTwice = true;
     d.isotropicOpacity = d.pointlikeRectangles = true;
-    std::vector<gl::ProgramDesc> descs{bricksDesc(false), bricksDesc(true)};
+    std::vector<gl::ProgramDesc> descs{markDesc(), bricksDesc(false), bricksDesc(true)};
+    const auto addVoxelize = [&](ThesisVolumeOptions options, SceneKey key, Content content) {
+        options.defects.centerCoverage = true;
+        descs.push_back(voxelizeDesc(options, key, content));
+        options.defects.centerCoverage = false;
+        for (const bool tiles : {false, true}) {
+            key.tiles = tiles;
+            descs.push_back(voxelizeDesc(options, key, content));
+        }
+    };
     for (const ThesisVolumeOptions& options : {mended, shadowed, published})
         for (const SceneKey& key : {SceneKey{}, SceneKey{true, false}, SceneKey{false, true}})
-            descs.push_back(voxelizeDesc(options, key, Content::Light));
+            addVoxelize(options, key, Content::Light);
     for (const light::LightKey& lights : light::LightKey::all()) {
         shadowed.lights = lights;
-        descs.push_back(voxelizeDesc(shadowed, {}, Content::Light));
-        if (lights.rect > 0) descs.push_back(voxelizeDesc(shadowed, {false, true}, Content::Light));
+        addVoxelize(shadowed, {}, Content::Light);
+        if (lights.rect > 0) addVoxelize(shadowed, {false, true}, Content::Light);
     }
     for (const Content content : {Content::Albedo, Content::Normal})
         for (const ThesisVolumeOptions& options : {mended, published})
-            descs.push_back(voxelizeDesc(options, {true, false}, content));
+            addVoxelize(options, {true, false}, content);
     for (const ThesisVolumeOptions& options : {mended, published}) {
-        descs.push_back(resolveDesc(options.defects));
+        for (const ResolvedTo where : {ResolvedTo::Level, ResolvedTo::TwoLevels, ResolvedTo::Octree})
+            descs.push_back(resolveDesc(options.defects, where));
         for (const int texels : {64, 8, 1, 0})
             for (const bool ofAreas : {false, true})
                 descs.push_back(mipDesc(options.defects, texels, ofAreas));
     }
+    published.storage = VolumeStorage::Octree;
+    addVoxelize(published, {}, Content::Light);
+    const std::vector<gl::ProgramDesc> ofOctree = octreeDescs();
+    descs.insert(descs.end(), ofOctree.begin(), ofOctree.end());
     return descs;
 }
 

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The thesis's lit volume: GpuScene -> one 3D texture of direct light with its mips (thesis, chapter 4,
-// "Voxelization Process"; chapter 5, "Voxelization"). Raster: every triangle is seen along its dominant axis
-// by a viewport of one pixel per voxel; fragments carry the Phong light into the volume.
+// "Voxelization Process"; chapter 5, "Voxelization"). Every triangle is seen along its dominant axis, and cut into
+// columns of voxels; pieces carry the Phong light into the volume. Compute passes: one invocation per small triangle,
+// eight per tile of a wide one. With the defect centerCoverage a raster pass instead, as in the original.
 //
 // RGBA16F premultiplied radiance and opacity (RGBA8 with the defect clippedRadiance). For occlusion cones two
 // more, RGBA8: the area of surface in a texel as it is seen along x, y and z, in parts of a face, of what faces
-// the positive and the negative sides (unless isotropicOpacity; stores that race make none). The grid is a cube:
-// fitted to the scene, or [-1,1]^3 with the defect wholeGrid. Work and memory beyond the texture go with the
-// box of voxels that the scene's bounds touch, and with the bricks of 8^3 voxels in it that hold surface.
+// the positive and the negative sides (unless isotropicOpacity; stores that race make none). All lie in dense
+// textures, or in bricks of one octree (gather/radiance_octree.h). The grid is a cube: fitted to the scene, or
+// [-1,1]^3 with the defect wholeGrid. Work and memory beyond the volume go with the bricks of 8^3 voxels that hold
+// surface, which a first pass marks; their number is read back, one wait for the GPU per build (none with the
+// original's stores). With an octree, sums are freed after each build.
 //
 // Leaves the textures visible to texture fetches. GL state changed: raster state, programs and their slots.
 // Limits: one colour per voxel for both faces of a wall; 255 layers of surface per voxel, 127 with areas.
@@ -15,6 +18,7 @@
 
 #include "base/revision.h"
 #include "conelight/thesis/settings.h"
+#include "gather/radiance_octree.h"
 #include "gl/device.h"
 #include "gl/draw.h"
 #include "light/lights.h"
@@ -31,8 +35,9 @@ struct ThesisVolumeOptions {
     bool shadows = true;     // light is tested against the shadow maps
     light::LightKey lights;  // which kinds of light there are, with shadows
     ThesisDefects defects;   // those of the volume count
-    int bounces = 1;         // of indirect light in what cones find: one less in the volume
-    ThesisSettings cones;    // above one bounce: their diffuse cones carry light on
+    VolumeStorage storage = VolumeStorage::Dense;
+    int bounces = 1;       // of indirect light in what cones find: one less in the volume
+    ThesisSettings cones;  // above one bounce: their diffuse cones carry light on
     bool operator==(const ThesisVolumeOptions&) const = default;
 };
 
@@ -47,10 +52,13 @@ class ThesisVolume {
     base::Revision revision() const { return revision_; }  // raised by each build
 
     const gpu::ThesisGrid& grid() const { return grid_; }
+    // Of all voxels, or of the octree's bricks.
     const gl::Texture& texture() const { return lit_ < 0 ? texture_ : bounced_[lit_]; }
+    const gather::RadianceOctree* octree() const { return isOctree_ ? &octree_ : nullptr; }
     // Trilinear within and between levels, edge texels repeated outside.
     const gl::Sampler& sampler() const { return sampler_; }
-    // volume and, if there are any, areasPlus and areasMinus, with their samplers; ThesisGridBlock
+    // volume and, if there are any, areasPlus and areasMinus, with their samplers; ThesisGridBlock; of an octree
+    // what look-ups read.
     void declare(gl::Inputs& inputs) const;
     // Whether a build with these defects makes areas along the axes.
     static bool hasAreas(const ThesisDefects& defects) {
@@ -73,14 +81,35 @@ class ThesisVolume {
     struct SceneKey {
         bool textured = false;
         bool rectangles = false;  // some lights are rectangles
+        bool tiles = false;       // tiles of wide triangles
     };
 
     void allocate(const ThesisVolumeOptions& options);
+    void allocateDense(const ThesisVolumeOptions& options);
+    void allocateLists();
+    void allocateSums(const ThesisVolumeOptions& options);
     void clearBox();
+    void markBricks(const gl::Device& device, const Inputs& inputs);
+    void listBricks(const gl::Device& device);
     void drawTriangles(const gl::Device& device, const Inputs& inputs, const ThesisVolumeOptions& options,
                        Content content);
+    // What of the triangles is voxelized, and how.
+    struct Wanted {
+        const ThesisVolumeOptions& options;
+        SceneKey scene;
+        Content content;
+    };
+    void rasterTriangles(const gl::Device& device, const Inputs& inputs, const Wanted& wanted,
+                         const gl::Inputs& given);
+    void sumTriangles(const gl::Device& device, const Inputs& inputs, const Wanted& wanted,
+                      gl::Inputs& given);
     void resolve(const gl::Device& device, const ThesisDefects& defects, const gl::Texture& target);
-    void buildMips(const gl::Device& device, const ThesisDefects& defects, const gl::Texture& texture);
+    bool areAreas(const gl::Texture& texture) const {
+        return &texture == &areas_[0] || &texture == &areas_[1];
+    }
+    // From level `first` on.
+    void buildMips(const gl::Device& device, const ThesisDefects& defects, const gl::Texture& texture,
+                   int first = 1);
     static gl::ProgramDesc voxelizeDesc(const ThesisVolumeOptions& options, const SceneKey& scene,
                                         Content content);
     // bounces.cpp
@@ -88,11 +117,17 @@ class ThesisVolume {
     void clearOthers(int level, const glm::ivec3& first, const glm::ivec3& size);
     void sumSurfaces(const gl::Device& device, const Inputs& inputs, const ThesisVolumeOptions& options);
     void bounce(const gl::Device& device, const Inputs& inputs, const ThesisVolumeOptions& options);
+    // volume_octree.cpp
+    void growOctree(const gl::Device& device, const ThesisVolumeOptions& options);
+    static std::vector<gl::ProgramDesc> octreeDescs();
+    void buildOctreeMips(const gl::Device& device, const ThesisDefects& defects, const gl::Texture& texture);
     gl::Inputs bricks() const;  // what passes over bricks read
 
     glm::ivec3 filledMin_{0},
         filledSize_{0};  // box of the texture's voxels that may not be zero; size 0: all
     gpu::ThesisGrid grid_{};
+    bool isOctree_ = false;
+    gather::RadianceOctree octree_;
     gl::Texture texture_, areas_[2];  // areas_: of what faces positive, negative sides; may be empty
     // Above one bounce: two volumes in turn, and what surfaces are made of.
     gl::Texture bounced_[2], albedo_, normal_;
@@ -100,7 +135,9 @@ class ThesisVolume {
     int lit_ = -1;  // which of them has all bounces; -1: texture_
     gl::Sampler sampler_, areaSampler_;
     gl::Framebuffer viewport_;
-    gl::Buffer constants_, sums_, areaSums_, brickFlags_, brickList_;
+    gl::Buffer constants_, sums_, areaSums_, brickSlots_, brickList_, brickMarks_, tiles_;
+    // Of the list, and of wide triangles' tiles; 0 with the original's stores.
+    std::size_t brickCount_ = 0, tileCount_ = 0;
     base::Revision revision_;
 };
 

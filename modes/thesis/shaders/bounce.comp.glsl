@@ -39,15 +39,40 @@ const float kLeastNormal = 0.15;
 // The largest half float is 65,504; sets of cones that bring more than there is would pass it.
 const float kMaxRadiance = 60000.0;
 
+// A voxel of one of the textures.
+vec4 texelOf(sampler3D source, ivec3 voxel) {
+#if OCTREE
+    return octreeFetched(source, voxel, 0, 0);
+#else
+    return texelFetch(source, voxel, 0);
+#endif
+}
+
+void store(ivec3 voxel, vec4 texel) {
+#if OCTREE
+    int borders = octreeBorders(voxel);
+    int axes = borders;
+    do {
+        ivec3 node = octreeHolder(voxel, axes);
+        uvec2 record = octreeNode(node, 0);
+        if (octreeHas(record, 0))
+            imageStore(bounced, octreeCornerOf(record, 0) + voxel - OCTREE_NODE_EDGE * node, texel);
+        axes = octreeNextAxes(axes, borders);
+    } while (axes >= 0);
+#else
+    imageStore(bounced, voxel, texel);
+#endif
+}
+
 // From the middle of a voxel to the surface in it, in voxels along the axis across which it lies.
 vec3 toSurface(ivec3 voxel, vec3 n) {
     vec3 along = abs(n);
     ivec3 axis = along.x >= along.y && along.x >= along.z ? ivec3(1, 0, 0)
                  : along.y >= along.z                     ? ivec3(0, 1, 0)
                                                           : ivec3(0, 0, 1);
-    float here = texelFetch(ownLight, voxel, 0).a;
-    float below = texelFetch(ownLight, max(voxel - axis, ivec3(0)), 0).a;
-    float above = texelFetch(ownLight, min(voxel + axis, ivec3(int(grid.size)) - 1), 0).a;
+    float here = texelOf(ownLight, voxel).a;
+    float below = texelOf(ownLight, max(voxel - axis, ivec3(0))).a;
+    float above = texelOf(ownLight, min(voxel + axis, ivec3(int(grid.size)) - 1)).a;
     return vec3(axis) * ((above - below) / max(here + below + above, 1e-6));
 }
 
@@ -58,8 +83,8 @@ void main() {
     ivec3 brick = ivec3(bits & 1023u, bits >> 10 & 1023u, bits >> 20);
     ivec3 voxel = grid.boxMin.xyz + brick * THESIS_BRICK + ivec3(gl_LocalInvocationID);
 
-    vec4 own = texelFetch(ownLight, voxel, 0);
-    vec3 n = 2.0 * texelFetch(surfaceNormal, voxel, 0).xyz - 1.0;
+    vec4 own = texelOf(ownLight, voxel);
+    vec3 n = 2.0 * texelOf(surfaceNormal, voxel).xyz - 1.0;
     float size = length(n);
     bool isLit = own.a > 0.0 && size > kLeastNormal;
     Surface s;
@@ -67,6 +92,6 @@ void main() {
     s.position = grid.origin + grid.voxelSize * (vec3(voxel) + 0.5 + toSurface(voxel, s.normal));
     uint samples;
     vec3 gathered = traceDiffuse(s, isLit, samples);
-    vec3 added = isLit ? own.a * texelFetch(surfaceAlbedo, voxel, 0).rgb * gathered : vec3(0.0);
-    imageStore(bounced, voxel, vec4(min(own.rgb + added, kMaxRadiance), own.a));
+    vec3 added = isLit ? own.a * texelOf(surfaceAlbedo, voxel).rgb * gathered : vec3(0.0);
+    store(voxel, vec4(min(own.rgb + added, kMaxRadiance), own.a));
 }

@@ -1,12 +1,25 @@
 // SPDX-License-Identifier: MIT
 // What the three kinds of cones share: samples of the lit volume, how opacity adds up along a cone, where a
-// cone begins and ends. Before it: ThesisGrid `grid`, sampler3D `volume`, the frame block.
+// cone begins and ends. Before it: ThesisGrid `grid`, sampler3D `volume`, the frame block. OCTREE: `volume` holds
+// the bricks of a tree.
 #include "thesis/shaders/defects.glsl"
 #include "thesis/shaders/march.glsl"
 
+#ifndef OCTREE
+#define OCTREE 0
+#endif
+#if OCTREE
+#include "thesis/shaders/octree_volume.glsl"
+#endif
+
 vec4 sampleVolume(vec3 position, float size) {
-    return textureLod(volume, (position - grid.origin) / grid.edge,
-                      sampleLevel(size, grid.voxelSize, grid.maxLevel));
+    vec3 q = (position - grid.origin) / grid.edge;
+    float level = sampleLevel(size, grid.voxelSize, grid.maxLevel);
+#if OCTREE
+    return sampleBricks(volume, volumePlace(q, level));
+#else
+    return textureLod(volume, q, level);
+#endif
 }
 
 bool outsideGrid(vec3 position) {

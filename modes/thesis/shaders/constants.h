@@ -16,10 +16,11 @@ struct ThesisGrid {
     float sumScale;   // fixed-point steps per unit of radiance in the voxelizer's sums
     // ---- 32 B: box of voxels that the voxelized surfaces can touch, and of its bricks
     ivec4 boxMin;   // xyz: voxel, a multiple of THESIS_BRICK; w: number of lights for voxel light
-    ivec4 boxSize;  // xyz: voxels, multiples of THESIS_BRICK; w: 0
+    ivec4 boxSize;  // xyz: voxels, multiples of THESIS_BRICK; w: number of instances
 };                  // 64 B
 
-#define THESIS_BRICK 8  // voxels per axis of a brick: unit of clearing, resolving and averaging
+#define THESIS_BRICK 8  // voxels per axis of a brick: unit of sums, resolving and averaging
+#define THESIS_BRICK_VOXELS 512
 
 #define THESIS_PHONG 1u
 #define THESIS_PHONG_AMBIENT 2u

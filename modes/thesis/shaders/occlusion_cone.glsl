@@ -45,7 +45,12 @@ const float kReach = 1.5;     // of a sample past its centre, texels: half a tex
 vec2 stepOcclusion(vec3 origin, vec3 direction, float t, float size, float length, float gain) {
     vec3 q = (origin + t * direction - grid.origin) / grid.edge;
     float level = sampleLevel(size, grid.voxelSize, grid.maxLevel);
+#if OCTREE
+    vec3 plus, minus;
+    sampleBorderedBricks(areasPlus, areasMinus, q, level, plus, minus);
+#else
     vec3 plus = textureLod(areasPlus, q, level).rgb, minus = textureLod(areasMinus, q, level).rgb;
+#endif
     vec3 facing = mix(plus, minus, greaterThan(direction, vec3(0.0)));
     vec3 share = gain * abs(direction);
     float finer = floor(level);

@@ -98,6 +98,7 @@ struct CONELIGHT_API ThesisSettings {
     float minSpecular = 0.004f;  // 1/256 of white; 0 traces all
     int maxSamples = 4096;
     int bounces = 1;
+    VolumeStorage storage = VolumeStorage::Dense;
     int voxelLevel = 0;
     ThesisVoxelView voxelView = ThesisVoxelView::Cubes;
     ThesisDefects defects;
