@@ -55,8 +55,8 @@ TEST(ReferenceMode, LayersAddUp) {
 TEST(ReferenceMode, DenoiseTakesOutNoise) {
     const auto render = [](const std::string& name, const std::string& more) {
         const std::string out = scratchPath(name);
-        const CommandResult result =
-            conelight("render builtin:cornell -o '" + out + "' --mode reference --size 48x36 " + more);
+        const CommandResult result = conelight("render builtin:cornell -o '" + out +
+                                               "' --mode reference --filter center --size 48x36 " + more);
         EXPECT_EQ(result.status, 0) << result.output;
         return io::readExr(out);
     };
