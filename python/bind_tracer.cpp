@@ -11,6 +11,7 @@
 #include "calls.h"
 #include "camera_axes.h"
 #include "components.h"
+#include "reference/denoise.h"
 #include "reference/path_tracer.h"
 #include "reference/picture_layers.h"
 #include "scene_handle.h"
@@ -77,7 +78,21 @@ struct TraceRequest {
     PathTracerSettings settings;
     py::object progress;
     bool alpha = false;
+    reference::Denoiser denoiser = reference::Denoiser::None;
 };
+
+// None or False, True or 'own', 'oidn'.
+reference::Denoiser denoiserOf(const py::object& given) {
+    const std::string text = py::str(given);
+    if (text == "None" || text == "False") return reference::Denoiser::None;
+    if (text == "True" || text == "own") return reference::Denoiser::Own;
+    if (text != "oidn")
+        throw Error(ErrorKind::Usage,
+                    fmt::format("denoise: '{}' is not usable; True, 'own' or 'oidn' would be right", text));
+    if (!reference::hasOidn())
+        throw Error(ErrorKind::Usage, "denoise: this build has no Open Image Denoise; 'own' would be right");
+    return reference::Denoiser::Oidn;
+}
 
 TraceRequest requestOf(const py::kwargs& options) {
     Keywords given("reference", options);
@@ -93,6 +108,8 @@ TraceRequest requestOf(const py::kwargs& options) {
     settings.threads = given.take("threads", settings.threads);
     request.progress = given.take("progress");
     request.alpha = given.take("alpha", false);
+    request.denoiser = denoiserOf(given.take("denoise"));
+    settings.features = request.denoiser != reference::Denoiser::None;
     given.finish();
     for (const std::string& name : request.components) {
         requirePart(name);
@@ -130,6 +147,10 @@ PathTracedPicture trace(const TracerHandle& tracer, const Camera& camera, const 
     PathTracedPicture picture = unlocked(
         [&] { return tracer.tracer().render(camera, size.x, size.y, request.settings, onProgress); });
     if (failure) std::rethrow_exception(failure);
+    if (request.settings.features && picture.samplesPerPixel > 0)
+        picture = unlocked([&] {
+            return reference::denoise(picture, {request.denoiser, request.settings.threads});
+        });
     return picture;
 }
 
@@ -181,6 +202,8 @@ constexpr const char* kOptions =
     "'box', all of it ('center'). threads: 0 is all cores (0).\n"
     "components: 'full', 'direct', 'indirect', 'diffuse', 'specular'; 'half_a', 'half_b',\n"
     "'indirect_half_a', 'indirect_half_b', of half of the samples each; 'bounce1' to 'bounce64'.\n"
+    "denoise: True or 'own' takes out noise, for pictures that are no truth; 'oidn' by Open Image Denoise,\n"
+    "where it is built in (False).\n"
     "alpha: a fourth channel (False). progress: called with a Progress between rounds; False stops, and\n"
     "what there is is returned.";
 

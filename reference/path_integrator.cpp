@@ -53,6 +53,8 @@ void PathSample::clear() {
     direct = diffuse = specular = glm::vec3(0);
     std::fill(bounces.begin(), bounces.end(), glm::vec3(0));
     seen = false;
+    albedo = gloss = emission = normal = glm::vec3(0);
+    distance = 0;
 }
 
 bool PathSample::finite() const { return allFinite(direct) && allFinite(diffuse) && allFinite(specular); }
@@ -166,6 +168,22 @@ float PathIntegrator::skyWeight(const Vertex& vertex, const glm::vec3& direction
     return misWeight(value.density, surroundings_.density(direction));
 }
 
+// Features of the first surface that is more than a mirror.
+void PathIntegrator::mark(Vertex& vertex, const Reflection& reflection, PathSample& result) {
+    const Surface& s = vertex.surface;
+    const glm::vec3 albedo = s.baseColor * ((1 - s.metallic) * (1 - s.transmission));
+    const bool mirror = reflection.mirrorShare() != glm::vec3(0);
+    if (mirror && !(largest(albedo) > 0)) return;
+    vertex.unmarked = false;
+    const glm::vec3 seen = vertex.throughput;
+    const glm::vec3 gloss = seen * glm::mix(s.dielectricF0, s.baseColor, s.metallic);
+    const bool first = vertex.depth == 0;
+    result.albedo = first ? seen * albedo : glm::vec3(0);
+    result.gloss = first ? gloss : seen * albedo + gloss;
+    result.normal = s.shadingNormal;
+    result.distance = vertex.distance;
+}
+
 // The first surface along a ray. At blended surfaces and smooth panes a number decides whether it goes on.
 bool PathIntegrator::find(RayKind kind, Ray ray, const PixelTurns* pixel, Sampler& sampler,
                           Arrival& arrival) const {
@@ -238,6 +256,7 @@ bool PathIntegrator::arriveAt(Vertex& vertex, const Ray& ray, const Reflection::
     if (vertex.depth == 0) vertex.diffuseShare = shareOf(value.diffuse, value.sum());
     vertex.throughput *= reflected;
     vertex.surface = next;
+    vertex.distance += arrival.hit.t;
     vertex.toEye = -ray.direction;
     vertex.instance = arrival.hit.instance;
     vertex.mirrored = false;
@@ -297,6 +316,7 @@ void PathIntegrator::trace(const Ray& cameraRay, const PixelTurns* pixel, Sample
     Arrival arrival;
     if (!find(RayKind::Camera, cameraRay, pixel, sampler, arrival)) {
         result.direct = arrival.passed * surroundings_.radiance(glm::normalize(cameraRay.direction));
+        result.emission = result.direct;
         return;
     }
     result.seen = true;
@@ -304,11 +324,14 @@ void PathIntegrator::trace(const Ray& cameraRay, const PixelTurns* pixel, Sample
     vertex.surface = arrival.surface;
     vertex.instance = arrival.hit.instance;
     vertex.throughput = arrival.passed;
-    result.direct = arrival.passed * vertex.surface.emission;
+    vertex.distance = result.distance = arrival.hit.t;
+    result.normal = vertex.surface.shadingNormal;
+    result.direct = result.emission = arrival.passed * vertex.surface.emission;
     vertex.toEye = -cameraRay.direction;
     for (bool goesOn = !vertex.surface.unlit; goesOn;) {
         const Reflection reflection(vertex.surface, vertex.toEye);
         if (reflection.black()) return;
+        if (vertex.unmarked) mark(vertex, reflection, result);
         const glm::vec2 choices = sampler.next2(), direction = sampler.next2();
         gather(vertex, reflection, sampler, result);
         goesOn = advance(vertex, reflection, {choices, direction}, sampler, result);

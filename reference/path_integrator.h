@@ -20,7 +20,9 @@ struct PathSample {
     glm::vec3 direct{0}, diffuse{0}, specular{0};
     std::vector<glm::vec3> bounces;  // sized by the caller; bounces beyond its size are not kept
     bool seen = false;               // the camera ray met a surface
-    std::uint64_t rays = 0;          // added to
+    glm::vec3 albedo{0}, gloss{0}, emission{0}, normal{0};  // as in FeaturePictures
+    float distance = 0;
+    std::uint64_t rays = 0;  // added to
 
     void clear();
     bool finite() const;
@@ -48,6 +50,8 @@ class PathIntegrator {
         const Material* medium = nullptr;  // the solid that the path is in
         bool alone = false;                // the next direction is one that no ray to a light could have been
         bool mirrored = false;             // the next direction is that of an ideal mirror
+        bool unmarked = true;              // nothing that has features was met yet
+        float distance = 0;                // along the path from the eye, m
     };
     // Where a ray ends that goes on through smooth panes.
     struct Arrival {
@@ -63,6 +67,7 @@ class PathIntegrator {
     }
     static void add(PathSample& result, const Vertex& vertex, int bounce, const glm::vec3& light,
                     const Reflection::Value& value);
+    static void mark(Vertex& vertex, const Reflection& reflection, PathSample& result);
     bool find(RayKind kind, Ray ray, const PixelTurns* pixel, Sampler& sampler, Arrival& arrival) const;
     glm::vec3 arriving(const Vertex& vertex, const LightSample& light, bool through,
                        PathSample& result) const;

@@ -42,19 +42,36 @@ struct PixelSums {
     float seen = 0;
 };
 
+struct FeatureSums {
+    struct Half {
+        glm::vec3 albedo{0}, gloss{0}, emission{0};
+    };
+    std::array<Half, 2> half;
+    glm::vec4 normal{0};
+
+    void add(const PathSample& sample, std::size_t of) {
+        half[of].albedo += sample.albedo;
+        half[of].gloss += sample.gloss;
+        half[of].emission += sample.emission;
+        normal += glm::vec4(sample.normal, sample.distance);
+    }
+};
+
 struct Film {
     int width, height, tilesX, tilesY;
     std::vector<PixelSums> pixels;
+    std::vector<FeatureSums> features;  // empty: not asked for
     std::vector<std::vector<glm::vec3>> bounces;
     std::vector<int> tileSamples;  // taken of each pixel of the tile
 
-    Film(int w, int h, int perBounce)
+    Film(int w, int h, const PathTracerSettings& settings)
         : width(w),
           height(h),
           tilesX((w + kTile - 1) / kTile),
           tilesY((h + kTile - 1) / kTile),
           pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)),
-          bounces(static_cast<std::size_t>(perBounce), std::vector<glm::vec3>(pixels.size())),
+          features(settings.features ? pixels.size() : 0),
+          bounces(static_cast<std::size_t>(settings.perBounce), std::vector<glm::vec3>(pixels.size())),
           tileSamples(static_cast<std::size_t>(tilesX) * static_cast<std::size_t>(tilesY)) {}
 
     int samplesAt(int x, int y) const {
@@ -165,6 +182,7 @@ void Round::renderTile(int tile, PathSample& sample, std::uint64_t& bad) {
                 sums.half[half].diffuse += sample.diffuse;
                 sums.half[half].specular += sample.specular;
                 sums.seen += sample.seen ? 1.0f : 0.0f;
+                if (!film_.features.empty()) film_.features[at].add(sample, half);
                 for (std::size_t b = 0; b < sample.bounces.size(); ++b)
                     film_.bounces[b][at] += sample.bounces[b];
             }
@@ -217,12 +235,32 @@ Image emptyImage(const Film& film) {
     return {film.width, film.height, std::vector<glm::vec4>(film.pixels.size())};
 }
 
+// `halfScale`: one over the samples of a half.
+void setFeatures(FeaturePictures& pictures, const Film& film, std::size_t i, float halfScale) {
+    const FeatureSums& f = film.features[i];
+    const std::array<HalfSums, 2>& half = film.pixels[i].half;
+    pictures.albedoA.pixels[i] = {f.half[0].albedo * halfScale, 1};
+    pictures.albedoB.pixels[i] = {f.half[1].albedo * halfScale, 1};
+    pictures.glossA.pixels[i] = {f.half[0].gloss * halfScale, 1};
+    pictures.glossB.pixels[i] = {f.half[1].gloss * halfScale, 1};
+    pictures.emissionA.pixels[i] = {f.half[0].emission * halfScale, 1};
+    pictures.emissionB.pixels[i] = {f.half[1].emission * halfScale, 1};
+    pictures.diffuseA.pixels[i] = {half[0].diffuse * halfScale, 1};
+    pictures.diffuseB.pixels[i] = {half[1].diffuse * halfScale, 1};
+    pictures.normal.pixels[i] = f.normal * (0.5f * halfScale);
+}
+
 PathTracedPicture pictureOf(const Film& film) {
     PathTracedPicture p;
     for (Image* image : {&p.full, &p.direct, &p.indirect, &p.diffuse, &p.specular, &p.halfA, &p.halfB,
                          &p.indirectA, &p.indirectB})
         *image = emptyImage(film);
     p.bounces.assign(film.bounces.size(), emptyImage(film));
+    FeaturePictures& f = p.features;
+    if (!film.features.empty())
+        for (Image* image : {&f.albedoA, &f.albedoB, &f.glossA, &f.glossB, &f.emissionA, &f.emissionB,
+                             &f.normal, &f.diffuseA, &f.diffuseB})
+            *image = emptyImage(film);
     for (std::size_t i = 0; i < film.pixels.size(); ++i) {
         const int samples = film.samplesAt(static_cast<int>(i % static_cast<std::size_t>(film.width)),
                                            static_cast<int>(i / static_cast<std::size_t>(film.width)));
@@ -241,6 +279,7 @@ PathTracedPicture pictureOf(const Film& film) {
         p.halfB.pixels[i] = {b.full() * each, seen};
         for (std::size_t n = 0; n < film.bounces.size(); ++n)
             p.bounces[n].pixels[i] = {film.bounces[n][i] * all, seen};
+        if (!film.features.empty()) setFeatures(f, film, i, each);
     }
     return p;
 }
@@ -272,7 +311,7 @@ PathTracedPicture PathTracer::render(const Camera& camera, int width, int height
     const double cpuStart = base::processCpuMs(), wallStart = base::wallMs();
     const PathIntegrator integrator(impl_->scene, impl_->rays, settings);
     const Lens lens(camera, width, height);
-    Film film(width, height, settings.perBounce);
+    Film film(width, height, settings);
     const int planned = settings.samplesPerPixel + settings.samplesPerPixel % 2;
     const int cores = static_cast<int>(std::max(std::thread::hardware_concurrency(), 1u));
     const int threads = std::min(settings.threads > 0 ? settings.threads : cores, film.tilesX * film.tilesY);

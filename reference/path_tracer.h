@@ -39,7 +39,18 @@ struct PathTracerSettings {
     Estimator estimator = Estimator::Mis;
     bool emissiveQuads = true;  // as light.emissive_quads: decides what is "direct"
     int perBounce = 0;          // fill PathTracedPicture::bounces for bounces 1..perBounce
+    bool features = false;      // fill PathTracedPicture::features
     int threads = 0;            // 0: all cores
+};
+
+// What is seen, for a filter of noise (denoise.h); means over the samples of a pixel, of the halves where both
+// are named. Black where nothing is seen. Of a mirror without a diffuse part: what is seen in it.
+struct FeaturePictures {
+    Image albedoA, albedoB;  // of the diffuse part, 0..1
+    Image glossA, glossB;    // reflectance of the lobe at normal incidence; in mirrors: of all that is seen
+    Image emissionA, emissionB;  // radiance given off towards the camera, the sky's included
+    Image normal;                // shading normal, rgb; w: distance along the ray, m
+    Image diffuseA, diffuseB;    // halves of PathTracedPicture::diffuse
 };
 
 // Parts as in Component. direct: emission seen, the sky behind everything, and light that comes straight from
@@ -53,8 +64,9 @@ struct PathTracedPicture {
     // [n]: what bounce n + 1 adds to `indirect`: light of the sky and of emitters that are not direct light
     // after n + 1 reflections, all other light after n + 2. Empty unless asked for.
     std::vector<Image> bounces;
-    int samplesPerPixel = 0;  // done
-    double noise = 0;         // estimated relRMSE of full: sqrt(mean variance of the pixel means) / mean
+    FeaturePictures features;  // empty unless asked for
+    int samplesPerPixel = 0;   // done
+    double noise = 0;          // estimated relRMSE of full: sqrt(mean variance of the pixel means) / mean
     std::uint64_t rays = 0;
     std::uint64_t badSamples = 0;  // not finite: taken as black, and counted here
     double cpuSeconds = 0, wallSeconds = 0;

@@ -19,8 +19,7 @@ namespace conelight::reference {
 // returns false, no more pieces are begun. Returns whether all were done.
 inline bool parallelFor(std::size_t count, int threads,
                         const std::function<void(std::size_t, std::size_t)>& body,
-                        const std::function<bool(double)>& onWait) {
-    constexpr std::size_t kPiece = 32;
+                        const std::function<bool(double)>& onWait, std::size_t piece = 32) {
     constexpr int kWaitMs = 200;
     if (onWait && !onWait(0)) return false;
     std::atomic<std::size_t> next{0};
@@ -29,9 +28,9 @@ inline bool parallelFor(std::size_t count, int threads,
     std::condition_variable changed;
     int running = threads;
     const auto work = [&] {
-        for (std::size_t begin = next.fetch_add(kPiece); begin < count && !cancelled;
-             begin = next.fetch_add(kPiece))
-            body(begin, std::min(begin + kPiece, count));
+        for (std::size_t begin = next.fetch_add(piece); begin < count && !cancelled;
+             begin = next.fetch_add(piece))
+            body(begin, std::min(begin + piece, count));
         const std::lock_guard lock(mutex);
         --running;
         changed.notify_all();

@@ -7,6 +7,8 @@
 
 #include "command_line.h"
 #include "conelight/error.h"
+#include "conelight/quality.h"
+#include "equal_time.h"
 #include "io/image_file.h"
 #include "outputs.h"
 #include "report/report.h"
@@ -152,6 +154,90 @@ Report reportOf(const std::vector<SceneComparison>& comparisons, const SceneComp
     return report;
 }
 
+// Of --equal-time: traced at its qualities, and cones, unless other modes are asked for.
+SceneComparisonRequest equalTimeRequestOf(const CompareSceneOptions& options) {
+    SceneComparisonRequest request = requestOf(options);
+    if (options.against != "reference")
+        usage("--equal-time: the path tracer is the truth; without --against it would be right");
+    if (!options.variants.modesGiven()) {
+        request.variants.clear();
+        for (const QualityInfo& info : qualityInfos())
+            request.variants.push_back({"traced", {{"traced.quality", info.name}}});
+        request.variants.push_back({"cones", {}});
+    }
+    for (const Variant& variant : request.variants)
+        if (variant.mode == "reference")
+            usage(
+                "--modes: reference is what --equal-time holds the others against; without it would be "
+                "right");
+    return request;
+}
+
+Report reportOf(const std::vector<EqualTimeScene>& scenes, const SceneComparisonRequest& request) {
+    Report report;
+    ReportTable table{"Equal CPU time",
+                      "",
+                      {{"scene"}, {"picture"}, {"samples"}, {"CPU", "s"}, {"relRMSE", "%", 1}, {"relMSE"}},
+                      {}};
+    for (const EqualTimeScene& one : scenes) {
+        report.title += (report.title.empty() ? "" : ", ") + one.scene;
+        ReportView view;
+        view.name = one.scene;
+        view.exposure = request.metrics.exposure;
+        view.toneMap = getSetting(Settings{}, "image.tone_map");
+        for (const EqualTimeVariant& row : one.variants) {
+            const std::string label = row.variant.label();
+            const std::pair<std::string, const EqualTimePicture*> pictures[] = {
+                {label, &row.mode},
+                {label + ": path tracer", &row.plain},
+                {label + ": denoised", &row.denoised}};
+            for (const auto& [name, picture] : pictures) {
+                const reference::Metrics& m = picture->metrics;
+                view.pictures.push_back({name, picture->drawn.image, m, {}, {}});
+                table.rows.push_back({one.scene, name, double(picture->samplesPerPixel),
+                                      picture->drawn.cpuSeconds, m.relRmse, m.relMse});
+            }
+        }
+        view.reference = view.pictures.size();
+        view.pictures.push_back({"reference", one.reference.full, {}, {}, {}});
+        report.views.push_back(std::move(view));
+    }
+    report.title += ": at equal CPU time";
+    report.commands = {commandLine()};
+    report.tables.push_back(std::move(table));
+    return report;
+}
+
+void compareEqualTime(const CompareSceneOptions& options) {
+    const SceneComparisonRequest request = equalTimeRequestOf(options);
+    const std::string &jsonFile = options.comparison.jsonFile, &folder = options.comparison.report;
+    std::vector<std::string> inputs = options.scenes;
+    inputs.insert(inputs.end(), {options.referenceFile, options.view.preset, options.view.environment});
+    checkOutputs({{"--json", jsonFile, OutputKind::Json}}, inputs);
+    if (!folder.empty()) prepareReport(folder, inputs);
+    Progress progress;
+    const bool withFlip = request.metrics.flip;
+    std::vector<EqualTimeScene> scenes;
+    std::vector<std::string> broken;
+    ordered_json json = {{"version", 1}, {"command", commandLine()}};
+    json["scenes"] = ordered_json::array();
+    for (const std::string& name : options.scenes) {
+        const Scene scene = openScene(name, options.view, progress);
+        const EqualTimeScene done = compareAtEqualTime(scene, name, request, options.viewWords(), progress);
+        progress.finish();
+        if (jsonFile != "-") printEqualTime(done, withFlip);
+        json["scenes"].push_back(equalTimeJson(done, withFlip));
+        for (const EqualTimeVariant& row : done.variants)
+            for (const std::string& one : options.comparison.bars.brokenBy(row.mode.metrics))
+                broken.push_back(fmt::format("{} {} full: {}", name, row.variant.label(), one));
+        if (!folder.empty()) scenes.push_back(done);
+    }
+    json["broken_bars"] = broken;
+    if (!jsonFile.empty()) writeComparisonJson(jsonFile, json);
+    if (!folder.empty()) writeReport(folder, reportOf(scenes, request));
+    requireBars("compare", broken);
+}
+
 }  // namespace
 
 void CompareSceneOptions::addTo(CLI::App& command) {
@@ -185,16 +271,35 @@ void CompareSceneOptions::addTo(CLI::App& command) {
     command.add_option("--timed", timedFrames, "frames whose cost is measured; 0: none")
         ->capture_default_str()
         ->check(CLI::Range(0, 10000));
+    command.add_flag("--equal-time", equalTime,
+                     "each mode's still against the path tracer, plain and denoised, that is given the same "
+                     "CPU time, start included (modes: traced at its qualities, and cones)");
     tracer.addTo(command,
                  "what a pixel shows, in the reference and in every mode: center (one point of it, the "
                  "default) or box (its "
                  "area; image.antialiasing of the modes is 16 unless set)");
+    const std::size_t beforeView = command.get_options().size();
     view.addTo(command);
     const std::vector<CLI::Option*> all = command.get_options();
+    ofView_.assign(all.begin() + std::ptrdiff_t(beforeView), all.end());
     for (std::size_t i = before; i < all.size(); ++i) all[i]->group("Scenes");
 }
 
+std::vector<std::string> CompareSceneOptions::viewWords() const {
+    std::vector<std::string> words;
+    for (const CLI::Option* option : ofView_) {
+        const std::string name = option->get_name();
+        if (option->count() == 0 || name == "--size") continue;
+        const bool isFlag = option->get_items_expected_max() == 0;
+        if (isFlag) words.push_back(name);
+        if (isFlag) continue;
+        for (const std::string& value : option->results()) words.insert(words.end(), {name, value});
+    }
+    return words;
+}
+
 void compareScene(const CompareSceneOptions& options) {
+    if (options.equalTime) return compareEqualTime(options);
     const SceneComparisonRequest request = requestOf(options);
     const std::string& jsonFile = options.comparison.jsonFile;
     const std::string& folder = options.comparison.report;

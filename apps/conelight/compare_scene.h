@@ -25,12 +25,18 @@ struct CompareSceneOptions {
     std::string barsOn = "full";
     int frames = 1;
     int timedFrames = 3;
+    bool equalTime = false;
     TracerOptions tracer;
     ViewOptions view;
     ComparisonOptions comparison;  // filled by compare.cpp, which owns the options of both forms
 
     // Options of this form alone; with two pictures they are wrong usage.
     void addTo(CLI::App& command);
+    // Options given that say what is seen, as words of `render`.
+    std::vector<std::string> viewWords() const;
+
+  private:
+    std::vector<const CLI::Option*> ofView_;
 };
 
 void compareScene(const CompareSceneOptions& options);

@@ -231,10 +231,13 @@ reference::PathTracedPicture PictureSource::Impl::trace(const PictureRequest& re
     }
     reference::PathTracerSettings settings = request.reference;
     settings.emissiveQuads = request.settings.light.emissiveQuads;
+    settings.features = request.denoiser != reference::Denoiser::None;
     reference::PathTracedPicture traced =
         program::trace(*tracer, request.camera, request.size, settings, progress);
     picture.stopped = interrupted();
-    return traced;
+    if (!settings.features || traced.samplesPerPixel == 0) return traced;
+    show(progress, "taking out noise");
+    return reference::denoise(traced, {request.denoiser, 0});
 }
 
 void PictureSource::Impl::drawTraced(const PictureRequest& request, Picture& picture, Progress* progress) {

@@ -12,6 +12,7 @@
 #include "command.h"
 #include "conelight/renderer.h"
 #include "reference/beam_tracer.h"
+#include "reference/denoise.h"
 #include "reference/path_tracer.h"
 #include "reference/radiosity.h"
 #include "session/session.h"
@@ -32,7 +33,8 @@ struct PictureRequest {
     Camera camera;
     Size size;
     std::vector<Component> components = {Component::Full};
-    reference::PathTracerSettings reference;  // also of the reflections on top of radiosity
+    reference::PathTracerSettings reference;                   // also of the reflections on top of radiosity
+    reference::Denoiser denoiser = reference::Denoiser::None;  // of what is path-traced; never of a truth
     reference::RadiositySettings radiosity;
     bool radiositySpecular = false;  // reflections on top
     int lampPoints = 4;              // mode beams: of lamps with an area, along each side

@@ -60,6 +60,8 @@ PictureTexts provenanceOf(const PictureRequest& request, const std::string& scen
     if (request.mode == "reference" && request.reference.samplesPerPixel > 0) {
         texts.emplace_back("Samples", std::to_string(request.reference.samplesPerPixel));
         texts.emplace_back("Seed", std::to_string(request.reference.seed));
+        if (request.denoiser != reference::Denoiser::None)
+            texts.emplace_back("Denoiser", request.denoiser == reference::Denoiser::Own ? "own" : "oidn");
     } else if (request.mode == "radiosity") {
         texts.emplace_back("Seed", std::to_string(request.radiosity.seed));
     }

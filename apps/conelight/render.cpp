@@ -197,6 +197,7 @@ nlohmann::ordered_json statsOf(const RenderOptions& options, const PictureReques
         json = tracedJson(*picture.traced);
     else
         json = statsJson(picture.stats);
+    if (request.denoiser != reference::Denoiser::None) json["denoiser"] = options.tracer.denoiser;
     if (picture.baked) json["radiosity"] = bakeJson(*picture.baked);
     if (picture.beams) json["beams"] = beamsJson(*picture.beams);
     json["scene"] = options.scene;
@@ -226,6 +227,7 @@ PictureRequest requestOf(const RenderOptions& options) {
     request.size = parseSize(options.view.size);
     request.profile = !options.statsFile.empty();
     request.reference = options.tracer.settings();
+    request.denoiser = options.tracer.denoises();
     const bool filters = options.mode == "reference" || options.mode == "beams";
     if (filters && !options.tracer.filterGiven() && options.view.stillViews != 0)
         request.reference.filter = reference::PixelFilter::Box;
@@ -410,6 +412,7 @@ void addFilmOptions(CLI::App& command, RenderOptions& options) {
 void addCpuOptions(CLI::App& command, RenderOptions& options) {
     options.tracer.addTo(
         command, "modes reference and beams: box (a pixel's area, the default) or center (one point of it)");
+    options.tracer.addDenoiseTo(command);
     options.radiosity.addTo(command);
     command
         .add_option("--lamp-points", options.lampPoints,

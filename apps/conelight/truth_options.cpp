@@ -17,7 +17,8 @@ constexpr int kSamplesUntilQuiet = 65536;
 
 std::string firstGiven(const CLI::App* command, std::initializer_list<const char*> names) {
     for (const char* name : names)
-        if (command != nullptr && command->count(name) > 0) return name;
+        if (command != nullptr && command->get_option_no_throw(name) != nullptr && command->count(name) > 0)
+            return name;
     return {};
 }
 
@@ -61,6 +62,26 @@ void TracerOptions::addTo(CLI::App& command, const std::string& filterHelp) {
         ->type_name("NAME");
 }
 
+void TracerOptions::addDenoiseTo(CLI::App& command) {
+    command_ = &command;
+    command
+        .add_flag(
+            "--denoise{own}", denoiser,
+            "mode reference: take out noise; --denoise=oidn by Open Image Denoise, where it is built in")
+        ->type_name("NAME");
+}
+
+reference::Denoiser TracerOptions::denoises() const {
+    if (denoiser.empty()) return reference::Denoiser::None;
+    if (denoiser == "own") return reference::Denoiser::Own;
+    if (denoiser != "oidn")
+        throw Error(ErrorKind::Usage,
+                    "--denoise: '" + denoiser + "' is not usable; own or oidn would be right");
+    if (!reference::hasOidn())
+        throw Error(ErrorKind::Usage, "--denoise: this build has no Open Image Denoise; own would be right");
+    return reference::Denoiser::Oidn;
+}
+
 reference::PathTracerSettings TracerOptions::settings() const {
     reference::PathTracerSettings result;
     result.seed = seed;
@@ -83,7 +104,7 @@ reference::PathTracerSettings TracerOptions::settings() const {
 }
 
 std::string TracerOptions::given() const {
-    return firstGiven(command_, {"--spp", "--noise", "--paths", "--filter", "--seed"});
+    return firstGiven(command_, {"--spp", "--noise", "--denoise", "--paths", "--filter", "--seed"});
 }
 
 void RadiosityOptions::addTo(CLI::App& command) {

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "conelight/settings.h"
+#include "reference/denoise.h"
 #include "reference/path_tracer.h"
 #include "reference/radiosity.h"
 
@@ -22,9 +23,14 @@ struct TracerOptions {
     std::uint32_t seed = 1;
     std::string filter = "center";
     std::string paths = "all";
+    std::string denoiser;
 
     // `filterHelp`: what --filter does there.
     void addTo(CLI::App& command, const std::string& filterHelp);
+    // --denoise; of commands whose picture is no truth.
+    void addDenoiseTo(CLI::App& command);
+    // Throws Error(Usage), also for one that is not built in.
+    reference::Denoiser denoises() const;
     bool filterGiven() const { return command_ != nullptr && command_->count("--filter") > 0; }
     // The settings asked for; throws Error(Usage). Without --spp: 256, or with --noise as many as it takes.
     reference::PathTracerSettings settings() const;

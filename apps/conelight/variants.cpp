@@ -46,9 +46,10 @@ Settings Variant::settingsFor(const Scene& scene, const ViewOptions& view) const
 
 void VariantOptions::addTo(CLI::App& command, const std::string& defaultModes) {
     modes = defaultModes;
-    command.add_option("--modes", modes, "what is drawn: " + modeNames() + ", comma-separated")
-        ->capture_default_str()
-        ->type_name("A,B");
+    modesOption_ =
+        command.add_option("--modes", modes, "what is drawn: " + modeNames() + ", comma-separated")
+            ->capture_default_str()
+            ->type_name("A,B");
     command.add_option("--vary", varies, "a setting and its values, each with every mode; may be repeated")
         ->type_name("KEY=A,B")
         ->allow_extra_args(false);

@@ -26,9 +26,13 @@ struct VariantOptions {
     std::vector<std::string> varies;
 
     void addTo(CLI::App& command, const std::string& defaultModes);
+    bool modesGiven() const { return modesOption_ != nullptr && modesOption_->count() > 0; }
     // Every mode with every combination of the values. Keys that start with the name of a mode belong to
     // that mode alone, those of cones to hybrid, too. Throws Error(Usage).
     std::vector<Variant> variants() const;
+
+  private:
+    const CLI::Option* modesOption_ = nullptr;
 };
 
 }  // namespace conelight::program

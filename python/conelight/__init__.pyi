@@ -253,6 +253,7 @@ class PathTracer:
     def render(self, camera: Camera, size: tuple[int, int], *, samples: int = 256, noise: float = 0.0,
                bounces: int | Literal["all"] = "all", seed: int = 1, filter: Literal["center", "box"] = "center",
                threads: int = 0, components: str | Sequence[str] = "full", alpha: bool = False,
+               denoise: bool | Literal["own", "oidn"] = False,
                progress: Callable[[Progress], bool | None] | None = None) -> dict[str, Floats]: ...
     def surfaces(self, camera: Camera, size: tuple[int, int]) -> Surfaces: ...
     @property
@@ -261,6 +262,7 @@ class PathTracer:
 def reference(scene: Scene, camera: Camera, size: tuple[int, int], *, samples: int = 256, noise: float = 0.0,
               bounces: int | Literal["all"] = "all", seed: int = 1, filter: Literal["center", "box"] = "center",
               threads: int = 0, components: str | Sequence[str] = "full", alpha: bool = False,
+              denoise: bool | Literal["own", "oidn"] = False,
               progress: Callable[[Progress], bool | None] | None = None) -> dict[str, Floats]: ...
 def compare(test: ArrayLike, reference: ArrayLike, *, halves: Iterable[ArrayLike] | None = None,
             exposure: float = 0.0, pixels_per_degree: float = 67.02, flip: bool = True) -> dict[str, float]: ...

@@ -57,6 +57,34 @@ TEST_F(CompareSceneTest, KnownErrorsOfTheFurnace) {
     EXPECT_NEAR(components["full"]["bias"].get<double>(), -0.5, 0.02);
 }
 
+TEST_F(CompareSceneTest, EqualTimeGivesThePathTracerTheTimeOfTheMode) {
+    const nlohmann::json json = compared("builtin:cornell --modes cones --equal-time --set voxels.size=32");
+    const auto& variant = json["scenes"][0]["variants"][0];
+    EXPECT_EQ(variant["label"], "cones");
+    const auto& equal = variant["equal_time"];
+    EXPECT_GT(equal["cpu_seconds"].get<double>(), 0.0);
+    EXPECT_NE(equal["command"].get<std::string>().find("--set voxels.size=32"), std::string::npos);
+    for (const char* which : {"path_tracer", "denoised"}) {
+        const auto& one = equal[which];
+        EXPECT_GE(one["samples_per_pixel"].get<int>(), 2);
+        // The machine is shared: the same work takes a quarter more at other times.
+        EXPECT_NEAR(one["ratio"].get<double>(), 1, 0.3) << which;
+        EXPECT_NEAR(one["cpu_seconds"].get<double>() / equal["cpu_seconds"].get<double>(),
+                    one["ratio"].get<double>(), 1e-6);
+        EXPECT_GT(one["components"]["full"]["relmse"].get<double>(), 0.0);
+        const bool denoised = one["command"].get<std::string>().find("--denoise") != std::string::npos;
+        EXPECT_EQ(denoised, std::string(which) == "denoised");
+    }
+    const double mode = variant["components"]["full"]["relmse"].get<double>();
+    const double best = std::min(equal["path_tracer"]["components"]["full"]["relmse"].get<double>(),
+                                 equal["denoised"]["components"]["full"]["relmse"].get<double>());
+    EXPECT_NEAR(equal["factor"].get<double>(), best / mode, 1e-6 * best / mode);
+    EXPECT_EQ(equal["least_relmse"] == "mode", best > mode);
+    EXPECT_NE(output_.find("path tracer, denoised"), std::string::npos) << output_;
+    EXPECT_EQ(
+        conelight(std::string("compare builtin:cornell --modes reference --equal-time") + kSmall).status, 2);
+}
+
 TEST_F(CompareSceneTest, BarsDecideTheExitStatus) {
     compared("builtin:cornell --modes phong --voxels 16 --max-relrmse 100");
     const nlohmann::json json =

@@ -51,6 +51,45 @@ TEST(ReferenceMode, LayersAddUp) {
     EXPECT_LT(bounces, indirect);
 }
 
+// The picture with less noise is nearer to a better one; its file says what was done.
+TEST(ReferenceMode, DenoiseTakesOutNoise) {
+    const auto render = [](const std::string& name, const std::string& more) {
+        const std::string out = scratchPath(name);
+        const CommandResult result = conelight("render builtin:cornell -o '" + out +
+                                               "' --mode reference --filter center --size 48x36 " + more);
+        EXPECT_EQ(result.status, 0) << result.output;
+        return io::readExr(out);
+    };
+    const std::string stats = scratchPath("denoise.json");
+    const io::FloatImage truth = render("denoise_truth.exr", "--spp 512 --seed 9");
+    const io::FloatImage noisy = render("denoise_noisy.exr", "--spp 16");
+    const io::FloatImage clean = render("denoise_clean.exr", "--spp 16 --denoise --stats '" + stats + "'");
+    const auto error = [&](const io::FloatImage& image) {
+        double sum = 0;
+        for (std::size_t i = 0; i < truth.pixels.size(); ++i)
+            sum += std::pow(static_cast<double>(image.pixels[i] - truth.pixels[i]), 2);
+        return sum;
+    };
+    EXPECT_LT(error(clean), 0.25 * error(noisy));
+    const nlohmann::json said = nlohmann::json::parse(bytesOf(stats));
+    EXPECT_EQ(said["denoiser"], "own");
+    EXPECT_EQ(said["samples_per_pixel"], 16);
+    std::string denoiser;
+    for (const auto& [name, text] : clean.attributes)
+        if (name.find("Denoiser") != std::string::npos) denoiser = text;
+    EXPECT_EQ(denoiser, "own");
+}
+
+TEST(ReferenceMode, DenoiseIsRefusedWhereItMeansNothing) {
+    for (const char* words : {"--mode cones --denoise", "--mode reference --denoise=best"}) {
+        const CommandResult result =
+            conelight(std::string("render builtin:cornell -o '") + scratchPath("no.exr") + "' " + words);
+        EXPECT_EQ(result.status, 2) << result.output;
+        EXPECT_NE(result.output.find("--denoise"), std::string::npos) << result.output;
+    }
+    EXPECT_EQ(conelight("compare builtin:cornell --denoise").status, 2);  // a truth is never denoised
+}
+
 TEST(ReferenceMode, SameSeedSameBytesAndAnotherSeedAnotherPicture) {
     const auto render = [](const std::string& name, const std::string& more) {
         const std::string out = scratchPath(name);
