@@ -60,7 +60,7 @@ TEST(Denoise, LeavesATenthOfTheErrorInADiffuseRoom) {
     EXPECT_NEAR(drop.said, drop.left, 0.15 * drop.noise);
 }
 
-TEST(Denoise, LeavesATenthOfTheErrorAmongTexturesAndEdges) {
+TEST(Denoise, LeavesAnEighthOfTheErrorAmongTexturesAndEdges) {
     for (const PixelFilter filter : {PixelFilter::Center, PixelFilter::Box}) {
         const Drop drop = dropOf("builtin:study", 32, 512, filter);
         EXPECT_GT(drop.squared, 8);

@@ -33,6 +33,11 @@ class Truth(ErrorCase):
         for name, picture in pictures.items():
             np.testing.assert_array_equal(picture, wanted[name], name)
 
+    def test_denoise(self):
+        truth, noisy, clean = trace(samples=256, seed=9)["full"], trace()["full"], trace(denoise=True)["full"]
+        self.assertLess(np.mean((clean - truth) ** 2), 0.5 * np.mean((noisy - truth) ** 2))
+        self.assert_error("usage", "denoise", trace, denoise="best")
+
     def test_seeds_and_threads(self):
         one = trace(threads=1)["full"]
         np.testing.assert_array_equal(one, trace(threads=2)["full"])
