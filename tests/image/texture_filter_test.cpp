@@ -14,11 +14,11 @@ constexpr int kTexels = 256;
 class TextureFilterTest : public TracedModeTest {
   protected:
     // A floor of 8 m under a steep sun, seen along z from a height of 0.4 m.
-    static Scene floor(const Material& material, Texture texture) {
+    static Scene floor(const Material& material, Texture texture, float repeats = 1) {
         Scene scene;
         scene.textures.push_back(std::move(texture));
         Mesh mesh = quadMesh({-4, 0, 4}, {8, 0, 0}, {0, 0, -8});
-        mesh.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
+        mesh.uvs = {{0, 0}, {repeats, 0}, {repeats, repeats}, {0, repeats}};
         mesh.tangents.assign(4, glm::vec4(1, 0, 0, 1));
         addInstance(scene, std::move(mesh), material);
         Light sun;
@@ -67,17 +67,18 @@ TEST_F(TextureFilterTest, StripesAtASlantKeepTheirContrast) {
     EXPECT_LT(relRmse(direct(scene), truthOf(scene)), 0.08);
 }
 
-// Grooves of 45 degrees to both sides, finer than a pixel: half of the light of a flat floor is not there.
+// Grooves of 45 degrees to both sides, finer than a pixel, are darker than a flat floor. Between texels the path tracer
+// has normals in between, as long as any.
 TEST_F(TextureFilterTest, NormalsFinerThanAPixelDarken) {
+    constexpr float kRepeats = 16;
+    const glm::u8vec3 up(128, 128, 255), left(38, 128, 218), right(218, 128, 218);
     Material material = diffuseMaterial(glm::vec3(0.5f));
-    const Scene flat =
-        floor(material, stripes("none", false, {glm::u8vec3(128, 128, 255), glm::u8vec3(128, 128, 255)}, 2));
+    const double flat = meanOf(truthOf(floor(material, stripes("flat", false, {up, up}, 8), kRepeats)));
     material.normalTexture.texture = 0;
-    const Scene scene = floor(
-        material, stripes("grooves", false, {glm::u8vec3(218, 128, 218), glm::u8vec3(38, 128, 218)}, 2));
+    const Scene scene = floor(material, stripes("grooves", false, {left, right}, 8), kRepeats);
     const double truth = meanOf(truthOf(scene));
-    EXPECT_LT(truth, 0.8 * meanOf(truthOf(flat)));
-    EXPECT_NEAR(meanOf(direct(scene)) / truth, 1, 0.02);
+    EXPECT_LT(truth, 0.85 * flat);
+    EXPECT_NEAR(meanOf(direct(scene)) / truth, 1, 0.06);
 }
 
 }  // namespace
