@@ -100,6 +100,8 @@ void TemporalPicture::follow(const Shown& shown) {
         worldFromObject_.size() != scene.instances().size())
         frame_ = 0;
     followInstances(scene);
+    // Objects that come and go leave nothing of themselves behind.
+    if (from_.geometry != now.geometry && !moved_) frame_ = 0;
     still_ = frame_ > 0 && from_ == now && camera_ == shown.camera;
     camera_ = shown.camera;
     settings_ = settings;

@@ -224,9 +224,8 @@ std::vector<Setting<ImageSettings>> imageSettings() {
          "view, of the pixels' centres"},
         {"temporal", &ImageSettings::temporal, kToggles,
          "smooth edges of moving pictures: each picture is a view at an offset within a pixel, added to "
-         "those "
-         "before, which follow what moves; takes the place of antialiasing; auto: on in the viewer, else "
-         "off"},
+         "those before, which follow what moves; takes the place of antialiasing; auto: on in the viewer in "
+         "modes other than traced, else off"},
         {"bloom", &ImageSettings::bloom, Numbers{0, 1}, "",
          "part of the light that spreads about where it falls, as in an eye or a lens; of 8-bit pictures, "
          "not "

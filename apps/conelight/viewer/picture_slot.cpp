@@ -34,16 +34,19 @@ constexpr double kFlyingUpdateMs = 25;
 // Smooth edges are the mean of so many pictures of a view at rest (by eye: later ones hardly change it).
 constexpr int kSmoothingFrames = 8;
 
-bool smoothsEdges(const Settings& settings) {
+// Unless asked for not in mode traced: its light settles over frames, and a mean over them would keep what is not settled.
+bool smoothsEdges(const std::string& mode, const Settings& settings) {
     const Component component = settings.component;
     const bool ofLight = component == Component::Full || component == Component::Direct ||
                          component == Component::Indirect || component == Component::Diffuse ||
                          component == Component::Specular;
-    return settings.image.temporal != Toggle::Off && ofLight;
+    const bool wanted = settings.image.temporal == Toggle::On ||
+                        (settings.image.temporal == Toggle::Auto && mode != "traced");
+    return wanted && ofLight;
 }
 
 int settlingFrames(const std::string& mode, const Settings& settings) {
-    return mode == "traced" ? kSettlingFrames : smoothsEdges(settings) ? kSmoothingFrames : 1;
+    return mode == "traced" ? kSettlingFrames : smoothsEdges(mode, settings) ? kSmoothingFrames : 1;
 }
 
 // What the picture depends on; selection and the list of cameras are not part of it.
@@ -250,7 +253,7 @@ bool PictureSlot::Impl::drawScene(const Session& session, const std::string& dra
     Settings settings = session.shownSettings();
     conelight::setSetting(settings, "mode", drawnMode);
     settings.traced.budgeted = true;  // the window stays live; the picture settles over frames
-    if (smoothsEdges(settings)) settings.image.temporal = Toggle::On;
+    settings.image.temporal = smoothsEdges(drawnMode, settings) ? Toggle::On : Toggle::Off;
     const int faces = flyingFaces.faces();
     flyingUpdate = how.flying && faces > 0;
     if (flyingUpdate && (settings.traced.faceBudget == 0 || settings.traced.faceBudget > faces))
