@@ -53,6 +53,8 @@ class Camera:
     vfov: float
     near: float
     far: float
+    lens_diameter: float
+    focus_distance: float
     name: str
     def __init__(self, eye: ArrayLike, target: ArrayLike, up: ArrayLike = (0, 1, 0), vfov: float = 0.78539816, *,
                  near: float = 0.01, far: float = 1000.0) -> None: ...

@@ -69,7 +69,7 @@ TEST(Shell, TheManualPageHasEveryOptionAndNoWarning) {
         for (std::string line; std::getline(help, line);) {
             const std::size_t at = line.find("--");
             if (at > 8 || line.rfind("  -", 0) != 0) continue;
-            const std::string name = line.substr(at, line.find_first_of(" ,=", at) - at);
+            const std::string name = line.substr(at, line.find_first_of(" ,={", at) - at);
             EXPECT_NE(page.find("\\fB" + name + "\\fR"), std::string::npos) << command << " " << name;
             ++options;
         }

@@ -93,7 +93,7 @@ void expectEveryFieldCounts(std::vector<T> Scene::*table, std::size_t fields) {
 TEST(SceneFields, EveryOneOfALightCounts) { expectEveryFieldCounts(&Scene::lights, 14); }
 TEST(SceneFields, EveryOneOfAMaterialCounts) { expectEveryFieldCounts(&Scene::materials, 25); }
 TEST(SceneFields, EveryOneOfAnInstanceCounts) { expectEveryFieldCounts(&Scene::instances, 8); }
-TEST(SceneFields, EveryOneOfACameraCounts) { expectEveryFieldCounts(&Scene::cameras, 7); }
+TEST(SceneFields, EveryOneOfACameraCounts) { expectEveryFieldCounts(&Scene::cameras, 9); }
 
 TEST(SceneFields, PhongValuesOfAMaterialCount) {
     Scene plain;
