@@ -56,16 +56,6 @@ double waitFor(pid_t process, int& status) {
     return seconds(used.ru_utime) + seconds(used.ru_stime);
 }
 
-std::string lastLine(const fs::path& log) {
-    std::ifstream file(log);
-    std::string line, last;
-    while (std::getline(file, line))
-        if (!line.empty()) last = line;
-    constexpr std::string_view kName = "conelight: ";
-    if (last.rfind(kName, 0) == 0) last.erase(0, kName.size());
-    return io::oneLine(last, 300);
-}
-
 }  // namespace
 
 ScratchFolder::ScratchFolder() {

@@ -46,6 +46,15 @@ ScoreReport::ScoreReport(std::string score, std::string unit, const ScoreOptions
     json_["runs"] = nlohmann::ordered_json::array();
 }
 
+PictureRequest requestOf(const Variant& variant, const Scene& scene, const ViewOptions& view) {
+    PictureRequest request;
+    request.mode = variant.mode;
+    request.settings = variant.settingsFor(scene, view);
+    request.camera = cameraFor(scene, view);
+    request.size = parseSize(view.size);
+    return request;
+}
+
 void ScoreReport::add(const std::string& what, double value, nlohmann::ordered_json json) {
     ++count_;
     json_["runs"].push_back(std::move(json));

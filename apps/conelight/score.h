@@ -35,6 +35,9 @@ struct ScoreOptions {
     std::vector<Variant> checked(const char* score, bool rendererModesOnly) const;
 };
 
+// What a variant draws of a scene's view; components are left to the score.
+PictureRequest requestOf(const Variant& variant, const Scene& scene, const ViewOptions& view);
+
 // Collects the values of one score; prints, writes and judges them.
 class ScoreReport {
   public:

@@ -107,11 +107,7 @@ void run(const ConvergenceOptions& options) {
         const Scene scene = openScene(path, options.view, progress);
         const Switch light = switchOf(scene, options.light);
         for (const Variant& variant : variants) {
-            PictureRequest request;
-            request.mode = variant.mode;
-            request.settings = variant.settingsFor(scene, options.view);
-            request.camera = cameraFor(scene, options.view);
-            request.size = parseSize(options.view.size);
+            PictureRequest request = requestOf(variant, scene, options.view);
             Convergence one{options, light,
                             Session(scene, path, request.settings, variant.mode, request.camera), request,
                             progress};

@@ -104,11 +104,7 @@ void run(const EdgesOptions& options) {
         const Scene scene = openScene(path, options.view, progress);
         source.setScene(scene);
         for (const Variant& variant : variants) {
-            PictureRequest request;
-            request.mode = variant.mode;
-            request.settings = variant.settingsFor(scene, options.view);
-            request.camera = cameraFor(scene, options.view);
-            request.size = parseSize(options.view.size);
+            PictureRequest request = requestOf(variant, scene, options.view);
             request.components = {componentOf(options.component)};
             const Edges edges = edgesOf(source, request, options, progress);
             table.add({path, variant.label(), percent(edges.stairs), percent(edges.rest),

@@ -55,11 +55,7 @@ void run(const ShiftOptions& options) {
         const Scene scene = openScene(path, options.view, progress);
         source.setScene(scene);
         for (const Variant& variant : variants) {
-            PictureRequest request;
-            request.mode = variant.mode;
-            request.settings = variant.settingsFor(scene, options.view);
-            request.camera = cameraFor(scene, options.view);
-            request.size = parseSize(options.view.size);
+            PictureRequest request = requestOf(variant, scene, options.view);
             request.components = {Component::Full, Component::Indirect};
             const std::vector<Change> changes = changesOf(source, request, options.count, progress);
             const Change &full = changes[0], &indirect = changes[1];

@@ -306,8 +306,8 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
     sum = DirectLight(sum.irradiance + added.irradiance, sum.specular + added.specular);
 }
 
-// Runs `statement` for every light of one kind: `light`, with its `number` in the table, begin..end. The table begins with `before`
-// lights of other kinds and has `count` of this one when LIGHTS_FIXED.
+// Runs `statement` for every light of one kind: `light`, with its `number` in the table, begin..end. The table
+// begins with `before` lights of other kinds and has `count` of this one when LIGHTS_FIXED.
 #if LIGHTS_FIXED
 #if LIGHTS_TOTAL > 4
 #error more lights than FOR_LIGHTS unrolls

@@ -53,10 +53,8 @@ void VisibilityInputs::declare(gl::Inputs& inputs) const {
 }
 
 bool PixelVisibility::serves(const scene::GpuScene& scene, const light::Lights& lights) {
-    const light::LightKey key = lights.key();
-    const bool punctual = key.point + key.spot + key.directional > 0;
     constexpr std::uint32_t kBoth = INSTANCE_CASTS_SHADOW | INSTANCE_VOXELIZED;
-    return punctual && key.shadows && key.filter == 0 &&
+    return lights.key().hasSharpShadows() &&
            std::none_of(scene.instances().begin(), scene.instances().end(),
                         [](const gpu::Instance& i) { return (i.flags & kBoth) == INSTANCE_CASTS_SHADOW; });
 }

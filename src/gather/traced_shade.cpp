@@ -47,12 +47,6 @@ gl::ProgramDesc ShadeKey::desc() const {
     return StepRecorder::variant(std::move(desc));
 }
 
-// As PixelVisibility::serves.
-bool mayHaveVisibility(const PictureParts& parts, const light::LightKey& lights) {
-    return parts.direct && lights.shadows && lights.filter == 0 &&
-           lights.point + lights.spot + lights.directional > 0;
-}
-
 std::vector<ShadeKey> ShadeKey::all() {
     std::vector<ShadeKey> keys;
     // The sums that components are made of (partsOf), each as its parts are known.
@@ -63,7 +57,7 @@ std::vector<ShadeKey> ShadeKey::all() {
             if ((irradiance && !gathers) || (lobe && !parts.specular)) continue;
             ShadeKey key{parts, irradiance, lobe, (bits & 4) == 0, (bits & 8) != 0, lights};
             for (const bool visibility : {false, true}) {
-                if (visibility && !mayHaveVisibility(parts, lights)) continue;
+                if (visibility && !(parts.direct && lights.hasSharpShadows())) continue;
                 key.visibility = visibility;
                 keys.push_back(key);
                 // Without direct light, lights are not told.

@@ -22,6 +22,8 @@ struct LightKey {
 
     // `ends`: of the kinds in the sorted light table.
     static LightKey of(const glm::uvec4& ends, bool shadows, int filter);
+    // Lights without extent whose shadow maps answer yes or no: without a filter.
+    bool hasSharpShadows() const { return shadows && filter == 0 && point + spot + directional > 0; }
     gl::Defines defines() const;
     static std::vector<LightKey> all();  // but those with filter -1, which hits ask for
     auto operator<=>(const LightKey&) const = default;

@@ -66,17 +66,6 @@ Running start(const BatchTask& task, std::size_t number, BatchFolder& folder) {
     return running;
 }
 
-// Of the log, as in "conelight: mode: there is no ...".
-std::string lastLine(const fs::path& log) {
-    std::ifstream file(log);
-    std::string line, last;
-    while (std::getline(file, line))
-        if (!line.empty()) last = line;
-    constexpr std::string_view kName = "conelight: ";
-    if (last.rfind(kName, 0) == 0) last.erase(0, kName.size());
-    return io::oneLine(last, 300);
-}
-
 // Why a call failed; empty when it did not.
 std::string failureOf(int status, const fs::path& log) {
     if (WIFSIGNALED(status)) return fmt::format("ended by signal {}", WTERMSIG(status));
@@ -170,6 +159,16 @@ class Work {
 };
 
 }  // namespace
+
+std::string lastLine(const fs::path& log) {
+    std::ifstream file(log);
+    std::string line, last;
+    while (std::getline(file, line))
+        if (!line.empty()) last = line;
+    constexpr std::string_view kName = "conelight: ";
+    if (last.rfind(kName, 0) == 0) last.erase(0, kName.size());
+    return io::oneLine(last, 300);
+}
 
 std::string ownProgram() {
     std::error_code code;

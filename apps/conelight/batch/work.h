@@ -3,6 +3,7 @@
 // of memory takes no other with it.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -22,5 +23,7 @@ BatchOutcome carryOut(const std::vector<BatchTask>& tasks, BatchFolder& folder, 
 
 // The program's own file, for calls of it.
 std::string ownProgram();
+// Of the log of a call of the program, without its name: as in "mode: there is no ...".
+std::string lastLine(const std::filesystem::path& log);
 
 }  // namespace conelight::program
