@@ -86,8 +86,16 @@ TEST_F(ThesisOctreeTest, PublishedPictures) {
                           "thesis.defects.isotropic_opacity=true", "thesis.defects.volume_mips=true"},
                          Component::Full),
               1e-3);
-    EXPECT_LT(difference(scene, {"thesis.defects.racing_stores=true"}, Component::Full), 5e-3);
-    EXPECT_LT(difference(scene, {"thesis.published=true"}, Component::Full), 2e-2);
+    std::vector<std::string> inOrder;
+    thesis::ThesisDefects defects;
+    for (const SettingInfo& info : settingInfos())
+        if (info.key.starts_with("thesis.defects.") && info.key != "thesis.defects.racing_stores")
+            inOrder.push_back(info.key + "=true");
+    ASSERT_EQ(inOrder.size() + 1, thesis::thesisDefectFlags(defects).size());
+    EXPECT_LT(difference(scene, inOrder, Component::Full), 2e-2);
+    // One voxel whose last writer changes moves a picture of this size by 8e-3 in one and the same storage.
+    EXPECT_LT(difference(scene, {"thesis.defects.racing_stores=true"}, Component::Full), 4e-2);
+    EXPECT_LT(difference(scene, {"thesis.published=true"}, Component::Full), 4e-2);
 }
 
 // One renderer, from one storage to the other and back, and from one scene to another.
