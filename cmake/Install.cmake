@@ -25,6 +25,7 @@ if(CONELIGHT_BUILD_IO)
 endif()
 install(DIRECTORY include/conelight modes/thesis/include/conelight ${PROJECT_BINARY_DIR}/include/conelight
   DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+get_property(conelight_decoders GLOBAL PROPERTY CONELIGHT_DECODERS)
 configure_package_config_file(cmake/conelightConfig.cmake.in ${PROJECT_BINARY_DIR}/conelightConfig.cmake
   INSTALL_DESTINATION ${package})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/conelightConfigVersion.cmake COMPATIBILITY SameMinorVersion)
@@ -51,6 +52,9 @@ conelight_install_pkgconfig(conelight-headless description "Conelight: OpenGL co
   requires conelight libs -lconelight_headless private "")
 if(CONELIGHT_BUILD_IO)
   set(io_libraries "-lassimp -lOpenEXR -lIex -lImath -lpng -ljpeg -lfmt")
+  foreach(decoder IN LISTS conelight_decoders)
+    string(APPEND io_libraries " -l${decoder}")
+  endforeach()
   conelight_install_pkgconfig(conelight-io description "Conelight: scenes and pictures in files" requires conelight
     libs -lconelight_io private "${io_libraries}")
   conelight_install_pkgconfig(conelight-c description "Conelight for C" requires "" libs -lconelight_c

@@ -29,7 +29,7 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${runtime_package} (= ${PROJECT_VERSION}), libglm-dev")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS
-  "libepoxy-dev, libassimp-dev, libopenexr-dev, libpng-dev, libjpeg-dev, libfmt-dev, pkg-config")
+  "libepoxy-dev, libassimp-dev, libopenexr-dev, libpng-dev, libjpeg-dev, libdraco-dev, libmeshoptimizer-dev, libwebp-dev, libfmt-dev, pkg-config")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "${CPACK_PACKAGE_DESCRIPTION_SUMMARY}: headers and static libraries")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME conelight)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "${drivers}")

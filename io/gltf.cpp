@@ -14,9 +14,11 @@
 #include <set>
 
 #include "conelight/error.h"
-#include "io/generated_surroundings.h"
 #include "io/geometry.h"
 #include "io/gltf_animation.h"
+#include "io/gltf_draco.h"
+#include "io/gltf_environment.h"
+#include "io/gltf_extensions.h"
 #include "io/gltf_file.h"
 #include "io/gltf_material.h"
 #include "io/gltf_mesh.h"
@@ -26,22 +28,6 @@ namespace conelight::io {
 namespace {
 
 constexpr std::size_t kMaxInstances = 10'000'000;  // 1 GB of table; more is a broken file
-
-// Extensions read in full.
-constexpr std::array kKnown = {"KHR_lights_punctual",    "KHR_materials_emissive_strength",
-                               "KHR_materials_ior",      "KHR_materials_specular",
-                               "KHR_materials_unlit",    "KHR_materials_pbrSpecularGlossiness",
-                               "KHR_materials_volume",   "KHR_materials_transmission",
-                               "KHR_texture_transform",  "KHR_mesh_quantization",
-                               "EXT_mesh_gpu_instancing"};
-// Extensions that do not change a still picture.
-constexpr std::array kHarmless = {"KHR_xmp", "KHR_xmp_json_ld", "KHR_animation_pointer", "KHR_audio_emitter",
-                                  "VRM",     "VRMC_vrm",        "KHR_node_visibility"};
-
-template <std::size_t N>
-bool contains(const std::array<const char*, N>& list, const std::string& name) {
-    return std::any_of(list.begin(), list.end(), [&](const char* entry) { return name == entry; });
-}
 
 class Reader {
   public:
@@ -65,15 +51,15 @@ class Reader {
         return oneLine(file_.array("nodes")[node]["name"].text(fmt::format("node{}", node)));
     }
 
-    void readEnvironment(const GltfValue& own);
     void readOwnExtras(const GltfValue& scene);
-    void readFlags(const GltfValue& node, Instance& instance) const;
+    void readFlags(std::size_t node, const GltfValue& value, Instance& instance) const;
     void addRectLight(std::size_t node, const GltfValue& own);
 
     GltfFile file_;
     std::uint64_t maxTexels_;
     Scene scene_;
     std::vector<glm::mat4> worldFromNode_;
+    std::vector<std::uint8_t> hidden_;  // by KHR_node_visibility, of the node or of one above it
     SceneAnimation animation_;
     std::set<std::size_t> movingWeights_;
     std::size_t skinned_ = 0;
@@ -83,14 +69,14 @@ void Reader::checkExtensions() {
     const GltfValue required = file_.array("extensionsRequired");
     for (std::size_t i = 0; i < required.size(); ++i) {
         const std::string name = required[i].text("");
-        if (!contains(kKnown, name) && !contains(kHarmless, name))
+        if (supportOf(name) == GltfSupport::None)
             required[i].fail(
                 fmt::format("the file needs {}, which is not supported; export it without", oneLine(name)));
     }
     const GltfValue used = file_.array("extensionsUsed");
     for (std::size_t i = 0; i < used.size(); ++i) {
         const std::string name = used[i].text("");
-        if (!contains(kKnown, name) && !contains(kHarmless, name))
+        if (supportOf(name) == GltfSupport::None || supportOf(name) == GltfSupport::Fallback)
             scene_.notes.push_back(fmt::format("extension {} is not supported and left out", oneLine(name)));
     }
 }
@@ -111,6 +97,10 @@ void Reader::findWorldTransforms() {
         }
     }
     worldFromNode_.assign(count, glm::mat4(1.0f));
+    hidden_.assign(count, 0);
+    const auto isHidden = [&](std::size_t n) {
+        return !nodes[n].extension("KHR_node_visibility")["visible"].boolean(true);
+    };
     animation_.nodes.resize(count);
     const auto poseOf = [&](std::size_t n) {
         animation_.nodes[n].rest = readNodePose(nodes[n]);
@@ -121,6 +111,7 @@ void Reader::findWorldTransforms() {
     for (std::size_t n = 0; n < count; ++n) {
         if (hasParent[n] != 0) continue;
         worldFromNode_[n] = poseOf(n);
+        hidden_[n] = isHidden(n);
         stack.push_back(n);
         while (!stack.empty()) {
             const std::size_t node = stack.back();
@@ -132,6 +123,7 @@ void Reader::findWorldTransforms() {
                 const std::size_t child = children[c].index(count).value();
                 animation_.nodes[child].parent = int(node);
                 worldFromNode_[child] = worldFromNode_[node] * poseOf(child);
+                hidden_[child] = hidden_[node] != 0 || isHidden(child);
                 stack.push_back(child);
             }
         }
@@ -147,41 +139,11 @@ GltfValue ownExtras(const GltfValue& value) {
     return own.isObject() ? own : absent;
 }
 
-void Reader::readEnvironment(const GltfValue& own) {
-    if (!own.isObject()) return;
-    Environment& to = scene_.environment;
-    const std::string file = oneLine(own["file"].text(""));
-    if (own["bufferView"].exists()) {
-        auto image = std::make_shared<EnvironmentImage>();
-        image->width = static_cast<int>(own["width"].whole(0) & 0xffff);
-        image->height = static_cast<int>(own["height"].whole(0) & 0xffff);
-        const std::span<const std::uint8_t> bytes = file_.bufferView(own["bufferView"]);
-        image->radiance.resize(static_cast<std::size_t>(image->width) *
-                               static_cast<std::size_t>(image->height));
-        if (image->radiance.empty() || bytes.size() != image->radiance.size() * sizeof(glm::vec3))
-            own.fail(fmt::format("{} x {} texels and {} bytes do not belong together", image->width,
-                                 image->height, bytes.size()));
-        std::memcpy(image->radiance.data(), bytes.data(), bytes.size());
-        to.image = std::move(image);
-    } else {
-        try {
-            // Files are never read by name: a scene would reach out of its folder.
-            to.image =
-                generateSurroundings(file.substr(std::min<std::size_t>(file.find(':') + 1, file.size())))
-                    .environment.image;
-        } catch (const Error& error) {
-            own["file"].fail(error.what());
-        }
-    }
-    to.file = file;
-    to.rotation = own["rotation"].number(0);
-    to.strength = own["strength"].number(1);
-}
-
 void Reader::readOwnExtras(const GltfValue& scene) {
     const GltfValue own = ownExtras(scene);
     scene_.format = oneLine(own["format"].text(own["thesisFormat"].boolean(false) ? "thesis" : ""));
-    readEnvironment(own["environment"]);
+    readImageBasedLight(file_, scene, scene_.environment, scene_.notes);
+    readOwnEnvironment(file_, own["environment"], scene_.environment);
     const GltfValue settings = own["settings"];
     for (std::size_t i = 0; i < settings.size(); ++i)
         scene_.settings.emplace_back(settings[i][std::size_t(0)].text(""),
@@ -191,9 +153,9 @@ void Reader::readOwnExtras(const GltfValue& scene) {
     if (!ours && settings.size() == 0) scene_.settings.emplace_back("image.exposure", "auto");
 }
 
-void Reader::readFlags(const GltfValue& node, Instance& instance) const {
-    const GltfValue own = ownExtras(node);
-    instance.visible = own["visible"].boolean(true);
+void Reader::readFlags(std::size_t node, const GltfValue& value, Instance& instance) const {
+    const GltfValue own = ownExtras(value);
+    instance.visible = own["visible"].boolean(true) && hidden_[node] == 0;
     instance.voxelized = own["voxelized"].boolean(true);
     instance.castsShadow = own["castsShadow"].boolean(true);
     instance.dynamic = own["dynamic"].boolean(false);
@@ -316,6 +278,7 @@ void Reader::placeMesh(std::size_t node, const GltfValue& value, GltfMeshes& mes
             instance.name = nameOf(node);
             instance.mesh = part.mesh;
             instance.material = part.material;
+            instance.visible = hidden_[node] == 0;
             scene_.instances.push_back(std::move(instance));
         }
         return;
@@ -334,7 +297,7 @@ void Reader::placeMesh(std::size_t node, const GltfValue& value, GltfMeshes& mes
             instance.mesh = part.mesh;
             instance.material = part.material;
             instance.worldFromObject = worldFromNode_[node] * transform;
-            readFlags(value, instance);
+            readFlags(node, value, instance);
             animation_.instances.push_back({scene_.instances.size(), node, transform});
             scene_.instances.push_back(std::move(instance));
         }
@@ -367,7 +330,7 @@ void Reader::addLight(std::size_t node, const GltfValue& value) {
     animation_.lights.push_back({scene_.lights.size(), node});
     to.range = std::max(from["range"].number(0.0f), 0.0f);
     const GltfValue own = ownExtras(from);
-    to.enabled = own["enabled"].boolean(true);
+    to.enabled = own["enabled"].boolean(true) && hidden_[node] == 0;
     to.castsShadow = own["castsShadow"].boolean(true);
     to.customFalloff = own["falloff"].exists();
     to.falloff = own["falloff"].vector<3>(to.falloff);
@@ -451,6 +414,7 @@ void Reader::keepHung(const std::vector<KeptInstance>& kept) {
 
 Scene Reader::read(SceneAnimation* animation) {
     checkExtensions();
+    unpackDraco(file_);
     findWorldTransforms();
     if (animation != nullptr) animation_.clips = readClips(file_, scene_.notes);
     findMovingWeights();

@@ -12,6 +12,7 @@
 
 #include "conelight/error.h"
 #include "io/gltf.h"
+#include "io/gltf_meshopt.h"
 
 namespace conelight::io {
 
@@ -22,6 +23,7 @@ namespace {
 
 constexpr std::size_t kMaxDepth = 200;                         // of the JSON; real files stay below 20
 constexpr std::uint64_t kMaxNumbers = std::uint64_t(1) << 29;  // read in total: 100 million triangles' worth
+constexpr std::uint64_t kMaxUnpackedBytes = std::uint64_t(1) << 31;
 constexpr std::uint64_t kMaxEmptyCount = std::uint64_t(1) << 22;  // elements of an accessor without data
 
 [[noreturn]] void failFile(const std::string& file, const std::string& why) {
@@ -240,6 +242,15 @@ Bytes GltfFile::uriBytes(const GltfValue& uri) const {
     }
 }
 
+Bytes GltfFile::imageBytes(const GltfValue& image) {
+    if (image["bufferView"].exists()) {
+        const std::span<const std::uint8_t> bytes = bufferView(image["bufferView"]);
+        return {bytes.begin(), bytes.end()};
+    }
+    if (!image["uri"].exists()) image.fail("has neither uri nor bufferView");
+    return uriBytes(image["uri"]);
+}
+
 const Bytes& GltfFile::buffer(std::size_t index) {
     const auto known = buffers_.find(index);
     if (known != buffers_.end()) return known->second;
@@ -258,24 +269,36 @@ const Bytes& GltfFile::buffer(std::size_t index) {
     return buffers_.emplace(index, std::move(bytes)).first->second;
 }
 
+std::span<const std::uint8_t> GltfFile::bytesOf(const GltfValue& value) {
+    const std::optional<std::size_t> bufferAt = value["buffer"].index(array("buffers").size());
+    if (!bufferAt) value["buffer"].fail("is missing");
+    const Bytes& bytes = buffer(*bufferAt);
+    const std::uint64_t offset = value["byteOffset"].whole(0);
+    const std::uint64_t length = value["byteLength"].whole(0);
+    if (offset > bytes.size() || length > bytes.size() - offset)
+        value.fail(
+            fmt::format("bytes {} to {} are beyond the buffer's {}", offset, offset + length, bytes.size()));
+    return std::span(bytes).subspan(std::size_t(offset), std::size_t(length));
+}
+
 std::span<const std::uint8_t> GltfFile::bufferView(const GltfValue& viewIndex) {
     const std::optional<std::size_t> at = viewIndex.index(array("bufferViews").size());
     if (!at) viewIndex.fail("is missing");
     const GltfValue view = array("bufferViews")[*at];
-    const std::optional<std::size_t> bufferAt = view["buffer"].index(array("buffers").size());
-    if (!bufferAt) view["buffer"].fail("is missing");
-    const Bytes& bytes = buffer(*bufferAt);
-    const std::uint64_t offset = view["byteOffset"].whole(0);
-    const std::uint64_t length = view["byteLength"].whole(0);
-    if (offset > bytes.size() || length > bytes.size() - offset)
-        view.fail(
-            fmt::format("bytes {} to {} are beyond the buffer's {}", offset, offset + length, bytes.size()));
-    return std::span(bytes).subspan(std::size_t(offset), std::size_t(length));
+    const GltfValue packed = view.extension("EXT_meshopt_compression");
+    if (!packed.exists()) return bytesOf(view);
+    const auto known = unpackedViews_.find(*at);
+    if (known != unpackedViews_.end()) return known->second;
+    Bytes bytes = unpackMeshopt(packed, bytesOf(packed));
+    unpackedBytes_ += bytes.size();
+    if (unpackedBytes_ > kMaxUnpackedBytes) packed.fail("the file has more than 2 GiB of compressed data");
+    return unpackedViews_.emplace(*at, std::move(bytes)).first->second;
 }
 
 // The numbers of an accessor's JSON, checked for kind but not yet against the buffer.
 struct GltfFile::Layout {
     GltfValue value;
+    std::size_t index;  // of the accessor
     std::uint64_t count;
     std::uint64_t type;
     std::size_t components;
@@ -292,7 +315,11 @@ GltfFile::Layout GltfFile::layoutOf(const GltfValue& accessorIndex) const {
     const std::string kind = value["type"].text("");
     const auto found = kComponents.find(kind);
     if (found == kComponents.end()) value["type"].fail(fmt::format("'{}' is unknown", oneLine(kind)));
-    Layout layout{value, value["count"].whole(0), value["componentType"].whole(0), found->second,
+    Layout layout{value,
+                  *at,
+                  value["count"].whole(0),
+                  value["componentType"].whole(0),
+                  found->second,
                   value["normalized"].boolean(false)};
     if (componentSize(layout.type) == 0)
         value["componentType"].fail(fmt::format("{} is unknown", layout.type));
@@ -306,6 +333,11 @@ std::size_t GltfFile::accessorCount(const GltfValue& accessorIndex) const {
     return std::size_t(layoutOf(accessorIndex).count);
 }
 
+GltfFile::AccessorShape GltfFile::shapeOf(const GltfValue& accessorIndex) const {
+    const Layout layout = layoutOf(accessorIndex);
+    return {layout.index, layout.type, layout.components, layout.count};
+}
+
 struct GltfFile::Elements {
     std::span<const std::uint8_t> data;
     std::uint64_t stride, offset;
@@ -313,6 +345,12 @@ struct GltfFile::Elements {
 
 std::optional<GltfFile::Elements> GltfFile::elementsOf(const Layout& layout) {
     const std::size_t elementSize = layout.elementSize();
+    if (const auto given = givenElements_.find(layout.index); given != givenElements_.end()) {
+        if (given->second.size() / elementSize != layout.count)
+            layout.value.fail(
+                fmt::format("has {} decoded bytes for {} elements", given->second.size(), layout.count));
+        return Elements{given->second, elementSize, 0};
+    }
     if (!layout.value["bufferView"].exists()) {
         if (layout.count > kMaxEmptyCount)
             layout.value["count"].fail("is too large for an accessor without data");

@@ -66,6 +66,7 @@ class GltfFile {
     GltfFile(const GltfFile&) = delete;
     GltfFile& operator=(const GltfFile&) = delete;
 
+    const std::string& name() const { return file_; }
     GltfValue root() const { return {file_, &json_, ""}; }
     GltfValue array(const char* name) const { return root()[name]; }
 
@@ -77,9 +78,25 @@ class GltfFile {
     std::vector<std::uint32_t> wholes(const GltfValue& accessorIndex, std::size_t components);
     std::size_t accessorCount(const GltfValue& accessorIndex) const;
 
+    // What an accessor says of its elements: componentType, components and count of them.
+    struct AccessorShape {
+        std::size_t index = 0;
+        std::uint64_t type = 0;
+        std::size_t components = 0;
+        std::uint64_t count = 0;
+    };
+    AccessorShape shapeOf(const GltfValue& accessorIndex) const;
+    // From now on the accessor has these elements, packed without gaps, instead of those of its buffer view.
+    void giveElements(std::size_t accessor, Bytes elements) {
+        givenElements_[accessor] = std::move(elements);
+    }
+
+    // Decompressed where it is compressed. Stays valid.
     std::span<const std::uint8_t> bufferView(const GltfValue& viewIndex);
     // Bytes behind a "uri": data URI or a file in the scene's folder. Fails with a line that starts at the value.
     Bytes uriBytes(const GltfValue& uri) const;
+    // Of a value of `images`, in a buffer view or behind a uri.
+    Bytes imageBytes(const GltfValue& image);
 
   private:
     struct Layout;
@@ -92,6 +109,8 @@ class GltfFile {
     void putSparse(const Layout& layout, const Put& put);
     void readJson(std::string_view text);
     const Bytes& buffer(std::size_t index);
+    // The bytes that `value` names by buffer, byteOffset and byteLength.
+    std::span<const std::uint8_t> bytesOf(const GltfValue& value);
     template <typename Number>
     std::vector<Number> read(const GltfValue& accessorIndex, std::size_t components, bool allowFewer,
                              Number padding);
@@ -101,7 +120,10 @@ class GltfFile {
     nlohmann::json json_;
     std::optional<Bytes> binaryChunk_;
     std::map<std::size_t, Bytes> buffers_;
+    std::map<std::size_t, Bytes> unpackedViews_;
+    std::map<std::size_t, Bytes> givenElements_;  // by accessor
     std::uint64_t numbersRead_ = 0;
+    std::uint64_t unpackedBytes_ = 0;
 };
 
 }  // namespace conelight::io

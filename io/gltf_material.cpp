@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // glTF materials -> Material. Metallic-roughness is ours already; KHR_materials_pbrSpecularGlossiness becomes
 // a dielectric whose F0 is the specular colour (specularColor = specular / 0.04), roughness 1 - glossiness.
-// Limits: one texture coordinate set per material (the base colour's); only PNG and JPEG pictures.
+// Limits: one texture coordinate set per material (the base colour's); only PNG, JPEG and WebP pictures.
 #include "io/gltf_material.h"
 
 #include <fmt/core.h>
@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "conelight/error.h"
+#include "io/picture_codec.h"
 
 namespace conelight::io {
 
@@ -26,6 +27,13 @@ TextureWrap wrapOf(const GltfValue& value) {
         default:
             value.fail("unknown wrap mode");
     }
+}
+
+bool isKtx2(const Bytes& file) {
+    constexpr std::string_view kStart = "\xABKTX 20\xBB";
+    return file.size() > kStart.size() &&
+           std::equal(kStart.begin(), kStart.end(), file.begin(),
+                      [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
 }
 
 glm::vec3 positive(const glm::vec3& v) { return glm::max(v, glm::vec3(0)); }
@@ -81,19 +89,10 @@ const ByteImage* GltfMaterials::image(std::size_t index) {
     std::optional<ByteImage>& slot = images_[index];
     const GltfValue value = file_.array("images")[index];
     try {
-        Bytes owned;
-        std::span<const std::uint8_t> bytes;
-        if (value["bufferView"].exists()) {
-            bytes = file_.bufferView(value["bufferView"]);
-        } else {
-            if (!value["uri"].exists()) value.fail("has neither uri nor bufferView");
-            owned = file_.uriBytes(value["uri"]);
-            bytes = owned;
-        }
-        const bool png =
-            bytes.size() > 4 && bytes[0] == 0x89 && bytes[1] == 'P' && bytes[2] == 'N' && bytes[3] == 'G';
-        const bool jpeg = bytes.size() > 4 && bytes[0] == 0xFF && bytes[1] == 0xD8;
-        if (!png && !jpeg) value.fail("is neither PNG nor JPEG");
+        const Bytes bytes = file_.imageBytes(value);
+        if (isKtx2(bytes))
+            value.fail("is KTX2, which no library here decodes; PNG, JPEG or WebP would be right");
+        if (!isPng(bytes) && !isJpeg(bytes) && !isWebp(bytes)) value.fail("is neither PNG, JPEG nor WebP");
         slot = budget_.decode(bytes, value.path(), scene_.notes);
     } catch (const Error& error) {
         // The file's name in front of the message would be repeated by the caller.
@@ -106,9 +105,13 @@ const ByteImage* GltfMaterials::image(std::size_t index) {
 }
 
 int GltfMaterials::textureIndex(const GltfValue& texture, bool srgb) {
-    const std::optional<std::size_t> source = texture["source"].index(file_.array("images").size());
+    const std::size_t images = file_.array("images").size();
+    // The picture of an extension is the better one; KTX2 is named by image(), where there is no other.
+    std::optional<std::size_t> source = texture.extension("EXT_texture_webp")["source"].index(images);
+    if (!source) source = texture["source"].index(images);
+    if (!source) source = texture.extension("KHR_texture_basisu")["source"].index(images);
     if (!source) {
-        scene_.notes.push_back(texture.path() + ": has no PNG or JPEG picture; left out");
+        scene_.notes.push_back(texture.path() + ": has no picture that is read; left out");
         return -1;
     }
     TextureWrap wrapU = TextureWrap::Repeat, wrapV = TextureWrap::Repeat;

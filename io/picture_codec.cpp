@@ -83,6 +83,7 @@ DecodeResult decodePicture(std::span<const std::uint8_t> file, const DecodeReque
                            ByteImage& image) {
     if (isPng(file)) return decodePng(file, request, image);
     if (isJpeg(file)) return decodeJpeg(file, request, image);
+    if (isWebp(file)) return decodeWebp(file, request, image);
     ByteImage whole;
     std::string failure = stb::decodeBytes(file, request.channels, whole);
     if (failure.empty())

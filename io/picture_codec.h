@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// PNG and JPEG from memory through libpng and libjpeg, which are made for damaged and hostile files. Pictures
-// larger than wanted are made smaller row by row while they are decoded. Private to this room.
+// PNG, JPEG and WebP from memory through libpng, libjpeg and libwebp, which are made for damaged and hostile
+// files. Pictures larger than wanted are made smaller row by row while they are decoded. Private to this room.
 #pragma once
 
 #include <cstdint>
@@ -28,12 +28,14 @@ struct DecodeResult {
 
 bool isPng(std::span<const std::uint8_t> file);
 bool isJpeg(std::span<const std::uint8_t> file);
+bool isWebp(std::span<const std::uint8_t> file);
 DecodeResult decodePng(std::span<const std::uint8_t> file, const DecodeRequest& request, ByteImage& image);
 // An encoded PNG with the picture's attributes as its texts; empty when memory runs out.
 std::vector<std::uint8_t> encodePng(const ByteImage& image);
 DecodeResult decodeJpeg(std::span<const std::uint8_t> file, const DecodeRequest& request, ByteImage& image);
+DecodeResult decodeWebp(std::span<const std::uint8_t> file, const DecodeRequest& request, ByteImage& image);
 
-// PNG, JPEG and what stb_image reads (stb_impl.h).
+// PNG, JPEG, WebP and what stb_image reads (stb_impl.h).
 DecodeResult decodePicture(std::span<const std::uint8_t> file, const DecodeRequest& request,
                            ByteImage& image);
 
