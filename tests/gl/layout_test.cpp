@@ -164,7 +164,7 @@ std::vector<Struct> otherStructs() {
             falloff, customFalloff, shadowNear, shadowTexel, flags, sampleGrid),
         ROW(ThesisGrid, origin, edge, voxelSize, size, maxLevel, sumScale, boxMin, boxSize),
         ROW(ThesisConstants, diffuseCone, specularCone, occlusionCone, originOffset, shininessFalloff,
-            shadowStrength, minSpecular, switches, maxSamples, lightCount, pad0),
+            shadowStrength, minSpecular, switches, maxSamples, lightCount, parallelSpread),
         ROW(VoxelGrid, origin, voxelSize, sizeX, sizeY, sizeZ, voxelCount, bricksX, bricksY, bricksZ,
             faceCount, inverseVoxelSize, occupiedBricks, pad0, pad1),
         ROW(FaceRecord, normal, offsetWeight, bounds, voxel),

@@ -180,6 +180,8 @@ gpu::ThesisConstants thesisConstants(const ThesisSettings& s, const gpu::ThesisG
     c.originOffset = s.diffuseOriginOffset.resolve(0.05f);
     c.shininessFalloff = s.shininessFalloff.resolve(tableValue(size, 3.0f, 3.0f, 2.0f));
     c.shadowStrength = s.shadowStr;
+    // The published program knows no such lights; with its other numbers they are its lamp.
+    c.parallelSpread = d.occlusionFudge ? c.occlusionCone.x : spreadOf(s.occlusion.aperture.resolve(1e-3f));
     c.minSpecular = s.minSpecular;
     c.maxSamples = static_cast<std::uint32_t>(s.maxSamples);
 

@@ -83,6 +83,7 @@ gl::ProgramDesc resolveDesc(const ThesisDefects& d, ResolvedTo target) {
 // `brickTexels`: of the coarse level, per brick; 0 for levels whose texels are larger than bricks.
 gl::ProgramDesc mipDesc(const ThesisDefects& d, int brickTexels, bool ofAreas) {
     gl::Defines defines = ofAreas ? gl::Defines{{"AREAS", "1"}} : volumeDefines(d);
+    if (!ofAreas && ThesisVolume::hasAreas(d)) defines.emplace_back("SEEN", "1");
     if (d.volumeMips) defines.emplace_back("VOLUME_MIPS", "1");
     defines.emplace_back("BRICK_TEXELS", std::to_string(brickTexels));
     return {{"thesis/shaders/mip.comp.glsl"}, defines};
@@ -214,9 +215,9 @@ void ThesisVolume::build(const gl::Device& device, const Inputs& inputs, const T
         resolve(device, options.defects, texture_);
         // Stores that race leave level 1 to be made; sums bring it along.
         const int first = isOctree_ || options.defects.racingStores ? 1 : 2;
-        buildMips(device, options.defects, texture_, first);
         for (const gl::Texture& areas : areas_)
             if (areas) buildMips(device, options.defects, areas, first);
+        buildMips(device, options.defects, texture_, first);
     }
     if (options.bounces > 1) {
         const gl::PassScope step(device.profiler, "thesis bounces");
@@ -372,6 +373,9 @@ void ThesisVolume::buildMips(const gl::Device& device, const ThesisDefects& defe
         gl::Inputs given = bricks();
         given.image("fine", texture, gl::ImageUse::Read, level - 1)
             .image("coarse", texture, gl::ImageUse::Write, level);
+        if (!ofAreas && areas_[0])
+            given.image("areasPlus", areas_[0], gl::ImageUse::Read, level)
+                .image("areasMinus", areas_[1], gl::ImageUse::Read, level);
         if (level <= 3) {
             // 4^3, 2^3 or 1 texels per brick; arguments for as many groups of 64.
             const int texels = 64 >> (3 * (level - 1));

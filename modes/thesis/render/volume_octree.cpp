@@ -11,6 +11,7 @@ gl::ProgramDesc octreeMarkDesc() { return {{"thesis/shaders/octree_mark.comp.gls
 gl::ProgramDesc octreeMipDesc(const ThesisDefects& d, bool ofAreas) {
     gl::Defines defines{{"OCTREE", "1"}};
     if (ofAreas) defines.emplace_back("AREAS", "1");
+    if (!ofAreas && ThesisVolume::hasAreas(d)) defines.emplace_back("SEEN", "1");
     if (!ofAreas && d.clippedRadiance) defines.emplace_back("CLIPPED_RADIANCE", "1");
     if (d.volumeMips) defines.emplace_back("VOLUME_MIPS", "1");
     return {{"thesis/shaders/mip.comp.glsl"}, defines};
@@ -57,7 +58,11 @@ void ThesisVolume::buildOctreeMips(const gl::Device& device, const ThesisDefects
         gl::Inputs given = bricks();
         octree_.declareFill(given, level);
         given.image("fine", texture, gl::ImageUse::Read).image("coarse", texture, gl::ImageUse::Write);
-        device.get(octreeMipDesc(defects, areAreas(texture)))
+        const bool ofAreas = areAreas(texture);
+        if (!ofAreas && areas_[0])
+            given.image("areasPlus", areas_[0], gl::ImageUse::Read)
+                .image("areasMinus", areas_[1], gl::ImageUse::Read);
+        device.get(octreeMipDesc(defects, ofAreas))
             .dispatchLinear(given, std::size_t{OCTREE_BRICK_TEXELS} * octree_.brickCount(level));
         gl::barrier(gl::Access::ImageAccess);
     }
@@ -65,7 +70,7 @@ void ThesisVolume::buildOctreeMips(const gl::Device& device, const ThesisDefects
 
 std::vector<gl::ProgramDesc> ThesisVolume::octreeDescs() {
     ThesisDefects mended, published;
-    published.clippedRadiance = published.volumeMips = true;
+    published.clippedRadiance = published.volumeMips = published.isotropicOpacity = true;
     std::vector<gl::ProgramDesc> descs{octreeMarkDesc()};
     for (const ThesisDefects& defects : {mended, published})
         for (const bool ofAreas : {false, true}) descs.push_back(octreeMipDesc(defects, ofAreas));

@@ -22,8 +22,9 @@ vec4 sampleVolume(vec3 position, float size) {
 #endif
 }
 
-bool outsideGrid(vec3 position) {
-    return any(greaterThan(abs((position - grid.origin) / grid.edge - 0.5), vec3(0.5)));
+// Whether a cone has met what there is: half a sample past the border, so that the surfaces there count in full.
+bool leftGrid(vec3 position, float size) {
+    return any(greaterThan(abs(position - grid.origin - 0.5 * grid.edge), vec3(0.5 * (grid.edge + size))));
 }
 
 // One march (constants.h).
@@ -88,10 +89,11 @@ float originOffset(float fixedOffset) {
 #endif
 }
 
-bool coneEnded(float t, vec3 position, float reach) {
+// `size`: of the last sample.
+bool coneEnded(float t, vec3 position, float size, float reach) {
 #if SHORT_REACH
     return t >= reach;
 #else
-    return outsideGrid(position);
+    return leftGrid(position, size);
 #endif
 }

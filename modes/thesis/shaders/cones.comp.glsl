@@ -108,7 +108,7 @@ float occlusionOf(Surface s, Light source, ThesisLight light, bool isLit, inout 
     // Light from behind adds nothing that could be hidden, unless ambient light is on.
     bool isTraced = isLit && (dot(s.normal, light.toLight) > 0.0 || has(THESIS_PHONG_AMBIENT));
 #endif
-    float spread = thesisSpread(source, light, thesis.occlusionCone.x);
+    float spread = thesisSpread(source, light, thesis.occlusionCone.x, thesis.parallelSpread);
     return traceOcclusion(s, light, spread, isTraced, samples.occlusion);
 #else
     return 0.0;

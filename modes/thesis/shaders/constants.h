@@ -43,8 +43,8 @@ struct ThesisConstants {
     uint switches;    // THESIS_*
     uint maxSamples;  // per cone
     uint lightCount;
-    uint pad0;
-};  // 80 B
+    float parallelSpread;  // of occlusion cones to lights without a place
+};                         // 80 B
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus

@@ -6,9 +6,6 @@
 const uint kMaxTurns = 20000u;
 // Opacity at which the customised diffuse cone calls a sample a hit.
 const float kHitOpacity = 0.01;
-// The smooth hit: counts as full at half a surface. Chosen by eye: at 1 far walls darken (regular
-// cone), at 0.05 the rims of near objects show.
-const float kHitGain = 2.0;
 
 // Adds a sample of the diffuse cone; `stride` and `texelEdge` in metres.
 void addDiffuseSample(inout Gathered got, vec4 texel, float stride, float texelEdge) {
@@ -21,7 +18,7 @@ void addDiffuseSample(inout Gathered got, vec4 texel, float stride, float texelE
 #if HARD_FIRST_HIT
     float hit = texel.a > kHitOpacity ? 1.0 : 0.0;
 #else
-    float hit = min(stepOpacity(texel.a, stride, texelEdge) * kHitGain, 1.0 - got.opacity);
+    float hit = min(stepOpacity(texel.a, stride, texelEdge), 1.0 - got.opacity);
 #endif
     got.color += hit * color;
     got.opacity += hit;
@@ -92,7 +89,7 @@ vec3 traceDiffuse(Surface s, bool isLit, out uint samples) {
                         sampleLevel(size, grid.voxelSize, grid.maxLevel), got.color - before.color,
                         got.opacity - before.opacity, got.opacity);
         t += stride;
-        bool left = coneEnded(t, origin + t * direction.xyz, cone.reach);
+        bool left = coneEnded(t, origin + t * direction.xyz, texelEdge, cone.reach);
         if (left || got.opacity >= 0.999 || coneSamples >= thesis.maxSamples) {
 #if !SHORT_REACH
             if (left) got.color += max(1.0 - got.opacity, 0.0) * lighting.sky;

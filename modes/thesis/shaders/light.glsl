@@ -56,11 +56,11 @@ float thesisCosine(Light light, ThesisLight seen, vec3 position, vec3 n) {
 }
 
 // Diameter per distance of the cone in which a light is seen: a rectangle is as wide as the disc of its
-// projected area, others as `lamp` says.
-float thesisSpread(Light light, ThesisLight seen, float lamp) {
+// projected area, one without a place as `parallel` says, others as `lamp` does.
+float thesisSpread(Light light, ThesisLight seen, float lamp, float parallel) {
 #if RECTANGLES
     float wide = 2.0 * sqrt(thesisRectArea(light, seen) * 0.31830989) / seen.distance;
     if (light.type == LIGHT_RECT) return max(wide, 1e-3);
 #endif
-    return lamp;
+    return light.type == LIGHT_DIRECTIONAL ? parallel : lamp;
 }

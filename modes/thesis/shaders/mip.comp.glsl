@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 // Level l of the thesis's volume -> level l+1, within marked bricks (BRICK_TEXELS texels of level l+1 per
 // brick: 64, 8 or 1) or, when BRICK_TEXELS is 0, over the whole box. Where level 0 is made of sums in a dense texture,
-// level 1 is made with it (resolve.comp.glsl). AREAS: the volume of areas along the axes. OCTREE: all texels of the tree's bricks of level l+1.
+// level 1 is made with it (resolve.comp.glsl). AREAS: the volume of areas along the axes;
+// SEEN: the areas of level l+1 are there, and opacity is what is seen of them. OCTREE: all texels of the tree's bricks of level l+1.
 #include "thesis/shaders/constants.h"
 #include "thesis/shaders/defects.glsl"
 #include "thesis/shaders/mip_texel.glsl"
@@ -14,6 +15,9 @@
 #endif
 #ifndef AREAS
 #define AREAS 0
+#endif
+#ifndef SEEN
+#define SEEN 0
 #endif
 #if CLIPPED_RADIANCE || AREAS
 #define VOLUME_FORMAT rgba8
@@ -33,6 +37,10 @@ layout(local_size_x = 8, local_size_y = 4, local_size_z = 4) in;
 layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
 layout(VOLUME_FORMAT) uniform readonly image3D fine;
 layout(VOLUME_FORMAT) uniform writeonly image3D coarse;
+#if SEEN
+layout(rgba8) uniform readonly image3D areasPlus;
+layout(rgba8) uniform readonly image3D areasMinus;
+#endif
 
 // Where a texel lies, and the first of the eight that it is made of.
 struct MipPlace {
@@ -83,6 +91,9 @@ void main() {
         sum += imageLoad(fine, p.fine + ivec3(i & 1, i >> 1 & 1, i >> 2));
 #if AREAS
     imageStore(coarse, p.coarse, mipAreas(sum));
+#elif SEEN
+    imageStore(coarse, p.coarse,
+               mipTexel(sum, imageLoad(areasPlus, p.coarse), imageLoad(areasMinus, p.coarse)));
 #else
     imageStore(coarse, p.coarse, mipTexel(sum));
 #endif

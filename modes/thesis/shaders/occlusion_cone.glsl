@@ -2,7 +2,7 @@
 // The occlusion cone from a pixel to a light -> share of the light that does not arrive. Before it:
 // cone_samples.glsl, ThesisConstants `thesis`, OCCLUSION.
 
-// What a sample's opacity is multiplied by, at distance t of a cone to a light at `distance`.
+// What a sample's opacity is multiplied by, at distance t of a cone whose way to a light is `distance` long.
 float occlusionGain(float t, float distance) {
 #if OCCLUSION == CUSTOMISED
 #if OCCLUSION_FUDGE
@@ -66,6 +66,26 @@ vec2 stepOcclusion(vec3 origin, vec3 direction, float t, float size, float lengt
 }
 #endif
 
+// Way from `origin` to where the box of voxels that hold anything ends.
+float wayOut(vec3 origin, vec3 direction) {
+    vec3 low = grid.origin + grid.voxelSize * vec3(grid.boxMin.xyz);
+    vec3 high = low + grid.voxelSize * vec3(grid.boxSize.xyz);
+    vec3 away = mix(direction, vec3(1e-6), lessThan(abs(direction), vec3(1e-6)));
+    vec3 ways = (mix(low, high, greaterThan(away, vec3(0.0))) - origin) / away;
+    return max(min(min(ways.x, ways.y), ways.z), grid.voxelSize);
+}
+
+// Way in whose parts occluders are near to the surface. The farther a light is outside of the box, the shorter it is;
+// nothing of it is left where the light has no place.
+float wayOf(ThesisLight light, vec3 origin, vec3 direction, float distance) {
+#if OCCLUSION_FUDGE
+    return distance;
+#else
+    float inBox = min(light.distance, wayOut(origin, direction));
+    return inBox * inBox / light.distance;
+#endif
+}
+
 // Share of the light that does not arrive.
 float traceOcclusion(Surface s, ThesisLight light, float spread, bool isTraced, inout uint samples) {
     ThesisCone cone = coneOf(thesis.occlusionCone);
@@ -76,6 +96,7 @@ float traceOcclusion(Surface s, ThesisLight light, float spread, bool isTraced, 
     // Lights far outside act from just outside.
     float distance = min(length(toLight), 2.0 * grid.edge);
     vec3 direction = normalize(toLight);
+    float way = wayOf(light, origin, direction, distance);
     float climb = dot(direction, s.normal);
 #if FIXED_OFFSETS
     float end = distance;
@@ -100,7 +121,7 @@ float traceOcclusion(Surface s, ThesisLight light, float spread, bool isTraced, 
         float length = min(stride, end - t);
 #endif
         float at = t + kSampleAt * length;
-        float gain = occlusionGain(at, distance);
+        float gain = occlusionGain(at, way);
 #if NO_STEP_CORRECTION && !LAST_STEP
         gain *= length / stride;
 #endif

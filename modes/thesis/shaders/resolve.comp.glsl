@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 // Sums of the voxelizer -> level 0 of the volume, one invocation per 2^3 voxels of the marked bricks; clears the sums
 // behind it. Opacity is the covered area, at most 1; colour is premultiplied by it. BINARY_OPACITY: 1 where anything
-// is. AXIS_AREAS: the areas along the three axes as well, of what faces their positive and their negative sides.
+// is. AXIS_AREAS: the areas along the three axes as well, of what faces their positive and their negative sides; and
+// opacity is what is seen of them.
 //
 //   LEVEL_1  and the texel of level 1 that the eight make, as mip.comp.glsl would of what was stored
 //   OCTREE   into each brick of the tree that holds the voxel; without LEVEL_1
@@ -85,6 +86,8 @@ Texel takeSums(int place) {
     texel.minus.xyz = min(vec3(both >> 16) / 512.0, 1.0);
 #if BINARY_OPACITY
     texel.plus.xyz = texel.minus.xyz = vec3(sum.a > 0.0 ? 1.0 : 0.0);
+#else
+    texel.light = sum * (seenOpacity(sum.a, texel.plus.xyz, texel.minus.xyz) / max(sum.a, 1e-12));
 #endif
 #endif
     return texel;
@@ -131,12 +134,13 @@ void resolveEight(ivec3 first, int place) {
         }
         ++i;
     } while (i < 8);
-#if LEVEL_1
+#if LEVEL_1 && AXIS_AREAS
+    vec4 plus = mipAreas(sum.plus), minus = mipAreas(sum.minus);
+    imageStore(volume1, first / 2, mipTexel(sum.light, plus, minus));
+    imageStore(areasPlus1, first / 2, plus);
+    imageStore(areasMinus1, first / 2, minus);
+#elif LEVEL_1
     imageStore(volume1, first / 2, mipTexel(sum.light));
-#if AXIS_AREAS
-    imageStore(areasPlus1, first / 2, mipAreas(sum.plus));
-    imageStore(areasMinus1, first / 2, mipAreas(sum.minus));
-#endif
 #endif
 }
 

@@ -27,7 +27,7 @@ vec3 traceSpecular(Surface s, vec3 mirrored, float shininess, bool isTraced, ino
                         sampleLevel(size, grid.voxelSize, grid.maxLevel), got.color - before.color,
                         got.opacity - before.opacity, got.opacity);
         t += stride;
-        bool left = coneEnded(t, origin + t * mirrored, cone.reach);
+        bool left = coneEnded(t, origin + t * mirrored, texelEdge, cone.reach);
 #if !SHORT_REACH
         if (left && running) got.color += max(1.0 - got.opacity, 0.0) * lighting.sky;
 #endif
