@@ -12,6 +12,7 @@
 #include <numbers>
 
 #include "conelight/error.h"
+#include "conelight/studio.h"
 #include "io/generated_scenes.h"
 
 namespace conelight::io {
@@ -32,6 +33,7 @@ constexpr GeneratedParameter kStudioParameters[] = {
     {"key", 12, 0, 1e4, false, "radiance of the large lamp, W/(sr m^2)"},
     {"fill", 3, 0, 1e4, false, "radiance of the lamps beside and behind, W/(sr m^2)"},
     {"room", 0.35, 0, 1e4, false, "radiance of the room around them, W/(sr m^2)"},
+    {"floor", 0, 0, 1e4, false, "radiance below the horizon, W/(sr m^2); 0: the room goes on there"},
 };
 
 glm::dvec3 linearFromXyz(const glm::dvec3& c) {
@@ -169,29 +171,10 @@ LoadedEnvironment buildSky(const std::string& spec, const generated::Values& val
     return loaded;
 }
 
-// 1 on a rectangle about a direction, falling to 0 over `edge`; sizes are tangents.
-double softbox(const glm::dvec3& d, const glm::dvec3& axis, double halfWidth, double halfHeight) {
-    const glm::dvec3 n = glm::normalize(axis);
-    const glm::dvec3 right = glm::normalize(glm::cross(n, glm::dvec3(0, 1, 0))), up = glm::cross(right, n);
-    const double ahead = glm::dot(d, n);
-    if (ahead <= 0) return 0;
-    constexpr double kEdge = 0.06;
-    const auto inside = [&](double at, double half) {
-        return 1 - glm::smoothstep(half - kEdge, half + kEdge, std::fabs(at) / ahead);
-    };
-    return inside(glm::dot(d, right), halfWidth) * inside(glm::dot(d, up), halfHeight);
-}
-
 LoadedEnvironment buildStudio(const std::string&, const generated::Values& values) {
     LoadedEnvironment loaded;
-    loaded.environment.image = drawn(512, [&](const glm::dvec3& d) {
-        // Lighter above, darker below: an even room hides the shape of what stands in it.
-        const double room = values["room"] * (0.75 + 0.5 * glm::smoothstep(-0.6, 0.9, d.y));
-        const double key = values["key"] * softbox(d, {-0.75, 0.85, 0.9}, 0.55, 0.45);
-        const double fill = values["fill"] * (softbox(d, {1.0, 0.35, 0.55}, 0.35, 0.7) +
-                                              softbox(d, {0.35, 0.6, -1.0}, 0.8, 0.25));
-        return glm::dvec3(room + key + fill);
-    });
+    loaded.environment.image =
+        studioPicture({values["key"], values["fill"], values["room"], values["floor"]});
     return loaded;
 }
 

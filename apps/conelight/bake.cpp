@@ -180,6 +180,7 @@ void addBake(CLI::App& app) {
     command->add_option("--camera", options->view.camera, "the camera of the picture, by name");
     options->view.addEnvironmentTo(*command);
     addAllowOutside(*command, options->view.allowOutside);
+    options->view.noGround = true;  // what is written is the file's own
     command->callback([options] { run(*options); });
 }
 

@@ -14,6 +14,7 @@
 
 #include "conelight/error.h"
 #include "conelight/quality.h"
+#include "conelight/studio.h"
 #include "io/animation.h"
 #include "io/cone_set_file.h"
 #include "io/environment_file.h"
@@ -179,6 +180,8 @@ void ViewOptions::addTo(CLI::App& command) {
         ->check(CLI::NonNegativeNumber);
     command.add_flag("--gl-debug", debugGl,
                      "check every OpenGL call and report errors of the driver (slower)");
+    command.add_flag("--no-ground", noGround,
+                     "no ground below a scene that has neither light nor a floor of its own");
     addAllowOutside(command, allowOutside);
 }
 
@@ -247,7 +250,7 @@ Scene openScene(const std::string& path, const ViewOptions& options, Progress& p
                                        : io::loadMovingScene(path, load, *animation);
     if (!options.sky.empty()) scene.sky = glm::max(parseVec3("--sky", options.sky), glm::vec3(0));
     applyEnvironment(scene, options);
-    completeScene(scene);
+    completeScene(scene, {.ground = !options.noGround});
     progress.finish();
     for (const std::string& note : scene.notes)
         std::fprintf(stderr, "conelight: %s: %s\n", path.c_str(), note.c_str());

@@ -84,6 +84,7 @@ struct ViewOptions {
     int device = -1;
     bool debugGl = false;
     bool allowOutside = false;
+    bool noGround = false;
 
     void addTo(CLI::App& command);
     void addEnvironmentTo(CLI::App& command);

@@ -71,6 +71,14 @@ void printPicture(const std::string& path) {
         fmt::print("{:<10} {}\n", io::oneLine(name, 40), io::oneLine(text, 2000));
 }
 
+// What pictures of it will have beside.
+void printAdded(Scene& scene) {
+    const std::size_t notes = scene.notes.size();
+    completeScene(scene);
+    for (std::size_t i = notes; i < scene.notes.size(); ++i)
+        fmt::print("{:<10} {}\n", "to be seen", scene.notes[i]);
+}
+
 void run(const InfoOptions& options) {
     if (!options.tree && isPicture(options.scene)) return printPicture(options.scene);
     if (options.tree) {
@@ -88,7 +96,9 @@ void run(const InfoOptions& options) {
         }
     } else {
         io::SceneAnimation animation;
-        fmt::print("{}", io::describeScene(io::loadAnimatedScene(options.scene, options.load, animation)));
+        Scene scene = io::loadAnimatedScene(options.scene, options.load, animation);
+        fmt::print("{}", io::describeScene(scene));
+        printAdded(scene);
         if (animation.clips.empty()) return;
         fmt::print("clips      {}\n", animation.clips.size());
         for (const io::AnimationClip& clip : animation.clips)

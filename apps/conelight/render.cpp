@@ -356,6 +356,7 @@ void run(RenderOptions options) {
     Session session(std::move(scene), options.scene, request.settings, request.mode, request.camera);
     session.setAnimation(std::move(animation));
     session.allowOutside(options.view.allowOutside);
+    session.leaveOutGround(options.view.noGround);
     if (isFilm(options)) {
         if (!options.aovs.empty())
             options.script.layers = [&options](const Picture& drawn) { return layersOf(options, drawn); };

@@ -41,6 +41,7 @@ Session openSession(const ViewCommand& options) {
                     mode.empty() ? getSetting(settings, "mode") : mode, camera);
     session.setAnimation(std::move(animation));
     session.allowOutside(options.view.allowOutside);
+    session.leaveOutGround(options.view.noGround);
     return session;
 }
 

@@ -296,8 +296,8 @@ CONELIGHT_API glm::vec3 environmentDirection(const glm::vec2& uv);
 // twentieth of the picture's light.
 CONELIGHT_API bool splitSun(Scene& scene);
 
-// Adds what a scene needs to be seen: a camera when there is none, a headlight at the first camera and
-// a grey sky when there is no light, no emission and no sky. What was added is appended to `notes`.
+// Adds what a scene needs to be seen: a camera when there is none, and a studio with a ground (studio.h)
+// when there is no light, no emission and no sky. What was added is appended to `notes`.
 CONELIGHT_API void completeScene(Scene& scene);
 
 }  // namespace conelight

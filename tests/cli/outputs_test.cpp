@@ -47,6 +47,25 @@ TEST_F(OutputsTest, NothingIsWrittenOverWhatIsRead) {
     EXPECT_FALSE(fs::exists(path("o.png")));
 }
 
+// A model without light is seen in a studio, on a ground; both are said, and no file gets them.
+TEST_F(OutputsTest, TheStudioIsSaidAndNotConverted) {
+    const std::string model = path("m.obj"), out = path("m.glb");
+    put(model, "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+    const std::string draw = " --size 16x16 --voxels 16 --quality draft -o " + path("m.png");
+    EXPECT_NE(conelight("render " + model + draw).output.find("a studio with a ground was added"),
+              std::string::npos);
+    EXPECT_NE(conelight("render " + model + " --no-ground" + draw).output.find("a studio was added"),
+              std::string::npos);
+    EXPECT_NE(conelight("render builtin:furnace --no-ground --exec 'open " + model + "'" + draw)
+                  .output.find("a studio was added"),
+              std::string::npos);
+    EXPECT_NE(conelight("info " + model).output.find("a studio with a ground was added"), std::string::npos);
+    ASSERT_EQ(conelight("convert " + model + " " + out).status, 0);
+    const std::string converted = conelight("info " + out).output;
+    EXPECT_NE(converted.find("4 drawn"), std::string::npos) << converted;
+    EXPECT_NE(converted.find("lights     0"), std::string::npos) << converted;
+}
+
 // A stranger's scene does not carry files of the user away, whichever command opens it.
 TEST_F(OutputsTest, WhatLiesOutsideIsReadWhenAllowed) {
     fs::create_directories(path("scene"));

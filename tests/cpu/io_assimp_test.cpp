@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Formats read through Assimp: hierarchy, materials, textures, units, smoothing; isolation from importers
 // that crash, hang or eat memory; every test file of Assimp itself.
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <array>
@@ -177,6 +178,37 @@ TEST(Assimp, ObjSpellings) {
     const Scene named = loadObj("hash", std::string("mtllib m.mtl\n") + kTriangle + "usemtl a#b\nf 1 2 3\n",
                                 "newmtl a#b\nKd 0 1 0\n");
     EXPECT_EQ(named.materials.at(std::size_t(named.instances.at(0).material)).name, "a#b");
+}
+
+// A pyramid along `axis`, 3 high, as an STL.
+std::string pyramidAlong(int axis) {
+    std::string text = "solid pyramid\n";
+    const auto triangle = [&](std::array<std::array<float, 3>, 3> corners) {
+        text += "facet normal 0 0 0\nouter loop\n";
+        for (const auto& c : corners) {
+            const std::array<float, 3> p = axis == 2 ? c : std::array<float, 3>{c[1], c[2], c[0]};
+            text += fmt::format("vertex {} {} {}\n", p[0], p[1], p[2]);
+        }
+        text += "endloop\nendfacet\n";
+    };
+    const std::array<std::array<float, 3>, 4> base{{{-2, -1, 0}, {2, -1, 0}, {2, 1, 0}, {-2, 1, 0}}};
+    for (std::size_t i = 0; i < 4; ++i) triangle({base[i], base[(i + 1) % 4], {0, 0, 3}});
+    triangle({base[0], base[2], base[1]});
+    triangle({base[0], base[3], base[2]});
+    return text + "endsolid pyramid\n";
+}
+
+TEST(Assimp, StlStandsUprightWhicheverAxisItWasMadeAlong) {
+    for (const int up : {1, 2}) {
+        const Scene scene =
+            io::loadScene(write(folderOf("stl") / ("t" + std::to_string(up) + ".stl"), pyramidAlong(up)));
+        EXPECT_NEAR(scene.bounds().extent().y, 3.0f, 1e-4f) << up;
+        EXPECT_NEAR(scene.bounds().min.y, 0.0f, 1e-4f) << up;
+        const bool said = std::any_of(scene.notes.begin(), scene.notes.end(), [](const std::string& note) {
+            return note.find("up axis") != std::string::npos;
+        });
+        EXPECT_EQ(said, up == 2);
+    }
 }
 
 const char* const kCollada =

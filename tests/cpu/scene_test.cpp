@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The scene tables: bounds, what is refused and with which words, the camera and light that are added, and
-// the two material models.
+// The scene tables: bounds, what is refused and with which words, the camera that frames, and the two material
+// models.
 #include "conelight/scene.h"
 
 #include <gtest/gtest.h>
@@ -144,89 +144,6 @@ TEST(SceneTest, FrameCameraSeesAllCorners) {
         EXPECT_GT(glm::distance(camera.eye, camera.target), 0.0f);
         EXPECT_LT(camera.zNear, camera.zFar);
     }
-}
-
-TEST(SceneTest, WhatIsAddedSuitsTheShape) {
-    // A room that is closed gets its light within: its box, turned inside out.
-    Scene scene;
-    addInstance(scene, boxMesh(), diffuseMaterial());
-    Scene room = scene;
-    for (std::size_t i = 0; i < room.meshes.back().indices.size(); i += 3)
-        std::swap(room.meshes.back().indices[i], room.meshes.back().indices[i + 1]);
-    completeScene(scene);
-    completeScene(room);
-    ASSERT_EQ(scene.lights.size(), 1u);
-    ASSERT_EQ(room.lights.size(), 2u);
-    EXPECT_EQ(room.lights[0].type, LightType::Directional);
-    EXPECT_EQ(room.lights[1].type, LightType::Point);
-    EXPECT_LT(glm::length(room.lights[1].position), 1);
-    // A light that is dark is none.
-    scene.lights[0].intensity = glm::vec3(0);
-    scene.sky = glm::vec3(0);
-    completeScene(scene);
-    EXPECT_EQ(scene.lights.size(), 2u);
-    // A sheet is seen from the side that it faces.
-    for (const float turned : {1.0f, -1.0f}) {
-        Scene sheet;
-        addInstance(sheet, quadMesh({0, 0, 0}, {turned, 0, 0}, {0, 1, 0}), diffuseMaterial());
-        completeScene(sheet);
-        EXPECT_GT(turned * sheet.cameras.at(0).eye.z, 0.5f);
-    }
-}
-
-TEST(SceneTest, CompletedScenesCanBeSeen) {
-    Scene scene = smallScene();
-    completeScene(scene);
-    EXPECT_EQ(scene.cameras.size(), 1u);
-    EXPECT_EQ(scene.lights.size(), 1u);
-    EXPECT_EQ(scene.notes.size(), 1u);
-    // Nothing more the second time.
-    completeScene(scene);
-    EXPECT_EQ(scene.cameras.size(), 1u);
-    EXPECT_EQ(scene.notes.size(), 1u);
-    // No light: one from before the scene and beside the camera, and a sky, for metals to show. Together they
-    // make a white surface that faces the light bright, but not more than a display shows.
-    scene = smallScene();
-    scene.lights[0].enabled = false;
-    completeScene(scene);
-    ASSERT_EQ(scene.lights.size(), 2u);
-    EXPECT_EQ(scene.lights[1].type, LightType::Directional);
-    EXPECT_NEAR(glm::length(scene.lights[1].direction), 1.0f, 1e-5f);
-    EXPECT_GT(scene.sky.g, 0.1f);
-    EXPECT_NEAR(scene.lights[1].intensity.g / 3.14159265f + scene.sky.g, 0.85f, 0.15f);
-    const float ahead =
-        glm::dot(scene.lights[1].direction, glm::normalize(scene.cameras[0].target - scene.cameras[0].eye));
-    EXPECT_GT(ahead, 0.5f);
-    EXPECT_LT(ahead, 0.8f);
-    EXPECT_NO_THROW(scene.validate());
-    // Sky or emission are light enough.
-    for (const bool sky : {true, false}) {
-        scene = smallScene();
-        scene.lights.clear();
-        if (sky)
-            scene.sky = glm::vec3(0.1f);
-        else
-            scene.materials[0].emission = glm::vec3(0, 1, 0);
-        completeScene(scene);
-        EXPECT_TRUE(scene.lights.empty());
-    }
-    // A texture that glows in a few places only is no lamp; one that glows all over is.
-    for (const std::uint8_t level : {std::uint8_t{5}, std::uint8_t{200}}) {
-        scene = smallScene();
-        scene.lights.clear();
-        scene.materials[0].emission = glm::vec3(1);
-        scene.materials[0].emissiveTexture.texture = static_cast<int>(scene.textures.size());
-        Texture marks;
-        marks.width = marks.height = 1;
-        marks.rgba = {level, level, level, 255};
-        scene.textures.push_back(marks);
-        completeScene(scene);
-        EXPECT_EQ(scene.lights.size(), level < 64 ? 1u : 0u);
-    }
-    Scene empty;
-    completeScene(empty);
-    EXPECT_EQ(empty.cameras.size(), 1u);
-    EXPECT_TRUE(empty.lights.empty());
 }
 
 TEST(SceneTest, DiffuseMaterialsLookTheSameInBothModels) {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "conelight/error.h"
+#include "conelight/studio.h"
 #include "io/scene_file.h"
 
 namespace conelight::program {
@@ -73,7 +74,7 @@ std::vector<std::string> Session::open(const std::string& path, bool keepView) {
     load.allowOutside = allowOutside_;
     io::SceneAnimation animation;
     Scene loaded = io::loadMovingScene(path, load, animation);
-    completeScene(loaded);
+    completeScene(loaded, {.ground = addsGround_});
     const Settings start = startSettings(loaded);
     scene_ = std::move(loaded);
     startRevisions();

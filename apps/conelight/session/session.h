@@ -72,6 +72,8 @@ class Session {
     std::vector<std::string> open(const std::string& path, bool keepView);
     // Scenes that are opened may name files outside their folders.
     void allowOutside(bool allow) { allowOutside_ = allow; }
+    // What is opened without light stands on no ground.
+    void leaveOutGround(bool leave) { addsGround_ = !leave; }
 
     const Scene& scene() const { return scene_; }
     const std::string& path() const { return path_; }
@@ -192,6 +194,7 @@ class Session {
     void startRevisions();
 
     bool allowOutside_ = false;
+    bool addsGround_ = true;
     Scene scene_;
     std::string path_;
     Settings settings_;

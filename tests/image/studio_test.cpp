@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+// The first picture of a model without light: it stands on a ground whose rim is not seen, and shades it.
+#include <cmath>
+
+#include "conelight/renderer.h"
+#include "conelight/studio.h"
+#include "support/gl_fixture.h"
+#include "support/scenes.h"
+
+namespace conelight::test {
+namespace {
+
+class StudioTest : public GlTest {};
+
+TEST_F(StudioTest, ABoxStandsOnTheGround) {
+    Scene scene;
+    addInstance(scene, boxMesh(), diffuseMaterial());
+    Scene bare = scene;
+    completeScene(scene);
+    completeScene(bare, {.ground = false});
+    Settings settings;
+    settings.voxels.size = 64;
+    constexpr int kWidth = 96, kHeight = 72;
+    Renderer renderer;
+    const auto picture = [&](const Scene& shown) {
+        renderer.setScene(shown);
+        renderer.render(scene.cameras.front(), kWidth, kHeight, settings);
+        return renderer.readImage();
+    };
+    const Image with = picture(scene), without = picture(bare);
+    const auto at = [&](const Image& image, int x, int y) {
+        return image.pixels[static_cast<std::size_t>((kHeight - 1 - y) * kWidth + x)].y;
+    };
+    // `y` counts from the lower edge. Beside the box and before it, in the light: as without a ground.
+    const float open = at(with, 3, 2) / at(without, 3, 2);
+    EXPECT_NEAR(open, 1, 0.12f);  // the box hides a part of the surroundings
+    EXPECT_NEAR(at(with, 3, kHeight - 3) / at(without, 3, kHeight - 3), 1, 1e-3f);
+    // Where the shade touches the box.
+    float darkest = 1;
+    for (int x = 0; x < kWidth; ++x)
+        for (int y = 0; y < kHeight / 3; ++y) darkest = std::min(darkest, at(with, x, y) / at(without, x, y));
+    EXPECT_LT(darkest, 0.6f * open);
+}
+
+}  // namespace
+}  // namespace conelight::test
