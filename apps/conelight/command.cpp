@@ -19,6 +19,7 @@
 #include "io/environment_file.h"
 #include "io/generated_surroundings.h"
 #include "io/scene_file.h"
+#include "memory_limit.h"
 #include "session/lens_range.h"
 #include "session/session.h"
 #include "traced_picture.h"
@@ -179,6 +180,7 @@ void ViewOptions::addTo(CLI::App& command) {
         ->check(CLI::NonNegativeNumber);
     command.add_flag("--gl-debug", debugGl,
                      "check every OpenGL call and report errors of the driver (slower)");
+    addMemory(command);
     addAllowOutside(command, allowOutside);
 }
 
@@ -242,6 +244,8 @@ Scene openScene(const std::string& path, const ViewOptions& options, Progress& p
     progress.show("loading " + path);
     io::LoadOptions load;
     load.allowOutside = options.allowOutside;
+    load.maxTexels = texelsWithin(load.maxTexels);
+    const HostMemoryLimit limit;
     Scene scene = animation == nullptr ? io::loadScene(path, load)
                   : needsClips         ? io::loadAnimatedScene(path, load, *animation)
                                        : io::loadMovingScene(path, load, *animation);

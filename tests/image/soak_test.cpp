@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: MIT
+// Random commands of the console for a long time, on one renderer: scenes that are opened, edited, animated, and
+// drawn in all modes and sizes. Every so often the picture is that of a fresh renderer, bit for bit, and OpenGL
+// objects are as many and as large as its own. The host's memory does not grow where the same commands come again.
+//
+// A seed gives the same commands. CONELIGHT_SOAK_SECONDS=N goes on with other seeds for so long (tools/soak).
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <random>
+
+#include "conelight/console/console.h"
+#include "conelight/error.h"
+#include "conelight/renderer.h"
+#include "conelight/scene_upload.h"
+#include "conelight/thesis/settings.h"
+#include "support/gl_fixture.h"
+#include "support/moving_scene.h"
+
+namespace conelight::test {
+namespace {
+
+using namespace program;
+
+// What a renderer's objects hold, programs left out: they stay for the next picture that needs them.
+struct Held {
+    std::size_t count = 0, bytes = 0;
+    bool operator==(const Held&) const = default;
+};
+std::ostream& operator<<(std::ostream& out, const Held& held) {
+    return out << held.count << " objects of " << held.bytes << " bytes";
+}
+
+Held held() {
+    Held held;
+    for (const gl::LiveObject& object : gl::liveObjects()) {
+        if (object.type == gl::ObjectType::Program) continue;
+        ++held.count;
+        held.bytes += object.bytes;
+    }
+    return held;
+}
+
+// Bytes that the process has asked for and not given back; 0: unknown.
+std::size_t heapBytes() {
+#if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)
+    const struct mallinfo2 info = mallinfo2();
+    return info.uordblks + info.hblkhd;
+#else
+    return 0;
+#endif
+}
+
+class Soak {
+  public:
+    explicit Soak(std::vector<std::string> scenes) : scenes_(std::move(scenes)) {
+        renderer_ = std::make_unique<Renderer>();
+        open();
+    }
+
+    void begin(unsigned seed) {
+        random_.seed(seed);
+        renderer_->setDynamic(false);
+        open();
+    }
+
+    // One command, and the picture after it.
+    void step() {
+        run(command());
+        if (within(8) == 0) size_ = {8 + within(60), 8 + within(44)};
+        if (within(12) == 0) renderer_->setDynamic(within(2) == 0);
+        draw(*renderer_, upload_);
+        if (within(6) == 0) renderer_->inspectPixel(within(size_.x), within(size_.y));
+    }
+
+    // The scene and the settings as they are, from the beginning: by this renderer and by a fresh one.
+    void compareWithFresh() {
+        renderer_->setDynamic(false);
+        run("set traced.budgeted false; set image.temporal off; set view.wireframe off");
+        upload_.forget();
+        const Image soaked = draw(*renderer_, upload_);
+        Image fresh;
+        Held both;
+        {
+            const Held before = held();
+            Renderer other;
+            SceneUpload upload;
+            fresh = draw(other, upload);
+            both = held();
+            mine_ = before;
+            theirs_ = {both.count - before.count, both.bytes - before.bytes};
+        }
+        EXPECT_EQ(soaked.pixels, fresh.pixels) << last_;
+    }
+    Held mine() const { return mine_; }
+    Held theirs() const { return theirs_; }
+
+    // A picture of nothing special, so that what is held can be compared.
+    void rest() {
+        renderer_->setDynamic(false);
+        size_ = {32, 24};
+        session_ = Session();
+        console_.emplace(session_, [this](const ConsoleLine& line) { refused_ += line.isError; });
+        open(scenes_.front());
+        run("mode traced");
+        upload_.forget();
+        draw(*renderer_, upload_);
+    }
+    int refused() const { return refused_; }
+    int commands() const { return commands_; }
+
+  private:
+    int within(int count) { return static_cast<int>(random_() % static_cast<unsigned>(count)); }
+    template <class T>
+    const T& anyOf(const std::vector<T>& all) {
+        return all[static_cast<std::size_t>(within(static_cast<int>(all.size())))];
+    }
+    std::string number(int low, int high, int parts) {
+        return fmt::format("{:g}",
+                           (low * parts + within((high - low) * parts + 1)) / static_cast<double>(parts));
+    }
+
+    void open() { open(anyOf(scenes_)); }
+    void open(const std::string& scene) {
+        session_.open(scene, false);
+        console_.emplace(session_, [this](const ConsoleLine& line) { refused_ += line.isError; });
+        run("set voxels.size 16; set light.shadow_size 64; set light.area_samples 1; set traced.passes 2; "
+            "set traced.cache_updates 3; set image.antialiasing 0; set light.caustics 1024; set "
+            "cones.bounces 1");
+    }
+    void run(const std::string& text) {
+        last_ = text;
+        ++commands_;
+        console_->submit(text);
+        while (!console_->idle()) {
+            console_->runQueued();
+            while (std::optional<Request> request = session_.takeRequest())
+                if (request->kind == RequestKind::Load) session_.open(request->file, request->keepView);
+            if (session_.playing()) session_.finishPlaying();
+            console_->endWait();
+        }
+    }
+    std::string object() {
+        const std::vector<Instance>& all = session_.scene().instances;
+        return all.empty() ? "none" : quoted(anyOf(all).name);
+    }
+    std::string light() {
+        const std::vector<Light>& all = session_.scene().lights;
+        return all.empty() ? "none" : std::to_string(within(static_cast<int>(all.size())));
+    }
+    std::string setting() {
+        static const std::vector<std::pair<const char*, std::vector<std::string>>> kSettings{
+            {"voxels.size", {"8", "16", "24", "32"}},
+            {"voxels.padding", {"0", "0.03", "0.5"}},
+            {"light.shadow_size", {"0", "64", "128"}},
+            {"light.shadow_memory", {"0", "1", "512"}},
+            {"light.shadow_filter", {"0", "2"}},
+            {"light.area_samples", {"1", "4"}},
+            {"light.emissive_quads", {"true", "false"}},
+            {"light.caustics", {"0", "1024"}},
+            {"component",
+             {"full", "full", "full", "direct", "indirect", "specular", "occlusion", "albedo", "voxels",
+              "emission", "shadow_map", "depth"}},
+            {"cones.storage", {"dense", "octree"}},
+            {"cones.directional", {"isotropic", "six"}},
+            {"cones.diffuse_set", {"one", "five", "best_9", "fibonacci"}},
+            {"cones.bounces", {"0", "1", "2"}},
+            {"cones.indirect", {"cones", "cache"}},
+            {"cones.shadows", {"maps", "cones"}},
+            {"cones.fractional_levels", {"true", "false"}},
+            {"phong.shadows", {"on", "off"}},
+            {"thesis.storage", {"dense", "octree"}},
+            {"thesis.published", {"true", "false"}},
+            {"thesis.bounces", {"1", "2"}},
+            {"traced.quality", {"draft", "interactive"}},
+            {"traced.passes", {"1", "2"}},
+            {"traced.cache_updates", {"1", "4"}},
+            {"traced.pixel_rays", {"0", "1", "2"}},
+            {"traced.filter_levels", {"0", "3"}},
+            {"traced.bounces", {"0", "2", "all"}},
+            {"traced.exact_shadows", {"true", "false"}},
+            {"traced.exact_mirrors", {"true", "false"}},
+            {"traced.budgeted", {"true", "false"}},
+            {"image.temporal", {"on", "off"}},
+            {"image.antialiasing", {"0", "2"}},
+            {"image.exposure", {"auto", "1"}},
+            {"image.bloom", {"0", "0.1"}},
+            {"view.wireframe", {"off", "objects"}},
+            {"view.voxels", {"true", "false"}},
+        };
+        const auto& [key, values] =
+            kSettings[static_cast<std::size_t>(within(static_cast<int>(std::size(kSettings))))];
+        std::string text = std::string("set ") + key + " " + anyOf(values);
+        // A quality brings its own passes.
+        if (std::string(key) == "traced.quality") text += "; set traced.passes 2; set traced.cache_updates 3";
+        return text;
+    }
+    std::string edit() {
+        switch (within(13)) {
+            case 0:
+                return "translate " + object() + " " + anyOf<std::string>({"x", "y", "z"}) + " " +
+                       number(-1, 1, 8);
+            case 1:
+                return "rotate " + object() + " y " + number(-90, 90, 1);
+            case 2:
+                return "scale " + object() + " " + number(1, 2, 4);
+            case 3:
+                return "duplicate " + object();
+            case 4:
+                return "delete " + object();
+            case 5:
+                return anyOf<std::string>({"hide ", "show ", "moving "}) + object();
+            case 6:
+                return "material " + object() + " " +
+                       anyOf<std::string>({"roughness 0.3", "metallic 1", "metallic 0", "transmission 1",
+                                           "transmission 0", "emission 1 2 3", "color 0.2 0.5 0.9"});
+            case 7:
+                return "light add " + anyOf<std::string>({"point", "spot", "directional", "rect"});
+            case 8:
+                return "light " + light() + " " +
+                       anyOf<std::string>({"intensity 2 2 1", "position 0.2 0.5 0.1", "delete", "off", "on"});
+            case 9:
+                return "sky " + number(0, 2, 4);
+            case 10:
+                return "environment " + anyOf<std::string>({"builtin:sky", "none"});
+            case 11:
+                return "camera orbit " + number(-40, 40, 1) + " " + number(-10, 10, 1);
+            default:
+                return anyOf<std::string>({"undo", "undo", "undo", "redo"});
+        }
+    }
+    std::string command() {
+        const int kind = within(20);
+        if (kind == 0) {
+            open();
+            return "list";
+        }
+        if (kind <= 3) return "mode " + anyOf<std::string>({"traced", "cones", "hybrid", "thesis", "phong"});
+        if (kind <= 10) return setting();
+        if (kind <= 12 && !session_.clips().empty())
+            return anyOf<std::string>({"clip rest", "clip at " + number(0, 1, 8), "clip show 0"});
+        return edit();
+    }
+    Image draw(Renderer& renderer, SceneUpload& upload) {
+        upload.follow(renderer, session_);
+        Settings settings = session_.shownSettings();
+        renderer.render(session_.camera(), size_.x, size_.y, settings);
+        renderer.displayTexture(settings.image);
+        return renderer.readImage();
+    }
+
+    std::vector<std::string> scenes_;
+    std::mt19937 random_;
+    Session session_;
+    std::optional<Console> console_;
+    std::unique_ptr<Renderer> renderer_;
+    SceneUpload upload_;
+    glm::ivec2 size_{32, 24};
+    Held mine_, theirs_;
+    std::string last_;
+    int refused_ = 0, commands_ = 0;
+};
+
+struct SoakTest : public GlTest {
+    static constexpr int kSteps = 60;  // of a pass
+    static std::vector<std::string> scenes() {
+        return {"builtin:cornell",          "builtin:sunroom", risingBlock("rises.gltf"),
+                growingBlock("grows.gltf"), "builtin:colours", "builtin:lanterns"};
+    }
+    // One pass; what is held at its end.
+    static Held pass(Soak& soak, unsigned seed) {
+        soak.begin(seed);
+        for (int step = 1; step <= kSteps; ++step) {
+            soak.step();
+            if (step % (kSteps / 4) == 0) soak.compareWithFresh();
+            if (HasFailure()) {
+                ADD_FAILURE() << "seed " << seed << ", step " << step;
+                break;
+            }
+        }
+        soak.rest();
+        return held();
+    }
+};
+
+TEST_F(SoakTest, RandomCommandsLeaveNothingBehind) {
+    Soak soak(scenes());
+    const Held first = pass(soak, 1);
+    const std::size_t heap = heapBytes();
+    // The same once more: all programs are there, so nothing may be more.
+    EXPECT_EQ(pass(soak, 1), first);
+    constexpr std::size_t kSlack = std::size_t{1} << 20;  // of the allocator and of the driver's own lists
+    EXPECT_LE(heapBytes(), heap + kSlack);
+    // Most commands do something.
+    EXPECT_LT(4 * soak.refused(), soak.commands());
+
+    const char* seconds = std::getenv("CONELIGHT_SOAK_SECONDS");
+    if (seconds == nullptr) return;
+    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(std::atoi(seconds));
+    for (unsigned seed = 2; std::chrono::steady_clock::now() < end && !HasFailure(); ++seed) {
+        EXPECT_EQ(pass(soak, seed), first) << seed;
+        std::printf("seed %u: %d commands, heap %.1f MB\n", seed, soak.commands(),
+                    static_cast<double>(heapBytes()) / (1 << 20));
+        std::fflush(stdout);
+    }
+}
+
+}  // namespace
+}  // namespace conelight::test
