@@ -12,6 +12,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <map>
 #include <random>
 
 #include "conelight/console/console.h"
@@ -27,23 +28,31 @@ namespace {
 
 using namespace program;
 
-// What a renderer's objects hold, programs left out: they stay for the next picture that needs them.
-struct Held {
-    std::size_t count = 0, bytes = 0;
-    bool operator==(const Held&) const = default;
-};
-std::ostream& operator<<(std::ostream& out, const Held& held) {
-    return out << held.count << " objects of " << held.bytes << " bytes";
-}
+// Objects by label, programs left out: they stay for the next picture that needs them.
+using Held = std::map<std::string, std::pair<int, std::size_t>>;  // how many, bytes
 
 Held held() {
     Held held;
     for (const gl::LiveObject& object : gl::liveObjects()) {
         if (object.type == gl::ObjectType::Program) continue;
-        ++held.count;
-        held.bytes += object.bytes;
+        auto& [count, bytes] = held[object.label];
+        ++count;
+        bytes += object.bytes;
     }
     return held;
+}
+
+// Labels of which there is more than before; empty: none.
+std::string more(const Held& now, const Held& before) {
+    std::string text;
+    for (const auto& [label, one] : now) {
+        const auto found = before.find(label);
+        const auto [count, bytes] = found == before.end() ? std::pair<int, std::size_t>() : found->second;
+        if (one.first > count || one.second > bytes)
+            text += fmt::format("'{}': {} of {} bytes, not {} of {}; ", label, one.first, one.second, count,
+                                bytes);
+    }
+    return text;
 }
 
 // Bytes that the process has asked for and not given back; 0: unknown.
@@ -84,30 +93,26 @@ class Soak {
         run("set traced.budgeted false; set image.temporal off; set view.wireframe off");
         upload_.forget();
         const Image soaked = draw(*renderer_, upload_);
-        Image fresh;
-        Held both;
-        {
-            const Held before = held();
-            Renderer other;
-            SceneUpload upload;
-            fresh = draw(other, upload);
-            both = held();
-            mine_ = before;
-            theirs_ = {both.count - before.count, both.bytes - before.bytes};
-        }
-        EXPECT_EQ(soaked.pixels, fresh.pixels) << last_;
+        Renderer other;
+        SceneUpload upload;
+        EXPECT_EQ(soaked.pixels, draw(other, upload).pixels) << last_;
     }
-    Held mine() const { return mine_; }
-    Held theirs() const { return theirs_; }
 
-    // A picture of nothing special, so that what is held can be compared.
+    // A picture of nothing special, so that what is held can be compared. Other looks before it: what they keep of
+    // a few bytes is made when it is first needed, once per renderer.
     void rest() {
         renderer_->setDynamic(false);
         size_ = {32, 24};
         session_ = Session();
-        console_.emplace(session_, [this](const ConsoleLine& line) { refused_ += line.isError; });
         open(scenes_.front());
-        run("mode traced");
+        upload_.forget();
+        for (const char* look :
+             {"set component shadow_map", "set component voxels", "set view.wireframe objects",
+              "set image.antialiasing 2", "set component full; set view.wireframe off"}) {
+            run(look);
+            draw(*renderer_, upload_);
+        }
+        open(scenes_.front());
         upload_.forget();
         draw(*renderer_, upload_);
     }
@@ -261,13 +266,12 @@ class Soak {
     std::unique_ptr<Renderer> renderer_;
     SceneUpload upload_;
     glm::ivec2 size_{32, 24};
-    Held mine_, theirs_;
     std::string last_;
     int refused_ = 0, commands_ = 0;
 };
 
 struct SoakTest : public GlTest {
-    static constexpr int kSteps = 60;  // of a pass
+    static constexpr int kSteps = 40;  // of a pass
     static std::vector<std::string> scenes() {
         return {"builtin:cornell",          "builtin:sunroom", risingBlock("rises.gltf"),
                 growingBlock("grows.gltf"), "builtin:colours", "builtin:lanterns"};
@@ -291,10 +295,12 @@ struct SoakTest : public GlTest {
 TEST_F(SoakTest, RandomCommandsLeaveNothingBehind) {
     Soak soak(scenes());
     const Held first = pass(soak, 1);
+    // The same again: all programs are there, so nothing may be more. What drivers do on threads of their own after
+    // the first pass, such as keeping programs on disk, is done after the second.
+    EXPECT_EQ(more(pass(soak, 1), first), "");
     const std::size_t heap = heapBytes();
-    // The same once more: all programs are there, so nothing may be more.
-    EXPECT_EQ(pass(soak, 1), first);
-    constexpr std::size_t kSlack = std::size_t{1} << 20;  // of the allocator and of the driver's own lists
+    EXPECT_EQ(more(pass(soak, 1), first), "");
+    constexpr std::size_t kSlack = std::size_t{1} << 20;  // of the allocator's own lists
     EXPECT_LE(heapBytes(), heap + kSlack);
     // Most commands do something.
     EXPECT_LT(4 * soak.refused(), soak.commands());
@@ -303,7 +309,7 @@ TEST_F(SoakTest, RandomCommandsLeaveNothingBehind) {
     if (seconds == nullptr) return;
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(std::atoi(seconds));
     for (unsigned seed = 2; std::chrono::steady_clock::now() < end && !HasFailure(); ++seed) {
-        EXPECT_EQ(pass(soak, seed), first) << seed;
+        EXPECT_EQ(more(pass(soak, seed), first), "") << seed;
         std::printf("seed %u: %d commands, heap %.1f MB\n", seed, soak.commands(),
                     static_cast<double>(heapBytes()) / (1 << 20));
         std::fflush(stdout);
