@@ -135,7 +135,45 @@ std::string channelName(const std::string& layer, const std::string& suffix) {
     return suffix.empty() ? layer : layer + "." + suffix;
 }
 
+// OpenEXR asks for the memory that an attribute says it has, up to 2 GB, before it reads any of it. A header is a list
+// of name, type, size and value; an empty name ends it, and in files of several parts an empty header the list of
+// headers ("OpenEXR File Layout").
+void requireAttributesInFile(const Bytes& bytes, const std::string& file) {
+    constexpr std::size_t kBegin = 8, kSizeBytes = 4;  // magic number and version
+    std::size_t at = kBegin;
+    const auto word = [&] {
+        const auto end = std::find(bytes.begin() + std::ptrdiff_t(at), bytes.end(), 0);
+        const std::string text(bytes.begin() + std::ptrdiff_t(at), end);
+        at = std::size_t(end - bytes.begin()) + 1;
+        return text;
+    };
+    bool first = true;  // of its header
+    while (at < bytes.size()) {
+        const std::string name = word();
+        const bool ends = name.empty();
+        if (ends && first) return;
+        first = ends;
+        if (ends) {
+            constexpr std::size_t kFlags = 5;
+            constexpr int kMultiPart = 0x10;
+            if ((bytes[kFlags] & kMultiPart) == 0) return;
+            continue;
+        }
+        word();
+        if (at + kSizeBytes > bytes.size()) return;  // it ends early, which is said later
+        std::uint32_t size = 0;                      // little-endian
+        for (std::size_t i = 0; i < kSizeBytes; ++i) size |= std::uint32_t(bytes[at + i]) << (8 * i);
+        at += kSizeBytes;
+        if (size > bytes.size() - at)
+            throw Error(ErrorKind::BadInput,
+                        fmt::format("{}: header: attribute '{}' of {} bytes is larger than the file", file,
+                                    oneLine(name), size));
+        at += size;
+    }
+}
+
 FloatImage readFrom(const Bytes& bytes, const std::string& file) {
+    requireAttributesInFile(bytes, file);
     MemoryIn stream(bytes);
     Imf::InputFile input(stream);
     const Imath::Box2i window = input.header().dataWindow();

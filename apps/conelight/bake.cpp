@@ -9,6 +9,7 @@
 #include "io/files.h"
 #include "io/image_file.h"
 #include "io/probe_files.h"
+#include "memory_limit.h"
 #include "picture_file.h"
 #include "reference/metrics.h"
 #include "reference/path_tracer.h"
@@ -131,6 +132,7 @@ void run(const BakeOptions& options) {
     settings.seed = options.seed;
     io::checkProbeFolder(options.out, options.force);
     const StoppableScope stoppable;
+    const HostMemoryLimit limit;
     const reference::ProbeVolume volume = reference::bakeProbes(scene, grid, settings, [&](double done) {
         progress.show(fmt::format("baking {} probes, {:.0f} %", grid.size(), 100 * done));
         return !interrupted();
@@ -179,6 +181,7 @@ void addBake(CLI::App& app) {
     command->add_option("--json", options->json, "the errors as a file");
     command->add_option("--camera", options->view.camera, "the camera of the picture, by name");
     options->view.addEnvironmentTo(*command);
+    addMemory(*command);
     addAllowOutside(*command, options->view.allowOutside);
     options->view.noGround = true;  // what is written is the file's own
     command->callback([options] { run(*options); });

@@ -20,6 +20,7 @@
 #include "io/environment_file.h"
 #include "io/generated_surroundings.h"
 #include "io/scene_file.h"
+#include "memory_limit.h"
 #include "session/lens_range.h"
 #include "session/session.h"
 #include "traced_picture.h"
@@ -182,6 +183,7 @@ void ViewOptions::addTo(CLI::App& command) {
                      "check every OpenGL call and report errors of the driver (slower)");
     command.add_flag("--no-ground", noGround,
                      "no ground below a scene that has neither light nor a floor of its own");
+    addMemory(command);
     addAllowOutside(command, allowOutside);
 }
 
@@ -245,6 +247,8 @@ Scene openScene(const std::string& path, const ViewOptions& options, Progress& p
     progress.show("loading " + path);
     io::LoadOptions load;
     load.allowOutside = options.allowOutside;
+    load.maxTexels = texelsWithin(load.maxTexels);
+    const HostMemoryLimit limit;
     Scene scene = animation == nullptr ? io::loadScene(path, load)
                   : needsClips         ? io::loadAnimatedScene(path, load, *animation)
                                        : io::loadMovingScene(path, load, *animation);

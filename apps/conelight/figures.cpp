@@ -9,6 +9,7 @@
 #include "conelight/error.h"
 #include "figures/gallery.h"
 #include "figures/studio.h"
+#include "memory_limit.h"
 
 namespace conelight::program {
 namespace {
@@ -107,6 +108,7 @@ void addFigures(CLI::App& app) {
     command->add_option("--device", options->device, "EGL device (`conelight info` lists them)")
         ->type_name("N")
         ->check(CLI::NonNegativeNumber);
+    addMemory(*command);
     command->callback([options] { run(*options); });
 }
 

@@ -17,6 +17,7 @@
 #include "command.h"
 #include "command_line.h"
 #include "conelight/error.h"
+#include "conelight/memory.h"
 #include "conelight/version.h"
 #include "guests.h"
 #include "platform/headless_context.h"
@@ -47,6 +48,17 @@ void printMessage(conelight::LogLevel level, std::string_view message) {
 
 constexpr char kOutOfMemory[] =
     "conelight: out of memory; a smaller scene, picture or voxel size would be right\n";
+
+void sayOutOfMemory() {
+    if (const std::size_t limit = conelight::memoryLimit(); limit > 0)
+        std::fprintf(
+            stderr,
+            "conelight: out of memory: --memory is %zu MB; more, or a smaller scene or picture, would be "
+            "right\n",
+            limit >> 20);
+    else
+        std::fputs(kOutOfMemory, stderr);
+}
 
 // An exception that nobody caught: of a thread, of a destructor. Memory can end anywhere, so that is said
 // without asking for more of it; anything else is a fault of ours and leaves its trace.
@@ -117,7 +129,7 @@ int main(int argc, char** argv) {
         std::fprintf(stderr, "conelight: %s\n", error.what());
         return exitStatus(error.kind());
     } catch (const std::bad_alloc&) {
-        std::fputs(kOutOfMemory, stderr);
+        sayOutOfMemory();
         return 1;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "conelight: %s\n", error.what());

@@ -6,6 +6,8 @@
 #include <algorithm>
 
 #include "conelight/error.h"
+#include "memory_limit.h"
+#include "platform/context_health.h"
 #include "scene_upload.h"
 #include "session/session.h"
 #include "static_light.h"
@@ -169,6 +171,7 @@ Image PictureSource::Impl::drawGl(const PictureRequest& request, const Settings&
     for (int frame = 0; frame < (first ? request.frames : 1); ++frame)
         renderer->render(request.camera, request.size.width, request.size.height, settings);
     Image image = renderer->readImage();
+    platform::requireHealthyContext();
     if (!first) return image;
     picture.stats = renderer->stats();
     if (request.timedFrames > 0) picture.cost = costOf(request, settings);
@@ -225,6 +228,7 @@ void PictureSource::Impl::drawRenderer(const PictureRequest& request, Picture& p
 
 reference::PathTracedPicture PictureSource::Impl::trace(const PictureRequest& request, Picture& picture,
                                                         Progress* progress) {
+    const HostMemoryLimit limit;
     if (!tracer) {
         show(progress, "building the ray structure");
         tracer.emplace(*scene);
@@ -255,6 +259,7 @@ const Bake& PictureSource::Impl::bake(std::optional<Bake>& kept, const reference
     if (kept && kept->key == keyOf(settings)) return *kept;
     show(progress, "radiosity");
     const StoppableScope stoppable;
+    const HostMemoryLimit limit;
     const auto onProgress = [&](const reference::RadiosityProgress& now) {
         std::string text = fmt::format("radiosity: {:.0f} %", 100 * now.done);
         if (now.secondsLeft >= 0) text += ", " + timeText(now.secondsLeft) + " left";
@@ -318,6 +323,7 @@ void PictureSource::Impl::drawRadiosity(const PictureRequest& request, Picture& 
 
 void PictureSource::Impl::drawBeams(const PictureRequest& request, Picture& picture,
                                     Progress* progress) const {
+    const HostMemoryLimit limit;
     const reference::BeamPicture none;
     for (const Component component : request.components) imageOf(none, component);  // refused before the work
     const reference::BeamPicture drawn =

@@ -91,16 +91,24 @@ EGLContext createContext(EGLDisplay display, bool debug) {
     EGLint configCount = 0;
     if (eglChooseConfig(display, configAttributes, &config, 1, &configCount) == EGL_FALSE || configCount == 0)
         config = EGL_NO_CONFIG_KHR;
-    const EGLint attributes[] = {EGL_CONTEXT_MAJOR_VERSION,
-                                 4,
-                                 EGL_CONTEXT_MINOR_VERSION,
-                                 5,
-                                 EGL_CONTEXT_OPENGL_PROFILE_MASK,
-                                 EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
-                                 EGL_CONTEXT_OPENGL_DEBUG,
-                                 debug ? EGL_TRUE : EGL_FALSE,
-                                 EGL_NONE};
-    return eglCreateContext(display, config, EGL_NO_CONTEXT, attributes);
+    std::vector<EGLint> attributes{EGL_CONTEXT_MAJOR_VERSION,
+                                   4,
+                                   EGL_CONTEXT_MINOR_VERSION,
+                                   5,
+                                   EGL_CONTEXT_OPENGL_PROFILE_MASK,
+                                   EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT,
+                                   EGL_CONTEXT_OPENGL_DEBUG,
+                                   debug ? EGL_TRUE : EGL_FALSE,
+                                   EGL_NONE};
+    // A context that is told when it is lost; debug contexts with robust access too. Without, where the driver does
+    // not know of that.
+    std::vector<EGLint> told = attributes;
+    told.pop_back();
+    told.insert(told.end(), {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET,
+                             EGL_CONTEXT_OPENGL_ROBUST_ACCESS, debug ? EGL_TRUE : EGL_FALSE, EGL_NONE});
+    const EGLContext context = eglCreateContext(display, config, EGL_NO_CONTEXT, told.data());
+    return context != EGL_NO_CONTEXT ? context
+                                     : eglCreateContext(display, config, EGL_NO_CONTEXT, attributes.data());
 }
 
 }  // namespace

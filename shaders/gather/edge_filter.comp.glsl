@@ -74,16 +74,20 @@ OwnPixel ownPixel(ivec2 size) {
 
 // Its neighbours, as readTaps finds them.
 uvec4 taps[8];
-bool same[8];       // the pixel's instance
+uint same;          // bit i: the pixel's instance (an array of bool is invalid SPIR-V through Mesa's zink)
 float cosines[8];   // of the normals
 float offPlane[8];  // from the pixel's plane, voxels
 
+bool isSame(int i) { return (same >> i & 1u) != 0u; }
+
 void readTaps(OwnPixel own, ivec2 size) {
+    same = 0u;
     for (int i = 0; i < 8; ++i) {
         ivec2 q = own.at + FILTER_STEP * neighbour(i);
         uvec4 bits = texelFetch(source, clamp(q, ivec2(0), size - 1), 0);
         bool inside = all(greaterThanEqual(q, ivec2(0))) && all(lessThan(q, size));
-        same[i] = inside && bits.z != 0u && pixelHistoryInstance(bits) == pixelHistoryInstance(own.bits);
+        bool alike = inside && bits.z != 0u && pixelHistoryInstance(bits) == pixelHistoryInstance(own.bits);
+        same |= alike ? 1u << i : 0u;
         cosines[i] = dot(pixelHistoryNormal(bits), own.normal);
         offPlane[i] = dot(positionOf(q, bits) - own.position, own.normal) * pixelRays.inverseVoxelSize;
         taps[i] = bits;
@@ -129,7 +133,7 @@ Likeness likenessOf(OwnPixel own, ivec2 size) {
     vec3 most = vec3(0.0);
     for (int i = 0; i < 8; ++i) {
         vec3 value = pixelHistoryValue(taps[i]);
-        bool surface = same[i] && cosines[i] > 0.9 && abs(offPlane[i]) < 0.5;
+        bool surface = isSame(i) && cosines[i] > 0.9 && abs(offPlane[i]) < 0.5;
         variance += surface ? tapWeight(neighbour(i)) * vec2(meanVariance(taps[i]), 1.0) : vec2(0.0);
         least = surface ? min(least, value) : least;
         most = surface ? max(most, value) : most;
@@ -189,7 +193,7 @@ void main() {
 #endif
     for (int i = 0; i < 8; ++i) {
         float tap = tapWeight(neighbour(i)) * shareOf(i, likeness);
-        bool counts = same[i] && isFreeBetween(i, own, size);
+        bool counts = isSame(i) && isFreeBetween(i, own, size);
         tap *= counts ? surfaceWeight(i, likeness.reach) : 0.0;
         sum += tap * pixelHistoryValue(taps[i]);
         weights += tap;

@@ -22,6 +22,7 @@ Buffer::Buffer(std::size_t bytes, const std::string& label) : Buffer(nullptr, by
 
 Buffer::Buffer(const void* data, std::size_t bytes, const std::string& label)
     : bytes_(std::max((bytes + 3) & ~std::size_t{3}, kMinBytes)) {
+    requireRoom(label, bytes_);
     Name created = 0;
     glCreateBuffers(1, &created);
     adopt(created, label, bytes_);

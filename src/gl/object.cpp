@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "gl/gl.h"
+#include "gl/storage.h"
 
 namespace conelight::gl {
 namespace {
@@ -14,6 +15,7 @@ struct Registry {
     std::mutex mutex;
     std::map<std::uint32_t, LiveObject> objects;  // by key: in order of creation
     std::uint32_t next = 1;
+    std::size_t bytes = 0;  // of all
 };
 
 Registry& registry() {
@@ -59,6 +61,12 @@ std::size_t liveObjectCount() {
     return all.objects.size();
 }
 
+std::size_t liveBytes() {
+    Registry& all = registry();
+    const std::lock_guard lock(all.mutex);
+    return all.bytes;
+}
+
 ForgetNames::ForgetNames() { ++forgetting; }
 ForgetNames::~ForgetNames() { --forgetting; }
 
@@ -73,6 +81,7 @@ std::uint32_t created(ObjectType type, Name name, const std::string& label, std:
     Registry& all = registry();
     const std::lock_guard lock(all.mutex);
     all.objects.emplace(all.next, LiveObject{type, name, label, bytes});
+    all.bytes += bytes;
     return all.next++;
 }
 
@@ -106,7 +115,10 @@ void deleteName(ObjectType type, Name name, std::uint32_t key) noexcept {
     if (forgetting == 0) deleteFromContext(type, name);
     Registry& all = registry();
     const std::lock_guard lock(all.mutex);
-    all.objects.erase(key);
+    const auto found = all.objects.find(key);
+    if (found == all.objects.end()) return;
+    all.bytes -= found->second.bytes;
+    all.objects.erase(found);
 }
 
 }  // namespace detail

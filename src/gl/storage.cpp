@@ -1,10 +1,52 @@
 // SPDX-License-Identifier: MIT
 #include "gl/storage.h"
 
+#include <atomic>
+
 #include "base/log.h"
+#include "conelight/memory.h"
 #include "gl/gl.h"
 
 namespace conelight::gl {
+namespace {
+
+std::atomic<std::size_t> limitBytes{0};
+
+double mebibytes(std::size_t bytes) { return static_cast<double>(bytes) / (1 << 20); }
+
+const char* whyLost(GLenum status) {
+    switch (status) {
+        case GL_GUILTY_CONTEXT_RESET:
+            return "by what it was asked to do";
+        case GL_INNOCENT_CONTEXT_RESET:
+            return "by another program";
+        default:
+            return "for an unknown reason";
+    }
+}
+
+}  // namespace
+
+void requireRoom(const std::string& label, std::size_t bytes) {
+    const std::size_t limit = limitBytes;
+    if (limit == 0) return;
+    const std::size_t taken = liveBytes();
+    if (bytes <= limit && taken <= limit - bytes) return;
+    throw MemoryError(
+        ErrorKind::Runtime,
+        base::format(
+            "OpenGL memory: '%s' of %.1f MiB does not fit into the limit of %.0f MiB, of which %.1f are "
+            "taken; a higher limit, or a smaller grid, picture or texture would be right",
+            label.c_str(), mebibytes(bytes), mebibytes(limit), mebibytes(taken)));
+}
+
+void requireLiveContext() {
+    const GLenum status = glGetGraphicsResetStatus();
+    if (status == GL_NO_ERROR) return;
+    base::fail(ErrorKind::Runtime,
+               "OpenGL: the context is lost, reset %s; a new context with a new renderer would be right",
+               whyLost(status));
+}
 
 void requireStorage(ObjectType type, Name name, const std::string& label, std::size_t bytes) {
     // Asking the object costs no synchronisation, unlike asking for the error of every allocation.
@@ -19,11 +61,19 @@ void requireStorage(ObjectType type, Name name, const std::string& label, std::s
         given = immutable == GL_TRUE;
     }
     if (given) return;
+    requireLiveContext();
     // The flag is per kind of error; a lost context reports one for ever, hence the bound.
     for (int i = 0; i < 8 && glGetError() != GL_NO_ERROR; ++i) continue;
     base::fail(ErrorKind::Runtime,
                "OpenGL: no memory for '%s' (%.1f MiB); a smaller grid, picture or texture would be right",
-               label.c_str(), static_cast<double>(bytes) / (1 << 20));
+               label.c_str(), mebibytes(bytes));
 }
 
 }  // namespace conelight::gl
+
+namespace conelight {
+
+void setMemoryLimit(std::size_t bytes) { gl::limitBytes = bytes; }
+std::size_t memoryLimit() { return gl::limitBytes; }
+
+}  // namespace conelight

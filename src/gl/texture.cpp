@@ -109,6 +109,7 @@ Texture::Texture(const TextureDesc& desc, const std::string& label) : desc_(desc
     if (desc_.levels == 0) desc_.levels = fullChain(desc_);
     const std::size_t bytes = storageBytes(desc_);
     requireLimits(desc_, label);
+    requireRoom(label, bytes);
     Name created = 0;
     glCreateTextures(desc_.target, 1, &created);
     adopt(created, label, bytes);

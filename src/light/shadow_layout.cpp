@@ -79,9 +79,9 @@ void place(ShadowView& view, int tile, int n, int layerSize) {
 class Layouter {
   public:
     // `first`: bounds that do not change when something moves, for the near distance.
-    Layouter(const Aabb& bounds, const Aabb& first, const LightSettings& settings)
+    Layouter(const Aabb& bounds, const Aabb& first, const LightSettings& settings, int size)
         : bounds_(bounds),
-          size_(std::max(settings.shadowSize / 8 * 8, 64)),
+          size_(size),
           guard_(std::min(guardTexels(settings.shadowFilter), size_ / 8)),
           near_(std::max(kNearFraction * glm::length(first.extent()), 1e-12f)) {}
 
@@ -237,7 +237,23 @@ class Layouter {
     std::vector<ShadowView> views_;
 };
 
+constexpr int kSmallestLayer = 64;
+
+// The largest edge of layers, in texels, that the memory holds; how many layers there are does not depend on it.
+int sizeWithin(std::size_t bytes, const ShadowLayout& layout) {
+    int size = layout.size;
+    while (size > kSmallestLayer && layout.bytes(size) > bytes) size -= 8;
+    return size;
+}
+
 }  // namespace
+
+std::size_t ShadowLayout::bytes(int edge) const {
+    constexpr std::size_t kDepthBytes = 4, kSurfaceBytes = 8;  // of a texel: light/shadow_maps.cpp
+    const auto texels = static_cast<std::size_t>(edge) * static_cast<std::size_t>(edge);
+    return texels * (kDepthBytes * static_cast<std::size_t>(layers) +
+                     kSurfaceBytes * static_cast<std::size_t>(surfaceLayers));
+}
 
 bool isOutside(const glm::mat4& clipFromWorld, const Aabb& box) {
     int outside[5] = {0, 0, 0, 0, 0};
@@ -260,9 +276,14 @@ ShadowLayout layOutShadows(const Aabb& bounds, const Aabb& firstBounds, const Li
         light.shadow = -1;
         light.sampleGrid = std::max(grid, 1u);
     }
-    Layouter layouter(bounds, firstBounds, settings);
-    if (settings.shadowSize > 0) layouter.add(lights);
-    return {layouter.size(), layouter.layers(), layouter.surfaceLayers(), layouter.views()};
+    const auto laidOut = [&](int size) {
+        Layouter layouter(bounds, firstBounds, settings, size);
+        if (settings.shadowSize > 0) layouter.add(lights);
+        return ShadowLayout{layouter.size(), layouter.layers(), layouter.surfaceLayers(), layouter.views()};
+    };
+    const ShadowLayout asked = laidOut(std::max(settings.shadowSize / 8 * 8, kSmallestLayer));
+    const int size = sizeWithin(kMostShadowBytes, asked);
+    return size == asked.size ? asked : laidOut(size);
 }
 
 }  // namespace conelight::light

@@ -27,15 +27,21 @@ struct ShadowView {
 // True when the box is outside one of the planes of clip space (no far plane: depth is reversed, far is 0).
 bool isOutside(const glm::mat4& clipFromWorld, const Aabb& box);
 
+// All maps together: enough for 28 point lights, or 42 spots, at 1024 texels. More lights have smaller maps.
+constexpr std::size_t kMostShadowBytes = std::size_t{512} << 20;
+
 struct ShadowLayout {
     int size = 0;  // texels per edge of a layer
     int layers = 0;
     int surfaceLayers = 0;  // the first ones: their views draw slopes and outlines
     std::vector<ShadowView> views;
+
+    std::size_t bytes(int edge) const;  // of all layers, were they of so many texels per edge
 };
 
 // `bounds` of what casts shadows; `firstBounds`: bounds that do not change when something moves, for the near
-// distance. Fills in the shadow fields of `lights`; no maps for settings without shadows.
+// distance. Fills in the shadow fields of `lights`; no maps for settings without shadows. Layers are of
+// LightSettings::shadowSize, or smaller where that would take more than kMostShadowBytes.
 ShadowLayout layOutShadows(const Aabb& bounds, const Aabb& firstBounds, const LightSettings& settings,
                            std::vector<gpu::Light>& lights);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/log.h"
 #include "gl/gl.h"
 #include "light/shadow_layout.h"
 #include "shared/shadow_map.h"
@@ -52,6 +53,8 @@ struct ShadowMaps::Impl {
             return;
         drawnViews.clear();
         layers.clear();
+        maps = {};  // the old ones first: both together may not fit
+        surfaces = {};
         maps =
             gl::Texture({GL_TEXTURE_2D_ARRAY, GL_DEPTH_COMPONENT32F, size, size, layerCount}, "shadow maps");
         surfaces = gl::Texture(
@@ -187,6 +190,10 @@ void ShadowMaps::update(const gl::Device& device, const scene::GpuScene& scene, 
     const gl::PassScope pass(device.profiler, "shadow maps");
     const ShadowLayout layout = layOutShadows(scene.bounds(), scene.firstBounds(), settings, lights);
     impl_->redrawn = 0;
+    const int asked = settings.shadowSize / 8 * 8;
+    if (layout.layers > 0 && layout.size < asked && layout.size != impl_->maps.width())
+        base::log(LogLevel::Info, "shadow maps of " + std::to_string(layout.size) + " texels, not " +
+                                      std::to_string(asked) + ": many lights share their memory");
     if (layout.layers == 0) {
         impl_->allocate(8, 1, 0);
         return;

@@ -8,10 +8,12 @@
 
 #include "base/clock.h"
 #include "base/log.h"
+#include "conelight/memory.h"
 #include "gl/copy.h"
 #include "gl/debug.h"
 #include "gl/gl.h"
 #include "gl/host_state.h"
+#include "gl/storage.h"
 #include "image/background.h"
 #include "image/debug_view.h"
 #include "image/display.h"
@@ -21,6 +23,7 @@
 #include "image/view_mean.h"
 #include "image/wireframe.h"
 #include "light/lights.h"
+#include "modes/memory_fit.h"
 #include "modes/modes.h"
 #include "scene/held_scene.h"
 #include "shared/lookups.h"
@@ -99,9 +102,12 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
     // Of the last picture.
     Settings shownSettings;
     FrameStats stats;
+    modes::MemoryFit fit;
 
     explicit Impl(gl::ShaderProvider provider) : programs(std::move(provider)) {}
 
+    void renderWithin(const Camera& camera, int width, int height, const Settings& settings);
+    void forgetPicture();
     void render(const Camera& camera, int width, int height, const Settings& settings);
     void prepare(const Settings& settings);
     modes::Frame frame(const Settings& settings);
@@ -134,6 +140,7 @@ void Renderer::setScene(const Scene& scene) {
     scene.validate();  // a scene that is refused leaves the old one in place
     const gl::HostStateGuard guard;
     impl_->mode.reset();  // light of another scene says nothing of this one
+    impl_->fit.forget();
     impl_->scene.set(scene);
 }
 
@@ -175,7 +182,41 @@ void Renderer::render(const Camera& camera, int width, int height, const Setting
     validateSettings(settings);
     impl_->scene.require("render");
     const gl::HostStateGuard guard;
-    impl_->render(camera, width, height, settings);
+    gl::requireLiveContext();
+    impl_->renderWithin(camera, width, height, settings);
+    gl::requireLiveContext();
+}
+
+// With less where the whole does not fit into the memory there may be.
+void Renderer::Impl::renderWithin(const Camera& camera, int width, int height, const Settings& settings) {
+    bool said = true;
+    for (;;) {
+        try {
+            render(camera, width, height, fit.fitted(settings, width, height));
+            break;
+        } catch (const gl::MemoryError&) {
+            forgetPicture();
+            if (!fit.lower(settings)) throw;
+            said = false;
+        }
+    }
+    if (!said)
+        base::log(LogLevel::Warning,
+                  base::format("memory: within %zu MB by ", memoryLimit() >> 20) + fit.text(settings));
+}
+
+// All that was made of the scene. It may be half made.
+void Renderer::Impl::forgetPicture() {
+    mode.reset();
+    lights = {};
+    surfaces = {};
+    partSurfaces = {};
+    image = {};
+    views = {};
+    temporal.reset();
+    display = {};
+    shadowMapView = {};
+    wireframe = {};
 }
 
 void Renderer::Impl::render(const Camera& camera, int width, int height, const Settings& settings) {

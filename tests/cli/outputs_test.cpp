@@ -153,6 +153,31 @@ TEST_F(OutputsTest, OutOfMemoryIsOneLine) {
     EXPECT_GT(refused, 1);
 }
 
+// --memory: what is drawn with less is said in one line, what cannot fit is one.
+TEST_F(OutputsTest, MemoryIsKeptWithin) {
+    const std::string picture = path("m.png"),
+                      small = " --size 64x48 --aa 0 --set traced.passes=1 -o " + picture;
+    const CommandResult whole = conelight("render builtin:cornell --memory 1024" + small);
+    EXPECT_EQ(whole.status, 0) << whole.output;
+    EXPECT_EQ(whole.output.find("memory"), std::string::npos) << whole.output;
+    const CommandResult less = conelight("render builtin:cornell --memory 12" + small);
+    EXPECT_EQ(less.status, 0) << less.output;
+    EXPECT_NE(less.output.find("conelight: memory: within 12 MB by voxels.size "), std::string::npos)
+        << less.output;
+    EXPECT_NE(less.output.find("light.shadow_size "), std::string::npos) << less.output;
+    fs::remove(picture);
+    expectOneLine(conelight("render builtin:cornell --mode phong --memory 8 --size 2000x2000 -o " + picture),
+                  1, "does not fit into the limit of 8 MiB");
+    EXPECT_FALSE(fs::exists(picture));
+    expectOneLine(conelight("render builtin:cornell --memory 1" + small), 2, "--memory");
+#if !defined(__SANITIZE_ADDRESS__)
+    expectOneLine(
+        conelight("render builtin:cornell --mode reference --spp 1 --size 4000x4000 --memory 256 -o " +
+                  path("m.exr")),
+        1, "--memory is 256 MB");
+#endif
+}
+
 TEST_F(OutputsTest, PicturesSayHowTheyWereMade) {
     for (const char* name : {"made.png", "made.exr"}) {
         const std::string picture = scratchPath(name);

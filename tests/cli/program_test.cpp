@@ -102,13 +102,22 @@ TEST_F(ProgramTest, NoOpenGlIsStatus4) {
         "OpenGL");
 }
 
+// Whatever number of threads the driver has.
 TEST_F(ProgramTest, SameCommandSameBytes) {
-    for (const char* mode : {"phong", "thesis", "cones"}) {
+    for (const char* mode : {"phong", "thesis", "cones", "hybrid", "traced"}) {
         const std::string a = path(std::string(mode) + "-a.exr");
         const std::string b = path(std::string(mode) + "-b.exr");
-        ASSERT_EQ(render("builtin:cornell", a, std::string("--mode ") + mode).status, 0);
-        ASSERT_EQ(render("builtin:cornell", b, std::string("--mode ") + mode, "LP_NUM_THREADS=0").status, 0);
-        EXPECT_EQ(bytesOf(a), bytesOf(b)) << mode;
+        const std::string options = std::string(
+                                        "--aa 0 --set traced.passes=2 --set traced.cache_updates=4 "
+                                        "--mode ") +
+                                    mode;
+        ASSERT_EQ(render("builtin:cornell?block=1", a, options).status, 0);
+        for (const char* threads : {"0", "1", "2", "8"}) {
+            ASSERT_EQ(render("builtin:cornell?block=1", b, options, std::string("LP_NUM_THREADS=") + threads)
+                          .status,
+                      0);
+            EXPECT_EQ(bytesOf(a), bytesOf(b)) << mode << " with " << threads << " threads";
+        }
         const io::FloatImage image = io::readExr(a);
         EXPECT_EQ(image.width, 64);
         EXPECT_EQ(image.height, 48);

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 
+#include "console/command_table.h"
+#include "guests.h"
 #include "support/corpus.h"
 
 namespace {
@@ -25,6 +28,66 @@ void copyFiles(const fs::path& from, const fs::path& to, const std::vector<std::
     }
 }
 
+// A word that the argument may be, in the scene of cpu/console_test_support.h.
+std::string wordFor(const conelight::program::Argument& argument) {
+    using conelight::program::ArgumentKind;
+    switch (argument.kind) {
+        case ArgumentKind::Number:
+        case ArgumentKind::Whole:
+            return std::to_string(static_cast<int>(0.5 * (argument.low + argument.high)));
+        case ArgumentKind::Choice:
+            return argument.choices.front();
+        case ArgumentKind::Mode:
+            return "cones";
+        case ArgumentKind::Setting:
+            return "voxels.size";
+        case ArgumentKind::SettingValue:
+            return "32";
+        case ArgumentKind::Object:
+        case ArgumentKind::Selectable:
+            return "box";
+        case ArgumentKind::Material:
+            return "white";
+        case ArgumentKind::Light:
+            return "lamp";
+        case ArgumentKind::Camera:
+            return "main";
+        case ArgumentKind::CommandName:
+            return "help";
+        default:
+            return "word";
+    }
+}
+
+// Each command once, with all its arguments; settings, one by one; all of them in one script.
+void writeScripts(const fs::path& folder) {
+    using namespace conelight;
+    program::registerGuests();
+    std::string all;
+    int number = 0;
+    const auto add = [&](const std::string& line) {
+        std::ofstream(folder / ("command" + std::to_string(number++) + ".txt")) << line << "\n";
+        all += line + "\n";
+    };
+    for (const program::CommandGroup& group : program::commandGroups())
+        for (const program::Command& command : group.commands) {
+            std::string line = command.name;
+            for (const program::Argument& argument : command.arguments) line += " " + wordFor(argument);
+            add(line);
+        }
+    for (const SettingInfo& setting : settingInfos()) add("set " + setting.key + " 1");
+    for (const char* line :
+         {"light add point; light lamp intensity 1 2 3; light lamp delete",
+          "material white roughness 0.2; undo; redo",
+          "path add 0; camera orbit 30 0; path add 1; path save a.json; path load a.json; path play 1",
+          "preset save p.json; preset load p.json; preset list .",
+          "save s.gltf; save s.txt; save s.glb overwrite", "duplicate box; delete box; isolate lid; show box",
+          "echo 'a \"b\" c' \"d\\\"e\" # f", "reset voxels",
+          "translate box x 1; rotate box y 45; scale box 2; setmat box diffuse 1"})
+        add(line);
+    std::ofstream(folder / "all.txt") << all;
+}
+
 }  // namespace
 
 int main(int count, char** arguments) {
@@ -39,6 +102,7 @@ int main(int count, char** arguments) {
     fs::create_directories(corpus / "obj");
     fs::create_directories(corpus / "thesis");
     fs::create_directories(corpus / "picture");
+    for (const char* kind : {"preset", "camera_path", "console"}) fs::create_directories(corpus / kind);
     gltfCorpus(corpus / "gltf");
     objCorpus(corpus / "obj");
     thesisCorpus(corpus / "thesis");
@@ -47,5 +111,13 @@ int main(int count, char** arguments) {
     copyFiles(corpus / "obj", folder / "obj", {".obj", ".mtl"});
     copyFiles(corpus / "thesis", folder / "thesis", {".txt"});
     copyFiles(corpus / "picture", folder / "picture", {".png", ".jpg", ".jpeg"});
+    copyFiles(corpus / "picture", folder / "exr", {".exr"});
+    presetCorpus(corpus / "preset");
+    copyFiles(corpus / "preset", folder / "preset", {".json"});
+    cameraPathCorpus(corpus / "camera_path");
+    copyFiles(corpus / "camera_path", folder / "camera_path", {".json"});
+    scriptCorpus(corpus / "console");
+    copyFiles(corpus / "console", folder / "console", {".txt"});
+    writeScripts(folder / "console");
     return 0;
 }

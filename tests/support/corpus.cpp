@@ -243,6 +243,11 @@ std::vector<CorpusFile> pictureCorpus(const fs::path& folder) {
         corpus.add(std::string("valid") + ending, text, Expect::Loads);
         corpus.addDamaged("picture", ending, text);
     }
+    // An attribute of 400 MB in a file of 400 bytes, of which OpenEXR would ask for all.
+    std::ifstream exr(folder / "valid.exr", std::ios::binary);
+    std::string large{std::istreambuf_iterator<char>(exr), {}};
+    large.insert(8, std::string("note\0opaque\0\0\0\0\x19", 16));
+    corpus.add("large_attribute.exr", large, Expect::Refused);
     // Sizes that only the header has.
     std::string bomb = "#?RADIANCE\n\n-Y 30000 +X 30000\n";
     corpus.add("bomb.hdr", bomb, Expect::Refused);
