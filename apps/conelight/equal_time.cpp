@@ -25,9 +25,11 @@ class TimedTracer {
         if (runs_.empty())
             for (const int samples : {2, 16}) run(samples);
         EqualTimePicture best;
-        for (int i = 0; i < kTries; ++i) {
-            const int samples = samplesFor(seconds);
+        for (int tries = 0; tries < kTries;) {
+            // Short runs are mostly start, and a slope between them mostly noise: no step is larger than fourfold.
+            const int wanted = samplesFor(seconds), samples = std::min(wanted, 4 * mostSamples());
             if (samples == best.samplesPerPixel) break;
+            if (samples == wanted) ++tries;
             EqualTimePicture next = run(samples);
             const auto off = [&](const EqualTimePicture& picture) {
                 return std::abs(picture.drawn.cpuSeconds / seconds - 1);
@@ -52,11 +54,13 @@ class TimedTracer {
         return picture;
     }
 
+    static bool hasLess(const Run& a, const Run& b) { return a.samples < b.samples; }
+    int mostSamples() const { return std::max_element(runs_.begin(), runs_.end(), hasLess)->samples; }
+
     // From the run nearest in time, along the line through those of fewest and most samples.
     int samplesFor(double seconds) const {
-        const auto less = [](const Run& a, const Run& b) { return a.samples < b.samples; };
-        const Run fewest = *std::min_element(runs_.begin(), runs_.end(), less);
-        const Run most = *std::max_element(runs_.begin(), runs_.end(), less);
+        const Run fewest = *std::min_element(runs_.begin(), runs_.end(), hasLess);
+        const Run most = *std::max_element(runs_.begin(), runs_.end(), hasLess);
         const double slope =
             std::max((most.seconds - fewest.seconds) / (most.samples - fewest.samples), 1e-6);
         const Run nearest = *std::min_element(runs_.begin(), runs_.end(), [&](const Run& a, const Run& b) {
