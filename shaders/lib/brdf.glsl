@@ -63,6 +63,17 @@ vec3 fresnel(vec3 f0, vec3 f90, float VoH) {
 // builtin:lobby, whose indirect light is 3.3 and 1.6 % too dark with 0, 1.9 and 2.0 % too bright with 1.
 const float kEvenLobe = 0.5;
 
+// Share of even light that the lobe of a dielectric is counted with (kEvenLobe), multiple scattering included.
+vec3 evenLobe(float roughness, vec3 dielectricF0) {
+    float r = max(roughness, kMinRoughness);
+    float both = 0.9997027 + r * (-0.01521229 + r * (0.3516476 + r * (-2.2508005 + r * 1.3269485)));
+    float grazing = 0.04557508 + r * (0.05997143 + r * (-0.4956394 + r * (0.670405 + r * -0.2784238)));
+    float f0 = max(dielectricF0.r, max(dielectricF0.g, dielectricF0.b));
+    float f90 = clamp(50.0 * f0, 0.0, 1.0);
+    vec3 own = (dielectricF0 * (both - grazing) + f90 * grazing) * (1.0 + dielectricF0 * (1.0 / both - 1.0));
+    return own * kEvenLobe;
+}
+
 // Share of the light that a surface sends back on average, for what knows surfaces by one colour only. In
 // even light a dielectric reflects base + (1 - base) R: its own lobe, and the base what that leaves
 // (makeBrdf). R is the mean of specularAlbedo over the hemisphere, from means of directionalAlbedo by
@@ -70,15 +81,15 @@ const float kEvenLobe = 0.5;
 // Metals count with their base colour: their lobe is added where rays meet them. docs/theory/4f_glossy.md,
 // (4.35). C++ twin: math::evenAlbedo.
 vec3 evenAlbedo(vec3 baseColor, float metallic, float roughness, vec3 dielectricF0) {
-    float r = max(roughness, kMinRoughness);
-    float both = 0.9997027 + r * (-0.01521229 + r * (0.3516476 + r * (-2.2508005 + r * 1.3269485)));
-    float grazing = 0.04557508 + r * (0.05997143 + r * (-0.4956394 + r * (0.670405 + r * -0.2784238)));
-    float f0 = max(dielectricF0.r, max(dielectricF0.g, dielectricF0.b));
-    float f90 = clamp(50.0 * f0, 0.0, 1.0);
-    vec3 own = (dielectricF0 * (both - grazing) + f90 * grazing) * (1.0 + dielectricF0 * (1.0 / both - 1.0));
-    own *= kEvenLobe;
+    vec3 own = evenLobe(roughness, dielectricF0);
     float strongest = max(own.r, max(own.g, own.b));
     return mix(baseColor * (1.0 - strongest) + own, baseColor, metallic);
+}
+
+// The base colour of a dielectric of F0 = 0.04 that has this albedo.
+vec3 baseOfEvenAlbedo(vec3 albedo, float roughness) {
+    float own = evenLobe(roughness, vec3(0.04)).r;
+    return clamp((albedo - own) / (1.0 - own), 0.0, 1.0);
 }
 
 // Share of specularly reflected light of a white furnace, multiple scattering included; `dfg` is

@@ -3,8 +3,6 @@
 // of lib/voxel_light.glsl (LOBES 1; otherwise the file is empty).
 #if LOBES
 
-// Rougher metals are treated as diffuse: their lobe is nearly as wide as the cosine.
-const float kMaxLobeRoughness = 0.75;
 // Lobes at least this wide (GGX alpha) reflect rectangular lights analytically, without a ray. In narrower
 // lobes rays must hit the light: few miss it then, and shadows on it are sharp. Chosen by eye.
 const float kNarrowLobe = 0.015;
@@ -28,7 +26,7 @@ GlossySurface glossySurface(VoxelHit hit, FaceShading s) {
     normal = hit.triangle >= 0 ? hitTriangle.geometricNormal : normal;
 #endif
     bool areaLight = (bits & FACE_AREA_LIGHT) != 0u;
-    bool reflects = hit.face >= 0 && lobe.x > 0.0 && lobe.y <= kMaxLobeRoughness && s.cached && !areaLight;
+    bool reflects = hit.face >= 0 && lobe.x > 0.0 && lobe.y <= LOBE_MAX_ROUGHNESS && s.cached && !areaLight;
     return GlossySurface(normal, lobe.x, lobe.y, reflects, areaLight);
 }
 

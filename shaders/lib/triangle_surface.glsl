@@ -80,6 +80,7 @@ TriangleMaterial triangleMaterial(TrianglePoint p, VoxelHit hit) {
     vec2 lobe = layers.y >= 0 ? unpackLobe(faceBits >> 16)
                               : vec2(materials[material].metallic, materials[material].roughness);
     vec3 albedo = evenAlbedo(color, lobe.x, lobe.y, materials[material].specularF0);
+    if (max(materials[material].specularF0.r, max(materials[material].specularF0.g, materials[material].specularF0.b)) <= 0.0 && lobe.x == 0.0) lobe.y = 1.0;
     bool unlit = (materials[material].flags & MATERIAL_UNLIT) != 0u;
     if (unlit) return TriangleMaterial(vec3(0.0), vec3(0.0), vec2(0.0));
     return TriangleMaterial(albedo, emission, lobe);
@@ -117,7 +118,7 @@ vec3 faceReflected(int face, vec3 directRadiance) {
 
 // Outgoing radiance at the point as if it were diffuse, as hitRadiance. `s` becomes the shading of the point,
 // but for its directRadiance.
-vec3 triangleRadiance(Ray ray, VoxelHit hit, inout FaceShading s, out vec3 shadingNormal) {
+vec3 triangleRadiance(Ray ray, VoxelHit hit, float widening, inout FaceShading s, out vec3 shadingNormal) {
     // Look up the material
     TrianglePoint p = trianglePoint(ray, hit);
     TriangleMaterial m = triangleMaterial(p, hit);
@@ -133,13 +134,16 @@ vec3 triangleRadiance(Ray ray, VoxelHit hit, inout FaceShading s, out vec3 shadi
 
     // Evaluate the lights at the point
     vec3 position = worldFromGrid(point);
+    vec3 direct = vec3(0.0);
     vec3 irradiance = vec3(0.0);
 #if EXACT_DIRECT
-    irradiance = directIrradiance(position, shadingNormal, p.geometricNormal, kShadowVoxelLift);
+    direct = reflectedPunctual(
+        s.albedo, m.lobe, widening,
+        Receiver(position, shadingNormal, p.geometricNormal, -ray.direction, kShadowVoxelLift));
 #endif
     addTriangleRects(p, position, hit, irradiance);
     vec3 reflected = faceReflected(hit.face, s.directRadiance);
-    return m.emission +
+    return m.emission + direct +
            s.albedo * (irradiance * (1.0 / kGatherPi) + s.irradiance + reflected / max(faceAlbedo, 1e-3));
 }
 #endif

@@ -8,6 +8,7 @@
 // the face. Rectangles and emission always come from the face. light::hitLightDefines chooses for a scene.
 // FIND_BACK_FACES 1: cosine-sampled rays are traced backwards as well, to find back faces.
 // LOBES 1: rays are reflected by metals (traceRadiance). 0: metals reflect like diffuse surfaces.
+// GLOSS 1, with EXACT_DIRECT: dielectrics reflect point, spot and directional lights in their lobe.
 // TRIANGLE_HITS 1: rays in smooth lobes hit triangles (lib/triangle_hit.glsl); needs SMOOTH_HITS 1.
 // SMOOTH_HITS 1: irradiance and normal of a hit are interpolated over the voxels around it.
 //
@@ -21,6 +22,9 @@
 #endif
 #ifndef LOBES
 #define LOBES 0
+#endif
+#ifndef GLOSS
+#define GLOSS 0
 #endif
 #ifndef SMOOTH_HITS
 #define SMOOTH_HITS 0
@@ -85,16 +89,38 @@ vec3 faceNormalOf(int face) { return octDecode(unpackSnorm2x16(texelFetch(voxelF
 
 // ---- Radiance at a hit ----------------------------------------------------------------------------------
 
+#if EXACT_DIRECT
+// Light of the punctual lights that a surface reflects to `r.toEye`. `lobe`: metalness and roughness. Only a
+// dielectric has a lobe here, of F0 = 0.04, its alpha^2 wider by `widening`; a metal is as if diffuse.
+vec3 reflectedPunctual(vec3 albedo, vec2 lobe, float widening, Receiver r) {
+#if GLOSS
+    bool glossy = lobe.x == 0.0 && lobe.y > 0.0 && lobe.y <= LOBE_MAX_ROUGHNESS;
+    float alpha = max(lobe.y, kMinRoughness) * max(lobe.y, kMinRoughness);
+    float roughness = sqrt(min(sqrt(alpha * alpha + 0.04 * widening), 1.0));
+    vec3 base = baseOfEvenAlbedo(albedo, lobe.y);
+    Brdf b = makeBrdf(base, 0.0, roughness, vec3(0.04), dot(r.normal, r.toEye));
+    DirectLight light = DirectLight(vec3(0.0), vec3(0.0));
+    addPunctualLights(light, true, r, b);
+    vec3 diffuse = light.irradiance * (1.0 / kGatherPi);
+    return glossy ? b.diffuse * diffuse + light.specular : albedo * diffuse;
+#else
+    return albedo * (directIrradiance(r.position, r.normal, r.geometricNormal, r.shadowLift) * (1.0 / kGatherPi));
+#endif
+}
+#endif
+
 #include "lib/triangle_surface.glsl"
 
-// Outgoing radiance at a hit as if all surfaces were diffuse; the sky for a miss, over an angle of `width`.
+// Outgoing radiance at a hit as if all metals were diffuse; the sky for a miss, over an angle of `width`.
 // In: the shading of the face that was hit. Out: its irradiance at the point, and the shading normal there.
-vec3 hitRadiance(Ray ray, VoxelHit hit, float width, inout FaceShading s, out vec3 shadingNormal) {
+// `widening`: of the lobes of dielectrics.
+vec3 hitRadiance(Ray ray, VoxelHit hit, float width, float widening, inout FaceShading s,
+                 out vec3 shadingNormal) {
     int face = max(hit.face, 0);
     vec3 normal = faceNormalOf(face);
     shadingNormal = normal;
 #if TRIANGLE_HITS
-    if (hit.triangle >= 0) return triangleRadiance(ray, hit, s, shadingNormal);
+    if (hit.triangle >= 0) return triangleRadiance(ray, hit, widening, s, shadingNormal);
 #endif
 #if EXACT_DIRECT || SMOOTH_HITS
     vec3 point = ray.origin + (hit.face >= 0 ? hit.t : 0.0) * ray.direction;
@@ -115,8 +141,11 @@ vec3 hitRadiance(Ray ray, VoxelHit hit, float width, inout FaceShading s, out ve
 #else
     vec2 lift = kShadowVoxelLift + vec2(0.0, frontHeight);
 #endif
-    vec3 direct = directIrradiance(worldFromGrid(point), shadingNormal, normal, lift) * (1.0 / kGatherPi);
-    vec3 radiance = unpackRgb9e5(texelFetch(cachedDirect, face).x) + s.albedo * (direct + s.irradiance);
+    vec2 lobe = unpackLobe(texelFetch(litFaces, face).w >> FACE_LOBE_SHIFT);
+    vec3 direct =
+        reflectedPunctual(s.albedo, lobe, widening,
+                          Receiver(worldFromGrid(point), shadingNormal, normal, -ray.direction, lift));
+    vec3 radiance = unpackRgb9e5(texelFetch(cachedDirect, face).x) + direct + s.albedo * s.irradiance;
 #else
     vec3 radiance = s.directRadiance + s.albedo * s.irradiance;
 #endif
@@ -170,7 +199,8 @@ PathVertex pathVertex(Ray ray, VoxelHit hit, PathSettings path, PathState state,
     FaceShading s = faceShading(max(hit.face, 0));
     vec3 shadingNormal;
     float skyWidth = state.bounce == 0 ? path.skyWidth : kSkyBlur * sqrt(state.alpha2);
-    vertex.radiance = hitRadiance(ray, hit, skyWidth, s, shadingNormal);
+    float widening = state.alpha2 * kLobeWidening / path.fireflyClamp;
+    vertex.radiance = hitRadiance(ray, hit, skyWidth, widening, s, shadingNormal);
 
     // Add the emission of area lights, which narrow lobes do not reflect analytically
     GlossySurface surface = glossySurface(hit, s);
@@ -181,7 +211,6 @@ PathVertex pathVertex(Ray ray, VoxelHit hit, PathSettings path, PathState state,
     bool arrived = state.bounce > 0 || path.targetDistance < 0.0 || abs(hit.t - path.targetDistance) < 0.3;
     vertex.metal = surface.reflects && arrived;
     vec2 xi = vec2(randomNext(random), randomNext(random));
-    float widening = state.alpha2 * kLobeWidening / path.fireflyClamp;
     vertex.next =
         sampleGlossyBounce(ray, hit, s, surface, GlossySample(widening, vertex.radiance, shadingNormal, xi));
     vertex.lobeIrradiance = vertex.next.specularShare * s.albedo * s.irradiance;
@@ -201,7 +230,8 @@ vec3 traceRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit f
 #if !LOBES
     FaceShading s = faceShading(max(firstHit.face, 0));
     vec3 shadingNormal;
-    return hitRadiance(ray, firstHit, path.skyWidth, s, shadingNormal);
+    float widening = path.alpha * path.alpha * kLobeWidening / path.fireflyClamp;
+    return hitRadiance(ray, firstHit, path.skyWidth, widening, s, shadingNormal);
 #else
     VoxelHit hit = firstHit;
     vec3 firstRadiance = vec3(0.0);

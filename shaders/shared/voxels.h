@@ -31,6 +31,9 @@
 // usable crossing. From the accuracy experiments behind docs/theory/2_voxels.md.
 #define VOXEL_FACING_THRESHOLD 0.02
 
+// Rougher surfaces are treated as diffuse where rays hit: their lobe is nearly as wide as the cosine.
+#define LOBE_MAX_ROUGHNESS 0.75
+
 // Names under which shaders read voxels (SurfaceVoxels::declare, OctantWords::declare):
 //   VoxelGridBlock         uniform block: VoxelGrid
 //   voxelBricks            usampler3D (brickWord); voxelBrickImage  uimage3D, the same
@@ -101,7 +104,7 @@ struct FaceMaterial {
     uint albedo;         // 11 | 11 | 10 bit unorm, linear
     uint emission;       // W/(sr m^2): halves r, g
     uint emissionBArea;  // half b | area of the surface that is the face's own, in voxel sides^2, 0..4
-    uint lobe;           // bits 0..4 roughness of what is metallic, 5..8 metalness
+    uint lobe;           // bits 5..8 metalness; 0..4 roughness of what is metallic, else of all (1: no lobe)
 };                       // 16 B
 
 // Uniform block of the voxelizer's own passes (shaders/voxels/surface_*).

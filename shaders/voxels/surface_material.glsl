@@ -2,7 +2,7 @@
 // What a material shows within one clipped polygon: base colour x texture x vertex colour, emission,
 // coverage. Textures come from the surface array at the level whose texel is as large as the polygon. All
 // that is reflected counts as colour, whichever way it goes (evenAlbedo); with SURFACE_LOBES it is also said
-// how metallic and how rough metals are. Without, textures of metalness and roughness are not looked at.
+// how metallic and how rough it is. Without, textures of metalness and roughness are not looked at.
 // Unlit: black. Included by surface_clip.comp.glsl, which defines structs Surface and
 // VoxelTriangle.
 #include "lib/brdf.glsl"
@@ -148,7 +148,8 @@ Surface evaluateSurface(VoxelTriangle t, ClippedPolygon polygon) {
     vec3 albedo = evenAlbedo(color.rgb * texel.rgb, lobe.x, lobe.y, materials[m].specularF0);
     uint lobeBits = 0u;
 #if SURFACE_LOBES
-    lobeBits = packLobe(lobe.x, lobe.y);
+    bool reflects = lobe.x > 0.0 || max(materials[m].specularF0.r, max(materials[m].specularF0.g, materials[m].specularF0.b)) > 0.0;
+    lobeBits = packLobe(lobe.x, reflects ? lobe.y : 1.0);
 #endif
     bool unlit = (flags & MATERIAL_UNLIT) != 0u;
     if (unlit) return Surface(vec3(0.0), vec3(0.0), coverage, 0u);

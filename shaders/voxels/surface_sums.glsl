@@ -3,7 +3,7 @@
 // share. Sums are integers in units of 2^-26 voxel sides or coarser, so the order of fragments does not
 // matter. All terms are weights times numbers in [0,1], so no sum exceeds that of the weights.
 // SURFACE_EMISSION 0: no material emits, nothing is summed.
-// SURFACE_LOBES 0: no material is metallic; fragments have no lobe in the lowest bits of their area.
+// SURFACE_LOBES 0: no material has a lobe that rays tell from diffuse light; fragments have no lobe in the lowest bits of their area.
 #ifndef SURFACE_LOBES
 #error SURFACE_LOBES must be 0 or 1
 #endif
@@ -62,13 +62,13 @@ struct FaceSums {
     int area;  // what is this face's own: the faces of a voxel add up to the surface's
     ivec3 normal, center, albedo, emission;
     ivec3 lower, upper;  // bounds, in 1/31 voxel
-    ivec2 lobe;          // metalness; metalness x roughness
+    ivec3 lobe;          // metalness; metalness x roughness; roughness
     int twoSided;        // weights of two-sided triangles, and of those seen from their other side
     int turned;
 };
 
 FaceSums emptySums() {
-    return FaceSums(0, 0u, 0, ivec3(0), ivec3(0), ivec3(0), ivec3(0), ivec3(31), ivec3(0), ivec2(0), 0, 0);
+    return FaceSums(0, 0u, 0, ivec3(0), ivec3(0), ivec3(0), ivec3(0), ivec3(31), ivec3(0), ivec3(0), 0, 0);
 }
 
 float unitsOf(int shift) { return uintBitsToFloat(uint(127 + shift) << 23); }  // 2^shift
@@ -93,7 +93,7 @@ void addFragment(inout FaceSums sums, Fragment f, float covered, bool bounded) {
     sums.emission += ivec3(w * min(unpackRgb9e5(f.emission) * (1.0 / surface.emissionScale), 1.0) + 0.5);
 #endif
 #if SURFACE_LOBES
-    sums.lobe += ivec2(w * f.lobe.x * vec2(1.0, f.lobe.y) + 0.5);
+    sums.lobe += ivec3(w * vec3(f.lobe.x, f.lobe.x * f.lobe.y, f.lobe.y) + 0.5);
 #endif
     const uint kNeutralBounds = 0x7fffu;  // min 31, max 0
     uint bounds = bounded ? f.bounds : kNeutralBounds;
@@ -126,8 +126,10 @@ ResolvedFace resolvedFace(FaceSums sums, int shift, int direction, uint voxel) {
 #endif
     uint lobe = 0u;
 #if SURFACE_LOBES
-    // Roughness is that of the metals in the voxel.
-    lobe = packLobe(float(sums.lobe.x) / total, float(sums.lobe.y) / float(max(sums.lobe.x, 1)));
+    // Roughness is that of the metals in the voxel, if there are any.
+    float metallic = float(sums.lobe.x) / total;
+    bool metal = packLobe(metallic, 0.0) != 0u;
+    lobe = packLobe(metallic, metal ? float(sums.lobe.y) / float(sums.lobe.x) : float(sums.lobe.z) / total);
 #endif
     ivec3 a = sums.lower;
     ivec3 b = sums.upper;

@@ -74,6 +74,7 @@ gl::Defines HitKey::defines() const {
     if (exact)
         for (auto& define : lights.defines()) defines.push_back(std::move(define));
     defines.emplace_back("LOBES", lobes ? "1" : "0");
+    if (exact && (lobes || gloss)) defines.emplace_back("GLOSS", "1");
     if (environment) defines.emplace_back("ENVIRONMENT", "1");
     if (glass) defines.emplace_back("GLASS", "1");
     return defines;
@@ -91,7 +92,10 @@ std::vector<HitKey> HitKey::all(int filter) {
             if (!punctual || lights.rect != 0 || lights.filter != 0 || lights.glass) continue;
             key.lights = lights;
             if (lights.shadows) key.lights.filter = filter;
-            keys.push_back(key);
+            for (const bool gloss : {false, true}) {
+                key.gloss = gloss;
+                if (!(gloss && key.lobes)) keys.push_back(key);
+            }
         }
     }
     return keys;

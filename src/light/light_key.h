@@ -33,6 +33,7 @@ struct LightKey {
 struct HitKey {
     bool exact = false;        // punctual lights are looked up; else faces give all light
     bool lobes = false;        // metals reflect in their lobe
+    bool gloss = false;        // of exact ones without lobes: dielectrics reflect punctual lights in theirs
     bool environment = false;  // where they hit nothing they see a picture, not the constant sky alone
     bool glass = false;        // light passes glass on its way
     LightKey lights;           // of `exact`: the punctual ones, filter 0 or -1

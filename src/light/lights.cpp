@@ -5,6 +5,7 @@
 
 #include "scene/emissive_quads.h"
 #include "scene/gpu_lights.h"
+#include "scene/gpu_materials.h"
 #include "shared/lighting.h"
 
 namespace conelight::light {
@@ -12,17 +13,20 @@ namespace {
 
 // More lights than these are taken from faces, not looked up at every hit: the shadow maps of 4 cost as much
 // as the ray itself.
-constexpr std::uint32_t kMostExactLights = 4;
+constexpr std::uint32_t kMostExactLights = 8;
 
-// Whether rays may meet metal.
-bool hasMetals(const scene::GpuScene& scene) {
+// Whether rays may meet a lit material for which `is` holds.
+template <typename Is>
+bool anyVoxelized(const scene::GpuScene& scene, Is is) {
     return std::any_of(scene.instances().begin(), scene.instances().end(),
                        [&](const gpu::Instance& instance) {
                            const gpu::Material& m = scene.materials()[instance.material];
                            return (instance.flags & INSTANCE_VOXELIZED) != 0 &&
-                                  (m.flags & MATERIAL_UNLIT) == 0 && m.metallic > 0;
+                                  (m.flags & MATERIAL_UNLIT) == 0 && is(m);
                        });
 }
+
+bool isMetal(const gpu::Material& m) { return m.metallic > 0; }
 
 }  // namespace
 
@@ -102,11 +106,12 @@ LightKey Lights::key() const {
 
 HitKey Lights::hitKey(const scene::GpuScene& scene, bool exactDirect) const {
     HitKey key;
-    key.lobes = hasMetals(scene);
+    key.lobes = anyVoxelized(scene, isMetal);
     key.environment = hasEnvironment();
     key.glass = hasGlass();
     key.exact = exactDirect && ends_.z > 0 && ends_.z <= kMostExactLights;
     if (!key.exact) return key;
+    key.gloss = !key.lobes && anyVoxelized(scene, scene::isGlossyDielectric);
     // One comparison of four texels per light: rays average edges anyway.
     key.lights = this->key();
     key.lights.rect = 0;

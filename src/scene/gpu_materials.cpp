@@ -6,6 +6,7 @@
 
 #include "gl/gl.h"
 #include "gl/pass.h"
+#include "shared/voxels.h"
 
 namespace conelight::scene {
 namespace {
@@ -132,6 +133,12 @@ gpu::Material packedMaterial(const Material& m) {
     g.phongDiffuse = phong.diffuseStrength;
     g.phongSpecular = phong.specularStrength;
     return g;
+}
+
+bool isGlossyDielectric(const gpu::Material& m) {
+    const bool reflects = std::max({m.specularF0.x, m.specularF0.y, m.specularF0.z}) > 0;
+    // A texture may hold less than its factor.
+    return reflects && m.metallic < 1 && (m.roughness <= LOBE_MAX_ROUGHNESS || m.layers.y >= 0);
 }
 
 MaterialTextures texturesOf(const Material& material) {

@@ -15,6 +15,8 @@
 namespace conelight::scene {
 
 gpu::Material packedMaterial(const Material& material);
+// Whether a surface of it may be a dielectric with a lobe that is told from diffuse light.
+bool isGlossyDielectric(const gpu::Material& material);
 
 // Textures of a material: base, metallic-roughness, normal, emissive, specular, specular colour; -1: white.
 struct MaterialTextures {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "gl/gl.h"
+#include "scene/gpu_materials.h"
 
 namespace conelight::voxels {
 namespace {
@@ -48,7 +49,7 @@ Surfaces surfacesOf(const scene::GpuScene& scene) {
         surfaces.detail =
             std::max(surfaces.detail, (m.flags & MATERIAL_ALPHA_MASK) != 0 ? 2 : (textured ? 1 : 0));
         if ((m.flags & MATERIAL_UNLIT) != 0) continue;
-        surfaces.lobes = surfaces.lobes || m.metallic > 0;
+        surfaces.lobes = surfaces.lobes || m.metallic > 0 || scene::isGlossyDielectric(m);
         surfaces.largestEmission =
             std::max({surfaces.largestEmission, m.emission.x, m.emission.y, m.emission.z});
     }

@@ -31,7 +31,7 @@ struct Capacity {
 struct Surfaces {
     int detail = 0;             // 0 constant, 1 textures or vertex colours, 2 alpha tests
     float largestEmission = 0;  // W/(sr m^2), any component
-    bool lobes = false;         // metals
+    bool lobes = false;         // metals, glossy dielectrics
     bool emit() const { return largestEmission > kLeastEmission; }
     SurfaceMaterialKey key() const { return {emit(), lobes}; }
     bool operator==(const Surfaces&) const = default;
