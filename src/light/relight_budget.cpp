@@ -19,13 +19,13 @@ constexpr double kForgetting = 0.25;
 }  // namespace
 
 void RelightBudget::relight(const gl::Device& device, LitVoxels& lit, const LitVoxels::Inputs& inputs,
-                            const RelightSettings& settings, const Limits& limits) {
-    if (limits.milliseconds > 0 && limits.updates > 0)
-        return relightInTime(device, lit, inputs, settings, limits);
-    Budget each{.oneUpdate = true, .faces = limits.faces, .nothing = limits.updates <= 0};
+                            const RelightSettings& settings, const Wanted& wanted) {
+    if (wanted.milliseconds > 0 && wanted.updates > 0)
+        return relightInTime(device, lit, inputs, settings, wanted);
+    Budget each{.oneUpdate = true, .faces = wanted.faces, .nothing = wanted.updates <= 0};
     // The first call finds what has changed; the others go on from there.
     lit.relight(device, inputs, settings, each);
-    for (int i = 1; i < limits.updates && lit.updates() < settings.updates; ++i)
+    for (int i = 1; i < wanted.updates && lit.updates() < settings.updates; ++i)
         lit.relight(device, inputs, settings, each);
 }
 
@@ -35,7 +35,7 @@ void RelightBudget::learn(double milliseconds, std::uint32_t faces) {
 }
 
 void RelightBudget::relightInTime(const gl::Device& device, LitVoxels& lit, const LitVoxels::Inputs& inputs,
-                                  const RelightSettings& settings, const Limits& limits) {
+                                  const RelightSettings& settings, const Wanted& wanted) {
     const bool waits = gl::isSoftwareDriver();  // whose queries of time lie
     if (!waits && facesMeasured_ > 0) learn(ended_.resultMs() - started_.resultMs(), facesMeasured_);
     facesMeasured_ = 0;
@@ -43,13 +43,13 @@ void RelightBudget::relightInTime(const gl::Device& device, LitVoxels& lit, cons
     for (;;) {
         // As many faces as the time that is left and the other limits allow
         const double start = base::wallMs();
-        const double left = limits.milliseconds - (waits ? start - limits.start : 0);
+        const double left = wanted.milliseconds - (waits ? start - wanted.start : 0);
         double faces = msPerFace_ > 0 ? left / msPerFace_ : kFirstFaces;
         if (visited > 0 && faces < kLeastFaces) break;
         const std::uint32_t round = lit.facesPerUpdate();
         if (round > 0) {
-            const std::uint64_t each = limits.faces > 0 ? std::min(limits.faces, round) : round;
-            const std::uint64_t most = each * static_cast<std::uint64_t>(limits.updates);
+            const std::uint64_t each = wanted.faces > 0 ? std::min(wanted.faces, round) : round;
+            const std::uint64_t most = each * static_cast<std::uint64_t>(wanted.updates);
             if (visited >= most) break;
             faces = std::min(faces, static_cast<double>(std::min<std::uint64_t>(most - visited, round)));
         }

@@ -12,7 +12,7 @@
 #include "gather/light_outputs.h"
 #include "gl/debug.h"
 #include "gl/gl.h"
-#include "gl/host_bindings.h"
+#include "gl/host_slots.h"
 #include "gl/host_state.h"
 #include "light/lights.h"
 #include "light/lit_voxels.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "gl/host_bindings.h"
+#include "gl/host_slots.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -27,18 +27,18 @@ const Inputs::Item* itemOf(const Inputs& given, ResourceName name, ResourceKind 
 
 }  // namespace
 
-void bindForHost(const Inputs& given, const HostBindings& bindings) {
-    requireRange("binding points of uniform blocks", bindings.firstBlock, bindings.blocks.size(),
+void bindForHost(const Inputs& given, const HostSlots& slots) {
+    requireRange("binding points of uniform blocks", slots.firstBlock, slots.blocks.size(),
                  GL_MAX_UNIFORM_BUFFER_BINDINGS);
-    requireRange("texture units", bindings.firstTexture, bindings.textures.size(),
+    requireRange("texture units", slots.firstTexture, slots.textures.size(),
                  GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS);
-    auto point = static_cast<GLuint>(bindings.firstBlock);
-    for (const ResourceName name : bindings.blocks) {
+    auto point = static_cast<GLuint>(slots.firstBlock);
+    for (const ResourceName name : slots.blocks) {
         const Inputs::Item* item = itemOf(given, name, ResourceKind::Uniform);
         glBindBufferBase(GL_UNIFORM_BUFFER, point++, item != nullptr ? item->object : 0);
     }
-    auto unit = static_cast<GLuint>(bindings.firstTexture);
-    for (const ResourceName name : bindings.textures) {
+    auto unit = static_cast<GLuint>(slots.firstTexture);
+    for (const ResourceName name : slots.textures) {
         const Inputs::Item* item = itemOf(given, name, ResourceKind::Texture);
         glBindTextureUnit(unit, item != nullptr ? item->object : 0);
         glBindSampler(unit++, item != nullptr ? item->sampler : 0);

@@ -9,7 +9,7 @@
 
 namespace conelight::gl {
 
-struct HostBindings {
+struct HostSlots {
     std::span<const ResourceName> blocks;  // in the order of their binding points
     int firstBlock;
     std::span<const ResourceName> textures;  // in the order of their units
@@ -17,6 +17,6 @@ struct HostBindings {
 };
 // Throws Error(Usage) for points or units that the driver has not. What `given` lacks is bound to nothing; textures
 // without a sampler of their own get theirs.
-void bindForHost(const Inputs& given, const HostBindings& bindings);
+void bindForHost(const Inputs& given, const HostSlots& slots);
 
 }  // namespace conelight::gl
