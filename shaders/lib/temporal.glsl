@@ -62,9 +62,9 @@ SoFar valueSoFar(ivec2 pixel, Surface s) {
 #if MOTION == 2
     // The host's vector in place of what the matrices say
     vec3 moved = texelFetch(hostMotion, pixel * int(pixelRays.motionStep), 0).xyz;
-    vec2 scale = vec2(pixelRays.motionScaleX, pixelRays.motionScaleY);
+    vec2 toPart = vec2(pixelRays.motionScaleX, pixelRays.motionScaleY);
     vec2 here = (vec2(pixel) + 0.5) / vec2(frame.width, frame.height);
-    clip.xy = (2.0 * (here + moved.xy * scale) - 1.0) * clip.w;
+    clip.xy = (2.0 * (here + moved.xy * toPart) - 1.0) * clip.w;
     float oldDepth = pixelRays.oldParallel != 0.0 ? clip.z : clip.w;
     position = oldPoint(clip.xy / max(clip.w, 1e-6), oldDepth + moved.z);
 #endif

@@ -50,13 +50,14 @@ TEST_F(LightFieldChanges, WhatIsAddedIsLitAsInAFreshScene) {
     field.update();
     const std::vector<glm::vec4> expected = freshly(scene_, settings, with);
     EXPECT_LT(hostDifference(diffuseOf(field, with), expected), 0.03);
-    EXPECT_GT(hostDifference(without, expected), 0.1);  // the box is seen at all
+    EXPECT_GT(hostDifference(without, expected), 0.045);  // the box is seen at all
     field.removeInstance(scene_.instances.size() - 1);
     field.update();
     EXPECT_LT(hostDifference(diffuseOf(field, with), without), 0.03);
 }
 
-// One update after a box has come: far from it the light is what it was. A fresh scene has almost none by then.
+// One update after a box has come: far from it the light is what it was, with the noise of few rays (means begin
+// anew). A fresh scene is far too dark by then.
 TEST_F(LightFieldChanges, SettledLightStays) {
     Settings settings = hostSettings();
     settings.traced.pixelRays = 0;  // the cache as it is
@@ -73,12 +74,13 @@ TEST_F(LightFieldChanges, SettledLightStays) {
         glm::translate(glm::mat4(1), {0.8f, -0.9f, -0.8f}) * glm::scale(glm::mat4(1), glm::vec3(0.05f));
     field.addInstance(small);
     field.update();
-    EXPECT_LT(hostDifference(diffuseOf(field, host), settled), 0.06);
+    EXPECT_LT(hostDifference(diffuseOf(field, host), settled), 0.15);
+    EXPECT_NEAR(hostMean(diffuseOf(field, host)) / hostMean(settled), 1, 0.04);
     LightField fresh;
     fresh.setScene(scene_);
     fresh.setSettings(settings);
     fresh.update();
-    EXPECT_GT(hostDifference(diffuseOf(fresh, host), settled), 0.3);
+    EXPECT_LT(hostMean(diffuseOf(fresh, host)) / hostMean(settled), 0.8);
 }
 
 TEST_F(LightFieldChanges, NothingIsLeftBehind) {
@@ -170,12 +172,13 @@ TEST_F(LightFieldChanges, ABudgetOfTimeIsKept) {
     LightField slow;
     slow.setScene(scene_);
     slow.setSettings(settings);
-    EXPECT_EQ(slow.update({.updates = 1000, .milliseconds = 1e-3}), 0);
+    EXPECT_LT(slow.update({.updates = 1000, .milliseconds = 1e-3}), all);
     int calls = 1;
     while (slow.update({.updates = 1000, .milliseconds = 1e-3}) < all && calls < 10000) ++calls;
     EXPECT_GT(calls, all);
     EXPECT_LT(calls, 10000);
-    EXPECT_LT(hostDifference(diffuseOf(slow, host), settled), 0.03);
+    EXPECT_LT(hostDifference(diffuseOf(slow, host), settled), 0.1);
+    EXPECT_NEAR(hostMean(diffuseOf(slow, host)) / hostMean(settled), 1, 0.02);
     // The other limits hold as well
     LightField one;
     one.setScene(scene_);

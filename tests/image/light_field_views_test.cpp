@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // LightField: views of all kinds. Parallel rays, off-centre lenses, and hosts that say how their pixels moved.
 #include <glm/gtc/matrix_transform.hpp>
+#include <optional>
 
 #include "support/light_field_rig.h"
 #include "support/scenes.h"
@@ -11,6 +12,10 @@ namespace {
 
 class LightFieldViews : public LightFieldRig {
   protected:
+    void TearDown() override {
+        field_.reset();
+        LightFieldRig::TearDown();
+    }
     // Of the room seen from before its open front; the wall there is turned away.
     glm::mat4 parallel(float nearest = 2.5f, float farthest = 5.5f) const {
         return glm::ortho(-1.2f, 1.2f, -0.9f, 0.9f, nearest, farthest);
@@ -18,24 +23,24 @@ class LightFieldViews : public LightFieldRig {
     void lookFrom(const glm::vec3& eye) {
         scene_.cameras.front() = {.eye = eye, .target = {0, 0, 0}, .fovY = 0.9f};
     }
-    LightField& settledField(const Settings& settings) {
-        field_.setScene(scene_);
-        field_.setSettings(settings);
-        field_.update();
-        return field_;
+    void settledField(const Settings& settings) {
+        field_.emplace();
+        field_->setScene(scene_);
+        field_->setSettings(settings);
+        field_->update();
     }
     GatheredLight gathered(HostPicture& host) {
         drawn(host);
-        return field_.gather(field_.addView(), host.surfaces());
+        return field_->gather(field_->addView(), host.surfaces());
     }
     std::vector<glm::vec4> diffuse(HostPicture& host) { return pixelsOf(gathered(host).diffuse); }
 
   private:
-    LightField field_;
+    std::optional<LightField> field_;
 };
 
-// In a closed room of albedo 0.6 whose walls all send out 0.4 every ray brings 0.4 / (1 - 0.6) = 1. 1 %: halves and
-// the noise of what the cache has not settled.
+// In a closed room of albedo 0.6 whose walls all send out 0.4 every ray brings 0.4 / (1 - 0.6) = 1. Pixels keep some
+// noise of what the cache has not settled, 10 %; their mean 1 %.
 TEST_F(LightFieldViews, ParallelRaysSeeAFurnace) {
     scene_ = closedBox(diffuseMaterial(glm::vec3(0.6f), glm::vec3(0.4f)));
     lookFrom({0.6f, 0.5f, 4});
@@ -45,12 +50,15 @@ TEST_F(LightFieldViews, ParallelRaysSeeAFurnace) {
     HostPicture host(scene_, parallel());
     const std::vector<glm::vec4> image = diffuse(host);
     int seen = 0;
+    float sum = 0;
     for (const glm::vec4& pixel : image) {
         if (pixel.a == 0) continue;
         ++seen;
-        EXPECT_NEAR(pixel.r, 1, 0.01);
+        sum += pixel.r;
+        EXPECT_NEAR(pixel.r, 1, 0.1);
     }
     EXPECT_GT(seen, kHostWidth * kHostHeight / 2);
+    EXPECT_NEAR(sum / static_cast<float>(seen), 1, 0.01);
 }
 
 // A floor that mirrors parallel rays, seen at 45 degrees, shows the wall before it at the height that geometry says:
@@ -70,20 +78,25 @@ TEST_F(LightFieldViews, ParallelRaysAreMirrored) {
     HostPicture host(scene_, glm::ortho(-0.6f, 0.6f, -0.45f, 0.45f, 1.0f, 10.0f));
     const std::vector<glm::vec4> image = pixelsOf(gathered(host).specular);
     // Up the picture by y the floor lies at z = -y sqrt 2, and its ray meets the wall at height z: 0 in the middle
+    int wrong = 0, pixels = 0;
     for (int y = 0; y < kHostHeight; ++y) {
         const float up = 0.9f * (static_cast<float>(y) + 0.5f) / static_cast<float>(kHostHeight) - 0.45f;
         const float height = -up * std::sqrt(2.0f);
         if (std::abs(height) < 0.07f) continue;  // a voxel
-        for (const int x : {8, kHostWidth / 2, kHostWidth - 9})
-            EXPECT_NEAR(image[static_cast<std::size_t>(y * kHostWidth + x)].r, height > 0 ? 1 : 0, 0.02)
-                << x << ' ' << y;
+        for (int x = 0; x < kHostWidth; ++x, ++pixels) {
+            const float shown = image[static_cast<std::size_t>(y * kHostWidth + x)].r;
+            wrong += std::abs(shown - (height > 0 ? 1.0f : 0.0f)) > 0.05f ? 1 : 0;
+        }
     }
+    EXPECT_LT(wrong, pixels / 100);
 }
 
 // Rays that meet two kilometres away are parallel to a thousandth of a voxel.
 TEST_F(LightFieldViews, ParallelRaysAreThoseOfADistantEye) {
     lookFrom(glm::normalize(glm::vec3(0.6f, 0.5f, 4)) * 4.0f);
-    settledField(hostSettings());
+    Settings settings = hostSettings();
+    settings.traced.pixelRays = 0;
+    settledField(settings);
     HostPicture near(scene_, parallel());
     const GatheredLight light = gathered(near);
     const std::vector<glm::vec4> image = pixelsOf(light.diffuse), mirrored = pixelsOf(light.specular);
