@@ -149,7 +149,8 @@ class CONELIGHT_API LightField {
 
     // Light at the host's pixels. A call is one pass of rays with traced.budgeted on, all passes of a finished
     // picture with it off. Call it once per view and frame. Throws Error(Usage) for an unknown view, before the
-    // first update(), and for surfaces that are incomplete.
+    // first update(), and for surfaces that are incomplete. Surfaces of 0 x 0, of a window that is minimised, give
+    // no textures.
     GatheredLight gather(int view, const HostSurfaces& surfaces, const GatherOptions& options = {});
 
     // For draw calls and dispatches of the host's whose shaders include conelight/light_field.glsl: binds what they

@@ -100,9 +100,10 @@ class CONELIGHT_API Renderer {
     // Timings per pass cost a glFinish each on software drivers. Counting lookups makes cone passes slower.
     void setProfiling(bool passes, bool lookups);
 
-    // Draws one picture, width x height in [1, 16384]. Voxels and light are made anew only where the scene or
-    // a setting they depend on changed since the last call; all of them when `dynamic` (setDynamic) is on.
-    // Throws Error(Usage) for settings out of range, Error(Runtime) for failures of the driver.
+    // Draws one picture, width x height in [1, 16384]; a 0, of a window that is minimised, leaves the last one.
+    // Voxels and light are made anew only where the scene or a setting they depend on changed since the last
+    // call; all of them when `dynamic` (setDynamic) is on. Throws Error(Usage) for settings out of range and a
+    // camera that sees nothing, Error(Runtime) for failures of the driver.
     void render(const Camera& camera, int width, int height, const Settings& settings);
     void setDynamic(bool everyFrame);
     // With RendererOptions::shaderDirectory: builds the programs again that use files changed there. One that

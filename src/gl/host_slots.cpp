@@ -5,6 +5,7 @@
 #include <cstddef>
 
 #include "base/log.h"
+#include "gl/debug.h"
 #include "gl/gl.h"
 
 namespace conelight::gl {
@@ -28,6 +29,9 @@ const Inputs::Item* itemOf(const Inputs& given, ResourceName name, ResourceKind 
 }  // namespace
 
 void bindForHost(const Inputs& given, const HostSlots& slots) {
+    if (!hasCurrentContext())
+        base::fail(ErrorKind::NoGl,
+                   "OpenGL: no context is current on this thread; the host's would be right");
     requireRange("binding points of uniform blocks", slots.firstBlock, slots.blocks.size(),
                  GL_MAX_UNIFORM_BUFFER_BINDINGS);
     requireRange("texture units", slots.firstTexture, slots.textures.size(),

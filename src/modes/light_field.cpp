@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <optional>
 
 #include "base/clock.h"
 #include "base/log.h"
@@ -76,7 +77,12 @@ LightField::LightField(const RendererOptions& options) {
                                        : gl::directoryShaderProvider(options.shaderDirectory));
 }
 
-LightField::~LightField() = default;
+LightField::~LightField() {
+    // Without the context, what it held is gone with it or cannot be freed.
+    std::optional<gl::ForgetNames> forget;
+    if (!gl::hasCurrentContext()) forget.emplace();
+    impl_.reset();
+}
 
 void LightField::setScene(const Scene& scene) {
     scene.validate();  // a scene that is refused leaves the old one in place
@@ -166,6 +172,7 @@ GatheredLight LightField::gather(int view, const HostSurfaces& surfaces, const G
     if (options.reduction < 1 || options.reduction > kMostReduction)
         base::fail(ErrorKind::Usage, "gather: a reduction of %d; 1 to %d would be right", options.reduction,
                    kMostReduction);
+    if (surfaces.width == 0 || surfaces.height == 0) return {};  // of a window that is minimised
     view::requireUsable(surfaces);
     const gl::HostStateGuard guard;
     return impl_->gather(found->second, surfaces, options.reduction);

@@ -182,9 +182,11 @@ std::vector<std::string> Renderer::reloadShaders() {
 }
 
 void Renderer::render(const Camera& camera, int width, int height, const Settings& settings) {
+    if (width == 0 || height == 0) return;  // of a window that is minimised
     if (width < 1 || height < 1 || width > view::kMaxEdge || height > view::kMaxEdge)
         base::fail(ErrorKind::Usage, "picture of %d x %d; 1 to %d in each direction would be right", width,
                    height, view::kMaxEdge);
+    view::requireUsable(camera);
     validateSettings(settings);
     impl_->scene.require("render");
     const gl::HostStateGuard guard;

@@ -2,8 +2,11 @@
 // LightField: a host draws depth, normals and so on with shaders of its own; what it is told of the light at its
 // pixels is what Renderer shows of the same scene.
 #include <cmath>
+#include <optional>
+#include <thread>
 
 #include "conelight/error.h"
+#include "platform/headless_context.h"
 #include "support/light_field_rig.h"
 
 namespace conelight::test {
@@ -170,6 +173,25 @@ TEST_F(LightFieldTest, TakesSliversWithoutNormals) {
     EXPECT_LT(hostDifference(image, expected, [](std::size_t) { return true; }), 1e-3);
 }
 
+// Its context is gone, or current on another thread: calls say so, and the end is quiet.
+TEST_F(LightFieldTest, MayEndWithoutItsContext) {
+    std::optional<LightField> field;
+    {
+        const platform::HeadlessContext own;
+        field.emplace();
+        field->setScene(scene_);
+        field->setSettings(hostSettings());
+        field->update();
+    }
+    std::thread([&] {
+        EXPECT_THROW(field->update(), Error);
+        EXPECT_THROW(field->setInstance(0, scene_.instances[0]), Error);
+        EXPECT_THROW(field->addMesh(scene_.meshes[0]), Error);
+        EXPECT_THROW(field->bindLookups(), Error);
+        field.reset();
+    }).join();
+}
+
 TEST_F(LightFieldTest, SaysWhatIsWrong) {
     LightField field;
     const auto refused = [](const char* words, const std::function<void()>& call) {
@@ -188,7 +210,9 @@ TEST_F(LightFieldTest, SaysWhatIsWrong) {
     field.setSettings(hostSettings());
     field.update();
     refused("no view 7", [&] { field.gather(7, surfaces); });
-    refused("surfaces of 0 x 0", [&] { field.gather(view, surfaces); });
+    EXPECT_EQ(field.gather(view, surfaces).diffuse, 0u);  // 0 x 0: a window that is minimised
+    surfaces.width = surfaces.height = -1;
+    refused("surfaces of -1 x -1", [&] { field.gather(view, surfaces); });
     HostPicture host(scene_, lens());
     drawn(host);
     refused("reduction of 5", [&] { field.gather(view, host.surfaces(), {.reduction = 5}); });

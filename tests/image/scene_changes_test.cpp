@@ -272,6 +272,28 @@ TEST_F(SceneChanges, RefusedOnesChangeNothing) {
     refused("was removed", [&] { renderer.addInstance(scene.instances[kBox]); });
 }
 
+// Windows that are minimised ask for 0 x 0 pixels; cameras that see nothing are refused, not drawn black.
+TEST_F(SceneChanges, PicturesOfNothing) {
+    const Scene scene = roomScene();
+    Renderer renderer;
+    renderer.setScene(scene);
+    const Image before = drawnBy(renderer, scene, Mode::Phong);
+    const Settings settings = smallSettings(Mode::Phong);
+    renderer.render(scene.cameras.front(), 0, 0, settings);
+    renderer.render(scene.cameras.front(), kPixels, 0, settings);
+    EXPECT_TRUE(sameBits(renderer.readImage(), before));
+    EXPECT_THROW(renderer.render(scene.cameras.front(), -1, kPixels, settings), Error);
+    std::vector<Camera> blind(5, scene.cameras.front());
+    blind[0].eye.x = NAN;
+    blind[1].up.y = INFINITY;
+    blind[2].fovY = 0;
+    blind[3].zNear = blind[3].zFar;
+    blind[4].lensDiameter = NAN;
+    for (const Camera& camera : blind)
+        EXPECT_THROW(renderer.render(camera, kPixels, kPixels, settings), Error) << &camera - blind.data();
+    EXPECT_TRUE(sameBits(renderer.readImage(), before));
+}
+
 // What leaves the grid and comes back finds the same voxels: the grid is where it was.
 TEST_F(SceneChanges, TheGridStaysWhenThingsLeaveIt) {
     const Scene scene = roomScene();
