@@ -150,6 +150,7 @@ conelight_result conelight_renderer_render(conelight_renderer* renderer, const c
             view = scene.cameras.empty() ? frameCamera(scene.bounds()) : scene.cameras.front();
         }
         use->render(*view, width, height, shown);
+        if (width == 0 || height == 0) return;  // the last picture stays
         renderer->width = width;
         renderer->height = height;
     });

@@ -30,6 +30,7 @@ layout(binding = 0) uniform sampler2D maps[4];  // depth, normal, albedo, indire
 layout(location = 0) uniform mat4 worldFromClip;
 layout(location = 1) uniform vec3 lamp;
 layout(location = 2) uniform vec3 intensity;
+layout(location = 3) uniform float split;  // no indirect light left of it
 layout(location = 0) out vec4 radiance;
 void main() {
     ivec2 pixel = ivec2(gl_FragCoord.xy);
@@ -38,7 +39,7 @@ void main() {
     vec3 toLamp = lamp - world.xyz / world.w;
     float cosine = max(dot(texelFetch(maps[1], pixel, 0).xyz, normalize(toLamp)), 0);
     vec3 light = intensity / 3.14159 * cosine / dot(toLamp, toLamp);
-    if (pixel.x >= size.x / 2) light += texelFetch(maps[3], pixel, 0).rgb;
+    if (pixel.x >= split * size.x) light += texelFetch(maps[3], pixel, 0).rgb;
     radiance = vec4(texelFetch(maps[2], pixel, 0).rgb * light, 1);
 }
 #endif
@@ -71,6 +72,7 @@ struct Host {
     GLuint surfaces = programOf(kSurfaces), shade = programOf(kShade);
     GLuint depth, normal, albedo, picture;
     GLuint target[2] = {}, array = 0;
+    float split = 0.5f;
 
     Host(int width, int height)
         : depth(textureOf(GL_DEPTH_COMPONENT32F, width, height)),
@@ -97,6 +99,12 @@ struct Host {
         glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
         glUseProgram(surfaces);
         glUniformMatrix4fv(1, 1, GL_FALSE, &clipFromWorld[0][0]);
+        drawInstances(scene);
+    }
+
+    // With the program in use: its uniforms 0 and 2 are the matrix and the colour.
+    void drawInstances(const conelight::Scene& scene) const {
+        glBindVertexArray(array);
         for (const conelight::Instance& instance : scene.instances) {
             const conelight::Mesh& mesh = scene.meshes[std::size_t(instance.mesh)];
             GLuint buffers[2];
@@ -121,6 +129,7 @@ struct Host {
         glUniformMatrix4fv(0, 1, GL_FALSE, &worldFromClip[0][0]);
         glUniform3fv(1, 1, &lamp.position[0]);
         glUniform3fv(2, 1, &lamp.intensity[0]);
+        glUniform1f(3, split);
         const GLuint read[4] = {depth, normal, albedo, indirect};
         glBindTextures(0, 4, read);
         glDrawArrays(GL_TRIANGLES, 0, 3);

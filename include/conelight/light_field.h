@@ -34,8 +34,9 @@ enum class NormalEncoding : std::uint8_t {
 // row at clip y = -1 first. They are read at level 0, by samplers of ours, and never written.
 struct HostSurfaces {
     int width = 0, height = 0;
-    // From world to clip space, as the pixels were drawn: any perspective. Jittered, off-centre, mirrored,
-    // left-handed, reversed and infinite ones are; parallel rays are refused.
+    // From world to clip space, as the pixels were drawn: any perspective, jittered, off-centre, mirrored,
+    // left-handed, reversed or infinite; or parallel rays, where `background` tells the far end of depths: below
+    // one half it is 0.
     glm::mat4 viewFromWorld{1.0f};
     glm::mat4 clipFromView{1.0f};
     bool clipDepthZeroToOne = false;  // glClipControl(.., GL_ZERO_TO_ONE)
@@ -52,12 +53,22 @@ struct HostSurfaces {
     // GL_R16UI or GL_R32UI: index into the instances of the scene. Tells where the surface of a pixel was, when
     // things move. 0: none; means of moving things are then kept where they happen to match.
     std::uint32_t instances = 0;
+    // Where the surface of a pixel was in the picture of the view before, less where it is: xy of it times
+    // motionScale, in parts of the picture's size, as texture coordinates count. z, if there is one, is by how much
+    // the surface's own movement has changed its view depth since, then less now, m. It takes the place of
+    // `instances` for that. 0: none; best also where nothing moves.
+    std::uint32_t motion = 0;
+    glm::vec2 motionScale{1.0f};
 };
 
-// How much a call of update() does, when traced.budgeted is on.
+// How much a call of update() does, when traced.budgeted is on: it ends when any of these is used up.
 struct LightBudget {
     int updates = 1;  // of the light of faces, at most
     int faces = 0;    // in each of them, at most; 0: all
+    // From the begin of the call on; 0: no limit. Some faces are updated all the same. Without it the same calls
+    // give the same bits, with it light gets as far as the machine does. The call waits for a software driver; a
+    // GPU is not waited for, and is given as many faces as it managed in that time before.
+    double milliseconds = 0;
 };
 
 struct GatherOptions {
@@ -74,6 +85,17 @@ struct GatheredLight {
         0;  // mean radiance in the specular lobe, W/(sr m^2): times its albedo is radiance
     int width = 0, height = 0;
 };
+
+// Where shaders of the host that include conelight/light_field.glsl find what they read: so many binding points of
+// uniform blocks and texture units, from the first on.
+struct LookupSlots {
+    static constexpr int kBlocks = 2, kTextures = 7;
+    int firstBlock = 0;
+    int firstTexture = 0;
+};
+// The text of conelight/light_field.glsl for these slots; it goes behind the line of #version. Names begin with
+// conelight_: vec3 conelight_irradiance(vec3 position, vec3 normal), vec3 conelight_trace(vec3 origin, vec3 direction).
+CONELIGHT_API std::string lookupsGlsl(const LookupSlots& slots = {});
 
 // Settings for pictures that move: traced.budgeted is on. LightField reads the groups voxels, light, traced.
 CONELIGHT_API Settings realtimeSettings(Quality quality = Quality::Interactive);
@@ -96,6 +118,19 @@ class CONELIGHT_API LightField {
     void setLights(const std::vector<Light>& lights);
     void setSky(const glm::vec3& radiance);
     void setEnvironment(const Environment& environment);
+    // Further entries in place, each returns its index; what is there keeps its own. addInstance may give the index of
+    // an instance that was removed, addMesh that of a mesh. Light elsewhere stays as settled as it is. What was removed
+    // stays in scene(), invisible or empty, and no other call takes it. Throw as those above; removeMesh also
+    // Error(Usage) while an instance has the mesh.
+    std::size_t addMesh(const Mesh& mesh);
+    std::size_t addMaterial(const Material& material);
+    std::size_t addInstance(const Instance& instance);
+    void removeInstance(std::size_t index);
+    void removeMesh(std::size_t index);
+    // Where voxels are, m, whatever the scene's size: what lies outside is lit by them and seen, but neither occludes
+    // nor bounces light. Empty: where the scene's voxelized instances are. Holds for later scenes too, and may be set
+    // before the first. Throws Error(BadInput) for a box that is not finite.
+    void setRegion(const Aabb& region);
     const Scene& scene() const;
 
     // From the next update() on; realtimeSettings() at first. Throws Error(Usage) for values out of range.
@@ -114,8 +149,15 @@ class CONELIGHT_API LightField {
 
     // Light at the host's pixels. A call is one pass of rays with traced.budgeted on, all passes of a finished
     // picture with it off. Call it once per view and frame. Throws Error(Usage) for an unknown view, before the
-    // first update(), and for surfaces that are incomplete or of parallel rays.
+    // first update(), and for surfaces that are incomplete. Surfaces of 0 x 0, of a window that is minimised, give
+    // no textures.
     GatheredLight gather(int view, const HostSurfaces& surfaces, const GatherOptions& options = {});
+
+    // For draw calls and dispatches of the host's whose shaders include conelight/light_field.glsl: binds what they
+    // read, light as the last update() left it. The slots stay bound, the rest of the state as it was; after the
+    // next update() or setScene() bind again. Throws Error(Usage) before the first update() and for slots that the
+    // driver has not.
+    void bindLookups(const LookupSlots& slots = {}) const;
 
   private:
     struct Impl;

@@ -81,15 +81,29 @@ class CONELIGHT_API Renderer {
     void setSky(const glm::vec3& radiance);            // W/(sr m^2)
     void setEnvironment(const Environment& environment);
     void setBakedLight(std::shared_ptr<const BakedLight> baked);  // null: none
+    // Further entries in place, each returns its index; what is there keeps its own. addInstance may give the index of
+    // an instance that was removed, addMesh that of a mesh. Light elsewhere stays as settled as it is. What was removed
+    // stays in scene(), invisible or empty, and no other call takes it. Throw as those above; removeMesh also
+    // Error(Usage) while an instance has the mesh.
+    std::size_t addMesh(const Mesh& mesh);
+    std::size_t addMaterial(const Material& material);
+    std::size_t addInstance(const Instance& instance);
+    void removeInstance(std::size_t index);
+    void removeMesh(std::size_t index);
+    // Where voxels are, m, whatever the scene's size: what lies outside is lit by them and seen, but neither occludes
+    // nor bounces light. Empty: where the scene's voxelized instances are. Holds for later scenes too, and may be set
+    // before the first. Throws Error(BadInput) for a box that is not finite.
+    void setRegion(const Aabb& region);
     // The renderer's copy, with all changes; valid until the next setScene.
     const Scene& scene() const;
 
     // Timings per pass cost a glFinish each on software drivers. Counting lookups makes cone passes slower.
     void setProfiling(bool passes, bool lookups);
 
-    // Draws one picture, width x height in [1, 16384]. Voxels and light are made anew only where the scene or
-    // a setting they depend on changed since the last call; all of them when `dynamic` (setDynamic) is on.
-    // Throws Error(Usage) for settings out of range, Error(Runtime) for failures of the driver.
+    // Draws one picture, width x height in [1, 16384]; a 0, of a window that is minimised, leaves the last one.
+    // Voxels and light are made anew only where the scene or a setting they depend on changed since the last
+    // call; all of them when `dynamic` (setDynamic) is on. Throws Error(Usage) for settings out of range and a
+    // camera that sees nothing, Error(Runtime) for failures of the driver.
     void render(const Camera& camera, int width, int height, const Settings& settings);
     void setDynamic(bool everyFrame);
     // With RendererOptions::shaderDirectory: builds the programs again that use files changed there. One that

@@ -132,6 +132,7 @@ struct TracedSettings {
     int cacheRays = 2;
     int cacheUpdates = 32;
     int faceBudget = 0;
+    float timeBudget = 0;
     std::optional<int> bounces;  // nothing: all
     bool exactHits = true;
     bool exactMirrors = false;

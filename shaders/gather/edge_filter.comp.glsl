@@ -52,7 +52,9 @@ float meanVariance(uvec4 bits) {
     return variance;
 }
 
-vec3 positionOf(ivec2 pixel, uvec4 bits) { return frame.eye + pixelHistoryDepth(bits) * pixelRay(pixel); }
+vec3 positionOf(ivec2 pixel, uvec4 bits) {
+    return pixelOrigin(pixel) + pixelHistoryDepth(bits) * pixelRay(pixel);
+}
 
 // The pixel that is filtered.
 struct OwnPixel {

@@ -63,9 +63,10 @@ void main() {
         VoxelHit hit;
 #if TRIANGLE_HITS
         float pixelAngle = 2.0 * length(frame.viewUp) / float(frame.height);
-        rayCone =
-            RayCone(b.alpha <= kTriangleAlpha ? s.depth * pixelAngle * pixelRays.inverseVoxelSize : -1.0,
-                    pixelAngle + b.alpha);
+        // Parallel rays are as wide everywhere.
+        float width = pixelAngle * mix(s.depth, 1.0, frame.parallel);
+        rayCone = RayCone(b.alpha <= kTriangleAlpha ? width * pixelRays.inverseVoxelSize : -1.0,
+                          pixelAngle * (1.0 - frame.parallel) + b.alpha);
 #endif
         Ray ray = Ray(origin, direction, counts ? 1e9 : -1.0, s.geometricNormal);
         PathSettings path = PathSettings(-1.0, counts ? int(pixelRays.reflections) : 0, b.alpha,

@@ -23,7 +23,7 @@ void main() {
     flatRows[0] = uvec4(floatBitsToUint(frame.eye), frame.width);
     flatRows[1] = uvec4(floatBitsToUint(lighting.sky), frame.height);
     flatRows[2] = floatBitsToUint(vec4(frame.viewForward, pixelRays.specularLimit));
-    flatRows[4] = floatBitsToUint(vec4(frame.viewUp, 0.0));
+    flatRows[4] = floatBitsToUint(vec4(frame.viewUp, frame.parallel));
 #if SHOW_DIFFUSE || SHOW_SPECULAR
     flatRows[3] = floatBitsToUint(vec4(frame.viewRight, grid.inverseVoxelSize));
     flatRows[5] = floatBitsToUint(vec4(grid.origin, grid.voxelSize));

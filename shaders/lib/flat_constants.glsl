@@ -32,6 +32,7 @@ struct FlatFrame {
     vec3 viewUp;
     uint width;
     uint height;
+    float parallel;
 };
 struct FlatLighting {
     vec3 sky;
@@ -55,7 +56,8 @@ struct FlatPixelRays {
 vec3 flatVec3(int row) { return uintBitsToFloat(flatRows[row].xyz); }
 float flatFloat(int row) { return uintBitsToFloat(flatRows[row].w); }
 
-FlatFrame frame = FlatFrame(flatVec3(0), flatVec3(2), flatVec3(3), flatVec3(4), flatRows[0].w, flatRows[1].w);
+FlatFrame frame =
+    FlatFrame(flatVec3(0), flatVec3(2), flatVec3(3), flatVec3(4), flatRows[0].w, flatRows[1].w, flatFloat(4));
 FlatLighting lighting = FlatLighting(flatVec3(1), flatRows[8]);
 FlatPixelRays pixelRays = FlatPixelRays(flatFloat(2));
 FlatGrid grid = FlatGrid(flatVec3(5), flatFloat(5), flatFloat(3), flatRows[6].x, flatRows[6].y, flatRows[6].z,

@@ -13,10 +13,17 @@
 uniform usampler2D gbufferGeometry;
 uniform usampler2D gbufferMaterial;
 
-// World-space direction, not unit: position = eye + view depth * direction. Row 0 is the bottom row.
+// World-space direction, not unit: position = pixelOrigin + view depth * direction. Row 0 is the bottom row.
 vec3 pixelRay(ivec2 pixel) {
     vec2 clip = (vec2(pixel) + 0.5) / vec2(frame.width, frame.height) * 2.0 - 1.0;
-    return frame.viewForward + clip.x * frame.viewRight + clip.y * frame.viewUp;
+    vec3 ray = frame.viewForward + clip.x * frame.viewRight + clip.y * frame.viewUp;
+    return frame.parallel != 0.0 ? frame.viewForward : ray;
+}
+
+// Where the ray of a pixel begins: the eye, but of parallel rays.
+vec3 pixelOrigin(ivec2 pixel) {
+    vec2 clip = (vec2(pixel) + 0.5) / vec2(frame.width, frame.height) * 2.0 - 1.0;
+    return frame.eye + frame.parallel * (clip.x * frame.viewRight + clip.y * frame.viewUp);
 }
 
 // The surface seen at the centre of `pixel`; false in the background, where `s` is a default surface at the
@@ -26,7 +33,7 @@ bool fetchSurface(ivec2 pixel, out Surface s) {
     uvec4 material = texelFetch(gbufferMaterial, pixel, 0);
     vec3 ray = pixelRay(pixel);
     s.depth = uintBitsToFloat(geometry.x);
-    s.position = frame.eye + s.depth * ray;
+    s.position = pixelOrigin(pixel) + s.depth * ray;
     s.toEye = -normalize(ray);
     s.normal = octDecode(unpackSnorm2x16(geometry.y));
     s.geometricNormal = octDecode(unpackSnorm2x16(geometry.z));

@@ -6,18 +6,29 @@
 // TEMPORAL 0: nothing so far. 1: the picture so far has the same view: its pixel is ours. 2: it has another
 //   view (pixelRays.old*): of the four pixels about the place, those count that show our surface, by plane,
 //   normal and instance.
-// MOTION 1 (with TEMPORAL 2): instances have moved as well (PIXEL_MOTION).
+// MOTION (with TEMPORAL 2) 1: instances have moved as well (PIXEL_MOTION). 2: a host says where its pixels were
+//   (hostMotion); the surface was as far from the eye then as the vector's z says.
 #if !defined(TEMPORAL) || !defined(MOTION)
-#error TEMPORAL must be 0, 1 or 2, MOTION 0 or 1
+#error TEMPORAL must be 0, 1 or 2, MOTION 0, 1 or 2
 #endif
 #include "lib/gbuffer.glsl"
 #include "lib/pixel_history.glsl"
 #include "shared/pixel_rays.h"
 layout(std140) uniform PixelRayBlock { PixelRayConstants pixelRays; };
 uniform usampler2D pixelHistory;
-#if MOTION
+#if MOTION == 2
+uniform sampler2D hostMotion;
+#elif MOTION
 layout(std430) readonly buffer Motion { mat4 oldFromWorld[]; };
 #endif
+
+// The point at a view depth and a clip position of the picture so far.
+vec3 oldPoint(vec2 clip, float depth) {
+    vec3 across = clip.x * pixelRays.oldRight + clip.y * pixelRays.oldUp;
+    vec3 ray = pixelRays.oldForward + clip.x * pixelRays.oldRight + clip.y * pixelRays.oldUp;
+    return pixelRays.oldEye + pixelRays.oldParallel * across +
+           depth * (pixelRays.oldParallel != 0.0 ? pixelRays.oldForward : ray);
+}
 
 struct SoFar {
     vec4 value;      // rgb and number of passes, 0 where there is nothing to go by
@@ -40,7 +51,7 @@ SoFar valueSoFar(ivec2 pixel, Surface s) {
     vec3 position = s.position;
     vec3 normal = s.normal;
     vec3 planeNormal = s.geometricNormal;
-#if MOTION
+#if MOTION == 1
     mat4 motion = oldFromWorld[s.instance];
     position = (motion * vec4(position, 1.0)).xyz;
     normal = normalize(mat3(motion) * normal);
@@ -48,6 +59,15 @@ SoFar valueSoFar(ivec2 pixel, Surface s) {
 #endif
     vec4 clip = pixelRays.oldClipFromWorld * vec4(position, 1.0);
     ivec2 size = textureSize(pixelHistory, 0);
+#if MOTION == 2
+    // The host's vector in place of what the matrices say
+    vec3 moved = texelFetch(hostMotion, pixel * int(pixelRays.motionStep), 0).xyz;
+    vec2 toPart = vec2(pixelRays.motionScaleX, pixelRays.motionScaleY);
+    vec2 here = (vec2(pixel) + 0.5) / vec2(frame.width, frame.height);
+    clip.xy = (2.0 * (here + moved.xy * toPart) - 1.0) * clip.w;
+    float oldDepth = pixelRays.oldParallel != 0.0 ? clip.z : clip.w;
+    position = oldPoint(clip.xy / max(clip.w, 1e-6), oldDepth + moved.z);
+#endif
     vec2 place = (clip.xy / max(clip.w, 1e-6) * 0.5 + 0.5) * vec2(size) - 0.5;
     // Where the view has hardly changed, rounding must not blur.
     vec2 nearest = floor(place + 0.5);
@@ -62,9 +82,7 @@ SoFar valueSoFar(ivec2 pixel, Surface s) {
         bool inside = clip.w > 0.0 && all(greaterThanEqual(q, ivec2(0))) && all(lessThan(q, size));
         uvec4 bits = texelFetch(pixelHistory, clamp(q, ivec2(0), size - 1), 0);
         vec2 at = (vec2(q) + 0.5) / vec2(size) * 2.0 - 1.0;
-        vec3 there = pixelRays.oldEye +
-                     pixelHistoryDepth(bits) *
-                         (pixelRays.oldForward + at.x * pixelRays.oldRight + at.y * pixelRays.oldUp);
+        vec3 there = oldPoint(at, pixelHistoryDepth(bits));
         bool same = inside && bits.z != 0u && pixelHistoryInstance(bits) == (s.instance & 0xffu) &&
                     dot(pixelHistoryNormal(bits), normal) > 0.9 &&
                     abs(dot(there - position, planeNormal)) < pixelRays.planeTolerance;

@@ -15,7 +15,7 @@ CONELIGHT_SHARED_BEGIN
 struct HostSurfaceConstants {
     mat4 worldFromView;  // of normals: its upper 3 x 3
     // ---- 64 B: view depth w of a texel d: w = depthOfEye / (depthScale d + depthOffset - dot(depthRow, ray)),
-    // where position = eye + w ray
+    // where position = eye + w ray; of parallel rays w = depthScale d + depthOffset
     vec3 depthRow;
     float depthOfEye;
     float depthScale;

@@ -8,6 +8,7 @@
 //   irradiancePicture  usampler2D: gathered irradiance, for composition
 //   lobePicture        usampler2D: radiance in the specular lobe, for composition
 //   Motion             storage: mat4 per instance, world of the frame before from world of this one
+//   hostMotion         sampler2D: where a host's pixels were, less where they are
 //   LobeList           storage: group counts of an indirect dispatch, number of pixels, pixels
 #define LOBE_GROUPS_X 32u  // in x of that dispatch; y may be 65,535
 
@@ -37,10 +38,15 @@ struct PixelRayConstants {
     float fireflyClamp;  // firefly clamp: of radiance by glossy bounces, over that of the diffuse metal
     uint lobesX;         // lowest pixel that may need rays into its lobe
     uint lobesY;
+    float oldParallel;  // of FrameConstants
+    // ---- 160 B: of MOTION 2, vectors of the host's (HostSurfaces::motion)
+    float motionScaleX;  // texel -> part of the picture's width
+    float motionScaleY;
+    uint motionStep;  // one of so many texels in each direction is a pixel
     uint pad0;
-};  // 160 B
+};  // 176 B
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
-static_assert(sizeof(conelight::gpu::PixelRayConstants) == 160);
+static_assert(sizeof(conelight::gpu::PixelRayConstants) == 176);
 #endif

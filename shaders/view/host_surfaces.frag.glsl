@@ -24,15 +24,19 @@ uniform usampler2D hostInstances;
 layout(location = 0) out uvec4 outGeometry;
 layout(location = 1) out uvec4 outMaterial;
 
-// View depth at a texel, 0 where nothing was drawn or outside; and the way from the eye per unit of it.
-float depthAt(ivec2 texel, out vec3 ray) {
+// View depth at a texel, 0 where nothing was drawn or outside; where its ray begins, and the way per unit of depth.
+float depthAt(ivec2 texel, out vec3 origin, out vec3 ray) {
     vec2 pixel = vec2(texel) / float(host.reduction);
     vec2 clip = (pixel + 0.5) / vec2(frame.width, frame.height) * 2.0 - 1.0;
-    ray = frame.viewForward + clip.x * frame.viewRight + clip.y * frame.viewUp;
+    bool parallel = frame.parallel != 0.0;
+    vec3 across = clip.x * frame.viewRight + clip.y * frame.viewUp;
+    ray = frame.viewForward + (parallel ? vec3(0.0) : across);
+    origin = frame.eye + (parallel ? across : vec3(0.0));
     ivec2 size = textureSize(hostDepth, 0);
     bool inside = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size));
     float d = texelFetch(hostDepth, clamp(texel, ivec2(0), size - 1), 0).x;
-    float depth = host.depthOfEye / (host.depthScale * d + host.depthOffset - dot(host.depthRow, ray));
+    float along = host.depthScale * d + host.depthOffset;
+    float depth = parallel ? along : host.depthOfEye / (along - dot(host.depthRow, ray));
     return inside && d != host.background && depth > 0.0 && depth < 1e18 ? depth : 0.0;
 }
 
@@ -48,23 +52,22 @@ vec3 decodedNormal(vec4 texel) {
 
 #if !FACE_NORMALS
 // From here to the nearer of two neighbours: across an edge lies the farther one.
-vec3 alongSurface(ivec2 texel, ivec2 toNext, float depth, vec3 ray) {
-    vec3 rayBefore, rayAfter;
-    float before = depthAt(texel - toNext, rayBefore);
-    float after = depthAt(texel + toNext, rayAfter);
-    vec3 here = depth * ray;
+vec3 alongSurface(ivec2 texel, ivec2 toNext, float depth, vec3 here) {
+    vec3 originBefore, rayBefore, originAfter, rayAfter;
+    float before = depthAt(texel - toNext, originBefore, rayBefore);
+    float after = depthAt(texel + toNext, originAfter, rayAfter);
     bool forward = before == 0.0 || (after != 0.0 && abs(after - depth) < abs(before - depth));
     if (before == 0.0 && after == 0.0) return vec3(0.0);
-    return forward ? after * rayAfter - here : here - before * rayBefore;
+    return forward ? originAfter + after * rayAfter - here : here - originBefore - before * rayBefore;
 }
 #endif
 
-vec3 faceNormal(ivec2 texel, float depth, vec3 ray, vec3 shading) {
+vec3 faceNormal(ivec2 texel, float depth, vec3 here, vec3 ray, vec3 shading) {
 #if FACE_NORMALS
     vec3 n = decodedNormal(texelFetch(hostFaceNormal, texel, 0));
 #else
     vec3 n =
-        cross(alongSurface(texel, ivec2(1, 0), depth, ray), alongSurface(texel, ivec2(0, 1), depth, ray));
+        cross(alongSurface(texel, ivec2(1, 0), depth, here), alongSurface(texel, ivec2(0, 1), depth, here));
     float size = length(n);
     n = size > 0.0 ? n / size : vec3(0.0);
 #endif
@@ -74,10 +77,10 @@ vec3 faceNormal(ivec2 texel, float depth, vec3 ray, vec3 shading) {
 
 void main() {
     ivec2 texel = ivec2(gl_FragCoord.xy) * int(host.reduction);
-    vec3 ray;
-    float depth = depthAt(texel, ray);
+    vec3 origin, ray;
+    float depth = depthAt(texel, origin, ray);
     vec3 shading = decodedNormal(texelFetch(hostNormal, texel, 0));
-    vec3 face = faceNormal(texel, depth, ray, shading);
+    vec3 face = faceNormal(texel, depth, origin + depth * ray, ray, shading);
     // Slivers may have no normal of their own.
     if (shading == vec3(0.0)) shading = face;
     if (depth == 0.0 || face == vec3(0.0)) {

@@ -16,7 +16,8 @@ constexpr int kOcclusionRays = 2;
 
 bool sameView(const gpu::FrameConstants& a, const gpu::FrameConstants& b) {
     return a.clipFromWorld == b.clipFromWorld && a.eye == b.eye && a.viewForward == b.viewForward &&
-           a.viewRight == b.viewRight && a.viewUp == b.viewUp && a.width == b.width && a.height == b.height;
+           a.viewRight == b.viewRight && a.viewUp == b.viewUp && a.parallel == b.parallel &&
+           a.width == b.width && a.height == b.height;
 }
 
 // Whether any surface may be as smooth as `limit`.
@@ -46,22 +47,25 @@ void Indirect::follow(const RayInputs& inputs, const TracedSettings& settings) {
     followInstances(inputs.scene);
 }
 
-// Where each instance was in the frame before, for means that follow them.
+// Where each instance was in the frame before, for means that follow them. One that has come since stands still.
 void Indirect::followInstances(const scene::GpuScene& scene) {
     const std::vector<gpu::Instance>& instances = scene.instances();
-    const bool known = placed_.size() == instances.size();
-    if (!known) diffuseHistory_ = specularHistory_ = occlusionHistory_ = {};
+    if (placed_.size() > instances.size()) diffuseHistory_ = specularHistory_ = occlusionHistory_ = {};
     moved_ = false;
-    std::vector<glm::mat4> places, oldFromWorld;
+    std::vector<glm::mat4> oldFromWorld(instances.size(), glm::mat4(1));
+    const std::size_t known = std::min(placed_.size(), instances.size());
+    placed_.resize(instances.size());
+    entries_.resize(instances.size());
     for (std::size_t i = 0; i < instances.size(); ++i) {
-        places.push_back(instances[i].worldFromObject);
-        if (!known) continue;
-        const bool still = placed_[i] == places[i];
-        oldFromWorld.push_back(still ? glm::mat4(1) : placed_[i] * glm::inverse(places[i]));
-        moved_ = moved_ || !still;
+        const glm::mat4 place = instances[i].worldFromObject;
+        if (i < known && entries_[i] == scene.entryRevision(i) && placed_[i] != place) {
+            oldFromWorld[i] = placed_[i] * glm::inverse(place);
+            moved_ = true;
+        }
+        placed_[i] = place;
+        entries_[i] = scene.entryRevision(i);
     }
     if (moved_) motion_ = gl::Buffer(oldFromWorld, "instance motion");
-    placed_ = std::move(places);
 }
 
 // Finished at once, or one more pass on top of what is known.
@@ -71,7 +75,8 @@ void Indirect::addPasses(const gl::Device& device, const RayInputs& inputs, cons
     next.motion = moved_ ? &motion_ : nullptr;
     const gpu::FrameConstants& view = inputs.surfaces.view();
     const bool known = history.view && picture.has(inputs.surfaces.width(), inputs.surfaces.height());
-    const bool still = known && sameView(*history.view, view) && !moved_;
+    // A host's vectors may say that anything moves.
+    const bool still = known && sameView(*history.view, view) && !moved_ && !inputs.surfaces.haveMotion();
     if (pass.settings.budgeted) {
         next.reuse = !known ? Reuse::None : (still ? Reuse::SameView : Reuse::Reproject);
         next.number = static_cast<std::uint32_t>(history.passes);

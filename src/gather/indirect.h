@@ -68,6 +68,7 @@ class Indirect {
 
     // Where instances were, and where from they have come since.
     std::vector<glm::mat4> placed_;
+    std::vector<base::Revision> entries_;  // which they were
     gl::Buffer motion_;
     bool moved_ = false;
 

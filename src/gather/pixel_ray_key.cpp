@@ -13,11 +13,13 @@ void addPasses(std::vector<PixelRayKey>& keys, PixelRayKey key) {
         key.counts = counts;
         for (const Reuse reuse : {Reuse::None, Reuse::SameView, Reuse::Reproject}) {
             key.reuse = reuse;
-            key.motion = false;
+            key.motion = Motion::None;
             keys.push_back(key);
         }
-        key.motion = true;
-        keys.push_back(key);
+        for (const Motion motion : {Motion::Instances, Motion::Vectors}) {
+            key.motion = motion;
+            keys.push_back(key);
+        }
     }
     keys.push_back({.kind = key.kind, .triangles = key.triangles, .records = true, .hits = key.hits});
 }
@@ -29,7 +31,7 @@ gl::ProgramDesc PixelRayKey::desc() const {
     desc.files = {kind == RayPicture::Specular ? "gather/ray_specular.comp.glsl"
                                                : "gather/ray_diffuse.comp.glsl"};
     desc.defines = {{"TEMPORAL", std::to_string(static_cast<int>(reuse))},
-                    {"MOTION", motion && reuse == Reuse::Reproject ? "1" : "0"}};
+                    {"MOTION", std::to_string(reuse == Reuse::Reproject ? static_cast<int>(motion) : 0)}};
     if (kind != RayPicture::Specular)
         desc.defines.emplace_back("OCCLUSION", kind == RayPicture::Occlusion ? "1" : "0");
     if (listed) desc.defines.emplace_back("LOBE_LISTED", "1");

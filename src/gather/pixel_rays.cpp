@@ -90,6 +90,7 @@ void setPictureSoFar(gpu::PixelRayConstants& constants, const gpu::FrameConstant
     constants.oldForward = view.viewForward;
     constants.oldRight = view.viewRight;
     constants.oldUp = view.viewUp;
+    constants.oldParallel = view.parallel;
     constants.planeTolerance = kPlaneTolerance * grid.voxelSize;
 }
 
@@ -116,7 +117,10 @@ void PixelRays::clearWritten(Picture& picture) {
 PixelRayKey PixelRays::key(const RayInputs& inputs, const RayPass& pass) const {
     PixelRayKey key{.kind = kind_,
                     .reuse = pass.reuse,
-                    .motion = pass.motion != nullptr && pass.reuse == Reuse::Reproject,
+                    .motion = pass.reuse != Reuse::Reproject ? Motion::None
+                              : inputs.surfaces.haveMotion() ? Motion::Vectors
+                              : pass.motion != nullptr       ? Motion::Instances
+                                                             : Motion::None,
                     .counts = pass.lookupCounters != nullptr,
                     .listed = kind_ == RayPicture::Specular};
     key.triangles = kind_ == RayPicture::Specular ? pass.settings.exactMirrors : pass.settings.exactNear;
@@ -129,6 +133,9 @@ gpu::PixelRayConstants PixelRays::packed(const RayInputs& inputs, const RayPass&
     const voxels::VoxelGrid& grid = inputs.voxels.grid();
     gpu::PixelRayConstants c{};
     setPictureSoFar(c, seenFrom_, grid);
+    c.motionScaleX = inputs.surfaces.motionScale().x;
+    c.motionScaleY = inputs.surfaces.motionScale().y;
+    c.motionStep = static_cast<std::uint32_t>(inputs.surfaces.reduction());
     c.pass = pass.number;
     c.rays = static_cast<std::uint32_t>(std::max(pass.rays, 1));
     c.longestMean = static_cast<float>(std::max(pass.longest, 1));

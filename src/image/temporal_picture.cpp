@@ -29,6 +29,7 @@ struct TemporalKey {
 Settings withoutLook(Settings settings) {
     settings.image = ImageSettings{};
     settings.traced.faceBudget = 0;
+    settings.traced.timeBudget = 0;
     return settings;
 }
 

@@ -58,6 +58,7 @@ class IrradianceCache {
     // away.
     bool settled() const;
     int updates() const;  // whole rounds over all faces since the last change
+    std::uint32_t faces() const { return order_.visited(); }  // of a round
 
     void declare(gl::Inputs& inputs) const;                      // lightSamples, faceLight
     const gl::Buffer& state() const { return states_; }          // gpu::FaceCache per face, for tests

@@ -114,9 +114,10 @@ bool ShadowMaps::Impl::keepsPlaces(const scene::GpuScene& scene, const std::vect
 // Where casters have changed since the maps were drawn: old boxes and new ones.
 std::vector<Aabb> ShadowMaps::Impl::changedBoxes(const scene::GpuScene& scene) const {
     std::vector<Aabb> boxes;
-    for (std::size_t i = 0; i < revisions.size(); ++i) {
-        if (revisions[i] == scene.instanceRevision(i)) continue;
-        for (const Aabb& box : {casterBoxes[i], casterBox(scene, i)})
+    for (std::size_t i = 0; i < scene.instances().size(); ++i) {
+        const bool added = i >= revisions.size();
+        if (!added && revisions[i] == scene.instanceRevision(i)) continue;
+        for (const Aabb& box : {added ? Aabb{} : casterBoxes[i], casterBox(scene, i)})
             if (!box.empty()) boxes.push_back(box);
     }
     return boxes;

@@ -3,20 +3,29 @@
 #include "conelight/light_field.h"
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <optional>
 
+#include "base/clock.h"
 #include "base/log.h"
 #include "gather/indirect.h"
 #include "gather/light_outputs.h"
 #include "gl/debug.h"
 #include "gl/gl.h"
+#include "gl/host_slots.h"
 #include "gl/host_state.h"
 #include "light/lights.h"
 #include "light/lit_voxels.h"
+#include "light/relight_budget.h"
 #include "modes/modes.h"
 #include "scene/held_scene.h"
 #include "view/surfaces.h"
 #include "voxels/voxels.h"
+
+namespace conelight::embedded {
+extern const char* const kLightField;  // conelight/light_field.glsl
+}
 
 namespace conelight {
 namespace {
@@ -43,6 +52,7 @@ struct LightField::Impl {
     light::Lights lights;
     voxels::Voxels voxels;
     light::LitVoxels lit;
+    light::RelightBudget relightBudget;
     std::map<int, View> views;
     int nextView = 1;
 
@@ -67,7 +77,12 @@ LightField::LightField(const RendererOptions& options) {
                                        : gl::directoryShaderProvider(options.shaderDirectory));
 }
 
-LightField::~LightField() = default;
+LightField::~LightField() {
+    // Without the context, what it held is gone with it or cannot be freed.
+    std::optional<gl::ForgetNames> forget;
+    if (!gl::hasCurrentContext()) forget.emplace();
+    impl_.reset();
+}
 
 void LightField::setScene(const Scene& scene) {
     scene.validate();  // a scene that is refused leaves the old one in place
@@ -95,6 +110,12 @@ void LightField::setLight(std::size_t index, const Light& light) { impl_->scene.
 void LightField::setLights(const std::vector<Light>& lights) { impl_->scene.setLights(lights); }
 void LightField::setSky(const glm::vec3& radiance) { impl_->scene.setSky(radiance); }
 void LightField::setEnvironment(const Environment& environment) { impl_->scene.setEnvironment(environment); }
+std::size_t LightField::addMesh(const Mesh& mesh) { return impl_->scene.addMesh(mesh); }
+std::size_t LightField::addMaterial(const Material& material) { return impl_->scene.addMaterial(material); }
+std::size_t LightField::addInstance(const Instance& instance) { return impl_->scene.addInstance(instance); }
+void LightField::removeInstance(std::size_t index) { impl_->scene.removeInstance(index); }
+void LightField::removeMesh(std::size_t index) { impl_->scene.removeMesh(index); }
+void LightField::setRegion(const Aabb& region) { impl_->scene.setRegion(region); }
 const Scene& LightField::scene() const { return impl_->scene.require("scene").source(); }
 
 void LightField::setSettings(const Settings& settings) {
@@ -104,26 +125,29 @@ void LightField::setSettings(const Settings& settings) {
 const Settings& LightField::settings() const { return impl_->settings; }
 
 int LightField::update(const LightBudget& budget) {
-    if (budget.updates < 0 || budget.faces < 0)
-        base::fail(ErrorKind::Usage, "update: a budget of %d updates of %d faces; 0 or more would be right",
-                   budget.updates, budget.faces);
+    if (budget.updates < 0 || budget.faces < 0 || !(budget.milliseconds >= 0))
+        base::fail(ErrorKind::Usage,
+                   "update: a budget of %d updates of %d faces within %g ms; 0 or more would be right",
+                   budget.updates, budget.faces, budget.milliseconds);
     impl_->scene.require("update");
     const gl::HostStateGuard guard;
     return impl_->update(budget);
 }
 
 int LightField::Impl::update(const LightBudget& budget) {
+    const double start = base::wallMs();
     lights.update(device, *scene, {settings.light, /*emitters as lights*/ false, true});
     voxels.update(device, *scene, settings.voxels, voxels::Rays::Yes);
     const light::RelightSettings wanted = light::relightSettings(settings.traced);
     const light::LitVoxels::Inputs inputs{*scene, lights, voxels};
-    light::Budget each{.oneUpdate = settings.traced.budgeted,
-                       .faces = static_cast<std::uint32_t>(budget.faces)};
-    if (each.oneUpdate && budget.updates == 0) each.nothing = true;
-    // The first call finds what has changed; the others go on from there.
-    lit.relight(device, inputs, wanted, each);
-    for (int i = 1; each.oneUpdate && i < budget.updates && lit.updates() < wanted.updates; ++i)
-        lit.relight(device, inputs, wanted, each);
+    if (settings.traced.budgeted)
+        relightBudget.relight(device, lit, inputs, wanted,
+                              {.updates = budget.updates,
+                               .faces = static_cast<std::uint32_t>(budget.faces),
+                               .milliseconds = budget.milliseconds,
+                               .start = start});
+    else
+        lit.relight(device, inputs, wanted, {.faces = static_cast<std::uint32_t>(budget.faces)});
     return lit.updates();
 }
 
@@ -148,6 +172,7 @@ GatheredLight LightField::gather(int view, const HostSurfaces& surfaces, const G
     if (options.reduction < 1 || options.reduction > kMostReduction)
         base::fail(ErrorKind::Usage, "gather: a reduction of %d; 1 to %d would be right", options.reduction,
                    kMostReduction);
+    if (surfaces.width == 0 || surfaces.height == 0) return {};  // of a window that is minimised
     view::requireUsable(surfaces);
     const gl::HostStateGuard guard;
     return impl_->gather(found->second, surfaces, options.reduction);
@@ -166,6 +191,31 @@ GatheredLight LightField::Impl::gather(View& view, const HostSurfaces& host, int
         view.outputs.draw(device, traced, view.indirect, settings.traced.specularLimit);
     }
     return {view.outputs.diffuse().name(), view.outputs.specular().name(), host.width, host.height};
+}
+
+// As tools/make_lookups has them.
+namespace {
+constexpr gl::ResourceName kLookupBlocks[] = {"VoxelGridBlock", "LightingBlock"};
+constexpr gl::ResourceName kLookupTextures[] = {"voxelBricks",       "voxelOctants", "voxelRecords",
+                                                "voxelFaces",        "faceLight",    "litFaces",
+                                                "environmentPicture"};
+static_assert(std::size(kLookupBlocks) == LookupSlots::kBlocks);
+static_assert(std::size(kLookupTextures) == LookupSlots::kTextures);
+}  // namespace
+
+std::string lookupsGlsl(const LookupSlots& slots) {
+    return "#define CONELIGHT_FIRST_BLOCK " + std::to_string(slots.firstBlock) +
+           "\n#define CONELIGHT_FIRST_TEXTURE " + std::to_string(slots.firstTexture) + "\n" +
+           embedded::kLightField;
+}
+
+void LightField::bindLookups(const LookupSlots& slots) const {
+    if (!impl_->lit.revision())
+        base::fail(ErrorKind::Usage, "bindLookups: there is no light yet; update before it would be right");
+    gl::Inputs given;
+    given.add(impl_->lights).add(impl_->voxels).add(impl_->lit);
+    given.texture("voxelOctants", impl_->voxels.octants().texture());
+    gl::bindForHost(given, {kLookupBlocks, slots.firstBlock, kLookupTextures, slots.firstTexture});
 }
 
 namespace modes {

@@ -158,6 +158,12 @@ void Renderer::setEnvironment(const Environment& environment) { impl_->scene.set
 void Renderer::setBakedLight(std::shared_ptr<const BakedLight> baked) {
     impl_->scene.setBakedLight(std::move(baked));
 }
+std::size_t Renderer::addMesh(const Mesh& mesh) { return impl_->scene.addMesh(mesh); }
+std::size_t Renderer::addMaterial(const Material& material) { return impl_->scene.addMaterial(material); }
+std::size_t Renderer::addInstance(const Instance& instance) { return impl_->scene.addInstance(instance); }
+void Renderer::removeInstance(std::size_t index) { impl_->scene.removeInstance(index); }
+void Renderer::removeMesh(std::size_t index) { impl_->scene.removeMesh(index); }
+void Renderer::setRegion(const Aabb& region) { impl_->scene.setRegion(region); }
 const Scene& Renderer::scene() const { return impl_->scene.require("scene").source(); }
 
 void Renderer::setProfiling(bool passes, bool lookups) {
@@ -176,9 +182,11 @@ std::vector<std::string> Renderer::reloadShaders() {
 }
 
 void Renderer::render(const Camera& camera, int width, int height, const Settings& settings) {
+    if (width == 0 || height == 0) return;  // of a window that is minimised
     if (width < 1 || height < 1 || width > view::kMaxEdge || height > view::kMaxEdge)
         base::fail(ErrorKind::Usage, "picture of %d x %d; 1 to %d in each direction would be right", width,
                    height, view::kMaxEdge);
+    view::requireUsable(camera);
     validateSettings(settings);
     impl_->scene.require("render");
     const gl::HostStateGuard guard;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "base/clock.h"
+
 namespace conelight::modes {
 namespace {
 
@@ -16,14 +18,6 @@ gather::PictureParts partsOf(const Settings& settings) {
     const gather::PictureParts parts = gather::partsOf(settings.component);
     const bool gathers = settings.traced.bounces != 0;
     return {parts.direct, parts.diffuse && gathers, parts.specular && gathers};
-}
-
-// A recorded picture shows what is there.
-light::Budget budgetOf(const Frame& frame) {
-    const TracedSettings& settings = frame.settings.traced;
-    return {.oneUpdate = settings.budgeted,
-            .faces = static_cast<std::uint32_t>(settings.faceBudget),
-            .nothing = frame.recorder != nullptr};
 }
 
 }  // namespace
@@ -44,9 +38,7 @@ void TracedMode::draw(const Frame& frame) {
         voxels_.update(frame.device, frame.scene, frame.settings.voxels, voxels::Rays::Yes);
         frame.lights.castCaustics(frame.device, frame.scene, voxels_);
     }
-    if (usesLight && !frame.besideCenters)
-        lit_.relight(frame.device, {frame.scene, frame.lights, voxels_}, light::relightSettings(settings),
-                     budgetOf(frame));
+    if (usesLight && !frame.besideCenters) relight(frame);
 
     // What arrives at pixels, and the picture.
     if (frame.recorder != nullptr) {
@@ -73,6 +65,23 @@ void TracedMode::draw(const Frame& frame) {
     }
 }
 // [/recipe]
+
+// A recorded picture shows what is there.
+void TracedMode::relight(const Frame& frame) {
+    const TracedSettings& settings = frame.settings.traced;
+    const light::LitVoxels::Inputs inputs{frame.scene, frame.lights, voxels_};
+    const light::RelightSettings wanted = light::relightSettings(settings);
+    const auto faces = static_cast<std::uint32_t>(settings.faceBudget);
+    if (settings.budgeted && settings.timeBudget > 0 && frame.recorder == nullptr)
+        budget_.relight(frame.device, lit_, inputs, wanted,
+                        {.updates = wanted.updates,
+                         .faces = faces,
+                         .milliseconds = static_cast<double>(settings.timeBudget),
+                         .start = base::wallMs()});
+    else
+        lit_.relight(frame.device, inputs, wanted,
+                     {.oneUpdate = settings.budgeted, .faces = faces, .nothing = frame.recorder != nullptr});
+}
 
 // By rays, where the picture holds what they may bring.
 void TracedMode::drawGlass(const Frame& frame) {

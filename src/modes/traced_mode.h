@@ -10,6 +10,7 @@
 #include "gather/traced_shade.h"
 #include "image/voxel_view.h"
 #include "light/lit_voxels.h"
+#include "light/relight_budget.h"
 #include "modes/mode.h"
 #include "voxels/voxels.h"
 
@@ -28,10 +29,12 @@ class TracedMode : public ModeRenderer {
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
+    void relight(const Frame& frame);
     void record(const Frame& frame, const gather::RayInputs& inputs);
 
     voxels::Voxels voxels_;
     light::LitVoxels lit_;
+    light::RelightBudget budget_;
     gather::Indirect indirect_;
     gather::PixelVisibility visibility_;
     gather::TracedShade shade_;

@@ -7,43 +7,9 @@
 
 #include "gl/gl.h"
 #include "scene/gpu_vertices.h"
-#include "scene/mesh_order.h"
+#include "scene/packed_mesh.h"
 
 namespace conelight::scene {
-namespace {
-
-// Of a part of a mesh: large enough that a draw costs little beside its triangles, by eye.
-constexpr std::uint32_t kPartIndices = 3 * 256;
-
-}  // namespace
-
-namespace {
-
-// A mesh as the GPU has it; indices count from its own first vertex.
-struct PackedMesh {
-    std::vector<gpu::Vertex> vertices;
-    std::vector<std::uint32_t> indices;
-    std::vector<Aabb> parts;
-};
-
-PackedMesh packed(const Mesh& mesh) {
-    PackedMesh to;
-    if (appendVertices(mesh, to.vertices)) {
-        to.indices = mesh.indices;
-    } else {
-        to.indices.resize(mesh.indices.size());
-        std::iota(to.indices.begin(), to.indices.end(), 0u);
-    }
-    orderForReuse(to.vertices, 0, to.indices, 0);
-    for (std::size_t i = 0; i < to.indices.size(); ++i) {
-        if (i % kPartIndices == 0) to.parts.emplace_back();
-        to.parts.back().grow(to.vertices[to.indices[i]].position);
-    }
-    return to;
-}
-
-}  // namespace
-
 GpuScene::GpuScene(const Scene& source) : source_(source) {
     source_.validate();
     uploadMeshes();
@@ -54,6 +20,7 @@ GpuScene::GpuScene(const Scene& source) : source_(source) {
     textures_ = SceneTextures(source_.textures);
     geometryRevision_ = lightRevision_ = skyRevision_ = bakedRevision_ = identity_;
     firstBounds_ = bounds();
+    firstGridBounds_ = boundsForGrid();
 }
 
 // Meshes one after the other.
@@ -63,16 +30,19 @@ void GpuScene::uploadMeshes() {
     for (const Mesh& mesh : source_.meshes) {
         hasVertexColors_ = hasVertexColors_ || !mesh.colors.empty();
         const PackedMesh own = packed(mesh);
-        meshRanges_.push_back({static_cast<std::uint32_t>(vertices.size()),
-                               static_cast<std::uint32_t>(indices.size()),
-                               static_cast<std::uint32_t>(own.indices.size()), mesh.bounds(),
-                               hasWideColors(mesh), partBounds_.size()});
+        meshRanges_.push_back(
+            {static_cast<std::uint32_t>(vertices.size()), static_cast<std::uint32_t>(indices.size()),
+             static_cast<std::uint32_t>(own.indices.size()), mesh.bounds(), hasWideColors(mesh),
+             partBounds_.size(), static_cast<std::uint32_t>(own.vertices.size()),
+             static_cast<std::uint32_t>(own.indices.size())});
         vertices.insert(vertices.end(), own.vertices.begin(), own.vertices.end());
         indices.insert(indices.end(), own.indices.begin(), own.indices.end());
         partBounds_.insert(partBounds_.end(), own.parts.begin(), own.parts.end());
     }
     vertexBuffer_ = gl::Buffer(vertices, "scene vertices");
     indexBuffer_ = gl::Buffer(indices, "scene indices");
+    vertexCount_ = static_cast<std::uint32_t>(vertices.size());
+    indexCount_ = static_cast<std::uint32_t>(indices.size());
 }
 
 void GpuScene::uploadInstances() {
@@ -97,6 +67,8 @@ void GpuScene::uploadInstances() {
     instanceBounds_.resize(instances_.size());
     instanceRevisions_.resize(instances_.size(), identity_);
     shapeRevisions_.resize(instances_.size(), identity_);
+    entryRevisions_.resize(instances_.size(), identity_);
+    removed_.resize(instances_.size());
     for (std::size_t i = 0; i < instances_.size(); ++i) {
         setFlags(i, source_.instances[i]);
         place(i, source_.instances[i].worldFromObject);

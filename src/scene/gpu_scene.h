@@ -68,16 +68,32 @@ class GpuScene {
     void setSky(const glm::vec3& radiance);
     void setEnvironment(const Environment& environment);
     void setBakedLight(std::shared_ptr<const BakedLight> baked);
+    // Further entries; each returns its index. What is there keeps its own. addInstance takes the place of one that
+    // was removed where it can, addMesh that of one that is no smaller. Nothing is checked.
+    std::size_t addMesh(const Mesh& mesh);
+    std::size_t addMaterial(const Material& material);
+    std::size_t addInstance(const Instance& instance);
+    // It stays in source(), invisible, until another takes its place.
+    void removeInstance(std::size_t index);
+    // Of no instance that is there. It stays in source(), empty, until another takes its place.
+    void removeMesh(std::size_t index);
+    bool isRemovedInstance(std::size_t index) const { return removed_[index] != 0; }
+    bool isRemovedMesh(std::size_t index) const { return meshRanges_[index].removed; }
+    // Where voxels are wanted; empty: where the scene is.
+    void setRegion(const Aabb& region);
     // As if every instance had changed: all that is derived from geometry is made anew.
     void touch();
 
-    // Of the scene as it was handed over: equal as long as only changes in place have come since.
+    // Of the scene as it was handed over: equal as long as only changes in place have come since, and what was added
+    // has not moved the numbers of triangles.
     base::Revision identity() const { return identity_; }
     // Raised by each change that voxels or shadows may show: of an instance (transform, flags, material, what
     // its material says), of any instance, of the list of lights, of sky or environment.
     base::Revision instanceRevision(std::size_t instance) const { return instanceRevisions_[instance]; }
     // Raised when the vertices of the instance's mesh change.
     base::Revision shapeRevision(std::size_t instance) const { return shapeRevisions_[instance]; }
+    // Raised when another instance takes the place of this one.
+    base::Revision entryRevision(std::size_t instance) const { return entryRevisions_[instance]; }
     base::Revision geometryRevision() const { return geometryRevision_; }
     base::Revision lightRevision() const { return lightRevision_; }
     base::Revision skyRevision() const { return skyRevision_; }
@@ -85,8 +101,12 @@ class GpuScene {
     // Whether the instance is seen and stands, in its shape, where the baked light has it.
     bool isBaked(std::size_t instance) const { return (instances_[instance].flags & INSTANCE_BAKED) != 0; }
 
-    const Aabb& bounds() const;                               // of visible instances as they are now
-    const Aabb& firstBounds() const { return firstBounds_; }  // as they were handed over: grids fit to these
+    const Aabb& bounds() const;       // of visible instances as they are now
+    const Aabb& firstBounds() const;  // as they were handed over; of an empty scene: as they came first
+    // What a grid of voxels is fitted to, and what it grows to hold: the region, or the instances that count for
+    // voxels, as they were handed over and as they are.
+    Aabb firstGridBounds() const;
+    Aabb gridBounds() const;
     const Aabb& instanceBounds(
         std::size_t instance) const  // world box of the object box: may be larger than needed
     {
@@ -106,10 +126,17 @@ class GpuScene {
         Aabb bounds;
         bool wideColors;
         std::size_t firstPart;
+        std::uint32_t vertexRoom, indexRoom;
+        bool removed = false;
     };
     void uploadMeshes();
     void uploadInstances();
     void makeVertexArray();
+    void putMesh(std::size_t index, const Mesh& mesh);
+    void putInstance(std::size_t index, const Instance& instance);
+    std::optional<std::size_t> freeEntry(std::uint32_t triangles) const;
+    void renumberTriangles();
+    Aabb boundsForGrid() const;
     void uploadMaterials();
     void place(std::size_t instance, const glm::mat4& worldFromObject);
     void setFlags(std::size_t instance, const Instance& source);
@@ -124,7 +151,9 @@ class GpuScene {
     std::vector<Aabb> instanceObjectBounds_, instanceBounds_;
     std::vector<Aabb> partBounds_;            // object boxes of the parts of all meshes
     std::vector<std::size_t> instanceParts_;  // the first of an instance's mesh
-    std::vector<base::Revision> instanceRevisions_, shapeRevisions_;
+    std::vector<base::Revision> instanceRevisions_, shapeRevisions_, entryRevisions_;
+    std::vector<char> removed_;  // per instance
+    std::uint32_t vertexCount_ = 0, indexCount_ = 0;
     std::vector<std::optional<glm::mat4>> bakedPlaces_;  // where baked light has an instance
     base::Revision identity_ = base::Revision::next(), geometryRevision_, lightRevision_, skyRevision_,
                    bakedRevision_;
@@ -136,7 +165,8 @@ class GpuScene {
     std::vector<std::uint32_t> drawOrder_;  // instances sorted by material
     mutable Aabb bounds_;
     mutable bool boundsCurrent_ = false;
-    Aabb firstBounds_;
+    Aabb region_;
+    mutable Aabb firstBounds_, firstGridBounds_;
     std::uint32_t triangleCount_ = 0;
     bool hasVertexColors_ = false;
 };

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "scene/held_scene.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/log.h"
@@ -21,6 +23,7 @@ void requireIndex(const char* call, const char* what, std::size_t index, std::si
 void HeldScene::set(const Scene& scene) {
     scene_.reset();
     scene_.emplace(scene);
+    if (!region_.empty()) scene_->setRegion(region_);
 }
 
 GpuScene& HeldScene::require(const char* call) {
@@ -29,9 +32,16 @@ GpuScene& HeldScene::require(const char* call) {
     return *scene_;
 }
 
+void HeldScene::requireInstance(const char* call, std::size_t index) {
+    requireIndex(call, "instance", index, require(call).source().instances.size());
+    if (scene_->isRemovedInstance(index))
+        base::fail(ErrorKind::Usage, "%s: instance %zu was removed; one that is there would be right", call,
+                   index);
+}
+
 void HeldScene::setInstance(std::size_t index, const Instance& instance) {
     const Scene& source = require("setInstance").source();
-    requireIndex("setInstance", "instance", index, source.instances.size());
+    requireInstance("setInstance", index);
     validateInstance(source, instance, index);
     if (instance.mesh != source.instances[index].mesh)
         base::fail(ErrorKind::BadInput, "instance %zu '%s': mesh %d; the mesh it has, %d, would be right",
@@ -43,6 +53,9 @@ void HeldScene::setInstance(std::size_t index, const Instance& instance) {
 void HeldScene::setMesh(std::size_t index, const Mesh& mesh) {
     const Scene& source = require("setMesh").source();
     requireIndex("setMesh", "mesh", index, source.meshes.size());
+    if (scene_->isRemovedMesh(index))
+        base::fail(ErrorKind::Usage, "setMesh: mesh %zu was removed; one that is there would be right",
+                   index);
     validateMesh(mesh, index);
     const Mesh& old = source.meshes[index];
     if (mesh.positions.size() != old.positions.size() || mesh.indices.size() != old.indices.size())
@@ -99,6 +112,63 @@ void HeldScene::setBakedLight(std::shared_ptr<const BakedLight> baked) {
     if (baked != nullptr) validateBakedLight(source, *baked);
     const gl::HostStateGuard guard;
     scene_->setBakedLight(std::move(baked));
+}
+
+std::size_t HeldScene::addMesh(const Mesh& mesh) {
+    validateMesh(mesh, require("addMesh").source().meshes.size());
+    const gl::HostStateGuard guard;
+    return scene_->addMesh(mesh);
+}
+
+std::size_t HeldScene::addMaterial(const Material& material) {
+    validateMaterial(require("addMaterial").source(), material);
+    const gl::HostStateGuard guard;
+    return scene_->addMaterial(material);
+}
+
+std::size_t HeldScene::addInstance(const Instance& instance) {
+    const Scene& source = require("addInstance").source();
+    validateInstance(source, instance, source.instances.size());
+    if (scene_->isRemovedMesh(static_cast<std::size_t>(instance.mesh)))
+        base::fail(ErrorKind::BadInput,
+                   "instance '%s': mesh %d was removed; one that is there would be right",
+                   instance.name.c_str(), instance.mesh);
+    const gl::HostStateGuard guard;
+    return scene_->addInstance(instance);
+}
+
+void HeldScene::removeInstance(std::size_t index) {
+    requireInstance("removeInstance", index);
+    const gl::HostStateGuard guard;
+    scene_->removeInstance(index);
+}
+
+void HeldScene::removeMesh(std::size_t index) {
+    const Scene& source = require("removeMesh").source();
+    requireIndex("removeMesh", "mesh", index, source.meshes.size());
+    if (scene_->isRemovedMesh(index))
+        base::fail(ErrorKind::Usage, "removeMesh: mesh %zu was removed; one that is there would be right",
+                   index);
+    for (std::size_t i = 0; i < source.instances.size(); ++i)
+        if (!scene_->isRemovedInstance(i) && source.instances[i].mesh == static_cast<int>(index))
+            base::fail(ErrorKind::Usage,
+                       "removeMesh: instance %zu has mesh %zu; removeInstance before it would be right", i,
+                       index);
+    scene_->removeMesh(index);
+}
+
+void HeldScene::setRegion(const Aabb& region) {
+    const glm::vec3 extent = region.extent();
+    const float least = std::min({extent.x, extent.y, extent.z}),
+                most = std::max({extent.x, extent.y, extent.z});
+    if (!region.empty() && !(least >= 0 && most > 0 && std::isfinite(most)))
+        base::fail(ErrorKind::BadInput,
+                   "setRegion: a box of %g x %g x %g m; a finite one with an extent, or an empty "
+                   "one for none, would be right",
+                   static_cast<double>(extent.x), static_cast<double>(extent.y),
+                   static_cast<double>(extent.z));
+    region_ = region;
+    if (scene_) scene_->setRegion(region);
 }
 
 }  // namespace conelight::scene

@@ -32,9 +32,19 @@ class HeldScene {
     void setSky(const glm::vec3& radiance);
     void setEnvironment(const Environment& environment);
     void setBakedLight(std::shared_ptr<const BakedLight> baked);
+    std::size_t addMesh(const Mesh& mesh);
+    std::size_t addMaterial(const Material& material);
+    std::size_t addInstance(const Instance& instance);
+    void removeInstance(std::size_t index);
+    void removeMesh(std::size_t index);
+    // Also before the first scene, and of those that follow.
+    void setRegion(const Aabb& region);
 
   private:
+    void requireInstance(const char* call, std::size_t index);
+
     std::optional<GpuScene> scene_;
+    Aabb region_;
 };
 
 }  // namespace conelight::scene

@@ -168,6 +168,9 @@ std::vector<Setting<TracedSettings>> tracedSettings() {
          "updates of all faces after a change, until the cache is left as it is"},
         {"face_budget", &TracedSettings::faceBudget, Numbers{0, 100000000}, "faces",
          "faces updated per budgeted frame; 0: all"},
+        {"time_budget", &TracedSettings::timeBudget, Numbers{0, 10000}, "ms",
+         "time for updates of faces in a budgeted frame, as many as fit; 0: one update. Pictures depend on "
+         "the machine"},
         {"bounces", &TracedSettings::bounces, Numbers{.low = 0, .high = 15, .word = 16}, "",
          "bounces of indirect light; 16 is read as all"},
         {"exact_hits", &TracedSettings::exactHits,

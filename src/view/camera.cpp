@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <numbers>
 #include <numeric>
 
+#include "base/log.h"
 #include "math/disc.h"
 
 namespace conelight::view {
@@ -56,6 +58,20 @@ glm::dmat4 projection(const Camera& camera, int width, int height) {
 }
 
 }  // namespace
+
+void requireUsable(const Camera& camera) {
+    for (const glm::vec3& v : {camera.eye, camera.target, camera.up})
+        if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z))
+            base::fail(ErrorKind::Usage, "camera: eye, target or up is not finite");
+    if (!(camera.fovY > 0 && camera.fovY < std::numbers::pi_v<float>))
+        base::fail(ErrorKind::Usage, "camera: a field of view of %g; above 0 and below pi would be right",
+                   static_cast<double>(camera.fovY));
+    if (!(camera.zNear > 0 && camera.zNear < camera.zFar && std::isfinite(camera.zFar)))
+        base::fail(ErrorKind::Usage, "camera: near %g, far %g; 0 < near < far would be right",
+                   static_cast<double>(camera.zNear), static_cast<double>(camera.zFar));
+    if (!std::isfinite(camera.lensDiameter) || !std::isfinite(camera.focusDistance))
+        base::fail(ErrorKind::Usage, "camera: its lens is not finite");
+}
 
 glm::mat4 viewFromWorld(const Camera& camera) { return glm::mat4(viewMatrix(camera)); }
 

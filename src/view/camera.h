@@ -7,6 +7,9 @@
 
 namespace conelight::view {
 
+// Throws Error(Usage) for one that sees nothing: numbers that are not finite, no angle, no depth.
+void requireUsable(const Camera& camera);
+
 glm::mat4 viewFromWorld(const Camera& camera);
 glm::mat4 clipFromView(const Camera& camera, int width, int height);  // GL clip space, z in [-1,1]
 

@@ -32,6 +32,8 @@ class HostSurfaceImport {
     void draw(const gl::Device& device, const Picture& picture, const gl::Buffer& frameBlock,
               GBuffer& gbuffer);
 
+    const gl::Sampler& sampler() const { return nearest_; }  // of a host's textures
+
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:

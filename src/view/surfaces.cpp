@@ -18,6 +18,9 @@ void Surfaces::take(const gl::Device& device, const scene::GpuScene& scene, cons
     block_.update(view_);
     if (!import_) import_.emplace();
     hostsLobes_ = host.roughness != 0;
+    motion_ = host.motion;
+    motionScale_ = host.motionScale;
+    reduction_ = reduction;
     import_->draw(device, {host, reduction, scene.instances().size()}, block_, *gbuffer_);
     gl::barrier(gl::Access::TextureFetch | gl::Access::ShaderStorage);
 }
@@ -30,6 +33,9 @@ void Surfaces::see(const gl::Device& device, const scene::GpuScene& scene, const
     gl::barrier(gl::Access::TextureFetch | gl::Access::ShaderStorage);
 }
 
-void Surfaces::declare(gl::Inputs& inputs) const { inputs.uniform("FrameBlock", block_).add(*gbuffer_); }
+void Surfaces::declare(gl::Inputs& inputs) const {
+    inputs.uniform("FrameBlock", block_).add(*gbuffer_);
+    if (haveMotion()) inputs.foreignTexture("hostMotion", motion_, import_->sampler());
+}
 
 }  // namespace conelight::view

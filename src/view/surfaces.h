@@ -38,8 +38,12 @@ class Surfaces {
     // Whether a host drew them: what materials of the scene say of gloss does not hold then, but this.
     bool areHosts() const { return import_.has_value(); }
     bool mayHaveLobes() const { return hostsLobes_; }
+    // Whether the host says where its pixels were in the picture before, and how.
+    bool haveMotion() const { return motion_ != 0; }
+    const glm::vec2& motionScale() const { return motionScale_; }
+    int reduction() const { return reduction_; }
 
-    // FrameBlock, gbufferGeometry, gbufferMaterial.
+    // FrameBlock, gbufferGeometry, gbufferMaterial; hostMotion, if there is any.
     void declare(gl::Inputs& inputs) const;
     int width() const { return gbuffer_->width(); }
     int height() const { return gbuffer_->height(); }
@@ -54,6 +58,10 @@ class Surfaces {
     gl::Buffer block_;
     std::optional<HostSurfaceImport> import_;
     bool hostsLobes_ = false;
+    // Of the host's picture, as long as it is there.
+    gl::Name motion_ = 0;
+    glm::vec2 motionScale_{1.0f};
+    int reduction_ = 1;
 
     void resize(int width, int height);
 };

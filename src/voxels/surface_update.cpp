@@ -57,16 +57,17 @@ bool SurfaceVoxels::Impl::canUpdate(const scene::GpuScene& scene, const VoxelGri
 
 Edits SurfaceVoxels::Impl::editsOf(const scene::GpuScene& scene) const {
     Edits edits;
-    const std::size_t count = revisions.size();
+    const std::size_t count = scene.instances().size();  // of which the last may be new
     edits.stale.resize(count / 32 + 1);
     std::vector<bool> marked(grid.brickCount());
     for (std::size_t i = 0; i < count; ++i) {
-        if (revisions[i] == scene.instanceRevision(i)) continue;
+        const bool added = i >= revisions.size();
+        if (!added && revisions[i] == scene.instanceRevision(i)) continue;
         const gpu::Instance& instance = scene.instances()[i];
         const auto index = static_cast<std::uint32_t>(i);
         edits.any = true;
         edits.stale[index / 32] |= 1u << (index % 32);
-        addBricks(marked, grid, boxes[i]);
+        if (!added) addBricks(marked, grid, boxes[i]);
         if ((instance.flags & INSTANCE_VOXELIZED) == 0 || instance.indexCount < 3) continue;
         edits.runs.emplace_back(index, edits.triangles);
         edits.triangles += instance.indexCount / 3;
@@ -164,6 +165,7 @@ void SurfaceVoxels::update(const gl::Device& device, const scene::GpuScene& scen
         return;
     }
     m.allocateFor(m.capacity);
+    m.growTriangles(scene.triangleCount());
     m.uploadEdits(scene, edits);
     m.drop(device, edits);
     m.markEdits(device, scene, edits);

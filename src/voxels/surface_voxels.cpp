@@ -14,8 +14,8 @@ SurfaceVoxels::SurfaceVoxels(SurfaceVoxels&&) noexcept = default;
 SurfaceVoxels& SurfaceVoxels::operator=(SurfaceVoxels&&) noexcept = default;
 
 VoxelGrid SurfaceVoxels::gridOf(const scene::GpuScene& scene, const VoxelSettings& settings) {
-    return grownGrid(fitGrid(scene.firstBounds(), settings.size, settings.padding, settings.shift),
-                     scene.bounds());
+    return grownGrid(fitGrid(scene.firstGridBounds(), settings.size, settings.padding, settings.shift),
+                     scene.gridBounds());
 }
 
 void SurfaceVoxels::build(const gl::Device& device, const scene::GpuScene& scene,

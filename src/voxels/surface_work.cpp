@@ -203,6 +203,18 @@ bool SurfaceVoxels::Impl::grow() {
     return grown;
 }
 
+// For instances that were added; what is there stays.
+void SurfaceVoxels::Impl::growTriangles(std::uint32_t count) {
+    if (count <= capacity.triangles) return;
+    const std::uint32_t room = count + count / 2;
+    gl::Buffer larger(std::size_t{48} * room, "voxelizer triangles");
+    larger.copyFrom(triangles, std::size_t{48} * capacity.triangles);
+    triangleTexels = {};
+    triangles = std::move(larger);
+    triangleTexels = gl::Texture(triangles, GL_RGBA32F, "voxelizer triangles");
+    capacity.triangles = room;
+}
+
 void SurfaceVoxels::Impl::upload(const scene::GpuScene& scene, const Edits* edits) {
     gpu::SurfaceConstants c{};
     c.triangleCount = edits != nullptr ? edits->triangles : scene.triangleCount();

@@ -90,6 +90,7 @@ struct SurfaceVoxels::Impl {
     void releaseLists();
     void trim();
     bool grow();
+    void growTriangles(std::uint32_t count);
     void upload(const scene::GpuScene& scene, const Edits* edits = nullptr);
     void clearWorkSpace();
     gl::Inputs given() const;

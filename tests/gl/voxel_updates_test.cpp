@@ -153,6 +153,79 @@ TEST_F(VoxelUpdates, OfATexturedSceneToo) {
     EXPECT_GT(checkSequence(io::loadScene("builtin:atrium?triangles=20000"), 4), 10);
 }
 
+// Adds an instance, of a mesh that may be new, or removes one; of the first two, the large ones, none.
+void comeOrGo(scene::GpuScene& gpu, std::mt19937& random) {
+    std::uniform_real_distribution<float> unit(0, 1);
+    const std::size_t count = gpu.source().instances.size();
+    if (random() % 2 == 0) {
+        const std::size_t index = 2 + random() % (count - 2);
+        if (!gpu.isRemovedInstance(index)) gpu.removeInstance(index);
+        return;
+    }
+    Instance instance = gpu.source().instances[2 + random() % (count - 2)];
+    instance.visible = true;
+    if (random() % 2 == 0)
+        instance.mesh = static_cast<int>(gpu.addMesh(sphereMesh(4 + static_cast<int>(random() % 9), 5)));
+    Material material;
+    material.baseColor = glm::vec4(unit(random), unit(random), unit(random), 1);
+    if (random() % 2 == 0) instance.material = static_cast<int>(gpu.addMaterial(material));
+    if (random() % 4 == 0) instance.material = -1;
+    instance.worldFromObject[3] += glm::vec4(0.4f * unit(random) - 0.2f, 0, 0.4f * unit(random) - 0.2f, 0);
+    gpu.addInstance(instance);
+}
+
+// As if the scene had been handed over as it is.
+TEST_F(VoxelUpdates, OfWhatComesAndGoesToo) {
+    const Aabb room{{-1.1f, -0.1f, -1.1f}, {1.1f, 1.8f, 1.1f}};
+    scene::GpuScene gpu(crowd());
+    gpu.setRegion(room);
+    SurfaceVoxels surface;
+    surface.update(device(), gpu, settings);
+    std::mt19937 random(5);
+    int updates = 0;
+    for (int step = 0; step < 60; ++step) {
+        comeOrGo(gpu, random);
+        surface.update(device(), gpu, settings);
+        updates += surface.lastUpdate().whole ? 0 : 1;
+        ASSERT_EQ(download(surface), built(gpu)) << step;
+        scene::GpuScene fresh(gpu.source());
+        fresh.setRegion(room);
+        ASSERT_EQ(download(surface), built(fresh)) << step;
+    }
+    EXPECT_GT(updates, 30);  // of 60: the rest were too much at once
+}
+
+// Tables stop growing where as much goes as comes.
+TEST_F(VoxelUpdates, TablesDoNotGrowForEver) {
+    scene::GpuScene gpu(crowd());
+    SurfaceVoxels surface;
+    const auto turn = [&](int columns) {
+        Instance instance = gpu.source().instances[2];
+        const std::size_t mesh = gpu.addMesh(sphereMesh(columns, 6));
+        instance.mesh = static_cast<int>(mesh);
+        const std::size_t index = gpu.addInstance(instance);
+        surface.update(device(), gpu, settings);
+        gpu.removeInstance(index);
+        gpu.removeMesh(mesh);
+        surface.update(device(), gpu, settings);
+    };
+    const auto bytes = [] {
+        std::size_t sum = 0;
+        for (const gl::LiveObject& object : gl::liveObjects()) sum += object.bytes;
+        return sum;
+    };
+    // Other numbers of triangles each time: entries cannot be used again until there are many
+    for (int i = 0; i < 300; ++i) turn(4 + i % 32);
+    const std::size_t objects = gl::liveObjects().size(), before = bytes();
+    const Content last = download(surface);
+    for (int i = 0; i < 300; ++i) turn(4 + (7 * i) % 32);
+    EXPECT_EQ(gl::liveObjects().size(), objects);
+    EXPECT_EQ(bytes(), before);
+    EXPECT_EQ(download(surface), last);
+    EXPECT_LT(gpu.source().instances.size(), 160u);
+    EXPECT_LT(gpu.source().meshes.size(), 60u);
+}
+
 TEST_F(VoxelUpdates, DoNoMoreThanWasChanged) {
     settings.size = 64;
     Scene scene = crowd();

@@ -174,6 +174,31 @@ TEST_F(SceneChanges, ThePictureIsThatOfAFreshRenderer) {
     }
 }
 
+// What comes and goes: the pictures are those of scenes that have it or have it not.
+TEST_F(SceneChanges, WhatComesAndGoesLeavesNothingBehind) {
+    for (const Mode mode : {Mode::Phong, Mode::Cones}) {
+        const Scene first = roomScene();
+        Renderer renderer;
+        renderer.setScene(first);
+        const Image before = drawnBy(renderer, first, mode);
+        Scene scene = first;
+        Material paint;
+        paint.baseColor = {0.1f, 0.8f, 0.2f, 1};
+        addInstance(scene, sphereMesh(12, 8), paint, placed({0.1f, -0.3f, -0.4f}));
+        EXPECT_EQ(renderer.addMesh(scene.meshes.back()), scene.meshes.size() - 1);
+        EXPECT_EQ(renderer.addMaterial(scene.materials.back()), scene.materials.size() - 1);
+        EXPECT_EQ(renderer.addInstance(scene.instances.back()), scene.instances.size() - 1);
+        EXPECT_TRUE(sameBits(drawnBy(renderer, scene, mode), drawnAfresh(scene, mode))) << mode.name();
+        EXPECT_FALSE(sameBits(drawnBy(renderer, scene, mode), before)) << mode.name();
+        renderer.removeInstance(scene.instances.size() - 1);
+        EXPECT_TRUE(sameBits(drawnBy(renderer, first, mode), before)) << mode.name();
+        // The place is free for another, of the same mesh.
+        scene.instances.back().worldFromObject = placed({-0.2f, 0.3f, -0.4f}, 0.1f);
+        EXPECT_EQ(renderer.addInstance(scene.instances.back()), scene.instances.size() - 1);
+        EXPECT_TRUE(sameBits(drawnBy(renderer, scene, mode), drawnAfresh(scene, mode))) << mode.name();
+    }
+}
+
 // The other way round: the changes above are seen at all.
 TEST_F(SceneChanges, AreSeen) {
     const Scene first = roomScene();
@@ -230,7 +255,43 @@ TEST_F(SceneChanges, RefusedOnesChangeNothing) {
     refused("not finite", [&] { renderer.setLight(0, light); });
     refused("light 2 of 2", [&] { renderer.setLight(2, {}); });
     refused("not finite", [&] { renderer.setSky({0, NAN, 0}); });
+    refused("texture 3", [&] { renderer.addMaterial(material); });
+    refused("not finite", [&] { renderer.addMesh(mesh); });
+    refused("material 99", [&] { renderer.addInstance(instance); });
+    refused("instance 8 of 8", [&] { renderer.removeInstance(8); });
+    refused("removeInstance before it", [&] { renderer.removeMesh(0); });
+    refused("setRegion", [&] { renderer.setRegion({glm::vec3(0), {1, 1, INFINITY}}); });
+    refused("setRegion", [&] { renderer.setRegion({glm::vec3(1), glm::vec3(1)}); });
     EXPECT_TRUE(sameBits(drawnBy(renderer, scene, Mode::Cones), before));
+    renderer.removeInstance(kBox);
+    refused("was removed", [&] { renderer.removeInstance(kBox); });
+    refused("was removed", [&] { renderer.setInstance(kBox, scene.instances[kBox]); });
+    renderer.removeMesh(kBox);
+    refused("was removed", [&] { renderer.removeMesh(kBox); });
+    refused("was removed", [&] { renderer.setMesh(kBox, scene.meshes[kBox]); });
+    refused("was removed", [&] { renderer.addInstance(scene.instances[kBox]); });
+}
+
+// Windows that are minimised ask for 0 x 0 pixels; cameras that see nothing are refused, not drawn black.
+TEST_F(SceneChanges, PicturesOfNothing) {
+    const Scene scene = roomScene();
+    Renderer renderer;
+    renderer.setScene(scene);
+    const Image before = drawnBy(renderer, scene, Mode::Phong);
+    const Settings settings = smallSettings(Mode::Phong);
+    renderer.render(scene.cameras.front(), 0, 0, settings);
+    renderer.render(scene.cameras.front(), kPixels, 0, settings);
+    EXPECT_TRUE(sameBits(renderer.readImage(), before));
+    EXPECT_THROW(renderer.render(scene.cameras.front(), -1, kPixels, settings), Error);
+    std::vector<Camera> blind(5, scene.cameras.front());
+    blind[0].eye.x = NAN;
+    blind[1].up.y = INFINITY;
+    blind[2].fovY = 0;
+    blind[3].zNear = blind[3].zFar;
+    blind[4].lensDiameter = NAN;
+    for (const Camera& camera : blind)
+        EXPECT_THROW(renderer.render(camera, kPixels, kPixels, settings), Error) << &camera - blind.data();
+    EXPECT_TRUE(sameBits(renderer.readImage(), before));
 }
 
 // What leaves the grid and comes back finds the same voxels: the grid is where it was.

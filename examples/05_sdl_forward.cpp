@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// A forward renderer in an SDL2 window, with shaders of its own that look indirect light up where they shade: no
+// G-buffer is handed over. A box rises and turns, another one comes and goes.
+//   example_05_sdl_forward [OUT.png]
+// With OUT.png it draws 48 frames, writes the last and ends; it needs no display then.
+#include <SDL.h>
+#include <conelight/error.h>
+#include <conelight/light_field.h>
+
+#include <cstdio>
+#include <glm/gtc/matrix_transform.hpp>
+#include <vector>
+
+#include "host_renderer.h"
+#include "io/image_file.h"
+#include "io/scene_file.h"
+
+namespace {
+
+constexpr int kWidth = 480, kHeight = 360;
+constexpr conelight::LookupSlots kSlots{.firstBlock = 0, .firstTexture = 0};
+
+// Of the lamp what arrives unshadowed, by a ray; of all other light what the library knows.
+// [shader]
+const char* const kForward = R"(
+layout(location = 0) uniform mat4 worldFromObject;
+layout(location = 1) uniform mat4 clipFromWorld;
+#ifdef VERTEX
+layout(location = 0) in vec3 position;
+layout(location = 0) out vec3 world;
+void main() { gl_Position = clipFromWorld * vec4(world = (worldFromObject * vec4(position, 1)).xyz, 1); }
+#else
+layout(location = 2) uniform vec3 albedo;
+layout(location = 3) uniform vec3 lamp;
+layout(location = 4) uniform vec3 intensity;
+layout(location = 0) in vec3 world;
+layout(location = 0) out vec4 color;
+void main() {
+    vec3 normal = normalize(cross(dFdx(world), dFdy(world)));
+    vec3 start = world + 0.3 * conelight_grid.voxelSize * normal;
+    vec3 toLamp = lamp - start;
+    float met;
+    conelight_trace(start, toLamp, met);
+    bool seen = met < 0 || met > length(toLamp);
+    vec3 light = conelight_irradiance(world, normal);
+    if (seen) light += intensity / 3.14159 * max(dot(normal, normalize(toLamp)), 0) / dot(toLamp, toLamp);
+    color = vec4(pow(1 - exp(-albedo * light), vec3(1 / 2.2)), 1);
+}
+#endif
+)";
+// [/shader]
+
+struct Window {
+    SDL_Window* window = nullptr;
+    SDL_GLContext context = nullptr;
+    Window() {
+        SDL_Init(SDL_INIT_VIDEO);
+        SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_CORE);
+        SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 4);
+        SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 5);
+        window = SDL_CreateWindow("Forward", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, kWidth, kHeight,
+                                  SDL_WINDOW_OPENGL);
+        if (window != nullptr) context = SDL_GL_CreateContext(window);
+        if (context == nullptr) throw conelight::Error(conelight::ErrorKind::NoGl, SDL_GetError());
+    }
+    ~Window() {
+        SDL_GL_DeleteContext(context);
+        SDL_DestroyWindow(window);
+        SDL_Quit();
+    }
+};
+
+void draw(const Host& host, GLuint program, const conelight::Scene& scene, const glm::mat4& clipFromWorld) {
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glEnable(GL_DEPTH_TEST);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glUseProgram(program);
+    glUniformMatrix4fv(1, 1, GL_FALSE, &clipFromWorld[0][0]);
+    glUniform3fv(3, 1, &scene.lights[0].position[0]);
+    glUniform3fv(4, 1, &scene.lights[0].intensity[0]);
+    host.drawInstances(scene);
+}
+
+void run(const char* path, const Window& window) {
+    conelight::Scene scene = conelight::io::loadScene("builtin:cornell-point");
+    const conelight::Camera& camera = scene.cameras[0];
+    const glm::mat4 clipFromWorld =
+        glm::perspective(camera.fovY, float(kWidth) / float(kHeight), 0.05f, 20.0f) *
+        glm::lookAt(camera.eye, camera.target, camera.up);
+    const Host host(kWidth, kHeight);
+    // [frame]
+    const GLuint program = programOf("#version 450 core\n" + conelight::lookupsGlsl(kSlots) + kForward);
+    conelight::LightField field;
+    field.setScene(scene);
+    const std::size_t box = scene.instances.size() - 1;
+    conelight::Instance guest = scene.instances[box];
+    guest.worldFromObject = glm::translate(glm::mat4(1), {-0.1f, 0.35f, 0.3f}) *
+                            glm::scale(guest.worldFromObject, glm::vec3(0.4f));
+    for (int frame = 0; path == nullptr || frame < 48; ++frame) {
+        scene.instances[box].worldFromObject = glm::rotate(
+            glm::translate(scene.instances[box].worldFromObject, {0, 0.003f, 0}), 0.01f, {0, 1, 0});
+        field.setInstance(box, scene.instances[box]);
+        if (frame == 20) scene.instances.push_back(guest), field.addInstance(guest);
+        field.update({.updates = 4, .milliseconds = 30});
+        field.bindLookups(kSlots);
+        draw(host, program, scene, clipFromWorld);
+        // [/frame]
+        for (SDL_Event event; SDL_PollEvent(&event) != 0;)
+            if (event.type == SDL_QUIT) return;
+        if (path == nullptr) SDL_GL_SwapWindow(window.window);
+    }
+    std::vector<std::uint8_t> rows(3 * kWidth * kHeight), picture;
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, kWidth, kHeight, GL_RGB, GL_UNSIGNED_BYTE, rows.data());
+    for (int y = kHeight - 1; y >= 0; --y)
+        picture.insert(picture.end(), rows.begin() + 3 * kWidth * y, rows.begin() + 3 * kWidth * (y + 1));
+    conelight::io::writePng(path, {kWidth, kHeight, 3, picture});
+    std::printf("picture at %s\n", path);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    const Window window;
+    run(argc > 1 ? argv[1] : nullptr, window);
+    return 0;
+} catch (const conelight::Error& error) {
+    std::fprintf(stderr, "05_sdl_forward: %s\n", error.what());
+    return 1;
+}

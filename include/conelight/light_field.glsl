@@ -1,0 +1,406 @@
+// SPDX-License-Identifier: MIT
+// Indirect light in shaders of your own, as a LightField has it (conelight/light_field.h): docs/guide/light_field.md.
+// Made of the library's shaders by tools/make_lookups: change those.
+//
+//   vec3 conelight_irradiance(vec3 position, vec3 normal)
+//       Indirect irradiance / pi, W/(sr m^2): times albedo it is radiance. A normal of zero: the mean over all
+//       directions, for dust and fog.
+//   vec3 conelight_trace(vec3 origin, vec3 direction)
+//   vec3 conelight_trace(vec3 origin, vec3 direction, out float distance)
+//       Radiance that arrives along a ray, W/(sr m^2); how far it comes from, m, -1: from the surroundings. Rays
+//       from surfaces of the scene begin a tenth of conelight_grid.voxelSize before them.
+//
+// World space, metres. Light that comes straight from the scene's lights is not in it, but what surfaces reflect of it
+// and what glows is. For #version 450 and any stage. Define the first binding point of 2 uniform blocks and the first of
+// 7 texture units before, or leave them at 0; LightField::bindLookups binds them.
+#ifndef CONELIGHT_LIGHT_FIELD_GLSL
+#define CONELIGHT_LIGHT_FIELD_GLSL
+#ifndef CONELIGHT_FIRST_BLOCK
+#define CONELIGHT_FIRST_BLOCK 0
+#endif
+#ifndef CONELIGHT_FIRST_TEXTURE
+#define CONELIGHT_FIRST_TEXTURE 0
+#endif
+
+struct conelight_VoxelGrid {
+    vec3 origin;
+    float voxelSize;
+    uint sizeX;
+    uint sizeY;
+    uint sizeZ;
+    uint voxelCount;
+    uint bricksX;
+    uint bricksY;
+    uint bricksZ;
+    uint faceCount;
+    float inverseVoxelSize;
+    uint occupiedBricks;
+    uint pad0;
+    uint pad1;
+};
+
+layout(std140, binding = CONELIGHT_FIRST_BLOCK + 0) uniform conelight_VoxelGridBlock {
+    conelight_VoxelGrid conelight_grid;
+};
+
+vec3 conelight_gridFromWorld(vec3 world) {
+    return (world - conelight_grid.origin) * conelight_grid.inverseVoxelSize;
+}
+
+ivec3 conelight_gridSize() { return ivec3(conelight_grid.sizeX, conelight_grid.sizeY, conelight_grid.sizeZ); }
+
+ivec3 conelight_gridBricks() {
+    return ivec3(conelight_grid.bricksX, conelight_grid.bricksY, conelight_grid.bricksZ);
+}
+
+vec2 conelight_octWrap(vec2 v) {
+    return (1.0 - abs(v.yx)) * vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0);
+}
+
+vec3 conelight_octDecode(vec2 p) {
+    vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
+    if (n.z < 0.0) n.xy = conelight_octWrap(n.xy);
+    return normalize(n);
+}
+
+uint conelight_bitOfVoxel(ivec3 voxel) {
+    return uint((voxel.x & 3) | ((voxel.y & 3) << 2) | ((voxel.z & 3) << 4));
+}
+
+bool conelight_brickHas(uvec2 mask, uint bit) {
+    return (((bit < 32u ? mask.x : mask.y) >> (bit & 31u)) & 1u) != 0u;
+}
+
+uint conelight_brickRank(uvec2 mask, uint bit) {
+    uint below = (1u << (bit & 31u)) - 1u;
+    return bit < 32u ? uint(bitCount(mask.x & below))
+                     : uint(bitCount(mask.x)) + uint(bitCount(mask.y & below));
+}
+
+uint conelight_voxelRecordIndex(uvec4 brickWord, uint bit) {
+    return brickWord.z + conelight_brickRank(brickWord.xy, bit);
+}
+
+uint conelight_faceBase(uint record) { return record & 0x3ffffffu; }
+
+uint conelight_faceDirections(uint record) { return record >> 26; }
+
+const float conelight_kVoxelWeightScale = 65535.0 / 4.0;
+
+float conelight_unpackOffset(uint bits) { return max(float(int(bits << 16) >> 16) / 32767.0, -1.0); }
+
+float conelight_unpackWeight(uint bits) { return float(bits >> 16) / conelight_kVoxelWeightScale; }
+
+vec3 conelight_unpackBoundsMin(uint bits) { return vec3(uvec3(bits, bits >> 5, bits >> 10) & 31u) / 31.0; }
+
+vec3 conelight_unpackBoundsMax(uint bits) {
+    return vec3(uvec3(bits >> 15, bits >> 20, bits >> 25) & 31u) / 31.0;
+}
+
+vec3 conelight_unpackAlbedo(uint bits) {
+    return vec3(bits & 2047u, (bits >> 11) & 2047u, bits >> 22) / vec3(2047.0, 2047.0, 1023.0);
+}
+
+vec3 conelight_unpackRgb9e5(uint bits) {
+    return vec3(bits & 511u, (bits >> 9) & 511u, (bits >> 18) & 511u) *
+           uintBitsToFloat(((bits >> 27) + 103u) << 23);
+}
+
+const float conelight_kRayBoundsSlack = 0.1;
+
+const float conelight_kRayBoundsOverlap = 0.04;
+
+const float conelight_kRayBoundsShrink = 0.02;
+
+layout(binding = CONELIGHT_FIRST_TEXTURE + 0) uniform usampler3D conelight_voxelBricks;
+
+layout(binding = CONELIGHT_FIRST_TEXTURE + 2) uniform usamplerBuffer conelight_voxelRecords;
+
+layout(binding = CONELIGHT_FIRST_TEXTURE + 3) uniform usamplerBuffer conelight_voxelFaces;
+
+layout(binding = CONELIGHT_FIRST_TEXTURE + 1) uniform usampler3D conelight_voxelOctants;
+
+struct conelight_VoxelHit {
+    int face;
+    float t;
+};
+
+const float conelight_kRayFacing = 1e-3;
+
+const float conelight_kRayNear = 0.05;
+
+const float conelight_kRayStart = 1e-3;
+
+const float conelight_kRayTie = 0.5;
+
+const float conelight_kRayEnd = 1e-3;
+
+const float conelight_kRayOtherSide = -0.1;
+
+const float conelight_kRayOtherNear = 0.5;
+
+struct conelight_Ray {
+    vec3 origin;
+    vec3 direction;
+    float tMax;
+    vec3 startNormal;
+};
+
+bool conelight_insideRayBounds(uint bounds, vec3 n, float t, vec3 position) {
+    vec3 shrunk =
+        (conelight_kRayBoundsSlack + conelight_kRayBoundsShrink) * n * n - conelight_kRayBoundsShrink;
+    vec3 grown =
+        (conelight_kRayBoundsSlack - conelight_kRayBoundsOverlap) * n * n + conelight_kRayBoundsOverlap;
+    vec3 slack = t > conelight_kRayNear ? grown : shrunk;
+    vec3 lower = conelight_unpackBoundsMin(bounds);
+    vec3 upper = conelight_unpackBoundsMax(bounds);
+    vec3 below = mix(slack, shrunk, greaterThan(lower, vec3(0.0)));
+    vec3 above = mix(slack, shrunk, lessThan(upper, vec3(1.0)));
+    return all(greaterThanEqual(position, lower - below)) && all(lessThanEqual(position, upper + above));
+}
+
+void conelight_testVoxelFaces(ivec3 voxel, conelight_Ray ray, uint facing, inout conelight_VoxelHit hit,
+                              inout float hitCoverage) {
+    uvec4 word = texelFetch(conelight_voxelBricks, voxel >> 2, 0);
+    uint record =
+        texelFetch(conelight_voxelRecords, int(conelight_voxelRecordIndex(word, conelight_bitOfVoxel(voxel))))
+            .x;
+    uint directions =
+        conelight_brickHas(word.xy, conelight_bitOfVoxel(voxel)) ? conelight_faceDirections(record) : 0u;
+    int base = int(conelight_faceBase(record));
+    vec3 toCenter = vec3(voxel) + 0.5 - ray.origin;
+    uint remaining = directions & facing;
+    do {
+        uint lowest = remaining & (0u - remaining);
+        int face = base + bitCount(directions & (max(lowest, 1u) - 1u));
+        uvec4 r = texelFetch(conelight_voxelFaces, remaining != 0u ? face : 0);
+        vec3 n = conelight_octDecode(unpackSnorm2x16(r.x));
+        float cosine = dot(n, ray.direction);
+        float planeDistance = conelight_unpackOffset(r.y) + dot(n, toCenter);
+        float t = planeDistance / min(cosine, -conelight_kRayFacing);
+        bool ownFarSide = (r.z & 0x40000000u) != 0u && dot(n, ray.startNormal) < conelight_kRayOtherSide &&
+                          planeDistance > -conelight_kRayOtherNear;
+        bool inBounds = conelight_insideRayBounds(r.z, n, t, t * ray.direction - toCenter + 0.5);
+        bool inside = remaining != 0u && !ownFarSide && t < ray.tMax && inBounds;
+        float coverage = conelight_unpackWeight(r.y);
+        bool nearer = hit.face < 0 || t < hit.t - conelight_kRayTie ||
+                      (t <= hit.t + conelight_kRayTie && coverage > hitCoverage);
+        bool better = inside && cosine < -conelight_kRayFacing && t > conelight_kRayStart && nearer;
+        hit.face = better ? face : hit.face;
+        hit.t = better ? t : hit.t;
+        hitCoverage = better ? coverage : hitCoverage;
+        remaining ^= lowest;
+    } while (remaining != 0u);
+}
+
+struct conelight_OctantRay {
+    vec3 origin;
+    vec3 direction;
+    vec3 inverse;
+    bvec3 mirrored;
+    int octantX;
+};
+
+conelight_OctantRay conelight_octantRay(conelight_Ray ray) {
+    bvec3 mirrored = lessThan(ray.direction, vec3(0.0));
+    int octant = int(mirrored.x) | (int(mirrored.y) << 1) | (int(mirrored.z) << 2);
+    vec3 direction = abs(ray.direction);
+    return conelight_OctantRay(mix(ray.origin, vec3(conelight_gridSize()) - ray.origin, mirrored), direction,
+                               1.0 / max(direction, vec3(1e-7)), mirrored, octant * conelight_gridBricks().x);
+}
+
+bool conelight_leaveCell(conelight_Ray ray, conelight_OctantRay mirrored, bool alive, inout float t,
+                         inout ivec3 cell) {
+    ivec3 brick = cell >> 2;
+    uvec2 word = texelFetch(conelight_voxelOctants, ivec3(brick.x + mirrored.octantX, brick.yz), 0).xy;
+    bool empty = word.y == 0x9d2c5681u;
+    bool occupied = !empty && conelight_brickHas(word, conelight_bitOfVoxel(cell));
+    uint half32 = (cell.z & 2) != 0 ? word.y : word.x;
+    bool emptyBlock = (half32 >> ((cell.x & 2) + 4 * (cell.y & 2)) & 0x00330033u) == 0u;
+    int edge = empty ? 4 * int(word.x) : (emptyBlock ? 2 : 1);
+    ivec3 border = (cell & (empty ? ~3 : (emptyBlock ? ~1 : ~0))) + edge;
+    vec3 exits = (vec3(border) - mirrored.origin) * mirrored.inverse;
+    t = min(exits.x, min(exits.y, exits.z));
+    ivec3 next = clamp(ivec3(mirrored.origin + t * mirrored.direction), cell, border - 1);
+    cell = mix(next, border, lessThanEqual(exits, vec3(t)));
+    return occupied;
+}
+
+conelight_VoxelHit conelight_traceVoxels(conelight_Ray ray) {
+    vec3 size = vec3(conelight_gridSize());
+    ivec3 last = conelight_gridSize() - 1;
+    conelight_OctantRay mirrored = conelight_octantRay(ray);
+    uint facing =
+        (mirrored.mirrored.x ? 1u : 2u) | (mirrored.mirrored.y ? 4u : 8u) | (mirrored.mirrored.z ? 16u : 32u);
+    vec3 enter = -mirrored.origin * mirrored.inverse;
+    vec3 leave = (size - mirrored.origin) * mirrored.inverse;
+    float tEnter = max(max(enter.x, enter.y), max(enter.z, 0.0));
+    float tEnd = min(min(min(leave.x, leave.y), leave.z) - conelight_kRayEnd, ray.tMax);
+    conelight_VoxelHit hit = conelight_VoxelHit(-1, ray.tMax);
+    bool alive = tEnd > tEnter;
+    float t = alive ? tEnter : 0.0;
+    tEnd = alive ? tEnd : -3e38;
+    ivec3 cell = clamp(ivec3(floor(mirrored.origin + t * mirrored.direction)), ivec3(0), last);
+    float hitCoverage = 0.0;
+    do {
+        bool occupied;
+        ivec3 left;
+        do {
+            left = cell;
+            occupied = conelight_leaveCell(ray, mirrored, alive, t, cell);
+        } while (!occupied && t < tEnd);
+        ivec3 voxel = mix(left, last - left, mirrored.mirrored);
+        uint tested = occupied && alive ? facing : 0u;
+        conelight_testVoxelFaces(voxel, ray, tested, hit, hitCoverage);
+    } while (hit.face < 0 && t < tEnd);
+    return hit;
+}
+
+layout(binding = CONELIGHT_FIRST_TEXTURE + 5) uniform usamplerBuffer conelight_litFaces;
+
+vec3 conelight_litIrradiance(uvec4 lit) { return vec3(unpackHalf2x16(lit.z), unpackHalf2x16(lit.w).x); }
+
+layout(binding = CONELIGHT_FIRST_TEXTURE + 4) uniform usamplerBuffer conelight_faceLight;
+
+const float conelight_kLeastAxis = 1e-3;
+
+vec4 conelight_cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
+    vec3 corner = floor(point - 0.5);
+    vec3 part = point - 0.5 - corner;
+    ivec3 base = ivec3(corner);
+    ivec3 last = conelight_gridSize() - 1;
+    vec3 square = normal * normal;
+    uint facing = (square.x > conelight_kLeastAxis ? (normal.x < 0.0 ? 2u : 1u) : 0u) |
+                  (square.y > conelight_kLeastAxis ? (normal.y < 0.0 ? 8u : 4u) : 0u) |
+                  (square.z > conelight_kLeastAxis ? (normal.z < 0.0 ? 32u : 16u) : 0u);
+    uint corners = 0u;
+    for (int i = 0; i < 8; ++i) {
+        ivec3 voxel = clamp(base + ivec3(i & 1, (i >> 1) & 1, i >> 2), ivec3(0), last);
+        uvec2 mask = texelFetch(conelight_voxelBricks, voxel >> 2, 0).xy;
+        corners |= conelight_brickHas(mask, conelight_bitOfVoxel(voxel)) ? 1u << i : 0u;
+    }
+    corners = wanted ? corners : 0u;
+    vec4 sum = vec4(0.0);
+    bent = vec3(0.0);
+    do {
+        bool any = corners != 0u;
+        int i = max(findLSB(corners), 0);
+        ivec3 offset = ivec3(i & 1, (i >> 1) & 1, i >> 2);
+        ivec3 voxel = clamp(base + offset, ivec3(0), last);
+        vec3 t = mix(1.0 - part, part, vec3(offset));
+        uvec4 word = texelFetch(conelight_voxelBricks, voxel >> 2, 0);
+        uint record = texelFetch(conelight_voxelRecords,
+                                 any ? int(conelight_voxelRecordIndex(word, conelight_bitOfVoxel(voxel))) : 0)
+                          .x;
+        uint directions = conelight_faceDirections(record);
+        int first = int(conelight_faceBase(record));
+        uint left = any ? directions & facing : 0u;
+        do {
+            uint lowest = left & (0u - left);
+            int face = left != 0u ? first + bitCount(directions & (lowest - 1u)) : 0;
+            uvec2 light = texelFetch(conelight_faceLight, face).xy;
+            float share = lowest < 4u ? square.x : (lowest < 16u ? square.y : square.z);
+            float weight = left != 0u ? t.x * t.y * t.z * share * conelight_unpackWeight(light.y) : 0.0;
+            vec3 irradiance = vec3(unpackHalf2x16(light.x), unpackHalf2x16(light.y).x);
+            sum += weight * vec4(irradiance, 1.0);
+            left ^= lowest;
+        } while (left != 0u);
+        corners &= corners - 1u;
+    } while (corners != 0u);
+    return vec4(sum.rgb / max(sum.a, 1e-12), sum.a);
+}
+
+vec4 conelight_cachedIrradiance(vec3 point, vec3 normal, bool wanted) {
+    vec3 bent;
+    return conelight_cachedIrradiance(point, normal, wanted, bent);
+}
+
+struct conelight_LightingConstants {
+    vec3 sky;
+    float environmentScale;
+    uvec4 lightEnds;
+    float environmentTurn;
+    float environmentInverseFlux;
+    float environmentLevel0;
+    float environmentCellLevel;
+};
+
+layout(std140, binding = CONELIGHT_FIRST_BLOCK + 1) uniform conelight_LightingBlock {
+    conelight_LightingConstants conelight_lighting;
+};
+
+layout(binding = CONELIGHT_FIRST_TEXTURE + 6) uniform sampler2D conelight_environmentPicture;
+
+const float conelight_kEnvironmentTurn = 6.28318530717959;
+
+vec2 conelight_environmentUv(vec3 direction) {
+    bool upright = direction.x == 0.0 && direction.z == 0.0;
+    float azimuth = upright ? 0.0 : atan(direction.x, -direction.z);
+    return vec2(azimuth / conelight_kEnvironmentTurn + 0.5 + conelight_lighting.environmentTurn,
+                2.0 * acos(clamp(direction.y, -1.0, 1.0)) / conelight_kEnvironmentTurn);
+}
+
+vec3 conelight_skyRadiance(vec3 direction, float width) {
+    float level = log2(max(width, 1e-6) / conelight_kEnvironmentTurn) + conelight_lighting.environmentLevel0;
+    vec3 texel =
+        textureLod(conelight_environmentPicture, conelight_environmentUv(direction), max(level, 0.0)).rgb;
+    return conelight_lighting.sky + conelight_lighting.environmentScale * texel;
+}
+
+void conelight_tangentFrame(vec3 n, out vec3 u, out vec3 v) {
+    float s = n.z >= 0.0 ? 1.0 : -1.0;
+    float a = -1.0 / (s + n.z);
+    float b = n.x * n.y * a;
+    u = vec3(1.0 + s * n.x * n.x * a, s * b, -s * n.x);
+    v = vec3(b, s + n.y * n.y * a, -n.y);
+}
+
+vec3 conelight_trace(vec3 origin, vec3 direction, out float distance) {
+    vec3 unit = normalize(direction);
+    conelight_VoxelHit hit =
+        conelight_traceVoxels(conelight_Ray(conelight_gridFromWorld(origin), unit, 1e9, vec3(0.0)));
+    bool met = hit.face >= 0;
+    int face = max(hit.face, 0);
+    vec3 normal = conelight_octDecode(unpackSnorm2x16(texelFetch(conelight_voxelFaces, face).x));
+    vec3 point = conelight_gridFromWorld(origin) + (met ? hit.t : 0.0) * unit;
+    vec4 cached = conelight_cachedIrradiance(point, normal, met);
+    uvec4 lit = texelFetch(conelight_litFaces, face);
+    vec3 irradiance = cached.a > 0.0 ? cached.rgb : conelight_litIrradiance(lit);
+    vec3 radiance = conelight_unpackRgb9e5(lit.y) + conelight_unpackAlbedo(lit.x) * irradiance;
+    distance = met ? hit.t * conelight_grid.voxelSize : -1.0;
+    return met ? radiance : conelight_skyRadiance(unit, 0.0);
+}
+
+vec3 conelight_trace(vec3 origin, vec3 direction) {
+    float distance;
+    return conelight_trace(origin, direction, distance);
+}
+
+const float conelight_kSpiralTurn = 2.39996323;
+
+const int conelight_kOpenRays = 8;
+
+vec3 conelight_openIrradiance(vec3 position, vec3 normal, bool sphere) {
+    vec3 u, v;
+    conelight_tangentFrame(normal, u, v);
+    vec3 sum = vec3(0.0);
+    for (int i = 0; i < conelight_kOpenRays; ++i) {
+        float share = (float(i) + 0.5) / float(conelight_kOpenRays);
+        float height = sphere ? 1.0 - 2.0 * share : sqrt(1.0 - share);
+        float radius = sqrt(max(1.0 - height * height, 0.0));
+        float turn = conelight_kSpiralTurn * float(i);
+        sum += conelight_trace(position, radius * (cos(turn) * u + sin(turn) * v) + height * normal);
+    }
+    return sum / float(conelight_kOpenRays);
+}
+
+vec3 conelight_irradiance(vec3 position, vec3 normal) {
+    bool sphere = dot(normal, normal) < 1e-12;
+    vec3 axis = sphere ? vec3(0.0, 1.0, 0.0) : normalize(normal);
+    vec3 point = conelight_gridFromWorld(position);
+    bool inGrid =
+        all(greaterThanEqual(point, vec3(0.0))) && all(lessThanEqual(point, vec3(conelight_gridSize())));
+    vec4 cached = conelight_cachedIrradiance(point, axis, inGrid && !sphere);
+    return cached.a > 0.0 ? cached.rgb : conelight_openIrradiance(position, axis, sphere);
+}
+#endif

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "light/relight_budget.h"
+
+#include <algorithm>
+#include <cstdint>
+
+#include "base/clock.h"
+
+namespace conelight::light {
+namespace {
+
+// Before anything has been measured: a few milliseconds on two cores of a CPU driver.
+constexpr std::uint32_t kFirstFaces = 2048;
+// Fewer cost no less: each call commits the light of all faces.
+constexpr std::uint32_t kLeastFaces = 256;
+// Of a cost that is lower than the one known; a higher one is taken at once.
+constexpr double kForgetting = 0.25;
+
+}  // namespace
+
+void RelightBudget::relight(const gl::Device& device, LitVoxels& lit, const LitVoxels::Inputs& inputs,
+                            const RelightSettings& settings, const Wanted& wanted) {
+    if (wanted.milliseconds > 0 && wanted.updates > 0)
+        return relightInTime(device, lit, inputs, settings, wanted);
+    Budget each{.oneUpdate = true, .faces = wanted.faces, .nothing = wanted.updates <= 0};
+    // The first call finds what has changed; the others go on from there.
+    lit.relight(device, inputs, settings, each);
+    for (int i = 1; i < wanted.updates && lit.updates() < settings.updates; ++i)
+        lit.relight(device, inputs, settings, each);
+}
+
+void RelightBudget::learn(double milliseconds, std::uint32_t faces) {
+    const double cost = milliseconds / std::max(faces, 1u);
+    msPerFace_ = cost > msPerFace_ ? cost : msPerFace_ + kForgetting * (cost - msPerFace_);
+}
+
+void RelightBudget::relightInTime(const gl::Device& device, LitVoxels& lit, const LitVoxels::Inputs& inputs,
+                                  const RelightSettings& settings, const Wanted& wanted) {
+    const bool waits = gl::isSoftwareDriver();  // whose queries of time lie
+    if (!waits && facesMeasured_ > 0) learn(ended_.resultMs() - started_.resultMs(), facesMeasured_);
+    facesMeasured_ = 0;
+    std::uint64_t visited = 0;
+    for (;;) {
+        // As many faces as the time that is left and the other limits allow
+        const double start = base::wallMs();
+        const double left = wanted.milliseconds - (waits ? start - wanted.start : 0);
+        double faces = msPerFace_ > 0 ? left / msPerFace_ : kFirstFaces;
+        if (visited > 0 && faces < kLeastFaces) break;
+        const std::uint32_t round = lit.facesPerUpdate();
+        if (round > 0) {
+            const std::uint64_t each = wanted.faces > 0 ? std::min(wanted.faces, round) : round;
+            const std::uint64_t most = each * static_cast<std::uint64_t>(wanted.updates);
+            if (visited >= most) break;
+            faces = std::min(faces, static_cast<double>(std::min<std::uint64_t>(most - visited, round)));
+        }
+        const auto count = static_cast<std::uint32_t>(std::max(faces, 1.0 * kLeastFaces));
+        if (!waits) {
+            if (!started_) {
+                started_ = gl::Query("relight start");
+                ended_ = gl::Query("relight end");
+            }
+            started_.record();
+        }
+        lit.relight(device, inputs, settings, {.oneUpdate = true, .faces = count});
+        visited += count;
+        facesMeasured_ = count;
+        if (!waits) {
+            ended_.record();
+            break;
+        }
+        gl::finish();
+        learn(base::wallMs() - start, count);
+        if (lit.updates() >= settings.updates || lit.facesPerUpdate() == 0) break;
+    }
+}
+
+}  // namespace conelight::light

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "scene/packed_mesh.h"
+
+#include <numeric>
+
+#include "scene/gpu_vertices.h"
+#include "scene/mesh_order.h"
+
+namespace conelight::scene {
+
+PackedMesh packed(const Mesh& mesh) {
+    PackedMesh to;
+    if (appendVertices(mesh, to.vertices)) {
+        to.indices = mesh.indices;
+    } else {
+        to.indices.resize(mesh.indices.size());
+        std::iota(to.indices.begin(), to.indices.end(), 0u);
+    }
+    orderForReuse(to.vertices, 0, to.indices, 0);
+    for (std::size_t i = 0; i < to.indices.size(); ++i) {
+        if (i % kPartIndices == 0) to.parts.emplace_back();
+        to.parts.back().grow(to.vertices[to.indices[i]].position);
+    }
+    return to;
+}
+
+}  // namespace conelight::scene
