@@ -163,7 +163,6 @@ class Soak {
             {"voxels.size", {"8", "16", "24", "32"}},
             {"voxels.padding", {"0", "0.03", "0.5"}},
             {"light.shadow_size", {"0", "64", "128"}},
-            {"light.shadow_memory", {"0", "1", "512"}},
             {"light.shadow_filter", {"0", "2"}},
             {"light.area_samples", {"1", "4"}},
             {"light.emissive_quads", {"true", "false"}},
