@@ -153,11 +153,13 @@ void decode(GltfFile& file, const GltfValue& primitive, std::set<std::uint64_t>&
 
 void unpackDraco(GltfFile& file) {
     std::uint64_t packedBytes = 0;
+    bool any = false;
     forEachCompressed(file, [&](const GltfValue& primitive) {
+        any = true;
         // Here, so that a buffer that cannot be read is told by its own line, and is read once.
         packedBytes += file.bufferView(primitive.extension(kExtension)["bufferView"]).size();
     });
-    if (packedBytes == 0) return;
+    if (!any) return;
     // Draco decodes 10 MB of its bytes a second and more; a byte is 20 of what is decoded, with copies 100.
     const ChildLimits limits{10.0 + double(packedBytes) / 1e6, (std::uint64_t(2) << 30) + 200 * packedBytes};
     const ChildResult result = runInChild(

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 
 #include "io/stb_impl.h"
 
@@ -52,28 +53,50 @@ RowShrinker::RowShrinker(int width, int height, int channels, int halvings, Byte
     if (halvings > 0) sums_.assign(std::size_t(image_.width) * std::size_t(channels), 0);
 }
 
+namespace {
+
+// Adds the texels of a row to the sums of the squares they lie in. The number of channels is known to the
+// compiler: a picture may have 2^28 texels.
+template <std::size_t kChannels>
+void addRow(const std::uint8_t* row, std::size_t width, int halvings, std::uint32_t* sums) {
+    const std::size_t step = std::size_t(1) << halvings;
+    for (std::size_t first = 0; first < width; first += step, sums += kChannels) {
+        std::array<std::uint32_t, kChannels> sum{};
+        for (std::size_t x = first; x < std::min(first + step, width); ++x, row += kChannels)
+            for (std::size_t c = 0; c < kChannels; ++c) sum[c] += row[c];
+        for (std::size_t c = 0; c < kChannels; ++c) sums[c] += sum[c];
+    }
+}
+
+}  // namespace
+
 void RowShrinker::add(const std::uint8_t* row) {
-    const auto channels = std::size_t(image_.channels);
+    const auto channels = std::size_t(image_.channels), width = std::size_t(width_);
     if (halvings_ == 0) {
-        image_.pixels.insert(image_.pixels.end(), row, row + std::size_t(width_) * channels);
+        image_.pixels.insert(image_.pixels.end(), row, row + width * channels);
         return;
     }
-    for (std::size_t x = 0; x < std::size_t(width_); ++x)
-        for (std::size_t c = 0; c < channels; ++c)
-            sums_[(x >> halvings_) * channels + c] += row[x * channels + c];
+    const auto addThis = channels == 4 ? addRow<4> : channels == 3 ? addRow<3> : addRow<1>;
+    addThis(row, width, halvings_, sums_.data());
     ++row_;
     if (++summed_ == 1 << halvings_ || row_ == height_) finishRow();
 }
 
 void RowShrinker::finishRow() {
-    const auto channels = std::size_t(image_.channels);
-    const std::size_t step = std::size_t(1) << halvings_;
-    for (std::size_t x = 0; x < std::size_t(image_.width); ++x) {
-        // The last column may have fewer.
+    const auto channels = std::size_t(image_.channels), width = std::size_t(image_.width);
+    const std::size_t step = std::size_t(1) << halvings_, at = image_.pixels.size();
+    image_.pixels.resize(at + width * channels);
+    std::uint8_t* const out = &image_.pixels[at];
+    // Squares that the picture ends in have fewer texels.
+    const std::size_t whole = std::size_t(summed_) == step ? std::size_t(width_) / step : 0;
+    const std::uint32_t half = 1u << (2 * halvings_ - 1);
+    for (std::size_t i = 0; i < whole * channels; ++i)
+        out[i] = std::uint8_t((sums_[i] + half) >> (2 * halvings_));
+    for (std::size_t x = whole; x < width; ++x) {
         const std::size_t columns = std::min(step, std::size_t(width_) - x * step);
         const auto count = std::uint32_t(columns * std::size_t(summed_));
         for (std::size_t c = 0; c < channels; ++c)
-            image_.pixels.push_back(std::uint8_t((sums_[x * channels + c] + count / 2) / count));
+            out[x * channels + c] = std::uint8_t((sums_[x * channels + c] + count / 2) / count);
     }
     std::fill(sums_.begin(), sums_.end(), 0u);
     summed_ = 0;

@@ -308,6 +308,34 @@ TEST(ImageFile, LargePicturesAreMadeSmallerWhileTheyAreRead) {
     }
 }
 
+// Whatever the channels and the number of halvings; squares at the edges have fewer texels.
+TEST(ImageFile, SmallerPicturesAreMeansOfSquares) {
+    constexpr int kWidth = 21, kHeight = 14;
+    for (const int channels : {1, 3, 4})
+        for (const int halvings : {0, 1, 2, 3}) {
+            const auto texel = [&](int x, int y, int c) { return (37 * x + 91 * y + 53 * c) % 256; };
+            io::ByteImage small;
+            io::RowShrinker shrinker(kWidth, kHeight, channels, halvings, small);
+            for (int y = 0; y < kHeight; ++y) {
+                std::vector<std::uint8_t> row;
+                for (int x = 0; x < kWidth; ++x)
+                    for (int c = 0; c < channels; ++c) row.push_back(std::uint8_t(texel(x, y, c)));
+                shrinker.add(row.data());
+            }
+            const int step = 1 << halvings;
+            ASSERT_EQ(small.pixels.size(), std::size_t(small.width * small.height * channels));
+            for (int i = 0; i < int(small.pixels.size()); ++i) {
+                const int c = i % channels, x = i / channels % small.width, y = i / channels / small.width;
+                int sum = 0, count = 0;
+                for (int v = step * y; v < std::min(step * (y + 1), kHeight); ++v)
+                    for (int u = step * x; u < std::min(step * (x + 1), kWidth); ++u, ++count)
+                        sum += texel(u, v, c);
+                EXPECT_EQ(small.pixels[std::size_t(i)], (sum + count / 2) / count)
+                    << channels << " channels, " << halvings << " halvings, " << x << ", " << y;
+            }
+        }
+}
+
 TEST(Files, DecodesUriText) {
     EXPECT_EQ(io::percentDecoded("a%20b%2Fc%zz%4"), "a b/c%zz%4");
     const io::Bytes expected = {'M', 'a', 'n', 0};

@@ -135,7 +135,7 @@ TEST(SceneFolder, PipesDevicesAndFoldersAreRefused) {
     const Places at("special");
     ASSERT_EQ(::mkfifo((at.scene / "pipe").c_str(), 0600), 0);
     fs::create_directory(at.scene / "folder.bin");
-    for (const char* name : {"pipe", "/dev/zero", "/dev/full", "folder.bin"}) {
+    for (const char* name : {"pipe", "/dev/zero", "/dev/random", "/dev/full", "folder.bin"}) {
         const std::string path = write(at.scene / "s.gltf", gltf(name, "in.png"));
         EXPECT_TRUE(contains(loadError(path, allowed()), "a file is needed") ||
                     contains(loadError(path, allowed()), "only regular files"))

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 // Pipes, devices and folders of the corpus are nothing to start from.
 void copyFiles(const fs::path& from, const fs::path& to, const std::vector<std::string>& endings) {
     fs::create_directories(to);
-    int number = 0;
+    static int number = 0;  // names of several calls differ
     for (const fs::directory_entry& entry :
          fs::recursive_directory_iterator(from, fs::directory_options::skip_permission_denied)) {
         std::error_code loop;  // a link to itself has no status
@@ -102,20 +102,31 @@ int main(int count, char** arguments) {
     fs::create_directories(corpus / "obj");
     fs::create_directories(corpus / "thesis");
     fs::create_directories(corpus / "picture");
-    for (const char* kind : {"preset", "camera_path", "console"}) fs::create_directories(corpus / kind);
+    for (const char* kind : {"preset", "camera_path", "cone_set", "batch_job", "console"})
+        fs::create_directories(corpus / kind);
     gltfCorpus(corpus / "gltf");
     objCorpus(corpus / "obj");
     thesisCorpus(corpus / "thesis");
     pictureCorpus(corpus / "picture");
     copyFiles(corpus / "gltf", folder / "gltf", {".gltf"});
+    copyFiles(corpus / "gltf", folder / "glb", {".glb"});
+    compressedCorpus(corpus / "glb", {Packing::Meshopt, Packing::Webp});
+    copyFiles(corpus / "glb", folder / "glb", {".glb"});
+    compressedCorpus(corpus / "draco", {Packing::Draco});
+    copyFiles(corpus / "draco", folder / "draco", {".glb"});
     copyFiles(corpus / "obj", folder / "obj", {".obj", ".mtl"});
     copyFiles(corpus / "thesis", folder / "thesis", {".txt"});
-    copyFiles(corpus / "picture", folder / "picture", {".png", ".jpg", ".jpeg"});
+    copyFiles(corpus / "picture", folder / "picture", {".png", ".jpg", ".jpeg", ".webp"});
     copyFiles(corpus / "picture", folder / "exr", {".exr"});
+    copyFiles(corpus / "picture", folder / "hdr", {".hdr"});
     presetCorpus(corpus / "preset");
     copyFiles(corpus / "preset", folder / "preset", {".json"});
     cameraPathCorpus(corpus / "camera_path");
     copyFiles(corpus / "camera_path", folder / "camera_path", {".json"});
+    coneSetCorpus(corpus / "cone_set");
+    copyFiles(corpus / "cone_set", folder / "cone_set", {".json"});
+    batchJobCorpus(corpus / "batch_job");
+    copyFiles(corpus / "batch_job", folder / "batch_job", {".json"});
     scriptCorpus(corpus / "console");
     copyFiles(corpus / "console", folder / "console", {".txt"});
     writeScripts(folder / "console");

@@ -1,174 +1,12 @@
 // SPDX-License-Identifier: MIT
-// A corpus is a valid file and what was done to it. See corpus.h.
+// A corpus is a valid file and what was done to it. See corpus.h; glTF: corpus_gltf.cpp.
 #include "support/corpus.h"
 
-#include <sys/stat.h>
-
-#include <nlohmann/json.hpp>
-
-#include "cpu/io_test_support.h"
 #include "io/image_file.h"
+#include "support/compressed_gltf.h"
+#include "support/corpus_writer.h"
 
 namespace conelight::test {
-
-namespace fs = std::filesystem;
-
-namespace {
-
-class Corpus {
-  public:
-    explicit Corpus(fs::path folder) : folder_(std::move(folder)) { fs::create_directories(folder_); }
-
-    void add(const std::string& name, const std::string& text, Expect expect) {
-        write(folder_ / name, text);
-        files_.push_back({folder_ / name, expect});
-    }
-    // What a name may be instead of a file of that kind.
-    void addSpecial(const std::string& ending) {
-        ::mkfifo((folder_ / ("pipe" + ending)).c_str(), 0600);
-        fs::create_directory(folder_ / ("folder" + ending));
-        fs::create_symlink("/dev/zero", folder_ / ("zero" + ending));
-        fs::create_symlink("loop" + ending, folder_ / ("loop" + ending));
-        write(folder_ / ("hole" + ending), "");
-        fs::resize_file(folder_ / ("hole" + ending), std::uintmax_t(1) << 40);
-        for (const char* name : {"pipe", "folder", "zero", "loop", "hole", "missing"})
-            files_.push_back({folder_ / (name + ending), Expect::Refused});
-        add("empty" + ending, "", Expect::Refused);
-        add("zeros" + ending, std::string(4096, '\0'), Expect::Refused);
-        add("not utf-8 \xff\xfe name" + ending, "\xff\xfe\x80", Expect::Refused);
-    }
-    // Cut at several places, and damaged: no more than a crash or a hang can be ruled out.
-    void addDamaged(const std::string& name, const std::string& ending, const std::string& text) {
-        for (int i = 1; i < 8; ++i)
-            add(name + "_cut" + std::to_string(i) + ending, text.substr(0, text.size() * std::size_t(i) / 8),
-                Expect::Either);
-        std::mt19937 random(17);
-        for (int i = 0; i < 8; ++i)
-            add(name + "_damaged" + std::to_string(i) + ending, mutated(text, random), Expect::Either);
-    }
-    const fs::path& folder() const { return folder_; }
-    std::vector<CorpusFile> files() { return std::move(files_); }
-
-  private:
-    fs::path folder_;
-    std::vector<CorpusFile> files_;
-};
-
-// A textured triangle with its data in the file.
-Json validGltf() {
-    GltfBuilder builder;
-    Json& primitive = builder.triangle();
-    primitive["indices"] = builder.indices({0, 1, 2});
-    builder.node({{"mesh", 0}});
-    Json json = builder.json;
-    json["buffers"] = {{{"byteLength", builder.bytes().size()},
-                        {"uri", "data:application/octet-stream;base64," + base64(builder.bytes())}}};
-    return json;
-}
-
-Json withPositions(const std::vector<float>& positions) {
-    GltfBuilder builder;
-    const int accessor = builder.floats(positions, 3);
-    builder.json["meshes"] = {{{"primitives", {{{"attributes", {{"POSITION", accessor}}}}}}}};
-    builder.node({{"mesh", 0}});
-    Json json = builder.json;
-    json["buffers"] = {{{"byteLength", builder.bytes().size()},
-                        {"uri", "data:application/octet-stream;base64," + base64(builder.bytes())}}};
-    return json;
-}
-
-// One field of the valid file changed.
-void addLies(Corpus& corpus) {
-    const struct {
-        const char* pointer;
-        Json value;
-        Expect expect;
-    } lies[] = {
-        {"/accessors/0/count", 4000000000u, Expect::Refused},
-        {"/accessors/0/count", -1, Expect::Refused},
-        {"/accessors/0/byteOffset", 18446744073709551612u, Expect::Refused},
-        {"/accessors/0/componentType", 7, Expect::Refused},
-        {"/accessors/0/type", "VEC9", Expect::Refused},
-        {"/accessors/0/bufferView", 99, Expect::Refused},
-        {"/bufferViews/0/byteLength", 1000000, Expect::Refused},
-        {"/bufferViews/0/byteOffset", 18446744073709551615u, Expect::Refused},
-        {"/bufferViews/0/byteStride", 1, Expect::Refused},
-        {"/bufferViews/0/byteStride", 18446744073709551615u, Expect::Refused},
-        {"/bufferViews/0/buffer", -3, Expect::Refused},
-        {"/buffers/0/byteLength", 1e18, Expect::Refused},
-        {"/buffers/0/uri", "data:;base64,!!!!", Expect::Refused},
-        {"/buffers/0/uri", "http://example.com/a.bin", Expect::Refused},
-        {"/buffers/0/uri", "../../../../../../../../../../etc/passwd", Expect::Refused},
-        {"/buffers/0/uri", "/etc/passwd", Expect::Refused},
-        {"/buffers/0/uri", "/dev/zero", Expect::Refused},
-        {"/buffers/0/uri", "pipe.gltf", Expect::Refused},
-        {"/buffers/0/uri", "a%00b", Expect::Refused},
-        {"/meshes/0/primitives/0/attributes/POSITION", 5, Expect::Refused},
-        {"/meshes/0/primitives/0/indices", 77, Expect::Refused},
-        {"/meshes/0/primitives/0/mode", 99, Expect::Either},
-        {"/meshes/0/primitives", "none", Expect::Refused},
-        {"/nodes/0/mesh", 12, Expect::Refused},
-        {"/nodes/0/children", Json::array({0}), Expect::Refused},
-        {"/nodes/0/children", Json::array({5}), Expect::Refused},
-        {"/nodes/0/matrix", Json::array({1, 2, 3}), Expect::Refused},
-        {"/nodes/0/rotation", Json::array({0, 0, 0, 0}), Expect::Refused},
-        {"/nodes/0/scale", Json::array({1e38, 1e38, 1e38}), Expect::Loads},
-        {"/nodes/0/scale", Json::array({0, 0, 0}), Expect::Either},
-        {"/nodes/0/translation", Json::array({"a", 0, 0}), Expect::Refused},
-        {"/scene", 3, Expect::Refused},
-        {"/asset/version", "9.9", Expect::Refused},
-        {"/asset", 7, Expect::Refused},
-        {"/extensionsRequired", Json::array({"EXT_unheard_of"}), Expect::Refused},
-    };
-    int number = 0;
-    for (const auto& lie : lies) {
-        Json json = validGltf();
-        json[Json::json_pointer(lie.pointer)] = lie.value;
-        corpus.add("lie" + std::to_string(number++) + ".gltf", json.dump(), lie.expect);
-    }
-}
-
-void addNodeTrees(Corpus& corpus) {
-    for (const bool cyclic : {false, true}) {
-        Json json = validGltf();
-        constexpr int kDeep = 10000;
-        for (int i = 0; i < kDeep; ++i) json["nodes"].push_back({{"children", {i + 2}}});
-        json["nodes"].push_back({{"mesh", 0}});
-        if (cyclic) json["nodes"].back()["children"] = {1};
-        json["scenes"][0]["nodes"] = {1};
-        corpus.add(cyclic ? "cyclic.gltf" : "deep.gltf", json.dump(),
-                   cyclic ? Expect::Refused : Expect::Loads);
-    }
-    corpus.add("nested.gltf", std::string(100000, '[') + std::string(100000, ']'), Expect::Refused);
-}
-
-}  // namespace
-
-std::vector<CorpusFile> gltfCorpus(const fs::path& folder) {
-    Corpus corpus(folder);
-    const std::string valid = validGltf().dump();
-    corpus.addSpecial(".gltf");
-    corpus.addSpecial(".glb");
-    corpus.add("valid.gltf", valid, Expect::Loads);
-    corpus.add("bom.gltf", "\xEF\xBB\xBF" + valid, Expect::Loads);
-    corpus.add("crlf.gltf", "\r\n\t " + valid + "\r\n", Expect::Loads);
-    corpus.add("Unicode \xE2\x98\x83 and blanks.gltf", valid, Expect::Loads);
-    corpus.addDamaged("text", ".gltf", valid);
-    GltfBuilder builder;
-    builder.triangle();
-    builder.node({{"mesh", 0}});
-    corpus.add("valid.glb", builder.glb(), Expect::Loads);
-    corpus.addDamaged("binary", ".glb", builder.glb());
-    addLies(corpus);
-    addNodeTrees(corpus);
-    const float nan = std::nanf(""), inf = std::numeric_limits<float>::infinity();
-    for (const float bad : {nan, inf, 1e30f})
-        corpus.add("number" + std::to_string(int(std::isnan(bad)) + 2 * int(std::isinf(bad))) + ".gltf",
-                   withPositions({0, 0, 0, bad, 0, 0, 0, 1, 0}).dump(), Expect::Refused);
-    corpus.add("flat.gltf", withPositions({0, 0, 0, 1, 0, 0, 2, 0, 0}).dump(), Expect::Either);
-    corpus.add("point.gltf", withPositions(std::vector<float>(9, 1.0f)).dump(), Expect::Either);
-    return corpus.files();
-}
 
 std::vector<CorpusFile> objCorpus(const fs::path& folder) {
     Corpus corpus(folder);
@@ -243,6 +81,25 @@ std::vector<CorpusFile> pictureCorpus(const fs::path& folder) {
         corpus.add(std::string("valid") + ending, text, Expect::Loads);
         corpus.addDamaged("picture", ending, text);
     }
+    // Kinds that have no name of their own here are read by what they hold.
+    const std::string texels(std::size_t{24} * 16 * 3, '\x7f');
+    const std::string bmp =
+        std::string("BM\xb6\4\0\0\0\0\0\0\x36\0\0\0\x28\0\0\0\x18\0\0\0\x10\0\0\0\1\0\x18\0", 30) +
+        std::string(24, '\0') + texels;
+    const std::string size("\x18\0\x10\0\x18\0", 6);  // 24 by 16 of 24 bits
+    const std::string tga = std::string("\0\0\2\0\0\0\0\0\0\0\0\0", 12) + size + texels;
+    const std::string packed = std::string("\0\0\x0a\0\0\0\0\0\0\0\0\0", 12) + size +
+                               "\xff\1\2\3"
+                               "\xff\1\2\3"
+                               "\xff\1\2\3";
+    for (const auto& [name, text] : {std::pair("bmp", bmp), {"tga", tga}, {"packed", packed}}) {
+        corpus.add(name + std::string(".png"), text, Expect::Loads);
+        corpus.addDamaged(name, ".png", text);
+    }
+    if (packsWebp()) {
+        const std::vector<std::uint8_t> webp = webpBytes(24, 16, std::vector<std::uint8_t>(24 * 16 * 4, 99));
+        corpus.add("webp.png", {webp.begin(), webp.end()}, Expect::Loads);
+    }
     // An attribute of 400 MB in a file of 400 bytes, of which OpenEXR would ask for all.
     std::ifstream exr(folder / "valid.exr", std::ios::binary);
     std::string large{std::istreambuf_iterator<char>(exr), {}};
@@ -300,6 +157,37 @@ std::vector<CorpusFile> presetCorpus(const fs::path& folder) {
         folder, settings("{\"mode\": \"phong\", \"voxels.size\": 32}"),
         {settings("[]"), settings("{\"voxels.size\": 1e9}"), settings("{\"voxels.size\": \"many\"}"),
          settings("{\"no.such\": 1}"), settings("{\"mode\": {}}")});
+}
+
+std::vector<CorpusFile> coneSetCorpus(const fs::path& folder) {
+    const auto cone = [](const std::string& more) {
+        return "{\"cones\": [{\"direction\": [0, 0, 1], " + more + "}]}";
+    };
+    return jsonCorpus(
+        folder, cone("\"aperture\": 0.9, \"weight\": 1"),
+        {"{\"cones\": []}", "{\"cones\": [7]}", "{\"cones\": {}}", cone("\"aperture\": 0.9"),
+         cone("\"aperture\": 1e999, \"weight\": 1"), cone("\"aperture\": -1, \"weight\": 1"),
+         cone("\"aperture\": 0.9, \"weight\": 0"), cone("\"aperture\": \"wide\", \"weight\": 1"),
+         cone("\"aperture\": 0.9, \"weight\": 1, \"colour\": 3"),
+         "{\"cones\": [{\"direction\": [0, 0, -1], \"aperture\": 1, \"weight\": 1}]}",
+         "{\"cones\": [{\"direction\": [0, 0, 0], \"aperture\": 1, \"weight\": 1}]}",
+         "{\"cones\": [{\"direction\": [0, 1], \"aperture\": 1, \"weight\": 1}]}"});
+}
+
+std::vector<CorpusFile> batchJobCorpus(const fs::path& folder) {
+    const auto job = [](const std::string& more) {
+        return "{\"conelight\": \"batch job\", \"scenes\": [\"builtin:furnace\"]" + more + "}";
+    };
+    const std::string small = ", \"options\": {\"size\": \"8x8\", \"mode\": \"phong\", \"voxels\": 16}";
+    return jsonCorpus(
+        folder, job(small + ", \"sweep\": {\"set.image.exposure\": [1, 2]}"),
+        {job(", \"scene\": 1"), job(", \"sweep\": {\"seed\": {\"from\": 1, \"to\": 999999999}}"),
+         job(", \"sweep\": {\"seed\": {\"from\": -9223372036854775808, \"to\": 9223372036854775807}}"),
+         job(", \"sweep\": {\"seed\": {\"from\": 1, \"to\": 99999}, \"spp\": {\"from\": 1, \"to\": 99999}}"),
+         job(", \"sweep\": []"), job(", \"output\": \"../../{seed}.exr\""),
+         job(", \"output\": \"/etc/a.exr\""), job(", \"frames\": {\"turntable\": true, \"count\": 1e9}"),
+         job(", \"options\": {\"mode\": {}}"), "{\"conelight\": \"batch job\", \"scenes\": [7]}",
+         "{\"conelight\": \"batch job\", \"scenes\": [\"/dev/zero/*\"]}"});
 }
 
 std::vector<CorpusFile> scriptCorpus(const fs::path& folder) {

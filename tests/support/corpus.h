@@ -22,11 +22,17 @@ struct CorpusFile {
 
 // Each writes into `folder` and returns what the program is to be given.
 std::vector<CorpusFile> gltfCorpus(const std::filesystem::path& folder);
+// Binary glTF compressed in those ways that this build reads.
+enum class Packing { Draco, Meshopt, Webp };
+std::vector<CorpusFile> compressedCorpus(const std::filesystem::path& folder,
+                                         const std::vector<Packing>& packings);
 std::vector<CorpusFile> objCorpus(const std::filesystem::path& folder);
 std::vector<CorpusFile> thesisCorpus(const std::filesystem::path& folder);
 std::vector<CorpusFile> pictureCorpus(const std::filesystem::path& folder);
 std::vector<CorpusFile> cameraPathCorpus(const std::filesystem::path& folder);
 std::vector<CorpusFile> presetCorpus(const std::filesystem::path& folder);
+std::vector<CorpusFile> coneSetCorpus(const std::filesystem::path& folder);
+std::vector<CorpusFile> batchJobCorpus(const std::filesystem::path& folder);
 std::vector<CorpusFile> scriptCorpus(const std::filesystem::path& folder);
 
 }  // namespace conelight::test
