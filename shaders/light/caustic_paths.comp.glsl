@@ -150,7 +150,7 @@ bool follow(inout GlassPath path, inout CausticState turns, bool shadowed, vec3 
                     turns.entry = packSnorm2x16(octEncode(s.geometricNormal));
                     goesOn = s.number == causticPass.solid && !(s.back && turns.way == kReflected);
                 }
-                bool rough = s.brdf.alpha > kMinRoughness * kMinRoughness * 1.001;
+                bool rough = !isSmooth(s);
                 turns.rough = turns.rough || rough;
                 vec3 h = s.normal;
                 if (rough) h = glassFacet(s, -path.direction, sequencePoint(seed, uint(turns.met)));
