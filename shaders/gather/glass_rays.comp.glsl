@@ -161,6 +161,8 @@ vec3 glassLight(GlassHit hit, GlassSight sight, inout Branches branches, uint pi
         GlassSurface s = glassSurface(path.origin, path.direction, hit);
         path.throughput *= exp(-path.absorption * hit.t);
         left -= hit.t;
+        // Not s.position: Mesa's software driver (22.3) takes it from the next hit, where a path ends.
+        vec3 position = path.origin + hit.t * path.direction;
         vec2 xi = vec2(randomNext(random), randomNext(random));
         xi = met == 0 ? sequencePoint(pixelSeed, number) : xi;
         float choice = randomNext(random);
@@ -192,7 +194,7 @@ vec3 glassLight(GlassHit hit, GlassSight sight, inout Branches branches, uint pi
 
         // On to the next surface of glass
         int on = hit.triangle;
-        path.origin = glassStep(s.position, below ? -s.geometricNormal : s.geometricNormal);
+        path.origin = glassStep(position, below ? -s.geometricNormal : s.geometricNormal);
         goesOn = path.throughput.r + path.throughput.g + path.throughput.b > 1e-5;
         float reach = path.bent ? 1e9 : left;
         hit = nearestGlass(path.origin, path.direction, goesOn ? reach : -1.0, on, !path.bent);
