@@ -172,6 +172,9 @@ bool isSmooth(GlassSurface s) { return s.brdf.alpha <= kMinRoughness * kMinRough
 // Whether rays go straight through: a smooth pane.
 bool passesStraight(GlassSurface s) { return !s.solid && isSmooth(s); }
 
+// Whether light of lamps comes through a solid by its map alone.
+bool turnsAllLight(uint solid) { return solid < caustics.count && (caustics.turnsAll >> solid & 1u) != 0u; }
+
 // ---- Light that passes glass ----------------------------------------------------------------------------
 
 // What is left of light that goes straight through all glass from `origin` to `end` metres. Where solids would
@@ -194,7 +197,7 @@ vec3 glassTransmittance(vec3 origin, vec3 direction, float end, float mostBend, 
             GlassHit hit = GlassHit(-1, end, vec2(0.0), false);
             testGlassTriangle(int(first), origin, direction, false, hit);
             bool counts = hit.triangle >= 0 && hit.t > near;
-            bool mapped = counts && ofLamp && glassTriangle(hit.triangle).solid < caustics.count;
+            bool mapped = counts && ofLamp && turnsAllLight(glassTriangle(hit.triangle).solid);
             if (mapped) {
                 left = vec3(0.0);
                 end = -1.0;  // no further box is met
