@@ -126,29 +126,18 @@ bool turnAt(inout GlassPath path, inout CausticState turns, GlassSurface s, vec3
     return !reflects;
 }
 
-// At a pane. The one that the paths start towards reflects them, or lets them through if it is rough; others let
-// through. Returns whether the path goes on.
-bool turnAtPane(inout GlassPath path, inout CausticState turns, GlassSurface s, vec3 h, out bool through) {
-    through = true;
-    if (turns.met > 0 || (s.number != causticPass.solid && isSmooth(s))) {
-        passThrough(path, s, h);
-        return true;
-    }
+// At a pane. The one that the paths start towards mirrors them; others let them through. Returns whether they go
+// through.
+bool turnAtPane(inout GlassPath path, inout CausticState turns, GlassSurface s) {
+    bool mirrors = turns.met == 0 && s.number == causticPass.solid;
+    path.throughput *= mirrors ? s.brdf.albedo : s.through;
+    if (!mirrors) return true;
     turns.entry = packSnorm2x16(octEncode(s.geometricNormal));
-    through = turns.way == kPassed;
-    turns.history = through ? kTransmits : kReflects;
+    turns.history = kReflects;
     ++turns.met;
-    if (through) {
-        passThrough(path, s, h);
-    } else {
-        vec3 toLight = -path.direction;
-        float VoH = clamp(dot(toLight, h), 0.0, 1.0);
-        path.throughput *= s.brdf.albedo;
-        path.direction = normalize(2.0 * VoH * h - toLight);
-        path.direction -= 2.0 * min(dot(path.direction, s.geometricNormal), 0.0) * s.geometricNormal;
-    }
-    return s.number == causticPass.solid &&
-           (turns.way == kReflected || (turns.way == kPassed && !isSmooth(s)));
+    path.direction = reflect(path.direction, s.normal);
+    path.direction -= 2.0 * min(dot(path.direction, s.geometricNormal), 0.0) * s.geometricNormal;
+    return false;
 }
 
 // The path up to the voxel on which it ends; returns whether it ends on one.
@@ -171,20 +160,21 @@ bool follow(inout GlassPath path, inout CausticState turns, bool shadowed, vec3 
             path.throughput *= exp(-path.absorption * hit.t);
             turns.distance += turns.met == 0 ? hit.t : 0.0;
             bool through = true;
-            bool rough = !isSmooth(s);
-            turns.rough = turns.rough || rough;
-            turns.lobe2 += rough ? s.brdf.alpha * s.brdf.alpha : 0.0;
-            vec3 h = s.normal;
-            if (rough) h = glassFacet(s, -path.direction, sequencePoint(seed, uint(turns.met)));
             if (s.solid) {
                 if (turns.met == 0) {
                     turns.entry = packSnorm2x16(octEncode(s.geometricNormal));
                     goesOn = s.number == causticPass.solid && !(s.back && turns.way == kReflected);
                 }
+                bool rough = !isSmooth(s);
+                turns.rough = turns.rough || rough;
+                turns.lobe2 += rough ? s.brdf.alpha * s.brdf.alpha : 0.0;
+                vec3 h = s.normal;
+                if (rough) h = glassFacet(s, -path.direction, sequencePoint(seed, uint(turns.met)));
                 through = turnAt(path, turns, s, h);
                 path.absorption = through != s.back ? s.absorption : vec3(0.0);
             } else {
-                goesOn = turnAtPane(path, turns, s, h, through);
+                through = turnAtPane(path, turns, s);
+                goesOn = through || turns.way == kReflected;
             }
             path.origin = glassStep(s.position, through ? -s.geometricNormal : s.geometricNormal);
             on = hit.triangle;

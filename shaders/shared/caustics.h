@@ -7,7 +7,7 @@
 #include "shared/prelude.h"
 CONELIGHT_SHARED_BEGIN
 
-// Solids and panes that have a map; light goes straight through others. In what follows panes count as solids.
+// Solids and smooth panes that have a map; light goes straight through others. In what follows panes count as solids.
 #define CAUSTIC_SOLIDS 16
 
 // GlassTriangle::solid of what has no number.

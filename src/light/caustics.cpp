@@ -89,7 +89,7 @@ void Caustics::cast(const gl::Device& device, const Inputs& inputs,
     constants_.voxelSize = inputs.voxels.grid().voxelSize;
     for (std::size_t i = 0; i < count; ++i) {
         constants_.middle[i] = glm::vec4(solids[i].middle, solids[i].radius);
-        if (solids[i].turnsAll) constants_.turnsAll |= 1u << i;
+        if (!solids[i].isPane) constants_.turnsAll |= 1u << i;
     }
     block_.update(constants_);
     for (std::uint32_t i = 0; i < count; ++i) castSolid(device, inputs, i, paths);

@@ -15,12 +15,12 @@
 
 namespace conelight::scene {
 
-// A closed surface of glass that bends light, or a pane, which reflects it.
+// A closed surface of glass that bends light, or a smooth pane, which mirrors it.
 struct GlassSolid {
     glm::vec3 middle;
     float radius;  // of a ball about the middle that holds it
     std::uint32_t instance;
-    bool turnsAll;  // what goes through is turned, too: not of smooth panes
+    bool isPane;
     bool operator==(const GlassSolid&) const = default;
 };
 
