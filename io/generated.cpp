@@ -131,6 +131,10 @@ constexpr GeneratedParameter kConservatoryParameters[] = {
     {"sun", 24, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
     {"sky", 1.2, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
 };
+constexpr GeneratedParameter kGlasswareParameters[] = {
+    {"emission", 16, 0, 1e4, false, "radiance of the lamp, W/(sr m^2)"},
+    {"spot", 6, 0, 1e4, false, "of the spot light, W/sr"},
+};
 constexpr GeneratedParameter kMirrorHallParameters[] = {
     {"roughness", 0, 0, 1, false, "of the mirrors; below 0.045 they are ideal"},
     {"intensity", 5, 0, 1e4, false, "of the warm lamp, W/sr; the cool one has about half"},
@@ -205,6 +209,9 @@ constexpr Entry kScenes[] = {
     {{"conservatory", "room behind window panes, sun and sky outside, things of solid glass on a table",
       kConservatoryParameters},
      generated::buildConservatory},
+    {{"glassware", "glass of several indices and tints on a table, solid and thin, lamp and spot; cameras front, close",
+      kGlasswareParameters},
+     generated::buildGlassware},
     {{"mirror-hall", "hall of flat faces with three ideal mirrors and two point lamps, for mode beams",
       kMirrorHallParameters},
      generated::buildMirrorHall},

@@ -89,6 +89,7 @@ Scene buildParlour(const Values& values);
 Scene buildGarden(const Values& values);
 Scene buildGlass(const Values& values);
 Scene buildConservatory(const Values& values);
+Scene buildGlassware(const Values& values);
 Scene buildMirrorHall(const Values& values);
 
 }  // namespace conelight::io::generated

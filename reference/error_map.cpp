@@ -53,7 +53,7 @@ float relativeSquared(const glm::vec3& x, const glm::vec3& r) {
 
 std::vector<float> errorValues(const Image& test, const Image& reference, ErrorMap map,
                                const MetricOptions& options) {
-    const std::vector<std::uint8_t> usable = usablePixels({&test, &reference});
+    const std::vector<std::uint8_t> usable = usablePixels({&test, &reference}, options.pixels);
     const Colors x = usableColors(test, usable);
     const Colors r = usableColors(reference, usable);
     std::vector<float> values(usable.size());

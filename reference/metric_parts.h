@@ -18,8 +18,10 @@ struct Colors {
     std::vector<glm::vec3> pixels;
 };
 
-// 1 where a pixel is finite in all images, else 0. Throws Error(BadInput) as compareImages does.
-std::vector<std::uint8_t> usablePixels(const std::vector<const Image*>& images);
+// 1 where a pixel is chosen (MetricOptions::pixels) and finite in all images, else 0. Throws Error(BadInput) as
+// compareImages does.
+std::vector<std::uint8_t> usablePixels(const std::vector<const Image*>& images,
+                                       const std::vector<std::uint8_t>& chosen);
 
 // The image with black where it is not usable.
 Colors usableColors(const Image& image, const std::vector<std::uint8_t>& usable);

@@ -105,7 +105,8 @@ double psnrOf(const Colors& test, const Colors& reference, const std::vector<std
 
 }  // namespace
 
-std::vector<std::uint8_t> usablePixels(const std::vector<const Image*>& images) {
+std::vector<std::uint8_t> usablePixels(const std::vector<const Image*>& images,
+                                       const std::vector<std::uint8_t>& chosen) {
     const Image& first = *images.front();
     if (first.width <= 0 || first.height <= 0 ||
         first.pixels.size() != std::size_t(first.width) * std::size_t(first.height))
@@ -118,14 +119,19 @@ std::vector<std::uint8_t> usablePixels(const std::vector<const Image*>& images) 
                 fmt::format("comparison: the images are {}x{} and {}x{} pixels; the same size would be "
                             "right",
                             first.width, first.height, image->width, image->height));
-    std::vector<std::uint8_t> usable(first.pixels.size(), 1);
+    if (!chosen.empty() && chosen.size() != first.pixels.size())
+        throw Error(ErrorKind::BadInput,
+                    fmt::format("comparison: {} pixels are chosen of {} x {}; one number for each would be right",
+                                chosen.size(), first.width, first.height));
+    std::vector<std::uint8_t> usable = chosen;
+    usable.resize(first.pixels.size(), 1);
     std::size_t count = 0;
     for (std::size_t i = 0; i < usable.size(); ++i) {
         for (const Image* image : images)
             if (!isFinite(image->pixels[i])) usable[i] = 0;
         count += usable[i];
     }
-    if (count == 0) throw Error(ErrorKind::BadInput, "comparison: no pixel is finite in all images");
+    if (count == 0) throw Error(ErrorKind::BadInput, "comparison: no pixel that counts is finite in all images");
     return usable;
 }
 
@@ -151,10 +157,12 @@ Metrics compareImages(const Image& test, const Image& reference, const MetricOpt
                       std::optional<Halves> halves, FlipMaps* maps) {
     std::vector<const Image*> images = {&test, &reference};
     if (halves) images.insert(images.end(), {halves->a, halves->b});
-    const std::vector<std::uint8_t> usable = usablePixels(images);
+    const std::vector<std::uint8_t> usable = usablePixels(images, options.pixels);
 
     Metrics m;
-    for (const std::uint8_t isUsable : usable) ++(isUsable ? m.pixels : m.badPixels);
+    for (std::size_t i = 0; i < usable.size(); ++i)
+        if (usable[i] != 0 || options.pixels.empty() || options.pixels[i] != 0)
+            ++(usable[i] != 0 ? m.pixels : m.badPixels);
     addRadianceMetrics(m, test, reference, halves, usable);
 
     const Colors x = usableColors(test, usable);

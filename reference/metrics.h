@@ -4,7 +4,8 @@
 // x is the test image, r the reference, both linear Rec.709 radiance. N is the number of compared values: 3
 // channels of every pixel in which all images are finite. Other pixels are counted in badPixels and left out
 // of everything else: they stand as black in both images where a metric looks at neighbours (FLIP), and
-// windows that hold one are left out (SSIM).
+// windows that hold one are left out (SSIM). Pixels that are not chosen (MetricOptions::pixels) are left out likewise and
+// not counted.
 //
 // PSNR, SSIM and LDR-FLIP compare what a display would show: d(c) = sRGB(clamp(2^exposure c, 0, 1)), with the
 // transfer curve of IEC 61966-2-1, no tone curve, no rounding to 8 bits.
@@ -49,6 +50,7 @@ struct Metrics {
 struct MetricOptions {
     float exposure = 0;              // stops, for the display images
     float pixelsPerDegree = 67.02f;  // FLIP: 0.7 m from a 0.7 m wide display of 3840 pixels (its default)
+    std::vector<std::uint8_t> pixels;  // 1 for those that are measured, rows from the top; empty: all
     bool flip = true;                // FLIP costs more than all others together; false leaves both at 0
 };
 

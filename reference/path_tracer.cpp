@@ -59,6 +59,7 @@ struct FeatureSums {
 
 struct Film {
     int width, height, tilesX, tilesY;
+    double traced;  // pixels
     std::vector<PixelSums> pixels;
     std::vector<FeatureSums> features;  // empty: not asked for
     std::vector<std::vector<glm::vec3>> bounces;
@@ -69,6 +70,7 @@ struct Film {
           height(h),
           tilesX((w + kTile - 1) / kTile),
           tilesY((h + kTile - 1) / kTile),
+          traced(settings.pixels.empty() ? double(w) * h : std::count(settings.pixels.begin(), settings.pixels.end(), 1)),
           pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)),
           features(settings.features ? pixels.size() : 0),
           bounces(static_cast<std::size_t>(settings.perBounce), std::vector<glm::vec3>(pixels.size())),
@@ -97,7 +99,7 @@ double Film::noise() const {
             squares += glm::dot(error, error);
             sum += mean.r + mean.g + mean.b;
         }
-    const double count = 3.0 * static_cast<double>(pixels.size());
+    const double count = 3.0 * traced;
     return sum > 0 ? std::sqrt(squares / count) / (sum / count) : 0;
 }
 
@@ -116,6 +118,9 @@ void checkArguments(const Camera& camera, int width, int height, const PathTrace
             "reference: bounces %d, bounce pictures %d, threads %d; right would be -1 or more, 0 to 64, 0 "
             "or more",
             s.bounces, s.perBounce, s.threads);
+    if (!s.pixels.empty() && s.pixels.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
+        base::fail(ErrorKind::Usage, "reference: %zu pixels are chosen of %d x %d; one number for each would be right",
+                   s.pixels.size(), width, height);
     if (!(camera.zNear > 0 && camera.zFar > camera.zNear))
         base::fail(ErrorKind::Usage, "reference: camera sees from %g to %g m; right would be 0 < near < far",
                    static_cast<double>(camera.zNear), static_cast<double>(camera.zFar));
@@ -157,6 +162,7 @@ void Round::renderTile(int tile, PathSample& sample, std::uint64_t& bad) {
         for (int x = x0; x < std::min(x0 + kTile, film_.width); ++x) {
             const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(film_.width) +
                                    static_cast<std::size_t>(x);
+            if (!settings_.pixels.empty() && settings_.pixels[at] == 0) continue;
             PixelSums& sums = film_.pixels[at];
             const std::uint32_t key = combineBits(mixBits(settings_.seed), static_cast<std::uint32_t>(at));
             const glm::dvec2 size(film_.width, film_.height);

@@ -41,6 +41,7 @@ struct PathTracerSettings {
     int perBounce = 0;          // fill PathTracedPicture::bounces for bounces 1..perBounce
     bool features = false;      // fill PathTracedPicture::features
     int threads = 0;            // 0: all cores
+    std::vector<std::uint8_t> pixels;  // 1 for those that are traced, rows from the top; empty: all
 };
 
 // What is seen, for a filter of noise (denoise.h); means over the samples of a pixel, of the halves where both

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "command_line.h"
 #include "conelight/error.h"
@@ -51,6 +52,7 @@ SceneComparisonRequest requestOf(const CompareSceneOptions& options) {
     const std::string tracer = options.tracer.given();
     if (!tracer.empty() && (!options.referenceFile.empty() || options.against != "reference"))
         usage(tracer + ": no reference is traced; without --reference and --against it would be right");
+    request.pixels = options.pixels;
     request.cache = options.cache.empty() ? options.comparison.report : options.cache;
     request.picture.size = parseSize(options.view.size);
     request.picture.reference = options.tracer.settings();
@@ -77,11 +79,19 @@ std::vector<std::string> brokenBars(const CompareSceneOptions& options, const Sc
     return all;
 }
 
+// Not a number where nothing was measured, which shows as such.
+Image shownTruth(const SceneComparison& comparison, Component component) {
+    Image truth = *comparison.reference.part(component);
+    for (std::size_t i = 0; i < comparison.measured.size(); ++i)
+        if (comparison.measured[i] == 0) truth.pixels[i] = glm::vec4(std::numeric_limits<float>::quiet_NaN());
+    return truth;
+}
+
 void addViews(Report& report, const SceneComparison& comparison, const reference::MetricOptions& metrics,
               bool severalScenes) {
     const auto& components = comparison.variants.front().components;
     for (std::size_t c = 0; c < components.size(); ++c) {
-        const Image& truth = *comparison.reference.part(components[c].component);
+        const Image truth = shownTruth(comparison, components[c].component);
         ReportView view;
         view.name = (severalScenes ? comparison.scene + ", " : "") + components[c].name;
         view.exposure = metrics.exposure;
@@ -157,6 +167,8 @@ Report reportOf(const std::vector<SceneComparison>& comparisons, const SceneComp
 // Of --equal-time: traced at its qualities, and cones, unless other modes are asked for.
 SceneComparisonRequest equalTimeRequestOf(const CompareSceneOptions& options) {
     SceneComparisonRequest request = requestOf(options);
+    if (!options.pixels.empty())
+        usage("--pixels: pictures at equal time are measured as a whole; one of the two would be right");
     if (options.against != "reference")
         usage("--equal-time: the path tracer is the truth; without --against it would be right");
     if (!options.variants.modesGiven()) {
@@ -265,6 +277,11 @@ void CompareSceneOptions::addTo(CLI::App& command) {
     command.add_option("--bars-on", barsOn, "the component that bars are held against")
         ->capture_default_str()
         ->type_name("NAME");
+    command
+        .add_option("--pixels", pixels,
+                    "measure pixels alone that show this before anything else: glass, solid (glass that bends light), "
+                    "pane (glass that does not) or material:NAME; the reference is traced there alone")
+        ->type_name("WHAT");
     command.add_option("--frames", frames, "frames until a picture has settled")
         ->capture_default_str()
         ->check(CLI::Range(1, 100000));

@@ -23,6 +23,7 @@ struct CompareSceneOptions {
     std::string cache;
     std::string components = "full,direct,indirect";
     std::string barsOn = "full";
+    std::string pixels;
     int frames = 1;
     int timedFrames = 3;
     bool equalTime = false;

@@ -77,6 +77,7 @@ std::string keyOf(const Scene& scene, const PictureRequest& request) {
     hash.add(static_cast<int>(s.estimator));
     hash.add(request.settings.light.emissiveQuads);
     if (s.paths != reference::Paths::All) hash.add(static_cast<int>(s.paths));
+    if (!s.pixels.empty()) hash.add(s.pixels.data(), s.pixels.size());
     return hash.hex();
 }
 

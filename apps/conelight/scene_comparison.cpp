@@ -3,9 +3,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cctype>
 
 #include "conelight/error.h"
+#include "reference/seen_pixels.h"
 
 namespace conelight::program {
 namespace {
@@ -74,8 +76,32 @@ PartHalves halvesOf(const ReferencePicture& reference, Component component) {
     return {};
 }
 
+// Of --pixels: which materials count.
+reference::MaterialChoice choiceOf(const std::string& pixels) {
+    const auto isGlass = [](const Material& m) { return m.transmission > 0; };
+    if (pixels == "glass") return isGlass;
+    if (pixels == "solid") return [=](const Material& m) { return isGlass(m) && m.thickness > 0; };
+    if (pixels == "pane") return [=](const Material& m) { return isGlass(m) && !(m.thickness > 0); };
+    const std::string before = "material:";
+    if (pixels.compare(0, before.size(), before) == 0)
+        return [name = pixels.substr(before.size())](const Material& m) { return m.name == name; };
+    throw Error(ErrorKind::Usage, "--pixels: '" + pixels +
+                                      "' is not usable; glass, solid, pane or material:NAME would be right");
+}
+
+std::vector<std::uint8_t> chosenPixels(const Scene& scene, const std::string& name, const std::string& pixels,
+                                       const PictureRequest& base) {
+    if (pixels.empty()) return {};
+    std::vector<std::uint8_t> chosen = reference::pixelsThatSee(
+        scene, base.camera, base.size.width, base.size.height, base.reference.filter, choiceOf(pixels));
+    if (std::count(chosen.begin(), chosen.end(), 1) == 0)
+        throw Error(ErrorKind::Usage, "--pixels " + pixels + ": no pixel of " + name +
+                                          " shows it; a camera that sees it would be right");
+    return chosen;
+}
+
 ComponentResult measured(Image image, Component component, const ReferencePicture& reference,
-                         const SceneComparisonRequest& request) {
+                         const reference::MetricOptions& metrics) {
     const Image* truth = reference.part(component);
     if (truth == nullptr)
         throw Error(ErrorKind::BadInput, fmt::format("{}: has no layer '{}'; --components full, or a picture "
@@ -87,7 +113,7 @@ ComponentResult measured(Image image, Component component, const ReferencePictur
     result.withHalves = static_cast<bool>(halves);
     std::optional<reference::Halves> given;
     if (halves) given = reference::Halves{&halves.a, &halves.b};
-    result.metrics = reference::compareImages(result.image, *truth, request.metrics, given);
+    result.metrics = reference::compareImages(result.image, *truth, metrics, given);
     return result;
 }
 
@@ -119,6 +145,11 @@ SceneComparison compareVariants(const Scene& scene, const std::string& name,
     comparison.against = request.referenceFile.empty() ? request.against : request.referenceFile;
     comparison.camera = base.camera;
     comparison.size = base.size;
+    comparison.pixels = request.pixels;
+    comparison.measured = chosenPixels(scene, name, request.pixels, base);
+    base.reference.pixels = comparison.measured;
+    reference::MetricOptions metrics = request.metrics;
+    metrics.pixels = comparison.measured;
     comparison.reference = referenceOf(scene, name, request, source, base, progress);
     for (const Variant& variant : request.variants) {
         progress.show(name + ": " + variant.label());
@@ -133,7 +164,8 @@ SceneComparison compareVariants(const Scene& scene, const std::string& name,
         progress.show(name + ": " + variant.label() + ": measuring");
         for (std::size_t i = 0; i < request.components.size(); ++i)
             result.components.push_back(
-                measured(std::move(picture.images[i]), request.components[i], comparison.reference, request));
+                measured(std::move(picture.images[i]), request.components[i],
+                                                 comparison.reference, metrics));
         comparison.variants.push_back(std::move(result));
     }
     return comparison;

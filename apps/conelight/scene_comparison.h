@@ -36,6 +36,8 @@ struct SceneComparison {
     Camera camera;
     Size size;
     ReferencePicture reference;
+    std::string pixels;                 // what those that are measured show; empty: all are
+    std::vector<std::uint8_t> measured;  // 1 for these; empty: all
     std::vector<VariantResult> variants;
 };
 
@@ -44,6 +46,7 @@ struct SceneComparisonRequest {
     std::vector<Component> components;
     std::string against = "reference";
     std::string referenceFile;  // instead of rendering it
+    std::string pixels;         // --pixels: those that are measured; empty: all
     std::string cache;          // folder for reference pictures; empty: none
     PictureRequest picture;     // size, path tracer's and radiosity's settings, frames
     reference::MetricOptions metrics;

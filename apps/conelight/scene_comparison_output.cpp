@@ -29,6 +29,19 @@ std::string referenceLine(const ReferencePicture& reference) {
     return text;
 }
 
+// How many pixels were measured, and what the reference's own noise leaves open there.
+void printPixels(const SceneComparison& comparison) {
+    for (const VariantResult& result : comparison.variants)
+        for (const ComponentResult& component : result.components) {
+            const reference::Metrics& m = component.metrics;
+            fmt::print("{} pixels of {}: {}, {}", m.pixels, comparison.pixels, result.variant.label(), component.name);
+            if (component.withHalves)
+                fmt::print(": relRMSE within {} to {}, without noise of {} that the reference has there",
+                           percent(m.relRmseLow), percent(m.relRmseHigh), percent(m.referenceNoise));
+            fmt::print("\n");
+        }
+}
+
 ordered_json vectorJson(const glm::vec3& v) { return {v.x, v.y, v.z}; }
 
 ordered_json variantJson(const VariantResult& result, bool withFlip) {
@@ -86,6 +99,7 @@ void printComparison(const SceneComparison& comparison, bool withFlip) {
         }
     }
     table.print(2);
+    if (!comparison.pixels.empty()) printPixels(comparison);
     if (bad > 0) fmt::print("{} values of pixels that are not finite were left out\n", bad);
 }
 
@@ -99,6 +113,7 @@ ordered_json comparisonJson(const SceneComparison& comparison, bool withFlip) {
                       {"target", vectorJson(camera.target)},
                       {"fov_deg", glm::degrees(camera.fovY)}};
     json["size"] = {comparison.size.width, comparison.size.height};
+    if (!comparison.pixels.empty()) json["pixels"] = comparison.pixels;
     const ReferencePicture& reference = comparison.reference;
     json["reference"] = {{"origin", reference.origin}};
     if (reference.samplesPerPixel > 0)

@@ -48,9 +48,7 @@ vec3 shineOf(GlassSurface s, vec3 direction) {
 }
 
 // Half of a lobe's facets lie within this angle of the normal; 0 for smooth surfaces.
-float facetAngle(GlassSurface s) {
-    return s.brdf.alpha <= kMinRoughness * kMinRoughness * 1.001 ? 0.0 : atan(s.brdf.alpha);
-}
+float facetAngle(GlassSurface s) { return isSmooth(s) ? 0.0 : atan(s.brdf.alpha); }
 
 // At a surface of a solid. Returns whether the axis goes through.
 bool bendAt(inout GlassAxis way, GlassSurface s) {

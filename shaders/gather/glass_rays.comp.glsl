@@ -1,10 +1,11 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
 // Glass in front of a finished picture: its tint on what lies behind, highlights, and what it reflects and
-// refracts. Two paths per pass and pixel, one that the first surface reflects and one that it lets through. Where
-// a path leaves the line of sight, its rays meet the triangles and the cached light of the voxels
-// (lib/voxel_light.glsl). `sums` holds their sum until the last pass. Pixels that see no glass stay as they are.
-// Method: docs/theory/4h_glass.md.
+// refracts. Smooth surfaces split a path, and both parts are followed: one after the other, each from the eye, as
+// the bits of a number say (Branches). Behind a rough surface chance chooses between them. Where a path leaves the
+// line of sight, its rays meet the triangles, and what they meet is shaded as pixels are: by lights, the cache and
+// caustics (lib/voxel_light.glsl). `sums` holds the passes' sum until the last one; pixels that chance plays no
+// part in are done after the first. Pixels that see no glass stay as they are. Method: docs/theory/4h_glass.md.
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "lib/frame_block.glsl"
 #include "lib/glass_sight.glsl"
@@ -19,8 +20,20 @@ layout(rgba32f) uniform image2D sums;
 layout(rgba32f) uniform image2D picture;
 layout(std140) uniform GlassBlock { GlassConstants glassPass; };
 
-// Surfaces that one path meets at most.
-const int kMostGlass = 12;
+// Surfaces that one path meets at most, each a bit of Branches.
+const int kMostGlass = 24;
+// A part that brings less than this share of a pixel's light is followed by chance, and weighs as much then. Looked
+// at: lamps are a hundred times as bright as the rest, and no specks of them are seen.
+const float kLeastPart = 0.002;
+// Paths of one pixel and pass at most. Parts above the least weight are no more than its inverse.
+const int kMostPaths = 512;
+
+// Which parts a path takes where it splits.
+struct Branches {
+    uint taken;  // a bit per split: 0 goes through, 1 is reflected
+    int known;   // so many are given; at the others it goes through
+    int splits;  // met so far
+};
 
 // Light that lights send straight into the lobe of a surface.
 vec3 glassHighlights(GlassSurface s, vec3 toEye, float xi) {
@@ -43,8 +56,9 @@ void reflectPath(inout GlassPath path, GlassSurface s, vec2 xi, inout uint rando
     float gloss = brightness(s.brdf.albedo), matte = brightness(s.brdf.diffuse);
     float share = gloss / max(gloss + matte, 1e-6);
     bool glossy = randomNext(random) < share;
-    vec3 weight;
-    vec3 direction = lobeDirection(s.brdf, s.normal, toEye, xi, weight);
+    vec3 weight = s.brdf.albedo;
+    vec3 direction = reflect(path.direction, s.normal);
+    if (!isSmooth(s)) direction = lobeDirection(s.brdf, s.normal, toEye, xi, weight);
     weight /= max(share, 1e-6);
     if (!glossy) {
         direction = cosineDirection(s.normal, xi);
@@ -55,52 +69,90 @@ void reflectPath(inout GlassPath path, GlassSurface s, vec2 xi, inout uint rando
     path.direction = normalize(direction);
     path.throughput *= weight;
     path.narrow = glossy && s.brdf.alpha < kNarrowLobe;
-    path.alpha = glossy ? sqrt(path.alpha * path.alpha + s.brdf.alpha * s.brdf.alpha) : 0.5;
+    float alpha = isSmooth(s) ? 0.0 : s.brdf.alpha;
+    path.alpha = glossy ? sqrt(path.alpha * path.alpha + alpha * alpha) : 0.5;
     path.bent = true;
 }
 
-// At the inner side of a solid: back into it, or out of it. Returns whether it goes out.
-bool leaveSolid(inout GlassPath path, GlassSurface s, vec3 h, float choice) {
+// At the inner side of a solid, back into it by the facet's normal `h`.
+void mirrorWithin(inout GlassPath path, GlassSurface s, vec3 h) {
     vec3 toEye = -path.direction;
     float VoH = clamp(dot(toEye, h), 0.0, 1.0);
-    vec3 reflected = facetFresnel(s, VoH, 1.0 / s.ior);
-    float back = brightness(reflected);
-    if (choice >= back) {
-        passThrough(path, s, h);
-        path.throughput /= max(1.0 - back, 1e-6);
-        return dot(path.direction, s.geometricNormal) < 0.0;
-    }
+    path.throughput *= facetFresnel(s, VoH, 1.0 / s.ior);
     path.direction = normalize(2.0 * VoH * h - toEye);
     path.direction -= 2.0 * min(dot(path.direction, s.geometricNormal), 0.0) * s.geometricNormal;
-    path.throughput *= reflected / max(back, 1e-6);
     path.narrow = path.bent = true;
-    return false;
+}
+
+// Shares of light that a facet lets through (x) and reflects (y).
+vec2 partsOf(GlassSurface s, vec3 toEye, vec3 h) {
+    if (!(s.back && s.solid)) return vec2(brightness(s.through), brightness(s.brdf.albedo + s.brdf.diffuse));
+    vec3 reflected = facetFresnel(s, clamp(dot(toEye, h), 0.0, 1.0), 1.0 / s.ior);
+    return vec2(brightness(s.tint * (1.0 - reflected)), brightness(reflected));
+}
+
+// Whether the path goes through where it meets a surface; chance says so by `xi`.
+bool drawsThrough(inout GlassPath path, vec2 parts, float xi) {
+    if (parts.x <= 0.0 || parts.y <= 0.0) return parts.x > 0.0;
+    float share = clamp(parts.x / (parts.x + parts.y), 0.1, 0.9);
+    bool through = xi < share;
+    path.throughput /= through ? share : 1.0 - share;
+    return through;
+}
+
+// The same where both parts are followed. `random` is that of the part from here on.
+bool followsThrough(inout GlassPath path, inout Branches branches, vec2 parts, inout uint random) {
+    if (parts.x <= 0.0 || parts.y <= 0.0) return parts.x > 0.0;
+    uint bit = 1u << branches.splits;
+    bool through = branches.splits >= branches.known || (branches.taken & bit) == 0u;
+    random = randomHash(random ^ (through ? bit : 3u * bit));
+    ++branches.splits;
+    float survives = min(brightness(path.throughput) * (through ? parts.x : parts.y) / kLeastPart, 1.0);
+    path.throughput *= randomNext(random) < survives ? 1.0 / max(survives, 1e-6) : 0.0;
+    return through;
+}
+
+// The next part that was passed by: through where the last path was, up to the last split at which it was; there it is
+// reflected. False: there is none.
+bool nextBranch(inout Branches branches) {
+    uint given = branches.taken & ((1u << branches.known) - 1u);
+    int last = findMSB(~given & ((1u << branches.splits) - 1u));
+    if (last < 0) return false;
+    uint bit = 1u << last;
+    branches = Branches((given & (bit - 1u)) | bit, last + 1, 0);
+    return true;
 }
 
 // The ray of the path's last stretch, up to glass in its way at `end`, metres.
 Ray stretchOf(GlassPath path, float end, bool open) {
     float pixelAngle = 2.0 * length(frame.viewUp) / float(frame.height);
-    rayCone = RayCone(path.alpha <= kTriangleAlpha ? 0.0 : -1.0, pixelAngle + path.alpha);
+    rayCone = RayCone(0.0, pixelAngle + path.alpha);
     return Ray(gridFromWorld(path.origin), path.direction, open ? 1e9 : end * glassPass.inverseVoxelSize,
                vec3(0.0));
 }
 
 // Light along it.
-vec3 pathRadiance(GlassPath path, float end, bool open, inout uint random) {
+vec3 pathRadiance(GlassPath path, float end, bool open, inout uint random, inout bool sure) {
     Ray ray = stretchOf(path, end, open);
     pathStartsNarrow = path.narrow;
+    allRectPoints = path.alpha == 0.0;
     PathSettings settings = PathSettings(-1.0, int(glassPass.reflections), path.alpha, glassPass.fireflyClamp,
                                          max(path.alpha, rayCone.growth));
     VoxelHit hit;
-    return traceRadiance(ray, settings, random, hit);
+    vec3 radiance = traceRadiance(ray, settings, random, hit);
+    // Metals reflect by chance
+    uint bits = texelFetch(litFaces, max(hit.face, 0)).w;
+    sure = sure && (hit.face < 0 || unpackLobe(bits >> 16).x <= 0.0);
+    return radiance;
 }
 
-// What comes along one path. `kind` 0: the first surface reflects it; 1: it lets it through.
-vec3 glassLight(GlassHit hit, GlassSight sight, uint kind, uint pixelSeed, vec3 behind) {
+// What comes along one path, less what paths before it have met on the same way. `sure`: chance has no part in it.
+vec3 glassLight(GlassHit hit, GlassSight sight, inout Branches branches, uint pixelSeed, vec3 behind,
+                inout bool sure) {
     GlassPath path = GlassPath(frame.eye, sight.direction, vec3(1.0), vec3(0.0), 0.0, false, false);
     uint number = glassPass.firstPass + glassPass.pass;
-    uint random = randomHash(pixelSeed ^ randomHash(2u * number + kind));
-    vec2 choices = sequencePoint(pixelSeed + 2u + kind, number);  // at the second and third surface
+    uint random = randomHash(pixelSeed ^ randomHash(number));
+    vec2 choices = sequencePoint(pixelSeed + 2u, number);  // at the second and third surface
     vec3 light = vec3(0.0);
     float left = sight.end;  // up to what the picture shows
     int met = 0;
@@ -109,32 +161,41 @@ vec3 glassLight(GlassHit hit, GlassSight sight, uint kind, uint pixelSeed, vec3 
         GlassSurface s = glassSurface(path.origin, path.direction, hit);
         path.throughput *= exp(-path.absorption * hit.t);
         left -= hit.t;
-        vec2 xi =
-            met == 0 ? sequencePoint(pixelSeed + kind, number) : vec2(randomNext(random), randomNext(random));
-        float choice = met == 1 ? choices.x : (met == 2 ? choices.y : randomNext(random));
-        bool shines = glassPass.direct != 0u && (met > 0 || kind == 0u);
+        // Not s.position: Mesa's software driver (22.3) takes it from the next hit, where a path ends.
+        vec3 position = path.origin + hit.t * path.direction;
+        vec2 xi = vec2(randomNext(random), randomNext(random));
+        xi = met == 0 ? sequencePoint(pixelSeed, number) : xi;
+        float choice = randomNext(random);
+        choice = met == 1 ? choices.x : (met == 2 ? choices.y : choice);
+        bool shines = glassPass.direct != 0u && branches.splits >= branches.known;
         light +=
             shines ? path.throughput * (s.emission + glassHighlights(s, -path.direction, xi.x)) : vec3(0.0);
-        vec3 h = glassFacet(s, -path.direction, xi);
-        bool below;  // the path goes through
-        if (s.back && s.solid) {
-            below = leaveSolid(path, s, h, choice);
-        } else {
-            float reflects = brightness(s.brdf.albedo + s.brdf.diffuse);
-            float share = clamp(reflects / max(reflects + brightness(s.through), 1e-6), 0.1, 0.9);
-            below = met == 0 ? kind == 1u : choice >= share;
-            if (below)
-                passThrough(path, s, h);
-            else
-                reflectPath(path, s, xi, random);
-            if (met > 0) path.throughput /= below ? 1.0 - share : share;
-        }
+
+        // Go through, or be reflected
+        bool smoothHere = isSmooth(s);
+        vec3 h = smoothHere ? s.normal : glassFacet(s, -path.direction, xi);
+        sure = sure && smoothHere && brightness(s.brdf.diffuse) <= 0.0;
+        bool follows = met == 0 || path.alpha == 0.0;
+        vec2 parts = partsOf(s, -path.direction, h);
+        bool below;
+        if (follows)
+            below = followsThrough(path, branches, parts, random);
+        else
+            below = drawsThrough(path, parts, choice);
+        if (below)
+            passThrough(path, s, h);
+        else if (s.back && s.solid)
+            mirrorWithin(path, s, h);
+        else
+            reflectPath(path, s, xi, random);
         if (s.solid) path.absorption = below != s.back ? s.absorption : vec3(0.0);
         // What is bent is of rays alone.
         if (path.bent && glassPass.specular == 0u) path.throughput = vec3(0.0);
+
+        // On to the next surface of glass
         int on = hit.triangle;
-        path.origin = glassStep(s.position, below ? -s.geometricNormal : s.geometricNormal);
-        goesOn = path.throughput.r + path.throughput.g + path.throughput.b > 1e-4;
+        path.origin = glassStep(position, below ? -s.geometricNormal : s.geometricNormal);
+        goesOn = path.throughput.r + path.throughput.g + path.throughput.b > 1e-5;
         float reach = path.bent ? 1e9 : left;
         hit = nearestGlass(path.origin, path.direction, goesOn ? reach : -1.0, on, !path.bent);
         open = hit.triangle < 0;
@@ -145,28 +206,32 @@ vec3 glassLight(GlassHit hit, GlassSight sight, uint kind, uint pixelSeed, vec3 
         goesOn = goesOn && !found;
     } while (goesOn && ++met < kMostGlass);
     vec3 arrives = behind;
-    if (ended && path.bent) arrives = pathRadiance(path, hit.t, open, random);
+    if (ended && path.bent) arrives = pathRadiance(path, hit.t, open, random, sure);
     return ended ? light + path.throughput * arrives : light;
 }
 
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
     if (any(greaterThanEqual(pixel, imageSize(picture)))) return;
+    vec4 before = glassPass.pass > 0u ? imageLoad(sums, pixel) : vec4(0.0);
+    if (before.a > 0.0) return;  // the first pass was sure of it
     GlassSight sight = glassSight(pixel);
     GlassHit first = nearestGlass(frame.eye, sight.direction, sight.end, -1, true);
     if (first.triangle < 0) return;
     vec4 behind = imageLoad(picture, pixel);
     uint seed = randomHash(uint(pixel.x) | uint(pixel.y) << 16) ^ 0x2545f491u;
-    vec3 light = vec3(0.0);
-    uint kind = 0u;
+    vec3 light = before.rgb;
+    bool sure = true;
+    Branches branches = Branches(0u, 0, 0);
+    int paths = 0;
     do {
-        light += glassLight(first, sight, kind, seed, behind.rgb);
-    } while (++kind < 2u);
-    if (glassPass.pass > 0u) light += imageLoad(sums, pixel).rgb;
-    if (glassPass.pass + 1u < glassPass.passes) {
-        imageStore(sums, pixel, vec4(light, 1.0));
+        light += glassLight(first, sight, branches, seed, behind.rgb, sure);
+    } while (nextBranch(branches) && ++paths < kMostPaths);
+    sure = sure && glassPass.pass == 0u;
+    if (!sure && glassPass.pass + 1u < glassPass.passes) {
+        imageStore(sums, pixel, vec4(light, 0.0));
         return;
     }
-    light /= float(glassPass.passes);
-    imageStore(picture, pixel, vec4(light, 1.0));
+    if (sure) imageStore(sums, pixel, vec4(light, 1.0));
+    imageStore(picture, pixel, vec4(sure ? light : light / float(glassPass.passes), 1.0));
 }

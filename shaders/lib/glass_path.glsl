@@ -10,7 +10,7 @@ struct GlassPath {
     vec3 direction;
     vec3 throughput;
     vec3 absorption;  // of the solid that the path is in, 1/m
-    float alpha;      // width of all lobes on the way
+    float alpha;      // width of all lobes on the way, but of smooth surfaces
     bool bent;        // has left the line of sight
     bool narrow;      // its last lobe shows lamps by rays, not by highlights
 };
@@ -46,7 +46,7 @@ void passThrough(inout GlassPath path, GlassSurface s, vec3 h) {
     vec3 toEye = -path.direction;
     float VoH = clamp(dot(toEye, h), 0.0, 1.0);
     path.narrow = path.bent = true;
-    path.alpha = sqrt(path.alpha * path.alpha + s.brdf.alpha * s.brdf.alpha);
+    if (!isSmooth(s)) path.alpha = sqrt(path.alpha * path.alpha + s.brdf.alpha * s.brdf.alpha);
     vec2 lobe = directionalAlbedo(s.brdf.NoV, sqrt(s.brdf.alpha));
     if (!s.solid) {
         // Into the mirror image of the lobe of facets that reflect all.

@@ -166,10 +166,14 @@ GlassSurface glassSurface(vec3 origin, vec3 direction, GlassHit hit) {
     return s;
 }
 
+// Of the least roughness that there is: its lobe is taken for one direction.
+bool isSmooth(GlassSurface s) { return s.brdf.alpha <= kMinRoughness * kMinRoughness * 1.001; }
+
 // Whether rays go straight through: a smooth pane.
-bool passesStraight(GlassSurface s) {
-    return !s.solid && s.brdf.alpha <= kMinRoughness * kMinRoughness * 1.001;
-}
+bool passesStraight(GlassSurface s) { return !s.solid && isSmooth(s); }
+
+// Whether light of lamps comes through a solid by its map alone.
+bool turnsAllLight(uint solid) { return solid < caustics.count && (caustics.turnsAll >> solid & 1u) != 0u; }
 
 // ---- Light that passes glass ----------------------------------------------------------------------------
 
@@ -192,10 +196,14 @@ vec3 glassTransmittance(vec3 origin, vec3 direction, float end, float mostBend, 
         while (first < last) {
             GlassHit hit = GlassHit(-1, end, vec2(0.0), false);
             testGlassTriangle(int(first), origin, direction, false, hit);
-            if (hit.triangle >= 0 && hit.t > near) {
+            bool counts = hit.triangle >= 0 && hit.t > near;
+            bool mapped = counts && ofLamp && turnsAllLight(glassTriangle(hit.triangle).solid);
+            if (mapped) {
+                left = vec3(0.0);
+                end = -1.0;  // no further box is met
+            } else if (counts) {
                 GlassSurface s = glassSurface(origin, direction, hit);
-                bool mapped = ofLamp && s.number < caustics.count;
-                left *= mapped ? vec3(0.0) : s.through;
+                left *= s.through;
                 float cosine = max(-dot(s.normal, direction), 0.05);
                 if (s.solid) {
                     float side = hit.back ? 1.0 : -1.0;

@@ -44,6 +44,7 @@
 #include "lib/light_table.glsl"
 #include "lib/random.glsl"
 #include "lib/rect_light.glsl"
+#include "lib/rect_tint.glsl"
 #include "lib/shadow.glsl"
 
 #define LIGHTS_TOTAL (LIGHTS_POINT + LIGHTS_SPOT + LIGHTS_DIRECTIONAL + LIGHTS_RECT)
@@ -186,48 +187,6 @@ void addDirectional(inout DirectLight sum, const bool specular, Receiver r, Brdf
     addLight(sum, specular, r, b, -light.direction, facing);
 }
 
-#if GLASS
-// Of a rectangle's points, so many are looked at through glass. Walks of the tree are long.
-const int kGlassPoints = 4;
-
-// What glass leaves of a rectangle's light.
-struct RectTint {
-    bool asked;  // any glass may be in the way
-    float turn;
-    vec3 irradiance, specular;  // of points that were looked at, by their weights
-    vec2 weights;               // the sums of these
-};
-
-RectTint rectTint(Receiver r, Light light) {
-    vec3 toMiddle = light.position - r.position;
-    bool asked = mayPassGlass(r.position, normalize(toMiddle), length(toMiddle),
-                              length(light.halfU) + length(light.halfV));
-    // Other points at each place: their mean over a still's views is smooth.
-    uint seed = randomHash(floatBitsToUint(r.position.y + 3.7 * r.position.z));
-    float turn = randomFloat(randomHash(floatBitsToUint(r.position.x) ^ seed));
-    return RectTint(asked, turn, vec3(0.0), vec3(0.0), vec2(0.0));
-}
-
-// The k-th point; `weight`: of what is visible.
-void addTint(inout RectTint tint, Receiver r, Light light, uint k, vec2 weight) {
-    vec3 toPoint = rectSamplePoint(light, k) - r.position;
-    float distance = max(length(toPoint), 1e-6);
-    float count = float(light.sampleGrid * light.sampleGrid);
-    vec2 number = floor(float(kGlassPoints) * vec2(k, k + 1u) / count + tint.turn);
-    if (!tint.asked || number.y <= number.x || weight.x <= 0.0) return;
-    float edge = 2.0 * sqrt(length(cross(light.halfU, light.halfV)));
-    vec3 left = glassTransmittance(r.position, toPoint / distance, distance, min(edge / distance, 1.0), true);
-    tint.irradiance += weight.x * left;
-    tint.specular += weight.y * left;
-    tint.weights += weight;
-}
-
-void applyTint(RectTint tint, inout DirectLight light) {
-    if (tint.weights.x > 0.0) light.irradiance *= tint.irradiance / tint.weights.x;
-    if (tint.weights.y > 0.0) light.specular *= tint.specular / tint.weights.y;
-}
-#endif
-
 // The light as a cone to its middle sees it, as wide as the rectangle looks: a disc of its projected area.
 Light rectBehindCone(Receiver r, Light light) {
 #if CONE_SHADOWS
@@ -255,7 +214,7 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
     vec2 weights = vec2(0.0), visibleWeights = vec2(0.0);  // irradiance, reflection
     RectSums points = RectSums(vec2(0.0), 0.0, 0.0);
 #if GLASS
-    RectTint tint = rectTint(r, light);
+    RectTint tint = rectTint(r.position, light);
 #endif
     uint k = 0u;
     do {
@@ -288,7 +247,7 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
         }
         weights += weight;
 #if GLASS
-        addTint(tint, r, light, k, weight * visible);
+        addTint(tint, r.position, light, k, weight * visible);
 #endif
         visibleWeights += weight * visible;
     } while (++k < count);
@@ -301,7 +260,8 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
         added.specular =
             light.intensity * rectSpecular(light, r.position, lobe, b, sums) * (whole > 0.0 ? share.y : 0.0);
 #if GLASS
-    applyTint(tint, added);
+    added.irradiance *= tintOf(tint.irradiance, tint.weights.x);
+    added.specular *= tintOf(tint.specular, tint.weights.y);
 #endif
     sum = DirectLight(sum.irradiance + added.irradiance, sum.specular + added.specular);
 }

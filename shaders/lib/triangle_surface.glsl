@@ -11,8 +11,13 @@ const uint kTriangleMostRects = 4u;
 struct TriangleSurface {
     vec3 geometricNormal;  // unit, against the ray
     vec2 lobe;             // metalness, roughness
+    vec3 lampEmission;     // of a rectangular light that the triangle is part of
 };
 TriangleSurface hitTriangle;  // of the last triangleRadiance
+
+// Whether every sample point of a rectangle is looked at where a ray meets a triangle, or one that is drawn: rays are
+// many.
+bool allRectPoints = false;
 
 // The point where a ray hit a triangle.
 struct TrianglePoint {
@@ -49,7 +54,8 @@ TrianglePoint trianglePoint(Ray ray, VoxelHit hit) {
 struct TriangleMaterial {
     vec3 albedo;
     vec3 emission;
-    vec2 lobe;  // metalness, roughness
+    vec3 lampEmission;  // where a rectangular light stands for it
+    vec2 lobe;          // metalness, roughness
 };
 
 TriangleMaterial triangleMaterial(TrianglePoint p, VoxelHit hit) {
@@ -71,25 +77,53 @@ TriangleMaterial triangleMaterial(TrianglePoint p, VoxelHit hit) {
                  at.z * vertexColor(vertices[v.z].color, wide).rgb;
     color *= materials[material].baseColor.rgb * triangleTexel(material, layers.x, 0, uv, footprint).rgb;
 
-    // Look up the emission, unless a rectangular light stands for it
+    // Look up the emission
     vec3 emission = materials[material].emission * triangleTexel(material, layers.w, 3, uv, footprint).rgb;
     uint faceBits = texelFetch(litFaces, hit.face).w;
-    emission = (faceBits & FACE_AREA_LIGHT) != 0u ? vec3(0.0) : emission;
+    bool lamp = (faceBits & FACE_AREA_LIGHT) != 0u;
 
     // Look up the lobe; textured metalness and roughness are the voxel's
     vec2 lobe = layers.y >= 0 ? unpackLobe(faceBits >> 16)
                               : vec2(materials[material].metallic, materials[material].roughness);
     vec3 albedo = evenAlbedo(color, lobe.x, lobe.y, materials[material].specularF0);
-    if (max(materials[material].specularF0.r, max(materials[material].specularF0.g, materials[material].specularF0.b)) <= 0.0 && lobe.x == 0.0) lobe.y = 1.0;
+    vec3 f0 = materials[material].specularF0;
+    lobe.y = lobe.x == 0.0 && max(f0.r, max(f0.g, f0.b)) <= 0.0 ? 1.0 : lobe.y;
     bool unlit = (materials[material].flags & MATERIAL_UNLIT) != 0u;
-    if (unlit) return TriangleMaterial(vec3(0.0), vec3(0.0), vec2(0.0));
-    return TriangleMaterial(albedo, emission, lobe);
+    if (unlit) return TriangleMaterial(vec3(0.0), vec3(0.0), vec3(0.0), vec2(0.0));
+    return TriangleMaterial(albedo, lamp ? vec3(0.0) : emission, lamp ? emission : vec3(0.0), lobe);
 }
 
 bool fewRects() { return lighting.lightEnds.w - lighting.lightEnds.z <= kTriangleMostRects; }
 
-// Irradiance at the point by the rectangular lights, added to `irradiance`. One sample point of each is
-// tested for visibility, because rays are many.
+// Irradiance at a point by a rectangle, of which points begin..end are looked at.
+vec3 triangleRect(TrianglePoint p, vec3 position, Light light, uint begin, uint end) {
+    float whole = rectIrradiance(light, position, p.shadingNormal);
+    float cellArea = 4.0 * length(cross(light.halfU, light.halfV)) / float(light.sampleGrid * light.sampleGrid);
+    vec2 weights = vec2(0.0);  // of all points, of those that are seen
+#if GLASS
+    RectTint tint = rectTint(position, light);
+#endif
+    uint k = begin;
+    do {
+        vec3 point = rectSamplePoint(light, k);
+        vec3 l = point - position;
+        float d2 = max(dot(l, l), 1e-20);
+        float cosines = max(-dot(l, light.direction), 0.0) * max(dot(l, p.shadingNormal), 0.0) / d2;
+        float weight = begin + 1u < end ? cosines / max(d2, cellArea) : 1.0;
+        float seen = weight * shadowVisibilityRect(light, k, point, position, p.geometricNormal);
+        weights += vec2(weight, seen);
+#if GLASS
+        addTint(tint, position, light, k, vec2(seen, 0.0));
+#endif
+    } while (++k < end);
+    vec3 irradiance = light.intensity * (whole * (weights.x > 0.0 ? weights.y / weights.x : 1.0));
+#if GLASS
+    irradiance *= tintOf(tint.irradiance, tint.weights.x);
+#endif
+    return irradiance;
+}
+
+// Irradiance at the point by the rectangular lights, added to `irradiance`.
 void addTriangleRects(TrianglePoint p, vec3 position, VoxelHit hit, inout vec3 irradiance) {
     uint i = fewRects() ? lighting.lightEnds.z : lighting.lightEnds.w;
     uint random = randomHash(floatBitsToUint(hit.t)) ^ floatBitsToUint(hit.barycentric.x);
@@ -97,8 +131,7 @@ void addTriangleRects(TrianglePoint p, vec3 position, VoxelHit hit, inout vec3 i
         Light light = lights[i];
         uint count = light.sampleGrid * light.sampleGrid;
         uint k = min(uint(randomNext(random) * float(count)), count - 1u);
-        irradiance += light.intensity * rectIrradiance(light, position, p.shadingNormal) *
-                      shadowVisibilityRect(light, k, rectSamplePoint(light, k), position, p.geometricNormal);
+        irradiance += triangleRect(p, position, light, allRectPoints ? 0u : k, allRectPoints ? count : k + 1u);
         ++i;
     }
 }
@@ -122,7 +155,7 @@ vec3 triangleRadiance(Ray ray, VoxelHit hit, float widening, inout FaceShading s
     // Look up the material
     TrianglePoint p = trianglePoint(ray, hit);
     TriangleMaterial m = triangleMaterial(p, hit);
-    hitTriangle = TriangleSurface(p.geometricNormal, m.lobe);
+    hitTriangle = TriangleSurface(p.geometricNormal, m.lobe, m.lampEmission);
     shadingNormal = p.shadingNormal;
     vec3 faceAlbedo = s.albedo;
     s.albedo = m.albedo;
@@ -139,9 +172,14 @@ vec3 triangleRadiance(Ray ray, VoxelHit hit, float widening, inout FaceShading s
 #if EXACT_DIRECT
     direct = reflectedPunctual(
         s.albedo, m.lobe, widening,
-        Receiver(position, shadingNormal, p.geometricNormal, -ray.direction, kShadowVoxelLift));
+        Receiver(position, shadingNormal, p.geometricNormal, -ray.direction, vec2(0.0)));
 #endif
     addTriangleRects(p, position, hit, irradiance);
+#if GLASS
+    // With many rectangles it is part of the face's light.
+    float width = (rayCone.width + hit.t * rayCone.growth) * grid.voxelSize;
+    if (fewRects()) irradiance += causticIrradiance(position, p.geometricNormal, width);
+#endif
     vec3 reflected = faceReflected(hit.face, s.directRadiance);
     return m.emission + direct +
            s.albedo * (irradiance * (1.0 / kGatherPi) + s.irradiance + reflected / max(faceAlbedo, 1e-3));

@@ -43,6 +43,7 @@
 #include "lib/ray_query.glsl"
 #include "lib/record_face.glsl"
 #include "lib/rect_light.glsl"
+#include "lib/rect_tint.glsl"
 #include "lib/shadow.glsl"
 #include "lib/tangent_frame.glsl"
 #include "shared/irradiance.h"
@@ -204,8 +205,11 @@ PathVertex pathVertex(Ray ray, VoxelHit hit, PathSettings path, PathState state,
 
     // Add the emission of area lights, which narrow lobes do not reflect analytically
     GlossySurface surface = glossySurface(hit, s);
-    if (state.fromNarrowLobe && hit.face >= 0 && surface.areaLight)
-        vertex.radiance += unpackEmission(texelFetch(voxelFaceMaterials, max(hit.face, 0)));
+    vec3 lamp = unpackEmission(texelFetch(voxelFaceMaterials, max(hit.face, 0)));
+#if TRIANGLE_HITS
+    lamp = hit.triangle >= 0 ? hitTriangle.lampEmission : lamp;
+#endif
+    if (state.fromNarrowLobe && hit.face >= 0 && surface.areaLight) vertex.radiance += lamp;
 
     // Sample the GGX lobe of a metal
     bool arrived = state.bounce > 0 || path.targetDistance < 0.0 || abs(hit.t - path.targetDistance) < 0.3;

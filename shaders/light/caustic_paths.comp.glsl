@@ -1,6 +1,6 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// Paths of light from one lamp through one solid of glass: lights + tree of glass + voxels -> CausticEnds, where
+// Paths of light from one lamp through one solid of glass, or reflected by one pane: lights + tree of glass + voxels -> CausticEnds, where
 // each path ends on a voxel, and what it brings. Starts: a grid over the directions, of equal solid angle, in
 // which the lamp's points see the ball about the solid. One invocation per start and way (CAUSTIC_WAYS).
 // Method: docs/theory/4h_glass.md, "Caustics"; stratified paths as in Shah and others 2007, "Caustics Mapping: An
@@ -96,6 +96,7 @@ struct CausticState {
     uint history;
     uint entry;
     bool rough;
+    float lobe2;     // sum of the squares of rough surfaces' alpha
     float distance;  // to the first solid, m
     vec3 end;
 };
@@ -125,6 +126,20 @@ bool turnAt(inout GlassPath path, inout CausticState turns, GlassSurface s, vec3
     return !reflects;
 }
 
+// At a pane. The one that the paths start towards mirrors them; others let them through. Returns whether they go
+// through.
+bool turnAtPane(inout GlassPath path, inout CausticState turns, GlassSurface s) {
+    bool mirrors = turns.met == 0 && s.number == causticPass.solid;
+    path.throughput *= mirrors ? s.brdf.albedo : s.through;
+    if (!mirrors) return true;
+    turns.entry = packSnorm2x16(octEncode(s.geometricNormal));
+    turns.history = kReflects;
+    ++turns.met;
+    path.direction = reflect(path.direction, s.normal);
+    path.direction -= 2.0 * min(dot(path.direction, s.geometricNormal), 0.0) * s.geometricNormal;
+    return false;
+}
+
 // The path up to the voxel on which it ends; returns whether it ends on one.
 bool follow(inout GlassPath path, inout CausticState turns, bool shadowed, vec3 startNormal, uint seed) {
     int on = -1, passed = 0;
@@ -150,14 +165,16 @@ bool follow(inout GlassPath path, inout CausticState turns, bool shadowed, vec3 
                     turns.entry = packSnorm2x16(octEncode(s.geometricNormal));
                     goesOn = s.number == causticPass.solid && !(s.back && turns.way == kReflected);
                 }
-                bool rough = s.brdf.alpha > kMinRoughness * kMinRoughness * 1.001;
+                bool rough = !isSmooth(s);
                 turns.rough = turns.rough || rough;
+                turns.lobe2 += rough ? s.brdf.alpha * s.brdf.alpha : 0.0;
                 vec3 h = s.normal;
                 if (rough) h = glassFacet(s, -path.direction, sequencePoint(seed, uint(turns.met)));
                 through = turnAt(path, turns, s, h);
                 path.absorption = through != s.back ? s.absorption : vec3(0.0);
             } else {
-                path.throughput *= s.through;
+                through = turnAtPane(path, turns, s);
+                goesOn = through || turns.way == kReflected;
             }
             path.origin = glassStep(s.position, through ? -s.geometricNormal : s.geometricNormal);
             on = hit.triangle;
@@ -178,13 +195,14 @@ void main() {
     CausticRay start = startOf(light, 2.0 * (vec2(lampCell) + 0.5) / float(causticPass.lampGrid) - 1.0,
                                2.0 * (vec2(cell) + 0.5) / float(causticPass.grid) - 1.0);
     GlassPath path = GlassPath(start.origin, start.direction, vec3(1.0), vec3(0.0), 0.0, false, false);
-    CausticState turns = CausticState(index / starts, 0, false, 0u, 0u, false, 0.0, vec3(0.0));
+    CausticState turns = CausticState(index / starts, 0, false, 0u, 0u, false, 0.0, 0.0, vec3(0.0));
     bool ended = follow(path, turns, light.shadow >= 0, start.normal, randomHash(index));
     vec3 way = turns.end - causticPass.middle;
     float reached = max(length(way), 1e-6);
     vec3 flux = path.throughput * fluxOf(light, start, turns.distance);
     // Rough surfaces turn each path for itself.
-    uint history = turns.rough ? 0x80000000u | index : turns.history;
+    uint history = turns.rough ? CAUSTIC_ROUGH | index : turns.history;
+    uint entry = turns.rough ? floatBitsToUint(sqrt(turns.lobe2)) : turns.entry;
     bool counts = ended && flux.r + flux.g + flux.b > 0.0;
-    ends[index] = CausticEnd(causticPlace(way / reached), reached, counts ? history : 0u, flux, turns.entry);
+    ends[index] = CausticEnd(causticPlace(way / reached), reached, counts ? history : 0u, flux, entry);
 }

@@ -17,6 +17,7 @@ layout(std430) buffer CausticSums { uint sums[]; };
 // through other parts of the solid. First guesses, looked at with a ball and a block; not tuned.
 const float kApart = 0.25;
 const float kEntryCosine = 0.8;
+const float kQuarterTurn = 1.5707963;  // rad
 // A path spreads to so many places at most, and about one per so many texels that it covers.
 const uint kMostPlaces = 16u;
 
@@ -77,8 +78,10 @@ void main() {
         spanTo(self, index, i / causticPass.grid, causticPass.grid, causticPass.grid),
         spanTo(self, index, k % causticPass.lampGrid, causticPass.lampGrid, square),
         spanTo(self, index, k / causticPass.lampGrid, causticPass.lampGrid, square * causticPass.lampGrid)};
-    // A path without neighbours: a spot as wide as the grid's steps
-    float least = 1.0 / float(causticPass.grid);
+    // A path without neighbours: a spot as wide as the grid's steps, or as half of its lobe; a unit of the octahedron
+    // is a quarter turn
+    bool rough = (self.history & CAUSTIC_ROUGH) != 0u;
+    float least = max(1.0 / float(causticPass.grid), rough ? uintBitsToFloat(self.entry) / kQuarterTurn : 0.0);
     if (length(along[0].xy) + length(along[1].xy) == 0.0) {
         along[0] = vec3(least, 0.0, 0.0);
         along[1] = vec3(0.0, least, 0.0);

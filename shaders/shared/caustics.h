@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Light that solids of glass send on, filled by src/light/caustics.cpp and read by lib/caustic_map.glsl.
+// Light that solids and panes of glass send on, filled by src/light/caustics.cpp and read by lib/caustic_map.glsl.
 //   causticMap  sampler2DArray RGBA32F, a layer per solid over the octahedron of directions from its middle
 //               (lib/caustic_map.glsl): W/sr; a: the sum of its three channels times the distance, m, at which
 //               the light ends
@@ -7,10 +7,10 @@
 #include "shared/prelude.h"
 CONELIGHT_SHARED_BEGIN
 
-// Solids that have a map; light goes straight through others.
+// Solids and smooth panes that have a map; light goes straight through others. In what follows panes count as solids.
 #define CAUSTIC_SOLIDS 16
 
-// GlassTriangle::solid of what is no solid.
+// GlassTriangle::solid of what has no number.
 #define CAUSTIC_NO_SOLID 0xffffffffu
 
 // Uniform block of readers.
@@ -18,7 +18,7 @@ struct CausticConstants {
     uint count;  // of solids with maps: the first ones
     float edge;  // of a map, texels
     float voxelSize;
-    uint pad0;
+    uint turnsAll;  // a bit per solid: light of lamps comes through it by its map alone, never straight
     // ---- 16 B
     vec4 middle[CAUSTIC_SOLIDS];  // w: radius
 };                                // 272 B
@@ -47,11 +47,14 @@ struct CausticPass {
 struct CausticEnd {
     vec2 place;  // on the octahedron
     float distance;
-    uint history;  // of its surfaces; 0: it did not end on a voxel
+    uint history;  // of its surfaces; 0: it did not end on a voxel; CAUSTIC_ROUGH: a path by itself
     // ---- 16 B
     vec3 flux;   // W
-    uint entry;  // normal where it entered: octahedral, 2 x 16 bit signed-normalised
+    uint entry;  // normal where it entered: octahedral, 2 x 16 bit signed-normalised; of rough ones the lobes' alpha
 };               // 32 B
+
+// Part of a history: a rough surface has turned the path, for itself.
+#define CAUSTIC_ROUGH 0x80000000u
 
 // Words per texel of the sums: four channels, lower and upper half.
 #define CAUSTIC_WORDS 8u

@@ -148,7 +148,8 @@ Surface evaluateSurface(VoxelTriangle t, ClippedPolygon polygon) {
     vec3 albedo = evenAlbedo(color.rgb * texel.rgb, lobe.x, lobe.y, materials[m].specularF0);
     uint lobeBits = 0u;
 #if SURFACE_LOBES
-    bool reflects = lobe.x > 0.0 || max(materials[m].specularF0.r, max(materials[m].specularF0.g, materials[m].specularF0.b)) > 0.0;
+    vec3 f0 = materials[m].specularF0;
+    bool reflects = lobe.x > 0.0 || max(f0.r, max(f0.g, f0.b)) > 0.0;
     lobeBits = packLobe(lobe.x, reflects ? lobe.y : 1.0);
 #endif
     bool unlit = (flags & MATERIAL_UNLIT) != 0u;

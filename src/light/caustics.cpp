@@ -87,8 +87,10 @@ void Caustics::cast(const gl::Device& device, const Inputs& inputs,
     constants_.count = static_cast<std::uint32_t>(count);
     constants_.edge = kEdge;
     constants_.voxelSize = inputs.voxels.grid().voxelSize;
-    for (std::size_t i = 0; i < count; ++i)
+    for (std::size_t i = 0; i < count; ++i) {
         constants_.middle[i] = glm::vec4(solids[i].middle, solids[i].radius);
+        if (!solids[i].isPane) constants_.turnsAll |= 1u << i;
+    }
     block_.update(constants_);
     for (std::uint32_t i = 0; i < count; ++i) castSolid(device, inputs, i, paths);
     gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess);

@@ -127,12 +127,22 @@ void appendTriangles(const GpuScene& scene, std::size_t index, std::uint32_t sol
     }
 }
 
+constexpr float kLeastRoughness = 0.045f;  // lib/brdf.glsl, kMinRoughness
+
+const gpu::Material& materialOf(const GpuScene& scene, std::size_t index) {
+    return scene.materials()[scene.instances()[index].material];
+}
+
+// A texture makes it smoother at most.
+bool isSmooth(const gpu::Material& material) { return material.roughness <= kLeastRoughness; }
+
 GlassSolid solidOf(const GpuScene& scene, std::size_t index) {
     const Instance& instance = scene.source().instances[index];
     const Mesh& mesh = scene.source().meshes[static_cast<std::size_t>(instance.mesh)];
     Aabb box;
     for (const glm::vec3& p : mesh.positions) box.grow(glm::vec3(instance.worldFromObject * glm::vec4(p, 1)));
-    GlassSolid solid{box.center(), 0, static_cast<std::uint32_t>(index)};
+    const bool isPane = (materialOf(scene, index).flags & MATERIAL_SOLID) == 0;
+    GlassSolid solid{box.center(), 0, static_cast<std::uint32_t>(index), isPane};
     for (const glm::vec3& p : mesh.positions)
         solid.radius = std::max(
             solid.radius, glm::distance(solid.middle, glm::vec3(instance.worldFromObject * glm::vec4(p, 1))));
@@ -142,9 +152,11 @@ GlassSolid solidOf(const GpuScene& scene, std::size_t index) {
 std::vector<GlassSolid> solidsOf(const GpuScene& scene) {
     std::vector<GlassSolid> solids;
     const std::vector<gpu::Instance>& instances = scene.instances();
-    for (std::size_t i = 0; i < instances.size(); ++i)
-        if (isGlass(instances[i]) && (scene.materials()[instances[i].material].flags & MATERIAL_SOLID) != 0)
-            solids.push_back(solidOf(scene, i));
+    for (const bool solid : {true, false})
+        for (std::size_t i = 0; i < instances.size(); ++i)
+            if (isGlass(instances[i]) && ((materialOf(scene, i).flags & MATERIAL_SOLID) != 0) == solid &&
+                (solid || isSmooth(materialOf(scene, i))))
+                solids.push_back(solidOf(scene, i));
     return solids;
 }
 

@@ -15,11 +15,12 @@
 
 namespace conelight::scene {
 
-// A closed surface of glass that bends light.
+// A closed surface of glass that bends light, or a smooth pane, which mirrors it.
 struct GlassSolid {
     glm::vec3 middle;
     float radius;  // of a ball about the middle that holds it
     std::uint32_t instance;
+    bool isPane;
     bool operator==(const GlassSolid&) const = default;
 };
 
@@ -28,7 +29,7 @@ class GlassTree {
     // Made anew when an instance of glass has changed, on the CPU; returns at once otherwise.
     void update(const GpuScene& scene);
     bool empty() const { return nodes_ == 0; }
-    // In the order of their numbers (gpu::GlassTriangle::solid).
+    // In the order of their numbers (gpu::GlassTriangle::solid); panes are the last.
     const std::vector<GlassSolid>& solids() const { return solids_; }
 
     void declare(gl::Inputs& inputs) const;  // glassNodes, glassTriangles; nothing when empty

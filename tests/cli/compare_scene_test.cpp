@@ -86,6 +86,31 @@ TEST_F(CompareSceneTest, EqualTimeGivesThePathTracerTheTimeOfTheMode) {
         conelight(std::string("compare builtin:cornell --modes reference --equal-time") + kSmall).status, 2);
 }
 
+// Pixels that show glass, of both kinds: the truth is traced there alone, and nothing else is measured.
+TEST_F(CompareSceneTest, MeasuresThePixelsOfAMaterial) {
+    const auto pixelsOf = [&](const std::string& what, const std::string& more = "") {
+        const nlohmann::json json =
+            compared("builtin:glass --modes phong --voxels 16 --pixels '" + what + "'" + more);
+        EXPECT_EQ(json["scenes"][0]["pixels"], what);
+        const auto& full = json["scenes"][0]["variants"][0]["components"]["full"];
+        EXPECT_GT(full["reference_mean"].get<double>(), 0.01) << what;
+        return full["pixels"].get<int>();
+    };
+    const int glass = pixelsOf("glass");
+    EXPECT_LT(glass, 32 * 24 / 2);
+    EXPECT_NE(output_.find(std::to_string(glass) + " pixels of glass: phong, full: relRMSE within"),
+              std::string::npos)
+        << output_;
+    EXPECT_EQ(pixelsOf("solid") + pixelsOf("pane"), glass);
+    EXPECT_LT(pixelsOf("material:clear glass"), pixelsOf("solid"));
+    // With a pixel's area edges count as well.
+    EXPECT_GT(pixelsOf("glass", " --filter box"), glass);
+    const std::string scene = "compare builtin:glass --modes phong --size 32x24 ";
+    EXPECT_EQ(conelight(scene + "--pixels metal").status, 2);
+    EXPECT_EQ(conelight(scene + "--pixels material:gold").status, 2);
+    EXPECT_EQ(conelight(scene + "--equal-time --pixels glass").status, 2);
+}
+
 TEST_F(CompareSceneTest, BarsDecideTheExitStatus) {
     compared("builtin:cornell --modes phong --voxels 16 --max-relrmse 100");
     const nlohmann::json json =

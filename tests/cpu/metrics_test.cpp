@@ -219,6 +219,22 @@ TEST(MetricsTest, PixelsThatAreNotFiniteAreCountedAndLeftOut) {
     EXPECT_THROW(compareImages(allBad, reference), Error);
 }
 
+TEST(MetricsTest, PixelsThatAreNotChosenDoNotCount) {
+    // Half of the picture is off by a fifth, the other by a half.
+    const Image test = fromFunction(40, 40, [](int, int y) { return glm::vec3(y < 20 ? 0.6f : 0.75f); });
+    const Image reference = constant(glm::vec3(0.5f), 40, 40);
+    MetricOptions options;
+    options.pixels.assign(1600, 0);
+    std::fill(options.pixels.begin(), options.pixels.begin() + 800, 1);
+    const Metrics m = compareImages(test, reference, options);
+    EXPECT_EQ(m.pixels, 800u);
+    EXPECT_EQ(m.badPixels, 0u);
+    EXPECT_NEAR(m.relRmse, 0.2, 1e-6);
+    EXPECT_TRUE(std::isnan(errorValues(test, reference, ErrorMap::Signed, options)[900]));
+    options.pixels.resize(7);
+    EXPECT_THROW(compareImages(test, reference, options), Error);
+}
+
 TEST(MetricsTest, DifferentSizesAreBadInput) {
     try {
         compareImages(constant(glm::vec3(1), 4, 3), constant(glm::vec3(1), 3, 4));

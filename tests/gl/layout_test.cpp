@@ -108,7 +108,7 @@ std::vector<Struct> glassStructs() {
             solid),
         ROW(GlassConstants, pass, passes, inverseVoxelSize, fireflyClamp, firstPass, reflections, direct,
             specular),
-        ROW(CausticConstants, count, edge, voxelSize, pad0, middle),
+        ROW(CausticConstants, count, edge, voxelSize, turnsAll, middle),
         ROW(CausticPass, middle, radius, solid, light, grid, lampGrid, scale, far, edge, pad0),
         ROW(CausticEnd, place, distance, history, flux, entry),
     };

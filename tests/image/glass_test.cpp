@@ -44,6 +44,31 @@ class GlassTest : public TracedModeTest {
         scene.cameras.push_back(camera);
         return scene;
     }
+    // A ball gathers light of a lamp on a floor, on which a box casts a shadow.
+    static Scene ballOverFloor(bool withBox = false) {
+        Scene scene;
+        addInstance(scene, quadMesh({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), diffuseMaterial(glm::vec3(0.7f)));
+        addInstance(scene, sphereMesh(64, 32), glassOf(glm::vec3(1), 1),
+                    glm::translate(glm::mat4(1), {0, 0.7f, 0}) * glm::scale(glm::mat4(1), glm::vec3(0.3f)));
+        if (withBox)
+            addInstance(scene, boxMesh(), diffuseMaterial({0.7f, 0.2f, 0.1f}),
+                        glm::translate(glm::mat4(1), {0.1f, 0.3f, 0.3f}) *
+                            glm::scale(glm::mat4(1), glm::vec3(0.06f)));
+        Light lamp;
+        lamp.type = LightType::Rect;
+        lamp.position = {0.4f, 2, 0};
+        lamp.halfU = {0.15f, 0, 0};
+        lamp.halfV = {0, 0, 0.15f};
+        lamp.direction = {0, -1, 0};
+        lamp.intensity = glm::vec3(20);
+        scene.lights.push_back(lamp);
+        Camera camera;
+        camera.eye = {-0.2f, 0.35f, 1.6f};
+        camera.target = {-0.2f, 0, 0};
+        camera.fovY = 0.35f;
+        scene.cameras.push_back(camera);
+        return scene;
+    }
     static Scene builtin(const char* name) { return io::generateScene(name); }
     static reference::PathTracedPicture truthOf(const Scene& scene, int samples) {
         reference::PathTracerSettings settings;
@@ -165,23 +190,7 @@ TEST_F(GlassTest, BallsTurnWhatIsBehindThem) {
 
 // The light that a ball gathers on the floor is the path tracer's, in place and strength.
 TEST_F(GlassTest, CausticsAreThoseOfThePathTracer) {
-    Scene scene;
-    addInstance(scene, quadMesh({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), diffuseMaterial(glm::vec3(0.7f)));
-    addInstance(scene, sphereMesh(64, 32), glassOf(glm::vec3(1), 1),
-                glm::translate(glm::mat4(1), {0, 0.7f, 0}) * glm::scale(glm::mat4(1), glm::vec3(0.3f)));
-    Light lamp;
-    lamp.type = LightType::Rect;
-    lamp.position = {0.4f, 2, 0};
-    lamp.halfU = {0.15f, 0, 0};
-    lamp.halfV = {0, 0, 0.15f};
-    lamp.direction = {0, -1, 0};
-    lamp.intensity = glm::vec3(20);
-    scene.lights.push_back(lamp);
-    Camera camera;
-    camera.eye = {-0.2f, 0.35f, 1.6f};
-    camera.target = {-0.2f, 0, 0};
-    camera.fovY = 0.35f;
-    scene.cameras.push_back(camera);
+    const Scene scene = ballOverFloor();
     const reference::PathTracedPicture truth = truthOf(scene, 1024);
     for (const Mode mode : {Mode::Traced, Mode::Cones}) {
         Settings settings = tracedSettings(Quality::Interactive, Component::Indirect);
@@ -192,6 +201,43 @@ TEST_F(GlassTest, CausticsAreThoseOfThePathTracer) {
         settings.light.caustics = 0;
         EXPECT_LT(meanOf(draw(scene, settings)), 0.3 * meanOf(image)) << mode.name();
     }
+}
+
+// A plate that bends and reflects nothing, close to the eye, changes nothing: what rays meet behind it is shaded as
+// pixels are, with its caustics and its shadows, those of glass included.
+TEST_F(GlassTest, ShowsBehindSolidsWhatPixelsShow) {
+    Scene scene = ballOverFloor(true);
+    const auto shown = [&](Mode mode) {
+        Settings settings = tracedSettings(Quality::Interactive);
+        settings.mode = mode;
+        return draw(scene, settings);
+    };
+    const Image traced = shown(Mode::Traced);
+    Material still = glassOf(glm::vec3(1), 1);
+    still.ior = 1;
+    const glm::vec3 way = glm::normalize(scene.cameras[0].target - scene.cameras[0].eye);
+    addInstance(scene, boxMesh(), still,
+                glm::translate(glm::mat4(1), scene.cameras[0].eye + 0.2f * way) *
+                    glm::scale(glm::mat4(1), {0.2f, 0.2f, 0.02f}));
+    // Indirect light behind is the cache's, not that of rays at pixels: a tenth of the light here.
+    EXPECT_LT(relRmse(shown(Mode::Traced), traced), 0.02);
+}
+
+// Smooth glass takes no chances: both parts of each split are followed, and more passes change nothing.
+TEST_F(GlassTest, SmoothGlassHasNoNoise) {
+    const Scene scene = builtin("glass");
+    Settings settings = tracedSettings(Quality::Interactive);
+    settings.traced.specularRays = 1;
+    const auto ballOf = [&](int passes) {
+        settings.traced.passes = passes;
+        const Image image = draw(scene, settings);
+        std::vector<glm::vec4> pixels;
+        for (int y = 26; y < 38; ++y)
+            for (int x = 9; x < 18; ++x)
+                pixels.push_back(image.pixels[static_cast<std::size_t>(kTracedPixels * y + x)]);
+        return pixels;
+    };
+    EXPECT_EQ(ballOf(1), ballOf(3));
 }
 
 // What changes in place shows at once, as if the scene had been made so.
