@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A forward renderer in an SDL2 window, with shaders of its own that look indirect light up where they shade: no
-// G-buffer is handed over. A box rises and turns, another one comes and goes.
+// G-buffer is handed over. A box rises, and another one comes.
 //   example_05_sdl_forward [OUT.png]
 // With OUT.png it draws 48 frames, writes the last and ends; it needs no display then.
 #include <SDL.h>
@@ -91,14 +91,17 @@ void run(const char* path, const Window& window) {
     // [frame]
     const GLuint program = programOf("#version 450 core\n" + conelight::lookupsGlsl(kSlots) + kForward);
     conelight::LightField field;
+    conelight::Settings settings = conelight::realtimeSettings();
+    settings.voxels.size = 48;
+    field.setSettings(settings);
     field.setScene(scene);
+    field.update({.updates = 8});  // while loading
     const std::size_t box = scene.instances.size() - 1;
     conelight::Instance guest = scene.instances[box];
-    guest.worldFromObject = glm::translate(glm::mat4(1), {-0.1f, 0.35f, 0.3f}) *
+    guest.worldFromObject = glm::translate(glm::mat4(1), {-0.3f, 0.5f, -0.2f}) *
                             glm::scale(guest.worldFromObject, glm::vec3(0.4f));
     for (int frame = 0; path == nullptr || frame < 48; ++frame) {
-        scene.instances[box].worldFromObject = glm::rotate(
-            glm::translate(scene.instances[box].worldFromObject, {0, 0.003f, 0}), 0.01f, {0, 1, 0});
+        if (frame < 24) scene.instances[box].worldFromObject[3].y += 0.004f;
         field.setInstance(box, scene.instances[box]);
         if (frame == 20) scene.instances.push_back(guest), field.addInstance(guest);
         field.update({.updates = 4, .milliseconds = 30});

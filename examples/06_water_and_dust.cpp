@@ -99,7 +99,7 @@ void drawOver(const Host& host, const conelight::Scene& scene, const glm::mat4& 
     glUniformMatrix4fv(0, 1, GL_FALSE, &clipFromWorld[0][0]);
     glUniform3fv(1, 1, &scene.cameras[0].eye[0]);
     const glm::vec3 middle = room.center();
-    glUniform4f(2, middle.x, room.min.y + 0.15f * room.extent().y, middle.z, 0.5f * room.extent().x);
+    glUniform4f(2, middle.x, room.min.y + 0.24f * room.extent().y, middle.z, 0.5f * room.extent().x);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     glUseProgram(programOf(head + kDust));
     glUniformMatrix4fv(0, 1, GL_FALSE, &clipFromWorld[0][0]);
@@ -115,8 +115,9 @@ void drawOver(const Host& host, const conelight::Scene& scene, const glm::mat4& 
 int main(int argc, char** argv) try {
     const char* path = argc > 1 ? argv[1] : "06_water_and_dust.png";
     const conelight::platform::HeadlessContext context;
-    const conelight::Scene scene = conelight::io::loadScene("builtin:cornell-point");
-    const conelight::Camera& camera = scene.cameras[0];
+    conelight::Scene scene = conelight::io::loadScene("builtin:cornell-point");
+    conelight::Camera& camera = scene.cameras[0];
+    camera.eye.y = 0.85f, camera.target.y = 0.0f;
     Host host(kWidth, kHeight);
     host.split = 0;
     conelight::LightField field;
@@ -129,9 +130,8 @@ int main(int argc, char** argv) try {
     const glm::mat4 clipFromWorld = surfaces.clipFromView * surfaces.viewFromWorld;
     host.drawSurfaces(scene, clipFromWorld);
     const int view = field.addView();
-    conelight::GatheredLight light;
-    for (int pass = 0; pass < 16; ++pass) light = field.gather(view, surfaces);
-    host.drawPicture(scene.lights[0], clipFromWorld, light.diffuse);
+    for (int pass = 0; pass < 16; ++pass) field.gather(view, surfaces);
+    host.drawPicture(scene.lights[0], clipFromWorld, field.gather(view, surfaces).diffuse);
     field.bindLookups(kSlots);
     drawOver(host, scene, clipFromWorld);
     conelight::Image image{kWidth, kHeight, std::vector<glm::vec4>(std::size_t(kWidth * kHeight))};
@@ -140,7 +140,8 @@ int main(int argc, char** argv) try {
     for (int y = 0; y < kHeight / 2; ++y)  // the first row on top
         std::swap_ranges(&image.pixels[y * kWidth], &image.pixels[(y + 1) * kWidth],
                          &image.pixels[(kHeight - 1 - y) * kWidth]);
-    conelight::io::writePng(path, {kWidth, kHeight, 3, conelight::toneMapped(image, {})});
+    const conelight::ImageSettings look{.exposure = {false, -1.0f}};
+    conelight::io::writePng(path, {kWidth, kHeight, 3, conelight::toneMapped(image, look)});
     std::printf("picture at %s\n", path);
     return 0;
 } catch (const conelight::Error& error) {

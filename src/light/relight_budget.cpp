@@ -12,11 +12,15 @@ namespace {
 // Before anything has been measured: a few milliseconds on two cores of a CPU driver.
 constexpr std::uint32_t kFirstFaces = 2048;
 // Fewer cost no less: each call commits the light of all faces.
-constexpr std::uint32_t kLeastFaces = 256;
-// Of a cost that is lower than the one known; a higher one is taken at once.
-constexpr double kForgetting = 0.25;
+constexpr std::uint32_t kLeastFaces = 1024;
 
 }  // namespace
+
+double RelightBudget::begin(double milliseconds) {
+    if (!(milliseconds > 0)) return 0;
+    if (gl::isSoftwareDriver()) gl::finish();
+    return base::wallMs();
+}
 
 void RelightBudget::relight(const gl::Device& device, LitVoxels& lit, const LitVoxels::Inputs& inputs,
                             const RelightSettings& settings, const Wanted& wanted) {
@@ -29,9 +33,10 @@ void RelightBudget::relight(const gl::Device& device, LitVoxels& lit, const LitV
         lit.relight(device, inputs, settings, each);
 }
 
+// What is the same for any number of faces counts to the cost of each: more of them take less time than is thought,
+// so that the number grows from time to time until it fills the budget.
 void RelightBudget::learn(double milliseconds, std::uint32_t faces) {
-    const double cost = milliseconds / std::max(faces, 1u);
-    msPerFace_ = cost > msPerFace_ ? cost : msPerFace_ + kForgetting * (cost - msPerFace_);
+    msPerFace_ = milliseconds / std::max(faces, 1u);
 }
 
 void RelightBudget::relightInTime(const gl::Device& device, LitVoxels& lit, const LitVoxels::Inputs& inputs,

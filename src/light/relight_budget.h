@@ -14,8 +14,11 @@ class RelightBudget {
         int updates = 1;          // of all faces, or of `faces` of them
         std::uint32_t faces = 0;  // 0: all
         double milliseconds = 0;  // since `start`; 0: no limit. At least some faces are updated
-        double start = 0;         // base::wallMs
+        double start = 0;         // of begin()
     };
+    // The time from which a budget of milliseconds counts; 0 without one. Waits for a software driver first: what the
+    // host has asked it for before is not ours.
+    static double begin(double milliseconds);
     // Light of voxels and lights as they are, and as many updates as all of these allow. On a software driver the time
     // ends when the driver has done the work; on a GPU it is what the call before took per face.
     void relight(const gl::Device& device, LitVoxels& lit, const LitVoxels::Inputs& inputs,

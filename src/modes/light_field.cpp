@@ -7,7 +7,6 @@
 #include <map>
 #include <optional>
 
-#include "base/clock.h"
 #include "base/log.h"
 #include "gather/indirect.h"
 #include "gather/light_outputs.h"
@@ -135,7 +134,7 @@ int LightField::update(const LightBudget& budget) {
 }
 
 int LightField::Impl::update(const LightBudget& budget) {
-    const double start = base::wallMs();
+    const double start = light::RelightBudget::begin(budget.milliseconds);
     lights.update(device, *scene, {settings.light, /*emitters as lights*/ false, true});
     voxels.update(device, *scene, settings.voxels, voxels::Rays::Yes);
     const light::RelightSettings wanted = light::relightSettings(settings.traced);

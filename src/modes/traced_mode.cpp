@@ -3,8 +3,6 @@
 
 #include <algorithm>
 
-#include "base/clock.h"
-
 namespace conelight::modes {
 namespace {
 
@@ -77,7 +75,7 @@ void TracedMode::relight(const Frame& frame) {
                         {.updates = wanted.updates,
                          .faces = faces,
                          .milliseconds = static_cast<double>(settings.timeBudget),
-                         .start = base::wallMs()});
+                         .start = light::RelightBudget::begin(static_cast<double>(settings.timeBudget))});
     else
         lit_.relight(frame.device, inputs, wanted,
                      {.oneUpdate = settings.budgeted, .faces = faces, .nothing = frame.recorder != nullptr});
