@@ -97,10 +97,23 @@ Scene buildConservatory(const Values& values) {
     return scene;
 }
 
-// Glass of several indices and tints on a wooden table: a tumbler with water, a bowl, a prism, a ball of flint, a cube,
-// a bell jar and three panes, one before the other. A lamp above, a spot from the side.
-Scene buildGlassware(const Values& values) {
-    Scene scene;
+namespace {
+
+int solidGlass(Scene& scene, const char* name, glm::vec3 color, float metres, float ior,
+               float roughness = 0) {
+    Material m = solid(name, color, metres);
+    m.ior = ior;
+    m.roughness = roughness;
+    return add(scene, std::move(m));
+}
+
+Instance& stand(Scene& scene, Mesh mesh, const char* name, int material, glm::vec3 at) {
+    Instance& thing = addPart(scene, std::move(mesh), name, material);
+    thing.worldFromObject = translation(at);
+    return thing;
+}
+
+void addGlasswareRoom(Scene& scene, const Values& values) {
     const int pale = white(scene);
     const int ochre = add(scene, matte("ochre wall", {0.60f, 0.42f, 0.20f}));
     const int teal = add(scene, matte("teal wall", {0.12f, 0.36f, 0.38f}));
@@ -108,7 +121,8 @@ Scene buildGlassware(const Values& values) {
             {tiledFloor(scene, 0.8f), pale, ochre, teal, pale, pale});
     Material grain = matte("table top", {0.62f, 0.42f, 0.26f});
     grain.baseColorTexture = repeat(add(scene, textures::wood(256)), 0.5f);
-    addPart(scene, box({{-0.9f, 0.66f, -0.5f}, {0.9f, 0.7f, 0.5f}}), "table top", add(scene, std::move(grain)));
+    addPart(scene, box({{-0.9f, 0.66f, -0.5f}, {0.9f, 0.7f, 0.5f}}), "table top",
+            add(scene, std::move(grain)));
     const int legs = add(scene, matte("table legs", {0.22f, 0.14f, 0.09f}));
     for (int i = 0; i < 4; ++i)
         addPart(scene, box({{-0.03f, 0, -0.03f}, {0.03f, 0.66f, 0.03f}}), "table leg", legs).worldFromObject =
@@ -117,53 +131,73 @@ Scene buildGlassware(const Values& values) {
             add(scene, emitter("lamp", float(values["emission"]) * glm::vec3(1.0f, 0.95f, 0.88f))));
     scene.lights.push_back(spotLight("spot", {1.4f, 1.9f, 1.2f}, {0.1f, 0.75f, 0}, 24,
                                      float(values["spot"]) * glm::vec3(1.0f, 0.82f, 0.62f)));
+}
 
-    const auto glass = [&](const char* name, glm::vec3 color, float metres, float ior, float roughness = 0) {
-        Material m = solid(name, color, metres);
-        m.ior = ior;
-        m.roughness = roughness;
-        return add(scene, std::move(m));
-    };
-    const auto stand = [&](Mesh mesh, const char* name, int material, glm::vec3 at) -> Instance& {
-        Instance& thing = addPart(scene, std::move(mesh), name, material);
-        thing.worldFromObject = translation(at);
-        return thing;
-    };
+void addVessels(Scene& scene) {
     // Walls and bottom 6 mm thick; open at the top.
-    stand(turned({shapes::line({0, 0}, {0.05f, 0}), shapes::line({0.05f, 0}, {0.062f, 0.17f}, 6),
-                  shapes::line({0.062f, 0.17f}, {0.056f, 0.17f}), shapes::line({0.056f, 0.17f}, {0.045f, 0.012f}, 6),
+    stand(scene,
+          turned({shapes::line({0, 0}, {0.05f, 0}), shapes::line({0.05f, 0}, {0.062f, 0.17f}, 6),
+                  shapes::line({0.062f, 0.17f}, {0.056f, 0.17f}),
+                  shapes::line({0.056f, 0.17f}, {0.045f, 0.012f}, 6),
                   shapes::line({0.045f, 0.012f}, {0, 0.012f})},
                  64),
-          "tumbler", glass("soda glass", glm::vec3(1), 0, 1.52f), {-0.62f, 0.7005f, 0.22f});
-    stand(turned({shapes::line({0, 0}, {0.11f, 0}), shapes::arc({0.11f, 0.09f}, {0.05f, 0.09f}, -1.57f, 0, 10),
-                  shapes::line({0.16f, 0.09f}, {0, 0.09f})},
-                 64),
-          "water", glass("water", {0.70f, 0.90f, 0.95f}, 0.5f, 1.33f), {-0.33f, 0.7005f, -0.18f});
+          "tumbler", solidGlass(scene, "soda glass", glm::vec3(1), 0, 1.52f), {-0.62f, 0.7005f, 0.22f});
+    stand(
+        scene,
+        turned({shapes::line({0, 0}, {0.11f, 0}), shapes::arc({0.11f, 0.09f}, {0.05f, 0.09f}, -1.57f, 0, 10),
+                shapes::line({0.16f, 0.09f}, {0, 0.09f})},
+               64),
+        "water", solidGlass(scene, "water", {0.70f, 0.90f, 0.95f}, 0.5f, 1.33f), {-0.33f, 0.7005f, -0.18f});
     Mesh prism;
-    shapes::appendHexahedron(prism, {glm::vec3(-0.11f, 0, -0.09f), {0.11f, 0, -0.09f}, {-0.11f, 0.17f, -0.004f},
-                                     {0.11f, 0.17f, -0.004f}, {-0.11f, 0, 0.09f}, {0.11f, 0, 0.09f},
-                                     {-0.11f, 0.17f, 0.004f}, {0.11f, 0.17f, 0.004f}});
-    stand(std::move(prism), "prism", glass("amber flint", {0.95f, 0.70f, 0.25f}, 0.2f, 1.62f),
-          {-0.13f, 0.7005f, 0.26f})
+    shapes::appendHexahedron(prism, {glm::vec3(-0.11f, 0, -0.09f),
+                                     {0.11f, 0, -0.09f},
+                                     {-0.11f, 0.17f, -0.004f},
+                                     {0.11f, 0.17f, -0.004f},
+                                     {-0.11f, 0, 0.09f},
+                                     {0.11f, 0, 0.09f},
+                                     {-0.11f, 0.17f, 0.004f},
+                                     {0.11f, 0.17f, 0.004f}});
+    stand(scene, std::move(prism), "prism",
+          solidGlass(scene, "amber flint", {0.95f, 0.70f, 0.25f}, 0.2f, 1.62f), {-0.13f, 0.7005f, 0.26f})
         .worldFromObject *= turnAboutY(0.35f);
-    stand(sphere(0.12f, 96), "flint ball", glass("flint", glm::vec3(1), 0, 1.75f), {0.2f, 0.8201f, 0.16f});
-    stand(box({{-0.09f, 0, -0.09f}, {0.09f, 0.18f, 0.09f}}), "violet cube",
-          glass("violet glass", {0.55f, 0.35f, 0.85f}, 0.15f, 1.5f), {0.52f, 0.7005f, 0.2f})
+    stand(scene, sphere(0.12f, 96), "flint ball", solidGlass(scene, "flint", glm::vec3(1), 0, 1.75f),
+          {0.2f, 0.8201f, 0.16f});
+}
+
+void addBlocksAndPanes(Scene& scene) {
+    stand(scene, box({{-0.09f, 0, -0.09f}, {0.09f, 0.18f, 0.09f}}), "violet cube",
+          solidGlass(scene, "violet glass", {0.55f, 0.35f, 0.85f}, 0.15f, 1.5f), {0.52f, 0.7005f, 0.2f})
         .worldFromObject *= turnAboutY(0.6f);
-    stand(sphere(0.075f, 64), "frosted ball", glass("frosted solid", glm::vec3(1), 0, 1.5f, 0.25f),
-          {0.76f, 0.7751f, 0.3f});
-    stand(turned({shapes::line({0.14f, 0}, {0.14f, 0.16f}, 4), shapes::arc({0, 0.16f}, {0.14f, 0.14f}, 0, 1.5707f, 12)},
+    stand(scene, sphere(0.075f, 64), "frosted ball",
+          solidGlass(scene, "frosted solid", glm::vec3(1), 0, 1.5f, 0.25f), {0.76f, 0.7751f, 0.3f});
+    stand(scene,
+          turned({shapes::line({0.14f, 0}, {0.14f, 0.16f}, 4),
+                  shapes::arc({0, 0.16f}, {0.14f, 0.14f}, 0, 1.5707f, 12)},
                  64),
           "bell jar", add(scene, pane("jar", glm::vec3(0.97f), 0)), {0.24f, 0.7001f, -0.22f});
-    stand(sphere(0.07f, 48), "orange", add(scene, matte("orange", {0.75f, 0.32f, 0.06f})), {0.24f, 0.77f, -0.22f});
+    stand(scene, sphere(0.07f, 48), "orange", add(scene, matte("orange", {0.75f, 0.32f, 0.06f})),
+          {0.24f, 0.77f, -0.22f});
     const glm::vec3 tints[] = {{0.95f, 0.35f, 0.25f}, {0.30f, 0.85f, 0.45f}, {0.35f, 0.50f, 0.95f}};
     for (int i = 0; i < 3; ++i)
-        addPart(scene, quad({-0.75f + 0.12f * float(i), 0.7f, -0.3f - 0.06f * float(i)}, {0.24f, 0, -0.02f}, {0, 0.3f, 0}),
+        addPart(scene,
+                quad({-0.75f + 0.12f * float(i), 0.7f, -0.3f - 0.06f * float(i)}, {0.24f, 0, -0.02f},
+                     {0, 0.3f, 0}),
                 "pane", add(scene, pane("pane " + std::to_string(i + 1), tints[i], 0)));
     addPart(scene, quad({0.45f, 0.7f, -0.22f}, {0.36f, 0, -0.1f}, {0, 0.34f, 0}), "frosted pane",
             add(scene, pane("frosted pane", glm::vec3(0.95f), 0.2f)));
-    stand(box({{-0.05f, 0, -0.05f}, {0.05f, 0.22f, 0.05f}}), "red block",
+    stand(scene, box({{-0.05f, 0, -0.05f}, {0.05f, 0.22f, 0.05f}}), "red block",
           add(scene, matte("red block", {0.62f, 0.10f, 0.08f})), {0.66f, 0.7f, -0.4f});
+}
+
+}  // namespace
+
+// Glass of several indices and tints on a wooden table: a tumbler with water, a bowl, a prism, a ball of flint, a cube,
+// a bell jar and three panes, one before the other. A lamp above, a spot from the side.
+Scene buildGlassware(const Values& values) {
+    Scene scene;
+    addGlasswareRoom(scene, values);
+    addVessels(scene);
+    addBlocksAndPanes(scene);
     scene.cameras.push_back(camera("front", {0.05f, 1.32f, 1.35f}, {0.03f, 0.78f, 0}, 60));
     scene.cameras.push_back(camera("close", {-0.35f, 1.0f, 0.75f}, {-0.3f, 0.77f, 0}, 55));
     return scene;

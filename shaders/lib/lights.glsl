@@ -236,9 +236,8 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
             float perHalf = inversesqrt(max(half2, 1e-6));
             float NoH = clamp(0.5 * (height + b.NoV) * perHalf, 0.0, 1.0);
             float c = 1.0 - half2 * perHalf;
-            float c2 = c * c;
             points.exact +=
-                weight.x * ggxVisible(b.alpha, NoH, max(NoL, 1e-4), b.NoV) * vec2(1.0, c2 * c2 * c);
+                weight.x * ggxVisible(b.alpha, NoH, max(NoL, 1e-4), b.NoV) * vec2(1.0, (c * c) * (c * c) * c);
             vec3 inSpace = rectLobeSpace(lobe, l, height);
             float transformed = emitted * rectLobeDensity(inSpace, width2);
             points.cosine += transformed;
