@@ -80,7 +80,9 @@ void mirrorWithin(inout GlassPath path, GlassSurface s, vec3 h) {
     float VoH = clamp(dot(toEye, h), 0.0, 1.0);
     path.throughput *= facetFresnel(s, VoH, 1.0 / s.ior);
     path.direction = normalize(2.0 * VoH * h - toEye);
-    path.direction -= 2.0 * min(dot(path.direction, s.geometricNormal), 0.0) * s.geometricNormal;
+    // A smooth surface's bent normal can mirror out of it.
+    if (isSmooth(s))
+        path.direction -= 2.0 * min(dot(path.direction, s.geometricNormal), 0.0) * s.geometricNormal;
     path.narrow = path.bent = true;
 }
 
@@ -187,6 +189,10 @@ vec3 glassLight(GlassHit hit, GlassSight sight, inout PathBits pathBits, uint pi
             mirrorWithin(path, s, h);
         else
             reflectPath(path, s, xi, random);
+        // Rough facets that turn a path to the wrong side bring nothing, as in the path tracer
+        float above = dot(path.direction, s.geometricNormal);
+        if (s.back && s.solid && !smoothHere && (below ? above >= 0.0 : above <= 0.0))
+            path.throughput = vec3(0.0);
         if (s.solid) path.absorption = below != s.back ? s.absorption : vec3(0.0);
         // What is bent is of rays alone.
         if (path.bent && glassPass.specular == 0u) path.throughput = vec3(0.0);

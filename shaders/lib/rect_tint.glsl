@@ -8,7 +8,7 @@
 #if GLASS
 struct RectTint {
     bool asked;   // any glass may be in the way
-    vec2 jitter;  // of all points, in [-1,1]^2 over the cell that each stands for
+    vec2 jitter;  // of all points, in [-1,1]^2 over the row and the column that each has for itself
     vec3 irradiance, specular;  // of points that were looked at, by their weights
     vec2 weights;               // the sums of these
 };
@@ -27,7 +27,7 @@ RectTint rectTint(vec3 position, Light light) {
 // The k-th point; `weight`: of what is visible.
 void addTint(inout RectTint tint, vec3 position, Light light, uint k, vec2 weight) {
     if (!tint.asked || weight.x + weight.y <= 0.0) return;
-    vec2 beside = tint.jitter / float(light.sampleGrid);
+    vec2 beside = tint.jitter / float(light.sampleGrid * light.sampleGrid);
     vec3 toPoint = rectSamplePoint(light, k) + beside.x * light.halfU + beside.y * light.halfV - position;
     float distance = max(length(toPoint), 1e-6);
     float edge = 2.0 * sqrt(length(cross(light.halfU, light.halfV)));

@@ -15,8 +15,8 @@ struct TriangleSurface {
 };
 TriangleSurface hitTriangle;  // of the last triangleRadiance
 
-// Whether every sample point of a rectangle is looked at where a ray meets a triangle, or one that is drawn: rays are
-// many.
+// Whether light at a triangle is that of a pixel: of every sample point of a rectangle, not of one that is drawn, and
+// of caustics as fine as their map. Where rays are few.
 bool allRectPoints = false;
 
 // The point where a ray hit a triangle.
@@ -176,8 +176,8 @@ vec3 triangleRadiance(Ray ray, VoxelHit hit, float widening, inout FaceShading s
 #endif
     addTriangleRects(p, position, hit, irradiance);
 #if GLASS
-    // With many rectangles it is part of the face's light.
-    float width = (rayCone.width + hit.t * rayCone.growth) * grid.voxelSize;
+    // With many rectangles it is part of the face's light. Sharp rays see it as pixels do.
+    float width = allRectPoints ? 0.0 : (rayCone.width + hit.t * rayCone.growth) * grid.voxelSize;
     if (fewRects()) irradiance += causticIrradiance(position, p.geometricNormal, width);
 #endif
     vec3 reflected = faceReflected(hit.face, s.directRadiance);

@@ -203,12 +203,44 @@ TEST_F(GlassTest, CausticsAreThoseOfThePathTracer) {
     }
 }
 
+// A smooth pane mirrors light of a lamp onto the floor before it, as the path tracer finds by chance.
+TEST_F(GlassTest, PanesMirrorLightOfLamps) {
+    Scene scene;
+    addInstance(scene, quadMesh({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), diffuseMaterial(glm::vec3(0.7f)));
+    addInstance(scene, quadMesh({-0.5f, 0, 0}, {1, 0, 0}, {0, 0.8f, 0}), glassOf({0.9f, 0.5f, 0.2f}, 0));
+    Light lamp;
+    lamp.type = LightType::Rect;
+    lamp.position = {0, 1.6f, 0.7f};
+    lamp.halfU = {0.25f, 0, 0};
+    lamp.halfV = {0, 0, 0.25f};
+    lamp.direction = {0, -1, 0};
+    lamp.intensity = glm::vec3(20);
+    scene.lights.push_back(lamp);
+    Camera camera;
+    camera.eye = {0, 1.5f, 0.6f};
+    camera.target = {0, 0, 0.35f};
+    camera.fovY = 0.4f;
+    scene.cameras.push_back(camera);
+    const reference::PathTracedPicture truth = truthOf(scene, 4096);
+    Settings settings = tracedSettings(Quality::Interactive, Component::Indirect);
+    const Image image = draw(scene, settings);
+    // What is mirrored keeps its colour.
+    const glm::dvec3 own = meanColorOf(image), other = meanColorOf(truth.indirect);
+    EXPECT_NEAR(own.r / own.b, 1, 0.02);
+    EXPECT_NEAR(own.g / other.g, 1, 0.05);
+    // Measured: 0.26, with 32 voxels.
+    EXPECT_LT(indirectError(image, truth), 0.3);
+    settings.light.caustics = 0;
+    EXPECT_LT(meanOf(draw(scene, settings)), 0.2 * meanOf(image));
+}
+
 // A plate that bends and reflects nothing, close to the eye, changes nothing: what rays meet behind it is shaded as
 // pixels are, with its caustics and its shadows, those of glass included.
 TEST_F(GlassTest, ShowsBehindSolidsWhatPixelsShow) {
     Scene scene = ballOverFloor(true);
     const auto shown = [&](Mode mode) {
         Settings settings = tracedSettings(Quality::Interactive);
+        settings.light.areaSamples = 16;
         settings.mode = mode;
         return draw(scene, settings);
     };
@@ -219,25 +251,27 @@ TEST_F(GlassTest, ShowsBehindSolidsWhatPixelsShow) {
     addInstance(scene, boxMesh(), still,
                 glm::translate(glm::mat4(1), scene.cameras[0].eye + 0.2f * way) *
                     glm::scale(glm::mat4(1), {0.2f, 0.2f, 0.02f}));
-    // Indirect light behind is the cache's, not that of rays at pixels: a tenth of the light here.
-    EXPECT_LT(relRmse(shown(Mode::Traced), traced), 0.02);
+    // One of a lamp's points more or less at rims of shadows. Indirect light is the cache's, not that of rays at pixels.
+    EXPECT_LT(relRmse(shown(Mode::Traced), traced), 0.03);
 }
 
 // Smooth glass takes no chances: both parts of each split are followed, and more passes change nothing.
 TEST_F(GlassTest, SmoothGlassHasNoNoise) {
-    const Scene scene = builtin("glass");
+    Scene scene = builtin("glass");
+    for (Material& material : scene.materials)
+        if (material.transmission > 0) material.roughness = 0;
     Settings settings = tracedSettings(Quality::Interactive);
     settings.traced.specularRays = 1;
     const auto ballOf = [&](int passes) {
         settings.traced.passes = passes;
         const Image image = draw(scene, settings);
         std::vector<glm::vec4> pixels;
-        for (int y = 26; y < 38; ++y)
-            for (int x = 9; x < 18; ++x)
+        for (int y = 28; y < 37; ++y)
+            for (int x = 4; x < 14; ++x)
                 pixels.push_back(image.pixels[static_cast<std::size_t>(kTracedPixels * y + x)]);
         return pixels;
     };
-    EXPECT_EQ(ballOf(1), ballOf(3));
+    EXPECT_TRUE(ballOf(1) == ballOf(3));
 }
 
 // What changes in place shows at once, as if the scene had been made so.
