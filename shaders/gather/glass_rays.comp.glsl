@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Glass in front of a finished picture: its tint on what lies behind, highlights, and what it reflects and
 // refracts. Smooth surfaces split a path, and both parts are followed: one after the other, each from the eye, as
-// the bits of a number say (PathBits). Behind a rough surface chance chooses between them. Where a path leaves the
+// the bits of a number say (PathParts). Behind a rough surface chance chooses between them. Where a path leaves the
 // line of sight, its rays meet the triangles, and what they meet is shaded as pixels are: by lights, the cache and
 // caustics (lib/voxel_light.glsl). `sums` holds the passes' sum until the last one; pixels that chance plays no
 // part in are done after the first. Pixels that see no glass stay as they are. Method: docs/theory/4h_glass.md.
@@ -20,7 +20,7 @@ layout(rgba32f) uniform image2D sums;
 layout(rgba32f) uniform image2D picture;
 layout(std140) uniform GlassBlock { GlassConstants glassPass; };
 
-// Surfaces that one path meets at most, each a bit of PathBits.
+// Surfaces that one path meets at most, each a bit of PathParts.
 const int kMostGlass = 24;
 // A part that brings less than this share of a pixel's light is followed by chance, and weighs as much then. Looked
 // at: lamps are a hundred times as bright as the rest, and no specks of them are seen.
@@ -29,7 +29,7 @@ const float kLeastPart = 0.002;
 const int kMostPaths = 512;
 
 // Which parts a path takes where it splits.
-struct PathBits {
+struct PathParts {
     uint taken;  // a bit per split: 0 goes through, 1 is reflected
     int known;   // so many are given; at the others it goes through
     int splits;  // met so far
@@ -103,12 +103,12 @@ bool drawsThrough(inout GlassPath path, vec2 parts, float xi) {
 }
 
 // The same where both parts are followed. `random` is that of the part from here on.
-bool followsThrough(inout GlassPath path, inout PathBits pathBits, vec2 parts, inout uint random) {
+bool followsThrough(inout GlassPath path, inout PathParts pathParts, vec2 parts, inout uint random) {
     if (parts.x <= 0.0 || parts.y <= 0.0) return parts.x > 0.0;
-    uint bit = 1u << pathBits.splits;
-    bool through = pathBits.splits >= pathBits.known || (pathBits.taken & bit) == 0u;
+    uint bit = 1u << pathParts.splits;
+    bool through = pathParts.splits >= pathParts.known || (pathParts.taken & bit) == 0u;
     random = randomHash(random ^ (through ? bit : 3u * bit));
-    ++pathBits.splits;
+    ++pathParts.splits;
     float survives = min(brightness(path.throughput) * (through ? parts.x : parts.y) / kLeastPart, 1.0);
     path.throughput *= randomNext(random) < survives ? 1.0 / max(survives, 1e-6) : 0.0;
     return through;
@@ -116,12 +116,12 @@ bool followsThrough(inout GlassPath path, inout PathBits pathBits, vec2 parts, i
 
 // The next part that was passed by: through where the last path was, up to the last split at which it was; there it is
 // reflected. False: there is none.
-bool nextBranch(inout PathBits pathBits) {
-    uint given = pathBits.taken & ((1u << pathBits.known) - 1u);
-    int last = findMSB(~given & ((1u << pathBits.splits) - 1u));
+bool nextBranch(inout PathParts pathParts) {
+    uint given = pathParts.taken & ((1u << pathParts.known) - 1u);
+    int last = findMSB(~given & ((1u << pathParts.splits) - 1u));
     if (last < 0) return false;
     uint bit = 1u << last;
-    pathBits = PathBits((given & (bit - 1u)) | bit, last + 1, 0);
+    pathParts = PathParts((given & (bit - 1u)) | bit, last + 1, 0);
     return true;
 }
 
@@ -148,8 +148,23 @@ vec3 pathRadiance(GlassPath path, float end, bool open, inout uint random, inout
     return radiance;
 }
 
+// Sends a path through the surface, or back from it. h: the facet's normal.
+void turnPath(inout GlassPath path, GlassSurface s, bool below, vec3 h, vec2 xi, inout uint random) {
+    if (below)
+        passThrough(path, s, h);
+    else if (s.back && s.solid)
+        mirrorWithin(path, s, h);
+    else
+        reflectPath(path, s, xi, random);
+    // Rough facets that turn a path to the wrong side bring nothing, as in the path tracer
+    float above = dot(path.direction, s.geometricNormal);
+    if (s.back && s.solid && !isSmooth(s) && (below ? above >= 0.0 : above <= 0.0))
+        path.throughput = vec3(0.0);
+    if (s.solid) path.absorption = below != s.back ? s.absorption : vec3(0.0);
+}
+
 // What comes along one path, less what paths before it have met on the same way. `sure`: chance has no part in it.
-vec3 glassLight(GlassHit hit, GlassSight sight, inout PathBits pathBits, uint pixelSeed, vec3 behind,
+vec3 glassLight(GlassHit hit, GlassSight sight, inout PathParts pathParts, uint pixelSeed, vec3 behind,
                 inout bool sure) {
     GlassPath path = GlassPath(frame.eye, sight.direction, vec3(1.0), vec3(0.0), 0.0, false, false);
     uint number = glassPass.firstPass + glassPass.pass;
@@ -169,7 +184,7 @@ vec3 glassLight(GlassHit hit, GlassSight sight, inout PathBits pathBits, uint pi
         xi = met == 0 ? sequencePoint(pixelSeed, number) : xi;
         float choice = randomNext(random);
         choice = met == 1 ? choices.x : (met == 2 ? choices.y : choice);
-        bool shines = glassPass.direct != 0u && pathBits.splits >= pathBits.known;
+        bool shines = glassPass.direct != 0u && pathParts.splits >= pathParts.known;
         light +=
             shines ? path.throughput * (s.emission + glassHighlights(s, -path.direction, xi.x)) : vec3(0.0);
 
@@ -180,20 +195,10 @@ vec3 glassLight(GlassHit hit, GlassSight sight, inout PathBits pathBits, uint pi
         vec2 parts = partsOf(s, -path.direction, h);
         bool below;
         if (met == 0 || path.alpha == 0.0)
-            below = followsThrough(path, pathBits, parts, random);
+            below = followsThrough(path, pathParts, parts, random);
         else
             below = drawsThrough(path, parts, choice);
-        if (below)
-            passThrough(path, s, h);
-        else if (s.back && s.solid)
-            mirrorWithin(path, s, h);
-        else
-            reflectPath(path, s, xi, random);
-        // Rough facets that turn a path to the wrong side bring nothing, as in the path tracer
-        float above = dot(path.direction, s.geometricNormal);
-        if (s.back && s.solid && !smoothHere && (below ? above >= 0.0 : above <= 0.0))
-            path.throughput = vec3(0.0);
-        if (s.solid) path.absorption = below != s.back ? s.absorption : vec3(0.0);
+        turnPath(path, s, below, h, xi, random);
         // What is bent is of rays alone.
         if (path.bent && glassPass.specular == 0u) path.throughput = vec3(0.0);
 
@@ -226,11 +231,11 @@ void main() {
     uint seed = randomHash(uint(pixel.x) | uint(pixel.y) << 16) ^ 0x2545f491u;
     vec3 light = before.rgb;
     bool sure = true;
-    PathBits pathBits = PathBits(0u, 0, 0);
+    PathParts pathParts = PathParts(0u, 0, 0);
     int paths = 0;
     do {
-        light += glassLight(first, sight, pathBits, seed, behind.rgb, sure);
-    } while (nextBranch(pathBits) && ++paths < kMostPaths);
+        light += glassLight(first, sight, pathParts, seed, behind.rgb, sure);
+    } while (nextBranch(pathParts) && ++paths < kMostPaths);
     sure = sure && glassPass.pass == 0u;
     if (!sure && glassPass.pass + 1u < glassPass.passes) {
         imageStore(sums, pixel, vec4(light, 0.0));

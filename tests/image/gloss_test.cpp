@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Light that dielectrics mirror onto other surfaces in mode `traced`, against the path tracer.
+#include "support/scenes.h"
+#include "support/traced_rig.h"
+
+namespace conelight::test {
+namespace {
+
+class GlossTest : public TracedModeTest {
+  protected:
+    // A black, polished floor under a sun, before a white wall: all light on the wall is the floor's gloss.
+    static Scene court() {
+        Scene scene;
+        Material stone = diffuseMaterial(glm::vec3(0));
+        stone.specular = 1;
+        stone.roughness = 0.35f;
+        addInstance(scene, quadMesh({-1, 0, 1}, {2, 0, 0}, {0, 0, -1}), stone);
+        addInstance(scene, quadMesh({-1, 0, 0}, {2, 0, 0}, {0, 1, 0}), diffuseMaterial(glm::vec3(0.5f)));
+        Light sun;
+        sun.type = LightType::Directional;
+        sun.direction = glm::normalize(glm::vec3(0, -1, -0.6f));
+        sun.intensity = glm::vec3(3);
+        scene.lights = {sun};
+        Camera camera;
+        camera.eye = {0, 0.55f, 2.2f};
+        camera.target = {0, 0.55f, 0};
+        camera.fovY = 0.4f;
+        scene.cameras = {camera};
+        return scene;
+    }
+};
+
+TEST_F(GlossTest, APolishedFloorThrowsTheSunOnTheWall) {
+    const Scene scene = court();
+    reference::PathTracerSettings truthSettings;
+    truthSettings.samplesPerPixel = 1024;
+    const reference::PathTracedPicture truth =
+        reference::PathTracer(scene).render(scene.cameras.at(0), kTracedPixels, kTracedPixels, truthSettings);
+    Settings settings = tracedSettings(Quality::Interactive, Component::Indirect);
+    settings.traced.passes = 64;
+    const double error = indirectError(draw(scene, settings), truth);
+    settings.traced.exactHits = false;
+    const double even = indirectError(draw(scene, settings), truth);
+    // As even light of half the lobe's mean the wall has a wrong gradient.
+    EXPECT_LT(error, 0.1);
+    EXPECT_GT(even, 2 * error);
+}
+
+// Lights that send nothing change nothing, though more than four are looked up in a loop.
+TEST_F(GlossTest, FurtherLightsLeaveHitsExact) {
+    Scene scene = court();
+    const Settings settings = tracedSettings(Quality::Interactive, Component::Indirect);
+    const Image one = draw(scene, settings);
+    for (int i = 0; i < 5; ++i) {
+        Light dark;
+        dark.type = LightType::Point;
+        dark.position = {0, 0.5f, 0.5f};
+        dark.intensity = glm::vec3(1e-6f);
+        scene.lights.push_back(dark);
+    }
+    const Image six = draw(scene, settings);
+    double difference = 0, sum = 0;
+    for (std::size_t i = 0; i < one.pixels.size(); ++i) {
+        difference += std::abs(one.pixels[i].g - six.pixels[i].g);
+        sum += one.pixels[i].g;
+    }
+    EXPECT_GT(sum, 0);
+    EXPECT_LT(difference, 1e-3 * sum);
+}
+
+}  // namespace
+}  // namespace conelight::test
