@@ -49,7 +49,7 @@ std::vector<std::string> goodValues(const SettingInfo& info) {
 
 TEST(SettingsTest, EachHasWhatTheManualShows) {
     const std::set<std::string> units{"",          "rad",   "m",   "voxels",  "texels", "stops", "footprints",
-                                      "diameters", "cones", "deg", "samples", "steps",  "faces"};
+                                      "diameters", "cones", "deg", "samples", "steps",  "faces", "ms"};
     std::set<std::string> keys;
     for (const SettingInfo& info : settingInfos()) {
         EXPECT_TRUE(keys.insert(info.key).second) << info.key << " twice";
