@@ -100,7 +100,9 @@ static void wrong_pictures(conelight_renderer* renderer, const conelight_scene* 
     EXPECT(CONELIGHT_OK, conelight_renderer_set_scene(renderer, scene));
     conelight_scene_destroy(scene);
     EXPECT(CONELIGHT_USAGE, conelight_renderer_read(renderer, rgba, 4 * 8 * 8));
-    EXPECT(CONELIGHT_USAGE, conelight_renderer_render(renderer, NULL, 0, 8, NULL, NULL));
+    EXPECT(CONELIGHT_OK, conelight_renderer_render(renderer, NULL, 0, 8, NULL, NULL));  // a minimised window
+    EXPECT(CONELIGHT_USAGE, conelight_renderer_read(renderer, rgba, 4 * 8 * 8));
+    EXPECT(CONELIGHT_USAGE, conelight_renderer_render(renderer, NULL, -1, 8, NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_renderer_render(renderer, NULL, 8, 8, NULL, "nothing"));
     camera.fov_y = 0;
     EXPECT(CONELIGHT_USAGE, conelight_renderer_render(renderer, &camera, 8, 8, NULL, NULL));
