@@ -120,9 +120,10 @@ std::vector<std::uint8_t> usablePixels(const std::vector<const Image*>& images,
                             "right",
                             first.width, first.height, image->width, image->height));
     if (!chosen.empty() && chosen.size() != first.pixels.size())
-        throw Error(ErrorKind::BadInput,
-                    fmt::format("comparison: {} pixels are chosen of {} x {}; one number for each would be right",
-                                chosen.size(), first.width, first.height));
+        throw Error(
+            ErrorKind::BadInput,
+            fmt::format("comparison: {} pixels are chosen of {} x {}; one number for each would be right",
+                        chosen.size(), first.width, first.height));
     std::vector<std::uint8_t> usable = chosen;
     usable.resize(first.pixels.size(), 1);
     std::size_t count = 0;
@@ -131,7 +132,8 @@ std::vector<std::uint8_t> usablePixels(const std::vector<const Image*>& images,
             if (!isFinite(image->pixels[i])) usable[i] = 0;
         count += usable[i];
     }
-    if (count == 0) throw Error(ErrorKind::BadInput, "comparison: no pixel that counts is finite in all images");
+    if (count == 0)
+        throw Error(ErrorKind::BadInput, "comparison: no pixel that counts is finite in all images");
     return usable;
 }
 

@@ -48,10 +48,10 @@ struct Metrics {
 };
 
 struct MetricOptions {
-    float exposure = 0;              // stops, for the display images
-    float pixelsPerDegree = 67.02f;  // FLIP: 0.7 m from a 0.7 m wide display of 3840 pixels (its default)
+    float exposure = 0;                // stops, for the display images
+    float pixelsPerDegree = 67.02f;    // FLIP: 0.7 m from a 0.7 m wide display of 3840 pixels (its default)
     std::vector<std::uint8_t> pixels;  // 1 for those that are measured, rows from the top; empty: all
-    bool flip = true;                // FLIP costs more than all others together; false leaves both at 0
+    bool flip = true;                  // FLIP costs more than all others together; false leaves both at 0
 };
 
 // The two halves are independent estimates of the reference whose mean is the reference.

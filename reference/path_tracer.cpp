@@ -70,7 +70,8 @@ struct Film {
           height(h),
           tilesX((w + kTile - 1) / kTile),
           tilesY((h + kTile - 1) / kTile),
-          traced(settings.pixels.empty() ? double(w) * h : std::count(settings.pixels.begin(), settings.pixels.end(), 1)),
+          traced(settings.pixels.empty() ? double(w) * h
+                                         : std::count(settings.pixels.begin(), settings.pixels.end(), 1)),
           pixels(static_cast<std::size_t>(w) * static_cast<std::size_t>(h)),
           features(settings.features ? pixels.size() : 0),
           bounces(static_cast<std::size_t>(settings.perBounce), std::vector<glm::vec3>(pixels.size())),
@@ -118,8 +119,10 @@ void checkArguments(const Camera& camera, int width, int height, const PathTrace
             "reference: bounces %d, bounce pictures %d, threads %d; right would be -1 or more, 0 to 64, 0 "
             "or more",
             s.bounces, s.perBounce, s.threads);
-    if (!s.pixels.empty() && s.pixels.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
-        base::fail(ErrorKind::Usage, "reference: %zu pixels are chosen of %d x %d; one number for each would be right",
+    if (!s.pixels.empty() &&
+        s.pixels.size() != static_cast<std::size_t>(width) * static_cast<std::size_t>(height))
+        base::fail(ErrorKind::Usage,
+                   "reference: %zu pixels are chosen of %d x %d; one number for each would be right",
                    s.pixels.size(), width, height);
     if (!(camera.zNear > 0 && camera.zFar > camera.zNear))
         base::fail(ErrorKind::Usage, "reference: camera sees from %g to %g m; right would be 0 < near < far",

@@ -37,10 +37,10 @@ struct PathTracerSettings {
     PixelFilter filter = PixelFilter::Center;
     Paths paths = Paths::All;
     Estimator estimator = Estimator::Mis;
-    bool emissiveQuads = true;  // as light.emissive_quads: decides what is "direct"
-    int perBounce = 0;          // fill PathTracedPicture::bounces for bounces 1..perBounce
-    bool features = false;      // fill PathTracedPicture::features
-    int threads = 0;            // 0: all cores
+    bool emissiveQuads = true;         // as light.emissive_quads: decides what is "direct"
+    int perBounce = 0;                 // fill PathTracedPicture::bounces for bounces 1..perBounce
+    bool features = false;             // fill PathTracedPicture::features
+    int threads = 0;                   // 0: all cores
     std::vector<std::uint8_t> pixels;  // 1 for those that are traced, rows from the top; empty: all
 };
 

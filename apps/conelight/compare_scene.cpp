@@ -279,7 +279,8 @@ void CompareSceneOptions::addTo(CLI::App& command) {
         ->type_name("NAME");
     command
         .add_option("--pixels", pixels,
-                    "measure pixels alone that show this before anything else: glass, solid (glass that bends light), "
+                    "measure pixels alone that show this before anything else: glass, solid (glass that "
+                    "bends light), "
                     "pane (glass that does not) or material:NAME; the reference is traced there alone")
         ->type_name("WHAT");
     command.add_option("--frames", frames, "frames until a picture has settled")

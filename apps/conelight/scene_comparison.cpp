@@ -164,8 +164,7 @@ SceneComparison compareVariants(const Scene& scene, const std::string& name,
         progress.show(name + ": " + variant.label() + ": measuring");
         for (std::size_t i = 0; i < request.components.size(); ++i)
             result.components.push_back(
-                measured(std::move(picture.images[i]), request.components[i],
-                                                 comparison.reference, metrics));
+                measured(std::move(picture.images[i]), request.components[i], comparison.reference, metrics));
         comparison.variants.push_back(std::move(result));
     }
     return comparison;

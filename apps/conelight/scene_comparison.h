@@ -36,7 +36,7 @@ struct SceneComparison {
     Camera camera;
     Size size;
     ReferencePicture reference;
-    std::string pixels;                 // what those that are measured show; empty: all are
+    std::string pixels;                  // what those that are measured show; empty: all are
     std::vector<std::uint8_t> measured;  // 1 for these; empty: all
     std::vector<VariantResult> variants;
 };

@@ -34,7 +34,8 @@ void printPixels(const SceneComparison& comparison) {
     for (const VariantResult& result : comparison.variants)
         for (const ComponentResult& component : result.components) {
             const reference::Metrics& m = component.metrics;
-            fmt::print("{} pixels of {}: {}, {}", m.pixels, comparison.pixels, result.variant.label(), component.name);
+            fmt::print("{} pixels of {}: {}, {}", m.pixels, comparison.pixels, result.variant.label(),
+                       component.name);
             if (component.withHalves)
                 fmt::print(": relRMSE within {} to {}, without noise of {} that the reference has there",
                            percent(m.relRmseLow), percent(m.relRmseHigh), percent(m.referenceNoise));

@@ -144,7 +144,7 @@ vec3 pathRadiance(GlassPath path, float end, bool open, inout uint random, inout
     vec3 radiance = traceRadiance(ray, settings, random, hit);
     // Metals reflect by chance
     uint bits = texelFetch(litFaces, max(hit.face, 0)).w;
-    sure = sure && (hit.face < 0 || unpackLobe(bits >> 16).x <= 0.0);
+    sure = sure && (hit.face < 0 || litLobe(bits).x <= 0.0);
     return radiance;
 }
 
@@ -206,7 +206,8 @@ vec3 glassLight(GlassHit hit, GlassSight sight, inout PathParts pathParts, uint 
         int on = hit.triangle;
         path.origin = glassStep(position, below ? -s.geometricNormal : s.geometricNormal);
         goesOn = path.throughput.r + path.throughput.g + path.throughput.b > 1e-5;
-        hit = nearestGlass(path.origin, path.direction, goesOn ? (path.bent ? 1e9 : left) : -1.0, on, !path.bent);
+        hit = nearestGlass(path.origin, path.direction, goesOn ? (path.bent ? 1e9 : left) : -1.0, on,
+                           !path.bent);
         open = hit.triangle < 0;
         bool found = open;
         // What is in the way is shaded once, behind the loop.

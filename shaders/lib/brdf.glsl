@@ -63,6 +63,12 @@ vec3 fresnel(vec3 f0, vec3 f90, float VoH) {
 // builtin:lobby, whose indirect light is 3.3 and 1.6 % too dark with 0, 1.9 and 2.0 % too bright with 1.
 const float kEvenLobe = 0.5;
 
+// Metalness and roughness as rays are told them: a dielectric that reflects nothing has no lobe, as a rough one.
+vec2 toldLobe(float metallic, float roughness, vec3 dielectricF0) {
+    bool reflects = metallic > 0.0 || max(dielectricF0.r, max(dielectricF0.g, dielectricF0.b)) > 0.0;
+    return vec2(metallic, reflects ? roughness : 1.0);
+}
+
 // Share of even light that the lobe of a dielectric is counted with (kEvenLobe), multiple scattering included.
 vec3 evenLobe(float roughness, vec3 dielectricF0) {
     float r = max(roughness, kMinRoughness);

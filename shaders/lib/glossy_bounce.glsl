@@ -19,7 +19,7 @@ struct GlossySurface {
 GlossySurface glossySurface(VoxelHit hit, FaceShading s) {
     int face = max(hit.face, 0);
     uint bits = texelFetch(litFaces, face).w;
-    vec2 lobe = unpackLobe(bits >> 16);
+    vec2 lobe = litLobe(bits);
     vec3 normal = faceNormalOf(face);
 #if TRIANGLE_HITS
     lobe = hit.triangle >= 0 ? hitTriangle.lobe : lobe;

@@ -6,6 +6,9 @@ uniform usamplerBuffer litFaces;
 
 vec3 litIrradiance(uvec4 lit) { return vec3(unpackHalf2x16(lit.z), unpackHalf2x16(lit.w).x); }
 
+// Metalness and roughness, by the last word of a lit face.
+vec2 litLobe(uint bits) { return unpackLobe(bits >> FACE_LOBE_SHIFT); }
+
 // Outgoing radiance of a diffuse face: emission, reflected direct light, reflected irradiance.
 vec3 litRadiance(uvec4 lit) { return unpackRgb9e5(lit.y) + unpackAlbedo(lit.x) * litIrradiance(lit); }
 

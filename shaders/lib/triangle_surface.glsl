@@ -83,11 +83,10 @@ TriangleMaterial triangleMaterial(TrianglePoint p, VoxelHit hit) {
     bool lamp = (faceBits & FACE_AREA_LIGHT) != 0u;
 
     // Look up the lobe; textured metalness and roughness are the voxel's
-    vec2 lobe = layers.y >= 0 ? unpackLobe(faceBits >> 16)
-                              : vec2(materials[material].metallic, materials[material].roughness);
+    vec2 lobe =
+        layers.y >= 0 ? litLobe(faceBits) : vec2(materials[material].metallic, materials[material].roughness);
     vec3 albedo = evenAlbedo(color, lobe.x, lobe.y, materials[material].specularF0);
-    vec3 f0 = materials[material].specularF0;
-    lobe.y = lobe.x == 0.0 && max(f0.r, max(f0.g, f0.b)) <= 0.0 ? 1.0 : lobe.y;
+    lobe = toldLobe(lobe.x, lobe.y, materials[material].specularF0);
     bool unlit = (materials[material].flags & MATERIAL_UNLIT) != 0u;
     if (unlit) return TriangleMaterial(vec3(0.0), vec3(0.0), vec3(0.0), vec2(0.0));
     return TriangleMaterial(albedo, lamp ? vec3(0.0) : emission, lamp ? emission : vec3(0.0), lobe);
@@ -98,7 +97,8 @@ bool fewRects() { return lighting.lightEnds.w - lighting.lightEnds.z <= kTriangl
 // Irradiance at a point by a rectangle, of which points begin..end are looked at.
 vec3 triangleRect(TrianglePoint p, vec3 position, Light light, uint begin, uint end) {
     float whole = rectIrradiance(light, position, p.shadingNormal);
-    float cellArea = 4.0 * length(cross(light.halfU, light.halfV)) / float(light.sampleGrid * light.sampleGrid);
+    float cellArea =
+        4.0 * length(cross(light.halfU, light.halfV)) / float(light.sampleGrid * light.sampleGrid);
     vec2 weights = vec2(0.0);  // of all points, of those that are seen
 #if GLASS
     RectTint tint = rectTint(position, light);
@@ -131,7 +131,8 @@ void addTriangleRects(TrianglePoint p, vec3 position, VoxelHit hit, inout vec3 i
         Light light = lights[i];
         uint count = light.sampleGrid * light.sampleGrid;
         uint k = min(uint(randomNext(random) * float(count)), count - 1u);
-        irradiance += triangleRect(p, position, light, allRectPoints ? 0u : k, allRectPoints ? count : k + 1u);
+        irradiance +=
+            triangleRect(p, position, light, allRectPoints ? 0u : k, allRectPoints ? count : k + 1u);
         ++i;
     }
 }
@@ -170,9 +171,9 @@ vec3 triangleRadiance(Ray ray, VoxelHit hit, float widening, inout FaceShading s
     vec3 direct = vec3(0.0);
     vec3 irradiance = vec3(0.0);
 #if EXACT_DIRECT
-    direct = reflectedPunctual(
-        s.albedo, m.lobe, widening,
-        Receiver(position, shadingNormal, p.geometricNormal, -ray.direction, vec2(0.0)));
+    direct =
+        reflectedPunctual(s.albedo, m.lobe, widening,
+                          Receiver(position, shadingNormal, p.geometricNormal, -ray.direction, vec2(0.0)));
 #endif
     addTriangleRects(p, position, hit, irradiance);
 #if GLASS

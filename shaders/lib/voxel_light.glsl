@@ -105,7 +105,8 @@ vec3 reflectedPunctual(vec3 albedo, vec2 lobe, float widening, Receiver r) {
     vec3 diffuse = light.irradiance * (1.0 / kGatherPi);
     return glossy ? b.diffuse * diffuse + light.specular : albedo * diffuse;
 #else
-    return albedo * (directIrradiance(r.position, r.normal, r.geometricNormal, r.shadowLift) * (1.0 / kGatherPi));
+    return albedo *
+           (directIrradiance(r.position, r.normal, r.geometricNormal, r.shadowLift) * (1.0 / kGatherPi));
 #endif
 }
 #endif
@@ -142,7 +143,7 @@ vec3 hitRadiance(Ray ray, VoxelHit hit, float width, float widening, inout FaceS
 #else
     vec2 lift = kShadowVoxelLift + vec2(0.0, frontHeight);
 #endif
-    vec2 lobe = unpackLobe(texelFetch(litFaces, face).w >> FACE_LOBE_SHIFT);
+    vec2 lobe = litLobe(texelFetch(litFaces, face).w);
     vec3 direct =
         reflectedPunctual(s.albedo, lobe, widening,
                           Receiver(worldFromGrid(point), shadingNormal, normal, -ray.direction, lift));
@@ -205,11 +206,13 @@ PathVertex pathVertex(Ray ray, VoxelHit hit, PathSettings path, PathState state,
 
     // Add the emission of area lights, which narrow lobes do not reflect analytically
     GlossySurface surface = glossySurface(hit, s);
-    vec3 lamp = unpackEmission(texelFetch(voxelFaceMaterials, max(hit.face, 0)));
+    if (state.fromNarrowLobe && hit.face >= 0 && surface.areaLight) {
+        vec3 lamp = unpackEmission(texelFetch(voxelFaceMaterials, max(hit.face, 0)));
 #if TRIANGLE_HITS
-    lamp = hit.triangle >= 0 ? hitTriangle.lampEmission : lamp;
+        lamp = hit.triangle >= 0 ? hitTriangle.lampEmission : lamp;
 #endif
-    if (state.fromNarrowLobe && hit.face >= 0 && surface.areaLight) vertex.radiance += lamp;
+        vertex.radiance += lamp;
+    }
 
     // Sample the GGX lobe of a metal
     bool arrived = state.bounce > 0 || path.targetDistance < 0.0 || abs(hit.t - path.targetDistance) < 0.3;

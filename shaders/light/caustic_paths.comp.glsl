@@ -1,6 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// Paths of light from one lamp through one solid of glass, or reflected by one pane: lights + tree of glass + voxels -> CausticEnds, where
+// Paths of light from one lamp through one solid of glass, or reflected by one pane:
+// lights + tree of glass + voxels -> CausticEnds, where
 // each path ends on a voxel, and what it brings. Starts: a grid over the directions, of equal solid angle, in
 // which the lamp's points see the ball about the solid. One invocation per start and way (CAUSTIC_WAYS).
 // Method: docs/theory/4h_glass.md, "Caustics"; stratified paths as in Shah and others 2007, "Caustics Mapping: An

@@ -81,7 +81,8 @@ void main() {
     // A path without neighbours: a spot as wide as the grid's steps, or as half of its lobe; a unit of the octahedron
     // is a quarter turn
     bool rough = (self.history & CAUSTIC_ROUGH) != 0u;
-    float least = max(1.0 / float(causticPass.grid), rough ? uintBitsToFloat(self.entry) / kQuarterTurn : 0.0);
+    float least =
+        max(1.0 / float(causticPass.grid), rough ? uintBitsToFloat(self.entry) / kQuarterTurn : 0.0);
     if (length(along[0].xy) + length(along[1].xy) == 0.0) {
         along[0] = vec3(least, 0.0, 0.0);
         along[1] = vec3(0.0, least, 0.0);

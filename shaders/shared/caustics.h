@@ -49,9 +49,10 @@ struct CausticEnd {
     float distance;
     uint history;  // of its surfaces; 0: it did not end on a voxel; CAUSTIC_ROUGH: a path by itself
     // ---- 16 B
-    vec3 flux;   // W
-    uint entry;  // normal where it entered: octahedral, 2 x 16 bit signed-normalised; of rough ones the lobes' alpha
-};               // 32 B
+    vec3 flux;  // W
+    uint
+        entry;  // normal where it entered: octahedral, 2 x 16 bit signed-normalised; of rough ones the lobes' alpha
+};              // 32 B
 
 // Part of a history: a rough surface has turned the path, for itself.
 #define CAUSTIC_ROUGH 0x80000000u

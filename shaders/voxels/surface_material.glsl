@@ -148,9 +148,8 @@ Surface evaluateSurface(VoxelTriangle t, ClippedPolygon polygon) {
     vec3 albedo = evenAlbedo(color.rgb * texel.rgb, lobe.x, lobe.y, materials[m].specularF0);
     uint lobeBits = 0u;
 #if SURFACE_LOBES
-    vec3 f0 = materials[m].specularF0;
-    bool reflects = lobe.x > 0.0 || max(f0.r, max(f0.g, f0.b)) > 0.0;
-    lobeBits = packLobe(lobe.x, reflects ? lobe.y : 1.0);
+    vec2 told = toldLobe(lobe.x, lobe.y, materials[m].specularF0);
+    lobeBits = packLobe(told.x, told.y);
 #endif
     bool unlit = (flags & MATERIAL_UNLIT) != 0u;
     if (unlit) return Surface(vec3(0.0), vec3(0.0), coverage, 0u);

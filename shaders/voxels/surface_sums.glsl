@@ -3,7 +3,8 @@
 // share. Sums are integers in units of 2^-26 voxel sides or coarser, so the order of fragments does not
 // matter. All terms are weights times numbers in [0,1], so no sum exceeds that of the weights.
 // SURFACE_EMISSION 0: no material emits, nothing is summed.
-// SURFACE_LOBES 0: no material has a lobe that rays tell from diffuse light; fragments have no lobe in the lowest bits of their area.
+// SURFACE_LOBES 0: no material has a lobe that rays tell from diffuse light; fragments have none in the lowest
+// bits of their area.
 #ifndef SURFACE_LOBES
 #error SURFACE_LOBES must be 0 or 1
 #endif

@@ -12,21 +12,21 @@ namespace conelight::light {
 namespace {
 
 // More lights than these are taken from faces, not looked up at every hit: the shadow maps of 4 cost as much
-// as the ray itself.
+// as the ray itself. Those of five in builtin:atrium gain more than they cost there (docs/notes/2026-11-25-gloss.md).
 constexpr std::uint32_t kMostExactLights = 8;
 
-// Whether rays may meet a lit material for which `is` holds.
-template <typename Is>
-bool anyVoxelized(const scene::GpuScene& scene, Is is) {
-    return std::any_of(scene.instances().begin(), scene.instances().end(),
-                       [&](const gpu::Instance& instance) {
-                           const gpu::Material& m = scene.materials()[instance.material];
-                           return (instance.flags & INSTANCE_VOXELIZED) != 0 &&
-                                  (m.flags & MATERIAL_UNLIT) == 0 && is(m);
-                       });
+// What lobes rays may meet. Metals bring those of dielectrics with them.
+enum class Lobes { None, Dielectrics, Metals };
+Lobes lobesOf(const scene::GpuScene& scene) {
+    Lobes found = Lobes::None;
+    for (const gpu::Instance& instance : scene.instances()) {
+        const gpu::Material& m = scene.materials()[instance.material];
+        if ((instance.flags & INSTANCE_VOXELIZED) == 0 || (m.flags & MATERIAL_UNLIT) != 0) continue;
+        if (m.metallic > 0) return Lobes::Metals;
+        if (scene::isGlossyDielectric(m)) found = Lobes::Dielectrics;
+    }
+    return found;
 }
-
-bool isMetal(const gpu::Material& m) { return m.metallic > 0; }
 
 }  // namespace
 
@@ -106,12 +106,13 @@ LightKey Lights::key() const {
 
 HitKey Lights::hitKey(const scene::GpuScene& scene, bool exactDirect) const {
     HitKey key;
-    key.lobes = anyVoxelized(scene, isMetal);
+    const Lobes lobes = lobesOf(scene);
+    key.lobes = lobes == Lobes::Metals;
     key.environment = hasEnvironment();
     key.glass = hasGlass();
     key.exact = exactDirect && ends_.z > 0 && ends_.z <= kMostExactLights;
     if (!key.exact) return key;
-    key.gloss = !key.lobes && anyVoxelized(scene, scene::isGlossyDielectric);
+    key.gloss = lobes == Lobes::Dielectrics;
     // One comparison of four texels per light: rays average edges anyway.
     key.lights = this->key();
     key.lights.rect = 0;

@@ -55,9 +55,8 @@ class LitVoxels {
     // Raised by each call that found other voxels or lights: what was gathered from the light before is old.
     base::Revision sources() const { return sources_; }
     int updates() const { return cache_.updates(); }
-    std::uint32_t facesPerUpdate() const {
-        return cache_.faces();
-    }  // that an update of all visits; 0 at first
+    // That an update of all visits; 0 at first.
+    std::uint32_t facesPerUpdate() const { return cache_.faces(); }
     // Whether means are long enough to be averaged over many frames.
     bool steady() const;
     const LitFaces& faces() const { return faces_; }

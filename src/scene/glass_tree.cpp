@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "gl/gl.h"
+#include "math/brdf.h"
 #include "math/octahedral.h"
 #include "shared/caustics.h"
 
@@ -127,14 +128,12 @@ void appendTriangles(const GpuScene& scene, std::size_t index, std::uint32_t sol
     }
 }
 
-constexpr float kLeastRoughness = 0.045f;  // lib/brdf.glsl, kMinRoughness
-
 const gpu::Material& materialOf(const GpuScene& scene, std::size_t index) {
     return scene.materials()[scene.instances()[index].material];
 }
 
 // A texture makes it smoother at most.
-bool isSmooth(const gpu::Material& material) { return material.roughness <= kLeastRoughness; }
+bool isSmooth(const gpu::Material& material) { return material.roughness <= math::kMinRoughness; }
 
 GlassSolid solidOf(const GpuScene& scene, std::size_t index) {
     const Instance& instance = scene.source().instances[index];

@@ -91,11 +91,13 @@ void GpuScene::makeVertexArray() {
 }
 
 void GpuScene::sortDraws() {
-    std::stable_sort(drawOrder_.begin(), drawOrder_.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return instances_[a].material != instances_[b].material
-                   ? instances_[a].material < instances_[b].material
-                   : a < b;
-    });
+    std::sort(drawOrder_.begin(), drawOrder_.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return isDrawnBefore(a, b); });
+}
+
+bool GpuScene::isDrawnBefore(std::uint32_t a, std::uint32_t b) const {
+    return instances_[a].material != instances_[b].material ? instances_[a].material < instances_[b].material
+                                                            : a < b;
 }
 
 void GpuScene::setFlags(std::size_t index, const Instance& source) {

@@ -143,6 +143,7 @@ class GpuScene {
     void uploadInstance(std::size_t instance);
     void placeBakedLight();
     void sortDraws();
+    bool isDrawnBefore(std::uint32_t a, std::uint32_t b) const;
     void drawParts(std::uint32_t instance, const Draw& draw) const;
 
     Scene source_;

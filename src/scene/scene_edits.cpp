@@ -127,7 +127,6 @@ std::size_t GpuScene::addInstance(const Instance& instance) {
         removed_.push_back(0);
         bakedPlaces_.emplace_back();
         const auto number = static_cast<std::uint32_t>(index);
-        drawOrder_.push_back(number);
         if (put(instanceIndexBuffer_, index * sizeof number, &number, sizeof number,
                 "scene instance indices"))
             makeVertexArray();
@@ -155,7 +154,11 @@ void GpuScene::putInstance(std::size_t index, const Instance& instance) {
     setFlags(index, instance);
     place(index, instance.worldFromObject);
     put(instanceBuffer_, index * sizeof g, &g, sizeof g, "scene instances");
-    sortDraws();
+    const auto number = static_cast<std::uint32_t>(index);
+    std::erase(drawOrder_, number);
+    drawOrder_.insert(std::lower_bound(drawOrder_.begin(), drawOrder_.end(), number,
+                                       [&](std::uint32_t a, std::uint32_t b) { return isDrawnBefore(a, b); }),
+                      number);
     geometryRevision_ = instanceRevisions_[index] = shapeRevisions_[index] = entryRevisions_[index] =
         base::Revision::next();
 }

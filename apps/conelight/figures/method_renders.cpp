@@ -154,8 +154,9 @@ Panels renderGallery(Studio& studio) {
     for (const char* mode : {"thesis", "cones", "traced"}) {
         for (const auto& [name, scene] :
              {std::pair("statue", "builtin:thesis-room"), std::pair("three lamps", "builtin:thesis-complex")})
-            panels.push_back(studio.draw(fmt::format("{}, mode {}", name, mode),
-                                         {.scene = scene, .mode = mode, .camera = "pos2", .settings = shown}));
+            panels.push_back(
+                studio.draw(fmt::format("{}, mode {}", name, mode),
+                            {.scene = scene, .mode = mode, .camera = "pos2", .settings = shown}));
     }
     return panels;
 }
