@@ -8,10 +8,12 @@
 #include <malloc.h>
 #endif
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <random>
 
@@ -304,10 +306,18 @@ TEST_F(SoakTest, RandomCommandsLeaveNothingBehind) {
     // The same again: all programs are there, so nothing may be more. What drivers do on threads of their own after
     // the first pass, such as keeping programs on disk, is done after the second.
     EXPECT_EQ(more(pass(soak, 1), first), "");
-    const std::size_t heap = heapBytes();
-    EXPECT_EQ(more(pass(soak, 1), first), "");
-    constexpr std::size_t kSlack = std::size_t{1} << 20;  // of the allocator's own lists
-    EXPECT_LE(heapBytes(), heap + kSlack);
+    // Pools of a driver come and go by megabytes, in passes that differ from run to run. What is not given back is
+    // more after each pass.
+    std::size_t before = heapBytes();
+    auto least = std::numeric_limits<std::ptrdiff_t>::max();
+    for (int i = 0; i < 4; ++i) {
+        EXPECT_EQ(more(pass(soak, 1), first), "");
+        const std::size_t now = heapBytes();
+        least = std::min(least, static_cast<std::ptrdiff_t>(now - before));
+        before = now;
+    }
+    constexpr std::ptrdiff_t kSlack = 1 << 18;  // of the allocator's own lists
+    EXPECT_LE(least, kSlack);
     // Most commands do something.
     EXPECT_LT(4 * soak.refused(), soak.commands());
 
