@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "changes.h"
 #include "guests.h"
 #include "platform/headless_context.h"
 #include "settings.h"
@@ -93,47 +94,73 @@ void conelight_renderer_destroy(conelight_renderer* renderer) {
 }
 
 conelight_result conelight_renderer_set_scene(conelight_renderer* renderer, const conelight_scene* scene) {
-    return guarded([&] {
-        const Use use(renderer);
-        use->setScene(need(scene, "scene").scene);
-    });
+    return c::setScene<Use>(renderer, scene);
 }
 
 conelight_result conelight_renderer_set_transform(conelight_renderer* renderer, size_t instance,
                                                   const float world_from_object[16]) {
-    return guarded([&] {
-        const Use use(renderer);
-        Instance changed = c::elementOf(use->scene().instances, instance, "instance");
-        changed.worldFromObject = c::matrixOf(&need(world_from_object, "world_from_object"));
-        use->setInstance(instance, changed);
-    });
+    return c::setTransform<Use>(renderer, instance, world_from_object);
+}
+
+conelight_result conelight_renderer_set_instance(conelight_renderer* renderer, size_t index,
+                                                 const conelight_instance* instance) {
+    return c::setInstance<Use>(renderer, index, instance);
+}
+
+conelight_result conelight_renderer_set_mesh(conelight_renderer* renderer, size_t index,
+                                             const conelight_mesh* mesh) {
+    return c::setMesh<Use>(renderer, index, mesh);
 }
 
 conelight_result conelight_renderer_set_material(conelight_renderer* renderer, size_t index,
                                                  const conelight_material* material) {
-    return guarded([&] {
-        const Use use(renderer);
-        Material changed = c::elementOf(use->scene().materials, index, "material");
-        c::assign(changed, c::readStruct(material, "material"));
-        use->setMaterial(index, changed);
-    });
+    return c::setMaterial<Use>(renderer, index, material);
 }
 
 conelight_result conelight_renderer_set_light(conelight_renderer* renderer, size_t index,
                                               const conelight_light* light) {
-    return guarded([&] {
-        const Use use(renderer);
-        Light changed = c::elementOf(use->scene().lights, index, "light");
-        c::assign(changed, c::readStruct(light, "light"));
-        use->setLight(index, changed);
-    });
+    return c::setLight<Use>(renderer, index, light);
+}
+
+conelight_result conelight_renderer_set_lights(conelight_renderer* renderer, const conelight_scene* scene) {
+    return c::setLights<Use>(renderer, scene);
 }
 
 conelight_result conelight_renderer_set_sky(conelight_renderer* renderer, const float radiance[3]) {
-    return guarded([&] {
-        const Use use(renderer);
-        use->setSky(c::vec3Of(&need(radiance, "radiance")));
-    });
+    return c::setSky<Use>(renderer, radiance);
+}
+
+conelight_result conelight_renderer_set_environment(conelight_renderer* renderer,
+                                                    const conelight_scene* scene) {
+    return c::setEnvironment<Use>(renderer, scene);
+}
+
+conelight_result conelight_renderer_add_mesh(conelight_renderer* renderer, const conelight_mesh* mesh,
+                                             int32_t* index) {
+    return c::addMesh<Use>(renderer, mesh, index);
+}
+
+conelight_result conelight_renderer_add_material(conelight_renderer* renderer,
+                                                 const conelight_material* material, int32_t* index) {
+    return c::addMaterial<Use>(renderer, material, index);
+}
+
+conelight_result conelight_renderer_add_instance(conelight_renderer* renderer,
+                                                 const conelight_instance* instance, int32_t* index) {
+    return c::addInstance<Use>(renderer, instance, index);
+}
+
+conelight_result conelight_renderer_remove_instance(conelight_renderer* renderer, size_t index) {
+    return c::removeInstance<Use>(renderer, index);
+}
+
+conelight_result conelight_renderer_remove_mesh(conelight_renderer* renderer, size_t index) {
+    return c::removeMesh<Use>(renderer, index);
+}
+
+conelight_result conelight_renderer_set_region(conelight_renderer* renderer, const float low[3],
+                                               const float high[3]) {
+    return c::setRegion<Use>(renderer, low, high);
 }
 
 conelight_result conelight_renderer_render(conelight_renderer* renderer, const conelight_camera* camera,

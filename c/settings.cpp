@@ -2,6 +2,7 @@
 // Settings for C: by name and text, from the library's table.
 #include "settings.h"
 
+#include "conelight/light_field.h"
 #include "guests.h"
 #include "structs.h"
 
@@ -13,6 +14,13 @@ conelight_result conelight_settings_create(conelight_settings** settings) {
     return guarded([&] {
         c::registerGuests();
         need(settings, "settings") = new conelight_settings;
+    });
+}
+
+conelight_result conelight_settings_create_realtime(conelight_settings** settings) {
+    return guarded([&] {
+        c::registerGuests();
+        need(settings, "settings") = new conelight_settings{realtimeSettings()};
     });
 }
 

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT */
-/* Conelight for C and for languages that call C: scenes, settings, renderers. C11; library conelight_c.
+/* Conelight for C and for languages that call C: scenes, settings, renderers, light fields. C11; library conelight_c.
  *
  * Units: metres, radians, y up, right-handed, linear Rec.709; radiance W/(sr m^2), point lights W/sr, directional lights
  * W/m^2. Triangles are counter-clockwise seen from their front. Matrices are column by column, worldFromObject.
@@ -241,6 +241,8 @@ CONELIGHT_API conelight_result conelight_settings_create(conelight_settings** se
 CONELIGHT_API void conelight_settings_destroy(conelight_settings* settings);
 CONELIGHT_API conelight_result conelight_settings_set(conelight_settings* settings, const char* key,
                                                       const char* value);
+/* Those that a light field has at first: for pictures that move, a budget of work per frame. */
+CONELIGHT_API conelight_result conelight_settings_create_realtime(conelight_settings** settings);
 /* What the scene's file asks for. */
 CONELIGHT_API conelight_result conelight_settings_follow(conelight_settings* settings,
                                                          const conelight_scene* scene);
@@ -281,15 +283,41 @@ CONELIGHT_API void conelight_renderer_destroy(conelight_renderer* renderer);
 /* Copies and uploads the scene, which may end then. */
 CONELIGHT_API conelight_result conelight_renderer_set_scene(conelight_renderer* renderer,
                                                             const conelight_scene* scene);
-/* Changes in place; indices are the scene's. The mesh stays. */
+/* Changes in place: the next picture makes anew what depends on them. Indices are the scene's. An instance keeps its mesh, and
+ * a mesh its numbers of vertices and indices. */
 CONELIGHT_API conelight_result conelight_renderer_set_transform(conelight_renderer* renderer, size_t instance,
                                                                 const float world_from_object[16]);
+CONELIGHT_API conelight_result conelight_renderer_set_instance(conelight_renderer* renderer, size_t index,
+                                                               const conelight_instance* instance);
+CONELIGHT_API conelight_result conelight_renderer_set_mesh(conelight_renderer* renderer, size_t index,
+                                                           const conelight_mesh* mesh);
 CONELIGHT_API conelight_result conelight_renderer_set_material(conelight_renderer* renderer, size_t index,
                                                                const conelight_material* material);
 CONELIGHT_API conelight_result conelight_renderer_set_light(conelight_renderer* renderer, size_t index,
                                                             const conelight_light* light);
+/* Those of another scene in place of all there are. */
+CONELIGHT_API conelight_result conelight_renderer_set_lights(conelight_renderer* renderer,
+                                                             const conelight_scene* scene);
 CONELIGHT_API conelight_result conelight_renderer_set_sky(conelight_renderer* renderer,
                                                           const float radiance[3]);
+/* That of another scene. */
+CONELIGHT_API conelight_result conelight_renderer_set_environment(conelight_renderer* renderer,
+                                                                  const conelight_scene* scene);
+/* Further entries; what is there keeps its index. An index that was removed may be given again. Textures are those that the
+ * scene had. A mesh is removed when no instance has it. */
+CONELIGHT_API conelight_result conelight_renderer_add_mesh(conelight_renderer* renderer,
+                                                           const conelight_mesh* mesh, int32_t* index);
+CONELIGHT_API conelight_result conelight_renderer_add_material(conelight_renderer* renderer,
+                                                               const conelight_material* material,
+                                                               int32_t* index);
+CONELIGHT_API conelight_result conelight_renderer_add_instance(conelight_renderer* renderer,
+                                                               const conelight_instance* instance,
+                                                               int32_t* index);
+CONELIGHT_API conelight_result conelight_renderer_remove_instance(conelight_renderer* renderer, size_t index);
+CONELIGHT_API conelight_result conelight_renderer_remove_mesh(conelight_renderer* renderer, size_t index);
+/* Where voxels are, m, whatever the scene's size; NULL both: where its instances are. */
+CONELIGHT_API conelight_result conelight_renderer_set_region(conelight_renderer* renderer, const float low[3],
+                                                             const float high[3]);
 /* One picture. camera NULL: the scene's first, or one that shows all. 1 to 16384 px each way. settings NULL: the
  * defaults. component NULL: that of the settings; else "full", "direct", "indirect", "diffuse", "specular",
  * "occlusion", "albedo", "normal", "depth" ... as the setting `component` takes them. */
@@ -321,5 +349,8 @@ CONELIGHT_API conelight_result conelight_renderer_get_stats(const conelight_rend
 #ifdef __cplusplus
 }
 #endif
+
+/* Light for a renderer of the host. */
+#include "conelight/host_light.h"
 
 #endif

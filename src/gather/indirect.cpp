@@ -11,6 +11,9 @@ namespace {
 // (builtin:cornell-point, interactive: 16 frames to settle instead of 12 when they were long after 8
 // updates).
 constexpr int kUnsettledMean = 4;
+// Later ones reach over one of so many frames since the light changed: the weight of what was gathered before falls with
+// that power of the frames, where a mean of all would keep it for as long as it is (docs/theory/4e_pixels.md).
+constexpr int kFramesPerPass = 2;
 constexpr int kOcclusionPasses = 16;
 constexpr int kOcclusionRays = 2;
 
@@ -80,7 +83,8 @@ void Indirect::addPasses(const gl::Device& device, const RayInputs& inputs, cons
     if (pass.settings.budgeted) {
         next.reuse = !known ? Reuse::None : (still ? Reuse::SameView : Reuse::Reproject);
         next.number = static_cast<std::uint32_t>(history.passes);
-        if (!inputs.lit.steady()) next.longest = std::min(pass.longest, kUnsettledMean);
+        const int grown = inputs.lit.steady() ? history.passes / kFramesPerPass : 0;
+        next.longest = std::min(pass.longest, std::max(kUnsettledMean, grown));
         picture.gather(device, inputs, next);
         ++history.passes;
     } else {

@@ -85,6 +85,7 @@ foreach(kind static shared)
   run(cpp_${kind} ${build}/embed)
   run(c_${kind} ${build}/from_c)
   step("misuse ${kind}" ${build}/misuse)
+  step("light_field ${kind}" ${build}/light_field)
   step("scenes ${kind}" ${build}/scenes ${WORK_DIR})
 endforeach()
 

@@ -83,6 +83,31 @@ TEST_F(LightFieldChanges, SettledLightStays) {
     EXPECT_LT(hostMean(diffuseOf(fresh, host)) / hostMean(settled), 0.8);
 }
 
+// When the lamps go out, a view's means let go of their light: a plain mean would keep a tenth of it after so many frames.
+TEST_F(LightFieldChanges, OldLightLeavesTheMeans) {
+    Settings settings = hostSettings();
+    settings.traced.budgeted = true;
+    settings.traced.passes = 64;
+    HostPicture host(scene_, lens());
+    drawn(host);
+    LightField field;
+    field.setScene(scene_);
+    field.setSettings(settings);
+    const int view = field.addView();
+    const auto after = [&](int frames) {
+        GatheredLight light;
+        for (int i = 0; i < frames; ++i) {
+            field.update({.updates = 4});
+            light = field.gather(view, host.surfaces());
+        }
+        return hostMean(pixelsOf(light.diffuse));
+    };
+    const double lit = after(16);
+    EXPECT_GT(lit, 0);
+    field.setLights({});
+    EXPECT_LT(after(16), 0.04 * lit);
+}
+
 TEST_F(LightFieldChanges, NothingIsLeftBehind) {
     Settings settings = hostSettings();
     settings.traced.budgeted = true;

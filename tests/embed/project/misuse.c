@@ -59,6 +59,44 @@ static void null_pointers(void) {
     if (conelight_scene_note(NULL, 0) != NULL) ++faults;
 }
 
+static void null_changes(void) {
+    EXPECT(CONELIGHT_USAGE, conelight_renderer_set_instance(NULL, 0, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_renderer_set_mesh(NULL, 0, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_renderer_set_lights(NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_renderer_set_environment(NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_renderer_add_mesh(NULL, NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_renderer_add_material(NULL, NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_renderer_add_instance(NULL, NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_renderer_remove_instance(NULL, 0));
+    EXPECT(CONELIGHT_USAGE, conelight_renderer_remove_mesh(NULL, 0));
+    EXPECT(CONELIGHT_USAGE, conelight_renderer_set_region(NULL, NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_set_instance(NULL, 0, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_set_mesh(NULL, 0, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_set_lights(NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_set_environment(NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_add_mesh(NULL, NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_add_material(NULL, NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_add_instance(NULL, NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_remove_instance(NULL, 0));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_remove_mesh(NULL, 0));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_set_region(NULL, NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_create(NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_set_scene(NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_set_settings(NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_set_transform(NULL, 0, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_set_material(NULL, 0, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_set_light(NULL, 0, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_set_sky(NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_update(NULL, NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_add_view(NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_remove_view(NULL, 0));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_gather(NULL, 0, NULL, 1, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_bind_lookups(NULL, 0, 0));
+    EXPECT(CONELIGHT_USAGE, conelight_settings_create_realtime(NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_lookups_glsl(0, 0, NULL));
+    conelight_light_field_destroy(NULL);
+}
+
 static void wrong_scenes(conelight_scene* scene) {
     static const float positions[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
     static const uint32_t beyond[3] = {0, 1, 7};
@@ -123,6 +161,7 @@ int main(void) {
     conelight_renderer_options options = CONELIGHT_RENDERER_OPTIONS_INIT;
     const char* text = NULL;
     null_pointers();
+    null_changes();
     EXPECT(CONELIGHT_OK, conelight_settings_create(&settings));
     EXPECT(CONELIGHT_USAGE, conelight_settings_set(settings, "voxels.sise", "64"));
     EXPECT(CONELIGHT_USAGE, conelight_settings_set(settings, "voxels.size", "huge"));
