@@ -299,6 +299,14 @@ class Words(Project):
             self.assert_one(path, ": write ")
             (self.root / path).unlink()
 
+    def test_sentences_end(self):
+        whole, half = "Word" + " word" * 39, "Word" + " word" * 19
+        self.write("docs/a.md", f"# {whole} more\n\n{whole}. {whole}.\n\n- {whole}\n- {half}:\n  {half} `and more` and.\n\n"
+                                f"| {half} {half} | `a|b` {half}; {half} |\n\n```\n{whole} more\n```\n")
+        self.write("CHANGELOG.md", f"{whole} [more](a.md).\n")
+        self.assertEqual([line.split(" at ")[0] for line in self.problems()],
+                         ["CHANGELOG.md:1: 41 words,", "docs/a.md:6: 42 words,", "docs/a.md:9: 41 words,"])
+
 
 class Files(Project):
     def problems(self):
