@@ -187,6 +187,13 @@ class Docs(Project):
         self.write("docs/theory/a.md", "$$x \\qquad (4.1)$$\n\n$$y \\quad (4.1)$$\n")
         self.assertEqual(self.faults(), ["docs/theory/a.md:3: equation (4.1) has its number from docs/theory/a.md:1"])
 
+    def test_changelog_heads_the_version(self):
+        self.write("include/conelight/version.h", '#define CONELIGHT_VERSION_STRING "0.2.0"\n')
+        self.write("CHANGELOG.md", "# Changelog\n\n## Unreleased\n\n## 0.2.0 - 2026-01-02\n\n## 0.1.0 - 2026-01-01\n")
+        self.assertEqual(self.faults(), [])
+        self.write("CHANGELOG.md", "# Changelog\n\n## 0.1.0 - 2026-01-01\n")
+        self.assertEqual(self.faults(), ["CHANGELOG.md:1: heads 0.1.0 first; version.h has 0.2.0"])
+
     def test_snippets_equal_their_source(self):
         self.write("examples/e.cpp", "int a;\n// [part]\n    int b;\n      int c;\n// [/part]\n")
         self.write("README.md", "<!-- snippet: examples/e.cpp#part -->\n```cpp\nint b;\n  int c;\n```\n")
@@ -298,6 +305,14 @@ class Words(Project):
             self.write(path, text)
             self.assert_one(path, ": write ")
             (self.root / path).unlink()
+
+    def test_sentences_end(self):
+        whole, half = "Word" + " word" * 39, "Word" + " word" * 19
+        self.write("docs/a.md", f"# {whole} more\n\n{whole}. {whole}.\n\n- {whole}\n- {half}:\n  {half} `and more` and.\n\n"
+                                f"| {half} {half} | `a|b` {half}; {half} |\n\n```\n{whole} more\n```\n")
+        self.write("CHANGELOG.md", f"{whole} [more](a.md).\n")
+        self.assertEqual([line.split(" at ")[0] for line in self.problems()],
+                         ["CHANGELOG.md:1: 41 words,", "docs/a.md:6: 42 words,", "docs/a.md:9: 41 words,"])
 
 
 class Files(Project):

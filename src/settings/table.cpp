@@ -93,10 +93,10 @@ std::vector<Setting<LightSettings>> lightSettings() {
         {"area_samples", &LightSettings::areaSamples, Numbers{1, 64, 1, false, true}, "",
          "points per rectangular light, a square number"},
         {"emissive_quads", &LightSettings::emissiveQuads,
-         "light flat rectangular emitters exactly, as area lights"},
+         "treat flat rectangular emitters as area lights, exactly"},
         {"caustics", &LightSettings::caustics, Numbers{1024, 1048576, 1, true, false}, "",
-         "paths of light through each solid of glass from each light, in modes traced and cones; 0: none, "
-         "light goes straight through solids"},
+         "light paths from each light through each solid of glass, in modes traced and cones; 0: none, light "
+         "goes straight through solids"},
     };
 }
 
@@ -110,17 +110,17 @@ std::vector<Setting<PhongSettings>> phongSettings() {
 std::vector<Setting<ConesSettings>> conesSettings() {
     return {
         {"diffuse_set", &ConesSettings::diffuseSet, kDiffuseSets,
-         "cones per hemisphere at diffuse surfaces; the time grows with them; best_N: found by `conelight "
-         "study cones`; "
-         "own: those of --cone-set, 6 without"},
+         "cones per hemisphere at diffuse surfaces; more take more time; best_N: found by `conelight study "
+         "cones`; own: those of --cone-set, or 6 without it"},
         {"count", &ConesSettings::count, Numbers{1, 64}, "", "number of cones of the set fibonacci"},
         {"directional", &ConesSettings::directional, kVolumeDirections,
-         "radiance per voxel: one value, or six by facing direction (six times the memory, closed walls)"},
+         "radiance per voxel; isotropic: one value; six: one per facing direction, which takes six times the "
+         "memory and closes walls"},
         {"storage", &ConesSettings::storage, kVolumeStorages,
-         "where radiance lies: a texture of all voxels, or a sparse octree: the same picture, less memory, "
+         "where radiance lies; dense: a texture of all voxels; octree: the same picture from less memory, in "
          "more time"},
         {"opacity", &ConesSettings::opacity, kOpacityModels,
-         "how opacity adds up: as fog of unrelated droplets, or as connected surface area"},
+         "how opacity adds up along a cone; fog: as unrelated droplets; area: as parts of one surface"},
         {"step", &ConesSettings::step, Numbers{0.1, 2}, "footprints",
          "distance between samples along a cone"},
         {"offset", &ConesSettings::offset, Numbers{0, 4}, "voxels", "where cones start, above the surface"},
@@ -135,14 +135,14 @@ std::vector<Setting<ConesSettings>> conesSettings() {
          "reach of component occlusion; auto: a tenth of the grid"},
         {"bounces", &ConesSettings::bounces, Numbers{0, 8}, "", "bounces of indirect light; 0: none"},
         {"indirect", &ConesSettings::indirect, kConesIndirect,
-         "who fills the volume with indirect light: cones at faces, or the rays of mode traced, all bounces, "
-         "by its settings"},
+         "what fills the volume with indirect light; cones: cones from voxel faces; cache: the rays of mode "
+         "traced, by its settings, all bounces"},
         {"fractional_levels", &ConesSettings::fractionalLevels,
-         "samples between two levels of the volume, not from the nearest alone"},
+         "cone samples blend the two nearest levels of the volume; off: the nearest alone"},
         {"shadows", &ConesSettings::shadows, kConesShadows,
-         "shadow maps, or soft shadows by a cone to each light"},
+         "where shadows come from; maps: shadow maps; cones: a cone to each light, soft"},
         {"shadow_aperture", &ConesSettings::shadowAperture, Numbers{0.01, 1.2}, "rad",
-         "of the cone to a light that is a point or far: how wide the light looks"},
+         "full angle of the shadow cone to a point or directional light; wider is softer"},
         {"refraction", &ConesSettings::refraction,
          "glass bends light: a reflected and a refracted cone per pixel that sees it; off: tinted panes that "
          "bend nothing"},
@@ -158,36 +158,34 @@ std::vector<Setting<TracedSettings>> tracedSettings() {
         {"specular_rays", &TracedSettings::specularRays, Numbers{0, 16}, "",
          "rays per pixel and pass into the specular lobe"},
         {"specular_limit", &TracedSettings::specularLimit, Numbers{0, 1}, "",
-         "surfaces of more roughness reflect their irradiance, without rays"},
+         "roughness above which surfaces reflect their irradiance, without rays"},
         {"passes", &TracedSettings::passes, Numbers{1, 1024}, "", "passes of pixel rays that are averaged"},
         {"filter_levels", &TracedSettings::filterLevels, Numbers{0, 4}, "",
-         "edge-stopping filter: 0 none, 1 3x3, 2 7x7, 3 15x15, 4 31x31 pixels"},
+         "edge-stopping filter between pixels; 1: 3x3 pixels, 2: 7x7, 3: 15x15, 4: 31x31; 0: none"},
         {"cache_rays", &TracedSettings::cacheRays, Numbers{1, 64}, "",
          "cosine-sampled rays per voxel face and update, and as many light-sampled ones"},
         {"cache_updates", &TracedSettings::cacheUpdates, Numbers{1, 4096}, "",
-         "updates of all faces after a change, until the cache is left as it is"},
+         "updates of all voxel faces after a change; then the cache stands still"},
         {"face_budget", &TracedSettings::faceBudget, Numbers{0, 100000000}, "faces",
          "faces updated per budgeted frame; 0: all"},
         {"time_budget", &TracedSettings::timeBudget, Numbers{0, 10000}, "ms",
-         "time for updates of faces in a budgeted frame, as many as fit; 0: one update. Pictures depend on "
-         "the machine"},
+         "time for updates of faces in a budgeted frame, as many as fit; pictures then depend on the "
+         "machine; 0: one update"},
         {"bounces", &TracedSettings::bounces, Numbers{.low = 0, .high = 15, .word = 16}, "",
          "bounces of indirect light; 16 is read as all"},
         {"exact_hits", &TracedSettings::exactHits,
-         "look up the light of point, spot and directional lights where rays hit, by shadow map"},
+         "rays look up point, spot and directional lights in shadow maps where they hit; off: what the cache "
+         "holds"},
         {"exact_mirrors", &TracedSettings::exactMirrors,
-         "rays from mirrors (roughness up to 0.3) meet triangles with their textures, not what voxels keep "
-         "of them; off: voxels, faster"},
+         "rays from mirrors (roughness up to 0.3) meet textured triangles; off: voxels, faster"},
         {"exact_near", &TracedSettings::exactNear,
-         "rays of pixels meet triangles within a voxel of their start, so that folds, thin things and "
-         "contacts "
+         "rays of pixels meet triangles within a voxel of their start, so folds, thin things and contacts "
          "hide light; off: voxels, faster"},
         {"exact_shadows", &TracedSettings::exactShadows,
-         "where shadow maps leave open what a pixel sees of a point, spot or directional light, a ray asks "
-         "the "
-         "triangles: sharp edges of shadows at every size of map; off: maps alone, faster"},
+         "a ray to the triangles decides where a shadow map leaves the shadow of a point, spot or "
+         "directional light open: sharp edges at every size of map; off: maps alone, faster"},
         {"budgeted", &TracedSettings::budgeted,
-         "one update and one pass per frame, reusing frames before, for moving pictures; off: every "
+         "for moving pictures: one update and one pass per frame, which reuses earlier frames; off: every "
          "frame is finished"},
     };
 }
@@ -195,26 +193,27 @@ std::vector<Setting<TracedSettings>> tracedSettings() {
 std::vector<Setting<ViewSettings>> viewSettings() {
     return {
         {"wireframe", &ViewSettings::wireframe, kWireframes,
-         "edges of the triangles: over the picture without hidden ones, or alone"},
+         "edges of the triangles; over: visible edges on the picture; alone: without the picture"},
         {"shrink", &ViewSettings::shrink, Numbers{0, 0.95}, "",
-         "draw each triangle smaller about its middle, by this part of its extent, so that one sees how "
-         "surfaces are made of triangles; 0: whole"},
+         "shrinks each triangle about its middle by this fraction, to show how surfaces are made of "
+         "triangles; 0: whole"},
         {"voxels", &ViewSettings::voxels,
-         "voxels among the objects, whichever is nearer, but in mode phong (component voxels: alone)"},
+         "draws voxels among the objects, whichever is nearer, except in mode phong; component voxels shows "
+         "them alone"},
         {"voxel_data", &ViewSettings::voxelData, kVoxelData,
-         "what voxels show; age, bricks and level as colours from blue (none, 1, 0) to red (256 "
-         "updates, 64 voxels, level 6); modes without surface voxels have radiance, coverage and level"},
+         "what voxels show. Colours from blue to red: age 0 to 256 updates, bricks of 1 to 64 voxels, level "
+         "0 to 6. Modes without surface voxels have radiance, coverage and level"},
         {"voxel_shape", &ViewSettings::voxelShape, kVoxelShapes,
-         "how voxels are drawn; auto: as the mode's rays or cones meet them; faces: plane pieces, "
-         "mode traced only; surfaces: their colours on the objects"},
+         "how voxels are drawn; auto: as the mode's rays or cones meet them; faces: plane pieces, in mode "
+         "traced only; surfaces: voxel colours on the objects"},
         {"voxel_level", &ViewSettings::voxelLevel, Numbers{0, 8}, "",
-         "level that is shown, voxels of 2^level; auto: the mode's "
-         "voxel_level, in mode traced 0"},
+         "level of the voxels that are shown, each 2^level voxels wide; auto: the mode's voxel_level, 0 in "
+         "mode traced"},
         {"voxel_aperture", &ViewSettings::voxelAperture, Numbers{0, 1.5}, "rad",
-         "show the level that a cone of this full angle from the eye reads at the distance; 0: one "
+         "shows at each distance the level that a cone of this full angle from the eye would read; 0: one "
          "level everywhere"},
         {"voxel_density", &ViewSettings::voxelDensity, Numbers{0.001, 1}, "",
-         "of shape volume: a voxel hides 1 - (1 - coverage)^density"},
+         "how much a voxel hides in shape volume: 1 - (1 - coverage)^density"},
         {"light", &ViewSettings::light, Numbers{0, 4095}, "",
          "number of the light whose shadow map component shadow_map shows"},
     };
@@ -223,16 +222,14 @@ std::vector<Setting<ViewSettings>> viewSettings() {
 std::vector<Setting<ImageSettings>> imageSettings() {
     return {
         {"antialiasing", &ImageSettings::antialiasing, Numbers{2, 64, 1, true, false}, "",
-         "smooth edges of stills: the picture is the mean of so many views at offsets within a pixel; 0: one "
-         "view, of the pixels' centres"},
+         "smooth edges of stills: the mean of this many views, each at an offset within a pixel; 0: one view "
+         "of the pixels' centres"},
         {"temporal", &ImageSettings::temporal, kToggles,
-         "smooth edges of moving pictures: each picture is a view at an offset within a pixel, added to "
-         "those before, which follow what moves; takes the place of antialiasing; auto: on in the viewer in "
-         "modes other than traced, else off"},
+         "smooth edges of moving pictures: views at offsets within a pixel add up over frames and follow "
+         "what moves. Replaces antialiasing; auto: on in the viewer except in mode traced, else off"},
         {"bloom", &ImageSettings::bloom, Numbers{0, 1}, "",
-         "part of the light that spreads about where it falls, as in an eye or a lens; of 8-bit pictures, "
-         "not "
-         "of linear ones; 0: none"},
+         "fraction of the light that spreads around its pixel, as in an eye or a lens; in 8-bit pictures "
+         "only; 0: none"},
         {"exposure", &ImageSettings::exposure, Numbers{-20, 20}, "stops",
          "brightness before the tone map: 2^exposure; auto: the picture's mean becomes middle grey"},
         {"tone_map", &ImageSettings::toneMap, kToneMaps, "curve from linear radiance to the 8-bit picture"},

@@ -36,7 +36,8 @@ std::vector<Setting<ThesisSettings>> pictureTable() {
         {"side_cones", &ThesisSettings::sideCones, "four diffuse cones along the surface"},
         {"intermediate_cones", &ThesisSettings::intermediateCones, "four diffuse cones at 45 degrees"},
         {"diffuse.variant", within(&ThesisSettings::diffuse, &ThesisCones::variant), kConeVariants,
-         "march through (chapter 4) or first hit (chapter 5)"},
+         "regular: cones march through the volume (thesis, chapter 4); customised: they end at the first hit "
+         "(chapter 5)"},
         {"diffuse.aperture", within(&ThesisSettings::diffuse, &ThesisCones::aperture), Numbers{0.001, 3},
          "rad", "full angle of diffuse cones"},
         {"diffuse.dist_factor", within(&ThesisSettings::diffuse, &ThesisCones::distFactor), Numbers{0.001, 4},
@@ -46,7 +47,7 @@ std::vector<Setting<ThesisSettings>> pictureTable() {
         {"diffuse.origin_offset", &ThesisSettings::diffuseOriginOffset, Numbers{0, 10}, "m",
          "start of diffuse cones along the normal"},
         {"specular.variant", within(&ThesisSettings::specular, &ThesisCones::variant), kConeVariants,
-         "as traced, or weighted by the angle to the light"},
+         "regular: reflections as traced; customised: weighted by the angle to the light"},
         {"specular.aperture", within(&ThesisSettings::specular, &ThesisCones::aperture), Numbers{0.001, 3},
          "rad", "full angle of specular cones; auto: by shininess"},
         {"specular.dist_factor", within(&ThesisSettings::specular, &ThesisCones::distFactor),
@@ -58,7 +59,7 @@ std::vector<Setting<ThesisSettings>> pictureTable() {
         {"specular.min_weight", &ThesisSettings::minSpecular, Numbers{0, 1}, "",
          "reflections of less weight are not traced"},
         {"occlusion.variant", within(&ThesisSettings::occlusion, &ThesisCones::variant), kConeVariants,
-         "plain, or damped near the surface"},
+         "regular: occlusion as traced; customised: damped near the surface"},
         {"occlusion.aperture", within(&ThesisSettings::occlusion, &ThesisCones::aperture), Numbers{0.001, 3},
          "rad", "full angle of occlusion cones"},
         {"occlusion.dist_factor", within(&ThesisSettings::occlusion, &ThesisCones::distFactor),
@@ -69,17 +70,19 @@ std::vector<Setting<ThesisSettings>> pictureTable() {
          "gain of the customised occlusion"},
         {"bounces", &ThesisSettings::bounces, Numbers{1, 8}, "", "bounces of indirect light"},
         {"storage", &ThesisSettings::storage, kVolumeStorages,
-         "where the volume lies: in textures of all voxels, or in a sparse octree: the same picture"},
-        {"max_samples", &ThesisSettings::maxSamples, Numbers{1, 16384}, "samples", "limit per cone"},
+         "where the volume lies; dense: in textures of all voxels; octree: the same picture from a sparse "
+         "octree"},
+        {"max_samples", &ThesisSettings::maxSamples, Numbers{1, 16384}, "samples",
+         "most samples that a cone takes"},
         {"voxel_level", &ThesisSettings::voxelLevel, Numbers{0, 8}, "", "level that component voxels shows"},
         {"voxel_view", &ThesisSettings::voxelView, kThesisVoxelViews,
-         "component voxels: as cubes, or on the surfaces"},
+         "component voxels; cubes: the voxels as cubes; surfaces: their colours on the surfaces"},
     };
 }
 
 std::vector<Setting<ThesisDefects>> defectTable() {
     return {
-        {"racing_stores", &ThesisDefects::racingStores, "the last of several fragments stays in a voxel"},
+        {"racing_stores", &ThesisDefects::racingStores, "of several fragments in a voxel the last one stays"},
         {"center_coverage", &ThesisDefects::centerCoverage,
          "only triangles that cover pixel centres become voxels"},
         {"binary_opacity", &ThesisDefects::binaryOpacity, "whatever is touched is opaque"},
@@ -116,9 +119,9 @@ std::vector<Setting<ThesisDefects>> defectTable() {
         {"fixed_offsets", &ThesisDefects::fixedOffsets,
          "cones start at fixed distances and meet their own surface"},
         {"short_reach", &ThesisDefects::shortReach, "diffuse and specular cones end after 1 m"},
-        {"nan_axes", &ThesisDefects::nanAxes, "cones without direction where the normal is parallel to z"},
+        {"nan_axes", &ThesisDefects::nanAxes, "cones have no direction where the normal is parallel to z"},
         {"short_side_axis", &ThesisDefects::shortSideAxis,
-         "a cone axis of less than unit length: tilt varies"},
+         "the axis of a cone is shorter than 1, so its tilt varies"},
         {"grazing_side_cones", &ThesisDefects::grazingSideCones, "side cones lie in the surface"},
         {"no_cosine_weights", &ThesisDefects::noCosineWeights, "every diffuse cone counts alike, times 5"},
         {"no_albedo", &ThesisDefects::noAlbedo, "indirect diffuse light takes no colour from the surface"},
