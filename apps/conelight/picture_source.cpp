@@ -125,6 +125,15 @@ void PictureSource::setScene(const Scene& scene) {
     impl_->dropTruths();
 }
 
+void PictureSource::moveInstances(const Scene& scene) {
+    const Scene* const shown = impl_->uploaded;
+    setScene(scene);
+    if (shown == nullptr) return;
+    for (std::size_t i = 0; i < scene.instances.size(); ++i)
+        if (!(scene.instances[i] == shown->instances[i])) impl_->renderer->setInstance(i, scene.instances[i]);
+    impl_->uploaded = &scene;
+}
+
 void PictureSource::follow(const Session& session) {
     const std::uint64_t tables = session.revisions().sceneTables();
     const bool other = impl_->session != &session;

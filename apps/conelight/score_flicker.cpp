@@ -131,7 +131,10 @@ struct Flicker {
     // In order, as an animation that starts settled: what a mode keeps over frames takes part.
     void draw(PictureSource& source, const Variant& variant) {
         for (std::size_t f = 0; f < frames.size(); ++f) {
-            if (scenes.size() > 1 || f == 0) source.setScene(sceneOf(f));
+            if (f == 0)
+                source.setScene(sceneOf(f));
+            else if (scenes.size() > 1)
+                source.moveInstances(sceneOf(f));
             PictureRequest request;
             request.mode = variant.mode;
             request.settings = variant.settingsFor(sceneOf(f), options.view);

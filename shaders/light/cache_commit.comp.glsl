@@ -78,6 +78,21 @@ vec3 shownIrradiance(vec3 own, uvec4 hitTexel, uint updates) {
 }
 #endif
 
+// The updates that count of those that a face has had, after a change: 1 near it, where the next update replaces what was
+// there (docs/theory/4d_cache.md, "Things that move"). A sphere of radius r that is d away covers about the part
+// r^2 / d^2 of what a face sees.
+uint updatesKept(uint updates, vec3 position) {
+    float changed = cache.restartsNear != 0u ? 0.0 : 1.0;
+    for (uint i = 0u; i < cache.placeCount; ++i) {
+        vec3 apart = position - cache.places[i].xyz;
+        float radius = cache.places[i].w;
+        changed = max(changed, radius * radius / max(dot(apart, apart), 1e-12));
+    }
+    float weight = clamp(pow(2.0 / IRRADIANCE_NOISE * changed, 2.0 / 3.0), IRRADIANCE_FAR_WEIGHT, 1.0);
+    float window = 1.5 / weight - 1.5;  // as (4.13) weighs
+    return min(updates, window < 1.0 ? 1u : uint(window) + IRRADIANCE_SETTLE);
+}
+
 void main() {
     uint chunk = linearIndex();
     uint face = min(chunk * cache.facesPerChunk, grid.faceCount - 1u);
@@ -113,8 +128,10 @@ void main() {
                                                   weightAtPixels(hitTexel, !dead && updates != 0u) << 16);
 #endif
             // What was there is replaced by the next update, but is good until then.
-            if (cache.restart != 0u && owner == int(at))
-                states[at].counts = (state.counts & 0xffff0000u) | min(updates, 1u);
+            if (cache.restart != 0u && owner == int(at)) {
+                vec3 position = grid.origin + grid.voxelSize * (vec3(unpackVoxel(hitTexel.w)) + 0.5);
+                states[at].counts = (state.counts & 0xffff0000u) | updatesKept(updates, position);
+            }
         }
         ++face;
     } while (face < end);

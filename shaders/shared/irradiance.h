@@ -24,6 +24,10 @@
 // less. Averages of all updates from the first one keep 2 to 4 % of the light out for good: bounces have not
 // settled (docs/theory/4d_cache.md, "The cache").
 #define IRRADIANCE_SETTLE 8
+// The least weight of an update of a face that is far from what changed.
+#define IRRADIANCE_FAR_WEIGHT 0.0625
+// The noise of a face's update, over its mean, that weights after a change are the best for.
+#define IRRADIANCE_NOISE 0.7
 // Until so many updates after a change pixels see a face's mean shared with its neighbours.
 #define IRRADIANCE_SHARED_UPDATES 32
 // A face lies inside a closed object when of at least so many cosine rays more than a quarter meet a surface
@@ -84,7 +88,15 @@ struct CacheConstants {
     uint restart;        // 1: light changed, windows are short again
     uint reflections;    // on metals, of one ray
     float fireflyClamp;  // as in PixelRayConstants
-};                       // 48 B
+    // ---- 48 B
+    uint
+        restartsNear;  // 1: windows are short again near `places`, elsewhere no longer than IRRADIANCE_FAR_WEIGHT lets them
+    uint placeCount;
+    uint pad0;
+    uint pad1;
+    // ---- 64 B
+    vec4 places[4];  // of changes, world space; w: radius, m
+};                   // 128 B
 
 // Uniform block of the pass that carries light over.
 struct CacheReprojection {
@@ -109,7 +121,7 @@ CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::LitFace) == 16);
 static_assert(sizeof(conelight::gpu::FaceCache) == 16);
-static_assert(sizeof(conelight::gpu::CacheConstants) == 48);
+static_assert(sizeof(conelight::gpu::CacheConstants) == 128);
 static_assert(sizeof(conelight::gpu::CacheReprojection) == 32);
 static_assert(sizeof(conelight::gpu::CacheOrder) == 16);
 #endif

@@ -93,7 +93,7 @@ void IrradianceCache::reserve(std::uint32_t faces) {
     }
 }
 
-void IrradianceCache::adopt(const gl::Device& device, const voxels::Voxels& voxels) {
+void IrradianceCache::adopt(const gl::Device& device, const voxels::Voxels& voxels, const Places& changed) {
     const gl::PassScope pass(device.profiler, "irradiance: reproject");
     const voxels::SurfaceVoxels& surface = voxels.surface();
     const voxels::VoxelKeys* old = voxels.previous();
@@ -111,7 +111,7 @@ void IrradianceCache::adopt(const gl::Device& device, const voxels::Voxels& voxe
     voxelsFrom_ = voxels.revision();
     raysTested_ = 0;
     updatesOfVoxels_ = 0;
-    restartAverages();
+    restartAverages(changed);
 }
 
 void IrradianceCache::reproject(const gl::Device& device, const voxels::Voxels& voxels,
@@ -138,7 +138,9 @@ void IrradianceCache::sort(const gl::Device& device, const voxels::SurfaceVoxels
     order_.sort(device, surface, states_, stateTexels_, {.searches = searches, .keepsMemory = carried_});
 }
 
-void IrradianceCache::restartAverages() {
+void IrradianceCache::restartAverages(const Places& changed) {
+    // No update has seen the change before, wherever that was.
+    restartsNear_ = restarts_ ? std::nullopt : changed;
     restarts_ = true;
     prepared_ = false;
     facesVisited_ = 0;
@@ -170,6 +172,9 @@ gpu::CacheConstants IrradianceCache::packed(const CacheSettings& settings, std::
     c.fireflyClamp = fireflyClamp((settings.cosineRays + settings.lightRays) *
                                   std::min(settings.longestWindow, kUsualWindow));
     c.restart = restarts_ ? 1 : 0;
+    c.restartsNear = restarts_ && restartsNear_ ? 1 : 0;
+    c.placeCount = c.restartsNear != 0 ? static_cast<std::uint32_t>(restartsNear_->size()) : 0;
+    std::copy_n(restartsNear_ ? restartsNear_->data() : nullptr, c.placeCount, c.places);
     return c;
 }
 

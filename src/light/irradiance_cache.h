@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "gl/device.h"
@@ -43,12 +44,16 @@ class IrradianceCache {
         const LitFaces& faces;            // lit directly (injectLight)
     };
 
+    // Spheres round all that changed, world space, radius in w, m, at most EditPlaces::kMost; none: it may be anywhere.
+    // Averages far from them stay longer, in moving pictures (docs/theory/4d_cache.md, "Things that move").
+    using Places = std::optional<std::vector<glm::vec4>>;
+
     // Takes up voxels. Each face gets the light of the face that lay there and looked the same way in the
     // voxels before (voxels.previous()) if these are the ones that the cache holds; else it starts dark.
     // Counts as a change of light.
-    void adopt(const gl::Device& device, const voxels::Voxels& voxels);
+    void adopt(const gl::Device& device, const voxels::Voxels& voxels, const Places& changed = {});
     // Direct light, emission or the sky is another: short averages again, until bounces have settled.
-    void restartAverages();
+    void restartAverages(const Places& changed = {});
 
     // Visits faces `passes` times over (facesPerUpdate each). GL state changed: program and its slots.
     void update(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
@@ -90,6 +95,7 @@ class IrradianceCache {
 
     bool prepared_ = false;  // pool and lit faces say what the states and the direct light say
     bool restarts_ = false;
+    Places restartsNear_;
     std::uint32_t updatesMade_ = 0;      // ever
     std::uint32_t updatesOfVoxels_ = 0;  // calls of update() for these voxels
     std::uint32_t firstFace_ = 0;        // where the next update begins

@@ -46,9 +46,14 @@ void LitVoxels::relight(const gl::Device& device, const Inputs& inputs, const Re
     const bool inTheDark = otherBounces || (settings.bounces && otherSources) ||
                            ((otherSettings || otherGrid) && !budget.oneUpdate);
     if (inTheDark) cache_ = {};
-    if (inTheDark || otherVoxels) cache_.adopt(device, inputs.voxels);
+    IrradianceCache::Places changed = places_.look(inputs.scene);
+    if (!budget.oneUpdate || otherSettings)
+        changed.reset();  // finished pictures keep nothing of the light before
+    if (inTheDark || otherVoxels)
+        cache_.adopt(device, inputs.voxels, changed);
+    else if (otherSources || otherSettings)
+        cache_.restartAverages(changed);
     if (inTheDark || otherSources) putDirectLight(device, inputs);
-    if (inTheDark || otherSources || otherSettings) cache_.restartAverages();
     if (inTheDark || otherSources) sources_ = revision_ = base::Revision::next();
     voxelsFrom_ = inputs.voxels.revision();
     lightsFrom_ = inputs.lights.revision();

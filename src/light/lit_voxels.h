@@ -9,6 +9,7 @@
 #include "base/revision.h"
 #include "conelight/settings.h"
 #include "gl/device.h"
+#include "light/edit_places.h"
 #include "light/emission_fit.h"
 #include "light/irradiance_cache.h"
 #include "light/lights.h"
@@ -75,6 +76,7 @@ class LitVoxels {
     gl::Texture directTexels_;
     EmissionFit fit_;
     IrradianceCache cache_;
+    EditPlaces places_;
 
     // What it was made from.
     base::Revision voxelsFrom_, lightsFrom_;

@@ -83,6 +83,32 @@ TEST_F(LightFieldChanges, SettledLightStays) {
     EXPECT_LT(hostMean(diffuseOf(fresh, host)) / hostMean(settled), 0.8);
 }
 
+// A box goes on by a fiftieth of the room a frame, with one update each: every frame is as a settled one of its scene but for
+// what few updates err. Where all faces forget all they have at each move, frames are 40 % off.
+TEST_F(LightFieldChanges, LightStaysWhileThingsMove) {
+    Settings settings = hostSettings();
+    settings.traced.pixelRays = 0;  // the cache as it is
+    HostPicture host(scene_, lens());
+    drawn(host);
+    Settings moving = settings;
+    moving.traced.budgeted = true;
+    LightField field;
+    field.setScene(scene_);
+    field.setSettings(moving);
+    while (field.update() < settings.traced.cacheUpdates) continue;
+    Scene scene = scene_;
+    for (int frame = 0; frame < 8; ++frame) {
+        scene.instances.back().worldFromObject[3].x -= 0.04f;
+        field.setInstance(scene.instances.size() - 1, scene.instances.back());
+        field.update();
+    }
+    const std::vector<glm::vec4> shown = diffuseOf(field, host);
+    const std::vector<glm::vec4> expected = freshly(scene, settings, host);
+    EXPECT_LT(hostDifference(shown, expected), 0.15);
+    EXPECT_NEAR(hostMean(shown) / hostMean(expected), 1, 0.04);
+    EXPECT_GT(hostDifference(freshly(scene_, settings, host), expected), 0.0);
+}
+
 // When the lamps go out, a view's means let go of their light: a plain mean would keep a tenth of it after so many frames.
 TEST_F(LightFieldChanges, OldLightLeavesTheMeans) {
     Settings settings = hostSettings();

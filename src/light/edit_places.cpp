@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#include "light/edit_places.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace conelight::light {
+namespace {
+
+bool emits(const scene::GpuScene& scene, std::size_t index) {
+    return scene.materials()[scene.instances()[index].material].emission != glm::vec3(0);
+}
+
+glm::vec4 sphereRound(const Aabb& box) { return {box.center(), 0.5f * glm::length(box.extent())}; }
+
+// The farthest that a corner of the box goes, of its diagonal, [0,1].
+float partOfItsSize(const Aabb& box, const glm::mat4& was, const glm::mat4& is) {
+    const glm::mat4 move = is * glm::inverse(was);
+    float farthest = 0;
+    for (const glm::vec3& corner : box.corners())
+        farthest = std::max(farthest, glm::distance(corner, glm::vec3(move * glm::vec4(corner, 1))));
+    const float part = farthest / glm::length(box.extent());
+    return part < 1 ? part : 1;  // a box without size, a matrix without inverse: all of it
+}
+
+}  // namespace
+
+std::optional<std::vector<glm::vec4>> EditPlaces::look(const scene::GpuScene& scene) {
+    bool local =
+        scene_ == scene.identity() && lights_ == scene.lightRevision() && sky_ == scene.skyRevision();
+    scene_ = scene.identity();
+    lights_ = scene.lightRevision();
+    sky_ = scene.skyRevision();
+    std::vector<glm::vec4> places;
+    Aabb all;  // of all places
+    entries_.resize(scene.instances().size());
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+        Entry& entry = entries_[i];
+        if (entry.revision == scene.instanceRevision(i)) continue;
+        const Entry now{scene.instanceRevision(i),
+                        scene.shapeRevision(i),
+                        scene.entryRevision(i),
+                        scene.instanceBounds(i),
+                        scene.instances()[i].worldFromObject,
+                        emits(scene, i)};
+        if (entry.emits || now.emits) local = false;
+        Aabb box = entry.bounds;
+        box.grow(now.bounds);
+        const bool same = entry.shape == now.shape && entry.entry == now.entry && entry.place != now.place;
+        const float part = same ? partOfItsSize(now.bounds, entry.place, now.place) : 1.0f;
+        entry = now;
+        if (box.empty()) continue;
+        all.grow(box);
+        places.push_back(sphereRound(box));
+        places.back().w *= std::sqrt(part);
+    }
+    if (!local) return std::nullopt;
+    if (places.size() > kMost) places = {sphereRound(all)};
+    return places;
+}
+
+}  // namespace conelight::light
