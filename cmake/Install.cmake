@@ -40,6 +40,7 @@ endif()
 # its development files.
 file(RELATIVE_PATH pc_up /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
 string(REGEX REPLACE "/$" "" pc_up ${pc_up})
+# What is not named is empty.
 function(conelight_install_pkgconfig name)
   cmake_parse_arguments(PARSE_ARGV 1 pc "" "description;requires;libs;private" "")
   set(pc_name ${name})
@@ -49,7 +50,7 @@ endfunction()
 conelight_install_pkgconfig(conelight description "Global illumination in real time: the renderer" requires glm
   libs -lconelight private "-lepoxy -lstdc++ -lm -ldl")
 conelight_install_pkgconfig(conelight-headless description "Conelight: OpenGL contexts without a display"
-  requires conelight libs -lconelight_headless private "")
+  requires conelight libs -lconelight_headless)
 if(CONELIGHT_BUILD_IO)
   set(io_libraries "-lassimp -lOpenEXR -lIex -lImath -lpng -ljpeg -lfmt")
   foreach(decoder IN LISTS conelight_decoders)
@@ -57,6 +58,6 @@ if(CONELIGHT_BUILD_IO)
   endforeach()
   conelight_install_pkgconfig(conelight-io description "Conelight: scenes and pictures in files" requires conelight
     libs -lconelight_io private "${io_libraries}")
-  conelight_install_pkgconfig(conelight-c description "Conelight for C" requires "" libs -lconelight_c
+  conelight_install_pkgconfig(conelight-c description "Conelight for C" libs -lconelight_c
     private "-lconelight_io -lconelight_headless -lconelight ${io_libraries} -lepoxy -lstdc++ -lm -ldl")
 endif()

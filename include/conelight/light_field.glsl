@@ -22,6 +22,25 @@
 #define CONELIGHT_FIRST_TEXTURE 0
 #endif
 
+float conelight_dot(vec2 a, vec2 b) {
+    precise float sum = a.y * b.y + a.x * b.x;
+    return sum;
+}
+
+float conelight_dot(vec3 a, vec3 b) {
+    precise float sum = a.z * b.z + a.y * b.y + a.x * b.x;
+    return sum;
+}
+
+float conelight_dot(vec4 a, vec4 b) {
+    precise float sum = a.w * b.w + a.z * b.z + a.y * b.y + a.x * b.x;
+    return sum;
+}
+
+vec2 conelight_normalize(vec2 v) { return v * inversesqrt(conelight_dot(v, v)); }
+
+vec3 conelight_normalize(vec3 v) { return v * inversesqrt(conelight_dot(v, v)); }
+
 struct conelight_VoxelGrid {
     vec3 origin;
     float voxelSize;
@@ -60,7 +79,7 @@ vec2 conelight_octWrap(vec2 v) {
 vec3 conelight_octDecode(vec2 p) {
     vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
     if (n.z < 0.0) n.xy = conelight_octWrap(n.xy);
-    return normalize(n);
+    return conelight_normalize(n);
 }
 
 uint conelight_bitOfVoxel(ivec3 voxel) {
@@ -175,10 +194,11 @@ void conelight_testVoxelFaces(ivec3 voxel, conelight_Ray ray, uint facing, inout
         int face = base + bitCount(directions & (max(lowest, 1u) - 1u));
         uvec4 r = texelFetch(conelight_voxelFaces, remaining != 0u ? face : 0);
         vec3 n = conelight_octDecode(unpackSnorm2x16(r.x));
-        float cosine = dot(n, ray.direction);
-        float planeDistance = conelight_unpackOffset(r.y) + dot(n, toCenter);
+        float cosine = conelight_dot(n, ray.direction);
+        float planeDistance = conelight_unpackOffset(r.y) + conelight_dot(n, toCenter);
         float t = planeDistance / min(cosine, -conelight_kRayFacing);
-        bool ownFarSide = (r.z & 0x40000000u) != 0u && dot(n, ray.startNormal) < conelight_kRayOtherSide &&
+        bool ownFarSide = (r.z & 0x40000000u) != 0u &&
+                          conelight_dot(n, ray.startNormal) < conelight_kRayOtherSide &&
                           planeDistance > -conelight_kRayOtherNear;
         bool inBounds = conelight_insideRayBounds(r.z, n, t, t * ray.direction - toCenter + 0.5);
         bool inside = remaining != 0u && !ownFarSide && t < ray.tMax && inBounds;
@@ -356,7 +376,7 @@ void conelight_tangentFrame(vec3 n, out vec3 u, out vec3 v) {
 }
 
 vec3 conelight_trace(vec3 origin, vec3 direction, out float distance) {
-    vec3 unit = normalize(direction);
+    vec3 unit = conelight_normalize(direction);
     conelight_VoxelHit hit =
         conelight_traceVoxels(conelight_Ray(conelight_gridFromWorld(origin), unit, 1e9, vec3(0.0)));
     bool met = hit.face >= 0;
@@ -395,8 +415,8 @@ vec3 conelight_openIrradiance(vec3 position, vec3 normal, bool sphere) {
 }
 
 vec3 conelight_irradiance(vec3 position, vec3 normal) {
-    bool sphere = dot(normal, normal) < 1e-12;
-    vec3 axis = sphere ? vec3(0.0, 1.0, 0.0) : normalize(normal);
+    bool sphere = conelight_dot(normal, normal) < 1e-12;
+    vec3 axis = sphere ? vec3(0.0, 1.0, 0.0) : conelight_normalize(normal);
     vec3 point = conelight_gridFromWorld(position);
     bool inGrid =
         all(greaterThanEqual(point, vec3(0.0))) && all(lessThanEqual(point, vec3(conelight_gridSize())));

@@ -11,6 +11,7 @@
 #define TEMPORAL 2
 #define MOTION 0
 #include "lib/cache_lookup.glsl"
+#include "lib/dot.glsl"
 #include "lib/lookup_count.glsl"
 #include "lib/record_steps.glsl"
 #include "lib/temporal.glsl"

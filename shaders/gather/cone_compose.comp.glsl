@@ -11,6 +11,7 @@
 #endif
 #include "lib/brdf.glsl"
 #include "lib/caustic_map.glsl"
+#include "lib/dot.glsl"
 #include "lib/gbuffer.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba32f) writeonly uniform image2D result;

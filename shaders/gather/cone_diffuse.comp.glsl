@@ -8,6 +8,7 @@
 #endif
 #include "lib/brdf.glsl"
 #include "lib/cone_trace.glsl"
+#include "lib/dot.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/lighting.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -3,6 +3,7 @@
 // G-buffer + lights -> the light that reaches the eye without a bounce, per pixel: `diffuse` holds what the
 // diffuse part reflects plus emission (background: the sky), `specular` what the specular lobe reflects.
 // a: 1 where there is a surface, 0 in the background. CONE_SHADOWS 1: with the defines of lib/cone_trace.glsl.
+#include "lib/dot.glsl"
 #include "lib/gbuffer.glsl"
 // For glass, before the others.
 #include "lib/scene_tables.glsl"

@@ -11,6 +11,7 @@
 #if !defined(FILTER_STEP) || !defined(SPECULAR)
 #error FILTER_STEP must be 1, 2, 4 or 8, SPECULAR 0 or 1
 #endif
+#include "lib/dot.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/pixel_history.glsl"
 #include "shared/pixel_rays.h"

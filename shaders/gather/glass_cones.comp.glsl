@@ -8,6 +8,7 @@
 // show the picture behind them. Pixels that see no glass stay as they are. Needs lib/cone_trace.glsl's defines.
 // Method: docs/theory/4h_glass.md, "Cones".
 layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/dot.glsl"
 #include "lib/frame_block.glsl"
 // For glass, before the others.
 #include "lib/scene_tables.glsl"

@@ -7,6 +7,7 @@
 // caustics (lib/voxel_light.glsl). `sums` holds the passes' sum until the last one; pixels that chance plays no
 // part in are done after the first. Pixels that see no glass stay as they are. Method: docs/theory/4h_glass.md.
 layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/dot.glsl"
 #include "lib/frame_block.glsl"
 #include "lib/glass_sight.glsl"
 #include "lib/random.glsl"

@@ -9,6 +9,7 @@
 #error PHONG_SHADOWS must be 0 or 1
 #endif
 #define LIGHTS_SHADOWS PHONG_SHADOWS
+#include "lib/dot.glsl"
 #include "lib/gbuffer.glsl"
 // For glass, before the others.
 #include "lib/scene_tables.glsl"

@@ -7,6 +7,7 @@
 #error DIRECTIONAL and OCTREE must be 0 or 1
 #endif
 layout(local_size_x = 64) in;  // before linear_index, which asks for it
+#include "lib/dot.glsl"
 #include "lib/linear_index.glsl"
 #include "lib/lit_face.glsl"
 #include "lib/radiance_volume.glsl"

@@ -9,6 +9,7 @@
 #error OCCLUSION must be 0 or 1
 #endif
 #include "lib/brdf.glsl"
+#include "lib/dot.glsl"
 #include "lib/frame_block.glsl"
 #include "lib/scene_tables.glsl"
 #include "lib/surface_array.glsl"

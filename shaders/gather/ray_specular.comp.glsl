@@ -14,6 +14,7 @@
 #endif
 #define SMOOTH_HITS 1
 layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/dot.glsl"
 #include "lib/frame_block.glsl"
 #include "lib/ggx_sample.glsl"
 #include "lib/surface_array.glsl"

@@ -19,6 +19,7 @@
 #define RECORD_CACHE
 #include "lib/brdf.glsl"
 #include "lib/caustic_map.glsl"
+#include "lib/dot.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/lighting.glsl"
 #include "lib/lookup_count.glsl"

@@ -6,6 +6,7 @@
 #define SHADOW_DIVIDED 1
 layout(local_size_x = 8, local_size_y = 8) in;
 #define VISIBILITY_LIST_ACCESS
+#include "lib/dot.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/lights.glsl"
 #include "lib/visibility_list.glsl"

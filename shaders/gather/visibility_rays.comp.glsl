@@ -7,6 +7,7 @@
 #define BLOCKING_TRIANGLES 1
 layout(local_size_x = 64) in;
 #define VISIBILITY_LIST_ACCESS readonly
+#include "lib/dot.glsl"
 #include "lib/gbuffer.glsl"
 // For rays, before them.
 #include "lib/surface_array.glsl"

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: MIT
 // The environment behind all surfaces: pixels that see none show its picture, sharp, whatever the mode.
 #define ENVIRONMENT 1
+#include "lib/dot.glsl"
 #include "lib/environment.glsl"
 #include "lib/gbuffer.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -7,6 +7,7 @@
 #error BLOOM must be 0 or 1
 #endif
 layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/dot.glsl"
 #include "shared/image.h"
 layout(std140) uniform DisplayBlock { DisplayConstants display; };
 layout(std140) uniform ExposureBlock { Exposure exposure; };

@@ -3,6 +3,7 @@
 // Picture -> how many of its pixels have a luminance in each bin (shared/image.h). One invocation per pixel;
 // sums of integers, so their order does not show. CPU twin: autoExposure in src/image/tone_map.cpp.
 layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/dot.glsl"
 #include "shared/image.h"
 uniform sampler2D linearImage;
 layout(std430) buffer BinCounts { uint counts[]; };

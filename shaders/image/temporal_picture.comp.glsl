@@ -8,6 +8,7 @@
 #ifndef STILL
 #error STILL must be 0 or 1
 #endif
+#include "lib/dot.glsl"
 #include "lib/frame_block.glsl"
 #include "lib/gbuffer.glsl"
 #include "shared/image.h"

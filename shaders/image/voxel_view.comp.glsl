@@ -17,6 +17,7 @@
 #if !defined(SOURCE) || !defined(SHAPE) || !defined(AMONG) || !defined(DIRECTIONAL)
 #error SOURCE, SHAPE, AMONG and DIRECTIONAL must be defined
 #endif
+#include "lib/dot.glsl"
 #include "lib/false_color.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/lighting.glsl"

@@ -1,6 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
 // Distance to the edges of a triangle -> a line along them, premultiplied.
+#include "lib/dot.glsl"
 #include "shared/image.h"
 layout(std140) uniform WireframeBlock { WireframeConstants wireframe; };
 layout(std140) uniform ExposureBlock { Exposure exposure; };

@@ -3,6 +3,7 @@
 // Triangle -> the same triangle with the lines of its edges on the screen, so that each fragment knows how
 // far it is from them (Baerentzen et al. 2006, "Single-pass Wireframe Rendering"). Lines are homogeneous:
 // they hold as well where the triangle reaches behind the eye.
+#include "lib/dot.glsl"
 #include "lib/frame_block.glsl"
 
 layout(triangles) in;

@@ -8,6 +8,7 @@
 // the lobe leaves: 1 - its directional albedo. So a white surface, metal or dielectric, returns all light of
 // a white furnace (docs/theory/3_light.md). C++ twin: src/math/brdf.h. Limits: not reciprocal in both
 // corrections.
+#include "lib/dot.glsl"
 
 const float kPi = 3.14159265358979;
 

@@ -6,6 +6,7 @@
 // three.
 //
 // Reads what voxels::Voxels and light::LitVoxels declare.
+#include "lib/dot.glsl"
 #include "lib/ray_query.glsl"
 #include "lib/record_face.glsl"
 #include "shared/irradiance.h"

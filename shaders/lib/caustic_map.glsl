@@ -3,6 +3,7 @@
 // stands for a lamp in its middle whose intensity, per direction, is that of the light that leaves it on any
 // way, and which reaches as far as this light goes. Method: docs/theory/4h_glass.md, "Caustics".
 // GLASS or CAUSTICS 0: the file is empty.
+#include "lib/dot.glsl"
 #include "lib/octahedral.glsl"
 #include "shared/caustics.h"
 #ifndef GLASS

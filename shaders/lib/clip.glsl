@@ -12,6 +12,7 @@
 // Borders: the cube is half-open, -1/2 in and +1/2 out, so a triangle that lies exactly in a side belongs to
 // one voxel. Tiny gaps where rounding makes neighbouring segments miss each other cost area of the order of
 // 1e-7.
+#include "lib/dot.glsl"
 
 const float kLargestSection = 1.41422;  // sqrt 2, rounded up
 

@@ -3,6 +3,7 @@
 // how much of the light's disc is seen. Needs lib/cone_trace.glsl's defines. The aperture is that of the
 // light as it looks from the surface; CONE_SHADOWS in lib/lights.glsl asks for it.
 #include "lib/cone_trace.glsl"
+#include "lib/dot.glsl"
 
 // Footprints stay below this part of what is left of the way: a sample reaches one and a half of its edge past
 // its centre, and what the light hangs on is not in its way.

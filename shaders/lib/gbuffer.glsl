@@ -5,6 +5,7 @@
 #ifndef SURFACE_EMISSION
 #define SURFACE_EMISSION 1
 #endif
+#include "lib/dot.glsl"
 #include "lib/frame_block.glsl"
 #include "lib/gbuffer_pack.glsl"
 #include "lib/octahedral.glsl"

@@ -2,6 +2,7 @@
 // Directions of the GGX lobe drawn by the visible normals (Heitz 2018, "Sampling the GGX Distribution of
 // Visible Normals"), and what a ray in such a direction weighs: docs/theory/4f_glossy.md, (4.33).
 #include "lib/brdf.glsl"
+#include "lib/dot.glsl"
 #include "lib/tangent_frame.glsl"
 
 // A microfacet normal seen from `toEye`; both in the frame whose z is the surface's normal.

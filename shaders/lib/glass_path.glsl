@@ -2,6 +2,7 @@
 // Paths through glass: facets of a surface, and what a path is behind it. Includers set GLASS and include
 // before: lib/scene_tables.glsl, lib/surface_array.glsl. Refraction at facets: Walter and others 2007,
 // "Microfacet Models for Refraction through Rough Surfaces". C++ twin of the surface: reference/materials.cpp.
+#include "lib/dot.glsl"
 #include "lib/ggx_sample.glsl"
 #include "lib/glass_tree.glsl"
 

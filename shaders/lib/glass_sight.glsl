@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What a pixel sees through glass: its direction, and how far it is to what the picture shows.
+#include "lib/dot.glsl"
 #include "lib/gbuffer.glsl"
 
 struct GlassSight {

@@ -5,6 +5,7 @@
 // Test: Moeller and Trumbore 1997, "Fast, Minimum Storage Ray/Triangle Intersection".
 #include "lib/brdf.glsl"
 #include "lib/caustic_map.glsl"
+#include "lib/dot.glsl"
 #include "lib/octahedral.glsl"
 #include "shared/glass.h"
 #ifndef GLASS

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Reflection of a path by a metal: hit -> direct specular light, and the ray that samples the GGX lobe. Part
 // of lib/voxel_light.glsl (LOBES 1; otherwise the file is empty).
+#include "lib/dot.glsl"
 #if LOBES
 
 // Lobes at least this wide (GGX alpha) reflect rectangular lights analytically, without a ray. In narrower

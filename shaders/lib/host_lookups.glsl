@@ -4,6 +4,7 @@
 // Reads voxels::Voxels, light::LitVoxels and the sky of light::Lights.
 #define ENVIRONMENT 1
 #include "lib/cache_lookup.glsl"
+#include "lib/dot.glsl"
 #include "lib/environment.glsl"
 #include "lib/lit_face.glsl"
 #include "lib/tangent_frame.glsl"

@@ -2,6 +2,7 @@
 // Light sampling of voxel faces (next-event estimation): random numbers -> a point on a light face, and the
 // density of that choice (4.11). Faces are drawn in proportion to their flux from the candidate list that
 // light/cache_pool.comp.glsl fills. Part of lib/voxel_light.glsl.
+#include "lib/dot.glsl"
 
 // One light sample in this many uses bounds that are moved the other way (lightSampleBounds). Without them
 // only cosine-sampled rays would find the rim of a light face that ends at a voxel's side: white dots far

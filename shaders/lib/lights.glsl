@@ -40,6 +40,7 @@
 #define VISIBILITY_PICTURE 0
 #endif
 #include "lib/brdf.glsl"
+#include "lib/dot.glsl"
 #include "lib/glass_tree.glsl"
 #include "lib/light_table.glsl"
 #include "lib/random.glsl"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Unit vectors as two numbers: octahedral mapping (Meyer et al. 2010, "On Floating-Point Normal Vectors").
 // C++ twin: src/math/octahedral.h.
+#include "lib/dot.glsl"
 
 vec2 octWrap(vec2 v) { return (1.0 - abs(v.yx)) * vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0); }
 

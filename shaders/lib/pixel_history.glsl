@@ -6,6 +6,7 @@
 //      what is gathered, of what is shown in what the filter has been over
 //   z  view depth, 22 bits of a float without its sign; 10 bits: number of passes. 0: nothing there
 //   w  normal, octahedral, 2 x 12 bit; lowest 8 bits of the instance
+#include "lib/dot.glsl"
 #include "lib/octahedral.glsl"
 
 struct PixelHistory {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How much of a plane lies in a box: the areas that faces' bounds are fitted to (docs/theory/2_voxels.md,
 // eq. 2.8).
+#include "lib/dot.glsl"
 
 // Share of a rectangle on which a plane lies below `height`, measured from the plane's height in the middle:
 // the distribution function of a sum of two even ones. `rise`: what the plane rises along the two edges.

@@ -14,6 +14,7 @@
 // TRIANGLE_HITS 1: rays with rayCone.width >= 0 hit the triangles of the voxels instead of their plane pieces
 // (lib/triangle_hit.glsl). NEAR_TRIANGLES 1: all rays hit triangles in the voxels that they enter within
 // kRayNearReach of their start, and plane pieces after that.
+#include "lib/dot.glsl"
 #include "lib/lookup_count.glsl"
 #include "lib/record_steps.glsl"
 #include "lib/voxel_grid.glsl"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Hooks of lib/record_steps.glsl for paths that end at a face of a voxel: rays, and lookups in the cache.
 // After lib/ray_query.glsl.
+#include "lib/dot.glsl"
 #include "lib/lit_face.glsl"
 #include "lib/record_steps.glsl"
 #ifdef RECORD_STEPS
@@ -32,7 +33,7 @@ void recordRay(uint kind, Ray ray, VoxelHit hit, RaySample s) {
     bool met = hit.face >= 0;
     // A miss ends where the grid ends.
     float t = met ? hit.t
-                  : min(hit.t, distance(ray.origin, 0.5 * vec3(gridSize())) + 0.5 * length(vec3(gridSize())));
+                  : min(hit.t, length(ray.origin - 0.5 * vec3(gridSize())) + 0.5 * length(vec3(gridSize())));
     vec3 end = worldFromGrid(ray.origin + t * ray.direction);
     float meters = t * grid.voxelSize;
     if (met)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Rectangular lights of constant radiance.
 #include "lib/brdf.glsl"
+#include "lib/dot.glsl"
 #include "lib/rect_points.glsl"
 #include "shared/scene.h"
 

@@ -2,6 +2,7 @@
 // What glass leaves of the light of a rectangle: its sample points are looked at one by one through the triangles of
 // glass (lib/glass_tree.glsl). GLASS 0: the file is empty. Includers that set it include before:
 // lib/scene_tables.glsl, lib/surface_array.glsl.
+#include "lib/dot.glsl"
 #include "lib/glass_tree.glsl"
 #include "lib/random.glsl"
 #include "lib/shadow.glsl"

@@ -32,6 +32,7 @@
 #ifndef SHADOW_DIVIDED
 #define SHADOW_DIVIDED 0
 #endif
+#include "lib/dot.glsl"
 #include "lib/lookup_count.glsl"
 #include "lib/rect_points.glsl"
 #include "shared/scene.h"

@@ -11,6 +11,7 @@
 #if !defined(TEMPORAL) || !defined(MOTION)
 #error TEMPORAL must be 0, 1 or 2, MOTION 0, 1 or 2
 #endif
+#include "lib/dot.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/pixel_history.glsl"
 #include "shared/pixel_rays.h"

@@ -6,6 +6,7 @@
 // its edges (Heckbert 1989, "Fundamentals of Texture Mapping and Image Warping", section 3.5). Taps lie along the
 // longer axis, each as wide as the shorter one, by mip level (McCormack et al. 1999, "Feline").
 // docs/theory/5_image.md, "Textures".
+#include "lib/dot.glsl"
 
 // Taps at most. Beyond a ratio of so much texels are averaged across the shorter axis, too.
 const float kMostTaps = 16.0;

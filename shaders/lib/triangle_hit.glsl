@@ -8,6 +8,7 @@
 //
 // Includers that set one of them include before: lib/scene_tables.glsl, lib/surface_array.glsl. Before the
 // call: SurfaceVoxels::bindTriangles, GpuScene::bind.
+#include "lib/dot.glsl"
 #ifndef BLOCKING_TRIANGLES
 #define BLOCKING_TRIANGLES 0
 #endif

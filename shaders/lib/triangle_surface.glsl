@@ -2,6 +2,7 @@
 // Outgoing radiance of a triangle that a ray hit (TRIANGLE_HITS 1; otherwise the file is empty): Ray,
 // VoxelHit -> albedo, emission and lobe of the material there, direct light at the point, and the
 // interpolated cache. Part of lib/voxel_light.glsl.
+#include "lib/dot.glsl"
 #if TRIANGLE_HITS
 // Rays in lobes wider than this (GGX alpha; roughness 0.3) hit plane pieces: triangles would not be resolved.
 const float kTriangleAlpha = 0.09;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What a face or a voxel of the surface voxels shows in the views of voxels (conelight::VoxelData). After
 // lib/ray_query.glsl.
+#include "lib/dot.glsl"
 #include "lib/false_color.glsl"
 #include "lib/lit_face.glsl"
 #include "shared/irradiance.h"

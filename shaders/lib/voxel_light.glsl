@@ -31,6 +31,7 @@
 #endif
 // Not within an #if: a file that is included in a branch not taken is lost to later includers.
 // For glass, before the others.
+#include "lib/dot.glsl"
 #include "lib/scene_tables.glsl"
 #include "lib/surface_array.glsl"
 // The others.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The packed numbers of face records (shared/voxels.h). C++ twin: src/voxels/voxel_record.h, bit for bit.
+#include "lib/dot.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/voxel_address.glsl"
 #include "shared/voxels.h"

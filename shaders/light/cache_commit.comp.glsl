@@ -7,6 +7,7 @@
 // AT_PIXELS 0: leaves faceLight alone, for a commit that is followed by another before pixels look.
 // SHARED 0: no face is of so few updates that pixels see it shared with its neighbours.
 layout(local_size_x = 64) in;
+#include "lib/dot.glsl"
 #include "light/cache_common.glsl"
 uniform usamplerBuffer stateTexels;
 layout(std430) writeonly buffer LitFaceTable { uvec4 litTable[]; };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the passes of the irradiance cache share that deal with the flux of faces, for the pool of light
 // samples.
+#include "lib/dot.glsl"
 #include "lib/linear_index.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"

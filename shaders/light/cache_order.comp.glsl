@@ -18,6 +18,7 @@
 #error STEP must be 0 to 5
 #endif
 layout(local_size_x = 64) in;
+#include "lib/dot.glsl"
 #include "lib/interleave.glsl"
 #include "lib/linear_index.glsl"
 #include "lib/voxel_grid.glsl"

@@ -3,6 +3,7 @@
 // The map of one solid from its sums: whole numbers of light per texel -> W/sr, and the same times the distance
 // (shared/caustics.h). One invocation per texel.
 layout(local_size_x = 8, local_size_y = 8) in;
+#include "lib/dot.glsl"
 #include "shared/caustics.h"
 layout(std140) uniform CausticPassBlock { CausticPass causticPass; };
 layout(std430) readonly buffer CausticSums { uint sums[]; };

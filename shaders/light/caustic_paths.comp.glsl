@@ -7,6 +7,7 @@
 // Method: docs/theory/4h_glass.md, "Caustics"; stratified paths as in Shah and others 2007, "Caustics Mapping: An
 // Image-Space Technique for Real-Time Caustics".
 layout(local_size_x = 64) in;
+#include "lib/dot.glsl"
 #include "lib/linear_index.glsl"
 // For glass, before the others.
 #include "lib/scene_tables.glsl"

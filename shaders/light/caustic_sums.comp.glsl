@@ -5,6 +5,7 @@
 // their differences in the four numbers of its start (ray differentials: Igehy 1999, "Tracing Ray
 // Differentials"). One invocation per path. Sums are of whole numbers, in two words: the same in any order.
 layout(local_size_x = 64) in;
+#include "lib/dot.glsl"
 #include "lib/linear_index.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/random.glsl"

@@ -18,6 +18,7 @@
 #endif
 layout(local_size_x = 64) in;
 #include "lib/clip.glsl"
+#include "lib/dot.glsl"
 #include "lib/linear_index.glsl"
 #include "lib/plane_piece.glsl"
 #include "lib/random.glsl"

@@ -13,6 +13,7 @@
 #endif
 layout(local_size_x = 64) in;  // before linear_index, which asks for it
 // For glass, before the others.
+#include "lib/dot.glsl"
 #include "lib/scene_tables.glsl"
 #include "lib/surface_array.glsl"
 // The others.

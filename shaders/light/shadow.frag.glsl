@@ -7,6 +7,7 @@
 #if !MASKED && !SURFACES
 #error depth alone of a closed surface needs no fragment stage
 #endif
+#include "lib/dot.glsl"
 #include "lib/scene_tables.glsl"
 
 #if SURFACES

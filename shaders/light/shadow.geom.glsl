@@ -5,6 +5,7 @@
 // cut-off needs.
 layout(triangles) in;
 layout(triangle_strip, max_vertices = 3) out;
+#include "lib/dot.glsl"
 #include "light/shadow_view.glsl"
 
 layout(location = 3) flat out vec3 edge[3];

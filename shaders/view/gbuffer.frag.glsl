@@ -9,6 +9,7 @@
 #ifndef MASKED
 #error MASKED must be 0 or 1
 #endif
+#include "lib/dot.glsl"
 #include "lib/frame_block.glsl"
 #include "lib/gbuffer_pack.glsl"
 #include "lib/octahedral.glsl"

@@ -5,6 +5,7 @@
 #ifndef TEXTURES
 #error TEXTURES must be 0 (none), 1 (base colour) or 2 (all)
 #endif
+#include "lib/dot.glsl"
 #include "lib/frame_block.glsl"
 #include "lib/gbuffer_pack.glsl"
 #include "lib/octahedral.glsl"

@@ -9,6 +9,7 @@
 #if !defined(FACE_NORMALS) || !defined(ROUGHNESS) || !defined(REFLECTANCE) || !defined(INSTANCES)
 #error FACE_NORMALS, ROUGHNESS, REFLECTANCE and INSTANCES must be 0 or 1
 #endif
+#include "lib/dot.glsl"
 #include "lib/frame_block.glsl"
 #include "lib/gbuffer_pack.glsl"
 #include "lib/octahedral.glsl"

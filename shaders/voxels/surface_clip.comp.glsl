@@ -29,6 +29,7 @@
 #endif
 layout(local_size_x = 64) in;
 #include "lib/clip.glsl"
+#include "lib/dot.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
 #include "voxels/surface_common.glsl"

@@ -20,6 +20,7 @@
 #error SURFACE_EMISSION must be 0 or 1
 #endif
 layout(local_size_x = 64) in;
+#include "lib/dot.glsl"
 #include "lib/voxel_record.glsl"
 #include "voxels/surface_common.glsl"
 #include "voxels/surface_sums.glsl"

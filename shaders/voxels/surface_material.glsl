@@ -6,6 +6,7 @@
 // Unlit: black. Included by surface_clip.comp.glsl, which defines structs Surface and
 // VoxelTriangle.
 #include "lib/brdf.glsl"
+#include "lib/dot.glsl"
 #include "lib/surface_array.glsl"
 #include "lib/vertex_color.glsl"
 #include "voxels/surface_vertices.glsl"

@@ -9,6 +9,7 @@
 #endif
 layout(local_size_x = 64) in;
 #include "lib/brdf.glsl"
+#include "lib/dot.glsl"
 #include "lib/voxel_record.glsl"
 #include "voxels/surface_common.glsl"
 #include "voxels/surface_emit.glsl"

@@ -9,6 +9,7 @@
 #error SURFACE_LOBES must be 0 or 1
 #endif
 #include "lib/clip.glsl"
+#include "lib/dot.glsl"
 #include "lib/plane_piece.glsl"
 layout(std430) writeonly buffer FaceMaterialTable { uvec4 faceMaterials[]; };
 uniform usamplerBuffer fragments;

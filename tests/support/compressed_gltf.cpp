@@ -130,6 +130,15 @@ std::vector<unsigned char> packedVertices(const void* data, std::size_t count, s
     return out;
 }
 
+// Vectors of three floats, of a mantissa of 23 bits and an exponent that the three share.
+void encodePositions(std::vector<unsigned char>& out, const std::vector<glm::vec3>& from) {
+#if MESHOPTIMIZER_VERSION < 190  // knows no other kind
+    meshopt_encodeFilterExp(out.data(), from.size(), 12, 23, &from[0].x);
+#else
+    meshopt_encodeFilterExp(out.data(), from.size(), 12, 23, &from[0].x, meshopt_EncodeExpSharedVector);
+#endif
+}
+
 }  // namespace
 
 GltfBuilder meshoptFile(const Sheet& from, bool sequence) {
@@ -137,7 +146,7 @@ GltfBuilder meshoptFile(const Sheet& from, bool sequence) {
     const std::size_t count = from.positions.size();
     // Positions with 23 bits of mantissa, normals in 8 bits, coordinates as they are.
     std::vector<unsigned char> positions(12 * count), normals(4 * count);
-    meshopt_encodeFilterExp(positions.data(), count, 12, 23, &from.positions[0].x);
+    encodePositions(positions, from.positions);
     std::vector<glm::vec4> four;
     for (const glm::vec3& n : from.normals) four.emplace_back(n, 0);
     meshopt_encodeFilterOct(normals.data(), count, 4, 8, &four[0].x);

@@ -7,6 +7,7 @@
 // The surface lies where the opacity of its column does (voxelize.frag.glsl shares it between two voxels), and
 // looks along the mean normal of its pieces. Limits: where normals cancel out, as in a sheet seen from both
 // sides, nothing is added.
+#include "lib/dot.glsl"
 #include "lib/lighting.glsl"
 #include "lib/record_steps.glsl"
 #include "lib/surface.glsl"

@@ -5,6 +5,7 @@
 // regular or customised, which defects of the original, which part is shown. One pixel per invocation.
 //
 // Loops end at the bottom and their conditions hold "is there a surface": branches skip nothing on llvmpipe.
+#include "lib/dot.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/light_table.glsl"
 #include "lib/record_steps.glsl"

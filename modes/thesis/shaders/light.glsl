@@ -4,6 +4,7 @@
 // / pi. Spot lights have their cone; directional ones are 1e4 m away and do not fall off. What needs one
 // direction acts from a rectangle's centre, with the intensity that it has towards the surface.
 // RECTANGLES 1: rectangles among the lights have a size.
+#include "lib/dot.glsl"
 #include "lib/rect_light.glsl"
 #ifndef RECTANGLES
 #define RECTANGLES 0

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The geometry of the thesis's cones, without textures: sizes along a cone, the cone sets, the angular
 // weight. Numbers and letters: docs/theory/4g_thesis_cones.md, "The thesis's cones".
+#include "lib/dot.glsl"
 #include "thesis/shaders/defects.glsl"
 
 // A sample of size s reaches past its centre by 1.5 s (the tent of a texel whose centre is half a texel away)

@@ -4,6 +4,7 @@
 // crosses, and half a voxel beyond, as the two voxels share light that it lies between. A few more, never less: what
 // is summed in a brick without a mark would be lost. And how many columns of bricks wide triangles touch.
 // One invocation per triangle.
+#include "lib/dot.glsl"
 #include "thesis/shaders/constants.h"
 layout(local_size_x = 64) in;
 #include "lib/linear_index.glsl"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The occlusion cone from a pixel to a light -> share of the light that does not arrive. Before it:
 // cone_samples.glsl, ThesisConstants `thesis`, OCCLUSION.
+#include "lib/dot.glsl"
 
 // What a sample's opacity is multiplied by, at distance t of a cone whose way to a light is `distance` long.
 float occlusionGain(float t, float distance) {

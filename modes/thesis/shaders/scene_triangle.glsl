@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Triangles of the scene as the voxelizer sees them: along the dominant axis of their normal (thesis, "Dominant
 // Axis Selection"), where columns of voxels stand for pixels. Before it: ThesisGrid `grid`.
+#include "lib/dot.glsl"
 #include "lib/scene_tables.glsl"
 #include "thesis/shaders/dominant_axis.glsl"
 layout(std430) readonly buffer VertexTable { Vertex vertices[]; };

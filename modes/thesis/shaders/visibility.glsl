@@ -2,6 +2,7 @@
 // Share of a light that arrives at a voxel's surface, by the light's shadow map. SHADOWED 0: all of it. Else
 // with the defines of light::lightDefines. Of rectangles, the middle one of their sample points is asked;
 // RECTANGLES: all, each by the light that its part of the rectangle gives.
+#include "lib/dot.glsl"
 #include "shared/scene.h"
 #ifndef SHADOWED
 #error SHADOWED must be 0 or 1

@@ -8,6 +8,7 @@
 // along the dominant axis between whose centres the surface lies, in proportion, unless FACE_ROUNDING: all of it to
 // the voxel of the truncated position. AXIS_AREAS: with its projections along the three axes, for occlusion cones. CONTENT: instead of light
 // what bounces need. DARK_EMITTERS: without emission. Before it: ThesisGrid `grid`.
+#include "lib/dot.glsl"
 #include "lib/light_table.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/scene_tables.glsl"

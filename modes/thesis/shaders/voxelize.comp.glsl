@@ -7,6 +7,7 @@
 //   TILES  0: one invocation per triangle, which walks through its columns; wide ones are cut into tiles of 8 x 8
 //             columns, each a column of bricks
 //          1: eight invocations per tile, which walk through one row across of it each
+#include "lib/dot.glsl"
 #include "thesis/shaders/constants.h"
 #include "thesis/shaders/coverage.glsl"
 layout(local_size_x = 64) in;

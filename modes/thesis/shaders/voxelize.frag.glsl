@@ -4,6 +4,7 @@
 // For the defect center_coverage alone: the rasterizer makes fragments at covered pixel centres, as in the original.
 // DARK_EMITTERS: without emission, as for emitters that are lights as well (LIGHT_FROM_EMITTER), which would light
 // everything twice.
+#include "lib/dot.glsl"
 #include "thesis/shaders/constants.h"
 layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
 #include "thesis/shaders/voxel_sums.glsl"

@@ -3,6 +3,7 @@
 // Triangle -> the same triangle seen along its dominant axis (thesis, "Dominant Axis Selection"): the largest
 // component of its normal becomes the direction of view, so that the viewport of N x N pixels shows it with
 // as many pixels as it has voxels. AXIS_AREAS: with what the fragment shader needs for areas along the other axes.
+#include "lib/dot.glsl"
 #include "thesis/shaders/constants.h"
 #include "thesis/shaders/dominant_axis.glsl"
 #ifndef AXIS_AREAS

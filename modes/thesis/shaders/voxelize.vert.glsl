@@ -1,6 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
 // Vertices of the scene -> world space, for the thesis's voxelization (voxelize.geom.glsl).
+#include "lib/dot.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/scene_tables.glsl"
 
