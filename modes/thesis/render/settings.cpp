@@ -18,6 +18,13 @@ constexpr Choice<ConeVariant> kConeVariants[] = {{"regular", ConeVariant::Regula
                                                  {"customised", ConeVariant::Customised}};
 constexpr Choice<VolumeStorage> kVolumeStorages[] = {{"dense", VolumeStorage::Dense},
                                                      {"octree", VolumeStorage::Octree}};
+constexpr Choice<VoxelizationAxis> kVoxelizationAxes[] = {{"dominant", VoxelizationAxis::Dominant},
+                                                          {"x", VoxelizationAxis::X},
+                                                          {"y", VoxelizationAxis::Y},
+                                                          {"z", VoxelizationAxis::Z},
+                                                          {"three", VoxelizationAxis::Three}};
+constexpr Choice<VolumeFilter> kVolumeFilters[] = {{"linear", VolumeFilter::Linear},
+                                                   {"nearest", VolumeFilter::Nearest}};
 constexpr Choice<ThesisVoxelView> kThesisVoxelViews[] = {{"cubes", ThesisVoxelView::Cubes},
                                                          {"surfaces", ThesisVoxelView::Surfaces}};
 
@@ -70,6 +77,11 @@ std::vector<Setting<ThesisSettings>> pictureTable() {
         {"bounces", &ThesisSettings::bounces, Numbers{1, 8}, "", "bounces of indirect light"},
         {"storage", &ThesisSettings::storage, kVolumeStorages,
          "where the volume lies: in textures of all voxels, or in a sparse octree: the same picture"},
+        {"voxelize_along", &ThesisSettings::voxelizeAlong, kVoxelizationAxes,
+         "axis along which triangles are cut into voxels: of each its normal's largest part, one axis for all, "
+         "or three passes"},
+        {"filter", &ThesisSettings::filter, kVolumeFilters,
+         "between texels and levels of the volume: a mean by distance, or the nearest (an octree mixes its levels)"},
         {"max_samples", &ThesisSettings::maxSamples, Numbers{1, 16384}, "samples", "limit per cone"},
         {"voxel_level", &ThesisSettings::voxelLevel, Numbers{0, 8}, "", "level that component voxels shows"},
         {"voxel_view", &ThesisSettings::voxelView, kThesisVoxelViews,
