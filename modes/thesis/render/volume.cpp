@@ -62,10 +62,14 @@ gl::Defines volumeDefines(const ThesisDefects& d) {
 // 3: each triangle's own.
 int firstAxis(VoxelizationAxis along) {
     switch (along) {
-        case VoxelizationAxis::X: return 0;
-        case VoxelizationAxis::Y: return 1;
-        case VoxelizationAxis::Z: return 2;
-        default: return 3;
+        case VoxelizationAxis::X:
+            return 0;
+        case VoxelizationAxis::Y:
+            return 1;
+        case VoxelizationAxis::Z:
+            return 2;
+        default:
+            return 3;
     }
 }
 

@@ -106,8 +106,7 @@ class ThesisVolume {
     };
     void rasterTriangles(const gl::Device& device, const Inputs& inputs, const Wanted& wanted,
                          const gl::Inputs& given);
-    void sumTriangles(const gl::Device& device, const Inputs& inputs, const Wanted& wanted,
-                      gl::Inputs given);
+    void sumTriangles(const gl::Device& device, const Inputs& inputs, const Wanted& wanted, gl::Inputs given);
     void resolve(const gl::Device& device, const ThesisDefects& defects, const gl::Texture& target);
     bool areAreas(const gl::Texture& texture) const {
         return &texture == &areas_[0] || &texture == &areas_[1];

@@ -18,9 +18,10 @@ struct ThesisGrid {
     ivec4 boxMin;   // xyz: voxel, a multiple of THESIS_BRICK; w: number of lights for voxel light
     ivec4 boxSize;  // xyz: voxels, multiples of THESIS_BRICK; w: number of instances
     // ---- 64 B
-    ivec4 along;  // x: axis along which triangles are voxelized, 3: the dominant one of each; y: 1 in one of three
-                  // passes, which share a surface
-};                // 80 B
+    ivec4
+        along;  // x: axis along which triangles are voxelized, 3: the dominant one of each; y: 1 in one of three
+                // passes, which share a surface
+};              // 80 B
 
 #define THESIS_BRICK 8  // voxels per axis of a brick: unit of sums, resolving and averaging
 #define THESIS_BRICK_VOXELS 512

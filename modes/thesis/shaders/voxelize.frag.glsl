@@ -20,5 +20,6 @@ const vec3 areas = vec3(0.0);
 
 void main() {
     SurfaceOfPiece surface = surfaceOfPiece(constant.x, constant.y, constant.z, areas, false);
-    addPiece(Piece(gridPosition, normalize(normal), uv, uintBitsToFloat(constant.w)), surface, floor(gl_FragCoord.xy));
+    addPiece(Piece(gridPosition, normalize(normal), uv, uintBitsToFloat(constant.w)), surface,
+             floor(gl_FragCoord.xy));
 }
