@@ -115,7 +115,8 @@ void expectPictures(const std::string& directory, const std::string& id, std::si
 
 TEST_F(FiguresCliTest, PicturesAreDrawnAndDiffer) {
     const std::string a = folder("pictures_a"), b = folder("pictures_b");
-    const std::string only = "--only F07,F15,F16,F18,F22,F27,F29,F31,F37,F38,F42,F45,F46,F48,F49 --small -o '";
+    const std::string only =
+        "--only F07,F15,F16,F18,F22,F27,F29,F31,F37,F38,F42,F45,F46,F48,F49 --small -o '";
     ASSERT_EQ(figures(only + a + "'").status, 0);
     for (const auto& [id, panels] : {std::pair<const char*, std::size_t>{"F07", 3},
                                      {"F15", 2},
