@@ -115,14 +115,17 @@ void expectPictures(const std::string& directory, const std::string& id, std::si
 
 TEST_F(FiguresCliTest, PicturesAreDrawnAndDiffer) {
     const std::string a = folder("pictures_a"), b = folder("pictures_b");
-    const std::string only = "--only F07,F15,F16,F18,F22,F29,F37,F38,F42,F45,F46,F48,F49 --small -o '";
+    const std::string only =
+        "--only F07,F15,F16,F18,F22,F27,F29,F31,F37,F38,F42,F45,F46,F48,F49 --small -o '";
     ASSERT_EQ(figures(only + a + "'").status, 0);
     for (const auto& [id, panels] : {std::pair<const char*, std::size_t>{"F07", 3},
                                      {"F15", 2},
                                      {"F16", 1},
                                      {"F18", 4},
                                      {"F22", 1},
+                                     {"F27", 2},
                                      {"F29", 2},
+                                     {"F31", 4},
                                      {"F37", 3},
                                      {"F38", 4},
                                      {"F42", 4},

@@ -285,7 +285,7 @@ TEST(OriginalCommands, WhatHungOrWasSilentIsAnError) {
                              "setmat box colour 1",
                              "translate box w 1",
                              "rotate nobody x 1",
-                             "vox_freq 0",
+                             "vox_freq -1",
                              "sf",
                              "objs now",
                              "translate box x"}) {
@@ -295,6 +295,14 @@ TEST(OriginalCommands, WhatHungOrWasSilentIsAnError) {
         EXPECT_TRUE(rig.lines[0].isError) << line;
     }
     EXPECT_EQ(rig.session.undoSteps(), 0u);
+}
+
+// The thesis measured its second table with it.
+TEST(OriginalCommands, APeriodOfNothingIsEveryFrame) {
+    ConsoleRig rig;
+    rig.run("vox_freq 0");
+    EXPECT_EQ(rig.session.flags().period, 0);
+    for (const auto& line : rig.lines) EXPECT_FALSE(line.isError);
 }
 
 TEST(OriginalCommands, ConesSayWhereTheyAreSeen) {

@@ -112,6 +112,9 @@ void expectSame(const Scene& read, const Scene& written) {
         expectNear(read.cameras[i].target, written.cameras[i].target, 1e-5f, "target");
         EXPECT_EQ(read.cameras[i].fovY, written.cameras[i].fovY);
         EXPECT_EQ(read.cameras[i].zNear, written.cameras[i].zNear);
+        EXPECT_EQ(read.cameras[i].zFar, written.cameras[i].zFar);
+        EXPECT_EQ(read.cameras[i].lensDiameter, written.cameras[i].lensDiameter);
+        EXPECT_EQ(read.cameras[i].focusDistance, written.cameras[i].focusDistance);
     }
 }
 
@@ -149,6 +152,14 @@ TEST(GltfWrite, WhatGltfHasNoWordsForComesBackAndIsNamed) {
     spot.type = LightType::Spot;
     spot.outerAngle = 0.4f;
     scene.lights = {rect, lamp, spot};
+    Camera lens = scene.cameras.front();  // in focus elsewhere than at its target
+    lens.name = "lens";
+    lens.lensDiameter = 0.05f;
+    lens.focusDistance = 1.75f;
+    Camera at = lens;  // in focus at its target
+    at.name = "at target";
+    at.focusDistance = 0;
+    scene.cameras.insert(scene.cameras.end(), {lens, at});
     const std::filesystem::path path = folderOf("gltf_write") / "own.gltf";
     EXPECT_EQ(io::writeGltf(path, scene).size(), 3u);
     expectSame(io::loadScene(path.string()), scene);

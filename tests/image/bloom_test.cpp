@@ -64,13 +64,24 @@ TEST_F(BloomTest, ItsRadiusIsAPartOfThePicturesHeight) {
             << height;
 }
 
-TEST_F(BloomTest, WithoutItBytesAreAsBefore) {
+// The bytes of each pixel as if it were a picture of its own: no light comes from its neighbours.
+std::vector<std::uint8_t> toneMappedAlone(const Image& image, const ImageSettings& settings) {
+    std::vector<std::uint8_t> bytes;
+    for (const glm::vec4& pixel : image.pixels) {
+        const std::vector<std::uint8_t> one = toneMapped(Image{1, 1, {pixel}}, settings);
+        bytes.insert(bytes.end(), one.begin(), one.end());
+    }
+    return bytes;
+}
+
+TEST_F(BloomTest, WithoutItEveryPixelIsItsOwn) {
     const Image image = spot(64, 48, 6);
     EXPECT_EQ(image::bloomed(image, 0).pixels, image.pixels);
     ImageSettings off, on;
     on.bloom = 0.2f;
-    EXPECT_EQ(toneMapped(image, ImageSettings{}), toneMapped(image, off));
-    EXPECT_NE(toneMapped(image, on), toneMapped(image, off));
+    EXPECT_EQ(off.bloom, 0) << "no picture blooms unless it is asked to";
+    EXPECT_EQ(toneMapped(image, off), toneMappedAlone(image, off));
+    EXPECT_NE(toneMapped(image, on), toneMappedAlone(image, on));
 }
 
 TEST_F(BloomTest, APixelThatIsNoNumberStaysAlone) {

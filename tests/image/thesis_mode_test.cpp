@@ -279,6 +279,11 @@ TEST_F(ThesisModeTest, EverySwitchOfThePictureDoesSomething) {
         setSetting(other, name, getSetting(other, name) == "true" ? "false" : "true");
         EXPECT_GT(largestDifference(usual, render(scene, other)), 0.01) << name;
     }
+    for (const auto& [key, value] : {std::pair{"voxelize_along", "x"}, {"filter", "nearest"}}) {
+        Settings other = settings;
+        setSetting(other, std::string("thesis.") + key, value);
+        EXPECT_GT(largestDifference(usual, render(scene, other)), 0.01) << key;
+    }
     for (const char* key : {"diffuse", "specular", "occlusion"}) {
         // The first hit of a diffuse cone differs from a march through where it is one sample.
         Settings one = settings;

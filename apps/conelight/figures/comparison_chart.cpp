@@ -19,6 +19,17 @@ constexpr const char* kScene = "builtin:cornell";
 constexpr const char* kModes[] = {"phong", "radiosity", "beams",  "thesis",
                                   "cones", "hybrid",    "traced", "reference"};
 
+// Numbers, not a picture to look at: a quarter of the pixels of the others is enough, and keeps the path tracer short.
+constexpr int kLargest = 256;
+
+program::PictureRequest requestOf(const Studio& studio, const std::string& mode, int samples,
+                                  const Scene& scene) {
+    program::PictureRequest request =
+        studio.requestOf(Shot{.scene = kScene, .mode = mode, .samples = samples}, scene);
+    request.size = {std::min(request.size.width, kLargest), std::min(request.size.height, kLargest)};
+    return request;
+}
+
 struct Row {
     std::string mode;
     double error = 0;       // relRMSE; of the reference: its own noise
@@ -35,8 +46,7 @@ const char* movingOf(const std::string& mode) {
 
 Row measure(Studio& studio, const std::string& mode, const Image& truth, const Scene& scene,
             std::string& device) {
-    Shot shot{.scene = kScene, .mode = mode, .samples = 128};
-    program::PictureRequest request = studio.requestOf(shot, scene);
+    program::PictureRequest request = requestOf(studio, mode, 128, scene);
     const bool onCpu = !program::isRendererMode(mode);
     program::PictureSource fresh(studio.view());  // nothing of other modes: what it holds is its own
     fresh.setScene(scene);
@@ -87,8 +97,7 @@ void drawBars(Drawing& d, double x, const std::string& title, const std::vector<
 Panels plotComparison(Studio& studio) {
     const Scene scene = studio.scene(kScene);
     studio.restart();
-    Shot truthShot{.scene = kScene, .mode = "reference", .samples = 512};
-    program::PictureRequest request = studio.requestOf(truthShot, scene);
+    program::PictureRequest request = requestOf(studio, "reference", 512, scene);
     request.reference.seed = 2;  // other noise than the one that is measured
     program::PictureSource source(studio.view());
     source.setScene(scene);
@@ -118,7 +127,7 @@ Panels plotComparison(Studio& studio) {
                {.size = 13, .anchor = Anchor::Start, .colour = colour::kNote});
     d.text({-110, 40.0 * double(rows.size()) + 30},
            fmt::format("{}, {} x {}, against {} samples per pixel; scales are logarithmic; {}", kScene,
-                       studio.size().width, studio.size().height, request.reference.samplesPerPixel, device),
+                       request.size.width, request.size.height, request.reference.samplesPerPixel, device),
            {.size = 12, .anchor = Anchor::Start, .colour = colour::kNote});
     nlohmann::ordered_json json = nlohmann::ordered_json::array();
     for (const Row& r : rows)

@@ -9,8 +9,8 @@ namespace {
 
 const Figure kFigures[] = {
     {"F01", "What it is good for", "A collage of demonstrations of voxel cone tracing",
-     "Scenes of this project in its own modes: a sunlit courtyard, a box with a lamp, a room with curved "
-     "things.",
+     "Scenes of this project in its own modes: a sunlit courtyard, a box with a lamp, a parlour, glass "
+     "on a table.",
      Kind::Series, renderUses},
     {"F02", "Solid angle", "The patch that two angles and their steps cut out of the unit sphere",
      "The patch (blue) at θ from the pole and φ round it. Its edges are dθ and sin θ dφ long, so its area, "
@@ -79,8 +79,9 @@ const Figure kFigures[] = {
      "Direct light alone: ambient, diffuse and glossy part of Phong's model on a body made by code.",
      Kind::Render, renderDragon},
     {"F17", "Path tracing", "A photorealistic interior by ray tracing",
-     "A room with textures on every surface by the path tracer of mode `reference`.", Kind::Render,
-     renderPathTraced},
+     "A room with glass and textures, lit by the sun, by the path tracer of mode `reference`. The stain on "
+     "the floor is sunlight that passed through coloured panes; what noise was left is filtered out.",
+     Kind::Render, renderPathTraced},
     {"F18", "Bounces", "Radiosity after a growing number of bounces",
      "Each bounce lights what the one before it left dark, and adds less than the one before it.",
      Kind::Series, renderBounces},

@@ -9,8 +9,8 @@ namespace conelight::figures {
 Panels renderUses(Studio& studio) {
     return {studio.draw("a courtyard in sun", {.scene = "builtin:atrium?triangles=100000"}),
             studio.draw("a box with a lamp", {.scene = "builtin:cornell"}),
-            studio.draw("curved things", {.scene = "builtin:vases"}),
-            studio.draw("paint, plastic and gold", {.scene = "builtin:spheres"})};
+            studio.draw("a parlour", {.scene = "builtin:parlour"}),
+            studio.draw("glass on a table", {.scene = "builtin:glassware"})};
 }
 
 Panels renderLightKinds(Studio& studio) {
@@ -58,7 +58,8 @@ Panels renderShrunkTriangles(Studio& studio) {
 }
 
 Panels renderPathTraced(Studio& studio) {
-    return {studio.draw("", {.scene = "builtin:study", .mode = "reference", .samples = 256})};
+    return {studio.draw(
+        "", {.scene = "builtin:conservatory", .mode = "reference", .samples = 64, .denoised = true})};
 }
 
 Panels renderBounces(Studio& studio) {
@@ -74,8 +75,10 @@ Panels renderBounces(Studio& studio) {
 
 Panels renderRadiosityBesideRays(Studio& studio) {
     return {studio.draw("radiosity", {.scene = "builtin:mirrors?roughness=0.2", .mode = "radiosity"}),
-            studio.draw("ray tracing",
-                        {.scene = "builtin:mirrors?roughness=0.2", .mode = "reference", .samples = 128})};
+            studio.draw("ray tracing", {.scene = "builtin:mirrors?roughness=0.2",
+                                        .mode = "reference",
+                                        .samples = 64,
+                                        .denoised = true})};
 }
 
 }  // namespace conelight::figures

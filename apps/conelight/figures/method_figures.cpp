@@ -37,9 +37,9 @@ const Figure kFigures[] = {
      Kind::Drawing, vectorFigure<drawMipPyramid>},
     {"F27", "Magnification", "Nearest neighbour and bilinear filter on a magnified picture",
      "The part in the red frame, ten times as large: squares with the nearest texel, a smooth picture with "
-     "the mean of "
-     "four.",
-     Kind::Drawing, vectorFigure<drawMagnification>},
+     "the mean of four. Below the same of the volume: indirect light by cones that read its nearest texel "
+     "(`thesis.filter=nearest`), and means of eight.",
+     Kind::Render, renderMagnification},
     {"F28", "Flat cone", "A march through the mip levels of a picture in two dimensions",
      "The farther a sample lies, the wider it is, and the coarser the level that it is read from. Discs have "
      "the "
@@ -56,8 +56,9 @@ const Figure kFigures[] = {
     {"F31", "Three directions", "One surface voxelized along each axis",
      "A quarter of a dome, voxelized by the raster rule along x, y and z: where it is seen edge on, voxels "
      "are missing. "
-     "Green: each triangle along its dominant axis.",
-     Kind::Drawing, vectorFigure<drawThreeVoxelizations>},
+     "Green: each triangle along its dominant axis. Then a room's volume by the published program, along one "
+     "axis and in three passes (`thesis.voxelize_along`).",
+     Kind::Render, renderThreeDirections},
     {"F32", "Dominant axis", "The axis along which a triangle covers most",
      "Three shadows of one triangle. Their areas are the parts of its normal, so the largest part picks the "
      "axis.",

@@ -15,6 +15,10 @@ namespace {
 
 using Values = std::vector<std::pair<std::string, std::string>>;
 
+Panel drawn(const std::string& label, const std::string& svg) {
+    return {label, ".svg", {svg.begin(), svg.end()}};
+}
+
 // A picture of mode thesis from the camera that looks in from the front.
 Shot thesisShot(const std::string& scene, const std::string& component, const Values& settings = {},
                 int voxels = 128) {
@@ -58,6 +62,26 @@ Panels allVariants(Studio& studio, const std::string& scene, const std::string& 
 Panels renderConesOfPixel(Studio& studio) {
     return {studio.inspect("", thesisShot("thesis-room", "full", {{"thesis.specular.min_weight", "0"}}), 0.36,
                            0.86)};
+}
+
+Panels renderMagnification(Studio& studio) {
+    Panels panels = {drawn("a picture", drawMagnification())};
+    for (const auto& [filter, label] :
+         {std::pair("nearest", "cones that read the nearest texel"), std::pair("linear", "means of texels")})
+        panels.push_back(studio.draw(
+            label,
+            thesisShot("thesis-room", "diffuse", {{"thesis.filter", filter}, {"image.exposure", "1"}}, 64)));
+    return panels;
+}
+
+Panels renderThreeDirections(Studio& studio) {
+    Panels panels = {drawn("a dome", drawThreeVoxelizations())};
+    for (const auto& [along, label] : {std::pair("x", "along x"), std::pair("y", "along y"),
+                                       std::pair("z", "along z"), std::pair("three", "three passes")})
+        panels.push_back(studio.draw(
+            label, thesisShot("thesis-room?front=0", "voxels",
+                              {{"thesis.published", "true"}, {"thesis.voxelize_along", along}}, 64)));
+    return panels;
 }
 
 Panels renderLightAndVoxels(Studio& studio) {
@@ -106,10 +130,7 @@ Panels renderConeSets(Studio& studio) {
                                  {{"thesis.front_cone", "true"},
                                   {"thesis.side_cones", set.side ? "true" : "false"},
                                   {"thesis.intermediate_cones", set.intermediate ? "true" : "false"}})));
-    for (const Set& set : kSets) {
-        const std::string text = drawConeSet(set.side, set.intermediate);
-        panels.push_back({set.name, ".svg", {text.begin(), text.end()}});
-    }
+    for (const Set& set : kSets) panels.push_back(drawn(set.name, drawConeSet(set.side, set.intermediate)));
     return panels;
 }
 

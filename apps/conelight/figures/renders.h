@@ -21,6 +21,8 @@ Panels renderRadiosityBesideRays(Studio& studio);
 
 // Chapters 4 to 6 (method_renders.cpp)
 Panels renderConesOfPixel(Studio& studio);
+Panels renderMagnification(Studio& studio);
+Panels renderThreeDirections(Studio& studio);
 Panels renderLightAndVoxels(Studio& studio);
 Panels renderPrimitives(Studio& studio);
 Panels renderResolutions(Studio& studio);

@@ -64,6 +64,7 @@ program::PictureRequest Studio::requestOf(const Shot& shot, const Scene& scene) 
     request.components = {program::componentOf(shot.component)};
     request.settings.component = request.components.front();
     request.reference.bounces = request.radiosity.bounces = shot.bounces;
+    if (shot.denoised) request.denoiser = reference::Denoiser::Own;
     request.reference.samplesPerPixel = small_ ? std::min(shot.samples, 8) : shot.samples;
     if (small_) {
         request.radiosity.maxSubdivision = 1;

@@ -22,6 +22,7 @@ struct Shot {
     int voxels = 128;                                                // halved by --small
     int bounces = -1;                                                // reference, radiosity; -1: all
     int samples = 256;                                               // reference; fewer by --small
+    bool denoised = false;                                           // reference
 };
 
 class Studio {

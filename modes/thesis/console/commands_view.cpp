@@ -200,8 +200,9 @@ CommandGroup viewCommands() {
     times.arguments = {{"COUNT", ArgumentKind::Whole, false, false, "frames", 1, 100, {}}};
     c.push_back(times);
     c.push_back(load());
-    Command period = plain("vox_freq", "period of `dynamic`", setPeriod, "a period, as there");
-    period.arguments = {{"SECONDS", ArgumentKind::Number, false, false, "s", 0.01, 3600, {}}};
+    Command period = plain("vox_freq", "period of `dynamic`; 0 builds the voxels anew at every frame",
+                           setPeriod, "a period, as there; 0: at every frame");
+    period.arguments = {{"SECONDS", ArgumentKind::Number, false, false, "s", 0, 3600, {}}};
     c.push_back(period);
     return group;
 }

@@ -14,6 +14,8 @@ ThesisVolumeOptions volumeOptions(const modes::Frame& frame) {
     options.shift = frame.settings.voxels.shift;
     options.defects = effectiveDefects(frame.settings.groups.of<ThesisSettings>());
     options.storage = frame.settings.groups.of<ThesisSettings>().storage;
+    options.along = frame.settings.groups.of<ThesisSettings>().voxelizeAlong;
+    options.filter = frame.settings.groups.of<ThesisSettings>().filter;
     options.unitGrid = frame.scene.source().format == kSceneFormat && options.defects.wholeGrid;
     options.shadows = !options.defects.unshadowedVoxels && frame.settings.light.shadowSize > 0;
     if (options.shadows) options.lights = frame.lights.key();

@@ -18,6 +18,13 @@ constexpr Choice<ConeVariant> kConeVariants[] = {{"regular", ConeVariant::Regula
                                                  {"customised", ConeVariant::Customised}};
 constexpr Choice<VolumeStorage> kVolumeStorages[] = {{"dense", VolumeStorage::Dense},
                                                      {"octree", VolumeStorage::Octree}};
+constexpr Choice<VoxelizationAxis> kVoxelizationAxes[] = {{"dominant", VoxelizationAxis::Dominant},
+                                                          {"x", VoxelizationAxis::X},
+                                                          {"y", VoxelizationAxis::Y},
+                                                          {"z", VoxelizationAxis::Z},
+                                                          {"three", VoxelizationAxis::Three}};
+constexpr Choice<VolumeFilter> kVolumeFilters[] = {{"linear", VolumeFilter::Linear},
+                                                   {"nearest", VolumeFilter::Nearest}};
 constexpr Choice<ThesisVoxelView> kThesisVoxelViews[] = {{"cubes", ThesisVoxelView::Cubes},
                                                          {"surfaces", ThesisVoxelView::Surfaces}};
 
@@ -68,12 +75,29 @@ std::vector<Setting<ThesisSettings>> pictureTable() {
          "m", "first sample of occlusion cones"},
         {"occlusion.shadow_str", &ThesisSettings::shadowStr, Numbers{0, 100}, "",
          "gain of the customised occlusion"},
+    };
+}
+
+std::vector<Setting<ThesisSettings>> volumeTable() {
+    return {
         {"bounces", &ThesisSettings::bounces, Numbers{1, 8}, "", "bounces of indirect light"},
         {"storage", &ThesisSettings::storage, kVolumeStorages,
+<<<<<<< HEAD
          "where the volume lies; dense: in textures of all voxels; octree: the same picture from a sparse "
          "octree"},
         {"max_samples", &ThesisSettings::maxSamples, Numbers{1, 16384}, "samples",
          "most samples that a cone takes"},
+=======
+         "where the volume lies: in textures of all voxels, or in a sparse octree: the same picture"},
+        {"voxelize_along", &ThesisSettings::voxelizeAlong, kVoxelizationAxes,
+         "axis along which triangles are cut into voxels: of each its normal's largest part, one axis for "
+         "all, "
+         "or three passes"},
+        {"filter", &ThesisSettings::filter, kVolumeFilters,
+         "between texels and levels of the volume: a mean by distance, or the nearest (an octree mixes its "
+         "levels)"},
+        {"max_samples", &ThesisSettings::maxSamples, Numbers{1, 16384}, "samples", "limit per cone"},
+>>>>>>> 50214e3286ca37eb0cbe986c7f7a2bccadc2a13e
         {"voxel_level", &ThesisSettings::voxelLevel, Numbers{0, 8}, "", "level that component voxels shows"},
         {"voxel_view", &ThesisSettings::voxelView, kThesisVoxelViews,
          "component voxels; cubes: the voxels as cubes; surfaces: their colours on the surfaces"},
@@ -153,6 +177,7 @@ std::vector<bool*> thesisDefectFlags(ThesisDefects& defects) {
 
 void registerSettings() {
     std::vector<Setting<ThesisSettings>> rows = pictureTable();
+    for (const Setting<ThesisSettings>& row : volumeTable()) rows.push_back(row);
     const auto defects = settings::placeOf<ThesisSettings>(&ThesisSettings::defects);
     for (const Setting<ThesisDefects>& row : defectTable()) rows.push_back(within("defects.", defects, row));
     settings::registerSettings("thesis.", rows, "cones.");

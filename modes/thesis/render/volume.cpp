@@ -59,6 +59,20 @@ gl::Defines volumeDefines(const ThesisDefects& d) {
     return defines;
 }
 
+// 3: each triangle's own.
+int firstAxis(VoxelizationAxis along) {
+    switch (along) {
+        case VoxelizationAxis::X:
+            return 0;
+        case VoxelizationAxis::Y:
+            return 1;
+        case VoxelizationAxis::Z:
+            return 2;
+        default:
+            return 3;
+    }
+}
+
 gl::ProgramDesc markDesc() { return {{"thesis/shaders/mark_bricks.comp.glsl"}, {}}; }
 
 gl::ProgramDesc bricksDesc(bool arguments) {
@@ -185,6 +199,7 @@ void ThesisVolume::build(const gl::Device& device, const Inputs& inputs, const T
     const std::size_t lights = inputs.lights.table().size();
     grid_.boxSize.w = static_cast<int>(inputs.scene.instances().size());
     grid_.boxMin.w = static_cast<int>(options.defects.tenLights ? std::min<std::size_t>(lights, 10) : lights);
+    grid_.along = {firstAxis(options.along), 0, 0, 0};
     allocate(options);
     constants_.update(grid_);
     const std::uint32_t none[3] = {};
@@ -201,7 +216,7 @@ void ThesisVolume::build(const gl::Device& device, const Inputs& inputs, const T
     {
         const gl::PassScope step(device.profiler, "thesis bricks");
         brickCount_ = 0;
-        if (!asPublished) markBricks(device, inputs);
+        if (!asPublished) markBricks(device, inputs, options);
         allocateSums(options);
     }
     {
@@ -235,11 +250,15 @@ void ThesisVolume::build(const gl::Device& device, const Inputs& inputs, const T
 }
 
 // The bricks that light will be summed in, and how many they are.
-void ThesisVolume::markBricks(const gl::Device& device, const Inputs& inputs) {
+void ThesisVolume::markBricks(const gl::Device& device, const Inputs& inputs,
+                              const ThesisVolumeOptions& options) {
     if (inputs.scene.triangleCount() > 0) {
         gl::Inputs given = bricks();
-        device.get(markDesc()).dispatchLinear(given.add(inputs.scene), inputs.scene.triangleCount());
-        gl::barrier(gl::Access::ShaderStorage);
+        given.add(inputs.scene);
+        forEachAxis(options, [&] {
+            device.get(markDesc()).dispatchLinear(given, inputs.scene.triangleCount());
+            gl::barrier(gl::Access::ShaderStorage);
+        });
     }
     listBricks(device);
     gl::barrier(gl::Access::Update);
@@ -268,6 +287,16 @@ void ThesisVolume::clearBox() {
     filledSize_ = glm::ivec3(grid_.boxSize);
 }
 
+template <class Pass>
+void ThesisVolume::forEachAxis(const ThesisVolumeOptions& options, const Pass& pass) {
+    if (options.along != VoxelizationAxis::Three) return pass();
+    for (int axis = 0; axis < 3; ++axis) {
+        const glm::ivec4 along{axis, 1, 0, 0};
+        constants_.update(offsetof(gpu::ThesisGrid, along), &along, sizeof(along));
+        pass();
+    }
+}
+
 void ThesisVolume::drawTriangles(const gl::Device& device, const Inputs& inputs,
                                  const ThesisVolumeOptions& options, Content content) {
     const auto hasTexture = [](const gpu::Material& material) {
@@ -279,11 +308,13 @@ void ThesisVolume::drawTriangles(const gl::Device& device, const Inputs& inputs,
     gl::Inputs given = bricks();
     given.add(inputs.scene).add(inputs.lights);
     if (!isOctree_) given.image("volume", texture_, gl::ImageUse::Write);  // of stores that race
-    if (options.defects.centerCoverage)
-        rasterTriangles(device, inputs, {options, key, content}, given);
-    else
-        sumTriangles(device, inputs, {options, key, content}, given);
-    gl::barrier(gl::Access::ShaderStorage | gl::Access::ImageAccess);
+    forEachAxis(options, [&] {
+        if (options.defects.centerCoverage)
+            rasterTriangles(device, inputs, {options, key, content}, given);
+        else
+            sumTriangles(device, inputs, {options, key, content}, given);
+        gl::barrier(gl::Access::ShaderStorage | gl::Access::ImageAccess | gl::Access::Update);
+    });
 }
 
 // As in the original: by pixel centres.
@@ -310,7 +341,7 @@ void ThesisVolume::rasterTriangles(const gl::Device& device, const Inputs& input
 
 // By the area that triangles cover of each column of voxels: small ones, then tiles of wide ones.
 void ThesisVolume::sumTriangles(const gl::Device& device, const Inputs& inputs, const Wanted& wanted,
-                                gl::Inputs& given) {
+                                gl::Inputs given) {
     if (inputs.scene.triangleCount() == 0) return;
     std::vector<std::uint32_t> lamps(inputs.scene.instances().size());
     for (std::size_t i = 0; i < lamps.size(); ++i) lamps[i] = inputs.lights.areInTable(i) ? 1 : 0;

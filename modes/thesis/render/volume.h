@@ -36,6 +36,8 @@ struct ThesisVolumeOptions {
     light::LightKey lights;  // which kinds of light there are, with shadows
     ThesisDefects defects;   // those of the volume count
     VolumeStorage storage = VolumeStorage::Dense;
+    VoxelizationAxis along = VoxelizationAxis::Dominant;
+    VolumeFilter filter = VolumeFilter::Linear;
     int bounces = 1;       // of indirect light in what cones find: one less in the volume
     ThesisSettings cones;  // above one bounce: their diffuse cones carry light on
     bool operator==(const ThesisVolumeOptions&) const = default;
@@ -55,7 +57,7 @@ class ThesisVolume {
     // Of all voxels, or of the octree's bricks.
     const gl::Texture& texture() const { return lit_ < 0 ? texture_ : bounced_[lit_]; }
     const gather::RadianceOctree* octree() const { return isOctree_ ? &octree_ : nullptr; }
-    // Trilinear within and between levels, edge texels repeated outside.
+    // Trilinear within and between levels or the nearest, edge texels repeated outside.
     const gl::Sampler& sampler() const { return sampler_; }
     // volume and, if there are any, areasPlus and areasMinus, with their samplers; ThesisGridBlock; of an octree
     // what look-ups read.
@@ -89,7 +91,10 @@ class ThesisVolume {
     void allocateLists();
     void allocateSums(const ThesisVolumeOptions& options);
     void clearBox();
-    void markBricks(const gl::Device& device, const Inputs& inputs);
+    // Calls `pass` for each axis along which triangles are voxelized, with that axis in the constants.
+    template <class Pass>
+    void forEachAxis(const ThesisVolumeOptions& options, const Pass& pass);
+    void markBricks(const gl::Device& device, const Inputs& inputs, const ThesisVolumeOptions& options);
     void listBricks(const gl::Device& device);
     void drawTriangles(const gl::Device& device, const Inputs& inputs, const ThesisVolumeOptions& options,
                        Content content);
@@ -101,8 +106,7 @@ class ThesisVolume {
     };
     void rasterTriangles(const gl::Device& device, const Inputs& inputs, const Wanted& wanted,
                          const gl::Inputs& given);
-    void sumTriangles(const gl::Device& device, const Inputs& inputs, const Wanted& wanted,
-                      gl::Inputs& given);
+    void sumTriangles(const gl::Device& device, const Inputs& inputs, const Wanted& wanted, gl::Inputs given);
     void resolve(const gl::Device& device, const ThesisDefects& defects, const gl::Texture& target);
     bool areAreas(const gl::Texture& texture) const {
         return &texture == &areas_[0] || &texture == &areas_[1];
@@ -134,6 +138,7 @@ class ThesisVolume {
     gl::Buffer bounceConstants_;
     int lit_ = -1;  // which of them has all bounces; -1: texture_
     gl::Sampler sampler_, areaSampler_;
+    VolumeFilter filter_ = VolumeFilter::Linear;
     gl::Framebuffer viewport_;
     gl::Buffer constants_, sums_, areaSums_, brickSlots_, brickList_, brickMarks_, tiles_;
     // Of the list, and of wide triangles' tiles; 0 with the original's stores.

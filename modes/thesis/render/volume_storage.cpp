@@ -18,10 +18,14 @@ void ThesisVolume::allocate(const ThesisVolumeOptions& options) {
     const int edge = static_cast<int>(grid_.size);
     if (!viewport_ || viewport_.width() != edge)
         viewport_ = gl::Framebuffer(edge, edge, "thesis voxelization");
-    if (!sampler_) {
-        sampler_ = gl::Sampler({GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_EDGE}, "thesis volume");
+    if (!sampler_ || filter_ != options.filter) {
+        filter_ = options.filter;
+        const bool nearest = filter_ == VolumeFilter::Nearest;
+        const std::uint32_t within = nearest ? GL_NEAREST : GL_LINEAR;
+        const std::uint32_t between = nearest ? GL_NEAREST_MIPMAP_NEAREST : GL_LINEAR_MIPMAP_LINEAR;
+        sampler_ = gl::Sampler({between, within, GL_CLAMP_TO_EDGE}, "thesis volume");
         // Beyond the grid there is nothing in the way of a light.
-        areaSampler_ = gl::Sampler({GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_CLAMP_TO_BORDER}, "thesis areas");
+        areaSampler_ = gl::Sampler({between, within, GL_CLAMP_TO_BORDER}, "thesis areas");
     }
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::ThesisGrid), "thesis grid");
     // From one storage to the other.

@@ -17,7 +17,11 @@ struct ThesisGrid {
     // ---- 32 B: box of voxels that the voxelized surfaces can touch, and of its bricks
     ivec4 boxMin;   // xyz: voxel, a multiple of THESIS_BRICK; w: number of lights for voxel light
     ivec4 boxSize;  // xyz: voxels, multiples of THESIS_BRICK; w: number of instances
-};                  // 64 B
+    // ---- 64 B
+    ivec4
+        along;  // x: axis along which triangles are voxelized, 3: the dominant one of each; y: 1 in one of three
+                // passes, which share a surface
+};              // 80 B
 
 #define THESIS_BRICK 8  // voxels per axis of a brick: unit of sums, resolving and averaging
 #define THESIS_BRICK_VOXELS 512
@@ -48,6 +52,6 @@ struct ThesisConstants {
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
-static_assert(sizeof(conelight::gpu::ThesisGrid) == 64);
+static_assert(sizeof(conelight::gpu::ThesisGrid) == 80);
 static_assert(sizeof(conelight::gpu::ThesisConstants) == 80);
 #endif

@@ -19,15 +19,15 @@ const float kReach = 0.75;
 
 // Bricks along the dominant axis, in a column.
 ivec2 bricksInColumn(GridTriangle t, ivec2 column) {
-    // The triangle's plane over the column; it is at most 45 degrees steep.
+    // The triangle's plane over the column; along its dominant axis it is at most 45 degrees steep.
     vec3 n = cross(t.b - t.a, t.c - t.a);
     vec2 slope = clamp(-n.xy / (abs(n.z) > 0.0 ? n.z : 1.0), -1.0, 1.0);
     float middle = t.a.z + dot(slope, (vec2(column) + 0.5) * float(THESIS_BRICK) - t.a.xy);
     float extent = 0.5 * float(THESIS_BRICK) * (abs(slope.x) + abs(slope.y));
     float nearest = min(min(t.a.z, t.b.z), t.c.z), farthest = max(max(t.a.z, t.b.z), t.c.z);
     float low = max(middle - extent, nearest), high = min(middle + extent, farthest);
-    // Planes of slivers may be wrong by rounding.
-    bool isFlat = low > high || farthest - nearest < float(THESIS_BRICK);
+    // Planes of slivers may be wrong by rounding, those along another axis steeper.
+    bool isFlat = grid.along.x < 3 || low > high || farthest - nearest < float(THESIS_BRICK);
     vec2 ends = isFlat ? vec2(nearest, farthest) : vec2(low, high);
     ends = clamp(ends, vec2(-1e6), vec2(1e6));
     return ivec2(floor((ends + vec2(-kReach, kReach)) / float(THESIS_BRICK)));

@@ -13,6 +13,7 @@ struct GridTriangle {
     uint axis;
     uint instance;
     uvec3 vertex;     // places in VertexTable
+    float share;      // of its surface that this pass takes
     bool used;        // voxelized, and covers something
     bool isWide;      // over more columns than one invocation should walk through
     ivec2 low, high;  // columns that it may touch, from low to below high, within the box
@@ -55,8 +56,8 @@ GridTriangle gridTriangle(uint index) {
     vec3 r = (place * vec4(vertices[t.vertex.z].position, 1.0)).xyz;
     t.across = cross(q - p, r - p);
     vec3 weight = abs(t.across);
-    // Ties: x before y before z, as in the original.
-    t.axis = weight.x >= weight.y && weight.x >= weight.z ? 0u : weight.y >= weight.z ? 1u : 2u;
+    t.axis = voxelizationAxis(weight, grid.along);
+    t.share = passShare(weight, t.axis, grid.along);
     t.a = permuted((p - grid.origin) / grid.voxelSize, t.axis);
     t.b = permuted((q - grid.origin) / grid.voxelSize, t.axis);
     t.c = permuted((r - grid.origin) / grid.voxelSize, t.axis);

@@ -62,13 +62,13 @@ struct Piece {
 
 // The surface that it is of, and what all of its pieces read: read once, as drivers do not keep it across stores.
 struct SurfaceOfPiece {
-    uint axis;  // the dominant one
+    uint axis;  // along which it is voxelized
     uint material;
     uint flags;      // of the material
     vec4 color;      // without textures
     vec3 strengths;  // x ambient, y diffuse; z: cutoff of opacity
     vec3 emission;
-    vec3 areas;   // seen along each axis, in parts of that along the dominant one; signs of the normal
+    vec3 areas;   // seen along each axis, in parts of that along `axis`; signs of the normal
     bool isLamp;  // shines as a light of the table, not from the volume
     Light light;  // the first of the table
 };

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: MIT
 // Triangles -> their direct light, put into the volume (voxel_sums.glsl): for every column of voxels that a triangle
 // touches, exactly the area that it covers (coverage.glsl), lit at the point nearest to the column's middle.
-// Columns lie along the dominant axis of the triangle's normal (scene_triangle.glsl).
+// Columns lie along the dominant axis of the triangle's normal, or as ThesisGrid asks (scene_triangle.glsl).
 //
 //   TILES  0: one invocation per triangle, which walks through its columns; wide ones are cut into tiles of 8 x 8
 //             columns, each a column of bricks
@@ -54,9 +54,8 @@ SurfaceOfPiece surfaceOf(GridTriangle t, Corners c) {
     uint color = vertices[t.vertex.x].color;
     if ((flags & INSTANCE_WIDE_COLORS) != 0u) color = packUnorm4x8(vertexColor(color, flags));
     float front = dot(t.across, c.normalA + c.normalB + c.normalC) < 0.0 ? -1.0 : 1.0;
-    float largest = max(max(abs(t.across.x), abs(t.across.y)), abs(t.across.z));
-    return surfaceOfPiece(t.axis, instances[t.instance].material, color,
-                          t.across * (front / max(largest, 1e-30)), lamps[t.instance] != 0u);
+    return surfaceOfPiece(t.axis, instances[t.instance].material, color, areasSeen(front * t.across, t.axis),
+                          lamps[t.instance] != 0u);
 }
 
 float coverageOf(GridTriangle t, vec2 column) {
@@ -67,7 +66,7 @@ float coverageOf(GridTriangle t, vec2 column) {
 Piece pieceOf(GridTriangle t, Corners c, vec2 column, float coverage) {
     vec3 w = nearestBarycentrics(t.a.xy - column, t.b.xy - column, t.c.xy - column, vec2(0.5));
     Piece piece;
-    piece.coverage = coverage;
+    piece.coverage = coverage * t.share;
     piece.gridPosition = permuted(w.x * t.a + w.y * t.b + w.z * t.c, t.axis);
     vec3 n = w.x * c.normalA + w.y * c.normalB + w.z * c.normalC;
     piece.normal = n * inversesqrt(max(dot(n, n), 1e-12));

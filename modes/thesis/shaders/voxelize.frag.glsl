@@ -9,7 +9,7 @@
 layout(std140) uniform ThesisGridBlock { ThesisGrid grid; };
 #include "thesis/shaders/voxel_sums.glsl"
 
-layout(location = 0) flat in uvec3 constant;
+layout(location = 0) flat in uvec4 constant;
 layout(location = 1) in vec3 gridPosition;
 layout(location = 2) in vec3 normal;
 layout(location = 3) in vec2 uv;
@@ -21,5 +21,6 @@ const vec3 areas = vec3(0.0);
 
 void main() {
     SurfaceOfPiece surface = surfaceOfPiece(constant.x, constant.y, constant.z, areas, false);
-    addPiece(Piece(gridPosition, normalize(normal), uv, 1.0), surface, floor(gl_FragCoord.xy));
+    addPiece(Piece(gridPosition, normalize(normal), uv, uintBitsToFloat(constant.w)), surface,
+             floor(gl_FragCoord.xy));
 }

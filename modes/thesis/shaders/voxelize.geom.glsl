@@ -19,7 +19,7 @@ layout(location = 2) in vec2 uv[];
 layout(location = 3) flat in uint color[];
 layout(location = 4) flat in uint material[];
 
-layout(location = 0) flat out uvec3 outConstant;  // axis, material, vertex colour
+layout(location = 0) flat out uvec4 outConstant;  // axis, material, vertex colour, share (bits)
 layout(location = 1) out vec3 outGridPosition;    // in voxels, not permuted
 layout(location = 2) out vec3 outNormal;
 layout(location = 3) out vec2 outUv;
@@ -32,12 +32,12 @@ void main() {
     vec3 world[3] = vec3[3](position[0], position[1], position[2]);
     vec3 across = cross(world[1] - world[0], world[2] - world[0]);
     vec3 weight = abs(across);
-    // Ties: x before y before z, as in the original.
-    uint axis = weight.x >= weight.y && weight.x >= weight.z ? 0u : weight.y >= weight.z ? 1u : 2u;
+    uint axis = voxelizationAxis(weight, grid.along);
     float front = dot(across, normal[0] + normal[1] + normal[2]) < 0.0 ? -1.0 : 1.0;
-    vec3 areas = across * (front / max(weight[axis], 1e-30));
+    vec3 areas = areasSeen(front * across, axis);
+    uint share = floatBitsToUint(passShare(weight, axis, grid.along));
     for (int i = 0; i < 3; ++i) {
-        outConstant = uvec3(axis, material[0], color[0]);
+        outConstant = uvec4(axis, material[0], color[0], share);
 #if AXIS_AREAS
         outAreas = areas;
 #endif

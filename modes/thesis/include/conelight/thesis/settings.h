@@ -67,6 +67,13 @@ CONELIGHT_API std::vector<bool*> thesisDefectFlags(ThesisDefects& defects);
 // Regular: as in the thesis's chapter 4. Customised: as its chapter 5 changed it.
 enum class ConeVariant { Regular, Customised };
 
+// The axis along which triangles are voxelized (thesis, "Rasterization"): the largest part of their normal, one axis
+// for all, or all three, one pass each.
+enum class VoxelizationAxis { Dominant, X, Y, Z, Three };
+
+// How the volume is read between the centres of texels and between levels (thesis, "Texture Filtering").
+enum class VolumeFilter { Linear, Nearest };
+
 // What component `voxels` shows.
 enum class ThesisVoxelView { Cubes, Surfaces };
 
@@ -99,6 +106,8 @@ struct CONELIGHT_API ThesisSettings {
     int maxSamples = 4096;
     int bounces = 1;
     VolumeStorage storage = VolumeStorage::Dense;
+    VoxelizationAxis voxelizeAlong = VoxelizationAxis::Dominant;
+    VolumeFilter filter = VolumeFilter::Linear;
     int voxelLevel = 0;
     ThesisVoxelView voxelView = ThesisVoxelView::Cubes;
     ThesisDefects defects;
