@@ -82,22 +82,16 @@ std::vector<Setting<ThesisSettings>> volumeTable() {
     return {
         {"bounces", &ThesisSettings::bounces, Numbers{1, 8}, "", "bounces of indirect light"},
         {"storage", &ThesisSettings::storage, kVolumeStorages,
-<<<<<<< HEAD
          "where the volume lies; dense: in textures of all voxels; octree: the same picture from a sparse "
          "octree"},
-        {"max_samples", &ThesisSettings::maxSamples, Numbers{1, 16384}, "samples",
-         "most samples that a cone takes"},
-=======
-         "where the volume lies: in textures of all voxels, or in a sparse octree: the same picture"},
         {"voxelize_along", &ThesisSettings::voxelizeAlong, kVoxelizationAxes,
          "axis along which triangles are cut into voxels: of each its normal's largest part, one axis for "
-         "all, "
-         "or three passes"},
+         "all, or three passes"},
         {"filter", &ThesisSettings::filter, kVolumeFilters,
          "between texels and levels of the volume: a mean by distance, or the nearest (an octree mixes its "
          "levels)"},
-        {"max_samples", &ThesisSettings::maxSamples, Numbers{1, 16384}, "samples", "limit per cone"},
->>>>>>> 50214e3286ca37eb0cbe986c7f7a2bccadc2a13e
+        {"max_samples", &ThesisSettings::maxSamples, Numbers{1, 16384}, "samples",
+         "most samples that a cone takes"},
         {"voxel_level", &ThesisSettings::voxelLevel, Numbers{0, 8}, "", "level that component voxels shows"},
         {"voxel_view", &ThesisSettings::voxelView, kThesisVoxelViews,
          "component voxels; cubes: the voxels as cubes; surfaces: their colours on the surfaces"},
