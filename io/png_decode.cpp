@@ -16,6 +16,21 @@ namespace {
 // An interlaced picture cannot be made smaller while it is read.
 constexpr std::uint64_t kMostInterlaced = std::uint64_t(1) << 26;
 
+// Grey and RGB as RGBA, in place from the end.
+void makeRgba(ByteImage& image) {
+    const auto channels = std::size_t(image.channels);
+    if (channels == 4) return;
+    const std::size_t texels = image.pixels.size() / channels;
+    image.pixels.resize(4 * texels);
+    for (std::size_t i = texels; i-- > 0;) {
+        const std::uint8_t* const from = &image.pixels[channels * i];
+        const std::uint8_t rgba[4] = {from[0], from[channels == 3 ? 1 : 0], from[channels == 3 ? 2 : 0],
+                                      0xff};
+        std::memcpy(&image.pixels[4 * i], rgba, 4);
+    }
+    image.channels = 4;
+}
+
 class PngReader {
   public:
     PngReader(std::span<const std::uint8_t> file, const DecodeRequest& request, ByteImage& image)
@@ -72,9 +87,7 @@ bool PngReader::readHead() {
     const bool grey = (png_get_color_type(png_, info_) & PNG_COLOR_MASK_COLOR) == 0;
     const bool alpha = (png_get_color_type(png_, info_) & PNG_COLOR_MASK_ALPHA) != 0 ||
                        png_get_valid(png_, info_, PNG_INFO_tRNS) != 0;
-    const bool rgba = request_.channels == 4 || alpha;
-    if (grey && rgba) png_set_gray_to_rgb(png_);
-    if (rgba && !alpha) png_set_add_alpha(png_, 0xff, PNG_FILLER_AFTER);
+    if (grey && alpha) png_set_gray_to_rgb(png_);
     passes_ = png_set_interlace_handling(png_);
     png_read_update_info(png_, info_);
     channels_ = png_get_channels(png_, info_);
@@ -113,6 +126,8 @@ DecodeResult PngReader::read() {
     shrinker_ = std::make_unique<RowShrinker>(width_, height_, channels_,
                                               halvings(width_, height_, request_.maxPixels), image_);
     if (!readRows()) return failed();
+    // Behind the last row: a picture that is made smaller has fewer texels than its file.
+    if (request_.channels == 4) makeRgba(image_);
     for (int i = 0; i < textCount_; ++i)
         if (texts_[i].key != nullptr && texts_[i].text != nullptr)
             image_.attributes.emplace_back(texts_[i].key, texts_[i].text);

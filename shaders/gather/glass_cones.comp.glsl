@@ -80,6 +80,8 @@ GlassAxis glassWay(vec3 direction, GlassHit hit, float end, const bool shines) {
             GlassSurface s = glassSurface(way.origin, way.direction, hit);
             way.throughput *= exp(-absorption * hit.t);
             end -= hit.t;
+            // Not s.position: Mesa's software driver (22.3) takes it from the next hit, where a path ends.
+            vec3 position = way.origin + hit.t * way.direction;
             if (shines) way.light += way.throughput * shineOf(s, way.direction);
             if (met == 0) way.reflected = reflect(way.direction, s.normal);
             bool through = true;
@@ -94,7 +96,7 @@ GlassAxis glassWay(vec3 direction, GlassHit hit, float end, const bool shines) {
             }
             bool inside = s.solid && through != s.back;
             absorption = inside ? s.absorption : vec3(0.0);
-            way.origin = glassStep(s.position, through ? -s.geometricNormal : s.geometricNormal);
+            way.origin = glassStep(position, through ? -s.geometricNormal : s.geometricNormal);
             goesOn = inside || !way.bent;
             hit = nearestGlass(way.origin, way.direction, goesOn ? (way.bent ? 1e9 : end) : -1.0,
                                hit.triangle, !way.bent);

@@ -2,8 +2,10 @@
 #include "gl/program.h"
 
 #include <algorithm>
+#include <atomic>
 #include <mutex>
 #include <set>
+#include <utility>
 
 #include "base/assert.h"
 #include "base/log.h"
@@ -34,8 +36,8 @@ std::string infoLog(GLuint name, Get get, GetLog getLog) {
     return log;
 }
 
-// Compiles one stage and attaches it to `program`.
-void attachStage(GLuint program, const ExpandedShader& source) {
+// Compiles one stage and attaches it to `program`; the shader lives until it is detached.
+GLuint attachStage(GLuint program, const ExpandedShader& source) {
     const GLuint shader = glCreateShader(stageOf(source.path));
     const char* text = source.text.c_str();
     glShaderSource(shader, 1, &text, nullptr);
@@ -50,6 +52,7 @@ void attachStage(GLuint program, const ExpandedShader& source) {
     }
     glAttachShader(program, shader);
     glDeleteShader(shader);
+    return shader;
 }
 
 GLuint resourceCount(GLuint program, GLenum interface) {
@@ -128,12 +131,15 @@ Program::Program(const ShaderProvider& provider, const ProgramDesc& desc) : labe
     // Owned from the start, so that a failure below frees it.
     const GLuint program = glCreateProgram();
     adopt(program, label_, 0);
+    std::vector<GLuint> stages;
     for (const std::string& file : desc.files) {
         const ExpandedShader source = expandShader(provider, file, desc.defines);
-        attachStage(program, source);
+        stages.push_back(attachStage(program, source));
         sourceFiles_.insert(sourceFiles_.end(), source.files.begin(), source.files.end());
     }
     glLinkProgram(program);
+    // The program needs them no longer; their text and what was parsed of it is most of what a driver keeps.
+    for (const GLuint stage : stages) glDetachShader(program, stage);
     GLint ok = 0;
     glGetProgramiv(program, GL_LINK_STATUS, &ok);
     if (ok == GL_FALSE)
@@ -233,6 +239,8 @@ void Program::dispatchIndirect(const Inputs& inputs, const Buffer& buffer, std::
 
 namespace {
 
+std::atomic<std::size_t> most{kMostPrograms};
+
 struct BuiltPrograms {
     std::mutex mutex;
     std::map<std::string, ProgramDesc> byLabel;
@@ -244,6 +252,9 @@ BuiltPrograms& built() {
 }
 
 }  // namespace
+
+void setMostPrograms(std::size_t count) { most = count; }
+std::size_t mostPrograms() { return most; }
 
 std::vector<ProgramDesc> builtPrograms() {
     BuiltPrograms& all = built();
@@ -257,7 +268,7 @@ const Program& ProgramLibrary::get(const ProgramDesc& desc) {
     std::unique_ptr<Entry>& entry = programs_[desc.label()];
     if (!entry) {
         try {
-            entry = std::make_unique<Entry>(Entry{desc, Program(provider_, desc), false});
+            entry = std::make_unique<Entry>(Entry{desc, Program(provider_, desc)});
             const std::lock_guard lock(built().mutex);
             built().byLabel.emplace(desc.label(), desc);
         } catch (...) {
@@ -265,7 +276,22 @@ const Program& ProgramLibrary::get(const ProgramDesc& desc) {
             throw;
         }
     }
+    entry->asked = ++asked_;
     return entry->program;
+}
+
+void ProgramLibrary::trim() {
+    const std::uint64_t before = std::exchange(trimmed_, asked_);
+    const std::size_t most = mostPrograms();
+    if (programs_.size() <= most) return;
+    std::vector<std::pair<std::uint64_t, std::string>> old;
+    for (const auto& [label, entry] : programs_)
+        if (entry->asked <= before) old.emplace_back(entry->asked, label);
+    std::sort(old.begin(), old.end());
+    for (const auto& [asked, label] : old) {
+        if (programs_.size() <= most) break;
+        programs_.erase(label);
+    }
 }
 
 std::vector<std::string> ProgramLibrary::reload(const std::vector<std::string>& files) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Linked programs, and the library that builds each variant once and rebuilds changed ones (hot reload).
+// Linked programs, and the library that builds variants when they are asked for, keeps those that were asked for last,
+// and rebuilds changed ones (hot reload).
 // Use both on the thread of the context only.
 #pragma once
 
@@ -67,12 +68,22 @@ class Program : public Object<ObjectType::Program> {
     glm::ivec3 groupSize_{0};
 };
 
-// Programs by description; a reference stays valid while the library lives.
+// How many programs a library keeps for pictures that may need them again. All five modes need 65 together in one
+// scene, and twice as many leave room for another (counted on built-in scenes). A software driver keeps some megabytes
+// for each program. Tests lower the number, for all libraries of the process. Thread-safe.
+constexpr std::size_t kMostPrograms = 128;
+void setMostPrograms(std::size_t count);
+std::size_t mostPrograms();
+
+// Programs by description; a reference stays valid until trim().
 class ProgramLibrary {
   public:
     explicit ProgramLibrary(ShaderProvider provider) : provider_(std::move(provider)) {}
 
     const Program& get(const ProgramDesc& desc);
+    // Deletes what is more than mostPrograms(), the programs first that were asked for the longest ago. Those that were
+    // asked for since the last call stay, however many: a picture after another like it builds none.
+    void trim();
     const Program& compute(const std::string& file, const Defines& defines = {}) {
         return get({{file}, defines});
     }
@@ -90,9 +101,11 @@ class ProgramLibrary {
         ProgramDesc desc;
         Program program;
         bool reloadFailed = false;
+        std::uint64_t asked = 0;  // which call of get() was the last for it
     };
     ShaderProvider provider_;
     std::map<std::string, std::unique_ptr<Entry>> programs_;
+    std::uint64_t asked_ = 0, trimmed_ = 0;  // calls of get(), and of these before the last trim()
 };
 
 // What libraries of this process have built so far, by label: tests compare it with the lists of

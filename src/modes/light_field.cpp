@@ -135,6 +135,7 @@ int LightField::update(const LightBudget& budget) {
 
 int LightField::Impl::update(const LightBudget& budget) {
     const double start = light::RelightBudget::begin(budget.milliseconds);
+    programs.trim();
     lights.update(device, *scene, {settings.light, /*emitters as lights*/ false, true});
     voxels.update(device, *scene, settings.voxels, voxels::Rays::Yes);
     const light::RelightSettings wanted = light::relightSettings(settings.traced);
@@ -178,6 +179,7 @@ GatheredLight LightField::gather(int view, const HostSurfaces& surfaces, const G
 }
 
 GatheredLight LightField::Impl::gather(View& view, const HostSurfaces& host, int reduction) {
+    programs.trim();
     view.surfaces.take(device, *scene, host, reduction);
     const gather::RayInputs traced{*scene, lights, voxels, lit, view.surfaces};
     view.indirect.gather(device, traced, {settings.traced, {.diffuse = true, .specular = true}});

@@ -231,6 +231,7 @@ void Renderer::Impl::render(const Camera& camera, int width, int height, const S
     const double cpuStart = base::processCpuMs();
     const double wallStart = base::wallMs();
     profiler.beginFrame();
+    programs.trim();
     if (everyFrame) scene.require("render").touch();
     lookupCounters.clear();
     image.resize(width, height);

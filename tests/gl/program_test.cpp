@@ -2,6 +2,7 @@
 // Programs: errors with file and line, rebuilding of changed shaders, and the three ways to dispatch.
 #include "gl/program.h"
 
+#include <algorithm>
 #include <map>
 
 #include "conelight/error.h"
@@ -106,6 +107,36 @@ TEST_F(ProgramTest, LibraryBuildsEachVariantOnce) {
     EXPECT_THROW(library.compute("a.comp.glsl"), Error);
     EXPECT_EQ(gl::liveObjectCount(), 2u);
     EXPECT_EQ(library.sourceFiles(), std::vector<std::string>{"a.comp.glsl"});
+}
+
+TEST_F(ProgramTest, LibraryKeepsWhatWasAskedForLast) {
+    files.texts["a.comp.glsl"] =
+        kHead + "layout(std430) buffer Out { uint word; };\nvoid main() { word = N; }\n";
+    gl::ProgramLibrary library(files.provider());
+    const auto get = [&](int n) -> const gl::Program& {
+        return library.compute("a.comp.glsl", {{"N", std::to_string(n)}});
+    };
+    const auto kept = [] {
+        std::string numbers;
+        for (const gl::LiveObject& object : gl::liveObjects())
+            numbers += object.label.substr(object.label.find('=') + 1, 1);
+        std::sort(numbers.begin(), numbers.end());
+        return numbers;
+    };
+    gl::setMostPrograms(3);
+    for (const int n : {1, 2, 3, 4, 5}) get(n);
+    library.trim();
+    EXPECT_EQ(kept(), "12345") << "one picture's programs stay, however many they are";
+    get(2);
+    get(6);
+    library.trim();
+    EXPECT_EQ(kept(), "256");
+    library.trim();
+    EXPECT_EQ(kept(), "256") << "no more than there may be";
+    // What comes back is built anew.
+    EXPECT_EQ(run(get(1)), 1u);
+    library.trim();
+    EXPECT_EQ(kept(), "126");
 }
 
 TEST_F(ProgramTest, ReloadSwapsOnSuccessAndKeepsOnFailure) {

@@ -53,6 +53,7 @@ void GlTest::SetUp() {
 
 void GlTest::TearDown() {
     programs_.reset();
+    gl::setMostPrograms(gl::kMostPrograms);
     if (!sharedContext().failure.empty()) return;
     EXPECT_EQ(gl::debugErrorCount(), 0) << gl::lastDebugError();
     fresh_.reset();
