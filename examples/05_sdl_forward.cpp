@@ -3,8 +3,6 @@
 // G-buffer is handed over. A box rises, and another one comes.
 //   example_05_sdl_forward [OUT.png]
 // With OUT.png it draws 48 frames, writes the last and ends; it needs no display then.
-#include <SDL.h>
-#include <conelight/error.h>
 #include <conelight/light_field.h>
 
 #include <cstdio>
@@ -14,6 +12,7 @@
 #include "host_renderer.h"
 #include "io/image_file.h"
 #include "io/scene_file.h"
+#include "sdl_window.h"
 
 namespace {
 
@@ -49,26 +48,6 @@ void main() {
 #endif
 )";
 // [/shader]
-
-struct Window {
-    SDL_Window* window = nullptr;
-    SDL_GLContext context = nullptr;
-    Window() {
-        SDL_Init(SDL_INIT_VIDEO);
-        SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_CORE);
-        SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 4);
-        SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 5);
-        window = SDL_CreateWindow("Forward", SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, kWidth, kHeight,
-                                  SDL_WINDOW_OPENGL);
-        if (window != nullptr) context = SDL_GL_CreateContext(window);
-        if (context == nullptr) throw conelight::Error(conelight::ErrorKind::NoGl, SDL_GetError());
-    }
-    ~Window() {
-        SDL_GL_DeleteContext(context);
-        SDL_DestroyWindow(window);
-        SDL_Quit();
-    }
-};
 
 void draw(const Host& host, GLuint program, const conelight::Scene& scene, const glm::mat4& clipFromWorld) {
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
@@ -108,23 +87,16 @@ void run(const char* path, const Window& window) {
         field.bindLookups(kSlots);
         draw(host, program, scene, clipFromWorld);
         // [/frame]
-        for (SDL_Event event; SDL_PollEvent(&event) != 0;)
-            if (event.type == SDL_QUIT) return;
-        if (path == nullptr) SDL_GL_SwapWindow(window.window);
+        if (path == nullptr && !window.show()) return;
     }
-    std::vector<std::uint8_t> rows(3 * kWidth * kHeight), picture;
-    glPixelStorei(GL_PACK_ALIGNMENT, 1);
-    glReadPixels(0, 0, kWidth, kHeight, GL_RGB, GL_UNSIGNED_BYTE, rows.data());
-    for (int y = kHeight - 1; y >= 0; --y)
-        picture.insert(picture.end(), rows.begin() + 3 * kWidth * y, rows.begin() + 3 * kWidth * (y + 1));
-    conelight::io::writePng(path, {kWidth, kHeight, 3, picture});
+    conelight::io::writePng(path, {kWidth, kHeight, 3, shownPixels(kWidth, kHeight)});
     std::printf("picture at %s\n", path);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) try {
-    const Window window;
+    const Window window("Forward", kWidth, kHeight, SDL_GL_CONTEXT_PROFILE_CORE);
     run(argc > 1 ? argv[1] : nullptr, window);
     return 0;
 } catch (const conelight::Error& error) {

@@ -5,7 +5,9 @@
 #include <conelight/scene.h>
 #include <epoxy/gl.h>
 
+#include <cstdint>
 #include <string>
+#include <vector>
 
 inline const char* const kSurfaces = R"(#version 450 core
 #ifdef VERTEX
@@ -65,6 +67,17 @@ inline GLuint textureOf(GLenum format, int width, int height) {
     glCreateTextures(GL_TEXTURE_2D, 1, &texture);
     glTextureStorage2D(texture, 1, format, width, height);
     return texture;
+}
+
+// What the default framebuffer shows: r g b, first row on top.
+inline std::vector<std::uint8_t> shownPixels(int width, int height) {
+    const auto row = 3 * static_cast<std::size_t>(width);
+    std::vector<std::uint8_t> rows(row * static_cast<std::size_t>(height)), picture;
+    glPixelStorei(GL_PACK_ALIGNMENT, 1);
+    glReadPixels(0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, rows.data());
+    for (std::size_t end = rows.size(); end > 0; end -= row)
+        picture.insert(picture.end(), &rows[end - row], &rows[end - row] + row);
+    return picture;
 }
 
 // Depth, normals and colours of a scene in textures, and a picture made of them.
