@@ -75,8 +75,8 @@ Cell measure(Studio& studio, const Scene& scene, int voxels, bool published, boo
 
 // What others took for the same cell.
 struct Others {
-    double printed;    // in the thesis, s
-    double originalMs; // of CPU, by the original program
+    double printed;     // in the thesis, s
+    double originalMs;  // of CPU, by the original program
 };
 
 Others othersOf(std::size_t size, bool dynamic) {
@@ -99,7 +99,8 @@ Panels tableOf(Studio& studio, bool dynamic) {
     const std::unique_ptr<platform::HeadlessContext> context = program::openContext(studio.view());
     std::string text = fmt::format(
         "# Table {}\n\n{}, mode `thesis`, {} x {}, camera `pos2`, voxels made {}. Means over frames.\n"
-        "Device: {}. Times of the thesis: NVIDIA GTX 1070, its own scene of the same plan. Original: CPU time of "
+        "Device: {}. Times of the thesis: NVIDIA GTX 1070, its own scene of the same plan. Original: CPU "
+        "time of "
         "its program by llvmpipe on two cores, 800 x 600, that scene without its dragon.\n\n"
         "| voxels | variant | frames | s per frame | frames/s | CPU ms | GPU ms | thesis: s | thesis: "
         "frames/s | original: CPU ms |\n"
