@@ -53,6 +53,7 @@ Row measure(Studio& studio, const std::string& mode, const Image& truth, const S
     // CPU time of the whole process: all threads, shaders and voxels included.
     const std::clock_t start = std::clock();
     const program::Picture picture = fresh.draw(request, &studio.progress());
+    if (picture.stopped) throw program::InterruptedError();
     const double seconds = double(std::clock() - start) / CLOCKS_PER_SEC;
     if (!onCpu) device = fresh.device();
     Row row{.mode = mode, .moving = movingOf(mode)};
@@ -102,6 +103,7 @@ Panels plotComparison(Studio& studio) {
     program::PictureSource source(studio.view());
     source.setScene(scene);
     const program::Picture truth = source.draw(request, &studio.progress());
+    if (truth.stopped) throw program::InterruptedError();
     std::vector<Row> rows;
     std::string device;
     for (const char* mode : kModes)

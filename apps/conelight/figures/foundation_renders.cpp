@@ -59,7 +59,7 @@ Panels renderShrunkTriangles(Studio& studio) {
 
 Panels renderPathTraced(Studio& studio) {
     return {studio.draw(
-        "", {.scene = "builtin:conservatory", .mode = "reference", .samples = 64, .denoised = true})};
+        "", {.scene = "builtin:conservatory", .mode = "reference", .samples = 192, .denoised = true})};
 }
 
 Panels renderBounces(Studio& studio) {

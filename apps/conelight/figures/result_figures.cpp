@@ -100,15 +100,17 @@ const Figure kFigures[] = {
      "The statue under one lamp and the room with three, by modes `thesis`, `cones` and `traced`.",
      Kind::Series, renderGallery},
     {"T1", "Frame times without voxelization", "Time of a frame at three voxel sizes, voxels made once",
-     "Means over 100 frames of this device, or over what ten seconds allow, with the numbers that the thesis "
-     "printed "
-     "beside them. `published` is its own variant, `mended` the default.",
+     "Means over 100 frames of this device, or over what ten seconds allow. Beside them stand the numbers "
+     "that "
+     "the thesis printed, and the CPU time of its program. `published` is its own variant, `mended` the "
+     "default.",
      Kind::Table, measureStill},
     {"T2", "Frame times with voxelization",
      "Time of a frame at three voxel sizes, voxels made anew in each frame",
-     "Means over 100 frames of this device, or over what ten seconds allow, with the numbers that the thesis "
-     "printed "
-     "beside them. `published` is its own variant, `mended` the default.",
+     "Means over 100 frames of this device, or over what ten seconds allow. Beside them stand the numbers "
+     "that "
+     "the thesis printed, and the CPU time of its program. `published` is its own variant, `mended` the "
+     "default.",
      Kind::Table, measureDynamic},
 };
 
