@@ -36,8 +36,9 @@ vec3 reflectedDirection(Brdf b, Surface s, vec2 xi, out vec3 weight) {
     // An ideal mirror has no lobe; the surface keeps 16 bits of its roughness.
     if (s.roughness < kMinRoughness - 1e-5) direction = reflect(-s.toEye, s.normal);
 #endif
-    // A bent normal can mirror into the surface: keep to the side of the triangle.
-    return direction - 2.0 * min(dot(direction, s.geometricNormal), 0.0) * s.geometricNormal;
+    // A bent normal can mirror into the surface, which shows nothing (docs/theory/4f_glossy.md).
+    if (dot(direction, s.geometricNormal) <= 0.0) weight = vec3(0.0);
+    return direction;
 }
 
 void main() {
