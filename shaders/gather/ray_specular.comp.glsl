@@ -41,6 +41,18 @@ vec3 reflectedDirection(Brdf b, Surface s, vec2 xi, out vec3 weight) {
     return direction;
 }
 
+// Where a ray starts. One that meets triangles starts on its own line: moved off its surface by part of a voxel, flat
+// water would mirror what stands as much higher. A step towards the eye keeps pixels in corners out of the other wall.
+vec3 lobeRayOrigin(Surface s, Brdf b, vec3 direction) {
+#if TRIANGLE_HITS
+    if (b.alpha <= kTriangleAlpha) {
+        float towards = dot(direction, s.geometricNormal);
+        return gridFromWorld(s.position + kStartDepth * s.depth * s.toEye + startOnLine(towards, s.depth) * direction);
+    }
+#endif
+    return seenRayOrigin(gridFromWorld(s.position), s.geometricNormal, s.toEye);
+}
+
 void main() {
 #if LOBE_LISTED
     ivec2 pixel = listedPixel(imageSize(result));
@@ -51,7 +63,6 @@ void main() {
     bool seen = fetchSurface(min(pixel, imageSize(result) - 1), s);
     Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));
     bool glossy = hasLobe(s, seen, pixelRays.specularLimit);
-    vec3 origin = seenRayOrigin(gridFromWorld(s.position), s.geometricNormal, s.toEye);
     uint seed = randomHash(uint(pixel.x) | uint(pixel.y) << 16) ^ 0x5bd1e995u;
     uint random = randomHash(seed) ^ randomHash(pixelRays.pass * 0x9e3779b9u + 0x85ebca6bu);
     vec3 sum = vec3(0.0);
@@ -69,7 +80,7 @@ void main() {
         rayCone = RayCone(b.alpha <= kTriangleAlpha ? width * pixelRays.inverseVoxelSize : -1.0,
                           pixelAngle * (1.0 - frame.parallel) + b.alpha);
 #endif
-        Ray ray = Ray(origin, direction, counts ? 1e9 : -1.0, s.geometricNormal);
+        Ray ray = Ray(lobeRayOrigin(s, b, direction), direction, counts ? 1e9 : -1.0, s.geometricNormal);
         PathSettings path = PathSettings(-1.0, counts ? int(pixelRays.reflections) : 0, b.alpha,
                                          pixelRays.fireflyClamp, skyWidth(b, s, direction));
         vec3 radiance = throughGlass(traceRadiance(ray, path, random, hit), ray, hit);
