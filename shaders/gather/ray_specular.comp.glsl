@@ -47,7 +47,8 @@ vec3 lobeRayOrigin(Surface s, Brdf b, vec3 direction) {
 #if TRIANGLE_HITS
     if (b.alpha <= kTriangleAlpha) {
         float towards = dot(direction, s.geometricNormal);
-        return gridFromWorld(s.position + kStartDepth * s.depth * s.toEye + startOnLine(towards, s.depth) * direction);
+        return gridFromWorld(s.position + kStartDepth * s.depth * s.toEye +
+                             startOnLine(towards, s.depth) * direction);
     }
 #endif
     return seenRayOrigin(gridFromWorld(s.position), s.geometricNormal, s.toEye);
