@@ -42,6 +42,9 @@ py::dict compare(const py::object& testGiven, const py::object& referenceGiven, 
     Keywords given("compare", options);
     reference::MetricOptions metricOptions = optionsOf(given);
     metricOptions.flip = given.take("flip", true);
+    metricOptions.blockSize = given.take("blocks", metricOptions.blockSize);
+    if (metricOptions.blockSize < 1 || metricOptions.blockSize > 1024)
+        throw Error(ErrorKind::Usage, "blocks: is out of range; 1 to 1024 pixels a side would be right");
     const py::object halvesGiven = given.take("halves");
     given.finish();
     const Image test = imageOf("test", testGiven), truth = imageOf("reference", referenceGiven);
@@ -61,12 +64,14 @@ py::dict compare(const py::object& testGiven, const py::object& referenceGiven, 
     py::dict scores;
     scores["pixels"] = m.pixels;
     scores["bad_pixels"] = m.badPixels;
+    scores["block_size"] = m.blockSize;
     const std::pair<const char*, double> numbers[] = {
         {"mean", m.mean},       {"reference_mean", m.referenceMean},
         {"bias", m.bias},       {"mae", m.mae},
         {"mse", m.mse},         {"rmse", m.rmse},
-        {"relrmse", m.relRmse}, {"relmse", m.relMse},
-        {"psnr_db", m.psnr},    {"ssim", m.ssim}};
+        {"relrmse", m.relRmse}, {"block_relrmse", m.blockRelRmse},
+        {"relmse", m.relMse},   {"psnr_db", m.psnr},
+        {"ssim", m.ssim}};
     for (const auto& [key, value] : numbers) scores[key] = value;
     if (metricOptions.flip) {
         scores["flip"] = m.flip;
@@ -186,7 +191,7 @@ void bindPictures(py::module_& module) {
         "How wrong a picture is: a dict of the scores that `conelight compare --json` writes.\n\n"
         "Arrays (height, width[, 3 or 4]) of linear radiance. By name: halves, two pictures whose mean is\n"
         "the reference: its noise is then not counted; exposure, stops (0); pixels_per_degree, of FLIP\n"
-        "(67.02); flip, which takes most of the time (True).");
+        "(67.02); flip, which takes most of the time (True); blocks, pixels a side of block_relrmse (4).");
     module.def("error_map", &errorMap, py::arg("test"), py::arg("reference"), py::arg("kind") = "signed",
                "Error per pixel, (height, width): 'signed', 'absolute', 'relative', 'flip' or 'hdr-flip'.\n\n"
                "By name: exposure, pixels_per_degree, as in compare.");

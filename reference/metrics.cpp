@@ -80,6 +80,37 @@ void addRadianceMetrics(Metrics& m, const Image& test, const Image& reference,
     m.referenceNoise = ratio(std::sqrt(noise / count), m.referenceMean);
 }
 
+// Means of blocks of m.blockSize pixels a side. Sums of a row of blocks are kept for each block of it.
+double blockRelRmse(const Metrics& m, const Image& test, const Image& reference,
+                    const std::optional<Halves>& halves, const std::vector<std::uint8_t>& usable) {
+    struct Sums {
+        glm::dvec3 a{0}, b{0};  // of the errors against either half, or twice against the reference
+        std::size_t pixels = 0;
+    };
+    const Image& first = halves ? *halves->a : reference;
+    const Image& second = halves ? *halves->b : reference;
+    const int n = m.blockSize;
+    double squared = 0;
+    for (int top = 0; top < test.height; top += n) {
+        std::vector<Sums> row(std::size_t((test.width + n - 1) / n));
+        for (int y = top; y < std::min(top + n, test.height); ++y)
+            for (int x = 0; x < test.width; ++x) {
+                const std::size_t i = std::size_t(y) * std::size_t(test.width) + std::size_t(x);
+                if (!usable[i]) continue;
+                Sums& block = row[std::size_t(x / n)];
+                const glm::dvec3 value = glm::dvec3(test.pixels[i]);
+                block.a += value - glm::dvec3(first.pixels[i]);
+                block.b += value - glm::dvec3(second.pixels[i]);
+                ++block.pixels;
+            }
+        // A block of k pixels counts k times the square of its mean error.
+        for (const Sums& block : row)
+            if (block.pixels > 0) squared += glm::dot(block.a, block.b) / double(block.pixels);
+    }
+    const double mse = squared / (3.0 * static_cast<double>(m.pixels));
+    return ratio(std::sqrt(std::max(mse, 0.0)), m.referenceMean);
+}
+
 // Encoded luma of a display image.
 std::vector<float> lumaOf(const Colors& display) {
     std::vector<float> luma;
@@ -166,6 +197,8 @@ Metrics compareImages(const Image& test, const Image& reference, const MetricOpt
         if (usable[i] != 0 || options.pixels.empty() || options.pixels[i] != 0)
             ++(usable[i] != 0 ? m.pixels : m.badPixels);
     addRadianceMetrics(m, test, reference, halves, usable);
+    m.blockSize = std::max(options.blockSize, 1);
+    m.blockRelRmse = blockRelRmse(m, test, reference, halves, usable);
 
     const Colors x = usableColors(test, usable);
     const Colors r = usableColors(reference, usable);

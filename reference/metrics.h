@@ -35,6 +35,11 @@ struct Metrics {
     // With halves, where relRmse would lie without the reference's noise, 95 of 100 times: mse may be off by
     // two standard errors, 2 sqrt(sum over pixels of ((a-b).(x-r))^2) / N. Else relRmse twice.
     double relRmseLow = 0, relRmseHigh = 0;
+    // The same of means of N x N pixels (MetricOptions::blockSize): what is left of the error where neighbours may be
+    // exchanged. Blocks start at the top left, those at the right and lower border may be parts, and each counts by its
+    // compared pixels; halves as in mse.
+    double blockRelRmse = 0;
+    int blockSize = 0;  // N
     double relMse = 0;  // sum (x - r)^2 / (r^2 + 0.01) / N (Rousselle et al. 2011, eq. 6); with halves
                         // (x-a)(x-b) above the line
     double psnr = 0;    // 10 log10(1 / mean (d(x) - d(r))^2), dB; infinite for equal images
@@ -51,6 +56,7 @@ struct MetricOptions {
     float exposure = 0;                // stops, for the display images
     float pixelsPerDegree = 67.02f;    // FLIP: 0.7 m from a 0.7 m wide display of 3840 pixels (its default)
     std::vector<std::uint8_t> pixels;  // 1 for those that are measured, rows from the top; empty: all
+    int blockSize = 4;                 // pixels a side of the blocks of blockRelRmse, at least 1
     bool flip = true;                  // FLIP costs more than all others together; false leaves both at 0
 };
 

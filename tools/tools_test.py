@@ -369,6 +369,29 @@ class ThesisSections(Project):
         self.assertIn("1.1 B has no row", found)
 
 
+class Constants(unittest.TestCase):
+    def setUp(self):
+        loader = importlib.machinery.SourceFileLoader("constants", str(TOOLS / "measure_constants"))
+        spec = importlib.util.spec_from_loader("constants", loader)
+        self.constants = importlib.util.module_from_spec(spec)
+        loader.exec_module(self.constants)
+
+    def test_every_constant_is_in_the_shaders(self):
+        for name, file, _ in self.constants.VARIED + self.constants.REASONED:
+            line, value = self.constants.place(name, file)
+            self.assertGreater(line, 0)
+            self.assertTrue(value)
+        with self.assertRaises(SystemExit):
+            self.constants.place("kNoSuchConstant", "lib/ray_query.glsl")
+
+    def test_values_are_halved_and_doubled(self):
+        self.assertEqual(eval(self.constants.times("1.0 / 8.0", 2)), 0.25)
+        self.assertEqual(eval(self.constants.times("1e-3", 0.5)), 0.0005)
+        self.assertEqual(self.constants.times("4u", 0.5), "2")
+        text = "const int kLeast = 2, kMost = 4;"
+        self.assertEqual(self.constants.pattern("kMost").search(text).group(2), "4")
+
+
 class Sizes(Project):
     def problems(self):
         subprocess.run(["git", "init", "-q", self.root], check=True)

@@ -283,6 +283,9 @@ void CompareSceneOptions::addTo(CLI::App& command) {
                     "bends light), "
                     "pane (glass that does not) or material:NAME; the reference is traced there alone")
         ->type_name("WHAT");
+    command
+        .add_option("--shader-dir", shaderDirectory, "shaders from this folder instead of the built-in ones")
+        ->type_name("DIR");
     command.add_option("--frames", frames, "frames until a picture has settled")
         ->capture_default_str()
         ->check(CLI::Range(1, 100000));
@@ -326,7 +329,7 @@ void compareScene(const CompareSceneOptions& options) {
     checkOutputs({{"--json", jsonFile, OutputKind::Json}}, inputs);
     if (!folder.empty()) prepareReport(folder, inputs);
 
-    PictureSource source(options.view);
+    PictureSource source(options.view, options.shaderDirectory);
     Progress progress;
     const bool withFlip = request.metrics.flip;
     std::vector<SceneComparison> comparisons;

@@ -24,6 +24,7 @@ struct CompareSceneOptions {
     std::string components = "full,direct,indirect";
     std::string barsOn = "full";
     std::string pixels;
+    std::string shaderDirectory;
     int frames = 1;
     int timedFrames = 3;
     bool equalTime = false;

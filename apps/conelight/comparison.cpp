@@ -36,6 +36,7 @@ void Bars::addTo(CLI::App& command) {
     add("--max-mae", mae, "largest mean absolute error");
     add("--max-rmse", rmse, "largest RMSE");
     add("--max-relrmse", relRmse, "largest RMSE / mean of the reference");
+    add("--max-block-relrmse", blockRelRmse, "largest relRMSE of means of blocks (--blocks)");
     add("--max-relmse", relMse, "largest relative MSE");
     add("--min-psnr", psnr, "smallest PSNR, dB");
     add("--min-ssim", ssim, "smallest SSIM");
@@ -58,6 +59,7 @@ std::vector<std::string> Bars::brokenBy(const Metrics& m) const {
     atMost("MAE", m.mae, mae, "--max-mae");
     atMost("RMSE", m.rmse, rmse, "--max-rmse");
     atMost("relRMSE", m.relRmse, relRmse, "--max-relrmse");
+    atMost("relRMSE of blocks", m.blockRelRmse, blockRelRmse, "--max-block-relrmse");
     atMost("relMSE", m.relMse, relMse, "--max-relmse");
     atLeast("PSNR", m.psnr, psnr, "--min-psnr");
     atLeast("SSIM", m.ssim, ssim, "--min-ssim");
@@ -86,6 +88,12 @@ void ComparisonOptions::addTo(CLI::App& command) {
         ->capture_default_str()
         ->check(CLI::Range(1.0, 500.0))
         ->type_name("N");
+    command
+        .add_option("--blocks", metrics.blockSize,
+                    "measure relRMSE of means of N x N pixels beside that of pixels; 1: the same as that")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 1024))
+        ->type_name("N");
     command.add_flag("--no-flip", noFlip, "leave FLIP out, which takes most of the time");
     bars.addTo(command);
 }
@@ -110,6 +118,8 @@ ordered_json metricsJson(const Metrics& m, bool withFlip, bool withHalves) {
     add("mse", m.mse);
     add("rmse", m.rmse);
     add("relrmse", m.relRmse);
+    json["block_size"] = m.blockSize;
+    add("block_relrmse", m.blockRelRmse);
     add("relmse", m.relMse);
     add("psnr_db", m.psnr);
     add("ssim", m.ssim);
@@ -125,6 +135,8 @@ ordered_json metricsJson(const Metrics& m, bool withFlip, bool withHalves) {
     return json;
 }
 
+std::string blocksText(const Metrics& m) { return fmt::format("{0}x{0}", m.blockSize); }
+
 std::vector<MetricRow> metricRows(const Metrics& m, bool withFlip, bool withHalves) {
     const char* radiance = "W/(sr m2)";
     std::vector<MetricRow> rows = {
@@ -136,6 +148,8 @@ std::vector<MetricRow> metricRows(const Metrics& m, bool withFlip, bool withHalv
          withHalves ? "mean squared error, less the reference's noise" : "mean squared error"},
         {"RMSE", shown(m.rmse), radiance, "root of MSE"},
         {"relRMSE", shown(m.relRmse * 100, "{:.3f}"), "%", "RMSE / reference mean"},
+        {"relRMSE " + blocksText(m), shown(m.blockRelRmse * 100, "{:.3f}"), "%",
+         fmt::format("of means of blocks of {} pixels", blocksText(m))},
         {"relMSE", shown(m.relMse), "", "mean of squared error / (reference^2 + 0.01)"},
         {"PSNR", shown(m.psnr, "{:.2f}"), "dB", "as displayed"},
         {"SSIM", shown(m.ssim, "{:.4f}"), "", "as displayed; 1 = equal"},

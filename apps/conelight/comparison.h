@@ -16,7 +16,7 @@ namespace conelight::program {
 
 // --max-relrmse 0.05 and the like. A number that is not a number breaks its bar.
 struct Bars {
-    std::optional<double> bias, mae, rmse, relRmse, relMse, psnr, ssim, flip, hdrFlip;
+    std::optional<double> bias, mae, rmse, relRmse, blockRelRmse, relMse, psnr, ssim, flip, hdrFlip;
     std::optional<long long> bad;
 
     void addTo(CLI::App& command);
@@ -37,9 +37,12 @@ struct ComparisonOptions {
     reference::MetricOptions metricOptions() const;
 };
 
-// {"pixels","bad_pixels","mean","reference_mean","bias","mae","mse","rmse","relrmse","relmse","psnr_db","ssim",
+// {"pixels","bad_pixels","mean","reference_mean","bias","mae","mse","rmse","relrmse","block_size","block_relrmse","relmse","psnr_db","ssim",
 // "flip","hdr_flip"}; with halves "reference_noise". FLIP only when it was asked for. Infinite: null.
 nlohmann::ordered_json metricsJson(const reference::Metrics& metrics, bool withFlip, bool withHalves);
+
+// "4x4": the blocks of blockRelRmse.
+std::string blocksText(const reference::Metrics& metrics);
 
 // One row per metric: name, value, unit, meaning.
 struct MetricRow {

@@ -69,7 +69,9 @@ ordered_json variantJson(const VariantResult& result, bool withFlip) {
 void printComparison(const SceneComparison& comparison, bool withFlip) {
     fmt::print("{}  {} x {}  against {}: {}\n", comparison.scene, comparison.size.width,
                comparison.size.height, comparison.against, referenceLine(comparison.reference));
-    std::vector<std::string> head = {"mode", "component", "relRMSE", "bias", "PSNR", "SSIM"};
+    std::vector<std::string> head = {
+        "mode", "component", "relRMSE", blocksText(comparison.variants.front().components.front().metrics),
+        "bias", "PSNR",      "SSIM"};
     if (withFlip) head.insert(head.end(), {"FLIP", "HDR-FLIP"});
     head.insert(head.end(), {"CPU ms", "GPU ms", "lookups", "MB"});
     Table table(head);
@@ -82,6 +84,7 @@ void printComparison(const SceneComparison& comparison, bool withFlip) {
             std::vector<std::string> row = {first ? result.variant.label() : "",
                                             component.name,
                                             percent(m.relRmse),
+                                            percent(m.blockRelRmse),
                                             percent(m.bias),
                                             fmt::format("{:.1f}", m.psnr),
                                             fmt::format("{:.3f}", m.ssim)};

@@ -135,7 +135,7 @@ struct TracedSettings {
     float timeBudget = 0;
     std::optional<int> bounces;  // nothing: all
     bool exactHits = true;
-    bool exactMirrors = false;
+    bool exactMirrors = true;
     bool exactNear = true;
     bool exactShadows = true;
     // Off: a call returns a finished picture, with all updates and passes. On: each call does one update and

@@ -37,8 +37,22 @@ vec3 reflectedDirection(Brdf b, Surface s, vec2 xi, out vec3 weight) {
     // An ideal mirror has no lobe; the surface keeps 16 bits of its roughness.
     if (s.roughness < kMinRoughness - 1e-5) direction = reflect(-s.toEye, s.normal);
 #endif
-    // A bent normal can mirror into the surface: keep to the side of the triangle.
-    return direction - 2.0 * min(dot(direction, s.geometricNormal), 0.0) * s.geometricNormal;
+    // A bent normal can mirror into the surface, which shows nothing (docs/theory/4f_glossy.md).
+    if (dot(direction, s.geometricNormal) <= 0.0) weight = vec3(0.0);
+    return direction;
+}
+
+// Where a ray starts. One that meets triangles starts on its own line: moved off its surface by part of a voxel, flat
+// water would mirror what stands as much higher. A step towards the eye keeps pixels in corners out of the other wall.
+vec3 lobeRayOrigin(Surface s, Brdf b, vec3 direction) {
+#if TRIANGLE_HITS
+    if (b.alpha <= kTriangleAlpha) {
+        float towards = dot(direction, s.geometricNormal);
+        return gridFromWorld(s.position + kStartDepth * s.depth * s.toEye +
+                             startOnLine(towards, s.depth) * direction);
+    }
+#endif
+    return seenRayOrigin(gridFromWorld(s.position), s.geometricNormal, s.toEye);
 }
 
 void main() {
@@ -51,7 +65,6 @@ void main() {
     bool seen = fetchSurface(min(pixel, imageSize(result) - 1), s);
     Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));
     bool glossy = hasLobe(s, seen, pixelRays.specularLimit);
-    vec3 origin = seenRayOrigin(gridFromWorld(s.position), s.geometricNormal, s.toEye);
     uint seed = randomHash(uint(pixel.x) | uint(pixel.y) << 16) ^ 0x5bd1e995u;
     uint random = randomHash(seed) ^ randomHash(pixelRays.pass * 0x9e3779b9u + 0x85ebca6bu);
     vec3 sum = vec3(0.0);
@@ -69,7 +82,7 @@ void main() {
         rayCone = RayCone(b.alpha <= kTriangleAlpha ? width * pixelRays.inverseVoxelSize : -1.0,
                           pixelAngle * (1.0 - frame.parallel) + b.alpha);
 #endif
-        Ray ray = Ray(origin, direction, counts ? 1e9 : -1.0, s.geometricNormal);
+        Ray ray = Ray(lobeRayOrigin(s, b, direction), direction, counts ? 1e9 : -1.0, s.geometricNormal);
         PathSettings path = PathSettings(-1.0, counts ? int(pixelRays.reflections) : 0, b.alpha,
                                          pixelRays.fireflyClamp, skyWidth(b, s, direction));
         vec3 radiance = throughGlass(traceRadiance(ray, path, random, hit), ray, hit);

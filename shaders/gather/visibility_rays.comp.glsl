@@ -20,11 +20,6 @@ layout(local_size_x = 64) in;
 layout(r32ui) uniform uimage2D result;
 
 const float kFarLight = 1e9;  // m, in the place of an infinite distance
-// Height above the surface at which a ray starts: this many voxels, or this part of the distance to the eye, three
-// times what positions err; and the cosine below which it is no longer kept.
-const float kStartVoxels = 1e-3;
-const float kStartDepth = 1e-4;
-const float kStartCosine = 0.05;
 
 // Whether nothing stands between a surface and a light; `otherwise` where no ray can tell. The ray starts on its own
 // line, off the surface by more than positions err. Moved along the normal it would shift the shadow.
@@ -34,8 +29,7 @@ bool seesLight(uint number, Surface s, bool otherwise, bool wanted) {
     vec3 toLight = parallel ? -kFarLight * light.direction : light.position - s.position;
     float distance = length(toLight);
     vec3 direction = toLight / max(distance, 1e-20);
-    float lift = max(kStartVoxels * grid.voxelSize, kStartDepth * s.depth);
-    float start = lift / max(dot(direction, s.geometricNormal), kStartCosine);
+    float start = startOnLine(dot(direction, s.geometricNormal), s.depth);
     vec3 origin = gridFromWorld(s.position + start * direction);
 
     // The part of the way that lies in the grid; pixels outside have maps alone

@@ -87,6 +87,18 @@ vec3 seenRayOrigin(vec3 pointGrid, vec3 geometricNormal, vec3 toEye) {
     return rayOrigin(pointGrid, geometricNormal) + kRayOffset * toEye;
 }
 
+// Height above the surface at which a ray starts that meets triangles from there on: this many voxels, or this part of the
+// distance to the eye, three times what positions err; and the cosine below which it is no longer kept.
+const float kStartVoxels = 1e-3;
+const float kStartDepth = 1e-4;
+const float kStartCosine = 0.05;
+
+// Where on its own line such a ray starts, m from the surface: moved along the normal it would meet what is beside.
+// `towards`: cosine between the ray and the geometric normal; `depth`: of the surface, m.
+float startOnLine(float towards, float depth) {
+    return max(kStartVoxels * grid.voxelSize, kStartDepth * depth) / max(towards, kStartCosine);
+}
+
 // 1 / direction; 1e7 where that is larger, so that no product with it is NaN.
 vec3 rayInverse(vec3 direction) {
     vec3 safe = mix(vec3(1.0), direction, greaterThan(abs(direction), vec3(1e-7)));

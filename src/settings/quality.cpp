@@ -23,7 +23,7 @@ TracedSettings settingsOf(Quality quality) {
             s.passes = 4;
             s.filterLevels = 1;
             s.cacheUpdates = 48;
-            s.exactShadows = false;
+            s.exactMirrors = s.exactShadows = false;
             break;
         case Quality::Interactive:
             break;

@@ -62,6 +62,8 @@ TEST_F(CompareTest, TableAndJsonHaveTheKnownNumbers) {
     EXPECT_EQ(json["metrics"]["pixels"], 192);
     EXPECT_NEAR(json["metrics"]["bias"].get<double>(), 0.2, 1e-6);
     EXPECT_NEAR(json["metrics"]["relrmse"].get<double>(), 0.2, 1e-6);
+    EXPECT_EQ(json["metrics"]["block_size"], 4);
+    EXPECT_NEAR(json["metrics"]["block_relrmse"].get<double>(), 0.2, 1e-6);
     EXPECT_GT(json["metrics"]["flip"].get<double>(), 0.01);
     EXPECT_TRUE(json["broken_bars"].empty());
 }
@@ -77,6 +79,10 @@ TEST_F(CompareTest, BarsDecideTheExitStatus) {
     EXPECT_EQ(compare(pair_ + "--max-relrmse 0.21 --max-bias 0.21 --max-bad 0 --min-psnr 10").status, 0);
     const CommandResult broken = compare(pair_ + "--max-relrmse 0.19 --max-bias 0.21");
     EXPECT_EQ(broken.status, 1);
+    const CommandResult blocks = compare(pair_ + "--max-block-relrmse 0.19 --blocks 8");
+    EXPECT_EQ(blocks.status, 1);
+    EXPECT_NE(blocks.output.find("relRMSE of blocks 0.2 is above 0.19"), std::string::npos) << blocks.output;
+    EXPECT_NE(blocks.output.find("relRMSE 8x8"), std::string::npos) << blocks.output;
     EXPECT_NE(broken.output.find("relRMSE 0.2 is above 0.19 (--max-relrmse)"), std::string::npos)
         << broken.output;
     EXPECT_EQ(broken.output.find("--max-bias"), std::string::npos) << broken.output;

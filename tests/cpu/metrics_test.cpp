@@ -76,6 +76,40 @@ TEST(MetricsTest, ChannelsCountAlike) {
     EXPECT_NEAR(m.mse, 5.0 / 3, 1e-6);
 }
 
+// Errors of +0.2 and -0.2 in turn, and 0.1 on all: blocks of even sides see the 0.1 alone.
+TEST(MetricsTest, BlocksSeeWhatNeighboursDoNotCancel) {
+    const auto test = [](int x, int y) { return glm::vec3((x + y) % 2 != 0 ? 1.3f : 0.9f); };
+    const Image reference = constant(glm::vec3(1), 24, 20);
+    MetricOptions options = withoutFlip();
+    const Metrics even = compareImages(fromFunction(24, 20, test), reference, options);
+    EXPECT_EQ(even.blockSize, 4);
+    EXPECT_NEAR(even.relRmse, std::sqrt(0.05), 1e-6);
+    EXPECT_NEAR(even.blockRelRmse, 0.1, 1e-6);
+    options.blockSize = 1;
+    EXPECT_NEAR(compareImages(fromFunction(24, 20, test), reference, options).blockRelRmse, std::sqrt(0.05),
+                1e-6);
+
+    const Image a = fromFunction(24, 20, [](int x, int) { return glm::vec3(x % 8 < 4 ? 1.5f : 0.5f); });
+    const Image b = fromFunction(24, 20, [](int x, int) { return glm::vec3(x % 8 < 4 ? 0.5f : 1.5f); });
+    options.blockSize = 4;
+    // The noise of the halves is the same all over a block: (0.6 - 0.5)(0.6 + 0.5) in each.
+    const Metrics noisy = compareImages(constant(glm::vec3(1.6f)), reference, options, Halves{&a, &b});
+    EXPECT_NEAR(noisy.blockRelRmse, std::sqrt(0.11), 1e-6);
+}
+
+// A picture of 6 x 5 pixels in blocks of 4: parts of blocks count by their pixels, and what is not finite not at all.
+TEST(MetricsTest, PartsOfBlocksCountByTheirPixels) {
+    const auto value = [](int x, int y) { return glm::vec3(x >= 4 ? 2.0f : y >= 4 ? 3.0f : 1.0f); };
+    Image test = fromFunction(6, 5, value);
+    const Image reference = constant(glm::vec3(1), 6, 5);
+    // Ten pixels of error 1 in the two blocks at the right, four of error 2 below.
+    EXPECT_NEAR(compareImages(test, reference, withoutFlip()).blockRelRmse,
+                std::sqrt((10 * 1.0 + 4 * 4.0) / 30), 1e-6);
+    test.pixels[5].g = kNan;
+    EXPECT_NEAR(compareImages(test, reference, withoutFlip()).blockRelRmse,
+                std::sqrt((9 * 1.0 + 4 * 4.0) / 29), 1e-6);
+}
+
 TEST(MetricsTest, EqualImages) {
     const Image image = fromFunction(32, 24, [](int x, int y) {
         return glm::vec3(float(x % 7) / 7, float(y % 5) / 5, float((x * y) % 11) / 3);

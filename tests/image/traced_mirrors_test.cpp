@@ -159,6 +159,56 @@ TEST_F(TracedMirrorsTest, ExactMirrorsWithoutRoughnessAreSharp) {
     EXPECT_GE(between(), 2);
 }
 
+// A floor that is seen at a grazing angle mirrors a step of 10 cm on the wall behind where it is: rays start on the floor.
+// From 5 % of a voxel above it the step would be three pixels off.
+TEST_F(TracedMirrorsTest, GrazedFloorsMirrorThingsWhereTheyAre) {
+    constexpr float kFloor = -0.99f, kWall = -0.99f, kEye = 0.1f, kStep = 0.1f;
+    Scene scene = closedBox(diffuseMaterial(glm::vec3(0)));
+    Material metal = diffuseMaterial(glm::vec3(1));
+    metal.metallic = 1;
+    metal.roughness = 0;
+    addInstance(scene, quadMesh({-0.9f, kFloor, 0.98f}, {1.8f, 0, 0}, {0, 0, kWall - 0.98f}), metal);
+    addInstance(scene, quadMesh({-0.9f, kFloor + kStep, kWall}, {1.8f, 0, 0}, {0, 1.5f, 0}),
+                diffuseMaterial(glm::vec3(0), glm::vec3(1)));
+    Camera& camera = scene.cameras.at(0);
+    camera.eye = {0, kFloor + kEye, 0.95f};
+    // Where the ray to the step meets the floor: in the middle of the picture.
+    camera.target = {0, kFloor, camera.eye.z - (camera.eye.z - kWall) * kEye / (kEye + kStep)};
+    camera.fovY = 0.05f;
+    Settings settings = tracedSettings(Quality::Draft);
+    settings.voxels.size = 16;
+    settings.light.emissiveQuads = false;
+    settings.traced.exactMirrors = true;
+    settings.traced.filterLevels = 0;
+    const Image image = draw(scene, settings);
+    int lit = 0;  // the mirrored wall is above the step: in the lower half of the picture
+    for (int y = 0; y < kPixels; ++y)
+        lit += image.pixels[static_cast<std::size_t>(y * kPixels + kPixels / 2)].g > 0.5f ? 1 : 0;
+    EXPECT_NEAR(lit, kPixels / 2, 1);
+}
+
+// Vertex normals may turn the mirrored direction into the surface. It shows nothing there, as in the path tracer.
+TEST_F(TracedMirrorsTest, NormalsThatMirrorIntoTheSurfaceShowNothing) {
+    Scene scene = closedBox(diffuseMaterial(glm::vec3(0), glm::vec3(1)));
+    Material metal = diffuseMaterial(glm::vec3(1));
+    metal.metallic = 1;
+    metal.roughness = 0.1f;
+    Mesh floor = quadMesh({-0.9f, -0.9f, 0.9f}, {1.8f, 0, 0}, {0, 0, -1.8f});
+    floor.normals.assign(floor.normals.size(), glm::normalize(glm::vec3(0, 1, -0.4f)));
+    addInstance(scene, floor, metal);
+    Camera& camera = scene.cameras.at(0);
+    camera.eye = {0, -0.5f, 0.85f};
+    camera.target = {0, -0.9f, 0};
+    camera.fovY = 0.2f;
+    Settings settings = tracedSettings(Quality::Draft, Component::Specular);
+    settings.light.emissiveQuads = false;
+    EXPECT_LT(meanOf(draw(scene, settings)), 0.02);
+    reference::PathTracerSettings path;
+    path.samplesPerPixel = 4;
+    path.emissiveQuads = false;
+    EXPECT_LT(meanOf(reference::PathTracer(scene).render(camera, kPixels, kPixels, path).full), 0.02);
+}
+
 // A masked surface has holes in a mirror, and an instance that moved is where it is now.
 TEST_F(TracedMirrorsTest, ExactMirrorsShowHolesAndWhatMoved) {
     Scene scene = closedBox(diffuseMaterial(glm::vec3(0)));

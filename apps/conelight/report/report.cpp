@@ -125,6 +125,7 @@ std::optional<ReportTable> metricsTable(const ReportView& view) {
     table.columns = {{"picture", "", 3, ""},
                      {"bias", "%", 2, "mean / mean of the reference - 1"},
                      {"relRMSE", "%", 2, "root of mean squared error / mean of the reference", true},
+                     {"blocks", "%", 2, "relRMSE of means of blocks of pixels", true},
                      {"MAE", "", 3, "mean absolute error, W/(sr m2)", true},
                      {"relMSE", "", 3, "mean of squared error / (reference^2 + 0.01)", true},
                      {"PSNR", "dB", 4, "as displayed", false, true},
@@ -137,9 +138,9 @@ std::optional<ReportTable> metricsTable(const ReportView& view) {
         const reference::Metrics& m = *picture.metrics;
         const bool hasFlip = !picture.flip.empty() || m.flip > 0 || m.hdrFlip > 0;
         const ReportCell none("");
-        table.rows.push_back({picture.name, m.bias, m.relRmse, m.mae, m.relMse, m.psnr, m.ssim,
-                              hasFlip ? ReportCell(m.flip) : none, hasFlip ? ReportCell(m.hdrFlip) : none,
-                              double(m.badPixels)});
+        table.rows.push_back({picture.name, m.bias, m.relRmse, m.blockRelRmse, m.mae, m.relMse, m.psnr,
+                              m.ssim, hasFlip ? ReportCell(m.flip) : none,
+                              hasFlip ? ReportCell(m.hdrFlip) : none, double(m.badPixels)});
     }
     if (table.rows.empty()) return std::nullopt;
     return table;
