@@ -162,7 +162,7 @@ std::vector<Struct> otherStructs() {
             transmission, absorption, ior, transmissionUvRow, transmissionLayer, pad1, pad2, pad3),
         ROW(Light, position, type, direction, shadow, intensity, range, halfU, cosInner, halfV, cosOuter,
             falloff, customFalloff, shadowNear, shadowTexel, flags, sampleGrid),
-        ROW(ThesisGrid, origin, edge, voxelSize, size, maxLevel, sumScale, boxMin, boxSize),
+        ROW(ThesisGrid, origin, edge, voxelSize, size, maxLevel, sumScale, boxMin, boxSize, along),
         ROW(ThesisConstants, diffuseCone, specularCone, occlusionCone, originOffset, shininessFalloff,
             shadowStrength, minSpecular, switches, maxSamples, lightCount, parallelSpread),
         ROW(VoxelGrid, origin, voxelSize, sizeX, sizeY, sizeZ, voxelCount, bricksX, bricksY, bricksZ,
