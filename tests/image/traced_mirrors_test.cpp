@@ -160,7 +160,7 @@ TEST_F(TracedMirrorsTest, ExactMirrorsWithoutRoughnessAreSharp) {
 }
 
 // A floor that is seen at a grazing angle mirrors a step of 10 cm on the wall behind where it is: rays start on the floor.
-// From 5 % of a voxel above it the step would be three pixels off.
+// From 5 % of a voxel above it the step would be four pixels off.
 TEST_F(TracedMirrorsTest, GrazedFloorsMirrorThingsWhereTheyAre) {
     constexpr float kFloor = -0.99f, kWall = -0.99f, kEye = 0.1f, kStep = 0.1f;
     Scene scene = closedBox(diffuseMaterial(glm::vec3(0)));
