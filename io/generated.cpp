@@ -6,6 +6,7 @@
 #include "io/generated_scenes.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>

@@ -8,6 +8,7 @@
 #include "io/generated_scenes.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 
 namespace conelight::io::generated {

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Handles of a scene's parts: attributes read and write the scene; int(handle) is the index.
+#include <algorithm>
+
 #include <fmt/core.h>
 
 #include "arrays.h"

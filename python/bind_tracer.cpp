@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <exception>
 #include <mutex>
 #include <optional>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "reference/beam_polygon.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace conelight::reference {

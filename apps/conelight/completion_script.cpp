@@ -3,6 +3,7 @@
 // words of the option before it, else commands and options, else files.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <set>
 
 #include "shell_words.h"

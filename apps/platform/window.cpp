@@ -31,6 +31,13 @@ Window& Window::self(GLFWwindow* window) { return *static_cast<Window*>(glfwGetW
 
 Window::Window(const WindowOptions& options) {
     glfwSetErrorCallback(keepError);
+#ifdef GLFW_PLATFORM
+    // From GLFW 3.4 on, which tries Wayland too: its library prints a line of its own where nobody named a place for
+    // sockets.
+    if (std::getenv("XDG_RUNTIME_DIR") == nullptr && std::getenv("WAYLAND_SOCKET") == nullptr &&
+        std::getenv("WAYLAND_DISPLAY") == nullptr)
+        glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
     if (glfwInit() == GLFW_FALSE) noWindow("there is no display to open one on");
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `conelight bake`: what it writes and says, and what it refuses.
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // `conelight compare SCENE` from outside.
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 

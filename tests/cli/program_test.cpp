@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The program from outside: exit statuses, one-line errors, files written whole, pictures that repeat bit by
 // bit.
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>

@@ -3,6 +3,7 @@
 // often a StaticBake bakes.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 #include <memory>

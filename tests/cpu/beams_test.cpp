@@ -3,6 +3,7 @@
 // tracer, edges those of very many samples; what beams cannot show is refused.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "conelight/error.h"

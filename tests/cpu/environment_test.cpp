@@ -3,6 +3,7 @@
 // tracer's light of them, the sun that is split off, files and generated skies.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <numbers>

@@ -5,6 +5,7 @@
 #include "io/generated_textures.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Cones and rays as lines over a picture: where they start and end, what is hidden, what stands out.
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "session/inspection_lines.h"

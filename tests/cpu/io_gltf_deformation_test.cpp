@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Skins and morph targets of glTF clips against their formulas, written down here once more.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

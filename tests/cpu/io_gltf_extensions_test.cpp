@@ -2,6 +2,7 @@
 // Surroundings and visibility in glTF files of other programs, and the page that lists the extensions.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <fstream>
 #include <glm/gtc/constants.hpp>
 

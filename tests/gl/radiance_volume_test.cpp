@@ -5,6 +5,7 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include <algorithm>
 #include <cmath>
 
 #include "light/inject_light.h"

@@ -3,6 +3,7 @@
 // much area, planes through edges, odd triangles.
 #include "support/voxelize_rig.h"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>

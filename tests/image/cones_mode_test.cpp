@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pictures of the cones mode against what must be so: furnace, sky, dark room, bleeding of colour, emission
 // counted once, the same bits every time.
+#include <algorithm>
 #include <cmath>
 #include <optional>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // A thin lens: circles of confusion against their formula, what is in focus, and a lens of no width.
+#include <algorithm>
 #include <cmath>
 #include <optional>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The first picture of a model without light: it stands on a ground whose rim is not seen, and shades it.
+#include <algorithm>
 #include <cmath>
 
 #include "conelight/renderer.h"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Mode `thesis` as pictures: the original's faults can be seen when switched on, and not when mended.
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <numbers>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The reflection of rectangular lights (lib/rect_light.glsl) against a dense sum over the rectangle.
+#include <algorithm>
 #include <cmath>
 
 #include "gl/pass.h"

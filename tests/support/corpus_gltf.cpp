@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The part of the corpus (corpus.h) that is glTF, plain and compressed.
+#include <algorithm>
 #include <cmath>
 #include <limits>
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The classes of Conelight: who holds what, and who makes what (src/README.md says the same in a table).
+#include <algorithm>
+
 #include "figures/drawings/drawing.h"
 #include "figures/drawings/drawings.h"
 

@@ -2,6 +2,7 @@
 // The syntax tree of a scene file beside its text.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <sstream>
 
 #include "figures/drawings/drawing.h"

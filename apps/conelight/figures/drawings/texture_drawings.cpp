@@ -2,6 +2,7 @@
 // Drawings of texture filtering: aliasing, levels, magnification, and the march of a flat cone over levels.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "figures/drawings/drawings.h"
