@@ -5,7 +5,6 @@
 #include "host_renderer.h"  // its OpenGL comes first
 
 #include <conelight/light_field.h>
-
 #include <cstdio>
 #include <glm/gtc/type_ptr.hpp>
 #include <osg/MatrixTransform>
@@ -27,26 +26,24 @@ const osg::Vec3f kLamp(0.6f, -0.5f, 1.8f);
 const char* const kVertex = R"(#version 450 compatibility
 uniform mat4 osg_ViewMatrixInverse;
 out vec3 world, normal;
-out vec4 albedo;
 void main() {
     world = (osg_ViewMatrixInverse * gl_ModelViewMatrix * gl_Vertex).xyz;
     normal = mat3(osg_ViewMatrixInverse * gl_ModelViewMatrix) * gl_Normal;
-    albedo = gl_Color;
+    gl_FrontColor = gl_Color;
     gl_Position = gl_ModelViewProjectionMatrix * gl_Vertex;
 }
 )";
 const char* const kFragment = R"(
 uniform vec3 lamp;
 in vec3 world, normal;
-in vec4 albedo;
 out vec4 color;
 void main() {
     vec3 n = normalize(normal), start = world + 0.5 * conelight_grid.voxelSize * n, toLamp = lamp - start;
+    vec3 light = conelight_irradiance(world, n);
     float met;
     conelight_trace(start, toLamp, met);
-    vec3 light = conelight_irradiance(world, n);
     if (met < 0 || met > length(toLamp)) light += vec3(1.2) * max(dot(n, normalize(toLamp)), 0) / dot(toLamp, toLamp);
-    color = vec4(pow(1 - exp(-albedo.rgb * light), vec3(1 / 2.2)), 1);
+    color = vec4(pow(1 - exp(-gl_Color.rgb * light), vec3(1 / 2.2)), 1);
 }
 )";
 
@@ -117,19 +114,21 @@ void run(const char* path, const Window& window) {
     // [frame]
     Collector collected;
     root->accept(collected);
-    collected.scene.lights.resize(1);
-    collected.scene.lights[0].position = glm::make_vec3(kLamp.ptr());
-    collected.scene.lights[0].intensity = glm::vec3(3.14159f * 1.2f);
+    collected.scene.lights.push_back(
+        {.intensity = glm::vec3(3.14159f * 1.2f), .position = glm::make_vec3(kLamp.ptr())});
     conelight::LightField field;
+    conelight::Settings settings = conelight::realtimeSettings();
+    settings.voxels.size = 48;
+    field.setSettings(settings);
     field.setScene(collected.scene);
-    field.update({.updates = 8});  // while loading
-    conelight::Instance ball = collected.scene.instances.back();
+    field.update({.updates = 16});  // while loading
+    conelight::Instance& ball = collected.scene.instances.back();
     for (int frame = 0; path == nullptr || frame < 24; ++frame) {
         const auto turn = osg::Matrix::rotate(0.02 * frame, osg::Vec3(0, 0, 1));
         static_cast<osg::MatrixTransform&>(*root->getChild(5)).setMatrix(turn);
         ball.worldFromObject = glm::mat4(glm::make_mat4(turn.ptr()));
         field.setInstance(collected.scene.instances.size() - 1, ball);
-        field.update({.updates = 2, .milliseconds = 30});
+        field.update({.updates = 4, .milliseconds = 30});
         field.bindLookups(kSlots);
         viewer.frame();
         // [/frame]
