@@ -42,14 +42,18 @@ vec3 reflectedDirection(Brdf b, Surface s, vec2 xi, out vec3 weight) {
     return direction;
 }
 
+// Of a distant eye, voxels: what a ray that meets plane pieces starts above them.
+const float kStartMost = 0.05;
+
 // Where a ray starts. One that meets triangles starts on its own line: moved off its surface by part of a voxel, flat
 // water would mirror what stands as much higher. A step towards the eye keeps pixels in corners out of the other wall.
 vec3 lobeRayOrigin(Surface s, Brdf b, vec3 direction) {
 #if TRIANGLE_HITS
     if (b.alpha <= kTriangleAlpha) {
         float towards = dot(direction, s.geometricNormal);
-        return gridFromWorld(s.position + kStartDepth * s.depth * s.toEye +
-                             startOnLine(towards, s.depth) * direction);
+        float depth = min(s.depth, kStartMost * grid.voxelSize / kStartDepth);
+        return gridFromWorld(s.position + kStartDepth * depth * s.toEye +
+                             startOnLine(towards, depth) * direction);
     }
 #endif
     return seenRayOrigin(gridFromWorld(s.position), s.geometricNormal, s.toEye);

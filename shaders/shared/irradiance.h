@@ -25,7 +25,7 @@
 // settled (docs/theory/4d_cache.md, "The cache").
 #define IRRADIANCE_SETTLE 8
 // The least weight of an update of a face that is far from what changed.
-#define IRRADIANCE_FAR_WEIGHT 0.0625
+#define IRRADIANCE_FAR_WEIGHT 0.125
 // The noise of a face's update, over its mean, that weights after a change are the best for.
 #define IRRADIANCE_NOISE 0.7
 // Until so many updates after a change pixels see a face's mean shared with its neighbours.

@@ -47,12 +47,15 @@ void LitVoxels::relight(const gl::Device& device, const Inputs& inputs, const Re
                            ((otherSettings || otherGrid) && !budget.oneUpdate);
     if (inTheDark) cache_ = {};
     IrradianceCache::Places changed = places_.look(inputs.scene);
-    if (!budget.oneUpdate || otherSettings)
-        changed.reset();  // finished pictures keep nothing of the light before
+    if (!budget.oneUpdate || inTheDark || otherSettings) changed.reset();
+    // Finished pictures keep nothing of the light before.
+    const bool forgets = !budget.oneUpdate && keptFar_;
+    const bool changes = inTheDark || otherSources || otherSettings || forgets;
     if (inTheDark || otherVoxels)
         cache_.adopt(device, inputs.voxels, changed);
-    else if (otherSources || otherSettings)
+    else if (changes)
         cache_.restartAverages(changed);
+    if (changes) keptFar_ = changed.has_value();
     if (inTheDark || otherSources) putDirectLight(device, inputs);
     if (inTheDark || otherSources) sources_ = revision_ = base::Revision::next();
     voxelsFrom_ = inputs.voxels.revision();
@@ -86,7 +89,7 @@ void LitVoxels::update(const gl::Device& device, const Inputs& inputs, const Bud
         cache_.update(device, given, cache, passes);
         if (passes > 0) revision_ = base::Revision::next();
     };
-    const int missing = std::max(settings_.updates - cache_.updates(), 0);
+    const int missing = std::max(wantedUpdates() - cache_.updates(), 0);
     if (settings_.bounces) {
         run(std::max(settings_.rays, kRaysPerBounce), missing);
     } else if (budget.oneUpdate) {
@@ -96,6 +99,14 @@ void LitVoxels::update(const gl::Device& device, const Inputs& inputs, const Bud
         run(std::max(settings_.rays / 4, 1), coarse);
         run(settings_.rays, missing - coarse);
     }
+}
+
+// What far faces have kept of the light before goes by twice as many.
+int LitVoxels::wantedUpdates() const { return (keptFar_ ? 2 : 1) * settings_.updates; }
+
+int LitVoxels::updates() const {
+    const int made = cache_.updates();
+    return made < wantedUpdates() ? std::min(made, settings_.updates - 1) : settings_.updates;
 }
 
 bool LitVoxels::steady() const { return cache_.updates() >= std::min(settings_.updates, kSteadyUpdates); }

@@ -55,7 +55,8 @@ class LitVoxels {
     base::Revision revision() const { return revision_; }
     // Raised by each call that found other voxels or lights: what was gathered from the light before is old.
     base::Revision sources() const { return sources_; }
-    int updates() const { return cache_.updates(); }
+    // Since the light changed, at most RelightSettings::updates: then it is left as it is.
+    int updates() const;
     // That an update of all visits; 0 at first.
     std::uint32_t facesPerUpdate() const { return cache_.faces(); }
     // Whether means are long enough to be averaged over many frames.
@@ -68,6 +69,7 @@ class LitVoxels {
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
+    int wantedUpdates() const;
     void putDirectLight(const gl::Device& device, const Inputs& inputs);
     void update(const gl::Device& device, const Inputs& inputs, const Budget& budget);
 
@@ -77,6 +79,7 @@ class LitVoxels {
     EmissionFit fit_;
     IrradianceCache cache_;
     EditPlaces places_;
+    bool keptFar_ = false;  // the last change was taken as one of near faces alone
 
     // What it was made from.
     base::Revision voxelsFrom_, lightsFrom_;
