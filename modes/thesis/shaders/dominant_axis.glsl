@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Coordinates as seen along the dominant axis of a triangle's normal, or along the one that `along` of ThesisGrid asks
 // for.
+#include "lib/dot.glsl"
 
 // The axis along which a triangle is voxelized, by the sizes of its normal's parts. Ties: x before y before z, as in
 // the original.
