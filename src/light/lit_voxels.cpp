@@ -18,6 +18,8 @@ constexpr int kCoarseUpdates = IRRADIANCE_SETTLE;
 // Means over frames while the cache is still on its way would show old light.
 constexpr int kSteadyUpdates = 14;
 
+static_assert(std::size(gpu::CacheConstants{}.places) == EditPlaces::kMost);
+
 }  // namespace
 
 RelightSettings relightSettings(const TracedSettings& settings) {
