@@ -2,6 +2,7 @@
 #include "light/lit_voxels.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "gl/gl.h"
 #include "light/inject_light.h"
