@@ -8,7 +8,8 @@ namespace conelight::light {
 namespace {
 
 bool emits(const scene::GpuScene& scene, std::size_t index) {
-    return scene.materials()[scene.instances()[index].material].emission != glm::vec3(0);
+    const gpu::Material& material = scene.materials()[scene.instances()[index].material];
+    return material.emission != glm::vec3(0) || (material.flags & MATERIAL_UNLIT) != 0;
 }
 
 glm::vec4 sphereRound(const Aabb& box) { return {box.center(), 0.5f * glm::length(box.extent())}; }
@@ -25,13 +26,19 @@ float partOfItsSize(const Aabb& box, const glm::mat4& was, const glm::mat4& is) 
 
 }  // namespace
 
+// Than that of the last look, for all faces.
+bool EditPlaces::isOther(const scene::GpuScene& scene) const {
+    return scene_ != scene.identity() || lights_ != scene.lightRevision() || sky_ != scene.skyRevision();
+}
+
 std::optional<std::vector<glm::vec4>> EditPlaces::look(const scene::GpuScene& scene) {
-    bool local =
-        scene_ == scene.identity() && lights_ == scene.lightRevision() && sky_ == scene.skyRevision();
+    bool local = !isOther(scene);
+    std::vector<glm::vec4> places;
+    if (local && geometry_ == scene.geometryRevision()) return places;
     scene_ = scene.identity();
+    geometry_ = scene.geometryRevision();
     lights_ = scene.lightRevision();
     sky_ = scene.skyRevision();
-    std::vector<glm::vec4> places;
     Aabb all;  // of all places
     entries_.resize(scene.instances().size());
     for (std::size_t i = 0; i < entries_.size(); ++i) {
@@ -51,6 +58,7 @@ std::optional<std::vector<glm::vec4>> EditPlaces::look(const scene::GpuScene& sc
         entry = now;
         if (box.empty()) continue;
         all.grow(box);
+        if (places.size() > kMost) continue;
         places.push_back(sphereRound(box));
         places.back().w *= std::sqrt(part);
     }

@@ -172,9 +172,11 @@ gpu::CacheConstants IrradianceCache::packed(const CacheSettings& settings, std::
     c.fireflyClamp = fireflyClamp((settings.cosineRays + settings.lightRays) *
                                   std::min(settings.longestWindow, kUsualWindow));
     c.restart = restarts_ ? 1 : 0;
-    c.restartsNear = restarts_ && restartsNear_ ? 1 : 0;
-    c.placeCount = c.restartsNear != 0 ? static_cast<std::uint32_t>(restartsNear_->size()) : 0;
-    std::copy_n(restartsNear_ ? restartsNear_->data() : nullptr, c.placeCount, c.places);
+    if (restarts_ && restartsNear_) {
+        c.restartsNear = 1;
+        c.placeCount = static_cast<std::uint32_t>(restartsNear_->size());
+        std::copy(restartsNear_->begin(), restartsNear_->end(), c.places);
+    }
     return c;
 }
 

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// Where a scene has changed: what places there are, how large, and when there are none to go by.
+#include "light/edit_places.h"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "support/gl_fixture.h"
+#include "support/scenes.h"
+
+namespace conelight::test {
+namespace {
+
+class EditPlacesTest : public GlTest {
+  protected:
+    void SetUp() override {
+        GlTest::SetUp();
+        for (int i = 0; i < 6; ++i)
+            addInstance(source_, boxMesh(), diffuseMaterial(glm::vec3(0.5f)), at({3.0f * float(i), 0, 0}));
+        Material lamp;
+        lamp.emission = glm::vec3(1);
+        addInstance(source_, boxMesh(), lamp, at({0, 9, 0}));
+        source_.lights.push_back({.intensity = glm::vec3(1), .position = {0, 5, 0}});
+        scene_.emplace(source_);
+    }
+    void TearDown() override {
+        scene_.reset();
+        GlTest::TearDown();
+    }
+    static glm::mat4 at(const glm::vec3& position) { return glm::translate(glm::mat4(1), position); }
+    void move(std::size_t index, const glm::vec3& by) {
+        Instance moved = scene_->source().instances[index];
+        moved.worldFromObject = at(by) * moved.worldFromObject;
+        scene_->setInstance(index, moved);
+    }
+
+    Scene source_;
+    std::optional<scene::GpuScene> scene_;
+    light::EditPlaces places_;
+};
+
+TEST_F(EditPlacesTest, NothingToGoByAtFirst) {
+    EXPECT_FALSE(places_.look(*scene_));
+    ASSERT_TRUE(places_.look(*scene_));
+    EXPECT_TRUE(places_.look(*scene_)->empty());
+}
+
+// Its cross-section is that part of the thing's by which it moved of its size.
+TEST_F(EditPlacesTest, SmallMovesAreSmallPlaces) {
+    places_.look(*scene_);
+    const float radius = 0.5f * glm::length(scene_->instanceBounds(2).extent());
+    move(2, {0.01f, 0, 0});
+    const auto small = places_.look(*scene_);
+    ASSERT_TRUE(small && small->size() == 1);
+    EXPECT_NEAR(small->front().x, 6, 0.1);
+    EXPECT_NEAR(small->front().w, radius * std::sqrt(0.01f / (2 * radius)), 0.01f * radius);
+    move(2, {0, 40, 0});
+    const auto large = places_.look(*scene_);
+    ASSERT_TRUE(large && large->size() == 1);
+    EXPECT_GT(large->front().w, 20);  // where it was and where it is
+}
+
+TEST_F(EditPlacesTest, MoreThanAFewAreOne) {
+    places_.look(*scene_);
+    for (std::size_t i = 0; i < light::EditPlaces::kMost; ++i) move(i, {0, 0.1f, 0});
+    EXPECT_EQ(places_.look(*scene_)->size(), light::EditPlaces::kMost);
+    for (std::size_t i = 0; i <= light::EditPlaces::kMost; ++i) move(i, {0, 0.1f, 0});
+    const auto all = places_.look(*scene_);
+    ASSERT_EQ(all->size(), 1u);
+    EXPECT_GT(all->front().w, 6);
+}
+
+TEST_F(EditPlacesTest, LightsAndWhatEmitsChangeEverything) {
+    places_.look(*scene_);
+    move(6, {0.1f, 0, 0});  // the lamp
+    EXPECT_FALSE(places_.look(*scene_));
+    Material unlit = source_.materials[0];
+    unlit.unlit = true;
+    scene_->setMaterial(0, unlit);
+    EXPECT_FALSE(places_.look(*scene_));
+    scene_->setLights({});
+    EXPECT_FALSE(places_.look(*scene_));
+    scene_->setSky(glm::vec3(1));
+    EXPECT_FALSE(places_.look(*scene_));
+    EXPECT_TRUE(places_.look(*scene_));
+}
+
+TEST_F(EditPlacesTest, ComingAndGoingArePlacesOfFullSize) {
+    places_.look(*scene_);
+    scene_->removeInstance(1);
+    const auto gone = places_.look(*scene_);
+    ASSERT_TRUE(gone && gone->size() == 1);
+    EXPECT_NEAR(gone->front().x, 3, 1e-3);
+    scene_->addInstance(source_.instances[1]);
+    const auto come = places_.look(*scene_);
+    ASSERT_TRUE(come && come->size() == 1);
+    EXPECT_NEAR(come->front().w, gone->front().w, 1e-3);
+}
+
+}  // namespace
+}  // namespace conelight::test
