@@ -10,3 +10,13 @@ function(conelight_compile_quickly target)
     target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-fpch-preprocess>)
   endif()
 endfunction()
+
+# conelight_compile_together(TARGET): several of its files in one run of the compiler, where CONELIGHT_UNITY asks for it. Headers of
+# libraries are then read, and what is inline in them is compiled, once for all of them.
+function(conelight_compile_together target)
+  if(CONELIGHT_UNITY)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    # GCC takes a .cpp that another file includes for a header, whose types others could see.
+    target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-subobject-linkage>)
+  endif()
+endfunction()

@@ -46,7 +46,7 @@ std::string textOf(const aiString& text) {
     return oneLine(std::string(text.data, std::min<std::size_t>(text.length, sizeof text.data - 1)));
 }
 glm::vec3 vec(const aiVector3D& v) { return {v.x, v.y, v.z}; }
-bool finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool isFinite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 glm::mat4 mat(const aiMatrix4x4& m) {  // aiMatrix4x4 is row by row
     return {m.a1, m.b1, m.c1, m.d1, m.a2, m.b2, m.c2, m.d2, m.a3, m.b3, m.c3, m.d3, m.a4, m.b4, m.c4, m.d4};
 }
@@ -84,7 +84,7 @@ Mesh Converter::convertMesh(const aiMesh& from) {
         for (unsigned i = 0; i < count; ++i) {
             const aiColor4D& c = from.mColors[0][i];
             const glm::vec4 color(c.r, c.g, c.b, c.a);
-            const bool usable = finite(glm::vec3(color)) && std::isfinite(color.a);
+            const bool usable = isFinite(glm::vec3(color)) && std::isfinite(color.a);
             to.colors.push_back(usable ? glm::max(color, glm::vec4(0)) : glm::vec4(1));
         }
 
@@ -94,7 +94,7 @@ Mesh Converter::convertMesh(const aiMesh& from) {
         if (face.mNumIndices != 3) continue;
         bool usable = true;
         for (unsigned c = 0; c < 3 && usable; ++c)
-            usable = face.mIndices[c] < count && finite(to.positions[face.mIndices[c]]);
+            usable = face.mIndices[c] < count && isFinite(to.positions[face.mIndices[c]]);
         if (!usable) {
             ++badTriangles;
             continue;
@@ -102,7 +102,7 @@ Mesh Converter::convertMesh(const aiMesh& from) {
         to.indices.insert(to.indices.end(), face.mIndices, face.mIndices + 3);
     }
     for (glm::vec3& p : to.positions)
-        if (!finite(p)) p = glm::vec3(0);
+        if (!isFinite(p)) p = glm::vec3(0);
     if (!to.normals.empty()) repairNormals(to);
     return to;
 }
@@ -191,7 +191,7 @@ void Converter::convertLight(const aiLight& from, const glm::mat4& worldFromNode
     to.intensity = glm::max(glm::vec3(c.r, c.g, c.b), glm::vec3(0));
     to.position = glm::vec3(worldFromNode * glm::vec4(vec(from.mPosition), 1.0f));
     const glm::vec3 along = glm::mat3(worldFromNode) * vec(from.mDirection);
-    if (glm::length(along) > 0.0f && finite(along)) to.direction = glm::normalize(along);
+    if (glm::length(along) > 0.0f && isFinite(along)) to.direction = glm::normalize(along);
     if (to.type == LightType::Spot) {
         constexpr float kRightAngle = 1.5707963f;
         const float outer = std::isfinite(from.mAngleOuterCone) ? 0.5f * from.mAngleOuterCone : 0.0f;
@@ -201,12 +201,12 @@ void Converter::convertLight(const aiLight& from, const glm::mat4& worldFromNode
     }
     // A falloff other than "none" or pure inverse square is kept as written.
     const glm::vec3 falloff(from.mAttenuationConstant, from.mAttenuationLinear, from.mAttenuationQuadratic);
-    if (to.type != LightType::Directional && finite(falloff) &&
+    if (to.type != LightType::Directional && isFinite(falloff) &&
         (falloff.y > 0.0f || (falloff.z > 0.0f && falloff.x > 0.0f))) {
         to.customFalloff = true;
         to.falloff = glm::max(falloff, glm::vec3(0));
     }
-    if (!finite(to.intensity) || !finite(to.position)) {
+    if (!isFinite(to.intensity) || !isFinite(to.position)) {
         scene.notes.push_back(fmt::format("light {}: has numbers that are not finite; left out", to.name));
         return;
     }
@@ -220,7 +220,7 @@ void Converter::convertCamera(const aiCamera& from, const glm::mat4& worldFromNo
     const glm::vec3 forward = glm::mat3(worldFromNode) * vec(from.mLookAt);
     glm::vec3 up = glm::mat3(worldFromNode) * vec(from.mUp);
     const float slant = glm::length(glm::cross(forward, up));
-    if (!finite(to.eye) || !finite(forward) || !finite(up) || !(slant > 0.0f)) {
+    if (!isFinite(to.eye) || !isFinite(forward) || !isFinite(up) || !(slant > 0.0f)) {
         scene.notes.push_back(fmt::format("camera {}: has no usable direction; left out", to.name));
         return;
     }

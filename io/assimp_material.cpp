@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string textOf(const aiString& text) {
+std::string rawTextOf(const aiString& text) {
     return std::string(text.data, std::min<std::size_t>(text.length, sizeof text.data - 1));
 }
 
@@ -203,11 +203,11 @@ TextureRef TextureTable::find(const aiMaterial& material, aiTextureType type, Us
     if (material.GetTexture(type, 0, &path, &mapping, &uvIndex, &blend, &op, modes) != aiReturn_SUCCESS)
         return out;
     if (path.length == 0) return out;
-    const Picture* found = picture(textOf(path));
+    const Picture* found = picture(rawTextOf(path));
     if (found == nullptr) return out;
     if (use == Use::NormalFromHeight && looksLikeNormals(found->image)) use = Use::Data;
     const std::string key =
-        fmt::format("{}|{}|{}|{}", textOf(path), int(use), int(wrapOf(modes[0])), int(wrapOf(modes[1])));
+        fmt::format("{}|{}|{}|{}", rawTextOf(path), int(use), int(wrapOf(modes[0])), int(wrapOf(modes[1])));
     const auto known = textures_.find(key);
     if (known != textures_.end())
         out.texture = known->second;
@@ -240,7 +240,7 @@ bool TextureTable::mergeOpacity(const aiMaterial& material, Material& out) {
     if (material.GetTextureCount(aiTextureType_OPACITY) == 0 ||
         material.GetTexture(aiTextureType_OPACITY, 0, &path) != aiReturn_SUCCESS || path.length == 0)
         return false;
-    const Picture* opacity = picture(textOf(path));
+    const Picture* opacity = picture(rawTextOf(path));
     if (opacity == nullptr) return false;
     if (!out.baseColorTexture.used()) {
         out.baseColorTexture = find(material, aiTextureType_OPACITY, Use::Colour);
@@ -326,7 +326,7 @@ void mapColours(const aiMaterial& material, Material& out) {
 Material convert(const aiMaterial& material, TextureTable& textures) {
     Material out;
     aiString name;
-    if (material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS) out.name = oneLine(textOf(name));
+    if (material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS) out.name = oneLine(rawTextOf(name));
     if (out.name == AI_DEFAULT_MATERIAL_NAME) return out;  // the file names none: our default
     mapColours(material, out);
 

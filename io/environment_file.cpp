@@ -7,14 +7,13 @@
 #include <cmath>
 
 #include "conelight/error.h"
+#include "io/generated.h"
 #include "io/generated_scenes.h"
 #include "io/generated_surroundings.h"
 #include "io/image_file.h"
 
 namespace conelight::io {
 namespace {
-
-constexpr std::string_view kBuiltin = "builtin:";
 
 std::shared_ptr<const EnvironmentImage> readPicture(const std::string& path) {
     imageFormatOf(path);  // says what is read, whatever is in the file

@@ -12,6 +12,9 @@
 
 namespace conelight::io {
 
+// What the names of generated scenes and surroundings begin with, where files may stand as well.
+inline constexpr std::string_view kBuiltin = "builtin:";
+
 // A number that a generated scene can be asked for.
 struct GeneratedParameter {
     std::string_view name;

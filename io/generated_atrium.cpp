@@ -13,8 +13,6 @@
 namespace conelight::io::generated::atrium {
 namespace {
 
-constexpr float kPi = glm::pi<float>();
-
 constexpr glm::vec3 kLampColor{1.0f, 0.60f, 0.26f};  // about 2700 K
 
 // Limits between which every budget of 1e4 to 1e7 triangles lies; the count is monotone up to rounding.
@@ -34,12 +32,12 @@ std::vector<Bay> allBays() {
     for (int i = 0; i < kBaysX; ++i) {
         const float x = (float(i) + 0.5f) * kBay - kHalfX;
         bays.push_back({translation({x, 0, -kHalfZ}), 0, i});
-        bays.push_back({translation({x, 0, kHalfZ}) * turnAboutY(kPi), 1, i});
+        bays.push_back({translation({x, 0, kHalfZ}) * turnAboutY(glm::pi<float>()), 1, i});
     }
     for (int i = 0; i < kBaysZ; ++i) {
         const float z = (float(i) + 0.5f) * kBay - kHalfZ;
-        bays.push_back({translation({-kHalfX, 0, z}) * turnAboutY(0.5f * kPi), 2, i});
-        bays.push_back({translation({kHalfX, 0, z}) * turnAboutY(-0.5f * kPi), 3, i});
+        bays.push_back({translation({-kHalfX, 0, z}) * turnAboutY(0.5f * glm::pi<float>()), 2, i});
+        bays.push_back({translation({kHalfX, 0, z}) * turnAboutY(-0.5f * glm::pi<float>()), 3, i});
     }
     return bays;
 }
@@ -150,7 +148,8 @@ void planGroundFloor(Plan& plan, const Materials& m, const Detail& detail) {
     for (int i = 0; i <= kBaysX; ++i)
         for (float s : {-1.0f, 1.0f}) {
             const float x = float(i) * kBay - kHalfX;
-            ribs.push_back(translation({x, kSpring, s * (kHalfZ + middle)}) * turnAboutY(0.5f * kPi));
+            ribs.push_back(translation({x, kSpring, s * (kHalfZ + middle)}) *
+                           turnAboutY(0.5f * glm::pi<float>()));
             pilasters.push_back(translation({x, 0, s * (kHalfZ + wall)}));
         }
     for (int i = 0; i <= kBaysZ; ++i)
@@ -170,8 +169,9 @@ void planGroundFloor(Plan& plan, const Materials& m, const Detail& detail) {
                              piece(box({{0.78f, 0, 0}, {0.98f, 2.5f, 0.12f}})),
                              piece(box({{-1.02f, 2.5f, 0}, {1.02f, 2.74f, 0.14f}})),
                              piece(box({{-1.12f, 2.74f, 0}, {1.12f, 2.84f, 0.24f}}))};
-    const std::vector<glm::mat4> doors{translation({-kHalfX - kBay, 0, 0}) * turnAboutY(0.5f * kPi),
-                                       translation({kHalfX + kBay, 0, 0}) * turnAboutY(-0.5f * kPi)};
+    const std::vector<glm::mat4> doors{
+        translation({-kHalfX - kBay, 0, 0}) * turnAboutY(0.5f * glm::pi<float>()),
+        translation({kHalfX + kBay, 0, 0}) * turnAboutY(-0.5f * glm::pi<float>())};
     plan.push_back({"door", m.wood, std::move(leaves), doors});
     plan.push_back({"door frame", m.trim, std::move(frame), doors});
 }
@@ -262,7 +262,7 @@ void planTextiles(Plan& plan, const Materials& m, const Detail& detail) {
         const glm::mat4 top = bay.worldFromBay * translation({0, kSpring - 0.10f, 0});
         if (curtained) {
             rods.push_back(top);
-            for (const glm::mat4& half : {top, top * turnAboutY(kPi)}) {
+            for (const glm::mat4& half : {top, top * turnAboutY(glm::pi<float>())}) {
                 halves[color].push_back(half);
                 ties.push_back(half);
             }
@@ -468,8 +468,9 @@ Materials addMaterials(Scene& scene, float lampIntensity) {
     m.leaves = add(scene, std::move(leaves));
     m.water = add(scene, glossy("water", {0.03f, 0.07f, 0.07f}, 0.06f));
     m.iron = add(scene, metal("iron", {0.20f, 0.19f, 0.18f}, 0.5f));
-    m.lampGlass =
-        add(scene, emitter("lamp glass", lampIntensity / (kPi * kGlassRadius * kGlassRadius) * kLampColor));
+    m.lampGlass = add(
+        scene,
+        emitter("lamp glass", lampIntensity / (glm::pi<float>() * kGlassRadius * kGlassRadius) * kLampColor));
     return m;
 }
 

@@ -14,9 +14,7 @@ using shapes::arc;
 using shapes::Curve;
 using shapes::line;
 using shapes::Patch;
-
-constexpr float kPi = glm::pi<float>();
-constexpr float kHalfTurn = 0.5f * kPi;
+constexpr float kHalfTurn = 0.5f * glm::pi<float>();
 
 // Heights of a curtain: from the rod to 5 cm above the floor, tied at three fifths of the way down.
 constexpr float kCurtainLength = kSpring - 0.10f - 0.05f;
@@ -50,7 +48,8 @@ Patch leaf(glm::vec3 root, glm::vec3 along, glm::vec3 up, float length, int nu, 
     patch.position = [=](float u, float v) {
         const float s = 2 * u - 1;
         const float width =
-            0.24f * length * std::sin(kPi * std::pow(std::clamp(v, 0.0f, 1.0f), 0.75f)) + 0.004f * length;
+            0.24f * length * std::sin(glm::pi<float>() * std::pow(std::clamp(v, 0.0f, 1.0f), 0.75f)) +
+            0.004f * length;
         const float bend = length * (-0.30f * v * v + 0.06f * s * s);
         return root + along * (length * v) + side * (s * width) + top * bend;
     };
@@ -64,7 +63,7 @@ std::vector<Piece> curtainHalf(const Detail& detail, int seed) {
     patch.nu = detail.pieces(72, 8);
     patch.nv = detail.pieces(36, 4);
     patch.uvScale = {1.6f, kCurtainLength};
-    const float phase = 2 * kPi * wobble(seed, 0), drift = 0.03f + 0.03f * wobble(seed, 1);
+    const float phase = 2 * glm::pi<float>() * wobble(seed, 0), drift = 0.03f + 0.03f * wobble(seed, 1);
     // Seven folds at most, and never more than the grid can show.
     const float folds = float(std::clamp(patch.nu / 9, 2, 7));
     const bool fine = patch.nu >= 100;
@@ -74,17 +73,18 @@ std::vector<Piece> curtainHalf(const Detail& detail, int seed) {
         const float width = edge - kCurtainLeft;
         const float gathered = 1 - width / 1.1f;
         // Folds whose spacing varies along the rod, a finer wave on top of them.
-        const float warped = u + drift * std::sin(2 * kPi * u + phase);
-        const float fold = std::sin(2 * kPi * folds * warped + phase) +
-                           (fine ? 0.25f * std::sin(2 * kPi * 13 * warped + 3 * down) : 0.0f);
+        const float warped = u + drift * std::sin(2 * glm::pi<float>() * u + phase);
+        const float fold = std::sin(2 * glm::pi<float>() * folds * warped + phase) +
+                           (fine ? 0.25f * std::sin(2 * glm::pi<float>() * 13 * warped + 3 * down) : 0.0f);
         const float pinch = 1 - 0.65f * std::exp(-std::pow((down - kTie) / 0.05f, 2.0f));
         const float depth = (0.030f + 0.055f * gathered) * pinch * (0.75f + 0.25f * smooth(down * 6));
         const float swing = 0.02f * std::sin(4.2f * down + phase) * down;
         // Folds lean over, but never so far that the cloth turns back.
-        const float lean = std::min(0.12f * depth, 0.25f * width / (4 * kPi * folds));
+        const float lean = std::min(0.12f * depth, 0.25f * width / (4 * glm::pi<float>() * folds));
         // Hems sag between the folds.
-        const float hem = 0.012f * std::cos(2 * kPi * folds * warped + phase) * smooth((down - 0.9f) * 10);
-        return glm::vec3(kCurtainLeft + width * u + lean * std::cos(4 * kPi * folds * warped),
+        const float hem =
+            0.012f * std::cos(2 * glm::pi<float>() * folds * warped + phase) * smooth((down - 0.9f) * 10);
+        return glm::vec3(kCurtainLeft + width * u + lean * std::cos(4 * glm::pi<float>() * folds * warped),
                          -kCurtainLength * down + hem, depth * fold + swing);
     };
     return {piece(std::move(patch))};
@@ -97,8 +97,8 @@ std::vector<Piece> curtainTie(const Detail& detail) {
     patch.nv = detail.pieces(4, 1);
     patch.uvScale = {0.8f, 0.07f};
     patch.position = [](float u, float v) {
-        const float a = 2 * kPi * u;
-        const float bulge = 0.012f * std::sin(kPi * v);
+        const float a = 2 * glm::pi<float>() * u;
+        const float bulge = 0.012f * std::sin(glm::pi<float>() * v);
         return glm::vec3(kCurtainLeft + 0.135f + (0.175f + bulge) * std::sin(a),
                          -kCurtainLength * kTie + 0.08f * (v - 0.5f) - 0.03f * std::sin(a),
                          (0.075f + bulge) * std::cos(a));
@@ -112,7 +112,7 @@ std::vector<Piece> rod(const Detail& detail, float halfLength) {
     patch.nv = 1;
     patch.uvScale = {0.1f, 2 * halfLength};
     patch.position = [=](float u, float v) {
-        const float a = 2 * kPi * u;
+        const float a = 2 * glm::pi<float>() * u;
         return glm::vec3(halfLength * (2 * v - 1), 0.018f * std::sin(a), -0.018f * std::cos(a));
     };
     return {piece(std::move(patch))};
@@ -123,13 +123,13 @@ std::vector<Piece> banner(const Detail& detail, float width, float length, int s
     patch.nu = detail.pieces(24, 4);
     patch.nv = detail.pieces(32, 5);
     patch.uvScale = {width, length};
-    const float phase = 2 * kPi * wobble(seed, 7);
+    const float phase = 2 * glm::pi<float>() * wobble(seed, 7);
     patch.position = [=](float u, float v) {
         const float down = 1 - v, side = 2 * u - 1;
         // A soft fold along the length, a breath of wind across it, and a pointed hem.
         const float wave =
-            0.05f * down * std::sin(2 * kPi * (0.9f * u + 0.35f * down) + phase) +
-            0.02f * std::sin(2 * kPi * (2.1f * u - 0.5f * down) + 2 * phase) * smooth(3 * down);
+            0.05f * down * std::sin(2 * glm::pi<float>() * (0.9f * u + 0.35f * down) + phase) +
+            0.02f * std::sin(2 * glm::pi<float>() * (2.1f * u - 0.5f * down) + 2 * phase) * smooth(3 * down);
         const float point = 0.22f * width * (1 - std::abs(side)) * smooth((down - 0.6f) / 0.4f);
         return glm::vec3(0.5f * width * side * (1 - 0.04f * down), -length * down - point, wave);
     };
@@ -164,7 +164,7 @@ std::vector<Piece> fountainStone(const Detail& detail) {
         arc({0.10f, 1.36f}, {0.517f, 0.28f}, -0.14f * kHalfTurn, -0.93f * kHalfTurn, round),
         Curve{detail.pieces(10, 3),
               [](float t) {
-                  return glm::vec2(0.05f + 0.035f * std::sin(kPi * t * 1.6f) * (1 - 0.5f * t),
+                  return glm::vec2(0.05f + 0.035f * std::sin(glm::pi<float>() * t * 1.6f) * (1 - 0.5f * t),
                                    1.09f + 0.46f * t);
               }},
         arc({0, 1.60f}, {0.085f, 0.085f}, -0.7f * kHalfTurn, kHalfTurn, round),
@@ -180,8 +180,8 @@ std::vector<Piece> fountainWater(const Detail& detail) {
     const auto surface = [&](float radius, float y, float ripple, int rings) {
         return Curve{detail.pieces(float(rings), 1), [=](float t) {
                          const float r = radius * (1 - t);
-                         return glm::vec2(r,
-                                          y + ripple * std::cos(2 * kPi * r / 0.11f) * std::exp(-1.6f * r));
+                         return glm::vec2(r, y + ripple * std::cos(2 * glm::pi<float>() * r / 0.11f) *
+                                                     std::exp(-1.6f * r));
                      }};
     };
     std::vector<Piece> pieces;
@@ -222,7 +222,7 @@ std::vector<Piece> shrub(const Detail& detail, int seed) {
                      return shapes::unitFloat(
                          shapes::hash(std::uint32_t(i), std::uint32_t(k), std::uint32_t(seed)));
                  };
-                 const float y = 2 * random(0) - 1, a = 2 * kPi * random(1);
+                 const float y = 2 * random(0) - 1, a = 2 * glm::pi<float>() * random(1);
                  const float ring = std::sqrt(std::max(0.0f, 1 - y * y));
                  const glm::vec3 out(ring * std::sin(a), y, ring * std::cos(a));
                  // Growth: outward and up, and sideways by chance.

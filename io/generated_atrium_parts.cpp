@@ -13,8 +13,6 @@ using shapes::arc;
 using shapes::Curve;
 using shapes::line;
 using shapes::Patch;
-
-constexpr float kPi = glm::pi<float>();
 constexpr float kShaftBottom = 0.36f;  // on top of the base
 constexpr float kShaftTop = 2.52f;     // under the capital
 constexpr float kShaftRadius = 0.20f;
@@ -34,7 +32,7 @@ Patch capitalLeaf(const Detail& detail, float angle, float foot, float height, f
     patch.position = [=](float u, float v) {
         const float side = 2 * u - 1;
         // Widest at a third of the height, pointed at the tip; the rim is toothed.
-        const float tooth = 1 + 0.10f * std::cos(9 * kPi * v);
+        const float tooth = 1 + 0.10f * std::cos(9 * glm::pi<float>() * v);
         const float halfWidth =
             0.062f * tooth * std::sqrt(std::max(0.02f, 1 - std::pow(std::abs(v - 0.3f) / 0.72f, 2.4f)));
         const float curl = std::max(0.0f, v - 0.62f) / 0.38f;
@@ -64,8 +62,9 @@ struct ArchCuts {
 
 ArchCuts archCuts(const Detail& detail, const ArchPanel& p) {
     const int side = detail.pieces(10, 1);
-    return {{kPi, std::atan2(p.height, p.x0 - p.centre), std::atan2(p.height, p.x1 - p.centre), 0},
-            {side, detail.pieces(16, 4), side}};
+    return {
+        {glm::pi<float>(), std::atan2(p.height, p.x0 - p.centre), std::atan2(p.height, p.x1 - p.centre), 0},
+        {side, detail.pieces(16, 4), side}};
 }
 
 // Left, top and right part of the panel's face at z: from the arch's rim to the rectangle around it.
@@ -95,7 +94,7 @@ Patch archStrip(const ArchCuts& cuts, float centre, const Curve& radiusAndZ) {
     Patch patch;
     patch.nu = cuts.total();
     patch.nv = radiusAndZ.n;
-    patch.uvScale = {kPi * radiusAndZ.at(0).x, radiusAndZ.length()};
+    patch.uvScale = {glm::pi<float>() * radiusAndZ.at(0).x, radiusAndZ.length()};
     patch.position = [=, at = radiusAndZ.at](float u, float v) {
         const glm::vec2 p = at(v);
         const float a = cuts.angleAt(u);
@@ -114,13 +113,13 @@ std::vector<Piece> columnShaft(const Detail& detail) {
     Patch patch;
     patch.nu = fluted ? kFlutes * perFlute : detail.pieces(40, 6);
     patch.nv = detail.pieces(fluted ? 10 : 6, 1);
-    patch.uvScale = {2 * kPi * kShaftRadius, kShaftTop - kShaftBottom};
+    patch.uvScale = {2 * glm::pi<float>() * kShaftRadius, kShaftTop - kShaftBottom};
     patch.position = [fluted](float u, float v) {
         const float ends = std::min(1.0f, 14 * std::min(v, 1 - v));  // flutes run out before the ends
-        const float wave = std::abs(std::sin(kPi * kFlutes * u));
+        const float wave = std::abs(std::sin(glm::pi<float>() * kFlutes * u));
         const float depth = fluted ? 0.012f * wave * ends : 0.0f;
         const float r = kShaftRadius * (1 - kTaper * std::pow(std::max(v, 0.0f), 1.7f)) - depth;  // entasis
-        const float a = 2 * kPi * u;
+        const float a = 2 * glm::pi<float>() * u;
         return glm::vec3(r * std::sin(a), kShaftBottom + (kShaftTop - kShaftBottom) * v, r * std::cos(a));
     };
     return {piece(std::move(patch))};
@@ -142,7 +141,7 @@ std::vector<Piece> columnTrim(const Detail& detail) {
     }
     // Attic base: plinth, torus, scotia, torus, fillet.
     pieces.push_back(piece(slab(0.30f, 0, 0.12f)));
-    const float h = 0.5f * kPi;
+    const float h = 0.5f * glm::pi<float>();
     addPatches(pieces, shapes::lathe({arc({0.24f, 0.165f}, {0.045f, 0.045f}, -h, h, round),
                                       arc({0.262f, 0.25f}, {0.045f, 0.04f}, -h, -3 * h, round),
                                       arc({0.225f, 0.318f}, {0.028f, 0.028f}, -h, h, round),
@@ -162,9 +161,9 @@ std::vector<Piece> columnTrim(const Detail& detail) {
     if (detail.scale() > 0.3f)
         for (int i = 0; i < 16; ++i) {
             const bool upper = i % 2 != 0;
-            pieces.push_back(
-                piece(capitalLeaf(detail, 2 * kPi * float(i) / 16, kShaftTop + (upper ? 0.10f : 0.03f),
-                                  upper ? 0.25f : 0.20f, neck + (upper ? 0.02f : 0.008f))));
+            pieces.push_back(piece(capitalLeaf(detail, 2 * glm::pi<float>() * float(i) / 16,
+                                               kShaftTop + (upper ? 0.10f : 0.03f), upper ? 0.25f : 0.20f,
+                                               neck + (upper ? 0.02f : 0.008f))));
         }
     pieces.push_back(piece(slab(0.275f, kSpring - 0.10f, kSpring - 0.05f)));
     pieces.push_back(piece(slab(0.305f, kSpring - 0.05f, kSpring)));
@@ -174,7 +173,7 @@ std::vector<Piece> columnTrim(const Detail& detail) {
 std::vector<Piece> colonnette(const Detail& detail) {
     const int around = detail.pieces(24, 6);
     const int round = detail.pieces(5, 1);
-    const float h = 0.5f * kPi;
+    const float h = 0.5f * glm::pi<float>();
     const float top = kUpperSpring - kGallery;
     if (!detail.rich()) {
         std::vector<Piece> plain{piece(boxMesh({-0.13f, top - 0.09f, -0.19f}, {0.13f, top, 0.19f}))};
@@ -230,7 +229,7 @@ std::vector<Piece> archRim(const Detail& detail, const ArchPanel& panel, float r
     const float r = panel.radius, back = -0.5f * panel.depth, front = 0.5f * panel.depth;
     const float proud = 0.2f * rimWidth;
     const int round = detail.pieces(6, 1);
-    const float h = 0.5f * kPi;
+    const float h = 0.5f * glm::pi<float>();
     const Curve curves[] = {
         line({r, back}, {r, detail.rich() ? front + proud : front}),
         line({r, front + proud}, {r + 0.55f * rimWidth, front + proud}),
@@ -258,7 +257,7 @@ std::vector<Piece> vault(const Detail& detail) {
         patch.flip = true;
         patch.uvOf = [](glm::vec3 p) { return glm::vec2(p.x, p.z); };
         patch.position = [=](float u, float v) {
-            const float psi = 0.5f * kPi * v;
+            const float psi = 0.5f * glm::pi<float>() * v;
             const float phi = (2 * u - 1) * psi;
             const float x = h * std::sin(psi), z = h * std::sin(phi);
             return glm::vec3(c * x - s * z, h * std::cos(phi), s * x + c * z);
@@ -276,7 +275,7 @@ std::vector<Piece> rib(const Detail& detail) {
     const Curve curves[] = {line({outer, -kHalfDepth}, {kArchRadius, -kHalfDepth}),
                             line({kArchRadius, -kHalfDepth}, {kArchRadius, kHalfDepth}),
                             line({kArchRadius, kHalfDepth}, {outer, kHalfDepth})};
-    const ArchCuts cuts{{kPi, 2 * kPi / 3, kPi / 3, 0},
+    const ArchCuts cuts{{glm::pi<float>(), 2 * glm::pi<float>() / 3, glm::pi<float>() / 3, 0},
                         {detail.pieces(12, 2), detail.pieces(12, 2), detail.pieces(12, 2)}};
     for (const Curve& curve : curves) pieces.push_back(piece(archStrip(cuts, 0, curve)));
     for (float side : {-1.0f, 1.0f}) {
@@ -305,7 +304,7 @@ std::vector<Piece> baluster(const Detail& detail) {
 std::vector<Piece> cornice(const Detail& detail, float y, float height, float projection, float inset) {
     // Profile in (out, up) from the wall at out = 0: cavetto, fillet, ovolo, fascia, and the top back to the
     // wall.
-    const float p = projection, h = height, q = 0.5f * kPi;
+    const float p = projection, h = height, q = 0.5f * glm::pi<float>();
     const int round = detail.pieces(8, 2);
     const std::vector<Curve> profile{line({0, 0}, {0.15f * p, 0}),
                                      line({0.15f * p, 0}, {0.15f * p, 0.15f * h}),

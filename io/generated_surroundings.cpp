@@ -18,7 +18,6 @@
 namespace conelight::io {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kLumenPerWatt = 683;
 constexpr int kColumns = 1024;  // 0.35 degrees: a sky is smooth
 
@@ -44,9 +43,9 @@ glm::dvec3 linearFromXyz(const glm::dvec3& c) {
 
 // Towards the sun: x east, y up, z south.
 glm::dvec3 sunDirection(double latitudeDeg, double day, double hour) {
-    const double latitude = latitudeDeg * kPi / 180;
-    const double declination = 0.4093 * std::sin(2 * kPi * (day - 81) / 368);
-    const double angle = kPi * hour / 12;  // of the sun's way, from midnight
+    const double latitude = latitudeDeg * std::numbers::pi / 180;
+    const double declination = 0.4093 * std::sin(2 * std::numbers::pi * (day - 81) / 368);
+    const double angle = std::numbers::pi * hour / 12;  // of the sun's way, from midnight
     return {std::cos(declination) * std::sin(angle),
             std::sin(latitude) * std::sin(declination) -
                 std::cos(latitude) * std::cos(declination) * std::cos(angle),
@@ -77,7 +76,7 @@ class ClearSky {
   public:
     ClearSky(const glm::dvec3& sun, double turbidity) : sun_(sun), turbidity_(turbidity) {
         const double t = turbidity, angle = std::acos(sun.y);
-        const double chi = (4.0 / 9 - t / 120) * (kPi - 2 * angle);
+        const double chi = (4.0 / 9 - t / 120) * (std::numbers::pi - 2 * angle);
         zenith_ = {zenithChromaticity({{{0.00166, -0.00375, 0.00209, 0},
                                         {-0.02903, 0.06377, -0.03202, 0.00394},
                                         {0.11693, -0.21196, 0.06052, 0.25886}}},
@@ -111,7 +110,7 @@ class ClearSky {
     glm::dvec3 sunIrradiance() const {
         constexpr double kAboveAir = 133000 / kLumenPerWatt;
         const double angle = std::acos(sun_.y);
-        const double mass = 1 / (sun_.y + 0.15 * std::pow(93.885 - angle * 180 / kPi, -1.253));
+        const double mass = 1 / (sun_.y + 0.15 * std::pow(93.885 - angle * 180 / std::numbers::pi, -1.253));
         const double beta = 0.04608365822050 * turbidity_ - 0.04586025928522;
         glm::dvec3 result(0);
         const double wavelengths[3] = {0.61, 0.55, 0.465};  // of red, green and blue, micrometres
@@ -150,7 +149,7 @@ LoadedEnvironment buildSky(const std::string& spec, const generated::Values& val
             ErrorKind::Usage,
             fmt::format("builtin:{}: the sun stands at {:.1f} degrees; an hour or day with the sun above "
                         "the horizon would be right",
-                        spec, std::asin(std::clamp(sun.y, -1.0, 1.0)) * 180 / kPi));
+                        spec, std::asin(std::clamp(sun.y, -1.0, 1.0)) * 180 / std::numbers::pi));
     const ClearSky sky(sun, values["turbidity"]);
     // The ground reflects what it gets.
     constexpr int kRows = 32, kTurns = 128;
@@ -158,12 +157,13 @@ LoadedEnvironment buildSky(const std::string& spec, const generated::Values& val
     for (int row = 0; row < kRows; ++row)
         for (int turn = 0; turn < kTurns; ++turn) {
             // Places of equal share of the cosine-weighted hemisphere.
-            const double radius = std::sqrt((row + 0.5) / kRows), angle = 2 * kPi * turn / kTurns;
+            const double radius = std::sqrt((row + 0.5) / kRows),
+                         angle = 2 * std::numbers::pi * turn / kTurns;
             const glm::dvec3 direction(radius * std::cos(angle), std::sqrt(1 - radius * radius),
                                        radius * std::sin(angle));
-            irradiance += sky.radiance(direction) * kPi / double(kRows * kTurns);
+            irradiance += sky.radiance(direction) * std::numbers::pi / double(kRows * kTurns);
         }
-    const glm::dvec3 ground = values["ground"] * irradiance / kPi;
+    const glm::dvec3 ground = values["ground"] * irradiance / std::numbers::pi;
     LoadedEnvironment loaded;
     loaded.environment.image =
         drawn(kColumns, [&](const glm::dvec3& d) { return d.y >= 0 ? sky.radiance(d) : ground; });
@@ -178,11 +178,11 @@ LoadedEnvironment buildStudio(const std::string&, const generated::Values& value
     return loaded;
 }
 
-struct Entry {
+struct SurroundingsEntry {
     GeneratedSceneInfo info;
     LoadedEnvironment (*build)(const std::string& spec, const generated::Values& values);
 };
-constexpr Entry kEntries[] = {
+constexpr SurroundingsEntry kEntries[] = {
     {{"sky", "clear sky with its sun, by place and time; north is -z, east is +x", kSkyParameters}, buildSky},
     {{"studio", "neutral room with a large soft lamp and two weaker ones", kStudioParameters}, buildStudio},
 };
@@ -200,7 +200,7 @@ LoadedEnvironment generateSurroundings(const std::string& spec) {
     const std::size_t mark = text.find('?');
     const std::string_view rest = mark == std::string_view::npos ? std::string_view() : text.substr(mark + 1);
     std::string known;
-    for (const Entry& entry : kEntries) {
+    for (const SurroundingsEntry& entry : kEntries) {
         if (entry.info.name == text.substr(0, mark))
             return entry.build(spec, generated::parseValues(spec, entry.info, rest));
         known += fmt::format("{}{}", known.empty() ? "" : ", ", entry.info.name);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr float kWall = 0.2f;
 
-bool inside(const Aabb& box, glm::vec3 p, float grow = 0) {
+bool within(const Aabb& box, glm::vec3 p, float grow = 0) {
     return glm::all(glm::greaterThan(p, box.min - grow)) && glm::all(glm::lessThan(p, box.max + grow));
 }
 
@@ -29,13 +29,13 @@ void addRoom(Scene& scene, const Aabb& room, const RoomMaterials& m, const std::
         shell.planes[std::size_t(a)] = planes;
     }
     shell.solid = [=](glm::vec3 p) {
-        if (inside(room, p)) return false;
+        if (within(room, p)) return false;
         for (const Aabb& hole : openings)
-            if (inside(hole, p)) return false;
+            if (within(hole, p)) return false;
         return true;
     };
     shell.part = [=](glm::vec3 p, glm::vec3 n) {
-        if (!inside(room, p, 0.01f)) return 6;
+        if (!within(room, p, 0.01f)) return 6;
         if (n.y > 0.5f) return 0;
         if (n.y < -0.5f) return 1;
         if (std::abs(n.x) > 0.5f) return n.x > 0 ? 2 : 3;

@@ -17,7 +17,7 @@
 namespace conelight::io {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::json;
+using AnyJson = nlohmann::json;
 
 namespace {
 
@@ -210,8 +210,8 @@ void GltfFile::readJson(std::string_view text) {
     // GLB pads with blanks; some writers pad with zeros.
     while (!text.empty() && (text.back() == '\0' || text.back() == ' ')) text.remove_suffix(1);
     try {
-        json_ = Json::parse(text);
-    } catch (const Json::exception& error) {
+        json_ = AnyJson::parse(text);
+    } catch (const AnyJson::exception& error) {
         failFile(file_, "JSON: " + oneLine(error.what()));
     }
     if (!json_.is_object()) failFile(file_, "JSON: an object expected at the top");

@@ -21,14 +21,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::uint32_t kGlbMagic = 0x46546c67, kJsonChunk = 0x4e4f534a, kBinaryChunk = 0x004e4942;
 
-Json listOf(const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); }
-Json listOf(const glm::mat4& m) {
-    Json list = Json::array();
-    for (int c = 0; c < 4; ++c)
-        for (int r = 0; r < 4; ++r) list.push_back(m[c][r]);
-    return list;
-}
-
 // A placement that looks along `forward` (glTF's lights and cameras look along -z).
 glm::mat4 lookingAlong(const glm::vec3& position, const glm::vec3& forward, const glm::vec3& up) {
     const glm::vec3 z = -glm::normalize(forward);

@@ -11,9 +11,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json listOf(const glm::vec3& v) { return Json::array({v.x, v.y, v.z}); }
-Json listOf(const glm::vec4& v) { return Json::array({v.x, v.y, v.z, v.w}); }
-
 int wrapOf(TextureWrap wrap) {
     switch (wrap) {
         case TextureWrap::Repeat:
@@ -75,6 +72,17 @@ void writeExtensions(Json& to, const Material& m, float strength, std::set<std::
 }
 
 }  // namespace
+
+nlohmann::ordered_json listOf(const glm::vec3& v) { return nlohmann::ordered_json::array({v.x, v.y, v.z}); }
+nlohmann::ordered_json listOf(const glm::vec4& v) {
+    return nlohmann::ordered_json::array({v.x, v.y, v.z, v.w});
+}
+nlohmann::ordered_json listOf(const glm::mat4& m) {
+    Json list = Json::array();
+    for (int c = 0; c < 4; ++c)
+        for (int r = 0; r < 4; ++r) list.push_back(m[c][r]);
+    return list;
+}
 
 void writeGltfTextures(Json& root, GltfBuffer& buffer, const Scene& scene) {
     for (std::size_t i = 0; i < scene.textures.size(); ++i) {

@@ -11,6 +11,11 @@
 
 namespace conelight::io {
 
+// Numbers of a vector as JSON has them.
+nlohmann::ordered_json listOf(const glm::vec3& v);
+nlohmann::ordered_json listOf(const glm::vec4& v);
+nlohmann::ordered_json listOf(const glm::mat4& m);  // column by column
+
 // Fills root["images"], ["samplers"], ["textures"]; texture i of the scene is texture i of the file.
 void writeGltfTextures(nlohmann::ordered_json& root, GltfBuffer& buffer, const Scene& scene);
 

@@ -13,28 +13,15 @@
 #include "io/animation.h"
 #include "io/assimp_import.h"
 #include "io/files.h"
+#include "io/generated.h"
 #include "io/gltf.h"
 #include "io/scene_format.h"
-#if __has_include("io/generated.h")
-#include "io/generated.h"
-#endif
 
 namespace conelight::io {
 
 namespace fs = std::filesystem;
 
 namespace {
-
-constexpr std::string_view kBuiltin = "builtin:";
-
-Scene generate([[maybe_unused]] const std::string& spec) {
-#if __has_include("io/generated.h")
-    return generateScene(spec);
-#else
-    throw Error(ErrorKind::Usage, fmt::format("builtin:{}: this build has no generated scenes", spec));
-#endif
-}
-
 // " .ext (its title)," for each.
 std::string registeredFormats() {
     std::string text;
@@ -65,7 +52,7 @@ Scene read(const fs::path& path, const LoadOptions& options, SceneAnimation* ani
 }
 
 Scene load(const std::string& pathOrBuiltin, const LoadOptions& options, SceneAnimation* animation) {
-    if (pathOrBuiltin.rfind(kBuiltin, 0) == 0) return generate(pathOrBuiltin.substr(kBuiltin.size()));
+    if (pathOrBuiltin.rfind(kBuiltin, 0) == 0) return generateScene(pathOrBuiltin.substr(kBuiltin.size()));
     const std::string file = oneLine(pathOrBuiltin);
     try {
         Scene scene = read(fs::path(pathOrBuiltin), options, animation);

@@ -13,7 +13,7 @@ namespace conelight::io {
 
 namespace {
 
-class Writer {
+class StreamWriter {
   public:
     template <typename T>
     void plain(const T& value) {
@@ -50,9 +50,9 @@ class Writer {
     }
 };
 
-class Reader {
+class StreamReader {
   public:
-    explicit Reader(std::span<const std::uint8_t> bytes) : left_(bytes) {}
+    explicit StreamReader(std::span<const std::uint8_t> bytes) : left_(bytes) {}
     template <typename T>
     void plain(T& value) {
         take(&value, sizeof value);
@@ -134,14 +134,14 @@ void visitAll(Stream& s, T& object) {
         object);
 }
 
-void visitPicture(Writer& s, const std::shared_ptr<const EnvironmentImage>& picture) {
+void visitPicture(StreamWriter& s, const std::shared_ptr<const EnvironmentImage>& picture) {
     s.plain(picture != nullptr);
     if (!picture) return;
     s.plain(picture->width);
     s.plain(picture->height);
     s.array(picture->radiance);
 }
-void visitPicture(Reader& s, std::shared_ptr<const EnvironmentImage>& picture) {
+void visitPicture(StreamReader& s, std::shared_ptr<const EnvironmentImage>& picture) {
     bool given = false;
     s.plain(given);
     if (!given) return;
@@ -177,13 +177,13 @@ void visitScene(Stream& s, S& scene) {
 }  // namespace
 
 Bytes bytesFromScene(const Scene& scene) {
-    Writer writer;
+    StreamWriter writer;
     visitScene(writer, scene);
     return std::move(writer.bytes);
 }
 
 Scene sceneFromBytes(std::span<const std::uint8_t> bytes) {
-    Reader reader(bytes);
+    StreamReader reader(bytes);
     Scene scene;
     visitScene(reader, scene);
     if (!reader.atEnd()) throw Error(ErrorKind::Runtime, "scene stream: has bytes left over");

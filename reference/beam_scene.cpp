@@ -7,21 +7,16 @@
 
 #include "base/log.h"
 #include "reference/materials.h"
+#include "reference/surface.h"
 #include "scene/emissive_quads.h"
 
 namespace conelight::reference {
 namespace {
 
 // Of the scene's size: positions are floats, whose digits end there.
-constexpr double kWithin = 1e-7;
+constexpr double kSamePlace = 1e-7;
 // Cosine between the normals of a mirror that count as one: 0.1 degrees.
 constexpr float kFlat = 0.9999985f;
-const Material kDefaultMaterial;
-
-const Material& materialOf(const Scene& scene, const Instance& instance) {
-    return instance.material < 0 ? kDefaultMaterial
-                                 : scene.materials[static_cast<std::size_t>(instance.material)];
-}
 
 std::array<glm::dvec3, 3> cornersOf(const Scene& scene, const Instance& instance, std::uint32_t triangle) {
     const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
@@ -105,7 +100,7 @@ bool BeamLamp::sample(const glm::vec3& from, LightSample& result) const {
 BeamScene::BeamScene(const Scene& scene, bool quads, int lampPoints) : scene_(scene) {
     scene.validate();
     refuseMany(scene);
-    within_ = kWithin * std::max(static_cast<double>(glm::length(scene.bounds().extent())), 1e-3);
+    within_ = kSamePlace * std::max(static_cast<double>(glm::length(scene.bounds().extent())), 1e-3);
     for (std::size_t i = 0; i < scene.instances.size(); ++i) addInstance(i);
     addLamps(quads, lampPoints);
     std::vector<OrderedPart> parts;

@@ -10,9 +10,9 @@
 namespace conelight::reference {
 namespace {
 
-constexpr int kErrorRadius = 3;     // pixels; by measured error, among 3 and 5
-constexpr int kVarianceRadius = 2;  // pixels
-constexpr float kFarthest = 8;      // standard deviations of the pixel's noise
+constexpr int kChoiceRadius = 3;      // pixels; by measured error, among 3 and 5
+constexpr int kNoiseRadius = 2;       // pixels
+constexpr float kMostDeviations = 8;  // standard deviations of the pixel's noise
 
 std::size_t indexOf(int x, int y, int width) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
@@ -27,9 +27,9 @@ std::vector<float> farthest(const HalfColors& raw, int width, int height) {
         const glm::vec3 difference = raw[0][i] - raw[1][i];
         own[i] = 0.25f * sumOf(difference * difference);
     }
-    std::vector<float> result = smoothed(own, width, height, kVarianceRadius);
+    std::vector<float> result = smoothed(own, width, height, kNoiseRadius);
     for (std::size_t i = 0; i < own.size(); ++i)
-        result[i] = kFarthest * kFarthest * std::max(result[i], own[i]);
+        result[i] = kMostDeviations * kMostDeviations * std::max(result[i], own[i]);
     return result;
 }
 
@@ -86,7 +86,7 @@ HalfColors leastError(const std::array<const HalfColors*, 3>& candidates, int wi
             const glm::vec3 e = errorOf(raw[0][i], raw[1][i], (*candidates[c])[0][i], (*candidates[c])[1][i]);
             own[i] = sumOf(e);
         }
-        error[c] = meanAround(own, width, height, kErrorRadius);
+        error[c] = meanAround(own, width, height, kChoiceRadius);
     }
     const std::vector<float> limit = farthest(raw, width, height);
     HalfColors result = raw;

@@ -14,7 +14,7 @@
 namespace conelight::reference {
 namespace {
 
-constexpr int kTile = 16;
+constexpr int kFilterTile = 16;
 // By measured error on scenes cornell, study, spheres, atrium and mirror-hall, 192 x 144 pixels, 64 samples.
 constexpr int kRadius = 7;              // of the window, pixels
 constexpr int kPatch = 2;               // of the squares whose colours are compared, pixels
@@ -24,7 +24,7 @@ constexpr float kDepthSpread = 1.5f;    // of distances, in steps of the surface
 constexpr float kAlbedoSpread = 0.3f;
 // Added to the features' variances: a slope needs neighbours that differ.
 constexpr double kRidge = 1e-3;
-constexpr float kFarthest = 20;  // exponents beyond weigh nothing
+constexpr float kLargestExponent = 20;  // exponents beyond weigh nothing
 
 constexpr int kTerms = 7;                           // 1, x, y, normal, albedo
 constexpr int kMatrix = kTerms * (kTerms + 1) / 2;  // 28: its upper triangle, row by row
@@ -90,7 +90,7 @@ float TileFilter::featureWeight(std::size_t p, std::size_t q, const Offset& offs
     exponent += 0.5f * apart * apart;
     const glm::vec3 colored = guide_.albedo[p] - guide_.albedo[q];
     exponent += glm::dot(colored, colored) / (2 * kAlbedoSpread * kAlbedoSpread);
-    return exponent < kFarthest ? std::exp(-exponent) : 0.0f;
+    return exponent < kLargestExponent ? std::exp(-exponent) : 0.0f;
 }
 
 void TileFilter::weighByFeatures(const Tile& tile) {
@@ -142,7 +142,7 @@ void TileFilter::weighByColors(const Tile& tile, const NoisySignal& signal) {
                 float sum = 0;
                 for (int i = 0; i <= 2 * kPatch; ++i) sum += rows_[static_cast<std::size_t>((y + i) * w + x)];
                 const float distance = std::max(sum * scale, 0.0f);
-                *weight = *feature > 0 && distance < kFarthest ? *feature * std::exp(-distance) : 0.0f;
+                *weight = *feature > 0 && distance < kLargestExponent ? *feature * std::exp(-distance) : 0.0f;
             }
     }
 }
@@ -274,12 +274,15 @@ std::vector<FilteredSignal> filterSignals(const GuideTable& guide, const std::ve
         result.byColor.resize(guide.pixels());
         result.byFeatures.resize(guide.pixels());
     }
-    const int tilesX = (guide.width + kTile - 1) / kTile, tilesY = (guide.height + kTile - 1) / kTile;
+    const int tilesX = (guide.width + kFilterTile - 1) / kFilterTile,
+              tilesY = (guide.height + kFilterTile - 1) / kFilterTile;
     const auto some = [&](std::size_t begin, std::size_t end) {
         TileFilter filter(guide, signals, results);
         for (std::size_t i = begin; i < end; ++i) {
-            const int x0 = static_cast<int>(i) % tilesX * kTile, y0 = static_cast<int>(i) / tilesX * kTile;
-            filter.run({x0, y0, std::min(x0 + kTile, guide.width), std::min(y0 + kTile, guide.height)});
+            const int x0 = static_cast<int>(i) % tilesX * kFilterTile,
+                      y0 = static_cast<int>(i) / tilesX * kFilterTile;
+            filter.run(
+                {x0, y0, std::min(x0 + kFilterTile, guide.width), std::min(y0 + kFilterTile, guide.height)});
         }
     };
     parallelFor(static_cast<std::size_t>(tilesX * tilesY), threads, some, {}, 1);

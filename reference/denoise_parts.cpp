@@ -7,7 +7,7 @@
 namespace conelight::reference {
 namespace {
 
-using Colors = std::vector<glm::vec3>;
+using ColorList = std::vector<glm::vec3>;
 
 constexpr float kLeastReflectance = 0.01f;  // light is divided by no less: black surfaces keep what they show
 constexpr float kBrightest = 1e12f;
@@ -83,7 +83,7 @@ LightParts partsOf(const PathTracedPicture& picture) {
     LightParts result;
     for (std::size_t h = 0; h < 2; ++h) {
         result.emission[h].resize(count);
-        for (LightPart& part : result.parts) part.irradiance[h] = part.reflectance[h] = Colors(count);
+        for (LightPart& part : result.parts) part.irradiance[h] = part.reflectance[h] = ColorList(count);
         for (std::size_t i = 0; i < count; ++i) {
             const glm::vec3 shines = result.emission[h][i] = usableColor(emission[h]->pixels[i]);
             const glm::vec3 bounced = usableColor(indirect[h]->pixels[i]);

@@ -13,10 +13,10 @@
 
 #include "reference/metric_parts.h"
 
+#include <glm/gtc/constants.hpp>
+
 namespace conelight::reference {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 // One channel of a picture.
 struct Plane {
@@ -119,16 +119,18 @@ constexpr float kWidestB = 0.04f;
 template <std::size_t count>
 Plane contrastFiltered(const Plane& in, const Sensitivity (&terms)[count], float pixelsPerDegree) {
     // Three standard deviations of the widest, for all channels.
-    const int radius = int(std::ceil(3 * std::sqrt(kWidestB / (2 * kPi * kPi)) * pixelsPerDegree));
+    const int radius =
+        int(std::ceil(3 * std::sqrt(kWidestB / (2 * glm::pi<float>() * glm::pi<float>())) * pixelsPerDegree));
     Kernel kernels[count];
     float weights[count];
     float total = 0;
     for (std::size_t i = 0; i < count; ++i) {
         for (int x = -radius; x <= radius; ++x) {
             const float degrees = float(x) / pixelsPerDegree;
-            kernels[i].push_back(std::exp(-kPi * kPi * degrees * degrees / terms[i].b));
+            kernels[i].push_back(
+                std::exp(-glm::pi<float>() * glm::pi<float>() * degrees * degrees / terms[i].b));
         }
-        weights[i] = terms[i].a * std::sqrt(kPi / terms[i].b);
+        weights[i] = terms[i].a * std::sqrt(glm::pi<float>() / terms[i].b);
         total += weights[i] * sumOf(kernels[i]) * sumOf(kernels[i]);
     }
     Plane out{in.width, in.height, std::vector<float>(in.values.size(), 0.0f)};

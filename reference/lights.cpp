@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "reference/surface.h"
 #include "scene/emissive_quads.h"
@@ -12,9 +13,7 @@
 namespace conelight::reference {
 namespace {
 
-constexpr double kPi = 3.14159265358979;
-
-double luminance(const glm::vec3& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
+double preciseLuminance(const glm::vec3& c) { return 0.2126 * c.r + 0.7152 * c.g + 0.0722 * c.b; }
 
 // shaders/lib/lights.glsl, distanceFalloff.
 float distanceFalloff(const Light& light, float d2) {
@@ -201,18 +200,19 @@ double LightTable::powerOf(const Emitter& e) const {
                                        : 1.0;
             const double cosine =
                 0.5 * static_cast<double>(std::max(e.cosInner, -1.0f) + std::max(e.cosOuter, -1.0f));
-            return 2 * kPi * (1 - std::min(cosine, 0.999)) * luminance(e.radiance) * falloff;
+            return 2 * std::numbers::pi * (1 - std::min(cosine, 0.999)) * preciseLuminance(e.radiance) *
+                   falloff;
         }
         case Kind::Directional:
-            return kPi * radius * radius * luminance(e.radiance);
+            return std::numbers::pi * radius * radius * preciseLuminance(e.radiance);
         case Kind::Rect:
-            return kPi * static_cast<double>(e.area) * luminance(e.radiance);
+            return std::numbers::pi * static_cast<double>(e.area) * preciseLuminance(e.radiance);
         case Kind::Triangle: {
-            double emission = luminance(e.radiance);
+            double emission = preciseLuminance(e.radiance);
             if (!e.constant)
-                emission = std::max(luminance(meanEmission(scene_, e.instance, e.triangle)),
+                emission = std::max(preciseLuminance(meanEmission(scene_, e.instance, e.triangle)),
                                     kLeastEmission * emission);
-            return kPi * static_cast<double>(e.area) * emission * (e.twoSided ? 2 : 1);
+            return std::numbers::pi * static_cast<double>(e.area) * emission * (e.twoSided ? 2 : 1);
         }
     }
     return 0;
@@ -265,16 +265,16 @@ float LightTable::weightOf(std::size_t index, const glm::vec3& from, const glm::
     if (!(group.power > 0)) return 0;
     const Emitter& e = emitters_[group.first];
     if (group.count == 1 && e.kind == Kind::Directional)
-        return static_cast<float>(luminance(e.radiance)) * std::max(-glm::dot(e.normal, normal), 0.0f);
+        return static_cast<float>(preciseLuminance(e.radiance)) * std::max(-glm::dot(e.normal, normal), 0.0f);
     if (group.count == 1 && e.kind == Kind::Point) {
         LightSample light;
         if (!samplePoint(e, from, light)) return 0;
-        return static_cast<float>(luminance(light.radiance)) *
+        return static_cast<float>(preciseLuminance(light.radiance)) *
                std::max(glm::dot(light.toLight, normal), 0.0f);
     }
     if (group.count == 1 && !e.twoSided && !(glm::dot(from - e.position, e.normal) > 0)) return 0;
     const glm::vec3 way = group.center - from;
-    return group.power / (static_cast<float>(kPi) * std::max(glm::dot(way, way), group.radius2));
+    return group.power / (static_cast<float>(std::numbers::pi) * std::max(glm::dot(way, way), group.radius2));
 }
 
 void LightTable::choose(const glm::vec3& from, const glm::vec3& normal, bool first, Choice& choice) const {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "reference/materials.h"
 
+#include <glm/gtc/constants.hpp>
+
 #include <algorithm>
 #include <cmath>
 
 namespace conelight::reference {
 namespace {
 
-constexpr float kPi = 3.14159265358979f;
 constexpr float kMinNoV = 1e-4f;  // as math::makeBrdf clamps it
 // Neither part is sampled more rarely than this while it reflects at all: its albedo says little about how
 // much light it meets.
@@ -16,14 +17,11 @@ constexpr float kLeastShare = 0.1f;
 // Between passing a pane and meeting it, neither is drawn more rarely.
 constexpr float kLeastPass = 0.1f;
 
-float largest(const glm::vec3& c) { return std::max({c.r, c.g, c.b}); }
-float luminance(const glm::vec3& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
-
 // D of GGX at a local half vector. 1 - NoH^2 comes from the lateral parts, which keeps its digits at the peak
 // of smooth surfaces.
 float ggx(float alpha2, const glm::vec3& h) {
     const float d = h.x * h.x + h.y * h.y + h.z * h.z * alpha2;
-    return alpha2 / (kPi * d * d);
+    return alpha2 / (glm::pi<float>() * d * d);
 }
 
 // Density of reflected directions when visible normals are sampled: G1 D / (4 NoV).
@@ -34,7 +32,7 @@ float visibleDensity(float alpha2, float distribution, float NoV) {
 glm::vec3 sampleVisibleNormal(const glm::vec3& toEye, float alpha, const glm::vec2& u) {
     // The view in the space where the surface is a unit sphere; a uniform cap of reflected directions there.
     const glm::vec3 v = glm::normalize(glm::vec3(alpha * toEye.x, alpha * toEye.y, toEye.z));
-    const float phi = 2 * kPi * u.x;
+    const float phi = 2 * glm::pi<float>() * u.x;
     const float z = (1 - u.y) * (1 + v.z) - v.z;
     const float sine = std::sqrt(std::clamp(1 - z * z, 0.0f, 1.0f));
     const glm::vec3 h = glm::vec3(sine * std::cos(phi), sine * std::sin(phi), z) + v;
@@ -42,6 +40,9 @@ glm::vec3 sampleVisibleNormal(const glm::vec3& toEye, float alpha, const glm::ve
 }
 
 }  // namespace
+
+float largest(const glm::vec3& color) { return std::max({color.r, color.g, color.b}); }
+float luminance(const glm::vec3& color) { return 0.2126f * color.r + 0.7152f * color.g + 0.0722f * color.b; }
 
 Frame::Frame(const glm::vec3& normal) : n(normal) {
     const float sign = std::copysign(1.0f, n.z);
@@ -94,8 +95,8 @@ Reflection::Value Reflection::evaluate(const glm::vec3& toLight) const {
     if (below) l.z = -l.z;
     if (!(l.z > 0) || black_) return value;
     if (!below) {
-        value.diffuse = brdf_.diffuse * (l.z / kPi);
-        value.density = (1 - specularShare_ - transmissionShare_) * l.z / kPi;
+        value.diffuse = brdf_.diffuse * (l.z / glm::pi<float>());
+        value.density = (1 - specularShare_ - transmissionShare_) * l.z / glm::pi<float>();
         if (!(specularShare_ > 0) || mirror_) return value;
     }
 
@@ -220,13 +221,13 @@ glm::vec3 Reflection::sample(float lobe, const glm::vec2& u) const {
         const glm::vec3 h = sampleVisibleNormal(toEyeAbove_, brdf_.alpha, u);
         return frame_.toWorld(2 * glm::dot(toEyeAbove_, h) * h - toEyeAbove_);
     }
-    const float phi = 2 * kPi * u.x;
+    const float phi = 2 * glm::pi<float>() * u.x;
     const float radius = std::sqrt(u.y);
     return frame_.toWorld({radius * std::cos(phi), radius * std::sin(phi), std::sqrt(1 - u.y)});
 }
 
 glm::vec3 uniformHemisphere(const glm::vec3& normal, const glm::vec2& u) {
-    const float phi = 2 * kPi * u.x;
+    const float phi = 2 * glm::pi<float>() * u.x;
     const float sine = std::sqrt(std::max(1 - u.y * u.y, 0.0f));
     return Frame(normal).toWorld({sine * std::cos(phi), sine * std::sin(phi), u.y});
 }

@@ -105,4 +105,7 @@ glm::vec3 absorption(const Material& material);
 // Uniform over the hemisphere around a unit vector; density 1 / (2 pi).
 glm::vec3 uniformHemisphere(const glm::vec3& normal, const glm::vec2& u);
 
+float largest(const glm::vec3& color);
+float luminance(const glm::vec3& color);  // of linear BT.709
+
 }  // namespace conelight::reference

@@ -81,8 +81,8 @@ void addRadianceMetrics(Metrics& m, const Image& test, const Image& reference,
 }
 
 // Means of blocks of m.blockSize pixels a side. Sums of a row of blocks are kept for each block of it.
-double blockRelRmse(const Metrics& m, const Image& test, const Image& reference,
-                    const std::optional<Halves>& halves, const std::vector<std::uint8_t>& usable) {
+double blocksRelRmse(const Metrics& m, const Image& test, const Image& reference,
+                     const std::optional<Halves>& halves, const std::vector<std::uint8_t>& usable) {
     struct Sums {
         glm::dvec3 a{0}, b{0};  // of the errors against either half, or twice against the reference
         std::size_t pixels = 0;
@@ -198,7 +198,7 @@ Metrics compareImages(const Image& test, const Image& reference, const MetricOpt
             ++(usable[i] != 0 ? m.pixels : m.badPixels);
     addRadianceMetrics(m, test, reference, halves, usable);
     m.blockSize = std::max(options.blockSize, 1);
-    m.blockRelRmse = blockRelRmse(m, test, reference, halves, usable);
+    m.blockRelRmse = blocksRelRmse(m, test, reference, halves, usable);
 
     const Colors x = usableColors(test, usable);
     const Colors r = usableColors(reference, usable);

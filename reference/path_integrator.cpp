@@ -14,6 +14,8 @@
 // silhouettes of coarse meshes; the shadow maps of the GL modes lose the same of direct light.
 #include "reference/path_integrator.h"
 
+#include <glm/gtc/constants.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -21,18 +23,14 @@
 namespace conelight::reference {
 namespace {
 
-constexpr float kPi = 3.14159265358979f;
 // Paths live on with at least this probability, so that no survivor weighs more than twenty.
 constexpr float kLeastSurvival = 0.05f;
 // And end with at least one in fifty, or a closed white room would keep them for ever.
 constexpr float kMostSurvival = 0.98f;
 // Rays towards a point end by this share of their length before it.
-constexpr float kRayEnd = 1 - 1e-5f;
 // Rays through panes and blended surfaces go on this far behind them, m and share of the way.
 constexpr float kPaneStep = 1e-5f;
 constexpr int kMostPanes = 64;  // on one ray; then it is dark
-
-float largest(const glm::vec3& v) { return std::max({v.r, v.g, v.b}); }
 
 // Power heuristic, exponent 2. An infinite own density is certain.
 float misWeight(float own, float other) {
@@ -144,7 +142,7 @@ void PathIntegrator::gatherSky(const Vertex& vertex, const Reflection& reflectio
     LightSample sky;
     sky.distance = std::numeric_limits<float>::infinity();
     sky.extended = true;
-    sky.density = 1 / (2 * kPi);
+    sky.density = 1 / (2 * glm::pi<float>());
     if (surroundings_.hasPicture()) {
         const scene::Surroundings::Draw drawn = surroundings_.draw(u);
         sky.toLight = drawn.direction;

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "math/octahedral.h"
+
+#include <glm/gtc/constants.hpp>
 #include "reference/lens.h"
 #include "reference/materials.h"
 #include "reference/path_tracer.h"
@@ -12,7 +14,6 @@
 namespace conelight::reference {
 namespace {
 
-constexpr float kPi = 3.14159265358979f;
 // As Majercik et al. 2019 have them: points are looked up off their surface by this share of the spacing, and
 // probes behind it still count a little.
 constexpr float kNormalBias = 0.2f, kLeastFacing = 0.2f;
@@ -71,7 +72,9 @@ glm::vec3 irradianceOf(const std::array<glm::vec3, 9>& harmonics, const glm::vec
     glm::vec3 sum(0);
     for (std::size_t k = 0; k < basis.size(); ++k) {
         // The cosine's own projection, by band.
-        const float cosine = k == 0 ? kPi : k < 4 ? 2 * kPi / 3 : kPi / 4;
+        const float cosine = k == 0  ? glm::pi<float>()
+                             : k < 4 ? 2 * glm::pi<float>() / 3
+                                     : glm::pi<float>() / 4;
         sum += harmonics[k] * (cosine * basis[k]);
     }
     return glm::max(sum, glm::vec3(0));

@@ -3,6 +3,8 @@
 // its projected radiance. Irradiance and distances are weighted means of the same rays.
 #include "reference/probes.h"
 
+#include <glm/gtc/constants.hpp>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -17,7 +19,6 @@
 namespace conelight::reference {
 namespace {
 
-constexpr float kPi = 3.14159265358979f;
 // A probe that sees backs along more than this share of its rays is in a wall (Majercik et al. 2019).
 constexpr float kMostBacks = 0.25f;
 // Probes keep this share of the spacing away from walls, and leave their place by at most the second share.
@@ -95,7 +96,7 @@ class Rays {
 };
 
 glm::vec3 onSphere(const glm::vec2& u) {
-    const float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * kPi * u.y;
+    const float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * glm::pi<float>() * u.y;
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
@@ -201,9 +202,10 @@ class Bake {
                 powers[k] += weight;
             }
         }
-        for (glm::vec3& c : probe.harmonics) c *= 4 * kPi / static_cast<float>(settings_.samples);
+        for (glm::vec3& c : probe.harmonics)
+            c *= 4 * glm::pi<float>() / static_cast<float>(settings_.samples);
         for (std::size_t k = 0; k < cosines.size(); ++k)
-            if (cosines[k] > 0) probe.irradiance[k] *= kPi / cosines[k];
+            if (cosines[k] > 0) probe.irradiance[k] *= glm::pi<float>() / cosines[k];
         for (std::size_t k = 0; k < powers.size(); ++k)
             probe.distance[k] =
                 powers[k] > 0 ? probe.distance[k] / powers[k] : glm::vec2(farthest, farthest * farthest);

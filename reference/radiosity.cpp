@@ -14,6 +14,8 @@
 // vertices. A scene of many more triangles than patches is not simplified.
 #include "reference/radiosity.h"
 
+#include <glm/gtc/constants.hpp>
+
 #include <algorithm>
 #include <atomic>
 #include <cmath>
@@ -21,6 +23,7 @@
 
 #include "base/clock.h"
 #include "base/log.h"
+#include "reference/materials.h"
 #include "reference/radiosity_gather.h"
 #include "reference/radiosity_mesh.h"
 #include "reference/radiosity_parallel.h"
@@ -32,7 +35,6 @@
 namespace conelight::reference {
 namespace {
 
-constexpr float kPi = 3.14159265358979f;
 // Memory of the form factors: 4 bytes a ray, 256 MB; larger scenes get fewer rays per patch.
 constexpr std::size_t kMostLinks = std::size_t{1} << 26;
 constexpr std::size_t kMostVertices = std::size_t{1} << 22;  // 4 million; splitting stops there
@@ -41,8 +43,6 @@ constexpr std::size_t kMostPatches = std::size_t{1} << 22;
 // exactly on an edge that touches another surface, visibility is undefined.
 constexpr double kInset = 0.02;
 constexpr std::uint32_t kSky = ~0u, kDark = ~0u - 1;  // what a ray met, if no patch
-
-float luminance(const glm::vec3& c) { return 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b; }
 
 // Inside of another object there is little to see but backs.
 bool isBuried(std::size_t dark, std::size_t sent) { return 4 * dark > 3 * sent; }
@@ -252,7 +252,7 @@ void Baker::lightBuriedPatches(std::vector<glm::vec3>& radiance) const {
 void Baker::solve() {
     const float perRay = 1.0f / static_cast<float>(raysPerPatch_);
     std::vector<glm::vec3> next;
-    for (const Patch& patch : patches_) next.push_back(patch.albedo * patch.direct / kPi);
+    for (const Patch& patch : patches_) next.push_back(patch.albedo * patch.direct / glm::pi<float>());
     lightBuriedPatches(next);
     for (std::size_t i = 0; i < patches_.size(); ++i) patches_[i].radiance = next[i];
     constexpr int kMostIterations = 10000;  // albedo 0.999 settles within
@@ -262,7 +262,7 @@ void Baker::solve() {
                     glm::vec3 sum = patches_[i].fromPicture;
                     for (std::size_t n = 0; n < raysPerPatch_; ++n)
                         sum += given(links_[i * raysPerPatch_ + n]);
-                    next[i] = patches_[i].albedo * (patches_[i].direct / kPi + sum * perRay);
+                    next[i] = patches_[i].albedo * (patches_[i].direct / glm::pi<float>() + sum * perRay);
                 }
             }))
             return;
@@ -313,7 +313,7 @@ VertexLight Baker::gatherAt(std::uint32_t vertex, std::uint64_t& count) const {
         if (met == kSky) sum += surroundings_.pictureRadiance(direction);
     }
     count += sent;
-    if (wanted(1)) result.irradiance += sum * (kPi / static_cast<float>(rays));
+    if (wanted(1)) result.irradiance += sum * (glm::pi<float>() / static_cast<float>(rays));
     result.buried = isBuried(dark, sent);
     return result;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "reference/radiosity_gather.h"
 
+#include <glm/gtc/constants.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,11 +17,9 @@
 namespace conelight::reference {
 namespace {
 
-constexpr float kPi = 3.14159265358979f;
 // Emissive meshes of more triangles are found by rays: by their form factors they would cost more.
 constexpr std::size_t kMostTriangles = 64;
-constexpr int kProbeEdge = 4;         // points a side that tell penumbra from light and umbra
-constexpr float kRayEnd = 1 - 1e-5f;  // as the path tracer's
+constexpr int kProbeEdge = 4;  // points a side that tell penumbra from light and umbra
 
 bool shines(const glm::vec3& c) { return c.r > 0 || c.g > 0 || c.b > 0; }
 
@@ -174,7 +174,7 @@ glm::vec3 RadiosityLights::irradiance(const RayScene& rays, const Receiver& at, 
         bool mixed = false;
         double seen = visiblePart(rays, at, light, kProbeEdge, count, mixed);
         if (mixed && edge > kProbeEdge) seen = visiblePart(rays, at, light, edge, count, mixed);
-        sum += light.radiance * static_cast<float>(kPi * factor * seen);
+        sum += light.radiance * static_cast<float>(glm::pi<float>() * factor * seen);
     }
     return sum;
 }
@@ -189,7 +189,7 @@ glm::vec3 cosineDirection(const glm::vec3& normal, std::uint32_t n, std::uint32_
     bits = ((bits & 0x55555555u) << 1) | ((bits & 0xaaaaaaaau) >> 1);
     const float a = glm::fract((static_cast<float>(n) + 0.5f) / static_cast<float>(count) + shift.x);
     const float b = glm::fract(static_cast<float>(bits >> 8) * 0x1p-24f + shift.y);
-    const float radius = std::sqrt(a), phi = 2 * kPi * b;
+    const float radius = std::sqrt(a), phi = 2 * glm::pi<float>() * b;
     return glm::normalize(Frame(normal).toWorld(
         {radius * std::cos(phi), radius * std::sin(phi), std::sqrt(std::max(1 - a, 1e-7f))}));
 }

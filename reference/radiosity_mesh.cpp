@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 
+#include "reference/surface.h"
+
 namespace conelight::reference {
 namespace {
-
-const Material kDefaultMaterial;
 
 double cross2(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
@@ -33,9 +33,7 @@ ElementMesh::ElementMesh(const Scene& scene) : roots_(scene.instances.size()) {
     for (std::uint32_t i = 0; i < scene.instances.size(); ++i) {
         const Instance& instance = scene.instances[i];
         if (!instance.visible || instance.mesh < 0) continue;
-        const Material& material = instance.material < 0
-                                       ? kDefaultMaterial
-                                       : scene.materials[static_cast<std::size_t>(instance.material)];
+        const Material& material = materialOf(scene, instance);
         if (material.unlit) continue;
         addSide(scene, i, false);
         if (material.doubleSided) addSide(scene, i, true);

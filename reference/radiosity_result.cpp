@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "reference/radiosity_result.h"
 
+#include <glm/gtc/constants.hpp>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,9 +13,6 @@
 
 namespace conelight::reference {
 namespace {
-
-constexpr float kPi = 3.14159265358979f;
-const Material kDefaultMaterial;
 
 Surface surfaceOfVertex(const Scene& scene, const ElementMesh& mesh, std::uint32_t vertex) {
     const ElementVertex& v = mesh.vertices[vertex];
@@ -38,11 +37,6 @@ T interpolated(const Mesh& mesh, const std::vector<T>& values, const ElementVert
 // Emission and reflected light cannot share a texture: where a surface does both, the vertices hold the sum.
 bool holdsSum(const Material& material) {
     return material.emission.r > 0 || material.emission.g > 0 || material.emission.b > 0;
-}
-
-const Material& materialOf(const Scene& scene, const Instance& instance) {
-    return instance.material < 0 ? kDefaultMaterial
-                                 : scene.materials[static_cast<std::size_t>(instance.material)];
 }
 
 // Shows what the vertices hold, times the base colour where they hold reflected light alone.
@@ -93,7 +87,7 @@ class LitMeshes {
         result.normals.push_back(at.geometricNormal);
         if (!source.uvs.empty()) result.uvs.push_back(interpolated(source, source.uvs, v, glm::vec2(0)));
         const glm::vec4 tint = interpolated(source, source.colors, v, glm::vec4(1));
-        const glm::vec3 reflected = irradiance_[vertex] * (diffusePart(at) / kPi);
+        const glm::vec3 reflected = irradiance_[vertex] * (diffusePart(at) / glm::pi<float>());
         result.colors.push_back(sum ? glm::vec4(reflected * at.baseColor + at.emission, tint.a)
                                     : glm::vec4(reflected * glm::vec3(tint), tint.a));
     }

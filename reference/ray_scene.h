@@ -12,6 +12,9 @@
 
 namespace conelight::reference {
 
+// Rays to a place end this part of the way before it, so that they do not meet it.
+inline constexpr float kRayEnd = 1 - 1e-5f;
+
 // camera: visible instances, single-sided ones from their front only. bounce: voxelized ones. shadow: those
 // with castsShadow.
 enum class RayKind { Camera, Bounce, Shadow };

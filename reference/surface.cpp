@@ -11,13 +11,6 @@
 namespace conelight::reference {
 namespace {
 
-const Material kDefaultMaterial;
-
-const Material& materialOf(const Scene& scene, const Instance& instance) {
-    return instance.material < 0 ? kDefaultMaterial
-                                 : scene.materials[static_cast<std::size_t>(instance.material)];
-}
-
 bool isTextured(const Material& material) {
     bool textured = false;
     visitFields(
@@ -135,6 +128,11 @@ void readMaterial(const Scene& scene, const glm::vec2& uv, Surface& s) {
 }
 
 }  // namespace
+
+const Material& materialOf(const Scene& scene, const Instance& instance) {
+    static const Material kDefault;
+    return instance.material < 0 ? kDefault : scene.materials[static_cast<std::size_t>(instance.material)];
+}
 
 glm::vec4 sampleTexture(const Scene& scene, const TextureRef& reference, const glm::vec2& uv) {
     if (!reference.used()) return glm::vec4(1);

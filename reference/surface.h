@@ -9,6 +9,9 @@
 
 namespace conelight::reference {
 
+// What an instance is made of; one that names no material has the default one.
+const Material& materialOf(const Scene& scene, const Instance& instance);
+
 struct Surface {
     glm::vec3 position{0};
     glm::vec3 geometricNormal{0};  // on the side the ray came from

@@ -27,8 +27,6 @@
 
 namespace conelight::program {
 
-[[noreturn]] void usage(const std::string& message) { throw Error(ErrorKind::Usage, message); }
-
 struct Progress::Line {
     std::mutex mutex;
     std::condition_variable ended;

@@ -16,6 +16,8 @@
 #include "io/animation.h"
 #include "platform/headless_context.h"
 
+#include "session/usage.h"
+
 namespace conelight::program {
 
 void addRender(CLI::App& app);
@@ -33,9 +35,6 @@ void addCommands(CLI::App& app);
 void addConvert(CLI::App& app);
 void addShaders(CLI::App& app);
 void addView(CLI::App& app);
-
-// Throws Error(Usage).
-[[noreturn]] void usage(const std::string& message);
 
 // One status line on standard error, on a terminal only; of work that says nothing for a while it counts
 // the seconds. finish() clears it.

@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::string referenceLine(const ReferencePicture& reference) {
+std::string referenceSource(const ReferencePicture& reference) {
     std::string text = reference.origin;
     if (reference.samplesPerPixel > 0)
         text += fmt::format(", {} samples per pixel, noise {:.2g} %", reference.samplesPerPixel,
@@ -59,7 +59,7 @@ ordered_json pictureJson(const EqualTimePicture& picture, double ratio, bool wit
 
 void printEqualTime(const EqualTimeScene& result, bool withFlip) {
     fmt::print("{}  {} x {}  at equal CPU time, against: {}\n", result.scene, result.size.width,
-               result.size.height, referenceLine(result.reference));
+               result.size.height, referenceSource(result.reference));
     std::vector<std::string> head = {"picture", "samples", "CPU s", "ratio", "relRMSE", "relMSE", "bias"};
     if (withFlip) head.emplace_back("FLIP");
     Table table(head);

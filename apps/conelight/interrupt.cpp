@@ -10,7 +10,7 @@ namespace {
 
 // Nesting depths, and whether a signal is waiting for the end of a file or of stoppable work. Only the main
 // thread changes the depths; the handler may run on any.
-volatile std::sig_atomic_t writing = 0;
+volatile std::sig_atomic_t writers = 0;
 volatile std::sig_atomic_t stoppable = 0;
 volatile std::sig_atomic_t pendingExit = 0;
 volatile std::sig_atomic_t stopRequested = 0;
@@ -28,7 +28,7 @@ void onSignal(int) {
         stopRequested = 1;
         return;
     }
-    if (writing != 0 && pendingExit == 0) {
+    if (writers != 0 && pendingExit == 0) {
         pendingExit = 1;
         return;
     }
@@ -42,10 +42,10 @@ void installInterruptHandler() {
     std::signal(SIGTERM, onSignal);
 }
 
-WritingScope::WritingScope() { writing = writing + 1; }
+WritingScope::WritingScope() { writers = writers + 1; }
 WritingScope::~WritingScope() {
-    writing = writing - 1;
-    if (writing == 0 && pendingExit != 0) exitNow();
+    writers = writers - 1;
+    if (writers == 0 && pendingExit != 0) exitNow();
 }
 
 StoppableScope::StoppableScope() { stoppable = stoppable + 1; }

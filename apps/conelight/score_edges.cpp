@@ -34,10 +34,10 @@ Camera aside(Camera camera, double pixels, const Size& size) {
 }
 
 // Frames of a way, drawn one after the other.
-struct Film {
+struct EdgeFilm {
     std::vector<Image> images;
 
-    Film(PictureSource& source, PictureRequest request, double pan, int frames, Progress& progress) {
+    EdgeFilm(PictureSource& source, PictureRequest request, double pan, int frames, Progress& progress) {
         const Camera start = request.camera;
         for (int i = 0; i < frames; ++i) {
             request.camera = aside(start, pan * i, request.size);
@@ -84,11 +84,11 @@ Edges edgesOf(PictureSource& source, PictureRequest request, const EdgesOptions&
     plain.settings.image.antialiasing = 0;
     smooth.settings.image.temporal = Toggle::On;
     plain.settings.traced.budgeted = smooth.settings.traced.budgeted = true;
-    const Film truths(source, truth, options.pan, options.frames, progress);
-    const Film stairs(source, plain, options.pan, options.frames, progress);
-    const Film moving(source, smooth, options.pan, options.frames, progress);
-    const Film settled(source, plain, 0, 1, progress);  // forgets the way
-    const Film resting(source, smooth, 0, options.frames, progress);
+    const EdgeFilm truths(source, truth, options.pan, options.frames, progress);
+    const EdgeFilm stairs(source, plain, options.pan, options.frames, progress);
+    const EdgeFilm moving(source, smooth, options.pan, options.frames, progress);
+    const EdgeFilm settled(source, plain, 0, 1, progress);  // forgets the way
+    const EdgeFilm resting(source, smooth, 0, options.frames, progress);
     return {reference::relativeDifference(settled.images.front(), truths.images.front()),
             reference::relativeDifference(resting.images.back(), truths.images.front()),
             flickerOf(stairs.images, truths.images), flickerOf(moving.images, truths.images)};

@@ -22,7 +22,7 @@ std::vector<const CLI::App*> commandsOf(const CLI::App& app) {
 }
 
 // "--mode" of "--mode=phong".
-std::string nameOf(const std::string& word) { return word.substr(0, word.find('=')); }
+std::string optionName(const std::string& word) { return word.substr(0, word.find('=')); }
 
 std::vector<std::string> optionsOf(const CLI::App& app) {
     std::vector<std::string> names;
@@ -38,10 +38,10 @@ std::optional<Unknown> firstUnknown(const CLI::App& app, const std::vector<std::
         const std::string& word = words[i];
         if (word == "--") return std::nullopt;
         if (word.rfind("--", 0) == 0) {
-            const CLI::Option* option = command->get_option_no_throw(nameOf(word));
-            if (option == nullptr) return Unknown{command, nameOf(word), true};
+            const CLI::Option* option = command->get_option_no_throw(optionName(word));
+            if (option == nullptr) return Unknown{command, optionName(word), true};
             // Its value, whatever it looks like.
-            if (nameOf(word) == word && option->get_items_expected_min() > 0) ++i;
+            if (optionName(word) == word && option->get_items_expected_min() > 0) ++i;
             continue;
         }
         const std::vector<const CLI::App*> commands = commandsOf(*command);

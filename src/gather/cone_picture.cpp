@@ -27,7 +27,7 @@ struct ComposeKey {
     }
 };
 
-gl::ProgramDesc occlusionDesc() { return {{"gather/cone_occlusion.comp.glsl"}, {}}; }
+gl::ProgramDesc coneOcclusionDesc() { return {{"gather/cone_occlusion.comp.glsl"}, {}}; }
 
 const gl::Texture& resized(gl::Texture& picture, const view::Surfaces& surfaces, const char* label) {
     if (!picture || picture.width() != surfaces.width() || picture.height() != surfaces.height()) {
@@ -54,7 +54,7 @@ void ConePicture::drawOcclusion(const gl::Device& device, const DirectInputs& pi
     const gl::PassScope pass(device.profiler, "compose");
     gl::Inputs given;
     given.add(pixels).texture("occlusion", open).image("result", target.output, gl::ImageUse::Write);
-    device.get(occlusionDesc()).dispatch(given, open.width(), open.height());
+    device.get(coneOcclusionDesc()).dispatch(given, open.width(), open.height());
 }
 
 void ConePicture::draw(const gl::Device& device, const DirectInputs& pixels, const ConeVolume& volume,
@@ -93,7 +93,7 @@ void ConePicture::record(const gl::Device& device, const DirectInputs& pixels, c
 }
 
 std::vector<gl::ProgramDesc> ConePicture::programDescs() {
-    std::vector<gl::ProgramDesc> descs = {occlusionDesc()};
+    std::vector<gl::ProgramDesc> descs = {coneOcclusionDesc()};
     for (const ComposeKey& key : ComposeKey::all()) descs.push_back(key.desc());
     for (const auto& more : {ConeGather::programDescs(), DirectLight::programDescs(),
                              DirectLight::coneDescs(ConeGather::shadowDefines())})

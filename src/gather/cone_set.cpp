@@ -10,8 +10,6 @@
 namespace conelight::gather {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // Integrals over a cell of the hemisphere: of cos, and of the direction times cos.
 struct Moments {
     double cosine = 0;
@@ -40,7 +38,7 @@ std::vector<Moments> ringCells(const std::vector<int>& ringCounts) {
     // Solid angle is proportional to the height difference: a cell takes 1 / N of the unit height.
     double top = 1.0;
     double bottom = 1.0 - 1.0 / total;
-    cells.push_back(sectorMoments(bottom, top, 0, kPi));
+    cells.push_back(sectorMoments(bottom, top, 0, std::numbers::pi));
     // First azimuth: a quarter sector, by eye. Cones along grid axes or diagonals would see walls of voxels
     // edge on, and show the grid.
     double turn = 0.25;
@@ -48,7 +46,8 @@ std::vector<Moments> ringCells(const std::vector<int>& ringCounts) {
         top = bottom;
         bottom = std::max(0.0, top - static_cast<double>(count) / total);
         for (int i = 0; i < count; ++i)
-            cells.push_back(sectorMoments(bottom, top, 2 * kPi * (i + turn) / count, kPi / count));
+            cells.push_back(sectorMoments(bottom, top, 2 * std::numbers::pi * (i + turn) / count,
+                                          std::numbers::pi / count));
         turn += 0.5;
     }
     return cells;
@@ -60,7 +59,7 @@ std::vector<Moments> ringCells(const std::vector<int>& ringCounts) {
 std::vector<Moments> fibonacciCells(int count) {
     constexpr int kHeights = 128;   // 3e-5 relative error of the mean direction's length
     constexpr int kAzimuths = 256;  // 64 cones: 512 points per cell, edges blurred to 2 % of its width
-    const double goldenAngle = kPi * (3 - std::sqrt(5.0));
+    const double goldenAngle = std::numbers::pi * (3 - std::sqrt(5.0));
     std::vector<glm::vec3> seeds;
     for (int i = 0; i < count; ++i) {
         const double z = 1 - (i + 0.5) / count;
@@ -72,7 +71,7 @@ std::vector<Moments> fibonacciCells(int count) {
         const double z = (i + 0.5) / kHeights;
         const double r = std::sqrt(1 - z * z);
         for (int j = 0; j < kAzimuths; ++j) {
-            const double azimuth = 2 * kPi * (j + 0.5) / kAzimuths;
+            const double azimuth = 2 * std::numbers::pi * (j + 0.5) / kAzimuths;
             const glm::dvec3 direction{r * std::cos(azimuth), r * std::sin(azimuth), z};
             std::size_t nearest = 0;
             float best = -2;
@@ -82,7 +81,7 @@ std::vector<Moments> fibonacciCells(int count) {
                 best = cosine;
                 nearest = k;
             }
-            const double weight = z * 2 * kPi / (static_cast<double>(kHeights) * kAzimuths);
+            const double weight = z * 2 * std::numbers::pi / (static_cast<double>(kHeights) * kAzimuths);
             cells[nearest].cosine += weight;
             cells[nearest].direction += weight * direction;
         }
@@ -114,12 +113,12 @@ std::vector<Cone> bestCones(DiffuseSet set) {
     std::vector<Cone> cones;
     double turn = 0.25;  // as in the search: each ring looks between the cones of the one inside it
     for (const FoundRing& ring : foundRings(set)) {
-        const double tilt = ring.tilt * kPi / 180;
+        const double tilt = ring.tilt * std::numbers::pi / 180;
         for (int i = 0; i < ring.cones; ++i) {
-            const double azimuth = 2 * kPi * (i + turn) / ring.cones;
+            const double azimuth = 2 * std::numbers::pi * (i + turn) / ring.cones;
             cones.push_back({glm::vec3(std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth),
                                        std::cos(tilt)),
-                             static_cast<float>(ring.weight * kPi / ring.cones),
+                             static_cast<float>(ring.weight * std::numbers::pi / ring.cones),
                              static_cast<float>(std::cos(0.5 * ring.aperture))});
         }
         if (ring.cones > 1) turn += 0.5;
@@ -177,7 +176,7 @@ std::vector<Cone> coneSet(const ConesSettings& settings) {
     std::vector<Cone> cones;
     for (const SetCone& cone : settings.ownSet)
         cones.push_back({glm::normalize(cone.direction),
-                         static_cast<float>(double(cone.weight) * kPi / weights),
+                         static_cast<float>(double(cone.weight) * std::numbers::pi / weights),
                          std::cos(0.5f * cone.aperture)});
     return cones;
 }

@@ -76,7 +76,7 @@ std::vector<ShadeKey> ShadeKey::all() {
     return keys;
 }
 
-gl::ProgramDesc occlusionDesc() { return {{"gather/traced_occlusion.comp.glsl"}, {}}; }
+gl::ProgramDesc rayOcclusionDesc() { return {{"gather/traced_occlusion.comp.glsl"}, {}}; }
 
 }  // namespace
 
@@ -148,11 +148,11 @@ void TracedShade::drawOcclusion(const gl::Device& device, const RayInputs& input
     const gl::PassScope pass(device.profiler, "shade");
     gl::Inputs given;
     given.add(inputs).texture("occlusion", occlusion).image("result", output, gl::ImageUse::Write);
-    device.get(occlusionDesc()).dispatch(given, output.width(), output.height());
+    device.get(rayOcclusionDesc()).dispatch(given, output.width(), output.height());
 }
 
 std::vector<gl::ProgramDesc> TracedShade::programDescs() {
-    std::vector<gl::ProgramDesc> descs = {occlusionDesc()};
+    std::vector<gl::ProgramDesc> descs = {rayOcclusionDesc()};
     for (const ShadeKey& key : ShadeKey::all()) descs.push_back(key.desc());
     return descs;
 }

@@ -146,11 +146,11 @@ void Framebuffer::clearColorUint(int attachment, std::uint32_t r) const {
 void Framebuffer::clearDepth(float depth) const { glClearNamedFramebufferfv(name(), GL_DEPTH, 0, &depth); }
 
 namespace {
-void enable(GLenum capability, bool on) { on ? glEnable(capability) : glDisable(capability); }
+void setCapability(GLenum capability, bool on) { on ? glEnable(capability) : glDisable(capability); }
 }  // namespace
 
 void setCull(Cull cull) {
-    enable(GL_CULL_FACE, cull != Cull::None);
+    setCapability(GL_CULL_FACE, cull != Cull::None);
     if (cull != Cull::None) glCullFace(cull == Cull::Back ? GL_BACK : GL_FRONT);
 }
 
@@ -180,8 +180,8 @@ void apply(const RasterState& state) {
     } else {
         glViewport(0, 0, state.framebuffer->width(), state.framebuffer->height());
     }
-    enable(GL_SCISSOR_TEST, part);
-    enable(GL_DEPTH_TEST, state.depthTest);
+    setCapability(GL_SCISSOR_TEST, part);
+    setCapability(GL_DEPTH_TEST, state.depthTest);
     glClipControl(GL_LOWER_LEFT, state.reversedDepth ? GL_ZERO_TO_ONE : GL_NEGATIVE_ONE_TO_ONE);
     glDepthFunc(state.reversedDepth ? GL_GEQUAL : GL_LEQUAL);
     glDepthMask(state.depthWrite ? GL_TRUE : GL_FALSE);
@@ -190,20 +190,20 @@ void apply(const RasterState& state) {
     glFrontFace(GL_CCW);
     const GLboolean color = state.colorWrite ? GL_TRUE : GL_FALSE;
     glColorMask(color, color, color, color);
-    enable(GL_BLEND, state.blend);
+    setCapability(GL_BLEND, state.blend);
     if (state.blend) glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    enable(GL_DEPTH_CLAMP, false);
+    setCapability(GL_DEPTH_CLAMP, false);
     const bool bias = state.depthBiasSlope != 0.0f || state.depthBiasUnits != 0.0f;
-    enable(GL_POLYGON_OFFSET_FILL, bias);
+    setCapability(GL_POLYGON_OFFSET_FILL, bias);
     if (bias) glPolygonOffset(state.depthBiasSlope, state.depthBiasUnits);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-    enable(GL_STENCIL_TEST, false);
-    enable(GL_FRAMEBUFFER_SRGB, false);
-    enable(GL_MULTISAMPLE, true);
-    enable(GL_DITHER, false);
-    enable(GL_SAMPLE_ALPHA_TO_COVERAGE, false);
-    enable(GL_RASTERIZER_DISCARD, false);
-    enable(GL_PRIMITIVE_RESTART, false);
+    setCapability(GL_STENCIL_TEST, false);
+    setCapability(GL_FRAMEBUFFER_SRGB, false);
+    setCapability(GL_MULTISAMPLE, true);
+    setCapability(GL_DITHER, false);
+    setCapability(GL_SAMPLE_ALPHA_TO_COVERAGE, false);
+    setCapability(GL_RASTERIZER_DISCARD, false);
+    setCapability(GL_PRIMITIVE_RESTART, false);
 }
 
 }  // namespace conelight::gl

@@ -81,7 +81,7 @@ bool isArray(std::uint32_t target) {
     return target == GL_TEXTURE_2D_ARRAY || target == GL_TEXTURE_CUBE_MAP_ARRAY;
 }
 
-int integer(GLenum limit) {
+int limitOf(GLenum limit) {
     GLint value = 0;
     glGetIntegerv(limit, &value);
     return value;
@@ -91,11 +91,11 @@ int integer(GLenum limit) {
 void requireLimits(const TextureDesc& desc, const std::string& label) {
     CONELIGHT_ASSERT(desc.width > 0 && desc.height > 0 && desc.depth > 0, "a texture has at least one texel");
     const bool cube = desc.target == GL_TEXTURE_CUBE_MAP || desc.target == GL_TEXTURE_CUBE_MAP_ARRAY;
-    const int edge = integer(desc.target == GL_TEXTURE_3D ? GL_MAX_3D_TEXTURE_SIZE
+    const int edge = limitOf(desc.target == GL_TEXTURE_3D ? GL_MAX_3D_TEXTURE_SIZE
                              : cube                       ? GL_MAX_CUBE_MAP_TEXTURE_SIZE
                                                           : GL_MAX_TEXTURE_SIZE);
     const int depth = desc.target == GL_TEXTURE_3D ? edge
-                      : isArray(desc.target)       ? integer(GL_MAX_ARRAY_TEXTURE_LAYERS)
+                      : isArray(desc.target)       ? limitOf(GL_MAX_ARRAY_TEXTURE_LAYERS)
                                                    : 1;
     if (desc.width > edge || desc.height > edge || desc.depth > depth)
         base::fail(ErrorKind::Runtime,
@@ -122,7 +122,7 @@ Texture::Texture(const TextureDesc& desc, const std::string& label) : desc_(desc
 
 Texture::Texture(const Buffer& buffer, std::uint32_t format, const std::string& label)
     : desc_{GL_TEXTURE_BUFFER, format, static_cast<int>(buffer.bytes() / texelBytes(format))} {
-    const int limit = integer(GL_MAX_TEXTURE_BUFFER_SIZE);
+    const int limit = limitOf(GL_MAX_TEXTURE_BUFFER_SIZE);
     if (buffer.bytes() / texelBytes(format) > static_cast<std::size_t>(limit))
         base::fail(ErrorKind::Runtime,
                    "OpenGL: buffer texture '%s' of %zu texels; at most %d would be right on this driver",

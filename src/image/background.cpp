@@ -6,7 +6,7 @@
 namespace conelight::image {
 namespace {
 
-gl::ProgramDesc programDesc() { return {{"image/background.comp.glsl"}, {}}; }
+gl::ProgramDesc backgroundDesc() { return {{"image/background.comp.glsl"}, {}}; }
 
 }  // namespace
 
@@ -17,10 +17,10 @@ void drawBackground(const gl::Device& device, const scene::GpuScene& scene, cons
     gl::barrier(gl::Access::ImageAccess | gl::Access::TextureFetch);
     gl::Inputs given;
     given.add(scene).add(lights).add(surfaces).image("picture", picture, gl::ImageUse::Write);
-    device.get(programDesc()).dispatch(given, picture.width(), picture.height());
+    device.get(backgroundDesc()).dispatch(given, picture.width(), picture.height());
     gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess);
 }
 
-std::vector<gl::ProgramDesc> backgroundProgramDescs() { return {programDesc()}; }
+std::vector<gl::ProgramDesc> backgroundProgramDescs() { return {backgroundDesc()}; }
 
 }  // namespace conelight::image

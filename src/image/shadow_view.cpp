@@ -10,7 +10,7 @@
 namespace conelight::image {
 namespace {
 
-gl::ProgramDesc desc() { return {{"image/shadow_view.comp.glsl"}, {}}; }
+gl::ProgramDesc shadowViewDesc() { return {{"image/shadow_view.comp.glsl"}, {}}; }
 
 // How many tiles a light has, on how many per edge of a layer (lib/shadow.glsl).
 void setTiles(const gpu::Light& light, gpu::ShadowViewConstants& c) {
@@ -74,9 +74,9 @@ void ShadowView::draw(const gl::Device& device, const Scene& source, const light
     constants_.update(c);
     gl::Inputs inputs;
     inputs.add(lights).uniform("ShadowViewBlock", constants_).image("picture", output, gl::ImageUse::Write);
-    device.get(desc()).dispatch(inputs, output.width(), output.height());
+    device.get(shadowViewDesc()).dispatch(inputs, output.width(), output.height());
 }
 
-std::vector<gl::ProgramDesc> ShadowView::programDescs() { return {desc()}; }
+std::vector<gl::ProgramDesc> ShadowView::programDescs() { return {shadowViewDesc()}; }
 
 }  // namespace conelight::image

@@ -7,7 +7,7 @@
 namespace conelight::image {
 namespace {
 
-gl::ProgramDesc programDesc() { return {{"image/view_mean.comp.glsl"}, {}}; }
+gl::ProgramDesc meanDesc() { return {{"image/view_mean.comp.glsl"}, {}}; }
 
 }  // namespace
 
@@ -30,10 +30,10 @@ void ViewMean::add(const gl::Device& device, int number, const gl::Texture& mean
     given.uniform("ViewMeanBlock", constants_)
         .texture("view", view_)
         .image("mean", mean, gl::ImageUse::ReadWrite);
-    device.get(programDesc()).dispatch(given, mean.width(), mean.height());
+    device.get(meanDesc()).dispatch(given, mean.width(), mean.height());
     gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess);
 }
 
-std::vector<gl::ProgramDesc> ViewMean::programDescs() { return {programDesc()}; }
+std::vector<gl::ProgramDesc> ViewMean::programDescs() { return {meanDesc()}; }
 
 }  // namespace conelight::image

@@ -20,7 +20,7 @@ constexpr float kAloneOpacity = 0.8f;
 // Lines lie on the surfaces whose depth they are tested against: nearer by two units and the slope.
 constexpr float kBiasSlope = -1.0f, kBiasUnits = -2.0f;
 
-gl::ProgramDesc desc() {
+gl::ProgramDesc wireframeDesc() {
     return {{"image/wireframe.vert.glsl", "image/wireframe.geom.glsl", "image/wireframe.frag.glsl"}, {}};
 }
 
@@ -52,10 +52,10 @@ void WireframeView::draw(const gl::Device& device, const scene::GpuScene& scene,
     if (!over) target.clearColor(0, sky.r, sky.g, sky.b, 0);
     gl::Inputs inputs;
     inputs.add(scene).add(surfaces).add(exposure_).uniform("WireframeBlock", constants_);
-    device.get(desc()).use(inputs);
+    device.get(wireframeDesc()).use(inputs);
     scene.draw({.cull = over && wanted.culls ? gl::Cull::Back : gl::Cull::None});
 }
 
-std::vector<gl::ProgramDesc> WireframeView::programDescs() { return {desc()}; }
+std::vector<gl::ProgramDesc> WireframeView::programDescs() { return {wireframeDesc()}; }
 
 }  // namespace conelight::image

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "light/caustics.h"
 
+#include <glm/gtc/constants.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -11,8 +13,6 @@
 
 namespace conelight::light {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 // Texels per edge of a map: 0.7 degrees each, half as much light as a path of the default number brings.
 constexpr int kEdge = 256;
@@ -31,10 +31,10 @@ gl::ProgramDesc mapDesc() { return {{"light/caustic_map.comp.glsl"}, {}}; }
 // W that a light sends towards a ball, in its strongest channel; of those with a falloff of their own, about.
 float fluxTowards(const gpu::Light& light, const glm::vec3& middle, float radius) {
     const float intensity = std::max({light.intensity.x, light.intensity.y, light.intensity.z});
-    if (light.type == LIGHT_DIRECTIONAL) return intensity * kPi * radius * radius;
+    if (light.type == LIGHT_DIRECTIONAL) return intensity * glm::pi<float>() * radius * radius;
     const float distance = glm::length(middle - light.position);
     const float sine = std::min(radius / std::max(distance, 1e-6f), 1.0f);
-    const float solidAngle = 2 * kPi * sine * sine / (1 + std::sqrt(1 - sine * sine));
+    const float solidAngle = 2 * glm::pi<float>() * sine * sine / (1 + std::sqrt(1 - sine * sine));
     if (light.type == LIGHT_RECT)
         return intensity * solidAngle * 4 * glm::length(glm::cross(light.halfU, light.halfV));
     if (light.customFalloff == 0) return intensity * solidAngle;

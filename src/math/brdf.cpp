@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "math/brdf.h"
 
+#include <glm/gtc/constants.hpp>
+
 #include <algorithm>
 #include <cmath>
 
 namespace conelight::math {
 namespace {
-constexpr float kPi = 3.14159265358979f;
+
 float largest(const glm::vec3& v) { return std::max({v.r, v.g, v.b}); }
 }  // namespace
 
@@ -77,7 +79,7 @@ float ggxVisible(float alpha, float NoH, float NoL, float NoV) {
     const float d = (1.0f - NoH * NoH) + NoH * NoH * a2;
     const float smithV = NoL * std::sqrt(NoV * NoV * (1.0f - a2) + a2);
     const float smithL = NoV * std::sqrt(NoL * NoL * (1.0f - a2) + a2);
-    return a2 / (kPi * d * d) * 0.5f / std::max(smithV + smithL, 1e-7f);
+    return a2 / (glm::pi<float>() * d * d) * 0.5f / std::max(smithV + smithL, 1e-7f);
 }
 
 glm::vec3 brdfSpecular(const Brdf& b, const glm::vec3& n, const glm::vec3& toLight, const glm::vec3& toEye) {

@@ -12,11 +12,9 @@
 namespace conelight {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // A white surface that faces the lamp gets a radiance below 1, so that glow and gloss stand out.
-constexpr double kLampIrradiance = 0.65 * kPi;  // of a surface that faces it, W/m^2
-constexpr double kFill = 0.5, kRoom = 0.1;      // W/(sr m^2)
+constexpr double kLampIrradiance = 0.65 * std::numbers::pi;  // of a surface that faces it, W/m^2
+constexpr double kFill = 0.5, kRoom = 0.1;                   // W/(sr m^2)
 constexpr double kGroundAlbedo = 0.35;
 
 // Where the lamp stands, seen by a camera that looks along -z: to the left, above and behind it. From there it shows
@@ -97,9 +95,10 @@ Light roomLight(const Aabb& bounds) {
 // Irradiance of the picture's upper half on the ground, W/m^2.
 double irradianceFromAbove(const EnvironmentImage& image) {
     double sum = 0;
-    const double cell = 2 * kPi / image.width * kPi / image.height;  // times the sine of the angle from +y
+    const double cell = 2 * std::numbers::pi / image.width * std::numbers::pi /
+                        image.height;  // times the sine of the angle from +y
     for (int y = 0; y < image.height / 2; ++y) {
-        const double angle = kPi * (y + 0.5) / image.height;
+        const double angle = std::numbers::pi * (y + 0.5) / image.height;
         for (int x = 0; x < image.width; ++x)
             sum += static_cast<double>(image.radiance[static_cast<std::size_t>(y * image.width + x)].g) *
                    cell * std::sin(angle) * std::cos(angle);
@@ -115,7 +114,8 @@ Environment studioSurroundings(float heading) {
     levels.floor = 0.2;
     const double perLevel = (irradianceFromAbove(*studioPicture(levels)) - low) / 0.1;
     const double lamp = kLampIrradiance * static_cast<double>(kTowardsLamp.y);
-    const double level = kGroundAlbedo * (low - 0.1 * perLevel + lamp) / (kPi - kGroundAlbedo * perLevel);
+    const double level =
+        kGroundAlbedo * (low - 0.1 * perLevel + lamp) / (std::numbers::pi - kGroundAlbedo * perLevel);
     // As a reader of the name will make it.
     char name[96];
     std::snprintf(name, sizeof name, "builtin:studio?key=0&fill=%g&room=%g&floor=%.4f", kFill, kRoom, level);
@@ -140,7 +140,7 @@ bool addGround(Scene& scene, const Aabb& bounds) {
     mesh.name = kStudioGroundName;
     mesh.positions.emplace_back(0);
     for (unsigned i = 0; i < kCorners; ++i) {
-        const float angle = 2 * float(kPi) * float(i) / float(kCorners);
+        const float angle = 2 * float(std::numbers::pi) * float(i) / float(kCorners);
         mesh.positions.emplace_back(std::cos(angle), 0.0f, -std::sin(angle));
         mesh.indices.insert(mesh.indices.end(), {0, i + 1, (i + 1) % kCorners + 1});
     }
@@ -170,7 +170,7 @@ void addStudio(Scene& scene, const Aabb& bounds, bool ground) {
     scene.lights.push_back(studioLamp(camera, bounds));
     if (isRoom) scene.lights.push_back(roomLight(bounds));
     // Seen from below, a lamp would stand behind the scene: the other side of the studio has none so low.
-    const float turn = looksUp(camera) ? float(kPi) : 0.0f;
+    const float turn = looksUp(camera) ? float(std::numbers::pi) : 0.0f;
     scene.environment = studioSurroundings(headingOf(camera) + turn);
     const bool stands = ground && !isRoom && addGround(scene, bounds);
     scene.notes.emplace_back(isRoom ? "no light, lamp or sky in the room: one under its ceiling and a studio "

@@ -2,6 +2,8 @@
 // The CPU scene tables: bounds, validation, measures of lights, and the two models of materials.
 #include "conelight/scene.h"
 
+#include <glm/gtc/constants.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -242,17 +244,16 @@ namespace {
 
 // W for an intensity of 1; 0: there is none.
 float fluxPerIntensity(const Light& light) {
-    constexpr float kPi = 3.14159265358979f;
     if (light.customFalloff) return 0;
     const float inner = std::cos(light.innerAngle), outer = std::cos(light.outerAngle);
     switch (light.type) {
         case LightType::Point:
-            return 4 * kPi;
+            return 4 * glm::pi<float>();
         case LightType::Spot:
             // Even within the inner cone; then the square of a ramp in the cosine, whose mean is a third.
-            return 2 * kPi * (1 - inner + (inner - outer) / 3);
+            return 2 * glm::pi<float>() * (1 - inner + (inner - outer) / 3);
         case LightType::Rect:
-            return kPi * 4 * glm::length(glm::cross(light.halfU, light.halfV));
+            return glm::pi<float>() * 4 * glm::length(glm::cross(light.halfU, light.halfV));
         case LightType::Directional:
             return 0;
     }

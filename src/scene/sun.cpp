@@ -11,9 +11,8 @@
 namespace conelight {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // The sun with its glow in the lens lies within the inner angle; the sky beside it up to the outer one.
-constexpr double kInner = 4 * kPi / 180, kOuter = 8 * kPi / 180;
+constexpr double kInner = 4 * std::numbers::pi / 180, kOuter = 8 * std::numbers::pi / 180;
 // A sun gives at least this share of the light of all directions.
 constexpr double kLeastShare = 0.05;
 

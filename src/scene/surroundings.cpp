@@ -8,8 +8,7 @@
 namespace conelight {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kTurn = 2 * kPi;
+constexpr double kTurn = 2 * std::numbers::pi;
 
 }  // namespace
 
@@ -19,11 +18,12 @@ glm::vec2 environmentUv(const glm::vec3& direction) {
         upright ? 0 : std::atan2(static_cast<double>(direction.x), -static_cast<double>(direction.z));
     const double polar = std::acos(std::clamp(static_cast<double>(direction.y), -1.0, 1.0));
     const double u = azimuth / kTurn + 0.5;
-    return {static_cast<float>(u - std::floor(u)), static_cast<float>(polar / kPi)};
+    return {static_cast<float>(u - std::floor(u)), static_cast<float>(polar / std::numbers::pi)};
 }
 
 glm::vec3 environmentDirection(const glm::vec2& uv) {
-    const double azimuth = (static_cast<double>(uv.x) - 0.5) * kTurn, polar = static_cast<double>(uv.y) * kPi;
+    const double azimuth = (static_cast<double>(uv.x) - 0.5) * kTurn,
+                 polar = static_cast<double>(uv.y) * std::numbers::pi;
     return glm::vec3(glm::dvec3(std::sin(polar) * std::sin(azimuth), std::cos(polar),
                                 -std::sin(polar) * std::cos(azimuth)));
 }
@@ -58,7 +58,7 @@ std::vector<Coverage> coverages(int from, int to, const Edge& edge) {
 
 double columnEdge(int i, int count) { return static_cast<double>(i) / count; }
 // Rows of equal solid angle would be of equal steps of the cosine.
-double rowEdge(int i, int count) { return -std::cos(kPi * i / count); }
+double rowEdge(int i, int count) { return -std::cos(std::numbers::pi * i / count); }
 
 const glm::vec3& texel(const EnvironmentImage& image, int x, int y) {
     return image.radiance[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
@@ -175,7 +175,8 @@ Surroundings::Draw Surroundings::draw(const glm::vec2& u) const {
                      static_cast<double>(environment_.rotation) / kTurn;
     Draw draw;
     draw.direction = environmentDirection(
-        {static_cast<float>(x), static_cast<float>(std::acos(std::clamp(cosine, -1.0, 1.0)) / kPi)});
+        {static_cast<float>(x),
+         static_cast<float>(std::acos(std::clamp(cosine, -1.0, 1.0)) / std::numbers::pi)});
     draw.density = density(draw.direction);
     return draw;
 }

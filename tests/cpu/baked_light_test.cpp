@@ -9,6 +9,8 @@
 #include <memory>
 
 #include "conelight/error.h"
+
+#include <glm/gtc/constants.hpp>
 #include "io/generated.h"
 #include "light/baked_lookup.h"
 #include "reference/radiosity.h"
@@ -19,8 +21,6 @@ namespace conelight::test {
 namespace {
 
 using reference::bakeIndirect;
-
-constexpr float kPi = 3.14159265358979f;
 
 reference::RadiositySettings quick() {
     reference::RadiositySettings s;
@@ -35,7 +35,7 @@ reference::RadiositySettings quick() {
 TEST(BakedLight, FurnaceHoldsTheGeometricSum) {
     const BakedLight baked = bakeIndirect(closedBox(diffuseMaterial(glm::vec3(0.5f), glm::vec3(1))), quick());
     ASSERT_FALSE(baked.irradiance.empty());
-    for (const glm::vec3& e : baked.irradiance) EXPECT_NEAR(e.g / kPi, 1, 0.01);
+    for (const glm::vec3& e : baked.irradiance) EXPECT_NEAR(e.g / glm::pi<float>(), 1, 0.01);
 }
 
 // Before the first bounce there is no light but what comes straight from the lamp.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "conelight/scene.h"
@@ -15,8 +16,6 @@
 
 namespace conelight::test {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 Scene box() {
     Scene scene;
@@ -117,7 +116,8 @@ TEST(CompletionTest, TheGroundIsAsBrightAsTheSurroundings) {
         for (int x = 0; x < image.width; ++x) {
             const glm::vec3 d = environmentDirection(
                 {(float(x) + 0.5f) / float(image.width), (float(y) + 0.5f) / float(image.height)});
-            const float cell = 2 * kPi / float(image.width) * kPi / float(image.height);
+            const float cell =
+                2 * glm::pi<float>() / float(image.width) * glm::pi<float>() / float(image.height);
             if (d.y > 0)
                 fromAbove +=
                     static_cast<double>(image.radiance[static_cast<std::size_t>(y * image.width + x)].g *
@@ -126,10 +126,11 @@ TEST(CompletionTest, TheGroundIsAsBrightAsTheSurroundings) {
     const Material& ground = scene.materials.back();
     EXPECT_EQ(ground.name, kStudioGroundName);
     const double lit = fromAbove - static_cast<double>(lampOnFacing * lamp.direction.y);
-    const double reflected = static_cast<double>(ground.baseColor.g) / static_cast<double>(kPi) * lit;
+    const double reflected =
+        static_cast<double>(ground.baseColor.g) / static_cast<double>(glm::pi<float>()) * lit;
     EXPECT_NEAR(reflected / static_cast<double>(image.radiance.back().g), 1, 0.04);
-    EXPECT_GT(lampOnFacing / kPi, 0.6f);
-    EXPECT_LT((lampOnFacing + static_cast<float>(fromAbove)) / kPi, 1.0f);
+    EXPECT_GT(lampOnFacing / glm::pi<float>(), 0.6f);
+    EXPECT_LT((lampOnFacing + static_cast<float>(fromAbove)) / glm::pi<float>(), 1.0f);
     // Whoever reads the file's name gets the same picture.
     EXPECT_EQ(io::loadEnvironment(scene.environment.file).environment.image->radiance, image.radiance);
 }

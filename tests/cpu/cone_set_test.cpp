@@ -11,8 +11,6 @@
 namespace conelight::gather {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 struct Named {
     const char* name;
     DiffuseSet set;
@@ -40,7 +38,7 @@ double coneMean(const Cone& cone, F&& radiance) {
         const double z = 1 - (1 - static_cast<double>(cone.cosHalfAngle)) * (i + 0.5) / kHeights;
         const double r = std::sqrt(1 - z * z);
         for (int j = 0; j < kAzimuths; ++j) {
-            const double azimuth = 2 * kPi * (j + 0.5) / kAzimuths;
+            const double azimuth = 2 * std::numbers::pi * (j + 0.5) / kAzimuths;
             sum += radiance(axis * z + (u * std::cos(azimuth) + v * std::sin(azimuth)) * r);
         }
     }
@@ -64,11 +62,11 @@ double exactIrradiance(F&& radiance) {
         const double z = (i + 0.5) / kHeights;
         const double r = std::sqrt(1 - z * z);
         for (int j = 0; j < kAzimuths; ++j) {
-            const double azimuth = 2 * kPi * (j + 0.5) / kAzimuths;
+            const double azimuth = 2 * std::numbers::pi * (j + 0.5) / kAzimuths;
             sum += z * radiance(glm::dvec3(r * std::cos(azimuth), r * std::sin(azimuth), z));
         }
     }
-    return sum * 2 * kPi / (kHeights * kAzimuths);
+    return sum * 2 * std::numbers::pi / (kHeights * kAzimuths);
 }
 
 TEST(ConeSet, FoundSetsHaveTheirCountAndWeightsThatSumToPi) {
@@ -85,7 +83,7 @@ TEST(ConeSet, FoundSetsHaveTheirCountAndWeightsThatSumToPi) {
             sum += double(cone.weight);
             mean += double(cone.weight) * glm::dvec3(cone.direction);
         }
-        EXPECT_NEAR(sum, kPi, 1e-5);
+        EXPECT_NEAR(sum, std::numbers::pi, 1e-5);
         // Even about the normal: light from one side counts as much as from another.
         EXPECT_NEAR(mean.x, 0, 1e-5);
         EXPECT_NEAR(mean.y, 0, 1e-5);
@@ -116,7 +114,7 @@ TEST(ConeSet, WeightsSumToPi) {
     for (const Named& named : kSets) {
         double sum = 0;
         for (const Cone& cone : coneSet(named.set, named.count)) sum += static_cast<double>(cone.weight);
-        EXPECT_NEAR(sum, kPi, 64 * 1e-7) << named.name;  // float rounding of 64 weights
+        EXPECT_NEAR(sum, std::numbers::pi, 64 * 1e-7) << named.name;  // float rounding of 64 weights
     }
 }
 
@@ -128,7 +126,7 @@ TEST(ConeSet, LinearSurroundingsAreExact) {
         const auto cones = coneSet(named.set, named.count);
         for (const glm::dvec3& gradient : gradients) {
             const auto radiance = [&](const glm::dvec3& w) { return 1 + glm::dot(gradient, w); };
-            const double exact = kPi + gradient.z * 2 * kPi / 3;
+            const double exact = std::numbers::pi + gradient.z * 2 * std::numbers::pi / 3;
             // Cells integrated in closed form, or with 3e-5 (fibonacciCells); floats; the mean's quadrature.
             EXPECT_NEAR(irradiance(cones, radiance), exact, 3e-4) << named.name;
         }
@@ -154,8 +152,9 @@ TEST(ConeSet, PolarConeFillsItsShare) {
     EXPECT_NEAR(coneSet(DiffuseSet::One, 1)[0].cosHalfAngle, 1.0 / 3, 1e-6);  // mean 2/3 of the cosine lobe
     double solidAngle = 0;
     for (const Cone& cone : coneSet(DiffuseSet::Fibonacci, 64))
-        solidAngle += 2 * kPi * (1 - static_cast<double>(cone.cosHalfAngle));
-    EXPECT_NEAR(solidAngle, 2 * kPi, 0.06 * 2 * kPi);  // cells are not round: their cones are a little wider
+        solidAngle += 2 * std::numbers::pi * (1 - static_cast<double>(cone.cosHalfAngle));
+    EXPECT_NEAR(solidAngle, 2 * std::numbers::pi,
+                0.06 * 2 * std::numbers::pi);  // cells are not round: their cones are a little wider
 }
 
 }  // namespace

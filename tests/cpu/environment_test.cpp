@@ -23,8 +23,6 @@
 namespace conelight::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 double brightness(const glm::vec3& c) { return static_cast<double>(c.r + c.g + c.b) / 3; }
 
 Scene under(std::shared_ptr<const EnvironmentImage> image, float rotation = 0, float strength = 1) {
@@ -51,7 +49,8 @@ double integral(const F& f, int rows = 512) {
                 environmentDirection({(static_cast<float>(x) + 0.5f) / static_cast<float>(2 * rows),
                                       (static_cast<float>(y) + 0.5f) / static_cast<float>(rows)});
             const double solidAngle =
-                kPi / rows * (std::cos(kPi * y / rows) - std::cos(kPi * (y + 1) / rows));
+                std::numbers::pi / rows *
+                (std::cos(std::numbers::pi * y / rows) - std::cos(std::numbers::pi * (y + 1) / rows));
             sum += f(d) * solidAngle;
         }
     return sum;
@@ -74,7 +73,7 @@ TEST(Environment, PlacesOfDirections) {
     auto image = evenEnvironment(64, glm::vec3(0));
     for (int y = 0; y < 32; ++y)
         for (int x = 31; x < 33; ++x) image->radiance[static_cast<std::size_t>(64 * y + x)] = glm::vec3(1);
-    const scene::Surroundings turned(under(image, static_cast<float>(kPi / 2), 3));
+    const scene::Surroundings turned(under(image, static_cast<float>(std::numbers::pi / 2), 3));
     EXPECT_NEAR(turned.radiance({-1, 0, 0}).r, 3, 1e-3);
     EXPECT_EQ(turned.radiance({0, 0, -1}).r, 0);
 }
@@ -121,7 +120,7 @@ TEST(Environment, ThePathTracerFindsASmallSun) {
         settings.estimator = estimator;
         const auto picture =
             reference::PathTracer(scene).render(cameraAbove({0, 0, 0}, 2, 1), 8, 8, settings);
-        EXPECT_NEAR(meanOf(picture.diffuse) / (0.6 * irradiance / kPi), 1, 0.01);
+        EXPECT_NEAR(meanOf(picture.diffuse) / (0.6 * irradiance / std::numbers::pi), 1, 0.01);
         double least = 1e30, most = 0;
         for (const glm::vec4& pixel : picture.diffuse.pixels) {
             least = std::min(least, static_cast<double>(pixel.r));

@@ -16,7 +16,6 @@ namespace conelight::reference {
 namespace {
 
 using Triple = std::array<double, 3>;
-constexpr double kPi = std::numbers::pi;
 
 struct Grid {
     int width = 0, height = 0;
@@ -72,7 +71,8 @@ double filtered(const Grid& grid, int x, int y, std::size_t channel, int radius,
 // Contrast sensitivity of a channel, the HPG paper's constants.
 double sensitivity(std::size_t channel, double degrees2) {
     const auto term = [&](double a, double b) {
-        return a * std::sqrt(kPi / b) * std::exp(-kPi * kPi * degrees2 / b);
+        return a * std::sqrt(std::numbers::pi / b) *
+               std::exp(-std::numbers::pi * std::numbers::pi * degrees2 / b);
     };
     return channel == 0   ? term(1, 0.0047)
            : channel == 1 ? term(1, 0.0053)
@@ -83,7 +83,8 @@ struct Eye {
     double pixelsPerDegree;
 
     Triple colorAt(const Grid& opponent, int x, int y) const {
-        const int radius = int(std::ceil(3 * std::sqrt(0.04 / (2 * kPi * kPi)) * pixelsPerDegree));
+        const int radius =
+            int(std::ceil(3 * std::sqrt(0.04 / (2 * std::numbers::pi * std::numbers::pi)) * pixelsPerDegree));
         Triple blurred;
         for (std::size_t c = 0; c < 3; ++c) {
             const auto weight = [&](int u, int v) {

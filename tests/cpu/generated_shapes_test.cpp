@@ -2,6 +2,8 @@
 // Shapes and textures of the generated scenes: exact normals on spheres and cylinders, closed solids,
 // promised triangle counts, tangents as normal maps expect them, textures without seams.
 #include "io/generated_shapes.h"
+
+#include <glm/gtc/constants.hpp>
 #include "io/generated_textures.h"
 
 #include <gtest/gtest.h>
@@ -16,8 +18,6 @@ namespace {
 
 namespace shapes = io::shapes;
 namespace textures = io::textures;
-
-constexpr float kPi = 3.14159265f;
 
 // Sum over all triangles of the signed tetrahedron volumes: that of the solid if its faces look outward.
 double signedVolume(const Mesh& mesh) {
@@ -62,7 +62,7 @@ TEST(GeneratedShapes, SphereIsClosedWithRadialNormals) {
     for (std::size_t i = 0; i < mesh.positions.size(); ++i)
         EXPECT_GT(glm::dot(mesh.normals[i], glm::normalize(mesh.positions[i] - centre)), 0.99999f);
     for (glm::vec3& p : mesh.positions) p -= centre;
-    EXPECT_NEAR(signedVolume(mesh), 4.0 / 3 * double(kPi) * 0.125, 0.01 * 0.5236);
+    EXPECT_NEAR(signedVolume(mesh), 4.0 / 3 * double(glm::pi<float>()) * 0.125, 0.01 * 0.5236);
 }
 
 TEST(GeneratedShapes, LatheFollowsItsProfile) {
@@ -74,7 +74,7 @@ TEST(GeneratedShapes, LatheFollowsItsProfile) {
                        64, 0.4f))
         shapes::appendPatch(mesh, patch);
     EXPECT_EQ(openEdges({mesh}), 0u);
-    EXPECT_NEAR(signedVolume(mesh), double(kPi) * 0.16 * 1.5, 0.005 * 0.754);
+    EXPECT_NEAR(signedVolume(mesh), double(glm::pi<float>()) * 0.16 * 1.5, 0.005 * 0.754);
     for (const glm::vec3& n : mesh.normals)
         EXPECT_TRUE(std::abs(std::abs(n.y) - 1) < 1e-4f || std::abs(n.y) < 1e-4f) << n.y;
 }

@@ -6,12 +6,12 @@
 
 #include "cpu/io_test_support.h"
 
+#include <glm/gtc/constants.hpp>
+
 namespace conelight {
 namespace {
 
 using namespace test;
-
-constexpr float kPi = 3.14159265f;
 
 Scene loadText(const std::string& text, const std::string& name = "scene") {
     return io::loadScene(write(folderOf("thesis") / (name + ".txt"), text));
@@ -47,7 +47,7 @@ TEST(Thesis, DefaultsOfModelMaterialAndLight) {
     EXPECT_EQ(m.phong->diffuseStrength, 1.0f);
     EXPECT_EQ(m.phong->specularStrength, 0.5f);
     ASSERT_EQ(scene.lights.size(), 1u);
-    expectNear(scene.lights[0].intensity, {kPi, kPi, kPi});
+    expectNear(scene.lights[0].intensity, {glm::pi<float>(), glm::pi<float>(), glm::pi<float>()});
     expectNear(scene.lights[0].position, {0, 0, 0});
     EXPECT_TRUE(scene.lights[0].customFalloff);
     expectNear(scene.lights[0].falloff, {1.0f, 0.15f, 0.45f});
@@ -194,13 +194,13 @@ TEST(Thesis, CamerasOfTheProgramAreAdded) {
     EXPECT_EQ(scene.cameras[1].name, "pos1");
     EXPECT_EQ(scene.cameras[2].name, "pos2");
     for (const Camera& camera : scene.cameras) {
-        EXPECT_FLOAT_EQ(camera.fovY, kPi / 4);
+        EXPECT_FLOAT_EQ(camera.fovY, glm::pi<float>() / 4);
         EXPECT_FLOAT_EQ(camera.zNear, 0.1f);
         EXPECT_FLOAT_EQ(camera.zFar, 100.0f);
     }
     expectNear(scene.cameras[0].eye, {0, 0, 3});
     expectNear(scene.cameras[2].target - scene.cameras[2].eye, {0, 0, -1});
-    const float yaw = -126 * kPi / 180, pitch = -4 * kPi / 180;
+    const float yaw = -126 * glm::pi<float>() / 180, pitch = -4 * glm::pi<float>() / 180;
     expectNear(scene.cameras[1].target - scene.cameras[1].eye,
                {std::cos(yaw) * std::cos(pitch), std::sin(pitch), std::sin(yaw) * std::cos(pitch)});
 }
@@ -222,7 +222,7 @@ scene = {
     expectNear(scene.sky, {0.1f, 0.2f, 0.3f});
     ASSERT_EQ(scene.cameras.size(), 2u) << "own cameras replace the program's";
     expectNear(scene.cameras[0].target, {0, 1, 0});
-    EXPECT_FLOAT_EQ(scene.cameras[0].fovY, kPi / 3);
+    EXPECT_FLOAT_EQ(scene.cameras[0].fovY, glm::pi<float>() / 3);
     expectNear(scene.cameras[1].target - scene.cameras[1].eye, {1, 0, 0});
     using Pair = std::pair<std::string, std::string>;
     EXPECT_EQ(scene.settings, (std::vector<Pair>{{"voxels", "128"}, {"thesis.defects.rings", "true"}}));
@@ -231,10 +231,10 @@ scene = {
     EXPECT_FALSE(scene.lights[0].customFalloff) << "a radiometric intensity falls by the inverse square";
     expectNear(scene.lights[0].intensity, {1, 2, 3});
     expectNear(scene.lights[0].direction, {0, 0, -1});
-    EXPECT_NEAR(scene.lights[0].innerAngle, 10 * kPi / 180, 1e-6);
-    EXPECT_NEAR(scene.lights[0].outerAngle, 20 * kPi / 180, 1e-6);
+    EXPECT_NEAR(scene.lights[0].innerAngle, 10 * glm::pi<float>() / 180, 1e-6);
+    EXPECT_NEAR(scene.lights[0].outerAngle, 20 * glm::pi<float>() / 180, 1e-6);
     EXPECT_EQ(scene.lights[1].type, LightType::Directional);
-    expectNear(scene.lights[1].intensity, {kPi, kPi, kPi});
+    expectNear(scene.lights[1].intensity, {glm::pi<float>(), glm::pi<float>(), glm::pi<float>()});
     EXPECT_EQ(scene.lights[2].type, LightType::Rect);
     EXPECT_NEAR(glm::length(scene.lights[2].halfU), 1.0f, 1e-6);
     EXPECT_NEAR(glm::length(scene.lights[2].halfV), 2.0f, 1e-6);

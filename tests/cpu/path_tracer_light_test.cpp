@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "reference/path_tracer.h"
 #include "support/truth_rig.h"
@@ -14,8 +15,6 @@ namespace conelight::test {
 namespace {
 
 using namespace reference;
-
-constexpr double kPi = 3.14159265358979;
 constexpr double kTolerance = 0.005;
 
 // A white diffuse floor at y = 0, 20 m wide.
@@ -41,7 +40,7 @@ double irradianceAt(const Scene& scene, const glm::vec3& point, PathTracerSettin
     const PathTracedPicture picture =
         PathTracer(scene).render(cameraAbove(point, 0.5f, width), 8, 8, settings);
     EXPECT_EQ(picture.badSamples, 0u);
-    return kPi * meanOf(picture.full);
+    return std::numbers::pi * meanOf(picture.full);
 }
 
 PathTracerSettings samples(int count, bool quads = true) {
@@ -97,12 +96,12 @@ TEST(PathTracerLight, SunFollowsTheCosine) {
 // Element to a parallel rectangle whose corner is above it, at distance 1 (Howell B-3).
 double cornerFactor(double x, double y) {
     const double rx = std::sqrt(1 + x * x), ry = std::sqrt(1 + y * y);
-    return (x / rx * std::atan(y / rx) + y / ry * std::atan(x / ry)) / (2 * kPi);
+    return (x / rx * std::atan(y / rx) + y / ry * std::atan(x / ry)) / (2 * std::numbers::pi);
 }
 
 // A rectangle 0.8 m x 1.2 m, 1 m above the floor, a corner of it above the origin.
 TEST(PathTracerLight, RectanglesAgreeWithTheClosedForm) {
-    const double truth = kPi * 2 * cornerFactor(0.8, 1.2);
+    const double truth = std::numbers::pi * 2 * cornerFactor(0.8, 1.2);
     Scene scene = floorScene();
     scene.lights.push_back(light(LightType::Rect, {0.4f, 1, 0.6f}, 2));
     scene.lights[0].halfU = {0.4f, 0, 0};
@@ -155,7 +154,7 @@ TEST(PathTracerLight, TexturedEmissionIsExactAtTheSample) {
     Material material = diffuseMaterial(glm::vec3(0), glm::vec3(2));
     material.emissiveTexture.texture = 0;
     addInstance(scene, std::move(mesh), material);
-    const double truth = kPi * 2 * cornerFactor(0.4, 1.2);
+    const double truth = std::numbers::pi * 2 * cornerFactor(0.4, 1.2);
     for (const Estimator estimator : {Estimator::Mis, Estimator::LightsOnly, Estimator::MaterialsOnly}) {
         PathTracerSettings settings = samples(4096);
         settings.estimator = estimator;
@@ -175,7 +174,7 @@ TEST(PathTracerLight, SphereAgreesWithTheClosedForm) {
             c(mesh.positions[mesh.indices[i + 2]]);
         area += 0.5 * glm::length(glm::cross(b - a, c - a));
     }
-    const auto scale = static_cast<float>(radius * std::sqrt(4 * kPi / area));
+    const auto scale = static_cast<float>(radius * std::sqrt(4 * std::numbers::pi / area));
     Scene scene = floorScene();
     glm::mat4 place(scale);
     place[3] = {0, distance, 0, 1};
@@ -192,10 +191,11 @@ TEST(PathTracerLight, SphereAgreesWithTheClosedForm) {
 // Mean irradiance on a unit square from another of radiance 1 is pi F (Howell C-11, C-14, both of edge 1).
 TEST(PathTracerLight, FormFactorsOfSquares) {
     const double s2 = std::sqrt(2.0);
-    const double parallel =
-        2 / kPi * (std::log(std::sqrt(4.0 / 3)) + 2 * s2 * std::atan(1 / s2) - 2 * std::atan(1.0));
+    const double parallel = 2 / std::numbers::pi *
+                            (std::log(std::sqrt(4.0 / 3)) + 2 * s2 * std::atan(1 / s2) - 2 * std::atan(1.0));
     const double perpendicular =
-        (2 * std::atan(1.0) - s2 * std::atan(1 / s2) + 0.25 * std::log(4.0 / 3 * 0.75 * 0.75)) / kPi;
+        (2 * std::atan(1.0) - s2 * std::atan(1 / s2) + 0.25 * std::log(4.0 / 3 * 0.75 * 0.75)) /
+        std::numbers::pi;
     EXPECT_NEAR(parallel, 0.19982, 1e-5);
     EXPECT_NEAR(perpendicular, 0.20004, 1e-5);
 
@@ -207,9 +207,11 @@ TEST(PathTracerLight, FormFactorsOfSquares) {
     addInstance(beside, receiver, diffuseMaterial());
     addInstance(beside, quadMesh({-0.5f, 0, 0.5f}, {0, 0, -1}, {0, 1, 0}), glow);
     for (const bool quads : {true, false}) {
-        EXPECT_NEAR(irradianceAt(above, {0, 0, 0}, samples(512, quads), 1) / kPi / parallel, 1, kTolerance);
-        EXPECT_NEAR(irradianceAt(beside, {0, 0, 0}, samples(512, quads), 1) / kPi / perpendicular, 1,
+        EXPECT_NEAR(irradianceAt(above, {0, 0, 0}, samples(512, quads), 1) / std::numbers::pi / parallel, 1,
                     kTolerance);
+        EXPECT_NEAR(
+            irradianceAt(beside, {0, 0, 0}, samples(512, quads), 1) / std::numbers::pi / perpendicular, 1,
+            kTolerance);
     }
 }
 
@@ -247,7 +249,7 @@ TEST(PathTracerLight, BlockersAreThoseOfTheFlags) {
         scene.instances.back().voxelized = voxelized;
         Camera camera = cameraAbove({0.2f, 0, 0}, 0.5f, 0.001f);  // below the blocker
         const PathTracedPicture picture = PathTracer(scene).render(camera, 4, 4, samples(256));
-        return std::pair(meanOf(picture.direct) * kPi > 0.9, meanOf(picture.indirect) > 0.9);
+        return std::pair(meanOf(picture.direct) * std::numbers::pi > 0.9, meanOf(picture.indirect) > 0.9);
     };
     EXPECT_EQ(lit(true, true, true), std::pair(false, false));
     EXPECT_EQ(lit(false, true, true), std::pair(true, false));

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <random>
 
 #include "math/brdf.h"
@@ -18,8 +19,6 @@ namespace conelight::test {
 namespace {
 
 using namespace reference;
-
-constexpr double kPi = 3.14159265358979;
 
 Mesh groundMesh(float half) { return quadMesh({-half, 0, half}, {2 * half, 0, 0}, {0, 0, -2 * half}); }
 
@@ -63,9 +62,9 @@ double specularQuadrature(const math::Brdf& brdf, const glm::vec3& toEye) {
         const double cosine = 1 / std::sqrt(1 + slope2), sine = std::sqrt(1 - cosine * cosine);
         // Density of h per solid angle of these points: D cos.
         const double d = cosine * cosine * (slope2 / (alpha * alpha) + 1);
-        const double density = cosine / (kPi * alpha * alpha * d * d);
+        const double density = cosine / (std::numbers::pi * alpha * alpha * d * d);
         for (int j = 0; j < kPhi; ++j) {
-            const double phi = 2 * kPi * (j + 0.5) / kPhi;
+            const double phi = 2 * std::numbers::pi * (j + 0.5) / kPhi;
             const glm::dvec3 h(sine * std::cos(phi), sine * std::sin(phi), cosine);
             const double VoH = glm::dot(glm::dvec3(toEye), h);
             if (VoH <= 0) continue;
@@ -126,7 +125,7 @@ TEST(PathTracerMaterial, SamplesFollowTheirDensity) {
                             static_cast<double>(reflection.evaluate(l).density);
             }
             // Integral of (1 + x) z over the hemisphere is pi.
-            EXPECT_NEAR(weighted / kSamples / kPi, 1, 0.02) << roughness << " " << z;
+            EXPECT_NEAR(weighted / kSamples / std::numbers::pi, 1, 0.02) << roughness << " " << z;
             EXPECT_GT(above / kSamples, 0.5);
         }
 }
@@ -182,7 +181,7 @@ TEST(PathTracerMaterial, MaskedTexelsAreNotThere) {
     // Below the blocker: light falls where x < 0. From above, the same half is seen through.
     for (const float height : {0.5f, 2.0f}) {
         const auto shown = [&](float x) {
-            return meanOf(render(scene, cameraAbove({x, 0, 0}, height, 0.01f), 2).direct) * kPi;
+            return meanOf(render(scene, cameraAbove({x, 0, 0}, height, 0.01f), 2).direct) * std::numbers::pi;
         };
         EXPECT_NEAR(shown(-0.5f), 3, 1e-4);
         EXPECT_NEAR(shown(0.5f), 0, 1e-6);
@@ -205,7 +204,7 @@ TEST(PathTracerMaterial, NormalMapsTurnTheNormal) {
     addInstance(scene, std::move(ground), material);
     for (const float angle : {0.0f, 0.3f}) {
         scene.lights.assign(1, sun({-std::sin(angle), -std::cos(angle), 0}, 2));
-        EXPECT_NEAR(meanOf(render(scene, cameraAbove({0, 0, 0}, 1, 0.01f), 2).direct) * kPi,
+        EXPECT_NEAR(meanOf(render(scene, cameraAbove({0, 0, 0}, 1, 0.01f), 2).direct) * std::numbers::pi,
                     2 * std::cos(0.5 - static_cast<double>(angle)), 0.01);  // 8 bits: 0.004 per component
     }
 }

@@ -2,6 +2,8 @@
 // Light probes: harmonics against integrals, a furnace, walls, the picture lit by them, the atlas of their maps.
 #include "reference/probes.h"
 
+#include <glm/gtc/constants.hpp>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,8 +21,6 @@ namespace {
 
 using namespace reference;
 
-constexpr float kPi = 3.14159265f;
-
 // A sum over the sphere, weighted by solid angle.
 template <class Visit>
 void overSphere(Visit visit) {
@@ -28,9 +28,10 @@ void overSphere(Visit visit) {
     for (int i = 0; i < kRows; ++i)
         for (int j = 0; j < kColumns; ++j) {
             const float z = 1 - 2 * (static_cast<float>(i) + 0.5f) / kRows;
-            const float phi = 2 * kPi * (static_cast<float>(j) + 0.5f) / kColumns;
+            const float phi = 2 * glm::pi<float>() * (static_cast<float>(j) + 0.5f) / kColumns;
             const float r = std::sqrt(1 - z * z);
-            visit(glm::vec3(r * std::cos(phi), r * std::sin(phi), z), 4 * kPi / (kRows * kColumns));
+            visit(glm::vec3(r * std::cos(phi), r * std::sin(phi), z),
+                  4 * glm::pi<float>() / (kRows * kColumns));
         }
 }
 
@@ -57,7 +58,7 @@ TEST(ProbesTest, HarmonicsGiveIrradianceOfASmoothSky) {
     });
     for (const glm::vec3& n :
          {glm::vec3(0, 1, 0), glm::vec3(0, -1, 0), glm::vec3(1, 0, 0), glm::vec3(0.6f, 0.8f, 0)})
-        EXPECT_NEAR(irradianceOf(harmonics, n).g, kPi + kPi / 3 * n.y, 0.01f);
+        EXPECT_NEAR(irradianceOf(harmonics, n).g, glm::pi<float>() + glm::pi<float>() / 3 * n.y, 0.01f);
 }
 
 TEST(ProbesTest, AFurnaceGivesTheSameEverywhere) {
@@ -69,12 +70,12 @@ TEST(ProbesTest, AFurnaceGivesTheSameEverywhere) {
     for (const Probe& probe : volume.probes) {
         ASSERT_TRUE(probe.active);
         for (const glm::vec3& n : {glm::vec3(0, 1, 0), glm::vec3(-1, 0, 0), glm::vec3(0, 0, 1)})
-            EXPECT_NEAR(irradianceOf(probe.harmonics, n).r / kPi, 2, 0.1);
-        for (const glm::vec3& texel : probe.irradiance) EXPECT_NEAR(texel.g / kPi, 2, 0.12);
+            EXPECT_NEAR(irradianceOf(probe.harmonics, n).r / glm::pi<float>(), 2, 0.1);
+        for (const glm::vec3& texel : probe.irradiance) EXPECT_NEAR(texel.g / glm::pi<float>(), 2, 0.12);
     }
     const glm::vec3 point = scene.bounds().min + 0.3f * scene.bounds().extent();
     for (const ProbeKind kind : {ProbeKind::Harmonics, ProbeKind::Octahedral})
-        EXPECT_NEAR(irradianceAt(volume, kind, point, {0, 1, 0}).b / kPi, 2, 0.1);
+        EXPECT_NEAR(irradianceAt(volume, kind, point, {0, 1, 0}).b / glm::pi<float>(), 2, 0.1);
 }
 
 TEST(ProbesTest, ProbesLeaveWallsOrAreOff) {

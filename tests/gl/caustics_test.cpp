@@ -14,8 +14,6 @@
 namespace conelight::test {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 Material clearGlass() {
     Material m;
     m.roughness = 0;
@@ -109,7 +107,7 @@ class CausticsTest : public GlTest {
 
 // All light that a lamp sends towards a ball in a closed box ends on the box, whatever kind of lamp it is.
 TEST_F(CausticsTest, NoLightIsLost) {
-    const double sine = 0.4 / 0.8, solidAngle = 2 * kPi * (1 - std::sqrt(1 - sine * sine));
+    const double sine = 0.4 / 0.8, solidAngle = 2 * std::numbers::pi * (1 - std::sqrt(1 - sine * sine));
     for (const LightType type : {LightType::Point, LightType::Directional, LightType::Rect}) {
         Scene scene = ballInBox();
         Light lamp;
@@ -120,9 +118,10 @@ TEST_F(CausticsTest, NoLightIsLost) {
         lamp.halfV = {0, 0, 0.01f};
         lamp.intensity = glm::vec3(10);
         scene.lights = {lamp};
-        const double expected = type == LightType::Point         ? 10 * solidAngle
-                                : type == LightType::Directional ? 10 * kPi * 0.4 * 0.4
-                                                                 : 10 * 0.0004 * kPi * sine * sine;
+        const double expected = type == LightType::Point ? 10 * solidAngle
+                                : type == LightType::Directional
+                                    ? 10 * std::numbers::pi * 0.4 * 0.4
+                                    : 10 * 0.0004 * std::numbers::pi * sine * sine;
         EXPECT_NEAR(fluxOf(cast(scene)) / expected, 1, 0.02) << static_cast<int>(type);
     }
 }
@@ -164,7 +163,7 @@ TEST_F(CausticsTest, LensGathersLightInItsFocus) {
             flux += beam.flux;
             squares += beam.flux * radius * radius;
         }
-        EXPECT_NEAR(flux / (kPi * 0.08 * 0.08), 0.92, 0.02) << focus;
+        EXPECT_NEAR(flux / (std::numbers::pi * 0.08 * 0.08), 0.92, 0.02) << focus;
         // An even disc's mean square is half that of its rim. A texel is 8 mm wide here.
         const double expected = 0.08 * std::abs(1 - 1 / static_cast<double>(focus)) / std::sqrt(2.0);
         EXPECT_NEAR(std::sqrt(squares / flux), expected, 0.006) << focus;

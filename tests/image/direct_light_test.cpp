@@ -3,6 +3,7 @@
 // forms, and the two classical faults of shadow maps: acne and peter-panning.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "gather/direct_light.h"
 #include "support/gl_fixture.h"
@@ -10,8 +11,6 @@
 
 namespace conelight::test {
 namespace {
-
-constexpr double kPi = 3.14159265358979;
 
 // White, and without specular lobe: radiance = irradiance / pi.
 Material lambert() {
@@ -56,7 +55,7 @@ class DirectLightTest : public GlTest {
         direct.diffuse().read(0, GL_RGBA, GL_FLOAT, pixels.data(), pixels.size() * sizeof(glm::vec4));
         std::vector<float> result;
         for (const glm::vec4& pixel : pixels)
-            result.push_back(pixel.a > 0 ? pixel.r * static_cast<float>(kPi) : -1.0f);
+            result.push_back(pixel.a > 0 ? pixel.r * static_cast<float>(std::numbers::pi) : -1.0f);
         return result;
     }
 
@@ -147,7 +146,7 @@ TEST_F(DirectLightTest, SunFollowsTheCosine) {
 // configuration B-4 of Howell's catalogue).
 double cornerFormFactor(double a, double b) {
     const double u = std::sqrt(1 + a * a), v = std::sqrt(1 + b * b);
-    return (a / u * std::atan(b / u) + b / v * std::atan(a / v)) / (2 * kPi);
+    return (a / u * std::atan(b / u) + b / v * std::atan(a / v)) / (2 * std::numbers::pi);
 }
 
 Light rectangle(const glm::vec3& position, const glm::vec3& direction, const glm::vec3& halfU,
@@ -172,7 +171,7 @@ TEST_F(DirectLightTest, RectangleAboveAParallelPlane) {
             return std::copysign(cornerFormFactor(std::abs(x) / c.y, std::abs(z) / c.y), x * z);
         };
         const double x0 = c.x - 0.5, x1 = c.x + 0.5, z0 = c.z - 0.3, z1 = c.z + 0.3;
-        return 4.0 * kPi * (f(x1, z1) - f(x0, z1) - f(x1, z0) + f(x0, z0));
+        return 4.0 * std::numbers::pi * (f(x1, z1) - f(x0, z1) - f(x1, z0) + f(x0, z0));
     });
 }
 
@@ -353,7 +352,7 @@ TEST_F(DirectLightTest, PenumbrasAreEvenForEdgesOfAnyDirection) {
     const Camera camera = cameraAt({0, 0.45f, 0.35f}, {0, 0, 0});
     double worst = 0;
     for (int degrees = 0; degrees < 180; degrees += 15) {
-        const double angle = degrees * kPi / 180;
+        const double angle = degrees * std::numbers::pi / 180;
         const glm::dvec3 open(std::cos(angle), 0, std::sin(angle));  // the side that is not covered
         const glm::vec3 edge(-open.z, 0, open.x);
         Scene scene;

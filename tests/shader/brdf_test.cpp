@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "gl/pass.h"
 #include "support/gl_fixture.h"
 
 namespace conelight::test {
 namespace {
-
-constexpr double kPi = 3.14159265358979;
 
 // Share of light that the lobe sends from a uniform environment to an eye at `NoV`, by the midpoint rule over
 // the half vector's distribution: theta of the half vector is spaced by the GGX distribution, so that narrow
@@ -26,9 +25,9 @@ glm::dvec3 reflectedOfFurnace(const math::Brdf& brdf, double NoV) {
         const double u = (i + 0.5) / rings;
         const double cos2 = (1 - u) / (1 + (a2 - 1) * u);
         const double cosTheta = std::sqrt(cos2), sinTheta = std::sqrt(1 - cos2);
-        const double d = a2 / (kPi * std::pow(cos2 * (a2 - 1) + 1, 2));
+        const double d = a2 / (std::numbers::pi * std::pow(cos2 * (a2 - 1) + 1, 2));
         for (int j = 0; j < sectors; ++j) {
-            const double phi = 2 * kPi * (j + 0.5) / sectors;
+            const double phi = 2 * std::numbers::pi * (j + 0.5) / sectors;
             const glm::dvec3 h(sinTheta * std::cos(phi), sinTheta * std::sin(phi), cosTheta);
             const double VoH = glm::dot(eye, h);
             const glm::dvec3 l = 2 * VoH * h - eye;

@@ -23,10 +23,9 @@
 namespace conelight::test {
 namespace {
 
-using nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-constexpr auto kPatience = std::chrono::seconds(900);  // for one answer: only what hangs gets there
+constexpr auto kAnswerPatience = std::chrono::seconds(900);  // for one answer: only what hangs gets there
 
 [[noreturn]] void fail(const std::string& what) { throw std::runtime_error("browser: " + what); }
 
@@ -49,8 +48,8 @@ constexpr auto kPatience = std::chrono::seconds(900);  // for one answer: only w
 
 const char* codeOf(const std::string& key) { return key == " " ? "Space" : key.c_str(); }
 
-json keyEvent(const std::string& type, const std::string& key) {
-    json event = {{"type", type}, {"key", key}, {"code", codeOf(key)}};
+nlohmann::json keyEvent(const std::string& type, const std::string& key) {
+    nlohmann::json event = {{"type", type}, {"key", key}, {"code", codeOf(key)}};
     const bool isCharacter = key.size() == 1;
     if (isCharacter && type == "keyDown") event["text"] = key;
     const std::pair<const char*, int> codes[] = {
@@ -60,7 +59,7 @@ json keyEvent(const std::string& type, const std::string& key) {
     return event;
 }
 
-json mouseEvent(const std::string& type, double x, double y, bool pressed) {
+nlohmann::json mouseEvent(const std::string& type, double x, double y, bool pressed) {
     return {{"type", type},
             {"x", x},
             {"y", y},
@@ -116,8 +115,8 @@ Browser::Browser(const std::string& program, int width, int height) {
     fromBrowser_ = from[0];
 
     try {
-        const json target = call("Target.createTarget", {{"url", "about:blank"}});
-        const json attached =
+        const nlohmann::json target = call("Target.createTarget", {{"url", "about:blank"}});
+        const nlohmann::json attached =
             call("Target.attachToTarget", {{"targetId", target["targetId"]}, {"flatten", true}});
         session_ = attached["sessionId"];
         for (const char* domain : {"Page", "Runtime", "Log", "Network"})
@@ -145,12 +144,12 @@ void Browser::stop() {
     std::filesystem::remove_all(profile_, ignored);
 }
 
-json Browser::receive() {
-    const auto end = Clock::now() + kPatience;
+nlohmann::json Browser::receive() {
+    const auto end = Clock::now() + kAnswerPatience;
     for (;;) {
         const std::size_t zero = received_.find('\0');
         if (zero != std::string::npos) {
-            const json message = json::parse(received_.substr(0, zero));
+            const nlohmann::json message = nlohmann::json::parse(received_.substr(0, zero));
             received_.erase(0, zero + 1);
             return message;
         }
@@ -164,8 +163,8 @@ json Browser::receive() {
     }
 }
 
-json Browser::call(const std::string& method, const json& parameters) {
-    json message = {{"id", ++lastId_}, {"method", method}, {"params", parameters}};
+nlohmann::json Browser::call(const std::string& method, const nlohmann::json& parameters) {
+    nlohmann::json message = {{"id", ++lastId_}, {"method", method}, {"params", parameters}};
     if (!session_.empty()) message["sessionId"] = session_;
     std::string text = message.dump();
     text += '\0';
@@ -175,7 +174,7 @@ json Browser::call(const std::string& method, const json& parameters) {
         sent += static_cast<std::size_t>(count);
     }
     for (;;) {
-        const json answer = receive();
+        const nlohmann::json answer = receive();
         if (answer.value("id", 0) != lastId_) {
             noteEvent(answer);
             continue;
@@ -185,9 +184,9 @@ json Browser::call(const std::string& method, const json& parameters) {
     }
 }
 
-void Browser::noteEvent(const json& event) {
+void Browser::noteEvent(const nlohmann::json& event) {
     const std::string method = event.value("method", "");
-    const json parameters = event.value("params", json::object());
+    const nlohmann::json parameters = event.value("params", nlohmann::json::object());
     if (method == "Page.loadEventFired") loaded_ = true;
     if (method == "Network.requestWillBeSent") requests_.push_back(parameters["request"]["url"]);
     if (method == "Runtime.exceptionThrown") problems_.push_back(parameters["exceptionDetails"].dump());
@@ -198,20 +197,20 @@ void Browser::noteEvent(const json& event) {
 
 void Browser::open(const std::string& url) {
     loaded_ = false;
-    const json result = call("Page.navigate", {{"url", url}});
+    const nlohmann::json result = call("Page.navigate", {{"url", url}});
     if (result.contains("errorText")) fail(url + ": " + result["errorText"].dump());
     while (!loaded_) noteEvent(receive());
 }
 
-json Browser::evaluate(const std::string& expression) {
-    const json result = call("Runtime.evaluate",
-                             {{"expression", expression}, {"returnByValue", true}, {"awaitPromise", true}});
+nlohmann::json Browser::evaluate(const std::string& expression) {
+    const nlohmann::json result = call(
+        "Runtime.evaluate", {{"expression", expression}, {"returnByValue", true}, {"awaitPromise", true}});
     if (result.contains("exceptionDetails")) fail(expression + ": " + result["exceptionDetails"].dump());
-    return result["result"].value("value", json());
+    return result["result"].value("value", nlohmann::json());
 }
 
 void Browser::waitFor(const std::string& expression) {
-    const auto end = Clock::now() + kPatience;
+    const auto end = Clock::now() + kAnswerPatience;
     while (evaluate("Boolean(" + expression + ")") != true) {
         if (Clock::now() > end) fail("waited in vain for " + expression);
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
@@ -241,7 +240,8 @@ void Browser::typeKey(const std::string& key) {
 }
 
 void Browser::screenshot(const std::string& path) {
-    const json result = call("Page.captureScreenshot", {{"format", "png"}, {"captureBeyondViewport", true}});
+    const nlohmann::json result =
+        call("Page.captureScreenshot", {{"format", "png"}, {"captureBeyondViewport", true}});
     const std::optional<io::Bytes> bytes = io::base64Decoded(result["data"].get<std::string>());
     if (!bytes) fail("sends no picture");
     io::writeFile(path, *bytes);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "support/soft_shadow_rig.h"
 
+#include <glm/gtc/constants.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +11,6 @@
 namespace conelight::test {
 namespace {
 
-constexpr float kPi = 3.14159265f;
 const glm::vec3 kLamp(0, 2, 0);
 const glm::vec3 kLookedAt(0.8f, 0, 0);  // where the plate's shadow lies
 
@@ -33,7 +34,8 @@ Scene plateScene(bool withPlate) {
 }
 
 Light lampOf(float aperture) {
-    const float side = std::sqrt(kPi) * std::tan(0.5f * aperture) * glm::distance(kLamp, kLookedAt);
+    const float side =
+        std::sqrt(glm::pi<float>()) * std::tan(0.5f * aperture) * glm::distance(kLamp, kLookedAt);
     Light light;
     light.type = LightType::Rect;
     light.position = kLamp;

@@ -16,7 +16,7 @@
 namespace conelight::test {
 namespace {
 
-constexpr double kPatience = 900;  // s: only what hangs gets there
+constexpr double kEventPatience = 900;  // s: only what hangs gets there
 
 class Client {
   public:
@@ -63,7 +63,7 @@ class Client {
 
     // The next event of this type (and, of client messages, of this kind).
     bool wait(int type, Atom kind, XEvent& event) const {
-        const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(kPatience);
+        const auto until = std::chrono::steady_clock::now() + std::chrono::duration<double>(kEventPatience);
         while (std::chrono::steady_clock::now() < until) {
             while (XPending(display_) > 0) {
                 XNextEvent(display_, &event);

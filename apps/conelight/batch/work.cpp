@@ -31,7 +31,7 @@ struct Running {
     Clock::time_point since;
 };
 
-double secondsSince(Clock::time_point since) {
+double secondsFrom(Clock::time_point since) {
     return std::chrono::duration<double>(Clock::now() - since).count();
 }
 
@@ -116,7 +116,7 @@ class Work {
 
     void finish(const Running& ended, int status) {
         const BatchTask& task = tasks_[ended.task];
-        const double seconds = secondsSince(ended.since);
+        const double seconds = secondsFrom(ended.since);
         std::string why = failureOf(status, folder_.logOf(task));
         try {
             if (why.empty()) folder_.take(task, ended.partial, seconds);
@@ -142,7 +142,7 @@ class Work {
         for (const Running& running : running_) {
             const Clock::time_point since = Clock::now();
             while (::waitpid(running.process, nullptr, WNOHANG) == 0) {
-                if (secondsSince(since) > 5) ::kill(running.process, SIGKILL);
+                if (secondsFrom(since) > 5) ::kill(running.process, SIGKILL);
                 std::this_thread::sleep_for(std::chrono::milliseconds(5));
             }
             std::error_code ignored;

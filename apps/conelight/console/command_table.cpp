@@ -11,11 +11,10 @@
 #include "console/console.h"
 #include "console/names.h"
 #include "console/statements.h"
+#include "session/usage.h"
 
 namespace conelight::program {
 namespace {
-
-[[noreturn]] void usage(const std::string& message) { throw Error(ErrorKind::Usage, message); }
 
 std::string joined(const std::vector<std::string>& words) {
     std::string text;

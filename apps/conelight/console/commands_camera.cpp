@@ -10,24 +10,23 @@
 #include "console/console.h"
 #include "console/names.h"
 #include "session/lens_range.h"
+#include "session/usage.h"
 
 namespace conelight::program {
 namespace {
 
-std::string text(const glm::vec3& v) { return fmt::format("{:.9g} {:.9g} {:.9g}", v.x, v.y, v.z); }
+std::string exactText(const glm::vec3& v) { return fmt::format("{:.9g} {:.9g} {:.9g}", v.x, v.y, v.z); }
 
 void printCamera(const CommandContext& context, const Camera& camera) {
     context.print(fmt::format("camera {}", camera.name.empty() ? "(free)" : camera.name));
-    context.print("  eye    " + text(camera.eye) + " m");
-    context.print("  target " + text(camera.target) + " m");
-    context.print("  up     " + text(camera.up));
+    context.print("  eye    " + exactText(camera.eye) + " m");
+    context.print("  target " + exactText(camera.target) + " m");
+    context.print("  up     " + exactText(camera.up));
     context.print(fmt::format("  fov    {:.6g} deg", glm::degrees(camera.fovY)));
     if (camera.lensDiameter > 0)
         context.print(
             fmt::format("  lens   {:.6g} m, focus at {:.6g} m", camera.lensDiameter, camera.focus()));
 }
-
-[[noreturn]] void usage(const std::string& message) { throw Error(ErrorKind::Usage, message); }
 
 // `count` numbers behind the first word.
 std::vector<double> numbers(const CommandContext& context, std::size_t count, const char* usageText) {
@@ -78,7 +77,7 @@ void list(const CommandContext& context) {
     const std::vector<Camera>& cameras = context.session.scene().cameras;
     for (std::size_t i = 0; i < cameras.size(); ++i)
         context.print(fmt::format("{:3} {:<20} eye {}  target {}  fov {:.4g} deg", i, cameras[i].name,
-                                  text(cameras[i].eye), text(cameras[i].target),
+                                  exactText(cameras[i].eye), exactText(cameras[i].target),
                                   glm::degrees(cameras[i].fovY)));
 }
 

@@ -5,13 +5,12 @@
 #include "conelight/error.h"
 #include "console/console.h"
 #include "io/animation.h"
+#include "session/usage.h"
 
 namespace conelight::program {
 namespace {
 
-[[noreturn]] void usage(const std::string& message) { throw Error(ErrorKind::Usage, message); }
-
-void list(const CommandContext& context) {
+void listClips(const CommandContext& context) {
     const Session& session = context.session;
     const ClipState& state = session.clipState();
     if (session.clips().empty()) return context.print("nothing moves in this scene");
@@ -43,7 +42,7 @@ double seconds(const CommandContext& context) {
 void clip(const CommandContext& context) {
     Session& session = context.session;
     const std::string word = context.count() > 0 ? context.words[0] : "list";
-    if (word == "list") return list(context);
+    if (word == "list") return listClips(context);
     if (word == "play") return session.playClip(named(context));
     if (word == "stop") return session.stopClip();
     if (word == "rest") return session.restClip();

@@ -10,13 +10,10 @@
 #include "console/names.h"
 #include "io/scene_info.h"
 #include "session/light_edit.h"
+#include "session/usage.h"
 
 namespace conelight::program {
 namespace {
-
-[[noreturn]] void usage(const std::string& message) { throw Error(ErrorKind::Usage, message); }
-
-std::string text(const glm::vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
 
 constexpr LightType kTypes[] = {LightType::Point, LightType::Spot, LightType::Directional, LightType::Rect};
 
@@ -24,10 +21,10 @@ void printLight(const CommandContext& context, std::size_t index) {
     const Light& light = context.session.scene().lights[index];
     std::string line =
         fmt::format("{:3} {:<16} {:<11} intensity {} {}", index, light.name, io::lightTypeName(light.type),
-                    text(light.intensity), io::lightUnit(light.type));
-    if (const auto flux = radiantFlux(light)) line += "  flux " + text(*flux) + " W";
-    if (light.type != LightType::Directional) line += "  at " + text(light.position);
-    if (light.type != LightType::Point) line += "  direction " + text(light.direction);
+                    textOf(light.intensity), io::lightUnit(light.type));
+    if (const auto flux = radiantFlux(light)) line += "  flux " + textOf(*flux) + " W";
+    if (light.type != LightType::Directional) line += "  at " + textOf(light.position);
+    if (light.type != LightType::Point) line += "  direction " + textOf(light.direction);
     if (light.type == LightType::Spot)
         line += fmt::format("  angles {:.4g} {:.4g} deg", glm::degrees(light.innerAngle),
                             glm::degrees(light.outerAngle));
@@ -35,7 +32,7 @@ void printLight(const CommandContext& context, std::size_t index) {
         line +=
             fmt::format("  size {:.4g} {:.4g} m", 2 * glm::length(light.halfU), 2 * glm::length(light.halfV));
     if (light.range > 0) line += fmt::format("  range {:.4g} m", light.range);
-    if (light.customFalloff) line += "  falloff " + text(light.falloff);
+    if (light.customFalloff) line += "  falloff " + textOf(light.falloff);
     if (!light.castsShadow) line += "  no shadows";
     if (!light.enabled) line += "  off";
     context.print(line);
@@ -146,7 +143,7 @@ void change(Light& light, const std::string& what, std::vector<std::string> word
     }
 }
 
-void add(const CommandContext& context) {
+void addLight(const CommandContext& context) {
     if (context.count() < 2 || context.count() > 3)
         usage(
             "light add: takes a type and a name; light add point|spot|directional|rect [NAME] would be "
@@ -166,7 +163,7 @@ void add(const CommandContext& context) {
 void light(const CommandContext& context) {
     Session& session = context.session;
     if (context.count() == 0) return printLights(context);
-    if (context.words[0] == "add") return add(context);
+    if (context.words[0] == "add") return addLight(context);
     std::vector<std::string> words = context.words;
     if (words[0] == "delete" && words.size() == 2) std::swap(words[0], words[1]);
     requireName("light", "light", lightNames(session), words[0]);

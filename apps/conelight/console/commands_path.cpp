@@ -4,13 +4,11 @@
 
 #include "conelight/error.h"
 #include "console/console.h"
+#include "console/names.h"
+#include "session/usage.h"
 
 namespace conelight::program {
 namespace {
-
-[[noreturn]] void usage(const std::string& message) { throw Error(ErrorKind::Usage, message); }
-
-std::string text(const glm::vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
 
 // At least `few` and at most `many` words behind the first.
 void takes(const CommandContext& context, std::size_t few, std::size_t many, const char* right) {
@@ -42,17 +40,17 @@ const CameraPath& pathWithKeys(const CommandContext& context) {
     return path;
 }
 
-void list(const CommandContext& context) {
+void listPath(const CommandContext& context) {
     const CameraPath& path = context.session.cameraPath();
     if (path.empty()) return context.print("the camera path has no keys; `path add` keeps this view as one");
     for (std::size_t i = 0; i < path.keys().size(); ++i) {
         const auto& [time, camera] = path.keys()[i];
         context.print(fmt::format("{:3} {:>8.3f} s  eye {}  target {}  fov {:.4g} deg", i, time,
-                                  text(camera.eye), text(camera.target), glm::degrees(camera.fovY)));
+                                  textOf(camera.eye), textOf(camera.target), glm::degrees(camera.fovY)));
     }
 }
 
-void add(const CommandContext& context) {
+void addToPath(const CommandContext& context) {
     takes(context, 0, 1, "add [SECONDS]");
     CameraPath path = context.session.cameraPath();
     const double time = context.count() > 1 ? seconds(context, 0) : path.empty() ? 0 : path.end() + 1;
@@ -63,7 +61,7 @@ void add(const CommandContext& context) {
     context.print(fmt::format("key at {:g} s, {} in all", time, path.keys().size()));
 }
 
-void remove(const CommandContext& context) {
+void removeFromPath(const CommandContext& context) {
     takes(context, 1, 1, "remove NUMBER");
     CameraPath path = pathWithKeys(context);
     const double given = numberFrom("path remove", context.words[1]);
@@ -85,9 +83,9 @@ void play(const CommandContext& context) {
 void path(const CommandContext& context) {
     Session& session = context.session;
     const std::string word = context.count() > 0 ? context.words[0] : "list";
-    if (word == "list") return list(context);
-    if (word == "add") return add(context);
-    if (word == "remove") return remove(context);
+    if (word == "list") return listPath(context);
+    if (word == "add") return addToPath(context);
+    if (word == "remove") return removeFromPath(context);
     if (word == "clear") return session.setCameraPath({}, "path clear");
     if (word == "play") return play(context);
     if (word == "stop") return session.stopPlaying();

@@ -5,11 +5,10 @@
 #include "conelight/error.h"
 #include "conelight/quality.h"
 #include "console/console.h"
+#include "session/usage.h"
 
 namespace conelight::program {
 namespace {
-
-[[noreturn]] void usage(const std::string& message) { throw Error(ErrorKind::Usage, message); }
 
 void quality(const CommandContext& context) {
     if (context.count() > 0) {

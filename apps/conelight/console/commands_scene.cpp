@@ -16,13 +16,10 @@
 #include "io/image_file.h"
 #include "session/material_edit.h"
 #include "session/save.h"
+#include "session/usage.h"
 
 namespace conelight::program {
 namespace {
-
-[[noreturn]] void usage(const std::string& message) { throw Error(ErrorKind::Usage, message); }
-
-std::string text(const glm::vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
 
 void listObjects(const CommandContext& context) {
     const Scene& scene = context.session.scene();
@@ -33,7 +30,7 @@ void listObjects(const CommandContext& context) {
         const std::string material =
             one.material < 0 ? "-" : scene.materials[static_cast<std::size_t>(one.material)].name;
         context.print(fmt::format("{:3} {:<20} {:>9} triangles  material {:<16} at {}{}{}{}", i, one.name,
-                                  triangles, material, text(glm::vec3(one.worldFromObject[3])),
+                                  triangles, material, textOf(glm::vec3(one.worldFromObject[3])),
                                   one.visible ? "" : "  hidden", one.voxelized ? "" : "  not voxelized",
                                   one.dynamic ? "  dynamic" : ""));
     }
@@ -45,12 +42,12 @@ void listMaterials(const CommandContext& context) {
         const Material& one = materials[i];
         const glm::vec3 color = one.phong ? one.phong->color : glm::vec3(one.baseColor);
         context.print(fmt::format("{:3} {:<20} color {}  roughness {:.3g}  metallic {:.3g}{}", i, one.name,
-                                  text(color), one.roughness, one.metallic,
-                                  one.emission == glm::vec3(0) ? "" : "  emission " + text(one.emission)));
+                                  textOf(color), one.roughness, one.metallic,
+                                  one.emission == glm::vec3(0) ? "" : "  emission " + textOf(one.emission)));
     }
 }
 
-void list(const CommandContext& context) {
+void listScene(const CommandContext& context) {
     const std::string what = context.count() > 0 ? context.words[0] : "objects";
     if (what == "objects") listObjects(context);
     if (what == "materials") listMaterials(context);
@@ -175,7 +172,7 @@ void change(Material& material, const CommandContext& context) {
 
 void printMaterial(const CommandContext& context, const Material& m) {
     context.print("material " + m.name);
-    context.print(fmt::format("  color {}  opacity {:.6g}{}", text(glm::vec3(m.baseColor)), m.baseColor.a,
+    context.print(fmt::format("  color {}  opacity {:.6g}{}", textOf(glm::vec3(m.baseColor)), m.baseColor.a,
                               m.baseColorTexture.used() ? "  times a texture" : ""));
     context.print(fmt::format("  roughness {:.6g}  metallic {:.6g}  ior {:.6g}  specular {:.6g}", m.roughness,
                               m.metallic, m.ior, m.specular));
@@ -183,13 +180,13 @@ void printMaterial(const CommandContext& context, const Material& m) {
         context.print(
             fmt::format("  transmission {:.6g}  thickness {:.6g} m  attenuation_color {}"
                         "  attenuation_distance {:.6g} m",
-                        m.transmission, m.thickness, text(m.attenuationColor), m.attenuationDistance));
-    context.print(fmt::format("  emission {} W/(sr m^2)", text(m.emission)));
+                        m.transmission, m.thickness, textOf(m.attenuationColor), m.attenuationDistance));
+    context.print(fmt::format("  emission {} W/(sr m^2)", textOf(m.emission)));
     const PhongMaterial phong = phongOf(m);
     context.print(
         fmt::format("  Phong{}: color {}  shininess {:.6g}  ambient_str {:.6g}  diffuse_str {:.6g}"
                     "  specular_str {:.6g}",
-                    m.phong ? "" : " (derived)", text(phong.color), phong.shininess, phong.ambientStrength,
+                    m.phong ? "" : " (derived)", textOf(phong.color), phong.shininess, phong.ambientStrength,
                     phong.diffuseStrength, phong.specularStrength));
     context.print(
         fmt::format("  double_sided {}  unlit {}", m.doubleSided ? "on" : "off", m.unlit ? "on" : "off"));
@@ -225,7 +222,7 @@ void material(const CommandContext& context) {
 
 void sky(const CommandContext& context) {
     if (context.count() == 0)
-        return context.print("sky: " + text(context.session.scene().sky) + " W/(sr m^2)");
+        return context.print("sky: " + textOf(context.session.scene().sky) + " W/(sr m^2)");
     if (context.count() != 1 && context.count() != 3)
         usage(fmt::format("sky: takes 1 or 3 numbers, got {}; sky R G B would be right", context.count()));
     glm::vec3 color(0);
@@ -287,7 +284,7 @@ CommandGroup sceneCommands() {
                       0,
                       0,
                       {"objects", "materials", "lights", "cameras", "modes"}}},
-                    "what there is, with its numbers", list, "Without WHAT: objects."),
+                    "what there is, with its numbers", listScene, "Without WHAT: objects."),
             command("select", {{"NAME", ArgumentKind::Selectable}},
                     "choose an object, light or material, or none", select),
             command("material",

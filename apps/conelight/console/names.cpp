@@ -41,6 +41,8 @@ std::vector<std::size_t> named(const std::vector<T>& things, const std::string& 
 
 }  // namespace
 
+std::string textOf(const glm::vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
+
 std::vector<std::string> objectNames(const Session& s) { return namesOf(s.scene().instances); }
 std::vector<std::string> materialNames(const Session& s) { return namesOf(s.scene().materials); }
 std::vector<std::string> lightNames(const Session& s) { return namesOf(s.scene().lights); }

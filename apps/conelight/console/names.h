@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "session/session.h"
 
 namespace conelight::program {
@@ -25,5 +27,7 @@ std::vector<std::size_t> camerasNamed(const Session& session, const std::string&
 // number below the count.
 void requireName(const std::string& command, const std::string& thing, const std::vector<std::string>& names,
                  const std::string& word);
+
+std::string textOf(const glm::vec3& v);  // three numbers, six digits
 
 }  // namespace conelight::program

@@ -9,7 +9,7 @@
 namespace conelight::figures {
 namespace {
 
-constexpr const char* kScene = "builtin:mirror-hall";
+constexpr const char* kHall = "builtin:mirror-hall";
 
 Panel svgPanel(const std::string& label, const std::string& text) {
     return {label, ".svg", {text.begin(), text.end()}};
@@ -38,7 +38,7 @@ Panels drawBeams(Studio&) {
 
 Panels renderMirrorHall(Studio& studio) {
     program::PictureRequest request =
-        studio.requestOf({.scene = kScene, .mode = "beams"}, studio.scene(kScene));
+        studio.requestOf({.scene = kHall, .mode = "beams"}, studio.scene(kHall));
     const auto draw = [&](const std::string& mode, reference::PixelFilter filter, reference::Paths paths) {
         request.mode = mode;
         request.reference.filter = filter;

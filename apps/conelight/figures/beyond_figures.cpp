@@ -6,7 +6,7 @@
 namespace conelight::figures {
 namespace {
 
-const Figure kFigures[] = {
+const Figure kBeyondFigures[] = {
     {"B01", "Beams and their tree",
      "No figure of the thesis: the beam tracing that its section 3.4.3 describes",
      "Above a room with two mirrors from above, traced by mode `beams`. The beam of the eye (1) ends on what "
@@ -27,6 +27,6 @@ const Figure kFigures[] = {
 
 }  // namespace
 
-std::span<const Figure> beyondFigures() { return kFigures; }
+std::span<const Figure> beyondFigures() { return kBeyondFigures; }
 
 }  // namespace conelight::figures

@@ -15,7 +15,7 @@
 namespace conelight::figures {
 namespace {
 
-constexpr const char* kScene = "builtin:cornell";
+constexpr const char* kRoom = "builtin:cornell";
 constexpr const char* kModes[] = {"phong", "radiosity", "beams",  "thesis",
                                   "cones", "hybrid",    "traced", "reference"};
 
@@ -25,7 +25,7 @@ constexpr int kLargest = 256;
 program::PictureRequest requestOf(const Studio& studio, const std::string& mode, int samples,
                                   const Scene& scene) {
     program::PictureRequest request =
-        studio.requestOf(Shot{.scene = kScene, .mode = mode, .samples = samples}, scene);
+        studio.requestOf(Shot{.scene = kRoom, .mode = mode, .samples = samples}, scene);
     request.size = {std::min(request.size.width, kLargest), std::min(request.size.height, kLargest)};
     return request;
 }
@@ -96,7 +96,7 @@ void drawBars(Drawing& d, double x, const std::string& title, const std::vector<
 }  // namespace
 
 Panels plotComparison(Studio& studio) {
-    const Scene scene = studio.scene(kScene);
+    const Scene scene = studio.scene(kRoom);
     studio.restart();
     program::PictureRequest request = requestOf(studio, "reference", 512, scene);
     request.reference.seed = 2;  // other noise than the one that is measured
@@ -128,7 +128,7 @@ Panels plotComparison(Studio& studio) {
         d.text({1120, 40.0 * double(i) + 16}, rows[i].moving,
                {.size = 13, .anchor = Anchor::Start, .colour = colour::kNote});
     d.text({-110, 40.0 * double(rows.size()) + 30},
-           fmt::format("{}, {} x {}, against {} samples per pixel; scales are logarithmic; {}", kScene,
+           fmt::format("{}, {} x {}, against {} samples per pixel; scales are logarithmic; {}", kRoom,
                        request.size.width, request.size.height, request.reference.samplesPerPixel, device),
            {.size = 12, .anchor = Anchor::Start, .colour = colour::kNote});
     nlohmann::ordered_json json = nlohmann::ordered_json::array();

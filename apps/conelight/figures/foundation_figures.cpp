@@ -7,7 +7,7 @@
 namespace conelight::figures {
 namespace {
 
-const Figure kFigures[] = {
+const Figure kFoundationFigures[] = {
     {"F01", "What it is good for", "A collage of demonstrations of voxel cone tracing",
      "Scenes of this project in its own modes: a sunlit courtyard, a box with a lamp, a parlour, glass "
      "on a table.",
@@ -97,6 +97,6 @@ const Figure kFigures[] = {
 
 }  // namespace
 
-std::span<const Figure> foundationFigures() { return kFigures; }
+std::span<const Figure> foundationFigures() { return kFoundationFigures; }
 
 }  // namespace conelight::figures

@@ -12,7 +12,7 @@
 namespace conelight::figures {
 namespace {
 
-constexpr const char* kScene = "builtin:thesis-complex";
+constexpr const char* kComplexRoom = "builtin:thesis-complex";
 constexpr std::array<int, 3> kSizes = {64, 128, 256};
 constexpr std::array<double, 3> kPrintedStill = {0.01666, 0.0313, 0.1274};
 constexpr std::array<double, 3> kPrintedDynamic = {0.02039, 0.06301, 0.33401};
@@ -31,7 +31,7 @@ struct Cell {
 };
 
 Cell measure(Studio& studio, const Scene& scene, int voxels, bool published, bool dynamic) {
-    Shot shot{.scene = kScene,
+    Shot shot{.scene = kComplexRoom,
               .mode = "thesis",
               .camera = "pos2",
               .settings = {{"thesis.published", published ? "true" : "false"}},
@@ -93,7 +93,7 @@ std::string rowOf(const Cell& cell, const Others& others) {
 }
 
 Panels tableOf(Studio& studio, bool dynamic) {
-    const Scene scene = studio.scene(kScene);
+    const Scene scene = studio.scene(kComplexRoom);
     studio.restart();
     // The context lives in a source of its own: cells are renderers of their own.
     const std::unique_ptr<platform::HeadlessContext> context = program::openContext(studio.view());
@@ -105,11 +105,11 @@ Panels tableOf(Studio& studio, bool dynamic) {
         "| voxels | variant | frames | s per frame | frames/s | CPU ms | GPU ms | thesis: s | thesis: "
         "frames/s | original: CPU ms |\n"
         "|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|\n",
-        dynamic ? 2 : 1, kScene, studio.size().width, studio.size().height,
+        dynamic ? 2 : 1, kComplexRoom, studio.size().width, studio.size().height,
         dynamic ? "anew in each frame" : "once", context->description());
     nlohmann::ordered_json json;
     json["device"] = context->description();
-    json["scene"] = kScene;
+    json["scene"] = kComplexRoom;
     json["dynamic"] = dynamic;
     json["size"] = {studio.size().width, studio.size().height};
     json["cells"] = nlohmann::ordered_json::array();

@@ -7,7 +7,7 @@
 namespace conelight::figures {
 namespace {
 
-const Figure kFigures[] = {
+const Figure kMethodFigures[] = {
     {"F21", "Three ways to gather", "Cone tracing beside ray tracing and radiosity",
      "One point in one room. The cones are those of the renderer's set of five that lie in the drawing's "
      "plane; the "
@@ -82,6 +82,6 @@ const Figure kFigures[] = {
 
 }  // namespace
 
-std::span<const Figure> methodFigures() { return kFigures; }
+std::span<const Figure> methodFigures() { return kMethodFigures; }
 
 }  // namespace conelight::figures

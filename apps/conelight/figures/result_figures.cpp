@@ -40,7 +40,7 @@ Panels drawTreeOfScene(Studio&) {
     return {{"", ".svg", {svg.begin(), svg.end()}}};
 }
 
-const Figure kFigures[] = {
+const Figure kResultFigures[] = {
     {"F38", "Occlusion cones", "Visibility by the regular and by the customised occlusion cone",
      "Where lamps shine, white, and where not. The first two pictures have the published program's cones: "
      "regular ones "
@@ -116,6 +116,6 @@ const Figure kFigures[] = {
 
 }  // namespace
 
-std::span<const Figure> resultFigures() { return kFigures; }
+std::span<const Figure> resultFigures() { return kResultFigures; }
 
 }  // namespace conelight::figures

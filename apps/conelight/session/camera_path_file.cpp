@@ -16,9 +16,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kDegree = 3.14159265358979323846 / 180.0;
-constexpr const char* kKind = "camera path";
+constexpr const char* kPathKind = "camera path";
 
-std::string text(const glm::vec3& v) { return fmt::format("[{:.9g}, {:.9g}, {:.9g}]", v.x, v.y, v.z); }
+std::string jsonText(const glm::vec3& v) { return fmt::format("[{:.9g}, {:.9g}, {:.9g}]", v.x, v.y, v.z); }
 
 double number(const io::JsonFile& file, const Json& value, const std::string& pointer,
               const std::string& what, double low, double high) {
@@ -93,7 +93,7 @@ std::string lensText(const Camera& camera) {
 CameraPath readCameraPath(const std::string& name) {
     const io::JsonFile file(name);
     const Json& root = file.root();
-    if (!root.is_object() || root.value("conelight", Json()) != kKind)
+    if (!root.is_object() || root.value("conelight", Json()) != kPathKind)
         file.fail("/conelight", "is no camera path, which says \"conelight\": \"camera path\"");
     for (const auto& [field, value] : root.items())
         if (field != "conelight" && field != "keys")
@@ -118,14 +118,14 @@ CameraPath readCameraPath(const std::string& name) {
 
 void writeCameraPath(const std::string& name, const CameraPath& path, bool overwrite) {
     io::refuseOverwriting(name, overwrite);
-    std::string out = fmt::format("{{\n  \"conelight\": \"{}\",\n  \"keys\": [", kKind);
+    std::string out = fmt::format("{{\n  \"conelight\": \"{}\",\n  \"keys\": [", kPathKind);
     for (std::size_t i = 0; i < path.keys().size(); ++i) {
         const auto& [seconds, camera] = path.keys()[i];
         out += fmt::format(
             "{}\n    {{\"time\": {}, \"eye\": {}, \"target\": {}, \"up\": {}, \"fov\": {:.10g}, \"near\": "
             "{:.9g}, "
             "\"far\": {:.9g}{}}}",
-            i == 0 ? "" : ",", seconds, text(camera.eye), text(camera.target), text(camera.up),
+            i == 0 ? "" : ",", seconds, jsonText(camera.eye), jsonText(camera.target), jsonText(camera.up),
             double(camera.fovY) / kDegree, camera.zNear, camera.zFar, lensText(camera));
     }
     out += "\n  ]\n}\n";

@@ -16,9 +16,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* kKind = "preset";
+constexpr const char* kPresetKind = "preset";
 
-std::string joined(const std::vector<std::string>& words) {
+std::string alternatives(const std::vector<std::string>& words) {
     std::string text;
     for (const std::string& word : words)
         text += (text.empty() ? "" : word == words.back() ? " or " : ", ") + word;
@@ -57,7 +57,7 @@ std::vector<std::pair<std::string, std::string>> differences(const Settings& fro
 Preset readPreset(const std::string& name) {
     const io::JsonFile file(name);
     const Json& root = file.root();
-    if (!root.is_object() || root.value("conelight", Json()) != kKind)
+    if (!root.is_object() || root.value("conelight", Json()) != kPresetKind)
         file.fail("/conelight", "is no preset, which says \"conelight\": \"preset\"");
     for (const auto& [field, value] : root.items())
         if (field != "conelight" && field != "settings")
@@ -79,7 +79,7 @@ Preset readPreset(const std::string& name) {
             const std::vector<std::string> modes = sessionModes();
             if (std::find(modes.begin(), modes.end(), value) == modes.end())
                 file.fail(pointer, fmt::format("there is no mode '{}'; {} would be right",
-                                               io::oneLine(value, 40), joined(modes)));
+                                               io::oneLine(value, 40), alternatives(modes)));
             preset.mode = value;
         } catch (const Error& error) {
             if (error.kind() == ErrorKind::BadInput) throw;
@@ -98,7 +98,7 @@ void writePreset(const std::string& name, const Preset& preset, bool overwrite) 
         // Only what is read back as the same text is written as a number.
         settings[key] = (read.is_number() || read.is_boolean()) && read.dump() == value ? read : Json(value);
     }
-    const std::string text = Json({{"conelight", kKind}, {"settings", settings}}).dump(2) + "\n";
+    const std::string text = Json({{"conelight", kPresetKind}, {"settings", settings}}).dump(2) + "\n";
     io::writeFile(name, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
 }
 
@@ -113,7 +113,7 @@ std::vector<std::string> presetsIn(const std::string& folder) {
         if (!entry.is_regular_file(code) || io::lowerExtension(entry.path()) != ".json") continue;
         try {
             const io::JsonFile file(entry.path().string());
-            if (file.root().is_object() && file.root().value("conelight", Json()) == kKind)
+            if (file.root().is_object() && file.root().value("conelight", Json()) == kPresetKind)
                 names.push_back((std::filesystem::path(folder) / entry.path().filename()).lexically_normal());
         } catch (const Error&) {
             // Some other file of that name.

@@ -20,11 +20,11 @@ namespace {
 constexpr ImGuiTableFlags kScrolled = ImGuiTableFlags_ScrollX | ImGuiTableFlags_ScrollY |
                                       ImGuiTableFlags_RowBg | ImGuiTableFlags_SizingFixedFit;
 
-std::string text(const glm::vec3& v) { return fmt::format("{:.4g}  {:.4g}  {:.4g}", v.x, v.y, v.z); }
+std::string spacedText(const glm::vec3& v) { return fmt::format("{:.4g}  {:.4g}  {:.4g}", v.x, v.y, v.z); }
 
 // In tables: a grey as one number.
 std::string shortText(const glm::vec3& v) {
-    return v.x == v.y && v.y == v.z ? fmt::format("{:.4g}", v.x) : text(v);
+    return v.x == v.y && v.y == v.z ? fmt::format("{:.4g}", v.x) : spacedText(v);
 }
 
 void row(const char* name, const std::string& value) {
@@ -45,7 +45,7 @@ bool beginRows(const char* id) {
 }
 
 void partRow(const char* name, const InspectedPart& part) {
-    if (part.used) row(name, text(part.value) + "  x  " + text(part.scale));
+    if (part.used) row(name, spacedText(part.value) + "  x  " + spacedText(part.scale));
 }
 
 // Long tables make only the lines that are seen.
@@ -101,11 +101,11 @@ void chosenPath(const InspectedPath& path) {
     if (path.face && beginRows("face")) {
         const InspectedFace& face = *path.face;
         row("voxel", fmt::format("{} {} {}", face.voxel.x, face.voxel.y, face.voxel.z));
-        row("normal", text(face.normal));
+        row("normal", spacedText(face.normal));
         row("plane", fmt::format("{:+.3f} voxels, coverage {:.3g}", face.plane, face.coverage));
-        row("albedo", text(face.albedo));
-        row("radiance", text(face.radiance) + "  W/(sr m2)");
-        row("irradiance / pi", text(face.irradiance));
+        row("albedo", spacedText(face.albedo));
+        row("radiance", spacedText(face.radiance) + "  W/(sr m2)");
+        row("irradiance / pi", spacedText(face.irradiance));
         row("cache age", face.updates < 0 ? std::string("inside a closed object")
                                           : fmt::format("{} updates", face.updates));
         ImGui::EndTable();
@@ -139,16 +139,16 @@ void inspectorPanel(const Session& session, std::optional<Inspection>& inspectio
     if (cleared) return inspection.reset();
     if (!beginRows("inspector")) return;
     row("pixel", fmt::format("{}, {}", inspection->pixel.x, inspection->pixel.y));
-    row("radiance", text(glm::vec3(inspection->radiance)) + "  W/(sr m2)");
+    row("radiance", spacedText(glm::vec3(inspection->radiance)) + "  W/(sr m2)");
     if (inspection->hit) {
         const Pick& hit = *inspection->hit;
         row("object", hit.object);
         const bool named = hit.material >= 0;
         row("material",
             named ? session.scene().materials[static_cast<std::size_t>(hit.material)].name : "(none)");
-        row("position", text(hit.position) + "  m");
-        row("normal", text(hit.normal));
-        row("shading normal", text(hit.shadingNormal));
+        row("position", spacedText(hit.position) + "  m");
+        row("normal", spacedText(hit.normal));
+        row("shading normal", spacedText(hit.shadingNormal));
         row("distance", fmt::format("{:.4g}  m", hit.distance));
         row("triangle", fmt::format("{}", hit.triangle));
     } else {

@@ -21,7 +21,7 @@ int bouncesOf(const Settings& settings) {
     return settings.mode == Mode::Traced ? settings.traced.bounces.value_or(-1) : -1;
 }
 
-std::string nameOf(const std::string& file) { return std::filesystem::path(file).filename().string(); }
+std::string fileNameOf(const std::string& file) { return std::filesystem::path(file).filename().string(); }
 
 struct Strip {
     const char* name;
@@ -117,7 +117,7 @@ void LongWork::showStrips(const glm::vec2& at, const glm::vec2& size) {
     glm::vec2 place(at.x + 0.5f * em, at.y + size.y - 2.8f * em);
     if (bake_.busy()) {
         const BakeStatus status = bake_.status();
-        const Strip strip{"bake", fmt::format("{}: {:.0f} %", nameOf(bake_.file()), 100 * status.done),
+        const Strip strip{"bake", fmt::format("{}: {:.0f} %", fileNameOf(bake_.file()), 100 * status.done),
                           status.done, status.secondsLeft};
         if (showStrip(strip, place, width)) bake_.stop();
         place.y -= 2.6f * em;
@@ -127,7 +127,7 @@ void LongWork::showStrips(const glm::vec2& at, const glm::vec2& size) {
     const std::string state = job_.bakes()         ? "waits for the bake"
                               : job_.frames() == 1 ? "settles"
                                                    : fmt::format("{} of {}", job_.done() + 1, job_.frames());
-    const Strip strip{"record", nameOf(job_.file()) + ": " + state, job_.part(), job_.secondsLeft()};
+    const Strip strip{"record", fileNameOf(job_.file()) + ": " + state, job_.part(), job_.secondsLeft()};
     if (showStrip(strip, place, width)) job_.stop();
 }
 

@@ -4,6 +4,7 @@
 #include "thesis/format/generated_rooms.h"
 
 #include <array>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <numbers>
 
@@ -21,8 +22,6 @@ using io::GeneratedParameter;
 using io::generated::add;
 using io::generated::addPart;
 using io::generated::Values;
-
-constexpr float kPi = std::numbers::pi_v<float>;
 constexpr GeneratedParameter kDetail = {"detail", 128, 96, 192, true, "cells along a metre of the bodies"};
 constexpr GeneratedParameter kFront = {"front", 1,    0,
                                        1,       true, "1: with the front wall, which the eye looks through"};
@@ -107,7 +106,7 @@ void addLamp(Scene& scene, const Lamp& lamp) {
     }
     body.worldFromObject = m;
     body.voxelized = body.castsShadow = false;
-    Light light = io::generated::pointLight(lamp.name, lamp.lightAt, kPi * lamp.color);
+    Light light = io::generated::pointLight(lamp.name, lamp.lightAt, glm::pi<float>() * lamp.color);
     light.customFalloff = true;
     scene.lights.push_back(std::move(light));
 }
@@ -171,7 +170,7 @@ Scene buildComplex(const Values& values) {
 }
 
 Light shapeLight(int type, int falloff) {
-    Light light = io::generated::pointLight("lamp", {0.05f, 0.26f, 0.42f}, vec3(kPi));
+    Light light = io::generated::pointLight("lamp", {0.05f, 0.26f, 0.42f}, vec3(glm::pi<float>()));
     light.type = std::array{LightType::Point, LightType::Spot, LightType::Directional,
                             LightType::Rect}[std::size_t(type)];
     light.direction = glm::normalize(type == 2   ? vec3(-0.45f, -1, -0.5f)
@@ -183,7 +182,7 @@ Light shapeLight(int type, int falloff) {
     // Each gives what the quadratic one does at 0.6 m.
     const std::array<vec3, 3> falloffs = {vec3(0, 0, 1 / 0.36f), vec3(0, 1 / 0.6f, 0), vec3(1, 0, 0)};
     light.falloff = falloffs[std::size_t(falloff)];
-    if (type == 2) light.intensity = vec3(kPi);
+    if (type == 2) light.intensity = vec3(glm::pi<float>());
     if (type == 3) {
         light.intensity = vec3(12);
         light.position.y = 0.495f;

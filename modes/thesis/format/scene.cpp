@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 #include <map>
 
@@ -41,8 +42,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr float kPi = 3.14159265358979f;
-constexpr float kDegree = kPi / 180.0f;
+constexpr float kDegree = glm::pi<float>() / 180.0f;
 
 // Reads one file.
 class Loader : BlockValues {
@@ -227,7 +227,7 @@ void Loader::readIntensity(const Item& block, Light& light) {
     const glm::vec3 color = triple(block, "color", "rgb", glm::vec3(1));
     const bool physical = first(block, "intensity") != nullptr;
     light.intensity = physical ? triple(block, "intensity", "rgb", glm::vec3(0))
-                               : color * (light.type == LightType::Rect ? 1.0f : kPi);
+                               : color * (light.type == LightType::Rect ? 1.0f : glm::pi<float>());
     if (glm::any(glm::lessThan(light.intensity, glm::vec3(0))))
         fail(block.line, "light: a negative colour; all must be 0 or more");
     const bool hasFalloff =

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kDegree = 3.14159265358979323846 / 180.0;
+constexpr double kDegreeInRadians = 3.14159265358979323846 / 180.0;
 
 std::string number(float value) { return fmt::format("{:.9g}", value); }
 std::string triple(const glm::vec3& v, const char* names) {
@@ -64,7 +64,7 @@ std::optional<Placement> placementOf(const glm::mat4& m) {
     } else {
         angles.x = std::atan2(axis[1].z, axis[1].y);
     }
-    out.rotationDeg = glm::vec3(angles / kDegree);
+    out.rotationDeg = glm::vec3(angles / kDegreeInRadians);
     return out;
 }
 
@@ -247,9 +247,10 @@ void Writer::light(const Light& one) {
     if (one.type != LightType::Directional) value(2, "position", triple(one.position, "xyz"));
     if (one.type != LightType::Point) value(2, "direction", triple(one.direction, "xyz"));
     if (one.type == LightType::Spot)
-        line(2, fmt::format("inner_angle = {} outer_angle = {}",
-                            number(static_cast<float>(static_cast<double>(one.innerAngle) / kDegree)),
-                            number(static_cast<float>(static_cast<double>(one.outerAngle) / kDegree))));
+        line(2,
+             fmt::format("inner_angle = {} outer_angle = {}",
+                         number(static_cast<float>(static_cast<double>(one.innerAngle) / kDegreeInRadians)),
+                         number(static_cast<float>(static_cast<double>(one.outerAngle) / kDegreeInRadians))));
     if (one.type == LightType::Rect) {
         const float u = glm::length(one.halfU), v = glm::length(one.halfV);
         line(2, fmt::format("width = {} height = {}", number(2 * u), number(2 * v)));
@@ -274,7 +275,7 @@ void Writer::camera(const Camera& one) {
     value(2, "target", triple(one.target, "xyz"));
     value(2, "up", triple(one.up, "xyz"));
     line(2, fmt::format("fov = {} near = {} far = {}",
-                        number(static_cast<float>(static_cast<double>(one.fovY) / kDegree)),
+                        number(static_cast<float>(static_cast<double>(one.fovY) / kDegreeInRadians)),
                         number(one.zNear), number(one.zFar)));
     line(1, "}");
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "thesis/render/volume.h"
 
+#include <glm/gtc/constants.hpp>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -29,14 +31,13 @@ int levelCount(int edge, bool capped) {
 
 // No light can make a diffuse surface brighter than this, at a distance of half a voxel or more.
 float radianceBound(const ThesisVolume::Inputs& inputs, const ThesisDefects& defects, float voxelSize) {
-    constexpr float kPi = 3.14159265f;
     const auto largest = [](const glm::vec3& v) { return std::max({v.x, v.y, v.z, 0.0f}); };
     float light = 0;
     for (const gpu::Light& l : inputs.lights.table()) {
         const float d = 0.5f * voxelSize;
         float falloff = l.customFalloff != 0 ? l.falloff.x + l.falloff.y * d + l.falloff.z * d * d : d * d;
         if (defects.unattenuatedVoxels || l.type == LIGHT_DIRECTIONAL) falloff = 1.0f;
-        float strength = largest(l.intensity) / kPi;
+        float strength = largest(l.intensity) / glm::pi<float>();
         if (l.type == LIGHT_RECT) strength *= 4.0f * glm::length(glm::cross(l.halfU, l.halfV));
         light += strength / std::max(falloff, 1e-6f);
     }

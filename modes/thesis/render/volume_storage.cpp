@@ -8,7 +8,6 @@
 namespace conelight::thesis {
 namespace {
 
-constexpr int kBrick = THESIS_BRICK;
 constexpr std::size_t kBrickVoxels = THESIS_BRICK_VOXELS;
 constexpr std::size_t kListHeader = 16;  // words of the brick list before the bricks
 
@@ -64,7 +63,7 @@ void ThesisVolume::allocateDense(const ThesisVolumeOptions& options) {
 
 // Marks and list of the box's bricks.
 void ThesisVolume::allocateLists() {
-    const glm::ivec3 size = glm::ivec3(grid_.boxSize) / kBrick;
+    const glm::ivec3 size = glm::ivec3(grid_.boxSize) / THESIS_BRICK;
     const std::size_t bricks = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) *
                                static_cast<std::size_t>(size.z);
     if (brickSlots_.bytes() >= 4 * bricks) return;
