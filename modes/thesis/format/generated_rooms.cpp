@@ -83,6 +83,10 @@ void addBall(Scene& scene, const char* name, vec3 centre, float radius, int mate
     addPart(scene, std::move(mesh), name, material);
 }
 
+constexpr float kLampRadiance = 4;
+// Of lamps that are three: modes without a tone map show the room without clipping most of it.
+constexpr float kOfThree = 0.6f;
+
 // A lamp that shows its colour, and its light: neither voxel nor shadow comes of it.
 struct Lamp {
     const char* name;
@@ -94,7 +98,8 @@ void addLamp(Scene& scene, const Lamp& lamp) {
     Material glow;
     glow.name = lamp.name;
     glow.unlit = true;
-    glow.baseColor = glm::vec4(glm::min(lamp.color, vec3(0.98f)), 1);
+    // As bright as what stands before it, or exposure would make it grey.
+    glow.baseColor = glm::vec4(kLampRadiance * lamp.color, 1);
     glow.phong = PhongMaterial{.color = lamp.color};
     Instance& body = addPart(scene, io::generated::box({-0.5f * lamp.size, 0.5f * lamp.size}), lamp.name,
                              add(scene, std::move(glow)));
@@ -153,16 +158,22 @@ Scene buildComplex(const Values& values) {
             {{0.3f, -0.5f, 0.2f}, 0.3f, -20});
     addBall(scene, "mirror ball", {-0.31f, -0.33f, -0.2f}, 0.17f, phong(scene, "mirror", vec3(0.8f), 256, 1));
     addBall(scene, "dull ball", {0.33f, -0.36f, -0.3f}, 0.14f, phong(scene, "dull", vec3(0.85f), 2, 0.6f));
-    addLamp(
-        scene,
-        {"blue lamp", {0.3f, 0.3f, -0.2f}, vec3(0.12f), {0.3f, 0.8f, 1}, {0.3f, 0.3f, -0.2f}, {45, 45, 0}});
-    addLamp(
-        scene,
-        {"yellow lamp", {0, -0.35f, 0.42f}, vec3(0.08f), {1, 0.83f, 0.3f}, {0, -0.35f, 0.42f}, {55, 37, 0}});
+    addLamp(scene, {"blue lamp",
+                    {0.3f, 0.3f, -0.2f},
+                    vec3(0.12f),
+                    kOfThree * vec3(0.3f, 0.8f, 1),
+                    {0.3f, 0.3f, -0.2f},
+                    {45, 45, 0}});
+    addLamp(scene, {"yellow lamp",
+                    {0, -0.35f, 0.42f},
+                    vec3(0.08f),
+                    kOfThree * vec3(1, 0.83f, 0.3f),
+                    {0, -0.35f, 0.42f},
+                    {55, 37, 0}});
     addLamp(scene, {"red lamp",
                     {-0.4f, 0.4f, 0.3f},
                     vec3(0.05f),
-                    {0.7f, 0.18f, 0.02f},
+                    kOfThree * vec3(0.7f, 0.18f, 0.02f),
                     {-0.4f, 0.4f, 0.3f},
                     {67, 53, 0}});
     addCameras(scene);
