@@ -60,12 +60,6 @@ Window::Window(const WindowOptions& options) {
         if (self(window).onDrop) self(window).onDrop({paths, paths + count});
     });
     // The GUI's own callbacks call these on.
-    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int, int action, int mods) {
-        ++self(window).inputs_;
-        if (action == GLFW_PRESS)
-            self(window).keyPresses_.push_back(
-                {key, (mods & GLFW_MOD_CONTROL) != 0, (mods & GLFW_MOD_SHIFT) != 0});
-    });
     glfwSetCursorPosCallback(window_, [](GLFWwindow* window, double x, double y) {
         ++self(window).inputs_;
         self(window).cursorThen_ = {x, y};
@@ -81,6 +75,19 @@ Window::Window(const WindowOptions& options) {
         if (self(window).onRefresh) self(window).onRefresh();
     });
 }
+
+void Window::listenToKeys() {
+    glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int scancode, int action, int modifiers) {
+        ++self(window).inputs_;
+        self(window).keyEvents_.push_back({key, scancode, action, modifiers, 0});
+    });
+    glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned int character) {
+        self(window).keyEvents_.push_back({GLFW_KEY_UNKNOWN, 0, 0, 0, character});
+    });
+}
+
+bool Window::KeyEvent::control() const { return (modifiers & GLFW_MOD_CONTROL) != 0; }
+bool Window::KeyEvent::shift() const { return (modifiers & GLFW_MOD_SHIFT) != 0; }
 
 Window::~Window() {
     glfwDestroyWindow(window_);

@@ -50,13 +50,17 @@ class Window {
     void captureCursor(bool on);
     bool cursorCaptured() const { return captured_; }
     bool isKeyDown(int glfwKey) const;
-    struct KeyPress {
-        int key = 0;  // GLFW's
-        bool control = false, shift = false;
+    // Keys and characters are kept from now on; the window's callbacks for them are replaced.
+    void listenToKeys();
+    // As GLFW's callbacks are told them, or a character that came of keys.
+    struct KeyEvent {
+        int key = 0, scancode = 0, action = 0, modifiers = 0;
+        unsigned int character = 0;  // 0: none
+        bool control() const;
+        bool shift() const;
     };
-    // Keys that went down since the last call, in order: also those that are up again.
-    const std::vector<KeyPress>& keyPresses() const { return keyPresses_; }
-    std::vector<KeyPress> takeKeyPresses() { return std::exchange(keyPresses_, {}); }
+    // What came since the last call, in order.
+    std::vector<KeyEvent> takeKeyEvents() { return std::exchange(keyEvents_, {}); }
     struct ButtonChange {
         int button = 0;  // GLFW's
         bool down = false;
@@ -86,7 +90,7 @@ class Window {
     GLFWwindow* window_ = nullptr;
     bool fullscreen_ = false;
     bool captured_ = false;
-    std::vector<KeyPress> keyPresses_;
+    std::vector<KeyEvent> keyEvents_;
     std::vector<ButtonChange> buttonChanges_;
     glm::dvec2 cursorThen_{0};  // by the events so far, where cursor() is what it is by now
     std::uint64_t inputs_ = 0, buttonInputs_ = 0;

@@ -137,6 +137,32 @@ TEST_F(ViewerInputTest, ClicksWhileItIsBusyAreKept) {
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
 }
 
+// Keys are taken in their order, each where the ones before it have led: lines one after the other, also the
+// same key twice; Escape ends what the line before it has started.
+TEST_F(ViewerInputTest, LinesWhileItIsBusyAreKept) {
+    start(std::string(kSmall) + "builtin:cornell");
+    settle();
+    viewer->send("path add; camera orbit 40; path add");
+    click("console");
+    viewer->pause();
+    screen->xdotool("type 'echo one'");
+    screen->xdotool("key Return");
+    screen->xdotool("type 'echo twoo'");
+    screen->xdotool("key BackSpace key Return key Up key Up key Return");
+    viewer->resume();
+    for (const char* line : {"one", "two", "one"}) EXPECT_EQ(viewer->expect(line), line) << viewer->output();
+    viewer->pause();
+    screen->xdotool("type 'path play 3000'");
+    screen->xdotool("key Return key Escape");
+    screen->xdotool("type 'echo behind'");
+    screen->xdotool("key Return");
+    viewer->resume();
+    EXPECT_EQ(viewer->expect("behind"), "behind") << viewer->output();
+    EXPECT_EQ(viewer->status("path"), "2 keys, 1 s") << "it does not play";
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
+}
+
 // Not only its first picture.
 TEST_F(ViewerInputTest, HandlesAreDraggedAtTheResolutionOfMovement) {
     start("--size 900x600 --voxels 64 --mode traced --no-state builtin:cornell");

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "viewer/imgui_names.h"
 
@@ -24,6 +25,8 @@ constexpr std::array<const char*, 3> kFonts = {
     "/usr/share/fonts/truetype/freefont/FreeSans.ttf"};
 constexpr float kFontSize = 14.0f;  // px at 96 dpi
 constexpr float kMinScale = 0.5f, kMaxScale = 4;
+
+bool isModifier(int key) { return key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER; }
 
 ImVec4 grey(float value, float alpha = 1) { return {value, value, value, alpha}; }
 
@@ -78,6 +81,7 @@ Gui::Gui(platform::Window& window, float scale) : window_(window), followsScreen
     scale_ = wantedScale_ = followsScreen_ ? window.contentScale() : scale;
     applyLook();
     ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
+    window.listenToKeys();  // takeKeys() tells them
     ImGui_ImplOpenGL3_Init("#version 450 core");
 }
 
@@ -121,27 +125,32 @@ void Gui::applyLook() {
     io.Fonts->AddFontDefault(&config);
 }
 
-// Dear ImGui before 1.87 looks at keys once a frame: of a key that is up again by then it would not know, and
-// at five frames a second that is every other Return. Modifiers are told as such: among the keys its back end
-// would take one that is held here for pressed, at the next key's event, and nobody would let go of it.
-void Gui::holdTappedKeys() {
-#if IMGUI_VERSION_NUM < 18700
-    ImGuiIO& io = ImGui::GetIO();
-    for (const int key : tapped_) io.KeysDown[key] = window_.isKeyDown(key);
-    tapped_.clear();
-    io.KeyCtrl = window_.isKeyDown(GLFW_KEY_LEFT_CONTROL) || window_.isKeyDown(GLFW_KEY_RIGHT_CONTROL);
-    io.KeyShift = window_.isKeyDown(GLFW_KEY_LEFT_SHIFT) || window_.isKeyDown(GLFW_KEY_RIGHT_SHIFT);
-    for (const platform::Window::KeyPress& press : window_.keyPresses()) {
-        const bool modifier = press.key >= GLFW_KEY_LEFT_SHIFT && press.key <= GLFW_KEY_RIGHT_SUPER;
-        if (modifier || press.key < 0 || press.key >= IM_ARRAYSIZE(io.KeysDown) ||
-            window_.isKeyDown(press.key))
-            continue;
-        io.KeysDown[press.key] = true;
-        io.KeyCtrl |= press.control;
-        io.KeyShift |= press.shift;
-        tapped_.push_back(press.key);
+// Keys are told in their order, each where those before it have led, however many come during one frame. A key
+// that is no character ends a frame's share: it may open or leave a field. Whoever asks for the keys at that has
+// them two frames later. Dear ImGui before 1.87 moreover looks at keys once a frame: none goes down and up in one.
+void Gui::takeKeys() {
+    constexpr int kFramesToFocus = 2;
+    for (const platform::Window::KeyEvent& event : window_.takeKeyEvents()) keyEvents_.push_back(event);
+    keyPresses_.clear();
+    if (framesToPass_ > 0) {
+        --framesToPass_;
+        return;
     }
-#endif
+    std::set<int> changed;
+    for (; !keyEvents_.empty() && framesToPass_ == 0; keyEvents_.pop_front()) {
+        const platform::Window::KeyEvent& event = keyEvents_.front();
+        if (event.character != 0) {
+            ImGui_ImplGlfw_CharCallback(window_.handle(), event.character);
+            continue;
+        }
+        const bool character = event.key < GLFW_KEY_ESCAPE && !event.control();
+        if (!character && !changed.insert(event.key).second) return;
+        ImGui_ImplGlfw_KeyCallback(window_.handle(), event.key, event.scancode, event.action,
+                                   event.modifiers);
+        if (event.action != GLFW_PRESS) continue;
+        keyPresses_.push_back(event);
+        if (!character && !isModifier(event.key)) framesToPass_ = kFramesToFocus;
+    }
 }
 
 // Of the mouse's buttons too Dear ImGui before 1.87 sees what they are at a frame, and the cursor then. Of
@@ -181,7 +190,7 @@ void Gui::beginFrame() {
     }
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
-    holdTappedKeys();
+    takeKeys();
     takeButtons();
     // A captured cursor belongs to the camera.
     if (window_.cursorCaptured()) ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
@@ -199,9 +208,9 @@ bool Gui::wantsKeyboard() const { return ImGui::GetIO().WantTextInput; }
 // From 1.87 on Dear ImGui takes one press of a key or button a frame and keeps those behind it.
 bool Gui::hasInput() const {
 #if IMGUI_VERSION_NUM >= 18700
-    return !ImGui::GetCurrentContext()->InputEventsQueue.empty();
+    return !keyEvents_.empty() || !ImGui::GetCurrentContext()->InputEventsQueue.empty();
 #else
-    return !buttonChanges_.empty();
+    return !buttonChanges_.empty() || !keyEvents_.empty();
 #endif
 }
 

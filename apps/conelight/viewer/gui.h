@@ -24,15 +24,19 @@ class Gui {
     bool wantsMouse() const;     // the cursor is over the GUI or drags one of its widgets
     bool wantsKeyboard() const;  // a text field has the keys
     bool hasInput() const;       // that the last frame did not take: the next one does
+    // Keys that went down, as the frame that was begun has them.
+    const std::vector<platform::Window::KeyEvent>& keyPresses() const { return keyPresses_; }
     float scale() const { return scale_; }
     void setScale(float scale);  // from the next frame on; the screen's no more
 
   private:
     void applyLook();
-    void holdTappedKeys();
+    void takeKeys();
     void takeButtons();
     platform::Window& window_;
-    std::vector<int> tapped_;  // keys that went down and up again between two frames
+    std::vector<platform::Window::KeyEvent> keyPresses_;        // of this frame
+    std::deque<platform::Window::KeyEvent> keyEvents_;          // for frames to come
+    int framesToPass_ = 0;                                      // until the next of them
     std::deque<platform::Window::ButtonChange> buttonChanges_;  // for frames to come
     std::array<bool, 5> buttonsDown_{};                         // as the GUI has been told
     bool followsScreen_;

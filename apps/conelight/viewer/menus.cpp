@@ -34,7 +34,7 @@ void askForScreenshot(Session& session) { session.request({RequestKind::Screensh
 
 void Menus::takeKeys() {
     const bool menuOpen = closeMenusOnEscape();
-    const std::vector<platform::Window::KeyPress> presses = in_.window.takeKeyPresses();
+    const std::vector<platform::Window::KeyEvent>& presses = in_.gui.keyPresses();
     // Whoever typed `path play` still has the cursor in the console's line.
     for (const auto& press : presses)
         if (press.key == GLFW_KEY_ESCAPE && in_.session.playing()) {
@@ -47,7 +47,7 @@ void Menus::takeKeys() {
         if (press.key == GLFW_KEY_ESCAPE && !menuOpen)
             takeEscape();
         else if (!takeViewKey(press))
-            press.control ? takeControlKey(press) : takeKey(press);
+            press.control() ? takeControlKey(press) : takeKey(press);
 }
 
 // First what was found under the pixel, then the selection.
@@ -61,7 +61,7 @@ void Menus::takeEscape() {
 }
 
 // Standard views as on the keypad of Blender, and by letters. Returns whether it was one.
-bool Menus::takeViewKey(const platform::Window::KeyPress& press) {
+bool Menus::takeViewKey(const platform::Window::KeyEvent& press) {
     struct View {
         int letter, keypad;
         const char *side, *other;
@@ -70,22 +70,22 @@ bool Menus::takeViewKey(const platform::Window::KeyPress& press) {
                                {GLFW_KEY_R, GLFW_KEY_KP_3, "right", "left"},
                                {GLFW_KEY_T, GLFW_KEY_KP_7, "top", "bottom"}};
     for (const View& view : kViews) {
-        const bool keypad = press.key == view.keypad, letter = press.key == view.letter && !press.control;
+        const bool keypad = press.key == view.keypad, letter = press.key == view.letter && !press.control();
         if (!keypad && !letter) continue;
-        viewFrom(in_.session, (keypad ? press.control : press.shift) ? view.other : view.side,
+        viewFrom(in_.session, (keypad ? press.control() : press.shift()) ? view.other : view.side,
                  in_.view.pictureSize());
         return true;
     }
     return false;
 }
 
-void Menus::takeKey(const platform::Window::KeyPress& press) {
+void Menus::takeKey(const platform::Window::KeyEvent& press) {
     switch (press.key) {
         case GLFW_KEY_F1:
             in_.keys.open = !in_.keys.open;
             return;
         case GLFW_KEY_SLASH:
-            in_.keys.open = in_.keys.open != press.shift;
+            in_.keys.open = in_.keys.open != press.shift();
             return;
         case GLFW_KEY_B:
             return in_.console.say("kept the view as the camera " + keepView(in_.session));
@@ -93,7 +93,7 @@ void Menus::takeKey(const platform::Window::KeyPress& press) {
         case GLFW_KEY_PAGE_DOWN:
             return nextCamera(in_.session, press.key == GLFW_KEY_PAGE_UP);
         case GLFW_KEY_H:
-            return in_.console.run(press.shift ? "isolate" : "hide");
+            return in_.console.run(press.shift() ? "isolate" : "hide");
         case GLFW_KEY_DELETE:
             return in_.console.run("delete");
         case GLFW_KEY_F:
@@ -117,10 +117,10 @@ void Menus::takeKey(const platform::Window::KeyPress& press) {
     }
 }
 
-void Menus::takeControlKey(const platform::Window::KeyPress& press) {
+void Menus::takeControlKey(const platform::Window::KeyEvent& press) {
     switch (press.key) {
         case GLFW_KEY_Z:
-            press.shift ? in_.session.redo() : in_.session.undo();
+            press.shift() ? in_.session.redo() : in_.session.undo();
             return;
         case GLFW_KEY_Y:
             in_.session.redo();

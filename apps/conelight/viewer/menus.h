@@ -37,9 +37,9 @@ class Menus {
 
   private:
     void takeEscape();
-    void takeKey(const platform::Window::KeyPress& press);
-    bool takeViewKey(const platform::Window::KeyPress& press);
-    void takeControlKey(const platform::Window::KeyPress& press);
+    void takeKey(const platform::Window::KeyEvent& press);
+    bool takeViewKey(const platform::Window::KeyEvent& press);
+    void takeControlKey(const platform::Window::KeyEvent& press);
     void fileMenu();
     void presetMenu();
     void editMenu();
