@@ -8,7 +8,6 @@
 #ifndef LOBES
 #error LOBES must be 0 or 1
 #endif
-#define TEMPORAL 2
 #define MOTION 0
 #include "lib/cache_lookup.glsl"
 #include "lib/dot.glsl"

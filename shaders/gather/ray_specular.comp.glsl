@@ -108,11 +108,9 @@ void main() {
     return;
 #endif
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
-#if TEMPORAL == 2
     // What a smooth surface shows moves otherwise than the surface: means are short there.
-    float longest = mix(1.0, pixelRays.longestMean, smoothstep(0.1, 0.5, s.roughness));
-#else
-    float longest = pixelRays.longestMean;
-#endif
+    bool moved = pixelRays.reuse >= REUSE_REPROJECTED;
+    float longest =
+        moved ? mix(1.0, pixelRays.longestMean, smoothstep(0.1, 0.5, s.roughness)) : pixelRays.longestMean;
     imageStore(result, pixel, withPass(pixel, s, seen, value, longest));
 }

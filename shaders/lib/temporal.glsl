@@ -3,13 +3,13 @@
 // a new value. Reprojection with rejection after Nehab et al. 2007, "Accelerating Real-Time Shading with
 // Reverse Reprojection Caching"; docs/theory/4e_pixels.md, "Over frames".
 //
-// TEMPORAL 0: nothing so far. 1: the picture so far has the same view: its pixel is ours. 2: it has another
-//   view (pixelRays.old*): of the four pixels about the place, those count that show our surface, by plane,
-//   normal and instance.
-// MOTION (with TEMPORAL 2) 1: instances have moved as well (PIXEL_MOTION). 2: a host says where its pixels were
-//   (hostMotion); the surface was as far from the eye then as the vector's z says.
-#if !defined(TEMPORAL) || !defined(MOTION)
-#error TEMPORAL must be 0, 1 or 2, MOTION 0, 1 or 2
+// pixelRays.reuse says which (REUSE_* of shared/pixel_rays.h). A picture of the same view has our pixel in its place. Of one
+//   of another view (pixelRays.old*), those of the four pixels about the place count that show our surface, by
+//   plane, normal and instance. It is no variant: kernels of rays are long, and drivers compile each anew.
+// MOTION 1: instances have moved as well. 2: a host says where its pixels were (hostMotion); the surface was as far from
+//   the eye then as the vector's z says.
+#ifndef MOTION
+#error MOTION must be 0, 1 or 2
 #endif
 #include "lib/dot.glsl"
 #include "lib/gbuffer.glsl"
@@ -19,7 +19,7 @@ layout(std140) uniform PixelRayBlock { PixelRayConstants pixelRays; };
 uniform usampler2D pixelHistory;
 #if MOTION == 2
 uniform sampler2D hostMotion;
-#elif MOTION
+#elif MOTION == 1
 layout(std430) readonly buffer Motion { mat4 oldFromWorld[]; };
 #endif
 
@@ -42,13 +42,6 @@ SoFar soFarOf(uvec4 bits) {
 }
 
 SoFar valueSoFar(ivec2 pixel, Surface s) {
-#if TEMPORAL == 0
-    return SoFar(vec4(0.0), 0.0);
-#elif TEMPORAL == 1
-    uvec4 bits = texelFetch(pixelHistory, pixel, 0);
-    SoFar own = soFarOf(bits);
-    return bits.z != 0u ? own : SoFar(vec4(0.0), 0.0);
-#else
     vec3 position = s.position;
     vec3 normal = s.normal;
     vec3 planeNormal = s.geometricNormal;
@@ -73,11 +66,14 @@ SoFar valueSoFar(ivec2 pixel, Surface s) {
     // Where the view has hardly changed, rounding must not blur.
     vec2 nearest = floor(place + 0.5);
     place = mix(place, nearest, lessThan(abs(place - nearest), vec2(0.02)));
-    vec2 base = floor(place);
-    vec2 part = place - base;
+    bool sameView = pixelRays.reuse == REUSE_SAME_VIEW;
+    vec2 base = sameView ? vec2(pixel) : floor(place);
+    vec2 part = sameView ? vec2(0.0) : place - base;
+    // Software drivers go through all of a branch that no pixel takes, but not through all of a loop.
+    int taps = sameView ? 1 : (pixelRays.reuse == REUSE_NONE ? 0 : 4);
     SoFar sum = SoFar(vec4(0.0), 0.0);
     float weight = 0.0;
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < taps; ++i) {
         ivec2 offset = ivec2(i & 1, i >> 1);
         ivec2 q = ivec2(base) + offset;
         bool inside = clip.w > 0.0 && all(greaterThanEqual(q, ivec2(0))) && all(lessThan(q, size));
@@ -87,6 +83,7 @@ SoFar valueSoFar(ivec2 pixel, Surface s) {
         bool same = inside && bits.z != 0u && pixelHistoryInstance(bits) == (s.instance & 0xffu) &&
                     dot(pixelHistoryNormal(bits), normal) > 0.9 &&
                     abs(dot(there - position, planeNormal)) < pixelRays.planeTolerance;
+        same = sameView ? bits.z != 0u : same;
         vec2 w = mix(1.0 - part, part, vec2(offset));
         float tap = same ? w.x * w.y : 0.0;
         SoFar tapSoFar = soFarOf(bits);
@@ -97,7 +94,6 @@ SoFar valueSoFar(ivec2 pixel, Surface s) {
     // Less than a twentieth of a pixel is rounding.
     float scale = weight > 0.05 ? 1.0 / weight : 0.0;
     return SoFar(scale * sum.value, scale * sum.variance);
-#endif
 }
 
 // The mean of what was so far and one more pass; `longest` passes at most, so that change gets through.

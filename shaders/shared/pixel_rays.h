@@ -12,6 +12,11 @@
 //   LobeList           storage: group counts of an indirect dispatch, number of pixels, pixels
 #define LOBE_GROUPS_X 32u  // in x of that dispatch; y may be 65,535
 
+// How a pass takes up the picture so far.
+#define REUSE_NONE 0u         // not at all
+#define REUSE_SAME_VIEW 1u    // it has the same view
+#define REUSE_REPROJECTED 2u  // it has another view, or things have moved
+
 CONELIGHT_SHARED_BEGIN
 
 // Uniform block of these passes.
@@ -43,8 +48,8 @@ struct PixelRayConstants {
     float motionScaleX;  // texel -> part of the picture's width
     float motionScaleY;
     uint motionStep;  // one of so many texels in each direction is a pixel
-    uint pad0;
-};  // 176 B
+    uint reuse;       // REUSE_*
+};                    // 176 B
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus

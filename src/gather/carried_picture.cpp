@@ -24,6 +24,7 @@ const gl::Texture& CarriedPicture::carry(const gl::Device& device, const RayInpu
         from.lobes != nullptr && sameSize ? *from.lobes : PixelRectangle{glm::ivec2(0), size};
     gpu::PixelRayConstants constants{};
     setPictureSoFar(constants, from.view, inputs.voxels.grid());
+    constants.reuse = REUSE_REPROJECTED;
     constants.specularLimit = from.specularLimit;
     constants.lobesX = static_cast<std::uint32_t>(where.lowest.x);
     constants.lobesY = static_cast<std::uint32_t>(where.lowest.y);

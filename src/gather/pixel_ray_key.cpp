@@ -6,17 +6,12 @@
 namespace conelight::gather {
 namespace {
 
-// Passes of one kind: first ones, further ones, such as follow what has moved; as they count or record.
+// Passes of one kind, as they follow what has moved, count or record.
 void addPasses(std::vector<PixelRayKey>& keys, PixelRayKey key) {
     key.listed = key.kind == RayPicture::Specular;
     for (const bool counts : {false, true}) {
         key.counts = counts;
-        for (const Reuse reuse : {Reuse::None, Reuse::SameView, Reuse::Reproject}) {
-            key.reuse = reuse;
-            key.motion = Motion::None;
-            keys.push_back(key);
-        }
-        for (const Motion motion : {Motion::Instances, Motion::Vectors}) {
+        for (const Motion motion : {Motion::None, Motion::Instances, Motion::Vectors}) {
             key.motion = motion;
             keys.push_back(key);
         }
@@ -30,8 +25,7 @@ gl::ProgramDesc PixelRayKey::desc() const {
     gl::ProgramDesc desc;
     desc.files = {kind == RayPicture::Specular ? "gather/ray_specular.comp.glsl"
                                                : "gather/ray_diffuse.comp.glsl"};
-    desc.defines = {{"TEMPORAL", std::to_string(static_cast<int>(reuse))},
-                    {"MOTION", std::to_string(reuse == Reuse::Reproject ? static_cast<int>(motion) : 0)}};
+    desc.defines = {{"MOTION", std::to_string(static_cast<int>(motion))}};
     if (kind != RayPicture::Specular)
         desc.defines.emplace_back("OCCLUSION", kind == RayPicture::Occlusion ? "1" : "0");
     if (listed) desc.defines.emplace_back("LOBE_LISTED", "1");

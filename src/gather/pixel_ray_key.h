@@ -11,19 +11,17 @@ namespace conelight::gather {
 
 enum class RayPicture { Diffuse, Specular, Occlusion };
 
-// How a pass takes up what was there (TEMPORAL of lib/temporal.glsl).
-enum class Reuse { None, SameView, Reproject };
-// What has moved since (MOTION there): nothing, instances, or what a host's vectors say.
+// What has moved since the picture so far (MOTION of lib/temporal.glsl): nothing but the view, instances, or what a
+// host's vectors say.
 enum class Motion { None, Instances, Vectors };
 
 struct PixelRayKey {
     RayPicture kind = RayPicture::Diffuse;
-    Reuse reuse = Reuse::None;
-    Motion motion = Motion::None;  // of Reuse::Reproject
-    bool counts = false;           // lookups
-    bool listed = false;           // of kind Specular: of the pixels in LobeList, else of all
-    bool triangles = false;        // rays meet triangles: of kind Specular all over, else near their start
-    bool records = false;          // steps of one pixel, for the inspector
+    Motion motion = Motion::None;
+    bool counts = false;     // lookups
+    bool listed = false;     // of kind Specular: of the pixels in LobeList, else of all
+    bool triangles = false;  // rays meet triangles: of kind Specular all over, else near their start
+    bool records = false;    // steps of one pixel, for the inspector
     light::HitKey hits;
 
     gl::ProgramDesc desc() const;

@@ -116,7 +116,6 @@ void PixelRays::clearWritten(Picture& picture) {
 
 PixelRayKey PixelRays::key(const RayInputs& inputs, const RayPass& pass) const {
     PixelRayKey key{.kind = kind_,
-                    .reuse = pass.reuse,
                     .motion = pass.reuse != Reuse::Reproject ? Motion::None
                               : inputs.surfaces.haveMotion() ? Motion::Vectors
                               : pass.motion != nullptr       ? Motion::Instances
@@ -133,6 +132,7 @@ gpu::PixelRayConstants PixelRays::packed(const RayInputs& inputs, const RayPass&
     const voxels::VoxelGrid& grid = inputs.voxels.grid();
     gpu::PixelRayConstants c{};
     setPictureSoFar(c, seenFrom_, grid);
+    c.reuse = static_cast<std::uint32_t>(pass.reuse);
     c.motionScaleX = inputs.surfaces.motionScale().x;
     c.motionScaleY = inputs.surfaces.motionScale().y;
     c.motionStep = static_cast<std::uint32_t>(inputs.surfaces.reduction());

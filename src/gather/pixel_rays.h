@@ -34,6 +34,9 @@ struct RayInputs {
     void declare(gl::Inputs& inputs) const;
 };
 
+// How a pass takes up what was there: with another view or other places, by reprojection.
+enum class Reuse { None = REUSE_NONE, SameView = REUSE_SAME_VIEW, Reproject = REUSE_REPROJECTED };
+
 // What a pass is to do.
 struct RayPass {
     const TracedSettings& settings;
