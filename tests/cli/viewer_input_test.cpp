@@ -83,7 +83,9 @@ TEST_F(ViewerInputTest, WhatAClickFoundGoesAway) {
 // Before work that holds the window a frame says what it is: at the start, and when another scene is opened,
 // whose lists do not stand beside the old picture.
 TEST_F(ViewerInputTest, SaysWhatItLoads) {
-    start("--size 900x600 --voxels 128 --mode traced --no-state 'builtin:atrium?triangles=100000'");
+    start(
+        "--size 900x600 --voxels 128 --mode traced --no-state --exec 'resolution 0.25' "
+        "'builtin:atrium?triangles=100000'");
     const glm::ivec4 window(0, 0, 900, 600);
     EXPECT_TRUE(eventually([&] { return noticed(screen->pixels(), window); })) << "at the start";
     settle();
