@@ -42,7 +42,7 @@ void Lights::update(const gl::Device& device, const scene::GpuScene& scene, cons
     glass_.update(scene);
     upload(scene.source());
     from_ = sources;
-    if (hasGlass()) caustics_.clear();
+    if (hasGlass() || hasCaustics()) caustics_.clear();
     revision_ = ownRevision_ = base::Revision::next();
 }
 

@@ -319,6 +319,21 @@ TEST_F(GlassTest, FollowsItsInstanceAndMaterial) {
     EXPECT_LT(relRmse(renderer.readImage(), draw(scene, settings)), 1e-3);
 }
 
+// A renderer goes on with a scene that has no glass.
+TEST_F(GlassTest, CausticsGoWithTheirScene) {
+    Scene bare = ballOverFloor();
+    bare.instances.pop_back();
+    for (const Mode mode : {Mode::Traced, Mode::Cones}) {
+        Settings settings = tracedSettings(Quality::Draft);
+        settings.mode = mode;
+        Renderer renderer;
+        renderer.setScene(ballOverFloor());
+        draw(renderer, ballOverFloor(), settings);
+        renderer.setScene(bare);
+        EXPECT_EQ(draw(renderer, bare, settings).pixels, draw(bare, settings).pixels) << mode.name();
+    }
+}
+
 // Every mode shows what is behind a pane, tinted.
 TEST_F(GlassTest, IsDrawnInEveryMode) {
     Scene scene;
