@@ -126,19 +126,19 @@ void Gui::applyLook() {
 }
 
 // Keys are told in their order, each where those before it have led, however many come during one frame. A key
-// that is no character ends a frame's share: it may open or leave a field. Whoever asks for the keys at that has
-// them two frames later. Dear ImGui before 1.87 moreover looks at keys once a frame: none goes down and up in one.
+// that is no character ends a frame's share: it may open or leave a field. A field that asks for the keys at that
+// has them in the third frame. Keys that go up do not wait for it: one that is held repeats. Dear ImGui before 1.87
+// moreover looks at keys once a frame: none goes down and up in one.
 void Gui::takeKeys() {
-    constexpr int kFramesToFocus = 2;
+    constexpr int kFramesToFocus = 3;
     for (const platform::Window::KeyEvent& event : window_.takeKeyEvents()) keyEvents_.push_back(event);
     keyPresses_.clear();
-    if (framesToPass_ > 0) {
-        --framesToPass_;
-        return;
-    }
+    framesToPass_ = std::max(framesToPass_ - 1, 0);
     std::set<int> changed;
-    for (; !keyEvents_.empty() && framesToPass_ == 0; keyEvents_.pop_front()) {
+    for (; !keyEvents_.empty(); keyEvents_.pop_front()) {
         const platform::Window::KeyEvent& event = keyEvents_.front();
+        const bool goesUp = event.character == 0 && event.action == GLFW_RELEASE;
+        if (framesToPass_ > 0 && !goesUp) return;
         if (event.character != 0) {
             ImGui_ImplGlfw_CharCallback(window_.handle(), event.character);
             continue;

@@ -36,7 +36,7 @@ class Gui {
     platform::Window& window_;
     std::vector<platform::Window::KeyEvent> keyPresses_;        // of this frame
     std::deque<platform::Window::KeyEvent> keyEvents_;          // for frames to come
-    int framesToPass_ = 0;                                      // until the next of them
+    int framesToPass_ = 0;                                      // until the next of them goes down
     std::deque<platform::Window::ButtonChange> buttonChanges_;  // for frames to come
     std::array<bool, 5> buttonsDown_{};                         // as the GUI has been told
     bool followsScreen_;
