@@ -88,8 +88,8 @@ TEST_F(LightGBufferTest, PositionsAreThePixelCentresOnThePlane) {
             const glm::dvec3 want =
                 pixelOnPlane(c, {kWidth, kHeight}, {x, y}, {0, 1, 0}, static_cast<double>(offset.y));
             const double distance = glm::length(want - glm::dvec3(c.eye));
-            // Half a float step at 1000 in three coordinates, and the interpolation of 1/w.
-            EXPECT_LE(glm::length(glm::dvec3(at(x, y).position) - want), 1e-4 + 3e-5 * distance);
+            // Half a float step at 1000 in three coordinates, and the interpolation of 1/w, which is coarser on GPUs.
+            EXPECT_LE(glm::length(glm::dvec3(at(x, y).position) - want), 1e-4 + 5e-5 * distance);
             expectNear(at(x, y).normal, {0, 1, 0}, 1e-6f, "normal");
             expectNear(at(x, y).geometricNormal, {0, 1, 0}, 1e-4f, "geometric normal");
         }

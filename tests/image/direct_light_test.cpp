@@ -242,14 +242,16 @@ TEST_F(DirectLightTest, NoAcneOnAPlaneInGrazingLight) {
                 settings.shadowFilter = filter;
                 const std::vector<float> shadowed = irradiance(scene, camera, settings);
                 int dark = 0, seen = 0;
+                float least = 1;
                 for (std::size_t i = 0; i < lit.size(); ++i) {
                     if (!(lit[i] > 1e-6f)) continue;
                     ++seen;
                     dark += shadowed[i] < 0.999f * lit[i] ? 1 : 0;
+                    least = std::min(least, shadowed[i] / lit[i]);
                 }
                 EXPECT_GT(seen, kWidth * kHeight / 10);
                 EXPECT_EQ(dark, 0) << "light kind " << static_cast<int>(base.type) << ", turned by " << angle
-                                   << ", filter " << filter << ", of " << seen;
+                                   << ", filter " << filter << ", of " << seen << ", least " << least;
             }
         }
 }
