@@ -2,14 +2,19 @@
 // SPDX-License-Identifier: MIT
 // Marks of the octree's nodes -> nodes and bricks with numbers, by a prefix sum over all slots.
 //   STEP 0  one invocation per chunk of slots: its nodes and bricks
-//        1  one invocation: sums of chunks -> their starts (at most some thousand chunks)
+//        1  one group: sums of chunks -> their starts
 //        2  one invocation per chunk: numbers; bricks of each node, node of each brick
 //        3  one invocation per slot: children of each node, which have numbers in a row
 #ifndef STEP
 #error STEP must be 0, 1, 2 or 3
 #endif
+#if STEP == 1
+#define PREFIX_TYPE uvec2
+#include "lib/prefix_sum.glsl"
+#else
 layout(local_size_x = 64) in;  // before linear_index, which asks for it
 #include "lib/linear_index.glsl"
+#endif
 #include "shared/radiance_octree.h"
 layout(std140) uniform RadianceOctreeBlock { RadianceOctree octree; };
 layout(std430) buffer OctreeSlots { uint slots[]; };
@@ -57,16 +62,16 @@ void main() {
 }
 #elif STEP == 1
 void main() {
-    if (linearIndex() != 0u) return;
-    uint count = (octree.slots + octree.slotsPerChunk - 1u) / octree.slotsPerChunk;
-    uvec2 start = uvec2(0u);
-    uint chunk = 0u;
-    do {
-        uvec2 sum = chunks[chunk];
-        chunks[chunk] = start;
-        start += sum;
-        ++chunk;
-    } while (chunk < count);
+    uvec2 range = prefixRange((octree.slots + octree.slotsPerChunk - 1u) / octree.slotsPerChunk);
+    uvec2 sum = uvec2(0u);
+    for (uint i = range.x; i < range.y; ++i) sum += chunks[i];
+    uvec2 total;
+    uvec2 start = prefixBefore(sum, total);
+    for (uint i = range.x; i < range.y; ++i) {
+        uvec2 own = chunks[i];
+        chunks[i] = start;
+        start += own;
+    }
 }
 #else
 void main() {

@@ -1,8 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
 // After an update: means into the lit faces, where rays read them, and into faceLight, where pixels do,
-// shared there with neighbours while they are of few updates; and the flux of each chunk of faces. One
-// invocation per chunk, so that sums have an order.
+// shared there with neighbours while they are of few updates; and the flux of each face.
 //
 // AT_PIXELS 0: leaves faceLight alone, for a commit that is followed by another before pixels look.
 // SHARED 0: no face is of so few updates that pixels see it shared with its neighbours.
@@ -17,6 +16,19 @@ uniform usamplerBuffer voxelFaces;
 uniform usamplerBuffer voxelRecords;
 layout(rgba32ui) readonly uniform uimage3D voxelBrickImage;
 layout(std430) writeonly buffer FaceLightTable { uvec2 faceLight[]; };
+layout(std430) writeonly buffer FluxTable { float fluxes[]; };
+
+// How much of the pool a face gets (docs/theory/4c_estimator.md, (4.11)).
+float faceFlux(uvec4 hitTexel, vec3 radiance) {
+    vec3 n = octDecode(unpackSnorm2x16(hitTexel.x));
+    vec3 lower, upper;
+    lightSampleBounds(hitTexel, n, vec3(0.0), 1.0, lower, upper);
+    vec3 size = max(upper - lower, vec3(0.0));
+    uint axis = hitTexel.w >> 30;
+    float seen = axis == 0u ? size.y * size.z : (axis == 1u ? size.z * size.x : size.x * size.y);
+    float facing = axis == 0u ? n.x : (axis == 1u ? n.y : n.z);
+    return dot(radiance, vec3(1.0 / 3.0)) * seen * dominantFaceShare(n, axis) / max(abs(facing), 1e-3);
+}
 
 #if SHARED && !AT_PIXELS
 #error only what pixels see is shared
@@ -79,62 +91,31 @@ vec3 shownIrradiance(vec3 own, uvec4 hitTexel, uint updates) {
 }
 #endif
 
-// The updates that count of those that a face has had, after a change: 1 near it, where the next update replaces what was
-// there (docs/theory/4d_cache.md, "Things that move"). A sphere of radius r that is d away covers about the part
-// r^2 / d^2 of what a face sees.
-uint updatesKept(uint updates, vec3 position) {
-    float changed = cache.restartsNear != 0u ? 0.0 : 1.0;
-    for (uint i = 0u; i < cache.placeCount; ++i) {
-        vec3 apart = position - cache.places[i].xyz;
-        float radius = cache.places[i].w;
-        changed = max(changed, radius * radius / max(dot(apart, apart), 1e-12));
-    }
-    float weight = clamp(pow(2.0 / IRRADIANCE_NOISE * changed, 2.0 / 3.0), IRRADIANCE_FAR_WEIGHT, 1.0);
-    float window = 1.5 / weight - 1.5;  // as (4.13) weighs
-    return min(updates, window < 1.0 ? 1u : uint(window) + IRRADIANCE_SETTLE);
-}
-
 void main() {
-    uint chunk = linearIndex();
-    uint face = min(chunk * cache.facesPerChunk, grid.faceCount - 1u);
-    bool used = chunk < cache.chunkCount;
-    uint end = used ? min(face + cache.facesPerChunk, grid.faceCount) : face;
-    float flux = 0.0;
-    do {
-        bool inside = face < end;
-        uint at = min(face, grid.faceCount - 1u);
-        int owner = stateOwner(int(at), texelFetch(stateTexels, int(at)));
-        FaceCache state = unpackState(texelFetch(stateTexels, owner));
-        uvec4 hitTexel = texelFetch(voxelFaces, int(at));
-        uvec4 lit = texelFetch(litFaces, int(at));
-        uint updates = state.counts & CACHE_UPDATES_MASK;
-        bool dead = isInterior(state);
-        vec3 irradiance = dead ? vec3(0.0) : clamp(state.irradiance, 0.0, 65504.0);
-        vec3 radiance = unpackRgb9e5(lit.y) + unpackAlbedo(lit.x) * irradiance;
-        flux += inside && !dead ? faceFlux(hitTexel, radiance) : 0.0;
-        lit.z = packHalf2x16(irradiance.rg);
-        lit.w = packHalf2x16(vec2(irradiance.b, 0.0)) | (lit.w & (FACE_LOBE_BITS | FACE_AREA_LIGHT)) |
-                (uint(findMSB(updates) + 1) << FACE_AGE_SHIFT) |
-                (dead ? FACE_INTERIOR : (updates != 0u ? FACE_LIT : 0u));
-        if (inside) {
-            litTable[at].zw = lit.zw;
+    uint face = linearIndex();
+    if (face >= grid.faceCount) return;
+    int owner = stateOwner(int(face), texelFetch(stateTexels, int(face)));
+    FaceCache state = unpackState(texelFetch(stateTexels, owner));
+    uvec4 hitTexel = texelFetch(voxelFaces, int(face));
+    uvec4 lit = texelFetch(litFaces, int(face));
+    uint updates = state.counts & CACHE_UPDATES_MASK;
+    bool dead = isInterior(state);
+    vec3 irradiance = dead ? vec3(0.0) : clamp(state.irradiance, 0.0, 65504.0);
+    vec3 radiance = unpackRgb9e5(lit.y) + unpackAlbedo(lit.x) * irradiance;
+    fluxes[face] = dead ? 0.0 : faceFlux(hitTexel, radiance);
+    lit.z = packHalf2x16(irradiance.rg);
+    lit.w = packHalf2x16(vec2(irradiance.b, 0.0)) | (lit.w & (FACE_LOBE_BITS | FACE_AREA_LIGHT)) |
+            (uint(findMSB(updates) + 1) << FACE_AGE_SHIFT) |
+            (dead ? FACE_INTERIOR : (updates != 0u ? FACE_LIT : 0u));
+    litTable[face].zw = lit.zw;
 #if AT_PIXELS
 #if SHARED
-            vec3 shown = clamp(shownIrradiance(irradiance, hitTexel, updates), 0.0, 65504.0);
+    vec3 shown = clamp(shownIrradiance(irradiance, hitTexel, updates), 0.0, 65504.0);
 #else
-            vec3 shown = irradiance;
+    vec3 shown = irradiance;
 #endif
-            faceLight[at] =
-                uvec2(packHalf2x16(shown.rg), packHalf2x16(vec2(shown.b, 0.0)) |
-                                                  weightAtPixels(hitTexel, !dead && updates != 0u) << 16);
+    faceLight[face] =
+        uvec2(packHalf2x16(shown.rg),
+              packHalf2x16(vec2(shown.b, 0.0)) | weightAtPixels(hitTexel, !dead && updates != 0u) << 16);
 #endif
-            // What was there is replaced by the next update, but is good until then.
-            if (cache.restart != 0u && owner == int(at)) {
-                vec3 position = grid.origin + grid.voxelSize * (vec3(unpackVoxel(hitTexel.w)) + 0.5);
-                states[at].counts = (state.counts & 0xffff0000u) | updatesKept(updates, position);
-            }
-        }
-        ++face;
-    } while (face < end);
-    if (used) chunks[chunk] = flux;
 }

@@ -10,14 +10,19 @@
 // each sort.
 //   STEP 0  faces that gather -> bins; those that share -> states
 //   STEP 1  bins -> number of faces per chunk of bins
-//   STEP 2  the same -> faces before each chunk, and at all (one invocation)
+//   STEP 2  the same -> faces before each chunk, and at all (one group)
 //   STEP 3  bins -> faces before each bin
 //   STEP 4  faces that gather -> order
 //   STEP 5  instead of all: faces as they are stored, for grids with too many bins; all gather
 #ifndef STEP
 #error STEP must be 0 to 5
 #endif
+#if STEP == 2
+#define PREFIX_TYPE uint
+#include "lib/prefix_sum.glsl"
+#else
 layout(local_size_x = 64) in;
+#endif
 #include "lib/dot.glsl"
 #include "lib/interleave.glsl"
 #include "lib/linear_index.glsl"
@@ -27,7 +32,12 @@ layout(local_size_x = 64) in;
 layout(std430) buffer OrderTable { uint order[]; };
 layout(std430) buffer BinTable { uvec2 bins[]; };
 layout(std430) buffer StartTable { uint starts[]; };
-layout(std430) buffer ChunkTable { uint chunks[]; };
+// Of each chunk of bins; in front of them the faces that gather, and how many doubtful ones follow.
+layout(std430) buffer ChunkTable {
+    uint gathering;
+    uint doubtful;
+    uint chunks[];
+};
 #if STEP == 0
 layout(std430) writeonly buffer StateTable { uvec4 states[]; };
 #endif
@@ -41,7 +51,6 @@ uint binCount() {
     ivec3 blocks = (gridBricks() + 3) >> 2;
     return uint(blocks.x * blocks.y * blocks.z) * CACHE_BINS_PER_BLOCK;
 }
-uint binsPerChunk() { return (binCount() + CACHE_ORDER_CHUNKS - 1u) / CACHE_ORDER_CHUNKS; }
 
 // Two faces of one voxel hold the same surface when the cosine between their normals is above the first, and
 // their planes and the middles of their bounds are no farther apart than this, in voxels.
@@ -133,8 +142,7 @@ void sortFace(uint index) {
     uint role = shares ? kLeftOut : roleOf(hitTexel, state);
 #if STEP == 4
     // In no order: what a face gathers does not depend on it.
-    if (role == kDoubtful)
-        order[chunks[CACHE_ORDER_CHUNKS] + atomicAdd(chunks[CACHE_ORDER_CHUNKS + 1u], 1u)] = index;
+    if (role == kDoubtful) order[gathering + atomicAdd(doubtful, 1u)] = index;
 #endif
     if (role != kGathers) return;
     uint brick;
@@ -152,29 +160,31 @@ void sortFace(uint index) {
 #endif
 
 #if STEP == 2
-// Numbers per chunk -> numbers before each, and at all; `first`: this invocation writes them.
-void sumChunks(bool first) {
-    uint before = 0u;
-    uint i = 0u;
-    do {
+// Numbers per chunk -> numbers before each, and at all.
+void sumChunks() {
+    uvec2 range = prefixRange(settings.chunkCount);
+    uint sum = 0u;
+    for (uint i = range.x; i < range.y; ++i) sum += chunks[i];
+    uint total;
+    uint before = prefixBefore(sum, total);
+    for (uint i = range.x; i < range.y; ++i) {
         uint count = chunks[i];
-        if (first) chunks[i] = before;
+        chunks[i] = before;
         before += count;
-    } while (++i < CACHE_ORDER_CHUNKS);
-    if (first) {
-        chunks[CACHE_ORDER_CHUNKS] = before;
-        chunks[CACHE_ORDER_CHUNKS + 1u] = 0u;
     }
+    if (gl_LocalInvocationIndex != 0u) return;
+    gathering = total;
+    doubtful = 0u;
 }
 #endif
 
 #if STEP == 1 || STEP == 3
 // Counts the faces in the bins of a chunk, or numbers on from those before it.
 void walkBins(uint chunk) {
-    uint size = binsPerChunk();
-    uint bin = min(chunk * size, binCount());
-    uint end = chunk < CACHE_ORDER_CHUNKS ? min(bin + size, binCount()) : bin;
-    uint sum = STEP == 3 && chunk < CACHE_ORDER_CHUNKS ? chunks[chunk] : 0u;
+    if (chunk >= settings.chunkCount) return;
+    uint bin = chunk * settings.binsPerChunk;
+    uint end = min(bin + settings.binsPerChunk, binCount());
+    uint sum = STEP == 3 ? chunks[chunk] : 0u;
     while (bin < end) {
         uvec2 mask = texelFetch(binTexels, int(bin)).xy;
 #if STEP == 3
@@ -184,19 +194,21 @@ void walkBins(uint chunk) {
         ++bin;
     }
 #if STEP == 1
-    if (chunk < CACHE_ORDER_CHUNKS) chunks[chunk] = sum;
+    chunks[chunk] = sum;
 #endif
 }
 #endif
 
 void main() {
+#if STEP != 2
     uint index = linearIndex();
+#endif
 #if STEP == 0 || STEP == 4
     if (index < grid.faceCount) sortFace(index);
 #elif STEP == 1 || STEP == 3
     walkBins(index);
 #elif STEP == 2
-    sumChunks(index == 0u);
+    sumChunks();
 #else
     if (index < grid.faceCount) order[index] = index;
 #endif

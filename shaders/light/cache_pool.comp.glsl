@@ -4,11 +4,10 @@
 // total flux (stratified), in their order but for close neighbours. Finds its chunk by bisection, then walks
 // through the chunk.
 layout(local_size_x = 64) in;
-#include "lib/lit_face.glsl"
 #include "lib/random.glsl"
 #include "light/cache_common.glsl"
 layout(std430) writeonly buffer PoolTable { uint pool[]; };
-uniform usamplerBuffer voxelFaces;
+uniform samplerBuffer faceFluxes;
 
 void main() {
     uint place = min(gl_GlobalInvocationID.x, LIGHT_SAMPLE_COUNT - 1u);
@@ -34,10 +33,7 @@ void main() {
     uint found = face;
     bool going = true;
     do {
-        uvec4 lit = texelFetch(litFaces, int(face));
-        vec3 radiance = litRadiance(lit);
-        float flux =
-            (lit.w & FACE_INTERIOR) != 0u ? 0.0 : faceFlux(texelFetch(voxelFaces, int(face)), radiance);
+        float flux = texelFetch(faceFluxes, int(face)).x;
         found = flux > 0.0 ? face : found;
         sum += flux;
         going = sum <= wanted;

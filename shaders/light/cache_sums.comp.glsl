@@ -1,21 +1,47 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// Flux of each chunk -> flux of all chunks before it; the total at the end. One invocation: sums have an
-// order, and the list is short.
-layout(local_size_x = 8) in;
+// The flux of faces in front of each chunk of them, for the pool of light samples (shared/prefix_sum.h).
+//   STEP 0  one invocation per chunk: flux of faces -> its flux
+//        1  one group: flux of chunks -> flux before each; behind them the total
+#if STEP == 1
+#define PREFIX_TYPE float
+#include "lib/prefix_sum.glsl"
+#elif STEP == 0
+layout(local_size_x = 64) in;
+#else
+#error STEP must be 0 or 1
+#endif
 #include "light/cache_common.glsl"
+#if STEP == 0
+uniform samplerBuffer faceFluxes;
+
+void main() {
+    uint chunk = linearIndex();
+    if (chunk >= cache.chunkCount) return;
+    uint face = chunk * cache.facesPerChunk;
+    uint end = min(face + cache.facesPerChunk, grid.faceCount);
+    float flux = 0.0;
+    do {
+        flux += texelFetch(faceFluxes, int(face)).x;
+    } while (++face < end);
+    chunks[chunk] = flux;
+}
+#else
 layout(std430) writeonly buffer PoolTable { uint pool[]; };
 
 void main() {
-    float total = 0.0;
-    uint i = 0u;
-    bool first = gl_GlobalInvocationID.x == 0u;
-    do {
+    uvec2 range = prefixRange(cache.chunkCount);
+    float sum = 0.0;
+    for (uint i = range.x; i < range.y; ++i) sum += chunks[i];
+    float total;
+    float before = prefixBefore(sum, total);
+    for (uint i = range.x; i < range.y; ++i) {
         float flux = chunks[i];
-        if (first) chunks[i] = total;
-        total += flux;
-    } while (++i < cache.chunkCount);
-    if (!first) return;
+        chunks[i] = before;
+        before += flux;
+    }
+    if (gl_LocalInvocationIndex != 0u) return;
     chunks[cache.chunkCount] = total;
     pool[0] = floatBitsToUint(total > 0.0 ? 1.0 / total : 0.0);
 }
+#endif

@@ -35,9 +35,8 @@
 #define IRRADIANCE_INTERIOR_RAYS 16
 
 // Order in which updates visit faces (cache_order): six directions and 64 places in a brick per block of 4^3
-// bricks; chunks of the prefix sum over bins.
+// bricks.
 #define CACHE_BINS_PER_BLOCK 384u
-#define CACHE_ORDER_CHUNKS 4096u
 
 #define CACHE_SHARES 0x8000u
 #define CACHE_UPDATES_MASK 0x7fffu
@@ -85,15 +84,15 @@ struct CacheConstants {
     uint facesPerChunk;
     // ---- 32 B
     uint chunkCount;
-    uint restart;        // 1: light changed, windows are short again
     uint reflections;    // on metals, of one ray
     float fireflyClamp;  // as in PixelRayConstants
+    // 1: after a change windows are short near `places`, elsewhere no longer than IRRADIANCE_FAR_WEIGHT lets them
+    uint restartsNear;
     // ---- 48 B
-    uint
-        restartsNear;  // 1: windows are short again near `places`, elsewhere no longer than IRRADIANCE_FAR_WEIGHT lets them
     uint placeCount;
     uint pad0;
     uint pad1;
+    uint pad2;
     // ---- 64 B
     vec4 places[4];  // of changes, world space; w: radius, m
 };                   // 128 B
@@ -113,8 +112,8 @@ struct CacheReprojection {
 struct CacheOrder {
     uint number;    // of the sort
     uint searches;  // 1: faces that may be inside closed objects, or are, are visited to find out
-    uint pad0;
-    uint pad1;
+    uint binsPerChunk;
+    uint chunkCount;
 };  // 16 B
 
 CONELIGHT_SHARED_END

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Second third of a prefix sum: one invocation turns the chunks' sums into their starts (at most a few
-// thousand chunks), and writes the totals and the group counts of the passes that follow. STEP 0: no sum,
+// Second third of a prefix sum: one group turns the chunks' sums into their starts, and writes the totals and
+// the group counts of the passes that follow. STEP 0: no sum,
 // group count of surface_tiles. 1: after counting bricks. 2: after counting faces. 3: no sum, group count of
 // surface_resolve in an update. 4: no sum, group counts of surface_layers.
 #version 450
 #ifndef STEP
 #error STEP must be 0, 1, 2, 3 or 4
 #endif
+#if STEP == 1 || STEP == 2
+#define PREFIX_TYPE uvec2
+#include "lib/prefix_sum.glsl"
+#else
 layout(local_size_x = 8) in;
+#endif
 #include "lib/voxel_grid.glsl"
 #include "voxels/surface_common.glsl"
 layout(std430) buffer CounterTable { uint counters[]; };
@@ -22,7 +27,9 @@ void writeArguments(int at, uint invocations) {
 }
 
 void main() {
+#if STEP == 0 || STEP == 3 || STEP == 4
     if (gl_LocalInvocationIndex != 0u) return;
+#endif
 #if STEP == 0
     writeArguments(SURFACE_ARGS_TILES, 8u * min(counters[SURFACE_TILES], surface.tileCapacity));
 #elif STEP == 3
@@ -38,24 +45,27 @@ void main() {
     uint count = min(counters[SURFACE_VOXELS], surface.voxelCapacity);
     uint chunkCount = (count + surface.voxelsPerChunk - 1u) / surface.voxelsPerChunk;
 #endif
-    uvec2 start = uvec2(0u);
-    uint i = 0u;
-    while (i < chunkCount) {
-        uvec2 sum = chunks[i];
+    uvec2 range = prefixRange(chunkCount);
+    uvec2 sum = uvec2(0u);
+    for (uint i = range.x; i < range.y; ++i) sum += chunks[i];
+    uvec2 total;
+    uvec2 start = prefixBefore(sum, total);
+    for (uint i = range.x; i < range.y; ++i) {
+        uvec2 own = chunks[i];
         chunks[i] = start;
-        start += sum;
-        ++i;
+        start += own;
     }
+    if (gl_LocalInvocationIndex != 0u) return;
 #if STEP == 1
-    counters[SURFACE_VOXELS] = start.x;
-    counters[SURFACE_BRICKS] = start.y;
-    uint voxels = min(start.x, surface.voxelCapacity);
-    writeArguments(SURFACE_ARGS_BRICKS, min(start.y, surface.brickCapacity));
+    counters[SURFACE_VOXELS] = total.x;
+    counters[SURFACE_BRICKS] = total.y;
+    uint voxels = min(total.x, surface.voxelCapacity);
+    writeArguments(SURFACE_ARGS_BRICKS, min(total.y, surface.brickCapacity));
     writeArguments(SURFACE_ARGS_FRAGMENTS, min(counters[SURFACE_FRAGMENTS], surface.fragmentCapacity));
     writeArguments(SURFACE_ARGS_VOXELS, (voxels + surface.voxelsPerChunk - 1u) / surface.voxelsPerChunk);
 #else
-    counters[SURFACE_FACES] = start.x;
-    writeArguments(SURFACE_ARGS_FACES, min(start.x, surface.faceCapacity));
+    counters[SURFACE_FACES] = total.x;
+    writeArguments(SURFACE_ARGS_FACES, min(total.x, surface.faceCapacity));
 #endif
 #endif
 }

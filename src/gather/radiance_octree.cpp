@@ -7,13 +7,12 @@
 #include "base/assert.h"
 #include "base/log.h"
 #include "gl/gl.h"
+#include "shared/prefix_sum.h"
 
 namespace conelight::gather {
 namespace {
 
 constexpr int kLevels = OCTREE_LEVELS;
-// Chunks of slots: so few that one invocation may add them up, and no shorter than is worth one.
-constexpr std::uint32_t kMostChunks = 8192, kLeastChunk = 64;
 // Slices of the brick texture: at most eight times as many as a row has bricks, so that the last one, which is
 // filled in part, is a small part of all; and no more than 2048 texels, the least limit of GL 4.5.
 constexpr std::uint32_t kSlicesPerRow = 8, kMostSlices = 2048 / OCTREE_BRICK_EDGE, kMostRowBits = 8;
@@ -113,7 +112,7 @@ void RadianceOctree::build(const gl::Device& device, const Shape& shape, const M
     constants_.maxLevel = static_cast<std::uint32_t>(shape.maxLevel);
     constants_.topLevel = std::max(constants_.rootLevel, constants_.maxLevel);
     constants_.slots = constants_.topLevel - constants_.rootLevel + ((1u << (3 * (root + 1))) - 1) / 7;
-    constants_.slotsPerChunk = std::max((constants_.slots + kMostChunks - 1) / kMostChunks, kLeastChunk);
+    constants_.slotsPerChunk = gpu::perChunk(constants_.slots);
     block_.update(constants_);
     const gl::Buffer slots(std::size_t{4} * constants_.slots, "octree slots");
     const gl::Buffer counted(sizeof(counts_), "octree counts");
@@ -138,7 +137,7 @@ void RadianceOctree::build(const gl::Device& device, const Shape& shape, const M
 
 // Numbers for the marked slots.
 void RadianceOctree::number(const gl::Device& device, const gl::Buffer& slots) {
-    const std::uint32_t chunks = (constants_.slots + constants_.slotsPerChunk - 1) / constants_.slotsPerChunk;
+    const std::uint32_t chunks = gpu::chunksOf(constants_.slots);
     const gl::Buffer sums(std::size_t{8} * chunks, "octree chunks");
     gl::Inputs numbers;
     numbers.uniform("RadianceOctreeBlock", block_)

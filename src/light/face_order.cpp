@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "light/face_order.h"
 
+#include <algorithm>
+
 #include "gl/gl.h"
 #include "shared/irradiance.h"
+#include "shared/prefix_sum.h"
 
 namespace conelight::light {
 namespace {
@@ -20,6 +23,15 @@ struct OrderKey {
 };
 
 }  // namespace
+
+void FaceOrder::reserveOrder(std::size_t faces) {
+    if (order_.bytes() >= 4 * faces && order_) return;
+    orderTexels_ = {};
+    const bool grows = static_cast<bool>(order_);
+    order_ = {};
+    order_ = gl::Buffer(4 * (grows ? faces + faces / 4 : faces), "order of faces");
+    orderTexels_ = gl::Texture(order_, GL_R32UI, "order of faces");
+}
 
 void FaceOrder::reserveBins(std::size_t count) {
     if (bins_.bytes() == 8 * count) return;
@@ -43,22 +55,16 @@ void FaceOrder::sort(const gl::Device& device, const voxels::SurfaceVoxels& surf
     gathering_ = faces;
     doubtful_ = 0;
     if (faces == 0) return;
-    if (!order_ || order_.bytes() < std::size_t{4} * faces) {
-        orderTexels_ = {};
-        const bool grows = static_cast<bool>(order_);
-        order_ = {};
-        order_ = gl::Buffer(std::size_t{4} * (grows ? faces + faces / 4 : faces), "order of faces");
-        orderTexels_ = gl::Texture(order_, GL_R32UI, "order of faces");
-    }
-    if (!chunks_) {
-        chunks_ = gl::Buffer(4 * (CACHE_ORDER_CHUNKS + 2), "chunks of bins");
-        block_ = gl::Buffer(sizeof(gpu::CacheOrder), "order of faces constants");
-    }
-    gl::Inputs inputs;
-    inputs.add(surface).storage("OrderTable", order_);
+    reserveOrder(faces);
     const glm::ivec3 blocks = (surface.grid().bricks() + 3) / 4;
     const auto blockCount = static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.y) *
                             static_cast<std::size_t>(blocks.z);
+    const auto bins = static_cast<std::uint32_t>(std::min(blockCount, kMaxBlocks) * CACHE_BINS_PER_BLOCK);
+    if (const std::size_t bytes = 4 * (2 + std::size_t{gpu::mostChunks(bins)}); chunks_.bytes() < bytes)
+        chunks_ = gl::Buffer(bytes, "chunks of bins");
+    if (!block_) block_ = gl::Buffer(sizeof(gpu::CacheOrder), "order of faces constants");
+    gl::Inputs inputs;
+    inputs.add(surface).storage("OrderTable", order_);
     if (blockCount > kMaxBlocks) {
         // The block and the lists are declared in every step; nothing is read of them here.
         inputs.uniform("OrderBlock", block_)
@@ -69,11 +75,13 @@ void FaceOrder::sort(const gl::Device& device, const voxels::SurfaceVoxels& surf
         gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
         return;
     }
-    reserveBins(blockCount * CACHE_BINS_PER_BLOCK);
+    reserveBins(bins);
     bins_.clear();
     gpu::CacheOrder block{};
     block.number = sorts_++;
     block.searches = wanted.searches ? 1 : 0;
+    block.binsPerChunk = gpu::perChunk(bins);
+    block.chunkCount = gpu::chunksOf(bins);
     block_.update(block);
     inputs.uniform("OrderBlock", block_)
         .storage("BinTable", bins_)
@@ -83,12 +91,12 @@ void FaceOrder::sort(const gl::Device& device, const voxels::SurfaceVoxels& surf
         .texture("binTexels", binTexels_)
         .texture("startTexels", binStartTexels_)
         .texture("stateTexels", stateTexels);
-    const std::size_t invocations[] = {faces, CACHE_ORDER_CHUNKS, 1, CACHE_ORDER_CHUNKS, faces};
+    const std::size_t invocations[] = {faces, block.chunkCount, 1, block.chunkCount, faces};
     for (int step = 0; step < 5; ++step) {
         device.get(OrderKey{step}.desc()).dispatchLinear(inputs, invocations[step]);
         gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
     }
-    const auto counts = chunks_.read<std::uint32_t>(2, sizeof(std::uint32_t) * CACHE_ORDER_CHUNKS);
+    const auto counts = chunks_.read<std::uint32_t>(2);
     gathering_ = counts[0];
     doubtful_ = counts[1];
     // They are as large as what they sort.

@@ -28,6 +28,7 @@ class FaceOrder {
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
+    void reserveOrder(std::size_t faces);
     void reserveBins(std::size_t count);
     void releaseBins();
 

@@ -3,18 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <utility>
 
 #include "base/assert.h"
 #include "gl/gl.h"
 #include "light/firefly_clamp.h"
+#include "shared/prefix_sum.h"
 
 namespace conelight::light {
 namespace {
 
-constexpr std::uint32_t kMaxChunks = 4096;  // one invocation walks over all chunks
-constexpr std::uint32_t kLeastChunk = 16;   // fewer faces per invocation are not worth starting it
-constexpr double kSlack = 1.25;             // room for growth when memory is allocated anew
+constexpr double kSlack = 1.25;  // room for growth when memory is allocated anew
 // While voxels change with every call, an update looks for faces inside closed objects at one in so many
 // faces only, others at the next: looking costs as much as two more rays. Those of which a ray has met
 // something from behind are looked at each second time.
@@ -56,6 +56,7 @@ struct CommitKey {
 };
 
 gl::ProgramDesc pass(const char* name) { return {{std::string("light/cache_") + name + ".comp.glsl"}, {}}; }
+gl::ProgramDesc sums(int step) { return {{"light/cache_sums.comp.glsl"}, {{"STEP", std::to_string(step)}}}; }
 
 }  // namespace
 
@@ -73,7 +74,6 @@ void IrradianceCache::reserve(std::uint32_t faces) {
     if (!pool_) {
         pool_ = gl::Buffer(4 * (1 + LIGHT_SAMPLE_COUNT), "light samples");
         poolTexels_ = gl::Texture(pool_, GL_R32UI, "light samples");
-        chunks_ = gl::Buffer(4 * (kMaxChunks + 2), "irradiance cache chunks");
         constants_ = gl::Buffer(sizeof(gpu::CacheConstants), "irradiance cache constants");
         reprojectionBlock_ = gl::Buffer(sizeof(gpu::CacheReprojection), "irradiance cache reprojection");
     }
@@ -90,6 +90,14 @@ void IrradianceCache::reserve(std::uint32_t faces) {
         faceLight_ = {};
         faceLight_ = gl::Buffer(std::size_t{8} * room, "light of faces at pixels");
         faceLightTexels_ = gl::Texture(faceLight_, GL_RG32UI, "light of faces at pixels");
+    }
+    if (fluxes_.bytes() < std::size_t{4} * faces || !fluxes_) {
+        fluxTexels_ = {};
+        fluxes_ = {};
+        fluxes_ = gl::Buffer(std::size_t{4} * room, "flux of faces");
+        fluxTexels_ = gl::Texture(fluxes_, GL_R32F, "flux of faces");
+        chunks_ = gl::Buffer(4 * (std::size_t{gpu::mostChunks(static_cast<std::uint32_t>(room))} + 1),
+                             "flux of chunks of faces");
     }
 }
 
@@ -166,12 +174,11 @@ gpu::CacheConstants IrradianceCache::packed(const CacheSettings& settings, std::
     c.update = updatesMade_;
     c.seed = settings.seed;
     c.longestWindow = settings.averages ? static_cast<std::uint32_t>(std::max(settings.longestWindow, 1)) : 1;
-    c.facesPerChunk = std::max((faceCount_ + kMaxChunks - 1) / kMaxChunks, kLeastChunk);
-    c.chunkCount = (faceCount_ + c.facesPerChunk - 1) / c.facesPerChunk;
+    c.facesPerChunk = gpu::perChunk(faceCount_);
+    c.chunkCount = gpu::chunksOf(faceCount_);
     c.reflections = static_cast<std::uint32_t>(std::max(settings.reflections, 0));
     c.fireflyClamp = fireflyClamp((settings.cosineRays + settings.lightRays) *
                                   std::min(settings.longestWindow, kUsualWindow));
-    c.restart = restarts_ ? 1 : 0;
     if (restarts_ && restartsNear_) {
         c.restartsNear = 1;
         c.placeCount = static_cast<std::uint32_t>(restartsNear_->size());
@@ -194,12 +201,17 @@ void IrradianceCache::commit(const gl::Device& device, const Inputs& inputs, con
         .texture("stateTexels", stateTexels_)
         .storage("ChunkTable", chunks_)
         .storage("PoolTable", pool_)
-        .storage("FaceLightTable", faceLight_);
+        .storage("FaceLightTable", faceLight_)
+        .storage("FluxTable", fluxes_)
+        .texture("faceFluxes", fluxTexels_);
     const bool shared = updates() <= IRRADIANCE_SHARED_UPDATES;
     const Commit kind = !atPixels ? Commit::ForRays : (shared ? Commit::SharedForPixels : Commit::ForPixels);
-    device.get(CommitKey{kind}.desc()).dispatchLinear(given, block.chunkCount);
+    device.get(CommitKey{kind}.desc()).dispatchLinear(given, faceCount_);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
-    device.get(pass("sums")).dispatch(given, 8);
+    if (restarts_) device.get(pass("restart")).dispatchLinear(given, faceCount_);
+    device.get(sums(0)).dispatchLinear(given, block.chunkCount);
+    gl::barrier(gl::Access::ShaderStorage);
+    device.get(sums(1)).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage);
     device.get(pass("pool")).dispatch(given, LIGHT_SAMPLE_COUNT);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Update);
@@ -292,7 +304,7 @@ void IrradianceCache::declare(gl::Inputs& inputs) const {
 }
 
 std::vector<gl::ProgramDesc> IrradianceCache::programDescs() {
-    std::vector<gl::ProgramDesc> descs{pass("sums"), pass("pool"), pass("reproject")};
+    std::vector<gl::ProgramDesc> descs{sums(0), sums(1), pass("pool"), pass("restart"), pass("reproject")};
     for (const CommitKey& key : CommitKey::all()) descs.push_back(key.desc());
     for (const UpdateKey& key : UpdateKey::all()) descs.push_back(key.desc());
     const std::vector<gl::ProgramDesc> order = FaceOrder::programDescs();

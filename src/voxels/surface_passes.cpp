@@ -25,7 +25,7 @@ void SurfaceVoxels::Impl::compact(const gl::Device& device) {
     const gl::PassScope scope(device.profiler, "voxelize: compact");
     gl::Inputs given = this->given();
     const auto bricks = static_cast<std::uint32_t>(grid.brickCount());
-    const std::uint32_t chunkCount = (bricks + perChunk(bricks) - 1) / perChunk(bricks);
+    const std::uint32_t chunkCount = gpu::chunksOf(bricks);
     device.get(SurfaceCountKey{true}.desc()).dispatchLinear(given, chunkCount);
     gl::barrier(gl::Access::ShaderStorage);
     device.get(SurfaceScanKey{SurfaceCounted::Bricks}.desc()).dispatch(given, 1);

@@ -10,9 +10,8 @@
 namespace conelight::voxels {
 namespace {
 
-constexpr std::uint32_t kLeastChunk = 16;  // fewer elements per invocation are not worth starting it
-constexpr double kSlack = 1.25;            // room for growth when memory is allocated anew
-constexpr std::uint32_t kSpareShare = 8;   // of what a first build found, one in so many is left as room
+constexpr double kSlack = 1.25;           // room for growth when memory is allocated anew
+constexpr std::uint32_t kSpareShare = 8;  // of what a first build found, one in so many is left as room
 constexpr std::size_t kFragmentBytes = 32;
 constexpr float kLargestEmission = 65504.0f;  // what a half holds
 
@@ -60,10 +59,6 @@ Surfaces surfacesOf(const scene::GpuScene& scene) {
         surfaces.largestEmission =
             std::exp2(std::ceil(std::log2(std::min(surfaces.largestEmission, kLargestEmission))));
     return surfaces;
-}
-
-std::uint32_t perChunk(std::uint32_t count) {
-    return std::max((count + kMaxChunks - 1) / kMaxChunks, kLeastChunk);
 }
 
 void Results::reserve(std::uint32_t wantedVoxels, std::uint32_t wantedFaces) {
@@ -133,8 +128,10 @@ void SurfaceVoxels::Impl::allocateFor(const Capacity& wanted) {
         constants = gl::Buffer(sizeof(gpu::SurfaceConstants), "voxelizer constants");
         gridBlock = gl::Buffer(sizeof(gpu::VoxelGrid), "voxel grid");
         counters = gl::Buffer(sizeof counts, "voxelizer counters");
-        chunks = gl::Buffer(kMaxChunks * std::size_t{8}, "voxelizer chunks");
     }
+    const std::size_t chunkBytes =
+        std::size_t{8} * std::max(gpu::mostChunks(wanted.gridBricks), gpu::mostChunks(wanted.voxels));
+    if (chunkBytes > chunks.bytes()) chunks = gl::Buffer(chunkBytes, "voxelizer chunks");
     if (wanted.gridBricks > capacity.gridBricks) {
         masks = gl::Buffer(std::size_t{8} * wanted.gridBricks, "voxelizer masks");
         changedBricks = gl::Buffer(std::size_t{4} * ((wanted.gridBricks + 31) / 32), "changed bricks");
@@ -226,8 +223,8 @@ void SurfaceVoxels::Impl::upload(const scene::GpuScene& scene, const Edits* edit
     c.voxelCapacity = capacity.voxels;
     c.faceCapacity = capacity.faces;
     c.brickCapacity = capacity.bricks;
-    c.bricksPerChunk = perChunk(static_cast<std::uint32_t>(grid.brickCount()));
-    c.voxelsPerChunk = perChunk(capacity.voxels);
+    c.bricksPerChunk = gpu::perChunk(static_cast<std::uint32_t>(grid.brickCount()));
+    c.voxelsPerChunk = gpu::perChunk(capacity.voxels);
     c.emissionScale = std::max(surfaces.largestEmission, kLeastEmission);
     constants.update(c);
     updateGridBlock();

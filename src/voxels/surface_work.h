@@ -7,14 +7,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "shared/prefix_sum.h"
 #include "shared/voxels.h"
 #include "voxels/surface_keys.h"
 #include "voxels/surface_voxels.h"
 
 namespace conelight::voxels {
 
-constexpr std::uint32_t kMaxChunks = 4096;  // one invocation walks over all chunks
-constexpr float kLeastEmission = 1e-6f;     // W/(sr m^2); less is none
+constexpr float kLeastEmission = 1e-6f;  // W/(sr m^2); less is none
 
 // How much every list can hold.
 struct Capacity {
@@ -38,7 +38,6 @@ struct Surfaces {
 };
 
 Surfaces surfacesOf(const scene::GpuScene& scene);
-std::uint32_t perChunk(std::uint32_t count);  // elements that one invocation adds up
 
 // What an update makes besides the keys. Two of them take turns when there are updates.
 struct Results {
