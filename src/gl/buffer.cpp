@@ -2,6 +2,8 @@
 #include "gl/buffer.h"
 
 #include <algorithm>
+#include <cstddef>
+#include <vector>
 
 #include "base/assert.h"
 #include "gl/gl.h"
@@ -26,13 +28,16 @@ Buffer::Buffer(const void* data, std::size_t bytes, const std::string& label)
     Name created = 0;
     glCreateBuffers(1, &created);
     adopt(created, label, bytes_);
-    const bool whole = data != nullptr && bytes == bytes_;
-    glNamedBufferStorage(created, static_cast<GLsizeiptr>(bytes_), whole ? data : nullptr,
-                         GL_DYNAMIC_STORAGE_BIT);
+    // Filled up with zeros here: a driver of NVIDIA (580.159) has lost what was written right after a fill.
+    std::vector<std::byte> padded;
+    if (data != nullptr && bytes < bytes_) {
+        padded.resize(bytes_);
+        std::copy_n(static_cast<const std::byte*>(data), bytes, padded.begin());
+        data = padded.data();
+    }
+    glNamedBufferStorage(created, static_cast<GLsizeiptr>(bytes_), data, GL_DYNAMIC_STORAGE_BIT);
     requireStorage(ObjectType::Buffer, created, label, bytes_);
-    if (whole) return;
-    clear();
-    if (data != nullptr) update(0, data, bytes);
+    if (data == nullptr) clear();
 }
 
 void Buffer::update(std::size_t offset, const void* data, std::size_t bytes) {

@@ -25,9 +25,27 @@ const char* whyLost(GLenum status) {
     }
 }
 
+// Beyond the least size that is worth the question.
+constexpr std::size_t kLarge = std::size_t{1} << 30;
+
+[[noreturn]] void failForMemory(const std::string& label, std::size_t bytes) {
+    base::fail(ErrorKind::Runtime,
+               "OpenGL: no memory for '%s' (%.1f MiB); a smaller grid, picture or texture would be right",
+               label.c_str(), mebibytes(bytes));
+}
+
+// Drivers of NVIDIA promise any size, and hang where it is used.
+void requireDeviceHas(const std::string& label, std::size_t bytes) {
+    if (bytes < kLarge || !epoxy_has_gl_extension("GL_NVX_gpu_memory_info")) return;
+    GLint kibibytes = 0;
+    glGetIntegerv(GL_GPU_MEMORY_INFO_TOTAL_AVAILABLE_MEMORY_NVX, &kibibytes);
+    if (kibibytes > 0 && bytes / 1024 > static_cast<std::size_t>(kibibytes)) failForMemory(label, bytes);
+}
+
 }  // namespace
 
 void requireRoom(const std::string& label, std::size_t bytes) {
+    requireDeviceHas(label, bytes);
     const std::size_t limit = limitBytes;
     if (limit == 0) return;
     const std::size_t taken = liveBytes();
@@ -64,9 +82,7 @@ void requireStorage(ObjectType type, Name name, const std::string& label, std::s
     requireLiveContext();
     // The flag is per kind of error; a lost context reports one for ever, hence the bound.
     for (int i = 0; i < 8 && glGetError() != GL_NO_ERROR; ++i) continue;
-    base::fail(ErrorKind::Runtime,
-               "OpenGL: no memory for '%s' (%.1f MiB); a smaller grid, picture or texture would be right",
-               label.c_str(), mebibytes(bytes));
+    failForMemory(label, bytes);
 }
 
 }  // namespace conelight::gl

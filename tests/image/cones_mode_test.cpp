@@ -177,7 +177,7 @@ TEST_F(ConesModeTest, SameBitsEveryTime) {
 }
 
 // The octree changes where radiance lies, not what cones read: what is left is rounding of coordinates,
-// which the halves between bounces may enlarge to 6e-5.
+// which the halves between bounces may enlarge to 6e-5, and filters of GPUs, which mix in 8 bits, to 4e-4.
 TEST_F(ConesModeTest, OctreeGivesThePictureOfTheDenseVolume) {
     for (const char* name : {"cornell", "sunroom", "spheres"}) {
         const Scene scene = io::generateScene(name);
@@ -189,7 +189,7 @@ TEST_F(ConesModeTest, OctreeGivesThePictureOfTheDenseVolume) {
                 setSetting(settings, "cones.directional", directional);
                 const Image dense = render(scene, settings);
                 setSetting(settings, "cones.storage", "octree");
-                EXPECT_LT(relRmse(render(scene, settings), dense), 2e-4) << name << " " << directional;
+                EXPECT_LT(relRmse(render(scene, settings), dense), 1e-3) << name << " " << directional;
             }
     }
 }
