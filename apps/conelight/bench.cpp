@@ -199,7 +199,7 @@ std::vector<Run> benchScene(const std::string& path, const BenchOptions& options
         if (!options.moving.empty()) findInstance(sessions.back()->scene(), path, options.moving);
         runs.push_back({mode, sessions.back()->shownSettings(), {}, {}, nullptr});
         Renderer& renderer =
-            *renderers.emplace_back(std::make_unique<Renderer>(RendererOptions{"", options.view.debugGl}));
+            *renderers.emplace_back(std::make_unique<Renderer>(rendererOptions(options.view, "")));
         renderer.setScene(sessions.back()->scene());
         runs.back().baked = bakedFor(runs.back(), sessions.back()->scene(), path, options.moving, progress);
         renderer.setBakedLight(runs.back().baked);

@@ -174,15 +174,26 @@ void ViewOptions::addTo(CLI::App& command) {
     command.add_option("--set", sets, "a setting (`conelight settings` lists them); may be repeated")
         ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
+    addContextTo(command);
+    command.add_flag("--no-ground", noGround,
+                     "no ground below a scene that has neither light nor a floor of its own");
+    addMemory(command);
+    addAllowOutside(command, allowOutside);
+}
+
+void ViewOptions::addContextTo(CLI::App& command) {
     command.add_option("--device", device, "EGL device (`conelight info` lists them)")
         ->type_name("N")
         ->check(CLI::NonNegativeNumber);
     command.add_flag("--gl-debug", debugGl,
                      "check every OpenGL call and report errors of the driver (slower)");
-    command.add_flag("--no-ground", noGround,
-                     "no ground below a scene that has neither light nor a floor of its own");
-    addMemory(command);
-    addAllowOutside(command, allowOutside);
+    command
+        .add_option(
+            "--execution", execution,
+            "shape of passes that write each pixel once: fragments for a processor, compute for a GPU; auto: "
+            "by the driver")
+        ->type_name("auto|processor|gpu")
+        ->check(CLI::IsMember({"auto", "processor", "gpu"}));
 }
 
 void ViewOptions::addEnvironmentTo(CLI::App& command) {
@@ -211,6 +222,13 @@ void ViewOptions::addEnvironmentTo(CLI::App& command) {
 void addAllowOutside(CLI::App& command, bool& allow) {
     command.add_flag("--allow-outside", allow,
                      "a scene may name files outside its own folder; only for scenes that you trust");
+}
+
+RendererOptions rendererOptions(const ViewOptions& options, const std::string& shaderDirectory) {
+    RendererOptions made{shaderDirectory, options.debugGl, Execution::Auto};
+    if (options.execution == "processor") made.execution = Execution::Processor;
+    if (options.execution == "gpu") made.execution = Execution::Gpu;
+    return made;
 }
 
 std::unique_ptr<platform::HeadlessContext> openContext(const ViewOptions& options) {

@@ -82,10 +82,12 @@ struct ViewOptions {
     std::optional<int> stillViews;  // image.antialiasing where nothing else sets it
     int device = -1;
     bool debugGl = false;
+    std::string execution = "auto";
     bool allowOutside = false;
     bool noGround = false;
 
     void addTo(CLI::App& command);
+    void addContextTo(CLI::App& command);
     void addEnvironmentTo(CLI::App& command);
 };
 
@@ -94,6 +96,8 @@ void addAllowOutside(CLI::App& command, bool& allow);
 
 // The OpenGL context that --device and --gl-debug ask for.
 std::unique_ptr<platform::HeadlessContext> openContext(const ViewOptions& options);
+// What --gl-debug and --execution ask for, and --shader-dir of those that have it.
+RendererOptions rendererOptions(const ViewOptions& options, const std::string& shaderDirectory);
 
 // Loads a scene, prints its notes, completes it, applies --sky and --environment.
 // `animation`: with the movement of glTF files; null: without. Clips that cannot be used are a note, and with

@@ -159,7 +159,7 @@ void PictureSource::Impl::upload(const Scene& wanted, Progress* progress) {
     if (!renderer) {
         show(progress, "starting OpenGL");
         context = openContext(view);
-        renderer = std::make_unique<Renderer>(RendererOptions{shaderDirectory, view.debugGl});
+        renderer = std::make_unique<Renderer>(rendererOptions(view, shaderDirectory));
     }
     const bool follows = session != nullptr && &wanted == scene;
     if (uploaded == &wanted && !follows) return;

@@ -54,8 +54,7 @@ int run(const ViewCommand& options) {
     ViewerOptions viewer;
     viewer.width = size.width;
     viewer.height = size.height;
-    viewer.shaderDirectory = options.shaderDirectory;
-    viewer.debugGl = options.view.debugGl;
+    viewer.renderer = rendererOptions(options.view, options.shaderDirectory);
     viewer.commands = options.commands;
     viewer.readStdin = !options.noInput;
     viewer.keepState = !options.noState;

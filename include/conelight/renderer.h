@@ -48,10 +48,15 @@ struct FrameStats {
     std::string device;
 };
 
+// How passes that write each pixel once are run. Auto: as suits the driver. Processor: as fragments, which software
+// drivers store tile by tile. Gpu: as compute; server GPUs shade fragments at a small part of their rate.
+enum class Execution { Auto, Processor, Gpu };
+
 struct RendererOptions {
     std::string shaderDirectory;  // empty: the embedded shaders; else files there win (for development)
-    bool reportGlErrors =
-        false;  // takes the context's KHR_debug callback: errors of the driver go to the log
+    // Takes the context's KHR_debug callback: errors of the driver go to the log.
+    bool reportGlErrors = false;
+    Execution execution = Execution::Auto;
 };
 
 class CONELIGHT_API Renderer {

@@ -7,13 +7,18 @@ namespace conelight::gather {
 namespace {
 
 struct OutputKey {
-    bool irradiance, lobe;
+    bool irradiance, lobe, compute;
     gl::ProgramDesc desc() const {
-        return {{"view/whole_picture.vert.glsl", "gather/light_outputs.frag.glsl"},
+        using Files = std::vector<std::string>;
+        return {compute ? Files{"gather/light_outputs.comp.glsl"}
+                        : Files{"view/whole_picture.vert.glsl", "gather/light_outputs.frag.glsl"},
                 {{"IRRADIANCE", irradiance ? "1" : "0"}, {"LOBE", lobe ? "1" : "0"}}};
     }
     static std::vector<OutputKey> all() {
-        return {{false, false}, {false, true}, {true, false}, {true, true}};
+        std::vector<OutputKey> keys;
+        for (int bits = 0; bits < 8; ++bits)
+            keys.push_back({(bits & 1) != 0, (bits & 2) != 0, (bits & 4) != 0});
+        return keys;
     }
 };
 
@@ -51,13 +56,23 @@ void LightOutputs::draw(const gl::Device& device, const RayInputs& inputs, const
     const gl::Texture* const lobe = indirect.lobe();
     if (irradiance != nullptr) given.texture("irradiancePicture", *irradiance);
     if (lobe != nullptr) given.texture("lobePicture", *lobe);
+    const bool compute = device.profile == gl::ExecutionProfile::Gpu;
+    const gl::Program& program =
+        device.get(OutputKey{irradiance != nullptr, lobe != nullptr, compute}.desc());
+    if (compute) {
+        given.image("diffuseOutput", diffuse_, gl::ImageUse::Write)
+            .image("specularOutput", specular_, gl::ImageUse::Write);
+        program.dispatch(given, width, height);
+        gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess | gl::Access::Framebuffer);
+        return;
+    }
     gl::RasterState state;
     state.framebuffer = &target_;
     state.depthTest = false;
     state.depthWrite = false;
     state.cull = gl::Cull::None;
     gl::apply(state);
-    device.get(OutputKey{irradiance != nullptr, lobe != nullptr}.desc()).use(given);
+    program.use(given);
     gl::drawTriangle(noVertices_);
     gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer);
 }

@@ -35,6 +35,8 @@ struct LevelKey {
     static std::vector<LevelKey> all();
 };
 
+gl::ProgramDesc clearDesc() { return {{"gather/radiance_clear.comp.glsl"}, {}}; }
+
 gl::ProgramDesc LevelKey::desc() const {
     return {{"gather/radiance_level.comp.glsl"},
             {{"DIRECTIONAL", blocks == 6 ? "1" : "0"},
@@ -83,6 +85,16 @@ void RadianceVolume::build(const gl::Device& device, const voxels::SurfaceVoxels
     gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
 }
 
+void RadianceVolume::clearLevel(const gl::Device& device, int level) {
+    if (device.profile == gl::ExecutionProfile::Processor)
+        return texture_.clear(level, GL_RGBA, GL_FLOAT, nullptr);
+    gl::Inputs inputs;
+    inputs.image("level", texture_, gl::ImageUse::Write, level);
+    const auto edge = [level](int texels) { return std::max(texels >> level, 1); };
+    device.get(clearDesc())
+        .dispatch(inputs, edge(texture_.width()), edge(texture_.height()), edge(texture_.depth()));
+}
+
 void RadianceVolume::scatter(const gl::Device& device, const voxels::SurfaceVoxels& surface,
                              const light::LitFaces& faces) {
     gl::Inputs inputs;
@@ -92,7 +104,8 @@ void RadianceVolume::scatter(const gl::Device& device, const voxels::SurfaceVoxe
         inputs.image("level0", octree_.bricks(), gl::ImageUse::Write);
     } else {
         for (int level = 0; level <= std::min(kSparseLevels, layout_.maxLevel); ++level)
-            texture_.clear(level, GL_RGBA, GL_FLOAT, nullptr);
+            clearLevel(device, level);
+        if (device.profile == gl::ExecutionProfile::Gpu) gl::barrier(gl::Access::ImageAccess);
         inputs.image("level0", texture_, gl::ImageUse::Write);
     }
     device.get(ScatterKey{layout_.blocks, isOctree()}.desc()).dispatchLinear(inputs, surface.voxelCount());
@@ -144,7 +157,7 @@ void RadianceVolume::declare(gl::Inputs& inputs) const {
 }
 
 std::vector<gl::ProgramDesc> RadianceVolume::programDescs() {
-    std::vector<gl::ProgramDesc> descs;
+    std::vector<gl::ProgramDesc> descs = {clearDesc()};
     for (const ScatterKey& key : ScatterKey::all()) descs.push_back(key.desc());
     for (const LevelKey& key : LevelKey::all()) descs.push_back(key.desc());
     for (const gl::ProgramDesc& desc : RadianceOctree::programDescs()) descs.push_back(desc);

@@ -47,6 +47,7 @@ class RadianceVolume {
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
+    void clearLevel(const gl::Device& device, int level);
     void scatter(const gl::Device& device, const voxels::SurfaceVoxels& surface,
                  const light::LitFaces& faces);
     void buildLevels(const gl::Device& device, const voxels::SurfaceVoxels& surface, OpacityModel opacity);

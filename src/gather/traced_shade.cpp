@@ -13,7 +13,9 @@ bool anyEmission(const scene::GpuScene& scene) {
                        [](const gpu::Material& m) { return m.emission != glm::vec3(0); });
 }
 
-struct ShadeKey {
+}  // namespace
+
+struct TracedShade::ShadeKey {
     PictureParts parts;
     bool irradiance = false;  // from a picture, else from the cache
     bool lobe = false;        // from a picture, else the irradiance
@@ -23,12 +25,13 @@ struct ShadeKey {
     bool visibility = false;  // of lights without extent, from a picture
     bool caustics = false;    // with diffuse light
     bool records = false;     // one pixel, as a compute shader, for the inspector
+    bool compute = false;     // the picture as a compute shader
 
     gl::ProgramDesc desc() const;
     static std::vector<ShadeKey> all();
 };
 
-gl::ProgramDesc ShadeKey::desc() const {
+gl::ProgramDesc TracedShade::ShadeKey::desc() const {
     const bool gathers = parts.diffuse || parts.specular;
     gl::ProgramDesc desc{{"gather/traced_shade.vert.glsl", "gather/traced_shade.frag.glsl"},
                          {{"SHOW_DIRECT", parts.direct ? "1" : "0"},
@@ -42,12 +45,12 @@ gl::ProgramDesc ShadeKey::desc() const {
     if (counts) desc.defines.emplace_back("COUNT_LOOKUPS", "1");
     if (parts.direct)
         for (auto& define : lights.defines()) desc.defines.push_back(std::move(define));
+    if (records || compute) desc.files = {"gather/traced_shade.comp.glsl"};
     if (!records) return desc;
-    desc.files = {"gather/traced_shade.comp.glsl"};
     return StepRecorder::variant(std::move(desc));
 }
 
-std::vector<ShadeKey> ShadeKey::all() {
+std::vector<TracedShade::ShadeKey> TracedShade::ShadeKey::all() {
     std::vector<ShadeKey> keys;
     // The sums that components are made of (partsOf), each as its parts are known.
     const auto add = [&](const PictureParts& parts, const light::LightKey& lights) {
@@ -72,13 +75,50 @@ std::vector<ShadeKey> ShadeKey::all() {
         add(parts, {});
     for (const light::LightKey& lights : light::LightKey::all())
         for (const bool indirect : {false, true}) add({true, indirect, indirect}, lights);
+    const std::size_t pictures = keys.size();
+    for (std::size_t i = 0; i < pictures; ++i) {
+        keys.push_back(keys[i]);
+        keys.back().compute = true;
+    }
     keys.push_back({.parts = {false, true, false}, .records = true});
     return keys;
 }
 
+namespace {
 gl::ProgramDesc rayOcclusionDesc() { return {{"gather/traced_occlusion.comp.glsl"}, {}}; }
-
 }  // namespace
+
+// As fragments. The depth test leaves out the background (shared/gbuffer.h), which the clear has drawn. The picture of
+// lobes is read where it has anything; again, if that is a small part of the picture.
+void TracedShade::drawFragments(const gl::Device& device, const gl::Inputs& given, const Target& target,
+                                ShadeKey key) {
+    const gl::Texture& output = target.output;
+    const gl::Framebuffer framebuffer({&output}, &target.surfaces.depth(), "traced picture");
+    gl::RasterState state;
+    state.framebuffer = &framebuffer;
+    state.depthWrite = false;
+    state.reversedDepth = true;
+    state.cull = gl::Cull::None;
+    gl::apply(state);
+    framebuffer.clearColor(0, target.behind.r, target.behind.g, target.behind.b, 0);
+    if (!noVertices_) noVertices_ = gl::VertexArray("no vertices");
+    const auto drawPicture = [&](bool withLobe) {
+        key.lobe = withLobe;
+        device.get(key.desc()).use(given);
+        gl::drawTriangle(noVertices_);
+    };
+    const bool lobe = key.lobe;
+    const glm::ivec2 extent = target.lobes.end - target.lobes.lowest;
+    const bool small = 4 * extent.x * extent.y < output.width() * output.height();
+    const bool apart = lobe && small && !key.counts;
+    drawPicture(lobe && !apart);
+    if (apart && extent.x > 0 && extent.y > 0) {
+        const int viewport[4] = {target.lobes.lowest.x, target.lobes.lowest.y, extent.x, extent.y};
+        std::copy(std::begin(viewport), std::end(viewport), state.viewport);
+        gl::apply(state);
+        drawPicture(true);
+    }
+}
 
 void TracedShade::draw(const gl::Device& device, const RayInputs& inputs, const Indirect& indirect,
                        const Wanted& wanted, const gl::Texture& output) {
@@ -96,43 +136,23 @@ void TracedShade::draw(const gl::Device& device, const RayInputs& inputs, const 
     if (lobe != nullptr) given.texture("lobePicture", *lobe);
     if (wanted.lookupCounters != nullptr) given.storage("LookupTable", *wanted.lookupCounters);
     if (wanted.visibility != nullptr) given.texture("visibilityPicture", *wanted.visibility);
-
-    // The depth test leaves out the background (shared/gbuffer.h), which the clear has drawn.
-    const gl::Framebuffer target({&output}, &inputs.surfaces.depth(), "traced picture");
-    gl::RasterState state;
-    state.framebuffer = &target;
-    state.depthWrite = false;
-    state.reversedDepth = true;
-    state.cull = gl::Cull::None;
-    gl::apply(state);
-    const glm::vec3 behind = parts.direct ? inputs.scene.source().sky : glm::vec3(0);
-    target.clearColor(0, behind.r, behind.g, behind.b, 0);
-    if (!noVertices_) noVertices_ = gl::VertexArray("no vertices");
     ShadeKey key{parts,
                  irradiance != nullptr,
-                 false,
+                 lobe != nullptr,
                  anyEmission(inputs.scene),
                  wanted.lookupCounters != nullptr,
                  parts.direct ? inputs.lights.key() : light::LightKey{},
                  wanted.visibility != nullptr,
                  inputs.lights.hasCaustics()};
-    const auto drawPicture = [&](bool withLobe) {
-        key.lobe = withLobe;
-        device.get(key.desc()).use(given);
-        gl::drawTriangle(noVertices_);
-    };
-    // The picture of lobes is read where it has anything; again, if that is a small part of the picture.
-    const PixelRectangle& lobes = indirect.lobes();
-    const glm::ivec2 extent = lobes.end - lobes.lowest;
-    const bool small = 4 * extent.x * extent.y < output.width() * output.height();
-    const bool apart = lobe != nullptr && small && !key.counts;
-    drawPicture(lobe != nullptr && !apart);
-    if (apart && extent.x > 0 && extent.y > 0) {
-        const int viewport[4] = {lobes.lowest.x, lobes.lowest.y, extent.x, extent.y};
-        std::copy(std::begin(viewport), std::end(viewport), state.viewport);
-        gl::apply(state);
-        drawPicture(true);
+    if (device.profile == gl::ExecutionProfile::Gpu) {
+        key.compute = true;
+        given.image("result", output, gl::ImageUse::Write);
+        device.get(key.desc()).dispatch(given, output.width(), output.height());
+        gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess | gl::Access::Framebuffer);
+        return;
     }
+    const glm::vec3 behind = parts.direct ? inputs.scene.source().sky : glm::vec3(0);
+    drawFragments(device, given, {inputs.surfaces, indirect.lobes(), behind, output}, key);
 }
 
 void TracedShade::recordCache(const gl::Device& device, const RayInputs& inputs, StepRecorder& recorder) {

@@ -39,6 +39,15 @@ class TracedShade {
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
+    struct ShadeKey;
+    struct Target {
+        const view::Surfaces& surfaces;
+        const PixelRectangle& lobes;
+        glm::vec3 behind;
+        const gl::Texture& output;
+    };
+    void drawFragments(const gl::Device& device, const gl::Inputs& given, const Target& target, ShadeKey key);
+
     gl::Buffer constants_;
     gl::VertexArray noVertices_;
 };

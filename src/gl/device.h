@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What every stage needs to run passes: the programs, and who takes their times. Owned by the renderer.
+// What every stage needs to run passes: the programs, who takes their times, and which shape of a pass suits the
+// driver. Owned by the renderer.
 #pragma once
 
 #include "gl/inputs.h"
@@ -8,9 +9,14 @@
 
 namespace conelight::gl {
 
+// Passes that write each pixel once come as fragments for a software driver and as compute for a GPU
+// (docs/design/0012-two-execution-profiles.md). Either gives the same bits on a driver that rounds alike in both.
+enum class ExecutionProfile { Processor, Gpu };
+
 struct Device {
     ProgramLibrary& programs;
     Profiler& profiler;
+    ExecutionProfile profile = ExecutionProfile::Processor;
 
     const Program& get(const ProgramDesc& desc) const { return programs.get(desc); }
 };

@@ -17,6 +17,7 @@
 #include "light/lights.h"
 #include "light/lit_voxels.h"
 #include "light/relight_budget.h"
+#include "modes/execution.h"
 #include "modes/modes.h"
 #include "scene/held_scene.h"
 #include "view/surfaces.h"
@@ -44,7 +45,7 @@ struct View {
 struct LightField::Impl {
     gl::ProgramLibrary programs;
     gl::Profiler profiler;
-    gl::Device device{programs, profiler};
+    gl::Device device;
     Settings settings = realtimeSettings();
 
     scene::HeldScene scene;
@@ -55,7 +56,8 @@ struct LightField::Impl {
     std::map<int, View> views;
     int nextView = 1;
 
-    explicit Impl(gl::ShaderProvider provider) : programs(std::move(provider)) {}
+    Impl(gl::ShaderProvider provider, gl::ExecutionProfile profile)
+        : programs(std::move(provider)), device{programs, profiler, profile} {}
     void forget();
     int update(const LightBudget& budget);
     GatheredLight gather(View& view, const HostSurfaces& host, int reduction);
@@ -73,7 +75,8 @@ LightField::LightField(const RendererOptions& options) {
     if (options.reportGlErrors) gl::installDebugCallback();
     impl_ = std::make_unique<Impl>(options.shaderDirectory.empty()
                                        ? gl::embeddedShaderProvider()
-                                       : gl::directoryShaderProvider(options.shaderDirectory));
+                                       : gl::directoryShaderProvider(options.shaderDirectory),
+                                   modes::profileOf(options.execution));
 }
 
 LightField::~LightField() {

@@ -23,6 +23,7 @@
 #include "image/view_mean.h"
 #include "image/wireframe.h"
 #include "light/lights.h"
+#include "modes/execution.h"
 #include "modes/memory_fit.h"
 #include "modes/modes.h"
 #include "scene/held_scene.h"
@@ -79,7 +80,7 @@ view::PixelPart partOfStill(const Settings& settings, int index) {
 struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in a public class
     gl::ProgramLibrary programs;
     gl::Profiler profiler;
-    gl::Device device{programs, profiler};
+    gl::Device device;
     std::string deviceName;
     bool countLookups = false;
     bool everyFrame = false;
@@ -104,7 +105,8 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
     FrameStats stats;
     modes::MemoryFit fit;
 
-    explicit Impl(gl::ShaderProvider provider) : programs(std::move(provider)) {}
+    Impl(gl::ShaderProvider provider, gl::ExecutionProfile profile)
+        : programs(std::move(provider)), device{programs, profiler, profile} {}
 
     void renderWithin(const Camera& camera, int width, int height, const Settings& settings);
     void forgetPicture();
@@ -125,7 +127,8 @@ Renderer::Renderer(const RendererOptions& options) {
     if (options.reportGlErrors) gl::installDebugCallback();
     impl_ = std::make_unique<Impl>(options.shaderDirectory.empty()
                                        ? gl::embeddedShaderProvider()
-                                       : gl::directoryShaderProvider(options.shaderDirectory));
+                                       : gl::directoryShaderProvider(options.shaderDirectory),
+                                   modes::profileOf(options.execution));
     impl_->deviceName = gl::rendererName();
 }
 

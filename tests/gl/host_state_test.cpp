@@ -174,8 +174,9 @@ class Host {
         glCreateSamplers(1, &sampler_);
         glCreateVertexArrays(1, &vertexArray_);
         glCreateFramebuffers(2, framebuffers_);
-        const char* text = 
-            "#version 450 core\nout gl_PerVertex { vec4 gl_Position; };\nvoid main() { gl_Position = vec4(0); }";
+        const char* text =
+            "#version 450 core\nout gl_PerVertex { vec4 gl_Position; };\nvoid main() { gl_Position = "
+            "vec4(0); }";
         program_ = glCreateShaderProgramv(GL_VERTEX_SHADER, 1, &text);
     }
     ~Host() {

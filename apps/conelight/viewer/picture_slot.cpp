@@ -78,8 +78,7 @@ double wallMs() {
 }  // namespace
 
 struct PictureSlot::Impl {
-    std::string shaderDirectory;
-    bool debugGl = false;
+    RendererOptions options;
     std::unique_ptr<Renderer> renderer;
     SceneUpload upload;                // of the session's scene
     std::shared_ptr<const Scene> lit;  // the baked scene that the renderer holds instead
@@ -128,9 +127,8 @@ struct PictureSlot::Impl {
     void startAnew();
 };
 
-PictureSlot::PictureSlot(std::string shaderDirectory, bool debugGl) : impl_(std::make_unique<Impl>()) {
-    impl_->shaderDirectory = std::move(shaderDirectory);
-    impl_->debugGl = debugGl;
+PictureSlot::PictureSlot(RendererOptions options) : impl_(std::make_unique<Impl>()) {
+    impl_->options = std::move(options);
 }
 PictureSlot::~PictureSlot() = default;
 
@@ -239,7 +237,7 @@ bool PictureSlot::Impl::drawScene(const Session& session, const std::string& dra
     if (how.onlyChanges && !changed) return true;
 
     if (!renderer) {
-        renderer = std::make_unique<Renderer>(RendererOptions{shaderDirectory, debugGl});
+        renderer = std::make_unique<Renderer>(options);
         upload.forget();
     }
     if (lit) {
@@ -393,7 +391,7 @@ bool PictureSlot::Impl::drawRadiosity(const Session& session, int w, int h, cons
     const bool resized = w != width || h != height;
     if (!changed && !resized) return false;
     if (!changed && how.onlyChanges) return true;
-    if (!renderer) renderer = std::make_unique<Renderer>(RendererOptions{shaderDirectory, debugGl});
+    if (!renderer) renderer = std::make_unique<Renderer>(options);
     if (lit != newest) {
         upload.forget();
         renderer->setScene(*newest);

@@ -17,7 +17,7 @@ namespace conelight::program {
 
 class PictureSlot {
   public:
-    PictureSlot(std::string shaderDirectory, bool debugGl);
+    explicit PictureSlot(RendererOptions options);
     ~PictureSlot();
     PictureSlot(const PictureSlot&) = delete;
     PictureSlot& operator=(const PictureSlot&) = delete;

@@ -52,10 +52,10 @@ struct PictureView::Errors {
     float scale = 0;
 };
 
-PictureView::PictureView(platform::Window& window, std::string shaderDirectory, bool debugGl)
+PictureView::PictureView(platform::Window& window, const RendererOptions& options)
     : window_(window),
-      left_(std::make_unique<PictureSlot>(shaderDirectory, debugGl)),
-      right_(std::make_unique<PictureSlot>(shaderDirectory, debugGl)),
+      left_(std::make_unique<PictureSlot>(options)),
+      right_(std::make_unique<PictureSlot>(options)),
       errors_(std::make_unique<Errors>()),
       movingResolution_(kMovingFrameMs) {}
 PictureView::~PictureView() = default;

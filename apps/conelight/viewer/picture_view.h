@@ -31,7 +31,7 @@ struct Split {
 
 class PictureView {
   public:
-    PictureView(platform::Window& window, std::string shaderDirectory, bool debugGl);
+    PictureView(platform::Window& window, const RendererOptions& options);
     ~PictureView();
     PictureView(const PictureView&) = delete;
     PictureView& operator=(const PictureView&) = delete;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "conelight/renderer.h"
 #include "reference/radiosity.h"
 #include "session/session.h"
 
@@ -14,8 +15,7 @@ namespace conelight::program {
 
 struct ViewerOptions {
     int width = 1280, height = 800;  // of the window, screen units
-    std::string shaderDirectory;
-    bool debugGl = false;
+    RendererOptions renderer;
     std::vector<std::string> commands;  // run first, one line each
     bool readStdin = true;
     bool keepState = true;                   // remember scenes and typed lines (session/state_files.h)

@@ -1,0 +1,11 @@
+#version 450 core
+// SPDX-License-Identifier: MIT
+// Zero in every texel of a level of the radiance volume. For GPUs, some of which clear 3D textures slice by slice with
+// their raster units: 4 ms for 100 MB on a server GPU, ten times as long as the cones.
+layout(local_size_x = 8, local_size_y = 4, local_size_z = 4) in;
+layout(rgba16f) writeonly uniform image3D level;
+
+void main() {
+    ivec3 texel = ivec3(gl_GlobalInvocationID);
+    if (all(lessThan(texel, imageSize(level)))) imageStore(level, texel, vec4(0.0));
+}

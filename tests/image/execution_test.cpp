@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Both execution profiles: passes as fragments and as compute draw the same picture.
+#include "conelight/quality.h"
+#include "io/generated.h"
+#include "support/light_field_rig.h"
+#include "support/truth_rig.h"
+
+namespace conelight::test {
+namespace {
+
+Image pictureBy(Execution execution, const Scene& scene, const Settings& settings) {
+    Renderer renderer({"", true, execution});
+    renderer.setScene(scene);
+    renderer.render(scene.cameras.front(), 72, 54, settings);
+    return renderer.readImage();
+}
+
+class ExecutionTest : public LightFieldRig {};
+
+// Metal in a part of the picture, glass, a sky behind, parts alone: what a picture of mode traced is put together from.
+// Fragments read lobes only where the picture has any, in a second draw: there a last bit may differ.
+TEST_F(ExecutionTest, PicturesAreTheSame) {
+    struct Case {
+        const char* scene;
+        Quality quality;
+        Component component;
+    };
+    for (const Case& one : {Case{"spheres", Quality::Draft, Component::Full},
+                            Case{"glass", Quality::Interactive, Component::Full},
+                            Case{"yard", Quality::Draft, Component::Direct},
+                            Case{"yard", Quality::Interactive, Component::Diffuse},
+                            Case{"spheres", Quality::Interactive, Component::Specular}}) {
+        const Scene scene = io::generateScene(one.scene);
+        Settings settings;
+        applyQuality(settings.traced, one.quality);
+        settings.component = one.component;
+        settings.voxels.size = 32;
+        settings.traced.passes = 1;
+        settings.traced.cacheUpdates = 2;
+        settings.image.antialiasing = 0;
+        const Image processor = pictureBy(Execution::Processor, scene, settings);
+        const Image gpu = pictureBy(Execution::Gpu, scene, settings);
+        EXPECT_LT(relRmse(gpu, processor), 1e-7) << one.scene << " " << static_cast<int>(one.component);
+        EXPECT_GT(meanOf(gpu), 0.001);
+    }
+}
+
+TEST_F(ExecutionTest, ConesAreTheSame) {
+    const Scene scene = io::generateScene("spheres");
+    Settings settings;
+    settings.mode = Mode::Cones;
+    settings.voxels.size = 32;
+    settings.image.antialiasing = 0;
+    EXPECT_EQ(pictureBy(Execution::Processor, scene, settings).pixels,
+              pictureBy(Execution::Gpu, scene, settings).pixels);
+}
+
+TEST_F(ExecutionTest, LightForAHostIsTheSameBits) {
+    std::vector<glm::vec4> diffuse, specular;
+    for (const Execution execution : {Execution::Processor, Execution::Gpu}) {
+        LightField field({"", true, execution});
+        field.setScene(scene_);
+        field.setSettings(hostSettings());
+        field.update();
+        HostPicture host(scene_, lens());
+        drawn(host);
+        const GatheredLight light = field.gather(field.addView(), host.surfaces());
+        if (execution == Execution::Processor) {
+            diffuse = pixelsOf(light.diffuse);
+            specular = pixelsOf(light.specular);
+            continue;
+        }
+        EXPECT_EQ(pixelsOf(light.diffuse), diffuse);
+        EXPECT_EQ(pixelsOf(light.specular), specular);
+    }
+}
+
+}  // namespace
+}  // namespace conelight::test
