@@ -4,7 +4,6 @@
 Every test builds a small project in a temporary folder. Run by tools/check."""
 import importlib.machinery
 import importlib.util
-import json
 import os
 import pathlib
 import shutil
@@ -31,24 +30,6 @@ class Project(unittest.TestCase):
     def run_tool(self, name, *arguments):
         run = subprocess.run([sys.executable, TOOLS / name, *arguments], capture_output=True, text=True)
         return run.returncode, run.stdout
-
-
-class MeasureGpu(Project):
-    """The page of measured figures, from figures made up here; nothing is drawn."""
-
-    def test_page_shows_what_is_there_and_what_failed(self):
-        row = {"frame_ms": {"median": 5.0}, "passes_ms": {"gbuffer": 2.0, "diffuse rays": 2.5, "shade": 0.25}, "memory_mb": 240.0}
-        key = "builtin:cornell?block=1|1920x1080|%d|at rest|traced|interactive"
-        data = {"version": 1, "device": "card", "runs": {key % 128: row, key % 512: {"failed": "no memory"}},
-                "pictures": {"cornell_traced": 0.002, "cornell_phong": 0}, "pictures_against": "another"}
-        self.write("gpu.json", json.dumps(data))
-        self.assertEqual(self.run_tool("measure_gpu", "--page", "--out", str(self.root / "gpu"))[0], 0)
-        page = (self.root / "gpu.md").read_text()
-        self.assertIn("Device: card.", page)
-        self.assertIn("| `cornell?block=1` | at rest |  | 5.00 |  | fails |", page)
-        self.assertIn("| at rest, `cornell?block=1` | `interactive` | 128 | 2.75 | 0.50 |", page)
-        self.assertIn("| `cornell` | same | 2.0e-03 |  |  |  |", page)
-        self.assertIn("512, at rest, traced, interactive: no memory", page)
 
 
 class Layers(Project):

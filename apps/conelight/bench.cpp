@@ -10,6 +10,7 @@
 
 #include "command.h"
 #include "conelight/error.h"
+#include "conelight/shaders.h"
 #include "outputs.h"
 #include "script_run.h"
 #include "static_light.h"
@@ -22,6 +23,7 @@ struct BenchOptions {
     std::vector<std::string> scenes;
     std::string modes = "traced";
     std::string jsonFile;
+    std::string shaders;  // folder
     int frames = 5;
     bool dynamic = false;
     std::string moving;  // name or index of an instance; empty: none
@@ -273,6 +275,8 @@ void run(const BenchOptions& options) {
         }
     }
     if (!options.jsonFile.empty()) writeJson(options.jsonFile, json);
+    if (!options.shaders.empty())
+        expandBuiltShaders(options.shaders, rendererOptions(options.view, "").execution);
 }
 
 }  // namespace
@@ -294,6 +298,8 @@ void addBench(CLI::App& app) {
                      "move this instance (name or index) before each frame; what it does not touch is kept")
         ->type_name("INSTANCE");
     command->add_option("--json", options->jsonFile, "write the figures as JSON")->type_name("FILE");
+    command->add_option("--shaders", options->shaders, "write the shaders that the frames needed, as text")
+        ->type_name("DIR");
     options->view.addTo(*command);
     options->script.addTo(*command);
     command->callback([options] { run(*options); });

@@ -15,6 +15,7 @@
 // (lib/triangle_hit.glsl). NEAR_TRIANGLES 1: all rays hit triangles in the voxels that they enter within
 // kRayNearReach of their start, and plane pieces after that.
 #include "lib/dot.glsl"
+#include "lib/execution.glsl"
 #include "lib/lookup_count.glsl"
 #include "lib/record_steps.glsl"
 #include "lib/voxel_grid.glsl"
@@ -122,6 +123,9 @@ bool insideRayBounds(uint bounds, vec3 n, float t, vec3 position) {
 // Tests the faces of a voxel whose direction is in the mask `facing`. The nearest crossing wins; among ties
 // the largest coverage.
 void testVoxelFaces(ivec3 voxel, Ray ray, uint facing, inout VoxelHit hit, inout float hitCoverage) {
+#if EXECUTION_GPU
+    if (facing == 0u) return;
+#endif
     uvec4 word = imageLoad(voxelBrickImage, voxel >> 2);
     uint record = texelFetch(voxelRecords, int(voxelRecordIndex(word, bitOfVoxel(voxel)))).x;
     // OCTANT_EMPTY_SPARE names a voxel that may have no faces.

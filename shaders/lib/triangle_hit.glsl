@@ -180,6 +180,9 @@ TriangleCrossing nearestTriangle(ivec3 voxel, Ray ray, bool wanted, out int reco
     COUNT_LOOKUP(wanted ? 2 : 0);
     vec3 toCenter = vec3(voxel) + 0.5 - ray.origin;
     TriangleCrossing nearest = TriangleCrossing(-1, ray.tMax, vec2(0.0), vec3(0.0), false);
+#if EXECUTION_GPU
+    if (link == 0u) return nearest;
+#endif
     do {
         COUNT_LOOKUP(link != 0u ? 5 : 0);
         int slot = max(int(link), 1) - 1;

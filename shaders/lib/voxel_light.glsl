@@ -36,6 +36,7 @@
 #include "lib/surface_array.glsl"
 // The others.
 #include "lib/environment.glsl"
+#include "lib/execution.glsl"
 #include "lib/ggx_sample.glsl"
 #include "lib/glass_tree.glsl"
 #include "lib/light_table.glsl"
@@ -66,28 +67,7 @@ uniform usamplerBuffer lightSamples;
 
 const float kGatherPi = 3.14159265358979;
 
-// ---- Faces ----------------------------------------------------------------------------------------------
-
-struct FaceShading {
-    vec3 albedo;
-    vec3 directRadiance;  // emission and reflected direct light, W/(sr m^2)
-    vec3 irradiance;      // cached indirect irradiance / pi
-    bool cached;          // false: never updated, or inside a closed object
-};
-
-FaceShading faceShading(int face) {
-    uvec4 lit = texelFetch(litFaces, face);
-    return FaceShading(unpackAlbedo(lit.x), unpackRgb9e5(lit.y), litIrradiance(lit),
-                       (lit.w & (FACE_LIT | FACE_INTERIOR)) == FACE_LIT);
-}
-
-// Outgoing radiance of a diffuse face: emission, reflected direct light, reflected cached light.
-vec3 outgoingRadiance(int face) { return litRadiance(texelFetch(litFaces, face)); }
-
-// Importance of a radiance for sampling. The plain mean of the channels: blue light counts as much.
-float brightness(vec3 radiance) { return dot(radiance, vec3(1.0 / 3.0)); }
-
-vec3 faceNormalOf(int face) { return octDecode(unpackSnorm2x16(texelFetch(voxelFaces, face).x)); }
+#include "lib/face_shading.glsl"
 
 // ---- Radiance at a hit ----------------------------------------------------------------------------------
 
@@ -120,6 +100,12 @@ vec3 reflectedPunctual(vec3 albedo, vec2 lobe, float widening, Receiver r) {
 vec3 hitRadiance(Ray ray, VoxelHit hit, float width, float widening, inout FaceShading s,
                  out vec3 shadingNormal) {
     int face = max(hit.face, 0);
+#if EXECUTION_GPU
+    if (hit.face < 0) {
+        shadingNormal = vec3(0.0, 0.0, 1.0);
+        return skyRadiance(ray.direction, width);
+    }
+#endif
     vec3 normal = faceNormalOf(face);
     shadingNormal = normal;
 #if TRIANGLE_HITS
@@ -219,6 +205,13 @@ PathVertex pathVertex(Ray ray, VoxelHit hit, PathSettings path, PathState state,
     bool arrived = state.bounce > 0 || path.targetDistance < 0.0 || abs(hit.t - path.targetDistance) < 0.3;
     vertex.metal = surface.reflects && arrived;
     vec2 xi = vec2(randomNext(random), randomNext(random));
+#if EXECUTION_GPU
+    if (!vertex.metal) {  // the path ends here, by its radiance alone
+        vertex.next = GlossyBounce(vec3(0.0), ray, vec3(0.0), 0.0, 0.0);
+        vertex.lobeIrradiance = vec3(0.0);
+        return vertex;
+    }
+#endif
     vertex.next =
         sampleGlossyBounce(ray, hit, s, surface, GlossySample(widening, vertex.radiance, shadingNormal, xi));
     vertex.lobeIrradiance = vertex.next.specularShare * s.albedo * s.irradiance;

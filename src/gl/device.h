@@ -13,6 +13,9 @@ namespace conelight::gl {
 // (docs/design/0012-two-execution-profiles.md). Either gives the same bits on a driver that rounds alike in both.
 enum class ExecutionProfile { Processor, Gpu };
 
+// The shaders as that profile gets them: lib/execution.glsl tells them.
+ShaderProvider providerFor(ExecutionProfile profile, ShaderProvider provider);
+
 struct Device {
     ProgramLibrary& programs;
     Profiler& profiler;

@@ -57,7 +57,7 @@ struct LightField::Impl {
     int nextView = 1;
 
     Impl(gl::ShaderProvider provider, gl::ExecutionProfile profile)
-        : programs(std::move(provider)), device{programs, profiler, profile} {}
+        : programs(gl::providerFor(profile, std::move(provider))), device{programs, profiler, profile} {}
     void forget();
     int update(const LightBudget& budget);
     GatheredLight gather(View& view, const HostSurfaces& host, int reduction);

@@ -106,7 +106,7 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
     modes::MemoryFit fit;
 
     Impl(gl::ShaderProvider provider, gl::ExecutionProfile profile)
-        : programs(std::move(provider)), device{programs, profiler, profile} {}
+        : programs(gl::providerFor(profile, std::move(provider))), device{programs, profiler, profile} {}
 
     void renderWithin(const Camera& camera, int width, int height, const Settings& settings);
     void forgetPicture();

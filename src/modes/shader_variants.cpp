@@ -92,26 +92,51 @@ std::vector<gl::ProgramDesc> coveringVariants(const std::vector<gl::ProgramDesc>
 
 }  // namespace modes
 
-std::size_t expandAllShaders(const std::string& directory, const std::string& shaderDirectory) {
-    const gl::ShaderProvider provider =
-        shaderDirectory.empty() ? gl::embeddedShaderProvider() : gl::directoryShaderProvider(shaderDirectory);
+namespace {
+
+// `unlike`: leaves out what is the same with that one.
+std::size_t expand(const std::vector<gl::ProgramDesc>& descs, const gl::ShaderProvider& provider,
+                   const std::string& directory, const gl::ShaderProvider* unlike = nullptr) {
     std::set<std::string> written;
-    for (const gl::ProgramDesc& desc : modes::coveringVariants(modes::allShaderVariants(), 2))
+    for (const gl::ProgramDesc& desc : descs)
         for (const std::string& file : desc.files) {
             // Programs may share a stage.
             const std::string name = variantFile(file, desc.defines);
             if (!written.insert(name).second) continue;
+            const std::string text = gl::expandShader(provider, file, desc.defines).text;
+            if (unlike != nullptr && text == gl::expandShader(*unlike, file, desc.defines).text) {
+                written.erase(name);
+                continue;
+            }
             const std::filesystem::path path = std::filesystem::path(directory) / name;
             std::error_code ignored;
             std::filesystem::create_directories(path.parent_path(), ignored);
             std::ofstream out(path, std::ios::binary);
-            out << gl::expandShader(provider, file, desc.defines).text;
+            out << text;
             if (!out.flush())
                 base::fail(ErrorKind::Runtime,
                            "%s: cannot be written; a folder with room and permission would be right",
                            path.string().c_str());
         }
     return written.size();
+}
+
+}  // namespace
+
+std::size_t expandAllShaders(const std::string& directory, const std::string& shaderDirectory) {
+    const gl::ShaderProvider provider =
+        shaderDirectory.empty() ? gl::embeddedShaderProvider() : gl::directoryShaderProvider(shaderDirectory);
+    const std::vector<gl::ProgramDesc> all = modes::allShaderVariants();
+    // Of what is different on GPUs every value of a define, once more.
+    return expand(modes::coveringVariants(all, 2), provider, directory) +
+           expand(modes::coveringVariants(all, 1), gl::providerFor(gl::ExecutionProfile::Gpu, provider),
+                  directory + "/gpu", &provider);
+}
+
+std::size_t expandBuiltShaders(const std::string& directory, Execution execution) {
+    const gl::ExecutionProfile profile =
+        execution == Execution::Gpu ? gl::ExecutionProfile::Gpu : gl::ExecutionProfile::Processor;
+    return expand(gl::builtPrograms(), gl::providerFor(profile, gl::embeddedShaderProvider()), directory);
 }
 
 }  // namespace conelight

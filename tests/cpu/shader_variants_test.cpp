@@ -11,6 +11,7 @@
 
 #include "conelight/error.h"
 #include "conelight/shaders.h"
+#include "gl/device.h"
 #include "support/gl_fixture.h"
 
 namespace conelight::test {
@@ -47,9 +48,17 @@ TEST(ShaderVariantsTest, ExpandedFilesAreWhatTheDriverGets) {
     const std::filesystem::path dir = std::filesystem::path(scratchDir()) / "expanded";
     const std::size_t count = expandAllShaders(dir.string());
     std::set<std::string> texts;
+    const gl::ShaderProvider provider = gl::embeddedShaderProvider();
     for (const gl::ProgramDesc& desc : modes::coveringVariants(modes::allShaderVariants(), 2))
         for (const std::string& file : desc.files)
-            texts.insert(gl::expandShader(gl::embeddedShaderProvider(), file, desc.defines).text);
+            texts.insert(gl::expandShader(provider, file, desc.defines).text);
+    const std::size_t forProcessors = texts.size();
+    // What GPUs get is there where it differs.
+    const gl::ShaderProvider gpu = gl::providerFor(gl::ExecutionProfile::Gpu, provider);
+    for (const gl::ProgramDesc& desc : modes::coveringVariants(modes::allShaderVariants(), 1))
+        for (const std::string& file : desc.files)
+            texts.insert(gl::expandShader(gpu, file, desc.defines).text);
+    EXPECT_GT(texts.size(), forProcessors);
     std::size_t files = 0;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(dir)) {
         if (!entry.is_regular_file()) continue;

@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT
+"""Tests of the tools that measure GPUs: pages are made from figures made up here, and what got worse is named. Nothing is drawn,
+nothing is compiled. Run by tools/check."""
+import importlib.machinery
+import importlib.util
+import json
+import pathlib
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TOOLS = pathlib.Path(__file__).resolve().parent
+
+
+def load(name):
+    loader = importlib.machinery.SourceFileLoader(name, str(TOOLS / name))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
+    loader.exec_module(module)
+    return module
+
+
+class MeasureGpu(unittest.TestCase):
+    def test_page_shows_what_is_there_and_what_failed(self):
+        row = {"frame_ms": {"median": 5.0}, "passes_ms": {"gbuffer": 2.0, "diffuse rays": 2.5, "shade": 0.25}, "memory_mb": 240.0}
+        key = "builtin:cornell?block=1|1920x1080|%d|at rest|traced|interactive"
+        data = {"version": 1, "device": "card", "runs": {key % 128: row, key % 512: {"failed": "no memory"}},
+                "pictures": {"cornell_traced": 0.002, "cornell_phong": 0, "glass_cones": "GL error"}, "pictures_against": "another"}
+        with tempfile.TemporaryDirectory() as folder:
+            out = pathlib.Path(folder, "gpu")
+            out.with_suffix(".json").write_text(json.dumps(data))
+            subprocess.run([sys.executable, TOOLS / "measure_gpu", "--page", "--out", out], check=True)
+            page = out.with_suffix(".md").read_text()
+        self.assertIn("Device: card.", page)
+        self.assertIn("| `cornell?block=1` | at rest |  | 5.00 |  | fails |", page)
+        # Indirect light is what is left without the G-buffer.
+        self.assertIn("| at rest, `cornell?block=1` | `interactive` | 128 | 2.75 | 0.50 |", page)
+        self.assertIn("| `cornell` | same | 2.0e-03 |  |  |  |", page)
+        self.assertIn("512, at rest, traced, interactive: no memory", page)
+        self.assertIn("picture glass_cones: GL error", page)
+
+    def test_every_run_is_asked_for_once(self):
+        runs = load("measure_gpu").runs()
+        self.assertEqual(len(runs), len({run.key for run in runs}))
+        self.assertGreater(len(runs), 40)
+
+
+class GpuIsa(unittest.TestCase):
+    def test_what_got_worse_is_named(self):
+        isa = load("gpu_isa")
+        values = {"registers": 80, "spills": 0, "scalar spills": 0, "waves": 12, "instructions": 1000, "cycles": 1}
+        before = {"rays": {"families": {"navi21": values}}}
+        self.assertEqual(isa.worse(before, {"rays": {"navi21": values | {"instructions": 1090}}, "new": {"navi21": values}}), [])
+        self.assertEqual(isa.worse(before, {"rays": {"navi21": values | {"instructions": 1110}}}),
+                         ["rays: navi21: instructions 1000 -> 1110"])
+        self.assertEqual(isa.worse(before, {"rays": {"navi21": values | {"scalar spills": 1}}}), ["rays: navi21: scalar spills 0 -> 1"])
+        self.assertEqual(len(isa.worse(before, {"rays": {"navi21": {}}})), 4)  # no longer compiles
+
+    def test_resources_of_a_module(self):
+        word = lambda operation, *operands: struct.pack(f"<{len(operands) + 1}I", len(operands) + 1 << 16 | operation, *operands)
+        code = struct.pack("<5I", 0x07230203, 0x10300, 0, 99, 0)
+        code += word(71, 1, 33, 4) + word(71, 2, 33, 7) + word(71, 20, 3)  # bindings 4 and 7; 20 is a block of storage
+        code += word(25, 10, 11, 5, 0, 0, 0, 1, 33) + word(27, 12, 10) + word(32, 13, 0, 12) + word(59, 13, 1, 0)  # samplerBuffer
+        code += word(30, 20, 11) + word(32, 21, 2, 20) + word(59, 21, 2, 2)
+        with tempfile.NamedTemporaryFile(suffix=".spv") as file:
+            file.write(code)
+            file.flush()
+            self.assertEqual(load("gpu_isa").bindings(file.name), ["4:4", "7:7"])
+
+
+if __name__ == "__main__":
+    unittest.main()
