@@ -226,21 +226,24 @@ PathVertex pathVertex(Ray ray, VoxelHit hit, PathSettings path, PathState state,
 // regularization, Kaplanyan and Dachsbacher 2013), and a firefly clamp bounds reflected radiance. Both biases
 // vanish as fireflyClamp, which grows with the number of samples, goes to infinity.
 vec3 traceRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit firstHit) {
-    // Intersect the voxels
-    firstHit = traceVoxels(ray);
 #if !LOBES
+    firstHit = traceVoxels(ray);
     FaceShading s = faceShading(max(firstHit.face, 0));
     vec3 shadingNormal;
     float widening = path.alpha * path.alpha * kLobeWidening / path.fireflyClamp;
     return hitRadiance(ray, firstHit, path.skyWidth, widening, s, shadingNormal);
 #else
-    VoxelHit hit = firstHit;
     vec3 firstRadiance = vec3(0.0);
     vec3 reflectedRadiance = vec3(0.0);
     float maxReflected = 0.0;
     PathState state = PathState(0, vec3(1.0), path.alpha * path.alpha, pathStartsNarrow);
     bool continues;
     do {
+        // Intersect the voxels: here alone, as a kernel that has this twice is half as large again
+        VoxelHit hit = traceVoxels(ray);
+        bool first = state.bounce == 0;
+        if (first) firstHit = hit;
+
         // Evaluate the surface and sample its lobe
         PathVertex vertex = pathVertex(ray, hit, path, state, random);
         GlossyBounce next = vertex.next;
@@ -249,7 +252,6 @@ vec3 traceRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit f
         // Add the contribution; the last metal reflects the cached light as if diffuse
         if (!continues) next.radiance += vertex.lobeIrradiance;
         vec3 contribution = state.throughput * (vertex.metal ? next.radiance : vertex.radiance);
-        bool first = state.bounce == 0;
         firstRadiance += first ? contribution : vec3(0.0);
         reflectedRadiance += first ? vec3(0.0) : contribution;
         maxReflected = first ? path.fireflyClamp * brightness(vertex.radiance) : maxReflected;
@@ -265,11 +267,7 @@ vec3 traceRadiance(Ray ray, PathSettings path, inout uint random, out VoxelHit f
         rayCone.growth += next.alpha;
 #endif
 
-        // Intersect the voxels with the reflected ray
-        if (continues) {
-            ray = next.ray;
-            hit = traceVoxels(ray);
-        }
+        ray = next.ray;
         ++state.bounce;
     } while (continues);
 
@@ -378,7 +376,8 @@ SampledRay sampleRay(SurfacePoint point, EstimatorSettings settings, SequenceSta
 #else
     const bool towardsSky = false;
 #endif
-    LightSample light = sampleLightFace(xiLight, point.origin);
+    LightSample light = LightSample(-1, point.origin, vec3(0.0));
+    if (EXECUTION_GPU == 0 || lightSampled) light = sampleLightFace(xiLight, point.origin);
     vec3 toLight = light.point - point.origin;
     float lightDistance = length(toLight);
 
