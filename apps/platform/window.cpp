@@ -68,7 +68,7 @@ Window::Window(const WindowOptions& options) {
         Window& own = self(window);
         ++own.inputs_;
         ++own.buttonInputs_;
-        own.buttonChanges_.push_back({button, action == GLFW_PRESS, own.cursorThen_});
+        own.buttonChanges_.push_back({button, action == GLFW_PRESS, own.cursorThen_, ++own.events_});
     });
     glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double) { ++self(window).inputs_; });
     glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) {
@@ -78,11 +78,13 @@ Window::Window(const WindowOptions& options) {
 
 void Window::listenToKeys() {
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int scancode, int action, int modifiers) {
-        ++self(window).inputs_;
-        self(window).keyEvents_.push_back({key, scancode, action, modifiers, 0});
+        Window& own = self(window);
+        ++own.inputs_;
+        own.keyEvents_.push_back({key, scancode, action, modifiers, 0, ++own.events_});
     });
     glfwSetCharCallback(window_, [](GLFWwindow* window, unsigned int character) {
-        self(window).keyEvents_.push_back({GLFW_KEY_UNKNOWN, 0, 0, 0, character});
+        Window& own = self(window);
+        own.keyEvents_.push_back({GLFW_KEY_UNKNOWN, 0, 0, 0, character, ++own.events_});
     });
 }
 

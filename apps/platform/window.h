@@ -56,6 +56,7 @@ class Window {
     struct KeyEvent {
         int key = 0, scancode = 0, action = 0, modifiers = 0;
         unsigned int character = 0;  // 0: none
+        std::uint64_t number = 0;    // among keys, characters and buttons, in the order in which they came
         bool control() const;
         bool shift() const;
     };
@@ -64,7 +65,8 @@ class Window {
     struct ButtonChange {
         int button = 0;  // GLFW's
         bool down = false;
-        glm::dvec2 at{0};  // where the cursor was, screen units
+        glm::dvec2 at{0};          // where the cursor was, screen units
+        std::uint64_t number = 0;  // as KeyEvent's
     };
     // Mouse buttons that went down or up since the last call, in order.
     std::vector<ButtonChange> takeButtonChanges() { return std::exchange(buttonChanges_, {}); }
@@ -93,7 +95,7 @@ class Window {
     std::vector<KeyEvent> keyEvents_;
     std::vector<ButtonChange> buttonChanges_;
     glm::dvec2 cursorThen_{0};  // by the events so far, where cursor() is what it is by now
-    std::uint64_t inputs_ = 0, buttonInputs_ = 0;
+    std::uint64_t inputs_ = 0, buttonInputs_ = 0, events_ = 0;
     glm::ivec2 windowedPosition_{0}, windowedSize_{0};
 };
 

@@ -165,6 +165,32 @@ TEST_F(ViewerInputTest, LinesWhileItIsBusyAreKept) {
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
 }
 
+// A click and what is typed behind it, in one frame: the text is the clicked field's, not keys of the window; and a click
+// behind a line does not come before it.
+TEST_F(ViewerInputTest, ClicksAndKeysKeepTheirOrder) {
+    start(std::string(kSmall) + "builtin:cornell");
+    settle();
+    const glm::ivec2 console = viewer->middleOf("console"), wall = inPicture(0.05f, 0.5f);
+    const auto clickOn = [](const glm::ivec2& p) {
+        return "mousemove " + std::to_string(p.x) + " " + std::to_string(p.y) + " click 1";
+    };
+    moveTo(wall);
+    pass();
+    viewer->pause();
+    screen->xdotool(clickOn(console) + " type 'echo first'");
+    screen->xdotool("key Return");
+    screen->xdotool("type 'echo second'");
+    screen->xdotool("key Return " + clickOn(wall));
+    viewer->resume();
+    for (int i = 0; i < 20; ++i) pass();
+    viewer->send("echo afterwards");
+    viewer->expect("afterwards");
+    for (const char* line : {"first\n", "second\n"})
+        EXPECT_NE(viewer->output().find(line), std::string::npos) << viewer->output();
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
+}
+
 // Not only its first picture.
 TEST_F(ViewerInputTest, HandlesAreDraggedAtTheResolutionOfMovement) {
     start("--size 900x600 --voxels 64 --mode traced --no-state builtin:cornell");

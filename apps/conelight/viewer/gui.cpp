@@ -128,17 +128,18 @@ void Gui::applyLook() {
 // Keys are told in their order, each where those before it have led, however many come during one frame. A key
 // that is no character ends a frame's share: it may open or leave a field. A field that asks for the keys at that
 // has them in the third frame. Keys that go up do not wait for it: one that is held repeats. Dear ImGui before 1.87
-// moreover looks at keys once a frame: none goes down and up in one.
+// moreover looks at keys once a frame: none goes down and up in one. What was clicked before a key has its frames before
+// it: text belongs to the field that was clicked.
 void Gui::takeKeys() {
     constexpr int kFramesToFocus = 3;
-    for (const platform::Window::KeyEvent& event : window_.takeKeyEvents()) keyEvents_.push_back(event);
     keyPresses_.clear();
     framesToPass_ = std::max(framesToPass_ - 1, 0);
     std::set<int> changed;
     for (; !keyEvents_.empty(); keyEvents_.pop_front()) {
         const platform::Window::KeyEvent& event = keyEvents_.front();
         const bool goesUp = event.character == 0 && event.action == GLFW_RELEASE;
-        if (framesToPass_ > 0 && !goesUp) return;
+        const bool afterClick = !buttonChanges_.empty() && event.number > buttonChanges_.front().number;
+        if (afterClick || (framesToPass_ > 0 && !goesUp)) return;
         if (event.character != 0) {
             ImGui_ImplGlfw_CharCallback(window_.handle(), event.character);
             continue;
@@ -155,21 +156,30 @@ void Gui::takeKeys() {
 
 // Of the mouse's buttons too Dear ImGui before 1.87 sees what they are at a frame, and the cursor then. Of
 // clicks that came while a picture was drawn it would see one, where the cursor is by now: it gets one change
-// a frame instead, where the cursor was.
+// a frame instead, where the cursor was, behind the keys that came before.
 void Gui::takeButtons() {
-    const std::vector<platform::Window::ButtonChange> changes = window_.takeButtonChanges();
 #if IMGUI_VERSION_NUM < 18700
     ImGuiIO& io = ImGui::GetIO();
-    for (const auto& change : changes)
-        if (change.button >= 0 && change.button < IM_ARRAYSIZE(io.MouseDown))
-            buttonChanges_.push_back(change);
     std::copy(std::begin(buttonsDown_), std::end(buttonsDown_), std::begin(io.MouseDown));
     if (buttonChanges_.empty()) return;
     const platform::Window::ButtonChange next = buttonChanges_.front();
+    if (!keyEvents_.empty() && keyEvents_.front().number < next.number) return;
     buttonChanges_.pop_front();
     buttonsDown_[static_cast<std::size_t>(next.button)] = io.MouseDown[next.button] = next.down;
     io.MousePos = {static_cast<float>(next.at.x), static_cast<float>(next.at.y)};
 #endif
+}
+
+void Gui::takeEvents() {
+    for (const platform::Window::KeyEvent& event : window_.takeKeyEvents()) keyEvents_.push_back(event);
+    const std::vector<platform::Window::ButtonChange> changes = window_.takeButtonChanges();
+#if IMGUI_VERSION_NUM < 18700
+    for (const auto& change : changes)
+        if (change.button >= 0 && change.button < IM_ARRAYSIZE(ImGui::GetIO().MouseDown))
+            buttonChanges_.push_back(change);
+#endif
+    takeKeys();
+    takeButtons();
 }
 
 void Gui::setScale(float scale) {
@@ -190,8 +200,7 @@ void Gui::beginFrame() {
     }
     ImGui_ImplOpenGL3_NewFrame();
     ImGui_ImplGlfw_NewFrame();
-    takeKeys();
-    takeButtons();
+    takeEvents();
     // A captured cursor belongs to the camera.
     if (window_.cursorCaptured()) ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
     ImGui::NewFrame();

@@ -31,6 +31,7 @@ class Gui {
 
   private:
     void applyLook();
+    void takeEvents();
     void takeKeys();
     void takeButtons();
     platform::Window& window_;
