@@ -170,6 +170,27 @@ TEST_F(ProgramTest, BenchJsonHasTheDocumentedShape) {
         EXPECT_GT(json["runs"][0]["frame"]["cpu_ms"][key].get<double>(), 0.0);
 }
 
+// The texts are those of the profile that was asked for.
+TEST_F(ProgramTest, BenchWritesTheShadersThatFramesNeed) {
+    const std::string bench = "bench builtin:cornell --frames 1 --size 16x16 --voxels 16 --shaders '";
+    for (const char* profile : {"processor", "gpu"}) {
+        ASSERT_EQ(conelight(bench + path(profile) + "' --execution " + profile).status, 0);
+        std::size_t files = 0, early = 0;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(path(profile))) {
+            if (!entry.is_regular_file()) continue;
+            ++files;
+            early += bytesOf(entry.path().string()).find("#define EXECUTION_GPU 1") != std::string::npos;
+        }
+        EXPECT_GT(files, 10u);
+        EXPECT_EQ(early > 0, std::string(profile) == "gpu");
+    }
+    std::ofstream(path("file")) << "x";
+    const CommandResult unwritable = conelight(bench + path("file") + "'");
+    EXPECT_EQ(unwritable.status, 1);
+    EXPECT_NE(unwritable.output.find("cannot be written"), std::string::npos) << unwritable.output;
+    expectOneLine(conelight(bench + path("none") + "' --execution sideways"), 2, "--execution");
+}
+
 TEST_F(ProgramTest, InfoDescribesScenesAndDevice) {
     const CommandResult device = conelight("info");
     EXPECT_EQ(device.status, 0);
