@@ -9,8 +9,8 @@
 #error STEP must be 0, 1, 2 or 3
 #endif
 #if STEP == 1
-#define PREFIX_TYPE uvec2
-#include "lib/prefix_sum.glsl"
+#include "shared/prefix_sum.h"
+layout(local_size_x = PREFIX_GROUP) in;
 #else
 layout(local_size_x = 64) in;  // before linear_index, which asks for it
 #include "lib/linear_index.glsl"
@@ -20,6 +20,10 @@ layout(std140) uniform RadianceOctreeBlock { RadianceOctree octree; };
 layout(std430) buffer OctreeSlots { uint slots[]; };
 #if STEP <= 2
 layout(std430) buffer OctreeChunks { uvec2 chunks[]; };
+#endif
+#if STEP == 1
+#define PREFIX_TYPE uvec2
+#include "lib/prefix_sum.glsl"
 #endif
 #if STEP >= 2
 layout(std430) writeonly buffer OctreeNodes { uvec2 nodes[]; };
@@ -61,18 +65,7 @@ void main() {
 #endif
 }
 #elif STEP == 1
-void main() {
-    uvec2 range = prefixRange((octree.slots + octree.slotsPerChunk - 1u) / octree.slotsPerChunk);
-    uvec2 sum = uvec2(0u);
-    for (uint i = range.x; i < range.y; ++i) sum += chunks[i];
-    uvec2 total;
-    uvec2 start = prefixBefore(sum, total);
-    for (uint i = range.x; i < range.y; ++i) {
-        uvec2 own = chunks[i];
-        chunks[i] = start;
-        start += own;
-    }
-}
+void main() { prefixChunks((octree.slots + octree.slotsPerChunk - 1u) / octree.slotsPerChunk); }
 #else
 void main() {
     uint slot = linearIndex();

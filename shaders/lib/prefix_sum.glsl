@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: MIT
-// The second pass of a prefix sum (shared/prefix_sum.h), for numbers of PREFIX_TYPE. Sums have an order: fractions are
-// the same in every run.
+// The second pass of a prefix sum (shared/prefix_sum.h), by one group of PREFIX_GROUP invocations. Sums have an order:
+// fractions are the same in every run. Includers define PREFIX_TYPE, a type of numbers, and declare `chunks`, a list of them.
 #include "shared/prefix_sum.h"
 #ifndef PREFIX_TYPE
 #error PREFIX_TYPE must be a type of numbers
 #endif
-layout(local_size_x = PREFIX_GROUP) in;
 
 shared PREFIX_TYPE sums[PREFIX_GROUP];
-
-// The elements of `count` that this invocation adds up: from x, to before y.
-uvec2 prefixRange(uint count) {
-    uint each = (count + uint(PREFIX_GROUP) - 1u) / uint(PREFIX_GROUP);
-    uint first = min(gl_LocalInvocationIndex * each, count);
-    return uvec2(first, min(first + each, count));
-}
 
 // The sum of this invocation's elements -> the sum of all before them, and of all. Every invocation calls it, once.
 PREFIX_TYPE prefixBefore(PREFIX_TYPE sum, out PREFIX_TYPE total) {
@@ -30,4 +22,21 @@ PREFIX_TYPE prefixBefore(PREFIX_TYPE sum, out PREFIX_TYPE total) {
     total = sums[PREFIX_GROUP - 1];
     PREFIX_TYPE before = sums[index - min(1u, index)];
     return index > 0u ? before : PREFIX_TYPE(0);
+}
+
+// The sums of `count` chunks -> what is before each; returns the sum of all.
+PREFIX_TYPE prefixChunks(uint count) {
+    uint each = (count + uint(PREFIX_GROUP) - 1u) / uint(PREFIX_GROUP);
+    uint first = min(gl_LocalInvocationIndex * each, count);
+    uint end = min(first + each, count);
+    PREFIX_TYPE sum = PREFIX_TYPE(0);
+    for (uint i = first; i < end; ++i) sum += chunks[i];
+    PREFIX_TYPE total;
+    PREFIX_TYPE before = prefixBefore(sum, total);
+    for (uint i = first; i < end; ++i) {
+        PREFIX_TYPE own = chunks[i];
+        chunks[i] = before;
+        before += own;
+    }
+    return total;
 }

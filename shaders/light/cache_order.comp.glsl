@@ -18,8 +18,8 @@
 #error STEP must be 0 to 5
 #endif
 #if STEP == 2
-#define PREFIX_TYPE uint
-#include "lib/prefix_sum.glsl"
+#include "shared/prefix_sum.h"
+layout(local_size_x = PREFIX_GROUP) in;
 #else
 layout(local_size_x = 64) in;
 #endif
@@ -38,6 +38,10 @@ layout(std430) buffer ChunkTable {
     uint doubtful;
     uint chunks[];
 };
+#if STEP == 2
+#define PREFIX_TYPE uint
+#include "lib/prefix_sum.glsl"
+#endif
 #if STEP == 0
 layout(std430) writeonly buffer StateTable { uvec4 states[]; };
 #endif
@@ -162,16 +166,7 @@ void sortFace(uint index) {
 #if STEP == 2
 // Numbers per chunk -> numbers before each, and at all.
 void sumChunks() {
-    uvec2 range = prefixRange(settings.chunkCount);
-    uint sum = 0u;
-    for (uint i = range.x; i < range.y; ++i) sum += chunks[i];
-    uint total;
-    uint before = prefixBefore(sum, total);
-    for (uint i = range.x; i < range.y; ++i) {
-        uint count = chunks[i];
-        chunks[i] = before;
-        before += count;
-    }
+    uint total = prefixChunks(settings.chunkCount);
     if (gl_LocalInvocationIndex != 0u) return;
     gathering = total;
     doubtful = 0u;

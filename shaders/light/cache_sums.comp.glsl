@@ -4,8 +4,8 @@
 //   STEP 0  one invocation per chunk: flux of faces -> its flux
 //        1  one group: flux of chunks -> flux before each; behind them the total
 #if STEP == 1
-#define PREFIX_TYPE float
-#include "lib/prefix_sum.glsl"
+#include "shared/prefix_sum.h"
+layout(local_size_x = PREFIX_GROUP) in;
 #elif STEP == 0
 layout(local_size_x = 64) in;
 #else
@@ -27,19 +27,12 @@ void main() {
     chunks[chunk] = flux;
 }
 #else
+#define PREFIX_TYPE float
+#include "lib/prefix_sum.glsl"
 layout(std430) writeonly buffer PoolTable { uint pool[]; };
 
 void main() {
-    uvec2 range = prefixRange(cache.chunkCount);
-    float sum = 0.0;
-    for (uint i = range.x; i < range.y; ++i) sum += chunks[i];
-    float total;
-    float before = prefixBefore(sum, total);
-    for (uint i = range.x; i < range.y; ++i) {
-        float flux = chunks[i];
-        chunks[i] = before;
-        before += flux;
-    }
+    float total = prefixChunks(cache.chunkCount);
     if (gl_LocalInvocationIndex != 0u) return;
     chunks[cache.chunkCount] = total;
     pool[0] = floatBitsToUint(total > 0.0 ? 1.0 / total : 0.0);

@@ -8,8 +8,8 @@
 #error STEP must be 0, 1, 2, 3 or 4
 #endif
 #if STEP == 1 || STEP == 2
-#define PREFIX_TYPE uvec2
-#include "lib/prefix_sum.glsl"
+#include "shared/prefix_sum.h"
+layout(local_size_x = PREFIX_GROUP) in;
 #else
 layout(local_size_x = 8) in;
 #endif
@@ -17,6 +17,10 @@ layout(local_size_x = 8) in;
 #include "voxels/surface_common.glsl"
 layout(std430) buffer CounterTable { uint counters[]; };
 layout(std430) buffer ChunkTable { uvec2 chunks[]; };
+#if STEP == 1 || STEP == 2
+#define PREFIX_TYPE uvec2
+#include "lib/prefix_sum.glsl"
+#endif
 
 // Groups of 64 invocations; more than fit along x are folded into y (linearInvocation).
 void writeArguments(int at, uint invocations) {
@@ -45,16 +49,7 @@ void main() {
     uint count = min(counters[SURFACE_VOXELS], surface.voxelCapacity);
     uint chunkCount = (count + surface.voxelsPerChunk - 1u) / surface.voxelsPerChunk;
 #endif
-    uvec2 range = prefixRange(chunkCount);
-    uvec2 sum = uvec2(0u);
-    for (uint i = range.x; i < range.y; ++i) sum += chunks[i];
-    uvec2 total;
-    uvec2 start = prefixBefore(sum, total);
-    for (uint i = range.x; i < range.y; ++i) {
-        uvec2 own = chunks[i];
-        chunks[i] = start;
-        start += own;
-    }
+    uvec2 total = prefixChunks(chunkCount);
     if (gl_LocalInvocationIndex != 0u) return;
 #if STEP == 1
     counters[SURFACE_VOXELS] = total.x;
