@@ -3,6 +3,7 @@
 // After a change of light: of how many updates the mean of each face counts as. What was there is replaced by the next
 // updates, but is good until then. Behind cache_commit, which reads what faces share.
 layout(local_size_x = 64) in;
+#include "lib/dot.glsl"
 #include "light/cache_common.glsl"
 uniform usamplerBuffer voxelFaces;
 
