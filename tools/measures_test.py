@@ -26,7 +26,7 @@ class MeasureGpu(unittest.TestCase):
     def test_page_shows_what_is_there_and_what_failed(self):
         row = {"frame_ms": {"median": 5.0}, "passes_ms": {"gbuffer": 2.0, "diffuse rays": 2.5, "shade": 0.25}, "memory_mb": 240.0}
         key = "builtin:cornell?block=1|1920x1080|%d|at rest|traced|interactive"
-        data = {"version": 1, "device": "card", "runs": {key % 128: row, key % 512: {"failed": "no memory"}},
+        data = {"version": 1, "device": "card", "program": "it", "runs": {key % 128: row, key % 512: {"failed": "no memory"}},
                 "pictures": {"cornell_traced": 0.002, "cornell_phong": 0, "glass_cones": "GL error"}, "pictures_against": "another"}
         with tempfile.TemporaryDirectory() as folder:
             out = pathlib.Path(folder, "gpu")

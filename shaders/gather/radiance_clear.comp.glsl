@@ -1,7 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
-// Zero in every texel of a level of the radiance volume. For GPUs, some of which clear 3D textures slice by slice with
-// their raster units: 4 ms for 100 MB on a server GPU, ten times as long as the cones.
+// Zero in every texel of a level of the radiance volume. For GPUs: those with few raster units clear 3D textures slowly
+// (docs/notes/2026-11-26-a-first-gpu.md).
 layout(local_size_x = 8, local_size_y = 4, local_size_z = 4) in;
 layout(rgba16f) writeonly uniform image3D level;
 

@@ -20,7 +20,7 @@ constexpr std::uint32_t perChunk(std::uint32_t count) {
 constexpr std::uint32_t chunksOf(std::uint32_t count) {
     return (count + perChunk(count) - 1) / perChunk(count);
 }
-// No fewer than these, of so many elements or less.
+// The most that so many elements, or fewer, are cut into.
 constexpr std::uint32_t mostChunks(std::uint32_t count) {
     return std::min((count + PREFIX_LEAST_CHUNK - 1) / PREFIX_LEAST_CHUNK, PREFIX_MOST_CHUNKS);
 }
