@@ -24,7 +24,8 @@ void main() {
     Surface s;
     bool seen = fetchSurface(pixel, s);
     Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));
-    DirectLight light = directLight(Receiver(s.position, s.normal, s.geometricNormal, s.toEye, vec2(0.0)), b);
+    DirectLight light =
+        directLight(Receiver(litPosition(s), s.normal, s.geometricNormal, s.toEye, vec2(0.0)), b);
     vec3 diffuse = b.diffuse / kPi * (s.normalMean * light.irradiance) + s.emission;
     vec3 specular = s.unlit ? vec3(0.0) : light.specular;
     if (pixel.x >= int(frame.width) || pixel.y >= int(frame.height)) return;

@@ -51,8 +51,8 @@ vec3 phongPoint(Phong m, Surface s, Light light, const bool single) {
     l *= inversesqrt(max(d2, 1e-20));
     float visible = 1.0;
 #if LIGHTS_SHADOWS
-    visible = single ? shadowVisibilitySpot(light, s.position, s.geometricNormal, vec2(0.0))
-                     : shadowVisibilityPoint(light, s.position, s.geometricNormal, vec2(0.0));
+    visible = single ? shadowVisibilitySpot(light, litPosition(s), s.geometricNormal, vec2(0.0))
+                     : shadowVisibilityPoint(light, litPosition(s), s.geometricNormal, vec2(0.0));
 #endif
     return phongTerm(m, s, l, light.intensity * (distanceFalloff(light, d2) * spotFalloff(light, l)),
                      visible);
@@ -61,7 +61,7 @@ vec3 phongPoint(Phong m, Surface s, Light light, const bool single) {
 vec3 phongDirectional(Phong m, Surface s, Light light) {
     float visible = 1.0;
 #if LIGHTS_SHADOWS
-    visible = shadowVisibilityDirectional(light, s.position, s.geometricNormal, vec2(0.0));
+    visible = shadowVisibilityDirectional(light, litPosition(s), s.geometricNormal, vec2(0.0));
 #endif
     return phongTerm(m, s, -light.direction, light.intensity, visible);
 }
@@ -79,7 +79,7 @@ vec3 phongRect(Phong m, Surface s, Light light) {
         l *= inversesqrt(max(d2, 1e-20));
         float visible = 1.0;
 #if LIGHTS_SHADOWS
-        visible = shadowVisibilityRect(light, k, point, s.position, s.geometricNormal);
+        visible = shadowVisibilityRect(light, k, point, litPosition(s), s.geometricNormal);
 #endif
         float share = cellArea * max(-dot(l, light.direction), 0.0) / max(d2, cellArea);
         sum += phongTerm(m, s, l, light.intensity * share, visible);

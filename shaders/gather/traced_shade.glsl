@@ -55,7 +55,8 @@ vec4 tracedShade(ivec2 pixel) {
 #if VISIBILITY_PICTURE
     visibleLights = texelFetch(visibilityPicture, pixel, 0).x;
 #endif
-    DirectLight light = directLight(Receiver(s.position, s.normal, s.geometricNormal, s.toEye, vec2(0.0)), b);
+    DirectLight light =
+        directLight(Receiver(litPosition(s), s.normal, s.geometricNormal, s.toEye, vec2(0.0)), b);
 #if COUNT_LOOKUPS
     addLookups(LOOKUPS_OCCLUSION, seen);
 #endif

@@ -32,17 +32,17 @@ bool shinesOn(Light light, Surface s) {
 }
 
 void askPoint(inout MapAnswers answers, Surface s, Light light, uint number) {
-    float visible = shadowVisibilityPoint(light, s.position, s.geometricNormal, vec2(0.0));
+    float visible = shadowVisibilityPoint(light, litPosition(s), s.geometricNormal, vec2(0.0));
     addAnswer(answers, number, visible, shinesOn(light, s), light);
 }
 
 void askSpot(inout MapAnswers answers, Surface s, Light light, uint number) {
-    float visible = shadowVisibilitySpot(light, s.position, s.geometricNormal, vec2(0.0));
+    float visible = shadowVisibilitySpot(light, litPosition(s), s.geometricNormal, vec2(0.0));
     addAnswer(answers, number, visible, shinesOn(light, s), light);
 }
 
 void askDirectional(inout MapAnswers answers, Surface s, Light light, uint number) {
-    float visible = shadowVisibilityDirectional(light, s.position, s.geometricNormal, vec2(0.0));
+    float visible = shadowVisibilityDirectional(light, litPosition(s), s.geometricNormal, vec2(0.0));
     bool shines = dot(light.direction, s.geometricNormal) < 0.0 && light.intensity != vec3(0.0);
     addAnswer(answers, number, visible, shines, light);
 }

@@ -27,6 +27,15 @@ vec3 pixelOrigin(ivec2 pixel) {
     return frame.eye + frame.parallel * (clip.x * frame.viewRight + clip.y * frame.viewUp);
 }
 
+// Where a surface begins for shadow maps. Rasterizers snap corners to 1/256 of a pixel, and planes go along: a position is
+// off by up to this share of a pixel's width across. Behind its plane it would lie in its own shadow.
+const float kSnapped = 1.0 / 362.0;
+vec3 litPosition(Surface s) {
+    float pixel =
+        2.0 * max(length(frame.viewRight) / float(frame.width), length(frame.viewUp) / float(frame.height));
+    return s.position + kSnapped * pixel * mix(s.depth, 1.0, frame.parallel) * s.geometricNormal;
+}
+
 // The surface seen at the centre of `pixel`; false in the background, where `s` is a default surface at the
 // eye.
 bool fetchSurface(ivec2 pixel, out Surface s) {
