@@ -39,44 +39,66 @@ void RelightBudget::learn(double milliseconds, std::uint32_t faces) {
     msPerFace_ = milliseconds / std::max(faces, 1u);
 }
 
+// As many faces as the time that is left and the other limits allow; 0: no more.
+std::uint32_t RelightBudget::nextFaces(const LitVoxels& lit, const Wanted& wanted, double left,
+                                       std::uint64_t visited) const {
+    double faces = msPerFace_ > 0 ? left / msPerFace_ : kFirstFaces - static_cast<double>(visited);
+    if (visited > 0 && faces < kLeastFaces) return 0;
+    faces = std::min(faces, 1e9);
+    const std::uint32_t round = lit.facesPerUpdate();  // not known at first
+    if (round > 0) {
+        const std::uint64_t each = wanted.faces > 0 ? std::min(wanted.faces, round) : round;
+        const std::uint64_t most = each * static_cast<std::uint64_t>(wanted.updates);
+        if (visited >= most) return 0;
+        faces = std::min(faces, static_cast<double>(std::min<std::uint64_t>(most - visited, round)));
+    }
+    return static_cast<std::uint32_t>(std::max(faces, 1.0 * kLeastFaces));
+}
+
 void RelightBudget::relightInTime(const gl::Device& device, LitVoxels& lit, const LitVoxels::Inputs& inputs,
                                   const RelightSettings& settings, const Wanted& wanted) {
-    const bool waits = gl::isSoftwareDriver();  // whose queries of time lie
-    if (!waits && facesMeasured_ > 0) learn(ended_.resultMs() - started_.resultMs(), facesMeasured_);
-    facesMeasured_ = 0;
+    if (gl::isSoftwareDriver())  // whose queries of time lie
+        relightAndWait(device, lit, inputs, settings, wanted);
+    else
+        relightAsMeasured(device, lit, inputs, settings, wanted);
+}
+
+void RelightBudget::relightAndWait(const gl::Device& device, LitVoxels& lit, const LitVoxels::Inputs& inputs,
+                                   const RelightSettings& settings, const Wanted& wanted) {
     std::uint64_t visited = 0;
     for (;;) {
-        // As many faces as the time that is left and the other limits allow
         const double start = base::wallMs();
-        const double left = wanted.milliseconds - (waits ? start - wanted.start : 0);
-        double faces = msPerFace_ > 0 ? left / msPerFace_ : kFirstFaces;
-        if (visited > 0 && faces < kLeastFaces) break;
-        const std::uint32_t round = lit.facesPerUpdate();
-        if (round > 0) {
-            const std::uint64_t each = wanted.faces > 0 ? std::min(wanted.faces, round) : round;
-            const std::uint64_t most = each * static_cast<std::uint64_t>(wanted.updates);
-            if (visited >= most) break;
-            faces = std::min(faces, static_cast<double>(std::min<std::uint64_t>(most - visited, round)));
-        }
-        const auto count = static_cast<std::uint32_t>(std::max(faces, 1.0 * kLeastFaces));
-        if (!waits) {
-            if (!started_) {
-                started_ = gl::Query("relight start");
-                ended_ = gl::Query("relight end");
-            }
-            started_.record();
-        }
+        const std::uint32_t count =
+            nextFaces(lit, wanted, wanted.milliseconds - (start - wanted.start), visited);
+        if (count == 0) break;
         lit.relight(device, inputs, settings, {.oneUpdate = true, .faces = count});
         visited += count;
-        facesMeasured_ = count;
-        if (!waits) {
-            ended_.record();
-            break;
-        }
         gl::finish();
         learn(base::wallMs() - start, count);
         if (lit.updates() >= settings.updates || lit.facesPerUpdate() == 0) break;
     }
+}
+
+void RelightBudget::relightAsMeasured(const gl::Device& device, LitVoxels& lit,
+                                      const LitVoxels::Inputs& inputs, const RelightSettings& settings,
+                                      const Wanted& wanted) {
+    if (facesMeasured_ > 0) learn(ended_.resultMs() - started_.resultMs(), facesMeasured_);
+    if (!started_) {
+        started_ = gl::Query("relight start");
+        ended_ = gl::Query("relight end");
+    }
+    started_.record();
+    std::uint64_t visited = 0;
+    for (;;) {
+        const double left = wanted.milliseconds - static_cast<double>(visited) * msPerFace_;
+        const std::uint32_t count = nextFaces(lit, wanted, left, visited);
+        if (count == 0) break;
+        lit.relight(device, inputs, settings, {.oneUpdate = true, .faces = count});
+        visited += count;
+        if (lit.updates() >= settings.updates || lit.facesPerUpdate() == 0) break;
+    }
+    ended_.record();
+    facesMeasured_ = static_cast<std::uint32_t>(visited);
 }
 
 }  // namespace conelight::light

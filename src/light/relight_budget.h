@@ -27,6 +27,12 @@ class RelightBudget {
   private:
     void relightInTime(const gl::Device& device, LitVoxels& lit, const LitVoxels::Inputs& inputs,
                        const RelightSettings& settings, const Wanted& wanted);
+    void relightAndWait(const gl::Device& device, LitVoxels& lit, const LitVoxels::Inputs& inputs,
+                        const RelightSettings& settings, const Wanted& wanted);
+    void relightAsMeasured(const gl::Device& device, LitVoxels& lit, const LitVoxels::Inputs& inputs,
+                           const RelightSettings& settings, const Wanted& wanted);
+    std::uint32_t nextFaces(const LitVoxels& lit, const Wanted& wanted, double left,
+                            std::uint64_t visited) const;
     void learn(double milliseconds, std::uint32_t faces);
 
     double msPerFace_ = 0;  // 0: not known yet
