@@ -5,6 +5,7 @@
 
 #include "conelight/error.h"
 #include "gl/object.h"
+#include "gl/pass.h"
 #include "support/light_field_rig.h"
 #include "support/scenes.h"
 
@@ -224,8 +225,8 @@ TEST_F(LightFieldChanges, ALargeGroundCoarsensNothing) {
     EXPECT_LT(hostDifference(freshly(wide, settings, host), alone), 1e-3);
 }
 
-// However little time there is, light gets on; and with enough it is finished by one call. How far it gets, the
-// machine says.
+// However little time there is, light gets on; and with enough it is finished by one call, on a GPU once a call has told
+// what faces cost. How far it gets, the machine says.
 TEST_F(LightFieldChanges, ABudgetOfTimeIsKept) {
     Settings settings = hostSettings();
     settings.traced.pixelRays = 0;
@@ -238,7 +239,8 @@ TEST_F(LightFieldChanges, ABudgetOfTimeIsKept) {
     LightField fast;
     fast.setScene(scene_);
     fast.setSettings(settings);
-    EXPECT_EQ(fast.update({.updates = 1000, .milliseconds = 1e9}), all);
+    const int first = fast.update({.updates = 1000, .milliseconds = 1e9});
+    EXPECT_EQ(gl::isSoftwareDriver() ? first : fast.update({.updates = 1000, .milliseconds = 1e9}), all);
     EXPECT_LT(hostDifference(diffuseOf(fast, host), settled), 0.03);
     LightField slow;
     slow.setScene(scene_);
