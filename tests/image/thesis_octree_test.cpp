@@ -6,6 +6,7 @@
 
 #include "conelight/renderer.h"
 #include "conelight/thesis/settings.h"
+#include "gl/pass.h"
 #include "io/generated.h"
 #include "support/gl_fixture.h"
 #include "support/truth_rig.h"
@@ -32,8 +33,9 @@ Image draw(const Scene& scene, const Settings& settings) {
 }
 
 // Level 1 of the dense volume is made with level 0, before a driver rounds that in its own way to halves; the octree's
-// is made of what was stored. The rest is equal.
-constexpr double kRounding = 1e-3;
+// is made of what was stored. A GPU filters dense textures with weights of 8 bits, the octree is filtered by the shader.
+// The rest is equal.
+double rounding() { return gl::isSoftwareDriver() ? 1e-3 : 4e-3; }
 
 // Of the octree's picture from the dense one, with the setting `text` ("key=value", or empty) in both.
 double difference(const Scene& scene, const std::vector<std::string>& texts, Component component,
@@ -57,19 +59,19 @@ TEST_F(ThesisOctreeTest, GivesThePictureOfTheDenseVolume) {
     for (const char* name : {"cornell", "thesis-room", "spheres"}) {
         const Scene scene = io::generateScene(name);
         for (const Component component : {Component::Full, Component::Occlusion, Component::Voxels})
-            EXPECT_LT(difference(scene, {}, component), kRounding) << name;
+            EXPECT_LT(difference(scene, {}, component), rounding()) << name;
         EXPECT_LT(
             difference(scene, {"thesis.voxel_view=surfaces", "thesis.voxel_level=2"}, Component::Voxels),
-            kRounding)
+            rounding())
             << name;
     }
 }
 
 TEST_F(ThesisOctreeTest, WithBouncesAndAtAnySize) {
     const Scene scene = io::generateScene("cornell");
-    EXPECT_LT(difference(scene, {"thesis.bounces=3"}, Component::Indirect), kRounding);
+    EXPECT_LT(difference(scene, {"thesis.bounces=3"}, Component::Indirect), rounding());
     for (const int size : {8, 36, 100})
-        EXPECT_LT(difference(scene, {}, Component::Full, size), kRounding) << size;
+        EXPECT_LT(difference(scene, {}, Component::Full, size), rounding()) << size;
     // Nothing to be voxelized: the one light is beside the point.
     Scene empty;
     empty.cameras = scene.cameras;
