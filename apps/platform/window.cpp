@@ -64,19 +64,19 @@ Window::Window(const WindowOptions& options) {
         ++self(window).inputs_;
         self(window).cursorThen_ = {x, y};
     });
-    glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int) {
-        Window& own = self(window);
-        ++own.inputs_;
-        ++own.buttonInputs_;
-        own.buttonChanges_.push_back({button, action == GLFW_PRESS, own.cursorThen_, ++own.events_});
-    });
     glfwSetScrollCallback(window_, [](GLFWwindow* window, double, double) { ++self(window).inputs_; });
     glfwSetWindowRefreshCallback(window_, [](GLFWwindow* window) {
         if (self(window).onRefresh) self(window).onRefresh();
     });
 }
 
-void Window::listenToKeys() {
+void Window::listen() {
+    glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int) {
+        Window& own = self(window);
+        ++own.inputs_;
+        ++own.buttonInputs_;
+        own.buttonChanges_.push_back({button, action == GLFW_PRESS, own.cursorThen_, ++own.events_});
+    });
     glfwSetKeyCallback(window_, [](GLFWwindow* window, int key, int scancode, int action, int modifiers) {
         Window& own = self(window);
         ++own.inputs_;

@@ -50,8 +50,8 @@ class Window {
     void captureCursor(bool on);
     bool cursorCaptured() const { return captured_; }
     bool isKeyDown(int glfwKey) const;
-    // Keys and characters are kept from now on; the window's callbacks for them are replaced.
-    void listenToKeys();
+    // Keys, characters and mouse buttons are kept, and told to no one else: the GUI's callbacks for them are replaced.
+    void listen();
     // As GLFW's callbacks are told them, or a character that came of keys.
     struct KeyEvent {
         int key = 0, scancode = 0, action = 0, modifiers = 0;

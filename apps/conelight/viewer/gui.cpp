@@ -5,7 +5,6 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
-#include <imgui_internal.h>  // InputEventsQueue
 
 #include <algorithm>
 #include <array>
@@ -81,7 +80,10 @@ Gui::Gui(platform::Window& window, float scale) : window_(window), followsScreen
     scale_ = wantedScale_ = followsScreen_ ? window.contentScale() : scale;
     applyLook();
     ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
-    window.listenToKeys();  // takeKeys() tells them
+    window.listen();  // takeEvents() tells what comes
+#if IMGUI_VERSION_NUM >= 18700
+    ImGui::GetIO().ConfigInputTrickleEventQueue = false;  // events are told in frames already
+#endif
     ImGui_ImplOpenGL3_Init("#version 450 core");
 }
 
@@ -127,9 +129,9 @@ void Gui::applyLook() {
 
 // Keys are told in their order, each where those before it have led, however many come during one frame. A key
 // that is no character ends a frame's share: it may open or leave a field. A field that asks for the keys at that
-// has them in the third frame. Keys that go up do not wait for it: one that is held repeats. Dear ImGui before 1.87
-// moreover looks at keys once a frame: none goes down and up in one. What was clicked before a key has its frames before
-// it: text belongs to the field that was clicked.
+// has them in the third frame. Keys that go up do not wait for it: one that is held repeats. Dear ImGui looks at keys
+// once a frame: none goes down and up in one. What was clicked before a key has its frames before it: text belongs to
+// the field that was clicked.
 void Gui::takeKeys() {
     constexpr int kFramesToFocus = 3;
     keyPresses_.clear();
@@ -154,30 +156,40 @@ void Gui::takeKeys() {
     }
 }
 
-// Of the mouse's buttons too Dear ImGui before 1.87 sees what they are at a frame, and the cursor then. Of
-// clicks that came while a picture was drawn it would see one, where the cursor is by now: it gets one change
-// a frame instead, where the cursor was, behind the keys that came before.
+// Of the mouse's buttons too Dear ImGui sees what they are at a frame, and the cursor then. Of clicks that came while a
+// picture was drawn it would see one, where the cursor is by now: it gets one change a frame instead, where the cursor
+// was, behind the keys that came before.
 void Gui::takeButtons() {
-#if IMGUI_VERSION_NUM < 18700
     ImGuiIO& io = ImGui::GetIO();
+#if IMGUI_VERSION_NUM < 18700
     std::copy(std::begin(buttonsDown_), std::end(buttonsDown_), std::begin(io.MouseDown));
+#else
+    if (cursorWasElsewhere_ && !window_.cursorCaptured()) {
+        const glm::vec2 cursor(window_.cursor());
+        io.AddMousePosEvent(cursor.x, cursor.y);
+    }
+    cursorWasElsewhere_ = false;
+#endif
     if (buttonChanges_.empty()) return;
     const platform::Window::ButtonChange next = buttonChanges_.front();
     if (!keyEvents_.empty() && keyEvents_.front().number < next.number) return;
     buttonChanges_.pop_front();
+    const glm::vec2 at(next.at);
+#if IMGUI_VERSION_NUM < 18700
     buttonsDown_[static_cast<std::size_t>(next.button)] = io.MouseDown[next.button] = next.down;
-    io.MousePos = {static_cast<float>(next.at.x), static_cast<float>(next.at.y)};
+    io.MousePos = {at.x, at.y};
+#else
+    io.AddMousePosEvent(at.x, at.y);
+    io.AddMouseButtonEvent(next.button, next.down);
+    cursorWasElsewhere_ = true;
 #endif
 }
 
 void Gui::takeEvents() {
     for (const platform::Window::KeyEvent& event : window_.takeKeyEvents()) keyEvents_.push_back(event);
-    const std::vector<platform::Window::ButtonChange> changes = window_.takeButtonChanges();
-#if IMGUI_VERSION_NUM < 18700
-    for (const auto& change : changes)
+    for (const platform::Window::ButtonChange& change : window_.takeButtonChanges())
         if (change.button >= 0 && change.button < IM_ARRAYSIZE(ImGui::GetIO().MouseDown))
             buttonChanges_.push_back(change);
-#endif
     takeKeys();
     takeButtons();
 }
@@ -214,13 +226,6 @@ void Gui::endFrame() {
 bool Gui::wantsMouse() const { return ImGui::GetIO().WantCaptureMouse; }
 bool Gui::wantsKeyboard() const { return ImGui::GetIO().WantTextInput; }
 
-// From 1.87 on Dear ImGui takes one press of a key or button a frame and keeps those behind it.
-bool Gui::hasInput() const {
-#if IMGUI_VERSION_NUM >= 18700
-    return !keyEvents_.empty() || !ImGui::GetCurrentContext()->InputEventsQueue.empty();
-#else
-    return !buttonChanges_.empty() || !keyEvents_.empty();
-#endif
-}
+bool Gui::hasInput() const { return !buttonChanges_.empty() || !keyEvents_.empty(); }
 
 }  // namespace conelight::program

@@ -39,7 +39,8 @@ class Gui {
     std::deque<platform::Window::KeyEvent> keyEvents_;          // for frames to come
     int framesToPass_ = 0;                                      // until the next of them goes down
     std::deque<platform::Window::ButtonChange> buttonChanges_;  // for frames to come
-    std::array<bool, 5> buttonsDown_{};                         // as the GUI has been told
+    std::array<bool, 5> buttonsDown_{};  // as the GUI has been told, before Dear ImGui 1.87
+    bool cursorWasElsewhere_ = false;    // at the last frame's change of a button, from 1.87 on
     bool followsScreen_;
     float scale_ = 1, wantedScale_ = 1;
 };
