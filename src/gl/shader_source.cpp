@@ -77,21 +77,22 @@ struct Directive {
 };
 
 std::optional<Directive> directiveOf(const std::string& line) {
-    const std::string text = trimmed(line);
-    if (text.empty() || text[0] != '#') return std::nullopt;
-    const std::string body = trimmed(text.substr(1));
+    const std::size_t hash = line.find_first_not_of(" \t\r");
+    if (hash == std::string::npos || line[hash] != '#') return std::nullopt;
+    const std::string body = trimmed(line.substr(hash + 1));
     const std::size_t end = std::min(body.find_first_not_of("abcdefghijklmnopqrstuvwxyz"), body.size());
     return Directive{body.substr(0, end), trimmed(body.substr(end))};
 }
 
 // Whether the text after `line` is inside a block comment, given whether `line` begins inside one.
 bool endsInComment(const std::string& line, bool inside) {
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-        const std::string two = line.substr(i, 2);
-        if (!inside && two == "//") return false;
-        if (two != (inside ? "*/" : "/*")) continue;
-        inside = !inside;
-        ++i;
+    std::size_t i = 0;
+    while ((i = line.find(inside ? '*' : '/', i)) != std::string::npos && i + 1 < line.size()) {
+        const char next = line[i + 1];
+        if (!inside && next == '/') return false;
+        const bool turns = next == (inside ? '/' : '*');
+        inside = inside != turns;
+        i += turns ? 2 : 1;
     }
     return inside;
 }

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <set>
+#include <unordered_set>
 
 #include "base/log.h"
 #include "conelight/shaders.h"
@@ -52,7 +52,7 @@ namespace modes {
 
 std::vector<gl::ProgramDesc> allShaderVariants() {
     std::vector<gl::ProgramDesc> all;
-    std::set<std::string> labels;
+    std::unordered_set<std::string> labels;
     const auto add = [&](const std::vector<gl::ProgramDesc>& descs) {
         for (const gl::ProgramDesc& desc : descs)
             if (labels.insert(desc.label()).second) all.push_back(desc);
@@ -75,7 +75,7 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
 
 std::vector<gl::ProgramDesc> coveringVariants(const std::vector<gl::ProgramDesc>& all, int together) {
     std::vector<gl::ProgramDesc> kept;
-    std::set<std::string> met;
+    std::unordered_set<std::string> met;
     for (const gl::ProgramDesc& desc : all) {
         std::string files;
         for (const std::string& file : desc.files) files += file + ' ';
@@ -97,7 +97,7 @@ namespace {
 // `unlike`: leaves out what is the same with that one.
 std::size_t expand(const std::vector<gl::ProgramDesc>& descs, const gl::ShaderProvider& provider,
                    const std::string& directory, const gl::ShaderProvider* unlike = nullptr) {
-    std::set<std::string> written;
+    std::unordered_set<std::string> written;
     for (const gl::ProgramDesc& desc : descs)
         for (const std::string& file : desc.files) {
             // Programs may share a stage.

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <set>
 #include <sstream>
+#include <unordered_set>
 
 #include "conelight/error.h"
 #include "conelight/shaders.h"
@@ -47,7 +48,7 @@ TEST(ShaderVariantsTest, EveryEntryIsInAVariant) {
 TEST(ShaderVariantsTest, ExpandedFilesAreWhatTheDriverGets) {
     const std::filesystem::path dir = std::filesystem::path(scratchDir()) / "expanded";
     const std::size_t count = expandAllShaders(dir.string());
-    std::set<std::string> texts;
+    std::unordered_set<std::string> texts;
     const gl::ShaderProvider provider = gl::embeddedShaderProvider();
     for (const gl::ProgramDesc& desc : modes::coveringVariants(modes::allShaderVariants(), 2))
         for (const std::string& file : desc.files)

@@ -29,8 +29,19 @@ glm::ivec3 unit(int axis) {
     return step;
 }
 
+// Whether some corners of a cell are inside and some are not.
+bool isCrossed(const Lattice& lattice, const glm::ivec3& cell) {
+    const auto row = std::size_t(lattice.nodes.x), layer = row * std::size_t(lattice.nodes.y);
+    const float* corner = &lattice.values[lattice.index(cell)];
+    int inside = 0;
+    for (const std::size_t k : {std::size_t(0), row, layer, layer + row})
+        inside += (corner[k] < 0 ? 1 : 0) + (corner[k + 1] < 0 ? 1 : 0);
+    return inside != 0 && inside != 8;
+}
+
 // The mean of the crossings of a cell's edges; false: none.
 bool crossing(const Lattice& lattice, const glm::ivec3& cell, glm::vec3& point) {
+    if (!isCrossed(lattice, cell)) return false;
     glm::vec3 sum(0);
     int count = 0;
     for (int axis = 0; axis < 3; ++axis)
