@@ -84,7 +84,7 @@ TEST_F(ViewerInputTest, WhatAClickFoundGoesAway) {
 // whose lists do not stand beside the old picture.
 TEST_F(ViewerInputTest, SaysWhatItLoads) {
     start(
-        "--size 900x600 --voxels 128 --mode traced --no-state --exec 'resolution 0.25' "
+        "--size 900x600 --voxels 64 --mode traced --no-state --exec 'resolution 0.25' "
         "'builtin:atrium?triangles=100000'");
     const glm::ivec4 window(0, 0, 900, 600);
     EXPECT_TRUE(eventually([&] { return noticed(screen->pixels(), window); })) << "at the start";
@@ -193,7 +193,7 @@ TEST_F(ViewerInputTest, ClicksAndKeysKeepTheirOrder) {
 
 // Not only its first picture.
 TEST_F(ViewerInputTest, HandlesAreDraggedAtTheResolutionOfMovement) {
-    start("--size 900x600 --voxels 64 --mode traced --no-state builtin:cornell");
+    start("--size 720x480 --voxels 32 --mode traced --no-state builtin:cornell");
     viewer->send("camera orbit 30 20; select 'short block'");
     settle();
     const auto fine = [&] {

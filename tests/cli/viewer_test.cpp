@@ -391,9 +391,9 @@ TEST_F(ViewerTest, InspectorListsAndDrawsRays) {
 // Right button and W held, at the size that people have: picture follows picture, and when it is over the
 // last one is as fine as its place. How coarse those between are: MovingResolution of tests/cpu.
 TEST_F(ViewerTest, FliesWhileAKeyIsHeld) {
-    screen = std::make_unique<VirtualScreen>(1280, 720);
+    screen = std::make_unique<VirtualScreen>(960, 540);
     for (const char* scene : {"builtin:cornell", "builtin:atrium"}) {
-        start(std::string("--window 1280x720 --voxels 64 --mode traced --no-state ") + scene);
+        start(std::string("--window 960x540 --voxels 64 --mode traced --no-state ") + scene);
         viewer->send("wait 3; echo drawn");
         ASSERT_NE(viewer->expect("drawn"), "") << viewer->output();
         const glm::ivec4 full = picture();

@@ -63,7 +63,7 @@ TEST(Denoise, LeavesATenthOfTheErrorInADiffuseRoom) {
 
 TEST(Denoise, LeavesAnEighthOfTheErrorAmongTexturesAndEdges) {
     for (const PixelFilter filter : {PixelFilter::Center, PixelFilter::Box}) {
-        const Drop drop = dropOf("builtin:study", 32, 512, filter);
+        const Drop drop = dropOf("builtin:study", 32, 256, filter);
         EXPECT_GT(drop.squared, 8);
         EXPECT_GT(drop.relative, 8);
     }

@@ -207,7 +207,7 @@ TEST_F(TracedNoiseTest, FilterKnowsHowMuchNoiseThereIs) {
     const Image filtered = picture();
     settings.traced.filterLevels = 0;
     const Image plain = picture();
-    settings.traced.passes = 512;
+    settings.traced.passes = 256;
     const Image truth = picture();
     EXPECT_LT(relRmse(filtered, truth), 0.145);
     EXPECT_GT(relRmse(plain, truth), 0.3);
