@@ -31,6 +31,24 @@ std::string settingsOf(const Session& session) {
     return text;
 }
 
+TEST(ConsoleSteps, WhatOnlyAsksEndsNoStepOfUndo) {
+    ConsoleRig rig;
+    const auto drag = [&](const char* value) { rig.session.setSetting("image.exposure", value, "exposure"); };
+    drag("0.1");
+    rig.run("echo one; get image.exposure; set image.exposure");
+    drag("0.2");
+    EXPECT_EQ(rig.session.undoSteps(), 1u);
+    rig.run("set voxels.padding 0.5");
+    drag("0.3");
+    EXPECT_EQ(rig.session.undoSteps(), 3u);
+    rig.run("undo");
+    drag("0.4");
+    EXPECT_EQ(rig.session.undoSteps(), 3u) << "the one that was undone is gone";
+    rig.run("set image.exposure 0.5");
+    drag("0.6");
+    EXPECT_EQ(rig.session.undoSteps(), 5u);
+}
+
 TEST(PathCommand, KeysAreAddedListedSavedAndLoaded) {
     ConsoleRig rig;
     const std::string file = fresh("path.json");

@@ -73,6 +73,8 @@ bool Console::runQueued() {
 }
 
 void Console::run(const Queued& queued) {
+    const bool sealed = session_.sealed();
+    const std::uint64_t steps = session_.stepsTaken();
     try {
         if (!queued.statement.error.empty()) throw Error(ErrorKind::Usage, queued.statement.error);
         const Command& command = resolve(queued.statement.words);
@@ -87,6 +89,8 @@ void Console::run(const Queued& queued) {
     } catch (const Error& error) {
         report(error, queued);
     }
+    // What only asks, and what fails, ends no step of undo: a hand may be dragging.
+    if (session_.stepsTaken() == steps) session_.seal(sealed);
 }
 
 void Console::report(const Error& error, const Queued& queued) {

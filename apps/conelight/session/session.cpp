@@ -95,6 +95,7 @@ std::vector<std::string> Session::open(const std::string& path, bool keepView) {
     done_.clear();
     undone_.clear();
     sealed_ = true;
+    ++stepsTaken_;
     savedSerial_ = forgottenSerial_ = 0;
     ++revisions_.scene;
     ++revisions_.selection;
@@ -341,6 +342,7 @@ std::uint64_t Session::sceneSerial() const {
 void Session::commit(Step step) {
     for (const Edit& edit : step.edits) apply(edit, true);
     step.serial = ++lastSerial_;
+    ++stepsTaken_;
     undone_.clear();
     const bool merges = !sealed_ && !step.mergeKey.empty() && !done_.empty() &&
                         done_.back().mergeKey == step.mergeKey && sameTargets(done_.back(), step);
@@ -423,6 +425,7 @@ std::optional<std::string> Session::undo() {
     done_.pop_back();
     for (auto edit = step.edits.rbegin(); edit != step.edits.rend(); ++edit) apply(*edit, false);
     sealed_ = true;
+    ++stepsTaken_;
     undone_.push_back(std::move(step));
     return undone_.back().label;
 }
@@ -433,6 +436,7 @@ std::optional<std::string> Session::redo() {
     undone_.pop_back();
     for (const Edit& edit : step.edits) apply(edit, true);
     sealed_ = true;
+    ++stepsTaken_;
     done_.push_back(std::move(step));
     return done_.back().label;
 }

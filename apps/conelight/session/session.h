@@ -126,7 +126,10 @@ class Session {
     // With the lights that go with it.
     void setEnvironment(const Environment& environment, const std::vector<Light>& lights,
                         const std::string& label, const std::string& mergeKey = {});
-    void seal() { sealed_ = true; }
+    void seal(bool on = true) { sealed_ = on; }
+    bool sealed() const { return sealed_; }
+    // Raised by each step that is made, undone or done again.
+    std::uint64_t stepsTaken() const { return stepsTaken_; }
 
     // No steps of undo: flying, looking, choosing.
     void moveCamera(const Camera& camera);
@@ -220,6 +223,7 @@ class Session {
     std::deque<Step> done_;
     std::vector<Step> undone_;
     bool sealed_ = true;
+    std::uint64_t stepsTaken_ = 0;
     std::uint64_t lastSerial_ = 0, forgottenSerial_ = 0, savedSerial_ = 0, saves_ = 0;
 };
 
