@@ -193,7 +193,7 @@ TEST_F(ViewerInputTest, ClicksAndKeysKeepTheirOrder) {
 
 // Not only its first picture.
 TEST_F(ViewerInputTest, HandlesAreDraggedAtTheResolutionOfMovement) {
-    start("--size 720x480 --voxels 32 --mode traced --no-state builtin:cornell");
+    start("--size 900x600 --voxels 64 --mode traced --no-state builtin:cornell");
     viewer->send("camera orbit 30 20; select 'short block'");
     settle();
     const auto fine = [&] {
@@ -224,6 +224,37 @@ TEST_F(ViewerInputTest, HandlesAreDraggedAtTheResolutionOfMovement) {
     EXPECT_EQ(between, 0) << "it is held still";
     screen->xdotool("mouseup 1");
     EXPECT_TRUE(eventually(fine)) << "at rest it is as fine as its place";
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
+}
+
+// Down, along and up while a picture is drawn: what was held lies where it was let go, by one step of undo; a click on a
+// handle is none.
+TEST_F(ViewerInputTest, HandlesFollowToWhereTheyAreLetGo) {
+    start(std::string(kSmall) + "builtin:cornell");
+    viewer->send("camera orbit 30 20; select 'short block'");
+    settle();
+    const glm::ivec2 from = viewer->middleOf("gizmo:x"), to = from + glm::ivec2(25, 0);
+    ASSERT_GT(from.x, 0);
+    const std::string before = viewer->status("selection"), steps = viewer->status("steps");
+    const auto at = [](const glm::ivec2& p) {
+        return "mousemove " + std::to_string(p.x) + " " + std::to_string(p.y);
+    };
+    moveTo(from);
+    pass();
+    viewer->pause();
+    screen->xdotool("mousedown 1 mouseup 1");
+    viewer->resume();
+    pass();
+    EXPECT_EQ(viewer->status("selection"), before);
+    EXPECT_EQ(viewer->status("steps"), steps);
+    viewer->pause();
+    screen->xdotool("mousedown 1 " + at(to) + " mouseup 1");
+    viewer->resume();
+    EXPECT_NE(viewer->statusUntil("selection", [&](const std::string& now) { return now != before; }),
+              before);
+    viewer->send("undo");
+    EXPECT_EQ(viewer->status("selection"), before) << "one step";
     viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
 }

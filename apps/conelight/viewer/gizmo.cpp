@@ -133,6 +133,8 @@ std::optional<float> Gizmo::along(const View& view, const Handle& handle, const 
 }
 
 void Gizmo::drag(Session& session, const View& view, const glm::vec2& mouse) {
+    if (mouse == drag_->last) return;
+    drag_->last = mouse;
     const Drag& d = *drag_;
     float now = 0, begun = 0;
     if (d.handle.axis < 3) {
@@ -177,11 +179,12 @@ void Gizmo::show(Session& session, const glm::vec2& at, const glm::vec2& size, b
     }
     const View view{session.camera(), at, size};
     const glm::vec2 mouse(ImGui::GetIO().MousePos.x, ImGui::GetIO().MousePos.y);
+    // In the frame that sees the button let go, too: the cursor may have come from afar since the frame before.
+    if (drag_) drag(session, view, mouse);
     if (drag_ && !ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
         session.seal();
         drag_.reset();
     }
-    if (drag_) drag(session, view, mouse);
     // Where it is now: a drag has moved it.
     const Placed now = placed(session).value_or(*where);
     const bool moves = onlyMoves(session);
@@ -198,7 +201,8 @@ void Gizmo::show(Session& session, const glm::vec2& at, const glm::vec2& size, b
         if (drag_ && drag_->handle.axis == handle.axis) hot = &handle;
     }
     if (!drag_ && hot != nullptr && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-        Drag begun{session.selection(), *hot, now.pivot, mouse, along(view, *hot, now.pivot, mouse), {}, {}};
+        Drag begun{
+            session.selection(), *hot, now.pivot, mouse, mouse, along(view, *hot, now.pivot, mouse), {}, {}};
         if (moves)
             begun.light = session.scene().lights[begun.what.index].position;
         else

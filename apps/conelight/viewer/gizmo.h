@@ -42,6 +42,7 @@ class Gizmo {
         Handle handle;
         glm::vec3 pivot{0};
         glm::vec2 mouse{0};          // where it began
+        glm::vec2 last{0};           // up to where it has been followed
         std::optional<float> along;  // the axis, or the angle about it, there
         Instance instance;           // as it was
         glm::vec3 light{0};
