@@ -125,8 +125,10 @@ bool insideRayBounds(uint bounds, vec3 n, float t, vec3 position) {
 void testVoxelFaces(ivec3 voxel, Ray ray, uint facing, inout VoxelHit hit, inout float hitCoverage) {
 #if EXECUTION_GPU
     if (facing == 0u) return;
-#endif
+    uvec4 word = texelFetch(voxelBricks, voxel >> 2, 0);  // by the cache of textures
+#else
     uvec4 word = imageLoad(voxelBrickImage, voxel >> 2);
+#endif
     uint record = texelFetch(voxelRecords, int(voxelRecordIndex(word, bitOfVoxel(voxel)))).x;
     // OCTANT_EMPTY_SPARE names a voxel that may have no faces.
     uint directions = brickHas(word.xy, bitOfVoxel(voxel)) ? faceDirections(record) : 0u;
