@@ -111,7 +111,7 @@ TEST_F(ProgramTest, SameCommandSameBytes) {
         const std::string options = std::string(
                                         "--aa 0 --set traced.passes=2 --set traced.cache_updates=4 "
                                         "--mode ") +
-                                    mode;
+                                    mode + (mode == std::string("hybrid") ? " --subdivide 1" : "");
         ASSERT_EQ(render("builtin:cornell?block=1", a, options, "LP_NUM_THREADS=2").status, 0);
         for (const char* threads : {"0", "1", "8"}) {
             ASSERT_EQ(render("builtin:cornell?block=1", b, options, std::string("LP_NUM_THREADS=") + threads)

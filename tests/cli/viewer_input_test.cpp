@@ -85,7 +85,7 @@ TEST_F(ViewerInputTest, WhatAClickFoundGoesAway) {
 TEST_F(ViewerInputTest, SaysWhatItLoads) {
     start(
         "--size 900x600 --voxels 64 --mode traced --no-state --exec 'resolution 0.25' "
-        "'builtin:atrium?triangles=100000'");
+        "'builtin:atrium?triangles=40000'");
     const glm::ivec4 window(0, 0, 900, 600);
     EXPECT_TRUE(eventually([&] { return noticed(screen->pixels(), window); })) << "at the start";
     settle();
