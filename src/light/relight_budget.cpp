@@ -14,6 +14,14 @@ constexpr std::uint32_t kFirstFaces = 2048;
 // Fewer cost no less: each call commits the light of all faces.
 constexpr std::uint32_t kLeastFaces = 1024;
 
+// Updates at most `faces`, and returns how many.
+std::uint32_t updateFaces(const gl::Device& device, LitVoxels& lit, const LitVoxels::Inputs& inputs,
+                          const RelightSettings& settings, std::uint32_t faces) {
+    lit.relight(device, inputs, settings, {.oneUpdate = true, .faces = faces});
+    const std::uint32_t all = lit.facesPerUpdate();
+    return all > 0 ? std::min(faces, all) : faces;
+}
+
 }  // namespace
 
 double RelightBudget::begin(double milliseconds) {
@@ -68,10 +76,10 @@ void RelightBudget::relightAndWait(const gl::Device& device, LitVoxels& lit, con
     std::uint64_t visited = 0;
     for (;;) {
         const double start = base::wallMs();
-        const std::uint32_t count =
+        const std::uint32_t most =
             nextFaces(lit, wanted, wanted.milliseconds - (start - wanted.start), visited);
-        if (count == 0) break;
-        lit.relight(device, inputs, settings, {.oneUpdate = true, .faces = count});
+        if (most == 0) break;
+        const std::uint32_t count = updateFaces(device, lit, inputs, settings, most);
         visited += count;
         gl::finish();
         learn(base::wallMs() - start, count);
@@ -91,10 +99,9 @@ void RelightBudget::relightAsMeasured(const gl::Device& device, LitVoxels& lit,
     std::uint64_t visited = 0;
     for (;;) {
         const double left = wanted.milliseconds - static_cast<double>(visited) * msPerFace_;
-        const std::uint32_t count = nextFaces(lit, wanted, left, visited);
-        if (count == 0) break;
-        lit.relight(device, inputs, settings, {.oneUpdate = true, .faces = count});
-        visited += count;
+        const std::uint32_t most = nextFaces(lit, wanted, left, visited);
+        if (most == 0) break;
+        visited += updateFaces(device, lit, inputs, settings, most);
         if (lit.updates() >= settings.updates || lit.facesPerUpdate() == 0) break;
     }
     ended_.record();

@@ -114,13 +114,10 @@ TEST_F(ViewerInputTest, ClicksWhileItIsBusyAreKept) {
     start(std::string(kSmall) + "builtin:cornell");
     settle();
     const glm::ivec2 block = inPicture(0.6f, 0.75f), wall = inPicture(0.05f, 0.5f);
-    const auto at = [](const glm::ivec2& p) {
-        return "mousemove " + std::to_string(p.x) + " " + std::to_string(p.y);
-    };
     moveTo(wall);
     pass();
     viewer->pause();
-    screen->xdotool(at(block) + " click 1 " + at(wall));
+    screen->xdotool(moving(block) + " click 1 " + moving(wall));
     viewer->resume();
     EXPECT_NE(viewer
                   ->statusUntil("selection",
@@ -130,7 +127,7 @@ TEST_F(ViewerInputTest, ClicksWhileItIsBusyAreKept) {
         << "what was under the cursor then";
     const std::string camera = viewer->status("camera");
     viewer->pause();
-    screen->xdotool(at(wall) + " mousedown 1 " + at(block) + " mouseup 1");
+    screen->xdotool(moving(wall) + " mousedown 1 " + moving(block) + " mouseup 1");
     viewer->resume();
     pass();
     pass();
@@ -171,9 +168,7 @@ TEST_F(ViewerInputTest, ClicksAndKeysKeepTheirOrder) {
     start(std::string(kSmall) + "builtin:cornell");
     settle();
     const glm::ivec2 console = viewer->middleOf("console"), wall = inPicture(0.05f, 0.5f);
-    const auto clickOn = [](const glm::ivec2& p) {
-        return "mousemove " + std::to_string(p.x) + " " + std::to_string(p.y) + " click 1";
-    };
+    const auto clickOn = [](const glm::ivec2& p) { return moving(p) + " click 1"; };
     moveTo(wall);
     pass();
     viewer->pause();
@@ -237,9 +232,6 @@ TEST_F(ViewerInputTest, HandlesFollowToWhereTheyAreLetGo) {
     const glm::ivec2 from = viewer->middleOf("gizmo:x"), to = from + glm::ivec2(25, 0);
     ASSERT_GT(from.x, 0);
     const std::string before = viewer->status("selection"), steps = viewer->status("steps");
-    const auto at = [](const glm::ivec2& p) {
-        return "mousemove " + std::to_string(p.x) + " " + std::to_string(p.y);
-    };
     moveTo(from);
     pass();
     viewer->pause();
@@ -249,7 +241,7 @@ TEST_F(ViewerInputTest, HandlesFollowToWhereTheyAreLetGo) {
     EXPECT_EQ(viewer->status("selection"), before);
     EXPECT_EQ(viewer->status("steps"), steps);
     viewer->pause();
-    screen->xdotool("mousedown 1 " + at(to) + " mouseup 1");
+    screen->xdotool("mousedown 1 " + moving(to) + " mouseup 1");
     viewer->resume();
     EXPECT_NE(viewer->statusUntil("selection", [&](const std::string& now) { return now != before; }),
               before);

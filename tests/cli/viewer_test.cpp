@@ -151,14 +151,11 @@ TEST_F(ViewerTest, HandlesMoveTurnAndScaleTheSelection) {
             screen->xdotool(action);
             EXPECT_TRUE(eventually([&] { return screen->pixels().changedFrom(last, place) > 10; })) << action;
         };
-        const auto to = [](const glm::ivec2& p) {
-            return "mousemove " + std::to_string(p.x) + " " + std::to_string(p.y);
-        };
-        expectChange(to(from));
+        expectChange(moving(from));
         screen->xdotool("mousedown 1");
         pass();  // nothing is seen of a button; the step of undo begins with the first move
-        expectChange(to(from + one.by / 2));
-        expectChange(to(from + one.by));
+        expectChange(moving(from + one.by / 2));
+        expectChange(moving(from + one.by));
         screen->xdotool("mouseup 1");
         pass();
         const std::vector<float> now = numbers();

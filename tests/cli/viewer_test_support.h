@@ -37,9 +37,11 @@ class ViewerTest : public ::testing::Test {
     void pass() {
         for (int i = 0; i < 3; ++i) viewer->status("frames");
     }
-    void moveTo(const glm::ivec2& p) {
-        screen->xdotool("mousemove " + std::to_string(p.x) + " " + std::to_string(p.y));
+    // What xdotool is told.
+    static std::string moving(const glm::ivec2& p) {
+        return "mousemove " + std::to_string(p.x) + " " + std::to_string(p.y);
     }
+    void moveTo(const glm::ivec2& p) { screen->xdotool(moving(p)); }
     // In steps, as a hand does: a window that looks once a frame must see the button go down first.
     void drag(int button, const glm::ivec2& from, const glm::ivec2& to) {
         moveTo(from);

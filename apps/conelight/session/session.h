@@ -128,7 +128,7 @@ class Session {
                         const std::string& label, const std::string& mergeKey = {});
     void seal(bool on = true) { sealed_ = on; }
     bool sealed() const { return sealed_; }
-    // Raised by each step that is made, undone or done again.
+    // Raised by each step that is made, undone or done again, and by open().
     std::uint64_t stepsTaken() const { return stepsTaken_; }
 
     // No steps of undo: flying, looking, choosing.
