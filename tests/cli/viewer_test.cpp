@@ -389,9 +389,9 @@ TEST_F(ViewerTest, InspectorListsAndDrawsRays) {
 // last one is as fine as its place. How coarse those between are: MovingResolution of tests/cpu.
 TEST_F(ViewerTest, FliesWhileAKeyIsHeld) {
     screen = std::make_unique<VirtualScreen>(960, 540);
-    for (const char* scene : {"builtin:cornell", "builtin:atrium"}) {
+    for (const char* scene : {"builtin:cornell", "builtin:atrium?triangles=20000"}) {
         start(std::string("--window 960x540 --voxels 64 --mode traced --no-state ") + scene);
-        viewer->send("wait 3; echo drawn");
+        viewer->send("wait 1; echo drawn");
         ASSERT_NE(viewer->expect("drawn"), "") << viewer->output();
         const glm::ivec4 full = picture();
         const std::string before = viewer->status("camera");

@@ -51,8 +51,8 @@ TEST_F(ThinThings, FoldsAndFramesHideLight) {
         reference::PathTracer(scene).render(scene.cameras.at(0), kTracedPixels, kTracedPixels, reference);
     Settings settings = tracedSettings(Quality::Interactive, Component::Indirect);
     settings.voxels.size = 128;
-    settings.traced.passes = 64;
-    settings.traced.cacheUpdates = 64;
+    settings.traced.passes = 96;
+    settings.traced.cacheUpdates = 12;
     settings.traced.filterLevels = 0;
     const double near = indirectError(draw(scene, settings), truth);
     settings.traced.exactNear = false;
