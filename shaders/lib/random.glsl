@@ -33,3 +33,12 @@ vec3 sequencePoint3(uint seed, uint index) {
     return vec3(randomFloat(a + index * 3518319155u), randomFloat(b + index * 2882110345u),
                 randomFloat(randomHash(b) + index * 2360945575u));
 }
+
+// The same in [0,1)^4, with the root of x^5 = x + 1, 1.16730397826...
+vec4 sequencePoint4(uint seed, uint index) {
+    uint a = randomHash(seed ^ 0x2c1b3c6du);
+    uint b = randomHash(a);
+    uint c = randomHash(b);
+    return vec4(randomFloat(a + index * 3679390609u), randomFloat(b + index * 3152041523u),
+                randomFloat(c + index * 2700274806u), randomFloat(randomHash(c) + index * 2313257605u));
+}

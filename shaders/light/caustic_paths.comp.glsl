@@ -22,6 +22,9 @@ layout(std430) writeonly buffer CausticEnds { CausticEnd ends[]; };
 // Surfaces that one path meets at most.
 const int kMostGlass = 12;
 
+// Voxels: more than the distance below which crossings count as a ray's own surface.
+const float kBeforeGlass = 2.0 * kRayNear;
+
 // The ways, in the order of their numbers.
 const uint kReflected = 0u, kPassed = 1u, kReflectedWithin = 2u;
 
@@ -150,12 +153,14 @@ bool follow(inout GlassPath path, inout CausticState turns, bool shadowed, vec3 
         GlassHit hit = nearestGlass(path.origin, path.direction, 1e9, on, false);
         bool open = hit.triangle < 0;
         bool unseen = turns.met == 0 && !shadowed;
-        vec3 origin = gridFromWorld(path.origin) + kRayOffset * startNormal;
-        float reach = unseen ? -1.0 : (open ? 1e9 : hit.t * grid.inverseVoxelSize);
+        // Behind glass from a little before it: what touches it would be too near a ray's start.
+        float before = on >= 0 ? kBeforeGlass : 0.0;
+        vec3 origin = gridFromWorld(path.origin) + kRayOffset * startNormal - before * path.direction;
+        float reach = unseen ? -1.0 : (open ? 1e9 : hit.t * grid.inverseVoxelSize + before);
         VoxelHit voxel = traceVoxels(Ray(origin, path.direction, reach, startNormal));
         startNormal = vec3(0.0);
         ended = voxel.face >= 0;
-        turns.end = path.origin + voxel.t * grid.voxelSize * path.direction;
+        turns.end = path.origin + (voxel.t - before) * grid.voxelSize * path.direction;
         goesOn = !open && !ended;
         if (goesOn) {
             GlassSurface s = glassSurface(path.origin, path.direction, hit);

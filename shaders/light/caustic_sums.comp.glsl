@@ -5,11 +5,11 @@
 // their differences in the four numbers of its start (ray differentials: Igehy 1999, "Tracing Ray
 // Differentials"). One invocation per path. Sums are of whole numbers, in two words: the same in any order.
 layout(local_size_x = 64) in;
+#include "lib/caustic_levels.glsl"
 #include "lib/dot.glsl"
 #include "lib/linear_index.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/random.glsl"
-#include "shared/caustics.h"
 layout(std140) uniform CausticPassBlock { CausticPass causticPass; };
 layout(std430) readonly buffer CausticEnds { CausticEnd ends[]; };
 layout(std430) buffer CausticSums { uint sums[]; };
@@ -19,7 +19,9 @@ layout(std430) buffer CausticSums { uint sums[]; };
 const float kApart = 0.25;
 const float kEntryCosine = 0.8;
 const float kQuarterTurn = 1.5707963;  // rad
-// A path spreads to so many places at most, and about one per so many texels that it covers.
+// A path that covers more than this many texels goes to a coarser level. There it covers less than twice as many.
+const float kTexelsOfLevel = 4.0;
+// It spreads to about one place per texel that it covers, and so many at most.
 const uint kMostPlaces = 16u;
 
 vec3 entryOf(CausticEnd end) { return octDecode(unpackSnorm2x16(end.entry)); }
@@ -28,41 +30,41 @@ vec3 entryOf(CausticEnd end) { return octDecode(unpackSnorm2x16(end.entry)); }
 // places (xy) and distances. `step`: to the neighbour; 0, 0 for none at either side.
 vec3 spanTo(CausticEnd self, uint index, uint at, uint count, uint step) {
     vec3 span = vec3(0.0);
-    bool found = false;
+    float found = 0.0;
     for (int side = 0; side < 2; ++side) {
         bool ahead = side == 0;
-        bool there = !found && (ahead ? at + 1u < count : at > 0u);
+        bool there = ahead ? at + 1u < count : at > 0u;
         CausticEnd other = ends[there ? (ahead ? index + step : index - step) : index];
         vec3 between = vec3(other.place - self.place, other.distance - self.distance);
         bool near = there && other.history == self.history && length(between.xy) < kApart &&
                     dot(entryOf(other), entryOf(self)) > kEntryCosine;
-        if (near) span = ahead ? between : -between;
-        found = found || near;
+        span += near ? (ahead ? between : -between) : vec3(0.0);
+        found += near ? 1.0 : 0.0;
     }
-    return span;
+    return span / max(found, 1.0);
 }
 
-void addTo(uint texel, uint channel, uint count) {
-    uint word = CAUSTIC_WORDS * texel + 2u * channel;
+void addTo(uint word, uint count) {
     uint before = atomicAdd(sums[word], count);
     if (before + count < before) atomicAdd(sums[word + 1u], 1u);
 }
 
-// Light at a place, shared by the four texels about it.
-void addLight(vec2 place, vec3 flux, float distance) {
-    float edge = float(causticPass.edge);
+// Light at a place, shared by the four texels of a level about it.
+void addLight(vec2 place, vec3 flux, float distance, uint level) {
+    float edge = float(causticLevelEdge(causticPass.edge, level));
     vec2 at = clamp((0.5 * place + 0.5) * edge - 0.5, vec2(0.0), vec2(edge - 1.0));
     uvec2 base = uvec2(at);
     vec2 part = at - vec2(base);
     for (uint corner = 0u; corner < 4u; ++corner) {
         uvec2 offset = uvec2(corner & 1u, corner >> 1u);
         vec2 weights = mix(1.0 - part, part, vec2(offset));
-        uvec2 texel = min(base + offset, uvec2(causticPass.edge - 1u));
+        uvec2 texel = min(base + offset, uvec2(uint(edge) - 1u));
+        uint word = causticWord(causticPass.edge, level, texel);
         vec3 counts = flux * (weights.x * weights.y * causticPass.scale);
         // Half a word is more than any path brings.
         uvec4 words = uvec4(min(vec4(counts, dot(counts, vec3(1.0)) * distance) + 0.5, vec4(2147483520.0)));
         for (uint channel = 0u; channel < 4u; ++channel)
-            if (words[channel] > 0u) addTo(texel.y * causticPass.edge + texel.x, channel, words[channel]);
+            if (words[channel] > 0u) addTo(word + 2u * channel, words[channel]);
     }
 }
 
@@ -90,12 +92,14 @@ void main() {
     }
     float texels = 0.0;
     for (int axis = 0; axis < 4; ++axis) texels += 0.5 * float(causticPass.edge) * length(along[axis].xy);
+    uint level = uint(clamp(floor(log2(max(texels, 1.0) / kTexelsOfLevel)), 0.0, float(CAUSTIC_LEVELS - 1u)));
+    texels /= float(1u << level);
     uint places = clamp(uint(texels * texels), 1u, kMostPlaces);
     uint seed = randomHash(index ^ 0x5bd1e995u);
     for (uint n = 0u; n < places; ++n) {
-        vec2 a = sequencePoint(seed, n) - 0.5, b = sequencePoint(seed + 1u, n) - 0.5;
-        vec3 at = vec3(self.place, self.distance) + a.x * along[0] + a.y * along[1] + b.x * along[2] +
-                  b.y * along[3];
-        addLight(at.xy, self.flux / float(places), max(at.z, 0.0));
+        vec4 part = sequencePoint4(seed, n) - 0.5;
+        vec3 at = vec3(self.place, self.distance) + part.x * along[0] + part.y * along[1] +
+                  part.z * along[2] + part.w * along[3];
+        addLight(at.xy, self.flux / float(places), max(at.z, 0.0), level);
     }
 }

@@ -40,8 +40,8 @@ struct CausticPass {
     float scale;  // counts per W
     float far;    // m: beyond all that is there
     uint edge;    // of the map, texels
-    uint pad0;
-};  // 48 B
+    uint level;   // of the sums, of the pass that adds up levels
+};                // 48 B
 
 // Where a path ended.
 struct CausticEnd {
@@ -59,6 +59,10 @@ struct CausticEnd {
 
 // Words per texel of the sums: four channels, lower and upper half.
 #define CAUSTIC_WORDS 8u
+
+// The sums have levels, each of half the edge of the one before, one after the other. A path is added to that whose
+// texels are about as large as its share of what it covers.
+#define CAUSTIC_LEVELS 6u
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus

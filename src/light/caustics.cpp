@@ -15,7 +15,7 @@ namespace conelight::light {
 namespace {
 
 // Texels per edge of a map: 0.7 degrees each, half as much light as a path of the default number brings.
-constexpr int kEdge = 256;
+constexpr std::uint32_t kEdge = 256;
 // Points of a rectangle per edge that paths start from. What lies between is filled in by their differences.
 constexpr std::uint32_t kLampGrid = 4;
 // All light of a solid comes to so many counts: no path brings more than a word, the rounding of the weakest is
@@ -59,9 +59,12 @@ void Caustics::clear() {
 
 void Caustics::layOut(std::size_t solids, int paths) {
     if (!passBlock_) passBlock_ = gl::Buffer(sizeof(gpu::CausticPass), "caustic pass");
-    if (!sums_)
-        sums_ =
-            gl::Buffer(std::size_t{kEdge} * kEdge * CAUSTIC_WORDS * sizeof(std::uint32_t), "caustic sums");
+    if (!sums_) {
+        std::size_t texels = 0;
+        for (std::uint32_t level = 0; level < CAUSTIC_LEVELS; ++level)
+            texels += std::size_t{kEdge >> level} * (kEdge >> level);
+        sums_ = gl::Buffer(texels * CAUSTIC_WORDS * sizeof(std::uint32_t), "caustic sums");
+    }
     const std::size_t bytes =
         std::size_t{CAUSTIC_WAYS} * static_cast<std::size_t>(paths) * sizeof(gpu::CausticEnd);
     if (ends_.bytes() < bytes) {
@@ -129,7 +132,11 @@ void Caustics::castSolid(const gl::Device& device, const Inputs& inputs, std::ui
         device.get(sumsDesc()).dispatchLinear(given, CAUSTIC_WAYS * starts);
         gl::barrier(gl::Access::ShaderStorage | gl::Access::Update);
     }
-    device.get(mapDesc()).dispatch(given, kEdge, kEdge);
+    for (cast.level = CAUSTIC_LEVELS; cast.level-- > 0;) {
+        passBlock_.update(cast);
+        device.get(mapDesc()).dispatch(given, kEdge >> cast.level, kEdge >> cast.level);
+        gl::barrier(gl::Access::ShaderStorage | gl::Access::Update);
+    }
 }
 
 void Caustics::declare(gl::Inputs& inputs) const {

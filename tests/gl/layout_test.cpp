@@ -109,7 +109,7 @@ std::vector<Struct> glassStructs() {
         ROW(GlassConstants, pass, passes, inverseVoxelSize, fireflyClamp, firstPass, reflections, direct,
             specular),
         ROW(CausticConstants, count, edge, voxelSize, turnsAll, middle),
-        ROW(CausticPass, middle, radius, solid, light, grid, lampGrid, scale, far, edge, pad0),
+        ROW(CausticPass, middle, radius, solid, light, grid, lampGrid, scale, far, edge, level),
         ROW(CausticEnd, place, distance, history, flux, entry),
     };
 }

@@ -225,10 +225,31 @@ TEST_F(GlassTest, CausticsAreThoseOfThePathTracer) {
         settings.mode = mode;
         const Image image = draw(scene, settings);
         EXPECT_NEAR(meanOf(image) / meanOf(truth.indirect), 1, 0.05) << mode.name();
-        EXPECT_LT(indirectError(image, truth), 0.25) << mode.name();
+        EXPECT_LT(indirectError(image, truth), 0.2) << mode.name();  // measured: 0.167
         settings.light.caustics = 0;
         EXPECT_LT(meanOf(draw(scene, settings)), 0.3 * meanOf(image)) << mode.name();
     }
+}
+
+// Light that a block sends on falls evenly on the floor that it all but touches: near the edges of voxels, too, where
+// rays that start so close to a plane piece meet nothing.
+TEST_F(GlassTest, LightFallsEvenlyBelowWhatStandsOnTheFloor) {
+    Scene scene = ballOverFloor();
+    scene.instances.pop_back();
+    addInstance(scene, boxMesh(), glassOf(glm::vec3(1), 1),
+                glm::translate(glm::mat4(1), {0, 0.251f, 0}) * glm::scale(glm::mat4(1), {0.5f, 0.25f, 0.5f}));
+    Camera& camera = scene.cameras.at(0);
+    camera.eye = {0, 1.5f, 0.2f};
+    camera.target = {0, 0, 0};
+    camera.fovY = 0.4f;
+    const Image image = draw(scene, tracedSettings(Quality::Interactive, Component::Indirect));
+    const auto [least, most] =
+        std::minmax_element(image.pixels.begin(), image.pixels.end(),
+                            [](const glm::vec4& a, const glm::vec4& b) { return a.g < b.g; });
+    // Measured: 0.84 and 1.48; 0.65 where paths start at the glass; 0.36 and 2.03 where they are spread to random places of
+    // the finest texels.
+    EXPECT_GT(least->g / meanOf(image), 0.75);
+    EXPECT_LT(most->g / meanOf(image), 1.7);
 }
 
 // A smooth pane mirrors light of a lamp onto the floor before it, as the path tracer finds by chance.
