@@ -82,7 +82,7 @@ std::size_t medianOf(std::vector<std::size_t> all) {
 }
 
 constexpr int kSteps = 40;  // of a pass
-constexpr int kPasses = 4;  // with other commands
+constexpr int kPasses = 2;  // with other commands
 // A pass asks for more than twice as many programs, so that most are deleted and built again.
 constexpr std::size_t kFewPrograms = 48;
 constexpr std::size_t kOfAPicture = 40;  // more programs than a picture asks for here
