@@ -51,6 +51,16 @@ vec3 glassHighlights(GlassSurface s, vec3 toEye, float xi) {
     return light;
 }
 
+// Light of rectangles that a rough pane scatters towards the eye from behind: the mirror image of what a lobe of that
+// width reflects.
+vec3 glassScatters(GlassSurface s, vec3 toEye, float xi) {
+    if (s.solid || s.brdf.alpha < kNarrowLobe || passesStraight(s)) return vec3(0.0);
+    Brdf b = s.brdf;
+    b.albedo = s.through;
+    vec3 mirrored = toEye - 2.0 * dot(toEye, s.normal) * s.normal;
+    return reflectedRects(b, s.position, -s.normal, -s.geometricNormal, mirrored, xi);
+}
+
 // The path leaves a surface by its reflection: by its gloss, or by what it scatters back.
 void reflectPath(inout GlassPath path, GlassSurface s, vec2 xi, inout uint random) {
     vec3 toEye = -path.direction;
@@ -151,12 +161,15 @@ vec3 pathRadiance(GlassPath path, float end, bool open, inout uint random, inout
 
 // Sends a path through the surface, or back from it. h: the facet's normal.
 void turnPath(inout GlassPath path, GlassSurface s, bool below, vec3 h, vec2 xi, inout uint random) {
-    if (below)
+    if (below) {
         passThrough(path, s, h);
-    else if (s.back && s.solid)
+        // Lamps behind a rough pane are glassScatters'.
+        path.narrow = path.narrow && (s.solid || s.brdf.alpha < kNarrowLobe || passesStraight(s));
+    } else if (s.back && s.solid) {
         mirrorWithin(path, s, h);
-    else
+    } else {
         reflectPath(path, s, xi, random);
+    }
     // Rough facets that turn a path to the wrong side bring nothing, as in the path tracer
     float above = dot(path.direction, s.geometricNormal);
     if (s.back && s.solid && !isSmooth(s) && (below ? above >= 0.0 : above <= 0.0))
@@ -186,8 +199,10 @@ vec3 glassLight(GlassHit hit, GlassSight sight, inout PathParts pathParts, uint 
         float choice = randomNext(random);
         choice = met == 1 ? choices.x : (met == 2 ? choices.y : choice);
         bool shines = glassPass.direct != 0u && pathParts.splits >= pathParts.known;
-        light +=
-            shines ? path.throughput * (s.emission + glassHighlights(s, -path.direction, xi.x)) : vec3(0.0);
+        vec3 lobes = shines
+                         ? glassHighlights(s, -path.direction, xi.x) + glassScatters(s, -path.direction, xi.y)
+                         : vec3(0.0);
+        light += shines ? path.throughput * (s.emission + lobes) : vec3(0.0);
 
         // Go through, or be reflected
         bool smoothHere = isSmooth(s);

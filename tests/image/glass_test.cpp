@@ -252,6 +252,30 @@ TEST_F(GlassTest, LightFallsEvenlyBelowWhatStandsOnTheFloor) {
     EXPECT_LT(most->g / meanOf(image), 1.7);
 }
 
+// A rough pane scatters a lamp behind it towards the eye without specks, and as much as the path tracer says.
+TEST_F(GlassTest, RoughPanesScatterLampsWithoutSpecks) {
+    Scene scene;
+    addInstance(scene, quadMesh({-1, -1, -2}, {2, 0, 0}, {0, 2, 0}), diffuseMaterial(glm::vec3(0.5f)));
+    addInstance(scene, quadMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), glassOf(glm::vec3(0.9f), 0, 0.4f));
+    Light lamp;
+    lamp.type = LightType::Rect;
+    lamp.position = {0, 1.2f, -1};
+    lamp.halfU = {0.2f, 0, 0};
+    lamp.halfV = {0, 0, 0.2f};
+    lamp.direction = {0, -1, 0};
+    lamp.intensity = glm::vec3(30);
+    scene.lights.push_back(lamp);
+    Camera camera;
+    camera.eye = {0, 0.2f, 2};
+    camera.target = {0, 0.2f, 0};
+    camera.fovY = 0.5f;
+    scene.cameras.push_back(camera);
+    const Image image = draw(scene, tracedSettings(Quality::Interactive));
+    const reference::PathTracedPicture truth = truthOf(scene, 1024);
+    EXPECT_NEAR(meanOf(image) / meanOf(truth.full), 1, 0.05);
+    EXPECT_LT(relRmse(image, truth.full), 0.12);  // measured: 0.075, with the truth's noise
+}
+
 // A smooth pane mirrors light of a lamp onto the floor before it, as the path tracer finds by chance.
 TEST_F(GlassTest, PanesMirrorLightOfLamps) {
     Scene scene;
