@@ -26,6 +26,17 @@ Material glassOf(const glm::vec3& tint, float thickness, float roughness = 0) {
 
 class GlassTest : public TracedModeTest {
   protected:
+    // A square that shines downwards; half: of its side.
+    static Light lampAbove(const glm::vec3& position, float half, float intensity) {
+        Light lamp;
+        lamp.type = LightType::Rect;
+        lamp.position = position;
+        lamp.halfU = {half, 0, 0};
+        lamp.halfV = {0, 0, half};
+        lamp.direction = {0, -1, 0};
+        lamp.intensity = glm::vec3(intensity);
+        return lamp;
+    }
     // A floor under a lamp, with a pane in between; the camera looks at the floor, below the pane.
     static Scene floorUnderPane(const Material& pane, bool rectangle = false) {
         Scene scene;
@@ -54,14 +65,7 @@ class GlassTest : public TracedModeTest {
             addInstance(scene, boxMesh(), diffuseMaterial({0.7f, 0.2f, 0.1f}),
                         glm::translate(glm::mat4(1), {0.1f, 0.3f, 0.3f}) *
                             glm::scale(glm::mat4(1), glm::vec3(0.06f)));
-        Light lamp;
-        lamp.type = LightType::Rect;
-        lamp.position = {0.4f, 2, 0};
-        lamp.halfU = {0.15f, 0, 0};
-        lamp.halfV = {0, 0, 0.15f};
-        lamp.direction = {0, -1, 0};
-        lamp.intensity = glm::vec3(20);
-        scene.lights.push_back(lamp);
+        scene.lights.push_back(lampAbove({0.4f, 2, 0}, 0.15f, 20));
         Camera camera;
         camera.eye = {-0.2f, 0.35f, 1.6f};
         camera.target = {-0.2f, 0, 0};
@@ -257,14 +261,7 @@ TEST_F(GlassTest, RoughPanesScatterLampsWithoutSpecks) {
     Scene scene;
     addInstance(scene, quadMesh({-1, -1, -2}, {2, 0, 0}, {0, 2, 0}), diffuseMaterial(glm::vec3(0.5f)));
     addInstance(scene, quadMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), glassOf(glm::vec3(0.9f), 0, 0.4f));
-    Light lamp;
-    lamp.type = LightType::Rect;
-    lamp.position = {0, 1.2f, -1};
-    lamp.halfU = {0.2f, 0, 0};
-    lamp.halfV = {0, 0, 0.2f};
-    lamp.direction = {0, -1, 0};
-    lamp.intensity = glm::vec3(30);
-    scene.lights.push_back(lamp);
+    scene.lights.push_back(lampAbove({0, 1.2f, -1}, 0.2f, 30));
     Camera camera;
     camera.eye = {0, 0.2f, 2};
     camera.target = {0, 0.2f, 0};
@@ -281,14 +278,7 @@ TEST_F(GlassTest, PanesMirrorLightOfLamps) {
     Scene scene;
     addInstance(scene, quadMesh({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), diffuseMaterial(glm::vec3(0.7f)));
     addInstance(scene, quadMesh({-0.5f, 0, 0}, {1, 0, 0}, {0, 0.8f, 0}), glassOf({0.9f, 0.5f, 0.2f}, 0));
-    Light lamp;
-    lamp.type = LightType::Rect;
-    lamp.position = {0, 1.6f, 0.7f};
-    lamp.halfU = {0.25f, 0, 0};
-    lamp.halfV = {0, 0, 0.25f};
-    lamp.direction = {0, -1, 0};
-    lamp.intensity = glm::vec3(20);
-    scene.lights.push_back(lamp);
+    scene.lights.push_back(lampAbove({0, 1.6f, 0.7f}, 0.25f, 20));
     Camera camera;
     camera.eye = {0, 1.5f, 0.6f};
     camera.target = {0, 0, 0.35f};
