@@ -51,10 +51,13 @@ vec3 glassHighlights(GlassSurface s, vec3 toEye, float xi) {
     return light;
 }
 
+// Whether lamps behind a surface are glassScatters', and no ray's.
+bool scattersLamps(GlassSurface s) { return !s.solid && !passesStraight(s) && s.brdf.alpha >= kNarrowLobe; }
+
 // Light of rectangles that a rough pane scatters towards the eye from behind: the mirror image of what a lobe of that
 // width reflects.
 vec3 glassScatters(GlassSurface s, vec3 toEye, float xi) {
-    if (s.solid || s.brdf.alpha < kNarrowLobe || passesStraight(s)) return vec3(0.0);
+    if (!scattersLamps(s)) return vec3(0.0);
     Brdf b = s.brdf;
     b.albedo = s.through;
     vec3 mirrored = toEye - 2.0 * dot(toEye, s.normal) * s.normal;
@@ -163,8 +166,7 @@ vec3 pathRadiance(GlassPath path, float end, bool open, inout uint random, inout
 void turnPath(inout GlassPath path, GlassSurface s, bool below, vec3 h, vec2 xi, inout uint random) {
     if (below) {
         passThrough(path, s, h);
-        // Lamps behind a rough pane are glassScatters'.
-        path.narrow = path.narrow && (s.solid || s.brdf.alpha < kNarrowLobe || passesStraight(s));
+        path.narrow = path.narrow && !scattersLamps(s);
     } else if (s.back && s.solid) {
         mirrorWithin(path, s, h);
     } else {

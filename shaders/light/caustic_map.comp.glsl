@@ -6,6 +6,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "lib/caustic_levels.glsl"
 #include "lib/dot.glsl"
+#include "lib/octahedral.glsl"
 layout(std140) uniform CausticPassBlock { CausticPass causticPass; };
 layout(std430) buffer CausticSums { uint sums[]; };
 layout(rgba32f) writeonly uniform image2DArray causticLayers;
@@ -21,7 +22,7 @@ vec4 totalOf(uint level, uvec2 texel) {
 
 // What the coarser level has for this texel: a quarter, between the four texels about its centre.
 vec4 coarserAt(uvec2 at, uint level) {
-    uint last = causticLevelEdge(causticPass.edge, level) - 1u;
+    uint last = (causticPass.edge >> level) - 1u;
     vec2 place = clamp(0.5 * (vec2(at) + 0.5) - 0.5, vec2(0.0), vec2(last));
     uvec2 a = uvec2(place), b = min(a + 1u, uvec2(last));
     vec2 part = place - vec2(a);
@@ -35,13 +36,13 @@ float perSteradian(uvec2 at) {
     float edge = float(causticPass.edge);
     vec2 place = 2.0 * (vec2(at) + 0.5) / edge - 1.0;
     vec3 n = vec3(place, 1.0 - abs(place.x) - abs(place.y));
-    if (n.z < 0.0) n.xy = (1.0 - abs(n.yx)) * vec2(n.x >= 0.0 ? 1.0 : -1.0, n.y >= 0.0 ? 1.0 : -1.0);
+    if (n.z < 0.0) n.xy = octWrap(n.xy);
     return pow(dot(n, n), 1.5) * edge * edge / 4.0;
 }
 
 void main() {
     uvec2 at = gl_GlobalInvocationID.xy;
-    uint level = causticPass.level, edge = causticLevelEdge(causticPass.edge, level);
+    uint level = causticPass.level, edge = causticPass.edge >> level;
     if (at.x >= edge || at.y >= edge) return;
     uint word = causticWord(causticPass.edge, level, at);
     vec4 light = vec4(channelOf(word, 0u), channelOf(word, 1u), channelOf(word, 2u), channelOf(word, 3u));

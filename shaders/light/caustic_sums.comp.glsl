@@ -51,7 +51,7 @@ void addTo(uint word, uint count) {
 
 // Light at a place, shared by the four texels of a level about it.
 void addLight(vec2 place, vec3 flux, float distance, uint level) {
-    float edge = float(causticLevelEdge(causticPass.edge, level));
+    float edge = float(causticPass.edge >> level);
     vec2 at = clamp((0.5 * place + 0.5) * edge - 0.5, vec2(0.0), vec2(edge - 1.0));
     uvec2 base = uvec2(at);
     vec2 part = at - vec2(base);

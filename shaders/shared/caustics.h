@@ -64,6 +64,10 @@ struct CausticEnd {
 // texels are about as large as its share of what it covers.
 #define CAUSTIC_LEVELS 6u
 
+// The first texel of a level, of maps whose edge is a power of two: the sum of the squares before it.
+#define CAUSTIC_LEVEL_START(edge, level) \
+    (((edge) * (edge) - ((edge) >> (level)) * ((edge) >> (level))) / 3u * 4u)
+
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::CausticConstants) == 272);

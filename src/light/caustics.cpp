@@ -59,12 +59,8 @@ void Caustics::clear() {
 
 void Caustics::layOut(std::size_t solids, int paths) {
     if (!passBlock_) passBlock_ = gl::Buffer(sizeof(gpu::CausticPass), "caustic pass");
-    if (!sums_) {
-        std::size_t texels = 0;
-        for (std::uint32_t level = 0; level < CAUSTIC_LEVELS; ++level)
-            texels += std::size_t{kEdge >> level} * (kEdge >> level);
-        sums_ = gl::Buffer(texels * CAUSTIC_WORDS * sizeof(std::uint32_t), "caustic sums");
-    }
+    constexpr std::size_t kTexels = CAUSTIC_LEVEL_START(kEdge, CAUSTIC_LEVELS);
+    if (!sums_) sums_ = gl::Buffer(kTexels * CAUSTIC_WORDS * sizeof(std::uint32_t), "caustic sums");
     const std::size_t bytes =
         std::size_t{CAUSTIC_WAYS} * static_cast<std::size_t>(paths) * sizeof(gpu::CausticEnd);
     if (ends_.bytes() < bytes) {

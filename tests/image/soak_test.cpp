@@ -82,7 +82,7 @@ std::size_t medianOf(std::vector<std::size_t> all) {
 }
 
 constexpr int kSteps = 40;  // of a pass
-constexpr int kPasses = 2;  // with other commands
+constexpr int kPasses = 2;  // with other commands, at least
 // A pass asks for more than twice as many programs, so that most are deleted and built again.
 constexpr std::size_t kFewPrograms = 48;
 constexpr std::size_t kOfAPicture = 40;  // more programs than a picture asks for here
@@ -316,14 +316,14 @@ struct SoakTest : public GlTest {
         soak.rest();
         return held();
     }
-    // Passes with other commands, at least so many and for so long. The heap after each depends on the programs that
+    // Passes with other commands, kPasses at least and for so long. The heap after each depends on the programs that
     // are kept, which differ; its median does not grow.
-    static void goOn(Soak& soak, const Held& first, int passes, int seconds) {
+    static void goOn(Soak& soak, const Held& first, int seconds) {
         const std::size_t mostPrograms = seconds > 0 ? gl::kMostPrograms : kFewPrograms;
         gl::setMostPrograms(mostPrograms);
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(seconds);
         std::vector<std::size_t> heaps;
-        while (!HasFailure() && (std::ssize(heaps) < passes || std::chrono::steady_clock::now() < end)) {
+        while (!HasFailure() && (std::ssize(heaps) < kPasses || std::chrono::steady_clock::now() < end)) {
             const unsigned seed = 2 + static_cast<unsigned>(heaps.size());
             EXPECT_EQ(more(pass(soak, seed), first), "") << seed;
             EXPECT_LE(programCount(), mostPrograms + kOfAPicture) << seed;
@@ -369,7 +369,7 @@ TEST_F(SoakTest, RandomCommandsLeaveNothingBehind) {
     EXPECT_LT(4 * soak.refused(), soak.commands());
 
     const char* seconds = std::getenv("CONELIGHT_SOAK_SECONDS");
-    goOn(soak, first, kPasses, seconds == nullptr ? 0 : std::atoi(seconds));
+    goOn(soak, first, seconds == nullptr ? 0 : std::atoi(seconds));
 }
 
 }  // namespace
