@@ -144,7 +144,8 @@ DecodeResult JpegReader::read() {
     shrinker_ = std::make_unique<RowShrinker>(outWidth, outHeight, channels_,
                                               halvings(outWidth, outHeight, request_.maxPixels), image_);
     if (!readRows()) return failed();
-    return {{}, width, height};
+    const auto pixels = std::uint64_t(width) * std::uint64_t(height);
+    return {{}, width, height, pixels * std::uint64_t(jpeg_.num_components)};
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ std::string sizeProblem(std::uint64_t width, std::uint64_t height, std::size_t f
     const std::uint64_t pixels = width * height;
     if (pixels > (std::uint64_t(1) << 22) && pixels / 1100 > fileBytes) return "has an unusable size";
     if (pixels > maxInFile)
-        return fmt::format("has {}x{} pixels, too many behind those before it", width, height);
+        return fmt::format("has {}x{} pixels; at most {} would be right", width, height, maxInFile);
     return {};
 }
 
@@ -117,7 +117,7 @@ DecodeResult decodePicture(std::span<const std::uint8_t> file, const DecodeReque
                          halvings(whole.width, whole.height, request.maxPixels), image);
     const std::size_t row = std::size_t(whole.width) * std::size_t(whole.channels);
     for (std::size_t y = 0; y < std::size_t(whole.height); ++y) shrinker.add(&whole.pixels[y * row]);
-    return {{}, whole.width, whole.height};
+    return {{}, whole.width, whole.height, whole.pixels.size()};
 }
 
 }  // namespace conelight::io

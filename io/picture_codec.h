@@ -22,8 +22,9 @@ struct DecodeRequest {
 };
 
 struct DecodeResult {
-    std::string failure;        // "" or what is wrong
-    int width = 0, height = 0;  // in the file
+    std::string failure;         // "" or what is wrong
+    int width = 0, height = 0;   // in the file
+    std::uint64_t unpacked = 0;  // bytes of its pixels, as the decoder makes them
 };
 
 bool isPng(std::span<const std::uint8_t> file);

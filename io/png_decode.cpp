@@ -67,8 +67,8 @@ class PngReader {
     png_infop info_ = nullptr;
     char message_[200] = {};
     int width_ = 0, height_ = 0, channels_ = 0, passes_ = 1;
-    std::size_t rowBytes_ = 0;
-    png_textp texts_ = nullptr;  // in front of the picture
+    std::size_t rowBytes_ = 0, largestRow_ = 0;  // as read here; the larger of that and as in the file
+    png_textp texts_ = nullptr;                  // in front of the picture
     int textCount_ = 0;
     std::vector<std::uint8_t> rows_;  // one row, or all of an interlaced picture
     std::unique_ptr<RowShrinker> shrinker_;
@@ -82,6 +82,7 @@ bool PngReader::readHead() {
     png_read_info(png_, info_);
     width_ = int(png_get_image_width(png_, info_));
     height_ = int(png_get_image_height(png_, info_));
+    largestRow_ = png_get_rowbytes(png_, info_);
     png_set_expand(png_);
     png_set_strip_16(png_);
     const bool grey = (png_get_color_type(png_, info_) & PNG_COLOR_MASK_COLOR) == 0;
@@ -92,6 +93,7 @@ bool PngReader::readHead() {
     png_read_update_info(png_, info_);
     channels_ = png_get_channels(png_, info_);
     rowBytes_ = png_get_rowbytes(png_, info_);
+    largestRow_ = std::max(largestRow_, rowBytes_);
     png_textp texts = nullptr;
     textCount_ = png_get_text(png_, info_, &texts, nullptr);
     texts_ = texts;
@@ -131,7 +133,7 @@ DecodeResult PngReader::read() {
     for (int i = 0; i < textCount_; ++i)
         if (texts_[i].key != nullptr && texts_[i].text != nullptr)
             image_.attributes.emplace_back(texts_[i].key, texts_[i].text);
-    return {{}, width_, height_};
+    return {{}, width_, height_, std::uint64_t(height_) * largestRow_};
 }
 
 }  // namespace

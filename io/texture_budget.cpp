@@ -16,11 +16,17 @@ ByteImage TextureBudget::decode(std::span<const std::uint8_t> encoded, const std
     constexpr std::uint64_t kMostOfOne = std::uint64_t(1) << 26;  // 8192 x 8192: 256 MiB
     constexpr std::uint64_t kLeastOfOne = 64 * 64;                // chosen: still a texture
     const std::uint64_t most = std::max(std::min(kMostOfOne, left_ / 2), kLeastOfOne);
+    if (effort_ == 0)
+        throw Error(ErrorKind::BadInput,
+                    fmt::format("{}: is left out, as the pictures before it are huge and take few bytes; "
+                                "smaller ones would be right",
+                                what));
     ByteImage image;
-    const DecodeResult result = decodePicture(encoded, {4, most, decoded_}, image);
+    const DecodeResult result = decodePicture(encoded, {4, most}, image);
     if (!result.failure.empty())
         throw Error(ErrorKind::BadInput, fmt::format("{}: {}", what, result.failure));
-    decoded_ -= std::min(decoded_, std::uint64_t(result.width) * std::uint64_t(result.height));
+    const std::uint64_t fair = kFair * encoded.size();
+    effort_ -= std::min(effort_, result.unpacked - std::min(result.unpacked, fair));
     left_ -= std::min(left_, std::uint64_t(image.width) * std::uint64_t(image.height));
     if (image.width != result.width || image.height != result.height)
         notes.push_back(

@@ -40,7 +40,7 @@ DecodeResult decodeWebp(std::span<const std::uint8_t> file, const DecodeRequest&
     RowShrinker shrinker(features.width, features.height, channels,
                          halvings(features.width, features.height, request.maxPixels), image);
     for (std::size_t y = 0; y < std::size_t(features.height); ++y) shrinker.add(&whole[y * row]);
-    return {{}, features.width, features.height};
+    return {{}, features.width, features.height, whole.size()};
 }
 
 #else
