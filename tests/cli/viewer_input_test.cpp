@@ -84,8 +84,8 @@ TEST_F(ViewerInputTest, WhatAClickFoundGoesAway) {
 // whose lists do not stand beside the old picture.
 TEST_F(ViewerInputTest, SaysWhatItLoads) {
     start(
-        "--size 900x600 --voxels 64 --mode traced --no-state --exec 'resolution 0.25' "
-        "'builtin:atrium?triangles=40000'");
+        "--size 900x600 --voxels 32 --mode traced --no-state --exec 'resolution 0.25' "
+        "'builtin:atrium?triangles=20000'");
     const glm::ivec4 window(0, 0, 900, 600);
     EXPECT_TRUE(eventually([&] { return noticed(screen->pixels(), window); })) << "at the start";
     settle();
