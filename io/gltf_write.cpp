@@ -33,14 +33,15 @@ glm::mat4 lookingAlong(const glm::vec3& position, const glm::vec3& forward, cons
 
 class Writer {
   public:
-    explicit Writer(const Scene& scene) : scene_(scene), buffer_(root_) {}
+    Writer(const Scene& scene, const GltfLightmaps* lightmaps)
+        : scene_(scene), lightmaps_(lightmaps), buffer_(root_) {}
     Json document();
     std::vector<std::uint8_t>& bytes() { return buffer_.bytes(); }
     std::vector<std::string> notes() const;
 
   private:
     int meshOf(const Instance& instance);
-    void addInstance(const Instance& instance);
+    void addInstance(std::size_t index);
     void addLight(const Light& light);
     void addCamera(const Camera& camera);
     void addNode(Json node);
@@ -48,6 +49,7 @@ class Writer {
     Json environment();
 
     const Scene& scene_;
+    const GltfLightmaps* lightmaps_;  // null: none
     Json root_;
     GltfBuffer buffer_;
     std::map<int, Json> primitives_;             // mesh of the scene -> attributes and indices
@@ -70,6 +72,9 @@ int Writer::meshOf(const Instance& instance) {
         attribute("NORMAL", buffer_.vectors(mesh.normals));
         attribute("TANGENT", buffer_.vectors(mesh.tangents));
         attribute("TEXCOORD_0", buffer_.vectors(mesh.uvs));
+        if (lightmaps_ != nullptr)
+            attribute("TEXCOORD_1",
+                      buffer_.vectors(lightmaps_->uvs[static_cast<std::size_t>(instance.mesh)]));
         attribute("COLOR_0", buffer_.vectors(mesh.colors));
         primitive["indices"] = buffer_.indices(mesh.indices);
     }
@@ -84,7 +89,8 @@ void Writer::addNode(Json node) {
     root_["nodes"].push_back(std::move(node));
 }
 
-void Writer::addInstance(const Instance& instance) {
+void Writer::addInstance(std::size_t index) {
+    const Instance& instance = scene_.instances[index];
     if (instance.mesh < 0 || scene_.meshes[static_cast<std::size_t>(instance.mesh)].indices.empty()) return;
     Json node = {{"name", instance.name}, {"mesh", meshOf(instance)}};
     if (instance.worldFromObject != glm::mat4(1.0f)) node["matrix"] = listOf(instance.worldFromObject);
@@ -96,6 +102,12 @@ void Writer::addInstance(const Instance& instance) {
     if (!flags.empty()) {
         node["extras"]["conelight"] = flags;
         ++flagged_;
+    }
+    if (lightmaps_ != nullptr && lightmaps_->instances[index].map >= 0) {
+        const GltfLightmaps::Place& place = lightmaps_->instances[index];
+        node["extras"]["lightmap"] = {{"map", place.map},
+                                      {"offset", {place.offset.x, place.offset.y}},
+                                      {"scale", {place.scale.x, place.scale.y}}};
     }
     addNode(std::move(node));
 }
@@ -178,7 +190,7 @@ Json Writer::document() {
     root_["asset"] = {{"version", "2.0"}, {"generator", "Conelight " CONELIGHT_VERSION_STRING}};
     writeGltfTextures(root_, buffer_, scene_);
     for (const Material& material : scene_.materials) writeGltfMaterial(root_, material, extensions_);
-    for (const Instance& instance : scene_.instances) addInstance(instance);
+    for (std::size_t i = 0; i < scene_.instances.size(); ++i) addInstance(i);
     for (const Light& light : scene_.lights) addLight(light);
     for (const Camera& camera : scene_.cameras) addCamera(camera);
     Json scene = {{"name", scene_.name}, {"nodes", nodes_}};
@@ -271,9 +283,10 @@ void refuseForeignBuffer(const std::filesystem::path& path, bool overwrite) {
                             oneLine(buffer.string()), oneLine(path.filename().string())));
 }
 
-std::vector<std::string> writeGltf(const std::filesystem::path& path, const Scene& scene, bool overwrite) {
+std::vector<std::string> writeGltf(const std::filesystem::path& path, const Scene& scene, bool overwrite,
+                                   const GltfLightmaps* lightmaps) {
     scene.validate();
-    Writer writer(scene);
+    Writer writer(scene, lightmaps);
     Json document = writer.document();
     const std::vector<std::uint8_t>& binary = writer.bytes();
     if (!binary.empty()) document["buffers"] = Json::array({{{"byteLength", binary.size()}}});

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filesystem>
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,22 @@
 
 namespace conelight::io {
 
+// Light maps of instances: what of them a glTF file holds. Second coordinates become TEXCOORD_1; a node's
+// `extras.lightmap` says which map, and uv' = offset + scale * uv.
+struct GltfLightmaps {
+    struct Place {
+        int map = -1;  // -1: none
+        glm::vec2 offset{0}, scale{1};
+    };
+    std::vector<std::vector<glm::vec2>> uvs;  // by mesh of the scene, then by vertex; empty: none
+    std::vector<Place> instances;             // by instance
+};
+
 // `.glb`: one file; any other name: JSON with a NAME.bin beside it, both or neither. Replaces a file at
 // `path`. Returns what other programs will not see, one line each. Throws Error(BadInput) as Scene::validate,
 // Error(Usage) as refuseForeignBuffer, Error(Runtime) when a file cannot be written or exceeds 4 GiB (.glb).
 std::vector<std::string> writeGltf(const std::filesystem::path& path, const Scene& scene,
-                                   bool overwrite = false);
+                                   bool overwrite = false, const GltfLightmaps* lightmaps = nullptr);
 
 // Throws Error(Usage) when the NAME.bin that writeGltf would write beside `path` is there and is not the one
 // that a glTF file at `path` names; not with `overwrite`.

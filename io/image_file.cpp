@@ -61,6 +61,11 @@ void writePng(const fs::path& path, const ByteImage& image) {
     writeEncoded(path, encodePng(image));
 }
 
+void writePng16(const fs::path& path, const WordImage& image) {
+    assert(image.pixels.size() == valueCount(image.width, image.height, image.channels));
+    writeEncoded(path, encodePng16(image));
+}
+
 void writeJpg(const fs::path& path, const ByteImage& image, int quality) {
     assert(image.pixels.size() == valueCount(image.width, image.height, image.channels));
     writeEncoded(path, stb::encodeJpg(image.width, image.height, image.channels, image.pixels.data(),

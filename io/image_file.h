@@ -31,6 +31,14 @@ struct ByteImage {
     std::vector<std::pair<std::string, std::string>> attributes;
 };
 
+// 16 bits per channel, interleaved, in the meaning of whoever fills it.
+struct WordImage {
+    int width = 0;
+    int height = 0;
+    int channels = 3;                   // 1 grey, 3 RGB, 4 RGBA
+    std::vector<std::uint16_t> pixels;  // channels * width * height
+};
+
 // A further layer of an EXR file. Channel names in the file: NAME (1 channel), NAME.X .Y (2), NAME.R .G .B
 // (3), NAME.R .G .B .A (4).
 struct ImageLayer {
@@ -52,6 +60,8 @@ struct FloatImage {
 // The bytes of a PNG file. Throws Error(Runtime) when memory runs out.
 CONELIGHT_API std::vector<std::uint8_t> pngBytes(const ByteImage& image);
 CONELIGHT_API void writePng(const std::filesystem::path& path, const ByteImage& image);
+// A PNG file of 16 bits. readByteImage gives its upper bytes.
+CONELIGHT_API void writePng16(const std::filesystem::path& path, const WordImage& image);
 CONELIGHT_API void writeJpg(const std::filesystem::path& path, const ByteImage& image, int quality = 92);
 
 // Scanline EXR, 32-bit float, ZIP, first row on top, with the Rec.709 chromaticities. Values are stored as

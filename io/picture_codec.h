@@ -33,6 +33,7 @@ bool isWebp(std::span<const std::uint8_t> file);
 DecodeResult decodePng(std::span<const std::uint8_t> file, const DecodeRequest& request, ByteImage& image);
 // An encoded PNG with the picture's attributes as its texts; empty when memory runs out.
 std::vector<std::uint8_t> encodePng(const ByteImage& image);
+std::vector<std::uint8_t> encodePng16(const WordImage& image);
 DecodeResult decodeJpeg(std::span<const std::uint8_t> file, const DecodeRequest& request, ByteImage& image);
 DecodeResult decodeWebp(std::span<const std::uint8_t> file, const DecodeRequest& request, ByteImage& image);
 

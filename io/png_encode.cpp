@@ -14,7 +14,8 @@ namespace {
 
 class PngWriter {
   public:
-    explicit PngWriter(const ByteImage& image) : image_(image) {}
+    // With 16 bits a channel has two bytes, the upper one first.
+    explicit PngWriter(const ByteImage& image, int bits = 8) : image_(image), bits_(bits) {}
     ~PngWriter() { png_destroy_write_struct(&png_, &info_); }
     PngWriter(const PngWriter&) = delete;
     PngWriter& operator=(const PngWriter&) = delete;
@@ -36,6 +37,7 @@ class PngWriter {
     bool writeAll();  // false after a jump
 
     const ByteImage& image_;
+    int bits_;
     std::vector<std::uint8_t> out_;
     std::vector<png_text> texts_;
     png_structp png_ = nullptr;
@@ -48,11 +50,11 @@ bool PngWriter::writeAll() {
     const int type = image_.channels == 1   ? PNG_COLOR_TYPE_GRAY
                      : image_.channels == 3 ? PNG_COLOR_TYPE_RGB
                                             : PNG_COLOR_TYPE_RGBA;
-    png_set_IHDR(png_, info_, png_uint_32(image_.width), png_uint_32(image_.height), 8, type,
+    png_set_IHDR(png_, info_, png_uint_32(image_.width), png_uint_32(image_.height), bits_, type,
                  PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     if (!texts_.empty()) png_set_text(png_, info_, texts_.data(), int(texts_.size()));
     png_write_info(png_, info_);
-    const std::size_t rowBytes = std::size_t(image_.width) * std::size_t(image_.channels);
+    const std::size_t rowBytes = std::size_t(image_.width) * std::size_t(image_.channels * bits_ / 8);
     for (int y = 0; y < image_.height; ++y)
         png_write_row(png_, image_.pixels.data() + std::size_t(y) * rowBytes);
     png_write_end(png_, nullptr);
@@ -77,5 +79,18 @@ std::vector<std::uint8_t> PngWriter::write() {
 }  // namespace
 
 std::vector<std::uint8_t> encodePng(const ByteImage& image) { return PngWriter(image).write(); }
+
+std::vector<std::uint8_t> encodePng16(const WordImage& image) {
+    ByteImage bytes;
+    bytes.width = image.width;
+    bytes.height = image.height;
+    bytes.channels = image.channels;
+    bytes.pixels.reserve(2 * image.pixels.size());
+    for (const std::uint16_t value : image.pixels) {
+        bytes.pixels.push_back(std::uint8_t(value >> 8));
+        bytes.pixels.push_back(std::uint8_t(value & 0xff));
+    }
+    return PngWriter(bytes, 16).write();
+}
 
 }  // namespace conelight::io

@@ -6,9 +6,6 @@
 #include "math/octahedral.h"
 
 #include <glm/gtc/constants.hpp>
-#include "reference/lens.h"
-#include "reference/materials.h"
-#include "reference/path_tracer.h"
 #include "reference/probes.h"
 
 namespace conelight::reference {
@@ -114,34 +111,11 @@ glm::vec3 irradianceAt(const ProbeVolume& volume, ProbeKind kind, const glm::vec
     return blindWeights > 0 ? blind / blindWeights : glm::vec3(0);
 }
 
-ProbePicture drawWithProbes(const Scene& scene, const ProbeVolume& volume, ProbeKind kind,
+BakedPicture drawWithProbes(const Scene& scene, const ProbeVolume& volume, ProbeKind kind,
                             const Camera& camera, const PathTracedPicture& truth) {
-    const int width = truth.full.width, height = truth.full.height;
-    const Lens lens(camera, width, height);
-    const RayScene rays(scene);
-    ProbePicture picture{.diffuse = {width, height, truth.full.pixels}, .full = truth.full};
-    for (int y = 0; y < height; ++y)
-        for (int x = 0; x < width; ++x) {
-            const std::size_t at =
-                static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
-            const glm::dvec2 clip((x + 0.5) / width * 2 - 1, 1 - (y + 0.5) / height * 2);
-            const Ray ray = lens.ray(clip);
-            RayHit hit;
-            glm::vec3 diffuse(0);
-            if (rays.intersect(RayKind::Camera, ray, hit)) {
-                const Surface surface = surfaceAt(scene, ray, hit);
-                if (!surface.unlit) {
-                    // Of light along the normal: BRDF times a cosine of 1.
-                    const glm::vec3 brdf =
-                        Reflection(surface, -ray.direction).evaluate(surface.shadingNormal).diffuse;
-                    diffuse = brdf * irradianceAt(volume, kind, surface.position, surface.shadingNormal);
-                }
-            }
-            picture.diffuse.pixels[at] = glm::vec4(diffuse, 1);
-            picture.full.pixels[at] =
-                truth.full.pixels[at] + glm::vec4(diffuse - glm::vec3(truth.diffuse.pixels[at]), 0);
-        }
-    return picture;
+    return drawWithIrradiance(scene, camera, truth, [&](const Surface& surface, const RayHit&) {
+        return irradianceAt(volume, kind, surface.position, surface.shadingNormal);
+    });
 }
 
 }  // namespace conelight::reference

@@ -12,9 +12,8 @@
 
 #include "base/log.h"
 #include "math/octahedral.h"
-#include "reference/path_integrator.h"
+#include "reference/arriving_light.h"
 #include "reference/radiosity_parallel.h"
-#include "scene/emissive_quads.h"
 
 namespace conelight::reference {
 namespace {
@@ -27,73 +26,6 @@ constexpr int kMoves = 6;
 constexpr int kMoveRays = 128;
 // Distances count by this power of the cosine to a texel's direction, and up to this many cells.
 constexpr float kDistancePower = 50, kFarthest = 1.5f;
-
-struct Arriving {
-    glm::vec3 radiance{0};
-    float distance = 0;  // infinite: nothing met
-    bool back = false;   // of a single-sided surface
-};
-
-class Rays {
-  public:
-    Rays(const Scene& scene, const ProbeSettings& settings)
-        : scene_(scene),
-          rays_(scene),
-          settings_(tracerSettings(settings)),
-          integrator_(scene, rays_, settings_),
-          surroundings_(scene),
-          isQuad_(scene.instances.size(), false) {
-        for (const scene::EmissiveQuad& quad : scene::emissiveQuads(scene)) isQuad_[quad.instance] = true;
-    }
-
-    // Where a ray ends, without its light.
-    Arriving meet(const glm::vec3& origin, const glm::vec3& direction, RayHit& hit) const {
-        Arriving result;
-        const Ray ray{.origin = origin, .direction = direction};
-        result.distance = INFINITY;
-        if (!rays_.intersect(RayKind::Bounce, ray, hit)) return result;
-        result.distance = hit.t;
-        const Surface surface = surfaceAt(scene_, ray, hit);
-        result.back = !surface.frontFace && surface.material != nullptr && !surface.material->doubleSided;
-        return result;
-    }
-
-    Arriving arriving(const glm::vec3& origin, const glm::vec3& direction, Sampler& sampler,
-                      PathSample& path) const {
-        RayHit hit;
-        Arriving result = meet(origin, direction, hit);
-        if (!std::isfinite(result.distance)) {
-            result.radiance = surroundings_.radiance(direction);
-            return result;
-        }
-        if (result.back) return result;
-        Ray ray{.origin = origin, .direction = direction};
-        ray.tMin = hit.t * (1 - 1e-4f);
-        path.clear();
-        integrator_.trace(ray, nullptr, sampler, path);
-        if (!path.finite()) return result;
-        result.radiance = path.direct + path.diffuse + path.specular;
-        if (isQuad_[hit.instance])
-            result.radiance = glm::max(result.radiance - surfaceAt(scene_, ray, hit).emission, glm::vec3(0));
-        return result;
-    }
-
-  private:
-    static PathTracerSettings tracerSettings(const ProbeSettings& settings) {
-        PathTracerSettings result;
-        result.samplesPerPixel = settings.samples;
-        result.bounces = settings.bounces < 0 ? -1 : settings.bounces - 1;
-        result.seed = settings.seed;
-        return result;
-    }
-
-    const Scene& scene_;
-    RayScene rays_;
-    PathTracerSettings settings_;
-    PathIntegrator integrator_;
-    scene::Surroundings surroundings_;
-    std::vector<bool> isQuad_;
-};
 
 glm::vec3 onSphere(const glm::vec2& u) {
     const float z = 1 - 2 * u.x, r = std::sqrt(std::max(0.0f, 1 - z * z)), phi = 2 * glm::pi<float>() * u.y;
@@ -113,7 +45,9 @@ std::vector<glm::vec3> directionsOf(int side) {
 class Bake {
   public:
     Bake(const Scene& scene, const ProbeGrid& grid, const ProbeSettings& settings)
-        : rays_(scene, settings), grid_(grid), settings_(settings) {}
+        : rays_(scene, {settings.samples, settings.bounces, settings.seed}),
+          grid_(grid),
+          settings_(settings) {}
 
     Probe probe(const glm::ivec3& at) const {
         Probe result;
@@ -211,7 +145,7 @@ class Bake {
                 powers[k] > 0 ? probe.distance[k] / powers[k] : glm::vec2(farthest, farthest * farthest);
     }
 
-    Rays rays_;
+    ArrivingLight rays_;
     ProbeGrid grid_;
     ProbeSettings settings_;
 };

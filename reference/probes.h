@@ -12,8 +12,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
-#include "conelight/renderer.h"
 #include "conelight/scene.h"
+#include "reference/baked_picture.h"
 
 namespace conelight::reference {
 
@@ -81,12 +81,7 @@ enum class ProbeKind { Harmonics, Octahedral };
 glm::vec3 irradianceAt(const ProbeVolume& volume, ProbeKind kind, const glm::vec3& point,
                        const glm::vec3& normal);
 
-// A camera's picture with its diffuse indirect light from probes, all else from the path tracer.
-struct ProbePicture {
-    Image diffuse, full;
-};
-struct PathTracedPicture;
-ProbePicture drawWithProbes(const Scene& scene, const ProbeVolume& volume, ProbeKind kind,
+BakedPicture drawWithProbes(const Scene& scene, const ProbeVolume& volume, ProbeKind kind,
                             const Camera& camera, const PathTracedPicture& truth);
 
 }  // namespace conelight::reference

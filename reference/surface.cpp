@@ -188,6 +188,38 @@ bool isTextured(const Scene& scene) {
                        [](const Material& material) { return isTextured(material); });
 }
 
+namespace {
+
+glm::vec3 positionOf(const Mesh& mesh, const glm::mat4& worldFromObject,
+                     const std::array<std::uint32_t, 3>& corners, const glm::vec2& b) {
+    return glm::vec3(worldFromObject *
+                     glm::vec4(interpolated(mesh.positions, corners, offEdges(b), glm::vec3(0)), 1));
+}
+
+// By the inverse transpose; a missing one is flat.
+glm::vec3 normalOf(const Mesh& mesh, const glm::mat3& worldFromObject,
+                   const std::array<std::uint32_t, 3>& corners, const RayHit& hit) {
+    if (mesh.normals.empty()) return hit.geometricNormal;
+    // The cofactor matrix is the inverse transpose times the determinant, and exists for flat scales too.
+    const glm::mat3 cofactor(glm::cross(worldFromObject[1], worldFromObject[2]),
+                             glm::cross(worldFromObject[2], worldFromObject[0]),
+                             glm::cross(worldFromObject[0], worldFromObject[1]));
+    const float sign = glm::determinant(worldFromObject) < 0 ? -1.0f : 1.0f;
+    const glm::vec3 n =
+        sign * (cofactor * interpolated(mesh.normals, corners, hit.barycentric, glm::vec3(0)));
+    return glm::length(n) > 1e-20f ? glm::normalize(n) : hit.geometricNormal;
+}
+
+}  // namespace
+
+SurfacePoint pointAt(const Scene& scene, const RayHit& hit) {
+    const Instance& instance = scene.instances[hit.instance];
+    const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+    const auto corners = cornersOf(mesh, hit.triangle);
+    return {positionOf(mesh, instance.worldFromObject, corners, hit.barycentric),
+            normalOf(mesh, glm::mat3(instance.worldFromObject), corners, hit)};
+}
+
 Surface surfaceAt(const Scene& scene, const Ray& ray, const RayHit& hit, const glm::vec3& turn) {
     const Instance& instance = scene.instances[hit.instance];
     const Material& material = materialOf(scene, instance);
@@ -201,24 +233,13 @@ Surface surfaceAt(const Scene& scene, const Ray& ray, const RayHit& hit, const g
 
     Surface s;
     // From the vertices, not along the ray: exact to the last places however far the ray has come.
-    s.position = glm::vec3(instance.worldFromObject *
-                           glm::vec4(interpolated(mesh.positions, corners, offEdges(b), glm::vec3(0)), 1));
+    s.position = positionOf(mesh, instance.worldFromObject, corners, b);
     s.material = &material;
     s.frontFace = glm::dot(hit.geometricNormal, ray.direction) < 0;
     s.geometricNormal = s.frontFace ? hit.geometricNormal : -hit.geometricNormal;
 
-    // Normals: inverse transpose; a missing one is flat.
     const glm::mat3 worldFromObject(instance.worldFromObject);
-    glm::vec3 normal = hit.geometricNormal;
-    if (!mesh.normals.empty()) {
-        // The cofactor matrix is the inverse transpose times the determinant, and exists for flat scales too.
-        const glm::mat3 cofactor(glm::cross(worldFromObject[1], worldFromObject[2]),
-                                 glm::cross(worldFromObject[2], worldFromObject[0]),
-                                 glm::cross(worldFromObject[0], worldFromObject[1]));
-        const float sign = glm::determinant(worldFromObject) < 0 ? -1.0f : 1.0f;
-        const glm::vec3 n = sign * (cofactor * interpolated(mesh.normals, corners, b, glm::vec3(0)));
-        if (glm::length(n) > 1e-20f) normal = glm::normalize(n);
-    }
+    glm::vec3 normal = normalOf(mesh, worldFromObject, corners, hit);
     const glm::vec3 vertexNormal = normal;
     if (material.normalTexture.used() && !mesh.tangents.empty()) {
         const glm::vec4 tangent = interpolated(mesh.tangents, corners, b, glm::vec4(0));

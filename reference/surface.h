@@ -32,6 +32,11 @@ struct Surface {
 // direction, to first order (ray differentials, Igehy 1999); everything else stays that of the hit.
 Surface surfaceAt(const Scene& scene, const Ray& ray, const RayHit& hit,
                   const glm::vec3& turn = glm::vec3(0));
+// The point itself: its place, and the interpolated normal, unit, on the side of the vertices' normals.
+struct SurfacePoint {
+    glm::vec3 position{0}, normal{0};
+};
+SurfacePoint pointAt(const Scene& scene, const RayHit& hit);
 // Whether what a hit, or anything in the scene, shows depends on textures.
 bool isTextured(const Scene& scene, const RayHit& hit);
 bool isTextured(const Scene& scene);

@@ -104,7 +104,7 @@ TEST(ProbesTest, ThePictureIsNearThePathTracers) {
     const Camera camera = scene.cameras.empty() ? frameCamera(scene.bounds()) : scene.cameras.front();
     const PathTracedPicture truth = PathTracer(scene).render(camera, 48, 48, {.samplesPerPixel = 256});
     for (const ProbeKind kind : {ProbeKind::Harmonics, ProbeKind::Octahedral}) {
-        const ProbePicture picture = drawWithProbes(scene, volume, kind, camera, truth);
+        const BakedPicture picture = drawWithProbes(scene, volume, kind, camera, truth);
         const Metrics diffuse = compareImages(picture.diffuse, truth.diffuse, {.flip = false});
         EXPECT_LT(diffuse.relRmse, 0.28);
         EXPECT_NEAR(diffuse.bias, 0, 0.08);
