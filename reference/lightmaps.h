@@ -37,7 +37,7 @@ struct LightmapLayout {
 LightmapLayout layOutLightmaps(const Scene& scene, float texel, int side);
 
 struct LightmapSettings {
-    int samples = 256;    // rays of a texel; 16..2^20
+    int samples = 1024;   // rays of a texel; 16..2^20
     int bounces = -1;     // of indirect light, 1 or more; -1: all
     bool direct = false;  // also light that lights and flat emissive quads send straight
     std::uint32_t seed = 1;

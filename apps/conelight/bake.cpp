@@ -21,13 +21,12 @@ namespace {
 struct BakeOptions {
     std::string scene, out, json;
     double spacing = 0, texel = 0;
-    int samples = 0, mapSize = 2048;
+    int samples = 1024, mapSize = 2048;
     bool lightmaps = false, direct = false, directional = false;
     bool force = false, noCheck = false;
     BakeCheck check;
     // Of indirect light.
     int bounces() const { return parseBounces(check.bounces, 1000); }
-    int rays() const { return samples != 0 ? samples : lightmaps ? 256 : 1024; }
 };
 
 float longestSide(const Scene& scene) {
@@ -43,7 +42,7 @@ io::ProbeFiles filesOf(const reference::ProbeVolume& volume, const BakeOptions& 
     files.counts = volume.grid.counts;
     files.irradianceSide = reference::kIrradianceSide;
     files.distanceSide = reference::kDistanceSide;
-    files.samples = options.rays();
+    files.samples = options.samples;
     files.seed = options.check.seed;
     for (const reference::Probe& probe : volume.probes) {
         files.probes.push_back({probe.position, probe.active, probe.harmonics});
@@ -59,7 +58,7 @@ io::LightmapFiles filesOf(const Scene& scene, const reference::LightmapLayout& l
     io::LightmapFiles files;
     files.scene = options.scene;
     files.texel = layout.texel;
-    files.samples = options.rays();
+    files.samples = options.samples;
     files.seed = options.check.seed;
     files.direct = options.direct;
     for (const reference::Lightmap& map : maps) {
@@ -89,7 +88,7 @@ nlohmann::ordered_json bakeProbesOf(const Scene& scene, const BakeOptions& optio
     const reference::ProbeGrid grid = reference::fitProbeGrid(
         scene.bounds(), options.spacing > 0 ? static_cast<float>(options.spacing) : longestSide(scene) / 8);
     reference::ProbeSettings settings;
-    settings.samples = options.rays();
+    settings.samples = options.samples;
     settings.bounces = options.bounces();
     settings.seed = options.check.seed;
     io::checkProbeFolder(options.out, options.force);
@@ -125,7 +124,7 @@ nlohmann::ordered_json bakeLightmapsOf(Scene scene, const BakeOptions& options, 
     const float texel = options.texel > 0 ? static_cast<float>(options.texel) : longestSide(scene) / 64;
     const reference::LightmapLayout layout = reference::layOutLightmaps(scene, texel, options.mapSize);
     reference::LightmapSettings settings;
-    settings.samples = options.rays();
+    settings.samples = options.samples;
     settings.bounces = options.bounces();
     settings.direct = options.direct;
     settings.seed = options.check.seed;
@@ -172,7 +171,7 @@ void checkOptions(const BakeOptions& options) {
          {std::pair{"--spacing", options.spacing}, std::pair{"--texel", options.texel}})
         if (length < 0)
             usage(fmt::format("{}: {} is not usable; a distance above 0 would be right", name, length));
-    if (options.rays() < 16 || options.rays() > (1 << 20))
+    if (options.samples < 16 || options.samples > (1 << 20))
         usage(fmt::format("--samples: {} is not usable; 16 to 1048576 would be right", options.samples));
     if (options.bounces() == 0)
         usage("--bounces: 0 leaves no indirect light; 1 to 1000, or all, would be right");
@@ -216,8 +215,8 @@ void addBake(CLI::App& app) {
     command
         ->add_flag("--directional", options->directional, "also the mean direction of light, for normal maps")
         ->needs(lightmaps);
-    command->add_option("--samples", options->samples,
-                        "rays of a probe or texel, 16 to 1048576; without: 1024, of a texel 256");
+    command->add_option("--samples", options->samples, "rays of a probe or texel, 16 to 1048576")
+        ->capture_default_str();
     command->add_option("--bounces", check.bounces, "of indirect light, 1 to 1000, or all")
         ->capture_default_str();
     command->add_option("--seed", check.seed, "of all random numbers")->capture_default_str();

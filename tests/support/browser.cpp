@@ -90,6 +90,7 @@ Browser::Browser(const std::string& program, int width, int height) {
                                       "--user-data-dir=" + profile_,
                                       "--no-first-run",
                                       "--disable-gpu",
+                                      "--enable-unsafe-swiftshader",  // WebGL without a GPU
                                       "--disable-extensions",
                                       "--disable-background-networking",
                                       "--disable-component-update",
