@@ -56,18 +56,6 @@ void requirePart(const std::string& name) {
                     name, reference::tracedLayerNames()));
 }
 
-int bouncesOf(const py::object& given) {
-    if (given.is_none() || (py::isinstance<py::str>(given) && given.cast<std::string>() == "all")) return -1;
-    try {
-        const int bounces = given.cast<int>();
-        if (bounces >= 0 && bounces <= 1000) return bounces;
-    } catch (const py::cast_error&) {
-    }
-    throw Error(ErrorKind::Usage,
-                fmt::format("bounces: {} is out of range; 0 to 1000, or 'all', would be right",
-                            std::string(py::repr(given))));
-}
-
 reference::PixelFilter filterOf(const std::string& name) {
     if (name == "center") return reference::PixelFilter::Center;
     if (name == "box") return reference::PixelFilter::Box;
@@ -103,7 +91,7 @@ TraceRequest requestOf(const py::kwargs& options) {
     PathTracerSettings& settings = request.settings;
     settings.samplesPerPixel = given.take("samples", settings.samplesPerPixel);
     settings.noise = given.take("noise", settings.noise);
-    settings.bounces = bouncesOf(given.take("bounces"));
+    settings.bounces = bouncesOf(given.take("bounces"), 0);
     settings.seed = given.take("seed", settings.seed);
     settings.filter = filterOf(given.take("filter", std::string("center")));
     settings.threads = given.take("threads", settings.threads);

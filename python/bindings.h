@@ -12,6 +12,7 @@ void bindParts(pybind11::module_& module);
 void bindScene(pybind11::module_& module);
 void bindRenderer(pybind11::module_& module);
 void bindTracer(pybind11::module_& module);
+void bindBake(pybind11::module_& module);
 void bindPictures(pybind11::module_& module);
 
 }  // namespace conelight::python

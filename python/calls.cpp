@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "calls.h"
 
+#include <fmt/core.h>
+
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -69,6 +71,18 @@ void Keywords::finish() const {
     for (const auto& [name, value] : left_)
         throw py::type_error(call_ + "() got an unexpected keyword argument '" + std::string(py::str(name)) +
                              "'");
+}
+
+int bouncesOf(const py::object& given, int least) {
+    if (given.is_none() || (py::isinstance<py::str>(given) && given.cast<std::string>() == "all")) return -1;
+    try {
+        const int bounces = given.cast<int>();
+        if (bounces >= least && bounces <= 1000) return bounces;
+    } catch (const py::cast_error&) {
+    }
+    throw Error(ErrorKind::Usage,
+                fmt::format("bounces: {} is out of range; {} to 1000, or 'all', would be right",
+                            std::string(py::repr(given)), least));
 }
 
 }  // namespace conelight::python

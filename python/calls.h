@@ -59,4 +59,7 @@ class Keywords {
     py::dict left_;
 };
 
+// Bounces of indirect light: -1 for None and 'all', else `least` to 1000.
+int bouncesOf(const py::object& given, int least);
+
 }  // namespace conelight::python

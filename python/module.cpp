@@ -63,6 +63,7 @@ PYBIND11_MODULE(_conelight, module) {
     bindScene(module);
     bindRenderer(module);
     bindTracer(module);
+    bindBake(module);
     bindPictures(module);
     module.attr("__name__") = "conelight._conelight";
 }

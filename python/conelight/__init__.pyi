@@ -250,6 +250,15 @@ class Surfaces(TypedDict):
     metallic: Floats
     roughness: Floats
 
+class Probes(TypedDict):
+    origin: Vector3
+    spacing: Vector3
+    position: Floats
+    active: NDArray[np.bool_]
+    sh: Floats
+    irradiance: Floats
+    distance: Floats
+
 class PathTracer:
     def __init__(self, scene: Scene) -> None: ...
     def render(self, camera: Camera, size: tuple[int, int], *, samples: int = 256, noise: float = 0.0,
@@ -266,6 +275,8 @@ def reference(scene: Scene, camera: Camera, size: tuple[int, int], *, samples: i
               threads: int = 0, components: str | Sequence[str] = "full", alpha: bool = False,
               denoise: bool | Literal["own", "oidn"] = False,
               progress: Callable[[Progress], bool | None] | None = None) -> dict[str, Floats]: ...
+def bake_probes(scene: Scene, *, spacing: float = 0.0, samples: int = 1024, bounces: int | Literal["all"] = "all",
+                seed: int = 1, threads: int = 0, progress: Callable[[float], bool | None] | None = None) -> Probes: ...
 def compare(test: ArrayLike, reference: ArrayLike, *, halves: Iterable[ArrayLike] | None = None,
             exposure: float = 0.0, pixels_per_degree: float = 67.02, flip: bool = True,
             blocks: int = 4) -> dict[str, float]: ...

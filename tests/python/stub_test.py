@@ -10,7 +10,7 @@ import conelight
 STUB = os.path.join(os.path.dirname(conelight.__file__), "__init__.pyi")
 # What the stub has beside the module: names of types.
 TYPES = {"Floats", "Vector3", "Vector4", "Value", "Path", "Component", "AlphaMode", "LightType", "ErrorMap",
-         "SettingDescription", "Surfaces"}
+         "SettingDescription", "Surfaces", "Probes"}
 
 
 def members(body):
