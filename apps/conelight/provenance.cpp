@@ -29,6 +29,29 @@ std::string settingsText(const PictureRequest& request) {
 
 }  // namespace
 
+std::string sceneOptionsOf(const ViewOptions& view) {
+    std::string text;
+    const auto add = [&](const std::string& words) { text += (text.empty() ? "" : " ") + words; };
+    if (!view.sky.empty()) add("--sky " + shellWord(view.sky));
+    if (!view.environment.empty()) {
+        add("--environment " + shellWord(view.environment));
+        if (view.rotateDeg != 0) add(fmt::format("--rotate {}", view.rotateDeg));
+        if (view.environmentStrength != 1)
+            add(fmt::format("--environment-strength {}", view.environmentStrength));
+        if (view.splitsSun) add("--split-sun");
+    }
+    if (view.noGround) add("--no-ground");
+    return text;
+}
+
+std::string commandsOf(const ScriptOptions& script) {
+    std::string text;
+    for (const std::string& file : script.files)
+        text += (text.empty() ? "" : "; ") + ("script " + shellWord(file));
+    for (const std::string& command : script.commands) text += (text.empty() ? "" : "; ") + command;
+    return text;
+}
+
 std::string softwareName() {
     const std::string name = std::string("Conelight ") + CONELIGHT_VERSION_STRING;
     const std::string commit = CONELIGHT_COMMIT;
@@ -57,6 +80,8 @@ PictureTexts provenanceOf(const PictureRequest& request, const std::string& scen
     };
     if (const std::string settings = settingsText(request); !settings.empty())
         texts.emplace_back("Settings", settings);
+    if (!request.sceneOptions.empty()) texts.emplace_back("Options", request.sceneOptions);
+    if (!request.commands.empty()) texts.emplace_back("Commands", request.commands);
     if (request.mode == "reference" && request.reference.samplesPerPixel > 0) {
         texts.emplace_back("Samples", std::to_string(request.reference.samplesPerPixel));
         texts.emplace_back("Seed", std::to_string(request.reference.seed));

@@ -225,6 +225,8 @@ nlohmann::ordered_json statsOf(const RenderOptions& options, const PictureReques
 PictureRequest requestOf(const RenderOptions& options) {
     PictureRequest request;
     request.size = parseSize(options.view.size);
+    request.sceneOptions = sceneOptionsOf(options.view);
+    request.commands = commandsOf(options.script);
     request.profile = !options.statsFile.empty();
     request.reference = options.tracer.settings();
     request.denoiser = options.tracer.denoises();

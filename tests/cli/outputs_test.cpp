@@ -182,7 +182,8 @@ TEST_F(OutputsTest, PicturesSayHowTheyWereMade) {
     for (const char* name : {"made.png", "made.exr"}) {
         const std::string picture = scratchPath(name);
         ASSERT_EQ(conelight("render builtin:cornell --mode phong --size 16x12 --eye 0,1,2 --target 0,0.5,0 "
-                            "--set image.exposure=2 -o '" +
+                            "--set image.exposure=2 --environment builtin:sky --rotate 30 --no-ground "
+                            "--exec 'rotate \"short block\" y 20' -o '" +
                             picture + "'")
                       .status,
                   0);
@@ -190,7 +191,8 @@ TEST_F(OutputsTest, PicturesSayHowTheyWereMade) {
         for (const char* line :
              {"size       16 x 12, 3 channels", "Software   Conelight ", "Scene      builtin:cornell",
               "Mode       phong", "--eye 0,1,2 --target 0,0.5,0", "Size       16x12", "image.exposure=2",
-              "Device     "})
+              "Options    --environment builtin:sky --rotate 30 --no-ground",
+              "Commands   rotate \"short block\" y 20", "Device     "})
             EXPECT_NE(said.find(line), std::string::npos) << line << " in\n" << said;
     }
     const std::string traced = scratchPath("made_traced.exr");
