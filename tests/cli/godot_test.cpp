@@ -74,7 +74,7 @@ TEST(GodotTest, DrawsTheCornellBoxOfThePathTracer) {
         "cd '" + folder +
         "'; setsid timeout -s KILL 300 xvfb-run -a godot3 --editor >/dev/null 2>&1 & editor=$!; "
         "for i in $(seq 1200); do [ $(ls .import/*.md5 2>/dev/null | wc -l) -ge 2 ] && break; "
-        "kill -0 $editor 2>/dev/null || break; sleep 0.25; done; sleep 1; kill -KILL -- -$editor; wait");
+        "kill -0 $editor 2>/dev/null || break; sleep 0.25; done; sleep 1; kill -9 -$editor; wait");
     runCommand("cd '" + folder +
                fmt::format("' && timeout -s KILL 300 xvfb-run -a godot3 --resolution {}x{} -s shot.gd 2>&1",
                            kWidth, kHeight));
