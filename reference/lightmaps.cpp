@@ -277,7 +277,7 @@ std::vector<Lightmap> mapsOf(const Scene& scene, const LightmapLayout& layout, b
 
 std::vector<Lightmap> bakeLightmaps(const Scene& scene, const LightmapLayout& layout,
                                     const LightmapSettings& settings,
-                                    const std::function<bool(double)>& onProgress) {
+                                    const std::function<bool(double)>& onProgress, PartialBake* partial) {
     if (settings.samples < 16 || settings.samples > (1 << 20) || settings.bounces < -1 ||
         settings.bounces == 0 || settings.threads < 0)
         base::fail(ErrorKind::Usage,
@@ -289,13 +289,17 @@ std::vector<Lightmap> bakeLightmaps(const Scene& scene, const LightmapLayout& la
     for (const ChartedMesh& mesh : layout.meshes) covers.emplace_back(mesh);
     const std::vector<Item> items = itemsOf(scene, layout, covers);
     std::vector<TexelLight> light(items.size());
+    if (partial != nullptr) partial->prepare(items.size(), sizeof(TexelLight));
     const int threads = settings.threads > 0
                             ? settings.threads
                             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     const auto body = [&](std::size_t begin, std::size_t end) {
-        for (std::size_t k = begin; k < end; ++k)
+        for (std::size_t k = begin; k < end; ++k) {
+            if (partial != nullptr && partial->take(k, light[k])) continue;
             light[k] = bake.texel(covers[static_cast<std::size_t>(scene.instances[items[k].instance].mesh)],
                                   items[k].instance, items[k].texel, static_cast<std::uint32_t>(k));
+            if (partial != nullptr) partial->put(k, light[k]);
+        }
     };
     if (!parallelFor(items.size(), threads, body, onProgress)) return {};
     return mapsOf(scene, layout, settings.direct, items, light);

@@ -14,6 +14,7 @@
 #include "conelight/scene.h"
 #include "reference/baked_picture.h"
 #include "reference/lightmap_charts.h"
+#include "reference/partial_bake.h"
 
 namespace conelight::reference {
 
@@ -55,10 +56,12 @@ struct Lightmap {
 };
 
 // `onProgress(done)`, done in [0,1], is called now and then; when it returns false, no maps are returned. The
-// same bits for the same seed, whatever the number of threads.
+// same bits for the same seed, whatever the number of threads. `partial`: texels that are done are taken from it, and
+// others put there.
 std::vector<Lightmap> bakeLightmaps(const Scene& scene, const LightmapLayout& layout,
                                     const LightmapSettings& settings,
-                                    const std::function<bool(double)>& onProgress = {});
+                                    const std::function<bool(double)>& onProgress = {},
+                                    PartialBake* partial = nullptr);
 
 // What a host's shader reads of indirect light: bilinear. With `directional`, the light of a normal that differs from the vertices'
 // is turned by the mean direction (half Lambert, as Valve 2006, "Shading in Valve's Source Engine").

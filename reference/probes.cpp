@@ -175,7 +175,7 @@ ProbeGrid fitProbeGrid(const Aabb& bounds, float spacing) {
 }
 
 ProbeVolume bakeProbes(const Scene& scene, const ProbeGrid& grid, const ProbeSettings& settings,
-                       const std::function<bool(double)>& onProgress) {
+                       const std::function<bool(double)>& onProgress, PartialBake* partial) {
     if (settings.samples < 16 || settings.samples > (1 << 20) || settings.bounces < -1 ||
         settings.bounces == 0 || settings.threads < 0)
         base::fail(ErrorKind::Usage,
@@ -185,14 +185,17 @@ ProbeVolume bakeProbes(const Scene& scene, const ProbeGrid& grid, const ProbeSet
     scene.validate();
     const Bake bake(scene, grid, settings);
     ProbeVolume volume{.grid = grid, .probes = std::vector<Probe>(grid.size())};
+    if (partial != nullptr) partial->prepare(grid.size(), sizeof(Probe));
     const int threads = settings.threads > 0
                             ? settings.threads
                             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     const auto body = [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
+            if (partial != nullptr && partial->take(i, volume.probes[i])) continue;
             const int n = static_cast<int>(i);
             volume.probes[i] = bake.probe(
                 {n % grid.counts.x, n / grid.counts.x % grid.counts.y, n / (grid.counts.x * grid.counts.y)});
+            if (partial != nullptr) partial->put(i, volume.probes[i]);
         }
     };
     return parallelFor(grid.size(), threads, body, onProgress) ? volume : ProbeVolume{};

@@ -14,6 +14,7 @@
 
 #include "conelight/scene.h"
 #include "reference/baked_picture.h"
+#include "reference/partial_bake.h"
 
 namespace conelight::reference {
 
@@ -65,9 +66,10 @@ struct ProbeSettings {
 };
 
 // `onProgress(done)`, done in [0,1], is called now and then; when it returns false, an empty volume is
-// returned. The same bits for the same seed, whatever the number of threads.
+// returned. The same bits for the same seed, whatever the number of threads. `partial`: probes that are done are
+// taken from it, and others put there.
 ProbeVolume bakeProbes(const Scene& scene, const ProbeGrid& grid, const ProbeSettings& settings,
-                       const std::function<bool(double)>& onProgress = {});
+                       const std::function<bool(double)>& onProgress = {}, PartialBake* partial = nullptr);
 
 // The nine harmonics at a unit direction: 1; y, z, x; xy, yz, 3z^2 - 1, xz, x^2 - y^2, orthonormal (Ramamoorthi
 // and Hanrahan 2001, "An Efficient Representation for Irradiance Environment Maps").

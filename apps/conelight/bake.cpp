@@ -6,17 +6,22 @@
 #include <nlohmann/json.hpp>
 
 #include "bake_check.h"
+#include "bake_state.h"
 #include "command.h"
 #include "io/files.h"
 #include "io/lightmap_files.h"
 #include "io/probe_files.h"
 #include "memory_limit.h"
+#include "provenance.h"
 #include "reference/lightmaps.h"
 #include "reference/probes.h"
+#include "scene_hash.h"
 #include "truth_options.h"
 
 namespace conelight::program {
 namespace {
+
+constexpr int kBakeFormat = 1;  // of bake.partial
 
 struct BakeOptions {
     std::string scene, out, json;
@@ -84,6 +89,33 @@ io::LightmapFiles filesOf(const Scene& scene, const reference::LightmapLayout& l
     return files;
 }
 
+// Of all that results depend on.
+std::string keyOf(const Scene& scene, const BakeOptions& options, const std::string& kind) {
+    Hash hash;
+    addScene(hash, scene);
+    return fmt::format("{} {} {} scene {} samples {} bounces {} seed {} direct {}", softwareName(),
+                       kBakeFormat, kind, hash.hex(), options.samples, options.bounces(), options.check.seed,
+                       options.direct);
+}
+
+// Calls bake(onProgress); what it has done is kept when it is stopped, and gone on from.
+template <class Bake>
+void bakeOn(BakeState& state, Progress& progress, const std::string& what, Bake bake) {
+    const HostMemoryLimit limit;
+    if (state.found() > 0) fmt::print(stderr, "conelight: going on from {:.0f} %\n", 100 * state.found());
+    bake([&](double done) {
+        progress.show(fmt::format("baking {}, {:.0f} %", what, 100 * done));
+        if (!interrupted()) state.saveNowAndThen();
+        return !interrupted();
+    });
+    progress.finish();
+    if (!interrupted()) return;
+    state.save();
+    fmt::print(stderr, "conelight: interrupted; the same command goes on from {:.0f} %\n",
+               100 * state.partial().share());
+    throw InterruptedError();
+}
+
 nlohmann::ordered_json bakeProbesOf(const Scene& scene, const BakeOptions& options, Progress& progress) {
     const reference::ProbeGrid grid = reference::fitProbeGrid(
         scene.bounds(), options.spacing > 0 ? static_cast<float>(options.spacing) : longestSide(scene) / 8);
@@ -91,16 +123,17 @@ nlohmann::ordered_json bakeProbesOf(const Scene& scene, const BakeOptions& optio
     settings.samples = options.samples;
     settings.bounces = options.bounces();
     settings.seed = options.check.seed;
-    io::checkProbeFolder(options.out, options.force);
     const StoppableScope stoppable;
-    const HostMemoryLimit limit;
-    const reference::ProbeVolume volume = reference::bakeProbes(scene, grid, settings, [&](double done) {
-        progress.show(fmt::format("baking {} probes, {:.0f} %", grid.size(), 100 * done));
-        return !interrupted();
+    io::checkProbeFolder(options.out, options.force);
+    BakeState state(options.out, keyOf(scene, options,
+                                       fmt::format("probes {:.9g} {:.9g} {:.9g}", grid.spacing.x,
+                                                   grid.spacing.y, grid.spacing.z)));
+    reference::ProbeVolume volume;
+    bakeOn(state, progress, fmt::format("{} probes", grid.size()), [&](const auto& onProgress) {
+        volume = reference::bakeProbes(scene, grid, settings, onProgress, &state.partial());
     });
-    progress.finish();
-    if (interrupted()) throw InterruptedError();
     io::writeProbes(options.out, filesOf(volume, options), options.force);
+    state.remove();
     const auto active = std::count_if(volume.probes.begin(), volume.probes.end(),
                                       [](const reference::Probe& probe) { return probe.active; });
     fmt::print("written {}/probes.json: {} x {} x {} probes, {:.3g} x {:.3g} x {:.3g} m apart, {} in walls\n",
@@ -128,16 +161,14 @@ nlohmann::ordered_json bakeLightmapsOf(Scene scene, const BakeOptions& options, 
     settings.bounces = options.bounces();
     settings.direct = options.direct;
     settings.seed = options.check.seed;
-    io::checkLightmapFolder(options.out, layout.sizes.size(), options.directional, options.force);
     const StoppableScope stoppable;
-    const HostMemoryLimit limit;
-    const std::vector<reference::Lightmap> maps =
-        reference::bakeLightmaps(scene, layout, settings, [&](double done) {
-            progress.show(fmt::format("baking {} texels, {:.0f} %", layout.texels(), 100 * done));
-            return !interrupted();
-        });
-    progress.finish();
-    if (interrupted()) throw InterruptedError();
+    io::checkLightmapFolder(options.out, layout.sizes.size(), options.directional, options.force);
+    BakeState state(options.out,
+                    keyOf(scene, options, fmt::format("light maps {:.9g} {}", texel, options.mapSize)));
+    std::vector<reference::Lightmap> maps;
+    bakeOn(state, progress, fmt::format("{} texels", layout.texels()), [&](const auto& onProgress) {
+        maps = reference::bakeLightmaps(scene, layout, settings, onProgress, &state.partial());
+    });
     const io::LightmapFiles files = filesOf(scene, layout, maps, options);
     {
         Scene charted = scene;
@@ -146,6 +177,7 @@ nlohmann::ordered_json bakeLightmapsOf(Scene scene, const BakeOptions& options, 
         for (const std::string& note : io::writeLightmaps(options.out, charted, files, options.force))
             fmt::print(stderr, "conelight: scene.glb: {}\n", note);
     }
+    state.remove();
     const auto mapped = std::count_if(layout.places.begin(), layout.places.end(),
                                       [](const reference::LightmapPlace& place) { return place.map >= 0; });
     fmt::print("written {}/lightmaps.json: {} objects in {} {}, {} texels of {:.3g} m\n", options.out, mapped,

@@ -103,6 +103,31 @@ TEST(BakeTest, WritesLightMapsAndTellsTheirError) {
     EXPECT_EQ(bytesOf(folder + "/scene.glb"), glb);
 }
 
+TEST(BakeTest, StoppedItGoesOnToTheSameBits) {
+    const std::string whole = scratchPath("whole"), folder = scratchPath("stopped");
+    for (const std::string& one : {whole, folder}) std::filesystem::remove_all(one);
+    const std::string command =
+        "bake builtin:cornell --no-check --lightmaps --texel 0.1 --direct --samples 1024";
+    // Its folder says that it may be stopped.
+    const CommandResult stopped = runCommand(
+        std::string("'") + CONELIGHT_PROGRAM + "' " + command + " -o '" + folder +
+        "' 2>&1 & bake=$!; while [ ! -d '" + folder +
+        "' ] && kill -0 $bake; do sleep 0.02; done; sleep 0.1; kill -INT $bake; wait $bake; echo status $?");
+    EXPECT_NE(stopped.output.find("goes on from"), std::string::npos) << stopped.output;
+    EXPECT_NE(stopped.output.find("status 130"), std::string::npos) << stopped.output;
+    ASSERT_TRUE(std::filesystem::exists(folder + "/bake.partial"));
+    EXPECT_FALSE(std::filesystem::exists(folder + "/lightmaps.json"));
+    const CommandResult again = conelight(command + " -o '" + folder + "'");
+    EXPECT_EQ(again.status, 0) << again.output;
+    EXPECT_NE(again.output.find("going on from"), std::string::npos) << again.output;
+    EXPECT_FALSE(std::filesystem::exists(folder + "/bake.partial"));
+    ASSERT_EQ(conelight(command + " -o '" + whole + "'").status, 0);
+    for (const auto& file : std::filesystem::directory_iterator(whole))
+        EXPECT_EQ(bytesOf(file.path().string()),
+                  bytesOf((std::filesystem::path(folder) / file.path().filename()).string()))
+            << file.path();
+}
+
 TEST(BakeTest, WrongUseIsOneLineAndWritesNothing) {
     const std::string folder = scratchPath("none");
     std::filesystem::remove_all(folder);

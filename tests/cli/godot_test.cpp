@@ -70,11 +70,10 @@ TEST(GodotTest, DrawsTheCornellBoxOfThePathTracer) {
               "config_version=4\n[application]\nconfig/name=\"Light maps\"\n[rendering]\n"
               "quality/driver/driver_name=\"GLES3\"\nenvironment/default_clear_color=Color(0, 0, 0, 1)\n");
     // The editor imports what is new. Debian's does not end by itself: it is ended when all is there.
-    runCommand(
-        "cd '" + folder +
-        "'; setsid timeout -s KILL 300 xvfb-run -a godot3 --editor >/dev/null 2>&1 & editor=$!; "
-        "for i in $(seq 1200); do [ $(ls .import/*.md5 2>/dev/null | wc -l) -ge 2 ] && break; "
-        "kill -0 $editor 2>/dev/null || break; sleep 0.25; done; sleep 1; kill -9 -$editor; wait");
+    runCommand("cd '" + folder +
+               "'; setsid timeout -s KILL 300 xvfb-run -a godot3 --editor >/dev/null 2>&1 & editor=$!; "
+               "for i in $(seq 1200); do [ $(ls .import/*.md5 2>/dev/null | wc -l) -ge 2 ] && break; "
+               "kill -0 $editor 2>/dev/null || break; sleep 0.25; done; sleep 1; kill -9 -$editor; wait");
     runCommand("cd '" + folder +
                fmt::format("' && timeout -s KILL 300 xvfb-run -a godot3 --resolution {}x{} -s shot.gd 2>&1",
                            kWidth, kHeight));

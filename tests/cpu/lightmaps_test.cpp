@@ -271,6 +271,45 @@ TEST(LightmapsTest, ThePictureIsThatOfThePathTracer) {
     }
 }
 
+TEST(LightmapsTest, ABakeThatWasStoppedGoesOnToTheSameBits) {
+    const Scene scene = io::loadScene("builtin:cornell");
+    const LightmapLayout layout = layOutLightmaps(scene, scene.bounds().extent().x / 12, 512);
+    const LightmapSettings settings{.samples = 16, .direct = true, .threads = 2};
+    const std::vector<Lightmap> whole = bakeLightmaps(scene, layout, settings);
+    PartialBake partial;
+    EXPECT_TRUE(bakeLightmaps(
+                    scene, layout, settings, [](double) { return false; }, &partial)
+                    .empty());
+    const double none = partial.share();
+    bakeLightmaps(scene, layout, settings, {}, &partial);
+    EXPECT_EQ(partial.share(), 1);
+    EXPECT_LT(none, 1);
+    // Half of it is lost: every second result.
+    std::vector<std::uint8_t> bytes = partial.saved();
+    std::uint64_t head[2];
+    std::memcpy(head, bytes.data(), sizeof(head));
+    std::vector<std::uint8_t> half(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(16 + head[0]));
+    for (std::size_t i = 0; i < head[0]; ++i) {
+        half[16 + i] = i % 2 == 0 ? 1 : 0;
+        const auto from = bytes.begin() + static_cast<std::ptrdiff_t>(16 + head[0] + i * head[1]);
+        if (i % 2 == 0) half.insert(half.end(), from, from + static_cast<std::ptrdiff_t>(head[1]));
+    }
+    PartialBake restored;
+    ASSERT_TRUE(restored.restore(half));
+    EXPECT_NEAR(restored.share(), 0.5, 0.01);
+    const std::vector<Lightmap> again = bakeLightmaps(scene, layout, settings, {}, &restored);
+    ASSERT_EQ(again.size(), whole.size());
+    EXPECT_EQ(again[0].irradiance, whole[0].irradiance);
+    EXPECT_EQ(again[0].direct, whole[0].direct);
+    EXPECT_EQ(again[0].direction, whole[0].direction);
+    // What is damaged is not taken.
+    PartialBake damaged;
+    for (const std::size_t length : {std::size_t(0), std::size_t(15), std::size_t(16), half.size() - 1})
+        EXPECT_FALSE(damaged.restore({half.data(), length})) << length;
+    half[7] = 0xff;
+    EXPECT_FALSE(damaged.restore(half));
+}
+
 // What stands on a floor must not darken the floor beside it through shared texels.
 TEST(LightmapsTest, WhatIsCoveredDarkensNothing) {
     Scene scene = sceneOf(quad());
