@@ -50,13 +50,8 @@ func _init():
                        camera.target.z, glm::degrees(camera.fovY));
 }
 
-TEST(GodotTest, DrawsTheCornellBoxOfThePathTracer) {
-    for (const char* program : {"godot3", "xvfb-run", "timeout"})
-        if (runCommand(std::string("command -v ") + program).status != 0)
-            GTEST_SKIP() << "no " << program << " (Debian: godot3, xvfb)";
-    const std::string folder = scratchPath("godot");
-    fs::remove_all(folder);
-    fs::create_directories(folder);
+// A project with what was baked, imported.
+void makeProject(const std::string& folder, const Camera& camera) {
     const CommandResult baked =
         conelight("bake builtin:cornell --lightmaps --direct --samples 256 --no-check --texel 0.04 -o '" +
                   folder + "'");
@@ -64,8 +59,7 @@ TEST(GodotTest, DrawsTheCornellBoxOfThePathTracer) {
     for (const char* name : {"lightmap_0.exr", "lightmap_0.png"}) fs::remove(folder + "/" + name);
     fs::copy_file(std::string(CONELIGHT_SOURCE_DIR) + "/examples/godot/light_maps.gd",
                   folder + "/light_maps.gd");
-    const Scene scene = io::loadScene("builtin:cornell");
-    writeText(folder + "/shot.gd", shotScript(scene.cameras[0]));
+    writeText(folder + "/shot.gd", shotScript(camera));
     writeText(folder + "/project.godot",
               "config_version=4\n[application]\nconfig/name=\"Light maps\"\n[rendering]\n"
               "quality/driver/driver_name=\"GLES3\"\nenvironment/default_clear_color=Color(0, 0, 0, 1)\n");
@@ -74,6 +68,17 @@ TEST(GodotTest, DrawsTheCornellBoxOfThePathTracer) {
                "'; setsid timeout -s KILL 300 xvfb-run -a godot3 --editor >/dev/null 2>&1 & editor=$!; "
                "for i in $(seq 1200); do [ $(ls .import/*.md5 2>/dev/null | wc -l) -ge 2 ] && break; "
                "kill -0 $editor 2>/dev/null || break; sleep 0.25; done; sleep 1; kill -9 -$editor; wait");
+}
+
+TEST(GodotTest, DrawsTheCornellBoxOfThePathTracer) {
+    for (const char* program : {"godot3", "xvfb-run", "timeout"})
+        if (runCommand(std::string("command -v ") + program).status != 0)
+            GTEST_SKIP() << "no " << program << " (Debian: godot3, xvfb)";
+    const std::string folder = scratchPath("godot");
+    fs::remove_all(folder);
+    fs::create_directories(folder);
+    const Scene scene = io::loadScene("builtin:cornell");
+    makeProject(folder, scene.cameras[0]);
     runCommand("cd '" + folder +
                fmt::format("' && timeout -s KILL 300 xvfb-run -a godot3 --resolution {}x{} -s shot.gd 2>&1",
                            kWidth, kHeight));
