@@ -65,7 +65,8 @@ ProbeSettings settingsOf(Keywords& given) {
 py::dict bakeProbes(const SceneHandle& handle, const py::kwargs& options) {
     Keywords given("bake_probes", options);
     const auto spacing = given.take("spacing", 0.0f);
-    const ProbeSettings settings = settingsOf(given);
+    ProbeSettings settings = settingsOf(given);
+    settings.nearSurfaces = given.take("near_surfaces", false);
     const py::object progress = given.take("progress");
     given.finish();
     if (!(spacing >= 0))
@@ -106,7 +107,8 @@ void bindBake(py::module_& module) {
         "What arrives, less what lights and flat emissive quads send straight; as `conelight bake` writes "
         "it.\n"
         "origin, spacing: of the grid, (x, y, z), metres. Arrays begin (z, y, x):\n"
-        "position (..., 3), world, metres; active, bool: False is in a wall, and not to be used;\n"
+        "position (..., 3), world, metres; active, bool: False is in a wall or left out, and not to be "
+        "used;\n"
         "sh (..., 9, 3): radiance, W/(sr m^2), in spherical harmonics 1; y, z, x; xy, yz, 3z^2-1, xz, "
         "x^2-y^2;\n"
         "irradiance (..., 8, 8, 3): W/m^2, octahedral by normal; distance (..., 16, 16, 2): mean of it and "
@@ -116,7 +118,8 @@ void bindBake(py::module_& module) {
         "spacing: between probes at most, metres; 0 is an eighth of the scene (0). samples: rays of a "
         "probe,\n"
         "16 to 2^20 (1024). bounces: of indirect light, 1 or more, or 'all' ('all'). seed: same seed, same\n"
-        "bits (1). threads: 0 is all cores (0). progress: called with 0 to 1 now and then; False stops, and "
+        "bits (1). threads: 0 is all cores (0). near_surfaces: leave out what no lookup at a surface reads\n"
+        "(False). progress: called with 0 to 1 now and then; False stops, and "
         "an\n"
         "empty dict is returned.");
 }

@@ -32,10 +32,16 @@ class TracerHandle {
     }
     const reference::PathTracer& tracer() const { return *tracer_; }
     // Its rays are made at the first call; the path tracer keeps its own to itself.
-    SurfaceTables surfaces(const Camera& camera, const glm::ivec2& size) {
+    SurfaceTables surfaces(const Camera& camera, const glm::ivec2& size, const Camera* cameraBefore,
+                           const Scene* sceneBefore) {
         const std::lock_guard lock(mutex_);
         if (!rays_) rays_.emplace(*scene_);
-        return surfacesOf(*scene_, *rays_, camera, size, 0);
+        if (cameraBefore == nullptr && sceneBefore == nullptr)
+            return surfacesOf(*scene_, *rays_, camera, size, 0);
+        const SeenBefore before{sceneBefore != nullptr ? *sceneBefore : *scene_,
+                                cameraBefore != nullptr ? *cameraBefore : camera};
+        checkSeenBefore(*scene_, before);
+        return surfacesOf(*scene_, *rays_, camera, size, 0, &before);
     }
     py::dict stats = py::dict();
 
@@ -164,10 +170,15 @@ py::dict render(TracerHandle& tracer, const Camera& camera, const py::object& si
 }
 
 // What the pixels' centres see; the arrays own the tables.
-py::dict surfaces(TracerHandle& tracer, const Camera& camera, const py::object& sizeGiven) {
+py::dict surfaces(TracerHandle& tracer, const Camera& camera, const py::object& sizeGiven,
+                  const std::optional<Camera>& previousCamera, const SceneHandle* previousScene) {
     checkCamera(camera);
+    if (previousCamera) checkCamera(*previousCamera);
     const glm::ivec2 size = sizeOf(sizeGiven);
-    SurfaceTables tables = unlocked([&] { return tracer.surfaces(camera, size); });
+    const std::shared_ptr<const Scene> before = previousScene != nullptr ? previousScene->shared() : nullptr;
+    SurfaceTables tables = unlocked([&] {
+        return tracer.surfaces(camera, size, previousCamera ? &*previousCamera : nullptr, before.get());
+    });
     py::dict all;
     all["instance"] = ownedArray<std::int32_t>(size, std::move(tables.instance));
     all["material"] = ownedArray<std::int32_t>(size, std::move(tables.material));
@@ -180,6 +191,7 @@ py::dict surfaces(TracerHandle& tracer, const Camera& camera, const py::object& 
     all["base_color"] = ownedArray<float>(size, std::move(tables.baseColor));
     all["metallic"] = ownedArray<float>(size, std::move(tables.metallic));
     all["roughness"] = ownedArray<float>(size, std::move(tables.roughness));
+    if (!tables.motion.empty()) all["motion"] = ownedArray<float>(size, std::move(tables.motion));
     return all;
 }
 
@@ -211,7 +223,8 @@ void bindTracer(py::module_& module) {
                              "The path tracer of a scene as it is now; for several pictures of one scene.")
         .def(py::init<const SceneHandle&>(), py::arg("scene"))
         .def("render", &render, py::arg("camera"), py::arg("size"), renderDoc.c_str())
-        .def("surfaces", &surfaces, py::arg("camera"), py::arg("size"),
+        .def("surfaces", &surfaces, py::arg("camera"), py::arg("size"), py::kw_only(),
+             py::arg("previous_camera") = py::none(), py::arg("previous_scene") = py::none(),
              "What the pixels' centres see, as a dict of arrays, first row on top; by rays, without "
              "OpenGL.\n\n"
              "instance, material, triangle: (height, width) int32, numbers in the scene and the mesh; -1 is "
@@ -220,7 +233,12 @@ void bindTracer(py::module_& module) {
              "width,\n"
              "3), world, metres. geometric_normal, normal: (height, width, 3), of the triangle and as it is\n"
              "shaded. uv: (height, width, 2). base_color: (height, width, 3). metallic, roughness: (height,\n"
-             "width). All but the first three are float32, and 0 where nothing is.")
+             "width). All but the first three are float32, and 0 where nothing is.\n\n"
+             "previous_camera, previous_scene: of the picture before, for motion: (height, width, 2), where "
+             "a\n"
+             "pixel's surface point was in it less where it is now, pixels, x to the right, y down. The "
+             "scene is\n"
+             "the same at another time: same instances, as many vertices. One that is not given is as now.")
         .def_property_readonly(
             "stats", [](const TracerHandle& tracer) { return tracer.stats; },
             "Of the last picture: samples, noise, rays, bad_samples, cpu_seconds, wall_seconds.");

@@ -13,6 +13,7 @@ void bindScene(pybind11::module_& module);
 void bindRenderer(pybind11::module_& module);
 void bindTracer(pybind11::module_& module);
 void bindBake(pybind11::module_& module);
+void bindPath(pybind11::module_& module);
 void bindPictures(pybind11::module_& module);
 
 }  // namespace conelight::python

@@ -64,6 +64,7 @@ PYBIND11_MODULE(_conelight, module) {
     bindRenderer(module);
     bindTracer(module);
     bindBake(module);
+    bindPath(module);
     bindPictures(module);
     module.attr("__name__") = "conelight._conelight";
 }

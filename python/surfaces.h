@@ -19,11 +19,21 @@ struct SurfaceTables {
     std::vector<glm::vec2> uv;
     std::vector<glm::vec3> baseColor;
     std::vector<float> metallic, roughness;
+    std::vector<glm::vec2> motion;  // empty without SeenBefore
     explicit SurfaceTables(std::size_t pixels);
 };
 
-// `threads`: 0 for all cores.
+// The picture before: fills `motion`, where a pixel's surface point was in it less where it is now, in pixels, x to the
+// right, y down. Its scene has the same instances, and meshes of as many vertices.
+struct SeenBefore {
+    const Scene& scene;
+    Camera camera;
+};
+// Throws Error(Usage) when the scene before has not the same instances.
+void checkSeenBefore(const Scene& scene, const SeenBefore& before);
+
+// `threads`: 0 for all cores. `before`: null, or as checkSeenBefore wants it.
 SurfaceTables surfacesOf(const Scene& scene, const reference::RayScene& rays, const Camera& camera,
-                         const glm::ivec2& size, int threads);
+                         const glm::ivec2& size, int threads, const SeenBefore* before = nullptr);
 
 }  // namespace conelight::python

@@ -13,6 +13,7 @@
 #include "base/log.h"
 #include "math/octahedral.h"
 #include "reference/arriving_light.h"
+#include "reference/probe_placement.h"
 #include "reference/radiosity_parallel.h"
 
 namespace conelight::reference {
@@ -186,6 +187,8 @@ ProbeVolume bakeProbes(const Scene& scene, const ProbeGrid& grid, const ProbeSet
     const Bake bake(scene, grid, settings);
     ProbeVolume volume{.grid = grid, .probes = std::vector<Probe>(grid.size())};
     if (partial != nullptr) partial->prepare(grid.size(), sizeof(Probe));
+    const std::vector<bool> wanted =
+        settings.nearSurfaces ? probesNearSurfaces(scene, grid) : std::vector<bool>(grid.size(), true);
     const int threads = settings.threads > 0
                             ? settings.threads
                             : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -193,8 +196,12 @@ ProbeVolume bakeProbes(const Scene& scene, const ProbeGrid& grid, const ProbeSet
         for (std::size_t i = begin; i < end; ++i) {
             if (partial != nullptr && partial->take(i, volume.probes[i])) continue;
             const int n = static_cast<int>(i);
-            volume.probes[i] = bake.probe(
-                {n % grid.counts.x, n / grid.counts.x % grid.counts.y, n / (grid.counts.x * grid.counts.y)});
+            const glm::ivec3 at(n % grid.counts.x, n / grid.counts.x % grid.counts.y,
+                                n / (grid.counts.x * grid.counts.y));
+            if (wanted[i])
+                volume.probes[i] = bake.probe(at);
+            else
+                volume.probes[i].position = grid.place(at);
             if (partial != nullptr) partial->put(i, volume.probes[i]);
         }
     };

@@ -43,7 +43,7 @@ constexpr int kDistanceSide = 16;
 
 struct Probe {
     glm::vec3 position{0};  // moved off its place in the grid where that is in or near a wall
-    bool active = false;    // false: in a wall, and not to be used
+    bool active = false;    // false: in a wall or left out, and not to be used
     // Radiance, W/(sr m^2), projected on the nine real harmonics up to band 2, in the order of
     // harmonicsAt().
     std::array<glm::vec3, 9> harmonics{};
@@ -62,7 +62,8 @@ struct ProbeSettings {
     int samples = 1024;  // rays of a probe; 16..2^20
     int bounces = -1;    // of indirect light, 1 or more; -1: all
     std::uint32_t seed = 1;
-    int threads = 0;  // 0: all cores
+    int threads = 0;            // 0: all cores
+    bool nearSurfaces = false;  // those that no lookup at a surface reads are not active, and cost nothing
 };
 
 // `onProgress(done)`, done in [0,1], is called now and then; when it returns false, an empty volume is

@@ -28,6 +28,7 @@ struct BakeOptions {
     double spacing = 0, texel = 0;
     int samples = 1024, mapSize = 2048;
     bool lightmaps = false, direct = false, directional = false;
+    std::string placement = "grid";
     bool force = false, noCheck = false;
     BakeCheck check;
     // Of indirect light.
@@ -123,11 +124,12 @@ nlohmann::ordered_json bakeProbesOf(const Scene& scene, const BakeOptions& optio
     settings.samples = options.samples;
     settings.bounces = options.bounces();
     settings.seed = options.check.seed;
+    settings.nearSurfaces = options.placement == "surfaces";
     const StoppableScope stoppable;
     io::checkProbeFolder(options.out, options.force);
     BakeState state(options.out, keyOf(scene, options,
-                                       fmt::format("probes {:.9g} {:.9g} {:.9g}", grid.spacing.x,
-                                                   grid.spacing.y, grid.spacing.z)));
+                                       fmt::format("probes {:.9g} {:.9g} {:.9g} {}", grid.spacing.x,
+                                                   grid.spacing.y, grid.spacing.z, options.placement)));
     reference::ProbeVolume volume;
     bakeOn(state, progress, fmt::format("{} probes", grid.size()), [&](const auto& onProgress) {
         volume = reference::bakeProbes(scene, grid, settings, onProgress, &state.partial());
@@ -136,9 +138,10 @@ nlohmann::ordered_json bakeProbesOf(const Scene& scene, const BakeOptions& optio
     state.remove();
     const auto active = std::count_if(volume.probes.begin(), volume.probes.end(),
                                       [](const reference::Probe& probe) { return probe.active; });
-    fmt::print("written {}/probes.json: {} x {} x {} probes, {:.3g} x {:.3g} x {:.3g} m apart, {} in walls\n",
+    fmt::print("written {}/probes.json: {} x {} x {} probes, {:.3g} x {:.3g} x {:.3g} m apart, {} {}\n",
                options.out, grid.counts.x, grid.counts.y, grid.counts.z, grid.spacing.x, grid.spacing.y,
-               grid.spacing.z, grid.size() - static_cast<std::size_t>(active));
+               grid.spacing.z, grid.size() - static_cast<std::size_t>(active),
+               settings.nearSurfaces ? "in walls or left out" : "in walls");
     nlohmann::ordered_json json = {{"probes", grid.size()}, {"active", active}};
     if (options.noCheck) return json;
     const auto kind = [&](const char* name, reference::ProbeKind what) {
@@ -238,6 +241,12 @@ void addBake(CLI::App& app) {
         ->add_option("--spacing", options->spacing,
                      "between probes at most, m; without: an eighth of the scene")
         ->excludes(lightmaps);
+    command
+        ->add_option("--placement", options->placement,
+                     "of probes: grid, all of it; surfaces, those that a lookup at a surface reads")
+        ->check(CLI::IsMember({"grid", "surfaces"}))
+        ->excludes(lightmaps)
+        ->capture_default_str();
     command->add_option("--texel", options->texel, "of light maps, m; without: a 64th of the scene")
         ->needs(lightmaps);
     command->add_option("--map-size", options->mapSize, "most texels of a light map a side, 16 to 16384")

@@ -112,6 +112,37 @@ TEST(ProbesTest, ThePictureIsNearThePathTracers) {
     }
 }
 
+TEST(ProbesTest, ThoseNearSurfacesDoForLookupsAtSurfaces) {
+    const Scene scene = io::loadScene("builtin:cornell");
+    // With a fine grid the middle of the room is far from all surfaces.
+    const ProbeGrid grid = fitProbeGrid(scene.bounds(), scene.bounds().extent().x / 20);
+    const ProbeVolume all = bakeProbes(scene, grid, {.samples = 16});
+    ProbeSettings settings{.samples = 16};
+    settings.nearSurfaces = true;
+    const ProbeVolume near = bakeProbes(scene, grid, settings);
+    std::size_t activeOfAll = 0, activeNear = 0;
+    for (std::size_t i = 0; i < grid.size(); ++i) {
+        activeOfAll += all.probes[i].active ? 1 : 0;
+        activeNear += near.probes[i].active ? 1 : 0;
+        if (near.probes[i].active) {
+            EXPECT_EQ(near.probes[i].harmonics, all.probes[i].harmonics);
+        }
+    }
+    EXPECT_LT(activeNear, activeOfAll * 4 / 5);
+    EXPECT_GT(activeNear, activeOfAll / 5);
+    for (const Instance& instance : scene.instances) {
+        const Mesh& mesh = scene.meshes[static_cast<std::size_t>(instance.mesh)];
+        for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+            glm::vec3 middle(0);
+            for (std::size_t k = 0; k < 3; ++k) middle += mesh.positions[mesh.indices[i + k]] / 3.0f;
+            const glm::vec3 point(instance.worldFromObject * glm::vec4(middle, 1));
+            const glm::vec3 normal = mesh.normals[mesh.indices[i]];
+            EXPECT_EQ(irradianceAt(near, ProbeKind::Octahedral, point, normal),
+                      irradianceAt(all, ProbeKind::Octahedral, point, normal));
+        }
+    }
+}
+
 TEST(ProbesTest, TheSameBitsOnOneThreadAndOnThree) {
     const Scene scene = io::loadScene("builtin:cornell-point");
     const ProbeGrid grid = fitProbeGrid(scene.bounds(), scene.bounds().extent().x / 5);

@@ -1,7 +1,11 @@
 # SPDX-License-Identifier: MIT
+import contextlib
 import copy
+import io
 import math
+import os
 import pickle
+import tempfile
 import unittest
 
 import conelight
@@ -129,6 +133,69 @@ class EyeAndTarget(ErrorCase):
         depth = renderer().render(scene, scene.frame_camera(), SIZE, SETTINGS, components=["depth"])["depth"]
         self.assertEqual(depth[0].max(), 0)
         self.assertGreater((depth > 0).sum(), 100)
+
+
+class Paths(ErrorCase):
+    def test_frames(self):
+        keys = [(2.0, conelight.Camera((1, 0, 3), (0, 0, 0))), (0.0, conelight.Camera((0, 0, 3), (0, 0, 0))),
+                (1.0, conelight.Camera((0, 1, 3), (0, 0, 0)))]
+        path = conelight.CameraPath(keys)
+        self.assertEqual((path.start, path.end), (0, 2))
+        self.assertEqual([seconds for seconds, _ in path.keys], [0, 1, 2])
+        self.assertEqual(path.at(1).eye, (0, 1, 3))
+        self.assertEqual([camera.eye for camera in path.frames(3)], [(0, 0, 3), (0, 1, 3), (1, 0, 3)])
+        self.assertEqual(len(path.frames(7)), 7)
+        with tempfile.TemporaryDirectory() as folder:
+            file = os.path.join(folder, "way.json")
+            path.save(file)
+            self.assertEqual(conelight.CameraPath.load(file).at(0.3).eye, path.at(0.3).eye)
+            self.assert_error("usage", "way.json", path.save, file)
+        self.assert_error("usage", "keys", conelight.CameraPath([]).at, 0)
+        self.assert_error("usage", "count", path.frames, 0)
+
+
+class Motion(ErrorCase):
+    def test_is_what_moves(self):
+        scene = conelight.Scene.load("builtin:cornell")
+        block = next(one for one in scene.instances if one.name == "short block")
+        camera, size = scene.cameras[0], (80, 60)
+        now = conelight.PathTracer(scene).surfaces(camera, size)
+        self.assertNotIn("motion", now)
+        before = scene.copy()
+        moved = block.transform.copy()
+        moved[0, 3] -= 0.1
+        next(one for one in before.instances if one.name == "short block").transform = moved
+        seen = conelight.PathTracer(scene).surfaces(camera, size, previous_scene=before)
+        on_block = seen["instance"] == int(block)
+        self.assertGreater(on_block.sum(), 50)
+        np.testing.assert_array_equal(seen["motion"][~on_block], 0)
+        # 0.1 m to the left, by depth.
+        k, _, _ = camera.to_opencv(size)
+        np.testing.assert_allclose(seen["motion"][on_block][:, 0], -0.1 * k[0, 0] / seen["depth"][on_block], rtol=1e-3)
+        np.testing.assert_allclose(seen["motion"][on_block][:, 1], 0, atol=1e-4)
+        # A camera that stood elsewhere: what it saw at the place is what is seen now.
+        other = camera.copy()
+        other.eye = tuple(np.add(camera.eye, (0.05, 0.02, 0)))
+        motion = conelight.PathTracer(scene).surfaces(camera, size, previous_camera=other)["motion"]
+        k, r, t = other.to_opencv(size, pixel_center=0.5)
+        pixels = np.einsum("ij,hwj->hwi", k @ r, now["position"]) + k @ t
+        there = pixels[..., :2] / pixels[..., 2:]
+        here = np.stack(np.meshgrid(np.arange(80) + 0.5, np.arange(60) + 0.5), axis=-1)
+        lit = now["instance"] >= 0
+        np.testing.assert_allclose(motion[lit], (there - here)[lit], atol=2e-3)
+        self.assert_error("usage", "previous_scene", conelight.PathTracer(scene).surfaces, camera, size,
+                          previous_scene=conelight.Scene())
+
+
+class Bar(unittest.TestCase):
+    def test_shows_how_far(self):
+        scene = conelight.Scene.load("builtin:cornell")
+        shown = io.StringIO()
+        with contextlib.redirect_stderr(shown):
+            conelight.reference(scene, scene.cameras[0], (16, 12), samples=8, progress=conelight.progress_bar("truth"))
+            conelight.progress_bar("bake")(0.5)
+        self.assertIn("truth [##############################] 100 %", shown.getvalue())
+        self.assertIn("bake [###############...............]  50 %", shown.getvalue())
 
 
 if __name__ == "__main__":
