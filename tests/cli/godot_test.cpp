@@ -31,20 +31,20 @@ void writeText(const fs::path& file, const std::string& text) { std::ofstream(fi
 std::string shotScript(const Camera& camera) {
     return fmt::format(R"(extends SceneTree
 func _init():
-	var shown = Spatial.new()
-	shown.set_script(load("res://light_maps.gd"))
-	get_root().add_child(shown)
-	var camera = Camera.new()
-	get_root().add_child(camera)
-	camera.look_at_from_position(Vector3({}, {}, {}), Vector3({}, {}, {}), Vector3(0, 1, 0))
-	camera.fov = {}
-	camera.current = true
-	for i in 8:
-		yield(self, "idle_frame")
-	var image = get_root().get_texture().get_data()
-	image.flip_y()
-	image.save_png("shot.png")
-	OS.kill(OS.get_process_id())
+    var shown = Spatial.new()
+    shown.set_script(load("res://light_maps.gd"))
+    get_root().add_child(shown)
+    var camera = Camera.new()
+    get_root().add_child(camera)
+    camera.look_at_from_position(Vector3({}, {}, {}), Vector3({}, {}, {}), Vector3(0, 1, 0))
+    camera.fov = {}
+    camera.current = true
+    for i in 8:
+        yield(self, "idle_frame")
+    var image = get_root().get_texture().get_data()
+    image.flip_y()
+    image.save_png("shot.png")
+    OS.kill(OS.get_process_id())
 )",
                        camera.eye.x, camera.eye.y, camera.eye.z, camera.target.x, camera.target.y,
                        camera.target.z, glm::degrees(camera.fovY));
