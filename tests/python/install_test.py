@@ -45,8 +45,20 @@ class Install(unittest.TestCase):
         clean = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
         run(python, "-m", "pip", "install", "--no-build-isolation", "--no-index", self.folder / "checkout",
             env={**clean, "CONELIGHT_BUILD_DIR": str(built)})
+        self.check(python, clean)
+        # A wheel is installed without compilers, or anything else of the PATH.
+        run(python, "-m", "pip", "wheel", "--no-build-isolation", "--no-index", "--no-deps", "-w", self.folder / "dist",
+            self.folder / "checkout", env={**clean, "CONELIGHT_BUILD_DIR": str(built)})
+        wheel, = (self.folder / "dist").iterdir()
+        self.assertIn("linux", wheel.name)
+        run(python, "-m", "pip", "uninstall", "-y", "conelight", env=clean)
+        bare = {**clean, "PATH": ""}
+        run(python, "-m", "pip", "install", "--no-index", "--no-deps", wheel, env=bare)
+        self.check(python, bare)
+
+    def check(self, python, environment):
         said = run(python, "-c", "import conelight, os; print(os.path.dirname(conelight.__file__), "
-                   "conelight.__version__, conelight.Scene.load('builtin:cornell').triangle_count)", env=clean,
+                   "conelight.__version__, conelight.Scene.load('builtin:cornell').triangle_count)", env=environment,
                    cwd=self.folder).split()
         self.assertTrue(said[0].startswith(str(self.folder)))
         self.assertEqual(said[1:], [conelight.__version__, "42"])
