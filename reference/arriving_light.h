@@ -34,6 +34,11 @@ class ArrivingLight {
     Arriving arriving(const glm::vec3& origin, const glm::vec3& direction, Sampler& sampler,
                       PathSample& path) const;
     const RayScene& rays() const { return rays_; }
+    const scene::Surroundings& surroundings() const { return surroundings_; }
+    // Whether nothing is met, not even voxelized instances alone. Thread-safe.
+    bool isOpen(const glm::vec3& origin, const glm::vec3& direction) const {
+        return !rays_.occluded(RayKind::Bounce, Ray{.origin = origin, .direction = direction});
+    }
 
   private:
     const Scene& scene_;

@@ -33,11 +33,20 @@ struct TexelLight {
     bool own = false;
 };
 
+PathTracerSettings tracerSettings(const LightmapSettings& settings) {
+    PathTracerSettings result;
+    result.samplesPerPixel = settings.samples;
+    result.bounces = settings.bounces;
+    result.seed = settings.seed;
+    return result;
+}
+
 class Bake {
   public:
     Bake(const Scene& scene, const LightmapLayout& layout, const LightmapSettings& settings)
         : scene_(scene),
           light_(scene, {settings.samples, settings.bounces, settings.seed}),
+          paths_(scene, light_.rays(), tracerSettings(settings)),
           lights_(scene, true, true),
           settings_(settings),
           touching_(kTouching * layout.texel) {}
@@ -54,13 +63,7 @@ class Bake {
             RayHit point;
             point.instance = instance;
             cover.pointOf(texel, sampler.next2(), point.triangle, point.barycentric);
-            if (!place(point)) continue;
-            SurfacePoint at = pointAt(scene_, point);
-            if (glm::dot(at.normal, point.geometricNormal) < 0) at.normal = -at.normal;
-            addRay(at, point.geometricNormal, sampler, path, sum);
-            if (!settings_.direct) continue;
-            Sampler lights(mixBits(seed ^ 0x2545f491u), static_cast<std::uint32_t>(i), bits);
-            addLights(at, point, lights, sum);
+            if (place(point)) addPoint(point, sampler, path, sum);
         }
         TexelLight result;
         const auto all = static_cast<float>(settings_.samples);
@@ -99,75 +102,85 @@ class Bake {
         return true;
     }
 
-    void addRay(const SurfacePoint& at, const glm::vec3& up, Sampler& sampler, PathSample& path,
-                Sum& sum) const {
+    // White, diffuse, without gloss.
+    static Surface whiteAt(const SurfacePoint& at, const glm::vec3& up) {
+        static const Material kWhiteDiffuse;
+        Surface surface;
+        surface.position = at.position;
+        surface.geometricNormal = up;
+        surface.shadingNormal = at.normal;
+        surface.material = &kWhiteDiffuse;
+        surface.baseColor = glm::vec3(1);
+        surface.dielectricF0 = glm::vec3(0);
+        return surface;
+    }
+
+    void addPoint(const RayHit& point, Sampler& sampler, PathSample& path, Sum& sum) const {
+        SurfacePoint at = pointAt(scene_, point);
+        if (glm::dot(at.normal, point.geometricNormal) < 0) at.normal = -at.normal;
+        // One ray tells whether the point is covered, or in a solid; from where light comes, if that is asked for.
         const glm::vec2 u = sampler.next2();
         const float r = std::sqrt(u.x), phi = 2 * glm::pi<float>() * u.y;
         const glm::vec3 direction = Frame(at.normal).toWorld(
             {r * std::cos(phi), r * std::sin(phi), std::sqrt(std::max(0.0f, 1 - u.x))});
-        const float rise = glm::dot(direction, up);
-        if (!(rise > 0)) {  // below its triangle nothing arrives
-            sum.counted += 1;
-            return;
+        const glm::vec3 origin = RayScene::offsetOrigin(at.position, point.geometricNormal);
+        const float rise = glm::dot(direction, point.geometricNormal);
+        RayHit hit;
+        const bool above = rise > 0;
+        if (above) {
+            const Arriving met = light_.meet(origin, direction, hit);
+            if (met.distance * rise < touching_) return;
+            sum.backs += met.back ? 1.0f : 0.0f;
         }
-        const Arriving met =
-            light_.arriving(RayScene::offsetOrigin(at.position, up), direction, sampler, path);
-        if (met.distance * rise < touching_) return;
         sum.counted += 1;
-        sum.backs += met.back ? 1.0f : 0.0f;
-        const glm::vec3 light = met.radiance * glm::pi<float>();
-        sum.irradiance += light;
-        sum.point(light, direction);
+        if (settings_.directions) {
+            if (above)
+                sum.point(light_.arriving(origin, direction, sampler, path).radiance * glm::pi<float>(),
+                          direction);
+            if (settings_.direct) addLightDirections(at, point, sampler, sum);
+        }
+        path.clear();
+        paths_.reflectedAt(whiteAt(at, point.geometricNormal), point.instance, sampler, path);
+        if (!path.finite()) return;
+        sum.irradiance += glm::pi<float>() * path.diffuse;
+        if (settings_.direct) sum.direct += glm::pi<float>() * path.direct;
     }
 
-    void addLights(const SurfacePoint& at, const RayHit& point, Sampler& sampler, Sum& sum) const {
+    // Of one light, or of each where they are few.
+    void addLightDirections(const SurfacePoint& at, const RayHit& point, Sampler& sampler, Sum& sum) const {
         LightTable::Choice choice;
         lights_.choose(at.position, at.normal, true, choice);
-        if (choice.each) {
-            for (std::size_t group = 0; group < lights_.groupCount(); ++group) {
-                const float within = sampler.next2().x;
-                addLight(at, point, choice, {group, within, sampler.next2()}, sum);
-            }
-            return;
-        }
         float number = sampler.next2().x;
-        const std::size_t group = lights_.groupOf(choice, number);
-        const glm::vec2 u = sampler.next2();
-        if (group < lights_.groupCount()) addLight(at, point, choice, {group, number, u}, sum);
+        const std::size_t one = choice.each ? 0 : lights_.groupOf(choice, number);
+        const std::size_t end = choice.each ? lights_.groupCount() : std::min(one + 1, lights_.groupCount());
+        for (std::size_t group = one; group < end; ++group) {
+            LightSample light;
+            if (!lights_.sample(choice, group, at.position, number, sampler.next2(), light) || !light.direct)
+                continue;
+            const float cosine = glm::dot(at.normal, light.toLight);
+            if (cosine > 0)
+                sum.point(seen(at, point, light) * light.radiance * (cosine / light.density), light.toLight);
+        }
     }
 
-    struct Draw {
-        std::size_t group;
-        float within;
-        glm::vec2 u;
-    };
-    void addLight(const SurfacePoint& at, const RayHit& point, const LightTable::Choice& choice,
-                  const Draw& draw, Sum& sum) const {
-        LightSample light;
-        if (!lights_.sample(choice, draw.group, at.position, draw.within, draw.u, light) || !light.direct)
-            return;
-        const float cosine = glm::dot(at.normal, light.toLight);
-        if (!(cosine > 0)) return;
-        glm::vec3 left(1);
-        if (light.castsShadow) {
-            if (!(glm::dot(point.geometricNormal, light.toLight) > 0)) return;
-            Ray ray{.origin = RayScene::offsetOrigin(at.position, point.geometricNormal),
-                    .direction = light.toLight};
-            if (std::isfinite(light.distance)) {
-                const glm::vec3 way = light.target - ray.origin;
-                const float distance = glm::length(way);
-                if (distance > 0) ray.direction = way / distance;
-                ray.tMax = distance * kRayEnd;
-            }
-            left = light_.rays().transmittance(RayKind::Shadow, ray, !light.extended);
+    // What is left of a light on its way.
+    glm::vec3 seen(const SurfacePoint& at, const RayHit& point, const LightSample& light) const {
+        if (!light.castsShadow) return glm::vec3(1);
+        if (!(glm::dot(point.geometricNormal, light.toLight) > 0)) return glm::vec3(0);
+        Ray ray{.origin = RayScene::offsetOrigin(at.position, point.geometricNormal),
+                .direction = light.toLight};
+        if (std::isfinite(light.distance)) {
+            const glm::vec3 way = light.target - ray.origin;
+            const float distance = glm::length(way);
+            if (distance > 0) ray.direction = way / distance;
+            ray.tMax = distance * kRayEnd;
         }
-        left *= light.radiance * (cosine / light.density);
-        sum.direct += left;
-        sum.point(left, light.toLight);
+        return light_.rays().transmittance(RayKind::Shadow, ray, !light.extended);
     }
 
     const Scene& scene_;
     ArrivingLight light_;
+    PathIntegrator paths_;
     LightTable lights_;
     LightmapSettings settings_;
     float touching_;

@@ -38,9 +38,10 @@ struct LightmapLayout {
 LightmapLayout layOutLightmaps(const Scene& scene, float texel, int side);
 
 struct LightmapSettings {
-    int samples = 1024;   // rays of a texel; 16..2^20
-    int bounces = -1;     // of indirect light, 1 or more; -1: all
-    bool direct = false;  // also light that lights and flat emissive quads send straight
+    int samples = 1024;       // rays of a texel; 16..2^20
+    int bounces = -1;         // of indirect light, 1 or more; -1: all
+    bool direct = false;      // also light that lights and flat emissive quads send straight
+    bool directions = false;  // also where light comes from
     std::uint32_t seed = 1;
     int threads = 0;  // 0: all cores
 };
@@ -51,7 +52,7 @@ struct Lightmap {
     std::vector<glm::vec3> irradiance;  // of indirect light, W/m^2
     std::vector<glm::vec3> direct;      // of direct light; empty where it was not asked for
     // Mean direction of the light that arrives, in the world, weighted by what it gives: its length tells how
-    // much of it comes from there.
+    // much of it comes from there. 0 where it was not asked for.
     std::vector<glm::vec3> direction;
 };
 

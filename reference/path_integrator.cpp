@@ -326,7 +326,20 @@ void PathIntegrator::trace(const Ray& cameraRay, const PixelTurns* pixel, Sample
     result.normal = vertex.surface.shadingNormal;
     result.direct = result.emission = arrival.passed * vertex.surface.emission;
     vertex.toEye = -cameraRay.direction;
-    for (bool goesOn = !vertex.surface.unlit; goesOn;) {
+    if (!vertex.surface.unlit) follow(vertex, sampler, result);
+}
+
+void PathIntegrator::reflectedAt(const Surface& surface, std::uint32_t instance, Sampler& sampler,
+                                 PathSample& result) const {
+    Vertex vertex;
+    vertex.surface = surface;
+    vertex.instance = instance;
+    vertex.toEye = surface.shadingNormal;
+    follow(vertex, sampler, result);
+}
+
+void PathIntegrator::follow(Vertex& vertex, Sampler& sampler, PathSample& result) const {
+    for (bool goesOn = true; goesOn;) {
         const Reflection reflection(vertex.surface, vertex.toEye);
         if (reflection.black()) return;
         if (vertex.unmarked) mark(vertex, reflection, result);

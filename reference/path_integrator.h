@@ -36,6 +36,10 @@ class PathIntegrator {
     // its textures' mean over it, a point of it per sample. Null: textures at the hit alone. Thread-safe.
     using PixelTurns = std::array<glm::vec3, 2>;
     void trace(const Ray& cameraRay, const PixelTurns* pixel, Sampler& sampler, PathSample& result) const;
+    // What a surface of `instance` sends along its shading normal, less its emission, in `direct`, `diffuse` and
+    // `specular`. Of white diffuse surfaces this is what arrives, divided by pi. Thread-safe.
+    void reflectedAt(const Surface& surface, std::uint32_t instance, Sampler& sampler,
+                     PathSample& result) const;
 
   private:
     // The end of a path so far.
@@ -78,6 +82,7 @@ class PathIntegrator {
     void gatherSky(const Vertex& vertex, const Reflection& reflection, const glm::vec2& u,
                    PathSample& result) const;
     void gather(Vertex& vertex, const Reflection& reflection, Sampler& sampler, PathSample& result) const;
+    void follow(Vertex& vertex, Sampler& sampler, PathSample& result) const;
     float skyWeight(const Vertex& vertex, const glm::vec3& direction, const Reflection::Value& value) const;
     bool advance(Vertex& vertex, const Reflection& reflection, const std::array<glm::vec2, 2>& numbers,
                  Sampler& sampler, PathSample& result) const;

@@ -33,6 +33,14 @@ glm::vec3 onSphere(const glm::vec2& u) {
     return {r * std::cos(phi), r * std::sin(phi), z};
 }
 
+constexpr float kOnSphere = 1 / (4 * glm::pi<float>());  // density of onSphere()
+
+// Of one technique besides another, by their densities (power heuristic, Veach and Guibas 1995).
+float weightOf(float own, float other) {
+    const float ratio = other / own;
+    return 1 / (1 + ratio * ratio);
+}
+
 template <std::size_t N>
 std::vector<glm::vec3> directionsOf(int side) {
     std::vector<glm::vec3> directions(N);
@@ -117,17 +125,29 @@ class Bake {
         const std::uint32_t key = combineBits(mixBits(settings_.seed), index);
         const int bits = std::bit_width(static_cast<unsigned>(settings_.samples - 1));
         PathSample path;
+        const scene::Surroundings& surroundings = rays_.surroundings();
+        const auto add = [&](const glm::vec3& radiance, const glm::vec3& direction) {
+            const std::array<float, 9> basis = harmonicsAt(direction);
+            for (std::size_t k = 0; k < basis.size(); ++k) probe.harmonics[k] += radiance * basis[k];
+            for (std::size_t k = 0; k < normals.size(); ++k)
+                probe.irradiance[k] += radiance * std::max(glm::dot(normals[k], direction), 0.0f);
+        };
         for (int i = 0; i < settings_.samples; ++i) {
             Sampler sampler(key, static_cast<std::uint32_t>(i), bits);
             const glm::vec3 direction = onSphere(sampler.next2());
+            const scene::Surroundings::Draw sky =
+                surroundings.hasPicture() ? surroundings.draw(sampler.next2()) : scene::Surroundings::Draw{};
             const Arriving met = rays_.arriving(probe.position, direction, sampler, path);
-            const std::array<float, 9> basis = harmonicsAt(direction);
-            for (std::size_t k = 0; k < basis.size(); ++k) probe.harmonics[k] += met.radiance * basis[k];
-            for (std::size_t k = 0; k < normals.size(); ++k) {
-                const float cosine = std::max(glm::dot(normals[k], direction), 0.0f);
-                probe.irradiance[k] += met.radiance * cosine;
-                cosines[k] += cosine;
-            }
+            const bool alsoDrawn = surroundings.hasPicture() && !std::isfinite(met.distance);
+            add(met.radiance * (alsoDrawn ? weightOf(kOnSphere, surroundings.density(direction)) : 1.0f),
+                direction);
+            // A sun of a few texels is met by hardly any ray: directions of a picture are drawn by its light, too.
+            if (sky.density > 0 && rays_.isOpen(probe.position, sky.direction))
+                add(surroundings.radiance(sky.direction) *
+                        (kOnSphere / sky.density * weightOf(sky.density, kOnSphere)),
+                    sky.direction);
+            for (std::size_t k = 0; k < normals.size(); ++k)
+                cosines[k] += std::max(glm::dot(normals[k], direction), 0.0f);
             const float distance = std::min(met.distance, farthest);
             for (std::size_t k = 0; k < ways.size(); ++k) {
                 const float cosine = glm::dot(ways[k], direction);

@@ -94,9 +94,9 @@ io::LightmapFiles filesOf(const Scene& scene, const reference::LightmapLayout& l
 std::string keyOf(const Scene& scene, const BakeOptions& options, const std::string& kind) {
     Hash hash;
     addScene(hash, scene);
-    return fmt::format("{} {} {} scene {} samples {} bounces {} seed {} direct {}", softwareName(),
+    return fmt::format("{} {} {} scene {} samples {} bounces {} seed {} direct {} {}", softwareName(),
                        kBakeFormat, kind, hash.hex(), options.samples, options.bounces(), options.check.seed,
-                       options.direct);
+                       options.direct, options.directional);
 }
 
 // Calls bake(onProgress); what it has done is kept when it is stopped, and gone on from.
@@ -163,6 +163,7 @@ nlohmann::ordered_json bakeLightmapsOf(Scene scene, const BakeOptions& options, 
     settings.samples = options.samples;
     settings.bounces = options.bounces();
     settings.direct = options.direct;
+    settings.directions = options.directional;
     settings.seed = options.check.seed;
     const StoppableScope stoppable;
     io::checkLightmapFolder(options.out, layout.sizes.size(), options.directional, options.force);

@@ -21,6 +21,7 @@
 #include "reference/lightmap_texels.h"
 #include "reference/metrics.h"
 #include "reference/path_tracer.h"
+#include "reference/probes.h"
 
 namespace conelight::test {
 namespace {
@@ -193,7 +194,7 @@ TEST(LightmapsTest, StitchedSeamsAgree) {
 TEST(LightmapsTest, AFurnaceGivesTheSameEverywhere) {
     const Scene scene = io::loadScene("builtin:furnace?albedo=0.5&emission=1");
     const LightmapLayout layout = layOutLightmaps(scene, scene.bounds().extent().x / 6, 512);
-    const std::vector<Lightmap> maps = bakeLightmaps(scene, layout, {.samples = 256});
+    const std::vector<Lightmap> maps = bakeLightmaps(scene, layout, {.samples = 1024});
     ASSERT_EQ(maps.size(), 1u);
     for (std::size_t i = 0; i < scene.instances.size(); ++i) {
         const TexelCover cover(layout.meshes[static_cast<std::size_t>(scene.instances[i].mesh)]);
@@ -217,7 +218,8 @@ TEST(LightmapsTest, DirectLightIsThatOfLights) {
     sun.direction = glm::normalize(glm::vec3(1, -2, 0));
     sun.intensity = glm::vec3(3, 2, 1);
     const LightmapLayout layout = layOutLightmaps(scene, 0.5f, 64);
-    const std::vector<Lightmap> maps = bakeLightmaps(scene, layout, {.samples = 16, .direct = true});
+    const std::vector<Lightmap> maps =
+        bakeLightmaps(scene, layout, {.samples = 16, .direct = true, .directions = true});
     ASSERT_EQ(maps.size(), 1u);
     const float cosine = -sun.direction.y;
     RayHit hit;
@@ -240,6 +242,36 @@ TEST(LightmapsTest, DirectLightIsThatOfLights) {
     const float straight = irradianceAt(scene, layout, shown, hit, {0, 1, 0}, true).r;
     EXPECT_GT(irradianceAt(scene, layout, shown, hit, -sun.direction, true).r, 1.02f * straight);
     EXPECT_LT(irradianceAt(scene, layout, shown, hit, glm::normalize(glm::vec3(1, 2, 0)), true).r, straight);
+}
+
+// A sun of a few texels of the surroundings' picture is found by every point that sees it.
+TEST(LightmapsTest, ASmallSunIsFoundEverywhere) {
+    Scene scene = sceneOf(quad());
+    auto image = std::make_shared<EnvironmentImage>();
+    image->width = 512;  // of 64 directions by the cosine none would meet its sun
+    image->height = 256;
+    image->radiance.assign(512 * 256, glm::vec3(0.1f));
+    image->radiance[512 * 40 + 100] = glm::vec3(1e5f);
+    scene.environment.image = image;
+    scene.environment.file = "sun";
+    const LightmapLayout layout = layOutLightmaps(scene, 0.25f, 64);
+    const std::vector<Lightmap> maps = bakeLightmaps(scene, layout, {.samples = 64});
+    const float wanted = maps[0].irradiance[static_cast<std::size_t>(4 + 4 * maps[0].size.x)].g;
+    EXPECT_GT(wanted, 2.0f);  // the rest of the sky alone gives 0.3
+    const TexelCover cover(layout.meshes[0]);
+    for (const std::uint32_t texel : cover.texels()) {
+        const auto width = static_cast<std::uint32_t>(layout.meshes[0].size.x);
+        const std::uint32_t at = static_cast<std::uint32_t>(layout.places[0].offset.x) + texel % width +
+                                 (static_cast<std::uint32_t>(layout.places[0].offset.y) + texel / width) *
+                                     static_cast<std::uint32_t>(maps[0].size.x);
+        EXPECT_NEAR(maps[0].irradiance[at].g, wanted, 0.4f * wanted);
+    }
+    const ProbeGrid grid = fitProbeGrid(scene.bounds(), 1);
+    const ProbeVolume volume = bakeProbes(scene, grid, {.samples = 64});
+    const float up = irradianceOf(volume.probes[0].harmonics, {0, 1, 0}).g;
+    for (const Probe& probe : volume.probes)
+        EXPECT_NEAR(irradianceOf(probe.harmonics, {0, 1, 0}).g, up, 0.4f * up);
+    EXPECT_NEAR(up, wanted, 0.4f * wanted);
 }
 
 TEST(LightmapsTest, ThePictureIsThatOfThePathTracer) {
