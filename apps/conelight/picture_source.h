@@ -42,7 +42,7 @@ struct PictureRequest {
     int tracedViews = 0;             // image.antialiasing of mode traced where the settings have 0
     bool profile = false;            // fill Picture::stats with passes and lookups
     std::string sceneOptions;        // words of the command that changed the scene, for the picture's header
-    std::string commands;            // console commands before the picture, likewise
+    std::string commands;            // console commands that edited it, likewise
     int timedFrames = 0;  // fill Picture::cost from this many further frames of the first component
 };
 

@@ -368,6 +368,8 @@ void run(RenderOptions options) {
     } else if (options.script.given()) {
         runScript(options.script, session, &source, request, progress);
         takeSession(session, request);
+        // What else they did is in the settings and the camera.
+        if (!session.unsaved()) request.commands.clear();
         if (options.output.empty() && options.radiosity.bakeFile.empty()) return;
     }
     source.setScene(session.scene());
@@ -377,7 +379,7 @@ void run(RenderOptions options) {
     if (!options.output.empty() && !isFilm(options)) {
         progress.show("writing " + options.output);
         writePicture(options.output, picture.images.front(), request.settings.image,
-                     provenanceOf(request, options.scene, source.device()), layersOf(options, picture));
+                     provenanceOf(request, session.path(), source.device()), layersOf(options, picture));
     }
     if (!options.radiosity.bakeFile.empty()) {
         progress.show("writing " + options.radiosity.bakeFile);

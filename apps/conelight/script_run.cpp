@@ -159,7 +159,9 @@ class Runner {
 
     // Of what was drawn last.
     PictureTexts texts() const {
-        return provenanceOf(requestFor(session_, base_), session_.path(), source_->device());
+        PictureRequest request = requestFor(session_, base_);
+        request.commands.clear();  // not all of them came before it
+        return provenanceOf(request, session_.path(), source_->device());
     }
 
     Image draw() { return std::move(drawPicture(false).images.front()); }

@@ -33,6 +33,8 @@ def page_of(path, root=ROOT):
         return posixpath.join(path, "README.md")
     if not file.is_file() or path.endswith(".md") or path.endswith(PICTURES):
         return path if file.is_file() else None
+    if file.name == "index.html":  # would be the page of its folder
+        return path + ".source.md"
     return path + ".md"
 
 
