@@ -74,7 +74,7 @@ TEST_F(ProgramTest, RenderSaysWhatItWroteAndOnATerminalWhatItDoes) {
     EXPECT_EQ(piped.output.substr(piped.output.size() - 3), " s\n");
     if (runCommand("command -v script").status != 0) GTEST_SKIP() << "script is not installed (bsdutils)";
     const std::string command = std::string(CONELIGHT_PROGRAM) + " render builtin:cornell -o " + out +
-                                " --size 160x120 --voxels 32 --quality converged";
+                                " --size 320x240 --voxels 64 --quality converged";
     const std::string shown = runCommand("script -qec '" + command + "' /dev/null </dev/null").output;
     for (const char* part : {"loading builtin:cornell", "rendering full", "rendering full, ", "written "})
         EXPECT_NE(shown.find(part), std::string::npos) << part << " in " << shown;
