@@ -255,6 +255,8 @@ void takeSession(const Session& session, PictureRequest& request) {
     request.mode = shown.mode;
     request.camera = shown.camera;
     request.components.front() = shown.components.front();
+    // What they did beside edits is in the settings and the camera.
+    if (!session.unsaved()) request.commands.clear();
 }
 
 // The film as a command of the console would ask for it.
@@ -368,8 +370,6 @@ void run(RenderOptions options) {
     } else if (options.script.given()) {
         runScript(options.script, session, &source, request, progress);
         takeSession(session, request);
-        // What else they did is in the settings and the camera.
-        if (!session.unsaved()) request.commands.clear();
         if (options.output.empty() && options.radiosity.bakeFile.empty()) return;
     }
     source.setScene(session.scene());
