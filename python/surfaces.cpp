@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <thread>
 
 #include "camera_axes.h"
 #include "conelight/error.h"
@@ -123,8 +122,7 @@ SurfaceTables surfacesOf(const Scene& scene, const reference::RayScene& rays, co
     const auto some = [&](std::size_t begin, std::size_t end) {
         for (std::size_t pixel = begin; pixel < end; ++pixel) see(pixel);
     };
-    const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    reference::parallelFor(width * height, threads > 0 ? threads : cores, some, {});
+    reference::parallelFor(width * height, threads, some, {});
     return tables;
 }
 

@@ -35,7 +35,7 @@ class ArrivingLight {
                       PathSample& path) const;
     const RayScene& rays() const { return rays_; }
     const scene::Surroundings& surroundings() const { return surroundings_; }
-    // Whether nothing is met, not even voxelized instances alone. Thread-safe.
+    // Whether light of the surroundings arrives along a ray: no voxelized instance is in its way. Thread-safe.
     bool isOpen(const glm::vec3& origin, const glm::vec3& direction) const {
         return !rays_.occluded(RayKind::Bounce, Ray{.origin = origin, .direction = direction});
     }

@@ -50,11 +50,10 @@ class Surfaces {
         const glm::mat3 turned(worldFromObject);
         for (const glm::vec3& p : mesh.positions)
             positions_.push_back(glm::vec3(worldFromObject * glm::vec4(p, 1)));
-        const glm::mat3 cofactor(glm::cross(turned[1], turned[2]), glm::cross(turned[2], turned[0]),
-                                 glm::cross(turned[0], turned[1]));
+        const glm::mat3 turnNormal = normalTransform(turned);
         mirrored_ = glm::determinant(turned) < 0;
         for (const glm::vec3& n : mesh.normals) {
-            const glm::vec3 normal = (mirrored_ ? -1.0f : 1.0f) * (cofactor * n);
+            const glm::vec3 normal = turnNormal * n;
             normals_.push_back(glm::length(normal) > 1e-20f ? glm::normalize(normal) : normal);
         }
         weld();
@@ -262,7 +261,9 @@ class Charts {
                         const std::uint32_t to = chartOf_[other];
                         if (chartOf_[t] != own || to == own || chart.area >= kSmall * charts_[to].area)
                             return;
-                        if (glm::dot(surfaces_.face(t), charts_[to].n) > kLeastAbsorbedCosine) take(to, t);
+                        if (!(glm::dot(surfaces_.face(t), charts_[to].n) > kLeastAbsorbedCosine)) return;
+                        // Large charts grow and small ones shrink, so that this ends.
+                        if (take(to, t)) chart.area -= surfaces_.area(t);
                     });
                     if (chartOf_[t] == own) left.push_back(t);
                 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Points of a texel are spread over the part of it that its triangles cover; each sends one cosine-sampled ray. What
-// lies under something that touches it is left out, so that it does not darken what is beside it. Texels without
+// Points of a texel are spread over the part of it that its triangles cover. Each is the start of a path, as if it were
+// white and diffuse. What lies under something that touches it is left out, and does not darken what is beside it. Texels without
 // light of their own take that of their neighbours, then seams are stitched.
 #include "reference/lightmaps.h"
 
@@ -10,7 +10,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <thread>
 
 #include "base/log.h"
 #include "reference/arriving_light.h"
@@ -186,38 +185,45 @@ class Bake {
     float touching_;
 };
 
-// Of a texel with light of its own: which of a map's texels have some. Those without take the mean of their
-// neighbours, texels between charts up to two away.
+// `has`: by texel, whether it has light. Those without take the mean of their neighbours: covered ones wherever they are,
+// others up to two away.
 void fill(Lightmap& map, std::vector<std::uint8_t>& has, const std::vector<std::uint8_t>& covered) {
     constexpr int kBetween = 2;
     const auto index = [&](int x, int y) {
         return static_cast<std::size_t>(x) +
                static_cast<std::size_t>(y) * static_cast<std::size_t>(map.size.x);
     };
-    for (int round = 0;; ++round) {
-        std::vector<std::size_t> filled;
-        for (int y = 0; y < map.size.y; ++y)
-            for (int x = 0; x < map.size.x; ++x) {
-                const std::size_t at = index(x, y);
-                if (has[at] != 0 || (covered[at] == 0 && round >= kBetween)) continue;
-                glm::vec3 irradiance(0), direct(0), direction(0);
-                float count = 0;
-                for (int j = std::max(y - 1, 0); j <= std::min(y + 1, map.size.y - 1); ++j)
-                    for (int i = std::max(x - 1, 0); i <= std::min(x + 1, map.size.x - 1); ++i) {
-                        if (has[index(i, j)] == 0) continue;
-                        irradiance += map.irradiance[index(i, j)];
-                        direction += map.direction[index(i, j)];
-                        if (!map.direct.empty()) direct += map.direct[index(i, j)];
-                        count += 1;
-                    }
-                if (!(count > 0)) continue;
-                map.irradiance[at] = irradiance / count;
-                map.direction[at] = direction / count;
-                if (!map.direct.empty()) map.direct[at] = direct / count;
-                filled.push_back(at);
-            }
-        for (const std::size_t at : filled) has[at] = 1;
+    std::vector<glm::ivec2> left;
+    for (int y = 0; y < map.size.y; ++y)
+        for (int x = 0; x < map.size.x; ++x)
+            if (has[index(x, y)] == 0) left.emplace_back(x, y);
+    for (int round = 0; !left.empty(); ++round) {
+        std::vector<glm::ivec2> filled, waiting;
+        for (const glm::ivec2& texel : left) {
+            const std::size_t at = index(texel.x, texel.y);
+            if (covered[at] == 0 && round >= kBetween) continue;
+            glm::vec3 irradiance(0), direct(0), direction(0);
+            float count = 0;
+            const glm::ivec2 low = glm::max(texel - 1, glm::ivec2(0)),
+                             high = glm::min(texel + 1, map.size - 1);
+            for (int j = low.y; j <= high.y; ++j)
+                for (int i = low.x; i <= high.x; ++i) {
+                    const std::size_t beside = index(i, j);
+                    if (has[beside] == 0) continue;
+                    irradiance += map.irradiance[beside];
+                    direction += map.direction[beside];
+                    if (!map.direct.empty()) direct += map.direct[beside];
+                    count += 1;
+                }
+            (count > 0 ? filled : waiting).push_back(texel);
+            if (!(count > 0)) continue;
+            map.irradiance[at] = irradiance / count;
+            map.direction[at] = direction / count;
+            if (!map.direct.empty()) map.direct[at] = direct / count;
+        }
+        for (const glm::ivec2& texel : filled) has[index(texel.x, texel.y)] = 1;
         if (filled.empty() && round >= kBetween) return;
+        left = std::move(waiting);
     }
 }
 
@@ -303,9 +309,6 @@ std::vector<Lightmap> bakeLightmaps(const Scene& scene, const LightmapLayout& la
     const std::vector<Item> items = itemsOf(scene, layout, covers);
     std::vector<TexelLight> light(items.size());
     if (partial != nullptr) partial->prepare(items.size(), sizeof(TexelLight));
-    const int threads = settings.threads > 0
-                            ? settings.threads
-                            : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     const auto body = [&](std::size_t begin, std::size_t end) {
         for (std::size_t k = begin; k < end; ++k) {
             if (partial != nullptr && partial->take(k, light[k])) continue;
@@ -314,7 +317,7 @@ std::vector<Lightmap> bakeLightmaps(const Scene& scene, const LightmapLayout& la
             if (partial != nullptr) partial->put(k, light[k]);
         }
     };
-    if (!parallelFor(items.size(), threads, body, onProgress)) return {};
+    if (!parallelFor(items.size(), settings.threads, body, onProgress)) return {};
     return mapsOf(scene, layout, settings.direct, items, light);
 }
 

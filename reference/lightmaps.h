@@ -38,7 +38,7 @@ struct LightmapLayout {
 LightmapLayout layOutLightmaps(const Scene& scene, float texel, int side);
 
 struct LightmapSettings {
-    int samples = 1024;       // rays of a texel; 16..2^20
+    int samples = 1024;       // paths of a texel; 16..2^20
     int bounces = -1;         // of indirect light, 1 or more; -1: all
     bool direct = false;      // also light that lights and flat emissive quads send straight
     bool directions = false;  // also where light comes from
@@ -64,8 +64,8 @@ std::vector<Lightmap> bakeLightmaps(const Scene& scene, const LightmapLayout& la
                                     const std::function<bool(double)>& onProgress = {},
                                     PartialBake* partial = nullptr);
 
-// What a host's shader reads of indirect light: bilinear. With `directional`, the light of a normal that differs from the vertices'
-// is turned by the mean direction (half Lambert, as Valve 2006, "Shading in Valve's Source Engine").
+// What a host's shader reads of indirect light: bilinear. With `directional`, the mean direction turns the light to a
+// normal that differs from the vertices' (half Lambert, as Valve 2006, "Shading in Valve's Source Engine").
 glm::vec3 irradianceAt(const Scene& scene, const LightmapLayout& layout, const std::vector<Lightmap>& maps,
                        const RayHit& hit, const glm::vec3& shadingNormal, bool directional);
 

@@ -32,12 +32,6 @@ constexpr float kMostSurvival = 0.98f;
 constexpr float kPaneStep = 1e-5f;
 constexpr int kMostPanes = 64;  // on one ray; then it is dark
 
-// Power heuristic, exponent 2. An infinite own density is certain.
-float misWeight(float own, float other) {
-    const float ratio = other / own;
-    return 1.0f / (1.0f + ratio * ratio);
-}
-
 glm::vec3 shareOf(const glm::vec3& part, const glm::vec3& whole) {
     return {whole.r > 0 ? part.r / whole.r : 0, whole.g > 0 ? part.g / whole.g : 0,
             whole.b > 0 ? part.b / whole.b : 0};

@@ -35,12 +35,6 @@ glm::vec3 onSphere(const glm::vec2& u) {
 
 constexpr float kOnSphere = 1 / (4 * glm::pi<float>());  // density of onSphere()
 
-// Of one technique besides another, by their densities (power heuristic, Veach and Guibas 1995).
-float weightOf(float own, float other) {
-    const float ratio = other / own;
-    return 1 / (1 + ratio * ratio);
-}
-
 template <std::size_t N>
 std::vector<glm::vec3> directionsOf(int side) {
     std::vector<glm::vec3> directions(N);
@@ -139,12 +133,12 @@ class Bake {
                 surroundings.hasPicture() ? surroundings.draw(sampler.next2()) : scene::Surroundings::Draw{};
             const Arriving met = rays_.arriving(probe.position, direction, sampler, path);
             const bool alsoDrawn = surroundings.hasPicture() && !std::isfinite(met.distance);
-            add(met.radiance * (alsoDrawn ? weightOf(kOnSphere, surroundings.density(direction)) : 1.0f),
+            add(met.radiance * (alsoDrawn ? misWeight(kOnSphere, surroundings.density(direction)) : 1.0f),
                 direction);
             // A sun of a few texels is met by hardly any ray: directions of a picture are drawn by its light, too.
             if (sky.density > 0 && rays_.isOpen(probe.position, sky.direction))
                 add(surroundings.radiance(sky.direction) *
-                        (kOnSphere / sky.density * weightOf(sky.density, kOnSphere)),
+                        (kOnSphere / sky.density * misWeight(sky.density, kOnSphere)),
                     sky.direction);
             for (std::size_t k = 0; k < normals.size(); ++k)
                 cosines[k] += std::max(glm::dot(normals[k], direction), 0.0f);
@@ -209,9 +203,6 @@ ProbeVolume bakeProbes(const Scene& scene, const ProbeGrid& grid, const ProbeSet
     if (partial != nullptr) partial->prepare(grid.size(), sizeof(Probe));
     const std::vector<bool> wanted =
         settings.nearSurfaces ? probesNearSurfaces(scene, grid) : std::vector<bool>(grid.size(), true);
-    const int threads = settings.threads > 0
-                            ? settings.threads
-                            : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
     const auto body = [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             if (partial != nullptr && partial->take(i, volume.probes[i])) continue;
@@ -225,7 +216,7 @@ ProbeVolume bakeProbes(const Scene& scene, const ProbeGrid& grid, const ProbeSet
             if (partial != nullptr) partial->put(i, volume.probes[i]);
         }
     };
-    return parallelFor(grid.size(), threads, body, onProgress) ? volume : ProbeVolume{};
+    return parallelFor(grid.size(), settings.threads, body, onProgress) ? volume : ProbeVolume{};
 }
 
 }  // namespace conelight::reference

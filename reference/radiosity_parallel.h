@@ -15,12 +15,13 @@
 
 namespace conelight::reference {
 
-// body(begin, end) for pieces of [0, count). `onWait(done)` is called from this thread now and then; when it
+// body(begin, end) for pieces of [0, count). `threads`: 0 for all cores. `onWait(done)` is called from this thread now and then; when it
 // returns false, no more pieces are begun. Returns whether all were done.
 inline bool parallelFor(std::size_t count, int threads,
                         const std::function<void(std::size_t, std::size_t)>& body,
                         const std::function<bool(double)>& onWait, std::size_t piece = 32) {
     constexpr int kWaitMs = 200;
+    if (threads <= 0) threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
     if (onWait && !onWait(0)) return false;
     std::atomic<std::size_t> next{0};
     std::atomic<bool> cancelled{false};

@@ -79,4 +79,11 @@ class Sampler {
     std::uint32_t key_, sample_, mask_, pair_ = 0;
 };
 
+// Of a sample that another technique could have drawn, by both densities: power heuristic, exponent 2 (Veach and Guibas
+// 1995). An infinite own density is certain.
+inline float misWeight(float own, float other) {
+    const float ratio = other / own;
+    return 1.0f / (1.0f + ratio * ratio);
+}
+
 }  // namespace conelight::reference

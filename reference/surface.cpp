@@ -200,17 +200,19 @@ glm::vec3 positionOf(const Mesh& mesh, const glm::mat4& worldFromObject,
 glm::vec3 normalOf(const Mesh& mesh, const glm::mat3& worldFromObject,
                    const std::array<std::uint32_t, 3>& corners, const RayHit& hit) {
     if (mesh.normals.empty()) return hit.geometricNormal;
-    // The cofactor matrix is the inverse transpose times the determinant, and exists for flat scales too.
-    const glm::mat3 cofactor(glm::cross(worldFromObject[1], worldFromObject[2]),
-                             glm::cross(worldFromObject[2], worldFromObject[0]),
-                             glm::cross(worldFromObject[0], worldFromObject[1]));
-    const float sign = glm::determinant(worldFromObject) < 0 ? -1.0f : 1.0f;
     const glm::vec3 n =
-        sign * (cofactor * interpolated(mesh.normals, corners, hit.barycentric, glm::vec3(0)));
+        normalTransform(worldFromObject) * interpolated(mesh.normals, corners, hit.barycentric, glm::vec3(0));
     return glm::length(n) > 1e-20f ? glm::normalize(n) : hit.geometricNormal;
 }
 
 }  // namespace
+
+glm::mat3 normalTransform(const glm::mat3& worldFromObject) {
+    const glm::mat3 cofactor(glm::cross(worldFromObject[1], worldFromObject[2]),
+                             glm::cross(worldFromObject[2], worldFromObject[0]),
+                             glm::cross(worldFromObject[0], worldFromObject[1]));
+    return glm::determinant(worldFromObject) < 0 ? -cofactor : cofactor;
+}
 
 SurfacePoint pointAt(const Scene& scene, const RayHit& hit) {
     const Instance& instance = scene.instances[hit.instance];

@@ -32,6 +32,9 @@ struct Surface {
 // direction, to first order (ray differentials, Igehy 1999); everything else stays that of the hit.
 Surface surfaceAt(const Scene& scene, const Ray& ray, const RayHit& hit,
                   const glm::vec3& turn = glm::vec3(0));
+// For normals, which have to be normalized: the inverse transpose times the determinant's size, which exists for flat
+// scales too.
+glm::mat3 normalTransform(const glm::mat3& worldFromObject);
 // The point itself: its place, and the interpolated normal, unit, on the side of the vertices' normals.
 struct SurfacePoint {
     glm::vec3 position{0}, normal{0};
