@@ -3,7 +3,6 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <exception>
 
 #include "arrays.h"
 #include "bindings.h"
@@ -67,35 +66,21 @@ py::dict bakeProbes(const SceneHandle& handle, const py::kwargs& options) {
     const auto spacing = given.take("spacing", 0.0f);
     ProbeSettings settings = settingsOf(given);
     settings.nearSurfaces = given.take("near_surfaces", false);
-    const py::object progress = given.take("progress");
+    ProgressCall progress(given.take("progress"));
     given.finish();
     if (!(spacing >= 0))
         throw Error(ErrorKind::Usage,
                     "spacing: is below 0; metres, or 0 for an eighth of the scene, would be right");
     const std::shared_ptr<const Scene> scene = handle.shared();
-    std::exception_ptr failure;
-    bool stopped = false;
-    const auto onProgress = [&](double done) {
-        const py::gil_scoped_acquire locked;
-        try {
-            if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-            if (progress.is_none()) return true;
-            const py::object answer = progress(done);
-            stopped = !answer.is_none() && !answer.cast<bool>();
-            return !stopped;
-        } catch (...) {
-            failure = std::current_exception();
-            return false;
-        }
-    };
     const ProbeVolume volume = unlocked([&] {
         const Aabb bounds = scene->bounds();
         const glm::vec3 extent = bounds.extent();
         const float step = spacing > 0 ? spacing : std::max({extent.x, extent.y, extent.z}) / 8;
-        return reference::bakeProbes(*scene, reference::fitProbeGrid(bounds, step), settings, onProgress);
+        return reference::bakeProbes(*scene, reference::fitProbeGrid(bounds, step), settings,
+                                     [&](double done) { return progress(done); });
     });
-    if (failure) std::rethrow_exception(failure);
-    return stopped ? py::dict() : arraysOf(volume);
+    progress.rethrow();
+    return progress.stopped() ? py::dict() : arraysOf(volume);
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 #include <pybind11/stl.h>
 
 #include <algorithm>
-#include <exception>
 #include <mutex>
 #include <optional>
 
@@ -123,25 +122,11 @@ TraceRequest requestOf(const py::kwargs& options) {
 // Traces without Python's lock; takes it between rounds for the callback and for Ctrl-C.
 PathTracedPicture trace(const TracerHandle& tracer, const Camera& camera, const glm::ivec2& size,
                         const TraceRequest& request) {
-    std::exception_ptr failure;
-    const auto onProgress = [&](const PathTracerProgress& now) {
-        const py::gil_scoped_acquire locked;
-        try {
-            if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-            if (request.progress.is_none()) return true;
-            const py::object answer = request.progress(now);
-            if (answer.is_none()) return true;
-            const int isTrue = PyObject_IsTrue(answer.ptr());
-            if (isTrue < 0) throw py::error_already_set();
-            return isTrue == 1;
-        } catch (...) {
-            failure = std::current_exception();
-            return false;
-        }
-    };
+    ProgressCall progress(request.progress);
+    const auto onProgress = [&](const PathTracerProgress& now) { return progress(now); };
     PathTracedPicture picture = unlocked(
         [&] { return tracer.tracer().render(camera, size.x, size.y, request.settings, onProgress); });
-    if (failure) std::rethrow_exception(failure);
+    progress.rethrow();
     if (request.settings.features && picture.samplesPerPixel > 0)
         picture = unlocked([&] {
             return reference::denoise(picture, {request.denoiser, request.settings.threads});

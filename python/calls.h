@@ -5,6 +5,7 @@
 
 #include <pybind11/pybind11.h>
 
+#include <exception>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -57,6 +58,39 @@ class Keywords {
   private:
     std::string call_;
     py::dict left_;
+};
+
+// The argument `progress` of long calls, which work without Python's lock: looks for Ctrl-C and asks the callback.
+class ProgressCall {
+  public:
+    explicit ProgressCall(py::object callback) : callback_(std::move(callback)) {}
+    // Whether to go on; what Python raises is kept.
+    template <class Now>
+    bool operator()(const Now& now) {
+        const py::gil_scoped_acquire locked;
+        try {
+            if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+            if (callback_.is_none()) return true;
+            const py::object answer = callback_(now);
+            if (answer.is_none()) return true;
+            const int isTrue = PyObject_IsTrue(answer.ptr());
+            if (isTrue < 0) throw py::error_already_set();
+            stopped_ = isTrue == 0;
+        } catch (...) {
+            failure_ = std::current_exception();
+            return false;
+        }
+        return !stopped_;
+    }
+    bool stopped() const { return stopped_; }  // by the callback
+    void rethrow() const {
+        if (failure_) std::rethrow_exception(failure_);
+    }
+
+  private:
+    py::object callback_;
+    std::exception_ptr failure_;
+    bool stopped_ = false;
 };
 
 // Bounces of indirect light: -1 for None and 'all', else `least` to 1000.
