@@ -304,4 +304,15 @@ std::string oneLine(std::string_view text, std::size_t maxLength) {
     return out;
 }
 
+void checkFolder(const std::filesystem::path& folder, const std::vector<std::string>& names, bool overwrite) {
+    std::error_code failed;
+    std::filesystem::create_directories(folder, failed);
+    if (failed || !std::filesystem::is_directory(folder))
+        throw Error(ErrorKind::Runtime, folder.string() + ": is no folder and cannot be made one");
+    for (const std::string& name : names) {
+        refuseOverwriting((folder / name).string(), overwrite);
+        checkWritable(folder / name);
+    }
+}
+
 }  // namespace conelight::io

@@ -34,6 +34,10 @@ void writeFile(const std::filesystem::path& path, std::span<const std::uint8_t> 
 // one fail, what was there before is there again. Throws Error(Runtime) that names the path.
 void writeFiles(const std::vector<std::pair<std::filesystem::path, Bytes>>& files);
 
+// Before long work: makes the folder, and throws what refuseOverwriting and checkWritable throw for files in it;
+// Error(Runtime) when there is no folder and none can be made.
+void checkFolder(const std::filesystem::path& folder, const std::vector<std::string>& names, bool overwrite);
+
 // Throws Error(Runtime) when no file could be written at `path`: to be called before long work.
 void checkWritable(const std::filesystem::path& path);
 

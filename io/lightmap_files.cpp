@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <system_error>
 
-#include "conelight/error.h"
 #include "conelight/version.h"
 #include "io/files.h"
 #include "io/image_file.h"
@@ -90,10 +88,6 @@ Json described(const Scene& scene, const LightmapFiles& files) {
 
 void checkLightmapFolder(const std::filesystem::path& folder, std::size_t maps, bool directional,
                          bool overwrite) {
-    std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
-    if (failed || !std::filesystem::is_directory(folder))
-        throw Error(ErrorKind::Runtime, folder.string() + ": is no folder and cannot be made one");
     std::vector<std::string> names = {kScene, kJson};
     for (std::size_t i = 0; i < maps; ++i) {
         names.push_back(pictureName(i));
@@ -101,10 +95,7 @@ void checkLightmapFolder(const std::filesystem::path& folder, std::size_t maps, 
         names.push_back(pngName(i));
         if (directional) names.push_back(directionName(i));
     }
-    for (const std::string& name : names) {
-        refuseOverwriting((folder / name).string(), overwrite);
-        checkWritable(folder / name);
-    }
+    checkFolder(folder, names, overwrite);
 }
 
 std::vector<std::string> writeLightmaps(const std::filesystem::path& folder, const Scene& scene,
@@ -113,8 +104,9 @@ std::vector<std::string> writeLightmaps(const std::filesystem::path& folder, con
     checkLightmapFolder(folder, files.maps.size(), directional, overwrite);
     for (std::size_t i = 0; i < files.maps.size(); ++i) {
         const LightmapPicture& map = files.maps[i];
-        writeExr(folder / pictureName(i), floatsOf(map.size, map.irradiance));
-        writeHdr(folder / hdrName(i), floatsOf(map.size, map.irradiance));
+        const FloatImage irradiance = floatsOf(map.size, map.irradiance);
+        writeExr(folder / pictureName(i), irradiance);
+        writeHdr(folder / hdrName(i), irradiance);
         writePng16(folder / pngName(i), wordsOf(map, peakOf(map)));
         if (directional) writeExr(folder / directionName(i), floatsOf(map.size, map.direction));
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "io/probe_files.h"
 
+#include <iterator>
 #include <nlohmann/json.hpp>
-#include <system_error>
 
 #include "conelight/error.h"
 #include "conelight/version.h"
@@ -90,14 +90,7 @@ FloatImage probeAtlas(const glm::ivec3& counts, int side, int channels, const st
 }
 
 void checkProbeFolder(const std::filesystem::path& folder, bool overwrite) {
-    std::error_code failed;
-    std::filesystem::create_directories(folder, failed);
-    if (failed || !std::filesystem::is_directory(folder))
-        throw Error(ErrorKind::Runtime, folder.string() + ": is no folder and cannot be made one");
-    for (const char* name : kNames) {
-        refuseOverwriting((folder / name).string(), overwrite);
-        checkWritable(folder / name);
-    }
+    checkFolder(folder, {std::begin(kNames), std::end(kNames)}, overwrite);
 }
 
 void writeProbes(const std::filesystem::path& folder, const ProbeFiles& volume, bool overwrite) {
