@@ -255,19 +255,6 @@ std::size_t ShadowLayout::bytes(int edge) const {
                      kSurfaceBytes * static_cast<std::size_t>(surfaceLayers));
 }
 
-bool isOutside(const glm::mat4& clipFromWorld, const Aabb& box) {
-    int outside[5] = {0, 0, 0, 0, 0};
-    for (const glm::vec3& corner : box.corners()) {
-        const glm::vec4 p = clipFromWorld * glm::vec4(corner, 1);
-        outside[0] += p.x < -p.w;
-        outside[1] += p.x > p.w;
-        outside[2] += p.y < -p.w;
-        outside[3] += p.y > p.w;
-        outside[4] += p.z > p.w;
-    }
-    return std::any_of(std::begin(outside), std::end(outside), [](int count) { return count == 8; });
-}
-
 ShadowLayout layOutShadows(const Aabb& bounds, const Aabb& firstBounds, const LightSettings& settings,
                            std::vector<gpu::Light>& lights) {
     const auto grid =

@@ -24,9 +24,6 @@ struct ShadowView {
     }
 };
 
-// True when the box is outside one of the planes of clip space (no far plane: depth is reversed, far is 0).
-bool isOutside(const glm::mat4& clipFromWorld, const Aabb& box);
-
 // All maps together: enough for 28 point lights, or 42 spots, at 1024 texels. More lights have smaller maps.
 constexpr std::size_t kMostShadowBytes = std::size_t{512} << 20;
 

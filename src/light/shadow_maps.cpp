@@ -6,6 +6,7 @@
 #include "base/log.h"
 #include "gl/gl.h"
 #include "light/shadow_layout.h"
+#include "scene/culling.h"
 #include "shared/shadow_map.h"
 
 namespace conelight::light {
@@ -156,7 +157,7 @@ void ShadowMaps::Impl::draw(const gl::Device& device, const scene::GpuScene& sce
     bool anyOf[2] = {false, false};
     for (std::size_t i = 0; i < instances.size(); ++i) {
         if ((instances[i].flags & INSTANCE_CASTS_SHADOW) == 0) continue;
-        if (isOutside(view.clipFromWorld, scene.instanceBounds(i))) continue;
+        if (scene::isOutside(view.clipFromWorld, scene.instanceBounds(i))) continue;
         const bool masked = isMasked(scene.materials()[instances[i].material]);
         drawn[i] = masked ? 2 : 1;
         anyOf[masked ? 1 : 0] = true;
@@ -170,7 +171,7 @@ void ShadowMaps::Impl::draw(const gl::Device& device, const scene::GpuScene& sce
         };
         // Of a mesh in the middle of the scene each side of a cube sees a part only.
         const auto isSeen = [&](const gpu::Instance& instance, const Aabb& objectBox) {
-            return !isOutside(view.clipFromWorld * instance.worldFromObject, objectBox);
+            return !scene::isOutside(view.clipFromWorld * instance.worldFromObject, objectBox);
         };
         scene.draw({.filter = accepted, .textured = masked ? &program : nullptr, .part = isSeen});
     }
@@ -209,7 +210,7 @@ void ShadowMaps::update(const gl::Device& device, const scene::GpuScene& scene, 
         if (!whole) {
             const bool touched = view.clipFromWorld != impl_->drawnViews[i].clipFromWorld ||
                                  std::any_of(changed.begin(), changed.end(), [&](const Aabb& box) {
-                                     return !isOutside(view.clipFromWorld, box);
+                                     return !scene::isOutside(view.clipFromWorld, box);
                                  });
             if (!touched) continue;
             impl_->clear(view);

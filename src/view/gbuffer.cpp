@@ -2,6 +2,7 @@
 #include "view/gbuffer.h"
 
 #include "gl/gl.h"
+#include "scene/culling.h"
 #include "shared/gbuffer.h"
 
 namespace conelight::view {
@@ -82,6 +83,9 @@ void GBuffer::draw(const gl::Device& device, const scene::GpuScene& scene, const
     const auto drawn = [&](const gpu::Instance& instance) {
         return wanted.withGlass || !scene::isGlass(instance);
     };
+    const auto isSeen = [&](const gpu::Instance& instance, const Aabb& objectBox) {
+        return !scene::isOutside(wanted.clipFromWorld * instance.worldFromObject, objectBox);
+    };
     for (const bool masked : {false, true}) {
         for (int textures = 0; textures < kTextureUses; ++textures) {
             const auto accepted = [&](const gpu::Instance& instance) {
@@ -94,7 +98,10 @@ void GBuffer::draw(const gl::Device& device, const scene::GpuScene& scene, const
             if (!any) continue;
             const gl::Program& program = device.get(GBufferKey{textures, masked, shrunk}.desc());
             program.use(inputs);
-            scene.draw({.filter = accepted, .cull = cull, .textured = textures != 0 ? &program : nullptr});
+            scene.draw({.filter = accepted,
+                        .cull = cull,
+                        .textured = textures != 0 ? &program : nullptr,
+                        .part = isSeen});
         }
     }
 }

@@ -26,7 +26,8 @@ class GBuffer {
     struct Wanted {
         bool cullBackFaces;  // single-sided materials are seen from their front only
         bool withGlass;  // transmissive instances are drawn like others; else left out, for what lies behind
-        float shrink = 0;  // part of its extent by which each triangle is smaller, about its middle
+        glm::mat4 clipFromWorld;  // of the frame; parts of meshes outside of it are not drawn
+        float shrink = 0;         // part of its extent by which each triangle is smaller, about its middle
     };
     // `frameBlock` holds gpu::FrameConstants. GL state changed: raster state, vertex array, program and its
     // slots, texture units of materials.

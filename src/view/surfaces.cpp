@@ -29,7 +29,8 @@ void Surfaces::see(const gl::Device& device, const scene::GpuScene& scene, const
     resize(picture.width, picture.height);
     view_ = frameConstants(picture.camera, picture.width, picture.height, picture.part);
     block_.update(view_);
-    gbuffer_->draw(device, scene, block_, {picture.cullBackFaces, picture.withGlass, picture.shrink});
+    gbuffer_->draw(device, scene, block_,
+                   {picture.cullBackFaces, picture.withGlass, view_.clipFromWorld, picture.shrink});
     gl::barrier(gl::Access::TextureFetch | gl::Access::ShaderStorage);
 }
 
