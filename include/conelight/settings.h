@@ -179,7 +179,8 @@ struct ViewSettings {
     AutoFloat voxelLevel;
     float voxelAperture = 0;  // 0: voxelLevel everywhere
     float voxelDensity = 1.0f;
-    int light = 0;  // in the scene's order
+    bool voxelsInside = false;  // an eye outside looks through the first wall
+    int light = 0;              // in the scene's order
     bool operator==(const ViewSettings&) const = default;
 };
 

@@ -52,6 +52,8 @@ const float kLeastOpacity = 1e-6;
 const int kMostCells = 4096;
 // Steps go so far into the next cell, voxels.
 const float kNudge = 1e-3;
+// A wall that is looked through is so thick at most, cells.
+const int kWallCells = 2;
 // Half the width of an edge, pixels.
 const float kHalfEdge = 0.75;
 
@@ -230,10 +232,15 @@ vec4 castRay(vec3 ray, float end) {
     vec4 met = vec4(0.0);
     CellWalk w = startWalk(ray, end);
     bool going = w.last >= 0.0;
+    bool through = view.inside != 0u && w.leave > 0.0;
+    int entryAxis = w.axis, wall = -1;  // layer of cells along that axis
     do {
         bool may = nextCell(w);
         vec4 found = may && going ? cellOf(w.cell, w.level, ray, w.axis) : vec4(0.0);
-        if (found.a > kLeastOpacity) going = meetCell(met, w, found, ray);
+        bool meets = found.a > kLeastOpacity;
+        int layer = w.cell[entryAxis];
+        wall = wall < 0 && meets ? layer : wall;
+        if (meets && !(through && abs(layer - wall) < kWallCells)) going = meetCell(met, w, found, ray);
         going = going && w.leave < w.last;
     } while (going && --w.budget > 0);
     return met;

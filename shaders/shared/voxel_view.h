@@ -32,7 +32,7 @@ struct VoxelViewConstants {
     float density;   // of shape volume
     // ---- 48 B
     float pixelSize;  // edge of a pixel at a view depth of 1 m
-    uint pad0;
+    uint inside;      // 1: an eye outside the grid looks through the first wall
     uint pad1;
     uint pad2;
     // ---- 64 B: of SOURCE 1: box of voxels outside of which there is nothing

@@ -127,6 +127,7 @@ void VoxelView::run(const gl::Device& device, const Target& target, const Shown&
     c.spread = 2 * std::tan(0.5f * view.voxelAperture);
     c.maxLevel = static_cast<float>(shown.maxLevel);
     c.density = view.voxelDensity;
+    c.inside = view.voxelsInside ? 1 : 0;
     c.pixelSize = 2 * glm::length(frame.viewUp) / static_cast<float>(frame.height);
     inputs.add(target.scene)
         .add(target.lights)

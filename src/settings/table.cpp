@@ -214,6 +214,8 @@ std::vector<Setting<ViewSettings>> viewSettings() {
          "level everywhere"},
         {"voxel_density", &ViewSettings::voxelDensity, Numbers{0.001, 1}, "",
          "how much a voxel hides in shape volume: 1 - (1 - coverage)^density"},
+        {"voxels_inside", &ViewSettings::voxelsInside,
+         "an eye outside looks through the first wall of voxels: into a closed room"},
         {"light", &ViewSettings::light, Numbers{0, 4095}, "",
          "number of the light whose shadow map component shadow_map shows"},
     };

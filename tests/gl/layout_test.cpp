@@ -126,7 +126,7 @@ std::vector<Struct> structsOfPictures() {
         ROW(WireframeConstants, color, opacity, halfWidth, pad0, pad1, pad2),
         ROW(ShadowViewConstants, light, tiles, tilesPerEdge, columns, rows, pad0, pad1, pad2),
         ROW(VoxelViewConstants, origin, voxelSize, sizeX, sizeY, sizeZ, data, level, spread, maxLevel,
-            density, pixelSize, pad0, pad1, pad2, filledMin, filledSize),
+            density, pixelSize, inside, pad1, pad2, filledMin, filledSize),
     };
 }
 

@@ -157,6 +157,30 @@ TEST_F(VoxelViewsTest, VoxelsStandAmongTheObjects) {
     }
 }
 
+// From outside a closed room shows its front wall, or what is behind that wall.
+TEST_F(VoxelViewsTest, AnEyeOutsideLooksIntoAClosedRoom) {
+    Scene room = closedBox(diffuseMaterial({0.8f, 0.1f, 0.05f}));
+    const int back = room.instances[4].material;  // z = -1
+    room.materials[static_cast<std::size_t>(back)].baseColor = {0.05f, 0.1f, 0.8f, 1};
+    room.cameras.front() = redCube().cameras.front();
+    room.cameras.front().eye.z = 6;
+    room.lights = redCube().lights;
+    room.lights[0].position = {0.1f, 0.1f, 0};
+    for (const Mode mode : {Mode::Traced, Mode::Cones, thesis::kMode}) {
+        Settings settings = viewSettings(mode, Component::Voxels);
+        settings.view.voxelShape = VoxelShape::Cubes;
+        for (const int level : {0, 1}) {
+            settings.view.voxelLevel = {false, static_cast<float>(level)};
+            settings.view.voxelsInside = false;
+            const glm::vec3 front = colorAt(draw(room, settings), 32, 32);
+            settings.view.voxelsInside = true;
+            const glm::vec3 inside = colorAt(again(room, settings), 32, 32);
+            EXPECT_LE(front.b, front.r) << mode.name() << " level " << level;
+            EXPECT_GT(inside.b, 2 * inside.r) << mode.name() << " level " << level;
+        }
+    }
+}
+
 // The coarser levels and what is empty are kept from frame to frame: not when the scene or its light changes.
 TEST_F(VoxelViewsTest, WhatIsKeptForVoxelsFollowsTheScene) {
     for (const Mode mode : {Mode::Traced, Mode::Cones, thesis::kMode})
