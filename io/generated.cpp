@@ -86,6 +86,7 @@ constexpr GeneratedParameter kLobbyParameters[] = {
 constexpr GeneratedParameter kMirrorsParameters[] = {
     {"roughness", 0.05, 0.02, 1, false, "of the mirrors"},
     {"intensity", 1.2, 0, 1e4, false, "of the lamp, W/sr"},
+    {"lamp", 0, 0, 0.5, false, "edge of the lamp, which faces down; 0: a point, m"},
 };
 constexpr GeneratedParameter kScreensParameters[] = {
     {"intensity", 0.6, 0, 1e4, false, "of the lamp, W/sr"},

@@ -281,8 +281,14 @@ Scene buildMirrors(const Values& values) {
     addPart(scene, box({{-0.18f, 0, -0.18f}, {0.18f, 0.55f, 0.18f}}), "block",
             add(scene, matte("yellow block", {0.70f, 0.55f, 0.12f})))
         .worldFromObject = translation({0.55f, 0, 0.1f}) * turnAboutY(0.4f);
-    scene.lights.push_back(
-        pointLight("lamp", {0.3f, 1.75f, 0.5f}, float(values["intensity"]) * glm::vec3(1.0f, 0.9f, 0.76f)));
+    const glm::vec3 intensity = float(values["intensity"]) * glm::vec3(1.0f, 0.9f, 0.76f),
+                    at(0.3f, 1.75f, 0.5f);
+    const float edge = float(values["lamp"]);
+    if (edge > 0)
+        addPart(scene, quad(at - glm::vec3(0.5f * edge, 0, 0.5f * edge), {edge, 0, 0}, {0, 0, edge}), "lamp",
+                add(scene, emitter("lamp", intensity / (edge * edge))));
+    else
+        scene.lights.push_back(pointLight("lamp", at, intensity));
     scene.cameras.push_back(camera("front", {0.15f, 1.05f, 1.42f}, {0, 0.6f, -0.8f}, 70));
     return scene;
 }

@@ -24,6 +24,7 @@ struct Brdf {
     vec3 albedo;        // directional albedo of the specular lobe, compensation included
     float alpha;        // GGX width
     float NoV;
+    bool ideal;  // a mirror, which shows nothing of lamps without extent
 };
 
 // Directional albedo of the single-scattering lobe for F0 = 1, F90 = 0 (x) and F0 = 0, F90 = 1 (y), so that
@@ -108,6 +109,7 @@ Brdf makeBrdf(vec3 baseColor, float metallic, float roughness, vec3 dielectricF0
     b.NoV = clamp(NoV, 1e-4, 1.0);
     float r = max(roughness, kMinRoughness);
     b.alpha = r * r;
+    b.ideal = roughness < kMinRoughness - 1e-5;
     b.f0 = mix(dielectricF0, baseColor, metallic);
     // No material reflects less than 2 % at normal incidence but by intent (KHR_materials_specular): then its
     // grazing reflection goes as well.

@@ -153,6 +153,7 @@ GlassSurface glassSurface(vec3 origin, vec3 direction, GlassHit hit) {
         glassTexel(m.transmissionLayer, m.transmissionUvRow[0].xyz, m.transmissionUvRow[1].xyz, uv).r;
     s.brdf = makeBrdf(base, m.metallic * metalRough.b, m.roughness * metalRough.g, m.specularF0,
                       -dot(s.normal, direction));
+    s.brdf.ideal = s.brdf.ideal && !(share > 0.0);
     s.through = s.brdf.diffuse * share;
     s.brdf.diffuse *= 1.0 - share;
     s.tint = base * (share * (1.0 - m.metallic * metalRough.b));

@@ -114,7 +114,7 @@ float spotFalloff(Light light, vec3 toLight) {
 void addLight(inout DirectLight sum, const bool specular, Receiver r, Brdf b, vec3 toLight, vec3 facing) {
     vec3 irradiance = facing * max(dot(r.normal, toLight), 0.0);
     sum.irradiance += irradiance;
-    if (specular) sum.specular += irradiance * brdfSpecular(b, r.normal, toLight, r.toEye);
+    if (specular && !b.ideal) sum.specular += irradiance * brdfSpecular(b, r.normal, toLight, r.toEye);
 }
 
 // `facing` as glass leaves it on its way of `distance` from a light that is seen.
