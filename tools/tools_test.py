@@ -338,12 +338,16 @@ class Files(Project):
 class ThesisSections(Project):
     """check_thesis_sections on pages that it is given."""
 
-    def defects(self, rows, gallery="", tex="", program=None):
+    def tool(self):
         loader = importlib.machinery.SourceFileLoader("sections", str(TOOLS / "check_thesis_sections"))
         tool = importlib.util.module_from_spec(importlib.util.spec_from_loader("sections", loader))
         loader.exec_module(tool)
+        return tool
+
+    def defects(self, rows, gallery="", tex=""):
+        tool = self.tool()
         page = "| section | where | shown by |\n|---|---|---|\n" + "".join(row + "\n" for row in rows)
-        return list(tool.defects(page, gallery, tex, program))
+        return list(tool.text_defects(tool.SECTIONS, page, "section", lambda names: tool.without_section(names, gallery, tex), None, ""))
 
     def test_right_rows(self):
         rows = ["| 1 A: F01 | [this](sections.md) | `tools/check` |", "| 1.1 B | [this](sections.md) | not there: no reason |"]
@@ -367,6 +371,10 @@ class ThesisSections(Project):
         found = "\n".join(self.defects([row], "### F07 Title\n", "\\chapter{A}\n\\section{B}\n"))
         self.assertIn("F07 has no row", found)
         self.assertIn("1.1 B has no row", found)
+
+    def test_equations_are_counted_within_chapters(self):
+        tex = "\\chapter{A}\n\\begin{equation}\n\\begin{multline}\n\\chapter{B}\n  \\begin{equation}\\label{x}\n"
+        self.assertEqual(self.tool().without_equation(["1.1 One", "2.1 Three"], tex), ["the thesis's equation 1.2"])
 
 
 class Constants(unittest.TestCase):

@@ -20,6 +20,7 @@ constexpr std::array<double, 3> kPrintedDynamic = {0.02039, 0.06301, 0.33401};
 // (docs/measurements/thesis_baselines.md).
 constexpr std::array<double, 3> kOriginalFrame = {2298, 9165, 41294};
 constexpr std::array<double, 3> kOriginalVoxels = {15.2, 40, 183};
+constexpr program::Size kPrintedSize{800, 600};
 constexpr int kFrames = 100;         // as in the thesis
 constexpr double kMostSeconds = 10;  // per cell: software drivers measure fewer frames
 constexpr int kFewest = 3, kSmallFrames = 2;
@@ -30,6 +31,8 @@ struct Cell {
     double wallMs = 0, cpuMs = 0, gpuMs = -1;  // means
 };
 
+program::Size sizeOf(const Studio& studio) { return studio.small() ? studio.size() : kPrintedSize; }
+
 Cell measure(Studio& studio, const Scene& scene, int voxels, bool published, bool dynamic) {
     Shot shot{.scene = kComplexRoom,
               .mode = "thesis",
@@ -39,6 +42,7 @@ Cell measure(Studio& studio, const Scene& scene, int voxels, bool published, boo
     program::PictureRequest request = studio.requestOf(shot, scene);
     setSetting(request.settings, "mode", "thesis");
     request.settings.voxels.size = voxels;
+    request.size = sizeOf(studio);
     Renderer renderer;
     renderer.setScene(scene);
     const auto frame = [&] {
@@ -105,13 +109,13 @@ Panels tableOf(Studio& studio, bool dynamic) {
         "| voxels | variant | frames | s per frame | frames/s | CPU ms | GPU ms | thesis: s | thesis: "
         "frames/s | original: CPU ms |\n"
         "|--:|---|--:|--:|--:|--:|--:|--:|--:|--:|\n",
-        dynamic ? 2 : 1, kComplexRoom, studio.size().width, studio.size().height,
+        dynamic ? 2 : 1, kComplexRoom, sizeOf(studio).width, sizeOf(studio).height,
         dynamic ? "anew in each frame" : "once", context->description());
     nlohmann::ordered_json json;
     json["device"] = context->description();
     json["scene"] = kComplexRoom;
     json["dynamic"] = dynamic;
-    json["size"] = {studio.size().width, studio.size().height};
+    json["size"] = {sizeOf(studio).width, sizeOf(studio).height};
     json["cells"] = nlohmann::ordered_json::array();
     for (std::size_t i = 0; i < kSizes.size(); ++i)
         for (const bool published : {true, false}) {
