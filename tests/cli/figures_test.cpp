@@ -113,26 +113,53 @@ void expectPictures(const std::string& directory, const std::string& id, std::si
     EXPECT_EQ(drawn, panels) << id;
 }
 
+TEST_F(FiguresCliTest, TablesHoldWhatWasMeasuredAndPrinted) {
+    const std::string out = folder("tables");
+    ASSERT_EQ(figures("--only T1,F47 --small -o '" + out + "'").status, 0);
+    const nlohmann::json table = nlohmann::json::parse(bytesOf(out + "/T1.json"));
+    ASSERT_EQ(table["cells"].size(), 6u);
+    for (const nlohmann::json& cell : table["cells"]) {
+        EXPECT_GE(cell["frames"], 2);
+        EXPECT_GT(cell["wall_ms"], 0);
+        EXPECT_GT(cell["cpu_ms"], 0);
+        EXPECT_GT(cell["original_cpu_ms"], 1000);
+    }
+    EXPECT_EQ(table["cells"][0]["thesis_s"], 0.01666);
+    EXPECT_EQ(count(bytesOf(out + "/T1.md"), "\n| "), 7u);
+    const nlohmann::json methods = nlohmann::json::parse(bytesOf(out + "/F47.json"));
+    ASSERT_EQ(methods.size(), 8u);
+    for (const nlohmann::json& method : methods) EXPECT_GT(method["relrmse"], 0) << method["mode"];
+}
+
 TEST_F(FiguresCliTest, PicturesAreDrawnAndDiffer) {
     const std::string a = folder("pictures_a"), b = folder("pictures_b");
     const std::string only =
-        "--only F07,F15,F16,F18,F22,F27,F29,F31,F37,F38,F42,F45,F46,F48,F49 --small -o '";
+        "--only F07,F12,F15,F16,F17,F18,F19,F22,F27,F29,F31,F36,F37,F38,F39,F40,F42,F45,F46,F48,F49,B02 "
+        "--small "
+        "-o '";
     ASSERT_EQ(figures(only + a + "'").status, 0);
     for (const auto& [id, panels] : {std::pair<const char*, std::size_t>{"F07", 3},
+                                     {"F12", 2},
                                      {"F15", 2},
                                      {"F16", 1},
+                                     {"F17", 1},
                                      {"F18", 4},
+                                     {"F19", 2},
                                      {"F22", 1},
                                      {"F27", 2},
                                      {"F29", 2},
                                      {"F31", 4},
+                                     {"F36", 1},
                                      {"F37", 3},
                                      {"F38", 4},
+                                     {"F39", 4},
+                                     {"F40", 3},
                                      {"F42", 4},
                                      {"F45", 4},
                                      {"F46", 2},
                                      {"F48", 3},
-                                     {"F49", 2}})
+                                     {"F49", 2},
+                                     {"B02", 5}})
         expectPictures(a, id, panels);
     ASSERT_EQ(figures("--only F16,F37,F46 --small -o '" + b + "'").status, 0);
     for (const Drawn& one : drawnIn(b))

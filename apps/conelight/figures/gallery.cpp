@@ -119,7 +119,12 @@ void Gallery::add(const Figure& figure, const std::vector<Panel>& panels) {
                 fs::remove(directory_ / file.name, code);
         *old = std::move(fresh);
     }
-    std::sort(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) { return a.id < b.id; });
+    const std::span<const Figure> order = allFigures();
+    const auto placeOf = [&](const Entry& e) {
+        return std::find_if(order.begin(), order.end(), [&](const Figure& f) { return f.id == e.id; });
+    };
+    std::sort(entries_.begin(), entries_.end(),
+              [&](const Entry& a, const Entry& b) { return placeOf(a) < placeOf(b); });
     writePage();
 }
 

@@ -39,7 +39,8 @@ Values defectsBut(const std::string& cured) {
     return values;
 }
 
-// Regular and customised cones of a kind, as published and mended. Exposures in stops, one per picture.
+// Regular and customised cones of a kind, as published and mended; one picture for both where they are the same.
+// Exposures in stops, one per picture.
 Panels allVariants(Studio& studio, const std::string& scene, const std::string& kind,
                    const std::string& component, const std::array<int, 4>& stops) {
     Panels panels;
@@ -52,7 +53,11 @@ Panels allVariants(Studio& studio, const std::string& scene, const std::string& 
         if (component != "occlusion") values.emplace_back("image.exposure", std::to_string(stops[at]));
         std::string label = fmt::format("{}, {}", variant, published ? "as published" : "mended");
         if (stops[at] != 0) label += fmt::format(", {:g} times brighter", std::exp2(stops[at]));
-        panels.push_back(studio.draw(label, thesisShot(scene, component, values, 64)));
+        Panel panel = studio.draw(label, thesisShot(scene, component, values, 64));
+        if (!panels.empty() && panels.back().bytes == panel.bytes)
+            panels.back().label = "regular or " + label;
+        else
+            panels.push_back(std::move(panel));
     }
     return panels;
 }

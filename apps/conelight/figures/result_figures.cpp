@@ -55,7 +55,7 @@ const Figure kResultFigures[] = {
     {"F40", "Diffuse cones", "Indirect light by regular and by customised diffuse cones",
      "Regular cones of the published program lose near colours, so that their picture is shown brighter; "
      "customised ones "
-     "end at the first hit. Mended, both give about the same light.",
+     "end at the first hit. Mended, both give the same picture.",
      Kind::Render, renderDiffuseVariants},
     {"F41", "Syntax tree", "The tree that the scene parser makes of a scene file, beside the file",
      "Left the tree as the parser made it, right the text; the number before a node is its line. "
