@@ -23,6 +23,20 @@ const std::vector<float>& layerPixels(const io::FloatImage& file, const std::str
                                                  known.empty() ? "it has none at all" : "it has " + known));
 }
 
+Image imageOf(const io::FloatImage& file, const std::vector<float>& values, int channels) {
+    Image image{file.width, file.height, {}};
+    image.pixels.reserve(values.size() / std::size_t(channels));
+    for (std::size_t i = 0; i < values.size(); i += std::size_t(channels)) {
+        const float* v = &values[i];
+        image.pixels.emplace_back(v[0], channels > 1 ? v[1] : v[0],
+                                  channels > 2    ? v[2]
+                                  : channels == 2 ? 0.0f
+                                                  : v[0],
+                                  channels == 4 ? v[3] : 1.0f);
+    }
+    return image;
+}
+
 }  // namespace
 
 bool isPictureFile(const std::string& path) {
@@ -41,14 +55,15 @@ Image readPicture(const std::string& path, const std::string& layer) {
     if (channels == 2)
         throw Error(ErrorKind::BadInput,
                     path + ": has two channels; a grey or colour picture would be right");
-    Image image{file.width, file.height, {}};
-    image.pixels.reserve(values.size() / std::size_t(channels));
-    for (std::size_t i = 0; i < values.size(); i += std::size_t(channels)) {
-        const float* v = &values[i];
-        image.pixels.emplace_back(v[0], channels > 1 ? v[1] : v[0], channels > 1 ? v[2] : v[0],
-                                  channels == 4 ? v[3] : 1.0f);
-    }
-    return image;
+    return imageOf(file, values, channels);
+}
+
+std::vector<PictureLayer> readLayers(const std::string& path) {
+    const io::FloatImage file = io::readImage(path);
+    std::vector<PictureLayer> layers{{"", imageOf(file, file.pixels, file.channels)}};
+    for (const io::ImageLayer& layer : file.layers)
+        layers.push_back({layer.name, imageOf(file, layer.pixels, layer.channels)});
+    return layers;
 }
 
 void requireSameSize(const Image& a, const std::string& nameA, const Image& b, const std::string& nameB) {

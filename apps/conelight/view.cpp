@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
-// `conelight view [SCENE]`: the window.
+// `conelight view [SCENE]`: the window. Of a picture file, with nothing but the picture in it.
 #include <chrono>
 #include <filesystem>
 
 #include "command.h"
+#include "console/statements.h"
+#include "io/image_file.h"
+#include "picture_input.h"
 #include "script_run.h"
 #include "session/session.h"
 #include "truth_options.h"
@@ -45,17 +48,43 @@ Session openSession(const ViewCommand& options) {
     return session;
 }
 
+// A session without a scene: there is the picture to look at.
+Session emptySession() {
+    Scene scene;
+    completeScene(scene);
+    scene.notes.clear();
+    const Camera camera = scene.cameras.empty() ? Camera{} : scene.cameras.front();
+    Session session(std::move(scene), "", Settings{}, "", camera);
+    ViewFlags flags = session.flags();
+    flags.drawObjects = false;
+    session.setFlags(flags, "no scene");
+    return session;
+}
+
+// Before those that were asked for. 8-bit pictures have been through a tone map.
+std::vector<std::string> commandsFor(const std::string& picture) {
+    std::vector<std::string> commands{"keep " + quoted(picture), "flip on"};
+    const io::ImageFormat format = io::imageFormatOf(picture);
+    if (format == io::ImageFormat::Png || format == io::ImageFormat::Jpg)
+        commands.emplace_back("set image.tone_map none");
+    return commands;
+}
+
 int run(const ViewCommand& options) {
     const Size size = parseSize(options.window);
     // A file that is not there needs no window to be said.
     std::error_code ignored;
-    if (options.scene.rfind("builtin:", 0) != 0 && !std::filesystem::exists(options.scene, ignored))
+    const bool picture = isPictureFile(options.scene);
+    if (picture)
+        readLayers(options.scene);
+    else if (options.scene.rfind("builtin:", 0) != 0 && !std::filesystem::exists(options.scene, ignored))
         openSession(options);
     ViewerOptions viewer;
     viewer.width = size.width;
     viewer.height = size.height;
     viewer.renderer = rendererOptions(options.view, options.shaderDirectory);
-    viewer.commands = options.commands;
+    if (picture) viewer.commands = commandsFor(options.scene);
+    viewer.commands.insert(viewer.commands.end(), options.commands.begin(), options.commands.end());
     viewer.readStdin = !options.noInput;
     viewer.keepState = !options.noState;
     viewer.timing = options.timing;
@@ -64,7 +93,7 @@ int run(const ViewCommand& options) {
     viewer.radiosity = options.radiosity.values;
     viewer.startedMs = std::chrono::duration<double, std::milli>(kStarted.time_since_epoch()).count();
     viewer.scene = options.scene;
-    viewer.open = [&options] { return openSession(options); };
+    viewer.open = [&options, picture] { return picture ? emptySession() : openSession(options); };
     return runViewer(viewer);
 }
 
@@ -73,7 +102,9 @@ int run(const ViewCommand& options) {
 void addView(CLI::App& app) {
     auto options = std::make_shared<ViewCommand>();
     CLI::App* command = app.add_subcommand("view", "a window on a scene: fly through it, turn every knob");
-    command->add_option("scene", options->scene, "a scene file, or builtin:NAME")->capture_default_str();
+    command
+        ->add_option("scene", options->scene, "a scene file, builtin:NAME, or a picture: .exr .hdr .png .jpg")
+        ->capture_default_str();
     command->add_option("--mode", options->mode, "mode to start in");
     command
         ->add_option("--shader-dir", options->shaderDirectory,

@@ -111,6 +111,9 @@ class CONELIGHT_API Renderer {
     // camera that sees nothing, Error(Runtime) for failures of the driver.
     void render(const Camera& camera, int width, int height, const Settings& settings);
     void setDynamic(bool everyFrame);
+    // While held, a picture of mode traced with traced.budgeted and image.temporal gathers no light where scene, camera
+    // and settings are those of the call before: it adds one more view to the mean, within pixels and on the lens.
+    void setLightHeld(bool held);
     // With RendererOptions::shaderDirectory: builds the programs again that use files changed there. One that
     // fails stays as it was. Returns a message per failure, several lines each; GL state stays as it was.
     std::vector<std::string> reloadShaders();
@@ -143,7 +146,12 @@ class CONELIGHT_API Renderer {
 // darkest, and a twentieth, the brightest, do not count. 0 where all is black.
 CONELIGHT_API float autoExposure(const Image& image);
 
-// 8-bit picture bytes (RGB, first row on top) of a linear image: exposure, tone map, sRGB encoding.
+// The colour of ExposureCheck::FalseColor for a luminance so many stops above middle grey (0.18, after exposure), RGB.
+// One colour a stop from -6 to 6, middle grey as grey; black below, white above.
+CONELIGHT_API glm::u8vec3 falseColor(float stops);
+
+// 8-bit picture bytes (RGB, first row on top) of a linear image: exposure, white balance, tone map, sRGB encoding, or
+// the check of exposure that is asked for.
 CONELIGHT_API std::vector<std::uint8_t> toneMapped(const Image& image, const ImageSettings& settings);
 
 }  // namespace conelight

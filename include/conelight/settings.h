@@ -35,6 +35,10 @@ enum class Component {
 // Agx and Neutral (Khronos PBR Neutral) keep hues; Neutral keeps colours below 0.76 as they are.
 enum class ToneMap { None, Reinhard, Aces, Agx, Neutral };
 
+// What 8-bit pictures show in place of colours: stripes where all channels are black (blue) or one is at its most (red);
+// luminance in stops as colours (falseColor).
+enum class ExposureCheck { Off, Clipping, FalseColor };
+
 struct VoxelSettings {
     int size = 128;
     float padding = 0.03f;
@@ -190,11 +194,16 @@ struct ImageSettings {
     int antialiasing = 0;
     // Moving pictures: each call draws one view at an offset within a pixel and adds it to the pictures before, which
     // follow what moves (docs/theory/5_image.md, "Over frames"). Takes the place of antialiasing. Auto: Renderer and
-    // stills: off; the viewer: on.
+    // stills: off; the viewer: on, in mode traced once its light has settled.
     Toggle temporal = Toggle::Auto;
     float bloom = 0;                  // part of the light that spreads, in 8-bit pictures only; 0: none
     AutoFloat exposure{false, 0.0f};  // stops; auto: autoExposure() of the picture
+    // The light that 8-bit pictures show as white: that of a lamp, from 4000 K on of daylight, of so many K, and how far
+    // beside it towards green, thousandths of Duv. 6500, 0: colours as they are.
+    float whiteBalance = 6500;
+    float tint = 0;
     ToneMap toneMap = ToneMap::Aces;
+    ExposureCheck check = ExposureCheck::Off;
     bool srgb = true;
     bool operator==(const ImageSettings&) const = default;
 };

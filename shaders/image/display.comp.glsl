@@ -63,6 +63,20 @@ vec3 srgbFromLinear(vec3 c) {
     return mix(curved, 12.92 * c, lessThanEqual(c, vec3(0.0031308)));
 }
 
+// Display values (0 to 1) of a pixel that a check marks, or those it has.
+vec3 clippingMarked(vec3 shown, ivec2 pixel) {
+    bool over = any(greaterThanEqual(shown, vec3(254.5 / 255.0)));
+    bool under = all(lessThan(shown, vec3(0.5 / 255.0)));
+    bool stripe = ((pixel.x + pixel.y) / CLIPPING_STRIPE & 1) == 0;
+    vec3 mark = over ? vec3(1.0, 0.0, 0.25) : vec3(0.0, 0.25, 1.0);
+    return stripe && (over || under) ? mark : shown;
+}
+
+vec3 falseColor(float luminance) {
+    float stops = log2(max(luminance, 1e-10) / EXPOSURE_GREY);
+    return display.falseColors[int(clamp(stops + FALSE_COLOR_OFFSET, 0.0, float(FALSE_COLORS - 1)))].rgb;
+}
+
 void main() {
     ivec2 size = textureSize(linearImage, 0);
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
@@ -73,7 +87,11 @@ void main() {
     color = display.kept * color + display.spread * spread;
 #endif
     color = mix(color, vec3(0.0), isnan(color));
-    color = clamp(toneCurve(clamp(color * exposure.scale, 0.0, kWhite)), 0.0, 1.0);
+    mat3 balance = mat3(display.balance[0].xyz, display.balance[1].xyz, display.balance[2].xyz);
+    vec3 light = clamp(balance * min(color, vec3(1e30)) * exposure.scale, 0.0, kWhite);
+    color = clamp(toneCurve(light), 0.0, 1.0);
     color = display.srgb != 0u ? srgbFromLinear(color) : color;
+    if (display.check == 1u) color = clippingMarked(color, pixel);
+    if (display.check == 2u) color = falseColor(dot(light, vec3(0.2126, 0.7152, 0.0722)));
     imageStore(displayImage, pixel, vec4(color, 1.0));
 }

@@ -14,6 +14,11 @@
 #define EXPOSURE_GREY 0.18f     // what the mean becomes: middle grey
 #define EXPOSURE_LIMIT 20.0f    // stops
 
+// Checks of exposure: a colour per stop of luminance, below all, from -6 to 6, above all; stripes of so many pixels.
+#define FALSE_COLORS 15
+#define FALSE_COLOR_OFFSET 7.5f  // stops and this: the number of the colour
+#define CLIPPING_STRIPE 4
+
 CONELIGHT_SHARED_BEGIN
 
 // Uniform block of passes that show a picture.
@@ -30,7 +35,16 @@ struct DisplayConstants {
     uint srgb;     // encode
     float kept;    // of bloom: part of a pixel's light that stays
     float spread;  // and part of the first level of what spreads
-};                 // 16 B
+    // ---- 16 B
+    uint check;  // ExposureCheck: 0 off, 1 clipping, 2 false colour
+    uint pad0;
+    uint pad1;
+    uint pad2;
+    // ---- 32 B
+    vec4 balance[3];  // columns of the matrix of white balance
+    // ---- 80 B
+    vec4 falseColors[FALSE_COLORS];
+};  // 320 B
 
 // Uniform block of image/view_mean.comp.glsl.
 struct ViewMeanConstants {
@@ -85,7 +99,7 @@ struct ShadowViewConstants {
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::Exposure) == 16);
-static_assert(sizeof(conelight::gpu::DisplayConstants) == 16);
+static_assert(sizeof(conelight::gpu::DisplayConstants) == 320);
 static_assert(sizeof(conelight::gpu::ViewMeanConstants) == 16);
 static_assert(sizeof(conelight::gpu::TemporalPictureConstants) == 80);
 static_assert(sizeof(conelight::gpu::BloomConstants) == 16);

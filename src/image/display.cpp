@@ -3,7 +3,9 @@
 
 #include <utility>
 
+#include "conelight/renderer.h"
 #include "gl/gl.h"
+#include "image/white_balance.h"
 #include "shared/image.h"
 
 namespace conelight::image {
@@ -30,6 +32,23 @@ std::uint32_t curveOf(ToneMap curve) {
     return 0;
 }
 
+// What is known of the picture before it is there.
+gpu::DisplayConstants constantsOf(const ImageSettings& settings) {
+    gpu::DisplayConstants constants{};
+    constants.curve = curveOf(settings.toneMap);
+    constants.srgb = settings.srgb ? 1 : 0;
+    constants.check = settings.check == ExposureCheck::Clipping     ? 1
+                      : settings.check == ExposureCheck::FalseColor ? 2
+                                                                    : 0;
+    const glm::mat3 balance = whiteBalance(settings.whiteBalance, settings.tint);
+    for (int i = 0; i < 3; ++i) constants.balance[i] = glm::vec4(balance[i], 0);
+    for (int i = 0; i < FALSE_COLORS; ++i) {
+        const float stops = static_cast<float>(i) + 0.5f - FALSE_COLOR_OFFSET;
+        constants.falseColors[i] = glm::vec4(glm::vec3(falseColor(stops)) / 255.0f, 1);
+    }
+    return constants;
+}
+
 }  // namespace
 
 void Display::draw(const gl::Device& device, const gl::Texture& linear, const ImageSettings& settings) {
@@ -38,10 +57,8 @@ void Display::draw(const gl::Device& device, const gl::Texture& linear, const Im
         texture_ = gl::Texture({GL_TEXTURE_2D, GL_RGBA8, linear.width(), linear.height()}, "display image");
     }
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::DisplayConstants), "display constants");
-    gpu::DisplayConstants constants{};
+    gpu::DisplayConstants constants = constantsOf(settings);
     exposure_.measure(device, linear, settings.exposure);
-    constants.curve = curveOf(settings.toneMap);
-    constants.srgb = settings.srgb ? 1 : 0;
     const bool blooms = settings.bloom > 0 && linear.width() > 1 && linear.height() > 1;
     if (!blooms) bloom_.reset();
     gl::Inputs inputs;

@@ -16,6 +16,8 @@ namespace {
 // flicker (`conelight score edges`).
 constexpr std::uint32_t kLongestAtRest = 64;
 constexpr std::uint32_t kLongestMoving = 16;
+// What came on the way counts as so many views at rest: it lags, and is in focus.
+constexpr std::uint32_t kKeptAtRest = 4;
 
 struct TemporalKey {
     bool still;
@@ -112,6 +114,7 @@ void TemporalPicture::follow(const Shown& shown) {
 view::PixelPart TemporalPicture::part(bool settled) {
     still_ = still_ && settled;
     view::PixelPart part = view::pixelPartOfFrame(frame_);
+    rested_ = still_ ? rested_ + 1 : 0;
     if (!still_) part.lens = glm::dvec2(0);
     return part;
 }
@@ -122,7 +125,8 @@ void TemporalPicture::add(const gl::Device& device, const scene::GpuScene& scene
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::TemporalPictureConstants), "temporal constants");
     gpu::TemporalPictureConstants constants{};
     constants.oldClipFromWorld = clipFromWorld_;
-    constants.longest = still_ ? kLongestAtRest : kLongestMoving;
+    constants.longest =
+        still_ ? std::min(kLongestAtRest, kKeptAtRest + static_cast<std::uint32_t>(rested_)) : kLongestMoving;
     constants.fresh = fresh() ? 1 : 0;
     constants_.update(constants);
     gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);

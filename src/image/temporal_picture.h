@@ -39,6 +39,8 @@ class TemporalPicture {
     // Nothing is known yet: the frame is the picture of the pixels' centres.
     bool fresh() const { return frame_ == 0; }
     int frame() const { return frame_; }  // since it started anew
+    // The frame shows what the one before did.
+    bool still() const { return still_; }
     // The frame's view. `settled`: the same picture again would be of the same light. Offsets on the lens are
     // taken at rest only: what moves is in focus.
     view::PixelPart part(bool settled);
@@ -69,6 +71,7 @@ class TemporalPicture {
     std::vector<base::Revision> shapes_;
     int width_ = 0, height_ = 0;
     int frame_ = 0;
+    int rested_ = 0;  // frames at rest
     bool moved_ = false, still_ = false, drawn_ = false;
     std::optional<Camera> camera_;
     glm::mat4 clipFromWorld_{1.0f}, oldClipFromWorld_{1.0f};

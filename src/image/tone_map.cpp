@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Linear radiance -> 8-bit picture: exposure, tone curve, sRGB (IEC 61966-2-1), rounding without dither.
+// Linear radiance -> 8-bit picture: exposure, white balance, tone curve, sRGB (IEC 61966-2-1), rounding without dither;
+// checks of exposure.
 // Curves: Reinhard 2002 on luminance; the filmic curve is Narkowicz's rational fit of the ACES reference
 // transform ("ACES Filmic Tone Mapping Curve", 2015), applied per channel; AgX is Sobotka's, with the
 // matrices and the polynomial that Wrensch fitted ("Minimal AgX Implementation", 2023); Neutral is the
@@ -12,6 +13,7 @@
 
 #include "conelight/renderer.h"
 #include "image/bloom.h"
+#include "image/white_balance.h"
 #include "shared/image.h"
 
 namespace conelight {
@@ -60,12 +62,49 @@ glm::vec3 toneCurve(const glm::vec3& c, ToneMap curve) {
 
 // From here on every curve is white in 8 bits, and far above it its polynomials overflow to inf / inf.
 constexpr float kWhite = 1e6f;
+// A matrix would make inf - inf of what is infinite.
+constexpr float kFinite = 1e30f;
 
 float srgbFromLinear(float c) {
     return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
 }
 
+using Bytes = glm::u8vec3;
+
+// A NaN shows as black here; readers of the linear image see it (conelight render counts them).
+Bytes encoded(const glm::vec3& color, bool srgb) {
+    Bytes bytes;
+    for (int i = 0; i < 3; ++i) {
+        const float linear = color[i] > 0.0f ? std::min(color[i], 1.0f) : 0.0f;
+        bytes[i] = static_cast<std::uint8_t>(std::lround((srgb ? srgbFromLinear(linear) : linear) * 255.0f));
+    }
+    return bytes;
+}
+
+// Stripes over what is lost (`x` and `y` from the upper left corner).
+Bytes clippingMarked(const Bytes& shown, int x, int y) {
+    const bool over = shown.r == 255 || shown.g == 255 || shown.b == 255, under = shown == Bytes(0);
+    const bool stripe = ((x + y) / CLIPPING_STRIPE & 1) == 0;
+    if (!stripe || !(over || under)) return shown;
+    return over ? Bytes(255, 0, 64) : Bytes(0, 64, 255);
+}
+
+Bytes falseColorOf(const glm::vec3& light) {
+    const float luminance = glm::dot(light, glm::vec3(0.2126f, 0.7152f, 0.0722f));
+    return falseColor(std::log2((luminance > 1e-10f ? luminance : 1e-10f) / EXPOSURE_GREY));
+}
+
 }  // namespace
+
+glm::u8vec3 falseColor(float stops) {
+    // By eye: no two alike, each lighter or warmer than the one before.
+    static constexpr std::array<std::uint32_t, FALSE_COLORS> kColors{
+        0x000000, 0x3c0a5a, 0x3228a0, 0x1e50d7, 0x1987e1, 0x1ebecd, 0x23a569, 0x808080,
+        0x96c846, 0xf0e13c, 0xf5a528, 0xeb6423, 0xcd2328, 0xeb5faf, 0xffffff};
+    const float place = std::clamp(stops + FALSE_COLOR_OFFSET, 0.0f, static_cast<float>(FALSE_COLORS - 1));
+    const std::uint32_t color = kColors[static_cast<std::size_t>(place)];
+    return {color >> 16, color >> 8 & 255u, color & 255u};
+}
 
 float autoExposure(const Image& image) {
     std::array<std::uint64_t, EXPOSURE_BINS> counts{};
@@ -94,16 +133,22 @@ std::vector<std::uint8_t> toneMapped(const Image& image, const ImageSettings& se
     std::optional<Image> spread;
     if (settings.bloom > 0) spread = image::bloomed(image, settings.bloom);
     const float scale = std::exp2(settings.exposure.isAuto ? autoExposure(image) : settings.exposure.value);
+    const glm::mat3 balance = image::whiteBalance(settings.whiteBalance, settings.tint);
+    const bool balances = balance != glm::mat3(1);
     std::vector<std::uint8_t> bytes;
     bytes.reserve(image.pixels.size() * 3);
+    int x = 0, y = 0;
     for (const glm::vec4& pixel : (spread ? *spread : image).pixels) {
-        const glm::vec3 color =
-            toneCurve(glm::clamp(glm::vec3(pixel) * scale, 0.0f, kWhite), settings.toneMap);
-        for (int i = 0; i < 3; ++i) {
-            // A NaN shows as black here; readers of the linear image see it (conelight render counts them).
-            const float linear = color[i] > 0.0f ? std::min(color[i], 1.0f) : 0.0f;
-            bytes.push_back(static_cast<std::uint8_t>(
-                std::lround((settings.srgb ? srgbFromLinear(linear) : linear) * 255.0f)));
+        const glm::vec3 color = balances ? balance * glm::min(glm::vec3(pixel), kFinite) : glm::vec3(pixel);
+        const glm::vec3 light = glm::clamp(color * scale, 0.0f, kWhite);
+        Bytes shown = settings.check == ExposureCheck::FalseColor
+                          ? falseColorOf(light)
+                          : encoded(toneCurve(light, settings.toneMap), settings.srgb);
+        if (settings.check == ExposureCheck::Clipping) shown = clippingMarked(shown, x, y);
+        bytes.insert(bytes.end(), {shown.r, shown.g, shown.b});
+        if (++x == image.width) {
+            x = 0;
+            ++y;
         }
     }
     return bytes;

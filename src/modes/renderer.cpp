@@ -84,6 +84,7 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
     std::string deviceName;
     bool countLookups = false;
     bool everyFrame = false;
+    bool lightHeld = false;
 
     // The values of a picture, in the order in which they are made.
     scene::HeldScene scene;
@@ -175,6 +176,7 @@ void Renderer::setProfiling(bool passes, bool lookups) {
 }
 
 void Renderer::setDynamic(bool everyFrame) { impl_->everyFrame = everyFrame; }
+void Renderer::setLightHeld(bool held) { impl_->lightHeld = held; }
 
 std::vector<std::string> Renderer::reloadShaders() {
     const gl::HostStateGuard guard;
@@ -305,11 +307,12 @@ void Renderer::Impl::drawParts(const Camera& camera, const Settings& settings, i
 void Renderer::Impl::drawTemporal(const Camera& camera, const Settings& settings) {
     if (!temporal) temporal.emplace();
     temporal->follow({*scene, camera, image.width(), image.height(), settings});
+    const bool held = lightHeld && temporal->still();
     if (temporal->fresh())
         drawLight(frame(settings));
-    else if (mode->gathersForCenters())
+    else if (mode->gathersForCenters() && !held)
         mode->draw(frame(settings));
-    const view::PixelPart part = temporal->part(mode->settled());
+    const view::PixelPart part = temporal->part(held || mode->settled());
     if (temporal->fresh()) {
         gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess |
                     gl::Access::Update);

@@ -51,6 +51,10 @@ constexpr Choice<ToneMap> kToneMaps[] = {{"none", ToneMap::None},
                                          {"agx", ToneMap::Agx},
                                          {"neutral", ToneMap::Neutral}};
 
+constexpr Choice<ExposureCheck> kExposureChecks[] = {{"off", ExposureCheck::Off},
+                                                     {"clipping", ExposureCheck::Clipping},
+                                                     {"false_color", ExposureCheck::FalseColor}};
+
 // A mode is one of those that are registered.
 Setting<Settings> modeSetting() {
     SettingInfo info;
@@ -224,17 +228,27 @@ std::vector<Setting<ViewSettings>> viewSettings() {
 std::vector<Setting<ImageSettings>> imageSettings() {
     return {
         {"antialiasing", &ImageSettings::antialiasing, Numbers{2, 64, 1, true, false}, "",
-         "smooth edges of stills: the mean of this many views, each at an offset within a pixel; 0: one view "
-         "of the pixels' centres"},
+         "smooth edges of stills, and of the viewer's picture at rest: the mean of this many views, each at "
+         "an "
+         "offset within a pixel; 0: one view of the pixels' centres, in the viewer 8, in mode traced 16"},
         {"temporal", &ImageSettings::temporal, kToggles,
          "smooth edges of moving pictures: views at offsets within a pixel add up over frames and follow "
-         "what moves. Replaces antialiasing; auto: on in the viewer except in mode traced, else off"},
+         "what moves. Replaces antialiasing; auto: on in the viewer, in mode traced at rest only; else off"},
         {"bloom", &ImageSettings::bloom, Numbers{0, 1}, "",
          "fraction of the light that spreads around its pixel, as in an eye or a lens; in 8-bit pictures "
          "only; 0: none"},
         {"exposure", &ImageSettings::exposure, Numbers{-20, 20}, "stops",
          "brightness before the tone map: 2^exposure; auto: the picture's mean becomes middle grey"},
+        {"white_balance", &ImageSettings::whiteBalance, Numbers{1500, 15000}, "K",
+         "colour temperature of the light that 8-bit pictures show as white; 6500: colours as they are"},
+        {"tint", &ImageSettings::tint, Numbers{-50, 50}, "",
+         "how far that light is from such a lamp's or daylight towards green, thousandths of Duv: above 0 "
+         "takes "
+         "green out of 8-bit pictures, below 0 magenta"},
         {"tone_map", &ImageSettings::toneMap, kToneMaps, "curve from linear radiance to the 8-bit picture"},
+        {"check", &ImageSettings::check, kExposureChecks,
+         "marks in 8-bit pictures; clipping: red stripes where a channel is at its most, blue ones where all "
+         "are black; false_color: a colour per stop of luminance, middle grey as grey"},
         {"srgb", &ImageSettings::srgb, "encode 8-bit pictures as sRGB"},
     };
 }

@@ -48,8 +48,9 @@ std::vector<std::string> goodValues(const SettingInfo& info) {
 }  // namespace
 
 TEST(SettingsTest, EachHasWhatTheManualShows) {
-    const std::set<std::string> units{"",          "rad",   "m",   "voxels",  "texels", "stops", "footprints",
-                                      "diameters", "cones", "deg", "samples", "steps",  "faces", "ms"};
+    const std::set<std::string> units{"",        "rad",        "m",         "voxels", "texels",
+                                      "stops",   "footprints", "diameters", "cones",  "deg",
+                                      "samples", "steps",      "faces",     "ms",     "K"};
     std::set<std::string> keys;
     for (const SettingInfo& info : settingInfos()) {
         EXPECT_TRUE(keys.insert(info.key).second) << info.key << " twice";

@@ -143,4 +143,64 @@ TEST(ToneMapTest, WhatIsNoColourIsBlack) {
     EXPECT_TRUE(toneMapped(Image{}, ImageSettings{}).empty());
 }
 
+// Illuminant A, a lamp of 2856 K, is white where it is asked to be; daylight is as it was.
+TEST(ToneMapTest, WhiteBalanceMakesTheLampWhite) {
+    ImageSettings how = settings(ToneMap::None);
+    const glm::vec3 lamp(1.8454f, 0.8261f, 0.2332f);  // XYZ 1.0985 1 0.3558 in Rec.709, luminance 1
+    EXPECT_EQ(mapped({0.4f * lamp, glm::vec3(0.5f)}, how),
+              (std::vector<std::uint8_t>{188, 84, 24, 128, 128, 128}));
+    how.whiteBalance = 2856;
+    const std::vector<std::uint8_t> white = mapped({0.4f * lamp}, how);
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(white[i], 102, 2) << i;
+    EXPECT_GT(mapped({glm::vec3(0.4f)}, how)[2], 200) << "daylight is blue beside it";
+    // Above 0 takes green out, below 0 magenta.
+    for (const float tint : {-20.0f, 20.0f}) {
+        how = settings(ToneMap::None);
+        how.tint = tint;
+        const std::vector<std::uint8_t> shown = mapped({glm::vec3(0.4f)}, how);
+        const int green = shown[1] - (shown[0] + shown[2]) / 2;
+        EXPECT_TRUE(tint > 0 ? green < -10 : green > 10) << tint << ": " << green;
+    }
+    how.whiteBalance = 4000;
+    EXPECT_EQ(mapped({glm::vec3(kInfinity)}, how), (std::vector<std::uint8_t>{255, 255, 255}));
+}
+
+TEST(ToneMapTest, FalseColoursHaveOneForEachStop) {
+    ImageSettings how = settings(ToneMap::Aces, true, 1);
+    how.check = ExposureCheck::FalseColor;
+    // After an exposure of one stop.
+    const auto shown = [&](float stops) {
+        const std::vector<std::uint8_t> b = mapped({glm::vec3(0.09f * std::exp2(stops))}, how);
+        return glm::u8vec3(b[0], b[1], b[2]);
+    };
+    EXPECT_EQ(shown(0), glm::u8vec3(128));
+    EXPECT_EQ(shown(-20), glm::u8vec3(0));
+    EXPECT_EQ(shown(20), glm::u8vec3(255));
+    for (int stop = -7; stop <= 7; ++stop) {
+        const float at = static_cast<float>(stop);
+        EXPECT_EQ(shown(at), falseColor(at));
+        EXPECT_EQ(shown(at - 0.45f), shown(at + 0.45f)) << stop;
+        EXPECT_NE(shown(at), shown(at + 1)) << stop;
+        if (stop == 6) break;
+    }
+    EXPECT_EQ(mapped({glm::vec3(std::nanf(""))}, how), (std::vector<std::uint8_t>{0, 0, 0}));
+}
+
+TEST(ToneMapTest, ClippingIsStriped) {
+    ImageSettings how = settings(ToneMap::None, true);
+    how.check = ExposureCheck::Clipping;
+    const std::vector<glm::vec3> row(8, glm::vec3(0.2f, 2, 0.2f));
+    const std::vector<std::uint8_t> over = mapped(row, how);
+    EXPECT_EQ((std::vector<std::uint8_t>{over.begin(), over.begin() + 3}),
+              (std::vector<std::uint8_t>{255, 0, 64}));
+    how.check = ExposureCheck::Off;
+    const std::vector<std::uint8_t> plain = mapped(row, how);
+    EXPECT_TRUE(std::equal(over.begin() + 12, over.end(), plain.begin() + 12))
+        << "the picture between the stripes";
+    how.check = ExposureCheck::Clipping;
+    EXPECT_EQ(mapped({glm::vec3(0)}, how), (std::vector<std::uint8_t>{0, 64, 255}));
+    EXPECT_EQ(mapped({glm::vec3(0, 0.5f, 0)}, how),
+              mapped({glm::vec3(0, 0.5f, 0)}, settings(ToneMap::None, true)));
+}
+
 }  // namespace conelight::test

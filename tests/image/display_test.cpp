@@ -43,5 +43,34 @@ TEST_F(DisplayTest, AgreesWithToneMappedForAllCurves) {
         }
 }
 
+TEST_F(DisplayTest, AgreesInWhiteBalanceAndChecksOfExposure) {
+    Scene scene = io::loadScene("builtin:cornell", {});
+    completeScene(scene);
+    Renderer renderer;
+    renderer.setScene(scene);
+    constexpr int kWidth = 70, kHeight = 50;
+    Settings settings;
+    settings.mode = Mode::Phong;
+    renderer.render(scene.cameras.front(), kWidth, kHeight, settings);
+    const Image linear = renderer.readImage();
+    for (const ExposureCheck check :
+         {ExposureCheck::Off, ExposureCheck::Clipping, ExposureCheck::FalseColor}) {
+        ImageSettings image;
+        image.whiteBalance = 3200;
+        image.tint = 7;
+        image.check = check;
+        const std::vector<std::uint8_t> expected = toneMapped(linear, image);
+        std::vector<std::uint8_t> shown(4u * kWidth * kHeight);
+        glGetTextureImage(renderer.displayTexture(image), 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                          static_cast<GLsizei>(shown.size()), shown.data());
+        int differ = 0;
+        for (std::size_t i = 0; i < expected.size(); ++i)
+            differ += std::abs(int(expected[i]) - int(shown[i / 3 * 4 + i % 3])) > 1;
+        EXPECT_LE(differ, 6) << "check " << static_cast<int>(check);  // pixels at a limit fall on either side
+        image.check = ExposureCheck::Off;
+        EXPECT_EQ(check == ExposureCheck::Off, expected == toneMapped(linear, image));
+    }
+}
+
 }  // namespace
 }  // namespace conelight::test

@@ -118,6 +118,26 @@ TEST_F(TemporalPictureTest, TheFirstFrameAndOneAfterACutAreWithoutAPast) {
     EXPECT_EQ(drawn(renderer, camera, on).pixels, still.pixels) << "after another scene";
 }
 
+// What moves is in focus; little of it is left in a view that has rested for some frames.
+TEST_F(TemporalPictureTest, ALensFocusesSoonAfterTheCameraStops) {
+    const Scene scene = spokes();
+    Camera camera = scene.cameras.front(), pinhole = camera;
+    camera.lensDiameter = 0.5f;
+    camera.focusDistance = 0.5f * kDistance;
+    Renderer renderer;
+    renderer.setScene(scene);
+    const Settings off = settingsOf(Mode::Phong, false), on = settingsOf(Mode::Phong, true);
+    const Image truth = truthOf(renderer, camera, off);
+    const double inFocus = relRmse(truthOf(renderer, pinhole, off), truth);
+    Image picture;
+    for (int i = 0; i < 40; ++i) {
+        Camera now = camera;
+        now.eye.x += 0.01f * static_cast<float>(std::max(16 - i, 0));
+        picture = drawn(renderer, now, on);
+    }
+    EXPECT_LT(relRmse(picture, truth), 0.3 * inFocus) << inFocus;
+}
+
 TEST_F(TemporalPictureTest, TheSameCallsGiveTheSameBits) {
     const Scene scene = spokes();
     Image images[2];

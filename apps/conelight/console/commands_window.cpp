@@ -29,18 +29,48 @@ Argument choice(const char* name, std::vector<std::string> choices) {
 
 Argument statusKey() {
     return choice("KEY",
-                  {"scene", "window", "picture", "mode", "split", "settled", "selection", "pixel", "camera",
-                   "steps", "path", "log", "hint", "frames", "moving", "gui", "first_frame"});
+                  {"scene", "window", "picture", "mode", "split", "kept", "settled", "selection", "pixel",
+                   "camera", "steps", "path", "log", "hint", "frames", "moving", "gui", "first_frame"});
 }
 
 Command splitCommand() {
     Argument mode = choice("MODE", sessionModes());
+    mode.choices.emplace_back("kept");
     mode.choices.emplace_back("off");
     return command(
         "split", {mode, {"POSITION", ArgumentKind::Number, true, false, "", 0, 1, {}}},
         "another mode on the right side of the picture",
         [](const CommandContext& context) { askWindow(context, "split"); },
-        "POSITION: where it begins, as a part of the width. Without MODE: on, or off again.");
+        "POSITION: where it begins, as a part of the width. kept: the picture of `keep`. Without MODE: on, "
+        "or off "
+        "again.");
+}
+
+Command keepCommand() {
+    return command(
+        "keep", {{"FILE", ArgumentKind::File, true}, {"LAYER", ArgumentKind::Text, true}},
+        "keep the picture as A, beside the live one",
+        [](const CommandContext& context) { askWindow(context, "keep"); },
+        "With FILE: an .exr, .hdr, .png or .jpg picture; LAYER: one of an .exr.");
+}
+
+Command flipCommand() {
+    return command(
+        "flip", {onOff()}, "show the picture that was kept in place of the live one, or the live one",
+        [](const CommandContext& context) { askWindow(context, "flip"); },
+        "The wheel enlarges it, a drag moves it; large pixels have their numbers.");
+}
+
+Command scopesCommand() {
+    return command("scopes", {onOff()},
+                   "histograms of luminance and channels, and a waveform, over the picture",
+                   [](const CommandContext& context) { askWindow(context, "scopes"); });
+}
+
+Command histogramCommand() {
+    return command("histogram", {},
+                   "luminance of the picture, per stop about middle grey, and what is clipped",
+                   [](const CommandContext& context) { askWindow(context, "histogram"); });
 }
 
 Command errorCommand() {
@@ -74,6 +104,10 @@ CommandGroup windowCommands() {
         {
             splitCommand(),
             errorCommand(),
+            keepCommand(),
+            flipCommand(),
+            scopesCommand(),
+            histogramCommand(),
             command("fullscreen", {onOff()}, "fill the screen, or not",
                     [](const CommandContext& context) { askWindow(context, "fullscreen"); }),
             command("panels", {onOff()}, "show panels and console beside the picture, or the picture alone",

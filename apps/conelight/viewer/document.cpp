@@ -6,6 +6,8 @@
 
 #include <utility>
 
+#include "console/statements.h"
+#include "picture_input.h"
 #include "viewer/imgui_names.h"
 #include "viewer/widget_places.h"
 
@@ -59,6 +61,11 @@ void Document::follow() {
     if (scene == remembered_) return;
     remembered_ = scene;
     in_.state.opened(remembered_);
+}
+
+void Document::open(const std::string& file) {
+    if (isPictureFile(file)) return in_.console.run("keep " + quoted(file) + "; flip on");
+    leave({Leaving::To::OtherScene, file});
 }
 
 void Document::leave(const Leaving& leaving) {

@@ -35,7 +35,7 @@ class Document {
     explicit Document(const Inputs& inputs) : in_(inputs) {}
 
     // At once when nothing would be lost, else after a question.
-    void open(const std::string& scene) { leave({Leaving::To::OtherScene, scene}); }
+    void open(const std::string& file);  // a picture becomes A beside the scene
     void reload() { leave({Leaving::To::FileAsChanged, in_.session.path()}); }
     void quit() { leave({}); }
     void ask(FilePurpose purpose) { files_.open(purpose, in_.session.path()); }

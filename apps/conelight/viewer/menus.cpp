@@ -113,6 +113,7 @@ void Menus::takeKey(const platform::Window::KeyEvent& press) {
         case GLFW_KEY_TAB:
             return in_.panels.showAll(!in_.panels.showSide);
         default:
+            takePictureKey(press);
             return;
     }
 }
@@ -153,6 +154,7 @@ void Menus::showBar() {
     fileMenu();
     editMenu();
     viewMenu();
+    pictureMenu();
     modeControls(in_.session, in_.view.split, in_.console);
     ImGui::EndMainMenuBar();
 }

@@ -44,6 +44,8 @@ class Menus {
     void presetMenu();
     void editMenu();
     void viewMenu();
+    void pictureMenu();  // picture_menu.cpp, as takePictureKey
+    void takePictureKey(const platform::Window::KeyEvent& press);
 
     Inputs in_;
     std::vector<std::string> presets_;  // of the current folder, while the menu shows them

@@ -34,7 +34,12 @@ void splitControls(Split& split) {
     notePlace("split on");
     if (!split.on) return;
     ImGui::SameLine();
-    if (const auto mode = combo("##right", split.mode, sessionModes)) split.mode = *mode;
+    const auto names = [] {
+        std::vector<std::string> modes = sessionModes();
+        modes.emplace_back("kept");
+        return modes;
+    };
+    if (const auto mode = combo("##right", split.mode, names)) split.mode = *mode;
     notePlace("split mode");
     ImGui::SameLine();
     ImGui::Checkbox("error", &split.errors);

@@ -17,12 +17,14 @@ std::optional<PictureView::Click> PicturePanel::show(const glm::vec2& at, const 
                      ImGuiWindowFlags_NoBringToFrontOnFocus);
     ImGui::PopStyleVar();
     const std::optional<PictureView::Click> clicked = in_.view.show(in_.session, at, size, seconds);
-    if (in_.view.slot(false).texture() != 0) outline_.draw(in_.session, at, size);
-    in_.probe.drawOverPicture(at, size);
-    if (in_.view.slot(false).texture() != 0) showLabels(at, size);
+    const bool kept = in_.view.kept.shows(), live = in_.view.slot(false).texture() != 0 && !kept;
+    if (live) outline_.draw(in_.session, at, size);
+    if (!kept) in_.probe.drawOverPicture(at, size);
+    if (live || kept) showLabels(at, size);
+    if (live || kept) showInstruments(at, size);
     if (!in_.notice.empty())
         showText(in_.notice, at, size);
-    else if (in_.hint)
+    else if (in_.hint && !kept)
         showText(*in_.hint, at, size);
     ImGui::End();
     return clicked;
@@ -37,10 +39,21 @@ void PicturePanel::showLabels(const glm::vec2& at, const glm::vec2& size) {
         list->AddRectFilled(low, {low.x + extent.x + em, low.y + 1.5f * em}, IM_COL32(20, 20, 20, 170), 4);
         list->AddText({low.x + 0.5f * em, low.y + 0.25f * em}, IM_COL32(230, 230, 230, 255), text.c_str());
     };
+    if (in_.view.kept.shows()) return label(in_.view.kept.label(), at.x + 0.5f * em, at.y + 0.5f * em, false);
     label(in_.view.slot(false).label(), at.x + 0.5f * em, at.y + 0.5f * em, false);
     if (in_.view.split.on)
-        label(in_.view.slot(true).label() + (in_.view.split.errors ? ": error of the left" : ""),
+        label((in_.view.split.mode == "kept" ? in_.view.kept.label() : in_.view.slot(true).label()) +
+                  (in_.view.split.errors ? ": error of the left" : ""),
               at.x + size.x - 0.5f * em, at.y + 0.5f * em, true);
+}
+
+// What helps to judge the exposure.
+void PicturePanel::showInstruments(const glm::vec2& at, const glm::vec2& size) {
+    const ImageSettings& look = in_.session.settings().image;
+    const bool key = look.check == ExposureCheck::FalseColor;
+    if (key) showFalseColorKey(at, size);
+    const float below = key ? 3.2f * ImGui::GetFontSize() : 0;
+    in_.view.scopes.show(in_.view.shownPicture(), look, at, size - glm::vec2(0, below));
 }
 
 // In the middle.

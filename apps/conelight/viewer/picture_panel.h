@@ -30,6 +30,7 @@ class PicturePanel {
 
   private:
     void showLabels(const glm::vec2& at, const glm::vec2& size);
+    void showInstruments(const glm::vec2& at, const glm::vec2& size);
     void showText(const std::string& text, const glm::vec2& at, const glm::vec2& size);
 
     Inputs in_;

@@ -18,36 +18,16 @@
 #include "viewer/background_static_bake.h"
 #include "viewer/face_budget.h"
 #include "viewer/picture_noise.h"
+#include "viewer/picture_passes.h"
 
 namespace conelight::program {
 namespace {
 
-// A mode that gathers light over frames is drawn this often after a change before the window rests: means run
-// over 16 frames, after some in which light settles.
-constexpr int kSettlingFrames = 24;
 // The background reference rests here: below 1 % noise in closed rooms.
 constexpr int kReferenceSamples = 4096;
 // Part of a picture's time that updates of the light cache may take while the camera flies: a quarter of the
 // time that PictureView aims at.
 constexpr double kFlyingUpdateMs = 25;
-
-// Smooth edges are the mean of so many pictures of a view at rest (by eye: later ones hardly change it).
-constexpr int kSmoothingFrames = 8;
-
-// Unless asked for not in mode traced: its light settles over frames, and a mean over them would keep what is not settled.
-bool smoothsEdges(const std::string& mode, const Settings& settings) {
-    const Component component = settings.component;
-    const bool ofLight = component == Component::Full || component == Component::Direct ||
-                         component == Component::Indirect || component == Component::Diffuse ||
-                         component == Component::Specular;
-    const bool wanted = settings.image.temporal == Toggle::On ||
-                        (settings.image.temporal == Toggle::Auto && mode != "traced");
-    return wanted && ofLight;
-}
-
-int settlingFrames(const std::string& mode, const Settings& settings) {
-    return mode == "traced" ? kSettlingFrames : smoothsEdges(mode, settings) ? kSmoothingFrames : 1;
-}
 
 // What the picture depends on; selection and the list of cameras are not part of it.
 struct PictureKey {
@@ -91,6 +71,7 @@ struct PictureSlot::Impl {
     bool preview = false;  // it is another mode's while the mode has none
     bool asked = false;    // redraw()
     int width = 0, height = 0;
+    PicturePasses passes;              // of the picture
     int settling = 0;                  // passes to come
     PictureNoise noise;                // of what settles
     double frameMs = 0, updateMs = 0;  // the light cache's part
@@ -121,6 +102,7 @@ struct PictureSlot::Impl {
     const Image& read();
     std::shared_ptr<const BakedLight> bakedFor(const Session& session, const std::string& drawnMode,
                                                const How& how);
+    std::string progress() const;
     void followUpdateTime();
     void followLook(const Session& session);
     bool onlyLook(const Session& session) const;
@@ -232,7 +214,10 @@ bool PictureSlot::Impl::drawScene(const Session& session, const std::string& dra
     const bool changed =
         asked || !shown || !(*shown == keyOf(session.revisions())) || voxelsDue || newest != baked;
     const bool resized = w != width || h != height;
-    if (changed || (resized && !how.onlyChanges)) settling = settlingFrames(drawnMode, session.settings());
+    if (changed || (resized && !how.onlyChanges)) {
+        passes = passesOf(drawnMode, session.settings(), session.camera());
+        settling = passes.all();
+    }
     if (settling == 0) return resized && how.onlyChanges;
     if (how.onlyChanges && !changed) return true;
 
@@ -251,7 +236,9 @@ bool PictureSlot::Impl::drawScene(const Session& session, const std::string& dra
     Settings settings = session.shownSettings();
     conelight::setSetting(settings, "mode", drawnMode);
     settings.traced.budgeted = true;  // the window stays live; the picture settles over frames
-    settings.image.temporal = smoothsEdges(drawnMode, settings) ? Toggle::On : Toggle::Off;
+    const bool views = passes.areViews(settling);
+    settings.image.temporal = views || smoothsEdges(drawnMode, settings) ? Toggle::On : Toggle::Off;
+    renderer->setLightHeld(views);
     const int faces = flyingFaces.faces();
     flyingUpdate = how.flying && faces > 0;
     if (flyingUpdate && (settings.traced.faceBudget == 0 || settings.traced.faceBudget > faces))
@@ -260,8 +247,8 @@ bool PictureSlot::Impl::drawScene(const Session& session, const std::string& dra
     renderFrame(session, settings, w, h);
     followUpdateTime();
     --settling;
-    if (drawnMode == "traced")
-        noise.follow(kSettlingFrames - settling, [this]() -> const Image& { return read(); });
+    if (drawnMode == "traced" && !views)
+        noise.follow(passes.all() - settling, [this]() -> const Image& { return read(); });
     return settling > 0;
 }
 
@@ -435,6 +422,15 @@ Renderer* PictureSlot::renderer() {
     return isSettingsMode(impl_->mode) || impl_->preview ? impl_->renderer.get() : nullptr;
 }
 
+// Of a picture of the renderer's: how far it is.
+std::string PictureSlot::Impl::progress() const {
+    const bool hasLight = mode == "traced";
+    const std::string noisy =
+        hasLight && noise.value() ? fmt::format("  noise {:.1f} %", 100 * *noise.value()) : "";
+    if (settling == 0) return hasLight ? noisy + "  done" : "";
+    return "  " + passes.text(settling) + noisy;
+}
+
 bool PictureSlot::ownPicture() const { return impl_->texture != 0 && impl_->own; }
 
 bool PictureSlot::finished() const {
@@ -471,12 +467,7 @@ std::string PictureSlot::label() const {
                            impl_->preview ? instead : "; light as it was before the change");
     }
     if (impl_->mode == "hybrid") return hybridLabel(impl_->statics.status(), impl_->baked != nullptr);
-    if (impl_->mode != "traced" || impl_->version == 0) return impl_->mode;
-    const std::string noise =
-        impl_->noise.value() ? fmt::format("  noise {:.1f} %", 100 * *impl_->noise.value()) : "";
-    if (impl_->settling == 0) return impl_->mode + noise + "  done";
-    return fmt::format("{}  pass {} of {}{}", impl_->mode, kSettlingFrames - impl_->settling, kSettlingFrames,
-                       noise);
+    return impl_->version == 0 ? impl_->mode : impl_->mode + impl_->progress();
 }
 
 }  // namespace conelight::program

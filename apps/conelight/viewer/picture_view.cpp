@@ -49,6 +49,7 @@ glm::vec3 moveKeys(const platform::Window& window) {
 struct PictureView::Errors {
     platform::PictureTexture texture;
     std::uint64_t leftVersion = 0, rightVersion = 0;
+    std::string rightMode;
     float scale = 0;
 };
 
@@ -87,11 +88,11 @@ std::optional<std::string> PictureView::takeError() {
 }
 
 bool PictureView::showsOwn() const {
-    return !moving() && left_->ownPicture() && (!split.on || right_->ownPicture());
+    return !moving() && left_->ownPicture() && (!rightIsLive() || right_->ownPicture());
 }
 
 bool PictureView::finished() const {
-    return !moving() && left_->finished() && (!split.on || right_->finished());
+    return !moving() && left_->finished() && (!rightIsLive() || right_->finished());
 }
 
 bool PictureView::update(const Session& session, const glm::ivec2& areaPx, bool userActs) {
@@ -150,24 +151,33 @@ void PictureView::countPicture() {
 // one.
 void PictureView::updateRight(const Session& session, const glm::ivec2& size, const PictureSlot::How& how,
                               bool& more) {
-    if (std::exchange(rightInUse_, split.on) && !split.on) right_->clear();
-    if (!split.on) return;
+    if (std::exchange(rightInUse_, rightIsLive()) && !rightIsLive()) right_->clear();
+    if (!rightIsLive()) return;
     PictureSlot::How right = how;
     right.preview = false;
     more = right_->draw(session, split.mode, size.x, size.y, right) || more;
 }
 
-std::uint32_t PictureView::rightTexture() const {
-    if (!right_->ownPicture()) return left_->texture();
-    return split.errors ? errors_->texture.name() : right_->texture();
+std::uint32_t PictureView::rightTexture(const ImageSettings& look) {
+    const bool has = rightIsLive() ? right_->ownPicture() : kept.any();
+    if (!has) return left_->texture();
+    if (split.errors) return errors_->texture.name();
+    return rightIsLive() ? right_->texture() : kept.texture(look);
+}
+
+ScopesPanel::Source PictureView::shownPicture() {
+    if (kept.shows()) return {"kept", kept.version(), [this]() -> const Image& { return kept.linear(); }};
+    return {"live", left_->version(), [this]() -> const Image& { return left_->linear(); }};
 }
 
 void PictureView::showErrors() {
-    if (!left_->ownPicture() || !right_->ownPicture()) return;
-    const bool current = errors_->leftVersion == left_->version() &&
-                         errors_->rightVersion == right_->version() && errors_->scale == split.errorScale;
+    const bool live = rightIsLive();
+    if (!left_->ownPicture() || !(live ? right_->ownPicture() : kept.any())) return;
+    const std::uint64_t rightVersion = live ? right_->version() : kept.version();
+    const bool current = errors_->leftVersion == left_->version() && errors_->rightVersion == rightVersion &&
+                         errors_->rightMode == split.mode && errors_->scale == split.errorScale;
     const Image& test = left_->linear();
-    const Image& truth = right_->linear();
+    const Image& truth = live ? right_->linear() : kept.linear();
     if (current || test.width != truth.width || test.height != truth.height || test.pixels.empty()) return;
     std::vector<float> values;
     try {
@@ -180,7 +190,8 @@ void PictureView::showErrors() {
         reference::colorOfError(values[i] / split.errorScale, true, &rgb[3 * i]);
     errors_->texture.update(test.width, test.height, rgb);
     errors_->leftVersion = left_->version();
-    errors_->rightVersion = right_->version();
+    errors_->rightVersion = rightVersion;
+    errors_->rightMode = split.mode;
     errors_->scale = split.errorScale;
 }
 
@@ -197,13 +208,17 @@ std::optional<PictureView::Click> PictureView::show(Session& session, const glm:
                                ImGuiButtonFlags_MouseButtonMiddle);
     const bool hovered = ImGui::IsItemHovered();
     const bool letGo = ImGui::IsItemDeactivated();  // by a press that began here, not in a panel
+    if (kept.shows()) {
+        kept.show(session.settings().image, at, size, hovered);
+        return std::nullopt;
+    }
     ImDrawList* list = ImGui::GetWindowDrawList();
     const ImVec2 low{at.x, at.y}, high{at.x + size.x, at.y + size.y};
     if (left_->texture() != 0) list->AddImage(idOf(left_->texture()), low, high);
 
     if (split.on) {
         const float x = at.x + split.position * size.x;
-        const std::uint32_t right = rightTexture();
+        const std::uint32_t right = rightTexture(session.settings().image);
         if (right != 0) list->AddImage(idOf(right), {x, low.y}, high, {split.position, 0}, {1, 1});
         list->AddLine({x, low.y}, {x, high.y}, IM_COL32(235, 235, 235, 220), 2);
         const ImVec2 mouse = ImGui::GetIO().MousePos;

@@ -16,14 +16,16 @@
 #include "platform/window.h"
 #include "session/session.h"
 #include "viewer/gizmo.h"
+#include "viewer/kept_picture.h"
 #include "viewer/moving_resolution.h"
 #include "viewer/picture_slot.h"
+#include "viewer/scopes_panel.h"
 
 namespace conelight::program {
 
 struct Split {
     bool on = false;
-    std::string mode = "reference";  // of the right side
+    std::string mode = "reference";  // of the right side; "kept": the picture that was kept
     float position = 0.5f;           // of the picture's width
     bool errors = false;             // the right side shows the left one's error against it
     float errorScale = 1.0f;         // error that is white, relative to the mean radiance
@@ -60,6 +62,10 @@ class PictureView {
 
     Split split;
     Gizmo gizmo;
+    KeptPicture kept;
+    ScopesPanel scopes;
+    ScopesPanel::Source
+    shownPicture();  // that the scopes are of: the kept one while it is shown, else the left one
     float resolutionScale = 1.0f;  // of the still picture, 0.25..1
     PictureSlot& slot(bool right) { return right ? *right_ : *left_; }
     glm::ivec2 pictureSize() const;                    // of the left picture
@@ -68,15 +74,16 @@ class PictureView {
     bool showsOwn() const;                             // both sides show their mode's picture
     bool finished() const;                             // nothing would refine what is shown
     // The picture on that side of the split, under which a click is looked up.
-    PictureSlot& slotAt(float part) { return slot(split.on && !split.errors && part >= split.position); }
+    PictureSlot& slotAt(float part) { return slot(rightIsLive() && !split.errors && part >= split.position); }
 
   private:
     bool takeInput(Session& session, const glm::vec2& size, bool hovered, float seconds);
     void showErrors();
     void beginMovement();
     void countPicture();
+    bool rightIsLive() const { return split.on && split.mode != "kept"; }
     void updateRight(const Session& session, const glm::ivec2& size, const PictureSlot::How& how, bool& more);
-    std::uint32_t rightTexture() const;
+    std::uint32_t rightTexture(const ImageSettings& look);
 
     platform::Window& window_;
     std::unique_ptr<PictureSlot> left_, right_;

@@ -61,11 +61,12 @@ void SettingsPanel::showNumber(const Row& row, const SettingEdit& edit) {
         ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp;
         if (isLogarithmic(low, high)) flags |= ImGuiSliderFlags_Logarithmic;
         const float span = static_cast<float>(high - low);
-        changed = high <= 1000 ? ImGui::SliderFloat("##v", &number, static_cast<float>(low),
-                                                    static_cast<float>(high), "%.4g", flags)
-                               : ImGui::DragFloat("##v", &number, std::min(0.01f, 0.001f * span),
-                                                  static_cast<float>(low), static_cast<float>(high), "%.4g",
-                                                  ImGuiSliderFlags_AlwaysClamp);
+        changed =
+            high <= 1000 || info.unit == "K"
+                ? ImGui::SliderFloat("##v", &number, static_cast<float>(low), static_cast<float>(high),
+                                     "%.4g", flags)
+                : ImGui::DragFloat("##v", &number, std::min(0.01f, 0.001f * span), static_cast<float>(low),
+                                   static_cast<float>(high), "%.4g", ImGuiSliderFlags_AlwaysClamp);
         if (changed) edit(info.key, fmt::format("{}", number), false);
     }
     if (ImGui::IsItemDeactivatedAfterEdit()) edit(info.key, "", true);

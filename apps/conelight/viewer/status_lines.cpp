@@ -22,6 +22,8 @@ std::string pictureText(const PictureView& view, const glm::vec2& at) {
 
 std::string splitText(PictureView& view) {
     if (!view.split.on) return "off";
+    if (view.split.mode == "kept")
+        return fmt::format("kept at {:.3f}{}", view.split.position, view.split.errors ? ", errors" : "");
     PictureSlot& right = view.slot(true);
     return fmt::format("{} at {:.3f}{}, {}, {} x {} pixels", view.split.mode, view.split.position,
                        view.split.errors ? ", errors" : "", right.ownPicture() ? "shown" : "not yet",
@@ -78,6 +80,7 @@ std::vector<std::pair<std::string, std::string>> statusLines(const StatusInputs&
         {"picture", pictureText(in.view, in.panels.layout().pictureAt())},
         {"mode", left.label()},
         {"split", splitText(in.view)},
+        {"kept", in.view.kept.text()},
         {"settled", in.view.finished() ? "yes" : "no"},
         {"selection", selectionText(in.session)},
         {"camera", cameraText(in.session.camera())},

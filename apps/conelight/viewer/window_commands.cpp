@@ -44,6 +44,10 @@ void WindowCommands::carryOut(const Request& request) {
         {"stop", [&](const Words&) { in_.work.stop(); }},
         {"status", [&](const Words& words) { status(words); }},
         {"screenshot_window", [&](const Words& words) { windowShot_ = words[1]; }},
+        {"keep", [&](const Words& words) { keep(words); }},
+        {"flip", [&](const Words& words) { flip(words); }},
+        {"scopes", [&](const Words& words) { in_.view.scopes.open = switched(words, in_.view.scopes.open); }},
+        {"histogram", [&](const Words&) { histogram(); }},
         {"where", [&](const Words& words) { where(words); }},
     };
     const auto command = commands.find(request.words.front());
@@ -59,12 +63,51 @@ void WindowCommands::pick(const Words& words) {
         in_.probe.inspect({{number(words[1]), number(words[2])}});
 }
 
+void WindowCommands::keep(const Words& words) {
+    KeptPicture& kept = in_.view.kept;
+    if (words.size() > 1) {
+        kept.open(words[1], words.size() > 2 ? words[2] : "");
+    } else {
+        PictureSlot& slot = in_.view.slot(false);
+        if (slot.linear().pixels.empty())
+            throw Error(ErrorKind::Usage, "keep: there is no picture yet; `settle` first would be right");
+        kept.keep(slot.linear(), slot.label());
+    }
+    in_.console.say("kept " + kept.text());
+}
+
+void WindowCommands::requireKept(const char* command) const {
+    if (!in_.view.kept.any())
+        throw Error(ErrorKind::Usage,
+                    std::string(command) + ": nothing is kept; `keep`, or key K, first would be right");
+}
+
+void WindowCommands::flip(const Words& words) {
+    requireKept("flip");
+    in_.view.kept.shown = switched(words, in_.view.kept.shown);
+}
+
+void WindowCommands::histogram() {
+    const Scopes& scopes = in_.view.scopes.follow(in_.view.shownPicture(), in_.session.settings().image);
+    in_.console.say("histogram: " + scopesText(scopes));
+    constexpr int kBins = Scopes::kBinsPerStop;
+    for (int stop = Scopes::kDarkest; stop < Scopes::kBrightest; ++stop) {
+        std::uint32_t count = 0;
+        for (int i = 0; i < kBins; ++i)
+            count += scopes.luminance[static_cast<std::size_t>((stop - Scopes::kDarkest) * kBins + i)];
+        if (count > 0)
+            in_.console.say(
+                fmt::format("  {:+3} to {:+3} stops  {:.3f} %", stop, stop + 1, 100 * scopes.part(count)));
+    }
+}
+
 void WindowCommands::split(const Words& words) {
     Split& split = in_.view.split;
     if (words.size() == 1) {
         split.on = !split.on;
         return;
     }
+    if (words[1] == "kept") requireKept("split");
     split.on = words[1] != "off";
     if (split.on) split.mode = words[1];
     if (words.size() > 2) split.position = number(words[2]);

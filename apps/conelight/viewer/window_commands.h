@@ -41,6 +41,10 @@ class WindowCommands {
     void resolution(const Words& words);
     void status(const Words& words);
     void where(const Words& words);
+    void keep(const Words& words);
+    void flip(const Words& words);
+    void requireKept(const char* command) const;  // throws Error(Usage)
+    void histogram();
 
     Inputs in_;
     std::string windowShot_;  // a file that gets the next frame
