@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Linear radiance -> 8-bit picture: exposure, tone curve, sRGB (IEC 61966-2-1), rounding without dither.
+// Linear radiance -> picture of 8 or 16 bits: exposure, tone curve, sRGB (IEC 61966-2-1), rounding without dither.
 // Curves: Reinhard 2002 on luminance; the filmic curve is Narkowicz's rational fit of the ACES reference
 // transform ("ACES Filmic Tone Mapping Curve", 2015), applied per channel; AgX is Sobotka's, with the
 // matrices and the polynomial that Wrensch fitted ("Minimal AgX Implementation", 2023); Neutral is the
@@ -8,6 +8,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "conelight/renderer.h"
@@ -65,6 +67,28 @@ float srgbFromLinear(float c) {
     return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
 }
 
+// RGB in all the values that a `Value` has.
+template <class Value>
+std::vector<Value> shownAs(const Image& image, const ImageSettings& settings) {
+    constexpr float kMost = float(std::numeric_limits<Value>::max());
+    std::optional<Image> spread;
+    if (settings.bloom > 0) spread = image::bloomed(image, settings.bloom);
+    const float scale = std::exp2(settings.exposure.isAuto ? autoExposure(image) : settings.exposure.value);
+    std::vector<Value> values;
+    values.reserve(image.pixels.size() * 3);
+    for (const glm::vec4& pixel : (spread ? *spread : image).pixels) {
+        const glm::vec3 color =
+            toneCurve(glm::clamp(glm::vec3(pixel) * scale, 0.0f, kWhite), settings.toneMap);
+        for (int i = 0; i < 3; ++i) {
+            // A NaN shows as black here; readers of the linear image see it (conelight render counts them).
+            const float linear = color[i] > 0.0f ? std::min(color[i], 1.0f) : 0.0f;
+            values.push_back(
+                static_cast<Value>(std::lround((settings.srgb ? srgbFromLinear(linear) : linear) * kMost)));
+        }
+    }
+    return values;
+}
+
 }  // namespace
 
 float autoExposure(const Image& image) {
@@ -91,22 +115,11 @@ float autoExposure(const Image& image) {
 }
 
 std::vector<std::uint8_t> toneMapped(const Image& image, const ImageSettings& settings) {
-    std::optional<Image> spread;
-    if (settings.bloom > 0) spread = image::bloomed(image, settings.bloom);
-    const float scale = std::exp2(settings.exposure.isAuto ? autoExposure(image) : settings.exposure.value);
-    std::vector<std::uint8_t> bytes;
-    bytes.reserve(image.pixels.size() * 3);
-    for (const glm::vec4& pixel : (spread ? *spread : image).pixels) {
-        const glm::vec3 color =
-            toneCurve(glm::clamp(glm::vec3(pixel) * scale, 0.0f, kWhite), settings.toneMap);
-        for (int i = 0; i < 3; ++i) {
-            // A NaN shows as black here; readers of the linear image see it (conelight render counts them).
-            const float linear = color[i] > 0.0f ? std::min(color[i], 1.0f) : 0.0f;
-            bytes.push_back(static_cast<std::uint8_t>(
-                std::lround((settings.srgb ? srgbFromLinear(linear) : linear) * 255.0f)));
-        }
-    }
-    return bytes;
+    return shownAs<std::uint8_t>(image, settings);
+}
+
+std::vector<std::uint16_t> toneMapped16(const Image& image, const ImageSettings& settings) {
+    return shownAs<std::uint16_t>(image, settings);
 }
 
 }  // namespace conelight
