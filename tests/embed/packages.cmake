@@ -55,7 +55,7 @@ check(libconelight-dev "libconelight0.1;libglm-dev" usr/include/conelight.h usr/
   usr/include/conelight/io/scene_file.h ${lib}/libconelight.a ${lib}/libconelight.so ${lib}/pkgconfig/conelight.pc
   ${lib}/pkgconfig/conelight-c.pc ${lib}/cmake/conelight/conelightConfig.cmake)
 check(conelight "libepoxy0;libglfw3;libembree[^ ,]*" usr/bin/conelight
-  usr/share/applications/conelight.desktop usr/share/mime/packages/conelight.xml
+  usr/share/bash-completion/completions/conelight usr/share/man/man1/conelight.1 usr/share/applications/conelight.desktop usr/share/mime/packages/conelight.xml
   usr/share/thumbnailers/conelight.thumbnailer usr/share/doc/conelight/docs/guide/viewer.md)
 step("the program" ${WORK_DIR}/root/usr/bin/conelight --version)
 
