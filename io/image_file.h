@@ -35,8 +35,9 @@ struct ByteImage {
 struct WordImage {
     int width = 0;
     int height = 0;
-    int channels = 3;                   // 1 grey, 3 RGB, 4 RGBA
-    std::vector<std::uint16_t> pixels;  // channels * width * height
+    int channels = 3;                                             // 1 grey, 3 RGB, 4 RGBA
+    std::vector<std::uint16_t> pixels;                            // channels * width * height
+    std::vector<std::pair<std::string, std::string>> attributes;  // as of ByteImage
 };
 
 // A further layer of an EXR file. Channel names in the file: NAME (1 channel), NAME.X .Y (2), NAME.R .G .B

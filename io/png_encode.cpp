@@ -85,6 +85,7 @@ std::vector<std::uint8_t> encodePng16(const WordImage& image) {
     bytes.width = image.width;
     bytes.height = image.height;
     bytes.channels = image.channels;
+    bytes.attributes = image.attributes;
     bytes.pixels.reserve(2 * image.pixels.size());
     for (const std::uint16_t value : image.pixels) {
         bytes.pixels.push_back(std::uint8_t(value >> 8));

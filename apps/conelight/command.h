@@ -34,6 +34,7 @@ void addSettings(CLI::App& app);
 void addCommands(CLI::App& app);
 void addConvert(CLI::App& app);
 void addShaders(CLI::App& app);
+void addThumbnail(CLI::App& app);
 void addView(CLI::App& app);
 
 // One status line on standard error, on a terminal only; of work that says nothing for a while it counts

@@ -104,6 +104,7 @@ int main(int argc, char** argv) {
     conelight::program::addFigures(app);
     conelight::program::addInfo(app);
     conelight::program::addInspect(app);
+    conelight::program::addThumbnail(app);
     conelight::program::addSettings(app);
     conelight::program::addCommands(app);
     conelight::program::addConvert(app);

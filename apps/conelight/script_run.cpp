@@ -17,6 +17,21 @@
 namespace conelight::program {
 namespace {
 
+// Pictures of another size, until it ends.
+class SizeScope {
+  public:
+    SizeScope(PictureRequest& base, const PictureFormat& format) : base_(base), before_(base.size) {
+        if (format.width > 0) base_.size = {format.width, format.height};
+    }
+    ~SizeScope() { base_.size = before_; }
+    SizeScope(const SizeScope&) = delete;
+    SizeScope& operator=(const SizeScope&) = delete;
+
+  private:
+    PictureRequest& base_;
+    Size before_;
+};
+
 class Runner {
   public:
     Runner(Session& session, PictureSource* source, const PictureRequest& base, Progress& progress)
@@ -84,9 +99,7 @@ class Runner {
                     std::fprintf(stderr, "conelight: %s: %s\n", request.file.c_str(), note.c_str());
                 break;
             case RequestKind::Screenshot: {
-                const Image image = draw();
-                writePicture(request.file, image, session_.shownSettings().image, texts());
-                console_.print("written " + request.file);
+                screenshot(request);
                 break;
             }
             case RequestKind::Record:
@@ -122,10 +135,23 @@ class Runner {
         }
     }
 
+    // What is written of what was drawn.
+    WrittenPicture written(const Request& request, const Image& image) const {
+        return pictureFor(request.format, image, session_.scene(), session_.camera(),
+                          session_.shownSettings().image);
+    }
+    void screenshot(const Request& request) {
+        const SizeScope size(base_, request.format);
+        const WrittenPicture picture = written(request, draw());
+        writePicture(request.file, picture.image, picture.look, texts(), {}, request.format);
+        console_.print("written " + request.file);
+    }
+
     void record(const Request& request) {
+        const SizeScope size(base_, request.format);
         const PictureRequest shown = requestFor(session_, base_);
         VideoFile video(request.file, shown.size.width, shown.size.height, request.framesPerSecond,
-                        request.first);
+                        request.first, request.format);
         const Camera start = session_.camera();
         const auto began = std::chrono::steady_clock::now();
         const int total = request.total > 0 ? request.total : request.count;
@@ -138,8 +164,11 @@ class Runner {
             if (beforeFrame_) beforeFrame_(session_, index);
             if (request.turntable) session_.moveCamera(turntableFrame(start, index, total));
             if (request.alongPath) session_.moveCamera(session_.cameraPath().frame(index, total));
+            if (request.clip)
+                session_.poseClip(session_.clipState().clip, double(index) / request.framesPerSecond);
             const Picture picture = drawPicture(layers_ != nullptr);
-            video.add(picture.images.front(), session_.shownSettings().image, texts(),
+            const WrittenPicture frameToWrite = written(request, picture.images.front());
+            video.add(frameToWrite.image, frameToWrite.look, texts(),
                       layers_ ? layers_(picture) : PictureLayers{});
         }
         session_.moveCamera(start);

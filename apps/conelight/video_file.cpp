@@ -32,10 +32,22 @@ std::string numbered(const std::string& pattern, int number) {
     return fmt::format("{}{:0{}}{}", pattern.substr(0, percent), number, digits, pattern.substr(end + 1));
 }
 
+// ffmpeg's options by the kind of film.
+std::string encodingOf(const std::string& file, bool alpha) {
+    const std::string ending = std::filesystem::path(file).extension().string();
+    if (alpha) return "-c:v prores_ks -profile:v 4444 -pix_fmt yuva444p10le";
+    if (ending == ".gif")  // a palette of its own: the usual one dithers coarsely
+        return "-filter_complex 'split[a][b];[a]palettegen=stats_mode=diff[p];[b][p]paletteuse=dither=bayer'";
+    if (ending == ".webp") return "-c:v libwebp_anim -loop 0 -quality 82";
+    // Even sizes: the usual pixel format of films holds colour at half resolution.
+    return "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2' -pix_fmt yuv420p";
+}
+
 }  // namespace
 
-VideoFile::VideoFile(const std::string& file, int width, int height, int framesPerSecond, int first)
-    : file_(file), count_(first) {
+VideoFile::VideoFile(const std::string& file, int width, int height, int framesPerSecond, int first,
+                     const PictureFormat& format)
+    : file_(file), format_(format), count_(first) {
     if (file.find('%') != std::string::npos) {
         io::checkWritable(numbered(file, first));
         return;
@@ -49,11 +61,10 @@ VideoFile::VideoFile(const std::string& file, int width, int height, int framesP
                         file));
     // ffmpeg knows the format by the ending.
     partial_ = io::newFileBeside(file, ".part" + std::filesystem::path(file).extension().string()).string();
-    // Even sizes: the usual pixel format of films holds colour at half resolution.
-    const std::string command = fmt::format(
-        "ffmpeg -y -loglevel error -f rawvideo -pix_fmt rgb24 -s {}x{} -r {} -i - "
-        "-vf 'pad=ceil(iw/2)*2:ceil(ih/2)*2' -pix_fmt yuv420p {} >/dev/null",
-        width, height, framesPerSecond, shellWord(partial_));
+    const std::string command =
+        fmt::format("ffmpeg -y -loglevel error -f rawvideo -pix_fmt {} -s {}x{} -r {} -i - {} {} >/dev/null",
+                    format.alpha ? "rgba" : "rgb24", width, height, framesPerSecond,
+                    encodingOf(file, format.alpha), shellWord(partial_));
     pipe_ = ::popen(command.c_str(), "w");
     if (pipe_ == nullptr) {
         std::error_code ignored;
@@ -72,9 +83,11 @@ VideoFile::~VideoFile() {
 
 void VideoFile::add(const Image& image, const ImageSettings& settings, const PictureTexts& texts,
                     const PictureLayers& layers) {
-    if (partial_.empty()) return writePicture(numbered(file_, count_++), image, settings, texts, layers);
+    if (partial_.empty())
+        return writePicture(numbered(file_, count_++), image, settings, texts, layers, format_);
     const IgnorePipeSignal ignore;
-    const std::vector<std::uint8_t> bytes = toneMapped(image, settings);
+    const std::vector<std::uint8_t> bytes =
+        format_.alpha ? shownWithAlpha<std::uint8_t>(image, settings) : toneMapped(image, settings);
     if (std::fwrite(bytes.data(), 1, bytes.size(), pipe_) != bytes.size() || std::fflush(pipe_) != 0)
         throw Error(ErrorKind::Runtime, file_ + ": ffmpeg stopped reading; its own message stands above");
     ++count_;

@@ -22,7 +22,7 @@ struct ViewCommand {
     std::string scene = "builtin:cornell";
     std::string mode;
     std::string shaderDirectory;
-    std::string window = "1280x800";
+    std::string window;  // empty: as it was last
     std::vector<std::string> commands;
     bool noInput = false;
     bool noState = false;
@@ -71,7 +71,7 @@ std::vector<std::string> commandsFor(const std::string& picture) {
 }
 
 int run(const ViewCommand& options) {
-    const Size size = parseSize(options.window);
+    const Size size = options.window.empty() ? Size{0, 0} : parseSize(options.window);
     // A file that is not there needs no window to be said.
     std::error_code ignored;
     const bool picture = isPictureFile(options.scene);
@@ -114,8 +114,9 @@ void addView(CLI::App& app) {
         ->type_name("COMMANDS")
         ->allow_extra_args(false);
     command->add_flag("--no-input", options->noInput, "do not read commands from standard input");
-    command->add_flag("--no-state", options->noState,
-                      "remember nothing: neither scenes that were opened nor lines that were typed");
+    command->add_flag(
+        "--no-state", options->noState,
+        "remember nothing: neither the window's look nor scenes, typed lines and unsaved changes");
     command->add_flag("--timing", options->timing,
                       "print when the first frame was shown, and at the end what frames cost");
     command
@@ -129,8 +130,9 @@ void addView(CLI::App& app) {
         ->check(CLI::Range(1, 1 << 20));
     options->view.addTo(*command);
     command->remove_option(command->get_option("--size"));  // of pictures without a window
-    command->add_option("--window,--size", options->window, "size of the window")
-        ->capture_default_str()
+    command
+        ->add_option("--window,--size", options->window,
+                     "size of the window; by default as it was last, at first 1280x800")
         ->type_name("WxH");
     options->radiosity.addSolverTo(*command);
     command->callback([options] {

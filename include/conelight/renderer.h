@@ -153,5 +153,11 @@ CONELIGHT_API glm::u8vec3 falseColor(float stops);
 // 8-bit picture bytes (RGB, first row on top) of a linear image: exposure, white balance, tone map, sRGB encoding, or
 // the check of exposure that is asked for.
 CONELIGHT_API std::vector<std::uint8_t> toneMapped(const Image& image, const ImageSettings& settings);
+// The same with 16 bits a channel.
+CONELIGHT_API std::vector<std::uint16_t> toneMapped16(const Image& image, const ImageSettings& settings);
+
+// The picture without the surroundings behind it: a is the part of a pixel that surfaces cover, rgb their light
+// times it (associated alpha). `image`: of this scene and camera.
+CONELIGHT_API Image foreground(const Image& image, const Scene& scene, const Camera& camera);
 
 }  // namespace conelight

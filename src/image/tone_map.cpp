@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Linear radiance -> 8-bit picture: exposure, white balance, tone curve, sRGB (IEC 61966-2-1), rounding without dither;
-// checks of exposure.
+// Linear radiance -> picture of 8 or 16 bits: exposure, white balance, tone curve, sRGB (IEC 61966-2-1), rounding
+// without dither; checks of exposure.
 // Curves: Reinhard 2002 on luminance; the filmic curve is Narkowicz's rational fit of the ACES reference
 // transform ("ACES Filmic Tone Mapping Curve", 2015), applied per channel; AgX is Sobotka's, with the
 // matrices and the polynomial that Wrensch fitted ("Minimal AgX Implementation", 2023); Neutral is the
@@ -9,6 +9,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <optional>
 
 #include "conelight/renderer.h"
@@ -69,29 +71,67 @@ float srgbFromLinear(float c) {
     return c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1.0f / 2.4f) - 0.055f;
 }
 
-using Bytes = glm::u8vec3;
+// RGB in all the values that a `Value` has.
+template <class Value>
+using Shown = glm::vec<3, Value>;
+template <class Value>
+constexpr float kMost = float(std::numeric_limits<Value>::max());
 
 // A NaN shows as black here; readers of the linear image see it (conelight render counts them).
-Bytes encoded(const glm::vec3& color, bool srgb) {
-    Bytes bytes;
+template <class Value>
+Shown<Value> encoded(const glm::vec3& color, bool srgb) {
+    Shown<Value> values;
     for (int i = 0; i < 3; ++i) {
         const float linear = color[i] > 0.0f ? std::min(color[i], 1.0f) : 0.0f;
-        bytes[i] = static_cast<std::uint8_t>(std::lround((srgb ? srgbFromLinear(linear) : linear) * 255.0f));
+        values[i] = static_cast<Value>(std::lround((srgb ? srgbFromLinear(linear) : linear) * kMost<Value>));
     }
-    return bytes;
+    return values;
+}
+
+template <class Value>
+Shown<Value> ofBytes(const glm::u8vec3& bytes) {
+    return Shown<Value>(bytes) * static_cast<Value>(std::numeric_limits<Value>::max() / 255);
 }
 
 // Stripes over what is lost (`x` and `y` from the upper left corner).
-Bytes clippingMarked(const Bytes& shown, int x, int y) {
-    const bool over = shown.r == 255 || shown.g == 255 || shown.b == 255, under = shown == Bytes(0);
+template <class Value>
+Shown<Value> clippingMarked(const Shown<Value>& shown, int x, int y) {
+    constexpr Value kFull = std::numeric_limits<Value>::max();
+    const bool over = shown.r == kFull || shown.g == kFull || shown.b == kFull, under = shown == Shown<Value>(0);
     const bool stripe = ((x + y) / CLIPPING_STRIPE & 1) == 0;
     if (!stripe || !(over || under)) return shown;
-    return over ? Bytes(255, 0, 64) : Bytes(0, 64, 255);
+    return ofBytes<Value>(over ? glm::u8vec3(255, 0, 64) : glm::u8vec3(0, 64, 255));
 }
 
-Bytes falseColorOf(const glm::vec3& light) {
+glm::u8vec3 falseColorOf(const glm::vec3& light) {
     const float luminance = glm::dot(light, glm::vec3(0.2126f, 0.7152f, 0.0722f));
     return falseColor(std::log2((luminance > 1e-10f ? luminance : 1e-10f) / EXPOSURE_GREY));
+}
+
+template <class Value>
+std::vector<Value> shownAs(const Image& image, const ImageSettings& settings) {
+    std::optional<Image> spread;
+    if (settings.bloom > 0) spread = image::bloomed(image, settings.bloom);
+    const float scale = std::exp2(settings.exposure.isAuto ? autoExposure(image) : settings.exposure.value);
+    const glm::mat3 balance = image::whiteBalance(settings.whiteBalance, settings.tint);
+    const bool balances = balance != glm::mat3(1);
+    std::vector<Value> values;
+    values.reserve(image.pixels.size() * 3);
+    int x = 0, y = 0;
+    for (const glm::vec4& pixel : (spread ? *spread : image).pixels) {
+        const glm::vec3 color = balances ? balance * glm::min(glm::vec3(pixel), kFinite) : glm::vec3(pixel);
+        const glm::vec3 light = glm::clamp(color * scale, 0.0f, kWhite);
+        Shown<Value> shown = settings.check == ExposureCheck::FalseColor
+                                 ? ofBytes<Value>(falseColorOf(light))
+                                 : encoded<Value>(toneCurve(light, settings.toneMap), settings.srgb);
+        if (settings.check == ExposureCheck::Clipping) shown = clippingMarked<Value>(shown, x, y);
+        values.insert(values.end(), {shown.r, shown.g, shown.b});
+        if (++x == image.width) {
+            x = 0;
+            ++y;
+        }
+    }
+    return values;
 }
 
 }  // namespace
@@ -130,28 +170,11 @@ float autoExposure(const Image& image) {
 }
 
 std::vector<std::uint8_t> toneMapped(const Image& image, const ImageSettings& settings) {
-    std::optional<Image> spread;
-    if (settings.bloom > 0) spread = image::bloomed(image, settings.bloom);
-    const float scale = std::exp2(settings.exposure.isAuto ? autoExposure(image) : settings.exposure.value);
-    const glm::mat3 balance = image::whiteBalance(settings.whiteBalance, settings.tint);
-    const bool balances = balance != glm::mat3(1);
-    std::vector<std::uint8_t> bytes;
-    bytes.reserve(image.pixels.size() * 3);
-    int x = 0, y = 0;
-    for (const glm::vec4& pixel : (spread ? *spread : image).pixels) {
-        const glm::vec3 color = balances ? balance * glm::min(glm::vec3(pixel), kFinite) : glm::vec3(pixel);
-        const glm::vec3 light = glm::clamp(color * scale, 0.0f, kWhite);
-        Bytes shown = settings.check == ExposureCheck::FalseColor
-                          ? falseColorOf(light)
-                          : encoded(toneCurve(light, settings.toneMap), settings.srgb);
-        if (settings.check == ExposureCheck::Clipping) shown = clippingMarked(shown, x, y);
-        bytes.insert(bytes.end(), {shown.r, shown.g, shown.b});
-        if (++x == image.width) {
-            x = 0;
-            ++y;
-        }
-    }
-    return bytes;
+    return shownAs<std::uint8_t>(image, settings);
+}
+
+std::vector<std::uint16_t> toneMapped16(const Image& image, const ImageSettings& settings) {
+    return shownAs<std::uint16_t>(image, settings);
 }
 
 }  // namespace conelight

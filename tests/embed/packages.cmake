@@ -54,7 +54,9 @@ endif()
 check(libconelight-dev "libconelight0.1;libglm-dev" usr/include/conelight.h usr/include/conelight/renderer.h
   usr/include/conelight/io/scene_file.h ${lib}/libconelight.a ${lib}/libconelight.so ${lib}/pkgconfig/conelight.pc
   ${lib}/pkgconfig/conelight-c.pc ${lib}/cmake/conelight/conelightConfig.cmake)
-check(conelight "libepoxy0;libglfw3;libembree[^ ,]*" usr/bin/conelight)
+check(conelight "libepoxy0;libglfw3;libembree[^ ,]*" usr/bin/conelight
+  usr/share/bash-completion/completions/conelight usr/share/man/man1/conelight.1 usr/share/applications/conelight.desktop usr/share/mime/packages/conelight.xml
+  usr/share/thumbnailers/conelight.thumbnailer usr/share/doc/conelight/docs/guide/viewer.md)
 step("the program" ${WORK_DIR}/root/usr/bin/conelight --version)
 
 set(root ${WORK_DIR}/root/usr)

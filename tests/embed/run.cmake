@@ -35,7 +35,7 @@ endforeach()
 if(EXISTS ${prefix}/bin/conelight)
   foreach(file bash-completion/completions/conelight zsh/site-functions/_conelight fish/vendor_completions.d/conelight.fish
       man/man1/conelight.1 applications/conelight.desktop mime/packages/conelight.xml
-      icons/hicolor/scalable/apps/conelight.svg)
+      thumbnailers/conelight.thumbnailer icons/hicolor/scalable/apps/conelight.svg doc/conelight/docs/guide/viewer.md)
     if(NOT EXISTS ${prefix}/share/${file})
       message(FATAL_ERROR "embed: share/${file} is not installed")
     endif()

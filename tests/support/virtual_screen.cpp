@@ -263,6 +263,10 @@ bool ViewerProcess::waits() const {
     return !gone;
 }
 
+void ViewerProcess::crash() {
+    kill(process_, SIGKILL);
+    exitStatus();
+}
 void ViewerProcess::pause() { kill(process_, SIGSTOP); }
 void ViewerProcess::resume() { kill(process_, SIGCONT); }
 

@@ -73,6 +73,7 @@ class ViewerProcess {
     // Waits for the end; -1: it did not end.
     int exitStatus();
     bool running();
+    void crash();  // ends it at once
     // Holds the program where it is, so that all input meanwhile reaches it at once, and lets it go on.
     void pause();
     void resume();

@@ -8,6 +8,7 @@
 #include "io/image_file.h"
 
 #include <algorithm>
+#include <cstdio>
 
 namespace conelight::program {
 namespace {
@@ -63,23 +64,59 @@ void help(const CommandContext& context) {
 }
 
 void screenshot(const CommandContext& context) {
-    io::imageFormatOf(context.words[0]);
-    io::checkWritable(context.words[0]);
-    context.session.request({RequestKind::Screenshot, context.words[0]});
+    Request request{RequestKind::Screenshot, context.words[0]};
+    io::imageFormatOf(request.file);
+    for (std::size_t i = 1; i < context.count(); ++i)
+        if (!takeFormatWord(request.format, context.words[i]))
+            throw Error(ErrorKind::Usage, "screenshot: '" + context.words[i] +
+                                              "': a size as 1920x1080, alpha or 16bit would be right");
+    checkFormat(request.format, request.file);
+    io::checkWritable(request.file);
+    context.session.request(std::move(request));
+}
+
+// As 24fps. Returns whether it was that.
+bool takeRate(Request& request, const std::string& word) {
+    int rate = 0, end = 0;
+    if (std::sscanf(word.c_str(), "%4dfps%n", &rate, &end) != 1 ||
+        static_cast<std::size_t>(end) != word.size())
+        return false;
+    if (rate < 1 || rate > 240)
+        throw Error(ErrorKind::Usage, "record: " + word + ": 1fps to 240fps would be right");
+    request.framesPerSecond = rate;
+    return true;
+}
+
+void checkMovement(const Session& session, const Request& request) {
+    if (request.alongPath && session.cameraPath().empty())
+        throw Error(ErrorKind::Usage,
+                    "record: the camera path has no keys; `path add` or `path load` would be right");
+    if (request.clip && (session.clips().empty() || !session.clipsFit()))
+        throw Error(ErrorKind::Usage, "record: the scene has no clip that fits it; `list` says what it has");
 }
 
 void record(const CommandContext& context) {
     Request request{RequestKind::Record, context.words[0], static_cast<int>(context.number(1))};
-    request.turntable = context.count() > 2 && context.words[2] == "turntable";
-    request.alongPath = context.count() > 2 && context.words[2] == "path";
-    if (request.alongPath && context.session.cameraPath().empty())
-        throw Error(ErrorKind::Usage,
-                    "record: the camera path has no keys; `path add` or `path load` would be right");
+    for (std::size_t i = 2; i < context.count(); ++i) {
+        const std::string& word = context.words[i];
+        if (word == "turntable" || word == "path" || word == "clip") {
+            request.turntable = word == "turntable";
+            request.alongPath = word == "path";
+            request.clip = word == "clip";
+        } else if (!takeRate(request, word) && !takeFormatWord(request.format, word)) {
+            throw Error(ErrorKind::Usage,
+                        "record: '" + word +
+                            "': turntable, path, clip, a size as 1920x1080, a rate as 24fps, alpha or 16bit "
+                            "would be right");
+        }
+    }
+    checkMovement(context.session, request);
     if (!isVideoName(request.file))
         throw Error(ErrorKind::Usage,
                     fmt::format("record: {}: a name ending in .mp4, or numbered pictures as in frame%04d.png "
                                 "would be right",
                                 request.file));
+    checkFormat(request.format, request.file);
     context.session.request(std::move(request));
 }
 
@@ -110,7 +147,7 @@ void quit(const CommandContext& context) {
 bool isVideoName(const std::string& file) {
     const std::size_t percent = file.find('%');
     if (percent == std::string::npos) {
-        for (const char* extension : {".mp4", ".mkv", ".webm", ".mov", ".gif"})
+        for (const char* extension : {".mp4", ".mkv", ".webm", ".mov", ".gif", ".webp"})
             if (file.size() > 4 &&
                 file.compare(file.size() - std::string(extension).size(), std::string::npos, extension) == 0)
                 return true;
@@ -140,16 +177,30 @@ CommandGroup programCommands() {
         {
             command("help", {{"COMMAND", ArgumentKind::CommandName, true}},
                     "all commands, or one of them in full", help),
-            command("screenshot", {{"FILE", ArgumentKind::File}},
-                    "write the picture: .png .jpg (tone-mapped), .exr .hdr (linear radiance)", screenshot),
-            command("record",
+            command("screenshot",
                     {{"FILE", ArgumentKind::File},
-                     {"FRAMES", ArgumentKind::Whole, false, false, "frames", 1, 100000, {}},
-                     {"PATH", ArgumentKind::Choice, true, false, "", 0, 0, {"turntable", "path"}}},
-                    "write frames as a film, or as numbered pictures", record,
-                    "FILE ends in .mp4 (through ffmpeg, 30 frames a second), or is a pattern like "
-                    "frame%04d.png.\nturntable: the camera goes once round its target. path: along its keys "
-                    "(`help path`)."),
+                     {"HOW", ArgumentKind::Text, true, true, "", 0, 0, {"1920x1080", "alpha", "16bit"}}},
+                    "write the picture: .png .jpg (tone-mapped), .exr .hdr (linear radiance)", screenshot,
+                    "HOW: a size, else as large as it is shown; alpha: clear where only the surroundings are "
+                    "seen\n(.png, .exr); 16bit: of a channel (.png)."),
+            command(
+                "record",
+                {{"FILE", ArgumentKind::File},
+                 {"FRAMES", ArgumentKind::Whole, false, false, "frames", 1, 100000, {}},
+                 {"HOW",
+                  ArgumentKind::Text,
+                  true,
+                  true,
+                  "",
+                  0,
+                  0,
+                  {"turntable", "path", "clip", "1920x1080", "24fps", "alpha", "16bit"}}},
+                "write frames as a film, or as numbered pictures", record,
+                "FILE ends in .mp4, .mkv, .webm, .mov, .gif or .webp (through ffmpeg), or is a pattern like "
+                "frame%04d.png.\nturntable: the camera goes once round its target. path: along its keys "
+                "(`help path`). clip: what moves in the file,\nfrom the start of the clip. A rate as "
+                "24fps, else 30 frames a second. Size, alpha and 16bit as of `screenshot`;\nalpha in "
+                "films: .mov."),
             command("open", {{"SCENE", ArgumentKind::SceneFile}},
                     "another scene, with its own camera and settings", open),
             command("wait", {{"FRAMES", ArgumentKind::Whole, false, false, "frames", 1, 100000, {}}},

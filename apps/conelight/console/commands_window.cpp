@@ -27,6 +27,12 @@ Argument choice(const char* name, std::vector<std::string> choices) {
     return argument;
 }
 
+Argument themeArgument() {
+    Argument argument{"THEME", ArgumentKind::Choice};
+    argument.choices = {"dark", "light"};
+    return argument;
+}
+
 Argument statusKey() {
     return choice("KEY",
                   {"scene", "window", "picture", "mode", "split", "kept", "settled", "selection", "pixel",
@@ -144,6 +150,8 @@ CommandGroup windowCommands() {
             command("ui_scale", {{"SCALE", ArgumentKind::Number, false, false, "", 0.5, 4, {}}},
                     "size of text and widgets, 1 on ordinary screens",
                     [](const CommandContext& context) { askWindow(context, "ui_scale"); }),
+            command("theme", {themeArgument()}, "letters and grounds of the window's panels",
+                    [](const CommandContext& context) { askWindow(context, "theme"); }),
             command("status", {statusKey()}, "what the window shows and what that costs",
                     [](const CommandContext& context) { askWindow(context, "status"); }),
             screenshotCommand(),

@@ -50,24 +50,6 @@ Place placeAt(const std::string& text, std::size_t cursor) {
     return place;
 }
 
-std::vector<std::string> filesFor(const std::string& partial) {
-    namespace fs = std::filesystem;
-    const std::size_t slash = partial.rfind('/');
-    const std::string folder = slash == std::string::npos ? "" : partial.substr(0, slash + 1);
-    std::vector<std::string> names;
-    std::error_code code;
-    for (fs::directory_iterator entry(folder.empty() ? "." : folder, code), end; !code && entry != end;
-         entry.increment(code)) {
-        const std::string name = entry->path().filename().string();
-        // Hidden ones only when asked for by their dot.
-        if (name.front() == '.' && partial.compare(folder.size(), 1, ".") != 0) continue;
-        std::error_code ignored;
-        names.push_back(folder + name + (entry->is_directory(ignored) ? "/" : ""));
-    }
-    std::sort(names.begin(), names.end());
-    return names;
-}
-
 std::vector<std::string> valuesOfSetting(const std::string& key) {
     const SettingInfo* info = findSetting(key);
     if (info == nullptr) return {};
@@ -118,6 +100,24 @@ std::string commonStart(const std::vector<std::string>& words) {
 }
 
 }  // namespace
+
+std::vector<std::string> filesFor(const std::string& partial) {
+    namespace fs = std::filesystem;
+    const std::size_t slash = partial.rfind('/');
+    const std::string folder = slash == std::string::npos ? "" : partial.substr(0, slash + 1);
+    std::vector<std::string> names;
+    std::error_code code;
+    for (fs::directory_iterator entry(folder.empty() ? "." : folder, code), end; !code && entry != end;
+         entry.increment(code)) {
+        const std::string name = entry->path().filename().string();
+        // Hidden ones only when asked for by their dot.
+        if (name.front() == '.' && partial.compare(folder.size(), 1, ".") != 0) continue;
+        std::error_code ignored;
+        names.push_back(folder + name + (entry->is_directory(ignored) ? "/" : ""));
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
 
 Completion Console::complete(const std::string& text, std::size_t cursor) const {
     cursor = std::min(cursor, text.size());

@@ -23,6 +23,9 @@ std::vector<std::size_t> materialsNamed(const Session& session, const std::strin
 std::vector<std::size_t> lightsNamed(const Session& session, const std::string& word);
 std::vector<std::size_t> camerasNamed(const Session& session, const std::string& word);
 
+// What stands on disk and begins so: names behind what is given of their folder, folders with a slash.
+std::vector<std::string> filesFor(const std::string& partial);
+
 // Throws Error(Usage): "COMMAND: there is no THING 'WORD'; NEAREST would be right" unless it is a name or a
 // number below the count.
 void requireName(const std::string& command, const std::string& thing, const std::vector<std::string>& names,

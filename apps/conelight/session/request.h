@@ -6,13 +6,15 @@
 #include <string>
 #include <vector>
 
+#include "session/picture_format.h"
+
 namespace conelight::program {
 
 enum class RequestKind {
-    Screenshot,   // file
-    Record,       // file, count frames, turntable or alongPath
+    Screenshot,   // file, format
+    Record,       // file, format, count frames; turntable, alongPath or clip
     Bake,         // file; overwrite
-    Load,         // file; keepView
+    Load,         // file; keepView, recovers
     Revoxelize,   // and say how large the voxels are
     SingleFrame,  // draw one frame although ViewFlags::singleFrame is on
     Wait,         // draw `count` frames before the next command
@@ -29,9 +31,12 @@ struct Request {
     int total = 0;             // Record: frames of the whole film; 0: `count`
     int framesPerSecond = 30;  // Record: of a film
     int status = 0;
-    bool keepView = false;   // Load: camera and settings stay
+    bool keepView = false;  // Load: camera and settings stay
+    std::string recovers;   // Load: the scene whose unsaved changes the file has; empty: it is a scene itself
     bool turntable = false;  // Record: once round the target
     bool alongPath = false;  // Record: along the session's camera path
+    bool clip = false;       // Record: the clip that is chosen, from its start
+    PictureFormat format;
     bool overwrite = false;  // Bake: what is there already
     int x = 0, y = 0;        // Inspect: from the upper left corner
     bool steps = false;      // Inspect: print every step

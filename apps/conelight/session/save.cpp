@@ -17,7 +17,7 @@ bool sameView(const Camera& a, const Camera& b) {
 
 }  // namespace
 
-std::vector<std::string> saveSession(Session& session, const std::string& path, bool force) {
+Scene sceneToSave(const Session& session) {
     Scene scene = session.scene();
     const bool isFirst = !scene.cameras.empty() && sameView(scene.cameras.front(), session.camera());
     if (!isFirst) {
@@ -35,7 +35,11 @@ std::vector<std::string> saveSession(Session& session, const std::string& path, 
         if (info.key.rfind("image.", 0) == 0 && !said)
             scene.settings.emplace_back(info.key, getSetting(session.settings(), info.key));
     }
-    std::vector<std::string> notes = io::writeScene(path, scene, force);
+    return scene;
+}
+
+std::vector<std::string> saveSession(Session& session, const std::string& path, bool force) {
+    std::vector<std::string> notes = io::writeScene(path, sceneToSave(session), force);
     session.markSaved();
     return notes;
 }

@@ -9,6 +9,9 @@
 
 namespace conelight::program {
 
+// What is written of it: settings in it, the present view as its first camera.
+Scene sceneToSave(const Session& session);
+
 // The format by extension: .txt .scene (the thesis's text format, with view and settings), .gltf .glb. The
 // present view is the first camera of what is written. Returns what the format could not hold, one line each.
 // Throws Error(Usage) for an unknown extension, and for a file that exists unless `force`; Error(Runtime)

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "conelight/error.h"
@@ -100,6 +101,13 @@ std::vector<std::string> Session::open(const std::string& path, bool keepView) {
     ++revisions_.scene;
     ++revisions_.selection;
     return scene_.notes;
+}
+
+void Session::markRecovered(const std::string& path) {
+    path_ = path;
+    savedSerial_ = std::numeric_limits<std::uint64_t>::max();  // of no step
+    ++recoveries_;
+    ++revisions_.scene;
 }
 
 Settings Session::startingSettings() const { return startSettings(scene_, getSetting(settings_, "mode")); }

@@ -170,6 +170,9 @@ class Session {
         ++saves_;
     }
     std::uint64_t saves() const { return saves_; }  // how often it was saved
+    // What was opened are unsaved changes of the scene of this name.
+    void markRecovered(const std::string& path);
+    std::uint64_t recoveries() const { return recoveries_; }
 
     void request(Request request) { requests_.push_back(std::move(request)); }
     std::optional<Request> takeRequest();
@@ -224,7 +227,7 @@ class Session {
     std::vector<Step> undone_;
     bool sealed_ = true;
     std::uint64_t stepsTaken_ = 0;
-    std::uint64_t lastSerial_ = 0, forgottenSerial_ = 0, savedSerial_ = 0, saves_ = 0;
+    std::uint64_t lastSerial_ = 0, forgottenSerial_ = 0, savedSerial_ = 0, saves_ = 0, recoveries_ = 0;
 };
 
 }  // namespace conelight::program

@@ -89,6 +89,7 @@ void Document::leaveNow(Leaving leaving) {
 
 void Document::showDialogs() {
     if (const std::optional<FileChoice> choice = files_.show()) take(*choice);
+    if (const std::optional<std::string> line = picture_.show(in_.session)) in_.console.run(*line);
     if (leaving_ && savesFirst_)
         followSaving();
     else if (leaving_)

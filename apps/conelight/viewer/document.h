@@ -12,6 +12,7 @@
 #include "viewer/file_dialog.h"
 #include "viewer/file_watch.h"
 #include "viewer/long_work.h"
+#include "viewer/picture_dialog.h"
 #include "viewer/viewer_console.h"
 
 namespace conelight::program {
@@ -32,17 +33,22 @@ class Document {
         const Film& film;
         Ending& ending;
     };
-    explicit Document(const Inputs& inputs) : in_(inputs) {}
+    explicit Document(const Inputs& inputs)
+        : in_(inputs),
+          thumbnails_(!inputs.state.folder().empty()),
+          files_(thumbnails_, inputs.state.recent()) {}
 
     // At once when nothing would be lost, else after a question.
     void open(const std::string& file);  // a picture becomes A beside the scene
     void reload() { leave({Leaving::To::FileAsChanged, in_.session.path()}); }
     void quit() { leave({}); }
     void ask(FilePurpose purpose) { files_.open(purpose, in_.session.path()); }
+    void askForPicture(bool film) { picture_.open(film, in_.film.frames); }
 
     void follow();       // the file, when it changed on disk, and its name
     void showDialogs();  // and does what they answer
     const std::vector<std::string>& recent() const { return in_.state.recent(); }
+    Thumbnails& thumbnails() { return thumbnails_; }
 
   private:
     // What would lose the scene's unsaved changes.
@@ -58,7 +64,9 @@ class Document {
 
     Inputs in_;
     FileWatch watch_{""};
+    Thumbnails thumbnails_;
     FileDialog files_;
+    PictureDialog picture_;
     std::optional<Leaving> leaving_;  // waits for the answer, or for the file to be saved
     bool savesFirst_ = false;
     std::string remembered_, title_;  // the scene that the recent list has; the window's title

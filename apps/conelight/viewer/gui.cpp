@@ -5,6 +5,7 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include <imgui_internal.h>  // OpenPopupStack
 
 #include <algorithm>
 #include <array>
@@ -27,12 +28,15 @@ constexpr float kMinScale = 0.5f, kMaxScale = 4;
 
 bool isModifier(int key) { return key >= GLFW_KEY_LEFT_SHIFT && key <= GLFW_KEY_RIGHT_SUPER; }
 
-ImVec4 grey(float value, float alpha = 1) { return {value, value, value, alpha}; }
-
-// Neutral greys, so that the GUI does not tint the eye that judges the picture; one accent.
-void setColors(ImGuiStyle& style) {
-    const ImVec4 accent{0.36f, 0.58f, 0.80f, 1};
-    const ImVec4 accentDim{0.28f, 0.40f, 0.52f, 1};
+// Neutral greys, so that the GUI does not tint the eye that judges the picture; one accent. The light ones are the
+// dark ones turned round, with a little less contrast between grounds.
+void setColors(ImGuiStyle& style, bool light) {
+    const ImVec4 accent = light ? ImVec4(0.13f, 0.40f, 0.68f, 1) : ImVec4(0.36f, 0.58f, 0.80f, 1);
+    const ImVec4 accentDim = light ? ImVec4(0.60f, 0.76f, 0.92f, 1) : ImVec4(0.28f, 0.40f, 0.52f, 1);
+    const auto grey = [light](float value, float alpha = 1) {
+        const float shown = light ? std::clamp(1.1f - 1.36f * value, 0.07f, 1.0f) : value;
+        return ImVec4(shown, shown, shown, alpha);
+    };
     ImVec4* c = style.Colors;
     c[ImGuiCol_Text] = grey(0.88f);
     c[ImGuiCol_TextDisabled] = grey(0.50f);
@@ -52,7 +56,7 @@ void setColors(ImGuiStyle& style) {
     c[ImGuiCol_ScrollbarGrabActive] = grey(0.38f);
     c[ImGuiCol_CheckMark] = accent;
     c[ImGuiCol_SliderGrab] = accent;
-    c[ImGuiCol_SliderGrabActive] = {0.45f, 0.68f, 0.90f, 1};
+    c[ImGuiCol_SliderGrabActive] = light ? ImVec4(0.08f, 0.30f, 0.56f, 1) : ImVec4(0.45f, 0.68f, 0.90f, 1);
     c[ImGuiCol_Button] = grey(0.21f);
     c[ImGuiCol_ButtonHovered] = grey(0.27f);
     c[ImGuiCol_ButtonActive] = accentDim;
@@ -77,6 +81,7 @@ Gui::Gui(platform::Window& window, float scale) : window_(window), followsScreen
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;  // the layout follows the window's size
+    ImGui::GetIO().ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
     scale_ = wantedScale_ = followsScreen_ ? window.contentScale() : scale;
     applyLook();
     ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
@@ -96,7 +101,7 @@ Gui::~Gui() {
 void Gui::applyLook() {
     ImGuiStyle& style = ImGui::GetStyle();
     style = ImGuiStyle();  // sizes are scaled from the originals
-    ImGui::StyleColorsDark();
+    light_ ? ImGui::StyleColorsLight() : ImGui::StyleColorsDark();
     style.WindowRounding = 0;
     style.ChildRounding = 0;
     // Square: a rounded rectangle is up to 46 triangles, and they are half of what the GUI costs a CPU
@@ -112,7 +117,7 @@ void Gui::applyLook() {
     style.IndentSpacing = 14;
     style.ScrollbarSize = 11;
     style.GrabMinSize = 9;
-    setColors(style);
+    setColors(style, light_);
     style.ScaleAllSizes(scale_);
 
     ImGuiIO& io = ImGui::GetIO();
@@ -195,8 +200,15 @@ void Gui::takeEvents() {
 }
 
 void Gui::setScale(float scale) {
-    followsScreen_ = false;
-    wantedScale_ = std::clamp(scale, kMinScale, kMaxScale);
+    followsScreen_ = !(scale > 0);
+    chosenScale_ = followsScreen_ ? 0 : std::clamp(scale, kMinScale, kMaxScale);
+    wantedScale_ = followsScreen_ ? window_.contentScale() : *chosenScale_;
+}
+
+void Gui::setLight(bool light) {
+    light_ = light;
+    light ? ImGui::StyleColorsLight() : ImGui::StyleColorsDark();
+    setColors(ImGui::GetStyle(), light);
 }
 
 void Gui::beginFrame() {
@@ -215,7 +227,18 @@ void Gui::beginFrame() {
     takeEvents();
     // A captured cursor belongs to the camera.
     if (window_.cursorCaptured()) ImGui::GetIO().MousePos = {-FLT_MAX, -FLT_MAX};
+    takeReturn();
     ImGui::NewFrame();
+}
+
+// Before Dear ImGui 1.87 Space alone presses what keys have marked; in menus and dialogs Return is expected to.
+void Gui::takeReturn() {
+#if IMGUI_VERSION_NUM < 18700
+    ImGuiIO& io = ImGui::GetIO();
+    const bool down = io.KeysDown[GLFW_KEY_ENTER] || io.KeysDown[GLFW_KEY_KP_ENTER];
+    if (down && !io.WantTextInput && ImGui::GetCurrentContext()->OpenPopupStack.Size > 0)
+        io.NavInputs[ImGuiNavInput_Activate] = 1;
+#endif
 }
 
 void Gui::endFrame() {

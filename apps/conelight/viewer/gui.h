@@ -4,6 +4,7 @@
 
 #include <array>
 #include <deque>
+#include <optional>
 #include <vector>
 
 #include "platform/window.h"
@@ -27,12 +28,17 @@ class Gui {
     // Keys that went down, as the frame that was begun has them.
     const std::vector<platform::Window::KeyEvent>& keyPresses() const { return keyPresses_; }
     float scale() const { return scale_; }
-    void setScale(float scale);  // from the next frame on; the screen's no more
+    void setScale(float scale);  // from the next frame on; 0: the screen's
+    // What setScale() was last given; nothing: it was not called.
+    const std::optional<float>& chosenScale() const { return chosenScale_; }
+    void setLight(bool light);  // dark letters on light grey, or the reverse
+    bool light() const { return light_; }
 
   private:
     void applyLook();
     void takeEvents();
     void takeKeys();
+    static void takeReturn();
     void takeButtons();
     platform::Window& window_;
     std::vector<platform::Window::KeyEvent> keyPresses_;        // of this frame
@@ -41,7 +47,8 @@ class Gui {
     std::deque<platform::Window::ButtonChange> buttonChanges_;  // for frames to come
     std::array<bool, 5> buttonsDown_{};  // as the GUI has been told, before Dear ImGui 1.87
     bool cursorWasElsewhere_ = false;    // at the last frame's change of a button, from 1.87 on
-    bool followsScreen_;
+    bool followsScreen_, light_ = false;
+    std::optional<float> chosenScale_;
     float scale_ = 1, wantedScale_ = 1;
 };
 

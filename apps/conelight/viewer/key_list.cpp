@@ -30,10 +30,18 @@ constexpr std::pair<const char*, const char*> kKeys[] = {
     {"Z", "marks clipping, false colours, neither"},
     {"K, C", "keep the picture as A; A or the live one"},
     {"P", "screenshot"},
+    {"Ctrl+P, Ctrl+Shift+P", "picture, film: size, kind, alpha"},
     {"Tab, F11", "panels away, full screen"},
     {"Ctrl+O, Ctrl+S", "open, save"},
     {"Ctrl+Z, Ctrl+Y", "undo, redo"},
     {"Ctrl + -", "larger, smaller text"},
+    {"F5", "read the scene again"},
+    {"F10, Alt+F E V P H", "menus; arrows and Return in them"},
+    {"F6", "next panel; arrows, Space in it"},
+    {"Ctrl+J, Ctrl+L", "console, light theme"},
+    {"Ctrl+Shift+S O R", "settings: save, load, the scene's own"},
+    {"Ctrl+Q", "quit"},
+    {"Shift+F1", "the guide"},
     {"F1, ?", "this list"}};
 
 }  // namespace
@@ -41,7 +49,13 @@ constexpr std::pair<const char*, const char*> kKeys[] = {
 void KeyList::show(const glm::vec2& at, const glm::vec2& size) {
     if (!open) return;
     const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({at.x + 0.5f * size.x, at.y + 0.5f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowPos(
+        {at.x + 0.5f * size.x, 0.5f * (ImGui::GetIO().DisplaySize.y + ImGui::GetFrameHeight())},
+        ImGuiCond_Always, {0.5f, 0.5f});
+    // What does not fit is scrolled to.
+    const ImVec2 display = ImGui::GetIO().DisplaySize;
+    const float most = display.y - 2 * ImGui::GetFrameHeight();
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x, most});
     ImGui::Begin("Mouse and keys", &open,
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);

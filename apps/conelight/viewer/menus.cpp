@@ -2,11 +2,12 @@
 #include "viewer/menus.h"
 
 #include <imgui.h>
-#include <imgui_internal.h>  // ClosePopupToLevel
+#include <imgui_internal.h>  // ClosePopupToLevel, and what keys mark
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 #include <tuple>
+#include <utility>
 
 #include "viewer/focus.h"
 #include "viewer/imgui_names.h"
@@ -18,6 +19,7 @@ namespace conelight::program {
 namespace {
 
 constexpr float kTextStep = 1.1f;
+constexpr int kFramesOfArrows = 4;  // Dear ImGui takes two from one menu to the next
 
 // Menus and lists; dialogs answer the key themselves.
 // Returns whether one is open.
@@ -28,12 +30,13 @@ bool closeMenusOnEscape() {
     return open;
 }
 
-void askForScreenshot(Session& session) { session.request({RequestKind::Screenshot, nextScreenshot()}); }
+void askForScreenshot(Session& session) { session.request({RequestKind::Screenshot, nextName(".png")}); }
 
 }  // namespace
 
 void Menus::takeKeys() {
-    const bool menuOpen = closeMenusOnEscape();
+    // Dear ImGui's own keys may have closed it at the begin of this frame.
+    const bool menuOpen = closeMenusOnEscape() || popupsOpen_;
     const std::vector<platform::Window::KeyEvent>& presses = in_.gui.keyPresses();
     // Whoever typed `path play` still has the cursor in the console's line.
     for (const auto& press : presses)
@@ -42,12 +45,65 @@ void Menus::takeKeys() {
             if (in_.gui.wantsKeyboard()) in_.console.panel().focus();
             return;
         }
-    if (in_.gui.wantsKeyboard() || in_.window.cursorCaptured()) return;
-    for (const auto& press : presses)
+    // A dialog and a captured cursor have the keys for themselves.
+    if (in_.window.cursorCaptured() || ImGui::GetTopMostPopupModal() != nullptr) return;
+    for (const auto& press : presses) {
+        if (takeMenuKey(press) || in_.gui.wantsKeyboard()) continue;
         if (press.key == GLFW_KEY_ESCAPE && !menuOpen)
             takeEscape();
-        else if (!takeViewKey(press))
+        else if (!menuOpen && !takeFunctionKey(press) && !takeViewKey(press))
             press.control() ? takeControlKey(press) : takeKey(press);
+    }
+}
+
+// Opens menus and goes from panel to panel, also while text is typed. Returns whether it was one of those.
+bool Menus::takeMenuKey(const platform::Window::KeyEvent& press) {
+    constexpr std::pair<int, const char*> kMenus[] = {
+        {GLFW_KEY_F, "File"}, {GLFW_KEY_E, "Edit"}, {GLFW_KEY_V, "View"}, {GLFW_KEY_P, "Picture"}, {GLFW_KEY_H, "Help"}};
+    if (press.key == GLFW_KEY_F10) wanted_ = "File";
+    for (const auto& [key, name] : kMenus)
+        if ((press.modifiers & GLFW_MOD_ALT) != 0 && press.key == key) wanted_ = name;
+    if (press.key == GLFW_KEY_F6) focusNextPanel();
+    return press.key == GLFW_KEY_F10 || press.key == GLFW_KEY_F6 || (press.modifiers & GLFW_MOD_ALT) != 0;
+}
+
+// Left, right, the console, and back to the picture. Arrows go through a panel, Space presses, Return types.
+void Menus::focusNextPanel() {
+    const auto highlight = [](const char* window) {
+        ImGui::SetWindowFocus(window);
+        ImGui::GetCurrentContext()->NavDisableHighlight = false;
+        ImGui::GetCurrentContext()->NavDisableMouseHover = true;
+    };
+    panel_ = (panel_ + 1) % 4;
+    if (panel_ == 1 && !in_.panels.showSide) panel_ = 3;
+    if (panel_ == 3 && !in_.panels.showConsole) panel_ = 0;
+    if (panel_ == 1 || panel_ == 2) highlight(panel_ == 1 ? "##left" : "##right");
+    if (panel_ == 3) in_.console.panel().focus();
+    if (panel_ == 0) ImGui::SetWindowFocus(nullptr);
+}
+
+bool Menus::takeFunctionKey(const platform::Window::KeyEvent& press) {
+    switch (press.key) {
+        case GLFW_KEY_F1:
+            if (press.shift())
+                help_.openGuide();
+            else if (press.control())
+                help_.openAbout();
+            else
+                in_.keys.open = !in_.keys.open;
+            return true;
+        case GLFW_KEY_F5:
+            if (!in_.session.path().empty()) in_.document.reload();
+            return true;
+        case GLFW_KEY_F11:
+            in_.window.setFullscreen(!in_.window.fullscreen());
+            return true;
+        case GLFW_KEY_TAB:
+            in_.panels.showAll(!in_.panels.showSide);
+            return true;
+        default:
+            return false;
+    }
 }
 
 // First what was found under the pixel, then the selection.
@@ -81,9 +137,6 @@ bool Menus::takeViewKey(const platform::Window::KeyEvent& press) {
 
 void Menus::takeKey(const platform::Window::KeyEvent& press) {
     switch (press.key) {
-        case GLFW_KEY_F1:
-            in_.keys.open = !in_.keys.open;
-            return;
         case GLFW_KEY_SLASH:
             in_.keys.open = in_.keys.open != press.shift();
             return;
@@ -108,10 +161,24 @@ void Menus::takeKey(const platform::Window::KeyEvent& press) {
             return;
         case GLFW_KEY_P:
             return askForScreenshot(in_.session);
-        case GLFW_KEY_F11:
-            return in_.window.setFullscreen(!in_.window.fullscreen());
-        case GLFW_KEY_TAB:
-            return in_.panels.showAll(!in_.panels.showSide);
+        default:
+            return;
+    }
+}
+
+void Menus::takeShiftedControlKey(int key) {
+    switch (key) {
+        case GLFW_KEY_S:
+            return in_.document.ask(FilePurpose::SavePreset);
+        case GLFW_KEY_O:
+            return in_.document.ask(FilePurpose::LoadPreset);
+        case GLFW_KEY_R:
+            return in_.console.run("reset");
+        case GLFW_KEY_P:
+            return in_.document.askForPicture(true);
+        case GLFW_KEY_Z:
+            in_.session.redo();
+            return;
         default:
             takePictureKey(press);
             return;
@@ -119,9 +186,16 @@ void Menus::takeKey(const platform::Window::KeyEvent& press) {
 }
 
 void Menus::takeControlKey(const platform::Window::KeyEvent& press) {
+    const bool zooms = press.key == GLFW_KEY_EQUAL;  // + is Shift+= on many keyboards
+    if (press.shift() && !zooms) return takeShiftedControlKey(press.key);
     switch (press.key) {
+        case GLFW_KEY_Q:
+            return in_.document.quit();
+        case GLFW_KEY_J:
+            in_.panels.showConsole = !in_.panels.showConsole;
+            return;
         case GLFW_KEY_Z:
-            press.shift() ? in_.session.redo() : in_.session.undo();
+            in_.session.undo();
             return;
         case GLFW_KEY_Y:
             in_.session.redo();
@@ -134,35 +208,63 @@ void Menus::takeControlKey(const platform::Window::KeyEvent& press) {
             return in_.document.ask(FilePurpose::OpenScene);
         case GLFW_KEY_S:
             return in_.document.ask(FilePurpose::SaveScene);
+        case GLFW_KEY_P:
+            return in_.document.askForPicture(false);
         case GLFW_KEY_EQUAL:
         case GLFW_KEY_KP_ADD:
             return in_.gui.setScale(in_.gui.scale() * kTextStep);
         case GLFW_KEY_MINUS:
         case GLFW_KEY_KP_SUBTRACT:
             return in_.gui.setScale(in_.gui.scale() / kTextStep);
-        case GLFW_KEY_F11:
-            return in_.window.setFullscreen(!in_.window.fullscreen());
-        case GLFW_KEY_TAB:
-            return in_.panels.showAll(!in_.panels.showSide);
+        case GLFW_KEY_0:
+        case GLFW_KEY_KP_0:
+            return in_.gui.setScale(0);
+        case GLFW_KEY_L:
+            return in_.gui.setLight(!in_.gui.light());
         default:
             return;
     }
 }
 
 void Menus::showBar() {
-    if (!ImGui::BeginMainMenuBar()) return;
-    fileMenu();
-    editMenu();
-    viewMenu();
-    pictureMenu();
-    modeControls(in_.session, in_.view.split, in_.console);
-    ImGui::EndMainMenuBar();
+    if (ImGui::BeginMainMenuBar()) {
+        fileMenu();
+        editMenu();
+        viewMenu();
+        pictureMenu();
+        if (beginMenu("Help")) {
+            help_.showItems();
+            ImGui::EndMenu();
+        }
+        modeControls(in_.session, in_.view.split, in_.console);
+        ImGui::EndMainMenuBar();
+    }
+    help_.showAbout();
+    if (framesOfArrows_ > 0)
+        framesOfArrows_ =
+            ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId) ? kFramesOfArrows : framesOfArrows_ - 1;
+    popupsOpen_ = ImGui::GetCurrentContext()->OpenPopupStack.Size > 0;
+}
+
+// One that a key asked for opens with its first entry marked. Arrows go on from there, also to its neighbours.
+bool Menus::beginMenu(const char* name) {
+    const ImGuiID id = ImGui::GetID(name);
+    const bool byArrow = ImGui::GetCurrentContext()->NavId == id && std::exchange(markedMenu_, id) != id;
+    if (wanted_ == name || (byArrow && framesOfArrows_ > 0)) {
+        framesOfArrows_ = kFramesOfArrows;
+        markedMenu_ = id;
+        wanted_.clear();
+        ImGui::OpenPopup(name);
+        ImGui::GetCurrentContext()->NavDisableHighlight = false;
+        ImGui::GetCurrentContext()->NavDisableMouseHover = true;
+    }
+    const bool open = ImGui::BeginMenu(name);
+    notePlace(std::string("menu:") + name);
+    return open;
 }
 
 void Menus::fileMenu() {
-    const bool open = ImGui::BeginMenu("File");
-    notePlace("menu:File");
-    if (!open) return;
+    if (!beginMenu("File")) return;
     if (ImGui::MenuItem("Open...", "Ctrl+O")) in_.document.ask(FilePurpose::OpenScene);
     notePlace("menu:Open");
     const std::vector<std::string>& recent = in_.document.recent();
@@ -170,19 +272,27 @@ void Menus::fileMenu() {
         for (const std::string& scene : recent) {
             if (ImGui::MenuItem(scene.c_str())) in_.document.open(scene);
             notePlace("recent:" + scene);
+            if (!ImGui::IsItemHovered()) continue;
+            ImGui::BeginTooltip();
+            in_.document.thumbnails().show(scene, 14 * ImGui::GetFontSize());
+            ImGui::EndTooltip();
         }
         ImGui::EndMenu();
     }
     notePlace("menu:Open recent");
-    if (ImGui::MenuItem("Reload", nullptr, false, !in_.session.path().empty())) in_.document.reload();
+    if (ImGui::MenuItem("Reload", "F5", false, !in_.session.path().empty())) in_.document.reload();
     if (ImGui::MenuItem("Save scene as...", "Ctrl+S")) in_.document.ask(FilePurpose::SaveScene);
     notePlace("menu:Save scene");
     ImGui::Separator();
     presetMenu();
     ImGui::Separator();
     if (ImGui::MenuItem("Screenshot", "P")) askForScreenshot(in_.session);
+    if (ImGui::MenuItem("Picture as...", "Ctrl+P")) in_.document.askForPicture(false);
+    notePlace("menu:Picture");
+    if (ImGui::MenuItem("Film as...", "Ctrl+Shift+P")) in_.document.askForPicture(true);
+    notePlace("menu:Film");
     ImGui::Separator();
-    if (ImGui::MenuItem("Quit")) in_.document.quit();
+    if (ImGui::MenuItem("Quit", "Ctrl+Q")) in_.document.quit();
     notePlace("menu:Quit");
     ImGui::EndMenu();
 }
@@ -193,11 +303,11 @@ void Menus::presetMenu() {
     notePlace("menu:Presets");
     if (!open) return;
     if (ImGui::IsWindowAppearing()) in_.console.attempt([&] { presets_ = presetsIn("."); });
-    if (ImGui::MenuItem("Save settings as...")) in_.document.ask(FilePurpose::SavePreset);
+    if (ImGui::MenuItem("Save settings as...", "Ctrl+Shift+S")) in_.document.ask(FilePurpose::SavePreset);
     notePlace("menu:Save settings");
-    if (ImGui::MenuItem("Load...")) in_.document.ask(FilePurpose::LoadPreset);
+    if (ImGui::MenuItem("Load...", "Ctrl+Shift+O")) in_.document.ask(FilePurpose::LoadPreset);
     notePlace("menu:Load preset");
-    if (ImGui::MenuItem("Back to the scene's own")) in_.console.run("reset");
+    if (ImGui::MenuItem("Back to the scene's own", "Ctrl+Shift+R")) in_.console.run("reset");
     notePlace("menu:Reset");
     if (!presets_.empty()) ImGui::Separator();
     for (const std::string& name : presets_) {
@@ -208,9 +318,7 @@ void Menus::presetMenu() {
 }
 
 void Menus::editMenu() {
-    const bool open = ImGui::BeginMenu("Edit");
-    notePlace("menu:Edit");
-    if (!open) return;
+    if (!beginMenu("Edit")) return;
     if (ImGui::MenuItem("Undo", "Ctrl+Z", false, in_.session.undoSteps() > 0)) in_.session.undo();
     notePlace("menu:Undo");
     if (ImGui::MenuItem("Redo", "Ctrl+Y", false, in_.session.redoSteps() > 0)) in_.session.redo();
@@ -228,9 +336,7 @@ void Menus::editMenu() {
 }
 
 void Menus::viewMenu() {
-    const bool open = ImGui::BeginMenu("View");
-    notePlace("menu:View");
-    if (!open) return;
+    if (!beginMenu("View")) return;
     if (ImGui::MenuItem("Focus", "F")) focusOnSelection(in_.session, in_.view.pictureSize());
     ImGui::Separator();
     GizmoTool& tool = in_.view.gizmo.tool;
@@ -240,12 +346,14 @@ void Menus::viewMenu() {
     ImGui::Separator();
     ImGui::MenuItem("Split", "X", &in_.view.split.on);
     ImGui::MenuItem("Panels", "Tab", &in_.panels.showSide);
-    ImGui::MenuItem("Console", nullptr, &in_.panels.showConsole);
+    ImGui::MenuItem("Console", "Ctrl+J", &in_.panels.showConsole);
     ImGui::Separator();
     if (ImGui::MenuItem("Larger text", "Ctrl++")) in_.gui.setScale(in_.gui.scale() * kTextStep);
     if (ImGui::MenuItem("Smaller text", "Ctrl+-")) in_.gui.setScale(in_.gui.scale() / kTextStep);
-    ImGui::MenuItem("Mouse and keys", "F1", &in_.keys.open);
-    notePlace("menu:Mouse and keys");
+    if (ImGui::MenuItem("Text as the screen's", "Ctrl+0")) in_.gui.setScale(0);
+    if (ImGui::MenuItem("Light theme", "Ctrl+L", in_.gui.light())) in_.gui.setLight(!in_.gui.light());
+    notePlace("menu:Light theme");
+    if (ImGui::MenuItem("Next panel", "F6")) focusNextPanel();
     if (ImGui::MenuItem("Fullscreen", "F11")) in_.window.setFullscreen(!in_.window.fullscreen());
     ImGui::EndMenu();
 }

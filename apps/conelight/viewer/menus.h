@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The menu bar with the choice of modes, and the keys that do the same.
+// The menu bar with the choice of modes, and the keys that do the same: every entry has one, and every menu is opened
+// by one.
 #pragma once
 
 #include <string>
@@ -9,6 +10,7 @@
 #include "session/session.h"
 #include "viewer/document.h"
 #include "viewer/gui.h"
+#include "viewer/help_menu.h"
 #include "viewer/key_list.h"
 #include "viewer/panel_layout.h"
 #include "viewer/picture_view.h"
@@ -30,7 +32,7 @@ class Menus {
         PanelLayout& panels;
         KeyList& keys;
     };
-    explicit Menus(const Inputs& inputs) : in_(inputs) {}
+    explicit Menus(const Inputs& inputs) : in_(inputs), help_(inputs.window, inputs.console, inputs.keys) {}
 
     void takeKeys();
     void showBar();
@@ -40,6 +42,11 @@ class Menus {
     void takeKey(const platform::Window::KeyEvent& press);
     bool takeViewKey(const platform::Window::KeyEvent& press);
     void takeControlKey(const platform::Window::KeyEvent& press);
+    void takeShiftedControlKey(int key);
+    bool takeFunctionKey(const platform::Window::KeyEvent& press);
+    bool takeMenuKey(const platform::Window::KeyEvent& press);
+    bool beginMenu(const char* name);
+    void focusNextPanel();
     void fileMenu();
     void presetMenu();
     void editMenu();
@@ -48,6 +55,12 @@ class Menus {
     void takePictureKey(const platform::Window::KeyEvent& press);
 
     Inputs in_;
+    HelpMenu help_;
+    std::string wanted_;                // a menu that a key opens
+    bool popupsOpen_ = false;           // at the end of the last frame's bar
+    unsigned int markedMenu_ = 0;       // the one in the bar that keys marked last
+    int framesOfArrows_ = 0;            // in which a menu that arrows mark opens: one was opened by a key
+    int panel_ = 0;                     // that F6 was at
     std::vector<std::string> presets_;  // of the current folder, while the menu shows them
 };
 

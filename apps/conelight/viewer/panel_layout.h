@@ -26,11 +26,17 @@ class PanelLayout {
     void showAll(bool shown) { showSide = showConsole = shown; }
     Layout layout() const;
     void dragBorders(const Layout& layout);
+    // Of panels, in heights of text.
+    struct Sizes {
+        float side = 24, console = 10;
+    };
+    const Sizes& sizes() const { return sizes_; }
+    void setSizes(const Sizes& sizes) { sizes_ = sizes; }
 
   private:
     const platform::Window& window_;
     const Gui& gui_;
-    float sideEm_ = 24, consoleEm_ = 10;  // sizes of panels, in heights of text
+    Sizes sizes_;
 };
 
 // Begins a panel's ImGui window at that place.

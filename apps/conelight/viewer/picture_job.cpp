@@ -25,9 +25,17 @@ void PictureJob::start(const Request& request, const Session& session, const glm
                        const reference::PathTracerSettings& traced) {
     const bool film = request.kind == RequestKind::Record;
     if (size.x < 2 || size.y < 2) throw Error(ErrorKind::Runtime, request.file + ": there is no picture yet");
-    size_ = film ? size / 2 * 2 : size;  // video codecs want even sizes
-    video_ = film ? std::make_unique<VideoFile>(request.file, size_.x, size_.y) : nullptr;
+    const bool sized = request.format.width > 0;
+    size_ = sized  ? glm::ivec2(request.format.width, request.format.height)
+            : film ? size / 2 * 2  // video codecs want even sizes
+                   : size;
+    // What is on the screen is written as it is; anything else is drawn to its end.
+    whole_ = film || (sized && size_ != size);
+    video_ = film ? std::make_unique<VideoFile>(request.file, size_.x, size_.y, request.framesPerSecond, 0,
+                                                request.format)
+                  : nullptr;
     request_ = request;
+    pose_ = session.clipState();
     if (!film) request_->count = 1;
     camera_ = session.camera();
     done_ = 0;
@@ -46,7 +54,9 @@ double PictureJob::secondsLeft() const {
 }
 
 void PictureJob::end(Session& session) {
-    if (request_->turntable || request_->alongPath) session.moveCamera(camera_);
+    if (request_->clip && session.clipsFit())
+        pose_.posed ? session.poseClip(pose_.clip, pose_.seconds) : session.restClip();
+    if (request_->turntable || request_->alongPath || request_->clip) session.moveCamera(camera_);
     frame_.stop();
     waits_ = WaitsFor::Nothing;
     request_.reset();
@@ -57,7 +67,7 @@ void PictureJob::end(Session& session) {
 bool PictureJob::draw(Session& session, PictureSlot& slot) {
     const std::string mode = session.shownMode();
     waits_ = WaitsFor::Nothing;
-    if (video_ && mode == "reference") {
+    if (whole_ && mode == "reference") {
         slot.restInBackground();
         if (!tracing_) tracing_ = frame_.start(session, size_, traced_, platform::Window::wake);
         if (!tracing_ || !frame_.ready()) {
@@ -73,7 +83,7 @@ bool PictureJob::draw(Session& session, PictureSlot& slot) {
     // A mode that settles over frames is drawn until it has: what is written is finished.
     if (slot.draw(session, mode, size_.x, size_.y, {})) return false;
     const bool bakes = mode == "radiosity" || mode == "hybrid";
-    if (video_ && (bakes || mode == "beams") && !slot.finished()) {
+    if (whole_ && (bakes || mode == "beams") && !slot.finished()) {
         waits_ = bakes ? WaitsFor::Bake : WaitsFor::PathTracer;
         // Pictures are quick: the bake does not count for what is left.
         if (done_ == 0) began_ = Clock::now();
@@ -93,15 +103,16 @@ Image PictureJob::finished(PictureSlot& slot) {
 }
 
 void PictureJob::add(const Session& session, const Image& linear) {
-    const ImageSettings look = session.shownSettings().image;
+    const WrittenPicture picture = pictureFor(request_->format, linear, session.scene(), session.camera(),
+                                              session.shownSettings().image);
     PictureRequest drawn = requestFor(session, {});
     drawn.size = {linear.width, linear.height};
     drawn.reference.samplesPerPixel = 0;  // as many as there were
     const PictureTexts texts = provenanceOf(drawn, session.path(), {});
     if (video_)
-        video_->add(linear, look, texts);
+        video_->add(picture.image, picture.look, texts);
     else
-        writePicture(request_->file, linear, look, texts);
+        writePicture(request_->file, picture.image, picture.look, texts, {}, request_->format);
     ++done_;
     placed_ = false;
     if (video_ && done_ == request_->count) video_->finish();
@@ -119,6 +130,7 @@ std::optional<std::string> PictureJob::step(Session& session, PictureSlot& slot)
                 if (request_->turntable) session.moveCamera(turntableFrame(camera_, done_, request_->count));
                 if (request_->alongPath)
                     session.moveCamera(session.cameraPath().frame(done_, request_->count));
+                if (request_->clip) session.poseClip(pose_.clip, double(done_) / request_->framesPerSecond);
             }
             if (!draw(session, slot) && waits()) break;
             if (Clock::now() - start > kSlice) break;

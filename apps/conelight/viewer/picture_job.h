@@ -20,7 +20,8 @@ namespace conelight::program {
 
 class PictureJob {
   public:
-    // A request of kind Screenshot or Record; pictures of `size` pixels, films of mode reference with these
+    // A request of kind Screenshot or Record; pictures of `size` pixels unless it names others, films of mode reference
+    // with these
     // settings for each. Not while busy(). Throws Error(Runtime) when nothing can be drawn or written there.
     void start(const Request& request, const Session& session, const glm::ivec2& size,
                const reference::PathTracerSettings& traced);
@@ -53,7 +54,9 @@ class PictureJob {
     bool tracing_ = false;  // a frame of it was started
     WaitsFor waits_ = WaitsFor::Nothing;
     glm::ivec2 size_{0};
-    Camera camera_;  // where it stood at the start
+    bool whole_ = false;  // drawn for the file alone: to its end, also in modes of the background
+    Camera camera_;       // where it stood at the start
+    ClipState pose_;      // what was then
     int done_ = 0;
     bool placed_ = false;  // the camera is where the next frame wants it
     bool stopped_ = false;

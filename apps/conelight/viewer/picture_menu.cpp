@@ -43,9 +43,7 @@ void Menus::takePictureKey(const platform::Window::KeyEvent& press) {
 }
 
 void Menus::pictureMenu() {
-    const bool open = ImGui::BeginMenu("Picture");
-    notePlace("menu:Picture");
-    if (!open) return;
+    if (!beginMenu("Picture")) return;
     const auto item = [&](const char* text, const char* key, bool on, const std::string& line, bool enabled) {
         if (ImGui::MenuItem(text, key, on, enabled)) in_.console.run(line);
         notePlace(std::string("menu:") + text);

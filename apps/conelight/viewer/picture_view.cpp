@@ -43,6 +43,16 @@ glm::vec3 moveKeys(const platform::Window& window) {
     return {axis(GLFW_KEY_D, GLFW_KEY_A), axis(GLFW_KEY_E, GLFW_KEY_Q), axis(GLFW_KEY_W, GLFW_KEY_S)};
 }
 
+// Beside a picture of another shape than the area's, one that is drawn for a file: it is not stretched.
+glm::vec2 marginOf(const glm::vec2& picture, const glm::vec2& area) {
+    constexpr float kRounding = 1.02f;  // of sizes, which are a quarter of the screen's pixels in part
+    if (picture.x < 1 || picture.y < 1) return glm::vec2(0);
+    const float wider = (picture.x / picture.y) / (area.x / area.y);
+    if (wider > kRounding) return {0, 0.5f * area.y * (1 - 1 / wider)};
+    if (wider < 1 / kRounding) return {0.5f * area.x * (1 - wider), 0};
+    return glm::vec2(0);
+}
+
 }  // namespace
 
 // The error map's texture and what it was made from.
@@ -214,7 +224,11 @@ std::optional<PictureView::Click> PictureView::show(Session& session, const glm:
     }
     ImDrawList* list = ImGui::GetWindowDrawList();
     const ImVec2 low{at.x, at.y}, high{at.x + size.x, at.y + size.y};
-    if (left_->texture() != 0) list->AddImage(idOf(left_->texture()), low, high);
+    if (left_->texture() != 0) {
+        const glm::vec2 margin = marginOf({left_->width(), left_->height()}, size);
+        list->AddImage(idOf(left_->texture()), {low.x + margin.x, low.y + margin.y},
+                       {high.x - margin.x, high.y - margin.y});
+    }
 
     if (split.on) {
         const float x = at.x + split.position * size.x;

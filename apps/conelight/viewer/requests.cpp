@@ -37,6 +37,7 @@ void carryOut(const RequestInputs& in, const Request& request) {
         case RequestKind::Load:
             for (const std::string& note : in.session.open(request.file, request.keepView))
                 in.console.say(note);
+            if (!request.recovers.empty()) in.session.markRecovered(request.recovers);
             in.console.say("loaded " + request.file);
             break;
         case RequestKind::Window:
@@ -59,13 +60,14 @@ void carryOut(const RequestInputs& in, const Request& request) {
 
 }  // namespace
 
-std::string nextScreenshot() {
+std::string nextName(const std::string& ending) {
+    if (ending.find('%') != std::string::npos) return "conelight-" + ending;
     for (int i = 1; i < kMaxScreenshots; ++i) {
-        const std::string name = fmt::format("conelight-{:04}.png", i);
+        const std::string name = fmt::format("conelight-{:04}{}", i, ending);
         std::error_code ignored;
         if (!std::filesystem::exists(name, ignored)) return name;
     }
-    return "conelight.png";
+    return "conelight" + ending;
 }
 
 bool carryOutRequest(const RequestInputs& in) {

@@ -28,7 +28,8 @@ struct RequestInputs {
 // One request. A failure is that of its command. Returns whether there was one.
 bool carryOutRequest(const RequestInputs& inputs);
 
-// "conelight-0001.png" and so on: the first that does not exist yet, in the current folder.
-std::string nextScreenshot();
+// "conelight-0001.png" and so on: the first that does not exist yet, in the current folder. Of an ending with a
+// pattern: "conelight-%04d.png".
+std::string nextName(const std::string& ending);
 
 }  // namespace conelight::program

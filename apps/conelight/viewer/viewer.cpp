@@ -10,8 +10,10 @@
 #include "viewer/black_hint.h"
 #include "viewer/menus.h"
 #include "viewer/picture_panel.h"
+#include "viewer/recovery.h"
 #include "viewer/requests.h"
 #include "viewer/side_panels.h"
+#include "viewer/stored_preferences.h"
 #include "viewer/window_commands.h"
 
 namespace conelight::program {
@@ -48,6 +50,15 @@ struct Drawn {
     bool operator==(const Drawn&) const = default;
 };
 
+// As the program's options say, else as the user left it.
+platform::WindowOptions windowOptions(const ViewerOptions& options, const Preferences& preferences) {
+    const glm::ivec2 last = preferences.width > 0 && preferences.height > 0
+                                ? glm::ivec2(preferences.width, preferences.height)
+                                : glm::ivec2(1280, 800);
+    return {options.width > 0 ? options.width : last.x, options.height > 0 ? options.height : last.y,
+            "Conelight", true, options.renderer.reportGlErrors};
+}
+
 class Viewer {
   public:
     explicit Viewer(const ViewerOptions& options);
@@ -71,11 +82,13 @@ class Viewer {
     std::string sceneName_;
     bool timing_;
     Ending ending_;
+    StateFiles state_;
+    StoredPreferences preferences_;
     platform::Window window_;
     Gui gui_;
     PictureView view_;
-    StateFiles state_;
     ViewerConsole console_;
+    Recovery recovery_;
     LongWork work_;
     Document document_;
     FileWatch shaders_;
@@ -102,12 +115,14 @@ Viewer::Viewer(const ViewerOptions& options)
     : open_(options.open),
       sceneName_(options.scene),
       timing_(options.timing),
-      window_({options.width, options.height, "Conelight", true, options.renderer.reportGlErrors}),
-      gui_(window_, options.uiScale),
-      view_(window_, options.renderer),
       state_(options.keepState),
+      preferences_(state_),
+      window_(windowOptions(options, preferences_.values())),
+      gui_(window_, options.uiScale > 0 ? options.uiScale : preferences_.values().uiScale),
+      view_(window_, options.renderer),
       console_(session_, state_,
                [this](const std::vector<std::string>& words) { return work_.stopAtOnce(words); }),
+      recovery_(state_, console_),
       work_({session_, view_, console_}, options.radiosity),
       document_({session_, window_, console_, state_, work_.film, ending_}),
       shaders_(options.renderer.shaderDirectory),
@@ -121,6 +136,8 @@ Viewer::Viewer(const ViewerOptions& options)
       commands_({session_, window_, gui_, view_, console_, work_, probe_, panels_, places_, hint_.text(),
                  timings_}) {
     view_.setRadiosity(options.radiosity);
+    preferences_.apply(gui_, panels_);
+    if (!preferences_.complaint().empty()) console_.fail(preferences_.complaint());
     window_.onDrop = [this](const std::vector<std::string>& paths) {
         if (!paths.empty()) document_.open(paths.front());
     };
@@ -139,6 +156,7 @@ int Viewer::run() {
         }
         if (!console_.panel().takesKeysSoon()) window_.pollEvents(secondsToSleep());
         document_.follow();
+        recovery_.follow(session_, !ImGui::IsAnyMouseDown() && !session_.clipState().playing);
         watchShaders();
         work_.follow();
         takeCommands();
@@ -149,6 +167,7 @@ int Viewer::run() {
         else if (!drawPictureJob())
             carryOutRequests();  // what is not seen draws nothing, but does what is asked
     }
+    recovery_.end();
     if (timing_) console_.say(timings_.summary(session_.frameTimes()));
     return ending_.status;
 }
@@ -288,7 +307,9 @@ std::optional<PictureView::Click> Viewer::showGui() {
     work_.showStrips(at, size);
     keys_.show(at, size);
     document_.showDialogs();
+    recovery_.show(session_);
     panels_.dragBorders(layout);
+    preferences_.follow(window_, gui_, panels_);
     return clicked;
 }
 

@@ -14,11 +14,11 @@
 namespace conelight::program {
 
 struct ViewerOptions {
-    int width = 1280, height = 800;  // of the window, screen units
+    int width = 0, height = 0;  // of the window, screen units; 0: as it was last, else 1280 x 800
     RendererOptions renderer;
     std::vector<std::string> commands;  // run first, one line each
     bool readStdin = true;
-    bool keepState = true;                   // remember scenes and typed lines (session/state_files.h)
+    bool keepState = true;                   // remember what the user does (session/state_files.h)
     bool timing = false;                     // print start and cost of frames
     float uiScale = 0;                       // of text and widgets; 0: the screen's
     int filmSamples = 0;                     // a pixel and frame of films in mode reference; 0: as `render`

@@ -40,6 +40,7 @@ void WindowCommands::carryOut(const Request& request) {
          [&](const Words& words) {
              if (words.size() > 1) in_.gui.setScale(number(words[1]));
          }},
+        {"theme", [&](const Words& words) { in_.gui.setLight(words[1] == "light"); }},
         {"settle", [&](const Words&) { in_.work.settle(); }},
         {"stop", [&](const Words&) { in_.work.stop(); }},
         {"status", [&](const Words& words) { status(words); }},
