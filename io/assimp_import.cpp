@@ -237,7 +237,7 @@ void Converter::convertCamera(const aiCamera& from, const glm::mat4& worldFromNo
 
 // Root rotation that brings the file's up axis to +y. FBX states its axes as metadata and Assimp 5.2 leaves
 // the conversion to us; Blender and 3MF are z-up by definition; the other importers rotate by themselves, and
-// PLY and OBJ say nothing. STL says nothing either, but what is printed from it stands along z (turnUpright).
+// PLY, OBJ and STL say nothing: io/upright.h finds out.
 const glm::mat4 kYUpFromZUp{1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1};  // (x, y, z) -> (x, z, -y)
 
 glm::mat4 yUpFromFile(const aiScene& source, const std::string& extension) {
@@ -333,7 +333,7 @@ Scene importWhole(const fs::path& path, const SceneFolder& folder, const LoadOpt
     });
     if (scene.instances.empty() && scene.lights.empty() && scene.cameras.empty())
         fail("holds no triangles, lights or cameras");
-    if (lowerExtension(path) == ".stl") turnUpright(scene);
+    takeUpAxis(scene, path, options.up);
     removeMirrors(scene);
     // Clip planes of these formats come in the file's units, unlike the rest: derive them from the size.
     const float size = scene.instances.empty() ? 1.0f : glm::length(scene.bounds().extent());

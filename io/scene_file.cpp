@@ -32,14 +32,26 @@ std::string registeredFormats() {
 
 Scene read(const fs::path& path, const LoadOptions& options, SceneAnimation* animation) {
     const std::string extension = lowerExtension(path);
+    const auto refuseUp = [&] {
+        if (options.up == UpAxis::Auto) return;
+        throw Error(ErrorKind::Usage,
+                    fmt::format("{}: is y-up by its format; an up axis is taken for .obj, .ply, "
+                                ".stl and others that may stand along another one",
+                                oneLine(path.string())));
+    };
     if (extension == ".gltf" || extension == ".glb" || extension == ".vrm") {
         try {
-            return loadGltf(path, options, animation);
+            Scene scene = loadGltf(path, options, animation);
+            refuseUp();
+            return scene;
         } catch (const GltfVersion1&) {
             return loadAssimp(path, options);
         }
     }
-    if (const SceneFormat* format = sceneFormatOf(extension)) return format->read(path, options);
+    if (const SceneFormat* format = sceneFormatOf(extension)) {
+        refuseUp();
+        return format->read(path, options);
+    }
     const std::vector<std::string> known = assimpExtensions();
     if (std::find(known.begin(), known.end(), extension) != known.end()) return loadAssimp(path, options);
     if (!fs::exists(path))
@@ -52,7 +64,12 @@ Scene read(const fs::path& path, const LoadOptions& options, SceneAnimation* ani
 }
 
 Scene load(const std::string& pathOrBuiltin, const LoadOptions& options, SceneAnimation* animation) {
-    if (pathOrBuiltin.rfind(kBuiltin, 0) == 0) return generateScene(pathOrBuiltin.substr(kBuiltin.size()));
+    if (pathOrBuiltin.rfind(kBuiltin, 0) == 0) {
+        if (options.up != UpAxis::Auto)
+            throw Error(ErrorKind::Usage,
+                        oneLine(pathOrBuiltin) + ": is y-up; an up axis is taken for files");
+        return generateScene(pathOrBuiltin.substr(kBuiltin.size()));
+    }
     const std::string file = oneLine(pathOrBuiltin);
     try {
         Scene scene = read(fs::path(pathOrBuiltin), options, animation);

@@ -12,6 +12,9 @@
 
 namespace conelight::io {
 
+// The axis of a file that points up. Auto: what its format or its exporter says, else what io/upright.h finds.
+enum class UpAxis : std::uint8_t { Auto, X, Y, Z };
+
 struct LoadOptions {
     // Processor seconds a foreign importer may use, plus one for every 5 MB of the file; 0 = no limit. A file
     // that needs more is an error. Does not apply to glTF and registered formats, whose cost is bounded by
@@ -26,6 +29,9 @@ struct LoadOptions {
     std::uint64_t maxTexels = std::uint64_t(1) << 28;
     // Let a scene name files outside its own folder (scene_folder.h): only for scenes that are trusted.
     bool allowOutside = false;
+    // For formats that Assimp reads: the axis of the scene, as its format has it, that becomes +y. Error(Usage) for
+    // others, which are y-up by definition.
+    UpAxis up = UpAxis::Auto;
 };
 
 // Reads a scene. The result fulfils Scene::validate(); it has the file's cameras and lights only (see

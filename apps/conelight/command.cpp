@@ -179,6 +179,7 @@ void ViewOptions::addTo(CLI::App& command) {
                      "no ground below a scene that has neither light nor a floor of its own");
     addMemory(command);
     addAllowOutside(command, allowOutside);
+    addUpAxis(command, up);
 }
 
 void ViewOptions::addContextTo(CLI::App& command) {
@@ -224,6 +225,17 @@ void addAllowOutside(CLI::App& command, bool& allow) {
                      "a scene may name files outside its own folder; only for scenes that you trust");
 }
 
+void addUpAxis(CLI::App& command, io::UpAxis& up) {
+    command
+        .add_option_function<std::string>(
+            "--up", [&up](const std::string& word) { up = *upAxisOf(word); },
+            "the axis of a model's file that points up (.obj .ply .stl and others, not glTF); auto: what the "
+            "format "
+            "or comments say, else what the shape shows")
+        ->type_name("x|y|z|auto")
+        ->check(CLI::IsMember({"x", "y", "z", "auto"}));
+}
+
 RendererOptions rendererOptions(const ViewOptions& options, const std::string& shaderDirectory) {
     RendererOptions made{shaderDirectory, options.debugGl, Execution::Auto};
     if (options.execution == "processor") made.execution = Execution::Processor;
@@ -264,6 +276,7 @@ Scene openScene(const std::string& path, const ViewOptions& options, Progress& p
     io::LoadOptions load;
     load.allowOutside = options.allowOutside;
     load.maxTexels = texelsWithin(load.maxTexels);
+    load.up = options.up;
     const HostMemoryLimit limit;
     Scene scene = animation == nullptr ? io::loadScene(path, load)
                   : needsClips         ? io::loadAnimatedScene(path, load, *animation)

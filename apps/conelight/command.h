@@ -14,6 +14,7 @@
 #include "conelight/settings.h"
 #include "interrupt.h"
 #include "io/animation.h"
+#include "io/scene_file.h"
 #include "platform/headless_context.h"
 
 #include "session/usage.h"
@@ -86,6 +87,7 @@ struct ViewOptions {
     std::string execution = "auto";
     bool allowOutside = false;
     bool noGround = false;
+    io::UpAxis up = io::UpAxis::Auto;
 
     void addTo(CLI::App& command);
     void addContextTo(CLI::App& command);
@@ -94,6 +96,8 @@ struct ViewOptions {
 
 // --allow-outside, of every command that reads scenes.
 void addAllowOutside(CLI::App& command, bool& allow);
+// --up, of the same.
+void addUpAxis(CLI::App& command, io::UpAxis& up);
 
 // The OpenGL context that --device and --gl-debug ask for.
 std::unique_ptr<platform::HeadlessContext> openContext(const ViewOptions& options);

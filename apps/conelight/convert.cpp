@@ -22,6 +22,7 @@ void addConvert(CLI::App& app) {
     command->add_option("out", options->out, "what to write:" + known)->required();
     command->add_flag("--overwrite,--force", options->force, "write over files that are there");
     addAllowOutside(*command, options->load.allowOutside);
+    addUpAxis(*command, options->load.up);
     command->callback([options] {
         Progress progress;
         progress.show("loading " + options->in);

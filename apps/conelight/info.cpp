@@ -119,6 +119,7 @@ void addInfo(CLI::App& app) {
         ->type_name("N")
         ->check(CLI::NonNegativeNumber);
     addAllowOutside(*command, options->load.allowOutside);
+    addUpAxis(*command, options->load.up);
     command->callback([options] { run(*options); });
 }
 

@@ -41,6 +41,7 @@ std::string sceneOptionsOf(const ViewOptions& view) {
         if (view.splitsSun) add("--split-sun");
     }
     if (view.noGround) add("--no-ground");
+    if (view.up != io::UpAxis::Auto) add("--up " + wordOf(view.up));
     return text;
 }
 

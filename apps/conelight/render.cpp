@@ -361,6 +361,7 @@ void run(RenderOptions options) {
     session.setAnimation(std::move(animation));
     session.allowOutside(options.view.allowOutside);
     session.leaveOutGround(options.view.noGround);
+    session.takeUpAxis(options.scene, options.view.up);
     if (isFilm(options)) {
         if (!options.aovs.empty())
             options.script.layers = [&options](const Picture& drawn) { return layersOf(options, drawn); };

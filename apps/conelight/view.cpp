@@ -45,6 +45,7 @@ Session openSession(const ViewCommand& options) {
     session.setAnimation(std::move(animation));
     session.allowOutside(options.view.allowOutside);
     session.leaveOutGround(options.view.noGround);
+    session.takeUpAxis(options.scene, options.view.up);
     return session;
 }
 

@@ -114,6 +114,11 @@ class CONELIGHT_API Renderer {
     // While held, a picture of mode traced with traced.budgeted and image.temporal gathers no light where scene, camera
     // and settings are those of the call before: it adds one more view to the mean, within pixels and on the lens.
     void setLightHeld(bool held);
+    // A light at the eye, for looking round where a scene has little: irradiance, W/m^2, on surfaces that face the eye,
+    // which scatter it evenly. It is no light of the scene: it casts no shadow, bounces nowhere, and nothing but the
+    // picture is made anew when it or the camera changes. 0, at first: none. Throws Error(Usage) below 0 and for what is
+    // not finite.
+    void setHeadlight(float irradiance);
     // With RendererOptions::shaderDirectory: builds the programs again that use files changed there. One that
     // fails stays as it was. Returns a message per failure, several lines each; GL state stays as it was.
     std::vector<std::string> reloadShaders();

@@ -72,6 +72,14 @@ struct BloomConstants {
     uint pad0;
 };  // 16 B
 
+// Uniform block of image/headlight.comp.glsl.
+struct HeadlightConstants {
+    float irradiance;  // W/m^2, of surfaces that face the eye
+    uint pad0;
+    uint pad1;
+    uint pad2;
+};  // 16 B
+
 // Uniform block of image/wireframe.*.
 struct WireframeConstants {
     vec3 color;  // on the screen, before the tone map
@@ -103,6 +111,7 @@ static_assert(sizeof(conelight::gpu::DisplayConstants) == 320);
 static_assert(sizeof(conelight::gpu::ViewMeanConstants) == 16);
 static_assert(sizeof(conelight::gpu::TemporalPictureConstants) == 80);
 static_assert(sizeof(conelight::gpu::BloomConstants) == 16);
+static_assert(sizeof(conelight::gpu::HeadlightConstants) == 16);
 static_assert(sizeof(conelight::gpu::WireframeConstants) == 32);
 static_assert(sizeof(conelight::gpu::ShadowViewConstants) == 32);
 #endif

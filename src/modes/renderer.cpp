@@ -4,6 +4,7 @@
 #include "conelight/renderer.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/clock.h"
@@ -17,6 +18,7 @@
 #include "image/background.h"
 #include "image/debug_view.h"
 #include "image/display.h"
+#include "image/headlight.h"
 #include "image/image.h"
 #include "image/shadow_view.h"
 #include "image/temporal_picture.h"
@@ -100,6 +102,8 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
     image::Display display;
     image::ShadowView shadowMapView;
     image::WireframeView wireframe;
+    image::Headlight headlight;
+    float headlightIrradiance = 0;
     gl::Buffer lookupCounters{4 * LOOKUPS_WORDS, "lookup counters"};
     // Of the last picture.
     Settings shownSettings;
@@ -175,6 +179,14 @@ void Renderer::setProfiling(bool passes, bool lookups) {
     impl_->countLookups = lookups;
 }
 
+void Renderer::setHeadlight(float irradiance) {
+    if (!(irradiance >= 0 && std::isfinite(irradiance)))
+        base::fail(ErrorKind::Usage, "setHeadlight: %g; 0 W/m^2 or more would be right",
+                   static_cast<double>(irradiance));
+    if (std::exchange(impl_->headlightIrradiance, irradiance) == irradiance) return;
+    const gl::HostStateGuard guard;
+    impl_->temporal.reset();  // a mean over frames that had another
+}
 void Renderer::setDynamic(bool everyFrame) { impl_->everyFrame = everyFrame; }
 void Renderer::setLightHeld(bool held) { impl_->lightHeld = held; }
 
@@ -230,6 +242,7 @@ void Renderer::Impl::forgetPicture() {
     display = {};
     shadowMapView = {};
     wireframe = {};
+    headlight = {};
 }
 
 void Renderer::Impl::render(const Camera& camera, int width, int height, const Settings& settings) {
@@ -271,8 +284,10 @@ void Renderer::Impl::render(const Camera& camera, int width, int height, const S
 void Renderer::Impl::drawLight(const modes::Frame& frame) {
     mode->draw(frame);
     const Component component = frame.settings.component;
-    if (component == Component::Full || component == Component::Direct)
+    if (component == Component::Full || component == Component::Direct) {
         image::drawBackground(frame.device, frame.scene, frame.lights, frame.surfaces, frame.output);
+        headlight.draw(frame.device, {frame.scene, frame.surfaces, headlightIrradiance}, frame.output);
+    }
     if (frame.lights.hasGlass() && isOfLight(component)) mode->drawGlass(frame);
 }
 

@@ -12,6 +12,7 @@
 #include "image/background.h"
 #include "image/debug_view.h"
 #include "image/display.h"
+#include "image/headlight.h"
 #include "image/shadow_view.h"
 #include "image/temporal_picture.h"
 #include "image/view_mean.h"
@@ -63,6 +64,7 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     add(view::GBuffer::programDescs());
     add(image::debugViewProgramDescs());
     add(image::backgroundProgramDescs());
+    add(image::Headlight::programDescs());
     add(image::ShadowView::programDescs());
     add(image::WireframeView::programDescs());
     add(image::Display::programDescs());

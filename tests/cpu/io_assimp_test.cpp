@@ -212,6 +212,66 @@ TEST(Assimp, StlStandsUprightWhicheverAxisItWasMadeAlong) {
     }
 }
 
+// A house on a wide yard, as OBJ or PLY: z up, or y up.
+std::string houseFile(const std::string& extension, bool zUp, const std::string& comment) {
+    std::vector<std::array<float, 3>> corners;
+    for (const float half : {5.0f, 1.0f})
+        for (const auto& [u, v] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}})
+            corners.push_back({half * float(u), half * float(v), 0});
+    corners.push_back({0, 0, 4});
+    const std::array<int, 3> faces[] = {{0, 1, 2}, {0, 2, 3}, {4, 5, 8}, {5, 6, 8}, {6, 7, 8}, {7, 4, 8}};
+    const bool ply = extension == ".ply";
+    std::string text = ply ? fmt::format(
+                                 "ply\nformat ascii 1.0\ncomment {}\nelement vertex 9\nproperty float x\n"
+                                 "property float y\nproperty float z\nelement face 6\n"
+                                 "property list uchar int vertex_indices\nend_header\n",
+                                 comment)
+                           : "# " + comment + "\n";
+    for (const auto& c : corners)
+        text += fmt::format("{}{} {} {}\n", ply ? "" : "v ", c[0], zUp ? c[1] : c[2], zUp ? c[2] : -c[1]);
+    for (const auto& f : faces)
+        text += ply ? fmt::format("3 {} {} {}\n", f[0], f[1], f[2])
+                    : fmt::format("f {} {} {}\n", f[0] + 1, f[1] + 1, f[2] + 1);
+    return text;
+}
+
+float heightOf(const std::string& name, const std::string& extension, const std::string& text,
+               io::UpAxis up = io::UpAxis::Auto) {
+    io::LoadOptions options;
+    options.up = up;
+    return io::loadScene(write(folderOf("up") / (name + extension), text), options).bounds().extent().y;
+}
+
+TEST(Assimp, WhatLiesOnAGroundIsTurnedUpright) {
+    for (const std::string extension : {".obj", ".ply"})
+        for (const bool zUp : {true, false})
+            EXPECT_NEAR(heightOf(zUp ? "z" : "y", extension, houseFile(extension, zUp, "made by hand")), 4,
+                        1e-4f)
+                << extension << zUp;
+    // The back of a shelf is no ground: it stands along y.
+    const std::string shelf =
+        "v 0 0 0\nv 4 0 0\nv 4 6 0\nv 0 6 0\nv 0 0 2\nv 0.2 0 2\nv 0 3 2\nv 4 0 2\nv 3.8 0 2\nv 4 3 2\n"
+        "f 1 2 3\nf 1 3 4\nf 5 6 7\nf 8 9 10\n";
+    EXPECT_NEAR(heightOf("shelf", ".obj", shelf), 6, 1e-4f);
+}
+
+TEST(Assimp, CommentsAndTheUserSayWhatIsUp) {
+    const std::string tall = std::string(kTriangle) + "v 0 0 3\nf 1 2 4\nf 1 2 3\n";
+    EXPECT_NEAR(heightOf("plain", ".obj", tall), 1, 1e-4f);
+    for (const char* comment :
+         {"# FreeCAD v0.20 build29177 Arch module\n", "# Axes: Z-up\n", "# up axis = z\n"})
+        EXPECT_NEAR(heightOf("said", ".obj", comment + tall), 3, 1e-4f) << comment;
+    for (const char* comment : {"# Blender 3.4.1\n", "# jazz up\n", "# z-upper part\n", "# y-up\n"})
+        EXPECT_NEAR(heightOf("not", ".obj", comment + tall), 1, 1e-4f) << comment;
+    EXPECT_NEAR(heightOf("blender", ".ply", houseFile(".ply", false, "Created by Blender 2.93")), 10, 1e-4f)
+        << "exporters come before shapes";
+    EXPECT_NEAR(heightOf("told", ".obj", houseFile(".obj", true, "-"), io::UpAxis::Y), 10, 1e-4f);
+    EXPECT_NEAR(heightOf("x", ".obj", "v 0 0 0\nv 7 0 0\nv 0 1 0\nf 1 2 3\n", io::UpAxis::X), 7, 1e-4f);
+    io::LoadOptions options;
+    options.up = io::UpAxis::Z;
+    EXPECT_THROW(io::loadScene("builtin:cornell", options), Error);
+}
+
 const char* const kCollada =
     R"(<?xml version="1.0"?><COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
 <asset><unit name="centimeter" meter="0.01"/><up_axis>Z_UP</up_axis></asset>

@@ -2,6 +2,7 @@
 // Views that look inside, by pixels of scenes whose answer is known: edges of triangles and shadow maps.
 #include <algorithm>
 
+#include "conelight/error.h"
 #include "support/truth_rig.h"
 #include "support/views_rig.h"
 
@@ -124,6 +125,46 @@ TEST_F(ViewsTest, ShadowMapsHoldDistances) {
         EXPECT_GT(colorAt(single, 48, 32).x, 0);
         EXPECT_NEAR(colorAt(single, 40, 20).x, colorAt(single, 48, 32).x, 0.01f);
         EXPECT_EQ(colorAt(single, 2, 32), glm::vec3(0));  // beside the square map
+    }
+}
+
+// A light at the eye: what faces it sends its irradiance back, what is seen aslant less. It goes with the camera, and
+// nothing in the scene is made anew for it.
+TEST_F(ViewsTest, TheHeadlightGoesWithTheEye) {
+    constexpr float kPi = 3.1415927f;
+    Scene scene;
+    addInstance(scene, quadMesh({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), diffuseMaterial(glm::vec3(0.5f)));
+    scene.cameras.push_back(cameraAbove({0, 0, 0}, 2, 2));
+    for (const Mode mode : {Mode::Traced, Mode::Cones, Mode::Hybrid, Mode::Phong}) {
+        Settings settings = viewSettings(mode, Component::Full);
+        SCOPED_TRACE(getSetting(settings, "mode"));
+        Renderer renderer;
+        renderer.setScene(scene);
+        renderer.setProfiling(true, false);
+        Camera camera = scene.cameras.front();
+        const auto drawn = [&] {
+            renderer.render(camera, kPixels, kPixels, settings);
+            return renderer.readImage();
+        };
+        const Image dark = drawn();
+        EXPECT_LT(colorAt(dark, 32, 32).x, 1e-3f);
+        renderer.setHeadlight(kPi);
+        EXPECT_NEAR(colorAt(drawn(), 32, 32).x, 0.5f, 0.01f);
+        // From 60 degrees beside.
+        camera.eye = camera.target + glm::length(camera.eye - camera.target) * glm::vec3(0.8660254f, 0.5f, 0);
+        EXPECT_NEAR(colorAt(drawn(), 32, 32).x, 0.25f, 0.01f);
+        for (const PassStats& pass : renderer.stats().passes) {
+            EXPECT_EQ(pass.name.find("voxels"), std::string::npos) << pass.name;
+            EXPECT_EQ(pass.name.find("update"), std::string::npos) << pass.name;
+        }
+        EXPECT_TRUE(renderer.scene().lights.empty());
+        settings.component = Component::Indirect;
+        EXPECT_LT(colorAt(drawn(), 32, 32).x, 1e-3f) << "it bounces nowhere";
+        settings.component = Component::Full;
+        camera = scene.cameras.front();
+        renderer.setHeadlight(0);
+        EXPECT_EQ(differing(drawn(), dark), 0);
+        EXPECT_THROW(renderer.setHeadlight(-1), Error);
     }
 }
 

@@ -120,7 +120,10 @@ void record(const CommandContext& context) {
     context.session.request(std::move(request));
 }
 
-void open(const CommandContext& context) { context.session.request({RequestKind::Load, context.words[0]}); }
+void open(const CommandContext& context) {
+    if (context.count() > 1) context.session.takeUpAxis(context.words[0], *upAxisOf(context.words[1]));
+    context.session.request({RequestKind::Load, context.words[0]});
+}
 
 void wait(const CommandContext& context) { context.console.waitFor(static_cast<int>(context.number(0))); }
 
@@ -201,8 +204,13 @@ CommandGroup programCommands() {
                 "(`help path`). clip: what moves in the file,\nfrom the start of the clip. A rate as "
                 "24fps, else 30 frames a second. Size, alpha and 16bit as of `screenshot`;\nalpha in "
                 "films: .mov."),
-            command("open", {{"SCENE", ArgumentKind::SceneFile}},
-                    "another scene, with its own camera and settings", open),
+            command(
+                "open",
+                {{"SCENE", ArgumentKind::SceneFile},
+                 {"UP", ArgumentKind::Choice, true, false, "", 0, 0, {"x", "y", "z", "auto"}}},
+                "another scene, with its own camera and settings", open,
+                "UP: the axis of the file that points up, as `--up`; it holds until that file is opened with "
+                "another."),
             command("wait", {{"FRAMES", ArgumentKind::Whole, false, false, "frames", 1, 100000, {}}},
                     "draw so many frames before the next command", wait),
             whyCommand(),

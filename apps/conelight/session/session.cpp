@@ -73,6 +73,7 @@ void Session::startRevisions() {
 std::vector<std::string> Session::open(const std::string& path, bool keepView) {
     io::LoadOptions load;
     load.allowOutside = allowOutside_;
+    if (upAxis_.first == path) load.up = upAxis_.second;
     io::SceneAnimation animation;
     Scene loaded = io::loadMovingScene(path, load, animation);
     completeScene(loaded, {.ground = addsGround_});
@@ -254,8 +255,8 @@ void Session::setCameras(const std::vector<Camera>& cameras, const std::string& 
     commit(std::move(step));
 }
 
-void Session::setCameraPath(const CameraPath& path, const std::string& label) {
-    Step step{label, {}, {}};
+void Session::setCameraPath(const CameraPath& path, const std::string& label, const std::string& mergeKey) {
+    Step step{label, mergeKey, {}};
     step.edits.push_back(editOf<PathEdit>(cameraPath_, path));
     commit(std::move(step));
 }
@@ -321,13 +322,18 @@ void Session::finishPlaying() {
     playing_.reset();
 }
 
+std::optional<double> Session::playedSeconds() const {
+    if (!playing_ || cameraPath_.empty()) return std::nullopt;
+    const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - playing_->from;
+    const double part = std::min(gone.count() / playing_->seconds, 1.0);
+    return cameraPath_.start() + part * (cameraPath_.end() - cameraPath_.start());
+}
+
 void Session::frameDrawn(double ms) {
     frameTimes_.add(ms);
-    if (!playing_) return;
-    const std::chrono::duration<double> gone = std::chrono::steady_clock::now() - playing_->from;
-    if (cameraPath_.empty() || gone.count() >= playing_->seconds) return finishPlaying();
-    const double part = gone.count() / playing_->seconds;
-    place(cameraPath_.at(cameraPath_.start() + part * (cameraPath_.end() - cameraPath_.start())));
+    const std::optional<double> seconds = playedSeconds();
+    if (!seconds || *seconds >= cameraPath_.end()) return finishPlaying();
+    place(cameraPath_.at(*seconds));
 }
 
 void Session::select(const Selection& selection) {

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "io/animation.h"
+#include "io/scene_file.h"
 #include "session/camera_path.h"
 #include "session/edit.h"
 #include "session/frame_times.h"
@@ -50,6 +51,9 @@ struct RayMark {
 // Settings that a scene starts with in a mode ("": the default or the scene's own): its format's look, then
 // its own block.
 Settings startSettings(const Scene& scene, const std::string& mode = {});
+// "x", "y", "z" or "auto"; nothing for other words.
+std::optional<io::UpAxis> upAxisOf(const std::string& word);
+std::string wordOf(io::UpAxis up);
 // Words that a setting or preset takes (or true, false); empty for numbers and unknown keys.
 std::vector<std::string> settingChoices(const std::string& key);
 // All settings, preset words before the group that they fill in: what lists show.
@@ -74,6 +78,8 @@ class Session {
     void allowOutside(bool allow) { allowOutside_ = allow; }
     // What is opened without light stands on no ground.
     void leaveOutGround(bool leave) { addsGround_ = !leave; }
+    // That file is opened so from now on.
+    void takeUpAxis(const std::string& path, io::UpAxis up) { upAxis_ = {path, up}; }
 
     const Scene& scene() const { return scene_; }
     const std::string& path() const { return path_; }
@@ -119,7 +125,7 @@ class Session {
     void setLights(const std::vector<Light>& lights, const std::string& label,
                    const std::string& mergeKey = {});
     void setCameras(const std::vector<Camera>& cameras, const std::string& label);
-    void setCameraPath(const CameraPath& path, const std::string& label);
+    void setCameraPath(const CameraPath& path, const std::string& label, const std::string& mergeKey = {});
     // Settings and mode of a preset; what it does not name is as the scene starts.
     void applyPreset(const Preset& preset, const std::string& label);
     void setSky(const glm::vec3& sky, const std::string& label, const std::string& mergeKey = {});
@@ -137,6 +143,7 @@ class Session {
     // drawn frame. Any other movement of the camera ends it.
     void playPath(double seconds);
     bool playing() const { return playing_.has_value(); }
+    std::optional<double> playedSeconds() const;  // of the path, where it is
     void stopPlaying() { playing_.reset(); }
     void finishPlaying();  // at once at the path's end
     void select(const Selection& selection);
@@ -201,6 +208,7 @@ class Session {
 
     bool allowOutside_ = false;
     bool addsGround_ = true;
+    std::pair<std::string, io::UpAxis> upAxis_;  // of a file
     Scene scene_;
     std::string path_;
     Settings settings_;

@@ -26,6 +26,26 @@ Settings startSettings(const Scene& scene, const std::string& mode) {
     return settings;
 }
 
+std::optional<io::UpAxis> upAxisOf(const std::string& word) {
+    for (const io::UpAxis up : {io::UpAxis::Auto, io::UpAxis::X, io::UpAxis::Y, io::UpAxis::Z})
+        if (word == wordOf(up)) return up;
+    return std::nullopt;
+}
+
+std::string wordOf(io::UpAxis up) {
+    switch (up) {
+        case io::UpAxis::X:
+            return "x";
+        case io::UpAxis::Y:
+            return "y";
+        case io::UpAxis::Z:
+            return "z";
+        case io::UpAxis::Auto:
+            break;
+    }
+    return "auto";
+}
+
 std::vector<std::string> settingChoices(const std::string& key) {
     const SettingInfo* info = findSetting(key);
     return info == nullptr ? std::vector<std::string>{} : info->choices;
