@@ -247,6 +247,13 @@ TEST_F(ViewerFilesTest, EveryMenuIsReachedByKeys) {
     EXPECT_GT(screen->pixels().changedFrom(before, {0, 20, 200, 460}, 40), 50) << "something is marked";
     press("x");
     EXPECT_NE(viewer->status("split"), "off");
+    // Panels that come while a dialog is open leave it its keys.
+    viewer->send("panels off");
+    press("ctrl+o");
+    viewer->send("panels on");
+    EXPECT_GT(viewer->placeOf("dialog:name").z, 0);
+    press("Escape");
+    EXPECT_EQ(viewer->placeOf("dialog:name").z, 0);
     press("ctrl+q");
     EXPECT_EQ(viewer->exitStatus(), 0);
 }
