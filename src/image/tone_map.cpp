@@ -97,7 +97,8 @@ Shown<Value> ofBytes(const glm::u8vec3& bytes) {
 template <class Value>
 Shown<Value> clippingMarked(const Shown<Value>& shown, int x, int y) {
     constexpr Value kFull = std::numeric_limits<Value>::max();
-    const bool over = shown.r == kFull || shown.g == kFull || shown.b == kFull, under = shown == Shown<Value>(0);
+    const bool over = shown.r == kFull || shown.g == kFull || shown.b == kFull,
+               under = shown == Shown<Value>(0);
     const bool stripe = ((x + y) / CLIPPING_STRIPE & 1) == 0;
     if (!stripe || !(over || under)) return shown;
     return ofBytes<Value>(over ? glm::u8vec3(255, 0, 64) : glm::u8vec3(0, 64, 255));

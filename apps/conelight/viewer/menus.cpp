@@ -58,8 +58,11 @@ void Menus::takeKeys() {
 
 // Opens menus and goes from panel to panel, also while text is typed. Returns whether it was one of those.
 bool Menus::takeMenuKey(const platform::Window::KeyEvent& press) {
-    constexpr std::pair<int, const char*> kMenus[] = {
-        {GLFW_KEY_F, "File"}, {GLFW_KEY_E, "Edit"}, {GLFW_KEY_V, "View"}, {GLFW_KEY_P, "Picture"}, {GLFW_KEY_H, "Help"}};
+    constexpr std::pair<int, const char*> kMenus[] = {{GLFW_KEY_F, "File"},
+                                                      {GLFW_KEY_E, "Edit"},
+                                                      {GLFW_KEY_V, "View"},
+                                                      {GLFW_KEY_P, "Picture"},
+                                                      {GLFW_KEY_H, "Help"}};
     if (press.key == GLFW_KEY_F10) wanted_ = "File";
     for (const auto& [key, name] : kMenus)
         if ((press.modifiers & GLFW_MOD_ALT) != 0 && press.key == key) wanted_ = name;
@@ -162,6 +165,7 @@ void Menus::takeKey(const platform::Window::KeyEvent& press) {
         case GLFW_KEY_P:
             return askForScreenshot(in_.session);
         default:
+            takePictureKey(press);
             return;
     }
 }
@@ -180,7 +184,6 @@ void Menus::takeShiftedControlKey(int key) {
             in_.session.redo();
             return;
         default:
-            takePictureKey(press);
             return;
     }
 }
