@@ -44,6 +44,8 @@ class Menus {
     void presetMenu();
     void editMenu();
     void viewMenu();
+    void guidesMenu();
+    void toggleHeadlight();
 
     Inputs in_;
     std::vector<std::string> presets_;  // of the current folder, while the menu shows them

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "viewer/standard_views.h"
+
 namespace conelight::program {
 
 std::optional<PictureView::Click> PicturePanel::show(const glm::vec2& at, const glm::vec2& size,
@@ -16,7 +18,11 @@ std::optional<PictureView::Click> PicturePanel::show(const glm::vec2& at, const 
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus);
     ImGui::PopStyleVar();
+    if (const std::optional<std::string> side = in_.view.guides.takeClick(in_.session.camera(), at, size))
+        viewFrom(in_.session, *side, in_.view.pictureSize());
     const std::optional<PictureView::Click> clicked = in_.view.show(in_.session, at, size, seconds);
+    if (in_.view.slot(false).texture() != 0)
+        in_.view.guides.draw(in_.session, in_.probe.picker(), at, size, in_.view.moving());
     if (in_.view.slot(false).texture() != 0) outline_.draw(in_.session, at, size);
     in_.probe.drawOverPicture(at, size);
     if (in_.view.slot(false).texture() != 0) showLabels(at, size);
