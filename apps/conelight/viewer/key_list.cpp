@@ -21,9 +21,7 @@ constexpr std::pair<const char*, const char*> kKeys[] = {
     {"N R T", "view from front, right, top"},
     {"Shift+N R T", "view from back, left, bottom"},
     {"keypad 1 3 7", "the same, with Ctrl the other side"},
-    {"G", "grid, axes and scale"},
-    {"L", "headlight"},
-    {"O", "turntable; Escape stops it"},
+    {"G, L, O", "grid and axes, headlight, turntable"},
     {"B", "keep the view as a camera"},
     {"PageUp, PageDown", "the scene's cameras in turn"},
     {"H, Shift+H, Ctrl+H", "hide; hide all others; show all"},
@@ -41,7 +39,9 @@ constexpr std::pair<const char*, const char*> kKeys[] = {
 void KeyList::show(const glm::vec2& at, const glm::vec2& size) {
     if (!open) return;
     const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({at.x + 0.5f * size.x, at.y + 0.5f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    // In the middle of the picture's width and of the window's height, which it needs in small windows.
+    ImGui::SetNextWindowPos({at.x + 0.5f * size.x, 0.5f * ImGui::GetIO().DisplaySize.y}, ImGuiCond_Always,
+                            {0.5f, 0.5f});
     ImGui::Begin("Mouse and keys", &open,
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
