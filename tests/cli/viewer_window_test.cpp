@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The viewer's window as a guest of its desktop: size, close button, dropped files, lines typed and
 // remembered, and what it says of bad input.
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <fstream>
 
-#include "cli/viewer_test_support.h"
+#include "cli/viewer_panels_support.h"
+#include "io/image_file.h"
 #include "support/program.h"
 #include "support/x11_client.h"
 
@@ -128,6 +131,51 @@ TEST_F(ViewerTest, WindowChangesSizeFillsTheScreenAndCloses) {
     viewer->send("fullscreen off; panels off");
     settle();
     EXPECT_EQ(picture().x, 0) << "the picture has the whole width";
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
+}
+
+// Two sizes and two scales: letters stand where they should, as high as they should be, and the picture fills its place.
+TEST_F(ViewerPanelsTest, EverySizeAndScaleIsDrawnWhole) {
+    start(std::string(kSmall) + "builtin:cornell");
+    settle();
+    const auto isRed = [](const glm::vec3& p) { return p.x > 1.5f * p.y && p.x > 40; };
+    const auto isGreen = [](const glm::vec3& p) { return p.y > 1.3f * p.x && p.y > 40; };
+    for (const char* size : {"720 480", "940 620"}) {
+        screen->xdotool(std::string("search --name Conelight windowsize ") + size);
+        const std::string wide = std::string(size).substr(0, 3) + " x " + std::string(size).substr(4);
+        viewer->statusUntil("window",
+                            [&](const std::string& now) { return now.find(wide) != std::string::npos; });
+        int heights[2] = {0, 0};
+        for (const int half : {2, 3}) {
+            viewer->send(std::string("ui_scale ") + (half == 2 ? "1" : "1.5"));
+            settle();
+            for (const char* widget : {"menu:File", "menu:View", "tab:Scene", "tab:Image"})
+                EXPECT_TRUE(lettersShown(widget)) << widget << ", " << size << ", " << half;
+            heights[half - 2] = viewer->placeOf("tab:Scene").w;
+            const glm::ivec4 place = picture();
+            EXPECT_EQ(viewer->status("picture").rfind(fmt::format("{} x {} of", place.z, place.w), 0), 0u);
+            EXPECT_TRUE(eventually([&] {
+                return isRed(shownAt(inPicture(0.12f, 0.5f))) && isGreen(shownAt(inPicture(0.88f, 0.5f)));
+            })) << size
+                << ", " << half << ": the walls stand on both sides";
+            // The file of the window shows what the screen does.
+            const std::string file = scratchPath("whole.png");
+            ASSERT_NE(answer("screenshot_window " + file, "written " + file), "");
+            const io::ByteImage shot = io::readByteImage(file);
+            const ScreenPixels now = screen->pixels();
+            int different = 0;
+            for (int y = 0; y < shot.height; y += 3)
+                for (int x = 0; x < shot.width; x += 3) {
+                    const std::size_t i = (std::size_t(y) * std::size_t(shot.width) + std::size_t(x)) *
+                                          std::size_t(shot.channels);
+                    const glm::ivec3 p(shot.pixels[i], shot.pixels[i + 1], shot.pixels[i + 2]);
+                    different += p != now.at({x, y});
+                }
+            EXPECT_LT(different, shot.width * shot.height / 9 / 50) << "but for what was printed since";
+        }
+        EXPECT_NEAR(float(heights[1]) / float(heights[0]), 1.5f, 0.1f);
+    }
     viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
 }

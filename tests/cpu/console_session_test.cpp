@@ -76,6 +76,33 @@ TEST(PathCommand, KeysAreAddedListedSavedAndLoaded) {
     EXPECT_EQ(rig.session.cameraPath().keys().size(), 3u);
 }
 
+TEST(PathCommand, KeysMoveBetweenTheirNeighbours) {
+    ConsoleRig rig;
+    rig.run("path add 0; path add 1; path add 5; path move 1 3.5");
+    EXPECT_EQ(rig.error(), "");
+    EXPECT_EQ(rig.session.cameraPath().keys()[1].seconds, 3.5);
+    rig.run("path move 2 9; path move 0 0.5; undo");
+    EXPECT_EQ(rig.session.cameraPath().start(), 0);
+    EXPECT_EQ(rig.session.cameraPath().end(), 9);
+    for (const char* time : {"0", "9", "10", "-1", "x"}) {
+        rig.lines.clear();
+        rig.run(std::string("path move 1 ") + time);
+        EXPECT_NE(rig.error(), "") << time;
+        EXPECT_EQ(rig.session.cameraPath().keys()[1].seconds, 3.5);
+    }
+    // A drag stops before its neighbours, and is one step.
+    EXPECT_EQ(rig.session.cameraPath().freeTime(1, 20, 0.1), 8.9);
+    EXPECT_EQ(rig.session.cameraPath().freeTime(1, -4, 0.1), 0.1);
+    EXPECT_EQ(rig.session.cameraPath().freeTime(2, 20, 0.1), 20);
+    const std::size_t steps = rig.session.undoSteps();
+    for (const double seconds : {4.0, 5.0, 6.0}) {
+        CameraPath path = rig.session.cameraPath();
+        path.move(1, seconds);
+        rig.session.setCameraPath(path, "path move", "path move 1");
+    }
+    EXPECT_EQ(rig.session.undoSteps(), steps + 1);
+}
+
 TEST(PathCommand, TheViewGoesThere) {
     ConsoleRig rig;
     rig.run("camera eye 0 0 3; path add; camera eye 3 0 0; path add");
@@ -106,8 +133,8 @@ TEST(PathCommand, TheViewGoesThere) {
 
 TEST(PathCommand, MistakesAreNamed) {
     for (const char* line :
-         {"path at 1", "path play", "path save x.json", "path remove 0", "path add x", "path add -1",
-          "path add 1 2", "path fly", "path load /nonexistent.json", "record a.mp4 3 path"}) {
+         {"path at 1", "path play", "path save x.json", "path remove 0", "path move 0 1", "path add x",
+          "path add -1", "path add 1 2", "path fly", "path load /nonexistent.json", "record a.mp4 3 path"}) {
         ConsoleRig rig;
         rig.run(line);
         ASSERT_EQ(rig.lines.size(), 1u) << line;

@@ -10,6 +10,7 @@
 #include <limits>
 #include <random>
 
+#include "session/lengths.h"
 #include "session/session.h"
 #include "session/state_files.h"
 #include "support/gl_fixture.h"
@@ -40,6 +41,38 @@ TEST(CameraControl, OrbitKeepsTheDistanceAndFlyKeepsTheDirection) {
     EXPECT_LT(std::fabs(program::viewAngles(turned).pitch), program::kMaxPitch + 1e-3f);
 }
 
+TEST(CameraControl, ItsOwnUpIsKept) {
+    struct Case {
+        glm::vec3 eye, up, axis;
+    };
+    const glm::vec3 rolled = glm::normalize(glm::vec3(1, 2, 0.5f));
+    const Case cases[] = {
+        {{1, 2, 5}, {0, 1, 0}, {0, 1, 0}},
+        {{0, 3, 3}, {0, 0.70710678f, -0.70710678f}, {0, 1, 0}},  // of a file: across the view, level
+        {{4, 1, 2}, {0, 0, 1}, {0, 0, 1}},                       // z is up
+        {{1, 2, 5}, {0, -1, 0}, {0, -1, 0}},                     // upside down
+        {{1, 0, 5}, rolled, rolled},
+        {{0, 5, 0}, {0, 0, -1}, {0, 1, 0}}};  // straight down
+    for (const Case& one : cases) {
+        Camera camera;
+        camera.eye = one.eye;
+        camera.up = one.up;
+        EXPECT_NEAR(glm::distance(program::turnAxis(camera), one.axis), 0, 1e-5f);
+        const float height = glm::dot(camera.eye, one.axis), distance = glm::length(camera.eye);
+        for (int i = 0; i < 5; ++i) program::orbit(camera, {0.4f, 0});
+        if (height < distance) {
+            EXPECT_NEAR(glm::dot(camera.eye, one.axis), height, 1e-4f) << "round its axis";
+        }
+        EXPECT_NEAR(glm::length(camera.eye), distance, 1e-4f);
+        EXPECT_NEAR(glm::distance(camera.up, one.axis), 0, 1e-5f);
+        const glm::vec3 before = camera.eye;
+        program::fly(camera, {{0, 1, 0}, {0, 0}, 1.0f, 2.0f});
+        EXPECT_NEAR(glm::distance(camera.eye - before, 2.0f * one.axis), 0, 1e-4f) << "upwards is its own";
+        program::pan(camera, {0, 100}, 100);
+        EXPECT_GT(glm::dot(camera.eye - before, one.axis), 0);
+    }
+}
+
 TEST(CameraControl, FocusShowsAllOfABox) {
     Camera camera;
     Aabb box;
@@ -52,6 +85,19 @@ TEST(CameraControl, FocusShowsAllOfABox) {
         const glm::vec3 p((corner & 1) ? 4 : -1, (corner & 2) ? 5 : -2, (corner & 4) ? 6 : -3);
         const float angle = std::acos(glm::dot(glm::normalize(p - camera.eye), forward));
         EXPECT_LT(angle, half + 1e-4f) << corner;
+    }
+}
+
+TEST(Lengths, AreRoundAndHaveAUnit) {
+    for (const auto& [most, round, text] : {std::tuple(0.31f, 0.2f, "20 cm"),
+                                            {0.5f, 0.5f, "50 cm"},
+                                            {1.0f, 1.0f, "1 m"},
+                                            {4999.0f, 2000.0f, "2 km"},
+                                            {0.0099f, 0.005f, "5 mm"},
+                                            {3e-6f, 2e-6f, "2 um"},
+                                            {73.0f, 50.0f, "50 m"}}) {
+        EXPECT_NEAR(program::roundLengthBelow(most), round, 1e-4f * round);
+        EXPECT_EQ(program::lengthText(round), text);
     }
 }
 

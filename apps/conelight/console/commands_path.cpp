@@ -61,16 +61,36 @@ void addToPath(const CommandContext& context) {
     context.print(fmt::format("key at {:g} s, {} in all", time, path.keys().size()));
 }
 
+std::size_t keyNumber(const CommandContext& context, const CameraPath& path) {
+    const std::string name = "path " + context.words[0];
+    const double given = numberFrom(name, context.words[1]);
+    const auto index = static_cast<std::size_t>(given < 0 ? 1e9 : given);
+    if (index < path.keys().size() && double(index) == given) return index;
+    usage(fmt::format("{}: there is no key '{}'; 0 to {} would be right", name, context.words[1],
+                      path.keys().size() - 1));
+}
+
 void removeFromPath(const CommandContext& context) {
     takes(context, 1, 1, "remove NUMBER");
     CameraPath path = pathWithKeys(context);
-    const double given = numberFrom("path remove", context.words[1]);
-    const auto index = static_cast<std::size_t>(given < 0 ? 1e9 : given);
-    if (index >= path.keys().size() || double(index) != given)
-        usage(fmt::format("path remove: there is no key '{}'; 0 to {} would be right", context.words[1],
-                          path.keys().size() - 1));
-    path.remove(index);
+    path.remove(keyNumber(context, path));
     context.session.setCameraPath(path, "path remove");
+}
+
+void moveInPath(const CommandContext& context) {
+    takes(context, 2, 2, "move NUMBER SECONDS");
+    CameraPath path = pathWithKeys(context);
+    const std::size_t index = keyNumber(context, path);
+    const double wanted = numberFrom("path move", context.words[2]);
+    // Between its neighbours.
+    if (!(wanted >= 0 && wanted <= 1e6) || path.freeTime(index, wanted, 0) != wanted ||
+        (index > 0 && wanted == path.keys()[index - 1].seconds) ||
+        (index + 1 < path.keys().size() && wanted == path.keys()[index + 1].seconds))
+        usage(
+            fmt::format("path move: key {} cannot be at {} s; a time between its neighbours' would be right",
+                        index, context.words[2]));
+    path.move(index, wanted);
+    context.session.setCameraPath(path, "path move");
 }
 
 void play(const CommandContext& context) {
@@ -86,6 +106,7 @@ void path(const CommandContext& context) {
     if (word == "list") return listPath(context);
     if (word == "add") return addToPath(context);
     if (word == "remove") return removeFromPath(context);
+    if (word == "move") return moveInPath(context);
     if (word == "clear") return session.setCameraPath({}, "path clear");
     if (word == "play") return play(context);
     if (word == "stop") return session.stopPlaying();
@@ -115,12 +136,13 @@ Command pathCommand() {
                      "",
                      0,
                      0,
-                     {"list", "add", "remove", "clear", "at", "play", "stop", "save", "load"}},
+                     {"list", "add", "remove", "move", "clear", "at", "play", "stop", "save", "load"}},
                     {"VALUE", ArgumentKind::Text, true, true}},
                    "the camera's way through key frames: add, list, play, save, load", path,
                    "path add [SECONDS]      this view is a key, at that time; else 1 s after the last\n"
                    "path list               the keys, with their numbers\n"
                    "path remove NUMBER      without one of them\n"
+                   "path move NUMBER SECONDS  one of them to another time between its neighbours\n"
                    "path clear              without any\n"
                    "path at SECONDS         the view at a time, between keys too\n"
                    "path play [SECONDS]     fly along it in a window; without one, be at its end\n"

@@ -34,9 +34,9 @@ Argument themeArgument() {
 }
 
 Argument statusKey() {
-    return choice("KEY",
-                  {"scene", "window", "picture", "mode", "split", "kept", "settled", "selection", "pixel",
-                   "camera", "steps", "path", "log", "hint", "frames", "moving", "gui", "first_frame"});
+    return choice("KEY", {"scene",     "window",    "picture", "mode",   "split", "kept",       "settled", "selection",
+                          "pixel",     "camera",    "steps",   "path",   "log",   "hint",       "guides",
+                          "headlight", "turntable", "frames",  "moving", "gui",   "first_frame"});
 }
 
 Command splitCommand() {
@@ -87,6 +87,33 @@ Command errorCommand() {
         "SCALE: the error that gets the strongest colour, in parts of the mean radiance.");
 }
 
+Command guidesCommand() {
+    return command(
+        "guides", {choice("WHICH", {"grid", "axes", "scale", "all"}), onOff()},
+        "a grid on the ground, the world's axes, a scale bar, over the picture",
+        [](const CommandContext& context) { askWindow(context, "guides"); },
+        "Without ON: on, or off again. The ends of the axes are buttons for the views along them.");
+}
+
+Command headlightCommand() {
+    return command(
+        "headlight", {{"STRENGTH", ArgumentKind::Number, true, false, "W/m^2", 0, 1e6, {}}},
+        "a light at the eye, for looking round in the dark",
+        [](const CommandContext& context) { askWindow(context, "headlight"); },
+        "It is no light of the scene: it goes with the camera, casts no shadow, bounces nowhere and is not "
+        "saved. "
+        "Modes reference and beams show none. 0: off. Without STRENGTH: on, or off again.");
+}
+
+Command turntableCommand() {
+    return command(
+        "turntable", {{"SECONDS", ArgumentKind::Number, true, false, "s", 0, 1e6, {}}},
+        "turn the camera round its target until it is stopped",
+        [](const CommandContext& context) { askWindow(context, "turntable"); },
+        "SECONDS: of a turn; 0 stops it, as the key Escape does, and as every other movement of the camera. "
+        "Without SECONDS: on, or off again. `settle` waits for its end.");
+}
+
 Command screenshotCommand() {
     return command("screenshot_window", {{"FILE", ArgumentKind::File}},
                    "write the window with its panels: .png or .jpg", [](const CommandContext& context) {
@@ -114,6 +141,9 @@ CommandGroup windowCommands() {
             flipCommand(),
             scopesCommand(),
             histogramCommand(),
+            guidesCommand(),
+            headlightCommand(),
+            turntableCommand(),
             command("fullscreen", {onOff()}, "fill the screen, or not",
                     [](const CommandContext& context) { askWindow(context, "fullscreen"); }),
             command("panels", {onOff()}, "show panels and console beside the picture, or the picture alone",

@@ -125,6 +125,12 @@ void CameraPath::remove(std::size_t index) {
     keys_.erase(keys_.begin() + static_cast<std::ptrdiff_t>(index));
 }
 
+double CameraPath::freeTime(std::size_t index, double seconds, double gap) const {
+    const double low = index > 0 ? keys_[index - 1].seconds + gap : 0;
+    const double high = index + 1 < keys_.size() ? keys_[index + 1].seconds - gap : std::max(seconds, low);
+    return low > high ? keys_[index].seconds : std::clamp(seconds, low, high);
+}
+
 Camera CameraPath::at(double seconds) const {
     if (!(seconds > start())) return keys_.front().camera;
     if (seconds >= end()) return keys_.back().camera;

@@ -30,6 +30,10 @@ class CameraPath {
     // In order of time; a key at the same time is replaced.
     void add(double seconds, const Camera& camera);
     void remove(std::size_t index);
+    // To a time between its neighbours, which keep theirs.
+    void move(std::size_t index, double seconds) { keys_[index].seconds = seconds; }
+    // The time next to `seconds` at which key `index` keeps a gap to its neighbours.
+    double freeTime(std::size_t index, double seconds, double gap) const;
 
     // Before the first key the first, behind the last the last; at a key's time that key's camera, bit for
     // bit. There is a key.

@@ -9,10 +9,38 @@ namespace {
 
 constexpr glm::vec3 kUp{0, 1, 0};
 
-glm::vec3 rightOf(const glm::vec3& forward) {
-    const glm::vec3 right = glm::cross(forward, kUp);
+glm::vec3 rightOf(const glm::vec3& forward, const glm::vec3& up) {
+    const glm::vec3 right = glm::cross(forward, up);
     const float length = glm::length(right);
-    return length > 1e-6f ? right / length : glm::vec3(1, 0, 0);
+    if (length > 1e-6f) return right / length;
+    return up == kUp ? glm::vec3(1, 0, 0) : glm::normalize(glm::cross(up, glm::vec3(up.y, up.z, -up.x)));
+}
+
+// What yaw and pitch are measured by: yaw 0 and pitch 0 look along `ahead`. Unit vectors, right-handed.
+struct TurnAxes {
+    glm::vec3 right{1, 0, 0}, up = kUp, ahead{0, 0, -1};
+};
+
+TurnAxes axesAbout(const glm::vec3& up) {
+    if (up == kUp) return {};
+    TurnAxes axes;
+    axes.up = up;
+    axes.right = rightOf(std::fabs(up.z) < 0.9f ? glm::vec3(0, 0, -1) : glm::vec3(0, 1, 0), up);
+    axes.ahead = glm::cross(up, axes.right);
+    return axes;
+}
+
+ViewAngles anglesIn(const TurnAxes& axes, const glm::vec3& way) {
+    const float length = glm::length(way);
+    if (!(length > 0)) return {};
+    return {std::atan2(-glm::dot(way, axes.right), glm::dot(way, axes.ahead)),
+            std::asin(std::clamp(glm::dot(way, axes.up) / length, -1.0f, 1.0f))};
+}
+
+glm::vec3 directionIn(const TurnAxes& axes, const ViewAngles& angles) {
+    const float flat = std::cos(angles.pitch);
+    return axes.ahead * (std::cos(angles.yaw) * flat) - axes.right * (std::sin(angles.yaw) * flat) +
+           axes.up * std::sin(angles.pitch);
 }
 
 ViewAngles turned(ViewAngles angles, const glm::vec2& turn) {
@@ -23,37 +51,46 @@ ViewAngles turned(ViewAngles angles, const glm::vec2& turn) {
 
 }  // namespace
 
-ViewAngles viewAngles(const Camera& camera) {
-    const glm::vec3 d = camera.target - camera.eye;
-    const float length = glm::length(d);
-    if (!(length > 0)) return {};
-    return {std::atan2(-d.x, -d.z), std::asin(std::clamp(d.y / length, -1.0f, 1.0f))};
-}
+ViewAngles viewAngles(const Camera& camera) { return anglesIn({}, camera.target - camera.eye); }
 
-glm::vec3 viewDirection(const ViewAngles& angles) {
-    const float flat = std::cos(angles.pitch);
-    return {-std::sin(angles.yaw) * flat, std::sin(angles.pitch), -std::cos(angles.yaw) * flat};
+glm::vec3 viewDirection(const ViewAngles& angles) { return directionIn({}, angles); }
+
+glm::vec3 turnAxis(const Camera& camera) {
+    constexpr float kLevel = 1e-3f;  // sine of a roll that is none: rounding in files, not meant
+    const float length = glm::length(camera.up);
+    if (!(length > 0)) return kUp;
+    const glm::vec3 up = camera.up / length, view = camera.target - camera.eye;
+    const float slant = glm::length(glm::cross(view, kUp));
+    if (!(slant > kLevel * glm::length(view))) return kUp;  // straight up or down: the roll says nothing
+    const glm::vec3 right = glm::cross(view, up);
+    const bool level = std::fabs(right.y) <= kLevel * std::max(glm::length(right), 1e-20f);
+    return level && up.y > kLevel ? kUp : up;
 }
 
 void fly(Camera& camera, const FlyInput& input) {
     const float distance = std::max(glm::length(camera.target - camera.eye), 1e-6f);
-    const glm::vec3 forward = viewDirection(turned(viewAngles(camera), input.turn));
-    const glm::vec3 step = rightOf(forward) * input.move.x + kUp * input.move.y + forward * input.move.z;
+    const TurnAxes axes = axesAbout(turnAxis(camera));
+    const ViewAngles angles = anglesIn(axes, camera.target - camera.eye);
+    const glm::vec3 forward = directionIn(axes, turned(angles, input.turn));
+    const glm::vec3 step =
+        rightOf(forward, axes.up) * input.move.x + axes.up * input.move.y + forward * input.move.z;
     const float length = glm::length(step);
     if (length > 0) camera.eye += step / std::max(length, 1.0f) * (input.speed * input.seconds);
     camera.target = camera.eye + forward * distance;
-    camera.up = kUp;
+    camera.up = axes.up;
 }
 
 void orbit(Camera& camera, const glm::vec2& turn) {
     const float distance = glm::length(camera.target - camera.eye);
-    camera.eye = camera.target - viewDirection(turned(viewAngles(camera), turn)) * distance;
-    camera.up = kUp;
+    const TurnAxes axes = axesAbout(turnAxis(camera));
+    const ViewAngles angles = anglesIn(axes, camera.target - camera.eye);
+    camera.eye = camera.target - directionIn(axes, turned(angles, turn)) * distance;
+    camera.up = axes.up;
 }
 
 void pan(Camera& camera, const glm::vec2& pixels, int height) {
     const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
-    const glm::vec3 right = rightOf(forward);
+    const glm::vec3 right = rightOf(forward, camera.up);
     const glm::vec3 up = glm::cross(right, forward);
     const float distance = glm::length(camera.target - camera.eye);
     const float metresPerPixel =

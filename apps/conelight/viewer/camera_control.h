@@ -17,6 +17,10 @@ struct ViewAngles {
 ViewAngles viewAngles(const Camera& camera);
 glm::vec3 viewDirection(const ViewAngles& angles);  // unit
 
+// What the camera turns about, unit: +y where its picture is level, else its own up vector, as of a camera that is
+// rolled or upside down. The movements below keep it.
+glm::vec3 turnAxis(const Camera& camera);
+
 // Steepest pitch: the up vector must not line up with the view. The original's 89 degrees.
 constexpr float kMaxPitch = 1.5533430f;
 

@@ -45,6 +45,8 @@ void Menus::takeKeys() {
             if (in_.gui.wantsKeyboard()) in_.console.panel().focus();
             return;
         }
+    for (const auto& press : presses)
+        if (press.key == GLFW_KEY_ESCAPE && in_.view.turntable.turns()) return in_.view.turntable.stop();
     // A dialog and a captured cursor have the keys for themselves.
     if (in_.window.cursorCaptured() || ImGui::GetTopMostPopupModal() != nullptr) return;
     for (const auto& press : presses) {
@@ -162,6 +164,12 @@ void Menus::takeKey(const platform::Window::KeyEvent& press) {
         case GLFW_KEY_X:
             in_.view.split.on = !in_.view.split.on;
             return;
+        case GLFW_KEY_G:
+            return in_.view.guides.setAll(!in_.view.guides.any());
+        case GLFW_KEY_L:
+            return toggleHeadlight();
+        case GLFW_KEY_O:
+            return in_.view.turntable.toggle(in_.session);
         case GLFW_KEY_P:
             return askForScreenshot(in_.session);
         default:
@@ -338,6 +346,28 @@ void Menus::editMenu() {
     ImGui::EndMenu();
 }
 
+void Menus::toggleHeadlight() {
+    float& light = in_.view.headlight;
+    light = light > 0 ? 0 : headlightFor(in_.session.settings().image);
+}
+
+// What is laid over the picture, or moves or lights it for looking.
+void Menus::guidesMenu() {
+    ViewGuides& guides = in_.view.guides;
+    if (ImGui::MenuItem("Grid, axes and scale", "G", guides.any())) guides.setAll(!guides.any());
+    notePlace("menu:Guides");
+    ImGui::MenuItem("Grid on the ground", nullptr, &guides.grid);
+    notePlace("menu:Grid");
+    ImGui::MenuItem("Axes", nullptr, &guides.axes);
+    notePlace("menu:Axes");
+    ImGui::MenuItem("Scale bar", nullptr, &guides.scale);
+    notePlace("menu:Scale bar");
+    if (ImGui::MenuItem("Headlight", "L", in_.view.headlight > 0)) toggleHeadlight();
+    notePlace("menu:Headlight");
+    if (ImGui::MenuItem("Turntable", "O", in_.view.turntable.turns())) in_.view.turntable.toggle(in_.session);
+    notePlace("menu:Turntable");
+}
+
 void Menus::viewMenu() {
     if (!beginMenu("View")) return;
     if (ImGui::MenuItem("Focus", "F")) focusOnSelection(in_.session, in_.view.pictureSize());
@@ -347,9 +377,12 @@ void Menus::viewMenu() {
     if (ImGui::MenuItem("Turn", "2", tool == GizmoTool::Turn)) tool = GizmoTool::Turn;
     if (ImGui::MenuItem("Scale", "3", tool == GizmoTool::Scale)) tool = GizmoTool::Scale;
     ImGui::Separator();
+    guidesMenu();
+    ImGui::Separator();
     ImGui::MenuItem("Split", "X", &in_.view.split.on);
     ImGui::MenuItem("Panels", "Tab", &in_.panels.showSide);
     ImGui::MenuItem("Console", "Ctrl+J", &in_.panels.showConsole);
+    notePlace("menu:Console");
     ImGui::Separator();
     if (ImGui::MenuItem("Larger text", "Ctrl++")) in_.gui.setScale(in_.gui.scale() * kTextStep);
     if (ImGui::MenuItem("Smaller text", "Ctrl+-")) in_.gui.setScale(in_.gui.scale() / kTextStep);

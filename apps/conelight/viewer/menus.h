@@ -53,6 +53,8 @@ class Menus {
     void viewMenu();
     void pictureMenu();  // picture_menu.cpp, as takePictureKey
     void takePictureKey(const platform::Window::KeyEvent& press);
+    void guidesMenu();
+    void toggleHeadlight();
 
     Inputs in_;
     HelpMenu help_;

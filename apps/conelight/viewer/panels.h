@@ -30,8 +30,9 @@ struct FilmNumbers {
     int& frames;
     int& samples;
 };
+class KeyStrip;
 // Key frames: keep, go to, fly along, load, save, record.
-void pathEditor(Session& session, const FilmNumbers& film, const RunLine& run,
+void pathEditor(Session& session, KeyStrip& strip, const FilmNumbers& film, const RunLine& run,
                 const std::function<void(FilePurpose)>& ask);
 
 // Clips of the scene, which has some.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "viewer/key_strip.h"
 #include "viewer/panels.h"
 #include "viewer/widget_places.h"
 
@@ -19,28 +20,9 @@ bool button(const char* label, const char* place, const char* help) {
     return pressed;
 }
 
-// A line each: a click goes there, x removes it.
-void keyList(const CameraPath& path, const RunLine& run) {
-    for (std::size_t i = 0; i < path.keys().size(); ++i) {
-        const PathKey& key = path.keys()[i];
-        ImGui::PushID(static_cast<int>(i));
-        const std::string text = fmt::format("{:g} s   {:.3g}  {:.3g}  {:.3g}", key.seconds, key.camera.eye.x,
-                                             key.camera.eye.y, key.camera.eye.z);
-        const float room = ImGui::GetContentRegionAvail().x - 2 * ImGui::GetFontSize();
-        if (ImGui::Selectable(text.c_str(), false, 0, {std::max(room, 1.0f), 0}))
-            run(fmt::format("path at {}", key.seconds));
-        notePlace(fmt::format("key:{}", i));
-        if (ImGui::IsItemHovered()) ImGui::SetTooltip("time, and where the eye is (m)");
-        ImGui::SameLine();
-        if (ImGui::SmallButton("x")) run(fmt::format("path remove {}", i));
-        notePlace(fmt::format("key:{}:remove", i));
-        ImGui::PopID();
-    }
-}
-
 }  // namespace
 
-void pathEditor(Session& session, const FilmNumbers& film, const RunLine& run,
+void pathEditor(Session& session, KeyStrip& strip, const FilmNumbers& film, const RunLine& run,
                 const std::function<void(FilePurpose)>& ask) {
     const CameraPath& path = session.cameraPath();
     ImGui::Separator();
@@ -49,7 +31,7 @@ void pathEditor(Session& session, const FilmNumbers& film, const RunLine& run,
                      : fmt::format("{} key frame{}, {:g} s", path.keys().size(),
                                    path.keys().size() == 1 ? "" : "s", path.end() - path.start());
     ImGui::TextDisabled("%s", count.c_str());
-    keyList(path, run);
+    strip.show(session, run);
     if (button("add key", "path:add", "this view becomes a key frame, 1 s after the last")) run("path add");
     if (!path.empty()) {
         ImGui::SameLine();

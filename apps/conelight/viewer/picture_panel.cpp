@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "viewer/standard_views.h"
+
 namespace conelight::program {
 
 std::optional<PictureView::Click> PicturePanel::show(const glm::vec2& at, const glm::vec2& size,
@@ -16,8 +18,11 @@ std::optional<PictureView::Click> PicturePanel::show(const glm::vec2& at, const 
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoBringToFrontOnFocus);
     ImGui::PopStyleVar();
+    if (const std::optional<std::string> side = in_.view.guides.takeClick(in_.session.camera(), at, size))
+        viewFrom(in_.session, *side, in_.view.pictureSize());
     const std::optional<PictureView::Click> clicked = in_.view.show(in_.session, at, size, seconds);
     const bool kept = in_.view.kept.shows(), live = in_.view.slot(false).texture() != 0 && !kept;
+    if (live) in_.view.guides.draw(in_.session, in_.probe.picker(), at, size, in_.view.moving());
     if (live) outline_.draw(in_.session, at, size);
     if (!kept) in_.probe.drawOverPicture(at, size);
     if (live || kept) showLabels(at, size);

@@ -70,6 +70,7 @@ struct PictureSlot::Impl {
     bool own = false;      // the picture is the mode's and of this view
     bool preview = false;  // it is another mode's while the mode has none
     bool asked = false;    // redraw()
+    float headlight = 0;
     int width = 0, height = 0;
     PicturePasses passes;              // of the picture
     int settling = 0;                  // passes to come
@@ -120,6 +121,10 @@ void PictureSlot::setRadiosity(const reference::RadiositySettings& settings) {
 }
 
 void PictureSlot::redraw() { impl_->asked = true; }
+
+void PictureSlot::setHeadlight(float irradiance) {
+    if (std::exchange(impl_->headlight, irradiance) != irradiance) impl_->asked = true;
+}
 
 // Nothing is shown until the next picture: what there was is another mode's.
 void PictureSlot::Impl::startAnew() {
@@ -289,6 +294,7 @@ bool PictureSlot::Impl::onlyLook(const Session& session) const {
 void PictureSlot::Impl::renderFrame(const Session& session, Settings settings, int w, int h) {
     const double start = wallMs();
     renderer->setProfiling(true, false);
+    renderer->setHeadlight(headlight);
     renderer->render(session.camera(), w, h, settings);
     texture = renderer->displayTexture(settings.image);
     linear.reset();

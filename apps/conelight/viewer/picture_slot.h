@@ -37,6 +37,7 @@ class PictureSlot {
               Image picture);  // in place of what draw() would, until something changes
     void restInBackground();   // ends the work of mode reference there; draw() begins it again
     void setRadiosity(const reference::RadiositySettings& settings);  // of mode radiosity, before it is shown
+    void setHeadlight(float irradiance);  // of modes of the renderer (Renderer::setHeadlight)
     void redraw();  // the next draw draws although nothing changed, and although only single frames are asked
     void blank();   // shows nothing until the next draw
     // Frees what the slot holds; the next draw starts anew.

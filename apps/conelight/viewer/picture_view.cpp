@@ -55,6 +55,11 @@ glm::vec2 marginOf(const glm::vec2& picture, const glm::vec2& area) {
 
 }  // namespace
 
+float headlightFor(const ImageSettings& image) {
+    constexpr float kHalfWhite = 0.5f * 3.1415927f;
+    return kHalfWhite / std::exp2(image.exposure.resolve(0));
+}
+
 // The error map's texture and what it was made from.
 struct PictureView::Errors {
     platform::PictureTexture texture;
@@ -118,7 +123,8 @@ bool PictureView::update(const Session& session, const glm::ivec2& areaPx, bool 
 
     // A hand that holds a handle goes on: a picture in full would hold it up.
     if (gizmo.active() && slow) lastMove_ = ImGui::GetTime();
-    if (session.playing() || session.clipState().playing) lastMove_ = lastFlight_ = ImGui::GetTime();
+    if (session.playing() || session.clipState().playing || turntable.turns())
+        lastMove_ = lastFlight_ = ImGui::GetTime();
 
     const bool coarse = moving();
     if (!std::exchange(wasMoving_, coarse) && coarse) beginMovement();
@@ -132,6 +138,7 @@ bool PictureView::update(const Session& session, const glm::ivec2& areaPx, bool 
     how.flying = coarse && lastFlight_ == lastMove_;
     how.onlyChanges = !coarse && userActs && slow;
 
+    for (PictureSlot* side : {left_.get(), right_.get()}) side->setHeadlight(headlight);
     const std::uint64_t before = left_->version();
     bool more = left_->draw(session, session.shownMode(), size.x, size.y, how);
     updateRight(session, size, how, more);

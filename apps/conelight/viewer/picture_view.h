@@ -20,6 +20,8 @@
 #include "viewer/moving_resolution.h"
 #include "viewer/picture_slot.h"
 #include "viewer/scopes_panel.h"
+#include "viewer/turntable.h"
+#include "viewer/view_guides.h"
 
 namespace conelight::program {
 
@@ -30,6 +32,10 @@ struct Split {
     bool errors = false;             // the right side shows the left one's error against it
     float errorScale = 1.0f;         // error that is white, relative to the mean radiance
 };
+
+// Of the headlight when it is switched on, W/m^2: by it a white wall before the eye is half as bright as white on the
+// screen. An exposure that finds itself follows what there is.
+float headlightFor(const ImageSettings& image);
 
 class PictureView {
   public:
@@ -66,6 +72,9 @@ class PictureView {
     ScopesPanel scopes;
     ScopesPanel::Source
     shownPicture();  // that the scopes are of: the kept one while it is shown, else the left one
+    ViewGuides guides;
+    Turntable turntable;
+    float headlight = 0;           // Renderer::setHeadlight of both sides
     float resolutionScale = 1.0f;  // of the still picture, 0.25..1
     PictureSlot& slot(bool right) { return right ? *right_ : *left_; }
     glm::ivec2 pictureSize() const;                    // of the left picture

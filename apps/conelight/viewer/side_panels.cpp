@@ -79,7 +79,7 @@ void RightPanel::show(const Layout& layout) {
 void RightPanel::showCamera() {
     cameraEditor(in_.session);
     pathEditor(
-        in_.session, {in_.film.frames, in_.film.traced.samplesPerPixel},
+        in_.session, strip_, {in_.film.frames, in_.film.traced.samplesPerPixel},
         [this](const std::string& line) { in_.console.run(line); },
         [this](FilePurpose purpose) { in_.document.ask(purpose); });
 }

@@ -8,6 +8,7 @@
 
 #include "session/session.h"
 #include "viewer/document.h"
+#include "viewer/key_strip.h"
 #include "viewer/long_work.h"
 #include "viewer/panel_layout.h"
 #include "viewer/picture_view.h"
@@ -58,6 +59,7 @@ class RightPanel {
     void showFrame();
 
     Inputs in_;
+    KeyStrip strip_;
 };
 
 }  // namespace conelight::program

@@ -175,7 +175,8 @@ int Viewer::run() {
 double Viewer::secondsToSleep() const {
     const bool commandsGoOn = !console_.commands().idle() && !work_.wakesWindow();
     const bool busy = more_ || session_.hasRequests() || commandsGoOn || places_.open() ||
-                      session_.playing() || session_.clipState().playing || gui_.hasInput();
+                      session_.playing() || session_.clipState().playing || view_.turntable.turns() ||
+                      gui_.hasInput();
     if (busy) return lastWasIdle_ ? kPace : 0;
     const ViewFlags& flags = session_.flags();
     return flags.dynamic ? std::min<double>(flags.period, kIdleWait) : kIdleWait;
@@ -199,7 +200,10 @@ void Viewer::takeCommands() {
 void Viewer::frame() {
     const double now = ImGui::GetTime();
     // A film has its own clock.
-    if (drawn_ && !work_.holdsRequests()) session_.stepClip(std::min(now - lastFrame_, kLongestStep));
+    if (drawn_ && !work_.holdsRequests()) {
+        session_.stepClip(std::min(now - lastFrame_, kLongestStep));
+        view_.turntable.step(session_, std::min(now - lastFrame_, kLongestStep));
+    }
     updatePictures();
     window_.clear(glm::vec3(0.07f));
     timings_.beginGui();

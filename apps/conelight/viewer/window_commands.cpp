@@ -29,6 +29,15 @@ void WindowCommands::carryOut(const Request& request) {
     const std::map<std::string, std::function<void(const Words&)>> commands = {
         {"split", [&](const Words& words) { split(words); }},
         {"error", [&](const Words& words) { error(words); }},
+        {"guides", [&](const Words& words) { guides(words); }},
+        {"headlight",
+         [&](const Words& words) {
+             float& light = in_.view.headlight;
+             light = words.size() > 1 ? number(words[1])
+                     : light > 0      ? 0
+                                      : headlightFor(in_.session.settings().image);
+         }},
+        {"turntable", [&](const Words& words) { turntable(words); }},
         {"fullscreen",
          [&](const Words& words) { in_.window.setFullscreen(switched(words, in_.window.fullscreen())); }},
         {"panels", [&](const Words& words) { in_.panels.showAll(switched(words, in_.panels.showSide)); }},
@@ -119,6 +128,24 @@ void WindowCommands::error(const Words& words) {
     split.errors = switched(words, split.errors);
     if (split.errors) split.on = true;
     if (words.size() > 2) split.errorScale = number(words[2]);
+}
+
+void WindowCommands::guides(const Words& words) {
+    ViewGuides& guides = in_.view.guides;
+    const std::string which = words.size() > 1 ? words[1] : "all";
+    const bool now = which == "grid"    ? guides.grid
+                     : which == "axes"  ? guides.axes
+                     : which == "scale" ? guides.scale
+                                        : guides.any();
+    const bool on = words.size() > 2 ? words[2] == "on" : !now;
+    if (which == "all") return guides.setAll(on);
+    (which == "grid" ? guides.grid : which == "axes" ? guides.axes : guides.scale) = on;
+}
+
+void WindowCommands::turntable(const Words& words) {
+    const float seconds = words.size() > 1 ? number(words[1]) : Turntable::kSeconds;
+    if (seconds <= 0 || (words.size() == 1 && in_.view.turntable.turns())) return in_.view.turntable.stop();
+    in_.view.turntable.start(in_.session, seconds);
 }
 
 void WindowCommands::resolution(const Words& words) {

@@ -38,6 +38,8 @@ class WindowCommands {
     void pick(const Words& words);
     void split(const Words& words);
     void error(const Words& words);
+    void guides(const Words& words);
+    void turntable(const Words& words);
     void resolution(const Words& words);
     void status(const Words& words);
     void where(const Words& words);
