@@ -8,6 +8,8 @@
 // Depth is reversed: shadowNear / distance along the map's axis, 0 where nothing was drawn, a float's
 // relative precision everywhere. A point lies in the map at tile centre + lateral / (distance * shadowTexel).
 //
+// The front maps of a rectangle that is far from the scene hold no more than the scene, about one place (LIGHT_AIMED).
+//
 // Besides its depth a texel keeps the slopes of its triangle and where that ends. It hides the receiver if
 // (3.2) both
 //   1. the texel's point is nearer than the receiver's plane at that texel,
@@ -264,6 +266,16 @@ vec3 rectSamplePoint(Light light, uint k) {
     return light.position + uv.x * light.halfU + uv.y * light.halfV + lift * light.direction;
 }
 
+// Where the middle of the front map of a sample point lies that is so far from the rectangle's middle: a tangent.
+vec2 shadowRectMiddle(Light light, vec3 place) {
+    vec3 axisU = normalize(light.halfU);
+    vec3 axisV = cross(light.direction, axisU);
+    float ahead = light.shadowNear * LIGHT_AIM_DISTANCE;
+    vec2 aside = ahead * vec2(light.cosInner, light.cosOuter) - vec2(dot(place, axisU), dot(place, axisV));
+    vec2 tangent = aside / max(ahead - dot(place, light.direction), 1e-20);
+    return (light.flags & LIGHT_AIMED) != 0u ? tangent : vec2(0.0);
+}
+
 // Visibility of the k-th sample point of a rectangle, unfiltered but for the bilinear weights: the samples
 // blur each other's edges.
 float shadowVisibilityRect(Light light, uint k, vec3 point, vec3 p, vec3 n) {
@@ -286,7 +298,8 @@ float shadowVisibilityRect(Light light, uint k, vec3 point, vec3 p, vec3 n) {
 
     float size = 0.25 * float(textureSize(shadowMaps, 0).x);
     vec3 tile = shadowTile(max(light.shadow, 0) + 3 * int(k) + (front ? 0 : 1 + side / 2), 4);
-    vec2 texel = across / (z * light.shadowTexel);
+    vec2 texel = (across / z - (front ? shadowRectMiddle(light, point - light.position) : vec2(0.0))) /
+                 light.shadowTexel;
     // Half sides begin two texels (SHADOW_RECT_GUARD) below the rectangle's plane.
     texel += front ? vec2(0.5 * size) : vec2(0.5 * size, (side & 1) != 0 ? 0.5 * size + 2.0 : 2.0);
     float lit = shadowBilinear(tile.xy + texel, tile.z, light.shadowNear / z);

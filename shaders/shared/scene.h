@@ -99,6 +99,10 @@ struct Material {
 
 // Light::flags
 #define LIGHT_CASTS_SHADOW 1u
+// Of a rectangle: the front maps of its sample points are aimed at one place, as far away along the axis as shadowNear
+// times LIGHT_AIM_DISTANCE, aside by cosInner and cosOuter in parts of that.
+#define LIGHT_AIMED 0x100u
+#define LIGHT_AIM_DISTANCE 1e5f
 #define LIGHT_FROM_EMITTER 2u  // stands for an emissive rectangle of the scene (light/emissive_quads.h)
 
 struct Light {

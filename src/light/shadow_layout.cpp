@@ -81,6 +81,7 @@ class Layouter {
     // `first`: bounds that do not change when something moves, for the near distance.
     Layouter(const Aabb& bounds, const Aabb& first, const LightSettings& settings, int size)
         : bounds_(bounds),
+          aim_(first.empty() ? bounds.center() : first.center()),
           size_(size),
           guard_(std::min(guardTexels(settings.shadowFilter), size_ / 8)),
           near_(std::max(kNearFraction * glm::length(first.extent()), 1e-12f)) {}
@@ -197,18 +198,33 @@ class Layouter {
         const int tile = size_ / 4;
         const int samples = static_cast<int>(light.sampleGrid * light.sampleGrid);
         light.shadow = take(4, 3 * samples);
-        // A half side holds tangents 0 to 1 and a guard at both ends in half a tile.
-        light.shadowTexel = 1.0f / static_cast<float>(tile / 2 - 2 * kRectGuard);
         const glm::vec3 u = glm::normalize(light.halfU);
         const glm::vec3 v = glm::cross(light.direction, u);
+        const float reach = reachAboutAim(light, {u, v, light.direction});
+        const bool aimed = reach < 1;
+        if (aimed) {
+            const Axes axes{u, v, light.direction};
+            const glm::vec2 aside = tangentOf(aim_ - light.position, axes);
+            light.shadowNear = glm::dot(aim_ - light.position, light.direction) / LIGHT_AIM_DISTANCE;
+            light.cosInner = aside.x;
+            light.cosOuter = aside.y;
+            light.flags |= LIGHT_AIMED;
+        }
+        // A half side holds tangents 0 to 1 and a guard at both ends in half a tile.
+        light.shadowTexel = reach / static_cast<float>(tile / 2 - 2 * kRectGuard);
         for (int sample = 0; sample < samples; ++sample) {
             const glm::vec3 point = rectSamplePoint(light, sample);
             for (int side = 0; side < 5; ++side) {
                 const bool front = side == 4;
                 Axes axes = cubeSide(side, u, v, light.direction);
                 if (side == 2 || side == 3) std::swap(axes.u, axes.v);
+                if (front && aimed) {
+                    const glm::vec2 middle = tangentOf(aim_ - point, axes);
+                    axes.u -= middle.x * axes.forward;
+                    axes.v -= middle.y * axes.forward;
+                }
                 ShadowView view = perspectiveView(
-                    point, axes, near_,
+                    point, axes, light.shadowNear,
                     {light.shadowTexel, tile, front ? tile : tile / 2,
                      front ? 0.5f * static_cast<float>(tile) : static_cast<float>(kRectGuard)});
                 view.surfaces = false;
@@ -217,6 +233,30 @@ class Layouter {
                 views_.push_back(view);
             }
         }
+    }
+
+    static glm::vec2 tangentOf(const glm::vec3& d, const Axes& axes) {
+        return glm::vec2(glm::dot(d, axes.u), glm::dot(d, axes.v)) / glm::dot(d, axes.forward);
+    }
+
+    // How far, as a tangent, the scene reaches from the middle of a front map that is aimed at it, in steps of 2^(1/8),
+    // so that shadows do not crawl when the bounds change. 1: part of the scene is not in front of the rectangle.
+    float reachAboutAim(const gpu::Light& light, const Axes& axes) const {
+        if (bounds_.empty()) return 1;
+        float reach = 1e-3f;
+        for (int sample = 0; sample < static_cast<int>(light.sampleGrid * light.sampleGrid); ++sample) {
+            const glm::vec3 point = rectSamplePoint(light, sample);
+            const glm::vec2 middle = tangentOf(aim_ - point, axes);
+            for (const glm::vec3& corner : bounds_.corners()) {
+                const glm::vec2 tangent = tangentOf(corner - point, axes);
+                const float distance = glm::dot(corner - point, axes.forward);
+                const bool ahead = distance > 1e-3f * glm::dot(aim_ - point, axes.forward) && distance > 0;
+                const glm::vec2 away = glm::abs(tangent - middle), aside = glm::abs(tangent);
+                if (!ahead || std::max(aside.x, aside.y) > 0.99f) return 1;
+                reach = std::max({reach, away.x, away.y});
+            }
+        }
+        return std::min(std::exp2(std::ceil(8.0f * std::log2(1.01f * reach)) / 8.0f), 1.0f);
     }
 
     // C++ twin of lib/shadow.glsl's.
@@ -231,6 +271,7 @@ class Layouter {
     }
 
     Aabb bounds_;
+    glm::vec3 aim_;
     int size_, guard_;
     float near_;
     int tilesPerEdge_ = 1, nextTile_ = 0, layers_ = 0, surfaceLayers_ = 0;
@@ -261,6 +302,7 @@ ShadowLayout layOutShadows(const Aabb& bounds, const Aabb& firstBounds, const Li
         static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<float>(settings.areaSamples))));
     for (gpu::Light& light : lights) {
         light.shadow = -1;
+        light.flags &= ~LIGHT_AIMED;
         light.sampleGrid = std::max(grid, 1u);
     }
     const auto laidOut = [&](int size) {

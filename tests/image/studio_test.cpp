@@ -5,8 +5,10 @@
 
 #include "conelight/renderer.h"
 #include "conelight/studio.h"
+#include "reference/path_tracer.h"
 #include "support/gl_fixture.h"
 #include "support/scenes.h"
+#include "support/truth_rig.h"
 
 namespace conelight::test {
 namespace {
@@ -41,6 +43,29 @@ TEST_F(StudioTest, ABoxStandsOnTheGround) {
     for (int x = 0; x < kWidth; ++x)
         for (int y = 0; y < kHeight / 3; ++y) darkest = std::min(darkest, at(with, x, y) / at(without, x, y));
     EXPECT_LT(darkest, 0.6f * open);
+}
+
+// The studio's lamp is 80 times as far away as the scene is large: its shadow still touches what casts it.
+TEST_F(StudioTest, TheLampsShadowIsThatOfThePathTracer) {
+    Scene scene;
+    addInstance(scene, sphereMesh(48, 32), diffuseMaterial());
+    completeScene(scene);
+    constexpr int kWidth = 96, kHeight = 72;
+    reference::PathTracerSettings traced;
+    traced.samplesPerPixel = 64;
+    traced.bounces = 0;
+    const Image truth =
+        reference::PathTracer(scene).render(scene.cameras.front(), kWidth, kHeight, traced).direct;
+    Renderer renderer;
+    renderer.setScene(scene);
+    for (const Mode mode : {Mode::Traced, Mode::Phong}) {
+        Settings settings;
+        settings.mode = mode;
+        settings.component = Component::Direct;
+        settings.voxels.size = 64;
+        renderer.render(scene.cameras.front(), kWidth, kHeight, settings);
+        EXPECT_LT(relRmse(renderer.readImage(), truth), 0.05) << mode.name();
+    }
 }
 
 }  // namespace

@@ -21,9 +21,15 @@ void text(const glm::vec2& at, const std::string& words) {
     ImGui::GetWindowDrawList()->AddText({at.x, at.y}, kLetters, words.c_str());
 }
 
+// The tallest bar between the ends: what is black or clipped would leave no room for the rest.
+template <class Counts>
+std::uint32_t mostIn(const Counts& counts) {
+    return *std::max_element(counts.begin() + 1, counts.end() - 1);
+}
+
 // Height of a bar, 0 to 1: by roots, so that small parts are seen beside large ones.
 float heightOf(std::uint32_t count, std::uint32_t most) {
-    return std::sqrt(static_cast<float>(count) / static_cast<float>(std::max(most, 1u)));
+    return std::sqrt(std::min(static_cast<float>(count) / static_cast<float>(std::max(most, 1u)), 1.0f));
 }
 
 }  // namespace
@@ -66,7 +72,7 @@ void ScopesPanel::show(const Source& source, const ImageSettings& look, const gl
 float ScopesPanel::showLuminance(const glm::vec2& at, float width) const {
     const float em = ImGui::GetFontSize(), height = 5 * em, step = width / Scopes::kBins;
     ImDrawList* list = ImGui::GetWindowDrawList();
-    const std::uint32_t most = *std::max_element(scopes_.luminance.begin(), scopes_.luminance.end());
+    const std::uint32_t most = mostIn(scopes_.luminance);
     for (int i = 0; i < Scopes::kBins; ++i) {
         const float part = heightOf(scopes_.luminance[static_cast<std::size_t>(i)], most);
         const float stops = Scopes::kDarkest + (static_cast<float>(i) + 0.5f) / Scopes::kBinsPerStop;
@@ -93,7 +99,7 @@ float ScopesPanel::showChannels(const glm::vec2& at, float width) const {
     list->AddLine({at.x, at.y + height}, {at.x + width, at.y + height}, kGrid);
     for (std::size_t c = 0; c < 3; ++c) {
         const auto& counts = scopes_.channels[c];
-        const std::uint32_t most = *std::max_element(counts.begin(), counts.end());
+        const std::uint32_t most = mostIn(counts);
         std::array<ImVec2, Scopes::kLevels> line;
         for (std::size_t i = 0; i < counts.size(); ++i)
             line[i] = {at.x + width * (static_cast<float>(i) + 0.5f) / Scopes::kLevels,
