@@ -34,9 +34,9 @@ Argument themeArgument() {
 }
 
 Argument statusKey() {
-    return choice("KEY", {"scene",     "window",    "picture", "mode",   "split", "kept",       "settled", "selection",
-                          "pixel",     "camera",    "steps",   "path",   "log",   "hint",       "guides",
-                          "headlight", "turntable", "frames",  "moving", "gui",   "first_frame"});
+    return choice("KEY", {"scene",     "window",    "picture",   "mode",   "split",  "kept", "settled",
+                          "selection", "pixel",     "camera",    "steps",  "path",   "log",  "hint",
+                          "guides",    "headlight", "turntable", "frames", "moving", "gui",  "first_frame"});
 }
 
 Command splitCommand() {
