@@ -16,7 +16,7 @@ namespace {
 
 constexpr float kKeyReach = 6;     // px from a key's middle that take it
 constexpr double kTimeStep = 0.1;  // s: times that a drag gives
-constexpr ImU32 kGround = IM_COL32(32, 32, 34, 255), kTick = IM_COL32(110, 110, 115, 255),
+constexpr ImU32 kStripGround = IM_COL32(32, 32, 34, 255), kTick = IM_COL32(110, 110, 115, 255),
                 kTimeText = IM_COL32(150, 150, 155, 255), kKeyColor = IM_COL32(235, 190, 70, 255),
                 kSelectedKey = IM_COL32(70, 190, 255, 255), kHeadColor = IM_COL32(235, 90, 80, 255);
 
@@ -86,7 +86,7 @@ void KeyStrip::takeMouse(Session& session, const Place& place) {
 void KeyStrip::draw(const Session& session, const Place& place) const {
     ImDrawList* list = ImGui::GetWindowDrawList();
     const float em = ImGui::GetFontSize();
-    list->AddRectFilled(place.low, place.high, kGround, 3);
+    list->AddRectFilled(place.low, place.high, kStripGround, 3);
     // Ticks as far apart as their numbers are wide.
     const float perSecond =
         (place.xOf(place.until) - place.xOf(place.from)) / float(place.until - place.from);
