@@ -359,8 +359,7 @@ void run(RenderOptions options) {
     addClip(options, animation);
     Session session(std::move(scene), options.scene, request.settings, request.mode, request.camera);
     session.setAnimation(std::move(animation));
-    session.allowOutside(options.view.allowOutside);
-    session.leaveOutGround(options.view.noGround);
+    session.setOpenHow({options.view.allowOutside, !options.view.noGround});
     if (isFilm(options)) {
         if (!options.aovs.empty())
             options.script.layers = [&options](const Picture& drawn) { return layersOf(options, drawn); };

@@ -30,8 +30,9 @@ struct ViewCommand {
     ViewOptions view;
 };
 
-Session openSession(const ViewCommand& options) {
+Session openSession(const ViewCommand& options, const io::LoadOptions& watched = {}) {
     Progress progress;
+    progress.watch = watched.progress;
     io::SceneAnimation animation;
     Scene scene = openScene(options.scene, options.view, progress, &animation);
     const std::string mode = modeFor(options.mode, options.view);
@@ -40,8 +41,7 @@ Session openSession(const ViewCommand& options) {
     Session session(std::move(scene), options.scene, settings,
                     mode.empty() ? getSetting(settings, "mode") : mode, camera);
     session.setAnimation(std::move(animation));
-    session.allowOutside(options.view.allowOutside);
-    session.leaveOutGround(options.view.noGround);
+    session.setOpenHow({options.view.allowOutside, !options.view.noGround});
     return session;
 }
 
@@ -64,7 +64,7 @@ int run(const ViewCommand& options) {
     viewer.radiosity = options.radiosity.values;
     viewer.startedMs = std::chrono::duration<double, std::milli>(kStarted.time_since_epoch()).count();
     viewer.scene = options.scene;
-    viewer.open = [&options] { return openSession(options); };
+    viewer.open = [&options](const io::LoadOptions& watched) { return openSession(options, watched); };
     return runViewer(viewer);
 }
 

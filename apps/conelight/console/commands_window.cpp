@@ -30,7 +30,7 @@ Argument choice(const char* name, std::vector<std::string> choices) {
 Argument statusKey() {
     return choice("KEY",
                   {"scene", "window", "picture", "mode", "split", "settled", "selection", "pixel", "camera",
-                   "steps", "path", "log", "hint", "frames", "moving", "gui", "first_frame"});
+                   "steps", "path", "log", "hint", "frames", "moving", "pauses", "gui", "first_frame"});
 }
 
 Command splitCommand() {
@@ -98,10 +98,11 @@ CommandGroup windowCommands() {
                 [](const CommandContext& context) { askWindow(context, "settle"); },
                 "In mode reference, and beside it, until there is a first picture."),
             command(
-                "stop", {}, "end what commands wait for: a flight, a film, a bake, settle or wait",
+                "stop", {},
+                "end what commands wait for: a scene to open, a flight, a film, a bake, settle or wait",
                 [](const CommandContext& context) { askWindow(context, "stop"); },
                 "Typed by itself it is carried out at once, and the commands behind that go on. So is `path "
-                "stop` during a flight, which the key Escape ends, too."),
+                "stop` during a flight, which the key Escape ends, too; and a scene that is read."),
             command(
                 "resolution", {{"SCALE", ArgumentKind::Number, true, false, "", 0.25, 1, {}}},
                 "pixels of the picture, as a part of those of the window, along each edge",

@@ -35,10 +35,11 @@ void askForScreenshot(Session& session) { session.request({RequestKind::Screensh
 void Menus::takeKeys() {
     const bool menuOpen = closeMenusOnEscape();
     const std::vector<platform::Window::KeyEvent>& presses = in_.gui.keyPresses();
-    // Whoever typed `path play` still has the cursor in the console's line.
+    // Whoever typed `path play`, or `open`, still has the cursor in the console's line.
+    const bool loads = in_.work.loads() && !menuOpen;
     for (const auto& press : presses)
-        if (press.key == GLFW_KEY_ESCAPE && in_.session.playing()) {
-            in_.session.stopPlaying();
+        if (press.key == GLFW_KEY_ESCAPE && (in_.session.playing() || loads)) {
+            loads ? in_.work.stopLoading() : in_.session.stopPlaying();
             if (in_.gui.wantsKeyboard()) in_.console.panel().focus();
             return;
         }

@@ -10,6 +10,7 @@
 #include "viewer/document.h"
 #include "viewer/gui.h"
 #include "viewer/key_list.h"
+#include "viewer/long_work.h"
 #include "viewer/panel_layout.h"
 #include "viewer/picture_view.h"
 #include "viewer/pixel_probe.h"
@@ -29,6 +30,7 @@ class Menus {
         Document& document;
         PanelLayout& panels;
         KeyList& keys;
+        LongWork& work;
     };
     explicit Menus(const Inputs& inputs) : in_(inputs) {}
 
