@@ -60,5 +60,18 @@ TEST_F(ViewerAnswersTest, BeforeThePictureIsFinished) {
     EXPECT_EQ(viewer->output().find("OpenGL: "), std::string::npos) << viewer->output();
 }
 
+// tools/measure_viewer works in the window, too: one round of its steps.
+TEST_F(ViewerAnswersTest, TheToolMeasuresARound) {
+    const std::string out = scratchPath("measured_viewer");
+    const CommandResult result =
+        runCommand("'" CONELIGHT_SOURCE_DIR "/tools/measure_viewer' --minutes 0 --program '" CONELIGHT_PROGRAM
+                   "' --window 720x480 --other builtin:cornell-point --out '" +
+                   out + "' -- --voxels 24 --mode phong");
+    EXPECT_EQ(result.status, 0) << result.output;
+    const std::string page = bytesOf(out + ".md");
+    for (const char* part : {"from a click until", "| orbit | ", "| open | ", "ms of CPU a frame"})
+        EXPECT_NE(page.find(part), std::string::npos) << part << " is missing in\n" << page;
+}
+
 }  // namespace
 }  // namespace conelight::test
