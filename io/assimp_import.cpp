@@ -386,9 +386,11 @@ Scene isolated(const fs::path& path, const LoadOptions& options, Import import) 
         limits.extraMemoryBytes = options.memoryLimitBytes;
         if (limits.extraMemoryBytes > 0 && !code) limits.extraMemoryBytes += kMemoryPerByte * size;
         if (limits.cpuSeconds > 0.0 && !code) limits.cpuSeconds += double(size) / kBytesPerSecond;
+        if (options.progress) limits.goesOn = [&] { return options.progress({"importing"}); };
         ChildResult result =
             runInChild([&] { return bytesFromScene(import(path, folder, options)); }, limits);
         if (result.failure.empty()) return sceneFromBytes(result.bytes);
+        if (result.stopped) throw LoadStopped("stopped");
         failure = oneLine(result.failure);
     } else {
         try {

@@ -33,6 +33,7 @@ namespace conelight::io {
 
 namespace {
 
+constexpr int kAskMs = 100;           // between calls of ChildLimits::goesOn
 constexpr double kWallPerCpu = 20.0;  // chosen: eight busy neighbours on two cores still pass
 
 // First byte of what the child sends.
@@ -116,16 +117,23 @@ void applyLimits(const ChildLimits& limits) {
     ::_exit(sent ? 0 : 1);  // no destructors, no atexit: they belong to the parent
 }
 
-// Reads until the child closes its end; false when the deadline passed first.
-bool receiveAll(int fd, double wallSeconds, Bytes& out) {
+enum class Received { All, TooLate, Stopped };
+
+// Reads until the child closes its end, or the deadline passes, or nobody wants it any more.
+Received receiveAll(int fd, const ChildLimits& limits, Bytes& out) {
+    const double wallSeconds = limits.cpuSeconds * kWallPerCpu;
     using Clock = std::chrono::steady_clock;
     const auto start = Clock::now();
     for (;;) {
         int wait = -1;
         if (wallSeconds > 0.0) {
             const double left = wallSeconds - std::chrono::duration<double>(Clock::now() - start).count();
-            if (left <= 0.0) return false;
+            if (left <= 0.0) return Received::TooLate;
             wait = int(std::min(left * 1000.0 + 1.0, 1e9));
+        }
+        if (limits.goesOn) {
+            if (!limits.goesOn()) return Received::Stopped;
+            wait = wait < 0 ? kAskMs : std::min(wait, kAskMs);
         }
         struct pollfd poller {
             fd, POLLIN, 0
@@ -133,7 +141,7 @@ bool receiveAll(int fd, double wallSeconds, Bytes& out) {
         const int ready = ::poll(&poller, 1, wait);
         if (ready < 0 && errno == EINTR) continue;
         if (ready <= 0) {
-            if (ready < 0) return false;
+            if (ready < 0) return Received::TooLate;
             continue;
         }
         const std::size_t used = out.size();
@@ -143,7 +151,7 @@ bool receiveAll(int fd, double wallSeconds, Bytes& out) {
         const ssize_t got = ::read(fd, out.data() + used, kPiece);
         out.resize(used + std::size_t(std::max<ssize_t>(got, 0)));
         if (got < 0 && errno == EINTR) continue;
-        if (got <= 0) return true;
+        if (got <= 0) return Received::All;
     }
 }
 
@@ -182,15 +190,18 @@ ChildResult runInChild(const std::function<Bytes()>& work, const ChildLimits& li
     }
     ::close(ends[1]);
     Bytes received;
-    const bool inTime = receiveAll(ends[0], limits.cpuSeconds * kWallPerCpu, received);
+    const Received how = receiveAll(ends[0], limits, received);
     ::close(ends[0]);
-    if (!inTime) ::kill(child, SIGKILL);
+    if (how != Received::All) ::kill(child, SIGKILL);
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
 
     // Sort out what came: bytes, a message, or a death.
-    if (!inTime) {
+    if (how == Received::Stopped) {
+        result.stopped = true;
+        result.failure = "stopped";
+    } else if (how == Received::TooLate) {
         result.failure = fmt::format("takes longer than the limit of {:.1f} s", limits.cpuSeconds);
     } else if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || received.empty()) {
         result.failure = deathOf(status, limits);

@@ -13,11 +13,14 @@ namespace conelight::io {
 struct ChildLimits {
     double cpuSeconds = 0.0;             // 0 = none
     std::uint64_t extraMemoryBytes = 0;  // address space beyond today's; 0 = none
+    // Asked ten times a second, in this process; false ends the child. Must not throw.
+    std::function<bool()> goesOn;
 };
 
 struct ChildResult {
-    Bytes bytes;          // what `work` returned; empty when it failed
-    std::string failure;  // "" or why there are no bytes: the exception's text, or how the child died
+    Bytes bytes;           // what `work` returned; empty when it failed
+    std::string failure;   // "" or why there are no bytes: the exception's text, or how the child died
+    bool stopped = false;  // by ChildLimits::goesOn
 };
 
 // `work` runs in the child: it sees a copy of everything and leaves no trace but its bytes. It must not touch

@@ -32,7 +32,7 @@ constexpr std::size_t kMaxInstances = 10'000'000;  // 1 GB of table; more is a b
 class Reader {
   public:
     Reader(const std::filesystem::path& path, const LoadOptions& options)
-        : file_(path, options.allowOutside), maxTexels_(options.maxTexels) {}
+        : options_(options), file_(path, options.allowOutside) {}
     Scene read(SceneAnimation* animation);  // null: movement is left out
 
   private:
@@ -55,8 +55,8 @@ class Reader {
     void readFlags(std::size_t node, const GltfValue& value, Instance& instance) const;
     void addRectLight(std::size_t node, const GltfValue& own);
 
+    const LoadOptions& options_;
     GltfFile file_;
-    std::uint64_t maxTexels_;
     Scene scene_;
     std::vector<glm::mat4> worldFromNode_;
     std::vector<std::uint8_t> hidden_;  // by KHR_node_visibility, of the node or of one above it
@@ -418,10 +418,13 @@ Scene Reader::read(SceneAnimation* animation) {
     findWorldTransforms();
     if (animation != nullptr) animation_.clips = readClips(file_, scene_.notes);
     findMovingWeights();
-    GltfMaterials materials(file_, scene_, maxTexels_);
+    GltfMaterials materials(file_, scene_, options_);
     GltfMeshes meshes(file_, scene_, materials);
-    for (const std::size_t node : nodesOfScene()) {
+    const std::vector<std::size_t> nodes = nodesOfScene();
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const std::size_t node = nodes[i];
         const GltfValue value = file_.array("nodes")[node];
+        if (value["mesh"].exists()) options_.tell({"meshes", i, nodes.size()});
         placeMesh(node, value, meshes);
         addLight(node, value);
         addCamera(node, value);

@@ -54,8 +54,8 @@ glm::mat3 transformOf(const GltfValue& extension) {
 
 }  // namespace
 
-GltfMaterials::GltfMaterials(GltfFile& file, Scene& scene, std::uint64_t maxTexels)
-    : file_(file), scene_(scene), budget_(maxTexels) {
+GltfMaterials::GltfMaterials(GltfFile& file, Scene& scene, const LoadOptions& options)
+    : file_(file), scene_(scene), options_(options), budget_(options.maxTexels) {
     const GltfValue materials = file_.array("materials");
     for (std::size_t i = 0; i < materials.size(); ++i) {
         uvSet_ = 0;
@@ -86,6 +86,7 @@ int GltfMaterials::indexOf(const GltfValue& primitive) {
 const ByteImage* GltfMaterials::image(std::size_t index) {
     const auto known = images_.find(index);
     if (known != images_.end()) return known->second ? &*known->second : nullptr;
+    options_.tell({"pictures", images_.size(), file_.array("images").size()});
     std::optional<ByteImage>& slot = images_[index];
     const GltfValue value = file_.array("images")[index];
     try {

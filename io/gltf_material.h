@@ -8,6 +8,7 @@
 #include "conelight/scene.h"
 #include "io/gltf_file.h"
 #include "io/image_file.h"
+#include "io/scene_file.h"
 #include "io/texture_budget.h"
 
 namespace conelight::io {
@@ -15,8 +16,8 @@ namespace conelight::io {
 class GltfMaterials {
   public:
     // Converts all materials of the file into scene.materials (same order). Pictures that cannot be read
-    // become notes; together they have `maxTexels` at most.
-    GltfMaterials(GltfFile& file, Scene& scene, std::uint64_t maxTexels);
+    // become notes; together they have LoadOptions::maxTexels at most. `options` stay where they are meanwhile.
+    GltfMaterials(GltfFile& file, Scene& scene, const LoadOptions& options);
 
     // Index into scene.materials of a primitive's material; the glTF default when it names none.
     int indexOf(const GltfValue& primitive);
@@ -33,6 +34,7 @@ class GltfMaterials {
 
     GltfFile& file_;
     Scene& scene_;
+    const LoadOptions& options_;
     TextureBudget budget_;
     std::map<std::size_t, std::optional<ByteImage>> images_;  // decoded; nothing: cannot be read
     std::map<std::vector<std::size_t>, int> textures_;

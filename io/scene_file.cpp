@@ -64,18 +64,21 @@ Scene read(const fs::path& path, const LoadOptions& options, SceneAnimation* ani
 }
 
 Scene load(const std::string& pathOrBuiltin, const LoadOptions& options, SceneAnimation* animation) {
+    const std::string file = oneLine(pathOrBuiltin);
+    const LoadStopped stopped(file + ": stopped; nothing is loaded");
+    if (options.progress && !options.progress({"reading"})) throw stopped;
     if (pathOrBuiltin.rfind(kBuiltin, 0) == 0) {
         if (options.up != UpAxis::Auto)
-            throw Error(ErrorKind::Usage,
-                        oneLine(pathOrBuiltin) + ": is y-up; an up axis is taken for files");
+            throw Error(ErrorKind::Usage, file + ": is y-up; an up axis is taken for files");
         return generateScene(pathOrBuiltin.substr(kBuiltin.size()));
     }
-    const std::string file = oneLine(pathOrBuiltin);
     try {
         Scene scene = read(fs::path(pathOrBuiltin), options, animation);
         if (scene.name.empty()) scene.name = fs::path(pathOrBuiltin).stem().string();
         scene.validate();
         return scene;
+    } catch (const LoadStopped&) {
+        throw stopped;
     } catch (const Error& error) {
         // Scene::validate and other rooms do not know the file.
         const std::string what = oneLine(error.what(), 1000);
@@ -89,6 +92,10 @@ Scene load(const std::string& pathOrBuiltin, const LoadOptions& options, SceneAn
 }
 
 }  // namespace
+
+void LoadOptions::tell(const LoadStep& step) const {
+    if (progress && !progress(step)) throw LoadStopped("stopped");
+}
 
 Scene loadScene(const std::string& pathOrBuiltin, const LoadOptions& options) {
     return load(pathOrBuiltin, options, nullptr);
@@ -106,6 +113,8 @@ Scene loadMovingScene(const std::string& pathOrBuiltin, const LoadOptions& optio
                       SceneAnimation& animation) {
     try {
         return loadAnimatedScene(pathOrBuiltin, options, animation);
+    } catch (const LoadStopped&) {
+        throw;
     } catch (const Error& error) {
         animation = {};
         Scene scene = loadScene(pathOrBuiltin, options);

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests of the tools that measure GPUs: pages are made from figures made up here, and what got worse is named. Nothing is drawn,
+"""Tests of the tools that measure GPUs and the window: pages are made from figures made up here, and what got worse is named. Nothing is drawn,
 nothing is compiled. Run by tools/check."""
 import importlib.machinery
 import importlib.util
@@ -45,6 +45,23 @@ class MeasureGpu(unittest.TestCase):
         runs = load("measure_gpu").runs()
         self.assertEqual(len(runs), len({run.key for run in runs}))
         self.assertGreater(len(runs), 40)
+
+
+class MeasureViewer(unittest.TestCase):
+    def test_page_names_the_longest_pause_and_the_clicks(self):
+        pauses = {step: [30.0, 40.0] for step in load("measure_viewer").STEPS} | {"open": [170.0, 190.0]}
+        data = {"version": 1, "scene": "builtin:cornell", "other": "builtin:spheres", "window": "1280x800", "view": ["--voxels", "64"],
+                "minutes": 5, "rounds": 2, "click_ms": [45.0, 61.0, 90.0], "pauses_ms": pauses, "moving": ["9.5 frames/s"],
+                "gui": "2.5 ms of CPU a frame", "first_frame": "1.50 s after the start", "device": "driver", "cores": 2, "load": 0.5}
+        with tempfile.TemporaryDirectory() as folder:
+            out = pathlib.Path(folder, "viewer")
+            out.with_suffix(".json").write_text(json.dumps(data))
+            subprocess.run([sys.executable, TOOLS / "measure_viewer", "--page", "--out", out], check=True)
+            page = out.with_suffix(".md").read_text()
+        self.assertIn("| from a click until the panel shows what was selected | 61 (45 to 90) | 100 |", page)
+        self.assertIn("| the longest time in which the window did not look for input | 190 | 200 |", page)
+        self.assertIn("| orbit | 35 (30 to 40) |", page)
+        self.assertIn("tools/measure_viewer --minutes 5 --scene builtin:cornell -- --voxels 64", page)
 
 
 class GpuIsa(unittest.TestCase):

@@ -32,6 +32,7 @@ struct Progress::Line {
     std::condition_variable ended;
     std::string text;
     std::chrono::steady_clock::time_point since;
+    std::chrono::steady_clock::time_point printed;
     bool shown = false, ends = false;
     std::thread clock;
 
@@ -72,6 +73,20 @@ void Progress::show(const std::string& text) {
     line_->since = std::chrono::steady_clock::now();
     line_->shown = true;
     line_->print(text);
+}
+
+bool Progress::showLoading(const std::string& path, const io::LoadStep& step) {
+    if (line_ && step.total > 0) {
+        constexpr auto kTick = std::chrono::milliseconds(100);
+        const std::lock_guard lock(line_->mutex);
+        const auto now = std::chrono::steady_clock::now();
+        line_->text = fmt::format("loading {}: {}, {} of {}", path, step.name, step.done, step.total);
+        if (line_->shown && now - line_->printed > kTick) {
+            line_->printed = now;
+            line_->print(line_->text);
+        }
+    }
+    return !watch || watch(step);
 }
 
 void Progress::finish() {
@@ -277,6 +292,7 @@ Scene openScene(const std::string& path, const ViewOptions& options, Progress& p
     load.allowOutside = options.allowOutside;
     load.maxTexels = texelsWithin(load.maxTexels);
     load.up = options.up;
+    load.progress = [&](const io::LoadStep& step) { return progress.showLoading(path, step); };
     const HostMemoryLimit limit;
     Scene scene = animation == nullptr ? io::loadScene(path, load)
                   : needsClips         ? io::loadAnimatedScene(path, load, *animation)

@@ -48,6 +48,9 @@ class Progress {
     Progress& operator=(const Progress&) = delete;
     void show(const std::string& text);
     void finish();
+    // How far the loading of a file is, of which show() has told.
+    bool showLoading(const std::string& path, const io::LoadStep& step);
+    std::function<bool(const io::LoadStep&)> watch;  // told too (LoadOptions::progress)
 
   private:
     struct Line;

@@ -359,9 +359,7 @@ void run(RenderOptions options) {
     addClip(options, animation);
     Session session(std::move(scene), options.scene, request.settings, request.mode, request.camera);
     session.setAnimation(std::move(animation));
-    session.allowOutside(options.view.allowOutside);
-    session.leaveOutGround(options.view.noGround);
-    session.takeUpAxis(options.scene, options.view.up);
+    session.setOpenHow({options.view.allowOutside, !options.view.noGround, {options.scene, options.view.up}});
     if (isFilm(options)) {
         if (!options.aovs.empty())
             options.script.layers = [&options](const Picture& drawn) { return layersOf(options, drawn); };

@@ -33,8 +33,9 @@ struct ViewCommand {
     ViewOptions view;
 };
 
-Session openSession(const ViewCommand& options) {
+Session openSession(const ViewCommand& options, const io::LoadOptions& watched = {}) {
     Progress progress;
+    progress.watch = watched.progress;
     io::SceneAnimation animation;
     Scene scene = openScene(options.scene, options.view, progress, &animation);
     const std::string mode = modeFor(options.mode, options.view);
@@ -43,9 +44,7 @@ Session openSession(const ViewCommand& options) {
     Session session(std::move(scene), options.scene, settings,
                     mode.empty() ? getSetting(settings, "mode") : mode, camera);
     session.setAnimation(std::move(animation));
-    session.allowOutside(options.view.allowOutside);
-    session.leaveOutGround(options.view.noGround);
-    session.takeUpAxis(options.scene, options.view.up);
+    session.setOpenHow({options.view.allowOutside, !options.view.noGround, {options.scene, options.view.up}});
     return session;
 }
 
@@ -94,7 +93,9 @@ int run(const ViewCommand& options) {
     viewer.radiosity = options.radiosity.values;
     viewer.startedMs = std::chrono::duration<double, std::milli>(kStarted.time_since_epoch()).count();
     viewer.scene = options.scene;
-    viewer.open = [&options, picture] { return picture ? emptySession() : openSession(options); };
+    viewer.open = [&options, picture](const io::LoadOptions& watched) {
+        return picture ? emptySession() : openSession(options, watched);
+    };
     return runViewer(viewer);
 }
 

@@ -4,7 +4,7 @@
 // that are anti-aliased (docs/theory/5_image.md, "Edges"). Each surface of this view takes what the pixels
 // about it were gathered for, where those show the same surface (lib/temporal.glsl). Things that no pixel of the gathered
 // picture shows, wires for example, take the nearest of nine that shows their instance, else the cache.
-//   LOBES 1: a picture of lobes, in a rectangle from pixelRays.lobesX, lobesY
+//   LOBES 1: a picture of lobes, in a rectangle from pixelRays.lowestX, lowestY
 #ifndef LOBES
 #error LOBES must be 0 or 1
 #endif
@@ -37,7 +37,7 @@ vec4 likestNear(ivec2 pixel, Surface s) {
 void main() {
     ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
 #if LOBES
-    pixel += ivec2(pixelRays.lobesX, pixelRays.lobesY);
+    pixel += ivec2(pixelRays.lowestX, pixelRays.lowestY);
 #endif
     ivec2 size = imageSize(result);
     Surface s;

@@ -12,7 +12,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140) uniform PixelRayBlock { PixelRayConstants pixelRays; };
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(pixelRays.lobesX, pixelRays.lobesY);
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) + ivec2(pixelRays.lowestX, pixelRays.lowestY);
     ivec2 size = textureSize(gbufferGeometry, 0);
     Surface s;
     bool seen = fetchSurface(min(pixel, size - 1), s);

@@ -37,7 +37,7 @@ float openness(vec3 origin, vec3 shadingNormal, vec3 geometricNormal, uint seed)
 #endif
 
 void main() {
-    ivec2 pixel = INVOCATION_PIXEL;
+    ivec2 pixel = INVOCATION_PIXEL + ivec2(pixelRays.lowestX, pixelRays.lowestY);
     Surface s;
     bool seen = fetchSurface(min(pixel, imageSize(result) - 1), s);
     bool diffuse = seen && !s.unlit && (s.metallic < 1.0 || s.roughness > pixelRays.specularLimit);

@@ -42,7 +42,7 @@ bool seesLight(uint number, Surface s, bool otherwise, bool wanted) {
 }
 
 void main() {
-    uint index = linearIndex();
+    uint index = visibilityList.firstRow * VISIBILITY_GROUPS_X * VISIBILITY_GROUP + linearIndex();
     bool listed = index < visibilityList.count;
     uvec2 entry = visibilityList.pixels[listed ? index : 0u];
     ivec2 pixel = ivec2(entry.x & 0xffffu, entry.x >> 16);

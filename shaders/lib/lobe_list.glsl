@@ -8,13 +8,14 @@
 layout(std430) LOBE_LIST_ACCESS buffer LobeList {
     uvec3 groups;
     uint count;
+    uint firstRow;  // of groups, of the dispatch
     uint pixels[];  // x | y << 16
 }
 lobeList;
 
 // The pixel of this invocation; `none` beyond the end of the list.
 ivec2 listedPixel(ivec2 none) {
-    uint index = linearIndex();
+    uint index = lobeList.firstRow * LOBE_GROUPS_X * 64u + linearIndex();
     bool listed = index < lobeList.count;
     uint place = lobeList.pixels[listed ? index : 0u];
     return listed ? ivec2(place & 0xffffu, place >> 16) : none;

@@ -6,6 +6,7 @@
 layout(std430) VISIBILITY_LIST_ACCESS buffer VisibilityList {
     uvec3 groups;
     uint count;
+    uint firstRow;   // of groups, of the dispatch
     uvec2 pixels[];  // x | y << 16; bit n: light n
 }
 visibilityList;

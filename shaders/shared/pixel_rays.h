@@ -9,7 +9,7 @@
 //   lobePicture        usampler2D: radiance in the specular lobe, for composition
 //   Motion             storage: mat4 per instance, world of the frame before from world of this one
 //   hostMotion         sampler2D: where a host's pixels were, less where they are
-//   LobeList           storage: group counts of an indirect dispatch, number of pixels, pixels
+//   LobeList           storage: group counts of an indirect dispatch, number of pixels, first row of groups, pixels
 #define LOBE_GROUPS_X 32u  // in x of that dispatch; y may be 65,535
 
 // How a pass takes up the picture so far.
@@ -41,8 +41,8 @@ struct PixelRayConstants {
     uint reflections;  // on metals, of one ray
     // ---- 144 B
     float fireflyClamp;  // firefly clamp: of radiance by glossy bounces, over that of the diffuse metal
-    uint lobesX;         // lowest pixel that may need rays into its lobe
-    uint lobesY;
+    uint lowestX;        // lowest pixel of the dispatch
+    uint lowestY;
     float oldParallel;  // of FrameConstants
     // ---- 160 B: of MOTION 2, vectors of the host's (HostSurfaces::motion)
     float motionScaleX;  // texel -> part of the picture's width

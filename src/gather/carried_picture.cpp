@@ -26,8 +26,8 @@ const gl::Texture& CarriedPicture::carry(const gl::Device& device, const RayInpu
     setPictureSoFar(constants, from.view, inputs.voxels.grid());
     constants.reuse = REUSE_REPROJECTED;
     constants.specularLimit = from.specularLimit;
-    constants.lobesX = static_cast<std::uint32_t>(where.lowest.x);
-    constants.lobesY = static_cast<std::uint32_t>(where.lowest.y);
+    constants.lowestX = static_cast<std::uint32_t>(where.lowest.x);
+    constants.lowestY = static_cast<std::uint32_t>(where.lowest.y);
     constants_.update(constants);
     gl::Inputs given;
     given.add(inputs)

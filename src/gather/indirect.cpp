@@ -47,7 +47,11 @@ void Indirect::follow(const RayInputs& inputs, const TracedSettings& settings) {
         diffuseHistory_.passes = specularHistory_.passes = occlusionHistory_.passes = 0;
     lightFrom_ = inputs.lit.sources();
     settings_ = settings;
+    // Where things were in the pictures so far is not known any more if they moved for one that was left.
+    const bool lost = unfinished_ && moved_;
+    unfinished_ = true;
     followInstances(inputs.scene);
+    if (lost) diffuseHistory_ = specularHistory_ = occlusionHistory_ = {};
 }
 
 // Where each instance was in the frame before, for means that follow them. One that has come since stands still.
@@ -72,8 +76,8 @@ void Indirect::followInstances(const scene::GpuScene& scene) {
 }
 
 // Finished at once, or one more pass on top of what is known.
-void Indirect::addPasses(const gl::Device& device, const RayInputs& inputs, const RayPass& pass,
-                         PixelRays& picture, History& history) {
+base::Steps Indirect::addPasses(const gl::Device& device, const RayInputs& inputs, const RayPass& pass,
+                                PixelRays& picture, History& history) {
     RayPass next = pass;
     next.motion = moved_ ? &motion_ : nullptr;
     const gpu::FrameConstants& view = inputs.surfaces.view();
@@ -85,38 +89,42 @@ void Indirect::addPasses(const gl::Device& device, const RayInputs& inputs, cons
         next.number = static_cast<std::uint32_t>(history.passes);
         const int grown = inputs.lit.steady() ? history.passes / kFramesPerPass : 0;
         next.longest = std::min(pass.longest, std::max(kUnsettledMean, grown));
-        picture.gather(device, inputs, next);
+        co_await picture.gatherInSteps(device, inputs, next);
         ++history.passes;
+        history.view = view;
     } else {
         if (!still) history.passes = 0;
         for (; history.passes < pass.longest; ++history.passes) {
             next.reuse = history.passes == 0 ? Reuse::None : Reuse::SameView;
             next.number = static_cast<std::uint32_t>(history.passes);
-            picture.gather(device, inputs, next);
+            co_await picture.gatherInSteps(device, inputs, next);
+            history.view = view;
         }
     }
-    history.view = view;
 }
 
-void Indirect::gather(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted) {
+base::Steps Indirect::gatherInSteps(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted) {
     const TracedSettings& settings = wanted.settings;
     follow(inputs, settings);
     irradiance_ = lobe_ = nullptr;
     if (wantsIrradiance(wanted)) {
         const RayPass pass{settings, settings.pixelRays,   settings.passes, 0, Reuse::None,
                            nullptr,  wanted.lookupCounters};
-        addPasses(device, inputs, pass, diffuse_, diffuseHistory_);
-        irradiance_ = &diffuse_.filtered(device, inputs, settings.filterLevels);
+        co_await addPasses(device, inputs, pass, diffuse_, diffuseHistory_);
+        co_await diffuse_.filterInSteps(device, inputs, settings.filterLevels);
+        irradiance_ = &diffuse_.filtered();
     }
     if (wantsLobe(wanted, inputs)) {
         const RayPass pass{settings, settings.specularRays, settings.passes, 0, Reuse::None,
                            nullptr,  wanted.lookupCounters};
-        addPasses(device, inputs, pass, specular_, specularHistory_);
-        lobe_ = &specular_.filtered(device, inputs, settings.filterLevels);
+        co_await addPasses(device, inputs, pass, specular_, specularHistory_);
+        co_await specular_.filterInSteps(device, inputs, settings.filterLevels);
+        lobe_ = &specular_.filtered();
     }
     gatheredIrradiance_ = irradiance_;
     gatheredLobe_ = lobe_;
     gatheredView_ = inputs.surfaces.view();
+    unfinished_ = false;
 }
 
 void Indirect::carry(const gl::Device& device, const RayInputs& inputs, const TracedSettings& settings) {
@@ -131,8 +139,11 @@ void Indirect::carry(const gl::Device& device, const RayInputs& inputs, const Tr
 void Indirect::gatherOcclusion(const gl::Device& device, const RayInputs& inputs,
                                const TracedSettings& settings) {
     follow(inputs, settings);
-    addPasses(device, inputs, {settings, kOcclusionRays, kOcclusionPasses}, occlusion_, occlusionHistory_);
-    occlusionPicture_ = &occlusion_.filtered(device, inputs, 1);
+    const RayPass pass{settings, kOcclusionRays, kOcclusionPasses};
+    addPasses(device, inputs, pass, occlusion_, occlusionHistory_).finish();
+    occlusion_.filterInSteps(device, inputs, 1).finish();
+    occlusionPicture_ = &occlusion_.filtered();
+    unfinished_ = false;
 }
 
 void Indirect::record(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/revision.h"
+#include "base/steps.h"
 #include "gather/carried_picture.h"
 #include "gather/picture_parts.h"
 #include "gather/pixel_rays.h"
@@ -24,7 +25,11 @@ class Indirect {
     };
 
     // Gathers what the settings ask rays for. GL state changed: as PixelRays.
-    void gather(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted);
+    void gather(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted) {
+        gatherInSteps(device, inputs, wanted).finish();
+    }
+    // Left before it is done, it leaves no picture; what was gathered before is taken up again by the next.
+    base::Steps gatherInSteps(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted);
     void gatherOcclusion(const gl::Device& device, const RayInputs& inputs, const TracedSettings& settings);
     // What the last gather() found, as `inputs.surfaces` see it, a part of a pixel beside: irradiance() and
     // lobe() are of these then. GL state changed: as CarriedPicture.
@@ -50,8 +55,8 @@ class Indirect {
     };
     void follow(const RayInputs& inputs, const TracedSettings& settings);
     void followInstances(const scene::GpuScene& scene);
-    void addPasses(const gl::Device& device, const RayInputs& inputs, const RayPass& pass, PixelRays& picture,
-                   History& history);
+    base::Steps addPasses(const gl::Device& device, const RayInputs& inputs, const RayPass& pass,
+                          PixelRays& picture, History& history);
 
     PixelRays diffuse_{RayPicture::Diffuse};
     PixelRays specular_{RayPicture::Specular};
@@ -71,6 +76,7 @@ class Indirect {
     std::vector<base::Revision> entries_;  // which they were
     gl::Buffer motion_;
     bool moved_ = false;
+    bool unfinished_ = false;  // what was begun last was left
 
     // What the histories were gathered from.
     base::Revision lightFrom_;

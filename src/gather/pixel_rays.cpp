@@ -5,7 +5,9 @@
 #include <array>
 #include <utility>
 
+#include "gather/pixel_list.h"
 #include "gl/gl.h"
+#include "gl/pace.h"
 #include "light/firefly_clamp.h"
 
 namespace conelight::gather {
@@ -22,7 +24,8 @@ constexpr float kOcclusionReach = 0.1f;
 constexpr std::uint32_t kLobeReflections = 3;
 constexpr int kReflectedRays = 128;
 
-constexpr std::array<std::uint32_t, 4> kEmptyLobeList{LOBE_GROUPS_X, 0, 1, 0};
+constexpr std::array<std::uint32_t, 5> kEmptyLobeList{LOBE_GROUPS_X, 0, 1, 0, 0};
+constexpr int kGroupEdge = 8;  // of passes over all pixels
 
 gl::ProgramDesc selectDesc() { return {{"gather/lobe_select.comp.glsl"}, {}}; }
 
@@ -209,62 +212,78 @@ void PixelRays::listLobes(const gl::Device& device, gl::Inputs& inputs, const Pi
     if (extent.x > 0 && extent.y > 0) device.get(selectDesc()).dispatch(inputs, extent.x, extent.y);
     clearWritten(other_);
     other_.written = lobes;
-    gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
+    gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect | gl::Access::Update);
 }
 
-void PixelRays::gather(const gl::Device& device, const RayInputs& inputs, const RayPass& wanted) {
-    const gl::PassScope scope(device.profiler, kGatherPass[static_cast<int>(kind_)]);
+base::Steps PixelRays::gatherInSteps(const gl::Device& device, const RayInputs& inputs,
+                                     const RayPass& wanted) {
+    const char* const name = kGatherPass[static_cast<int>(kind_)];
     const view::Surfaces& surfaces = inputs.surfaces;
     RayPass pass = wanted;
     if (resize(surfaces.width(), surfaces.height())) pass.reuse = Reuse::None;
     PixelRectangle lobes;
     if (kind_ == RayPicture::Specular) lobes = lobeRectangle(inputs, pass.settings.specularLimit);
     gpu::PixelRayConstants constants = packed(inputs, pass);
-    constants.lobesX = static_cast<std::uint32_t>(lobes.lowest.x);
-    constants.lobesY = static_cast<std::uint32_t>(lobes.lowest.y);
+    constants.lowestX = static_cast<std::uint32_t>(lobes.lowest.x);
+    constants.lowestY = static_cast<std::uint32_t>(lobes.lowest.y);
     constants_.update(constants);
     gl::Inputs given = passInputs(inputs, pass);
     const gl::ProgramDesc desc = key(inputs, pass).desc();
     if (kind_ == RayPicture::Specular) {
-        listLobes(device, given, lobes);
-        device.get(desc).dispatchIndirect(given, lobeList_);
+        {
+            const gl::PassScope scope(device.profiler, name);
+            listLobes(device, given, lobes);
+        }
+        co_await dispatchListed(device, {name, desc, given, lobeList_});
     } else {
-        device.get(desc).dispatch(given, surfaces.width(), surfaces.height());
+        for (gl::Pieces rows(device, surfaces.height(), kGroupEdge); rows.next();) {
+            {
+                const gl::PassScope scope(device.profiler, name);
+                constants.lowestY = static_cast<std::uint32_t>(rows.first());
+                constants_.update(constants);
+                device.get(desc).dispatch(given, surfaces.width(), rows.count());
+            }
+            co_await gl::rest(device);
+        }
     }
     gl::barrier(gl::Access::TextureFetch | gl::Access::Update);
     std::swap(current_, other_);
+    shown_ = &current_.texture;
     seenFrom_ = surfaces.view();
 }
 
-const gl::Texture& PixelRays::filtered(const gl::Device& device, const RayInputs& inputs, int levels) {
-    if (levels == 0) return current_.texture;
-    const gl::PassScope scope(device.profiler, "edge filter");
+base::Steps PixelRays::filterInSteps(const gl::Device& device, const RayInputs& inputs, int levels) {
     const int width = current_.texture.width(), height = current_.texture.height();
-    if (!filtered_.texture) filtered_ = {makePixelPicture(width, height, "filtered picture"), {}};
-    // From level to level between two textures; the second is what gather() writes next, so its content is
+    if (levels > 0 && !filtered_.texture)
+        filtered_ = {makePixelPicture(width, height, "filtered picture"), {}};
+    // From level to level between two textures; the second is what the next pass writes, so its content is
     // free. An even number of levels ends there as well.
     const Picture* from = &current_;
     for (int level = 0; level < levels; ++level) {
         Picture* to = level % 2 == 0 ? &filtered_ : &other_;
         const bool lobes = kind_ == RayPicture::Specular;
-        gl::Inputs given;
-        given.add(inputs)
-            .uniform("PixelRayBlock", constants_)
-            .texture("source", from->texture)
-            .image("result", to->texture, gl::ImageUse::Write);
-        const gl::Program& filter = device.get(EdgeFilterKey{1 << level, lobes}.desc());
-        if (lobes) {
-            // Pixels that are not listed count for nothing.
-            clearWritten(*to);
-            to->written = current_.written;
-            filter.dispatchIndirect(given.storage("LobeList", lobeList_), lobeList_);
-        } else {
-            filter.dispatch(given, width, height);
+        {
+            const gl::PassScope scope(device.profiler, "edge filter");
+            gl::Inputs given;
+            given.add(inputs)
+                .uniform("PixelRayBlock", constants_)
+                .texture("source", from->texture)
+                .image("result", to->texture, gl::ImageUse::Write);
+            const gl::Program& filter = device.get(EdgeFilterKey{1 << level, lobes}.desc());
+            if (lobes) {
+                // Pixels that are not listed count for nothing.
+                clearWritten(*to);
+                to->written = current_.written;
+                filter.dispatchIndirect(given.storage("LobeList", lobeList_), lobeList_);
+            } else {
+                filter.dispatch(given, width, height);
+            }
+            gl::barrier(gl::Access::TextureFetch | gl::Access::Update);
         }
-        gl::barrier(gl::Access::TextureFetch | gl::Access::Update);
+        co_await gl::rest(device);
         from = to;
     }
-    return from->texture;
+    shown_ = &from->texture;
 }
 
 std::vector<gl::ProgramDesc> PixelRays::programDescs() {

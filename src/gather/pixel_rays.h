@@ -10,6 +10,7 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "base/steps.h"
 #include "conelight/settings.h"
 #include "gather/pixel_ray_key.h"
 #include "gather/step_recorder.h"
@@ -71,10 +72,11 @@ class PixelRays {
 
     // Whether there is a picture of this size.
     bool has(int width, int height) const;
-    // One more pass.
-    void gather(const gl::Device& device, const RayInputs& inputs, const RayPass& pass);
-    // The picture, filtered by so many levels; what the next gather() goes on from stays as it is.
-    const gl::Texture& filtered(const gl::Device& device, const RayInputs& inputs, int levels);
+    // One more pass. Left before it is done, it leaves the picture as it was.
+    base::Steps gatherInSteps(const gl::Device& device, const RayInputs& inputs, const RayPass& pass);
+    // Filters the picture by so many levels; what the next pass goes on from stays as it is.
+    base::Steps filterInSteps(const gl::Device& device, const RayInputs& inputs, int levels);
+    const gl::Texture& filtered() const { return *shown_; }  // valid until the next pass
 
     // Where the picture of kind Specular has anything.
     const PixelRectangle& lobes() const { return current_.written; }
@@ -100,6 +102,7 @@ class PixelRays {
 
     RayPicture kind_;
     Picture current_, other_, filtered_;
+    const gl::Texture* shown_ = nullptr;  // of these
     gl::Buffer constants_;
     gl::Buffer lobeList_;             // of kind Specular: LobeList
     gpu::FrameConstants seenFrom_{};  // the view of current_

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "gather/pixel_list.h"
 #include "gl/gl.h"
 #include "shared/visibility_list.h"
 
@@ -19,7 +20,7 @@ struct VisibilityKey {
     static std::vector<VisibilityKey> all();
 };
 
-constexpr std::array<std::uint32_t, 4> kEmptyList{VISIBILITY_GROUPS_X, 0, 1, 0};
+constexpr std::array<std::uint32_t, 6> kEmptyList{VISIBILITY_GROUPS_X, 0, 1, 0, 0, 0};
 
 gl::ProgramDesc VisibilityKey::desc() const {
     const light::LightKey lights{.point = point ? 1 : 0,
@@ -59,9 +60,9 @@ bool PixelVisibility::serves(const scene::GpuScene& scene, const light::Lights& 
                         [](const gpu::Instance& i) { return (i.flags & kBoth) == INSTANCE_CASTS_SHADOW; });
 }
 
-const gl::Texture& PixelVisibility::look(const gl::Device& device, const VisibilityInputs& inputs,
+base::Steps PixelVisibility::lookInSteps(const gl::Device& device, const VisibilityInputs& inputs,
                                          const gl::Buffer* lookupCounters) {
-    const gl::PassScope pass(device.profiler, "visibility of lights");
+    constexpr const char* kPass = "visibility of lights";
     const int width = inputs.surfaces.width(), height = inputs.surfaces.height();
     if (!seen_ || seen_.width() != width || seen_.height() != height) {
         seen_ = gl::Texture({GL_TEXTURE_2D, GL_R32UI, width, height}, "lights that pixels see");
@@ -76,11 +77,16 @@ const gl::Texture& PixelVisibility::look(const gl::Device& device, const Visibil
     gl::Inputs given;
     given.add(inputs).image("result", seen_, gl::ImageUse::ReadWrite).storage("VisibilityList", open_);
     if (lookupCounters != nullptr) given.storage("LookupTable", *lookupCounters);
-    device.get(key.desc()).dispatch(given, width, height);
-    gl::barrier(gl::Access::ShaderStorage | gl::Access::ImageAccess | gl::Access::Indirect);
-    device.get(rayDesc(key.counts)).dispatchIndirect(given, open_);
+    {
+        const gl::PassScope pass(device.profiler, kPass);
+        device.get(key.desc()).dispatch(given, width, height);
+        gl::barrier(gl::Access::ShaderStorage | gl::Access::ImageAccess | gl::Access::Indirect |
+                    gl::Access::Update);
+    }
+    co_await gl::rest(device);
+    const gl::ProgramDesc rays = rayDesc(key.counts);
+    co_await dispatchListed(device, {kPass, rays, given, open_});
     gl::barrier(gl::Access::TextureFetch);
-    return seen_;
 }
 
 std::vector<gl::ProgramDesc> PixelVisibility::programDescs() {

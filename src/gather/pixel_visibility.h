@@ -33,8 +33,9 @@ class PixelVisibility {
     static bool serves(const scene::GpuScene& scene, const light::Lights& lights);
 
     // `lookupCounters`: not null: adds lookups, as those of occlusion.
-    const gl::Texture& look(const gl::Device& device, const VisibilityInputs& inputs,
+    base::Steps lookInSteps(const gl::Device& device, const VisibilityInputs& inputs,
                             const gl::Buffer* lookupCounters);
+    const gl::Texture& seen() const { return seen_; }  // what it has found
 
     static std::vector<gl::ProgramDesc> programDescs();
 

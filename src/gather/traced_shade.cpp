@@ -2,11 +2,16 @@
 #include "gather/traced_shade.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "gl/gl.h"
+#include "gl/pace.h"
 
 namespace conelight::gather {
 namespace {
+
+constexpr const char* kShade = "shade";
+constexpr int kRows = 64;  // llvmpipe's tiles
 
 bool anyEmission(const scene::GpuScene& scene) {
     return std::any_of(scene.materials().begin(), scene.materials().end(),
@@ -88,41 +93,58 @@ namespace {
 gl::ProgramDesc rayOcclusionDesc() { return {{"gather/traced_occlusion.comp.glsl"}, {}}; }
 }  // namespace
 
-// As fragments. The depth test leaves out the background (shared/gbuffer.h), which the clear has drawn. The picture of
-// lobes is read where it has anything; again, if that is a small part of the picture.
-void TracedShade::drawFragments(const gl::Device& device, const gl::Inputs& given, const Target& target,
-                                ShadeKey key) {
-    const gl::Texture& output = target.output;
-    const gl::Framebuffer framebuffer({&output}, &target.surfaces.depth(), "traced picture");
+// The depth test leaves out the background (shared/gbuffer.h), which the clear has drawn.
+void TracedShade::drawRectangle(const gl::Device& device, const gl::Inputs& given, const Target& target,
+                                const ShadeKey& key, const PixelRectangle& pixels) {
+    const gl::Framebuffer framebuffer({&target.output}, &target.surfaces.depth(), "traced picture");
+    const glm::ivec2 extent = pixels.end - pixels.lowest;
     gl::RasterState state;
     state.framebuffer = &framebuffer;
     state.depthWrite = false;
     state.reversedDepth = true;
     state.cull = gl::Cull::None;
+    const int viewport[4] = {pixels.lowest.x, pixels.lowest.y, extent.x, extent.y};
+    std::copy(std::begin(viewport), std::end(viewport), state.viewport);
     gl::apply(state);
-    framebuffer.clearColor(0, target.behind.r, target.behind.g, target.behind.b, 0);
-    if (!noVertices_) noVertices_ = gl::VertexArray("no vertices");
-    const auto drawPicture = [&](bool withLobe) {
-        key.lobe = withLobe;
-        device.get(key.desc()).use(given);
-        gl::drawTriangle(noVertices_);
-    };
-    const bool lobe = key.lobe;
-    const glm::ivec2 extent = target.lobes.end - target.lobes.lowest;
-    const bool small = 4 * extent.x * extent.y < output.width() * output.height();
-    const bool apart = lobe && small && !key.counts;
-    drawPicture(lobe && !apart);
-    if (apart && extent.x > 0 && extent.y > 0) {
-        const int viewport[4] = {target.lobes.lowest.x, target.lobes.lowest.y, extent.x, extent.y};
-        std::copy(std::begin(viewport), std::end(viewport), state.viewport);
-        gl::apply(state);
-        drawPicture(true);
-    }
+    device.get(key.desc()).use(given);
+    gl::drawTriangle(noVertices_);
 }
 
-void TracedShade::draw(const gl::Device& device, const RayInputs& inputs, const Indirect& indirect,
-                       const Wanted& wanted, const gl::Texture& output) {
-    const gl::PassScope pass(device.profiler, "shade");
+// As fragments. The picture of lobes is read where it has anything; again, if that is a small part of the picture.
+base::Steps TracedShade::drawFragments(const gl::Device& device, const gl::Inputs& given,
+                                       const Target& target, ShadeKey key) {
+    const glm::ivec2 size(target.output.width(), target.output.height());
+    if (!noVertices_) noVertices_ = gl::VertexArray("no vertices");
+    {
+        const gl::PassScope pass(device.profiler, kShade);
+        const gl::Framebuffer framebuffer({&target.output}, nullptr, "traced picture");
+        gl::RasterState state;
+        state.framebuffer = &framebuffer;
+        gl::apply(state);
+        framebuffer.clearColor(0, target.behind.r, target.behind.g, target.behind.b, 0);
+    }
+    const bool lobe = key.lobe;
+    const glm::ivec2 extent = target.lobes.end - target.lobes.lowest;
+    const bool small = 4 * extent.x * extent.y < size.x * size.y;
+    const bool apart = lobe && small && !key.counts;
+    key.lobe = lobe && !apart;
+    for (gl::Pieces rows(device, size.y, kRows); rows.next();) {
+        {
+            const gl::PassScope pass(device.profiler, kShade);
+            drawRectangle(device, given, target, key,
+                          {{0, rows.first()}, {size.x, rows.first() + rows.count()}});
+        }
+        co_await gl::rest(device);
+    }
+    if (!apart || extent.x <= 0 || extent.y <= 0) co_return;
+    const gl::PassScope pass(device.profiler, kShade);
+    key.lobe = true;
+    drawRectangle(device, given, target, key, target.lobes);
+}
+
+base::Steps TracedShade::drawInSteps(const gl::Device& device, const RayInputs& inputs,
+                                     const Indirect& indirect, const Wanted& wanted,
+                                     const gl::Texture& output) {
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::PixelRayConstants), "shade constants");
     gpu::PixelRayConstants constants{};
     constants.specularLimit = wanted.settings.specularLimit;
@@ -145,14 +167,16 @@ void TracedShade::draw(const gl::Device& device, const RayInputs& inputs, const 
                  wanted.visibility != nullptr,
                  inputs.lights.hasCaustics()};
     if (device.profile == gl::ExecutionProfile::Gpu) {
+        const gl::PassScope pass(device.profiler, kShade);
         key.compute = true;
         given.image("result", output, gl::ImageUse::Write);
         device.get(key.desc()).dispatch(given, output.width(), output.height());
         gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess | gl::Access::Framebuffer);
-        return;
+        co_return;
     }
     const glm::vec3 behind = parts.direct ? inputs.scene.source().sky : glm::vec3(0);
-    drawFragments(device, given, {inputs.surfaces, indirect.lobes(), behind, output}, key);
+    const Target target{inputs.surfaces, indirect.lobes(), behind, output};
+    co_await drawFragments(device, given, target, key);
 }
 
 void TracedShade::recordCache(const gl::Device& device, const RayInputs& inputs, StepRecorder& recorder) {
@@ -165,7 +189,7 @@ void TracedShade::recordCache(const gl::Device& device, const RayInputs& inputs,
 
 void TracedShade::drawOcclusion(const gl::Device& device, const RayInputs& inputs,
                                 const gl::Texture& occlusion, const gl::Texture& output) {
-    const gl::PassScope pass(device.profiler, "shade");
+    const gl::PassScope pass(device.profiler, kShade);
     gl::Inputs given;
     given.add(inputs).texture("occlusion", occlusion).image("result", output, gl::ImageUse::Write);
     device.get(rayOcclusionDesc()).dispatch(given, output.width(), output.height());

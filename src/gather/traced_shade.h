@@ -29,8 +29,8 @@ class TracedShade {
     };
     // Irradiance that `indirect` lacks is taken from the cache, and stands in for the lobe's radiance. Where
     // no surface is seen there is the sky, with direct light. Writes all of `output`.
-    void draw(const gl::Device& device, const RayInputs& inputs, const Indirect& indirect,
-              const Wanted& wanted, const gl::Texture& output);
+    base::Steps drawInSteps(const gl::Device& device, const RayInputs& inputs, const Indirect& indirect,
+                            const Wanted& wanted, const gl::Texture& output);
     // Records the faces of the cache that the recorder's pixel shows.
     void recordCache(const gl::Device& device, const RayInputs& inputs, StepRecorder& recorder);
     void drawOcclusion(const gl::Device& device, const RayInputs& inputs, const gl::Texture& occlusion,
@@ -46,7 +46,10 @@ class TracedShade {
         glm::vec3 behind;
         const gl::Texture& output;
     };
-    void drawFragments(const gl::Device& device, const gl::Inputs& given, const Target& target, ShadeKey key);
+    base::Steps drawFragments(const gl::Device& device, const gl::Inputs& given, const Target& target,
+                              ShadeKey key);
+    void drawRectangle(const gl::Device& device, const gl::Inputs& given, const Target& target,
+                       const ShadeKey& key, const PixelRectangle& pixels);
 
     gl::Buffer constants_;
     gl::VertexArray noVertices_;

@@ -16,10 +16,13 @@ enum class ExecutionProfile { Processor, Gpu };
 // The shaders as that profile gets them: lib/execution.glsl tells them.
 ShaderProvider providerFor(ExecutionProfile profile, ShaderProvider provider);
 
+class Pace;
+
 struct Device {
     ProgramLibrary& programs;
     Profiler& profiler;
     ExecutionProfile profile = ExecutionProfile::Processor;
+    Pace* pace = nullptr;  // of a picture that is drawn in parts (gl/pace.h); null: in one
 
     const Program& get(const ProgramDesc& desc) const { return programs.get(desc); }
 };

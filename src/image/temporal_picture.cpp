@@ -93,19 +93,21 @@ void TemporalPicture::followInstances(const scene::GpuScene& scene) {
 
 void TemporalPicture::follow(const Shown& shown) {
     frame_ += drawn_ ? 1 : 0;
-    drawn_ = false;
+    // A frame that was left before it was added: what it knew of movement is gone.
+    const bool left = !std::exchange(drawn_, false);
+    const bool lost = left && moved_;
     resize(shown.width, shown.height);
     const scene::GpuScene& scene = shown.scene;
     const From now{scene.identity(), scene.geometryRevision(), scene.lightRevision(), scene.skyRevision(),
                    scene.bakedRevision()};
     const Settings settings = withoutLook(shown.settings);
-    if (!camera_ || from_.scene != now.scene || !(settings_ == settings) || isCut(shown.camera) ||
+    if (lost || !camera_ || from_.scene != now.scene || !(settings_ == settings) || isCut(shown.camera) ||
         worldFromObject_.size() != scene.instances().size())
         frame_ = 0;
     followInstances(scene);
     // Objects that come and go leave nothing of themselves behind.
     if (from_.geometry != now.geometry && !moved_) frame_ = 0;
-    still_ = frame_ > 0 && from_ == now && camera_ == shown.camera;
+    still_ = !left && frame_ > 0 && from_ == now && camera_ == shown.camera;
     camera_ = shown.camera;
     settings_ = settings;
     from_ = now;

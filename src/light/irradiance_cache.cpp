@@ -8,6 +8,7 @@
 
 #include "base/assert.h"
 #include "gl/gl.h"
+#include "gl/pace.h"
 #include "light/firefly_clamp.h"
 #include "shared/prefix_sum.h"
 
@@ -19,6 +20,7 @@ constexpr double kSlack = 1.25;  // room for growth when memory is allocated ane
 // faces only, others at the next: looking costs as much as two more rays. Those of which a ray has met
 // something from behind are looked at each second time.
 constexpr std::uint32_t kInteriorInterval = 16;
+constexpr int kFacesOfPiece = 1024;  // at least, of an update in pieces
 // Updates behind a mean of the cache, when it is shown: for what one ray may bring by reflections.
 constexpr int kUsualWindow = 32;
 
@@ -219,16 +221,24 @@ void IrradianceCache::commit(const gl::Device& device, const Inputs& inputs, con
     restarts_ = false;
 }
 
-void IrradianceCache::visitFaces(const Visit& visit, std::uint32_t first, std::uint32_t end,
-                                 bool findsBacks) {
-    if (first >= end) return;
-    constants_.update(packed(visit.settings, first, end - first));
-    visit.device.get(UpdateKey{visit.hits, findsBacks}.desc()).dispatchLinear(visit.inputs, end - first);
+base::Steps IrradianceCache::visitFaces(const Visit& visit, std::uint32_t first, std::uint32_t end,
+                                        bool findsBacks) {
+    if (first >= end) co_return;
+    for (gl::Pieces faces(visit.device, static_cast<int>(end - first), kFacesOfPiece); faces.next();) {
+        {
+            const gl::PassScope scope(visit.device.profiler, "irradiance: update");
+            const auto count = static_cast<std::uint32_t>(faces.count());
+            constants_.update(
+                packed(visit.settings, first + static_cast<std::uint32_t>(faces.first()), count));
+            visit.device.get(UpdateKey{visit.hits, findsBacks}.desc()).dispatchLinear(visit.inputs, count);
+        }
+        co_await gl::rest(visit.device);
+    }
     if (findsBacks) raysTested_ += (end - first) * static_cast<std::uint64_t>(visit.settings.cosineRays);
 }
 
 // Searches a part of the faces, and all that are doubtful.
-void IrradianceCache::visitRange(const Visit& visit, std::uint32_t first, std::uint32_t end) {
+base::Steps IrradianceCache::visitRange(const Visit& visit, std::uint32_t first, std::uint32_t end) {
     const std::uint32_t middle = std::clamp(order_.gathering(), first, end);
     const bool changeAgainAndAgain = updatesOfVoxels_ == 0 && carried_;
     const std::uint64_t parts = changeAgainAndAgain ? kInteriorInterval : 1, part = updatesMade_ % parts;
@@ -237,16 +247,15 @@ void IrradianceCache::visitRange(const Visit& visit, std::uint32_t first, std::u
     };
     const std::uint32_t from = visit.searches ? cut(part) : middle;
     const std::uint32_t to = visit.searches ? cut(part + 1) : middle;
-    visitFaces(visit, first, from, false);
-    visitFaces(visit, from, to, true);
-    visitFaces(visit, to, middle, false);
-    visitFaces(visit, middle, end, visit.searches);
+    co_await visitFaces(visit, first, from, false);
+    co_await visitFaces(visit, from, to, true);
+    co_await visitFaces(visit, to, middle, false);
+    co_await visitFaces(visit, middle, end, visit.searches);
 }
 
 // One update of the next `count` faces.
-void IrradianceCache::visitAll(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
-                               std::uint32_t count) {
-    const gl::PassScope scope(device.profiler, "irradiance: update");
+base::Steps IrradianceCache::visitAll(const gl::Device& device, const Inputs& inputs,
+                                      const CacheSettings& settings, std::uint32_t count) {
     gl::Inputs given;
     given.add(inputs.scene)
         .add(inputs.lights)
@@ -262,21 +271,24 @@ void IrradianceCache::visitAll(const gl::Device& device, const Inputs& inputs, c
     if (hits.lights.shadows) hits.lights.filter = UpdateKey::kFilter;
     const Visit visit{device, given, settings, hits, raysTested_ < searchedRays()};
     const std::uint32_t atEnd = std::min(count, order_.visited() - firstFace_);
-    visitRange(visit, firstFace_, firstFace_ + atEnd);
-    visitRange(visit, 0, count - atEnd);
+    co_await visitRange(visit, firstFace_, firstFace_ + atEnd);
+    co_await visitRange(visit, 0, count - atEnd);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Update);
 }
 
-void IrradianceCache::update(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
-                             int passes) {
+base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Inputs& inputs,
+                                           const CacheSettings& settings, int passes) {
     CONELIGHT_ASSERT(voxelsFrom_ == inputs.voxels.revision(),
                      "IrradianceCache::update: other voxels than adopted");
-    if (faceCount_ == 0) return;
+    if (faceCount_ == 0) co_return;
     if (!prepared_) commit(device, inputs, settings, passes <= 0);
     for (int i = 0; i < passes; ++i) {
         const std::uint32_t count = perUpdate(settings);
         const bool searches = raysTested_ < searchedRays();
-        visitAll(device, inputs, settings, count);
+        // One that was left has used its random numbers.
+        if (std::exchange(unfinished_, true)) ++updatesMade_;
+        co_await visitAll(device, inputs, settings, count);
+        unfinished_ = false;
         firstFace_ = order_.visited() > 0 ? (firstFace_ + count) % order_.visited() : 0;
         facesVisited_ += count;
         ++updatesMade_;

@@ -10,6 +10,7 @@
 #include <optional>
 #include <vector>
 
+#include "base/steps.h"
 #include "gl/device.h"
 #include "light/face_order.h"
 #include "light/lights.h"
@@ -57,7 +58,12 @@ class IrradianceCache {
 
     // Visits faces `passes` times over (facesPerUpdate each). GL state changed: program and its slots.
     void update(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
-                int passes = 1);
+                int passes = 1) {
+        updateInSteps(device, inputs, settings, passes).finish();
+    }
+    // Left before it is done, it has visited some faces once more than the others.
+    base::Steps updateInSteps(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
+                              int passes);
 
     // Whether bounces have settled since the last change, so that all further updates only average noise
     // away.
@@ -80,10 +86,10 @@ class IrradianceCache {
     gpu::CacheConstants packed(const CacheSettings& settings, std::uint32_t first = 0,
                                std::uint32_t count = 0) const;
     struct Visit;
-    void visitRange(const Visit& visit, std::uint32_t first, std::uint32_t end);
-    void visitFaces(const Visit& visit, std::uint32_t first, std::uint32_t end, bool findsBacks);
-    void visitAll(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
-                  std::uint32_t count);
+    base::Steps visitRange(const Visit& visit, std::uint32_t first, std::uint32_t end);
+    base::Steps visitFaces(const Visit& visit, std::uint32_t first, std::uint32_t end, bool findsBacks);
+    base::Steps visitAll(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
+                         std::uint32_t count);
     void commit(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings, bool atPixels);
 
     gl::Buffer states_, oldStates_, faceLight_, fluxes_, chunks_, pool_, constants_, reprojectionBlock_;
@@ -97,6 +103,7 @@ class IrradianceCache {
     bool restarts_ = false;
     Places restartsNear_;
     std::uint32_t updatesMade_ = 0;      // ever
+    bool unfinished_ = false;            // the last one was left
     std::uint32_t updatesOfVoxels_ = 0;  // calls of update() for these voxels
     std::uint32_t firstFace_ = 0;        // where the next update begins
     std::uint64_t facesVisited_ = 0;     // since light changed

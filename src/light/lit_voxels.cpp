@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <vector>
 
 #include "gl/gl.h"
 #include "light/inject_light.h"
@@ -34,14 +35,14 @@ RelightSettings relightSettings(const TracedSettings& settings) {
     return relight;
 }
 
-void LitVoxels::relight(const gl::Device& device, const Inputs& inputs, const RelightSettings& settings,
-                        const Budget& budget) {
+base::Steps LitVoxels::relightInSteps(const gl::Device& device, const Inputs& inputs,
+                                      const RelightSettings& settings, const Budget& budget) {
     const bool first = !revision_;
     const bool otherVoxels = voxelsFrom_ != inputs.voxels.revision();
     const bool otherSources = otherVoxels || lightsFrom_ != inputs.lights.revision();
     const bool otherSettings = !first && !(settings_ == settings);
     const bool otherGrid = !first && !(voxelSettings_ == inputs.voxels.settings());
-    if (budget.nothing && !otherSources && !otherSettings) return;
+    if (budget.nothing && !otherSources && !otherSettings) co_return;
 
     // A finished picture must not be better or worse for the settings of those before it; moving ones keep
     // what is there. Light of a limited number of bounces starts in the dark.
@@ -65,7 +66,7 @@ void LitVoxels::relight(const gl::Device& device, const Inputs& inputs, const Re
     lightsFrom_ = inputs.lights.revision();
     voxelSettings_ = inputs.voxels.settings();
     settings_ = settings;
-    update(device, inputs, budget);
+    co_await update(device, inputs, budget);
 }
 
 // Direct light, emission and sky on every face.
@@ -79,7 +80,7 @@ void LitVoxels::putDirectLight(const gl::Device& device, const Inputs& inputs) {
     injectLight(device, {inputs.scene, inputs.lights, surface}, faces_, &rays);
 }
 
-void LitVoxels::update(const gl::Device& device, const Inputs& inputs, const Budget& budget) {
+base::Steps LitVoxels::update(const gl::Device& device, const Inputs& inputs, const Budget& budget) {
     const IrradianceCache::Inputs given{inputs.scene, inputs.lights, inputs.voxels, directTexels_, faces_};
     CacheSettings cache;
     // A reflection is a bounce, which updates count.
@@ -87,20 +88,23 @@ void LitVoxels::update(const gl::Device& device, const Inputs& inputs, const Bud
     cache.averages = !settings_.bounces;
     cache.exactDirect = settings_.exactHits;
     cache.facesPerUpdate = budget.oneUpdate ? budget.faces : 0;
-    const auto run = [&](int rays, int passes) {
-        cache.cosineRays = cache.lightRays = rays;
-        cache_.update(device, given, cache, passes);
-        if (passes > 0) revision_ = base::Revision::next();
+    struct Run {
+        int rays, passes;
     };
     const int missing = std::max(wantedUpdates() - cache_.updates(), 0);
+    std::vector<Run> runs;
     if (settings_.bounces) {
-        run(std::max(settings_.rays, kRaysPerBounce), missing);
+        runs = {{std::max(settings_.rays, kRaysPerBounce), missing}};
     } else if (budget.oneUpdate) {
-        run(settings_.rays, std::min(missing, 1));
+        runs = {{settings_.rays, std::min(missing, 1)}};
     } else {
         const int coarse = std::clamp(kCoarseUpdates - cache_.updates(), 0, missing);
-        run(std::max(settings_.rays / 4, 1), coarse);
-        run(settings_.rays, missing - coarse);
+        runs = {{std::max(settings_.rays / 4, 1), coarse}, {settings_.rays, missing - coarse}};
+    }
+    for (const Run& run : runs) {
+        cache.cosineRays = cache.lightRays = run.rays;
+        co_await cache_.updateInSteps(device, given, cache, run.passes);
+        if (run.passes > 0) revision_ = base::Revision::next();
     }
 }
 

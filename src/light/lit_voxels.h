@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/revision.h"
+#include "base/steps.h"
 #include "conelight/settings.h"
 #include "gl/device.h"
 #include "light/edit_places.h"
@@ -49,7 +50,11 @@ class LitVoxels {
     // was; with a limited number of bounces, or other settings of a picture that is finished at once, it
     // starts in the dark. GL state changed: programs and their slots.
     void relight(const gl::Device& device, const Inputs& inputs, const RelightSettings& settings,
-                 const Budget& budget);
+                 const Budget& budget) {
+        relightInSteps(device, inputs, settings, budget).finish();
+    }
+    base::Steps relightInSteps(const gl::Device& device, const Inputs& inputs,
+                               const RelightSettings& settings, const Budget& budget);
 
     // Raised by each call that changed any light.
     base::Revision revision() const { return revision_; }
@@ -71,7 +76,7 @@ class LitVoxels {
   private:
     int wantedUpdates() const;
     void putDirectLight(const gl::Device& device, const Inputs& inputs);
-    void update(const gl::Device& device, const Inputs& inputs, const Budget& budget);
+    base::Steps update(const gl::Device& device, const Inputs& inputs, const Budget& budget);
 
     LitFaces faces_;
     gl::Buffer directLight_;  // a uint per face (cachedDirect of shared/irradiance.h)

@@ -3,6 +3,7 @@
 // of itself.
 #pragma once
 
+#include "base/steps.h"
 #include "conelight/scene.h"
 #include "conelight/settings.h"
 #include "gather/glass.h"
@@ -42,6 +43,12 @@ class ModeRenderer {
     virtual ~ModeRenderer() = default;
     // Owns the values between frame and picture, and brings up to date what the picture needs of them.
     virtual void draw(const Frame& frame) = 0;
+    // The same in steps. Rests only where what was done so far harms no other picture if it goes no further. Here: in
+    // one.
+    virtual base::Steps drawInSteps(const Frame& frame) {
+        draw(frame);
+        co_return;
+    }
     // Draws what is transmissive in front of the picture that draw() has made. Where a mode has no way of its
     // own: as panes that bend nothing.
     virtual void drawGlass(const Frame& frame) {

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "gl/pace.h"
+
 namespace conelight::modes {
 namespace {
 
@@ -21,7 +23,7 @@ gather::PictureParts partsOf(const Settings& settings) {
 }  // namespace
 
 // [recipe]
-void TracedMode::draw(const Frame& frame) {
+base::Steps TracedMode::drawInSteps(const Frame& frame) {
     const Component component = frame.settings.component;
     const TracedSettings& settings = frame.settings.traced;
     const gather::PictureParts parts = partsOf(frame.settings);
@@ -35,8 +37,9 @@ void TracedMode::draw(const Frame& frame) {
     if ((usesLight || exactShadows || frame.lights.castsCaustics()) && !frame.besideCenters) {
         voxels_.update(frame.device, frame.scene, frame.settings.voxels, voxels::Rays::Yes);
         frame.lights.castCaustics(frame.device, frame.scene, voxels_);
+        co_await gl::rest(frame.device);
     }
-    if (usesLight && !frame.besideCenters) relight(frame);
+    if (usesLight && !frame.besideCenters) co_await relight(frame);
 
     // What arrives at pixels, and the picture.
     if (frame.recorder != nullptr) {
@@ -50,26 +53,28 @@ void TracedMode::draw(const Frame& frame) {
             {frame.settings, frame.scene, frame.lights, frame.surfaces, frame.output, frame.voxelsAmong},
             {voxels_, lit_.faces(), lit_.revision()});
     } else {
+        const gather::Indirect::Wanted wanted{settings, parts, frame.lookupCounters};
         if (frame.besideCenters)
             indirect_.carry(frame.device, inputs, settings);
         else
-            indirect_.gather(frame.device, inputs, {settings, parts, frame.lookupCounters});
-        const gl::Texture* visibility = nullptr;
-        if (exactShadows)
-            visibility = &visibility_.look(frame.device, {frame.scene, frame.lights, voxels_, frame.surfaces},
-                                           frame.lookupCounters);
-        shade_.draw(frame.device, inputs, indirect_, {settings, parts, frame.lookupCounters, visibility},
-                    frame.output);
+            co_await indirect_.gatherInSteps(frame.device, inputs, wanted);
+        const gather::VisibilityInputs seen{frame.scene, frame.lights, voxels_, frame.surfaces};
+        if (exactShadows) co_await visibility_.lookInSteps(frame.device, seen, frame.lookupCounters);
+        const gather::TracedShade::Wanted shaded{settings, parts, frame.lookupCounters,
+                                                 exactShadows ? &visibility_.seen() : nullptr};
+        co_await shade_.drawInSteps(frame.device, inputs, indirect_, shaded, frame.output);
     }
 }
 // [/recipe]
 
 // A recorded picture shows what is there.
-void TracedMode::relight(const Frame& frame) {
+base::Steps TracedMode::relight(const Frame& frame) {
     const TracedSettings& settings = frame.settings.traced;
     const light::LitVoxels::Inputs inputs{frame.scene, frame.lights, voxels_};
     const light::RelightSettings wanted = light::relightSettings(settings);
     const auto faces = static_cast<std::uint32_t>(settings.faceBudget);
+    const light::Budget once{
+        .oneUpdate = settings.budgeted, .faces = faces, .nothing = frame.recorder != nullptr};
     if (settings.budgeted && settings.timeBudget > 0 && frame.recorder == nullptr)
         budget_.relight(frame.device, lit_, inputs, wanted,
                         {.updates = wanted.updates,
@@ -77,8 +82,7 @@ void TracedMode::relight(const Frame& frame) {
                          .milliseconds = static_cast<double>(settings.timeBudget),
                          .start = light::RelightBudget::begin(static_cast<double>(settings.timeBudget))});
     else
-        lit_.relight(frame.device, inputs, wanted,
-                     {.oneUpdate = settings.budgeted, .faces = faces, .nothing = frame.recorder != nullptr});
+        co_await lit_.relightInSteps(frame.device, inputs, wanted, once);
 }
 
 // By rays, where the picture holds what they may bring.

@@ -18,7 +18,8 @@ namespace conelight::modes {
 
 class TracedMode : public ModeRenderer {
   public:
-    void draw(const Frame& frame) override;
+    void draw(const Frame& frame) override { drawInSteps(frame).finish(); }
+    base::Steps drawInSteps(const Frame& frame) override;
     void drawGlass(const Frame& frame) override;
     bool gathersForCenters() const override { return true; }
     bool settled() const override { return lit_.steady(); }
@@ -29,7 +30,7 @@ class TracedMode : public ModeRenderer {
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
-    void relight(const Frame& frame);
+    base::Steps relight(const Frame& frame);
     void record(const Frame& frame, const gather::RayInputs& inputs);
 
     voxels::Voxels voxels_;

@@ -11,16 +11,6 @@ namespace {
 
 class ViewerInputTest : public ViewerPanelsTest {
   protected:
-    // A text stands on its ground in the middle of a box.
-    static bool noticed(const ScreenPixels& now, const glm::ivec4& box) {
-        int letters = 0, ground = 0;
-        for (int y = box.y + box.w / 4; y < box.y + box.w * 3 / 4; ++y)
-            for (int x = box.x + box.z / 4; x < box.x + box.z * 3 / 4; ++x) {
-                letters += now.at({x, y}).x > 150;
-                ground += near(glm::vec3(now.at({x, y})), glm::vec3(29), 2);
-            }
-        return letters > 50 && ground > 3000;
-    }
     // Pixels of the picture in the rays' yellow that were not there.
     int yellow(const ScreenPixels& before, const glm::ivec4& place) {
         const ScreenPixels now = screen->pixels();
@@ -87,24 +77,24 @@ TEST_F(ViewerInputTest, SaysWhatItLoads) {
         "--size 900x600 --voxels 32 --mode traced --no-state --exec 'resolution 0.25' "
         "'builtin:atrium?triangles=20000'");
     const glm::ivec4 window(0, 0, 900, 600);
-    EXPECT_TRUE(eventually([&] { return noticed(screen->pixels(), window); })) << "at the start";
+    EXPECT_TRUE(eventually([&] { return textShown(screen->pixels(), window); })) << "at the start";
     settle();
     const glm::ivec4 place = picture();
     const glm::ivec2 corner = glm::ivec2(place) + glm::ivec2(12, place.w - 12);
-    EXPECT_TRUE(eventually([&] { return !noticed(screen->pixels(), place); })) << "and then no more";
+    EXPECT_TRUE(eventually([&] { return !textShown(screen->pixels(), place); })) << "and then no more";
     const glm::vec3 ground(33);  // of a window without a picture
     EXPECT_FALSE(near(shownAt(corner), ground, 4));
     viewer->send("open builtin:study; settle; echo loaded it");
     EXPECT_TRUE(eventually([&] {
         const ScreenPixels now = screen->pixels();
-        return noticed(now, place) && near(now.mean(corner - 2, {5, 5}), ground, 2);
+        return textShown(now, place) && near(now.mean(corner - 2, {5, 5}), ground, 2);
     })) << "the old picture is gone while the new one is made";
     ASSERT_NE(viewer->expect("loaded it"), "") << viewer->output();
-    EXPECT_TRUE(eventually([&] { return !noticed(screen->pixels(), place); }));
+    EXPECT_TRUE(eventually([&] { return !textShown(screen->pixels(), place); }));
     viewer->send("open nowhere.glb");
     EXPECT_NE(viewer->expect("nowhere.glb"), "");
     pass();
-    EXPECT_TRUE(eventually([&] { return !noticed(screen->pixels(), place); })) << "what fails is over";
+    EXPECT_TRUE(eventually([&] { return !textShown(screen->pixels(), place); })) << "what fails is over";
     viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
 }

@@ -47,6 +47,16 @@ class ViewerPanelsTest : public ViewerTest {
             return bright >= kPixels;
         });
     }
+    // A text stands on its ground in the middle of a box.
+    static bool textShown(const ScreenPixels& now, const glm::ivec4& box) {
+        int letters = 0, ground = 0;
+        for (int y = box.y + box.w / 4; y < box.y + box.w * 3 / 4; ++y)
+            for (int x = box.x + box.z / 4; x < box.x + box.z * 3 / 4; ++x) {
+                letters += now.at({x, y}).x > 150;
+                ground += near(glm::vec3(now.at({x, y})), glm::vec3(29), 2);
+            }
+        return letters > 50 && ground > 3000;
+    }
     void openMenu(const std::string& menu, const std::string& item) {
         click("menu:" + menu);
         click(item);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Choice of the reader, and a scene in words.
 #include <algorithm>
+#include <filesystem>
 
 #include "cpu/io_test_support.h"
+#include "io/animation.h"
+#include "io/gltf_write.h"
 #include "io/scene_info.h"
 
 namespace conelight {
@@ -25,6 +28,43 @@ TEST(SceneFile, NamesWhatItKnows) {
     for (const char* extension :
          {".glb", ".gltf", ".txt", ".obj", ".fbx", ".ply", ".stl", ".dae", ".3ds", ".ifc"})
         EXPECT_NE(std::find(known.begin(), known.end(), extension), known.end()) << extension;
+}
+
+// LoadOptions::progress is told how far a load is, and stops it wherever it says so.
+TEST(SceneFile, TellsHowFarItIsAndStops) {
+    const std::filesystem::path folder = folderOf("load_progress");
+    const std::string gltf = (folder / "atrium.glb").string();
+    io::writeGltf(gltf, io::loadScene("builtin:atrium?triangles=10000"), true);
+    const std::string obj = write(folder / "one.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    for (const std::string& file : {gltf, obj, std::string("builtin:cornell")}) {
+        std::vector<std::string> names;
+        io::LoadOptions options;
+        options.progress = [&](const io::LoadStep& step) {
+            EXPECT_TRUE(step.total == 0 || step.done < step.total) << step.name;
+            if (names.empty() || names.back() != step.name) names.emplace_back(step.name);
+            return true;
+        };
+        const Scene whole = io::loadScene(file, options);
+        const std::vector<std::string> wanted =
+            file == gltf  ? std::vector<std::string>{"reading", "pictures", "meshes"}
+            : file == obj ? std::vector<std::string>{"reading", "importing"}
+                          : std::vector<std::string>{"reading"};
+        EXPECT_EQ(names, wanted) << file;
+        for (const std::string& last : wanted) {
+            bool goesOn = true;
+            options.progress = [&](const io::LoadStep& step) {
+                EXPECT_TRUE(goesOn) << "asked again";
+                return goesOn = step.name != last;
+            };
+            io::SceneAnimation animation;
+            try {
+                io::loadMovingScene(file, options, animation);
+                ADD_FAILURE() << file << " goes on after " << last;
+            } catch (const io::LoadStopped& stopped) {
+                EXPECT_EQ(std::string(stopped.what()), file + ": stopped; nothing is loaded");
+            }
+        }
+    }
 }
 
 TEST(SceneInfo, SaysWhatIsInAScene) {

@@ -270,6 +270,30 @@ void ViewerProcess::crash() {
 void ViewerProcess::pause() { kill(process_, SIGSTOP); }
 void ViewerProcess::resume() { kill(process_, SIGCONT); }
 
+bool ViewerProcess::holdChild() {
+    const auto parentOf = [](const std::string& process) {
+        const std::string text = bytesOf("/proc/" + process + "/stat");
+        std::istringstream fields(text.substr(std::min(text.size(), text.rfind(')') + 1)));
+        std::string state;
+        int parent = -1;
+        fields >> state >> parent;
+        return parent;
+    };
+    const double until = now() + kPatience;
+    while (now() < until && running()) {
+        std::error_code gone;
+        for (const auto& entry : std::filesystem::directory_iterator("/proc", gone)) {
+            const std::string name = entry.path().filename().string();
+            if (name.find_first_not_of("0123456789") != std::string::npos || parentOf(name) != process_)
+                continue;
+            child_ = std::stoi(name);
+            return kill(child_, SIGSTOP) == 0;
+        }
+    }
+    return false;
+}
+void ViewerProcess::releaseChild() { kill(child_, SIGCONT); }
+
 bool ViewerProcess::running() {
     int status = 0;
     if (ended_ || waitpid(process_, &status, WNOHANG) == 0) return !ended_;

@@ -77,11 +77,15 @@ class ViewerProcess {
     // Holds the program where it is, so that all input meanwhile reaches it at once, and lets it go on.
     void pause();
     void resume();
+    // Waits until the program has a process of its own, which it reads foreign files with, and holds that until
+    // release(). Returns whether one came.
+    bool holdChild();
+    void releaseChild();
     const std::string& output() const { return output_; }  // all of it, errors too
 
   private:
     bool readSome(double seconds);
-    int process_ = -1, in_ = -1, out_ = -1;
+    int process_ = -1, child_ = -1, in_ = -1, out_ = -1;
     std::string output_;
     std::size_t taken_ = 0;
     int status_ = -1;

@@ -34,9 +34,10 @@ Argument themeArgument() {
 }
 
 Argument statusKey() {
-    return choice("KEY", {"scene",     "window",    "picture",   "mode",   "split",  "kept", "settled",
-                          "selection", "pixel",     "camera",    "steps",  "path",   "log",  "hint",
-                          "guides",    "headlight", "turntable", "frames", "moving", "gui",  "first_frame"});
+    return choice("KEY",
+                  {"scene",     "window", "picture", "mode",   "split", "kept",       "settled", "selection",
+                   "pixel",     "camera", "steps",   "path",   "log",   "hint",       "guides",  "headlight",
+                   "turntable", "frames", "moving",  "pauses", "gui",   "first_frame"});
 }
 
 Command splitCommand() {
@@ -168,10 +169,11 @@ CommandGroup windowCommands() {
                 [](const CommandContext& context) { askWindow(context, "settle"); },
                 "In mode reference, and beside it, until there is a first picture."),
             command(
-                "stop", {}, "end what commands wait for: a flight, a film, a bake, settle or wait",
+                "stop", {},
+                "end what commands wait for: a scene to open, a flight, a film, a bake, settle or wait",
                 [](const CommandContext& context) { askWindow(context, "stop"); },
                 "Typed by itself it is carried out at once, and the commands behind that go on. So is `path "
-                "stop` during a flight, which the key Escape ends, too."),
+                "stop` during a flight, which the key Escape ends, too; and a scene that is read."),
             command(
                 "resolution", {{"SCALE", ArgumentKind::Number, true, false, "", 0.25, 1, {}}},
                 "pixels of the picture, as a part of those of the window, along each edge",

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "io/files.h"
 
@@ -47,6 +48,15 @@ Console::Console(Session& session, ConsoleOutput output) : session_(session), ou
 void Console::submit(const std::string& text, const std::string& origin) {
     if (origin.empty()) history_.add(text);
     for (Statement& statement : parseStatements(text)) queue_.push_back({std::move(statement), origin, 0});
+}
+
+void Console::submitWidget(const std::string& text) {
+    history_.add(text);
+    for (Statement& statement : parseStatements(text)) ofWidgets_.push_back({std::move(statement), {}, 0});
+}
+
+void Console::runWidgets() {
+    for (const Queued& queued : std::exchange(ofWidgets_, {})) run(queued);
 }
 
 void Console::source(const std::string& file) {

@@ -38,13 +38,18 @@ class Console {
     // `origin` starts error lines ("--exec", a file's name); empty: typed by hand, errors name the command
     // only.
     void submit(const std::string& text, const std::string& origin = {});
+    // Of a hand, by a widget or a key: runWidgets() runs it, whatever the queue waits for.
+    void submitWidget(const std::string& text);
+    void runWidgets();
     // Puts the lines of a script in front of what is queued. Throws Error(BadInput) for a file that cannot be
     // read, Error(Usage) for scripts that call each other too deep.
     void source(const std::string& file);
     // Runs commands until one asks for work of the main loop or all are done. An error is one line; with
     // stopOnError what is queued behind it is dropped. Returns whether any ran.
     bool runQueued();
-    bool idle() const { return queue_.empty() && waitFrames_ == 0 && !session_.playing(); }
+    bool idle() const {
+        return queue_.empty() && ofWidgets_.empty() && waitFrames_ == 0 && !session_.playing();
+    }
     void setStopOnError(bool stop) { stopOnError_ = stop; }
     // The first error since construction.
     const std::optional<Error>& firstError() const { return firstError_; }
@@ -76,7 +81,7 @@ class Console {
 
     Session& session_;
     ConsoleOutput output_;
-    std::deque<Queued> queue_;
+    std::deque<Queued> queue_, ofWidgets_;
     Queued current_;
     int waitFrames_ = 0;
     bool stopOnError_ = false;

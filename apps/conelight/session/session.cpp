@@ -9,7 +9,6 @@
 
 #include "conelight/error.h"
 #include "conelight/studio.h"
-#include "io/scene_file.h"
 
 namespace conelight::program {
 namespace {
@@ -70,21 +69,30 @@ void Session::startRevisions() {
     meshRevisions_.assign(scene_.meshes.size(), 0);
 }
 
+OpenedScene readScene(const std::string& path, const OpenHow& how, const io::LoadOptions& options) {
+    io::LoadOptions load = options;
+    load.allowOutside = how.allowOutside;
+    if (how.up.first == path) load.up = how.up.second;
+    OpenedScene opened;
+    opened.path = path;
+    opened.scene = io::loadMovingScene(path, load, opened.animation);
+    completeScene(opened.scene, {.ground = how.addsGround});
+    opened.start = startSettings(opened.scene);
+    return opened;
+}
+
 std::vector<std::string> Session::open(const std::string& path, bool keepView) {
-    io::LoadOptions load;
-    load.allowOutside = allowOutside_;
-    if (upAxis_.first == path) load.up = upAxis_.second;
-    io::SceneAnimation animation;
-    Scene loaded = io::loadMovingScene(path, load, animation);
-    completeScene(loaded, {.ground = addsGround_});
-    const Settings start = startSettings(loaded);
-    scene_ = std::move(loaded);
+    return take(readScene(path, openHow_), keepView);
+}
+
+std::vector<std::string> Session::take(OpenedScene opened, bool keepView) {
+    scene_ = std::move(opened.scene);
     startRevisions();
-    setAnimation(std::move(animation));
-    path_ = path;
+    setAnimation(std::move(opened.animation));
+    path_ = opened.path;
     if (!keepView) {
-        settings_ = start;
-        mode_ = getSetting(start, "mode");
+        settings_ = opened.start;
+        mode_ = getSetting(opened.start, "mode");
         camera_ = scene_.cameras.front();
         playing_.reset();
         flags_ = {};

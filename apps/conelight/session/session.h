@@ -48,6 +48,21 @@ struct RayMark {
     glm::vec3 normal{0};
 };
 
+// A scene that was read and completed, for Session::take.
+struct OpenedScene {
+    std::string path;
+    Scene scene;
+    io::SceneAnimation animation;
+    Settings start;
+};
+struct OpenHow {
+    bool allowOutside = false;              // it may name files outside its folder
+    bool addsGround = true;                 // without light it stands on a ground
+    std::pair<std::string, io::UpAxis> up;  // of a file
+};
+// Throws what io::loadScene throws. Any thread.
+OpenedScene readScene(const std::string& path, const OpenHow& how, const io::LoadOptions& options = {});
+
 // Settings that a scene starts with in a mode ("": the default or the scene's own): its format's look, then
 // its own block.
 Settings startSettings(const Scene& scene, const std::string& mode = {});
@@ -74,12 +89,13 @@ class Session {
     // Reads and completes a scene; its notes are returned. On an error the session is as before. keepView:
     // camera, settings and flags stay.
     std::vector<std::string> open(const std::string& path, bool keepView);
-    // Scenes that are opened may name files outside their folders.
-    void allowOutside(bool allow) { allowOutside_ = allow; }
-    // What is opened without light stands on no ground.
-    void leaveOutGround(bool leave) { addsGround_ = !leave; }
+    // The same with what was read elsewhere.
+    std::vector<std::string> take(OpenedScene opened, bool keepView);
+    // How scenes are opened.
+    const OpenHow& openHow() const { return openHow_; }
+    void setOpenHow(const OpenHow& how) { openHow_ = how; }
     // That file is opened so from now on.
-    void takeUpAxis(const std::string& path, io::UpAxis up) { upAxis_ = {path, up}; }
+    void takeUpAxis(const std::string& path, io::UpAxis up) { openHow_.up = {path, up}; }
 
     const Scene& scene() const { return scene_; }
     const std::string& path() const { return path_; }
@@ -206,9 +222,7 @@ class Session {
     };
     void startRevisions();
 
-    bool allowOutside_ = false;
-    bool addsGround_ = true;
-    std::pair<std::string, io::UpAxis> upAxis_;  // of a file
+    OpenHow openHow_;
     Scene scene_;
     std::string path_;
     Settings settings_;

@@ -5,8 +5,11 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
+#include <memory>
 #include <optional>
+#include <utility>
 
 #include "traced_picture.h"
 #include "viewer/background_job.h"
@@ -40,7 +43,10 @@ bool showStrip(const Strip& strip, const glm::vec2& at, float width) {
     ImGui::Begin((std::string("##") + strip.name).c_str(), nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoFocusOnAppearing);
-    ImGui::ProgressBar(static_cast<float>(strip.done), {-5 * em, 0}, text.c_str());
+    // How far it is nobody knows: it goes to and fro.
+    const double phase = std::fmod(ImGui::GetTime(), 2.0);
+    const double done = strip.done >= 0 ? strip.done : std::min(phase, 2 - phase);
+    ImGui::ProgressBar(static_cast<float>(done), {-5 * em, 0}, text.c_str());
     ImGui::SameLine();
     const bool stopped = ImGui::Button("stop", {-1, 0});
     notePlace(std::string(strip.name) + ":stop");
@@ -61,6 +67,33 @@ void LongWork::startBake(const Request& request) {
     bake_.start(request.file, request.overwrite, in_.session.scene(), settings, platform::Window::wake);
 }
 
+void LongWork::startFirst(const std::string& name, BackgroundLoad::Read read) {
+    loadsFirst_ = true;
+    load_.start(fileNameOf(name), std::move(read), platform::Window::wake);
+}
+
+bool LongWork::startLoad(const Request& request) {
+    if (load_.busy()) {
+        load_.stop();
+        return false;
+    }
+    const auto read = [this, request, how = in_.session.openHow(),
+                       steps = in_.session.stepsTaken()](const io::LoadOptions& watched) {
+        auto opened = std::make_shared<OpenedScene>(readScene(request.file, how, watched));
+        return BackgroundLoad::TakeOver(
+            [this, request, opened, steps] { takeOver(request, *opened, steps); });
+    };
+    return load_.start(fileNameOf(request.file), read, platform::Window::wake);
+}
+
+void LongWork::takeOver(const Request& request, OpenedScene& opened, std::uint64_t stepsBefore) {
+    if (in_.session.unsaved() && in_.session.stepsTaken() != stepsBefore) return onChangedMeanwhile(request);
+    for (const std::string& note : in_.session.take(std::move(opened), request.keepView))
+        in_.console.say(note);
+    if (!request.recovers.empty()) in_.session.markRecovered(request.recovers);
+    in_.console.say("loaded " + request.file);
+}
+
 bool LongWork::waits() const {
     return in_.session.playing() || holdsCommands() || in_.console.commands().framesToWait() > 0;
 }
@@ -71,6 +104,7 @@ void LongWork::stop() {
     in_.session.stopPlaying();
     if (job_.busy()) job_.stop();
     if (bake_.busy()) bake_.stop();
+    load_.stop();
     settling_ = false;
     in_.console.commands().endWait();
     in_.console.say("stopped");
@@ -88,6 +122,22 @@ bool LongWork::stopAtOnce(const std::vector<std::string>& words) {
 }
 
 void LongWork::follow() {
+    followLoad();
+    followBake();
+}
+
+void LongWork::followLoad() {
+    try {
+        if (!load_.finish()) return;
+    } catch (const Error& error) {
+        const bool stopped = dynamic_cast<const io::LoadStopped*>(&error) != nullptr;
+        if (loadsFirst_ && !stopped) throw;
+        in_.console.commands().fail(error);
+    }
+    loadsFirst_ = false;
+}
+
+void LongWork::followBake() {
     try {
         if (const auto lines = bake_.finish())
             for (const std::string& line : *lines) in_.console.say(line);
@@ -115,6 +165,11 @@ void LongWork::showStrips(const glm::vec2& at, const glm::vec2& size) {
     const float em = ImGui::GetFontSize();
     const float width = std::min(36 * em, size.x - em);
     glm::vec2 place(at.x + 0.5f * em, at.y + size.y - 2.8f * em);
+    if (load_.busy()) {
+        const BackgroundLoad::Status status = load_.status();
+        if (showStrip({"load", status.text, status.done}, place, width)) load_.stop();
+        place.y -= 2.6f * em;
+    }
     if (bake_.busy()) {
         const BakeStatus status = bake_.status();
         const Strip strip{"bake", fmt::format("{}: {:.0f} %", fileNameOf(bake_.file()), 100 * status.done),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What takes longer than a frame, and what commands wait for: a flight along the path, pictures and films to
-// write, a bake, `settle`. The window stays alive meanwhile; a strip over the picture shows how far the work
+// What takes longer than a frame, and what commands wait for: a scene to load, a flight along the path, pictures
+// and films to write, a bake, `settle`. The window stays alive meanwhile; a strip over the picture shows how far the work
 // is and ends it.
 #pragma once
 
@@ -11,6 +11,7 @@
 #include "reference/path_tracer.h"
 #include "reference/radiosity.h"
 #include "session/session.h"
+#include "viewer/background_load.h"
 #include "viewer/file_bake.h"
 #include "viewer/picture_job.h"
 #include "viewer/picture_view.h"
@@ -37,11 +38,20 @@ class LongWork {
 
     void startPictures(const Request& request);  // Screenshot or Record
     void startBake(const Request& request);
+    // A scene, in the background. One that is loaded already is stopped first: false until it has ended.
+    bool startLoad(const Request& request);
+    // The first scene, whose failure ends the program: follow() throws it.
+    void startFirst(const std::string& name, BackgroundLoad::Read read);
+    // What to do when the scene was changed, and not saved, while another was read: it would be lost.
+    std::function<void(const Request&)> onChangedMeanwhile;
     void settle() { settling_ = true; }  // commands wait for the picture
 
     bool holdsRequests() const { return job_.busy(); }
-    bool holdsCommands() const { return settling_ || bake_.busy() || job_.busy(); }
-    bool wakesWindow() const { return settling_ || bake_.busy(); }  // when it goes on: nobody has to look
+    bool holdsCommands() const { return settling_ || bake_.busy() || job_.busy() || load_.busy(); }
+    bool wakesWindow() const { return settling_ || bake_.busy() || load_.busy(); }  // nobody has to look
+    bool loads() const { return load_.busy(); }
+    std::string loadText() const { return load_.status().text; }  // what is read, and how far that is
+    void stopLoading() { load_.stop(); }
     bool restsBetweenPictures() const { return job_.busy() && job_.waits(); }
     bool waits() const;  // whether commands wait for something that can be ended
 
@@ -50,14 +60,20 @@ class LongWork {
     // `stop`, or `path stop` during a flight, while commands wait: done at once. Else false.
     bool stopAtOnce(const std::vector<std::string>& words);
 
-    void follow();                           // takes what the background has finished
+    void follow();                           // takes over what the background has finished
     void lookWhetherSettled(bool improves);  // `improves`: another frame would change the picture
     bool drawPictures();                     // a little of them; false: there are none to draw
     void showStrips(const glm::vec2& at, const glm::vec2& size);
 
   private:
+    void takeOver(const Request& request, OpenedScene& opened, std::uint64_t stepsBefore);
+    void followLoad();
+    void followBake();
+
     Inputs in_;
     reference::RadiositySettings radiosity_;  // of bakes
+    BackgroundLoad load_;
+    bool loadsFirst_ = false;
     FileBake bake_;
     PictureJob job_;
     bool settling_ = false;

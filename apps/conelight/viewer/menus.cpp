@@ -38,10 +38,11 @@ void Menus::takeKeys() {
     // Dear ImGui's own keys may have closed it at the begin of this frame.
     const bool menuOpen = closeMenusOnEscape() || popupsOpen_;
     const std::vector<platform::Window::KeyEvent>& presses = in_.gui.keyPresses();
-    // Whoever typed `path play` still has the cursor in the console's line.
+    // Whoever typed `path play`, or `open`, still has the cursor in the console's line.
+    const bool loads = in_.work.loads() && !menuOpen;
     for (const auto& press : presses)
-        if (press.key == GLFW_KEY_ESCAPE && in_.session.playing()) {
-            in_.session.stopPlaying();
+        if (press.key == GLFW_KEY_ESCAPE && (in_.session.playing() || loads)) {
+            loads ? in_.work.stopLoading() : in_.session.stopPlaying();
             if (in_.gui.wantsKeyboard()) in_.console.panel().focus();
             return;
         }

@@ -12,6 +12,7 @@
 #include "viewer/gui.h"
 #include "viewer/help_menu.h"
 #include "viewer/key_list.h"
+#include "viewer/long_work.h"
 #include "viewer/panel_layout.h"
 #include "viewer/picture_view.h"
 #include "viewer/pixel_probe.h"
@@ -31,6 +32,7 @@ class Menus {
         Document& document;
         PanelLayout& panels;
         KeyList& keys;
+        LongWork& work;
     };
     explicit Menus(const Inputs& inputs) : in_(inputs), help_(inputs.window, inputs.console, inputs.keys) {}
 

@@ -17,6 +17,8 @@
 #include "viewer/background_reference.h"
 #include "viewer/background_static_bake.h"
 #include "viewer/face_budget.h"
+#include "viewer/picture_key.h"
+#include "viewer/picture_label.h"
 #include "viewer/picture_noise.h"
 #include "viewer/picture_passes.h"
 
@@ -29,26 +31,8 @@ constexpr int kReferenceSamples = 4096;
 // time that PictureView aims at.
 constexpr double kFlyingUpdateMs = 25;
 
-// What the picture depends on; selection and the list of cameras are not part of it.
-struct PictureKey {
-    std::uint64_t tables = 0, settings = 0, camera = 0, flags = 0;
-    bool operator==(const PictureKey&) const = default;
-};
-PictureKey keyOf(const Revisions& r) { return {r.sceneTables(), r.settings, r.camera, r.flags}; }
-
-// Whether two settings give the same linear picture: all but exposure, bloom, tone map and encoding.
-bool sameButLook(Settings a, const Settings& b) {
-    const ImageSettings own = a.image;
-    a.image = b.image;
-    return a == b && own.antialiasing == b.image.antialiasing && own.temporal == b.image.temporal;
-}
-
-std::string hybridLabel(const BakeStatus& status, bool baked) {
-    if (!status.error.empty()) return "hybrid: " + status.error;
-    if (!status.running) return "hybrid";
-    return fmt::format("hybrid: baking, {:.0f} %; until then {}", 100 * status.done,
-                       baked ? "light as it was, or a draft of it" : "all light by cones");
-}
+// Between two parts of a picture the window looks whether somebody wants it.
+constexpr double kPartMs = 25;
 
 double wallMs() {
     using clock = std::chrono::steady_clock;
@@ -58,8 +42,16 @@ double wallMs() {
 }  // namespace
 
 struct PictureSlot::Impl {
+    // A picture that is drawn in parts, and what it will show.
+    struct Drawing {
+        PictureKey key;
+        Settings settings;  // the session's
+        glm::ivec2 size;
+    };
+
     RendererOptions options;
     std::unique_ptr<Renderer> renderer;
+    std::optional<Drawing> drawing;
     SceneUpload upload;                // of the session's scene
     std::shared_ptr<const Scene> lit;  // the baked scene that the renderer holds instead
 
@@ -79,7 +71,7 @@ struct PictureSlot::Impl {
     FaceBudget flyingFaces{kFlyingUpdateMs};
     bool flyingUpdate = false;  // the last update was of flyingFaces
     double voxelsMadeAt = 0;    // ms; ViewFlags::dynamic
-    std::uint64_t version = 0;
+    std::uint64_t version = 0, parts = 0;
     std::uint32_t texture = 0;
     std::optional<Image> linear;
     std::optional<std::string> error;
@@ -98,12 +90,17 @@ struct PictureSlot::Impl {
     bool drawTraced(BackgroundReference& traced, const Session& session, int w, int h, const How& how);
     bool drawRadiosity(const Session& session, int w, int h, const How& how);
     void drawNothing(const Session& session, int w, int h);
-    void renderFrame(const Session& session, Settings settings, int w, int h);
+    bool begin(const Session& session, const std::string& drawnMode, bool voxelsDue, const glm::ivec2& size,
+               const How& how);
+    void followDrawing(const Session& session, const glm::ivec2& size);
+    void drop();
+    void countPass(const std::string& drawnMode);
+    void renderFrame(const Session& session, const Settings& settings, int w, int h);
+    void takeFrame(const Session& session, const Drawing& drawn, double start);
     void showImage(const ImageSettings& look);
     const Image& read();
     std::shared_ptr<const BakedLight> bakedFor(const Session& session, const std::string& drawnMode,
                                                const How& how);
-    std::string progress() const;
     void followUpdateTime();
     void followLook(const Session& session);
     bool onlyLook(const Session& session) const;
@@ -136,6 +133,12 @@ void PictureSlot::Impl::startAnew() {
     texture = 0;
     own = preview = false;
     settling = 0;
+    drop();
+}
+
+void PictureSlot::Impl::drop() {
+    if (drawing && renderer) renderer->drop();
+    drawing.reset();
 }
 
 void PictureSlot::blank() { impl_->startAnew(); }
@@ -187,6 +190,7 @@ bool PictureSlot::draw(const Session& session, const std::string& mode, int widt
         impl_->height = height;
         impl_->settling = 0;
         impl_->asked = false;
+        impl_->drop();
         if (impl_->lastError != error.what()) impl_->error = error.what();
         impl_->lastError = error.what();
         return false;
@@ -209,16 +213,17 @@ bool PictureSlot::Impl::draw(const Session& session, int w, int h, const How& ho
     return drawScene(session, mode, w, h, how);
 }
 
-// The scene as it is, in a mode of the renderer.
+// The scene as it is, in a mode of the renderer. At rest in parts: a picture that nobody wants any more is dropped.
 bool PictureSlot::Impl::drawScene(const Session& session, const std::string& drawnMode, int w, int h,
                                   const How& how) {
     followLook(session);
     const std::shared_ptr<const BakedLight> newest = bakedFor(session, drawnMode, how);
     const ViewFlags& flags = session.flags();
-    const bool voxelsDue = flags.dynamic && wallMs() - voxelsMadeAt > 1e3 * flags.period;
-    const bool changed =
-        asked || !shown || !(*shown == keyOf(session.revisions())) || voxelsDue || newest != baked;
-    const bool resized = w != width || h != height;
+    const bool voxelsDue = flags.dynamic && !drawing && wallMs() - voxelsMadeAt > 1e3 * flags.period;
+    followDrawing(session, {w, h});
+    const bool current = drawing || (shown && *shown == keyOf(session.revisions()));
+    const bool changed = asked || !current || voxelsDue || newest != baked;
+    const bool resized = !drawing && (w != width || h != height);
     if (changed || (resized && !how.onlyChanges)) {
         passes = passesOf(drawnMode, session.settings(), session.camera());
         settling = passes.all();
@@ -226,6 +231,41 @@ bool PictureSlot::Impl::drawScene(const Session& session, const std::string& dra
     if (settling == 0) return resized && how.onlyChanges;
     if (how.onlyChanges && !changed) return true;
 
+    if (changed || !how.still) drop();
+    if (!drawing) {
+        baked = newest;
+        if (!begin(session, drawnMode, voxelsDue, {w, h}, how)) return settling > 0;
+    }
+    ++parts;
+    if (!renderer->goOn(kPartMs)) return true;
+    const Drawing drawn = *std::exchange(drawing, std::nullopt);
+    takeFrame(session, drawn, wallMs() - renderer->stats().wallMs);
+    countPass(drawnMode);
+    return settling > 0;
+}
+
+void PictureSlot::Impl::countPass(const std::string& drawnMode) {
+    followUpdateTime();
+    const bool view = passes.areViews(settling);
+    --settling;
+    if (drawnMode == "traced" && !view)
+        noise.follow(passes.all() - settling, [this]() -> const Image& { return read(); });
+}
+
+// What was begun goes on while it is what is wanted; another look at it changes nothing.
+void PictureSlot::Impl::followDrawing(const Session& session, const glm::ivec2& size) {
+    if (!drawing) return;
+    PictureKey key = keyOf(session.revisions());
+    if (sameButLook(session.settings(), drawing->settings)) key.settings = drawing->key.settings;
+    if (key == drawing->key && drawing->size == size && renderer && renderer->drawing())
+        drawing->key.settings = session.revisions().settings;
+    else
+        drop();
+}
+
+// A picture; false: it is drawn whole, because the next has to come soon.
+bool PictureSlot::Impl::begin(const Session& session, const std::string& drawnMode, bool voxelsDue,
+                              const glm::ivec2& size, const How& how) {
     if (!renderer) {
         renderer = std::make_unique<Renderer>(options);
         upload.forget();
@@ -235,8 +275,7 @@ bool PictureSlot::Impl::drawScene(const Session& session, const std::string& dra
         upload.forget();
     }
     upload.follow(*renderer, session);
-    renderer->setBakedLight(newest);
-    baked = newest;
+    renderer->setBakedLight(baked);
     if (voxelsDue) voxelsMadeAt = wallMs();
     Settings settings = session.shownSettings();
     conelight::setSetting(settings, "mode", drawnMode);
@@ -249,12 +288,17 @@ bool PictureSlot::Impl::drawScene(const Session& session, const std::string& dra
     if (flyingUpdate && (settings.traced.faceBudget == 0 || settings.traced.faceBudget > faces))
         settings.traced.faceBudget = faces;
     renderer->setDynamic(voxelsDue);
-    renderFrame(session, settings, w, h);
-    followUpdateTime();
-    --settling;
-    if (drawnMode == "traced" && !views)
-        noise.follow(passes.all() - settling, [this]() -> const Image& { return read(); });
-    return settling > 0;
+    asked = false;
+    if (!how.still) {
+        renderFrame(session, settings, size.x, size.y);
+        countPass(drawnMode);
+        return false;
+    }
+    renderer->setProfiling(true, false);
+    renderer->setHeadlight(headlight);
+    renderer->begin(session.camera(), size.x, size.y, settings);
+    drawing = Drawing{keyOf(session.revisions()), session.settings(), size};
+    return true;
 }
 
 // Of mode hybrid, as far as it is baked; without it the mode shows all light by cones.
@@ -291,23 +335,28 @@ bool PictureSlot::Impl::onlyLook(const Session& session) const {
     return before == *shown && sameButLook(session.settings(), shownSettings);
 }
 
-void PictureSlot::Impl::renderFrame(const Session& session, Settings settings, int w, int h) {
+void PictureSlot::Impl::renderFrame(const Session& session, const Settings& settings, int w, int h) {
     const double start = wallMs();
+    drop();
     renderer->setProfiling(true, false);
     renderer->setHeadlight(headlight);
     renderer->render(session.camera(), w, h, settings);
-    texture = renderer->displayTexture(settings.image);
+    takeFrame(session, {keyOf(session.revisions()), session.settings(), {w, h}}, start);
+}
+
+void PictureSlot::Impl::takeFrame(const Session& session, const Drawing& drawn, double start) {
+    texture = renderer->displayTexture(session.settings().image);
     linear.reset();
     linearJob = 0;
     if (session.flags().drawBlock) linear = renderer->readImage();
     double gpuMs = 0;
     for (const PassStats& pass : renderer->stats().passes) gpuMs += std::max(pass.gpuMs, 0.0);
     frameMs = std::max(wallMs() - start, gpuMs);
-    shown = keyOf(session.revisions());
+    shown = drawn.key;
     shownSettings = session.settings();
     asked = false;
-    width = w;
-    height = h;
+    width = drawn.size.x;
+    height = drawn.size.y;
     ++version;
 }
 
@@ -399,6 +448,8 @@ bool PictureSlot::Impl::drawRadiosity(const Session& session, int w, int h, cons
     return false;
 }
 
+std::uint64_t PictureSlot::parts() const { return impl_->parts + impl_->version; }
+bool PictureSlot::drawing() const { return impl_->drawing.has_value(); }
 bool PictureSlot::onlyLook(const Session& session) const { return impl_->onlyLook(session); }
 std::uint32_t PictureSlot::texture() const { return impl_->texture; }
 int PictureSlot::width() const { return impl_->width; }
@@ -428,16 +479,16 @@ Renderer* PictureSlot::renderer() {
     return isSettingsMode(impl_->mode) || impl_->preview ? impl_->renderer.get() : nullptr;
 }
 
-// Of a picture of the renderer's: how far it is.
-std::string PictureSlot::Impl::progress() const {
-    const bool hasLight = mode == "traced";
-    const std::string noisy =
-        hasLight && noise.value() ? fmt::format("  noise {:.1f} %", 100 * *noise.value()) : "";
-    if (settling == 0) return hasLight ? noisy + "  done" : "";
-    return "  " + passes.text(settling) + noisy;
-}
-
 bool PictureSlot::ownPicture() const { return impl_->texture != 0 && impl_->own; }
+
+std::string PictureSlot::label() const {
+    const Impl& m = *impl_;
+    if (m.mode == "reference") return referenceLabel(m.reference.status(), m.preview);
+    if (m.mode == "beams") return beamsLabel(m.beams.status(), m.preview);
+    if (m.mode == "radiosity") return radiosityLabel(m.bake.status(), m.preview);
+    if (m.mode == "hybrid") return hybridLabel(m.statics.status(), m.baked != nullptr);
+    return m.version == 0 ? m.mode : passesLabel(m.mode, m.passes, m.settling, m.noise.value());
+}
 
 bool PictureSlot::finished() const {
     if (!impl_->lastError.empty()) return true;  // until something changes
@@ -446,34 +497,6 @@ bool PictureSlot::finished() const {
     if (impl_->mode == "beams") return !impl_->beams.status().running;
     if (impl_->mode == "hybrid") return !impl_->statics.status().running;
     return impl_->mode != "radiosity" || !impl_->bake.status().running;
-}
-
-std::string PictureSlot::label() const {
-    const std::string instead = impl_->preview ? "; until then the view without it" : "";
-    if (impl_->mode == "reference") {
-        const ReferenceStatus status = impl_->reference.status();
-        if (!status.error.empty()) return "reference: " + status.error;
-        if (status.samplesPerPixel == 0) return "reference: tracing the first samples" + instead;
-        return fmt::format("reference  {} spp  noise {:.1f} %{}", status.samplesPerPixel, 100 * status.noise,
-                           status.running ? "" : "  done");
-    }
-    if (impl_->mode == "beams") {
-        const ReferenceStatus status = impl_->beams.status();
-        if (!status.error.empty()) return status.error;
-        return status.samplesPerPixel == 0 ? "beams: tracing" + instead : "beams  done";
-    }
-    if (impl_->mode == "radiosity") {
-        const BakeStatus status = impl_->bake.status();
-        if (!status.error.empty()) return "radiosity: " + status.error;
-        if (!status.running) return "radiosity";
-        const std::string left = status.secondsLeft >= 0 ? ", " + timeText(status.secondsLeft) + " left" : "";
-        if (status.refining)
-            return fmt::format("radiosity: a draft; baking in full, {:.0f} %{}", 100 * status.done, left);
-        return fmt::format("radiosity: baking, {:.0f} %{}{}", 100 * status.done, left,
-                           impl_->preview ? instead : "; light as it was before the change");
-    }
-    if (impl_->mode == "hybrid") return hybridLabel(impl_->statics.status(), impl_->baked != nullptr);
-    return impl_->version == 0 ? impl_->mode : impl_->mode + impl_->progress();
 }
 
 }  // namespace conelight::program

@@ -28,8 +28,8 @@ class PictureSlot {
         bool flying = false;  // the camera moves, the scene does not: what is slow may lag behind
         bool onlyChanges = false;  // leave out what merely refines the picture
     };
-    // Brings the picture up to date, `width` x `height` pixels. Returns whether drawing again soon would
-    // change it; work in the background wakes the window instead. Never throws: takeError() has what went
+    // Brings the picture up to date, `width` x `height` pixels; at rest by one part of it. Returns whether drawing
+    // again soon would change it; work in the background wakes the window instead. Never throws: takeError() has what went
     // wrong.
     bool draw(const Session& session, const std::string& mode, int width, int height, const How& how);
     std::optional<std::string> takeError();  // of draw, each once
@@ -39,7 +39,9 @@ class PictureSlot {
     void setRadiosity(const reference::RadiositySettings& settings);  // of mode radiosity, before it is shown
     void setHeadlight(float irradiance);  // of modes of the renderer (Renderer::setHeadlight)
     void redraw();  // the next draw draws although nothing changed, and although only single frames are asked
-    void blank();   // shows nothing until the next draw
+    bool drawing() const;         // a picture is begun and not finished
+    std::uint64_t parts() const;  // grows with every part of a picture, and with every picture
+    void blank();                 // shows nothing until the next draw
     // Frees what the slot holds; the next draw starts anew.
     void clear();
     std::vector<std::string> reloadShaders();  // messages of those that fail

@@ -21,6 +21,7 @@ namespace {
 
 constexpr double kStillAfter = 0.25;      // s without movement until the picture is drawn in full
 constexpr double kMovingFrameMs = 100;    // while moving the resolution falls until a frame takes this
+constexpr double kUnknownMs = 1e9;        // a picture of unknown cost: movement begins as coarse as it can
 constexpr double kSlowFrameMs = 30;       // refinement of pictures that take longer waits for the user
 constexpr float kTurnPerPixel = 0.0035f;  // rad; the original's 0.1 degrees at twice the speed, by hand
 constexpr float kClickSlop = 4;           // px: a press that moved less is a click
@@ -116,7 +117,7 @@ bool PictureView::update(const Session& session, const glm::ivec2& areaPx, bool 
     // changes the look costs nothing: left_ does not draw it anew.)
     const std::uint64_t edits = session.revisions().sceneTables() + session.revisions().settings;
     if (!wasMoving_) stillMs_ = left_->frameMs() + (split.on ? right_->frameMs() : 0);
-    const bool slow = stillMs_ > kSlowFrameMs;
+    const bool slow = stillMs_ > kSlowFrameMs || (drawing() && left_->version() == 0);
     if (std::exchange(lastEdit_, edits) != edits && ImGui::IsAnyItemActive() && slow &&
         !left_->onlyLook(session))
         lastMove_ = ImGui::GetTime();
@@ -152,7 +153,9 @@ bool PictureView::update(const Session& session, const glm::ivec2& areaPx, bool 
 void PictureView::beginMovement() {
     movement_ = {};
     movement_.begun = movement_.lastPicture = wallSeconds();
-    movingResolution_.begin(left_->pixelsMs() + (split.on ? right_->pixelsMs() : 0));
+    // Before the first picture is finished nobody knows what one costs.
+    const double known = left_->pixelsMs() + (split.on ? right_->pixelsMs() : 0);
+    movingResolution_.begin(left_->version() > 0 ? known : kUnknownMs);
 }
 
 void PictureView::countPicture() {

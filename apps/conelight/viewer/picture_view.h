@@ -81,7 +81,9 @@ class PictureView {
     glm::ivec2 fullSize() const { return fullSize_; }  // of pictures at rest
     std::vector<std::string> reloadShaders();          // messages of those that fail
     bool showsOwn() const;                             // both sides show their mode's picture
-    bool finished() const;                             // nothing would refine what is shown
+    std::uint64_t parts() const { return left_->parts() + right_->parts(); }  // of pictures, so far
+    bool drawing() const { return left_->drawing() || right_->drawing(); }  // parts of a picture are to come
+    bool finished() const;  // nothing would refine what is shown
     // The picture on that side of the split, under which a click is looked up.
     PictureSlot& slotAt(float part) { return slot(rightIsLive() && !split.errors && part >= split.position); }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/pixel_probe.h"
 
+#include <utility>
+
 namespace conelight::program {
 
 void PixelProbe::inspectPixel(const glm::ivec2& pixel) {
@@ -8,7 +10,7 @@ void PixelProbe::inspectPixel(const glm::ivec2& pixel) {
     inspect({(glm::vec2(pixel) + 0.5f) / glm::max(glm::vec2(linear.width, linear.height), 1.0f)});
 }
 
-void PixelProbe::inspect(const PictureView::Click& click) {
+void PixelProbe::select(const PictureView::Click& click) {
     PictureSlot& slot = view_.slotAt(click.part.x);
     const Image& linear = slot.linear();
     const glm::ivec2 size(linear.width, linear.height);
@@ -21,11 +23,16 @@ void PixelProbe::inspect(const PictureView::Click& click) {
     inspection.hit = picker_.atPixel(session_, size.x, size.y, pixel.x, pixel.y);
     session_.select(inspection.hit ? Selection{SelectionKind::Instance, inspection.hit->instance}
                                    : Selection{});
-    if (inspection.hit) inspectGathering(inspection, slot.renderer());  // nothing gathers in the sky
+    gathersIn_ = inspection.hit ? &slot : nullptr;  // nothing gathers in the sky
     found_ = inspection;
     tables_ = session_.revisions().sceneTables();
     mode_ = session_.mode();
     settings_ = session_.settings();
+}
+
+void PixelProbe::gather() {
+    PictureSlot* const slot = std::exchange(gathersIn_, nullptr);
+    if (slot != nullptr && found_) inspectGathering(*found_, slot->renderer());
 }
 
 // Exposure and tone map change nothing of it, and lines follow the camera.

@@ -19,9 +19,18 @@ class PixelProbe {
   public:
     PixelProbe(Session& session, PictureView& view) : session_(session), view_(view) {}
 
-    void inspect(const PictureView::Click& click);
+    void inspect(const PictureView::Click& click) {
+        select(click);
+        gather();
+    }
+    // The same in two: the second takes long, above all the first time, when programs are built.
+    void select(const PictureView::Click& click);
+    void gather();
     void inspectPixel(const glm::ivec2& pixel);  // of the left picture
-    void clear() { found_.reset(); }
+    void clear() {
+        found_.reset();
+        gathersIn_ = nullptr;
+    }
     void follow();  // forgets what is not so any more
     void showPanel() { inspectorPanel(session_, found_); }
     void drawOverPicture(const glm::vec2& at, const glm::vec2& size) {
@@ -35,6 +44,7 @@ class PixelProbe {
     PictureView& view_;
     Picker picker_;
     std::optional<Inspection> found_;
+    PictureSlot* gathersIn_ = nullptr;  // what gather() will look at; null: nothing
     // What it was found in.
     std::uint64_t tables_ = 0;
     std::string mode_;

@@ -35,10 +35,7 @@ void carryOut(const RequestInputs& in, const Request& request) {
             in.work.startBake(request);
             break;
         case RequestKind::Load:
-            for (const std::string& note : in.session.open(request.file, request.keepView))
-                in.console.say(note);
-            if (!request.recovers.empty()) in.session.markRecovered(request.recovers);
-            in.console.say("loaded " + request.file);
+            in.work.startLoad(request);
             break;
         case RequestKind::Window:
             in.window(request);
@@ -72,6 +69,12 @@ std::string nextName(const std::string& ending) {
 
 bool carryOutRequest(const RequestInputs& in) {
     if (in.work.holdsRequests()) return false;
+    // One scene after the other.
+    if (const Request* next = in.session.nextRequest();
+        next != nullptr && next->kind == RequestKind::Load && in.work.loads()) {
+        in.work.stopLoading();
+        return false;
+    }
     const std::optional<Request> request = in.session.takeRequest();
     if (!request) return false;
     try {

@@ -46,6 +46,7 @@ void editInstance(Session& session, std::size_t index) {
         instance.worldFromObject[3] = glm::vec4(p.position, 1);
         changed = true;
     }
+    notePlace("edit:position");
     seals(session, "position");
     glm::vec3 turn(0);
     if (ImGui::DragFloat3("turn (deg)", &turn.x, 0.5f)) {

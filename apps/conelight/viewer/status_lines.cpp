@@ -74,6 +74,7 @@ std::string pixelText(const std::optional<Inspection>& found) {
 std::vector<std::pair<std::string, std::string>> statusLines(const StatusInputs& in) {
     const PictureSlot& left = in.view.slot(false);
     const FrameTimes& gui = in.timings.gui();
+    const Timings::Pauses& pauses = in.timings.pauses();
     return {
         {"scene", in.session.path()},
         {"window", windowText(in.window, in.gui)},
@@ -94,6 +95,8 @@ std::vector<std::pair<std::string, std::string>> statusLines(const StatusInputs&
         {"frames",
          fmt::format("{} pictures, {:.1f} ms (median)", left.version(), in.session.frameTimes().median())},
         {"moving", movingText(in.view.movement())},
+        {"pauses", fmt::format("longest {:.0f} ms between {} looks for input since the last `status pauses`",
+                               pauses.longestMs, pauses.looks)},
         {"gui", fmt::format("{:.3f} ms of CPU a frame (median of {})", gui.median(), gui.all().size())},
         {"first_frame", fmt::format("{:.2f} s after the start", 1e-3 * in.timings.firstPictureMs())},
         {"pixel", pixelText(in.probe.found())}};

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 
@@ -34,6 +35,13 @@ std::string Timings::firstPictureText() const {
 
 void Timings::beginGui() { guiBeganMs_ = threadCpuMs(); }
 void Timings::endGui() { gui_.add(threadCpuMs() - guiBeganMs_); }
+
+void Timings::beginLook() {
+    if (lookedMs_ < 0) return;
+    pauses_.longestMs = std::max(pauses_.longestMs, steadyMs() - lookedMs_);
+    ++pauses_.looks;
+}
+void Timings::endLook() { lookedMs_ = steadyMs(); }
 
 std::string Timings::summary(const FrameTimes& pictures) const {
     return fmt::format(

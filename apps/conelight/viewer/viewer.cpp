@@ -4,6 +4,8 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <chrono>
+#include <memory>
 #include <utility>
 
 #include "conelight/error.h"
@@ -19,10 +21,12 @@
 namespace conelight::program {
 namespace {
 
-constexpr double kIdleWait = 0.5;      // s; the files are looked at this often while nothing else happens
-constexpr double kLongestStep = 0.25;  // s of a clip in one frame, however long that took
-constexpr double kPace = 0.008;        // s between frames in which only the GUI changes
-constexpr double kUserPause = 0.15;    // s after the last input until a slow picture is refined further
+constexpr double kIdleWait = 0.5;         // s; the files are looked at this often while nothing else happens
+constexpr double kLongestStep = 0.25;     // s of a clip in one frame, however long that took
+constexpr double kPace = 0.008;           // s between frames in which only the GUI changes
+constexpr double kPartsWithoutGui = 0.1;  // s of parts of a picture between frames of the GUI, without input
+constexpr double kLoadingPace = 0.2;      // s between frames while a scene is read: a bar moves
+constexpr double kUserPause = 0.15;       // s after the last input until a slow picture is refined further
 // s after a button of the mouse: a second click comes within ImGui's 0.3; a pass between would hold it up.
 constexpr double kClickPause = 0.4;
 
@@ -66,19 +70,23 @@ class Viewer {
 
   private:
     double secondsToSleep() const;
+    void look(double seconds);
     void watchShaders();
     void takeCommands();
     void frame();
     void updatePictures();
     bool drawPictureJob();
+    void drawParts(const glm::ivec2& area);
     std::string workAhead() const;
     bool announce();
     void openScene();
     void carryOutRequests();
     std::optional<PictureView::Click> showGui();
 
-    Session session_;  // without a scene until open_ was called
-    std::function<Session()> open_;
+    Session session_;  // without a scene until the first was read
+    // Reads the first scene; empty: it has begun.
+    std::function<Session(const io::LoadOptions& watched)> open_;
+    bool opened_ = false;
     std::string sceneName_;
     bool timing_;
     Ending ending_;
@@ -105,7 +113,8 @@ class Viewer {
     PlaceQuestions places_;
     WindowCommands commands_;
     bool more_ = true;          // another frame would change the picture
-    bool lastWasIdle_ = false;  // the last frame drew no picture
+    bool lastWasIdle_ = false;  // the last frame drew no picture, nor a part of one
+    bool drawing_ = false;      // it looks for events between two parts
     double lastFrame_ = 0;
     std::string notice_;          // what the next frame is busy with for long
     std::optional<Drawn> drawn_;  // the scene of the last picture
@@ -129,7 +138,7 @@ Viewer::Viewer(const ViewerOptions& options)
       probe_(session_, view_),
       timings_(options.startedMs),
       panels_(window_, gui_),
-      menus_({session_, window_, gui_, view_, probe_, console_, document_, panels_, keys_}),
+      menus_({session_, window_, gui_, view_, probe_, console_, document_, panels_, keys_, work_}),
       left_(session_, console_),
       right_({session_, view_, console_, probe_, document_, work_.film, timings_}),
       picture_({session_, view_, probe_, hint_.text(), notice_}),
@@ -141,7 +150,12 @@ Viewer::Viewer(const ViewerOptions& options)
     window_.onDrop = [this](const std::vector<std::string>& paths) {
         if (!paths.empty()) document_.open(paths.front());
     };
-    window_.onRefresh = [this] { frame(); };
+    window_.onRefresh = [this] {
+        if (!drawing_) frame();
+    };
+    work_.onChangedMeanwhile = [this](const Request& request) {
+        request.keepView ? document_.reload() : document_.open(request.file);
+    };
     if (options.readStdin) console_.readStandardInput();
     if (options.filmSamples > 0) work_.film.traced.samplesPerPixel = options.filmSamples;
     for (const std::string& line : options.commands) console_.commands().submit(line, "--exec");
@@ -154,7 +168,7 @@ int Viewer::run() {
             document_.quit();
             if (ending_.asked) break;
         }
-        if (!console_.panel().takesKeysSoon()) window_.pollEvents(secondsToSleep());
+        if (!console_.panel().takesKeysSoon()) look(secondsToSleep());
         document_.follow();
         recovery_.follow(session_, !ImGui::IsAnyMouseDown() && !session_.clipState().playing);
         watchShaders();
@@ -162,7 +176,7 @@ int Viewer::run() {
         takeCommands();
         if (!window_.minimized())
             frame();
-        else if (open_)
+        else if (!opened_)
             openScene();
         else if (!drawPictureJob())
             carryOutRequests();  // what is not seen draws nothing, but does what is asked
@@ -172,12 +186,19 @@ int Viewer::run() {
     return ending_.status;
 }
 
+void Viewer::look(double seconds) {
+    timings_.beginLook();
+    window_.pollEvents(seconds);
+    timings_.endLook();
+}
+
 double Viewer::secondsToSleep() const {
     const bool commandsGoOn = !console_.commands().idle() && !work_.wakesWindow();
     const bool busy = more_ || session_.hasRequests() || commandsGoOn || places_.open() ||
                       session_.playing() || session_.clipState().playing || view_.turntable.turns() ||
                       gui_.hasInput();
     if (busy) return lastWasIdle_ ? kPace : 0;
+    if (work_.loads()) return kLoadingPace;
     const ViewFlags& flags = session_.flags();
     return flags.dynamic ? std::min<double>(flags.period, kIdleWait) : kIdleWait;
 }
@@ -190,7 +211,8 @@ void Viewer::watchShaders() {
 }
 
 void Viewer::takeCommands() {
-    if (open_) return;
+    if (!opened_) return;
+    console_.commands().runWidgets();
     console_.takeStandardInput();
     work_.lookWhetherSettled(more_);
     if (!work_.holdsCommands()) console_.commands().runQueued();
@@ -210,22 +232,24 @@ void Viewer::frame() {
     gui_.beginFrame();
     const std::optional<PictureView::Click> clicked = showGui();
     gui_.endFrame();
-    timings_.endGui();
     commands_.writeWindow();
     window_.swapBuffers();
+    timings_.endGui();
     lastFrame_ = now;
     if (view_.slot(false).texture() != 0 && timings_.noteFirstPicture() && timing_)
         console_.say(timings_.firstPictureText());
-    if (clicked) probe_.inspect(*clicked);
+    // What a click selects shows in the next frame, what was gathered there in the one after.
+    probe_.gather();
+    if (clicked) {
+        probe_.select(*clicked);
+        more_ = true;
+    }
     places_.answer(console_);
 }
 
 // What the next frame will be busy with for so long that it is to be said; empty: nothing.
 std::string Viewer::workAhead() const {
-    if (open_) return "loading " + sceneName_ + ": reading the scene";
-    if (const Request* next = session_.nextRequest();
-        next != nullptr && next->kind == RequestKind::Load && !work_.holdsRequests())
-        return "loading " + next->file + ": reading the scene";
+    if (!opened_) return "loading " + (work_.loads() ? work_.loadText() : sceneName_);
     if (!drawn_ || drawn_->readings != session_.revisions().scene)
         return "loading " + session_.path() + ": voxels, light and the first picture";
     return {};
@@ -244,32 +268,58 @@ bool Viewer::announce() {
     return true;
 }
 
+// The first scene, in the background.
 void Viewer::openScene() {
-    session_ = std::exchange(open_, nullptr)();
-    for (const std::string& note : session_.scene().notes)
-        console_.panel().say(note);  // the terminal has them
-    more_ = true;
+    if (open_)
+        work_.startFirst(sceneName_,
+                         [this, open = std::exchange(open_, nullptr)](const io::LoadOptions& watched) {
+                             auto read = std::make_shared<Session>(open(watched));
+                             return BackgroundLoad::TakeOver([this, read] {
+                                 session_ = std::move(*read);
+                                 for (const std::string& note : session_.scene().notes)
+                                     console_.panel().say(note);  // the terminal has them
+                             });
+                         });
+    opened_ = more_ = !work_.loads();
 }
 
 void Viewer::updatePictures() {
     if (drawPictureJob() || announce()) return;
-    if (open_) return openScene();
-    if (const Request* next = session_.nextRequest(); next != nullptr && next->kind == RequestKind::Load)
-        return carryOutRequests();
+    if (!opened_) return openScene();
     const glm::vec2 pixels =
         glm::vec2(window_.framebufferSize()) / glm::max(glm::vec2(window_.size()), glm::vec2(1));
     const glm::ivec2 area(panels_.layout().pictureSize() * pixels);
     const std::uint64_t before = view_.slot(false).version();
-    const bool userActs = input_.userActs(window_, ImGui::GetTime()) || gui_.hasInput();
-    more_ = view_.update(session_, area, userActs);
-    drawn_ = Drawn{session_.path(), session_.revisions().scene};
-    notice_.clear();
-    lastWasIdle_ = view_.slot(false).version() == before;
-    if (!lastWasIdle_) session_.frameDrawn(view_.slot(false).frameMs());
+    drawParts(area);
+    if (!view_.drawing()) {
+        drawn_ = Drawn{session_.path(), session_.revisions().scene};
+        notice_.clear();
+    }
+    if (view_.slot(false).version() != before) session_.frameDrawn(view_.slot(false).frameMs());
     while (const std::optional<std::string> error = view_.takeError()) console_.fail(*error);
     carryOutRequests();
-    if (!more_ || console_.commands().framesToWait() > 0) console_.commands().frameDone();
+    const bool waited = console_.commands().framesToWait() > 0 && !view_.drawing();
+    if (!more_ || waited) console_.commands().frameDone();
     if (!more_) hint_.follow(session_, probe_.picker(), view_);
+}
+
+// One picture, or parts of one until somebody wants the window.
+void Viewer::drawParts(const glm::ivec2& area) {
+    using Clock = std::chrono::steady_clock;
+    const Clock::time_point start = Clock::now();
+    const std::uint64_t inputs = window_.inputs();
+    for (;;) {
+        const bool userActs = input_.userActs(window_, ImGui::GetTime()) || gui_.hasInput();
+        const std::uint64_t before = view_.parts();
+        more_ = view_.update(session_, area, userActs);
+        lastWasIdle_ = view_.parts() == before;
+        if (!view_.drawing() || lastWasIdle_) return;
+        if (std::chrono::duration<double>(Clock::now() - start).count() > kPartsWithoutGui) return;
+        const bool was = std::exchange(drawing_, true);
+        look(0);
+        drawing_ = was;
+        if (window_.inputs() != inputs || window_.shouldClose()) return;
+    }
 }
 
 // The window shows the pictures of the job meanwhile. Returns whether there is one.
@@ -285,9 +335,7 @@ void Viewer::carryOutRequests() {
         session_, view_, console_, work_, probe_, ending_, [this](const Request& request) {
             commands_.carryOut(request);
         }};
-    // A scene to load is said first.
-    const auto waits = [&] { return !window_.minimized() && !workAhead().empty() && workAhead() != notice_; };
-    while (!waits() && carryOutRequest(inputs)) more_ = true;
+    while (carryOutRequest(inputs)) more_ = true;
 }
 
 std::optional<PictureView::Click> Viewer::showGui() {

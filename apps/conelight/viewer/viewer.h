@@ -25,7 +25,8 @@ struct ViewerOptions {
     reference::RadiositySettings radiosity;  // of mode radiosity and `bake`
     double startedMs = 0;                    // steady clock when the program started
     std::string scene;                       // its name, shown while it is opened
-    std::function<Session()> open;           // reads it, when the window is there
+    // Reads it, in a thread of its own while the window is there; throws and tells as io::loadScene.
+    std::function<Session(const io::LoadOptions& watched)> open;
 };
 
 // Runs until the window closes or `quit`; returns the exit status. Throws what opening a window and the scene

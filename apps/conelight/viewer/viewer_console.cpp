@@ -31,7 +31,7 @@ void ViewerConsole::print(const ConsoleLine& line) {
 
 void ViewerConsole::run(const std::string& line) {
     panel_.say("> " + line);
-    commands_.submit(line);
+    commands_.submitWidget(line);
 }
 
 void ViewerConsole::typed(const std::string& line) {

@@ -29,7 +29,7 @@ class ViewerConsole {
     // What a widget asks for may be refused (a number out of range): a line of the log, nothing else.
     template <class Edit>
     void attempt(const Edit& edit);
-    void run(const std::string& line);  // as if it were typed into the window
+    void run(const std::string& line);  // a widget or a key asks for it
     void readStandardInput();           // from then on
     void takeStandardInput();           // queues the lines that came
 

@@ -158,6 +158,7 @@ void WindowCommands::status(const Words& words) {
                               in_.probe,   in_.hint,   in_.panels, in_.timings};
     for (const auto& [name, text] : statusLines(inputs))
         if (words.size() == 1 || words[1] == name) in_.console.say("status " + name + ": " + text);
+    if (words.size() > 1 && words[1] == "pauses") in_.timings.forgetPauses();
 }
 
 void WindowCommands::where(const Words& words) {

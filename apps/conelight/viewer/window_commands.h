@@ -24,7 +24,7 @@ class WindowCommands {
         PanelLayout& panels;
         PlaceQuestions& places;
         const std::optional<std::string>& hint;
-        const Timings& timings;
+        Timings& timings;
     };
     explicit WindowCommands(const Inputs& inputs) : in_(inputs) {}
 

@@ -99,11 +99,14 @@ int Loader::meshOf(const Item& model, const std::string& name) {
         const fs::path found = choice.file.lexically_normal();
         const auto known = meshes_.find(found.string());
         if (known != meshes_.end()) return known->second;
+        options_.tell({"meshes"});
         try {
             Mesh mesh = loadFirstMesh(found, options_);
             mesh.name = found.stem().string();
             scene_.meshes.push_back(std::move(mesh));
             return meshes_[found.string()] = int(scene_.meshes.size()) - 1;
+        } catch (const io::LoadStopped&) {
+            throw;
         } catch (const Error& error) {
             note(model.line, fmt::format("model {}: {}; model skipped", name, error.what()));
             return -1;

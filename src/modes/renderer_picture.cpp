@@ -1,0 +1,348 @@
+// SPDX-License-Identifier: MIT
+// A picture, in steps: scene, lights and surfaces are values that every mode starts from; the mode's recipe
+// (modes/*_mode.cpp) makes the image of them.
+#include <algorithm>
+#include <utility>
+
+#include "base/clock.h"
+#include "base/log.h"
+#include "conelight/memory.h"
+#include "gl/debug.h"
+#include "gl/gl.h"
+#include "gl/storage.h"
+#include "image/background.h"
+#include "image/debug_view.h"
+#include "modes/modes.h"
+#include "modes/renderer_values.h"
+#include "shared/lookups.h"
+
+namespace conelight {
+namespace {
+
+// Pieces of one pass, of a picture in parts, are one.
+void addPass(std::vector<PassStats>& passes, const gl::PassTime& time, bool merges) {
+    const auto same = std::find_if(passes.begin(), passes.end(),
+                                   [&](const PassStats& pass) { return merges && pass.name == time.name; });
+    if (same == passes.end())
+        return passes.push_back({time.name, time.cpuMs, time.wallMs, time.gpuMs}), void();
+    same->cpuMs += time.cpuMs;
+    same->wallMs += time.wallMs;
+}
+
+bool isOfLight(Component component) {
+    return component == Component::Full || component == Component::Direct ||
+           component == Component::Indirect || component == Component::Diffuse ||
+           component == Component::Specular;
+}
+
+// Views of a still whose picture is out of focus, where it is not said how many.
+constexpr int kLensViews = 64;
+// Views that share the work of a picture that gathers over frames.
+constexpr int kTemporalViews = 16;
+
+bool isTemporal(const Settings& settings) {
+    return settings.image.temporal == Toggle::On && isOfLight(settings.component);
+}
+
+// Of which the picture is the mean; 0: it is that of the pixels' centres. Stills of light have them; what pixels
+// are of is told at their centres.
+int viewsOfStill(const Settings& settings, const Camera& camera) {
+    const bool ofLight = isOfLight(settings.component);
+    const bool moves = settings.mode == Mode::Traced && settings.traced.budgeted;
+    if (!ofLight || moves || isTemporal(settings)) return 0;
+    const bool hasLens = camera.lensDiameter > 0 && camera.focus() > 0;
+    return settings.image.antialiasing > 0 ? settings.image.antialiasing : hasLens ? kLensViews : 0;
+}
+
+// Through points of the pixel, or their centres, and points of the lens.
+view::PixelPart partOfStill(const Settings& settings, int index) {
+    view::PixelPart part;
+    if (settings.image.antialiasing > 0) part = view::pixelPart(index, settings.image.antialiasing);
+    part.lens = view::lensPoint(index);
+    return part;
+}
+
+}  // namespace
+
+bool Renderer::Impl::goOn(double milliseconds) {
+    const double cpuStart = base::processCpuMs(), wallStart = base::wallMs();
+    pace.begin(milliseconds);
+    device.pace = inParts ? &pace : nullptr;
+    try {
+        steps.step();
+    } catch (...) {
+        drop();
+        left = true;
+        throw;
+    }
+    device.pace = nullptr;
+    cpuMs += base::processCpuMs() - cpuStart;
+    wallMs += base::wallMs() - wallStart;
+    if (!steps.done()) return false;
+    steps = {};
+    if (std::exchange(inParts, false)) std::swap(image, nextImage);
+    if (!profiler.enabled()) return true;
+    stats.cpuMs = cpuMs;
+    stats.wallMs = wallMs;
+    return true;
+}
+
+// What it has begun to write is whole before others read it.
+void Renderer::Impl::drop() {
+    device.pace = nullptr;
+    if (!steps.done()) {
+        gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::ImageAccess |
+                    gl::Access::Update | gl::Access::Framebuffer);
+        left = true;
+    }
+    steps = {};
+    inParts = false;
+}
+
+// With less where the whole does not fit into the memory there may be.
+base::Steps Renderer::Impl::renderWithin(WantedPicture asked) {
+    bool said = true;
+    for (;;) {
+        try {
+            WantedPicture fitting = asked;
+            fitting.settings = fit.fitted(asked.settings, asked.width, asked.height);
+            co_await render(std::move(fitting));
+            break;
+        } catch (const gl::MemoryError&) {
+            device.pace = nullptr;  // without a picture to show meanwhile
+            forgetPicture();
+            if (!fit.lower(asked.settings)) throw;
+            said = false;
+        }
+    }
+    if (!said)
+        base::log(LogLevel::Warning,
+                  base::format("memory: within %zu MB by ", memoryLimit() >> 20) + fit.text(asked.settings));
+}
+
+// All that was made of the scene. It may be half made.
+void Renderer::Impl::forgetPicture() {
+    mode.reset();
+    lights = {};
+    surfaces = {};
+    partSurfaces = {};
+    image = {};
+    nextImage = {};
+    views = {};
+    temporal.reset();
+    display = {};
+    shadowMapView = {};
+    wireframe = {};
+    headlight = {};
+}
+
+base::Steps Renderer::Impl::render(WantedPicture asked) {
+    const double cpuStart = base::processCpuMs();
+    const double wallStart = base::wallMs();
+    const Settings& settings = asked.settings;
+    profiler.beginFrame();
+    programs.trim();
+    if (everyFrame) scene.require("render").touch();
+    lookupCounters.clear();
+    target().resize(asked.width, asked.height);
+    co_await drawPicture(asked);
+    // Pictures of surfaces between those of light leave it as it is.
+    if (temporal && settings.image.temporal != Toggle::On) {
+        temporal.reset();
+        partSurfaces = {};
+    }
+    gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess);
+    if (settings.component != Component::ShadowMap) drawOverlays(settings);
+    collectStats();
+    if (profiler.enabled()) {
+        stats.cpuMs = base::processCpuMs() - cpuStart;
+        stats.wallMs = base::wallMs() - wallStart;
+    }
+    shownAs = std::move(asked);
+    left = false;
+}
+
+base::Steps Renderer::Impl::drawPicture(const WantedPicture& asked) {
+    const Settings& settings = asked.settings;
+    // Views of surfaces need neither lights nor a mode.
+    const bool debugView = image::isDebugView(settings.component);
+    if (!debugView || settings.view.voxels) prepare(settings);
+    co_await gl::rest(device);
+    const int count = viewsOfStill(settings, asked.camera);
+    seeCenters(asked);
+    co_await gl::rest(device);
+    const gl::Texture& output = target().texture();
+    if (debugView)
+        image::drawDebugView(device, *scene, surfaces, settings.component, output);
+    else if (settings.component == Component::ShadowMap)
+        shadowMapView.draw(device, scene->source(), lights, settings.view.light, output);
+    else if (isTemporal(settings))
+        co_await drawTemporal(asked.camera, settings);
+    else {
+        const modes::Frame centers = frame(settings);
+        co_await drawLight(centers);
+    }
+    if (count > 0) co_await drawParts(asked.camera, settings, count);
+}
+
+void Renderer::Impl::seeCenters(const WantedPicture& asked) {
+    const Settings& settings = asked.settings;
+    const bool still = viewsOfStill(settings, asked.camera) > 0;
+    surfaces.see(device, *scene,
+                 {.camera = asked.camera,
+                  .width = asked.width,
+                  .height = asked.height,
+                  .cullBackFaces = true,
+                  .part = still ? view::centersOfStill() : view::PixelPart{},
+                  .withGlass = image::isDebugView(settings.component),
+                  .shrink = settings.view.shrink});
+}
+
+// By the mode, and the surroundings behind.
+base::Steps Renderer::Impl::drawLight(const modes::Frame& frame) {
+    co_await mode->drawInSteps(frame);
+    co_await gl::rest(device);
+    const Component component = frame.settings.component;
+    if (component == Component::Full || component == Component::Direct) {
+        image::drawBackground(frame.device, frame.scene, frame.lights, frame.surfaces, frame.output);
+        headlight.draw(frame.device, {frame.scene, frame.surfaces, headlightIrradiance}, frame.output);
+    }
+    if (!frame.lights.hasGlass() || !isOfLight(component)) co_return;
+    co_await gl::rest(device);
+    mode->drawGlass(frame);
+    co_await gl::rest(device);
+}
+
+void Renderer::Impl::seePart(const Camera& camera, const Settings& settings, const view::PixelPart& part) {
+    partSurfaces.see(device, *scene,
+                     {.camera = camera,
+                      .width = target().width(),
+                      .height = target().height(),
+                      .cullBackFaces = true,
+                      .part = part,
+                      .shrink = settings.view.shrink});
+}
+
+// Views through points beside the pixels' centres; their mean takes the place of the centres' picture.
+base::Steps Renderer::Impl::drawParts(const Camera& camera, const Settings& settings, int count) {
+    const image::LinearImage& picture = target();
+    for (int i = 0; i < count; ++i) {
+        seePart(camera, settings, partOfStill(settings, i));
+        const modes::Frame part{.device = device,
+                                .scene = *scene,
+                                .lights = lights,
+                                .surfaces = partSurfaces,
+                                .settings = settings,
+                                .output = views.view(picture.width(), picture.height()),
+                                .besideCenters = true,
+                                .part = i,
+                                .parts = count};
+        co_await drawLight(part);
+        views.add(device, i, picture.texture());
+    }
+}
+
+// One view, and the pictures before. The first picture is that of the pixels' centres.
+base::Steps Renderer::Impl::drawTemporal(const Camera& camera, const Settings& settings) {
+    const image::LinearImage& picture = target();
+    if (!temporal) temporal.emplace();
+    temporal->follow({*scene, camera, picture.width(), picture.height(), settings});
+    const bool held = lightHeld && temporal->still();
+    const modes::Frame centers = frame(settings);
+    if (temporal->fresh())
+        co_await drawLight(centers);
+    else if (mode->gathersForCenters() && !held)
+        co_await mode->drawInSteps(centers);
+    const view::PixelPart part = temporal->part(held || mode->settled());
+    if (temporal->fresh()) {
+        gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess |
+                    gl::Access::Update);
+        temporal->takeCenters(picture.texture());
+    } else {
+        seePart(camera, settings, part);
+        const modes::Frame beside{.device = device,
+                                  .scene = *scene,
+                                  .lights = lights,
+                                  .surfaces = partSurfaces,
+                                  .settings = settings,
+                                  .output = temporal->view(),
+                                  .besideCenters = true,
+                                  .part = temporal->frame(),
+                                  .parts = kTemporalViews};
+        co_await drawLight(beside);
+    }
+    temporal->add(device, *scene, surfaces, picture.texture());
+}
+
+// The mode, and the lights as it needs them.
+void Renderer::Impl::prepare(const Settings& settings) {
+    if (!mode || modeKind != settings.mode) {
+        mode.reset();  // frees the old volumes first
+        mode = modes::makeModeRenderer(settings.mode);
+        modeKind = settings.mode;
+    }
+    const bool shadows =
+        settings.component == Component::ShadowMap || mode->needsShadows(scene->source(), settings);
+    lights.update(device, *scene,
+                  {settings.light, settings.light.emissiveQuads && mode->lightsFromEmitters(settings),
+                   shadows, mode->castsCaustics()});
+}
+
+modes::Frame Renderer::Impl::frame(const Settings& settings) {
+    return {.device = device,
+            .scene = *scene,
+            .lights = lights,
+            .surfaces = surfaces,
+            .settings = settings,
+            .output = target().texture(),
+            .lookupCounters = countLookups ? &lookupCounters : nullptr};
+}
+
+// Voxels among the objects, edges of triangles.
+void Renderer::Impl::drawOverlays(const Settings& settings) {
+    if (settings.view.voxels && settings.component != Component::Voxels && settings.mode != Mode::Phong) {
+        Settings voxels = settings;
+        voxels.component = Component::Voxels;
+        modes::Frame among = frame(voxels);
+        among.voxelsAmong = true;
+        mode->draw(among);
+        gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer);
+    }
+    if (settings.view.wireframe != Wireframe::Off)
+        wireframe.draw(device, *scene, surfaces, {settings.view.wireframe, settings.image.exposure, true},
+                       target().texture());
+}
+
+void Renderer::Impl::collectStats() {
+    stats = FrameStats{};
+    stats.device = deviceName;
+    if (!profiler.enabled()) return;
+    if (gl::isSoftwareDriver()) gl::finish();
+    for (const gl::PassTime& pass : profiler.endFrame()) addPass(stats.passes, pass, inParts);
+    if (!countLookups) return;
+    const std::vector<std::uint32_t> counts = lookupCounters.read<std::uint32_t>(LOOKUPS_WORDS);
+    const double pixels = static_cast<double>(target().width()) * static_cast<double>(target().height());
+    const char* const kinds[3] = {"diffuse", "specular", "occlusion"};
+    for (std::size_t i = 0; i < 3; ++i)
+        stats.lookupsPerPixel.emplace_back(kinds[i],
+                                           (counts[i] + 4294967296.0 * counts[LOOKUPS_CARRY + i]) / pixels);
+}
+
+// The mode's passes once more, for one pixel, on the surfaces of the last picture.
+PixelInspection Renderer::Impl::inspect(int x, int y) {
+    prepare(shownAs.settings);
+    if (std::exchange(left, false)) seeCenters(shownAs);
+    gather::StepRecorder recorder({x, image.height() - 1 - y});
+    modes::Frame recorded = frame(shownAs.settings);
+    recorded.recorder = &recorder;
+    recorded.lookupCounters = nullptr;
+    mode->draw(recorded);
+    PixelInspection found = recorder.read();
+    found.x = x;
+    found.y = y;
+    found.mode = shownAs.settings.mode;
+    found.picture = image.readPixel(x, y);
+    return found;
+}
+
+}  // namespace conelight
