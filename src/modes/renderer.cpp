@@ -162,6 +162,7 @@ void Renderer::setBakedLight(std::shared_ptr<const BakedLight> baked) {
     impl_->scene.setBakedLight(std::move(baked));
 }
 std::size_t Renderer::addMesh(const Mesh& mesh) { return impl_->scene.addMesh(mesh); }
+std::size_t Renderer::addTexture(const Texture& texture) { return impl_->scene.addTexture(texture); }
 std::size_t Renderer::addMaterial(const Material& material) { return impl_->scene.addMaterial(material); }
 std::size_t Renderer::addInstance(const Instance& instance) { return impl_->scene.addInstance(instance); }
 void Renderer::removeInstance(std::size_t index) { impl_->scene.removeInstance(index); }
