@@ -47,7 +47,8 @@ const PurposeInfo& infoOf(FilePurpose purpose) {
          "a name ending in .mp4, or numbered pictures: frame%04d.png",
          "Record",
          "turntable.mp4",
-         {".mp4"}}};
+         {".mp4"}},
+        {"Import into the scene", "a file, or builtin:NAME", nullptr, "", io::sceneExtensions()}};
     return kInfos[static_cast<std::size_t>(purpose)];
 }
 
@@ -136,7 +137,7 @@ std::optional<FileChoice> FileDialog::show() {
     if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", info.hint);
     ImGui::TextDisabled("%s", folder_.c_str());
 
-    const bool scenes = purpose_ == FilePurpose::OpenScene;
+    const bool scenes = purpose_ == FilePurpose::OpenScene || purpose_ == FilePurpose::ImportScene;
     const float footer = -ImGui::GetFrameHeightWithSpacing();
     listFiles(scenes ? 0.68f * ImGui::GetContentRegionAvail().x : 0, footer, chosen);
     if (scenes) {

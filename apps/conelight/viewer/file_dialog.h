@@ -17,7 +17,8 @@ enum class FilePurpose {
     LoadPath,
     SavePath,
     RecordPath,
-    RecordTurntable
+    RecordTurntable,
+    ImportScene
 };
 
 struct FileChoice {

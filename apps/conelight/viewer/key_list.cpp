@@ -15,6 +15,8 @@ constexpr std::pair<const char*, const char*> kKeys[] = {
     {"right drag", "look; with W A S D Q E fly"},
     {"middle drag, wheel", "pan, nearer or farther"},
     {"left click", "select, and show what lit the pixel"},
+    {"Ctrl or Shift+click", "select beside the others"},
+    {"right click", "a menu of what is there"},
     {"Escape", "close; rays away; select nothing"},
     {"1 2 3", "handles: move, turn, scale"},
     {"F", "see all of the selection"},
@@ -24,7 +26,9 @@ constexpr std::pair<const char*, const char*> kKeys[] = {
     {"B", "keep the view as a camera"},
     {"PageUp, PageDown", "the scene's cameras in turn"},
     {"H, Shift+H, Ctrl+H", "hide; hide all others; show all"},
-    {"Delete, Ctrl+D", "delete, duplicate the object"},
+    {"Delete, Ctrl+D", "delete, duplicate what is selected"},
+    {"Ctrl+A, Ctrl+I", "select all; invert the selection"},
+    {"L", "lights in the picture, or not"},
     {"X", "split the picture"},
     {"P", "screenshot"},
     {"Tab, F11", "panels away, full screen"},
@@ -38,7 +42,10 @@ constexpr std::pair<const char*, const char*> kKeys[] = {
 void KeyList::show(const glm::vec2& at, const glm::vec2& size) {
     if (!open) return;
     const float em = ImGui::GetFontSize();
-    ImGui::SetNextWindowPos({at.x + 0.5f * size.x, at.y + 0.5f * size.y}, ImGuiCond_Always, {0.5f, 0.5f});
+    // As high as it is, or as the window, which small ones scroll.
+    const float height = ImGui::GetIO().DisplaySize.y;
+    ImGui::SetNextWindowSizeConstraints({0, 0}, {1e6f, height - 2 * em});
+    ImGui::SetNextWindowPos({at.x + 0.5f * size.x, 0.5f * height}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::Begin("Mouse and keys", &open,
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoMove |
                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);

@@ -43,6 +43,7 @@ class Menus {
     void fileMenu();
     void presetMenu();
     void editMenu();
+    void addMenu();
     void viewMenu();
 
     Inputs in_;

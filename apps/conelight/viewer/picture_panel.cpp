@@ -17,7 +17,8 @@ std::optional<PictureView::Click> PicturePanel::show(const glm::vec2& at, const 
                      ImGuiWindowFlags_NoBringToFrontOnFocus);
     ImGui::PopStyleVar();
     const std::optional<PictureView::Click> clicked = in_.view.show(in_.session, at, size, seconds);
-    if (in_.view.slot(false).texture() != 0) outline_.draw(in_.session, at, size);
+    if (in_.view.slot(false).texture() != 0)
+        outline_.draw(in_.session, in_.view.bounds, at, size, in_.view.moving());
     in_.probe.drawOverPicture(at, size);
     if (in_.view.slot(false).texture() != 0) showLabels(at, size);
     if (!in_.notice.empty())

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What lies under a pixel: a click selects the object there and keeps what the pixel gathered, for the panel
-// beside the picture and the lines over it, until the scene or the settings change.
+// What lies under a pixel: a click selects the light whose icon is there, else the object, and keeps what the pixel
+// gathered, for the panel beside the picture and the lines over it, until the scene or the settings change.
 #pragma once
 
 #include <cstdint>
@@ -20,6 +20,9 @@ class PixelProbe {
     PixelProbe(Session& session, PictureView& view) : session_(session), view_(view) {}
 
     void inspect(const PictureView::Click& click);
+    // Selects what is there, without a look at its light: beside the others when the click adds; else it alone,
+    // unless it is selected already or there is nothing.
+    void choose(const PictureView::Click& click);
     void inspectPixel(const glm::ivec2& pixel);  // of the left picture
     void clear() { found_.reset(); }
     void follow();  // forgets what is not so any more
@@ -31,6 +34,9 @@ class PixelProbe {
     Picker& picker() { return picker_; }
 
   private:
+    Selection at(const glm::vec2& part);
+    std::optional<Pick> pickAt(const glm::vec2& part, const glm::ivec2& size);
+
     Session& session_;
     PictureView& view_;
     Picker picker_;

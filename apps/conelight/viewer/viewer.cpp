@@ -65,6 +65,7 @@ class Viewer {
     void openScene();
     void carryOutRequests();
     std::optional<PictureView::Click> showGui();
+    void takeClick(const PictureView::Click& click);
 
     Session session_;  // without a scene until open_ was called
     std::function<Session()> open_;
@@ -86,6 +87,7 @@ class Viewer {
     PanelLayout panels_;
     KeyList keys_;
     Menus menus_;
+    SelectionMenu menu_;
     LeftPanel left_;
     RightPanel right_;
     PicturePanel picture_;
@@ -115,15 +117,14 @@ Viewer::Viewer(const ViewerOptions& options)
       timings_(options.startedMs),
       panels_(window_, gui_),
       menus_({session_, window_, gui_, view_, probe_, console_, document_, panels_, keys_}),
-      left_(session_, console_),
+      menu_({session_, view_, console_}),
+      left_(session_, console_, menu_),
       right_({session_, view_, console_, probe_, document_, work_.film, timings_}),
       picture_({session_, view_, probe_, hint_.text(), notice_}),
       commands_({session_, window_, gui_, view_, console_, work_, probe_, panels_, places_, hint_.text(),
                  timings_}) {
     view_.setRadiosity(options.radiosity);
-    window_.onDrop = [this](const std::vector<std::string>& paths) {
-        if (!paths.empty()) document_.open(paths.front());
-    };
+    window_.onDrop = [this](const std::vector<std::string>& paths) { document_.drop(paths); };
     window_.onRefresh = [this] { frame(); };
     if (options.readStdin) console_.readStandardInput();
     if (options.filmSamples > 0) work_.film.traced.samplesPerPixel = options.filmSamples;
@@ -193,7 +194,7 @@ void Viewer::frame() {
     lastFrame_ = now;
     if (view_.slot(false).texture() != 0 && timings_.noteFirstPicture() && timing_)
         console_.say(timings_.firstPictureText());
-    if (clicked) probe_.inspect(*clicked);
+    if (clicked) takeClick(*clicked);
     places_.answer(console_);
 }
 
@@ -267,6 +268,14 @@ void Viewer::carryOutRequests() {
     while (!waits() && carryOutRequest(inputs)) more_ = true;
 }
 
+void Viewer::takeClick(const PictureView::Click& click) {
+    if (!click.menu && !click.adds) return probe_.inspect(click);
+    probe_.choose(click);
+    const Layout layout = panels_.layout();
+    if (click.menu) menu_.open(layout.pictureAt() + click.part * layout.pictureSize());
+    more_ = true;
+}
+
 std::optional<PictureView::Click> Viewer::showGui() {
     const Layout layout = panels_.layout();
     const glm::vec2 at = layout.pictureAt(), size = layout.pictureSize();
@@ -287,6 +296,7 @@ std::optional<PictureView::Click> Viewer::showGui() {
         picture_.show(at, size, static_cast<float>(ImGui::GetTime() - lastFrame_));
     work_.showStrips(at, size);
     keys_.show(at, size);
+    menu_.show();
     document_.showDialogs();
     panels_.dragBorders(layout);
     return clicked;
