@@ -102,6 +102,14 @@ conelight_result addMesh(Handle* handle, const conelight_mesh* mesh, std::int32_
 }
 
 template <class Use, class Handle>
+conelight_result addTexture(Handle* handle, const conelight_texture* texture, std::int32_t* index) {
+    return guarded([&] {
+        const Use use(handle);
+        writeIndex(use->addTexture(textureOf(readStruct(texture, "texture"))), index);
+    });
+}
+
+template <class Use, class Handle>
 conelight_result addMaterial(Handle* handle, const conelight_material* material, std::int32_t* index) {
     return guarded([&] {
         const Use use(handle);

@@ -120,6 +120,11 @@ conelight_result conelight_light_field_add_mesh(conelight_light_field* field, co
     return c::addMesh<Use>(field, mesh, index);
 }
 
+conelight_result conelight_light_field_add_texture(conelight_light_field* field,
+                                                   const conelight_texture* texture, int32_t* index) {
+    return c::addTexture<Use>(field, texture, index);
+}
+
 conelight_result conelight_light_field_add_material(conelight_light_field* field,
                                                     const conelight_material* material, int32_t* index) {
     return c::addMaterial<Use>(field, material, index);

@@ -140,6 +140,11 @@ conelight_result conelight_renderer_add_mesh(conelight_renderer* renderer, const
     return c::addMesh<Use>(renderer, mesh, index);
 }
 
+conelight_result conelight_renderer_add_texture(conelight_renderer* renderer,
+                                                const conelight_texture* texture, int32_t* index) {
+    return c::addTexture<Use>(renderer, texture, index);
+}
+
 conelight_result conelight_renderer_add_material(conelight_renderer* renderer,
                                                  const conelight_material* material, int32_t* index) {
     return c::addMaterial<Use>(renderer, material, index);

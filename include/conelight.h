@@ -303,10 +303,13 @@ CONELIGHT_API conelight_result conelight_renderer_set_sky(conelight_renderer* re
 /* That of another scene. */
 CONELIGHT_API conelight_result conelight_renderer_set_environment(conelight_renderer* renderer,
                                                                   const conelight_scene* scene);
-/* Further entries; what is there keeps its index. An index that was removed may be given again. Textures are those that the
- * scene had. A mesh is removed when no instance has it. */
+/* Further entries; what is there keeps its index. An index that was removed may be given again. A texture is for
+ * materials that come after it. A mesh is removed when no instance has it. */
 CONELIGHT_API conelight_result conelight_renderer_add_mesh(conelight_renderer* renderer,
                                                            const conelight_mesh* mesh, int32_t* index);
+CONELIGHT_API conelight_result conelight_renderer_add_texture(conelight_renderer* renderer,
+                                                              const conelight_texture* texture,
+                                                              int32_t* index);
 CONELIGHT_API conelight_result conelight_renderer_add_material(conelight_renderer* renderer,
                                                                const conelight_material* material,
                                                                int32_t* index);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "scene_upload.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace conelight::program {
@@ -9,26 +10,54 @@ bool SceneUpload::current(const Session& session) const {
     return seen_ && seen_->sceneTables() == session.revisions().sceneTables();
 }
 
+// Whether all that is new stands behind what the renderer has. Meshes in the place of others have as many vertices;
+// textures are the same.
+bool SceneUpload::onlyAdds(const Renderer& renderer, const Session& session) const {
+    const Scene& now = session.scene();
+    const Scene& held = renderer.scene();
+    const bool fewer = now.instances.size() < instances_.size() || now.meshes.size() < meshes_.size() ||
+                       now.materials.size() < materials_.size();
+    const bool same = held.instances.size() == instances_.size() && held.meshes.size() == meshes_.size() &&
+                      held.materials.size() == materials_.size();
+    const std::vector<std::uint64_t>& textures = session.textureRevisions();
+    if (fewer || !same || textures.size() < textures_.size() ||
+        !std::equal(textures_.begin(), textures_.end(), textures.begin()))
+        return false;
+    for (std::size_t i = 0; i < instances_.size(); ++i)
+        if (now.instances[i].mesh != held.instances[i].mesh) return false;
+    for (std::size_t i = 0; i < meshes_.size(); ++i) {
+        const Mesh &a = now.meshes[i], &b = held.meshes[i];
+        if (a.positions.size() != b.positions.size() || a.indices.size() != b.indices.size() ||
+            a.normals.empty() != b.normals.empty())
+            return false;
+    }
+    return true;
+}
+
 void SceneUpload::follow(Renderer& renderer, const Session& session) {
     if (current(session)) return;
     const Revisions& now = session.revisions();
-    // Instances that came or went have meshes of their own, more or fewer materials move the default one behind them; voxels that are asked for get a grid that
-    // fits.
-    const bool anew = !seen_ || seen_->scene != now.scene || seen_->voxels != now.voxels ||
-                      seen_->instanceList != now.instanceList ||
-                      materials_.size() != session.materialRevisions().size();
+    // Voxels that are asked for get a grid that fits.
+    const bool anew =
+        !seen_ || seen_->scene != now.scene || seen_->voxels != now.voxels || !onlyAdds(renderer, session);
     if (anew) {
         seen_.reset();  // a scene that is refused is none
         renderer.setScene(session.scene());
         instances_ = session.instanceRevisions();
         materials_ = session.materialRevisions();
         meshes_ = session.meshRevisions();
+        textures_ = session.textureRevisions();
         seen_ = now;
         return;
     }
     // Each part counts as seen when all of it was taken: what comes after a refusal is taken by the next
     // call.
-    if (seen_->materials != now.materials) takeMaterials(renderer, session);
+    for (std::size_t i = textures_.size(); i < session.scene().textures.size(); ++i) {
+        renderer.addTexture(session.scene().textures[i]);
+        textures_.push_back(session.textureRevisions()[i]);
+    }
+    if (seen_->materials != now.materials || materials_.size() != session.scene().materials.size())
+        takeMaterials(renderer, session);
     seen_->materials = now.materials;
     if (seen_->meshes != now.meshes) takeMeshes(renderer, session);
     seen_->meshes = now.meshes;
@@ -50,6 +79,10 @@ void SceneUpload::takeInstances(Renderer& renderer, const Session& session) {
         if (std::exchange(instances_[i], revision) != revision)
             renderer.setInstance(i, session.scene().instances[i]);
     }
+    for (std::size_t i = instances_.size(); i < session.scene().instances.size(); ++i) {
+        renderer.addInstance(session.scene().instances[i]);
+        instances_.push_back(session.instanceRevisions()[i]);
+    }
 }
 
 void SceneUpload::takeMeshes(Renderer& renderer, const Session& session) {
@@ -57,13 +90,22 @@ void SceneUpload::takeMeshes(Renderer& renderer, const Session& session) {
         const std::uint64_t revision = session.meshRevisions()[i];
         if (std::exchange(meshes_[i], revision) != revision) renderer.setMesh(i, session.scene().meshes[i]);
     }
+    for (std::size_t i = meshes_.size(); i < session.scene().meshes.size(); ++i) {
+        renderer.addMesh(session.scene().meshes[i]);
+        meshes_.push_back(session.meshRevisions()[i]);
+    }
 }
 
 void SceneUpload::takeMaterials(Renderer& renderer, const Session& session) {
     for (std::size_t i = 0; i < materials_.size(); ++i) {
         const std::uint64_t revision = session.materialRevisions()[i];
-        if (std::exchange(materials_[i], revision) != revision)
-            renderer.setMaterial(i, session.scene().materials[i]);
+        const Material& material = session.scene().materials[i];
+        if (std::exchange(materials_[i], revision) != revision && material != renderer.scene().materials[i])
+            renderer.setMaterial(i, material);
+    }
+    for (std::size_t i = materials_.size(); i < session.scene().materials.size(); ++i) {
+        renderer.addMaterial(session.scene().materials[i]);
+        materials_.push_back(session.materialRevisions()[i]);
     }
 }
 

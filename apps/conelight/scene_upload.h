@@ -21,12 +21,13 @@ class SceneUpload {
     bool current(const Session& session) const;
 
   private:
+    bool onlyAdds(const Renderer& renderer, const Session& session) const;
     void takeInstances(Renderer& renderer, const Session& session);
     void takeMaterials(Renderer& renderer, const Session& session);
     void takeMeshes(Renderer& renderer, const Session& session);
 
     std::optional<Revisions> seen_;
-    std::vector<std::uint64_t> instances_, materials_, meshes_;
+    std::vector<std::uint64_t> instances_, materials_, meshes_, textures_;
 };
 
 }  // namespace conelight::program

@@ -9,7 +9,7 @@ PictureTexture::~PictureTexture() {
     if (name_ != 0) glDeleteTextures(1, &name_);
 }
 
-void PictureTexture::update(int width, int height, const std::vector<std::uint8_t>& rgb) {
+void PictureTexture::update(int width, int height, const std::vector<std::uint8_t>& bytes) {
     if (name_ == 0 || width != width_ || height != height_) {
         if (name_ != 0) glDeleteTextures(1, &name_);
         glCreateTextures(GL_TEXTURE_2D, 1, &name_);
@@ -22,7 +22,9 @@ void PictureTexture::update(int width, int height, const std::vector<std::uint8_
         height_ = height;
     }
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
-    glTextureSubImage2D(name_, 0, 0, 0, width, height, GL_RGB, GL_UNSIGNED_BYTE, rgb.data());
+    const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    glTextureSubImage2D(name_, 0, 0, 0, width, height, bytes.size() == 4 * pixels ? GL_RGBA : GL_RGB,
+                        GL_UNSIGNED_BYTE, bytes.data());
     glPixelStorei(GL_UNPACK_ALIGNMENT, 4);
 }
 

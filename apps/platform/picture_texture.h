@@ -14,8 +14,8 @@ class PictureTexture {
     PictureTexture(const PictureTexture&) = delete;
     PictureTexture& operator=(const PictureTexture&) = delete;
 
-    // RGB bytes, first row on top.
-    void update(int width, int height, const std::vector<std::uint8_t>& rgb);
+    // RGB or RGBA bytes, as their number says, first row on top.
+    void update(int width, int height, const std::vector<std::uint8_t>& bytes);
     std::uint32_t name() const { return name_; }  // 0: empty
     int width() const { return width_; }
     int height() const { return height_; }

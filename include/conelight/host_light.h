@@ -109,6 +109,9 @@ CONELIGHT_API conelight_result conelight_light_field_set_environment(conelight_l
                                                                      const conelight_scene* scene);
 CONELIGHT_API conelight_result conelight_light_field_add_mesh(conelight_light_field* field,
                                                               const conelight_mesh* mesh, int32_t* index);
+CONELIGHT_API conelight_result conelight_light_field_add_texture(conelight_light_field* field,
+                                                                 const conelight_texture* texture,
+                                                                 int32_t* index);
 CONELIGHT_API conelight_result conelight_light_field_add_material(conelight_light_field* field,
                                                                   const conelight_material* material,
                                                                   int32_t* index);

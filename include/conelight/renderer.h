@@ -91,6 +91,7 @@ class CONELIGHT_API Renderer {
     // stays in scene(), invisible or empty, and no other call takes it. Throw as those above; removeMesh also
     // Error(Usage) while an instance has the mesh.
     std::size_t addMesh(const Mesh& mesh);
+    std::size_t addTexture(const Texture& texture);  // for materials that are set or added after it
     std::size_t addMaterial(const Material& material);
     std::size_t addInstance(const Instance& instance);
     void removeInstance(std::size_t index);

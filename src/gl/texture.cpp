@@ -191,6 +191,17 @@ void Texture::copyFrom(const Texture& source) {
                        height(), depth());
 }
 
+void Texture::copyLayers(const Texture& source, int layers) {
+    CONELIGHT_ASSERT(source.desc_.target == desc_.target && source.desc_.format == desc_.format &&
+                         source.width() == width() && source.height() == height() &&
+                         source.desc_.levels == desc_.levels && layers <= std::min(source.depth(), depth()),
+                     "Texture::copyLayers: arrays differ");
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    for (int level = 0; level < desc_.levels; ++level)
+        glCopyImageSubData(source.name(), desc_.target, level, 0, 0, 0, name(), desc_.target, level, 0, 0, 0,
+                           width(level), height(level), layers);
+}
+
 void Texture::read(int level, std::uint32_t layout, std::uint32_t type, void* data, std::size_t bytes) const {
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);

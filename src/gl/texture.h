@@ -46,6 +46,8 @@ class Texture : public Object<ObjectType::Texture> {
     void clearRegion(int level, const glm::ivec3& offset, const glm::ivec3& size, std::uint32_t layout,
                      std::uint32_t type);
     void copyFrom(const Texture& source);  // level 0, of a texture of the same size and format
+    // The first so many layers, all levels, of an array of the same edges and format.
+    void copyLayers(const Texture& source, int layers);
     void read(int level, std::uint32_t layout, std::uint32_t type, void* data, std::size_t bytes) const;
     // A box of level 0.
     void readRegion(const glm::ivec3& offset, const glm::ivec3& size, std::uint32_t layout,

@@ -113,6 +113,7 @@ void LightField::setLights(const std::vector<Light>& lights) { impl_->scene.setL
 void LightField::setSky(const glm::vec3& radiance) { impl_->scene.setSky(radiance); }
 void LightField::setEnvironment(const Environment& environment) { impl_->scene.setEnvironment(environment); }
 std::size_t LightField::addMesh(const Mesh& mesh) { return impl_->scene.addMesh(mesh); }
+std::size_t LightField::addTexture(const Texture& texture) { return impl_->scene.addTexture(texture); }
 std::size_t LightField::addMaterial(const Material& material) { return impl_->scene.addMaterial(material); }
 std::size_t LightField::addInstance(const Instance& instance) { return impl_->scene.addInstance(instance); }
 void LightField::removeInstance(std::size_t index) { impl_->scene.removeInstance(index); }

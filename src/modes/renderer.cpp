@@ -73,6 +73,7 @@ void Renderer::setBakedLight(std::shared_ptr<const BakedLight> baked) {
     impl_->changed().setBakedLight(std::move(baked));
 }
 std::size_t Renderer::addMesh(const Mesh& mesh) { return impl_->changed().addMesh(mesh); }
+std::size_t Renderer::addTexture(const Texture& texture) { return impl_->changed().addTexture(texture); }
 std::size_t Renderer::addMaterial(const Material& material) { return impl_->changed().addMaterial(material); }
 std::size_t Renderer::addInstance(const Instance& instance) { return impl_->changed().addInstance(instance); }
 void Renderer::removeInstance(std::size_t index) { impl_->changed().removeInstance(index); }

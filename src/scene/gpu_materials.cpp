@@ -151,39 +151,56 @@ SceneTextures::SceneTextures(const std::vector<Texture>& sources) {
     const std::uint8_t white[4] = {255, 255, 255, 255};
     white_ = gl::Texture({GL_TEXTURE_2D, GL_RGBA8, 1, 1, 1, 1}, "white");
     white_.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, white);
-    // Mesa's software driver compiles and runs anisotropic lookups tens of times slower than trilinear ones.
-    const float anisotropy = gl::isSoftwareDriver() ? 1.0f : 8.0f;
-    for (const Texture& texture : sources) {
-        const std::string label = "texture " + texture.name;
-        gl::Texture t({GL_TEXTURE_2D, static_cast<std::uint32_t>(texture.srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8),
-                       texture.width, texture.height, 1, 0},
-                      label);
-        t.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, texture.rgba.data());
-        t.generateMipmaps();
-        textures_.push_back(std::move(t));
-        const bool nearest = texture.filter == TextureFilter::Nearest;
-        samplers_.emplace_back(
-            gl::SamplerDesc{
-                static_cast<std::uint32_t>(nearest ? GL_NEAREST_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_LINEAR),
-                static_cast<std::uint32_t>(nearest ? GL_NEAREST : GL_LINEAR), wrapMode(texture.wrapU),
-                wrapMode(texture.wrapV), false, anisotropy},
-            label);
-    }
+    for (const Texture& texture : sources) addForDrawing(texture);
     // The surface array has at least one (white) layer so that it can always be bound.
     const int layers = std::max<int>(static_cast<int>(sources.size()), 1);
     const int edge = sources.empty() ? 1 : kSurfaceEdge;
     surfaceArray_ =
         gl::Texture({GL_TEXTURE_2D_ARRAY, GL_SRGB8_ALPHA8, edge, edge, layers, 0}, "surface array");
     if (sources.empty()) surfaceArray_.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, white);
-    for (std::size_t i = 0; i < sources.size(); ++i) {
-        std::vector<glm::vec4> level = linearSurface(sources[i]);
-        for (int mip = 0; mip < surfaceArray_.desc().levels; ++mip) {
-            surfaceArray_.uploadLayer(mip, static_cast<int>(i), GL_RGBA, GL_UNSIGNED_BYTE,
-                                      encodedSurface(level).data());
-            level = halved(level, static_cast<std::size_t>(surfaceArray_.width(mip)));
-        }
-    }
+    for (std::size_t i = 0; i < sources.size(); ++i) uploadSurface(sources[i], static_cast<int>(i));
     surfaceSampler_ = gl::Sampler({GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT}, "surface array");
+}
+
+// An array cannot grow: another takes the layers over, with room for half as many more.
+void SceneTextures::add(const Texture& source) {
+    const auto layer = static_cast<int>(textures_.size());
+    addForDrawing(source);
+    if (layer == 0 || layer >= surfaceArray_.desc().depth) {
+        gl::Texture larger(
+            {GL_TEXTURE_2D_ARRAY, GL_SRGB8_ALPHA8, kSurfaceEdge, kSurfaceEdge, layer + 1 + layer / 2, 0},
+            "surface array");
+        if (layer > 0) larger.copyLayers(surfaceArray_, layer);
+        surfaceArray_ = std::move(larger);
+    }
+    uploadSurface(source, layer);
+}
+
+void SceneTextures::addForDrawing(const Texture& texture) {
+    // Mesa's software driver compiles and runs anisotropic lookups tens of times slower than trilinear ones.
+    const float anisotropy = gl::isSoftwareDriver() ? 1.0f : 8.0f;
+    const std::string label = "texture " + texture.name;
+    gl::Texture t({GL_TEXTURE_2D, static_cast<std::uint32_t>(texture.srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8),
+                   texture.width, texture.height, 1, 0},
+                  label);
+    t.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, texture.rgba.data());
+    t.generateMipmaps();
+    textures_.push_back(std::move(t));
+    const bool nearest = texture.filter == TextureFilter::Nearest;
+    samplers_.emplace_back(
+        gl::SamplerDesc{
+            static_cast<std::uint32_t>(nearest ? GL_NEAREST_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_LINEAR),
+            static_cast<std::uint32_t>(nearest ? GL_NEAREST : GL_LINEAR), wrapMode(texture.wrapU),
+            wrapMode(texture.wrapV), false, anisotropy},
+        label);
+}
+
+void SceneTextures::uploadSurface(const Texture& source, int layer) {
+    std::vector<glm::vec4> level = linearSurface(source);
+    for (int mip = 0; mip < surfaceArray_.desc().levels; ++mip) {
+        surfaceArray_.uploadLayer(mip, layer, GL_RGBA, GL_UNSIGNED_BYTE, encodedSurface(level).data());
+        level = halved(level, static_cast<std::size_t>(surfaceArray_.width(mip)));
+    }
 }
 
 void SceneTextures::declare(gl::Inputs& inputs) const {

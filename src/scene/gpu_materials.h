@@ -30,6 +30,7 @@ class SceneTextures {
   public:
     SceneTextures() = default;
     explicit SceneTextures(const std::vector<Texture>& sources);
+    void add(const Texture& source);  // behind the others
 
     void declare(gl::Inputs& inputs) const;  // surfaceArray
     // For draw calls that bind a material's textures: names, a program's units for them, the binding.
@@ -38,6 +39,9 @@ class SceneTextures {
     void bind(const MaterialTextures& textures, const MaterialUnits& units) const;
 
   private:
+    void addForDrawing(const Texture& source);
+    void uploadSurface(const Texture& source, int layer);
+
     std::vector<gl::Texture> textures_;
     std::vector<gl::Sampler> samplers_;  // per texture
     gl::Texture white_;

@@ -71,6 +71,7 @@ class GpuScene {
     // Further entries; each returns its index. What is there keeps its own. addInstance takes the place of one that
     // was removed where it can, addMesh that of one that is no smaller. Nothing is checked.
     std::size_t addMesh(const Mesh& mesh);
+    std::size_t addTexture(const Texture& texture);
     std::size_t addMaterial(const Material& material);
     std::size_t addInstance(const Instance& instance);
     // It stays in source(), invisible, until another takes its place.

@@ -120,6 +120,13 @@ std::size_t HeldScene::addMesh(const Mesh& mesh) {
     return scene_->addMesh(mesh);
 }
 
+std::size_t HeldScene::addTexture(const Texture& texture) {
+    require("addTexture");
+    validateTexture(texture);
+    const gl::HostStateGuard guard;
+    return scene_->addTexture(texture);
+}
+
 std::size_t HeldScene::addMaterial(const Material& material) {
     validateMaterial(require("addMaterial").source(), material);
     const gl::HostStateGuard guard;

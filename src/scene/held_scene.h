@@ -33,6 +33,7 @@ class HeldScene {
     void setEnvironment(const Environment& environment);
     void setBakedLight(std::shared_ptr<const BakedLight> baked);
     std::size_t addMesh(const Mesh& mesh);
+    std::size_t addTexture(const Texture& texture);
     std::size_t addMaterial(const Material& material);
     std::size_t addInstance(const Instance& instance);
     void removeInstance(std::size_t index);

@@ -218,15 +218,17 @@ void scene::validateBakedLight(const Scene& scene, const BakedLight& baked) {
             fail(ErrorKind::BadInput, "baked light: index %u; less than %zu would be right", index, count);
 }
 
+void scene::validateTexture(const Texture& texture) {
+    const std::size_t texels = static_cast<std::size_t>(std::max(texture.width, 0)) *
+                               static_cast<std::size_t>(std::max(texture.height, 0));
+    if (texels == 0 || texture.rgba.size() != 4 * texels)
+        fail(ErrorKind::BadInput, "texture '%s': %d x %d texels and %zu bytes do not belong together",
+             texture.name.c_str(), texture.width, texture.height, texture.rgba.size());
+}
+
 void Scene::validate() const {
     for (std::size_t i = 0; i < meshes.size(); ++i) checkMesh(meshes[i], i);
-    for (const Texture& texture : textures) {
-        const std::size_t texels = static_cast<std::size_t>(std::max(texture.width, 0)) *
-                                   static_cast<std::size_t>(std::max(texture.height, 0));
-        if (texels == 0 || texture.rgba.size() != 4 * texels)
-            fail(ErrorKind::BadInput, "texture '%s': %d x %d texels and %zu bytes do not belong together",
-                 texture.name.c_str(), texture.width, texture.height, texture.rgba.size());
-    }
+    for (const Texture& texture : textures) scene::validateTexture(texture);
     for (const Material& material : materials) scene::validateMaterial(*this, material);
     std::vector<Aabb> meshBounds(meshes.size());
     for (std::size_t i = 0; i < meshes.size(); ++i) meshBounds[i] = meshes[i].bounds();

@@ -17,6 +17,7 @@ void validateMaterial(const Scene& scene, const Material& material);
 void validateMesh(const Mesh& mesh, std::size_t index);
 // How far the instances of a mesh reach, were its bounds these.
 void validateReaches(const Scene& scene, std::size_t mesh, const Aabb& bounds);
+void validateTexture(const Texture& texture);
 void validateLight(const Light& light);
 void validateSky(const glm::vec3& sky);
 void validateEnvironment(const Environment& environment);

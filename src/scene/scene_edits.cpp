@@ -77,7 +77,14 @@ void GpuScene::removeMesh(std::size_t index) {
     source_.meshes[index] = {};
 }
 
-// ---- Materials ------------------------------------------------------------------------------------------
+// ---- Textures and materials -----------------------------------------------------------------------------
+
+// No material has it yet: nothing that is derived changes.
+std::size_t GpuScene::addTexture(const Texture& texture) {
+    textures_.add(texture);
+    source_.textures.push_back(texture);
+    return source_.textures.size() - 1;
+}
 
 // Before the default one, which is the last.
 std::size_t GpuScene::addMaterial(const Material& material) {

@@ -9,6 +9,8 @@
 #include "conelight/error.h"
 #include "conelight/renderer.h"
 #include "io/scene_file.h"
+#include "session/addition.h"
+#include "session/material_edit.h"
 #include "session/session.h"
 #include "support/gl_fixture.h"
 
@@ -121,6 +123,34 @@ TEST_F(SceneUploadTest, OnlyWhatChangedIsMadeAnew) {
     session->askForVoxels();
     picture();
     EXPECT_TRUE(ran("voxelize")) << "asked for";
+}
+
+// Shapes, copies and files go behind what the renderer has; the rest is not uploaded again.
+TEST_F(SceneUploadTest, WhatIsAddedLeavesTheRestAsItIs) {
+    picture();
+    const auto expectAdded = [&](const char* what, bool inPlace = true) {
+        renderer->setSky({0.25f, 0, 0});  // a whole scene would bring its own
+        upload.follow(*renderer, *session);
+        EXPECT_EQ(renderer->scene().sky.x, inPlace ? 0.25f : 0.0f) << what;
+        renderer->setSky(session->scene().sky);
+        EXPECT_LT(distance(pictureOfWhole(), picture()), 1e-4) << what;
+    };
+    program::addToScene(*session, program::shapeOf("sphere", 0.3f), {0, 0.6f, 0.2f}, "add");
+    expectAdded("a shape");
+    EXPECT_EQ(program::makeMaterialsSingle(*session, {object("short block")}), 1);
+    expectAdded("a material");
+    Scene file = program::shapeOf("box", 0.2f);
+    file.textures.push_back({"red", 1, 1, true, {}, {}, {}, {200, 10, 10, 255}});
+    file.materials[0].baseColorTexture.texture = 0;
+    program::addToScene(*session, file, {0.3f, 0.7f, 0.3f}, "import");
+    expectAdded("a file with a texture");
+    session->undo();
+    expectAdded("undo", false);
+    // Another mesh in the place of one that is gone, between two pictures.
+    program::addToScene(*session, program::shapeOf("box", 0.2f), {0.3f, 0.7f, 0.3f}, "add");
+    session->undo();
+    program::addToScene(*session, program::shapeOf("torus", 0.2f), {0.3f, 0.7f, 0.3f}, "add");
+    expectAdded("the later one");
 }
 
 TEST_F(SceneUploadTest, WhatIsRefusedIsNotTriedAgainAndTheRestIsTaken) {

@@ -199,6 +199,38 @@ TEST_F(SceneChanges, WhatComesAndGoesLeavesNothingBehind) {
     }
 }
 
+// Textures one after another, each on a material that comes after it; the first one in a scene without any.
+TEST_F(SceneChanges, TexturesThatCome) {
+    for (const Mode mode : {Mode::Phong, Mode::Cones}) {
+        Scene scene = roomScene();
+        scene.textures.clear();
+        for (Material& material : scene.materials) material.baseColorTexture.texture = -1;
+        Renderer renderer;
+        renderer.setScene(scene);
+        for (int i = 0; i < 4; ++i) {
+            const Image before = drawnBy(renderer, scene, mode);
+            Texture texture;
+            texture.width = texture.height = 2;
+            for (int k = 0; k < 4; ++k)
+                for (const int value : {i % 2 == 0 ? 250 : 20, 60 * k, 40 * i, 255})
+                    texture.rgba.push_back(static_cast<std::uint8_t>(value));
+            scene.textures.push_back(texture);
+            Material paint;
+            paint.baseColorTexture.texture = i;
+            const float x = -0.3f + 0.2f * static_cast<float>(i);
+            addInstance(scene, sphereMesh(12, 8), paint, placed({x, -0.3f, -0.4f}, 0.2f));
+            scene.meshes.back().uvs.assign(scene.meshes.back().positions.size(), {0.3f, 0.7f});
+            EXPECT_EQ(renderer.addTexture(texture), scene.textures.size() - 1);
+            renderer.addMesh(scene.meshes.back());
+            renderer.addMaterial(scene.materials.back());
+            renderer.addInstance(scene.instances.back());
+            const Image after = drawnBy(renderer, scene, mode);
+            EXPECT_TRUE(sameBits(after, drawnAfresh(scene, mode))) << i << ", " << mode.name();
+            EXPECT_FALSE(sameBits(after, before)) << i << ", " << mode.name();
+        }
+    }
+}
+
 // The other way round: the changes above are seen at all.
 TEST_F(SceneChanges, AreSeen) {
     const Scene first = roomScene();
@@ -256,6 +288,7 @@ TEST_F(SceneChanges, RefusedOnesChangeNothing) {
     refused("light 2 of 2", [&] { renderer.setLight(2, {}); });
     refused("not finite", [&] { renderer.setSky({0, NAN, 0}); });
     refused("texture 3", [&] { renderer.addMaterial(material); });
+    refused("do not belong together", [&] { renderer.addTexture({}); });
     refused("not finite", [&] { renderer.addMesh(mesh); });
     refused("material 99", [&] { renderer.addInstance(instance); });
     refused("instance 8 of 8", [&] { renderer.removeInstance(8); });

@@ -169,7 +169,7 @@ std::vector<std::string> wordsOf(const Session& session, const Argument& argumen
             std::vector<std::string> names = objectNames(session);
             for (const auto& more : {lightNames(session), materialNames(session)})
                 names.insert(names.end(), more.begin(), more.end());
-            names.push_back("none");
+            for (const char* word : {"none", "all", "invert"}) names.emplace_back(word);
             return names;
         }
         case ArgumentKind::CommandName:

@@ -98,13 +98,14 @@ CommandGroup inspectCommands();  // commands_inspect.cpp
 CommandGroup programCommands();  // commands_program.cpp
 CommandGroup windowCommands();   // commands_window.cpp
 
-Command lightCommand();                 // commands_light.cpp
-std::vector<Command> objectCommands();  // commands_objects.cpp
-Command pathCommand();                  // commands_path.cpp
-Command clipCommand();                  // commands_clip.cpp
-Command presetCommand();                // commands_preset.cpp
-Command qualityCommand();               // commands_preset.cpp
-Command whyCommand();                   // commands_why.cpp
+Command lightCommand();                   // commands_light.cpp
+std::vector<Command> objectCommands();    // commands_objects.cpp
+std::vector<Command> additionCommands();  // commands_addition.cpp
+Command pathCommand();                    // commands_path.cpp
+Command clipCommand();                    // commands_clip.cpp
+Command presetCommand();                  // commands_preset.cpp
+Command qualityCommand();                 // commands_preset.cpp
+Command whyCommand();                     // commands_why.cpp
 void printLights(const CommandContext& context);
 
 // Whether `record` can write this: a film's extension, or a pattern of numbered pictures.

@@ -10,6 +10,7 @@
 #include "console/names.h"
 #include "io/scene_info.h"
 #include "session/light_edit.h"
+#include "session/light_units.h"
 #include "session/usage.h"
 
 namespace conelight::program {
@@ -23,6 +24,11 @@ void printLight(const CommandContext& context, std::size_t index) {
         fmt::format("{:3} {:<16} {:<11} intensity {} {}", index, light.name, io::lightTypeName(light.type),
                     textOf(light.intensity), io::lightUnit(light.type));
     if (const auto flux = radiantFlux(light)) line += "  flux " + textOf(*flux) + " W";
+    for (const LightUnit unit : unitsOf(light))
+        if (unit == LightUnit::Luminous || unit == LightUnit::LuminousFlux)
+            line += fmt::format("  {:.4g} {}", strengthIn(light, unit), unitName(light.type, unit));
+    if (const auto kelvin = kelvinOf(light.intensity); kelvin && light.intensity != glm::vec3(0))
+        line += fmt::format("  {:.0f} K", *kelvin);
     if (light.type != LightType::Directional) line += "  at " + textOf(light.position);
     if (light.type != LightType::Point) line += "  direction " + textOf(light.direction);
     if (light.type == LightType::Spot)
@@ -72,9 +78,9 @@ void needs(const Light& light, const std::string& what, bool fits) {
     if (!fits) usage(fmt::format("light: {}: a {} light has none", what, io::lightTypeName(light.type)));
 }
 
-const std::vector<std::string> kWords = {"intensity", "flux",  "position", "direction", "angles",
-                                         "size",      "range", "falloff",  "on",        "off",
-                                         "shadows",   "name",  "delete"};
+const std::vector<std::string> kWords = {"intensity", "flux",   "lumen", "candela",  "lux",       "nit",
+                                         "kelvin",    "angles", "size",  "position", "direction", "range",
+                                         "falloff",   "on",     "off",   "shadows",  "name",      "delete"};
 
 void changeShape(Light& light, const std::string& what, const std::vector<std::string>& words) {
     if (what == "angles") {
@@ -103,17 +109,37 @@ void changeFalloff(Light& light, const std::vector<std::string>& words) {
     light.falloff = falloff;
 }
 
+[[noreturn]] void hasNoFlux(const Light& light, const std::string& what) {
+    usage("light: " + what +
+          (light.type == LightType::Directional
+               ? ": a directional light has none; its irradiance (intensity, lux) would be right"
+               : ": with a falloff of its own it has no physical unit; `falloff off` first would be right"));
+}
+
+// Strength in photometric units, colour by temperature: one number each.
+void changePhotometric(Light& light, const std::string& what, const std::vector<std::string>& words) {
+    const bool isKelvin = what == "kelvin";
+    const std::string unit = isKelvin ? "K" : what == "lumen" ? "lm" : "";
+    const float value =
+        numbers(what, words, 1, isKelvin ? kLeastKelvin : 0, isKelvin ? kMostKelvin : 1e12, unit.c_str())[0];
+    if (isKelvin) return setKelvin(light, value, LightUnit::Luminous);
+    if (what == "candela")
+        needs(light, "luminous intensity", light.type == LightType::Point || light.type == LightType::Spot);
+    if (what == "lux") needs(light, "illuminance", light.type == LightType::Directional);
+    if (what == "nit") needs(light, "luminance", light.type == LightType::Rect);
+    if (what == "lumen" && !radiantFlux(light)) hasNoFlux(light, what);
+    setStrength(light, what == "lumen" ? LightUnit::LuminousFlux : LightUnit::Luminous, value);
+}
+
 void change(Light& light, const std::string& what, std::vector<std::string> words) {
     if (what == "intensity") {
         if (words.size() == 1) words.resize(3, words[0]);
         light.intensity = vector(numbers(what, words, 3, 0, 1e9, io::lightUnit(light.type)));
     } else if (what == "flux") {
         if (words.size() == 1) words.resize(3, words[0]);
-        if (!setRadiantFlux(light, vector(numbers(what, words, 3, 0, 1e9, "W"))))
-            usage(light.type == LightType::Directional
-                      ? "light: flux: a directional light has none; its irradiance (intensity) would be right"
-                      : "light: flux: with a falloff of its own it has no physical unit; `falloff off` first "
-                        "would be right");
+        if (!setRadiantFlux(light, vector(numbers(what, words, 3, 0, 1e9, "W")))) hasNoFlux(light, what);
+    } else if (what == "lumen" || what == "candela" || what == "lux" || what == "nit" || what == "kelvin") {
+        changePhotometric(light, what, words);
     } else if (what == "position") {
         needs(light, what, light.type != LightType::Directional);
         light.position = vector(numbers(what, words, 3, -1e6, 1e6, "m"));
@@ -211,6 +237,10 @@ Command lightCommand() {
         "light NAME size W H        of a rectangle, m\n"
         "light NAME range M         0: unlimited\n"
         "light NAME flux R G B      all that it sends out, W: sets the intensity for its shape\n"
+        "light NAME lumen V         the same in lm; 683 lm/W times the luminance of its colour, which stays\n"
+        "light NAME candela V       its intensity in cd (point, spot); lux V (directional), nit V: cd/m^2 "
+        "(rect)\n"
+        "light NAME kelvin T        colour of a black body, 1000 to 40000 K; candela, lux or nit stay\n"
         "light NAME falloff C L Q   1 / (C + L d + Q d^2); off: the inverse square\n"
         "light NAME on|off          light NAME shadows on|off\n"
         "light NAME name NEW        light NAME delete";

@@ -61,18 +61,48 @@ void listScene(const CommandContext& context) {
             context.print(fmt::format("{:<10} {}", one, aboutMode(one)));
 }
 
-void select(const CommandContext& context) {
-    Session& session = context.session;
-    const std::string& word = context.words[0];
-    if (word == "none") return session.select({});
+// All that can be selected together.
+std::vector<Selection> everything(const Session& session) {
+    std::vector<Selection> all;
+    for (std::size_t i = 0; i < session.scene().lights.size(); ++i) all.push_back({SelectionKind::Light, i});
+    for (std::size_t i = 0; i < session.scene().instances.size(); ++i)
+        all.push_back({SelectionKind::Instance, i});
+    return all;
+}
+
+// The first kind of thing that has the name.
+std::vector<Selection> selectable(const Session& session, const std::string& word) {
     const std::pair<SelectionKind, std::vector<std::size_t>> kinds[] = {
         {SelectionKind::Instance, objectsNamed(session, word)},
         {SelectionKind::Light, lightsNamed(session, word)},
         {SelectionKind::Material, materialsNamed(session, word)}};
-    for (const auto& [kind, found] : kinds)
-        if (!found.empty()) return session.select({kind, found.front()});
+    std::vector<Selection> found;
+    for (const auto& [kind, indices] : kinds) {
+        for (const std::size_t i : indices) found.push_back({kind, i});
+        if (!found.empty()) return found;
+    }
     requireName("select", "object, light or material", wordsOf(session, {"", ArgumentKind::Selectable}),
                 word);
+    return found;
+}
+
+void select(const CommandContext& context) {
+    Session& session = context.session;
+    const std::string& first = context.words[0];
+    if (context.count() == 1 && first == "none") return session.select({});
+    if (context.count() == 1 && (first == "all" || first == "invert")) {
+        std::vector<Selection> all = everything(session);
+        if (first == "invert")
+            std::erase_if(all, [&](const Selection& one) { return session.isSelected(one); });
+        return session.selectAll(all);
+    }
+    std::vector<Selection> found;
+    for (const std::string& word : context.words)
+        for (const Selection& one : selectable(session, word)) found.push_back(one);
+    // Of several the first counts as the last one chosen; a material stands alone.
+    if (found.front().kind == SelectionKind::Material) return session.select(found.front());
+    std::rotate(found.begin(), found.begin() + 1, found.end());
+    session.selectAll(found);
 }
 
 struct Property {
@@ -269,24 +299,22 @@ void bake(const CommandContext& context) {
     context.session.request(std::move(request));
 }
 
+Command listCommand() {
+    Argument what{"WHAT", ArgumentKind::Choice, true};
+    what.choices = {"objects", "materials", "lights", "cameras", "modes"};
+    return command("list", {what}, "what there is, with its numbers", listScene, "Without WHAT: objects.");
+}
+
 }  // namespace
 
 CommandGroup sceneCommands() {
     CommandGroup group{
         "Scene",
         {
-            command("list",
-                    {{"WHAT",
-                      ArgumentKind::Choice,
-                      true,
-                      false,
-                      "",
-                      0,
-                      0,
-                      {"objects", "materials", "lights", "cameras", "modes"}}},
-                    "what there is, with its numbers", listScene, "Without WHAT: objects."),
-            command("select", {{"NAME", ArgumentKind::Selectable}},
-                    "choose an object, light or material, or none", select),
+            listCommand(),
+            command("select", {{"NAME", ArgumentKind::Selectable, false, true}},
+                    "choose objects, lights or a material; all, none, invert", select,
+                    "Several names select all of them, `invert` what is not selected."),
             command("material",
                     {{"NAME", ArgumentKind::Material},
                      {"PROPERTY", ArgumentKind::Text, true},
@@ -327,7 +355,8 @@ CommandGroup sceneCommands() {
                 "once.\nA window stays live meanwhile; with as many bounces as `traced.bounces` says in that "
                 "mode.\nWhat exists is left alone unless `overwrite` is said."),
         }};
-    const std::vector<Command> objects = objectCommands();
+    std::vector<Command> objects = objectCommands();
+    for (Command& one : additionCommands()) objects.push_back(std::move(one));
     group.commands.insert(group.commands.begin() + 2, objects.begin(), objects.end());  // behind `select`
     return group;
 }

@@ -149,6 +149,8 @@ CommandGroup windowCommands() {
                     [](const CommandContext& context) { askWindow(context, "fullscreen"); }),
             command("panels", {onOff()}, "show panels and console beside the picture, or the picture alone",
                     [](const CommandContext& context) { askWindow(context, "panels"); }),
+            command("light_shapes", {onOff()}, "show lights in the picture as icons and shapes, or not",
+                    [](const CommandContext& context) { askWindow(context, "light_shapes"); }),
             command("focus", {}, "move the camera so that it sees all of the selection, or of the scene",
                     [](const CommandContext& context) { askWindow(context, "focus"); }),
             command(

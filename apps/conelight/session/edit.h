@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// One step of undo: what changed, before and after. Only the parts that changed are kept, never meshes or
-// textures.
+// One step of undo: what changed, before and after. Only the parts that changed are kept: of meshes and textures
+// those that were added, which all steps share.
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <variant>
 #include <vector>
@@ -33,6 +34,15 @@ struct MaterialEdit : BeforeAfter<Material> {
     std::size_t index = 0;
 };
 struct MaterialsEdit : BeforeAfter<std::vector<Material>> {};
+// How many a scene has.
+struct SceneCounts {
+    std::size_t meshes = 0, materials = 0, textures = 0, instances = 0, lights = 0;
+};
+// Meshes, materials, textures, instances and lights behind those of the scene, whose numbers theirs go on from.
+struct AddEdit {
+    std::shared_ptr<const Scene> added;
+    SceneCounts before;
+};
 struct LightsEdit : BeforeAfter<std::vector<Light>> {};
 struct CamerasEdit : BeforeAfter<std::vector<Camera>> {};
 struct SkyEdit : BeforeAfter<glm::vec3> {};
@@ -43,7 +53,7 @@ struct FlagsEdit : BeforeAfter<ViewFlags> {};
 struct PathEdit : BeforeAfter<CameraPath> {};
 
 using Edit = std::variant<InstanceEdit, InstancesEdit, MaterialEdit, MaterialsEdit, LightsEdit, CamerasEdit,
-                          SkyEdit, EnvironmentEdit, SettingsEdit, CameraEdit, FlagsEdit, PathEdit>;
+                          SkyEdit, EnvironmentEdit, SettingsEdit, CameraEdit, FlagsEdit, PathEdit, AddEdit>;
 
 struct Step {
     std::string label;     // "translate Lucy"

@@ -3,7 +3,10 @@
 
 #include <fmt/core.h>
 
+#include <map>
+
 #include "conelight/scene_fields.h"
+#include "session/rename.h"
 
 namespace conelight::program {
 
@@ -51,6 +54,40 @@ std::string othersWith(const Session& session, const std::set<std::size_t>& mate
         if (++count <= 3) names += (count == 1 ? "" : ", ") + instance.name;
     }
     return count > 3 ? fmt::format("{} and {} more", names, count - 3) : names;
+}
+
+std::vector<std::size_t> usesOfMaterials(const Scene& scene) {
+    std::vector<std::size_t> uses(scene.materials.size(), 0);
+    for (const Instance& instance : scene.instances)
+        if (instance.material >= 0) ++uses[static_cast<std::size_t>(instance.material)];
+    return uses;
+}
+
+int makeMaterialsSingle(Session& session, const std::vector<std::size_t>& objects) {
+    const Scene& scene = session.scene();
+    std::map<int, std::vector<std::size_t>> byMaterial;
+    for (const std::size_t i : objects) byMaterial[scene.instances.at(i).material].push_back(i);
+    const std::vector<std::size_t> uses = usesOfMaterials(scene);
+    std::vector<std::string> names;
+    for (const Material& material : scene.materials) names.push_back(material.name);
+    FreeNames free(names);
+    SceneEdits edits;
+    std::vector<Material> materials = scene.materials;
+    for (const auto& [material, users] : byMaterial) {
+        const bool isDefault = material < 0;
+        if (!isDefault && users.size() == uses[static_cast<std::size_t>(material)]) continue;
+        Material copy = isDefault ? Material{} : scene.materials[static_cast<std::size_t>(material)];
+        copy.name = isDefault ? free.takeOwn(scene.instances[users.front()].name) : free.take(copy.name);
+        for (const std::size_t i : users) {
+            edits.instances.emplace_back(i, scene.instances[i]);
+            edits.instances.back().second.material = static_cast<int>(materials.size());
+        }
+        materials.push_back(std::move(copy));
+    }
+    const auto copies = static_cast<int>(materials.size() - scene.materials.size());
+    edits.materialList = std::move(materials);
+    if (copies > 0) session.edit(edits, "make material single");
+    return copies;
 }
 
 }  // namespace conelight::program

@@ -5,6 +5,7 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 #include "session/session.h"
 
@@ -19,5 +20,11 @@ void setColor(Material& material, const glm::vec3& color);
 // Names of up to three objects that use one of the materials and are not called `name`; empty: none.
 std::string othersWith(const Session& session, const std::set<std::size_t>& materials,
                        const std::string& name);
+
+// How many objects have each material.
+std::vector<std::size_t> usesOfMaterials(const Scene& scene);
+// Objects whose material others have, too, get a copy of it: those that are named together and share one get one
+// together. One step of undo; returns how many copies were made.
+int makeMaterialsSingle(Session& session, const std::vector<std::size_t>& objects);
 
 }  // namespace conelight::program

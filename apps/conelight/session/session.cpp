@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 #include <utility>
 
@@ -32,7 +33,17 @@ bool sameTargets(const Step& a, const Step& b) {
 }
 
 void takeAfter(Edit& edit, const Edit& later) {
-    std::visit([&](auto& one) { one.after = std::get<std::decay_t<decltype(one)>>(later).after; }, edit);
+    std::visit(
+        [&]<class E>(E& one) {
+            if constexpr (requires { one.after; }) one.after = std::get<E>(later).after;
+        },
+        edit);
+}
+
+// Sessions follow one another in one place: what is known of one is of no other.
+std::uint64_t firstRevision() {
+    static std::atomic<std::uint64_t> sessions{0};
+    return ++sessions << 32;
 }
 
 template <class E, class T>
@@ -50,6 +61,7 @@ Session::Session() {
     completeScene(scene_);
     camera_ = scene_.cameras.empty() ? Camera{} : scene_.cameras.front();
     mode_ = getSetting(settings_, "mode");
+    revisions_.scene = firstRevision();
     startRevisions();
 }
 
@@ -60,6 +72,7 @@ Session::Session(Scene scene, std::string path, const Settings& settings, std::s
       settings_(settings),
       mode_(mode.empty() ? getSetting(settings, "mode") : std::move(mode)),
       camera_(camera) {
+    revisions_.scene = firstRevision();
     startRevisions();
 }
 
@@ -67,6 +80,7 @@ void Session::startRevisions() {
     instanceRevisions_.assign(scene_.instances.size(), 0);
     materialRevisions_.assign(scene_.materials.size(), 0);
     meshRevisions_.assign(scene_.meshes.size(), 0);
+    textureRevisions_.assign(scene_.textures.size(), 0);
 }
 
 OpenedScene readScene(const std::string& path, const OpenHow& how, const io::LoadOptions& options) {
@@ -101,6 +115,7 @@ std::vector<std::string> Session::take(OpenedScene opened, bool keepView) {
         ++revisions_.flags;
     }
     selection_ = {};
+    selected_.clear();
     rayMark_.reset();
     done_.clear();
     undone_.clear();
@@ -203,23 +218,6 @@ void Session::setFlags(const ViewFlags& flags, const std::string& label) {
     if (flags == flags_) return;
     Step step{label, {}, {}};
     step.edits.push_back(editOf<FlagsEdit>(flags_, flags));
-    commit(std::move(step));
-}
-
-void Session::setInstances(const std::vector<std::pair<std::size_t, Instance>>& changed,
-                           const std::string& label, const std::string& mergeKey) {
-    Step step{label, mergeKey, {}};
-    for (const auto& [index, instance] : changed) {
-        Edit edit = editOf<InstanceEdit>(scene_.instances.at(index), instance);
-        std::get<InstanceEdit>(edit).index = index;
-        step.edits.push_back(std::move(edit));
-    }
-    if (!step.edits.empty()) commit(std::move(step));
-}
-
-void Session::setInstanceList(const std::vector<Instance>& instances, const std::string& label) {
-    Step step{label, {}, {}};
-    step.edits.push_back(editOf<InstancesEdit>(scene_.instances, instances));
     commit(std::move(step));
 }
 
@@ -344,12 +342,6 @@ void Session::frameDrawn(double ms) {
     place(cameraPath_.at(*seconds));
 }
 
-void Session::select(const Selection& selection) {
-    if (selection == selection_) return;
-    selection_ = selection;
-    ++revisions_.selection;
-}
-
 void Session::setRayMark(const std::optional<RayMark>& mark) {
     rayMark_ = mark;
     ++revisions_.selection;
@@ -381,15 +373,6 @@ void Session::commit(Step step) {
     done_.pop_front();
 }
 
-void Session::takeInstances(const std::vector<Instance>& instances) {
-    scene_.instances = instances;
-    instanceRevisions_.resize(instances.size());
-    for (std::uint64_t& revision : instanceRevisions_) ++revision;
-    ++revisions_.instances;
-    ++revisions_.instanceList;
-    if (selection_.kind == SelectionKind::Instance) select({});
-}
-
 void Session::apply(const Edit& edit, bool forward) {
     const auto side = [forward](const auto& one) -> const auto& { return forward ? one.after : one.before; };
     if (const auto* instance = std::get_if<InstanceEdit>(&edit)) {
@@ -402,6 +385,8 @@ void Session::apply(const Edit& edit, bool forward) {
         ++instanceRevisions_[instance->index];
     } else if (const auto* list = std::get_if<InstancesEdit>(&edit)) {
         takeInstances(side(*list));
+    } else if (const auto* added = std::get_if<AddEdit>(&edit)) {
+        takeAddition(*added, forward);
     } else if (const auto* material = std::get_if<MaterialEdit>(&edit)) {
         scene_.materials[material->index] = side(*material);
         ++materialRevisions_[material->index];
@@ -411,10 +396,11 @@ void Session::apply(const Edit& edit, bool forward) {
         materialRevisions_.resize(scene_.materials.size());
         for (std::uint64_t& revision : materialRevisions_) ++revision;
         ++revisions_.materials;
+        deselectFrom(SelectionKind::Material, scene_.materials.size());
     } else if (const auto* lights = std::get_if<LightsEdit>(&edit)) {
         scene_.lights = side(*lights);
         ++revisions_.lights;
-        if (selection_.kind == SelectionKind::Light && selection_.index >= scene_.lights.size()) select({});
+        deselectFrom(SelectionKind::Light, scene_.lights.size());
     } else if (const auto* cameras = std::get_if<CamerasEdit>(&edit)) {
         scene_.cameras = side(*cameras);
         ++revisions_.cameras;

@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -24,15 +25,9 @@
 #include "session/preset.h"
 #include "session/request.h"
 #include "session/revisions.h"
+#include "session/selection.h"
 
 namespace conelight::program {
-
-enum class SelectionKind { None, Instance, Light, Material };
-struct Selection {
-    SelectionKind kind = SelectionKind::None;
-    std::size_t index = 0;
-    bool operator==(const Selection&) const = default;
-};
 
 // The pose of a scene with clips.
 struct ClipState {
@@ -62,6 +57,15 @@ struct OpenHow {
 };
 // Throws what io::loadScene throws. Any thread.
 OpenedScene readScene(const std::string& path, const OpenHow& how, const io::LoadOptions& options = {});
+// Parts of a scene that change in one step of undo; none: they stay.
+struct SceneEdits {
+    std::vector<std::pair<std::size_t, Instance>> instances;
+    std::optional<std::vector<Instance>> instanceList;  // all of them: adds and removes
+    std::optional<std::vector<Material>> materialList;  // only adds
+    std::optional<std::vector<Light>> lights;
+    // Goes behind what is there; its indices are those that it will have then.
+    std::shared_ptr<const Scene> added;
+};
 
 // Settings that a scene starts with in a mode ("": the default or the scene's own): its format's look, then
 // its own block.
@@ -105,7 +109,11 @@ class Session {
     const std::string& mode() const { return mode_; }
     const Camera& camera() const { return camera_; }
     const ViewFlags& flags() const { return flags_; }
+    // What was chosen last, and all that is: sorted; only objects and lights can be several.
     const Selection& selection() const { return selection_; }
+    const std::vector<Selection>& selected() const { return selected_; }
+    bool isSelected(const Selection& what) const;
+    std::vector<std::size_t> selectedOf(SelectionKind kind) const;
     const std::optional<RayMark>& rayMark() const { return rayMark_; }
     const Revisions& revisions() const { return revisions_; }
     const CameraPath& cameraPath() const { return cameraPath_; }
@@ -115,6 +123,7 @@ class Session {
     const std::vector<std::uint64_t>& instanceRevisions() const { return instanceRevisions_; }
     const std::vector<std::uint64_t>& materialRevisions() const { return materialRevisions_; }
     const std::vector<std::uint64_t>& meshRevisions() const { return meshRevisions_; }
+    const std::vector<std::uint64_t>& textureRevisions() const { return textureRevisions_; }
 
     // Settings and mode with the flags that change the picture in them: what is to be drawn.
     Settings shownSettings() const;
@@ -132,6 +141,7 @@ class Session {
     void setFlags(const ViewFlags& flags, const std::string& label);
     void setInstances(const std::vector<std::pair<std::size_t, Instance>>& changed, const std::string& label,
                       const std::string& mergeKey = {});
+    void edit(const SceneEdits& edits, const std::string& label, const std::string& mergeKey = {});
     // All of them: adds and removes. No instance is selected then.
     void setInstanceList(const std::vector<Instance>& instances, const std::string& label);
     void setMaterials(const std::vector<std::pair<std::size_t, Material>>& changed, const std::string& label,
@@ -161,8 +171,10 @@ class Session {
     bool playing() const { return playing_.has_value(); }
     std::optional<double> playedSeconds() const;  // of the path, where it is
     void stopPlaying() { playing_.reset(); }
-    void finishPlaying();  // at once at the path's end
-    void select(const Selection& selection);
+    void finishPlaying();                              // at once at the path's end
+    void select(const Selection& selection);           // it alone
+    void selectAll(std::vector<Selection> selection);  // the last one is selection() then
+    void toggleSelected(const Selection& what);        // beside the others, or not any more
     void setRayMark(const std::optional<RayMark>& mark);
     // Clips of the scene as it is now, which was loaded with `animation`. Poses are no steps of undo.
     void setAnimation(io::SceneAnimation animation);
@@ -211,7 +223,10 @@ class Session {
     std::uint64_t sceneSerial() const;
     void apply(const Edit& edit, bool forward);
     void place(const Camera& camera);
+    void takeSelection(std::vector<Selection> all, const Selection& last);
+    void deselectFrom(SelectionKind kind, std::size_t first);
     void takeInstances(const std::vector<Instance>& instances);
+    void takeAddition(const AddEdit& edit, bool forward);
     void takePose(const io::NodePoses& poses);
     void followClipCamera();
     double clipDuration(std::size_t clip) const;
@@ -230,12 +245,14 @@ class Session {
     Camera camera_;
     ViewFlags flags_;
     Selection selection_;
+    std::vector<Selection> selected_;
     std::optional<RayMark> rayMark_;
     CameraPath cameraPath_;
     std::optional<Playing> playing_;
     Revisions revisions_;
     std::vector<std::uint64_t> instanceRevisions_, materialRevisions_;
-    std::vector<std::uint64_t> meshRevisions_;
+    std::vector<std::uint64_t> meshRevisions_, textureRevisions_;
+    std::uint64_t additions_ = 0;
     io::SceneAnimation animation_;
     ClipState clip_;
     Scene clipRest_, clipPosed_;            // instances, lights and cameras alone

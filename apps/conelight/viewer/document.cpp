@@ -3,6 +3,8 @@
 
 #include <fmt/core.h>
 #include <imgui.h>
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
 
 #include <utility>
 
@@ -32,6 +34,8 @@ std::string commandFor(const FileChoice& choice, int filmFrames) {
             return fmt::format("record {} {} path", file, filmFrames);
         case FilePurpose::RecordTurntable:
             return fmt::format("record {} {} turntable", file, filmFrames);
+        case FilePurpose::ImportScene:
+            return "import " + file;
         case FilePurpose::OpenScene:  // asks about unsaved changes first
             break;
     }
@@ -39,6 +43,13 @@ std::string commandFor(const FileChoice& choice, int filmFrames) {
 }
 
 }  // namespace
+
+// With Shift into the scene, else in its place; of several files the first is opened, all are added.
+void Document::drop(const std::vector<std::string>& files) {
+    const bool adds = in_.window.isKeyDown(GLFW_KEY_LEFT_SHIFT) || in_.window.isKeyDown(GLFW_KEY_RIGHT_SHIFT);
+    if (!adds && !files.empty()) return open(files.front());
+    for (const std::string& file : files) take({FilePurpose::ImportScene, file});
+}
 
 void Document::take(const FileChoice& choice) {
     if (choice.purpose == FilePurpose::OpenScene)

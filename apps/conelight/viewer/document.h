@@ -41,6 +41,7 @@ class Document {
     // At once when nothing would be lost, else after a question.
     void open(const std::string& file);  // a picture becomes A beside the scene
     void reload() { leave({Leaving::To::FileAsChanged, in_.session.path()}); }
+    void drop(const std::vector<std::string>& files);  // on the window
     void quit() { leave({}); }
     void ask(FilePurpose purpose) { files_.open(purpose, in_.session.path()); }
     void askForPicture(bool film) { picture_.open(film, in_.film.frames); }

@@ -54,7 +54,8 @@ const PurposeInfo& infoOf(FilePurpose purpose) {
          "a name ending in .mp4, or numbered pictures: frame%04d.png",
          "Record",
          "turntable.mp4",
-         {".mp4"}}};
+         {".mp4"}},
+        {"Import into the scene", "a file, or builtin:NAME", nullptr, "", io::sceneExtensions()}};
     return kInfos[static_cast<std::size_t>(purpose)];
 }
 
@@ -362,7 +363,7 @@ std::optional<FileChoice> FileDialog::show() {
     wanted_ = false;
     const float em = ImGui::GetFontSize();
     const ImVec2 display = ImGui::GetIO().DisplaySize;
-    const bool scenes = purpose_ == FilePurpose::OpenScene;
+    const bool scenes = purpose_ == FilePurpose::OpenScene || purpose_ == FilePurpose::ImportScene;
     ImGui::SetNextWindowSize({std::min((scenes ? 64 : 40) * em, display.x), std::min(30 * em, display.y)},
                              ImGuiCond_Appearing);
     ImGui::SetNextWindowPos({0.5f * display.x, 0.5f * display.y}, ImGuiCond_Appearing, {0.5f, 0.5f});

@@ -21,7 +21,8 @@ enum class FilePurpose {
     LoadPath,
     SavePath,
     RecordPath,
-    RecordTurntable
+    RecordTurntable,
+    ImportScene
 };
 
 struct FileChoice {

@@ -7,10 +7,22 @@ namespace conelight::program {
 
 Aabb selectedBounds(const Session& session) {
     const Scene& scene = session.scene();
-    if (session.selection().kind != SelectionKind::Instance) return scene.bounds();
-    const Instance& instance = scene.instances[session.selection().index];
-    return scene.meshes[static_cast<std::size_t>(instance.mesh)].bounds().transformed(
-        instance.worldFromObject);
+    Aabb all;
+    for (const Selection& what : session.selected()) {
+        if (what.kind == SelectionKind::Instance) {
+            const Instance& instance = scene.instances[what.index];
+            all.grow(scene.meshes[static_cast<std::size_t>(instance.mesh)].bounds().transformed(
+                instance.worldFromObject));
+        } else if (what.kind == SelectionKind::Light &&
+                   scene.lights[what.index].type != LightType::Directional) {
+            // A lamp is a point: what is around it is seen.
+            const Light& light = scene.lights[what.index];
+            const glm::vec3 around(0.05f * glm::length(scene.bounds().extent()));
+            all.grow(light.position - around);
+            all.grow(light.position + around);
+        }
+    }
+    return all.empty() ? scene.bounds() : all;
 }
 
 float aspectOf(const glm::ivec2& pictureSize) {

@@ -8,7 +8,7 @@
 
 namespace conelight::program {
 
-Aabb selectedBounds(const Session& session);  // of the whole scene where no object is selected
+Aabb selectedBounds(const Session& session);  // of the whole scene where nothing with a place is selected
 float aspectOf(const glm::ivec2& pictureSize);
 void focusOnSelection(Session& session, const glm::ivec2& pictureSize);
 

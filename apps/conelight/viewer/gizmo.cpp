@@ -23,26 +23,32 @@ constexpr ImU32 kColors[4] = {IM_COL32(235, 80, 70, 255), IM_COL32(110, 200, 80,
                               IM_COL32(80, 140, 250, 255), IM_COL32(225, 225, 225, 255)};
 constexpr ImU32 kHot = IM_COL32(255, 220, 90, 255);
 
-bool onlyMoves(const Session& session) { return session.selection().kind == SelectionKind::Light; }
+// Lights alone: no ring, no box.
+bool onlyMoves(const Session& session) {
+    const std::vector<Selection>& all = session.selected();
+    return std::all_of(all.begin(), all.end(),
+                       [](const Selection& one) { return one.kind == SelectionKind::Light; });
+}
 
 // The middle of what is selected, and the directions of its own axes; nothing: it has no place.
 struct Placed {
     glm::vec3 pivot{0};
     glm::mat3 own{1};
 };
-std::optional<Placed> placed(const Session& session) {
-    const Selection& what = session.selection();
+std::optional<Placed> placed(const Session& session, MeshBounds& meshes) {
     const Scene& scene = session.scene();
-    if (what.kind == SelectionKind::Light && what.index < scene.lights.size()) {
-        const Light& light = scene.lights[what.index];
-        if (light.type == LightType::Directional) return std::nullopt;
-        return Placed{light.position, glm::mat3(1)};
+    Aabb all;
+    for (const Selection& what : session.selected()) {
+        if (what.kind == SelectionKind::Instance) all.grow(meshes.ofInstance(session, what.index));
+        if (what.kind == SelectionKind::Light && scene.lights[what.index].type != LightType::Directional)
+            all.grow(scene.lights[what.index].position);
     }
-    if (what.kind != SelectionKind::Instance || what.index >= scene.instances.size()) return std::nullopt;
-    const Instance& instance = scene.instances[what.index];
-    const Aabb bounds = scene.meshes[static_cast<std::size_t>(instance.mesh)].bounds();
-    if (bounds.empty()) return std::nullopt;
-    Placed result{glm::vec3(instance.worldFromObject * glm::vec4(bounds.center(), 1)), glm::mat3(1)};
+    if (all.empty()) return std::nullopt;
+    Placed result{all.center(), glm::mat3(1)};
+    if (session.selected().size() > 1 || session.selection().kind != SelectionKind::Instance) return result;
+    const Instance& instance = scene.instances[session.selection().index];
+    const Aabb& own = meshes.of(session, static_cast<std::size_t>(instance.mesh));
+    result.pivot = glm::vec3(instance.worldFromObject * glm::vec4(own.center(), 1));
     for (int i = 0; i < 3; ++i) {
         const glm::vec3 column(instance.worldFromObject[i]);
         if (glm::length(column) > 1e-9f) result.own[i] = glm::normalize(column);
@@ -132,48 +138,68 @@ std::optional<float> Gizmo::along(const View& view, const Handle& handle, const 
     return (b * glm::dot(ray, to) - glm::dot(n, to)) / denominator;
 }
 
-void Gizmo::drag(Session& session, const View& view, const glm::vec2& mouse) {
-    if (mouse == drag_->last) return;
-    drag_->last = mouse;
+// Of the world, since the drag began.
+std::optional<glm::mat4> Gizmo::changeBy(const View& view, const glm::vec2& mouse) const {
     const Drag& d = *drag_;
+    const bool all = d.handle.axis == 3;
     float now = 0, begun = 0;
-    if (d.handle.axis < 3) {
+    if (!all) {
         const std::optional<float> there = along(view, d.handle, d.pivot, mouse);
-        if (!there || !d.along) return;
+        if (!there || !d.along) return std::nullopt;
         now = *there;
         begun = *d.along;
     }
-    const std::string key = fmt::format("gizmo {}", d.what.index);
-    if (d.what.kind == SelectionKind::Light) {
-        std::vector<Light> lights = session.scene().lights;
-        lights[d.what.index].position = d.light + (now - begun) * d.handle.direction;
-        session.setLights(lights, "move light", key);
-        return;
-    }
-    Instance changed = d.instance;
-    const char* verb = "move ";
-    if (tool == GizmoTool::Move) {
-        changed.worldFromObject[3] += glm::vec4((now - begun) * d.handle.direction, 0);
-    } else if (tool == GizmoTool::Turn) {
-        verb = "turn ";
-        const glm::mat4 turn = glm::rotate(glm::mat4(1), now - begun, d.handle.direction);
-        changed.worldFromObject = about(d.pivot, turn) * changed.worldFromObject;
-    } else {
-        verb = "scale ";
-        // A hundredth to a hundred times in one drag; the middle: twice in 100 pixels to the right.
-        const bool all = d.handle.axis == 3;
-        const float factor =
-            std::clamp(all ? std::exp2(0.01f * (mouse.x - d.mouse.x)) : now / begun, 0.01f, 100.0f);
-        glm::mat3 scale(all ? factor : 1.0f);
-        if (!all) scale += (factor - 1) * glm::outerProduct(d.handle.direction, d.handle.direction);
-        changed.worldFromObject = about(d.pivot, glm::mat4(scale)) * changed.worldFromObject;
-    }
-    session.setInstances({{d.what.index, changed}}, verb + changed.name, key);
+    if (d.instances.empty() || tool == GizmoTool::Move)
+        return glm::translate(glm::mat4(1), (now - begun) * d.handle.direction);
+    if (tool == GizmoTool::Turn)
+        return about(d.pivot, glm::rotate(glm::mat4(1), now - begun, d.handle.direction));
+    // A hundredth to a hundred times in one drag; the middle: twice in 100 pixels to the right.
+    const float factor =
+        std::clamp(all ? std::exp2(0.01f * (mouse.x - d.mouse.x)) : now / begun, 0.01f, 100.0f);
+    glm::mat3 scale(all ? factor : 1.0f);
+    if (!all) scale += (factor - 1) * glm::outerProduct(d.handle.direction, d.handle.direction);
+    return about(d.pivot, glm::mat4(scale));
 }
 
-void Gizmo::show(Session& session, const glm::vec2& at, const glm::vec2& size, bool hovered) {
-    const std::optional<Placed> where = placed(session);
-    if (!where || size.x < 1 || size.y < 1 || (drag_ && !(drag_->what == session.selection()))) {
+void Gizmo::drag(Session& session, const View& view, const glm::vec2& mouse) {
+    if (mouse == drag_->last) return;
+    drag_->last = mouse;
+    const std::optional<glm::mat4> change = changeBy(view, mouse);
+    if (!change) return;
+    SceneEdits edits;
+    edits.instances = drag_->instances;
+    for (auto& [index, instance] : edits.instances)
+        instance.worldFromObject = *change * instance.worldFromObject;
+    for (const Selection& what : drag_->what) {
+        if (what.kind != SelectionKind::Light) continue;
+        if (!edits.lights) edits.lights = drag_->lights;
+        Light& light = (*edits.lights)[what.index];
+        light.position = glm::vec3(*change * glm::vec4(light.position, 1));
+        if (tool != GizmoTool::Turn) continue;
+        for (glm::vec3* direction : {&light.direction, &light.halfU, &light.halfV})
+            *direction = glm::mat3(*change) * *direction;
+    }
+    static constexpr const char* kVerbs[] = {"move ", "turn ", "scale "};
+    const bool one = drag_->what.size() == 1;
+    const std::string name = !one                      ? fmt::format("{} things", drag_->what.size())
+                             : edits.instances.empty() ? "light"
+                                                       : edits.instances.front().second.name;
+    session.edit(edits, kVerbs[edits.instances.empty() ? 0 : static_cast<int>(tool)] + name, "gizmo");
+}
+
+void Gizmo::begin(const Session& session, const View& view, const Handle& handle, const glm::vec3& pivot,
+                  const glm::vec2& mouse) {
+    Drag begun{session.selected(), handle, pivot, mouse, mouse, along(view, handle, pivot, mouse), {}, {}};
+    for (const std::size_t i : session.selectedOf(SelectionKind::Instance))
+        begun.instances.emplace_back(i, session.scene().instances[i]);
+    begun.lights = session.scene().lights;
+    drag_ = std::move(begun);
+}
+
+void Gizmo::show(Session& session, MeshBounds& bounds, const glm::vec2& at, const glm::vec2& size,
+                 bool hovered) {
+    const std::optional<Placed> where = placed(session, bounds);
+    if (!where || size.x < 1 || size.y < 1 || (drag_ && drag_->what != session.selected())) {
         drag_.reset();
         return;
     }
@@ -186,7 +212,7 @@ void Gizmo::show(Session& session, const glm::vec2& at, const glm::vec2& size, b
         drag_.reset();
     }
     // Where it is now: a drag has moved it.
-    const Placed now = placed(session).value_or(*where);
+    const Placed now = placed(session, bounds).value_or(*where);
     const bool moves = onlyMoves(session);
     const std::vector<Handle> all = handles(view, now.pivot, now.own, moves);
     const Handle* hot = nullptr;
@@ -200,35 +226,31 @@ void Gizmo::show(Session& session, const glm::vec2& at, const glm::vec2& size, b
         }
         if (drag_ && drag_->handle.axis == handle.axis) hot = &handle;
     }
-    if (!drag_ && hot != nullptr && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) {
-        Drag begun{
-            session.selection(), *hot, now.pivot, mouse, mouse, along(view, *hot, now.pivot, mouse), {}, {}};
-        if (moves)
-            begun.light = session.scene().lights[begun.what.index].position;
-        else
-            begun.instance = session.scene().instances[begun.what.index];
-        drag_ = begun;
-    }
+    if (!drag_ && hot != nullptr && ImGui::IsMouseClicked(ImGuiMouseButton_Left))
+        begin(session, view, *hot, now.pivot, mouse);
 
     ImDrawList* list = ImGui::GetWindowDrawList();
     list->PushClipRect({at.x, at.y}, {at.x + size.x, at.y + size.y}, true);
-    for (const Handle& handle : all) {
-        const ImU32 color = &handle == hot ? kHot : kColors[handle.axis];
-        for (std::size_t i = 0; i + 1 < handle.line.size(); ++i)
-            list->AddLine({handle.line[i].x, handle.line[i].y}, {handle.line[i + 1].x, handle.line[i + 1].y},
-                          color, 2.5f);
-        const glm::vec2 end = handle.line.size() > kRing ? handle.line[5 * kRing / 8] : handle.line.back();
-        if (handle.line.size() == 2 && (tool == GizmoTool::Move || moves)) {
-            const glm::vec2 d = glm::normalize(handle.line[1] - handle.line[0]), side(-d.y, d.x);
-            const glm::vec2 tip = end + 8.0f * d, left = end + 5.0f * side, right = end - 5.0f * side;
-            list->AddTriangleFilled({tip.x, tip.y}, {left.x, left.y}, {right.x, right.y}, color);
-        } else if (handle.line.size() <= 2) {
-            list->AddRectFilled({end.x - 5, end.y - 5}, {end.x + 5, end.y + 5}, color);
-        }
-        static constexpr const char* kNames[4] = {"gizmo:x", "gizmo:y", "gizmo:z", "gizmo:all"};
-        notePlace(kNames[handle.axis], end - 3.0f, end + 3.0f);
-    }
+    for (const Handle& handle : all) draw(handle, tool == GizmoTool::Move || moves, &handle == hot);
     list->PopClipRect();
+}
+
+void Gizmo::draw(const Handle& handle, bool arrow, bool hot) {
+    ImDrawList* list = ImGui::GetWindowDrawList();
+    const ImU32 color = hot ? kHot : kColors[handle.axis];
+    for (std::size_t i = 0; i + 1 < handle.line.size(); ++i)
+        list->AddLine({handle.line[i].x, handle.line[i].y}, {handle.line[i + 1].x, handle.line[i + 1].y},
+                      color, 2.5f);
+    const glm::vec2 end = handle.line.size() > kRing ? handle.line[5 * kRing / 8] : handle.line.back();
+    if (handle.line.size() == 2 && arrow) {
+        const glm::vec2 d = glm::normalize(handle.line[1] - handle.line[0]), side(-d.y, d.x);
+        const glm::vec2 tip = end + 8.0f * d, left = end + 5.0f * side, right = end - 5.0f * side;
+        list->AddTriangleFilled({tip.x, tip.y}, {left.x, left.y}, {right.x, right.y}, color);
+    } else if (handle.line.size() <= 2) {
+        list->AddRectFilled({end.x - 5, end.y - 5}, {end.x + 5, end.y + 5}, color);
+    }
+    static constexpr const char* kNames[4] = {"gizmo:x", "gizmo:y", "gizmo:z", "gizmo:all"};
+    notePlace(kNames[handle.axis], end - 3.0f, end + 3.0f);
 }
 
 }  // namespace conelight::program

@@ -4,6 +4,8 @@
 
 #include <imgui.h>
 
+#include <cstdint>
+
 namespace conelight::program {
 
 #if IMGUI_VERSION_NUM >= 19090
@@ -17,6 +19,11 @@ constexpr ImGuiSelectableFlags kKeepPopup = ImGuiSelectableFlags_NoAutoClosePopu
 #else
 constexpr ImGuiSelectableFlags kKeepPopup = ImGuiSelectableFlags_DontClosePopups;
 #endif
+
+// Of the window's context: an integer or a pointer, by ImGui's version.
+inline ImTextureID textureId(std::uint32_t texture) {
+    return (ImTextureID)(static_cast<std::uintptr_t>(texture));
+}
 
 inline bool escapePressed() {
 #if IMGUI_VERSION_NUM >= 18700

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <utility>
 
+#include "session/addition.h"
 #include "viewer/focus.h"
 #include "viewer/imgui_names.h"
 #include "viewer/requests.h"
@@ -168,7 +169,9 @@ void Menus::takeKey(const platform::Window::KeyEvent& press) {
         case GLFW_KEY_G:
             return in_.view.guides.setAll(!in_.view.guides.any());
         case GLFW_KEY_L:
-            return toggleHeadlight();
+            if (!press.shift()) return toggleHeadlight();
+            in_.view.lights.shown = !in_.view.lights.shown;
+            return;
         case GLFW_KEY_O:
             return in_.view.turntable.toggle(in_.session);
         case GLFW_KEY_P:
@@ -216,6 +219,10 @@ void Menus::takeControlKey(const platform::Window::KeyEvent& press) {
             return in_.console.run("show");
         case GLFW_KEY_D:
             return in_.console.run("duplicate");
+        case GLFW_KEY_A:
+            return in_.console.run(press.shift() ? "select none" : "select all");
+        case GLFW_KEY_I:
+            return in_.console.run("select invert");
         case GLFW_KEY_O:
             return in_.document.ask(FilePurpose::OpenScene);
         case GLFW_KEY_S:
@@ -242,6 +249,7 @@ void Menus::showBar() {
     if (ImGui::BeginMainMenuBar()) {
         fileMenu();
         editMenu();
+        addMenu();
         viewMenu();
         pictureMenu();
         if (beginMenu("Help")) {
@@ -336,14 +344,44 @@ void Menus::editMenu() {
     if (ImGui::MenuItem("Redo", "Ctrl+Y", false, in_.session.redoSteps() > 0)) in_.session.redo();
     notePlace("menu:Redo");
     ImGui::Separator();
-    const bool object = in_.session.selection().kind == SelectionKind::Instance;
-    for (const auto& [text, keys, line, needsObject] :
-         {std::tuple("Hide", "H", "hide", true), std::tuple("Hide all others", "Shift+H", "isolate", true),
-          std::tuple("Show all", "Ctrl+H", "show", false), std::tuple("Delete", "Del", "delete", true),
-          std::tuple("Duplicate", "Ctrl+D", "duplicate", true)}) {
-        if (ImGui::MenuItem(text, keys, false, object || !needsObject)) in_.console.run(line);
+    const SelectionKind kind = in_.session.selection().kind;
+    const bool some = kind == SelectionKind::Instance || kind == SelectionKind::Light;
+    const bool object = !in_.session.selectedOf(SelectionKind::Instance).empty();
+    const auto item = [&](const char* text, const char* keys, const char* line, bool enabled) {
+        if (ImGui::MenuItem(text, keys, false, enabled)) in_.console.run(line);
         notePlace(std::string("menu:") + text);
-    }
+    };
+    item("Hide", "H", "hide", some);
+    item("Hide all others", "Shift+H", "isolate", object);
+    item("Show all", "Ctrl+H", "show", true);
+    item("Delete", "Del", "delete", some);
+    item("Duplicate", "Ctrl+D", "duplicate", some);
+    item("Make material single", nullptr, "single_material", object);
+    ImGui::Separator();
+    item("Select all", "Ctrl+A", "select all", true);
+    item("Select none", "Escape", "select none", true);
+    item("Invert selection", "Ctrl+I", "select invert", true);
+    ImGui::EndMenu();
+}
+
+// Shapes and files where the view looks, lights where the eye is.
+void Menus::addMenu() {
+    const bool open = ImGui::BeginMenu("Add");
+    notePlace("menu:Add");
+    if (!open) return;
+    const auto item = [&](const std::string& kind, const std::string& line) {
+        std::string text = kind;
+        text[0] = static_cast<char>(text[0] - 'a' + 'A');
+        if (ImGui::MenuItem(text.c_str())) in_.console.run(line);
+        notePlace("menu:" + text);
+    };
+    for (const std::string& kind : shapeKinds()) item(kind, "add " + kind);
+    ImGui::Separator();
+    for (const char* kind : {"point", "spot", "directional", "rect"})
+        item(std::string(kind) + " light", std::string("light add ") + kind);
+    ImGui::Separator();
+    if (ImGui::MenuItem("Import a file...")) in_.document.ask(FilePurpose::ImportScene);
+    notePlace("menu:Import");
     ImGui::EndMenu();
 }
 
@@ -381,6 +419,8 @@ void Menus::viewMenu() {
     guidesMenu();
     ImGui::Separator();
     ImGui::MenuItem("Split", "X", &in_.view.split.on);
+    ImGui::MenuItem("Lights", "Shift+L", &in_.view.lights.shown);
+    notePlace("menu:Lights");
     ImGui::MenuItem("Panels", "Tab", &in_.panels.showSide);
     ImGui::MenuItem("Console", "Ctrl+J", &in_.panels.showConsole);
     notePlace("menu:Console");

@@ -52,6 +52,7 @@ class Menus {
     void fileMenu();
     void presetMenu();
     void editMenu();
+    void addMenu();
     void viewMenu();
     void pictureMenu();  // picture_menu.cpp, as takePictureKey
     void takePictureKey(const platform::Window::KeyEvent& press);

@@ -20,10 +20,6 @@ namespace conelight::program {
 // Takes a line of the console: what has a command is done by it, and said in the log.
 using RunLine = std::function<void(const std::string& line)>;
 
-// Objects, lights, materials, cameras as lists; the selection is set by a click.
-void sceneTree(Session& session, const std::string& filter, const RunLine& run);
-// What is selected, editable: transform and flags, material, light.
-void selectionEditor(Session& session);
 void cameraEditor(Session& session);
 // What films take; `samples`: a pixel and frame in mode reference.
 struct FilmNumbers {

@@ -23,7 +23,7 @@ std::optional<PictureView::Click> PicturePanel::show(const glm::vec2& at, const 
     const std::optional<PictureView::Click> clicked = in_.view.show(in_.session, at, size, seconds);
     const bool kept = in_.view.kept.shows(), live = in_.view.slot(false).texture() != 0 && !kept;
     if (live) in_.view.guides.draw(in_.session, in_.probe.picker(), at, size, in_.view.moving());
-    if (live) outline_.draw(in_.session, at, size);
+    if (live) outline_.draw(in_.session, in_.view.bounds, at, size, in_.view.moving());
     if (!kept) in_.probe.drawOverPicture(at, size);
     if (live || kept) showLabels(at, size);
     if (live || kept) showInstruments(at, size);

@@ -14,6 +14,7 @@
 #include "platform/picture_texture.h"
 #include "reference/metrics.h"
 #include "viewer/camera_control.h"
+#include "viewer/imgui_names.h"
 #include "viewer/widget_places.h"
 
 namespace conelight::program {
@@ -25,11 +26,6 @@ constexpr double kUnknownMs = 1e9;        // a picture of unknown cost: movement
 constexpr double kSlowFrameMs = 30;       // refinement of pictures that take longer waits for the user
 constexpr float kTurnPerPixel = 0.0035f;  // rad; the original's 0.1 degrees at twice the speed, by hand
 constexpr float kClickSlop = 4;           // px: a press that moved less is a click
-
-ImTextureID idOf(std::uint32_t texture) {
-    return (
-        ImTextureID)(static_cast<std::uintptr_t>(texture));  // an integer or a pointer, by ImGui's version
-}
 
 // ImGui's clock stands still within a frame.
 double wallSeconds() {
@@ -236,14 +232,14 @@ std::optional<PictureView::Click> PictureView::show(Session& session, const glm:
     const ImVec2 low{at.x, at.y}, high{at.x + size.x, at.y + size.y};
     if (left_->texture() != 0) {
         const glm::vec2 margin = marginOf({left_->width(), left_->height()}, size);
-        list->AddImage(idOf(left_->texture()), {low.x + margin.x, low.y + margin.y},
+        list->AddImage(textureId(left_->texture()), {low.x + margin.x, low.y + margin.y},
                        {high.x - margin.x, high.y - margin.y});
     }
 
     if (split.on) {
         const float x = at.x + split.position * size.x;
         const std::uint32_t right = rightTexture(session.settings().image);
-        if (right != 0) list->AddImage(idOf(right), {x, low.y}, high, {split.position, 0}, {1, 1});
+        if (right != 0) list->AddImage(textureId(right), {x, low.y}, high, {split.position, 0}, {1, 1});
         list->AddLine({x, low.y}, {x, high.y}, IM_COL32(235, 235, 235, 220), 2);
         const ImVec2 mouse = ImGui::GetIO().MousePos;
         const bool onHandle = hovered && std::fabs(mouse.x - x) < 6;
@@ -254,15 +250,20 @@ std::optional<PictureView::Click> PictureView::show(Session& session, const glm:
     }
     // A click that a handle takes neither moves the camera nor selects.
     const bool wasDragging = dragged_ || draggingSplit_ || gizmo.active();
-    gizmo.show(session, at, size, hovered && !draggingSplit_ && !window_.cursorCaptured());
+    const bool points = hovered && !draggingSplit_ && !window_.cursorCaptured();
+    if (left_->texture() != 0) lights.draw(session, bounds, at, size, points && !gizmo.active());
+    gizmo.show(session, bounds, at, size, points);
     if (takeInput(session, size, hovered, seconds)) lastMove_ = lastFlight_ = ImGui::GetTime();
 
+    if (const auto menu = std::exchange(menuAt_, std::nullopt); menu && left_->width() > 0)
+        return Click{(*menu - at) / size, false, true};
     // A press and release in place.
     if (hovered && letGo && ImGui::IsMouseReleased(ImGuiMouseButton_Left) && !wasDragging &&
         left_->width() > 0) {
         const ImVec2 mouse = ImGui::GetIO().MousePos, from = ImGui::GetIO().MouseClickedPos[0];
         if (std::hypot(mouse.x - from.x, mouse.y - from.y) > kClickSlop) return std::nullopt;
-        return Click{{(mouse.x - at.x) / size.x, (mouse.y - at.y) / size.y}};
+        const bool adds = ImGui::GetIO().KeyCtrl || ImGui::GetIO().KeyShift;
+        return Click{{(mouse.x - at.x) / size.x, (mouse.y - at.y) / size.y}, adds};
     }
     return std::nullopt;
 }
@@ -277,18 +278,25 @@ bool PictureView::takeInput(Session& session, const glm::vec2& size, bool hovere
     if (hovered && ImGui::IsMouseClicked(ImGuiMouseButton_Right)) {
         window_.captureCursor(true);
         flyCursor_ = window_.cursor();
+        rightFrom_ = {io.MousePos.x, io.MousePos.y};
+        flown_ = false;
     }
     if (window_.cursorCaptured()) {
         const glm::dvec2 cursor = window_.cursor();
-        const glm::vec2 turn = glm::vec2(flyCursor_ - cursor) * kTurnPerPixel;
-        flyCursor_ = cursor;
         const glm::vec3 move = moveKeys(window_);
+        // A press that hardly moves is a click.
+        flown_ = flown_ || move != glm::vec3(0) || glm::length(cursor - flyCursor_) > double(kClickSlop);
+        const glm::vec2 turn = flown_ ? glm::vec2(flyCursor_ - cursor) * kTurnPerPixel : glm::vec2(0);
+        if (flown_) flyCursor_ = cursor;
         if (turn != glm::vec2(0) || move != glm::vec3(0)) {
             const float boost = io.KeyShift ? 4.0f : io.KeyCtrl ? 0.25f : 1.0f;
             fly(camera, {move, turn, std::min(seconds, 0.2f), boost * flySpeed(session.scene().bounds())});
             moved = true;
         }
-        if (!rightDown && !window_.isKeyDown(GLFW_KEY_LEFT_ALT)) window_.captureCursor(false);
+        if (!rightDown && !window_.isKeyDown(GLFW_KEY_LEFT_ALT)) {
+            window_.captureCursor(false);
+            if (!flown_) menuAt_ = rightFrom_;
+        }
     } else if (ImGui::IsItemActive() && !draggingSplit_ && !gizmo.active()) {
         const glm::vec2 delta(io.MouseDelta.x, io.MouseDelta.y);
         if (ImGui::IsMouseDragging(ImGuiMouseButton_Left, kClickSlop)) dragged_ = true;

@@ -4,6 +4,7 @@
 //
 //   right drag: look round; with it W A S D, Q E: fly    left drag: orbit    middle drag: pan
 //   wheel: nearer, farther; with Ctrl: field of view      left click: select and inspect
+//   with Ctrl or Shift: select beside the others          right click: a menu of what is there
 #pragma once
 
 #include <functional>
@@ -17,6 +18,7 @@
 #include "session/session.h"
 #include "viewer/gizmo.h"
 #include "viewer/kept_picture.h"
+#include "viewer/light_shapes.h"
 #include "viewer/moving_resolution.h"
 #include "viewer/picture_slot.h"
 #include "viewer/scopes_panel.h"
@@ -54,6 +56,8 @@ class PictureView {
     // The GUI part: shows the textures at the cursor, moves the camera, returns where it was clicked.
     struct Click {
         glm::vec2 part{0};  // of the picture's width and height, from the upper left corner
+        bool adds = false;  // beside what is selected
+        bool menu = false;  // of what is there
     };
     std::optional<Click> show(Session& session, const glm::vec2& at, const glm::vec2& size, float seconds);
     // The movement that runs or ran last: pictures, how long they took together, the longest wait for one.
@@ -75,6 +79,8 @@ class PictureView {
     ViewGuides guides;
     Turntable turntable;
     float headlight = 0;           // Renderer::setHeadlight of both sides
+    LightShapes lights;
+    MeshBounds bounds;
     float resolutionScale = 1.0f;  // of the still picture, 0.25..1
     PictureSlot& slot(bool right) { return right ? *right_ : *left_; }
     glm::ivec2 pictureSize() const;                    // of the left picture
@@ -112,6 +118,10 @@ class PictureView {
     bool draggingSplit_ = false;
     bool rightInUse_ = false;
     glm::dvec2 flyCursor_{0};
+    // Of the right button: where it went down, whether it flew since, a click that was no flight.
+    glm::vec2 rightFrom_{0};
+    bool flown_ = false;
+    std::optional<glm::vec2> menuAt_;
 };
 
 }  // namespace conelight::program

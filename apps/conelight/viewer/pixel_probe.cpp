@@ -10,8 +10,31 @@ void PixelProbe::inspectPixel(const glm::ivec2& pixel) {
     inspect({(glm::vec2(pixel) + 0.5f) / glm::max(glm::vec2(linear.width, linear.height), 1.0f)});
 }
 
+std::optional<Pick> PixelProbe::pickAt(const glm::vec2& part, const glm::ivec2& size) {
+    const glm::ivec2 pixel = glm::clamp(glm::ivec2(part * glm::vec2(size)), glm::ivec2(0), size - 1);
+    return picker_.atPixel(session_, size.x, size.y, pixel.x, pixel.y);
+}
+
+Selection PixelProbe::at(const glm::vec2& part) {
+    if (const auto light = view_.lights.at(part)) return {SelectionKind::Light, *light};
+    const glm::ivec2 size = view_.pictureSize();
+    if (size.x == 0) return {};
+    const std::optional<Pick> hit = pickAt(part, size);
+    return hit ? Selection{SelectionKind::Instance, hit->instance} : Selection{};
+}
+
+void PixelProbe::choose(const PictureView::Click& click) {
+    const Selection there = at(click.part);
+    if (click.adds) return session_.toggleSelected(there);
+    if (there.kind != SelectionKind::None && !session_.isSelected(there)) session_.select(there);
+}
+
 void PixelProbe::select(const PictureView::Click& click) {
     PictureSlot& slot = view_.slotAt(click.part.x);
+    if (const auto light = view_.lights.at(click.part)) {
+        clear();
+        return session_.select({SelectionKind::Light, *light});
+    }
     const Image& linear = slot.linear();
     const glm::ivec2 size(linear.width, linear.height);
     if (size.x == 0) return;
@@ -20,7 +43,7 @@ void PixelProbe::select(const PictureView::Click& click) {
     inspection.pixel = pixel;
     inspection.radiance = linear.pixels[static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(size.x) +
                                         static_cast<std::size_t>(pixel.x)];
-    inspection.hit = picker_.atPixel(session_, size.x, size.y, pixel.x, pixel.y);
+    inspection.hit = pickAt(click.part, size);
     session_.select(inspection.hit ? Selection{SelectionKind::Instance, inspection.hit->instance}
                                    : Selection{});
     gathersIn_ = inspection.hit ? &slot : nullptr;  // nothing gathers in the sky

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What lies under a pixel: a click selects the object there and keeps what the pixel gathered, for the panel
-// beside the picture and the lines over it, until the scene or the settings change.
+// What lies under a pixel: a click selects the light whose icon is there, else the object, and keeps what the pixel
+// gathered, for the panel beside the picture and the lines over it, until the scene or the settings change.
 #pragma once
 
 #include <cstdint>
@@ -26,6 +26,9 @@ class PixelProbe {
     // The same in two: the second takes long, above all the first time, when programs are built.
     void select(const PictureView::Click& click);
     void gather();
+    // Selects what is there, without a look at its light: beside the others when the click adds; else it alone,
+    // unless it is selected already or there is nothing.
+    void choose(const PictureView::Click& click);
     void inspectPixel(const glm::ivec2& pixel);  // of the left picture
     void clear() {
         found_.reset();
@@ -40,6 +43,9 @@ class PixelProbe {
     Picker& picker() { return picker_; }
 
   private:
+    Selection at(const glm::vec2& part);
+    std::optional<Pick> pickAt(const glm::vec2& part, const glm::ivec2& size);
+
     Session& session_;
     PictureView& view_;
     Picker picker_;

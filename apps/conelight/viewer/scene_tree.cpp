@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
+#include "viewer/scene_tree.h"
+
 #include <fmt/core.h>
 #include <imgui.h>
 
 #include <algorithm>
 
 #include "io/scene_info.h"
-#include "viewer/panels.h"
 #include "viewer/widget_places.h"
 
 namespace conelight::program {
@@ -15,59 +16,23 @@ std::string nameOr(const std::string& name, const char* kind, std::size_t index)
     return name.empty() ? fmt::format("{} {}", kind, index) : name;
 }
 
-// A line of a list: shown when it matches the filter, selects what it names.
-void entry(Session& session, const std::string& label, const std::string& filter, const Selection& what) {
-    if (label.find(filter) == std::string::npos) return;
-    ImGui::PushID(static_cast<int>(what.index));
-    if (ImGui::Selectable(label.c_str(), session.selection() == what)) session.select(what);
-    notePlace("entry:" + label);
-    ImGui::PopID();
-}
-
-bool heading(const char* name, std::size_t count) {
-    return ImGui::CollapsingHeader(fmt::format("{} ({})###{}", name, count, name).c_str(),
-                                   count <= 32 ? ImGuiTreeNodeFlags_DefaultOpen : 0);
-}
-
-void objects(Session& session, const std::string& filter) {
-    const std::vector<Instance>& instances = session.scene().instances;
-    if (!heading("Objects", instances.size())) return;
-    // Long lists draw only the lines that are seen.
+// Indices of what has a name with `filter` in it.
+template <class T>
+std::vector<std::size_t> matching(const std::vector<T>& things, const char* kind, const std::string& filter) {
     std::vector<std::size_t> shown;
-    for (std::size_t i = 0; i < instances.size(); ++i)
-        if (nameOr(instances[i].name, "object", i).find(filter) != std::string::npos) shown.push_back(i);
-    ImGuiListClipper clipper;
-    clipper.Begin(static_cast<int>(shown.size()));
-    while (clipper.Step())
-        for (int line = clipper.DisplayStart; line < clipper.DisplayEnd; ++line) {
-            const std::size_t i = shown[static_cast<std::size_t>(line)];
-            ImGui::PushID(static_cast<int>(i));
-            bool visible = instances[i].visible;
-            const bool switched = ImGui::Checkbox("##visible", &visible);
-            notePlace("visible:" + nameOr(instances[i].name, "object", i));
-            if (switched) {
-                Instance changed = instances[i];
-                changed.visible = visible;
-                session.setInstances({{i, changed}},
-                                     visible ? "show " + changed.name : "hide " + changed.name);
-            }
-            ImGui::SameLine();
-            const Selection what{SelectionKind::Instance, i};
-            if (ImGui::Selectable(nameOr(instances[i].name, "object", i).c_str(),
-                                  session.selection() == what))
-                session.select(what);
-            notePlace("object:" + nameOr(instances[i].name, "object", i));
-            ImGui::PopID();
-        }
+    for (std::size_t i = 0; i < things.size(); ++i)
+        if (filter.empty() || nameOr(things[i].name, kind, i).find(filter) != std::string::npos)
+            shown.push_back(i);
+    return shown;
 }
 
-// Lamps that are no lights of the scene but surfaces: their materials.
-void glowing(Session& session, const std::string& filter) {
-    const std::vector<Material>& materials = session.scene().materials;
-    for (std::size_t i = 0; i < materials.size(); ++i)
-        if (materials[i].emission != glm::vec3(0))
-            entry(session, nameOr(materials[i].name, "material", i) + " (glows)", filter,
-                  {SelectionKind::Material, i});
+// Draws the lines of a list that are seen.
+template <class Line>
+void clipped(std::size_t count, float rowHeight, const Line& line) {
+    ImGuiListClipper clipper;
+    clipper.Begin(static_cast<int>(count), rowHeight);
+    while (clipper.Step())
+        for (int i = clipper.DisplayStart; i < clipper.DisplayEnd; ++i) line(static_cast<std::size_t>(i));
 }
 
 // One where the eye is.
@@ -105,30 +70,166 @@ void drawEnvironment(Session& session) {
 
 }  // namespace
 
-void sceneTree(Session& session, const std::string& filter, const RunLine& run) {
-    const Scene& scene = session.scene();
-    objects(session, filter);
-    if (heading("Lights", scene.lights.size())) {
-        for (std::size_t i = 0; i < scene.lights.size(); ++i)
-            entry(session,
-                  fmt::format("{}  ({})", nameOr(scene.lights[i].name, "light", i),
-                              io::lightTypeName(scene.lights[i].type)),
-                  filter, {SelectionKind::Light, i});
-        glowing(session, filter);
-        addLight(run);
+// A click in the list is seen where it is.
+void SceneTree::followSelection(const Session& session) {
+    if (session.selection() == seen_) return;
+    seen_ = session.selection();
+    reveal_.reset();
+    if (seen_.kind != SelectionKind::None) reveal_ = seen_;
+}
+
+bool SceneTree::heading(const char* name, std::size_t count, SelectionKind kind) {
+    if (reveal_ && reveal_->kind == kind) ImGui::SetNextItemOpen(true);
+    return ImGui::CollapsingHeader(fmt::format("{} ({})###{}", name, count, name).c_str(),
+                                   count <= 32 ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+}
+
+// Before the rows are drawn: to the middle, unless the row is seen already.
+void SceneTree::scrollTo(const std::vector<std::size_t>& shown, SelectionKind kind, float rowHeight) {
+    if (!reveal_ || reveal_->kind != kind) return;
+    const auto found = std::lower_bound(shown.begin(), shown.end(), reveal_->index);
+    const bool listed = found != shown.end() && *found == reveal_->index;
+    reveal_.reset();
+    if (!listed) return;
+    const float top = ImGui::GetCursorPosY() + static_cast<float>(found - shown.begin()) * rowHeight;
+    const float height = ImGui::GetWindowHeight(), from = ImGui::GetScrollY();
+    if (top >= from && top + rowHeight <= from + height) return;
+    ImGui::SetScrollY(std::max(top - 0.5f * (height - rowHeight), 0.0f));
+}
+
+void SceneTree::click(Session& session, const Selection& what, const std::vector<std::size_t>& shown) {
+    const ImGuiIO& io = ImGui::GetIO();
+    const bool several = what.kind != SelectionKind::Material;
+    const auto from = std::lower_bound(shown.begin(), shown.end(), anchor_.index);
+    const auto to = std::lower_bound(shown.begin(), shown.end(), what.index);
+    const bool hasAnchor = anchor_.kind == what.kind && from != shown.end() && *from == anchor_.index;
+    if (several && io.KeyShift && hasAnchor) {
+        std::vector<Selection> all = io.KeyCtrl ? session.selected() : std::vector<Selection>{};
+        for (auto i = std::min(from, to); i <= std::max(from, to); ++i) all.push_back({what.kind, *i});
+        all.push_back(what);
+        session.selectAll(all);
+    } else {
+        several && (io.KeyCtrl || io.KeyShift) ? session.toggleSelected(what) : session.select(what);
+        anchor_ = what;
     }
-    if (heading("Materials", scene.materials.size()))
-        for (std::size_t i = 0; i < scene.materials.size(); ++i)
-            entry(session, nameOr(scene.materials[i].name, "material", i), filter,
-                  {SelectionKind::Material, i});
-    if (heading("Cameras", scene.cameras.size()))
-        for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
-            const std::string name = nameOr(scene.cameras[i].name, "camera", i);
-            ImGui::PushID(static_cast<int>(i));
-            if (ImGui::Selectable(name.c_str())) session.jumpCamera(scene.cameras[i], "camera " + name);
-            notePlace("camera:" + name);
-            ImGui::PopID();
-        }
+    seen_ = session.selection();
+}
+
+void SceneTree::row(Session& session, const std::string& label, const Selection& what,
+                    const std::vector<std::size_t>& shown) {
+    // Headings have the colour of rows, too.
+    ImGui::PushStyleColor(ImGuiCol_Header, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
+    const bool clicked = ImGui::Selectable(label.c_str(), session.isSelected(what));
+    ImGui::PopStyleColor();
+    if (clicked) click(session, what, shown);
+    if (!ImGui::IsItemHovered() || !ImGui::IsMouseReleased(ImGuiMouseButton_Right)) return;
+    if (!session.isSelected(what)) click(session, what, shown);
+    const ImVec2 mouse = ImGui::GetIO().MousePos;
+    actions_.openMenu({mouse.x, mouse.y});
+}
+
+void SceneTree::visibleBox(Session& session, std::size_t index, const std::string& name) {
+    bool visible = session.scene().instances[index].visible;
+    const bool switched = ImGui::Checkbox("##visible", &visible);
+    notePlace("visible:" + name);
+    if (!switched) return;
+    Instance changed = session.scene().instances[index];
+    changed.visible = visible;
+    session.setInstances({{index, changed}}, visible ? "show " + changed.name : "hide " + changed.name);
+}
+
+void SceneTree::objects(Session& session, const std::string& filter) {
+    if (!heading("Objects", session.scene().instances.size(), SelectionKind::Instance)) return;
+    const Revisions& now = session.revisions();
+    const std::uint64_t revision = 1 + now.scene + now.instances;
+    if (objects_.revision != revision || objects_.filter != filter)
+        objects_ = {filter, revision, matching(session.scene().instances, "object", filter)};
+    const float height = ImGui::GetFrameHeightWithSpacing();
+    scrollTo(objects_.shown, SelectionKind::Instance, height);
+    clipped(objects_.shown.size(), height, [&](std::size_t line) {
+        const std::size_t i = objects_.shown[line];
+        const std::string name = nameOr(session.scene().instances[i].name, "object", i);
+        ImGui::PushID(static_cast<int>(i));
+        visibleBox(session, i, name);
+        ImGui::SameLine();
+        row(session, name, {SelectionKind::Instance, i}, objects_.shown);
+        notePlace("object:" + name);
+        ImGui::PopID();
+    });
+}
+
+void SceneTree::lights(Session& session, const std::string& filter) {
+    const std::vector<Light>& all = session.scene().lights;
+    if (!heading("Lights", all.size(), SelectionKind::Light)) return;
+    const std::vector<std::size_t> shown = matching(all, "light", filter);
+    const float height = ImGui::GetTextLineHeightWithSpacing();
+    scrollTo(shown, SelectionKind::Light, height);
+    clipped(shown.size(), height, [&](std::size_t line) {
+        const std::size_t i = shown[line];
+        const std::string label =
+            fmt::format("{}  ({})", nameOr(all[i].name, "light", i), io::lightTypeName(all[i].type));
+        ImGui::PushID(static_cast<int>(i));
+        row(session, label, {SelectionKind::Light, i}, shown);
+        notePlace("entry:" + label);
+        ImGui::PopID();
+    });
+    // Lamps that are no lights of the scene but surfaces: their materials.
+    const std::vector<Material>& materials = session.scene().materials;
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        if (materials[i].emission == glm::vec3(0)) continue;
+        const std::string label = nameOr(materials[i].name, "material", i) + " (glows)";
+        if (label.find(filter) == std::string::npos) continue;
+        ImGui::PushID(static_cast<int>(i));
+        row(session, label, {SelectionKind::Material, i}, {});
+        notePlace("entry:" + label);
+        ImGui::PopID();
+    }
+    addLight(actions_.run);
+}
+
+void SceneTree::materials(Session& session, const std::string& filter) {
+    const std::vector<Material>& all = session.scene().materials;
+    if (!heading("Materials", all.size(), SelectionKind::Material)) return;
+    const std::uint64_t revision = 1 + session.revisions().scene + session.revisions().materials;
+    if (materials_.revision != revision || materials_.filter != filter)
+        materials_ = {filter, revision, matching(all, "material", filter)};
+    const float height = ImGui::GetTextLineHeightWithSpacing();
+    scrollTo(materials_.shown, SelectionKind::Material, height);
+    clipped(materials_.shown.size(), height, [&](std::size_t line) {
+        const std::size_t i = materials_.shown[line];
+        const std::string name = nameOr(all[i].name, "material", i);
+        ImGui::PushID(static_cast<int>(i));
+        row(session, name, {SelectionKind::Material, i}, materials_.shown);
+        notePlace("entry:" + name);
+        ImGui::PopID();
+    });
+}
+
+void SceneTree::cameras(Session& session) {
+    const Scene& scene = session.scene();
+    if (!heading("Cameras", scene.cameras.size(), SelectionKind::None)) return;
+    for (std::size_t i = 0; i < scene.cameras.size(); ++i) {
+        const std::string name = nameOr(scene.cameras[i].name, "camera", i);
+        ImGui::PushID(static_cast<int>(i));
+        if (ImGui::Selectable(name.c_str())) session.jumpCamera(scene.cameras[i], "camera " + name);
+        notePlace("camera:" + name);
+        ImGui::PopID();
+    }
+}
+
+void SceneTree::show(Session& session, const std::string& filter) {
+    followSelection(session);
+    // Things of several kinds may have one name and number.
+    const auto list = [](const char* id, const auto& draw) {
+        ImGui::PushID(id);
+        draw();
+        ImGui::PopID();
+    };
+    list("objects", [&] { objects(session, filter); });
+    list("lights", [&] { lights(session, filter); });
+    list("materials", [&] { materials(session, filter); });
+    list("cameras", [&] { cameras(session); });
+    const Scene& scene = session.scene();
     glm::vec3 sky = scene.sky;
     if (ImGui::ColorEdit3("sky", &sky.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR))
         session.setSky(glm::max(sky, glm::vec3(0)), "sky", "sky");

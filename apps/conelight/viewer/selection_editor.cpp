@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "viewer/selection_editor.h"
+
 #include <fmt/core.h>
 #include <imgui.h>
 
@@ -7,11 +9,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtx/euler_angles.hpp>
 
-#include "io/scene_info.h"
 #include "session/lens_range.h"
-#include "session/light_edit.h"
-#include "viewer/panels.h"
-#include "viewer/widget_places.h"
+#include "session/material_edit.h"
+#include "viewer/edit_steps.h"
 
 namespace conelight::program {
 namespace {
@@ -28,13 +28,50 @@ Placement placementOf(const glm::mat4& m) {
             {glm::length(glm::vec3(m[0])), glm::length(glm::vec3(m[1])), glm::length(glm::vec3(m[2]))}};
 }
 
-// Of the widget before: it can be found by `where edit:NAME`, and the end of its drag ends a step of undo.
-void seals(Session& session, const char* name) {
-    notePlace(std::string("edit:") + name);
-    if (ImGui::IsItemDeactivatedAfterEdit()) session.seal();
+// Of all objects that are selected.
+void editFlags(Session& session, const Instance& shown) {
+    const auto flag = [&](const char* name, bool Instance::*member) {
+        bool on = shown.*member;
+        const bool switched = ImGui::Checkbox(name, &on);
+        notePlace(std::string("edit:") + name);
+        if (!switched) return;
+        std::vector<std::pair<std::size_t, Instance>> changed;
+        for (const std::size_t i : session.selectedOf(SelectionKind::Instance)) {
+            changed.emplace_back(i, session.scene().instances[i]);
+            changed.back().second.*member = on;
+        }
+        session.setInstances(changed, std::string(name) + (on ? " on" : " off"));
+    };
+    flag("visible", &Instance::visible);
+    ImGui::SameLine();
+    flag("voxelized", &Instance::voxelized);
+    flag("casts shadow", &Instance::castsShadow);
+    ImGui::SameLine();
+    flag("dynamic", &Instance::dynamic);
 }
 
-void editInstance(Session& session, std::size_t index) {
+bool editGlass(Session& session, Material& m) {
+    bool changed = ImGui::SliderFloat("transmission", &m.transmission, 0, 1);
+    seals(session, "transmission");
+    if (!(m.transmission > 0)) return changed;
+    bool solid = m.thickness > 0;
+    if (ImGui::Checkbox("solid", &solid)) {
+        m.thickness = solid ? 1.0f : 0.0f;
+        changed = true;
+    }
+    if (!solid) return changed;
+    changed |= ImGui::ColorEdit3("attenuation", &m.attenuationColor.x, ImGuiColorEditFlags_Float);
+    seals(session, "attenuation");
+    changed |=
+        ImGui::DragFloat("attenuation distance", &m.attenuationDistance, 0.01f, 0.0f, 1000.0f, "%.3f m");
+    seals(session, "attenuation distance");
+    m.attenuationColor = glm::clamp(m.attenuationColor, kLeastAttenuationColor, 1.0f);
+    return changed;
+}
+
+}  // namespace
+
+void SelectionEditor::editInstance(Session& session, std::size_t index, const RunLine& run) {
     Instance instance = session.scene().instances[index];
     const std::string key = fmt::format("instance {}", index);
     ImGui::TextUnformatted(instance.name.empty() ? key.c_str() : instance.name.c_str());
@@ -67,41 +104,47 @@ void editInstance(Session& session, std::size_t index) {
         changed = true;
     }
     seals(session, "scale");
-    changed |= ImGui::Checkbox("visible", &instance.visible);
-    ImGui::SameLine();
-    changed |= ImGui::Checkbox("voxelized", &instance.voxelized);
-    changed |= ImGui::Checkbox("casts shadow", &instance.castsShadow);
-    ImGui::SameLine();
-    changed |= ImGui::Checkbox("dynamic", &instance.dynamic);
     if (changed) session.setInstances({{index, instance}}, "edit " + instance.name, key);
+    editFlags(session, instance);
+    showMaterialOf(session, instance, run);
+}
+
+// The material's name, who else has it, a copy for this one.
+void SelectionEditor::showMaterialOf(Session& session, const Instance& instance, const RunLine& run) {
     if (instance.material < 0) return;
-    if (ImGui::Button("edit material"))
-        session.select({SelectionKind::Material, static_cast<std::size_t>(instance.material)});
-    notePlace("edit:material");
-}
-
-bool editGlass(Session& session, Material& m) {
-    bool changed = ImGui::SliderFloat("transmission", &m.transmission, 0, 1);
-    seals(session, "transmission");
-    if (!(m.transmission > 0)) return changed;
-    bool solid = m.thickness > 0;
-    if (ImGui::Checkbox("solid", &solid)) {
-        m.thickness = solid ? 1.0f : 0.0f;
-        changed = true;
+    const auto material = static_cast<std::size_t>(instance.material);
+    const std::size_t uses = usesOf(session, material);
+    const std::string& name = session.scene().materials[material].name;
+    ImGui::Text("%s", name.empty() ? fmt::format("material {}", material).c_str() : name.c_str());
+    if (uses > 1) {
+        ImGui::SameLine();
+        ImGui::TextDisabled("shared by %zu objects", uses);
+        notePlace("shared");
     }
-    if (!solid) return changed;
-    changed |= ImGui::ColorEdit3("attenuation", &m.attenuationColor.x, ImGuiColorEditFlags_Float);
-    seals(session, "attenuation");
-    changed |=
-        ImGui::DragFloat("attenuation distance", &m.attenuationDistance, 0.01f, 0.0f, 1000.0f, "%.3f m");
-    seals(session, "attenuation distance");
-    m.attenuationColor = glm::clamp(m.attenuationColor, kLeastAttenuationColor, 1.0f);
-    return changed;
+    if (ImGui::Button("edit material")) session.select({SelectionKind::Material, material});
+    notePlace("edit:material");
+    if (uses < 2) return;
+    ImGui::SameLine();
+    if (ImGui::Button("make single")) run("single_material");
+    notePlace("edit:make single");
+    if (ImGui::IsItemHovered()) ImGui::SetTooltip("a copy of the material for what is selected alone");
 }
 
-void editMaterial(Session& session, std::size_t index) {
+std::size_t SelectionEditor::usesOf(const Session& session, std::size_t material) {
+    const Revisions& now = session.revisions();
+    const std::uint64_t revision = 1 + now.scene + now.instances + now.materials;
+    if (revision != usesRevision_) uses_ = usesOfMaterials(session.scene());
+    usesRevision_ = revision;
+    return uses_[material];
+}
+
+void SelectionEditor::editMaterial(Session& session, std::size_t index) {
     Material m = session.scene().materials[index];
     ImGui::TextUnformatted(m.name.empty() ? fmt::format("material {}", index).c_str() : m.name.c_str());
+    if (const std::size_t uses = usesOf(session, index); uses != 1) {
+        ImGui::TextDisabled(uses == 0 ? "no object has it" : "shared by %zu objects", uses);
+        notePlace("shared");
+    }
     bool changed = ImGui::ColorEdit4("base colour", &m.baseColor.x, ImGuiColorEditFlags_Float);
     seals(session, "base colour");
     changed |= ImGui::SliderFloat("metallic", &m.metallic, 0, 1);
@@ -119,6 +162,7 @@ void editMaterial(Session& session, std::size_t index) {
     changed |= ImGui::Checkbox("double-sided", &m.doubleSided);
     ImGui::SameLine();
     changed |= ImGui::Checkbox("unlit", &m.unlit);
+    textures_.showThumbnails(session, m);
     if (ImGui::TreeNode("Phong (modes thesis, phong)")) {
         bool own = m.phong.has_value();
         if (ImGui::Checkbox("own values", &own)) {
@@ -142,103 +186,26 @@ void editMaterial(Session& session, std::size_t index) {
     if (changed) session.setMaterials({{index, m}}, "edit " + m.name, fmt::format("material {}", index));
 }
 
-// Intensities span decades: colour and strength apart.
-bool editIntensity(Session& session, Light& light) {
-    bool changed = false;
-    float strength = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
-    glm::vec3 color = strength > 0 ? light.intensity / strength : glm::vec3(1);
-    if (ImGui::ColorEdit3("colour", &color.x, ImGuiColorEditFlags_Float)) {
-        light.intensity = color * strength;
-        changed = true;
-    }
-    seals(session, "colour");
-    if (ImGui::DragFloat(io::lightUnit(light.type), &strength, 0.01f * std::max(strength, 0.1f), 0.0f, 1e6f,
-                         "%.4g")) {
-        light.intensity = color * strength;
-        changed = true;
-    }
-    seals(session, "strength");
-    return changed;
-}
-
-// The cone of a spot, the size of a rectangle.
-bool editShape(Session& session, Light& light) {
-    bool changed = false;
-    if (light.type == LightType::Spot) {
-        changed |= ImGui::SliderAngle("inner", &light.innerAngle, 0, 89);
-        seals(session, "inner");
-        changed |= ImGui::SliderAngle("outer", &light.outerAngle, 1, 90);
-        seals(session, "outer");
-        light.innerAngle = std::min(light.innerAngle, light.outerAngle - 0.001f);
-    }
-    if (light.type == LightType::Rect) {
-        glm::vec2 size(2 * glm::length(light.halfU), 2 * glm::length(light.halfV));
-        if (ImGui::DragFloat2("size (m)", &size.x, 0.01f, 0.001f, 1e4f)) {
-            light.halfU = 0.5f * std::max(size.x, 0.001f) * glm::normalize(light.halfU);
-            light.halfV = 0.5f * std::max(size.y, 0.001f) * glm::normalize(light.halfV);
-            changed = true;
-        }
-        seals(session, "size");
-    }
-    return changed;
-}
-
-void editLight(Session& session, std::size_t index) {
-    std::vector<Light> lights = session.scene().lights;
-    Light& light = lights[index];
-    const char* kinds[4];
-    for (int i = 0; i < 4; ++i) kinds[i] = io::lightTypeName(static_cast<LightType>(i));
-    int type = static_cast<int>(light.type);
-    bool changed = ImGui::Checkbox("on", &light.enabled);
-    ImGui::SameLine();
-    changed |= ImGui::Checkbox("casts shadow", &light.castsShadow);
-    if (ImGui::Combo("kind", &type, kinds, 4)) {
-        light.type = static_cast<LightType>(type);
-        aimLight(light, light.direction);
-        changed = true;
-    }
-    notePlace("edit:kind");
-    changed |= editIntensity(session, light);
-    if (light.type != LightType::Directional)
-        changed |= ImGui::DragFloat3("position (m)", &light.position.x, 0.01f);
-    seals(session, "light position");
-    glm::vec3 direction = light.direction;
-    if (light.type != LightType::Point && ImGui::DragFloat3("direction", &direction.x, 0.01f) &&
-        glm::length(direction) > 1e-4f) {
-        aimLight(light, direction);
-        changed = true;
-    }
-    seals(session, "direction");
-    changed |= editShape(session, light);
-    const bool deleted = ImGui::Button("delete");
-    notePlace("edit:delete");
-    if (deleted) {
-        lights.erase(lights.begin() + static_cast<std::ptrdiff_t>(index));
-        session.select({});
-        session.setLights(lights, "delete light");
-        return;
-    }
-    if (changed) session.setLights(lights, "edit light", fmt::format("light {}", index));
-}
-
-}  // namespace
-
-void selectionEditor(Session& session) {
+void SelectionEditor::show(Session& session, const RunLine& run) {
     const Selection selection = session.selection();
-    const Scene& scene = session.scene();
     ImGui::PushItemWidth(-8.0f * ImGui::GetFontSize());
-    if (selection.kind == SelectionKind::Instance && selection.index < scene.instances.size())
-        editInstance(session, selection.index);
-    else if (selection.kind == SelectionKind::Material && selection.index < scene.materials.size())
+    if (session.selected().size() > 1) {
+        ImGui::TextDisabled("%zu selected; of these the last:", session.selected().size());
+        notePlace("several");
+    }
+    if (selection.kind == SelectionKind::Instance)
+        editInstance(session, selection.index, run);
+    else if (selection.kind == SelectionKind::Material)
         editMaterial(session, selection.index);
-    else if (selection.kind == SelectionKind::Light && selection.index < scene.lights.size())
-        editLight(session, selection.index);
+    else if (selection.kind == SelectionKind::Light)
+        editLight(session, selection.index, lights_);
     else {
         ImGui::PushTextWrapPos(0);
         ImGui::TextDisabled("click an object in the picture or in the list");
         ImGui::PopTextWrapPos();
     }
     ImGui::PopItemWidth();
+    textures_.showOpen(session);
 }
 
 void cameraEditor(Session& session) {

@@ -28,7 +28,7 @@ void LeftPanel::show(const Layout& layout) {
     ImGui::InputTextWithHint("##filter", "filter", &filter_);
     ImGui::BeginChild(stage.name);
     if (stage.prefixes.empty())
-        sceneTree(session_, filter_, [this](const std::string& line) { console_.run(line); });
+        tree_.show(session_, filter_);
     else
         settings_.show(session_.settings(), session_.revisions().settings, stage.prefixes, filter_,
                        [this](const std::string& key, const std::string& value, bool done) {
@@ -64,7 +64,8 @@ void LeftPanel::showTabs(const std::vector<Stage>& stages) {
 void RightPanel::show(const Layout& layout) {
     beginPanel("##right", {layout.display.x - layout.right, layout.top},
                {layout.right, layout.display.y - layout.top});
-    if (ImGui::CollapsingHeader("Selection", ImGuiTreeNodeFlags_DefaultOpen)) selectionEditor(in_.session);
+    if (ImGui::CollapsingHeader("Selection", ImGuiTreeNodeFlags_DefaultOpen))
+        selection_.show(in_.session, [this](const std::string& line) { in_.console.run(line); });
     if (ImGui::CollapsingHeader("Pixel", ImGuiTreeNodeFlags_DefaultOpen)) in_.probe.showPanel();
     if (!in_.session.clips().empty()) {
         if (ImGui::CollapsingHeader("Clips", ImGuiTreeNodeFlags_DefaultOpen)) clipEditor(in_.session);

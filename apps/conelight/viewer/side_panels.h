@@ -13,6 +13,9 @@
 #include "viewer/panel_layout.h"
 #include "viewer/picture_view.h"
 #include "viewer/pixel_probe.h"
+#include "viewer/scene_tree.h"
+#include "viewer/selection_editor.h"
+#include "viewer/selection_menu.h"
 #include "viewer/settings_panel.h"
 #include "viewer/timings.h"
 #include "viewer/viewer_console.h"
@@ -21,7 +24,11 @@ namespace conelight::program {
 
 class LeftPanel {
   public:
-    LeftPanel(Session& session, ViewerConsole& console) : session_(session), console_(console) {}
+    LeftPanel(Session& session, ViewerConsole& console, SelectionMenu& menu)
+        : session_(session),
+          console_(console),
+          tree_({[this](const std::string& line) { console_.run(line); },
+                 [&menu](const glm::vec2& at) { menu.open(at); }}) {}
     void show(const Layout& layout);
 
   private:
@@ -35,6 +42,7 @@ class LeftPanel {
 
     Session& session_;
     ViewerConsole& console_;
+    SceneTree tree_;
     SettingsPanel settings_;
     std::size_t stage_ = 0;
     std::string filter_;
@@ -60,6 +68,7 @@ class RightPanel {
 
     Inputs in_;
     KeyStrip strip_;
+    SelectionEditor selection_;
 };
 
 }  // namespace conelight::program

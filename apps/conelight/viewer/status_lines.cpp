@@ -31,6 +31,9 @@ std::string splitText(PictureView& view) {
 }
 
 std::string selectionText(const Session& session) {
+    if (const std::size_t count = session.selected().size(); count > 1)
+        return fmt::format("{} objects, {} lights", session.selectedOf(SelectionKind::Instance).size(),
+                           session.selectedOf(SelectionKind::Light).size());
     const Selection& selection = session.selection();
     const Scene& scene = session.scene();
     if (selection.kind == SelectionKind::Instance) {

@@ -82,6 +82,7 @@ class Viewer {
     void openScene();
     void carryOutRequests();
     std::optional<PictureView::Click> showGui();
+    void takeClick(const PictureView::Click& click);
 
     Session session_;  // without a scene until the first was read
     // Reads the first scene; empty: it has begun.
@@ -107,6 +108,7 @@ class Viewer {
     PanelLayout panels_;
     KeyList keys_;
     Menus menus_;
+    SelectionMenu menu_;
     LeftPanel left_;
     RightPanel right_;
     PicturePanel picture_;
@@ -139,7 +141,8 @@ Viewer::Viewer(const ViewerOptions& options)
       timings_(options.startedMs),
       panels_(window_, gui_),
       menus_({session_, window_, gui_, view_, probe_, console_, document_, panels_, keys_, work_}),
-      left_(session_, console_),
+      menu_({session_, view_, console_}),
+      left_(session_, console_, menu_),
       right_({session_, view_, console_, probe_, document_, work_.film, timings_}),
       picture_({session_, view_, probe_, hint_.text(), notice_}),
       commands_({session_, window_, gui_, view_, console_, work_, probe_, panels_, places_, hint_.text(),
@@ -147,9 +150,7 @@ Viewer::Viewer(const ViewerOptions& options)
     view_.setRadiosity(options.radiosity);
     preferences_.apply(gui_, panels_);
     if (!preferences_.complaint().empty()) console_.fail(preferences_.complaint());
-    window_.onDrop = [this](const std::vector<std::string>& paths) {
-        if (!paths.empty()) document_.open(paths.front());
-    };
+    window_.onDrop = [this](const std::vector<std::string>& paths) { document_.drop(paths); };
     window_.onRefresh = [this] {
         if (!drawing_) frame();
     };
@@ -240,10 +241,7 @@ void Viewer::frame() {
         console_.say(timings_.firstPictureText());
     // What a click selects shows in the next frame, what was gathered there in the one after.
     probe_.gather();
-    if (clicked) {
-        probe_.select(*clicked);
-        more_ = true;
-    }
+    if (clicked) takeClick(*clicked);
     places_.answer(console_);
 }
 
@@ -338,6 +336,14 @@ void Viewer::carryOutRequests() {
     while (carryOutRequest(inputs)) more_ = true;
 }
 
+void Viewer::takeClick(const PictureView::Click& click) {
+    more_ = true;
+    if (!click.menu && !click.adds) return probe_.select(click);
+    probe_.choose(click);
+    const Layout layout = panels_.layout();
+    if (click.menu) menu_.open(layout.pictureAt() + click.part * layout.pictureSize());
+}
+
 std::optional<PictureView::Click> Viewer::showGui() {
     const Layout layout = panels_.layout();
     const glm::vec2 at = layout.pictureAt(), size = layout.pictureSize();
@@ -358,6 +364,7 @@ std::optional<PictureView::Click> Viewer::showGui() {
         picture_.show(at, size, static_cast<float>(ImGui::GetTime() - lastFrame_));
     work_.showStrips(at, size);
     keys_.show(at, size);
+    menu_.show();
     document_.showDialogs();
     recovery_.show(session_);
     panels_.dragBorders(layout);

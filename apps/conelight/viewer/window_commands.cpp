@@ -41,6 +41,8 @@ void WindowCommands::carryOut(const Request& request) {
         {"fullscreen",
          [&](const Words& words) { in_.window.setFullscreen(switched(words, in_.window.fullscreen())); }},
         {"panels", [&](const Words& words) { in_.panels.showAll(switched(words, in_.panels.showSide)); }},
+        {"light_shapes",
+         [&](const Words& words) { in_.view.lights.shown = switched(words, in_.view.lights.shown); }},
         {"view_from", [&](const Words& words) { viewFrom(in_.session, words[1], in_.view.pictureSize()); }},
         {"focus", [&](const Words&) { focusOnSelection(in_.session, in_.view.pictureSize()); }},
         {"pick", [&](const Words& words) { pick(words); }},

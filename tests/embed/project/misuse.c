@@ -65,6 +65,7 @@ static void null_changes(void) {
     EXPECT(CONELIGHT_USAGE, conelight_renderer_set_lights(NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_renderer_set_environment(NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_renderer_add_mesh(NULL, NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_renderer_add_texture(NULL, NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_renderer_add_material(NULL, NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_renderer_add_instance(NULL, NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_renderer_remove_instance(NULL, 0));
@@ -75,6 +76,7 @@ static void null_changes(void) {
     EXPECT(CONELIGHT_USAGE, conelight_light_field_set_lights(NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_light_field_set_environment(NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_light_field_add_mesh(NULL, NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_add_texture(NULL, NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_light_field_add_material(NULL, NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_light_field_add_instance(NULL, NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_light_field_remove_instance(NULL, 0));
