@@ -41,7 +41,7 @@ constexpr std::pair<const char*, const char*> kKeys[] = {
     {"Ctrl+Z, Ctrl+Y", "undo, redo"},
     {"Ctrl + -", "larger, smaller text"},
     {"F5", "read the scene again"},
-    {"F10, Alt+F E V P H", "menus; arrows and Return in them"},
+    {"F10, Alt+F E A V P H", "menus; arrows and Return in them"},
     {"F6", "next panel; arrows, Space in it"},
     {"Ctrl+J, Ctrl+L", "console, light theme"},
     {"Ctrl+Shift+S O R", "settings: save, load, the scene's own"},

@@ -62,11 +62,9 @@ void Menus::takeKeys() {
 
 // Opens menus and goes from panel to panel, also while text is typed. Returns whether it was one of those.
 bool Menus::takeMenuKey(const platform::Window::KeyEvent& press) {
-    constexpr std::pair<int, const char*> kMenus[] = {{GLFW_KEY_F, "File"},
-                                                      {GLFW_KEY_E, "Edit"},
-                                                      {GLFW_KEY_V, "View"},
-                                                      {GLFW_KEY_P, "Picture"},
-                                                      {GLFW_KEY_H, "Help"}};
+    constexpr std::pair<int, const char*> kMenus[] = {{GLFW_KEY_F, "File"},    {GLFW_KEY_E, "Edit"},
+                                                      {GLFW_KEY_A, "Add"},     {GLFW_KEY_V, "View"},
+                                                      {GLFW_KEY_P, "Picture"}, {GLFW_KEY_H, "Help"}};
     if (press.key == GLFW_KEY_F10) wanted_ = "File";
     for (const auto& [key, name] : kMenus)
         if ((press.modifiers & GLFW_MOD_ALT) != 0 && press.key == key) wanted_ = name;
@@ -366,9 +364,7 @@ void Menus::editMenu() {
 
 // Shapes and files where the view looks, lights where the eye is.
 void Menus::addMenu() {
-    const bool open = ImGui::BeginMenu("Add");
-    notePlace("menu:Add");
-    if (!open) return;
+    if (!beginMenu("Add")) return;
     const auto item = [&](const std::string& kind, const std::string& line) {
         std::string text = kind;
         text[0] = static_cast<char>(text[0] - 'a' + 'A');

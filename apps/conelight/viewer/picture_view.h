@@ -78,7 +78,7 @@ class PictureView {
     shownPicture();  // that the scopes are of: the kept one while it is shown, else the left one
     ViewGuides guides;
     Turntable turntable;
-    float headlight = 0;           // Renderer::setHeadlight of both sides
+    float headlight = 0;  // Renderer::setHeadlight of both sides
     LightShapes lights;
     MeshBounds bounds;
     float resolutionScale = 1.0f;  // of the still picture, 0.25..1
