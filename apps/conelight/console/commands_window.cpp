@@ -128,6 +128,27 @@ Command screenshotCommand() {
                    });
 }
 
+Command pickCommand() {
+    return command(
+        "pick",
+        {{"X", ArgumentKind::Number, true, false, "", 0, 1, {}},
+         {"Y", ArgumentKind::Number, true, false, "", 0, 1, {}}},
+        "as a click into the picture: select and inspect what lies there",
+        [](const CommandContext& context) { askWindow(context, "pick"); },
+        "X and Y: parts of its width and height, from the upper left corner. Without them: takes "
+        "what "
+        "was found, and its cones or rays, off the picture, as the key Escape does.");
+}
+
+Command whereCommand() {
+    return command(
+        "where", {{"WIDGET", ArgumentKind::Text, false, true}},
+        "the place of a widget in the window, to drive it from a script: x y width height",
+        [](const CommandContext& context) { askWindow(context, "where"); },
+        "WIDGET: picture, split, console, a setting's key, tab:Voxels, menu:File, object:NAME, "
+        "edit:roughness");
+}
+
 }  // namespace
 
 CommandGroup windowCommands() {
@@ -157,15 +178,7 @@ CommandGroup windowCommands() {
                 "view_from", {side}, "look along an axis of the world at the selection, or at the scene",
                 [](const CommandContext& context) { askWindow(context, "view_from"); },
                 "front: from +z; right: from +x; top: from +y"),
-            command(
-                "pick",
-                {{"X", ArgumentKind::Number, true, false, "", 0, 1, {}},
-                 {"Y", ArgumentKind::Number, true, false, "", 0, 1, {}}},
-                "as a click into the picture: select and inspect what lies there",
-                [](const CommandContext& context) { askWindow(context, "pick"); },
-                "X and Y: parts of its width and height, from the upper left corner. Without them: takes "
-                "what "
-                "was found, and its cones or rays, off the picture, as the key Escape does."),
+            pickCommand(),
             command(
                 "settle", {}, "wait until the picture is as good as it gets",
                 [](const CommandContext& context) { askWindow(context, "settle"); },
@@ -189,12 +202,7 @@ CommandGroup windowCommands() {
             command("status", {statusKey()}, "what the window shows and what that costs",
                     [](const CommandContext& context) { askWindow(context, "status"); }),
             screenshotCommand(),
-            command(
-                "where", {{"WIDGET", ArgumentKind::Text, false, true}},
-                "the place of a widget in the window, to drive it from a script: x y width height",
-                [](const CommandContext& context) { askWindow(context, "where"); },
-                "WIDGET: picture, split, console, a setting's key, tab:Voxels, menu:File, object:NAME, "
-                "edit:roughness"),
+            whereCommand(),
         }};
 }
 

@@ -27,10 +27,8 @@ namespace {
 
 // The background reference rests here: below 1 % noise in closed rooms.
 constexpr int kReferenceSamples = 4096;
-// Part of a picture's time that updates of the light cache may take while the camera flies: a quarter of the
-// time that PictureView aims at.
+// What updates of the light cache may take of a picture while the camera flies: a quarter of PictureView's aim.
 constexpr double kFlyingUpdateMs = 25;
-
 // Between two parts of a picture the window looks whether somebody wants it.
 constexpr double kPartMs = 25;
 
