@@ -213,7 +213,7 @@ TEST_F(ViewerFilesTest, EveryMenuIsReachedByKeys) {
     };
     press("F10");
     opens("Open");
-    for (const char* entry : {"Undo", "Light theme", "Guide"}) {
+    for (const char* entry : {"Undo", "Sphere", "Light theme", "Keep as A", "Guide"}) {
         press("Right");
         opens(entry);
     }
@@ -221,8 +221,9 @@ TEST_F(ViewerFilesTest, EveryMenuIsReachedByKeys) {
     EXPECT_EQ(viewer->status("split"), "off") << "letters are the menu's";
     press("Escape");
     EXPECT_EQ(viewer->placeOf("menu:Guide").z, 0);
-    for (const auto& [key, entry] : {std::pair("alt+f", "Open"), std::pair("alt+e", "Undo"),
-                                     std::pair("alt+v", "Light theme"), std::pair("alt+h", "Guide")}) {
+    for (const auto& [key, entry] :
+         {std::pair("alt+f", "Open"), std::pair("alt+e", "Undo"), std::pair("alt+a", "Sphere"),
+          std::pair("alt+v", "Light theme"), std::pair("alt+p", "Keep as A"), std::pair("alt+h", "Guide")}) {
         press(key);
         opens(entry);
         press("Escape");

@@ -178,7 +178,7 @@ TEST_F(ViewerSelectionTest, LightsAreSeenAndClicked) {
         EXPECT_TRUE(eventually([&] { return count(blue) > 20; })) << name;
     }
     moveTo(inPicture(0.5f, 0.97f));
-    screen->xdotool("key l");
+    screen->xdotool("key shift+l");
     EXPECT_TRUE(eventually([&] { return count(lamp) == 0 && viewer->placeOf("light:beam").z == 0; }));
     viewer->send("light_shapes on");
     EXPECT_TRUE(eventually([&] { return count(lamp) > 40; }));

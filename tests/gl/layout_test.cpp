@@ -118,7 +118,8 @@ std::vector<Struct> glassStructs() {
 std::vector<Struct> structsOfPictures() {
     return {
         ROW(Exposure, scale, pad0, pad1, pad2),
-        ROW(DisplayConstants, curve, srgb, kept, spread),
+        ROW(DisplayConstants, curve, srgb, kept, spread, check, pad0, pad1, pad2, balance, falseColors),
+        ROW(HeadlightConstants, irradiance, pad0, pad1, pad2),
         ROW(ViewMeanConstants, views, pad0, pad1, pad2),
         ROW(TemporalPictureConstants, oldClipFromWorld, longest, fresh, pad0, pad1),
         ROW(BloomConstants, weight, coarser, fromLevel, pad0),
