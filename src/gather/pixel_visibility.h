@@ -8,6 +8,7 @@
 
 #include <vector>
 
+#include "base/steps.h"
 #include "gl/device.h"
 #include "gl/texture.h"
 #include "light/lights.h"
