@@ -19,6 +19,17 @@
 namespace conelight::program {
 namespace {
 
+// Shows which entry the keys are at, whatever the mouse is over.
+void markForKeys() {
+    ImGuiContext& gui = *ImGui::GetCurrentContext();
+#if IMGUI_VERSION_NUM >= 19140
+    gui.NavCursorVisible = gui.NavHighlightItemUnderNav = true;
+#else
+    gui.NavDisableHighlight = false;
+    gui.NavDisableMouseHover = true;
+#endif
+}
+
 constexpr float kTextStep = 1.1f;
 constexpr int kFramesOfArrows = 4;  // Dear ImGui takes two from one menu to the next
 
@@ -76,8 +87,7 @@ bool Menus::takeMenuKey(const platform::Window::KeyEvent& press) {
 void Menus::focusNextPanel() {
     const auto highlight = [](const char* window) {
         ImGui::SetWindowFocus(window);
-        ImGui::GetCurrentContext()->NavDisableHighlight = false;
-        ImGui::GetCurrentContext()->NavDisableMouseHover = true;
+        markForKeys();
     };
     panel_ = (panel_ + 1) % 4;
     if (panel_ == 1 && !in_.panels.showSide) panel_ = 3;
@@ -273,8 +283,7 @@ bool Menus::beginMenu(const char* name) {
         markedMenu_ = id;
         wanted_.clear();
         ImGui::OpenPopup(name);
-        ImGui::GetCurrentContext()->NavDisableHighlight = false;
-        ImGui::GetCurrentContext()->NavDisableMouseHover = true;
+        markForKeys();
     }
     const bool open = ImGui::BeginMenu(name);
     notePlace(std::string("menu:") + name);
