@@ -170,10 +170,9 @@ void ShadowMaps::Impl::draw(const gl::Device& device, const scene::GpuScene& sce
             return drawn[static_cast<std::size_t>(&instance - instances.data())] == (masked ? 2 : 1);
         };
         // Of a mesh in the middle of the scene each side of a cube sees a part only.
-        const auto isSeen = [&](const gpu::Instance& instance, const Aabb& objectBox) {
-            return !scene::isOutside(view.clipFromWorld * instance.worldFromObject, objectBox);
-        };
-        scene.draw({.filter = accepted, .textured = masked ? &program : nullptr, .part = isSeen});
+        scene.draw({.filter = accepted,
+                    .textured = masked ? &program : nullptr,
+                    .part = scene::partsWithin(view.clipFromWorld)});
     }
 }
 

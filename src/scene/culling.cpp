@@ -26,4 +26,14 @@ bool isOutside(const glm::mat4& clipFromBox, const Aabb& box) {
     return std::any_of(std::begin(outside), std::end(outside), [](int count) { return count == 8; });
 }
 
+GpuScene::PartFilter partsWithin(const glm::mat4& clipFromWorld) {
+    // Parts come instance by instance.
+    return [clipFromWorld, last = static_cast<const gpu::Instance*>(nullptr), clipFromObject = glm::mat4(1)](
+               const gpu::Instance& instance, const Aabb& objectBox) mutable {
+        if (last != &instance) clipFromObject = clipFromWorld * instance.worldFromObject;
+        last = &instance;
+        return !isOutside(clipFromObject, objectBox);
+    };
+}
+
 }  // namespace conelight::scene

@@ -83,9 +83,7 @@ void GBuffer::draw(const gl::Device& device, const scene::GpuScene& scene, const
     const auto drawn = [&](const gpu::Instance& instance) {
         return wanted.withGlass || !scene::isGlass(instance);
     };
-    const auto isSeen = [&](const gpu::Instance& instance, const Aabb& objectBox) {
-        return !scene::isOutside(wanted.clipFromWorld * instance.worldFromObject, objectBox);
-    };
+    const scene::GpuScene::PartFilter isSeen = scene::partsWithin(wanted.clipFromWorld);
     for (const bool masked : {false, true}) {
         for (int textures = 0; textures < kTextureUses; ++textures) {
             const auto accepted = [&](const gpu::Instance& instance) {
