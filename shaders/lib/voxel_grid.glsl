@@ -11,3 +11,6 @@ vec3 gridFromWorld(vec3 world) { return (world - grid.origin) * grid.inverseVoxe
 vec3 worldFromGrid(vec3 p) { return grid.origin + p * grid.voxelSize; }
 ivec3 gridSize() { return ivec3(grid.sizeX, grid.sizeY, grid.sizeZ); }
 ivec3 gridBricks() { return ivec3(grid.bricksX, grid.bricksY, grid.bricksZ); }
+
+// Height above a surface, in voxels, at which rays start that meet triangles from there on.
+const float kStartVoxels = 1e-3;
