@@ -101,9 +101,8 @@ vec3 seenRayOrigin(vec3 pointGrid, vec3 geometricNormal, vec3 toEye) {
 #endif
 }
 
-// Height above the surface at which a ray starts that meets triangles from there on: this many voxels, or this part of the
+// Height above the surface at which a ray starts that meets triangles from there on: kStartVoxels, or this part of the
 // distance to the eye, three times what positions err; and the cosine below which it is no longer kept.
-const float kStartVoxels = 1e-3;
 const float kStartDepth = 1e-4;
 const float kStartCosine = 0.05;
 

@@ -22,3 +22,6 @@ uint storedBrickCount() {
     ivec3 bricks = storedBricks();
     return uint(bricks.x * bricks.y * bricks.z);
 }
+
+// Height above a surface, in voxels, at which rays start that meet triangles from there on.
+const float kStartVoxels = 1e-3;

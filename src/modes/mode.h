@@ -67,6 +67,8 @@ class ModeRenderer {
     virtual bool settled() const { return true; }
     // Whether pictures of a scene need shadow maps.
     virtual bool needsShadows(const Scene& scene, const Settings& settings) const = 0;
+    // Whether it lights pixels by shadow maps about the eye, where surfaces have them.
+    virtual bool readsCascades() const { return false; }
     // Whether the mode has caustics cast.
     virtual bool castsCaustics() const { return false; }
     // Whether flat emitters become lights where light.emissive_quads is on.

@@ -25,6 +25,7 @@ class TracedMode : public ModeRenderer {
     bool settled() const override { return lit_.steady(); }
     // Every component has lit voxels or direct light in it, or leaves them behind for the next.
     bool needsShadows(const Scene&, const Settings&) const override { return true; }
+    bool readsCascades() const override { return true; }
     bool castsCaustics() const override { return true; }
 
     static std::vector<gl::ProgramDesc> programDescs();
