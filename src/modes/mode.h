@@ -36,6 +36,12 @@ struct Frame {
     // Not null: the picture stays as it is, and what it shows of the recorder's pixel, or would show in
     // component full, is gathered once more for the record.
     gather::StepRecorder* recorder = nullptr;
+
+    // The same, with another device.
+    Frame on(const gl::Device& other) const {
+        return {other,          scene,       lights,        surfaces, settings, output,
+                lookupCounters, voxelsAmong, besideCenters, part,     parts,    recorder};
+    }
 };
 
 class ModeRenderer {

@@ -31,9 +31,11 @@ class TracedMode : public ModeRenderer {
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
+    gl::Device deviceFor(const Frame& given);
     base::Steps relight(const Frame& frame);
     void record(const Frame& frame, const gather::RayInputs& inputs);
 
+    voxels::VoxelGrid grid_;  // of the last picture, with several levels
     voxels::Voxels voxels_;
     light::LitVoxels lit_;
     light::RelightBudget budget_;
