@@ -295,6 +295,7 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
         unfinished_ = false;
         firstFace_ = order_.visited() > 0 ? (firstFace_ + count) % order_.visited() : 0;
         facesVisited_ += count;
+        visits_ += count;
         ++updatesMade_;
         commit(device, inputs, settings, i + 1 == passes);
         // Faces inside closed objects are known: no more rays from them.

@@ -70,6 +70,7 @@ class IrradianceCache {
     bool settled() const;
     int updates() const;  // whole rounds over all faces since the last change
     std::uint32_t faces() const { return order_.visited(); }  // of a round
+    std::uint64_t visits() const { return visits_; }          // of faces, ever
 
     void declare(gl::Inputs& inputs) const;                      // lightSamples, faceLight
     const gl::Buffer& state() const { return states_; }          // gpu::FaceCache per face, for tests
@@ -108,6 +109,7 @@ class IrradianceCache {
     std::uint32_t updatesOfVoxels_ = 0;  // calls of update() for these voxels
     std::uint32_t firstFace_ = 0;        // where the next update begins
     std::uint64_t facesVisited_ = 0;     // since light changed
+    std::uint64_t visits_ = 0;
     std::uint64_t raysTested_ = 0;  // cosine rays that looked for faces inside objects, since voxels changed
 };
 

@@ -12,10 +12,10 @@ constexpr int kLargestFilter = 4;  // LightSettings::shadowFilter
 
 }  // namespace
 
-LightKey LightKey::of(const glm::uvec4& ends, bool shadows, int filter) {
+LightKey LightKey::of(const glm::uvec4& ends, bool shadows, int filter, gl::ExecutionProfile profile) {
     const auto total = static_cast<int>(ends.w);
     LightKey key;
-    key.fixed = total <= kFixedLights;
+    key.fixed = total == 0 || (total <= kFixedLights && profile == gl::ExecutionProfile::Processor);
     const auto number = [&](std::uint32_t first, std::uint32_t end) {
         const auto count = static_cast<int>(end - first);
         return key.fixed ? count : std::min(count, 1);

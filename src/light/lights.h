@@ -65,6 +65,7 @@ class Lights {
     void fillTable(const Scene& scene, bool emissiveQuads);
     void upload(const Scene& scene);
 
+    gl::ExecutionProfile profile_ = gl::ExecutionProfile::Processor;
     std::vector<gpu::Light> table_;
     glm::uvec4 ends_{0};
     std::vector<char> emitters_;  // per instance
