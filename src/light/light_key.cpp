@@ -38,7 +38,19 @@ gl::Defines LightKey::defines() const {
                         {"LIGHTS_SHADOWS", shadows ? "1" : "0"},
                         {"SHADOW_FILTER", std::to_string(filter)}};
     if (glass) defines.emplace_back("GLASS", "1");
+    if (cascades) defines.emplace_back("SHADOW_CASCADES", "1");
     return defines;
+}
+
+std::vector<LightKey> LightKey::ofPixels() {
+    std::vector<LightKey> keys = all();
+    const std::size_t count = keys.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!keys[i].shadows || keys[i].directional == 0) continue;
+        keys.push_back(keys[i]);
+        keys.back().cascades = true;
+    }
+    return keys;
 }
 
 std::vector<LightKey> LightKey::all() {

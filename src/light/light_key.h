@@ -18,14 +18,17 @@ struct LightKey {
     bool fixed = true;
     bool shadows = false;
     bool glass = false;  // with shadows: glass tints them
-    int filter = 0;      // radius of the shadow filter, texels; 0 without shadows; -1: one texel, unfiltered
+    bool cascades =
+        false;  // with shadows of directional lights: pixels have maps about the eye (view/shadow_cascades.h)
+    int filter = 0;  // radius of the shadow filter, texels; 0 without shadows; -1: one texel, unfiltered
 
     // `ends`: of the kinds in the sorted light table.
     static LightKey of(const glm::uvec4& ends, bool shadows, int filter);
     // Lights without extent whose shadow maps answer yes or no: without a filter.
     bool hasSharpShadows() const { return shadows && filter == 0 && point + spot + directional > 0; }
     gl::Defines defines() const;
-    static std::vector<LightKey> all();  // but those with filter -1, which hits ask for
+    static std::vector<LightKey> all();       // but those with filter -1, which hits ask for, and cascades
+    static std::vector<LightKey> ofPixels();  // and those with cascades
     auto operator<=>(const LightKey&) const = default;
 };
 

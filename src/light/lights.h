@@ -59,6 +59,7 @@ class Lights {
     const Caustics& caustics() const { return caustics_; }
     bool hasEnvironment() const { return environment_.hasPicture(); }
     int redrawnShadowMaps() const { return shadows_.redrawn(); }
+    std::size_t shadowBytes() const { return shadows_.bytes(); }  // of the shadow maps
 
   private:
     void fillTable(const Scene& scene, bool emissiveQuads);

@@ -22,6 +22,7 @@
 #include "modes/mode.h"
 #include "scene/held_scene.h"
 #include "shared/lookups.h"
+#include "view/shadow_cascades.h"
 #include "view/surfaces.h"
 
 namespace conelight {
@@ -38,6 +39,7 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
     // The values of a picture, in the order in which they are made.
     scene::HeldScene scene;
     light::Lights lights;
+    view::ShadowCascades cascades;
     view::Surfaces surfaces;      // at the pixels' centres
     view::Surfaces partSurfaces;  // beside them, of the view that is drawn for an anti-aliased picture
     std::unique_ptr<modes::ModeRenderer> mode;  // holds those between surfaces and image
@@ -87,6 +89,7 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
     void forgetPicture();
     base::Steps render(WantedPicture asked);
     void prepare(const Settings& settings);
+    void prepareCascades(const Camera& camera, const Settings& settings);
     modes::Frame frame(const Settings& settings);
     base::Steps drawLight(const modes::Frame& frame);
     base::Steps drawPicture(const WantedPicture& asked);
