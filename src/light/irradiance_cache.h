@@ -93,9 +93,9 @@ class IrradianceCache {
                          std::uint32_t count);
     void commit(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings, bool atPixels);
 
-    gl::Buffer states_, oldStates_, faceLight_, fluxes_, chunks_, pool_, constants_, reprojectionBlock_,
-        oldLevelBlock_;
-    gl::Texture faceLightTexels_, fluxTexels_, poolTexels_, stateTexels_, oldStateTexels_;
+    gl::Buffer states_, oldStates_, faceLight_, sharedLight_, fluxes_, chunks_, pool_, constants_,
+        reprojectionBlock_, oldLevelBlock_;
+    gl::Texture faceLightTexels_, sharedLightTexels_, fluxTexels_, poolTexels_, stateTexels_, oldStateTexels_;
     FaceOrder order_;
     base::Revision voxelsFrom_;  // whose faces these are
     std::uint32_t faceCount_ = 0;
