@@ -16,12 +16,13 @@ namespace conelight::light {
 struct LightKey {
     int point = 0, spot = 0, directional = 0, rect = 0;
     bool fixed = true;
+    bool shaped = false;  // area lights may be round, others have profiles; not fixed then
     bool shadows = false;
     bool glass = false;  // with shadows: glass tints them
     int filter = 0;      // radius of the shadow filter, texels; 0 without shadows; -1: one texel, unfiltered
 
     // `ends`: of the kinds in the sorted light table.
-    static LightKey of(const glm::uvec4& ends, bool shadows, int filter);
+    static LightKey of(const glm::uvec4& ends, bool shaped, bool shadows, int filter);
     // Lights without extent whose shadow maps answer yes or no: without a filter.
     bool hasSharpShadows() const { return shadows && filter == 0 && point + spot + directional > 0; }
     gl::Defines defines() const;

@@ -90,6 +90,7 @@ struct ConesKey {
     Component component = Component::Full;
     bool countLookups = false;
     bool rectangles = false;  // some lights are rectangles
+    bool shaped = false;      // of light::LightKey
 };
 
 gl::ProgramDesc conesDesc(const ThesisSettings& settings, const ConesKey& key) {
@@ -110,7 +111,8 @@ gl::ProgramDesc conesDesc(const ThesisSettings& settings, const ConesKey& key) {
                         {"FRONT_CONES", settings.frontCone ? "1" : "0"},
                         {"INTERMEDIATE_CONES", settings.intermediateCones ? "4" : "0"},
                         {"SIDE_CONES", settings.sideCones ? "4" : "0"},
-                        {"COUNT_LOOKUPS", key.countLookups ? "1" : "0"}};
+                        {"COUNT_LOOKUPS", key.countLookups ? "1" : "0"},
+                        {"LIGHTS_SHAPED", key.shaped ? "1" : "0"}};
     if (key.rectangles && !defects.pointlikeRectangles) defines.emplace_back("RECTANGLES", "1");
     if (!ThesisVolume::hasAreas(defects)) defines.emplace_back("ISOTROPIC_OPACITY", "1");
     if (settings.storage == VolumeStorage::Octree) defines.emplace_back("OCTREE", "1");
@@ -221,8 +223,9 @@ void ThesisConePass::record(const gl::Device& device, const Inputs& inputs, cons
     const Component component = gathered ? settings.component : Component::Full;
     recorder.record(
         device,
-        gather::StepRecorder::variant(conesDesc(settings.groups.of<ThesisSettings>(),
-                                                {component, false, hasRectangles(inputs.pixels.lights)})),
+        gather::StepRecorder::variant(conesDesc(
+            settings.groups.of<ThesisSettings>(),
+            {component, false, hasRectangles(inputs.pixels.lights), inputs.pixels.lights.key().shaped})),
         given(inputs, output));
 }
 
@@ -232,17 +235,18 @@ void ThesisConePass::draw(const gl::Device& device, const Inputs& inputs, const 
     gl::Inputs given = this->given(inputs, output);
     if (lookupCounters != nullptr) given.storage("LookupTable", *lookupCounters);
     device
-        .get(conesDesc(
-            inputs.settings.groups.of<ThesisSettings>(),
-            {inputs.settings.component, lookupCounters != nullptr, hasRectangles(inputs.pixels.lights)}))
+        .get(conesDesc(inputs.settings.groups.of<ThesisSettings>(),
+                       {inputs.settings.component, lookupCounters != nullptr,
+                        hasRectangles(inputs.pixels.lights), inputs.pixels.lights.key().shaped}))
         .dispatch(given, output.width(), output.height());
 }
 
 std::vector<gl::ProgramDesc> ThesisConePass::programDescs() {
     std::vector<gl::ProgramDesc> descs;
     const auto add = [&](const ThesisSettings& settings, Component component, bool count = false) {
-        descs.push_back(conesDesc(settings, {component, count, false}));
-        descs.push_back(conesDesc(settings, {component, count, true}));
+        for (const bool rectangles : {false, true})
+            for (const bool shaped : {false, true})
+                descs.push_back(conesDesc(settings, {component, count, rectangles, shaped}));
     };
     ThesisSettings mended, published, regular;
     published.published = true;
