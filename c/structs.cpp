@@ -103,6 +103,33 @@ Mesh meshOf(const conelight_mesh& values) {
     return mesh;
 }
 
+namespace {
+
+HostAttribute attributeOf(const conelight_attribute& values) {
+    constexpr int kEncodings = static_cast<int>(HostEncoding::Unorm8) + 1;
+    return {values.buffer, values.offset, values.stride,
+            enumOf<HostEncoding>(values.encoding, kEncodings, "attribute.encoding")};
+}
+
+}  // namespace
+
+HostMesh hostMeshOf(const conelight_host_mesh& values) {
+    HostMesh mesh;
+    mesh.name = textOf(values.name);
+    mesh.vertexCount = values.vertex_count;
+    mesh.indexCount = values.index_count;
+    mesh.positions = attributeOf(values.positions);
+    mesh.normals = attributeOf(values.normals);
+    mesh.uvs = attributeOf(values.uvs);
+    mesh.tangents = attributeOf(values.tangents);
+    mesh.colors = attributeOf(values.colors);
+    mesh.indices = values.indices;
+    mesh.indexOffset = values.index_offset;
+    mesh.shortIndices = values.short_indices != 0;
+    mesh.bounds = {vec3Of(values.low), vec3Of(values.high)};
+    return mesh;
+}
+
 Texture textureOf(const conelight_texture& values) {
     constexpr std::int32_t kMostPixels = 1 << 15;  // each way: 4 GiB in all
     if (values.width < 1 || values.height < 1 || values.width > kMostPixels || values.height > kMostPixels)

@@ -272,7 +272,7 @@ typedef struct conelight_renderer_options {
 typedef struct conelight_stats {
     size_t size;
     double cpu_ms, wall_ms; /* of the last picture; 0 unless profiling is on */
-    size_t memory_bytes;    /* of GL objects, of all renderers of the process */
+    size_t memory_bytes;    /* of its GL objects */
 } conelight_stats;
 #define CONELIGHT_STATS_INIT \
     { sizeof(conelight_stats), 0, 0, 0 }
@@ -293,6 +293,9 @@ CONELIGHT_API conelight_result conelight_renderer_set_instance(conelight_rendere
                                                                const conelight_instance* instance);
 CONELIGHT_API conelight_result conelight_renderer_set_mesh(conelight_renderer* renderer, size_t index,
                                                            const conelight_mesh* mesh);
+/* New texels, of any size, for the materials that have it; one texel gives the memory of many back. */
+CONELIGHT_API conelight_result conelight_renderer_set_texture(conelight_renderer* renderer, size_t index,
+                                                              const conelight_texture* texture);
 CONELIGHT_API conelight_result conelight_renderer_set_material(conelight_renderer* renderer, size_t index,
                                                                const conelight_material* material);
 CONELIGHT_API conelight_result conelight_renderer_set_light(conelight_renderer* renderer, size_t index,

@@ -64,6 +64,36 @@ class MeasureViewer(unittest.TestCase):
         self.assertIn("tools/measure_viewer --minutes 5 --scene builtin:cornell -- --voxels 64", page)
 
 
+class MeasureGrowth(unittest.TestCase):
+    def test_page_and_plot_show_the_sizes_that_were_run(self):
+        one = {"gl_mb": 123.4, "process_mb": 1500, "load_s": 0.5, "first_s": 12.3, "frame_s": 0.0625}
+        data = {"version": 1, "device": "driver", "cores": 2, "runs": {"atrium|10000": one, "atrium|1000000": dict(one, gl_mb=456)}}
+        with tempfile.TemporaryDirectory() as folder:
+            out = pathlib.Path(folder, "growth")
+            out.with_suffix(".json").write_text(json.dumps(data))
+            subprocess.run([sys.executable, TOOLS / "measure_growth", "--page", "--out", out], check=True)
+            page, plot = out.with_suffix(".md").read_text(), out.with_suffix(".svg").read_text()
+        self.assertIn("| 10,000 | 123 | 1500 | 0.5 | 12.3 | 0.062 |", page)
+        self.assertIn("| 1,000,000 | 456 |", page)
+        # Memory and time, each value a line of two points.
+        lines = [line for line in plot.splitlines() if 'stroke="#3a8a3a" stroke-width="1.6"' in line]
+        self.assertEqual(len(lines), 5)
+        self.assertTrue(all(line.count("L") == 1 for line in lines))
+
+    def test_hills_have_the_triangles_asked_for_in_both_forms(self):
+        growth = load("measure_growth")
+        for instances in (True, False):
+            with tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder, "hills.glb")
+                growth.write_glb(path, 30_000, instances)
+                data = path.read_bytes()
+            self.assertEqual(len(data), struct.unpack_from("<I", data, 8)[0])
+            document = json.loads(data[20:20 + struct.unpack_from("<I", data, 12)[0]])
+            uses = sum("mesh" in node for node in document["nodes"])
+            self.assertEqual(uses, 3 if instances else 1)
+            self.assertEqual(uses * document["accessors"][1]["count"], 3 * 3 * 2 * growth.HILL**2)
+
+
 class GpuIsa(unittest.TestCase):
     def test_what_got_worse_is_named(self):
         isa = load("gpu_isa")

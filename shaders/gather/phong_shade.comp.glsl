@@ -58,10 +58,10 @@ vec3 phongPoint(Phong m, Surface s, Light light, const bool single) {
                      visible);
 }
 
-vec3 phongDirectional(Phong m, Surface s, Light light) {
+vec3 phongDirectional(Phong m, Surface s, Light light, uint number) {
     float visible = 1.0;
 #if LIGHTS_SHADOWS
-    visible = shadowVisibilityDirectional(light, litPosition(s), s.geometricNormal, vec2(0.0));
+    visible = directionalMapVisibility(light, number, litPosition(s), s.geometricNormal, vec2(0.0));
 #endif
     return phongTerm(m, s, -light.direction, light.intensity, visible);
 }
@@ -100,7 +100,7 @@ void main() {
     FOR_SPOT_LIGHTS(sum += phongPoint(m, s, light, true))
 #endif
 #if LIGHTS_DIRECTIONAL
-    FOR_DIRECTIONAL_LIGHTS(sum += phongDirectional(m, s, light))
+    FOR_DIRECTIONAL_LIGHTS(sum += phongDirectional(m, s, light, number))
 #endif
 #if LIGHTS_RECT
     FOR_RECT_LIGHTS(sum += phongRect(m, s, light))

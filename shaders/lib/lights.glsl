@@ -14,6 +14,7 @@
 // - SHADOW_FILTER: radius of the shadow filter in texels.
 // - CONE_SHADOWS 1: shadows are soft, by cones (lib/cone_shadow.glsl, to be included), not by maps.
 // - VISIBILITY_PICTURE 1: which of the first 32 lights without extent are seen is known (visibleLights).
+// - SHADOW_CASCADES 1: directional lights have maps about the eye (lib/shadow_cascades.glsl).
 // - GLASS 1: what is not in shadow may lie behind glass (lib/glass_tree.glsl).
 // Reads what light::Lights declares.
 #ifndef LIGHTS_POINT
@@ -37,6 +38,9 @@
 #ifndef CONE_SHADOWS
 #define CONE_SHADOWS 0
 #endif
+#ifndef SHADOW_CASCADES
+#define SHADOW_CASCADES 0
+#endif
 #ifndef VISIBILITY_PICTURE
 #define VISIBILITY_PICTURE 0
 #endif
@@ -49,6 +53,9 @@
 #include "lib/rect_light.glsl"
 #include "lib/rect_tint.glsl"
 #include "lib/shadow.glsl"
+#if SHADOW_CASCADES
+#include "lib/shadow_cascades.glsl"
+#endif
 
 #define LIGHTS_TOTAL (LIGHTS_POINT + LIGHTS_SPOT + LIGHTS_DIRECTIONAL + LIGHTS_RECT)
 #if LIGHTS_FIXED && LIGHTS_TOTAL > 0
@@ -174,11 +181,20 @@ void addSpot(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
     addLight(sum, specular, r, b, l, throughGlass(facing, r, l, sqrt(d2)));
 }
 
+// By maps; cascades are for exact positions.
+float directionalMapVisibility(Light light, uint number, vec3 p, vec3 n, vec2 lift) {
+#if SHADOW_CASCADES
+    return shadowVisibilityCascaded(light, number - lighting.lightEnds.y, p, n);
+#else
+    return shadowVisibilityDirectional(light, p, n, lift);
+#endif
+}
+
 float directionalVisibility(Receiver r, Light light, uint number) {
 #if VISIBILITY_PICTURE
     if (number < kVisibilityLights) return float(visibleLights >> number & 1u);
 #endif
-    return shadowVisibilityDirectional(light, r.position, r.geometricNormal, r.shadowLift);
+    return directionalMapVisibility(light, number, r.position, r.geometricNormal, r.shadowLift);
 }
 
 void addDirectional(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light,

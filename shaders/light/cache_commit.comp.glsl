@@ -60,9 +60,18 @@ vec4 neighbourIrradiance(int side, uvec4 hitTexel, vec3 n) {
     int direction = faceDirection(hitTexel, n);
     int towards = (axis + 1 + (side >> 1)) % 3;
     ivec3 step = ivec3(towards == 0, towards == 1, towards == 2) * (1 - 2 * (side & 1));
+#if NESTED_GRIDS
+    int level = levelOfStored(voxel);
+    ivec3 within = withinLevel(voxel, level) + step;
+    ivec3 at = clamp(within, ivec3(0), gridSize() - 1);
+    bool inside = at == within;
+    at = storedVoxel(at, level);
+#else
     ivec3 at = clamp(voxel + step, ivec3(0), gridSize() - 1);
+    const bool inside = true;
+#endif
     uvec4 word = imageLoad(voxelBrickImage, at >> 2);
-    bool there = brickHas(word.xy, bitOfVoxel(at));
+    bool there = inside && brickHas(word.xy, bitOfVoxel(at));
     uint record = there ? texelFetch(voxelRecords, int(voxelRecordIndex(word, bitOfVoxel(at)))).x : 0u;
     there = there && (faceDirections(record) >> direction & 1u) != 0u;
     int face = there ? int(faceIndex(record, direction)) : 0;

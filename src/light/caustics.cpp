@@ -105,7 +105,7 @@ void Caustics::castSolid(const gl::Device& device, const Inputs& inputs, std::ui
     cast.radius = constants_.middle[solid].w;
     cast.solid = solid;
     cast.edge = kEdge;
-    cast.far = farFrom(cast.middle, inputs.voxels.grid());
+    cast.far = farFrom(cast.middle, inputs.voxels.grid().coarsest());
     float flux = 0;
     for (const gpu::Light& light : table) flux += fluxTowards(light, cast.middle, cast.radius);
     cast.scale = kCounts / std::max(flux, 1e-20f);

@@ -12,11 +12,13 @@ constexpr int kLargestFilter = 4;  // LightSettings::shadowFilter
 
 }  // namespace
 
-LightKey LightKey::of(const glm::uvec4& ends, bool shaped, bool shadows, int filter) {
+LightKey LightKey::of(const glm::uvec4& ends, bool shaped, bool shadows, int filter,
+                      gl::ExecutionProfile profile) {
     const auto total = static_cast<int>(ends.w);
     LightKey key;
     key.shaped = shaped;
-    key.fixed = total <= kFixedLights && !shaped;
+    key.fixed =
+        total == 0 || (total <= kFixedLights && !shaped && profile == gl::ExecutionProfile::Processor);
     const auto number = [&](std::uint32_t first, std::uint32_t end) {
         const auto count = static_cast<int>(end - first);
         return key.fixed ? count : std::min(count, 1);
@@ -40,7 +42,19 @@ gl::Defines LightKey::defines() const {
                         {"LIGHTS_SHADOWS", shadows ? "1" : "0"},
                         {"SHADOW_FILTER", std::to_string(filter)}};
     if (glass) defines.emplace_back("GLASS", "1");
+    if (cascades) defines.emplace_back("SHADOW_CASCADES", "1");
     return defines;
+}
+
+std::vector<LightKey> LightKey::ofPixels() {
+    std::vector<LightKey> keys = all();
+    const std::size_t count = keys.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        if (!keys[i].shadows || keys[i].directional == 0) continue;
+        keys.push_back(keys[i]);
+        keys.back().cascades = true;
+    }
+    return keys;
 }
 
 namespace {

@@ -45,6 +45,7 @@ void Lights::update(const gl::Device& device, const scene::GpuScene& scene, cons
     glass_.update(scene);
     upload(scene.source());
     from_ = sources;
+    profile_ = device.profile;
     if (hasGlass() || hasCaustics()) caustics_.clear();
     revision_ = ownRevision_ = base::Revision::next();
 }
@@ -122,7 +123,7 @@ void Lights::declare(gl::Inputs& inputs) const {
 
 LightKey Lights::key() const {
     LightKey key = LightKey::of(ends_, shaped_, from_.wanted.settings.shadowSize > 0,
-                                from_.wanted.settings.shadowFilter);
+                                from_.wanted.settings.shadowFilter, profile_);
     key.glass = hasGlass() && key.shadows;
     return key;
 }

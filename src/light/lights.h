@@ -60,12 +60,14 @@ class Lights {
     const Caustics& caustics() const { return caustics_; }
     bool hasEnvironment() const { return environment_.hasPicture(); }
     int redrawnShadowMaps() const { return shadows_.redrawn(); }
+    std::size_t shadowBytes() const { return shadows_.bytes(); }  // of the shadow maps
 
   private:
     void fillTable(const Scene& scene, bool emissiveQuads);
     void updateProfiles(scene::Profiles profiles);
     void upload(const Scene& scene);
 
+    gl::ExecutionProfile profile_ = gl::ExecutionProfile::Processor;
     std::vector<gpu::Light> table_;
     bool shaped_ = false;  // LightKey
     scene::Profiles profiles_;

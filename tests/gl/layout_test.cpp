@@ -168,6 +168,7 @@ std::vector<Struct> otherStructs() {
             shadowStrength, minSpecular, switches, maxSamples, lightCount, parallelSpread),
         ROW(VoxelGrid, origin, voxelSize, sizeX, sizeY, sizeZ, voxelCount, bricksX, bricksY, bricksZ,
             faceCount, inverseVoxelSize, occupiedBricks, pad0, pad1),
+        ROW(VoxelLevels, count, sizeX, sizeY, sizeZ, levels),
         ROW(FaceRecord, normal, offsetWeight, bounds, voxel),
         ROW(FaceMaterial, albedo, emission, emissionBArea, lobe),
         ROW(LitFace, albedo, radiance, irradiance0, irradiance1),
