@@ -59,7 +59,7 @@ void assign(Material& material, const conelight_material& values) {
 }
 
 void assign(Light& light, const conelight_light& values) {
-    light.type = enumOf<LightType>(values.type, 4, "light.type");
+    light.type = enumOf<LightType>(values.type, 6, "light.type");
     light.name = textOf(values.name);
     light.intensity = vec3Of(values.intensity);
     light.position = vec3Of(values.position);
