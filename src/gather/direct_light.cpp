@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "gl/gl.h"
+#include "gl/picture_pass.h"
 
 namespace conelight::gather {
 namespace {
@@ -26,8 +27,8 @@ gl::ProgramDesc desc(light::LightKey lights, const gl::Defines& cones) {
 
 }  // namespace
 
-void DirectLight::draw(const gl::Device& device, const DirectInputs& inputs, const ConeShadows* cones) {
-    const gl::PassScope pass(device.profiler, "direct light");
+base::Steps DirectLight::drawInSteps(const gl::Device& device, const DirectInputs& inputs,
+                                     const ConeShadows* cones) {
     const int width = inputs.surfaces.width(), height = inputs.surfaces.height();
     if (!diffuse_ || diffuse_.width() != width || diffuse_.height() != height) {
         diffuse_ = gl::Texture({GL_TEXTURE_2D, GL_RGBA32F, width, height}, "direct diffuse");
@@ -37,10 +38,11 @@ void DirectLight::draw(const gl::Device& device, const DirectInputs& inputs, con
     given.add(inputs)
         .image("diffuseImage", diffuse_, gl::ImageUse::Write)
         .image("specularImage", specular_, gl::ImageUse::Write);
-    const light::LightKey& lights = inputs.lights.key();
+    const light::LightKey lights = inputs.lights.key();
     const bool byCones = cones != nullptr && lights.shadows;
     if (byCones) given.add(*cones);
-    device.get(byCones ? desc(lights, cones->defines) : desc(lights)).dispatch(given, width, height);
+    const gl::ProgramDesc program = byCones ? desc(lights, cones->defines) : desc(lights);
+    co_await gl::dispatchPicture(device, {"direct light", program, given, {width, height}});
 }
 
 std::vector<gl::ProgramDesc> DirectLight::programDescs() {

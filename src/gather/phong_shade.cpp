@@ -2,6 +2,7 @@
 #include "gather/phong_shade.h"
 
 #include "gl/gl.h"
+#include "gl/picture_pass.h"
 
 namespace conelight::gather {
 namespace {
@@ -28,14 +29,14 @@ struct PhongKey {
 
 }  // namespace
 
-void drawPhongShade(const gl::Device& device, const DirectInputs& inputs, bool shadows,
-                    const gl::Texture& output) {
-    const gl::PassScope pass(device.profiler, "phong");
+base::Steps drawPhongShade(const gl::Device& device, const DirectInputs& inputs, bool shadows,
+                           const gl::Texture& output) {
     const light::LightKey lights = inputs.lights.key();
     gl::Inputs given;
     given.add(inputs).image("outputImage", output, gl::ImageUse::Write);
-    device.get(PhongKey{lights, shadows && lights.shadows}.desc())
-        .dispatch(given, output.width(), output.height());
+    const gl::ProgramDesc desc = PhongKey{lights, shadows && lights.shadows}.desc();
+    const glm::ivec2 size(output.width(), output.height());
+    co_await gl::dispatchPicture(device, {"phong", desc, given, size});
 }
 
 std::vector<gl::ProgramDesc> phongShadeProgramDescs() {

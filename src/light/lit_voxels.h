@@ -56,6 +56,10 @@ class LitVoxels {
     base::Steps relightInSteps(const gl::Device& device, const Inputs& inputs,
                                const RelightSettings& settings, const Budget& budget);
 
+    // Takes light over to voxels that a picture has left behind, before they become others: it goes from voxels to the
+    // next ones only.
+    base::Steps followVoxels(const gl::Device& device, const voxels::Voxels& voxels);
+
     // Raised by each call that changed any light.
     base::Revision revision() const { return revision_; }
     // Raised by each call that found other voxels or lights: what was gathered from the light before is old.
@@ -75,7 +79,7 @@ class LitVoxels {
 
   private:
     int wantedUpdates() const;
-    void putDirectLight(const gl::Device& device, const Inputs& inputs);
+    base::Steps putDirectLight(const gl::Device& device, const Inputs& inputs);
     base::Steps update(const gl::Device& device, const Inputs& inputs, const Budget& budget);
 
     LitFaces faces_;
@@ -84,7 +88,8 @@ class LitVoxels {
     EmissionFit fit_;
     IrradianceCache cache_;
     EditPlaces places_;
-    bool keptFar_ = false;  // the last change was taken as one of near faces alone
+    bool keptFar_ = false;    // the last change was taken as one of near faces alone
+    bool directDue_ = false;  // direct light is that of other voxels or lights
 
     // What it was made from.
     base::Revision voxelsFrom_, lightsFrom_;

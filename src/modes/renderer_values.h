@@ -86,14 +86,14 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
     base::Steps renderWithin(WantedPicture asked);
     void forgetPicture();
     base::Steps render(WantedPicture asked);
-    void prepare(const Settings& settings);
+    base::Steps prepare(const Settings& settings);
     modes::Frame frame(const Settings& settings);
     base::Steps drawLight(const modes::Frame& frame);
     base::Steps drawPicture(const WantedPicture& asked);
     base::Steps drawParts(const Camera& camera, const Settings& settings, int count);
     base::Steps drawTemporal(const Camera& camera, const Settings& settings);
-    void seePart(const Camera& camera, const Settings& settings, const view::PixelPart& part);
-    void seeCenters(const WantedPicture& asked);
+    base::Steps seePart(const Camera& camera, const Settings& settings, view::PixelPart part);
+    base::Steps seeCenters(const WantedPicture& asked);
     void drawOverlays(const Settings& settings);
     PixelInspection inspect(int x, int y);
     void collectStats();

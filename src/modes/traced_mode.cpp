@@ -35,8 +35,10 @@ base::Steps TracedMode::drawInSteps(const Frame& frame) {
     const bool exactShadows = parts.direct && component != Component::Voxels && settings.exactShadows &&
                               gather::PixelVisibility::serves(frame.scene, frame.lights);
     if ((usesLight || exactShadows || frame.lights.castsCaustics()) && !frame.besideCenters) {
-        voxels_.update(frame.device, frame.scene, frame.settings.voxels, voxels::Rays::Yes);
-        frame.lights.castCaustics(frame.device, frame.scene, voxels_);
+        if (!voxels_.areOf(frame.scene, frame.settings.voxels))
+            co_await lit_.followVoxels(frame.device, voxels_);
+        co_await voxels_.updateInSteps(frame.device, frame.scene, frame.settings.voxels, voxels::Rays::Yes);
+        co_await frame.lights.castCausticsInSteps(frame.device, frame.scene, voxels_);
         co_await gl::rest(frame.device);
     }
     if (usesLight && !frame.besideCenters) co_await relight(frame);
@@ -45,8 +47,8 @@ base::Steps TracedMode::drawInSteps(const Frame& frame) {
     if (frame.recorder != nullptr) {
         record(frame, inputs);
     } else if (component == Component::Occlusion) {
-        indirect_.gatherOcclusion(frame.device, inputs, settings);
-        shade_.drawOcclusion(frame.device, inputs, indirect_.occlusion(), frame.output);
+        co_await indirect_.gatherOcclusion(frame.device, inputs, settings);
+        co_await shade_.drawOcclusion(frame.device, inputs, indirect_.occlusion(), frame.output);
     } else if (component == Component::Voxels) {
         voxelView_.draw(
             frame.device,
@@ -55,7 +57,7 @@ base::Steps TracedMode::drawInSteps(const Frame& frame) {
     } else {
         const gather::Indirect::Wanted wanted{settings, parts, frame.lookupCounters};
         if (frame.besideCenters)
-            indirect_.carry(frame.device, inputs, settings);
+            co_await indirect_.carry(frame.device, inputs, settings);
         else
             co_await indirect_.gatherInSteps(frame.device, inputs, wanted);
         const gather::VisibilityInputs seen{frame.scene, frame.lights, voxels_, frame.surfaces};
@@ -86,10 +88,13 @@ base::Steps TracedMode::relight(const Frame& frame) {
 }
 
 // By rays, where the picture holds what they may bring.
-void TracedMode::drawGlass(const Frame& frame) {
+base::Steps TracedMode::drawGlass(const Frame& frame) {
     const TracedSettings& settings = frame.settings.traced;
     const gather::PictureParts parts = partsOf(frame.settings);
-    if (!parts.diffuse && !parts.specular) return ModeRenderer::drawGlass(frame);
+    if (!parts.diffuse && !parts.specular) {
+        co_await ModeRenderer::drawGlass(frame);
+        co_return;
+    }
     gather::Glass::Wanted wanted{.parts = parts, .passes = settings.specularRays * settings.passes};
     // The views of a still are averaged.
     if (frame.besideCenters) wanted.passes = kGlassPasses * wanted.passes / std::max(frame.parts, 1);
@@ -97,8 +102,8 @@ void TracedMode::drawGlass(const Frame& frame) {
     wanted.passes = std::max(wanted.passes, 1);
     wanted.firstPass = frame.part * wanted.passes;
     if (!settings.bounces) wanted.reflections = kGlassReflections;
-    glass_.drawByRays(frame.device, {frame.scene, frame.lights, voxels_, lit_, frame.surfaces}, wanted,
-                      frame.output);
+    const gather::RayInputs inputs{frame.scene, frame.lights, voxels_, lit_, frame.surfaces};
+    co_await glass_.drawByRays(frame.device, inputs, wanted, frame.output);
 }
 
 // What the picture shows of one pixel, or would show in component full.
