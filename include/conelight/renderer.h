@@ -130,10 +130,10 @@ class CONELIGHT_API Renderer {
     // The same picture in parts, for a window that answers between them: begin() takes what render() takes and throws
     // what it throws of it; each goOn() draws for about so many milliseconds, one piece of work at least, and returns
     // whether the picture is finished. It has the bits that render() gives. Results are those of the last picture that
-    // was finished, whose texture is another then. Only a software driver draws in parts, and only mode `traced` in
-    // short ones; else the first goOn() draws all. drop() ends a picture that nobody wants; so do render(), begin(),
-    // inspectPixel(), reloadShaders() and every change of the scene. What it has found of light that has not changed
-    // stays. goOn() throws as render(), Error(Usage) when there is none to go on with.
+    // was finished, whose texture is another then. Only a software driver draws in parts; on a GPU the first goOn()
+    // draws all. drop() ends a picture that nobody wants; so do render(), begin(), inspectPixel(), reloadShaders() and
+    // every change of the scene. What it has found of light that has not changed stays. goOn() throws as render(),
+    // Error(Usage) when there is none to go on with.
     void begin(const Camera& camera, int width, int height, const Settings& settings);
     bool goOn(double milliseconds);
     void drop();

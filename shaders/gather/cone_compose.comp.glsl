@@ -13,6 +13,7 @@
 #include "lib/caustic_map.glsl"
 #include "lib/dot.glsl"
 #include "lib/gbuffer.glsl"
+#include "lib/picture_pass.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba32f) writeonly uniform image2D result;
 #if SHOW_DIRECT
@@ -27,7 +28,7 @@ uniform sampler2D specularRadiance;
 #endif
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = passPixel();
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
     Surface s;
     bool seen = fetchSurface(pixel, s);

@@ -3,12 +3,13 @@
 // Component occlusion: the open part of the hemisphere (cone_diffuse with OCCLUSION) as a grey picture, white
 // in the background.
 #include "lib/gbuffer.glsl"
+#include "lib/picture_pass.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba32f) writeonly uniform image2D result;
 uniform sampler2D occlusion;
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = passPixel();
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
     Surface s;
     bool seen = fetchSurface(pixel, s);

@@ -16,6 +16,7 @@
 #include "lib/dot.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/lighting.glsl"
+#include "lib/picture_pass.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f) writeonly uniform image2D result;
 #if COUNT_LOOKUPS
@@ -25,7 +26,7 @@ layout(std430) buffer LookupCounters { uint lookups[]; };
 const float kWidestTan = 2.8284271;  // tan(acos(1/3))
 
 void main() {
-    ivec2 pixel = INVOCATION_PIXEL;
+    ivec2 pixel = passPixel();
     Surface s;
     bool seen = fetchSurface(min(pixel, imageSize(result) - 1), s) &&
                 all(lessThan(pixel, imageSize(result))) && !s.unlit;

@@ -5,6 +5,7 @@
 // a: 1 where there is a surface, 0 in the background. CONE_SHADOWS 1: with the defines of lib/cone_trace.glsl.
 #include "lib/dot.glsl"
 #include "lib/gbuffer.glsl"
+#include "lib/picture_pass.glsl"
 // For glass, before the others.
 #include "lib/scene_tables.glsl"
 #include "lib/surface_array.glsl"
@@ -20,7 +21,7 @@ layout(rgba32f) writeonly uniform image2D diffuseImage;
 layout(rgba32f) writeonly uniform image2D specularImage;
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = passPixel();
     Surface s;
     bool seen = fetchSurface(pixel, s);
     Brdf b = makeBrdf(s.albedo, s.metallic, s.roughness, s.dielectricF0, dot(s.normal, s.toEye));

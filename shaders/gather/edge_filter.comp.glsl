@@ -22,6 +22,8 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #if SPECULAR
 #define LOBE_LIST_ACCESS readonly
 #include "lib/lobe_list.glsl"
+#else
+#include "lib/picture_pass.glsl"
 #endif
 layout(rgba32ui) writeonly uniform uimage2D result;
 
@@ -70,7 +72,7 @@ OwnPixel ownPixel(ivec2 size) {
 #if SPECULAR
     ivec2 pixel = listedPixel(size);
 #else
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = passPixel();
 #endif
     uvec4 bits = texelFetch(source, min(pixel, size - 1), 0);
     return OwnPixel(pixel, bits, positionOf(pixel, bits), pixelHistoryNormal(bits));

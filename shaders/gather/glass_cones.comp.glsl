@@ -10,6 +10,7 @@
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "lib/dot.glsl"
 #include "lib/frame_block.glsl"
+#include "lib/picture_pass.glsl"
 // For glass, before the others.
 #include "lib/scene_tables.glsl"
 #include "lib/surface_array.glsl"
@@ -183,7 +184,7 @@ vec3 coneLight(vec3 origin, vec3 direction, Bundle bundle, float lobeTan, const 
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = passPixel();
     if (any(greaterThanEqual(pixel, imageSize(picture)))) return;
     GlassSight sight = glassSight(pixel);
     GlassHit first = nearestGlass(frame.eye, sight.direction, sight.end, -1, true);

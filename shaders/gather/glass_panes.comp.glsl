@@ -4,6 +4,7 @@
 // reflects lights alone. Pixels that see none stay as they are. By rays: gather/glass_rays.comp.glsl.
 layout(local_size_x = 8, local_size_y = 8) in;
 #include "lib/frame_block.glsl"
+#include "lib/picture_pass.glsl"
 // For glass, before the others.
 #include "lib/scene_tables.glsl"
 #include "lib/surface_array.glsl"
@@ -18,7 +19,7 @@ layout(rgba32f) uniform image2D picture;
 const int kMostGlass = 32;  // surfaces in the line of sight
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = passPixel();
     if (any(greaterThanEqual(pixel, imageSize(picture)))) return;
     GlassSight sight = glassSight(pixel);
     GlassHit hit = nearestGlass(frame.eye, sight.direction, sight.end, -1, true);

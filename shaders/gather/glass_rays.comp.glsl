@@ -10,6 +10,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "lib/dot.glsl"
 #include "lib/frame_block.glsl"
 #include "lib/glass_sight.glsl"
+#include "lib/picture_pass.glsl"
 #include "lib/random.glsl"
 #include "lib/surface_array.glsl"
 // What needs them.
@@ -239,7 +240,7 @@ vec3 glassLight(GlassHit hit, GlassSight sight, inout PathParts pathParts, uint 
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = passPixel();
     if (any(greaterThanEqual(pixel, imageSize(picture)))) return;
     vec4 before = glassPass.pass > 0u ? imageLoad(sums, pixel) : vec4(0.0);
     if (before.a > 0.0) return;  // the first pass was sure of it

@@ -7,6 +7,7 @@
 #error MOVES must be 0 or 1
 #endif
 #include "lib/gbuffer_pack.glsl"
+#include "lib/picture_pass.glsl"
 #include "lib/scene_tables.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba16f) writeonly uniform image2D result;
@@ -36,7 +37,7 @@ vec4 bakedAt(ivec2 pixel, uint instance) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = passPixel();
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
     uvec4 geometry = texelFetch(gbufferGeometry, pixel, 0);
     uint instance = instanceOfWord(geometry.w);

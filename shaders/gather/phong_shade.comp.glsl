@@ -11,6 +11,7 @@
 #define LIGHTS_SHADOWS PHONG_SHADOWS
 #include "lib/dot.glsl"
 #include "lib/gbuffer.glsl"
+#include "lib/picture_pass.glsl"
 // For glass, before the others.
 #include "lib/scene_tables.glsl"
 #include "lib/surface_array.glsl"
@@ -88,7 +89,7 @@ vec3 phongRect(Phong m, Surface s, Light light) {
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = passPixel();
     Surface s;
     bool seen = fetchSurface(pixel, s);
     Phong m = phongOf(s);

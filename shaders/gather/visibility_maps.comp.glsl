@@ -9,6 +9,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "lib/dot.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/lights.glsl"
+#include "lib/picture_pass.glsl"
 #include "lib/visibility_list.glsl"
 #include "lib/voxel_grid.glsl"
 layout(r32ui) writeonly uniform uimage2D result;
@@ -53,7 +54,7 @@ void askDirectional(inout MapAnswers answers, Surface s, Light light, uint numbe
 }
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = passPixel();
     Surface s;
     bool seen = fetchSurface(min(pixel, imageSize(result) - 1), s);
     MapAnswers answers = MapAnswers(0u, 0u);

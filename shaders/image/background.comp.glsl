@@ -5,11 +5,12 @@
 #include "lib/dot.glsl"
 #include "lib/environment.glsl"
 #include "lib/gbuffer.glsl"
+#include "lib/picture_pass.glsl"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(rgba32f) writeonly uniform image2D picture;
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = passPixel();
     if (any(greaterThanEqual(pixel, imageSize(picture)))) return;
     if (texelFetch(gbufferGeometry, pixel, 0).x != 0u) return;
     // As wide as the pixel.

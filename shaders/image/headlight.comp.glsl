@@ -5,13 +5,14 @@
 #include "lib/brdf.glsl"
 #include "lib/dot.glsl"
 #include "lib/gbuffer.glsl"
+#include "lib/picture_pass.glsl"
 #include "shared/image.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140) uniform HeadlightBlock { HeadlightConstants headlight; };
 layout(rgba32f) uniform image2D picture;
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = passPixel();
     if (any(greaterThanEqual(pixel, imageSize(picture)))) return;
     Surface s;
     if (!fetchSurface(pixel, s) || s.unlit) return;

@@ -11,6 +11,7 @@
 #include "lib/dot.glsl"
 #include "lib/frame_block.glsl"
 #include "lib/gbuffer.glsl"
+#include "lib/picture_pass.glsl"
 #include "shared/image.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140) uniform TemporalBlock { TemporalPictureConstants temporal; };
@@ -146,7 +147,7 @@ vec4 clipped(vec4 before, ivec2 pixel, ivec2 size) {
 #endif
 
 void main() {
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = passPixel();
     ivec2 size = imageSize(picture);
     if (any(greaterThanEqual(pixel, size))) return;
     vec4 value = texelFetch(view, pixel, 0);

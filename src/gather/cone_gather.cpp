@@ -8,6 +8,7 @@
 
 #include "gather/cone_set.h"
 #include "gl/gl.h"
+#include "gl/picture_pass.h"
 #include "shared/cones.h"
 
 namespace conelight::gather {
@@ -132,14 +133,15 @@ gl::Inputs ConeGather::given(const ConeInputs& inputs, const gl::Texture& result
     return given;
 }
 
-void ConeGather::gather(const gl::Device& device, const ConeInputs& inputs, Part part,
-                        const gl::Texture& result, const gl::Buffer* counters) const {
-    const gl::PassScope pass(device.profiler, passName(part));
+base::Steps ConeGather::gatherInSteps(const gl::Device& device, const ConeInputs& inputs, Part part,
+                                      const gl::Texture& result, const gl::Buffer* counters) const {
     gl::Inputs given = this->given(inputs, result);
     if (counters != nullptr) given.storage("LookupCounters", *counters);
     const ConeKey key{keyOf(inputs.volume, opacity_, fractional_, inputs.pixels.lights), part,
                       counters != nullptr};
-    device.get(key.desc()).dispatch(given, result.width(), result.height());
+    const gl::ProgramDesc desc = key.desc();
+    const glm::ivec2 size(result.width(), result.height());
+    co_await gl::dispatchPicture(device, {passName(part), desc, given, size});
 }
 
 void ConeGather::record(const gl::Device& device, const ConeInputs& inputs, Part part,

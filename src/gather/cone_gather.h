@@ -9,6 +9,7 @@
 
 #include <vector>
 
+#include "base/steps.h"
 #include "conelight/settings.h"
 #include "gather/cone_shadows.h"
 #include "gather/direct_light.h"
@@ -40,7 +41,11 @@ class ConeGather {
     enum class Part { Diffuse, Specular, Occlusion };
     // `counters` not null: adds lookups (shared/cones.h).
     void gather(const gl::Device& device, const ConeInputs& inputs, Part part, const gl::Texture& result,
-                const gl::Buffer* counters) const;
+                const gl::Buffer* counters) const {
+        gatherInSteps(device, inputs, part, result, counters).finish();
+    }
+    base::Steps gatherInSteps(const gl::Device& device, const ConeInputs& inputs, Part part,
+                              const gl::Texture& result, const gl::Buffer* counters) const;
     // Records the recorder's pixel (gather/step_recorder.h); `result` as there, not written.
     void record(const gl::Device& device, const ConeInputs& inputs, Part part, const gl::Texture& result,
                 StepRecorder& recorder) const;

@@ -2,9 +2,12 @@
 #include "gather/cone_picture.h"
 
 #include "gl/gl.h"
+#include "gl/picture_pass.h"
 
 namespace conelight::gather {
 namespace {
+
+constexpr const char* kCompose = "compose";
 
 struct ComposeKey {
     PictureParts parts;
@@ -45,45 +48,48 @@ PictureParts ConePicture::partsOf(const Settings& settings) {
     return {parts.direct, parts.diffuse && gathers, parts.specular && gathers};
 }
 
-void ConePicture::drawOcclusion(const gl::Device& device, const DirectInputs& pixels,
-                                const ConeVolume& volume, const Target& target) {
+base::Steps ConePicture::drawOcclusion(const gl::Device& device, const DirectInputs& pixels,
+                                       const ConeVolume& volume, Target target) {
     const gl::Texture& open = resized(diffuse_, pixels.surfaces, "gathered diffuse");
-    volume.cones().gather(device, {pixels, volume.volume()}, ConeGather::Part::Occlusion, open,
-                          target.lookupCounters);
+    const ConeInputs inputs{pixels, volume.volume()};
+    co_await volume.cones().gatherInSteps(device, inputs, ConeGather::Part::Occlusion, open,
+                                          target.lookupCounters);
     gl::barrier(gl::Access::TextureFetch);
-    const gl::PassScope pass(device.profiler, "compose");
     gl::Inputs given;
     given.add(pixels).texture("occlusion", open).image("result", target.output, gl::ImageUse::Write);
-    device.get(coneOcclusionDesc()).dispatch(given, open.width(), open.height());
+    const gl::ProgramDesc desc = coneOcclusionDesc();
+    const glm::ivec2 size(open.width(), open.height());
+    co_await gl::dispatchPicture(device, {kCompose, desc, given, size});
 }
 
-void ConePicture::draw(const gl::Device& device, const DirectInputs& pixels, const ConeVolume& volume,
-                       const PictureParts& parts, const Target& target) {
+base::Steps ConePicture::drawInSteps(const gl::Device& device, const DirectInputs& pixels,
+                                     const ConeVolume& volume, PictureParts parts, Target target) {
+    const ConeInputs inputs{pixels, volume.volume()};
     gl::Inputs given;
     given.add(pixels).image("result", target.output, gl::ImageUse::Write);
     if (parts.direct) {
         const ConeShadows shadows = volume.cones().shadows(volume.volume());
-        direct_.draw(device, pixels, volume.shadowsByCones() ? &shadows : nullptr);
+        co_await direct_.drawInSteps(device, pixels, volume.shadowsByCones() ? &shadows : nullptr);
         given.texture("directDiffuse", direct_.diffuse()).texture("directSpecular", direct_.specular());
     }
     if (parts.diffuse && target.diffuse != nullptr) {
         given.texture("diffuseIrradiance", *target.diffuse);
     } else if (parts.diffuse) {
         const gl::Texture& picture = resized(diffuse_, pixels.surfaces, "gathered diffuse");
-        volume.cones().gather(device, {pixels, volume.volume()}, ConeGather::Part::Diffuse, picture,
-                              target.lookupCounters);
+        co_await volume.cones().gatherInSteps(device, inputs, ConeGather::Part::Diffuse, picture,
+                                              target.lookupCounters);
         given.texture("diffuseIrradiance", picture);
     }
     if (parts.specular) {
         const gl::Texture& picture = resized(specular_, pixels.surfaces, "gathered specular");
-        volume.cones().gather(device, {pixels, volume.volume()}, ConeGather::Part::Specular, picture,
-                              target.lookupCounters);
+        co_await volume.cones().gatherInSteps(device, inputs, ConeGather::Part::Specular, picture,
+                                              target.lookupCounters);
         given.texture("specularRadiance", picture);
     }
     gl::barrier(gl::Access::TextureFetch);
-    const gl::PassScope pass(device.profiler, "compose");
-    device.get(ComposeKey{parts, pixels.lights.hasCaustics()}.desc())
-        .dispatch(given, pixels.surfaces.width(), pixels.surfaces.height());
+    const gl::ProgramDesc desc = ComposeKey{parts, pixels.lights.hasCaustics()}.desc();
+    const glm::ivec2 size(pixels.surfaces.width(), pixels.surfaces.height());
+    co_await gl::dispatchPicture(device, {kCompose, desc, given, size});
 }
 
 void ConePicture::record(const gl::Device& device, const DirectInputs& pixels, const ConeVolume& volume,

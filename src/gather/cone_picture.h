@@ -19,10 +19,10 @@ class ConePicture {
         const gl::Buffer* lookupCounters = nullptr;  // not null: adds lookups of cones
         const gl::Texture* diffuse = nullptr;  // irradiance / pi that was gathered; null: cones gather it
     };
-    void draw(const gl::Device& device, const DirectInputs& pixels, const ConeVolume& volume,
-              const PictureParts& parts, const Target& target);
-    void drawOcclusion(const gl::Device& device, const DirectInputs& pixels, const ConeVolume& volume,
-                       const Target& target);
+    base::Steps drawInSteps(const gl::Device& device, const DirectInputs& pixels, const ConeVolume& volume,
+                            PictureParts parts, Target target);
+    base::Steps drawOcclusion(const gl::Device& device, const DirectInputs& pixels, const ConeVolume& volume,
+                              Target target);
     // Records what the picture shows of one pixel.
     void record(const gl::Device& device, const DirectInputs& pixels, const ConeVolume& volume,
                 ConeGather::Part part, StepRecorder& recorder);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gather/cone_volume.h"
 
+#include "gl/pace.h"
 #include "light/inject_light.h"
 
 namespace conelight::gather {
@@ -15,7 +16,8 @@ base::Revision bakedRevision(const light::BakedFaces* baked, const ConesSettings
 
 }  // namespace
 
-void ConeVolume::update(const gl::Device& device, const Inputs& inputs, const ConesSettings& settings) {
+base::Steps ConeVolume::updateInSteps(const gl::Device& device, const Inputs& inputs,
+                                      ConesSettings settings) {
     const voxels::SurfaceVoxels& surface = inputs.voxels.surface();
     const RadianceLayout layout =
         radianceLayout(surface.grid(), settings.directional, settings.maxFootprint, settings.storage);
@@ -32,28 +34,36 @@ void ConeVolume::update(const gl::Device& device, const Inputs& inputs, const Co
     const bool otherOpacity = !settings_ || settings_->opacity != settings.opacity;
     if (otherSettings || otherSources || otherLayout) cones_.configure(settings, layout);
     settings_ = settings;
-    voxelsFrom_ = inputs.voxels.revision();
-    lightsFrom_ = lights;
-    bakedFrom_ = baked;
-    if (!otherLayout && !otherSources && !otherBounces && !otherOpacity) return;
+    if (!otherLayout && !otherSources && !otherBounces && !otherOpacity) co_return;
+    voxelsFrom_ = {};
 
     if (otherLayout) {
         volume_ = {};  // frees the old one first
         volume_ = RadianceVolume(layout);
     }
     revision_ = base::Revision::next();
-    if (inputs.cache != nullptr) {
-        volume_.build(device, surface, inputs.cache->faces(), settings.opacity);
-        return;
-    }
+    if (inputs.cache != nullptr)
+        co_await volume_.buildInSteps(device, surface, inputs.cache->faces(), settings.opacity);
+    else
+        co_await light(device, inputs, settings);
+    voxelsFrom_ = inputs.voxels.revision();
+    lightsFrom_ = lights;
+    bakedFrom_ = baked;
+}
+
+// Without a cache: direct and baked light, and bounces.
+base::Steps ConeVolume::light(const gl::Device& device, const Inputs& inputs, const ConesSettings& settings) {
+    const voxels::SurfaceVoxels& surface = inputs.voxels.surface();
     light::injectLight(device, {inputs.scene, inputs.lights, surface}, faces_);
+    co_await gl::rest(device);
     if (inputs.baked != nullptr) inputs.baked->light(device, surface, faces_, corrections_);
     const gl::Buffer* corrections = inputs.baked != nullptr ? &corrections_ : nullptr;
-    volume_.build(device, surface, faces_, settings.opacity);
+    co_await volume_.buildInSteps(device, surface, faces_, settings.opacity);
     // Each further bounce reads the volume with one bounce less.
     for (int bounce = 1; bounce < settings.bounces; ++bounce) {
         cones_.gatherBounce(device, {inputs.lights, volume_, surface, corrections}, faces_);
-        volume_.build(device, surface, faces_, settings.opacity);
+        co_await gl::rest(device);
+        co_await volume_.buildInSteps(device, surface, faces_, settings.opacity);
     }
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "base/revision.h"
+#include "base/steps.h"
 #include "conelight/settings.h"
 #include "gather/cone_gather.h"
 #include "gather/radiance_volume.h"
@@ -31,7 +32,7 @@ class ConeVolume {
         const light::BakedFaces* baked = nullptr;
     };
     // Returns at once when nothing changed that it is made from. GL state changed: programs and their slots.
-    void update(const gl::Device& device, const Inputs& inputs, const ConesSettings& settings);
+    base::Steps updateInSteps(const gl::Device& device, const Inputs& inputs, ConesSettings settings);
     base::Revision revision() const { return revision_; }
 
     const RadianceVolume& volume() const { return volume_; }
@@ -40,6 +41,8 @@ class ConeVolume {
     bool shadowsByCones() const { return settings_ && settings_->shadows == ConesShadows::Cones; }
 
   private:
+    base::Steps light(const gl::Device& device, const Inputs& inputs, const ConesSettings& settings);
+
     light::LitFaces faces_;
     gl::Buffer corrections_;  // of baked light, per face
     RadianceVolume volume_;

@@ -5,6 +5,7 @@
 
 #include "gather/pixel_lights.h"
 #include "gl/gl.h"
+#include "gl/picture_pass.h"
 
 namespace conelight::gather {
 namespace {
@@ -28,8 +29,8 @@ gl::ProgramDesc desc(light::LightKey lights, const gl::Defines& cones) {
 
 }  // namespace
 
-void DirectLight::draw(const gl::Device& device, const DirectInputs& inputs, const ConeShadows* cones) {
-    const gl::PassScope pass(device.profiler, "direct light");
+base::Steps DirectLight::drawInSteps(const gl::Device& device, const DirectInputs& inputs,
+                                     const ConeShadows* cones) {
     const int width = inputs.surfaces.width(), height = inputs.surfaces.height();
     if (!diffuse_ || diffuse_.width() != width || diffuse_.height() != height) {
         diffuse_ = gl::Texture({GL_TEXTURE_2D, GL_RGBA32F, width, height}, "direct diffuse");
@@ -42,7 +43,8 @@ void DirectLight::draw(const gl::Device& device, const DirectInputs& inputs, con
     const light::LightKey lights = lightsOfPixels(inputs.lights, inputs.surfaces);
     const bool byCones = cones != nullptr && lights.shadows;
     if (byCones) given.add(*cones);
-    device.get(byCones ? desc(lights, cones->defines) : desc(lights)).dispatch(given, width, height);
+    const gl::ProgramDesc program = byCones ? desc(lights, cones->defines) : desc(lights);
+    co_await gl::dispatchPicture(device, {"direct light", program, given, {width, height}});
 }
 
 std::vector<gl::ProgramDesc> DirectLight::programDescs() {

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "base/steps.h"
 #include "gather/cone_shadows.h"
 #include "gl/device.h"
 #include "gl/texture.h"
@@ -26,7 +27,10 @@ struct DirectInputs {
 class DirectLight {
   public:
     // `cones`: shadows by them; null: by shadow maps.
-    void draw(const gl::Device& device, const DirectInputs& inputs, const ConeShadows* cones = nullptr);
+    void draw(const gl::Device& device, const DirectInputs& inputs, const ConeShadows* cones = nullptr) {
+        drawInSteps(device, inputs, cones).finish();
+    }
+    base::Steps drawInSteps(const gl::Device& device, const DirectInputs& inputs, const ConeShadows* cones);
 
     const gl::Texture& diffuse() const {
         return diffuse_;

@@ -2,11 +2,16 @@
 #include "gather/glass.h"
 
 #include "gl/gl.h"
+#include "gl/picture_pass.h"
 #include "light/firefly_clamp.h"
 #include "shared/glass.h"
 
 namespace conelight::gather {
 namespace {
+
+constexpr const char* kPass = "glass";
+
+glm::ivec2 sizeOf(const gl::Texture& picture) { return {picture.width(), picture.height()}; }
 
 struct GlassKey {
     bool rays;
@@ -41,9 +46,8 @@ gpu::GlassConstants packed(const PictureParts& parts) {
 
 }  // namespace
 
-void Glass::drawByRays(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,
-                       const gl::Texture& picture) {
-    const gl::PassScope pass(device.profiler, "glass");
+base::Steps Glass::drawByRays(const gl::Device& device, const RayInputs& inputs, Wanted wanted,
+                              const gl::Texture& picture) {
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::GlassConstants), "glass constants");
     if (!sums_ || sums_.width() != picture.width() || sums_.height() != picture.height()) {
         sums_ = {};
@@ -63,19 +67,18 @@ void Glass::drawByRays(const gl::Device& device, const RayInputs& inputs, const 
     GlassKey key{.rays = true, .hits = inputs.lights.hitKey(inputs.scene, true), .lights = {}};
     // Lamps are seen by the rays of narrow lobes, which need the paths of metals for it.
     key.hits.lobes = key.hits.glass = true;
-    const gl::Program& program = device.get(key.desc());
+    const gl::ProgramDesc desc = key.desc();
     for (int i = 0; i < wanted.passes; ++i) {
         constants.pass = static_cast<std::uint32_t>(i);
         constants_.update(constants);
         gl::barrier(gl::Access::ImageAccess | gl::Access::Update);
-        program.dispatch(given, picture.width(), picture.height());
+        co_await gl::dispatchPicture(device, {kPass, desc, given, sizeOf(picture)});
     }
     gl::barrier(gl::Access::ImageAccess | gl::Access::TextureFetch);
 }
 
-void Glass::drawByCones(const gl::Device& device, const DirectInputs& inputs, const ConeShadows& cones,
-                        const PictureParts& parts, const gl::Texture& picture) {
-    const gl::PassScope pass(device.profiler, "glass");
+base::Steps Glass::drawByCones(const gl::Device& device, const DirectInputs& inputs, const ConeShadows& cones,
+                               PictureParts parts, const gl::Texture& picture) {
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::GlassConstants), "glass constants");
     constants_.update(packed(parts));
     gl::Inputs given;
@@ -86,13 +89,12 @@ void Glass::drawByCones(const gl::Device& device, const DirectInputs& inputs, co
     gl::barrier(gl::Access::ImageAccess);
     const gl::ProgramDesc desc =
         conesDesc(cones.defines, inputs.lights.key().shadows, inputs.lights.hasEnvironment());
-    device.get(desc).dispatch(given, picture.width(), picture.height());
+    co_await gl::dispatchPicture(device, {kPass, desc, given, sizeOf(picture)});
     gl::barrier(gl::Access::ImageAccess | gl::Access::TextureFetch);
 }
 
-void Glass::drawStraight(const gl::Device& device, const DirectInputs& inputs, const PictureParts& parts,
-                         const gl::Texture& picture) {
-    const gl::PassScope pass(device.profiler, "glass");
+base::Steps Glass::drawStraight(const gl::Device& device, const DirectInputs& inputs, PictureParts parts,
+                                const gl::Texture& picture) {
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::GlassConstants), "glass constants");
     constants_.update(packed(parts));
     gl::Inputs given;
@@ -100,7 +102,8 @@ void Glass::drawStraight(const gl::Device& device, const DirectInputs& inputs, c
     GlassKey key{.rays = false, .hits = {}, .lights = inputs.lights.key()};
     key.lights.glass = true;
     gl::barrier(gl::Access::ImageAccess);
-    device.get(key.desc()).dispatch(given, picture.width(), picture.height());
+    const gl::ProgramDesc desc = key.desc();
+    co_await gl::dispatchPicture(device, {kPass, desc, given, sizeOf(picture)});
     gl::barrier(gl::Access::ImageAccess | gl::Access::TextureFetch);
 }
 

@@ -23,14 +23,14 @@ class Glass {
         int reflections = 0;  // on metals, of one ray
     };
     // By rays through the voxels; `picture` holds what is behind, of the same parts.
-    void drawByRays(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,
-                    const gl::Texture& picture);
+    base::Steps drawByRays(const gl::Device& device, const RayInputs& inputs, Wanted wanted,
+                           const gl::Texture& picture);
     // By a reflected and a refracted cone per pixel through the volume that `cones` gives.
-    void drawByCones(const gl::Device& device, const DirectInputs& inputs, const ConeShadows& cones,
-                     const PictureParts& parts, const gl::Texture& picture);
+    base::Steps drawByCones(const gl::Device& device, const DirectInputs& inputs, const ConeShadows& cones,
+                            PictureParts parts, const gl::Texture& picture);
     // As tinted panes that bend nothing and reflect lights alone.
-    void drawStraight(const gl::Device& device, const DirectInputs& inputs, const PictureParts& parts,
-                      const gl::Texture& picture);
+    base::Steps drawStraight(const gl::Device& device, const DirectInputs& inputs, PictureParts parts,
+                             const gl::Texture& picture);
 
     static std::vector<gl::ProgramDesc> programDescs();
     // By cones; `defines` are all that ConeShadows may have.

@@ -2,6 +2,8 @@
 #include "gather/hybrid_diffuse.h"
 
 #include "gl/gl.h"
+#include "gl/pace.h"
+#include "gl/picture_pass.h"
 
 namespace conelight::gather {
 namespace {
@@ -18,9 +20,11 @@ void resize(gl::Texture& picture, const view::Surfaces& surfaces, const char* la
 
 }  // namespace
 
-void HybridDiffuse::draw(const gl::Device& device, const Inputs& inputs, const gl::Buffer* counters) {
+base::Steps HybridDiffuse::drawInSteps(const gl::Device& device, const Inputs& inputs,
+                                       const gl::Buffer* counters) {
     const view::Surfaces& surfaces = inputs.pixels.surfaces;
     baked_.draw(device, inputs.pixels.scene, surfaces);
+    co_await gl::rest(device);
     resize(result_, surfaces, "hybrid diffuse");
     gl::Inputs given;
     given.add(inputs.pixels)
@@ -30,15 +34,16 @@ void HybridDiffuse::draw(const gl::Device& device, const Inputs& inputs, const g
         resize(all_, surfaces, "gathered of all");
         resize(static_, surfaces, "gathered of statics");
         const ConeGather& cones = inputs.all->cones();
-        cones.gather(device, {inputs.pixels, inputs.all->volume()}, ConeGather::Part::Diffuse, all_,
-                     counters);
-        cones.gather(device, {inputs.pixels, inputs.statics.volume().volume()}, ConeGather::Part::Diffuse,
-                     static_, counters);
+        const ConeInputs ofAll{inputs.pixels, inputs.all->volume()};
+        co_await cones.gatherInSteps(device, ofAll, ConeGather::Part::Diffuse, all_, counters);
+        const ConeInputs ofStatics{inputs.pixels, inputs.statics.volume().volume()};
+        co_await cones.gatherInSteps(device, ofStatics, ConeGather::Part::Diffuse, static_, counters);
         given.texture("allIrradiance", all_).texture("staticIrradiance", static_);
     }
     gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer);
-    const gl::PassScope pass(device.profiler, "baked difference");
-    device.get(desc(inputs.all != nullptr)).dispatch(given, surfaces.width(), surfaces.height());
+    const gl::ProgramDesc program = desc(inputs.all != nullptr);
+    const glm::ivec2 size(surfaces.width(), surfaces.height());
+    co_await gl::dispatchPicture(device, {"baked difference", program, given, size});
 }
 
 std::vector<gl::ProgramDesc> HybridDiffuse::programDescs() {

@@ -21,7 +21,7 @@ class HybridDiffuse {
         const StaticVolume& statics;
         const ConeVolume* all;
     };
-    void draw(const gl::Device& device, const Inputs& inputs, const gl::Buffer* counters);
+    base::Steps drawInSteps(const gl::Device& device, const Inputs& inputs, const gl::Buffer* counters);
     const gl::Texture& irradiance() const { return result_; }  // / pi, rgb
 
     static std::vector<gl::ProgramDesc> programDescs();

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "gl/pace.h"
+
 namespace conelight::gather {
 namespace {
 
@@ -127,21 +129,24 @@ base::Steps Indirect::gatherInSteps(const gl::Device& device, const RayInputs& i
     unfinished_ = false;
 }
 
-void Indirect::carry(const gl::Device& device, const RayInputs& inputs, const TracedSettings& settings) {
+base::Steps Indirect::carry(const gl::Device& device, const RayInputs& inputs,
+                            const TracedSettings& settings) {
     if (gatheredIrradiance_ != nullptr)
         irradiance_ = &carriedIrradiance_.carry(
             device, inputs, {*gatheredIrradiance_, gatheredView_, nullptr, settings.specularLimit});
+    co_await gl::rest(device);
     if (gatheredLobe_ != nullptr)
         lobe_ = &carriedLobe_.carry(device, inputs,
                                     {*gatheredLobe_, gatheredView_, &lobes(), settings.specularLimit});
+    co_await gl::rest(device);
 }
 
-void Indirect::gatherOcclusion(const gl::Device& device, const RayInputs& inputs,
-                               const TracedSettings& settings) {
+base::Steps Indirect::gatherOcclusion(const gl::Device& device, const RayInputs& inputs,
+                                      const TracedSettings& settings) {
     follow(inputs, settings);
     const RayPass pass{settings, kOcclusionRays, kOcclusionPasses};
-    addPasses(device, inputs, pass, occlusion_, occlusionHistory_).finish();
-    occlusion_.filterInSteps(device, inputs, 1).finish();
+    co_await addPasses(device, inputs, pass, occlusion_, occlusionHistory_);
+    co_await occlusion_.filterInSteps(device, inputs, 1);
     occlusionPicture_ = &occlusion_.filtered();
     unfinished_ = false;
 }

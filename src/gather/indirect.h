@@ -30,10 +30,11 @@ class Indirect {
     }
     // Left before it is done, it leaves no picture; what was gathered before is taken up again by the next.
     base::Steps gatherInSteps(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted);
-    void gatherOcclusion(const gl::Device& device, const RayInputs& inputs, const TracedSettings& settings);
+    base::Steps gatherOcclusion(const gl::Device& device, const RayInputs& inputs,
+                                const TracedSettings& settings);
     // What the last gather() found, as `inputs.surfaces` see it, a part of a pixel beside: irradiance() and
     // lobe() are of these then. GL state changed: as CarriedPicture.
-    void carry(const gl::Device& device, const RayInputs& inputs, const TracedSettings& settings);
+    base::Steps carry(const gl::Device& device, const RayInputs& inputs, const TracedSettings& settings);
     // Records the recorder's pixel; what was gathered stays.
     void record(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,
                 StepRecorder& recorder);

@@ -3,6 +3,7 @@
 
 #include "gather/pixel_lights.h"
 #include "gl/gl.h"
+#include "gl/picture_pass.h"
 
 namespace conelight::gather {
 namespace {
@@ -29,15 +30,15 @@ struct PhongKey {
 
 }  // namespace
 
-void drawPhongShade(const gl::Device& device, const DirectInputs& inputs, bool shadows,
-                    const gl::Texture& output) {
-    const gl::PassScope pass(device.profiler, "phong");
+base::Steps drawPhongShade(const gl::Device& device, const DirectInputs& inputs, bool shadows,
+                           const gl::Texture& output) {
     light::LightKey lights = lightsOfPixels(inputs.lights, inputs.surfaces);
     lights.cascades = lights.cascades && shadows;
     gl::Inputs given;
     given.add(inputs).image("outputImage", output, gl::ImageUse::Write);
-    device.get(PhongKey{lights, shadows && lights.shadows}.desc())
-        .dispatch(given, output.width(), output.height());
+    const gl::ProgramDesc desc = PhongKey{lights, shadows && lights.shadows}.desc();
+    const glm::ivec2 size(output.width(), output.height());
+    co_await gl::dispatchPicture(device, {"phong", desc, given, size});
 }
 
 std::vector<gl::ProgramDesc> phongShadeProgramDescs() {

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "base/steps.h"
 #include "gather/direct_light.h"
 #include "gl/device.h"
 #include "gl/texture.h"
@@ -12,8 +13,8 @@
 namespace conelight::gather {
 
 // `shadows`: with the shadow maps of the lights; else every light reaches every surface that faces it.
-void drawPhongShade(const gl::Device& device, const DirectInputs& inputs, bool shadows,
-                    const gl::Texture& output);
+base::Steps drawPhongShade(const gl::Device& device, const DirectInputs& inputs, bool shadows,
+                           const gl::Texture& output);
 
 std::vector<gl::ProgramDesc> phongShadeProgramDescs();
 

@@ -8,6 +8,7 @@
 #include "gather/pixel_list.h"
 #include "gl/gl.h"
 #include "gl/pace.h"
+#include "gl/picture_pass.h"
 #include "light/firefly_clamp.h"
 
 namespace conelight::gather {
@@ -262,25 +263,23 @@ base::Steps PixelRays::filterInSteps(const gl::Device& device, const RayInputs& 
     for (int level = 0; level < levels; ++level) {
         Picture* to = level % 2 == 0 ? &filtered_ : &other_;
         const bool lobes = kind_ == RayPicture::Specular;
-        {
-            const gl::PassScope scope(device.profiler, "edge filter");
-            gl::Inputs given;
-            given.add(inputs)
-                .uniform("PixelRayBlock", constants_)
-                .texture("source", from->texture)
-                .image("result", to->texture, gl::ImageUse::Write);
-            const gl::Program& filter = device.get(EdgeFilterKey{1 << level, lobes}.desc());
-            if (lobes) {
-                // Pixels that are not listed count for nothing.
-                clearWritten(*to);
-                to->written = current_.written;
-                filter.dispatchIndirect(given.storage("LobeList", lobeList_), lobeList_);
-            } else {
-                filter.dispatch(given, width, height);
-            }
-            gl::barrier(gl::Access::TextureFetch | gl::Access::Update);
+        constexpr const char* kName = "edge filter";
+        gl::Inputs given;
+        given.add(inputs)
+            .uniform("PixelRayBlock", constants_)
+            .texture("source", from->texture)
+            .image("result", to->texture, gl::ImageUse::Write);
+        const gl::ProgramDesc filter = EdgeFilterKey{1 << level, lobes}.desc();
+        if (lobes) {
+            // Pixels that are not listed count for nothing.
+            clearWritten(*to);
+            to->written = current_.written;
+            given.storage("LobeList", lobeList_);
+            co_await dispatchListed(device, {kName, filter, given, lobeList_});
+        } else {
+            co_await gl::dispatchPicture(device, {kName, filter, given, {width, height}});
         }
-        co_await gl::rest(device);
+        gl::barrier(gl::Access::TextureFetch | gl::Access::Update);
         from = to;
     }
     shown_ = &from->texture;

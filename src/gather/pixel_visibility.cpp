@@ -7,6 +7,7 @@
 #include "gather/pixel_lights.h"
 #include "gather/pixel_list.h"
 #include "gl/gl.h"
+#include "gl/picture_pass.h"
 #include "shared/visibility_list.h"
 
 namespace conelight::gather {
@@ -83,13 +84,10 @@ base::Steps PixelVisibility::lookInSteps(const gl::Device& device, const Visibil
     gl::Inputs given;
     given.add(inputs).image("result", seen_, gl::ImageUse::ReadWrite).storage("VisibilityList", open_);
     if (lookupCounters != nullptr) given.storage("LookupTable", *lookupCounters);
-    {
-        const gl::PassScope pass(device.profiler, kPass);
-        device.get(key.desc()).dispatch(given, width, height);
-        gl::barrier(gl::Access::ShaderStorage | gl::Access::ImageAccess | gl::Access::Indirect |
-                    gl::Access::Update);
-    }
-    co_await gl::rest(device);
+    const gl::ProgramDesc maps = key.desc();
+    co_await gl::dispatchPicture(device, {kPass, maps, given, {width, height}});
+    gl::barrier(gl::Access::ShaderStorage | gl::Access::ImageAccess | gl::Access::Indirect |
+                gl::Access::Update);
     const gl::ProgramDesc rays = rayDesc(key.counts);
     co_await dispatchListed(device, {kPass, rays, given, open_});
     gl::barrier(gl::Access::TextureFetch);

@@ -5,6 +5,7 @@
 
 #include "base/assert.h"
 #include "gl/gl.h"
+#include "gl/pace.h"
 
 namespace conelight::gather {
 namespace {
@@ -69,19 +70,25 @@ RadianceVolume::RadianceVolume(const RadianceLayout& layout)
         texture_.parameter(axis, GL_CLAMP_TO_EDGE);
 }
 
-void RadianceVolume::build(const gl::Device& device, const voxels::SurfaceVoxels& surface,
-                           const light::LitFaces& faces, OpacityModel opacity) {
+base::Steps RadianceVolume::buildInSteps(const gl::Device& device, const voxels::SurfaceVoxels& surface,
+                                         const light::LitFaces& faces, OpacityModel opacity) {
     CONELIGHT_ASSERT(surface.grid() == layout_.grid, "the volume is laid out for another grid");
     if (isOctree()) octree_.build(device, layout_, surface);
+    co_await gl::rest(device);
     {
         const gl::PassScope pass(device.profiler, "radiance volume");
         scatter(device, surface, faces);
     }
-    const gl::PassScope pass(device.profiler, "radiance levels");
-    if (isOctree())
-        buildOctreeLevels(device, opacity);
-    else
-        buildLevels(device, surface, opacity);
+    co_await gl::rest(device);
+    gl::PassSteps pass(device, "radiance levels");
+    for (int level = 1; level <= layout_.maxLevel; ++level) {
+        gl::barrier(gl::Access::ImageAccess);
+        if (isOctree())
+            buildOctreeLevel(device, opacity, level);
+        else
+            buildLevel(device, surface, opacity, level);
+        co_await pass.rest();
+    }
     gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
 }
 
@@ -111,41 +118,35 @@ void RadianceVolume::scatter(const gl::Device& device, const voxels::SurfaceVoxe
     device.get(ScatterKey{layout_.blocks, isOctree()}.desc()).dispatchLinear(inputs, surface.voxelCount());
 }
 
-void RadianceVolume::buildLevels(const gl::Device& device, const voxels::SurfaceVoxels& surface,
-                                 OpacityModel opacity) {
-    for (int level = 1; level <= layout_.maxLevel; ++level) {
-        gl::barrier(gl::Access::ImageAccess);
-        gl::Inputs inputs;
-        inputs.add(surface)
-            .uniform("RadianceVolumeBlock", block_)
-            .image("fine", texture_, gl::ImageUse::Read, level - 1)
-            .image("coarse", texture_, gl::ImageUse::Write, level);
-        const bool sparse = level <= kSparseLevels;
-        const LevelKey key{layout_.blocks, opacity, sparse ? LevelPlaces::Sparse : LevelPlaces::All};
-        if (sparse) {
-            const std::size_t texelsPerBrick = level == 1 ? 8 : 1;
-            device.get(key.desc())
-                .dispatchLinear(inputs, surface.occupiedBrickCount() * texelsPerBrick *
-                                            static_cast<std::size_t>(layout_.blocks));
-        } else {
-            device.get(key.desc())
-                .dispatch(inputs, texture_.width(level), texture_.height(level), texture_.depth(level));
-        }
+void RadianceVolume::buildLevel(const gl::Device& device, const voxels::SurfaceVoxels& surface,
+                                OpacityModel opacity, int level) {
+    gl::Inputs inputs;
+    inputs.add(surface)
+        .uniform("RadianceVolumeBlock", block_)
+        .image("fine", texture_, gl::ImageUse::Read, level - 1)
+        .image("coarse", texture_, gl::ImageUse::Write, level);
+    const bool sparse = level <= kSparseLevels;
+    const LevelKey key{layout_.blocks, opacity, sparse ? LevelPlaces::Sparse : LevelPlaces::All};
+    if (sparse) {
+        const std::size_t texelsPerBrick = level == 1 ? 8 : 1;
+        device.get(key.desc())
+            .dispatchLinear(inputs, surface.occupiedBrickCount() * texelsPerBrick *
+                                        static_cast<std::size_t>(layout_.blocks));
+    } else {
+        device.get(key.desc())
+            .dispatch(inputs, texture_.width(level), texture_.height(level), texture_.depth(level));
     }
 }
 
-void RadianceVolume::buildOctreeLevels(const gl::Device& device, OpacityModel opacity) {
+void RadianceVolume::buildOctreeLevel(const gl::Device& device, OpacityModel opacity, int level) {
     const LevelKey key{layout_.blocks, opacity, LevelPlaces::Octree};
-    for (int level = 1; level <= layout_.maxLevel; ++level) {
-        gl::barrier(gl::Access::ImageAccess);
-        gl::Inputs inputs;
-        octree_.declareFill(inputs, level);
-        inputs.uniform("RadianceVolumeBlock", block_)
-            .image("fine", octree_.bricks(), gl::ImageUse::Read)
-            .image("coarse", octree_.bricks(), gl::ImageUse::Write);
-        device.get(key.desc())
-            .dispatchLinear(inputs, std::size_t{OCTREE_BRICK_TEXELS} * octree_.brickCount(level));
-    }
+    gl::Inputs inputs;
+    octree_.declareFill(inputs, level);
+    inputs.uniform("RadianceVolumeBlock", block_)
+        .image("fine", octree_.bricks(), gl::ImageUse::Read)
+        .image("coarse", octree_.bricks(), gl::ImageUse::Write);
+    device.get(key.desc())
+        .dispatchLinear(inputs, std::size_t{OCTREE_BRICK_TEXELS} * octree_.brickCount(level));
 }
 
 void RadianceVolume::declare(gl::Inputs& inputs) const {

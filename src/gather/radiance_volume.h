@@ -13,6 +13,7 @@
 
 #include <vector>
 
+#include "base/steps.h"
 #include "conelight/settings.h"
 #include "gather/radiance_layout.h"
 #include "gather/radiance_octree.h"
@@ -33,7 +34,11 @@ class RadianceVolume {
     // Fills every level from the faces' radiance + albedo * irradiance. `surface` must have the layout's
     // grid.
     void build(const gl::Device& device, const voxels::SurfaceVoxels& surface, const light::LitFaces& faces,
-               OpacityModel opacity);
+               OpacityModel opacity) {
+        buildInSteps(device, surface, faces, opacity).finish();
+    }
+    base::Steps buildInSteps(const gl::Device& device, const voxels::SurfaceVoxels& surface,
+                             const light::LitFaces& faces, OpacityModel opacity);
 
     // What shaders may read: RadianceVolumeBlock, and radianceVolume or what the octree declares.
     void declare(gl::Inputs& inputs) const;
@@ -50,8 +55,9 @@ class RadianceVolume {
     void clearLevel(const gl::Device& device, int level);
     void scatter(const gl::Device& device, const voxels::SurfaceVoxels& surface,
                  const light::LitFaces& faces);
-    void buildLevels(const gl::Device& device, const voxels::SurfaceVoxels& surface, OpacityModel opacity);
-    void buildOctreeLevels(const gl::Device& device, OpacityModel opacity);
+    void buildLevel(const gl::Device& device, const voxels::SurfaceVoxels& surface, OpacityModel opacity,
+                    int level);
+    void buildOctreeLevel(const gl::Device& device, OpacityModel opacity, int level);
 
     RadianceLayout layout_;
     gl::Texture texture_;    // dense

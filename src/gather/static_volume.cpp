@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "gl/pace.h"
+
 namespace conelight::gather {
 namespace {
 
@@ -44,11 +46,11 @@ bool StaticVolume::takeScene(const scene::GpuScene& scene) {
     return true;
 }
 
-void StaticVolume::update(const gl::Device& device, const Inputs& inputs, const VoxelSettings& voxels,
-                          const ConesSettings& settings) {
-    if (!takeScene(inputs.scene)) return;
-    lights_.update(device, *scene_, inputs.wanted);
-    voxels_.updateIn(inputs.grid, device, *scene_, voxels);
+base::Steps StaticVolume::updateInSteps(const gl::Device& device, const Inputs& inputs,
+                                        const VoxelSettings& voxels, const ConesSettings& settings) {
+    if (!takeScene(inputs.scene)) co_return;
+    co_await lights_.updateInSteps(device, *scene_, inputs.wanted);
+    co_await voxels_.updateInSteps(inputs.grid, device, *scene_, voxels);
     if (voxelsFrom_ != voxels_.revision() || bakedFrom_ != inputs.scene.bakedRevision())
         faces_.update(*inputs.scene.source().baked, voxels_.surface());
     voxelsFrom_ = voxels_.revision();
@@ -56,7 +58,9 @@ void StaticVolume::update(const gl::Device& device, const Inputs& inputs, const 
     // The bake has all bounces.
     ConesSettings once = settings;
     once.bounces = std::min(settings.bounces, 1);
-    volume_.update(device, {*scene_, lights_, voxels_, nullptr, &faces_}, once);
+    co_await gl::rest(device);
+    const ConeVolume::Inputs lit{*scene_, lights_, voxels_, nullptr, &faces_};
+    co_await volume_.updateInSteps(device, lit, once);
     if (correctedFrom_ != volume_.revision() || correctedWith_ != settings) correct(device, settings);
 }
 

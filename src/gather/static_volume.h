@@ -26,8 +26,8 @@ class StaticVolume {
     };
     // Returns at once when nothing changed that it is made from; nothing is made where nothing is baked. GL state
     // changed: as Lights::update.
-    void update(const gl::Device& device, const Inputs& inputs, const VoxelSettings& voxels,
-                const ConesSettings& settings);
+    base::Steps updateInSteps(const gl::Device& device, const Inputs& inputs, const VoxelSettings& voxels,
+                              const ConesSettings& settings);
     explicit operator bool() const { return scene_.has_value(); }  // whether anything is baked
 
     const voxels::Voxels& voxels() const { return voxels_; }

@@ -7,6 +7,7 @@
 #include "gather/pixel_lights.h"
 #include "gl/gl.h"
 #include "gl/pace.h"
+#include "gl/picture_pass.h"
 
 namespace conelight::gather {
 namespace {
@@ -188,12 +189,13 @@ void TracedShade::recordCache(const gl::Device& device, const RayInputs& inputs,
     recorder.record(device, key.desc(), given);
 }
 
-void TracedShade::drawOcclusion(const gl::Device& device, const RayInputs& inputs,
-                                const gl::Texture& occlusion, const gl::Texture& output) {
-    const gl::PassScope pass(device.profiler, kShade);
+base::Steps TracedShade::drawOcclusion(const gl::Device& device, const RayInputs& inputs,
+                                       const gl::Texture& occlusion, const gl::Texture& output) {
     gl::Inputs given;
     given.add(inputs).texture("occlusion", occlusion).image("result", output, gl::ImageUse::Write);
-    device.get(rayOcclusionDesc()).dispatch(given, output.width(), output.height());
+    const gl::ProgramDesc desc = rayOcclusionDesc();
+    const glm::ivec2 size(output.width(), output.height());
+    co_await gl::dispatchPicture(device, {kShade, desc, given, size});
 }
 
 std::vector<gl::ProgramDesc> TracedShade::programDescs() {

@@ -33,8 +33,8 @@ class TracedShade {
                             const Wanted& wanted, const gl::Texture& output);
     // Records the faces of the cache that the recorder's pixel shows.
     void recordCache(const gl::Device& device, const RayInputs& inputs, StepRecorder& recorder);
-    void drawOcclusion(const gl::Device& device, const RayInputs& inputs, const gl::Texture& occlusion,
-                       const gl::Texture& output);
+    base::Steps drawOcclusion(const gl::Device& device, const RayInputs& inputs, const gl::Texture& occlusion,
+                              const gl::Texture& output);
 
     static std::vector<gl::ProgramDesc> programDescs();
 

@@ -18,6 +18,12 @@ bool Pace::over() {
     return now_ >= milliseconds_;
 }
 
+bool PassSteps::Rest::await_ready() {
+    if (pass.device_.pace == nullptr) return true;
+    pass.scope_.reset();
+    return !pass.device_.pace->over();
+}
+
 bool Pieces::next() {
     first_ += count_;
     if (first_ >= total_) return false;

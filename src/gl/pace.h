@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <coroutine>
+#include <optional>
 
 #include "base/steps.h"
 #include "gl/device.h"
@@ -30,6 +31,27 @@ struct Rest {
     void await_resume() const noexcept {}
 };
 inline Rest rest(const Device& device) { return {device.pace}; }
+
+// A pass that may rest between its dispatches and draws: one scope where it does not. Nothing else may be open then.
+class PassSteps {
+  public:
+    PassSteps(const Device& device, const char* name) : device_(device), name_(name) { open(); }
+    struct Rest {
+        PassSteps& pass;
+        bool await_ready();
+        void await_suspend(std::coroutine_handle<>) const noexcept {}
+        void await_resume() { pass.open(); }
+    };
+    Rest rest() { return {*this}; }
+
+  private:
+    void open() {
+        if (!scope_) scope_.emplace(device_.profiler, name_);
+    }
+    const Device& device_;
+    const char* name_;
+    std::optional<PassScope> scope_;
+};
 
 // The pieces of a pass over `total` rows, or whatever: whole multiples of `unit`, as many as take a small part of a
 // part's time, with a rest after each. Without a pace: one.

@@ -16,6 +16,8 @@ namespace {
 
 constexpr int kMaxGroups = 65535;  // GL minimum of GL_MAX_COMPUTE_WORK_GROUP_COUNT
 
+std::atomic<std::uint64_t> builtCount{0}, usedCount{0};
+
 GLenum stageOf(const std::string& file) {
     const auto has = [&](const char* part) { return file.find(part) != std::string::npos; };
     if (has(".vert.")) return GL_VERTEX_SHADER;
@@ -130,6 +132,7 @@ std::string ProgramDesc::label() const {
 Program::Program(const ShaderProvider& provider, const ProgramDesc& desc) : label_(desc.label()) {
     // Owned from the start, so that a failure below frees it.
     const GLuint program = glCreateProgram();
+    ++builtCount;
     adopt(program, label_, 0);
     std::vector<GLuint> stages;
     for (const std::string& file : desc.files) {
@@ -182,6 +185,7 @@ void Program::assignSlots() {
 
 void Program::use(const Inputs& inputs) const {
     glUseProgram(name());
+    ++usedCount;
     for (const ProgramSlot& slot : slots_) {
         const auto given = std::find_if(inputs.items().begin(), inputs.items().end(), [&](const auto& item) {
             return item.name.hash() == slot.hash && item.kind == slot.kind;
@@ -255,6 +259,7 @@ BuiltPrograms& built() {
 
 void setMostPrograms(std::size_t count) { most = count; }
 std::size_t mostPrograms() { return most; }
+ProgramCounts programCounts() { return {builtCount, usedCount}; }
 
 std::vector<ProgramDesc> builtPrograms() {
     BuiltPrograms& all = built();
@@ -278,6 +283,12 @@ const Program& ProgramLibrary::get(const ProgramDesc& desc) {
     }
     entry->asked = ++asked_;
     return entry->program;
+}
+
+Buffer& ProgramLibrary::firstRow() {
+    constexpr std::size_t kBytes = 16;
+    if (!firstRow_) firstRow_ = Buffer(kBytes, "first row");
+    return firstRow_;
 }
 
 void ProgramLibrary::trim() {

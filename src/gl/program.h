@@ -88,6 +88,9 @@ class ProgramLibrary {
         return get({{file}, defines});
     }
 
+    // FirstRowBlock of passes over pictures (gl/picture_pass.h), which one pass after the other fills.
+    Buffer& firstRow();
+
     // Rebuilds programs that use one of `files`, and those whose last rebuild failed (the fault may be in a
     // file they did not use before). A program that fails keeps its old version. Returns one message per
     // failure.
@@ -104,9 +107,17 @@ class ProgramLibrary {
         std::uint64_t asked = 0;  // which call of get() was the last for it
     };
     ShaderProvider provider_;
+    Buffer firstRow_;
     std::map<std::string, std::unique_ptr<Entry>> programs_;
     std::uint64_t asked_ = 0, trimmed_ = 0;  // calls of get(), and of these before the last trim()
 };
+
+// How many programs this process has built so far, and how often it made one current: tests count the work in a part of
+// a picture.
+struct ProgramCounts {
+    std::uint64_t built = 0, used = 0;
+};
+ProgramCounts programCounts();
 
 // What libraries of this process have built so far, by label: tests compare it with the lists of
 // variants.

@@ -2,6 +2,7 @@
 #include "image/background.h"
 
 #include "gl/gl.h"
+#include "gl/picture_pass.h"
 
 namespace conelight::image {
 namespace {
@@ -10,14 +11,16 @@ gl::ProgramDesc backgroundDesc() { return {{"image/background.comp.glsl"}, {}}; 
 
 }  // namespace
 
-void drawBackground(const gl::Device& device, const scene::GpuScene& scene, const light::Lights& lights,
-                    const view::Surfaces& surfaces, const gl::Texture& picture) {
-    if (!lights.hasEnvironment()) return;
-    const gl::PassScope pass(device.profiler, "background");
+base::Steps drawBackground(const gl::Device& device, const scene::GpuScene& scene,
+                           const light::Lights& lights, const view::Surfaces& surfaces,
+                           const gl::Texture& picture) {
+    if (!lights.hasEnvironment()) co_return;
     gl::barrier(gl::Access::ImageAccess | gl::Access::TextureFetch);
     gl::Inputs given;
     given.add(scene).add(lights).add(surfaces).image("picture", picture, gl::ImageUse::Write);
-    device.get(backgroundDesc()).dispatch(given, picture.width(), picture.height());
+    const gl::ProgramDesc desc = backgroundDesc();
+    const glm::ivec2 size(picture.width(), picture.height());
+    co_await gl::dispatchPicture(device, {"background", desc, given, size});
     gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess);
 }
 

@@ -6,6 +6,7 @@
 
 #include <vector>
 
+#include "base/steps.h"
 #include "gl/device.h"
 #include "gl/texture.h"
 #include "light/lights.h"
@@ -16,8 +17,9 @@ namespace conelight::image {
 
 // Into the pixels of `picture` (RGBA32F, of the size of `surfaces`) that see no surface; alpha 0. Without an
 // environment nothing is drawn.
-void drawBackground(const gl::Device& device, const scene::GpuScene& scene, const light::Lights& lights,
-                    const view::Surfaces& surfaces, const gl::Texture& picture);
+base::Steps drawBackground(const gl::Device& device, const scene::GpuScene& scene,
+                           const light::Lights& lights, const view::Surfaces& surfaces,
+                           const gl::Texture& picture);
 std::vector<gl::ProgramDesc> backgroundProgramDescs();
 
 }  // namespace conelight::image

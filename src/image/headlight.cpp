@@ -2,6 +2,7 @@
 #include "image/headlight.h"
 
 #include "gl/gl.h"
+#include "gl/picture_pass.h"
 #include "shared/image.h"
 
 namespace conelight::image {
@@ -11,9 +12,8 @@ gl::ProgramDesc headlightDesc() { return {{"image/headlight.comp.glsl"}, {}}; }
 
 }  // namespace
 
-void Headlight::draw(const gl::Device& device, const Inputs& inputs, const gl::Texture& picture) {
-    if (!(inputs.irradiance > 0)) return;
-    const gl::PassScope pass(device.profiler, "headlight");
+base::Steps Headlight::draw(const gl::Device& device, const Inputs& inputs, const gl::Texture& picture) {
+    if (!(inputs.irradiance > 0)) co_return;
     if (!block_) block_ = gl::Buffer(sizeof(gpu::HeadlightConstants), "headlight");
     gpu::HeadlightConstants constants{};
     constants.irradiance = inputs.irradiance;
@@ -24,7 +24,9 @@ void Headlight::draw(const gl::Device& device, const Inputs& inputs, const gl::T
         .add(inputs.surfaces)
         .uniform("HeadlightBlock", block_)
         .image("picture", picture, gl::ImageUse::ReadWrite);
-    device.get(headlightDesc()).dispatch(given, picture.width(), picture.height());
+    const gl::ProgramDesc desc = headlightDesc();
+    const glm::ivec2 size(picture.width(), picture.height());
+    co_await gl::dispatchPicture(device, {"headlight", desc, given, size});
     gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess);
 }
 

@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "base/steps.h"
 #include "gl/device.h"
 #include "gl/texture.h"
 #include "scene/gpu_scene.h"
@@ -22,7 +23,7 @@ class Headlight {
         float irradiance = 0;  // W/m^2, on surfaces that face the eye; 0: nothing is drawn
     };
     // Into `picture` (RGBA32F, of the size of the surfaces).
-    void draw(const gl::Device& device, const Inputs& inputs, const gl::Texture& picture);
+    base::Steps draw(const gl::Device& device, const Inputs& inputs, const gl::Texture& picture);
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "gl/gl.h"
+#include "gl/picture_pass.h"
 #include "shared/image.h"
 #include "view/surfaces.h"
 
@@ -121,9 +122,8 @@ view::PixelPart TemporalPicture::part(bool settled) {
     return part;
 }
 
-void TemporalPicture::add(const gl::Device& device, const scene::GpuScene& scene,
-                          const view::Surfaces& centers, const gl::Texture& picture) {
-    const gl::PassScope pass(device.profiler, "temporal");
+base::Steps TemporalPicture::add(const gl::Device& device, const scene::GpuScene& scene,
+                                 const view::Surfaces& centers, const gl::Texture& picture) {
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::TemporalPictureConstants), "temporal constants");
     gpu::TemporalPictureConstants constants{};
     constants.oldClipFromWorld = clipFromWorld_;
@@ -142,7 +142,9 @@ void TemporalPicture::add(const gl::Device& device, const scene::GpuScene& scene
         .texture("placesBefore", places_[0])
         .image("places", places_[1], gl::ImageUse::Write)
         .image("picture", picture, gl::ImageUse::Write);
-    device.get(TemporalKey{still_}.desc()).dispatch(given, width_, height_);
+    const gl::ProgramDesc desc = TemporalKey{still_}.desc();
+    const glm::ivec2 size(width_, height_);
+    co_await gl::dispatchPicture(device, {"temporal", desc, given, size});
     gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess |
                 gl::Access::Update);
     history_.copyFrom(picture);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/revision.h"
+#include "base/steps.h"
 #include "conelight/settings.h"
 #include "gl/buffer.h"
 #include "gl/device.h"
@@ -50,8 +51,8 @@ class TemporalPicture {
     void takeCenters(const gl::Texture& picture) { view_.copyFrom(picture); }
     // The frame's view, drawn, and the pictures before -> `picture`, RGBA32F of the same size. `centers`: what is
     // seen at the pixels' centres. Ends with the barriers for texture fetches, images and framebuffers.
-    void add(const gl::Device& device, const scene::GpuScene& scene, const view::Surfaces& centers,
-             const gl::Texture& picture);
+    base::Steps add(const gl::Device& device, const scene::GpuScene& scene, const view::Surfaces& centers,
+                    const gl::Texture& picture);
 
     static std::vector<gl::ProgramDesc> programDescs();
 

@@ -2,6 +2,7 @@
 #include "image/view_mean.h"
 
 #include "gl/gl.h"
+#include "gl/picture_pass.h"
 #include "shared/image.h"
 
 namespace conelight::image {
@@ -19,8 +20,7 @@ const gl::Texture& ViewMean::view(int width, int height) {
     return view_;
 }
 
-void ViewMean::add(const gl::Device& device, int number, const gl::Texture& mean) {
-    const gl::PassScope pass(device.profiler, "mean of views");
+base::Steps ViewMean::add(const gl::Device& device, int number, const gl::Texture& mean) {
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::ViewMeanConstants), "mean of views constants");
     gpu::ViewMeanConstants constants{};
     constants.views = static_cast<std::uint32_t>(number + 1);
@@ -30,7 +30,9 @@ void ViewMean::add(const gl::Device& device, int number, const gl::Texture& mean
     given.uniform("ViewMeanBlock", constants_)
         .texture("view", view_)
         .image("mean", mean, gl::ImageUse::ReadWrite);
-    device.get(meanDesc()).dispatch(given, mean.width(), mean.height());
+    const gl::ProgramDesc desc = meanDesc();
+    const glm::ivec2 size(mean.width(), mean.height());
+    co_await gl::dispatchPicture(device, {"mean of views", desc, given, size});
     gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess);
 }
 

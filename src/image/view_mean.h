@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "base/steps.h"
 #include "gl/buffer.h"
 #include "gl/device.h"
 #include "gl/texture.h"
@@ -18,7 +19,7 @@ class ViewMean {
     // RGBA32F of this size, to draw the next view to: its content is lost with the next.
     const gl::Texture& view(int width, int height);
     // The view just drawn, number `number` from 0, into `mean`: RGBA32F, of the same size.
-    void add(const gl::Device& device, int number, const gl::Texture& mean);
+    base::Steps add(const gl::Device& device, int number, const gl::Texture& mean);
 
     static std::vector<gl::ProgramDesc> programDescs();
 

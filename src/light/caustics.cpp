@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "gl/gl.h"
+#include "gl/pace.h"
 #include "light/lights.h"
 #include "scene/gpu_lights.h"
 #include "voxels/voxel_grid.h"
@@ -17,6 +18,7 @@ namespace {
 
 // Texels per edge of a map: 0.7 degrees each, half as much light as a path of the default number brings.
 constexpr std::uint32_t kEdge = 256;
+constexpr const char* kPass = "caustics";
 // Points of a rectangle per edge that paths start from. What lies between is filled in by their differences.
 constexpr std::uint32_t kLampGrid = 4;
 // All light of a solid comes to so many counts: no path brings more than a word, the rounding of the weakest is
@@ -77,9 +79,8 @@ void Caustics::layOut(std::size_t solids, int paths) {
     map_.parameter(GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
 }
 
-void Caustics::cast(const gl::Device& device, const Inputs& inputs,
-                    const std::vector<scene::GlassSolid>& solids, int paths) {
-    const gl::PassScope pass(device.profiler, "caustics");
+base::Steps Caustics::castInSteps(const gl::Device& device, const Inputs& inputs,
+                                  const std::vector<scene::GlassSolid>& solids, int paths) {
     const std::size_t count = std::min(solids.size(), std::size_t{CAUSTIC_SOLIDS});
     layOut(count, paths);
     constants_ = {};
@@ -91,14 +92,17 @@ void Caustics::cast(const gl::Device& device, const Inputs& inputs,
         if (!solids[i].isPane) constants_.turnsAll |= 1u << i;
     }
     block_.update(constants_);
-    for (std::uint32_t i = 0; i < count; ++i) castSolid(device, inputs, i, paths);
+    for (std::uint32_t i = 0; i < count; ++i) co_await castSolid(device, inputs, i, paths);
+    const gl::PassScope pass(device.profiler, kPass);
     gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess);
     map_.generateMipmaps();
     gl::barrier(gl::Access::TextureFetch);
 }
 
 // The paths of one light after the other, and their sum.
-void Caustics::castSolid(const gl::Device& device, const Inputs& inputs, std::uint32_t solid, int paths) {
+base::Steps Caustics::castSolid(const gl::Device& device, const Inputs& inputs, std::uint32_t solid,
+                                int paths) {
+    gl::PassSteps pass(device, kPass);
     const std::vector<gpu::Light>& table = inputs.lights.table();
     gpu::CausticPass cast{};
     cast.middle = glm::vec3(constants_.middle[solid]);
@@ -125,8 +129,10 @@ void Caustics::castSolid(const gl::Device& device, const Inputs& inputs, std::ui
         passBlock_.update(cast);
         device.get(pathsDesc()).dispatchLinear(given, CAUSTIC_WAYS * starts);
         gl::barrier(gl::Access::ShaderStorage);
+        co_await pass.rest();
         device.get(sumsDesc()).dispatchLinear(given, CAUSTIC_WAYS * starts);
         gl::barrier(gl::Access::ShaderStorage | gl::Access::Update);
+        co_await pass.rest();
     }
     for (cast.level = CAUSTIC_LEVELS; cast.level-- > 0;) {
         passBlock_.update(cast);

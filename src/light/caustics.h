@@ -32,16 +32,16 @@ class Caustics {
     void clear();
     // `paths` through each solid from each light. Ends with the barrier for texture fetches. GL state changed:
     // programs and their slots.
-    void cast(const gl::Device& device, const Inputs& inputs, const std::vector<scene::GlassSolid>& solids,
-              int paths);
-    void declare(gl::Inputs& inputs) const;  // CausticBlock, causticMap; after clear() or cast()
+    base::Steps castInSteps(const gl::Device& device, const Inputs& inputs,
+                            const std::vector<scene::GlassSolid>& solids, int paths);
+    void declare(gl::Inputs& inputs) const;  // CausticBlock, causticMap; after clear() or castInSteps()
     bool any() const { return constants_.count > 0; }
     const gl::Texture& map() const { return map_; }
 
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
-    void castSolid(const gl::Device& device, const Inputs& inputs, std::uint32_t solid, int paths);
+    base::Steps castSolid(const gl::Device& device, const Inputs& inputs, std::uint32_t solid, int paths);
     void layOut(std::size_t solids, int paths);
 
     gpu::CausticConstants constants_{};

@@ -5,7 +5,7 @@
 #include <array>
 
 #include "gl/gl.h"
-#include "gl/pass.h"
+#include "gl/pace.h"
 
 namespace conelight::light {
 namespace {
@@ -23,10 +23,11 @@ struct FitKey {
 
 }  // namespace
 
-void EmissionFit::update(const gl::Device& device, const scene::GpuScene& scene,
-                         const voxels::Voxels& voxels) {
-    if (voxelsFrom_ == voxels.revision()) return;
-    const gl::PassScope pass(device.profiler, "emission that fits");
+base::Steps EmissionFit::updateInSteps(const gl::Device& device, const scene::GpuScene& scene,
+                                       const voxels::Voxels& voxels) {
+    if (voxelsFrom_ == voxels.revision()) co_return;
+    voxelsFrom_ = {};
+    gl::PassSteps pass(device, "emission that fits");
     const voxels::SurfaceVoxels& surface = voxels.surface();
     const std::uint32_t faces = surface.faceCount(), slots = surface.fragmentSlots();
     gl::reserveTexels(parts_, texels_, GL_R32UI, std::size_t{4} * faces, "emission that fits");
@@ -52,6 +53,7 @@ void EmissionFit::update(const gl::Device& device, const scene::GpuScene& scene,
         else
             program.dispatchLinear(inputs, invocations[static_cast<std::size_t>(key.step)]);
         gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Indirect);
+        co_await pass.rest();
     }
     voxelsFrom_ = voxels.revision();
 }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/revision.h"
+#include "base/steps.h"
 #include "gl/device.h"
 #include "scene/gpu_scene.h"
 #include "voxels/voxels.h"
@@ -14,7 +15,11 @@ namespace conelight::light {
 
 class EmissionFit {
   public:
-    void update(const gl::Device& device, const scene::GpuScene& scene, const voxels::Voxels& voxels);
+    void update(const gl::Device& device, const scene::GpuScene& scene, const voxels::Voxels& voxels) {
+        updateInSteps(device, scene, voxels).finish();
+    }
+    base::Steps updateInSteps(const gl::Device& device, const scene::GpuScene& scene,
+                              const voxels::Voxels& voxels);
     void declare(gl::Inputs& inputs) const;  // emissionParts: R32UI, a float per face
 
     static std::vector<gl::ProgramDesc> programDescs();

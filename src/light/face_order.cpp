@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "gl/gl.h"
+#include "gl/pace.h"
 #include "shared/irradiance.h"
 #include "shared/prefix_sum.h"
 
@@ -49,12 +50,12 @@ void FaceOrder::releaseBins() {
     binStarts_ = {};
 }
 
-void FaceOrder::sort(const gl::Device& device, const voxels::SurfaceVoxels& surface, const gl::Buffer& states,
-                     const gl::Texture& stateTexels, const Wanted& wanted) {
+base::Steps FaceOrder::sortInSteps(const gl::Device& device, const voxels::SurfaceVoxels& surface,
+                                   const gl::Buffer& states, const gl::Texture& stateTexels, Wanted wanted) {
     const std::uint32_t faces = surface.faceCount();
     gathering_ = faces;
     doubtful_ = 0;
-    if (faces == 0) return;
+    if (faces == 0) co_return;
     reserveOrder(faces);
     const glm::ivec3 blocks = (surface.grid().storedBricks() + 3) / 4;
     const auto blockCount = static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.y) *
@@ -73,7 +74,7 @@ void FaceOrder::sort(const gl::Device& device, const voxels::SurfaceVoxels& surf
             .storage("ChunkTable", chunks_);
         device.get(OrderKey{5}.desc()).dispatchLinear(inputs, faces);
         gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
-        return;
+        co_return;
     }
     reserveBins(bins);
     bins_.clear();
@@ -95,6 +96,7 @@ void FaceOrder::sort(const gl::Device& device, const voxels::SurfaceVoxels& surf
     for (int step = 0; step < 5; ++step) {
         device.get(OrderKey{step}.desc()).dispatchLinear(inputs, invocations[step]);
         gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+        co_await gl::rest(device);
     }
     const auto counts = chunks_.read<std::uint32_t>(2);
     gathering_ = counts[0];

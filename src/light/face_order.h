@@ -4,6 +4,7 @@
 // share another's irradiance, and faces found inside closed objects, are not visited.
 #pragma once
 
+#include "base/steps.h"
 #include "gl/device.h"
 #include "voxels/surface_voxels.h"
 
@@ -16,8 +17,8 @@ class FaceOrder {
         bool keepsMemory;  // for the next sort: where voxels change again and again
     };
     // `states` (gpu::FaceCache per face) of faces that are not visited are changed.
-    void sort(const gl::Device& device, const voxels::SurfaceVoxels& surface, const gl::Buffer& states,
-              const gl::Texture& stateTexels, const Wanted& wanted);
+    base::Steps sortInSteps(const gl::Device& device, const voxels::SurfaceVoxels& surface,
+                            const gl::Buffer& states, const gl::Texture& stateTexels, Wanted wanted);
 
     std::uint32_t gathering() const { return gathering_; }  // faces that updates visit in order
     std::uint32_t doubtful() const { return doubtful_; }  // and those behind them, of which each is searched

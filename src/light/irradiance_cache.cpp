@@ -104,26 +104,34 @@ void IrradianceCache::reserve(std::uint32_t faces) {
     }
 }
 
-void IrradianceCache::adopt(const gl::Device& device, const voxels::Voxels& voxels, const Places& changed) {
-    const gl::PassScope pass(device.profiler, "irradiance: reproject");
+base::Steps IrradianceCache::adoptInSteps(const gl::Device& device, const voxels::Voxels& voxels,
+                                          Places changed) {
     const voxels::SurfaceVoxels& surface = voxels.surface();
     const voxels::VoxelKeys* old = voxels.previous();
-    carried_ = faceCount_ > 0 && old != nullptr && voxelsFrom_ && old->revision == voxelsFrom_ &&
-               (old->grid.levels > 1) == (voxels.grid().levels > 1);
+    restartAverages(changed);
     // The states of the old voxels change places with the buffer for the new ones.
-    std::swap(states_, oldStates_);
-    std::swap(stateTexels_, oldStateTexels_);
+    if (!std::exchange(adopting_, true)) {
+        std::swap(states_, oldStates_);
+        std::swap(stateTexels_, oldStateTexels_);
+        hadFaces_ = faceCount_ > 0;
+    }
+    carried_ = hadFaces_ && old != nullptr && voxelsFrom_ && old->revision == voxelsFrom_ &&
+               (old->grid.levels > 1) == (voxels.grid().levels > 1);
     reserve(surface.faceCount());
     faceCount_ = surface.faceCount();
-    if (carried_ && faceCount_ > 0)
-        reproject(device, voxels, *old);
-    else
-        states_.clear();
-    sort(device, surface, true);
+    {
+        const gl::PassScope pass(device.profiler, "irradiance: reproject");
+        if (carried_ && faceCount_ > 0)
+            reproject(device, voxels, *old);
+        else
+            states_.clear();
+    }
+    co_await gl::rest(device);
+    co_await sort(device, surface, true);
     voxelsFrom_ = voxels.revision();
     raysTested_ = 0;
     updatesOfVoxels_ = 0;
-    restartAverages(changed);
+    adopting_ = false;
 }
 
 void IrradianceCache::reproject(const gl::Device& device, const voxels::Voxels& voxels,
@@ -147,9 +155,11 @@ void IrradianceCache::reproject(const gl::Device& device, const voxels::Voxels& 
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
 }
 
-void IrradianceCache::sort(const gl::Device& device, const voxels::SurfaceVoxels& surface, bool searches) {
+base::Steps IrradianceCache::sort(const gl::Device& device, const voxels::SurfaceVoxels& surface,
+                                  bool searches) {
     firstFace_ = 0;
-    order_.sort(device, surface, states_, stateTexels_, {.searches = searches, .keepsMemory = carried_});
+    co_await order_.sortInSteps(device, surface, states_, stateTexels_,
+                                {.searches = searches, .keepsMemory = carried_});
 }
 
 void IrradianceCache::restartAverages(const Places& changed) {
@@ -194,9 +204,10 @@ gpu::CacheConstants IrradianceCache::packed(const CacheSettings& settings, std::
 }
 
 // States -> lit faces and pool; and what pixels see (atPixels).
-void IrradianceCache::commit(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
-                             bool atPixels) {
-    const gl::PassScope scope(device.profiler, "irradiance: light samples");
+base::Steps IrradianceCache::commit(const gl::Device& device, const Inputs& inputs,
+                                    const CacheSettings& settings, bool atPixels) {
+    gl::PassSteps scope(device, "irradiance: light samples");
+    prepared_ = false;
     const gpu::CacheConstants block = packed(settings);
     constants_.update(block);
     gl::Inputs given;
@@ -220,20 +231,23 @@ void IrradianceCache::commit(const gl::Device& device, const Inputs& inputs, con
     device.get(CommitKey{kind}.desc()).dispatchLinear(commits, faceCount_);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
     if (twice) {
+        co_await scope.rest();
         commits = given;
         commits.storage("FaceLightTable", faceLight_).texture("sharedLight", sharedLightTexels_);
         device.get(pass("share")).dispatchLinear(commits, faceCount_);
         gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
     }
-    if (restarts_) device.get(pass("restart")).dispatchLinear(given, faceCount_);
+    co_await scope.rest();
+    if (std::exchange(restarts_, false)) device.get(pass("restart")).dispatchLinear(given, faceCount_);
     device.get(sums(0)).dispatchLinear(given, block.chunkCount);
     gl::barrier(gl::Access::ShaderStorage);
+    co_await scope.rest();
     device.get(sums(1)).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage);
+    co_await scope.rest();
     device.get(pass("pool")).dispatch(given, LIGHT_SAMPLE_COUNT);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Update);
     prepared_ = true;
-    restarts_ = false;
 }
 
 base::Steps IrradianceCache::visitFaces(const Visit& visit, std::uint32_t first, std::uint32_t end,
@@ -296,7 +310,7 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
     CONELIGHT_ASSERT(voxelsFrom_ == inputs.voxels.revision(),
                      "IrradianceCache::update: other voxels than adopted");
     if (faceCount_ == 0) co_return;
-    if (!prepared_) commit(device, inputs, settings, passes <= 0);
+    if (!prepared_) co_await commit(device, inputs, settings, passes <= 0);
     for (int i = 0; i < passes; ++i) {
         const std::uint32_t count = perUpdate(settings);
         const bool searches = raysTested_ < searchedRays();
@@ -308,12 +322,12 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
         facesVisited_ += count;
         visits_ += count;
         ++updatesMade_;
-        commit(device, inputs, settings, i + 1 == passes);
+        co_await commit(device, inputs, settings, i + 1 == passes);
         // Faces inside closed objects are known: no more rays from them.
         if (searches && raysTested_ >= searchedRays()) {
             const gl::PassScope scope(device.profiler, "irradiance: order");
             const int rounds = updates();
-            sort(device, inputs.voxels.surface(), false);
+            sort(device, inputs.voxels.surface(), false).finish();  // half sorted, it would be of no use
             facesVisited_ = static_cast<std::uint64_t>(rounds) * order_.visited();
         }
     }

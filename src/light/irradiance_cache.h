@@ -52,7 +52,11 @@ class IrradianceCache {
     // Takes up voxels. Each face gets the light of the face that lay there and looked the same way in the
     // voxels before (voxels.previous()) if these are the ones that the cache holds; else it starts dark.
     // Counts as a change of light.
-    void adopt(const gl::Device& device, const voxels::Voxels& voxels, const Places& changed = {});
+    void adopt(const gl::Device& device, const voxels::Voxels& voxels) {
+        adoptInSteps(device, voxels, {}).finish();
+    }
+    // Left before it is done, it is to be done again, for the same voxels or others, before update().
+    base::Steps adoptInSteps(const gl::Device& device, const voxels::Voxels& voxels, Places changed);
     // Direct light, emission or the sky is another: short averages again, until bounces have settled.
     void restartAverages(const Places& changed = {});
 
@@ -81,7 +85,7 @@ class IrradianceCache {
   private:
     void reserve(std::uint32_t faces);
     void reproject(const gl::Device& device, const voxels::Voxels& voxels, const voxels::VoxelKeys& old);
-    void sort(const gl::Device& device, const voxels::SurfaceVoxels& surface, bool searches);
+    base::Steps sort(const gl::Device& device, const voxels::SurfaceVoxels& surface, bool searches);
     std::uint32_t perUpdate(const CacheSettings& settings) const;
     std::uint64_t searchedRays() const;  // after so many all faces inside closed objects are known
     gpu::CacheConstants packed(const CacheSettings& settings, std::uint32_t first = 0,
@@ -91,7 +95,8 @@ class IrradianceCache {
     base::Steps visitFaces(const Visit& visit, std::uint32_t first, std::uint32_t end, bool findsBacks);
     base::Steps visitAll(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
                          std::uint32_t count);
-    void commit(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings, bool atPixels);
+    base::Steps commit(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
+                       bool atPixels);
 
     gl::Buffer states_, oldStates_, faceLight_, sharedLight_, fluxes_, chunks_, pool_, constants_,
         reprojectionBlock_, oldLevelBlock_;
@@ -99,7 +104,9 @@ class IrradianceCache {
     FaceOrder order_;
     base::Revision voxelsFrom_;  // whose faces these are
     std::uint32_t faceCount_ = 0;
-    bool carried_ = false;  // the voxels took over light from those before
+    bool carried_ = false;   // the voxels took over light from those before
+    bool adopting_ = false;  // the last adoption was left: light of the voxels before is in oldStates_,
+    bool hadFaces_ = false;  // if there is any
 
     bool prepared_ = false;  // pool and lit faces say what the states and the direct light say
     bool restarts_ = false;

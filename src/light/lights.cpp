@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "gl/pace.h"
 #include "scene/emissive_quads.h"
 #include "scene/gpu_lights.h"
 #include "scene/gpu_materials.h"
@@ -34,14 +35,17 @@ Lobes lobesOf(const scene::GpuScene& scene) {
 
 Lights::Lights() : block_(sizeof(gpu::LightingConstants), "lighting") {}
 
-void Lights::update(const gl::Device& device, const scene::GpuScene& scene, const LightsWanted& wanted) {
+base::Steps Lights::updateInSteps(const gl::Device& device, const scene::GpuScene& scene,
+                                  LightsWanted wanted) {
     const Sources sources{scene.identity(), scene.geometryRevision(), scene.lightRevision(),
                           scene.skyRevision(), wanted};
-    if (revision_ && from_ == sources) return;
+    if (revision_ && from_ == sources) co_return;
+    revision_ = {};
     fillTable(scene.source(), wanted.emissiveQuads);
-    if (wanted.shadowMaps) shadows_.update(device, scene, wanted.settings, table_);
+    if (wanted.shadowMaps) co_await shadows_.updateInSteps(device, scene, wanted.settings, table_);
     environment_.update(scene.source().environment);
     updateProfiles(scene::profilesOf(scene.source().lights));
+    co_await gl::rest(device);
     glass_.update(scene);
     upload(scene.source());
     from_ = sources;
@@ -55,11 +59,13 @@ bool Lights::castsCaustics() const {
            !glass_.solids().empty();
 }
 
-void Lights::castCaustics(const gl::Device& device, const scene::GpuScene& scene,
-                          const voxels::Voxels& voxels) {
-    if (!castsCaustics()) return;
-    if (lightsOfCaustics_ == ownRevision_ && voxelsOfCaustics_ == voxels.revision()) return;
-    caustics_.cast(device, {scene, *this, voxels}, glass_.solids(), from_.wanted.settings.caustics);
+base::Steps Lights::castCausticsInSteps(const gl::Device& device, const scene::GpuScene& scene,
+                                        const voxels::Voxels& voxels) {
+    if (!castsCaustics()) co_return;
+    if (lightsOfCaustics_ == ownRevision_ && voxelsOfCaustics_ == voxels.revision()) co_return;
+    lightsOfCaustics_ = {};
+    const Caustics::Inputs inputs{scene, *this, voxels};
+    co_await caustics_.castInSteps(device, inputs, glass_.solids(), from_.wanted.settings.caustics);
     lightsOfCaustics_ = ownRevision_;
     voxelsOfCaustics_ = voxels.revision();
     revision_ = base::Revision::next();

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/revision.h"
+#include "base/steps.h"
 #include "conelight/settings.h"
 #include "gl/device.h"
 #include "light/caustics.h"
@@ -36,10 +37,17 @@ class Lights {
 
     // Returns at once when neither the scene nor what is wanted has changed. GL state changed: as
     // ShadowMaps::update.
-    void update(const gl::Device& device, const scene::GpuScene& scene, const LightsWanted& wanted);
+    void update(const gl::Device& device, const scene::GpuScene& scene, const LightsWanted& wanted) {
+        updateInSteps(device, scene, wanted).finish();
+    }
+    base::Steps updateInSteps(const gl::Device& device, const scene::GpuScene& scene, LightsWanted wanted);
     // The light that solids of glass send on, where it was wanted and there is any: of lights and voxels as they
     // are, which have octant words then (castsCaustics). Returns at once when neither has changed.
-    void castCaustics(const gl::Device& device, const scene::GpuScene& scene, const voxels::Voxels& voxels);
+    void castCaustics(const gl::Device& device, const scene::GpuScene& scene, const voxels::Voxels& voxels) {
+        castCausticsInSteps(device, scene, voxels).finish();
+    }
+    base::Steps castCausticsInSteps(const gl::Device& device, const scene::GpuScene& scene,
+                                    const voxels::Voxels& voxels);
     base::Revision revision() const { return revision_; }
 
     // LightTable, LightingBlock, FixedLightBlock and FixedLightRows (the table once more, for shaders that

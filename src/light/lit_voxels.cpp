@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gl/gl.h"
+#include "gl/pace.h"
 #include "light/inject_light.h"
 #include "shared/irradiance.h"
 
@@ -39,7 +40,7 @@ base::Steps LitVoxels::relightInSteps(const gl::Device& device, const Inputs& in
                                       const RelightSettings& settings, const Budget& budget) {
     const bool first = !revision_;
     const bool otherVoxels = voxelsFrom_ != inputs.voxels.revision();
-    const bool otherSources = otherVoxels || lightsFrom_ != inputs.lights.revision();
+    const bool otherSources = otherVoxels || directDue_ || lightsFrom_ != inputs.lights.revision();
     const bool otherSettings = !first && !(settings_ == settings);
     const bool otherGrid = !first && !(voxelSettings_ == inputs.voxels.settings());
     if (budget.nothing && !otherSources && !otherSettings) co_return;
@@ -52,6 +53,7 @@ base::Steps LitVoxels::relightInSteps(const gl::Device& device, const Inputs& in
     if (inTheDark) {
         visitsBefore_ = faceVisits();
         cache_ = {};
+        voxelsFrom_ = {};
     }
     IrradianceCache::Places changed = places_.look(inputs.scene);
     if (!budget.oneUpdate || inTheDark || otherSettings) changed.reset();
@@ -59,28 +61,40 @@ base::Steps LitVoxels::relightInSteps(const gl::Device& device, const Inputs& in
     const bool forgets = !budget.oneUpdate && keptFar_;
     const bool changes = inTheDark || otherSources || otherSettings || forgets;
     if (inTheDark || otherVoxels)
-        cache_.adopt(device, inputs.voxels, changed);
+        co_await cache_.adoptInSteps(device, inputs.voxels, changed);
     else if (changes)
         cache_.restartAverages(changed);
     if (changes) keptFar_ = changed.has_value();
-    if (inTheDark || otherSources) putDirectLight(device, inputs);
-    if (inTheDark || otherSources) sources_ = revision_ = base::Revision::next();
     voxelsFrom_ = inputs.voxels.revision();
-    lightsFrom_ = inputs.lights.revision();
     voxelSettings_ = inputs.voxels.settings();
+    directDue_ = inTheDark || otherSources;
+    lightsFrom_ = inputs.lights.revision();
     settings_ = settings;
+    if (directDue_) {
+        co_await putDirectLight(device, inputs);
+        sources_ = revision_ = base::Revision::next();
+        directDue_ = false;
+    }
     co_await update(device, inputs, budget);
 }
 
+base::Steps LitVoxels::followVoxels(const gl::Device& device, const voxels::Voxels& voxels) {
+    if (!revision_ || !voxels.revision() || voxelsFrom_ == voxels.revision()) co_return;
+    co_await cache_.adoptInSteps(device, voxels, {});
+    voxelsFrom_ = voxels.revision();
+    directDue_ = true;
+}
+
 // Direct light, emission and sky on every face.
-void LitVoxels::putDirectLight(const gl::Device& device, const Inputs& inputs) {
+base::Steps LitVoxels::putDirectLight(const gl::Device& device, const Inputs& inputs) {
     const voxels::SurfaceVoxels& surface = inputs.voxels.surface();
     gl::reserveTexels(directLight_, directTexels_, GL_R32UI, std::size_t{4} * surface.faceCount(),
                       "cached direct light");
     const bool fits = surface.faceCount() > 0 && hasOtherEmitters(inputs.scene, inputs.lights);
-    if (fits) fit_.update(device, inputs.scene, inputs.voxels);
+    if (fits) co_await fit_.updateInSteps(device, inputs.scene, inputs.voxels);
     const RayLight rays{directLight_, fits ? &fit_ : nullptr};
     injectLight(device, {inputs.scene, inputs.lights, surface}, faces_, &rays);
+    co_await gl::rest(device);
 }
 
 base::Steps LitVoxels::update(const gl::Device& device, const Inputs& inputs, const Budget& budget) {

@@ -56,6 +56,10 @@ class LitVoxels {
     base::Steps relightInSteps(const gl::Device& device, const Inputs& inputs,
                                const RelightSettings& settings, const Budget& budget);
 
+    // Takes light over to voxels that a picture has left behind, before they become others: it goes from voxels to the
+    // next ones only.
+    base::Steps followVoxels(const gl::Device& device, const voxels::Voxels& voxels);
+
     // Raised by each call that changed any light.
     base::Revision revision() const { return revision_; }
     // Raised by each call that found other voxels or lights: what was gathered from the light before is old.
@@ -76,7 +80,7 @@ class LitVoxels {
 
   private:
     int wantedUpdates() const;
-    void putDirectLight(const gl::Device& device, const Inputs& inputs);
+    base::Steps putDirectLight(const gl::Device& device, const Inputs& inputs);
     base::Steps update(const gl::Device& device, const Inputs& inputs, const Budget& budget);
 
     LitFaces faces_;
@@ -86,7 +90,8 @@ class LitVoxels {
     IrradianceCache cache_;
     std::uint64_t visitsBefore_ = 0;  // by caches that were given up
     EditPlaces places_;
-    bool keptFar_ = false;  // the last change was taken as one of near faces alone
+    bool keptFar_ = false;    // the last change was taken as one of near faces alone
+    bool directDue_ = false;  // direct light is that of other voxels or lights
 
     // What it was made from.
     base::Revision voxelsFrom_, lightsFrom_;

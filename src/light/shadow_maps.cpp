@@ -5,6 +5,7 @@
 
 #include "base/log.h"
 #include "gl/gl.h"
+#include "gl/pace.h"
 #include "light/shadow_layout.h"
 #include "scene/culling.h"
 #include "shared/shadow_map.h"
@@ -44,6 +45,7 @@ struct ShadowMaps::Impl {
     base::Revision sceneIdentity;
     std::vector<base::Revision> revisions;
     std::vector<Aabb> casterBoxes;  // empty: casts no shadow
+    std::vector<char> stale;        // views whose map is not of that scene yet
     int redrawn = 0;
 
     void allocate(int size, int layerCount, int surfaceLayers) {
@@ -91,6 +93,7 @@ struct ShadowMaps::Impl {
     }
 
     void draw(const gl::Device& device, const scene::GpuScene& scene, const ShadowView& view);
+    bool look(const scene::GpuScene& scene, const std::vector<ShadowView>& views);
     bool keepsPlaces(const scene::GpuScene& scene, const std::vector<ShadowView>& views) const;
     std::vector<Aabb> changedBoxes(const scene::GpuScene& scene) const;
     void remember(const scene::GpuScene& scene, const std::vector<ShadowView>& views);
@@ -196,42 +199,54 @@ ShadowMaps::~ShadowMaps() = default;
 ShadowMaps::ShadowMaps(ShadowMaps&&) noexcept = default;
 ShadowMaps& ShadowMaps::operator=(ShadowMaps&&) noexcept = default;
 
-void ShadowMaps::update(const gl::Device& device, const scene::GpuScene& scene, const LightSettings& settings,
-                        std::vector<gpu::Light>& lights) {
-    const gl::PassScope pass(device.profiler, "shadow maps");
-    const ShadowLayout layout = layOutShadows(scene.bounds(), scene.firstBounds(), settings, lights);
+// Which maps are to be drawn: all, which are clear then, or those that look different now or see a caster that changed.
+bool ShadowMaps::Impl::look(const scene::GpuScene& scene, const std::vector<ShadowView>& views) {
+    const bool whole = !keepsPlaces(scene, views);
+    const std::vector<Aabb> changed = whole ? std::vector<Aabb>{} : changedBoxes(scene);
+    if (whole) {
+        clear();
+        stale.assign(views.size(), 1);
+    } else {
+        for (std::size_t i = 0; i < views.size(); ++i) {
+            const bool touched = views[i].clipFromWorld != drawnViews[i].clipFromWorld ||
+                                 std::any_of(changed.begin(), changed.end(), [&](const Aabb& box) {
+                                     return !scene::isOutside(castersOf(views[i]), box);
+                                 });
+            if (touched) stale[i] = 1;
+        }
+    }
+    remember(scene, views);
+    return whole;
+}
+
+base::Steps ShadowMaps::updateInSteps(const gl::Device& device, const scene::GpuScene& scene,
+                                      const LightSettings& settings, std::vector<gpu::Light>& lights) {
+    ShadowLayout layout = layOutShadows(scene.bounds(), scene.firstBounds(), settings, lights);
     const int asked = settings.shadowSize / 8 * 8;
     if (layout.layers > 0 && layout.size < asked && layout.size != impl_->maps.width())
         base::log(LogLevel::Info, "shadow maps of " + std::to_string(layout.size) + " texels, not " +
                                       std::to_string(asked) + ": many lights share their memory");
-    draw(device, scene, layout);
+    co_await drawInSteps(device, scene, std::move(layout), "shadow maps");
 }
 
-void ShadowMaps::draw(const gl::Device& device, const scene::GpuScene& scene, const ShadowLayout& layout) {
+base::Steps ShadowMaps::drawInSteps(const gl::Device& device, const scene::GpuScene& scene,
+                                    ShadowLayout layout, const char* name) {
+    gl::PassSteps pass(device, name);
     impl_->redrawn = 0;
     if (layout.layers == 0) {
         impl_->allocate(8, 1, 0);
-        return;
+        co_return;
     }
-    // Draw all, or those that look different now or see a caster that changed.
     impl_->allocate(layout.size, layout.layers, layout.surfaceLayers);
-    const bool whole = !impl_->keepsPlaces(scene, layout.views);
-    const std::vector<Aabb> changed = whole ? std::vector<Aabb>{} : impl_->changedBoxes(scene);
-    if (whole) impl_->clear();
+    const bool whole = impl_->look(scene, layout.views);
     for (std::size_t i = 0; i < layout.views.size(); ++i) {
-        const ShadowView& view = layout.views[i];
-        if (!whole) {
-            const bool touched = view.clipFromWorld != impl_->drawnViews[i].clipFromWorld ||
-                                 std::any_of(changed.begin(), changed.end(), [&](const Aabb& box) {
-                                     return !scene::isOutside(castersOf(view), box);
-                                 });
-            if (!touched) continue;
-            impl_->clear(view);
-        }
-        impl_->draw(device, scene, view);
+        if (impl_->stale[i] == 0) continue;
+        if (!whole) impl_->clear(layout.views[i]);
+        impl_->draw(device, scene, layout.views[i]);
+        impl_->stale[i] = 0;
         ++impl_->redrawn;
+        co_await pass.rest();
     }
-    impl_->remember(scene, layout.views);
 
     // Leave neither reversed depth nor a scissor behind.
     gl::RasterState plain;

@@ -12,6 +12,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/steps.h"
 #include "conelight/settings.h"
 #include "gl/device.h"
 #include "light/shadow_layout.h"
@@ -29,10 +30,11 @@ class ShadowMaps {
     // Brings the maps up to date: draws those of lights that changed, and those that see an instance that
     // changed, where it was or where it is. The depths are the same bit for bit as if all were drawn. GL
     // state changed: raster state, program and its slots, vertex array, texture units of materials.
-    void update(const gl::Device& device, const scene::GpuScene& scene, const LightSettings& settings,
-                std::vector<gpu::Light>& lights);
-    // The same for maps that lie as `layout` says.
-    void draw(const gl::Device& device, const scene::GpuScene& scene, const ShadowLayout& layout);
+    base::Steps updateInSteps(const gl::Device& device, const scene::GpuScene& scene,
+                              const LightSettings& settings, std::vector<gpu::Light>& lights);
+    // The same for maps that lie as `layout` says; `name` is that of the pass.
+    base::Steps drawInSteps(const gl::Device& device, const scene::GpuScene& scene, ShadowLayout layout,
+                            const char* name);
     int redrawn() const;  // maps that the last update drew
     // shadowMaps, shadowDepths, shadowSurfaces; before the first update maps without shadows.
     void declare(gl::Inputs& inputs) const;

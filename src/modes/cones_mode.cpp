@@ -11,7 +11,7 @@ bool usesCache(const Settings& settings) { return settings.cones.indirect == Con
 }  // namespace
 
 // [recipe]
-void ConesMode::draw(const Frame& frame) {
+base::Steps ConesMode::drawInSteps(const Frame& frame) {
     const Component component = frame.settings.component;
     const gather::PictureParts parts = gather::ConePicture::partsOf(frame.settings);
     const gather::DirectInputs pixels{frame.scene, frame.lights, frame.surfaces};
@@ -22,49 +22,60 @@ void ConesMode::draw(const Frame& frame) {
     const bool usesVolume = softShadows || component == Component::Occlusion ||
                             component == Component::Voxels || parts.diffuse || parts.specular ||
                             frame.lights.castsCaustics() || frame.recorder != nullptr;
-    if (usesVolume) updateVolume(frame);
+    if (usesVolume) co_await updateVolume(frame);
 
     // What arrives at pixels, and the picture.
     if (frame.recorder != nullptr) {
-        if (component == Component::Occlusion)
-            return picture_.record(frame.device, pixels, volume_, ConeGather::Part::Occlusion,
-                                   *frame.recorder);
-        if (frame.settings.cones.bounces == 0) return;
-        picture_.record(frame.device, pixels, volume_, ConeGather::Part::Diffuse, *frame.recorder);
-        picture_.record(frame.device, pixels, volume_, ConeGather::Part::Specular, *frame.recorder);
+        record(frame);
     } else if (component == Component::Occlusion) {
-        picture_.drawOcclusion(frame.device, pixels, volume_, target);
+        co_await picture_.drawOcclusion(frame.device, pixels, volume_, target);
     } else if (component == Component::Voxels) {
         drawVoxels(frame);
     } else {
-        picture_.draw(frame.device, pixels, volume_, parts, target);
+        co_await picture_.drawInSteps(frame.device, pixels, volume_, parts, target);
     }
 }
 // [/recipe]
 
 // By cones, where the picture holds what they may bring.
-void ConesMode::drawGlass(const Frame& frame) {
+base::Steps ConesMode::drawGlass(const Frame& frame) {
     const gather::PictureParts parts = gather::ConePicture::partsOf(frame.settings);
-    if (!frame.settings.cones.refraction || (!parts.diffuse && !parts.specular))
-        return ModeRenderer::drawGlass(frame);
-    glass_.drawByCones(frame.device, {frame.scene, frame.lights, frame.surfaces},
-                       volume_.cones().shadows(volume_.volume()), parts, frame.output);
+    if (!frame.settings.cones.refraction || (!parts.diffuse && !parts.specular)) {
+        co_await ModeRenderer::drawGlass(frame);
+        co_return;
+    }
+    const gather::DirectInputs inputs{frame.scene, frame.lights, frame.surfaces};
+    const gather::ConeShadows cones = volume_.cones().shadows(volume_.volume());
+    co_await glass_.drawByCones(frame.device, inputs, cones, parts, frame.output);
+}
+
+void ConesMode::record(const Frame& frame) {
+    const gather::DirectInputs pixels{frame.scene, frame.lights, frame.surfaces};
+    if (frame.settings.component == Component::Occlusion)
+        return picture_.record(frame.device, pixels, volume_, ConeGather::Part::Occlusion, *frame.recorder);
+    if (frame.settings.cones.bounces == 0) return;
+    picture_.record(frame.device, pixels, volume_, ConeGather::Part::Diffuse, *frame.recorder);
+    picture_.record(frame.device, pixels, volume_, ConeGather::Part::Specular, *frame.recorder);
 }
 
 // With a cache, rays fill it first.
-void ConesMode::updateVolume(const Frame& frame) {
+base::Steps ConesMode::updateVolume(const Frame& frame) {
     const bool byRays = usesCache(frame.settings);
     const bool rays = byRays || frame.lights.castsCaustics();
-    voxels_.update(frame.device, frame.scene, frame.settings.voxels,
-                   rays ? voxels::Rays::Yes : voxels::Rays::No);
-    frame.lights.castCaustics(frame.device, frame.scene, voxels_);
-    if (byRays)
-        lit_.relight(frame.device, {frame.scene, frame.lights, voxels_},
-                     light::relightSettings(frame.settings.traced), light::Budget{});
-    else
+    if (byRays && !voxels_.areOf(frame.scene, frame.settings.voxels))
+        co_await lit_.followVoxels(frame.device, voxels_);
+    co_await voxels_.updateInSteps(frame.device, frame.scene, frame.settings.voxels,
+                                   rays ? voxels::Rays::Yes : voxels::Rays::No);
+    co_await frame.lights.castCausticsInSteps(frame.device, frame.scene, voxels_);
+    if (byRays) {
+        const light::LitVoxels::Inputs lit{frame.scene, frame.lights, voxels_};
+        const light::RelightSettings relight = light::relightSettings(frame.settings.traced);
+        co_await lit_.relightInSteps(frame.device, lit, relight, light::Budget{});
+    } else {
         lit_ = {};
-    volume_.update(frame.device, {frame.scene, frame.lights, voxels_, byRays ? &lit_ : nullptr},
-                   frame.settings.cones);
+    }
+    const gather::ConeVolume::Inputs inputs{frame.scene, frame.lights, voxels_, byRays ? &lit_ : nullptr};
+    co_await volume_.updateInSteps(frame.device, inputs, frame.settings.cones);
 }
 
 // What the volume holds is shown as cones read it, the rest by the faces behind it.

@@ -16,8 +16,8 @@ namespace conelight::modes {
 
 class ConesMode : public ModeRenderer {
   public:
-    void draw(const Frame& frame) override;
-    void drawGlass(const Frame& frame) override;
+    base::Steps drawInSteps(const Frame& frame) override;
+    base::Steps drawGlass(const Frame& frame) override;
     // Every component that this mode draws has lit voxels or direct light in it.
     bool needsShadows(const Scene&, const Settings&) const override { return true; }
     bool readsCascades() const override { return true; }
@@ -26,7 +26,8 @@ class ConesMode : public ModeRenderer {
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
-    void updateVolume(const Frame& frame);
+    base::Steps updateVolume(const Frame& frame);
+    void record(const Frame& frame);
     void drawVoxels(const Frame& frame);
 
     voxels::Voxels voxels_;

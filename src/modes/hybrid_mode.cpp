@@ -16,40 +16,45 @@ bool movesAnything(const scene::GpuScene& scene) {
 }  // namespace
 
 // [recipe]
-void HybridMode::draw(const Frame& frame) {
+base::Steps HybridMode::drawInSteps(const Frame& frame) {
     const Component component = frame.settings.component;
     const gather::PictureParts parts = gather::ConePicture::partsOf(frame.settings);
     const gather::DirectInputs pixels{frame.scene, frame.lights, frame.surfaces};
 
     // Voxels of what does not move and of all, with the light that they send out.
-    updateVolumes(frame);
+    co_await updateVolumes(frame);
 
-    if (frame.recorder != nullptr) return record(frame);
-    if (component == Component::Voxels) return drawVoxels(frame);
     gather::ConePicture::Target target{frame.output, frame.lookupCounters};
-    if (component == Component::Occlusion)
-        return picture_.drawOcclusion(frame.device, pixels, shown(), target);
-
-    // Baked light and what moving things make of it; all else as in mode cones.
-    if (parts.diffuse && statics_) {
-        diffuse_.draw(frame.device, {pixels, statics_, moves_ ? &volume_ : nullptr}, frame.lookupCounters);
-        target.diffuse = &diffuse_.irradiance();
+    if (frame.recorder != nullptr) {
+        record(frame);
+    } else if (component == Component::Voxels) {
+        drawVoxels(frame);
+    } else if (component == Component::Occlusion) {
+        co_await picture_.drawOcclusion(frame.device, pixels, shown(), target);
+    } else {
+        // Baked light and what moving things make of it; all else as in mode cones.
+        if (parts.diffuse && statics_) {
+            const gather::HybridDiffuse::Inputs inputs{pixels, statics_, moves_ ? &volume_ : nullptr};
+            co_await diffuse_.drawInSteps(frame.device, inputs, frame.lookupCounters);
+            target.diffuse = &diffuse_.irradiance();
+        }
+        co_await picture_.drawInSteps(frame.device, pixels, shown(), parts, target);
     }
-    picture_.draw(frame.device, pixels, shown(), parts, target);
 }
 // [/recipe]
 
-void HybridMode::updateVolumes(const Frame& frame) {
+base::Steps HybridMode::updateVolumes(const Frame& frame) {
     const Settings& settings = frame.settings;
     const voxels::VoxelGrid grid = voxels::SurfaceVoxels::gridOf(frame.scene, settings.voxels);
-    statics_.update(frame.device, {frame.scene, grid, {settings.light, settings.light.emissiveQuads, true}},
-                    settings.voxels, settings.cones);
+    const light::LightsWanted wanted{settings.light, settings.light.emissiveQuads, true};
+    const gather::StaticVolume::Inputs inputs{frame.scene, grid, wanted};
+    co_await statics_.updateInSteps(frame.device, inputs, settings.voxels, settings.cones);
     moves_ = !statics_ || movesAnything(frame.scene);
-    if (!moves_) return;
-    voxels_.update(frame.device, frame.scene, settings.voxels, voxels::Rays::No);
-    volume_.update(frame.device,
-                   {frame.scene, frame.lights, voxels_, nullptr, statics_ ? &statics_.faces() : nullptr},
-                   settings.cones);
+    if (!moves_) co_return;
+    co_await voxels_.updateInSteps(frame.device, frame.scene, settings.voxels, voxels::Rays::No);
+    const gather::ConeVolume::Inputs all{frame.scene, frame.lights, voxels_, nullptr,
+                                         statics_ ? &statics_.faces() : nullptr};
+    co_await volume_.updateInSteps(frame.device, all, settings.cones);
 }
 
 // Cones through the volume of what is there: without what was baked.

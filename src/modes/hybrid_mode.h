@@ -17,7 +17,7 @@ namespace conelight::modes {
 
 class HybridMode : public ModeRenderer {
   public:
-    void draw(const Frame& frame) override;
+    base::Steps drawInSteps(const Frame& frame) override;
     // As in mode `cones`.
     bool needsShadows(const Scene&, const Settings&) const override { return true; }
     bool readsCascades() const override { return true; }
@@ -25,7 +25,7 @@ class HybridMode : public ModeRenderer {
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
-    void updateVolumes(const Frame& frame);
+    base::Steps updateVolumes(const Frame& frame);
     void drawVoxels(const Frame& frame);
     void record(const Frame& frame);
     const gather::ConeVolume& shown() const { return moves_ ? volume_ : statics_.volume(); }

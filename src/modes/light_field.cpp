@@ -220,7 +220,7 @@ GatheredLight LightField::Impl::gather(View& view, const HostSurfaces& host, int
     if (reduction > 1) {
         view.all.take(device, *scene, host, 1);
         const gather::RayInputs all{*scene, lights, voxels, lit, view.all};
-        view.indirect.carry(device, all, settings.traced);
+        view.indirect.carry(device, all, settings.traced).finish();
         view.outputs.draw(device, all, view.indirect, settings.traced.specularLimit);
     } else {
         view.outputs.draw(device, traced, view.indirect, settings.traced.specularLimit);

@@ -48,18 +48,15 @@ class ModeRenderer {
   public:
     virtual ~ModeRenderer() = default;
     // Owns the values between frame and picture, and brings up to date what the picture needs of them.
-    virtual void draw(const Frame& frame) = 0;
-    // The same in steps. Rests only where what was done so far harms no other picture if it goes no further. Here: in
-    // one.
-    virtual base::Steps drawInSteps(const Frame& frame) {
-        draw(frame);
-        co_return;
-    }
+    void draw(const Frame& frame) { drawInSteps(frame).finish(); }
+    // The same in steps. Rests only where what was done so far harms no other picture if it goes no further.
+    virtual base::Steps drawInSteps(const Frame& frame) = 0;
     // Draws what is transmissive in front of the picture that draw() has made. Where a mode has no way of its
     // own: as panes that bend nothing.
-    virtual void drawGlass(const Frame& frame) {
-        glass_.drawStraight(frame.device, {frame.scene, frame.lights, frame.surfaces},
-                            gather::partsOf(frame.settings.component), frame.output);
+    virtual base::Steps drawGlass(const Frame& frame) {
+        const gather::DirectInputs inputs{frame.scene, frame.lights, frame.surfaces};
+        co_await glass_.drawStraight(frame.device, inputs, gather::partsOf(frame.settings.component),
+                                     frame.output);
     }
     // Whether draw() gathers for the pixels' centres what views beside them take over (Frame::besideCenters).
     virtual bool gathersForCenters() const { return false; }

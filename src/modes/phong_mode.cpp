@@ -13,16 +13,17 @@ bool PhongMode::needsShadows(const Scene& scene, const Settings& settings) const
 }
 
 // [recipe]
-void PhongMode::draw(const Frame& frame) {
-    if (frame.recorder != nullptr) return;  // nothing is gathered
+base::Steps PhongMode::drawInSteps(const Frame& frame) {
+    if (frame.recorder != nullptr) co_return;  // nothing is gathered
     // All light is direct: of the parts a picture can be asked for, only these hold any.
     const Component component = frame.settings.component;
     if (component != Component::Full && component != Component::Direct) {
         gl::Framebuffer({&frame.output}, nullptr, "phong output").clearColor(0, 0, 0, 0, 0);
-        return;
+        co_return;
     }
-    gather::drawPhongShade(frame.device, {frame.scene, frame.lights, frame.surfaces},
-                           needsShadows(frame.scene.source(), frame.settings), frame.output);
+    const gather::DirectInputs inputs{frame.scene, frame.lights, frame.surfaces};
+    const bool shadows = needsShadows(frame.scene.source(), frame.settings);
+    co_await gather::drawPhongShade(frame.device, inputs, shadows, frame.output);
 }
 // [/recipe]
 

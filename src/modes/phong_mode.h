@@ -9,7 +9,7 @@ namespace conelight::modes {
 
 class PhongMode : public ModeRenderer {
   public:
-    void draw(const Frame& frame) override;
+    base::Steps drawInSteps(const Frame& frame) override;
     bool needsShadows(const Scene& scene, const Settings& settings) const override;
     bool readsCascades() const override { return true; }
 };

@@ -167,12 +167,12 @@ base::Steps Renderer::Impl::drawPicture(const WantedPicture& asked) {
     const Settings& settings = asked.settings;
     // Views of surfaces need neither lights nor a mode.
     const bool debugView = image::isDebugView(settings.component);
-    if (!debugView || settings.view.voxels) prepare(settings);
+    if (!debugView || settings.view.voxels) co_await prepare(settings);
     co_await gl::rest(device);
     const int count = viewsOfStill(settings, asked.camera);
-    prepareCascades(asked.camera, settings);
+    co_await prepareCascades(asked.camera, settings);
     co_await gl::rest(device);
-    seeCenters(asked);
+    co_await seeCenters(asked);
     co_await gl::rest(device);
     const gl::Texture& output = target().texture();
     if (debugView)
@@ -188,18 +188,18 @@ base::Steps Renderer::Impl::drawPicture(const WantedPicture& asked) {
     if (count > 0) co_await drawParts(asked.camera, settings, count);
 }
 
-void Renderer::Impl::seeCenters(const WantedPicture& asked) {
+base::Steps Renderer::Impl::seeCenters(const WantedPicture& asked) {
     const Settings& settings = asked.settings;
     const bool still = viewsOfStill(settings, asked.camera) > 0;
-    surfaces.see(device, *scene,
-                 {.camera = asked.camera,
-                  .width = asked.width,
-                  .height = asked.height,
-                  .cullBackFaces = true,
-                  .part = still ? view::centersOfStill() : view::PixelPart{},
-                  .withGlass = image::isDebugView(settings.component),
-                  .shrink = settings.view.shrink,
-                  .cascades = &cascades});
+    const view::Surfaces::Picture picture{.camera = asked.camera,
+                                          .width = asked.width,
+                                          .height = asked.height,
+                                          .cullBackFaces = true,
+                                          .part = still ? view::centersOfStill() : view::PixelPart{},
+                                          .withGlass = image::isDebugView(settings.component),
+                                          .shrink = settings.view.shrink,
+                                          .cascades = &cascades};
+    co_await surfaces.seeInSteps(device, *scene, picture);
 }
 
 // By the mode, and the surroundings behind.
@@ -208,31 +208,32 @@ base::Steps Renderer::Impl::drawLight(const modes::Frame& frame) {
     co_await gl::rest(device);
     const Component component = frame.settings.component;
     if (component == Component::Full || component == Component::Direct) {
-        image::drawBackground(frame.device, frame.scene, frame.lights, frame.surfaces, frame.output);
-        headlight.draw(frame.device, {frame.scene, frame.surfaces, headlightIrradiance}, frame.output);
+        co_await image::drawBackground(frame.device, frame.scene, frame.lights, frame.surfaces, frame.output);
+        const image::Headlight::Inputs lit{frame.scene, frame.surfaces, headlightIrradiance};
+        co_await headlight.draw(frame.device, lit, frame.output);
     }
     if (!frame.lights.hasGlass() || !isOfLight(component)) co_return;
     co_await gl::rest(device);
-    mode->drawGlass(frame);
+    co_await mode->drawGlass(frame);
     co_await gl::rest(device);
 }
 
-void Renderer::Impl::seePart(const Camera& camera, const Settings& settings, const view::PixelPart& part) {
-    partSurfaces.see(device, *scene,
-                     {.camera = camera,
-                      .width = target().width(),
-                      .height = target().height(),
-                      .cullBackFaces = true,
-                      .part = part,
-                      .shrink = settings.view.shrink,
-                      .cascades = &cascades});
+base::Steps Renderer::Impl::seePart(const Camera& camera, const Settings& settings, view::PixelPart part) {
+    const view::Surfaces::Picture picture{.camera = camera,
+                                          .width = target().width(),
+                                          .height = target().height(),
+                                          .cullBackFaces = true,
+                                          .part = part,
+                                          .shrink = settings.view.shrink,
+                                          .cascades = &cascades};
+    co_await partSurfaces.seeInSteps(device, *scene, picture);
 }
 
 // Views through points beside the pixels' centres; their mean takes the place of the centres' picture.
 base::Steps Renderer::Impl::drawParts(const Camera& camera, const Settings& settings, int count) {
     const image::LinearImage& picture = target();
     for (int i = 0; i < count; ++i) {
-        seePart(camera, settings, partOfStill(settings, i));
+        co_await seePart(camera, settings, partOfStill(settings, i));
         const modes::Frame part{.device = device,
                                 .scene = *scene,
                                 .lights = lights,
@@ -243,7 +244,7 @@ base::Steps Renderer::Impl::drawParts(const Camera& camera, const Settings& sett
                                 .part = i,
                                 .parts = count};
         co_await drawLight(part);
-        views.add(device, i, picture.texture());
+        co_await views.add(device, i, picture.texture());
     }
 }
 
@@ -264,7 +265,7 @@ base::Steps Renderer::Impl::drawTemporal(const Camera& camera, const Settings& s
                     gl::Access::Update);
         temporal->takeCenters(picture.texture());
     } else {
-        seePart(camera, settings, part);
+        co_await seePart(camera, settings, part);
         const modes::Frame beside{.device = device,
                                   .scene = *scene,
                                   .lights = lights,
@@ -276,11 +277,11 @@ base::Steps Renderer::Impl::drawTemporal(const Camera& camera, const Settings& s
                                   .parts = kTemporalViews};
         co_await drawLight(beside);
     }
-    temporal->add(device, *scene, surfaces, picture.texture());
+    co_await temporal->add(device, *scene, surfaces, picture.texture());
 }
 
 // The mode, and the lights as it needs them.
-void Renderer::Impl::prepare(const Settings& settings) {
+base::Steps Renderer::Impl::prepare(const Settings& settings) {
     if (!mode || modeKind != settings.mode) {
         mode.reset();  // frees the old volumes first
         mode = modes::makeModeRenderer(settings.mode);
@@ -288,16 +289,16 @@ void Renderer::Impl::prepare(const Settings& settings) {
     }
     const bool shadows =
         settings.component == Component::ShadowMap || mode->needsShadows(scene->source(), settings);
-    lights.update(device, *scene,
-                  {settings.light, settings.light.emissiveQuads && mode->lightsFromEmitters(settings),
-                   shadows, mode->castsCaustics()});
+    const bool emitters = settings.light.emissiveQuads && mode->lightsFromEmitters(settings);
+    const light::LightsWanted wanted{settings.light, emitters, shadows, mode->castsCaustics()};
+    co_await lights.updateInSteps(device, *scene, wanted);
 }
 
 // Where pixels are lit straight by lights.
-void Renderer::Impl::prepareCascades(const Camera& camera, const Settings& settings) {
+base::Steps Renderer::Impl::prepareCascades(const Camera& camera, const Settings& settings) {
     const bool direct = settings.component == Component::Full || settings.component == Component::Direct;
     if (direct && mode->readsCascades() && mode->needsShadows(scene->source(), settings))
-        cascades.update(device, *scene, lights, settings.light, camera.eye);
+        co_await cascades.updateInSteps(device, *scene, lights, settings.light, camera.eye);
     else if (cascades.levels() > 0)
         cascades.clear();
 }
@@ -344,8 +345,8 @@ void Renderer::Impl::collectStats() {
 
 // The mode's passes once more, for one pixel, on the surfaces of the last picture.
 PixelInspection Renderer::Impl::inspect(int x, int y) {
-    prepare(shownAs.settings);
-    if (std::exchange(left, false)) seeCenters(shownAs);
+    prepare(shownAs.settings).finish();
+    if (std::exchange(left, false)) seeCenters(shownAs).finish();
     gather::StepRecorder recorder({x, image.height() - 1 - y});
     modes::Frame recorded = frame(shownAs.settings);
     recorded.recorder = &recorder;

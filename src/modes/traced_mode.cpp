@@ -47,11 +47,8 @@ base::Steps TracedMode::drawInSteps(const Frame& given) {
     const bool exactShadows = parts.direct && component != Component::Voxels && settings.exactShadows &&
                               gather::PixelVisibility::serves(frame.scene, frame.lights);
     if ((usesLight || exactShadows || frame.lights.castsCaustics()) && !frame.besideCenters) {
-        if (device.nestedGrids)
-            voxels_.updateIn(grid_, device, frame.scene, frame.settings.voxels, voxels::Rays::Yes);
-        else
-            voxels_.update(device, frame.scene, frame.settings.voxels, voxels::Rays::Yes);
-        frame.lights.castCaustics(frame.device, frame.scene, voxels_);
+        co_await voxelize(frame);
+        co_await frame.lights.castCausticsInSteps(frame.device, frame.scene, voxels_);
         co_await gl::rest(frame.device);
     }
     if (usesLight && !frame.besideCenters) co_await relight(frame);
@@ -60,8 +57,8 @@ base::Steps TracedMode::drawInSteps(const Frame& given) {
     if (frame.recorder != nullptr) {
         record(frame, inputs);
     } else if (component == Component::Occlusion) {
-        indirect_.gatherOcclusion(frame.device, inputs, settings);
-        shade_.drawOcclusion(frame.device, inputs, indirect_.occlusion(), frame.output);
+        co_await indirect_.gatherOcclusion(frame.device, inputs, settings);
+        co_await shade_.drawOcclusion(frame.device, inputs, indirect_.occlusion(), frame.output);
     } else if (component == Component::Voxels) {
         voxelView_.draw(
             frame.device,
@@ -70,7 +67,7 @@ base::Steps TracedMode::drawInSteps(const Frame& given) {
     } else {
         const gather::Indirect::Wanted wanted{settings, parts, frame.lookupCounters};
         if (frame.besideCenters)
-            indirect_.carry(frame.device, inputs, settings);
+            co_await indirect_.carry(frame.device, inputs, settings);
         else
             co_await indirect_.gatherInSteps(frame.device, inputs, wanted);
         const gather::VisibilityInputs seen{frame.scene, frame.lights, voxels_, frame.surfaces};
@@ -81,6 +78,18 @@ base::Steps TracedMode::drawInSteps(const Frame& given) {
     }
 }
 // [/recipe]
+
+// Light follows voxels that a picture left behind which was dropped.
+base::Steps TracedMode::voxelize(const Frame& frame) {
+    const VoxelSettings& settings = frame.settings.voxels;
+    const bool nested = frame.device.nestedGrids;
+    const bool same = nested ? voxels_.areIn(grid_, frame.scene) : voxels_.areOf(frame.scene, settings);
+    if (!same && (voxels_.grid().levels > 1) == nested) co_await lit_.followVoxels(frame.device, voxels_);
+    if (nested)
+        co_await voxels_.updateInSteps(grid_, frame.device, frame.scene, settings, voxels::Rays::Yes);
+    else
+        co_await voxels_.updateInSteps(frame.device, frame.scene, settings, voxels::Rays::Yes);
+}
 
 // A recorded picture shows what is there.
 base::Steps TracedMode::relight(const Frame& frame) {
@@ -101,10 +110,13 @@ base::Steps TracedMode::relight(const Frame& frame) {
 }
 
 // By rays, where the picture holds what they may bring.
-void TracedMode::drawGlass(const Frame& frame) {
+base::Steps TracedMode::drawGlass(const Frame& frame) {
     const TracedSettings& settings = frame.settings.traced;
     const gather::PictureParts parts = partsOf(frame.settings);
-    if (!parts.diffuse && !parts.specular) return ModeRenderer::drawGlass(frame);
+    if (!parts.diffuse && !parts.specular) {
+        co_await ModeRenderer::drawGlass(frame);
+        co_return;
+    }
     gather::Glass::Wanted wanted{.parts = parts, .passes = settings.specularRays * settings.passes};
     // The views of a still are averaged.
     if (frame.besideCenters) wanted.passes = kGlassPasses * wanted.passes / std::max(frame.parts, 1);
@@ -114,8 +126,8 @@ void TracedMode::drawGlass(const Frame& frame) {
     if (!settings.bounces) wanted.reflections = kGlassReflections;
     gl::Device device = frame.device;
     device.nestedGrids = voxels_.grid().levels > 1;
-    glass_.drawByRays(device, {frame.scene, frame.lights, voxels_, lit_, frame.surfaces}, wanted,
-                      frame.output);
+    const gather::RayInputs inputs{frame.scene, frame.lights, voxels_, lit_, frame.surfaces};
+    co_await glass_.drawByRays(device, inputs, wanted, frame.output);
 }
 
 // What the picture shows of one pixel, or would show in component full.

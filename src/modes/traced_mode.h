@@ -18,9 +18,8 @@ namespace conelight::modes {
 
 class TracedMode : public ModeRenderer {
   public:
-    void draw(const Frame& frame) override { drawInSteps(frame).finish(); }
     base::Steps drawInSteps(const Frame& frame) override;
-    void drawGlass(const Frame& frame) override;
+    base::Steps drawGlass(const Frame& frame) override;
     bool gathersForCenters() const override { return true; }
     bool settled() const override { return lit_.steady(); }
     // Every component has lit voxels or direct light in it, or leaves them behind for the next.
@@ -32,6 +31,7 @@ class TracedMode : public ModeRenderer {
 
   private:
     gl::Device deviceFor(const Frame& given);
+    base::Steps voxelize(const Frame& frame);
     base::Steps relight(const Frame& frame);
     void record(const Frame& frame, const gather::RayInputs& inputs);
 

@@ -301,7 +301,9 @@ void GpuScene::draw(const Draw& draw) const {
     // -1: nothing set yet, so that the first instance sets both.
     int boundDoubleSided = -1;
     int boundFlipped = -1;
-    for (const std::uint32_t index : drawOrder_) {
+    const std::size_t end = draw.first + std::min(draw.count, drawOrder_.size() - draw.first);
+    for (std::size_t place = draw.first; place < end; ++place) {
+        const std::uint32_t index = drawOrder_[place];
         const gpu::Instance& instance = instances_[index];
         if ((instance.flags & INSTANCE_VISIBLE) == 0 || instance.indexCount == 0) continue;
         if (draw.filter && !draw.filter(instance)) continue;

@@ -53,6 +53,8 @@ class GpuScene {
         // Asked for each part of a mesh, a few hundred triangles, by its box in object space; parts that it
         // turns down are not drawn (empty: all are).
         PartFilter part;
+        // Of the instances in the order in which they are drawn: the first one, and how many.
+        std::size_t first = 0, count = ~std::size_t{0};
     };
     // Draws with the current program, framebuffer and state. Attributes: 0 position, 1 normalOct, 2 uv,
     // 3 tangentOct, 4 color (shared/scene.h), 5 the index into the instance table. Flipped instances reverse

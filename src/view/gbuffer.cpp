@@ -2,6 +2,7 @@
 #include "view/gbuffer.h"
 
 #include "gl/gl.h"
+#include "gl/pace.h"
 #include "scene/culling.h"
 #include "shared/gbuffer.h"
 
@@ -11,6 +12,7 @@ namespace {
 // Fetches and discards cost every fragment of a program on software drivers, so materials are drawn by what
 // they need: textures none, base colour only, or all six; with or without discard.
 constexpr int kTextureUses = 3;
+constexpr int kDrawsOfPiece = 64;  // instances, at least, of a picture in parts
 
 int textureUse(const gpu::Material& material) {
     if ((material.flags & MATERIAL_DETAIL_TEXTURES) != 0) return 2;
@@ -56,9 +58,9 @@ GBuffer::GBuffer(int width, int height)
     }
 }
 
-void GBuffer::draw(const gl::Device& device, const scene::GpuScene& scene, const gl::Buffer& frameBlock,
-                   const Wanted& wanted) {
-    const gl::PassScope pass(device.profiler, "gbuffer");
+base::Steps GBuffer::drawInSteps(const gl::Device& device, const scene::GpuScene& scene,
+                                 const gl::Buffer& frameBlock, Wanted wanted) {
+    gl::PassSteps pass(device, "gbuffer");
     gl::Inputs inputs;
     inputs.uniform("FrameBlock", frameBlock).add(scene);
     scene::GpuScene::declareMaterialTextures(inputs);
@@ -94,12 +96,20 @@ void GBuffer::draw(const gl::Device& device, const scene::GpuScene& scene, const
             for (const gpu::Instance& instance : scene.instances())
                 any = any || ((instance.flags & INSTANCE_VISIBLE) != 0 && accepted(instance));
             if (!any) continue;
-            const gl::Program& program = device.get(GBufferKey{textures, masked, shrunk}.desc());
-            program.use(inputs);
-            scene.draw({.filter = accepted,
-                        .cull = cull,
-                        .textured = textures != 0 ? &program : nullptr,
-                        .part = isSeen});
+            const gl::ProgramDesc desc = GBufferKey{textures, masked, shrunk}.desc();
+            for (gl::Pieces draws(device, static_cast<int>(scene.instances().size()), kDrawsOfPiece);
+                 draws.next();) {
+                const gl::Program& program = device.get(desc);
+                gl::apply(state);
+                program.use(inputs);
+                scene.draw({.filter = accepted,
+                            .cull = cull,
+                            .textured = textures != 0 ? &program : nullptr,
+                            .part = isSeen,
+                            .first = static_cast<std::size_t>(draws.first()),
+                            .count = static_cast<std::size_t>(draws.count())});
+                co_await pass.rest();
+            }
         }
     }
 }

@@ -12,6 +12,7 @@
 
 #include <vector>
 
+#include "base/steps.h"
 #include "gl/device.h"
 #include "gl/draw.h"
 #include "gl/texture.h"
@@ -31,8 +32,8 @@ class GBuffer {
     };
     // `frameBlock` holds gpu::FrameConstants. GL state changed: raster state, vertex array, program and its
     // slots, texture units of materials.
-    void draw(const gl::Device& device, const scene::GpuScene& scene, const gl::Buffer& frameBlock,
-              const Wanted& wanted);
+    base::Steps drawInSteps(const gl::Device& device, const scene::GpuScene& scene,
+                            const gl::Buffer& frameBlock, Wanted wanted);
 
     void declare(gl::Inputs& inputs) const;  // gbufferGeometry, gbufferMaterial
 

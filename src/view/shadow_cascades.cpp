@@ -64,9 +64,9 @@ CascadeLevels cascadeLevels(float half, const LightSettings& settings, int light
 
 void ShadowCascades::clear() { *this = {}; }
 
-void ShadowCascades::update(const gl::Device& device, const scene::GpuScene& scene,
-                            const light::Lights& lights, const LightSettings& settings,
-                            const glm::vec3& eye) {
+base::Steps ShadowCascades::updateInSteps(const gl::Device& device, const scene::GpuScene& scene,
+                                          const light::Lights& lights, LightSettings settings,
+                                          glm::vec3 eye) {
     // Together with the other maps within what all may take; an eighth of it in any case.
     constexpr std::size_t kMost = light::kMostShadowBytes;
     const std::size_t left = kMost - std::min(lights.shadowBytes(), kMost - kMost / 8);
@@ -85,7 +85,7 @@ void ShadowCascades::update(const gl::Device& device, const scene::GpuScene& sce
     if (levels.count == 0) {
         if (levels_.count > 0) clear();
         levels_ = levels;
-        return;
+        co_return;
     }
 
     const int guard = light::guardTexels(settings.shadowFilter, levels.size);
@@ -116,9 +116,9 @@ void ShadowCascades::update(const gl::Device& device, const scene::GpuScene& sce
     for (const gpu::Cascade& cascade : cascades) places.push_back(cascade.position);
     const Sources sources{scene.identity(), scene.geometryRevision(), lights.revision(), settings};
     redrawn_ = 0;
-    if (sources == from_ && places == places_) return;
-    const gl::PassScope pass(device.profiler, "shadow cascades");
-    maps_.draw(device, scene, layout);
+    if (sources == from_ && places == places_) co_return;
+    from_ = {};
+    co_await maps_.drawInSteps(device, scene, std::move(layout), "shadow cascades");
     redrawn_ = maps_.redrawn();
     from_ = sources;
     places_ = places;

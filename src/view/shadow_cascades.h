@@ -36,8 +36,8 @@ class ShadowCascades {
   public:
     // Brings the maps up to date: draws those that see something that changed, and those whose place is another, which
     // moves by a sixteenth of its edge. GL state changed: as light::ShadowMaps::update.
-    void update(const gl::Device& device, const scene::GpuScene& scene, const light::Lights& lights,
-                const LightSettings& settings, const glm::vec3& eye);
+    base::Steps updateInSteps(const gl::Device& device, const scene::GpuScene& scene,
+                              const light::Lights& lights, LightSettings settings, glm::vec3 eye);
     void clear();
     int levels() const { return levels_.count; }  // 0: there are none; pixels look into the lights' own maps
     int redrawn() const { return redrawn_; }      // maps that the last update drew

@@ -25,13 +25,15 @@ void Surfaces::take(const gl::Device& device, const scene::GpuScene& scene, cons
     gl::barrier(gl::Access::TextureFetch | gl::Access::ShaderStorage);
 }
 
-void Surfaces::see(const gl::Device& device, const scene::GpuScene& scene, const Picture& picture) {
+base::Steps Surfaces::seeInSteps(const gl::Device& device, const scene::GpuScene& scene,
+                                 const Picture& picture) {
     resize(picture.width, picture.height);
     view_ = frameConstants(picture.camera, picture.width, picture.height, picture.part);
     block_.update(view_);
     cascades_ = picture.cascades;
-    gbuffer_->draw(device, scene, block_,
-                   {picture.cullBackFaces, picture.withGlass, view_.clipFromWorld, picture.shrink});
+    const GBuffer::Wanted wanted{picture.cullBackFaces, picture.withGlass, view_.clipFromWorld,
+                                 picture.shrink};
+    co_await gbuffer_->drawInSteps(device, scene, block_, wanted);
     gl::barrier(gl::Access::TextureFetch | gl::Access::ShaderStorage);
 }
 

@@ -30,7 +30,10 @@ class Surfaces {
         float shrink = 0;                          // ViewSettings::shrink
         const ShadowCascades* cascades = nullptr;  // about the camera, as long as the surfaces; none: null
     };
-    void see(const gl::Device& device, const scene::GpuScene& scene, const Picture& picture);
+    void see(const gl::Device& device, const scene::GpuScene& scene, const Picture& picture) {
+        seeInSteps(device, scene, picture).finish();
+    }
+    base::Steps seeInSteps(const gl::Device& device, const scene::GpuScene& scene, const Picture& picture);
     // What a host has drawn, usable (requireUsable), one of reduction x reduction pixels. GL state changed: as
     // HostSurfaceImport. Ends with the barrier for texture fetches.
     void take(const gl::Device& device, const scene::GpuScene& scene, const HostSurfaces& host,

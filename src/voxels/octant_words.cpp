@@ -2,6 +2,7 @@
 #include "voxels/octant_words.h"
 
 #include "gl/gl.h"
+#include "gl/pace.h"
 
 namespace conelight::voxels {
 namespace {
@@ -11,8 +12,8 @@ gl::ProgramDesc reachDesc() { return {{"voxels/octant_reach.comp.glsl"}, {}}; }
 
 }  // namespace
 
-void OctantWords::build(const gl::Device& device, const SurfaceVoxels& surface) {
-    const gl::PassScope pass(device.profiler, "octant words");
+base::Steps OctantWords::buildInSteps(const gl::Device& device, const SurfaceVoxels& surface) {
+    gl::PassSteps pass(device, "octant words");
     const glm::ivec3 bricks = surface.grid().storedBricks();
     if (!texture_ || texture_.width() != 8 * bricks.x || texture_.height() != bricks.y ||
         texture_.depth() != bricks.z) {
@@ -40,6 +41,7 @@ void OctantWords::build(const gl::Device& device, const SurfaceVoxels& surface) 
         .image("octants", texture_, gl::ImageUse::Write);
     device.get(masksDesc()).dispatchLinear(inputs, surface.occupiedBrickCount());
     gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
+    co_await pass.rest();
     device.get(reachDesc()).dispatchLinear(inputs, rowWords);
     gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
 }

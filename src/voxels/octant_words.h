@@ -17,7 +17,10 @@ namespace conelight::voxels {
 class OctantWords {
   public:
     // Ends with the barrier for texture fetches and image loads.
-    void build(const gl::Device& device, const SurfaceVoxels& surface);
+    void build(const gl::Device& device, const SurfaceVoxels& surface) {
+        buildInSteps(device, surface).finish();
+    }
+    base::Steps buildInSteps(const gl::Device& device, const SurfaceVoxels& surface);
 
     // What shaders may read: voxelOctants.
     void declare(gl::Inputs& inputs) const;

@@ -1,74 +1,90 @@
 // SPDX-License-Identifier: MIT
 #include "gl/gl.h"
+#include "gl/pace.h"
 #include "voxels/surface_work.h"
 
 namespace conelight::voxels {
 
 // Triangles -> pairs (triangle, voxel), and a bit per voxel.
-void SurfaceVoxels::Impl::mark(const gl::Device& device, const scene::GpuScene& scene) {
-    const gl::PassScope scope(device.profiler, "voxelize: mark");
+base::Steps SurfaceVoxels::Impl::mark(const gl::Device& device, const scene::GpuScene& scene) {
+    gl::PassSteps scope(device, "voxelize: mark");
     clearWorkSpace();
     gl::Inputs given = this->given();
     given.add(scene);
     device.get(SurfaceMarkKey{SurfaceMarkKey::Pass::Setup, false}.desc())
         .dispatchLinear(given, static_cast<std::size_t>(grid.levels) * scene.triangleCount());
     gl::barrier(gl::Access::ShaderStorage);
+    co_await scope.rest();
     device.get(SurfaceScanKey{SurfaceCounted::Tiles}.desc()).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect | gl::Access::TextureFetch);
+    co_await scope.rest();
     device.get(SurfaceMarkKey{SurfaceMarkKey::Pass::Tiles, false}.desc())
         .dispatchIndirect(given, counters, 4 * SURFACE_ARGS_TILES);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+    co_await scope.rest();
 }
 
 // Bits -> brickWord and the list of occupied bricks.
-void SurfaceVoxels::Impl::compact(const gl::Device& device) {
-    const gl::PassScope scope(device.profiler, "voxelize: compact");
+base::Steps SurfaceVoxels::Impl::compact(const gl::Device& device) {
+    gl::PassSteps scope(device, "voxelize: compact");
     gl::Inputs given = this->given();
     const auto bricks = static_cast<std::uint32_t>(grid.brickCount());
     const std::uint32_t chunkCount = gpu::chunksOf(bricks);
     device.get(SurfaceCountKey{true}.desc()).dispatchLinear(given, chunkCount);
     gl::barrier(gl::Access::ShaderStorage);
+    co_await scope.rest();
     device.get(SurfaceScanKey{SurfaceCounted::Bricks}.desc()).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
+    co_await scope.rest();
     device.get(descOf(SurfacePass::Bricks)).dispatchLinear(given, chunkCount);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+    co_await scope.rest();
 }
 
 // Pairs -> clipped fragments in the chains of their voxels.
-void SurfaceVoxels::Impl::clip(const gl::Device& device, const scene::GpuScene& scene, bool update) {
-    const gl::PassScope scope(device.profiler, "voxelize: clip");
+base::Steps SurfaceVoxels::Impl::clip(const gl::Device& device, const scene::GpuScene& scene, bool update) {
+    gl::PassSteps scope(device, "voxelize: clip");
     gl::Inputs given = this->given();
     given.add(scene);
     device.get(SurfaceClipKey{surfaces.detail, surfaces.key(), update}.desc())
         .dispatchIndirect(given, counters, 4 * SURFACE_ARGS_FRAGMENTS);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+    co_await scope.rest();
 }
 
 // Directions -> faces, chains -> what they show.
-void SurfaceVoxels::Impl::resolve(const gl::Device& device, bool update) {
-    const gl::PassScope scope(device.profiler, "voxelize: resolve");
-    gl::Inputs given = this->given();
+base::Steps SurfaceVoxels::Impl::resolve(const gl::Device& device, bool update) {
+    gl::PassSteps scope(device, "voxelize: resolve");
+    const gl::Inputs given = this->given();
     device.get(SurfaceCountKey{false}.desc()).dispatchIndirect(given, counters, 4 * SURFACE_ARGS_VOXELS);
     gl::barrier(gl::Access::ShaderStorage);
+    co_await scope.rest();
     device.get(SurfaceScanKey{SurfaceCounted::Faces}.desc()).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
+    co_await scope.rest();
     device.get(SurfaceMarkKey{SurfaceMarkKey::Pass::Faces, update}.desc())
         .dispatchIndirect(given, counters, 4 * SURFACE_ARGS_VOXELS);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+    co_await scope.rest();
     if (update) {
         device.get(SurfaceScanKey{SurfaceCounted::Work}.desc()).dispatch(given, 1);
         device.get(descOf(SurfacePass::Copy)).dispatchIndirect(given, counters, 4 * SURFACE_ARGS_FACES);
         gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
+        co_await scope.rest();
     }
     device.get(SurfaceResolveKey{surfaces.key(), update}.desc())
         .dispatchIndirect(given, counters, 4 * (update ? SURFACE_ARGS_WORK : SURFACE_ARGS_FACES));
     gl::barrier(gl::Access::ShaderStorage);
+    co_await scope.rest();
     device.get(SurfaceScanKey{SurfaceCounted::Layers}.desc()).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect);
-    for (const bool onlyWide : {false, true})
+    for (const bool onlyWide : {false, true}) {
+        co_await scope.rest();
         device.get(SurfaceLayersKey{surfaces.key(), onlyWide}.desc())
             .dispatchIndirect(given, counters, 4 * (onlyWide ? SURFACE_ARGS_WIDE : SURFACE_ARGS_LAYERS));
+    }
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Indirect);
+    co_await scope.rest();
 }
 
 }  // namespace conelight::voxels

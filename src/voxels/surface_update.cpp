@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "gl/gl.h"
+#include "gl/pace.h"
 #include "voxels/surface_work.h"
 
 namespace conelight::voxels {
@@ -50,8 +51,7 @@ void SurfaceVoxels::Impl::remember(const scene::GpuScene& scene) {
 }
 
 bool SurfaceVoxels::Impl::canUpdate(const scene::GpuScene& scene, const VoxelGrid& wanted) const {
-    // No revision: a build or update did not come to its end.
-    return keys.revision && sceneIdentity == scene.identity() && grid == wanted &&
+    return keys.revision && !unfinished && sceneIdentity == scene.identity() && grid == wanted &&
            surfaces == surfacesOf(scene);
 }
 
@@ -107,35 +107,40 @@ void SurfaceVoxels::Impl::uploadEdits(const scene::GpuScene& scene, const Edits&
 }
 
 // Old place: fragments leave their chains, slots become free.
-void SurfaceVoxels::Impl::drop(const gl::Device& device, const Edits& edits) {
-    const gl::PassScope scope(device.profiler, "voxelize: drop");
+base::Steps SurfaceVoxels::Impl::drop(const gl::Device& device, const Edits& edits) {
+    gl::PassSteps scope(device, "voxelize: drop");
     gl::Inputs given = this->given();
     device.get(descOf(SurfacePass::Drop)).dispatchLinear(given, 64 * edits.editedBricks.size());
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+    co_await scope.rest();
 }
 
 // New place: as mark(), for the triangles of changed instances.
-void SurfaceVoxels::Impl::markEdits(const gl::Device& device, const scene::GpuScene& scene,
-                                    const Edits& edits) {
-    const gl::PassScope scope(device.profiler, "voxelize: mark");
+base::Steps SurfaceVoxels::Impl::markEdits(const gl::Device& device, const scene::GpuScene& scene,
+                                           const Edits& edits) {
+    gl::PassSteps scope(device, "voxelize: mark");
     gl::Inputs given = this->given();
     given.add(scene);
     device.get(SurfaceMarkKey{SurfaceMarkKey::Pass::Setup, true}.desc())
         .dispatchLinear(given, static_cast<std::size_t>(grid.levels) * edits.triangles);
     gl::barrier(gl::Access::ShaderStorage);
+    co_await scope.rest();
     device.get(SurfaceScanKey{SurfaceCounted::Tiles}.desc()).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect | gl::Access::TextureFetch);
+    co_await scope.rest();
     device.get(SurfaceMarkKey{SurfaceMarkKey::Pass::Tiles, true}.desc())
         .dispatchIndirect(given, counters, 4 * SURFACE_ARGS_TILES);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+    co_await scope.rest();
 }
 
 // Chains under the new numbers of their voxels. `before` is what was there, `now` what will be.
-void SurfaceVoxels::Impl::carry(const gl::Device& device) {
-    const gl::PassScope scope(device.profiler, "voxelize: carry");
+base::Steps SurfaceVoxels::Impl::carry(const gl::Device& device) {
+    gl::PassSteps scope(device, "voxelize: carry");
     gl::Inputs given = this->given();
     device.get(descOf(SurfacePass::Carry)).dispatchIndirect(given, counters, 4 * SURFACE_ARGS_BRICKS);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+    co_await scope.rest();
 }
 
 // Reads the counts back. False when a list was too small: what there is now is of no use.
@@ -151,45 +156,47 @@ bool SurfaceVoxels::Impl::finishUpdate(const Edits& edits) {
            counts[SURFACE_BRICKS] <= capacity.bricks;
 }
 
-void SurfaceVoxels::update(const gl::Device& device, const scene::GpuScene& scene,
-                           const VoxelSettings& settings) {
-    update(device, scene, gridOf(scene, settings));
-}
-
-void SurfaceVoxels::update(const gl::Device& device, const scene::GpuScene& scene, const VoxelGrid& grid) {
+base::Steps SurfaceVoxels::updateInSteps(const gl::Device& device, const scene::GpuScene& scene,
+                                         VoxelGrid grid) {
     Impl& m = *impl_;
-    if (!m.canUpdate(scene, grid)) return build(device, scene, grid);
-    const Edits edits = m.editsOf(scene);
+    const bool can = m.canUpdate(scene, grid);
+    const Edits edits = can ? m.editsOf(scene) : Edits{};
     // Beyond half of all triangles, to clip all is as cheap as to search for those to keep.
-    if (2 * edits.triangles > scene.triangleCount()) return build(device, scene, grid);
+    if (!can || 2 * edits.triangles > scene.triangleCount()) {
+        co_await buildInSteps(device, scene, grid);
+        co_return;
+    }
     if (!edits.any) {
         m.changedBricks.clear();
         m.lastUpdate = {};
-        return;
+        co_return;
     }
+    m.unfinished = true;
     m.allocateFor(m.capacity);
     m.growTriangles(scene.triangleCount());
     m.uploadEdits(scene, edits);
-    m.drop(device, edits);
-    m.markEdits(device, scene, edits);
+    co_await m.drop(device, edits);
+    co_await m.markEdits(device, scene, edits);
     std::swap(m.now, m.before);
     std::swap(m.keys, m.oldKeys);
     m.keys.revision = {};
     reserveRecords(m.keys, m.capacity.voxels);
     clearBricks(m.keys, m.grid.storedBricks());
-    m.compact(device);
-    m.carry(device);
-    m.clip(device, scene, true);
-    m.resolve(device, true);
+    co_await m.compact(device);
+    co_await m.carry(device);
+    co_await m.clip(device, scene, true);
+    co_await m.resolve(device, true);
     if (!m.finishUpdate(edits)) {
         // A list is too small: grow() in build() sees what a whole scene needs.
-        return build(device, scene, grid);
+        co_await buildInSteps(device, scene, grid);
+        co_return;
     }
     m.updateGridBlock();
     m.keys.grid = m.grid;
     m.keys.faceCount = m.counts[SURFACE_FACES];
     m.keys.revision = base::Revision::next();
     m.remember(scene);
+    m.unfinished = false;
 }
 
 }  // namespace conelight::voxels

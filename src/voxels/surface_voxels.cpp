@@ -24,13 +24,10 @@ VoxelGrid SurfaceVoxels::gridAround(const scene::GpuScene& scene, const VoxelSet
     return nestedGrid(gridOf(scene, settings), scene.gridBounds(), settings.levels, eye);
 }
 
-void SurfaceVoxels::build(const gl::Device& device, const scene::GpuScene& scene,
-                          const VoxelSettings& settings) {
-    build(device, scene, gridOf(scene, settings));
-}
-
-void SurfaceVoxels::build(const gl::Device& device, const scene::GpuScene& scene, const VoxelGrid& grid) {
+base::Steps SurfaceVoxels::buildInSteps(const gl::Device& device, const scene::GpuScene& scene,
+                                        VoxelGrid grid) {
     Impl& m = *impl_;
+    m.unfinished = true;
     // The keys of the voxels there are stay for readers that carry something over.
     if (m.keys.revision) std::swap(m.keys, m.oldKeys);
     m.keys.revision = {};
@@ -42,10 +39,10 @@ void SurfaceVoxels::build(const gl::Device& device, const scene::GpuScene& scene
     constexpr int kMaxAttempts = 5;
     for (int attempt = 0; attempt < kMaxAttempts; ++attempt) {
         m.upload(scene);
-        m.mark(device, scene);
-        m.compact(device);
-        m.clip(device, scene, false);
-        m.resolve(device, false);
+        co_await m.mark(device, scene);
+        co_await m.compact(device);
+        co_await m.clip(device, scene, false);
+        co_await m.resolve(device, false);
         m.counters.read(0, m.counts.data(), sizeof m.counts);
         if (!m.grow()) break;
         CONELIGHT_ASSERT(attempt + 1 < kMaxAttempts,
@@ -56,10 +53,11 @@ void SurfaceVoxels::build(const gl::Device& device, const scene::GpuScene& scene
     m.keys.faceCount = m.counts[SURFACE_FACES];
     m.keys.revision = base::Revision::next();
     m.remember(scene);
+    m.unfinished = false;
     m.tail = m.counts[SURFACE_FRAGMENTS];
     m.freeSlots = 0;
     m.lastUpdate = {true, scene.triangleCount(), m.tail, m.counts[SURFACE_FACES]};
-    if (m.oldKeys.revision) return;
+    if (m.oldKeys.revision) co_return;
     m.releaseLists();
     m.trim();
 }

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "base/revision.h"
+#include "base/steps.h"
 #include "conelight/settings.h"
 #include "gl/buffer.h"
 #include "gl/device.h"
@@ -44,15 +45,23 @@ class SurfaceVoxels {
     // grid a device without), cheap enough for every frame: from the second
     // call on memory is kept and only grows. Waits for the GPU once, to read the counts. Leaves the results
     // visible to later shaders, as storage, textures and indirect arguments.
-    void build(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings);
-    void build(const gl::Device& device, const scene::GpuScene& scene, const VoxelGrid& grid);
+    void build(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings) {
+        build(device, scene, gridOf(scene, settings));
+    }
+    void build(const gl::Device& device, const scene::GpuScene& scene, const VoxelGrid& grid) {
+        buildInSteps(device, scene, grid).finish();
+    }
 
     // As build(), but does again only what `scene` has changed since the last build or update: bit for bit
     // the same voxels. Falls back to build() for another scene or grid,
     // when materials need another variant of the passes, when more than half of the triangles changed, and
     // when a list has become too small. Does nothing when nothing changed.
-    void update(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings);
-    void update(const gl::Device& device, const scene::GpuScene& scene, const VoxelGrid& grid);
+    void update(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings) {
+        updateInSteps(device, scene, gridOf(scene, settings)).finish();
+    }
+    // Left before it is done, the next one builds all anew.
+    base::Steps buildInSteps(const gl::Device& device, const scene::GpuScene& scene, VoxelGrid grid);
+    base::Steps updateInSteps(const gl::Device& device, const scene::GpuScene& scene, VoxelGrid grid);
 
     // Raised by each build(), and by each update() that changed voxels; none before the first. Buffers and
     // textures may be others at another revision.

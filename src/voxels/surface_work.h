@@ -76,6 +76,8 @@ struct SurfaceVoxels::Impl {
     gl::Texture triangleTexels, pairTexels, fragmentTexels, ownerTexels;
     gl::Buffer stale, runs, editedBricks, freeList, origins, workList;  // of updates
 
+    bool unfinished = false;  // a build or an update did not come to its end
+
     // The scene as it was voxelized last.
     base::Revision sceneIdentity;
     std::vector<base::Revision> revisions;
@@ -93,19 +95,19 @@ struct SurfaceVoxels::Impl {
     void upload(const scene::GpuScene& scene, const Edits* edits = nullptr);
     void clearWorkSpace();
     gl::Inputs given() const;
-    void mark(const gl::Device& device, const scene::GpuScene& scene);
-    void compact(const gl::Device& device);
-    void clip(const gl::Device& device, const scene::GpuScene& scene, bool update);
-    void resolve(const gl::Device& device, bool update);
+    base::Steps mark(const gl::Device& device, const scene::GpuScene& scene);
+    base::Steps compact(const gl::Device& device);
+    base::Steps clip(const gl::Device& device, const scene::GpuScene& scene, bool update);
+    base::Steps resolve(const gl::Device& device, bool update);
     void updateGridBlock();
 
     void remember(const scene::GpuScene& scene);
     bool canUpdate(const scene::GpuScene& scene, const VoxelGrid& wanted) const;
     Edits editsOf(const scene::GpuScene& scene) const;
     void uploadEdits(const scene::GpuScene& scene, const Edits& edits);
-    void drop(const gl::Device& device, const Edits& edits);
-    void markEdits(const gl::Device& device, const scene::GpuScene& scene, const Edits& edits);
-    void carry(const gl::Device& device);
+    base::Steps drop(const gl::Device& device, const Edits& edits);
+    base::Steps markEdits(const gl::Device& device, const scene::GpuScene& scene, const Edits& edits);
+    base::Steps carry(const gl::Device& device);
     bool finishUpdate(const Edits& edits);
 };
 

@@ -3,40 +3,48 @@
 
 namespace conelight::voxels {
 
-void Voxels::update(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings,
-                    Rays rays) {
-    const bool same = revision() && scene_ == scene.identity() && geometry_ == scene.geometryRevision() &&
-                      settings_ == settings;
-    if (!same) surface_.update(device, scene, settings);
-    scene_ = scene.identity();
-    geometry_ = scene.geometryRevision();
-    settings_ = settings;
-    makeOctants(device, rays);
+base::Steps Voxels::updateInSteps(const gl::Device& device, const scene::GpuScene& scene,
+                                  VoxelSettings settings, Rays rays) {
+    if (!areOf(scene, settings))
+        co_await surface_.updateInSteps(device, scene, SurfaceVoxels::gridOf(scene, settings));
+    remember(scene, settings);
+    co_await makeOctants(device, rays);
 }
 
-void Voxels::updateIn(const VoxelGrid& grid, const gl::Device& device, const scene::GpuScene& scene,
-                      const VoxelSettings& settings, Rays rays) {
-    const bool same = revision() && scene_ == scene.identity() && geometry_ == scene.geometryRevision() &&
-                      this->grid() == grid;
-    if (!same) surface_.update(device, scene, grid);
-    scene_ = scene.identity();
-    geometry_ = scene.geometryRevision();
-    settings_ = settings;
-    makeOctants(device, rays);
+base::Steps Voxels::updateInSteps(VoxelGrid grid, const gl::Device& device, const scene::GpuScene& scene,
+                                  VoxelSettings settings, Rays rays) {
+    if (!areIn(grid, scene)) co_await surface_.updateInSteps(device, scene, grid);
+    remember(scene, settings);
+    co_await makeOctants(device, rays);
 }
 
 void Voxels::build(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings,
                    Rays rays) {
     surface_.build(device, scene, settings);
+    remember(scene, settings);
+    makeOctants(device, rays).finish();
+}
+
+bool Voxels::areOf(const scene::GpuScene& scene, const VoxelSettings& settings) const {
+    return revision() && scene_ == scene.identity() && geometry_ == scene.geometryRevision() &&
+           settings_ == settings;
+}
+
+bool Voxels::areIn(const VoxelGrid& grid, const scene::GpuScene& scene) const {
+    return revision() && scene_ == scene.identity() && geometry_ == scene.geometryRevision() &&
+           this->grid() == grid;
+}
+
+void Voxels::remember(const scene::GpuScene& scene, const VoxelSettings& settings) {
     scene_ = scene.identity();
     geometry_ = scene.geometryRevision();
     settings_ = settings;
-    makeOctants(device, rays);
 }
 
-void Voxels::makeOctants(const gl::Device& device, Rays rays) {
-    if (rays == Rays::No || octantsOf_ == revision()) return;
-    octants_.build(device, surface_);
+base::Steps Voxels::makeOctants(const gl::Device& device, Rays rays) {
+    if (rays == Rays::No || octantsOf_ == revision()) co_return;
+    octantsOf_ = {};
+    co_await octants_.buildInSteps(device, surface_);
     octantsOf_ = revision();
 }
 

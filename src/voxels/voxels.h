@@ -18,14 +18,25 @@ class Voxels {
     // Makes voxels of `scene` as it is, in place of those there are: what has not changed stays
     // (SurfaceVoxels::update). Octant words are made with Rays::Yes only.
     void update(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings,
-                Rays rays);
+                Rays rays) {
+        updateInSteps(device, scene, settings, rays).finish();
+    }
+    base::Steps updateInSteps(const gl::Device& device, const scene::GpuScene& scene, VoxelSettings settings,
+                              Rays rays);
     // As update(), in another grid: that of another scene's voxels, or nested ones (SurfaceVoxels::gridAround).
     void updateIn(const VoxelGrid& grid, const gl::Device& device, const scene::GpuScene& scene,
-                  const VoxelSettings& settings, Rays rays = Rays::No);
+                  const VoxelSettings& settings, Rays rays = Rays::No) {
+        updateInSteps(grid, device, scene, settings, rays).finish();
+    }
+    base::Steps updateInSteps(VoxelGrid grid, const gl::Device& device, const scene::GpuScene& scene,
+                              VoxelSettings settings, Rays rays = Rays::No);
     // As update(), but all of it anew, also of a scene that has not changed.
     void build(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings,
                Rays rays);
 
+    // Whether update() would leave them as they are.
+    bool areIn(const VoxelGrid& grid, const scene::GpuScene& scene) const;
+    bool areOf(const scene::GpuScene& scene, const VoxelSettings& settings) const;
     // Of the surface voxels: equal as long as these are the same.
     base::Revision revision() const { return surface_.revision(); }
     const SurfaceVoxels& surface() const { return surface_; }
@@ -40,7 +51,8 @@ class Voxels {
     void declare(gl::Inputs& inputs) const;
 
   private:
-    void makeOctants(const gl::Device& device, Rays rays);
+    void remember(const scene::GpuScene& scene, const VoxelSettings& settings);
+    base::Steps makeOctants(const gl::Device& device, Rays rays);
 
     SurfaceVoxels surface_;
     OctantWords octants_;

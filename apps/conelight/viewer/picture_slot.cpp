@@ -31,6 +31,7 @@ constexpr int kReferenceSamples = 4096;
 constexpr double kFlyingUpdateMs = 25;
 // Between two parts of a picture the window looks whether somebody wants it.
 constexpr double kPartMs = 25;
+constexpr double kMovingPartMs = 40;  // of pictures that may take 100 and are to come soon
 
 double wallMs() {
     using clock = std::chrono::steady_clock;
@@ -45,6 +46,7 @@ struct PictureSlot::Impl {
         PictureKey key;
         Settings settings;  // the session's
         glm::ivec2 size;
+        bool moving = false;  // coarse: it is finished though the view has gone on meanwhile
     };
 
     RendererOptions options;
@@ -88,9 +90,9 @@ struct PictureSlot::Impl {
     bool drawTraced(BackgroundReference& traced, const Session& session, int w, int h, const How& how);
     bool drawRadiosity(const Session& session, int w, int h, const How& how);
     void drawNothing(const Session& session, int w, int h);
-    bool begin(const Session& session, const std::string& drawnMode, bool voxelsDue, const glm::ivec2& size,
+    void begin(const Session& session, const std::string& drawnMode, bool voxelsDue, const glm::ivec2& size,
                const How& how);
-    void followDrawing(const Session& session, const glm::ivec2& size);
+    void followDrawing(const Session& session, const glm::ivec2& size, const How& how);
     void drop();
     void countPass(const std::string& drawnMode);
     void renderFrame(const Session& session, const Settings& settings, int w, int h);
@@ -211,14 +213,14 @@ bool PictureSlot::Impl::draw(const Session& session, int w, int h, const How& ho
     return drawScene(session, mode, w, h, how);
 }
 
-// The scene as it is, in a mode of the renderer. At rest in parts: a picture that nobody wants any more is dropped.
+// The scene as it is, in a mode of the renderer, in parts. At rest a picture that nobody wants any more is dropped.
 bool PictureSlot::Impl::drawScene(const Session& session, const std::string& drawnMode, int w, int h,
                                   const How& how) {
     followLook(session);
     const std::shared_ptr<const BakedLight> newest = bakedFor(session, drawnMode, how);
     const ViewFlags& flags = session.flags();
     const bool voxelsDue = flags.dynamic && !drawing && wallMs() - voxelsMadeAt > 1e3 * flags.period;
-    followDrawing(session, {w, h});
+    followDrawing(session, {w, h}, how);
     const bool current = drawing || (shown && *shown == keyOf(session.revisions()));
     const bool changed = asked || !current || voxelsDue || newest != baked;
     const bool resized = !drawing && (w != width || h != height);
@@ -229,13 +231,13 @@ bool PictureSlot::Impl::drawScene(const Session& session, const std::string& dra
     if (settling == 0) return resized && how.onlyChanges;
     if (how.onlyChanges && !changed) return true;
 
-    if (changed || !how.still) drop();
+    if (changed) drop();
     if (!drawing) {
         baked = newest;
-        if (!begin(session, drawnMode, voxelsDue, {w, h}, how)) return settling > 0;
+        begin(session, drawnMode, voxelsDue, {w, h}, how);
     }
     ++parts;
-    if (!renderer->goOn(kPartMs)) return true;
+    if (!renderer->goOn(how.still ? kPartMs : kMovingPartMs)) return true;
     const Drawing drawn = *std::exchange(drawing, std::nullopt);
     takeFrame(session, drawn, wallMs() - renderer->stats().wallMs);
     countPass(drawnMode);
@@ -250,19 +252,21 @@ void PictureSlot::Impl::countPass(const std::string& drawnMode) {
         noise.follow(passes.all() - settling, [this]() -> const Image& { return read(); });
 }
 
-// What was begun goes on while it is what is wanted; another look at it changes nothing.
-void PictureSlot::Impl::followDrawing(const Session& session, const glm::ivec2& size) {
+// What was begun goes on while it is what is wanted; another look at it changes nothing. What moves is shown as it was a
+// moment ago, or nothing would be finished.
+void PictureSlot::Impl::followDrawing(const Session& session, const glm::ivec2& size, const How& how) {
     if (!drawing) return;
+    if (!how.still && drawing->moving && renderer && renderer->drawing()) return;
     PictureKey key = keyOf(session.revisions());
     if (sameButLook(session.settings(), drawing->settings)) key.settings = drawing->key.settings;
-    if (key == drawing->key && drawing->size == size && renderer && renderer->drawing())
+    const bool same = key == drawing->key && drawing->size == size && drawing->moving == !how.still;
+    if (same && renderer && renderer->drawing())
         drawing->key.settings = session.revisions().settings;
     else
         drop();
 }
 
-// A picture; false: it is drawn whole, because the next has to come soon.
-bool PictureSlot::Impl::begin(const Session& session, const std::string& drawnMode, bool voxelsDue,
+void PictureSlot::Impl::begin(const Session& session, const std::string& drawnMode, bool voxelsDue,
                               const glm::ivec2& size, const How& how) {
     if (!renderer) {
         renderer = std::make_unique<Renderer>(options);
@@ -287,16 +291,10 @@ bool PictureSlot::Impl::begin(const Session& session, const std::string& drawnMo
         settings.traced.faceBudget = faces;
     renderer->setDynamic(voxelsDue);
     asked = false;
-    if (!how.still) {
-        renderFrame(session, settings, size.x, size.y);
-        countPass(drawnMode);
-        return false;
-    }
     renderer->setProfiling(true, false);
     renderer->setHeadlight(headlight);
     renderer->begin(session.camera(), size.x, size.y, settings);
-    drawing = Drawing{keyOf(session.revisions()), session.settings(), size};
-    return true;
+    drawing = Drawing{keyOf(session.revisions()), session.settings(), size, !how.still};
 }
 
 // Of mode hybrid, as far as it is baked; without it the mode shows all light by cones.

@@ -28,7 +28,7 @@ class PictureSlot {
         bool flying = false;  // the camera moves, the scene does not: what is slow may lag behind
         bool onlyChanges = false;  // leave out what merely refines the picture
     };
-    // Brings the picture up to date, `width` x `height` pixels; at rest by one part of it. Returns whether drawing
+    // Brings the picture up to date, `width` x `height` pixels, by one part of it. Returns whether drawing
     // again soon would change it; work in the background wakes the window instead. Never throws: takeError() has what went
     // wrong.
     bool draw(const Session& session, const std::string& mode, int width, int height, const How& how);

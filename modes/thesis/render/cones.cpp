@@ -8,6 +8,7 @@
 #include "base/log.h"
 #include "gather/picture_parts.h"
 #include "gl/gl.h"
+#include "gl/picture_pass.h"
 
 namespace conelight::thesis {
 namespace {
@@ -233,15 +234,15 @@ void ThesisConePass::record(const gl::Device& device, const Inputs& inputs, cons
                     given(inputs, output));
 }
 
-void ThesisConePass::draw(const gl::Device& device, const Inputs& inputs, const gl::Texture& output,
-                          const gl::Buffer* lookupCounters) {
-    const gl::PassScope pass(device.profiler, "thesis cones");
+base::Steps ThesisConePass::drawInSteps(const gl::Device& device, const Inputs& inputs,
+                                        const gl::Texture& output, const gl::Buffer* lookupCounters) {
     gl::Inputs given = this->given(inputs, output);
     if (lookupCounters != nullptr) given.storage("LookupTable", *lookupCounters);
-    device
-        .get(conesDesc(inputs.settings.groups.of<ThesisSettings>(),
-                       keyOf(inputs.settings.component, lookupCounters != nullptr, inputs.pixels.lights)))
-        .dispatch(given, output.width(), output.height());
+    const gl::ProgramDesc desc =
+        conesDesc(inputs.settings.groups.of<ThesisSettings>(),
+                  keyOf(inputs.settings.component, lookupCounters != nullptr, inputs.pixels.lights));
+    const glm::ivec2 size(output.width(), output.height());
+    co_await gl::dispatchPicture(device, {"thesis cones", desc, given, size});
 }
 
 std::vector<gl::ProgramDesc> ThesisConePass::programDescs() {

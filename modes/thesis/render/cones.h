@@ -33,10 +33,10 @@ class ThesisConePass {
         const Settings& settings;
     };
     // `lookupCounters` may be null; else three uints (diffuse, specular, occlusion) are added to.
-    void draw(const gl::Device& device, const Inputs& inputs, const gl::Texture& output,
-              const gl::Buffer* lookupCounters);
+    base::Steps drawInSteps(const gl::Device& device, const Inputs& inputs, const gl::Texture& output,
+                            const gl::Buffer* lookupCounters);
 
-    // Records the recorder's pixel of the picture that draw() draws with these settings. Views of the volume
+    // Records the recorder's pixel of the picture that drawInSteps() draws with these settings. Views of the volume
     // are recorded as component full.
     void record(const gl::Device& device, const Inputs& inputs, const gl::Texture& output,
                 gather::StepRecorder& recorder);

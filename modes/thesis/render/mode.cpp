@@ -48,26 +48,29 @@ bool ThesisMode::lightsFromEmitters(const Settings& settings) const {
     return !effectiveDefects(settings.groups.of<ThesisSettings>()).darkEmitters;
 }
 
-void ThesisMode::updateVolume(const modes::Frame& frame) {
+base::Steps ThesisMode::updateVolume(const modes::Frame& frame) {
     const ThesisVolumeOptions options = volumeOptions(frame);
     if (sceneFrom_ == frame.scene.geometryRevision() && lightsFrom_ == frame.lights.revision() &&
         options_ == options)
-        return;
-    volume_.build(frame.device, {frame.scene, frame.lights}, options);
+        co_return;
+    sceneFrom_ = {};
+    const ThesisVolume::Inputs inputs{frame.scene, frame.lights};
+    co_await volume_.buildInSteps(frame.device, inputs, options);
     sceneFrom_ = frame.scene.geometryRevision();
     lightsFrom_ = frame.lights.revision();
     options_ = options;
 }
 
-void ThesisMode::draw(const modes::Frame& frame) {
-    updateVolume(frame);
+base::Steps ThesisMode::drawInSteps(const modes::Frame& frame) {
+    co_await updateVolume(frame);
     const gather::DirectInputs pixels{frame.scene, frame.lights, frame.surfaces};
+    const ThesisConePass::Inputs inputs{pixels, volume_, frame.settings};
     if (frame.recorder != nullptr)
-        cones_.record(frame.device, {pixels, volume_, frame.settings}, frame.output, *frame.recorder);
+        cones_.record(frame.device, inputs, frame.output, *frame.recorder);
     else if (frame.settings.component == Component::Voxels)
         drawVoxels(frame);
     else
-        cones_.draw(frame.device, {pixels, volume_, frame.settings}, frame.output, frame.lookupCounters);
+        co_await cones_.drawInSteps(frame.device, inputs, frame.output, frame.lookupCounters);
 }
 
 void ThesisMode::drawVoxels(const modes::Frame& frame) {

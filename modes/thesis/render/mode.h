@@ -14,7 +14,7 @@ namespace conelight::thesis {
 
 class ThesisMode : public modes::ModeRenderer {
   public:
-    void draw(const modes::Frame& frame) override;
+    base::Steps drawInSteps(const modes::Frame& frame) override;
     bool needsShadows(const Scene& scene, const Settings& settings) const override;
     // In the thesis's program emissive objects light nothing (a defect).
     bool lightsFromEmitters(const Settings& settings) const override;
@@ -22,7 +22,7 @@ class ThesisMode : public modes::ModeRenderer {
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
-    void updateVolume(const modes::Frame& frame);
+    base::Steps updateVolume(const modes::Frame& frame);
     void drawVoxels(const modes::Frame& frame);
 
     ThesisVolume volume_;

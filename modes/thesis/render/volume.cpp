@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "gl/gl.h"
+#include "gl/pace.h"
 #include "scene/gpu_lights.h"
 
 namespace conelight::thesis {
@@ -194,8 +196,8 @@ gl::Inputs ThesisVolume::bricks() const {
     return inputs;
 }
 
-void ThesisVolume::build(const gl::Device& device, const Inputs& inputs, const ThesisVolumeOptions& options) {
-    const gl::PassScope pass(device.profiler, "thesis voxels");
+// The grid, and room for what will be in it.
+void ThesisVolume::layOut(const Inputs& inputs, const ThesisVolumeOptions& options) {
     grid_ = fitGrid(inputs.scene.firstBounds(), inputs.scene.bounds(), options);
     const float bound = radianceBound(inputs, options.defects, grid_.voxelSize);
     grid_.sumScale = kSumSteps / (options.defects.clippedRadiance ? std::min(bound, 1.0f) : bound);
@@ -207,6 +209,16 @@ void ThesisVolume::build(const gl::Device& device, const Inputs& inputs, const T
     constants_.update(grid_);
     const std::uint32_t none[3] = {};
     brickList_.update(0, none, sizeof(none));
+}
+
+base::Steps ThesisVolume::buildInSteps(const gl::Device& device, const Inputs& inputs,
+                                       const ThesisVolumeOptions& options) {
+    gl::PassSteps pass(device, "thesis voxels");
+    if (std::exchange(unfinished_, true)) {
+        sums_.reset();  // they hold what a build that was left has summed
+        areaSums_.reset();
+    }
+    layOut(inputs, options);
     // Stores of the original's raster that race into textures need no list of bricks before.
     const bool asPublished =
         options.defects.racingStores && options.defects.centerCoverage && !isOctree_ && options.bounces == 1;
@@ -216,18 +228,22 @@ void ThesisVolume::build(const gl::Device& device, const Inputs& inputs, const T
         if (!isOctree_) clearBox();
         brickSlots_.clear();
     }
+    co_await pass.rest();
     {
         const gl::PassScope step(device.profiler, "thesis bricks");
         brickCount_ = 0;
         if (!asPublished) markBricks(device, inputs, options);
         allocateSums(options);
     }
+    co_await pass.rest();
     {
         const gl::PassScope step(device.profiler, "thesis voxelize");
         drawTriangles(device, inputs, options, Content::Light);
         if (asPublished) listBricks(device);
     }
+    co_await pass.rest();
     if (isOctree_) growOctree(device, options);
+    co_await pass.rest();
     {
         const gl::PassScope step(device.profiler, "thesis mips");
         resolve(device, options.defects, texture_);
@@ -237,6 +253,7 @@ void ThesisVolume::build(const gl::Device& device, const Inputs& inputs, const T
             if (areas) buildMips(device, options.defects, areas, first);
         buildMips(device, options.defects, texture_, first);
     }
+    co_await pass.rest();
     if (options.bounces > 1) {
         const gl::PassScope step(device.profiler, "thesis bounces");
         gl::barrier(gl::Access::TextureFetch);
@@ -250,6 +267,7 @@ void ThesisVolume::build(const gl::Device& device, const Inputs& inputs, const T
     }
     gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
     revision_ = base::Revision::next();
+    unfinished_ = false;
 }
 
 // The bricks that light will be summed in, and how many they are.

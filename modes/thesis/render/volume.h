@@ -17,6 +17,7 @@
 #pragma once
 
 #include "base/revision.h"
+#include "base/steps.h"
 #include "conelight/thesis/settings.h"
 #include "gather/radiance_octree.h"
 #include "gl/device.h"
@@ -50,7 +51,11 @@ class ThesisVolume {
         const scene::GpuScene& scene;
         const light::Lights& lights;
     };
-    void build(const gl::Device& device, const Inputs& inputs, const ThesisVolumeOptions& options);
+    void build(const gl::Device& device, const Inputs& inputs, const ThesisVolumeOptions& options) {
+        buildInSteps(device, inputs, options).finish();
+    }
+    base::Steps buildInSteps(const gl::Device& device, const Inputs& inputs,
+                             const ThesisVolumeOptions& options);
     base::Revision revision() const { return revision_; }  // raised by each build
 
     const gpu::ThesisGrid& grid() const { return grid_; }
@@ -90,6 +95,7 @@ class ThesisVolume {
     void allocateDense(const ThesisVolumeOptions& options);
     void allocateLists();
     void allocateSums(const ThesisVolumeOptions& options);
+    void layOut(const Inputs& inputs, const ThesisVolumeOptions& options);
     void clearBox();
     // Calls `pass` for each axis along which triangles are voxelized, with that axis in the constants.
     template <class Pass>
@@ -143,6 +149,7 @@ class ThesisVolume {
     gl::Buffer constants_, sums_, areaSums_, brickSlots_, brickList_, brickMarks_, tiles_;
     // Of the list, and of wide triangles' tiles; 0 with the original's stores.
     std::size_t brickCount_ = 0, tileCount_ = 0;
+    bool unfinished_ = false;  // the last build was left
     base::Revision revision_;
 };
 

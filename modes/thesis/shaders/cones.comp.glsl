@@ -9,6 +9,7 @@
 #include "lib/environment.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/light_table.glsl"
+#include "lib/picture_pass.glsl"
 #include "lib/record_steps.glsl"
 #include "thesis/shaders/albedo.glsl"
 #include "thesis/shaders/constants.h"
@@ -213,7 +214,7 @@ vec3 shownPart(LightSum sum, vec3 diffuse) {
 }
 
 void main() {
-    ivec2 pixel = INVOCATION_PIXEL;
+    ivec2 pixel = passPixel();
     bool inside = all(lessThan(pixel, ivec2(frame.width, frame.height)));
     Surface s;
     bool seen = fetchSurface(min(pixel, ivec2(frame.width, frame.height) - 1), s) && inside;
