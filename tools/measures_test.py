@@ -73,7 +73,7 @@ class MeasureRealModels(unittest.TestCase):
                          "components": {"full": part | full, "direct": part, "indirect": part | indirect}}
                         for quality in ("interactive", "converged")]
             runs.append({"scene": scene, "view": None, "variants": variants, "reference": {"samples_per_pixel": 256}, "device": "driver",
-                         "command": f"conelight compare {scene}"})
+                         "commit": "c0ffee", "command": f"conelight compare {scene}"})
         with tempfile.TemporaryDirectory() as folder:
             out = pathlib.Path(folder, "real")
             out.with_suffix(".json").write_text(json.dumps({"version": 1, "runs": runs}))
