@@ -50,8 +50,7 @@ int viewsOfStill(const Settings& settings, const Camera& camera) {
     const bool ofLight = isOfLight(settings.component);
     const bool moves = settings.mode == Mode::Traced && settings.traced.budgeted;
     if (!ofLight || moves || isTemporal(settings)) return 0;
-    const bool hasLens = camera.lensDiameter > 0 && camera.focus() > 0;
-    return settings.image.antialiasing > 0 ? settings.image.antialiasing : hasLens ? kLensViews : 0;
+    return settings.image.antialiasing > 0 ? settings.image.antialiasing : camera.hasLens() ? kLensViews : 0;
 }
 
 // Through points of the pixel, or their centres, and points of the lens.
