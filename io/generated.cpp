@@ -92,7 +92,7 @@ constexpr GeneratedParameter kScreensParameters[] = {
     {"intensity", 0.6, 0, 1e4, false, "of the lamp, W/sr"},
 };
 constexpr GeneratedParameter kLoftParameters[] = {
-    {"sun", 30, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
+    {"sun", 14, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
     {"sky", 0.8, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
 };
 constexpr GeneratedParameter kLoungeParameters[] = {
@@ -124,6 +124,42 @@ constexpr GeneratedParameter kGardenParameters[] = {
     {"sun", 4.8, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
     {"sky", 0.56, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
     {"leaves", 1500, 100, 1e5, true, "of the largest tree"},
+};
+constexpr GeneratedParameter kStreetParameters[] = {
+    {"sun", 4.4, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
+    {"sky", 0.65, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
+    {"leaves", 3600, 100, 1e4, true, "of each tree, about"},
+};
+constexpr GeneratedParameter kCounterParameters[] = {
+    {"sun", 14, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
+    {"sky", 1.8, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
+    {"strip", 20, 0, 1e6, false, "radiance of the strip of light below the cupboard, W/(sr m^2)"},
+    {"roughness", 0.25, 0.02, 1, false, "of the steel"},
+};
+constexpr GeneratedParameter kWorkshopParameters[] = {
+    {"lamp", 700, 0, 1e6, false, "radiance of the bulb, W/(sr m^2)"},
+    {"sky", 0.5, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
+    {"roughness", 0.3, 0.02, 1, false, "of the steel"},
+};
+constexpr GeneratedParameter kBathroomParameters[] = {
+    {"globe", 40, 0, 1e4, false, "radiance of the globe, W/(sr m^2)"},
+    {"sky", 4, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
+};
+constexpr GeneratedParameter kGreenhouseParameters[] = {
+    {"sun", 4.4, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
+    {"sky", 0.6, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
+};
+constexpr GeneratedParameter kCafeParameters[] = {
+    {"sun", 4.4, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
+    {"sky", 0.6, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
+};
+constexpr GeneratedParameter kAtticParameters[] = {
+    {"sun", 16, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
+    {"sky", 5, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
+};
+constexpr GeneratedParameter kCellarParameters[] = {
+    {"lamp", 1000, 0, 1e6, false, "radiance of each bulb, W/(sr m^2)"},
+    {"sky", 0.6, 0, 1e4, false, "radiance of the sky above the hatch, W/(sr m^2)"},
 };
 constexpr GeneratedParameter kGlassParameters[] = {
     {"emission", 18, 0, 1e4, false, "radiance of the lamp, W/(sr m^2)"},
@@ -206,6 +242,34 @@ constexpr Entry kScenes[] = {
      generated::buildParlour},
     {{"garden", "trees and a hedge of loose leaves, bench and fence before a house", kGardenParameters},
      generated::buildGarden},
+    {{"street",
+      "paved street between houses, with awnings, cars, trees, wires; cameras front, paving, windows",
+      kStreetParameters},
+     generated::buildStreet},
+    {{"counter",
+      "kitchen counter by a window: tiles, steel, cups, boards, cloths; cameras front, cups, boards",
+      kCounterParameters},
+     generated::buildCounter},
+    {{"workshop",
+      "steel shelves, bench, tools, wires under a lamp with a small bulb; cameras front, bench, shelves",
+      kWorkshopParameters},
+     generated::buildWorkshop},
+    // Held out: nothing was chosen by their errors.
+    {{"bathroom", "tiled bathroom with tub, curtain, towels, a lit globe; cameras front, washstand",
+      kBathroomParameters},
+     generated::buildBathroom},
+    {{"greenhouse", "ribs of a greenhouse, benches of slats, pots with plants; cameras front, pots",
+      kGreenhouseParameters},
+     generated::buildGreenhouse},
+    {{"cafe", "terrace with parasols, chairs of rods and slats, laid tables; cameras front, table",
+      kCafeParameters},
+     generated::buildCafe},
+    {{"attic", "rafters and boards below two skylights, boxes, chest, linen; cameras front, chest",
+      kAtticParameters},
+     generated::buildAttic},
+    {{"cellar", "barrels, racks of bottles, sacks, stairs to a hatch, caged bulbs; cameras front, rack",
+      kCellarParameters},
+     generated::buildCellar},
     {{"glass", "closed room with a glass ball, a glass block, a tinted and a frosted pane", kGlassParameters},
      generated::buildGlass},
     {{"conservatory", "room behind window panes, sun and sky outside, things of solid glass on a table",

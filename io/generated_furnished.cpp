@@ -4,74 +4,12 @@
 #include <fmt/format.h>
 #include <cmath>
 #include <glm/gtc/constants.hpp>
-#include <glm/gtc/matrix_transform.hpp>
 
+#include "io/generated_furnished.h"
 #include "io/generated_textures.h"
-#include "io/generated_trial_parts.h"
 
 namespace conelight::io::generated {
 namespace {
-
-// Exporters make every material two-sided.
-void makeTwoSided(Scene& scene) {
-    for (Material& material : scene.materials) material.doubleSided = true;
-}
-
-int textured(Scene& scene, const char* name, Texture texture, float metres, glm::vec3 colour) {
-    Material m = matte(name, colour);
-    m.baseColorTexture = repeat(add(scene, std::move(texture)), metres);
-    return add(scene, std::move(m));
-}
-
-// A closed round solid between two radii and heights.
-Mesh cylinder(float radius, float bottom, float top, int around = 32, int pieces = 4) {
-    return turned(
-        {shapes::line({0, bottom}, {radius, bottom}), shapes::line({radius, bottom}, {radius, top}, pieces),
-         shapes::line({radius, top}, {0, top})},
-        around);
-}
-
-// A cup: outer wall, rim of `wall`, inner wall, bottom.
-Mesh cup(float radius, float height, float wall) {
-    return turned(
-        {shapes::line({0, 0}, {0.8f * radius, 0}), shapes::line({0.8f * radius, 0}, {radius, height}, 4),
-         shapes::line({radius, height}, {radius - wall, height}),
-         shapes::line({radius - wall, height}, {0.8f * radius - wall, wall}, 4),
-         shapes::line({0.8f * radius - wall, wall}, {0, wall})},
-        40);
-}
-
-// A hanging sheet of cloth, wavy along x.
-Mesh curtain(float width, float height, float wave, int waves) {
-    shapes::Patch sheet;
-    sheet.nu = 12 * waves;
-    sheet.nv = 6;
-    sheet.position = [=](float u, float v) {
-        const float phase = 2 * glm::pi<float>() * float(waves) * u;
-        return glm::vec3(width * (u - 0.5f), height * v, wave * std::sin(phase) * (1 - 0.3f * v));
-    };
-    Mesh mesh;
-    shapes::appendPatch(mesh, sheet);
-    return mesh;
-}
-
-// Leaves about a centre: quads turned at random, more of them outside than inside.
-Mesh leaves(glm::vec3 radii, int count, float size, std::uint32_t seed) {
-    Mesh mesh;
-    for (int i = 0; i < count; ++i) {
-        const auto random = [&](std::uint32_t what) {
-            return shapes::unitFloat(shapes::hash(seed, std::uint32_t(i), what));
-        };
-        const float z = 2 * random(0) - 1, phi = 2 * glm::pi<float>() * random(1);
-        const float across = std::sqrt(1 - z * z), r = std::cbrt(random(2));
-        const glm::vec3 centre = r * radii * glm::vec3(across * std::cos(phi), z, across * std::sin(phi));
-        const glm::mat4 turn = glm::rotate(glm::mat4(1), 6.28f * random(3),
-                                           glm::normalize(glm::vec3(random(4), random(5), random(6)) - 0.5f));
-        const glm::vec3 u = size * glm::vec3(turn[0]), v = 0.6f * size * glm::vec3(turn[1]);
-        shapes::appendQuad(mesh, centre - 0.5f * (u + v), u, v);
-    }
-    return mesh;
-}
 
 // A standing lamp: foot, stem of `wall` millimetres with a bulb buried in it, an open shade with a bulb.
 void addStandingLamp(Scene& scene, glm::vec3 foot, float glow, float buried) {

@@ -30,7 +30,7 @@ bool inside(const Aabb& box, glm::vec3 p) {
 }
 
 // A profile turned about y, as a mesh of its own.
-Mesh turned(const std::vector<shapes::Curve>& profile, int around, float uvRadius) {
+Mesh turnedMesh(const std::vector<shapes::Curve>& profile, int around, float uvRadius) {
     Mesh mesh;
     for (const shapes::Patch& patch : shapes::lathe(profile, around, uvRadius))
         shapes::appendPatch(mesh, patch);
@@ -49,9 +49,9 @@ Mesh vase(float height) {
     const glm::vec2 foot = outline(0), lip = outline(1);
     const glm::vec2 inner(lip.x * 0.8f, lip.y);
     const glm::vec2 bottom(inner.x, 0.5f * s);
-    return turned({shapes::line({0, 0}, foot, 2), shapes::Curve{32, outline}, shapes::line(lip, inner),
-                   shapes::line(inner, bottom, 4), shapes::line(bottom, {0, bottom.y}, 2)},
-                  48, foot.x);
+    return turnedMesh({shapes::line({0, 0}, foot, 2), shapes::Curve{32, outline}, shapes::line(lip, inner),
+                       shapes::line(inner, bottom, 4), shapes::line(bottom, {0, bottom.y}, 2)},
+                      48, foot.x);
 }
 
 // A table with a top of the given size, standing on y = 0, its parts in one mesh.
@@ -270,7 +270,7 @@ Scene buildGlossy(const Values& values) {
     addPart(scene, vase(1.1f), "copper vase", copper).worldFromObject = translation({0.45f, 0, -1.05f});
     addPart(scene, box({{-0.28f, 0, -0.28f}, {0.28f, 0.56f, 0.28f}}), "steel block", steel).worldFromObject =
         translation({0.75f, 0, 0.15f}) * turnAboutY(0.55f);
-    Mesh disc = turned(
+    Mesh disc = turnedMesh(
         {shapes::line({0, 0}, {0.26f, 0}, 2),
          shapes::arc({0.26f, 0.09f}, {0.09f, 0.09f}, -glm::half_pi<float>(), glm::half_pi<float>(), 12),
          shapes::line({0.26f, 0.18f}, {0, 0.18f}, 2)},

@@ -173,6 +173,14 @@ class Docs(Project):
         self.assertEqual(self.faults(), ['src/a.h:3: names docs/theory/a.md: no heading "A cone"',
                                          "src/a.h:3: names docs/theory/a.md: no equation (4.2)"])
 
+    def test_pages_name_existing_tests(self):
+        subprocess.run(["git", "init", "-q", self.root], check=True)
+        self.write("tests/a_test.cpp", "TEST_F(Walls, AreDark) {}\nTEST(\n    Floors, AreFlat) {}\n")
+        self.write("docs/a.md", "`Walls.AreDark` and\n`Walls.AreLight` hold it.\n\n```\n`No.Test`\n```\n")
+        self.write("CHANGELOG.md", "`Walls.WereDark` went.\n")
+        subprocess.run(["git", "-C", self.root, "add", "."], check=True)
+        self.assertEqual(self.faults(), ["docs/a.md:2: no test Walls.AreLight in the sources"])
+
     def test_long_sentences(self):
         long, short = "Word" + " word" * 25, "Word" + " word" * 24
         self.write("docs/a.md", f"# {long}\n\nText. {short}. {short}: {short};\n{short}.\n\n| {long} |\n\n```\n{long}\n```\n\n"

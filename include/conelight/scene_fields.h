@@ -88,7 +88,7 @@ auto fieldsOf(I& instance) {
 template <FieldsFrom<Light> L>
 auto fieldsOf(L& light) {
     auto& [name, type, intensity, position, direction, halfU, halfV, innerAngle, outerAngle, range, enabled,
-           castsShadow, customFalloff, falloff, group] = light;
+           castsShadow, customFalloff, falloff, profile, group] = light;
     return std::tuple{Field{"name", name},
                       Field{"type", type},
                       Field{"intensity", intensity},
@@ -103,6 +103,7 @@ auto fieldsOf(L& light) {
                       Field{"casts shadow", castsShadow},
                       Field{"own falloff", customFalloff},
                       Field{"falloff", falloff},
+                      Field{"profile", profile},
                       Field{"group", group}};
 }
 

@@ -14,6 +14,7 @@
 #include "lib/dot.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/pixel_history.glsl"
+#include "lib/voxel_grid.glsl"
 #include "shared/pixel_rays.h"
 layout(std140) uniform PixelRayBlock { PixelRayConstants pixelRays; };
 uniform usampler2D source;
@@ -80,10 +81,15 @@ uvec4 taps[8];
 uint same;          // bit i: the pixel's instance (an array of bool is invalid SPIR-V through Mesa's zink)
 float cosines[8];   // of the normals
 float offPlane[8];  // from the pixel's plane, voxels
+float perMetre;     // voxels there
 
 bool isSame(int i) { return (same >> i & 1u) != 0u; }
 
 void readTaps(OwnPixel own, ivec2 size) {
+    perMetre = pixelRays.inverseVoxelSize;
+#if NESTED_GRIDS
+    perMetre /= voxelEdgeAt(gridFromWorld(own.position));
+#endif
     same = 0u;
     for (int i = 0; i < 8; ++i) {
         ivec2 q = own.at + FILTER_STEP * neighbour(i);
@@ -92,7 +98,7 @@ void readTaps(OwnPixel own, ivec2 size) {
         bool alike = inside && bits.z != 0u && pixelHistoryInstance(bits) == pixelHistoryInstance(own.bits);
         same |= alike ? 1u << i : 0u;
         cosines[i] = dot(pixelHistoryNormal(bits), own.normal);
-        offPlane[i] = dot(positionOf(q, bits) - own.position, own.normal) * pixelRays.inverseVoxelSize;
+        offPlane[i] = dot(positionOf(q, bits) - own.position, own.normal) * perMetre;
         taps[i] = bits;
     }
 }
@@ -164,8 +170,7 @@ bool isFreeBetween(int i, OwnPixel own, ivec2 size) {
     ivec2 pixel = own.at + FILTER_STEP / 2 * neighbour(i);
     uvec4 middle = texelFetch(source, clamp(pixel, ivec2(0), size - 1), 0);
     float middleOff = dot(positionOf(pixel, middle) - own.position, own.normal);
-    return pixelHistoryInstance(middle) == pixelHistoryInstance(own.bits) &&
-           abs(middleOff) * pixelRays.inverseVoxelSize < 0.5;
+    return pixelHistoryInstance(middle) == pixelHistoryInstance(own.bits) && abs(middleOff) * perMetre < 0.5;
 #else
     return true;
 #endif

@@ -44,8 +44,12 @@ void main() {
     // Pixels without need of it send rays out of the grid, which end at once.
     const vec3 away = vec3(-1.0, 0.0, 0.0);
     vec3 normal = diffuse ? s.normal : away;
-    vec3 origin =
-        diffuse ? seenRayOrigin(gridFromWorld(s.position), s.geometricNormal, s.toEye) : 16.0 * away;
+#if NESTED_GRIDS
+    vec3 outside = levelPlace(coarsestLevel()).xyz + 16.0 * away;
+#else
+    vec3 outside = 16.0 * away;
+#endif
+    vec3 origin = diffuse ? seenRayOrigin(gridFromWorld(s.position), s.geometricNormal, s.toEye) : outside;
     uint seed = randomHash(uint(pixel.x) | uint(pixel.y) << 16);
 #if OCCLUSION
     vec3 value = vec3(openness(origin, normal, s.geometricNormal, seed));

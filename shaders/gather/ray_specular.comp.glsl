@@ -51,7 +51,11 @@ vec3 lobeRayOrigin(Surface s, Brdf b, vec3 direction) {
 #if TRIANGLE_HITS
     if (b.alpha <= kTriangleAlpha) {
         float towards = dot(direction, s.geometricNormal);
-        float depth = min(s.depth, kStartMost * grid.voxelSize / kStartDepth);
+        float most = kStartMost * grid.voxelSize / kStartDepth;
+#if NESTED_GRIDS
+        most *= voxelEdgeAt(gridFromWorld(s.position));
+#endif
+        float depth = min(s.depth, most);
         return gridFromWorld(s.position + kStartDepth * depth * s.toEye +
                              startOnLine(towards, depth) * direction);
     }

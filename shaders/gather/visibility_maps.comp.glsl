@@ -10,6 +10,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "lib/gbuffer.glsl"
 #include "lib/lights.glsl"
 #include "lib/visibility_list.glsl"
+#include "lib/voxel_grid.glsl"
 layout(r32ui) writeonly uniform uimage2D result;
 
 // What shadow maps say of the lights.
@@ -42,8 +43,12 @@ void askSpot(inout MapAnswers answers, Surface s, Light light, uint number) {
 }
 
 void askDirectional(inout MapAnswers answers, Surface s, Light light, uint number) {
-    float visible = shadowVisibilityDirectional(light, litPosition(s), s.geometricNormal, vec2(0.0));
+    float visible = directionalMapVisibility(light, number, litPosition(s), s.geometricNormal, vec2(0.0));
     bool shines = dot(light.direction, s.geometricNormal) < 0.0 && light.intensity != vec3(0.0);
+#if SHADOW_CASCADES
+    // A ray does not see what is nearer than where it starts; finer texels do.
+    shines = shines && cascadeTexel > kStartVoxels * grid.voxelSize;
+#endif
     addAnswer(answers, number, visible, shines, light);
 }
 

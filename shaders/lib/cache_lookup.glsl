@@ -27,7 +27,7 @@ const float kSameBendRange = 0.1;
 // normals of these faces, of any length, as far as they are near `normal`. Which of the eight voxels are
 // there is asked first, then only those are visited, and of their faces those that count: on a wall four of
 // eight voxels and one face each (platform figures: docs/theory/4e_pixels.md, "The cache at pixels").
-vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
+vec4 irradianceInGrid(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
     vec3 corner = floor(point - 0.5);
     vec3 part = point - 0.5 - corner;
     ivec3 base = ivec3(corner);
@@ -40,7 +40,7 @@ vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
     uint corners = 0u;
     for (int i = 0; i < 8; ++i) {
         ivec3 voxel = clamp(base + ivec3(i & 1, (i >> 1) & 1, i >> 2), ivec3(0), last);
-        uvec2 mask = imageLoad(voxelBrickImage, voxel >> 2).xy;
+        uvec2 mask = imageLoad(voxelBrickImage, STORED_BRICK(voxel >> 2)).xy;
         corners |= brickHas(mask, bitOfVoxel(voxel)) ? 1u << i : 0u;
     }
     corners = wanted ? corners : 0u;
@@ -53,7 +53,7 @@ vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
         ivec3 offset = ivec3(i & 1, (i >> 1) & 1, i >> 2);
         ivec3 voxel = clamp(base + offset, ivec3(0), last);
         vec3 t = mix(1.0 - part, part, vec3(offset));
-        uvec4 word = imageLoad(voxelBrickImage, voxel >> 2);
+        uvec4 word = imageLoad(voxelBrickImage, STORED_BRICK(voxel >> 2));
         uint record = texelFetch(voxelRecords, any ? int(voxelRecordIndex(word, bitOfVoxel(voxel))) : 0).x;
         uint directions = faceDirections(record);
         int first = int(faceBase(record));
@@ -72,13 +72,34 @@ vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
             vec3 turned = octDecode(unpackSnorm2x16(texelFetch(voxelFaces, face).x));
             bent += weight * clamp((dot(turned, normal) - kSameBend) / kSameBendRange, 0.0, 1.0) * turned;
 #endif
-            RECORD_CACHE_FACE(point, face, weight, irradiance);
+            RECORD_CACHE_FACE(GRID_POINT(point), face, weight, irradiance);
             left ^= lowest;
         } while (left != 0u);
         corners &= corners - 1u;
     } while (corners != 0u);
     return vec4(sum.rgb / max(sum.a, 1e-12), sum.a);
 }
+
+#if NESTED_GRIDS
+// In the level that holds the point. Where it has nothing there, the point lies on a border by rounding: the surface is
+// in the next coarser level, or the next finer one.
+vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
+    int own = levelAt(point);
+    vec4 found;
+    int attempt = 0;
+    do {
+        int level = clamp(own + (attempt == 2 ? -1 : attempt), 0, coarsestLevel());
+        levelOfRay = levelPlace(level);
+        levelBricksBefore = level * int(grid.bricksZ);
+        found = irradianceInGrid(levelFromGrid(point, levelOfRay), normal, wanted, bent);
+    } while (wanted && found.a <= 0.0 && ++attempt < 3);
+    return found;
+}
+#else
+vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
+    return irradianceInGrid(point, normal, wanted, bent);
+}
+#endif
 
 vec4 cachedIrradiance(vec3 point, vec3 normal, bool wanted) {
     vec3 bent;

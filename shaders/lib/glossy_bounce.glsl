@@ -91,7 +91,7 @@ GlossyBounce sampleGlossyBounce(Ray ray, VoxelHit hit, FaceShading s, GlossySurf
 #if TRIANGLE_HITS
     frontOffset = hit.triangle >= 0 ? vec3(0.0) : frontOffset;
 #endif
-    vec3 position = worldFromGrid(point + frontOffset);
+    vec3 position = worldFromGrid(point + faceEdge(face) * frontOffset);
     if (alpha >= kNarrowLobe)
         next.radiance += reflectedRects(b, position, g.shadingNormal, surface.normal, -ray.direction,
                                         fract(7.0 * g.xi.x + g.xi.y));

@@ -40,7 +40,12 @@ LightSample sampleLightFace(vec3 xi, vec3 origin) {
     p += height * k;
     float along = dot(p, k);
     bool inside = header != 0u && along >= dot(lower, k) && along <= dot(upper, k);
+#if NESTED_GRIDS
+    vec4 place = voxelPlace(r.w);
+    return LightSample(inside ? face : -1, place.xyz + place.w * p, normal);
+#else
     return LightSample(inside ? face : -1, vec3(unpackVoxel(r.w)) + p, normal);
+#endif
 }
 
 // Share of the light samples of a face whose bounds hold a point (relative to the voxel).
@@ -62,6 +67,13 @@ float lightFacePdf(Ray ray, VoxelHit hit, float inverseFlux) {
     float radiance = hit.face >= 0 ? brightness(outgoingRadiance(max(hit.face, 0))) : 0.0;
     float cosine = max(-dot(n, ray.direction), 1e-3);
     float pdf = radiance * dominantFaceShare(n, r.w >> 30) * inverseFlux * hit.t * hit.t / cosine;
+#if NESTED_GRIDS
+    // Faces have their flux in voxels of their own level: coarse ones are far from the eye.
+    vec4 place = voxelPlace(r.w);
+    vec3 point = (ray.origin + hit.t * ray.direction - place.xyz) / place.w;
+    pdf /= place.w * place.w;
+#else
     vec3 point = ray.origin + hit.t * ray.direction - vec3(unpackVoxel(r.w));
+#endif
     return hit.face >= 0 ? pdf * lightSampleShare(r, n, ray.origin, point) : 0.0;
 }

@@ -4,6 +4,7 @@
 //
 // Defines (light::lightDefines gives them for a scene; unset: everything on):
 // - LIGHTS_POINT, _SPOT, _DIRECTIONAL, _RECT: whether the table holds such lights. Others are left out.
+// - LIGHTS_SHAPED: whether area lights may be round and others have profiles.
 // - LIGHTS_FIXED 1: these four are the exact numbers of lights, at most 4 together. Loops are then unrolled
 //   and read the table at constant places of a uniform block (mode phong: 21 instead of 25 cpu-ms on
 //   llvmpipe, which reads storage once per lane wherever lanes may be idle, as in the loop over
@@ -13,6 +14,7 @@
 // - SHADOW_FILTER: radius of the shadow filter in texels.
 // - CONE_SHADOWS 1: shadows are soft, by cones (lib/cone_shadow.glsl, to be included), not by maps.
 // - VISIBILITY_PICTURE 1: which of the first 32 lights without extent are seen is known (visibleLights).
+// - SHADOW_CASCADES 1: directional lights have maps about the eye (lib/shadow_cascades.glsl).
 // - GLASS 1: what is not in shadow may lie behind glass (lib/glass_tree.glsl).
 // Reads what light::Lights declares.
 #ifndef LIGHTS_POINT
@@ -36,17 +38,24 @@
 #ifndef CONE_SHADOWS
 #define CONE_SHADOWS 0
 #endif
+#ifndef SHADOW_CASCADES
+#define SHADOW_CASCADES 0
+#endif
 #ifndef VISIBILITY_PICTURE
 #define VISIBILITY_PICTURE 0
 #endif
 #include "lib/brdf.glsl"
 #include "lib/dot.glsl"
 #include "lib/glass_tree.glsl"
+#include "lib/light_profile.glsl"
 #include "lib/light_table.glsl"
 #include "lib/random.glsl"
 #include "lib/rect_light.glsl"
 #include "lib/rect_tint.glsl"
 #include "lib/shadow.glsl"
+#if SHADOW_CASCADES
+#include "lib/shadow_cascades.glsl"
+#endif
 
 #define LIGHTS_TOTAL (LIGHTS_POINT + LIGHTS_SPOT + LIGHTS_DIRECTIONAL + LIGHTS_RECT)
 #if LIGHTS_FIXED && LIGHTS_TOTAL > 0
@@ -103,11 +112,15 @@ float distanceFalloff(Light light, float d2) {
     return (light.customFalloff != 0u ? custom : inverseSquare) * clamp(1.0 - ratio * ratio, 0.0, 1.0);
 }
 
-// From 1 inside the inner to 0 outside the outer angle (KHR_lights_punctual).
+// From 1 inside the inner to 0 outside the outer angle (KHR_lights_punctual), times the light's profile.
 float spotFalloff(Light light, vec3 toLight) {
     float t = (dot(-toLight, light.direction) - light.cosOuter) / max(light.cosInner - light.cosOuter, 1e-3);
     t = clamp(t, 0.0, 1.0);
+#if LIGHTS_SHAPED
+    return t * t * profileFactor(light, toLight);
+#else
     return t * t;
+#endif
 }
 
 // Adds light from one direction; `facing` is the irradiance on a plane that faces it.
@@ -168,11 +181,20 @@ void addSpot(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
     addLight(sum, specular, r, b, l, throughGlass(facing, r, l, sqrt(d2)));
 }
 
+// By maps; cascades are for exact positions.
+float directionalMapVisibility(Light light, uint number, vec3 p, vec3 n, vec2 lift) {
+#if SHADOW_CASCADES
+    return shadowVisibilityCascaded(light, number - lighting.lightEnds.y, p, n);
+#else
+    return shadowVisibilityDirectional(light, p, n, lift);
+#endif
+}
+
 float directionalVisibility(Receiver r, Light light, uint number) {
 #if VISIBILITY_PICTURE
     if (number < kVisibilityLights) return float(visibleLights >> number & 1u);
 #endif
-    return shadowVisibilityDirectional(light, r.position, r.geometricNormal, r.shadowLift);
+    return directionalMapVisibility(light, number, r.position, r.geometricNormal, r.shadowLift);
 }
 
 void addDirectional(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light,
@@ -194,7 +216,7 @@ Light rectBehindCone(Receiver r, Light light) {
     vec3 l = light.position - r.position;
     float distance = max(length(l), 1e-6);
     l /= distance;
-    float area = 4.0 * length(cross(light.halfU, light.halfV)) * max(-dot(l, light.direction), 0.0);
+    float area = rectArea(light) * rectCosine(light, l);
     if (light.shadow >= 0)
         light.intensity *=
             coneShadow(r.position, r.geometricNormal, l, distance, sqrt(area / kPi) / distance);
@@ -208,7 +230,7 @@ Light rectBehindCone(Receiver r, Light light) {
 void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light) {
     float whole = rectIrradiance(light, r.position, r.normal);
     uint count = light.sampleGrid * light.sampleGrid;
-    float cellArea = 4.0 * length(cross(light.halfU, light.halfV)) / float(count);
+    float cellArea = rectArea(light) / float(count);
     RectLobe lobe;
     if (specular) lobe = rectLobe(r.normal, r.toEye, b.alpha, b.NoV);
     vec2 width2 = lobe.width * lobe.width;
@@ -223,7 +245,7 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
         vec3 l = point - r.position;
         float d2 = dot(l, l);
         l *= inversesqrt(max(d2, 1e-20));
-        float emitted = max(-dot(l, light.direction), 0.0) / max(d2, cellArea);
+        float emitted = rectCosine(light, l) / max(d2, cellArea);
         float height = dot(l, r.normal);
         float NoL = max(height, 0.0);
         float visible = 1.0;

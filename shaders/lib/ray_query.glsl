@@ -11,6 +11,9 @@
 // A ray that leaves a wall never tests that wall's own voxels. One step leaves an empty cube of bricks, an
 // empty block of 2^3 voxels, or one voxel.
 //
+// NESTED_GRIDS 1: a ray goes through the levels that it meets one after the other, in coordinates of each
+// (lib/level_path.glsl). Ray, VoxelHit and t are in those of level 0; lengths named voxels below are the level's.
+//
 // TRIANGLE_HITS 1: rays with rayCone.width >= 0 hit the triangles of the voxels instead of their plane pieces
 // (lib/triangle_hit.glsl). NEAR_TRIANGLES 1: all rays hit triangles in the voxels that they enter within
 // kRayNearReach of their start, and plane pieces after that.
@@ -80,17 +83,26 @@ const float kRayOffset = 0.01;
 #else
 const float kRayOffset = kRayNear;
 #endif
+#if NESTED_GRIDS
+vec3 rayOrigin(vec3 pointGrid, vec3 geometricNormal) {
+    return pointGrid + kRayOffset * voxelEdgeAt(pointGrid) * geometricNormal;
+}
+#else
 vec3 rayOrigin(vec3 pointGrid, vec3 geometricNormal) { return pointGrid + kRayOffset * geometricNormal; }
+#endif
 
 // Origin at a point that the camera sees: offset towards the eye as well, where space is empty. A pixel in a
 // corner lies on both walls, or behind one of them by rounding.
 vec3 seenRayOrigin(vec3 pointGrid, vec3 geometricNormal, vec3 toEye) {
+#if NESTED_GRIDS
+    return pointGrid + kRayOffset * voxelEdgeAt(pointGrid) * (geometricNormal + toEye);
+#else
     return rayOrigin(pointGrid, geometricNormal) + kRayOffset * toEye;
+#endif
 }
 
-// Height above the surface at which a ray starts that meets triangles from there on: this many voxels, or this part of the
+// Height above the surface at which a ray starts that meets triangles from there on: kStartVoxels, or this part of the
 // distance to the eye, three times what positions err; and the cosine below which it is no longer kept.
-const float kStartVoxels = 1e-3;
 const float kStartDepth = 1e-4;
 const float kStartCosine = 0.05;
 
@@ -105,6 +117,8 @@ vec3 rayInverse(vec3 direction) {
     vec3 safe = mix(vec3(1.0), direction, greaterThan(abs(direction), vec3(1e-7)));
     return mix(vec3(1e7), 1.0 / safe, greaterThan(abs(direction), vec3(1e-7)));
 }
+
+#include "lib/level_path.glsl"
 
 // ---- Faces of one voxel ---------------------------------------------------------------------------------
 
@@ -125,9 +139,9 @@ bool insideRayBounds(uint bounds, vec3 n, float t, vec3 position) {
 void testVoxelFaces(ivec3 voxel, Ray ray, uint facing, inout VoxelHit hit, inout float hitCoverage) {
 #if EXECUTION_GPU
     if (facing == 0u) return;
-    uvec4 word = texelFetch(voxelBricks, voxel >> 2, 0);  // by the cache of textures
+    uvec4 word = texelFetch(voxelBricks, STORED_BRICK(voxel >> 2), 0);  // by the cache of textures
 #else
-    uvec4 word = imageLoad(voxelBrickImage, voxel >> 2);
+    uvec4 word = imageLoad(voxelBrickImage, STORED_BRICK(voxel >> 2));
 #endif
     uint record = texelFetch(voxelRecords, int(voxelRecordIndex(word, bitOfVoxel(voxel)))).x;
     // OCTANT_EMPTY_SPARE names a voxel that may have no faces.
@@ -194,7 +208,7 @@ bool leaveCell(Ray ray, OctantRay mirrored, bool alive, inout float t, inout ive
     // Look up what the cell is part of
     ivec3 brick = cell >> 2;
     COUNT_LOOKUP(alive ? 1 : 0);
-    uvec2 word = imageLoad(voxelOctants, ivec3(brick.x + mirrored.octantX, brick.yz)).xy;
+    uvec2 word = imageLoad(voxelOctants, STORED_BRICK(ivec3(brick.x + mirrored.octantX, brick.yz))).xy;
     bool empty = word.y == OCTANT_EMPTY;
     bool occupied = !empty && brickHas(word, bitOfVoxel(cell));
     uint half32 = (cell.z & 2) != 0 ? word.y : word.x;
@@ -203,8 +217,9 @@ bool leaveCell(Ray ray, OctantRay mirrored, bool alive, inout float t, inout ive
 #ifdef RECORD_STEPS
     if (alive)
         RECORD_STEP(occupied ? STEP_TESTED : (edge > 1 ? STEP_EMPTY : STEP_VOXEL),
-                    worldFromGrid(ray.origin + t * ray.direction), t * grid.voxelSize,
-                    float(edge) * grid.voxelSize, log2(float(edge)), vec3(0.0), 0.0, 0.0);
+                    worldFromGrid(GRID_POINT(ray.origin + t * ray.direction)),
+                    GRID_LENGTH(t) * grid.voxelSize, GRID_LENGTH(float(edge)) * grid.voxelSize,
+                    log2(float(edge)), vec3(0.0), 0.0, 0.0);
 #endif
 
     // Step through its exit plane
@@ -235,18 +250,18 @@ void testNearTriangles(Ray ray, OctantRay mirrored, float end, inout float t, in
 // Whether a ray that starts within the grid meets no triangle up to its tMax; `otherwise` where a software driver gave
 // up. Looks into every voxel on the way, not only those with faces towards the ray: single-sided sheets have none on
 // their back.
-bool reachesEnd(Ray ray, bool otherwise) {
+bool reachesEndInGrid(Ray ray, float begin, bool otherwise) {
     vec3 inverse = rayInverse(ray.direction);
     bvec3 forward = greaterThan(ray.direction, vec3(0.0));
     ivec3 last = gridSize() - 1;
     bool alive = ray.tMax > 0.0;
     float end = alive ? ray.tMax : -3e38;
-    float t = 0.0;
-    ivec3 cell = clamp(ivec3(floor(ray.origin)), ivec3(0), last);
+    float t = begin;
+    ivec3 cell = clamp(ivec3(floor(ray.origin + begin * ray.direction)), ivec3(0), last);
     TriangleCrossing hit;
     do {
         COUNT_LOOKUP(alive ? 1 : 0);
-        bool emptyBrick = imageLoad(voxelBrickImage, cell >> 2).xy == uvec2(0u);
+        bool emptyBrick = imageLoad(voxelBrickImage, STORED_BRICK(cell >> 2)).xy == uvec2(0u);
         int record;
         hit = nearestTriangle(cell, ray, alive && !emptyBrick, record);
 
@@ -262,11 +277,28 @@ bool reachesEnd(Ray ray, bool otherwise) {
     } while (hit.triangle < 0 && t < end);
     return hit.triangle < 0 && (t >= end || otherwise);
 }
+
+bool reachesEnd(Ray ray, bool otherwise) {
+#if NESTED_GRIDS
+    LevelPath path = levelPath(ray);
+    bool reached, goesOn;
+    do {
+        Ray own = enterLevel(ray, path);
+        own.tMax = path.end * path.inverse;
+        reached = reachesEndInGrid(own, path.begin * path.inverse, otherwise);
+        goesOn = reached && path.goesOn;
+        if (goesOn) leaveLevel(ray, path);
+    } while (goesOn);
+    return reached;
+#else
+    return reachesEndInGrid(ray, 0.0, otherwise);
+#endif
+}
 #endif
 
 // The nearest triangle on a ray that starts within the grid. `reached`: it met none up to its tMax. Neither
 // where a software driver gave up.
-TriangleCrossing traceTriangles(Ray ray, out bool reached) {
+TriangleCrossing traceTrianglesInGrid(Ray ray, out bool reached) {
     ivec3 last = gridSize() - 1;
     OctantRay mirrored = octantRay(ray);
     vec3 leave = (vec3(gridSize()) - mirrored.origin) * mirrored.inverse;
@@ -284,34 +316,59 @@ TriangleCrossing traceTriangles(Ray ray, out bool reached) {
     reached = hit.triangle < 0 && t >= end;
     return hit;
 }
+
+// With nested grids within the level that it starts in.
+TriangleCrossing traceTriangles(Ray ray, out bool reached) {
+#if NESTED_GRIDS
+    LevelPath path = levelPath(ray);
+    TriangleCrossing hit = traceTrianglesInGrid(enterLevel(ray, path), reached);
+    hit.t *= path.edge;
+    return hit;
+#else
+    return traceTrianglesInGrid(ray, reached);
+#endif
+}
 #endif
 
+#if NESTED_GRIDS
+// In one level; `span` of t, triangles up to nearEnd.
+VoxelHit traceLevel(Ray ray, vec2 span, float nearEnd) {
+#else
 VoxelHit traceVoxels(Ray ray) {
     vec3 size = vec3(gridSize());
+#endif
     ivec3 last = gridSize() - 1;
     OctantRay mirrored = octantRay(ray);
     // Directions of faces that look against the ray: -k where the component along k is not negative.
     uint facing =
         (mirrored.mirrored.x ? 1u : 2u) | (mirrored.mirrored.y ? 4u : 8u) | (mirrored.mirrored.z ? 16u : 32u);
 
+#if NESTED_GRIDS
+    float tEnter = span.x;
+    float tEnd = span.y;
+#else
     // Clip the ray to the grid; t counts from the entry, where rounding is least
     vec3 enter = -mirrored.origin * mirrored.inverse;
     vec3 leave = (size - mirrored.origin) * mirrored.inverse;
     float tEnter = max(max(enter.x, enter.y), max(enter.z, 0.0));
     float tEnd = min(min(min(leave.x, leave.y), leave.z) - kRayEnd, ray.tMax);
+#endif
 #if TRIANGLE_HITS
     VoxelHit hit = VoxelHit(-1, ray.tMax, -1, vec2(0.0));
 #elif NEAR_TRIANGLES
     VoxelHit hit = VoxelHit(-1, ray.tMax, false, vec3(0.0));
 #else
-    VoxelHit hit = VoxelHit(-1, ray.tMax);
+VoxelHit hit = VoxelHit(-1, ray.tMax);
 #endif
     bool alive = tEnd > tEnter;
     float t = alive ? tEnter : 0.0;
     tEnd = alive ? tEnd : -3e38;  // below every t, also those of cells behind the origin
     ivec3 cell = clamp(ivec3(floor(mirrored.origin + t * mirrored.direction)), ivec3(0), last);
     float hitCoverage = 0.0;
-#if NEAR_TRIANGLES
+#if NEAR_TRIANGLES && NESTED_GRIDS
+    if (nearEnd > tEnter) testNearTriangles(ray, mirrored, min(tEnd, nearEnd), t, cell, hit);
+    if (hit.face >= 0 || t >= tEnd) return hit;
+#elif NEAR_TRIANGLES
     testNearTriangles(ray, mirrored, min(tEnd, kRayNearReach), t, cell, hit);
     if (hit.face >= 0 || t >= tEnd) return hit;
 #endif
@@ -336,3 +393,22 @@ VoxelHit traceVoxels(Ray ray) {
     } while (hit.face < 0 && t < tEnd);
     return hit;
 }
+
+#if NESTED_GRIDS
+VoxelHit traceVoxels(Ray ray) {
+    LevelPath path = levelPath(ray);
+    float nearEnd = kRayNearReach * path.edge;
+    VoxelHit hit;
+    bool goesOn;
+    do {
+        vec2 span = vec2(path.begin, path.end) * path.inverse;
+        hit = traceLevel(enterLevel(ray, path), span, nearEnd * path.inverse);
+        goesOn = hit.face < 0 && path.goesOn;
+        // A ray that ends keeps its level: Mesa's software driver (22.3) moves what is used behind a loop out of it, with
+        // what the loop's last turn leaves in all lanes.
+        if (goesOn) leaveLevel(ray, path);
+    } while (goesOn);
+    hit.t = hit.face < 0 ? ray.tMax : hit.t * path.edge;
+    return hit;
+}
+#endif

@@ -51,7 +51,12 @@ void recordRay(uint kind, Ray ray, VoxelHit hit, RaySample s) {
 // A face that the cache's lookup about `point` (grid coordinates) read.
 void recordCacheFace(vec3 point, int face, float weight, vec3 irradiance) {
     if (!recording() || weight <= 0.0) return;
+#if NESTED_GRIDS
+    vec4 place = voxelPlace(texelFetch(voxelFaces, face).w);
+    vec3 toVoxel = place.xyz + 0.5 * place.w - point;
+#else
     vec3 toVoxel = vec3(unpackVoxel(texelFetch(voxelFaces, face).w)) + 0.5 - point;
+#endif
     float t = max(length(toVoxel), 1e-6);
     RecordedPath recorded = newPath(PATH_CACHE_FACE, worldFromGrid(point), toVoxel / t, vec3(weight),
                                     irradiance, t * grid.voxelSize);

@@ -4,7 +4,8 @@
 //
 // One array texture holds all maps. Its layers are cut into n x n tiles, counted row by row, layer by layer:
 // n = 1 for spots and directional lights, 2 for points (six tiles, one per side of a cube), 4 for sample
-// points of rectangles (three tiles: one side of a cube in front, four half sides around, two to a tile).
+// points of area lights (three tiles: one side of a cube in front, four half sides around, two to a tile; of a
+// sphere six).
 // Depth is reversed: shadowNear / distance along the map's axis, 0 where nothing was drawn, a float's
 // relative precision everywhere. A point lies in the map at tile centre + lateral / (distance * shadowTexel).
 //
@@ -92,15 +93,16 @@ float shadowOutline(vec4 lit, vec4 endX, vec4 endY, vec2 f) {
     return count > 3.5 ? 1.0 : (count < 0.5 ? 0.0 : result);
 }
 
-// Whether the receiver is visible, for a layer's `texel` where it is, its reversed depth `ref` and its
+// Whether the receiver is visible, for the `texel` of a layer (z) where it is, its reversed depth `ref` and its
 // plane's `slope`; with a filter a share. Slopes are in units of unit.x + unit.y * depth per texel.
 #if SHADOW_FILTER < 0
-float shadowFilter(vec2 texel, float layer, float ref, vec2 slope, vec2 unit) {
-    ivec3 at = ivec3(texel, layer);
+float shadowFilter(sampler2DArray depths, usampler2DArray surfaces, vec3 texel, float ref, vec2 slope,
+                   vec2 unit) {
+    ivec3 at = ivec3(texel);
     COUNT_LOOKUP(2);
-    float depth = texelFetch(shadowDepths, at, 0).x;
-    vec2 texelSlope = unpackHalf2x16(texelFetch(shadowSurfaces, at, 0).x);
-    vec2 d = floor(texel) + 0.5 - texel;
+    float depth = texelFetch(depths, at, 0).x;
+    vec2 texelSlope = unpackHalf2x16(texelFetch(surfaces, at, 0).x);
+    vec2 d = floor(texel.xy) + 0.5 - texel.xy;
     float refUnit = unit.x + unit.y * ref;
     float slopes = abs(slope.x) + abs(slope.y) + abs(texelSlope.x) + abs(texelSlope.y);
     float overReceiver = depth - refUnit * dot(slope, d);
@@ -108,12 +110,13 @@ float shadowFilter(vec2 texel, float layer, float ref, vec2 slope, vec2 unit) {
     return min(overReceiver, overTexel) <= ref + kShadowSlack * refUnit * (1.0 + slopes) ? 1.0 : 0.0;
 }
 #else
-float shadowFilter(vec2 texel, float layer, float ref, vec2 slope, vec2 unit) {
+float shadowFilter(sampler2DArray depths, usampler2DArray surfaces, vec3 texel, float ref, vec2 slope,
+                   vec2 unit) {
     const int radius = SHADOW_FILTER;
-    vec2 corner = floor(texel - 0.5);
-    vec2 f = texel - 0.5 - corner;
+    vec2 corner = floor(texel.xy - 0.5);
+    vec2 f = texel.xy - 0.5 - corner;
     corner -= float(radius);
-    vec2 uvFromTexel = 1.0 / vec2(textureSize(shadowDepths, 0).xy);
+    vec2 uvFromTexel = 1.0 / vec2(textureSize(depths, 0).xy);
     float refUnit = unit.x + unit.y * ref;
     float slack = kShadowSlack * refUnit;
     float refSlack = ref + slack * (1.0 + abs(slope.x) + abs(slope.y));
@@ -123,9 +126,9 @@ float shadowFilter(vec2 texel, float layer, float ref, vec2 slope, vec2 unit) {
     for (int y = 0; y <= radius; ++y) {
         for (int x = 0; x <= radius; ++x) {
             // A gather at a corner between texels returns (0,1), (1,1), (1,0), (0,0).
-            vec3 uv = vec3((corner + vec2(2 * x + 1, 2 * y + 1)) * uvFromTexel, layer);
-            vec4 depth = textureGather(shadowDepths, uv);
-            uvec4 bits = textureGather(shadowSurfaces, uv, 0);
+            vec3 uv = vec3((corner + vec2(2 * x + 1, 2 * y + 1)) * uvFromTexel, texel.z);
+            vec4 depth = textureGather(depths, uv);
+            uvec4 bits = textureGather(surfaces, uv, 0);
             vec2 s0 = unpackHalf2x16(bits.x), s1 = unpackHalf2x16(bits.y);
             vec2 s2 = unpackHalf2x16(bits.z), s3 = unpackHalf2x16(bits.w);
             vec4 slopeX = vec4(s0.x, s1.x, s2.x, s3.x), slopeY = vec4(s0.y, s1.y, s2.y, s3.y);
@@ -141,7 +144,7 @@ float shadowFilter(vec2 texel, float layer, float ref, vec2 slope, vec2 unit) {
             vec2 wy = vec2(y == 0 ? 1.0 - f.y : 1.0, y == radius ? f.y : 1.0);
             sum += wy.x * dot(wx, lit.wz) + wy.y * dot(wx, lit.xy);
 #else
-            uvec4 ends = textureGather(shadowSurfaces, uv, 1);
+            uvec4 ends = textureGather(surfaces, uv, 1);
             vec4 e0 = unpackUnorm4x8(ends.x), e1 = unpackUnorm4x8(ends.y);
             vec4 e2 = unpackUnorm4x8(ends.z), e3 = unpackUnorm4x8(ends.w);
             vec4 endX = kShadowEnd * vec4(e0.x, e1.y, e2.y, e3.x);
@@ -224,8 +227,9 @@ float shadowVisibilityPoint(Light light, vec3 p, vec3 n, vec2 lift) {
     float z = max(lateral.z * (1.0 - moved / distance), 1e-20);
     vec3 tile = shadowTile(max(light.shadow, 0) + side, 2);
     float centre = 0.25 * float(textureSize(shadowDepths, 0).x);
-    float lit = shadowFilter(tile.xy + centre + at / light.shadowTexel, tile.z, light.shadowNear / z,
-                             shadowPlane(ln, at), vec2(0.0, light.shadowTexel));
+    float lit =
+        shadowFilter(shadowDepths, shadowSurfaces, vec3(tile.xy + centre + at / light.shadowTexel, tile.z),
+                     light.shadowNear / z, shadowPlane(ln, at), vec2(0.0, light.shadowTexel));
     return light.shadow < 0 ? 1.0 : (dot(n, toP) < 0.0 ? lit : 0.0);
 }
 
@@ -240,30 +244,45 @@ float shadowVisibilitySpot(Light light, vec3 p, vec3 n, vec2 lift) {
     float z = max(lateral.z * (1.0 - moved / distance), 1e-20);
     float size = float(textureSize(shadowDepths, 0).x);
     vec2 texel = clamp(0.5 * size + at / light.shadowTexel, 0.0, size);
-    float lit = shadowFilter(texel, float(light.shadow), light.shadowNear / z, shadowPlane(ln, at),
-                             vec2(0.0, light.shadowTexel));
+    float lit = shadowFilter(shadowDepths, shadowSurfaces, vec3(texel, float(light.shadow)),
+                             light.shadowNear / z, shadowPlane(ln, at), vec2(0.0, light.shadowTexel));
     return light.shadow < 0 ? 1.0 : (dot(n, toP) < 0.0 ? lit : 0.0);
+}
+
+// A map of parallel light: the centre of its near side, depth 1 - near * distance, the edge of a texel in m.
+struct ParallelShadow {
+    vec3 position;
+    float near, texel;
+    int layer;  // -1: none
+    vec2 lift;
+};
+
+// Visibility of a directional light in one of its maps, which `depths` and `surfaces` hold.
+float shadowVisibilityParallel(sampler2DArray depths, usampler2DArray surfaces, Light light,
+                               ParallelShadow map, vec3 p, vec3 n) {
+    vec3 toP = p - map.position;
+    vec3 ln = vec3(dot(n, light.halfU), dot(n, light.halfV), dot(n, light.direction));
+    toP -= light.direction * shadowLift(map.lift, map.texel, ln.xy, -ln.z);
+    float ref = 1.0 - dot(toP, light.direction) * map.near;
+    float size = float(textureSize(depths, 0).x);
+    vec2 texel = 0.5 * size + vec2(dot(toP, light.halfU), dot(toP, light.halfV)) / map.texel;
+    float lit = shadowFilter(depths, surfaces, vec3(clamp(texel, 0.0, size), float(map.layer)), ref,
+                             shadowPlane(ln, vec2(0.0)), vec2(map.near * map.texel, 0.0));
+    return map.layer < 0 ? 1.0 : (ln.z < 0.0 ? lit : 0.0);
 }
 
 // Visibility of a directional light; light.position is the centre of the map's near side.
 float shadowVisibilityDirectional(Light light, vec3 p, vec3 n, vec2 lift) {
-    vec3 toP = p - light.position;
-    vec3 ln = vec3(dot(n, light.halfU), dot(n, light.halfV), dot(n, light.direction));
-    toP -= light.direction * shadowLift(lift, light.shadowTexel, ln.xy, -ln.z);
-    float ref = 1.0 - dot(toP, light.direction) * light.shadowNear;
-    float size = float(textureSize(shadowDepths, 0).x);
-    vec2 texel = 0.5 * size + vec2(dot(toP, light.halfU), dot(toP, light.halfV)) / light.shadowTexel;
-    float lit = shadowFilter(clamp(texel, 0.0, size), float(light.shadow), ref, shadowPlane(ln, vec2(0.0)),
-                             vec2(light.shadowNear * light.shadowTexel, 0.0));
-    return light.shadow < 0 ? 1.0 : (ln.z < 0.0 ? lit : 0.0);
+    return shadowVisibilityParallel(
+        shadowDepths, shadowSurfaces, light,
+        ParallelShadow(light.position, light.shadowNear, light.shadowTexel, light.shadow, lift), p, n);
 }
 
-// The k-th sample point of a rectangle (shared/rect_points.h). Moved off the surface by a thousandth of its
+// The k-th sample point of an area light (lib/rect_points.glsl). Moved off the surface by a thousandth of its
 // size, which an emitter's own triangles lie in.
 vec3 rectSamplePoint(Light light, uint k) {
-    vec2 uv = rectPointPlace(k, light.sampleGrid);
-    float lift = 1e-3 * min(length(light.halfU), length(light.halfV));
-    return light.position + uv.x * light.halfU + uv.y * light.halfV + lift * light.direction;
+    float lift = isSphere(light) ? 0.0 : 1e-3 * min(length(light.halfU), length(light.halfV));
+    return light.position + rectPointOffset(light, k) + lift * light.direction;
 }
 
 // Where the middle of the front map of a sample point lies that is so far from the rectangle's middle: a tangent.
@@ -276,9 +295,30 @@ vec2 shadowRectMiddle(Light light, vec3 place) {
     return (light.flags & LIGHT_AIMED) != 0u ? tangent : vec2(0.0);
 }
 
-// Visibility of the k-th sample point of a rectangle, unfiltered but for the bilinear weights: the samples
+#if LIGHTS_SHAPED
+// As below, for a sphere: all sides of a cube, a tile each.
+float shadowVisibilitySphere(Light light, uint k, vec3 point, vec3 p, vec3 n) {
+    int side;
+    vec3 toP = p - point;
+    vec3 lateral = cubeSide(toP, toP, side);
+    vec3 ln = cubeSide(n, toP, side);
+    float texelSize = lateral.z * light.shadowTexel;
+    lateral += (shadowOffset(texelSize, ln.xy) + kShadowRectSlack * texelSize) * ln;
+    float z = max(lateral.z, 1e-20);
+    vec3 tile = shadowTile(max(light.shadow, 0) + 6 * int(k) + side, 4);
+    float centre = 0.125 * float(textureSize(shadowMaps, 0).x);
+    float lit =
+        shadowBilinear(tile.xy + centre + lateral.xy / (z * light.shadowTexel), tile.z, light.shadowNear / z);
+    return light.shadow < 0 ? 1.0 : lit;
+}
+#endif
+
+// Visibility of the k-th sample point of an area light, unfiltered but for the bilinear weights: the samples
 // blur each other's edges.
 float shadowVisibilityRect(Light light, uint k, vec3 point, vec3 p, vec3 n) {
+#if LIGHTS_SHAPED
+    if (isSphere(light)) return shadowVisibilitySphere(light, k, point, p, n);
+#endif
     vec3 axisU = normalize(light.halfU);
     vec3 axisV = cross(light.direction, axisU);
     vec3 toP = p - point;

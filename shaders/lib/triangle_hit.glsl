@@ -141,6 +141,11 @@ int faceOfSide(uint record, vec3 normal, bool turned) {
 // ray's origin to the voxel's centre.
 void testTriangle(int triangle, Ray ray, vec3 toCenter, bool valid, inout TriangleCrossing nearest) {
     TriangleCorners c = triangleCorners(triangle);
+#if NESTED_GRIDS
+    c.origin = levelFromGrid(c.origin, levelOfRay);
+    c.edge1 /= levelOfRay.w;
+    c.edge2 /= levelOfRay.w;
+#endif
     vec3 p = cross(ray.direction, c.edge2);
     float determinant = dot(c.edge1, p);
     float inverse = 1.0 / (abs(determinant) > kTriangleLeast ? determinant : kTriangleLeast);
@@ -173,7 +178,7 @@ void testTriangle(int triangle, Ray ray, vec3 toCenter, bool valid, inout Triang
 // The nearest crossing of a ray with the triangles of a voxel, where `wanted`; `record`: that of the voxel.
 // Among equally near ones the first of the scene wins, whatever the order of the chain.
 TriangleCrossing nearestTriangle(ivec3 voxel, Ray ray, bool wanted, out int record) {
-    uvec4 word = imageLoad(voxelBrickImage, voxel >> 2);
+    uvec4 word = imageLoad(voxelBrickImage, STORED_BRICK(voxel >> 2));
     bool present = wanted && brickHas(word.xy, bitOfVoxel(voxel));
     record = present ? int(voxelRecordIndex(word, bitOfVoxel(voxel))) : 0;
     uint link = present ? texelFetch(voxelChains, record).x : 0u;

@@ -67,6 +67,13 @@ uniform usamplerBuffer lightSamples;
 
 const float kGatherPi = 3.14159265358979;
 
+// Edge of a face's voxel, in voxels of level 0.
+#if NESTED_GRIDS
+float faceEdge(int face) { return voxelEdge(texelFetch(voxelFaces, face).w); }
+#else
+float faceEdge(int face) { return 1.0; }
+#endif
+
 #include "lib/face_shading.glsl"
 
 // ---- Radiance at a hit ----------------------------------------------------------------------------------
@@ -123,6 +130,9 @@ vec3 hitRadiance(Ray ray, VoxelHit hit, float width, float widening, inout FaceS
 #if EXACT_DIRECT
     // Evaluate the punctual lights at the point
     float frontHeight = dot(faceFrontOffset(texelFetch(voxelFaces, face), normal), normal) * grid.voxelSize;
+#if NESTED_GRIDS
+    frontHeight *= faceEdge(face);
+#endif
 #if NEAR_TRIANGLES
     // A triangle is where it is: it needs no lift, which might go through the next fold.
     if (hit.near) shadingNormal = normal = hit.normal;
@@ -202,7 +212,8 @@ PathVertex pathVertex(Ray ray, VoxelHit hit, PathSettings path, PathState state,
     }
 
     // Sample the GGX lobe of a metal
-    bool arrived = state.bounce > 0 || path.targetDistance < 0.0 || abs(hit.t - path.targetDistance) < 0.3;
+    bool arrived = state.bounce > 0 || path.targetDistance < 0.0 ||
+                   abs(hit.t - path.targetDistance) < 0.3 * faceEdge(max(hit.face, 0));
     vertex.metal = surface.reflects && arrived;
     vec2 xi = vec2(randomNext(random), randomNext(random));
 #if EXECUTION_GPU
@@ -308,12 +319,19 @@ vec3 cosineDirection(vec3 n, vec2 xi) {
 // meets those faces from the front. One more ray is cheaper than testing both sides at once, which costs two
 // to three: then octant words cannot skip empty space.
 bool passedBackFace(Ray ray, VoxelHit hit) {
+#if NESTED_GRIDS
+    float leave = levelSpan(ray, rayInverse(ray.direction), coarsestLevel()).y;
+    float end = min(hit.t, leave - kRayEnd * levelPlace(coarsestLevel()).w);
+    float near = kRayBackNear * voxelEdgeAt(ray.origin);
+#else
     vec3 leave = (mix(vec3(0.0), vec3(gridSize()), greaterThanEqual(ray.direction, vec3(0.0))) - ray.origin) *
                  rayInverse(ray.direction);
     float end = min(hit.t, min(min(leave.x, leave.y), leave.z) - kRayEnd);
+    const float near = kRayBackNear;
+#endif
     // The other side of the surface that was hit does not count.
     vec3 hitNormal = hit.face >= 0 ? faceNormalOf(hit.face) : vec3(0.0);
-    Ray backwards = Ray(ray.origin + end * ray.direction, -ray.direction, end - kRayBackNear, hitNormal);
+    Ray backwards = Ray(ray.origin + end * ray.direction, -ray.direction, end - near, hitNormal);
     return traceVoxels(backwards).face >= 0;
 }
 #endif
@@ -399,7 +417,7 @@ SampledRay sampleRay(SurfacePoint point, EstimatorSettings settings, SequenceSta
 
     // End a light-sampled ray behind its point
     bool ends = lightSampled && !towardsSky;
-    float tMax = ends ? lightDistance + 1.0 : 1e9;
+    float tMax = ends ? lightDistance + faceEdge(max(light.face, 0)) : 1e9;
     Ray ray = Ray(point.origin, direction, valid ? tMax : -1.0, point.geometricNormal);
     return SampledRay(ray, cosine, valid, towardsSky ? kTowardsSky : light.face,
                       lightSampled ? (towardsSky ? 1e9 : lightDistance) : -1.0);

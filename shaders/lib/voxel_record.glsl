@@ -3,6 +3,7 @@
 #include "lib/dot.glsl"
 #include "lib/octahedral.glsl"
 #include "lib/voxel_address.glsl"
+#include "lib/voxel_levels.glsl"
 #include "shared/voxels.h"
 
 const float kVoxelWeightScale = 65535.0 / 4.0;  // W and area: [0,4] in 16 bits
@@ -105,8 +106,14 @@ vec3 faceCenter(FaceRecord face) {
     vec3 n = faceNormal(face);
     vec3 middle = 0.5 * (unpackBoundsMin(face.bounds) + unpackBoundsMax(face.bounds)) - 0.5;
     vec3 frontOffset = faceFrontOffset(uvec4(face.normal, face.offsetWeight, face.bounds, face.voxel), n);
+#if NESTED_GRIDS
+    vec4 place = voxelPlace(face.voxel);
+    return place.xyz +
+           place.w * (0.5 + middle + n * (unpackOffset(face.offsetWeight) - dot(n, middle)) + frontOffset);
+#else
     return vec3(unpackVoxel(face.voxel)) + 0.5 + middle +
            n * (unpackOffset(face.offsetWeight) - dot(n, middle)) + frontOffset;
+#endif
 }
 
 // Bounds that reach the voxel's side are grown, voxels: by the first along the normal, by the second, which
@@ -138,7 +145,12 @@ void lightSampleBounds(uvec4 hitTexel, vec3 n, vec3 origin, float side, out vec3
     rayBounds(hitTexel.z, n, lower, upper);
     vec3 a = abs(n);
     bool alongGrid = max(a.x, max(a.y, a.z)) > 0.9999;
+#if NESTED_GRIDS
+    vec4 place = voxelPlace(hitTexel.w);
+    vec3 from = place.xyz + 0.5 * place.w - origin;
+#else
     vec3 from = vec3(unpackVoxel(hitTexel.w)) + 0.5 - origin;
+#endif
     vec3 moved = side * kRayBoundsOverlap * sign(from);
     bvec3 goesOn =
         bvec3(alongGrid && lower.x < 0.0 && upper.x > 1.0, alongGrid && lower.y < 0.0 && upper.y > 1.0,

@@ -52,7 +52,7 @@ uniform usamplerBuffer binTexels;
 uniform usamplerBuffer startTexels;
 
 uint binCount() {
-    ivec3 blocks = (gridBricks() + 3) >> 2;
+    ivec3 blocks = (storedBricks() + 3) >> 2;
     return uint(blocks.x * blocks.y * blocks.z) * CACHE_BINS_PER_BLOCK;
 }
 

@@ -27,7 +27,12 @@ void main() {
     if (face >= grid.faceCount) return;
     uint counts = states[face].counts;
     if ((counts & CACHE_SHARES) != 0u) return;
+#if NESTED_GRIDS
+    vec4 place = voxelPlace(texelFetch(voxelFaces, int(face)).w);
+    vec3 position = grid.origin + grid.voxelSize * (place.xyz + 0.5 * place.w);
+#else
     vec3 voxel = vec3(unpackVoxel(texelFetch(voxelFaces, int(face)).w));
     vec3 position = grid.origin + grid.voxelSize * (voxel + 0.5);
+#endif
     states[face].counts = (counts & 0xffff0000u) | updatesKept(counts & CACHE_UPDATES_MASK, position);
 }

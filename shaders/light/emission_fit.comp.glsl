@@ -92,8 +92,15 @@ float seenArea(int face, bool asked) {
         float across = sqrt(turn.x);
         float phi = 6.28318530718 * turn.y;
         vec3 leaves = across * cos(phi) * u + across * sin(phi) * v + sqrt(max(1.0 - turn.x, 0.0)) * n;
+#if NESTED_GRIDS
+        vec4 voxel = voxelPlace(r.w);
+        vec3 from = voxel.xyz + voxel.w * (0.5 + fromDominant(point, axis) + kFromOutside * leaves);
+        float reach = voxel.w * (kFromOutside + 0.5);
+#else
         vec3 from = vec3(unpackVoxel(r.w)) + 0.5 + fromDominant(point, axis) + kFromOutside * leaves;
-        VoxelHit hit = traceVoxels(Ray(from, -leaves, inside ? kFromOutside + 0.5 : -1.0, vec3(0.0)));
+        float reach = kFromOutside + 0.5;
+#endif
+        VoxelHit hit = traceVoxels(Ray(from, -leaves, inside ? reach : -1.0, vec3(0.0)));
         // What else stands before the lamp takes light of it, but does not make it smaller.
         bool counts = inside && hit.face >= 0 && emits(max(hit.face, 0));
         tried += counts ? 1.0 : 0.0;
@@ -134,22 +141,27 @@ vec3 walkDirection(vec3 n, vec2 xi) {
 // Share of the walks that start at a point with normal n, and turn where they meet triangles, that get away.
 // The others are shut in with the lamp: light within a bulb, or of a bulb within a pipe.
 float leavingShare(vec3 point, vec3 n, uint seed, int walks) {
+#if NESTED_GRIDS
+    float edge = voxelEdgeAt(point);
+#else
+    const float edge = 1.0;
+#endif
     int away = 0;
     int i = 0;
     do {
         vec3 normal = n;
-        vec3 origin = point + kWalkStart * n;
+        vec3 origin = point + kWalkStart * edge * n;
         bool goesOn = i < walks;
         int turns = 0;
         do {
             vec3 direction = walkDirection(normal, sequencePoint(seed + uint(turns) * 0x85ebca6bu, uint(i)));
             bool reached;
             TriangleCrossing hit =
-                traceTriangles(Ray(origin, direction, goesOn ? kWalkReach : -1.0, vec3(0.0)), reached);
+                traceTriangles(Ray(origin, direction, goesOn ? kWalkReach * edge : -1.0, vec3(0.0)), reached);
             away += goesOn && reached ? 1 : 0;
             goesOn = goesOn && hit.triangle >= 0;
             normal = goesOn ? normalize(hit.normal) : n;
-            origin += (goesOn ? hit.t : 0.0) * direction + kWalkStart * normal;
+            origin += (goesOn ? hit.t : 0.0) * direction + kWalkStart * edge * normal;
         } while (goesOn && ++turns <= kWalkTurns);
     } while (++i < walks);
     return float(away) / float(max(walks, 1));
@@ -189,7 +201,13 @@ void main() {
     bool twoSided = (a.z & 0x40000000u) != 0u;
     vec3 n = normalize(vec3(unpackSnorm2x16(a.w), unpackSnorm2x16(b.x).x));
     ivec3 voxel = unpackVoxel(pair.y);
-    vec3 point = vec3(voxel) + vec3(b.x >> 16, b.y & 0xffffu, b.y >> 16) * (1.0 / 65535.0);
+    vec3 point = vec3(b.x >> 16, b.y & 0xffffu, b.y >> 16) * (1.0 / 65535.0);
+#if NESTED_GRIDS
+    vec4 place = voxelPlace(pair.y);
+    point = place.xyz + place.w * point;
+#else
+    point = vec3(voxel) + point;
+#endif
     uint seed = randomHash(pair.x) ^ randomHash(pair.y);
     int walks = shines ? clamp(int(area * kWalks + 0.5), kLeastWalks, kMostWalks) : 0;
     int side = 0;
@@ -202,7 +220,7 @@ void main() {
 #else
 void main() {
     uint brick = linearIndex();
-    ivec3 bricks = gridBricks();
+    ivec3 bricks = storedBricks();
     bool used = brick < uint(bricks.x * bricks.y * bricks.z);
     uvec4 word = imageLoad(voxelBrickImage, brickOfIndex(used ? brick : 0u, bricks));
     int voxels = bitCount(word.x) + bitCount(word.y);

@@ -36,11 +36,10 @@ uniform usamplerBuffer emissionParts;
 // way, lies in its plane and its bounds reach into it. A voxel on the rectangle's edge has emission of it,
 // too, which is no emission but the area light's. Voxels round positions to 1/31 voxel, so a quarter voxel is
 // ample.
-bool isAreaLight(FaceRecord face, vec3 position, vec3 normal) {
+bool isAreaLight(FaceRecord face, vec3 position, vec3 normal, float voxelSize) {
     bool found = false;
 #if LIGHTS_RECT
-    vec3 reach =
-        (0.5 * (unpackBoundsMax(face.bounds) - unpackBoundsMin(face.bounds)) + 0.25) * grid.voxelSize;
+    vec3 reach = (0.5 * (unpackBoundsMax(face.bounds) - unpackBoundsMin(face.bounds)) + 0.25) * voxelSize;
     uint i = lighting.lightEnds.z;
     if (i < lighting.lightEnds.w) do {
             Light light = lights[i];
@@ -48,7 +47,7 @@ bool isAreaLight(FaceRecord face, vec3 position, vec3 normal) {
             vec3 u = normalize(light.halfU), v = normalize(light.halfV);
             // 0.94: the cosine of 20 degrees, coplanar up to the packing of normals.
             bool on = (light.flags & LIGHT_FROM_EMITTER) != 0u && dot(normal, light.direction) > 0.94 &&
-                      abs(dot(d, light.direction)) < 0.25 * grid.voxelSize &&
+                      abs(dot(d, light.direction)) < 0.25 * voxelSize &&
                       abs(dot(d, u)) < length(light.halfU) + dot(abs(u), reach) &&
                       abs(dot(d, v)) < length(light.halfV) + dot(abs(v), reach);
             found = found || on;
@@ -65,7 +64,12 @@ void main() {
     vec3 position = worldFromGrid(faceCenter(face));
     uvec4 material = texelFetch(voxelFaceMaterials, int(index));
     vec3 emission = unpackEmission(material);
-    bool areaLight = emission != vec3(0.0) && isAreaLight(face, position, normal);
+#if NESTED_GRIDS
+    float voxelSize = voxelEdge(face.voxel) * grid.voxelSize;
+#else
+    float voxelSize = grid.voxelSize;
+#endif
+    bool areaLight = emission != vec3(0.0) && isAreaLight(face, position, normal, voxelSize);
     if (areaLight) emission = vec3(0.0);
 #if EMISSION_FITS
     emission *= uintBitsToFloat(texelFetch(emissionParts, int(index)).x);
@@ -76,7 +80,7 @@ void main() {
     DirectLight light = DirectLight(vec3(0.0), vec3(0.0));
     addRectLights(light, false, receiver, none);
 #if GLASS
-    light.irradiance += causticIrradiance(position, normal, grid.voxelSize);
+    light.irradiance += causticIrradiance(position, normal, voxelSize);
 #endif
 #if FOR_RAYS
     vec3 steady = emission + reflectance * light.irradiance;

@@ -64,6 +64,11 @@
 #define FACE_TWO_SIDED 0x40000000u  // triangles with a face on their other side, too
 #define FACE_REVERSE 0x80000000u    // that other side, which solids have within them
 
+// Nested grids (src/voxels/nested_grid.h): levels at most, and voxels along z of all levels together, which are
+// stored one behind the other along z.
+#define VOXEL_MOST_LEVELS 8
+#define VOXEL_MOST_STORED 1024
+
 CONELIGHT_SHARED_BEGIN
 
 // Uniform block. Voxel (i,j,k) is the cube origin + voxelSize * [i,i+1) x [j,j+1) x
@@ -88,6 +93,16 @@ struct VoxelGrid {
     uint pad1;
 };  // 64 B
 
+// Uniform block VoxelLevelBlock: the levels of nested grids (lib/voxel_levels.glsl).
+struct VoxelLevels {
+    uint count;
+    uint sizeX;  // voxels of each level
+    uint sizeY;
+    uint sizeZ;
+    // ---- 16 B
+    vec4 levels[VOXEL_MOST_LEVELS];  // xyz lowest corner, w edge of a voxel: in voxels of level 0
+};                                   // 144 B
+
 // What a voxel shows towards one facing direction k: the plane piece that rays hit.
 struct FaceRecord {
     uint
@@ -96,8 +111,9 @@ struct FaceRecord {
                         // w of what is not hidden, 0..4
     uint bounds;        // 6 x 5 bit: min x y z, max x y z of the surface in the voxel, in 1/31 voxel, rounded
                         // outwards; FACE_TWO_SIDED, FACE_REVERSE
-    uint voxel;         // 3 x 10 bit: x, y, z of the voxel; bits 30, 31: axis of the direction (0 x .. 2 z)
-};                      // 16 B
+    uint
+        voxel;  // 3 x 10 bit: x, y, z of the voxel as stored; bits 30, 31: axis of the direction (0 x .. 2 z)
+};              // 16 B
 
 // What that piece is made of: means over its surface.
 struct FaceMaterial {
@@ -152,6 +168,7 @@ struct SurfaceConstants {
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::VoxelGrid) == 64);
+static_assert(sizeof(conelight::gpu::VoxelLevels) == 16 + 16 * VOXEL_MOST_LEVELS);
 static_assert(sizeof(conelight::gpu::SurfaceConstants) == 48);
 static_assert(sizeof(conelight::gpu::FaceRecord) == 16);
 static_assert(sizeof(conelight::gpu::FaceMaterial) == 16);

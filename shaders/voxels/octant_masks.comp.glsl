@@ -53,10 +53,17 @@ void main() {
         facing = mirrored(facing, octant);
         if (facing.y == OCTANT_EMPTY) facing.y |= OCTANT_EMPTY_SPARE;
         bvec3 down = notEqual(ivec3(octant) & ivec3(1, 2, 4), ivec3(0));
+#if NESTED_GRIDS
+        // Mirrored within its level.
+        int base = brick.z / int(grid.bricksZ) * int(grid.bricksZ);
+        ivec3 within = brick - ivec3(0, 0, base);
+        ivec3 at = mix(within, gridBricks() - 1 - within, down) + ivec3(0, 0, base);
+#else
         ivec3 at = mix(brick, gridBricks() - 1 - brick, down);
+#endif
         if (some) {
             imageStore(octants, ivec3(at.x + octant * int(grid.bricksX), at.yz), uvec4(facing, 0u, 0u));
-            atomicOr(rows[octantRow(octant, ivec3(at.x >> 5, at.yz), gridBricks())], 1u << (at.x & 31));
+            atomicOr(rows[octantRow(octant, ivec3(at.x >> 5, at.yz), storedBricks())], 1u << (at.x & 31));
         }
     }
 }

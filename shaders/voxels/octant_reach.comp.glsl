@@ -15,7 +15,7 @@ uniform usamplerBuffer rows;
 layout(rg32ui) uniform writeonly uimage3D octants;
 
 void main() {
-    ivec3 bricks = gridBricks();
+    ivec3 bricks = storedBricks();
     int words = octantRowWords(bricks);
     int index = int(linearIndex());
     bool used = index < 8 * bricks.z * bricks.y * words;
@@ -25,12 +25,18 @@ void main() {
     int z = index / (words * bricks.y) % bricks.z;
     int octant = index / (words * bricks.y * bricks.z);
 
+#if NESTED_GRIDS
+    int endZ = (z / int(grid.bricksZ) + 1) * int(grid.bricksZ);  // of the level
+#else
+    int endZ = bricks.z;
+#endif
+
     // Rows of the cubes with edges of 1 to 4 bricks, this word and the next.
     uint taken1 = 0u;
     uvec2 two = uvec2(0u), three = uvec2(0u), four = uvec2(0u);
     for (int i = 0; i < 16; ++i) {
         int dy = i & 3, dz = i >> 2;
-        bool inside = y + dy < bricks.y && z + dz < bricks.z;
+        bool inside = y + dy < bricks.y && z + dz < endZ;
         int at = inside ? octantRow(octant, ivec3(word, y + dy, z + dz), bricks) : 0;
         uvec2 row = uvec2(texelFetch(rows, at).x, word + 1 < words ? texelFetch(rows, at + 1).x : 0u);
         row = inside ? row : uvec2(0u);

@@ -13,7 +13,7 @@ layout(rgba32ui) uniform writeonly uimage3D brickWords;
 
 void main() {
     ivec3 bricks = gridBricks();
-    uint count = grid.bricksX * grid.bricksY * grid.bricksZ;
+    uint count = storedBrickCount();
     uint chunk = linearInvocation();
     uint i = chunk * surface.bricksPerChunk;
     uint end = min(i + surface.bricksPerChunk, count);

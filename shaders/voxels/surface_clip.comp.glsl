@@ -88,6 +88,14 @@ VoxelTriangle readTriangle(uint triangle, ivec3 voxel) {
     vec4 t0 = texelFetch(triangles, 3 * int(triangle));
     vec4 t1 = texelFetch(triangles, 3 * int(triangle) + 1);
     vec4 t2 = texelFetch(triangles, 3 * int(triangle) + 2);
+#if NESTED_GRIDS
+    int level = levelOfStored(voxel);
+    vec4 place = levelPlace(level);
+    t0.xyz = levelFromGrid(t0.xyz, place);
+    t1.xyz = levelFromGrid(t1.xyz, place);
+    t2.xyz = levelFromGrid(t2.xyz, place);
+    voxel = withinLevel(voxel, level);
+#endif
     vec3 center = vec3(voxel) + 0.5;
     vec3 cr = cross(t1.xyz - t0.xyz, t2.xyz - t0.xyz);
     float twiceArea = length(cr);

@@ -16,7 +16,7 @@ layout(std430) writeonly buffer ChunkTable { uvec2 chunks[]; };
 void main() {
     uint chunk = linearInvocation();
 #if OF_BRICKS
-    uint count = grid.bricksX * grid.bricksY * grid.bricksZ;
+    uint count = storedBrickCount();
     uint perChunk = surface.bricksPerChunk;
 #else
     uint count = min(counters[SURFACE_VOXELS], surface.voxelCapacity);

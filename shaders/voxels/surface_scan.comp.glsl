@@ -43,7 +43,7 @@ void main() {
     writeArguments(SURFACE_ARGS_WIDE, min(counters[SURFACE_WIDE], surface.faceCapacity));
 #else
 #if STEP == 1
-    uint count = grid.bricksX * grid.bricksY * grid.bricksZ;
+    uint count = storedBrickCount();
     uint chunkCount = (count + surface.bricksPerChunk - 1u) / surface.bricksPerChunk;
 #else
     uint count = min(counters[SURFACE_VOXELS], surface.voxelCapacity);

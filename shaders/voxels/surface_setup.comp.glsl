@@ -80,6 +80,17 @@ GridTriangle gridTriangle(uint triangle, uint instance, bool wanted) {
     return GridTriangle(triangle, instance, p0, p1, p2, n, used);
 }
 
+#if NESTED_GRIDS
+// From grid coordinates to those of a level; what edges it has stays as it is.
+GridTriangle inLevel(GridTriangle t, int level) {
+    vec4 place = levelPlace(level);
+    t.p0 = levelFromGrid(t.p0, place);
+    t.p1 = levelFromGrid(t.p1, place);
+    t.p2 = levelFromGrid(t.p2, place);
+    return t;
+}
+#endif
+
 // Keeps corners, flags and the material without its textures for the later passes.
 void writeTriangle(GridTriangle t) {
     uint material = instances[t.instance].material;
@@ -128,7 +139,7 @@ void emitTiles(ColumnTest t, uint triangle, ivec2 low, ivec2 columns) {
         if (tile < tileTotal && min(min(e.x, e.y), e.z) >= 0.0) {
             uint slot = atomicAdd(counters[SURFACE_TILES], 1u);
             if (slot < surface.tileCapacity)
-                tiles[slot] = uvec2(triangle, uint(low.x + at.x * 8) | (uint(low.y + at.y * 8) << 16));
+                tiles[slot] = uvec2(triangle, TILE_WORD(low.x + at.x * 8, low.y + at.y * 8));
         }
         ++tile;
         bool rowEnds = at.x + 1 >= tileCount.x;
@@ -139,7 +150,14 @@ void emitTiles(ColumnTest t, uint triangle, ivec2 low, ivec2 columns) {
 void main() {
     // Find the triangle, and keep it for the later passes.
     uint index = linearInvocation();
+#if NESTED_GRIDS
+    // Once for each level.
+    emitLevel = min(int(index / surface.triangleCount), coarsestLevel());
+    bool inside = index < surface.triangleCount * voxelLevels.count;
+    index -= uint(emitLevel) * surface.triangleCount;
+#else
     bool inside = index < surface.triangleCount;
+#endif
 #if SURFACE_UPDATE
     // surface.triangleCount and .instanceCount are those of the work.
     uint work = min(index, surface.triangleCount - 1u);
@@ -151,7 +169,12 @@ void main() {
     uint instance = instanceOfTriangle(triangle);
 #endif
     GridTriangle t = gridTriangle(triangle, instance, inside);
+#if NESTED_GRIDS
+    if (inside && emitLevel == 0) writeTriangle(t);
+    t = inLevel(t, emitLevel);
+#else
     if (inside) writeTriangle(t);
+#endif
 
     // Bound the columns it may meet, within the grid, in dominant-axis coordinates.
     int axis = dominantAxis(t.normal);

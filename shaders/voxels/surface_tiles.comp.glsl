@@ -20,6 +20,13 @@ void main() {
     vec3 p0 = texelFetch(triangles, 3 * triangle).xyz;
     vec3 p1 = texelFetch(triangles, 3 * triangle + 1).xyz;
     vec3 p2 = texelFetch(triangles, 3 * triangle + 2).xyz;
+#if NESTED_GRIDS
+    emitLevel = int(used ? entry.y >> TILE_LEVEL_SHIFT : 0u);
+    vec4 place = levelPlace(emitLevel);
+    p0 = levelFromGrid(p0, place);
+    p1 = levelFromGrid(p1, place);
+    p2 = levelFromGrid(p2, place);
+#endif
     vec3 n = cross(p1 - p0, p2 - p0);
     int axis = dominantAxis(n);
     vec3 a = toDominant(p0, axis);
@@ -29,7 +36,7 @@ void main() {
     columnBounds(a, b, c, axis, low, high);
 
     // The row's columns, up to the end of the triangle's bounds.
-    ivec3 anchor = ivec3(int(entry.y & 0xffffu), int(entry.y >> 16) + row, low.z);
+    ivec3 anchor = ivec3(TILE_COLUMN(entry.y) + ivec2(0, row), low.z);
     vec3 origin = vec3(anchor);
     ColumnTest t = columnTest(a - origin, b - origin, c - origin, toDominant(n, axis));
     ColumnBlock block = ColumnBlock(anchor, axis, 8, high.z - low.z);

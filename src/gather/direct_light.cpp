@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "gather/pixel_lights.h"
 #include "gl/gl.h"
 
 namespace conelight::gather {
@@ -16,6 +17,7 @@ gl::ProgramDesc desc(const light::LightKey& lights) {
 gl::ProgramDesc desc(light::LightKey lights, const gl::Defines& cones) {
     lights.fixed = false;
     lights.filter = 0;
+    lights.cascades = false;
     for (int* kind : {&lights.point, &lights.spot, &lights.directional, &lights.rect})
         *kind = std::min(*kind, 1);
     gl::ProgramDesc desc{{"gather/direct_light.comp.glsl"}, lights.defines()};
@@ -37,7 +39,7 @@ void DirectLight::draw(const gl::Device& device, const DirectInputs& inputs, con
     given.add(inputs)
         .image("diffuseImage", diffuse_, gl::ImageUse::Write)
         .image("specularImage", specular_, gl::ImageUse::Write);
-    const light::LightKey& lights = inputs.lights.key();
+    const light::LightKey lights = lightsOfPixels(inputs.lights, inputs.surfaces);
     const bool byCones = cones != nullptr && lights.shadows;
     if (byCones) given.add(*cones);
     device.get(byCones ? desc(lights, cones->defines) : desc(lights)).dispatch(given, width, height);
@@ -45,7 +47,7 @@ void DirectLight::draw(const gl::Device& device, const DirectInputs& inputs, con
 
 std::vector<gl::ProgramDesc> DirectLight::programDescs() {
     std::vector<gl::ProgramDesc> descs;
-    for (const light::LightKey& key : light::LightKey::all()) descs.push_back(desc(key));
+    for (const light::LightKey& key : light::LightKey::ofPixels()) descs.push_back(desc(key));
     return descs;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "gather/phong_shade.h"
 
+#include "gather/pixel_lights.h"
 #include "gl/gl.h"
 
 namespace conelight::gather {
@@ -19,9 +20,9 @@ struct PhongKey {
     }
     static std::vector<PhongKey> all() {
         std::vector<PhongKey> keys;
-        for (const light::LightKey& lights : light::LightKey::all())
+        for (const light::LightKey& lights : light::LightKey::ofPixels())
             for (const bool shadows : {false, true})
-                if (lights.shadows || !shadows) keys.push_back({lights, shadows});
+                if (shadows ? lights.shadows : !lights.cascades) keys.push_back({lights, shadows});
         return keys;
     }
 };
@@ -31,7 +32,8 @@ struct PhongKey {
 void drawPhongShade(const gl::Device& device, const DirectInputs& inputs, bool shadows,
                     const gl::Texture& output) {
     const gl::PassScope pass(device.profiler, "phong");
-    const light::LightKey lights = inputs.lights.key();
+    light::LightKey lights = lightsOfPixels(inputs.lights, inputs.surfaces);
+    lights.cascades = lights.cascades && shadows;
     gl::Inputs given;
     given.add(inputs).image("outputImage", output, gl::ImageUse::Write);
     device.get(PhongKey{lights, shadows && lights.shadows}.desc())

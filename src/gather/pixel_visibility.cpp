@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "gather/pixel_lights.h"
 #include "gather/pixel_list.h"
 #include "gl/gl.h"
 #include "shared/visibility_list.h"
@@ -14,6 +15,7 @@ namespace {
 // Which kinds of lights there are.
 struct VisibilityKey {
     bool point = false, spot = false, directional = false;
+    bool cascades = false;
     bool counts = false;  // lookups
 
     gl::ProgramDesc desc() const;
@@ -27,7 +29,8 @@ gl::ProgramDesc VisibilityKey::desc() const {
                                  .spot = spot ? 1 : 0,
                                  .directional = directional ? 1 : 0,
                                  .fixed = false,
-                                 .shadows = true};
+                                 .shadows = true,
+                                 .cascades = cascades};
     gl::ProgramDesc desc{{"gather/visibility_maps.comp.glsl"}, lights.defines()};
     if (counts) desc.defines.emplace_back("COUNT_LOOKUPS", "1");
     return desc;
@@ -42,7 +45,8 @@ gl::ProgramDesc rayDesc(bool counts) {
 std::vector<VisibilityKey> VisibilityKey::all() {
     std::vector<VisibilityKey> keys;
     for (int bits = 2; bits < 16; ++bits)
-        keys.push_back({(bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0, (bits & 1) != 0});
+        for (const bool cascades : {false, (bits & 8) != 0})
+            keys.push_back({(bits & 2) != 0, (bits & 4) != 0, (bits & 8) != 0, cascades, (bits & 1) != 0});
     return keys;
 }
 
@@ -73,7 +77,9 @@ base::Steps PixelVisibility::lookInSteps(const gl::Device& device, const Visibil
     }
     open_.update(kEmptyList);
     const glm::uvec4& ends = inputs.lights.ends();
-    const VisibilityKey key{ends.x > 0, ends.y > ends.x, ends.z > ends.y, lookupCounters != nullptr};
+    const VisibilityKey key{ends.x > 0, ends.y > ends.x, ends.z > ends.y,
+                            lightsOfPixels(inputs.lights, inputs.surfaces).cascades,
+                            lookupCounters != nullptr};
     gl::Inputs given;
     given.add(inputs).image("result", seen_, gl::ImageUse::ReadWrite).storage("VisibilityList", open_);
     if (lookupCounters != nullptr) given.storage("LookupTable", *lookupCounters);

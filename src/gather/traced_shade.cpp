@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "gather/pixel_lights.h"
 #include "gl/gl.h"
 #include "gl/pace.h"
 
@@ -78,7 +79,7 @@ std::vector<TracedShade::ShadeKey> TracedShade::ShadeKey::all() {
     for (const PictureParts& parts :
          {PictureParts{}, {false, true, false}, {false, false, true}, {false, true, true}})
         add(parts, {});
-    for (const light::LightKey& lights : light::LightKey::all())
+    for (const light::LightKey& lights : light::LightKey::ofPixels())
         for (const bool indirect : {false, true}) add({true, indirect, indirect}, lights);
     const std::size_t pictures = keys.size();
     for (std::size_t i = 0; i < pictures; ++i) {
@@ -163,7 +164,7 @@ base::Steps TracedShade::drawInSteps(const gl::Device& device, const RayInputs& 
                  lobe != nullptr,
                  anyEmission(inputs.scene),
                  wanted.lookupCounters != nullptr,
-                 parts.direct ? inputs.lights.key() : light::LightKey{},
+                 parts.direct ? lightsOfPixels(inputs.lights, inputs.surfaces) : light::LightKey{},
                  wanted.visibility != nullptr,
                  inputs.lights.hasCaustics()};
     if (device.profile == gl::ExecutionProfile::Gpu) {

@@ -23,8 +23,16 @@ struct Device {
     Profiler& profiler;
     ExecutionProfile profile = ExecutionProfile::Processor;
     Pace* pace = nullptr;  // of a picture that is drawn in parts (gl/pace.h); null: in one
+    // Programs for voxels in nested grids (shaders/lib/voxel_levels.glsl). Those for one grid know nothing of them.
+    bool nestedGrids = false;
 
-    const Program& get(const ProgramDesc& desc) const { return programs.get(desc); }
+    const Program& get(const ProgramDesc& desc) const {
+        return nestedGrids ? programs.get(forNestedGrids(desc)) : programs.get(desc);
+    }
+    static ProgramDesc forNestedGrids(ProgramDesc desc) {
+        desc.defines.emplace_back("NESTED_GRIDS", "1");
+        return desc;
+    }
 };
 
 }  // namespace conelight::gl

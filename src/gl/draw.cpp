@@ -192,7 +192,7 @@ void apply(const RasterState& state) {
     glColorMask(color, color, color, color);
     setCapability(GL_BLEND, state.blend);
     if (state.blend) glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-    setCapability(GL_DEPTH_CLAMP, false);
+    setCapability(GL_DEPTH_CLAMP, state.depthClamp);
     const bool bias = state.depthBiasSlope != 0.0f || state.depthBiasUnits != 0.0f;
     setCapability(GL_POLYGON_OFFSET_FILL, bias);
     if (bias) glPolygonOffset(state.depthBiasSlope, state.depthBiasUnits);

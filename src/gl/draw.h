@@ -73,6 +73,7 @@ struct RasterState {
     // Clip space z in [0,1] with 1 at the near plane, greater depths win (float depth then keeps its digits
     // at any distance); clear with 0. false: GL's [-1,1], lesser depths win.
     bool reversedDepth = false;
+    bool depthClamp = false;         // what is before the near or behind the far plane is drawn on it
     float farthest = 1.0f;           // depths are stored as [0, farthest]
     int viewport[4] = {0, 0, 0, 0};  // x, y, width, height, fragments outside are cut; width 0: all
 };

@@ -43,8 +43,7 @@ void EmissionFit::update(const gl::Device& device, const scene::GpuScene& scene,
         .storage("SentLight", sent)
         .storage("ShiningFragments", shining);
     surface.declareTriangles(inputs);
-    const glm::ivec3 size = surface.grid().bricks();
-    const auto bricks = static_cast<std::size_t>(size.x * size.y * size.z);
+    const std::size_t bricks = surface.grid().brickCount();
     const std::array<std::size_t, 5> invocations{bricks, faces, slots, 0, bricks};
     for (const FitKey& key : FitKey::all()) {
         const gl::Program& program = device.get(key.desc());

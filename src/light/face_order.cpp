@@ -56,7 +56,7 @@ void FaceOrder::sort(const gl::Device& device, const voxels::SurfaceVoxels& surf
     doubtful_ = 0;
     if (faces == 0) return;
     reserveOrder(faces);
-    const glm::ivec3 blocks = (surface.grid().bricks() + 3) / 4;
+    const glm::ivec3 blocks = (surface.grid().storedBricks() + 3) / 4;
     const auto blockCount = static_cast<std::size_t>(blocks.x) * static_cast<std::size_t>(blocks.y) *
                             static_cast<std::size_t>(blocks.z);
     const auto bins = static_cast<std::uint32_t>(std::min(blockCount, kMaxBlocks) * CACHE_BINS_PER_BLOCK);

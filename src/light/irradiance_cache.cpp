@@ -78,6 +78,7 @@ void IrradianceCache::reserve(std::uint32_t faces) {
         poolTexels_ = gl::Texture(pool_, GL_R32UI, "light samples");
         constants_ = gl::Buffer(sizeof(gpu::CacheConstants), "irradiance cache constants");
         reprojectionBlock_ = gl::Buffer(sizeof(gpu::CacheReprojection), "irradiance cache reprojection");
+        oldLevelBlock_ = gl::Buffer(sizeof(gpu::VoxelLevels), "irradiance cache old levels");
     }
     // No room for growth before there was any.
     const auto room = static_cast<std::size_t>(std::ceil((states_ ? kSlack : 1.0) * faces)) + 64;
@@ -107,7 +108,8 @@ void IrradianceCache::adopt(const gl::Device& device, const voxels::Voxels& voxe
     const gl::PassScope pass(device.profiler, "irradiance: reproject");
     const voxels::SurfaceVoxels& surface = voxels.surface();
     const voxels::VoxelKeys* old = voxels.previous();
-    carried_ = faceCount_ > 0 && old != nullptr && voxelsFrom_ && old->revision == voxelsFrom_;
+    carried_ = faceCount_ > 0 && old != nullptr && voxelsFrom_ && old->revision == voxelsFrom_ &&
+               (old->grid.levels > 1) == (voxels.grid().levels > 1);
     // The states of the old voxels change places with the buffer for the new ones.
     std::swap(states_, oldStates_);
     std::swap(stateTexels_, oldStateTexels_);
@@ -133,9 +135,11 @@ void IrradianceCache::reproject(const gl::Device& device, const voxels::Voxels& 
     block.oldSizeY = static_cast<std::uint32_t>(old.grid.size.y);
     block.oldSizeZ = static_cast<std::uint32_t>(old.grid.size.z);
     reprojectionBlock_.update(block);
+    oldLevelBlock_.update(old.grid.packedLevels());
     gl::Inputs inputs;
     inputs.add(voxels)
         .uniform("ReprojectionBlock", reprojectionBlock_)
+        .uniform("OldLevelBlock", oldLevelBlock_)
         .storage("StateTable", states_)
         .texture("oldStates", oldStateTexels_);
     old.declareOld(inputs);
@@ -203,13 +207,24 @@ void IrradianceCache::commit(const gl::Device& device, const Inputs& inputs, con
         .texture("stateTexels", stateTexels_)
         .storage("ChunkTable", chunks_)
         .storage("PoolTable", pool_)
-        .storage("FaceLightTable", faceLight_)
         .storage("FluxTable", fluxes_)
         .texture("faceFluxes", fluxTexels_);
     const bool shared = updates() <= IRRADIANCE_SHARED_UPDATES;
     const Commit kind = !atPixels ? Commit::ForRays : (shared ? Commit::SharedForPixels : Commit::ForPixels);
-    device.get(CommitKey{kind}.desc()).dispatchLinear(given, faceCount_);
+    const bool twice = kind == Commit::SharedForPixels;
+    if (twice)
+        gl::reserveTexels(sharedLight_, sharedLightTexels_, GL_RG32UI, std::size_t{8} * faceCount_,
+                          "shared light of faces");
+    gl::Inputs commits = given;
+    commits.storage("FaceLightTable", twice ? sharedLight_ : faceLight_);
+    device.get(CommitKey{kind}.desc()).dispatchLinear(commits, faceCount_);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+    if (twice) {
+        commits = given;
+        commits.storage("FaceLightTable", faceLight_).texture("sharedLight", sharedLightTexels_);
+        device.get(pass("share")).dispatchLinear(commits, faceCount_);
+        gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+    }
     if (restarts_) device.get(pass("restart")).dispatchLinear(given, faceCount_);
     device.get(sums(0)).dispatchLinear(given, block.chunkCount);
     gl::barrier(gl::Access::ShaderStorage);
@@ -291,6 +306,7 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
         unfinished_ = false;
         firstFace_ = order_.visited() > 0 ? (firstFace_ + count) % order_.visited() : 0;
         facesVisited_ += count;
+        visits_ += count;
         ++updatesMade_;
         commit(device, inputs, settings, i + 1 == passes);
         // Faces inside closed objects are known: no more rays from them.
@@ -316,7 +332,8 @@ void IrradianceCache::declare(gl::Inputs& inputs) const {
 }
 
 std::vector<gl::ProgramDesc> IrradianceCache::programDescs() {
-    std::vector<gl::ProgramDesc> descs{sums(0), sums(1), pass("pool"), pass("restart"), pass("reproject")};
+    std::vector<gl::ProgramDesc> descs{sums(0),         sums(1),           pass("pool"),
+                                       pass("restart"), pass("reproject"), pass("share")};
     for (const CommitKey& key : CommitKey::all()) descs.push_back(key.desc());
     for (const UpdateKey& key : UpdateKey::all()) descs.push_back(key.desc());
     const std::vector<gl::ProgramDesc> order = FaceOrder::programDescs();

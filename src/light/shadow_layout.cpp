@@ -15,9 +15,6 @@ namespace {
 // same relative precision for any value, so it is only bounded by what must not vanish.
 constexpr float kNearFraction = 1e-5f;
 
-// Texels that a map keeps beyond the frustum it covers, which may lie on another side of a cube: the filter's
-// reach, and two for rounding.
-int guardTexels(int filterRadius) { return filterRadius + 2; }
 constexpr int kRectGuard = 2;  // lib/shadow.glsl: filter radius 0 and the move, each one texel
 
 struct Axes {
@@ -83,7 +80,7 @@ class Layouter {
         : bounds_(bounds),
           aim_(first.empty() ? bounds.center() : first.center()),
           size_(size),
-          guard_(std::min(guardTexels(settings.shadowFilter), size_ / 8)),
+          guard_(guardTexels(settings.shadowFilter, size_)),
           near_(std::max(kNearFraction * glm::length(first.extent()), 1e-12f)) {}
 
     void add(std::vector<gpu::Light>& lights) {
@@ -114,7 +111,10 @@ class Layouter {
                 addDirectional(light);
                 break;
             default:
-                addRect(light);
+                if ((light.flags & LIGHT_SPHERE) != 0)
+                    addSphere(light);
+                else
+                    addRect(light);
                 break;
         }
     }
@@ -157,39 +157,14 @@ class Layouter {
         views_.push_back(view);
     }
 
-    // Fits the map to the scene's bounds. Texel size and centre move in steps, so that shadows do not crawl
-    // when the bounds change: sizes by powers of 2^(1/8), the centre by whole texels.
+    // Fits the map to the scene's bounds.
     void addDirectional(gpu::Light& light) {
         light.shadow = take(1, 1);
-        float half = 0, nearest = 1e30f, farthest = -1e30f;
-        const Aabb box = bounds_.empty() ? Aabb{glm::vec3(0), glm::vec3(0)} : bounds_;
-        const glm::vec3 centre = box.center();
-        for (const glm::vec3& p : box.corners()) {
-            half = std::max({half, std::abs(glm::dot(p - centre, light.halfU)),
-                             std::abs(glm::dot(p - centre, light.halfV))});
-            nearest = std::min(nearest, glm::dot(p - centre, light.direction));
-            farthest = std::max(farthest, glm::dot(p - centre, light.direction));
-        }
-        half = std::exp2(std::ceil(8.0f * std::log2(std::max(half, 1e-6f))) / 8.0f);
-        // One more texel for the snapped centre.
-        light.shadowTexel = 2.0f * half / static_cast<float>(size_ - 2 * guard_ - 2);
-        const auto snapped = [&](const glm::vec3& axis) {
-            return std::floor(glm::dot(centre, axis) / light.shadowTexel) * light.shadowTexel;
-        };
-        // One percent more on either side, for what rounding puts out of the bounds.
-        const float range = std::max(farthest - nearest, 1e-6f) * 1.02f;
-        light.position = light.halfU * snapped(light.halfU) + light.halfV * snapped(light.halfV) +
-                         light.direction * (glm::dot(centre, light.direction) + nearest - range * 0.01f);
-        light.shadowNear = 1.0f / range;
-
-        const float scale = 2.0f / (light.shadowTexel * static_cast<float>(size_));
-        ShadowView view{};
-        view.clipFromWorld =
-            rows(light.position, {glm::vec4(light.halfU * scale, 0), glm::vec4(light.halfV * scale, 0),
-                                  glm::vec4(-light.direction * light.shadowNear, 1), glm::vec4(0, 0, 0, 1)});
-        view.slopeUnit = {light.shadowNear * light.shadowTexel, 0};
-        view.surfaces = true;
-        view.width = view.height = size_;
+        const ParallelMap map = parallelMapOfAll(light, bounds_, size_, guard_);
+        light.position = map.position;
+        light.shadowNear = map.shadowNear;
+        light.shadowTexel = map.texel;
+        ShadowView view = parallelView(light, map, size_);
         place(view, light.shadow, 1, size_);
         views_.push_back(view);
     }
@@ -235,6 +210,23 @@ class Layouter {
         }
     }
 
+    // All sides of a cube about each sample point, with texels as of the front maps of a rectangle.
+    void addSphere(gpu::Light& light) {
+        const int tile = size_ / 4;
+        const int samples = static_cast<int>(light.sampleGrid * light.sampleGrid);
+        light.shadow = take(4, 6 * samples);
+        light.shadowTexel = 1.0f / static_cast<float>(tile / 2 - 2 * kRectGuard);
+        for (int i = 0; i < 6 * samples; ++i) {
+            const Axes axes = cubeSide(i % 6, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+            ShadowView view =
+                perspectiveView(rectSamplePoint(light, i / 6), axes, light.shadowNear,
+                                {light.shadowTexel, tile, tile, 0.5f * static_cast<float>(tile)});
+            view.surfaces = false;
+            place(view, light.shadow + i, 4, size_);
+            views_.push_back(view);
+        }
+    }
+
     static glm::vec2 tangentOf(const glm::vec3& d, const Axes& axes) {
         return glm::vec2(glm::dot(d, axes.u), glm::dot(d, axes.v)) / glm::dot(d, axes.forward);
     }
@@ -259,15 +251,30 @@ class Layouter {
         return std::min(std::exp2(std::ceil(8.0f * std::log2(1.01f * reach)) / 8.0f), 1.0f);
     }
 
-    // C++ twin of lib/shadow.glsl's.
+    // C++ twins of lib/shadow.glsl's and lib/rect_points.glsl's.
     static glm::vec3 rectSamplePoint(const gpu::Light& light, int k) {
         const auto column = static_cast<std::uint32_t>(k);
         const std::uint32_t grid = light.sampleGrid, count = grid * grid;
+        const float lift = 1e-3f * std::min(glm::length(light.halfU), glm::length(light.halfV));
+        if ((light.flags & (LIGHT_DISK | LIGHT_SPHERE)) != 0) {
+            const glm::vec3 at = roundPointPlace(column, count);
+            const bool sphere = (light.flags & LIGHT_SPHERE) != 0;
+            return light.position + at.x * light.halfU + at.y * light.halfV +
+                   (sphere ? at.z * glm::length(light.halfU) : lift) * light.direction;
+        }
         const std::uint32_t row =
             count == RECT_POINT_COUNT ? RECT_POINT_ROW(column) : column % grid * grid + column / grid;
         const glm::vec2 uv = (glm::vec2(column, row) + 0.5f) * (2.0f / static_cast<float>(count)) - 1.0f;
-        const float lift = 1e-3f * std::min(glm::length(light.halfU), glm::length(light.halfV));
         return light.position + uv.x * light.halfU + uv.y * light.halfV + lift * light.direction;
+    }
+    static glm::vec3 roundPointPlace(std::uint32_t k, std::uint32_t count) {
+        if (count == ROUND_POINT_COUNT) return glm::unpackSnorm4x8(gpu::kRoundPoints[k]);
+        glm::vec3 t =
+            glm::fract((static_cast<float>(k) + 0.5f) * glm::vec3(0.8191725f, 0.6710436f, 0.5497005f));
+        t.y *= 6.2831853f;
+        t.z *= 6.2831853f;
+        const float r = std::sqrt(1 - t.x);
+        return {r * std::cos(t.y), r * std::sin(t.y), std::sqrt(t.x) * std::cos(t.z)};
     }
 
     Aabb bounds_;
@@ -288,6 +295,52 @@ int sizeWithin(std::size_t bytes, const ShadowLayout& layout) {
 }
 
 }  // namespace
+
+// The filter's reach, and two for rounding.
+int guardTexels(int filterRadius, int size) { return std::min(filterRadius + 2, size / 8); }
+
+float halfOfAll(const gpu::Light& light, const Aabb& bounds) {
+    float half = 0;
+    const glm::vec3 centre = bounds.center();
+    for (const glm::vec3& p : bounds.corners())
+        half = std::max(
+            {half, std::abs(glm::dot(p - centre, light.halfU)), std::abs(glm::dot(p - centre, light.halfV))});
+    return std::exp2(std::ceil(8.0f * std::log2(std::max(half, 1e-6f))) / 8.0f);
+}
+
+// Texel size and centre move in steps, so that shadows do not crawl when the bounds change: the centre by whole texels.
+ParallelMap parallelMapOfAll(const gpu::Light& light, const Aabb& bounds, int size, int guard) {
+    const Aabb box = bounds.empty() ? Aabb{glm::vec3(0), glm::vec3(0)} : bounds;
+    const glm::vec3 centre = box.center();
+    float nearest = 1e30f, farthest = -1e30f;
+    for (const glm::vec3& p : box.corners()) {
+        nearest = std::min(nearest, glm::dot(p - centre, light.direction));
+        farthest = std::max(farthest, glm::dot(p - centre, light.direction));
+    }
+    // One more texel for the snapped centre.
+    const float texel = 2.0f * halfOfAll(light, box) / static_cast<float>(size - 2 * guard - 2);
+    const auto snapped = [&](const glm::vec3& axis) {
+        return std::floor(glm::dot(centre, axis) / texel) * texel;
+    };
+    // One percent more on either side, for what rounding puts out of the bounds.
+    const float range = std::max(farthest - nearest, 1e-6f) * 1.02f;
+    const glm::vec3 position =
+        light.halfU * snapped(light.halfU) + light.halfV * snapped(light.halfV) +
+        light.direction * (glm::dot(centre, light.direction) + nearest - range * 0.01f);
+    return {position, 1.0f / range, texel};
+}
+
+ShadowView parallelView(const gpu::Light& light, const ParallelMap& map, int size) {
+    const float scale = 2.0f / (map.texel * static_cast<float>(size));
+    ShadowView view{};
+    view.clipFromWorld =
+        rows(map.position, {glm::vec4(light.halfU * scale, 0), glm::vec4(light.halfV * scale, 0),
+                            glm::vec4(-light.direction * map.shadowNear, 1), glm::vec4(0, 0, 0, 1)});
+    view.slopeUnit = {map.shadowNear * map.texel, 0};
+    view.surfaces = true;
+    view.width = view.height = size;
+    return view;
+}
 
 std::size_t ShadowLayout::bytes(int edge) const {
     constexpr std::size_t kDepthBytes = 4, kSurfaceBytes = 8;  // of a texel: light/shadow_maps.cpp

@@ -16,7 +16,8 @@ struct ShadowView {
     glm::mat4 clipFromWorld;
     glm::vec2 slopeUnit;  // depth per texel of a slope of 1: x + y * depth
     int layer, x, y, width, height;
-    bool surfaces;  // whether slopes and outlines are drawn
+    bool surfaces;         // whether slopes and outlines are drawn
+    bool clamped = false;  // what lies before the near side casts its shadow as if it were there
 
     bool samePlace(const ShadowView& other) const {
         return layer == other.layer && x == other.x && y == other.y && width == other.width &&
@@ -41,5 +42,19 @@ struct ShadowLayout {
 // LightSettings::shadowSize, or smaller where that would take more than kMostShadowBytes.
 ShadowLayout layOutShadows(const Aabb& bounds, const Aabb& firstBounds, const LightSettings& settings,
                            std::vector<gpu::Light>& lights);
+
+// A directional light's map: the middle of its near side, the inverse of how deep it is, the edge of a texel in m.
+struct ParallelMap {
+    glm::vec3 position;
+    float shadowNear, texel;
+};
+
+// Half the edge of a map that holds all of `bounds`, in steps of 2^(1/8).
+float halfOfAll(const gpu::Light& light, const Aabb& bounds);
+// Holds all of `bounds` in size x size texels, besides `guard` at each edge.
+ParallelMap parallelMapOfAll(const gpu::Light& light, const Aabb& bounds, int size, int guard);
+ShadowView parallelView(const gpu::Light& light, const ParallelMap& map, int size);
+// Texels that a map of `size` keeps beyond what it is to hold, for a filter of that radius.
+int guardTexels(int filterRadius, int size);
 
 }  // namespace conelight::light

@@ -98,6 +98,14 @@ struct ShadowMaps::Impl {
 
 namespace {
 
+// What it is seen by whether something casts shadows into a map: clamped ones have no near side.
+glm::mat4 castersOf(const ShadowView& view) {
+    glm::mat4 seen = view.clipFromWorld;
+    if (view.clamped)
+        for (int column = 0; column < 4; ++column) seen[column].z = 0;
+    return seen;
+}
+
 Aabb casterBox(const scene::GpuScene& scene, std::size_t instance) {
     return (scene.instances()[instance].flags & INSTANCE_CASTS_SHADOW) != 0 ? scene.instanceBounds(instance)
                                                                             : Aabb{};
@@ -140,6 +148,7 @@ void ShadowMaps::Impl::draw(const gl::Device& device, const scene::GpuScene& sce
     state.framebuffer = &layers[static_cast<std::size_t>(view.layer)];
     state.cull = gl::Cull::None;
     state.reversedDepth = true;
+    state.depthClamp = view.clamped;
     state.viewport[0] = view.x;
     state.viewport[1] = view.y;
     state.viewport[2] = view.width;
@@ -152,12 +161,13 @@ void ShadowMaps::Impl::draw(const gl::Device& device, const scene::GpuScene& sce
     inputs.uniform("ShadowMapBlock", viewBlock).add(scene);
     scene::GpuScene::declareMaterialTextures(inputs);
 
+    const glm::mat4 casters = castersOf(view);
     const std::vector<gpu::Instance>& instances = scene.instances();
     std::vector<char> drawn(instances.size());
     bool anyOf[2] = {false, false};
     for (std::size_t i = 0; i < instances.size(); ++i) {
         if ((instances[i].flags & INSTANCE_CASTS_SHADOW) == 0) continue;
-        if (scene::isOutside(view.clipFromWorld, scene.instanceBounds(i))) continue;
+        if (scene::isOutside(casters, scene.instanceBounds(i))) continue;
         const bool masked = isMasked(scene.materials()[instances[i].material]);
         drawn[i] = masked ? 2 : 1;
         anyOf[masked ? 1 : 0] = true;
@@ -172,7 +182,7 @@ void ShadowMaps::Impl::draw(const gl::Device& device, const scene::GpuScene& sce
         // Of a mesh in the middle of the scene each side of a cube sees a part only.
         scene.draw({.filter = accepted,
                     .textured = masked ? &program : nullptr,
-                    .part = scene::partsWithin(view.clipFromWorld)});
+                    .part = scene::partsWithin(casters)});
     }
 }
 
@@ -190,11 +200,15 @@ void ShadowMaps::update(const gl::Device& device, const scene::GpuScene& scene, 
                         std::vector<gpu::Light>& lights) {
     const gl::PassScope pass(device.profiler, "shadow maps");
     const ShadowLayout layout = layOutShadows(scene.bounds(), scene.firstBounds(), settings, lights);
-    impl_->redrawn = 0;
     const int asked = settings.shadowSize / 8 * 8;
     if (layout.layers > 0 && layout.size < asked && layout.size != impl_->maps.width())
         base::log(LogLevel::Info, "shadow maps of " + std::to_string(layout.size) + " texels, not " +
                                       std::to_string(asked) + ": many lights share their memory");
+    draw(device, scene, layout);
+}
+
+void ShadowMaps::draw(const gl::Device& device, const scene::GpuScene& scene, const ShadowLayout& layout) {
+    impl_->redrawn = 0;
     if (layout.layers == 0) {
         impl_->allocate(8, 1, 0);
         return;
@@ -209,7 +223,7 @@ void ShadowMaps::update(const gl::Device& device, const scene::GpuScene& scene, 
         if (!whole) {
             const bool touched = view.clipFromWorld != impl_->drawnViews[i].clipFromWorld ||
                                  std::any_of(changed.begin(), changed.end(), [&](const Aabb& box) {
-                                     return !scene::isOutside(view.clipFromWorld, box);
+                                     return !scene::isOutside(castersOf(view), box);
                                  });
             if (!touched) continue;
             impl_->clear(view);
@@ -231,6 +245,17 @@ void ShadowMaps::declare(gl::Inputs& inputs) const {
     inputs.texture("shadowMaps", impl_->maps)
         .texture("shadowDepths", impl_->maps, &impl_->plainSampler)
         .texture("shadowSurfaces", impl_->surfaces);
+}
+
+void ShadowMaps::declareAs(gl::Inputs& inputs, gl::ResourceName depths, gl::ResourceName surfaces) const {
+    inputs.texture(depths, impl_->maps, &impl_->plainSampler).texture(surfaces, impl_->surfaces);
+}
+
+std::size_t ShadowMaps::bytes() const {
+    ShadowLayout layout;
+    layout.layers = impl_->maps.depth();
+    layout.surfaceLayers = impl_->surfaces.width() > 1 ? impl_->surfaces.depth() : 0;
+    return layout.bytes(impl_->maps.width());
 }
 
 std::vector<gl::ProgramDesc> ShadowMaps::programDescs() {

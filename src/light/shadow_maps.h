@@ -14,6 +14,7 @@
 
 #include "conelight/settings.h"
 #include "gl/device.h"
+#include "light/shadow_layout.h"
 #include "scene/gpu_scene.h"
 
 namespace conelight::light {
@@ -30,9 +31,13 @@ class ShadowMaps {
     // state changed: raster state, program and its slots, vertex array, texture units of materials.
     void update(const gl::Device& device, const scene::GpuScene& scene, const LightSettings& settings,
                 std::vector<gpu::Light>& lights);
+    // The same for maps that lie as `layout` says.
+    void draw(const gl::Device& device, const scene::GpuScene& scene, const ShadowLayout& layout);
     int redrawn() const;  // maps that the last update drew
     // shadowMaps, shadowDepths, shadowSurfaces; before the first update maps without shadows.
     void declare(gl::Inputs& inputs) const;
+    void declareAs(gl::Inputs& inputs, gl::ResourceName depths, gl::ResourceName surfaces) const;
+    std::size_t bytes() const;
 
     static std::vector<gl::ProgramDesc> programDescs();
 

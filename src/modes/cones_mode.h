@@ -20,6 +20,7 @@ class ConesMode : public ModeRenderer {
     void drawGlass(const Frame& frame) override;
     // Every component that this mode draws has lit voxels or direct light in it.
     bool needsShadows(const Scene&, const Settings&) const override { return true; }
+    bool readsCascades() const override { return true; }
     bool castsCaustics() const override { return true; }
 
     static std::vector<gl::ProgramDesc> programDescs();

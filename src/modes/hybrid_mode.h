@@ -20,6 +20,7 @@ class HybridMode : public ModeRenderer {
     void draw(const Frame& frame) override;
     // As in mode `cones`.
     bool needsShadows(const Scene&, const Settings&) const override { return true; }
+    bool readsCascades() const override { return true; }
 
     static std::vector<gl::ProgramDesc> programDescs();
 

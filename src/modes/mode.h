@@ -36,6 +36,12 @@ struct Frame {
     // Not null: the picture stays as it is, and what it shows of the recorder's pixel, or would show in
     // component full, is gathered once more for the record.
     gather::StepRecorder* recorder = nullptr;
+
+    // The same, with another device.
+    Frame on(const gl::Device& other) const {
+        return {other,          scene,       lights,        surfaces, settings, output,
+                lookupCounters, voxelsAmong, besideCenters, part,     parts,    recorder};
+    }
 };
 
 class ModeRenderer {
@@ -61,6 +67,8 @@ class ModeRenderer {
     virtual bool settled() const { return true; }
     // Whether pictures of a scene need shadow maps.
     virtual bool needsShadows(const Scene& scene, const Settings& settings) const = 0;
+    // Whether it lights pixels by shadow maps about the eye, where surfaces have them.
+    virtual bool readsCascades() const { return false; }
     // Whether the mode has caustics cast.
     virtual bool castsCaustics() const { return false; }
     // Whether flat emitters become lights where light.emissive_quads is on.

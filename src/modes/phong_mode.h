@@ -11,6 +11,7 @@ class PhongMode : public ModeRenderer {
   public:
     void draw(const Frame& frame) override;
     bool needsShadows(const Scene& scene, const Settings& settings) const override;
+    bool readsCascades() const override { return true; }
 };
 
 }  // namespace conelight::modes

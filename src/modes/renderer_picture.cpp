@@ -123,6 +123,7 @@ base::Steps Renderer::Impl::renderWithin(WantedPicture asked) {
 void Renderer::Impl::forgetPicture() {
     mode.reset();
     lights = {};
+    cascades = {};
     surfaces = {};
     partSurfaces = {};
     image = {};
@@ -168,6 +169,8 @@ base::Steps Renderer::Impl::drawPicture(const WantedPicture& asked) {
     if (!debugView || settings.view.voxels) prepare(settings);
     co_await gl::rest(device);
     const int count = viewsOfStill(settings, asked.camera);
+    prepareCascades(asked.camera, settings);
+    co_await gl::rest(device);
     seeCenters(asked);
     co_await gl::rest(device);
     const gl::Texture& output = target().texture();
@@ -194,7 +197,8 @@ void Renderer::Impl::seeCenters(const WantedPicture& asked) {
                   .cullBackFaces = true,
                   .part = still ? view::centersOfStill() : view::PixelPart{},
                   .withGlass = image::isDebugView(settings.component),
-                  .shrink = settings.view.shrink});
+                  .shrink = settings.view.shrink,
+                  .cascades = &cascades});
 }
 
 // By the mode, and the surroundings behind.
@@ -219,7 +223,8 @@ void Renderer::Impl::seePart(const Camera& camera, const Settings& settings, con
                       .height = target().height(),
                       .cullBackFaces = true,
                       .part = part,
-                      .shrink = settings.view.shrink});
+                      .shrink = settings.view.shrink,
+                      .cascades = &cascades});
 }
 
 // Views through points beside the pixels' centres; their mean takes the place of the centres' picture.
@@ -285,6 +290,17 @@ void Renderer::Impl::prepare(const Settings& settings) {
     lights.update(device, *scene,
                   {settings.light, settings.light.emissiveQuads && mode->lightsFromEmitters(settings),
                    shadows, mode->castsCaustics()});
+}
+
+// Where pixels are lit straight by lights.
+void Renderer::Impl::prepareCascades(const Camera& camera, const Settings& settings) {
+    const bool direct = settings.component == Component::Full || settings.component == Component::Direct;
+    if (direct && mode->readsCascades() && mode->needsShadows(scene->source(), settings))
+        // Parallel rays see as finely far from the eye: what they look at is in the middle.
+        cascades.update(device, *scene, lights, settings.light,
+                        camera.isOrthographic() ? camera.target : camera.eye);
+    else if (cascades.levels() > 0)
+        cascades.clear();
 }
 
 modes::Frame Renderer::Impl::frame(const Settings& settings) {

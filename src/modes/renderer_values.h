@@ -20,13 +20,16 @@
 #include "light/lights.h"
 #include "modes/memory_fit.h"
 #include "modes/mode.h"
+#include "modes/owner_guard.h"
 #include "scene/held_scene.h"
 #include "shared/lookups.h"
+#include "view/shadow_cascades.h"
 #include "view/surfaces.h"
 
 namespace conelight {
 
 struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in a public class
+    std::uint32_t owner = 0;
     gl::ProgramLibrary programs;
     gl::Profiler profiler;
     gl::Device device;
@@ -38,6 +41,7 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
     // The values of a picture, in the order in which they are made.
     scene::HeldScene scene;
     light::Lights lights;
+    view::ShadowCascades cascades;
     view::Surfaces surfaces;      // at the pixels' centres
     view::Surfaces partSurfaces;  // beside them, of the view that is drawn for an anti-aliased picture
     std::unique_ptr<modes::ModeRenderer> mode;  // holds those between surfaces and image
@@ -75,9 +79,9 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
         : programs(gl::providerFor(profile, std::move(provider))), device{programs, profiler, profile} {}
 
     // The scene, to change it: a picture of it as it was is dropped.
-    scene::HeldScene& changed() {
+    modes::OwnerScene changed() {
         drop();
-        return scene;
+        return {owner, scene};
     }
     image::LinearImage& target() { return inParts ? nextImage : image; }
     void require(const WantedPicture& asked);
@@ -87,6 +91,7 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
     void forgetPicture();
     base::Steps render(WantedPicture asked);
     void prepare(const Settings& settings);
+    void prepareCascades(const Camera& camera, const Settings& settings);
     modes::Frame frame(const Settings& settings);
     base::Steps drawLight(const modes::Frame& frame);
     base::Steps drawPicture(const WantedPicture& asked);

@@ -22,8 +22,20 @@ gather::PictureParts partsOf(const Settings& settings) {
 
 }  // namespace
 
+// Programs for nested grids where there are any.
+gl::Device TracedMode::deviceFor(const Frame& given) {
+    gl::Device device = given.device;
+    const VoxelSettings& settings = given.settings.voxels;
+    if (settings.levels > 1 && !given.besideCenters)
+        grid_ = voxels::SurfaceVoxels::gridAround(given.scene, settings, given.surfaces.view().eye);
+    device.nestedGrids = settings.levels > 1 && grid_.levels > 1;
+    return device;
+}
+
 // [recipe]
-base::Steps TracedMode::drawInSteps(const Frame& frame) {
+base::Steps TracedMode::drawInSteps(const Frame& given) {
+    const gl::Device device = deviceFor(given);
+    const Frame frame = given.on(device);
     const Component component = frame.settings.component;
     const TracedSettings& settings = frame.settings.traced;
     const gather::PictureParts parts = partsOf(frame.settings);
@@ -35,7 +47,10 @@ base::Steps TracedMode::drawInSteps(const Frame& frame) {
     const bool exactShadows = parts.direct && component != Component::Voxels && settings.exactShadows &&
                               gather::PixelVisibility::serves(frame.scene, frame.lights);
     if ((usesLight || exactShadows || frame.lights.castsCaustics()) && !frame.besideCenters) {
-        voxels_.update(frame.device, frame.scene, frame.settings.voxels, voxels::Rays::Yes);
+        if (device.nestedGrids)
+            voxels_.updateIn(grid_, device, frame.scene, frame.settings.voxels, voxels::Rays::Yes);
+        else
+            voxels_.update(device, frame.scene, frame.settings.voxels, voxels::Rays::Yes);
         frame.lights.castCaustics(frame.device, frame.scene, voxels_);
         co_await gl::rest(frame.device);
     }
@@ -97,7 +112,9 @@ void TracedMode::drawGlass(const Frame& frame) {
     wanted.passes = std::max(wanted.passes, 1);
     wanted.firstPass = frame.part * wanted.passes;
     if (!settings.bounces) wanted.reflections = kGlassReflections;
-    glass_.drawByRays(frame.device, {frame.scene, frame.lights, voxels_, lit_, frame.surfaces}, wanted,
+    gl::Device device = frame.device;
+    device.nestedGrids = voxels_.grid().levels > 1;
+    glass_.drawByRays(device, {frame.scene, frame.lights, voxels_, lit_, frame.surfaces}, wanted,
                       frame.output);
 }
 
@@ -118,6 +135,11 @@ std::vector<gl::ProgramDesc> TracedMode::programDescs() {
                              gather::PixelVisibility::programDescs(), gather::TracedShade::programDescs(),
                              gather::Glass::programDescs(), image::VoxelView::programDescs()})
         descs.insert(descs.end(), more.begin(), more.end());
+    // All of it for nested grids, too.
+    std::vector<gl::ProgramDesc> nested = voxels::SurfaceVoxels::programDescs();
+    for (const auto& more : {voxels::OctantWords::programDescs(), descs})
+        nested.insert(nested.end(), more.begin(), more.end());
+    for (gl::ProgramDesc& desc : nested) descs.push_back(gl::Device::forNestedGrids(std::move(desc)));
     return descs;
 }
 

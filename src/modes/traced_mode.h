@@ -25,14 +25,17 @@ class TracedMode : public ModeRenderer {
     bool settled() const override { return lit_.steady(); }
     // Every component has lit voxels or direct light in it, or leaves them behind for the next.
     bool needsShadows(const Scene&, const Settings&) const override { return true; }
+    bool readsCascades() const override { return true; }
     bool castsCaustics() const override { return true; }
 
     static std::vector<gl::ProgramDesc> programDescs();
 
   private:
+    gl::Device deviceFor(const Frame& given);
     base::Steps relight(const Frame& frame);
     void record(const Frame& frame, const gather::RayInputs& inputs);
 
+    voxels::VoxelGrid grid_;  // of the last picture, with several levels
     voxels::Voxels voxels_;
     light::LitVoxels lit_;
     light::RelightBudget budget_;

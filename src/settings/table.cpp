@@ -85,6 +85,10 @@ std::vector<Setting<VoxelSettings>> voxelSettings() {
         {"shift_x", within(&VoxelSettings::shift, &glm::vec3::x), Numbers{0, 1}, "voxels", kShiftHelp},
         {"shift_y", within(&VoxelSettings::shift, &glm::vec3::y), Numbers{0, 1}, "voxels", kShiftHelp},
         {"shift_z", within(&VoxelSettings::shift, &glm::vec3::z), Numbers{0, 1}, "voxels", kShiftHelp},
+        {"levels", &VoxelSettings::levels, Numbers{1, 8}, "",
+         "nested grids in mode traced: each halves the voxels around the eye, at most 1024 / voxels.size of "
+         "them; "
+         "1: one grid"},
     };
 }
 
@@ -95,7 +99,7 @@ std::vector<Setting<LightSettings>> lightSettings() {
         {"shadow_filter", &LightSettings::shadowFilter, Numbers{0, 4}, "texels",
          "blur of shadow edges to either side; 0: as sharp as the map"},
         {"area_samples", &LightSettings::areaSamples, Numbers{1, 64, 1, false, true}, "",
-         "points per rectangular light, a square number"},
+         "points per area light, a square number"},
         {"emissive_quads", &LightSettings::emissiveQuads,
          "treat flat rectangular emitters as area lights, exactly"},
         {"caustics", &LightSettings::caustics, Numbers{1024, 1048576, 1, true, false}, "",

@@ -29,6 +29,7 @@ void Surfaces::see(const gl::Device& device, const scene::GpuScene& scene, const
     resize(picture.width, picture.height);
     view_ = frameConstants(picture.camera, picture.width, picture.height, picture.part);
     block_.update(view_);
+    cascades_ = picture.cascades;
     gbuffer_->draw(device, scene, block_,
                    {picture.cullBackFaces, picture.withGlass, view_.clipFromWorld, picture.shrink});
     gl::barrier(gl::Access::TextureFetch | gl::Access::ShaderStorage);
@@ -36,6 +37,7 @@ void Surfaces::see(const gl::Device& device, const scene::GpuScene& scene, const
 
 void Surfaces::declare(gl::Inputs& inputs) const {
     inputs.uniform("FrameBlock", block_).add(*gbuffer_);
+    if (haveCascades()) inputs.add(*cascades_);
     if (haveMotion()) inputs.foreignTexture("hostMotion", motion_, import_->sampler());
 }
 

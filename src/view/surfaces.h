@@ -11,6 +11,7 @@
 #include "view/camera.h"
 #include "view/gbuffer.h"
 #include "view/host_surfaces.h"
+#include "view/shadow_cascades.h"
 
 namespace conelight::view {
 
@@ -25,8 +26,9 @@ class Surfaces {
         int width, height;
         bool cullBackFaces;
         PixelPart part = {};
-        bool withGlass = false;  // else what is behind it
-        float shrink = 0;        // ViewSettings::shrink
+        bool withGlass = false;                    // else what is behind it
+        float shrink = 0;                          // ViewSettings::shrink
+        const ShadowCascades* cascades = nullptr;  // about the camera, as long as the surfaces; none: null
     };
     void see(const gl::Device& device, const scene::GpuScene& scene, const Picture& picture);
     // What a host has drawn, usable (requireUsable), one of reduction x reduction pixels. GL state changed: as
@@ -43,7 +45,10 @@ class Surfaces {
     const glm::vec2& motionScale() const { return motionScale_; }
     int reduction() const { return reduction_; }
 
-    // FrameBlock, gbufferGeometry, gbufferMaterial; hostMotion, if there is any.
+    // Whether pixels have shadow maps about the eye.
+    bool haveCascades() const { return cascades_ != nullptr && cascades_->levels() > 0; }
+
+    // FrameBlock, gbufferGeometry, gbufferMaterial; hostMotion and what cascades have, if there is any.
     void declare(gl::Inputs& inputs) const;
     int width() const { return gbuffer_->width(); }
     int height() const { return gbuffer_->height(); }
@@ -62,6 +67,7 @@ class Surfaces {
     gl::Name motion_ = 0;
     glm::vec2 motionScale_{1.0f};
     int reduction_ = 1;
+    const ShadowCascades* cascades_ = nullptr;
 
     void resize(int width, int height);
 };

@@ -13,7 +13,7 @@ gl::ProgramDesc reachDesc() { return {{"voxels/octant_reach.comp.glsl"}, {}}; }
 
 void OctantWords::build(const gl::Device& device, const SurfaceVoxels& surface) {
     const gl::PassScope pass(device.profiler, "octant words");
-    const glm::ivec3 bricks = surface.grid().bricks();
+    const glm::ivec3 bricks = surface.grid().storedBricks();
     if (!texture_ || texture_.width() != 8 * bricks.x || texture_.height() != bricks.y ||
         texture_.depth() != bricks.z) {
         texture_ = {};  // frees the old one first

@@ -11,7 +11,7 @@ void SurfaceVoxels::Impl::mark(const gl::Device& device, const scene::GpuScene& 
     gl::Inputs given = this->given();
     given.add(scene);
     device.get(SurfaceMarkKey{SurfaceMarkKey::Pass::Setup, false}.desc())
-        .dispatchLinear(given, scene.triangleCount());
+        .dispatchLinear(given, static_cast<std::size_t>(grid.levels) * scene.triangleCount());
     gl::barrier(gl::Access::ShaderStorage);
     device.get(SurfaceScanKey{SurfaceCounted::Tiles}.desc()).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect | gl::Access::TextureFetch);

@@ -15,8 +15,8 @@ namespace {
 constexpr float kBoxMargin = 0.1f;
 constexpr float kBoxRounding = 1e-6f;
 
-// Marks the bricks that a box meets; one that is not finite meets all.
-void addBricks(std::vector<bool>& marked, const VoxelGrid& grid, const Aabb& box) {
+// Marks the bricks of a level that a box meets, from the place of its first on; a box that is not finite meets all.
+void addBricks(std::vector<bool>& marked, const VoxelGrid& grid, std::size_t first, const Aabb& box) {
     if (box.empty()) return;
     const glm::ivec3 bricks = grid.bricks();
     glm::ivec3 low(0), high(bricks - 1);
@@ -33,7 +33,7 @@ void addBricks(std::vector<bool>& marked, const VoxelGrid& grid, const Aabb& box
     }
     for (int z = low.z; z <= high.z; ++z)
         for (int y = low.y; y <= high.y; ++y)
-            for (int x = low.x; x <= high.x; ++x) marked[brickIndex({x, y, z}, bricks)] = true;
+            for (int x = low.x; x <= high.x; ++x) marked[first + brickIndex({x, y, z}, bricks)] = true;
 }
 
 }  // namespace
@@ -67,7 +67,10 @@ Edits SurfaceVoxels::Impl::editsOf(const scene::GpuScene& scene) const {
         const auto index = static_cast<std::uint32_t>(i);
         edits.any = true;
         edits.stale[index / 32] |= 1u << (index % 32);
-        if (!added) addBricks(marked, grid, boxes[i]);
+        for (int level = 0; level < grid.levels && !added; ++level) {
+            const VoxelGrid one = grid.level(level);
+            addBricks(marked, one, static_cast<std::size_t>(level) * one.brickCount(), boxes[i]);
+        }
         if ((instance.flags & INSTANCE_VOXELIZED) == 0 || instance.indexCount < 3) continue;
         edits.runs.emplace_back(index, edits.triangles);
         edits.triangles += instance.indexCount / 3;
@@ -118,7 +121,7 @@ void SurfaceVoxels::Impl::markEdits(const gl::Device& device, const scene::GpuSc
     gl::Inputs given = this->given();
     given.add(scene);
     device.get(SurfaceMarkKey{SurfaceMarkKey::Pass::Setup, true}.desc())
-        .dispatchLinear(given, edits.triangles);
+        .dispatchLinear(given, static_cast<std::size_t>(grid.levels) * edits.triangles);
     gl::barrier(gl::Access::ShaderStorage);
     device.get(SurfaceScanKey{SurfaceCounted::Tiles}.desc()).dispatch(given, 1);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect | gl::Access::TextureFetch);
@@ -173,7 +176,7 @@ void SurfaceVoxels::update(const gl::Device& device, const scene::GpuScene& scen
     std::swap(m.keys, m.oldKeys);
     m.keys.revision = {};
     reserveRecords(m.keys, m.capacity.voxels);
-    clearBricks(m.keys, m.grid.bricks());
+    clearBricks(m.keys, m.grid.storedBricks());
     m.compact(device);
     m.carry(device);
     m.clip(device, scene, true);

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "base/assert.h"
+#include "voxels/nested_grid.h"
 #include "voxels/surface_work.h"
 
 namespace conelight::voxels {
@@ -16,6 +17,11 @@ SurfaceVoxels& SurfaceVoxels::operator=(SurfaceVoxels&&) noexcept = default;
 VoxelGrid SurfaceVoxels::gridOf(const scene::GpuScene& scene, const VoxelSettings& settings) {
     return grownGrid(fitGrid(scene.firstGridBounds(), settings.size, settings.padding, settings.shift),
                      scene.gridBounds());
+}
+
+VoxelGrid SurfaceVoxels::gridAround(const scene::GpuScene& scene, const VoxelSettings& settings,
+                                    const glm::vec3& eye) {
+    return nestedGrid(gridOf(scene, settings), scene.gridBounds(), settings.levels, eye);
 }
 
 void SurfaceVoxels::build(const gl::Device& device, const scene::GpuScene& scene,
@@ -73,6 +79,7 @@ void SurfaceVoxels::declare(gl::Inputs& inputs) const {
     CONELIGHT_ASSERT(m.keys.revision, "SurfaceVoxels::declare before build");
     m.keys.declare(inputs);
     inputs.uniform("VoxelGridBlock", m.gridBlock)
+        .uniform("VoxelLevelBlock", m.levelBlock)
         .texture("voxelFaces", m.now.faceTexels)
         .texture("voxelFaceMaterials", m.now.materialTexels)
         .storage("FaceTable", m.now.faces)

@@ -40,7 +40,8 @@ class SurfaceVoxels {
     SurfaceVoxels(SurfaceVoxels&&) noexcept;
     SurfaceVoxels& operator=(SurfaceVoxels&&) noexcept;
 
-    // Voxelizes `scene` anew into its grid (gridOf, or `grid`), cheap enough for every frame: from the second
+    // Voxelizes `scene` anew into its grid (gridOf, or `grid`; several levels take a device of nestedGrids, and one
+    // grid a device without), cheap enough for every frame: from the second
     // call on memory is kept and only grows. Waits for the GPU once, to read the counts. Leaves the results
     // visible to later shaders, as storage, textures and indirect arguments.
     void build(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings);
@@ -67,8 +68,11 @@ class SurfaceVoxels {
 
     // The grid fitted to the scene as it was handed over, grown by whole bricks to what has left it since.
     static VoxelGrid gridOf(const scene::GpuScene& scene, const VoxelSettings& settings);
+    // The same in settings.levels levels around an eye.
+    static VoxelGrid gridAround(const scene::GpuScene& scene, const VoxelSettings& settings,
+                                const glm::vec3& eye);
 
-    // What shaders may read: VoxelGridBlock, voxelBricks, voxelBrickImage, voxelRecords, voxelFaces,
+    // What shaders may read: VoxelGridBlock, VoxelLevelBlock, voxelBricks, voxelBrickImage, voxelRecords, voxelFaces,
     // voxelFaceMaterials; and as storage RecordTable, FaceTable, FaceMaterialTable, BrickTable (the occupied
     // bricks).
     void declare(gl::Inputs& inputs) const;

@@ -109,7 +109,7 @@ void SurfaceVoxels::Impl::reserve(const scene::GpuScene& scene) {
     const auto bricks = static_cast<std::uint32_t>(grid.brickCount());
     const glm::ivec3 s = grid.size;
     // A box-shaped room has this many wall voxels, and what stands in it about as many again.
-    const auto walls = static_cast<std::uint32_t>(2 * (s.x * s.y + s.y * s.z + s.z * s.x));
+    const auto walls = static_cast<std::uint32_t>(grid.levels * 2 * (s.x * s.y + s.y * s.z + s.z * s.x));
     Capacity wanted = capacity;
     wanted.gridBricks = std::max(wanted.gridBricks, bricks);
     wanted.triangles = std::max(wanted.triangles, scene.triangleCount());
@@ -127,6 +127,7 @@ void SurfaceVoxels::Impl::allocateFor(const Capacity& wanted) {
     if (!constants) {
         constants = gl::Buffer(sizeof(gpu::SurfaceConstants), "voxelizer constants");
         gridBlock = gl::Buffer(sizeof(gpu::VoxelGrid), "voxel grid");
+        levelBlock = gl::Buffer(sizeof(gpu::VoxelLevels), "voxel levels");
         counters = gl::Buffer(sizeof counts, "voxelizer counters");
     }
     const std::size_t chunkBytes =
@@ -236,10 +237,11 @@ void SurfaceVoxels::Impl::updateGridBlock() {
     block.faceCount = counts[SURFACE_FACES];
     block.occupiedBricks = counts[SURFACE_BRICKS];
     gridBlock.update(block);
+    levelBlock.update(grid.packedLevels());
 }
 
 void SurfaceVoxels::Impl::clearWorkSpace() {
-    clearBricks(keys, grid.bricks());
+    clearBricks(keys, grid.storedBricks());
     counters.clear();
     masks.clear();
     now.chains.clear();
@@ -255,7 +257,9 @@ gl::Inputs SurfaceVoxels::Impl::given() const {
     const auto texture = [&](gl::ResourceName name, const gl::Texture& source) {
         if (source) inputs.texture(name, source);
     };
-    inputs.uniform("SurfaceBlock", constants).uniform("VoxelGridBlock", gridBlock);
+    inputs.uniform("SurfaceBlock", constants)
+        .uniform("VoxelGridBlock", gridBlock)
+        .uniform("VoxelLevelBlock", levelBlock);
     storage("CounterTable", counters);
     storage("MaskTable", masks);
     storage("ChunkTable", chunks);

@@ -70,7 +70,7 @@ struct SurfaceVoxels::Impl {
 
     VoxelKeys keys, oldKeys;  // oldKeys: of the voxels before, empty until the second build or update
     Results now, before;      // before: empty until the first update
-    gl::Buffer brickList, gridBlock, changedBricks;
+    gl::Buffer brickList, gridBlock, levelBlock, changedBricks;
     // Work space
     gl::Buffer counters, constants, triangles, tiles, pairs, masks, fragments, chunks, owners, layered;
     gl::Texture triangleTexels, pairTexels, fragmentTexels, ownerTexels;

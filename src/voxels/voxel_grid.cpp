@@ -43,8 +43,16 @@ double placeLower(double length, double margin, double shift) {
 }  // namespace
 
 std::size_t VoxelGrid::brickCount() const {
-    const glm::ivec3 b = bricks();
+    const glm::ivec3 b = storedBricks();
     return static_cast<std::size_t>(b.x) * static_cast<std::size_t>(b.y) * static_cast<std::size_t>(b.z);
+}
+
+VoxelGrid VoxelGrid::level(int number) const {
+    VoxelGrid one;
+    one.origin = worldFromGrid(glm::vec3(corners[static_cast<std::size_t>(number)]));
+    one.voxelSize = std::ldexp(voxelSize, number);
+    one.size = size;
+    return one;
 }
 
 bool VoxelGrid::contains(const glm::ivec3& v) const {
@@ -63,6 +71,19 @@ gpu::VoxelGrid VoxelGrid::packed() const {
     g.bricksZ = g.sizeZ / 4;
     g.inverseVoxelSize = 1.0f / voxelSize;
     return g;
+}
+
+gpu::VoxelLevels VoxelGrid::packedLevels() const {
+    gpu::VoxelLevels l{};
+    l.count = static_cast<std::uint32_t>(levels);
+    l.sizeX = static_cast<std::uint32_t>(size.x);
+    l.sizeY = static_cast<std::uint32_t>(size.y);
+    l.sizeZ = static_cast<std::uint32_t>(size.z);
+    for (int i = 0; i < VOXEL_MOST_LEVELS; ++i) {
+        const int level = std::min(i, levels - 1);
+        l.levels[i] = glm::vec4(glm::vec3(corners[static_cast<std::size_t>(level)]), std::ldexp(1.0f, level));
+    }
+    return l;
 }
 
 VoxelGrid fitGrid(const Aabb& bounds, int size, float padding, const glm::vec3& shift) {

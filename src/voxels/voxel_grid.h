@@ -8,6 +8,7 @@
 // borders, see fitGrid.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
 
@@ -16,13 +17,22 @@
 
 namespace conelight::voxels {
 
+// One grid, or several that lie in one another (voxels/nested_grid.h): level 0 is the finest, each further one has
+// twice the edge and as many voxels. Grid coordinates are those of level 0, also beyond it.
 struct VoxelGrid {
     glm::vec3 origin{0.0f};  // world position of the lowest corner
     float voxelSize = 1.0f;  // edge of a voxel in m
     glm::ivec3 size{4};      // voxels per axis, multiples of 4
+    int levels = 1;
+    std::array<glm::ivec3, VOXEL_MOST_LEVELS> corners{};  // lowest one of each level, in voxels of level 0
 
     glm::ivec3 bricks() const { return size / 4; }
+    // Of all levels, which are stored one behind the other along z.
+    glm::ivec3 storedBricks() const { return {size.x / 4, size.y / 4, levels * (size.z / 4)}; }
     std::size_t brickCount() const;
+    // One level as a grid of its own.
+    VoxelGrid level(int number) const;
+    VoxelGrid coarsest() const { return level(levels - 1); }
     std::size_t voxelCapacity() const { return 64 * brickCount(); }
     // World position -> grid coordinates, in voxels; inverse.
     glm::vec3 gridFromWorld(const glm::vec3& world) const { return (world - origin) * (1.0f / voxelSize); }
@@ -32,6 +42,7 @@ struct VoxelGrid {
     bool contains(const glm::ivec3& voxel) const;
 
     gpu::VoxelGrid packed() const;  // counts zero
+    gpu::VoxelLevels packedLevels() const;
     bool operator==(const VoxelGrid&) const = default;
 };
 

@@ -15,13 +15,14 @@ void Voxels::update(const gl::Device& device, const scene::GpuScene& scene, cons
 }
 
 void Voxels::updateIn(const VoxelGrid& grid, const gl::Device& device, const scene::GpuScene& scene,
-                      const VoxelSettings& settings) {
+                      const VoxelSettings& settings, Rays rays) {
     const bool same = revision() && scene_ == scene.identity() && geometry_ == scene.geometryRevision() &&
                       this->grid() == grid;
     if (!same) surface_.update(device, scene, grid);
     scene_ = scene.identity();
     geometry_ = scene.geometryRevision();
     settings_ = settings;
+    makeOctants(device, rays);
 }
 
 void Voxels::build(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings,

@@ -19,9 +19,9 @@ class Voxels {
     // (SurfaceVoxels::update). Octant words are made with Rays::Yes only.
     void update(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings,
                 Rays rays);
-    // As update(), in the grid of another scene's voxels, and not for rays.
+    // As update(), in another grid: that of another scene's voxels, or nested ones (SurfaceVoxels::gridAround).
     void updateIn(const VoxelGrid& grid, const gl::Device& device, const scene::GpuScene& scene,
-                  const VoxelSettings& settings);
+                  const VoxelSettings& settings, Rays rays = Rays::No);
     // As update(), but all of it anew, also of a scene that has not changed.
     void build(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings,
                Rays rays);

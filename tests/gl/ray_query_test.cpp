@@ -11,10 +11,12 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
+#include "base/clock.h"
 #include "gl/pass.h"
 #include "io/generated_shapes.h"
 #include "io/scene_file.h"
 #include "math/octahedral.h"
+#include "reference/ray_scene.h"
 #include "scene/gpu_scene.h"
 #include "support/gl_fixture.h"
 #include "support/view_rig.h"
@@ -131,6 +133,8 @@ void main() {
         }
         return rays;
     }
+
+    std::vector<TestRay> cosineRays(int perFace) const;
 
     static glm::vec3 faceNormal(const gpu::FaceRecord& face);
     static float unpackedOffset(const gpu::FaceRecord& face);
@@ -260,6 +264,65 @@ TEST_F(RayQueryTest, OctantWordsSayWhatIsThereInLongGrids) {
         addInstance(scene, quadMesh({x, 0, 1}, {1, 0.3f, 0}, {0.2f, 0, -1}), white);
     addInstance(scene, quadMesh({20, 5, 1}, {0.1f, 0, 0}, {0, 0, -1}), white);
     expectOctantWords(scene, 160);
+}
+
+// --- How fast
+
+// Rays as an update of the cache sends them: all faces in order, `perFace` cosine-distributed directions, the same in
+// the frame of every face.
+std::vector<TestRay> RayQueryTest::cosineRays(int perFace) const {
+    std::vector<TestRay> rays;
+    for (int k = 0; k < perFace; ++k) {
+        const float z = 1 - 2 * (static_cast<float>(k) + 0.5f) / static_cast<float>(perFace);
+        const float turn = 2.4f * static_cast<float>(k), side = std::sqrt(1 - z * z);
+        for (const gpu::FaceRecord& face : tables_.faces) {
+            const glm::vec3 n = faceNormal(face);
+            const glm::vec3 u =
+                glm::normalize(glm::cross(n, std::abs(n.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0)));
+            const glm::vec3 ball = side * (std::cos(turn) * u + std::sin(turn) * glm::cross(n, u)) + z * n;
+            const glm::vec3 on =
+                glm::vec3(voxels::unpackVoxel(face.voxel)) + 0.5f + n * (unpackedOffset(face) + 0.05f);
+            rays.push_back({{on, 1e9f}, {glm::normalize(n + 0.999f * ball), 0}, {n, 0}});
+        }
+    }
+    return rays;
+}
+
+// Not a test: prints what such rays cost here and by Embree, in process CPU time.
+// docs/notes/2026-11-26-rays-of-embree.md.
+TEST_F(RayQueryTest, DISABLED_RaysPerSecond) {
+    for (const char* name :
+         {"cornell", "study", "library", "glossy", "atrium?triangles=20000", "atrium?triangles=300000"}) {
+        const Scene scene = io::loadScene(std::string("builtin:") + name);
+        voxelize(scene, 128);
+        const std::vector<TestRay> rays = cosineRays(4);
+        (void)traced({rays.begin(), rays.begin() + 64});
+        double voxels = 1e30, embree = 1e30;
+        std::size_t met = 0, metByEmbree = 0;
+        const reference::RayScene triangles(scene);
+        for (int repeat = 0; repeat < 3; ++repeat) {
+            double start = base::processCpuMs();
+            const std::vector<glm::vec4> found = traced(rays);
+            voxels = std::min(voxels, base::processCpuMs() - start);
+            met = 0;
+            for (std::size_t i = 0; i < rays.size(); ++i)
+                met += std::bit_cast<int>(found[3 * i].x) >= 0 ? 1 : 0;
+            start = base::processCpuMs();
+            metByEmbree = 0;
+            for (const TestRay& ray : rays) {
+                reference::RayHit hit;
+                const reference::Ray same{tables_.grid.worldFromGrid(ray.origin), ray.direction, 0, 3.4e38f};
+                metByEmbree += triangles.intersect(reference::RayKind::Bounce, same, hit) ? 1 : 0;
+            }
+            embree = std::min(embree, base::processCpuMs() - start);
+        }
+        const auto rate = [&](double ms) { return static_cast<double>(rays.size()) / ms * 1e-3; };
+        fmt::print(
+            "{:26} {:7} rays: voxels {:5.2f}, Embree {:5.2f} million rays a CPU second; met {:.3f}, {:.3f}\n",
+            name, rays.size(), rate(voxels), rate(embree),
+            static_cast<double>(met) / static_cast<double>(rays.size()),
+            static_cast<double>(metByEmbree) / static_cast<double>(rays.size()));
+    }
 }
 
 // --- How wide rays find things

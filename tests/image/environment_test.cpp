@@ -34,17 +34,62 @@ class EnvironmentTest : public TracedModeTest {
     }
 };
 
-// Rays, cones and pixels see the same as under a constant sky.
+// Rays, cones, bounces and pixels see the same as under a constant sky.
 TEST_F(EnvironmentTest, AnEvenPictureIsASky) {
-    for (const Mode mode : {Mode::Traced, Mode::Cones}) {
+    for (const Mode mode : {Mode::Traced, Mode::Cones, thesis::kMode}) {
         Scene scene = yard();
         scene.sky = {0.5f, 1, 2};
         Settings settings = tracedSettings(Quality::Interactive);
         settings.mode = mode;
+        settings.groups.of<thesis::ThesisSettings>().bounces = 2;
         const Image sky = draw(scene, settings);
         scene.environment = {"", evenEnvironment(64, scene.sky), 0.3f, 1};
         scene.sky = glm::vec3(0);
+        EXPECT_GT(meanOf(sky), 0.2) << mode.name();
         EXPECT_LT(relRmse(draw(scene, settings), sky), 0.02) << mode.name();
+    }
+}
+
+// Light from one side comes from that side, in every mode that has cones or rays, at surfaces that look there.
+TEST_F(EnvironmentTest, SurfacesSeeTheirSideOfIt) {
+    for (const Mode mode : {Mode::Traced, Mode::Cones, thesis::kMode}) {
+        double means[2];
+        for (const int side : {0, 1}) {
+            Scene scene;
+            addInstance(scene, quadMesh({-1, -1, 0}, {2, 0, 0}, {0, 2, 0}), diffuseMaterial());
+            auto picture = std::make_shared<EnvironmentImage>(*evenEnvironment(64, glm::vec3(0)));
+            // Ahead of the wall, or behind it.
+            for (int y = 0; y < 32; ++y)
+                for (int x = 0; x < 64; ++x)
+                    if ((x >= 16 && x < 48) == (side == 1))
+                        picture->radiance[static_cast<std::size_t>(64 * y + x)] = glm::vec3(1);
+            scene.environment = {"", picture, 0, 1};
+            Camera camera;
+            camera.eye = {0, 0, 2};
+            camera.target = {0, 0, 0};
+            camera.fovY = 0.5f;
+            scene.cameras.push_back(camera);
+            Settings settings = tracedSettings(Quality::Interactive, Component::Indirect);
+            settings.mode = mode;
+            means[side] = meanOf(draw(scene, settings));
+        }
+        EXPECT_NEAR(means[0], 1, mode == thesis::kMode ? 0.3 : 0.15) << mode.name();
+        EXPECT_LT(means[1], 0.15) << mode.name();
+    }
+}
+
+// White inside and out under an even map of 1: what is seen is 1 everywhere.
+TEST_F(EnvironmentTest, AFurnaceUnderAMapIsOne) {
+    Scene scene = yard(diffuseMaterial());
+    scene.instances[1].material = scene.instances[0].material;
+    scene.environment = {"", evenEnvironment(64, glm::vec3(1)), 0, 1};
+    EXPECT_NEAR(meanOf(truthOf(scene, 256).full), 1, 0.005);
+    for (const Mode mode : {Mode::Traced, Mode::Cones}) {
+        Settings settings = tracedSettings(Quality::High);
+        settings.mode = mode;
+        settings.voxels.size = 64;
+        settings.cones.bounces = 8;
+        EXPECT_NEAR(meanOf(draw(scene, settings)), 1, mode == Mode::Traced ? 0.02 : 0.1) << mode.name();
     }
 }
 

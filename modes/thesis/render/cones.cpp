@@ -81,16 +81,21 @@ int viewOf(Component component) {
     }
 }
 
-bool hasRectangles(const light::Lights& lights) { return lights.ends().w > lights.ends().z; }
-
 int coneKind(bool on, ConeVariant variant) { return !on ? 0 : variant == ConeVariant::Regular ? 1 : 2; }
 
 // What the kernel is made for, beside the settings.
 struct ConesKey {
     Component component = Component::Full;
     bool countLookups = false;
-    bool rectangles = false;  // some lights are rectangles
+    bool rectangles = false;   // some lights are rectangles
+    bool environment = false;  // surroundings have a picture
+    bool shaped = false;       // of light::LightKey
 };
+
+ConesKey keyOf(Component component, bool countLookups, const light::Lights& lights) {
+    return {component, countLookups, lights.ends().w > lights.ends().z, lights.hasEnvironment(),
+            lights.key().shaped};
+}
 
 gl::ProgramDesc conesDesc(const ThesisSettings& settings, const ConesKey& key) {
     const ThesisDefects defects = effectiveDefects(settings);
@@ -110,10 +115,12 @@ gl::ProgramDesc conesDesc(const ThesisSettings& settings, const ConesKey& key) {
                         {"FRONT_CONES", settings.frontCone ? "1" : "0"},
                         {"INTERMEDIATE_CONES", settings.intermediateCones ? "4" : "0"},
                         {"SIDE_CONES", settings.sideCones ? "4" : "0"},
-                        {"COUNT_LOOKUPS", key.countLookups ? "1" : "0"}};
+                        {"COUNT_LOOKUPS", key.countLookups ? "1" : "0"},
+                        {"LIGHTS_SHAPED", key.shaped ? "1" : "0"}};
     if (key.rectangles && !defects.pointlikeRectangles) defines.emplace_back("RECTANGLES", "1");
     if (!ThesisVolume::hasAreas(defects)) defines.emplace_back("ISOTROPIC_OPACITY", "1");
     if (settings.storage == VolumeStorage::Octree) defines.emplace_back("OCTREE", "1");
+    if (key.environment) defines.emplace_back("ENVIRONMENT", "1");
     for (const Define& define : kDefines)
         if (defects.*define.flag) defines.emplace_back(define.name, "1");
     return {{"thesis/shaders/cones.comp.glsl"}, defines};
@@ -128,7 +135,7 @@ ThesisDefects effectiveDefects(const ThesisSettings& settings) {
     return d;
 }
 
-gl::ProgramDesc bounceDesc(const ThesisSettings& settings) {
+gl::ProgramDesc bounceDesc(const ThesisSettings& settings, bool environment) {
     const ThesisDefects defects = effectiveDefects(settings);
     gl::Defines defines{{"DIFFUSE", std::to_string(coneKind(true, settings.diffuse.variant))},
                         {"FRONT_CONES", settings.frontCone ? "1" : "0"},
@@ -136,6 +143,7 @@ gl::ProgramDesc bounceDesc(const ThesisSettings& settings) {
                         {"SIDE_CONES", settings.sideCones ? "4" : "0"}};
     if (defects.clippedRadiance) defines.emplace_back("CLIPPED_RADIANCE", "1");
     if (settings.storage == VolumeStorage::Octree) defines.emplace_back("OCTREE", "1");
+    if (environment) defines.emplace_back("ENVIRONMENT", "1");
     for (const Define& define : kDefines)
         if (define.ofDiffuse && defects.*define.flag) defines.emplace_back(define.name, "1");
     return {{"thesis/shaders/bounce.comp.glsl"}, defines};
@@ -219,11 +227,10 @@ void ThesisConePass::record(const gl::Device& device, const Inputs& inputs, cons
                           gather::partsOf(settings.component).specular ||
                           settings.component == Component::Occlusion;
     const Component component = gathered ? settings.component : Component::Full;
-    recorder.record(
-        device,
-        gather::StepRecorder::variant(conesDesc(settings.groups.of<ThesisSettings>(),
-                                                {component, false, hasRectangles(inputs.pixels.lights)})),
-        given(inputs, output));
+    recorder.record(device,
+                    gather::StepRecorder::variant(conesDesc(settings.groups.of<ThesisSettings>(),
+                                                            keyOf(component, false, inputs.pixels.lights))),
+                    given(inputs, output));
 }
 
 void ThesisConePass::draw(const gl::Device& device, const Inputs& inputs, const gl::Texture& output,
@@ -232,9 +239,8 @@ void ThesisConePass::draw(const gl::Device& device, const Inputs& inputs, const 
     gl::Inputs given = this->given(inputs, output);
     if (lookupCounters != nullptr) given.storage("LookupTable", *lookupCounters);
     device
-        .get(conesDesc(
-            inputs.settings.groups.of<ThesisSettings>(),
-            {inputs.settings.component, lookupCounters != nullptr, hasRectangles(inputs.pixels.lights)}))
+        .get(conesDesc(inputs.settings.groups.of<ThesisSettings>(),
+                       keyOf(inputs.settings.component, lookupCounters != nullptr, inputs.pixels.lights)))
         .dispatch(given, output.width(), output.height());
 }
 
@@ -243,6 +249,12 @@ std::vector<gl::ProgramDesc> ThesisConePass::programDescs() {
     const auto add = [&](const ThesisSettings& settings, Component component, bool count = false) {
         descs.push_back(conesDesc(settings, {component, count, false}));
         descs.push_back(conesDesc(settings, {component, count, true}));
+        descs.push_back(conesDesc(settings, {component, count, false, true}));
+        for (const bool rectangles : {false, true})
+            descs.push_back(conesDesc(settings, {component, count, rectangles, false, true}));
+    };
+    const auto addBounce = [&](const ThesisSettings& settings) {
+        for (const bool environment : {false, true}) descs.push_back(bounceDesc(settings, environment));
     };
     ThesisSettings mended, published, regular;
     published.published = true;
@@ -267,10 +279,10 @@ std::vector<gl::ProgramDesc> ThesisConePass::programDescs() {
         add(octree, Component::Full);
         add(octree, Component::Full, true);
         add(octree, Component::Occlusion);
-        descs.push_back(bounceDesc(octree));
+        addBounce(octree);
     }
-    descs.push_back(bounceDesc(mended));
-    descs.push_back(bounceDesc(regular));
+    addBounce(mended);
+    addBounce(regular);
     // Each defect alone, with all cones.
     ThesisDefects names;
     const std::size_t count = thesisDefectFlags(names).size();
@@ -279,7 +291,7 @@ std::vector<gl::ProgramDesc> ThesisConePass::programDescs() {
         one.sideCones = true;
         *thesisDefectFlags(one.defects)[i] = true;
         add(one, Component::Full);
-        descs.push_back(bounceDesc(one));
+        addBounce(one);
     }
     return descs;
 }

@@ -22,7 +22,8 @@ ThesisDefects effectiveDefects(const ThesisSettings& settings);
 gpu::ThesisConstants thesisConstants(const ThesisSettings& settings, const gpu::ThesisGrid& grid, int size);
 
 // The pass that adds a bounce to the volume (bounces.cpp): its diffuse cones, and which defects they have.
-gl::ProgramDesc bounceDesc(const ThesisSettings& settings);
+// `environment`: surroundings have a picture.
+gl::ProgramDesc bounceDesc(const ThesisSettings& settings, bool environment);
 
 class ThesisConePass {
   public:

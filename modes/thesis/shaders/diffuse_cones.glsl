@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The diffuse cones of a pixel: surface -> light from all of them, and how many samples they took. Before it:
-// cone_samples.glsl, ThesisConstants `thesis`, DIFFUSE and the numbers of cones.
+// lib/environment.glsl, cone_samples.glsl, ThesisConstants `thesis`, DIFFUSE and the numbers of cones.
 #include "lib/dot.glsl"
 
 // All loops of one kind together stay below this: llvmpipe ends loops at 65,535 turns per invocation.
@@ -93,7 +93,9 @@ vec3 traceDiffuse(Surface s, bool isLit, out uint samples) {
         bool left = coneEnded(t, origin + t * direction.xyz, texelEdge, cone.reach);
         if (left || got.opacity >= 0.999 || coneSamples >= thesis.maxSamples) {
 #if !SHORT_REACH
-            if (left) got.color += max(1.0 - got.opacity, 0.0) * lighting.sky;
+            if (left)
+                got.color +=
+                    max(1.0 - got.opacity, 0.0) * skyRadiance(direction.xyz, 2.0 * atan(0.5 * cone.spread));
 #endif
             sum += direction.w * got.color;
             if (running)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The specular cone of a pixel: surface and mirrored direction -> light from there. Before it:
-// cone_samples.glsl, ThesisConstants `thesis`.
+// lib/environment.glsl, cone_samples.glsl, ThesisConstants `thesis`.
 #include "lib/dot.glsl"
 
 // Light from the mirrored direction.
@@ -30,7 +30,8 @@ vec3 traceSpecular(Surface s, vec3 mirrored, float shininess, bool isTraced, ino
         t += stride;
         bool left = coneEnded(t, origin + t * mirrored, texelEdge, cone.reach);
 #if !SHORT_REACH
-        if (left && running) got.color += max(1.0 - got.opacity, 0.0) * lighting.sky;
+        if (left && running)
+            got.color += max(1.0 - got.opacity, 0.0) * skyRadiance(mirrored, 2.0 * atan(0.5 * cone.spread));
 #endif
         running = running && !left && got.opacity < 0.999 && coneSamples < thesis.maxSamples;
     } while (running);

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Pictures of mode `traced` with nested grids: light is neither lost nor found where rays and surfaces cross from one
+// level into the next; a room keeps its light on a plain of any size; the eye may move.
+#include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "support/traced_rig.h"
+
+namespace conelight::test {
+namespace {
+
+using NestedGridsTest = TracedModeTest;
+
+Settings nestedSettings(Quality quality, int levels) {
+    Settings settings = tracedSettings(quality, Component::Indirect);
+    settings.voxels.levels = levels;
+    return settings;
+}
+
+void addBox(Scene& scene, const glm::vec3& low, const glm::vec3& high, const Material& material) {
+    addInstance(scene, boxMesh(), material,
+                glm::scale(glm::translate(glm::mat4(1), 0.5f * (low + high)), 0.5f * (high - low)));
+}
+
+// A room of 8 m with a lamp, open to one side by a door, on a square plain of this edge in m; 0: none.
+Scene roomOnAPlain(float edge) {
+    Scene scene;
+    const Material white = diffuseMaterial(glm::vec3(0.7f)), red = diffuseMaterial({0.6f, 0.1f, 0.1f});
+    addBox(scene, {-4.2f, -0.3f, -4.2f}, {4.2f, 0, 4.2f}, white);
+    addBox(scene, {-4.2f, 3, -4.2f}, {4.2f, 3.3f, 4.2f}, white);
+    addBox(scene, {-4.2f, 0, -4.2f}, {-4, 3, 4.2f}, red);
+    addBox(scene, {4, 0, -4.2f}, {4.2f, 3, 2}, white);
+    addBox(scene, {4, 0, 3}, {4.2f, 3, 4.2f}, white);
+    addBox(scene, {4, 2.1f, 2}, {4.2f, 3, 3}, white);
+    addBox(scene, {-4, 0, -4.2f}, {4, 3, -4}, white);
+    addBox(scene, {-4, 0, 4}, {4, 3, 4.2f}, white);
+    addBox(scene, {-1, 0, -2}, {0.5f, 1.2f, -1}, white);
+    addInstance(scene, quadMesh({-0.6f, 2.95f, -1}, {1.2f, 0, 0}, {0, 0, 1.2f}),
+                diffuseMaterial(glm::vec3(0.7f), glm::vec3(12)));
+    if (edge > 0) {
+        const float low = -0.5f * edge;
+        addInstance(scene, quadMesh({low, -0.1f, -low}, {edge, 0, 0}, {0, 0, -edge}),
+                    diffuseMaterial({0.3f, 0.3f, 0.2f}));
+        addBox(scene, {0.3f * edge, -0.1f, 0.1f * edge}, {0.3f * edge + 8, 6, 0.1f * edge + 9}, red);
+    }
+    Camera camera;
+    camera.eye = {-2.2f, 1.7f, 3.4f};
+    camera.target = {1.2f, 1.1f, -2.5f};
+    camera.fovY = 1.1f;
+    scene.cameras = {camera};
+    return scene;
+}
+
+}  // namespace
+
+// As TracedModeTest.FurnaceIsEvenAtEveryQuality: every ray ends at a wall, through three levels.
+TEST_F(NestedGridsTest, FurnaceIsEvenThroughAllLevels) {
+    Scene scene = closedBox(diffuseMaterial(glm::vec3(0.5f), glm::vec3(1)));
+    // Off the middle: borders of levels cross all walls, and corners of the box.
+    scene.cameras.at(0).eye += glm::vec3(0.31f, -0.2f, 0.13f);
+    for (const Quality quality : {Quality::Draft, Quality::Interactive}) {
+        Settings settings = tracedSettings(quality);
+        settings.voxels.levels = 3;
+        settings.light.emissiveQuads = false;
+        const Image image = draw(scene, settings);
+        EXPECT_NEAR(meanOf(image), 2.0, 0.006) << static_cast<int>(quality);
+        double square = 0;
+        for (const glm::vec4& p : image.pixels) square += std::pow(static_cast<double>(p.x) / 2 - 1, 2);
+        EXPECT_LT(std::sqrt(square / (kTracedPixels * kTracedPixels)), 0.03) << static_cast<int>(quality);
+    }
+}
+
+TEST_F(NestedGridsTest, ARoomKeepsItsLightOnAPlain) {
+    const Image alone = draw(roomOnAPlain(0), nestedSettings(Quality::Interactive, 1));
+    const Scene far = roomOnAPlain(600);
+    const Image nested = draw(far, nestedSettings(Quality::Interactive, 6));
+    EXPECT_NEAR(meanOf(nested) / meanOf(alone), 1.0, 0.04);
+    EXPECT_LT(relRmse(nested, alone), 0.12);
+    // In one grid its voxels are 20 m.
+    EXPECT_LT(meanOf(draw(far, nestedSettings(Quality::Interactive, 1))) / meanOf(alone), 0.5);
+}
+
+// The same bits from the same calls, also after the eye was elsewhere; light is carried meanwhile.
+TEST_F(NestedGridsTest, TheEyeMayMove) {
+    Scene scene = roomOnAPlain(100);
+    const Settings settings = nestedSettings(Quality::Interactive, 4);
+    const Image first = draw(scene, settings);
+    Renderer renderer;
+    renderer.setScene(scene);
+    EXPECT_EQ(draw(renderer, scene, settings).pixels, first.pixels);
+    Scene elsewhere = scene;
+    elsewhere.cameras.at(0).eye = {20, 1.7f, 9};
+    EXPECT_GT(meanOf(draw(renderer, elsewhere, settings)), 0);
+    const Image back = draw(renderer, scene, settings);
+    EXPECT_NEAR(meanOf(back) / meanOf(first), 1.0, 0.02);
+    EXPECT_LT(relRmse(back, first), 0.06);
+    // One level again.
+    Settings one = settings;
+    one.voxels.levels = 1;
+    EXPECT_EQ(draw(renderer, scene, one).pixels, draw(scene, one).pixels);
+}
+
+}  // namespace conelight::test
