@@ -156,11 +156,15 @@ Camera cameraOf(const conelight_camera& values) {
     camera.fovY = values.fov_y;
     camera.zNear = values.z_near;
     camera.zFar = values.z_far;
+    camera.orthographicHeight = values.orthographic_height;
     const float side = glm::length(glm::cross(camera.target - camera.eye, camera.up));
     if (!std::isfinite(side) || side <= 0)
         failUsage("camera: eye, target and up give no view; finite ones, not on one line, would be right");
     if (!(camera.fovY > 0 && camera.fovY < 3.1415926f))
         failUsage("camera.fov_y: " + std::to_string(camera.fovY) + "; above 0 and below pi would be right");
+    if (!(camera.orthographicHeight >= 0 && std::isfinite(camera.orthographicHeight)))
+        failUsage("camera.orthographic_height: " + std::to_string(camera.orthographicHeight) +
+                  "; above 0, or 0, would be right");
     if (!(camera.zNear > 0 && camera.zFar > camera.zNear && std::isfinite(camera.zFar)))
         failUsage("camera: z_near " + std::to_string(camera.zNear) + ", z_far " +
                   std::to_string(camera.zFar) + "; 0 < z_near < z_far would be right");
@@ -206,6 +210,7 @@ conelight_camera valuesOf(const Camera& camera) {
     values.fov_y = camera.fovY;
     values.z_near = camera.zNear;
     values.z_far = camera.zFar;
+    values.orthographic_height = camera.orthographicHeight;
     return values;
 }
 

@@ -169,15 +169,16 @@ typedef struct conelight_light {
             {0, 0, 0.5f}, 0, 0.78539816f, 0, 1, 1                                                       \
     }
 
-/* Perspective, from eye to target. */
+/* From eye to target. */
 typedef struct conelight_camera {
     size_t size;
     float eye[3], target[3], up[3]; /* m; up: any length but 0, not along the view */
     float fov_y;                    /* vertical field of view, rad, (0, pi) */
     float z_near, z_far;            /* m, 0 < z_near < z_far */
+    float orthographic_height; /* m; above 0: rays are parallel, and the picture is so high. 0: perspective */
 } conelight_camera;
 #define CONELIGHT_CAMERA_INIT \
-    { sizeof(conelight_camera), {0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 0.78539816f, 0.01f, 1000 }
+    { sizeof(conelight_camera), {0, 0, 3}, {0, 0, 0}, {0, 1, 0}, 0.78539816f, 0.01f, 1000, 0 }
 
 typedef struct conelight_counts {
     size_t size;

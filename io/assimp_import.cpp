@@ -26,6 +26,7 @@
 #include "io/child_process.h"
 #include "io/files.h"
 #include "io/geometry.h"
+#include "io/groups.h"
 #include "io/scene_stream.h"
 #include "io/upright.h"
 
@@ -137,13 +138,21 @@ void Converter::place(const glm::mat4& worldFromRoot) {
     struct Visit {
         const aiNode* node;
         glm::mat4 worldFromParent;
+        int parent;  // number of its node; -1: the root, which is the importer's own and no group
     };
     constexpr std::size_t kMaxNodes = 4'000'000;  // beyond it a file is broken, not big
-    std::vector<Visit> stack{{source.mRootNode, worldFromRoot}};
+    std::vector<Visit> stack{{source.mRootNode, worldFromRoot, -1}};
+    std::vector<const aiNode*> nodes;
+    std::vector<int> ofInstances, ofLights;
+    NodeTree tree;
     for (std::size_t visited = 0; !stack.empty(); ++visited) {
         if (visited > kMaxNodes) fail("has too many nodes");
         const Visit visit = stack.back();
         stack.pop_back();
+        nodes.push_back(visit.node);
+        const int number = visited == 0 ? -1 : static_cast<int>(visited);
+        tree.parents.push_back(visit.parent);
+        tree.parentsFirst.push_back(visited);
         const glm::mat4 worldFromNode = visit.worldFromParent * mat(visit.node->mTransformation);
         for (unsigned i = 0; i < visit.node->mNumMeshes; ++i) {
             const unsigned mesh = visit.node->mMeshes[i];
@@ -164,8 +173,12 @@ void Converter::place(const glm::mat4& worldFromRoot) {
                 convertCamera(*source.mCameras[i], worldFromNode);
         for (unsigned i = visit.node->mNumChildren; i-- > 0;)
             if (visit.node->mChildren[i] != nullptr)
-                stack.push_back({visit.node->mChildren[i], worldFromNode});
+                stack.push_back({visit.node->mChildren[i], worldFromNode, number});
+        ofInstances.resize(scene.instances.size(), number);
+        ofLights.resize(scene.lights.size(), number);
     }
+    tree.nameOf = [&](std::size_t node) { return textOf(nodes[node]->mName); };
+    makeGroups(scene, tree, ofInstances, ofLights);
 }
 
 // Assimp gives colours without a unit; they are taken as W/sr (point, spot) or W/m^2 (directional).
@@ -228,8 +241,10 @@ void Converter::convertCamera(const aiCamera& from, const glm::mat4& worldFromNo
     to.up = glm::normalize(up);
     const float aspect = from.mAspect > 0.0f && std::isfinite(from.mAspect) ? from.mAspect : 4.0f / 3.0f;
     const float horizontal = from.mHorizontalFOV;
-    if (from.mOrthographicWidth > 0.0f)
-        scene.notes.push_back(fmt::format("camera {}: is orthographic; drawn in perspective", to.name));
+    // Half the width, in the node's units.
+    const float height = 2 * from.mOrthographicWidth / aspect * glm::length(up) / glm::length(vec(from.mUp));
+    if (height > 0.0f && std::isfinite(height))
+        to.orthographicHeight = height;
     else if (horizontal > 0.01f && horizontal < 3.1f)
         to.fovY = 2.0f * std::atan(std::tan(0.5f * horizontal) / aspect);
     scene.cameras.push_back(to);
@@ -293,7 +308,6 @@ bool seesNothing(const Camera& camera, const Aabb& bounds) {
     if (!(glm::length(side) > 1e-3f))
         side = {ahead.y, ahead.z, -ahead.x};  // straight up or down: any will do
     const glm::vec3 right = glm::normalize(side), up = glm::cross(right, ahead);
-    const float tanY = std::tan(0.5f * camera.fovY), tanX = 2 * tanY;
     int behind = 0, beyond[4] = {0, 0, 0, 0};
     for (int corner = 0; corner < 8; ++corner) {
         const glm::vec3 from = glm::vec3((corner & 1) != 0 ? bounds.max.x : bounds.min.x,
@@ -301,11 +315,12 @@ bool seesNothing(const Camera& camera, const Aabb& bounds) {
                                          (corner & 4) != 0 ? bounds.max.z : bounds.min.z) -
                                camera.eye;
         const float x = glm::dot(from, right), y = glm::dot(from, up), z = glm::dot(from, ahead);
+        const float halfY = 0.5f * camera.heightAt(z), halfX = 2 * halfY;
         behind += z <= 0 ? 1 : 0;
-        beyond[0] += x > tanX * z ? 1 : 0;
-        beyond[1] += -x > tanX * z ? 1 : 0;
-        beyond[2] += y > tanY * z ? 1 : 0;
-        beyond[3] += -y > tanY * z ? 1 : 0;
+        beyond[0] += x > halfX ? 1 : 0;
+        beyond[1] += -x > halfX ? 1 : 0;
+        beyond[2] += y > halfY ? 1 : 0;
+        beyond[3] += -y > halfY ? 1 : 0;
     }
     return behind == 8 || *std::max_element(std::begin(beyond), std::end(beyond)) == 8;
 }

@@ -23,6 +23,7 @@
 #include "io/gltf_material.h"
 #include "io/gltf_mesh.h"
 #include "io/gltf_profile.h"
+#include "io/groups.h"
 #include "io/scene_info.h"
 
 namespace conelight::io {
@@ -49,6 +50,7 @@ class Reader {
     void poseAtRest();
     void addLight(std::size_t node, const GltfValue& value);
     void addCamera(std::size_t node, const GltfValue& value);
+    void addGroups();
     std::string nameOf(std::size_t node) const {
         return oneLine(file_.array("nodes")[node]["name"].text(fmt::format("node{}", node)));
     }
@@ -65,6 +67,7 @@ class Reader {
     GltfProfiles profiles_;
     SceneAnimation animation_;
     std::set<std::size_t> movingWeights_;
+    std::vector<int> nodesOfInstances_, nodesOfLights_;
     std::size_t skinned_ = 0;
 };
 
@@ -380,18 +383,31 @@ void Reader::addCamera(std::size_t node, const GltfValue& value) {
     const std::string type = from["type"].text("perspective");
     const GltfValue lens = from[type == "orthographic" ? "orthographic" : "perspective"];
     if (type == "orthographic") {
-        scene_.notes.push_back(
-            fmt::format("camera {}: is orthographic; drawn in perspective with 45 degrees", to.name));
+        to.orthographicHeight = 2 * std::abs(lens["ymag"].number(0.0f));
+        if (!to.isOrthographic())
+            scene_.notes.push_back(
+                fmt::format("camera {}: is orthographic without a height; drawn in perspective", to.name));
+        const float fovY = ownExtras(value)["fieldOfView"].number(to.fovY);
+        if (fovY > 1e-4f && fovY < 3.1415f) to.fovY = fovY;
     } else {
         to.fovY = lens["yfov"].number(to.fovY);
         if (!(to.fovY > 1e-4f && to.fovY < 3.1415f)) lens["yfov"].fail("must be between 0 and pi");
     }
     to.zNear = lens["znear"].number(to.zNear);
+    // Parallel rays may begin at the eye.
+    if (!(to.zNear > 0.0f))
+        to.zNear = to.isOrthographic() ? std::min(0.01f, 1e-4f * lens["zfar"].number(100.0f)) : 0.01f;
     if (!(to.zNear > 0.0f)) to.zNear = 0.01f;
     to.zFar = lens["zfar"].number(std::max(to.zFar, 1e5f * to.zNear));  // absent: endless
     if (!(to.zFar > to.zNear)) to.zFar = 1e5f * to.zNear;
     animation_.cameras.push_back({scene_.cameras.size(), node, glm::mat4(1.0f), distance});
     scene_.cameras.push_back(std::move(to));
+}
+
+void Reader::addGroups() {
+    NodeTree tree{{}, animation_.parentsFirst, [this](std::size_t node) { return nameOf(node); }};
+    for (const auto& node : animation_.nodes) tree.parents.push_back(node.parent);
+    makeGroups(scene_, tree, nodesOfInstances_, nodesOfLights_);
 }
 
 // A mesh that moves, and its mirrored copy.
@@ -443,6 +459,8 @@ Scene Reader::read(SceneAnimation* animation) {
         if (value["mesh"].exists()) options_.tell({"meshes", i, nodes.size()});
         placeMesh(node, value, meshes);
         addLight(node, value);
+        nodesOfInstances_.resize(scene_.instances.size(), static_cast<int>(node));
+        nodesOfLights_.resize(scene_.lights.size(), static_cast<int>(node));
         addCamera(node, value);
     }
     meshes.addNotes();
@@ -454,6 +472,7 @@ Scene Reader::read(SceneAnimation* animation) {
         scene_.notes.push_back(
             fmt::format("{} animation{} left out", animations, animations == 1 ? "" : "s"));
     poseAtRest();
+    addGroups();
     keepHung(removeMirrors(scene_));
     if (animation != nullptr) *animation = std::move(animation_);
     return std::move(scene_);

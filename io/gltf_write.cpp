@@ -46,7 +46,8 @@ class Writer {
     void addLight(const Light& light);
     std::size_t profileOf(const std::shared_ptr<const LightProfile>& profile);
     void addCamera(const Camera& camera);
-    void addNode(Json node);
+    void addNode(Json node, int group = -1);
+    std::size_t nodeOf(int group);
     void addSceneExtras(Json& scene);
     Json environment();
 
@@ -59,6 +60,7 @@ class Writer {
     std::set<std::string> extensions_;
     std::vector<std::shared_ptr<const LightProfile>> profiles_;
     Json nodes_ = Json::array();
+    std::map<int, std::size_t> groups_;  // -> node of the file; those that hold something
     std::size_t areaLights_ = 0, customFalloffs_ = 0, flagged_ = 0;
 };
 
@@ -87,9 +89,27 @@ int Writer::meshOf(const Instance& instance) {
     return meshes_[key] = static_cast<int>(root_["meshes"].size()) - 1;
 }
 
-void Writer::addNode(Json node) {
-    nodes_.push_back(root_["nodes"].size());
+void Writer::addNode(Json node, int group) {
+    const std::size_t index = root_["nodes"].size();
     root_["nodes"].push_back(std::move(node));
+    if (group < 0)
+        nodes_.push_back(index);
+    else
+        root_["nodes"][nodeOf(group)]["children"].push_back(index);
+}
+
+// Made with those above it where there is none yet.
+std::size_t Writer::nodeOf(int group) {
+    std::vector<int> missing;
+    for (int at = group; at >= 0 && groups_.count(at) == 0;
+         at = scene_.groups[static_cast<std::size_t>(at)].parent)
+        missing.push_back(at);
+    for (; !missing.empty(); missing.pop_back()) {
+        const Group& made = scene_.groups[static_cast<std::size_t>(missing.back())];
+        groups_[missing.back()] = root_["nodes"].size();
+        addNode({{"name", made.name}}, made.parent);
+    }
+    return groups_.at(group);
 }
 
 void Writer::addInstance(std::size_t index) {
@@ -112,7 +132,7 @@ void Writer::addInstance(std::size_t index) {
                                       {"offset", {place.offset.x, place.offset.y}},
                                       {"scale", {place.scale.x, place.scale.y}}};
     }
-    addNode(std::move(node));
+    addNode(std::move(node), instance.group);
 }
 
 // Each is written once, as the file it came from.
@@ -146,7 +166,7 @@ void Writer::addLight(const Light& light) {
         own["halfV"] = listOf(light.halfV);
         node["extras"]["conelight"]["light"] = own;
         ++areaLights_;
-        addNode(std::move(node));
+        addNode(std::move(node), light.group);
         return;
     }
     const float strength = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
@@ -161,7 +181,7 @@ void Writer::addLight(const Light& light) {
         node["extensions"]["EXT_lights_ies"] = {{"light", profileOf(light.profile)},
                                                 {"multiplier", strength * 683 / light.profile->candela},
                                                 {"color", listOf(color)}};
-        addNode(std::move(node));
+        addNode(std::move(node), light.group);
         return;
     }
     Json to = {{"name", light.name},
@@ -178,7 +198,7 @@ void Writer::addLight(const Light& light) {
     node["extensions"]["KHR_lights_punctual"]["light"] = lights.size();
     lights.push_back(to);
     extensions_.insert("KHR_lights_punctual");
-    addNode(std::move(node));
+    addNode(std::move(node), light.group);
 }
 
 void Writer::addCamera(const Camera& camera) {
@@ -186,10 +206,13 @@ void Writer::addCamera(const Camera& camera) {
     Json own = {{"distance", glm::length(forward)}};
     if (camera.lensDiameter > 0) own["lensDiameter"] = camera.lensDiameter;
     if (camera.focusDistance > 0) own["focusDistance"] = camera.focusDistance;
-    root_["cameras"].push_back(
-        {{"name", camera.name},
-         {"type", "perspective"},
-         {"perspective", {{"yfov", camera.fovY}, {"znear", camera.zNear}, {"zfar", camera.zFar}}}});
+    // Readers take the width of parallel rays from their pictures' shape.
+    const float half = 0.5f * camera.orthographicHeight;
+    Json lens = camera.isOrthographic() ? Json{{"xmag", half}, {"ymag", half}} : Json{{"yfov", camera.fovY}};
+    lens.update({{"znear", camera.zNear}, {"zfar", camera.zFar}});
+    const char* type = camera.isOrthographic() ? "orthographic" : "perspective";
+    if (camera.isOrthographic()) own["fieldOfView"] = camera.fovY;
+    root_["cameras"].push_back({{"name", camera.name}, {"type", type}, {type, lens}});
     addNode({{"name", camera.name},
              {"camera", root_["cameras"].size() - 1},
              {"matrix", listOf(lookingAlong(camera.eye, forward, camera.up))},

@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "conelight/scene_fields.h"
+#include "io/files.h"
 #include "io/scene_format.h"
 
 namespace conelight::io {
@@ -138,8 +139,16 @@ std::string describe(const Light& l) {
 }
 
 std::string lensText(const Camera& camera) {
-    if (!(camera.lensDiameter > 0)) return {};
+    if (!camera.hasLens()) return {};
     return fmt::format(", lens {:.4g} m, focus {:.4g} m", camera.lensDiameter, camera.focus());
+}
+
+std::string describe(const Camera& c) {
+    const std::string sees = c.isOrthographic()
+                                 ? fmt::format("orthographic, {:.4g} m high", c.orthographicHeight)
+                                 : fmt::format("{:.4g} deg vertical", c.fovY * kDegreesPerRadian);
+    return fmt::format("{}: at {}, to {}, {}, {:.3g} to {:.3g} m{}", c.name.empty() ? "(unnamed)" : c.name,
+                       text(c.eye), text(c.target), sees, c.zNear, c.zFar, lensText(c));
 }
 
 }  // namespace
@@ -221,14 +230,11 @@ std::string describeScene(const Scene& scene, std::size_t maxRows) {
                            t.height, t.srgb ? "sRGB" : "linear", bytesText(t.rgba.size()), wrapName(t.wrapU),
                            wrapName(t.wrapV), t.filter == TextureFilter::Nearest ? ", nearest" : "");
     });
+    if (!scene.groups.empty()) report.line("groups     {}", scene.groups.size());
     report.line("lights     {}", scene.lights.size());
     report.list(scene.lights, [](const Light& l) { return describe(l); });
     report.line("cameras    {}", scene.cameras.size());
-    report.list(scene.cameras, [](const Camera& c) {
-        return fmt::format("{}: at {}, to {}, {:.4g} deg vertical, {:.3g} to {:.3g} m{}",
-                           c.name.empty() ? "(unnamed)" : c.name, text(c.eye), text(c.target),
-                           c.fovY * kDegreesPerRadian, c.zNear, c.zFar, lensText(c));
-    });
+    report.list(scene.cameras, [](const Camera& c) { return describe(c); });
     if (!scene.settings.empty()) report.line("settings   {}", scene.settings.size());
     for (const auto& [key, value] : scene.settings) report.line("  {} = {}", key, value);
     for (const std::string& note : scene.notes) report.line("note       {}", note);

@@ -138,7 +138,7 @@ void visitProfile(StreamReader& s, std::shared_ptr<const LightProfile>& profile)
     profile = std::move(read);
 }
 
-// Materials, instances, lights, cameras: their fields stand in scene_fields.h.
+// Materials, instances, lights, groups, cameras: their fields stand in scene_fields.h.
 template <typename Stream, typename T>
 void visitAll(Stream& s, T& object) {
     visitFields(
@@ -182,6 +182,7 @@ void visitScene(Stream& s, S& scene) {
     for (std::size_t i = 0, n = s.count(scene.textures); i < n; ++i) visitTexture(s, scene.textures[i]);
     for (std::size_t i = 0, n = s.count(scene.instances); i < n; ++i) visitAll(s, scene.instances[i]);
     for (std::size_t i = 0, n = s.count(scene.lights); i < n; ++i) visitAll(s, scene.lights[i]);
+    for (std::size_t i = 0, n = s.count(scene.groups); i < n; ++i) visitAll(s, scene.groups[i]);
     for (std::size_t i = 0, n = s.count(scene.cameras); i < n; ++i) visitAll(s, scene.cameras[i]);
     s.plain(scene.sky);
     s.text(scene.environment.file);

@@ -64,7 +64,7 @@ py::tuple toOpencv(const Camera& camera, const py::object& size, double pixelCen
     return py::make_tuple(matrixArray(opencv.intrinsics), matrixArray(opencv.cameraFromWorld), t);
 }
 
-// eye + depth * (x right + y up + forward), for the pixels' centres.
+// eye + depth * (x right + y up + forward), for the pixels' centres; of parallel rays eye + x right + y up + depth forward.
 py::array positions(const Camera& camera, const py::object& depth) {
     checkCamera(camera);
     const Floats z = floatsOf("depth", depth);
@@ -74,15 +74,16 @@ py::array positions(const Camera& camera, const py::object& depth) {
     const py::ssize_t height = z.shape(0), width = z.shape(1);
     const CameraAxes axes = axesOf(camera);
     const glm::vec3 forward(axes.forward), right(axes.right), up(axes.up);
-    const float perPixel = 2 * std::tan(0.5f * camera.fovY) / static_cast<float>(height);
+    const auto perPixel = static_cast<float>(pixelSize(camera, static_cast<int>(height)));
     py::array_t<float> points({height, width, py::ssize_t(3)});
     float* out = points.mutable_data();
     for (py::ssize_t row = 0; row < height; ++row)
         for (py::ssize_t column = 0; column < width; ++column, out += 3) {
             const float x = (static_cast<float>(column) + 0.5f - 0.5f * static_cast<float>(width)) * perPixel;
             const float y = (0.5f * static_cast<float>(height) - static_cast<float>(row) - 0.5f) * perPixel;
-            const glm::vec3 point =
-                camera.eye + z.data()[row * width + column] * (forward + x * right + y * up);
+            const float along = z.data()[row * width + column];
+            const glm::vec3 aside = (camera.isOrthographic() ? 1.0f : along) * (x * right + y * up);
+            const glm::vec3 point = camera.eye + along * forward + aside;
             std::copy(&point.x, &point.x + 3, out);
         }
     return points;
@@ -95,35 +96,8 @@ void defVector(py::class_<Camera>& type, const char* name, const char* doc) {
         [name](Camera& camera, const py::object& value) { camera.*Field = vec3Of(name, value); }, doc);
 }
 
-}  // namespace
-
-void bindCamera(py::module_& module) {
-    py::class_<Camera> type(
-        module, "Camera",
-        "A perspective camera: eye and target in metres, vfov its vertical field of view in "
-        "radians.\n\nnear and far, in metres, bound what is seen.");
-    type.def(py::init([](const py::object& eye, const py::object& target, const py::object& up, float vfov,
-                         float zNear, float zFar) {
-                 Camera camera{
-                     "", vec3Of("eye", eye), vec3Of("target", target), vec3Of("up", up), vfov, zNear, zFar};
-                 checkCamera(camera);
-                 return camera;
-             }),
-             py::arg("eye"), py::arg("target"), py::arg("up") = py::make_tuple(0, 1, 0),
-             py::arg("vfov") = Camera{}.fovY, py::kw_only(), py::arg("near") = Camera{}.zNear,
-             py::arg("far") = Camera{}.zFar);
-    defVector<&Camera::eye>(type, "eye", "Where it stands: x, y, z in metres.");
-    defVector<&Camera::target>(type, "target", "What it looks at: x, y, z in metres.");
-    defVector<&Camera::up>(type, "up", "Direction that is up in the picture.");
-    type.def_readwrite("vfov", &Camera::fovY, "Vertical field of view, radians.")
-        .def_readwrite("near", &Camera::zNear, "Nothing nearer is seen; metres.")
-        .def_readwrite("far", &Camera::zFar, "Nothing farther is seen; metres.")
-        .def_readwrite("lens_diameter", &Camera::lensDiameter,
-                       "Metres; what is out of focus is blurred. 0: a pinhole.")
-        .def_readwrite("focus_distance", &Camera::focusDistance,
-                       "To the plane in focus, metres. 0: through the target.")
-        .def_readwrite("name", &Camera::name, "Text.")
-        .def_static("from_opencv", &fromOpencv, py::arg("K"), py::arg("R"), py::arg("t"), py::arg("size"),
+void bindCalls(py::class_<Camera>& type) {
+    type.def_static("from_opencv", &fromOpencv, py::arg("K"), py::arg("R"), py::arg("t"), py::arg("size"),
                     py::kw_only(), py::arg("pixel_center") = 0.0,
                     "The camera of OpenCV's matrices: pixel ~ K (R x + t), x right, y down, z forward.\n\n"
                     "K: (3, 3), pixels. R: (3, 3) world to camera. t: (3,), metres. size: (width, height).\n"
@@ -140,22 +114,60 @@ void bindCamera(py::module_& module) {
         .def(py::pickle(
             [](const Camera& c) {
                 return py::make_tuple(c.name, tupleOf(c.eye), tupleOf(c.target), tupleOf(c.up), c.fovY,
-                                      c.zNear, c.zFar, c.lensDiameter, c.focusDistance);
+                                      c.zNear, c.zFar, c.lensDiameter, c.focusDistance, c.orthographicHeight);
             },
             [](const py::tuple& c) {
-                return Camera{c[0].cast<std::string>(), vec3Of("eye", c[1]), vec3Of("target", c[2]),
-                              vec3Of("up", c[3]),       c[4].cast<float>(),  c[5].cast<float>(),
-                              c[6].cast<float>(),       c[7].cast<float>(),  c[8].cast<float>()};
+                return Camera{c[0].cast<std::string>(), vec3Of("eye", c[1]),
+                              vec3Of("target", c[2]),   vec3Of("up", c[3]),
+                              c[4].cast<float>(),       c[5].cast<float>(),
+                              c[6].cast<float>(),       c[7].cast<float>(),
+                              c[8].cast<float>(),       c.size() > 9 ? c[9].cast<float>() : 0.0f};
             }))
         .def(
             "__eq__", [](const Camera& a, const Camera& b) { return a == b; }, py::is_operator())
         .def("__repr__",
              [](const Camera& c) {
-                 return fmt::format("Camera(eye=({}, {}, {}), target=({}, {}, {}), up=({}, {}, {}), vfov={})",
-                                    c.eye.x, c.eye.y, c.eye.z, c.target.x, c.target.y, c.target.z, c.up.x,
-                                    c.up.y, c.up.z, c.fovY);
+                 const std::string height =
+                     c.isOrthographic() ? fmt::format(", orthographic_height={}", c.orthographicHeight) : "";
+                 return fmt::format(
+                     "Camera(eye=({}, {}, {}), target=({}, {}, {}), up=({}, {}, {}), vfov={}{})", c.eye.x,
+                     c.eye.y, c.eye.z, c.target.x, c.target.y, c.target.z, c.up.x, c.up.y, c.up.z, c.fovY,
+                     height);
              })
         .attr("__hash__") = py::none();
+}
+
+}  // namespace
+
+void bindCamera(py::module_& module) {
+    py::class_<Camera> type(
+        module, "Camera",
+        "A camera: eye and target in metres, vfov its vertical field of view in radians.\n\nnear and far, in "
+        "metres, bound what is seen. orthographic_height, in metres, above 0: rays are parallel.");
+    type.def(py::init([](const py::object& eye, const py::object& target, const py::object& up, float vfov,
+                         float zNear, float zFar) {
+                 Camera camera{
+                     "", vec3Of("eye", eye), vec3Of("target", target), vec3Of("up", up), vfov, zNear, zFar};
+                 checkCamera(camera);
+                 return camera;
+             }),
+             py::arg("eye"), py::arg("target"), py::arg("up") = py::make_tuple(0, 1, 0),
+             py::arg("vfov") = Camera{}.fovY, py::kw_only(), py::arg("near") = Camera{}.zNear,
+             py::arg("far") = Camera{}.zFar);
+    defVector<&Camera::eye>(type, "eye", "Where it stands: x, y, z in metres.");
+    defVector<&Camera::target>(type, "target", "What it looks at: x, y, z in metres.");
+    defVector<&Camera::up>(type, "up", "Direction that is up in the picture.");
+    type.def_readwrite("vfov", &Camera::fovY, "Vertical field of view, radians.")
+        .def_readwrite("near", &Camera::zNear, "Nothing nearer is seen; metres.")
+        .def_readwrite("far", &Camera::zFar, "Nothing farther is seen; metres.")
+        .def_readwrite("orthographic_height", &Camera::orthographicHeight,
+                       "Metres that the picture is high, by parallel rays. 0: perspective.")
+        .def_readwrite("lens_diameter", &Camera::lensDiameter,
+                       "Metres; what is out of focus is blurred. 0: a pinhole.")
+        .def_readwrite("focus_distance", &Camera::focusDistance,
+                       "To the plane in focus, metres. 0: through the target.")
+        .def_readwrite("name", &Camera::name, "Text.");
+    bindCalls(type);
 }
 
 }  // namespace conelight::python

@@ -6,23 +6,19 @@
 #include <cmath>
 
 #include "conelight/error.h"
-#include "session/picker.h"
+#include "session/projection.h"
 
 namespace conelight::python {
 
 CameraAxes axesOf(const Camera& camera) {
-    const auto toward = [&](float x, float y) {
-        return glm::dvec3(program::rayDirection(camera, 1.0f, glm::vec2(x, y)));
-    };
-    CameraAxes axes;
-    axes.forward = glm::normalize(glm::dvec3(camera.target) - glm::dvec3(camera.eye));
-    // Where up lies along the view, the renderer has a right of its own.
-    glm::dvec3 right = glm::cross(axes.forward, glm::dvec3(camera.up));
-    if (!(glm::length(right) > 1e-6 * glm::length(glm::dvec3(camera.up))))
-        right = toward(1, 0) - toward(-1, 0);
-    axes.right = glm::normalize(right);
-    axes.up = glm::cross(axes.right, axes.forward);
-    return axes;
+    const program::ViewAxes axes = program::viewAxes(camera);
+    return {axes.right, axes.up, axes.forward};
+}
+
+double pixelSize(const Camera& camera, int height) {
+    const double whole =
+        camera.isOrthographic() ? double(camera.orthographicHeight) : 2 * std::tan(0.5 * double(camera.fovY));
+    return whole / height;
 }
 
 void checkCamera(const Camera& camera) {
@@ -32,6 +28,8 @@ void checkCamera(const Camera& camera) {
                          camera.fovY));
     if (!(camera.zNear > 0) || !(camera.zFar > camera.zNear) || !std::isfinite(camera.zFar))
         fail(fmt::format("near {} and far {}; 0 < near < far would be right", camera.zNear, camera.zFar));
+    if (!(camera.orthographicHeight >= 0) || !std::isfinite(camera.orthographicHeight))
+        fail(fmt::format("orthographic_height {}; 0 or more would be right", camera.orthographicHeight));
     if (!(camera.lensDiameter >= 0) || !std::isfinite(camera.lensDiameter))
         fail(fmt::format("lens_diameter {}; 0 or more would be right", camera.lensDiameter));
     if (!(camera.focusDistance >= 0) || !std::isfinite(camera.focusDistance))

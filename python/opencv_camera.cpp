@@ -58,6 +58,10 @@ Camera cameraFrom(const OpencvCamera& opencv, const glm::ivec2& size) {
 }
 
 OpencvCamera opencvFrom(const Camera& camera, const glm::ivec2& size, double pixelCenter) {
+    if (camera.isOrthographic())
+        fail(
+            "orthographic_height: parallel rays have no focal length; a camera in perspective would be "
+            "right");
     const CameraAxes axes = axesOf(camera);
     const double f = 0.5 * size.y / std::tan(0.5 * double(camera.fovY));
     OpencvCamera opencv;

@@ -41,17 +41,19 @@ class Projection {
     Projection(const Camera& camera, const glm::ivec2& size)
         : eye_(camera.eye),
           axes_(axesOf(camera)),
-          perPixel_(2 * std::tan(0.5 * double(camera.fovY)) / double(size.y)),
+          parallel_(camera.isOrthographic()),
+          perPixel_(pixelSize(camera, size.y)),
           middle_(0.5 * glm::dvec2(size)) {}
     glm::dvec2 operator()(const glm::dvec3& point) const {
         const glm::dvec3 way = point - eye_;
-        const double depth = glm::dot(way, axes_.forward) * perPixel_;
+        const double depth = (parallel_ ? 1 : glm::dot(way, axes_.forward)) * perPixel_;
         return middle_ + glm::dvec2(glm::dot(way, axes_.right), -glm::dot(way, axes_.up)) / depth;
     }
 
   private:
     glm::dvec3 eye_;
     CameraAxes axes_;
+    bool parallel_;
     double perPixel_;
     glm::dvec2 middle_;
 };
@@ -104,13 +106,16 @@ SurfaceTables surfacesOf(const Scene& scene, const reference::RayScene& rays, co
     if (before != nullptr) tables.motion.resize(width * height);
     const Projection now(camera, size), then(before != nullptr ? before->camera : camera, size);
     const CameraAxes axes = axesOf(camera);
-    const double perPixel = 2 * std::tan(0.5 * double(camera.fovY)) / double(size.y);
+    const double perPixel = pixelSize(camera, size.y);
+    const bool parallel = camera.isOrthographic();
     const auto see = [&](std::size_t pixel) {
         const double x = (double(pixel % width) + 0.5 - 0.5 * size.x) * perPixel;
         const double y = (0.5 * size.y - double(pixel / width) - 0.5) * perPixel;
-        const glm::dvec3 along = axes.forward + x * axes.right + y * axes.up;
+        const glm::dvec3 aside = x * axes.right + y * axes.up, still(0);
+        const glm::dvec3 along = axes.forward + (parallel ? still : aside);
         const double length = glm::length(along);  // of a step of 1 m in depth
-        const reference::Ray ray{camera.eye, glm::vec3(along / length), float(camera.zNear * length),
+        const glm::dvec3 origin = glm::dvec3(camera.eye) + (parallel ? aside : still);
+        const reference::Ray ray{glm::vec3(origin), glm::vec3(along / length), float(camera.zNear * length),
                                  float(camera.zFar * length)};
         reference::RayHit hit;
         if (!rays.intersect(reference::RayKind::Camera, ray, hit)) return;

@@ -14,10 +14,15 @@ void BeamCover::add(const Corners& polygon, bool blocks, std::vector<Corners>& f
     insert(root_, polygon, free, root_);
 }
 
-// An edge that an ancestor's plane already cuts along needs no plane of its own.
+// An edge that an ancestor's plane already cuts along needs no plane of its own. Parallel rays also see edges on the near
+// plane, which is no side.
 bool BeamCover::isSide(const glm::dvec3& a, const glm::dvec3& b) const {
+    constexpr double kAcross = 1e-6;  // cosine
     for (const BeamPlane& plane : path_)
-        if (std::fabs(plane.at(a)) <= 2 * within_ && std::fabs(plane.at(b)) <= 2 * within_) return true;
+        if (apex_.parallel && std::fabs(apex_.side(plane)) > kAcross)
+            continue;
+        else if (std::fabs(plane.at(a)) <= 2 * within_ && std::fabs(plane.at(b)) <= 2 * within_)
+            return true;
     return false;
 }
 

@@ -26,13 +26,15 @@ Surface BeamLight::meet(const BeamPolygon& polygon, Line& line, const glm::vec3&
     line.origin += t * line.direction;
     Ray ray;
     ray.direction = glm::vec3(line.direction);
-    return surfaceAt(scene_.scene(), ray, scene_.hitOf(polygon, line.origin, t), turn);
+    const glm::vec3 turned = lens_.parallel ? turn / static_cast<float>(t) : turn;
+    return surfaceAt(scene_.scene(), ray, scene_.hitOf(polygon, line.origin, t), turned);
 }
 
 BeamLight::Line BeamLight::throughMirrors(const glm::dvec2& place, int beam, glm::vec3& turn) const {
     Line line;
-    line.origin = lens_.eye;
-    line.direction = glm::normalize(lens_.forward + place.x * lens_.right + place.y * lens_.up);
+    const glm::dvec3 aside = place.x * lens_.right + place.y * lens_.up;
+    line.origin = lens_.eye + (lens_.parallel ? aside : glm::dvec3(0));
+    line.direction = glm::normalize(lens_.forward + (lens_.parallel ? glm::dvec3(0) : aside));
     for (const std::uint32_t mirror : mirrors_[static_cast<std::size_t>(beam)]) {
         const BeamPolygon& polygon = scene_.polygons()[mirror];
         const Surface surface = meet(polygon, line, turn);

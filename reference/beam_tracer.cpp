@@ -99,10 +99,7 @@ class Pieces {
         piece.low = glm::dvec2(1e300);
         piece.high = glm::dvec2(-1e300);
         for (const glm::dvec3& corner : corners) {
-            const glm::dvec3 way = glm::dvec3(beam.unfolded * glm::dvec4(corner, 1)) - lens_.eye;
-            const double depth = glm::dot(way, lens_.forward);
-            const glm::dvec2 place(glm::dot(way, lens_.right) / (depth * glm::dot(lens_.right, lens_.right)),
-                                   glm::dot(way, lens_.up) / (depth * glm::dot(lens_.up, lens_.up)));
+            const glm::dvec2 place(lens_.placeOf(glm::dvec3(beam.unfolded * glm::dvec4(corner, 1))));
             const glm::dvec2 pixels = glm::dvec2(place.x + 1, 1 - place.y) * 0.5 * size_;
             piece.corners.push_back(pixels);
             piece.low = glm::min(piece.low, pixels);

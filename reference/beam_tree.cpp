@@ -103,7 +103,7 @@ double mirrorShare(const BeamScene& scene, const BeamApex& apex, const BeamPart&
     double most = 0;
     for (const glm::dvec3& place : places) {
         Ray ray;
-        ray.direction = glm::vec3(glm::normalize(place - apex.place));
+        ray.direction = glm::vec3(apex.parallel ? -apex.place : glm::normalize(place - apex.place));
         const Surface surface = surfaceAt(scene.scene(), ray, scene.hitOf(polygon, place, 1));
         const glm::vec3 share = Reflection(surface, -ray.direction).mirrorShare();
         most = std::max(most, static_cast<double>(std::max({share.r, share.g, share.b})));
@@ -133,10 +133,11 @@ class Tree {
   private:
     static Beam eye(const Lens& lens) {
         Beam beam;
-        beam.apex.place = lens.eye;
+        beam.apex = {lens.parallel ? -lens.forward : lens.eye, lens.parallel};
         const glm::dvec3 middle = lens.eye + lens.forward * lens.zNear;
+        const double size = lens.parallel ? 1 : lens.zNear;
         for (const glm::dvec2 corner : {glm::dvec2(-1, -1), {1, -1}, {1, 1}, {-1, 1}})
-            beam.window.push_back(middle + lens.zNear * (corner.x * lens.right + corner.y * lens.up));
+            beam.window.push_back(middle + size * (corner.x * lens.right + corner.y * lens.up));
         return beam;
     }
 

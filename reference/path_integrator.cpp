@@ -185,7 +185,8 @@ bool PathIntegrator::find(RayKind kind, Ray ray, const PixelTurns* pixel, Sample
         glm::vec3 turn(0);
         if (pixel != nullptr && isTextured(scene_, arrival.hit)) {
             const glm::vec2 inPixel = sampler.next2() - 0.5f;
-            turn = inPixel.x * (*pixel)[0] + inPixel.y * (*pixel)[1];
+            turn = inPixel.x * pixel->steps[0] + inPixel.y * pixel->steps[1];
+            if (pixel->parallel) turn /= arrival.hit.t;
         }
         arrival.surface = surfaceAt(scene_, ray, arrival.hit, turn);
         const Surface& met = arrival.surface;

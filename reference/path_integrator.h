@@ -34,7 +34,10 @@ class PathIntegrator {
 
     // `pixel`: what the pixel's width and height add to the camera ray's direction. The first surface shows
     // its textures' mean over it, a point of it per sample. Null: textures at the hit alone. Thread-safe.
-    using PixelTurns = std::array<glm::vec3, 2>;
+    struct PixelTurns {
+        std::array<glm::vec3, 2> steps;
+        bool parallel;  // steps are moves aside, m, instead of turns of the direction
+    };
     void trace(const Ray& cameraRay, const PixelTurns* pixel, Sampler& sampler, PathSample& result) const;
     // What a surface of `instance` sends along its shading normal, less its emission, in `direct`, `diffuse` and
     // `specular`. Of white diffuse surfaces this is what arrives, divided by pi. Thread-safe.

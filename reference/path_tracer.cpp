@@ -170,8 +170,9 @@ void Round::renderTile(int tile, PathSample& sample, std::uint64_t& bad) {
             const std::uint32_t key = combineBits(mixBits(settings_.seed), static_cast<std::uint32_t>(at));
             const glm::dvec2 size(film_.width, film_.height);
             const glm::dvec2 middle = (glm::dvec2(x, y) + 0.5) / size * 2.0 - 1.0;
-            const PathIntegrator::PixelTurns turns = {lens_.turn({middle.x, -middle.y}, {2 / size.x, 0}),
-                                                      lens_.turn({middle.x, -middle.y}, {0, 2 / size.y})};
+            const PathIntegrator::PixelTurns turns = {{lens_.turn({middle.x, -middle.y}, {2 / size.x, 0}),
+                                                       lens_.turn({middle.x, -middle.y}, {0, 2 / size.y})},
+                                                      lens_.parallel};
             const bool box = settings_.filter == PixelFilter::Box;
             for (int i = begin_; i < end_; ++i) {
                 const auto half = static_cast<std::uint32_t>(i & 1);

@@ -40,31 +40,34 @@ double ratioOf(double value, double mean) {
     return value > 0 ? std::numeric_limits<double>::infinity() : 0;
 }
 
-// Axes and size of the picture plane at distance 1.
+// Axes and size of the picture plane at distance 1; of parallel rays at any.
 struct View {
     glm::dvec3 eye, forward, right, up;
     double tanX = 1, tanY = 1;
+    bool parallel;
     int width, height;
 
-    View(const Camera& camera, int w, int h) : width(w), height(h) {
+    View(const Camera& camera, int w, int h) : parallel(camera.isOrthographic()), width(w), height(h) {
         eye = camera.eye;
         forward = glm::normalize(glm::dvec3(camera.target) - eye);
         right = glm::normalize(glm::cross(forward, glm::dvec3(camera.up)));
         up = glm::cross(right, forward);
-        tanY = std::tan(0.5 * static_cast<double>(camera.fovY));
+        tanY = parallel ? 0.5 * static_cast<double>(camera.orthographicHeight)
+                        : std::tan(0.5 * static_cast<double>(camera.fovY));
         tanX = tanY * w / h;
     }
     glm::dvec3 pointAt(int x, int y, double depth) const {
         const double u = (2 * (x + 0.5) / width - 1) * tanX;
         const double v = (1 - 2 * (y + 0.5) / height) * tanY;
-        return eye + depth * (forward + u * right + v * up);
+        return eye + depth * forward + (parallel ? 1 : depth) * (u * right + v * up);
     }
     // Pixel coordinates (the first pixel's centre is 0, 0) and view depth.
     glm::dvec3 project(const glm::dvec3& point) const {
         const glm::dvec3 d = point - eye;
         const double depth = glm::dot(d, forward);
-        const double u = glm::dot(d, right) / (depth * tanX);
-        const double v = glm::dot(d, up) / (depth * tanY);
+        const double scale = parallel ? 1 : depth;
+        const double u = glm::dot(d, right) / (scale * tanX);
+        const double v = glm::dot(d, up) / (scale * tanY);
         return {0.5 * (u + 1) * width - 0.5, 0.5 * (1 - v) * height - 0.5, depth};
     }
 };

@@ -140,6 +140,32 @@ std::vector<std::string> splitList(const std::string& text) {
     return parts;
 }
 
+void ViewOptions::addCameraTo(CLI::App& command) {
+    command.add_option("--camera", camera, "a camera of the scene: its name, or its number from 0")
+        ->type_name("NAME");
+    command.add_option("--eye", eye, "camera position instead of a camera of the scene")->type_name("X,Y,Z");
+    command.add_option("--target", target, "what the camera looks at")->type_name("X,Y,Z");
+    command.add_option("--fov", fovDeg, "vertical field of view in degrees")
+        ->type_name("DEG")
+        ->check(CLI::Range(1.0, 170.0));
+    command
+        .add_option("--lens", lensDiameter,
+                    "diameter of the camera's lens in m: what is out of focus is blurred, in stills and mode "
+                    "reference; 0: a pinhole")
+        ->type_name("M")
+        ->check(CLI::Range(0.0, static_cast<double>(kWidestLens)));
+    command
+        .add_option("--focus", focusDistance,
+                    "distance of the plane in focus in m, along the view; 0: through the target")
+        ->type_name("M")
+        ->check(CLI::Range(0.0, 1e6));
+    command
+        .add_option("--orthographic", orthographicHeight,
+                    "parallel rays that show so many m from top to bottom; 0: perspective")
+        ->type_name("M")
+        ->check(CLI::Range(0.0, static_cast<double>(kTallestView)));
+}
+
 void ViewOptions::addTo(CLI::App& command) {
     command.add_option("--size", size, "picture size")->capture_default_str()->type_name("WxH");
     command.add_option("--voxels", voxels, "voxels along the longest axis (same as --set voxels.size=N)")
@@ -165,24 +191,7 @@ void ViewOptions::addTo(CLI::App& command) {
             "directions, apertures and weights of the diffuse cones of modes cones and hybrid, from a file "
             "(cones.diffuse_set=own)")
         ->type_name("FILE");
-    command.add_option("--camera", camera, "a camera of the scene: its name, or its number from 0")
-        ->type_name("NAME");
-    command.add_option("--eye", eye, "camera position instead of a camera of the scene")->type_name("X,Y,Z");
-    command.add_option("--target", target, "what the camera looks at")->type_name("X,Y,Z");
-    command.add_option("--fov", fovDeg, "vertical field of view in degrees")
-        ->type_name("DEG")
-        ->check(CLI::Range(1.0, 170.0));
-    command
-        .add_option("--lens", lensDiameter,
-                    "diameter of the camera's lens in m: what is out of focus is blurred, in stills and mode "
-                    "reference; 0: a pinhole")
-        ->type_name("M")
-        ->check(CLI::Range(0.0, static_cast<double>(kWidestLens)));
-    command
-        .add_option("--focus", focusDistance,
-                    "distance of the plane in focus in m, along the view; 0: through the target")
-        ->type_name("M")
-        ->check(CLI::Range(0.0, 1e6));
+    addCameraTo(command);
     command.add_option("--sky", sky, "constant sky radiance instead of the scene's, W/(sr m^2)")
         ->type_name("R,G,B");
     addEnvironmentTo(command);
@@ -362,6 +371,8 @@ Camera cameraFor(const Scene& scene, const ViewOptions& options) {
     if (options.fovDeg > 0) camera.fovY = static_cast<float>(options.fovDeg * 3.14159265358979 / 180.0);
     if (options.lensDiameter) camera.lensDiameter = static_cast<float>(*options.lensDiameter);
     if (options.focusDistance) camera.focusDistance = static_cast<float>(*options.focusDistance);
+    if (options.orthographicHeight)
+        camera.orthographicHeight = static_cast<float>(*options.orthographicHeight);
     if (glm::length(camera.target - camera.eye) < 1e-9f) usage("--eye and --target: both are the same point");
     return camera;
 }

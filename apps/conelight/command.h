@@ -77,7 +77,7 @@ struct ViewOptions {
     std::string camera;
     std::string eye, target;
     double fovDeg = 0;
-    std::optional<double> lensDiameter, focusDistance;  // m
+    std::optional<double> lensDiameter, focusDistance, orthographicHeight;  // m
     std::string sky;
     std::string environment;
     double rotateDeg = 0;
@@ -94,6 +94,7 @@ struct ViewOptions {
 
     void addTo(CLI::App& command);
     void addContextTo(CLI::App& command);
+    void addCameraTo(CLI::App& command);
     void addEnvironmentTo(CLI::App& command);
 };
 

@@ -62,7 +62,8 @@ std::string softwareName() {
 namespace {
 
 std::string lensText(const Camera& camera) {
-    if (!(camera.lensDiameter > 0)) return {};
+    if (camera.isOrthographic()) return fmt::format(" --orthographic {}", camera.orthographicHeight);
+    if (!camera.hasLens()) return {};
     return fmt::format(" --lens {} --focus {}", camera.lensDiameter, camera.focus());
 }
 

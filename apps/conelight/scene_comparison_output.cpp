@@ -116,6 +116,7 @@ ordered_json comparisonJson(const SceneComparison& comparison, bool withFlip) {
                       {"eye", vectorJson(camera.eye)},
                       {"target", vectorJson(camera.target)},
                       {"fov_deg", glm::degrees(camera.fovY)}};
+    if (camera.isOrthographic()) json["camera"]["orthographic_height"] = camera.orthographicHeight;
     json["size"] = {comparison.size.width, comparison.size.height};
     if (!comparison.pixels.empty()) json["pixels"] = comparison.pixels;
     const ReferencePicture& reference = comparison.reference;

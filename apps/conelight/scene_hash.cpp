@@ -68,7 +68,11 @@ void addField(Hash& hash, const T& value) {
 
 template <class T>
 void addFields(Hash& hash, const T& object) {
-    visitFields([&hash](const char*, const auto& value) { addField(hash, value); }, object);
+    visitFields(
+        [&hash](const std::string& field, const auto& value) {
+            if (field != "group") addField(hash, value);  // a tree of names
+        },
+        object);
 }
 
 // A hint shows in no picture either.

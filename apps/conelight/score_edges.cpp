@@ -25,8 +25,7 @@ struct EdgesOptions : ScoreOptions {
 Camera aside(Camera camera, double pixels, const Size& size) {
     const glm::vec3 view = camera.target - camera.eye;
     const glm::vec3 right = glm::normalize(glm::cross(view, camera.up));
-    const double pixel = 2 * std::tan(0.5 * static_cast<double>(camera.fovY)) *
-                         static_cast<double>(glm::length(view)) / size.height;
+    const double pixel = static_cast<double>(camera.heightAt(glm::length(view))) / size.height;
     const glm::vec3 step = static_cast<float>(pixels * pixel) * right;
     camera.eye += step;
     camera.target += step;

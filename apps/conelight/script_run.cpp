@@ -12,6 +12,7 @@
 #include "inspection_text.h"
 #include "io/gltf_write.h"
 #include "provenance.h"
+#include "session/addition.h"
 #include "video_file.h"
 
 namespace conelight::program {
@@ -97,6 +98,13 @@ class Runner {
                 progress_.show("loading " + request.file);
                 for (const std::string& note : session_.open(request.file, request.keepView))
                     std::fprintf(stderr, "conelight: %s: %s\n", request.file.c_str(), note.c_str());
+                break;
+            case RequestKind::Import:
+                progress_.show("loading " + request.file);
+                for (const std::string& line :
+                     addImported(session_, console_.picker(), readPart(request.file, session_.openHow()),
+                                 request.file))
+                    console_.print(line);
                 break;
             case RequestKind::Screenshot: {
                 screenshot(request);

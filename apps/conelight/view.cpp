@@ -44,7 +44,8 @@ Session openSession(const ViewCommand& options, const io::LoadOptions& watched =
     Session session(std::move(scene), options.scene, settings,
                     mode.empty() ? getSetting(settings, "mode") : mode, camera);
     session.setAnimation(std::move(animation));
-    session.setOpenHow({options.view.allowOutside, !options.view.noGround, {options.scene, options.view.up}});
+    session.setOpenHow(
+        {options.view.allowOutside, !options.view.noGround, {options.scene, options.view.up}, mode});
     return session;
 }
 

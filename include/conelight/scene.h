@@ -9,6 +9,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
@@ -156,6 +157,13 @@ CONELIGHT_API void setPbrFromPhong(Material& material, const PhongMaterial& phon
 // As the scene gives it, or else derived.
 CONELIGHT_API PhongMaterial phongOf(const Material& material);
 
+// What belongs together, as a tree of names: for lists and selections. Places are those of the instances and lights.
+struct Group {
+    std::string name;
+    int parent = -1;  // a group before this one; -1: none
+    bool operator==(const Group&) const = default;
+};
+
 // One placement of a mesh.
 struct Instance {
     std::string name;
@@ -166,6 +174,7 @@ struct Instance {
     bool voxelized = true;    // false: drawn, but neither occludes nor bounces nor emits
     bool castsShadow = true;  // false: left out of shadow maps and shadow rays
     bool dynamic = false;     // it moves: light is not baked on it (mode hybrid), and nothing else
+    int group = -1;           // that it belongs to; -1: none
     bool operator==(const Instance&) const = default;
 };
 
@@ -207,6 +216,7 @@ struct Light {
     bool customFalloff = false;
     glm::vec3 falloff{1.0f, 0.15f, 0.45f};        // constant, linear, quadratic
     std::shared_ptr<const LightProfile> profile;  // point, spot; shared by copies, never changed; null: none
+    int group = -1;                               // that it belongs to; -1: none
     bool operator==(const Light&) const = default;
 };
 
@@ -221,7 +231,7 @@ CONELIGHT_API std::optional<glm::vec3> radiantFlux(const Light& light);
 // is none.
 CONELIGHT_API bool setRadiantFlux(Light& light, const glm::vec3& flux);
 
-// A perspective camera. Looks from eye to target.
+// Looks from eye to target: in perspective or, orthographic, by parallel rays.
 struct Camera {
     std::string name;
     glm::vec3 eye{0, 0, 3};
@@ -233,7 +243,15 @@ struct Camera {
     // A thin lens: what lies nearer or farther than the plane in focus is blurred.
     float lensDiameter = 0;   // m; 0: a pinhole, all is sharp
     float focusDistance = 0;  // along the view to the plane in focus, m; 0: through the target
+    // Above 0: rays are parallel, and the picture is so high, m. Field of view and lens have no part then: all is sharp.
+    float orthographicHeight = 0;  // 0: perspective
     float focus() const { return focusDistance > 0 ? focusDistance : glm::distance(eye, target); }
+    bool isOrthographic() const { return orthographicHeight > 0; }
+    bool hasLens() const { return lensDiameter > 0 && focus() > 0 && !isOrthographic(); }
+    // m that the picture is high at a distance along the view.
+    float heightAt(float distance) const {
+        return isOrthographic() ? orthographicHeight : 2 * distance * std::tan(0.5f * fovY);
+    }
     bool operator==(const Camera&) const = default;
 };
 
@@ -280,6 +298,7 @@ struct Scene {
     std::vector<Texture> textures;
     std::vector<Instance> instances;
     std::vector<Light> lights;
+    std::vector<Group> groups;
     std::vector<Camera> cameras;
     glm::vec3 sky{0.0f};  // constant radiance of the surroundings, W/(sr m^2)
     Environment environment;

@@ -73,7 +73,7 @@ auto fieldsOf(M& material) {
 
 template <FieldsFrom<Instance> I>
 auto fieldsOf(I& instance) {
-    auto& [name, mesh, material, worldFromObject, visible, voxelized, castsShadow, dynamic] = instance;
+    auto& [name, mesh, material, worldFromObject, visible, voxelized, castsShadow, dynamic, group] = instance;
     return std::tuple{Field{"name", name},
                       Field{"mesh", mesh},
                       Field{"material", material},
@@ -81,13 +81,14 @@ auto fieldsOf(I& instance) {
                       Field{"visible", visible},
                       Field{"voxelized", voxelized},
                       Field{"casts shadow", castsShadow},
-                      Field{"dynamic", dynamic}};
+                      Field{"dynamic", dynamic},
+                      Field{"group", group}};
 }
 
 template <FieldsFrom<Light> L>
 auto fieldsOf(L& light) {
     auto& [name, type, intensity, position, direction, halfU, halfV, innerAngle, outerAngle, range, enabled,
-           castsShadow, customFalloff, falloff, profile] = light;
+           castsShadow, customFalloff, falloff, profile, group] = light;
     return std::tuple{Field{"name", name},
                       Field{"type", type},
                       Field{"intensity", intensity},
@@ -102,12 +103,20 @@ auto fieldsOf(L& light) {
                       Field{"casts shadow", castsShadow},
                       Field{"own falloff", customFalloff},
                       Field{"falloff", falloff},
-                      Field{"profile", profile}};
+                      Field{"profile", profile},
+                      Field{"group", group}};
+}
+
+template <FieldsFrom<Group> G>
+auto fieldsOf(G& group) {
+    auto& [name, parent] = group;
+    return std::tuple{Field{"name", name}, Field{"parent", parent}};
 }
 
 template <FieldsFrom<Camera> C>
 auto fieldsOf(C& camera) {
-    auto& [name, eye, target, up, fovY, zNear, zFar, lensDiameter, focusDistance] = camera;
+    auto& [name, eye, target, up, fovY, zNear, zFar, lensDiameter, focusDistance, orthographicHeight] =
+        camera;
     return std::tuple{Field{"name", name},
                       Field{"eye", eye},
                       Field{"target", target},
@@ -116,7 +125,8 @@ auto fieldsOf(C& camera) {
                       Field{"near plane", zNear},
                       Field{"far plane", zFar},
                       Field{"lens diameter", lensDiameter},
-                      Field{"focus distance", focusDistance}};
+                      Field{"focus distance", focusDistance},
+                      Field{"orthographic height", orthographicHeight}};
 }
 
 // Calls visit(name, value, ...) for each field, with the values of all objects, which are of one struct.

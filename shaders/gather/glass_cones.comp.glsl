@@ -72,9 +72,10 @@ bool bendAt(inout GlassAxis way, GlassSurface s) {
     return through;
 }
 
-GlassAxis glassWay(vec3 direction, GlassHit hit, float end, const bool shines) {
-    GlassAxis way = GlassAxis(frame.eye, direction, vec3(1.0), vec3(0.0), vec3(0.0), 0.0, 0u, false);
+GlassAxis glassWay(GlassSight sight, GlassHit hit, const bool shines) {
+    GlassAxis way = GlassAxis(sight.origin, sight.direction, vec3(1.0), vec3(0.0), vec3(0.0), 0.0, 0u, false);
     vec3 absorption = vec3(0.0);
+    float end = sight.end;
     int met = 0;
     bool goesOn = hit.triangle >= 0;
     if (goesOn) do {
@@ -113,10 +114,10 @@ struct Bundle {
 };
 
 // Between neighbouring pixels' axes; where these took another way, as wide as without a lens.
-Bundle bundleOf(GlassAxis way, GlassAxis other, vec3 direction, vec3 otherDirection, const bool mirrored) {
-    float angle = length(otherDirection - direction);
-    float distance = length(way.origin - frame.eye);
-    Bundle plain = Bundle(angle * distance, angle);
+Bundle bundleOf(GlassAxis way, GlassAxis other, GlassSight sight, GlassSight beside, const bool mirrored) {
+    float angle = length(beside.direction - sight.direction);
+    float distance = length(way.origin - sight.origin);
+    Bundle plain = Bundle(angle * distance + length(beside.origin - sight.origin), angle);
     if (mirrored)
         return Bundle(plain.width, other.history != 0u ? length(other.reflected - way.reflected) : angle);
     vec3 between = other.origin - way.origin;
@@ -159,6 +160,13 @@ RectShare rectShare(vec3 origin, vec3 direction, float width, float tanHalf) {
     return seen;
 }
 
+// What the neighbouring pixel sees whose place in the picture differs by so much: `step` is its share of viewRight or
+// viewUp.
+GlassSight besideSight(GlassSight sight, vec3 ray, vec3 step) {
+    return GlassSight(sight.origin + frame.parallel * step, normalize(ray + (1.0 - frame.parallel) * step),
+                      sight.end);
+}
+
 // Radiance that a cone about an axis brings. `showsLamps`: else highlights stand for them.
 vec3 coneLight(vec3 origin, vec3 direction, Bundle bundle, float lobeTan, const bool showsLamps) {
     float tanHalf = min(max(0.5 * bundle.spread + lobeTan, 1e-4), kWidestTan);
@@ -187,28 +195,28 @@ void main() {
     ivec2 pixel = passPixel();
     if (any(greaterThanEqual(pixel, imageSize(picture)))) return;
     GlassSight sight = glassSight(pixel);
-    GlassHit first = nearestGlass(frame.eye, sight.direction, sight.end, -1, true);
+    GlassHit first = nearestGlass(sight.origin, sight.direction, sight.end, -1, true);
     if (first.triangle < 0) return;
-    GlassAxis way = glassWay(sight.direction, first, sight.end, true);
+    GlassAxis way = glassWay(sight, first, true);
     vec3 light = way.light;
     if (!way.bent) light += way.throughput * imageLoad(picture, pixel).rgb;
     if (glassPass.specular != 0u) {
         vec3 ray = pixelRay(pixel);
-        vec3 right = normalize(ray + frame.viewRight * (2.0 / float(frame.width)));
-        vec3 up = normalize(ray + frame.viewUp * (2.0 / float(frame.height)));
+        GlassSight right = besideSight(sight, ray, frame.viewRight * (2.0 / float(frame.width)));
+        GlassSight up = besideSight(sight, ray, frame.viewUp * (2.0 / float(frame.height)));
         GlassAxis wayRight =
-            glassWay(right, nearestGlass(frame.eye, right, sight.end, -1, true), sight.end, false);
-        GlassAxis wayUp = glassWay(up, nearestGlass(frame.eye, up, sight.end, -1, true), sight.end, false);
-        GlassSurface s = glassSurface(frame.eye, sight.direction, first);
+            glassWay(right, nearestGlass(right.origin, right.direction, sight.end, -1, true), false);
+        GlassAxis wayUp = glassWay(up, nearestGlass(up.origin, up.direction, sight.end, -1, true), false);
+        GlassSurface s = glassSurface(sight.origin, sight.direction, first);
         if (way.bent) {
-            Bundle bundle = meanOf(bundleOf(way, wayRight, sight.direction, right, false),
-                                   bundleOf(way, wayUp, sight.direction, up, false));
+            Bundle bundle =
+                meanOf(bundleOf(way, wayRight, sight, right, false), bundleOf(way, wayUp, sight, up, false));
             float lobeTan = tan(min(sqrt(way.lobe2), 1.2));
             light += way.throughput * coneLight(way.origin, way.direction, bundle, lobeTan, true);
         }
         if (!(s.back && s.solid)) {
-            Bundle bundle = meanOf(bundleOf(way, wayRight, sight.direction, right, true),
-                                   bundleOf(way, wayUp, sight.direction, up, true));
+            Bundle bundle =
+                meanOf(bundleOf(way, wayRight, sight, right, true), bundleOf(way, wayUp, sight, up, true));
             float lobeTan = tan(min(2.0 * facetAngle(s), 1.2));
             vec3 origin = s.position + cones.offset * s.geometricNormal;
             light += s.brdf.albedo * coneLight(origin, way.reflected, bundle, lobeTan, false);

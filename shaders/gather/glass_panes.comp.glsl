@@ -22,9 +22,9 @@ void main() {
     ivec2 pixel = passPixel();
     if (any(greaterThanEqual(pixel, imageSize(picture)))) return;
     GlassSight sight = glassSight(pixel);
-    GlassHit hit = nearestGlass(frame.eye, sight.direction, sight.end, -1, true);
+    GlassHit hit = nearestGlass(sight.origin, sight.direction, sight.end, -1, true);
     if (hit.triangle < 0) return;
-    vec3 origin = frame.eye;
+    vec3 origin = sight.origin;
     vec3 left = vec3(1.0), light = vec3(0.0), absorption = vec3(0.0);
     int met = 0;
     do {

@@ -143,7 +143,9 @@ bool nextBranch(inout PathParts pathParts) {
 // The ray of the path's last stretch, up to glass in its way at `end`, metres.
 Ray stretchOf(GlassPath path, float end, bool open) {
     float pixelAngle = 2.0 * length(frame.viewUp) / float(frame.height);
-    rayCone = RayCone(0.0, pixelAngle + path.alpha);
+    // Parallel rays are as wide everywhere.
+    rayCone = RayCone(frame.parallel * pixelAngle * glassPass.inverseVoxelSize,
+                      pixelAngle * (1.0 - frame.parallel) + path.alpha);
     return Ray(gridFromWorld(path.origin), path.direction, open ? 1e9 : end * glassPass.inverseVoxelSize,
                vec3(0.0));
 }
@@ -183,7 +185,7 @@ void turnPath(inout GlassPath path, GlassSurface s, bool below, vec3 h, vec2 xi,
 // What comes along one path, less what paths before it have met on the same way. `sure`: chance has no part in it.
 vec3 glassLight(GlassHit hit, GlassSight sight, inout PathParts pathParts, uint pixelSeed, vec3 behind,
                 inout bool sure) {
-    GlassPath path = GlassPath(frame.eye, sight.direction, vec3(1.0), vec3(0.0), 0.0, false, false);
+    GlassPath path = GlassPath(sight.origin, sight.direction, vec3(1.0), vec3(0.0), 0.0, false, false);
     uint number = glassPass.firstPass + glassPass.pass;
     uint random = randomHash(pixelSeed ^ randomHash(number));
     vec2 choices = sequencePoint(pixelSeed + 2u, number);  // at the second and third surface
@@ -245,7 +247,7 @@ void main() {
     vec4 before = glassPass.pass > 0u ? imageLoad(sums, pixel) : vec4(0.0);
     if (before.a > 0.0) return;  // the first pass was sure of it
     GlassSight sight = glassSight(pixel);
-    GlassHit first = nearestGlass(frame.eye, sight.direction, sight.end, -1, true);
+    GlassHit first = nearestGlass(sight.origin, sight.direction, sight.end, -1, true);
     if (first.triangle < 0) return;
     vec4 behind = imageLoad(picture, pixel);
     uint seed = randomHash(uint(pixel.x) | uint(pixel.y) << 16) ^ 0x2545f491u;

@@ -13,7 +13,7 @@ void main() {
     ivec2 pixel = passPixel();
     if (any(greaterThanEqual(pixel, imageSize(picture)))) return;
     if (texelFetch(gbufferGeometry, pixel, 0).x != 0u) return;
-    // As wide as the pixel.
-    float width = frame.footprint * 2.0 * length(frame.viewUp) / float(frame.height);
+    // As wide as the pixel; parallel rays see one direction.
+    float width = (1.0 - frame.parallel) * frame.footprint * 2.0 * length(frame.viewUp) / float(frame.height);
     imageStore(picture, pixel, vec4(skyRadiance(normalize(pixelRay(pixel)), width), 0.0));
 }

@@ -62,15 +62,19 @@ ivec2 nearestAround(ivec2 pixel, ivec2 size) {
 vec3 placeBefore(ivec2 pixel, vec2 size) {
     float depth = depthAt(pixel);
     vec3 ray = pixelRay(pixel);
+    bool parallel = temporal.oldParallel != 0.0;
+    // Parallel rays all see one place of the sky: it was here.
+    if (parallel && depth >= kSky) return vec3(pixel, kSky);
     vec4 clip = temporal.oldClipFromWorld * vec4(ray, 0.0);
-    float known = 1.0;
+    float known = 1.0, before = kSky;
     if (depth < kSky) {
         mat4 motion = oldFromWorld[texelFetch(gbufferGeometry, pixel, 0).w >> 2];
-        clip = temporal.oldClipFromWorld * (motion * vec4(frame.eye + depth * ray, 1.0));
+        vec4 old = motion * vec4(pixelOrigin(pixel) + depth * ray, 1.0);
+        clip = temporal.oldClipFromWorld * old;
         known = motion[3][3];
+        before = parallel ? dot(temporal.oldDepth, old) : clip.w;
     }
     vec2 place = (clip.xy / max(clip.w, 1e-6) * 0.5 + 0.5) * size - 0.5;
-    float before = depth < kSky ? clip.w : kSky;
     return vec3(place, clip.w > 0.0 && known > 0.0 ? before : 0.0);
 }
 

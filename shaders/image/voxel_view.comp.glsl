@@ -166,11 +166,11 @@ struct CellWalk {
     int budget;  // cells that are left to pass
 };
 
-// `end`: m.
-CellWalk startWalk(vec3 ray, float end) {
+// `eye`, `end`: m.
+CellWalk startWalk(vec3 eye, vec3 ray, float end) {
     CellWalk w;
     w.direction = mix(ray, vec3(1e-7), lessThan(abs(ray), vec3(1e-7)));
-    w.origin = (frame.eye - view.origin) / view.voxelSize;
+    w.origin = (eye - view.origin) / view.voxelSize;
     w.inverse = 1.0 / w.direction;
     vec3 size = vec3(view.sizeX, view.sizeY, view.sizeZ);
     vec3 toLow = -w.origin * w.inverse, toHigh = (size - w.origin) * w.inverse;
@@ -216,7 +216,8 @@ bool meetCell(inout vec4 met, CellWalk w, vec4 found, vec3 ray) {
 #elif SHAPE == EDGES
     // The edges of the side that is entered, and behind them those of the side that is left.
     float depthOfMeter = dot(ray, frame.viewForward);
-    vec2 halfWidth = kHalfEdge * view.pixelSize * depthOfMeter * vec2(w.t, w.leave) / w.edge;
+    vec2 depth = mix(depthOfMeter * vec2(w.t, w.leave), vec2(1.0 / view.voxelSize), frame.parallel);
+    vec2 halfWidth = kHalfEdge * view.pixelSize * depth / w.edge;
     bool front = onEdge((w.origin + w.t * w.direction) / w.edge - vec3(w.cell), w.axis, halfWidth.x);
     bool back = onEdge((w.origin + w.leave * w.direction) / w.edge - vec3(w.cell), w.exitAxis, halfWidth.y);
     if (front || back) met = vec4(color, 1.0);
@@ -228,9 +229,9 @@ bool meetCell(inout vec4 met, CellWalk w, vec4 found, vec3 ray) {
 }
 
 // What the ray meets until `end` (m): colour, opacity.
-vec4 castRay(vec3 ray, float end) {
+vec4 castRay(vec3 eye, vec3 ray, float end) {
     vec4 met = vec4(0.0);
-    CellWalk w = startWalk(ray, end);
+    CellWalk w = startWalk(eye, ray, end);
     bool going = w.last >= 0.0;
     bool through = view.inside != 0u && w.leave > 0.0;
     int entryAxis = w.axis, wall = -1;  // layer of cells along that axis
@@ -252,12 +253,12 @@ void main() {
     Surface s;
     bool seen = fetchSurface(pixel, s);
     vec3 perDepth = pixelRay(pixel);
-    vec3 ray = normalize(perDepth);
+    vec3 eye = pixelOrigin(pixel), ray = normalize(perDepth);
     float end = AMONG == 1 && seen ? s.depth * length(perDepth) : 1e9;
 #if SHAPE == SURFACES
     // The cell about the surface; with the surface exactly between two, the one behind it.
     vec3 at = (s.position - view.origin) / view.voxelSize;
-    int level = levelShown(length(s.position - frame.eye) / view.voxelSize);
+    int level = levelShown(length(s.position - eye) / view.voxelSize);
     float edge = exp2(float(level));
     vec4 result = vec4(0.0);
 #if SOURCE == 1 || SOURCE == 4
@@ -282,13 +283,13 @@ void main() {
     }
 #endif
 #elif SHAPE == FACES
-    vec3 origin = gridFromWorld(frame.eye);
+    vec3 origin = gridFromWorld(eye);
     VoxelHit hit = traceVoxels(Ray(origin, ray, end / view.voxelSize, vec3(0.0)));
     vec4 result = vec4(0.0);
     if (hit.face >= 0)
         result = vec4(view.data == VIEW_LEVEL ? falseColor(0.0) : faceData(hit.face, view.data), 1.0);
 #else
-    vec4 result = castRay(ray, end);
+    vec4 result = castRay(eye, ray, end);
 #endif
 #if AMONG
     if (result.a > 0.0) imageStore(picture, pixel, result + (1.0 - result.a) * imageLoad(picture, pixel));

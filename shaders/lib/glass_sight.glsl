@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
-// What a pixel sees through glass: its direction, and how far it is to what the picture shows.
+// What a pixel sees through glass: from where, its direction, and how far it is to what the picture shows.
 #include "lib/dot.glsl"
 #include "lib/gbuffer.glsl"
 
 struct GlassSight {
+    vec3 origin;
     vec3 direction;  // unit
     float end;       // m
 };
@@ -13,5 +14,5 @@ GlassSight glassSight(ivec2 pixel) {
     float along = length(ray);
     float depth = uintBitsToFloat(texelFetch(gbufferGeometry, pixel, 0).x);
     // Just before the surface: what lies on it is drawn with it.
-    return GlassSight(ray / along, depth > 0.0 ? depth * along * 0.99999 : 1e9);
+    return GlassSight(pixelOrigin(pixel), ray / along, depth > 0.0 ? depth * along * 0.99999 : 1e9);
 }

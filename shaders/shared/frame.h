@@ -5,7 +5,7 @@
 CONELIGHT_SHARED_BEGIN
 
 struct FrameConstants {
-    mat4 clipFromWorld;  // z of parallel rays: view depth
+    mat4 clipFromWorld;  // z of a host's parallel rays: view depth
     // ---- 64 B
     vec3 eye;
     uint width;
@@ -13,7 +13,9 @@ struct FrameConstants {
     // y viewUp); of parallel rays eye + x viewRight + y viewUp + z viewForward
     vec3 viewForward;  // unit, where pixels are seen at their centres
     uint height;
-    vec3 viewRight;   // unit vector times the tangent of half the horizontal field of view
+    vec3
+        viewRight;  // unit vector times the tangent of half the horizontal field of view; of parallel rays half the
+                    // picture's width, m
     float footprint;  // edge of the part of a pixel that this view stands for, pixels: textures are as sharp
     vec3 viewUp;      // unit vector times the tangent of half the vertical field of view
     // Which fragments of blended surfaces are there: below 0 those that hide a half and more, in [0,1) those above

@@ -58,11 +58,12 @@ struct ViewMeanConstants {
 struct TemporalPictureConstants {
     mat4 oldClipFromWorld;  // of the pixels' centres in the picture before
     // ---- 64 B
-    uint longest;  // views that are averaged at most
-    uint fresh;    // 1: there is no picture before
+    vec4 oldDepth;      // of parallel rays: the row that makes the view depth of a point
+    uint longest;       // views that are averaged at most
+    uint fresh;         // 1: there is no picture before
+    float oldParallel;  // of FrameConstants
     uint pad0;
-    uint pad1;
-};  // 80 B
+};  // 96 B
 
 // Uniform block of image/bloom_*.comp.glsl.
 struct BloomConstants {
@@ -109,7 +110,7 @@ CONELIGHT_SHARED_END
 static_assert(sizeof(conelight::gpu::Exposure) == 16);
 static_assert(sizeof(conelight::gpu::DisplayConstants) == 320);
 static_assert(sizeof(conelight::gpu::ViewMeanConstants) == 16);
-static_assert(sizeof(conelight::gpu::TemporalPictureConstants) == 80);
+static_assert(sizeof(conelight::gpu::TemporalPictureConstants) == 96);
 static_assert(sizeof(conelight::gpu::BloomConstants) == 16);
 static_assert(sizeof(conelight::gpu::HeadlightConstants) == 16);
 static_assert(sizeof(conelight::gpu::WireframeConstants) == 32);

@@ -78,13 +78,18 @@ float spreadRoughness(float roughness, float spread) {
 }
 #endif
 
+// From the eye to the surface, or along parallel rays.
+vec3 sight() { return frame.parallel != 0.0 ? frame.viewForward : fromEye; }
+
+float viewDepth() { return frame.parallel != 0.0 ? dot(fromEye, frame.viewForward) : 1.0 / gl_FragCoord.w; }
+
 // The normal of the triangle, towards the eye.
 vec3 faceNormal() {
     vec3 n = cross(dFdx(fromEye), dFdy(fromEye));
     float len = length(n);
     // Slivers without extent on screen have none of their own.
     n = len > 0.0 ? n / len : normalize(interpolatedNormal);
-    return dot(n, fromEye) > 0.0 ? -n : n;
+    return dot(n, sight()) > 0.0 ? -n : n;
 }
 
 #if MASKED
@@ -155,7 +160,7 @@ void main() {
     bool back = !gl_FrontFacing;
     if (back && (materials[material].flags & MATERIAL_DOUBLE_SIDED) == 0u) emissionFactor = vec3(0.0);
 
-    outGeometry = uvec4(floatBitsToUint(1.0 / gl_FragCoord.w), packSnorm2x16(octEncode(n)),
+    outGeometry = uvec4(floatBitsToUint(viewDepth()), packSnorm2x16(octEncode(n)),
                         packSnorm2x16(octEncode(face)), constant.x | packSpread(spread) | (back ? 1u : 0u));
     outMaterial = uvec4(packUnorm2x16(base.rg), packUnorm2x16(vec2(base.b, roughness)), reflectance,
                         packEmissionFactor(emissionFactor));

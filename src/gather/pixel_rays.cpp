@@ -50,7 +50,7 @@ PixelRectangle lobeRectangle(const RayInputs& inputs, float roughest) {
                                (corner & 2) != 0 ? box.max.y : box.min.y,
                                (corner & 4) != 0 ? box.max.z : box.min.z);
             const glm::vec4 clip = view.clipFromWorld * glm::vec4(at, 1);
-            if (clip.w < 1e-3f * inputs.voxels.grid().voxelSize) continue;
+            if (view.parallel == 0 && clip.w < 1e-3f * inputs.voxels.grid().voxelSize) continue;
             ++before;
             // Far outside all is the same; numbers stay small enough for integers.
             const glm::vec2 place = glm::clamp(glm::vec2(clip) / clip.w, -2.0f, 2.0f);

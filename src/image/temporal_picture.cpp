@@ -126,7 +126,10 @@ base::Steps TemporalPicture::add(const gl::Device& device, const scene::GpuScene
                                  const view::Surfaces& centers, const gl::Texture& picture) {
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::TemporalPictureConstants), "temporal constants");
     gpu::TemporalPictureConstants constants{};
-    constants.oldClipFromWorld = clipFromWorld_;
+    constants.oldClipFromWorld = viewBefore_.clipFromWorld;
+    const glm::vec3& forward = viewBefore_.viewForward;
+    constants.oldDepth = glm::vec4(forward, -glm::dot(forward, viewBefore_.eye));
+    constants.oldParallel = viewBefore_.parallel;
     constants.longest =
         still_ ? std::min(kLongestAtRest, kKeptAtRest + static_cast<std::uint32_t>(rested_)) : kLongestMoving;
     constants.fresh = fresh() ? 1 : 0;
@@ -149,7 +152,7 @@ base::Steps TemporalPicture::add(const gl::Device& device, const scene::GpuScene
                 gl::Access::Update);
     history_.copyFrom(picture);
     std::swap(places_[0], places_[1]);
-    clipFromWorld_ = centers.view().clipFromWorld;
+    viewBefore_ = centers.view();
     drawn_ = true;
 }
 

@@ -75,7 +75,7 @@ class TemporalPicture {
     int rested_ = 0;  // frames at rest
     bool moved_ = false, still_ = false, drawn_ = false;
     std::optional<Camera> camera_;
-    glm::mat4 clipFromWorld_{1.0f}, oldClipFromWorld_{1.0f};
+    gpu::FrameConstants viewBefore_{};
     Settings settings_;
     From from_;
 };

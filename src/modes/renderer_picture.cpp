@@ -50,8 +50,7 @@ int viewsOfStill(const Settings& settings, const Camera& camera) {
     const bool ofLight = isOfLight(settings.component);
     const bool moves = settings.mode == Mode::Traced && settings.traced.budgeted;
     if (!ofLight || moves || isTemporal(settings)) return 0;
-    const bool hasLens = camera.lensDiameter > 0 && camera.focus() > 0;
-    return settings.image.antialiasing > 0 ? settings.image.antialiasing : hasLens ? kLensViews : 0;
+    return settings.image.antialiasing > 0 ? settings.image.antialiasing : camera.hasLens() ? kLensViews : 0;
 }
 
 // Through points of the pixel, or their centres, and points of the lens.
@@ -298,7 +297,9 @@ base::Steps Renderer::Impl::prepare(const Settings& settings) {
 base::Steps Renderer::Impl::prepareCascades(const Camera& camera, const Settings& settings) {
     const bool direct = settings.component == Component::Full || settings.component == Component::Direct;
     if (direct && mode->readsCascades() && mode->needsShadows(scene->source(), settings))
-        co_await cascades.updateInSteps(device, *scene, lights, settings.light, camera.eye);
+        // Parallel rays see as finely far from the eye: what they look at is in the middle.
+        co_await cascades.updateInSteps(device, *scene, lights, settings.light,
+                                        camera.isOrthographic() ? camera.target : camera.eye);
     else if (cascades.levels() > 0)
         cascades.clear();
 }

@@ -173,6 +173,19 @@ void scene::validateInstance(const Scene& scene, const Instance& instance, std::
              instance.name.c_str());
 }
 
+// A group after what it is in; things in groups that are there.
+void scene::validateGroups(const Scene& scene) {
+    const auto require = [](int group, std::size_t end, const char* kind, const std::string& name) {
+        if (group < -1 || group >= static_cast<int>(end))
+            fail(ErrorKind::BadInput, "%s '%s': group %d; -1 or more and less than %zu would be right", kind,
+                 name.c_str(), group, end);
+    };
+    for (std::size_t i = 0; i < scene.groups.size(); ++i)
+        require(scene.groups[i].parent, i, "group", scene.groups[i].name);
+    for (const Instance& one : scene.instances) require(one.group, scene.groups.size(), "instance", one.name);
+    for (const Light& one : scene.lights) require(one.group, scene.groups.size(), "light", one.name);
+}
+
 void scene::validateSky(const glm::vec3& sky) {
     if (!isFinite(sky)) fail(ErrorKind::BadInput, "sky: the radiance is not finite");
 }
@@ -247,6 +260,7 @@ void Scene::validate() const {
         validateReach(instances[i], i, meshBounds[static_cast<std::size_t>(instances[i].mesh)]);
     }
     for (const Light& light : lights) scene::validateLight(light);
+    scene::validateGroups(*this);
     scene::validateSky(sky);
     scene::validateEnvironment(environment);
     if (baked != nullptr) scene::validateBakedLight(*this, *baked);

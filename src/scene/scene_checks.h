@@ -19,6 +19,7 @@ void validateMesh(const Mesh& mesh, std::size_t index);
 void validateReaches(const Scene& scene, std::size_t mesh, const Aabb& bounds);
 void validateTexture(const Texture& texture);
 void validateLight(const Light& light);
+void validateGroups(const Scene& scene);
 void validateSky(const glm::vec3& sky);
 void validateEnvironment(const Environment& environment);
 // Against the instances of `scene`.

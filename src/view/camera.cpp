@@ -53,8 +53,12 @@ glm::dmat4 viewMatrix(const Camera& camera) {
 
 glm::dmat4 projection(const Camera& camera, int width, int height) {
     const double aspect = static_cast<double>(width) / static_cast<double>(height);
-    return glm::perspective(static_cast<double>(camera.fovY), aspect, static_cast<double>(camera.zNear),
-                            static_cast<double>(camera.zFar));
+    const auto zNear = static_cast<double>(camera.zNear), zFar = static_cast<double>(camera.zFar);
+    if (camera.isOrthographic()) {
+        const double y = 0.5 * static_cast<double>(camera.orthographicHeight), x = y * aspect;
+        return glm::ortho(-x, x, -y, y, zNear, zFar);
+    }
+    return glm::perspective(static_cast<double>(camera.fovY), aspect, zNear, zFar);
 }
 
 }  // namespace
@@ -66,6 +70,9 @@ void requireUsable(const Camera& camera) {
     if (!(camera.fovY > 0 && camera.fovY < std::numbers::pi_v<float>))
         base::fail(ErrorKind::Usage, "camera: a field of view of %g; above 0 and below pi would be right",
                    static_cast<double>(camera.fovY));
+    if (!(camera.orthographicHeight >= 0 && std::isfinite(camera.orthographicHeight)))
+        base::fail(ErrorKind::Usage, "camera: an orthographic height of %g; above 0, or 0, would be right",
+                   static_cast<double>(camera.orthographicHeight));
     if (!(camera.zNear > 0 && camera.zNear < camera.zFar && std::isfinite(camera.zFar)))
         base::fail(ErrorKind::Usage, "camera: near %g, far %g; 0 < near < far would be right",
                    static_cast<double>(camera.zNear), static_cast<double>(camera.zFar));
@@ -127,14 +134,17 @@ PixelPart centersOfStill() { return {.blending = 2.0f}; }
 
 gpu::FrameConstants frameConstants(const Camera& camera, int width, int height, const PixelPart& part) {
     const Axes axes = axesOf(camera);
-    const double tanY = std::tan(0.5 * static_cast<double>(camera.fovY));
+    const bool parallel = camera.isOrthographic();
+    // Tangents, of parallel rays half the picture's size
+    const double tanY = parallel ? 0.5 * static_cast<double>(camera.orthographicHeight)
+                                 : std::tan(0.5 * static_cast<double>(camera.fovY));
     const double tanX = tanY * static_cast<double>(width) / static_cast<double>(height);
     gpu::FrameConstants frame{};
     glm::dvec2 shift = 2.0 * part.offset / glm::dvec2(width, height);  // in clip space
     // Another point of the lens sees the plane in focus where the middle sees it.
     glm::dvec2 besideEye(0);
     const double focus = static_cast<double>(camera.focus());
-    if (camera.lensDiameter > 0 && focus > 0) {
+    if (camera.hasLens()) {
         besideEye = 0.5 * static_cast<double>(camera.lensDiameter) * part.lens;
         shift -= besideEye / (focus * glm::dvec2(tanX, tanY));
     }
@@ -149,12 +159,15 @@ gpu::FrameConstants frameConstants(const Camera& camera, int width, int height, 
     view[3].x -= besideEye.x;
     view[3].y -= besideEye.y;
     frame.clipFromWorld = glm::mat4(shifted * view);
-    frame.eye = glm::vec3(glm::dvec3(camera.eye) + axes.right * besideEye.x + axes.up * besideEye.y);
-    frame.viewForward = glm::vec3(axes.forward + axes.right * (shift.x * tanX) + axes.up * (shift.y * tanY));
+    const glm::dvec3 aside = axes.right * (shift.x * tanX) + axes.up * (shift.y * tanY);
+    frame.eye = glm::vec3(glm::dvec3(camera.eye) + axes.right * besideEye.x + axes.up * besideEye.y +
+                          (parallel ? aside : glm::dvec3(0)));
+    frame.viewForward = glm::vec3(axes.forward + (parallel ? glm::dvec3(0) : aside));
     frame.viewRight = glm::vec3(axes.right * tanX);
     frame.viewUp = glm::vec3(axes.up * tanY);
     frame.footprint = part.footprint;
     frame.blending = part.blending;
+    frame.parallel = parallel ? 1.0f : 0.0f;
     frame.width = static_cast<std::uint32_t>(width);
     frame.height = static_cast<std::uint32_t>(height);
     return frame;

@@ -88,6 +88,66 @@ TEST_F(ViewerCameraTest, GuidesLieOverThePicture) {
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
 }
 
+// Parallel rays and back: what is at the target keeps its size; the wheel and standard views keep the projection.
+TEST_F(ViewerCameraTest, OrthographicViews) {
+    start(std::string(kSmall) + "builtin:cornell");
+    settle();
+    viewer->send("camera orbit 30 20");
+    const Seen first = camera();
+    const auto height = [&] {
+        float value = 0;
+        const std::string text = viewer->status("camera");
+        const std::size_t at = text.find("orthographic ");
+        if (at != std::string::npos) value = std::strtof(text.c_str() + at + 13, nullptr);
+        return value;
+    };
+    moveTo(inPicture(0.5f, 0.5f));
+    pass();
+    screen->xdotool("key v");
+    viewer->statusUntil("camera",
+                        [](const std::string& now) { return now.find("ortho") != std::string::npos; });
+    const float whole = 2 * first.distance() * std::tan(glm::radians(0.5f * first.fov));
+    EXPECT_NEAR(height(), whole, 1e-3f * whole);
+    screen->xdotool("click 4");
+    viewer->statusUntil("camera", [&](const std::string&) { return height() < 0.95f * whole; });
+    EXPECT_NEAR(height(), 0.9f * whole, 2e-3f * whole);
+    screen->xdotool("key KP_5");
+    viewer->statusUntil("camera",
+                        [](const std::string& now) { return now.find("fov") != std::string::npos; });
+    EXPECT_NEAR(camera().distance(), 0.9f * first.distance(), 5e-3f * first.distance());
+    EXPECT_NEAR(camera().fov, first.fov, 1e-2f);
+
+    // From above the room's walls are lines: all along its edges the picture is that of outside.
+    screen->xdotool("key v");
+    click("menu:View");
+    click("menu:Orthographic");
+    EXPECT_EQ(height(), 0) << "the entry switches back";
+    viewer->send("camera orthographic; view_from front; settle");
+    settle();
+    const glm::vec3 outside = shownAt(inPicture(0.01f, 0.5f));
+    const float metres =
+        1.0f / height() * float(picture().w) / float(picture().z);  // the room's width in the picture
+    for (const float y : {0.3f, 0.45f})
+        for (const float side : {-1.0f, 1.0f}) {
+            const float edge = 0.5f + side * 0.5f * metres;
+            EXPECT_TRUE(near(shownAt(inPicture(edge + side * 0.02f, y)), outside, 12)) << side << " " << y;
+            EXPECT_FALSE(near(shownAt(inPicture(edge - side * 0.02f, y)), outside, 12))
+                << "the back wall fills it, no side wall is seen: " << side << " " << y;
+        }
+    viewer->send("view_from top");
+    const std::string above = viewer->status("camera");
+    EXPECT_NE(above.find("orthographic"), std::string::npos) << above;
+    Seen c;
+    std::sscanf(above.c_str(), "eye %f %f %f target %f %f %f", &c.eye.x, &c.eye.y, &c.eye.z, &c.target.x,
+                &c.target.y, &c.target.z);
+    EXPECT_EQ(glm::vec2(c.eye.x, c.eye.z), glm::vec2(c.target.x, c.target.z)) << "straight down";
+    // A click finds what parallel rays meet, off the middle too.
+    viewer->send("view_from front; pick 0.35 0.3");
+    EXPECT_NE(viewer->status("pixel").find("back"), std::string::npos) << viewer->status("pixel");
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
+}
+
 // What is dark is lit from the eye, without a light and without a step; a turn goes on until it is stopped.
 TEST_F(ViewerCameraTest, HeadlightAndTurntable) {
     const std::string folder = freshFolder("headlight");

@@ -147,6 +147,21 @@ TEST_F(ViewerFilesTest, ChangesBehindACrashAreOfferedOnce) {
     EXPECT_EQ(kept(), 1) << "until it is saved";
     viewer->crash();
 
+    // What cannot be read is asked about again, in the same session.
+    std::string file;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+        if (entry.path().extension() == ".glb") file = entry.path().string();
+    const std::string whole = bytesOf(file);
+    std::ofstream(file, std::ios::binary) << "no scene";
+    startWith(state);
+    click("recovery:take");
+    EXPECT_TRUE(heard(file)) << viewer->output();
+    EXPECT_TRUE(eventually([&] { return viewer->placeOf("recovery:take").z > 0; })) << viewer->output();
+    std::ofstream(file, std::ios::binary) << whole;
+    click("recovery:take");
+    EXPECT_TRUE(heard("recovered builtin:cornell")) << viewer->output();
+    viewer->crash();
+
     startWith(state);
     click("recovery:delete");
     EXPECT_TRUE(eventually([&] { return viewer->status("frames"), kept() == 0; }));

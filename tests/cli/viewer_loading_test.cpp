@@ -106,6 +106,34 @@ TEST_F(ViewerLoadingTest, ChangesMadeMeanwhileAreAskedAbout) {
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
 }
 
+// A file that is added is read in the background, too; commands wait, the view turns, the button ends it.
+TEST_F(ViewerLoadingTest, AFileThatIsAddedIsReadInTheBackground) {
+    const std::string model = largeModel("viewer_import.obj");
+    start(std::string(kSmall) + "builtin:cornell");
+    settle();
+    const glm::ivec4 place = picture();
+    viewer->send("import '" + model + "'; echo went on");
+    ASSERT_TRUE(viewer->holdChild()) << viewer->output();
+    EXPECT_TRUE(turnsTheView(place));
+    EXPECT_EQ(viewer->output().find("went on"), std::string::npos) << "commands wait";
+    pressStop(place);
+    EXPECT_NE(viewer->expect("viewer_import.obj: stopped; nothing is loaded"), "") << viewer->output();
+    EXPECT_NE(viewer->expect("went on"), "");
+    EXPECT_EQ(viewer->status("selection"), "none");
+    viewer->send("import '" + model + "'; echo has it");
+    ASSERT_TRUE(viewer->holdChild());
+    viewer->releaseChild();
+    EXPECT_NE(viewer->expect("imported " + model + ": 1 object, 0 lights"), "") << viewer->output();
+    EXPECT_NE(viewer->expect("has it"), "");
+    EXPECT_EQ(viewer->status("scene"), "builtin:cornell");
+    EXPECT_NE(viewer->status("selection"), "none");
+    viewer->send("import nowhere.obj; echo behind");
+    EXPECT_NE(viewer->expect("nowhere.obj: no such file"), "");
+    EXPECT_NE(viewer->expect("behind"), "");
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
+}
+
 // The window is there at once and says what it reads; stopped, it is an empty one.
 TEST_F(ViewerLoadingTest, AStartShowsTheWindowAtOnce) {
     const std::string model = largeModel("viewer_loading_start.obj");

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Work on objects in the viewer: several selected in the picture and in the tree, moved together; the menu of the
 // right button; lights as icons; materials that are shared; shapes and files that are added.
+#include <fstream>
+#include <nlohmann/json.hpp>
+
 #include <filesystem>
 
 #include "cli/viewer_panels_support.h"
@@ -42,6 +45,33 @@ class ViewerSelectionTest : public ViewerPanelsTest {
             for (int x = place.x; x < place.x + place.z; ++x)
                 found += near(glm::vec3(now.at({x, y})), color, tolerance);
         return found;
+    }
+    // The box with its blocks in a group, and that in one of everything.
+    void startGrouped(const std::string& folder) {
+        const std::string file = folder + "/room.gltf";
+        start(std::string("--window 900x600 --voxels 32 --mode phong --no-state --exec 'save ") + file +
+              "' builtin:cornell");
+        settle();
+        std::ifstream stream(file);
+        nlohmann::json json = nlohmann::json::parse(stream);
+        nlohmann::json blocks, others;
+        for (std::size_t i = 0; i < json["nodes"].size(); ++i) {
+            const bool block =
+                json["nodes"][i]["name"].get<std::string>().find(" block") != std::string::npos;
+            if (json["nodes"][i].contains("mesh")) (block ? blocks : others).push_back(i);
+        }
+        ASSERT_EQ(blocks.size(), 2u);
+        const std::size_t count = json["nodes"].size();
+        others.push_back(count);
+        json["nodes"].push_back({{"name", "blocks"}, {"children", blocks}});
+        json["nodes"].push_back({{"name", "room"}, {"children", others}});
+        json["scenes"][0]["nodes"] = {count + 1};
+        for (std::size_t i = 0; i < count; ++i)
+            if (json["nodes"][i].contains("camera")) json["scenes"][0]["nodes"].push_back(i);
+        const std::string grouped = folder + "/grouped.gltf";
+        std::ofstream(grouped) << json.dump();
+        viewer->send("open '" + grouped + "'; settle; echo grouped");
+        ASSERT_NE(viewer->expect("grouped"), "") << viewer->output();
     }
     void end() {
         viewer->send("quit");
@@ -89,6 +119,53 @@ TEST_F(ViewerSelectionTest, SeveralAreSelectedAndMovedTogether) {
     EXPECT_TRUE(eventually([&] { return count({0, 0, 0}, 12) > 100000; })) << "all are gone";
     screen->xdotool("key ctrl+z");
     EXPECT_TRUE(eventually([&] { return count({0, 0, 0}, 12) < 100000; }));
+    end();
+}
+
+// A file's groups: folded, found by a click into the picture, selected, moved, hidden and deleted as one.
+TEST_F(ViewerSelectionTest, GroupsOfAFileAreATree) {
+    const std::string folder = freshFolder("groups");
+    startGrouped(folder);
+    EXPECT_NE(viewer->status("mode").find("phong"), std::string::npos) << "the mode that was chosen stays";
+
+    moveTo(inPicture(0.1f, 0.1f));
+    EXPECT_GT(viewer->placeOf("object:tall block").z, 0);
+    EXPECT_GT(viewer->placeOf("object:tall block").x, viewer->placeOf("object:floor").x) << "further in";
+    click("fold:blocks");
+    EXPECT_EQ(viewer->placeOf("object:tall block").z, 0);
+    EXPECT_EQ(viewer->status("selection"), "none") << "the arrow only folds";
+    const ScreenPixels whole = screen->pixels();
+    click(viewer->middleOf("group:blocks") + glm::ivec2(-10, 0));
+    EXPECT_EQ(viewer->status("selection"), "2 objects, 0 lights");
+    EXPECT_EQ(viewer->placeOf("object:tall block").z, 0) << "it stays folded";
+    click("group:room");
+    EXPECT_EQ(viewer->status("selection"), "8 objects, 0 lights");
+    clickWith("ctrl", viewer->middleOf("group:blocks"));
+    EXPECT_EQ(viewer->status("selection"), "6 objects, 0 lights");
+    // What is chosen in the picture is unfolded.
+    click(inPicture(0.62f, 0.8f));
+    EXPECT_NE(viewer->status("selection").find("short block"), std::string::npos);
+    EXPECT_GT(viewer->placeOf("object:short block").z, 0);
+
+    viewer->send("select none; settle");
+    click("visible:blocks/");
+    settle();
+    moveTo(inPicture(0.1f, 0.1f));
+    EXPECT_TRUE(eventually([&] { return screen->pixels().changedFrom(whole, picture(), 25) > 1000; }));
+    viewer->send("undo; settle");
+    click("group:blocks");
+    const glm::ivec2 handle = viewer->middleOf("gizmo:y");
+    ASSERT_GT(handle.x, 0);
+    const std::string before = answer("list", "  6 "), other = viewer->expect("  7 ");
+    drag(1, handle, handle - glm::ivec2(0, 40));
+    EXPECT_NE(answer("list", "  6 "), before);
+    EXPECT_NE(viewer->expect("  7 "), other) << "both";
+    screen->xdotool("key Delete");
+    EXPECT_TRUE(eventually([&] { return viewer->placeOf("group:blocks").z == 0; }));
+    viewer->send("undo; save '" + folder + "/again.glb'; open '" + folder + "/again.glb'; echo again");
+    ASSERT_NE(viewer->expect("again"), "") << viewer->output();
+    EXPECT_GT(viewer->placeOf("group:blocks").z, 0) << "it is in the file";
+    viewer->send("screenshot_window '" + folder + "/window.png'");
     end();
 }
 

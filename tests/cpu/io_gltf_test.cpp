@@ -182,7 +182,7 @@ TEST(Gltf, CamerasAndSky) {
                           {"perspective", {{"yfov", 0.6}, {"znear", 0.2}, {"zfar", 50}}},
                           {"name", "eye"}},
                          {{"type", "orthographic"},
-                          {"orthographic", {{"xmag", 1}, {"ymag", 1}, {"znear", 0.1}, {"zfar", 10}}}}};
+                          {"orthographic", {{"xmag", 3}, {"ymag", 1.5}, {"znear", 0}, {"zfar", 10}}}}};
     const float s = std::sqrt(0.5f);
     b.node({{"camera", 0},
             {"translation", {0, 1, 0}},
@@ -197,7 +197,12 @@ TEST(Gltf, CamerasAndSky) {
     EXPECT_FLOAT_EQ(scene.cameras[0].zNear, 0.2f);
     EXPECT_FLOAT_EQ(scene.cameras[0].zFar, 50.0f);
     expectNear(scene.cameras[0].target - scene.cameras[0].eye, {-1, 0, 0});
-    EXPECT_TRUE(hasNote(scene, "orthographic"));
+    EXPECT_FALSE(scene.cameras[0].isOrthographic());
+    EXPECT_FLOAT_EQ(scene.cameras[1].orthographicHeight, 3.0f);
+    EXPECT_FLOAT_EQ(scene.cameras[1].zNear, 1e-3f)
+        << "a ten-thousandth of the far plane, as it is to begin at the eye";
+    EXPECT_FLOAT_EQ(scene.cameras[1].zFar, 10.0f);
+    EXPECT_FALSE(hasNote(scene, "orthographic"));
     expectNear(scene.sky, {0.1f, 0.2f, 0.3f});
 }
 

@@ -116,6 +116,7 @@ void expectSame(const Scene& read, const Scene& written) {
         EXPECT_EQ(read.cameras[i].zFar, written.cameras[i].zFar);
         EXPECT_EQ(read.cameras[i].lensDiameter, written.cameras[i].lensDiameter);
         EXPECT_EQ(read.cameras[i].focusDistance, written.cameras[i].focusDistance);
+        EXPECT_EQ(read.cameras[i].orthographicHeight, written.cameras[i].orthographicHeight);
     }
 }
 
@@ -165,7 +166,10 @@ TEST(GltfWrite, WhatGltfHasNoWordsForComesBackAndIsNamed) {
     Camera at = lens;  // in focus at its target
     at.name = "at target";
     at.focusDistance = 0;
-    scene.cameras.insert(scene.cameras.end(), {lens, at});
+    Camera parallel = lens;
+    parallel.name = "parallel";
+    parallel.orthographicHeight = 2.5f;
+    scene.cameras.insert(scene.cameras.end(), {lens, at, parallel});
     const std::filesystem::path path = folderOf("gltf_write") / "own.gltf";
     EXPECT_EQ(io::writeGltf(path, scene).size(), 3u);
     expectSame(io::loadScene(path.string()), scene);

@@ -10,6 +10,8 @@
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "conelight/error.h"
+#include "cpu/io_test_support.h"
+#include "io/scene_write.h"
 #include "session/picker.h"
 
 namespace conelight::program {
@@ -243,6 +245,34 @@ TEST(Session, OpenKeepsTheViewWhenAsked) {
     s.open("builtin:cornell", false);
     EXPECT_NE(s.camera().eye, glm::vec3(4, 5, 6));
     EXPECT_EQ(getSetting(s.settings(), "image.exposure"), "0");
+}
+
+// A mode that somebody chose stays, unless the next file names its own.
+TEST(Session, AChosenModeStaysForScenesThatNameNone) {
+    Session s = session();
+    s.open("builtin:cornell", false);
+    const std::string first = s.mode();
+    s.setMode("phong");
+    s.open("builtin:cornell", false);
+    EXPECT_EQ(s.mode(), "phong");
+    EXPECT_EQ(s.shownSettings().mode, Mode::Phong);
+    s.setMode("reference");
+    s.open("builtin:cornell", false);
+    EXPECT_EQ(s.mode(), "reference");
+    s.setMode("phong");
+    OpenedScene own;
+    own.scene = twoSquares();
+    own.scene.settings = {{"mode", "cones"}};
+    const std::string path = (test::folderOf("session") / "own.glb").string();
+    io::writeScene(path, own.scene, true);
+    const std::vector<std::string> notes = s.open(path, false);
+    EXPECT_EQ(s.mode(), "cones");
+    ASSERT_FALSE(notes.empty());
+    EXPECT_EQ(notes.back(), "mode cones, as the file says; `mode phong` goes back");
+    s.open("builtin:cornell", false);
+    EXPECT_EQ(s.mode(), "phong") << "the choice holds";
+    s.undo();
+    EXPECT_NE(first, "phong");
 }
 
 TEST(Session, VoxelFlagsChangeWhatIsShown) {

@@ -122,7 +122,7 @@ std::vector<Struct> structsOfPictures() {
         ROW(DisplayConstants, curve, srgb, kept, spread, check, pad0, pad1, pad2, balance, falseColors),
         ROW(HeadlightConstants, irradiance, pad0, pad1, pad2),
         ROW(ViewMeanConstants, views, pad0, pad1, pad2),
-        ROW(TemporalPictureConstants, oldClipFromWorld, longest, fresh, pad0, pad1),
+        ROW(TemporalPictureConstants, oldClipFromWorld, oldDepth, longest, fresh, oldParallel, pad0),
         ROW(BloomConstants, weight, coarser, fromLevel, pad0),
         ROW(ShrinkConstants, kept, pad0, pad1, pad2),
         ROW(WireframeConstants, color, opacity, halfWidth, pad0, pad1, pad2),

@@ -125,8 +125,8 @@ class VoxelViewRaysTest : public ViewsTest {
 
 // What is drawn is what a ray meets that tries every cube, though rays leap over what is empty.
 TEST_F(VoxelViewRaysTest, RaysThatLeapMeetWhatRaysMeetThatDoNot) {
-    const Scene scene = scatteredPatches();
-    const Camera& camera = scene.cameras[0];
+    Scene scene = scatteredPatches();
+    Camera& camera = scene.cameras[0];
     Settings settings = viewSettings(Mode::Traced, Component::Voxels);
     settings.voxels.size = 64;
     settings.light.shadowSize = 0;
@@ -136,8 +136,13 @@ TEST_F(VoxelViewRaysTest, RaysThatLeapMeetWhatRaysMeetThatDoNot) {
     rig.draw(device());
     const glm::dvec3 eye(camera.eye), forward = glm::normalize(glm::dvec3(camera.target) - eye);
     for (const Mode mode : kModes)
-        for (const int level : {0, 1, 2, 3}) {
-            SCOPED_TRACE(testing::Message() << "mode " << mode.name() << " level " << level);
+        for (const int look : {0, 1, 2, 3, 4, 5}) {
+            // Two looks by parallel rays.
+            const bool parallel = look > 3;
+            const int level = look % 4;
+            camera.orthographicHeight = parallel ? 2.2f : 0;
+            SCOPED_TRACE(testing::Message()
+                         << "mode " << mode.name() << " level " << level << (parallel ? " parallel" : ""));
             settings.mode = mode;
             settings.view.voxelLevel = {false, static_cast<float>(level)};
             const Cubes cubes = cubesOf(rig, settings, level);
@@ -147,7 +152,8 @@ TEST_F(VoxelViewRaysTest, RaysThatLeapMeetWhatRaysMeetThatDoNot) {
                 for (int x = 0; x < kPixels; ++x) {
                     const glm::dvec3 at =
                         pixelOnPlane(camera, {kPixels, kPixels}, {x, y}, forward, glm::dot(forward, eye) + 1);
-                    const bool meets = std::isfinite(cubes.meet(eye, at - eye));
+                    const glm::dvec3 ray = parallel ? forward : at - eye;
+                    const bool meets = std::isfinite(cubes.meet(at - ray, ray));
                     const bool drawn =
                         image.pixels[static_cast<std::size_t>((kPixels - 1 - y) * kPixels + x)].a > 0;
                     met += meets;

@@ -95,6 +95,24 @@ class EyeAndTarget(ErrorCase):
             copied.eye = (0, 0, 9)
             self.assertEqual(camera.eye, (1, 2, 3))
 
+    def test_parallel_rays(self):
+        """Points behind pixels are as far apart near and far; matrices have no such camera."""
+        scene = conelight.Scene.load("builtin:cornell")
+        camera = conelight.Camera((0.2, 0.7, 2), (0, 0.5, 0))
+        camera.orthographic_height = 1.2
+        self.assertIn("orthographic_height=1.2", repr(camera))
+        self.assertEqual(pickle.loads(pickle.dumps(camera)), camera)
+        pictures = renderer().render(scene, camera, SIZE, SETTINGS, components=["depth", "normal"])
+        seen = pictures["depth"] > 0
+        self.assertGreater(seen.sum(), 500)
+        points = camera.positions(pictures["depth"])
+        floor = seen & (pictures["normal"][..., 1] > 0.99) & (points[..., 1] < 0.1)
+        self.assertGreater(floor.sum(), 20)
+        np.testing.assert_allclose(points[floor][:, 1], 0, atol=1e-3)
+        self.assert_error("usage", "focal length", camera.to_opencv, SIZE)
+        camera.orthographic_height = -1
+        self.assert_error("usage", "orthographic_height -1", renderer().render, scene, camera, SIZE)
+
     def test_cameras_that_see_nothing(self):
         for text, named in [("vfov 45", {"vfov": 45}), ("vfov 0", {"vfov": 0}), ("near 0", {"near": 0}),
                             ("near 2 and far 1", {"near": 2, "far": 1}),

@@ -19,9 +19,15 @@ glm::dvec3 pixelOnPlane(const Camera& camera, const glm::ivec2& size, const glm:
     const glm::dvec3 forward = glm::normalize(glm::dvec3(camera.target) - eye);
     const glm::dvec3 right = glm::normalize(glm::cross(forward, glm::dvec3(camera.up)));
     const glm::dvec3 up = glm::cross(right, forward);
-    const double tanY = std::tan(0.5 * static_cast<double>(camera.fovY));
+    const double tanY = camera.isOrthographic() ? 0.5 * static_cast<double>(camera.orthographicHeight)
+                                                : std::tan(0.5 * static_cast<double>(camera.fovY));
     const double clipX = (pixel.x + 0.5) / size.x * 2 - 1, clipY = (pixel.y + 0.5) / size.y * 2 - 1;
-    const glm::dvec3 ray = forward + clipX * tanY * size.x / size.y * right + clipY * tanY * up;
+    const glm::dvec3 aside = clipX * tanY * size.x / size.y * right + clipY * tanY * up;
+    if (camera.isOrthographic()) {
+        const glm::dvec3 from = eye + aside;
+        return from + forward * ((offset - glm::dot(normal, from)) / glm::dot(normal, forward));
+    }
+    const glm::dvec3 ray = forward + aside;
     return eye + ray * ((offset - glm::dot(normal, eye)) / glm::dot(normal, ray));
 }
 

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: MIT
 // `add` and `import`: shapes and scenes into the scene, where the view looks.
-#include <fmt/core.h>
-
 #include "console/console.h"
-#include "io/scene_file.h"
 #include "session/addition.h"
-#include "session/usage.h"
 
 namespace conelight::program {
 namespace {
@@ -19,17 +15,7 @@ void addShape(const CommandContext& context) {
 
 // Objects and lights; the camera, the sky and settings stay those of the scene.
 void importScene(const CommandContext& context) {
-    const std::string& file = context.words[0];
-    io::LoadOptions options;
-    options.allowOutside = context.session.openHow().allowOutside;
-    Scene part = io::loadScene(file, options);
-    for (const std::string& note : part.notes) context.print(note);
-    const std::size_t objects = part.instances.size(), lights = part.lights.size();
-    if (objects + lights == 0) usage("import: " + file + ": holds no object and no light");
-    const AddedPlace place = placeInView(context.session, context.console.picker());
-    addToScene(context.session, std::move(part), place.foot, "import " + file);
-    context.print(fmt::format("imported {}: {} object{}, {} light{}", file, objects, objects == 1 ? "" : "s",
-                              lights, lights == 1 ? "" : "s"));
+    context.session.request({RequestKind::Import, context.words[0]});
 }
 
 }  // namespace

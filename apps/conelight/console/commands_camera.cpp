@@ -10,6 +10,7 @@
 #include "console/console.h"
 #include "console/names.h"
 #include "session/lens_range.h"
+#include "session/projection.h"
 #include "session/usage.h"
 
 namespace conelight::program {
@@ -23,6 +24,8 @@ void printCamera(const CommandContext& context, const Camera& camera) {
     context.print("  target " + exactText(camera.target) + " m");
     context.print("  up     " + exactText(camera.up));
     context.print(fmt::format("  fov    {:.6g} deg", glm::degrees(camera.fovY)));
+    if (camera.isOrthographic())
+        context.print(fmt::format("  orthographic, {:.6g} m high", camera.orthographicHeight));
     if (camera.lensDiameter > 0)
         context.print(
             fmt::format("  lens   {:.6g} m, focus at {:.6g} m", camera.lensDiameter, camera.focus()));
@@ -76,9 +79,9 @@ void orbit(const CommandContext& context, Camera camera) {
 void list(const CommandContext& context) {
     const std::vector<Camera>& cameras = context.session.scene().cameras;
     for (std::size_t i = 0; i < cameras.size(); ++i)
-        context.print(fmt::format("{:3} {:<20} eye {}  target {}  fov {:.4g} deg", i, cameras[i].name,
+        context.print(fmt::format("{:3} {:<20} eye {}  target {}  {}", i, cameras[i].name,
                                   exactText(cameras[i].eye), exactText(cameras[i].target),
-                                  glm::degrees(cameras[i].fovY)));
+                                  projectionText(cameras[i])));
 }
 
 void add(const CommandContext& context) {
@@ -112,6 +115,7 @@ void frame(const CommandContext& context, Camera camera) {
     const glm::vec3 back = glm::normalize(camera.eye - camera.target);
     camera.target = bounds.center();
     camera.eye = camera.target + back * (1.02f * radius / std::sin(0.5f * camera.fovY));
+    if (camera.isOrthographic()) camera.orthographicHeight = 1.02f * 2 * radius;
     jump(context, camera, "camera frame");
 }
 
@@ -126,6 +130,20 @@ void lens(const CommandContext& context, Camera camera) {
                           context.words[1], most));
     (isFocus ? camera.focusDistance : camera.lensDiameter) = static_cast<float>(value);
     jump(context, camera, "camera " + word);
+}
+
+// Parallel rays and their height, m; without a number the other kind of projection.
+void orthographic(const CommandContext& context, Camera camera) {
+    if (context.count() == 1) {
+        switchProjection(camera);
+        return jump(context, camera, camera.isOrthographic() ? "orthographic" : "perspective");
+    }
+    const double height = numbers(context, 1, "M")[0];
+    if (!(height >= 0 && height <= static_cast<double>(kTallestView)))
+        usage(fmt::format("camera orthographic: '{}' is not usable; a number from 0 to {:g} m would be right",
+                          context.words[1], kTallestView));
+    camera.orthographicHeight = static_cast<float>(height);
+    jump(context, camera, "camera orthographic");
 }
 
 void camera(const CommandContext& context) {
@@ -154,10 +172,11 @@ void camera(const CommandContext& context) {
         return jump(context, camera, "camera fov");
     }
     if (word == "lens" || word == "focus") return lens(context, camera);
+    if (word == "orthographic") return orthographic(context, camera);
     if (context.count() > 1)
         usage(
-            fmt::format("camera: '{}' takes no arguments; list, eye, target, up, fov, lens, focus, orbit, "
-                        "frame, add or a camera's name would be right",
+            fmt::format("camera: '{}' takes no arguments; list, eye, target, up, fov, lens, focus, "
+                        "orthographic, orbit, frame, add or a camera's name would be right",
                         word));
     requireName("camera", "camera", cameraNames(session), word);
     session.jumpCamera(session.scene().cameras[camerasNamed(session, word).front()], "camera " + word);
@@ -180,6 +199,8 @@ CommandGroup cameraCommands() {
         "camera fov DEG          vertical field of view, 1 to 170 degrees\n"
         "camera lens M           diameter of its lens, m: what is out of focus is blurred; 0: a pinhole\n"
         "camera focus M          distance of the plane in focus, m; 0: through the target\n"
+        "camera orthographic [M] parallel rays that show M metres from top to bottom; 0: perspective; "
+        "without M one for the other\n"
         "camera orbit DEG [DEG]  round the target: to the right, and upward\n"
         "camera frame OBJECT     an object in the middle, seen from this side\n"
         "camera add NAME         keep the view as a camera of the scene";

@@ -27,8 +27,11 @@ Chosen chosenBy(const CommandContext& context, const std::string& command) {
         if (!chosen.objects.empty() || !chosen.lights.empty()) return chosen;
         usage(command + ": no object is selected; a selection, or " + command + " NAME, would be right");
     }
-    requireName(command, "object", objectNames(session), context.words[0]);
-    return {objectsNamed(session, context.words[0]), {}};
+    const std::string& word = context.words[0];
+    requireName(command, "object", objectNames(session), word);
+    // Lights of a group go with its objects.
+    return {objectsNamed(session, word),
+            isGroupName(word) ? lightsNamed(session, word) : std::vector<std::size_t>{}};
 }
 
 std::vector<std::size_t> objectsOf(const CommandContext& context, const std::string& command) {
@@ -68,8 +71,13 @@ void hide(const CommandContext& context) {
 // Lights that are selected go on again.
 void show(const CommandContext& context) {
     std::vector<std::size_t> objects, lights;
-    if (context.count() > 0) objects = objectsOf(context, "show");
-    if (context.count() == 0) lights = context.session.selectedOf(SelectionKind::Light);
+    if (context.count() > 0) {
+        const Chosen chosen = chosenBy(context, "show");
+        objects = chosen.objects;
+        lights = chosen.lights;
+    } else {
+        lights = context.session.selectedOf(SelectionKind::Light);
+    }
     setVisible(
         context.session,
         [&](std::size_t i, bool now) { return now || context.count() == 0 || among(objects, i); }, "show",
@@ -188,6 +196,7 @@ void singleMaterial(const CommandContext& context) {
 void rename(const CommandContext& context) {
     Session& session = context.session;
     const std::string& word = context.words[0];
+    if (isGroupName(word)) usage("rename: " + word + ": groups keep the names of their file");
     std::vector<Selection> things;
     const auto add = [&](SelectionKind kind, const std::vector<std::size_t>& found) {
         for (const std::size_t i : found) things.push_back({kind, i});
@@ -208,8 +217,10 @@ std::vector<Command> objectCommands() {
     const Argument named{"NAME", ArgumentKind::Object};
     const char* const kWhich = "Without NAME: all that is selected.";
     return {
-        command("hide", {object}, "take an object out of the picture and its light", hide,
-                "Without NAME: all that is selected; lights go off."),
+        command(
+            "hide", {object}, "take an object out of the picture and its light", hide,
+            "Without NAME: all that is selected; lights go off. NAME/: all that is in a group, here and in "
+            "other commands."),
         command("isolate", {object}, "hide all objects but one", isolate, kWhich),
         command("show", {object}, "show an object again", show,
                 "Without NAME: all that are hidden, and lights that are selected."),

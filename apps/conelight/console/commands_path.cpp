@@ -5,6 +5,7 @@
 #include "conelight/error.h"
 #include "console/console.h"
 #include "console/names.h"
+#include "session/projection.h"
 #include "session/usage.h"
 
 namespace conelight::program {
@@ -45,8 +46,8 @@ void listPath(const CommandContext& context) {
     if (path.empty()) return context.print("the camera path has no keys; `path add` keeps this view as one");
     for (std::size_t i = 0; i < path.keys().size(); ++i) {
         const auto& [time, camera] = path.keys()[i];
-        context.print(fmt::format("{:3} {:>8.3f} s  eye {}  target {}  fov {:.4g} deg", i, time,
-                                  textOf(camera.eye), textOf(camera.target), glm::degrees(camera.fovY)));
+        context.print(fmt::format("{:3} {:>8.3f} s  eye {}  target {}  {}", i, time, textOf(camera.eye),
+                                  textOf(camera.target), projectionText(camera)));
     }
 }
 

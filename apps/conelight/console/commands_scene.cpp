@@ -79,7 +79,8 @@ std::vector<Selection> selectable(const Session& session, const std::string& wor
     std::vector<Selection> found;
     for (const auto& [kind, indices] : kinds) {
         for (const std::size_t i : indices) found.push_back({kind, i});
-        if (!found.empty()) return found;
+        // Lights of a group stand beside its objects.
+        if (!found.empty() && (!isGroupName(word) || kind == SelectionKind::Light)) return found;
     }
     requireName("select", "object, light or material", wordsOf(session, {"", ArgumentKind::Selectable}),
                 word);

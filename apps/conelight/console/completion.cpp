@@ -70,7 +70,8 @@ std::vector<std::string> candidatesFor(const Session& session, const Place& plac
             words = place.before[index] == "mode" ? sessionModes() : valuesOfSetting(place.before[index]);
         if (argument.kind == ArgumentKind::Text) words = argument.choices;
         if (argument.kind == ArgumentKind::Camera) {
-            for (const char* word : {"list", "eye", "target", "up", "fov", "orbit", "frame", "add"})
+            for (const char* word : {"list", "eye", "target", "up", "fov", "lens", "focus", "orthographic",
+                                     "orbit", "frame", "add"})
                 words.push_back(word);
         }
         if (argument.kind == ArgumentKind::Light) words.push_back("add");

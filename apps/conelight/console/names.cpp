@@ -39,22 +39,47 @@ std::vector<std::size_t> named(const std::vector<T>& things, const std::string& 
     return found;
 }
 
+// What is in groups of that name, or in groups in them.
+template <class T>
+std::vector<std::size_t> inGroups(const Scene& scene, const std::vector<T>& things, const std::string& word) {
+    const std::string name = word.substr(0, word.size() - 1);
+    std::vector<bool> meant;  // parents come first
+    for (const Group& group : scene.groups)
+        meant.push_back(group.name == name ||
+                        (group.parent >= 0 && meant[static_cast<std::size_t>(group.parent)]));
+    std::vector<std::size_t> found;
+    for (std::size_t i = 0; i < things.size(); ++i)
+        if (things[i].group >= 0 && meant[static_cast<std::size_t>(things[i].group)]) found.push_back(i);
+    return found;
+}
+
 }  // namespace
+
+bool isGroupName(const std::string& word) { return word.size() > 1 && word.back() == '/'; }
 
 std::string textOf(const glm::vec3& v) { return fmt::format("{:.6g} {:.6g} {:.6g}", v.x, v.y, v.z); }
 
-std::vector<std::string> objectNames(const Session& s) { return namesOf(s.scene().instances); }
+// With a group as "NAME/".
+std::vector<std::string> objectNames(const Session& s) {
+    std::vector<std::string> names = namesOf(s.scene().instances);
+    std::set<std::string> known;
+    for (const Group& group : s.scene().groups)
+        if (known.insert(group.name).second) names.push_back(group.name + "/");
+    return names;
+}
 std::vector<std::string> materialNames(const Session& s) { return namesOf(s.scene().materials); }
 std::vector<std::string> lightNames(const Session& s) { return namesOf(s.scene().lights); }
 std::vector<std::string> cameraNames(const Session& s) { return namesOf(s.scene().cameras); }
 
 std::vector<std::size_t> objectsNamed(const Session& s, const std::string& word) {
+    if (isGroupName(word)) return inGroups(s.scene(), s.scene().instances, word);
     return named(s.scene().instances, word);
 }
 std::vector<std::size_t> materialsNamed(const Session& s, const std::string& word) {
     return named(s.scene().materials, word);
 }
 std::vector<std::size_t> lightsNamed(const Session& s, const std::string& word) {
+    if (isGroupName(word)) return inGroups(s.scene(), s.scene().lights, word);
     return named(s.scene().lights, word);
 }
 std::vector<std::size_t> camerasNamed(const Session& s, const std::string& word) {
@@ -64,7 +89,9 @@ std::vector<std::size_t> camerasNamed(const Session& s, const std::string& word)
 void requireName(const std::string& command, const std::string& thing, const std::vector<std::string>& names,
                  const std::string& word) {
     std::size_t index = 0;
-    if (std::find(names.begin(), names.end(), word) != names.end() || asIndex(word, names.size(), index))
+    const auto groups = std::count_if(names.begin(), names.end(), isGroupName);
+    if (std::find(names.begin(), names.end(), word) != names.end() ||
+        asIndex(word, names.size() - static_cast<std::size_t>(groups), index))
         return;
     std::string right = nearest(word, names);
     if (right.empty() && !names.empty()) {

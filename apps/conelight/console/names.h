@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Things of the scene by name. Names may repeat: then all that have it are meant, as in the thesis's program.
-// Where nothing has a name, a number counts from 0.
+// Where nothing has a name, a number counts from 0. "NAME/" means all that is in a group.
 #pragma once
 
 #include <string>
@@ -12,7 +12,8 @@
 
 namespace conelight::program {
 
-std::vector<std::string> objectNames(const Session& session);  // each once, in the scene's order
+std::vector<std::string> objectNames(const Session& session);  // each once, in the scene's order; then groups
+bool isGroupName(const std::string& word);
 std::vector<std::string> materialNames(const Session& session);
 std::vector<std::string> lightNames(const Session& session);
 std::vector<std::string> cameraNames(const Session& session);

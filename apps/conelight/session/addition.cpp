@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 #include "session/addition.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <glm/gtc/constants.hpp>
 #include <memory>
 #include <utility>
 
 #include "conelight/error.h"
 #include "io/generated_shapes.h"
+#include "session/projection.h"
 #include "session/rename.h"
 
 namespace conelight::program {
@@ -82,7 +86,10 @@ void renumber(Scene& part, const Scene& scene) {
     for (Instance& instance : part.instances) {
         shift(instance.mesh, scene.meshes.size());
         shift(instance.material, scene.materials.size());
+        shift(instance.group, scene.groups.size());
     }
+    for (Light& light : part.lights) shift(light.group, scene.groups.size());
+    for (Group& group : part.groups) shift(group.parent, scene.groups.size());
 }
 
 }  // namespace
@@ -105,11 +112,9 @@ Scene shapeOf(const std::string& kind, float size) {
 
 AddedPlace placeInView(const Session& session, Picker& picker) {
     const Camera& camera = session.camera();
-    const glm::vec3 view = rayDirection(camera, 1, glm::vec2(0));
+    const glm::vec3 view(viewAxes(camera).forward);
     const float reach = glm::length(camera.target - camera.eye);
-    const auto sizeAt = [&](float distance) {
-        return roundSize(0.35f * 2 * std::tan(0.5f * camera.fovY) * distance);
-    };
+    const auto sizeAt = [&](float distance) { return roundSize(0.35f * camera.heightAt(distance)); };
     const std::optional<Pick> seen = picker.along(session, camera.eye, view, camera.zNear);
     if (!seen) return {camera.target, sizeAt(reach)};
     const float size = sizeAt(seen->distance);
@@ -140,6 +145,29 @@ void addToScene(Session& session, Scene part, const glm::vec3& foot, const std::
     edits.added = std::make_shared<Scene>(std::move(part));
     session.edit(edits, label);
     session.selectAll(made);
+}
+
+Scene readPart(const std::string& file, const OpenHow& how, const io::LoadOptions& options) {
+    io::LoadOptions load = options;
+    load.allowOutside = how.allowOutside;
+    Scene part = io::loadScene(file, load);
+    if (part.instances.empty() && part.lights.empty())
+        throw Error(ErrorKind::Usage, "import: " + file + ": holds no object and no light");
+    if (part.instances.size() + part.lights.size() == 1) return part;
+    for (Group& group : part.groups) ++group.parent;
+    for (Instance& instance : part.instances) ++instance.group;
+    for (Light& light : part.lights) ++light.group;
+    part.groups.insert(part.groups.begin(), {std::filesystem::path(file).stem().string(), -1});
+    return part;
+}
+
+std::vector<std::string> addImported(Session& session, Picker& picker, Scene part, const std::string& file) {
+    std::vector<std::string> lines = part.notes;
+    const std::size_t objects = part.instances.size(), lights = part.lights.size();
+    addToScene(session, std::move(part), placeInView(session, picker).foot, "import " + file);
+    lines.push_back(fmt::format("imported {}: {} object{}, {} light{}", file, objects,
+                                objects == 1 ? "" : "s", lights, lights == 1 ? "" : "s"));
+    return lines;
 }
 
 }  // namespace conelight::program

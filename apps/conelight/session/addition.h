@@ -29,4 +29,10 @@ AddedPlace placeInView(const Session& session, Picker& picker);
 // Names that are taken get a number.
 void addToScene(Session& session, Scene part, const glm::vec3& foot, const std::string& label);
 
+// The objects and lights of a file, for addImported: any thread. Throws what io::loadScene throws, and Error(Usage) for a
+// file that has neither. Several are a group with the file's name.
+Scene readPart(const std::string& file, const OpenHow& how, const io::LoadOptions& options = {});
+// Where the view looks; selected. Returns what there is to say.
+std::vector<std::string> addImported(Session& session, Picker& picker, Scene part, const std::string& file);
+
 }  // namespace conelight::program

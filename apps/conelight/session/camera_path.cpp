@@ -131,6 +131,19 @@ double CameraPath::freeTime(std::size_t index, double seconds, double gap) const
     return low > high ? keys_[index].seconds : std::clamp(seconds, low, high);
 }
 
+// Between keys of both kinds perspective; from one of parallel rays to the next by the height's logarithm.
+float CameraPath::orthographicHeightAt(double seconds) const {
+    const auto after = std::upper_bound(keys_.begin(), keys_.end(), seconds,
+                                        [](double s, const PathKey& key) { return s < key.seconds; });
+    if (!(after - 1)->camera.isOrthographic() || !after->camera.isOrthographic()) return 0;
+    std::vector<double> times;
+    for (const PathKey& key : keys_) times.push_back(key.seconds);
+    const auto logOfHeight = [](const Camera& c) {
+        return std::log(static_cast<double>(c.heightAt(static_cast<float>(focusOf(c)))));
+    };
+    return static_cast<float>(std::exp(monotone(times, valuesOf(keys_, logOfHeight), seconds)));
+}
+
 Camera CameraPath::at(double seconds) const {
     if (!(seconds > start())) return keys_.front().camera;
     if (seconds >= end()) return keys_.back().camera;
@@ -176,6 +189,7 @@ Camera CameraPath::at(double seconds) const {
     if (std::any_of(keys_.begin(), keys_.end(), [](const auto& key) { return key.camera.focusDistance > 0; }))
         camera.focusDistance =
             std::max(static_cast<float>(value([](const Camera& c) { return double(c.focus()); })), 0.0f);
+    camera.orthographicHeight = orthographicHeightAt(seconds);
     return camera;
 }
 

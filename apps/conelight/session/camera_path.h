@@ -42,6 +42,7 @@ class CameraPath {
     Camera frame(int index, int count) const;
 
   private:
+    float orthographicHeightAt(double seconds) const;
     std::vector<PathKey> keys_;
 };
 

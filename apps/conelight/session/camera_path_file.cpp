@@ -67,9 +67,12 @@ PathKey keyOf(const io::JsonFile& file, const Json& json, const std::string& poi
             key.camera.lensDiameter = static_cast<float>(number(file, value, at, what, 0, kWidestLens));
         else if (field == "focus")
             key.camera.focusDistance = static_cast<float>(number(file, value, at, what, 0, 1e6));
+        else if (field == "orthographic")
+            key.camera.orthographicHeight =
+                static_cast<float>(number(file, value, at, what, 0, kTallestView));
         else
-            file.fail(at, fmt::format("{} has no field '{}'; time, eye, target, up, fov, near, far, lens or "
-                                      "focus would be right",
+            file.fail(at, fmt::format("{} has no field '{}'; time, eye, target, up, fov, near, far, lens, "
+                                      "focus or orthographic would be right",
                                       name, io::oneLine(field, 40)));
     }
     for (const char* needed : {"eye", "target"})
@@ -82,10 +85,14 @@ PathKey keyOf(const io::JsonFile& file, const Json& json, const std::string& poi
     return key;
 }
 
-// Nothing for a pinhole.
+// Nothing for a pinhole in perspective.
 std::string lensText(const Camera& camera) {
-    if (camera.lensDiameter == 0) return {};
-    return fmt::format(", \"lens\": {:.9g}, \"focus\": {:.9g}", camera.lensDiameter, camera.focusDistance);
+    std::string text;
+    if (camera.lensDiameter > 0)
+        text +=
+            fmt::format(", \"lens\": {:.9g}, \"focus\": {:.9g}", camera.lensDiameter, camera.focusDistance);
+    if (camera.isOrthographic()) text += fmt::format(", \"orthographic\": {:.9g}", camera.orthographicHeight);
+    return text;
 }
 
 }  // namespace

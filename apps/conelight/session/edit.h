@@ -36,9 +36,9 @@ struct MaterialEdit : BeforeAfter<Material> {
 struct MaterialsEdit : BeforeAfter<std::vector<Material>> {};
 // How many a scene has.
 struct SceneCounts {
-    std::size_t meshes = 0, materials = 0, textures = 0, instances = 0, lights = 0;
+    std::size_t meshes = 0, materials = 0, textures = 0, instances = 0, lights = 0, groups = 0;
 };
-// Meshes, materials, textures, instances and lights behind those of the scene, whose numbers theirs go on from.
+// Meshes, materials, textures, instances, lights and groups behind those of the scene, whose numbers theirs go on from.
 struct AddEdit {
     std::shared_ptr<const Scene> added;
     SceneCounts before;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "session/picker.h"
+#include "session/projection.h"
 #include "session/session.h"
 
 namespace conelight::program {
@@ -82,17 +83,13 @@ class Lines {
 }  // namespace
 
 std::optional<glm::vec2> pictureOf(const Camera& camera, float aspect, const glm::vec3& point) {
-    const glm::vec3 forward = rayDirection(camera, 1, glm::vec2(0));
-    glm::vec3 right = rayDirection(camera, 1, {1, 0});
-    glm::vec3 up = rayDirection(camera, 1, {0, 1});
-    right = right / glm::dot(right, forward) - forward;
-    up = up / glm::dot(up, forward) - forward;
+    const ViewAxes axes = viewAxes(camera);
     const glm::vec3 d = point - camera.eye;
-    const float z = glm::dot(d, forward);
+    const float z = glm::dot(d, glm::vec3(axes.forward));
     if (z < camera.zNear) return std::nullopt;
-    const float x = glm::dot(d, right) / (glm::dot(right, right) * z * aspect);
-    const float y = glm::dot(d, up) / (glm::dot(up, up) * z);
-    return glm::vec2(0.5f + 0.5f * x, 0.5f - 0.5f * y);
+    const glm::vec2 part =
+        glm::vec2(glm::dot(d, glm::vec3(axes.right)), -glm::dot(d, glm::vec3(axes.up))) / camera.heightAt(z);
+    return 0.5f + part / glm::vec2(aspect, 1);
 }
 
 std::vector<PictureLine> inspectionLines(const PixelInspection& pixel, const Camera& camera, float aspect,
@@ -127,11 +124,11 @@ std::vector<PictureLine> inspectionLines(const PixelInspection& pixel, const Cam
 
 SeesPoint seenFrom(Picker& picker, const Session& session) {
     return [&picker, &session](const glm::vec3& point) {
-        const glm::vec3 eye = session.camera().eye;
-        const glm::vec3 d = point - eye;
-        const float distance = glm::length(d);
+        const ViewRay ray = viewRayTo(session.camera(), point);
+        const float distance = glm::distance(point, ray.origin);
         if (distance <= 0) return true;
-        const std::optional<Pick> hit = picker.along(session, eye, d, session.camera().zNear);
+        const std::optional<Pick> hit =
+            picker.along(session, ray.origin, ray.direction, session.camera().zNear);
         // Points on surfaces are seen: half a percent for rounding and for planes of voxels.
         return !hit || hit->distance > 0.995f * distance;
     };

@@ -43,7 +43,4 @@ class Picker {
     std::unique_ptr<Impl> impl_;
 };
 
-// Unit direction from the camera's eye through a point of the picture: (-1,-1) lower left, (1,1) upper right.
-glm::vec3 rayDirection(const Camera& camera, float aspect, const glm::vec2& ndc);
-
 }  // namespace conelight::program

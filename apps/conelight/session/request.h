@@ -15,6 +15,7 @@ enum class RequestKind {
     Record,       // file, format, count frames; turntable, alongPath or clip
     Bake,         // file; overwrite
     Load,         // file; keepView, recovers
+    Import,       // file
     Revoxelize,   // and say how large the voxels are
     SingleFrame,  // draw one frame although ViewFlags::singleFrame is on
     Wait,         // draw `count` frames before the next command

@@ -12,7 +12,8 @@ namespace {
 
 bool sameView(const Camera& a, const Camera& b) {
     return a.eye == b.eye && a.target == b.target && a.up == b.up && a.fovY == b.fovY &&
-           a.lensDiameter == b.lensDiameter && a.focusDistance == b.focusDistance;
+           a.lensDiameter == b.lensDiameter && a.focusDistance == b.focusDistance &&
+           a.orthographicHeight == b.orthographicHeight;
 }
 
 }  // namespace

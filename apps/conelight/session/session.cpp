@@ -91,7 +91,13 @@ OpenedScene readScene(const std::string& path, const OpenHow& how, const io::Loa
     opened.path = path;
     opened.scene = io::loadMovingScene(path, load, opened.animation);
     completeScene(opened.scene, {.ground = how.addsGround});
-    opened.start = startSettings(opened.scene);
+    const auto& given = opened.scene.settings;
+    const bool names =
+        std::any_of(given.begin(), given.end(), [](const auto& one) { return one.first == "mode"; });
+    opened.start = startSettings(opened.scene, !names && isSettingsMode(how.mode) ? how.mode : std::string());
+    opened.mode = getSetting(opened.start, "mode");
+    if (!how.mode.empty() && names && how.mode != opened.mode) opened.instead = how.mode;
+    if (!how.mode.empty() && !names) opened.mode = how.mode;
     return opened;
 }
 
@@ -106,7 +112,7 @@ std::vector<std::string> Session::take(OpenedScene opened, bool keepView) {
     path_ = opened.path;
     if (!keepView) {
         settings_ = opened.start;
-        mode_ = getSetting(opened.start, "mode");
+        mode_ = opened.mode.empty() ? getSetting(opened.start, "mode") : opened.mode;
         camera_ = scene_.cameras.front();
         playing_.reset();
         flags_ = {};
@@ -124,7 +130,10 @@ std::vector<std::string> Session::take(OpenedScene opened, bool keepView) {
     savedSerial_ = forgottenSerial_ = 0;
     ++revisions_.scene;
     ++revisions_.selection;
-    return scene_.notes;
+    std::vector<std::string> notes = scene_.notes;
+    if (!keepView && !opened.instead.empty())
+        notes.push_back("mode " + mode_ + ", as the file says; `mode " + opened.instead + "` goes back");
+    return notes;
 }
 
 void Session::markRecovered(const std::string& path) {
@@ -412,6 +421,7 @@ void Session::apply(const Edit& edit, bool forward) {
         ++revisions_.sky;
     } else if (const auto* settings = std::get_if<SettingsEdit>(&edit)) {
         settings_ = side(*settings).settings;
+        if (mode_ != side(*settings).mode) openHow_.mode = side(*settings).mode;
         mode_ = side(*settings).mode;
         ++revisions_.settings;
     } else if (const auto* camera = std::get_if<CameraEdit>(&edit)) {

@@ -49,11 +49,14 @@ struct OpenedScene {
     Scene scene;
     io::SceneAnimation animation;
     Settings start;
+    std::string mode;     // that it starts in; empty: that of `start`
+    std::string instead;  // the user's, where the file itself names `mode`
 };
 struct OpenHow {
     bool allowOutside = false;              // it may name files outside its folder
     bool addsGround = true;                 // without light it stands on a ground
     std::pair<std::string, io::UpAxis> up;  // of a file
+    std::string mode;                       // of scenes that name none; empty: nobody has chosen one
 };
 // Throws what io::loadScene throws. Any thread.
 OpenedScene readScene(const std::string& path, const OpenHow& how, const io::LoadOptions& options = {});
@@ -97,7 +100,9 @@ class Session {
     std::vector<std::string> take(OpenedScene opened, bool keepView);
     // How scenes are opened.
     const OpenHow& openHow() const { return openHow_; }
-    void setOpenHow(const OpenHow& how) { openHow_ = how; }
+    void setOpenHow(const OpenHow& how) {
+        openHow_ = how;
+    }  // a mode that is chosen later takes the place of its
     // That file is opened so from now on.
     void takeUpAxis(const std::string& path, io::UpAxis up) { openHow_.up = {path, up}; }
 

@@ -18,8 +18,8 @@ void append(std::vector<T>& to, const std::vector<T>& more) {
 }
 
 SceneCounts countsOf(const Scene& scene) {
-    return {scene.meshes.size(), scene.materials.size(), scene.textures.size(), scene.instances.size(),
-            scene.lights.size()};
+    return {scene.meshes.size(),    scene.materials.size(), scene.textures.size(),
+            scene.instances.size(), scene.lights.size(),    scene.groups.size()};
 }
 
 }  // namespace
@@ -135,12 +135,14 @@ void Session::takeAddition(const AddEdit& edit, bool forward) {
         append(scene_.textures, added.textures);
         append(scene_.instances, added.instances);
         append(scene_.lights, added.lights);
+        append(scene_.groups, added.groups);
     } else {
         scene_.meshes.resize(edit.before.meshes);
         scene_.materials.resize(edit.before.materials);
         scene_.textures.resize(edit.before.textures);
         scene_.instances.resize(edit.before.instances);
         scene_.lights.resize(edit.before.lights);
+        scene_.groups.resize(edit.before.groups);
         deselectFrom(SelectionKind::Instance, edit.before.instances);
         deselectFrom(SelectionKind::Light, edit.before.lights);
         deselectFrom(SelectionKind::Material, edit.before.materials);

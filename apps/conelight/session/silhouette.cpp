@@ -5,40 +5,40 @@
 #include <array>
 #include <cmath>
 
-#include "session/picker.h"
+#include "session/projection.h"
 
 namespace conelight::program {
 namespace {
 
-// Pixels right, pixels down and depth of a point, as the camera sees it; the first two times the depth.
-class PixelSpace {
-  public:
-    PixelSpace(const Camera& camera, int width, int height) : eye_(camera.eye), near_(camera.zNear) {
-        const glm::vec3 forward = rayDirection(camera, 1, glm::vec2(0));
-        glm::vec3 right = rayDirection(camera, 1, {1, 0}), up = rayDirection(camera, 1, {0, 1});
-        right = right / glm::dot(right, forward) - forward;
-        up = up / glm::dot(up, forward) - forward;
-        const float w = static_cast<float>(width), h = static_cast<float>(height);
-        rows_[0] = 0.5f * w * (right / (glm::dot(right, right) * (w / h)) + forward);
-        rows_[1] = 0.5f * h * (forward - up / glm::dot(up, up));
-        rows_[2] = forward;
-    }
-    glm::vec3 of(const glm::vec3& point) const {
-        const glm::vec3 d = point - eye_;
-        return {glm::dot(rows_[0], d), glm::dot(rows_[1], d), glm::dot(rows_[2], d)};
-    }
-    float nearest() const { return near_; }
-
-  private:
-    glm::vec3 eye_;
-    std::array<glm::vec3, 3> rows_;
-    float near_;
-};
-
-// A corner on the screen: pixels, and the reciprocal of its depth, which is linear there.
+// A corner on the screen: pixels, and what grows as it comes nearer and is linear there.
 struct Corner {
     glm::vec2 at{0};
     float nearness = 0;
+};
+
+// Points as the camera sees them: m to the right, downwards and along the view.
+class EyeSpace {
+  public:
+    EyeSpace(const Camera& camera, int width, int height)
+        : camera_(camera),
+          size_(width, height),
+          right_(viewAxes(camera).right),
+          down_(-viewAxes(camera).up),
+          forward_(viewAxes(camera).forward) {}
+    glm::vec3 of(const glm::vec3& point) const {
+        const glm::vec3 d = point - camera_.eye;
+        return {glm::dot(right_, d), glm::dot(down_, d), glm::dot(forward_, d)};
+    }
+    Corner onScreen(const glm::vec3& p) const {
+        const glm::vec2 at = 0.5f * size_ + glm::vec2(p) * (size_.y / camera_.heightAt(p.z));
+        return {at, camera_.isOrthographic() ? camera_.zFar - p.z : 1 / p.z};
+    }
+    float nearest() const { return camera_.zNear; }
+
+  private:
+    const Camera& camera_;
+    glm::vec2 size_;
+    glm::vec3 right_, down_, forward_;
 };
 
 class Canvas {
@@ -94,10 +94,9 @@ class Canvas {
     std::vector<float> nearness_;
 };
 
-Corner onScreen(const glm::vec3& p) { return {glm::vec2(p) / p.z, 1 / p.z}; }
-
 // What of it lies before the near plane is cut off.
-void drawTriangle(Canvas& canvas, const std::array<glm::vec3, 3>& corners, float nearest) {
+void drawTriangle(Canvas& canvas, const std::array<glm::vec3, 3>& corners, const EyeSpace& space) {
+    const float nearest = space.nearest();
     std::array<glm::vec3, 4> kept;
     std::size_t count = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -107,14 +106,14 @@ void drawTriangle(Canvas& canvas, const std::array<glm::vec3, 3>& corners, float
             kept[count++] = glm::mix(p, q, (nearest - p.z) / (q.z - p.z));
     }
     for (std::size_t i = 2; i < count; ++i)
-        canvas.triangle(onScreen(kept[0]), onScreen(kept[i - 1]), onScreen(kept[i]));
+        canvas.triangle(space.onScreen(kept[0]), space.onScreen(kept[i - 1]), space.onScreen(kept[i]));
 }
 
 }  // namespace
 
 Silhouette silhouetteOf(const Scene& scene, const std::vector<std::size_t>& instances, const Camera& camera,
                         int width, int height) {
-    const PixelSpace space(camera, width, height);
+    const EyeSpace space(camera, width, height);
     Canvas canvas(width, height);
     std::vector<glm::vec3> points;
     for (const std::size_t i : instances) {
@@ -127,7 +126,7 @@ Silhouette silhouetteOf(const Scene& scene, const std::vector<std::size_t>& inst
         for (std::size_t k = 0; k + 2 < mesh.indices.size(); k += 3)
             drawTriangle(canvas,
                          {points[mesh.indices[k]], points[mesh.indices[k + 1]], points[mesh.indices[k + 2]]},
-                         space.nearest());
+                         space);
     }
     return canvas.take();
 }

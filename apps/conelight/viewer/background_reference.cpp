@@ -41,7 +41,8 @@ struct Wanted {
                camera.target == other.camera.target && camera.up == other.camera.up &&
                camera.fovY == other.camera.fovY && camera.zNear == other.camera.zNear &&
                camera.lensDiameter == other.camera.lensDiameter &&
-               camera.focusDistance == other.camera.focusDistance;
+               camera.focusDistance == other.camera.focusDistance &&
+               camera.orthographicHeight == other.camera.orthographicHeight;
     }
 };
 

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "session/lens_range.h"
+#include "session/projection.h"
+
 namespace conelight::program {
 namespace {
 
@@ -35,6 +38,17 @@ ViewAngles anglesIn(const TurnAxes& axes, const glm::vec3& way) {
     if (!(length > 0)) return {};
     return {std::atan2(-glm::dot(way, axes.right), glm::dot(way, axes.ahead)),
             std::asin(std::clamp(glm::dot(way, axes.up) / length, -1.0f, 1.0f))};
+}
+
+// Straight up or down the upper edge of the picture says where ahead is.
+ViewAngles anglesOf(const TurnAxes& axes, const Camera& camera) {
+    const glm::vec3 way = camera.target - camera.eye;
+    ViewAngles angles = anglesIn(axes, way);
+    const float along = glm::dot(way, axes.up);
+    if (glm::length(way - along * axes.up) > 1e-5f * glm::length(way)) return angles;
+    const glm::vec3 upper(viewAxes(camera).up);
+    angles.yaw = anglesIn(axes, along < 0 ? upper : -upper).yaw;
+    return angles;
 }
 
 glm::vec3 directionIn(const TurnAxes& axes, const ViewAngles& angles) {
@@ -70,7 +84,7 @@ glm::vec3 turnAxis(const Camera& camera) {
 void fly(Camera& camera, const FlyInput& input) {
     const float distance = std::max(glm::length(camera.target - camera.eye), 1e-6f);
     const TurnAxes axes = axesAbout(turnAxis(camera));
-    const ViewAngles angles = anglesIn(axes, camera.target - camera.eye);
+    const ViewAngles angles = anglesOf(axes, camera);
     const glm::vec3 forward = directionIn(axes, turned(angles, input.turn));
     const glm::vec3 step =
         rightOf(forward, axes.up) * input.move.x + axes.up * input.move.y + forward * input.move.z;
@@ -83,25 +97,29 @@ void fly(Camera& camera, const FlyInput& input) {
 void orbit(Camera& camera, const glm::vec2& turn) {
     const float distance = glm::length(camera.target - camera.eye);
     const TurnAxes axes = axesAbout(turnAxis(camera));
-    const ViewAngles angles = anglesIn(axes, camera.target - camera.eye);
+    const ViewAngles angles = anglesOf(axes, camera);
     camera.eye = camera.target - directionIn(axes, turned(angles, turn)) * distance;
     camera.up = axes.up;
 }
 
 void pan(Camera& camera, const glm::vec2& pixels, int height) {
-    const glm::vec3 forward = glm::normalize(camera.target - camera.eye);
-    const glm::vec3 right = rightOf(forward, camera.up);
-    const glm::vec3 up = glm::cross(right, forward);
+    const ViewAxes axes = viewAxes(camera);
     const float distance = glm::length(camera.target - camera.eye);
-    const float metresPerPixel =
-        2 * distance * std::tan(0.5f * camera.fovY) / static_cast<float>(std::max(height, 1));
-    const glm::vec3 step = (up * pixels.y - right * pixels.x) * metresPerPixel;
+    const float metresPerPixel = camera.heightAt(distance) / static_cast<float>(std::max(height, 1));
+    const glm::vec3 step =
+        (glm::vec3(axes.up) * pixels.y - glm::vec3(axes.right) * pixels.x) * metresPerPixel;
     camera.eye += step;
     camera.target += step;
 }
 
 void dolly(Camera& camera, float factor) {
-    camera.eye = camera.target + (camera.eye - camera.target) * std::clamp(factor, 0.01f, 100.0f);
+    factor = std::clamp(factor, 0.01f, 100.0f);
+    if (camera.isOrthographic()) {
+        camera.orthographicHeight = std::clamp(factor * camera.orthographicHeight, kLeastView, kTallestView);
+        const float distance = glm::distance(camera.eye, camera.target);
+        factor = std::max(apparentDistance(camera) / std::max(distance, 1e-6f), 1.0f);
+    }
+    camera.eye = camera.target + (camera.eye - camera.target) * factor;
 }
 
 void focusOn(Camera& camera, const Aabb& bounds, float aspect) {
@@ -110,9 +128,11 @@ void focusOn(Camera& camera, const Aabb& bounds, float aspect) {
     // The sphere round the box inside the narrower of the two angles.
     const float halfY = 0.5f * camera.fovY;
     const float half = aspect < 1 ? std::atan(std::tan(halfY) * aspect) : halfY;
-    const glm::vec3 forward = viewDirection(viewAngles(camera));
+    const glm::vec3 forward(viewAxes(camera).forward);
     camera.target = bounds.center();
     camera.eye = camera.target - forward * (radius / std::sin(half));
+    if (camera.isOrthographic())
+        camera.orthographicHeight = std::min(2 * radius / std::min(aspect, 1.0f), kTallestView);
 }
 
 float flySpeed(const Aabb& bounds) {

@@ -37,7 +37,8 @@ void orbit(Camera& camera, const glm::vec2& turn);
 // Moves eye and target across the view, so that a point at the target's distance follows the cursor.
 // `pixels` of a picture `height` pixels high; y down.
 void pan(Camera& camera, const glm::vec2& pixels, int height);
-// Eye towards the target: factor < 1 nearer. The target is never reached.
+// Eye towards the target: factor < 1 nearer. The target is never reached. Of parallel rays the height changes, and the
+// eye steps back as far as perspective would, so that nothing is cut off before it.
 void dolly(Camera& camera, float factor);
 // Keeps the direction, shows the whole of `bounds`.
 void focusOn(Camera& camera, const Aabb& bounds, float aspect);

@@ -90,6 +90,11 @@ void Document::open(const std::string& file) {
     leave({Leaving::To::OtherScene, file});
 }
 
+void Document::load(const Request& request) {
+    if (request.keepView) return reload();
+    leave({Leaving::To::OtherScene, request.file, request.recovers});
+}
+
 void Document::leave(const Leaving& leaving) {
     if (!in_.session.unsaved()) return leaveNow(leaving);
     leaving_ = leaving;
@@ -105,6 +110,7 @@ void Document::leaveNow(Leaving leaving) {
     }
     Request request{RequestKind::Load};
     request.file = std::move(leaving.file);
+    request.recovers = std::move(leaving.recovers);
     request.keepView = leaving.to == Leaving::To::FileAsChanged;
     in_.session.request(request);
 }

@@ -40,9 +40,11 @@ class Document {
 
     // At once when nothing would be lost, else after a question.
     void open(const std::string& file);  // a picture becomes A beside the scene
+    void load(const Request& request);   // RequestKind::Load
     void reload() { leave({Leaving::To::FileAsChanged, in_.session.path()}); }
     void drop(const std::vector<std::string>& files);  // on the window
     void quit() { leave({}); }
+    bool asks() const { return leaving_.has_value(); }  // whether changes may be lost
     void ask(FilePurpose purpose) { files_.open(purpose, in_.session.path()); }
     void askForPicture(bool film) { picture_.open(film, in_.film.frames); }
 
@@ -55,7 +57,8 @@ class Document {
     // What would lose the scene's unsaved changes.
     struct Leaving {
         enum class To { End, OtherScene, FileAsChanged } to = To::End;
-        std::string file;  // what is opened or loaded again; not for End
+        std::string file;      // what is opened or loaded again; not for End
+        std::string recovers;  // Request::recovers
     };
     void leave(const Leaving& leaving);
     void leaveNow(Leaving leaving);

@@ -10,7 +10,7 @@
 #include <limits>
 
 #include "session/inspection_lines.h"
-#include "session/picker.h"
+#include "session/projection.h"
 #include "viewer/widget_places.h"
 
 namespace conelight::program {
@@ -84,16 +84,15 @@ std::optional<glm::vec2> Gizmo::View::onScreen(const glm::vec3& point) const {
     return at + *part * size;
 }
 
-glm::vec3 Gizmo::View::ray(const glm::vec2& mouse) const {
+ViewRay Gizmo::View::ray(const glm::vec2& mouse) const {
     const glm::vec2 part = (mouse - at) / size;
-    return rayDirection(camera, size.x / size.y, {2 * part.x - 1, 1 - 2 * part.y});
+    return viewRay(camera, size.x / size.y, {2 * part.x - 1, 1 - 2 * part.y});
 }
 
 std::vector<Gizmo::Handle> Gizmo::handles(const View& view, const glm::vec3& pivot, const glm::mat3& own,
                                           bool moves) const {
     const GizmoTool shown = moves ? GizmoTool::Move : tool;
-    const float length =
-        kLength * 2 * std::tan(0.5f * view.camera.fovY) * glm::length(pivot - view.camera.eye);
+    const float length = kLength * view.camera.heightAt(glm::length(pivot - view.camera.eye));
     std::vector<Handle> all;
     const std::optional<glm::vec2> middle = view.onScreen(pivot);
     if (!middle || !(length > 0)) return all;
@@ -123,7 +122,8 @@ std::vector<Gizmo::Handle> Gizmo::handles(const View& view, const glm::vec3& piv
 // Where on the handle's axis, or at which angle about it, the mouse points.
 std::optional<float> Gizmo::along(const View& view, const Handle& handle, const glm::vec3& pivot,
                                   const glm::vec2& mouse) const {
-    const glm::vec3 ray = view.ray(mouse), n = handle.direction, to = pivot - view.camera.eye;
+    const auto [origin, ray, perDepth] = view.ray(mouse);
+    const glm::vec3 n = handle.direction, to = pivot - origin;
     if (tool == GizmoTool::Turn && handle.line.size() > 2) {
         const float across = glm::dot(ray, n);
         if (std::fabs(across) < 0.05f) return std::nullopt;  // the ring is seen from its edge

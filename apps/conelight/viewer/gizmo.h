@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "session/mesh_bounds.h"
+#include "session/projection.h"
 #include "session/session.h"
 
 namespace conelight::program {
@@ -33,7 +34,7 @@ class Gizmo {
         Camera camera;
         glm::vec2 at{0}, size{1};
         std::optional<glm::vec2> onScreen(const glm::vec3& point) const;
-        glm::vec3 ray(const glm::vec2& mouse) const;
+        ViewRay ray(const glm::vec2& mouse) const;
     };
     struct Handle {
         int axis = 0;  // 3: the middle

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "session/lengths.h"
+#include "session/projection.h"
 
 namespace conelight::program {
 namespace {
@@ -109,7 +110,7 @@ const std::vector<PictureLine>& GroundGrid::lines(const Session& session, Picker
         const Aabb bounds = session.scene().bounds();
         height_ = bounds.empty() ? 0 : bounds.min.y;
     }
-    const float cell = gridCell(glm::distance(camera.eye, camera.target));
+    const float cell = gridCell(apparentDistance(camera));
     const auto nearest = [&](float x) { return std::lround(x / cell); };
     const long x = nearest(camera.target.x), z = nearest(camera.target.z);
     const glm::vec3 middle(static_cast<float>(x) * cell, height_, static_cast<float>(z) * cell);

@@ -23,6 +23,7 @@ constexpr std::pair<const char*, const char*> kKeys[] = {
     {"N R T", "view from front, right, top"},
     {"Shift+N R T", "view from back, left, bottom"},
     {"keypad 1 3 7", "the same, with Ctrl the other side"},
+    {"V, keypad 5", "parallel rays, or perspective"},
     {"G, L, O", "grid and axes, headlight, turntable"},
     {"B", "keep the view as a camera"},
     {"PageUp, PageDown", "the scene's cameras in turn"},

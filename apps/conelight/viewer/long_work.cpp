@@ -11,6 +11,7 @@
 #include <optional>
 #include <utility>
 
+#include "session/addition.h"
 #include "traced_picture.h"
 #include "viewer/background_job.h"
 #include "viewer/widget_places.h"
@@ -82,6 +83,23 @@ bool LongWork::startLoad(const Request& request) {
         auto opened = std::make_shared<OpenedScene>(readScene(request.file, how, watched));
         return BackgroundLoad::TakeOver(
             [this, request, opened, steps] { takeOver(request, *opened, steps); });
+    };
+    return load_.start(fileNameOf(request.file), read, platform::Window::wake);
+}
+
+bool LongWork::startImport(const Request& request) {
+    if (load_.busy()) {
+        load_.stop();
+        return false;
+    }
+    const auto read = [this, file = request.file,
+                       how = in_.session.openHow()](const io::LoadOptions& watched) {
+        auto part = std::make_shared<Scene>(readPart(file, how, watched));
+        return BackgroundLoad::TakeOver([this, file, part] {
+            Picker& picker = in_.console.commands().picker();
+            for (const std::string& line : addImported(in_.session, picker, std::move(*part), file))
+                in_.console.say(line);
+        });
     };
     return load_.start(fileNameOf(request.file), read, platform::Window::wake);
 }

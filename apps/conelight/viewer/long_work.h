@@ -40,6 +40,8 @@ class LongWork {
     void startBake(const Request& request);
     // A scene, in the background. One that is loaded already is stopped first: false until it has ended.
     bool startLoad(const Request& request);
+    // Of a file into the scene, in the same way.
+    bool startImport(const Request& request);
     // The first scene, whose failure ends the program: follow() throws it.
     void startFirst(const std::string& name, BackgroundLoad::Read read);
     // What to do when the scene was changed, and not saved, while another was read: it would be lost.

@@ -140,6 +140,10 @@ bool Menus::takeViewKey(const platform::Window::KeyEvent& press) {
     constexpr View kViews[] = {{GLFW_KEY_N, GLFW_KEY_KP_1, "front", "back"},
                                {GLFW_KEY_R, GLFW_KEY_KP_3, "right", "left"},
                                {GLFW_KEY_T, GLFW_KEY_KP_7, "top", "bottom"}};
+    if (press.key == GLFW_KEY_KP_5 || (press.key == GLFW_KEY_V && !press.control())) {
+        in_.console.run("camera orthographic");
+        return true;
+    }
     for (const View& view : kViews) {
         const bool keypad = press.key == view.keypad, letter = press.key == view.letter && !press.control();
         if (!keypad && !letter) continue;
@@ -415,6 +419,9 @@ void Menus::guidesMenu() {
 void Menus::viewMenu() {
     if (!beginMenu("View")) return;
     if (ImGui::MenuItem("Focus", "F")) focusOnSelection(in_.session, in_.view.pictureSize());
+    if (ImGui::MenuItem("Orthographic", "V", in_.session.camera().isOrthographic()))
+        in_.console.run("camera orthographic");
+    notePlace("menu:Orthographic");
     ImGui::Separator();
     GizmoTool& tool = in_.view.gizmo.tool;
     if (ImGui::MenuItem("Move", "1", tool == GizmoTool::Move)) tool = GizmoTool::Move;

@@ -28,7 +28,7 @@ int viewsAtRest(const std::string& mode, const Settings& settings, const Camera&
     const bool off = settings.image.temporal == Toggle::Off;
     if (!showsLight(settings.component) || (off && mode != "traced")) return 0;
     if (settings.image.antialiasing > 0) return settings.image.antialiasing;
-    if (camera.lensDiameter > 0 && camera.focus() > 0) return kLensViews;
+    if (camera.hasLens()) return kLensViews;
     if (off) return 0;
     return mode == "traced" ? kTracedViews : kSmoothingViews;
 }

@@ -312,7 +312,7 @@ bool PictureView::takeInput(Session& session, const glm::vec2& size, bool hovere
     if (!ImGui::IsMouseDown(ImGuiMouseButton_Left)) dragged_ = false;
 
     if (hovered && io.MouseWheel != 0) {
-        if (io.KeyCtrl)
+        if (io.KeyCtrl && !camera.isOrthographic())
             camera.fovY = std::clamp(camera.fovY - io.MouseWheel * 0.01745f, 0.01745f, 2.6f);
         else
             dolly(camera, std::pow(0.9f, io.MouseWheel));

@@ -165,9 +165,10 @@ void Recovery::removeOwn() {
     written_ = false;
 }
 
-void Recovery::follow(const Session& session, bool handRests) {
+void Recovery::follow(const Session& session, bool handRests, bool pending) {
     if (folder_.empty()) return;
     if (taken_ && recoveriesSeen_ != session.recoveries()) adopt();
+    if (taken_ && !pending) found_ = std::exchange(taken_, std::nullopt);
     recoveriesSeen_ = session.recoveries();
     if (job_.busy()) return;
     if (work_) finishWriting();

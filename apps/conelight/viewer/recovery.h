@@ -25,8 +25,9 @@ class Recovery {
     Recovery(const Recovery&) = delete;
     Recovery& operator=(const Recovery&) = delete;
 
-    // Once a round of the main loop: writes what was changed, removes what is not needed.
-    void follow(const Session& session, bool handRests);
+    // Once a round of the main loop: writes what was changed, removes what is not needed. `pending`: what was taken may
+    // still be read; else it could not be, and the question comes back.
+    void follow(const Session& session, bool handRests, bool pending);
     // The question whether what was found is to be taken.
     void show(Session& session);
     void end();  // of the program, as the user wanted: nothing is left

@@ -37,6 +37,9 @@ void carryOut(const RequestInputs& in, const Request& request) {
         case RequestKind::Load:
             in.work.startLoad(request);
             break;
+        case RequestKind::Import:
+            in.work.startImport(request);
+            break;
         case RequestKind::Window:
             in.window(request);
             break;
@@ -71,7 +74,8 @@ bool carryOutRequest(const RequestInputs& in) {
     if (in.work.holdsRequests()) return false;
     // One scene after the other.
     if (const Request* next = in.session.nextRequest();
-        next != nullptr && next->kind == RequestKind::Load && in.work.loads()) {
+        next != nullptr && in.work.loads() &&
+        (next->kind == RequestKind::Load || next->kind == RequestKind::Import)) {
         in.work.stopLoading();
         return false;
     }

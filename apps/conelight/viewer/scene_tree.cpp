@@ -3,8 +3,10 @@
 
 #include <fmt/core.h>
 #include <imgui.h>
+#include <imgui_internal.h>  // PushItemFlag
 
 #include <algorithm>
+#include <utility>
 
 #include "io/scene_info.h"
 #include "viewer/widget_places.h"
@@ -87,11 +89,15 @@ bool SceneTree::heading(const char* name, std::size_t count, SelectionKind kind)
 // Before the rows are drawn: to the middle, unless the row is seen already.
 void SceneTree::scrollTo(const std::vector<std::size_t>& shown, SelectionKind kind, float rowHeight) {
     if (!reveal_ || reveal_->kind != kind) return;
-    const auto found = std::lower_bound(shown.begin(), shown.end(), reveal_->index);
-    const bool listed = found != shown.end() && *found == reveal_->index;
+    const auto found = std::find(shown.begin(), shown.end(), reveal_->index);
+    scrollTo(static_cast<std::size_t>(found - shown.begin()), shown.size(), rowHeight);
+}
+
+// Line `number` of `count`; a higher one is not among them.
+void SceneTree::scrollTo(std::size_t number, std::size_t count, float rowHeight) {
     reveal_.reset();
-    if (!listed) return;
-    const float top = ImGui::GetCursorPosY() + static_cast<float>(found - shown.begin()) * rowHeight;
+    if (number >= count) return;
+    const float top = ImGui::GetCursorPosY() + static_cast<float>(number) * rowHeight;
     const float height = ImGui::GetWindowHeight(), from = ImGui::GetScrollY();
     if (top >= from && top + rowHeight <= from + height) return;
     ImGui::SetScrollY(std::max(top - 0.5f * (height - rowHeight), 0.0f));
@@ -100,9 +106,9 @@ void SceneTree::scrollTo(const std::vector<std::size_t>& shown, SelectionKind ki
 void SceneTree::click(Session& session, const Selection& what, const std::vector<std::size_t>& shown) {
     const ImGuiIO& io = ImGui::GetIO();
     const bool several = what.kind != SelectionKind::Material;
-    const auto from = std::lower_bound(shown.begin(), shown.end(), anchor_.index);
-    const auto to = std::lower_bound(shown.begin(), shown.end(), what.index);
-    const bool hasAnchor = anchor_.kind == what.kind && from != shown.end() && *from == anchor_.index;
+    const auto from = std::find(shown.begin(), shown.end(), anchor_.index);
+    const auto to = std::find(shown.begin(), shown.end(), what.index);
+    const bool hasAnchor = anchor_.kind == what.kind && from != shown.end() && to != shown.end();
     if (several && io.KeyShift && hasAnchor) {
         std::vector<Selection> all = io.KeyCtrl ? session.selected() : std::vector<Selection>{};
         for (auto i = std::min(from, to); i <= std::max(from, to); ++i) all.push_back({what.kind, *i});
@@ -138,24 +144,104 @@ void SceneTree::visibleBox(Session& session, std::size_t index, const std::strin
     session.setInstances({{index, changed}}, visible ? "show " + changed.name : "hide " + changed.name);
 }
 
+// All of a group's objects at once.
+void SceneTree::visibleBoxOfGroup(Session& session, std::size_t group, const std::string& name) {
+    const ObjectTree::Count& count = tree_.countOf(group);
+    bool visible = count.visible > 0;
+    ImGui::PushItemFlag(ImGuiItemFlags_MixedValue, visible && count.visible < count.objects);
+    const bool switched = ImGui::Checkbox("##visible", &visible);
+    ImGui::PopItemFlag();
+    notePlace("visible:" + name + "/");
+    if (!switched) return;
+    // What is hidden in part is shown.
+    visible = count.visible < count.objects;
+    std::vector<std::pair<std::size_t, Instance>> changed;
+    for (const Selection& part : tree_.partsOf(session.scene(), group)) {
+        if (part.kind != SelectionKind::Instance) continue;
+        Instance instance = session.scene().instances[part.index];
+        if (std::exchange(instance.visible, visible) != visible) changed.emplace_back(part.index, instance);
+    }
+    session.setInstances(changed, (visible ? "show " : "hide ") + name);
+}
+
+void SceneTree::clickGroup(Session& session, std::size_t group) {
+    std::vector<Selection> parts = tree_.partsOf(session.scene(), group);
+    const ImGuiIO& io = ImGui::GetIO();
+    if (io.KeyCtrl || io.KeyShift) {
+        const bool leaves = tree_.countOf(group).selected == tree_.countOf(group).all;
+        std::vector<Selection> others = session.selected();
+        std::erase_if(others, [&](const Selection& one) {
+            return std::find(parts.begin(), parts.end(), one) != parts.end();
+        });
+        if (leaves) parts.clear();
+        parts.insert(parts.begin(), others.begin(), others.end());
+    }
+    session.selectAll(parts);
+    anchor_ = {};
+    seen_ = session.selection();
+}
+
+// Its arrow folds it, its name selects all that is in it. Returns whether the arrow was clicked.
+bool SceneTree::groupRow(Session& session, std::size_t group) {
+    const Group& shown = session.scene().groups[group];
+    const std::string name = shown.name.empty() ? fmt::format("group {}", group) : shown.name;
+    const ObjectTree::Count& count = tree_.countOf(group);
+    ImGui::PushID("group");
+    ImGui::PushID(static_cast<int>(group));
+    visibleBoxOfGroup(session, group, name);
+    ImGui::SameLine(0, foldWidth_ + ImGui::GetStyle().ItemSpacing.x);
+    const bool selected = count.selected == count.all;
+    ImGui::SetNextItemOpen(tree_.isOpen(group));
+    ImGui::PushStyleColor(ImGuiCol_Header, ImGui::GetStyleColorVec4(ImGuiCol_HeaderActive));
+    ImGui::TreeNodeEx("##node",
+                      ImGuiTreeNodeFlags_OpenOnArrow | ImGuiTreeNodeFlags_NoTreePushOnOpen |
+                          ImGuiTreeNodeFlags_SpanAvailWidth |
+                          (selected ? ImGuiTreeNodeFlags_Selected : ImGuiTreeNodeFlags_None),
+                      "%s  (%zu)", name.c_str(), count.objects);
+    ImGui::PopStyleColor();
+    const bool folds = ImGui::IsItemToggledOpen();
+    notePlace("group:" + name);
+    const ImVec2 low = ImGui::GetItemRectMin();
+    notePlace("fold:" + name, {low.x, low.y},
+              {low.x + ImGui::GetTreeNodeToLabelSpacing(), ImGui::GetItemRectMax().y});
+    if (ImGui::IsItemClicked() && !folds) clickGroup(session, group);
+    if (ImGui::IsItemHovered() && ImGui::IsMouseReleased(ImGuiMouseButton_Right)) {
+        if (!selected) clickGroup(session, group);
+        const ImVec2 mouse = ImGui::GetIO().MousePos;
+        actions_.openMenu({mouse.x, mouse.y});
+    }
+    ImGui::PopID();
+    ImGui::PopID();
+    return folds;
+}
+
 void SceneTree::objects(Session& session, const std::string& filter) {
-    if (!heading("Objects", session.scene().instances.size(), SelectionKind::Instance)) return;
+    const Scene& scene = session.scene();
+    if (!heading("Objects", scene.instances.size(), SelectionKind::Instance)) return;
     const Revisions& now = session.revisions();
-    const std::uint64_t revision = 1 + now.scene + now.instances;
-    if (objects_.revision != revision || objects_.filter != filter)
-        objects_ = {filter, revision, matching(session.scene().instances, "object", filter)};
-    const float height = ImGui::GetFrameHeightWithSpacing();
-    scrollTo(objects_.shown, SelectionKind::Instance, height);
-    clipped(objects_.shown.size(), height, [&](std::size_t line) {
-        const std::size_t i = objects_.shown[line];
-        const std::string name = nameOr(session.scene().instances[i].name, "object", i);
-        ImGui::PushID(static_cast<int>(i));
-        visibleBox(session, i, name);
-        ImGui::SameLine();
-        row(session, name, {SelectionKind::Instance, i}, objects_.shown);
+    tree_.update(scene, 1 + now.scene + now.instances + now.lights, filter);
+    if (tree_.hasGroups()) tree_.countSelected(scene, session.selected());
+    if (reveal_ && reveal_->kind == SelectionKind::Instance) tree_.reveal(scene, reveal_->index);
+    const float height = ImGui::GetFrameHeightWithSpacing(), step = ImGui::GetTreeNodeToLabelSpacing();
+    if (reveal_ && reveal_->kind == SelectionKind::Instance)
+        scrollTo(tree_.lineOf(reveal_->index), tree_.lines().size(), height);
+    std::optional<std::size_t> folded;
+    clipped(tree_.lines().size(), height, [&](std::size_t number) {
+        const ObjectTree::Line line = tree_.lines()[number];
+        foldWidth_ = 0.6f * step * static_cast<float>(line.depth);
+        if (line.isGroup) {
+            if (groupRow(session, line.index)) folded = line.index;
+            return;
+        }
+        const std::string name = objectLabel(scene, line.index);
+        ImGui::PushID(static_cast<int>(line.index));
+        visibleBox(session, line.index, name);
+        ImGui::SameLine(0, ImGui::GetStyle().ItemSpacing.x + foldWidth_ + (tree_.hasGroups() ? step : 0));
+        row(session, name, {SelectionKind::Instance, line.index}, tree_.shownInstances());
         notePlace("object:" + name);
         ImGui::PopID();
     });
+    if (folded) tree_.fold(*folded, !tree_.isOpen(*folded));
 }
 
 void SceneTree::lights(Session& session, const std::string& filter) {

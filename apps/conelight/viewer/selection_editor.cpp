@@ -11,6 +11,7 @@
 
 #include "session/lens_range.h"
 #include "session/material_edit.h"
+#include "session/projection.h"
 #include "viewer/edit_steps.h"
 
 namespace conelight::program {
@@ -208,17 +209,13 @@ void SelectionEditor::show(Session& session, const RunLine& run) {
     textures_.showOpen(session);
 }
 
-void cameraEditor(Session& session) {
-    Camera camera = session.camera();
-    ImGui::PushItemWidth(-8.0f * ImGui::GetFontSize());
-    bool changed = ImGui::DragFloat3("eye (m)", &camera.eye.x, 0.01f);
-    seals(session, "eye");
-    changed |= ImGui::DragFloat3("target (m)", &camera.target.x, 0.01f);
-    seals(session, "target");
-    changed |= ImGui::SliderAngle("field of view", &camera.fovY, 1, 150);
-    seals(session, "field of view");
+namespace {
+
+// Returns whether something was changed.
+bool lensEditor(Session& session, Camera& camera) {
     // Wide lenses, of models of towns, are typed.
-    changed |= ImGui::SliderFloat("lens (m)", &camera.lensDiameter, 0, 0.5f, "%.4g", ImGuiSliderFlags_None);
+    bool changed =
+        ImGui::SliderFloat("lens (m)", &camera.lensDiameter, 0, 0.5f, "%.4g", ImGuiSliderFlags_None);
     seals(session, "lens");
     if (camera.lensDiameter > 0) {
         changed |= ImGui::DragFloat("focus (m)", &camera.focusDistance, 0.01f, 0, 1e6f,
@@ -227,6 +224,34 @@ void cameraEditor(Session& session) {
     }
     camera.lensDiameter = std::clamp(camera.lensDiameter, 0.0f, kWidestLens);
     camera.focusDistance = std::max(camera.focusDistance, 0.0f);
+    return changed;
+}
+
+}  // namespace
+
+void cameraEditor(Session& session) {
+    Camera camera = session.camera();
+    ImGui::PushItemWidth(-8.0f * ImGui::GetFontSize());
+    bool changed = ImGui::DragFloat3("eye (m)", &camera.eye.x, 0.01f);
+    seals(session, "eye");
+    changed |= ImGui::DragFloat3("target (m)", &camera.target.x, 0.01f);
+    seals(session, "target");
+    bool parallel = camera.isOrthographic();
+    if (ImGui::Checkbox("orthographic", &parallel)) {
+        switchProjection(camera);
+        session.jumpCamera(camera, parallel ? "orthographic" : "perspective");
+    }
+    notePlace("edit:orthographic");
+    if (camera.isOrthographic()) {
+        changed |= ImGui::DragFloat("height (m)", &camera.orthographicHeight,
+                                    0.01f * camera.orthographicHeight, kLeastView, kTallestView, "%.4g");
+        camera.orthographicHeight = std::clamp(camera.orthographicHeight, kLeastView, kTallestView);
+        seals(session, "height");
+    } else {
+        changed |= ImGui::SliderAngle("field of view", &camera.fovY, 1, 150);
+        seals(session, "field of view");
+    }
+    if (!camera.isOrthographic()) changed |= lensEditor(session, camera);
     ImGui::PopItemWidth();
     if (changed && glm::length(camera.target - camera.eye) > 1e-6f)
         session.jumpCamera(camera, "edit camera", "camera");

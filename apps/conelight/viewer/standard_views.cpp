@@ -18,6 +18,11 @@ void viewFrom(Session& session, const std::string& side, const glm::ivec2& pictu
     Camera camera = session.camera();
     camera.up = {0, 1, 0};
     camera.eye = camera.target - viewDirection({yaw, pitch});
+    // Parallel rays straight down show no sides; the up vector says which edge of the picture is north.
+    if (camera.isOrthographic() && pitch != 0) {
+        camera.up = {0, 0, pitch < 0 ? -1 : 1};
+        camera.eye = camera.target - glm::vec3(0, pitch < 0 ? -1 : 1, 0);
+    }
     focusOn(camera, selectedBounds(session), aspectOf(pictureSize));
     session.jumpCamera(camera, "view from " + side);
 }

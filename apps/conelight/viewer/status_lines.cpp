@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+#include "session/projection.h"
+
 namespace conelight::program {
 namespace {
 
@@ -49,8 +51,8 @@ std::string selectionText(const Session& session) {
 }
 
 std::string cameraText(const Camera& c) {
-    return fmt::format("eye {:.4g} {:.4g} {:.4g} target {:.4g} {:.4g} {:.4g} fov {:.4g} deg", c.eye.x,
-                       c.eye.y, c.eye.z, c.target.x, c.target.y, c.target.z, glm::degrees(c.fovY));
+    return fmt::format("eye {:.4g} {:.4g} {:.4g} target {:.4g} {:.4g} {:.4g} {}", c.eye.x, c.eye.y, c.eye.z,
+                       c.target.x, c.target.y, c.target.z, projectionText(c));
 }
 
 std::string pathText(const Session& session) {

@@ -9,6 +9,7 @@
 
 #include "session/lengths.h"
 #include "session/picker.h"
+#include "session/projection.h"
 #include "viewer/widget_places.h"
 
 namespace conelight::program {
@@ -30,8 +31,7 @@ int numberOf(int axis, bool positive) { return positive ? axis : axis + 3; }
 
 // Of the target, in m.
 float metresPerPixelAt(const Camera& camera, const glm::vec2& size) {
-    return 2 * glm::distance(camera.eye, camera.target) * std::tan(0.5f * camera.fovY) /
-           std::max(size.y, 1.0f);
+    return camera.heightAt(glm::distance(camera.eye, camera.target)) / std::max(size.y, 1.0f);
 }
 
 float barLength(const Camera& camera, const glm::vec2& size) {
@@ -46,9 +46,8 @@ std::vector<ViewGuides::End> ViewGuides::endsOf(const Camera& camera, const glm:
                                                 const glm::vec2& size) {
     const float em = ImGui::GetFontSize();
     const glm::vec2 middle(at.x + size.x - kFromCorner * em, at.y + (kFromCorner + 1.2f) * em);
-    const glm::vec3 forward = rayDirection(camera, 1, {0, 0});
-    const glm::vec3 right = glm::normalize(glm::cross(forward, rayDirection(camera, 1, {0, 1})));
-    const glm::vec3 up = glm::cross(right, forward);
+    const ViewAxes axes = viewAxes(camera);
+    const glm::vec3 forward(axes.forward), right(axes.right), up(axes.up);
     std::vector<End> ends;
     for (int i = 0; i < 6; ++i) {
         End end{i % 3, i < 3, middle, 0};
@@ -119,8 +118,7 @@ void ViewGuides::drawScale(const Camera& camera, const glm::vec2& at, const glm:
         words = lengthText(metres);
     }
     if (grid)
-        words += (words.empty() ? "grid " : "   grid ") +
-                 lengthText(gridCell(glm::distance(camera.eye, camera.target)));
+        words += (words.empty() ? "grid " : "   grid ") + lengthText(gridCell(apparentDistance(camera)));
     const ImVec2 extent = ImGui::CalcTextSize(words.c_str());
     const ImVec2 low{corner.x - extent.x, corner.y - extent.y - (scale ? 0.7f : 0.0f) * em};
     list->AddRectFilled({low.x - 0.4f * em, low.y - 0.1f * em},
@@ -146,7 +144,7 @@ void ViewGuides::draw(const Session& session, Picker& picker, const glm::vec2& a
 std::string ViewGuides::text(const Camera& camera, const glm::vec2& size) const {
     std::string text;
     const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
-    if (grid) add("grid " + lengthText(gridCell(glm::distance(camera.eye, camera.target))));
+    if (grid) add("grid " + lengthText(gridCell(apparentDistance(camera))));
     if (axes) add("axes");
     if (scale) add("scale " + lengthText(barLength(camera, size)));
     return text.empty() ? "off" : text;

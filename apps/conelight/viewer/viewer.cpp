@@ -154,9 +154,7 @@ Viewer::Viewer(const ViewerOptions& options)
     window_.onRefresh = [this] {
         if (!drawing_) frame();
     };
-    work_.onChangedMeanwhile = [this](const Request& request) {
-        request.keepView ? document_.reload() : document_.open(request.file);
-    };
+    work_.onChangedMeanwhile = [this](const Request& request) { document_.load(request); };
     if (options.readStdin) console_.readStandardInput();
     if (options.filmSamples > 0) work_.film.traced.samplesPerPixel = options.filmSamples;
     for (const std::string& line : options.commands) console_.commands().submit(line, "--exec");
@@ -171,7 +169,8 @@ int Viewer::run() {
         }
         if (!console_.panel().takesKeysSoon()) look(secondsToSleep());
         document_.follow();
-        recovery_.follow(session_, !ImGui::IsAnyMouseDown() && !session_.clipState().playing);
+        recovery_.follow(session_, !ImGui::IsAnyMouseDown() && !session_.clipState().playing,
+                         session_.hasRequests() || work_.loads() || document_.asks());
         watchShaders();
         work_.follow();
         takeCommands();

@@ -288,13 +288,21 @@ void Writer::light(const Light& one) {
 }
 
 void Writer::camera(const Camera& one) {
+    float fovY = one.fovY;
+    if (one.isOrthographic()) {
+        notes_.push_back(
+            "camera " + wordOf(one.name, "camera") +
+            ": its rays are parallel, which the format has no word for; written in perspective, the "
+            "target as large");
+        fovY = 2 * std::atan(0.5f * one.orthographicHeight / glm::distance(one.eye, one.target));
+    }
     line(1, "camera = {");
     value(2, "name", wordOf(one.name, "camera"));
     value(2, "position", triple(one.eye, "xyz"));
     value(2, "target", triple(one.target, "xyz"));
     value(2, "up", triple(one.up, "xyz"));
     line(2, fmt::format("fov = {} near = {} far = {}",
-                        number(static_cast<float>(static_cast<double>(one.fovY) / kDegreeInRadians)),
+                        number(static_cast<float>(static_cast<double>(fovY) / kDegreeInRadians)),
                         number(one.zNear), number(one.zFar)));
     line(1, "}");
 }
@@ -325,6 +333,8 @@ std::vector<std::string> Writer::write(bool force) {
     if (scene_.sky != glm::vec3(0)) value(1, "sky", triple(scene_.sky, "rgb"));
     if (scene_.environment.image != nullptr)
         notes_.push_back("the environment is left out: the format has a constant sky alone; .glb keeps it");
+    if (!scene_.groups.empty())
+        notes_.push_back("groups of objects are left out: the format has a list alone; .glb keeps them");
     for (const Camera& one : scene_.cameras) camera(one);
     for (const Light& one : scene_.lights) light(one);
     for (const Instance& one : scene_.instances) model(one);

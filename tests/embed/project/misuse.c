@@ -156,6 +156,11 @@ static void wrong_pictures(conelight_renderer* renderer, const conelight_scene* 
     EXPECT(CONELIGHT_USAGE, conelight_renderer_render(renderer, NULL, 8, 8, NULL, "nothing"));
     camera.fov_y = 0;
     EXPECT(CONELIGHT_USAGE, conelight_renderer_render(renderer, &camera, 8, 8, NULL, NULL));
+    camera.fov_y = 1;
+    camera.orthographic_height = 2;
+    EXPECT(CONELIGHT_OK, conelight_renderer_render(renderer, &camera, 8, 8, NULL, "depth"));
+    camera.orthographic_height = -2;
+    EXPECT(CONELIGHT_USAGE, conelight_renderer_render(renderer, &camera, 8, 8, NULL, NULL));
     EXPECT(CONELIGHT_OK, conelight_renderer_render(renderer, NULL, 8, 8, NULL, "albedo"));
     EXPECT(CONELIGHT_USAGE, conelight_renderer_read(renderer, rgba, 4));
     EXPECT(CONELIGHT_OK, conelight_renderer_read(renderer, rgba, 4 * 8 * 8));
