@@ -41,7 +41,10 @@ base::Steps LitVoxels::relightInSteps(const gl::Device& device, const Inputs& in
     const bool otherVoxels = voxelsFrom_ != inputs.voxels.revision();
     const bool otherSources = otherVoxels || lightsFrom_ != inputs.lights.revision();
     const bool otherSettings = !first && !(settings_ == settings);
-    const bool otherGrid = !first && !(voxelSettings_ == inputs.voxels.settings());
+    const voxels::VoxelGrid& grid = inputs.voxels.grid();
+    // Nested grids go with the eye.
+    const bool otherLevels = (grid_.levels > 1 || grid.levels > 1) && !(grid_ == grid);
+    const bool otherGrid = !first && (otherLevels || !(voxelSettings_ == inputs.voxels.settings()));
     if (budget.nothing && !otherSources && !otherSettings) co_return;
 
     // A finished picture must not be better or worse for the settings of those before it; moving ones keep
@@ -65,6 +68,7 @@ base::Steps LitVoxels::relightInSteps(const gl::Device& device, const Inputs& in
     voxelsFrom_ = inputs.voxels.revision();
     lightsFrom_ = inputs.lights.revision();
     voxelSettings_ = inputs.voxels.settings();
+    grid_ = grid;
     settings_ = settings;
     co_await update(device, inputs, budget);
 }
