@@ -48,6 +48,22 @@ conelight_result setMesh(Handle* handle, std::size_t index, const conelight_mesh
     });
 }
 
+template <class Use, class Handle>
+conelight_result setHostMesh(Handle* handle, std::size_t index, const conelight_host_mesh* mesh) {
+    return guarded([&] {
+        const Use use(handle);
+        use->setMesh(index, hostMeshOf(readStruct(mesh, "mesh")));
+    });
+}
+
+template <class Use, class Handle>
+conelight_result setTexture(Handle* handle, std::size_t index, const conelight_texture* texture) {
+    return guarded([&] {
+        const Use use(handle);
+        use->setTexture(index, textureOf(readStruct(texture, "texture")));
+    });
+}
+
 // What the struct does not have stays.
 template <class Use, class Handle>
 conelight_result setMaterial(Handle* handle, std::size_t index, const conelight_material* material) {
@@ -98,6 +114,14 @@ conelight_result addMesh(Handle* handle, const conelight_mesh* mesh, std::int32_
     return guarded([&] {
         const Use use(handle);
         writeIndex(use->addMesh(meshOf(readStruct(mesh, "mesh"))), index);
+    });
+}
+
+template <class Use, class Handle>
+conelight_result addHostMesh(Handle* handle, const conelight_host_mesh* mesh, std::int32_t* index) {
+    return guarded([&] {
+        const Use use(handle);
+        writeIndex(use->addMesh(hostMeshOf(readStruct(mesh, "mesh"))), index);
     });
 }
 

@@ -3,6 +3,7 @@
 #include "conelight/light_field.h"
 
 #include <memory>
+#include <vector>
 
 #include "changes.h"
 #include "settings.h"
@@ -14,6 +15,7 @@ using c::need;
 
 struct conelight_light_field {
     std::unique_ptr<LightField> field;
+    mutable std::vector<PassStats> passes;  // as the last _get_stats found them
 };
 
 namespace {
@@ -91,6 +93,16 @@ conelight_result conelight_light_field_set_mesh(conelight_light_field* field, si
     return c::setMesh<Use>(field, index, mesh);
 }
 
+conelight_result conelight_light_field_set_host_mesh(conelight_light_field* field, size_t index,
+                                                     const conelight_host_mesh* mesh) {
+    return c::setHostMesh<Use>(field, index, mesh);
+}
+
+conelight_result conelight_light_field_set_texture(conelight_light_field* field, size_t index,
+                                                   const conelight_texture* texture) {
+    return c::setTexture<Use>(field, index, texture);
+}
+
 conelight_result conelight_light_field_set_material(conelight_light_field* field, size_t index,
                                                     const conelight_material* material) {
     return c::setMaterial<Use>(field, index, material);
@@ -118,6 +130,11 @@ conelight_result conelight_light_field_set_environment(conelight_light_field* fi
 conelight_result conelight_light_field_add_mesh(conelight_light_field* field, const conelight_mesh* mesh,
                                                 int32_t* index) {
     return c::addMesh<Use>(field, mesh, index);
+}
+
+conelight_result conelight_light_field_add_host_mesh(conelight_light_field* field,
+                                                     const conelight_host_mesh* mesh, int32_t* index) {
+    return c::addHostMesh<Use>(field, mesh, index);
 }
 
 conelight_result conelight_light_field_add_texture(conelight_light_field* field,
@@ -207,4 +224,36 @@ conelight_result conelight_lookups_glsl(int32_t first_block, int32_t first_textu
 conelight_result conelight_light_field_bind_lookups(const conelight_light_field* field, int32_t first_block,
                                                     int32_t first_texture) {
     return guarded([&] { Use(field)->bindLookups({first_block, first_texture}); });
+}
+
+conelight_result conelight_light_field_set_profiling(conelight_light_field* field, int on) {
+    return guarded([&] { Use(field)->setProfiling(on != 0); });
+}
+
+conelight_result conelight_light_field_get_stats(const conelight_light_field* field,
+                                                 conelight_light_field_stats* stats) {
+    return guarded([&] {
+        const Use use(field);
+        c::readStruct(stats, "stats");
+        const LightFieldStats& of = use->stats();
+        conelight_light_field_stats found{0, of.voxels, of.faces, of.facesUpdated, 0, of.passes.size(),
+                                          0, 0,         -1};
+        for (const MemoryStats& object : of.memory) found.memory_bytes += object.bytes;
+        if (!of.passes.empty()) {
+            const PassStats& whole = of.passes.front();  // "update" has the others in it
+            found.cpu_ms = whole.cpuMs;
+            found.wall_ms = whole.wallMs;
+            found.gpu_ms = whole.gpuMs;
+        }
+        need(field, "field").passes = of.passes;
+        c::writeStruct(stats, found, "stats");
+    });
+}
+
+conelight_result conelight_light_field_get_pass(const conelight_light_field* field, size_t index,
+                                                conelight_pass* pass) {
+    return guarded([&] {
+        const PassStats& of = c::elementOf(need(field, "field").passes, index, "pass");
+        c::writeStruct(pass, conelight_pass{0, of.name.c_str(), of.cpuMs, of.wallMs, of.gpuMs}, "pass");
+    });
 }

@@ -112,6 +112,18 @@ conelight_result conelight_renderer_set_mesh(conelight_renderer* renderer, size_
     return c::setMesh<Use>(renderer, index, mesh);
 }
 
+conelight_result conelight_renderer_set_host_mesh(conelight_renderer* renderer, size_t index,
+                                                  const conelight_host_mesh* mesh) {
+    const conelight_result refused = guarded([&] { refuseHeadless(renderer); });
+    if (refused != CONELIGHT_OK) return refused;
+    return c::setHostMesh<Use>(renderer, index, mesh);
+}
+
+conelight_result conelight_renderer_set_texture(conelight_renderer* renderer, size_t index,
+                                                const conelight_texture* texture) {
+    return c::setTexture<Use>(renderer, index, texture);
+}
+
 conelight_result conelight_renderer_set_material(conelight_renderer* renderer, size_t index,
                                                  const conelight_material* material) {
     return c::setMaterial<Use>(renderer, index, material);
@@ -138,6 +150,13 @@ conelight_result conelight_renderer_set_environment(conelight_renderer* renderer
 conelight_result conelight_renderer_add_mesh(conelight_renderer* renderer, const conelight_mesh* mesh,
                                              int32_t* index) {
     return c::addMesh<Use>(renderer, mesh, index);
+}
+
+conelight_result conelight_renderer_add_host_mesh(conelight_renderer* renderer,
+                                                  const conelight_host_mesh* mesh, int32_t* index) {
+    const conelight_result refused = guarded([&] { refuseHeadless(renderer); });
+    if (refused != CONELIGHT_OK) return refused;
+    return c::addHostMesh<Use>(renderer, mesh, index);
 }
 
 conelight_result conelight_renderer_add_texture(conelight_renderer* renderer,

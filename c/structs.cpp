@@ -59,7 +59,7 @@ void assign(Material& material, const conelight_material& values) {
 }
 
 void assign(Light& light, const conelight_light& values) {
-    light.type = enumOf<LightType>(values.type, 4, "light.type");
+    light.type = enumOf<LightType>(values.type, 6, "light.type");
     light.name = textOf(values.name);
     light.intensity = vec3Of(values.intensity);
     light.position = vec3Of(values.position);
@@ -100,6 +100,33 @@ Mesh meshOf(const conelight_mesh& values) {
     mesh.tangents = vectorsOf<glm::vec4>(values.tangents, values.vertex_count);
     mesh.colors = vectorsOf<glm::vec4>(values.colors, values.vertex_count);
     if (values.index_count > 0) mesh.indices.assign(values.indices, values.indices + values.index_count);
+    return mesh;
+}
+
+namespace {
+
+HostAttribute attributeOf(const conelight_attribute& values) {
+    constexpr int kEncodings = static_cast<int>(HostEncoding::Unorm8) + 1;
+    return {values.buffer, values.offset, values.stride,
+            enumOf<HostEncoding>(values.encoding, kEncodings, "attribute.encoding")};
+}
+
+}  // namespace
+
+HostMesh hostMeshOf(const conelight_host_mesh& values) {
+    HostMesh mesh;
+    mesh.name = textOf(values.name);
+    mesh.vertexCount = values.vertex_count;
+    mesh.indexCount = values.index_count;
+    mesh.positions = attributeOf(values.positions);
+    mesh.normals = attributeOf(values.normals);
+    mesh.uvs = attributeOf(values.uvs);
+    mesh.tangents = attributeOf(values.tangents);
+    mesh.colors = attributeOf(values.colors);
+    mesh.indices = values.indices;
+    mesh.indexOffset = values.index_offset;
+    mesh.shortIndices = values.short_indices != 0;
+    mesh.bounds = {vec3Of(values.low), vec3Of(values.high)};
     return mesh;
 }
 

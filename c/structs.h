@@ -3,6 +3,7 @@
 #pragma once
 
 #include "calls.h"
+#include "conelight/host_mesh.h"
 #include "conelight/scene.h"
 
 struct conelight_scene {
@@ -15,6 +16,7 @@ void assign(Material& material, const conelight_material& values);
 void assign(Light& light, const conelight_light& values);
 Instance instanceOf(const conelight_instance& values);
 Mesh meshOf(const conelight_mesh& values);
+HostMesh hostMeshOf(const conelight_host_mesh& values);
 Texture textureOf(const conelight_texture& values);
 // Throws Error(Usage) for a camera that sees nothing.
 Camera cameraOf(const conelight_camera& values);

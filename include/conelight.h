@@ -143,18 +143,20 @@ typedef enum conelight_light_type {
     CONELIGHT_POINT = 0,
     CONELIGHT_SPOT = 1,
     CONELIGHT_DIRECTIONAL = 2,
-    CONELIGHT_RECT = 3
+    CONELIGHT_RECT = 3,
+    CONELIGHT_DISK = 4,
+    CONELIGHT_SPHERE = 5
 } conelight_light_type;
 
 typedef struct conelight_light {
     size_t size;
     const char* name;
     int32_t type;       /* conelight_light_type */
-    float intensity[3]; /* W/sr (point, spot), W/m^2 (directional), W/(sr m^2) (rect) */
+    float intensity[3]; /* W/sr (point, spot), W/m^2 (directional), W/(sr m^2) (rect, disk, sphere) */
     float position[3];
-    float direction[3];   /* unit; where light travels to (spot, directional, rect) */
-    float half_u[3];      /* rect: centre to edge, m */
-    float half_v[3];      /* rect */
+    float direction[3];   /* unit; where light travels to (spot, directional, rect, disk) */
+    float half_u[3];      /* rect, disk: centre to edge, m; sphere: its length is the radius */
+    float half_v[3];      /* rect, disk */
     float inner_angle;    /* spot: half angle of full intensity, rad */
     float outer_angle;    /* spot: half angle of zero intensity, rad, (inner_angle, pi/2] */
     float range;          /* m; 0: unlimited */
@@ -270,7 +272,7 @@ typedef struct conelight_renderer_options {
 typedef struct conelight_stats {
     size_t size;
     double cpu_ms, wall_ms; /* of the last picture; 0 unless profiling is on */
-    size_t memory_bytes;    /* of GL objects, of all renderers of the process */
+    size_t memory_bytes;    /* of its GL objects */
 } conelight_stats;
 #define CONELIGHT_STATS_INIT \
     { sizeof(conelight_stats), 0, 0, 0 }
@@ -291,6 +293,9 @@ CONELIGHT_API conelight_result conelight_renderer_set_instance(conelight_rendere
                                                                const conelight_instance* instance);
 CONELIGHT_API conelight_result conelight_renderer_set_mesh(conelight_renderer* renderer, size_t index,
                                                            const conelight_mesh* mesh);
+/* New texels, of any size, for the materials that have it; one texel gives the memory of many back. */
+CONELIGHT_API conelight_result conelight_renderer_set_texture(conelight_renderer* renderer, size_t index,
+                                                              const conelight_texture* texture);
 CONELIGHT_API conelight_result conelight_renderer_set_material(conelight_renderer* renderer, size_t index,
                                                                const conelight_material* material);
 CONELIGHT_API conelight_result conelight_renderer_set_light(conelight_renderer* renderer, size_t index,

@@ -104,6 +104,10 @@ void placeLight(Light& light, const glm::mat4& worldFromNode) {
     const glm::vec3 along = -glm::vec3(worldFromNode[2]);
     const float length = glm::length(along);
     light.direction = length > 0.0f && std::isfinite(length) ? along / length : glm::vec3(0, 0, -1);
+    // A profile turns with its lamp.
+    const glm::vec3 across(worldFromNode[0]);
+    const float width = glm::length(across);
+    if (light.profile != nullptr && width > 0.0f && std::isfinite(width)) light.halfU = across / width;
 }
 
 bool placeCamera(Camera& camera, const glm::mat4& worldFromNode, float distance) {

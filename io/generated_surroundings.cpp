@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The clear sky is that of Preetham, Shirley and Smits 1999, "A Practical Analytic Model for Daylight": the
 // luminance distribution of Perez with coefficients by turbidity, and the sun behind Rayleigh's and Angstrom's
-// attenuation. Luminance becomes radiance by 683 lm/W.
+// attenuation. Luminance becomes radiance by 683 lm/W. With a low sun and below the horizon, as much light comes from the
+// sky as Janiczek and DeYoung 1987 tabulate, "Computer Programs for Sun and Moon Illuminance" (US Naval Observatory
+// Circular 171): dusk, and a night without moon. How dusk is spread over the sky, and its colours, are chosen by eye.
 #include "io/generated_surroundings.h"
 
 #include <fmt/format.h>
@@ -10,6 +12,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "conelight/error.h"
 #include "conelight/studio.h"
@@ -127,6 +130,128 @@ class ClearSky {
     std::array<Perez, 3> perez_{};
 };
 
+// Mean over places of equal share of the cosine-weighted hemisphere, times pi: irradiance on the ground.
+template <class Radiance>
+glm::dvec3 irradianceFrom(const Radiance& radiance) {
+    constexpr int kRows = 32, kTurns = 128;
+    glm::dvec3 sum(0);
+    for (int row = 0; row < kRows; ++row)
+        for (int turn = 0; turn < kTurns; ++turn) {
+            const double radius = std::sqrt((row + 0.5) / kRows),
+                         angle = 2 * std::numbers::pi * turn / kTurns;
+            sum += radiance(glm::dvec3(radius * std::cos(angle), std::sqrt(1 - radius * radius),
+                                       radius * std::sin(angle)));
+        }
+    return sum * std::numbers::pi / double(kRows * kTurns);
+}
+
+double luminanceOf(const glm::dvec3& c) { return 0.2126729 * c.r + 0.7151522 * c.g + 0.0721750 * c.b; }
+
+// On the ground by the sun's elevation in degrees, lux, without moon: the circular's polynomials in parts of 90 degrees.
+// Below -18 degrees it stays: stars and airglow.
+double tabulatedLux(double elevation) {
+    struct Piece {
+        double from;
+        std::array<double, 4> terms;
+    };
+    constexpr Piece kPieces[] = {{-0.8, {2.88, 22.26, -207.64, 1034.30}},
+                                 {-5, {2.88, 21.81, -258.11, -858.36}},
+                                 {-12, {2.70, 12.17, -431.69, -1899.83}},
+                                 {-18, {13.84, 262.72, 1447.42, 2797.93}}};
+    elevation = std::max(elevation, -18.0);
+    const Piece* piece = kPieces;
+    while (elevation < piece->from) ++piece;
+    const double x = elevation / 90;
+    const auto& k = piece->terms;
+    return std::pow(10, k[0] + x * (k[1] + x * (k[2] + x * k[3])));
+}
+
+double smooth(double from, double to, double value) {
+    const double t = std::clamp((value - from) / (to - from), 0.0, 1.0);
+    return t * t * (3 - 2 * t);
+}
+
+// Dusk and night, of luminance about 1 overhead: an even blue, paler at night, that brightens towards the
+// horizon, and a glow above where the sun went down.
+class Dusk {
+  public:
+    Dusk(const glm::dvec3& sun, double elevation)
+        : towardsSun_(glm::normalize(glm::dvec3(sun.x, 0, sun.z) + glm::dvec3(1e-9, 0, 0))),
+          night_(smooth(-9, -18, elevation)),
+          glow_(40 * std::exp(std::min(elevation, 0.0) / 6) * (1 - night_)) {}
+
+    glm::dvec3 radiance(const glm::dvec3& direction) const {
+        // Chromaticities (0.25, 0.25), (0.28, 0.29) and (0.45, 0.41), of luminance 1.
+        constexpr glm::dvec3 kBlue(0.71, 0.99, 1.97), kNight(0.85, 1, 1.42), kOrange(1.85, 0.83, 0.22);
+        const double low = 1 - std::clamp(direction.y, 0.0, 1.0);
+        const double ahead = 0.5 + 0.5 * glm::dot(direction, towardsSun_);
+        const double glow = glow_ * std::exp(-std::max(direction.y, 0.0) / 0.12) * ahead * ahead * ahead;
+        return glm::mix(kBlue, kNight, night_) * (1 + low * low * low) + kOrange * glow;
+    }
+
+  private:
+    glm::dvec3 towardsSun_;
+    double night_, glow_;
+};
+
+// The sky at any hour: by day Preetham's, from sunset on dusk takes its place.
+class AnySky {
+  public:
+    AnySky(const glm::dvec3& sun, double turbidity)
+        : elevation_(std::asin(std::clamp(sun.y, -1.0, 1.0)) * 180 / std::numbers::pi),
+          day_(raised(sun, kLeastDay), turbidity),
+          dusk_(sun, elevation_),
+          share_(smooth(0, -6, elevation_)) {
+        if (elevation_ >= kLow) return;
+        const auto lux = [](const auto& sky) {
+            return kLumenPerWatt *
+                   luminanceOf(irradianceFrom([&](const glm::dvec3& d) { return sky.radiance(d); }));
+        };
+        if (elevation_ <= 0)
+            scale_ = tabulatedLux(elevation_) / lux(*this);
+        else  // from the model to the table, in logarithms
+            scale_ = std::pow(tabulatedLux(0) / lux(ClearSky(raised(sun, kLeastDay, 0), turbidity)),
+                              1 - elevation_ / kLow);
+    }
+
+    // W/(sr m^2), from above the horizon.
+    glm::dvec3 radiance(const glm::dvec3& direction) const {
+        if (share_ >= 1) return scale_ * dusk_.radiance(direction);
+        const glm::dvec3 day = day_.radiance(direction);
+        if (share_ <= 0) return scale_ * day;
+        // As bright as the day's low sky, so that one passes into the other.
+        const double overhead = luminanceOf(day_.radiance({0, 1, 0}));
+        return scale_ * glm::mix(day, overhead * dusk_.radiance(direction), share_);
+    }
+
+    // The light of the sun, as much of it as is above the horizon; none below.
+    std::optional<Light> sunLight(const glm::dvec3& sun) const {
+        const double above = std::clamp(0.5 + elevation_ / kSunDiameter, 0.0, 1.0);
+        if (above <= 0) return {};
+        const glm::dvec3 from = raised(sun, std::sin(0.5 * kSunDiameter * std::numbers::pi / 180));
+        return generated::sunLight(kGeneratedSunName, glm::vec3(-from),
+                                   glm::vec3(above * day_.sunIrradiance()));
+    }
+
+  private:
+    static constexpr double kLeastDay =
+        0.01;                          // height of the sun down to which the model of daylight is used
+    static constexpr double kLow = 5;  // degrees: where the table takes over from the model
+    static constexpr double kSunDiameter = 0.53;  // degrees
+
+    // Over the same place of the horizon, but at least, or just, so high.
+    static glm::dvec3 raised(const glm::dvec3& sun, double least, double most = 1) {
+        const double y = std::clamp(std::min(sun.y, most), least, 1.0);
+        const double along = std::max(std::hypot(sun.x, sun.z), 1e-9), kept = std::sqrt(1 - y * y) / along;
+        return {sun.x * kept, y, sun.z * kept};
+    }
+
+    double elevation_;
+    ClearSky day_;
+    Dusk dusk_;
+    double share_, scale_ = 1;
+};
+
 template <class Radiance>
 std::shared_ptr<const EnvironmentImage> drawn(int width, const Radiance& radiance) {
     auto image = std::make_shared<EnvironmentImage>();
@@ -141,33 +266,18 @@ std::shared_ptr<const EnvironmentImage> drawn(int width, const Radiance& radianc
     return image;
 }
 
-LoadedEnvironment buildSky(const std::string& spec, const generated::Values& values) {
+LoadedEnvironment buildSky(const std::string&, const generated::Values& values) {
     const glm::dvec3 sun = sunDirection(values["latitude"], values["day"], values["hour"]);
-    // The model is one of daylight.
-    if (sun.y < 0.01)
-        throw Error(
-            ErrorKind::Usage,
-            fmt::format("builtin:{}: the sun stands at {:.1f} degrees; an hour or day with the sun above "
-                        "the horizon would be right",
-                        spec, std::asin(std::clamp(sun.y, -1.0, 1.0)) * 180 / std::numbers::pi));
-    const ClearSky sky(sun, values["turbidity"]);
-    // The ground reflects what it gets.
-    constexpr int kRows = 32, kTurns = 128;
-    glm::dvec3 irradiance = sky.sunIrradiance() * sun.y;
-    for (int row = 0; row < kRows; ++row)
-        for (int turn = 0; turn < kTurns; ++turn) {
-            // Places of equal share of the cosine-weighted hemisphere.
-            const double radius = std::sqrt((row + 0.5) / kRows),
-                         angle = 2 * std::numbers::pi * turn / kTurns;
-            const glm::dvec3 direction(radius * std::cos(angle), std::sqrt(1 - radius * radius),
-                                       radius * std::sin(angle));
-            irradiance += sky.radiance(direction) * std::numbers::pi / double(kRows * kTurns);
-        }
-    const glm::dvec3 ground = values["ground"] * irradiance / std::numbers::pi;
+    const AnySky sky(sun, values["turbidity"]);
+    const auto radiance = [&](const glm::dvec3& d) { return sky.radiance(d); };
     LoadedEnvironment loaded;
+    loaded.sun = sky.sunLight(sun);
+    // The ground reflects what it gets.
+    glm::dvec3 irradiance = irradianceFrom(radiance);
+    if (loaded.sun) irradiance += glm::dvec3(loaded.sun->intensity) * -double(loaded.sun->direction.y);
+    const glm::dvec3 ground = values["ground"] * irradiance / std::numbers::pi;
     loaded.environment.image =
-        drawn(kColumns, [&](const glm::dvec3& d) { return d.y >= 0 ? sky.radiance(d) : ground; });
-    loaded.sun = generated::sunLight(kGeneratedSunName, glm::vec3(-sun), glm::vec3(sky.sunIrradiance()));
+        drawn(kColumns, [&](const glm::dvec3& d) { return d.y >= 0 ? radiance(d) : ground; });
     return loaded;
 }
 
@@ -183,7 +293,9 @@ struct SurroundingsEntry {
     LoadedEnvironment (*build)(const std::string& spec, const generated::Values& values);
 };
 constexpr SurroundingsEntry kEntries[] = {
-    {{"sky", "clear sky with its sun, by place and time; north is -z, east is +x", kSkyParameters}, buildSky},
+    {{"sky", "clear sky with its sun, by place and time, at night too; north is -z, east is +x",
+      kSkyParameters},
+     buildSky},
     {{"studio", "neutral room with a large soft lamp and two weaker ones", kStudioParameters}, buildStudio},
 };
 

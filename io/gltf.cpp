@@ -22,6 +22,8 @@
 #include "io/gltf_file.h"
 #include "io/gltf_material.h"
 #include "io/gltf_mesh.h"
+#include "io/gltf_profile.h"
+#include "io/scene_info.h"
 
 namespace conelight::io {
 
@@ -53,13 +55,14 @@ class Reader {
 
     void readOwnExtras(const GltfValue& scene);
     void readFlags(std::size_t node, const GltfValue& value, Instance& instance) const;
-    void addRectLight(std::size_t node, const GltfValue& own);
+    void addAreaLight(std::size_t node, const GltfValue& own);
 
     const LoadOptions& options_;
     GltfFile file_;
     Scene scene_;
     std::vector<glm::mat4> worldFromNode_;
     std::vector<std::uint8_t> hidden_;  // by KHR_node_visibility, of the node or of one above it
+    GltfProfiles profiles_;
     SceneAnimation animation_;
     std::set<std::size_t> movingWeights_;
     std::size_t skinned_ = 0;
@@ -161,11 +164,16 @@ void Reader::readFlags(std::size_t node, const GltfValue& value, Instance& insta
     instance.dynamic = own["dynamic"].boolean(false);
 }
 
-// A rectangular light has no place in KHR_lights_punctual; it stands whole in the extras of its node.
-void Reader::addRectLight(std::size_t node, const GltfValue& own) {
+// An area light has no place in KHR_lights_punctual; it stands whole in the extras of its node.
+void Reader::addAreaLight(std::size_t node, const GltfValue& own) {
+    constexpr LightType kTypes[] = {LightType::Rect, LightType::Disk, LightType::Sphere};
+    const std::string type = own["type"].text("");
+    const auto* const found = std::find_if(std::begin(kTypes), std::end(kTypes),
+                                           [&](LightType one) { return type == lightTypeName(one); });
+    if (found == std::end(kTypes)) return;
     Light to;
     to.name = nameOf(node);
-    to.type = LightType::Rect;
+    to.type = *found;
     to.intensity = glm::max(own["radiance"].vector<3>(glm::vec3(1)), glm::vec3(0));
     to.position = glm::vec3(worldFromNode_[node][3]);
     to.direction = own["direction"].vector<3>(to.direction);
@@ -309,7 +317,15 @@ void Reader::addLight(std::size_t node, const GltfValue& value) {
         value.extension("KHR_lights_punctual")["light"].index(lights.size());
     if (!at) {
         const GltfValue own = ownExtras(value)["light"];
-        if (own.isObject() && own["type"].text("") == "rect") addRectLight(node, own);
+        if (std::optional<Light> measured = profiles_.lightOf(file_, value, own)) {
+            measured->name = nameOf(node);
+            measured->enabled = measured->enabled && hidden_[node] == 0;
+            placeLight(*measured, worldFromNode_[node]);
+            animation_.lights.push_back({scene_.lights.size(), node});
+            scene_.lights.push_back(std::move(*measured));
+            return;
+        }
+        if (own.isObject()) addAreaLight(node, own);
         return;
     }
     const GltfValue from = lights[*at];

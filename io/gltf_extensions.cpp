@@ -10,6 +10,7 @@ namespace {
 using enum GltfSupport;
 
 constexpr std::array kExtensions = {
+    GltfExtension{"EXT_lights_ies", Read},
     GltfExtension{"EXT_lights_image_based", Read},
     GltfExtension{"EXT_mesh_gpu_instancing", Read},
     GltfExtension{"EXT_meshopt_compression", Read},

@@ -13,6 +13,7 @@
 #include "io/files.h"
 #include "io/gltf_write_buffer.h"
 #include "io/gltf_write_material.h"
+#include "io/scene_info.h"
 
 namespace conelight::io {
 namespace {
@@ -43,6 +44,7 @@ class Writer {
     int meshOf(const Instance& instance);
     void addInstance(std::size_t index);
     void addLight(const Light& light);
+    std::size_t profileOf(const std::shared_ptr<const LightProfile>& profile);
     void addCamera(const Camera& camera);
     void addNode(Json node);
     void addSceneExtras(Json& scene);
@@ -55,8 +57,9 @@ class Writer {
     std::map<int, Json> primitives_;             // mesh of the scene -> attributes and indices
     std::map<std::pair<int, int>, int> meshes_;  // (mesh, material) -> mesh of the file
     std::set<std::string> extensions_;
+    std::vector<std::shared_ptr<const LightProfile>> profiles_;
     Json nodes_ = Json::array();
-    std::size_t rectLights_ = 0, customFalloffs_ = 0, flagged_ = 0;
+    std::size_t areaLights_ = 0, customFalloffs_ = 0, flagged_ = 0;
 };
 
 int Writer::meshOf(const Instance& instance) {
@@ -112,6 +115,19 @@ void Writer::addInstance(std::size_t index) {
     addNode(std::move(node));
 }
 
+// Each is written once, as the file it came from.
+std::size_t Writer::profileOf(const std::shared_ptr<const LightProfile>& profile) {
+    const auto known = std::find(profiles_.begin(), profiles_.end(), profile);
+    if (known != profiles_.end()) return static_cast<std::size_t>(known - profiles_.begin());
+    profiles_.push_back(profile);
+    extensions_.insert("EXT_lights_ies");
+    root_["extensions"]["EXT_lights_ies"]["lights"].push_back(
+        {{"name", profile->file},
+         {"bufferView", buffer_.view(profile->text.data(), profile->text.size())},
+         {"mimeType", "application/x-ies-lm-63"}});
+    return profiles_.size() - 1;
+}
+
 void Writer::addLight(const Light& light) {
     Json own = Json::object();
     if (!light.enabled) own["enabled"] = false;
@@ -122,23 +138,37 @@ void Writer::addLight(const Light& light) {
     }
     Json node = {{"name", light.name},
                  {"matrix", listOf(lookingAlong(light.position, light.direction, {0, 1, 0}))}};
-    if (light.type == LightType::Rect) {
-        own["type"] = "rect";
+    if (hasArea(light.type)) {
+        own["type"] = lightTypeName(light.type);
         own["radiance"] = listOf(light.intensity);
         own["direction"] = listOf(light.direction);
         own["halfU"] = listOf(light.halfU);
         own["halfV"] = listOf(light.halfV);
         node["extras"]["conelight"]["light"] = own;
-        ++rectLights_;
+        ++areaLights_;
         addNode(std::move(node));
         return;
     }
     const float strength = std::max({light.intensity.r, light.intensity.g, light.intensity.b});
+    const glm::vec3 color = strength > 0 ? light.intensity / strength : glm::vec3(1);
+    if (light.profile != nullptr && light.type != LightType::Directional && !light.profile->text.empty()) {
+        if (light.range > 0) own["range"] = light.range;
+        if (light.type == LightType::Spot) own["cone"] = {light.innerAngle, light.outerAngle};
+        if (!own.empty()) node["extras"]["conelight"]["light"] = own;
+        // Its first column lies along x.
+        const glm::vec3 up = glm::cross(-light.direction, light.halfU);
+        node["matrix"] = listOf(lookingAlong(light.position, light.direction, up));
+        node["extensions"]["EXT_lights_ies"] = {{"light", profileOf(light.profile)},
+                                                {"multiplier", strength * 683 / light.profile->candela},
+                                                {"color", listOf(color)}};
+        addNode(std::move(node));
+        return;
+    }
     Json to = {{"name", light.name},
                {"type", light.type == LightType::Point  ? "point"
                         : light.type == LightType::Spot ? "spot"
                                                         : "directional"},
-               {"color", listOf(strength > 0 ? light.intensity / strength : glm::vec3(1))},
+               {"color", listOf(color)},
                {"intensity", strength}};
     if (light.range > 0) to["range"] = light.range;
     if (light.type == LightType::Spot)
@@ -209,7 +239,7 @@ std::vector<std::string> Writer::notes() const {
         if (count > 0)
             notes.push_back(fmt::format("{} {}: kept as extras, which only Conelight reads", count, what));
     };
-    note(rectLights_, rectLights_ == 1 ? "rectangular light" : "rectangular lights");
+    note(areaLights_, areaLights_ == 1 ? "area light" : "area lights");
     note(customFalloffs_,
          customFalloffs_ == 1 ? "light with its own falloff" : "lights with their own falloff");
     note(flagged_, flagged_ == 1 ? "object with flags" : "objects with flags");

@@ -119,12 +119,14 @@ std::string describe(const Light& l) {
                                   lightTypeName(l.type), text(l.intensity), lightUnit(l.type));
     if (const auto flux = radiantFlux(l)) out += fmt::format(", flux {} W", text(*flux));
     if (l.type != LightType::Directional) out += fmt::format(", at {}", text(l.position));
-    if (l.type != LightType::Point) out += fmt::format(", towards {}", text(l.direction));
+    if (hasDirection(l.type)) out += fmt::format(", towards {}", text(l.direction));
     if (l.type == LightType::Spot)
         out += fmt::format(", cone {:.3g} to {:.3g} deg", l.innerAngle * kDegreesPerRadian,
                            l.outerAngle * kDegreesPerRadian);
-    if (l.type == LightType::Rect)
+    if (l.type == LightType::Sphere) out += fmt::format(", radius {:.3g} m", glm::length(l.halfU));
+    if (l.type == LightType::Rect || l.type == LightType::Disk)
         out += fmt::format(", {:.3g} x {:.3g} m", 2.0f * glm::length(l.halfU), 2.0f * glm::length(l.halfV));
+    if (l.profile != nullptr) out += fmt::format(", profile {}", oneLine(l.profile->file));
     if (l.customFalloff)
         out += fmt::format(", falloff 1/({:.3g} + {:.3g} d + {:.3g} d^2)", l.falloff.x, l.falloff.y,
                            l.falloff.z);
@@ -149,6 +151,10 @@ const char* lightTypeName(LightType type) {
             return "directional";
         case LightType::Rect:
             return "rect";
+        case LightType::Disk:
+            return "disk";
+        case LightType::Sphere:
+            return "sphere";
         default:
             return "point";
     }
@@ -159,6 +165,8 @@ const char* lightUnit(LightType type) {
         case LightType::Directional:
             return "W/m^2";
         case LightType::Rect:
+        case LightType::Disk:
+        case LightType::Sphere:
             return "W/(sr m^2)";
         default:
             return "W/sr";

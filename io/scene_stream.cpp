@@ -118,6 +118,26 @@ void visitTexture(Stream& s, T& texture) {
     s.array(texture.rgba);
 }
 
+void visitProfile(StreamWriter& s, const std::shared_ptr<const LightProfile>& profile) {
+    s.plain(profile != nullptr);
+    if (!profile) return;
+    s.text(profile->file);
+    s.text(profile->text);
+    s.array(profile->factors);
+    s.plain(profile->candela);
+}
+void visitProfile(StreamReader& s, std::shared_ptr<const LightProfile>& profile) {
+    bool given = false;
+    s.plain(given);
+    if (!given) return;
+    auto read = std::make_shared<LightProfile>();
+    s.text(read->file);
+    s.text(read->text);
+    s.array(read->factors);
+    s.plain(read->candela);
+    profile = std::move(read);
+}
+
 // Materials, instances, lights, cameras: their fields stand in scene_fields.h.
 template <typename Stream, typename T>
 void visitAll(Stream& s, T& object) {
@@ -128,6 +148,8 @@ void visitAll(Stream& s, T& object) {
                 s.text(value);
             else if constexpr (std::is_same_v<Value, std::optional<PhongMaterial>>)
                 s.optional(value);
+            else if constexpr (std::is_same_v<Value, std::shared_ptr<const LightProfile>>)
+                visitProfile(s, value);
             else
                 s.plain(value);
         },

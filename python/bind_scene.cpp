@@ -229,7 +229,8 @@ void bindParts(py::class_<SceneHandle, Handle>& type) {
              py::arg("transform") = py::none(),
              "Places a mesh: transform (4, 4), world from object; other attributes of Instance by name.")
         .def("add_light", &addLight, py::arg("type"),
-             "A light: 'point', 'spot', 'directional' or 'rect'; the attributes of Light by name.")
+             "A light: 'point', 'spot', 'directional', 'rect', 'disk' or 'sphere'; the attributes of Light "
+             "by name.")
         .def("remove_light", &removeLight, py::arg("light"), "Lights behind it move up by one.")
         .def("add_camera", &addCamera, py::arg("camera"),
              "The first one is what render shows without a camera.")

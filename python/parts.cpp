@@ -193,11 +193,13 @@ const std::vector<Attribute<Light>>& lightAttributes() {
     static const std::vector<Attribute<Light>> all = {
         plain<&Light::name>("name", "Text."),
         plain<&Light::intensity>(
-            "intensity", "(3,): W/sr (point, spot), W/m^2 facing it (directional), W/(sr m^2) (rect)."),
-        plain<&Light::position>("position", "Metres: (3,); of rect its centre."),
+            "intensity",
+            "(3,): W/sr (point, spot), W/m^2 facing it (directional), W/(sr m^2) (rect, disk, sphere)."),
+        plain<&Light::position>("position", "Metres: (3,); of area lights their centre."),
         {"direction", readDirection, writeDirection, "Where light travels to: (3,), made a unit vector."},
-        plain<&Light::halfU>("half_u", "rect: centre to edge, metres: (3,)."),
-        plain<&Light::halfV>("half_v", "rect: centre to the other edge, metres: (3,)."),
+        plain<&Light::halfU>("half_u",
+                             "rect, disk: centre to edge, metres: (3,); sphere: its length is the radius."),
+        plain<&Light::halfV>("half_v", "rect, disk: centre to the other edge, metres: (3,)."),
         plain<&Light::innerAngle>("inner_angle", "spot: half angle of full intensity, radians."),
         plain<&Light::outerAngle>("outer_angle", "spot: half angle of zero intensity, radians."),
         plain<&Light::range>("range", "Metres; 0: unlimited."),
@@ -210,10 +212,9 @@ const std::vector<Attribute<Light>>& lightAttributes() {
 }
 
 LightType lightTypeOf(const std::string& name) {
-    constexpr Word<LightType> kTypes[] = {{"point", LightType::Point},
-                                          {"spot", LightType::Spot},
-                                          {"directional", LightType::Directional},
-                                          {"rect", LightType::Rect}};
+    constexpr Word<LightType> kTypes[] = {
+        {"point", LightType::Point}, {"spot", LightType::Spot}, {"directional", LightType::Directional},
+        {"rect", LightType::Rect},   {"disk", LightType::Disk}, {"sphere", LightType::Sphere}};
     return valueOf("type: ", kTypes, name);
 }
 

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "base/log.h"
+#include "math/disc.h"
 #include "reference/materials.h"
 #include "reference/surface.h"
 #include "scene/emissive_quads.h"
@@ -15,6 +17,7 @@ namespace {
 
 // Of the scene's size: positions are floats, whose digits end there.
 constexpr double kSamePlace = 1e-7;
+constexpr int kDiskCorners = 64;  // of a disk as mirrors show it
 // Cosine between the normals of a mirror that count as one: 0.1 degrees.
 constexpr float kFlat = 0.9999985f;
 
@@ -194,7 +197,11 @@ RayHit BeamScene::hitOf(const BeamPolygon& polygon, const glm::dvec3& position, 
 void BeamScene::addLamps(bool quads, int lampPoints) {
     for (const Light& light : scene_.lights) {
         if (!light.enabled) continue;
-        if (light.type == LightType::Rect) {
+        if (light.type == LightType::Sphere)
+            base::fail(ErrorKind::BadInput,
+                       "mode beams: light '%s' is a sphere; a rect, a disk or a point would be right",
+                       light.name.c_str());
+        if (hasArea(light.type)) {
             addRectangle(light, lampPoints, true);
             continue;
         }
@@ -220,20 +227,30 @@ void BeamScene::addRectangle(const Light& light, int lampPoints, bool seenInMirr
     const float length = glm::length(cross);
     if (!(length > 0)) return;
     const glm::vec3 normal = cross / (glm::dot(cross, light.direction) < 0 ? -length : length);
-    const float step = 2 / static_cast<float>(lampPoints);
+    const bool round = light.type == LightType::Disk;
+    const float area = (round ? std::numbers::pi_v<float> : 4.0f) * length;
+    const glm::vec2 points(static_cast<float>(lampPoints));
     for (int y = 0; y < lampPoints; ++y)
         for (int x = 0; x < lampPoints; ++x) {
             Light point = light;
             point.direction = normal;
-            point.position += (step * (static_cast<float>(x) + 0.5f) - 1) * light.halfU +
-                              (step * (static_cast<float>(y) + 0.5f) - 1) * light.halfV;
-            point.intensity *= 4 * length / static_cast<float>(lampPoints * lampPoints);
+            const glm::vec2 u = (glm::vec2(x, y) + 0.5f) / points;
+            const glm::vec2 at = round ? glm::vec2(math::discFromSquare(glm::dvec2(u))) : 2.0f * u - 1.0f;
+            point.position += at.x * light.halfU + at.y * light.halfV;
+            point.intensity *= area / static_cast<float>(lampPoints * lampPoints);
             lamps_.push_back({{glm::dvec3(point.position), false}, light.castsShadow, point, true});
         }
     if (!seenInMirrors) return;
     BeamPolygon polygon;
     const glm::dvec3 middle(light.position), u(light.halfU), v(light.halfV);
     polygon.corners = {middle - u - v, middle + u - v, middle + u + v, middle - u + v};
+    if (round) {
+        polygon.corners.clear();
+        for (int i = 0; i < kDiskCorners; ++i) {
+            const double angle = 2 * std::numbers::pi * i / kDiskCorners;
+            polygon.corners.push_back(middle + std::cos(angle) * u + std::sin(angle) * v);
+        }
+    }
     if (!planeOf(polygon.corners, polygon.plane)) return;
     if (glm::dot(polygon.plane.normal, glm::dvec3(normal)) < 0)
         polygon.plane = {-polygon.plane.normal, -polygon.plane.offset};

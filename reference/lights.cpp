@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "math/disc.h"
+#include "reference/sphere_light.h"
 #include "reference/surface.h"
 #include "scene/emissive_quads.h"
 
@@ -46,7 +48,8 @@ bool pointLight(const Light& light, const SpotCone& spot, const glm::vec3& from,
     result.target = light.position;
     result.radiance =
         light.intensity * (distanceFalloff(light, d2) *
-                           spotFalloff(-glm::dot(result.toLight, spot.axis), spot.cosInner, spot.cosOuter));
+                           spotFalloff(-glm::dot(result.toLight, spot.axis), spot.cosInner, spot.cosOuter) *
+                           intensityFactor(light, -result.toLight));
     return result.radiance.r + result.radiance.g + result.radiance.b > 0;
 }
 
@@ -87,7 +90,7 @@ bool sampleLight(const Light& light, const glm::vec3& from, LightSample& result)
         return pointLight(light, {axis, std::cos(light.innerAngle), std::cos(light.outerAngle)}, from,
                           result);
     if (light.type == LightType::Point) return pointLight(light, {axis}, from, result);
-    if (light.type == LightType::Rect) return false;
+    if (hasArea(light.type)) return false;
     result.toLight = -axis;
     result.distance = std::numeric_limits<float>::infinity();
     result.radiance = light.intensity;
@@ -116,10 +119,8 @@ LightTable::LightTable(const Scene& scene, bool quads, bool extended)
 }
 
 void LightTable::addLight(const Light& light) {
-    if (light.type == LightType::Rect) {
-        addRect(light, kNone, false);
-        return;
-    }
+    if (light.type == LightType::Sphere) return addSphere(light);
+    if (hasArea(light.type)) return addRect(light, kNone, false);
     Emitter e;
     e.kind = light.type == LightType::Directional ? Kind::Directional : Kind::Point;
     e.castsShadow = light.castsShadow;
@@ -134,12 +135,28 @@ void LightTable::addLight(const Light& light) {
     emitters_.push_back(e);
 }
 
+void LightTable::addSphere(const Light& light) {
+    Emitter e;
+    e.kind = Kind::Sphere;
+    e.castsShadow = light.castsShadow;
+    e.radiance = light.intensity;
+    e.position = light.position;
+    e.radius = glm::length(light.halfU);
+    e.area = std::numbers::pi_v<float> * e.radius * e.radius;
+    if (!(e.area > 0)) return;
+    hasQuadsOrRects_ = true;
+    rectsToTest_.push_back(static_cast<std::uint32_t>(emitters_.size()));
+    emitters_.push_back(e);
+}
+
 void LightTable::addRect(const Light& light, std::uint32_t instance, bool isQuad) {
     const glm::vec3 cross = glm::cross(light.halfU, light.halfV);
-    const float area = 4 * glm::length(cross);
+    const bool round = light.type == LightType::Disk;
+    const float area = (round ? std::numbers::pi_v<float> : 4.0f) * glm::length(cross);
     if (!(area > 0)) return;
     Emitter e;
     e.kind = Kind::Rect;
+    e.round = round;
     e.castsShadow = light.castsShadow;
     e.radiance = light.intensity;
     e.position = light.position - light.halfU - light.halfV;
@@ -200,12 +217,15 @@ double LightTable::powerOf(const Emitter& e) const {
                                        : 1.0;
             const double cosine =
                 0.5 * static_cast<double>(std::max(e.cosInner, -1.0f) + std::max(e.cosOuter, -1.0f));
+            if (const auto flux = radiantFlux(*e.light); e.light->profile != nullptr && flux)
+                return preciseLuminance(*flux);
             return 2 * std::numbers::pi * (1 - std::min(cosine, 0.999)) * preciseLuminance(e.radiance) *
                    falloff;
         }
         case Kind::Directional:
             return std::numbers::pi * radius * radius * preciseLuminance(e.radiance);
         case Kind::Rect:
+        case Kind::Sphere:
             return std::numbers::pi * static_cast<double>(e.area) * preciseLuminance(e.radiance);
         case Kind::Triangle: {
             double emission = preciseLuminance(e.radiance);
@@ -242,6 +262,7 @@ void LightTable::setGroups(bool extended) {
             total += powers[i];
             for (const glm::vec3& corner : {glm::vec3(0), e.edgeU, e.edgeV}) bounds.grow(e.position + corner);
             if (e.kind == Kind::Rect) bounds.grow(e.position + e.edgeU + e.edgeV);
+            for (const float side : {-e.radius, e.radius}) bounds.grow(e.position + side);
         }
         group.power = static_cast<float>(total);
         group.center = bounds.center();
@@ -272,7 +293,9 @@ float LightTable::weightOf(std::size_t index, const glm::vec3& from, const glm::
         return static_cast<float>(preciseLuminance(light.radiance)) *
                std::max(glm::dot(light.toLight, normal), 0.0f);
     }
-    if (group.count == 1 && !e.twoSided && !(glm::dot(from - e.position, e.normal) > 0)) return 0;
+    if (group.count == 1 && !e.twoSided && e.kind != Kind::Sphere &&
+        !(glm::dot(from - e.position, e.normal) > 0))
+        return 0;
     const glm::vec3 way = group.center - from;
     return group.power / (static_cast<float>(std::numbers::pi) * std::max(glm::dot(way, way), group.radius2));
 }
@@ -350,6 +373,12 @@ bool LightTable::samplePart(const Emitter& e, const glm::vec3& from, const glm::
             result.radiance = e.radiance;
             result.density = e.within;
             return true;
+        case Kind::Sphere:
+            if (!sampleSphere({e.position, e.radius}, from, u, result)) return false;
+            result.extended = true;
+            result.density *= e.within;
+            result.radiance = e.radiance;
+            return true;
         case Kind::Rect:
         case Kind::Triangle:
             return sampleArea(e, from, u, result);
@@ -370,6 +399,7 @@ bool LightTable::sampleArea(const Emitter& e, const glm::vec3& from, const glm::
         const float root = std::sqrt(u.x);
         b = {root * (1 - u.y), root * u.y};
     }
+    if (e.round) b = 0.5f + 0.5f * glm::vec2(math::discFromSquare(glm::dvec2(u)));
     const glm::vec3 point = e.position + b.x * e.edgeU + b.y * e.edgeV;
     const glm::vec3 l = point - from;
     const float d2 = glm::dot(l, l);
@@ -408,6 +438,17 @@ LightTable::Found LightTable::found(const Choice& choice, const RayHit& hit,
     return result;
 }
 
+bool LightTable::lampAlong(const Choice& choice, const Emitter& e, const glm::vec3& from,
+                           const glm::vec3& direction, LightSample& hit) const {
+    if (e.kind != Kind::Sphere) return rectAlong(choice, e, from, direction, hit);
+    if (!sphereAlong({e.position, e.radius}, from, direction, hit)) return false;
+    hit.radiance = e.radiance;
+    hit.density *= choice.probability[e.group] * e.within;
+    hit.extended = hit.direct = true;
+    hit.castsShadow = e.castsShadow;
+    return true;
+}
+
 bool LightTable::rectAlong(const Choice& choice, const Emitter& e, const glm::vec3& from,
                            const glm::vec3& direction, LightSample& hit) const {
     const float cosine = -glm::dot(direction, e.normal);
@@ -421,6 +462,7 @@ bool LightTable::rectAlong(const Choice& choice, const Emitter& e, const glm::ve
     const float a = glm::dot(glm::cross(p, e.edgeV), cross) * scale;
     const float b = glm::dot(glm::cross(e.edgeU, p), cross) * scale;
     if (!(a >= 0 && a <= 1 && b >= 0 && b <= 1)) return false;
+    if (const glm::vec2 at = 2.0f * glm::vec2(a, b) - 1.0f; e.round && glm::dot(at, at) > 1) return false;
     hit.toLight = direction;
     hit.distance = distance;
     hit.target = RayScene::offsetOrigin(e.position + p, e.normal);

@@ -68,29 +68,31 @@ class LightTable {
     };
     Found found(const Choice& choice, const RayHit& hit, const glm::vec3& direction) const;
 
-    // Rectangles that no bounce ray finds: the scene's own, and, with `quads`, flat emissive ones when bounce
+    // Area lights that no bounce ray finds: the scene's own, and, with `quads`, flat emissive ones when bounce
     // rays see other instances than shadow rays. Calls visit(const LightSample&) for each that the ray meets.
     template <class Visit>
     void forRectsAlong(const Choice& choice, const glm::vec3& from, const glm::vec3& direction,
                        Visit visit) const {
         for (const std::uint32_t i : rectsToTest_) {
             LightSample hit;
-            if (rectAlong(choice, emitters_[i], from, direction, hit)) visit(hit);
+            if (lampAlong(choice, emitters_[i], from, direction, hit)) visit(hit);
         }
     }
     bool hasRectsToTest() const { return !rectsToTest_.empty(); }
     bool hasQuadsOrRects() const { return hasQuadsOrRects_; }
 
   private:
-    enum class Kind : std::uint8_t { Point, Directional, Rect, Triangle };
+    enum class Kind : std::uint8_t { Point, Directional, Rect, Sphere, Triangle };
     struct Emitter {
         Kind kind = Kind::Point;
+        bool round = false;  // rect: the ellipse in it
         bool direct = true, castsShadow = true, twoSided = false, constant = true;
         glm::vec3 radiance{0};  // or intensity
         glm::vec3 position{0};  // rect: a corner; triangle: vertex 0
         glm::vec3 edgeU{0}, edgeV{0};
         glm::vec3 normal{0};  // unit; shining side, or where light travels to
-        float area = 0;
+        float area = 0;       // of a sphere that of its disc
+        float radius = 0;
         float within = 0;  // probability within its group; 0: never sampled
         std::uint32_t group = 0;
         std::uint32_t instance = 0, triangle = 0;
@@ -99,11 +101,14 @@ class LightTable {
     };
 
     void addLight(const Light& light);
+    void addSphere(const Light& light);
     void addRect(const Light& light, std::uint32_t instance, bool isQuad);
     void addTriangles(const Scene& scene, std::size_t instance);
     void setGroups(bool extended);
     float weightOf(std::size_t group, const glm::vec3& from, const glm::vec3& normal) const;
     double powerOf(const Emitter& e) const;
+    bool lampAlong(const Choice& choice, const Emitter& e, const glm::vec3& from, const glm::vec3& direction,
+                   LightSample& hit) const;
     bool rectAlong(const Choice& choice, const Emitter& e, const glm::vec3& from, const glm::vec3& direction,
                    LightSample& hit) const;
     bool samplePart(const Emitter& e, const glm::vec3& from, const glm::vec2& u, LightSample& result) const;

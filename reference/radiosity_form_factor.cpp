@@ -11,9 +11,9 @@ double polygonFormFactor(const glm::dvec3& point, const glm::dvec3& normal,
                          std::span<const glm::dvec3> corners) {
     constexpr double kTwoPi = 6.283185307179586;
     // A plane cuts a convex polygon of n corners to at most n + 1.
-    std::array<glm::dvec3, 9> clipped;
+    std::array<glm::dvec3, kMostCorners + 1> clipped;
     std::size_t count = 0;
-    const std::size_t n = std::min<std::size_t>(corners.size(), 8);
+    const std::size_t n = std::min(corners.size(), kMostCorners);
     for (std::size_t i = 0; i < n; ++i) {
         const glm::dvec3 a = corners[i] - point, b = corners[(i + 1) % n] - point;
         const double ha = glm::dot(a, normal), hb = glm::dot(b, normal);

@@ -10,7 +10,9 @@
 
 namespace conelight::reference {
 
-// [0,1]. `corners` in order around the polygon, flat and convex, at most 8; both windings count the same.
+constexpr std::size_t kMostCorners = 32;
+
+// [0,1]. `corners` in order around the polygon, flat and convex, at most kMostCorners; both windings count the same.
 // `normal` is unit. 0 where the polygon is below the horizon.
 double polygonFormFactor(const glm::dvec3& point, const glm::dvec3& normal,
                          std::span<const glm::dvec3> corners);

@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "math/disc.h"
 #include "reference/materials.h"
 #include "reference/radiosity_form_factor.h"
 #include "reference/sampler.h"
@@ -19,7 +21,8 @@ namespace {
 
 // Emissive meshes of more triangles are found by rays: by their form factors they would cost more.
 constexpr std::size_t kMostTriangles = 64;
-constexpr int kProbeEdge = 4;  // points a side that tell penumbra from light and umbra
+constexpr std::size_t kRoundCorners = kMostCorners;  // of the polygon that stands for a disk
+constexpr int kProbeEdge = 4;                        // points a side that tell penumbra from light and umbra
 
 bool shines(const glm::vec3& c) { return c.r > 0 || c.g > 0 || c.b > 0; }
 
@@ -29,7 +32,7 @@ RadiosityLights::RadiosityLights(const Scene& scene, bool emissiveQuads)
     : areaLight_(scene.instances.size(), false) {
     for (const Light& light : scene.lights) {
         if (!light.enabled || !shines(light.intensity)) continue;
-        if (light.type == LightType::Rect) {
+        if (hasArea(light.type)) {
             addRect(light);
             continue;
         }
@@ -50,6 +53,15 @@ RadiosityLights::RadiosityLights(const Scene& scene, bool emissiveQuads)
 
 void RadiosityLights::addRect(const Light& light) {
     AreaLight a;
+    a.castsShadow = light.castsShadow;
+    a.radiance = light.intensity;
+    if (light.type == LightType::Sphere) {
+        a.corner = glm::dvec3(light.position);
+        a.sphere = glm::length(glm::dvec3(light.halfU));
+        if (a.sphere > 0) areas_.push_back(a);
+        return;
+    }
+    a.round = light.type == LightType::Disk;
     a.corner = glm::dvec3(light.position) - glm::dvec3(light.halfU) - glm::dvec3(light.halfV);
     a.edgeU = 2.0 * glm::dvec3(light.halfU);
     a.edgeV = 2.0 * glm::dvec3(light.halfV);
@@ -57,8 +69,6 @@ void RadiosityLights::addRect(const Light& light) {
     if (!(glm::length(a.normal) > 0)) return;
     a.normal = glm::normalize(a.normal);
     if (glm::dot(a.normal, glm::dvec3(light.direction)) < 0) a.normal = -a.normal;
-    a.castsShadow = light.castsShadow;
-    a.radiance = light.intensity;
     areas_.push_back(a);
 }
 
@@ -92,6 +102,49 @@ void RadiosityLights::addTriangles(const Scene& scene, std::uint32_t index) {
     }
 }
 
+// The disc where lines from a place touch a sphere; without an area from within.
+RadiosityLights::AreaLight RadiosityLights::discOf(const AreaLight& sphere, const glm::dvec3& seenFrom) {
+    AreaLight disc = sphere;
+    const glm::dvec3 way = sphere.corner - seenFrom;
+    const double d2 = std::max(glm::dot(way, way), 1e-30), r2 = sphere.sphere * sphere.sphere;
+    const double part = std::max(1 - r2 / d2, 0.0), radius = std::sqrt(r2 * part);
+    disc.round = true;
+    disc.normal = -way / std::sqrt(d2);
+    const Frame frame{glm::vec3(disc.normal)};
+    disc.edgeU = 2 * radius * glm::dvec3(frame.toWorld({1, 0, 0}));
+    disc.edgeV = 2 * radius * glm::dvec3(frame.toWorld({0, 1, 0}));
+    disc.corner = seenFrom + part * way - 0.5 * (disc.edgeU + disc.edgeV);
+    return disc;
+}
+
+struct RadiosityLights::Outline {
+    std::array<glm::dvec3, kRoundCorners> corners;
+    std::size_t count = 0;
+};
+
+// Round lights as a polygon of their area.
+RadiosityLights::Outline RadiosityLights::outlineOf(const AreaLight& light) {
+    Outline outline;
+    const glm::dvec3 &u = light.edgeU, &v = light.edgeV;
+    if (!light.round) {
+        outline.count = light.triangle ? 3 : 4;
+        outline.corners[0] = light.corner;
+        outline.corners[1] = light.corner + u;
+        outline.corners[2] = light.corner + (light.triangle ? v : u + v);
+        outline.corners[3] = light.corner + v;
+        return outline;
+    }
+    outline.count = kRoundCorners;
+    const double each = 2 * std::numbers::pi / kRoundCorners;
+    const double radius = 0.5 * std::sqrt(each / std::sin(each));
+    for (std::size_t i = 0; i < outline.count; ++i) {
+        const double angle = each * static_cast<double>(i);
+        outline.corners[i] =
+            light.corner + (0.5 + radius * std::cos(angle)) * u + (0.5 + radius * std::sin(angle)) * v;
+    }
+    return outline;
+}
+
 // Weighted by what each point of the light would give if it were seen.
 double RadiosityLights::visiblePart(const RayScene& rays, const Receiver& at, const AreaLight& light,
                                     int edge, std::uint64_t& count, bool& mixed) const {
@@ -104,6 +157,11 @@ double RadiosityLights::visiblePart(const RayScene& rays, const Receiver& at, co
                 const double root = std::sqrt(u);
                 u = root * (1 - v);
                 v *= root;
+            }
+            if (light.round) {
+                const glm::dvec2 disc = math::discFromSquare({u, v});
+                u = 0.5 + 0.5 * disc.x;
+                v = 0.5 + 0.5 * disc.y;
             }
             const glm::dvec3 point = light.corner + u * light.edgeU + v * light.edgeV;
             const glm::dvec3 way = point - glm::dvec3(at.position);
@@ -160,16 +218,14 @@ glm::vec3 RadiosityLights::irradiance(const RayScene& rays, const Receiver& at, 
         sum += light.radiance * (cosine / light.density);
     }
     const int edge = std::max(kProbeEdge, static_cast<int>(std::lround(std::sqrt(lightRays))));
-    for (const AreaLight& light : areas_) {
+    for (const AreaLight& own : areas_) {
+        const AreaLight light = own.sphere > 0 ? discOf(own, glm::dvec3(at.position)) : own;
         if (light.direct ? !kinds.direct : !kinds.indirect) continue;
         if (!light.twoSided && !(glm::dot(glm::dvec3(at.position) - light.corner, light.normal) > 0))
             continue;
-        const std::array<glm::dvec3, 4> corners{
-            light.corner, light.corner + light.edgeU,
-            light.triangle ? light.corner + light.edgeV : light.corner + light.edgeU + light.edgeV,
-            light.corner + light.edgeV};
+        const Outline outline = outlineOf(light);
         const double factor = polygonFormFactor(glm::dvec3(at.position), glm::dvec3(at.shadingNormal),
-                                                std::span(corners).first(light.triangle ? 3 : 4));
+                                                std::span(outline.corners).first(outline.count));
         if (!(factor > 0)) continue;
         bool mixed = false;
         double seen = visiblePart(rays, at, light, kProbeEdge, count, mixed);

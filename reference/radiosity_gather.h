@@ -45,10 +45,14 @@ class RadiosityLights {
     };
     struct AreaLight {
         glm::dvec3 corner{0}, edgeU{0}, edgeV{0};
-        bool triangle = false, direct = true, castsShadow = true, twoSided = false;
+        bool triangle = false, round = false, direct = true, castsShadow = true, twoSided = false;
         glm::dvec3 normal{0};  // shining side
         glm::vec3 radiance{0};
+        double sphere = 0;  // radius about `corner`, if it is one
     };
+    struct Outline;
+    static Outline outlineOf(const AreaLight& light);
+    static AreaLight discOf(const AreaLight& sphere, const glm::dvec3& seenFrom);
     void addRect(const Light& light);
     void addTriangles(const Scene& scene, std::uint32_t instance);
     double visiblePart(const RayScene& rays, const Receiver& at, const AreaLight& light, int edge,

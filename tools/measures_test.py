@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT
-"""Tests of the tools that measure GPUs and the window: pages are made from figures made up here, and what got worse is named. Nothing is drawn,
-nothing is compiled. Run by tools/check."""
+"""Tests of the tools that measure GPUs, the window and scenes of people's kinds: pages are made from figures made up here, and what got worse
+is named. Nothing is drawn, nothing is compiled. Run by tools/check."""
 import importlib.machinery
 import importlib.util
 import json
@@ -62,6 +62,58 @@ class MeasureViewer(unittest.TestCase):
         self.assertIn("| the longest time in which the window did not look for input | 190 | 200 |", page)
         self.assertIn("| orbit | 35 (30 to 40) |", page)
         self.assertIn("tools/measure_viewer --minutes 5 --scene builtin:cornell -- --voxels 64", page)
+
+
+class MeasureRealModels(unittest.TestCase):
+    def test_page_marks_what_misses_a_bar(self):
+        part = {"bias": 0.01, "relrmse": 0.2, "block_relrmse": 0.05, "reference_noise": 0.03}
+        runs = []
+        for scene, full, indirect in (("builtin:street", {"bias": -0.034}, {}), ("builtin:attic", {}, {"block_relrmse": 0.123})):
+            variants = [{"label": "traced", "settings": {"traced.quality": quality},
+                         "components": {"full": part | full, "direct": part, "indirect": part | indirect}}
+                        for quality in ("interactive", "converged")]
+            runs.append({"scene": scene, "view": None, "variants": variants, "reference": {"samples_per_pixel": 256}, "device": "driver",
+                         "command": f"conelight compare {scene}"})
+        with tempfile.TemporaryDirectory() as folder:
+            out = pathlib.Path(folder, "real")
+            out.with_suffix(".json").write_text(json.dumps({"version": 1, "runs": runs}))
+            subprocess.run([sys.executable, TOOLS / "measure_real_models", "--text", "--out", out], check=True)
+            page = out.with_suffix(".md").read_text()
+        work, held_out = page.split("## Held out")
+        self.assertIn("| `street` | `interactive` | **-3.40** | 20.0 | 5.00 | 1.00 | 20.0 | 5.00 | 1.00 | 20.0 | 5.00 | 3.00 |", work)
+        self.assertIn("1 of 1 views miss the bar on bias, 0 the one on blocks", work)
+        self.assertIn("| `attic` | `converged` | 1.00 | 20.0 | 5.00 | 1.00 | 20.0 | 5.00 | 1.00 | 20.0 | **12.3** | 3.00 |", held_out)
+        self.assertIn("0 of 1 views miss the bar on bias, 1 the one on blocks", held_out)
+
+
+class MeasureGrowth(unittest.TestCase):
+    def test_page_and_plot_show_the_sizes_that_were_run(self):
+        one = {"gl_mb": 123.4, "process_mb": 1500, "load_s": 0.5, "first_s": 12.3, "frame_s": 0.0625}
+        data = {"version": 1, "device": "driver", "cores": 2, "runs": {"atrium|10000": one, "atrium|1000000": dict(one, gl_mb=456)}}
+        with tempfile.TemporaryDirectory() as folder:
+            out = pathlib.Path(folder, "growth")
+            out.with_suffix(".json").write_text(json.dumps(data))
+            subprocess.run([sys.executable, TOOLS / "measure_growth", "--page", "--out", out], check=True)
+            page, plot = out.with_suffix(".md").read_text(), out.with_suffix(".svg").read_text()
+        self.assertIn("| 10,000 | 123 | 1500 | 0.5 | 12.3 | 0.062 |", page)
+        self.assertIn("| 1,000,000 | 456 |", page)
+        # Memory and time, each value a line of two points.
+        lines = [line for line in plot.splitlines() if 'stroke="#3a8a3a" stroke-width="1.6"' in line]
+        self.assertEqual(len(lines), 5)
+        self.assertTrue(all(line.count("L") == 1 for line in lines))
+
+    def test_hills_have_the_triangles_asked_for_in_both_forms(self):
+        growth = load("measure_growth")
+        for instances in (True, False):
+            with tempfile.TemporaryDirectory() as folder:
+                path = pathlib.Path(folder, "hills.glb")
+                growth.write_glb(path, 30_000, instances)
+                data = path.read_bytes()
+            self.assertEqual(len(data), struct.unpack_from("<I", data, 8)[0])
+            document = json.loads(data[20:20 + struct.unpack_from("<I", data, 12)[0]])
+            uses = sum("mesh" in node for node in document["nodes"])
+            self.assertEqual(uses, 3 if instances else 1)
+            self.assertEqual(uses * document["accessors"][1]["count"], 3 * 3 * 2 * growth.HILL**2)
 
 
 class GpuIsa(unittest.TestCase):

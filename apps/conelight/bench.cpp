@@ -234,17 +234,6 @@ std::vector<Run> benchScene(const std::string& path, const BenchOptions& options
             runs[i].frames.push_back(renderers[i]->stats());
         }
     }
-    // Memory of one mode only: the other renderers' objects are not its own.
-    if (runs.size() > 1) {
-        renderers.clear();
-        for (std::size_t i = 0; i < runs.size(); ++i) {
-            Renderer alone;
-            alone.setScene(sessions[i]->scene());
-            alone.setBakedLight(runs[i].baked);
-            alone.render(sessions[i]->camera(), size.width, size.height, runs[i].settings);
-            runs[i].frames.back().memory = alone.stats().memory;
-        }
-    }
     progress.finish();
     return runs;
 }

@@ -54,6 +54,10 @@ void addField(Hash& hash, const std::optional<PhongMaterial>& phong) {
     hash.add(phong.has_value());
     if (phong) addFields(hash, *phong);
 }
+void addField(Hash& hash, const std::shared_ptr<const LightProfile>& profile) {
+    hash.add(profile != nullptr);
+    if (profile) addVector(hash, profile->factors);
+}
 template <class T>
 void addField(Hash& hash, const T& value) {
     if constexpr (std::is_enum_v<T>)

@@ -78,6 +78,71 @@ typedef struct conelight_gathered {
 #define CONELIGHT_GATHERED_INIT \
     { sizeof(conelight_gathered), 0, 0, 0, 0 }
 
+/* Numbers of an attribute in a buffer of the host's; the normalized ones are in [-1,1] or [0,1]. */
+typedef enum conelight_encoding {
+    CONELIGHT_FLOAT32 = 0,
+    CONELIGHT_FLOAT16 = 1,
+    CONELIGHT_SNORM16 = 2,
+    CONELIGHT_SNORM8 = 3,
+    CONELIGHT_UNORM8 = 4
+} conelight_encoding;
+typedef struct conelight_attribute {
+    uint32_t buffer;  /* GL name; 0: the mesh has none */
+    uint32_t offset;  /* bytes to the first vertex, a multiple of 4 */
+    uint32_t stride;  /* bytes from vertex to vertex, a multiple of 4 */
+    int32_t encoding; /* conelight_encoding */
+} conelight_attribute;
+
+/* A mesh that the host has in buffers of its own. They are read during the call, after what the host's commands have
+ * written, and never written; 32 bytes a vertex and 4 an index are kept on the GPU. It is opaque. */
+typedef struct conelight_host_mesh {
+    size_t size;
+    const char* name;
+    uint32_t vertex_count, index_count;
+    conelight_attribute positions; /* x y z, m */
+    conelight_attribute normals;   /* x y z, of any length; none: flat */
+    conelight_attribute uvs;       /* u v */
+    conelight_attribute tangents;  /* x y z w */
+    conelight_attribute colors;    /* r g b a, linear, [0,1] */
+    uint32_t indices;              /* GL name; 0: vertices follow each other, three a triangle */
+    uint32_t index_offset;         /* bytes, a multiple of those of an index */
+    int32_t short_indices;         /* 1: GL_UNSIGNED_SHORT; 0: GL_UNSIGNED_INT */
+    float low[3], high[3]; /* holds all positions, object space; those outside are moved to its edge */
+} conelight_host_mesh;
+#define CONELIGHT_HOST_MESH_INIT                                                                         \
+    {                                                                                                    \
+        sizeof(conelight_host_mesh), NULL, 0, 0, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, {0, 0, 0, 0}, \
+            {0, 0, 0, 0}, 0, 0, 0, {0, 0, 0}, {                                                          \
+            0, 0, 0                                                                                      \
+        }                                                                                                \
+    }
+/* As _add_mesh and _set_mesh; not of headless renderers, whose context has no buffers of the host's. */
+CONELIGHT_API conelight_result conelight_renderer_add_host_mesh(conelight_renderer* renderer,
+                                                                const conelight_host_mesh* mesh,
+                                                                int32_t* index);
+CONELIGHT_API conelight_result conelight_renderer_set_host_mesh(conelight_renderer* renderer, size_t index,
+                                                                const conelight_host_mesh* mesh);
+
+/* What a field holds, and what its last _update did. */
+typedef struct conelight_light_field_stats {
+    size_t size;
+    size_t voxels, faces;           /* of the grid; light is kept per face */
+    uint64_t faces_updated;         /* by the last _update; one that was renewed twice counts twice */
+    size_t memory_bytes;            /* of its GL objects */
+    size_t pass_count;              /* of the last _update and the _gathers since; 0 unless profiling is on */
+    double cpu_ms, wall_ms, gpu_ms; /* of the last _update; gpu_ms < 0: not measured */
+} conelight_light_field_stats;
+#define CONELIGHT_LIGHT_FIELD_STATS_INIT \
+    { sizeof(conelight_light_field_stats), 0, 0, 0, 0, 0, 0, 0, -1 }
+
+typedef struct conelight_pass {
+    size_t size;
+    const char* name; /* "update/irradiance: update"; valid until the field's next _get_stats */
+    double cpu_ms, wall_ms, gpu_ms;
+} conelight_pass;
+#define CONELIGHT_PASS_INIT \
+    { sizeof(conelight_pass), NULL, 0, 0, -1 }
+
 /* In the context that is current. shader_directory NULL: the built-in shaders; else files there win. */
 CONELIGHT_API conelight_result conelight_light_field_create(const char* shader_directory,
                                                             conelight_light_field** field);
@@ -97,6 +162,10 @@ CONELIGHT_API conelight_result conelight_light_field_set_instance(conelight_ligh
                                                                   const conelight_instance* instance);
 CONELIGHT_API conelight_result conelight_light_field_set_mesh(conelight_light_field* field, size_t index,
                                                               const conelight_mesh* mesh);
+CONELIGHT_API conelight_result conelight_light_field_set_host_mesh(conelight_light_field* field, size_t index,
+                                                                   const conelight_host_mesh* mesh);
+CONELIGHT_API conelight_result conelight_light_field_set_texture(conelight_light_field* field, size_t index,
+                                                                 const conelight_texture* texture);
 CONELIGHT_API conelight_result conelight_light_field_set_material(conelight_light_field* field, size_t index,
                                                                   const conelight_material* material);
 CONELIGHT_API conelight_result conelight_light_field_set_light(conelight_light_field* field, size_t index,
@@ -109,6 +178,9 @@ CONELIGHT_API conelight_result conelight_light_field_set_environment(conelight_l
                                                                      const conelight_scene* scene);
 CONELIGHT_API conelight_result conelight_light_field_add_mesh(conelight_light_field* field,
                                                               const conelight_mesh* mesh, int32_t* index);
+CONELIGHT_API conelight_result conelight_light_field_add_host_mesh(conelight_light_field* field,
+                                                                   const conelight_host_mesh* mesh,
+                                                                   int32_t* index);
 CONELIGHT_API conelight_result conelight_light_field_add_texture(conelight_light_field* field,
                                                                  const conelight_texture* texture,
                                                                  int32_t* index);
@@ -144,6 +216,14 @@ CONELIGHT_API conelight_result conelight_lookups_glsl(int32_t first_block, int32
 /* Binds what that text reads, light as the last _update left it; after the next _update bind again. */
 CONELIGHT_API conelight_result conelight_light_field_bind_lookups(const conelight_light_field* field,
                                                                   int32_t first_block, int32_t first_texture);
+
+/* 1: times for the two calls below; a wait for the GPU per pass on software drivers. */
+CONELIGHT_API conelight_result conelight_light_field_set_profiling(conelight_light_field* field, int on);
+CONELIGHT_API conelight_result conelight_light_field_get_stats(const conelight_light_field* field,
+                                                               conelight_light_field_stats* stats);
+/* Of pass_count, as the last _get_stats found them. */
+CONELIGHT_API conelight_result conelight_light_field_get_pass(const conelight_light_field* field,
+                                                              size_t index, conelight_pass* pass);
 
 #ifdef __cplusplus
 }

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "conelight/host_mesh.h"
 #include "conelight/renderer.h"
 #include "conelight/scene.h"
 #include "conelight/settings.h"
@@ -86,6 +87,18 @@ struct GatheredLight {
     int width = 0, height = 0;
 };
 
+// What a field holds, and what its last update() did.
+struct LightFieldStats {
+    std::size_t voxels = 0, faces = 0;  // of the grid; light is kept per face
+    // Whose light the last update() renewed; one that was renewed twice counts twice.
+    std::uint64_t facesUpdated = 0;
+    // Of the last update() and of the calls of gather() since; empty unless profiling is on. "update" and "gather" hold
+    // those that follow with their name in front, such as "update/voxelize: mark".
+    std::vector<PassStats> passes;
+    std::vector<MemoryStats> memory;  // GL objects of this field that have storage, largest first
+    std::string device;
+};
+
 // Where shaders of the host that include conelight/light_field.glsl find what they read: so many binding points of
 // uniform blocks and texture units, from the first on.
 struct LookupSlots {
@@ -113,6 +126,8 @@ class CONELIGHT_API LightField {
     void setScene(const Scene& scene);
     void setInstance(std::size_t index, const Instance& instance);
     void setMesh(std::size_t index, const Mesh& mesh);
+    void setMesh(std::size_t index, const HostMesh& mesh);
+    void setTexture(std::size_t index, const Texture& texture);
     void setMaterial(std::size_t index, const Material& material);
     void setLight(std::size_t index, const Light& light);
     void setLights(const std::vector<Light>& lights);
@@ -123,6 +138,7 @@ class CONELIGHT_API LightField {
     // stays in scene(), invisible or empty, and no other call takes it. Throw as those above; removeMesh also
     // Error(Usage) while an instance has the mesh.
     std::size_t addMesh(const Mesh& mesh);
+    std::size_t addMesh(const HostMesh& mesh);
     std::size_t addTexture(const Texture& texture);  // for materials that are set or added after it
     std::size_t addMaterial(const Material& material);
     std::size_t addInstance(const Instance& instance);
@@ -159,6 +175,10 @@ class CONELIGHT_API LightField {
     // next update() or setScene() bind again. Throws Error(Usage) before the first update() and for slots that the
     // driver has not.
     void bindLookups(const LookupSlots& slots = {}) const;
+
+    // Timings per pass cost a glFinish each on software drivers, and a wait for the GPU in stats() elsewhere.
+    void setProfiling(bool on);
+    const LightFieldStats& stats() const;  // valid until the next call of it
 
   private:
     struct Impl;

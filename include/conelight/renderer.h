@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "conelight/export.h"
+#include "conelight/host_mesh.h"
 #include "conelight/inspect.h"
 #include "conelight/scene.h"
 #include "conelight/settings.h"
@@ -44,7 +45,7 @@ struct FrameStats {
     double cpuMs = 0, wallMs = 0;   // of the whole render call
     // Lookups: texture fetches of cones, by kind, mean per picture pixel; empty unless counting is on.
     std::vector<std::pair<std::string, double>> lookupsPerPixel;
-    std::vector<MemoryStats> memory;  // live GL objects with storage, largest first
+    std::vector<MemoryStats> memory;  // GL objects of this renderer that have storage, largest first
     std::string device;
 };
 
@@ -80,6 +81,11 @@ class CONELIGHT_API Renderer {
     // setMesh: new positions, normals and so on, as many vertices and indices as the mesh has, normals where it
     // has them: for things that bend and deform. Its instances are made anew.
     void setMesh(std::size_t index, const Mesh& mesh);
+    // A mesh that the host has on the GPU (conelight/host_mesh.h), as many vertices and indices as it had when it was
+    // added. It is opaque, whatever its material transmits, and scene() has an empty mesh in its place.
+    void setMesh(std::size_t index, const HostMesh& mesh);
+    // setTexture: new texels, of any size, for the materials that have it. One texel gives the memory of many back.
+    void setTexture(std::size_t index, const Texture& texture);
     void setMaterial(std::size_t index, const Material& material);
     void setLight(std::size_t index, const Light& light);
     void setLights(const std::vector<Light>& lights);  // all of them: adds and removes
@@ -91,6 +97,7 @@ class CONELIGHT_API Renderer {
     // stays in scene(), invisible or empty, and no other call takes it. Throw as those above; removeMesh also
     // Error(Usage) while an instance has the mesh.
     std::size_t addMesh(const Mesh& mesh);
+    std::size_t addMesh(const HostMesh& mesh);
     std::size_t addTexture(const Texture& texture);  // for materials that are set or added after it
     std::size_t addMaterial(const Material& material);
     std::size_t addInstance(const Instance& instance);

@@ -169,19 +169,34 @@ struct Instance {
     bool operator==(const Instance&) const = default;
 };
 
-enum class LightType : std::uint8_t { Point, Spot, Directional, Rect };
+enum class LightType : std::uint8_t { Point, Spot, Directional, Rect, Disk, Sphere };
+constexpr int kLightTypes = 6;
+constexpr bool hasArea(LightType type) { return type >= LightType::Rect; }
+constexpr bool hasDirection(LightType type) { return type != LightType::Point && type != LightType::Sphere; }
+
+// How the strength of a point light or spot depends on the direction it leaves in, as of a real lamp: factors of its
+// intensity on an even grid. Rows are angles from the light's direction, 0 to pi; columns run about it, the first along
+// halfU as far as that is across the direction, a quarter later along cross(halfU, direction). Linear between them.
+struct LightProfile {
+    static constexpr int kRows = 361, kColumns = 144;
+    std::string file;            // where it is from; empty: from nowhere
+    std::string text;            // of the file (IES LM-63), as it was read
+    std::vector<float> factors;  // kRows * kColumns, 0 to 1
+    float candela = 0;           // as measured, where the factor is 1; 0: unknown
+};
 
 // A light. `intensity` is W/sr (point, spot), irradiance in W/m^2 on a plane facing it (directional) or
-// radiance in W/(sr m^2) of the front face (rect).
+// radiance in W/(sr m^2) of the front face (rect, disk) or of the whole surface (sphere).
 struct Light {
     std::string name;
     LightType type = LightType::Point;
     glm::vec3 intensity{1.0f};
     glm::vec3 position{0.0f};
     glm::vec3 direction{0.0f, -1.0f,
-                        0.0f};  // unit; where light travels to (spot, directional, rect's normal)
-    glm::vec3 halfU{0.5f, 0,
-                    0};  // rect: centre to edge; cross(halfU, halfV) need not point along `direction`
+                        0.0f};  // unit; where light travels to (spot, directional, normal of rect and disk)
+    // rect and disk, which is the ellipse in the rectangle: centre to edge; cross(halfU, halfV) need not point along
+    // `direction`. sphere: the length of halfU is its radius.
+    glm::vec3 halfU{0.5f, 0, 0};
     glm::vec3 halfV{0, 0, 0.5f};
     float innerAngle = 0.0f;         // spot: half angle of full intensity, rad, [0, outerAngle]
     float outerAngle = 0.78539816f;  // spot: half angle of zero intensity, rad, (innerAngle, pi/2]
@@ -190,12 +205,16 @@ struct Light {
     bool castsShadow = true;
     // A falloff of its own instead of the inverse square: intensity / (constant + linear d + quadratic d^2).
     bool customFalloff = false;
-    glm::vec3 falloff{1.0f, 0.15f, 0.45f};  // constant, linear, quadratic
+    glm::vec3 falloff{1.0f, 0.15f, 0.45f};        // constant, linear, quadratic
+    std::shared_ptr<const LightProfile> profile;  // point, spot; shared by copies, never changed; null: none
     bool operator==(const Light&) const = default;
 };
 
+// Factor of a point light's or spot's intensity in the unit direction `away` from it, by its profile; 1 without one.
+CONELIGHT_API float intensityFactor(const Light& light, const glm::vec3& away);
+
 // Radiant flux, W: all that a light sends out, per channel. Point lights and spots as their intensity over all
-// directions; rectangles as their radiance over area and hemisphere. Nothing for a directional light, which has no
+// directions; area lights as their radiance over area and hemisphere. Nothing for a directional light, which has no
 // end, and for a light with a falloff of its own, which has no physical unit.
 CONELIGHT_API std::optional<glm::vec3> radiantFlux(const Light& light);
 // Sets the intensity by it, 0 or more, for the shape that the light has. False, and nothing is changed, where there

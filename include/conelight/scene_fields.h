@@ -87,7 +87,7 @@ auto fieldsOf(I& instance) {
 template <FieldsFrom<Light> L>
 auto fieldsOf(L& light) {
     auto& [name, type, intensity, position, direction, halfU, halfV, innerAngle, outerAngle, range, enabled,
-           castsShadow, customFalloff, falloff] = light;
+           castsShadow, customFalloff, falloff, profile] = light;
     return std::tuple{Field{"name", name},
                       Field{"type", type},
                       Field{"intensity", intensity},
@@ -101,7 +101,8 @@ auto fieldsOf(L& light) {
                       Field{"enabled", enabled},
                       Field{"casts shadow", castsShadow},
                       Field{"own falloff", customFalloff},
-                      Field{"falloff", falloff}};
+                      Field{"falloff", falloff},
+                      Field{"profile", profile}};
 }
 
 template <FieldsFrom<Camera> C>

@@ -17,7 +17,7 @@ Path = Union[str, os.PathLike[str]]
 Component = Literal["full", "direct", "indirect", "diffuse", "specular", "occlusion", "albedo", "normal", "depth",
                     "voxels", "emission", "shadow_map"]
 AlphaMode = Literal["opaque", "mask", "blend"]
-LightType = Literal["point", "spot", "directional", "rect"]
+LightType = Literal["point", "spot", "directional", "rect", "disk", "sphere"]
 ErrorMap = Literal["signed", "absolute", "relative", "flip", "hdr-flip"]
 
 class Error(RuntimeError):

@@ -142,7 +142,15 @@ RectShare rectShare(vec3 origin, vec3 direction, float width, float tanHalf) {
             float t = dot(origin - light.position, light.direction) / max(facing, 1e-6);
             vec3 at = origin + t * direction - light.position;
             float u = length(light.halfU), v = length(light.halfV);
-            vec2 inside = vec2(u - abs(dot(at, light.halfU)) / u, v - abs(dot(at, light.halfV)) / v);
+            vec2 along = vec2(dot(at, light.halfU) / u, dot(at, light.halfV) / v);
+            vec2 inside = vec2(u, v) - abs(along);
+            if (isSphere(light)) {
+                facing = 1.0;
+                t = dot(light.position - origin, direction);
+                inside = vec2(u - length(origin + t * direction - light.position), 1e9);
+            } else if (isRound(light)) {
+                inside = vec2((1.0 - length(along / vec2(u, v))) * min(u, v), 1e9);
+            }
             vec2 parts = clamp(0.5 + inside / max(width + 2.0 * tanHalf * t, 1e-4), 0.0, 1.0);
             float share = facing > 1e-6 && t > 0.0 ? parts.x * parts.y : 0.0;
             if (share > seen.share) seen = RectShare(t, share, light.intensity);

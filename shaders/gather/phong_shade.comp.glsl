@@ -69,7 +69,7 @@ vec3 phongDirectional(Phong m, Surface s, Light light, uint number) {
 // The model knows no areas: each sample point of a rectangle is a light of its share.
 vec3 phongRect(Phong m, Surface s, Light light) {
     uint count = light.sampleGrid * light.sampleGrid;
-    float cellArea = 4.0 * length(cross(light.halfU, light.halfV)) / float(count);
+    float cellArea = rectArea(light) / float(count);
     vec3 sum = vec3(0.0);
     uint k = 0u;
     do {
@@ -81,7 +81,7 @@ vec3 phongRect(Phong m, Surface s, Light light) {
 #if LIGHTS_SHADOWS
         visible = shadowVisibilityRect(light, k, point, litPosition(s), s.geometricNormal);
 #endif
-        float share = cellArea * max(-dot(l, light.direction), 0.0) / max(d2, cellArea);
+        float share = cellArea * rectCosine(light, l) / max(d2, cellArea);
         sum += phongTerm(m, s, l, light.intensity * share, visible);
     } while (++k < count);
     return sum;

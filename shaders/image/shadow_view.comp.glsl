@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 // The shadow maps of one light -> picture: distance along the map's axis in m, 0 where nothing was drawn
 // (component shadow_map). The light's tiles side by side, row by row from the upper left: one for spots and
-// directional lights, +x -x +y / -y +z -z for points, all sample points for rectangles.
+// directional lights, +x -x +y / -y +z -z for points, all sample points for area
+// lights.
 #include "shared/image.h"
 #include "shared/scene.h"
 layout(local_size_x = 8, local_size_y = 8) in;

@@ -4,6 +4,7 @@
 //
 // Defines (light::lightDefines gives them for a scene; unset: everything on):
 // - LIGHTS_POINT, _SPOT, _DIRECTIONAL, _RECT: whether the table holds such lights. Others are left out.
+// - LIGHTS_SHAPED: whether area lights may be round and others have profiles.
 // - LIGHTS_FIXED 1: these four are the exact numbers of lights, at most 4 together. Loops are then unrolled
 //   and read the table at constant places of a uniform block (mode phong: 21 instead of 25 cpu-ms on
 //   llvmpipe, which reads storage once per lane wherever lanes may be idle, as in the loop over
@@ -46,6 +47,7 @@
 #include "lib/brdf.glsl"
 #include "lib/dot.glsl"
 #include "lib/glass_tree.glsl"
+#include "lib/light_profile.glsl"
 #include "lib/light_table.glsl"
 #include "lib/random.glsl"
 #include "lib/rect_light.glsl"
@@ -110,11 +112,15 @@ float distanceFalloff(Light light, float d2) {
     return (light.customFalloff != 0u ? custom : inverseSquare) * clamp(1.0 - ratio * ratio, 0.0, 1.0);
 }
 
-// From 1 inside the inner to 0 outside the outer angle (KHR_lights_punctual).
+// From 1 inside the inner to 0 outside the outer angle (KHR_lights_punctual), times the light's profile.
 float spotFalloff(Light light, vec3 toLight) {
     float t = (dot(-toLight, light.direction) - light.cosOuter) / max(light.cosInner - light.cosOuter, 1e-3);
     t = clamp(t, 0.0, 1.0);
+#if LIGHTS_SHAPED
+    return t * t * profileFactor(light, toLight);
+#else
     return t * t;
+#endif
 }
 
 // Adds light from one direction; `facing` is the irradiance on a plane that faces it.
@@ -210,7 +216,7 @@ Light rectBehindCone(Receiver r, Light light) {
     vec3 l = light.position - r.position;
     float distance = max(length(l), 1e-6);
     l /= distance;
-    float area = 4.0 * length(cross(light.halfU, light.halfV)) * max(-dot(l, light.direction), 0.0);
+    float area = rectArea(light) * rectCosine(light, l);
     if (light.shadow >= 0)
         light.intensity *=
             coneShadow(r.position, r.geometricNormal, l, distance, sqrt(area / kPi) / distance);
@@ -224,7 +230,7 @@ Light rectBehindCone(Receiver r, Light light) {
 void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Light light) {
     float whole = rectIrradiance(light, r.position, r.normal);
     uint count = light.sampleGrid * light.sampleGrid;
-    float cellArea = 4.0 * length(cross(light.halfU, light.halfV)) / float(count);
+    float cellArea = rectArea(light) / float(count);
     RectLobe lobe;
     if (specular) lobe = rectLobe(r.normal, r.toEye, b.alpha, b.NoV);
     vec2 width2 = lobe.width * lobe.width;
@@ -239,7 +245,7 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
         vec3 l = point - r.position;
         float d2 = dot(l, l);
         l *= inversesqrt(max(d2, 1e-20));
-        float emitted = max(-dot(l, light.direction), 0.0) / max(d2, cellArea);
+        float emitted = rectCosine(light, l) / max(d2, cellArea);
         float height = dot(l, r.normal);
         float NoL = max(height, 0.0);
         float visible = 1.0;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Rectangular lights of constant radiance.
+// Area lights of constant radiance: rectangles; with LIGHTS_SHAPED (lib/rect_points.glsl) disks and spheres, too.
 #include "lib/brdf.glsl"
 #include "lib/dot.glsl"
 #include "lib/rect_points.glsl"
+#include "lib/tangent_frame.glsl"
 #include "shared/scene.h"
 
 // Angle between unit vectors a and b, times the component along n of the unit normal of their plane.
@@ -15,30 +16,38 @@ float edgeTerm(vec3 a, vec3 b, vec3 n) {
     return angle * dot(c, n);
 }
 
-// Irradiance at the origin with normal n per unit radiance of a convex quadrilateral: Lambert's sum over
+// Irradiance at the origin with normal n per unit radiance of a convex polygon: Lambert's sum over
 // edges (Lambert 1760; Baum et al. 1989, "Improving Radiosity Solutions through the Use of Analytically
 // Determined Form-Factors", eq. 7), clipped at the horizon. A convex polygon leaves and enters the horizon
 // once at most, so the clipped edges plus one edge along the horizon close it.
+struct PolygonSum {
+    vec3 leaves, enters;
+    float sum;
+};
+
+void addEdge(inout PolygonSum s, vec3 a, vec3 b, vec3 n) {
+    float ha = dot(a, n), hb = dot(b, n);
+    bool aAbove = ha > 0.0, bAbove = hb > 0.0;
+    // Where the edge crosses the horizon, if it does.
+    vec3 crossing = a + (b - a) * (ha / (aAbove != bAbove ? ha - hb : 1.0));
+    if (aAbove && !bAbove) s.leaves = crossing;
+    if (!aAbove && bAbove) s.enters = crossing;
+    vec3 from = aAbove ? a : crossing;
+    vec3 to = bAbove ? b : crossing;
+    float term = edgeTerm(normalize(from), normalize(to), n);
+    s.sum += aAbove || bAbove ? term : 0.0;
+}
+
+float closedSum(PolygonSum s, vec3 n) {
+    bool clipped = dot(s.leaves, s.leaves) > 0.0 && dot(s.enters, s.enters) > 0.0;
+    s.sum += clipped ? edgeTerm(normalize(s.leaves), normalize(s.enters), n) : 0.0;
+    return 0.5 * abs(s.sum);  // the sign is that of the edges' turn
+}
+
 float polygonIrradiance(vec3 corner[4], vec3 n) {
-    vec3 leaves = vec3(0.0), enters = vec3(0.0);
-    float sum = 0.0;
-    for (int i = 0; i < 4; ++i) {
-        vec3 a = corner[i];
-        vec3 b = corner[(i + 1) & 3];
-        float ha = dot(a, n), hb = dot(b, n);
-        bool aAbove = ha > 0.0, bAbove = hb > 0.0;
-        // Where the edge crosses the horizon, if it does.
-        vec3 crossing = a + (b - a) * (ha / (aAbove != bAbove ? ha - hb : 1.0));
-        if (aAbove && !bAbove) leaves = crossing;
-        if (!aAbove && bAbove) enters = crossing;
-        vec3 from = aAbove ? a : crossing;
-        vec3 to = bAbove ? b : crossing;
-        float term = edgeTerm(normalize(from), normalize(to), n);
-        sum += aAbove || bAbove ? term : 0.0;
-    }
-    bool clipped = dot(leaves, leaves) > 0.0 && dot(enters, enters) > 0.0;
-    sum += clipped ? edgeTerm(normalize(leaves), normalize(enters), n) : 0.0;
-    return 0.5 * abs(sum);  // the sign is that of the edges' turn
+    PolygonSum s = PolygonSum(vec3(0.0), vec3(0.0), 0.0);
+    for (int i = 0; i < 4; ++i) addEdge(s, corner[i], corner[(i + 1) & 3], n);
+    return closedSum(s, n);
 }
 
 void rectCorners(Light light, vec3 p, out vec3 corner[4]) {
@@ -49,8 +58,80 @@ void rectCorners(Light light, vec3 p, out vec3 corner[4]) {
     corner[3] = c - light.halfU + light.halfV;
 }
 
-// Irradiance at p with normal n per unit radiance; the light has one shining side.
+#if LIGHTS_SHAPED
+// Round lights are polygons of twelve corners and of their area: what is reflected of them is then sums over edges,
+// as of rectangles. Of a sphere it is the disc where lines from the receiver touch it.
+const int kRoundCorners = 12;
+const float kRoundCornerRadius = 1.0233267;    // sqrt(pi / 3)
+const vec2 kRoundTurn = vec2(0.8660254, 0.5);  // cosine and sine of a twelfth
+const float kRoundNearby = 1.0 / 3600.0;       // radius^2 / distance^2, below which a light is a point:
+                                               // it errs by 3e-4 there, and sums over edges by rounding
+struct LightDisk {
+    vec3 middle, u, v;  // from the receiver
+};
+
+LightDisk diskOf(Light light, vec3 p) {
+    vec3 c = light.position - p;
+    if (!isSphere(light)) return LightDisk(c, light.halfU, light.halfV);
+    float d2 = max(dot(c, c), 1e-20), r2 = dot(light.halfU, light.halfU);
+    float part = max(1.0 - r2 / d2, 0.0);
+    vec3 u, v;
+    tangentFrame(c * inversesqrt(d2), u, v);
+    float radius = sqrt(r2 * part);
+    return LightDisk(part * c, radius * u, radius * v);
+}
+
+bool roundShines(Light light, vec3 c) {
+    return isSphere(light) ? dot(c, c) > dot(light.halfU, light.halfU) : dot(c, light.direction) < 0.0;
+}
+
+float roundExtent2(Light light) { return max(dot(light.halfU, light.halfU), dot(light.halfV, light.halfV)); }
+
+float roundPolygon(LightDisk r, vec3 n) {
+    r.u *= kRoundCornerRadius;
+    r.v *= kRoundCornerRadius;
+    PolygonSum s = PolygonSum(vec3(0.0), vec3(0.0), 0.0);
+    vec2 at = vec2(1.0, 0.0);
+    int i = 0;
+    do {
+        vec2 next =
+            vec2(at.x * kRoundTurn.x - at.y * kRoundTurn.y, at.x * kRoundTurn.y + at.y * kRoundTurn.x);
+        addEdge(s, r.middle + at.x * r.u + at.y * r.v, r.middle + next.x * r.u + next.y * r.v, n);
+        at = next;
+    } while (++i < kRoundCorners);
+    return closedSum(s, n);
+}
+
+// Of a sphere of radius^2 r2 about c, cut at the horizon: Snyder 1996, "Area Light Sources for Real-Time Graphics".
+float sphereIrradiance(vec3 c, float r2, vec3 n) {
+    float d2 = dot(c, c);
+    float h2 = d2 / max(r2, 1e-20);
+    float cosine = dot(c, n) * inversesqrt(max(d2, 1e-20));
+    float k2 = 1.0 - h2 * cosine * cosine;  // above 0 where the horizon cuts it
+    if (k2 <= 0.0) return kPi * max(cosine, 0.0) / h2;
+    float far = sqrt(max(h2 - 1.0, 1e-12));
+    float part =
+        cosine * acos(clamp(-cosine * far * inversesqrt(max(1.0 - cosine * cosine, 1e-12)), -1.0, 1.0)) -
+        sqrt(k2) * far;
+    return max(part / h2 + atan(sqrt(k2) / far), 0.0);
+}
+
+float roundIrradiance(Light light, vec3 p, vec3 n) {
+    vec3 c = light.position - p;
+    float d2 = dot(c, c), extent2 = roundExtent2(light);
+    if (!roundShines(light, c)) return 0.0;
+    if (isSphere(light)) return sphereIrradiance(c, extent2, n);
+    if (extent2 < kRoundNearby * d2)
+        return rectArea(light) * max(dot(c, n), 0.0) * max(-dot(c, light.direction), 0.0) / (d2 * d2);
+    return roundPolygon(diskOf(light, p), n);
+}
+#endif
+
+// Irradiance at p with normal n per unit radiance; rectangles and disks have one shining side.
 float rectIrradiance(Light light, vec3 p, vec3 n) {
+#if LIGHTS_SHAPED
+    if (isRound(light)) return roundIrradiance(light, p, n);
+#endif
     vec3 corner[4];
     rectCorners(light, p, corner);
     return dot(p - light.position, light.direction) > 0.0 ? polygonIrradiance(corner, n) : 0.0;
@@ -125,16 +206,44 @@ struct RectSums {
     float most;    // the largest term of that
 };
 
+#if LIGHTS_SHAPED
+// Share of the transformed cosine that a round light covers.
+float roundLobe(Light light, vec3 p, RectLobe lobe) {
+    vec3 c = light.position - p;
+    if (!roundShines(light, c)) return 0.0;
+    float d2 = dot(c, c), narrow = min(min(lobe.width.x, lobe.width.y), 1.0);
+    if (roundExtent2(light) < kRoundNearby * narrow * narrow * d2) {
+        vec3 l = c * inversesqrt(d2);
+        vec3 inSpace = rectLobeSpace(lobe, l, dot(l, lobe.normal));
+        return rectLobeDensity(inSpace, lobe.width * lobe.width) * rectArea(light) * rectCosine(light, l) /
+               (kPi * d2);
+    }
+    LightDisk r = diskOf(light, p);
+    vec3 scale = 1.0 / vec3(lobe.width, 1.0);
+    r.middle = scale * rectLobeSpace(lobe, r.middle, dot(r.middle, lobe.normal));
+    r.u = scale * rectLobeSpace(lobe, r.u, dot(r.u, lobe.normal));
+    r.v = scale * rectLobeSpace(lobe, r.v, dot(r.v, lobe.normal));
+    return roundPolygon(r, vec3(0.0, 0.0, 1.0)) / kPi;
+}
+#endif
+
+float rectLobeShare(Light light, vec3 p, RectLobe lobe) {
+#if LIGHTS_SHAPED
+    if (isRound(light)) return roundLobe(light, p, lobe);
+#endif
+    vec3 corner[4];
+    rectCorners(light, p, corner);
+    for (int i = 0; i < 4; ++i)
+        corner[i] = rectLobeSpace(lobe, corner[i], dot(corner[i], lobe.normal)) / vec3(lobe.width, 1.0);
+    return polygonIrradiance(corner, vec3(0.0, 0.0, 1.0)) / kPi;
+}
+
 // Unshadowed reflection towards the eye per unit radiance. The integral of the transformed cosine over the
 // rectangle is that of a cosine over the transformed rectangle, closed; Fresnel's factor is the lobe's mean.
 // The difference between the two sums is small and smooth, so that few points do, where the lobe alone would
 // take hundreds.
 vec3 rectSpecular(Light light, vec3 p, RectLobe lobe, Brdf b, RectSums sums) {
-    vec3 corner[4];
-    rectCorners(light, p, corner);
-    for (int i = 0; i < 4; ++i)
-        corner[i] = rectLobeSpace(lobe, corner[i], dot(corner[i], lobe.normal)) / vec3(lobe.width, 1.0);
-    float whole = polygonIrradiance(corner, vec3(0.0, 0.0, 1.0)) / kPi;
+    float whole = rectLobeShare(light, p, lobe);
     vec3 missing = b.compensation * (b.f0 * (sums.exact.x - sums.exact.y) + b.f90 * sums.exact.y) -
                    b.albedo * sums.cosine;
     float mended = 1.0 - smoothstep(kRectMended.x, kRectMended.y, sums.most);
@@ -152,6 +261,9 @@ float edgeAngleOverSine(float cosine) {
 // The same for what a ray meets, at less cost: the transformed cosine alone, not cut at the
 // horizon.
 vec3 rectSpecularQuick(Light light, vec3 p, RectLobe lobe, Brdf b) {
+#if LIGHTS_SHAPED
+    if (isRound(light)) return b.albedo * roundLobe(light, p, lobe);
+#endif
     vec3 corner[4];
     rectCorners(light, p, corner);
     for (int i = 0; i < 4; ++i)
@@ -172,24 +284,31 @@ vec3 rectSpecularQuick(Light light, vec3 p, RectLobe lobe, Brdf b) {
 // eye, so that highlights fade evenly behind an edge.
 const float kRectCellWidening = 1.0;
 
-// Sample point of a rectangle (lib/rect_points.glsl) for a ray that asks one of them whether the rectangle is
+// Sample point of an area light (lib/rect_points.glsl) for a ray that asks one of them whether the rectangle is
 // seen in the lobe: number k with the probability of its share of the transformed cosine, xi in [0,1).
 // All alike, a ray would ask points that the lobe does not reflect. In rectLobeSpace a point's share is
 // height / distance^4, as the distance to the rectangle's plane is the same for all.
 uint rectPointInLobe(Light light, vec3 p, RectLobe lobe, float xi) {
     vec3 c = light.position - p;
     uint count = light.sampleGrid * light.sampleGrid;
-    float cell = 4.0 * length(cross(light.halfU, light.halfV)) / float(count);
+    float cell = rectArea(light) / float(count);
     vec2 width2 = lobe.width * lobe.width + kRectCellWidening * cell / max(dot(c, c), cell);
     vec3 scale = vec3(inversesqrt(width2), 1.0);
     vec3 middle = scale * rectLobeSpace(lobe, c, dot(c, lobe.normal));
+#if !LIGHTS_SHAPED
     vec3 u = scale * rectLobeSpace(lobe, light.halfU, dot(light.halfU, lobe.normal));
     vec3 v = scale * rectLobeSpace(lobe, light.halfV, dot(light.halfV, lobe.normal));
+#endif
     float sum = 0.0;
     uint chosen = 0u;
     for (uint k = 0u; k < count; ++k) {
+#if LIGHTS_SHAPED
+        vec3 beside = rectPointOffset(light, k);
+        vec3 q = middle + scale * rectLobeSpace(lobe, beside, dot(beside, lobe.normal));
+#else
         vec2 at = rectPointPlace(k, light.sampleGrid);
         vec3 q = middle + at.x * u + at.y * v;
+#endif
         float q2 = max(dot(q, q), 1e-12);
         float share = max(q.z, 0.0) / (q2 * q2);
         sum += share;

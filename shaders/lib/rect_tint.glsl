@@ -31,7 +31,7 @@ void addTint(inout RectTint tint, vec3 position, Light light, uint k, vec2 weigh
     vec2 beside = tint.jitter / float(light.sampleGrid * light.sampleGrid);
     vec3 toPoint = rectSamplePoint(light, k) + beside.x * light.halfU + beside.y * light.halfV - position;
     float distance = max(length(toPoint), 1e-6);
-    float edge = 2.0 * sqrt(length(cross(light.halfU, light.halfV)));
+    float edge = sqrt(rectArea(light));
     vec3 left = glassTransmittance(position, toPoint / distance, distance, min(edge / distance, 1.0), true);
     tint.irradiance += weight.x * left;
     tint.specular += weight.y * left;

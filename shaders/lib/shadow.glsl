@@ -4,7 +4,8 @@
 //
 // One array texture holds all maps. Its layers are cut into n x n tiles, counted row by row, layer by layer:
 // n = 1 for spots and directional lights, 2 for points (six tiles, one per side of a cube), 4 for sample
-// points of rectangles (three tiles: one side of a cube in front, four half sides around, two to a tile).
+// points of area lights (three tiles: one side of a cube in front, four half sides around, two to a tile; of a
+// sphere six).
 // Depth is reversed: shadowNear / distance along the map's axis, 0 where nothing was drawn, a float's
 // relative precision everywhere. A point lies in the map at tile centre + lateral / (distance * shadowTexel).
 //
@@ -277,12 +278,11 @@ float shadowVisibilityDirectional(Light light, vec3 p, vec3 n, vec2 lift) {
         ParallelShadow(light.position, light.shadowNear, light.shadowTexel, light.shadow, lift), p, n);
 }
 
-// The k-th sample point of a rectangle (shared/rect_points.h). Moved off the surface by a thousandth of its
+// The k-th sample point of an area light (lib/rect_points.glsl). Moved off the surface by a thousandth of its
 // size, which an emitter's own triangles lie in.
 vec3 rectSamplePoint(Light light, uint k) {
-    vec2 uv = rectPointPlace(k, light.sampleGrid);
-    float lift = 1e-3 * min(length(light.halfU), length(light.halfV));
-    return light.position + uv.x * light.halfU + uv.y * light.halfV + lift * light.direction;
+    float lift = isSphere(light) ? 0.0 : 1e-3 * min(length(light.halfU), length(light.halfV));
+    return light.position + rectPointOffset(light, k) + lift * light.direction;
 }
 
 // Where the middle of the front map of a sample point lies that is so far from the rectangle's middle: a tangent.
@@ -295,9 +295,30 @@ vec2 shadowRectMiddle(Light light, vec3 place) {
     return (light.flags & LIGHT_AIMED) != 0u ? tangent : vec2(0.0);
 }
 
-// Visibility of the k-th sample point of a rectangle, unfiltered but for the bilinear weights: the samples
+#if LIGHTS_SHAPED
+// As below, for a sphere: all sides of a cube, a tile each.
+float shadowVisibilitySphere(Light light, uint k, vec3 point, vec3 p, vec3 n) {
+    int side;
+    vec3 toP = p - point;
+    vec3 lateral = cubeSide(toP, toP, side);
+    vec3 ln = cubeSide(n, toP, side);
+    float texelSize = lateral.z * light.shadowTexel;
+    lateral += (shadowOffset(texelSize, ln.xy) + kShadowRectSlack * texelSize) * ln;
+    float z = max(lateral.z, 1e-20);
+    vec3 tile = shadowTile(max(light.shadow, 0) + 6 * int(k) + side, 4);
+    float centre = 0.125 * float(textureSize(shadowMaps, 0).x);
+    float lit =
+        shadowBilinear(tile.xy + centre + lateral.xy / (z * light.shadowTexel), tile.z, light.shadowNear / z);
+    return light.shadow < 0 ? 1.0 : lit;
+}
+#endif
+
+// Visibility of the k-th sample point of an area light, unfiltered but for the bilinear weights: the samples
 // blur each other's edges.
 float shadowVisibilityRect(Light light, uint k, vec3 point, vec3 p, vec3 n) {
+#if LIGHTS_SHAPED
+    if (isSphere(light)) return shadowVisibilitySphere(light, k, point, p, n);
+#endif
     vec3 axisU = normalize(light.halfU);
     vec3 axisV = cross(light.direction, axisU);
     vec3 toP = p - point;

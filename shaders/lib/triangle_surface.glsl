@@ -98,8 +98,7 @@ bool fewRects() { return lighting.lightEnds.w - lighting.lightEnds.z <= kTriangl
 // Irradiance at a point by a rectangle, of which points begin..end are looked at.
 vec3 triangleRect(TrianglePoint p, vec3 position, Light light, uint begin, uint end) {
     float whole = rectIrradiance(light, position, p.shadingNormal);
-    float cellArea =
-        4.0 * length(cross(light.halfU, light.halfV)) / float(light.sampleGrid * light.sampleGrid);
+    float cellArea = rectArea(light) / float(light.sampleGrid * light.sampleGrid);
     vec2 weights = vec2(0.0);  // of all points, of those that are seen
 #if GLASS
     RectTint tint = rectTint(position, light);
@@ -109,7 +108,8 @@ vec3 triangleRect(TrianglePoint p, vec3 position, Light light, uint begin, uint 
         vec3 point = rectSamplePoint(light, k);
         vec3 l = point - position;
         float d2 = max(dot(l, l), 1e-20);
-        float cosines = max(-dot(l, light.direction), 0.0) * max(dot(l, p.shadingNormal), 0.0) / d2;
+        l *= inversesqrt(d2);
+        float cosines = rectCosine(light, l) * max(dot(l, p.shadingNormal), 0.0);
         float weight = begin + 1u < end ? cosines / max(d2, cellArea) : 1.0;
         float seen = weight * shadowVisibilityRect(light, k, point, position, p.geometricNormal);
         weights += vec2(weight, seen);

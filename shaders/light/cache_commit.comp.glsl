@@ -46,52 +46,23 @@ uint weightAtPixels(uvec4 hitTexel, bool lit) {
 }
 #endif
 #if SHARED
-// Neighbours count in full until a face has had as many updates as the first, and no more from the second on.
-const float kSharedFrom = 20.0;
-const float kSharedUntil = float(IRRADIANCE_SHARED_UPDATES);
-// What is one plane: by the cosine between normals, and by the distance of the planes in voxels.
-const float kSamePlaneNormal = 0.95;
-const float kSamePlaneOffset = 0.2;
+#include "light/face_plane.glsl"
 
-// What neighbour `side` of four of a face with the normal n adds to its mean, and 1; or nothing.
+// What neighbour `side` of a face with the normal n adds to its mean, and 1; or nothing. One that shows another's mean
+// does not: its own voxel has that one.
 vec4 neighbourIrradiance(int side, uvec4 hitTexel, vec3 n) {
-    ivec3 voxel = unpackVoxel(hitTexel.w);
-    int axis = int(hitTexel.w >> 30);
-    int direction = faceDirection(hitTexel, n);
-    int towards = (axis + 1 + (side >> 1)) % 3;
-    ivec3 step = ivec3(towards == 0, towards == 1, towards == 2) * (1 - 2 * (side & 1));
-#if NESTED_GRIDS
-    int level = levelOfStored(voxel);
-    ivec3 within = withinLevel(voxel, level) + step;
-    ivec3 at = clamp(within, ivec3(0), gridSize() - 1);
-    bool inside = at == within;
-    at = storedVoxel(at, level);
-#else
-    ivec3 at = clamp(voxel + step, ivec3(0), gridSize() - 1);
-    const bool inside = true;
-#endif
-    uvec4 word = imageLoad(voxelBrickImage, at >> 2);
-    bool there = inside && brickHas(word.xy, bitOfVoxel(at));
-    uint record = there ? texelFetch(voxelRecords, int(voxelRecordIndex(word, bitOfVoxel(at)))).x : 0u;
-    there = there && (faceDirections(record) >> direction & 1u) != 0u;
-    int face = there ? int(faceIndex(record, direction)) : 0;
-    uvec4 other = texelFetch(voxelFaces, face);
-    vec3 turned = octDecode(unpackSnorm2x16(other.x));
-    float apart = dot(n, vec3(step) + unpackOffset(other.y) * turned) - unpackOffset(hitTexel.y);
-    FaceCache state = unpackState(texelFetch(stateTexels, stateOwner(face, texelFetch(stateTexels, face))));
-    bool same = there && dot(n, turned) > kSamePlaneNormal && abs(apart) < kSamePlaneOffset &&
-                ((other.z ^ hitTexel.z) & FACE_REVERSE) == 0u && (state.counts & CACHE_UPDATES_MASK) != 0u &&
-                !isInterior(state);
-    return same ? vec4(state.irradiance, 1.0) : vec4(0.0);
+    int face = neighbourOnPlane(side, 1, hitTexel, n);
+    FaceCache state = unpackState(texelFetch(stateTexels, max(face, 0)));
+    bool counts = face >= 0 && (state.counts & CACHE_SHARES) == 0u &&
+                  (state.counts & CACHE_UPDATES_MASK) != 0u && !isInterior(state);
+    return counts ? vec4(state.irradiance, 1.0) : vec4(0.0);
 }
 
 // The mean of a face and its neighbours on the same plane, for as long as its own is of few updates. Only
 // pixels see it: rays go on reading each face's own, whose noise they average. Four calls in place of a loop
 // take a tenth off the pass: loads side by side are cheap.
 vec3 shownIrradiance(vec3 own, uvec4 hitTexel, uint updates) {
-    float share = clamp((kSharedUntil - float(updates)) / (kSharedUntil - kSharedFrom), 0.0, 1.0);
-    // Where every update replaces what was there, each has rays enough.
-    share = updates > 0u && cache.longestWindow > 1u ? share : 0.0;
+    float share = shareOfNeighbours(updates);
     vec3 n = octDecode(unpackSnorm2x16(hitTexel.x));
     vec4 sum = neighbourIrradiance(0, hitTexel, n) + neighbourIrradiance(1, hitTexel, n);
     sum += neighbourIrradiance(2, hitTexel, n) + neighbourIrradiance(3, hitTexel, n);

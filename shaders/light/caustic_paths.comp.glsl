@@ -61,10 +61,17 @@ CausticRay startOf(Light light, vec2 lampPoint, vec2 square) {
         start.solidAngle = kPi * causticPass.radius * causticPass.radius;
         return start;
     }
-    bool rectangle = light.type == LIGHT_RECT;
+    bool area = light.type == LIGHT_RECT;
     start.origin = light.position;
-    if (rectangle) start.origin += lampPoint.x * light.halfU + lampPoint.y * light.halfV;
-    start.normal = rectangle ? light.direction : vec3(0.0);
+    if (isSphere(light)) {
+        // On the disc that the ball sees.
+        tangentFrame(normalize(causticPass.middle - light.position), u, v);
+        light.halfU = length(light.halfU) * u;
+        light.halfV = length(light.halfV) * v;
+    }
+    vec2 onLamp = isRound(light) ? discPoint(lampPoint) : lampPoint;
+    if (area) start.origin += onLamp.x * light.halfU + onLamp.y * light.halfV;
+    start.normal = area && !isSphere(light) ? light.direction : vec3(0.0);
     vec3 axis = causticPass.middle - start.origin;
     float distance = max(length(axis), 1e-6);
     axis /= distance;
@@ -84,9 +91,8 @@ CausticRay startOf(Light light, vec2 lampPoint, vec2 square) {
 vec3 fluxOf(Light light, CausticRay start, float distance) {
     vec3 flux = light.intensity * (start.solidAngle / float(causticPass.grid * causticPass.grid));
     if (light.type == LIGHT_RECT) {
-        float area = 4.0 * length(cross(light.halfU, light.halfV)) /
-                     float(causticPass.lampGrid * causticPass.lampGrid);
-        return flux * (area * max(dot(start.direction, light.direction), 0.0));
+        float area = rectArea(light) / float(causticPass.lampGrid * causticPass.lampGrid);
+        return flux * (area * rectCosine(light, -start.direction));
     }
     if (light.type == LIGHT_DIRECTIONAL) return flux;
     float d2 = distance * distance;

@@ -95,15 +95,18 @@ struct Material {
 #define LIGHT_POINT 0u  // also spots wider than a single shadow map can cover
 #define LIGHT_SPOT 1u
 #define LIGHT_DIRECTIONAL 2u
-#define LIGHT_RECT 3u
+#define LIGHT_RECT 3u  // and disks and spheres: area lights
 
 // Light::flags
 #define LIGHT_CASTS_SHADOW 1u
+#define LIGHT_PROFILE_SHIFT 16  // above: 1 + the layer of its profile (lib/light_profile.glsl), 0: none
 // Of a rectangle: the front maps of its sample points are aimed at one place, as far away along the axis as shadowNear
 // times LIGHT_AIM_DISTANCE, aside by cosInner and cosOuter in parts of that.
 #define LIGHT_AIMED 0x100u
 #define LIGHT_AIM_DISTANCE 1e5f
 #define LIGHT_FROM_EMITTER 2u  // stands for an emissive rectangle of the scene (light/emissive_quads.h)
+#define LIGHT_DISK 4u          // the ellipse in the rectangle
+#define LIGHT_SPHERE 8u        // halfU, halfV and direction times the radius are its axes
 
 struct Light {
     vec3 position;
@@ -115,7 +118,7 @@ struct Light {
     vec3 intensity;  // W/sr, W/m^2 or W/(sr m^2), see conelight::Light
     float range;     // 0: unlimited
     // ---- 48 B
-    vec3 halfU;      // rect: centre to edge; spot and directional: unit axes of the shadow map
+    vec3 halfU;      // area lights: centre to edge; others: unit axes, of the shadow map and of the profile
     float cosInner;  // full intensity inside; a point light has -2 and -3: inside everywhere
     // ---- 64 B
     vec3 halfV;
@@ -128,7 +131,7 @@ struct Light {
                         // shadowNear * distance
     float shadowTexel;  // edge of a texel, m at 1 m from the light (perspective) or m (directional)
     uint flags;         // LIGHT_CASTS_SHADOW ...
-    uint sampleGrid;    // rect: sample points per edge
+    uint sampleGrid;    // area lights: sample points, their square root
 };                      // 112 B
 
 CONELIGHT_SHARED_END

@@ -21,7 +21,8 @@ struct GlassKey {
 
 // Few programs: any light may be there.
 gl::ProgramDesc conesDesc(const gl::Defines& cones, bool shadows, bool environment) {
-    light::LightKey lights{.point = 1, .spot = 1, .directional = 1, .rect = 1, .fixed = false};
+    light::LightKey lights{
+        .point = 1, .spot = 1, .directional = 1, .rect = 1, .fixed = false, .shaped = true};
     lights.shadows = shadows;
     lights.glass = true;
     gl::ProgramDesc desc{{"gather/glass_cones.comp.glsl"}, lights.defines()};

@@ -70,4 +70,11 @@ void Buffer::read(std::size_t offset, void* data, std::size_t bytes) const {
     glGetNamedBufferSubData(name(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
 }
 
+std::uint64_t bytesOfForeignBuffer(Name buffer) {
+    if (glIsBuffer(buffer) == GL_FALSE) return 0;
+    GLint64 size = 0;
+    glGetNamedBufferParameteri64v(buffer, GL_BUFFER_SIZE, &size);
+    return size > 0 ? static_cast<std::uint64_t>(size) : 0;
+}
+
 }  // namespace conelight::gl

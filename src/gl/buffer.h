@@ -53,4 +53,7 @@ class Buffer : public Object<ObjectType::Buffer> {
     std::size_t bytes_ = 0;
 };
 
+// Of a buffer that is the host's; 0 where the name is of none.
+std::uint64_t bytesOfForeignBuffer(Name buffer);
+
 }  // namespace conelight::gl

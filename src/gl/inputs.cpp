@@ -49,6 +49,11 @@ Inputs& Inputs::storage(ResourceName block, const Buffer& buffer) {
     return *this;
 }
 
+Inputs& Inputs::foreignStorage(ResourceName block, Name buffer) {
+    items_.push_back({.name = block, .kind = ResourceKind::Storage, .object = buffer});
+    return *this;
+}
+
 Inputs& Inputs::texture(ResourceName name, const Texture& texture, const Sampler* sampler) {
     CONELIGHT_ASSERT(texture, "Inputs::texture: an empty texture");
     items_.push_back({.name = name,

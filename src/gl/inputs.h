@@ -52,6 +52,8 @@ class Inputs {
     Inputs& texture(ResourceName name, const Texture& texture, const Sampler* sampler = nullptr);
     // A texture of the host's, by its GL name, with a sampler of ours.
     Inputs& foreignTexture(ResourceName name, Name texture, const Sampler& sampler);
+    // A buffer of the host's, by its GL name.
+    Inputs& foreignStorage(ResourceName block, Name buffer);
     Inputs& image(ResourceName name, const Texture& texture, ImageUse use, int level = 0);
     // A texture that the draw calls of the pass bind themselves, one after the other (Program::unitOf).
     Inputs& perDraw(ResourceName name);

@@ -2,8 +2,10 @@
 #include "gl/object.h"
 
 #include <algorithm>
+#include <atomic>
 #include <map>
 #include <mutex>
+#include <utility>
 
 #include "gl/gl.h"
 #include "gl/storage.h"
@@ -24,6 +26,7 @@ Registry& registry() {
 }
 
 thread_local int forgetting = 0;
+thread_local std::uint32_t currentOwner = 0;
 
 GLenum identifier(ObjectType type) {
     switch (type) {
@@ -67,6 +70,14 @@ std::size_t liveBytes() {
     return all.bytes;
 }
 
+std::uint32_t newOwner() {
+    static std::atomic<std::uint32_t> last{0};
+    return ++last;
+}
+
+OwnerScope::OwnerScope(std::uint32_t owner) : outer_(std::exchange(currentOwner, owner)) {}
+OwnerScope::~OwnerScope() { currentOwner = outer_; }
+
 ForgetNames::ForgetNames() { ++forgetting; }
 ForgetNames::~ForgetNames() { --forgetting; }
 
@@ -80,7 +91,7 @@ std::uint32_t created(ObjectType type, Name name, const std::string& label, std:
                   label.c_str());
     Registry& all = registry();
     const std::lock_guard lock(all.mutex);
-    all.objects.emplace(all.next, LiveObject{type, name, label, bytes});
+    all.objects.emplace(all.next, LiveObject{type, name, label, bytes, currentOwner});
     all.bytes += bytes;
     return all.next++;
 }

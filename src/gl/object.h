@@ -20,14 +20,29 @@ enum class ObjectType { Buffer, Texture, Sampler, Program, VertexArray, Framebuf
 struct LiveObject {
     ObjectType type;
     Name name;
-    std::string label;  // in full; the driver gets the first 255 bytes
-    std::size_t bytes;  // storage of buffers and textures, else 0
+    std::string label;    // in full; the driver gets the first 255 bytes
+    std::size_t bytes;    // storage of buffers and textures, else 0
+    std::uint32_t owner;  // whose it is (OwnerScope); 0: nobody's in particular
 };
 
 // Everything alive in this process, in order of creation. Empty after the last owner died. The profiler's
 // queries count too: none is alive between Profiler::endFrame and the next PassScope.
 std::vector<LiveObject> liveObjects();
 std::size_t liveObjectCount();
+
+// Whose objects are: a number that no other owner of the process has.
+std::uint32_t newOwner();
+// While one lives, what is made on this thread belongs to `owner`. Scopes nest.
+class OwnerScope {
+  public:
+    explicit OwnerScope(std::uint32_t owner);
+    ~OwnerScope();
+    OwnerScope(const OwnerScope&) = delete;
+    OwnerScope& operator=(const OwnerScope&) = delete;
+
+  private:
+    std::uint32_t outer_;
+};
 
 // While one lives, owners on this thread forget their names instead of deleting them: for when the context is gone.
 class ForgetNames {

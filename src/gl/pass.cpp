@@ -41,13 +41,18 @@ void Profiler::beginFrame() {
 
 std::vector<PassTime> Profiler::endFrame() {
     CONELIGHT_ASSERT(open_.empty(), "Profiler::endFrame inside a pass scope");
+    std::vector<PassTime> times = this->times();
+    passes_.clear();
+    return times;
+}
+
+std::vector<PassTime> Profiler::times() const {
     std::vector<PassTime> times;
     times.reserve(passes_.size());
-    for (Open& pass : passes_) {
-        if (pass.start) pass.time.gpuMs = pass.stop.resultMs() - pass.start.resultMs();
-        times.push_back(std::move(pass.time));
+    for (const Open& pass : passes_) {
+        PassTime& time = times.emplace_back(pass.time);
+        if (pass.start) time.gpuMs = pass.stop.resultMs() - pass.start.resultMs();
     }
-    passes_.clear();
     return times;
 }
 

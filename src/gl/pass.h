@@ -47,6 +47,8 @@ class Profiler {
     // Times of the passes since beginFrame, in the order they began; passes of equal names are separate
     // entries.
     std::vector<PassTime> endFrame();
+    // The same, of a frame that goes on.
+    std::vector<PassTime> times() const;
 
   private:
     friend class PassScope;

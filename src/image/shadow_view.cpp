@@ -21,10 +21,11 @@ void setTiles(const gpu::Light& light, gpu::ShadowViewConstants& c) {
         c.columns = 3;
         c.rows = 2;
     } else if (light.type == LIGHT_RECT) {
-        // Three per sample point, a row for each row of points.
-        c.tiles = 3 * light.sampleGrid * light.sampleGrid;
+        // Three per sample point, six of a sphere's, a row for each row of points.
+        const std::uint32_t each = (light.flags & LIGHT_SPHERE) != 0 ? 6 : 3;
+        c.tiles = each * light.sampleGrid * light.sampleGrid;
         c.tilesPerEdge = 4;
-        c.columns = 3 * light.sampleGrid;
+        c.columns = each * light.sampleGrid;
         c.rows = light.sampleGrid;
     }
 }

@@ -9,6 +9,7 @@
 
 #include "gl/gl.h"
 #include "light/lights.h"
+#include "scene/gpu_lights.h"
 #include "voxels/voxel_grid.h"
 
 namespace conelight::light {
@@ -35,8 +36,7 @@ float fluxTowards(const gpu::Light& light, const glm::vec3& middle, float radius
     const float distance = glm::length(middle - light.position);
     const float sine = std::min(radius / std::max(distance, 1e-6f), 1.0f);
     const float solidAngle = 2 * glm::pi<float>() * sine * sine / (1 + std::sqrt(1 - sine * sine));
-    if (light.type == LIGHT_RECT)
-        return intensity * solidAngle * 4 * glm::length(glm::cross(light.halfU, light.halfV));
+    if (light.type == LIGHT_RECT) return intensity * solidAngle * scene::areaOf(light);
     if (light.customFalloff == 0) return intensity * solidAngle;
     const float d2 = distance * distance;
     return intensity * solidAngle * d2 / glm::dot(light.falloff, glm::vec3(1, distance, d2));

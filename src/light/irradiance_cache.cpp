@@ -207,13 +207,24 @@ void IrradianceCache::commit(const gl::Device& device, const Inputs& inputs, con
         .texture("stateTexels", stateTexels_)
         .storage("ChunkTable", chunks_)
         .storage("PoolTable", pool_)
-        .storage("FaceLightTable", faceLight_)
         .storage("FluxTable", fluxes_)
         .texture("faceFluxes", fluxTexels_);
     const bool shared = updates() <= IRRADIANCE_SHARED_UPDATES;
     const Commit kind = !atPixels ? Commit::ForRays : (shared ? Commit::SharedForPixels : Commit::ForPixels);
-    device.get(CommitKey{kind}.desc()).dispatchLinear(given, faceCount_);
+    const bool twice = kind == Commit::SharedForPixels;
+    if (twice)
+        gl::reserveTexels(sharedLight_, sharedLightTexels_, GL_RG32UI, std::size_t{8} * faceCount_,
+                          "shared light of faces");
+    gl::Inputs commits = given;
+    commits.storage("FaceLightTable", twice ? sharedLight_ : faceLight_);
+    device.get(CommitKey{kind}.desc()).dispatchLinear(commits, faceCount_);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+    if (twice) {
+        commits = given;
+        commits.storage("FaceLightTable", faceLight_).texture("sharedLight", sharedLightTexels_);
+        device.get(pass("share")).dispatchLinear(commits, faceCount_);
+        gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+    }
     if (restarts_) device.get(pass("restart")).dispatchLinear(given, faceCount_);
     device.get(sums(0)).dispatchLinear(given, block.chunkCount);
     gl::barrier(gl::Access::ShaderStorage);
@@ -295,6 +306,7 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
         unfinished_ = false;
         firstFace_ = order_.visited() > 0 ? (firstFace_ + count) % order_.visited() : 0;
         facesVisited_ += count;
+        visits_ += count;
         ++updatesMade_;
         commit(device, inputs, settings, i + 1 == passes);
         // Faces inside closed objects are known: no more rays from them.
@@ -320,7 +332,8 @@ void IrradianceCache::declare(gl::Inputs& inputs) const {
 }
 
 std::vector<gl::ProgramDesc> IrradianceCache::programDescs() {
-    std::vector<gl::ProgramDesc> descs{sums(0), sums(1), pass("pool"), pass("restart"), pass("reproject")};
+    std::vector<gl::ProgramDesc> descs{sums(0),         sums(1),           pass("pool"),
+                                       pass("restart"), pass("reproject"), pass("share")};
     for (const CommitKey& key : CommitKey::all()) descs.push_back(key.desc());
     for (const UpdateKey& key : UpdateKey::all()) descs.push_back(key.desc());
     const std::vector<gl::ProgramDesc> order = FaceOrder::programDescs();

@@ -70,6 +70,7 @@ class IrradianceCache {
     bool settled() const;
     int updates() const;  // whole rounds over all faces since the last change
     std::uint32_t faces() const { return order_.visited(); }  // of a round
+    std::uint64_t visits() const { return visits_; }          // of faces, ever
 
     void declare(gl::Inputs& inputs) const;                      // lightSamples, faceLight
     const gl::Buffer& state() const { return states_; }          // gpu::FaceCache per face, for tests
@@ -92,9 +93,9 @@ class IrradianceCache {
                          std::uint32_t count);
     void commit(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings, bool atPixels);
 
-    gl::Buffer states_, oldStates_, faceLight_, fluxes_, chunks_, pool_, constants_, reprojectionBlock_,
-        oldLevelBlock_;
-    gl::Texture faceLightTexels_, fluxTexels_, poolTexels_, stateTexels_, oldStateTexels_;
+    gl::Buffer states_, oldStates_, faceLight_, sharedLight_, fluxes_, chunks_, pool_, constants_,
+        reprojectionBlock_, oldLevelBlock_;
+    gl::Texture faceLightTexels_, sharedLightTexels_, fluxTexels_, poolTexels_, stateTexels_, oldStateTexels_;
     FaceOrder order_;
     base::Revision voxelsFrom_;  // whose faces these are
     std::uint32_t faceCount_ = 0;
@@ -108,6 +109,7 @@ class IrradianceCache {
     std::uint32_t updatesOfVoxels_ = 0;  // calls of update() for these voxels
     std::uint32_t firstFace_ = 0;        // where the next update begins
     std::uint64_t facesVisited_ = 0;     // since light changed
+    std::uint64_t visits_ = 0;
     std::uint64_t raysTested_ = 0;  // cosine rays that looked for faces inside objects, since voxels changed
 };
 

@@ -12,10 +12,13 @@ constexpr int kLargestFilter = 4;  // LightSettings::shadowFilter
 
 }  // namespace
 
-LightKey LightKey::of(const glm::uvec4& ends, bool shadows, int filter) {
+LightKey LightKey::of(const glm::uvec4& ends, bool shaped, bool shadows, int filter,
+                      gl::ExecutionProfile profile) {
     const auto total = static_cast<int>(ends.w);
     LightKey key;
-    key.fixed = total <= kFixedLights;
+    key.shaped = shaped;
+    key.fixed =
+        total == 0 || (total <= kFixedLights && !shaped && profile == gl::ExecutionProfile::Processor);
     const auto number = [&](std::uint32_t first, std::uint32_t end) {
         const auto count = static_cast<int>(end - first);
         return key.fixed ? count : std::min(count, 1);
@@ -34,6 +37,7 @@ gl::Defines LightKey::defines() const {
                         {"LIGHTS_SPOT", std::to_string(spot)},
                         {"LIGHTS_DIRECTIONAL", std::to_string(directional)},
                         {"LIGHTS_RECT", std::to_string(rect)},
+                        {"LIGHTS_SHAPED", shaped ? "1" : "0"},
                         {"LIGHTS_FIXED", fixed ? "1" : "0"},
                         {"LIGHTS_SHADOWS", shadows ? "1" : "0"},
                         {"SHADOW_FILTER", std::to_string(filter)}};
@@ -53,29 +57,39 @@ std::vector<LightKey> LightKey::ofPixels() {
     return keys;
 }
 
-std::vector<LightKey> LightKey::all() {
+namespace {
+
+// Every number of each kind; more than four lights are told by which kinds there are.
+std::vector<LightKey> kindsOfLights() {
     std::vector<LightKey> keys;
-    // Every number of each kind; more than four lights are told by which kinds there are.
     for (int code = 0; code < 5 * 5 * 5 * 5; ++code) {
         LightKey key{
             .point = code % 5, .spot = code / 5 % 5, .directional = code / 25 % 5, .rect = code / 125};
         const int total = key.point + key.spot + key.directional + key.rect;
-        const bool kinds = std::max({key.point, key.spot, key.directional, key.rect}) == 1;
-        for (const bool fixed : {true, false}) {
-            if (fixed ? total > kFixedLights : !kinds) continue;
-            key.fixed = fixed;
-            key.shadows = false;
-            key.filter = 0;
-            keys.push_back(key);
-            key.shadows = true;
-            for (int filter = 0; total > 0 && filter <= kLargestFilter; ++filter) {
-                key.filter = filter;
-                for (const bool glass : {false, true}) {
-                    key.glass = glass;
-                    keys.push_back(key);
-                }
+        if (total <= kFixedLights) keys.push_back(key);
+        key.fixed = false;
+        if (std::max({key.point, key.spot, key.directional, key.rect}) != 1) continue;
+        keys.push_back(key);
+        key.shaped = true;
+        keys.push_back(key);
+    }
+    return keys;
+}
+
+}  // namespace
+
+std::vector<LightKey> LightKey::all() {
+    std::vector<LightKey> keys;
+    for (LightKey key : kindsOfLights()) {
+        keys.push_back(key);
+        key.shadows = true;
+        const bool any = key.point + key.spot + key.directional + key.rect > 0;
+        for (int filter = 0; any && filter <= kLargestFilter; ++filter) {
+            key.filter = filter;
+            for (const bool glass : {false, true}) {
+                key.glass = glass;
+                keys.push_back(key);
             }
-            key.glass = false;
         }
     }
     return keys;
@@ -85,6 +99,8 @@ gl::Defines HitKey::defines() const {
     gl::Defines defines{{"EXACT_DIRECT", exact ? "1" : "0"}};
     if (exact)
         for (auto& define : lights.defines()) defines.push_back(std::move(define));
+    else
+        defines.emplace_back("LIGHTS_SHAPED", lights.shaped ? "1" : "0");
     defines.emplace_back("LOBES", lobes ? "1" : "0");
     if (exact && (lobes || gloss)) defines.emplace_back("GLOSS", "1");
     if (environment) defines.emplace_back("ENVIRONMENT", "1");
@@ -97,7 +113,10 @@ std::vector<HitKey> HitKey::all(int filter) {
     for (int bits = 0; bits < 8; ++bits) {
         HitKey key{
             .lobes = (bits & 2) != 0, .environment = (bits & 4) != 0, .glass = (bits & 1) != 0, .lights = {}};
-        keys.push_back(key);
+        for (const bool shaped : {true, false}) {
+            key.lights.shaped = shaped;
+            keys.push_back(key);
+        }
         key.exact = true;
         for (const LightKey& lights : LightKey::all()) {
             const bool punctual = lights.point + lights.spot + lights.directional > 0;

@@ -6,16 +6,18 @@
 #include <compare>
 #include <vector>
 
+#include "gl/device.h"
 #include "gl/shader_source.h"
 #include "shared/scene.h"
 
 namespace conelight::light {
 
-// Lights of each kind: their numbers while there are at most four in all (`fixed`), so that shaders read them
-// at constant places; else whether there are any.
+// Lights of each kind: on a processor their numbers while there are at most four in all (`fixed`), so that shaders read
+// them at constant places; else whether there are any, so that a light more needs no other program.
 struct LightKey {
     int point = 0, spot = 0, directional = 0, rect = 0;
     bool fixed = true;
+    bool shaped = false;  // area lights may be round, others have profiles; not fixed then
     bool shadows = false;
     bool glass = false;  // with shadows: glass tints them
     bool cascades =
@@ -23,7 +25,8 @@ struct LightKey {
     int filter = 0;  // radius of the shadow filter, texels; 0 without shadows; -1: one texel, unfiltered
 
     // `ends`: of the kinds in the sorted light table.
-    static LightKey of(const glm::uvec4& ends, bool shadows, int filter);
+    static LightKey of(const glm::uvec4& ends, bool shaped, bool shadows, int filter,
+                       gl::ExecutionProfile profile);
     // Lights without extent whose shadow maps answer yes or no: without a filter.
     bool hasSharpShadows() const { return shadows && filter == 0 && point + spot + directional > 0; }
     gl::Defines defines() const;

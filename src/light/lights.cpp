@@ -15,6 +15,8 @@ namespace {
 // as the ray itself. Those of five in builtin:atrium gain more than they cost there (docs/notes/2026-11-25-gloss.md).
 constexpr std::uint32_t kMostExactLights = 8;
 
+constexpr std::uint32_t kShaped = LIGHT_DISK | LIGHT_SPHERE | ~0u << LIGHT_PROFILE_SHIFT;
+
 // What lobes rays may meet. Metals bring those of dielectrics with them.
 enum class Lobes { None, Dielectrics, Metals };
 Lobes lobesOf(const scene::GpuScene& scene) {
@@ -39,9 +41,11 @@ void Lights::update(const gl::Device& device, const scene::GpuScene& scene, cons
     fillTable(scene.source(), wanted.emissiveQuads);
     if (wanted.shadowMaps) shadows_.update(device, scene, wanted.settings, table_);
     environment_.update(scene.source().environment);
+    updateProfiles(scene::profilesOf(scene.source().lights));
     glass_.update(scene);
     upload(scene.source());
     from_ = sources;
+    profile_ = device.profile;
     if (hasGlass() || hasCaustics()) caustics_.clear();
     revision_ = ownRevision_ = base::Revision::next();
 }
@@ -72,6 +76,25 @@ void Lights::fillTable(const Scene& scene, bool emissiveQuads) {
             emitters_[quad.instance] = 1;
         }
     ends_ = scene::lightEnds(table_);
+    shaped_ = std::any_of(table_.begin(), table_.end(),
+                          [](const gpu::Light& one) { return (one.flags & kShaped) != 0; });
+}
+
+void Lights::updateProfiles(scene::Profiles profiles) {
+    if (profileMap_ && profiles == profiles_) return;
+    profiles_ = std::move(profiles);
+    profileMap_ = {};
+    const int layers = static_cast<int>(profiles_.size());
+    if (layers == 0) {  // shaders that may meet any light want one
+        profileMap_ = gl::Texture({GL_TEXTURE_2D_ARRAY, GL_R32F}, "light profiles");
+        return;
+    }
+    profileMap_ =
+        gl::Texture({GL_TEXTURE_2D_ARRAY, GL_R32F, LightProfile::kColumns, LightProfile::kRows, layers},
+                    "light profiles");
+    for (int layer = 0; layer < layers; ++layer)
+        profileMap_.uploadLayer(0, layer, GL_RED, GL_FLOAT,
+                                profiles_[static_cast<std::size_t>(layer)]->factors.data());
 }
 
 void Lights::upload(const Scene& scene) {
@@ -91,6 +114,7 @@ void Lights::declare(gl::Inputs& inputs) const {
         .uniform("LightingBlock", block_)
         .uniform("FixedLightBlock", tableBuffer_)
         .uniform("FixedLightRows", tableBuffer_)
+        .texture("lightProfiles", profileMap_)
         .add(shadows_)
         .add(environment_)
         .add(glass_);
@@ -98,8 +122,8 @@ void Lights::declare(gl::Inputs& inputs) const {
 }
 
 LightKey Lights::key() const {
-    LightKey key =
-        LightKey::of(ends_, from_.wanted.settings.shadowSize > 0, from_.wanted.settings.shadowFilter);
+    LightKey key = LightKey::of(ends_, shaped_, from_.wanted.settings.shadowSize > 0,
+                                from_.wanted.settings.shadowFilter, profile_);
     key.glass = hasGlass() && key.shadows;
     return key;
 }
@@ -110,6 +134,7 @@ HitKey Lights::hitKey(const scene::GpuScene& scene, bool exactDirect) const {
     key.lobes = lobes == Lobes::Metals;
     key.environment = hasEnvironment();
     key.glass = hasGlass();
+    key.lights.shaped = shaped_;
     key.exact = exactDirect && ends_.z > 0 && ends_.z <= kMostExactLights;
     if (!key.exact) return key;
     key.gloss = lobes == Lobes::Dielectrics;

@@ -16,6 +16,7 @@
 #include "light/light_key.h"
 #include "light/shadow_maps.h"
 #include "scene/glass_tree.h"
+#include "scene/gpu_lights.h"
 #include "scene/gpu_scene.h"
 
 namespace conelight::light {
@@ -63,9 +64,14 @@ class Lights {
 
   private:
     void fillTable(const Scene& scene, bool emissiveQuads);
+    void updateProfiles(scene::Profiles profiles);
     void upload(const Scene& scene);
 
+    gl::ExecutionProfile profile_ = gl::ExecutionProfile::Processor;
     std::vector<gpu::Light> table_;
+    bool shaped_ = false;  // LightKey
+    scene::Profiles profiles_;
+    gl::Texture profileMap_;  // one layer each
     glm::uvec4 ends_{0};
     std::vector<char> emitters_;  // per instance
     gl::Buffer tableBuffer_, block_;

@@ -52,7 +52,10 @@ base::Steps LitVoxels::relightInSteps(const gl::Device& device, const Inputs& in
     const bool otherBounces = !first && settings_.bounces != settings.bounces;
     const bool inTheDark = otherBounces || (settings.bounces && otherSources) ||
                            ((otherSettings || otherGrid) && !budget.oneUpdate);
-    if (inTheDark) cache_ = {};
+    if (inTheDark) {
+        visitsBefore_ = faceVisits();
+        cache_ = {};
+    }
     IrradianceCache::Places changed = places_.look(inputs.scene);
     if (!budget.oneUpdate || inTheDark || otherSettings) changed.reset();
     // Finished pictures keep nothing of the light before.

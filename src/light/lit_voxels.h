@@ -64,6 +64,7 @@ class LitVoxels {
     int updates() const;
     // That an update of all visits; 0 at first.
     std::uint32_t facesPerUpdate() const { return cache_.faces(); }
+    std::uint64_t faceVisits() const { return visitsBefore_ + cache_.visits(); }  // by updates, ever
     // Whether means are long enough to be averaged over many frames.
     bool steady() const;
     const LitFaces& faces() const { return faces_; }
@@ -83,6 +84,7 @@ class LitVoxels {
     gl::Texture directTexels_;
     EmissionFit fit_;
     IrradianceCache cache_;
+    std::uint64_t visitsBefore_ = 0;  // by caches that were given up
     EditPlaces places_;
     bool keptFar_ = false;  // the last change was taken as one of near faces alone
 

@@ -111,7 +111,10 @@ class Layouter {
                 addDirectional(light);
                 break;
             default:
-                addRect(light);
+                if ((light.flags & LIGHT_SPHERE) != 0)
+                    addSphere(light);
+                else
+                    addRect(light);
                 break;
         }
     }
@@ -207,6 +210,23 @@ class Layouter {
         }
     }
 
+    // All sides of a cube about each sample point, with texels as of the front maps of a rectangle.
+    void addSphere(gpu::Light& light) {
+        const int tile = size_ / 4;
+        const int samples = static_cast<int>(light.sampleGrid * light.sampleGrid);
+        light.shadow = take(4, 6 * samples);
+        light.shadowTexel = 1.0f / static_cast<float>(tile / 2 - 2 * kRectGuard);
+        for (int i = 0; i < 6 * samples; ++i) {
+            const Axes axes = cubeSide(i % 6, {1, 0, 0}, {0, 1, 0}, {0, 0, 1});
+            ShadowView view =
+                perspectiveView(rectSamplePoint(light, i / 6), axes, light.shadowNear,
+                                {light.shadowTexel, tile, tile, 0.5f * static_cast<float>(tile)});
+            view.surfaces = false;
+            place(view, light.shadow + i, 4, size_);
+            views_.push_back(view);
+        }
+    }
+
     static glm::vec2 tangentOf(const glm::vec3& d, const Axes& axes) {
         return glm::vec2(glm::dot(d, axes.u), glm::dot(d, axes.v)) / glm::dot(d, axes.forward);
     }
@@ -231,15 +251,30 @@ class Layouter {
         return std::min(std::exp2(std::ceil(8.0f * std::log2(1.01f * reach)) / 8.0f), 1.0f);
     }
 
-    // C++ twin of lib/shadow.glsl's.
+    // C++ twins of lib/shadow.glsl's and lib/rect_points.glsl's.
     static glm::vec3 rectSamplePoint(const gpu::Light& light, int k) {
         const auto column = static_cast<std::uint32_t>(k);
         const std::uint32_t grid = light.sampleGrid, count = grid * grid;
+        const float lift = 1e-3f * std::min(glm::length(light.halfU), glm::length(light.halfV));
+        if ((light.flags & (LIGHT_DISK | LIGHT_SPHERE)) != 0) {
+            const glm::vec3 at = roundPointPlace(column, count);
+            const bool sphere = (light.flags & LIGHT_SPHERE) != 0;
+            return light.position + at.x * light.halfU + at.y * light.halfV +
+                   (sphere ? at.z * glm::length(light.halfU) : lift) * light.direction;
+        }
         const std::uint32_t row =
             count == RECT_POINT_COUNT ? RECT_POINT_ROW(column) : column % grid * grid + column / grid;
         const glm::vec2 uv = (glm::vec2(column, row) + 0.5f) * (2.0f / static_cast<float>(count)) - 1.0f;
-        const float lift = 1e-3f * std::min(glm::length(light.halfU), glm::length(light.halfV));
         return light.position + uv.x * light.halfU + uv.y * light.halfV + lift * light.direction;
+    }
+    static glm::vec3 roundPointPlace(std::uint32_t k, std::uint32_t count) {
+        if (count == ROUND_POINT_COUNT) return glm::unpackSnorm4x8(gpu::kRoundPoints[k]);
+        glm::vec3 t =
+            glm::fract((static_cast<float>(k) + 0.5f) * glm::vec3(0.8191725f, 0.6710436f, 0.5497005f));
+        t.y *= 6.2831853f;
+        t.z *= 6.2831853f;
+        const float r = std::sqrt(1 - t.x);
+        return {r * std::cos(t.y), r * std::sin(t.y), std::sqrt(t.x) * std::cos(t.z)};
     }
 
     Aabb bounds_;

@@ -13,13 +13,13 @@
 #include "gl/debug.h"
 #include "gl/gl.h"
 #include "gl/host_slots.h"
-#include "gl/host_state.h"
 #include "light/lights.h"
 #include "light/lit_voxels.h"
 #include "light/relight_budget.h"
 #include "modes/execution.h"
+#include "modes/memory_stats.h"
 #include "modes/modes.h"
-#include "scene/held_scene.h"
+#include "modes/owner_guard.h"
 #include "view/surfaces.h"
 #include "voxels/voxels.h"
 
@@ -43,6 +43,7 @@ struct View {
 }  // namespace
 
 struct LightField::Impl {
+    std::uint32_t owner = 0;
     gl::ProgramLibrary programs;
     gl::Profiler profiler;
     gl::Device device;
@@ -55,9 +56,11 @@ struct LightField::Impl {
     light::RelightBudget relightBudget;
     std::map<int, View> views;
     int nextView = 1;
+    LightFieldStats stats;
 
     Impl(gl::ShaderProvider provider, gl::ExecutionProfile profile)
         : programs(gl::providerFor(profile, std::move(provider))), device{programs, profiler, profile} {}
+    modes::OwnerScene changed() { return {owner, scene}; }
     void forget();
     int update(const LightBudget& budget);
     GatheredLight gather(View& view, const HostSurfaces& host, int reduction);
@@ -73,10 +76,14 @@ Settings realtimeSettings(Quality quality) {
 LightField::LightField(const RendererOptions& options) {
     gl::requireContext();
     if (options.reportGlErrors) gl::installDebugCallback();
+    const std::uint32_t owner = gl::newOwner();
+    const gl::OwnerScope own(owner);
     impl_ = std::make_unique<Impl>(options.shaderDirectory.empty()
                                        ? gl::embeddedShaderProvider()
                                        : gl::directoryShaderProvider(options.shaderDirectory),
                                    modes::profileOf(options.execution));
+    impl_->owner = owner;
+    impl_->stats.device = gl::rendererName();
 }
 
 LightField::~LightField() {
@@ -88,7 +95,7 @@ LightField::~LightField() {
 
 void LightField::setScene(const Scene& scene) {
     scene.validate();  // a scene that is refused leaves the old one in place
-    const gl::HostStateGuard guard;
+    const modes::OwnerGuard call(impl_->owner);
     impl_->forget();
     impl_->scene.set(scene);
 }
@@ -98,27 +105,43 @@ void LightField::Impl::forget() {
     lights = {};
     voxels = {};
     lit = {};
+    stats.voxels = stats.faces = stats.facesUpdated = 0;
     for (auto& [number, view] : views) view = {};
 }
 
 void LightField::setInstance(std::size_t index, const Instance& instance) {
-    impl_->scene.setInstance(index, instance);
+    impl_->changed()->setInstance(index, instance);
 }
-void LightField::setMesh(std::size_t index, const Mesh& mesh) { impl_->scene.setMesh(index, mesh); }
+void LightField::setMesh(std::size_t index, const Mesh& mesh) { impl_->changed()->setMesh(index, mesh); }
+void LightField::setMesh(std::size_t index, const HostMesh& mesh) {
+    impl_->changed()->setMesh(impl_->device, index, mesh);
+}
+void LightField::setTexture(std::size_t index, const Texture& texture) {
+    impl_->changed()->setTexture(index, texture);
+}
 void LightField::setMaterial(std::size_t index, const Material& material) {
-    impl_->scene.setMaterial(index, material);
+    impl_->changed()->setMaterial(index, material);
 }
-void LightField::setLight(std::size_t index, const Light& light) { impl_->scene.setLight(index, light); }
-void LightField::setLights(const std::vector<Light>& lights) { impl_->scene.setLights(lights); }
-void LightField::setSky(const glm::vec3& radiance) { impl_->scene.setSky(radiance); }
-void LightField::setEnvironment(const Environment& environment) { impl_->scene.setEnvironment(environment); }
-std::size_t LightField::addMesh(const Mesh& mesh) { return impl_->scene.addMesh(mesh); }
-std::size_t LightField::addTexture(const Texture& texture) { return impl_->scene.addTexture(texture); }
-std::size_t LightField::addMaterial(const Material& material) { return impl_->scene.addMaterial(material); }
-std::size_t LightField::addInstance(const Instance& instance) { return impl_->scene.addInstance(instance); }
-void LightField::removeInstance(std::size_t index) { impl_->scene.removeInstance(index); }
-void LightField::removeMesh(std::size_t index) { impl_->scene.removeMesh(index); }
-void LightField::setRegion(const Aabb& region) { impl_->scene.setRegion(region); }
+void LightField::setLight(std::size_t index, const Light& light) { impl_->changed()->setLight(index, light); }
+void LightField::setLights(const std::vector<Light>& lights) { impl_->changed()->setLights(lights); }
+void LightField::setSky(const glm::vec3& radiance) { impl_->changed()->setSky(radiance); }
+void LightField::setEnvironment(const Environment& environment) {
+    impl_->changed()->setEnvironment(environment);
+}
+std::size_t LightField::addMesh(const Mesh& mesh) { return impl_->changed()->addMesh(mesh); }
+std::size_t LightField::addMesh(const HostMesh& mesh) {
+    return impl_->changed()->addMesh(impl_->device, mesh);
+}
+std::size_t LightField::addTexture(const Texture& texture) { return impl_->changed()->addTexture(texture); }
+std::size_t LightField::addMaterial(const Material& material) {
+    return impl_->changed()->addMaterial(material);
+}
+std::size_t LightField::addInstance(const Instance& instance) {
+    return impl_->changed()->addInstance(instance);
+}
+void LightField::removeInstance(std::size_t index) { impl_->changed()->removeInstance(index); }
+void LightField::removeMesh(std::size_t index) { impl_->changed()->removeMesh(index); }
+void LightField::setRegion(const Aabb& region) { impl_->changed()->setRegion(region); }
 const Scene& LightField::scene() const { return impl_->scene.require("scene").source(); }
 
 void LightField::setSettings(const Settings& settings) {
@@ -133,12 +156,15 @@ int LightField::update(const LightBudget& budget) {
                    "update: a budget of %d updates of %d faces within %g ms; 0 or more would be right",
                    budget.updates, budget.faces, budget.milliseconds);
     impl_->scene.require("update");
-    const gl::HostStateGuard guard;
+    const modes::OwnerGuard call(impl_->owner);
     return impl_->update(budget);
 }
 
 int LightField::Impl::update(const LightBudget& budget) {
     const double start = light::RelightBudget::begin(budget.milliseconds);
+    profiler.beginFrame();
+    const gl::PassScope pass(profiler, "update");
+    const std::uint64_t before = lit.faceVisits();
     programs.trim();
     lights.update(device, *scene, {settings.light, /*emitters as lights*/ false, true});
     voxels.update(device, *scene, settings.voxels, voxels::Rays::Yes);
@@ -152,17 +178,20 @@ int LightField::Impl::update(const LightBudget& budget) {
                                .start = start});
     else
         lit.relight(device, inputs, wanted, {.faces = static_cast<std::uint32_t>(budget.faces)});
+    stats.voxels = voxels.surface().voxelCount();
+    stats.faces = voxels.surface().faceCount();
+    stats.facesUpdated = lit.faceVisits() - before;
     return lit.updates();
 }
 
 int LightField::addView() {
-    const gl::HostStateGuard guard;
+    const modes::OwnerGuard call(impl_->owner);
     impl_->views.try_emplace(impl_->nextView);
     return impl_->nextView++;
 }
 
 void LightField::removeView(int view) {
-    const gl::HostStateGuard guard;
+    const modes::OwnerGuard call(impl_->owner);
     if (impl_->views.erase(view) == 0)
         base::fail(ErrorKind::Usage, "removeView: there is no view %d; one of addView would be right", view);
 }
@@ -178,11 +207,12 @@ GatheredLight LightField::gather(int view, const HostSurfaces& surfaces, const G
                    kMostReduction);
     if (surfaces.width == 0 || surfaces.height == 0) return {};  // of a window that is minimised
     view::requireUsable(surfaces);
-    const gl::HostStateGuard guard;
+    const modes::OwnerGuard call(impl_->owner);
     return impl_->gather(found->second, surfaces, options.reduction);
 }
 
 GatheredLight LightField::Impl::gather(View& view, const HostSurfaces& host, int reduction) {
+    const gl::PassScope pass(profiler, "gather");
     programs.trim();
     view.surfaces.take(device, *scene, host, reduction);
     const gather::RayInputs traced{*scene, lights, voxels, lit, view.surfaces};
@@ -196,6 +226,18 @@ GatheredLight LightField::Impl::gather(View& view, const HostSurfaces& host, int
         view.outputs.draw(device, traced, view.indirect, settings.traced.specularLimit);
     }
     return {view.outputs.diffuse().name(), view.outputs.specular().name(), host.width, host.height};
+}
+
+void LightField::setProfiling(bool on) { impl_->profiler.setEnabled(on); }
+
+const LightFieldStats& LightField::stats() const {
+    LightFieldStats& stats = impl_->stats;
+    const std::vector<gl::PassTime> times = impl_->profiler.times();
+    stats.passes.clear();
+    for (const gl::PassTime& time : times)
+        stats.passes.push_back({time.name, time.cpuMs, time.wallMs, time.gpuMs});
+    stats.memory = modes::memoryStats(impl_->owner);
+    return stats;
 }
 
 // As tools/make_lookups has them.

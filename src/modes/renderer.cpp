@@ -3,7 +3,6 @@
 // mode's recipe (modes/*_mode.cpp) makes the image of them.
 #include "conelight/renderer.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -11,32 +10,23 @@
 #include "gl/copy.h"
 #include "gl/debug.h"
 #include "gl/gl.h"
-#include "gl/host_state.h"
 #include "gl/storage.h"
 #include "modes/execution.h"
+#include "modes/memory_stats.h"
 #include "modes/renderer_values.h"
 
 namespace conelight {
-namespace {
-
-std::vector<MemoryStats> memoryStats() {
-    std::vector<MemoryStats> memory;
-    for (const gl::LiveObject& object : gl::liveObjects())
-        if (object.bytes > 0) memory.push_back({object.label, object.bytes});
-    std::stable_sort(memory.begin(), memory.end(),
-                     [](const auto& a, const auto& b) { return a.bytes > b.bytes; });
-    return memory;
-}
-
-}  // namespace
 
 Renderer::Renderer(const RendererOptions& options) {
     gl::requireContext();
     if (options.reportGlErrors) gl::installDebugCallback();
+    const std::uint32_t owner = gl::newOwner();
+    const gl::OwnerScope own(owner);
     impl_ = std::make_unique<Impl>(options.shaderDirectory.empty()
                                        ? gl::embeddedShaderProvider()
                                        : gl::directoryShaderProvider(options.shaderDirectory),
                                    modes::profileOf(options.execution));
+    impl_->owner = owner;
     impl_->deviceName = gl::rendererName();
 }
 
@@ -49,7 +39,7 @@ Renderer::~Renderer() {
 
 void Renderer::setScene(const Scene& scene) {
     scene.validate();  // a scene that is refused leaves the old one in place
-    const gl::HostStateGuard guard;
+    const modes::OwnerGuard call(impl_->owner);
     impl_->drop();
     impl_->mode.reset();  // light of another scene says nothing of this one
     impl_->fit.forget();
@@ -57,28 +47,39 @@ void Renderer::setScene(const Scene& scene) {
 }
 
 void Renderer::setInstance(std::size_t index, const Instance& instance) {
-    impl_->changed().setInstance(index, instance);
+    impl_->changed()->setInstance(index, instance);
 }
-void Renderer::setMesh(std::size_t index, const Mesh& mesh) { impl_->changed().setMesh(index, mesh); }
+void Renderer::setMesh(std::size_t index, const Mesh& mesh) { impl_->changed()->setMesh(index, mesh); }
+void Renderer::setMesh(std::size_t index, const HostMesh& mesh) {
+    impl_->changed()->setMesh(impl_->device, index, mesh);
+}
+void Renderer::setTexture(std::size_t index, const Texture& texture) {
+    impl_->changed()->setTexture(index, texture);
+}
 void Renderer::setMaterial(std::size_t index, const Material& material) {
-    impl_->changed().setMaterial(index, material);
+    impl_->changed()->setMaterial(index, material);
 }
-void Renderer::setLight(std::size_t index, const Light& light) { impl_->changed().setLight(index, light); }
-void Renderer::setLights(const std::vector<Light>& lights) { impl_->changed().setLights(lights); }
-void Renderer::setSky(const glm::vec3& radiance) { impl_->changed().setSky(radiance); }
+void Renderer::setLight(std::size_t index, const Light& light) { impl_->changed()->setLight(index, light); }
+void Renderer::setLights(const std::vector<Light>& lights) { impl_->changed()->setLights(lights); }
+void Renderer::setSky(const glm::vec3& radiance) { impl_->changed()->setSky(radiance); }
 void Renderer::setEnvironment(const Environment& environment) {
-    impl_->changed().setEnvironment(environment);
+    impl_->changed()->setEnvironment(environment);
 }
 void Renderer::setBakedLight(std::shared_ptr<const BakedLight> baked) {
-    impl_->changed().setBakedLight(std::move(baked));
+    impl_->changed()->setBakedLight(std::move(baked));
 }
-std::size_t Renderer::addMesh(const Mesh& mesh) { return impl_->changed().addMesh(mesh); }
-std::size_t Renderer::addTexture(const Texture& texture) { return impl_->changed().addTexture(texture); }
-std::size_t Renderer::addMaterial(const Material& material) { return impl_->changed().addMaterial(material); }
-std::size_t Renderer::addInstance(const Instance& instance) { return impl_->changed().addInstance(instance); }
-void Renderer::removeInstance(std::size_t index) { impl_->changed().removeInstance(index); }
-void Renderer::removeMesh(std::size_t index) { impl_->changed().removeMesh(index); }
-void Renderer::setRegion(const Aabb& region) { impl_->changed().setRegion(region); }
+std::size_t Renderer::addMesh(const Mesh& mesh) { return impl_->changed()->addMesh(mesh); }
+std::size_t Renderer::addMesh(const HostMesh& mesh) { return impl_->changed()->addMesh(impl_->device, mesh); }
+std::size_t Renderer::addTexture(const Texture& texture) { return impl_->changed()->addTexture(texture); }
+std::size_t Renderer::addMaterial(const Material& material) {
+    return impl_->changed()->addMaterial(material);
+}
+std::size_t Renderer::addInstance(const Instance& instance) {
+    return impl_->changed()->addInstance(instance);
+}
+void Renderer::removeInstance(std::size_t index) { impl_->changed()->removeInstance(index); }
+void Renderer::removeMesh(std::size_t index) { impl_->changed()->removeMesh(index); }
+void Renderer::setRegion(const Aabb& region) { impl_->changed()->setRegion(region); }
 const Scene& Renderer::scene() const { return impl_->scene.require("scene").source(); }
 
 void Renderer::setProfiling(bool passes, bool lookups) {
@@ -91,7 +92,7 @@ void Renderer::setHeadlight(float irradiance) {
         base::fail(ErrorKind::Usage, "setHeadlight: %g; 0 W/m^2 or more would be right",
                    static_cast<double>(irradiance));
     if (std::exchange(impl_->headlightIrradiance, irradiance) == irradiance) return;
-    const gl::HostStateGuard guard;
+    const modes::OwnerGuard call(impl_->owner);
     impl_->drop();
     impl_->temporal.reset();  // a mean over frames that had another
 }
@@ -99,7 +100,7 @@ void Renderer::setDynamic(bool everyFrame) { impl_->everyFrame = everyFrame; }
 void Renderer::setLightHeld(bool held) { impl_->lightHeld = held; }
 
 std::vector<std::string> Renderer::reloadShaders() {
-    const gl::HostStateGuard guard;
+    const modes::OwnerGuard call(impl_->owner);
     impl_->drop();
     std::vector<std::string> failures = impl_->programs.reload(impl_->programs.sourceFiles());
     impl_->mode.reset();  // what the old programs left in volumes and shadow maps is theirs
@@ -123,7 +124,7 @@ void Renderer::render(const Camera& camera, int width, int height, const Setting
     if (width == 0 || height == 0) return;  // of a window that is minimised
     const Impl::WantedPicture asked{camera, width, height, settings};
     impl_->require(asked);
-    const gl::HostStateGuard guard;
+    const modes::OwnerGuard call(impl_->owner);
     impl_->drop();
     impl_->renderWithin(asked).finish();
     gl::requireLiveContext();
@@ -142,7 +143,7 @@ bool Renderer::goOn(double milliseconds) {
     if (!drawing())
         base::fail(ErrorKind::Usage, "goOn: no picture was begun; begin before it would be right");
     gl::requireLiveContext();
-    const gl::HostStateGuard guard;
+    const modes::OwnerGuard call(impl_->owner);
     const bool finished = impl_->goOn(milliseconds);
     gl::requireLiveContext();
     return finished;
@@ -154,7 +155,7 @@ bool Renderer::drawing() const { return !impl_->steps.done(); }
 Image Renderer::readImage() const {
     if (!impl_->image)
         base::fail(ErrorKind::Usage, "readImage: nothing was rendered; render before it would be right");
-    const gl::HostStateGuard guard;
+    const modes::OwnerGuard call(impl_->owner);
     return impl_->image.read();
 }
 
@@ -166,7 +167,7 @@ PixelInspection Renderer::inspectPixel(int x, int y) {
         base::fail(ErrorKind::Usage,
                    "inspectPixel: pixel %d,%d of a picture of %d x %d; 0,0 to %d,%d would be right", x, y,
                    image.width(), image.height(), image.width() - 1, image.height() - 1);
-    const gl::HostStateGuard guard;
+    const modes::OwnerGuard call(impl_->owner);
     impl_->drop();
     return impl_->inspect(x, y);
 }
@@ -175,7 +176,7 @@ std::uint32_t Renderer::imageTexture() const { return impl_->image ? impl_->imag
 
 std::uint32_t Renderer::displayTexture(const ImageSettings& settings) {
     if (!impl_->image) return 0;
-    const gl::HostStateGuard guard;
+    const modes::OwnerGuard call(impl_->owner);
     impl_->display.draw(impl_->device, impl_->image.texture(), settings);
     return impl_->display.texture().name();
 }
@@ -183,18 +184,18 @@ std::uint32_t Renderer::displayTexture(const ImageSettings& settings) {
 void Renderer::copyToFramebuffer(std::uint32_t framebuffer, int x, int y) const {
     if (!impl_->image)
         base::fail(ErrorKind::Usage, "copyToFramebuffer: nothing was rendered; render before it");
-    const gl::HostStateGuard guard;
+    const modes::OwnerGuard call(impl_->owner);
     gl::copyToFramebuffer(impl_->image.texture(), framebuffer, {x, y});
 }
 
 void Renderer::copyToTexture(std::uint32_t texture) const {
     if (!impl_->image) base::fail(ErrorKind::Usage, "copyToTexture: nothing was rendered; render before it");
-    const gl::HostStateGuard guard;
+    const modes::OwnerGuard call(impl_->owner);
     gl::copyToTexture(impl_->image.texture(), texture);
 }
 
 const FrameStats& Renderer::stats() const {
-    impl_->stats.memory = memoryStats();
+    impl_->stats.memory = modes::memoryStats(impl_->owner);
     return impl_->stats;
 }
 

@@ -20,6 +20,7 @@
 #include "light/lights.h"
 #include "modes/memory_fit.h"
 #include "modes/mode.h"
+#include "modes/owner_guard.h"
 #include "scene/held_scene.h"
 #include "shared/lookups.h"
 #include "view/shadow_cascades.h"
@@ -28,6 +29,7 @@
 namespace conelight {
 
 struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in a public class
+    std::uint32_t owner = 0;
     gl::ProgramLibrary programs;
     gl::Profiler profiler;
     gl::Device device;
@@ -77,9 +79,9 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
         : programs(gl::providerFor(profile, std::move(provider))), device{programs, profiler, profile} {}
 
     // The scene, to change it: a picture of it as it was is dropped.
-    scene::HeldScene& changed() {
+    modes::OwnerScene changed() {
         drop();
-        return scene;
+        return {owner, scene};
     }
     image::LinearImage& target() { return inParts ? nextImage : image; }
     void require(const WantedPicture& asked);

@@ -19,6 +19,7 @@
 #include "image/wireframe.h"
 #include "light/shadow_maps.h"
 #include "modes/modes.h"
+#include "scene/host_mesh.h"
 #include "view/gbuffer.h"
 #include "voxels/octant_words.h"
 #include "voxels/surface_voxels.h"
@@ -58,6 +59,7 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
         for (const gl::ProgramDesc& desc : descs)
             if (labels.insert(desc.label()).second) all.push_back(desc);
     };
+    add(scene::HostMeshImport::programDescs());
     add(voxels::SurfaceVoxels::programDescs());
     add(voxels::OctantWords::programDescs());
     add(light::ShadowMaps::programDescs());

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/constants.hpp>
+
+#include "scene/light_profile.h"
 
 namespace conelight::scene {
 namespace {
@@ -36,6 +39,11 @@ gpu::Light packed(const Light& light) {
     g.flags = light.castsShadow ? LIGHT_CASTS_SHADOW : 0u;
     g.sampleGrid = 4;
     basis(g.direction, g.halfU, g.halfV);
+    if (light.profile != nullptr && !hasArea(light.type)) {
+        const ProfileFrame axes = profileFrame(light);
+        g.halfU = axes.u;
+        g.halfV = axes.v;
+    }
     switch (light.type) {
         case LightType::Point:
             g.type = LIGHT_POINT;
@@ -48,6 +56,15 @@ gpu::Light packed(const Light& light) {
         case LightType::Directional:
             g.type = LIGHT_DIRECTIONAL;
             break;
+        case LightType::Sphere:
+            g.type = LIGHT_RECT;
+            g.flags |= LIGHT_SPHERE;
+            g.halfU *= glm::length(light.halfU);
+            g.halfV *= glm::length(light.halfU);
+            break;
+        case LightType::Disk:
+            g.flags |= LIGHT_DISK;
+            [[fallthrough]];
         case LightType::Rect:
             g.type = LIGHT_RECT;
             g.halfU = light.halfU;
@@ -62,13 +79,37 @@ gpu::Light packed(const Light& light) {
 
 }  // namespace
 
+Profiles profilesOf(const std::vector<Light>& lights) {
+    Profiles all;
+    for (const Light& light : lights) {
+        const bool used = light.enabled && light.profile != nullptr &&
+                          (light.type == LightType::Point || light.type == LightType::Spot);
+        if (used && all.size() < kMostProfiles &&
+            std::find(all.begin(), all.end(), light.profile) == all.end())
+            all.push_back(light.profile);
+    }
+    return all;
+}
+
 std::vector<gpu::Light> packedLights(const std::vector<Light>& lights) {
     std::vector<gpu::Light> table;
-    for (const Light& light : lights)
-        if (light.enabled) table.push_back(packed(light));
+    const Profiles profiles = profilesOf(lights);
+    for (const Light& light : lights) {
+        if (!light.enabled) continue;
+        table.push_back(packed(light));
+        const auto layer = std::find(profiles.begin(), profiles.end(), light.profile);
+        if (table.back().type <= LIGHT_SPOT && layer != profiles.end())
+            table.back().flags |= static_cast<std::uint32_t>(layer - profiles.begin() + 1)
+                                  << LIGHT_PROFILE_SHIFT;
+    }
     std::stable_sort(table.begin(), table.end(),
                      [](const gpu::Light& a, const gpu::Light& b) { return a.type < b.type; });
     return table;
+}
+
+float areaOf(const gpu::Light& light) {
+    const bool round = (light.flags & (LIGHT_DISK | LIGHT_SPHERE)) != 0;
+    return (round ? glm::pi<float>() : 4.0f) * glm::length(glm::cross(light.halfU, light.halfV));
 }
 
 glm::uvec4 lightEnds(const std::vector<gpu::Light>& lights) {

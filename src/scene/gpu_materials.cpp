@@ -176,18 +176,32 @@ void SceneTextures::add(const Texture& source) {
     uploadSurface(source, layer);
 }
 
-void SceneTextures::addForDrawing(const Texture& texture) {
+// Those of one size and format take the new texels where they lie.
+void SceneTextures::set(std::size_t index, const Texture& source) {
+    putForDrawing(index, source);
+    uploadSurface(source, static_cast<int>(index));
+}
+
+void SceneTextures::addForDrawing(const Texture& source) {
+    textures_.emplace_back();
+    samplers_.emplace_back();
+    putForDrawing(textures_.size() - 1, source);
+}
+
+void SceneTextures::putForDrawing(std::size_t index, const Texture& texture) {
     // Mesa's software driver compiles and runs anisotropic lookups tens of times slower than trilinear ones.
     const float anisotropy = gl::isSoftwareDriver() ? 1.0f : 8.0f;
     const std::string label = "texture " + texture.name;
-    gl::Texture t({GL_TEXTURE_2D, static_cast<std::uint32_t>(texture.srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8),
-                   texture.width, texture.height, 1, 0},
-                  label);
+    const auto format = static_cast<std::uint32_t>(texture.srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8);
+    gl::Texture& t = textures_[index];
+    if (!t || t.desc().format != format || t.width() != texture.width || t.height() != texture.height) {
+        t = {};
+        t = gl::Texture({GL_TEXTURE_2D, format, texture.width, texture.height, 1, 0}, label);
+    }
     t.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, texture.rgba.data());
     t.generateMipmaps();
-    textures_.push_back(std::move(t));
     const bool nearest = texture.filter == TextureFilter::Nearest;
-    samplers_.emplace_back(
+    samplers_[index] = gl::Sampler(
         gl::SamplerDesc{
             static_cast<std::uint32_t>(nearest ? GL_NEAREST_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_LINEAR),
             static_cast<std::uint32_t>(nearest ? GL_NEAREST : GL_LINEAR), wrapMode(texture.wrapU),

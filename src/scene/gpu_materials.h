@@ -21,6 +21,11 @@ bool isGlossyDielectric(const gpu::Material& material);
 // Textures of a material: base, metallic-roughness, normal, emissive, specular, specular colour; -1: white.
 struct MaterialTextures {
     int slots[6];
+    bool has(std::size_t texture) const {
+        for (const int slot : slots)
+            if (slot == static_cast<int>(texture)) return true;
+        return false;
+    }
 };
 MaterialTextures texturesOf(const Material& material);
 // Texture units of a program for them; -1: it does not read that one.
@@ -31,6 +36,7 @@ class SceneTextures {
     SceneTextures() = default;
     explicit SceneTextures(const std::vector<Texture>& sources);
     void add(const Texture& source);  // behind the others
+    void set(std::size_t index, const Texture& source);
 
     void declare(gl::Inputs& inputs) const;  // surfaceArray
     // For draw calls that bind a material's textures: names, a program's units for them, the binding.
@@ -40,6 +46,7 @@ class SceneTextures {
 
   private:
     void addForDrawing(const Texture& source);
+    void putForDrawing(std::size_t index, const Texture& source);
     void uploadSurface(const Texture& source, int layer);
 
     std::vector<gl::Texture> textures_;

@@ -35,6 +35,7 @@ void GpuScene::uploadMeshes() {
              static_cast<std::uint32_t>(own.indices.size()), mesh.bounds(), hasWideColors(mesh),
              partBounds_.size(), static_cast<std::uint32_t>(own.vertices.size()),
              static_cast<std::uint32_t>(own.indices.size())});
+        meshRanges_.back().vertexCount = meshRanges_.back().vertexRoom;
         vertices.insert(vertices.end(), own.vertices.begin(), own.vertices.end());
         indices.insert(indices.end(), own.indices.begin(), own.indices.end());
         partBounds_.insert(partBounds_.end(), own.parts.begin(), own.parts.end());
@@ -102,8 +103,9 @@ bool GpuScene::isDrawnBefore(std::uint32_t a, std::uint32_t b) const {
 
 void GpuScene::setFlags(std::size_t index, const Instance& source) {
     gpu::Instance& g = instances_[index];
-    const bool glass =
-        source.material >= 0 && isTransmissive(source_.materials[static_cast<std::size_t>(source.material)]);
+    // What rays through glass meet is the CPU's.
+    const bool glass = source.material >= 0 && !isHostMesh(static_cast<std::size_t>(source.mesh)) &&
+                       isTransmissive(source_.materials[static_cast<std::size_t>(source.material)]);
     const bool baked = source.visible && bakedPlaces_[index] == source.worldFromObject;
     g.flags = (source.visible ? INSTANCE_VISIBLE : 0u) | (glass ? INSTANCE_GLASS : 0u) |
               (baked ? INSTANCE_BAKED : 0u) |
@@ -162,6 +164,12 @@ void GpuScene::setMesh(std::size_t index, const Mesh& mesh) {
     range.wideColors = hasWideColors(mesh);
     hasVertexColors_ = hasVertexColors_ || !mesh.colors.empty();
     source_.meshes[index] = mesh;
+    reshape(index);
+}
+
+// The instances of a mesh that has other bounds and vertices.
+void GpuScene::reshape(std::size_t index) {
+    const MeshRange& range = meshRanges_[index];
     geometryRevision_ = base::Revision::next();
     for (std::size_t i = 0; i < instances_.size(); ++i) {
         if (source_.instances[i].mesh != static_cast<int>(index)) continue;
@@ -190,6 +198,16 @@ void GpuScene::setMaterial(std::size_t index, const Material& material) {
             setFlags(i, source_.instances[i]);
             uploadInstance(i);
         }
+}
+
+void GpuScene::setTexture(std::size_t index, const Texture& texture) {
+    textures_.set(index, texture);
+    source_.textures[index] = texture;
+    geometryRevision_ = base::Revision::next();
+    for (std::size_t i = 0; i < instances_.size(); ++i)
+        if (materialTextures_[instances_[i].material].has(index) ||
+            materials_[instances_[i].material].transmissionLayer == static_cast<int>(index))
+            instanceRevisions_[i] = geometryRevision_;
 }
 
 void GpuScene::setLights(const std::vector<Light>& lights) {

@@ -20,6 +20,7 @@
 #include "gl/draw.h"
 #include "gl/program.h"
 #include "scene/gpu_materials.h"
+#include "scene/host_mesh.h"
 #include "shared/scene.h"
 
 namespace conelight::scene {
@@ -63,6 +64,9 @@ class GpuScene {
     void setInstance(std::size_t index, const Instance& instance);
     // As many vertices and indices as there are, normals for all or for none as there are.
     void setMesh(std::size_t index, const Mesh& mesh);
+    // Of a mesh that is the host's, as many vertices and indices as there are.
+    void setMesh(const gl::Device& device, std::size_t index, const HostMesh& mesh);
+    void setTexture(std::size_t index, const Texture& texture);
     void setMaterial(std::size_t index, const Material& material);
     void setLights(const std::vector<Light>& lights);  // all of them
     void setSky(const glm::vec3& radiance);
@@ -71,6 +75,8 @@ class GpuScene {
     // Further entries; each returns its index. What is there keeps its own. addInstance takes the place of one that
     // was removed where it can, addMesh that of one that is no smaller. Nothing is checked.
     std::size_t addMesh(const Mesh& mesh);
+    // Read by a pass on the GPU (scene/host_mesh.h): source() has an empty mesh in its place.
+    std::size_t addMesh(const gl::Device& device, const HostMesh& mesh);
     std::size_t addTexture(const Texture& texture);
     std::size_t addMaterial(const Material& material);
     std::size_t addInstance(const Instance& instance);
@@ -80,6 +86,10 @@ class GpuScene {
     void removeMesh(std::size_t index);
     bool isRemovedInstance(std::size_t index) const { return removed_[index] != 0; }
     bool isRemovedMesh(std::size_t index) const { return meshRanges_[index].removed; }
+    bool isHostMesh(std::size_t index) const { return meshRanges_[index].ofHost; }
+    // As GL has them: those of meshes without normals are three per triangle.
+    std::uint32_t vertexCount(std::size_t mesh) const { return meshRanges_[mesh].vertexCount; }
+    std::uint32_t indexCount(std::size_t mesh) const { return meshRanges_[mesh].indexCount; }
     // Where voxels are wanted; empty: where the scene is.
     void setRegion(const Aabb& region);
     // As if every instance had changed: all that is derived from geometry is made anew.
@@ -129,11 +139,15 @@ class GpuScene {
         std::size_t firstPart;
         std::uint32_t vertexRoom, indexRoom;
         bool removed = false;
+        bool ofHost = false;
+        std::uint32_t vertexCount = 0;
     };
     void uploadMeshes();
     void uploadInstances();
     void makeVertexArray();
-    void putMesh(std::size_t index, const Mesh& mesh);
+    std::size_t placeForMesh(std::uint32_t vertices, std::uint32_t indices);
+    void convert(const gl::Device& device, std::size_t index, const HostMesh& mesh);
+    void reshape(std::size_t index);
     void putInstance(std::size_t index, const Instance& instance);
     std::optional<std::size_t> freeEntry(std::uint32_t triangles) const;
     void renumberTriangles();
@@ -164,6 +178,7 @@ class GpuScene {
     SceneTextures textures_;
     gl::Buffer vertexBuffer_, indexBuffer_, instanceBuffer_, instanceIndexBuffer_, materialBuffer_;
     gl::VertexArray vertexArray_;
+    HostMeshImport hostMeshes_;
     std::vector<std::uint32_t> drawOrder_;  // instances sorted by material
     mutable Aabb bounds_;
     mutable bool boundsCurrent_ = false;

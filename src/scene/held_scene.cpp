@@ -50,12 +50,19 @@ void HeldScene::setInstance(std::size_t index, const Instance& instance) {
     scene_->setInstance(index, instance);
 }
 
+void HeldScene::requireMesh(const char* call, std::size_t index, bool ofHost) {
+    requireIndex(call, "mesh", index, require(call).source().meshes.size());
+    if (scene_->isRemovedMesh(index))
+        base::fail(ErrorKind::Usage, "%s: mesh %zu was removed; one that is there would be right", call,
+                   index);
+    if (scene_->isHostMesh(index) != ofHost)
+        base::fail(ErrorKind::Usage, "%s: mesh %zu came %s; the same again would be right", call, index,
+                   ofHost ? "as arrays" : "in buffers of the host");
+}
+
 void HeldScene::setMesh(std::size_t index, const Mesh& mesh) {
     const Scene& source = require("setMesh").source();
-    requireIndex("setMesh", "mesh", index, source.meshes.size());
-    if (scene_->isRemovedMesh(index))
-        base::fail(ErrorKind::Usage, "setMesh: mesh %zu was removed; one that is there would be right",
-                   index);
+    requireMesh("setMesh", index, false);
     validateMesh(mesh, index);
     const Mesh& old = source.meshes[index];
     if (mesh.positions.size() != old.positions.size() || mesh.indices.size() != old.indices.size())
@@ -71,6 +78,28 @@ void HeldScene::setMesh(std::size_t index, const Mesh& mesh) {
     validateReaches(source, index, mesh.bounds());
     const gl::HostStateGuard guard;
     scene_->setMesh(index, mesh);
+}
+
+void HeldScene::setMesh(const gl::Device& device, std::size_t index, const HostMesh& mesh) {
+    const Scene& source = require("setMesh").source();
+    requireMesh("setMesh", index, true);
+    const gl::HostStateGuard guard;
+    requireUsable(mesh);
+    const std::uint32_t vertices = scene_->vertexCount(index), indices = scene_->indexCount(index);
+    if (packedVertices(mesh) != vertices || mesh.indexCount != indices)
+        base::fail(ErrorKind::BadInput,
+                   "mesh %zu '%s' of the host: %u vertices and %u indices; as many as it has, %u and %u, "
+                   "would be right",
+                   index, mesh.name.c_str(), packedVertices(mesh), mesh.indexCount, vertices, indices);
+    validateReaches(source, index, mesh.bounds);
+    scene_->setMesh(device, index, mesh);
+}
+
+void HeldScene::setTexture(std::size_t index, const Texture& texture) {
+    requireIndex("setTexture", "texture", index, require("setTexture").source().textures.size());
+    validateTexture(texture);
+    const gl::HostStateGuard guard;
+    scene_->setTexture(index, texture);
 }
 
 void HeldScene::setMaterial(std::size_t index, const Material& material) {
@@ -118,6 +147,13 @@ std::size_t HeldScene::addMesh(const Mesh& mesh) {
     validateMesh(mesh, require("addMesh").source().meshes.size());
     const gl::HostStateGuard guard;
     return scene_->addMesh(mesh);
+}
+
+std::size_t HeldScene::addMesh(const gl::Device& device, const HostMesh& mesh) {
+    require("addMesh");
+    const gl::HostStateGuard guard;
+    requireUsable(mesh);
+    return scene_->addMesh(device, mesh);
 }
 
 std::size_t HeldScene::addTexture(const Texture& texture) {

@@ -26,6 +26,8 @@ class HeldScene {
     // Scene::validate refuses; nothing is changed then.
     void setInstance(std::size_t index, const Instance& instance);
     void setMesh(std::size_t index, const Mesh& mesh);
+    void setMesh(const gl::Device& device, std::size_t index, const HostMesh& mesh);
+    void setTexture(std::size_t index, const Texture& texture);
     void setMaterial(std::size_t index, const Material& material);
     void setLight(std::size_t index, const Light& light);
     void setLights(const std::vector<Light>& lights);
@@ -33,6 +35,7 @@ class HeldScene {
     void setEnvironment(const Environment& environment);
     void setBakedLight(std::shared_ptr<const BakedLight> baked);
     std::size_t addMesh(const Mesh& mesh);
+    std::size_t addMesh(const gl::Device& device, const HostMesh& mesh);
     std::size_t addTexture(const Texture& texture);
     std::size_t addMaterial(const Material& material);
     std::size_t addInstance(const Instance& instance);
@@ -43,6 +46,8 @@ class HeldScene {
 
   private:
     void requireInstance(const char* call, std::size_t index);
+    // A mesh that is there, and the host's or not.
+    void requireMesh(const char* call, std::size_t index, bool ofHost);
 
     std::optional<GpuScene> scene_;
     Aabb region_;

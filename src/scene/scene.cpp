@@ -11,6 +11,7 @@
 
 #include "base/log.h"
 #include "conelight/scene_fields.h"
+#include "scene/light_profile.h"
 #include "scene/scene_checks.h"
 
 namespace conelight {
@@ -123,7 +124,16 @@ void scene::validateReaches(const Scene& scene, std::size_t mesh, const Aabb& bo
         if (scene.instances[i].mesh == static_cast<int>(mesh)) validateReach(scene.instances[i], i, bounds);
 }
 
-void scene::validateLight(const Light& light) { validateNumbers(light, "light", light.name); }
+void scene::validateLight(const Light& light) {
+    validateNumbers(light, "light", light.name);
+    if (light.profile == nullptr) return;
+    constexpr std::size_t kSize = std::size_t{LightProfile::kRows} * LightProfile::kColumns;
+    const std::vector<float>& factors = light.profile->factors;
+    if (factors.size() != kSize ||
+        !std::all_of(factors.begin(), factors.end(), [](float one) { return one >= 0 && one <= 1; }))
+        fail(ErrorKind::BadInput, "light '%s': profile: %zu factors, each of 0 to 1, would be right",
+             light.name.c_str(), kSize);
+}
 
 void scene::validateMaterial(const Scene& scene, const Material& material) {
     validateNumbers(material, "material", material.name);
@@ -248,12 +258,19 @@ namespace {
 float fluxPerIntensity(const Light& light) {
     if (light.customFalloff) return 0;
     const float inner = std::cos(light.innerAngle), outer = std::cos(light.outerAngle);
+    const bool spot = light.type == LightType::Spot;
+    if (light.profile != nullptr && (spot || light.type == LightType::Point))
+        return scene::profileFlux(light, spot ? inner : -2.0f, spot ? outer : -3.0f);
     switch (light.type) {
         case LightType::Point:
             return 4 * glm::pi<float>();
         case LightType::Spot:
             // Even within the inner cone; then the square of a ramp in the cosine, whose mean is a third.
             return 2 * glm::pi<float>() * (1 - inner + (inner - outer) / 3);
+        case LightType::Sphere:
+            return glm::pi<float>() * 4 * glm::pi<float>() * glm::dot(light.halfU, light.halfU);
+        case LightType::Disk:
+            return glm::pi<float>() * glm::pi<float>() * glm::length(glm::cross(light.halfU, light.halfV));
         case LightType::Rect:
             return glm::pi<float>() * 4 * glm::length(glm::cross(light.halfU, light.halfV));
         case LightType::Directional:

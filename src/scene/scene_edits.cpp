@@ -13,14 +13,18 @@
 namespace conelight::scene {
 namespace {
 
-// Puts `bytes` of data at `offset`, beyond which nothing is kept. True when the buffer is another one.
+// Makes room for so many bytes; what is there stays. True when the buffer is another one.
+bool reserve(gl::Buffer& buffer, std::size_t bytes, const char* label) {
+    if (bytes <= buffer.bytes()) return false;
+    gl::Buffer larger(bytes + bytes / 2, label);
+    larger.copyFrom(buffer, buffer.bytes());
+    buffer = std::move(larger);
+    return true;
+}
+
+// Puts `bytes` of data at `offset`. True when the buffer is another one.
 bool put(gl::Buffer& buffer, std::size_t offset, const void* data, std::size_t bytes, const char* label) {
-    const bool grows = offset + bytes > buffer.bytes();
-    if (grows) {
-        gl::Buffer larger((offset + bytes) + (offset + bytes) / 2, label);
-        larger.copyFrom(buffer, std::min(offset, buffer.bytes()));
-        buffer = std::move(larger);
-    }
+    const bool grows = reserve(buffer, offset + bytes, label);
     buffer.update(offset, data, bytes);
     return grows;
 }
@@ -34,11 +38,8 @@ constexpr std::size_t kFewRemoved = 64;
 
 // ---- Meshes ---------------------------------------------------------------------------------------------
 
-std::size_t GpuScene::addMesh(const Mesh& mesh) {
-    const PackedMesh own = packed(mesh);
-    const auto vertices = static_cast<std::uint32_t>(own.vertices.size());
-    const auto indices = static_cast<std::uint32_t>(own.indices.size());
-    // The least of the free places that are large enough
+// The least of the free places that are large enough, or one behind all others.
+std::size_t GpuScene::placeForMesh(std::uint32_t vertices, std::uint32_t indices) {
     std::size_t index = meshRanges_.size();
     for (std::size_t i = 0; i < meshRanges_.size(); ++i) {
         const MeshRange& range = meshRanges_[i];
@@ -48,28 +49,61 @@ std::size_t GpuScene::addMesh(const Mesh& mesh) {
     if (index == meshRanges_.size()) {
         meshRanges_.push_back(
             {vertexCount_, indexCount_, indices, {}, false, partBounds_.size(), vertices, indices});
-        partBounds_.resize(partBounds_.size() + own.parts.size());
+        partBounds_.resize(partBounds_.size() + (indices + kPartIndices - 1) / kPartIndices);
         source_.meshes.emplace_back();
         vertexCount_ += vertices;
         indexCount_ += indices;
+        const bool others = reserve(vertexBuffer_, vertexCount_ * sizeof(gpu::Vertex), "scene vertices");
+        if (reserve(indexBuffer_, indexCount_ * sizeof(std::uint32_t), "scene indices") || others)
+            makeVertexArray();
     }
-    // Its vertices and indices
     MeshRange& range = meshRanges_[index];
-    const bool others = put(vertexBuffer_, range.firstVertex * sizeof(gpu::Vertex), own.vertices.data(),
-                            vertices * sizeof(gpu::Vertex), "scene vertices");
-    if (put(indexBuffer_, range.firstIndex * sizeof(std::uint32_t), own.indices.data(),
-            indices * sizeof(std::uint32_t), "scene indices") ||
-        others)
-        makeVertexArray();
+    range.vertexCount = vertices;
+    range.indexCount = indices;
+    range.removed = range.ofHost = false;
+    return index;
+}
+
+std::size_t GpuScene::addMesh(const Mesh& mesh) {
+    const PackedMesh own = packed(mesh);
+    const std::size_t index = placeForMesh(static_cast<std::uint32_t>(own.vertices.size()),
+                                           static_cast<std::uint32_t>(own.indices.size()));
+    MeshRange& range = meshRanges_[index];
+    vertexBuffer_.update(range.firstVertex * sizeof(gpu::Vertex), own.vertices.data(),
+                         own.vertices.size() * sizeof(gpu::Vertex));
+    indexBuffer_.update(range.firstIndex * sizeof(std::uint32_t), own.indices.data(),
+                        own.indices.size() * sizeof(std::uint32_t));
     std::copy(own.parts.begin(), own.parts.end(),
               partBounds_.begin() + static_cast<std::ptrdiff_t>(range.firstPart));
-    range.indexCount = indices;
     range.bounds = mesh.bounds();
     range.wideColors = hasWideColors(mesh);
-    range.removed = false;
     hasVertexColors_ = hasVertexColors_ || !mesh.colors.empty();
     source_.meshes[index] = mesh;
     return index;
+}
+
+std::size_t GpuScene::addMesh(const gl::Device& device, const HostMesh& mesh) {
+    const std::size_t index = placeForMesh(packedVertices(mesh), mesh.indexCount);
+    meshRanges_[index].ofHost = true;
+    convert(device, index, mesh);
+    return index;
+}
+
+void GpuScene::setMesh(const gl::Device& device, std::size_t index, const HostMesh& mesh) {
+    convert(device, index, mesh);
+    reshape(index);
+}
+
+void GpuScene::convert(const gl::Device& device, std::size_t index, const HostMesh& mesh) {
+    MeshRange& range = meshRanges_[index];
+    hostMeshes_.convert(device, mesh, {vertexBuffer_, indexBuffer_, range.firstVertex, range.firstIndex});
+    range.bounds = mesh.bounds;
+    range.wideColors = false;
+    hasVertexColors_ = hasVertexColors_ || mesh.colors.buffer != 0;
+    std::fill_n(partBounds_.begin() + static_cast<std::ptrdiff_t>(range.firstPart),
+                (mesh.indexCount + kPartIndices - 1) / kPartIndices, mesh.bounds);
+    source_.meshes[index] = {};
+    source_.meshes[index].name = mesh.name;
 }
 
 void GpuScene::removeMesh(std::size_t index) {

@@ -99,7 +99,7 @@ std::vector<Setting<LightSettings>> lightSettings() {
         {"shadow_filter", &LightSettings::shadowFilter, Numbers{0, 4}, "texels",
          "blur of shadow edges to either side; 0: as sharp as the map"},
         {"area_samples", &LightSettings::areaSamples, Numbers{1, 64, 1, false, true}, "",
-         "points per rectangular light, a square number"},
+         "points per area light, a square number"},
         {"emissive_quads", &LightSettings::emissiveQuads,
          "treat flat rectangular emitters as area lights, exactly"},
         {"caustics", &LightSettings::caustics, Numbers{1024, 1048576, 1, true, false}, "",

@@ -179,10 +179,47 @@ TEST(Environment, GeneratedSkies) {
                brightness(noon.sun->intensity) * static_cast<double>(noon.sun->direction.y));
     EXPECT_GT(lux, 5e4);
     EXPECT_LT(lux, 1.2e5);
-    EXPECT_THROW(io::loadEnvironment("builtin:sky?hour=0"), Error);
+    EXPECT_THROW(io::loadEnvironment("builtin:sky?hour=25"), Error);
     EXPECT_THROW(io::loadEnvironment("builtin:sky?hours=9"), Error);
     EXPECT_THROW(io::loadEnvironment("builtin:moon"), Error);
     EXPECT_FALSE(io::loadEnvironment("builtin:studio").sun);
+}
+
+// From noon to midnight: hour by hour the sky and its sun give the ground less, and never nothing; the
+// sun leaves as its disc sinks.
+TEST(Environment, LightFallsFromNoonToNight) {
+    double last = 1e9, lastSun = 1e9;
+    double luxAt[2] = {0, 0};
+    for (const double hour :
+         {12.0, 15.0, 17.0, 17.5, 17.75, 18.0, 18.25, 18.5, 18.75, 19.0, 19.5, 20.0, 24.0}) {
+        const io::LoadedEnvironment loaded =
+            io::loadEnvironment("builtin:sky?latitude=0&day=81&hour=" + std::to_string(hour));
+        const auto& texels = loaded.environment.image->radiance;
+        EXPECT_TRUE(std::all_of(texels.begin(), texels.end(), [](const glm::vec3& texel) {
+            return std::isfinite(texel.r + texel.g + texel.b) &&
+                   glm::all(glm::greaterThan(texel, glm::vec3(0)));
+        })) << hour;
+        const scene::Surroundings sky(under(loaded.environment.image));
+        const double fromSky =
+            683 * integral([&](const glm::vec3& d) {
+                return d.y > 0 ? brightness(sky.radiance(d)) * static_cast<double>(d.y) : 0.0;
+            });
+        const double sun = loaded.sun ? -683 * brightness(loaded.sun->intensity) *
+                                            static_cast<double>(loaded.sun->direction.y)
+                                      : 0;
+        EXPECT_GT(fromSky, 1e-4) << hour;
+        EXPECT_LE(fromSky + sun, 1.001 * last) << hour;
+        EXPECT_LE(sun, lastSun) << hour;
+        EXPECT_EQ(loaded.sun.has_value(), hour < 18.02) << hour;
+        // On the equator at the equinox the sun sinks by 15 degrees an hour.
+        if (hour == 18.25) luxAt[0] = fromSky;
+        if (hour == 20) luxAt[1] = fromSky;
+        last = fromSky + sun;
+        lastSun = sun;
+    }
+    // The circular's 71 lux at -3.75 degrees, and a night of 0.0006.
+    EXPECT_NEAR(luxAt[0], 50, 25);
+    EXPECT_NEAR(luxAt[1], 6.5e-4, 2e-4);
 }
 
 class EnvironmentFiles : public testing::Test {

@@ -98,8 +98,9 @@ void expectSame(const Scene& read, const Scene& written) {
         if (b.customFalloff) {
             EXPECT_EQ(a.falloff, b.falloff);
         }
-        if (b.type == LightType::Rect) {
+        if (hasArea(b.type)) {
             EXPECT_EQ(a.halfU, b.halfU);
+            EXPECT_EQ(a.halfV, b.halfV);
         }
         if (b.type == LightType::Spot) {
             EXPECT_EQ(a.outerAngle, b.outerAngle);
@@ -151,7 +152,12 @@ TEST(GltfWrite, WhatGltfHasNoWordsForComesBackAndIsNamed) {
     spot.name = "spot";
     spot.type = LightType::Spot;
     spot.outerAngle = 0.4f;
-    scene.lights = {rect, lamp, spot};
+    Light disk = rect, sphere = rect;
+    disk.type = LightType::Disk;
+    disk.halfV = {0, 0, 0.2f};
+    sphere.type = LightType::Sphere;
+    sphere.halfU = {0.3f, 0, 0};
+    scene.lights = {rect, lamp, spot, disk, sphere};
     Camera lens = scene.cameras.front();  // in focus elsewhere than at its target
     lens.name = "lens";
     lens.lensDiameter = 0.05f;

@@ -208,6 +208,11 @@ TEST(Scene, FluxIsIntensityOverAllDirections) {
     EXPECT_NEAR(radiantFlux(light)->b, 3.14159265f * 3, 1e-4f);  // one square metre
     ASSERT_TRUE(setRadiantFlux(light, {3.14159265f, 0, 0}));
     EXPECT_NEAR(light.intensity.r, 1, 1e-6f);
+    light.intensity = glm::vec3(1);
+    light.type = LightType::Disk;
+    EXPECT_NEAR(radiantFlux(light)->b, 3.14159265f * 3.14159265f * 0.25f, 1e-4f);  // half axes of 1 and 1/4 m
+    light.type = LightType::Sphere;
+    EXPECT_NEAR(radiantFlux(light)->b, 3.14159265f * 4 * 3.14159265f, 1e-4f);  // radius 1 m
     light.type = LightType::Directional;
     EXPECT_FALSE(radiantFlux(light));
     EXPECT_FALSE(setRadiantFlux(light, glm::vec3(1)));

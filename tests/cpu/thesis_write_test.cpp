@@ -70,12 +70,15 @@ void expectSameLight(const Light& a, const Light& b) {
     if (a.type != LightType::Directional) {
         EXPECT_EQ(a.position, b.position) << a.name;
     }
-    if (a.type != LightType::Point) expectNear(a.direction, b.direction, 1e-6f, a.name);
+    if (hasDirection(a.type)) expectNear(a.direction, b.direction, 1e-6f, a.name);
     if (a.type == LightType::Spot) {
         EXPECT_NEAR(a.innerAngle, b.innerAngle, 1e-6f);
         EXPECT_NEAR(a.outerAngle, b.outerAngle, 1e-6f);
     }
-    if (a.type == LightType::Rect) {
+    if (a.type == LightType::Sphere) {
+        EXPECT_NEAR(glm::length(a.halfU), glm::length(b.halfU), 1e-5f) << a.name;
+    }
+    if (a.type == LightType::Rect || a.type == LightType::Disk) {
         // A half edge and its opposite span the same rectangle.
         EXPECT_NEAR(std::abs(glm::dot(a.halfU, b.halfU)), glm::dot(a.halfU, a.halfU), 1e-5f) << a.name;
         EXPECT_NEAR(std::abs(glm::dot(a.halfV, b.halfV)), glm::dot(a.halfV, a.halfV), 1e-5f) << a.name;
@@ -164,8 +167,8 @@ TEST(ThesisWrite, EveryFieldComesBack) {
     material.specularColor = {1, 0.5f, 0.25f};
     material.emission = {1, 2, 3};
     material.doubleSided = true;
-    for (const LightType type :
-         {LightType::Point, LightType::Spot, LightType::Directional, LightType::Rect}) {
+    for (const LightType type : {LightType::Point, LightType::Spot, LightType::Directional, LightType::Rect,
+                                 LightType::Disk, LightType::Sphere}) {
         Light light;
         light.type = type;
         light.name = "light" + std::to_string(scene.lights.size());

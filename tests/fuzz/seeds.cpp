@@ -101,6 +101,10 @@ int main(int count, char** arguments) {
     fs::create_directories(corpus / "gltf");
     fs::create_directories(corpus / "obj");
     fs::create_directories(corpus / "thesis");
+    fs::create_directories(folder / "ies");
+    std::ofstream(folder / "ies" / "wall_washer.ies")
+        << "IESNA:LM-63-2002\n[TEST] fuzz\nTILT=NONE\n1 1000 1 3 3 1 2 0 0 0\n1 1 20\n0 45 90\n0 90 180\n"
+           "100 80 0\n100 50 0\n100 20 0\n";
     fs::create_directories(corpus / "picture");
     for (const char* kind : {"preset", "camera_path", "cone_set", "batch_job", "console"})
         fs::create_directories(corpus / kind);

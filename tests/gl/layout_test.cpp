@@ -21,6 +21,7 @@
 #include "shared/radiance_octree.h"
 #include "shared/radiance_volume.h"
 #include "shared/scene.h"
+#include "shared/shadow_cascades.h"
 #include "shared/shadow_map.h"
 #include "shared/voxel_view.h"
 #include "shared/voxels.h"
@@ -149,6 +150,8 @@ std::vector<Struct> otherStructs() {
             blending, parallel, pad0, pad1, pad2),
         ROW(LightingConstants, sky, environmentScale, lightEnds, environmentTurn, environmentInverseFlux,
             environmentLevel0, environmentCellLevel),
+        ROW(CascadeConstants, middle, levels, inverseNearest, perDoubling, inverseDepth, pad0),
+        ROW(Cascade, position, shadowNear, texel, layer, pad0, pad1),
         ROW(ShadowMapConstants, clipFromWorld, slopeUnit, middle, halfSize, pad0),
         ROW(RadianceOctree, inverseTextureSize, rootLevel, topLevel, maxLevel, rowBits, slots, slotsPerChunk,
             level, firstBrick, brickCount),

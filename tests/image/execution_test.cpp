@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Both execution profiles: passes as fragments and as compute draw the same picture.
+#include <algorithm>
+
 #include "conelight/quality.h"
 #include "io/generated.h"
 #include "support/light_field_rig.h"
@@ -72,6 +74,40 @@ TEST_F(ExecutionTest, LightForAHostIsTheSameBits) {
         }
         EXPECT_EQ(pixelsOf(light.diffuse), diffuse);
         EXPECT_EQ(pixelsOf(light.specular), specular);
+    }
+}
+
+std::size_t programCount() {
+    const std::vector<gl::LiveObject> all = gl::liveObjects();
+    return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](const gl::LiveObject& object) {
+        return object.type == gl::ObjectType::Program;
+    }));
+}
+
+// A GPU's driver takes seconds to build what a software driver would rather have for each number of lamps.
+TEST_F(ExecutionTest, ALampMoreBuildsNoProgram) {
+    for (const Execution execution : {Execution::Gpu, Execution::Processor}) {
+        LightField field({"", true, execution});
+        field.setScene(scene_);
+        Settings settings = hostSettings();
+        settings.voxels.size = 16;
+        field.setSettings(settings);
+        HostPicture host(scene_, lens());
+        drawn(host);
+        host.surfaces().roughness = 0;  // no reflections
+        const int view = field.addView();
+        const auto draw = [&](std::size_t lamps) {
+            std::vector<Light> lights(lamps, scene_.lights.front());
+            for (std::size_t i = 1; i < lamps; ++i) lights[i].position.x -= 0.1f * static_cast<float>(i);
+            field.setLights(lights);
+            field.update();
+            field.gather(view, host.surfaces());
+            return programCount();
+        };
+        const std::size_t one = draw(1);
+        const bool counts = execution == Execution::Processor;
+        EXPECT_EQ(draw(2) > one, counts);
+        if (!counts) EXPECT_EQ(draw(6), one);
     }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // LightField: a scene that changes. What comes and goes leaves the rest of the light settled; a region keeps the
 // grid from large grounds; budgets.
+#include <cmath>
+#include <cstdio>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "conelight/error.h"
@@ -263,6 +265,46 @@ TEST_F(LightFieldChanges, ABudgetOfTimeIsKept) {
     EXPECT_EQ(one.update({.updates = 1, .milliseconds = 1e9}), 1);
     EXPECT_EQ(one.update({.updates = 2, .milliseconds = 1e9}), 3);
     EXPECT_THROW(one.update({.milliseconds = -1}), Error);
+}
+
+// While a box goes on, by one update and no rays of pixels a frame: how much what stands still comes and goes from frame
+// to frame, as the standard deviation over the mean, and how far it is from settled light.
+TEST_F(LightFieldChanges, ThingsMoveAtABudget) {
+    Settings settings = realtimeSettings(Quality::Draft);
+    settings.voxels.size = 32;
+    settings.light.shadowSize = 256;
+    LightField field;
+    field.setScene(scene_);
+    field.setSettings(settings);
+    while (field.update() < settings.traced.cacheUpdates) continue;
+    const int view = field.addView();
+    HostPicture host(scene_, lens());
+    std::vector<std::vector<glm::vec4>> frames;
+    std::vector<char> stands(kHostWidth * kHostHeight, 1);  // walls, in all frames
+    const std::size_t box = scene_.instances.size() - 1;
+    for (int frame = 0; frame < 12; ++frame) {
+        scene_.instances[box].worldFromObject[3].x -= 0.02f;
+        field.setInstance(box, scene_.instances[box]);
+        field.update();
+        drawn(host);
+        frames.push_back(pixelsOf(field.gather(view, host.surfaces()).diffuse));
+        std::vector<std::uint32_t> seen(stands.size());
+        glGetTextureImage(host.surfaces().instances, 0, GL_RED_INTEGER, GL_UNSIGNED_INT,
+                          static_cast<GLsizei>(4 * seen.size()), seen.data());
+        for (std::size_t i = 0; i < seen.size(); ++i) stands[i] = stands[i] != 0 && seen[i] < kHostMetal;
+    }
+    const auto isWall = [&](std::size_t i) { return stands[i] != 0; };
+    // Of neighbouring frames: what moves changes the light itself as well.
+    double flicker = 0;
+    constexpr std::size_t kFirst = 5;
+    for (std::size_t k = kFirst; k < frames.size(); ++k)
+        flicker += hostDifference(frames[k], frames[k - 1], isWall) / std::sqrt(2.0);
+    flicker /= static_cast<double>(frames.size() - kFirst);
+    settings.traced.budgeted = false;
+    const double error = hostDifference(frames.back(), freshly(scene_, settings, host), isWall);
+    std::printf("flicker %.2f %%, error %.1f %%\n", 100 * flicker, 100 * error);
+    EXPECT_LT(flicker, 0.009);
+    EXPECT_LT(error, 0.06);
 }
 
 }  // namespace

@@ -258,6 +258,9 @@ class Handles(ErrorCase):
     def test_flux_sets_the_intensity(self):
         light = triangle_scene().add_light("point", flux=(4 * np.pi, 0, 0))
         np.testing.assert_allclose(light.intensity, (1, 0, 0), rtol=1e-6)
+        lamp = triangle_scene().add_light("sphere", half_u=(0.5, 0, 0), flux=(np.pi ** 2, 0, 0))
+        self.assertEqual(lamp.type, "sphere")
+        np.testing.assert_allclose(lamp.intensity, (1, 0, 0), rtol=1e-6)
 
     def test_meshes_are_replaced(self):
         scene = triangle_scene()

@@ -8,6 +8,8 @@
 #include "conelight/error.h"
 #include "console/console.h"
 #include "console/names.h"
+#include "io/files.h"
+#include "io/light_profile_file.h"
 #include "io/scene_info.h"
 #include "session/light_edit.h"
 #include "session/light_units.h"
@@ -16,7 +18,8 @@
 namespace conelight::program {
 namespace {
 
-constexpr LightType kTypes[] = {LightType::Point, LightType::Spot, LightType::Directional, LightType::Rect};
+constexpr LightType kTypes[] = {LightType::Point, LightType::Spot, LightType::Directional,
+                                LightType::Rect,  LightType::Disk, LightType::Sphere};
 
 void printLight(const CommandContext& context, std::size_t index) {
     const Light& light = context.session.scene().lights[index];
@@ -30,13 +33,16 @@ void printLight(const CommandContext& context, std::size_t index) {
     if (const auto kelvin = kelvinOf(light.intensity); kelvin && light.intensity != glm::vec3(0))
         line += fmt::format("  {:.0f} K", *kelvin);
     if (light.type != LightType::Directional) line += "  at " + textOf(light.position);
-    if (light.type != LightType::Point) line += "  direction " + textOf(light.direction);
+    if (hasDirection(light.type) || light.profile != nullptr)
+        line += "  direction " + textOf(light.direction);
     if (light.type == LightType::Spot)
         line += fmt::format("  angles {:.4g} {:.4g} deg", glm::degrees(light.innerAngle),
                             glm::degrees(light.outerAngle));
-    if (light.type == LightType::Rect)
+    if (light.type == LightType::Sphere) line += fmt::format("  radius {:.4g} m", glm::length(light.halfU));
+    if (light.type == LightType::Rect || light.type == LightType::Disk)
         line +=
             fmt::format("  size {:.4g} {:.4g} m", 2 * glm::length(light.halfU), 2 * glm::length(light.halfV));
+    if (light.profile != nullptr) line += "  profile " + io::oneLine(light.profile->file);
     if (light.range > 0) line += fmt::format("  range {:.4g} m", light.range);
     if (light.customFalloff) line += "  falloff " + textOf(light.falloff);
     if (!light.castsShadow) line += "  no shadows";
@@ -78,9 +84,9 @@ void needs(const Light& light, const std::string& what, bool fits) {
     if (!fits) usage(fmt::format("light: {}: a {} light has none", what, io::lightTypeName(light.type)));
 }
 
-const std::vector<std::string> kWords = {"intensity", "flux",   "lumen", "candela",  "lux",       "nit",
-                                         "kelvin",    "angles", "size",  "position", "direction", "range",
-                                         "falloff",   "on",     "off",   "shadows",  "name",      "delete"};
+const std::vector<std::string> kWords = {
+    "intensity", "flux",      "lumen", "candela", "lux", "nit", "kelvin",  "angles",  "size", "radius",
+    "position",  "direction", "range", "falloff", "on",  "off", "shadows", "profile", "name", "delete"};
 
 void changeShape(Light& light, const std::string& what, const std::vector<std::string>& words) {
     if (what == "angles") {
@@ -89,12 +95,29 @@ void changeShape(Light& light, const std::string& what, const std::vector<std::s
         if (!(v[0] < v[1])) usage("light: angles: the inner one must be less than the outer one");
         light.innerAngle = glm::radians(v[0]);
         light.outerAngle = glm::radians(v[1]);
+    } else if (what == "radius") {
+        needs(light, what, light.type == LightType::Disk || light.type == LightType::Sphere);
+        const float radius = numbers(what, words, 1, 1e-6, 1e6, "m")[0];
+        light.halfU = radius * glm::normalize(light.halfU);
+        light.halfV = radius * glm::normalize(light.halfV);
     } else {
-        needs(light, what, light.type == LightType::Rect);
+        needs(light, what, light.type == LightType::Rect || light.type == LightType::Disk);
         const std::vector<float> v = numbers(what, words, 2, 1e-6, 1e6, "m");
         light.halfU = 0.5f * v[0] * glm::normalize(light.halfU);
         light.halfV = 0.5f * v[1] * glm::normalize(light.halfV);
     }
+}
+
+// profile FILE|none
+void changeProfile(Light& light, const std::vector<std::string>& words) {
+    needs(light, "profile", light.type == LightType::Point || light.type == LightType::Spot);
+    if (words.empty()) usage("light: profile takes an IES file, or none");
+    std::string file = words[0];
+    for (std::size_t i = 1; i < words.size(); ++i) file += " " + words[i];
+    if (file == "none")
+        light.profile = nullptr;
+    else
+        io::setLightProfile(light, io::readLightProfile(file));
 }
 
 void changeFalloff(Light& light, const std::vector<std::string>& words) {
@@ -126,7 +149,7 @@ void changePhotometric(Light& light, const std::string& what, const std::vector<
     if (what == "candela")
         needs(light, "luminous intensity", light.type == LightType::Point || light.type == LightType::Spot);
     if (what == "lux") needs(light, "illuminance", light.type == LightType::Directional);
-    if (what == "nit") needs(light, "luminance", light.type == LightType::Rect);
+    if (what == "nit") needs(light, "luminance", hasArea(light.type));
     if (what == "lumen" && !radiantFlux(light)) hasNoFlux(light, what);
     setStrength(light, what == "lumen" ? LightUnit::LuminousFlux : LightUnit::Luminous, value);
 }
@@ -144,12 +167,14 @@ void change(Light& light, const std::string& what, std::vector<std::string> word
         needs(light, what, light.type != LightType::Directional);
         light.position = vector(numbers(what, words, 3, -1e6, 1e6, "m"));
     } else if (what == "direction") {
-        needs(light, what, light.type != LightType::Point);
+        needs(light, what, hasDirection(light.type) || light.profile != nullptr);
         aim(light, vector(numbers(what, words, 3, -1e6, 1e6, "")));
-    } else if (what == "angles" || what == "size") {
+    } else if (what == "angles" || what == "size" || what == "radius") {
         changeShape(light, what, words);
     } else if (what == "range") {
         light.range = numbers(what, words, 1, 0, 1e6, "m")[0];
+    } else if (what == "profile") {
+        changeProfile(light, words);
     } else if (what == "falloff") {
         changeFalloff(light, words);
     } else if (what == "on" || what == "off") {
@@ -172,13 +197,14 @@ void change(Light& light, const std::string& what, std::vector<std::string> word
 void addLight(const CommandContext& context) {
     if (context.count() < 2 || context.count() > 3)
         usage(
-            "light add: takes a type and a name; light add point|spot|directional|rect [NAME] would be "
-            "right");
+            "light add: takes a type and a name; light add point|spot|directional|rect|disk|sphere [NAME] "
+            "would be right");
     const auto type = std::find_if(std::begin(kTypes), std::end(kTypes),
                                    [&](LightType one) { return context.words[1] == io::lightTypeName(one); });
     if (type == std::end(kTypes))
-        usage(fmt::format("light add: there is no type '{}'; point, spot, directional or rect would be right",
-                          context.words[1]));
+        usage(fmt::format(
+            "light add: there is no type '{}'; point, spot, directional, rect, disk or sphere would be right",
+            context.words[1]));
     std::vector<Light> lights = context.session.scene().lights;
     const std::string name = context.count() == 3 ? context.words[2] : fmt::format("light{}", lights.size());
     lights.push_back(lightAt(context.session.camera(), *type, name));
@@ -228,19 +254,23 @@ Command lightCommand() {
     command.help = "print, add, change or delete lights";
     command.details =
         "light                      all of them\n"
-        "light add TYPE [NAME]      point, spot, directional or rect; at the eye, along the view\n"
+        "light add TYPE [NAME]      point, spot, directional, rect, disk or sphere; at the eye, along the "
+        "view\n"
         "light NAME                 one of them\n"
-        "light NAME intensity R G B W/sr (point, spot), W/m^2 (directional), W/(sr m^2) (rect)\n"
+        "light NAME intensity R G B W/sr (point, spot), W/m^2 (directional), W/(sr m^2) (rect, disk, "
+        "sphere)\n"
         "light NAME position X Y Z  m\n"
-        "light NAME direction X Y Z where it shines (not point)\n"
+        "light NAME direction X Y Z where it shines (not point, sphere)\n"
         "light NAME angles IN OUT   half angles of a spot, degrees\n"
-        "light NAME size W H        of a rectangle, m\n"
+        "light NAME size W H        of a rect or disk, m; light NAME radius M: of a disk or sphere\n"
         "light NAME range M         0: unlimited\n"
         "light NAME flux R G B      all that it sends out, W: sets the intensity for its shape\n"
         "light NAME lumen V         the same in lm; 683 lm/W times the luminance of its colour, which stays\n"
         "light NAME candela V       its intensity in cd (point, spot); lux V (directional), nit V: cd/m^2 "
-        "(rect)\n"
+        "(rect, disk, sphere)\n"
         "light NAME kelvin T        colour of a black body, 1000 to 40000 K; candela, lux or nit stay\n"
+        "light NAME profile FILE   strength by direction, and the strength, of an IES file (point, spot); "
+        "none: even\n"
         "light NAME falloff C L Q   1 / (C + L d + Q d^2); off: the inverse square\n"
         "light NAME on|off          light NAME shadows on|off\n"
         "light NAME name NEW        light NAME delete";

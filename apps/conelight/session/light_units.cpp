@@ -50,7 +50,7 @@ const char* unitName(LightType type, LightUnit unit) {
     if (unit == LightUnit::RadiantFlux) return "W";
     if (unit == LightUnit::LuminousFlux) return "lm";
     if (unit == LightUnit::Radiant) return io::lightUnit(type);
-    return type == LightType::Directional ? "lx" : type == LightType::Rect ? "cd/m^2" : "cd";
+    return type == LightType::Directional ? "lx" : hasArea(type) ? "cd/m^2" : "cd";
 }
 
 std::vector<LightUnit> unitsOf(const Light& light) {

@@ -53,7 +53,7 @@ bool emits(const Scene& scene, const Instance& instance) {
            (material.unlit && brightest(glm::vec3(material.baseColor)) > 0);
 }
 
-// Irradiance of a light at a surface without occlusion, W/m^2; rectangles as points: for an estimate.
+// Irradiance of a light at a surface without occlusion, W/m^2; area lights as points: for an estimate.
 float irradiance(const Light& light, const glm::vec3& position, const glm::vec3& normal, glm::vec3& toLight,
                  float& distance) {
     toLight = -light.direction;
@@ -69,8 +69,10 @@ float irradiance(const Light& light, const glm::vec3& position, const glm::vec3&
     }
     const float along = glm::dot(-toLight, light.direction);
     if (light.type == LightType::Spot && along < std::cos(light.outerAngle)) return 0;
-    if (light.type == LightType::Rect)
-        strength *= std::max(along, 0.0f) * 4 * glm::length(glm::cross(light.halfU, light.halfV));
+    const float parallelogram = 4 * glm::length(glm::cross(light.halfU, light.halfV));
+    if (light.type == LightType::Rect) strength *= std::max(along, 0.0f) * parallelogram;
+    if (light.type == LightType::Disk) strength *= std::max(along, 0.0f) * 0.7853982f * parallelogram;
+    if (light.type == LightType::Sphere) strength *= 3.1415927f * glm::dot(light.halfU, light.halfU);
     return strength * std::max(glm::dot(normal, toLight), 0.0f);
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "console/statements.h"
+#include "io/files.h"
 #include "picture_input.h"
 #include "viewer/imgui_names.h"
 #include "viewer/widget_places.h"
@@ -47,8 +48,18 @@ std::string commandFor(const FileChoice& choice, int filmFrames) {
 // With Shift into the scene, else in its place; of several files the first is opened, all are added.
 void Document::drop(const std::vector<std::string>& files) {
     const bool adds = in_.window.isKeyDown(GLFW_KEY_LEFT_SHIFT) || in_.window.isKeyDown(GLFW_KEY_RIGHT_SHIFT);
+    if (!files.empty() && io::lowerExtension(files.front()) == ".ies") return dropProfile(files.front());
     if (!adds && !files.empty()) return open(files.front());
     for (const std::string& file : files) take({FilePurpose::ImportScene, file});
+}
+
+// On the lights that are selected.
+void Document::dropProfile(const std::string& file) {
+    const Session& session = in_.session;
+    const std::vector<std::size_t> lights = session.selectedOf(SelectionKind::Light);
+    if (lights.empty()) in_.console.say(file + ": a profile is for a point light or spot; select one first");
+    for (const std::size_t light : lights)
+        in_.console.run("light " + quoted(session.scene().lights[light].name) + " profile " + quoted(file));
 }
 
 void Document::take(const FileChoice& choice) {

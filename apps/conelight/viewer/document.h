@@ -61,6 +61,7 @@ class Document {
     void leaveNow(Leaving leaving);
     void showQuestion();
     void followSaving();
+    void dropProfile(const std::string& file);
     void take(const FileChoice& choice);
 
     Inputs in_;

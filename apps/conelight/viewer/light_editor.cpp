@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "conelight/error.h"
+#include "io/light_profile_file.h"
 #include "io/scene_info.h"
 #include "session/light_edit.h"
 #include "viewer/edit_steps.h"
@@ -84,7 +86,7 @@ bool editStrength(Session& session, Light& light, LightView& view) {
     return changed;
 }
 
-// The cone of a spot, the size of a rectangle.
+// The cone of a spot, the size of an area light.
 bool editShape(Session& session, Light& light) {
     bool changed = false;
     if (light.type == LightType::Spot) {
@@ -94,7 +96,14 @@ bool editShape(Session& session, Light& light) {
         seals(session, "outer");
         light.innerAngle = std::min(light.innerAngle, light.outerAngle - 0.001f);
     }
-    if (light.type == LightType::Rect) {
+    if (light.type == LightType::Sphere) {
+        float radius = glm::length(light.halfU);
+        if (ImGui::DragFloat("radius (m)", &radius, 0.01f, 0.001f, 1e4f)) {
+            light.halfU = std::max(radius, 0.001f) * glm::normalize(light.halfU);
+            changed = true;
+        }
+        seals(session, "radius");
+    } else if (hasArea(light.type)) {
         glm::vec2 size(2 * glm::length(light.halfU), 2 * glm::length(light.halfV));
         if (ImGui::DragFloat2("size (m)", &size.x, 0.01f, 0.001f, 1e4f)) {
             light.halfU = 0.5f * std::max(size.x, 0.001f) * glm::normalize(light.halfU);
@@ -106,19 +115,48 @@ bool editShape(Session& session, Light& light) {
     return changed;
 }
 
+// The profile of a lamp: its file, read once the field is left.
+bool editProfile(Session& session, Light& light, LightView& view) {
+    if (light.type != LightType::Point && light.type != LightType::Spot) return false;
+    const std::string now = light.profile == nullptr ? "" : light.profile->file;
+    if (view.profileOf != now || view.light != session.selection().index) view.profile = view.profileOf = now;
+    view.light = session.selection().index;
+    char text[1024];
+    const std::size_t length = std::min(view.profile.size(), sizeof text - 1);
+    view.profile.copy(text, length);
+    text[length] = 0;
+    if (ImGui::InputTextWithHint("profile", "IES file", text, sizeof text)) view.profile = text;
+    notePlace("edit:profile");
+    bool changed = false;
+    if (ImGui::IsItemDeactivatedAfterEdit() && view.profile != now) {
+        view.problem.clear();
+        try {
+            if (view.profile.empty())
+                light.profile = nullptr;
+            else
+                io::setLightProfile(light, io::readLightProfile(view.profile));
+            changed = true;
+        } catch (const Error& error) {
+            view.problem = error.what();
+        }
+    }
+    if (!view.problem.empty()) ImGui::TextWrapped("%s", view.problem.c_str());
+    return changed;
+}
+
 }  // namespace
 
 void editLight(Session& session, std::size_t index, LightView& view) {
     std::vector<Light> lights = session.scene().lights;
     Light& light = lights[index];
     ImGui::TextUnformatted(light.name.empty() ? fmt::format("light {}", index).c_str() : light.name.c_str());
-    const char* kinds[4];
-    for (int i = 0; i < 4; ++i) kinds[i] = io::lightTypeName(static_cast<LightType>(i));
+    const char* kinds[kLightTypes];
+    for (int i = 0; i < kLightTypes; ++i) kinds[i] = io::lightTypeName(static_cast<LightType>(i));
     int type = static_cast<int>(light.type);
     bool changed = ImGui::Checkbox("on", &light.enabled);
     ImGui::SameLine();
     changed |= ImGui::Checkbox("casts shadow", &light.castsShadow);
-    if (ImGui::Combo("kind", &type, kinds, 4)) {
+    if (ImGui::Combo("kind", &type, kinds, kLightTypes)) {
         light.type = static_cast<LightType>(type);
         aimLight(light, light.direction);
         changed = true;
@@ -130,13 +168,14 @@ void editLight(Session& session, std::size_t index, LightView& view) {
         changed |= ImGui::DragFloat3("position (m)", &light.position.x, 0.01f);
     seals(session, "light position");
     glm::vec3 direction = light.direction;
-    if (light.type != LightType::Point && ImGui::DragFloat3("direction", &direction.x, 0.01f) &&
-        glm::length(direction) > 1e-4f) {
+    if ((hasDirection(light.type) || light.profile != nullptr) &&
+        ImGui::DragFloat3("direction", &direction.x, 0.01f) && glm::length(direction) > 1e-4f) {
         aimLight(light, direction);
         changed = true;
     }
     seals(session, "direction");
     changed |= editShape(session, light);
+    changed |= editProfile(session, light, view);
     const bool deleted = ImGui::Button("delete");
     notePlace("edit:delete");
     if (deleted) {

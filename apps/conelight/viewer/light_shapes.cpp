@@ -55,10 +55,13 @@ class Pen {
     }
     void ring(const glm::vec3& center, const glm::vec3& normal, float radius) {
         const auto [u, v] = sidesOf(normal);
+        ellipse(center, radius * u, radius * v);
+    }
+    void ellipse(const glm::vec3& center, const glm::vec3& u, const glm::vec3& v) {
         std::optional<glm::vec2> last;
         for (int i = 0; i <= kRingEdges; ++i) {
             const float angle = 6.2831853f * static_cast<float>(i) / kRingEdges;
-            const auto next = onScreen(center + radius * (std::cos(angle) * u + std::sin(angle) * v));
+            const auto next = onScreen(center + std::cos(angle) * u + std::sin(angle) * v);
             if (last && next) flat(*last, *next);
             last = next;
         }
@@ -92,6 +95,13 @@ void drawShape(Pen& pen, const Light& light, const glm::vec3& place, float diago
         const glm::vec3 corners[] = {place - u - v, place + u - v, place + u + v, place - u + v};
         for (int i = 0; i < 4; ++i) pen.line(corners[i], corners[(i + 1) % 4]);
         pen.arrow(place, place + std::min(glm::length(u), glm::length(v)) * light.direction);
+    } else if (light.type == LightType::Disk) {
+        pen.ellipse(place, light.halfU, light.halfV);
+        pen.arrow(place,
+                  place + std::min(glm::length(light.halfU), glm::length(light.halfV)) * light.direction);
+    } else if (light.type == LightType::Sphere) {
+        for (const glm::vec3 axis : {glm::vec3(1, 0, 0), glm::vec3(0, 1, 0), glm::vec3(0, 0, 1)})
+            pen.ring(place, axis, glm::length(light.halfU));
     } else if (light.type == LightType::Spot) {
         float length = kSpotPart * diagonal * (selected ? 1.0f : 0.5f);
         if (light.range > 0) length = std::min(length, light.range);
@@ -111,7 +121,7 @@ void drawShape(Pen& pen, const Light& light, const glm::vec3& place, float diago
     }
 }
 
-// A disc in the light's colour; of a rectangle a square, of others with rays around, of a spot below alone.
+// A disc in the light's colour; of a rectangle a square, of points and suns with rays around, of a spot below alone.
 void drawIcon(Pen& pen, const Light& light, const glm::vec2& p, bool stands) {
     ImDrawList* list = ImGui::GetWindowDrawList();
     const float r = stands ? 5.5f : 4.5f;
@@ -122,7 +132,7 @@ void drawIcon(Pen& pen, const Light& light, const glm::vec2& p, bool stands) {
         list->AddRect({p.x - r, p.y - r}, {p.x + r, p.y + r}, pen.color, 0, 0, 1.5f);
         return;
     }
-    const int rays = light.type == LightType::Spot ? 3 : 8;
+    const int rays = light.type == LightType::Spot ? 3 : hasArea(light.type) ? 0 : 8;
     for (int i = 0; i < rays; ++i) {
         const float angle = light.type == LightType::Spot ? 1.5707963f + 0.7f * static_cast<float>(i - 1)
                                                           : 0.7853982f * static_cast<float>(i);

@@ -39,7 +39,7 @@ void clipped(std::size_t count, float rowHeight, const Line& line) {
 void addLight(const RunLine& run) {
     ImGui::SetNextItemWidth(-1);
     if (ImGui::BeginCombo("##add light", "add a light at the eye", ImGuiComboFlags_NoArrowButton)) {
-        for (int i = 0; i < 4; ++i) {
+        for (int i = 0; i < kLightTypes; ++i) {
             const char* kind = io::lightTypeName(static_cast<LightType>(i));
             if (ImGui::Selectable(kind)) run(std::string("light add ") + kind);
             notePlace(std::string("add light:") + kind);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "session/light_units.h"
@@ -17,6 +18,9 @@ namespace conelight::program {
 struct LightView {
     LightUnit unit = LightUnit::Radiant;
     bool byTemperature = false;
+    // The field of the profile: its text, of which file and light it is, and why that could not be read.
+    std::string profile, profileOf, problem;
+    std::size_t light = 0;
 };
 
 class SelectionEditor {

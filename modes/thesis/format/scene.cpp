@@ -24,6 +24,7 @@
 #include "io/assimp_import.h"
 #include "io/files.h"
 #include "io/geometry.h"
+#include "io/light_profile_file.h"
 #include "io/scene_folder.h"
 #include "thesis/format/syntax.h"
 #include "thesis/format/values.h"
@@ -66,6 +67,7 @@ class Loader : BlockValues {
     LightType lightType(const Item& light);
     void readIntensity(const Item& block, Light& light);
     void readRectangle(const Item& block, Light& light);
+    void readProfile(const Item& block, Light& light);
     void readLight(const Item& light);
     void readCamera(const Item& camera);
     void readSettings(const Item& settings, const std::string& prefix);
@@ -219,8 +221,11 @@ LightType Loader::lightType(const Item& block) {
     if (*type == "spot") return LightType::Spot;
     if (*type == "directional") return LightType::Directional;
     if (*type == "rect") return LightType::Rect;
+    if (*type == "disk") return LightType::Disk;
+    if (*type == "sphere") return LightType::Sphere;
     fail(first(block, "type")->line,
-         fmt::format("light type '{}' is unknown; known: point, spot, directional, rect", oneLine(*type)));
+         fmt::format("light type '{}' is unknown; known: point, spot, directional, rect, disk, sphere",
+                     oneLine(*type)));
 }
 
 // Intensity and falloff, once the type is known.
@@ -230,7 +235,7 @@ void Loader::readIntensity(const Item& block, Light& light) {
     const glm::vec3 color = triple(block, "color", "rgb", glm::vec3(1));
     const bool physical = first(block, "intensity") != nullptr;
     light.intensity = physical ? triple(block, "intensity", "rgb", glm::vec3(0))
-                               : color * (light.type == LightType::Rect ? 1.0f : glm::pi<float>());
+                               : color * (hasArea(light.type) ? 1.0f : glm::pi<float>());
     if (glm::any(glm::lessThan(light.intensity, glm::vec3(0))))
         fail(block.line, "light: a negative colour; all must be 0 or more");
     const bool hasFalloff =
@@ -259,10 +264,25 @@ void Loader::readRectangle(const Item& block, Light& light) {
         fail(block.line, "light: width and height must be above 0");
 }
 
+// The file's own strength, unless another is given.
+void Loader::readProfile(const Item& block, Light& light) {
+    const std::string* path = word(block, "ies");
+    if (path == nullptr) return;
+    if (light.type != LightType::Point && light.type != LightType::Spot)
+        fail(block.line, "light: ies: point and spot lights have profiles");
+    const SceneFolder::Choice choice = locate(*path);
+    if (choice.file.empty())
+        fail(block.line, fmt::format("light: ies: {}: {}", oneLine(*path), choice.refusal));
+    const glm::vec3 given = light.intensity;
+    io::setLightProfile(light, io::readLightProfile(choice.file.lexically_normal().string()));
+    if (first(block, "intensity") != nullptr) light.intensity = given;
+    light.halfU = triple(block, "up", "xyz", light.halfU);
+}
+
 void Loader::readLight(const Item& block) {
     checkKeys(block, {"name", "type", "position", "color", "att_constant", "att_linear", "att_quadratic",
-                      "intensity", "direction", "inner_angle", "outer_angle", "width", "height", "range",
-                      "active", "casts_shadow", "up"});
+                      "intensity", "direction", "inner_angle", "outer_angle", "width", "height", "radius",
+                      "ies", "range", "active", "casts_shadow", "up"});
     Light light;
     const std::string* name = word(block, "name");
     light.name = name != nullptr ? oneLine(*name) : fmt::format("light{}", scene_.lights.size());
@@ -273,13 +293,18 @@ void Loader::readLight(const Item& block) {
     light.direction = glm::normalize(direction);
 
     readIntensity(block, light);
+    readProfile(block, light);
     light.outerAngle = std::clamp(number(block, "outer_angle", 45.0f), 0.1f, 90.0f) * kDegree;
     light.innerAngle =
         std::clamp(number(block, "inner_angle", 0.0f) * kDegree, 0.0f, 0.999f * light.outerAngle);
     light.range = std::max(number(block, "range", 0.0f), 0.0f);
     light.enabled = boolean(block, "active", true);
     light.castsShadow = boolean(block, "casts_shadow", true);
-    if (light.type == LightType::Rect) readRectangle(block, light);
+    if (light.type == LightType::Rect || light.type == LightType::Disk) readRectangle(block, light);
+    if (light.type == LightType::Sphere) {
+        light.halfU = {number(block, "radius", 0.5f), 0, 0};
+        if (!(light.halfU.x > 0)) fail(block.line, "light: radius must be above 0");
+    }
     scene_.lights.push_back(std::move(light));
 }
 

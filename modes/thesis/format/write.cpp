@@ -128,6 +128,7 @@ class Writer {
     // One word that the reader gives back as it is.
     std::string wordOf(const std::string& name, const std::string& otherwise);
     std::string fileOf(const Mesh& mesh, const std::string& name);
+    std::string fileOf(const std::shared_ptr<const LightProfile>& profile);
     void model(const Instance& instance);
     void material(const Material& material);
     void light(const Light& light);
@@ -140,6 +141,7 @@ class Writer {
     std::vector<std::pair<std::string, std::string>> files_;  // name, content
     std::set<std::string> fileNames_;
     std::map<int, std::string> meshFiles_;
+    std::map<std::shared_ptr<const LightProfile>, std::string> profileFiles_;
     std::set<std::string> noted_;
     std::vector<std::string> notes_;
 };
@@ -169,6 +171,16 @@ std::string Writer::fileOf(const Mesh& mesh, const std::string& name) {
         notes_.push_back(fmt::format("mesh {}: vertex colours are left out", oneLine(mesh.name, 60)));
     files_.emplace_back(file, objOf(mesh));
     return folder_ + "/" + file;
+}
+
+// As it was read, beside the meshes.
+std::string Writer::fileOf(const std::shared_ptr<const LightProfile>& profile) {
+    std::string& file = profileFiles_[profile];
+    if (!file.empty()) return file;
+    file = fmt::format("profile{}.ies", profileFiles_.size());
+    fileNames_.insert(file);
+    files_.emplace_back(file, profile->text);
+    return file = folder_ + "/" + file;
 }
 
 void Writer::model(const Instance& instance) {
@@ -239,25 +251,32 @@ void Writer::material(const Material& m) {
 }
 
 void Writer::light(const Light& one) {
-    static constexpr const char* kTypes[] = {"point", "spot", "directional", "rect"};
+    static constexpr const char* kTypes[] = {"point", "spot", "directional", "rect", "disk", "sphere"};
     line(1, "light = {");
     value(2, "name", wordOf(one.name, "light"));
     value(2, "type", kTypes[static_cast<int>(one.type)]);
     value(2, "intensity", triple(one.intensity, "rgb"));
     if (one.type != LightType::Directional) value(2, "position", triple(one.position, "xyz"));
-    if (one.type != LightType::Point) value(2, "direction", triple(one.direction, "xyz"));
+    if (hasDirection(one.type)) value(2, "direction", triple(one.direction, "xyz"));
     if (one.type == LightType::Spot)
         line(2,
              fmt::format("inner_angle = {} outer_angle = {}",
                          number(static_cast<float>(static_cast<double>(one.innerAngle) / kDegreeInRadians)),
                          number(static_cast<float>(static_cast<double>(one.outerAngle) / kDegreeInRadians))));
-    if (one.type == LightType::Rect) {
+    if (one.profile != nullptr && !one.profile->text.empty() &&
+        (one.type == LightType::Point || one.type == LightType::Spot)) {
+        value(2, "ies", fileOf(one.profile));
+        value(2, "up", triple(one.halfU, "xyz"));
+        if (one.type == LightType::Point) value(2, "direction", triple(one.direction, "xyz"));
+    }
+    if (one.type == LightType::Sphere) value(2, "radius", number(glm::length(one.halfU)));
+    if (one.type == LightType::Rect || one.type == LightType::Disk) {
         const float u = glm::length(one.halfU), v = glm::length(one.halfV);
         line(2, fmt::format("width = {} height = {}", number(2 * u), number(2 * v)));
         value(2, "up", triple(one.halfV / std::max(v, 1e-30f), "xyz"));
         if (std::abs(glm::dot(one.halfU, one.halfV)) > 1e-4f * u * v)
             notes_.push_back(
-                fmt::format("light {}: a slanted area is written as a rectangle", oneLine(one.name, 60)));
+                fmt::format("light {}: a slanted area is written upright", oneLine(one.name, 60)));
     }
     if (one.customFalloff)
         line(2, fmt::format("att_constant = {} att_linear = {} att_quadratic = {}", number(one.falloff.x),

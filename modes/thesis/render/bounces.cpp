@@ -74,7 +74,8 @@ void ThesisVolume::bounce(const gl::Device& device, const Inputs& inputs,
             .texture("surfaceNormal", normal_)
             .image("bounced", bounced_[target], gl::ImageUse::Write);
         if (isOctree_) given.add(octree_);
-        device.get(bounceDesc(options.cones, inputs.lights.hasEnvironment())).dispatchIndirect(given, brickList_, 16);
+        device.get(bounceDesc(options.cones, inputs.lights.hasEnvironment()))
+            .dispatchIndirect(given, brickList_, 16);
         gl::barrier(gl::Access::ImageAccess);
         buildMips(device, options.defects, bounced_[target]);
         gl::barrier(gl::Access::TextureFetch);

@@ -89,10 +89,12 @@ struct ConesKey {
     bool countLookups = false;
     bool rectangles = false;   // some lights are rectangles
     bool environment = false;  // surroundings have a picture
+    bool shaped = false;       // of light::LightKey
 };
 
 ConesKey keyOf(Component component, bool countLookups, const light::Lights& lights) {
-    return {component, countLookups, lights.ends().w > lights.ends().z, lights.hasEnvironment()};
+    return {component, countLookups, lights.ends().w > lights.ends().z, lights.hasEnvironment(),
+            lights.key().shaped};
 }
 
 gl::ProgramDesc conesDesc(const ThesisSettings& settings, const ConesKey& key) {
@@ -113,7 +115,8 @@ gl::ProgramDesc conesDesc(const ThesisSettings& settings, const ConesKey& key) {
                         {"FRONT_CONES", settings.frontCone ? "1" : "0"},
                         {"INTERMEDIATE_CONES", settings.intermediateCones ? "4" : "0"},
                         {"SIDE_CONES", settings.sideCones ? "4" : "0"},
-                        {"COUNT_LOOKUPS", key.countLookups ? "1" : "0"}};
+                        {"COUNT_LOOKUPS", key.countLookups ? "1" : "0"},
+                        {"LIGHTS_SHAPED", key.shaped ? "1" : "0"}};
     if (key.rectangles && !defects.pointlikeRectangles) defines.emplace_back("RECTANGLES", "1");
     if (!ThesisVolume::hasAreas(defects)) defines.emplace_back("ISOTROPIC_OPACITY", "1");
     if (settings.storage == VolumeStorage::Octree) defines.emplace_back("OCTREE", "1");
@@ -247,6 +250,8 @@ std::vector<gl::ProgramDesc> ThesisConePass::programDescs() {
         descs.push_back(conesDesc(settings, {component, count, false}));
         descs.push_back(conesDesc(settings, {component, count, true}));
         descs.push_back(conesDesc(settings, {component, count, false, true}));
+        for (const bool rectangles : {false, true})
+            descs.push_back(conesDesc(settings, {component, count, rectangles, false, true}));
     };
     const auto addBounce = [&](const ThesisSettings& settings) {
         for (const bool environment : {false, true}) descs.push_back(bounceDesc(settings, environment));

@@ -18,7 +18,8 @@ ThesisVolumeOptions volumeOptions(const modes::Frame& frame) {
     options.filter = frame.settings.groups.of<ThesisSettings>().filter;
     options.unitGrid = frame.scene.source().format == kSceneFormat && options.defects.wholeGrid;
     options.shadows = !options.defects.unshadowedVoxels && frame.settings.light.shadowSize > 0;
-    if (options.shadows) options.lights = frame.lights.key();
+    const light::LightKey key = frame.lights.key();
+    options.lights = options.shadows ? key : light::LightKey{.shaped = key.shaped};
     const ThesisSettings& own = frame.settings.groups.of<ThesisSettings>();
     const bool gathers = own.voxDiffuse && (own.frontCone || own.intermediateCones || own.sideCones);
     if (gathers && own.bounces > 1) {

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "gl/gl.h"
+#include "scene/gpu_lights.h"
 
 namespace conelight::thesis {
 namespace {
@@ -38,7 +39,7 @@ float radianceBound(const ThesisVolume::Inputs& inputs, const ThesisDefects& def
         float falloff = l.customFalloff != 0 ? l.falloff.x + l.falloff.y * d + l.falloff.z * d * d : d * d;
         if (defects.unattenuatedVoxels || l.type == LIGHT_DIRECTIONAL) falloff = 1.0f;
         float strength = largest(l.intensity) / glm::pi<float>();
-        if (l.type == LIGHT_RECT) strength *= 4.0f * glm::length(glm::cross(l.halfU, l.halfV));
+        if (l.type == LIGHT_RECT) strength *= scene::areaOf(l);
         light += strength / std::max(falloff, 1e-6f);
     }
     float bound = 1e-3f;
@@ -121,7 +122,8 @@ gl::ProgramDesc ThesisVolume::voxelizeDesc(const ThesisVolumeOptions& options, c
     const ThesisDefects& d = options.defects;
     const bool light = content == Content::Light;
     const bool shadowed = options.shadows && light;
-    gl::Defines defines = shadowed ? options.lights.defines() : gl::Defines{};
+    gl::Defines defines = shadowed ? options.lights.defines()
+                                   : gl::Defines{{"LIGHTS_SHAPED", options.lights.shaped ? "1" : "0"}};
     defines.emplace_back("SHADOWED", shadowed ? "1" : "0");
     defines.emplace_back("TEXTURED", scene.textured ? "1" : "0");
     if (!light) defines.emplace_back("CONTENT", std::to_string(static_cast<int>(content)));
@@ -453,7 +455,11 @@ std::vector<gl::ProgramDesc> ThesisVolume::programDescs() {
     };
     for (const ThesisVolumeOptions& options : {mended, shadowed, published})
         for (const SceneKey& key : {SceneKey{}, SceneKey{true, false}, SceneKey{false, true}})
-            addVoxelize(options, key, Content::Light);
+            for (const bool shaped : {false, true}) {
+                ThesisVolumeOptions unshadowed = options;
+                if (!options.shadows) unshadowed.lights.shaped = shaped;
+                if (!shaped || !options.shadows) addVoxelize(unshadowed, key, Content::Light);
+            }
     for (const light::LightKey& lights : light::LightKey::all()) {
         shadowed.lights = lights;
         addVoxelize(shadowed, {}, Content::Light);

@@ -8,6 +8,7 @@
 // looks along the mean normal of its pieces. Limits: where normals cancel out, as in a sheet seen from both
 // sides, nothing is added.
 #include "lib/dot.glsl"
+#include "lib/environment.glsl"
 #include "lib/lighting.glsl"
 #include "lib/record_steps.glsl"
 #include "lib/surface.glsl"

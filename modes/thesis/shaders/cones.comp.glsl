@@ -6,6 +6,7 @@
 //
 // Loops end at the bottom and their conditions hold "is there a surface": branches skip nothing on llvmpipe.
 #include "lib/dot.glsl"
+#include "lib/environment.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/light_table.glsl"
 #include "lib/record_steps.glsl"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The diffuse cones of a pixel: surface -> light from all of them, and how many samples they took. Before it:
-// cone_samples.glsl, ThesisConstants `thesis`, DIFFUSE and the numbers of cones.
+// lib/environment.glsl, cone_samples.glsl, ThesisConstants `thesis`, DIFFUSE and the numbers of cones.
 #include "lib/dot.glsl"
-#include "lib/environment.glsl"
 
 // All loops of one kind together stay below this: llvmpipe ends loops at 65,535 turns per invocation.
 const uint kMaxTurns = 20000u;

@@ -5,6 +5,7 @@
 // direction acts from a rectangle's centre, with the intensity that it has towards the surface.
 // RECTANGLES 1: rectangles among the lights have a size.
 #include "lib/dot.glsl"
+#include "lib/light_profile.glsl"
 #include "lib/rect_light.glsl"
 #ifndef RECTANGLES
 #define RECTANGLES 0
@@ -33,16 +34,19 @@ ThesisLight thesisLight(Light light, vec3 position) {
     // glTF's angular falloff (KHR_lights_punctual); point lights have angles that let everything pass.
     float angular = clamp((fromAxis - light.cosOuter) / max(light.cosInner - light.cosOuter, 1e-3), 0.0, 1.0);
     if (light.type == LIGHT_POINT || light.type == LIGHT_SPOT) result.color *= angular * angular;
-    // Radiance times projected area; 4 |u x v| is the area.
-    if (light.type == LIGHT_RECT)
-        result.color *= 4.0 * length(cross(light.halfU, light.halfV)) * max(fromAxis, 0.0);
+#if LIGHTS_SHAPED
+    if (light.type == LIGHT_POINT || light.type == LIGHT_SPOT)
+        result.color *= profileFactor(light, result.toLight);
+#endif
+    // Radiance times projected area.
+    if (light.type == LIGHT_RECT) result.color *= rectArea(light) * rectCosine(light, result.toLight);
     if (light.range > 0.0 && result.distance > light.range) result.color = vec3(0.0);
     return result;
 }
 
 // Of a rectangle: its area as it is seen from the surface.
 float thesisRectArea(Light light, ThesisLight seen) {
-    return 4.0 * length(cross(light.halfU, light.halfV)) * max(dot(light.direction, -seen.toLight), 0.0);
+    return rectArea(light) * rectCosine(light, seen.toLight);
 }
 
 // Cosine between the normal n and the light, not below 0. Of a rectangle the one with which its colour over the

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The specular cone of a pixel: surface and mirrored direction -> light from there. Before it:
-// cone_samples.glsl, ThesisConstants `thesis`.
+// lib/environment.glsl, cone_samples.glsl, ThesisConstants `thesis`.
 #include "lib/dot.glsl"
-#include "lib/environment.glsl"
 
 // Light from the mirrored direction.
 vec3 traceSpecular(Surface s, vec3 mirrored, float shininess, bool isTraced, inout uint samples) {

@@ -14,7 +14,7 @@
 #if SHADOWED && LIGHTS_SHADOWS && LIGHTS_RECT && RECTANGLES
 float rectVisibility(Light light, vec3 position, vec3 n) {
     uint count = light.sampleGrid * light.sampleGrid;
-    float cellArea = 4.0 * length(cross(light.halfU, light.halfV)) / float(count);
+    float cellArea = rectArea(light) / float(count);
     float sum = 0.0, all = 0.0;
     uint k = 0u;
     do {
@@ -22,7 +22,7 @@ float rectVisibility(Light light, vec3 position, vec3 n) {
         vec3 toPoint = point - position;
         float d2 = dot(toPoint, toPoint);
         vec3 l = toPoint * inversesqrt(max(d2, 1e-20));
-        float weight = max(dot(l, n), 0.0) * max(-dot(l, light.direction), 0.0) / max(d2, cellArea);
+        float weight = max(dot(l, n), 0.0) * rectCosine(light, l) / max(d2, cellArea);
         all += weight;
         sum += weight * shadowVisibilityRect(light, k, point, position, n);
     } while (++k < count);

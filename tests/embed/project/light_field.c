@@ -205,6 +205,66 @@ static void check_changes(conelight_light_field* field, int32_t view, const cone
     if (fabs(red - 0.5 * with_wall) > 0.04 * with_wall) fail("half the light gives no half of it");
 }
 
+/* The wall again, in buffers of the host's, with short indices and words between its corners. */
+static void check_host_mesh(conelight_light_field* field, int32_t view, const conelight_surfaces* surfaces,
+                            conelight_instance wall, double with_wall) {
+    static const float corners[16] = {-1, 0, 1, 9, -1, 0, -1, 9, -1, 2, -1, 9, -1, 2, 1, 9};
+    static const uint16_t indices[6] = {0, 1, 2, 0, 2, 3};
+    static float rgba[4 * SIZE * SIZE];
+    conelight_gathered gathered = CONELIGHT_GATHERED_INIT;
+    conelight_host_mesh mesh = CONELIGHT_HOST_MESH_INIT;
+    int32_t index = CONELIGHT_NONE;
+    GLuint buffers[2];
+    double red;
+    glCreateBuffers(2, buffers);
+    glNamedBufferStorage(buffers[0], sizeof corners, corners, 0);
+    glNamedBufferStorage(buffers[1], sizeof indices, indices, 0);
+    mesh.vertex_count = 4;
+    mesh.index_count = 6;
+    mesh.positions.buffer = buffers[0];
+    mesh.positions.stride = 16;
+    mesh.indices = buffers[1];
+    mesh.short_indices = 1;
+    mesh.low[0] = mesh.low[2] = -1;
+    mesh.high[0] = -1;
+    mesh.high[1] = 2;
+    mesh.high[2] = 1;
+    check(conelight_light_field_add_host_mesh(field, &mesh, &wall.mesh));
+    check(conelight_light_field_remove_instance(field, 1));
+    check(conelight_light_field_add_instance(field, &wall, &index));
+    red = gather(field, view, surfaces, &gathered, rgba);
+    if (fabs(red - with_wall) > 0.06 * with_wall) fail("a wall in the host's buffers gives other light");
+    check(conelight_light_field_set_host_mesh(field, (size_t)wall.mesh, &mesh));
+    mesh.positions.stride = 10;
+    if (conelight_light_field_set_host_mesh(field, (size_t)wall.mesh, &mesh) != CONELIGHT_BAD_INPUT)
+        fail("a stride that is none is taken");
+    glDeleteBuffers(2, buffers);
+}
+
+static void check_stats(conelight_light_field* field) {
+    conelight_light_field_stats stats = CONELIGHT_LIGHT_FIELD_STATS_INIT;
+    conelight_pass pass = CONELIGHT_PASS_INIT;
+    conelight_texture texture = CONELIGHT_TEXTURE_INIT;
+    static const uint8_t texel[4] = {9, 9, 9, 255};
+    check(conelight_light_field_set_profiling(field, 1));
+    check(conelight_light_field_update(field, NULL, NULL));
+    check(conelight_light_field_get_stats(field, &stats));
+    if (stats.voxels < 100 || stats.faces < stats.voxels || stats.memory_bytes < 100000)
+        fail("a field does not say what it holds");
+    if (stats.pass_count == 0 || !(stats.wall_ms > 0)) fail("a field does not say what an update took");
+    check(conelight_light_field_get_pass(field, 0, &pass));
+    if (strcmp(pass.name, "update") != 0 || pass.wall_ms != stats.wall_ms) fail("the first pass is not the whole");
+    if (conelight_light_field_get_pass(field, stats.pass_count, &pass) != CONELIGHT_USAGE)
+        fail("a pass beyond the last is told");
+    check(conelight_light_field_set_profiling(field, 0));
+    texture.width = texture.height = 1;
+    texture.rgba = texel;
+    if (conelight_light_field_set_texture(field, 0, &texture) != CONELIGHT_USAGE)
+        fail("a texture that is not there is set");
+    check(conelight_light_field_add_texture(field, &texture, NULL));
+    check(conelight_light_field_set_texture(field, 0, &texture));
+}
+
 static void check_refusals(conelight_light_field* field, int32_t view, conelight_surfaces surfaces) {
     conelight_gathered gathered = CONELIGHT_GATHERED_INIT;
     conelight_budget budget = CONELIGHT_BUDGET_INIT;
@@ -244,6 +304,8 @@ int main(void) {
     surfaces = floor_from_above();
     red = check_light(field, view, &surfaces);
     check_changes(field, view, &surfaces, &wall, red);
+    check_host_mesh(field, view, &surfaces, wall, 0.5 * red);
+    check_stats(field);
     check_refusals(field, view, surfaces);
     check(conelight_light_field_remove_view(field, view));
     if (glGetError() != GL_NO_ERROR) fail("OpenGL errors");

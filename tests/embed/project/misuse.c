@@ -66,6 +66,9 @@ static void null_changes(void) {
     EXPECT(CONELIGHT_USAGE, conelight_renderer_set_environment(NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_renderer_add_mesh(NULL, NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_renderer_add_texture(NULL, NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_renderer_set_texture(NULL, 0, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_renderer_add_host_mesh(NULL, NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_renderer_set_host_mesh(NULL, 0, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_renderer_add_material(NULL, NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_renderer_add_instance(NULL, NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_renderer_remove_instance(NULL, 0));
@@ -77,6 +80,12 @@ static void null_changes(void) {
     EXPECT(CONELIGHT_USAGE, conelight_light_field_set_environment(NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_light_field_add_mesh(NULL, NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_light_field_add_texture(NULL, NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_set_texture(NULL, 0, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_add_host_mesh(NULL, NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_set_host_mesh(NULL, 0, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_set_profiling(NULL, 1));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_get_stats(NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_get_pass(NULL, 0, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_light_field_add_material(NULL, NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_light_field_add_instance(NULL, NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_light_field_remove_instance(NULL, 0));
@@ -132,6 +141,7 @@ static void wrong_pictures(conelight_renderer* renderer, const conelight_scene* 
     conelight_scene* scene = NULL;
     conelight_camera camera = CONELIGHT_CAMERA_INIT;
     conelight_stats stats = CONELIGHT_STATS_INIT;
+    conelight_host_mesh mesh = CONELIGHT_HOST_MESH_INIT;
     static float rgba[4 * 8 * 8];
     EXPECT(CONELIGHT_USAGE, conelight_renderer_render(renderer, &camera, 8, 8, NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_renderer_set_sky(renderer, rgba));
@@ -151,6 +161,7 @@ static void wrong_pictures(conelight_renderer* renderer, const conelight_scene* 
     EXPECT(CONELIGHT_OK, conelight_renderer_read(renderer, rgba, 4 * 8 * 8));
     if (!(rgba[4 * 36] > 0)) ++faults; /* a wall of the box */
     EXPECT(CONELIGHT_USAGE, conelight_renderer_copy_to_texture(renderer, 1));
+    EXPECT(CONELIGHT_USAGE, conelight_renderer_add_host_mesh(renderer, &mesh, NULL)); /* of its own context */
     EXPECT(CONELIGHT_USAGE, conelight_renderer_set_transform(renderer, 1000, rgba));
     EXPECT(CONELIGHT_OK, conelight_renderer_get_stats(renderer, &stats));
     if (stats.memory_bytes == 0) ++faults;
