@@ -41,6 +41,28 @@ vec2 conelight_normalize(vec2 v) { return v * inversesqrt(conelight_dot(v, v)); 
 
 vec3 conelight_normalize(vec3 v) { return v * inversesqrt(conelight_dot(v, v)); }
 
+uint conelight_bitOfVoxel(ivec3 voxel) {
+    return uint((voxel.x & 3) | ((voxel.y & 3) << 2) | ((voxel.z & 3) << 4));
+}
+
+bool conelight_brickHas(uvec2 mask, uint bit) {
+    return (((bit < 32u ? mask.x : mask.y) >> (bit & 31u)) & 1u) != 0u;
+}
+
+uint conelight_brickRank(uvec2 mask, uint bit) {
+    uint below = (1u << (bit & 31u)) - 1u;
+    return bit < 32u ? uint(bitCount(mask.x & below))
+                     : uint(bitCount(mask.x)) + uint(bitCount(mask.y & below));
+}
+
+uint conelight_voxelRecordIndex(uvec4 brickWord, uint bit) {
+    return brickWord.z + conelight_brickRank(brickWord.xy, bit);
+}
+
+uint conelight_faceBase(uint record) { return record & 0x3ffffffu; }
+
+uint conelight_faceDirections(uint record) { return record >> 26; }
+
 struct conelight_VoxelGrid {
     vec3 origin;
     float voxelSize;
@@ -81,28 +103,6 @@ vec3 conelight_octDecode(vec2 p) {
     if (n.z < 0.0) n.xy = conelight_octWrap(n.xy);
     return conelight_normalize(n);
 }
-
-uint conelight_bitOfVoxel(ivec3 voxel) {
-    return uint((voxel.x & 3) | ((voxel.y & 3) << 2) | ((voxel.z & 3) << 4));
-}
-
-bool conelight_brickHas(uvec2 mask, uint bit) {
-    return (((bit < 32u ? mask.x : mask.y) >> (bit & 31u)) & 1u) != 0u;
-}
-
-uint conelight_brickRank(uvec2 mask, uint bit) {
-    uint below = (1u << (bit & 31u)) - 1u;
-    return bit < 32u ? uint(bitCount(mask.x & below))
-                     : uint(bitCount(mask.x)) + uint(bitCount(mask.y & below));
-}
-
-uint conelight_voxelRecordIndex(uvec4 brickWord, uint bit) {
-    return brickWord.z + conelight_brickRank(brickWord.xy, bit);
-}
-
-uint conelight_faceBase(uint record) { return record & 0x3ffffffu; }
-
-uint conelight_faceDirections(uint record) { return record >> 26; }
 
 const float conelight_kVoxelWeightScale = 65535.0 / 4.0;
 
@@ -180,7 +180,7 @@ bool conelight_insideRayBounds(uint bounds, vec3 n, float t, vec3 position) {
 
 void conelight_testVoxelFaces(ivec3 voxel, conelight_Ray ray, uint facing, inout conelight_VoxelHit hit,
                               inout float hitCoverage) {
-    uvec4 word = texelFetch(conelight_voxelBricks, voxel >> 2, 0);
+    uvec4 word = texelFetch(conelight_voxelBricks, (voxel >> 2), 0);
     uint record =
         texelFetch(conelight_voxelRecords, int(conelight_voxelRecordIndex(word, conelight_bitOfVoxel(voxel))))
             .x;
@@ -232,7 +232,7 @@ conelight_OctantRay conelight_octantRay(conelight_Ray ray) {
 bool conelight_leaveCell(conelight_Ray ray, conelight_OctantRay mirrored, bool alive, inout float t,
                          inout ivec3 cell) {
     ivec3 brick = cell >> 2;
-    uvec2 word = texelFetch(conelight_voxelOctants, ivec3(brick.x + mirrored.octantX, brick.yz), 0).xy;
+    uvec2 word = texelFetch(conelight_voxelOctants, (ivec3(brick.x + mirrored.octantX, brick.yz)), 0).xy;
     bool empty = word.y == 0x9d2c5681u;
     bool occupied = !empty && conelight_brickHas(word, conelight_bitOfVoxel(cell));
     uint half32 = (cell.z & 2) != 0 ? word.y : word.x;
@@ -246,12 +246,15 @@ bool conelight_leaveCell(conelight_Ray ray, conelight_OctantRay mirrored, bool a
     return occupied;
 }
 
+uint conelight_facingRay(bvec3 mirrored) {
+    return (mirrored.x ? 1u : 2u) | (mirrored.y ? 4u : 8u) | (mirrored.z ? 16u : 32u);
+}
+
 conelight_VoxelHit conelight_traceVoxels(conelight_Ray ray) {
     vec3 size = vec3(conelight_gridSize());
     ivec3 last = conelight_gridSize() - 1;
     conelight_OctantRay mirrored = conelight_octantRay(ray);
-    uint facing =
-        (mirrored.mirrored.x ? 1u : 2u) | (mirrored.mirrored.y ? 4u : 8u) | (mirrored.mirrored.z ? 16u : 32u);
+    uint facing = conelight_facingRay(mirrored.mirrored);
     vec3 enter = -mirrored.origin * mirrored.inverse;
     vec3 leave = (size - mirrored.origin) * mirrored.inverse;
     float tEnter = max(max(enter.x, enter.y), max(enter.z, 0.0));
@@ -284,7 +287,7 @@ layout(binding = CONELIGHT_FIRST_TEXTURE + 4) uniform usamplerBuffer conelight_f
 
 const float conelight_kLeastAxis = 1e-3;
 
-vec4 conelight_cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
+vec4 conelight_irradianceInGrid(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
     vec3 corner = floor(point - 0.5);
     vec3 part = point - 0.5 - corner;
     ivec3 base = ivec3(corner);
@@ -296,7 +299,7 @@ vec4 conelight_cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 b
     uint corners = 0u;
     for (int i = 0; i < 8; ++i) {
         ivec3 voxel = clamp(base + ivec3(i & 1, (i >> 1) & 1, i >> 2), ivec3(0), last);
-        uvec2 mask = texelFetch(conelight_voxelBricks, voxel >> 2, 0).xy;
+        uvec2 mask = texelFetch(conelight_voxelBricks, (voxel >> 2), 0).xy;
         corners |= conelight_brickHas(mask, conelight_bitOfVoxel(voxel)) ? 1u << i : 0u;
     }
     corners = wanted ? corners : 0u;
@@ -308,7 +311,7 @@ vec4 conelight_cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 b
         ivec3 offset = ivec3(i & 1, (i >> 1) & 1, i >> 2);
         ivec3 voxel = clamp(base + offset, ivec3(0), last);
         vec3 t = mix(1.0 - part, part, vec3(offset));
-        uvec4 word = texelFetch(conelight_voxelBricks, voxel >> 2, 0);
+        uvec4 word = texelFetch(conelight_voxelBricks, (voxel >> 2), 0);
         uint record = texelFetch(conelight_voxelRecords,
                                  any ? int(conelight_voxelRecordIndex(word, conelight_bitOfVoxel(voxel))) : 0)
                           .x;
@@ -328,6 +331,10 @@ vec4 conelight_cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 b
         corners &= corners - 1u;
     } while (corners != 0u);
     return vec4(sum.rgb / max(sum.a, 1e-12), sum.a);
+}
+
+vec4 conelight_cachedIrradiance(vec3 point, vec3 normal, bool wanted, out vec3 bent) {
+    return conelight_irradianceInGrid(point, normal, wanted, bent);
 }
 
 vec4 conelight_cachedIrradiance(vec3 point, vec3 normal, bool wanted) {

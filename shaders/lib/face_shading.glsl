@@ -4,6 +4,13 @@
 #include "lib/lit_face.glsl"
 #include "lib/octahedral.glsl"
 
+// Edge of a face's voxel, in voxels of level 0.
+#if NESTED_GRIDS
+float faceEdge(int face) { return voxelEdge(texelFetch(voxelFaces, face).w); }
+#else
+float faceEdge(int face) { return 1.0; }
+#endif
+
 struct FaceShading {
     vec3 albedo;
     vec3 directRadiance;  // emission and reflected direct light, W/(sr m^2)

@@ -232,6 +232,11 @@ bool leaveCell(Ray ray, OctantRay mirrored, bool alive, inout float t, inout ive
     return occupied;
 }
 
+// Directions of faces that look against a ray: -k where the component along k is not negative.
+uint facingRay(bvec3 mirrored) {
+    return (mirrored.x ? 1u : 2u) | (mirrored.y ? 4u : 8u) | (mirrored.z ? 16u : 32u);
+}
+
 #if NEAR_TRIANGLES
 // Tests the triangles of the voxels that a ray enters before `end` (negative: none); moves t and the cell to
 // where it stops.
@@ -339,13 +344,10 @@ VoxelHit traceVoxels(Ray ray) {
 #endif
     ivec3 last = gridSize() - 1;
     OctantRay mirrored = octantRay(ray);
-    // Directions of faces that look against the ray: -k where the component along k is not negative.
-    uint facing =
-        (mirrored.mirrored.x ? 1u : 2u) | (mirrored.mirrored.y ? 4u : 8u) | (mirrored.mirrored.z ? 16u : 32u);
+    uint facing = facingRay(mirrored.mirrored);
 
 #if NESTED_GRIDS
-    float tEnter = span.x;
-    float tEnd = span.y;
+    float tEnter = span.x, tEnd = span.y;
 #else
     // Clip the ray to the grid; t counts from the entry, where rounding is least
     vec3 enter = -mirrored.origin * mirrored.inverse;
@@ -365,11 +367,12 @@ VoxelHit hit = VoxelHit(-1, ray.tMax);
     tEnd = alive ? tEnd : -3e38;  // below every t, also those of cells behind the origin
     ivec3 cell = clamp(ivec3(floor(mirrored.origin + t * mirrored.direction)), ivec3(0), last);
     float hitCoverage = 0.0;
-#if NEAR_TRIANGLES && NESTED_GRIDS
+#if NEAR_TRIANGLES
+#if NESTED_GRIDS
     if (nearEnd > tEnter) testNearTriangles(ray, mirrored, min(tEnd, nearEnd), t, cell, hit);
-    if (hit.face >= 0 || t >= tEnd) return hit;
-#elif NEAR_TRIANGLES
+#else
     testNearTriangles(ray, mirrored, min(tEnd, kRayNearReach), t, cell, hit);
+#endif
     if (hit.face >= 0 || t >= tEnd) return hit;
 #endif
     do {

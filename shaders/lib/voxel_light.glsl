@@ -67,13 +67,6 @@ uniform usamplerBuffer lightSamples;
 
 const float kGatherPi = 3.14159265358979;
 
-// Edge of a face's voxel, in voxels of level 0.
-#if NESTED_GRIDS
-float faceEdge(int face) { return voxelEdge(texelFetch(voxelFaces, face).w); }
-#else
-float faceEdge(int face) { return 1.0; }
-#endif
-
 #include "lib/face_shading.glsl"
 
 // ---- Radiance at a hit ----------------------------------------------------------------------------------

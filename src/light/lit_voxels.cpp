@@ -42,7 +42,10 @@ base::Steps LitVoxels::relightInSteps(const gl::Device& device, const Inputs& in
     const bool otherVoxels = voxelsFrom_ != inputs.voxels.revision();
     const bool otherSources = otherVoxels || directDue_ || lightsFrom_ != inputs.lights.revision();
     const bool otherSettings = !first && !(settings_ == settings);
-    const bool otherGrid = !first && !(voxelSettings_ == inputs.voxels.settings());
+    const voxels::VoxelGrid& grid = inputs.voxels.grid();
+    // Nested grids go with the eye.
+    const bool otherLevels = (grid_.levels > 1 || grid.levels > 1) && !(grid_ == grid);
+    const bool otherGrid = !first && (otherLevels || !(voxelSettings_ == inputs.voxels.settings()));
     if (budget.nothing && !otherSources && !otherSettings) co_return;
 
     // A finished picture must not be better or worse for the settings of those before it; moving ones keep
@@ -69,6 +72,7 @@ base::Steps LitVoxels::relightInSteps(const gl::Device& device, const Inputs& in
     voxelSettings_ = inputs.voxels.settings();
     directDue_ = inTheDark || otherSources;
     lightsFrom_ = inputs.lights.revision();
+    grid_ = grid;
     settings_ = settings;
     if (directDue_) {
         co_await putDirectLight(device, inputs);

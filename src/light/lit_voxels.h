@@ -96,6 +96,7 @@ class LitVoxels {
     // What it was made from.
     base::Revision voxelsFrom_, lightsFrom_;
     VoxelSettings voxelSettings_;
+    voxels::VoxelGrid grid_;
     RelightSettings settings_;
     base::Revision revision_, sources_;
 };

@@ -28,15 +28,23 @@ glm::ivec3 levelSize(const VoxelGrid& whole, int levels) {
     return size;
 }
 
+// Steps of a level, in bricks of the next coarser one.
+int stepOf(int size) { return std::max(size / 8 / kCellsPerEdge, 1); }
+
+// The middle of the cell of level 0 that holds a point: all levels change when that does, and then alone.
+double cellMiddle(double around, double low, double voxel, int size) {
+    const double cell = 8 * voxel * stepOf(size);
+    return std::isfinite(around) ? low + (std::floor((around - low) / cell) + 0.5) * cell : low;
+}
+
 // Where a level begins in the next coarser one, in bricks of that.
 int placeIn(double parentLow, double parentVoxel, int size, double lowest, double highest, double around) {
     const double edge = 0.5 * size * parentVoxel;
     const double margin = kMargin * parentVoxel;
     const double least = lowest - margin, most = highest + margin - edge;
     const double low = least < most ? std::clamp(around - 0.5 * edge, least, most) : 0.5 * (least + most);
-    const int step = std::max(size / 8 / kCellsPerEdge, 1);
+    const int step = stepOf(size);
     const double cells = std::round((low - parentLow) / (4 * parentVoxel * step));
-    // NaN and what is far away go to one end.
     return static_cast<int>(std::clamp(cells * step, 0.0, size / 8.0));
 }
 
@@ -54,14 +62,17 @@ VoxelGrid nestedGrid(const VoxelGrid& whole, const Aabb& bounds, int levels, con
     // From the coarsest level inwards: places in bricks, world positions in double precision.
     glm::dvec3 low(whole.origin);
     low -= glm::dvec3((grid.size - whole.size) / 8) * 4.0 * static_cast<double>(whole.voxelSize);
+    glm::dvec3 eye;
+    for (int axis = 0; axis < 3; ++axis)
+        eye[axis] = cellMiddle(static_cast<double>(around[axis]), low[axis],
+                               static_cast<double>(grid.voxelSize), grid.size[axis]);
     std::array<glm::ivec3, VOXEL_MOST_LEVELS> places{};
     for (int level = count - 2; level >= 0; --level) {
         const double parentVoxel = std::ldexp(static_cast<double>(grid.voxelSize), level + 1);
         for (int axis = 0; axis < 3; ++axis) {
-            const double eye = std::isfinite(around[axis]) ? static_cast<double>(around[axis]) : 0.0;
             const int place =
                 placeIn(low[axis], parentVoxel, grid.size[axis], static_cast<double>(bounds.min[axis]),
-                        static_cast<double>(bounds.max[axis]), eye);
+                        static_cast<double>(bounds.max[axis]), eye[axis]);
             places[at(level)][axis] = place;
             low[axis] += 4 * parentVoxel * place;
         }
