@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "conelight/scene_fields.h"
+#include "io/files.h"
 #include "io/scene_format.h"
 
 namespace conelight::io {
