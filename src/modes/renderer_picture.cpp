@@ -347,7 +347,10 @@ void Renderer::Impl::collectStats() {
 // The mode's passes once more, for one pixel, on the surfaces of the last picture.
 PixelInspection Renderer::Impl::inspect(int x, int y) {
     prepare(shownAs.settings).finish();
-    if (std::exchange(left, false)) seeCenters(shownAs).finish();
+    if (std::exchange(left, false)) {
+        prepareCascades(shownAs.camera, shownAs.settings).finish();
+        seeCenters(shownAs).finish();
+    }
     gather::StepRecorder recorder({x, image.height() - 1 - y});
     modes::Frame recorded = frame(shownAs.settings);
     recorded.recorder = &recorder;
