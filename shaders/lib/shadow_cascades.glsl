@@ -6,6 +6,7 @@
 // many, or 4 times, and the last the whole scene. Which level serves a point depends on the distance alone, and each
 // level's texels stay where they are in the world. With a filter, whose width in metres is another on each level, they
 // pass over into each other.
+#include "lib/dot.glsl"
 #include "lib/shadow.glsl"
 #include "shared/shadow_cascades.h"
 layout(std430) readonly buffer CascadeTable {

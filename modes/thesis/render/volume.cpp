@@ -55,12 +55,7 @@ float radianceBound(const ThesisVolume::Inputs& inputs, const ThesisDefects& def
 }
 
 gl::Defines volumeDefines(const ThesisDefects& d) {
-    gl::Defines defines;
-    const auto add = [&](const char* name, bool on) {
-        if (on) defines.emplace_back(name, "1");
-    };
-    add("CLIPPED_RADIANCE", d.clippedRadiance);
-    return defines;
+    return d.clippedRadiance ? gl::Defines{{"CLIPPED_RADIANCE", "1"}} : gl::Defines{};
 }
 
 // 3: each triangle's own.
