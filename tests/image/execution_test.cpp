@@ -107,7 +107,9 @@ TEST_F(ExecutionTest, ALampMoreBuildsNoProgram) {
         const std::size_t one = draw(1);
         const bool counts = execution == Execution::Processor;
         EXPECT_EQ(draw(2) > one, counts);
-        if (!counts) EXPECT_EQ(draw(6), one);
+        if (!counts) {
+            EXPECT_EQ(draw(6), one);
+        }
     }
 }
 

@@ -157,7 +157,9 @@ TEST_F(LightFieldHostMesh, NewTexelsAreThoseOfANewScene) {
         scene.textures[0] = texels;
         renderer.setTexture(0, texels);
         const std::vector<glm::vec4> changed = draw(renderer);
-        if (objects > 0) EXPECT_EQ(gl::liveObjectCount(), objects);
+        if (objects > 0) {
+            EXPECT_EQ(gl::liveObjectCount(), objects);
+        }
         objects = gl::liveObjectCount();
         Renderer fresh;
         fresh.setScene(scene);

@@ -277,7 +277,9 @@ TEST_F(LightFieldSoak, FramesWithChangesLeaveNothingBehind) {
     }
     // Short runs build programs to their end.
     constexpr int kManyFrames = 2000;
-    if (wanted >= kManyFrames) EXPECT_LE(static_cast<double>(mostHeap), 1.1 * static_cast<double>(heap));
+    if (wanted >= kManyFrames) {
+        EXPECT_LE(static_cast<double>(mostHeap), 1.1 * static_cast<double>(heap));
+    }
     EXPECT_GE(host.frames(), wanted);
     std::size_t bytes = 0, objects = 0;
     for (const auto& [key, one] : first) {
