@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Faces on the plane of another, for what few updates have found: pixels see it shared among them. Behind
 // light/cache_common.glsl; the includer declares voxelFaces, voxelRecords and voxelBrickImage.
+#include "lib/dot.glsl"
 
 // Neighbours count in full until a face has had as many updates as the first, and no more from the second on.
 const float kSharedFrom = 20.0;
