@@ -170,12 +170,12 @@ TEST_F(NestedVoxelsTest, UpdatesGiveTheBitsOfABuild) {
     voxelize(scene, 32, 3, {0.5f, 0.2f, 0.1f});
     scene::GpuScene gpu(scene);
     voxels::SurfaceVoxels surface;
-    surface.update(nested(), gpu, grid_);
+    surface.updateInSteps(nested(), gpu, grid_).finish();
     for (const std::size_t moved : {1u, 3u, 4u}) {
         Instance instance = scene.instances[moved];
         instance.worldFromObject[3] += glm::vec4(1.3f, 0.4f, -2.1f, 0);
         gpu.setInstance(moved, instance);
-        surface.update(nested(), gpu, grid_);
+        surface.updateInSteps(nested(), gpu, grid_).finish();
         EXPECT_FALSE(surface.lastUpdate().whole);
         voxels::SurfaceVoxels whole;
         whole.build(nested(), gpu, grid_);

@@ -82,7 +82,7 @@ class ShadowCascadesTest : public TracedModeTest {
 
         std::vector<glm::vec4> draw(const gl::Device& device, const glm::vec3& about) {
             lights.update(device, gpuScene, wanted);
-            cascades.update(device, gpuScene, lights, wanted.settings, about);
+            cascades.updateInSteps(device, gpuScene, lights, wanted.settings, about).finish();
             surfaces.see(device, gpuScene,
                          {.camera = camera,
                           .width = width,
