@@ -51,6 +51,7 @@ class Camera:
     target: Vector3
     up: Vector3
     vfov: float
+    orthographic_height: float
     near: float
     far: float
     lens_diameter: float

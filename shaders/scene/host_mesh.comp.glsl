@@ -23,13 +23,13 @@ layout(std430) readonly buffer HostColors { uint colorWords[]; };
 layout(std430) readonly buffer HostIndices { uint indexWords[]; };
 
 // Words of a vertex that hold so many numbers of an attribute, at most 4.
-uint wordsOf(HostAttribute a, uint numbers) {
-    uint perWord = a.encoding == HOST_FLOAT32 ? 1u : a.encoding >= HOST_SNORM8 ? 4u : 2u;
+uint wordsOf(uvec4 a, uint numbers) {
+    uint perWord = a.z == HOST_FLOAT32 ? 1u : a.z >= HOST_SNORM8 ? 4u : 2u;
     return (numbers + perWord - 1u) / perWord;
 }
 
-vec4 decoded(HostAttribute a, uvec4 words) {
-    switch (a.encoding) {
+vec4 decoded(uvec4 a, uvec4 words) {
+    switch (a.z) {
         case HOST_FLOAT32:
             return uintBitsToFloat(words);
         case HOST_FLOAT16:
@@ -44,12 +44,12 @@ vec4 decoded(HostAttribute a, uvec4 words) {
 }
 
 // GLSL 4.5 hands no buffer to a function.
-#define READ(NAME, TABLE, NUMBERS)                                           \
-    vec4 NAME(HostAttribute a, uint vertex) {                                \
-        uint at = a.offset + vertex * a.stride, count = wordsOf(a, NUMBERS); \
-        uvec4 words = uvec4(0u);                                             \
-        for (uint i = 0u; i < count; ++i) words[i] = TABLE[at + i];          \
-        return decoded(a, words);                                            \
+#define READ(NAME, TABLE, NUMBERS)                                  \
+    vec4 NAME(uvec4 a, uint vertex) {                               \
+        uint at = a.x + vertex * a.y, count = wordsOf(a, NUMBERS);  \
+        uvec4 words = uvec4(0u);                                    \
+        for (uint i = 0u; i < count; ++i) words[i] = TABLE[at + i]; \
+        return decoded(a, words);                                   \
     }
 READ(positionAt, positionWords, 3u)
 READ(normalAt, normalWords, 3u)
@@ -79,7 +79,7 @@ uint vertexOf(uint corner) {
 }
 
 uint tangentOf(uint vertex) {
-    if (mesh.tangents.isThere == 0u) return mesh.noTangent;
+    if (mesh.tangents.w == 0u) return mesh.noTangent;
     vec4 t = tangentAt(mesh.tangents, vertex);
     uint word = packSnorm2x16(octEncode(unitOr(t.xyz, vec3(1.0, 0.0, 0.0))));
     return (word & ~1u) | (t.w < 0.0 ? 1u : 0u);
@@ -89,11 +89,11 @@ void put(uint at, uint vertex, vec3 position, vec3 normal) {
     Vertex v;
     v.position = position;
     v.normalOct = packSnorm2x16(octEncode(normal));
-    vec2 uv = mesh.uvs.isThere != 0u ? uvAt(mesh.uvs, vertex).xy : vec2(0.0);
+    vec2 uv = mesh.uvs.w != 0u ? uvAt(mesh.uvs, vertex).xy : vec2(0.0);
     v.u = isFinite(uv.x) ? uv.x : 0.0;
     v.v = isFinite(uv.y) ? uv.y : 0.0;
     v.tangentOct = tangentOf(vertex);
-    v.color = mesh.colors.isThere != 0u ? packUnorm4x8(colorAt(mesh.colors, vertex)) : 0xffffffffu;
+    v.color = mesh.colors.w != 0u ? packUnorm4x8(colorAt(mesh.colors, vertex)) : 0xffffffffu;
     vertices[mesh.firstVertex + at] = v;
 }
 

@@ -15,13 +15,6 @@ CONELIGHT_SHARED_BEGIN
 #define HOST_INDICES_SHORT 1u
 #define HOST_INDICES_LONG 2u
 
-struct HostAttribute {
-    uint offset;    // words
-    uint stride;    // words
-    uint encoding;  // HOST_*
-    uint isThere;
-};  // 16 B
-
 struct HostMeshConstants {
     vec3 low;  // of the bounds
     uint vertexCount;
@@ -34,11 +27,12 @@ struct HostMeshConstants {
     uint indexOffset;  // indices
     uint indexKind;    // HOST_INDICES_*
     // ---- 48 B
-    HostAttribute positions;
-    HostAttribute normals;
-    HostAttribute uvs;
-    HostAttribute tangents;
-    HostAttribute colors;
+    // Of each attribute: offset in words, stride in words, HOST_*, and 1 where it is there.
+    uvec4 positions;
+    uvec4 normals;
+    uvec4 uvs;
+    uvec4 tangents;
+    uvec4 colors;
     // ---- 128 B
     uint noTangent;  // Vertex::tangentOct of a mesh without
     uint pad0;

@@ -334,6 +334,11 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
     if (passes > 0) ++updatesOfVoxels_;
 }
 
+void IrradianceCache::freeScratch() {
+    sharedLightTexels_ = {};
+    sharedLight_ = {};
+}
+
 bool IrradianceCache::settled() const { return updates() >= IRRADIANCE_SETTLE; }
 
 // Whole ones over all faces since light changed.

@@ -69,6 +69,9 @@ class IrradianceCache {
     base::Steps updateInSteps(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
                               int passes);
 
+    // Frees what updates of a cache that is to be seen at once need beside its light; they take it again.
+    void freeScratch();
+
     // Whether bounces have settled since the last change, so that all further updates only average noise
     // away.
     bool settled() const;

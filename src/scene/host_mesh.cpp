@@ -52,7 +52,7 @@ void requireAttribute(const HostMesh& mesh, const char* what, const HostAttribut
     requireBuffer(mesh, what, a.buffer, a.offset + a.stride * last + (bytes + 3) / 4 * 4);
 }
 
-gpu::HostAttribute packedAttribute(const HostAttribute& attribute) {
+glm::uvec4 packedAttribute(const HostAttribute& attribute) {
     return {attribute.offset / 4, attribute.stride / 4, static_cast<std::uint32_t>(attribute.encoding),
             attribute.buffer != 0 ? 1u : 0u};
 }

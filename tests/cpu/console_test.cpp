@@ -73,7 +73,7 @@ TEST(ConsoleErrors, NameTheMistakeAndWhatWouldBeRight) {
         {"light lamp intensity 1 2", "takes 3 numbers, got 2"},
         {"light lamp size 1 1", "a point light has none"},
         {"light lamp flux -1", "0 to 1e+09 W would be right"},
-        {"light add bulb", "point, spot, directional or rect"},
+        {"light add bulb", "point, spot, directional, rect, disk or sphere"},
         {"material whit roughness 1", "white would be right"},
         {"material white rough 1", "roughness would be right"},
         {"material white roughness 2", "0 to 1"},

@@ -12,6 +12,7 @@
 #include "shared/frame.h"
 #include "shared/gbuffer.h"
 #include "shared/glass.h"
+#include "shared/host_mesh.h"
 #include "shared/host_surfaces.h"
 #include "shared/image.h"
 #include "shared/inspect.h"
@@ -121,6 +122,8 @@ std::vector<Struct> structsOfPictures() {
         ROW(Exposure, scale, pad0, pad1, pad2),
         ROW(DisplayConstants, curve, srgb, kept, spread, check, pad0, pad1, pad2, balance, falseColors),
         ROW(HeadlightConstants, irradiance, pad0, pad1, pad2),
+        ROW(HostMeshConstants, low, vertexCount, high, indexCount, firstVertex, firstIndex, indexOffset,
+            indexKind, positions, normals, uvs, tangents, colors, noTangent, pad0, pad1, pad2),
         ROW(ViewMeanConstants, views, pad0, pad1, pad2),
         ROW(TemporalPictureConstants, oldClipFromWorld, oldDepth, longest, fresh, oldParallel, pad0),
         ROW(BloomConstants, weight, coarser, fromLevel, pad0),
