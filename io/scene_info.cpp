@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 // A scene in words: see scene_info.h.
-#include "io/files.h"
 #include "io/scene_info.h"
 
 #include <fmt/core.h>

@@ -334,7 +334,7 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
     if (passes > 0) ++updatesOfVoxels_;
 }
 
-void IrradianceCache::freeScratch() {
+void IrradianceCache::endSharing() {
     sharedLightTexels_ = {};
     sharedLight_ = {};
 }

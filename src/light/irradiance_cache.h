@@ -70,7 +70,7 @@ class IrradianceCache {
                               int passes);
 
     // Frees what updates of a cache that is to be seen at once need beside its light; they take it again.
-    void freeScratch();
+    void endSharing();
 
     // Whether bounces have settled since the last change, so that all further updates only average noise
     // away.

@@ -127,7 +127,7 @@ base::Steps LitVoxels::update(const gl::Device& device, const Inputs& inputs, co
         co_await cache_.updateInSteps(device, given, cache, run.passes);
         if (run.passes > 0) revision_ = base::Revision::next();
     }
-    if (!budget.oneUpdate || missing == 0) cache_.freeScratch();
+    if (!budget.oneUpdate || missing == 0) cache_.endSharing();
 }
 
 // What far faces have kept of the light before goes by twice as many.
