@@ -72,7 +72,7 @@ py::array positions(const Camera& camera, const py::object& depth) {
         throw Error(ErrorKind::Usage,
                     "depth: has shape " + shapeText(z) + "; (height, width) would be right");
     const py::ssize_t height = z.shape(0), width = z.shape(1);
-    const CameraAxes axes = axesOf(camera);
+    const CameraAxes axes = cameraAxes(camera);
     const glm::vec3 forward(axes.forward), right(axes.right), up(axes.up);
     const auto perPixel = static_cast<float>(pixelSize(camera, static_cast<int>(height)));
     py::array_t<float> points({height, width, py::ssize_t(3)});

@@ -6,14 +6,8 @@
 #include <cmath>
 
 #include "conelight/error.h"
-#include "session/projection.h"
 
 namespace conelight::python {
-
-CameraAxes axesOf(const Camera& camera) {
-    const program::ViewAxes axes = program::viewAxes(camera);
-    return {axes.right, axes.up, axes.forward};
-}
 
 double pixelSize(const Camera& camera, int height) {
     const double whole =

@@ -62,7 +62,7 @@ OpencvCamera opencvFrom(const Camera& camera, const glm::ivec2& size, double pix
         fail(
             "orthographic_height: parallel rays have no focal length; a camera in perspective would be "
             "right");
-    const CameraAxes axes = axesOf(camera);
+    const CameraAxes axes = cameraAxes(camera);
     const double f = 0.5 * size.y / std::tan(0.5 * double(camera.fovY));
     OpencvCamera opencv;
     opencv.pixelCenter = pixelCenter;

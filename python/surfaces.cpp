@@ -40,7 +40,7 @@ class Projection {
   public:
     Projection(const Camera& camera, const glm::ivec2& size)
         : eye_(camera.eye),
-          axes_(axesOf(camera)),
+          axes_(cameraAxes(camera)),
           parallel_(camera.isOrthographic()),
           perPixel_(pixelSize(camera, size.y)),
           middle_(0.5 * glm::dvec2(size)) {}
@@ -105,7 +105,7 @@ SurfaceTables surfacesOf(const Scene& scene, const reference::RayScene& rays, co
     SurfaceTables tables(width * height);
     if (before != nullptr) tables.motion.resize(width * height);
     const Projection now(camera, size), then(before != nullptr ? before->camera : camera, size);
-    const CameraAxes axes = axesOf(camera);
+    const CameraAxes axes = cameraAxes(camera);
     const double perPixel = pixelSize(camera, size.y);
     const bool parallel = camera.isOrthographic();
     const auto see = [&](std::size_t pixel) {

@@ -23,25 +23,16 @@ struct Lens {
           zNear(static_cast<double>(camera.zNear)),
           zFar(static_cast<double>(camera.zFar)),
           parallel(camera.isOrthographic()) {
-        const glm::dvec3 view = glm::dvec3(camera.target) - eye;
-        const double distance = glm::length(view);
-        forward = distance > 0 ? view / distance : glm::dvec3(0, 0, -1);
-        glm::dvec3 side = glm::cross(forward, glm::dvec3(camera.up));
-        if (!(glm::length(side) > 1e-6 * glm::length(glm::dvec3(camera.up)))) {
-            const glm::dvec3 away = glm::abs(forward);
-            side = glm::cross(forward, away.y <= away.x && away.y <= away.z ? glm::dvec3(0, 1, 0)
-                                       : away.z <= away.x                   ? glm::dvec3(0, 0, -1)
-                                                                            : glm::dvec3(1, 0, 0));
-        }
+        const CameraAxes axes = cameraAxes(camera);
+        forward = axes.forward;
         const double tanY = parallel ? 0.5 * static_cast<double>(camera.orthographicHeight)
                                      : std::tan(0.5 * static_cast<double>(camera.fovY));
         if (camera.hasLens()) {
             radius = 0.5 * static_cast<double>(camera.lensDiameter);
             focus = static_cast<double>(camera.focus());
         }
-        side = glm::normalize(side);
-        up = glm::cross(side, forward) * tanY;
-        right = side * (tanY * width / height);
+        up = axes.up * tanY;
+        right = axes.right * (tanY * width / height);
     }
 
     // Through a point of the picture, [-1,1]^2 with y up, and one of the lens, unit disc: all rays of a point of the

@@ -255,6 +255,14 @@ struct Camera {
     bool operator==(const Camera&) const = default;
 };
 
+// How a camera looks: unit vectors, right-handed as right, up, -forward.
+struct CameraAxes {
+    glm::dvec3 forward, right, up;
+};
+// A camera that looks along its up vector, or from a point to itself, still gets axes: the world axis least aligned
+// with the view takes the place of up, -z that of the view.
+CONELIGHT_API CameraAxes cameraAxes(const Camera& camera);
+
 // A picture of surroundings: radiance by direction, W/(sr m^2), linear Rec.709. Latitude-longitude: rows run
 // from straight up (+y) to straight down, columns once round the horizon.
 struct EnvironmentImage {

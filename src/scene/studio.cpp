@@ -7,7 +7,7 @@
 namespace conelight {
 namespace {
 
-constexpr int kColumns = 512;  // 0.7 degrees: edges of lamps are softer
+constexpr int kStudioColumns = 512;  // 0.7 degrees: edges of lamps are softer
 
 // 1 on a rectangle about a direction, falling to 0 over the edge; sizes are tangents.
 double softbox(const glm::dvec3& d, const glm::dvec3& axis, double halfWidth, double halfHeight) {
@@ -39,8 +39,8 @@ double studioRadiance(const StudioLevels& levels, const glm::dvec3& d) {
 
 std::shared_ptr<const EnvironmentImage> studioPicture(const StudioLevels& levels) {
     auto image = std::make_shared<EnvironmentImage>();
-    image->width = kColumns;
-    image->height = kColumns / 2;
+    image->width = kStudioColumns;
+    image->height = kStudioColumns / 2;
     for (int y = 0; y < image->height; ++y)
         for (int x = 0; x < image->width; ++x) {
             const glm::vec2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(image->width),

@@ -13,33 +13,8 @@
 namespace conelight::view {
 namespace {
 
-// Orthonormal axes of a camera. A camera that looks along its up vector, or from a point to itself, still
-// gets axes: the world axis least aligned with the view takes the place of up, -z that of the view.
-struct Axes {
-    glm::dvec3 forward, right, up;
-};
-
-Axes axesOf(const Camera& camera) {
-    Axes axes;
-    const glm::dvec3 view = glm::dvec3(camera.target) - glm::dvec3(camera.eye);
-    const double distance = glm::length(view);
-    axes.forward = distance > 0 ? view / distance : glm::dvec3(0, 0, -1);
-    glm::dvec3 side = glm::cross(axes.forward, glm::dvec3(camera.up));
-    // 1e-6: below a microradian between view and up, rounding decides where right is.
-    if (!(glm::length(side) > 1e-6 * glm::length(glm::dvec3(camera.up)))) {
-        const glm::dvec3 away = glm::abs(axes.forward);
-        const glm::dvec3 up = away.y <= away.x && away.y <= away.z ? glm::dvec3(0, 1, 0)
-                              : away.z <= away.x                   ? glm::dvec3(0, 0, -1)
-                                                                   : glm::dvec3(1, 0, 0);
-        side = glm::cross(axes.forward, up);
-    }
-    axes.right = glm::normalize(side);
-    axes.up = glm::cross(axes.right, axes.forward);
-    return axes;
-}
-
 glm::dmat4 viewMatrix(const Camera& camera) {
-    const Axes axes = axesOf(camera);
+    const CameraAxes axes = cameraAxes(camera);
     const glm::dvec3 eye(camera.eye);
     glm::dmat4 m(1.0);
     for (int i = 0; i < 3; ++i) {
@@ -133,7 +108,7 @@ PixelPart pixelPartOfFrame(int frame) {
 PixelPart centersOfStill() { return {.blending = 2.0f}; }
 
 gpu::FrameConstants frameConstants(const Camera& camera, int width, int height, const PixelPart& part) {
-    const Axes axes = axesOf(camera);
+    const CameraAxes axes = cameraAxes(camera);
     const bool parallel = camera.isOrthographic();
     // Tangents, of parallel rays half the picture's size
     const double tanY = parallel ? 0.5 * static_cast<double>(camera.orthographicHeight)

@@ -83,7 +83,7 @@ TEST(Orthographic, AProjectionInPlaceOfTheOtherKeepsWhatIsAtTheTarget) {
     camera.target = {0.5f, 1, -1};
     camera.fovY = 0.6f;
     const Camera before = camera;
-    const glm::vec3 up(program::viewAxes(camera).up), top = camera.target + 0.7f * up;
+    const glm::vec3 up(cameraAxes(camera).up), top = camera.target + 0.7f * up;
     const auto place = program::pictureOf(camera, 1.5f, top);
     program::switchProjection(camera);
     EXPECT_TRUE(camera.isOrthographic());
@@ -140,9 +140,9 @@ TEST(Orthographic, AViewFromStraightAboveTurnsFromThere) {
     for (const float side : {-1.0f, 1.0f}) {
         Camera camera = parallel({0, -3 * side, 0}, {0, 0, 0}, 2);
         camera.up = {0, 0, side};
-        const glm::vec3 right(program::viewAxes(camera).right);
+        const glm::vec3 right(cameraAxes(camera).right);
         program::orbit(camera, {0, side * -0.01f});
-        EXPECT_GT(glm::dot(glm::vec3(program::viewAxes(camera).right), right), 0.99f) << side;
+        EXPECT_GT(glm::dot(glm::vec3(cameraAxes(camera).right), right), 0.99f) << side;
         EXPECT_NEAR(glm::length(camera.eye), 3, 1e-4f);
     }
 }

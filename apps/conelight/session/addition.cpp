@@ -112,7 +112,7 @@ Scene shapeOf(const std::string& kind, float size) {
 
 AddedPlace placeInView(const Session& session, Picker& picker) {
     const Camera& camera = session.camera();
-    const glm::vec3 view(viewAxes(camera).forward);
+    const glm::vec3 view(cameraAxes(camera).forward);
     const float reach = glm::length(camera.target - camera.eye);
     const auto sizeAt = [&](float distance) { return roundSize(0.35f * camera.heightAt(distance)); };
     const std::optional<Pick> seen = picker.along(session, camera.eye, view, camera.zNear);

@@ -82,12 +82,8 @@ T along(const std::vector<T>& points, const std::vector<double>& times, double s
 }
 
 glm::dquat orientationOf(const Camera& camera) {
-    const glm::dvec3 forward = glm::normalize(glm::dvec3(camera.target) - glm::dvec3(camera.eye));
-    glm::dvec3 side = glm::cross(forward, glm::dvec3(camera.up));
-    if (!(glm::length(side) > 1e-6 * glm::length(glm::dvec3(camera.up))))
-        side = glm::cross(forward, std::abs(forward.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(0, 0, -1));
-    side = glm::normalize(side);
-    return glm::normalize(glm::quat_cast(glm::dmat3(side, glm::cross(side, forward), -forward)));
+    const CameraAxes axes = cameraAxes(camera);
+    return glm::normalize(glm::quat_cast(glm::dmat3(axes.right, axes.up, -axes.forward)));
 }
 
 double focusOf(const Camera& camera) {

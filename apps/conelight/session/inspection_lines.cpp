@@ -83,7 +83,7 @@ class Lines {
 }  // namespace
 
 std::optional<glm::vec2> pictureOf(const Camera& camera, float aspect, const glm::vec3& point) {
-    const ViewAxes axes = viewAxes(camera);
+    const CameraAxes axes = cameraAxes(camera);
     const glm::vec3 d = point - camera.eye;
     const float z = glm::dot(d, glm::vec3(axes.forward));
     if (z < camera.zNear) return std::nullopt;

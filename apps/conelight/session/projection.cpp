@@ -10,25 +10,8 @@
 
 namespace conelight::program {
 
-ViewAxes viewAxes(const Camera& camera) {
-    const glm::dvec3 view = glm::dvec3(camera.target) - glm::dvec3(camera.eye);
-    ViewAxes axes;
-    axes.forward = glm::length(view) > 0 ? glm::normalize(view) : glm::dvec3(0, 0, -1);
-    glm::dvec3 side = glm::cross(axes.forward, glm::dvec3(camera.up));
-    if (!(glm::length(side) > 1e-6 * glm::length(glm::dvec3(camera.up)))) {
-        const glm::dvec3 away = glm::abs(axes.forward);
-        const glm::dvec3 up = away.y <= away.x && away.y <= away.z ? glm::dvec3(0, 1, 0)
-                              : away.z <= away.x                   ? glm::dvec3(0, 0, -1)
-                                                                   : glm::dvec3(1, 0, 0);
-        side = glm::cross(axes.forward, up);
-    }
-    axes.right = glm::normalize(side);
-    axes.up = glm::cross(axes.right, axes.forward);
-    return axes;
-}
-
 ViewRay viewRay(const Camera& camera, float aspect, const glm::vec2& ndc) {
-    const ViewAxes axes = viewAxes(camera);
+    const CameraAxes axes = cameraAxes(camera);
     const double half = camera.isOrthographic() ? 0.5 * static_cast<double>(camera.orthographicHeight)
                                                 : std::tan(0.5 * static_cast<double>(camera.fovY));
     const glm::dvec3 aside = half * (static_cast<double>(ndc.x) * double(aspect) * axes.right +
@@ -40,7 +23,7 @@ ViewRay viewRay(const Camera& camera, float aspect, const glm::vec2& ndc) {
 }
 
 ViewRay viewRayTo(const Camera& camera, const glm::vec3& point) {
-    const glm::dvec3 forward = viewAxes(camera).forward, way = glm::dvec3(point) - glm::dvec3(camera.eye);
+    const glm::dvec3 forward = cameraAxes(camera).forward, way = glm::dvec3(point) - glm::dvec3(camera.eye);
     const double depth = glm::dot(way, forward);
     if (camera.isOrthographic())
         return {glm::vec3(glm::dvec3(point) - depth * forward), glm::vec3(forward), 1};
@@ -60,7 +43,7 @@ float apparentDistance(const Camera& camera) {
 
 void switchProjection(Camera& camera) {
     if (camera.isOrthographic()) {
-        const glm::dvec3 forward = viewAxes(camera).forward;
+        const glm::dvec3 forward = cameraAxes(camera).forward;
         const auto distance = static_cast<double>(apparentDistance(camera));
         camera.eye = glm::vec3(glm::dvec3(camera.target) - distance * forward);
         camera.orthographicHeight = 0;

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// How a camera sees space: its axes, the rays through points of its picture, and one kind of projection in place of the
-// other. The same axes as the renderer's (src/view/camera.cpp), also where view and up are parallel.
+// How a camera sees space: the rays through points of its picture, and one kind of projection in place of the other.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,12 +8,6 @@
 #include "conelight/scene.h"
 
 namespace conelight::program {
-
-// Unit vectors, right-handed: right, up, -forward.
-struct ViewAxes {
-    glm::dvec3 forward, right, up;
-};
-ViewAxes viewAxes(const Camera& camera);
 
 struct ViewRay {
     glm::vec3 origin{0}, direction{0};  // unit

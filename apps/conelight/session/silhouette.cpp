@@ -22,9 +22,9 @@ class EyeSpace {
     EyeSpace(const Camera& camera, int width, int height)
         : camera_(camera),
           size_(width, height),
-          right_(viewAxes(camera).right),
-          down_(-viewAxes(camera).up),
-          forward_(viewAxes(camera).forward) {}
+          right_(cameraAxes(camera).right),
+          down_(-cameraAxes(camera).up),
+          forward_(cameraAxes(camera).forward) {}
     glm::vec3 of(const glm::vec3& point) const {
         const glm::vec3 d = point - camera_.eye;
         return {glm::dot(right_, d), glm::dot(down_, d), glm::dot(forward_, d)};

@@ -46,7 +46,7 @@ ViewAngles anglesOf(const TurnAxes& axes, const Camera& camera) {
     ViewAngles angles = anglesIn(axes, way);
     const float along = glm::dot(way, axes.up);
     if (glm::length(way - along * axes.up) > 1e-5f * glm::length(way)) return angles;
-    const glm::vec3 upper(viewAxes(camera).up);
+    const glm::vec3 upper(cameraAxes(camera).up);
     angles.yaw = anglesIn(axes, along < 0 ? upper : -upper).yaw;
     return angles;
 }
@@ -103,7 +103,7 @@ void orbit(Camera& camera, const glm::vec2& turn) {
 }
 
 void pan(Camera& camera, const glm::vec2& pixels, int height) {
-    const ViewAxes axes = viewAxes(camera);
+    const CameraAxes axes = cameraAxes(camera);
     const float distance = glm::length(camera.target - camera.eye);
     const float metresPerPixel = camera.heightAt(distance) / static_cast<float>(std::max(height, 1));
     const glm::vec3 step =
@@ -128,7 +128,7 @@ void focusOn(Camera& camera, const Aabb& bounds, float aspect) {
     // The sphere round the box inside the narrower of the two angles.
     const float halfY = 0.5f * camera.fovY;
     const float half = aspect < 1 ? std::atan(std::tan(halfY) * aspect) : halfY;
-    const glm::vec3 forward(viewAxes(camera).forward);
+    const glm::vec3 forward(cameraAxes(camera).forward);
     camera.target = bounds.center();
     camera.eye = camera.target - forward * (radius / std::sin(half));
     if (camera.isOrthographic())

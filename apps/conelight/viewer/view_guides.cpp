@@ -46,7 +46,7 @@ std::vector<ViewGuides::End> ViewGuides::endsOf(const Camera& camera, const glm:
                                                 const glm::vec2& size) {
     const float em = ImGui::GetFontSize();
     const glm::vec2 middle(at.x + size.x - kFromCorner * em, at.y + (kFromCorner + 1.2f) * em);
-    const ViewAxes axes = viewAxes(camera);
+    const CameraAxes axes = cameraAxes(camera);
     const glm::vec3 forward(axes.forward), right(axes.right), up(axes.up);
     std::vector<End> ends;
     for (int i = 0; i < 6; ++i) {
