@@ -121,6 +121,7 @@ TEST(GltfWebp, IsTakenBeforeThePlainPicture) {
     const std::vector<std::uint8_t> texels = {255, 0, 0, 255, 0, 255, 0, 128, 0, 0, 255, 255, 9, 9, 9, 255};
     const std::vector<std::uint8_t> webp = webpBytes(2, 2, texels);
     const GltfBuilder b = webpFile(webp, png(1, 1, {1, 2, 3, 255}));
+    ASSERT_EQ(b.json["extensionsUsed"], Json({"EXT_texture_webp"}));
     const Scene scene = loadGlb(b, "webp");
     ASSERT_EQ(scene.textures.size(), 1u);
     EXPECT_EQ(scene.textures[0].width, 2);

@@ -42,6 +42,37 @@ TEST(Gltf, MaterialsWithExtensions) {
     expectNear(m.specularColor, {1, 2, 3});
 }
 
+// A dielectric of that reflectance; glossiness of a picture's alpha becomes a picture of roughness.
+TEST(Gltf, ReadsSpecularGlossiness) {
+    GltfBuilder b;
+    b.triangle()["material"] = 0;
+    const std::string picture = png(1, 1, {200, 100, 50, 102});
+    b.json["images"] = {{{"uri", "data:image/png;base64," + base64(picture)}}};
+    b.json["textures"] = {{{"source", 0}}};
+    const char* extension = "KHR_materials_pbrSpecularGlossiness";
+    const Json plain = {{"diffuseFactor", {0.1, 0.2, 0.3, 0.4}},
+                        {"specularFactor", {0.02, 0.04, 0.08}},
+                        {"glossinessFactor", 0.75}};
+    Json textured = plain;
+    textured["specularGlossinessTexture"] = {{"index", 0}};
+    b.json["materials"] = {{{"name", "plain"}, {"extensions", {{extension, plain}}}},
+                           {{"name", "textured"}, {"extensions", {{extension, textured}}}}};
+    b.node({{"mesh", 0}});
+    const Scene scene = loadGlb(b, "specular_glossiness");
+    const Material& m = scene.materials.at(0);
+    expectNear(glm::vec3(m.baseColor), {0.1f, 0.2f, 0.3f});
+    EXPECT_FLOAT_EQ(m.baseColor.a, 0.4f);
+    EXPECT_FLOAT_EQ(m.metallic, 0);
+    EXPECT_FLOAT_EQ(m.roughness, 0.25f);
+    expectNear(m.specularColor, {0.5f, 1, 2});
+    const Material& t = scene.materials.at(1);
+    ASSERT_TRUE(t.specularColorTexture.used() && t.metallicRoughnessTexture.used());
+    EXPECT_FLOAT_EQ(t.roughness, 1);
+    // 1 - 0.75 * 102 / 255
+    EXPECT_EQ(scene.textures.at(static_cast<std::size_t>(t.metallicRoughnessTexture.texture)).rgba.at(1),
+              179);
+}
+
 TEST(Gltf, ReadsGlass) {
     GltfBuilder b;
     b.triangle()["material"] = 0;

@@ -4,6 +4,7 @@
 #include <fmt/core.h>
 
 #include <fstream>
+#include <map>
 #include <regex>
 #include <set>
 
@@ -143,21 +144,24 @@ TEST(GltfPlainer, PointersOfAnimationsStandStill) {
 // Rows of the page are those of the importer's list, and each names tests that there are.
 TEST(GltfPlainer, EachRowOfThePageHasTests) {
     std::ifstream file(std::string(CONELIGHT_SOURCE_DIR) + "/docs/reference/gltf.md");
-    std::set<std::string> rows, suites;
+    std::set<std::string> rows;
+    std::map<std::string, std::string> suites;  // with the text of the files that have tests of them
     for (const auto& entry :
          std::filesystem::directory_iterator(std::string(CONELIGHT_SOURCE_DIR) + "/tests/cpu")) {
         std::ifstream test(entry.path());
         const std::string text{std::istreambuf_iterator<char>(test), {}};
         const std::regex names("TEST(?:_F)?\\((\\w+),");
+        std::set<std::string> here;
         for (std::sregex_iterator i(text.begin(), text.end(), names), end; i != end; ++i)
-            suites.insert((*i)[1]);
+            here.insert((*i)[1]);
+        for (const std::string& suite : here) suites[suite] += text;
     }
     const std::regex row("\\| `(\\w+)` \\|.*\\| (?:`(\\w+)` )?\\|");
     for (std::string line; std::getline(file, line);) {
         std::smatch parts;
         if (!std::regex_match(line, parts, row)) continue;
         rows.insert(parts[1]);
-        EXPECT_TRUE(suites.contains(parts[2])) << line;
+        EXPECT_NE(suites[parts[2]].find(parts[1]), std::string::npos) << line;
     }
     std::set<std::string> listed;
     for (const io::GltfExtension& extension : io::gltfExtensions()) listed.emplace(extension.name);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <glm/gtc/constants.hpp>
 
 #include "conelight/error.h"
@@ -190,6 +191,9 @@ TEST(LightProfiles, ScenesKeepThem) {
         for (std::size_t i = 0; i < 2; ++i) expectSameProfile(back.lights[i], scene.lights[i]);
         EXPECT_NEAR(back.lights[1].outerAngle, 1, 1e-5f);
     }
+    std::ifstream gltf(folder / "lamps.gltf");
+    const std::string text{std::istreambuf_iterator<char>(gltf), {}};
+    EXPECT_NE(text.find("\"EXT_lights_ies\""), std::string::npos);
 }
 
 TEST(LightProfiles, TheConsoleSetsThem) {

@@ -12,10 +12,7 @@
 #include <random>
 #include <utility>
 
-#ifdef __GLIBC__  // which the headers above tell
-#include <malloc.h>
-#endif
-
+#include "support/heap.h"
 #include "support/host_state.h"
 #include "support/light_field_rig.h"
 #include "support/scenes.h"
@@ -38,15 +35,6 @@ HeldObjects heldObjects() {
         bytes += object.bytes;
     }
     return held;
-}
-
-std::size_t bytesOfHeap() {
-#if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)
-    const struct mallinfo2 info = mallinfo2();
-    return info.uordblks + info.hblkhd;
-#else
-    return 0;
-#endif
 }
 
 // What a host changes from frame to frame, in a field that it began with a scene.
@@ -267,12 +255,11 @@ TEST_F(LightFieldSoak, FramesWithChangesLeaveNothingBehind) {
         EXPECT_EQ(heldObjects(), first) << seed;
         // The first turns fill the library with programs.
         if (host.frames() <= wanted / 2)
-            heap = std::max(heap, bytesOfHeap());
+            heap = std::max(heap, heapBytes());
         else
-            mostHeap = std::max(mostHeap, bytesOfHeap());
+            mostHeap = std::max(mostHeap, heapBytes());
         if (asked == nullptr || seed % 50 != 0) continue;
-        std::printf("%d frames: heap %.1f MB\n", host.frames(),
-                    static_cast<double>(bytesOfHeap()) / (1 << 20));
+        std::printf("%d frames: heap %.1f MB\n", host.frames(), static_cast<double>(heapBytes()) / (1 << 20));
         std::fflush(stdout);
     }
     // Short runs build programs to their end.

@@ -5,10 +5,6 @@
 //
 // A seed gives the same commands. CONELIGHT_SOAK_SECONDS=N goes on with other seeds for so long (tools/soak). The heap of
 // the later half is that of the earlier.
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -24,6 +20,7 @@
 #include "conelight/scene_upload.h"
 #include "conelight/thesis/settings.h"
 #include "support/gl_fixture.h"
+#include "support/heap.h"
 #include "support/moving_scene.h"
 
 namespace conelight::test {
@@ -63,16 +60,6 @@ std::string more(const Held& now, const Held& before) {
                                 bytes);
     }
     return text;
-}
-
-// Bytes that the process has asked for and not given back; 0: unknown.
-std::size_t heapBytes() {
-#if defined(__GLIBC__) && (__GLIBC__ > 2 || __GLIBC_MINOR__ >= 33)
-    const struct mallinfo2 info = mallinfo2();
-    return info.uordblks + info.hblkhd;
-#else
-    return 0;
-#endif
 }
 
 std::size_t medianOf(std::vector<std::size_t> all) {
