@@ -173,6 +173,9 @@ constexpr GeneratedParameter kGlasswareParameters[] = {
     {"emission", 16, 0, 1e4, false, "radiance of the lamp, W/(sr m^2)"},
     {"spot", 6, 0, 1e4, false, "of the spot light, W/sr"},
 };
+constexpr GeneratedParameter kPlainParameters[] = {
+    {"size", 400, 0, 4000, false, "edge of the plain, m; with houses from 60 on; 0: the room alone"},
+};
 constexpr GeneratedParameter kMirrorHallParameters[] = {
     {"roughness", 0, 0, 1, false, "of the mirrors; below 0.045 they are ideal"},
     {"intensity", 5, 0, 1e4, false, "of the warm lamp, W/sr; the cool one has about half"},
@@ -282,6 +285,9 @@ constexpr Entry kScenes[] = {
     {{"mirror-hall", "hall of flat faces with three ideal mirrors and two point lamps, for mode beams",
       kMirrorHallParameters},
      generated::buildMirrorHall},
+    {{"plain", "room of 8 m with a lamp on a plain with houses, for nested grids; cameras room, door",
+      kPlainParameters},
+     generated::buildPlain},
 };
 
 // All scenes: those above, then those of guests.

@@ -99,5 +99,6 @@ Scene buildGlass(const Values& values);
 Scene buildConservatory(const Values& values);
 Scene buildGlassware(const Values& values);
 Scene buildMirrorHall(const Values& values);
+Scene buildPlain(const Values& values);
 
 }  // namespace conelight::io::generated

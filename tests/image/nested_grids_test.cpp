@@ -2,8 +2,9 @@
 // Pictures of mode `traced` with nested grids: light is neither lost nor found where rays and surfaces cross from one
 // level into the next; a room keeps its light on a plain of any size; the eye may move.
 #include <cmath>
-#include <glm/gtc/matrix_transform.hpp>
+#include <string>
 
+#include "io/generated.h"
 #include "support/traced_rig.h"
 
 namespace conelight::test {
@@ -17,39 +18,7 @@ Settings nestedSettings(Quality quality, int levels) {
     return settings;
 }
 
-void addBox(Scene& scene, const glm::vec3& low, const glm::vec3& high, const Material& material) {
-    addInstance(scene, boxMesh(), material,
-                glm::scale(glm::translate(glm::mat4(1), 0.5f * (low + high)), 0.5f * (high - low)));
-}
-
-// A room of 8 m with a lamp, open to one side by a door, on a square plain of this edge in m; 0: none.
-Scene roomOnAPlain(float edge) {
-    Scene scene;
-    const Material white = diffuseMaterial(glm::vec3(0.7f)), red = diffuseMaterial({0.6f, 0.1f, 0.1f});
-    addBox(scene, {-4.2f, -0.3f, -4.2f}, {4.2f, 0, 4.2f}, white);
-    addBox(scene, {-4.2f, 3, -4.2f}, {4.2f, 3.3f, 4.2f}, white);
-    addBox(scene, {-4.2f, 0, -4.2f}, {-4, 3, 4.2f}, red);
-    addBox(scene, {4, 0, -4.2f}, {4.2f, 3, 2}, white);
-    addBox(scene, {4, 0, 3}, {4.2f, 3, 4.2f}, white);
-    addBox(scene, {4, 2.1f, 2}, {4.2f, 3, 3}, white);
-    addBox(scene, {-4, 0, -4.2f}, {4, 3, -4}, white);
-    addBox(scene, {-4, 0, 4}, {4, 3, 4.2f}, white);
-    addBox(scene, {-1, 0, -2}, {0.5f, 1.2f, -1}, white);
-    addInstance(scene, quadMesh({-0.6f, 2.95f, -1}, {1.2f, 0, 0}, {0, 0, 1.2f}),
-                diffuseMaterial(glm::vec3(0.7f), glm::vec3(12)));
-    if (edge > 0) {
-        const float low = -0.5f * edge;
-        addInstance(scene, quadMesh({low, -0.1f, -low}, {edge, 0, 0}, {0, 0, -edge}),
-                    diffuseMaterial({0.3f, 0.3f, 0.2f}));
-        addBox(scene, {0.3f * edge, -0.1f, 0.1f * edge}, {0.3f * edge + 8, 6, 0.1f * edge + 9}, red);
-    }
-    Camera camera;
-    camera.eye = {-2.2f, 1.7f, 3.4f};
-    camera.target = {1.2f, 1.1f, -2.5f};
-    camera.fovY = 1.1f;
-    scene.cameras = {camera};
-    return scene;
-}
+Scene roomOnAPlain(int edge) { return io::generateScene("plain?size=" + std::to_string(edge)); }
 
 }  // namespace
 
