@@ -2,6 +2,7 @@
 #include "gl/buffer.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <vector>
 
@@ -13,6 +14,13 @@ namespace conelight::gl {
 namespace {
 
 constexpr std::size_t kMinBytes = 16;  // zero-size storage is an error in GL; one row of a GPU struct
+
+// What the driver is asked for. llvmpipe builds the kernels that read it as a texture once more if its size is a power of
+// two, and if bits 8 to 15 of its size are zero: in Mesa's record they are the levels of other textures.
+std::size_t storageOf(std::size_t bytes) {
+    constexpr std::size_t kLevels = 0xff00, kStep = 0x108;
+    return std::has_single_bit(bytes) || (bytes & kLevels) == 0 ? bytes + kStep : bytes;
+}
 
 bool inRange(std::size_t offset, std::size_t bytes, std::size_t size) {
     return bytes <= size && offset <= size - bytes;
@@ -27,15 +35,16 @@ Buffer::Buffer(const void* data, std::size_t bytes, const std::string& label)
     requireRoom(label, bytes_);
     Name created = 0;
     glCreateBuffers(1, &created);
+    const std::size_t storage = storageOf(bytes_);
     adopt(created, label, bytes_);
     // Filled up with zeros here: a driver of NVIDIA (580.159) has lost what was written right after a fill.
     std::vector<std::byte> padded;
-    if (data != nullptr && bytes < bytes_) {
-        padded.resize(bytes_);
+    if (data != nullptr && bytes < storage) {
+        padded.resize(storage);
         std::copy_n(static_cast<const std::byte*>(data), bytes, padded.begin());
         data = padded.data();
     }
-    glNamedBufferStorage(created, static_cast<GLsizeiptr>(bytes_), data, GL_DYNAMIC_STORAGE_BIT);
+    glNamedBufferStorage(created, static_cast<GLsizeiptr>(storage), data, GL_DYNAMIC_STORAGE_BIT);
     requireStorage(ObjectType::Buffer, created, label, bytes_);
     if (data == nullptr) clear();
 }

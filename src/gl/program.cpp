@@ -10,6 +10,8 @@
 #include "base/assert.h"
 #include "base/log.h"
 #include "gl/gl.h"
+#include "gl/pass.h"
+#include "gl/sampler_slots.h"
 
 namespace conelight::gl {
 namespace {
@@ -88,6 +90,11 @@ bool isImage(GLenum type) {
         default:
             return false;
     }
+}
+
+bool isBufferTexture(GLenum type) {
+    return type == GL_SAMPLER_BUFFER || type == GL_INT_SAMPLER_BUFFER ||
+           type == GL_UNSIGNED_INT_SAMPLER_BUFFER;
 }
 
 const char* kindName(ResourceKind kind) {
@@ -176,6 +183,7 @@ void Program::assignSlots() {
         GLint values[3];
         glGetProgramResourceiv(name(), GL_UNIFORM, i, 3, wanted, 3, nullptr, values);
         if (values[2] != -1) continue;  // a member of a block
+        if (isBufferTexture(static_cast<GLenum>(values[0]))) readsBufferTextures_ = true;
         const ResourceKind kind =
             isImage(static_cast<GLenum>(values[0])) ? ResourceKind::Image : ResourceKind::Texture;
         const unsigned slot = add(resourceName(name(), GL_UNIFORM, i), kind);
@@ -204,13 +212,18 @@ int Program::unitOf(ResourceName texture) const {
     return -1;
 }
 
+void Program::useForDispatch(const Inputs& inputs) const {
+    if (samplers_ != nullptr) samplers_->run();
+    use(inputs);
+}
+
 void Program::dispatch(const Inputs& inputs, int x, int y, int z) const {
     CONELIGHT_ASSERT(groupSize_.x > 0, "Program::dispatch: not a compute program");
     if (x <= 0 || y <= 0 || z <= 0) return;
     const glm::ivec3 groups = (glm::ivec3(x, y, z) + groupSize_ - 1) / groupSize_;
     CONELIGHT_ASSERT(groups.x <= kMaxGroups && groups.y <= kMaxGroups && groups.z <= kMaxGroups,
                      "Program::dispatch: too many groups; dispatchLinear folds them");
-    use(inputs);
+    useForDispatch(inputs);
     glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y),
                       static_cast<GLuint>(groups.z));
 }
@@ -227,7 +240,7 @@ void Program::dispatchLinear(const Inputs& inputs, std::size_t invocations) cons
     const std::size_t columns = (groups + rows - 1) / rows;
     CONELIGHT_ASSERT(rows <= static_cast<std::size_t>(kMaxGroups),
                      "Program::dispatchLinear: too many invocations");
-    use(inputs);
+    useForDispatch(inputs);
     glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(rows), 1);
 }
 
@@ -235,7 +248,7 @@ void Program::dispatchIndirect(const Inputs& inputs, const Buffer& buffer, std::
     CONELIGHT_ASSERT(groupSize_.x > 0, "Program::dispatchIndirect: not a compute program");
     CONELIGHT_ASSERT(offset % 4 == 0 && buffer.bytes() >= 12 && offset <= buffer.bytes() - 12,
                      "Program::dispatchIndirect reaches past the end of the buffer");
-    use(inputs);
+    useForDispatch(inputs);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer.name());
     glDispatchComputeIndirect(static_cast<GLintptr>(offset));
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
@@ -269,11 +282,23 @@ std::vector<ProgramDesc> builtPrograms() {
     return descs;
 }
 
+ProgramLibrary::ProgramLibrary(ShaderProvider provider) : provider_(std::move(provider)) {}
+ProgramLibrary::~ProgramLibrary() = default;
+
+Program ProgramLibrary::build(const ProgramDesc& desc) {
+    Program program(provider_, desc);
+    if (program.groupSize().x > 0 && program.readsBufferTextures() && isSoftwareDriver()) {
+        if (!samplers_) samplers_ = std::make_unique<SamplerSlots>();
+        program.runAfter(*samplers_);
+    }
+    return program;
+}
+
 const Program& ProgramLibrary::get(const ProgramDesc& desc) {
     std::unique_ptr<Entry>& entry = programs_[desc.label()];
     if (!entry) {
         try {
-            entry = std::make_unique<Entry>(Entry{desc, Program(provider_, desc)});
+            entry = std::make_unique<Entry>(Entry{desc, build(desc)});
             const std::lock_guard lock(built().mutex);
             built().byLabel.emplace(desc.label(), desc);
         } catch (...) {
@@ -314,7 +339,7 @@ std::vector<std::string> ProgramLibrary::reload(const std::vector<std::string>& 
         });
         if (!affected && !entry->reloadFailed) continue;
         try {
-            entry->program = Program(provider_, entry->desc);
+            entry->program = build(entry->desc);
             entry->reloadFailed = false;
         } catch (const Error& error) {
             entry->reloadFailed = true;

@@ -17,6 +17,8 @@
 
 namespace conelight::gl {
 
+class SamplerSlots;
+
 // What a program is made of. Stage by file suffix: .vert.glsl .geom.glsl .frag.glsl .comp.glsl.
 struct ProgramDesc {
     std::vector<std::string> files;
@@ -43,6 +45,9 @@ class Program : public Object<ObjectType::Program> {
     const std::vector<std::string>& sourceFiles() const { return sourceFiles_; }
     glm::ivec3 groupSize() const { return groupSize_; }  // compute only
     const std::vector<ProgramSlot>& slots() const { return slots_; }
+    bool readsBufferTextures() const { return readsBufferTextures_; }
+    // Compute: run before each dispatch, lives longer than the program.
+    void runAfter(const SamplerSlots& samplers) { samplers_ = &samplers; }
 
     // Binds what the program reads and makes it current, for draw calls. Throws Error(Runtime) that names
     // what it reads and `inputs` lacks. GL state changed, here and below: program, the slots of slots().
@@ -61,11 +66,14 @@ class Program : public Object<ObjectType::Program> {
 
   private:
     void assignSlots();
+    void useForDispatch(const Inputs& inputs) const;
 
     std::string label_;
     std::vector<std::string> sourceFiles_;
     std::vector<ProgramSlot> slots_;
     glm::ivec3 groupSize_{0};
+    bool readsBufferTextures_ = false;
+    const SamplerSlots* samplers_ = nullptr;
 };
 
 // How many programs a library keeps for pictures that may need them again. All five modes need 65 together in one
@@ -78,7 +86,8 @@ std::size_t mostPrograms();
 // Programs by description; a reference stays valid until trim().
 class ProgramLibrary {
   public:
-    explicit ProgramLibrary(ShaderProvider provider) : provider_(std::move(provider)) {}
+    explicit ProgramLibrary(ShaderProvider provider);
+    ~ProgramLibrary();
 
     const Program& get(const ProgramDesc& desc);
     // Deletes what is more than mostPrograms(), the programs first that were asked for the longest ago. Those that were
@@ -106,8 +115,11 @@ class ProgramLibrary {
         bool reloadFailed = false;
         std::uint64_t asked = 0;  // which call of get() was the last for it
     };
+    Program build(const ProgramDesc& desc);
+
     ShaderProvider provider_;
     Buffer firstRow_;
+    std::unique_ptr<SamplerSlots> samplers_;
     std::map<std::string, std::unique_ptr<Entry>> programs_;
     std::uint64_t asked_ = 0, trimmed_ = 0;  // calls of get(), and of these before the last trim()
 };

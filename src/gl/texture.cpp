@@ -2,6 +2,7 @@
 #include "gl/texture.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "base/assert.h"
 #include "base/log.h"
@@ -77,6 +78,20 @@ std::size_t texelBytes(std::uint32_t format) {
     base::fail(ErrorKind::Runtime, "texture format 0x%x has no known size", format);
 }
 
+int unevenEdge(int texels) { return texels + (std::has_single_bit(static_cast<unsigned>(texels)) ? 1 : 0); }
+
+// As the driver is asked for it.
+TextureDesc stored(TextureDesc desc) {
+    if (!desc.uneven) return desc;
+    CONELIGHT_ASSERT(desc.levels == 1, "the levels of an uneven texture are of other sizes");
+    // One more of what is many is little; 32 slices of 32 rows would grow by a sixteenth.
+    constexpr int kMany = 32;
+    desc.width = unevenEdge(desc.width);
+    if (desc.height < kMany) desc.height = unevenEdge(desc.height);
+    if (desc.target == GL_TEXTURE_3D && desc.depth < kMany) desc.depth = unevenEdge(desc.depth);
+    return desc;
+}
+
 bool isArray(std::uint32_t target) {
     return target == GL_TEXTURE_2D_ARRAY || target == GL_TEXTURE_CUBE_MAP_ARRAY;
 }
@@ -108,15 +123,16 @@ void requireLimits(const TextureDesc& desc, const std::string& label) {
 Texture::Texture(const TextureDesc& desc, const std::string& label) : desc_(desc) {
     if (desc_.levels == 0) desc_.levels = fullChain(desc_);
     const std::size_t bytes = storageBytes(desc_);
-    requireLimits(desc_, label);
+    const TextureDesc storage = stored(desc_);
+    requireLimits(storage, label);
     requireRoom(label, bytes);
     Name created = 0;
     glCreateTextures(desc_.target, 1, &created);
     adopt(created, label, bytes);
     if (desc_.target == GL_TEXTURE_3D || isArray(desc_.target))
-        glTextureStorage3D(created, desc_.levels, desc_.format, desc_.width, desc_.height, desc_.depth);
+        glTextureStorage3D(created, desc_.levels, desc_.format, storage.width, storage.height, storage.depth);
     else
-        glTextureStorage2D(created, desc_.levels, desc_.format, desc_.width, desc_.height);
+        glTextureStorage2D(created, desc_.levels, desc_.format, storage.width, storage.height);
     requireStorage(ObjectType::Texture, created, label, bytes);
 }
 
@@ -140,7 +156,8 @@ int Texture::depth(int level) const {
     return desc_.target == GL_TEXTURE_3D ? std::max(desc_.depth >> level, 1) : desc_.depth;
 }
 
-std::size_t Texture::storageBytes(const TextureDesc& desc) {
+std::size_t Texture::storageBytes(const TextureDesc& wanted) {
+    const TextureDesc desc = stored(wanted);
     std::size_t texels = 0;
     const int levels = desc.levels != 0 ? desc.levels : fullChain(desc);
     for (int level = 0; level < levels; ++level) {
@@ -204,6 +221,7 @@ void Texture::copyLayers(const Texture& source, int layers) {
 
 void Texture::read(int level, std::uint32_t layout, std::uint32_t type, void* data, std::size_t bytes) const {
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    if (desc_.uneven) return readRegion({0, 0, 0}, {width(), height(), depth()}, layout, type, data, bytes);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glGetTextureImage(name(), level, layout, type, static_cast<GLsizei>(bytes), data);
 }

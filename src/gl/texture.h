@@ -23,13 +23,18 @@ struct TextureDesc {
     int height = 1;
     int depth = 1;   // layers for arrays (6 per cube); 1 for a single cube
     int levels = 1;  // 0: the full chain
+    // Shaders read and write single texels and know the size from elsewhere: the storage may be larger, so that its edges
+    // are no powers of two (but for height and depth from 32). llvmpipe builds kernels once more for those
+    // (gl/sampler_slots.h).
+    bool uneven = false;
 };
 
 class Texture : public Object<ObjectType::Texture> {
   public:
     Texture() = default;
     Texture(const TextureDesc& desc, const std::string& label);
-    // A GL_TEXTURE_BUFFER that reads `buffer` (not owned) as texels of `format`.
+    // A GL_TEXTURE_BUFFER that reads `buffer` (not owned) as texels of `format`. For textureSize() of GLSL it may have
+    // more texels, of any value, than the buffer.
     Texture(const Buffer& buffer, std::uint32_t format, const std::string& label);
 
     const TextureDesc& desc() const { return desc_; }

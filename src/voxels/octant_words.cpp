@@ -18,8 +18,8 @@ base::Steps OctantWords::buildInSteps(const gl::Device& device, const SurfaceVox
     if (!texture_ || texture_.width() != 8 * bricks.x || texture_.height() != bricks.y ||
         texture_.depth() != bricks.z) {
         texture_ = {};  // frees the old one first
-        texture_ =
-            gl::Texture({GL_TEXTURE_3D, GL_RG32UI, 8 * bricks.x, bricks.y, bricks.z, 1}, "octant words");
+        texture_ = gl::Texture({GL_TEXTURE_3D, GL_RG32UI, 8 * bricks.x, bricks.y, bricks.z, 1, true},
+                               "octant words");
         texture_.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         texture_.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     }

@@ -96,7 +96,7 @@ void clearBricks(VoxelKeys& keys, const glm::ivec3& bricks) {
     const gl::TextureDesc& have = keys.brickWords.desc();
     if (!keys.brickWords || have.width != bricks.x || have.height != bricks.y || have.depth != bricks.z) {
         keys.brickWords =
-            gl::Texture({GL_TEXTURE_3D, GL_RGBA32UI, bricks.x, bricks.y, bricks.z, 1}, "voxel bricks");
+            gl::Texture({GL_TEXTURE_3D, GL_RGBA32UI, bricks.x, bricks.y, bricks.z, 1, true}, "voxel bricks");
         // Integer textures are incomplete, and read as zero, with the filters that textures are born with.
         keys.brickWords.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);
         keys.brickWords.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
