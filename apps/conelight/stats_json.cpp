@@ -72,6 +72,8 @@ nlohmann::ordered_json statsJson(const FrameStats& stats) {
              {"gpu_ms", pass.gpuMs >= 0 ? nlohmann::ordered_json(pass.gpuMs) : nlohmann::ordered_json()}});
     json["lookups_per_pixel"] = lookupsJson(stats);
     json["memory_bytes"] = memoryJson(stats);
+    const ProgramStats programs = programStats();
+    json["programs"] = {{"built", programs.built}, {"loaded", programs.loaded}};
     return json;
 }
 

@@ -15,6 +15,7 @@
 #include "conelight/export.h"
 #include "conelight/host_mesh.h"
 #include "conelight/inspect.h"
+#include "conelight/program_cache.h"
 #include "conelight/scene.h"
 #include "conelight/settings.h"
 
@@ -58,6 +59,8 @@ struct RendererOptions {
     // Takes the context's KHR_debug callback: errors of the driver go to the log.
     bool reportGlErrors = false;
     Execution execution = Execution::Auto;
+    std::shared_ptr<ProgramCache> programs =
+        {};  // keeps linked programs; null: each start builds all of them
 };
 
 class CONELIGHT_API Renderer {

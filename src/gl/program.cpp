@@ -10,13 +10,14 @@
 #include "base/assert.h"
 #include "base/log.h"
 #include "gl/gl.h"
+#include "gl/program_binary.h"
 
 namespace conelight::gl {
 namespace {
 
 constexpr int kMaxGroups = 65535;  // GL minimum of GL_MAX_COMPUTE_WORK_GROUP_COUNT
 
-std::atomic<std::uint64_t> builtCount{0}, usedCount{0};
+std::atomic<std::uint64_t> builtCount{0}, usedCount{0}, loadedCount{0};
 
 GLenum stageOf(const std::string& file) {
     const auto has = [&](const char* part) { return file.find(part) != std::string::npos; };
@@ -129,17 +130,33 @@ std::string ProgramDesc::label() const {
     return text + "]";
 }
 
-Program::Program(const ShaderProvider& provider, const ProgramDesc& desc) : label_(desc.label()) {
-    // Owned from the start, so that a failure below frees it.
-    const GLuint program = glCreateProgram();
-    ++builtCount;
-    adopt(program, label_, 0);
-    std::vector<GLuint> stages;
+Program::Program(const ShaderProvider& provider, const ProgramDesc& desc, ProgramCache* cache)
+    : label_(desc.label()) {
+    std::vector<ExpandedShader> stages;
     for (const std::string& file : desc.files) {
-        const ExpandedShader source = expandShader(provider, file, desc.defines);
-        stages.push_back(attachStage(program, source));
+        const ExpandedShader& source = stages.emplace_back(expandShader(provider, file, desc.defines));
         sourceFiles_.insert(sourceFiles_.end(), source.files.begin(), source.files.end());
     }
+    // Owned from the start, so that a failure below frees it.
+    adopt(glCreateProgram(), label_, 0);
+    const std::string key = cache != nullptr ? programKey(stages) : std::string();
+    if (cache != nullptr && linkBinary(name(), key, label_, *cache)) {
+        ++loadedCount;
+    } else {
+        ++builtCount;
+        if (cache != nullptr) wantBinary(name());
+        build(stages);
+        if (cache != nullptr) keepBinary(name(), key, *cache);
+    }
+    if (stageOf(desc.files.front()) == GL_COMPUTE_SHADER)
+        glGetProgramiv(name(), GL_COMPUTE_WORK_GROUP_SIZE, &groupSize_.x);
+    assignSlots();
+}
+
+void Program::build(const std::vector<ExpandedShader>& sources) {
+    const GLuint program = name();
+    std::vector<GLuint> stages;
+    for (const ExpandedShader& source : sources) stages.push_back(attachStage(program, source));
     glLinkProgram(program);
     // The program needs them no longer; their text and what was parsed of it is most of what a driver keeps.
     for (const GLuint stage : stages) glDetachShader(program, stage);
@@ -148,9 +165,6 @@ Program::Program(const ShaderProvider& provider, const ProgramDesc& desc) : labe
     if (ok == GL_FALSE)
         base::fail(ErrorKind::Runtime, "%s: does not link: %s", label_.c_str(),
                    infoLog(program, glGetProgramiv, glGetProgramInfoLog).c_str());
-    if (stageOf(desc.files.front()) == GL_COMPUTE_SHADER)
-        glGetProgramiv(program, GL_COMPUTE_WORK_GROUP_SIZE, &groupSize_.x);
-    assignSlots();
 }
 
 // Gives every buffer block, texture and image that the linked program reads a slot of its own.
@@ -259,7 +273,7 @@ BuiltPrograms& built() {
 
 void setMostPrograms(std::size_t count) { most = count; }
 std::size_t mostPrograms() { return most; }
-ProgramCounts programCounts() { return {builtCount, usedCount}; }
+ProgramCounts programCounts() { return {builtCount, usedCount, loadedCount}; }
 
 std::vector<ProgramDesc> builtPrograms() {
     BuiltPrograms& all = built();
@@ -273,7 +287,7 @@ const Program& ProgramLibrary::get(const ProgramDesc& desc) {
     std::unique_ptr<Entry>& entry = programs_[desc.label()];
     if (!entry) {
         try {
-            entry = std::make_unique<Entry>(Entry{desc, Program(provider_, desc)});
+            entry = std::make_unique<Entry>(Entry{desc, Program(provider_, desc, cache_.get())});
             const std::lock_guard lock(built().mutex);
             built().byLabel.emplace(desc.label(), desc);
         } catch (...) {
@@ -314,7 +328,7 @@ std::vector<std::string> ProgramLibrary::reload(const std::vector<std::string>& 
         });
         if (!affected && !entry->reloadFailed) continue;
         try {
-            entry->program = Program(provider_, entry->desc);
+            entry->program = Program(provider_, entry->desc, cache_.get());
             entry->reloadFailed = false;
         } catch (const Error& error) {
             entry->reloadFailed = true;
@@ -332,3 +346,12 @@ std::vector<std::string> ProgramLibrary::sourceFiles() const {
 }
 
 }  // namespace conelight::gl
+
+namespace conelight {
+
+ProgramStats programStats() {
+    const gl::ProgramCounts counts = gl::programCounts();
+    return {counts.built, counts.loaded};
+}
+
+}  // namespace conelight

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "conelight/program_cache.h"
 #include "gl/buffer.h"
 #include "gl/inputs.h"
 #include "gl/object.h"
@@ -37,8 +38,8 @@ class Program : public Object<ObjectType::Program> {
   public:
     Program() = default;
     // Throws Error(Runtime) with the driver's log mapped to file:line. That message has several lines, unlike
-    // other errors: who writes shaders needs all of them.
-    Program(const ShaderProvider& provider, const ProgramDesc& desc);
+    // other errors: who writes shaders needs all of them. With a cache: by what is kept there, else kept there.
+    Program(const ShaderProvider& provider, const ProgramDesc& desc, ProgramCache* cache = nullptr);
 
     const std::vector<std::string>& sourceFiles() const { return sourceFiles_; }
     glm::ivec3 groupSize() const { return groupSize_; }  // compute only
@@ -60,6 +61,7 @@ class Program : public Object<ObjectType::Program> {
     void dispatchIndirect(const Inputs& inputs, const Buffer& buffer, std::size_t offset = 0) const;
 
   private:
+    void build(const std::vector<ExpandedShader>& stages);
     void assignSlots();
 
     std::string label_;
@@ -78,7 +80,8 @@ std::size_t mostPrograms();
 // Programs by description; a reference stays valid until trim().
 class ProgramLibrary {
   public:
-    explicit ProgramLibrary(ShaderProvider provider) : provider_(std::move(provider)) {}
+    explicit ProgramLibrary(ShaderProvider provider, std::shared_ptr<ProgramCache> cache = {})
+        : provider_(std::move(provider)), cache_(std::move(cache)) {}
 
     const Program& get(const ProgramDesc& desc);
     // Deletes what is more than mostPrograms(), the programs first that were asked for the longest ago. Those that were
@@ -107,15 +110,16 @@ class ProgramLibrary {
         std::uint64_t asked = 0;  // which call of get() was the last for it
     };
     ShaderProvider provider_;
+    std::shared_ptr<ProgramCache> cache_;
     Buffer firstRow_;
     std::map<std::string, std::unique_ptr<Entry>> programs_;
     std::uint64_t asked_ = 0, trimmed_ = 0;  // calls of get(), and of these before the last trim()
 };
 
-// How many programs this process has built so far, and how often it made one current: tests count the work in a part of
-// a picture.
+// How many programs this process has made so far, and how often it made one current: tests count the work in a part of
+// a picture. Built: from sources; loaded: from a cache.
 struct ProgramCounts {
-    std::uint64_t built = 0, used = 0;
+    std::uint64_t built = 0, used = 0, loaded = 0;
 };
 ProgramCounts programCounts();
 

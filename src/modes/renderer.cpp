@@ -11,7 +11,6 @@
 #include "gl/debug.h"
 #include "gl/gl.h"
 #include "gl/storage.h"
-#include "modes/execution.h"
 #include "modes/memory_stats.h"
 #include "modes/renderer_values.h"
 
@@ -22,10 +21,7 @@ Renderer::Renderer(const RendererOptions& options) {
     if (options.reportGlErrors) gl::installDebugCallback();
     const std::uint32_t owner = gl::newOwner();
     const gl::OwnerScope own(owner);
-    impl_ = std::make_unique<Impl>(options.shaderDirectory.empty()
-                                       ? gl::embeddedShaderProvider()
-                                       : gl::directoryShaderProvider(options.shaderDirectory),
-                                   modes::profileOf(options.execution));
+    impl_ = std::make_unique<Impl>(options);
     impl_->owner = owner;
     impl_->deviceName = gl::rendererName();
 }
