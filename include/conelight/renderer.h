@@ -46,6 +46,8 @@ struct FrameStats {
     double cpuMs = 0, wallMs = 0;   // of the whole render call
     // Lookups: texture fetches of cones, by kind, mean per picture pixel; empty unless counting is on.
     std::vector<std::pair<std::string, double>> lookupsPerPixel;
+    // How often the driver was asked to draw meshes. On a GPU one call draws all that needs no change between.
+    std::uint64_t drawCalls = 0;
     std::vector<MemoryStats> memory;  // GL objects of this renderer that have storage, largest first
     std::string device;
 };

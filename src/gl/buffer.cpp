@@ -2,6 +2,7 @@
 #include "gl/buffer.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <vector>
 
@@ -13,6 +14,8 @@ namespace conelight::gl {
 namespace {
 
 constexpr std::size_t kMinBytes = 16;  // zero-size storage is an error in GL; one row of a GPU struct
+
+std::atomic<std::uint64_t> waits{0};
 
 bool inRange(std::size_t offset, std::size_t bytes, std::size_t size) {
     return bytes <= size && offset <= size - bytes;
@@ -66,9 +69,13 @@ void Buffer::read(std::size_t offset, void* data, std::size_t bytes) const {
     CONELIGHT_ASSERT(inRange(offset, bytes, this->bytes()),
                      "Buffer::read reaches past the end of the buffer");
     if (bytes == 0) return;
+    countWait();
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glGetNamedBufferSubData(name(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
 }
+
+std::uint64_t waitCount() { return waits; }
+void countWait() { ++waits; }
 
 std::uint64_t bytesOfForeignBuffer(Name buffer) {
     if (glIsBuffer(buffer) == GL_FALSE) return 0;

@@ -5,6 +5,7 @@
 
 #include "base/assert.h"
 #include "base/clock.h"
+#include "gl/buffer.h"
 #include "gl/gl.h"
 
 namespace conelight::gl {
@@ -14,7 +15,10 @@ std::string rendererName() {
     return text != nullptr ? reinterpret_cast<const char*>(text) : "";
 }
 
-void finish() { glFinish(); }
+void finish() {
+    countWait();
+    glFinish();
+}
 
 bool isSoftwareDriver() {
     const char* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));

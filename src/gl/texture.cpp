@@ -203,6 +203,7 @@ void Texture::copyLayers(const Texture& source, int layers) {
 }
 
 void Texture::read(int level, std::uint32_t layout, std::uint32_t type, void* data, std::size_t bytes) const {
+    countWait();
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glGetTextureImage(name(), level, layout, type, static_cast<GLsizei>(bytes), data);
@@ -210,6 +211,7 @@ void Texture::read(int level, std::uint32_t layout, std::uint32_t type, void* da
 
 void Texture::readRegion(const glm::ivec3& offset, const glm::ivec3& size, std::uint32_t layout,
                          std::uint32_t type, void* data, std::size_t bytes) const {
+    countWait();
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glGetTextureSubImage(name(), 0, offset.x, offset.y, offset.z, size.x, size.y, size.z, layout, type,

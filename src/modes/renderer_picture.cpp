@@ -143,6 +143,7 @@ base::Steps Renderer::Impl::render(WantedPicture asked) {
     profiler.beginFrame();
     programs.trim();
     if (everyFrame) scene.require("render").touch();
+    const std::uint64_t drawnBefore = scene->drawCalls();
     lookupCounters.clear();
     target().resize(asked.width, asked.height);
     co_await drawPicture(asked);
@@ -154,6 +155,7 @@ base::Steps Renderer::Impl::render(WantedPicture asked) {
     gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess);
     if (settings.component != Component::ShadowMap) drawOverlays(settings);
     collectStats();
+    stats.drawCalls = scene->drawCalls() - drawnBefore;
     if (profiler.enabled()) {
         stats.cpuMs = base::processCpuMs() - cpuStart;
         stats.wallMs = base::wallMs() - wallStart;
