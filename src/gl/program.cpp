@@ -9,6 +9,7 @@
 
 #include "base/assert.h"
 #include "base/log.h"
+#include "gl/dispatch_counter.h"
 #include "gl/gl.h"
 #include "gl/program_binary.h"
 
@@ -218,6 +219,13 @@ int Program::unitOf(ResourceName texture) const {
     return -1;
 }
 
+void Program::count(const glm::uvec3& groups) const {
+    DispatchCounter* const counter = DispatchCounter::current();
+    if (counter == nullptr) return;
+    const auto size = [](const glm::uvec3& v) { return std::uint64_t{v.x} * v.y * v.z; };
+    counter->add(label_, size(groups) * size(glm::uvec3(groupSize_)));
+}
+
 void Program::dispatch(const Inputs& inputs, int x, int y, int z) const {
     CONELIGHT_ASSERT(groupSize_.x > 0, "Program::dispatch: not a compute program");
     if (x <= 0 || y <= 0 || z <= 0) return;
@@ -225,6 +233,7 @@ void Program::dispatch(const Inputs& inputs, int x, int y, int z) const {
     CONELIGHT_ASSERT(groups.x <= kMaxGroups && groups.y <= kMaxGroups && groups.z <= kMaxGroups,
                      "Program::dispatch: too many groups; dispatchLinear folds them");
     use(inputs);
+    count(glm::uvec3(groups));
     glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y),
                       static_cast<GLuint>(groups.z));
 }
@@ -242,6 +251,7 @@ void Program::dispatchLinear(const Inputs& inputs, std::size_t invocations) cons
     CONELIGHT_ASSERT(rows <= static_cast<std::size_t>(kMaxGroups),
                      "Program::dispatchLinear: too many invocations");
     use(inputs);
+    count({columns, rows, 1});
     glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(rows), 1);
 }
 
@@ -250,6 +260,7 @@ void Program::dispatchIndirect(const Inputs& inputs, const Buffer& buffer, std::
     CONELIGHT_ASSERT(offset % 4 == 0 && buffer.bytes() >= 12 && offset <= buffer.bytes() - 12,
                      "Program::dispatchIndirect reaches past the end of the buffer");
     use(inputs);
+    if (DispatchCounter::current() != nullptr) count(buffer.read<glm::uvec3>(1, offset)[0]);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer.name());
     glDispatchComputeIndirect(static_cast<GLintptr>(offset));
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);

@@ -63,6 +63,7 @@ class Program : public Object<ObjectType::Program> {
   private:
     void build(const std::vector<ExpandedShader>& stages);
     void assignSlots();
+    void count(const glm::uvec3& groups) const;
 
     std::string label_;
     std::vector<std::string> sourceFiles_;

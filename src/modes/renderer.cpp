@@ -78,9 +78,10 @@ void Renderer::removeMesh(std::size_t index) { impl_->changed()->removeMesh(inde
 void Renderer::setRegion(const Aabb& region) { impl_->changed()->setRegion(region); }
 const Scene& Renderer::scene() const { return impl_->scene.require("scene").source(); }
 
-void Renderer::setProfiling(bool passes, bool lookups) {
+void Renderer::setProfiling(bool passes, bool lookups, bool dispatches) {
     impl_->profiler.setEnabled(passes);
     impl_->countLookups = lookups;
+    impl_->countDispatches = dispatches;
 }
 
 void Renderer::setHeadlight(float irradiance) {

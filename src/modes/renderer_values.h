@@ -36,6 +36,7 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
     gl::Device device;
     std::string deviceName;
     bool countLookups = false;
+    bool countDispatches = false;
     bool everyFrame = false;
     bool lightHeld = false;
 

@@ -185,11 +185,22 @@ TEST_F(ProgramTest, BenchJsonHasTheDocumentedShape) {
         EXPECT_GT(json["runs"][0]["frame"]["cpu_ms"][key].get<double>(), 0.0);
 }
 
-// The texts are those of the profile that was asked for.
+// The texts are those of the profile that was asked for, and the JSON file says how often each compute program ran.
 TEST_F(ProgramTest, BenchWritesTheShadersThatFramesNeed) {
     const std::string bench = "bench builtin:cornell --frames 1 --size 16x16 --voxels 16 --shaders '";
     for (const char* profile : {"processor", "gpu"}) {
-        ASSERT_EQ(conelight(bench + path(profile) + "' --execution " + profile).status, 0);
+        ASSERT_EQ(
+            conelight(bench + path(profile) + "' --json '" + path("d.json") + "' --execution " + profile)
+                .status,
+            0);
+        const nlohmann::json told = nlohmann::json::parse(bytesOf(path("d.json")))["runs"][0]["dispatches"];
+        std::uint64_t ofPixels = 0;
+        for (const nlohmann::json& one : told) {
+            const std::string program = one["program"];
+            EXPECT_TRUE(std::filesystem::exists(path(profile) + "/" + program + ".comp.glsl")) << program;
+            if (one["pass"] == "diffuse rays") ofPixels += one["invocations"].get<std::uint64_t>();
+        }
+        EXPECT_EQ(ofPixels, 16u * 16u);
         std::size_t files = 0, early = 0;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(path(profile))) {
             if (!entry.is_regular_file()) continue;
