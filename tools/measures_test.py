@@ -126,6 +126,11 @@ class GpuIsa(unittest.TestCase):
                          ["rays: navi21: instructions 1000 -> 1110"])
         self.assertEqual(isa.worse(before, {"rays": {"navi21": values | {"scalar spills": 1}}}), ["rays: navi21: scalar spills 0 -> 1"])
         self.assertEqual(len(isa.worse(before, {"rays": {"navi21": {}}})), 4)  # no longer compiles
+        # A kernel that has another name, and one that has come beside it.
+        before = {"rays-A=1": {"families": {"navi21": values}}}
+        self.assertEqual(isa.worse(before, {"rays-B=1": {"navi21": values | {"registers": 96}}}), ["rays-B=1: navi21: registers 80 -> 96"])
+        self.assertEqual(isa.worse(before, {"rays-A=1": {"navi21": values}, "rays-B=1": {"navi21": values | {"registers": 96}}}), [])
+
 
     def test_resources_of_a_module(self):
         word = lambda operation, *operands: struct.pack(f"<{len(operands) + 1}I", len(operands) + 1 << 16 | operation, *operands)
@@ -137,6 +142,25 @@ class GpuIsa(unittest.TestCase):
             file.write(code)
             file.flush()
             self.assertEqual(load("gpu_isa").bindings(file.name), ["4:4", "7:7"])
+
+
+class CostModel(unittest.TestCase):
+    def test_the_sum(self):
+        model = load("cost_model")
+        card = {"tflops": 64e-6, "ghz": 1e-3, "gtexels": 1e-3}  # a million cycles of 32 lanes and a million texels in a second
+        isa = {"gather/ray_diffuse-A=1": {"families": {"navi21": {"cycles": 500, "waves": 8}}}}
+        told = [{"pass": "diffuse rays", "program": "gather/ray_diffuse-A=1", "dispatches": 1, "invocations": 640}]
+        run = {"dispatches": told, "lookups_per_pixel": {"diffuse": 3.0}, "size": [160, 4]}
+        # 10 times 64 by 500 cycles; one wave of 500 * 8 / 2; 3 lookups of 640 pixels.
+        row = model.passes_of(run, isa, 1)["diffuse rays"]
+        self.assertEqual(model.predicted(row, card), [5.0, 2.0, 1.92, 5.0])
+        # Pixels of a picture four times as large.
+        row = model.passes_of(run, isa, 4)["diffuse rays"]
+        self.assertEqual((model.total(row, "invocations"), model.total(row, "cycles"), row["lookups"]), (2560, 20000.0, 7680.0))
+        faces = {"pass": "irradiance: update", "program": "gather/ray_diffuse-A=1", "dispatches": 1, "invocations": 640}
+        self.assertEqual(model.passes_of(run | {"dispatches": [faces]}, isa, 4)["irradiance: update"]["kernels"][0]["invocations"], 640)
+        self.assertEqual(model.verdict(5.0, 2.6), "confirmed")
+        self.assertEqual(model.verdict(5.0, 2.4), "refuted")
 
 
 if __name__ == "__main__":

@@ -51,7 +51,8 @@ struct Run {
     std::string mode;
     Settings settings;
     std::vector<FrameStats> frames;
-    FrameStats counted;  // one extra frame with lookups counted
+    FrameStats counted;                     // one extra frame with lookups counted
+    std::vector<DispatchStats> dispatches;  // of another, with --shaders
     std::shared_ptr<const BakedLight> baked;
 
     Spread of(double FrameStats::*field) const {
@@ -135,6 +136,12 @@ nlohmann::ordered_json runJson(const std::string& scene, const BenchOptions& opt
              {"cpu_ms", time.first},
              {"gpu_ms", onGpu ? nlohmann::ordered_json(time.second) : nlohmann::ordered_json()}});
     json["lookups_per_pixel"] = lookupsJson(run.counted);
+    if (!run.dispatches.empty()) json["dispatches"] = nlohmann::ordered_json::array();
+    for (const DispatchStats& one : run.dispatches)
+        json["dispatches"].push_back({{"pass", one.pass},
+                                      {"program", one.program},
+                                      {"dispatches", one.dispatches},
+                                      {"invocations", one.invocations}});
     json["memory_bytes"] = memoryJson(run.frames.back());
     return json;
 }
@@ -199,7 +206,7 @@ std::vector<Run> benchScene(const std::string& path, const BenchOptions& options
     for (const std::string& mode : modes) {
         sessions.push_back(sessionFor(scene, camera, path, mode, options, progress));
         if (!options.moving.empty()) findInstance(sessions.back()->scene(), path, options.moving);
-        runs.push_back({mode, sessions.back()->shownSettings(), {}, {}, nullptr});
+        runs.push_back({mode, sessions.back()->shownSettings(), {}, {}, {}, nullptr});
         Renderer& renderer =
             *renderers.emplace_back(std::make_unique<Renderer>(rendererOptions(options.view, "")));
         renderer.setScene(sessions.back()->scene());
@@ -219,6 +226,11 @@ std::vector<Run> benchScene(const std::string& path, const BenchOptions& options
         renderer.setProfiling(true, true);
         renderer.render(sessions.back()->camera(), size.width, size.height, runs.back().settings);
         runs.back().counted = renderer.stats();
+        if (!options.shaders.empty()) {
+            renderer.setProfiling(true, false, true);
+            renderer.render(sessions.back()->camera(), size.width, size.height, runs.back().settings);
+            runs.back().dispatches = renderer.stats().dispatches;
+        }
         renderer.setProfiling(true, false);
     }
     for (int frame = 0; frame < options.frames; ++frame) {
@@ -287,7 +299,9 @@ void addBench(CLI::App& app) {
                      "move this instance (name or index) before each frame; what it does not touch is kept")
         ->type_name("INSTANCE");
     command->add_option("--json", options->jsonFile, "write the figures as JSON")->type_name("FILE");
-    command->add_option("--shaders", options->shaders, "write the shaders that the frames needed, as text")
+    command
+        ->add_option("--shaders", options->shaders,
+                     "write the shaders that the frames needed, as text; --json then says how often each ran")
         ->type_name("DIR");
     options->view.addTo(*command);
     options->script.addTo(*command);

@@ -9,6 +9,8 @@
 #include <condition_variable>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <memory>
 #include <mutex>
 #include <thread>
 
@@ -19,6 +21,7 @@
 #include "io/cone_set_file.h"
 #include "io/environment_file.h"
 #include "io/generated_surroundings.h"
+#include "io/program_files.h"
 #include "io/scene_file.h"
 #include "memory_limit.h"
 #include "session/lens_range.h"
@@ -219,6 +222,13 @@ void ViewOptions::addContextTo(CLI::App& command) {
             "by the driver")
         ->type_name("auto|processor|gpu")
         ->check(CLI::IsMember({"auto", "processor", "gpu"}));
+    command
+        .add_option(
+            "--program-cache", programCache,
+            "linked programs are kept in $XDG_CACHE_HOME/conelight/programs (~/.cache by default) and "
+            "loaded from there; auto: with a GPU")
+        ->type_name("auto|on|off")
+        ->check(CLI::IsMember({"auto", "on", "off"}));
 }
 
 void ViewOptions::addEnvironmentTo(CLI::App& command) {
@@ -264,6 +274,9 @@ RendererOptions rendererOptions(const ViewOptions& options, const std::string& s
     RendererOptions made{shaderDirectory, options.debugGl, Execution::Auto};
     if (options.execution == "processor") made.execution = Execution::Processor;
     if (options.execution == "gpu") made.execution = Execution::Gpu;
+    const std::filesystem::path folder = io::programFolder();
+    if (options.programCache != "off" && !folder.empty())
+        made.programs = std::make_shared<io::ProgramFiles>(folder, options.programCache == "on");
     return made;
 }
 

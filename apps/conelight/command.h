@@ -88,6 +88,7 @@ struct ViewOptions {
     int device = -1;
     bool debugGl = false;
     std::string execution = "auto";
+    std::string programCache = "auto";
     bool allowOutside = false;
     bool noGround = false;
     io::UpAxis up = io::UpAxis::Auto;
@@ -105,7 +106,7 @@ void addUpAxis(CLI::App& command, io::UpAxis& up);
 
 // The OpenGL context that --device and --gl-debug ask for.
 std::unique_ptr<platform::HeadlessContext> openContext(const ViewOptions& options);
-// What --gl-debug and --execution ask for, and --shader-dir of those that have it.
+// What --gl-debug, --execution and --program-cache ask for, and --shader-dir of those that have it.
 RendererOptions rendererOptions(const ViewOptions& options, const std::string& shaderDirectory);
 
 // Loads a scene, prints its notes, completes it, applies --sky and --environment.

@@ -64,7 +64,8 @@ std::string manualPage(const CLI::App& app) {
         "interrupted.\n"
         ".SH FILES\n.TP\n\\fI$XDG_STATE_HOME/conelight\\fR\nscenes that were opened and lines that were "
         "typed in the "
-        "window\n";
+        "window\n"
+        ".TP\n\\fI$XDG_CACHE_HOME/conelight/programs\\fR\nlinked programs (\\fB--program-cache\\fR)\n";
     return page;
 }
 

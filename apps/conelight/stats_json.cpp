@@ -70,8 +70,11 @@ nlohmann::ordered_json statsJson(const FrameStats& stats) {
              {"cpu_ms", pass.cpuMs},
              {"wall_ms", pass.wallMs},
              {"gpu_ms", pass.gpuMs >= 0 ? nlohmann::ordered_json(pass.gpuMs) : nlohmann::ordered_json()}});
+    json["draw_calls"] = stats.drawCalls;
     json["lookups_per_pixel"] = lookupsJson(stats);
     json["memory_bytes"] = memoryJson(stats);
+    const ProgramStats programs = programStats();
+    json["programs"] = {{"built", programs.built}, {"loaded", programs.loaded}};
     return json;
 }
 

@@ -15,6 +15,7 @@
 #include "conelight/export.h"
 #include "conelight/host_mesh.h"
 #include "conelight/inspect.h"
+#include "conelight/program_cache.h"
 #include "conelight/scene.h"
 #include "conelight/settings.h"
 
@@ -35,6 +36,13 @@ struct PassStats {
     double gpuMs = -1;  // < 0: not measured
 };
 
+// What a compute program was given to do in a pass.
+struct DispatchStats {
+    std::string pass;
+    std::string program;  // its file and what is defined in it, as --shaders of `conelight bench` has them
+    std::uint64_t dispatches = 0, invocations = 0;
+};
+
 struct MemoryStats {
     std::string label;
     std::size_t bytes = 0;
@@ -45,7 +53,10 @@ struct FrameStats {
     double cpuMs = 0, wallMs = 0;   // of the whole render call
     // Lookups: texture fetches of cones, by kind, mean per picture pixel; empty unless counting is on.
     std::vector<std::pair<std::string, double>> lookupsPerPixel;
-    std::vector<MemoryStats> memory;  // GL objects of this renderer that have storage, largest first
+    // How often the driver was asked to draw meshes. On a GPU one call draws all that needs no change between.
+    std::uint64_t drawCalls = 0;
+    std::vector<DispatchStats> dispatches;  // empty unless they are counted
+    std::vector<MemoryStats> memory;        // GL objects of this renderer that have storage, largest first
     std::string device;
 };
 
@@ -58,6 +69,8 @@ struct RendererOptions {
     // Takes the context's KHR_debug callback: errors of the driver go to the log.
     bool reportGlErrors = false;
     Execution execution = Execution::Auto;
+    std::shared_ptr<ProgramCache> programs =
+        {};  // keeps linked programs; null: each start builds all of them
 };
 
 class CONELIGHT_API Renderer {
@@ -110,8 +123,9 @@ class CONELIGHT_API Renderer {
     // The renderer's copy, with all changes; valid until the next setScene.
     const Scene& scene() const;
 
-    // Timings per pass cost a glFinish each on software drivers. Counting lookups makes cone passes slower.
-    void setProfiling(bool passes, bool lookups);
+    // Timings per pass cost a glFinish each on software drivers. Counting lookups makes cone passes slower. Counting
+    // dispatches reads those of lists back; pictures in parts leave it out.
+    void setProfiling(bool passes, bool lookups, bool dispatches = false);
 
     // Draws one picture, width x height in [1, 16384]; a 0, of a window that is minimised, leaves the last one.
     // Voxels and light are made anew only where the scene or a setting they depend on changed since the last

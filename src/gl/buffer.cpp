@@ -2,6 +2,7 @@
 #include "gl/buffer.h"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cstddef>
 #include <vector>
@@ -21,6 +22,8 @@ std::size_t storageOf(std::size_t bytes) {
     constexpr std::size_t kLevels = 0xff00, kStep = 0x108;
     return std::has_single_bit(bytes) || (bytes & kLevels) == 0 ? bytes + kStep : bytes;
 }
+
+std::atomic<std::uint64_t> waits{0};
 
 bool inRange(std::size_t offset, std::size_t bytes, std::size_t size) {
     return bytes <= size && offset <= size - bytes;
@@ -75,9 +78,13 @@ void Buffer::read(std::size_t offset, void* data, std::size_t bytes) const {
     CONELIGHT_ASSERT(inRange(offset, bytes, this->bytes()),
                      "Buffer::read reaches past the end of the buffer");
     if (bytes == 0) return;
+    countWait();
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     glGetNamedBufferSubData(name(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
 }
+
+std::uint64_t waitCount() { return waits; }
+void countWait() { ++waits; }
 
 std::uint64_t bytesOfForeignBuffer(Name buffer) {
     if (glIsBuffer(buffer) == GL_FALSE) return 0;

@@ -53,6 +53,11 @@ class Buffer : public Object<ObjectType::Buffer> {
     std::size_t bytes_ = 0;
 };
 
+// How often this process has waited for the driver so far, to read a buffer or texture back, or to have all done: tests
+// hold that against what a frame may. Times of passes are not counted.
+std::uint64_t waitCount();
+void countWait();
+
 // Of a buffer that is the host's; 0 where the name is of none.
 std::uint64_t bytesOfForeignBuffer(Name buffer);
 

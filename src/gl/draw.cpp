@@ -164,6 +164,41 @@ void drawIndexed(const IndexedDraw& draw) {
                                                   draw.baseInstance);
 }
 
+namespace {
+
+// As GL reads it from the buffer.
+struct DrawCommand {
+    GLuint count, instances, firstIndex;
+    GLint firstVertex;
+    GLuint baseInstance;
+};
+
+}  // namespace
+
+void DrawList::fill(std::span<const IndexedDraw> draws) {
+    std::vector<DrawCommand> commands;
+    commands.reserve(draws.size());
+    for (const IndexedDraw& draw : draws)
+        commands.push_back({draw.count, static_cast<GLuint>(draw.instances), draw.firstIndex,
+                            static_cast<GLint>(draw.firstVertex), draw.baseInstance});
+    const std::size_t bytes = commands.size() * sizeof(DrawCommand);
+    if (!buffer_ || buffer_.bytes() < bytes) {
+        buffer_ = {};
+        buffer_ = Buffer(bytes + bytes / 4, "draw commands");
+    }
+    buffer_.update(0, commands.data(), bytes);
+}
+
+void DrawList::draw(std::size_t first, std::size_t count) const {
+    CONELIGHT_ASSERT((first + count) * sizeof(DrawCommand) <= buffer_.bytes(),
+                     "DrawList::draw: more than was filled");
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffer_.name());
+    glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
+                                reinterpret_cast<const void*>(first * sizeof(DrawCommand)),
+                                static_cast<GLsizei>(count), sizeof(DrawCommand));
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, 0);
+}
+
 void drawTriangle(const VertexArray& empty) {
     empty.bind();
     glDrawArrays(GL_TRIANGLES, 0, 3);

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -90,6 +91,18 @@ struct IndexedDraw {
     int instances = 1;
 };
 void drawIndexed(const IndexedDraw& draw);
+
+// The same by one call for many of them, in their order (multi-draw-indirect). fill() uploads them; draw() needs the
+// vertex array bound. GL state changed: none that stays.
+class DrawList {
+  public:
+    void fill(std::span<const IndexedDraw> draws);
+    void draw(std::size_t first, std::size_t count) const;
+
+  private:
+    Buffer buffer_;
+};
+
 // One triangle, corners gl_VertexID 0 to 2, of a vertex array without attributes.
 void drawTriangle(const VertexArray& empty);
 

@@ -5,6 +5,8 @@
 
 #include "base/assert.h"
 #include "base/clock.h"
+#include "gl/buffer.h"
+#include "gl/dispatch_counter.h"
 #include "gl/gl.h"
 
 namespace conelight::gl {
@@ -14,7 +16,10 @@ std::string rendererName() {
     return text != nullptr ? reinterpret_cast<const char*>(text) : "";
 }
 
-void finish() { glFinish(); }
+void finish() {
+    countWait();
+    glFinish();
+}
 
 bool isSoftwareDriver() {
     const char* renderer = reinterpret_cast<const char*>(glGetString(GL_RENDERER));
@@ -56,7 +61,9 @@ std::vector<PassTime> Profiler::times() const {
     return times;
 }
 
-PassScope::PassScope(Profiler& profiler, const char* name) : profiler_(profiler), timed_(profiler.enabled_) {
+PassScope::PassScope(Profiler& profiler, const char* name)
+    : profiler_(profiler), timed_(profiler.enabled_), counted_(DispatchCounter::current() != nullptr) {
+    if (counted_) DispatchCounter::current()->enter(name);
     glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, name);
     if (!timed_) return;
     // The list may grow and move while this scope is open, hence an index.
@@ -93,6 +100,7 @@ PassScope::~PassScope() {
         pass.time.cpuMs = base::processCpuMs() - pass.cpuStart;
         pass.time.wallMs = base::wallMs() - pass.wallStart;
     }
+    if (counted_) DispatchCounter::current()->leave();
     glPopDebugGroup();
 }
 

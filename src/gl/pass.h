@@ -75,6 +75,7 @@ class PassScope {
     Profiler& profiler_;
     std::size_t index_ = 0;
     bool timed_;
+    bool counted_;
 };
 
 // What later commands must see of earlier shader writes. One call between producer and consumer.

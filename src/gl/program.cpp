@@ -9,8 +9,10 @@
 
 #include "base/assert.h"
 #include "base/log.h"
+#include "gl/dispatch_counter.h"
 #include "gl/gl.h"
 #include "gl/pass.h"
+#include "gl/program_binary.h"
 #include "gl/sampler_slots.h"
 
 namespace conelight::gl {
@@ -18,7 +20,7 @@ namespace {
 
 constexpr int kMaxGroups = 65535;  // GL minimum of GL_MAX_COMPUTE_WORK_GROUP_COUNT
 
-std::atomic<std::uint64_t> builtCount{0}, usedCount{0};
+std::atomic<std::uint64_t> builtCount{0}, usedCount{0}, loadedCount{0};
 
 GLenum stageOf(const std::string& file) {
     const auto has = [&](const char* part) { return file.find(part) != std::string::npos; };
@@ -136,17 +138,33 @@ std::string ProgramDesc::label() const {
     return text + "]";
 }
 
-Program::Program(const ShaderProvider& provider, const ProgramDesc& desc) : label_(desc.label()) {
-    // Owned from the start, so that a failure below frees it.
-    const GLuint program = glCreateProgram();
-    ++builtCount;
-    adopt(program, label_, 0);
-    std::vector<GLuint> stages;
+Program::Program(const ShaderProvider& provider, const ProgramDesc& desc, ProgramCache* cache)
+    : label_(desc.label()) {
+    std::vector<ExpandedShader> stages;
     for (const std::string& file : desc.files) {
-        const ExpandedShader source = expandShader(provider, file, desc.defines);
-        stages.push_back(attachStage(program, source));
+        const ExpandedShader& source = stages.emplace_back(expandShader(provider, file, desc.defines));
         sourceFiles_.insert(sourceFiles_.end(), source.files.begin(), source.files.end());
     }
+    // Owned from the start, so that a failure below frees it.
+    adopt(glCreateProgram(), label_, 0);
+    const std::string key = cache != nullptr ? programKey(stages) : std::string();
+    if (cache != nullptr && linkBinary(name(), key, label_, *cache)) {
+        ++loadedCount;
+    } else {
+        ++builtCount;
+        if (cache != nullptr) wantBinary(name());
+        build(stages);
+        if (cache != nullptr) keepBinary(name(), key, *cache);
+    }
+    if (stageOf(desc.files.front()) == GL_COMPUTE_SHADER)
+        glGetProgramiv(name(), GL_COMPUTE_WORK_GROUP_SIZE, &groupSize_.x);
+    assignSlots();
+}
+
+void Program::build(const std::vector<ExpandedShader>& sources) {
+    const GLuint program = name();
+    std::vector<GLuint> stages;
+    for (const ExpandedShader& source : sources) stages.push_back(attachStage(program, source));
     glLinkProgram(program);
     // The program needs them no longer; their text and what was parsed of it is most of what a driver keeps.
     for (const GLuint stage : stages) glDetachShader(program, stage);
@@ -155,9 +173,6 @@ Program::Program(const ShaderProvider& provider, const ProgramDesc& desc) : labe
     if (ok == GL_FALSE)
         base::fail(ErrorKind::Runtime, "%s: does not link: %s", label_.c_str(),
                    infoLog(program, glGetProgramiv, glGetProgramInfoLog).c_str());
-    if (stageOf(desc.files.front()) == GL_COMPUTE_SHADER)
-        glGetProgramiv(program, GL_COMPUTE_WORK_GROUP_SIZE, &groupSize_.x);
-    assignSlots();
 }
 
 // Gives every buffer block, texture and image that the linked program reads a slot of its own.
@@ -217,6 +232,13 @@ void Program::useForDispatch(const Inputs& inputs) const {
     use(inputs);
 }
 
+void Program::count(const glm::uvec3& groups) const {
+    DispatchCounter* const counter = DispatchCounter::current();
+    if (counter == nullptr) return;
+    const auto size = [](const glm::uvec3& v) { return std::uint64_t{v.x} * v.y * v.z; };
+    counter->add(label_, size(groups) * size(glm::uvec3(groupSize_)));
+}
+
 void Program::dispatch(const Inputs& inputs, int x, int y, int z) const {
     CONELIGHT_ASSERT(groupSize_.x > 0, "Program::dispatch: not a compute program");
     if (x <= 0 || y <= 0 || z <= 0) return;
@@ -224,6 +246,7 @@ void Program::dispatch(const Inputs& inputs, int x, int y, int z) const {
     CONELIGHT_ASSERT(groups.x <= kMaxGroups && groups.y <= kMaxGroups && groups.z <= kMaxGroups,
                      "Program::dispatch: too many groups; dispatchLinear folds them");
     useForDispatch(inputs);
+    count(glm::uvec3(groups));
     glDispatchCompute(static_cast<GLuint>(groups.x), static_cast<GLuint>(groups.y),
                       static_cast<GLuint>(groups.z));
 }
@@ -241,6 +264,7 @@ void Program::dispatchLinear(const Inputs& inputs, std::size_t invocations) cons
     CONELIGHT_ASSERT(rows <= static_cast<std::size_t>(kMaxGroups),
                      "Program::dispatchLinear: too many invocations");
     useForDispatch(inputs);
+    count({columns, rows, 1});
     glDispatchCompute(static_cast<GLuint>(columns), static_cast<GLuint>(rows), 1);
 }
 
@@ -249,6 +273,7 @@ void Program::dispatchIndirect(const Inputs& inputs, const Buffer& buffer, std::
     CONELIGHT_ASSERT(offset % 4 == 0 && buffer.bytes() >= 12 && offset <= buffer.bytes() - 12,
                      "Program::dispatchIndirect reaches past the end of the buffer");
     useForDispatch(inputs);
+    if (DispatchCounter::current() != nullptr) count(buffer.read<glm::uvec3>(1, offset)[0]);
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, buffer.name());
     glDispatchComputeIndirect(static_cast<GLintptr>(offset));
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
@@ -272,7 +297,7 @@ BuiltPrograms& built() {
 
 void setMostPrograms(std::size_t count) { most = count; }
 std::size_t mostPrograms() { return most; }
-ProgramCounts programCounts() { return {builtCount, usedCount}; }
+ProgramCounts programCounts() { return {builtCount, usedCount, loadedCount}; }
 
 std::vector<ProgramDesc> builtPrograms() {
     BuiltPrograms& all = built();
@@ -282,11 +307,12 @@ std::vector<ProgramDesc> builtPrograms() {
     return descs;
 }
 
-ProgramLibrary::ProgramLibrary(ShaderProvider provider) : provider_(std::move(provider)) {}
+ProgramLibrary::ProgramLibrary(ShaderProvider provider, std::shared_ptr<ProgramCache> cache)
+    : provider_(std::move(provider)), cache_(std::move(cache)) {}
 ProgramLibrary::~ProgramLibrary() = default;
 
 Program ProgramLibrary::build(const ProgramDesc& desc) {
-    Program program(provider_, desc);
+    Program program(provider_, desc, cache_.get());
     if (program.groupSize().x > 0 && program.readsBufferTextures() && isSoftwareDriver()) {
         if (!samplers_) samplers_ = std::make_unique<SamplerSlots>();
         program.runAfter(*samplers_);
@@ -357,3 +383,12 @@ std::vector<std::string> ProgramLibrary::sourceFiles() const {
 }
 
 }  // namespace conelight::gl
+
+namespace conelight {
+
+ProgramStats programStats() {
+    const gl::ProgramCounts counts = gl::programCounts();
+    return {counts.built, counts.loaded};
+}
+
+}  // namespace conelight

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "conelight/program_cache.h"
 #include "gl/buffer.h"
 #include "gl/inputs.h"
 #include "gl/object.h"
@@ -39,8 +40,8 @@ class Program : public Object<ObjectType::Program> {
   public:
     Program() = default;
     // Throws Error(Runtime) with the driver's log mapped to file:line. That message has several lines, unlike
-    // other errors: who writes shaders needs all of them.
-    Program(const ShaderProvider& provider, const ProgramDesc& desc);
+    // other errors: who writes shaders needs all of them. With a cache: by what is kept there, else kept there.
+    Program(const ShaderProvider& provider, const ProgramDesc& desc, ProgramCache* cache = nullptr);
 
     const std::vector<std::string>& sourceFiles() const { return sourceFiles_; }
     glm::ivec3 groupSize() const { return groupSize_; }  // compute only
@@ -65,8 +66,10 @@ class Program : public Object<ObjectType::Program> {
     void dispatchIndirect(const Inputs& inputs, const Buffer& buffer, std::size_t offset = 0) const;
 
   private:
+    void build(const std::vector<ExpandedShader>& stages);
     void assignSlots();
     void useForDispatch(const Inputs& inputs) const;
+    void count(const glm::uvec3& groups) const;
 
     std::string label_;
     std::vector<std::string> sourceFiles_;
@@ -86,7 +89,7 @@ std::size_t mostPrograms();
 // Programs by description; a reference stays valid until trim().
 class ProgramLibrary {
   public:
-    explicit ProgramLibrary(ShaderProvider provider);
+    explicit ProgramLibrary(ShaderProvider provider, std::shared_ptr<ProgramCache> cache = {});
     ~ProgramLibrary();
 
     const Program& get(const ProgramDesc& desc);
@@ -118,16 +121,17 @@ class ProgramLibrary {
     Program build(const ProgramDesc& desc);
 
     ShaderProvider provider_;
+    std::shared_ptr<ProgramCache> cache_;
     Buffer firstRow_;
     std::unique_ptr<SamplerSlots> samplers_;
     std::map<std::string, std::unique_ptr<Entry>> programs_;
     std::uint64_t asked_ = 0, trimmed_ = 0;  // calls of get(), and of these before the last trim()
 };
 
-// How many programs this process has built so far, and how often it made one current: tests count the work in a part of
-// a picture.
+// How many programs this process has made so far, and how often it made one current: tests count the work in a part of
+// a picture. Built: from sources; loaded: from a cache.
 struct ProgramCounts {
-    std::uint64_t built = 0, used = 0;
+    std::uint64_t built = 0, used = 0, loaded = 0;
 };
 ProgramCounts programCounts();
 

@@ -220,6 +220,7 @@ void Texture::copyLayers(const Texture& source, int layers) {
 }
 
 void Texture::read(int level, std::uint32_t layout, std::uint32_t type, void* data, std::size_t bytes) const {
+    countWait();
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     if (desc_.uneven) return readRegion({0, 0, 0}, {width(), height(), depth()}, layout, type, data, bytes);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -228,6 +229,7 @@ void Texture::read(int level, std::uint32_t layout, std::uint32_t type, void* da
 
 void Texture::readRegion(const glm::ivec3& offset, const glm::ivec3& size, std::uint32_t layout,
                          std::uint32_t type, void* data, std::size_t bytes) const {
+    countWait();
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glGetTextureSubImage(name(), 0, offset.x, offset.y, offset.z, size.x, size.y, size.z, layout, type,

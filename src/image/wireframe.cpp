@@ -53,7 +53,8 @@ void WireframeView::draw(const gl::Device& device, const scene::GpuScene& scene,
     gl::Inputs inputs;
     inputs.add(scene).add(surfaces).add(exposure_).uniform("WireframeBlock", constants_);
     device.get(wireframeDesc()).use(inputs);
-    scene.draw({.cull = over && wanted.culls ? gl::Cull::Back : gl::Cull::None});
+    scene.draw({.cull = over && wanted.culls ? gl::Cull::Back : gl::Cull::None,
+                .together = device.profile == gl::ExecutionProfile::Gpu});
 }
 
 std::vector<gl::ProgramDesc> WireframeView::programDescs() { return {wireframeDesc()}; }

@@ -185,7 +185,8 @@ void ShadowMaps::Impl::draw(const gl::Device& device, const scene::GpuScene& sce
         // Of a mesh in the middle of the scene each side of a cube sees a part only.
         scene.draw({.filter = accepted,
                     .textured = masked ? &program : nullptr,
-                    .part = scene::partsWithin(casters)});
+                    .part = scene::partsWithin(casters),
+                    .together = device.profile == gl::ExecutionProfile::Gpu});
     }
 }
 

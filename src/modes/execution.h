@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-// RendererOptions::execution -> the profile that passes are run by.
+// RendererOptions -> the profile that passes are run by, their shaders and who keeps their programs.
 #pragma once
+
+#include <memory>
 
 #include "conelight/renderer.h"
 #include "gl/device.h"
@@ -12,6 +14,16 @@ inline gl::ExecutionProfile profileOf(Execution execution) {
     if (execution == Execution::Auto)
         return gl::isSoftwareDriver() ? gl::ExecutionProfile::Processor : gl::ExecutionProfile::Gpu;
     return execution == Execution::Gpu ? gl::ExecutionProfile::Gpu : gl::ExecutionProfile::Processor;
+}
+
+inline std::shared_ptr<ProgramCache> programsOf(const RendererOptions& options) {
+    return options.programs && options.programs->suits(gl::isSoftwareDriver()) ? options.programs : nullptr;
+}
+
+inline gl::ShaderProvider shadersOf(const RendererOptions& options, gl::ExecutionProfile profile) {
+    return gl::providerFor(profile, options.shaderDirectory.empty()
+                                        ? gl::embeddedShaderProvider()
+                                        : gl::directoryShaderProvider(options.shaderDirectory));
 }
 
 }  // namespace conelight::modes

@@ -58,8 +58,10 @@ struct LightField::Impl {
     int nextView = 1;
     LightFieldStats stats;
 
-    Impl(gl::ShaderProvider provider, gl::ExecutionProfile profile)
-        : programs(gl::providerFor(profile, std::move(provider))), device{programs, profiler, profile} {}
+    explicit Impl(const RendererOptions& options) : Impl(options, modes::profileOf(options.execution)) {}
+    Impl(const RendererOptions& options, gl::ExecutionProfile profile)
+        : programs(modes::shadersOf(options, profile), modes::programsOf(options)),
+          device{programs, profiler, profile} {}
     modes::OwnerScene changed() { return {owner, scene}; }
     void forget();
     int update(const LightBudget& budget);
@@ -78,10 +80,7 @@ LightField::LightField(const RendererOptions& options) {
     if (options.reportGlErrors) gl::installDebugCallback();
     const std::uint32_t owner = gl::newOwner();
     const gl::OwnerScope own(owner);
-    impl_ = std::make_unique<Impl>(options.shaderDirectory.empty()
-                                       ? gl::embeddedShaderProvider()
-                                       : gl::directoryShaderProvider(options.shaderDirectory),
-                                   modes::profileOf(options.execution));
+    impl_ = std::make_unique<Impl>(options);
     impl_->owner = owner;
     impl_->stats.device = gl::rendererName();
 }

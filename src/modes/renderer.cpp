@@ -11,7 +11,6 @@
 #include "gl/debug.h"
 #include "gl/gl.h"
 #include "gl/storage.h"
-#include "modes/execution.h"
 #include "modes/memory_stats.h"
 #include "modes/renderer_values.h"
 
@@ -22,10 +21,7 @@ Renderer::Renderer(const RendererOptions& options) {
     if (options.reportGlErrors) gl::installDebugCallback();
     const std::uint32_t owner = gl::newOwner();
     const gl::OwnerScope own(owner);
-    impl_ = std::make_unique<Impl>(options.shaderDirectory.empty()
-                                       ? gl::embeddedShaderProvider()
-                                       : gl::directoryShaderProvider(options.shaderDirectory),
-                                   modes::profileOf(options.execution));
+    impl_ = std::make_unique<Impl>(options);
     impl_->owner = owner;
     impl_->deviceName = gl::rendererName();
 }
@@ -82,9 +78,10 @@ void Renderer::removeMesh(std::size_t index) { impl_->changed()->removeMesh(inde
 void Renderer::setRegion(const Aabb& region) { impl_->changed()->setRegion(region); }
 const Scene& Renderer::scene() const { return impl_->scene.require("scene").source(); }
 
-void Renderer::setProfiling(bool passes, bool lookups) {
+void Renderer::setProfiling(bool passes, bool lookups, bool dispatches) {
     impl_->profiler.setEnabled(passes);
     impl_->countLookups = lookups;
+    impl_->countDispatches = dispatches;
 }
 
 void Renderer::setHeadlight(float irradiance) {

@@ -2,18 +2,21 @@
 // A picture, in steps: scene, lights and surfaces are values that every mode starts from; the mode's recipe
 // (modes/*_mode.cpp) makes the image of them.
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "base/clock.h"
 #include "base/log.h"
 #include "conelight/memory.h"
 #include "gl/debug.h"
+#include "gl/dispatch_counter.h"
 #include "gl/gl.h"
 #include "gl/storage.h"
 #include "image/background.h"
 #include "image/debug_view.h"
 #include "modes/modes.h"
 #include "modes/renderer_values.h"
+#include "modes/shader_variants.h"
 #include "shared/lookups.h"
 
 namespace conelight {
@@ -143,8 +146,11 @@ base::Steps Renderer::Impl::render(WantedPicture asked) {
     profiler.beginFrame();
     programs.trim();
     if (everyFrame) scene.require("render").touch();
+    const std::uint64_t drawnBefore = scene->drawCalls();
     lookupCounters.clear();
     target().resize(asked.width, asked.height);
+    std::optional<gl::DispatchCounter> dispatches;
+    if (countDispatches && !inParts) dispatches.emplace();
     co_await drawPicture(asked);
     // Pictures of surfaces between those of light leave it as it is.
     if (temporal && settings.image.temporal != Toggle::On) {
@@ -154,6 +160,11 @@ base::Steps Renderer::Impl::render(WantedPicture asked) {
     gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess);
     if (settings.component != Component::ShadowMap) drawOverlays(settings);
     collectStats();
+    stats.drawCalls = scene->drawCalls() - drawnBefore;
+    if (dispatches)
+        for (const gl::DispatchCount& one : dispatches->counts())
+            stats.dispatches.push_back(
+                {one.pass, modes::variantNameOf(one.program), one.dispatches, one.invocations});
     if (profiler.enabled()) {
         stats.cpuMs = base::processCpuMs() - cpuStart;
         stats.wallMs = base::wallMs() - wallStart;

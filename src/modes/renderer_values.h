@@ -18,6 +18,7 @@
 #include "image/view_mean.h"
 #include "image/wireframe.h"
 #include "light/lights.h"
+#include "modes/execution.h"
 #include "modes/memory_fit.h"
 #include "modes/mode.h"
 #include "modes/owner_guard.h"
@@ -35,6 +36,7 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
     gl::Device device;
     std::string deviceName;
     bool countLookups = false;
+    bool countDispatches = false;
     bool everyFrame = false;
     bool lightHeld = false;
 
@@ -75,8 +77,10 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
     bool left = false;             // the last one was dropped: surfaces may be of it
     double cpuMs = 0, wallMs = 0;  // of its parts so far
 
-    Impl(gl::ShaderProvider provider, gl::ExecutionProfile profile)
-        : programs(gl::providerFor(profile, std::move(provider))), device{programs, profiler, profile} {}
+    explicit Impl(const RendererOptions& options) : Impl(options, modes::profileOf(options.execution)) {}
+    Impl(const RendererOptions& options, gl::ExecutionProfile profile)
+        : programs(modes::shadersOf(options, profile), modes::programsOf(options)),
+          device{programs, profiler, profile} {}
 
     // The scene, to change it: a picture of it as it was is dropped.
     modes::OwnerScene changed() {

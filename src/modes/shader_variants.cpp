@@ -52,6 +52,22 @@ std::string variantFile(const std::string& path, const gl::Defines& defines) {
 
 namespace modes {
 
+std::string variantNameOf(const std::string& label) {
+    const std::size_t open = std::min(label.find('['), label.size());
+    gl::Defines defines;
+    for (std::size_t from = open + 1; from < label.size();) {
+        const std::size_t end = std::min(label.find_first_of(" ]", from), label.size());
+        const std::string one = label.substr(from, end - from);
+        const std::size_t equals = std::min(one.find('='), one.size());
+        defines.emplace_back(one.substr(0, equals), one.substr(std::min(equals + 1, one.size())));
+        from = end + 1;
+    }
+    const std::string file = variantFile(label.substr(0, open), defines);
+    const std::string ending = ".comp.glsl";
+    return file.size() > ending.size() && file.ends_with(ending) ? file.substr(0, file.size() - ending.size())
+                                                                 : file;
+}
+
 std::vector<gl::ProgramDesc> allShaderVariants() {
     std::vector<gl::ProgramDesc> all;
     std::unordered_set<std::string> labels;

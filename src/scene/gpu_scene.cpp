@@ -276,56 +276,67 @@ void GpuScene::declare(gl::Inputs& inputs) const {
 void GpuScene::declareMaterialTextures(gl::Inputs& inputs) { SceneTextures::declarePerDraw(inputs); }
 
 // Parts that follow each other in one draw.
-void GpuScene::drawParts(std::uint32_t index, const Draw& draw) const {
+void GpuScene::collectParts(std::uint32_t index, const Draw& draw) const {
     const gpu::Instance& instance = instances_[index];
-    std::uint32_t begin = 0;  // of those that are accepted but not drawn yet
-    const auto drawTo = [&](std::uint32_t end) {
+    std::uint32_t begin = 0;  // of those that are accepted but not taken yet
+    const auto takeTo = [&](std::uint32_t end) {
         if (begin < end)
-            gl::drawIndexed(
+            draws_.push_back(
                 {instance.firstIndex + begin, end - begin, instance.firstVertex, index, draw.copies});
     };
     std::size_t number = instanceParts_[index];
-    for (std::uint32_t first = 0; first < instance.indexCount; first += kPartIndices, ++number) {
+    for (std::uint32_t first = 0; draw.part && first < instance.indexCount; first += kPartIndices, ++number) {
         if (draw.part(instance, partBounds_[number])) continue;
-        drawTo(first);
+        takeTo(first);
         begin = first + kPartIndices;
     }
-    drawTo(instance.indexCount);
+    takeTo(instance.indexCount);
 }
 
-void GpuScene::draw(const Draw& draw) const {
-    vertexArray_.bind();
-    const MaterialUnits units =
-        draw.textured != nullptr ? SceneTextures::unitsOf(*draw.textured) : MaterialUnits{};
-    std::uint32_t boundMaterial = ~0u;
-    // -1: nothing set yet, so that the first instance sets both.
-    int boundDoubleSided = -1;
-    int boundFlipped = -1;
+void GpuScene::collectGroups(const Draw& draw) const {
+    draws_.clear();
+    drawGroups_.clear();
     const std::size_t end = draw.first + std::min(draw.count, drawOrder_.size() - draw.first);
     for (std::size_t place = draw.first; place < end; ++place) {
         const std::uint32_t index = drawOrder_[place];
         const gpu::Instance& instance = instances_[index];
         if ((instance.flags & INSTANCE_VISIBLE) == 0 || instance.indexCount == 0) continue;
         if (draw.filter && !draw.filter(instance)) continue;
-        if (draw.textured != nullptr && instance.material != boundMaterial) {
-            textures_.bind(materialTextures_[instance.material], units);
-            boundMaterial = instance.material;
-        }
-        const int doubleSided = (materials_[instance.material].flags & MATERIAL_DOUBLE_SIDED) != 0 ? 1 : 0;
-        if (doubleSided != boundDoubleSided) {
-            gl::setCull(doubleSided != 0 ? gl::Cull::None : draw.cull);
-            boundDoubleSided = doubleSided;
-        }
-        const int flipped = (instance.flags & INSTANCE_FLIPPED) != 0 ? 1 : 0;
-        if (flipped != boundFlipped) {
-            gl::setFrontFace(flipped == 0);
-            boundFlipped = flipped;
-        }
-        if (draw.part)
-            drawParts(index, draw);
+        DrawGroup run{};
+        run.material = draw.textured != nullptr ? instance.material : 0;
+        run.doubleSided = (materials_[instance.material].flags & MATERIAL_DOUBLE_SIDED) != 0;
+        run.flipped = (instance.flags & INSTANCE_FLIPPED) != 0;
+        run.first = draws_.size();
+        collectParts(index, draw);
+        run.end = draws_.size();
+        if (run.first == run.end) continue;
+        if (drawGroups_.empty() || !drawGroups_.back().joins(run))
+            drawGroups_.push_back(run);
         else
-            gl::drawIndexed(
-                {instance.firstIndex, instance.indexCount, instance.firstVertex, index, draw.copies});
+            drawGroups_.back().end = run.end;
+    }
+}
+
+void GpuScene::draw(const Draw& draw) const {
+    collectGroups(draw);
+    if (draws_.empty()) return;
+    if (draw.together) drawList_.fill(draws_);
+    vertexArray_.bind();
+    const MaterialUnits units =
+        draw.textured != nullptr ? SceneTextures::unitsOf(*draw.textured) : MaterialUnits{};
+    const DrawGroup* before = nullptr;
+    for (const DrawGroup& run : drawGroups_) {
+        if (draw.textured != nullptr && (before == nullptr || run.material != before->material))
+            textures_.bind(materialTextures_[run.material], units);
+        if (before == nullptr || run.doubleSided != before->doubleSided)
+            gl::setCull(run.doubleSided ? gl::Cull::None : draw.cull);
+        if (before == nullptr || run.flipped != before->flipped) gl::setFrontFace(!run.flipped);
+        before = &run;
+        drawCalls_ += draw.together ? 1 : run.end - run.first;
+        if (draw.together)
+            drawList_.draw(run.first, run.end - run.first);
+        else
+            for (std::size_t i = run.first; i < run.end; ++i) gl::drawIndexed(draws_[i]);
     }
 }
 

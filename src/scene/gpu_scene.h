@@ -55,11 +55,14 @@ class GpuScene {
         PartFilter part;
         // Of the instances in the order in which they are drawn: the first one, and how many.
         std::size_t first = 0, count = ~std::size_t{0};
+        // One call for all that follow each other without a change of textures, culling or facing, as GPUs want it.
+        bool together = false;
     };
     // Draws with the current program, framebuffer and state. Attributes: 0 position, 1 normalOct, 2 uv,
     // 3 tangentOct, 4 color (shared/scene.h), 5 the index into the instance table. Flipped instances reverse
     // the front face. GL state changed: vertex array, cull, front face, texture units of `textured`.
     void draw(const Draw& draw) const;
+    std::uint64_t drawCalls() const { return drawCalls_; }  // so far
 
     // One entry each; geometry, index ranges and textures stay. setInstance keeps the mesh it has.
     // `material`: as the Scene counts them. Nothing is checked (scene/scene_checks.h).
@@ -161,7 +164,17 @@ class GpuScene {
     void placeBakedLight();
     void sortDraws();
     bool isDrawnBefore(std::uint32_t a, std::uint32_t b) const;
-    void drawParts(std::uint32_t instance, const Draw& draw) const;
+    // Draws that follow each other in one state.
+    struct DrawGroup {
+        std::uint32_t material;  // whose textures are bound, if any are
+        bool doubleSided, flipped;
+        std::size_t first, end;
+        bool joins(const DrawGroup& next) const {
+            return material == next.material && doubleSided == next.doubleSided && flipped == next.flipped;
+        }
+    };
+    void collectParts(std::uint32_t instance, const Draw& draw) const;
+    void collectGroups(const Draw& draw) const;
 
     Scene source_;
     std::vector<MeshRange> meshRanges_;
@@ -181,7 +194,11 @@ class GpuScene {
     gl::Buffer vertexBuffer_, indexBuffer_, instanceBuffer_, instanceIndexBuffer_, materialBuffer_;
     gl::VertexArray vertexArray_;
     HostMeshImport hostMeshes_;
-    std::vector<std::uint32_t> drawOrder_;  // instances sorted by material
+    std::vector<std::uint32_t> drawOrder_;        // instances sorted by material
+    mutable std::vector<gl::IndexedDraw> draws_;  // of one draw()
+    mutable std::vector<DrawGroup> drawGroups_;
+    mutable gl::DrawList drawList_;
+    mutable std::uint64_t drawCalls_ = 0;
     mutable Aabb bounds_;
     mutable bool boundsCurrent_ = false;
     Aabb region_;

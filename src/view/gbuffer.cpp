@@ -107,7 +107,8 @@ base::Steps GBuffer::drawInSteps(const gl::Device& device, const scene::GpuScene
                             .textured = textures != 0 ? &program : nullptr,
                             .part = isSeen,
                             .first = static_cast<std::size_t>(draws.first()),
-                            .count = static_cast<std::size_t>(draws.count())});
+                            .count = static_cast<std::size_t>(draws.count()),
+                            .together = device.profile == gl::ExecutionProfile::Gpu});
                 co_await pass.rest();
             }
         }

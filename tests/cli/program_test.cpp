@@ -144,13 +144,29 @@ TEST_F(ProgramTest, AovsBecomeLayersOfTheExr) {
     EXPECT_EQ(image.layers[1].name, "normal");
 }
 
-TEST_F(ProgramTest, StatsNamePassesLookupsAndMemory) {
-    ASSERT_EQ(
-        render("builtin:cornell", path("s.png"), "--mode cones --stats '" + path("s.json") + "'").status, 0);
-    const nlohmann::json json = nlohmann::json::parse(bytesOf(path("s.json")));
+// And programs: the second start builds none, where the driver can give them as bytes.
+TEST_F(ProgramTest, StatsNamePassesLookupsMemoryAndPrograms) {
+    const std::string command =
+        "XDG_CACHE_HOME='" + path("cache") + "' " + CONELIGHT_PROGRAM +
+        " render builtin:cornell --size 64x48 --voxels 32 --mode cones --overwrite -o '" + path("s.png") +
+        "' --stats '" + path("s.json") + "' --program-cache ";
+    const auto stats = [&](const char* use) {
+        EXPECT_EQ(runCommand(command + use).status, 0);
+        return nlohmann::json::parse(bytesOf(path("s.json")));
+    };
+    const nlohmann::json json = stats("on");
     EXPECT_GT(json["passes"].size(), 2u);
     EXPECT_GT(json["lookups_per_pixel"]["diffuse"].get<double>(), 1.0);
     EXPECT_GT(json["memory_bytes"]["total"].get<double>(), 1e5);
+    const int built = json["programs"]["built"];
+    EXPECT_GT(built, 5);
+    if (!std::filesystem::exists(path("cache"))) GTEST_SKIP() << "the driver does not give programs as bytes";
+    const std::string picture = bytesOf(path("s.png"));
+    const nlohmann::json second = stats("on");
+    EXPECT_EQ(second["programs"]["built"], 0);
+    EXPECT_EQ(second["programs"]["loaded"], built);
+    EXPECT_EQ(bytesOf(path("s.png")), picture);
+    EXPECT_EQ(stats("off")["programs"]["built"], built);
 }
 
 TEST_F(ProgramTest, BenchJsonHasTheDocumentedShape) {
@@ -169,11 +185,22 @@ TEST_F(ProgramTest, BenchJsonHasTheDocumentedShape) {
         EXPECT_GT(json["runs"][0]["frame"]["cpu_ms"][key].get<double>(), 0.0);
 }
 
-// The texts are those of the profile that was asked for.
+// The texts are those of the profile that was asked for, and the JSON file says how often each compute program ran.
 TEST_F(ProgramTest, BenchWritesTheShadersThatFramesNeed) {
     const std::string bench = "bench builtin:cornell --frames 1 --size 16x16 --voxels 16 --shaders '";
     for (const char* profile : {"processor", "gpu"}) {
-        ASSERT_EQ(conelight(bench + path(profile) + "' --execution " + profile).status, 0);
+        ASSERT_EQ(
+            conelight(bench + path(profile) + "' --json '" + path("d.json") + "' --execution " + profile)
+                .status,
+            0);
+        const nlohmann::json told = nlohmann::json::parse(bytesOf(path("d.json")))["runs"][0]["dispatches"];
+        std::uint64_t ofPixels = 0;
+        for (const nlohmann::json& one : told) {
+            const std::string program = one["program"];
+            EXPECT_TRUE(std::filesystem::exists(path(profile) + "/" + program + ".comp.glsl")) << program;
+            if (one["pass"] == "diffuse rays") ofPixels += one["invocations"].get<std::uint64_t>();
+        }
+        EXPECT_EQ(ofPixels, 16u * 16u);
         std::size_t files = 0, early = 0;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(path(profile))) {
             if (!entry.is_regular_file()) continue;

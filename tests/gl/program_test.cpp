@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <memory>
 
 #include "conelight/error.h"
 #include "gl/draw.h"
@@ -285,6 +286,72 @@ TEST_F(ProgramTest, WhatAPassDoesNotGiveIsAnErrorThatNamesIt) {
     program.dispatch(given(-1).storage("Other", out), 8);
     // A buffer under the name of a texture is none.
     EXPECT_THROW(program.dispatch(given(2).storage("picture", out), 8), Error);
+}
+
+// Keeps programs in memory.
+struct KeptPrograms : ProgramCache {
+    std::map<std::string, std::vector<std::uint8_t>> kept;
+    bool suits(bool) const override { return true; }
+    std::vector<std::uint8_t> load(const std::string& key) override { return kept[key]; }
+    void keep(const std::string& key, std::span<const std::uint8_t> bytes) override {
+        kept[key].assign(bytes.begin(), bytes.end());
+    }
+};
+
+// A driver has formats for that if it likes: Mesa's, where it keeps files of its own.
+TEST_F(ProgramTest, KeptProgramsNeedNoSources) {
+    GLint formats = 0;
+    glGetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
+    const auto cache = std::make_shared<KeptPrograms>();
+    std::vector<std::string> log;
+    setLogCallback([&](LogLevel, std::string_view line) { log.emplace_back(line); });
+    files.texts["a.comp.glsl"] = writer(7);
+    struct Made {
+        std::uint64_t built, loaded;
+        std::uint32_t word;
+    };
+    // By a library of its own, as at a new start.
+    const auto make = [&] {
+        const gl::ProgramCounts before = gl::programCounts();
+        gl::ProgramLibrary library(files.provider(), cache);
+        const std::uint32_t word = run(library.compute("a.comp.glsl"));
+        const gl::ProgramCounts after = gl::programCounts();
+        return Made{after.built - before.built, after.loaded - before.loaded, word};
+    };
+    const auto expectMade = [&](std::uint64_t loaded, std::uint32_t word, std::size_t lines) {
+        const Made made = make();
+        EXPECT_EQ(made.word, word);
+        EXPECT_EQ(made.loaded, formats > 0 ? loaded : 0);
+        EXPECT_EQ(made.built + made.loaded, 1u);
+        EXPECT_EQ(log.size(), formats > 0 ? lines : 0);
+    };
+    expectMade(0, 7, 0);
+    expectMade(1, 7, 0);
+    // Another text is another program; the first is still there.
+    files.texts["a.comp.glsl"] = writer(8);
+    expectMade(0, 8, 0);
+    files.texts["a.comp.glsl"] = writer(7);
+    expectMade(1, 7, 0);
+    // Damage in any place: a line each, and what is built takes its place.
+    std::size_t lines = 0;
+    const std::vector<std::size_t> places{0, 8, 16, 24, 40};
+    for (const std::size_t place : places) {
+        for (auto& [key, bytes] : cache->kept)
+            if (bytes.size() > place) bytes[place] ^= 0x40;
+        // The format is no part of what is checked: a driver that does not list it is not asked.
+        expectMade(0, 7, ++lines);
+        expectMade(1, 7, lines);
+    }
+    for (auto& [key, bytes] : cache->kept) bytes.resize(bytes.size() / 2);
+    expectMade(0, 7, ++lines);
+    setLogCallback({});
+    if (formats > 0) {
+        EXPECT_EQ(log.front(),
+                  "program cache: a.comp.glsl: what was kept is damaged; built from its sources");
+        EXPECT_EQ(
+            log[3],
+            "program cache: a.comp.glsl: what was kept is of no use to this driver; built from its sources");
+    }
 }
 
 using ProgramDeathTest = ProgramTest;

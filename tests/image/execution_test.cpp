@@ -77,6 +77,63 @@ TEST_F(ExecutionTest, LightForAHostIsTheSameBits) {
     }
 }
 
+// Parts of meshes that the view sees, and six sides of lamps: a call for each, or for each change of state.
+TEST_F(ExecutionTest, AGpuIsAskedOnceForDrawsOfOneState) {
+    const Scene scene = io::generateScene("cafe");
+    Settings settings;
+    settings.mode = Mode::Phong;
+    settings.image.antialiasing = 0;
+    std::uint64_t calls = 0;
+    std::vector<glm::vec4> pixels;
+    for (const Execution execution : {Execution::Processor, Execution::Gpu}) {
+        Renderer renderer({"", true, execution});
+        renderer.setScene(scene);
+        renderer.render(scene.cameras.front(), 72, 54, settings);
+        if (execution == Execution::Processor) {
+            calls = renderer.stats().drawCalls;
+            pixels = renderer.readImage().pixels;
+            continue;
+        }
+        EXPECT_GT(renderer.stats().drawCalls, 1u);
+        EXPECT_LT(20 * renderer.stats().drawCalls, calls);
+        EXPECT_EQ(renderer.readImage().pixels, pixels);
+    }
+}
+
+// Counts stay on the GPU, but for those of voxels that change, and of faces that are sorted: for an update, and again
+// when it is known which lie inside of things.
+TEST_F(ExecutionTest, SettledFramesWaitForNothing) {
+    struct Case {
+        Mode mode;
+        std::uint64_t moving;  // waits of a frame in which something moves
+    };
+    for (const Case& one : {Case{Mode::Phong, 0}, Case{Mode::Traced, 3}, Case{Mode::Cones, 1}}) {
+        const Scene scene = io::generateScene("cornell?block=1");
+        Renderer renderer({"", true, Execution::Gpu});
+        renderer.setScene(scene);
+        Settings settings;
+        settings.mode = one.mode;
+        applyQuality(settings.traced, Quality::Draft);
+        settings.voxels.size = 16;
+        settings.image.antialiasing = 0;
+        Camera camera = scene.cameras.front();
+        const auto waits = [&] {
+            const std::uint64_t before = gl::waitCount();
+            renderer.render(camera, 48, 36, settings);
+            return gl::waitCount() - before;
+        };
+        waits();
+        waits();
+        EXPECT_EQ(waits(), 0u) << one.mode.name();
+        camera.eye.x += 0.01f;
+        EXPECT_EQ(waits(), 0u) << one.mode.name();
+        Instance moved = scene.instances.back();
+        moved.worldFromObject[3].x += 0.1f;
+        renderer.setInstance(scene.instances.size() - 1, moved);
+        EXPECT_EQ(waits(), one.moving) << one.mode.name();
+    }
+}
+
 std::size_t programCount() {
     const std::vector<gl::LiveObject> all = gl::liveObjects();
     return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](const gl::LiveObject& object) {

@@ -25,8 +25,9 @@ std::vector<BatchOption> renderOptions(const CLI::App& app) {
     for (const CLI::Option* option : app.get_subcommand("render")->get_options()) {
         const std::string name = option->get_single_name();
         bool taken = option->get_positional() || name == "help";
-        for (const char* own : {"output", "overwrite", "path", "animate", "fps", "turntable", "frames",
-                                "bake", "stats", "exec", "script", "set", "shader-dir", "gl-debug"})
+        for (const char* own :
+             {"output", "overwrite", "path", "animate", "fps", "turntable", "frames", "bake", "stats", "exec",
+              "script", "set", "shader-dir", "gl-debug", "program-cache"})
             taken = taken || name == own;
         if (taken) continue;
         bool isFile = false;

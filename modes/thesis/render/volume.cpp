@@ -349,9 +349,10 @@ void ThesisVolume::rasterTriangles(const gl::Device& device, const Inputs& input
         ThesisVolumeOptions kind = wanted.options;
         kind.defects.darkEmitters = wanted.options.defects.darkEmitters || lamps;
         device.get(voxelizeDesc(kind, wanted.scene, wanted.content)).use(given);
-        inputs.scene.draw({.filter = [&](const gpu::Instance& instance) {
+        const auto taken = [&](const gpu::Instance& instance) {
             return (instance.flags & INSTANCE_VOXELIZED) != 0 && isLamp(instance) == lamps;
-        }});
+        };
+        inputs.scene.draw({.filter = taken, .together = device.profile == gl::ExecutionProfile::Gpu});
     }
 }
 
