@@ -34,13 +34,36 @@ bool SceneUpload::onlyAdds(const Renderer& renderer, const Session& session) con
     return true;
 }
 
+// Voxels that are asked for get a grid that fits.
+bool SceneUpload::needsWhole(const Renderer& renderer, const Session& session) const {
+    if (current(session)) return false;
+    const Revisions& now = session.revisions();
+    return !seen_ || seen_->scene != now.scene || seen_->voxels != now.voxels || !onlyAdds(renderer, session);
+}
+
+SceneUpload::Whole SceneUpload::wholeOf(const Session& session) {
+    return {session.scene(),
+            session.revisions(),
+            session.instanceRevisions(),
+            session.materialRevisions(),
+            session.meshRevisions(),
+            session.textureRevisions()};
+}
+
+void SceneUpload::take(Renderer& renderer, const Whole& whole) {
+    seen_.reset();  // a scene that is refused is none
+    renderer.setScene(whole.scene);
+    instances_ = whole.instances;
+    materials_ = whole.materials;
+    meshes_ = whole.meshes;
+    textures_ = whole.textures;
+    seen_ = whole.revisions;
+}
+
 void SceneUpload::follow(Renderer& renderer, const Session& session) {
     if (current(session)) return;
     const Revisions& now = session.revisions();
-    // Voxels that are asked for get a grid that fits.
-    const bool anew =
-        !seen_ || seen_->scene != now.scene || seen_->voxels != now.voxels || !onlyAdds(renderer, session);
-    if (anew) {
+    if (needsWhole(renderer, session)) {
         seen_.reset();  // a scene that is refused is none
         renderer.setScene(session.scene());
         instances_ = session.instanceRevisions();

@@ -7,6 +7,7 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 
 #include "conelight/error.h"
@@ -23,6 +24,17 @@ void keepError(int, const char* message) { lastGlfwError = message != nullptr ? 
         "no window: " + what + (lastGlfwError.empty() ? "" : " (" + lastGlfwError + ")") +
             "; a display (DISPLAY or WAYLAND_DISPLAY) and a driver with OpenGL 4.5 would be right, or "
             "`conelight render`, which needs no display");
+}
+
+// Of the GUI: pictures are drawn in a context of their own (platform/render_thread.h), whose errors the library tells.
+void sayErrors() {
+    glEnable(GL_DEBUG_OUTPUT);
+    glEnable(GL_DEBUG_OUTPUT_SYNCHRONOUS);
+    glDebugMessageCallback(
+        [](GLenum, GLenum type, GLuint, GLenum, GLsizei, const GLchar* message, const void*) {
+            if (type == GL_DEBUG_TYPE_ERROR) std::fprintf(stderr, "conelight: OpenGL: %s\n", message);
+        },
+        nullptr);
 }
 
 }  // namespace
@@ -55,6 +67,7 @@ Window::Window(const WindowOptions& options) {
     }
     glfwMakeContextCurrent(window_);
     glfwSwapInterval(1);
+    if (options.debug) sayErrors();
     glfwSetWindowUserPointer(window_, this);
     glfwSetDropCallback(window_, [](GLFWwindow* window, int count, const char** paths) {
         if (self(window).onDrop) self(window).onDrop({paths, paths + count});

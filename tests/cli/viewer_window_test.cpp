@@ -187,6 +187,10 @@ TEST_F(ViewerTest, TheCloseButtonEndsIt) {
     pressCloseButton(screen->display(), "Conelight");
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
     EXPECT_NE(viewer->output().find("timing: GUI"), std::string::npos) << "it ended in order";
+    // Also while programs are built for the first picture.
+    start(std::string(kSmall) + "--gl-debug --exec quit builtin:cornell", "MESA_SHADER_CACHE_DISABLE=true");
+    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
+    EXPECT_EQ(viewer->output().find("OpenGL: "), std::string::npos) << viewer->output();
 }
 
 // As a file manager drops them: the first is opened, and what cannot be is a line.

@@ -167,16 +167,6 @@ void inspectorPanel(const Session& session, std::optional<Inspection>& inspectio
         chosenPath(paths[static_cast<std::size_t>(inspection->chosen)]);
 }
 
-void inspectGathering(Inspection& inspection, Renderer* renderer) {
-    inspection.gathered.reset();
-    if (renderer == nullptr) return;
-    try {
-        inspection.gathered = renderer->inspectPixel(inspection.pixel.x, inspection.pixel.y);
-    } catch (const Error&) {
-        // The picture changed its size since the click: there is nothing to show.
-    }
-}
-
 void drawInspection(const Session& session, Picker& picker, std::optional<Inspection>& inspection,
                     const glm::vec2& at, const glm::vec2& size) {
     if (!inspection || !inspection->gathered || size.x < 1 || size.y < 1) return;

@@ -49,8 +49,6 @@ struct Inspection {
     std::vector<PictureLine> lines;
     std::uint64_t linesOf[3] = {0, 0, 0};
 };
-// Fills in `gathered` from the last picture; null: nothing.
-void inspectGathering(Inspection& inspection, Renderer* renderer);
 // A table of cones or rays; a click on one makes it stand out and shows its steps.
 void inspectorPanel(const Session& session, std::optional<Inspection>& inspection);
 // Cones and rays over the picture at `at`, into the current ImGui window.

@@ -9,26 +9,18 @@
 #include <utility>
 
 #include "conelight/error.h"
-#include "platform/picture_texture.h"
 #include "platform/window.h"
-#include "scene_upload.h"
 #include "traced_picture.h"
-#include "viewer/background_bake.h"
-#include "viewer/background_reference.h"
-#include "viewer/background_static_bake.h"
-#include "viewer/face_budget.h"
 #include "viewer/picture_key.h"
 #include "viewer/picture_label.h"
-#include "viewer/picture_noise.h"
 #include "viewer/picture_passes.h"
+#include "viewer/picture_slot_values.h"
 
 namespace conelight::program {
 namespace {
 
 // The background reference rests here: below 1 % noise in closed rooms.
 constexpr int kReferenceSamples = 4096;
-// What updates of the light cache may take of a picture while the camera flies: a quarter of PictureView's aim.
-constexpr double kFlyingUpdateMs = 25;
 // Between two parts of a picture the window looks whether somebody wants it.
 constexpr double kPartMs = 25;
 constexpr double kMovingPartMs = 40;  // of pictures that may take 100 and are to come soon
@@ -40,76 +32,8 @@ double wallMs() {
 
 }  // namespace
 
-struct PictureSlot::Impl {
-    // A picture that is drawn in parts, and what it will show.
-    struct Drawing {
-        PictureKey key;
-        Settings settings;  // the session's
-        glm::ivec2 size;
-        bool moving = false;  // coarse: it is finished though the view has gone on meanwhile
-    };
-
-    RendererOptions options;
-    std::unique_ptr<Renderer> renderer;
-    std::optional<Drawing> drawing;
-    SceneUpload upload;                // of the session's scene
-    std::shared_ptr<const Scene> lit;  // the baked scene that the renderer holds instead
-
-    // What the last picture shows.
-    std::string mode;
-    std::optional<PictureKey> shown;
-    Settings shownSettings;
-    bool own = false;      // the picture is the mode's and of this view
-    bool preview = false;  // it is another mode's while the mode has none
-    bool asked = false;    // redraw()
-    float headlight = 0;
-    int width = 0, height = 0;
-    PicturePasses passes;              // of the picture
-    int settling = 0;                  // passes to come
-    PictureNoise noise;                // of what settles
-    double frameMs = 0, updateMs = 0;  // the light cache's part
-    FaceBudget flyingFaces{kFlyingUpdateMs};
-    bool flyingUpdate = false;  // the last update was of flyingFaces
-    double voxelsMadeAt = 0;    // ms; ViewFlags::dynamic
-    std::uint64_t version = 0, parts = 0;
-    std::uint32_t texture = 0;
-    std::optional<Image> linear;
-    std::optional<std::string> error;
-    std::string lastError;  // said once while it stays
-
-    platform::PictureTexture cpuTexture;
-    ImageSettings cpuLook;
-    BackgroundReference reference, beams{BackgroundReference::Method::Beams};
-    std::uint64_t referenceVersion = 0, linearJob = 0;
-    BackgroundBake bake;
-    BackgroundStaticBake statics;             // of mode hybrid
-    std::shared_ptr<const BakedLight> baked;  // that the last picture shows
-
-    bool draw(const Session& session, int w, int h, const How& how);
-    bool drawScene(const Session& session, const std::string& drawnMode, int w, int h, const How& how);
-    bool drawTraced(BackgroundReference& traced, const Session& session, int w, int h, const How& how);
-    bool drawRadiosity(const Session& session, int w, int h, const How& how);
-    void drawNothing(const Session& session, int w, int h);
-    void begin(const Session& session, const std::string& drawnMode, bool voxelsDue, const glm::ivec2& size,
-               const How& how);
-    void followDrawing(const Session& session, const glm::ivec2& size, const How& how);
-    void drop();
-    void countPass(const std::string& drawnMode);
-    void renderFrame(const Session& session, const Settings& settings, int w, int h);
-    void takeFrame(const Session& session, const Drawing& drawn, double start);
-    void showImage(const ImageSettings& look);
-    const Image& read();
-    std::shared_ptr<const BakedLight> bakedFor(const Session& session, const std::string& drawnMode,
-                                               const How& how);
-    void followUpdateTime();
-    void followLook(const Session& session);
-    bool onlyLook(const Session& session) const;
-    void startAnew();
-};
-
-PictureSlot::PictureSlot(RendererOptions options) : impl_(std::make_unique<Impl>()) {
-    impl_->options = std::move(options);
-}
+PictureSlot::PictureSlot(RendererOptions options, platform::RenderThread& thread)
+    : impl_(std::make_unique<Impl>(std::move(options), thread)) {}
 PictureSlot::~PictureSlot() = default;
 
 void PictureSlot::setRadiosity(const reference::RadiositySettings& settings) {
@@ -137,7 +61,7 @@ void PictureSlot::Impl::startAnew() {
 }
 
 void PictureSlot::Impl::drop() {
-    if (drawing && renderer) renderer->drop();
+    renderer.forget();
     drawing.reset();
 }
 
@@ -148,8 +72,7 @@ void PictureSlot::clear() {
     impl_->bake.stop();
     impl_->statics.stop();
     impl_->baked.reset();
-    impl_->renderer.reset();
-    impl_->upload.forget();
+    impl_->renderer.free();
     impl_->lit.reset();
 }
 
@@ -169,7 +92,9 @@ void PictureSlot::restInBackground() { impl_->reference.stop(); }
 std::vector<std::string> PictureSlot::reloadShaders() {
     if (!impl_->renderer) return {};
     impl_->asked = true;
-    return impl_->renderer->reloadShaders();
+    std::vector<std::string> failures;
+    impl_->renderer.run([&](Renderer& renderer) { failures = renderer.reloadShaders(); });
+    return failures;
 }
 
 bool PictureSlot::draw(const Session& session, const std::string& mode, int width, int height,
@@ -200,6 +125,7 @@ bool PictureSlot::draw(const Session& session, const std::string& mode, int widt
 std::optional<std::string> PictureSlot::takeError() { return std::exchange(impl_->error, std::nullopt); }
 
 bool PictureSlot::Impl::draw(const Session& session, int w, int h, const How& how) {
+    if (!renderer.rests()) return true;
     const ViewFlags& flags = session.flags();
     if (flags.singleFrame && !asked && shown) return false;
     if (session.showsNothing()) {
@@ -216,6 +142,7 @@ bool PictureSlot::Impl::draw(const Session& session, int w, int h, const How& ho
 // The scene as it is, in a mode of the renderer, in parts. At rest a picture that nobody wants any more is dropped.
 bool PictureSlot::Impl::drawScene(const Session& session, const std::string& drawnMode, int w, int h,
                                   const How& how) {
+    takeFinished(session, drawnMode);
     followLook(session);
     const std::shared_ptr<const BakedLight> newest = bakedFor(session, drawnMode, how);
     const ViewFlags& flags = session.flags();
@@ -233,15 +160,27 @@ bool PictureSlot::Impl::drawScene(const Session& session, const std::string& dra
 
     if (changed) drop();
     if (!drawing) {
+        if (!giveScene(session)) return true;
         baked = newest;
         begin(session, drawnMode, voxelsDue, {w, h}, how);
     }
-    ++parts;
-    if (!renderer->goOn(how.still ? kPartMs : kMovingPartMs)) return true;
-    const Drawing drawn = *std::exchange(drawing, std::nullopt);
-    takeFrame(session, drawn, wallMs() - renderer->stats().wallMs);
+    const double part = how.still ? kPartMs : kMovingPartMs;
+    renderer.begin([part](Renderer& made) { return made.goOn(part); });
+    if (!renderer.rests()) return true;
+    takeFinished(session, drawnMode);
+    return drawing || settling > 0;
+}
+
+// A picture whose last part has ended. What changed since it was begun is in the next one.
+void PictureSlot::Impl::takeFinished(const Session& session, const std::string& drawnMode) {
+    if (!renderer.takeFinished() || !drawing) return;
+    Drawing drawn = *std::exchange(drawing, std::nullopt);
+    if (sameButLook(session.settings(), drawn.settings)) {
+        drawn.key.settings = session.revisions().settings;
+        drawn.settings = session.settings();
+    }
+    takeFrame(session, drawn, wallMs() - renderer.resting().stats().wallMs);
     countPass(drawnMode);
-    return settling > 0;
 }
 
 void PictureSlot::Impl::countPass(const std::string& drawnMode) {
@@ -256,44 +195,51 @@ void PictureSlot::Impl::countPass(const std::string& drawnMode) {
 // moment ago, or nothing would be finished.
 void PictureSlot::Impl::followDrawing(const Session& session, const glm::ivec2& size, const How& how) {
     if (!drawing) return;
-    if (!how.still && drawing->moving && renderer && renderer->drawing()) return;
+    const bool drawn = renderer && renderer.resting().drawing();
+    if (!how.still && drawing->moving && drawn) return;
     PictureKey key = keyOf(session.revisions());
     if (sameButLook(session.settings(), drawing->settings)) key.settings = drawing->key.settings;
     const bool same = key == drawing->key && drawing->size == size && drawing->moving == !how.still;
-    if (same && renderer && renderer->drawing())
+    if (same && drawn)
         drawing->key.settings = session.revisions().settings;
     else
         drop();
 }
 
+// Returns whether the renderer has the session's scene. It takes a copy, beside the window, of what it needs as a whole.
+bool PictureSlot::Impl::giveScene(const Session& session) {
+    if (renderer.make() || std::exchange(lit, nullptr)) upload.forget();
+    if (!upload.needsWhole(renderer.resting(), session)) return true;
+    const auto whole = std::make_shared<SceneUpload::Whole>(SceneUpload::wholeOf(session));
+    renderer.begin([this, whole](Renderer& made) {
+        upload.take(made, *whole);
+        return false;
+    });
+    return renderer.rests();
+}
+
 void PictureSlot::Impl::begin(const Session& session, const std::string& drawnMode, bool voxelsDue,
                               const glm::ivec2& size, const How& how) {
-    if (!renderer) {
-        renderer = std::make_unique<Renderer>(options);
-        upload.forget();
-    }
-    if (lit) {
-        lit.reset();
-        upload.forget();
-    }
-    upload.follow(*renderer, session);
-    renderer->setBakedLight(baked);
     if (voxelsDue) voxelsMadeAt = wallMs();
     Settings settings = session.shownSettings();
     conelight::setSetting(settings, "mode", drawnMode);
     settings.traced.budgeted = true;  // the window stays live; the picture settles over frames
     const bool views = passes.areViews(settling);
     settings.image.temporal = views || smoothsEdges(drawnMode, settings) ? Toggle::On : Toggle::Off;
-    renderer->setLightHeld(views);
     const int faces = flyingFaces.faces();
     flyingUpdate = how.flying && faces > 0;
     if (flyingUpdate && (settings.traced.faceBudget == 0 || settings.traced.faceBudget > faces))
         settings.traced.faceBudget = faces;
-    renderer->setDynamic(voxelsDue);
     asked = false;
-    renderer->setProfiling(true, false);
-    renderer->setHeadlight(headlight);
-    renderer->begin(session.camera(), size.x, size.y, settings);
+    renderer.run([&](Renderer& made) {
+        upload.follow(made, session);
+        made.setBakedLight(baked);
+        made.setLightHeld(views);
+        made.setDynamic(voxelsDue);
+        made.setProfiling(true, false);
+        made.setHeadlight(headlight);
+        made.begin(session.camera(), size.x, size.y, settings);
+    });
     drawing = Drawing{keyOf(session.revisions()), session.settings(), size, !how.still};
 }
 
@@ -309,7 +255,7 @@ std::shared_ptr<const BakedLight> PictureSlot::Impl::bakedFor(const Session& ses
 
 void PictureSlot::Impl::followUpdateTime() {
     updateMs = 0;
-    for (const PassStats& pass : renderer->stats().passes)
+    for (const PassStats& pass : stats.passes)
         if (pass.name == "irradiance: update") updateMs += pass.gpuMs >= 0 ? pass.gpuMs : pass.wallMs;
     if (updateMs > 0 && (flyingUpdate || flyingFaces.faces() == 0)) flyingFaces.measured(updateMs);
 }
@@ -319,7 +265,7 @@ void PictureSlot::Impl::followLook(const Session& session) {
     const PictureKey key = keyOf(session.revisions());
     const bool rendered = renderer && texture != 0 && texture != cpuTexture.name();
     if (!rendered || !shown || key == *shown || !onlyLook(session)) return;
-    texture = renderer->displayTexture(session.settings().image);
+    renderer.run([&](Renderer& made) { texture = made.displayTexture(session.settings().image); });
     shown = key;
     ++version;
 }
@@ -334,23 +280,29 @@ bool PictureSlot::Impl::onlyLook(const Session& session) const {
 void PictureSlot::Impl::renderFrame(const Session& session, const Settings& settings, int w, int h) {
     const double start = wallMs();
     drop();
-    renderer->setProfiling(true, false);
-    renderer->setHeadlight(headlight);
-    renderer->render(session.camera(), w, h, settings);
+    asked = false;
+    renderer.run([&](Renderer& made) {
+        made.setDynamic(false);
+        made.setProfiling(true, false);
+        made.setHeadlight(headlight);
+        made.render(session.camera(), w, h, settings);
+    });
     takeFrame(session, {keyOf(session.revisions()), session.settings(), {w, h}}, start);
 }
 
 void PictureSlot::Impl::takeFrame(const Session& session, const Drawing& drawn, double start) {
-    texture = renderer->displayTexture(session.settings().image);
     linear.reset();
     linearJob = 0;
-    if (session.flags().drawBlock) linear = renderer->readImage();
+    renderer.run([&](Renderer& made) {
+        texture = made.displayTexture(session.settings().image);
+        if (session.flags().drawBlock) linear = made.readImage();
+        stats = made.stats();
+    });
     double gpuMs = 0;
-    for (const PassStats& pass : renderer->stats().passes) gpuMs += std::max(pass.gpuMs, 0.0);
+    for (const PassStats& pass : stats.passes) gpuMs += std::max(pass.gpuMs, 0.0);
     frameMs = std::max(wallMs() - start, gpuMs);
     shown = drawn.key;
-    shownSettings = session.settings();
-    asked = false;
+    shownSettings = drawn.settings;
     width = drawn.size.x;
     height = drawn.size.y;
     ++version;
@@ -429,23 +381,24 @@ bool PictureSlot::Impl::drawRadiosity(const Session& session, int w, int h, cons
     const bool resized = w != width || h != height;
     if (!changed && !resized) return false;
     if (!changed && how.onlyChanges) return true;
-    if (!renderer) renderer = std::make_unique<Renderer>(options);
+    renderer.make();
     if (lit != newest) {
         upload.forget();
-        renderer->setScene(*newest);
+        renderer.run([&](Renderer& made) { made.setScene(*newest); });
         lit = newest;
     }
     Settings settings = session.settings();
     settings.mode = Mode::Phong;
     settings.component = Component::Full;
-    renderer->setDynamic(false);
     renderFrame(session, settings, w, h);
     settling = 0;
     return false;
 }
 
-std::uint64_t PictureSlot::parts() const { return impl_->parts + impl_->version; }
-bool PictureSlot::drawing() const { return impl_->drawing.has_value(); }
+std::uint64_t PictureSlot::parts() const { return impl_->renderer.pieces() + impl_->version; }
+bool PictureSlot::drawing() const {
+    return impl_->drawing || impl_->renderer.works() || impl_->renderer.inspecting();
+}
 bool PictureSlot::onlyLook(const Session& session) const { return impl_->onlyLook(session); }
 std::uint32_t PictureSlot::texture() const { return impl_->texture; }
 int PictureSlot::width() const { return impl_->width; }
@@ -461,19 +414,28 @@ const Image& PictureSlot::Impl::read() {
     if (linear) return *linear;
     // A texture of the renderer's is its last picture.
     if (texture == 0 || !renderer || texture == cpuTexture.name()) return none;
-    linear = renderer->readImage();
+    renderer.run([this](Renderer& made) { linear = made.readImage(); });
     return *linear;
 }
 
 const FrameStats* PictureSlot::stats() const {
     const bool traced = impl_->mode == "reference" || impl_->mode == "beams";
     const bool drawn = impl_->renderer && (!traced || impl_->preview);
-    return drawn ? &impl_->renderer->stats() : nullptr;
+    return drawn ? &impl_->stats : nullptr;
 }
 
-Renderer* PictureSlot::renderer() {
-    return isSettingsMode(impl_->mode) || impl_->preview ? impl_->renderer.get() : nullptr;
+bool PictureSlot::inspects() const {
+    return impl_->renderer && (isSettingsMode(impl_->mode) || impl_->preview);
 }
+
+PixelInspection PictureSlot::inspectPixel(const glm::ivec2& pixel) {
+    PixelInspection found;
+    impl_->renderer.run([&](Renderer& made) { found = made.inspectPixel(pixel.x, pixel.y); });
+    return found;
+}
+
+void PictureSlot::beginInspection(const glm::ivec2& pixel) { impl_->renderer.beginInspection(pixel); }
+std::optional<PixelInspection> PictureSlot::takeInspection() { return impl_->renderer.takeInspection(); }
 
 bool PictureSlot::ownPicture() const { return impl_->texture != 0 && impl_->own; }
 
@@ -488,7 +450,7 @@ std::string PictureSlot::label() const {
 
 bool PictureSlot::finished() const {
     if (!impl_->lastError.empty()) return true;  // until something changes
-    if (!ownPicture() || impl_->settling > 0) return false;
+    if (!ownPicture() || impl_->settling > 0 || impl_->renderer.inspecting()) return false;
     if (impl_->mode == "reference") return !impl_->reference.status().running;
     if (impl_->mode == "beams") return !impl_->beams.status().running;
     if (impl_->mode == "hybrid") return !impl_->statics.status().running;

@@ -13,11 +13,15 @@
 #include "reference/radiosity.h"
 #include "session/session.h"
 
+namespace conelight::platform {
+class RenderThread;
+}
+
 namespace conelight::program {
 
 class PictureSlot {
   public:
-    explicit PictureSlot(RendererOptions options);
+    PictureSlot(RendererOptions options, platform::RenderThread& thread);
     ~PictureSlot();
     PictureSlot(const PictureSlot&) = delete;
     PictureSlot& operator=(const PictureSlot&) = delete;
@@ -29,8 +33,8 @@ class PictureSlot {
         bool onlyChanges = false;  // leave out what merely refines the picture
     };
     // Brings the picture up to date, `width` x `height` pixels, by one part of it. Returns whether drawing
-    // again soon would change it; work in the background wakes the window instead. Never throws: takeError() has what went
-    // wrong.
+    // again soon would change it; work in the background wakes the window instead. A part that takes long goes on
+    // after it has returned. Never throws: takeError() has what went wrong.
     bool draw(const Session& session, const std::string& mode, int width, int height, const How& how);
     std::optional<std::string> takeError();  // of draw, each once
     void show(const Session& session,
@@ -39,7 +43,7 @@ class PictureSlot {
     void setRadiosity(const reference::RadiositySettings& settings);  // of mode radiosity, before it is shown
     void setHeadlight(float irradiance);  // of modes of the renderer (Renderer::setHeadlight)
     void redraw();  // the next draw draws although nothing changed, and although only single frames are asked
-    bool drawing() const;         // a picture is begun and not finished
+    bool drawing() const;         // a picture is begun and not finished, or other work for it
     std::uint64_t parts() const;  // grows with every part of a picture, and with every picture
     void blank();                 // shows nothing until the next draw
     // Frees what the slot holds; the next draw starts anew.
@@ -57,10 +61,16 @@ class PictureSlot {
     double pixelsMs() const;          // the part of it that is not the light cache's
     std::uint64_t version() const;    // grows with every new picture
     const FrameStats* stats() const;  // of the last frame of a renderer's mode; null without
-    Renderer* renderer();             // null unless a renderer's mode is shown
     bool ownPicture() const;          // what is shown is the mode's and of this view, not a preview, nor old
     bool finished() const;            // ownPicture, and nothing would refine it
     std::string label() const;        // mode, and how far it is
+
+    // What a pixel of a renderer's mode gathered; other modes cannot say. The first time builds programs.
+    bool inspects() const;
+    PixelInspection inspectPixel(const glm::ivec2& pixel);  // throws what the renderer throws
+    // The same beside the window, which takes it later; empty when the picture has another size by then.
+    void beginInspection(const glm::ivec2& pixel);
+    std::optional<PixelInspection> takeInspection();
 
   private:
     struct Impl;

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "conelight/error.h"
+#include "conelight/memory.h"
 #include "platform/picture_texture.h"
 #include "reference/metrics.h"
 #include "viewer/camera_control.h"
@@ -67,8 +68,9 @@ struct PictureView::Errors {
 
 PictureView::PictureView(platform::Window& window, const RendererOptions& options)
     : window_(window),
-      left_(std::make_unique<PictureSlot>(options)),
-      right_(std::make_unique<PictureSlot>(options)),
+      thread_(window, memoryLimit() == 0),  // which holds for the process, whatever else it does meanwhile
+      left_(std::make_unique<PictureSlot>(options, thread_)),
+      right_(std::make_unique<PictureSlot>(options, thread_)),
       errors_(std::make_unique<Errors>()),
       movingResolution_(kMovingFrameMs) {}
 PictureView::~PictureView() = default;

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "platform/render_thread.h"
 #include "platform/window.h"
 #include "session/session.h"
 #include "viewer/gizmo.h"
@@ -103,6 +104,7 @@ class PictureView {
     std::uint32_t rightTexture(const ImageSettings& look);
 
     platform::Window& window_;
+    platform::RenderThread thread_;
     std::unique_ptr<PictureSlot> left_, right_;
     struct Errors;
     std::unique_ptr<Errors> errors_;

@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "conelight/error.h"
+
 namespace conelight::program {
 
 void PixelProbe::inspectPixel(const glm::ivec2& pixel) {
@@ -46,6 +48,7 @@ void PixelProbe::select(const PictureView::Click& click) {
     inspection.hit = pickAt(click.part, size);
     session_.select(inspection.hit ? Selection{SelectionKind::Instance, inspection.hit->instance}
                                    : Selection{});
+    gathering_ = nullptr;
     gathersIn_ = inspection.hit ? &slot : nullptr;  // nothing gathers in the sky
     found_ = inspection;
     tables_ = session_.revisions().sceneTables();
@@ -53,14 +56,30 @@ void PixelProbe::select(const PictureView::Click& click) {
     settings_ = session_.settings();
 }
 
-void PixelProbe::gather() {
+void PixelProbe::inspect(const PictureView::Click& click) {
+    select(click);
     PictureSlot* const slot = std::exchange(gathersIn_, nullptr);
-    if (slot != nullptr && found_) inspectGathering(*found_, slot->renderer());
+    if (slot == nullptr || !found_ || !slot->inspects()) return;
+    try {
+        found_->gathered = slot->inspectPixel(found_->pixel);
+    } catch (const Error&) {
+        // The picture has another size by now: there is nothing to show.
+    }
+}
+
+bool PixelProbe::gather() {
+    PictureSlot* const slot = std::exchange(gathersIn_, nullptr);
+    if (slot == nullptr || !found_ || !slot->inspects()) return false;
+    gathering_ = slot;
+    slot->beginInspection(found_->pixel);
+    return true;
 }
 
 // Exposure and tone map change nothing of it, and lines follow the camera.
 void PixelProbe::follow() {
     if (!found_) return;
+    if (gathering_ != nullptr) found_->gathered = gathering_->takeInspection();
+    if (found_->gathered) gathering_ = nullptr;
     settings_.image = session_.settings().image;
     const bool same = tables_ == session_.revisions().sceneTables() && mode_ == session_.mode() &&
                       settings_ == session_.settings();

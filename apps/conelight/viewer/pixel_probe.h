@@ -19,20 +19,18 @@ class PixelProbe {
   public:
     PixelProbe(Session& session, PictureView& view) : session_(session), view_(view) {}
 
-    void inspect(const PictureView::Click& click) {
-        select(click);
-        gather();
-    }
-    // The same in two: the second takes long, above all the first time, when programs are built.
+    void inspect(const PictureView::Click& click);
+    // The same in two: the second takes long, above all the first time, when programs are built. It goes on beside the
+    // window, if there is something to gather; follow() takes what it finds.
     void select(const PictureView::Click& click);
-    void gather();
+    bool gather();
     // Selects what is there, without a look at its light: beside the others when the click adds; else it alone,
     // unless it is selected already or there is nothing.
     void choose(const PictureView::Click& click);
     void inspectPixel(const glm::ivec2& pixel);  // of the left picture
     void clear() {
         found_.reset();
-        gathersIn_ = nullptr;
+        gathersIn_ = gathering_ = nullptr;
     }
     void follow();  // forgets what is not so any more
     void showPanel() { inspectorPanel(session_, found_); }
@@ -51,6 +49,7 @@ class PixelProbe {
     Picker picker_;
     std::optional<Inspection> found_;
     PictureSlot* gathersIn_ = nullptr;  // what gather() will look at; null: nothing
+    PictureSlot* gathering_ = nullptr;  // what it looks at
     // What it was found in.
     std::uint64_t tables_ = 0;
     std::string mode_;

@@ -14,13 +14,12 @@ namespace {
 constexpr int kMaxScreenshots = 9999;
 
 void inspect(const RequestInputs& in, const Request& request) {
-    Renderer* renderer = in.view.slot(false).renderer();
-    if (renderer == nullptr)
+    PictureSlot& slot = in.view.slot(false);
+    if (!slot.inspects())
         throw Error(ErrorKind::Usage,
                     "inspect: this mode keeps no cones or rays; traced, cones or thesis "
                     "would be right");
-    for (const std::string& line :
-         inspectionText(renderer->inspectPixel(request.x, request.y), request.steps))
+    for (const std::string& line : inspectionText(slot.inspectPixel({request.x, request.y}), request.steps))
         in.console.say(line);
     in.probe.inspectPixel({request.x, request.y});  // as if it were clicked
 }

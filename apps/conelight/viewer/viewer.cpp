@@ -239,7 +239,7 @@ void Viewer::frame() {
     if (view_.slot(false).texture() != 0 && timings_.noteFirstPicture() && timing_)
         console_.say(timings_.firstPictureText());
     // What a click selects shows in the next frame, what was gathered there in the one after.
-    probe_.gather();
+    if (probe_.gather()) more_ = true;
     if (clicked) takeClick(*clicked);
     places_.answer(console_);
 }
