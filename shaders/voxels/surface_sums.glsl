@@ -149,6 +149,8 @@ const float kBoundsStep = 1.0 / 31.0;
 const float kFitted = 0.98;      // share of the bounds from which on a piece fills them
 const float kSameWay = 0.5;      // cosine of normals of one surface
 const float kFrontShare = 0.25;  // in front of a piece, of what is behind: in a corner
+const float kMostHidden = 1.0;   // of a wall's area, what it hides at most
+const float kClosed = 0.2;       // of closed solids areas as vectors cancel: what is left, of all area
 const float kFrontUnits = 65536.0;
 
 // Sides of a box that end within the voxel moved inwards.
@@ -183,10 +185,43 @@ bool boundsTooWide(FacePlane plane) {
     return plane.held < kFitted * pieceArea(plane.normal, plane.offset, a, b);
 }
 
+// What else the voxel of a face holds.
+struct Beside {
+    int front, behind;  // moments about the face's plane of what is turned away from it
+    int hiding;         // area of what of that is in front
+    float seen;         // part of what the face holds that is not the inside of a closed solid
+};
+
+// `at`: head of the voxel's chain; n, center: of the face's plane. Sums are of integers, as the chain has no order.
+Beside besideFace(uint at, vec3 k, vec3 n, vec3 center) {
+    Beside beside = Beside(0, 0, 0, 1.0);
+    int all = 0, inside = 0, outside = 0;
+    ivec3 outwards = ivec3(0);
+    do {
+        Fragment f = readFragment(at, k);
+        float height = dot(n, vec3(f.center) * (1.0 / 65535.0) - 0.5 - center);
+        bool other = abs(dot(n, f.normal)) < kSameWay;
+        int area = int(min(f.whole, 1024.0) * kFrontUnits + 0.5);
+        int moment = int(min(f.whole * abs(height), 1024.0) * kFrontUnits + 0.5);
+        beside.front += other && height > 0.0 ? moment : 0;
+        beside.behind += other && height < 0.0 ? moment : 0;
+        beside.hiding += other && height > 0.0 ? area : 0;
+        int held = int(min(f.area * f.facing, 1024.0) * kFrontUnits + 0.5);
+        inside += f.turned ? held : 0;
+        outside += f.turned ? 0 : held;
+        outwards += ivec3(floor(float(area) * (f.turned ? -f.normal : f.normal) + 0.5));
+        all += area;
+        at = f.next;
+    } while (at != 0u);
+    bool closed = length(vec3(outwards)) < kClosed * float(all);
+    beside.seen = closed ? float(max(inside, outside)) / float(max(inside + outside, 1)) : 1.0;
+    return beside;
+}
+
 // Where the surface ends within the voxel askew, its bounds hold more of its plane than there is of it, and
 // rays find it too wide: the bounds are shrunk about its centroid. Not in corners, where the rest is behind
-// the other wall and a smaller piece would leave a hole. `at`: head of the voxel's chain, 0: leave it as it
-// is.
+// the other wall and a smaller piece would leave a hole. That wall hides no more than its own area: the sides of
+// a thin rod make no corner. `at`: head of the voxel's chain, 0: leave it as it is.
 void fitBounds(FaceSums sums, FacePlane plane, vec3 k, uint at, inout ResolvedFace face) {
     int axis = plane.axis;
     vec3 m = plane.normal;
@@ -194,21 +229,13 @@ void fitBounds(FaceSums sums, FacePlane plane, vec3 k, uint at, inout ResolvedFa
     vec3 low = plane.lower;
     vec3 high = plane.upper;
     float offset = plane.offset;
-    vec3 n = fromDominant(m, axis);
-    vec3 center = fromDominant(c, axis);
+    Beside beside = besideFace(at, k, fromDominant(m, axis), fromDominant(c, axis));
+    float held = plane.held * beside.seen;
+    float tooMuch = pieceArea(m, offset, low, high) - held;
+    bool corner = float(beside.front) > kFrontShare * float(beside.behind) &&
+                  kMostHidden * float(beside.hiding) >= kFrontUnits * tooMuch;
+    bool fits = at != 0u && !corner;
     vec3 a, b;
-    bool fits = at != 0u;
-    int front = 0, behind = 0;
-    do {
-        Fragment f = readFragment(at, k);
-        float height = dot(n, vec3(f.center) * (1.0 / 65535.0) - 0.5 - center);
-        bool other = abs(dot(n, f.normal)) < kSameWay;
-        int moment = int(min(f.whole * abs(height), 1024.0) * kFrontUnits + 0.5);
-        front += other && height > 0.0 ? moment : 0;
-        behind += other && height < 0.0 ? moment : 0;
-        at = f.next;
-    } while (at != 0u);
-    fits = fits && float(front) <= kFrontShare * float(behind);
 
     // An axis along which the centroid is off the middle is one along which the surface ends.
     vec2 half2 = max(0.5 * (high.xy - low.xy), 0.5 * kBoundsStep);
@@ -231,7 +258,7 @@ void fitBounds(FaceSums sums, FacePlane plane, vec3 k, uint at, inout ResolvedFa
         vec3 inner = a;
         vec3 outer = b;
         shrinkEnds(kRayBoundsShrink, inner, outer);
-        scale = clamp(scale * plane.held / max(pieceArea(m, offset, inner, outer), 1e-4), 1e-3, 1.0);
+        scale = clamp(scale * held / max(pieceArea(m, offset, inner, outer), 1e-4), 1e-3, 1.0);
     } while (++i < 6 && fits);
     ivec3 lower = clamp(ivec3((fromDominant(a, axis) + 0.5) * 31.0 + 0.5), sums.lower, sums.upper);
     ivec3 upper =
