@@ -297,6 +297,7 @@ Scene buildTown(const Values& values) {
             if (row != 0 || column != 0) builder.addBlock(column, row);
     addCameras(scene);
     useEnvironment(scene, std::move(light.sky), 0, light.scale);
+    scene.settings.emplace_back("voxels.levels", "0");
     return scene;
 }
 
