@@ -176,6 +176,12 @@ constexpr GeneratedParameter kGlasswareParameters[] = {
 constexpr GeneratedParameter kPlainParameters[] = {
     {"size", 400, 0, 4000, false, "edge of the plain, m; with houses from 60 on; 0: the room alone"},
 };
+constexpr GeneratedParameter kTownParameters[] = {
+    {"size", 200, 180, 2000, false, "edge of the town, m"},
+    {"hour", 12, 0, 24, false, "solar time of a summer's day; 12 is noon"},
+    {"lamps", 1, 0, 100, false, "factor of the light of lamps, which are on from dusk"},
+    {"lit", 45, 0, 2000, false, "lamps as near to the middle give light, m; others only glow"},
+};
 constexpr GeneratedParameter kMirrorHallParameters[] = {
     {"roughness", 0, 0, 1, false, "of the mirrors; below 0.045 they are ideal"},
     {"intensity", 5, 0, 1e4, false, "of the warm lamp, W/sr; the cool one has about half"},
@@ -288,6 +294,10 @@ constexpr Entry kScenes[] = {
     {{"plain", "room of 8 m with a lamp on a plain with houses, for nested grids; cameras room, door",
       kPlainParameters},
      generated::buildPlain},
+    {{"town",
+      "square in a grid of streets, houses with rooms, at any hour; cameras square, room, street, roofs",
+      kTownParameters},
+     generated::buildTown},
 };
 
 // All scenes: those above, then those of guests.

@@ -52,6 +52,7 @@ Scene buildPlain(const Values& values) {
     if (edge > 0) addPlain(scene, edge);
     scene.cameras.push_back(camera("room", {-2.2f, 1.7f, 3.4f}, {1.2f, 1.1f, -2.5f}, 63));
     scene.cameras.push_back(camera("door", {0.5f, 1.6f, -1.5f}, {4, 1.4f, 2.5f}, 63));
+    scene.settings.emplace_back("voxels.levels", "0");
     return scene;
 }
 

@@ -100,5 +100,6 @@ Scene buildConservatory(const Values& values);
 Scene buildGlassware(const Values& values);
 Scene buildMirrorHall(const Values& values);
 Scene buildPlain(const Values& values);
+Scene buildTown(const Values& values);
 
 }  // namespace conelight::io::generated

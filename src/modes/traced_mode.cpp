@@ -26,9 +26,9 @@ gather::PictureParts partsOf(const Settings& settings) {
 gl::Device TracedMode::deviceFor(const Frame& given) {
     gl::Device device = given.device;
     const VoxelSettings& settings = given.settings.voxels;
-    if (settings.levels > 1 && !given.besideCenters)
+    if (settings.levels != 1 && !given.besideCenters)
         grid_ = voxels::SurfaceVoxels::gridAround(given.scene, settings, given.surfaces.view().eye);
-    device.nestedGrids = settings.levels > 1 && grid_.levels > 1;
+    device.nestedGrids = settings.levels != 1 && grid_.levels > 1;
     return device;
 }
 

@@ -85,10 +85,9 @@ std::vector<Setting<VoxelSettings>> voxelSettings() {
         {"shift_x", within(&VoxelSettings::shift, &glm::vec3::x), Numbers{0, 1}, "voxels", kShiftHelp},
         {"shift_y", within(&VoxelSettings::shift, &glm::vec3::y), Numbers{0, 1}, "voxels", kShiftHelp},
         {"shift_z", within(&VoxelSettings::shift, &glm::vec3::z), Numbers{0, 1}, "voxels", kShiftHelp},
-        {"levels", &VoxelSettings::levels, Numbers{1, 8}, "",
+        {"levels", &VoxelSettings::levels, Numbers{0, 8}, "",
          "nested grids in mode traced: each halves the voxels around the eye, at most 1024 / voxels.size of "
-         "them; "
-         "1: one grid"},
+         "them; 1: one grid; 0: as many as make voxels at the eye at most 0.15 m"},
     };
 }
 

@@ -50,8 +50,14 @@ int placeIn(double parentLow, double parentVoxel, int size, double lowest, doubl
 
 }  // namespace
 
+int levelsFor(const VoxelGrid& whole) {
+    int levels = 1;
+    while (levels < VOXEL_MOST_LEVELS && std::ldexp(whole.voxelSize, 1 - levels) > kSmallVoxel) ++levels;
+    return levels;
+}
+
 VoxelGrid nestedGrid(const VoxelGrid& whole, const Aabb& bounds, int levels, const glm::vec3& around) {
-    int count = std::clamp(levels, 1, VOXEL_MOST_LEVELS);
+    int count = std::clamp(levels > 0 ? levels : levelsFor(whole), 1, VOXEL_MOST_LEVELS);
     while (count > 1 && count * levelSize(whole, count).z > VOXEL_MOST_STORED) --count;
     if (count == 1 || bounds.empty()) return whole;
     VoxelGrid grid;

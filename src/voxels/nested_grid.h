@@ -10,10 +10,15 @@
 
 namespace conelight::voxels {
 
-// `levels` of them at most, 1..VOXEL_MOST_LEVELS: so many as have room (VOXEL_MOST_STORED); 1: `whole` itself. `bounds`
+// `levels` of them at most, 1..VOXEL_MOST_LEVELS, or 0 for levelsFor(whole): so many as have room (VOXEL_MOST_STORED); 1: `whole` itself. `bounds`
 // are the scene's, which the levels stay in as far as they can. The same levels for all points of a lattice cell of
 // an eighth of level 0, roughly, so that a point that moves changes them seldom.
 VoxelGrid nestedGrid(const VoxelGrid& whole, const Aabb& bounds, int levels, const glm::vec3& around);
+
+// How many levels bring the voxels at the eye down to kSmallVoxel or below, 1 where those of the one grid are: what rooms
+// take at 64 voxels. Scenes are in m; for one that is not, a number of levels is to be given.
+inline constexpr float kSmallVoxel = 0.15f;
+int levelsFor(const VoxelGrid& whole);
 
 // The finest level that holds a point in grid coordinates; the coarsest where none does.
 int levelAt(const VoxelGrid& grid, const glm::vec3& point);

@@ -94,8 +94,8 @@ TEST(GeneratedScenes, ReadsEveryValue) {
 // ---- What all scenes fulfil -----------------------------------------------------------------------------
 
 // Scenes of the kinds that people model, of 50,000 triangles and more.
-constexpr std::string_view kModelled[] = {"street",     "counter", "workshop", "bathroom",
-                                          "greenhouse", "cafe",    "attic",    "cellar"};
+constexpr std::string_view kModelled[] = {"street", "counter", "workshop", "bathroom", "greenhouse",
+                                          "cafe",   "attic",   "cellar",   "town"};
 
 // Every scene at its defaults and at both ends of each parameter; of large ones only what changes their shape.
 std::vector<std::string> allSpecs() {

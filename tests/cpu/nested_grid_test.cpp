@@ -35,6 +35,30 @@ TEST(NestedGrid, OneLevelIsTheGridItself) {
     EXPECT_EQ(nestedGrid(whole, Aabb{}, 5, {3, 4, 5}), whole);
 }
 
+TEST(NestedGrid, ChoosesAsManyLevelsAsTheEyeNeeds) {
+    const auto chosen = [](float edge, int size) {
+        const Aabb cube = boxOf(glm::vec3(-0.5f * edge), glm::vec3(0.5f * edge));
+        const VoxelGrid whole = fitGrid(cube, size, 0.01f);
+        const VoxelGrid grid = nestedGrid(whole, cube, 0, {1, 1, 1});
+        EXPECT_LE(grid.voxelSize, voxels::kSmallVoxel);
+        EXPECT_EQ(grid, nestedGrid(whole, cube, grid.levels, {1, 1, 1}));
+        // One level fewer would not do.
+        if (grid.levels > 1) {
+            EXPECT_GT(2 * grid.voxelSize, voxels::kSmallVoxel);
+        } else {
+            EXPECT_EQ(grid, whole);
+        }
+        return grid.levels;
+    };
+    EXPECT_EQ(chosen(1, 64), 1);
+    EXPECT_EQ(chosen(8.4f, 64), 1);
+    EXPECT_EQ(chosen(17, 128), 1);
+    EXPECT_EQ(chosen(30, 128), 2);
+    EXPECT_EQ(chosen(400, 64), 7);
+    EXPECT_EQ(chosen(400, 128), 6);
+    EXPECT_EQ(chosen(900, 128), 7);
+}
+
 TEST(NestedGrid, CoarsestLevelHasTheVoxelsOfTheOneGrid) {
     for (const int size : {32, 100, 128, 256}) {
         const VoxelGrid whole = fitGrid(kLand, size, 0.01f);
