@@ -173,6 +173,11 @@ constexpr GeneratedParameter kGlasswareParameters[] = {
     {"emission", 16, 0, 1e4, false, "radiance of the lamp, W/(sr m^2)"},
     {"spot", 6, 0, 1e4, false, "of the spot light, W/sr"},
 };
+constexpr GeneratedParameter kVeilsParameters[] = {
+    {"opacity", 0.35, 0, 1, false, "of the thin sheet"},
+    {"emission", 8, 0, 1e4, false, "radiance of the lamp, W/(sr m^2)"},
+    {"spot", 12, 0, 1e4, false, "of the spot light, W/sr"},
+};
 constexpr GeneratedParameter kPlainParameters[] = {
     {"size", 400, 0, 4000, false, "edge of the plain, m; with houses from 60 on; 0: the room alone"},
 };
@@ -288,6 +293,8 @@ constexpr Entry kScenes[] = {
       "glass of several indices and tints on a table, solid and thin, lamp and spot; cameras front, close",
       kGlasswareParameters},
      generated::buildGlassware},
+    {{"veils", "panes of coloured glass, blended sheets and lace before a spot and a lamp", kVeilsParameters},
+     generated::buildVeils},
     {{"mirror-hall", "hall of flat faces with three ideal mirrors and two point lamps, for mode beams",
       kMirrorHallParameters},
      generated::buildMirrorHall},

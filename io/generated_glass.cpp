@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Rooms with glass: solids that bend light, panes that let it through, clear, tinted and frosted.
+#include <algorithm>
+#include <cmath>
+
 #include "io/generated_textures.h"
 #include "io/generated_trial_parts.h"
 
@@ -200,6 +203,63 @@ Scene buildGlassware(const Values& values) {
     addBlocksAndPanes(scene);
     scene.cameras.push_back(camera("front", {0.05f, 1.32f, 1.35f}, {0.03f, 0.78f, 0}, 60));
     scene.cameras.push_back(camera("close", {-0.35f, 1.0f, 0.75f}, {-0.3f, 0.77f, 0}, 55));
+    return scene;
+}
+
+namespace {
+
+// Threads of white with holes, clear between them: opacity 0.9, 0.45 and 0.
+Texture laceTexture(int size) {
+    Texture texture;
+    texture.name = "lace";
+    texture.width = texture.height = size;
+    texture.rgba.assign(4 * std::size_t(size) * std::size_t(size), 255);
+    for (int y = 0; y < size; ++y)
+        for (int x = 0; x < size; ++x) {
+            const glm::vec2 at = glm::fract(4.0f * (glm::vec2(x, y) + 0.5f) / float(size)) - 0.5f;
+            const float ring = std::abs(glm::length(at) - 0.3f);
+            const bool thread = std::max(std::abs(at.x), std::abs(at.y)) > 0.44f;
+            texture.rgba[4 * std::size_t(y * size + x) + 3] =
+                thread ? std::uint8_t{230} : (ring < 0.1f ? std::uint8_t{115} : std::uint8_t{0});
+        }
+    return texture;
+}
+
+int blendedSheet(Scene& scene, const char* name, glm::vec4 color, int texture = -1) {
+    Material m = matte(name, glm::vec3(color));
+    m.baseColor.a = color.a;
+    m.alphaMode = AlphaMode::Blend;
+    m.doubleSided = true;
+    if (texture >= 0) m.baseColorTexture = repeat(texture, 1);
+    return add(scene, std::move(m));
+}
+
+}  // namespace
+
+// Panes of coloured glass, sheets that hide a part of what is behind them, and lace, in the light of a spot and of a
+// lamp below the ceiling.
+Scene buildVeils(const Values& values) {
+    Scene scene;
+    const int pale = white(scene);
+    const int ochre = add(scene, matte("ochre wall", {0.60f, 0.42f, 0.20f}));
+    addRoom(scene, {{-1.6f, 0, -1.4f}, {1.6f, 2.2f, 1.9f}}, {pale, pale, pale, ochre, pale, pale});
+    const glm::vec3 tints[] = {{0.95f, 0.25f, 0.20f}, {0.25f, 0.80f, 0.35f}, {0.25f, 0.40f, 0.95f}};
+    for (int i = 0; i < 3; ++i)
+        addPart(scene, quad({-0.95f + 0.34f * float(i), 0.5f, -0.55f}, {0.42f, 0, 0.06f}, {0, 0.8f, 0.0f}),
+                "pane", add(scene, pane("pane " + std::to_string(i + 1), tints[i], 0)));
+    const float thin = float(values["opacity"]);
+    addPart(scene, quad({0.2f, 0.35f, -0.6f}, {0.5f, 0, 0}, {0, 0.95f, 0.1f}), "thin sheet",
+            blendedSheet(scene, "thin sheet", {0.75f, 0.75f, 0.70f, thin}));
+    addPart(scene, quad({0.5f, 0.5f, -0.4f}, {0.5f, 0, 0}, {0, 0.95f, 0.1f}), "thick sheet",
+            blendedSheet(scene, "thick sheet", {0.30f, 0.45f, 0.70f, 0.7f}));
+    const int texture = add(scene, laceTexture(256));
+    addPart(scene, quad({-0.55f, 1.0f, 0.9f}, {0.9f, 0, 0}, {0, 0, -0.9f}), "lace",
+            blendedSheet(scene, "lace", glm::vec4(0.8f, 0.8f, 0.8f, 1), texture));
+    addPart(scene, quad({-0.25f, 2.17f, 0.1f}, {0.5f, 0, 0}, {0, 0, 0.5f}), "lamp",
+            add(scene, emitter("lamp", float(values["emission"]) * glm::vec3(1.0f, 0.95f, 0.88f))));
+    scene.lights.push_back(spotLight("spot", {0.2f, 2.0f, 1.7f}, {-0.1f, 0.5f, -0.6f}, 38,
+                                     float(values["spot"]) * glm::vec3(1.0f, 0.94f, 0.86f)));
+    scene.cameras.push_back(camera("front", {0.0f, 1.45f, 1.85f}, {0.0f, 0.75f, -0.8f}, 66));
     return scene;
 }
 

@@ -98,6 +98,7 @@ Scene buildCellar(const Values& values);
 Scene buildGlass(const Values& values);
 Scene buildConservatory(const Values& values);
 Scene buildGlassware(const Values& values);
+Scene buildVeils(const Values& values);
 Scene buildMirrorHall(const Values& values);
 Scene buildPlain(const Values& values);
 Scene buildTown(const Values& values);

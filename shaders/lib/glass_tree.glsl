@@ -11,6 +11,9 @@
 #ifndef GLASS
 #define GLASS 0
 #endif
+#ifndef CONE_SHADOWS
+#define CONE_SHADOWS 0
+#endif
 #if GLASS
 // As textures of buffers: Mesa's software driver reads storage at constant places for its first lane alone, which
 // a fragment may lack.
@@ -69,7 +72,8 @@ bool meetsGlassBox(vec3 lower, vec3 upper, vec3 origin, vec3 inverse, float end)
     return enter <= min(min(far.x, far.y), min(far.z, end)) * 1.0000005;
 }
 
-void testGlassTriangle(int index, vec3 origin, vec3 direction, bool cullsBacks, inout GlassHit hit) {
+void testGlassTriangle(int index, vec3 origin, vec3 direction, bool cullsBacks, const bool veils,
+                       inout GlassHit hit) {
     GlassTriangle g = glassTriangle(index);
     vec3 edge1 = g.corner1 - g.corner0, edge2 = g.corner2 - g.corner0;
     vec3 p = cross(direction, edge2);
@@ -83,11 +87,12 @@ void testGlassTriangle(int index, vec3 origin, vec3 direction, bool cullsBacks, 
     bool culled =
         cullsBacks && back && (materials[instances[g.instance].material].flags & MATERIAL_DOUBLE_SIDED) == 0u;
     bool met = inverse != 0.0 && !culled && min(barycentric.x, barycentric.y) >= -kGlassEdge &&
-               barycentric.x + barycentric.y <= 1.0 + kGlassEdge && t > 0.0 && t < hit.t;
+               barycentric.x + barycentric.y <= 1.0 + kGlassEdge && t > 0.0 && t < hit.t &&
+               (veils || g.solid != GLASS_VEIL);
     if (met) hit = GlassHit(index, t, barycentric, back);
 }
 
-// The nearest triangle before `end` but for `except`, the one that the ray starts on. `cullsBacks`: those of
+// The nearest triangle of glass before `end` but for `except`, the one that the ray starts on. `cullsBacks`: those of
 // single-sided materials are seen from their front alone.
 GlassHit nearestGlass(vec3 origin, vec3 direction, float end, int except, bool cullsBacks) {
     vec3 inverse = glassInverse(direction);
@@ -100,7 +105,8 @@ GlassHit nearestGlass(vec3 origin, vec3 direction, float end, int except, bool c
         first = n.triangles / GLASS_LEAF;
         last = met ? first + n.triangles % GLASS_LEAF : first;
         while (first < last) {
-            if (int(first) != except) testGlassTriangle(int(first), origin, direction, cullsBacks, hit);
+            if (int(first) != except)
+                testGlassTriangle(int(first), origin, direction, cullsBacks, false, hit);
             ++first;
         }
         node = met && n.triangles == 0u ? node + 1u : n.skip;
@@ -179,10 +185,31 @@ bool turnsAllLight(uint solid) { return solid < caustics.count && (caustics.turn
 
 // ---- Light that passes glass ----------------------------------------------------------------------------
 
+// A surface is in its own way by no veil nearer than this to its plane: for exact positions, a part of the largest
+// coordinate; veilNear in metres for those of voxels, set before lights are added.
+const float kVeilNear = 1e-4;
+float veilNear = 0.0;
+const float kVeilNearVoxels = 0.25;  // of a voxel, within which its plane pieces keep to its triangles
+
+// What a blended surface leaves of light.
+float veilTransmittance(vec3 origin, vec3 direction, GlassHit hit) {
+    GlassTriangle g = glassTriangle(hit.triangle);
+    vec3 normal = normalize(cross(g.corner1 - g.corner0, g.corner2 - g.corner0));
+    float height = abs(dot(normal, origin - g.corner0));
+    vec2 uv = (1.0 - hit.barycentric.x - hit.barycentric.y) * g.uv0 + hit.barycentric.x * g.uv1 +
+              hit.barycentric.y * g.uv2;
+    Material m = materials[instances[g.instance].material];
+    float opacity = m.baseColor.a * glassTexel(m.layers.x, m.uvRow[0].xyz, m.uvRow[1].xyz, uv).a;
+    bool counts = height > max(veilNear, kVeilNear * largestCoordinate(origin));
+    return counts ? 1.0 - clamp(opacity, 0.0, 1.0) : 1.0;
+}
+
 // What is left of light that goes straight through all glass from `origin` to `end` metres. Where solids would
 // bend it by more than `mostBend`, rad, to first order, it misses its aim, and nothing is left. `ofLamp`: the
-// light that solids with maps of caustics send on arrives by these, and not here.
+// light that solids with maps of caustics send on arrives by these, and not here. It passes veils in part, which other
+// rays meet in voxels, as cones for shadows do.
 vec3 glassTransmittance(vec3 origin, vec3 direction, float end, float mostBend, const bool ofLamp) {
+    const bool kVeils = ofLamp && CONE_SHADOWS == 0;
     vec3 inverse = glassInverse(direction);
     vec3 left = vec3(1.0);
     vec3 opticalDepth = vec3(0.0);  // of ways within solids, each added where it ends
@@ -197,12 +224,14 @@ vec3 glassTransmittance(vec3 origin, vec3 direction, float end, float mostBend, 
         last = met ? first + n.triangles % GLASS_LEAF : first;
         while (first < last) {
             GlassHit hit = GlassHit(-1, end, vec2(0.0), false);
-            testGlassTriangle(int(first), origin, direction, false, hit);
+            testGlassTriangle(int(first), origin, direction, false, kVeils, hit);
             bool counts = hit.triangle >= 0 && hit.t > near;
-            bool mapped = counts && ofLamp && turnsAllLight(glassTriangle(hit.triangle).solid);
-            if (mapped) {
+            uint solid = counts && ofLamp ? glassTriangle(hit.triangle).solid : CAUSTIC_NO_SOLID;
+            if (turnsAllLight(solid)) {
                 left = vec3(0.0);
                 end = -1.0;  // no further box is met
+            } else if (solid == GLASS_VEIL) {
+                left *= veilTransmittance(origin, direction, hit);
             } else if (counts) {
                 GlassSurface s = glassSurface(origin, direction, hit);
                 left *= s.through;

@@ -96,6 +96,9 @@ GlossyBounce sampleGlossyBounce(Ray ray, VoxelHit hit, FaceShading s, GlossySurf
         next.radiance += reflectedRects(b, position, g.shadingNormal, surface.normal, -ray.direction,
                                         fract(7.0 * g.xi.x + g.xi.y));
 #if EXACT_DIRECT
+#if GLASS
+    veilNear = kVeilNearVoxels * faceEdge(face) * grid.voxelSize;
+#endif
     DirectLight light = DirectLight(vec3(0.0), vec3(0.0));
     addPunctualLights(light, true,
                       Receiver(position, g.shadingNormal, surface.normal, -ray.direction, kShadowVoxelLift),

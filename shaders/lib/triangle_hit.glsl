@@ -5,12 +5,16 @@
 // Method: docs/theory/4f_glossy.md, "Mirrors that show triangles".
 //
 // BLOCKING_TRIANGLES 1: of shadow rays. Both sides of triangles count, of instances that cast shadows alone.
+// VEILS 1: nor do blended ones, which lib/glass_tree.glsl looks at.
 //
 // Includers that set one of them include before: lib/scene_tables.glsl, lib/surface_array.glsl. Before the
 // call: SurfaceVoxels::bindTriangles, GpuScene::bind.
 #include "lib/dot.glsl"
 #ifndef BLOCKING_TRIANGLES
 #define BLOCKING_TRIANGLES 0
+#endif
+#ifndef VEILS
+#define VEILS 0
 #endif
 #if TRIANGLE_HITS || NEAR_TRIANGLES
 uniform usamplerBuffer voxelChains;
@@ -154,8 +158,9 @@ void testTriangle(int triangle, Ray ray, vec3 toCenter, bool valid, inout Triang
     vec2 barycentric = vec2(dot(fromCorner, p), dot(ray.direction, q)) * inverse;
     float t = dot(c.edge2, q) * inverse;
 #if BLOCKING_TRIANGLES
+    const uint asked = INSTANCE_CASTS_SHADOW | (VEILS == 1 ? INSTANCE_VEIL : 0u);
     bool faces =
-        abs(determinant) > kTriangleLeast && (instances[c.instance].flags & INSTANCE_CASTS_SHADOW) != 0u;
+        abs(determinant) > kTriangleLeast && (instances[c.instance].flags & asked) == INSTANCE_CASTS_SHADOW;
     // Where it is crossed does not matter: so a piece too small for a voxel counts in the next one.
     bool here = true;
 #else

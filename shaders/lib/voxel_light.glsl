@@ -134,6 +134,9 @@ vec3 hitRadiance(Ray ray, VoxelHit hit, float width, float widening, inout FaceS
     vec2 lift = kShadowVoxelLift + vec2(0.0, frontHeight);
 #endif
     vec2 lobe = litLobe(texelFetch(litFaces, face).w);
+#if GLASS
+    veilNear = lift.x > 0.0 ? kVeilNearVoxels * faceEdge(face) * grid.voxelSize : 0.0;
+#endif
     vec3 direct =
         reflectedPunctual(s.albedo, lobe, widening,
                           Receiver(worldFromGrid(point), shadingNormal, normal, -ray.direction, lift));

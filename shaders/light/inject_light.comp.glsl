@@ -77,6 +77,9 @@ void main() {
     vec3 reflectance = unpackAlbedo(material.x) * (1.0 / 3.14159265358979);
     Receiver receiver = Receiver(position, normal, normal, normal, kShadowVoxelLift);
     Brdf none;
+#if GLASS
+    veilNear = kVeilNearVoxels * voxelSize;
+#endif
     DirectLight light = DirectLight(vec3(0.0), vec3(0.0));
     addRectLights(light, false, receiver, none);
 #if GLASS

@@ -18,6 +18,8 @@ struct GlassNode {
 #define GLASS_LEAF 16u
 #define GLASS_END 0xffffffffu  // skip: nothing is left
 
+#define GLASS_VEIL 0xfffffffeu  // GlassTriangle::solid: blended, no glass; hides a part of what lamps send
+
 // In world space; corners counter-clockwise as seen from outside.
 struct GlassTriangle {
     vec3 corner0;
@@ -34,7 +36,7 @@ struct GlassTriangle {
     // ---- 64 B
     vec2 uv2;
     uint instance;
-    uint solid;  // its number among solids of glass; CAUSTIC_NO_SOLID (shared/caustics.h): none
+    uint solid;  // its number among solids of glass; CAUSTIC_NO_SOLID (shared/caustics.h), GLASS_VEIL: none
 };               // 80 B
 
 // Uniform block of the passes that draw glass.

@@ -22,7 +22,9 @@ struct Vertex {
 #define INSTANCE_WIDE_COLORS 64u  // vertex colours are RGB9E5: above 1, or finer than 8 bits
 #define INSTANCE_GLASS \
     128u  // transmissive: drawn in front of the picture (shared/glass.h), no voxels, no shadow
-#define INSTANCE_BAKED 256u   // stands where its light was baked
+#define INSTANCE_BAKED 256u  // stands where its light was baked
+#define INSTANCE_VEIL \
+    512u  // blended: light that passes it in part may be told by its triangles (shared/glass.h)
 #define INSTANCE_FLIPPED 16u  // negative determinant: winding is reversed
 
 struct Instance {

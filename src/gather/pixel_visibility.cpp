@@ -37,8 +37,10 @@ gl::ProgramDesc VisibilityKey::desc() const {
     return desc;
 }
 
-gl::ProgramDesc rayDesc(bool counts) {
+// `veils`: they do not count.
+gl::ProgramDesc rayDesc(bool counts, bool veils) {
     gl::ProgramDesc desc{{"gather/visibility_rays.comp.glsl"}, {}};
+    if (veils) desc.defines.emplace_back("VEILS", "1");
     if (counts) desc.defines.emplace_back("COUNT_LOOKUPS", "1");
     return desc;
 }
@@ -88,13 +90,14 @@ base::Steps PixelVisibility::lookInSteps(const gl::Device& device, const Visibil
     co_await gl::dispatchPicture(device, {kPass, maps, given, {width, height}});
     gl::barrier(gl::Access::ShaderStorage | gl::Access::ImageAccess | gl::Access::Indirect |
                 gl::Access::Update);
-    const gl::ProgramDesc rays = rayDesc(key.counts);
+    const gl::ProgramDesc rays = rayDesc(key.counts, inputs.lights.hasVeils());
     co_await dispatchListed(device, {kPass, rays, given, open_});
     gl::barrier(gl::Access::TextureFetch);
 }
 
 std::vector<gl::ProgramDesc> PixelVisibility::programDescs() {
-    std::vector<gl::ProgramDesc> descs{rayDesc(false), rayDesc(true)};
+    std::vector<gl::ProgramDesc> descs{rayDesc(false, false), rayDesc(true, false), rayDesc(false, true),
+                                       rayDesc(true, true)};
     for (const VisibilityKey& key : VisibilityKey::all()) descs.push_back(key.desc());
     return descs;
 }

@@ -42,11 +42,13 @@ base::Steps Lights::updateInSteps(const gl::Device& device, const scene::GpuScen
     if (revision_ && from_ == sources) co_return;
     revision_ = {};
     fillTable(scene.source(), wanted.emissiveQuads);
-    if (wanted.shadowMaps) co_await shadows_.updateInSteps(device, scene, wanted.settings, table_);
+    const bool veils =
+        wanted.veils && wanted.shadowMaps && wanted.settings.shadowSize > 0 && scene::hasVeils(scene);
+    if (wanted.shadowMaps) co_await shadows_.updateInSteps(device, scene, wanted.settings, veils, table_);
     environment_.update(scene.source().environment);
     updateProfiles(scene::profilesOf(scene.source().lights));
     co_await gl::rest(device);
-    glass_.update(scene);
+    glass_.update(scene, veils);
     upload(scene.source());
     from_ = sources;
     profile_ = device.profile;

@@ -28,6 +28,7 @@ struct LightsWanted {
     bool emissiveQuads = true;  // flat emitters are in the table
     bool shadowMaps = true;     // they are drawn; else the table says that nothing is in shadow
     bool caustics = false;      // castCaustics will follow
+    bool veils = false;         // blended surfaces hide light by their opacity, not all of it or none
     bool operator==(const LightsWanted&) const = default;
 };
 
@@ -62,7 +63,9 @@ class Lights {
     const glm::uvec4& ends() const { return ends_; }  // of the points, spots, directional lights, rectangles
     // Whether an instance's emission arrives from a rectangle of the table: voxels leave it out.
     bool areInTable(std::size_t instance) const { return emitters_[instance] != 0; }
-    bool hasGlass() const { return !glass_.empty(); }
+    bool hasGlass() const { return !glass_.empty(); }  // or veils, which light passes, too
+    bool drawsGlass() const { return glass_.holdsGlass(); }
+    bool hasVeils() const { return shadows_.leavesVeils(); }
     bool castsCaustics() const;
     bool hasCaustics() const { return caustics_.any(); }
     const Caustics& caustics() const { return caustics_; }

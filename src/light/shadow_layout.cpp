@@ -361,7 +361,8 @@ ShadowLayout layOutShadows(const Aabb& bounds, const Aabb& firstBounds, const Li
     const auto laidOut = [&](int size) {
         Layouter layouter(bounds, firstBounds, settings, size);
         if (settings.shadowSize > 0) layouter.add(lights);
-        return ShadowLayout{layouter.size(), layouter.layers(), layouter.surfaceLayers(), layouter.views()};
+        return ShadowLayout{layouter.size(), layouter.layers(), layouter.surfaceLayers(), false,
+                            layouter.views()};
     };
     const ShadowLayout asked = laidOut(std::max(settings.shadowSize / 8 * 8, kSmallestLayer));
     const int size = sizeWithin(kMostShadowBytes, asked);

@@ -32,6 +32,8 @@ struct ShadowLayout {
     int size = 0;  // texels per edge of a layer
     int layers = 0;
     int surfaceLayers = 0;  // the first ones: their views draw slopes and outlines
+    bool leavesVeils =
+        false;  // blended surfaces are left out: their shadows are the tree's (scene/glass_tree.h)
     std::vector<ShadowView> views;
 
     std::size_t bytes(int edge) const;  // of all layers, were they of so many texels per edge

@@ -47,6 +47,7 @@ struct ShadowMaps::Impl {
     std::vector<Aabb> casterBoxes;  // empty: casts no shadow
     std::vector<char> stale;        // views whose map is not of that scene yet
     int redrawn = 0;
+    bool leavesVeils = false;
 
     void allocate(int size, int layerCount, int surfaceLayers) {
         // No surfaces: one texel, for the sampler.
@@ -92,6 +93,13 @@ struct ShadowMaps::Impl {
         if (view.surfaces) surfaces.clearRegion(0, corner, extent, GL_RG_INTEGER, GL_UNSIGNED_INT);
     }
 
+    bool casts(const gpu::Instance& instance) const {
+        const std::uint32_t asked = INSTANCE_CASTS_SHADOW | (leavesVeils ? INSTANCE_VEIL : 0u);
+        return (instance.flags & asked) == INSTANCE_CASTS_SHADOW;
+    }
+    Aabb casterBox(const scene::GpuScene& scene, std::size_t instance) const {
+        return casts(scene.instances()[instance]) ? scene.instanceBounds(instance) : Aabb{};
+    }
     void draw(const gl::Device& device, const scene::GpuScene& scene, const ShadowView& view);
     bool look(const scene::GpuScene& scene, const std::vector<ShadowView>& views);
     bool keepsPlaces(const scene::GpuScene& scene, const std::vector<ShadowView>& views) const;
@@ -107,11 +115,6 @@ glm::mat4 castersOf(const ShadowView& view) {
     if (view.clamped)
         for (int column = 0; column < 4; ++column) seen[column].z = 0;
     return seen;
-}
-
-Aabb casterBox(const scene::GpuScene& scene, std::size_t instance) {
-    return (scene.instances()[instance].flags & INSTANCE_CASTS_SHADOW) != 0 ? scene.instanceBounds(instance)
-                                                                            : Aabb{};
 }
 
 }  // namespace
@@ -169,7 +172,7 @@ void ShadowMaps::Impl::draw(const gl::Device& device, const scene::GpuScene& sce
     std::vector<char> drawn(instances.size());
     bool anyOf[2] = {false, false};
     for (std::size_t i = 0; i < instances.size(); ++i) {
-        if ((instances[i].flags & INSTANCE_CASTS_SHADOW) == 0) continue;
+        if (!casts(instances[i])) continue;
         if (scene::isOutside(casters, scene.instanceBounds(i))) continue;
         const bool masked = isMasked(scene.materials()[instances[i].material]);
         drawn[i] = masked ? 2 : 1;
@@ -221,8 +224,10 @@ bool ShadowMaps::Impl::look(const scene::GpuScene& scene, const std::vector<Shad
 }
 
 base::Steps ShadowMaps::updateInSteps(const gl::Device& device, const scene::GpuScene& scene,
-                                      const LightSettings& settings, std::vector<gpu::Light>& lights) {
+                                      const LightSettings& settings, bool leavesVeils,
+                                      std::vector<gpu::Light>& lights) {
     ShadowLayout layout = layOutShadows(scene.bounds(), scene.firstBounds(), settings, lights);
+    layout.leavesVeils = leavesVeils;
     const int asked = settings.shadowSize / 8 * 8;
     if (layout.layers > 0 && layout.size < asked && layout.size != impl_->maps.width())
         base::log(LogLevel::Info, "shadow maps of " + std::to_string(layout.size) + " texels, not " +
@@ -234,6 +239,8 @@ base::Steps ShadowMaps::drawInSteps(const gl::Device& device, const scene::GpuSc
                                     ShadowLayout layout, const char* name) {
     gl::PassSteps pass(device, name);
     impl_->redrawn = 0;
+    if (impl_->leavesVeils != layout.leavesVeils) impl_->drawnViews.clear();
+    impl_->leavesVeils = layout.leavesVeils;
     if (layout.layers == 0) {
         impl_->allocate(8, 1, 0);
         co_return;
@@ -256,6 +263,7 @@ base::Steps ShadowMaps::drawInSteps(const gl::Device& device, const scene::GpuSc
 }
 
 int ShadowMaps::redrawn() const { return impl_->redrawn; }
+bool ShadowMaps::leavesVeils() const { return impl_->leavesVeils; }
 
 void ShadowMaps::declare(gl::Inputs& inputs) const {
     inputs.texture("shadowMaps", impl_->maps)

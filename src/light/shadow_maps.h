@@ -31,11 +31,13 @@ class ShadowMaps {
     // changed, where it was or where it is. The depths are the same bit for bit as if all were drawn. GL
     // state changed: raster state, program and its slots, vertex array, texture units of materials.
     base::Steps updateInSteps(const gl::Device& device, const scene::GpuScene& scene,
-                              const LightSettings& settings, std::vector<gpu::Light>& lights);
+                              const LightSettings& settings, bool leavesVeils,
+                              std::vector<gpu::Light>& lights);
     // The same for maps that lie as `layout` says; `name` is that of the pass.
     base::Steps drawInSteps(const gl::Device& device, const scene::GpuScene& scene, ShadowLayout layout,
                             const char* name);
-    int redrawn() const;  // maps that the last update drew
+    int redrawn() const;       // maps that the last update drew
+    bool leavesVeils() const;  // ShadowLayout::leavesVeils of the last update
     // shadowMaps, shadowDepths, shadowSurfaces; before the first update maps without shadows.
     void declare(gl::Inputs& inputs) const;
     void declareAs(gl::Inputs& inputs, gl::ResourceName depths, gl::ResourceName surfaces) const;

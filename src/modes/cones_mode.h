@@ -22,6 +22,7 @@ class ConesMode : public ModeRenderer {
     bool needsShadows(const Scene&, const Settings&) const override { return true; }
     bool readsCascades() const override { return true; }
     bool castsCaustics() const override { return true; }
+    bool seesVeils() const override { return true; }
 
     static std::vector<gl::ProgramDesc> programDescs();
 

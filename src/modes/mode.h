@@ -68,6 +68,8 @@ class ModeRenderer {
     virtual bool readsCascades() const { return false; }
     // Whether the mode has caustics cast.
     virtual bool castsCaustics() const { return false; }
+    // Whether lights shine through blended surfaces by their opacity.
+    virtual bool seesVeils() const { return false; }
     // Whether flat emitters become lights where light.emissive_quads is on.
     virtual bool lightsFromEmitters(const Settings&) const { return true; }
 

@@ -222,7 +222,7 @@ base::Steps Renderer::Impl::drawLight(const modes::Frame& frame) {
         const image::Headlight::Inputs lit{frame.scene, frame.surfaces, headlightIrradiance};
         co_await headlight.draw(frame.device, lit, frame.output);
     }
-    if (!frame.lights.hasGlass() || !isOfLight(component)) co_return;
+    if (!frame.lights.drawsGlass() || !isOfLight(component)) co_return;
     co_await gl::rest(device);
     co_await mode->drawGlass(frame);
     co_await gl::rest(device);
@@ -300,7 +300,8 @@ base::Steps Renderer::Impl::prepare(const Settings& settings) {
     const bool shadows =
         settings.component == Component::ShadowMap || mode->needsShadows(scene->source(), settings);
     const bool emitters = settings.light.emissiveQuads && mode->lightsFromEmitters(settings);
-    const light::LightsWanted wanted{settings.light, emitters, shadows, mode->castsCaustics()};
+    const light::LightsWanted wanted{settings.light, emitters, shadows, mode->castsCaustics(),
+                                     mode->seesVeils()};
     co_await lights.updateInSteps(device, *scene, wanted);
 }
 

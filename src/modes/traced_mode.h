@@ -26,6 +26,7 @@ class TracedMode : public ModeRenderer {
     bool needsShadows(const Scene&, const Settings&) const override { return true; }
     bool readsCascades() const override { return true; }
     bool castsCaustics() const override { return true; }
+    bool seesVeils() const override { return true; }
 
     static std::vector<gl::ProgramDesc> programDescs();
 

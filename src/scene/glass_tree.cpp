@@ -16,6 +16,8 @@ namespace {
 
 constexpr std::uint32_t kLeafTriangles = 4;
 constexpr int kBins = 16;
+// With more veils, shadow maps have them: the tree of so many takes 15 MB, and a tenth of a second to make.
+constexpr std::size_t kMostVeilTriangles = 1 << 17;
 
 // A triangle while the tree is made.
 struct Item {
@@ -180,28 +182,40 @@ std::vector<gpu::GlassNode> sortIntoTree(std::vector<gpu::GlassTriangle>& triang
     return nodes;
 }
 
-void GlassTree::update(const GpuScene& scene) {
-    if (scene_ == scene.identity() && geometry_ == scene.geometryRevision()) return;
-    const bool sameScene = scene_ == scene.identity();
+bool hasVeils(const GpuScene& scene) {
+    const std::vector<gpu::Instance>& instances = scene.instances();
+    std::size_t triangles = 0;
+    for (const gpu::Instance& instance : instances)
+        if (isVeil(instance)) triangles += instance.indexCount / 3;
+    return triangles > 0 && triangles <= kMostVeilTriangles;
+}
+
+void GlassTree::update(const GpuScene& scene, bool veils) {
+    if (scene_ == scene.identity() && geometry_ == scene.geometryRevision() && veils == veils_) return;
+    const bool sameScene = scene_ == scene.identity() && veils == veils_;
+    veils_ = veils;
     scene_ = scene.identity();
     geometry_ = scene.geometryRevision();
     std::vector<base::Revision> from;
     const std::vector<gpu::Instance>& instances = scene.instances();
+    const auto isIn = [&](std::size_t i) { return isGlass(instances[i]) || (veils && isVeil(instances[i])); };
     for (std::size_t i = 0; i < instances.size(); ++i)
-        if (isGlass(instances[i])) from.push_back(scene.instanceRevision(i));
+        if (isIn(i)) from.push_back(scene.instanceRevision(i));
     std::vector<GlassSolid> solids = solidsOf(scene);
     const bool sameSolids = solids == solids_;
     solids_ = std::move(solids);
     if (sameScene && from == from_ && sameSolids) return;
     from_ = std::move(from);
     const auto numberOf = [&](std::size_t instance) {
+        if (!isGlass(instances[instance])) return GLASS_VEIL;
         for (std::uint32_t i = 0; i < solids_.size(); ++i)
             if (solids_[i].instance == instance) return i;
         return CAUSTIC_NO_SOLID;
     };
     std::vector<gpu::GlassTriangle> triangles;
     for (std::size_t i = 0; i < instances.size(); ++i)
-        if (isGlass(instances[i])) appendTriangles(scene, i, numberOf(i), triangles);
+        if (isIn(i)) appendTriangles(scene, i, numberOf(i), triangles);
+    holdsGlass_ = std::any_of(instances.begin(), instances.end(), isGlass);
     const std::vector<gpu::GlassNode> nodes = sortIntoTree(triangles);
     nodes_ = static_cast<std::uint32_t>(nodes.size());
     nodeTexture_ = {};

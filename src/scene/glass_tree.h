@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The triangles of glass, as a value: GpuScene -> a bounding volume hierarchy in world space, for rays that are
 // to meet every one of them (lib/glass_tree.glsl). Glass is in no voxel and in no shadow map: light goes through
-// it, and it is drawn in front of a finished picture.
+// it, and it is drawn in front of a finished picture. Blended surfaces may be in the tree as well ("veils"): they hide
+// their part of the light of lamps, in the place of shadow maps.
 #pragma once
 
 #include <vector>
@@ -26,9 +27,11 @@ struct GlassSolid {
 
 class GlassTree {
   public:
-    // Made anew when an instance of glass has changed, on the CPU; returns at once otherwise.
-    void update(const GpuScene& scene);
+    // Made anew when an instance of glass has changed, on the CPU; returns at once otherwise. `veils`: with blended
+    // surfaces, for the light of lamps.
+    void update(const GpuScene& scene, bool veils);
     bool empty() const { return nodes_ == 0; }
+    bool holdsGlass() const { return holdsGlass_; }  // not veils alone
     // In the order of their numbers (gpu::GlassTriangle::solid); panes are the last.
     const std::vector<GlassSolid>& solids() const { return solids_; }
 
@@ -41,7 +44,11 @@ class GlassTree {
     gl::Buffer nodeBuffer_, triangleBuffer_;
     gl::Texture nodeTexture_, triangleTexture_;  // read them
     std::uint32_t nodes_ = 0;
+    bool veils_ = false, holdsGlass_ = false;
 };
+
+// Whether there are veils, and few enough for the tree.
+bool hasVeils(const GpuScene& scene);
 
 // Sorts `triangles` into leaves, and returns the nodes over them: splits by the surface area heuristic over
 // bins (Wald 2007, "On fast Construction of SAH-based Bounding Volume Hierarchies").

@@ -101,6 +101,16 @@ bool GpuScene::isDrawnBefore(std::uint32_t a, std::uint32_t b) const {
                                                             : a < b;
 }
 
+// Blended surfaces that may hide less than all. Vertex colours may, too, but triangles of the tree have none.
+bool GpuScene::mayBeVeil(const Instance& source) const {
+    if (!source.visible || !source.castsShadow || source.material < 0 || source.mesh < 0) return false;
+    const auto mesh = static_cast<std::size_t>(source.mesh);
+    if (isHostMesh(mesh) || !source_.meshes[mesh].colors.empty()) return false;
+    const Material& m = source_.materials[static_cast<std::size_t>(source.material)];
+    return m.alphaMode == AlphaMode::Blend && !isTransmissive(m) &&
+           (m.baseColor.a < 1 || m.baseColorTexture.texture >= 0);
+}
+
 void GpuScene::setFlags(std::size_t index, const Instance& source) {
     gpu::Instance& g = instances_[index];
     // What rays through glass meet is the CPU's.
@@ -111,6 +121,7 @@ void GpuScene::setFlags(std::size_t index, const Instance& source) {
               (baked ? INSTANCE_BAKED : 0u) |
               (source.visible && source.voxelized && !glass ? INSTANCE_VOXELIZED : 0u) |
               (source.visible && source.castsShadow && !glass ? INSTANCE_CASTS_SHADOW : 0u) |
+              (mayBeVeil(source) ? INSTANCE_VEIL : 0u) |
               (g.flags & (INSTANCE_FLIPPED | INSTANCE_WIDE_COLORS));
 }
 

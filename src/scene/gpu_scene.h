@@ -30,6 +30,9 @@ inline bool isGlass(const gpu::Instance& instance) {
     return (instance.flags & INSTANCE_GLASS) != 0 && (instance.flags & INSTANCE_VISIBLE) != 0;
 }
 
+// Whether it hides a part of the light of lamps, by its triangles, where glass_tree.h has them.
+inline bool isVeil(const gpu::Instance& instance) { return (instance.flags & INSTANCE_VEIL) != 0; }
+
 class GpuScene {
   public:
     // Copies and uploads everything. Throws Error(BadInput) by Scene::validate.
@@ -159,6 +162,7 @@ class GpuScene {
     Aabb boundsForGrid() const;
     void uploadMaterials();
     void place(std::size_t instance, const glm::mat4& worldFromObject);
+    bool mayBeVeil(const Instance& source) const;
     void setFlags(std::size_t instance, const Instance& source);
     void uploadInstance(std::size_t instance);
     void placeBakedLight();

@@ -109,6 +109,7 @@ base::Steps ShadowCascades::updateInSteps(const gl::Device& device, const scene:
         }
     }
     layout.surfaceLayers = layout.layers;
+    layout.leavesVeils = lights.hasVeils();
     levels_ = levels;
     upload(eye, cascades);
 

@@ -79,9 +79,50 @@ TEST_F(BlendedTest, ThinVeilsAreLit) {
     const reference::PathTracedPicture truth =
         reference::PathTracer(scene).render(scene.cameras[0], kTracedPixels, kTracedPixels, settings);
     const glm::dvec3 own = meanColorOf(image), other = meanColorOf(truth.full);
-    // In voxels and shadow maps it is not, so that what is behind it is some percent too bright.
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(own[i] / other[i], 1, 0.13) << i;
     EXPECT_LT(relRmse(image, truth.full), 0.2);
+}
+
+// A wall with the shadow of a bar, lit through a sheet behind the eye, or lit freely.
+Scene wallBehindSheet(float opacity, int alphaOfTexel) {
+    Scene scene;
+    addInstance(scene, quadMesh({-3, -3, -1}, {6, 0, 0}, {0, 6, 0}), diffuseMaterial(glm::vec3(0.5f)));
+    addInstance(scene, quadMesh({-0.2f, -2, 0.3f}, {0.15f, 0.1f, 0}, {0, 4, 0}),
+                diffuseMaterial(glm::vec3(0.5f)));
+    if (opacity > 0) {
+        Material sheet = veil({0.9f, 0.1f, 0.1f}, opacity, glm::vec3(0));
+        scene.textures.push_back({.width = 1, .height = 1});
+        scene.textures.back().rgba = {255, 255, 255, static_cast<std::uint8_t>(alphaOfTexel)};
+        if (alphaOfTexel < 255) sheet.baseColorTexture.texture = 0;
+        addInstance(scene, quadMesh({-3, -3, 0.5f}, {6, 0, 0}, {0, 6, 0}), sheet);
+    }
+    Light lamp;
+    lamp.type = LightType::Point;
+    lamp.position = {0.2f, 0.3f, 1.5f};
+    lamp.intensity = glm::vec3(2);
+    scene.lights.push_back(lamp);
+    Camera camera;
+    camera.eye = {0, 0, 0.2f};
+    scene.cameras.push_back(camera);
+    return scene;
+}
+
+TEST_F(BlendedTest, LampsShineThroughByOpacity) {
+    for (const Mode mode : {Mode::Traced, Mode::Cones}) {
+        Settings settings = tracedSettings(Quality::Draft);
+        settings.mode = mode;
+        settings.component = Component::Direct;
+        Image freely = draw(wallBehindSheet(0, 255), settings);
+        for (const auto& [opacity, texel] :
+             {std::pair{0.3f, 255}, std::pair{0.8f, 255}, std::pair{1.0f, 102}}) {
+            Image expected = freely;
+            const float left = 1 - opacity * static_cast<float>(texel) / 255;
+            for (glm::vec4& pixel : expected.pixels) pixel *= left;
+            EXPECT_LT(relRmse(draw(wallBehindSheet(opacity, texel), settings), expected), 0.01)
+                << mode.name() << opacity;
+        }
+        EXPECT_GT(meanColorOf(freely).r, 0.01);
+    }
 }
 
 // Without anti-aliasing, surfaces that hide a half and more are there.
