@@ -43,7 +43,7 @@ struct VoxelSettings {
     int size = 128;
     float padding = 0.03f;
     glm::vec3 shift{0};  // moves the lattice toward lower coordinates
-    int levels = 1;      // nested grids around the eye in mode traced; 1: one grid
+    int levels = 1;      // nested grids around the eye in mode traced; 1: one grid; 0: as the scene needs
     bool operator==(const VoxelSettings&) const = default;
 };
 

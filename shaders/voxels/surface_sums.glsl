@@ -186,15 +186,15 @@ bool boundsTooWide(FacePlane plane) {
 }
 
 // What else the voxel of a face holds.
-struct Beside {
+struct ChainSums {
     int front, behind;  // moments about the face's plane of what is turned away from it
     int hiding;         // area of what of that is in front
     float seen;         // part of what the face holds that is not the inside of a closed solid
 };
 
 // `at`: head of the voxel's chain; n, center: of the face's plane. Sums are of integers, as the chain has no order.
-Beside besideFace(uint at, vec3 k, vec3 n, vec3 center) {
-    Beside beside = Beside(0, 0, 0, 1.0);
+ChainSums besideFace(uint at, vec3 k, vec3 n, vec3 center) {
+    ChainSums beside = ChainSums(0, 0, 0, 1.0);
     int all = 0, inside = 0, outside = 0;
     ivec3 outwards = ivec3(0);
     do {
@@ -229,7 +229,7 @@ void fitBounds(FaceSums sums, FacePlane plane, vec3 k, uint at, inout ResolvedFa
     vec3 low = plane.lower;
     vec3 high = plane.upper;
     float offset = plane.offset;
-    Beside beside = besideFace(at, k, fromDominant(m, axis), fromDominant(c, axis));
+    ChainSums beside = besideFace(at, k, fromDominant(m, axis), fromDominant(c, axis));
     float held = plane.held * beside.seen;
     float tooMuch = pieceArea(m, offset, low, high) - held;
     bool corner = float(beside.front) > kFrontShare * float(beside.behind) &&

@@ -314,7 +314,7 @@ ProgramLibrary::~ProgramLibrary() = default;
 Program ProgramLibrary::build(const ProgramDesc& desc) {
     Program program(provider_, desc, cache_.get());
     if (program.groupSize().x > 0 && program.readsBufferTextures() && isSoftwareDriver()) {
-        if (!samplers_) samplers_ = std::make_unique<SamplerSlots>();
+        if (!samplers_) samplers_ = std::make_unique<SamplerSlots>(cache_.get());
         program.runAfter(*samplers_);
     }
     return program;

@@ -25,8 +25,8 @@ void main() {
 
 }  // namespace
 
-SamplerSlots::SamplerSlots()
-    : program_(std::make_unique<Program>(everySlot, ProgramDesc{{"sampler_slots.comp.glsl"}, {}})),
+SamplerSlots::SamplerSlots(ProgramCache* cache)
+    : program_(std::make_unique<Program>(everySlot, ProgramDesc{{"sampler_slots.comp.glsl"}, {}}, cache)),
       texel_({GL_TEXTURE_2D, GL_R8}, "sampler slots"),
       sum_(sizeof(float), "sampler slots") {
     texel_.parameter(GL_TEXTURE_MIN_FILTER, GL_NEAREST);

@@ -7,6 +7,7 @@
 
 #include <memory>
 
+#include "conelight/program_cache.h"
 #include "gl/buffer.h"
 #include "gl/texture.h"
 
@@ -16,7 +17,7 @@ class Program;
 
 class SamplerSlots {
   public:
-    SamplerSlots();
+    explicit SamplerSlots(ProgramCache* cache);  // null: none
     ~SamplerSlots();
     // Runs one invocation that reads a texel through every slot of compute programs. GL state changed: program,
     // texture unit 0, storage binding 0.

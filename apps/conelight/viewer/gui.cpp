@@ -147,6 +147,8 @@ void Gui::takeKeys() {
         const bool goesUp = event.character == 0 && event.action == GLFW_RELEASE;
         const bool afterClick = !buttonChanges_.empty() && event.number > buttonChanges_.front().number;
         if (afterClick || (framesToPass_ > 0 && !goesUp)) return;
+        // Ctrl of a Ctrl+A that came in two parts is still down in the frame that sees A.
+        if (goesUp && isModifier(event.key) && !keyPresses_.empty()) return;
         if (event.character != 0) {
             ImGui_ImplGlfw_CharCallback(window_.handle(), event.character);
             continue;
