@@ -11,6 +11,7 @@
 #include <atomic>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <utility>
@@ -280,6 +281,14 @@ std::optional<Bytes> base64Decoded(std::string_view text) {
         }
     }
     return out;
+}
+
+fs::path userFolder(const char* variable, const char* belowHome) {
+    const char* named = std::getenv(variable);
+    if (named != nullptr && named[0] == '/') return named;
+    const char* home = std::getenv("HOME");
+    if (home != nullptr && home[0] == '/') return fs::path(home) / belowHome;
+    return {};
 }
 
 std::string lowerExtension(const fs::path& path) {

@@ -55,6 +55,10 @@ std::string base64Encoded(std::span<const std::uint8_t> bytes);
 // Bytes of base64 text, white space ignored; nothing when a character does not belong there.
 std::optional<Bytes> base64Decoded(std::string_view text);
 
+// The user's folder that the variable names (XDG_CACHE_HOME), else the one of that path below $HOME (.cache); empty where
+// neither is an absolute path.
+std::filesystem::path userFolder(const char* variable, const char* belowHome);
+
 // Extension in lower case with its dot, "" if none.
 std::string lowerExtension(const std::filesystem::path& path);
 

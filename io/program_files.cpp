@@ -2,7 +2,6 @@
 #include "io/program_files.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 
 #include "conelight/error.h"
@@ -89,11 +88,8 @@ void ProgramFiles::trim() {
 }
 
 fs::path programFolder() {
-    const char* cache = std::getenv("XDG_CACHE_HOME");
-    if (cache != nullptr && cache[0] == '/') return fs::path(cache) / "conelight" / "programs";
-    const char* home = std::getenv("HOME");
-    if (home != nullptr && home[0] == '/') return fs::path(home) / ".cache" / "conelight" / "programs";
-    return {};
+    const fs::path cache = userFolder("XDG_CACHE_HOME", ".cache");
+    return cache.empty() ? cache : cache / "conelight" / "programs";
 }
 
 }  // namespace conelight::io

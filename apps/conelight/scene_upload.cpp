@@ -41,38 +41,25 @@ bool SceneUpload::needsWhole(const Renderer& renderer, const Session& session) c
     return !seen_ || seen_->scene != now.scene || seen_->voxels != now.voxels || !onlyAdds(renderer, session);
 }
 
-SceneUpload::Whole SceneUpload::wholeOf(const Session& session) {
-    return {session.scene(),
-            session.revisions(),
-            session.instanceRevisions(),
-            session.materialRevisions(),
-            session.meshRevisions(),
-            session.textureRevisions()};
+SceneUpload::SceneRevisions SceneUpload::revisionsOf(const Session& session) {
+    return {session.revisions(), session.instanceRevisions(), session.materialRevisions(),
+            session.meshRevisions(), session.textureRevisions()};
 }
 
-void SceneUpload::take(Renderer& renderer, const Whole& whole) {
+void SceneUpload::take(Renderer& renderer, const Scene& scene, SceneRevisions revisions) {
     seen_.reset();  // a scene that is refused is none
-    renderer.setScene(whole.scene);
-    instances_ = whole.instances;
-    materials_ = whole.materials;
-    meshes_ = whole.meshes;
-    textures_ = whole.textures;
-    seen_ = whole.revisions;
+    renderer.setScene(scene);
+    instances_ = std::move(revisions.instances);
+    materials_ = std::move(revisions.materials);
+    meshes_ = std::move(revisions.meshes);
+    textures_ = std::move(revisions.textures);
+    seen_ = revisions.all;
 }
 
 void SceneUpload::follow(Renderer& renderer, const Session& session) {
     if (current(session)) return;
+    if (needsWhole(renderer, session)) return take(renderer, session.scene(), revisionsOf(session));
     const Revisions& now = session.revisions();
-    if (needsWhole(renderer, session)) {
-        seen_.reset();  // a scene that is refused is none
-        renderer.setScene(session.scene());
-        instances_ = session.instanceRevisions();
-        materials_ = session.materialRevisions();
-        meshes_ = session.meshRevisions();
-        textures_ = session.textureRevisions();
-        seen_ = now;
-        return;
-    }
     // Each part counts as seen when all of it was taken: what comes after a refusal is taken by the next
     // call.
     for (std::size_t i = textures_.size(); i < session.scene().textures.size(); ++i) {

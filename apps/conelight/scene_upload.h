@@ -14,16 +14,16 @@ namespace conelight::program {
 
 class SceneUpload {
   public:
-    // A session's scene as it is now, for a renderer that is to take all of it, maybe on another thread.
-    struct Whole {
-        Scene scene;
-        Revisions revisions;
+    // What a session's scene is at.
+    struct SceneRevisions {
+        Revisions all;
         std::vector<std::uint64_t> instances, materials, meshes, textures;
     };
-    // Whether the renderer has to take all of it, not only what changed.
+    static SceneRevisions revisionsOf(const Session& session);
+    // Whether the renderer has to take all of the scene, not only what changed.
     bool needsWhole(const Renderer& renderer, const Session& session) const;
-    static Whole wholeOf(const Session& session);
-    void take(Renderer& renderer, const Whole& whole);  // throws as follow()
+    // All of it, maybe of a copy on another thread. Throws as follow().
+    void take(Renderer& renderer, const Scene& scene, SceneRevisions revisions);
     // Afterwards `renderer` holds the session's scene. Throws what the renderer throws; it then holds what it
     // could take, and the change that it refused is not tried again before the next one.
     void follow(Renderer& renderer, const Session& session);

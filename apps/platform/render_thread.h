@@ -24,6 +24,7 @@ class RenderThread {
     RenderThread(const RenderThread&) = delete;
     RenderThread& operator=(const RenderThread&) = delete;
 
+    bool isBeside() const { return context_ != nullptr; }  // a thread of its own
     // Does the work after what was posted, and waits for it. Throws what it throws.
     void run(const std::function<void()>& work);
     // Does it later, in the order of the calls; it does not throw. What it holds is destroyed there.

@@ -27,8 +27,8 @@ class ResourceName {
     std::string_view text() const { return text_; }
     std::uint64_t hash() const { return hash_; }
 
-    static constexpr std::uint64_t hashOf(std::string_view text) {
-        std::uint64_t hash = 14695981039346656037u;
+    // Of a text that goes on: `hash` is that of what came before.
+    static constexpr std::uint64_t hashOf(std::string_view text, std::uint64_t hash = 14695981039346656037u) {
         for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211u;
         return hash;
     }

@@ -8,6 +8,7 @@
 
 #include "base/log.h"
 #include "gl/gl.h"
+#include "gl/inputs.h"
 
 namespace conelight::gl {
 namespace {
@@ -22,15 +23,8 @@ struct BinaryHead {
 };
 constexpr char kBinaryMagic[9] = "CNLPROG1";
 
-// FNV-1a, 64 bits.
-constexpr std::uint64_t kHashStart = 0xcbf29ce484222325u;
-std::uint64_t hashOf(std::string_view bytes, std::uint64_t hash = kHashStart) {
-    for (const char byte : bytes) hash = (hash ^ static_cast<unsigned char>(byte)) * 0x100000001b3u;
-    return hash;
-}
-
 std::uint64_t checkOf(std::span<const std::uint8_t> bytes) {
-    return hashOf({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    return ResourceName::hashOf({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 std::vector<GLint> binaryFormats() {
@@ -55,12 +49,12 @@ std::span<const std::uint8_t> wholeBytes(std::span<const std::uint8_t> kept, Bin
 
 std::string programKey(std::span<const ExpandedShader> stages) {
     // Two hashes of 64 bits that begin differently: texts are no attacker's.
-    std::uint64_t low = kHashStart, high = hashOf("high");
+    std::uint64_t low = ResourceName::hashOf("low"), high = ResourceName::hashOf("high");
     const auto add = [&](std::string_view text) {
         const std::string length =
             std::to_string(text.size()) + " ";  // where one text ends and another begins
-        low = hashOf(text, hashOf(length, low));
-        high = hashOf(text, hashOf(length, high));
+        low = ResourceName::hashOf(text, ResourceName::hashOf(length, low));
+        high = ResourceName::hashOf(text, ResourceName::hashOf(length, high));
     };
     for (const GLenum name : {GL_VENDOR, GL_RENDERER, GL_VERSION, GL_SHADING_LANGUAGE_VERSION}) {
         const GLubyte* text = glGetString(name);

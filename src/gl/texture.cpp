@@ -220,9 +220,9 @@ void Texture::copyLayers(const Texture& source, int layers) {
 }
 
 void Texture::read(int level, std::uint32_t layout, std::uint32_t type, void* data, std::size_t bytes) const {
+    if (desc_.uneven) return readRegion({0, 0, 0}, {width(), height(), depth()}, layout, type, data, bytes);
     countWait();
     glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
-    if (desc_.uneven) return readRegion({0, 0, 0}, {width(), height(), depth()}, layout, type, data, bytes);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
     glGetTextureImage(name(), level, layout, type, static_cast<GLsizei>(bytes), data);
 }

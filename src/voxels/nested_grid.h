@@ -10,8 +10,8 @@
 
 namespace conelight::voxels {
 
-// `levels` of them at most, 1..VOXEL_MOST_LEVELS, or 0 for levelsFor(whole): so many as have room (VOXEL_MOST_STORED); 1: `whole` itself. `bounds`
-// are the scene's, which the levels stay in as far as they can. The same levels for all points of a lattice cell of
+// `levels` of them, 1..VOXEL_MOST_LEVELS, as far as they have room (VOXEL_MOST_STORED); 1: `whole` itself; 0: levelsFor(whole).
+// `bounds` are the scene's, which the levels stay in as far as they can. The same levels for all points of a lattice cell of
 // an eighth of level 0, roughly, so that a point that moves changes them seldom.
 VoxelGrid nestedGrid(const VoxelGrid& whole, const Aabb& bounds, int levels, const glm::vec3& around);
 

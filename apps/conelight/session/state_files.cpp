@@ -2,10 +2,11 @@
 #include "session/state_files.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
+
+#include "io/files.h"
 
 namespace conelight::program {
 namespace {
@@ -13,11 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string stateFolder() {
-    const char* state = std::getenv("XDG_STATE_HOME");
-    if (state != nullptr && state[0] == '/') return std::string(state) + "/conelight";
-    const char* home = std::getenv("HOME");
-    if (home != nullptr && home[0] == '/') return std::string(home) + "/.local/state/conelight";
-    return {};
+    const fs::path folder = io::userFolder("XDG_STATE_HOME", ".local/state");
+    return folder.empty() ? std::string() : (folder / "conelight").string();
 }
 
 std::vector<std::string> linesOf(const std::string& file) {

@@ -8,10 +8,10 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 
 #include "conelight/error.h"
 #include "conelight/version.h"
+#include "io/files.h"
 #include "io/image_file.h"
 
 namespace conelight::program {
@@ -22,11 +22,8 @@ namespace fs = std::filesystem;
 bool isGenerated(const std::string& scene) { return scene.rfind("builtin:", 0) == 0; }
 
 std::string cacheFolder() {
-    const char* cache = std::getenv("XDG_CACHE_HOME");
-    if (cache != nullptr && cache[0] == '/') return std::string(cache) + "/thumbnails";
-    const char* home = std::getenv("HOME");
-    if (home != nullptr && home[0] == '/') return std::string(home) + "/.cache/thumbnails";
-    return {};
+    const fs::path folder = io::userFolder("XDG_CACHE_HOME", ".cache");
+    return folder.empty() ? std::string() : (folder / "thumbnails").string();
 }
 
 fs::path wholePath(const std::string& scene) {

@@ -22,7 +22,8 @@ class PictureRenderer {
     ~PictureRenderer() { thread_.wait(kForever), free(); }
 
     explicit operator bool() const { return renderer_ != nullptr; }
-    bool make();  // unless there is one; returns whether it did
+    bool isBeside() const { return thread_.isBeside(); }  // the window; else begin() works at once
+    bool make();                                          // unless there is one; returns whether it did
     void free();
     // Of a renderer whose thread rests: what asks no driver.
     const Renderer& resting() const { return *renderer_; }

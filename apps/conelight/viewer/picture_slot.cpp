@@ -206,13 +206,13 @@ void PictureSlot::Impl::followDrawing(const Session& session, const glm::ivec2& 
         drop();
 }
 
-// Returns whether the renderer has the session's scene. It takes a copy, beside the window, of what it needs as a whole.
+// Returns whether the renderer has the session's scene, or begin() may give it. Beside the window it takes a copy of what
+// it needs as a whole.
 bool PictureSlot::Impl::giveScene(const Session& session) {
     if (renderer.make() || std::exchange(lit, nullptr)) upload.forget();
-    if (!upload.needsWhole(renderer.resting(), session)) return true;
-    const auto whole = std::make_shared<SceneUpload::Whole>(SceneUpload::wholeOf(session));
-    renderer.begin([this, whole](Renderer& made) {
-        upload.take(made, *whole);
+    if (!renderer.isBeside() || !upload.needsWhole(renderer.resting(), session)) return true;
+    renderer.begin([this, scene = session.scene(), at = SceneUpload::revisionsOf(session)](Renderer& made) {
+        upload.take(made, scene, at);
         return false;
     });
     return renderer.rests();
