@@ -47,7 +47,7 @@ Buffer::Buffer(const void* data, std::size_t bytes, const std::string& label)
         std::copy_n(static_cast<const std::byte*>(data), bytes, padded.begin());
         data = padded.data();
     }
-    glNamedBufferStorage(created, static_cast<GLsizeiptr>(storage), data, GL_DYNAMIC_STORAGE_BIT);
+    glNamedBufferStorage(created, static_cast<GLsizeiptr>(storage), data, 0);
     requireStorage(ObjectType::Buffer, created, label, bytes_);
     if (data == nullptr) clear();
 }
@@ -56,7 +56,13 @@ void Buffer::update(std::size_t offset, const void* data, std::size_t bytes) {
     CONELIGHT_ASSERT(inRange(offset, bytes, this->bytes()),
                      "Buffer::update reaches past the end of the buffer");
     if (bytes == 0) return;
-    glNamedBufferSubData(name(), static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes), data);
+    // By a copy: a driver of NVIDIA (580.159) does not keep glNamedBufferSubData in order with fills, copies and kernels.
+    Name staged = 0;
+    glCreateBuffers(1, &staged);
+    glNamedBufferStorage(staged, static_cast<GLsizeiptr>(bytes), data, 0);
+    glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    glCopyNamedBufferSubData(staged, name(), 0, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));
+    glDeleteBuffers(1, &staged);
 }
 
 void Buffer::clear() { fill(0); }
