@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A GL buffer of immutable size. Filled at creation, by update(), or by shaders; read back by read().
 // Creation throws Error(Runtime) when the driver has no memory; ranges outside the buffer are assertions.
-// All calls see and follow what shaders wrote before.
+// clear(), fill(), copyFrom() and read() see and follow what shaders wrote before; update() does only after
+// barrier(Access::Update).
 #pragma once
 
 #include <cstddef>
