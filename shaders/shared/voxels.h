@@ -103,6 +103,14 @@ struct VoxelLevels {
     vec4 levels[VOXEL_MOST_LEVELS];  // xyz lowest corner, w edge of a voxel: in voxels of level 0
 };                                   // 144 B
 
+// Uniform block VoxelScrollBlock: how an update of nested grids moves their levels (shaders/voxels/surface_scroll.glsl).
+struct VoxelScroll {
+    ivec4 shifts
+        [VOXEL_MOST_LEVELS];  // xyz: what coordinates in a level gain, in its voxels; w of the first: nothing emits
+    ivec4
+        finer[VOXEL_MOST_LEVELS];  // xyz: lowest voxel that the next finer level held, in coordinates before
+};                                 // 256 B
+
 // What a voxel shows towards one facing direction k: the plane piece that rays hit.
 struct FaceRecord {
     uint
@@ -169,6 +177,7 @@ CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::VoxelGrid) == 64);
 static_assert(sizeof(conelight::gpu::VoxelLevels) == 16 + 16 * VOXEL_MOST_LEVELS);
+static_assert(sizeof(conelight::gpu::VoxelScroll) == 32 * VOXEL_MOST_LEVELS);
 static_assert(sizeof(conelight::gpu::SurfaceConstants) == 48);
 static_assert(sizeof(conelight::gpu::FaceRecord) == 16);
 static_assert(sizeof(conelight::gpu::FaceMaterial) == 16);

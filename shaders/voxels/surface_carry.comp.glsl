@@ -7,6 +7,7 @@ layout(local_size_x = 64) in;
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
 #include "voxels/surface_common.glsl"
+#include "voxels/surface_scroll.glsl"
 layout(std430) readonly buffer CounterTable { uint counters[]; };
 layout(std430) readonly buffer BrickTable { uint brickList[]; };
 layout(std430) readonly buffer OldChainTable { uvec2 oldChains[]; };
@@ -20,7 +21,15 @@ void main() {
     bool used = index < min(counters[SURFACE_BRICKS], surface.brickCapacity);
     ivec3 brick = unpackVoxel(brickList[used ? index : 0u]);
     uvec4 word = texelFetch(brickWords, brick, 0);
+#if NESTED_GRIDS
+    int level = levelOfStored(4 * brick);
+    ivec3 before = voxelBefore(withinLevel(4 * brick, level), level);
+    bool held = isInLevel(before);
+    uvec4 old = texelFetch(oldBricks, storedVoxel(held ? before : ivec3(0), level) >> 2, 0);
+    old = held ? old : uvec4(0u);
+#else
     uvec4 old = texelFetch(oldBricks, brick, 0);
+#endif
     uvec2 bits = used ? word.xy : uvec2(0u);
     uint record = word.z;
     do {

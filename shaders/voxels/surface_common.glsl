@@ -12,6 +12,7 @@
 //
 // Updates of what changed (SURFACE_UPDATE 1; docs/theory/2_voxels.md, "Updates"):
 //   surface_drop     voxel in an edited brick -> chain without the fragments of changed instances
+//   surface_shift    of nested grids that move: masks and fragments under their new coordinates
 //   surface_setup, surface_tiles             of changed instances only; fragments take free slots
 //   surface_count, surface_scan, surface_bricks   as above
 //   surface_carry    brick -> chains under their new numbers
@@ -33,7 +34,7 @@
 // of updates:
 //   RunTable  (instance, its first place in the work) per changed instance   FreeTable  slots of dropped
 //   fragments   ChangedTable  bit per brick   EditedTable  indices of bricks to search   StaleTable  bit per
-//   instance that changed   OldChainTable   OriginTable  record that a voxel had before, ~0: none   WorkTable
+//   instance that changed   ShiftedMaskTable   masks after surface_shift   OldChainTable   OriginTable  record that a voxel had before, ~0: none   WorkTable
 //   faces to be summed up
 // Buffer textures of lists (triangles, pairs, fragments, owners): reading through them costs a third of a
 // storage read on a software driver.

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Update: one invocation per voxel of each edited brick. Takes the fragments of changed instances out of the
 // voxel's chain, puts their slots on the list of free ones, and finds anew in which directions the rest
-// faces. A voxel with nothing left is empty.
+// faces. A voxel with nothing left is empty. When nested grids move, all fragments go of bricks that leave
+// their level.
 #version 450
 layout(local_size_x = 64) in;
 #include "lib/voxel_address.glsl"
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
 #include "voxels/surface_common.glsl"
+#include "voxels/surface_scroll.glsl"
 layout(std430) buffer CounterTable { uint counters[]; };
 layout(std430) readonly buffer EditedTable { uint editedBricks[]; };
 layout(std430) buffer ChangedTable { uint changedBricks[]; };
@@ -37,6 +39,12 @@ void main() {
     uvec4 word = texelFetch(brickWords, brickOfIndex(brick, gridBricks()), 0);
     bool occupied = used && (((bit & 32u) != 0u ? word.y : word.x) >> (bit & 31u) & 1u) != 0u;
     uint record = occupied ? voxelRecordIndex(word, bit) : 0u;
+    bool leaves = false;
+#if NESTED_GRIDS
+    ivec3 stored = 4 * brickOfIndex(brick, gridBricks());
+    int level = levelOfStored(stored);
+    leaves = !staysHeld(withinLevel(stored, level), level);
+#endif
 
     uint at = occupied ? chains[record].x : 0u;
     uint head = 0u;
@@ -49,7 +57,7 @@ void main() {
         uint next = at != 0u ? fragments[base] : 0u;
         int triangle = int(texelFetch(pairs, int(slot)).x);
         uint instance = floatBitsToUint(texelFetch(triangles, 3 * triangle).w) & 0xffffffu;
-        bool goes = at != 0u && (stale[instance >> 5] >> (instance & 31u) & 1u) != 0u;
+        bool goes = at != 0u && (leaves || (stale[instance >> 5] >> (instance & 31u) & 1u) != 0u);
         bool stays = at != 0u && !goes;
         if (goes) {
             freeSlots[atomicAdd(counters[SURFACE_FREE], 1u)] = slot;

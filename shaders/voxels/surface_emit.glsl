@@ -4,6 +4,9 @@
 #include "lib/voxel_address.glsl"
 #include "lib/voxel_grid.glsl"
 #include "voxels/surface_columns.glsl"
+#if SURFACE_UPDATE
+#include "voxels/surface_scroll.glsl"
+#endif
 layout(std430) buffer CounterTable { uint counters[]; };
 layout(std430) writeonly buffer PairTable { uvec2 pairs[]; };
 #if SURFACE_UPDATE
@@ -22,6 +25,12 @@ struct ColumnBlock {
 #if NESTED_GRIDS
 // The level that is voxelized, and its part in the word of a tile.
 int emitLevel = 0;
+#if SURFACE_UPDATE
+layout(std430) readonly buffer StaleTable { uint stale[]; };
+// Whether the triangle is of an instance that changed: others are listed only in voxels that a level has not held.
+bool emitHeld = true;
+bool hasChanged(uint instance) { return (stale[instance >> 5] >> (instance & 31u) & 1u) != 0u; }
+#endif
 #define TILE_LEVEL_SHIFT 24
 #define TILE_WORD(x, y) (uint(x) | uint(y) << 12 | uint(emitLevel) << TILE_LEVEL_SHIFT)
 #define TILE_COLUMN(word) ivec2(int((word)&0xfffu), int((word) >> 12 & 0xfffu))
@@ -43,7 +52,7 @@ ivec3 lowestVoxel(ColumnTest t, uvec2 bits, ColumnBlock block, float perWidth) {
 }
 
 #if NESTED_GRIDS
-// The bits of cells that the next finer level does not hold.
+// The bits of cells that the next finer level does not hold, and that are listed (emitHeld).
 uvec2 outsideFiner(ColumnTest t, uvec2 bits, ColumnBlock block, float perWidth) {
     ivec3 lowest, end;
     finerVoxels(emitLevel, lowest, end);
@@ -52,6 +61,9 @@ uvec2 outsideFiner(ColumnTest t, uvec2 bits, ColumnBlock block, float perWidth) 
     do {
         ivec3 voxel = lowestVoxel(t, left, block, perWidth);
         bool finer = all(greaterThanEqual(voxel, lowest)) && all(lessThan(voxel, end));
+#if SURFACE_UPDATE
+        finer = finer || (!emitHeld && wasHeld(voxel, emitLevel));
+#endif
         uvec2 bit = left.x != 0u ? uvec2(left.x & (0u - left.x), 0u) : uvec2(0u, left.y & (0u - left.y));
         outside |= finer ? uvec2(0u) : bit;
         left ^= bit;

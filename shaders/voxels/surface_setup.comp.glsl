@@ -183,7 +183,12 @@ void main() {
     vec3 c = toDominant(t.p2, axis);
     ivec3 low, high;
     columnBounds(a, b, c, axis, low, high);
-    ivec2 columns = t.used && all(greaterThan(high, low)) ? high.xy - low.xy : ivec2(0);
+    bool met = t.used && all(greaterThan(high, low));
+#if SURFACE_UPDATE && NESTED_GRIDS
+    emitHeld = hasChanged(instance);
+    met = met && (emitHeld || mayEnter(fromDominant(low, axis), fromDominant(high, axis), emitLevel));
+#endif
+    ivec2 columns = met ? high.xy - low.xy : ivec2(0);
     vec3 origin = vec3(low);
     ColumnTest test = columnTest(a - origin, b - origin, c - origin, toDominant(t.normal, axis));
 

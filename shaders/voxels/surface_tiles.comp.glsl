@@ -23,6 +23,9 @@ void main() {
 #if NESTED_GRIDS
     emitLevel = int(used ? entry.y >> TILE_LEVEL_SHIFT : 0u);
     vec4 place = levelPlace(emitLevel);
+#if SURFACE_UPDATE
+    emitHeld = hasChanged(floatBitsToUint(texelFetch(triangles, 3 * triangle).w) & 0xffffffu);
+#endif
     p0 = levelFromGrid(p0, place);
     p1 = levelFromGrid(p1, place);
     p2 = levelFromGrid(p2, place);

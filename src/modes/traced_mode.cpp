@@ -83,10 +83,12 @@ base::Steps TracedMode::drawInSteps(const Frame& given) {
 base::Steps TracedMode::voxelize(const Frame& frame) {
     const VoxelSettings& settings = frame.settings.voxels;
     const bool nested = frame.device.nestedGrids;
-    const bool same = nested ? voxels_.areIn(grid_, frame.scene) : voxels_.areOf(frame.scene, settings);
+    const auto scroll = frame.settings.traced.budgeted ? voxels::Scroll::Yes : voxels::Scroll::No;
+    const bool same =
+        nested ? voxels_.areIn(grid_, frame.scene, scroll) : voxels_.areOf(frame.scene, settings);
     if (!same && (voxels_.grid().levels > 1) == nested) co_await lit_.followVoxels(frame.device, voxels_);
     if (nested)
-        co_await voxels_.updateInSteps(grid_, frame.device, frame.scene, settings, voxels::Rays::Yes);
+        co_await voxels_.updateInSteps(grid_, frame.device, frame.scene, settings, voxels::Rays::Yes, scroll);
     else
         co_await voxels_.updateInSteps(frame.device, frame.scene, settings, voxels::Rays::Yes);
 }

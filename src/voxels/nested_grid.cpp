@@ -13,6 +13,8 @@ constexpr int kSizeStep = 8;
 constexpr int kCellsPerEdge = 8;
 // What a level holds beyond the scene's bounds where it need not, in voxels of the next coarser level.
 constexpr double kMargin = 1.0;
+// Corners that are nearer than so many voxels of level 0 are one, in spite of rounding.
+constexpr float kSameCorner = 0.05f;
 
 int roundedUp(int count, int step) { return (count + step - 1) / step * step; }
 
@@ -112,5 +114,30 @@ glm::ivec3 storedVoxel(const VoxelGrid& grid, int level, const glm::ivec3& voxel
 }
 
 int levelOfStored(const VoxelGrid& grid, const glm::ivec3& stored) { return stored.z / grid.size.z; }
+
+bool isMoved(const VoxelGrid& from, const VoxelGrid& to) {
+    if (from.levels < 2 || from.levels != to.levels || from.size != to.size || from.voxelSize != to.voxelSize)
+        return false;
+    const glm::vec3 apart = glm::abs(from.coarsest().origin - to.coarsest().origin);
+    return std::max({apart.x, apart.y, apart.z}) < kSameCorner * from.voxelSize;
+}
+
+// The coarsest level stays.
+glm::ivec3 shiftOf(const VoxelGrid& from, const VoxelGrid& to, int level) {
+    const glm::ivec3 before = from.corners[at(level)] - from.corners[at(from.levels - 1)];
+    const glm::ivec3 after = to.corners[at(level)] - to.corners[at(to.levels - 1)];
+    return (before - after) >> level;
+}
+
+gpu::VoxelScroll scrollOf(const VoxelGrid& from, const VoxelGrid& to) {
+    gpu::VoxelScroll scroll{};
+    for (int level = 0; level < from.levels; ++level) {
+        scroll.shifts[level] = glm::ivec4(shiftOf(from, to, level), 0);
+        if (level > 0)
+            scroll.finer[level] =
+                glm::ivec4((from.corners[at(level - 1)] - from.corners[at(level)]) >> level, 0);
+    }
+    return scroll;
+}
 
 }  // namespace conelight::voxels

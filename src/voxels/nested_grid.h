@@ -30,4 +30,10 @@ bool isWithinFiner(const VoxelGrid& grid, int level, const glm::ivec3& voxel);
 glm::ivec3 storedVoxel(const VoxelGrid& grid, int level, const glm::ivec3& voxel);
 int levelOfStored(const VoxelGrid& grid, const glm::ivec3& stored);
 
+// Whether two are the same levels round two eyes: the finer ones lie elsewhere, by whole bricks.
+bool isMoved(const VoxelGrid& from, const VoxelGrid& to);
+// What coordinates in a level gain then, in its voxels.
+glm::ivec3 shiftOf(const VoxelGrid& from, const VoxelGrid& to, int level);
+gpu::VoxelScroll scrollOf(const VoxelGrid& from, const VoxelGrid& to);
+
 }  // namespace conelight::voxels

@@ -86,14 +86,15 @@ std::vector<SurfaceLayersKey> SurfaceLayersKey::all() {
 }
 
 gl::ProgramDesc descOf(SurfacePass pass) {
-    constexpr const char* kNames[] = {"surface_bricks", "surface_carry", "surface_copy", "surface_drop"};
+    constexpr const char* kNames[] = {"surface_bricks", "surface_carry", "surface_copy", "surface_drop",
+                                      "surface_shift"};
     return shader(kNames[static_cast<int>(pass)]);
 }
 
 std::vector<gl::ProgramDesc> surfaceProgramDescs() {
     std::vector<gl::ProgramDesc> descs;
     for (const SurfacePass pass :
-         {SurfacePass::Bricks, SurfacePass::Carry, SurfacePass::Copy, SurfacePass::Drop})
+         {SurfacePass::Bricks, SurfacePass::Carry, SurfacePass::Copy, SurfacePass::Drop, SurfacePass::Shift})
         descs.push_back(descOf(pass));
     addAll<SurfaceCountKey>(descs);
     addAll<SurfaceScanKey>(descs);

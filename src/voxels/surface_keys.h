@@ -67,7 +67,7 @@ struct SurfaceLayersKey {
 };
 
 // Passes without variants.
-enum class SurfacePass { Bricks, Carry, Copy, Drop };
+enum class SurfacePass { Bricks, Carry, Copy, Drop, Shift };
 gl::ProgramDesc descOf(SurfacePass pass);
 
 std::vector<gl::ProgramDesc> surfaceProgramDescs();

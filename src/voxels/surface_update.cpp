@@ -5,6 +5,7 @@
 
 #include "gl/gl.h"
 #include "gl/pace.h"
+#include "voxels/nested_grid.h"
 #include "voxels/surface_work.h"
 
 namespace conelight::voxels {
@@ -37,6 +38,22 @@ void addBricks(std::vector<bool>& marked, const VoxelGrid& grid, std::size_t fir
             for (int x = low.x; x <= high.x; ++x) marked[first + brickIndex({x, y, z}, bricks)] = true;
 }
 
+// Marks the bricks that leave their level.
+void addLeaving(std::vector<bool>& marked, const VoxelGrid& from, const VoxelGrid& to) {
+    const glm::ivec3 bricks = from.bricks();
+    std::size_t place = 0;
+    for (int level = 0; level < from.levels; ++level) {
+        const glm::ivec3 shift = shiftOf(from, to, level);
+        for (int z = 0; z < bricks.z; ++z)
+            for (int y = 0; y < bricks.y; ++y)
+                for (int x = 0; x < bricks.x; ++x) {
+                    const glm::ivec3 voxel = 4 * glm::ivec3(x, y, z) + shift;
+                    if (!to.contains(voxel) || isWithinFiner(to, level, voxel)) marked[place] = true;
+                    ++place;
+                }
+    }
+}
+
 }  // namespace
 
 void SurfaceVoxels::Impl::remember(const scene::GpuScene& scene) {
@@ -51,30 +68,35 @@ void SurfaceVoxels::Impl::remember(const scene::GpuScene& scene) {
 }
 
 bool SurfaceVoxels::Impl::canUpdate(const scene::GpuScene& scene, const VoxelGrid& wanted) const {
-    return keys.revision && !unfinished && sceneIdentity == scene.identity() && grid == wanted &&
-           surfaces == surfacesOf(scene);
+    return keys.revision && !unfinished && sceneIdentity == scene.identity() &&
+           (grid == wanted || isMoved(grid, wanted)) && surfaces == surfacesOf(scene);
 }
 
-Edits SurfaceVoxels::Impl::editsOf(const scene::GpuScene& scene) const {
+Edits SurfaceVoxels::Impl::editsOf(const scene::GpuScene& scene, const VoxelGrid& wanted) const {
     Edits edits;
+    edits.from = grid;
+    edits.any = edits.scrolls = !(grid == wanted);
     const std::size_t count = scene.instances().size();  // of which the last may be new
     edits.stale.resize(count / 32 + 1);
     std::vector<bool> marked(grid.brickCount());
     for (std::size_t i = 0; i < count; ++i) {
         const bool added = i >= revisions.size();
-        if (!added && revisions[i] == scene.instanceRevision(i)) continue;
+        const bool changed = added || revisions[i] != scene.instanceRevision(i);
+        if (!changed && !edits.scrolls) continue;
         const gpu::Instance& instance = scene.instances()[i];
         const auto index = static_cast<std::uint32_t>(i);
         edits.any = true;
-        edits.stale[index / 32] |= 1u << (index % 32);
-        for (int level = 0; level < grid.levels && !added; ++level) {
+        if (changed) edits.stale[index / 32] |= 1u << (index % 32);
+        for (int level = 0; level < grid.levels && changed && !added; ++level) {
             const VoxelGrid one = grid.level(level);
             addBricks(marked, one, static_cast<std::size_t>(level) * one.brickCount(), boxes[i]);
         }
         if ((instance.flags & INSTANCE_VOXELIZED) == 0 || instance.indexCount < 3) continue;
         edits.runs.emplace_back(index, edits.triangles);
         edits.triangles += instance.indexCount / 3;
+        if (changed) edits.changedTriangles += instance.indexCount / 3;
     }
+    if (edits.scrolls) addLeaving(marked, grid, wanted);
     for (std::size_t i = 0; i < marked.size(); ++i)
         if (marked[i]) edits.editedBricks.push_back(static_cast<std::uint32_t>(i));
     return edits;
@@ -115,6 +137,20 @@ base::Steps SurfaceVoxels::Impl::drop(const gl::Device& device, const Edits& edi
     co_await scope.rest();
 }
 
+// Nested grids move: masks and fragments that stay get the coordinates that they have from here on.
+base::Steps SurfaceVoxels::Impl::shift(const gl::Device& device) {
+    gl::PassSteps scope(device, "voxelize: shift");
+    if (shiftedMasks.bytes() != masks.bytes())
+        shiftedMasks = gl::Buffer(masks.bytes(), "voxelizer shifted masks");
+    gl::Inputs given = this->given();
+    device.get(descOf(SurfacePass::Shift))
+        .dispatchLinear(given, std::max<std::size_t>(grid.brickCount(), tail));
+    gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+    std::swap(masks, shiftedMasks);
+    changedBricks.fill(~0u);
+    co_await scope.rest();
+}
+
 // New place: as mark(), for the triangles of changed instances.
 base::Steps SurfaceVoxels::Impl::markEdits(const gl::Device& device, const scene::GpuScene& scene,
                                            const Edits& edits) {
@@ -150,7 +186,7 @@ bool SurfaceVoxels::Impl::finishUpdate(const Edits& edits) {
     const std::uint32_t reused = std::min(made, counts[SURFACE_FREE]);
     tail += made - reused;
     freeSlots = counts[SURFACE_FREE] - reused;
-    lastUpdate = {false, edits.triangles, made, counts[SURFACE_WORK]};
+    lastUpdate = {false, edits.scrolls, edits.triangles, made, counts[SURFACE_WORK]};
     return tail <= capacity.fragments && counts[SURFACE_TILES] <= capacity.tiles &&
            counts[SURFACE_VOXELS] <= capacity.voxels && counts[SURFACE_FACES] <= capacity.faces &&
            counts[SURFACE_BRICKS] <= capacity.bricks;
@@ -160,9 +196,9 @@ base::Steps SurfaceVoxels::updateInSteps(const gl::Device& device, const scene::
                                          VoxelGrid grid) {
     Impl& m = *impl_;
     const bool can = m.canUpdate(scene, grid);
-    const Edits edits = can ? m.editsOf(scene) : Edits{};
+    const Edits edits = can ? m.editsOf(scene, grid) : Edits{};
     // Beyond half of all triangles, to clip all is as cheap as to search for those to keep.
-    if (!can || 2 * edits.triangles > scene.triangleCount()) {
+    if (!can || 2 * edits.changedTriangles > scene.triangleCount()) {
         co_await buildInSteps(device, scene, grid);
         co_return;
     }
@@ -172,10 +208,12 @@ base::Steps SurfaceVoxels::updateInSteps(const gl::Device& device, const scene::
         co_return;
     }
     m.unfinished = true;
+    m.grid = grid;
     m.allocateFor(m.capacity);
     m.growTriangles(scene.triangleCount());
     m.uploadEdits(scene, edits);
     co_await m.drop(device, edits);
+    if (edits.scrolls) co_await m.shift(device);
     co_await m.markEdits(device, scene, edits);
     std::swap(m.now, m.before);
     std::swap(m.keys, m.oldKeys);
@@ -196,6 +234,7 @@ base::Steps SurfaceVoxels::updateInSteps(const gl::Device& device, const scene::
     m.keys.faceCount = m.counts[SURFACE_FACES];
     m.keys.revision = base::Revision::next();
     m.remember(scene);
+    m.scrolled = m.scrolled || edits.scrolls;
     m.unfinished = false;
 }
 

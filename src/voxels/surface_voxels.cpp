@@ -56,7 +56,8 @@ base::Steps SurfaceVoxels::buildInSteps(const gl::Device& device, const scene::G
     m.unfinished = false;
     m.tail = m.counts[SURFACE_FRAGMENTS];
     m.freeSlots = 0;
-    m.lastUpdate = {true, scene.triangleCount(), m.tail, m.counts[SURFACE_FACES]};
+    m.scrolled = false;
+    m.lastUpdate = {true, false, scene.triangleCount(), m.tail, m.counts[SURFACE_FACES]};
     if (m.oldKeys.revision) co_return;
     m.releaseLists();
     m.trim();
@@ -112,6 +113,7 @@ const gl::Buffer& SurfaceVoxels::faceMaterials() const { return impl_->now.faceM
 const gl::Buffer& SurfaceVoxels::occupiedBricks() const { return impl_->brickList; }
 const gl::Buffer& SurfaceVoxels::changedBricks() const { return impl_->changedBricks; }
 const SurfaceUpdate& SurfaceVoxels::lastUpdate() const { return impl_->lastUpdate; }
+bool SurfaceVoxels::hasScrolled() const { return impl_->scrolled; }
 const gl::Buffer& SurfaceVoxels::fragments() const { return impl_->fragments; }
 
 std::vector<gl::ProgramDesc> SurfaceVoxels::programDescs() { return surfaceProgramDescs(); }

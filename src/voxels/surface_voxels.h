@@ -29,6 +29,7 @@ namespace conelight::voxels {
 // What the last build or update had to do.
 struct SurfaceUpdate {
     bool whole = false;           // everything was voxelized anew
+    bool scrolled = false;        // nested grids moved, and kept what they could
     std::uint32_t triangles = 0;  // set up
     std::uint32_t fragments = 0;  // clipped
     std::uint32_t faces = 0;      // summed up
@@ -53,7 +54,8 @@ class SurfaceVoxels {
     }
 
     // As build(), but does again only what `scene` has changed since the last build or update: bit for bit
-    // the same voxels. Falls back to build() for another scene or grid,
+    // the same voxels. Nested grids around another eye keep the voxels that stay in their level, which may differ
+    // from those of a build by rounding (hasScrolled). Falls back to build() for another scene or grid,
     // when materials need another variant of the passes, when more than half of the triangles changed, and
     // when a list has become too small. Does nothing when nothing changed.
     void update(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings) {
@@ -74,6 +76,8 @@ class SurfaceVoxels {
     // (brickIndex); all are set after a build.
     const gl::Buffer& changedBricks() const;
     const SurfaceUpdate& lastUpdate() const;
+    // Whether some were made while nested grids lay elsewhere.
+    bool hasScrolled() const;
 
     // The grid fitted to the scene as it was handed over, grown by whole bricks to what has left it since.
     static VoxelGrid gridOf(const scene::GpuScene& scene, const VoxelSettings& settings);

@@ -6,6 +6,7 @@
 
 #include "gl/gl.h"
 #include "scene/gpu_materials.h"
+#include "voxels/nested_grid.h"
 
 namespace conelight::voxels {
 namespace {
@@ -128,6 +129,7 @@ void SurfaceVoxels::Impl::allocateFor(const Capacity& wanted) {
         constants = gl::Buffer(sizeof(gpu::SurfaceConstants), "voxelizer constants");
         gridBlock = gl::Buffer(sizeof(gpu::VoxelGrid), "voxel grid");
         levelBlock = gl::Buffer(sizeof(gpu::VoxelLevels), "voxel levels");
+        scrollBlock = gl::Buffer(sizeof(gpu::VoxelScroll), "voxelizer scroll");
         counters = gl::Buffer(sizeof counts, "voxelizer counters");
     }
     const std::size_t chunkBytes =
@@ -228,6 +230,11 @@ void SurfaceVoxels::Impl::upload(const scene::GpuScene& scene, const Edits* edit
     c.voxelsPerChunk = gpu::perChunk(capacity.voxels);
     c.emissionScale = std::max(surfaces.largestEmission, kLeastEmission);
     constants.update(c);
+    if (edits != nullptr) {
+        gpu::VoxelScroll scroll = scrollOf(edits->from, grid);
+        scroll.shifts[0].w = surfaces.emit() ? 0 : 1;
+        scrollBlock.update(scroll);
+    }
     updateGridBlock();
 }
 
@@ -259,9 +266,11 @@ gl::Inputs SurfaceVoxels::Impl::given() const {
     };
     inputs.uniform("SurfaceBlock", constants)
         .uniform("VoxelGridBlock", gridBlock)
-        .uniform("VoxelLevelBlock", levelBlock);
+        .uniform("VoxelLevelBlock", levelBlock)
+        .uniform("VoxelScrollBlock", scrollBlock);
     storage("CounterTable", counters);
     storage("MaskTable", masks);
+    storage("ShiftedMaskTable", shiftedMasks);
     storage("ChunkTable", chunks);
     storage("TriangleTable", triangles);
     storage("TileTable", tiles);

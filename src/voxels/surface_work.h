@@ -59,6 +59,9 @@ struct Edits {
     std::vector<glm::uvec2> runs;             // instances to voxelize: index, first triangle of the work
     std::vector<std::uint32_t> editedBricks;  // where changed instances were
     std::uint32_t triangles = 0;              // of the work
+    std::uint32_t changedTriangles = 0;
+    VoxelGrid from;        // where nested grids were
+    bool scrolls = false;  // they are elsewhere
     bool any = false;
 };
 
@@ -70,12 +73,14 @@ struct SurfaceVoxels::Impl {
 
     VoxelKeys keys, oldKeys;  // oldKeys: of the voxels before, empty until the second build or update
     Results now, before;      // before: empty until the first update
-    gl::Buffer brickList, gridBlock, levelBlock, changedBricks;
+    gl::Buffer brickList, gridBlock, levelBlock, scrollBlock, changedBricks;
     // Work space
-    gl::Buffer counters, constants, triangles, tiles, pairs, masks, fragments, chunks, owners, layered;
+    gl::Buffer counters, constants, triangles, tiles, pairs, masks, shiftedMasks, fragments, chunks, owners,
+        layered;
     gl::Texture triangleTexels, pairTexels, fragmentTexels, ownerTexels;
     gl::Buffer stale, runs, editedBricks, freeList, origins, workList;  // of updates
 
+    bool scrolled = false;    // some voxels were made where the grid was before
     bool unfinished = false;  // a build or an update did not come to its end
 
     // The scene as it was voxelized last.
@@ -103,9 +108,10 @@ struct SurfaceVoxels::Impl {
 
     void remember(const scene::GpuScene& scene);
     bool canUpdate(const scene::GpuScene& scene, const VoxelGrid& wanted) const;
-    Edits editsOf(const scene::GpuScene& scene) const;
+    Edits editsOf(const scene::GpuScene& scene, const VoxelGrid& wanted) const;
     void uploadEdits(const scene::GpuScene& scene, const Edits& edits);
     base::Steps drop(const gl::Device& device, const Edits& edits);
+    base::Steps shift(const gl::Device& device);
     base::Steps markEdits(const gl::Device& device, const scene::GpuScene& scene, const Edits& edits);
     base::Steps carry(const gl::Device& device);
     bool finishUpdate(const Edits& edits);

@@ -12,8 +12,14 @@ base::Steps Voxels::updateInSteps(const gl::Device& device, const scene::GpuScen
 }
 
 base::Steps Voxels::updateInSteps(VoxelGrid grid, const gl::Device& device, const scene::GpuScene& scene,
-                                  VoxelSettings settings, Rays rays) {
-    if (!areIn(grid, scene)) co_await surface_.updateInSteps(device, scene, grid);
+                                  VoxelSettings settings, Rays rays, Scroll scroll) {
+    const bool same = surface_.revision() && surface_.grid() == grid && !surface_.hasScrolled();
+    if (!areIn(grid, scene, scroll)) {
+        if (same || scroll == Scroll::Yes)
+            co_await surface_.updateInSteps(device, scene, grid);
+        else
+            co_await surface_.buildInSteps(device, scene, grid);
+    }
     remember(scene, settings);
     co_await makeOctants(device, rays);
 }
@@ -30,9 +36,9 @@ bool Voxels::areOf(const scene::GpuScene& scene, const VoxelSettings& settings) 
            settings_ == settings;
 }
 
-bool Voxels::areIn(const VoxelGrid& grid, const scene::GpuScene& scene) const {
+bool Voxels::areIn(const VoxelGrid& grid, const scene::GpuScene& scene, Scroll scroll) const {
     return revision() && scene_ == scene.identity() && geometry_ == scene.geometryRevision() &&
-           this->grid() == grid;
+           this->grid() == grid && (scroll == Scroll::Yes || !surface_.hasScrolled());
 }
 
 void Voxels::remember(const scene::GpuScene& scene, const VoxelSettings& settings) {

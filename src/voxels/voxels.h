@@ -12,6 +12,8 @@ namespace conelight::voxels {
 
 // Whether rays will cross the voxels, which takes octant words.
 enum class Rays : bool { No, Yes };
+// Whether nested grids around another eye may keep voxels (SurfaceVoxels::hasScrolled), as pictures in motion do.
+enum class Scroll : bool { No, Yes };
 
 class Voxels {
   public:
@@ -29,13 +31,13 @@ class Voxels {
         updateInSteps(grid, device, scene, settings, rays).finish();
     }
     base::Steps updateInSteps(VoxelGrid grid, const gl::Device& device, const scene::GpuScene& scene,
-                              VoxelSettings settings, Rays rays = Rays::No);
+                              VoxelSettings settings, Rays rays = Rays::No, Scroll scroll = Scroll::No);
     // As update(), but all of it anew, also of a scene that has not changed.
     void build(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings,
                Rays rays);
 
     // Whether update() would leave them as they are.
-    bool areIn(const VoxelGrid& grid, const scene::GpuScene& scene) const;
+    bool areIn(const VoxelGrid& grid, const scene::GpuScene& scene, Scroll scroll = Scroll::No) const;
     bool areOf(const scene::GpuScene& scene, const VoxelSettings& settings) const;
     // Of the surface voxels: equal as long as these are the same.
     base::Revision revision() const { return surface_.revision(); }

@@ -175,6 +175,7 @@ std::vector<Struct> otherStructs() {
         ROW(VoxelGrid, origin, voxelSize, sizeX, sizeY, sizeZ, voxelCount, bricksX, bricksY, bricksZ,
             faceCount, inverseVoxelSize, occupiedBricks, pad0, pad1),
         ROW(VoxelLevels, count, sizeX, sizeY, sizeZ, levels),
+        ROW(VoxelScroll, shifts, finer),
         ROW(FaceRecord, normal, offsetWeight, bounds, voxel),
         ROW(FaceMaterial, albedo, emission, emissionBArea, lobe),
         ROW(LitFace, albedo, radiance, irradiance0, irradiance1),

@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
+#include <map>
 #include <random>
 #include <set>
 
@@ -115,6 +116,34 @@ void NestedVoxelsTest::expectLevel(int level, const VoxelizeResult& all, const V
     EXPECT_LE(apart, faces / 200) << "level " << level << ", of " << faces;
 }
 
+// Faces of `a`, and how many of either are not in the other.
+std::pair<std::size_t, std::size_t> compared(const VoxelizeResult& a, const VoxelizeResult& b) {
+    const auto table = [](const VoxelizeResult& r) {
+        std::map<std::pair<std::uint32_t, int>, std::pair<gpu::FaceRecord, gpu::FaceMaterial>> faces;
+        for (std::size_t i = 0; i < r.faces.size(); ++i) {
+            const gpu::FaceRecord& face = r.faces[i];
+            const int turn = static_cast<int>(faces.count({face.voxel, 0}));  // two look along one axis
+            faces[{face.voxel, turn}] = {face, r.materials[i]};
+        }
+        return faces;
+    };
+    const auto left = table(a), right = table(b);
+    std::size_t differ = 0;
+    for (const auto& [key, face] : left) {
+        const auto other = right.find(key);
+        const bool found = other != right.end();
+        const auto close = [&](auto unpack) {
+            return std::abs(unpack(face.first.offsetWeight) - unpack(other->second.first.offsetWeight)) <
+                   1e-3f;
+        };
+        const bool same = found && close(voxels::unpackOffset) && close(voxels::unpackWeight) &&
+                          face.second.emission == other->second.second.emission;
+        differ += same ? 0 : 1;
+    }
+    for (const auto& entry : right) differ += left.count(entry.first) == 0 ? 1 : 0;
+    return {left.size(), differ};
+}
+
 // xyz, xyz -> face, t
 std::vector<glm::vec4> NestedVoxelsTest::traced(const std::vector<glm::vec4>& rays) {
     addShader("test/nested_rays.comp.glsl", R"(#version 450 core
@@ -183,6 +212,41 @@ TEST_F(NestedVoxelsTest, UpdatesGiveTheBitsOfABuild) {
         EXPECT_EQ(a.brickWords, b.brickWords) << moved;
         EXPECT_EQ(a.records, b.records) << moved;
         EXPECT_EQ(a.hash(), b.hash()) << moved;
+    }
+}
+
+// Levels that move keep what stays in them, and are what a build there makes, but for rounding; also while something moves.
+TEST_F(NestedVoxelsTest, LevelsThatMoveKeepTheirVoxels) {
+    for (const bool emits : {false, true}) {
+        Scene scene = roomWithBoxes();
+        if (emits) scene.materials[0].emission = glm::vec3(0.5f);
+        scene::GpuScene gpu(scene);
+        VoxelSettings settings{48};
+        settings.levels = 3;
+        glm::vec3 eye(0.5f, 0.2f, 0.1f);
+        voxels::SurfaceVoxels surface;
+        surface.build(nested(), gpu, voxels::SurfaceVoxels::gridAround(gpu, settings, eye));
+        const std::vector<glm::vec3> steps = {
+            {2, 0, 0}, {-1.5f, 1.6f, 0}, {0.1f, 0, -4}, {-6, 2, 9}, {5, -3, -5}};
+        for (std::size_t i = 0; i < steps.size(); ++i) {
+            eye += steps[i];
+            if (i == 2) {
+                scene.instances[1].worldFromObject[3] += glm::vec4(0.4f, 0.4f, -0.9f, 0);
+                gpu.setInstance(1, scene.instances[1]);
+            }
+            const VoxelGrid grid = voxels::SurfaceVoxels::gridAround(gpu, settings, eye);
+            ASSERT_FALSE(grid == surface.grid());
+            surface.updateInSteps(nested(), gpu, grid).finish();
+            ASSERT_TRUE(surface.lastUpdate().scrolled && surface.hasScrolled()) << i;
+            const std::uint32_t most = i < 3 ? surface.faceCount() / 3 : surface.faceCount();
+            EXPECT_LT(surface.lastUpdate().faces, most) << i;
+            voxels::SurfaceVoxels whole;
+            whole.build(nested(), gpu, grid);
+            const auto [faces, differ] = compared(download(surface), download(whole));
+            EXPECT_GT(faces, 3000u);
+            EXPECT_LE(differ, faces / 200) << i << ", of " << faces;
+            EXPECT_NEAR(surface.fragmentCount(), whole.fragmentCount(), 20) << i;
+        }
     }
 }
 

@@ -3,9 +3,12 @@
 // level into the next; a room keeps its light on a plain of any size; the eye may move.
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "io/generated.h"
+#include "scene/gpu_scene.h"
 #include "support/traced_rig.h"
+#include "voxels/surface_voxels.h"
 
 namespace conelight::test {
 namespace {
@@ -92,6 +95,54 @@ TEST_F(NestedGridsTest, LightIsReprojectedWhileTheEyeMoves) {
     Image settled;
     for (int i = 0; i < 12; ++i) settled = draw(fresh, scene, settings);
     EXPECT_NEAR(moved / meanOf(settled), 1.0, 0.15);
+}
+
+// A walk in motion, over several places of the levels: no frame jumps, each is near the settled picture of its place, and
+// the same walk gives the same bits.
+TEST_F(NestedGridsTest, NothingPopsOnAWalk) {
+    const Scene scene = roomOnAPlain(24);
+    Settings settings = nestedSettings(Quality::Draft, 3);
+    settings.voxels.size = 48;
+    settings.traced.budgeted = true;
+    constexpr int kStands = 24, kSteps = 24;
+    const auto at = [&](int step) {
+        Scene here = scene;
+        here.cameras.at(0).eye.x += 0.1f * static_cast<float>(step);
+        return here;
+    };
+    const auto walk = [&] {
+        std::vector<Image> frames;
+        Renderer renderer;
+        renderer.setScene(scene);
+        for (int i = 0; i < kStands; ++i) frames.push_back(draw(renderer, scene, settings));
+        for (int i = 1; i <= kSteps; ++i) frames.push_back(draw(renderer, at(i), settings));
+        return frames;
+    };
+    const std::vector<Image> frames = walk(), again = walk();
+    const std::size_t first = kStands;
+    for (std::size_t i = first; i < frames.size(); ++i) {
+        EXPECT_NEAR(meanOf(frames[i]) / meanOf(frames[i - 1]), 1.0, 0.015) << i;
+        EXPECT_LT(relRmse(frames[i], frames[i - 1]), 0.1) << i;
+        EXPECT_EQ(frames[i].pixels, again[i].pixels) << i;
+    }
+    for (const int step : {kSteps / 2, kSteps}) {
+        Renderer fresh;
+        fresh.setScene(scene);
+        Image settled;
+        for (int i = 0; i < kStands; ++i) settled = draw(fresh, at(step), settings);
+        const Image& walked = frames[static_cast<std::size_t>(kStands + step - 1)];
+        EXPECT_NEAR(meanOf(walked) / meanOf(settled), 1.0, 0.03) << step;
+        EXPECT_LT(relRmse(walked, settled), 0.06) << step;
+    }
+    // Levels moved on the way.
+    const scene::GpuScene gpu(scene);
+    int moves = 0;
+    for (int i = 1; i <= kSteps; ++i)
+        moves += voxels::SurfaceVoxels::gridAround(gpu, settings.voxels, at(i).cameras.at(0).eye) ==
+                         voxels::SurfaceVoxels::gridAround(gpu, settings.voxels, at(i - 1).cameras.at(0).eye)
+                     ? 0
+                     : 1;
+    EXPECT_GE(moves, 2);
 }
 
 }  // namespace conelight::test
