@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: MIT
 // G-buffer -> radiance in the specular lobe over the lobe's directional albedo, by rays along visible normals
 // of GGX (Heitz 2018, "Sampling the GGX Distribution of Visible Normals"), averaged with the passes and
-// frames before. What a ray meets shows its interpolated cached light, so that mirrors show no voxels.
+// frames before. Wide lobes aim as many rays at lit faces, combined by the balance heuristic. What a ray meets
+// shows its interpolated cached light, so that mirrors show no voxels.
 // TRIANGLE_HITS 1: rays into smooth lobes meet triangles, not plane pieces (lib/triangle_hit.glsl); below the least
 // roughness of a lobe they go exactly the mirrored way.
 // COUNT_LOOKUPS 1: adds what rays look up to the counters, shadow maps at hits included.
@@ -63,6 +64,103 @@ vec3 lobeRayOrigin(Surface s, Brdf b, vec3 direction) {
     return seenRayOrigin(gridFromWorld(s.position), s.geometricNormal, s.toEye);
 }
 
+// ---- Rays aimed at voxels that send light ----------------------------------------------------------------------
+// A lamp of few voxels is found by few rays of a wide lobe (docs/theory/4f_glossy.md). A voxel is chosen by the flux of its faces, and a direction
+// evenly among those that meet the sphere about it: so whatever a lobe's ray meets in a voxel, an aimed one may meet.
+
+// The cosine of half the angle of a voxel's sphere; 1: the ray starts within it.
+float sphereCosine(float distance, float edge) {
+    float sine = min(0.8660254 * edge / max(distance, 1e-6), 1.0);
+    return sine < 1.0 ? sqrt(1.0 - sine * sine) : 1.0;
+}
+
+// Place and edge of a face's voxel, the middle in grid coordinates.
+vec4 faceCube(uvec4 hitTexel) {
+#if NESTED_GRIDS
+    vec4 place = voxelPlace(hitTexel.w);
+    return vec4(place.xyz + 0.5 * place.w, place.w);
+#else
+    return vec4(vec3(unpackVoxel(hitTexel.w)) + 0.5, 1.0);
+#endif
+}
+
+// Whether two places of the table are faces of one voxel.
+bool shareVoxel(int a, int b) {
+    int last = textureSize(voxelFaces) - 1;
+    uint bits = texelFetch(voxelFaces, clamp(a, 0, last)).w ^ texelFetch(voxelFaces, clamp(b, 0, last)).w;
+    return min(a, b) >= 0 && max(a, b) <= last && (bits & 0x3fffffffu) == 0u;
+}
+
+// Density per steradian with which aimed rays that meet this voxel have this direction.
+float aimedPdf(vec3 origin, int face, float inverseFlux) {
+    vec4 cube = faceCube(texelFetch(voxelFaces, max(face, 0)));
+    float cosine = sphereCosine(length(cube.xyz - origin), cube.w);
+    float flux = 0.0;
+    int other = face - 5;
+    do {
+        int one = clamp(other, 0, textureSize(voxelFaces) - 1);
+        float of = faceFlux(texelFetch(voxelFaces, one), outgoingRadiance(one));
+        flux += shareVoxel(other, face) ? of : 0.0;
+    } while (++other <= face + 5);
+    return cosine < 1.0 ? flux * inverseFlux / (2.0 * kGatherPi * (1.0 - cosine)) : 0.0;
+}
+
+// A ray drawn by one of the two techniques.
+struct LobeRay {
+    Ray ray;
+    vec3 weight;    // BRDF times cosine over the density of the lobe
+    int lightFace;  // a face of the voxel that it is aimed at; -1: none
+};
+
+// Ray `i` of a pixel: first those of the lobe, then aimed ones.
+LobeRay sampleLobeRay(Surface s, Brdf b, uint seed, int i) {
+    int rays = int(pixelRays.rays);
+    vec2 xi = sequencePoint(seed, pixelRays.pass * pixelRays.rays + uint(i));
+    vec3 weight;
+    vec3 direction = reflectedDirection(b, s, xi, weight);
+    Ray ray = Ray(lobeRayOrigin(s, b, direction), direction, 1e9, s.geometricNormal);
+    if (i < rays) return LobeRay(ray, weight, -1);
+
+    vec3 xiLight = sequencePoint3(seed, pixelRays.pass * pixelRays.rays + uint(i - rays));
+    int face = int(texelFetch(lightSamples, 1 + int(xiLight.x * float(LIGHT_SAMPLE_COUNT))).x);
+    vec4 cube = faceCube(texelFetch(voxelFaces, face));
+    vec3 origin = seenRayOrigin(gridFromWorld(s.position), s.geometricNormal, s.toEye);
+    vec3 towards = cube.xyz - origin;
+    float distance = length(towards);
+    float cosine = sphereCosine(distance, cube.w);
+    float z = mix(1.0, cosine, xiLight.y);
+    float r = sqrt(max(1.0 - z * z, 0.0));
+    vec3 u, v;
+    tangentFrame(towards / max(distance, 1e-6), u, v);
+    float angle = 2.0 * kGatherPi * xiLight.z;
+    direction = normalize(r * cos(angle) * u + r * sin(angle) * v + z * towards / max(distance, 1e-6));
+    bool valid = cosine < 1.0 && dot(direction, s.geometricNormal) > 0.0;
+    vec3 halfway = normalize(s.toEye + direction);
+    weight = lobeWeight(b, dot(s.normal, direction), max(dot(s.toEye, halfway), 0.0));
+    ray = Ray(lobeRayOrigin(s, b, direction), direction, distance + cube.w, s.geometricNormal);
+    return LobeRay(ray, valid ? weight : vec3(0.0), face);
+}
+
+// The weight of a ray's technique by the balance heuristic, both having as many rays.
+float techniqueShare(Surface s, Brdf b, LobeRay drawn, VoxelHit hit, float inverseFlux) {
+    bool reached = drawn.lightFace < 0 || (hit.face >= 0 && shareVoxel(drawn.lightFace, hit.face));
+    vec3 origin = seenRayOrigin(gridFromWorld(s.position), s.geometricNormal, s.toEye);
+    float pdf = lobePdf(b, s.normal, s.toEye, drawn.ray.direction);
+    float aimed = hit.face >= 0 ? aimedPdf(origin, hit.face, inverseFlux) : 0.0;
+    return reached ? pdf / max(pdf + aimed, 1e-12) : 0.0;
+}
+
+// The width of a pixel's rays, where they meet triangles.
+void setRayCone(Surface s, Brdf b) {
+#if TRIANGLE_HITS
+    float pixelAngle = 2.0 * length(frame.viewUp) / float(frame.height);
+    // Parallel rays are as wide everywhere.
+    float width = pixelAngle * mix(s.depth, 1.0, frame.parallel);
+    rayCone = RayCone(b.alpha <= kTriangleAlpha ? width * pixelRays.inverseVoxelSize : -1.0,
+                      pixelAngle * (1.0 - frame.parallel) + b.alpha);
+#endif
+}
+
 void main() {
 #if LOBE_LISTED
     ivec2 pixel = listedPixel(imageSize(result));
@@ -75,31 +173,31 @@ void main() {
     bool glossy = hasLobe(s, seen, pixelRays.specularLimit);
     uint seed = randomHash(uint(pixel.x) | uint(pixel.y) << 16) ^ 0x5bd1e995u;
     uint random = randomHash(seed) ^ randomHash(pixelRays.pass * 0x9e3779b9u + 0x85ebca6bu);
+    float inverseFlux = uintBitsToFloat(texelFetch(lightSamples, 0).x);
+    bool aims = glossy && pixelRays.aimed != 0u && b.alpha >= kNarrowLobe && inverseFlux > 0.0;
+    int count = int(pixelRays.rays) * (aims ? 2 : 1);
     vec3 sum = vec3(0.0);
     int i = 0;
     do {
-        vec2 xi = sequencePoint(seed, pixelRays.pass * pixelRays.rays + uint(i));
-        vec3 weight;
-        vec3 direction = reflectedDirection(b, s, xi, weight);
-        bool counts = glossy && weight.r + weight.g + weight.b > 0.0;
+        // Draw a ray
+        LobeRay drawn = sampleLobeRay(s, b, seed, i);
+        bool counts = glossy && drawn.weight.r + drawn.weight.g + drawn.weight.b > 0.0;
+        drawn.ray.tMax = counts ? drawn.ray.tMax : -1.0;
+        setRayCone(s, b);
+
+        // Follow it
         VoxelHit hit;
-#if TRIANGLE_HITS
-        float pixelAngle = 2.0 * length(frame.viewUp) / float(frame.height);
-        // Parallel rays are as wide everywhere.
-        float width = pixelAngle * mix(s.depth, 1.0, frame.parallel);
-        rayCone = RayCone(b.alpha <= kTriangleAlpha ? width * pixelRays.inverseVoxelSize : -1.0,
-                          pixelAngle * (1.0 - frame.parallel) + b.alpha);
-#endif
-        Ray ray = Ray(lobeRayOrigin(s, b, direction), direction, counts ? 1e9 : -1.0, s.geometricNormal);
         PathSettings path = PathSettings(-1.0, counts ? int(pixelRays.reflections) : 0, b.alpha,
-                                         pixelRays.fireflyClamp, skyWidth(b, s, direction));
-        vec3 radiance = throughGlass(traceRadiance(ray, path, random, hit), ray, hit);
+                                         pixelRays.fireflyClamp, skyWidth(b, s, drawn.ray.direction));
+        vec3 radiance = throughGlass(traceRadiance(drawn.ray, path, random, hit), drawn.ray, hit);
+
+        vec3 weight = drawn.weight * (aims ? techniqueShare(s, b, drawn, hit, inverseFlux) : 1.0);
         sum += weight * radiance;
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);
         if (glossy)
-            RECORD_RAY(PATH_SPECULAR_RAY, ray, hit, 1.0,
+            RECORD_RAY(PATH_SPECULAR_RAY, drawn.ray, hit, 1.0,
                        weight / (float(pixelRays.rays) * max(b.albedo, 1e-6)), radiance, counts);
-    } while (++i < int(pixelRays.rays));
+    } while (++i < count);
     vec3 value = glossy ? sum / (float(pixelRays.rays) * max(b.albedo, 1e-6)) : vec3(0.0);
 #if COUNT_LOOKUPS
     addLookups(LOOKUPS_SPECULAR, glossy);

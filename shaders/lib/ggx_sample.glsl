@@ -34,6 +34,14 @@ float lobePdf(Brdf b, vec3 normal, vec3 toEye, vec3 toLight) {
     return a2 / (kPi * d * d) / (1.0 + smithLambda(b.alpha, b.NoV)) / (4.0 * b.NoV);
 }
 
+// BRDF times cosine over lobePdf, for a direction of height NoL that meets its facets at the cosine VoH; 0 below the
+// surface.
+vec3 lobeWeight(Brdf b, float NoL, float VoH) {
+    float lambdaEye = smithLambda(b.alpha, b.NoV);
+    float shadowing = (1.0 + lambdaEye) / (1.0 + lambdaEye + smithLambda(b.alpha, NoL));
+    return NoL > 0.0 ? fresnel(b.f0, b.f90, VoH) * b.compensation * shadowing : vec3(0.0);
+}
+
 // A direction of the lobe of b about `normal`, seen from `toEye`; weight: its share of radiance, 0 where the
 // facet mirrors into the surface.
 vec3 lobeDirection(Brdf b, vec3 normal, vec3 toEye, vec2 xi, out vec3 weight) {
@@ -43,8 +51,6 @@ vec3 lobeDirection(Brdf b, vec3 normal, vec3 toEye, vec2 xi, out vec3 weight) {
     vec3 h = visibleNormal(eye, b.alpha, xi);
     float VoH = max(dot(eye, h), 0.0);
     vec3 l = 2.0 * VoH * h - eye;
-    float lambdaEye = smithLambda(b.alpha, eye.z);
-    float shadowing = (1.0 + lambdaEye) / (1.0 + lambdaEye + smithLambda(b.alpha, l.z));
-    weight = l.z > 0.0 ? fresnel(b.f0, b.f90, VoH) * b.compensation * shadowing : vec3(0.0);
+    weight = lobeWeight(b, l.z, VoH);
     return l.x * u + l.y * v + l.z * normal;
 }

@@ -2,11 +2,12 @@
 // Reflection of a path by a metal: hit -> direct specular light, and the ray that samples the GGX lobe. Part
 // of lib/voxel_light.glsl (LOBES 1; otherwise the file is empty).
 #include "lib/dot.glsl"
-#if LOBES
 
 // Lobes at least this wide (GGX alpha) reflect rectangular lights analytically, without a ray. In narrower
 // lobes rays must hit the light: few miss it then, and shadows on it are sharp. Chosen by eye.
 const float kNarrowLobe = 0.015;
+
+#if LOBES
 
 // The lobe of the surface at a hit.
 struct GlossySurface {

@@ -18,18 +18,6 @@ layout(rgba32ui) readonly uniform uimage3D voxelBrickImage;
 layout(std430) writeonly buffer FaceLightTable { uvec2 faceLight[]; };
 layout(std430) writeonly buffer FluxTable { float fluxes[]; };
 
-// How much of the pool a face gets (docs/theory/4c_estimator.md, (4.11)).
-float faceFlux(uvec4 hitTexel, vec3 radiance) {
-    vec3 n = octDecode(unpackSnorm2x16(hitTexel.x));
-    vec3 lower, upper;
-    lightSampleBounds(hitTexel, n, vec3(0.0), 1.0, lower, upper);
-    vec3 size = max(upper - lower, vec3(0.0));
-    uint axis = hitTexel.w >> 30;
-    float seen = axis == 0u ? size.y * size.z : (axis == 1u ? size.z * size.x : size.x * size.y);
-    float facing = axis == 0u ? n.x : (axis == 1u ? n.y : n.z);
-    return dot(radiance, vec3(1.0 / 3.0)) * seen * dominantFaceShare(n, axis) / max(abs(facing), 1e-3);
-}
-
 #if SHARED && !AT_PIXELS
 #error only what pixels see is shared
 #endif

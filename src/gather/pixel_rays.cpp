@@ -10,6 +10,7 @@
 #include "gl/pace.h"
 #include "gl/picture_pass.h"
 #include "light/firefly_clamp.h"
+#include "light/inject_light.h"
 
 namespace conelight::gather {
 namespace {
@@ -152,6 +153,8 @@ gpu::PixelRayConstants PixelRays::packed(const RayInputs& inputs, const RayPass&
     if (pass.settings.bounces) c.reflections = 0;
     c.fireflyClamp = light::fireflyClamp(averaged);
     c.inverseVoxelSize = 1.0f / grid.voxelSize;
+    // Rectangles of light are reflected without rays; few of them find other lamps.
+    c.aimed = lobes && light::hasOtherEmitters(inputs.scene, inputs.lights) ? 1u : 0u;
     return c;
 }
 

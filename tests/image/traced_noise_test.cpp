@@ -180,6 +180,29 @@ TEST_F(TracedNoiseTest, FarLampsThrowNoDotsOnFloors) {
     EXPECT_LE(dots, 2);
 }
 
+// A bulb of less than a voxel above sheets of rough steel. Few rays of a lobe would find it, each a white dot: so some are
+// aimed at it, also where rays meet triangles (the smoother sheet). All of its light arrives.
+TEST_F(TracedNoiseTest, SmallLampsThrowNoDotsOnSteel) {
+    Scene scene = closedBox(diffuseMaterial(glm::vec3(0.3f)));
+    for (const float roughness : {0.3f, 0.5f}) {
+        Material steel = diffuseMaterial(glm::vec3(0.6f));
+        steel.metallic = 1;
+        steel.roughness = roughness;
+        addInstance(scene,
+                    quadMesh({roughness < 0.4f ? -0.95f : 0.05f, -0.8f, 0.9f}, {0.9f, 0, 0}, {0, 0, -1.8f}),
+                    steel);
+    }
+    addInstance(scene, sphereMesh(16, 12), diffuseMaterial(glm::vec3(0), glm::vec3(150)),
+                glm::scale(glm::translate(glm::mat4(1), {0.02f, 0.55f, -0.4f}), glm::vec3(0.035f)));
+    Settings settings = tracedSettings(Quality::Interactive, Component::Specular);
+    settings.traced.filterLevels = 0;
+    const Image image = draw(scene, settings);
+    settings.traced.passes *= 32;
+    const Image truth = draw(scene, settings);
+    EXPECT_LT(relRmse(image, truth), 2.0);
+    EXPECT_NEAR(meanOf(image) / meanOf(truth), 1.0, 0.03);
+}
+
 // A room lit by one lamp that rays must find: where few did, a pixel is darker than all about it, and the
 // filter must share nonetheless.
 TEST_F(TracedNoiseTest, FewRaysLeaveNoDarkDots) {
