@@ -64,12 +64,6 @@ constexpr int kEmissionEdge = 8;
 // A textured emitter is chosen at least as often as if this part of it shone: the lattice may have missed it.
 constexpr double kLeastEmission = 0.01;
 
-// The first surface of a path asks every group when there are no more than these: its noise is the picture's.
-constexpr std::size_t kGroupsAtFirst = 8;
-// Share of choices that do not look at the light a group would give: the brightest may be hidden, as the sun
-// from most of scene atrium. Chosen by eye, not tuned.
-constexpr float kEvenShare = 0.25f;
-
 glm::vec3 meanEmission(const Scene& scene, std::uint32_t instance, std::uint32_t triangle) {
     glm::vec3 sum(0);
     for (int y = 0; y < kEmissionEdge; ++y)
@@ -238,48 +232,6 @@ double LightTable::powerOf(const Emitter& e) const {
     return 0;
 }
 
-void LightTable::setGroups(bool extended) {
-    std::vector<double> powers;
-    for (std::size_t i = 0; i < emitters_.size(); ++i) {
-        Emitter& e = emitters_[i];
-        const bool sampled = extended || e.kind == Kind::Point || e.kind == Kind::Directional;
-        const double power = sampled ? powerOf(e) : 0.0;
-        powers.push_back(std::isfinite(power) ? std::max(power, 0.0) : 0.0);
-        const bool joins = e.kind == Kind::Triangle && i > 0 && emitters_[i - 1].kind == Kind::Triangle &&
-                           emitters_[i - 1].instance == e.instance;
-        if (!joins) groups_.push_back({i, 0, {}, 0, 0});
-        ++groups_.back().count;
-    }
-    if (groups_.size() > kMostGroups) groups_.assign(1, {0, emitters_.size(), {}, 0, 0});
-
-    cumulative_.resize(emitters_.size());
-    for (std::size_t g = 0; g < groups_.size(); ++g) {
-        Group& group = groups_[g];
-        double total = 0, sum = 0;
-        Aabb bounds;
-        for (std::size_t i = group.first; i < group.first + group.count; ++i) {
-            const Emitter& e = emitters_[i];
-            total += powers[i];
-            for (const glm::vec3& corner : {glm::vec3(0), e.edgeU, e.edgeV}) bounds.grow(e.position + corner);
-            if (e.kind == Kind::Rect) bounds.grow(e.position + e.edgeU + e.edgeV);
-            for (const float side : {-e.radius, e.radius}) bounds.grow(e.position + side);
-        }
-        group.power = static_cast<float>(total);
-        group.center = bounds.center();
-        group.radius2 = 0.25f * glm::dot(bounds.extent(), bounds.extent());
-        float before = 0;
-        for (std::size_t i = group.first; i < group.first + group.count; ++i) {
-            sum += powers[i];
-            emitters_[i].group = static_cast<std::uint32_t>(g);
-            if (!(group.power > 0)) continue;
-            cumulative_[i] = static_cast<float>(sum / total);
-            // As the search sees it.
-            emitters_[i].within = cumulative_[i] - before;
-            before = cumulative_[i];
-        }
-    }
-}
-
 // About the light that a group gives at a surface, without shadows; 0 only where there is none.
 float LightTable::weightOf(std::size_t index, const glm::vec3& from, const glm::vec3& normal) const {
     const Group& group = groups_[index];
@@ -300,66 +252,31 @@ float LightTable::weightOf(std::size_t index, const glm::vec3& from, const glm::
     return group.power / (static_cast<float>(std::numbers::pi) * std::max(glm::dot(way, way), group.radius2));
 }
 
-void LightTable::choose(const glm::vec3& from, const glm::vec3& normal, bool first, Choice& choice) const {
-    const std::size_t count = groups_.size();
-    choice.each = first && count <= kGroupsAtFirst;
-    if (choice.each || count == 1) {
-        for (std::size_t g = 0; g < count; ++g) choice.probability[g] = groups_[g].power > 0 ? 1.0f : 0.0f;
-        return;
-    }
-    float sum = 0;
-    int giving = 0;
-    for (std::size_t g = 0; g < count; ++g) {
-        const float weight = weightOf(g, from, normal);
-        choice.probability[g] = weight;
-        sum += weight;
-        giving += weight > 0 ? 1 : 0;
-    }
-    // The brightest light may be hidden: others keep a share.
-    for (std::size_t g = 0; g < count; ++g)
-        if (choice.probability[g] > 0)
-            choice.probability[g] =
-                (1 - kEvenShare) * choice.probability[g] / sum + kEvenShare / static_cast<float>(giving);
-}
-
-void LightTable::chooseBothSides(const glm::vec3& from, const glm::vec3& normal, Choice& choice) const {
-    if (choice.each || groups_.size() == 1) return;
-    Choice back;
-    choose(from, -normal, false, back);
-    float sum = 0;
-    for (std::size_t g = 0; g < groups_.size(); ++g) sum += choice.probability[g] += back.probability[g];
-    for (std::size_t g = 0; g < groups_.size() && sum > 0; ++g) choice.probability[g] /= sum;
-}
-
-std::size_t LightTable::groupOf(const Choice& choice, float& number) const {
-    std::size_t last = groups_.size();
-    float rest = number;
-    for (std::size_t g = 0; g < groups_.size(); ++g) {
-        const float probability = choice.probability[g];
-        if (!(probability > 0)) continue;
-        last = g;
-        if (rest < probability) break;
-        rest -= probability;
-    }
-    if (last < groups_.size()) number = std::clamp(rest / choice.probability[last], 0.0f, 1.0f - 0x1p-24f);
-    return last;
-}
-
 bool LightTable::sample(const Choice& choice, std::size_t index, const glm::vec3& from, float within,
                         const glm::vec2& u, LightSample& result) const {
     const Group& group = groups_[index];
     if (!(choice.probability[index] > 0)) return false;
+    if (index == 0 && !tree_.empty()) {
+        const LightTree::Drawn drawn = tree_.draw(choice.place, within);
+        const bool arrives = sampleEmitter(emitters_[drawn.number], from, u, result);
+        result.density *= choice.probability[index] * drawn.probability;
+        return arrives;
+    }
     const auto begin = cumulative_.begin() + static_cast<std::ptrdiff_t>(group.first);
     const auto place = static_cast<std::size_t>(
         std::upper_bound(begin, begin + static_cast<std::ptrdiff_t>(group.count), within) - begin);
-    const Emitter& e = emitters_[group.first + std::min(place, group.count - 1)];
+    const bool arrives =
+        sampleEmitter(emitters_[group.first + std::min(place, group.count - 1)], from, u, result);
+    result.density *= choice.probability[index];
+    return arrives;
+}
+
+bool LightTable::sampleEmitter(const Emitter& e, const glm::vec3& from, const glm::vec2& u,
+                               LightSample& result) const {
     result = LightSample{};
     result.direct = e.direct;
     result.castsShadow = e.castsShadow;
-    if (!(e.within > 0)) return false;
-    const bool arrives = samplePart(e, from, u, result);
-    result.density *= choice.probability[index];
-    return arrives;
+    return e.within > 0 && samplePart(e, from, u, result);
 }
 
 bool LightTable::samplePart(const Emitter& e, const glm::vec3& from, const glm::vec2& u,
@@ -433,8 +350,7 @@ LightTable::Found LightTable::found(const Choice& choice, const RayHit& hit,
         cosine = -glm::dot(direction, e->normal);
     }
     if (e->twoSided) cosine = std::fabs(cosine);
-    if (cosine > 1e-7f)
-        result.density = choice.probability[e->group] * e->within * hit.t * hit.t / (cosine * e->area);
+    if (cosine > 1e-7f) result.density = chanceOf(choice, *e) * hit.t * hit.t / (cosine * e->area);
     return result;
 }
 
@@ -443,7 +359,7 @@ bool LightTable::lampAlong(const Choice& choice, const Emitter& e, const glm::ve
     if (e.kind != Kind::Sphere) return rectAlong(choice, e, from, direction, hit);
     if (!sphereAlong({e.position, e.radius}, from, direction, hit)) return false;
     hit.radiance = e.radiance;
-    hit.density *= choice.probability[e.group] * e.within;
+    hit.density *= chanceOf(choice, e);
     hit.extended = hit.direct = true;
     hit.castsShadow = e.castsShadow;
     return true;
@@ -467,7 +383,7 @@ bool LightTable::rectAlong(const Choice& choice, const Emitter& e, const glm::ve
     hit.distance = distance;
     hit.target = RayScene::offsetOrigin(e.position + p, e.normal);
     hit.radiance = e.radiance;
-    hit.density = choice.probability[e.group] * e.within * distance * distance / (cosine * e.area);
+    hit.density = chanceOf(choice, e) * distance * distance / (cosine * e.area);
     hit.extended = hit.direct = true;
     hit.castsShadow = e.castsShadow;
     return true;

@@ -5,9 +5,10 @@
 //
 // Each light of the scene, quad and emissive instance is a group. A group is chosen by what it gives at the
 // surface without shadows, a triangle within its group by power; the first surface of a path asks all groups
-// if they are few. Very many groups are one, chosen from by power. The power of a textured emitter is that of
-// its mean over each triangle, only to choose it often enough; what it gives is the exact value at the
-// sampled point. The sky is not in the table: it is found by the directions that surfaces reflect to.
+// if they are few. Very many groups are one, of which a tree chooses (reference/light_tree.h); directional lights stay
+// groups. The power of a textured emitter is that of its mean over each triangle, only to choose it often enough; what
+// it gives is the exact value at the sampled point. The sky is not in the table: it is found by the directions that
+// surfaces reflect to.
 #pragma once
 
 #include <array>
@@ -15,6 +16,7 @@
 #include <vector>
 
 #include "conelight/scene.h"
+#include "reference/light_tree.h"
 #include "reference/ray_scene.h"
 
 namespace conelight::reference {
@@ -45,6 +47,7 @@ class LightTable {
     struct Choice {
         std::array<float, kMostGroups> probability;
         bool each = false;  // all groups are asked: the probabilities are 1
+        LightTree::Place place;
     };
     // `first`: of a path.
     void choose(const glm::vec3& from, const glm::vec3& normal, bool first, Choice& choice) const;
@@ -105,12 +108,18 @@ class LightTable {
     void addRect(const Light& light, std::uint32_t instance, bool isQuad);
     void addTriangles(const Scene& scene, std::size_t instance);
     void setGroups(bool extended);
+    void joinGroups(const std::vector<double>& powers);
+    void shareGroup(std::size_t group, const std::vector<double>& powers);
+    float chanceOf(const Choice& choice, const Emitter& e) const;
     float weightOf(std::size_t group, const glm::vec3& from, const glm::vec3& normal) const;
     double powerOf(const Emitter& e) const;
+    static Aabb boxOf(const Emitter& e);
     bool lampAlong(const Choice& choice, const Emitter& e, const glm::vec3& from, const glm::vec3& direction,
                    LightSample& hit) const;
     bool rectAlong(const Choice& choice, const Emitter& e, const glm::vec3& from, const glm::vec3& direction,
                    LightSample& hit) const;
+    bool sampleEmitter(const Emitter& e, const glm::vec3& from, const glm::vec2& u,
+                       LightSample& result) const;
     bool samplePart(const Emitter& e, const glm::vec3& from, const glm::vec2& u, LightSample& result) const;
     bool samplePoint(const Emitter& e, const glm::vec3& from, LightSample& result) const;
     bool sampleArea(const Emitter& e, const glm::vec3& from, const glm::vec2& u, LightSample& result) const;
@@ -124,6 +133,7 @@ class LightTable {
         float power = 0;    // 0: never sampled
     };
     std::vector<Group> groups_;
+    LightTree tree_;                 // of the first group, when there are very many emitters
     std::vector<float> cumulative_;  // within groups, by emitter
     std::vector<std::uint32_t> rectsToTest_;
     static constexpr std::uint32_t kNone = ~0u;

@@ -20,7 +20,7 @@ namespace conelight::reference {
 namespace {
 
 // A probe that sees backs along more than this share of its rays is in a wall (Majercik et al. 2019).
-constexpr float kMostBacks = 0.25f;
+constexpr float kMostProbeBacks = 0.25f;
 // Probes keep this share of the spacing away from walls, and leave their place by at most the second share.
 constexpr float kClearance = 0.2f, kMostMove = 0.45f;
 constexpr int kMoves = 6;
@@ -45,9 +45,9 @@ std::vector<glm::vec3> directionsOf(int side) {
     return directions;
 }
 
-class Bake {
+class ProbeBake {
   public:
-    Bake(const Scene& scene, const ProbeGrid& grid, const ProbeSettings& settings)
+    ProbeBake(const Scene& scene, const ProbeGrid& grid, const ProbeSettings& settings)
         : rays_(scene, {settings.samples, settings.bounces, settings.seed}),
           grid_(grid),
           settings_(settings) {}
@@ -87,7 +87,7 @@ class Bake {
         }
         Look result;
         result.backs = static_cast<float>(backs) / kMoveRays;
-        if (result.backs > kMostBacks)
+        if (result.backs > kMostProbeBacks)
             result.move = toBack * (nearestBack + clearance());
         else if (nearestFront < clearance())
             result.move = toFront * (nearestFront - clearance());
@@ -98,12 +98,12 @@ class Bake {
         glm::vec3 position = place;
         Look seen = look(position);
         probe.position = position;
-        probe.active = seen.backs <= kMostBacks;
+        probe.active = seen.backs <= kMostProbeBacks;
         for (int i = 0; i < kMoves && seen.move != glm::vec3(0); ++i) {
             position = glm::clamp(position + seen.move, place - kMostMove * grid_.spacing,
                                   place + kMostMove * grid_.spacing);
             seen = look(position);
-            if (seen.backs > kMostBacks) continue;
+            if (seen.backs > kMostProbeBacks) continue;
             probe.position = position;
             probe.active = true;
         }
@@ -198,7 +198,7 @@ ProbeVolume bakeProbes(const Scene& scene, const ProbeGrid& grid, const ProbeSet
                    "-1 or 1 and more, 0 or more",
                    settings.samples, settings.bounces, settings.threads);
     scene.validate();
-    const Bake bake(scene, grid, settings);
+    const ProbeBake bake(scene, grid, settings);
     ProbeVolume volume{.grid = grid, .probes = std::vector<Probe>(grid.size())};
     if (partial != nullptr) partial->prepare(grid.size(), sizeof(Probe));
     const std::vector<bool> wanted =

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/log.h"
 #include "shared/rect_points.h"
 
 namespace conelight::light {
@@ -365,6 +366,13 @@ ShadowLayout layOutShadows(const Aabb& bounds, const Aabb& firstBounds, const Li
                             layouter.views()};
     };
     const ShadowLayout asked = laidOut(std::max(settings.shadowSize / 8 * 8, kSmallestLayer));
+    if (asked.layers > kMostShadowLayers)
+        base::fail(
+            ErrorKind::Runtime,
+            "shadow maps: %td lights cast shadows and ask for %d layers; at most %d would be right: fewer "
+            "lights that cast shadows, or light.shadow_size=0",
+            std::count_if(lights.begin(), lights.end(), [](const auto& one) { return one.shadow >= 0; }),
+            asked.layers, kMostShadowLayers);
     const int size = sizeWithin(kMostShadowBytes, asked);
     return size == asked.size ? asked : laidOut(size);
 }

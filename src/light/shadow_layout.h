@@ -27,6 +27,8 @@ struct ShadowView {
 
 // All maps together: enough for 28 point lights, or 42 spots, at 1024 texels. More lights have smaller maps.
 constexpr std::size_t kMostShadowBytes = std::size_t{512} << 20;
+// What every driver of OpenGL 4.5 has room for: enough for 1365 point lights, or 2048 spots.
+constexpr int kMostShadowLayers = 2048;
 
 struct ShadowLayout {
     int size = 0;  // texels per edge of a layer
@@ -41,7 +43,8 @@ struct ShadowLayout {
 
 // `bounds` of what casts shadows; `firstBounds`: bounds that do not change when something moves, for the near
 // distance. Fills in the shadow fields of `lights`; no maps for settings without shadows. Layers are of
-// LightSettings::shadowSize, or smaller where that would take more than kMostShadowBytes.
+// LightSettings::shadowSize, or smaller where that would take more than kMostShadowBytes. Throws Error (Runtime) for
+// lights that ask for more than kMostShadowLayers.
 ShadowLayout layOutShadows(const Aabb& bounds, const Aabb& firstBounds, const LightSettings& settings,
                            std::vector<gpu::Light>& lights);
 

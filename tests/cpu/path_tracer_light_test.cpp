@@ -237,6 +237,49 @@ TEST(PathTracerLight, SkyLightsAPlaneWithItsRadiance) {
     EXPECT_EQ(picture.full.pixels[0].a, 0);
 }
 
+// By power alone the noise of these pixels would be 49 %.
+TEST(PathTracerLight, OfManyLampsThoseNearbyAreDrawn) {
+    Scene scene = floorScene();
+    const float height = 0.4f;
+    double expected = 0.7;
+    scene.lights.push_back(light(LightType::Directional, {}, 0.7f));
+    for (int i = 0; i < 14 * 14; ++i) {
+        const glm::vec3 at(1.4f * static_cast<float>(i % 14 - 7) + 0.6f, height,
+                           1.4f * static_cast<float>(i / 14 - 7) + 0.5f);
+        scene.lights.push_back(light(LightType::Point, at, 1));
+        expected += static_cast<double>(height) / std::pow(static_cast<double>(glm::length(at)), 3.0);
+    }
+    PathTracerSettings settings = samples(64);
+    settings.filter = PixelFilter::Box;
+    const Image seen = PathTracer(scene).render(cameraAbove({0, 0, 0}, 0.5f, 0.001f), 8, 8, settings).full;
+    Image truth = seen;
+    for (glm::vec4& pixel : truth.pixels) pixel = glm::vec4(static_cast<float>(expected / std::numbers::pi));
+    EXPECT_NEAR(meanOf(seen) / meanOf(truth), 1, 0.04);
+    EXPECT_LT(relRmse(seen, truth), 0.2);
+}
+
+// Their densities are those of the tree, however a lamp is found.
+TEST(PathTracerLight, WaysToManyLampsAgree) {
+    Scene scene = floorScene();
+    for (int i = 0; i < 49; ++i) {
+        const float lift = 0.3f + 0.1f * static_cast<float>(i * 5 % 7);
+        addInstance(
+            scene,
+            quadMesh({0.6f * static_cast<float>(i % 7 - 3), lift, 0.6f * static_cast<float>(i / 7 - 3)},
+                     {0.3f, 0, 0}, {0, 0, 0.3f}),
+            diffuseMaterial(glm::vec3(0), glm::vec3(1 + static_cast<float>(i % 3))));
+    }
+    for (const bool quads : {false, true}) {
+        PathTracerSettings settings = samples(256, quads);
+        settings.estimator = Estimator::MaterialsOnly;
+        const double truth = irradianceAt(scene, {0, 0, 0}, settings);
+        for (const Estimator way : {Estimator::Mis, Estimator::LightsOnly}) {
+            settings.estimator = way;
+            EXPECT_NEAR(irradianceAt(scene, {0, 0, 0}, settings) / truth, 1, 0.02);
+        }
+    }
+}
+
 // castsShadow: light that comes straight from lights; voxelized: all other light.
 TEST(PathTracerLight, BlockersAreThoseOfTheFlags) {
     const auto lit = [](bool castsShadow, bool voxelized, bool lightCasts) {

@@ -165,6 +165,12 @@ TEST_F(MemoryLimitTest, ManyLightsShareTheMemoryOfShadowMaps) {
             EXPECT_GT(layout.bytes(layout.size + 8), light::kMostShadowBytes);  // as large as fits
         }
     }
+    std::vector<gpu::Light> lights = scene::packedLights(room(3000).lights);
+    const std::string failure = failureOf([&] { light::layOutShadows({}, {}, LightSettings{}, lights); });
+    EXPECT_NE(failure.find("3001 lights cast shadows"), std::string::npos) << failure;
+    LightSettings unshadowed;
+    unshadowed.shadowSize = 0;
+    EXPECT_EQ(light::layOutShadows({}, {}, unshadowed, lights).layers, 0);
 }
 
 TEST_F(MemoryLimitTest, ThreeHundredLightsAreDrawn) {
