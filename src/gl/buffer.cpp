@@ -60,7 +60,8 @@ void Buffer::update(std::size_t offset, const void* data, std::size_t bytes) {
     Name staged = 0;
     glCreateBuffers(1, &staged);
     glNamedBufferStorage(staged, static_cast<GLsizeiptr>(bytes), data, 0);
-    glCopyNamedBufferSubData(staged, name(), 0, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes));
+    glCopyNamedBufferSubData(staged, name(), 0, static_cast<GLintptr>(offset),
+                             static_cast<GLsizeiptr>(bytes));
     glDeleteBuffers(1, &staged);
 }
 
