@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The viewer's scene tree and its editors of objects, materials, lights and the camera.
+#include <fstream>
+
 #include "cli/viewer_panels_support.h"
+#include "support/lamp_files.h"
+#include "support/x11_client.h"
 
 namespace conelight::test {
 namespace {
@@ -80,6 +84,50 @@ TEST_F(ViewerPanelsTest, LightsAreAddedMovedAndDeleted) {
         << "brighter";
     click("edit:delete");
     EXPECT_EQ(answer("light", "no lights"), "no lights") << viewer->output();
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0);
+}
+
+// A profile is dropped on the light that is selected, or typed; one that cannot be read changes nothing and says why.
+TEST_F(ViewerPanelsTest, LightsTakeProfilesAndRadii) {
+    const std::string washer = scratchPath("washer.ies"), broken = scratchPath("broken.ies");
+    std::ofstream(washer) << kWallWasher;
+    std::ofstream(broken) << "IESNA91\n";
+    startTurned();
+    viewer->send("light add point bulb; light bulb position 0 0.5 0.3; settle");
+    const auto bulb = [&] { return answer("light bulb", "  0 bulb"); };
+    const std::string plain = bulb();
+    EXPECT_EQ(plain.find("profile"), std::string::npos) << plain;
+    viewer->send("select none");
+    ASSERT_TRUE(dropFiles(screen->display(), "Conelight", {washer}));
+    EXPECT_TRUE(heard("select one first"));
+    EXPECT_EQ(bulb(), plain);
+    click("entry:bulb");
+    settle();
+    const ScreenPixels even = screen->pixels();
+    ASSERT_TRUE(dropFiles(screen->display(), "Conelight", {washer}));
+    EXPECT_TRUE(eventually([&] { return bulb().find("profile " + washer) != std::string::npos; })) << bulb();
+    settle();
+    EXPECT_GT(screen->pixels().changedFrom(even, picture(), 8), 2000) << "the streak lights other walls";
+    // Typed over in its field.
+    const std::string washed = bulb();
+    const auto write = [&](const std::string& file) {
+        click("edit:profile");
+        screen->xdotool("key ctrl+a");
+        type(file, viewer->placeOf("edit:profile"));
+        screen->xdotool("key Return");
+    };
+    write(broken);
+    EXPECT_TRUE(eventually([&] { return viewer->placeOf("profile problem").z > 0; }));
+    EXPECT_EQ(bulb(), washed);
+    viewer->send("undo");
+    EXPECT_TRUE(eventually([&] { return bulb() == plain; })) << "one step, the drop's: " << bulb();
+
+    viewer->send("light add sphere ball; light ball radius 0.1; settle");
+    click("entry:ball");
+    dragWidget("edit:radius", {0.2f, 0.5f}, {40, 0});
+    const std::string ball = answer("light ball", "  1 ball");
+    EXPECT_EQ(ball.find("radius 0.1 m"), std::string::npos) << ball;
     viewer->send("quit");
     EXPECT_EQ(viewer->exitStatus(), 0);
 }

@@ -140,7 +140,10 @@ bool editProfile(Session& session, Light& light, LightView& view) {
             view.problem = error.what();
         }
     }
-    if (!view.problem.empty()) ImGui::TextWrapped("%s", view.problem.c_str());
+    if (!view.problem.empty()) {
+        ImGui::TextWrapped("%s", view.problem.c_str());
+        notePlace("profile problem");
+    }
     return changed;
 }
 

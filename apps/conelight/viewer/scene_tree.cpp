@@ -252,11 +252,11 @@ void SceneTree::lights(Session& session, const std::string& filter) {
     scrollTo(shown, SelectionKind::Light, height);
     clipped(shown.size(), height, [&](std::size_t line) {
         const std::size_t i = shown[line];
-        const std::string label =
-            fmt::format("{}  ({})", nameOr(all[i].name, "light", i), io::lightTypeName(all[i].type));
+        const std::string name = nameOr(all[i].name, "light", i);
         ImGui::PushID(static_cast<int>(i));
-        row(session, label, {SelectionKind::Light, i}, shown);
-        notePlace("entry:" + label);
+        row(session, fmt::format("{}  ({})", name, io::lightTypeName(all[i].type)), {SelectionKind::Light, i},
+            shown);
+        notePlace("entry:" + name);
         ImGui::PopID();
     });
     // Lamps that are no lights of the scene but surfaces: their materials.
