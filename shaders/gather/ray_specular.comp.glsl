@@ -65,8 +65,9 @@ vec3 lobeRayOrigin(Surface s, Brdf b, vec3 direction) {
 }
 
 // ---- Rays aimed at voxels that send light ----------------------------------------------------------------------
-// A lamp of few voxels is found by few rays of a wide lobe (docs/theory/4f_glossy.md). A voxel is chosen by the flux of its faces, and a direction
-// evenly among those that meet the sphere about it: so whatever a lobe's ray meets in a voxel, an aimed one may meet.
+// A lamp of few voxels is found by few rays of a wide lobe (docs/theory/4f_glossy.md). A voxel is chosen by the flux of
+// its faces, and a direction evenly among those that meet the sphere about it. So whatever a lobe's ray meets in a voxel,
+// an aimed one may meet.
 
 // The cosine of half the angle of a voxel's sphere; 1: the ray starts within it.
 float sphereCosine(float distance, float edge) {

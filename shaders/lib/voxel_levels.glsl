@@ -49,6 +49,10 @@ vec4 voxelPlace(uint bits) {
 }
 float voxelEdge(uint bits) { return levelPlace(levelOfStored(unpackVoxel(bits))).w; }
 
+bool isWithin(ivec3 voxel, ivec3 lowest, ivec3 end) {
+    return all(greaterThanEqual(voxel, lowest)) && all(lessThan(voxel, end));
+}
+
 // Voxels of a level that the next finer one holds, in the level's coordinates: lowest <= voxel < end.
 void finerVoxels(int level, out ivec3 lowest, out ivec3 end) {
     vec4 place = levelPlace(level);

@@ -34,8 +34,8 @@
 // of updates:
 //   RunTable  (instance, its first place in the work) per changed instance   FreeTable  slots of dropped
 //   fragments   ChangedTable  bit per brick   EditedTable  indices of bricks to search   StaleTable  bit per
-//   instance that changed   ShiftedMaskTable   masks after surface_shift   OldChainTable   OriginTable  record that a voxel had before, ~0: none   WorkTable
-//   faces to be summed up
+//   instance that changed   ShiftedMaskTable   masks after surface_shift   OldChainTable   OriginTable  record
+//   that a voxel had before, ~0: none   WorkTable   faces to be summed up
 // Buffer textures of lists (triangles, pairs, fragments, owners): reading through them costs a third of a
 // storage read on a software driver.
 

@@ -60,7 +60,7 @@ uvec2 outsideFiner(ColumnTest t, uvec2 bits, ColumnBlock block, float perWidth) 
     uvec2 outside = uvec2(0u);
     do {
         ivec3 voxel = lowestVoxel(t, left, block, perWidth);
-        bool finer = all(greaterThanEqual(voxel, lowest)) && all(lessThan(voxel, end));
+        bool finer = isWithin(voxel, lowest, end);
 #if SURFACE_UPDATE
         finer = finer || (!emitHeld && wasHeld(voxel, emitLevel));
 #endif

@@ -5,10 +5,6 @@
 #if NESTED_GRIDS
 layout(std140) uniform VoxelScrollBlock { VoxelScroll scroll; };
 
-bool isWithin(ivec3 voxel, ivec3 lowest, ivec3 end) {
-    return all(greaterThanEqual(voxel, lowest)) && all(lessThan(voxel, end));
-}
-
 // Coordinates in a level before the update.
 ivec3 voxelBefore(ivec3 voxel, int level) { return voxel - scroll.shifts[level].xyz; }
 
