@@ -56,6 +56,10 @@ void assign(Material& material, const conelight_material& values) {
     material.metallicRoughnessTexture.texture = values.metallic_roughness_texture;
     material.normalTexture.texture = values.normal_texture;
     material.emissiveTexture.texture = values.emissive_texture;
+    material.coat = values.coat;
+    material.coatRoughness = values.coat_roughness;
+    material.sheenColor = vec3Of(values.sheen_color);
+    material.sheenRoughness = values.sheen_roughness;
 }
 
 void assign(Light& light, const conelight_light& values) {

@@ -15,6 +15,7 @@
 // - CONE_SHADOWS 1: shadows are soft, by cones (lib/cone_shadow.glsl, to be included), not by maps.
 // - VISIBILITY_PICTURE 1: which of the first 32 lights without extent are seen is known (visibleLights).
 // - SHADOW_CASCADES 1: directional lights have maps about the eye (lib/shadow_cascades.glsl).
+// - SHEEN 1: what sheen sends to the eye is added to sheenLight (lib/sheen.glsl, to be included).
 // - GLASS 1: what is not in shadow may lie behind glass (lib/glass_tree.glsl).
 // Reads what light::Lights declares.
 #ifndef LIGHTS_POINT
@@ -43,6 +44,9 @@
 #endif
 #ifndef VISIBILITY_PICTURE
 #define VISIBILITY_PICTURE 0
+#endif
+#ifndef SHEEN
+#define SHEEN 0
 #endif
 #include "lib/brdf.glsl"
 #include "lib/dot.glsl"
@@ -88,6 +92,15 @@ const uint kVisibilityLights = 32u;
 uint visibleLights = 0u;  // of the pixel; set before lights are added
 #endif
 
+#if SHEEN
+struct SheenLobe {
+    vec3 normal;
+    float roughness;
+};
+SheenLobe sheenLobe;          // of the surface; set before lights are added
+vec3 sheenLight = vec3(0.0);  // W/(sr m^2) towards the eye, of white sheen by its term alone
+#endif
+
 struct DirectLight {
     vec3 irradiance;  // W/m^2 on a surface with the shading normal
     vec3 specular;    // W/(sr m^2) towards the eye
@@ -128,6 +141,9 @@ void addLight(inout DirectLight sum, const bool specular, Receiver r, Brdf b, ve
     vec3 irradiance = facing * max(dot(r.normal, toLight), 0.0);
     sum.irradiance += irradiance;
     if (specular && !b.ideal) sum.specular += irradiance * brdfSpecular(b, r.normal, toLight, r.toEye);
+#if SHEEN
+    sheenLight += facing * sheenTimesCosine(sheenLobe.normal, sheenLobe.roughness, toLight, r.toEye);
+#endif
 }
 
 // `facing` as glass leaves it on its way of `distance` from a light that is seen.
@@ -235,6 +251,9 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
     if (specular) lobe = rectLobe(r.normal, r.toEye, b.alpha, b.NoV);
     vec2 width2 = lobe.width * lobe.width;
     vec2 weights = vec2(0.0), visibleWeights = vec2(0.0);  // irradiance, reflection
+#if SHEEN
+    vec2 sheenSums = vec2(0.0);  // irradiance of all points, sheen of those that are seen
+#endif
     RectSums points = RectSums(vec2(0.0), 0.0, 0.0);
 #if GLASS
     RectTint tint = rectTint(r.position, light);
@@ -268,6 +287,11 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
             weight.y = emitted * rectLobeDensity(inSpace, width2 + kRectCellWidening * cellArea * emitted);
         }
         weights += weight;
+#if SHEEN
+        sheenSums +=
+            emitted * vec2(max(dot(l, sheenLobe.normal), 0.0),
+                           visible * sheenTimesCosine(sheenLobe.normal, sheenLobe.roughness, l, r.toEye));
+#endif
 #if GLASS
         addTint(tint, r.position, light, k, weight * visible);
 #endif
@@ -284,6 +308,14 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
 #if GLASS
     added.irradiance *= tintOf(tint.irradiance, tint.weights.x);
     added.specular *= tintOf(tint.specular, tint.weights.y);
+#endif
+#if SHEEN
+    vec3 sheen = light.intensity * (rectIrradiance(light, r.position, sheenLobe.normal) *
+                                    (sheenSums.x > 0.0 ? sheenSums.y / sheenSums.x : 0.0));
+#if GLASS
+    sheen *= tintOf(tint.irradiance, tint.weights.x);
+#endif
+    sheenLight += sheen;
 #endif
     sum = DirectLight(sum.irradiance + added.irradiance, sum.specular + added.specular);
 }

@@ -41,25 +41,34 @@ bool wantsLobe(const Indirect::Wanted& wanted, const RayInputs& inputs) {
                                        : hasGloss(inputs.scene, wanted.settings.specularLimit));
 }
 
+// Where a coat may be seen.
+bool wantsCoat(const Indirect::Wanted& wanted, const RayInputs& inputs) {
+    return wanted.settings.specularRays > 0 && wanted.parts.specular && inputs.surfaces.haveLayers() &&
+           std::any_of(inputs.scene.instances().begin(), inputs.scene.instances().end(),
+                       [&](const gpu::Instance& one) { return mayHaveCoatLobe(inputs.scene, one); });
+}
+
 }  // namespace
 
 // Histories of other light or of other settings are old.
 void Indirect::follow(const RayInputs& inputs, const TracedSettings& settings) {
     if (lightFrom_ != inputs.lit.sources() || !settings_ || !(*settings_ == settings))
-        diffuseHistory_.passes = specularHistory_.passes = occlusionHistory_.passes = 0;
+        diffuseHistory_.passes = specularHistory_.passes = coatHistory_.passes = occlusionHistory_.passes = 0;
     lightFrom_ = inputs.lit.sources();
     settings_ = settings;
     // Where things were in the pictures so far is not known any more if they moved for one that was left.
     const bool lost = unfinished_ && moved_;
     unfinished_ = true;
     followInstances(inputs.scene);
-    if (lost) diffuseHistory_ = specularHistory_ = occlusionHistory_ = {};
+    if (lost) forget();
 }
+
+void Indirect::forget() { diffuseHistory_ = specularHistory_ = coatHistory_ = occlusionHistory_ = {}; }
 
 // Where each instance was in the frame before, for means that follow them. One that has come since stands still.
 void Indirect::followInstances(const scene::GpuScene& scene) {
     const std::vector<gpu::Instance>& instances = scene.instances();
-    if (placed_.size() > instances.size()) diffuseHistory_ = specularHistory_ = occlusionHistory_ = {};
+    if (placed_.size() > instances.size()) forget();
     moved_ = false;
     std::vector<glm::mat4> oldFromWorld(instances.size(), glm::mat4(1));
     const std::size_t known = std::min(placed_.size(), instances.size());
@@ -108,7 +117,7 @@ base::Steps Indirect::addPasses(const gl::Device& device, const RayInputs& input
 base::Steps Indirect::gatherInSteps(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted) {
     const TracedSettings& settings = wanted.settings;
     follow(inputs, settings);
-    irradiance_ = lobe_ = nullptr;
+    irradiance_ = lobe_ = coat_ = nullptr;
     if (wantsIrradiance(wanted)) {
         const RayPass pass{settings, settings.pixelRays,   settings.passes, 0, Reuse::None,
                            nullptr,  wanted.lookupCounters};
@@ -123,8 +132,16 @@ base::Steps Indirect::gatherInSteps(const gl::Device& device, const RayInputs& i
         co_await specular_.filterInSteps(device, inputs, settings.filterLevels);
         lobe_ = &specular_.filtered();
     }
+    if (wantsCoat(wanted, inputs)) {
+        const RayPass pass{settings, settings.specularRays, settings.passes, 0, Reuse::None,
+                           nullptr,  wanted.lookupCounters};
+        co_await addPasses(device, inputs, pass, coats_, coatHistory_);
+        co_await coats_.filterInSteps(device, inputs, settings.filterLevels);
+        coat_ = &coats_.filtered();
+    }
     gatheredIrradiance_ = irradiance_;
     gatheredLobe_ = lobe_;
+    gatheredCoat_ = coat_;
     gatheredView_ = inputs.surfaces.view();
     unfinished_ = false;
 }
@@ -138,6 +155,12 @@ base::Steps Indirect::carry(const gl::Device& device, const RayInputs& inputs,
     if (gatheredLobe_ != nullptr)
         lobe_ = &carriedLobe_.carry(device, inputs,
                                     {*gatheredLobe_, gatheredView_, &lobes(), settings.specularLimit});
+    co_await gl::rest(device);
+    // Beside the pixels' centres there may be none.
+    coat_ = nullptr;
+    if (gatheredCoat_ == nullptr || !inputs.surfaces.haveLayers()) co_return;
+    coat_ = &carriedCoat_.carry(
+        device, inputs, {*gatheredCoat_, gatheredView_, &coats_.lobes(), settings.specularLimit, true});
     co_await gl::rest(device);
 }
 

@@ -46,6 +46,8 @@ class Indirect {
     const gl::Texture* irradiance() const { return irradiance_; }
     const gl::Texture* lobe() const { return lobe_; }
     const PixelRectangle& lobes() const { return specular_.lobes(); }  // where `lobe` has anything
+    // Radiance in the lobes of clear coats, where any are seen; null: the irradiance stands in.
+    const gl::Texture* coat() const { return coat_; }
     const gl::Texture& occlusion() const { return *occlusionPicture_; }
 
   private:
@@ -54,6 +56,7 @@ class Indirect {
         std::optional<gpu::FrameConstants> view;
         int passes = 0;
     };
+    void forget();
     void follow(const RayInputs& inputs, const TracedSettings& settings);
     void followInstances(const scene::GpuScene& scene);
     base::Steps addPasses(const gl::Device& device, const RayInputs& inputs, const RayPass& pass,
@@ -61,15 +64,18 @@ class Indirect {
 
     PixelRays diffuse_{RayPicture::Diffuse};
     PixelRays specular_{RayPicture::Specular};
+    PixelRays coats_{RayPicture::Coat};
     PixelRays occlusion_{RayPicture::Occlusion};
-    History diffuseHistory_, specularHistory_, occlusionHistory_;
+    History diffuseHistory_, specularHistory_, coatHistory_, occlusionHistory_;
     const gl::Texture* irradiance_ = nullptr;
     const gl::Texture* lobe_ = nullptr;
+    const gl::Texture* coat_ = nullptr;
     // What gather() found, which carry() starts from.
     const gl::Texture* gatheredIrradiance_ = nullptr;
     const gl::Texture* gatheredLobe_ = nullptr;
+    const gl::Texture* gatheredCoat_ = nullptr;
     gpu::FrameConstants gatheredView_{};
-    CarriedPicture carriedIrradiance_, carriedLobe_;
+    CarriedPicture carriedIrradiance_, carriedLobe_, carriedCoat_;
     const gl::Texture* occlusionPicture_ = nullptr;
 
     // Where instances were, and where from they have come since.
