@@ -94,7 +94,7 @@ vec3 evenAlbedo(vec3 baseColor, float metallic, float roughness, vec3 dielectric
     return mix(baseColor * (1.0 - strongest) + own, baseColor, metallic);
 }
 
-// The same of a surface with coat and sheen; `evenLayers`: of its Material. C++ twin: math::EvenLayers.
+// The same of a surface with coat and sheen; `evenLayers`: of its Material. C++ twin: math::LayerAlbedo.
 vec3 layeredAlbedo(vec3 albedo, uint evenLayers) {
     vec4 v = unpackUnorm4x8(evenLayers);
     v *= v;

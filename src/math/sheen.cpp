@@ -106,8 +106,8 @@ float evenSheen(float roughness) {
     return sum / kAngles;
 }
 
-EvenLayers evenLayers(float coat, float coatRoughness, const glm::vec3& sheenColor, float sheenRoughness) {
-    EvenLayers layers;
+LayerAlbedo evenLayers(float coat, float coatRoughness, const glm::vec3& sheenColor, float sheenRoughness) {
+    LayerAlbedo layers;
     if (sheenColor != glm::vec3(0)) {
         layers.added = sheenColor * evenSheen(sheenRoughness);
         layers.taken = std::max({layers.added.r, layers.added.g, layers.added.b});

@@ -35,11 +35,11 @@ float evenSheen(float roughness);
 
 // Coat and sheen in even light, for what knows a surface by one colour: what has the reflectance `base` without them has
 // another with them. Coats by evenAlbedo's measure of lobes.
-struct EvenLayers {
+struct LayerAlbedo {
     float taken = 0;     // of the base's light
     glm::vec3 added{0};  // reflectance of the layers
     glm::vec3 of(const glm::vec3& base) const { return base * (1 - taken) + added; }
 };
-EvenLayers evenLayers(float coat, float coatRoughness, const glm::vec3& sheenColor, float sheenRoughness);
+LayerAlbedo evenLayers(float coat, float coatRoughness, const glm::vec3& sheenColor, float sheenRoughness);
 
 }  // namespace conelight::math

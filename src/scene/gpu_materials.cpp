@@ -142,7 +142,7 @@ void packLayers(const Material& m, const std::vector<Texture>& textures, gpu::Ma
     const TextureRef* uses[5] = {&m.coatTexture, &m.coatRoughnessTexture, &m.coatNormalTexture,
                                  &m.sheenColorTexture, &m.sheenRoughnessTexture};
     for (int i = 0; i < 10; ++i) g.layerUvRow[i] = uvRow(*uses[i / 2], i % 2);
-    const math::EvenLayers even =
+    const math::LayerAlbedo even =
         math::evenLayers(m.coat * meanTexel(m.coatTexture, textures).r,
                          m.coatRoughness * meanTexel(m.coatRoughnessTexture, textures).g,
                          m.sheenColor * glm::vec3(meanTexel(m.sheenColorTexture, textures)),

@@ -101,7 +101,8 @@ TEST(Gltf, ReadsGlass) {
     EXPECT_FLOAT_EQ(pane.thickness, 0);
 }
 
-TEST(Gltf, ReadsCoatAndSheen) {
+// One material with all of coat and sheen, one of glass with a coat.
+GltfBuilder layeredMaterials() {
     GltfBuilder b;
     b.triangle()["material"] = 0;
     b.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = b.floats({0, 0, 1, 0, 0, 1}, 2);
@@ -131,6 +132,11 @@ TEST(Gltf, ReadsCoatAndSheen) {
     b.json["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_materials_sheen",
                                 "KHR_materials_transmission"};
     b.node({{"mesh", 0}});
+    return b;
+}
+
+TEST(Gltf, ReadsCoatAndSheen) {
+    const GltfBuilder b = layeredMaterials();
     const Scene scene = loadGlb(b, "layers");
     const Material& m = scene.materials.at(0);
     EXPECT_TRUE(hasLayers(m));

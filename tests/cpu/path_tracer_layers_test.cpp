@@ -254,7 +254,7 @@ TEST(PathTracerLayers, CoatsHaveNormalsAndTexturesOfTheirOwn) {
 TEST(PathTracerLayers, OneColourKeepsTheEnergy) {
     EXPECT_EQ(math::evenLayers(0, 0.5f, glm::vec3(0), 0.5f).of(glm::vec3(0.3f)), glm::vec3(0.3f));
     for (const float roughness : {0.0f, 0.4f, 1.0f}) {
-        const math::EvenLayers both = math::evenLayers(1, roughness, {1, 0.5f, 0.2f}, roughness);
+        const math::LayerAlbedo both = math::evenLayers(1, roughness, {1, 0.5f, 0.2f}, roughness);
         EXPECT_LE(both.of(glm::vec3(1)).r, 1 + 1e-6f);
         EXPECT_NEAR(both.of(glm::vec3(1)).r, 1, 1e-6);
         EXPECT_GT(both.of(glm::vec3(0)).r, both.of(glm::vec3(0)).b);
