@@ -6,6 +6,7 @@
 
 #include "gl/gl.h"
 #include "gl/pass.h"
+#include "gl/work.h"
 #include "shared/voxels.h"
 
 namespace conelight::scene {
@@ -151,14 +152,17 @@ SceneTextures::SceneTextures(const std::vector<Texture>& sources) {
     const std::uint8_t white[4] = {255, 255, 255, 255};
     white_ = gl::Texture({GL_TEXTURE_2D, GL_RGBA8, 1, 1, 1, 1}, "white");
     white_.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, white);
-    for (const Texture& texture : sources) addForDrawing(texture);
     // The surface array has at least one (white) layer so that it can always be bound.
     const int layers = std::max<int>(static_cast<int>(sources.size()), 1);
     const int edge = sources.empty() ? 1 : kSurfaceEdge;
     surfaceArray_ =
         gl::Texture({GL_TEXTURE_2D_ARRAY, GL_SRGB8_ALPHA8, edge, edge, layers, 0}, "surface array");
     if (sources.empty()) surfaceArray_.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, white);
-    for (std::size_t i = 0; i < sources.size(); ++i) uploadSurface(sources[i], static_cast<int>(i));
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        if (gl::Work* const work = gl::Work::current()) work->tell("textures", i + 1, sources.size());
+        addForDrawing(sources[i]);
+        uploadSurface(sources[i], static_cast<int>(i));
+    }
     surfaceSampler_ = gl::Sampler({GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT}, "surface array");
 }
 
