@@ -14,6 +14,7 @@
 
 #include "conelight/export.h"
 #include "conelight/host_mesh.h"
+#include "conelight/host_texture.h"
 #include "conelight/inspect.h"
 #include "conelight/program_cache.h"
 #include "conelight/scene.h"
@@ -106,6 +107,9 @@ class CONELIGHT_API Renderer {
     void setMesh(std::size_t index, const HostMesh& mesh);
     // setTexture: new texels, of any size, for the materials that have it. One texel gives the memory of many back.
     void setTexture(std::size_t index, const Texture& texture);
+    // One that the host has on the GPU (conelight/host_texture.h); scene() has one white texel in its place. Either kind
+    // may follow the other.
+    void setTexture(std::size_t index, const HostTexture& texture);
     void setMaterial(std::size_t index, const Material& material);
     void setLight(std::size_t index, const Light& light);
     void setLights(const std::vector<Light>& lights);  // all of them: adds and removes
@@ -119,6 +123,7 @@ class CONELIGHT_API Renderer {
     std::size_t addMesh(const Mesh& mesh);
     std::size_t addMesh(const HostMesh& mesh);
     std::size_t addTexture(const Texture& texture);  // for materials that are set or added after it
+    std::size_t addTexture(const HostTexture& texture);
     std::size_t addMaterial(const Material& material);
     std::size_t addInstance(const Instance& instance);
     void removeInstance(std::size_t index);

@@ -16,7 +16,10 @@ void addPasses(std::vector<PixelRayKey>& keys, PixelRayKey key) {
             keys.push_back(key);
         }
     }
-    keys.push_back({.kind = key.kind, .triangles = key.triangles, .records = true, .hits = key.hits});
+    key.motion = Motion::None;
+    key.counts = key.listed = false;
+    key.records = true;
+    keys.push_back(key);
 }
 
 }  // namespace
@@ -28,6 +31,7 @@ gl::ProgramDesc PixelRayKey::desc() const {
     desc.defines = {{"MOTION", std::to_string(static_cast<int>(motion))}};
     if (kind != RayPicture::Specular)
         desc.defines.emplace_back("OCCLUSION", kind == RayPicture::Occlusion ? "1" : "0");
+    if (aims) desc.defines.emplace_back("AIMED_RAYS", "1");
     if (listed) desc.defines.emplace_back("LOBE_LISTED", "1");
     if (counts) desc.defines.emplace_back("COUNT_LOOKUPS", "1");
     for (auto& define : hits.defines()) desc.defines.push_back(std::move(define));
@@ -43,7 +47,9 @@ std::vector<PixelRayKey> PixelRayKey::all() {
         addPasses(keys, {.kind = RayPicture::Occlusion, .triangles = triangles});
         for (const light::HitKey& hits : light::HitKey::all(0))
             for (const RayPicture kind : {RayPicture::Diffuse, RayPicture::Specular})
-                addPasses(keys, {.kind = kind, .triangles = triangles, .hits = hits});
+                for (const bool aims : {false, true})
+                    if (kind == RayPicture::Specular || !aims)
+                        addPasses(keys, {.kind = kind, .triangles = triangles, .aims = aims, .hits = hits});
     }
     return keys;
 }

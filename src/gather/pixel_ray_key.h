@@ -21,6 +21,7 @@ struct PixelRayKey {
     bool counts = false;     // lookups
     bool listed = false;     // of kind Specular: of the pixels in LobeList, else of all
     bool triangles = false;  // rays meet triangles: of kind Specular all over, else near their start
+    bool aims = false;       // of kind Specular: as many rays again at voxels that send light
     bool records = false;    // steps of one pixel, for the inspector
     light::HitKey hits;
 

@@ -54,6 +54,9 @@ void Renderer::setMesh(std::size_t index, const HostMesh& mesh) {
 void Renderer::setTexture(std::size_t index, const Texture& texture) {
     impl_->changed()->setTexture(index, texture);
 }
+void Renderer::setTexture(std::size_t index, const HostTexture& texture) {
+    impl_->changed()->setTexture(impl_->device, index, texture);
+}
 void Renderer::setMaterial(std::size_t index, const Material& material) {
     impl_->changed()->setMaterial(index, material);
 }
@@ -69,6 +72,9 @@ void Renderer::setBakedLight(std::shared_ptr<const BakedLight> baked) {
 std::size_t Renderer::addMesh(const Mesh& mesh) { return impl_->changed()->addMesh(mesh); }
 std::size_t Renderer::addMesh(const HostMesh& mesh) { return impl_->changed()->addMesh(impl_->device, mesh); }
 std::size_t Renderer::addTexture(const Texture& texture) { return impl_->changed()->addTexture(texture); }
+std::size_t Renderer::addTexture(const HostTexture& texture) {
+    return impl_->changed()->addTexture(impl_->device, texture);
+}
 std::size_t Renderer::addMaterial(const Material& material) {
     return impl_->changed()->addMaterial(material);
 }

@@ -78,6 +78,7 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
             if (labels.insert(desc.label()).second) all.push_back(std::move(desc));
     };
     add(scene::HostMeshImport::programDescs());
+    add(scene::HostTextureImport::programDescs());
     add(voxels::SurfaceVoxels::programDescs());
     add(voxels::OctantWords::programDescs());
     add(light::ShadowMaps::programDescs());
