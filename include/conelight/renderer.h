@@ -61,6 +61,13 @@ struct FrameStats {
     std::string device;
 };
 
+// What drawing is at: a pass by its name in FrameStats, "building programs" with the number of the one that is built,
+// "textures" that are handed to the driver.
+struct PictureWork {
+    std::string name;                 // empty: nothing was begun
+    std::size_t done = 0, total = 0;  // total 0: not known
+};
+
 // How passes that write each pixel once are run. Auto: as suits the driver. Processor: as fragments, which software
 // drivers store tile by tile. Gpu: as compute; server GPUs shade fragments at a small part of their rate.
 enum class Execution { Auto, Processor, Gpu };
@@ -157,6 +164,9 @@ class CONELIGHT_API Renderer {
     bool goOn(double milliseconds);
     void drop();
     bool drawing() const;  // a picture was begun and is not finished
+    // The last piece of work that setScene(), render() or goOn() began. It may be asked from any thread, also while
+    // one of these runs on another.
+    PictureWork work() const;
     // With RendererOptions::shaderDirectory: builds the programs again that use files changed there. One that
     // fails stays as it was. Returns a message per failure, several lines each; GL state stays as it was.
     std::vector<std::string> reloadShaders();

@@ -36,6 +36,8 @@ Renderer::~Renderer() {
 void Renderer::setScene(const Scene& scene) {
     scene.validate();  // a scene that is refused leaves the old one in place
     const modes::OwnerGuard call(impl_->owner);
+    const gl::WorkScope told(impl_->work);
+    impl_->work.begin();
     impl_->drop();
     impl_->mode.reset();  // light of another scene says nothing of this one
     impl_->fit.forget();
@@ -128,6 +130,8 @@ void Renderer::render(const Camera& camera, int width, int height, const Setting
     const Impl::WantedPicture asked{camera, width, height, settings};
     impl_->require(asked);
     const modes::OwnerGuard call(impl_->owner);
+    const gl::WorkScope told(impl_->work);
+    impl_->work.begin();
     impl_->drop();
     impl_->renderWithin(asked).finish();
     gl::requireLiveContext();
@@ -136,6 +140,7 @@ void Renderer::render(const Camera& camera, int width, int height, const Setting
 void Renderer::begin(const Camera& camera, int width, int height, const Settings& settings) {
     const Impl::WantedPicture asked{camera, width, height, settings};
     impl_->require(asked);
+    impl_->work.begin();
     impl_->drop();
     impl_->inParts = gl::isSoftwareDriver();
     impl_->cpuMs = impl_->wallMs = 0;
@@ -147,6 +152,7 @@ bool Renderer::goOn(double milliseconds) {
         base::fail(ErrorKind::Usage, "goOn: no picture was begun; begin before it would be right");
     gl::requireLiveContext();
     const modes::OwnerGuard call(impl_->owner);
+    const gl::WorkScope told(impl_->work);
     const bool finished = impl_->goOn(milliseconds);
     gl::requireLiveContext();
     return finished;
@@ -154,6 +160,10 @@ bool Renderer::goOn(double milliseconds) {
 
 void Renderer::drop() { impl_->drop(); }
 bool Renderer::drawing() const { return !impl_->steps.done(); }
+PictureWork Renderer::work() const {
+    const gl::Work::Piece piece = impl_->work.now();
+    return {piece.name, piece.done, piece.total};
+}
 
 Image Renderer::readImage() const {
     if (!impl_->image)

@@ -6,6 +6,7 @@
 
 #include "gl/gl.h"
 #include "gl/pass.h"
+#include "gl/work.h"
 #include "shared/voxels.h"
 
 namespace conelight::scene {
@@ -174,7 +175,10 @@ SceneTextures::SceneTextures(const std::vector<Texture>& sources) {
         gl::Texture({GL_TEXTURE_2D_ARRAY, GL_SRGB8_ALPHA8, edge, edge, layers, 0}, "surface array");
     if (sources.empty()) surfaceArray_.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, white);
     drawn_.resize(sources.size());
-    for (std::size_t i = 0; i < sources.size(); ++i) set(i, sources[i]);
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        if (gl::Work* const work = gl::Work::current()) work->tell("textures", i + 1, sources.size());
+        set(i, sources[i]);
+    }
     surfaceSampler_ = gl::Sampler({GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT}, "surface array");
 }
 
