@@ -64,6 +64,14 @@ conelight_result setTexture(Handle* handle, std::size_t index, const conelight_t
     });
 }
 
+template <class Use, class Handle>
+conelight_result setHostTexture(Handle* handle, std::size_t index, const conelight_host_texture* texture) {
+    return guarded([&] {
+        const Use use(handle);
+        use->setTexture(index, hostTextureOf(readStruct(texture, "texture")));
+    });
+}
+
 // What the struct does not have stays.
 template <class Use, class Handle>
 conelight_result setMaterial(Handle* handle, std::size_t index, const conelight_material* material) {
@@ -130,6 +138,14 @@ conelight_result addTexture(Handle* handle, const conelight_texture* texture, st
     return guarded([&] {
         const Use use(handle);
         writeIndex(use->addTexture(textureOf(readStruct(texture, "texture"))), index);
+    });
+}
+
+template <class Use, class Handle>
+conelight_result addHostTexture(Handle* handle, const conelight_host_texture* texture, std::int32_t* index) {
+    return guarded([&] {
+        const Use use(handle);
+        writeIndex(use->addTexture(hostTextureOf(readStruct(texture, "texture"))), index);
     });
 }
 

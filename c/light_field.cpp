@@ -98,6 +98,11 @@ conelight_result conelight_light_field_set_host_mesh(conelight_light_field* fiel
     return c::setHostMesh<Use>(field, index, mesh);
 }
 
+conelight_result conelight_light_field_set_host_texture(conelight_light_field* field, size_t index,
+                                                        const conelight_host_texture* texture) {
+    return c::setHostTexture<Use>(field, index, texture);
+}
+
 conelight_result conelight_light_field_set_texture(conelight_light_field* field, size_t index,
                                                    const conelight_texture* texture) {
     return c::setTexture<Use>(field, index, texture);
@@ -135,6 +140,12 @@ conelight_result conelight_light_field_add_mesh(conelight_light_field* field, co
 conelight_result conelight_light_field_add_host_mesh(conelight_light_field* field,
                                                      const conelight_host_mesh* mesh, int32_t* index) {
     return c::addHostMesh<Use>(field, mesh, index);
+}
+
+conelight_result conelight_light_field_add_host_texture(conelight_light_field* field,
+                                                        const conelight_host_texture* texture,
+                                                        int32_t* index) {
+    return c::addHostTexture<Use>(field, texture, index);
 }
 
 conelight_result conelight_light_field_add_texture(conelight_light_field* field,

@@ -119,6 +119,13 @@ conelight_result conelight_renderer_set_host_mesh(conelight_renderer* renderer, 
     return c::setHostMesh<Use>(renderer, index, mesh);
 }
 
+conelight_result conelight_renderer_set_host_texture(conelight_renderer* renderer, size_t index,
+                                                     const conelight_host_texture* texture) {
+    const conelight_result refused = guarded([&] { refuseHeadless(renderer); });
+    if (refused != CONELIGHT_OK) return refused;
+    return c::setHostTexture<Use>(renderer, index, texture);
+}
+
 conelight_result conelight_renderer_set_texture(conelight_renderer* renderer, size_t index,
                                                 const conelight_texture* texture) {
     return c::setTexture<Use>(renderer, index, texture);
@@ -157,6 +164,13 @@ conelight_result conelight_renderer_add_host_mesh(conelight_renderer* renderer,
     const conelight_result refused = guarded([&] { refuseHeadless(renderer); });
     if (refused != CONELIGHT_OK) return refused;
     return c::addHostMesh<Use>(renderer, mesh, index);
+}
+
+conelight_result conelight_renderer_add_host_texture(conelight_renderer* renderer,
+                                                     const conelight_host_texture* texture, int32_t* index) {
+    const conelight_result refused = guarded([&] { refuseHeadless(renderer); });
+    if (refused != CONELIGHT_OK) return refused;
+    return c::addHostTexture<Use>(renderer, texture, index);
 }
 
 conelight_result conelight_renderer_add_texture(conelight_renderer* renderer,

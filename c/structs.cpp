@@ -157,6 +157,15 @@ HostMesh hostMeshOf(const conelight_host_mesh& values) {
     return mesh;
 }
 
+HostTexture hostTextureOf(const conelight_host_texture& values) {
+    const TextureWrap wrap = values.clamp != 0 ? TextureWrap::Clamp : TextureWrap::Repeat;
+    return {.name = textOf(values.name),
+            .texture = values.texture,
+            .wrapU = wrap,
+            .wrapV = wrap,
+            .filter = values.nearest != 0 ? TextureFilter::Nearest : TextureFilter::Linear};
+}
+
 Texture textureOf(const conelight_texture& values) {
     constexpr std::int32_t kMostPixels = 1 << 15;  // each way: 4 GiB in all
     if (values.width < 1 || values.height < 1 || values.width > kMostPixels || values.height > kMostPixels)

@@ -4,6 +4,7 @@
 
 #include "calls.h"
 #include "conelight/host_mesh.h"
+#include "conelight/host_texture.h"
 #include "conelight/scene.h"
 
 struct conelight_scene {
@@ -18,6 +19,7 @@ void assign(Light& light, const conelight_light& values);
 Instance instanceOf(const conelight_instance& values);
 Mesh meshOf(const conelight_mesh& values);
 HostMesh hostMeshOf(const conelight_host_mesh& values);
+HostTexture hostTextureOf(const conelight_host_texture& values);
 Texture textureOf(const conelight_texture& values);
 // Throws Error(Usage) for a camera that sees nothing.
 Camera cameraOf(const conelight_camera& values);

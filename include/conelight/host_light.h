@@ -116,12 +116,30 @@ typedef struct conelight_host_mesh {
             0, 0, 0                                                                                      \
         }                                                                                                \
     }
-/* As _add_mesh and _set_mesh; not of headless renderers, whose context has no buffers of the host's. */
+/* A GL_TEXTURE_2D of the host's, of floats or normalized numbers, as samplers read it: colours lie in an sRGB format, or
+ * are linear. Light sees a copy of 256 x 256, made during the call; pictures and shadow maps read the texture itself, which
+ * stays alive until another takes its place or the scene is gone. After its texels have changed, set it again. */
+typedef struct conelight_host_texture {
+    size_t size;
+    const char* name;
+    uint32_t texture; /* GL name */
+    int32_t clamp;    /* 0: repeats; 1: clamps to the edge */
+    int32_t nearest;  /* 0: linear filter; 1: nearest texel */
+} conelight_host_texture;
+#define CONELIGHT_HOST_TEXTURE_INIT \
+    { sizeof(conelight_host_texture), NULL, 0, 0, 0 }
+/* As _add_mesh, _set_mesh, _add_texture and _set_texture; not of headless renderers, whose context has nothing of the
+ * host's. */
 CONELIGHT_API conelight_result conelight_renderer_add_host_mesh(conelight_renderer* renderer,
                                                                 const conelight_host_mesh* mesh,
                                                                 int32_t* index);
 CONELIGHT_API conelight_result conelight_renderer_set_host_mesh(conelight_renderer* renderer, size_t index,
                                                                 const conelight_host_mesh* mesh);
+CONELIGHT_API conelight_result conelight_renderer_add_host_texture(conelight_renderer* renderer,
+                                                                   const conelight_host_texture* texture,
+                                                                   int32_t* index);
+CONELIGHT_API conelight_result conelight_renderer_set_host_texture(conelight_renderer* renderer, size_t index,
+                                                                   const conelight_host_texture* texture);
 
 /* What a field holds, and what its last _update did. */
 typedef struct conelight_light_field_stats {
@@ -166,6 +184,9 @@ CONELIGHT_API conelight_result conelight_light_field_set_host_mesh(conelight_lig
                                                                    const conelight_host_mesh* mesh);
 CONELIGHT_API conelight_result conelight_light_field_set_texture(conelight_light_field* field, size_t index,
                                                                  const conelight_texture* texture);
+CONELIGHT_API conelight_result conelight_light_field_set_host_texture(conelight_light_field* field,
+                                                                      size_t index,
+                                                                      const conelight_host_texture* texture);
 CONELIGHT_API conelight_result conelight_light_field_set_material(conelight_light_field* field, size_t index,
                                                                   const conelight_material* material);
 CONELIGHT_API conelight_result conelight_light_field_set_light(conelight_light_field* field, size_t index,
@@ -184,6 +205,9 @@ CONELIGHT_API conelight_result conelight_light_field_add_host_mesh(conelight_lig
 CONELIGHT_API conelight_result conelight_light_field_add_texture(conelight_light_field* field,
                                                                  const conelight_texture* texture,
                                                                  int32_t* index);
+CONELIGHT_API conelight_result conelight_light_field_add_host_texture(conelight_light_field* field,
+                                                                      const conelight_host_texture* texture,
+                                                                      int32_t* index);
 CONELIGHT_API conelight_result conelight_light_field_add_material(conelight_light_field* field,
                                                                   const conelight_material* material,
                                                                   int32_t* index);

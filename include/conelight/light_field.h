@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "conelight/host_mesh.h"
+#include "conelight/host_texture.h"
 #include "conelight/renderer.h"
 #include "conelight/scene.h"
 #include "conelight/settings.h"
@@ -128,6 +129,7 @@ class CONELIGHT_API LightField {
     void setMesh(std::size_t index, const Mesh& mesh);
     void setMesh(std::size_t index, const HostMesh& mesh);
     void setTexture(std::size_t index, const Texture& texture);
+    void setTexture(std::size_t index, const HostTexture& texture);
     void setMaterial(std::size_t index, const Material& material);
     void setLight(std::size_t index, const Light& light);
     void setLights(const std::vector<Light>& lights);
@@ -140,6 +142,7 @@ class CONELIGHT_API LightField {
     std::size_t addMesh(const Mesh& mesh);
     std::size_t addMesh(const HostMesh& mesh);
     std::size_t addTexture(const Texture& texture);  // for materials that are set or added after it
+    std::size_t addTexture(const HostTexture& texture);
     std::size_t addMaterial(const Material& material);
     std::size_t addInstance(const Instance& instance);
     void removeInstance(std::size_t index);

@@ -14,6 +14,7 @@
 
 #include "conelight/export.h"
 #include "conelight/host_mesh.h"
+#include "conelight/host_texture.h"
 #include "conelight/inspect.h"
 #include "conelight/program_cache.h"
 #include "conelight/scene.h"
@@ -60,6 +61,13 @@ struct FrameStats {
     std::string device;
 };
 
+// What drawing is at: a pass by its name in FrameStats, "building programs" with the number of the one that is built,
+// "textures" that are handed to the driver.
+struct PictureWork {
+    std::string name;                 // empty: nothing was begun
+    std::size_t done = 0, total = 0;  // total 0: not known
+};
+
 // How passes that write each pixel once are run. Auto: as suits the driver. Processor: as fragments, which software
 // drivers store tile by tile. Gpu: as compute; server GPUs shade fragments at a small part of their rate.
 enum class Execution { Auto, Processor, Gpu };
@@ -99,6 +107,9 @@ class CONELIGHT_API Renderer {
     void setMesh(std::size_t index, const HostMesh& mesh);
     // setTexture: new texels, of any size, for the materials that have it. One texel gives the memory of many back.
     void setTexture(std::size_t index, const Texture& texture);
+    // One that the host has on the GPU (conelight/host_texture.h); scene() has one white texel in its place. Either kind
+    // may follow the other.
+    void setTexture(std::size_t index, const HostTexture& texture);
     void setMaterial(std::size_t index, const Material& material);
     void setLight(std::size_t index, const Light& light);
     void setLights(const std::vector<Light>& lights);  // all of them: adds and removes
@@ -112,6 +123,7 @@ class CONELIGHT_API Renderer {
     std::size_t addMesh(const Mesh& mesh);
     std::size_t addMesh(const HostMesh& mesh);
     std::size_t addTexture(const Texture& texture);  // for materials that are set or added after it
+    std::size_t addTexture(const HostTexture& texture);
     std::size_t addMaterial(const Material& material);
     std::size_t addInstance(const Instance& instance);
     void removeInstance(std::size_t index);
@@ -152,6 +164,9 @@ class CONELIGHT_API Renderer {
     bool goOn(double milliseconds);
     void drop();
     bool drawing() const;  // a picture was begun and is not finished
+    // The last piece of work that setScene(), render() or goOn() began. It may be asked from any thread, also while
+    // one of these runs on another.
+    PictureWork work() const;
     // With RendererOptions::shaderDirectory: builds the programs again that use files changed there. One that
     // fails stays as it was. Returns a message per failure, several lines each; GL state stays as it was.
     std::vector<std::string> reloadShaders();

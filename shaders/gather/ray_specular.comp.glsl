@@ -2,16 +2,19 @@
 // SPDX-License-Identifier: MIT
 // G-buffer -> radiance in the specular lobe over the lobe's directional albedo, by rays along visible normals
 // of GGX (Heitz 2018, "Sampling the GGX Distribution of Visible Normals"), averaged with the passes and
-// frames before. Wide lobes aim as many rays at lit faces, combined by the balance heuristic. What a ray meets
-// shows its interpolated cached light, so that mirrors show no voxels.
+// frames before. What a ray meets shows its interpolated cached light, so that mirrors show no voxels.
 // TRIANGLE_HITS 1: rays into smooth lobes meet triangles, not plane pieces (lib/triangle_hit.glsl); below the least
 // roughness of a lobe they go exactly the mirrored way.
+// AIMED_RAYS 1: wide lobes aim as many rays again at voxels that send light, combined by the balance heuristic.
 // COUNT_LOOKUPS 1: adds what rays look up to the counters, shadow maps at hits included.
 //
 // LOBE_LISTED 1: the listed pixels (gather/lobe_select.comp.glsl), by an indirect dispatch of LOBE_GROUPS_X
 // groups in x; the others are the caller's to clear. 0: all pixels.
 #ifndef LOBE_LISTED
 #define LOBE_LISTED 0
+#endif
+#ifndef AIMED_RAYS
+#define AIMED_RAYS 0
 #endif
 #define SMOOTH_HITS 1
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -64,6 +67,19 @@ vec3 lobeRayOrigin(Surface s, Brdf b, vec3 direction) {
     return seenRayOrigin(gridFromWorld(s.position), s.geometricNormal, s.toEye);
 }
 
+// A ray drawn by one of the two techniques.
+struct LobeRay {
+    Ray ray;
+    vec3 weight;    // BRDF times cosine over the density of the lobe
+    int lightFace;  // a face of the voxel that it is aimed at; -1: none
+};
+
+LobeRay sampleLobe(Surface s, Brdf b, uint seed, uint number) {
+    vec3 weight;
+    vec3 direction = reflectedDirection(b, s, sequencePoint(seed, number), weight);
+    return LobeRay(Ray(lobeRayOrigin(s, b, direction), direction, 1e9, s.geometricNormal), weight, -1);
+}
+
 // ---- Rays aimed at voxels that send light ----------------------------------------------------------------------
 // A lamp of few voxels is found by few rays of a wide lobe (docs/theory/4f_glossy.md). A voxel is chosen by the flux of
 // its faces, and a direction evenly among those that meet the sphere about it. So whatever a lobe's ray meets in a voxel,
@@ -106,23 +122,8 @@ float aimedPdf(vec3 origin, int face, float inverseFlux) {
     return cosine < 1.0 ? flux * inverseFlux / (2.0 * kGatherPi * (1.0 - cosine)) : 0.0;
 }
 
-// A ray drawn by one of the two techniques.
-struct LobeRay {
-    Ray ray;
-    vec3 weight;    // BRDF times cosine over the density of the lobe
-    int lightFace;  // a face of the voxel that it is aimed at; -1: none
-};
-
-// Ray `i` of a pixel: first those of the lobe, then aimed ones.
-LobeRay sampleLobeRay(Surface s, Brdf b, uint seed, int i) {
-    int rays = int(pixelRays.rays);
-    vec2 xi = sequencePoint(seed, pixelRays.pass * pixelRays.rays + uint(i));
-    vec3 weight;
-    vec3 direction = reflectedDirection(b, s, xi, weight);
-    Ray ray = Ray(lobeRayOrigin(s, b, direction), direction, 1e9, s.geometricNormal);
-    if (i < rays) return LobeRay(ray, weight, -1);
-
-    vec3 xiLight = sequencePoint3(seed, pixelRays.pass * pixelRays.rays + uint(i - rays));
+LobeRay aimAtVoxel(Surface s, Brdf b, uint seed, uint number) {
+    vec3 xiLight = sequencePoint3(seed, number);
     int face = int(texelFetch(lightSamples, 1 + int(xiLight.x * float(LIGHT_SAMPLE_COUNT))).x);
     vec4 cube = faceCube(texelFetch(voxelFaces, face));
     vec3 origin = seenRayOrigin(gridFromWorld(s.position), s.geometricNormal, s.toEye);
@@ -134,11 +135,11 @@ LobeRay sampleLobeRay(Surface s, Brdf b, uint seed, int i) {
     vec3 u, v;
     tangentFrame(towards / max(distance, 1e-6), u, v);
     float angle = 2.0 * kGatherPi * xiLight.z;
-    direction = normalize(r * cos(angle) * u + r * sin(angle) * v + z * towards / max(distance, 1e-6));
+    vec3 direction = normalize(r * cos(angle) * u + r * sin(angle) * v + z * towards / max(distance, 1e-6));
     bool valid = cosine < 1.0 && dot(direction, s.geometricNormal) > 0.0;
     vec3 halfway = normalize(s.toEye + direction);
-    weight = lobeWeight(b, dot(s.normal, direction), max(dot(s.toEye, halfway), 0.0));
-    ray = Ray(lobeRayOrigin(s, b, direction), direction, distance + cube.w, s.geometricNormal);
+    vec3 weight = lobeWeight(b, dot(s.normal, direction), max(dot(s.toEye, halfway), 0.0));
+    Ray ray = Ray(lobeRayOrigin(s, b, direction), direction, distance + cube.w, s.geometricNormal);
     return LobeRay(ray, valid ? weight : vec3(0.0), face);
 }
 
@@ -149,6 +150,29 @@ float techniqueShare(Surface s, Brdf b, LobeRay drawn, VoxelHit hit, float inver
     float pdf = lobePdf(b, s.normal, s.toEye, drawn.ray.direction);
     float aimed = hit.face >= 0 ? aimedPdf(origin, hit.face, inverseFlux) : 0.0;
     return reached ? pdf / max(pdf + aimed, 1e-12) : 0.0;
+}
+
+// Of rays that are aimed at voxels: one over the flux of all faces. 0: the pixel has none.
+float aimedInverseFlux(Brdf b, bool glossy) {
+#if AIMED_RAYS
+    return glossy && b.alpha >= kNarrowLobe ? uintBitsToFloat(texelFetch(lightSamples, 0).x) : 0.0;
+#else
+    return 0.0;
+#endif
+}
+
+// Ray `i` of a pixel: first those of the lobe, then aimed ones.
+LobeRay drawRay(Surface s, Brdf b, uint seed, int i) {
+    int rays = int(pixelRays.rays);
+    uint first = pixelRays.pass * pixelRays.rays;
+    LobeRay drawn;
+#if AIMED_RAYS
+    if (i >= rays)
+        drawn = aimAtVoxel(s, b, seed, first + uint(i - rays));
+    else
+#endif
+        drawn = sampleLobe(s, b, seed, first + uint(i));
+    return drawn;
 }
 
 // The width of a pixel's rays, where they meet triangles.
@@ -174,14 +198,14 @@ void main() {
     bool glossy = hasLobe(s, seen, pixelRays.specularLimit);
     uint seed = randomHash(uint(pixel.x) | uint(pixel.y) << 16) ^ 0x5bd1e995u;
     uint random = randomHash(seed) ^ randomHash(pixelRays.pass * 0x9e3779b9u + 0x85ebca6bu);
-    float inverseFlux = uintBitsToFloat(texelFetch(lightSamples, 0).x);
-    bool aims = glossy && pixelRays.aimed != 0u && b.alpha >= kNarrowLobe && inverseFlux > 0.0;
+    float inverseFlux = aimedInverseFlux(b, glossy);
+    bool aims = inverseFlux > 0.0;
     int count = int(pixelRays.rays) * (aims ? 2 : 1);
     vec3 sum = vec3(0.0);
     int i = 0;
     do {
         // Draw a ray
-        LobeRay drawn = sampleLobeRay(s, b, seed, i);
+        LobeRay drawn = drawRay(s, b, seed, i);
         bool counts = glossy && drawn.weight.r + drawn.weight.g + drawn.weight.b > 0.0;
         drawn.ray.tMax = counts ? drawn.ray.tMax : -1.0;
         setRayCone(s, b);
@@ -192,7 +216,8 @@ void main() {
                                          pixelRays.fireflyClamp, skyWidth(b, s, drawn.ray.direction));
         vec3 radiance = throughGlass(traceRadiance(drawn.ray, path, random, hit), drawn.ray, hit);
 
-        vec3 weight = drawn.weight * (aims ? techniqueShare(s, b, drawn, hit, inverseFlux) : 1.0);
+        vec3 weight = drawn.weight;
+        if (aims) weight *= techniqueShare(s, b, drawn, hit, inverseFlux);
         sum += weight * radiance;
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);
         if (glossy)

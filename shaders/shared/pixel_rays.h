@@ -49,12 +49,9 @@ struct PixelRayConstants {
     float motionScaleY;
     uint motionStep;  // one of so many texels in each direction is a pixel
     uint reuse;       // REUSE_*
-    // ---- 176 B
-    uint aimed;  // rays of lobes that are aimed at voxels that send light, per ray of a lobe: 0 or 1
-    uint pad0, pad1, pad2;
-};  // 192 B
+};                    // 176 B
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
-static_assert(sizeof(conelight::gpu::PixelRayConstants) == 192);
+static_assert(sizeof(conelight::gpu::PixelRayConstants) == 176);
 #endif

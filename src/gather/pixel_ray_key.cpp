@@ -19,8 +19,11 @@ void addPasses(std::vector<PixelRayKey>& keys, PixelRayKey key) {
         }
     }
     // Coats are not recorded.
-    if (key.kind != RayPicture::Coat)
-        keys.push_back({.kind = key.kind, .triangles = key.triangles, .records = true, .hits = key.hits});
+    if (key.kind == RayPicture::Coat) return;
+    key.motion = Motion::None;
+    key.counts = key.listed = false;
+    key.records = true;
+    keys.push_back(key);
 }
 
 }  // namespace
@@ -30,6 +33,7 @@ gl::ProgramDesc PixelRayKey::desc() const {
     desc.files = {isOfLobes(kind) ? "gather/ray_specular.comp.glsl" : "gather/ray_diffuse.comp.glsl"};
     desc.defines = {{"MOTION", std::to_string(static_cast<int>(motion))}};
     if (!isOfLobes(kind)) desc.defines.emplace_back("OCCLUSION", kind == RayPicture::Occlusion ? "1" : "0");
+    if (aims) desc.defines.emplace_back("AIMED_RAYS", "1");
     if (listed) desc.defines.emplace_back("LOBE_LISTED", "1");
     if (counts) desc.defines.emplace_back("COUNT_LOOKUPS", "1");
     for (auto& define : hits.defines()) desc.defines.push_back(std::move(define));
@@ -45,7 +49,9 @@ std::vector<PixelRayKey> PixelRayKey::all() {
         addPasses(keys, {.kind = RayPicture::Occlusion, .triangles = triangles});
         for (const light::HitKey& hits : light::HitKey::all(0))
             for (const RayPicture kind : {RayPicture::Diffuse, RayPicture::Specular, RayPicture::Coat})
-                addPasses(keys, {.kind = kind, .triangles = triangles, .hits = hits});
+                for (const bool aims : {false, true})
+                    if (isOfLobes(kind) || !aims)
+                        addPasses(keys, {.kind = kind, .triangles = triangles, .aims = aims, .hits = hits});
     }
     return keys;
 }

@@ -27,6 +27,7 @@ struct PixelRayKey {
     bool counts = false;     // lookups
     bool listed = false;     // of lobes: of the pixels in LobeList, else of all
     bool triangles = false;  // rays meet triangles: of lobes all over, else near their start
+    bool aims = false;       // of lobes: as many rays again at voxels that send light
     bool records = false;    // steps of one pixel, for the inspector
     light::HitKey hits;
 

@@ -133,6 +133,8 @@ PixelRayKey PixelRays::key(const RayInputs& inputs, const RayPass& pass) const {
                                                              : Motion::None,
                     .counts = pass.lookupCounters != nullptr,
                     .listed = isOfLobes(kind_)};
+    // Rectangles of light are reflected without rays; few of them find other lamps.
+    key.aims = isOfLobes(kind_) && light::hasOtherEmitters(inputs.scene, inputs.lights);
     key.triangles = isOfLobes(kind_) ? pass.settings.exactMirrors : pass.settings.exactNear;
     if (kind_ == RayPicture::Occlusion) return key;
     key.hits = inputs.lights.hitKey(inputs.scene, pass.settings.exactHits);
@@ -159,8 +161,6 @@ gpu::PixelRayConstants PixelRays::packed(const RayInputs& inputs, const RayPass&
     if (pass.settings.bounces) c.reflections = 0;
     c.fireflyClamp = light::fireflyClamp(averaged);
     c.inverseVoxelSize = 1.0f / grid.voxelSize;
-    // Rectangles of light are reflected without rays; few of them find other lamps.
-    c.aimed = lobes && light::hasOtherEmitters(inputs.scene, inputs.lights) ? 1u : 0u;
     return c;
 }
 

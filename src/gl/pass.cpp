@@ -8,6 +8,7 @@
 #include "gl/buffer.h"
 #include "gl/dispatch_counter.h"
 #include "gl/gl.h"
+#include "gl/work.h"
 
 namespace conelight::gl {
 
@@ -64,6 +65,7 @@ std::vector<PassTime> Profiler::times() const {
 PassScope::PassScope(Profiler& profiler, const char* name)
     : profiler_(profiler), timed_(profiler.enabled_), counted_(DispatchCounter::current() != nullptr) {
     if (counted_) DispatchCounter::current()->enter(name);
+    if (Work* const work = Work::current()) work->tell(name);
     glPushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, -1, name);
     if (!timed_) return;
     // The list may grow and move while this scope is open, hence an index.

@@ -14,6 +14,7 @@
 #include "gl/pass.h"
 #include "gl/program_binary.h"
 #include "gl/sampler_slots.h"
+#include "gl/work.h"
 
 namespace conelight::gl {
 namespace {
@@ -312,6 +313,7 @@ ProgramLibrary::ProgramLibrary(ShaderProvider provider, std::shared_ptr<ProgramC
 ProgramLibrary::~ProgramLibrary() = default;
 
 Program ProgramLibrary::build(const ProgramDesc& desc) {
+    const ProgramWork told;
     Program program(provider_, desc, cache_.get());
     if (program.groupSize().x > 0 && program.readsBufferTextures() && isSoftwareDriver()) {
         if (!samplers_) samplers_ = std::make_unique<SamplerSlots>(cache_.get());

@@ -219,6 +219,15 @@ void Texture::copyLayers(const Texture& source, int layers) {
                            width(level), height(level), layers);
 }
 
+void Texture::copyLayer(int level, int layer, const Texture& source) {
+    CONELIGHT_ASSERT(
+        source.width(level) == width(level) && source.height(level) == height(level) && layer < depth(),
+        "Texture::copyLayer: sizes differ");
+    glMemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+    glCopyImageSubData(source.name(), source.desc_.target, level, 0, 0, 0, name(), desc_.target, level, 0, 0,
+                       layer, width(level), height(level), 1);
+}
+
 void Texture::read(int level, std::uint32_t layout, std::uint32_t type, void* data, std::size_t bytes) const {
     if (desc_.uneven) return readRegion({0, 0, 0}, {width(), height(), depth()}, layout, type, data, bytes);
     countWait();
@@ -259,7 +268,47 @@ Sampler::Sampler(const SamplerDesc& desc, const std::string& label) {
 }
 
 void Sampler::bind(unsigned unit) const { glBindSampler(unit, name()); }
+void bindForeignTexture(unsigned unit, Name texture) { glBindTextureUnit(unit, texture); }
 void unbindSampler(unsigned unit) { glBindSampler(unit, 0); }
+
+namespace {
+
+int levelValue(Name texture, int level, GLenum what) {
+    GLint value = 0;
+    glGetTextureLevelParameteriv(texture, level, what, &value);
+    return value;
+}
+
+// Whether all levels below the base level are there, which textures of changing storage may lack.
+bool hasAllLevels(Name texture, int base, const TextureShape& found) {
+    GLint immutable = GL_FALSE, last = 0;
+    glGetTextureParameteriv(texture, GL_TEXTURE_IMMUTABLE_FORMAT, &immutable);
+    if (immutable != GL_FALSE) return true;
+    glGetTextureParameteriv(texture, GL_TEXTURE_MAX_LEVEL, &last);
+    for (int i = 1, edge = std::max(found.width, found.height); edge >> i > 0 && base + i <= last; ++i)
+        if (levelValue(texture, base + i, GL_TEXTURE_WIDTH) != std::max(found.width >> i, 1) ||
+            levelValue(texture, base + i, GL_TEXTURE_HEIGHT) != std::max(found.height >> i, 1))
+            return false;
+    return true;
+}
+
+}  // namespace
+
+TextureShape shapeOfForeign(Name texture) {
+    TextureShape found;
+    if (texture == 0 || glIsTexture(texture) == GL_FALSE) return found;
+    GLint target = 0, base = 0;
+    glGetTextureParameteriv(texture, GL_TEXTURE_TARGET, &target);
+    if (target != GL_TEXTURE_2D) return found;
+    glGetTextureParameteriv(texture, GL_TEXTURE_BASE_LEVEL, &base);
+    found.width = levelValue(texture, base, GL_TEXTURE_WIDTH);
+    found.height = levelValue(texture, base, GL_TEXTURE_HEIGHT);
+    if (found.width < 1 || found.height < 1) return found;
+    const int type = levelValue(texture, base, GL_TEXTURE_RED_TYPE);
+    found.floats = type == GL_FLOAT || type == GL_UNSIGNED_NORMALIZED || type == GL_SIGNED_NORMALIZED;
+    found.mipmapped = hasAllLevels(texture, base, found);
+    return found;
+}
 
 void reserveTexels(Buffer& buffer, Texture& texels, std::uint32_t format, std::size_t bytes,
                    const std::string& label) {

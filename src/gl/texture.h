@@ -53,6 +53,8 @@ class Texture : public Object<ObjectType::Texture> {
     void copyFrom(const Texture& source);  // level 0, of a texture of the same size and format
     // The first so many layers, all levels, of an array of the same edges and format.
     void copyLayers(const Texture& source, int layers);
+    // One level of a layer of an array from that level of a GL_TEXTURE_2D of the same edges, whose texels have as many bytes.
+    void copyLayer(int level, int layer, const Texture& source);
     void read(int level, std::uint32_t layout, std::uint32_t type, void* data, std::size_t bytes) const;
     // A box of level 0.
     void readRegion(const glm::ivec3& offset, const glm::ivec3& size, std::uint32_t layout,
@@ -86,6 +88,15 @@ class Sampler : public Object<ObjectType::Sampler> {
 
 // Forgets the sampler object of a unit: the texture's own parameters count again.
 void unbindSampler(unsigned unit);
+
+// A texture of the host's, by its GL name. Without texels (width 0) where the name is of no GL_TEXTURE_2D.
+struct TextureShape {
+    int width = 0, height = 0;  // of the base level
+    bool floats = false;        // or normalized numbers
+    bool mipmapped = false;     // has all levels below the base level
+};
+TextureShape shapeOfForeign(Name texture);
+void bindForeignTexture(unsigned unit, Name texture);
 
 // Makes room for `bytes` in `buffer` and in `texels`, which reads it. What was there may be lost. A quarter is
 // left in reserve where a list grows, none where there was no list.

@@ -118,6 +118,9 @@ void LightField::setMesh(std::size_t index, const HostMesh& mesh) {
 void LightField::setTexture(std::size_t index, const Texture& texture) {
     impl_->changed()->setTexture(index, texture);
 }
+void LightField::setTexture(std::size_t index, const HostTexture& texture) {
+    impl_->changed()->setTexture(impl_->device, index, texture);
+}
 void LightField::setMaterial(std::size_t index, const Material& material) {
     impl_->changed()->setMaterial(index, material);
 }
@@ -132,6 +135,9 @@ std::size_t LightField::addMesh(const HostMesh& mesh) {
     return impl_->changed()->addMesh(impl_->device, mesh);
 }
 std::size_t LightField::addTexture(const Texture& texture) { return impl_->changed()->addTexture(texture); }
+std::size_t LightField::addTexture(const HostTexture& texture) {
+    return impl_->changed()->addTexture(impl_->device, texture);
+}
 std::size_t LightField::addMaterial(const Material& material) {
     return impl_->changed()->addMaterial(material);
 }

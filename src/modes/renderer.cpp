@@ -36,6 +36,8 @@ Renderer::~Renderer() {
 void Renderer::setScene(const Scene& scene) {
     scene.validate();  // a scene that is refused leaves the old one in place
     const modes::OwnerGuard call(impl_->owner);
+    const gl::WorkScope told(impl_->work);
+    impl_->work.begin();
     impl_->drop();
     impl_->mode.reset();  // light of another scene says nothing of this one
     impl_->fit.forget();
@@ -52,6 +54,9 @@ void Renderer::setMesh(std::size_t index, const HostMesh& mesh) {
 void Renderer::setTexture(std::size_t index, const Texture& texture) {
     impl_->changed()->setTexture(index, texture);
 }
+void Renderer::setTexture(std::size_t index, const HostTexture& texture) {
+    impl_->changed()->setTexture(impl_->device, index, texture);
+}
 void Renderer::setMaterial(std::size_t index, const Material& material) {
     impl_->changed()->setMaterial(index, material);
 }
@@ -67,6 +72,9 @@ void Renderer::setBakedLight(std::shared_ptr<const BakedLight> baked) {
 std::size_t Renderer::addMesh(const Mesh& mesh) { return impl_->changed()->addMesh(mesh); }
 std::size_t Renderer::addMesh(const HostMesh& mesh) { return impl_->changed()->addMesh(impl_->device, mesh); }
 std::size_t Renderer::addTexture(const Texture& texture) { return impl_->changed()->addTexture(texture); }
+std::size_t Renderer::addTexture(const HostTexture& texture) {
+    return impl_->changed()->addTexture(impl_->device, texture);
+}
 std::size_t Renderer::addMaterial(const Material& material) {
     return impl_->changed()->addMaterial(material);
 }
@@ -122,6 +130,8 @@ void Renderer::render(const Camera& camera, int width, int height, const Setting
     const Impl::WantedPicture asked{camera, width, height, settings};
     impl_->require(asked);
     const modes::OwnerGuard call(impl_->owner);
+    const gl::WorkScope told(impl_->work);
+    impl_->work.begin();
     impl_->drop();
     impl_->renderWithin(asked).finish();
     gl::requireLiveContext();
@@ -130,6 +140,7 @@ void Renderer::render(const Camera& camera, int width, int height, const Setting
 void Renderer::begin(const Camera& camera, int width, int height, const Settings& settings) {
     const Impl::WantedPicture asked{camera, width, height, settings};
     impl_->require(asked);
+    impl_->work.begin();
     impl_->drop();
     impl_->inParts = gl::isSoftwareDriver();
     impl_->cpuMs = impl_->wallMs = 0;
@@ -141,6 +152,7 @@ bool Renderer::goOn(double milliseconds) {
         base::fail(ErrorKind::Usage, "goOn: no picture was begun; begin before it would be right");
     gl::requireLiveContext();
     const modes::OwnerGuard call(impl_->owner);
+    const gl::WorkScope told(impl_->work);
     const bool finished = impl_->goOn(milliseconds);
     gl::requireLiveContext();
     return finished;
@@ -148,6 +160,10 @@ bool Renderer::goOn(double milliseconds) {
 
 void Renderer::drop() { impl_->drop(); }
 bool Renderer::drawing() const { return !impl_->steps.done(); }
+PictureWork Renderer::work() const {
+    const gl::Work::Piece piece = impl_->work.now();
+    return {piece.name, piece.done, piece.total};
+}
 
 Image Renderer::readImage() const {
     if (!impl_->image)

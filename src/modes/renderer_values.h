@@ -10,6 +10,7 @@
 #include "base/steps.h"
 #include "conelight/renderer.h"
 #include "gl/pace.h"
+#include "gl/work.h"
 #include "image/display.h"
 #include "image/headlight.h"
 #include "image/image.h"
@@ -70,6 +71,7 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
         Settings settings;
     };
     WantedPicture shownAs;
+    gl::Work work;  // told by what runs under a gl::WorkScope of it
     // A picture in parts.
     gl::Pace pace;
     base::Steps steps;

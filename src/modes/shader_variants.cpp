@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <unordered_map>
 #include <unordered_set>
+#include <utility>
 
 #include "base/log.h"
 #include "conelight/shaders.h"
@@ -72,11 +74,12 @@ std::string variantNameOf(const std::string& label) {
 std::vector<gl::ProgramDesc> allShaderVariants() {
     std::vector<gl::ProgramDesc> all;
     std::unordered_set<std::string> labels;
-    const auto add = [&](const std::vector<gl::ProgramDesc>& descs) {
-        for (const gl::ProgramDesc& desc : descs)
-            if (labels.insert(desc.label()).second) all.push_back(desc);
+    const auto add = [&](std::vector<gl::ProgramDesc> descs) {
+        for (gl::ProgramDesc& desc : descs)
+            if (labels.insert(desc.label()).second) all.push_back(std::move(desc));
     };
     add(scene::HostMeshImport::programDescs());
+    add(scene::HostTextureImport::programDescs());
     add(voxels::SurfaceVoxels::programDescs());
     add(voxels::OctantWords::programDescs());
     add(light::ShadowMaps::programDescs());
@@ -95,18 +98,30 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     return all;
 }
 
+// Files, and each of their values of a define, get numbers: there are very many pairs.
 std::vector<gl::ProgramDesc> coveringVariants(const std::vector<gl::ProgramDesc>& all, int together) {
     std::vector<gl::ProgramDesc> kept;
-    std::unordered_set<std::string> met;
+    std::unordered_map<std::string, std::uint64_t> numbers;
+    const auto numberOf = [&](const std::string& text) {
+        return numbers.emplace(text, numbers.size()).first->second;
+    };
+    std::unordered_set<std::uint64_t> met;
+    std::vector<std::uint64_t> values;
+    std::string text;
     for (const gl::ProgramDesc& desc : all) {
-        std::string files;
-        for (const std::string& file : desc.files) files += file + ' ';
-        bool isNew = met.insert(files).second;
-        for (std::size_t i = 0; i < desc.defines.size(); ++i)
-            for (std::size_t k = i; k < (together == 1 ? i + 1 : desc.defines.size()); ++k) {
-                const auto& [a, b] = std::pair(desc.defines[i], desc.defines[k]);
-                isNew |= met.insert(files + a.first + '=' + a.second + ' ' + b.first + '=' + b.second).second;
-            }
+        text.clear();
+        for (const std::string& file : desc.files) text.append(file).append(1, ' ');
+        const std::uint64_t files = numberOf(text);
+        const std::size_t length = text.size();
+        bool isNew = met.insert(files << 32).second;
+        values.clear();
+        for (const auto& [name, value] : desc.defines) {
+            text.resize(length);
+            values.push_back(numberOf(text.append(name).append(1, '=').append(value)));
+        }
+        for (std::size_t i = 0; i < values.size(); ++i)
+            for (std::size_t k = i; k < (together == 1 ? i + 1 : values.size()); ++k)
+                isNew |= met.insert(values[i] << 32 | values[k]).second;
         if (isNew) kept.push_back(desc);
     }
     return kept;
@@ -148,6 +163,10 @@ std::size_t expand(const std::vector<gl::ProgramDesc>& descs, const gl::ShaderPr
 std::size_t expandAllShaders(const std::string& directory, const std::string& shaderDirectory) {
     const gl::ShaderProvider provider =
         shaderDirectory.empty() ? gl::embeddedShaderProvider() : gl::directoryShaderProvider(shaderDirectory);
+    std::error_code failure;
+    std::filesystem::create_directories(directory, failure);
+    if (!std::filesystem::is_directory(directory, failure))
+        base::fail(ErrorKind::Runtime, "%s: cannot be written; a folder would be right", directory.c_str());
     const std::vector<gl::ProgramDesc> all = modes::allShaderVariants();
     // Of what is different on GPUs every value of a define, once more.
     return expand(modes::coveringVariants(all, 2), provider, directory) +

@@ -6,6 +6,7 @@
 
 #include "gl/gl.h"
 #include "gl/pass.h"
+#include "gl/work.h"
 #include "math/sheen.h"
 #include "shared/voxels.h"
 
@@ -15,7 +16,6 @@ namespace {
 // Edge of the low-resolution copies of textures that compute shaders sample. A voxel rarely covers less than
 // 1/256 of a texture; 256^2 with mips costs 350 KB per texture.
 constexpr int kSurfaceEdge = 256;
-// Of a part of a mesh: large enough that a draw costs little beside its triangles, by eye.
 
 GLenum wrapMode(TextureWrap wrap) {
     switch (wrap) {
@@ -27,6 +27,23 @@ GLenum wrapMode(TextureWrap wrap) {
             return GL_MIRRORED_REPEAT;
     }
     return GL_REPEAT;
+}
+
+struct Filtering {
+    TextureWrap wrapU, wrapV;
+    TextureFilter filter;
+    bool mipmapped;
+};
+
+gl::Sampler samplerOf(const Filtering& f, const std::string& label) {
+    // Mesa's software driver compiles and runs anisotropic lookups tens of times slower than trilinear ones.
+    const float anisotropy = gl::isSoftwareDriver() ? 1.0f : 8.0f;
+    const bool nearest = f.filter == TextureFilter::Nearest;
+    const GLenum texels = nearest ? GL_NEAREST : GL_LINEAR;
+    const GLenum levels = nearest ? GL_NEAREST_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_LINEAR;
+    return gl::Sampler(gl::SamplerDesc{f.mipmapped ? levels : texels, texels, wrapMode(f.wrapU),
+                                       wrapMode(f.wrapV), false, anisotropy},
+                       label);
 }
 
 float srgbToLinear(float c) { return c <= 0.04045f ? c / 12.92f : std::pow((c + 0.055f) / 1.055f, 2.4f); }
@@ -204,21 +221,23 @@ SceneTextures::SceneTextures(const std::vector<Texture>& sources) {
     const std::uint8_t white[4] = {255, 255, 255, 255};
     white_ = gl::Texture({GL_TEXTURE_2D, GL_RGBA8, 1, 1, 1, 1}, "white");
     white_.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, white);
-    for (const Texture& texture : sources) addForDrawing(texture);
     // The surface array has at least one (white) layer so that it can always be bound.
     const int layers = std::max<int>(static_cast<int>(sources.size()), 1);
     const int edge = sources.empty() ? 1 : kSurfaceEdge;
     surfaceArray_ =
         gl::Texture({GL_TEXTURE_2D_ARRAY, GL_SRGB8_ALPHA8, edge, edge, layers, 0}, "surface array");
     if (sources.empty()) surfaceArray_.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, white);
-    for (std::size_t i = 0; i < sources.size(); ++i) uploadSurface(sources[i], static_cast<int>(i));
+    drawn_.resize(sources.size());
+    for (std::size_t i = 0; i < sources.size(); ++i) {
+        if (gl::Work* const work = gl::Work::current()) work->tell("textures", i + 1, sources.size());
+        set(i, sources[i]);
+    }
     surfaceSampler_ = gl::Sampler({GL_LINEAR_MIPMAP_LINEAR, GL_LINEAR, GL_REPEAT}, "surface array");
 }
 
 // An array cannot grow: another takes the layers over, with room for half as many more.
-void SceneTextures::add(const Texture& source) {
-    const auto layer = static_cast<int>(textures_.size());
-    addForDrawing(source);
+int SceneTextures::addLayer() {
+    const auto layer = static_cast<int>(drawn_.size());
     if (layer == 0 || layer >= surfaceArray_.desc().depth) {
         gl::Texture larger(
             {GL_TEXTURE_2D_ARRAY, GL_SRGB8_ALPHA8, kSurfaceEdge, kSurfaceEdge, layer + 1 + layer / 2, 0},
@@ -226,7 +245,14 @@ void SceneTextures::add(const Texture& source) {
         if (layer > 0) larger.copyLayers(surfaceArray_, layer);
         surfaceArray_ = std::move(larger);
     }
-    uploadSurface(source, layer);
+    drawn_.emplace_back();
+    return layer;
+}
+
+void SceneTextures::add(const Texture& source) { set(static_cast<std::size_t>(addLayer()), source); }
+
+void SceneTextures::add(const gl::Device& device, const HostTexture& source) {
+    set(device, static_cast<std::size_t>(addLayer()), source);
 }
 
 // Those of one size and format take the new texels where they lie.
@@ -235,31 +261,25 @@ void SceneTextures::set(std::size_t index, const Texture& source) {
     uploadSurface(source, static_cast<int>(index));
 }
 
-void SceneTextures::addForDrawing(const Texture& source) {
-    textures_.emplace_back();
-    samplers_.emplace_back();
-    putForDrawing(textures_.size() - 1, source);
+void SceneTextures::set(const gl::Device& device, std::size_t index, const HostTexture& source) {
+    const Filtering filtering{source.wrapU, source.wrapV, source.filter,
+                              gl::shapeOfForeign(source.texture).mipmapped};
+    drawn_[index] = {{}, source.texture, samplerOf(filtering, "texture " + source.name)};
+    hostTextures_.copy(device, source, surfaceArray_, static_cast<int>(index));
 }
 
 void SceneTextures::putForDrawing(std::size_t index, const Texture& texture) {
-    // Mesa's software driver compiles and runs anisotropic lookups tens of times slower than trilinear ones.
-    const float anisotropy = gl::isSoftwareDriver() ? 1.0f : 8.0f;
     const std::string label = "texture " + texture.name;
     const auto format = static_cast<std::uint32_t>(texture.srgb ? GL_SRGB8_ALPHA8 : GL_RGBA8);
-    gl::Texture& t = textures_[index];
+    drawn_[index].foreign = 0;
+    gl::Texture& t = drawn_[index].own;
     if (!t || t.desc().format != format || t.width() != texture.width || t.height() != texture.height) {
         t = {};
         t = gl::Texture({GL_TEXTURE_2D, format, texture.width, texture.height, 1, 0}, label);
     }
     t.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, texture.rgba.data());
     t.generateMipmaps();
-    const bool nearest = texture.filter == TextureFilter::Nearest;
-    samplers_[index] = gl::Sampler(
-        gl::SamplerDesc{
-            static_cast<std::uint32_t>(nearest ? GL_NEAREST_MIPMAP_LINEAR : GL_LINEAR_MIPMAP_LINEAR),
-            static_cast<std::uint32_t>(nearest ? GL_NEAREST : GL_LINEAR), wrapMode(texture.wrapU),
-            wrapMode(texture.wrapV), false, anisotropy},
-        label);
+    drawn_[index].sampler = samplerOf({texture.wrapU, texture.wrapV, texture.filter, true}, label);
 }
 
 void SceneTextures::uploadSurface(const Texture& source, int layer) {
@@ -283,8 +303,12 @@ void SceneTextures::bind(const MaterialTextures& textures, const MaterialUnits& 
             white_.bind(unit);
             gl::unbindSampler(unit);
         } else {
-            textures_[static_cast<std::size_t>(texture)].bind(unit);
-            samplers_[static_cast<std::size_t>(texture)].bind(unit);
+            const DrawTexture& drawn = drawn_[static_cast<std::size_t>(texture)];
+            if (drawn.own)
+                drawn.own.bind(unit);
+            else
+                gl::bindForeignTexture(unit, drawn.foreign);
+            drawn.sampler.bind(unit);
         }
     }
 }

@@ -10,6 +10,7 @@
 #include "gl/inputs.h"
 #include "gl/program.h"
 #include "gl/texture.h"
+#include "scene/host_texture.h"
 #include "shared/scene.h"
 
 namespace conelight::scene {
@@ -40,6 +41,9 @@ class SceneTextures {
     explicit SceneTextures(const std::vector<Texture>& sources);
     void add(const Texture& source);  // behind the others
     void set(std::size_t index, const Texture& source);
+    // Of the host's: they are drawn with where they lie.
+    void add(const gl::Device& device, const HostTexture& source);
+    void set(const gl::Device& device, std::size_t index, const HostTexture& source);
 
     void declare(gl::Inputs& inputs) const;  // surfaceArray
     // For draw calls that bind a material's textures: names, a program's units for them, the binding.
@@ -48,15 +52,21 @@ class SceneTextures {
     void bind(const MaterialTextures& textures, const MaterialUnits& units) const;
 
   private:
-    void addForDrawing(const Texture& source);
+    int addLayer();
     void putForDrawing(std::size_t index, const Texture& source);
     void uploadSurface(const Texture& source, int layer);
 
-    std::vector<gl::Texture> textures_;
-    std::vector<gl::Sampler> samplers_;  // per texture
+    // Of one, for drawing: a texture of ours, or the name of the host's.
+    struct DrawTexture {
+        gl::Texture own;
+        gl::Name foreign = 0;
+        gl::Sampler sampler;
+    };
+    std::vector<DrawTexture> drawn_;
     gl::Texture white_;
     gl::Texture surfaceArray_;
     gl::Sampler surfaceSampler_;
+    HostTextureImport hostTextures_;
 };
 
 }  // namespace conelight::scene

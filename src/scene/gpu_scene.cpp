@@ -220,10 +220,20 @@ void GpuScene::setTexture(std::size_t index, const Texture& texture) {
             materials_[i] = packedMaterial(source_.materials[i], source_.textures);
             materialBuffer_.update(i * sizeof(gpu::Material), &materials_[i], sizeof(gpu::Material));
         }
+    touchUsersOf(index);
+}
+
+void GpuScene::setTexture(const gl::Device& device, std::size_t index, const HostTexture& texture) {
+    textures_.set(device, index, texture);
+    source_.textures[index] = whiteTexel(texture.name);
+    touchUsersOf(index);
+}
+
+void GpuScene::touchUsersOf(std::size_t texture) {
     geometryRevision_ = base::Revision::next();
     for (std::size_t i = 0; i < instances_.size(); ++i)
-        if (materialTextures_[instances_[i].material].has(index) ||
-            materials_[instances_[i].material].transmissionLayer == static_cast<int>(index))
+        if (materialTextures_[instances_[i].material].has(texture) ||
+            materials_[instances_[i].material].transmissionLayer == static_cast<int>(texture))
             instanceRevisions_[i] = geometryRevision_;
 }
 

@@ -75,6 +75,8 @@ class GpuScene {
     // Of a mesh that is the host's, as many vertices and indices as there are.
     void setMesh(const gl::Device& device, std::size_t index, const HostMesh& mesh);
     void setTexture(std::size_t index, const Texture& texture);
+    // Of a texture that is the host's (scene/host_texture.h): source() has one white texel in its place.
+    void setTexture(const gl::Device& device, std::size_t index, const HostTexture& texture);
     void setMaterial(std::size_t index, const Material& material);
     void setLights(const std::vector<Light>& lights);  // all of them
     void setSky(const glm::vec3& radiance);
@@ -86,6 +88,7 @@ class GpuScene {
     // Read by a pass on the GPU (scene/host_mesh.h): source() has an empty mesh in its place.
     std::size_t addMesh(const gl::Device& device, const HostMesh& mesh);
     std::size_t addTexture(const Texture& texture);
+    std::size_t addTexture(const gl::Device& device, const HostTexture& texture);
     std::size_t addMaterial(const Material& material);
     std::size_t addInstance(const Instance& instance);
     // It stays in source(), invisible, until another takes its place.
@@ -155,6 +158,7 @@ class GpuScene {
     void makeVertexArray();
     std::size_t placeForMesh(std::uint32_t vertices, std::uint32_t indices);
     void convert(const gl::Device& device, std::size_t index, const HostMesh& mesh);
+    void touchUsersOf(std::size_t texture);
     void reshape(std::size_t index);
     void putInstance(std::size_t index, const Instance& instance);
     std::optional<std::size_t> freeEntry(std::uint32_t triangles) const;

@@ -102,6 +102,13 @@ void HeldScene::setTexture(std::size_t index, const Texture& texture) {
     scene_->setTexture(index, texture);
 }
 
+void HeldScene::setTexture(const gl::Device& device, std::size_t index, const HostTexture& texture) {
+    requireIndex("setTexture", "texture", index, require("setTexture").source().textures.size());
+    const gl::HostStateGuard guard;
+    requireUsable(texture);
+    scene_->setTexture(device, index, texture);
+}
+
 void HeldScene::setMaterial(std::size_t index, const Material& material) {
     const Scene& source = require("setMaterial").source();
     requireIndex("setMaterial", "material", index, source.materials.size());
@@ -161,6 +168,13 @@ std::size_t HeldScene::addTexture(const Texture& texture) {
     validateTexture(texture);
     const gl::HostStateGuard guard;
     return scene_->addTexture(texture);
+}
+
+std::size_t HeldScene::addTexture(const gl::Device& device, const HostTexture& texture) {
+    require("addTexture");
+    const gl::HostStateGuard guard;
+    requireUsable(texture);
+    return scene_->addTexture(device, texture);
 }
 
 std::size_t HeldScene::addMaterial(const Material& material) {

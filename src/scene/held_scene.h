@@ -28,6 +28,7 @@ class HeldScene {
     void setMesh(std::size_t index, const Mesh& mesh);
     void setMesh(const gl::Device& device, std::size_t index, const HostMesh& mesh);
     void setTexture(std::size_t index, const Texture& texture);
+    void setTexture(const gl::Device& device, std::size_t index, const HostTexture& texture);
     void setMaterial(std::size_t index, const Material& material);
     void setLight(std::size_t index, const Light& light);
     void setLights(const std::vector<Light>& lights);
@@ -37,6 +38,7 @@ class HeldScene {
     std::size_t addMesh(const Mesh& mesh);
     std::size_t addMesh(const gl::Device& device, const HostMesh& mesh);
     std::size_t addTexture(const Texture& texture);
+    std::size_t addTexture(const gl::Device& device, const HostTexture& texture);
     std::size_t addMaterial(const Material& material);
     std::size_t addInstance(const Instance& instance);
     void removeInstance(std::size_t index);

@@ -120,6 +120,12 @@ std::size_t GpuScene::addTexture(const Texture& texture) {
     return source_.textures.size() - 1;
 }
 
+std::size_t GpuScene::addTexture(const gl::Device& device, const HostTexture& texture) {
+    textures_.add(device, texture);
+    source_.textures.push_back(whiteTexel(texture.name));
+    return source_.textures.size() - 1;
+}
+
 // Before the default one, which is the last.
 std::size_t GpuScene::addMaterial(const Material& material) {
     const std::size_t index = source_.materials.size();

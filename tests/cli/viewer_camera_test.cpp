@@ -40,7 +40,7 @@ class ViewerCameraTest : public ViewerPanelsTest {
 
 // The grid lies on the floor, and blocks hide it; the bar is as long as it says; the axes' ends are buttons.
 TEST_F(ViewerCameraTest, GuidesLieOverThePicture) {
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     settle();
     EXPECT_EQ(viewer->status("guides"), "off");
     moveTo(inPicture(0.5f, 0.5f));
@@ -90,7 +90,7 @@ TEST_F(ViewerCameraTest, GuidesLieOverThePicture) {
 
 // Parallel rays and back: what is at the target keeps its size; the wheel and standard views keep the projection.
 TEST_F(ViewerCameraTest, OrthographicViews) {
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     settle();
     viewer->send("camera orbit 30 20");
     const Seen first = camera();
@@ -151,7 +151,7 @@ TEST_F(ViewerCameraTest, OrthographicViews) {
 // What is dark is lit from the eye, without a light and without a step; a turn goes on until it is stopped.
 TEST_F(ViewerCameraTest, HeadlightAndTurntable) {
     const std::string folder = freshFolder("headlight");
-    start(std::string(kSmall) + "--exec 'material lamp emission 0' builtin:cornell");
+    start(kSmall + "--exec 'material lamp emission 0' builtin:cornell");
     settle();
     const std::string steps = viewer->status("steps");
     const glm::vec3 dark = shownAt(inPicture(0.5f, 0.3f));
@@ -192,7 +192,7 @@ TEST_F(ViewerCameraTest, HeadlightAndTurntable) {
 
 // Keys on the strip: one is moved in one step of undo, another goes; beside them the path is scrubbed.
 TEST_F(ViewerCameraTest, KeysAreMovedScrubbedAndDeletedOnTheirStrip) {
-    start("--window 900x600 --voxels 32 --mode phong --no-state builtin:cornell");
+    start("--window 900x600 --no-state " + kCheap + "builtin:cornell");
     settle();
     click("header:Camera");
     viewer->send("path add; camera orbit 40; path add; camera orbit 40; path add 3; path at 0");

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 class ViewerFilesTest : public ViewerPanelsTest {
   protected:
     void startWith(const std::string& state, const std::string& options = "--window 720x480 ") {
-        start(options + "--voxels 32 --mode phong builtin:cornell", "XDG_STATE_HOME=" + state);
+        start(options + kCheap + "builtin:cornell", "XDG_STATE_HOME=" + state);
         settle();
     }
     // Into a field of a dialog, over what is there.
@@ -40,7 +40,7 @@ class ViewerFilesTest : public ViewerPanelsTest {
 
 TEST_F(ViewerFilesTest, PicturesAndFilmsAreWrittenByADialog) {
     const std::string folder = freshFolder("written");
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     viewer->send("camera orbit 30");
     settle();
     const std::string shown = viewer->status("picture");
@@ -177,7 +177,7 @@ TEST_F(ViewerFilesTest, ChangesBehindACrashAreOfferedOnce) {
 
 TEST_F(ViewerFilesTest, ScenesAreFoundInTheDialog) {
     const std::string folder = freshFolder("dialog"), a = folder + "/a_room.glb", b = folder + "/b_room.glb";
-    start("--window 860x560 --voxels 32 --mode phong builtin:cornell",
+    start("--window 860x560 " + kCheap + "builtin:cornell",
           "XDG_STATE_HOME=" + folder + "/state XDG_CACHE_HOME=" + folder + "/cache");
     viewer->send("save " + a + "; save " + b);
     settle();
@@ -210,6 +210,13 @@ TEST_F(ViewerFilesTest, ScenesAreFoundInTheDialog) {
     EXPECT_EQ(viewer->placeOf("file:b_room.glb").z, 0);
     screen->xdotool("key Down key Down key Return");
     EXPECT_TRUE(heard("loaded " + a)) << viewer->output();
+    // Recent scenes have the same pictures.
+    click("menu:File");
+    click("menu:Open recent");
+    EXPECT_EQ(viewer->placeOf("thumbnail").z, 0);
+    moveTo(viewer->middleOf("recent:" + a));
+    EXPECT_TRUE(eventually([&] { return viewer->placeOf("thumbnail").z > 0; })) << viewer->output();
+    screen->xdotool("key Escape");
     quit();
 }
 
@@ -217,7 +224,7 @@ TEST_F(ViewerFilesTest, EveryMenuIsReachedByKeys) {
     const std::string folder = freshFolder("keys");
     std::ofstream(folder + "/xdg-open") << "#!/bin/sh\necho \"$1\" > " << folder << "/opened\n";
     fs::permissions(folder + "/xdg-open", fs::perms::owner_all);
-    start(std::string(kSmall) + "builtin:cornell", "PATH=" + folder + ":" + std::getenv("PATH"));
+    start(kSmall + "builtin:cornell", "PATH=" + folder + ":" + std::getenv("PATH"));
     settle();
     const auto press = [&](const std::string& key) {
         screen->xdotool("key " + key);

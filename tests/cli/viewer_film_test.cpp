@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 
 TEST_F(ViewerPanelsTest, KeyFramesAreKeptPlayedSavedAndRecorded) {
     const std::string folder = freshFolder("path");
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     settle();
     const std::string first = viewer->status("camera");
     click("header:Camera");
@@ -74,7 +74,7 @@ TEST_F(ViewerPanelsTest, KeyFramesAreKeptPlayedSavedAndRecorded) {
 // What is waited for can be ended by whoever sits in front of it; a script's commands wait.
 TEST_F(ViewerPanelsTest, WaitsAreEndedByHand) {
     const std::string folder = freshFolder("stop");
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     settle();
     viewer->send("path add; camera orbit 40; path add");
     const glm::ivec4 box = viewer->placeOf("console");
@@ -105,7 +105,7 @@ TEST_F(ViewerPanelsTest, WaitsAreEndedByHand) {
 }
 
 TEST_F(ViewerPanelsTest, ClipsPlayHoldAndEndWithTheirObjects) {
-    start("--window 900x700 --voxels 32 --mode phong --no-state '" + risingBlock("viewer_rise.gltf") + "'");
+    start("--window 900x700 --no-state " + kCheap + "'" + risingBlock("viewer_rise.gltf") + "'");
     settle();
     EXPECT_NE(answer("clip", "  0 rise").find("1 s"), std::string::npos);
     click("clip:play");
@@ -128,7 +128,7 @@ TEST_F(ViewerPanelsTest, ClipsPlayHoldAndEndWithTheirObjects) {
 // They are those of the program without a window, bit for bit.
 TEST_F(ViewerPanelsTest, FilmsOfThePathTracerAreDrawnInTheWindow) {
     const std::string folder = freshFolder("cpu_film"), way = folder + "/way.json";
-    start("--window 720x600 --voxels 32 --mode phong --no-state --spp 2 builtin:cornell");
+    start("--window 720x600 --no-state " + kCheap + "--spp 2 builtin:cornell");
     settle();
     viewer->send("path add; camera orbit 30; path add; path save " + way);
     const std::string picture = viewer->status("picture");
@@ -162,9 +162,9 @@ TEST_F(ViewerPanelsTest, FilmsOfThePathTracerAreDrawnInTheWindow) {
 // A film of mode radiosity waits for the bake: none of its frames is a picture without bounced light.
 TEST_F(ViewerPanelsTest, FilmsOfRadiosityBeginWhenItIsBaked) {
     const std::string folder = freshFolder("baked_film");
-    start(
-        "--window 720x480 --voxels 32 --mode phong --no-state --patch 0.25 --subdivide 0 --gather-rays 64 "
-        "builtin:cornell");
+    start("--window 720x480 --no-state " + kCheap +
+          "--patch 0.25 --subdivide 0 --gather-rays 64 "
+          "builtin:cornell");
     settle();
     const auto film = [&](const std::string& mode) {
         viewer->send("mode " + mode + "; record " + folder + "/" + mode + "%d.exr 2 turntable");

@@ -78,13 +78,14 @@ TEST_F(ViewerInputTest, SaysWhatItLoads) {
         "'builtin:atrium?triangles=20000'");
     const glm::ivec4 window(0, 0, 900, 600);
     EXPECT_TRUE(eventually([&] { return textShown(screen->pixels(), window); })) << "at the start";
-    settle();
+    viewer->send("wait 1; echo drawn");
+    ASSERT_NE(viewer->expect("drawn"), "") << viewer->output();
     const glm::ivec4 place = picture();
     const glm::ivec2 corner = glm::ivec2(place) + glm::ivec2(12, place.w - 12);
     EXPECT_TRUE(eventually([&] { return !textShown(screen->pixels(), place); })) << "and then no more";
     const glm::vec3 ground(33);  // of a window without a picture
     EXPECT_FALSE(near(shownAt(corner), ground, 4));
-    viewer->send("open builtin:study; settle; echo loaded it");
+    viewer->send("open builtin:study; wait 1; echo loaded it");
     EXPECT_TRUE(eventually([&] {
         const ScreenPixels now = screen->pixels();
         return textShown(now, place) && near(now.mean(corner - 2, {5, 5}), ground, 2);
@@ -101,7 +102,7 @@ TEST_F(ViewerInputTest, SaysWhatItLoads) {
 
 // What comes while a picture is drawn reaches the window at once when it looks again.
 TEST_F(ViewerInputTest, ClicksWhileItIsBusyAreKept) {
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     settle();
     const glm::ivec2 block = inPicture(0.6f, 0.75f), wall = inPicture(0.05f, 0.5f);
     moveTo(wall);
@@ -129,7 +130,7 @@ TEST_F(ViewerInputTest, ClicksWhileItIsBusyAreKept) {
 // Keys are taken in their order, each where the ones before it have led: lines one after the other, also the
 // same key twice; Escape ends what the line before it has started.
 TEST_F(ViewerInputTest, LinesWhileItIsBusyAreKept) {
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     settle();
     viewer->send("path add; camera orbit 40; path add");
     click("console");
@@ -155,7 +156,7 @@ TEST_F(ViewerInputTest, LinesWhileItIsBusyAreKept) {
 // A click and what is typed behind it, in one frame: the text is the clicked field's, not keys of the window; and a click
 // behind a line does not come before it.
 TEST_F(ViewerInputTest, ClicksAndKeysKeepTheirOrder) {
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     settle();
     const glm::ivec2 console = viewer->middleOf("console"), wall = inPicture(0.05f, 0.5f);
     const auto clickOn = [](const glm::ivec2& p) { return moving(p) + " click 1"; };
@@ -179,8 +180,8 @@ TEST_F(ViewerInputTest, ClicksAndKeysKeepTheirOrder) {
 // Not only its first picture.
 TEST_F(ViewerInputTest, HandlesAreDraggedAtTheResolutionOfMovement) {
     start("--size 900x600 --voxels 64 --mode traced --no-state builtin:cornell");
-    viewer->send("camera orbit 30 20; select 'short block'");
-    settle();
+    viewer->send("camera orbit 30 20; select 'short block'; wait 1; echo drawn");
+    ASSERT_NE(viewer->expect("drawn"), "") << viewer->output();
     const auto fine = [&] {
         const std::string now = viewer->status("picture");  // "W x H of W x H pixels, ..."
         const std::size_t of = now.find(" of ");
@@ -216,7 +217,7 @@ TEST_F(ViewerInputTest, HandlesAreDraggedAtTheResolutionOfMovement) {
 // Down, along and up while a picture is drawn: what was held lies where it was let go, by one step of undo; a click on a
 // handle is none.
 TEST_F(ViewerInputTest, HandlesFollowToWhereTheyAreLetGo) {
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     viewer->send("camera orbit 30 20; select 'short block'");
     settle();
     const glm::ivec2 from = viewer->middleOf("gizmo:x"), to = from + glm::ivec2(25, 0);
@@ -242,7 +243,7 @@ TEST_F(ViewerInputTest, HandlesFollowToWhereTheyAreLetGo) {
 }
 
 TEST_F(ViewerInputTest, SaysHowFarThePictureIs) {
-    start("--size 720x480 --voxels 32 --mode traced --no-state builtin:cornell");
+    start("--size 720x480 --voxels 32 --mode traced --no-state --exec 'resolution 0.25' builtin:cornell");
     const auto mode = [&](const std::string& part) {
         const std::string now = viewer->statusUntil(
             "mode", [&](const std::string& text) { return text.find(part) != std::string::npos; });

@@ -44,7 +44,7 @@ class ViewerLoadingTest : public ViewerPanelsTest {
 
 TEST_F(ViewerLoadingTest, TheOldSceneStaysInUseUntilTheNewOneIsThere) {
     const std::string model = largeModel("viewer_loading.obj");
-    start(std::string(kSmall) + "--gl-debug builtin:cornell");
+    start(kSmall + "--gl-debug builtin:cornell");
     settle();
     const glm::ivec4 place = picture();
     const std::string camera = viewer->status("camera");
@@ -85,7 +85,7 @@ TEST_F(ViewerLoadingTest, TheOldSceneStaysInUseUntilTheNewOneIsThere) {
 // What was changed while another scene was read is not lost without a question.
 TEST_F(ViewerLoadingTest, ChangesMadeMeanwhileAreAskedAbout) {
     const std::string model = largeModel("viewer_loading_changed.obj");
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     settle();
     viewer->send("select 'short block'");
     const glm::ivec4 place = picture();
@@ -109,7 +109,7 @@ TEST_F(ViewerLoadingTest, ChangesMadeMeanwhileAreAskedAbout) {
 // A file that is added is read in the background, too; commands wait, the view turns, the button ends it.
 TEST_F(ViewerLoadingTest, AFileThatIsAddedIsReadInTheBackground) {
     const std::string model = largeModel("viewer_import.obj");
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     settle();
     const glm::ivec4 place = picture();
     viewer->send("import '" + model + "'; echo went on");
@@ -134,10 +134,42 @@ TEST_F(ViewerLoadingTest, AFileThatIsAddedIsReadInTheBackground) {
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
 }
 
+// What the first picture is at is told; stopped, the window answers, and draws when something changes. Each program takes the
+// driver a while that has none of them.
+TEST_F(ViewerLoadingTest, TheFirstPictureSaysWhatItIsAtAndIsStopped) {
+    start("--window 720x480 --voxels 32 --mode traced --no-state builtin:cornell",
+          "MESA_SHADER_CACHE_DISABLE=true");
+    const auto works = [&](const std::string& part) {
+        return viewer
+                   ->statusUntil("work",
+                                 [&](const std::string& now) { return now.find(part) != std::string::npos; })
+                   .find(part) != std::string::npos;
+    };
+    EXPECT_TRUE(works("building programs, ")) << viewer->output();
+    EXPECT_TRUE(lettersShown("work:stop"));
+    click("work:stop");
+    EXPECT_EQ(viewer->status("work"), "stopped");
+    EXPECT_EQ(viewer->status("frames").rfind("0 pictures", 0), 0u) << viewer->status("frames");
+    EXPECT_EQ(viewer->placeOf("work:stop").z, 0);
+    click("work:go on");
+    EXPECT_TRUE(works(", ")) << "it goes on";
+    screen->xdotool("mousemove 300 200 key Escape");
+    EXPECT_TRUE(works("stopped"));
+    viewer->send("settle; echo ends");
+    EXPECT_NE(viewer->expect("ends"), "") << "nothing is waited for";
+    viewer->send("mode phong; set image.temporal off; settle; echo drawn");
+    EXPECT_NE(viewer->expect("drawn"), "") << viewer->output();
+    EXPECT_NE(viewer->status("frames").rfind("0 pictures", 0), 0u);
+    EXPECT_EQ(viewer->status("work"), "none");
+    EXPECT_EQ(viewer->placeOf("work:go on").z, 0);
+    viewer->send("quit");
+    EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
+}
+
 // The window is there at once and says what it reads; stopped, it is an empty one.
 TEST_F(ViewerLoadingTest, AStartShowsTheWindowAtOnce) {
     const std::string model = largeModel("viewer_loading_start.obj");
-    start("--window 720x480 --voxels 32 --mode phong --no-state '" + model + "'");
+    start("--window 720x480 --no-state " + kCheap + "'" + model + "'");
     ASSERT_TRUE(viewer->holdChild()) << viewer->output();
     const glm::ivec4 window(0, 0, 720, 480);
     EXPECT_TRUE(eventually([&] { return textShown(screen->pixels(), window); }));

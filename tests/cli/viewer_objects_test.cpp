@@ -16,7 +16,7 @@ class ViewerObjectsTest : public ViewerPanelsTest {
 };
 
 TEST_F(ViewerObjectsTest, ObjectsComeAndGoByKeys) {
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     viewer->send("select 'short block'");
     settle();
     const glm::ivec4 place = picture();
@@ -59,7 +59,7 @@ TEST_F(ViewerObjectsTest, ObjectsComeAndGoByKeys) {
 
 // The outline of what is selected, and of nothing else, also where another object is before it.
 TEST_F(ViewerObjectsTest, TheSelectionIsOutlined) {
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     settle();
     const glm::ivec4 place = picture();
     const auto blue = [&] {
@@ -81,7 +81,7 @@ TEST_F(ViewerObjectsTest, TheSelectionIsOutlined) {
 }
 
 TEST_F(ViewerObjectsTest, ViewsAlongTheAxesAndKeptCameras) {
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     settle();
     moveTo(inPicture(0.5f, 0.95f));
     // Eye less target, in lengths of that.

@@ -14,7 +14,7 @@ class ViewerPanelsTest : public ViewerTest {
   protected:
     // A scene seen from one side, panels beside it.
     void startTurned() {
-        start("--window 900x600 --voxels 32 --mode phong --no-state builtin:cornell");
+        start("--window 900x600 --no-state " + kCheap + "builtin:cornell");
         viewer->send("camera orbit 30 15");
         settle();
     }

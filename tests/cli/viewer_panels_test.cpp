@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 TEST_F(ViewerPanelsTest, PresetsAreSavedAndLoadedInTheMenu) {
     const std::string file = freshFolder("presets") + "/look.json";
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     settle();
     viewer->send("set image.exposure 1");
     click("menu:File");
@@ -64,7 +64,7 @@ TEST_F(ViewerPanelsTest, PresetsAreSavedAndLoadedInTheMenu) {
 
 // Where someone looks for them who has just chosen component voxels.
 TEST_F(ViewerPanelsTest, HowVoxelsAreShownStandsWithVoxels) {
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     settle();
     click("tab:Voxels");
     for (const char* key : {"voxels.size", "view.voxels", "view.voxel_data", "view.voxel_shape"})
@@ -75,7 +75,7 @@ TEST_F(ViewerPanelsTest, HowVoxelsAreShownStandsWithVoxels) {
 
 TEST_F(ViewerPanelsTest, ScenesAreSavedOpenedAndReloaded) {
     const std::string folder = freshFolder("scenes"), scene = folder + "/room.glb";
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     viewer->send("material white color 0.2 0.2 0.2");
     settle();
     const glm::ivec2 at = inPicture(0.5f, 0.35f);
@@ -125,7 +125,7 @@ TEST_F(ViewerPanelsTest, ChangesAreNotLostUnasked) {
     if (const std::string missing = x11Missing(); !missing.empty()) GTEST_SKIP() << missing;
     const std::string folder = freshFolder("unsaved"), scene = folder + "/room.glb",
                       kept = folder + "/kept.glb";
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     viewer->send("save " + scene + "; load " + scene + "; set image.exposure 0.5");
     EXPECT_TRUE(heard("loaded " + scene)) << viewer->output();
     settle();
@@ -156,7 +156,7 @@ TEST_F(ViewerPanelsTest, ChangesAreNotLostUnasked) {
 }
 
 TEST_F(ViewerPanelsTest, MeasuresToolTipsAndViewsOfVoxels) {
-    start("--window 900x600 --voxels 32 --mode phong --no-state builtin:cornell");
+    start("--window 900x600 --no-state " + kCheap + "builtin:cornell");
     settle();
     // Times of frames and passes, memory by object.
     EXPECT_GT(viewer->placeOf("frame graph").z, 50) << viewer->output();
@@ -200,7 +200,8 @@ TEST_F(ViewerPanelsTest, MeasuresToolTipsAndViewsOfVoxels) {
         viewer->send(std::string("set ") + change);
         EXPECT_TRUE(eventually([&] { return screen->pixels().changedFrom(shown, place, 8) > 500; }))
             << change;
-        settle();
+        viewer->send("wait 1; echo drawn");
+        ASSERT_NE(viewer->expect("drawn"), "") << viewer->output();
         shown = screen->pixels();
     }
     viewer->send("quit");
@@ -209,7 +210,7 @@ TEST_F(ViewerPanelsTest, MeasuresToolTipsAndViewsOfVoxels) {
 
 // What is black says why, in words, on the picture.
 TEST_F(ViewerPanelsTest, ABlackPictureSaysWhy) {
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     settle();
     EXPECT_EQ(viewer->status("hint"), "none");
     const struct {
@@ -242,7 +243,7 @@ TEST_F(ViewerPanelsTest, ABlackPictureSaysWhy) {
 TEST_F(ViewerPanelsTest, TextFollowsTheScreensScale) {
     if (const std::string missing = x11Missing(); !missing.empty()) GTEST_SKIP() << missing;
     setScreenDpi(screen->display(), 192);
-    start(std::string(kSmall) + "builtin:cornell");
+    start("--window 420x300 --no-state " + kCheap + "builtin:cornell");  // 840 x 600 on this screen
     settle();
     EXPECT_NE(viewer->status("window").find("scale 2.00"), std::string::npos) << viewer->status("window");
     const glm::ivec4 large = viewer->placeOf("tab:Scene");
@@ -281,7 +282,7 @@ TEST_F(ViewerPanelsTest, ShadersAreBuiltAgainWhenTheyChange) {
     const std::string folder = freshFolder("shaders");
     fs::copy(CONELIGHT_SOURCE_DIR "/shaders", folder,
              fs::copy_options::recursive | fs::copy_options::overwrite_existing);
-    start(std::string(kSmall) + "--shader-dir '" + folder + "' builtin:cornell");
+    start(kSmall + "--shader-dir '" + folder + "' builtin:cornell");
     settle();
     const glm::ivec2 at = inPicture(0.5f, 0.35f);
     const glm::vec3 lit = shownAt(at);

@@ -66,7 +66,7 @@ TEST_F(ViewerAnswersTest, TheToolMeasuresARound) {
     const CommandResult result =
         runCommand("'" CONELIGHT_SOURCE_DIR "/tools/measure_viewer' --minutes 0 --program '" CONELIGHT_PROGRAM
                    "' --window 720x480 --other builtin:cornell-point --out '" +
-                   out + "' -- --voxels 24 --mode phong");
+                   out + "' -- --voxels 24 --mode phong --set image.temporal=off");
     EXPECT_EQ(result.status, 0) << result.output;
     const std::string page = bytesOf(out + ".md");
     for (const char* part : {"from a click until", "| orbit | ", "| open | ", "ms of CPU a frame"})

@@ -85,7 +85,7 @@ glm::dvec2 clippedIn(const io::ByteImage& image) {
 
 TEST_F(ViewerPictureTest, ExposureIsJudgedByMarksColoursAndHistograms) {
     const std::string shot = freshFolder("exposure") + "/shot.png";
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     settle();
     viewer->send("screenshot " + shot);
     EXPECT_TRUE(heard("written " + shot)) << viewer->output();
@@ -135,7 +135,7 @@ TEST_F(ViewerPictureTest, ExposureIsJudgedByMarksColoursAndHistograms) {
 }
 
 TEST_F(ViewerPictureTest, AKeptPictureStandsBesideTheLiveOne) {
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     viewer->send("flip");
     EXPECT_TRUE(heard("flip: nothing is kept")) << viewer->output();
     settle();

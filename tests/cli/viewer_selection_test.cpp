@@ -16,7 +16,7 @@ namespace {
 class ViewerSelectionTest : public ViewerPanelsTest {
   protected:
     void startRoom() {
-        start("--window 900x620 --voxels 32 --mode phong --no-state builtin:cornell");
+        start("--window 900x620 --no-state " + kCheap + "builtin:cornell");
         settle();
     }
     void pressAt(const glm::ivec2& p, int button) {
@@ -49,8 +49,7 @@ class ViewerSelectionTest : public ViewerPanelsTest {
     // The box with its blocks in a group, and that in one of everything.
     void startGrouped(const std::string& folder) {
         const std::string file = folder + "/room.gltf";
-        start(std::string("--window 900x600 --voxels 32 --mode phong --no-state --exec 'save ") + file +
-              "' builtin:cornell");
+        start("--window 900x600 --no-state " + kCheap + "--exec 'save " + file + "' builtin:cornell");
         settle();
         std::ifstream stream(file);
         nlohmann::json json = nlohmann::json::parse(stream);
@@ -315,7 +314,7 @@ TEST_F(ViewerSelectionTest, MaterialsShowTheirTextures) {
     scene.instances.push_back({"card", 0, 0});
     const std::string file = freshFolder("textures") + "/card.glb";
     io::writeScene(file, scene, true);
-    start("--window 900x620 --voxels 32 --mode phong --no-state " + file);
+    start("--window 900x620 --no-state " + kCheap + file);
     settle();
     click(row("card"));
     click("edit:material");

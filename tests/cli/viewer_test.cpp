@@ -23,7 +23,7 @@ namespace {
 TEST_F(ViewerTest, ConsoleSwitchesModesTakesAScreenshotAndQuits) {
     const std::string shot = scratchPath("viewer.png");
     std::filesystem::remove(shot);
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     viewer->send("mode cones; settle; screenshot " + shot);
     EXPECT_NE(viewer->expect("written " + shot), "") << viewer->output();
     EXPECT_EQ(viewer->setting("mode"), "cones");
@@ -45,7 +45,7 @@ TEST_F(ViewerTest, ConsoleSwitchesModesTakesAScreenshotAndQuits) {
 }
 
 TEST_F(ViewerTest, MouseAndKeysMoveTheCameraAndChooseObjects) {
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     settle();
     const std::string first = viewer->status("camera");
     const glm::ivec2 middle = inPicture(0.5f, 0.5f);
@@ -128,7 +128,7 @@ void expectDone(const HandleDrag& drag, const std::vector<float>& first, const s
 
 // Handles on what is selected: each tool by the mouse, each drag one step of undo, and the camera stays.
 TEST_F(ViewerTest, HandlesMoveTurnAndScaleTheSelection) {
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     viewer->send("camera orbit 30 20; select 'short block'");
     settle();
     const auto numbers = [&] { return placeAndAxis(viewer->status("selection")); };
@@ -170,7 +170,7 @@ TEST_F(ViewerTest, HandlesMoveTurnAndScaleTheSelection) {
 }
 
 TEST_F(ViewerTest, SlidersAreDraggedAndUndone) {
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     settle();
     click("tab:Image");
     const glm::ivec4 slider = viewer->placeOf("image.exposure");
@@ -229,7 +229,7 @@ TEST_F(ViewerTest, KeysLetGoWithinOneFrameDoNotStick) {
 }
 
 TEST_F(ViewerTest, TwoModesSideBySide) {
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "--exec 'resolution 0.25' builtin:cornell");
     settle();
     const glm::ivec4 place = picture();
     // The background of mode phong and the path tracer's bounced light differ on the ceiling's edge.
@@ -266,7 +266,7 @@ TEST_F(ViewerTest, TwoModesSideBySide) {
 }
 
 TEST_F(ViewerTest, ModesOfTheProcessorInTheWindow) {
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "--exec 'resolution 0.25' builtin:cornell");
     settle();
     const glm::ivec2 at = inPicture(0.8f, 0.5f);
     const glm::vec3 phong = shownAt(at);
@@ -299,7 +299,7 @@ TEST_F(ViewerTest, ModesOfTheProcessorInTheWindow) {
 TEST_F(ViewerTest, BakesInTheBackground) {
     const std::string file = scratchPath("baked.glb");
     std::filesystem::remove(file);
-    start(std::string(kSmall) + "--subdivide 1 --visibility-rays 64 builtin:cornell");
+    start(kSmall + "--subdivide 1 --visibility-rays 64 builtin:cornell");
     settle();
     viewer->send("bake " + file + "; echo behind");
     EXPECT_NE(viewer->expect("written " + file), "") << viewer->output();
@@ -312,7 +312,7 @@ TEST_F(ViewerTest, BakesInTheBackground) {
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
 
     // So much to bake that no machine is done before it is stopped.
-    start(std::string(kSmall) + "--subdivide 6 --visibility-rays 4096 builtin:cornell");
+    start(kSmall + "--subdivide 6 --visibility-rays 4096 builtin:cornell");
     settle();
     const std::string before = viewer->status("camera");
     const glm::ivec4 place = picture();
@@ -405,11 +405,11 @@ TEST_F(ViewerTest, FliesWhileAKeyIsHeld) {
             return bracket == std::string::npos ? 0 : std::strtol(now.c_str() + bracket + 1, nullptr, 10);
         };
         const std::string said =
-            viewer->statusUntil("moving", [&](const std::string& now) { return pictures(now) >= 20; });
+            viewer->statusUntil("moving", [&](const std::string& now) { return pictures(now) >= 12; });
         screen->xdotool("keyup w");
         screen->xdotool("mouseup 3");
         std::printf("%s: %s\n", scene, said.c_str());
-        EXPECT_GE(pictures(said), 20) << scene << ": " << viewer->output();
+        EXPECT_GE(pictures(said), 12) << scene << ": " << viewer->output();
         EXPECT_NE(viewer->status("camera"), before) << "it has flown";
         const std::string wide = std::to_string(full.z) + " x";
         EXPECT_EQ(

@@ -16,8 +16,9 @@
 namespace conelight::test {
 
 inline constexpr glm::ivec2 kScreen(960, 640);
-// Small and cheap: what is tested is the window.
-inline const char* const kSmall = "--window 720x480 --voxels 32 --mode phong --no-state ";
+// A cheap picture, finished with its first pass, and a small window: what is tested is the window.
+inline const std::string kCheap = "--voxels 32 --mode phong --set image.temporal=off ";
+inline const std::string kSmall = "--window 720x480 --no-state " + kCheap;
 
 inline bool near(const glm::vec3& a, const glm::vec3& b, float tolerance) {
     return glm::all(glm::lessThan(glm::abs(a - b), glm::vec3(tolerance)));

@@ -18,7 +18,7 @@ TEST_F(ViewerTest, LinesAreTypedIntoTheWindowAndRemembered) {
     const std::string state = scratchPath("state");
     std::filesystem::remove_all(state);
     const std::string environment = "XDG_STATE_HOME=" + state;
-    const std::string options = "--window 720x480 --voxels 32 --mode phong builtin:cornell";
+    const std::string options = "--window 720x480 " + kCheap + "builtin:cornell";
     start(options, environment);
     settle();
     click("console");
@@ -64,7 +64,7 @@ TEST_F(ViewerTest, LinesAreTypedIntoTheWindowAndRemembered) {
 TEST_F(ViewerTest, BadFilesAndBadNumbersAreLinesNotTheEnd) {
     const std::string broken = scratchPath("broken.gltf");
     std::ofstream(broken) << "{";
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     settle();
     for (const std::string& path : {broken, scratchPath(""), scratchPath("nowhere.glb")}) {
         viewer->send("open '" + path + "'");
@@ -112,7 +112,7 @@ TEST_F(ViewerTest, BadFilesAndBadNumbersAreLinesNotTheEnd) {
 }
 
 TEST_F(ViewerTest, WindowChangesSizeFillsTheScreenAndCloses) {
-    start(std::string(kSmall) + "--ui-scale 1.5 builtin:cornell");
+    start(kSmall + "--ui-scale 1.5 builtin:cornell");
     settle();
     EXPECT_NE(viewer->status("window").find("scale 1.50"), std::string::npos);
     const glm::ivec4 before = picture();
@@ -137,7 +137,7 @@ TEST_F(ViewerTest, WindowChangesSizeFillsTheScreenAndCloses) {
 
 // Two sizes and two scales: letters stand where they should, as high as they should be, and the picture fills its place.
 TEST_F(ViewerPanelsTest, EverySizeAndScaleIsDrawnWhole) {
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     settle();
     const auto isRed = [](const glm::vec3& p) { return p.x > 1.5f * p.y && p.x > 40; };
     const auto isGreen = [](const glm::vec3& p) { return p.y > 1.3f * p.x && p.y > 40; };
@@ -182,13 +182,13 @@ TEST_F(ViewerPanelsTest, EverySizeAndScaleIsDrawnWhole) {
 
 TEST_F(ViewerTest, TheCloseButtonEndsIt) {
     if (const std::string missing = x11Missing(); !missing.empty()) GTEST_SKIP() << missing;
-    start(std::string(kSmall) + "--timing builtin:cornell");
+    start(kSmall + "--timing builtin:cornell");
     settle();
     pressCloseButton(screen->display(), "Conelight");
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
     EXPECT_NE(viewer->output().find("timing: GUI"), std::string::npos) << "it ended in order";
     // Also while programs are built for the first picture.
-    start(std::string(kSmall) + "--gl-debug --exec quit builtin:cornell", "MESA_SHADER_CACHE_DISABLE=true");
+    start(kSmall + "--gl-debug --exec quit builtin:cornell", "MESA_SHADER_CACHE_DISABLE=true");
     EXPECT_EQ(viewer->exitStatus(), 0) << viewer->output();
     EXPECT_EQ(viewer->output().find("OpenGL: "), std::string::npos) << viewer->output();
 }
@@ -199,7 +199,7 @@ TEST_F(ViewerTest, DroppedFilesAreOpened) {
     const std::string folder = scratchPath("dropped");
     std::filesystem::create_directories(folder);
     const std::string scene = folder + "/a scene's file.glb", broken = folder + "/broken.gltf";
-    start(std::string(kSmall) + "builtin:cornell");
+    start(kSmall + "builtin:cornell");
     settle();
     viewer->send("save '" + folder + "/a.glb' overwrite; echo saved");
     ASSERT_NE(viewer->expect("saved " + folder), "") << viewer->output();

@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 #include <unordered_set>
@@ -24,6 +25,12 @@ bool endsWith(const std::string& text, const std::string& end) {
     return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
+// There are very many; the list is made once.
+const std::vector<gl::ProgramDesc>& allVariants() {
+    static const std::vector<gl::ProgramDesc> all = modes::allShaderVariants();
+    return all;
+}
+
 bool isEntry(const std::string& path) {
     for (const char* stage : kStages)
         if (endsWith(path, stage)) return true;
@@ -34,8 +41,7 @@ bool isEntry(const std::string& path) {
 
 TEST(ShaderVariantsTest, EveryEntryIsInAVariant) {
     std::set<std::string> used;
-    for (const gl::ProgramDesc& desc : modes::allShaderVariants())
-        used.insert(desc.files.begin(), desc.files.end());
+    for (const gl::ProgramDesc& desc : allVariants()) used.insert(desc.files.begin(), desc.files.end());
     for (const gl::EmbeddedShader& shader : gl::embeddedShaders()) {
         if (!isEntry(shader.path)) continue;
         EXPECT_TRUE(used.count(shader.path))
@@ -50,13 +56,13 @@ TEST(ShaderVariantsTest, ExpandedFilesAreWhatTheDriverGets) {
     const std::size_t count = expandAllShaders(dir.string());
     std::unordered_set<std::string> texts;
     const gl::ShaderProvider provider = gl::embeddedShaderProvider();
-    for (const gl::ProgramDesc& desc : modes::coveringVariants(modes::allShaderVariants(), 2))
+    for (const gl::ProgramDesc& desc : modes::coveringVariants(allVariants(), 2))
         for (const std::string& file : desc.files)
             texts.insert(gl::expandShader(provider, file, desc.defines).text);
     const std::size_t forProcessors = texts.size();
     // What GPUs get is there where it differs.
     const gl::ShaderProvider gpu = gl::providerFor(gl::ExecutionProfile::Gpu, provider);
-    for (const gl::ProgramDesc& desc : modes::coveringVariants(modes::allShaderVariants(), 1))
+    for (const gl::ProgramDesc& desc : modes::coveringVariants(allVariants(), 1))
         for (const std::string& file : desc.files)
             texts.insert(gl::expandShader(gpu, file, desc.defines).text);
     EXPECT_GT(texts.size(), forProcessors);
@@ -77,14 +83,18 @@ TEST(ShaderVariantsTest, ExpandedFilesAreWhatTheDriverGets) {
 
 // Every pair of values that any variant has is in one of those that stand for all.
 TEST(ShaderVariantsTest, CoveringVariantsHaveEveryPair) {
-    const std::vector<gl::ProgramDesc> all = modes::allShaderVariants();
+    const std::vector<gl::ProgramDesc>& all = allVariants();
     const std::vector<gl::ProgramDesc> part = modes::coveringVariants(all, 2);
     const auto pairsOf = [](const std::vector<gl::ProgramDesc>& descs) {
-        std::set<std::string> pairs;
-        for (const gl::ProgramDesc& desc : descs)
-            for (const auto& [a, x] : desc.defines)
-                for (const auto& [b, y] : desc.defines)
-                    pairs.insert(desc.files.back() + ' ' + a + '=' + x + ' ' + b + '=' + y);
+        // By file: of each name its values, of each two of these whether they are together.
+        std::map<std::string, std::map<std::string, std::set<std::string>>> pairs;
+        for (const gl::ProgramDesc& desc : descs) {
+            auto& ofFile = pairs[desc.files.back()];
+            for (const auto& [a, x] : desc.defines) {
+                auto& others = ofFile[a + '=' + x];
+                for (const auto& [b, y] : desc.defines) others.insert(b + '=' + y);
+            }
+        }
         return pairs;
     };
     EXPECT_EQ(pairsOf(all), pairsOf(part));

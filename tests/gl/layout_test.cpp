@@ -148,7 +148,7 @@ std::vector<Struct> otherStructs() {
         ROW(RecordedStep, position, size, radiance, opacity, distance, level, total, kind),
         ROW(PixelRayConstants, oldClipFromWorld, oldEye, planeTolerance, oldForward, pass, oldRight, rays,
             oldUp, longestMean, specularLimit, reach, inverseVoxelSize, reflections, fireflyClamp, lowestX,
-            lowestY, oldParallel, motionScaleX, motionScaleY, motionStep, reuse, aimed, pad0, pad1, pad2),
+            lowestY, oldParallel, motionScaleX, motionScaleY, motionStep, reuse),
         ROW(FrameConstants, clipFromWorld, eye, width, viewForward, height, viewRight, footprint, viewUp,
             blending, parallel, pad0, pad1, pad2),
         ROW(LightingConstants, sky, environmentScale, lightEnds, environmentTurn, environmentInverseFlux,

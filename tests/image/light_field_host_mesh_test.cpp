@@ -174,6 +174,176 @@ TEST_F(LightFieldHostMesh, NewTexelsAreThoseOfANewScene) {
     EXPECT_THROW(renderer.setTexture(0, Texture{}), Error);
 }
 
+struct TextureOfHost {
+    GLuint name = 0;
+    TextureOfHost(GLenum format, int edge, GLenum layout, GLenum type, const void* texels) {
+        glCreateTextures(GL_TEXTURE_2D, 1, &name);
+        int levels = 1;
+        while (edge >> levels > 0) ++levels;
+        glTextureStorage2D(name, levels, format, edge, edge);
+        glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+        glTextureSubImage2D(name, 0, 0, 0, edge, edge, layout, type, texels);
+        glGenerateTextureMipmap(name);
+    }
+    ~TextureOfHost() { glDeleteTextures(1, &name); }
+    TextureOfHost(const TextureOfHost&) = delete;
+    TextureOfHost& operator=(const TextureOfHost&) = delete;
+};
+
+// Every second texel of a row dark, green rising from row to row: which end is where shows, and how means are taken.
+Texture stripedTexture(int edge) {
+    Texture texture;
+    texture.width = texture.height = edge;
+    for (int i = 0; i < edge * edge; ++i) {
+        const auto row = static_cast<std::uint8_t>(i / edge * 255 / edge);
+        const auto stripe = static_cast<std::uint8_t>(i % 2 * 240);
+        texture.rgba.insert(texture.rgba.end(), {stripe, row, 60, 255});
+    }
+    return texture;
+}
+
+// A room whose materials all have one texture.
+Scene texturedRoom(Scene scene, const Texture& texture) {
+    for (Mesh& mesh : scene.meshes) {
+        mesh.uvs.clear();
+        for (const glm::vec3& p : mesh.positions) mesh.uvs.emplace_back(0.5f * (p.x + p.y), 0.5f * p.z);
+    }
+    scene.textures.push_back(texture);
+    for (Material& material : scene.materials) material.baseColorTexture.texture = 0;
+    return scene;
+}
+
+// Smaller and larger than the copy that light sees; drawn, voxelized and lit as the same texels in an array.
+TEST_F(LightFieldHostMesh, TexturesOfTheHostShowAsOnesInArrays) {
+    Settings settings = hostSettings();
+    settings.mode = Mode::Cones;  // which keeps no light
+    settings.voxels.size = 16;
+    const auto draw = [&](Renderer& by) {
+        by.render(scene_.cameras[0], 24, 20, settings);
+        return by.readImage().pixels;
+    };
+    for (const int edge : {6, 512}) {
+        const Texture texels = stripedTexture(edge);
+        const Scene scene = texturedRoom(scene_, texels);
+        Renderer expected;
+        expected.setScene(scene);
+        const TextureOfHost own(GL_SRGB8_ALPHA8, edge, GL_RGBA, GL_UNSIGNED_BYTE, texels.rgba.data());
+        Renderer renderer;
+        renderer.setScene(texturedRoom(scene_, plainTexture(1, {255, 255, 255})));
+        const std::vector<glm::vec4> white = draw(renderer);
+        renderer.setTexture(0, HostTexture{.name = "stripes", .texture = own.name});
+        EXPECT_EQ(renderer.scene().textures[0].rgba, std::vector<std::uint8_t>(4, 255));
+        const std::vector<glm::vec4> truth = draw(expected), shown = draw(renderer);
+        EXPECT_LT(hostDifference(shown, truth), 2e-3) << edge;
+        EXPECT_GT(hostDifference(white, truth), 0.2) << edge;
+        // An array again.
+        renderer.setTexture(0, texels);
+        EXPECT_TRUE(draw(renderer) == truth) << edge;
+    }
+}
+
+// The field never draws with it: what bounces is what the copy holds, and new texels come with a new call.
+TEST_F(LightFieldHostMesh, TexelsThatTheHostPaintsBounceAfterTheCall) {
+    HostPicture host(scene_, lens());
+    drawn(host);
+    const Settings settings = hostSettings();
+    const Texture red = plainTexture(4, {200, 30, 30}), green = plainTexture(4, {30, 200, 30});
+    const std::vector<glm::vec4> ofRed = ofScene(texturedRoom(scene_, red), settings, host),
+                                 ofGreen = ofScene(texturedRoom(scene_, green), settings, host);
+    const TextureOfHost own(GL_SRGB8_ALPHA8, 4, GL_RGBA, GL_UNSIGNED_BYTE, red.rgba.data());
+    Scene scene = texturedRoom(scene_, red);
+    scene.textures.clear();
+    for (Material& material : scene.materials) material.baseColorTexture.texture = -1;
+    LightField field;
+    field.setSettings(settings);
+    field.setScene(scene);
+    EXPECT_EQ(field.addTexture(HostTexture{.texture = own.name}), 0u);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        scene.materials[i].baseColorTexture.texture = 0;
+        field.setMaterial(i, scene.materials[i]);
+    }
+    field.update();
+    EXPECT_LT(hostDifference(diffuseOf(field, host), ofRed), 2e-3);
+    // By a draw or a dispatch of the host's, or as here.
+    glTextureSubImage2D(own.name, 0, 0, 0, 4, 4, GL_RGBA, GL_UNSIGNED_BYTE, green.rgba.data());
+    field.setTexture(0, HostTexture{.texture = own.name});
+    field.update();
+    // Noise of few rays is left in both.
+    EXPECT_LT(hostDifference(diffuseOf(field, host), ofGreen), 0.05);
+    EXPECT_GT(hostDifference(ofRed, ofGreen), 0.2);
+}
+
+// Half floats of linear light, without mipmaps, and one channel by swizzles: as samplers read them.
+TEST_F(LightFieldHostMesh, TexturesOfTheHostAreReadAsSamplersReadThem) {
+    HostPicture host(scene_, lens());
+    drawn(host);
+    const Settings settings = hostSettings();
+    const std::vector<glm::vec4> expected =
+        ofScene(texturedRoom(scene_, plainTexture(1, {188, 188, 188})), settings, host);  // 0.503 linear
+    const std::vector<float> grey(4, 0.5029f);
+    const TextureOfHost one(GL_R16F, 2, GL_RED, GL_FLOAT, grey.data());
+    for (const GLenum channel : {GL_TEXTURE_SWIZZLE_G, GL_TEXTURE_SWIZZLE_B})
+        glTextureParameteri(one.name, channel, GL_RED);
+    GLuint changing = 0;  // without its smaller level
+    glGenTextures(1, &changing);
+    glBindTexture(GL_TEXTURE_2D, changing);
+    std::vector<float> texels;
+    for (int i = 0; i < 4; ++i) texels.insert(texels.end(), {0.5029f, 0.5029f, 0.5029f, 1});
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, 2, 2, 0, GL_RGBA, GL_FLOAT, texels.data());
+    for (const GLuint name : {one.name, changing}) {
+        LightField field;
+        field.setSettings(settings);
+        field.setScene(texturedRoom(scene_, plainTexture(1, {0, 0, 0})));
+        field.setTexture(0, HostTexture{.texture = name});
+        field.update();
+        EXPECT_LT(hostDifference(diffuseOf(field, host), expected), 5e-3) << name;
+    }
+    // Drawn with, too.
+    Settings pictures = settings;
+    pictures.voxels.size = 16;
+    std::vector<glm::vec4> shown[2];
+    for (const bool ofHost : {false, true}) {
+        Renderer renderer;
+        renderer.setScene(texturedRoom(scene_, plainTexture(1, {188, 188, 188})));
+        if (ofHost) renderer.setTexture(0, HostTexture{.texture = changing});
+        renderer.render(scene_.cameras[0], 24, 20, pictures);
+        shown[ofHost ? 1 : 0] = renderer.readImage().pixels;
+    }
+    EXPECT_LT(hostDifference(shown[1], shown[0]), 5e-3);
+    glDeleteTextures(1, &changing);
+}
+
+TEST_F(LightFieldHostMesh, TexturesOfNoUseAreSaid) {
+    LightField field;
+    field.setScene(texturedRoom(scene_, plainTexture(1, {255, 255, 255})));
+    const std::vector<std::uint32_t> ones(4, 1);
+    const TextureOfHost depth(GL_DEPTH_COMPONENT32F, 2, GL_DEPTH_COMPONENT, GL_FLOAT, ones.data());
+    GLuint others[3] = {};  // integers, an array, one without texels
+    glCreateTextures(GL_TEXTURE_2D, 1, &others[0]);
+    glTextureStorage2D(others[0], 1, GL_R32UI, 2, 2);
+    glCreateTextures(GL_TEXTURE_2D_ARRAY, 1, &others[1]);
+    glTextureStorage3D(others[1], 1, GL_RGBA8, 2, 2, 2);
+    glCreateTextures(GL_TEXTURE_2D, 1, &others[2]);
+    const std::pair<const char*, GLuint> cases[] = {
+        {"is no GL_TEXTURE_2D", 0},         {"is no GL_TEXTURE_2D", 4711},
+        {"integers or depths", depth.name}, {"integers or depths", others[0]},
+        {"is no GL_TEXTURE_2D", others[1]}, {"is no GL_TEXTURE_2D with texels", others[2]}};
+    for (const auto& [words, name] : cases) {
+        try {
+            field.setTexture(0, HostTexture{.name = "wood", .texture = name});
+            ADD_FAILURE() << words;
+        } catch (const Error& error) {
+            EXPECT_EQ(error.kind(), ErrorKind::BadInput);
+            EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+            EXPECT_NE(std::string(error.what()).find("'wood'"), std::string::npos) << error.what();
+        }
+        EXPECT_THROW(field.addTexture(HostTexture{.texture = name}), Error);
+    }
+    EXPECT_EQ(field.scene().textures.size(), 1u);
+    EXPECT_THROW(field.setTexture(1, HostTexture{.texture = depth.name}), Error);
+    glDeleteTextures(3, others);
+}
+
 // ---- Statistics -----------------------------------------------------------------------------------------
 
 std::size_t bytesOf(const std::vector<MemoryStats>& memory) {

@@ -230,5 +230,32 @@ TEST_F(PicturePartsTest, EachDoesLittle) {
     }
 }
 
+// What a renderer is at, by its name: textures by how many there are, then passes in their order.
+TEST_F(PicturePartsTest, TheirWorkIsTold) {
+    Scene scene = io::generateScene("cornell-point");
+    for (const char* name : {"a", "b", "c"})
+        scene.textures.push_back({name, 1, 1, true, {}, {}, TextureFilter::Nearest, {255, 255, 255, 255}});
+    Renderer renderer({"", true});
+    EXPECT_EQ(renderer.work().name, "");
+    renderer.setScene(scene);
+    const PictureWork taken = renderer.work();
+    EXPECT_EQ(taken.name, "textures");
+    EXPECT_EQ(taken.done, 3u);
+    EXPECT_EQ(taken.total, 3u);
+    renderer.begin(scene.cameras.front(), kWidth, kHeight, partSettings(Mode::Traced));
+    EXPECT_EQ(renderer.work().name, "") << "a picture begins with nothing";
+    std::vector<std::string> told;
+    for (bool finished = false; !finished;) {
+        finished = renderer.goOn(0);
+        if (const std::string name = renderer.work().name; told.empty() || told.back() != name)
+            told.push_back(name);
+    }
+    auto at = told.begin();
+    for (const char* name : {"gbuffer", "voxelize: mark", "irradiance: update", "diffuse rays"}) {
+        at = std::find(at, told.end(), name);
+        EXPECT_NE(at, told.end()) << name;
+    }
+}
+
 }  // namespace
 }  // namespace conelight::test

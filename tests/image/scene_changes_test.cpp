@@ -288,7 +288,7 @@ TEST_F(SceneChanges, RefusedOnesChangeNothing) {
     refused("light 2 of 2", [&] { renderer.setLight(2, {}); });
     refused("not finite", [&] { renderer.setSky({0, NAN, 0}); });
     refused("texture 3", [&] { renderer.addMaterial(material); });
-    refused("do not belong together", [&] { renderer.addTexture({}); });
+    refused("do not belong together", [&] { renderer.addTexture(Texture{}); });
     refused("not finite", [&] { renderer.addMesh(mesh); });
     refused("material 99", [&] { renderer.addInstance(instance); });
     refused("instance 8 of 8", [&] { renderer.removeInstance(8); });

@@ -35,9 +35,9 @@ Argument themeArgument() {
 
 Argument statusKey() {
     return choice("KEY",
-                  {"scene",     "window", "picture", "mode",   "split", "kept",       "settled", "selection",
-                   "pixel",     "camera", "steps",   "path",   "log",   "hint",       "guides",  "headlight",
-                   "turntable", "frames", "moving",  "pauses", "gui",   "first_frame"});
+                  {"scene",     "window",    "picture", "mode",   "split",  "kept", "work",       "settled",
+                   "selection", "pixel",     "camera",  "steps",  "path",   "log",  "hint",       "guides",
+                   "headlight", "turntable", "frames",  "moving", "pauses", "gui",  "first_frame"});
 }
 
 Command splitCommand() {

@@ -5,7 +5,6 @@
 #include <imgui.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -15,6 +14,7 @@
 #include "traced_picture.h"
 #include "viewer/background_job.h"
 #include "viewer/widget_places.h"
+#include "viewer/work_bar.h"
 
 namespace conelight::program {
 namespace {
@@ -44,10 +44,7 @@ bool showStrip(const Strip& strip, const glm::vec2& at, float width) {
     ImGui::Begin((std::string("##") + strip.name).c_str(), nullptr,
                  ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                      ImGuiWindowFlags_NoFocusOnAppearing);
-    // How far it is nobody knows: it goes to and fro.
-    const double phase = std::fmod(ImGui::GetTime(), 2.0);
-    const double done = strip.done >= 0 ? strip.done : std::min(phase, 2 - phase);
-    ImGui::ProgressBar(static_cast<float>(done), {-5 * em, 0}, text.c_str());
+    showWorkBar(text, strip.done, -5 * em);
     ImGui::SameLine();
     const bool stopped = ImGui::Button("stop", {-1, 0});
     notePlace(std::string(strip.name) + ":stop");
@@ -165,7 +162,8 @@ void LongWork::followBake() {
 }
 
 void LongWork::lookWhetherSettled(bool improves) {
-    if (settling_ && (in_.view.finished() || (!improves && in_.view.showsOwn()))) settling_ = false;
+    if (settling_ && (in_.view.halted() || in_.view.finished() || (!improves && in_.view.showsOwn())))
+        settling_ = false;
 }
 
 bool LongWork::drawPictures() {

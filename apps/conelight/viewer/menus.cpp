@@ -52,9 +52,15 @@ void Menus::takeKeys() {
     const std::vector<platform::Window::KeyEvent>& presses = in_.gui.keyPresses();
     // Whoever typed `path play`, or `open`, still has the cursor in the console's line.
     const bool loads = in_.work.loads() && !menuOpen;
+    const bool begins = !in_.view.notice.empty() && !in_.view.halted() && !menuOpen;
     for (const auto& press : presses)
-        if (press.key == GLFW_KEY_ESCAPE && (in_.session.playing() || loads)) {
-            loads ? in_.work.stopLoading() : in_.session.stopPlaying();
+        if (press.key == GLFW_KEY_ESCAPE && (in_.session.playing() || loads || begins)) {
+            if (loads)
+                in_.work.stopLoading();
+            else if (in_.session.playing())
+                in_.session.stopPlaying();
+            else
+                in_.view.halt(in_.session);
             if (in_.gui.wantsKeyboard()) in_.console.panel().focus();
             return;
         }

@@ -41,6 +41,12 @@ std::string hybridLabel(const BakeStatus& status, bool baked) {
                        baked ? "light as it was, or a draft of it" : "all light by cones");
 }
 
+std::string workLabel(const PictureWork& work) {
+    if (work.done == 0) return work.name;
+    return work.total == 0 ? fmt::format("{}, {}", work.name, work.done)
+                           : fmt::format("{}, {} of {}", work.name, work.done, work.total);
+}
+
 std::string passesLabel(const std::string& mode, const PicturePasses& passes, int left,
                         const std::optional<double>& noise) {
     const bool hasLight = mode == "traced";

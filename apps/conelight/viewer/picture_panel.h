@@ -21,7 +21,6 @@ class PicturePanel {
         PictureView& view;
         PixelProbe& probe;
         const std::optional<std::string>& hint;
-        const std::string& notice;  // work that holds the window; empty: none
     };
     explicit PicturePanel(const Inputs& inputs) : in_(inputs) {}
 
@@ -31,6 +30,7 @@ class PicturePanel {
   private:
     void showLabels(const glm::vec2& at, const glm::vec2& size);
     void showInstruments(const glm::vec2& at, const glm::vec2& size);
+    void showWork(const glm::vec2& at, const glm::vec2& size);
     void showText(const std::string& text, const glm::vec2& at, const glm::vec2& size);
 
     Inputs in_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "viewer/picture_renderer.h"
 
+#include <chrono>
 #include <utility>
 
 #include "conelight/error.h"
@@ -10,6 +11,10 @@ namespace {
 
 // s that the window waits for a piece before it looks for input again: longer than most pieces.
 constexpr double kPatience = 0.05;
+
+double steadySeconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 }  // namespace
 
@@ -31,7 +36,7 @@ void PictureRenderer::run(const std::function<void(Renderer&)>& work) {
 }
 
 void PictureRenderer::begin(std::function<bool(Renderer&)> work) {
-    piece_ = {true, true, false, nullptr};
+    piece_ = {true, true, false, nullptr, steadySeconds()};
     thread_.post([this, renderer = renderer_.get(), work = std::move(work)] {
         try {
             piece_.finished = work(*renderer);
@@ -50,6 +55,10 @@ bool PictureRenderer::rests() {
     const std::exception_ptr failure = std::exchange(piece_.failure, nullptr);
     if (failure && piece_.wanted) std::rethrow_exception(failure);
     return true;
+}
+
+bool PictureRenderer::worksSince(double seconds) const {
+    return piece_.running && steadySeconds() - piece_.begun >= seconds;
 }
 
 void PictureRenderer::beginInspection(const glm::ivec2& pixel) {

@@ -38,6 +38,9 @@ class PictureRenderer {
     }                                         // of a piece that rests() saw ended
     void forget() { piece_.wanted = false; }  // what the piece finds
     bool works() const { return piece_.running; }
+    // What the renderer is at, and whether the piece has run for so long, s.
+    PictureWork work() const { return renderer_ ? renderer_->work() : PictureWork{}; }
+    bool worksSince(double seconds) const;
     std::uint64_t pieces() const { return pieces_; }  // ended so far, of pictures
 
     void beginInspection(const glm::ivec2& pixel);
@@ -48,9 +51,10 @@ class PictureRenderer {
     static constexpr double kForever = 1e6;  // s
 
     struct Piece {
-        bool running = false, wanted = false;  // the window's
+        bool running = false, wanted = false;  // the window's, as `begun`: by the steady clock, s
         bool finished = false;                 // the thread's, until rests() has seen it end, as what follows
         std::exception_ptr failure;
+        double begun = 0;
     };
     RendererOptions options_;
     platform::RenderThread& thread_;

@@ -23,6 +23,7 @@ namespace {
 constexpr int kReferenceSamples = 4096;
 // Between two parts of a picture the window looks whether somebody wants it.
 constexpr double kPartMs = 25;
+constexpr double kLongPiece = 0.5;    // s, chosen: what lasts so long is named in the label
 constexpr double kMovingPartMs = 40;  // of pictures that may take 100 and are to come soon
 
 double wallMs() {
@@ -66,6 +67,8 @@ void PictureSlot::Impl::drop() {
 }
 
 void PictureSlot::blank() { impl_->startAnew(); }
+void PictureSlot::drop() { impl_->drop(); }
+std::string PictureSlot::work() const { return drawing() ? workLabel(impl_->renderer.work()) : ""; }
 
 void PictureSlot::clear() {
     impl_->startAnew();
@@ -399,6 +402,7 @@ std::uint64_t PictureSlot::parts() const { return impl_->renderer.pieces() + imp
 bool PictureSlot::drawing() const {
     return impl_->drawing || impl_->renderer.works() || impl_->renderer.inspecting();
 }
+bool PictureSlot::works() const { return impl_->renderer.works(); }
 bool PictureSlot::onlyLook(const Session& session) const { return impl_->onlyLook(session); }
 std::uint32_t PictureSlot::texture() const { return impl_->texture; }
 int PictureSlot::width() const { return impl_->width; }
@@ -445,7 +449,8 @@ std::string PictureSlot::label() const {
     if (m.mode == "beams") return beamsLabel(m.beams.status(), m.preview);
     if (m.mode == "radiosity") return radiosityLabel(m.bake.status(), m.preview);
     if (m.mode == "hybrid") return hybridLabel(m.statics.status(), m.baked != nullptr);
-    return m.version == 0 ? m.mode : passesLabel(m.mode, m.passes, m.settling, m.noise.value());
+    const std::string work = m.renderer.worksSince(kLongPiece) ? "  " + workLabel(m.renderer.work()) : "";
+    return (m.version == 0 ? m.mode : passesLabel(m.mode, m.passes, m.settling, m.noise.value())) + work;
 }
 
 bool PictureSlot::finished() const {

@@ -44,6 +44,9 @@ class PictureSlot {
     void setHeadlight(float irradiance);  // of modes of the renderer (Renderer::setHeadlight)
     void redraw();  // the next draw draws although nothing changed, and although only single frames are asked
     bool drawing() const;         // a picture is begun and not finished, or other work for it
+    bool works() const;           // a piece of it goes on beside the window
+    void drop();                  // what is drawn is not wanted; the next draw begins anew
+    std::string work() const;     // what drawing is at: "voxelize: mark", "textures, 4 of 30"; empty: nothing
     std::uint64_t parts() const;  // grows with every part of a picture, and with every picture
     void blank();                 // shows nothing until the next draw
     // Frees what the slot holds; the next draw starts anew.

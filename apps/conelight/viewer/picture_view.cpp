@@ -85,6 +85,12 @@ void PictureView::blank() {
     right_->blank();
 }
 
+void PictureView::halt(const Session& session) {
+    left_->drop();
+    right_->drop();
+    halted_ = keyOf(session.revisions());
+}
+
 bool PictureView::moving() const { return lastMove_ >= 0 && ImGui::GetTime() - lastMove_ < kStillAfter; }
 
 glm::ivec2 PictureView::pictureSize() const { return {left_->width(), left_->height()}; }
@@ -111,6 +117,8 @@ bool PictureView::finished() const {
 
 bool PictureView::update(const Session& session, const glm::ivec2& areaPx, bool userActs) {
     if (areaPx.x < 8 || areaPx.y < 8) return false;
+    if (halted_ && *halted_ == keyOf(session.revisions())) return false;
+    resume();
     // A slider that is dragged changes the scene at each frame, as a camera that moves does. (What only
     // changes the look costs nothing: left_ does not draw it anew.)
     const std::uint64_t edits = session.revisions().sceneTables() + session.revisions().settings;

@@ -21,6 +21,7 @@
 #include "viewer/kept_picture.h"
 #include "viewer/light_shapes.h"
 #include "viewer/moving_resolution.h"
+#include "viewer/picture_key.h"
 #include "viewer/picture_slot.h"
 #include "viewer/scopes_panel.h"
 #include "viewer/turntable.h"
@@ -51,7 +52,11 @@ class PictureView {
     // `userActs`: input came a moment ago, so that what only refines a slow picture waits. Returns whether
     // another call soon would improve them. Failures are said by takeError().
     bool update(const Session& session, const glm::ivec2& areaPx, bool userActs);
-    void blank();                                                     // shows nothing until the next update
+    void blank();  // shows nothing until the next update
+    // Draws no more until something changes that the picture shows, or resume().
+    void halt(const Session& session);
+    void resume() { halted_.reset(); }
+    bool halted() const { return halted_.has_value(); }
     std::optional<std::string> takeError();                           // of update, each once
     void setRadiosity(const reference::RadiositySettings& settings);  // of mode radiosity, before it is shown
     // The GUI part: shows the textures at the cursor, moves the camera, returns where it was clicked.
@@ -71,6 +76,7 @@ class PictureView {
     const Movement& movement() const { return movement_; }
     bool moving() const;  // input moved the camera or a slider a moment ago: pictures are coarse
 
+    std::string notice;  // what is begun and takes long, said in the middle; empty: nothing
     Split split;
     Gizmo gizmo;
     KeptPicture kept;
@@ -90,6 +96,7 @@ class PictureView {
     bool showsOwn() const;                             // both sides show their mode's picture
     std::uint64_t parts() const { return left_->parts() + right_->parts(); }  // of pictures, so far
     bool drawing() const { return left_->drawing() || right_->drawing(); }  // parts of a picture are to come
+    bool works() const { return left_->works() || right_->works(); }        // beside the window
     bool finished() const;  // nothing would refine what is shown
     // The picture on that side of the split, under which a click is looked up.
     PictureSlot& slotAt(float part) { return slot(rightIsLive() && !split.errors && part >= split.position); }
@@ -106,6 +113,7 @@ class PictureView {
     platform::Window& window_;
     platform::RenderThread thread_;
     std::unique_ptr<PictureSlot> left_, right_;
+    std::optional<PictureKey> halted_;  // the picture that is not drawn on
     struct Errors;
     std::unique_ptr<Errors> errors_;
     double lastMove_ = -1;    // of camera or scene

@@ -87,6 +87,9 @@ std::vector<std::pair<std::string, std::string>> statusLines(const StatusInputs&
         {"mode", left.label()},
         {"split", splitText(in.view)},
         {"kept", in.view.kept.text()},
+        {"work", in.view.halted()      ? "stopped"
+                 : left.work().empty() ? "none"
+                                       : left.work()},
         {"settled", in.view.finished() ? "yes" : "no"},
         {"selection", selectionText(in.session)},
         {"camera", cameraText(in.session.camera())},

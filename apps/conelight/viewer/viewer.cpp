@@ -21,10 +21,12 @@
 namespace conelight::program {
 namespace {
 
-constexpr double kIdleWait = 0.5;         // s; the files are looked at this often while nothing else happens
-constexpr double kLongestStep = 0.25;     // s of a clip in one frame, however long that took
-constexpr double kPace = 0.008;           // s between frames in which only the GUI changes
-constexpr double kPartsWithoutGui = 0.1;  // s of parts of a picture between frames of the GUI, without input
+constexpr double kIdleWait = 0.5;      // s; the files are looked at this often while nothing else happens
+constexpr double kLongestStep = 0.25;  // s of a clip in one frame, however long that took
+constexpr double kPace = 0.008;        // s between frames in which only the GUI changes
+// s between frames while a piece of the picture goes on beside the window, which is woken when it ends, and by input.
+constexpr double kPiecePace = 0.1;
+constexpr double kPartsWithoutGui = 0.2;  // s of parts of a picture between frames of the GUI, without input
 constexpr double kLoadingPace = 0.2;      // s between frames while a scene is read: a bar moves
 constexpr double kUserPause = 0.15;       // s after the last input until a slow picture is refined further
 // s after a button of the mouse: a second click comes within ImGui's 0.3; a pass between would hold it up.
@@ -118,7 +120,6 @@ class Viewer {
     bool lastWasIdle_ = false;  // the last frame drew no picture, nor a part of one
     bool drawing_ = false;      // it looks for events between two parts
     double lastFrame_ = 0;
-    std::string notice_;          // what the next frame is busy with for long
     std::optional<Drawn> drawn_;  // the scene of the last picture
 };
 
@@ -144,7 +145,7 @@ Viewer::Viewer(const ViewerOptions& options)
       menu_({session_, view_, console_}),
       left_(session_, console_, menu_),
       right_({session_, view_, console_, probe_, document_, work_.film, timings_}),
-      picture_({session_, view_, probe_, hint_.text(), notice_}),
+      picture_({session_, view_, probe_, hint_.text()}),
       commands_({session_, window_, gui_, view_, console_, work_, probe_, panels_, places_, hint_.text(),
                  timings_}) {
     view_.setRadiosity(options.radiosity);
@@ -194,10 +195,13 @@ void Viewer::look(double seconds) {
 
 double Viewer::secondsToSleep() const {
     const bool commandsGoOn = !console_.commands().idle() && !work_.wakesWindow();
-    const bool busy = more_ || session_.hasRequests() || commandsGoOn || places_.open() ||
-                      session_.playing() || session_.clipState().playing || view_.turntable.turns() ||
+    const bool acts = session_.hasRequests() || commandsGoOn || places_.open() || session_.playing() ||
+                      session_.clipState().playing || view_.turntable.turns() || view_.moving() ||
                       gui_.hasInput();
-    if (busy) return lastWasIdle_ ? kPace : 0;
+    if (acts || more_) {
+        if (!lastWasIdle_) return 0;
+        return !acts && view_.works() ? kPiecePace : kPace;
+    }
     if (work_.loads()) return kLoadingPace;
     const ViewFlags& flags = session_.flags();
     return flags.dynamic ? std::min<double>(flags.period, kIdleWait) : kIdleWait;
@@ -255,8 +259,8 @@ std::string Viewer::workAhead() const {
 // Shows a frame that names the work before it is begun. Returns whether that is this one.
 bool Viewer::announce() {
     const std::string work = workAhead();
-    const bool isNew = !work.empty() && work != notice_;
-    notice_ = work;
+    const bool isNew = !work.empty() && work != view_.notice;
+    view_.notice = work;
     if (!isNew) return false;
     // Another scene's lists do not stand beside the picture of this one.
     if (drawn_ && drawn_->path != session_.path()) view_.blank();
@@ -288,9 +292,9 @@ void Viewer::updatePictures() {
     const glm::ivec2 area(panels_.layout().pictureSize() * pixels);
     const std::uint64_t before = view_.slot(false).version();
     drawParts(area);
-    if (!view_.drawing()) {
+    if (!view_.drawing() && !view_.halted()) {
         drawn_ = Drawn{session_.path(), session_.revisions().scene};
-        notice_.clear();
+        view_.notice.clear();
     }
     if (view_.slot(false).version() != before) session_.frameDrawn(view_.slot(false).frameMs());
     while (const std::optional<std::string> error = view_.takeError()) console_.fail(*error);

@@ -241,6 +241,38 @@ static void check_host_mesh(conelight_light_field* field, int32_t view, const co
     glDeleteBuffers(2, buffers);
 }
 
+/* The wall with a texture of the host's: grey ones give half the light, white ones all of it. */
+static void check_host_texture(conelight_light_field* field, int32_t view, const conelight_surfaces* surfaces,
+                               conelight_instance wall, double with_wall) {
+    static const float red[3] = {0.8f, 0.05f, 0.05f};
+    static float rgba[4 * SIZE * SIZE];
+    conelight_gathered gathered = CONELIGHT_GATHERED_INIT;
+    conelight_material material = CONELIGHT_MATERIAL_INIT;
+    conelight_host_texture texture = CONELIGHT_HOST_TEXTURE_INIT;
+    const GLuint grey = texture_of(GL_RGBA32F, 0.5f, 0.5f, 0.5f), white = texture_of(GL_RGBA8, 1, 1, 1);
+    int32_t index = CONELIGHT_NONE;
+    double shown;
+    texture.texture = grey;
+    texture.clamp = 1;
+    check(conelight_light_field_add_host_texture(field, &texture, &material.base_color_texture));
+    memcpy(material.base_color, red, sizeof red);
+    check(conelight_light_field_add_material(field, &material, &wall.material));
+    check(conelight_light_field_remove_instance(field, 1));
+    check(conelight_light_field_add_instance(field, &wall, &index));
+    shown = gather(field, view, surfaces, &gathered, rgba);
+    if (fabs(shown - 0.5 * with_wall) > 0.06 * with_wall) fail("a grey texture gives no half of the light");
+    texture.texture = white;
+    check(conelight_light_field_set_host_texture(field, (size_t)material.base_color_texture, &texture));
+    shown = gather(field, view, surfaces, &gathered, rgba);
+    if (fabs(shown - with_wall) > 0.06 * with_wall) fail("a white texture changes the light");
+    texture.texture = 0;
+    if (conelight_light_field_set_host_texture(field, (size_t)material.base_color_texture, &texture) !=
+        CONELIGHT_BAD_INPUT)
+        fail("no texture is taken for one");
+    glDeleteTextures(1, &grey);
+    glDeleteTextures(1, &white);
+}
+
 static void check_stats(conelight_light_field* field) {
     conelight_light_field_stats stats = CONELIGHT_LIGHT_FIELD_STATS_INIT;
     conelight_pass pass = CONELIGHT_PASS_INIT;
@@ -307,6 +339,7 @@ int main(void) {
     check_host_mesh(field, view, &surfaces, wall, 0.5 * red);
     check_stats(field);
     check_refusals(field, view, surfaces);
+    check_host_texture(field, view, &surfaces, wall, 0.5 * red);
     check(conelight_light_field_remove_view(field, view));
     if (glGetError() != GL_NO_ERROR) fail("OpenGL errors");
     conelight_light_field_destroy(field);

@@ -69,6 +69,8 @@ static void null_changes(void) {
     EXPECT(CONELIGHT_USAGE, conelight_renderer_set_texture(NULL, 0, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_renderer_add_host_mesh(NULL, NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_renderer_set_host_mesh(NULL, 0, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_renderer_add_host_texture(NULL, NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_renderer_set_host_texture(NULL, 0, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_renderer_add_material(NULL, NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_renderer_add_instance(NULL, NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_renderer_remove_instance(NULL, 0));
@@ -83,6 +85,8 @@ static void null_changes(void) {
     EXPECT(CONELIGHT_USAGE, conelight_light_field_set_texture(NULL, 0, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_light_field_add_host_mesh(NULL, NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_light_field_set_host_mesh(NULL, 0, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_add_host_texture(NULL, NULL, NULL));
+    EXPECT(CONELIGHT_USAGE, conelight_light_field_set_host_texture(NULL, 0, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_light_field_set_profiling(NULL, 1));
     EXPECT(CONELIGHT_USAGE, conelight_light_field_get_stats(NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_light_field_get_pass(NULL, 0, NULL));
