@@ -80,7 +80,6 @@ LobeRay sampleLobe(Surface s, Brdf b, uint seed, uint number) {
     return LobeRay(Ray(lobeRayOrigin(s, b, direction), direction, 1e9, s.geometricNormal), weight, -1);
 }
 
-#if AIMED_RAYS
 // ---- Rays aimed at voxels that send light ----------------------------------------------------------------------
 // A lamp of few voxels is found by few rays of a wide lobe (docs/theory/4f_glossy.md). A voxel is chosen by the flux of
 // its faces, and a direction evenly among those that meet the sphere about it. So whatever a lobe's ray meets in a voxel,
@@ -152,7 +151,29 @@ float techniqueShare(Surface s, Brdf b, LobeRay drawn, VoxelHit hit, float inver
     float aimed = hit.face >= 0 ? aimedPdf(origin, hit.face, inverseFlux) : 0.0;
     return reached ? pdf / max(pdf + aimed, 1e-12) : 0.0;
 }
+
+// Of rays that are aimed at voxels: one over the flux of all faces. 0: the pixel has none.
+float aimedInverseFlux(Brdf b, bool glossy) {
+#if AIMED_RAYS
+    return glossy && b.alpha >= kNarrowLobe ? uintBitsToFloat(texelFetch(lightSamples, 0).x) : 0.0;
+#else
+    return 0.0;
 #endif
+}
+
+// Ray `i` of a pixel: first those of the lobe, then aimed ones.
+LobeRay drawRay(Surface s, Brdf b, uint seed, int i) {
+    int rays = int(pixelRays.rays);
+    uint first = pixelRays.pass * pixelRays.rays;
+    LobeRay drawn;
+#if AIMED_RAYS
+    if (i >= rays)
+        drawn = aimAtVoxel(s, b, seed, first + uint(i - rays));
+    else
+#endif
+        drawn = sampleLobe(s, b, seed, first + uint(i));
+    return drawn;
+}
 
 // The width of a pixel's rays, where they meet triangles.
 void setRayCone(Surface s, Brdf b) {
@@ -177,25 +198,14 @@ void main() {
     bool glossy = hasLobe(s, seen, pixelRays.specularLimit);
     uint seed = randomHash(uint(pixel.x) | uint(pixel.y) << 16) ^ 0x5bd1e995u;
     uint random = randomHash(seed) ^ randomHash(pixelRays.pass * 0x9e3779b9u + 0x85ebca6bu);
-    int rays = int(pixelRays.rays);
-#if AIMED_RAYS
-    float inverseFlux = uintBitsToFloat(texelFetch(lightSamples, 0).x);
-    bool aims = glossy && b.alpha >= kNarrowLobe && inverseFlux > 0.0;
-    int count = aims ? 2 * rays : rays;
-#else
-    int count = rays;
-#endif
+    float inverseFlux = aimedInverseFlux(b, glossy);
+    bool aims = inverseFlux > 0.0;
+    int count = int(pixelRays.rays) * (aims ? 2 : 1);
     vec3 sum = vec3(0.0);
     int i = 0;
     do {
         // Draw a ray
-        LobeRay drawn;
-#if AIMED_RAYS
-        if (i >= rays)
-            drawn = aimAtVoxel(s, b, seed, pixelRays.pass * pixelRays.rays + uint(i - rays));
-        else
-#endif
-            drawn = sampleLobe(s, b, seed, pixelRays.pass * pixelRays.rays + uint(i));
+        LobeRay drawn = drawRay(s, b, seed, i);
         bool counts = glossy && drawn.weight.r + drawn.weight.g + drawn.weight.b > 0.0;
         drawn.ray.tMax = counts ? drawn.ray.tMax : -1.0;
         setRayCone(s, b);
@@ -207,9 +217,7 @@ void main() {
         vec3 radiance = throughGlass(traceRadiance(drawn.ray, path, random, hit), drawn.ray, hit);
 
         vec3 weight = drawn.weight;
-#if AIMED_RAYS
         if (aims) weight *= techniqueShare(s, b, drawn, hit, inverseFlux);
-#endif
         sum += weight * radiance;
         COUNT_LOOKUP(hit.face >= 0 ? 2 + EXACT_DIRECT : 0);
         if (glossy)

@@ -280,7 +280,7 @@ int levelValue(Name texture, int level, GLenum what) {
 }
 
 // Whether all levels below the base level are there, which textures of changing storage may lack.
-bool hasAllLevels(Name texture, int base, const ForeignTexture& found) {
+bool hasAllLevels(Name texture, int base, const TextureShape& found) {
     GLint immutable = GL_FALSE, last = 0;
     glGetTextureParameteriv(texture, GL_TEXTURE_IMMUTABLE_FORMAT, &immutable);
     if (immutable != GL_FALSE) return true;
@@ -294,8 +294,8 @@ bool hasAllLevels(Name texture, int base, const ForeignTexture& found) {
 
 }  // namespace
 
-ForeignTexture foreignTexture(Name texture) {
-    ForeignTexture found;
+TextureShape shapeOfForeign(Name texture) {
+    TextureShape found;
     if (texture == 0 || glIsTexture(texture) == GL_FALSE) return found;
     GLint target = 0, base = 0;
     glGetTextureParameteriv(texture, GL_TEXTURE_TARGET, &target);

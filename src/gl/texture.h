@@ -90,12 +90,12 @@ class Sampler : public Object<ObjectType::Sampler> {
 void unbindSampler(unsigned unit);
 
 // A texture of the host's, by its GL name. Without texels (width 0) where the name is of no GL_TEXTURE_2D.
-struct ForeignTexture {
+struct TextureShape {
     int width = 0, height = 0;  // of the base level
     bool floats = false;        // or normalized numbers
     bool mipmapped = false;     // has all levels below the base level
 };
-ForeignTexture foreignTexture(Name texture);
+TextureShape shapeOfForeign(Name texture);
 void bindForeignTexture(unsigned unit, Name texture);
 
 // Makes room for `bytes` in `buffer` and in `texels`, which reads it. What was there may be lost. A quarter is

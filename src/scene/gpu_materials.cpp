@@ -210,7 +210,7 @@ void SceneTextures::set(std::size_t index, const Texture& source) {
 
 void SceneTextures::set(const gl::Device& device, std::size_t index, const HostTexture& source) {
     const Filtering filtering{source.wrapU, source.wrapV, source.filter,
-                              gl::foreignTexture(source.texture).mipmapped};
+                              gl::shapeOfForeign(source.texture).mipmapped};
     drawn_[index] = {{}, source.texture, samplerOf(filtering, "texture " + source.name)};
     hostTextures_.copy(device, source, surfaceArray_, static_cast<int>(index));
 }
@@ -250,7 +250,7 @@ void SceneTextures::bind(const MaterialTextures& textures, const MaterialUnits& 
             white_.bind(unit);
             gl::unbindSampler(unit);
         } else {
-            const Drawn& drawn = drawn_[static_cast<std::size_t>(texture)];
+            const DrawTexture& drawn = drawn_[static_cast<std::size_t>(texture)];
             if (drawn.own)
                 drawn.own.bind(unit);
             else

@@ -54,12 +54,12 @@ class SceneTextures {
     void uploadSurface(const Texture& source, int layer);
 
     // Of one, for drawing: a texture of ours, or the name of the host's.
-    struct Drawn {
+    struct DrawTexture {
         gl::Texture own;
         gl::Name foreign = 0;
         gl::Sampler sampler;
     };
-    std::vector<Drawn> drawn_;
+    std::vector<DrawTexture> drawn_;
     gl::Texture white_;
     gl::Texture surfaceArray_;
     gl::Sampler surfaceSampler_;

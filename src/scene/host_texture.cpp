@@ -18,7 +18,7 @@ struct HostTextureKey {
 }  // namespace
 
 void requireUsable(const HostTexture& texture) {
-    const gl::ForeignTexture found = gl::foreignTexture(texture.texture);
+    const gl::TextureShape found = gl::shapeOfForeign(texture.texture);
     if (found.width < 1 || found.height < 1)
         base::fail(
             ErrorKind::BadInput,

@@ -337,9 +337,9 @@ int main(void) {
     red = check_light(field, view, &surfaces);
     check_changes(field, view, &surfaces, &wall, red);
     check_host_mesh(field, view, &surfaces, wall, 0.5 * red);
-    check_host_texture(field, view, &surfaces, wall, 0.5 * red);
     check_stats(field);
     check_refusals(field, view, surfaces);
+    check_host_texture(field, view, &surfaces, wall, 0.5 * red);
     check(conelight_light_field_remove_view(field, view));
     if (glGetError() != GL_NO_ERROR) fail("OpenGL errors");
     conelight_light_field_destroy(field);
