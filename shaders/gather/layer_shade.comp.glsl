@@ -24,6 +24,7 @@ layout(local_size_x = 8, local_size_y = 8) in;
 #include "lib/gbuffer.glsl"
 #include "lib/lighting.glsl"
 #include "lib/lobe_list.glsl"
+#include "lib/lookup_count.glsl"
 #include "lib/pixel_history.glsl"
 #include "lib/scene_tables.glsl"
 #if SHEEN

@@ -77,9 +77,8 @@ TEST_F(LayersTest, CoatsAndSheenAreTheTruth) {
         Material ball;
         bool lamp;
     };
-    for (const Case& one : {Case{lacquer(0), true}, Case{lacquer(0.3f), true},
-                            Case{lacquer(0.3f), false}, Case{velvet(0.4f), true},
-                            Case{velvet(0.9f), false}}) {
+    for (const Case& one : {Case{lacquer(0), true}, Case{lacquer(0.3f), true}, Case{lacquer(0.3f), false},
+                            Case{velvet(0.4f), true}, Case{velvet(0.9f), false}}) {
         const Scene scene = room(one.ball, one.lamp);
         const reference::PathTracedPicture truth = truthOf(scene, 256);
         const Image image = draw(scene, tracedSettings(Quality::Interactive));
