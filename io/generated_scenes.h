@@ -101,6 +101,7 @@ Scene buildGlassware(const Values& values);
 Scene buildVeils(const Values& values);
 Scene buildMirrorHall(const Values& values);
 Scene buildPlain(const Values& values);
+Scene buildLamps(const Values& values);
 Scene buildTown(const Values& values);
 
 }  // namespace conelight::io::generated
