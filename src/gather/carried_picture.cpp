@@ -5,9 +5,11 @@ namespace conelight::gather {
 namespace {
 
 struct CarryKey {
-    bool lobes;
-    gl::ProgramDesc desc() const { return {{"gather/carry.comp.glsl"}, {{"LOBES", lobes ? "1" : "0"}}}; }
-    static std::vector<CarryKey> all() { return {{false}, {true}}; }
+    bool lobes, cached;
+    gl::ProgramDesc desc() const {
+        return {{"gather/carry.comp.glsl"}, {{"LOBES", lobes ? "1" : "0"}, {"CACHED", cached ? "1" : "0"}}};
+    }
+    static std::vector<CarryKey> all() { return {{false, true}, {true, true}, {false, false}}; }
 };
 
 }  // namespace
@@ -36,7 +38,7 @@ const gl::Texture& CarriedPicture::carry(const gl::Device& device, const RayInpu
         .image("result", texture_, gl::ImageUse::Write);
     const glm::ivec2 extent = where.end - where.lowest;
     if (extent.x > 0 && extent.y > 0)
-        device.get(CarryKey{from.lobes != nullptr}.desc()).dispatch(given, extent.x, extent.y);
+        device.get(CarryKey{from.lobes != nullptr, from.cached}.desc()).dispatch(given, extent.x, extent.y);
     gl::barrier(gl::Access::TextureFetch | gl::Access::Update);
     return texture_;
 }

@@ -9,7 +9,7 @@
 
 namespace conelight::gather {
 
-enum class RayPicture { Diffuse, Specular, Occlusion };
+enum class RayPicture { Diffuse, Specular, Occlusion, Lamps };
 
 // What has moved since the picture so far (MOTION of lib/temporal.glsl): nothing but the view, instances, or what a
 // host's vectors say.
@@ -24,6 +24,7 @@ struct PixelRayKey {
     bool aims = false;       // of kind Specular: as many rays again at voxels that send light
     bool records = false;    // steps of one pixel, for the inspector
     light::HitKey hits;
+    light::LampKey lamps;  // of kind Lamps
 
     gl::ProgramDesc desc() const;
     static std::vector<PixelRayKey> all();

@@ -31,8 +31,9 @@ constexpr int kGroupEdge = 8;  // of passes over all pixels
 
 gl::ProgramDesc selectDesc() { return {{"gather/lobe_select.comp.glsl"}, {}}; }
 
-const char* const kGatherPass[] = {"diffuse rays", "specular rays", "occlusion rays"};
-const char* const kLabel[] = {"gathered diffuse", "gathered specular", "gathered occlusion"};
+const char* const kGatherPass[] = {"diffuse rays", "specular rays", "occlusion rays", "rays to lamps"};
+const char* const kLabel[] = {"gathered diffuse", "gathered specular", "gathered occlusion",
+                              "gathered lamps"};
 
 // About the boxes of all instances that may have lobes; all of a host's picture. One that reaches behind the eye may be anywhere.
 PixelRectangle lobeRectangle(const RayInputs& inputs, float roughest) {
@@ -74,9 +75,10 @@ PixelRectangle lobeRectangle(const RayInputs& inputs, float roughest) {
 
 void RayInputs::declare(gl::Inputs& inputs) const {
     inputs.add(scene).add(lights).add(surfaces);
-    // Pictures of direct light alone are drawn without voxels.
-    if (!lit.revision()) return;
-    inputs.add(voxels).add(lit);
+    // Pictures of direct light alone are drawn without lit voxels, most of them without any.
+    if (lit.revision()) inputs.add(lit);
+    if (!voxels.revision()) return;
+    inputs.add(voxels);
     voxels.surface().declareTriangles(inputs);
 }
 
@@ -131,6 +133,11 @@ PixelRayKey PixelRays::key(const RayInputs& inputs, const RayPass& pass) const {
     key.aims = kind_ == RayPicture::Specular && light::hasOtherEmitters(inputs.scene, inputs.lights);
     key.triangles = kind_ == RayPicture::Specular ? pass.settings.exactMirrors : pass.settings.exactNear;
     if (kind_ == RayPicture::Occlusion) return key;
+    if (kind_ == RayPicture::Lamps) {
+        key.triangles = false;
+        key.lamps = inputs.lights.lampKey();
+        return key;
+    }
     key.hits = inputs.lights.hitKey(inputs.scene, pass.settings.exactHits);
     return key;
 }
