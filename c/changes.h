@@ -78,7 +78,7 @@ conelight_result setMaterial(Handle* handle, std::size_t index, const conelight_
     return guarded([&] {
         const Use use(handle);
         Material changed = elementOf(use->scene().materials, index, "material");
-        assign(changed, readStruct(material, "material"));
+        assign(changed, material, "material");
         use->setMaterial(index, changed);
     });
 }
@@ -154,7 +154,7 @@ conelight_result addMaterial(Handle* handle, const conelight_material* material,
     return guarded([&] {
         const Use use(handle);
         Material made;
-        assign(made, readStruct(material, "material"));
+        assign(made, material, "material");
         writeIndex(use->addMaterial(made), index);
     });
 }

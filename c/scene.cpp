@@ -73,7 +73,7 @@ conelight_result conelight_scene_add_material(conelight_scene* scene, const cone
     return guarded([&] {
         Scene& to = need(scene, "scene").scene;
         Material made;
-        c::assign(made, c::readStruct(material, "material"));
+        c::assign(made, material, "material");
         append(to.materials, std::move(made), index);
     });
 }

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "structs.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 
 namespace conelight::c {
 namespace {
@@ -33,7 +36,27 @@ glm::mat4 matrixOf(const float* columns) {
     return matrix;
 }
 
-void assign(Material& material, const conelight_material& values) {
+namespace {
+
+conelight_material wholeMaterial(const Material& before, const conelight_material* given, const char* what) {
+    constexpr std::size_t kFirstSize = offsetof(conelight_material, coat);
+    const std::size_t size = need(given, what).size;
+    if (size < kFirstSize)
+        failUsage(std::string(what) + ": size " + std::to_string(size) + "; " +
+                  std::to_string(sizeof(conelight_material)) + ", what the INIT macro sets, would be right");
+    conelight_material values = CONELIGHT_MATERIAL_INIT;
+    values.coat = before.coat;
+    values.coat_roughness = before.coatRoughness;
+    for (int i = 0; i < 3; ++i) values.sheen_color[i] = before.sheenColor[i];
+    values.sheen_roughness = before.sheenRoughness;
+    std::memcpy(static_cast<void*>(&values), given, std::min(size, sizeof values));
+    return values;
+}
+
+}  // namespace
+
+void assign(Material& material, const conelight_material* given, const char* what) {
+    const conelight_material values = wholeMaterial(material, given, what);
     const AlphaMode mode = enumOf<AlphaMode>(values.alpha, 3, "material.alpha");
     material.name = textOf(values.name);
     material.baseColor = {vec3Of(values.base_color), values.base_color[3]};
@@ -56,6 +79,10 @@ void assign(Material& material, const conelight_material& values) {
     material.metallicRoughnessTexture.texture = values.metallic_roughness_texture;
     material.normalTexture.texture = values.normal_texture;
     material.emissiveTexture.texture = values.emissive_texture;
+    material.coat = values.coat;
+    material.coatRoughness = values.coat_roughness;
+    material.sheenColor = vec3Of(values.sheen_color);
+    material.sheenRoughness = values.sheen_roughness;
 }
 
 void assign(Light& light, const conelight_light& values) {

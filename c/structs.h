@@ -13,7 +13,8 @@ struct conelight_scene {
 
 namespace conelight::c {
 
-void assign(Material& material, const conelight_material& values);
+// Structs of the version without coat and sheen are taken, too.
+void assign(Material& material, const conelight_material* values, const char* what);
 void assign(Light& light, const conelight_light& values);
 Instance instanceOf(const conelight_instance& values);
 Mesh meshOf(const conelight_mesh& values);

@@ -101,12 +101,17 @@ typedef struct conelight_material {
     int32_t metallic_roughness_texture;
     int32_t normal_texture;
     int32_t emissive_texture;
+    /* Layers above all of this, not on glass. */
+    float coat;            /* [0,1]: share of the surface that has a clear coat */
+    float coat_roughness;  /* perceptual, [0,1] */
+    float sheen_color[3];  /* [0,1]; black: no sheen of cloth */
+    float sheen_roughness; /* perceptual, [0,1] */
 } conelight_material;
 #define CONELIGHT_MATERIAL_INIT                                                                          \
     {                                                                                                    \
         sizeof(conelight_material), NULL, {0.8f, 0.8f, 0.8f, 1}, 0, 1, 1.5f, 1, {1, 1, 1}, {0, 0, 0}, 1, \
             0.5f, 0, 0, {1, 1, 1}, 0, CONELIGHT_OPAQUE, 0, 0, CONELIGHT_NONE, CONELIGHT_NONE,            \
-            CONELIGHT_NONE, CONELIGHT_NONE                                                               \
+            CONELIGHT_NONE, CONELIGHT_NONE, 0, 0, {0, 0, 0}, 0                                           \
     }
 
 /* 8-bit RGBA, rows from the top, 4 * width * height bytes. */

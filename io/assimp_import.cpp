@@ -120,7 +120,8 @@ void Converter::convertMeshes() {
         }
         boneMeshes += from.mNumBones > 0 ? 1 : 0;
         const unsigned material = from.mMaterialIndex;
-        if (material < scene.materials.size() && scene.materials[material].normalTexture.used())
+        if (material < scene.materials.size() && (scene.materials[material].normalTexture.used() ||
+                                                  scene.materials[material].coatNormalTexture.used()))
             makeTangents(mesh);
         meshOf.push_back(int(scene.meshes.size()));
         scene.meshes.push_back(std::move(mesh));

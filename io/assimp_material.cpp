@@ -323,12 +323,25 @@ void mapColours(const aiMaterial& material, Material& out) {
         out.unlit = shading == aiShadingMode_NoShading;
 }
 
+// As OBJ and FBX have them, without pictures.
+void mapLayers(const aiMaterial& material, Material& out) {
+    float coat = 0, coatRoughness = 0, sheenRoughness = 0;
+    aiColor3D sheen(0, 0, 0);
+    if (material.Get(AI_MATKEY_CLEARCOAT_FACTOR, coat) == aiReturn_SUCCESS) out.coat = unit(coat);
+    if (material.Get(AI_MATKEY_CLEARCOAT_ROUGHNESS_FACTOR, coatRoughness) == aiReturn_SUCCESS)
+        out.coatRoughness = unit(coatRoughness);
+    if (material.Get(AI_MATKEY_SHEEN_COLOR_FACTOR, sheen) == aiReturn_SUCCESS) out.sheenColor = unit(sheen);
+    if (material.Get(AI_MATKEY_SHEEN_ROUGHNESS_FACTOR, sheenRoughness) == aiReturn_SUCCESS)
+        out.sheenRoughness = unit(sheenRoughness);
+}
+
 Material convert(const aiMaterial& material, TextureTable& textures) {
     Material out;
     aiString name;
     if (material.Get(AI_MATKEY_NAME, name) == aiReturn_SUCCESS) out.name = oneLine(rawTextOf(name));
     if (out.name == AI_DEFAULT_MATERIAL_NAME) return out;  // the file names none: our default
     mapColours(material, out);
+    mapLayers(material, out);
 
     out.baseColorTexture = textures.find(material, aiTextureType_BASE_COLOR, Use::Colour);
     if (!out.baseColorTexture.used())

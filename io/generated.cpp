@@ -108,6 +108,11 @@ constexpr GeneratedParameter kHeapParameters[] = {
     {"things", 500, 0, 5000, true, "how many"},
     {"intensity", 0.9, 0, 1e4, false, "of the lamp, W/sr"},
 };
+constexpr GeneratedParameter kCoatsParameters[] = {
+    {"emission", 9, 0, 1e4, false, "radiance of the lamp, W/(sr m^2)"},
+    {"coat", 1, 0, 1, false, "share of wood, paint and lacquer that has a clear coat"},
+    {"sheen", 1, 0, 1, false, "factor on the sheen of the cloth"},
+};
 constexpr GeneratedParameter kBendsParameters[] = {
     {"emission", 150, 0, 1e4, false, "radiance of the lamp, W/(sr m^2)"},
 };
@@ -298,6 +303,10 @@ constexpr Entry kScenes[] = {
      generated::buildGlassware},
     {{"veils", "panes of coloured glass, blended sheets and lace before a spot and a lamp", kVeilsParameters},
      generated::buildVeils},
+    {{"coats",
+      "varnish, car paint and lacquer under clear coats, cloth with sheen; cameras front, close, cloth",
+      kCoatsParameters},
+     generated::buildCoats},
     {{"mirror-hall", "hall of flat faces with three ideal mirrors and two point lamps, for mode beams",
       kMirrorHallParameters},
      generated::buildMirrorHall},

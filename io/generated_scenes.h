@@ -99,6 +99,7 @@ Scene buildGlass(const Values& values);
 Scene buildConservatory(const Values& values);
 Scene buildGlassware(const Values& values);
 Scene buildVeils(const Values& values);
+Scene buildCoats(const Values& values);
 Scene buildMirrorHall(const Values& values);
 Scene buildPlain(const Values& values);
 Scene buildLamps(const Values& values);

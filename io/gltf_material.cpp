@@ -211,6 +211,31 @@ void GltfMaterials::convertGlass(const GltfValue& from, Material& to) {
     to.attenuationDistance = std::max(volume["attenuationDistance"].number(0.0f), 0.0f);
 }
 
+void GltfMaterials::convertLayers(const GltfValue& from, Material& to) {
+    const auto share = [](const GltfValue& value) { return glm::clamp(value.number(0.0f), 0.0f, 1.0f); };
+    const GltfValue coat = from.extension("KHR_materials_clearcoat");
+    if (coat.exists()) {
+        to.coat = share(coat["clearcoatFactor"]);
+        to.coatRoughness = share(coat["clearcoatRoughnessFactor"]);
+        to.coatTexture = texture(coat["clearcoatTexture"], false);
+        to.coatRoughnessTexture = texture(coat["clearcoatRoughnessTexture"], false);
+        to.coatNormalTexture = texture(coat["clearcoatNormalTexture"], false);
+        to.coatNormalScale = coat["clearcoatNormalTexture"]["scale"].number(1.0f);
+    }
+    const GltfValue sheen = from.extension("KHR_materials_sheen");
+    if (sheen.exists()) {
+        to.sheenColor = glm::clamp(sheen["sheenColorFactor"].vector<3>(glm::vec3(0)), 0.0f, 1.0f);
+        to.sheenRoughness = share(sheen["sheenRoughnessFactor"]);
+        to.sheenColorTexture = texture(sheen["sheenColorTexture"], true);
+        to.sheenRoughnessTexture = texture(sheen["sheenRoughnessTexture"], false);
+    }
+    const bool layered = to.coat > 0 || to.sheenColor != glm::vec3(0);
+    if (layered && isTransmissive(to))
+        scene_.notes.push_back(
+            fmt::format("material {}: glass is drawn without its clear coat and sheen",
+                        to.name.empty() ? fmt::format("{}", scene_.materials.size()) : "'" + to.name + "'"));
+}
+
 Material GltfMaterials::convert(const GltfValue& from) {
     Material to;
     to.name = oneLine(from["name"].text(""));
@@ -254,6 +279,7 @@ Material GltfMaterials::convert(const GltfValue& from) {
     }
     to.unlit = from.extension("KHR_materials_unlit").exists();
     convertGlass(from, to);
+    convertLayers(from, to);
     // Kept by io/gltf_write.cpp.
     const GltfValue extras = from["extras"];
     if (extras.isObject() && extras["conelight"].isObject()) {

@@ -28,6 +28,7 @@ class GltfMaterials {
     Material convert(const GltfValue& from);
     void convertSpecularGlossiness(const GltfValue& from, Material& to);
     void convertGlass(const GltfValue& from, Material& to);
+    void convertLayers(const GltfValue& from, Material& to);
     TextureRef texture(const GltfValue& info, bool srgb);
     int textureIndex(const GltfValue& texture, bool srgb);
     const ByteImage* image(std::size_t index);

@@ -232,7 +232,8 @@ Mesh GltfMeshes::read(const GltfValue& primitive, const std::vector<float>& weig
             attributes["POSITION"].fail("positions leave the range of numbers");
     if (!mesh.normals.empty()) badNormals_ += repairNormals(mesh);
     repairTangents(mesh);
-    if (mesh.tangents.empty() && scene_.materials[std::size_t(material)].normalTexture.used())
+    const Material& shown = scene_.materials[std::size_t(material)];
+    if (mesh.tangents.empty() && (shown.normalTexture.used() || shown.coatNormalTexture.used()))
         makeTangents(mesh);
     return mesh;
 }

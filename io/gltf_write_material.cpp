@@ -41,6 +41,29 @@ Json textureInfo(const TextureRef& use, std::set<std::string>& extensions) {
     return info;
 }
 
+template <class Extension>
+void writeLayers(const Material& m, std::set<std::string>& extensions, const Extension& extension) {
+    const auto texture = [&](Json& to, const char* name, const TextureRef& use) {
+        if (use.used()) to[name] = textureInfo(use, extensions);
+    };
+    if (m.coat > 0 || m.coatRoughness > 0 || m.coatTexture.used() || m.coatRoughnessTexture.used() ||
+        m.coatNormalTexture.used()) {
+        Json coat = {{"clearcoatFactor", m.coat}, {"clearcoatRoughnessFactor", m.coatRoughness}};
+        texture(coat, "clearcoatTexture", m.coatTexture);
+        texture(coat, "clearcoatRoughnessTexture", m.coatRoughnessTexture);
+        texture(coat, "clearcoatNormalTexture", m.coatNormalTexture);
+        if (m.coatNormalTexture.used()) coat["clearcoatNormalTexture"]["scale"] = m.coatNormalScale;
+        extension("KHR_materials_clearcoat", coat);
+    }
+    if (m.sheenColor != glm::vec3(0) || m.sheenRoughness > 0 || m.sheenColorTexture.used() ||
+        m.sheenRoughnessTexture.used()) {
+        Json sheen = {{"sheenColorFactor", listOf(m.sheenColor)}, {"sheenRoughnessFactor", m.sheenRoughness}};
+        texture(sheen, "sheenColorTexture", m.sheenColorTexture);
+        texture(sheen, "sheenRoughnessTexture", m.sheenRoughnessTexture);
+        extension("KHR_materials_sheen", sheen);
+    }
+}
+
 void writeExtensions(Json& to, const Material& m, float strength, std::set<std::string>& extensions) {
     const auto extension = [&](const char* name, Json value) {
         to["extensions"][name] = std::move(value);
@@ -69,6 +92,7 @@ void writeExtensions(Json& to, const Material& m, float strength, std::set<std::
         if (m.attenuationDistance > 0) volume["attenuationDistance"] = m.attenuationDistance;
         extension("KHR_materials_volume", volume);
     }
+    writeLayers(m, extensions, extension);
 }
 
 }  // namespace

@@ -98,6 +98,9 @@ std::string describe(const Material& m) {
         if (m.attenuationDistance > 0)
             out += fmt::format(", {} after {:.3g} m", text(m.attenuationColor), m.attenuationDistance);
     }
+    if (m.coat > 0) out += fmt::format(", coat {:.3g} of roughness {:.3g}", m.coat, m.coatRoughness);
+    if (m.sheenColor != glm::vec3(0))
+        out += fmt::format(", sheen {} of roughness {:.3g}", text(m.sheenColor), m.sheenRoughness);
     if (m.emission != glm::vec3(0)) out += fmt::format(", emission {} W/(sr m^2)", text(m.emission));
     std::string maps;
     visitFields(

@@ -163,6 +163,11 @@ const std::vector<Attribute<Material>>& materialAttributes() {
         plain<&Material::attenuationColor>("attenuation_color",
                                            "Of white light after attenuation_distance in a solid: (3,)."),
         plain<&Material::attenuationDistance>("attenuation_distance", "m; 0: the solid is clear."),
+        plain<&Material::coat>("coat", "Share of the surface that has a clear coat, 0 to 1; not of glass."),
+        plain<&Material::coatRoughness>("coat_roughness", "Of the coat, perceptual, 0 to 1."),
+        plain<&Material::coatNormalScale>("coat_normal_scale", "Scale of the coat's normal texture."),
+        plain<&Material::sheenColor>("sheen_color", "Sheen of cloth, below the coat: (3,), 0 to 1."),
+        plain<&Material::sheenRoughness>("sheen_roughness", "Of the sheen, perceptual, 0 to 1."),
         texture<&Material::baseColorTexture>("base_color_texture", "Index of a texture, or None."),
         texture<&Material::metallicRoughnessTexture>("metallic_roughness_texture", "Index or None; g, b."),
         texture<&Material::normalTexture>("normal_texture", "Index or None; tangent space."),
@@ -170,6 +175,11 @@ const std::vector<Attribute<Material>>& materialAttributes() {
         texture<&Material::specularTexture>("specular_texture", "Index or None; alpha."),
         texture<&Material::specularColorTexture>("specular_color_texture", "Index or None."),
         texture<&Material::transmissionTexture>("transmission_texture", "Index or None; r."),
+        texture<&Material::coatTexture>("coat_texture", "Index or None; r."),
+        texture<&Material::coatRoughnessTexture>("coat_roughness_texture", "Index or None; g."),
+        texture<&Material::coatNormalTexture>("coat_normal_texture", "Index or None; tangent space."),
+        texture<&Material::sheenColorTexture>("sheen_color_texture", "Index or None."),
+        texture<&Material::sheenRoughnessTexture>("sheen_roughness_texture", "Index or None; alpha."),
     };
     return all;
 }

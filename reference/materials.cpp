@@ -9,7 +9,6 @@
 namespace conelight::reference {
 namespace {
 
-constexpr float kMinNoV = 1e-4f;  // as math::makeBrdf clamps it
 // Neither part is sampled more rarely than this while it reflects at all: its albedo says little about how
 // much light it meets.
 constexpr float kLeastShare = 0.1f;
@@ -17,49 +16,17 @@ constexpr float kLeastShare = 0.1f;
 // Between passing a pane and meeting it, neither is drawn more rarely.
 constexpr float kLeastPass = 0.1f;
 
-// D of GGX at a local half vector. 1 - NoH^2 comes from the lateral parts, which keeps its digits at the peak
-// of smooth surfaces.
-float ggx(float alpha2, const glm::vec3& h) {
-    const float d = h.x * h.x + h.y * h.y + h.z * h.z * alpha2;
-    return alpha2 / (glm::pi<float>() * d * d);
-}
-
-// Density of reflected directions when visible normals are sampled: G1 D / (4 NoV).
-float visibleDensity(float alpha2, float distribution, float NoV) {
-    return distribution * 0.5f / (NoV + std::sqrt(alpha2 + (1 - alpha2) * NoV * NoV));
-}
-
-glm::vec3 sampleVisibleNormal(const glm::vec3& toEye, float alpha, const glm::vec2& u) {
-    // The view in the space where the surface is a unit sphere; a uniform cap of reflected directions there.
-    const glm::vec3 v = glm::normalize(glm::vec3(alpha * toEye.x, alpha * toEye.y, toEye.z));
-    const float phi = 2 * glm::pi<float>() * u.x;
-    const float z = (1 - u.y) * (1 + v.z) - v.z;
-    const float sine = std::sqrt(std::clamp(1 - z * z, 0.0f, 1.0f));
-    const glm::vec3 h = glm::vec3(sine * std::cos(phi), sine * std::sin(phi), z) + v;
-    return glm::normalize(glm::vec3(alpha * h.x, alpha * h.y, std::max(h.z, 1e-12f)));
-}
-
 }  // namespace
 
 float largest(const glm::vec3& color) { return std::max({color.r, color.g, color.b}); }
 float luminance(const glm::vec3& color) { return 0.2126f * color.r + 0.7152f * color.g + 0.0722f * color.b; }
-
-Frame::Frame(const glm::vec3& normal) : n(normal) {
-    const float sign = std::copysign(1.0f, n.z);
-    const float a = -1.0f / (sign + n.z);
-    const float b = n.x * n.y * a;
-    u = {1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x};
-    w = {b, sign + n.y * n.y * a, -n.y};
-}
 
 Reflection::Reflection(const Surface& s, const glm::vec3& toEye)
     : frame_(s.shadingNormal),
       brdf_(math::makeBrdf(s.baseColor, s.metallic, s.roughness, s.dielectricF0,
                            glm::dot(s.shadingNormal, toEye))),
       toEye_(frame_.toLocal(toEye)),
-      toEyeAbove_(toEye_.z >= kMinNoV
-                      ? toEye_
-                      : glm::normalize(glm::vec3(toEye_.x, toEye_.y, kMinNoV) + glm::vec3(1e-12f, 0, 0))) {
+      toEyeAbove_(aboveHorizon(toEye_)) {
     if (s.transmission > 0) {
         if (!passesStraight(s)) through_ = brdf_.diffuse * s.transmission;
         brdf_.diffuse *= 1 - s.transmission;
@@ -81,6 +48,7 @@ Reflection::Reflection(const Surface& s, const glm::vec3& toEye)
     const float diffuse = luminance(brdf_.diffuse), specular = luminance(brdf_.albedo);
     const float through = luminance(through_);
     black_ = !(diffuse + specular + through > 0);
+    addLayers(s, toEye);
     if (black_) return;
     specularShare_ = specular / (diffuse + specular + through);
     if (diffuse + through > 0 && specular > 0)
@@ -88,7 +56,39 @@ Reflection::Reflection(const Surface& s, const glm::vec3& toEye)
     if (through > 0) transmissionShare_ = (1 - specularShare_) * through / (diffuse + through);
 }
 
+// Shares of drawing between the base and its layers.
+void Reflection::addLayers(const Surface& s, const glm::vec3& toEye) {
+    if (!s.layered()) return;
+    layers_.emplace(s, toEye);
+    const float base = black_ ? 0.0f : layers_->below() * luminance(brdf_.diffuse + brdf_.albedo);
+    const float coat = layers_->coatAlbedo(), sheen = luminance(layers_->sheenAlbedo());
+    const float all = base + coat + sheen;
+    if (!(all > 0)) return layers_.reset();
+    const auto share = [&](float one) { return one > 0 ? std::max(one / all, kLeastShare) : 0.0f; };
+    const float total = share(base) + share(coat) + share(sheen);
+    coatShare_ = share(coat) / total;
+    sheenShare_ = share(sheen) / total;
+    baseShare_ = share(base) / total;
+}
+
 Reflection::Value Reflection::evaluate(const glm::vec3& toLight) const {
+    Value value = evaluateBase(toLight);
+    if (!layers_) return value;
+    const Layers::Lobe coat = layers_->coatLobe(toLight), sheen = layers_->sheenLobe(toLight);
+    value.diffuse *= layers_->below();
+    value.specular = layers_->below() * value.specular + coat.value + sheen.value;
+    value.density = baseShare_ * value.density + coatShare_ * coat.density + sheenShare_ * sheen.density;
+    return value;
+}
+
+glm::vec3 Reflection::mirrorShare() const {
+    glm::vec3 share = mirror_ ? brdf_.albedo : glm::vec3(0);
+    if (!layers_) return share;
+    share *= layers_->below();
+    return layers_->coatMirrors() ? share + layers_->coatAlbedo() : share;
+}
+
+Reflection::Value Reflection::evaluateBase(const glm::vec3& toLight) const {
     Value value;
     glm::vec3 l = frame_.toLocal(toLight);
     const bool below = scattersThrough() && l.z < 0;
@@ -106,14 +106,11 @@ Reflection::Value Reflection::evaluate(const glm::vec3& toLight) const {
     if (length > 1e-12f) {
         const glm::vec3 h = sum / length;
         if (h.z > 0) {
-            const float NoV = brdf_.NoV, NoL = std::max(l.z, kMinNoV);
-            const float smith = NoL * std::sqrt(NoV * NoV * (1 - alpha2) + alpha2) +
-                                NoV * std::sqrt(NoL * NoL * (1 - alpha2) + alpha2);
             const float VoH = std::clamp(glm::dot(toEye_, h), 0.0f, 1.0f);
             // What a pane scatters through fills the mirrored lobe, whose facets then send all of it.
             const glm::vec3 facets = below ? through_ / (facets_.x + facets_.y)
                                            : math::fresnel(brdf_.f0, brdf_.f90, VoH) * brdf_.compensation;
-            value.specular = facets * (ggx(alpha2, h) * 0.5f / std::max(smith, 1e-7f) * l.z);
+            value.specular = facets * ggxTimesCosine(brdf_.alpha, h, l.z, brdf_.NoV);
         }
     }
     const glm::vec3 h = glm::normalize(l + toEyeAbove_);
@@ -123,6 +120,28 @@ Reflection::Value Reflection::evaluate(const glm::vec3& toLight) const {
 }
 
 Reflection::Draw Reflection::draw(float lobe, const glm::vec2& u) const {
+    if (!layers_) return drawBase(lobe, u);
+    Draw drawn;
+    if (lobe < coatShare_) {
+        drawn.direction = layers_->drawCoat(u);
+        if (!layers_->coatMirrors()) return drawn;
+        drawn.alone = drawn.mirrored = true;
+        drawn.value.density = 1;
+        drawn.value.specular = glm::vec3(layers_->coatAlbedo() / coatShare_);
+        return drawn;
+    }
+    lobe -= coatShare_;
+    if (lobe < sheenShare_) {
+        drawn.direction = layers_->drawSheen(u);
+        return drawn;
+    }
+    if (!(baseShare_ > 0)) return {};
+    drawn = drawBase(std::min((lobe - sheenShare_) / baseShare_, 0.99999994f), u);
+    drawn.value.specular *= layers_->below() / baseShare_;
+    return drawn;
+}
+
+Reflection::Draw Reflection::drawBase(float lobe, const glm::vec2& u) const {
     if (inside_) return drawInside(lobe, u);
     if (lobe >= 1 - transmissionShare_ && transmissionShare_ > 0) return drawThrough(u);
     Draw drawn;

@@ -13,25 +13,23 @@
 // does: one direction, by Schlick's Fresnel, which no ray to a light could have been. What the mirror leaves of
 // light is diffuse.
 //
+// Layers: coat and sheen lie on opaque surfaces. They are lobes beside those of the base, which is seen by what they let
+// through (reference/layers.h).
+//
 // Sampling: cosine-weighted for the diffuse part, visible normals for the lobe (Heitz 2018, "Sampling the GGX
 // Distribution of Visible Normals"; by spherical caps, Dupuy and Benyoub 2023), chosen by their albedos; the
 // density is that of the mixture. Shading normals that face away from the eye, as interpolation makes them at
 // silhouettes, are sampled as if seen at grazing angle, where the value is clamped as well (kMinNoV).
 #pragma once
 
+#include <optional>
+
 #include "math/brdf.h"
+#include "reference/frame.h"
+#include "reference/layers.h"
 #include "reference/surface.h"
 
 namespace conelight::reference {
-
-// Two unit vectors that span the plane normal to a unit vector (Duff et al. 2017, "Building an Orthonormal
-// Basis, Revisited").
-struct Frame {
-    explicit Frame(const glm::vec3& normal);
-    glm::vec3 toLocal(const glm::vec3& v) const { return {glm::dot(v, u), glm::dot(v, w), glm::dot(v, n)}; }
-    glm::vec3 toWorld(const glm::vec3& v) const { return u * v.x + w * v.y + n * v.z; }
-    glm::vec3 u, w, n;
-};
 
 class Reflection {
   public:
@@ -56,14 +54,17 @@ class Reflection {
     Draw draw(float lobe, const glm::vec2& u) const;
     // Of what stays above the surface alone.
     glm::vec3 sample(float lobe, const glm::vec2& u) const;
-    bool black() const { return black_; }
+    bool black() const { return black_ && !layers_; }
     // Of light that rays to lights find: none at the inner side of a solid.
     bool inside() const { return inside_; }
     bool scattersThrough() const { return transmissionShare_ > 0 && !solid_; }
-    // Of an ideal mirror: the share of light that it mirrors towards the eye; 0 of all else.
-    glm::vec3 mirrorShare() const { return mirror_ ? brdf_.albedo : glm::vec3(0); }
+    // Of ideal mirrors, a smooth coat among them: the share of light that is mirrored towards the eye; 0 of all else.
+    glm::vec3 mirrorShare() const;
 
   private:
+    void addLayers(const Surface& surface, const glm::vec3& toEye);
+    Value evaluateBase(const glm::vec3& toLight) const;
+    Draw drawBase(float lobe, const glm::vec2& u) const;
     Draw drawThrough(const glm::vec2& u) const;
     Draw drawInside(float lobe, const glm::vec2& u) const;
     struct Facet {
@@ -86,6 +87,8 @@ class Reflection {
     float eta_ = 1;           // index of the other side over that of the eye's
     bool solid_ = false, inside_ = false;
     bool mirror_ = false;
+    std::optional<Layers> layers_;
+    float coatShare_ = 0, sheenShare_ = 0, baseShare_ = 1;  // of draws
 };
 
 // Whether a surface is an ideal mirror, on top of what it reflects diffusely.

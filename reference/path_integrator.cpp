@@ -164,11 +164,12 @@ float PathIntegrator::skyWeight(const Vertex& vertex, const glm::vec3& direction
 void PathIntegrator::mark(Vertex& vertex, const Reflection& reflection, PathSample& result) {
     const Surface& s = vertex.surface;
     const glm::vec3 albedo = s.baseColor * ((1 - s.metallic) * (1 - s.transmission));
-    const bool mirror = reflection.mirrorShare() != glm::vec3(0);
+    const bool mirror = reflection.mirrorShare() != glm::vec3(0) && !s.layered();
     if (mirror && !(largest(albedo) > 0)) return;
     vertex.unmarked = false;
     const glm::vec3 seen = vertex.throughput;
-    const glm::vec3 gloss = seen * glm::mix(s.dielectricF0, s.baseColor, s.metallic);
+    const glm::vec3 gloss =
+        seen * (glm::mix(s.dielectricF0, s.baseColor, s.metallic) + s.coat * math::kCoatF0 + s.sheenColor);
     const bool first = vertex.depth == 0;
     result.albedo = first ? seen * albedo : glm::vec3(0);
     result.gloss = first ? gloss : seen * albedo + gloss;
@@ -319,8 +320,9 @@ void PathIntegrator::trace(const Ray& cameraRay, const PixelTurns* pixel, Sample
     vertex.throughput = arrival.passed;
     vertex.distance = result.distance = arrival.hit.t;
     result.normal = vertex.surface.shadingNormal;
-    result.direct = result.emission = arrival.passed * vertex.surface.emission;
     vertex.toEye = -cameraRay.direction;
+    const float seen = shareBelowLayers(vertex.surface, vertex.toEye);
+    result.direct = result.emission = arrival.passed * vertex.surface.emission * seen;
     if (!vertex.surface.unlit) follow(vertex, sampler, result);
 }
 

@@ -23,6 +23,7 @@
 
 #include "base/clock.h"
 #include "base/log.h"
+#include "reference/layers.h"
 #include "reference/materials.h"
 #include "reference/radiosity_gather.h"
 #include "reference/radiosity_mesh.h"
@@ -190,7 +191,7 @@ void Baker::describe(Patch& patch) const {
         ray.direction =
             mesh_.surfaces[mesh_.surfaceOf(patch.element)].back ? hit.geometricNormal : -hit.geometricNormal;
         const Surface surface = surfaceAt(scene_, ray, hit);
-        patch.albedo += 0.25f * diffusePart(surface) * surface.baseColor;
+        patch.albedo += 0.25f * evenAlbedoOfLayers(surface, diffusePart(surface) * surface.baseColor);
         if (!lights_.isAreaLight(hit.instance)) patch.emission += 0.25f * surface.emission;
     }
 }

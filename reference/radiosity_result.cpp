@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "math/brdf.h"
+#include "reference/layers.h"
 #include "reference/surface.h"
 
 namespace conelight::reference {
@@ -87,7 +88,12 @@ class LitMeshes {
         result.normals.push_back(at.geometricNormal);
         if (!source.uvs.empty()) result.uvs.push_back(interpolated(source, source.uvs, v, glm::vec2(0)));
         const glm::vec4 tint = interpolated(source, source.colors, v, glm::vec4(1));
-        const glm::vec3 reflected = irradiance_[vertex] * (diffusePart(at) / glm::pi<float>());
+        glm::vec3 reflected = irradiance_[vertex] * (diffusePart(at) / glm::pi<float>());
+        // A factor on the base colour, which may be a texture's.
+        if (at.layered())
+            reflected = irradiance_[vertex] / glm::pi<float>() *
+                        evenAlbedoOfLayers(at, diffusePart(at) * at.baseColor) /
+                        glm::max(at.baseColor, 1e-3f);
         result.colors.push_back(sum ? glm::vec4(reflected * at.baseColor + at.emission, tint.a)
                                     : glm::vec4(reflected * glm::vec3(tint), tint.a));
     }

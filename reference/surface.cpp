@@ -125,6 +125,11 @@ void readMaterial(const Scene& scene, const glm::vec2& uv, Surface& s) {
         s.transmission = material.transmission * sampleTexture(scene, material.transmissionTexture, uv).r;
         s.solid = s.transmission > 0 && material.thickness > 0;
     }
+    if (!hasLayers(material)) return;
+    s.coat = material.coat * sampleTexture(scene, material.coatTexture, uv).r;
+    s.coatRoughness = material.coatRoughness * sampleTexture(scene, material.coatRoughnessTexture, uv).g;
+    s.sheenColor = material.sheenColor * glm::vec3(sampleTexture(scene, material.sheenColorTexture, uv));
+    s.sheenRoughness = material.sheenRoughness * sampleTexture(scene, material.sheenRoughnessTexture, uv).a;
 }
 
 }  // namespace
@@ -241,16 +246,21 @@ Surface surfaceAt(const Scene& scene, const Ray& ray, const RayHit& hit, const g
     s.geometricNormal = s.frontFace ? hit.geometricNormal : -hit.geometricNormal;
 
     const glm::mat3 worldFromObject(instance.worldFromObject);
-    glm::vec3 normal = normalOf(mesh, worldFromObject, corners, hit);
-    const glm::vec3 vertexNormal = normal;
-    if (material.normalTexture.used() && !mesh.tangents.empty()) {
+    const glm::vec3 vertexNormal = normalOf(mesh, worldFromObject, corners, hit);
+    const auto mapped = [&](const TextureRef& map, float scale) {
+        if (!map.used() || mesh.tangents.empty()) return vertexNormal;
         const glm::vec4 tangent = interpolated(mesh.tangents, corners, b, glm::vec4(0));
-        const glm::vec3 texel = glm::vec3(sampleTexture(scene, material.normalTexture, uv)) * 2.0f - 1.0f;
-        normal = mappedNormal(normal, {worldFromObject * glm::vec3(tangent), tangent.w}, texel,
-                              material.normalScale);
-    }
+        const glm::vec3 texel = glm::vec3(sampleTexture(scene, map, uv)) * 2.0f - 1.0f;
+        return mappedNormal(vertexNormal, {worldFromObject * glm::vec3(tangent), tangent.w}, texel, scale);
+    };
+    const glm::vec3 normal = mapped(material.normalTexture, material.normalScale);
     // The vertex normal decides which side the shading normal is on (view/gbuffer.frag.glsl).
-    s.shadingNormal = glm::dot(vertexNormal, s.geometricNormal) < 0 ? -normal : normal;
+    const bool turned = glm::dot(vertexNormal, s.geometricNormal) < 0;
+    s.shadingNormal = turned ? -normal : normal;
+    if (hasLayers(material)) {
+        const glm::vec3 coatNormal = mapped(material.coatNormalTexture, material.coatNormalScale);
+        s.coatNormal = turned ? -coatNormal : coatNormal;
+    }
 
     const glm::vec4 color = baseColorAt(scene, mesh, material, corners, b, uv);
     const glm::vec3 base(color);

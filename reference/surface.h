@@ -26,6 +26,12 @@ struct Surface {
     float opacity = 1;       // of a blended surface: how often it is met
     float transmission = 0;  // share of the light below the gloss that goes through
     bool solid = false;      // of what goes through: it is bent, and this is one side of a closed surface
+    // Layers above: a clear coat about a normal of its own, and sheen.
+    float coat = 0, coatRoughness = 0;
+    glm::vec3 coatNormal{0};
+    glm::vec3 sheenColor{0};
+    float sheenRoughness = 0;
+    bool layered() const { return coat > 0 || sheenColor != glm::vec3(0); }
 };
 
 // `turn`: textures are read where the ray would meet the plane of the triangle if this were added to its

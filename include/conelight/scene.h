@@ -105,8 +105,8 @@ struct PhongMaterial {
     bool operator==(const PhongMaterial&) const = default;
 };
 
-// glTF metallic-roughness with KHR_materials_specular, _ior, _transmission, _volume, _emissive_strength and
-// _unlit.
+// glTF metallic-roughness with KHR_materials_specular, _ior, _transmission, _volume, _clearcoat, _sheen,
+// _emissive_strength and _unlit.
 struct Material {
     std::string name;
     glm::vec4 baseColor{0.8f, 0.8f, 0.8f, 1.0f};  // rgb: albedo (dielectric) or F0 (metal), [0,1]; a: opacity
@@ -129,6 +129,12 @@ struct Material {
     float thickness = 0.0f;
     glm::vec3 attenuationColor{1.0f};  // (0,1]; what white light is after attenuationDistance in the solid
     float attenuationDistance = 0.0f;  // m, >= 0; 0: the solid is clear
+    // Layers above all of this, not on glass. A clear coat of index 1.5, and below it the sheen of cloth.
+    float coat = 0.0f;             // [0,1]; share of the surface that is coated
+    float coatRoughness = 0.0f;    // perceptual, [0,1]
+    float coatNormalScale = 1.0f;  // of coatNormalTexture
+    glm::vec3 sheenColor{0.0f};    // [0,1]; black: none
+    float sheenRoughness = 0.0f;   // perceptual, [0,1]
 
     TextureRef baseColorTexture;          // rgb * baseColor.rgb, a * baseColor.a
     TextureRef metallicRoughnessTexture;  // g: roughness, b: metallic
@@ -137,6 +143,12 @@ struct Material {
     TextureRef specularTexture;           // a: specular
     TextureRef specularColorTexture;      // rgb: specularColor
     TextureRef transmissionTexture;       // r * transmission
+    TextureRef coatTexture;               // r * coat
+    TextureRef coatRoughnessTexture;      // g * coatRoughness
+    TextureRef
+        coatNormalTexture;  // tangent space; none: the coat lies smoothly over what normalTexture bends
+    TextureRef sheenColorTexture;      // rgb * sheenColor
+    TextureRef sheenRoughnessTexture;  // a * sheenRoughness
 
     std::optional<PhongMaterial> phong;  // what modes of that model show; none: phongFromPbr of the above
 
@@ -148,6 +160,10 @@ inline constexpr float kLeastAttenuationColor = 1e-4f;
 
 // Whether light goes through it.
 inline bool isTransmissive(const Material& m) { return m.transmission > 0 && m.metallic < 1 && !m.unlit; }
+// Whether it has a coat or sheen that shows.
+inline bool hasLayers(const Material& m) {
+    return (m.coat > 0 || m.sheenColor != glm::vec3(0)) && !isTransmissive(m) && !m.unlit;
+}
 
 // The Phong model of a metallic-roughness material, and the other way round: setPbrFromPhong sets what the
 // model says and leaves the rest, `phong` too. The mapping is chosen so

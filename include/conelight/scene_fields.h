@@ -42,8 +42,10 @@ template <FieldsFrom<Material> M>
 auto fieldsOf(M& material) {
     auto& [name, baseColor, metallic, roughness, ior, specular, specularColor, emission, normalScale,
            alphaCutoff, alphaMode, doubleSided, unlit, transmission, thickness, attenuationColor,
-           attenuationDistance, baseColorTexture, metallicRoughnessTexture, normalTexture, emissiveTexture,
-           specularTexture, specularColorTexture, transmissionTexture, phong] = material;
+           attenuationDistance, coat, coatRoughness, coatNormalScale, sheenColor, sheenRoughness,
+           baseColorTexture, metallicRoughnessTexture, normalTexture, emissiveTexture, specularTexture,
+           specularColorTexture, transmissionTexture, coatTexture, coatRoughnessTexture, coatNormalTexture,
+           sheenColorTexture, sheenRoughnessTexture, phong] = material;
     return std::tuple{Field{"name", name},
                       Field{"base colour", baseColor},
                       Field{"metallic", metallic},
@@ -61,6 +63,11 @@ auto fieldsOf(M& material) {
                       Field{"thickness", thickness},
                       Field{"attenuation colour", attenuationColor},
                       Field{"attenuation distance", attenuationDistance},
+                      Field{"coat", coat},
+                      Field{"coat roughness", coatRoughness},
+                      Field{"coat normal scale", coatNormalScale},
+                      Field{"sheen colour", sheenColor},
+                      Field{"sheen roughness", sheenRoughness},
                       Field{"base colour", baseColorTexture},
                       Field{"metallic-roughness", metallicRoughnessTexture},
                       Field{"normal", normalTexture},
@@ -68,6 +75,11 @@ auto fieldsOf(M& material) {
                       Field{"specular", specularTexture},
                       Field{"specular colour", specularColorTexture},
                       Field{"transmission", transmissionTexture},
+                      Field{"coat", coatTexture},
+                      Field{"coat roughness", coatRoughnessTexture},
+                      Field{"coat normal", coatNormalTexture},
+                      Field{"sheen colour", sheenColorTexture},
+                      Field{"sheen roughness", sheenRoughnessTexture},
                       Field{"Phong", phong}};
 }
 

@@ -110,6 +110,11 @@ class Material:
     thickness: float
     attenuation_color: Vector3
     attenuation_distance: float
+    coat: float
+    coat_roughness: float
+    coat_normal_scale: float
+    sheen_color: Vector3
+    sheen_roughness: float
     base_color_texture: int | None
     metallic_roughness_texture: int | None
     normal_texture: int | None
@@ -117,6 +122,11 @@ class Material:
     specular_texture: int | None
     specular_color_texture: int | None
     transmission_texture: int | None
+    coat_texture: int | None
+    coat_roughness_texture: int | None
+    coat_normal_texture: int | None
+    sheen_color_texture: int | None
+    sheen_roughness_texture: int | None
 
 class Instance:
     @property
@@ -174,11 +184,15 @@ class Scene:
                      emission: ArrayLike = ..., normal_scale: float = ..., alpha_cutoff: float = ...,
                      alpha_mode: AlphaMode = ..., double_sided: bool = ..., unlit: bool = ...,
                      transmission: float = ..., thickness: float = ..., attenuation_color: ArrayLike = ...,
-                     attenuation_distance: float = ...,
+                     attenuation_distance: float = ..., coat: float = ..., coat_roughness: float = ...,
+                     coat_normal_scale: float = ..., sheen_color: ArrayLike = ..., sheen_roughness: float = ...,
                      base_color_texture: int | None = ..., metallic_roughness_texture: int | None = ...,
                      normal_texture: int | None = ..., emissive_texture: int | None = ...,
                      specular_texture: int | None = ..., specular_color_texture: int | None = ...,
-                     transmission_texture: int | None = ...) -> Material: ...
+                     transmission_texture: int | None = ..., coat_texture: int | None = ...,
+                     coat_roughness_texture: int | None = ..., coat_normal_texture: int | None = ...,
+                     sheen_color_texture: int | None = ...,
+                     sheen_roughness_texture: int | None = ...) -> Material: ...
     def add_instance(self, mesh: SupportsIndex, material: SupportsIndex | None = None,
                      transform: ArrayLike | None = None, *, name: str = ..., visible: bool = ...,
                      voxelized: bool = ..., casts_shadow: bool = ..., dynamic: bool = ...) -> Instance: ...

@@ -113,7 +113,12 @@ struct Likeness {
 };
 
 Likeness likenessOf(OwnPixel own, ivec2 size) {
-    float roughness = unpackUnorm2x16(texelFetch(gbufferMaterial, min(own.at, size - 1), 0).y).y;
+#if SURFACE_COATS
+    uint bits = texelFetch(surfaceLayers, min(own.at, size - 1), 0).y;
+#else
+    uint bits = texelFetch(gbufferMaterial, min(own.at, size - 1), 0).y;
+#endif
+    float roughness = unpackUnorm2x16(bits).y;
     // Neighbours share the less the more rays there are: from 5 with 16 of them down to 2 with 100.
     float count = max(pixelHistoryCount(own.bits), 1.0) * float(pixelRays.rays);
     float nearby = clamp(20.0 * inversesqrt(count), 2.0, 5.0);

@@ -94,6 +94,13 @@ vec3 evenAlbedo(vec3 baseColor, float metallic, float roughness, vec3 dielectric
     return mix(baseColor * (1.0 - strongest) + own, baseColor, metallic);
 }
 
+// The same of a surface with coat and sheen; `evenLayers`: of its Material. C++ twin: math::LayerAlbedo.
+vec3 layeredAlbedo(vec3 albedo, uint evenLayers) {
+    vec4 v = unpackUnorm4x8(evenLayers);
+    v *= v;
+    return albedo * (1.0 - v.a) + v.rgb;
+}
+
 // The base colour of a dielectric of F0 = 0.04 that has this albedo.
 vec3 baseOfEvenAlbedo(vec3 albedo, float roughness) {
     float own = evenLobe(roughness, vec3(0.04)).r;

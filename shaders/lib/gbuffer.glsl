@@ -2,8 +2,12 @@
 // Read access to the G-buffer: pixel -> Surface. Bits: lib/gbuffer_pack.glsl. What a shader does not use of
 // the Surface costs nothing: the compiler drops the fetches and unpacking behind it.
 // SURFACE_EMISSION 0: no material emits light, and the tables of storage that say how much are not asked.
+// SURFACE_COATS 1: the surface is its clear coat, and none where there is no coat.
 #ifndef SURFACE_EMISSION
 #define SURFACE_EMISSION 1
+#endif
+#ifndef SURFACE_COATS
+#define SURFACE_COATS 0
 #endif
 #include "lib/dot.glsl"
 #include "lib/frame_block.glsl"
@@ -11,8 +15,15 @@
 #include "lib/octahedral.glsl"
 #include "lib/scene_tables.glsl"
 #include "lib/surface.glsl"
+// After what it includes.
+#if SURFACE_COATS
+#include "lib/layers.glsl"
+#endif
 uniform usampler2D gbufferGeometry;
 uniform usampler2D gbufferMaterial;
+#if SURFACE_COATS
+uniform usampler2D surfaceLayers;
+#endif
 
 // World-space direction, not unit: position = pixelOrigin + view depth * direction. Row 0 is the bottom row.
 vec3 pixelRay(ivec2 pixel) {
@@ -63,6 +74,16 @@ bool fetchSurface(ivec2 pixel, out Surface s) {
     s.emission = s.unlit ? unlitRadiance : vec3(0.0);
 #if SURFACE_EMISSION
     if (!s.unlit) s.emission = materials[s.material].emission * unpackEmissionFactor(material.w);
+#endif
+#if SURFACE_COATS
+    Layers layers = unpackLayers(texelFetch(surfaceLayers, pixel, 0));
+    s.normal = layers.coatNormal;
+    s.normalMean = 1.0;
+    s.albedo = s.emission = vec3(0.0);
+    s.metallic = 0.0;
+    s.roughness = layers.coatRoughness;
+    s.dielectricF0 = vec3(kCoatF0);
+    return geometry.x != 0u && layers.coat > 0.0;
 #endif
     return geometry.x != 0u;
 }

@@ -15,6 +15,7 @@
 // - CONE_SHADOWS 1: shadows are soft, by cones (lib/cone_shadow.glsl, to be included), not by maps.
 // - VISIBILITY_PICTURE 1: which of the first 32 lights without extent are seen is known (visibleLights).
 // - SHADOW_CASCADES 1: directional lights have maps about the eye (lib/shadow_cascades.glsl).
+// - SHEEN 1: what sheen sends to the eye is added to sheenLight (lib/sheen.glsl, to be included).
 // - GLASS 1: what is not in shadow may lie behind glass (lib/glass_tree.glsl).
 // Reads what light::Lights declares.
 #ifndef LIGHTS_POINT
@@ -43,6 +44,9 @@
 #endif
 #ifndef VISIBILITY_PICTURE
 #define VISIBILITY_PICTURE 0
+#endif
+#ifndef SHEEN
+#define SHEEN 0
 #endif
 #include "lib/brdf.glsl"
 #include "lib/dot.glsl"
@@ -88,6 +92,15 @@ const uint kVisibilityLights = 32u;
 uint visibleLights = 0u;  // of the pixel; set before lights are added
 #endif
 
+#if SHEEN
+struct SheenLobe {
+    vec3 normal;
+    float roughness;
+};
+SheenLobe sheenLobe;          // of the surface; set before lights are added
+vec3 sheenLight = vec3(0.0);  // W/(sr m^2) towards the eye, of white sheen by its term alone
+#endif
+
 struct DirectLight {
     vec3 irradiance;  // W/m^2 on a surface with the shading normal
     vec3 specular;    // W/(sr m^2) towards the eye
@@ -128,6 +141,9 @@ void addLight(inout DirectLight sum, const bool specular, Receiver r, Brdf b, ve
     vec3 irradiance = facing * max(dot(r.normal, toLight), 0.0);
     sum.irradiance += irradiance;
     if (specular && !b.ideal) sum.specular += irradiance * brdfSpecular(b, r.normal, toLight, r.toEye);
+#if SHEEN
+    sheenLight += facing * sheenTimesCosine(sheenLobe.normal, sheenLobe.roughness, toLight, r.toEye);
+#endif
 }
 
 // `facing` as glass leaves it on its way of `distance` from a light that is seen.
@@ -224,6 +240,40 @@ Light rectBehindCone(Receiver r, Light light) {
     return light;
 }
 
+// Adds a sample point of a rectangle in the direction l to the sums of the lobe; returns its weight there. `cell`: what it
+// emits, area.
+float addLobePoint(inout RectSums points, Receiver r, Brdf b, RectLobe lobe, vec3 l, vec2 cell) {
+    vec2 width2 = lobe.width * lobe.width;
+    // With h half way between l and the eye: n.h and 1 - v.h.
+    float height = dot(l, r.normal);
+    float NoL = max(height, 0.0);
+    float half2 = 0.5 + 0.5 * dot(l, r.toEye);
+    float perHalf = inversesqrt(max(half2, 1e-6));
+    float NoH = clamp(0.5 * (height + b.NoV) * perHalf, 0.0, 1.0);
+    float c = 1.0 - half2 * perHalf;
+    points.exact +=
+        cell.x * NoL * ggxVisible(b.alpha, NoH, max(NoL, 1e-4), b.NoV) * vec2(1.0, (c * c) * (c * c) * c);
+    vec3 inSpace = rectLobeSpace(lobe, l, height);
+    float transformed = cell.x * rectLobeDensity(inSpace, width2);
+    points.cosine += transformed;
+    points.most = max(points.most, transformed);
+    return cell.x * rectLobeDensity(inSpace, width2 + kRectCellWidening * cell.y * cell.x);
+}
+
+#if SHEEN
+// Irradiance of a sample point, and the sheen of it.
+vec2 sheenOfPoint(Receiver r, vec3 l) {
+    return vec2(max(dot(l, sheenLobe.normal), 0.0),
+                sheenTimesCosine(sheenLobe.normal, sheenLobe.roughness, l, r.toEye));
+}
+
+// Of a rectangle; `sums`: irradiance of all points, sheen of those that are seen.
+void addRectSheen(Receiver r, Light light, vec2 sums, vec3 tint) {
+    float whole = rectIrradiance(light, r.position, sheenLobe.normal);
+    sheenLight += light.intensity * tint * (sums.x > 0.0 ? whole * sums.y / sums.x : 0.0);
+}
+#endif
+
 // Diffuse: the exact irradiance of the whole rectangle times the visible share of its sample points, each
 // weighted by the irradiance its cell gives. Specular: likewise the unshadowed reflection of the whole
 // (lib/rect_light.glsl) times the visible share, weighted by the reflection of each cell.
@@ -233,8 +283,8 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
     float cellArea = rectArea(light) / float(count);
     RectLobe lobe;
     if (specular) lobe = rectLobe(r.normal, r.toEye, b.alpha, b.NoV);
-    vec2 width2 = lobe.width * lobe.width;
     vec2 weights = vec2(0.0), visibleWeights = vec2(0.0);  // irradiance, reflection
+    vec2 sheenSums = vec2(0.0);
     RectSums points = RectSums(vec2(0.0), 0.0, 0.0);
 #if GLASS
     RectTint tint = rectTint(r.position, light);
@@ -246,28 +296,16 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
         float d2 = dot(l, l);
         l *= inversesqrt(max(d2, 1e-20));
         float emitted = rectCosine(light, l) / max(d2, cellArea);
-        float height = dot(l, r.normal);
-        float NoL = max(height, 0.0);
         float visible = 1.0;
 #if LIGHTS_SHADOWS && !CONE_SHADOWS
         visible = shadowVisibilityRect(light, k, point, r.position, r.geometricNormal);
 #endif
-        vec2 weight = vec2(emitted * NoL, 0.0);
-        if (specular) {
-            // With h half way between l and the eye: n.h and 1 - v.h.
-            float half2 = 0.5 + 0.5 * dot(l, r.toEye);
-            float perHalf = inversesqrt(max(half2, 1e-6));
-            float NoH = clamp(0.5 * (height + b.NoV) * perHalf, 0.0, 1.0);
-            float c = 1.0 - half2 * perHalf;
-            points.exact +=
-                weight.x * ggxVisible(b.alpha, NoH, max(NoL, 1e-4), b.NoV) * vec2(1.0, (c * c) * (c * c) * c);
-            vec3 inSpace = rectLobeSpace(lobe, l, height);
-            float transformed = emitted * rectLobeDensity(inSpace, width2);
-            points.cosine += transformed;
-            points.most = max(points.most, transformed);
-            weight.y = emitted * rectLobeDensity(inSpace, width2 + kRectCellWidening * cellArea * emitted);
-        }
+        vec2 weight = vec2(emitted * max(dot(l, r.normal), 0.0), 0.0);
+        if (specular) weight.y = addLobePoint(points, r, b, lobe, l, vec2(emitted, cellArea));
         weights += weight;
+#if SHEEN
+        sheenSums += emitted * vec2(1.0, visible) * sheenOfPoint(r, l);
+#endif
 #if GLASS
         addTint(tint, r.position, light, k, weight * visible);
 #endif
@@ -281,9 +319,14 @@ void addRect(inout DirectLight sum, const bool specular, Receiver r, Brdf b, Lig
     if (specular)
         added.specular =
             light.intensity * rectSpecular(light, r.position, lobe, b, sums) * (whole > 0.0 ? share.y : 0.0);
+    vec3 tinted = vec3(1.0);
 #if GLASS
-    added.irradiance *= tintOf(tint.irradiance, tint.weights.x);
+    tinted = tintOf(tint.irradiance, tint.weights.x);
+    added.irradiance *= tinted;
     added.specular *= tintOf(tint.specular, tint.weights.y);
+#endif
+#if SHEEN
+    addRectSheen(r, light, sheenSums, tinted);
 #endif
     sum = DirectLight(sum.irradiance + added.irradiance, sum.specular + added.specular);
 }

@@ -53,6 +53,7 @@ struct Instance {
 #define MATERIAL_BASE_TEXTURE 32u     // has a base colour texture
 #define MATERIAL_DETAIL_TEXTURES 64u  // has any of the other five
 #define MATERIAL_SOLID 128u           // glass that bends light: a closed surface
+#define MATERIAL_LAYERED 256u         // has a coat or sheen that shows
 
 struct Material {
     vec4 baseColor;
@@ -66,7 +67,9 @@ struct Material {
     float roughness;
     float normalScale;
     uint flags;  // MATERIAL_*
-    uint pad0;
+    // Of coat and sheen in even light: the reflectance that they add (rgb), and their share of the light from below (a), as
+    // square roots of 8 bits each.
+    uint evenLayers;
     // ---- 64 B: layers of the surface array (GpuScene), -1 none: base colour, metallic-roughness, normal,
     // emissive
     ivec4 layers;
@@ -88,10 +91,20 @@ struct Material {
     vec4 transmissionUvRow[2];  // as uvRow
     // ---- 352 B
     int transmissionLayer;  // of the surface array, -1 none
+    int coatNormalMap;      // a texture, -1 none
+    float coatNormalScale;
+    uint pad0;
+    // ---- 368 B: layers
+    vec3 sheenColor;
+    float sheenRoughness;
+    // ---- 384 B
+    float coat;
+    float coatRoughness;
     uint pad1;
     uint pad2;
-    uint pad3;
-};  // 368 B
+    // ---- 400 B: as uvRow: of coat, its roughness and its normal, of the sheen's colour and roughness
+    vec4 layerUvRow[10];
+};  // 560 B
 
 // Kinds of lights by how they are evaluated; the table is sorted by them (FrameConstants::lightEnds).
 #define LIGHT_POINT 0u  // also spots wider than a single shadow map can cover
@@ -141,6 +154,6 @@ CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::Vertex) == 32);
 static_assert(sizeof(conelight::gpu::Instance) == 144);
-static_assert(sizeof(conelight::gpu::Material) == 368);
+static_assert(sizeof(conelight::gpu::Material) == 560);
 static_assert(sizeof(conelight::gpu::Light) == 112);
 #endif

@@ -147,6 +147,7 @@ Surface evaluateSurface(VoxelTriangle t, ClippedPolygon polygon) {
     vec3 emission = materials[m].emission * surfaceTexel(m, layers.w, kUseEmissive, uv, footprint).rgb;
     vec2 lobe = metalRoughAt(m, uv, footprint);
     vec3 albedo = evenAlbedo(color.rgb * texel.rgb, lobe.x, lobe.y, materials[m].specularF0);
+    albedo = layeredAlbedo(albedo, materials[m].evenLayers);
     uint lobeBits = 0u;
 #if SURFACE_LOBES
     vec2 told = toldLobe(lobe.x, lobe.y, materials[m].specularF0);

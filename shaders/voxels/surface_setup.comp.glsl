@@ -100,6 +100,7 @@ void writeTriangle(GridTriangle t) {
     bool unlit = (materialFlags & MATERIAL_UNLIT) != 0u;
     vec3 albedo = evenAlbedo(materials[material].baseColor.rgb, materials[material].metallic,
                              materials[material].roughness, materials[material].specularF0);
+    albedo = layeredAlbedo(albedo, materials[material].evenLayers);
     albedo = unlit ? vec3(0.0) : albedo;
     vec3 emission = unlit ? vec3(0.0) : materials[material].emission;
     triangles[3u * t.triangle] = vec4(t.p0, uintBitsToFloat(bits));

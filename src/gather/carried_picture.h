@@ -19,6 +19,7 @@ class CarriedPicture {
         const gpu::FrameConstants& view;  // that it was gathered with
         const PixelRectangle* lobes;      // where a picture of lobes has anything; null: one of irradiance
         float specularLimit;
+        bool coats = false;  // of lobes of coats
         bool cached = true;  // the cache stands in for what no pixel of the picture shows
     };
     // `inputs.surfaces`: the other view; of another size it shows the same, with more pixels.

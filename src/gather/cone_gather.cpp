@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "gather/cone_set.h"
+#include "gather/pixel_ray_key.h"
 #include "gl/gl.h"
 #include "gl/picture_pass.h"
 #include "shared/cones.h"
@@ -57,20 +58,20 @@ struct ConeKey {
     bool records = false;  // steps of one pixel
 
     gl::ProgramDesc desc() const {
-        gl::ProgramDesc desc{
-            {part == Part::Specular ? "gather/cone_specular.comp.glsl" : "gather/cone_diffuse.comp.glsl"},
-            volume.defines()};
-        if (part != Part::Specular)
-            desc.defines.emplace_back("OCCLUSION", part == Part::Occlusion ? "1" : "0");
+        const bool lobes = part == Part::Specular || part == Part::Coat;
+        gl::ProgramDesc desc{{lobes ? "gather/cone_specular.comp.glsl" : "gather/cone_diffuse.comp.glsl"},
+                             volume.defines()};
+        for (auto& define : surfaceDefines(part == Part::Coat)) desc.defines.push_back(std::move(define));
+        if (!lobes) desc.defines.emplace_back("OCCLUSION", part == Part::Occlusion ? "1" : "0");
         desc.defines.emplace_back("COUNT_LOOKUPS", counts ? "1" : "0");
         return records ? StepRecorder::variant(std::move(desc)) : desc;
     }
     static std::vector<ConeKey> all() {
         std::vector<ConeKey> keys;
         for (const VolumeKey& volume : VolumeKey::all())
-            for (const Part part : {Part::Diffuse, Part::Specular, Part::Occlusion}) {
+            for (const Part part : {Part::Diffuse, Part::Specular, Part::Coat, Part::Occlusion}) {
                 for (const bool counts : {false, true}) keys.push_back({volume, part, counts});
-                keys.push_back({volume, part, false, true});
+                if (part != Part::Coat) keys.push_back({volume, part, false, true});
             }
         return keys;
     }
@@ -91,8 +92,17 @@ std::vector<VolumeKey> shadowKeys() {
 }
 
 const char* passName(Part part) {
-    return part == Part::Diffuse ? "diffuse cones"
-                                 : (part == Part::Specular ? "specular cones" : "occlusion cones");
+    switch (part) {
+        case Part::Diffuse:
+            return "diffuse cones";
+        case Part::Specular:
+            return "specular cones";
+        case Part::Coat:
+            return "coat cones";
+        case Part::Occlusion:
+            break;
+    }
+    return "occlusion cones";
 }
 
 }  // namespace

@@ -37,8 +37,9 @@ class ConeGather {
     // What a pass at pixels gathers:
     // Diffuse    rgb irradiance / pi, a the open part of the hemisphere
     // Specular   rgb radiance in the lobe, a the open part of the cone
+    // Coat       as Specular, of clear coats where there are any
     // Occlusion  within ConesSettings::occlusionDistance: a, 1 is open
-    enum class Part { Diffuse, Specular, Occlusion };
+    enum class Part { Diffuse, Specular, Coat, Occlusion };
     // `counters` not null: adds lookups (shared/cones.h).
     void gather(const gl::Device& device, const ConeInputs& inputs, Part part, const gl::Texture& result,
                 const gl::Buffer* counters) const {

@@ -90,6 +90,30 @@ base::Steps ConePicture::drawInSteps(const gl::Device& device, const DirectInput
     const gl::ProgramDesc desc = ComposeKey{parts, pixels.lights.hasCaustics()}.desc();
     const glm::ivec2 size(pixels.surfaces.width(), pixels.surfaces.height());
     co_await gl::dispatchPicture(device, {kCompose, desc, given, size});
+    if (pixels.surfaces.haveLayers()) co_await drawLayers(device, inputs, volume, parts, target);
+}
+
+// Coat and sheen on top. Their direct light is in the shadow of maps.
+base::Steps ConePicture::drawLayers(const gl::Device& device, const ConeInputs& inputs,
+                                    const ConeVolume& volume, PictureParts parts, Target target) {
+    const ConeGather& cones = volume.cones();
+    LayerShade::Wanted wanted{.parts = parts};
+    if (parts.specular) {
+        const view::Surfaces& surfaces = inputs.pixels.surfaces;
+        const gl::Texture& coat = resized(coat_, surfaces, "gathered coat");
+        co_await cones.gatherInSteps(device, inputs, ConeGather::Part::Coat, coat, target.lookupCounters);
+        wanted.gathered.coneLobe = &coat;
+        wanted.gathered.coneIrradiance = target.diffuse;
+        if (target.diffuse == nullptr) {
+            const gl::Texture& diffuse = resized(diffuse_, surfaces, "gathered diffuse");
+            if (!parts.diffuse)
+                co_await cones.gatherInSteps(device, inputs, ConeGather::Part::Diffuse, diffuse,
+                                             target.lookupCounters);
+            wanted.gathered.coneIrradiance = &diffuse;
+        }
+        gl::barrier(gl::Access::TextureFetch);
+    }
+    co_await layers_.drawInSteps(device, inputs.pixels, wanted, target.output);
 }
 
 void ConePicture::record(const gl::Device& device, const DirectInputs& pixels, const ConeVolume& volume,
@@ -102,7 +126,7 @@ std::vector<gl::ProgramDesc> ConePicture::programDescs() {
     std::vector<gl::ProgramDesc> descs = {coneOcclusionDesc()};
     for (const ComposeKey& key : ComposeKey::all()) descs.push_back(key.desc());
     for (const auto& more : {ConeGather::programDescs(), DirectLight::programDescs(),
-                             DirectLight::coneDescs(ConeGather::shadowDefines())})
+                             LayerShade::programDescs(), DirectLight::coneDescs(ConeGather::shadowDefines())})
         descs.insert(descs.end(), more.begin(), more.end());
     return descs;
 }

@@ -8,6 +8,7 @@
 
 #include "gather/cone_volume.h"
 #include "gather/direct_light.h"
+#include "gather/layer_shade.h"
 #include "gather/picture_parts.h"
 
 namespace conelight::gather {
@@ -34,7 +35,11 @@ class ConePicture {
 
   private:
     DirectLight direct_;
-    gl::Texture diffuse_, specular_;  // what was gathered, of the frame's size
+    base::Steps drawLayers(const gl::Device& device, const ConeInputs& inputs, const ConeVolume& volume,
+                           PictureParts parts, Target target);
+
+    gl::Texture diffuse_, specular_, coat_;  // what was gathered, of the frame's size
+    LayerShade layers_;
 };
 
 }  // namespace conelight::gather

@@ -47,12 +47,19 @@ bool wantsLamps(const Indirect::Wanted& wanted, const RayInputs& inputs) {
     return wanted.parts.direct && inputs.lights.drawsLamps();
 }
 
+// Where a coat may be seen.
+bool wantsCoat(const Indirect::Wanted& wanted, const RayInputs& inputs) {
+    return wanted.settings.specularRays > 0 && wanted.parts.specular && inputs.surfaces.haveLayers() &&
+           std::any_of(inputs.scene.instances().begin(), inputs.scene.instances().end(),
+                       [&](const gpu::Instance& one) { return mayHaveCoatLobe(inputs.scene, one); });
+}
+
 }  // namespace
 
 // Histories of other light or of other settings are old.
 void Indirect::follow(const RayInputs& inputs, const TracedSettings& settings) {
     if (lightFrom_ != inputs.lit.sources() || !settings_ || !(*settings_ == settings))
-        diffuseHistory_.passes = specularHistory_.passes = occlusionHistory_.passes = 0;
+        diffuseHistory_.passes = specularHistory_.passes = coatHistory_.passes = occlusionHistory_.passes = 0;
     const base::Revision lamps = inputs.lights.revision(), voxels = inputs.voxels.revision();
     if (lampsFrom_ != lamps || lampVoxelsFrom_ != voxels || !settings_ || !(*settings_ == settings))
         lampHistory_.passes = 0;
@@ -64,14 +71,17 @@ void Indirect::follow(const RayInputs& inputs, const TracedSettings& settings) {
     const bool lost = unfinished_ && moved_;
     unfinished_ = true;
     followInstances(inputs.scene);
-    if (lost) diffuseHistory_ = specularHistory_ = occlusionHistory_ = lampHistory_ = {};
+    if (lost) forget();
+}
+
+void Indirect::forget() {
+    diffuseHistory_ = specularHistory_ = coatHistory_ = occlusionHistory_ = lampHistory_ = {};
 }
 
 // Where each instance was in the frame before, for means that follow them. One that has come since stands still.
 void Indirect::followInstances(const scene::GpuScene& scene) {
     const std::vector<gpu::Instance>& instances = scene.instances();
-    if (placed_.size() > instances.size())
-        diffuseHistory_ = specularHistory_ = occlusionHistory_ = lampHistory_ = {};
+    if (placed_.size() > instances.size()) forget();
     moved_ = false;
     std::vector<glm::mat4> oldFromWorld(instances.size(), glm::mat4(1));
     const std::size_t known = std::min(placed_.size(), instances.size());
@@ -121,7 +131,7 @@ base::Steps Indirect::addPasses(const gl::Device& device, const RayInputs& input
 base::Steps Indirect::gatherInSteps(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted) {
     const TracedSettings& settings = wanted.settings;
     follow(inputs, settings);
-    irradiance_ = lobe_ = lampPicture_ = nullptr;
+    irradiance_ = lobe_ = coat_ = lampPicture_ = nullptr;
     if (wantsLamps(wanted, inputs)) {
         const RayPass pass{settings,    kLampRays, settings.passes,      0,
                            Reuse::None, nullptr,   wanted.lookupCounters};
@@ -143,9 +153,17 @@ base::Steps Indirect::gatherInSteps(const gl::Device& device, const RayInputs& i
         co_await specular_.filterInSteps(device, inputs, settings.filterLevels);
         lobe_ = &specular_.filtered();
     }
+    if (wantsCoat(wanted, inputs)) {
+        const RayPass pass{settings, settings.specularRays, settings.passes, 0, Reuse::None,
+                           nullptr,  wanted.lookupCounters};
+        co_await addPasses(device, inputs, pass, coats_, coatHistory_);
+        co_await coats_.filterInSteps(device, inputs, settings.filterLevels);
+        coat_ = &coats_.filtered();
+    }
     gatheredIrradiance_ = irradiance_;
     gatheredLobe_ = lobe_;
     gatheredLamps_ = lampPicture_;
+    gatheredCoat_ = coat_;
     gatheredView_ = inputs.surfaces.view();
     unfinished_ = false;
 }
@@ -167,6 +185,12 @@ base::Steps Indirect::carry(const gl::Device& device, const RayInputs& inputs,
     if (gatheredLobe_ != nullptr)
         lobe_ = &carriedLobe_.carry(device, inputs,
                                     {*gatheredLobe_, gatheredView_, &lobes(), settings.specularLimit});
+    co_await gl::rest(device);
+    // Beside the pixels' centres there may be none.
+    coat_ = nullptr;
+    if (gatheredCoat_ == nullptr || !inputs.surfaces.haveLayers()) co_return;
+    coat_ = &carriedCoat_.carry(
+        device, inputs, {*gatheredCoat_, gatheredView_, &coats_.lobes(), settings.specularLimit, true});
     co_await gl::rest(device);
 }
 

@@ -48,6 +48,8 @@ class Indirect {
     // Of lamps that are drawn by chance, as a white surface would show it; null where there are none.
     const gl::Texture* lamps() const { return lampPicture_; }
     const PixelRectangle& lobes() const { return specular_.lobes(); }  // where `lobe` has anything
+    // Radiance in the lobes of clear coats, where any are seen; null: the irradiance stands in.
+    const gl::Texture* coat() const { return coat_; }
     const gl::Texture& occlusion() const { return *occlusionPicture_; }
 
   private:
@@ -56,6 +58,7 @@ class Indirect {
         std::optional<gpu::FrameConstants> view;
         int passes = 0;
     };
+    void forget();
     void follow(const RayInputs& inputs, const TracedSettings& settings);
     void followInstances(const scene::GpuScene& scene);
     base::Steps addPasses(const gl::Device& device, const RayInputs& inputs, const RayPass& pass,
@@ -63,18 +66,21 @@ class Indirect {
 
     PixelRays diffuse_{RayPicture::Diffuse};
     PixelRays specular_{RayPicture::Specular};
+    PixelRays coats_{RayPicture::Coat};
     PixelRays occlusion_{RayPicture::Occlusion};
     PixelRays lamps_{RayPicture::Lamps};
-    History diffuseHistory_, specularHistory_, occlusionHistory_, lampHistory_;
+    History diffuseHistory_, specularHistory_, coatHistory_, occlusionHistory_, lampHistory_;
     const gl::Texture* irradiance_ = nullptr;
     const gl::Texture* lobe_ = nullptr;
+    const gl::Texture* coat_ = nullptr;
     const gl::Texture* lampPicture_ = nullptr;
     // What gather() found, which carry() starts from.
     const gl::Texture* gatheredIrradiance_ = nullptr;
     const gl::Texture* gatheredLobe_ = nullptr;
+    const gl::Texture* gatheredCoat_ = nullptr;
     const gl::Texture* gatheredLamps_ = nullptr;
     gpu::FrameConstants gatheredView_{};
-    CarriedPicture carriedIrradiance_, carriedLobe_, carriedLamps_;
+    CarriedPicture carriedIrradiance_, carriedLobe_, carriedCoat_, carriedLamps_;
     const gl::Texture* occlusionPicture_ = nullptr;
 
     // Where instances were, and where from they have come since.

@@ -27,49 +27,14 @@ constexpr std::uint32_t kLobeReflections = 3;
 constexpr int kReflectedRays = 128;
 
 constexpr std::array<std::uint32_t, 5> kEmptyLobeList{LOBE_GROUPS_X, 0, 1, 0, 0};
-constexpr int kGroupEdge = 8;  // of passes over all pixels
+constexpr float kBeforeEye = 1e-3f;  // voxels; corners of boxes nearer than that are behind the eye
+constexpr int kGroupEdge = 8;        // of passes over all pixels
 
-gl::ProgramDesc selectDesc() { return {{"gather/lobe_select.comp.glsl"}, {}}; }
+gl::ProgramDesc selectDesc(bool coats) { return {{"gather/lobe_select.comp.glsl"}, surfaceDefines(coats)}; }
 
-const char* const kGatherPass[] = {"diffuse rays", "specular rays", "occlusion rays", "rays to lamps"};
-const char* const kLabel[] = {"gathered diffuse", "gathered specular", "gathered occlusion",
+const char* const kGatherPass[] = {"diffuse rays", "specular rays", "coat rays", "occlusion rays", "rays to lamps"};
+const char* const kLabel[] = {"gathered diffuse", "gathered specular", "gathered coat", "gathered occlusion",
                               "gathered lamps"};
-
-// About the boxes of all instances that may have lobes; all of a host's picture. One that reaches behind the eye may be anywhere.
-PixelRectangle lobeRectangle(const RayInputs& inputs, float roughest) {
-    const gpu::FrameConstants& view = inputs.surfaces.view();
-    const glm::ivec2 size(view.width, view.height);
-    if (inputs.surfaces.areHosts()) return {glm::ivec2(0), size};
-    PixelRectangle all{size, glm::ivec2(0)};
-    const std::vector<gpu::Instance>& instances = inputs.scene.instances();
-    for (std::size_t i = 0; i < instances.size(); ++i) {
-        if (!mayHaveLobe(inputs.scene, instances[i], roughest)) continue;
-        const Aabb& box = inputs.scene.instanceBounds(i);
-        glm::vec2 lowest(1e9f), highest(-1e9f);
-        int before = 0;
-        for (int corner = 0; corner < 8; ++corner) {
-            const glm::vec3 at((corner & 1) != 0 ? box.max.x : box.min.x,
-                               (corner & 2) != 0 ? box.max.y : box.min.y,
-                               (corner & 4) != 0 ? box.max.z : box.min.z);
-            const glm::vec4 clip = view.clipFromWorld * glm::vec4(at, 1);
-            if (view.parallel == 0 && clip.w < 1e-3f * inputs.voxels.grid().voxelSize) continue;
-            ++before;
-            // Far outside all is the same; numbers stay small enough for integers.
-            const glm::vec2 place = glm::clamp(glm::vec2(clip) / clip.w, -2.0f, 2.0f);
-            lowest = glm::min(lowest, place);
-            highest = glm::max(highest, place);
-        }
-        if (before == 0) continue;
-        if (before < 8) return {glm::ivec2(0), size};
-        // One pixel more on each side, for rounding.
-        all.lowest = glm::min(all.lowest, glm::ivec2((lowest * 0.5f + 0.5f) * glm::vec2(size)) - 1);
-        all.end = glm::max(all.end, glm::ivec2((highest * 0.5f + 0.5f) * glm::vec2(size)) + 2);
-    }
-    // Whole groups of 8 pixels, as in a dispatch over all.
-    all.lowest = glm::max(all.lowest, 0) / 8 * 8;
-    all.end = glm::max(glm::min(all.end, size), all.lowest);
-    return all;
-}
 
 }  // namespace
 
@@ -101,12 +66,53 @@ void setPictureSoFar(gpu::PixelRayConstants& constants, const gpu::FrameConstant
     constants.planeTolerance = kPlaneTolerance * grid.voxelSize;
 }
 
+// One that reaches behind the eye may be anywhere.
+PixelRectangle rectangleOf(const view::Surfaces& surfaces, const scene::GpuScene& scene, float nearest,
+                           const std::function<bool(const gpu::Instance&)>& counts) {
+    const gpu::FrameConstants& view = surfaces.view();
+    const glm::ivec2 size(view.width, view.height);
+    if (surfaces.areHosts()) return {glm::ivec2(0), size};
+    PixelRectangle all{size, glm::ivec2(0)};
+    const std::vector<gpu::Instance>& instances = scene.instances();
+    for (std::size_t i = 0; i < instances.size(); ++i) {
+        if (!counts(instances[i])) continue;
+        const Aabb& box = scene.instanceBounds(i);
+        glm::vec2 lowest(1e9f), highest(-1e9f);
+        int before = 0;
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::vec3 at((corner & 1) != 0 ? box.max.x : box.min.x,
+                               (corner & 2) != 0 ? box.max.y : box.min.y,
+                               (corner & 4) != 0 ? box.max.z : box.min.z);
+            const glm::vec4 clip = view.clipFromWorld * glm::vec4(at, 1);
+            if (view.parallel == 0 && clip.w < nearest) continue;
+            ++before;
+            // Far outside all is the same; numbers stay small enough for integers.
+            const glm::vec2 place = glm::clamp(glm::vec2(clip) / clip.w, -2.0f, 2.0f);
+            lowest = glm::min(lowest, place);
+            highest = glm::max(highest, place);
+        }
+        if (before == 0) continue;
+        if (before < 8) return {glm::ivec2(0), size};
+        // One pixel more on each side, for rounding.
+        all.lowest = glm::min(all.lowest, glm::ivec2((lowest * 0.5f + 0.5f) * glm::vec2(size)) - 1);
+        all.end = glm::max(all.end, glm::ivec2((highest * 0.5f + 0.5f) * glm::vec2(size)) + 2);
+    }
+    // Whole groups of 8 pixels, as in a dispatch over all.
+    all.lowest = glm::max(all.lowest, 0) / 8 * 8;
+    all.end = glm::max(glm::min(all.end, size), all.lowest);
+    return all;
+}
+
 bool mayHaveLobe(const scene::GpuScene& scene, const gpu::Instance& instance, float roughest) {
     const gpu::Material& m = scene.materials()[instance.material];
     const bool textured = (m.flags & MATERIAL_DETAIL_TEXTURES) != 0;
     const bool reflects = m.metallic > 0 || m.specularF0 != glm::vec3(0);
     const bool drawn = (instance.flags & INSTANCE_VISIBLE) != 0 && !scene::isGlass(instance);
     return drawn && (m.flags & MATERIAL_UNLIT) == 0 && reflects && (textured || m.roughness <= roughest);
+}
+
+bool mayHaveCoatLobe(const scene::GpuScene& scene, const gpu::Instance& instance) {
+    return view::isLayered(scene, instance) && scene.materials()[instance.material].coat > 0;
 }
 
 bool PixelRays::has(int width, int height) const {
@@ -128,10 +134,10 @@ PixelRayKey PixelRays::key(const RayInputs& inputs, const RayPass& pass) const {
                               : pass.motion != nullptr       ? Motion::Instances
                                                              : Motion::None,
                     .counts = pass.lookupCounters != nullptr,
-                    .listed = kind_ == RayPicture::Specular};
+                    .listed = isOfLobes(kind_)};
     // Rectangles of light are reflected without rays; few of them find other lamps.
-    key.aims = kind_ == RayPicture::Specular && light::hasOtherEmitters(inputs.scene, inputs.lights);
-    key.triangles = kind_ == RayPicture::Specular ? pass.settings.exactMirrors : pass.settings.exactNear;
+    key.aims = isOfLobes(kind_) && light::hasOtherEmitters(inputs.scene, inputs.lights);
+    key.triangles = isOfLobes(kind_) ? pass.settings.exactMirrors : pass.settings.exactNear;
     if (kind_ == RayPicture::Occlusion) return key;
     if (kind_ == RayPicture::Lamps) {
         key.triangles = false;
@@ -155,7 +161,7 @@ gpu::PixelRayConstants PixelRays::packed(const RayInputs& inputs, const RayPass&
     c.longestMean = static_cast<float>(std::max(pass.longest, 1));
     c.specularLimit = pass.settings.specularLimit;
     c.reach = kOcclusionReach * static_cast<float>(std::max({grid.size.x, grid.size.y, grid.size.z}));
-    const bool lobes = kind_ == RayPicture::Specular;
+    const bool lobes = isOfLobes(kind_);
     const int averaged = (lobes ? 1 : 2) * pass.rays * pass.longest;
     c.reflections = lobes ? kLobeReflections : (averaged >= kReflectedRays ? 1u : 0u);
     // With a limited number of bounces none: a reflection is a bounce more.
@@ -220,7 +226,8 @@ void PixelRays::listLobes(const gl::Device& device, gl::Inputs& inputs, const Pi
     inputs.storage("LobeList", lobeList());
     lobeList_.update(kEmptyLobeList);
     const glm::ivec2 extent = lobes.end - lobes.lowest;
-    if (extent.x > 0 && extent.y > 0) device.get(selectDesc()).dispatch(inputs, extent.x, extent.y);
+    if (extent.x > 0 && extent.y > 0)
+        device.get(selectDesc(kind_ == RayPicture::Coat)).dispatch(inputs, extent.x, extent.y);
     clearWritten(other_);
     other_.written = lobes;
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Indirect | gl::Access::Update);
@@ -233,14 +240,20 @@ base::Steps PixelRays::gatherInSteps(const gl::Device& device, const RayInputs& 
     RayPass pass = wanted;
     if (resize(surfaces.width(), surfaces.height())) pass.reuse = Reuse::None;
     PixelRectangle lobes;
-    if (kind_ == RayPicture::Specular) lobes = lobeRectangle(inputs, pass.settings.specularLimit);
+    const float limit = pass.settings.specularLimit;
+    if (isOfLobes(kind_))
+        lobes = rectangleOf(surfaces, inputs.scene, kBeforeEye * inputs.voxels.grid().voxelSize,
+                            [&](const gpu::Instance& one) {
+                                return kind_ == RayPicture::Coat ? mayHaveCoatLobe(inputs.scene, one)
+                                                                 : mayHaveLobe(inputs.scene, one, limit);
+                            });
     gpu::PixelRayConstants constants = packed(inputs, pass);
     constants.lowestX = static_cast<std::uint32_t>(lobes.lowest.x);
     constants.lowestY = static_cast<std::uint32_t>(lobes.lowest.y);
     constants_.update(constants);
     gl::Inputs given = passInputs(inputs, pass);
     const gl::ProgramDesc desc = key(inputs, pass).desc();
-    if (kind_ == RayPicture::Specular) {
+    if (isOfLobes(kind_)) {
         {
             const gl::PassScope scope(device.profiler, name);
             listLobes(device, given, lobes);
@@ -272,14 +285,14 @@ base::Steps PixelRays::filterInSteps(const gl::Device& device, const RayInputs& 
     const Picture* from = &current_;
     for (int level = 0; level < levels; ++level) {
         Picture* to = level % 2 == 0 ? &filtered_ : &other_;
-        const bool lobes = kind_ == RayPicture::Specular;
+        const bool lobes = isOfLobes(kind_);
         constexpr const char* kName = "edge filter";
         gl::Inputs given;
         given.add(inputs)
             .uniform("PixelRayBlock", constants_)
             .texture("source", from->texture)
             .image("result", to->texture, gl::ImageUse::Write);
-        const gl::ProgramDesc filter = EdgeFilterKey{1 << level, lobes}.desc();
+        const gl::ProgramDesc filter = EdgeFilterKey{1 << level, lobes, kind_ == RayPicture::Coat}.desc();
         if (lobes) {
             // Pixels that are not listed count for nothing.
             clearWritten(*to);
@@ -296,7 +309,7 @@ base::Steps PixelRays::filterInSteps(const gl::Device& device, const RayInputs& 
 }
 
 std::vector<gl::ProgramDesc> PixelRays::programDescs() {
-    std::vector<gl::ProgramDesc> descs = {selectDesc()};
+    std::vector<gl::ProgramDesc> descs = {selectDesc(false), selectDesc(true)};
     for (const PixelRayKey& key : PixelRayKey::all()) descs.push_back(key.desc());
     for (const EdgeFilterKey& key : EdgeFilterKey::all()) descs.push_back(key.desc());
     return descs;

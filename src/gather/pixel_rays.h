@@ -7,6 +7,7 @@
 // buffer binding.
 #pragma once
 
+#include <functional>
 #include <glm/glm.hpp>
 #include <vector>
 
@@ -62,8 +63,14 @@ gl::Texture makePixelPicture(int width, int height, const char* label);
 void setPictureSoFar(gpu::PixelRayConstants& constants, const gpu::FrameConstants& view,
                      const voxels::VoxelGrid& grid);
 
-// Whether a surface of the instance may be smooth enough for rays into its lobe (hasLobe in
+// About the boxes of all instances that count, in whole groups of 8 pixels; all of a host's picture. Corners nearer than
+// `nearest`, m, are behind the eye.
+PixelRectangle rectangleOf(const view::Surfaces& surfaces, const scene::GpuScene& scene, float nearest,
+                           const std::function<bool(const gpu::Instance&)>& counts);
+
+// Whether a surface of the instance, or its coat, may be smooth enough for rays into its lobe (hasLobe in
 // lib/lobe_list.glsl).
+bool mayHaveCoatLobe(const scene::GpuScene& scene, const gpu::Instance& instance);
 bool mayHaveLobe(const scene::GpuScene& scene, const gpu::Instance& instance, float roughest);
 
 class PixelRays {
@@ -78,7 +85,7 @@ class PixelRays {
     base::Steps filterInSteps(const gl::Device& device, const RayInputs& inputs, int levels);
     const gl::Texture& filtered() const { return *shown_; }  // valid until the next pass
 
-    // Where the picture of kind Specular has anything.
+    // Where a picture of lobes has anything.
     const PixelRectangle& lobes() const { return current_.written; }
 
     // Records the recorder's pixel of passes 0 to `passes` - 1; pictures stay as they are.
@@ -90,7 +97,7 @@ class PixelRays {
   private:
     struct Picture {
         gl::Texture texture;
-        PixelRectangle written;  // of kind Specular: zeros outside
+        PixelRectangle written;  // of lobes: zeros outside
     };
     static void clearWritten(Picture& picture);
     bool resize(int width, int height);
@@ -104,7 +111,7 @@ class PixelRays {
     Picture current_, other_, filtered_;
     const gl::Texture* shown_ = nullptr;  // of these
     gl::Buffer constants_;
-    gl::Buffer lobeList_;             // of kind Specular: LobeList
+    gl::Buffer lobeList_;             // of lobes: LobeList
     gpu::FrameConstants seenFrom_{};  // the view of current_
 };
 

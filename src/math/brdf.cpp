@@ -60,6 +60,8 @@ Brdf makeBrdf(const glm::vec3& baseColor, float metallic, float roughness, const
     return b;
 }
 
+float evenCoat(float roughness) { return evenAlbedo(glm::vec3(0), 0, roughness, glm::vec3(kCoatF0)).r; }
+
 glm::vec3 evenAlbedo(const glm::vec3& baseColor, float metallic, float roughness,
                      const glm::vec3& dielectricF0) {
     constexpr float kEvenLobe = 0.5f;

@@ -7,6 +7,7 @@
 namespace conelight::math {
 
 constexpr float kMinRoughness = 0.045f;
+constexpr float kCoatF0 = 0.04f;  // of a clear coat, index 1.5
 
 struct Brdf {
     glm::vec3 diffuse;  // directional albedo of the diffuse part: radiance = diffuse / pi * irradiance
@@ -28,6 +29,9 @@ Brdf makeBrdf(const glm::vec3& baseColor, float metallic, float roughness, const
 // Reflectance in even light, both lobes; what voxels keep as a surface's colour.
 glm::vec3 evenAlbedo(const glm::vec3& baseColor, float metallic, float roughness,
                      const glm::vec3& dielectricF0);
+
+// What a coat takes of even light, by evenAlbedo's measure.
+float evenCoat(float roughness);
 
 // GGX times visibility, D G2 / (4 NoL NoV).
 float ggxVisible(float alpha, float NoH, float NoL, float NoV);

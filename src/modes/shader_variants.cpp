@@ -23,6 +23,7 @@
 #include "modes/modes.h"
 #include "scene/host_mesh.h"
 #include "view/gbuffer.h"
+#include "view/layer_picture.h"
 #include "voxels/octant_words.h"
 #include "voxels/surface_voxels.h"
 
@@ -83,6 +84,7 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     add(voxels::OctantWords::programDescs());
     add(light::ShadowMaps::programDescs());
     add(view::GBuffer::programDescs());
+    add(view::LayerPicture::programDescs());
     add(image::debugViewProgramDescs());
     add(image::backgroundProgramDescs());
     add(image::Headlight::programDescs());

@@ -76,6 +76,13 @@ base::Steps TracedMode::drawInSteps(const Frame& given) {
         const gather::TracedShade::Wanted shaded{settings, parts, frame.lookupCounters,
                                                  exactShadows ? &visibility_.seen() : nullptr};
         co_await shade_.drawInSteps(frame.device, inputs, indirect_, shaded, frame.output);
+        const gather::LayerShade::Wanted layers{parts,
+                                                {indirect_.irradiance(), indirect_.coat()},
+                                                settings.specularLimit,
+                                                shaded.visibility,
+                                                &inputs};
+        const gather::DirectInputs pixels{frame.scene, frame.lights, frame.surfaces};
+        co_await layers_.drawInSteps(frame.device, pixels, layers, frame.output);
     }
 }
 // [/recipe]
@@ -148,7 +155,8 @@ std::vector<gl::ProgramDesc> TracedMode::programDescs() {
     std::vector<gl::ProgramDesc> descs = light::LitVoxels::programDescs();
     for (const auto& more : {gather::PixelRays::programDescs(), gather::CarriedPicture::programDescs(),
                              gather::PixelVisibility::programDescs(), gather::TracedShade::programDescs(),
-                             gather::Glass::programDescs(), image::VoxelView::programDescs()})
+                             gather::LayerShade::programDescs(), gather::Glass::programDescs(),
+                             image::VoxelView::programDescs()})
         descs.insert(descs.end(), more.begin(), more.end());
     // All of it for nested grids, too.
     std::vector<gl::ProgramDesc> nested = voxels::SurfaceVoxels::programDescs();

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "gather/indirect.h"
+#include "gather/layer_shade.h"
 #include "gather/pixel_visibility.h"
 #include "gather/traced_shade.h"
 #include "image/voxel_view.h"
@@ -44,6 +45,7 @@ class TracedMode : public ModeRenderer {
     gather::Indirect indirect_;
     gather::PixelVisibility visibility_;
     gather::TracedShade shade_;
+    gather::LayerShade layers_;
     image::VoxelView voxelView_;
 };
 

@@ -7,6 +7,7 @@
 #include "gl/gl.h"
 #include "gl/pass.h"
 #include "gl/work.h"
+#include "math/sheen.h"
 #include "shared/voxels.h"
 
 namespace conelight::scene {
@@ -106,19 +107,69 @@ std::vector<std::uint8_t> encodedSurface(const std::vector<glm::vec4>& level) {
     return bytes;
 }
 
+glm::vec4 uvRow(const TextureRef& use, int row) {
+    const glm::mat3& t = use.uvFromUv;
+    return {t[0][row], t[1][row], t[2][row], 0};
+}
+
 void packGlass(const Material& m, gpu::Material& g) {
     g.transmission = m.transmission;
     g.ior = std::max(m.ior, 1.0f);
     if (m.attenuationDistance > 0) g.absorption = -glm::log(m.attenuationColor) / m.attenuationDistance;
-    const glm::mat3& t = m.transmissionTexture.uvFromUv;
-    g.transmissionUvRow[0] = {t[0][0], t[1][0], t[2][0], 0};
-    g.transmissionUvRow[1] = {t[0][1], t[1][1], t[2][1], 0};
+    for (int row = 0; row < 2; ++row) g.transmissionUvRow[row] = uvRow(m.transmissionTexture, row);
     g.transmissionLayer = m.transmissionTexture.texture;
+}
+
+// Of all texels, linear; white without a texture.
+glm::vec4 meanTexel(const TextureRef& use, const std::vector<Texture>& textures) {
+    if (!use.used()) return glm::vec4(1);
+    const Texture& texture = textures[static_cast<std::size_t>(use.texture)];
+    if (texture.rgba.size() < 4) return glm::vec4(1);
+    std::array<std::array<std::uint64_t, 256>, 4> counts{};
+    for (std::size_t i = 0; i < texture.rgba.size(); ++i) ++counts[i % 4][texture.rgba[i]];
+    glm::dvec4 sum(0);
+    for (int c = 0; c < 4; ++c)
+        for (int level = 0; level < 256; ++level) {
+            const float value = static_cast<float>(level) / 255.0f;
+            const auto count =
+                static_cast<double>(counts[static_cast<std::size_t>(c)][static_cast<std::size_t>(level)]);
+            sum[c] += count * static_cast<double>(texture.srgb && c < 3 ? srgbToLinear(value) : value);
+        }
+    return glm::vec4(sum / static_cast<double>(texture.rgba.size() / 4));
+}
+
+std::uint32_t packedRoots(const glm::vec4& v) {
+    std::uint32_t bits = 0;
+    for (int i = 0; i < 4; ++i)
+        bits |= static_cast<std::uint32_t>(std::lround(std::sqrt(std::clamp(v[i], 0.0f, 1.0f)) * 255.0f))
+                << (8 * i);
+    return bits;
+}
+
+void packLayers(const Material& m, const std::vector<Texture>& textures, gpu::Material& g) {
+    g.coatNormalMap = -1;
+    if (!hasLayers(m)) return;
+    g.flags |= MATERIAL_LAYERED;
+    g.coat = m.coat;
+    g.coatRoughness = m.coatRoughness;
+    g.coatNormalMap = m.coatNormalTexture.texture;
+    g.coatNormalScale = m.coatNormalScale;
+    g.sheenColor = m.sheenColor;
+    g.sheenRoughness = m.sheenRoughness;
+    const TextureRef* uses[5] = {&m.coatTexture, &m.coatRoughnessTexture, &m.coatNormalTexture,
+                                 &m.sheenColorTexture, &m.sheenRoughnessTexture};
+    for (int i = 0; i < 10; ++i) g.layerUvRow[i] = uvRow(*uses[i / 2], i % 2);
+    const math::LayerAlbedo even =
+        math::evenLayers(m.coat * meanTexel(m.coatTexture, textures).r,
+                         m.coatRoughness * meanTexel(m.coatRoughnessTexture, textures).g,
+                         m.sheenColor * glm::vec3(meanTexel(m.sheenColorTexture, textures)),
+                         m.sheenRoughness * meanTexel(m.sheenRoughnessTexture, textures).a);
+    g.evenLayers = packedRoots({even.added, even.taken});
 }
 
 }  // namespace
 
-gpu::Material packedMaterial(const Material& m) {
+gpu::Material packedMaterial(const Material& m, const std::vector<Texture>& textures) {
     gpu::Material g{};
     g.baseColor = m.baseColor;
     g.emission = m.emission;
@@ -138,11 +189,10 @@ gpu::Material packedMaterial(const Material& m) {
     for (int i = 0; i < 6; ++i) {
         if (i < 4) g.layers[i] = uses[i]->texture;  // layers follow the order of the scene's textures
         if (uses[i]->used()) g.flags |= i == 0 ? MATERIAL_BASE_TEXTURE : MATERIAL_DETAIL_TEXTURES;
-        const glm::mat3& t = uses[i]->uvFromUv;
-        g.uvRow[2 * i] = {t[0][0], t[1][0], t[2][0], 0};
-        g.uvRow[2 * i + 1] = {t[0][1], t[1][1], t[2][1], 0};
+        for (int row = 0; row < 2; ++row) g.uvRow[2 * i + row] = uvRow(*uses[i], row);
     }
     packGlass(m, g);
+    packLayers(m, textures, g);
     const PhongMaterial phong = phongOf(m);
     g.phongColor = phong.color;
     g.phongShininess = phong.shininess;
@@ -161,7 +211,10 @@ bool isGlossyDielectric(const gpu::Material& m) {
 MaterialTextures texturesOf(const Material& material) {
     return {{material.baseColorTexture.texture, material.metallicRoughnessTexture.texture,
              material.normalTexture.texture, material.emissiveTexture.texture,
-             material.specularTexture.texture, material.specularColorTexture.texture}};
+             material.specularTexture.texture, material.specularColorTexture.texture,
+             material.coatTexture.texture, material.coatRoughnessTexture.texture,
+             material.coatNormalTexture.texture, material.sheenColorTexture.texture,
+             material.sheenRoughnessTexture.texture}};
 }
 
 SceneTextures::SceneTextures(const std::vector<Texture>& sources) {
@@ -261,9 +314,10 @@ void SceneTextures::bind(const MaterialTextures& textures, const MaterialUnits& 
 }
 
 namespace {
-constexpr gl::ResourceName kMaterialTextures[] = {"baseTexture",     "metalRoughTexture",
-                                                  "normalTexture",   "emissiveTexture",
-                                                  "specularTexture", "specularColorTexture"};
+constexpr gl::ResourceName kMaterialTextures[kMaterialTextureCount] = {
+    "baseTexture",       "metalRoughTexture",    "normalTexture",        "emissiveTexture",
+    "specularTexture",   "specularColorTexture", "coatTexture",          "coatRoughnessTexture",
+    "coatNormalTexture", "sheenColorTexture",    "sheenRoughnessTexture"};
 }
 
 void SceneTextures::declarePerDraw(gl::Inputs& inputs) {

@@ -15,13 +15,16 @@
 
 namespace conelight::scene {
 
-gpu::Material packedMaterial(const Material& material);
+// `textures`: of the scene; what the textures of coat and sheen hold in the mean counts for one colour of the surface.
+gpu::Material packedMaterial(const Material& material, const std::vector<Texture>& textures);
 // Whether a surface of it may be a dielectric with a lobe that is told from diffuse light.
 bool isGlossyDielectric(const gpu::Material& material);
 
-// Textures of a material: base, metallic-roughness, normal, emissive, specular, specular colour; -1: white.
+// Textures of a material: base, metallic-roughness, normal, emissive, specular, specular colour, coat, its roughness and
+// normal, the sheen's colour and roughness; -1: white.
+constexpr std::size_t kMaterialTextureCount = 11;
 struct MaterialTextures {
-    int slots[6];
+    std::array<int, kMaterialTextureCount> slots;
     bool has(std::size_t texture) const {
         for (const int slot : slots)
             if (slot == static_cast<int>(texture)) return true;
@@ -30,7 +33,7 @@ struct MaterialTextures {
 };
 MaterialTextures texturesOf(const Material& material);
 // Texture units of a program for them; -1: it does not read that one.
-using MaterialUnits = std::array<int, 6>;
+using MaterialUnits = std::array<int, kMaterialTextureCount>;
 
 class SceneTextures {
   public:

@@ -198,7 +198,7 @@ void GpuScene::reshape(std::size_t index) {
 void GpuScene::setMaterial(std::size_t index, const Material& material) {
     const bool turnsGlass = isTransmissive(material) != isTransmissive(source_.materials[index]);
     source_.materials[index] = material;
-    materials_[index] = packedMaterial(material);
+    materials_[index] = packedMaterial(material, source_.textures);
     materialTextures_[index] = texturesOf(material);
     materialBuffer_.update(index * sizeof(gpu::Material), &materials_[index], sizeof(gpu::Material));
     geometryRevision_ = base::Revision::next();
@@ -214,6 +214,12 @@ void GpuScene::setMaterial(std::size_t index, const Material& material) {
 void GpuScene::setTexture(std::size_t index, const Texture& texture) {
     textures_.set(index, texture);
     source_.textures[index] = texture;
+    // Layers count with the mean of their textures.
+    for (std::size_t i = 0; i < source_.materials.size(); ++i)
+        if (hasLayers(source_.materials[i]) && materialTextures_[i].has(index)) {
+            materials_[i] = packedMaterial(source_.materials[i], source_.textures);
+            materialBuffer_.update(i * sizeof(gpu::Material), &materials_[i], sizeof(gpu::Material));
+        }
     touchUsersOf(index);
 }
 
@@ -278,11 +284,11 @@ const Aabb& GpuScene::bounds() const {
 
 void GpuScene::uploadMaterials() {
     for (const Material& material : source_.materials) {
-        materials_.push_back(packedMaterial(material));
+        materials_.push_back(packedMaterial(material, source_.textures));
         materialTextures_.push_back(texturesOf(material));
     }
-    materials_.push_back(packedMaterial(Material{}));
-    materialTextures_.push_back({{-1, -1, -1, -1, -1, -1}});
+    materials_.push_back(packedMaterial(Material{}, source_.textures));
+    materialTextures_.push_back(texturesOf(Material{}));
     materialBuffer_ = gl::Buffer(materials_, "scene materials");
 }
 

@@ -150,6 +150,17 @@ void scene::validateMaterial(const Scene& scene, const Material& material) {
              static_cast<double>(material.thickness), static_cast<double>(color.r),
              static_cast<double>(color.g), static_cast<double>(color.b),
              static_cast<double>(material.attenuationDistance));
+    const glm::vec3& sheen = material.sheenColor;
+    const auto isShare = [](float value) { return value >= 0 && value <= 1; };
+    if (!isShare(material.coat) || !isShare(material.coatRoughness) || !isShare(sheen.r) ||
+        !isShare(sheen.g) || !isShare(sheen.b) || !isShare(material.sheenRoughness))
+        fail(ErrorKind::BadInput,
+             "material '%s': coat %g of roughness %g, sheen %g %g %g of roughness %g; 0 to 1 each would be "
+             "right",
+             material.name.c_str(), static_cast<double>(material.coat),
+             static_cast<double>(material.coatRoughness), static_cast<double>(sheen.r),
+             static_cast<double>(sheen.g), static_cast<double>(sheen.b),
+             static_cast<double>(material.sheenRoughness));
     visitFields(
         [&](const char* use, const auto& value) {
             if constexpr (std::is_same_v<decltype(value), const TextureRef&>)

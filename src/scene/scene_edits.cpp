@@ -130,7 +130,8 @@ std::size_t GpuScene::addTexture(const gl::Device& device, const HostTexture& te
 std::size_t GpuScene::addMaterial(const Material& material) {
     const std::size_t index = source_.materials.size();
     source_.materials.push_back(material);
-    materials_.insert(materials_.begin() + static_cast<std::ptrdiff_t>(index), packedMaterial(material));
+    materials_.insert(materials_.begin() + static_cast<std::ptrdiff_t>(index),
+                      packedMaterial(material, source_.textures));
     materialTextures_.insert(materialTextures_.begin() + static_cast<std::ptrdiff_t>(index),
                              texturesOf(material));
     put(materialBuffer_, index * sizeof(gpu::Material), &materials_[index], 2 * sizeof(gpu::Material),

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "view/surfaces.h"
 
+#include <algorithm>
+
 namespace conelight::view {
 
 Surfaces::Surfaces() : block_(sizeof(gpu::FrameConstants), "frame constants") {}
@@ -9,6 +11,16 @@ void Surfaces::resize(int width, int height) {
     if (gbuffer_ && gbuffer_->width() == width && gbuffer_->height() == height) return;
     gbuffer_.reset();  // frees the old one first
     gbuffer_.emplace(width, height);
+}
+
+// A picture of them, of the right size, where there are any.
+void Surfaces::prepareLayers(const scene::GpuScene& scene) {
+    const bool any = std::any_of(scene.instances().begin(), scene.instances().end(),
+                                 [&](const gpu::Instance& one) { return isLayered(scene, one); });
+    const int width = gbuffer_->width(), height = gbuffer_->height();
+    if (layers_ && any && layers_->width() == width && layers_->height() == height) return;
+    layers_.reset();
+    if (any) layers_.emplace(width, height);
 }
 
 void Surfaces::take(const gl::Device& device, const scene::GpuScene& scene, const HostSurfaces& host,
@@ -34,11 +46,14 @@ base::Steps Surfaces::seeInSteps(const gl::Device& device, const scene::GpuScene
     const GBuffer::Wanted wanted{picture.cullBackFaces, picture.withGlass, view_.clipFromWorld,
                                  picture.shrink};
     co_await gbuffer_->drawInSteps(device, scene, block_, wanted);
+    prepareLayers(scene);
+    if (layers_) co_await layers_->drawInSteps(device, scene, block_, *gbuffer_, wanted);
     gl::barrier(gl::Access::TextureFetch | gl::Access::ShaderStorage);
 }
 
 void Surfaces::declare(gl::Inputs& inputs) const {
     inputs.uniform("FrameBlock", block_).add(*gbuffer_);
+    if (layers_) inputs.add(*layers_);
     if (haveCascades()) inputs.add(*cascades_);
     if (haveMotion()) inputs.foreignTexture("hostMotion", motion_, import_->sampler());
 }

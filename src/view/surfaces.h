@@ -11,6 +11,7 @@
 #include "view/camera.h"
 #include "view/gbuffer.h"
 #include "view/host_surfaces.h"
+#include "view/layer_picture.h"
 #include "view/shadow_cascades.h"
 
 namespace conelight::view {
@@ -51,7 +52,10 @@ class Surfaces {
     // Whether pixels have shadow maps about the eye.
     bool haveCascades() const { return cascades_ != nullptr && cascades_->levels() > 0; }
 
-    // FrameBlock, gbufferGeometry, gbufferMaterial; hostMotion and what cascades have, if there is any.
+    // Whether anything that may be seen has a coat or sheen. A host's pixels have none.
+    bool haveLayers() const { return layers_.has_value(); }
+
+    // FrameBlock, gbufferGeometry, gbufferMaterial; surfaceLayers, hostMotion and what cascades have, if there is any.
     void declare(gl::Inputs& inputs) const;
     int width() const { return gbuffer_->width(); }
     int height() const { return gbuffer_->height(); }
@@ -62,6 +66,7 @@ class Surfaces {
 
   private:
     std::optional<GBuffer> gbuffer_;
+    std::optional<LayerPicture> layers_;
     gpu::FrameConstants view_{};
     gl::Buffer block_;
     std::optional<HostSurfaceImport> import_;
@@ -73,6 +78,7 @@ class Surfaces {
     const ShadowCascades* cascades_ = nullptr;
 
     void resize(int width, int height);
+    void prepareLayers(const scene::GpuScene& scene);
 };
 
 }  // namespace conelight::view

@@ -31,7 +31,7 @@ class ViewerAnswersTest : public ViewerPanelsTest {
 
 TEST_F(ViewerAnswersTest, BeforeThePictureIsFinished) {
     start(
-        "--window 900x600 --voxels 32 --mode traced --no-state --gl-debug --set traced.pixel_rays=12 "
+        "--window 720x480 --voxels 32 --mode traced --no-state --gl-debug --set traced.pixel_rays=12 "
         "builtin:cornell");
     EXPECT_TRUE(eventually([&] { return pictures() > 0; }));
     // A click, a key, a double-click with what is typed into the number that it opens. Each makes passes anew.

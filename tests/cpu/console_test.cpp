@@ -197,6 +197,33 @@ TEST(Console, MaterialsBecomeGlass) {
     EXPECT_EQ(rig.session.scene().materials[1].transmission, 0.0f);
 }
 
+TEST(Console, MaterialsGetCoatAndSheen) {
+    ConsoleRig rig;
+    rig.run(
+        "material blue coat 0.75; material blue coat_roughness 0.1; material blue sheen 0.2 0.3 0.4;"
+        "material blue sheen_roughness 0.5");
+    EXPECT_EQ(rig.error(), "");
+    const Material& m = rig.session.scene().materials[1];
+    EXPECT_EQ(m.coat, 0.75f);
+    EXPECT_EQ(m.coatRoughness, 0.1f);
+    EXPECT_EQ(m.sheenColor, glm::vec3(0.2f, 0.3f, 0.4f));
+    EXPECT_EQ(m.sheenRoughness, 0.5f);
+    const auto tells = [&](const char* what) {
+        rig.lines.clear();
+        rig.run("material blue");
+        return std::any_of(rig.lines.begin(), rig.lines.end(),
+                           [&](const auto& line) { return line.text.find(what) != std::string::npos; });
+    };
+    EXPECT_TRUE(tells("coat 0.75  coat_roughness 0.1"));
+    EXPECT_FALSE(tells("not shown"));
+    rig.run("material blue transmission 1");
+    EXPECT_TRUE(tells("not shown"));
+    for (int i = 0; i < 5; ++i) rig.run("undo");
+    EXPECT_EQ(rig.session.scene().materials[1].coat, 0.0f);
+    rig.run("material blue coat 2");
+    EXPECT_NE(rig.error().find("0 to 1"), std::string::npos);
+}
+
 TEST(Console, EditsCanBeTakenBack) {
     ConsoleRig rig;
     rig.run(

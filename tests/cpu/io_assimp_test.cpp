@@ -45,6 +45,13 @@ void savePng(const std::filesystem::path& path, int w, int h,
     io::writePng(path, image);
 }
 
+TEST(Assimp, CoatsOfMaterialLibrariesAreKept) {
+    const Material m = objMaterial("coat", "Kd 0.1 0.2 0.3\nPc 0.75\nPcr 0.25\n");
+    EXPECT_FLOAT_EQ(m.coat, 0.75f);
+    EXPECT_FLOAT_EQ(m.coatRoughness, 0.25f);
+    EXPECT_FALSE(hasLayers(objMaterial("no coat", "Kd 0.1 0.2 0.3\n")));
+}
+
 TEST(Assimp, PhongMaterialsBecomeMetallicRoughness) {
     const Material m =
         objMaterial("phong", "Kd 0.1 0.2 0.3\nKs 0.5 0.25 0\nNs 126\nKe 3 2 1\nd 0.5\nillum 2\n");

@@ -174,9 +174,9 @@ TEST(GltfExtensions, ARequiredOneThatHasAFallbackIsDrawnPlainer) {
     GltfBuilder b;
     b.triangle();
     b.node({{"mesh", 0}});
-    b.json["extensionsUsed"] = {"KHR_materials_sheen"};
-    b.json["extensionsRequired"] = {"KHR_materials_sheen"};
-    EXPECT_TRUE(hasNote(loadGlb(b, "sheen"), "KHR_materials_sheen"));
+    b.json["extensionsUsed"] = {"KHR_materials_anisotropy"};
+    b.json["extensionsRequired"] = {"KHR_materials_anisotropy"};
+    EXPECT_TRUE(hasNote(loadGlb(b, "anisotropy"), "KHR_materials_anisotropy"));
     b.json["extensionsRequired"] = {"EXT_unheard_of"};
     EXPECT_TRUE(contains(glbError(b, "unheard"), "EXT_unheard_of"));
 }

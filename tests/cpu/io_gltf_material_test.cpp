@@ -3,6 +3,8 @@
 #include <cstddef>
 
 #include "cpu/gltf_test_support.h"
+#include "io/scene_file.h"
+#include "io/scene_write.h"
 
 namespace conelight {
 namespace {
@@ -97,6 +99,76 @@ TEST(Gltf, ReadsGlass) {
     const Material& pane = scene.materials.at(1);
     EXPECT_FLOAT_EQ(pane.transmission, 1);
     EXPECT_FLOAT_EQ(pane.thickness, 0);
+}
+
+// One material with all of coat and sheen, one of glass with a coat.
+GltfBuilder layeredMaterials() {
+    GltfBuilder b;
+    b.triangle()["material"] = 0;
+    b.json["meshes"][0]["primitives"][0]["attributes"]["TEXCOORD_0"] = b.floats({0, 0, 1, 0, 0, 1}, 2);
+    b.json["images"] = {{{"uri", "data:image/png;base64," + base64(png(1, 1, {200, 100, 50, 102}))}}};
+    b.json["textures"] = {{{"source", 0}}};
+    const Json map = {{"index", 0}};
+    Json normals = map;
+    normals["scale"] = 0.5;
+    b.json["materials"] = {{{"name", "both"},
+                            {"extensions",
+                             {{"KHR_materials_clearcoat",
+                               {{"clearcoatFactor", 0.8},
+                                {"clearcoatRoughnessFactor", 0.1},
+                                {"clearcoatTexture", map},
+                                {"clearcoatRoughnessTexture", map},
+                                {"clearcoatNormalTexture", normals}}},
+                              {"KHR_materials_sheen",
+                               {{"sheenColorFactor", {0.1, 0.2, 3}},
+                                {"sheenRoughnessFactor", 0.6},
+                                {"sheenColorTexture", map},
+                                {"sheenRoughnessTexture", map}}}}}},
+                           {{"name", "lacquered glass"},
+                            {"pbrMetallicRoughness", {{"metallicFactor", 0}}},
+                            {"extensions",
+                             {{"KHR_materials_clearcoat", {{"clearcoatFactor", 1}}},
+                              {"KHR_materials_transmission", {{"transmissionFactor", 1}}}}}}};
+    b.json["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_materials_sheen",
+                                "KHR_materials_transmission"};
+    b.node({{"mesh", 0}});
+    return b;
+}
+
+TEST(Gltf, ReadsCoatAndSheen) {
+    const GltfBuilder b = layeredMaterials();
+    const Scene scene = loadGlb(b, "layers");
+    const Material& m = scene.materials.at(0);
+    EXPECT_TRUE(hasLayers(m));
+    EXPECT_FLOAT_EQ(m.coat, 0.8f);
+    EXPECT_FLOAT_EQ(m.coatRoughness, 0.1f);
+    EXPECT_FLOAT_EQ(m.coatNormalScale, 0.5f);
+    expectNear(m.sheenColor, {0.1f, 0.2f, 1});
+    EXPECT_FLOAT_EQ(m.sheenRoughness, 0.6f);
+    for (const TextureRef* use : {&m.coatTexture, &m.coatRoughnessTexture, &m.coatNormalTexture,
+                                  &m.sheenColorTexture, &m.sheenRoughnessTexture})
+        ASSERT_TRUE(use->used());
+    EXPECT_TRUE(scene.textures.at(std::size_t(m.sheenColorTexture.texture)).srgb);
+    EXPECT_FALSE(scene.textures.at(std::size_t(m.sheenRoughnessTexture.texture)).srgb);
+    EXPECT_FALSE(scene.textures.at(std::size_t(m.coatTexture.texture)).srgb);
+    // A map of the coat alone needs tangents.
+    EXPECT_EQ(scene.meshes.at(0).tangents.size(), 3u);
+    // Glass is drawn without: said once, of the material that loses it.
+    EXPECT_FALSE(hasLayers(scene.materials.at(1)));
+    ASSERT_EQ(scene.notes.size(), 1u);
+    EXPECT_TRUE(contains(scene.notes[0], "'lacquered glass': glass is drawn without its clear coat"));
+
+    const std::filesystem::path path = folderOf("gltf") / "layers_again.glb";
+    io::writeScene(path.string(), scene, true);
+    const Material again = io::loadScene(path.string()).materials.at(0);
+    EXPECT_EQ(again.coat, m.coat);
+    EXPECT_EQ(again.coatRoughness, m.coatRoughness);
+    EXPECT_EQ(again.coatNormalScale, m.coatNormalScale);
+    EXPECT_EQ(again.sheenColor, m.sheenColor);
+    EXPECT_EQ(again.sheenRoughness, m.sheenRoughness);
+    EXPECT_TRUE(again.coatTexture.used() && again.coatRoughnessTexture.used() &&
+                again.coatNormalTexture.used() && again.sheenColorTexture.used() &&
+                again.sheenRoughnessTexture.used());
 }
 
 TEST(Gltf, PrimitiveWithoutMaterialGetsTheFormatsDefault) {

@@ -313,10 +313,10 @@ TEST(Gltf, NamesOptionalExtensionsItLeavesOut) {
     GltfBuilder b;
     b.triangle();
     b.node({{"mesh", 0}});
-    b.json["extensionsUsed"] = {"KHR_materials_clearcoat", "KHR_texture_transform"};
+    b.json["extensionsUsed"] = {"KHR_materials_iridescence", "KHR_texture_transform"};
     const Scene scene = loadGlb(b, "optional");
     ASSERT_EQ(scene.notes.size(), 1u);
-    EXPECT_TRUE(contains(scene.notes[0], "KHR_materials_clearcoat"));
+    EXPECT_TRUE(contains(scene.notes[0], "KHR_materials_iridescence"));
 }
 
 TEST(Gltf, DeepNodeChainsDoNotOverflow) {

@@ -39,6 +39,10 @@ void expectSameMaterial(const Material& a, const Material& b, const Scene& from,
     EXPECT_EQ(a.roughness, b.roughness);
     EXPECT_EQ(a.ior, b.ior);
     EXPECT_EQ(a.specular, b.specular);
+    EXPECT_EQ(a.coat, b.coat);
+    EXPECT_EQ(a.coatRoughness, b.coatRoughness);
+    EXPECT_EQ(a.sheenColor, b.sheenColor);
+    EXPECT_EQ(a.sheenRoughness, b.sheenRoughness);
     expectNear(a.emission, b.emission, 1e-6f, b.name + " emission");
     EXPECT_EQ(a.alphaMode, b.alphaMode);
     EXPECT_EQ(a.doubleSided, b.doubleSided);

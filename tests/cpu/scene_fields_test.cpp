@@ -104,7 +104,7 @@ void expectEveryFieldCounts(std::vector<T> Scene::*table, std::size_t fields) {
 }
 
 TEST(SceneFields, EveryOneOfALightCounts) { expectEveryFieldCounts(&Scene::lights, 16); }
-TEST(SceneFields, EveryOneOfAMaterialCounts) { expectEveryFieldCounts(&Scene::materials, 25); }
+TEST(SceneFields, EveryOneOfAMaterialCounts) { expectEveryFieldCounts(&Scene::materials, 35); }
 TEST(SceneFields, EveryOneOfAnInstanceCounts) { expectEveryFieldCounts(&Scene::instances, 9); }
 TEST(SceneFields, EveryOneOfACameraCounts) { expectEveryFieldCounts(&Scene::cameras, 10); }
 

@@ -284,7 +284,7 @@ TEST_F(GlassTest, PanesMirrorLightOfLamps) {
     camera.target = {0, 0, 0.35f};
     camera.fovY = 0.4f;
     scene.cameras.push_back(camera);
-    const reference::PathTracedPicture truth = truthOf(scene, 1024);
+    const reference::PathTracedPicture truth = truthOf(scene, 4096);
     Settings settings = tracedSettings(Quality::Interactive, Component::Indirect);
     const Image image = draw(scene, settings);
     // What is mirrored keeps its colour.

@@ -123,6 +123,10 @@ constexpr Property kProperties[] = {
     {"thickness", 1, 0, 1e9, "m"},
     {"attenuation_color", 3, kLeastAttenuationColor, 1, ""},
     {"attenuation_distance", 1, 0, 1e9, "m"},
+    {"coat", 1, 0, 1, ""},
+    {"coat_roughness", 1, 0, 1, ""},
+    {"sheen", 3, 0, 1, ""},
+    {"sheen_roughness", 1, 0, 1, ""},
     {"emission", 3, 0, 1e9, "W/(sr m^2)"},
     {"shininess", 1, 0, 10000, ""},
     {"ambient_str", 1, 0, 100, ""},
@@ -194,6 +198,10 @@ void change(Material& material, const CommandContext& context) {
     if (name == "thickness") material.thickness = v[0];
     if (name == "attenuation_color") material.attenuationColor = {v[0], v[1], v[2]};
     if (name == "attenuation_distance") material.attenuationDistance = v[0];
+    if (name == "coat") material.coat = v[0];
+    if (name == "coat_roughness") material.coatRoughness = v[0];
+    if (name == "sheen") material.sheenColor = {v[0], v[1], v[2]};
+    if (name == "sheen_roughness") material.sheenRoughness = v[0];
     if (name == "shininess") phong.shininess = v[0];
     if (name == "ambient_str") phong.ambientStrength = v[0];
     if (name == "diffuse_str") phong.diffuseStrength = v[0];
@@ -212,6 +220,10 @@ void printMaterial(const CommandContext& context, const Material& m) {
             fmt::format("  transmission {:.6g}  thickness {:.6g} m  attenuation_color {}"
                         "  attenuation_distance {:.6g} m",
                         m.transmission, m.thickness, textOf(m.attenuationColor), m.attenuationDistance));
+    if (m.coat > 0 || m.sheenColor != glm::vec3(0))
+        context.print(fmt::format("  coat {:.6g}  coat_roughness {:.6g}  sheen {}  sheen_roughness {:.6g}{}",
+                                  m.coat, m.coatRoughness, textOf(m.sheenColor), m.sheenRoughness,
+                                  hasLayers(m) ? "" : "  (not shown: glass or unlit)"));
     context.print(fmt::format("  emission {} W/(sr m^2)", textOf(m.emission)));
     const PhongMaterial phong = phongOf(m);
     context.print(

@@ -8,9 +8,11 @@
 #include <filesystem>
 #include <glm/gtc/constants.hpp>
 #include <memory>
+#include <type_traits>
 #include <utility>
 
 #include "conelight/error.h"
+#include "conelight/scene_fields.h"
 #include "io/generated_shapes.h"
 #include "session/projection.h"
 #include "session/rename.h"
@@ -79,10 +81,12 @@ void renumber(Scene& part, const Scene& scene) {
         if (index >= 0) index += static_cast<int>(by);
     };
     for (Material& m : part.materials)
-        for (TextureRef* use :
-             {&m.baseColorTexture, &m.metallicRoughnessTexture, &m.normalTexture, &m.emissiveTexture,
-              &m.specularTexture, &m.specularColorTexture, &m.transmissionTexture})
-            shift(use->texture, scene.textures.size());
+        visitFields(
+            [&](const char*, auto& value) {
+                if constexpr (std::is_same_v<decltype(value), TextureRef&>)
+                    shift(value.texture, scene.textures.size());
+            },
+            m);
     for (Instance& instance : part.instances) {
         shift(instance.mesh, scene.meshes.size());
         shift(instance.material, scene.materials.size());

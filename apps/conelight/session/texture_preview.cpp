@@ -59,7 +59,12 @@ std::vector<TextureUse> texturesOf(const Material& m) {
             {"emission", m.emissiveTexture.texture},
             {"specular", m.specularTexture.texture},
             {"specular colour", m.specularColorTexture.texture},
-            {"transmission", m.transmissionTexture.texture}};
+            {"transmission", m.transmissionTexture.texture},
+            {"coat", m.coatTexture.texture},
+            {"coat roughness", m.coatRoughnessTexture.texture},
+            {"coat normal", m.coatNormalTexture.texture},
+            {"sheen colour", m.sheenColorTexture.texture},
+            {"sheen roughness", m.sheenRoughnessTexture.texture}};
 }
 
 std::string describe(const Texture& texture) {

@@ -70,6 +70,23 @@ bool editGlass(Session& session, Material& m) {
     return changed;
 }
 
+bool editLayers(Session& session, Material& m) {
+    bool changed = ImGui::SliderFloat("coat", &m.coat, 0, 1);
+    seals(session, "coat");
+    if (m.coat > 0) {
+        changed |= ImGui::SliderFloat("coat roughness", &m.coatRoughness, 0, 1);
+        seals(session, "coat roughness");
+    }
+    changed |= ImGui::ColorEdit3("sheen", &m.sheenColor.x, ImGuiColorEditFlags_Float);
+    seals(session, "sheen");
+    if (m.sheenColor != glm::vec3(0)) {
+        changed |= ImGui::SliderFloat("sheen roughness", &m.sheenRoughness, 0, 1);
+        seals(session, "sheen roughness");
+    }
+    m.sheenColor = glm::clamp(m.sheenColor, 0.0f, 1.0f);
+    return changed;
+}
+
 }  // namespace
 
 void SelectionEditor::editInstance(Session& session, std::size_t index, const RunLine& run) {
@@ -157,6 +174,7 @@ void SelectionEditor::editMaterial(Session& session, std::size_t index) {
     changed |= ImGui::SliderFloat("specular", &m.specular, 0, 1);
     seals(session, "specular");
     changed |= editGlass(session, m);
+    changed |= editLayers(session, m);
     changed |=
         ImGui::ColorEdit3("emission", &m.emission.x, ImGuiColorEditFlags_Float | ImGuiColorEditFlags_HDR);
     seals(session, "emission");

@@ -224,6 +224,8 @@ void Writer::material(const Material& m) {
         notes_.push_back(fmt::format("material {}: opacity is left out", oneLine(m.name, 60)));
     if (isTransmissive(m) && noted_.insert("glass of " + m.name).second)
         notes_.push_back(fmt::format("material {}: transmission is left out", oneLine(m.name, 60)));
+    if (hasLayers(m) && noted_.insert("layers of " + m.name).second)
+        notes_.push_back(fmt::format("material {}: coat and sheen are left out", oneLine(m.name, 60)));
 
     PhongMaterial phong = phongOf(m);
     if (m.unlit) {

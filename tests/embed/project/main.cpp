@@ -13,6 +13,7 @@
 #include <epoxy/gl.h>
 
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -176,6 +177,7 @@ void checkChangesInC(conelight_renderer* renderer, const conelight_scene* scene,
     check(conelight_scene_get_counts(scene, &counts));
     conelight_material blue = CONELIGHT_MATERIAL_INIT;
     blue.base_color[0] = blue.base_color[1] = 0;
+    blue.size = offsetof(conelight_material, coat);  // of a program that knows no coats
     for (std::size_t i = 0; i < counts.materials; ++i)
         check(conelight_renderer_set_material(renderer, i, &blue));
     draw();
