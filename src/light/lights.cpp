@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <span>
 
+#include "gl/gl.h"
 #include "gl/pace.h"
 #include "scene/emissive_quads.h"
 #include "scene/gpu_lights.h"
