@@ -186,6 +186,9 @@ constexpr GeneratedParameter kVeilsParameters[] = {
 constexpr GeneratedParameter kPlainParameters[] = {
     {"size", 400, 0, 4000, false, "edge of the plain, m; with houses from 60 on; 0: the room alone"},
 };
+constexpr GeneratedParameter kLampsParameters[] = {
+    {"count", 1000, 1, 20000, true, "lamps, four in each plot of 8 m"},
+};
 constexpr GeneratedParameter kTownParameters[] = {
     {"size", 200, 180, 2000, false, "edge of the town, m"},
     {"hour", 12, 0, 24, false, "solar time of a summer's day; 12 is noon"},
@@ -310,6 +313,9 @@ constexpr Entry kScenes[] = {
     {{"plain", "room of 8 m with a lamp on a plain with houses, for nested grids; cameras room, door",
       kPlainParameters},
      generated::buildPlain},
+    {{"lamps", "huts and crates in the light of any number of lamps; cameras lane, above, hut",
+      kLampsParameters},
+     generated::buildLamps},
     {{"town",
       "square in a grid of streets, houses with rooms, at any hour; cameras square, room, street, roofs",
       kTownParameters},

@@ -102,6 +102,7 @@ Scene buildVeils(const Values& values);
 Scene buildCoats(const Values& values);
 Scene buildMirrorHall(const Values& values);
 Scene buildPlain(const Values& values);
+Scene buildLamps(const Values& values);
 Scene buildTown(const Values& values);
 
 }  // namespace conelight::io::generated

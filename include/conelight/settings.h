@@ -53,6 +53,7 @@ struct LightSettings {
     int areaSamples = 16;
     bool emissiveQuads = true;  // of mode cones
     int caustics = 65536;       // paths per solid of glass and light; 0: light goes straight through solids
+    int exactLamps = 64;        // of mode traced: more points and spots are drawn by chance
     bool operator==(const LightSettings&) const = default;
 };
 

@@ -5,11 +5,14 @@
 // about it were gathered for, where those show the same surface (lib/temporal.glsl). Things that no pixel of the gathered
 // picture shows, wires for example, take the nearest of nine that shows their instance, else the cache.
 //   LOBES 1: a picture of lobes, in a rectangle from pixelRays.lowestX, lowestY
-#ifndef LOBES
-#error LOBES must be 0 or 1
+//   CACHED 0: a picture of lamps, of which the cache knows nothing
+#if !defined(LOBES) || !defined(CACHED)
+#error LOBES and CACHED must be 0 or 1
 #endif
 #define MOTION 0
+#if CACHED
 #include "lib/cache_lookup.glsl"
+#endif
 #include "lib/dot.glsl"
 #include "lib/lookup_count.glsl"
 #include "lib/record_steps.glsl"
@@ -48,8 +51,10 @@ void main() {
     vec4 carried = valueSoFar(min(pixel, size - 1), s).value;
     vec4 near = likestNear(pixel, s);
     bool known = carried.a > 0.0;
-    vec3 cached =
-        cachedIrradiance(gridFromWorld(s.position), s.normal, wanted && !known && near.a == 0.0).rgb;
+    vec3 cached = vec3(0.0);
+#if CACHED
+    cached = cachedIrradiance(gridFromWorld(s.position), s.normal, wanted && !known && near.a == 0.0).rgb;
+#endif
     vec3 value = known ? carried.rgb : (near.a > 0.0 ? near.rgb : cached);
     if (any(greaterThanEqual(pixel, size))) return;
     imageStore(result, pixel,

@@ -13,8 +13,12 @@
 #error SHOW_DIRECT, SHOW_DIFFUSE, SHOW_SPECULAR, IRRADIANCE and LOBE must be 0 or 1
 #endif
 // VISIBILITY_PICTURE 1: which lights without extent are seen is told by visibilityPicture, not by shadow maps.
+// LAMP_PICTURE 1: direct light of lamps that are drawn by chance is told by lampPicture (gather/ray_lamps.comp.glsl).
 // CAUSTICS 1: with what glass gathers, as a part of the irradiance.
 // COUNT_LOOKUPS 1: adds lookups to the counters: of the cache, and of shadow maps as those of occlusion.
+#ifndef LAMP_PICTURE
+#define LAMP_PICTURE 0
+#endif
 #define GATHERS (SHOW_DIFFUSE || SHOW_SPECULAR)
 #define RECORD_CACHE
 #include "lib/brdf.glsl"
@@ -44,6 +48,9 @@ uniform usampler2D lobePicture;
 #if SHOW_DIRECT && VISIBILITY_PICTURE
 uniform usampler2D visibilityPicture;
 #endif
+#if SHOW_DIRECT && LAMP_PICTURE
+uniform usampler2D lampPicture;
+#endif
 
 // `pixel` is within the picture.
 vec4 tracedShade(ivec2 pixel) {
@@ -62,6 +69,10 @@ vec4 tracedShade(ivec2 pixel) {
 #endif
     radiance = b.diffuse / kPi * (s.normalMean * light.irradiance) + s.emission +
                (s.unlit ? vec3(0.0) : light.specular);
+#if LAMP_PICTURE
+    vec3 lamps = pixelHistoryValue(texelFetch(lampPicture, pixel, 0));
+    radiance += seen && !s.unlit ? (s.normalMean * b.diffuse + b.albedo) * lamps : vec3(0.0);
+#endif
 #endif
 #if GATHERS
     bool gathers = seen && !s.unlit;

@@ -146,8 +146,9 @@ struct Light {
                         // shadowNear * distance
     float shadowTexel;  // edge of a texel, m at 1 m from the light (perspective) or m (directional)
     uint flags;         // LIGHT_CASTS_SHADOW ...
-    uint sampleGrid;    // area lights: sample points, their square root
-};                      // 112 B
+    uint
+        sampleGrid;  // area lights: sample points, their square root; lamps of a tree: their slots (shared/lamps.h)
+};                   // 112 B
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus

@@ -5,13 +5,16 @@ namespace conelight::gather {
 namespace {
 
 struct CarryKey {
-    bool lobes, coats;
+    bool lobes, cached, coats;
     gl::ProgramDesc desc() const {
-        gl::ProgramDesc desc{{"gather/carry.comp.glsl"}, {{"LOBES", lobes ? "1" : "0"}}};
+        gl::ProgramDesc desc{{"gather/carry.comp.glsl"},
+                             {{"LOBES", lobes ? "1" : "0"}, {"CACHED", cached ? "1" : "0"}}};
         for (auto& define : surfaceDefines(coats)) desc.defines.push_back(std::move(define));
         return desc;
     }
-    static std::vector<CarryKey> all() { return {{false, false}, {true, false}, {true, true}}; }
+    static std::vector<CarryKey> all() {
+        return {{false, true, false}, {true, true, false}, {true, true, true}, {false, false, false}};
+    }
 };
 
 }  // namespace
@@ -40,7 +43,8 @@ const gl::Texture& CarriedPicture::carry(const gl::Device& device, const RayInpu
         .image("result", texture_, gl::ImageUse::Write);
     const glm::ivec2 extent = where.end - where.lowest;
     if (extent.x > 0 && extent.y > 0)
-        device.get(CarryKey{from.lobes != nullptr, from.coats}.desc()).dispatch(given, extent.x, extent.y);
+        device.get(CarryKey{from.lobes != nullptr, from.cached, from.coats}.desc())
+            .dispatch(given, extent.x, extent.y);
     gl::barrier(gl::Access::TextureFetch | gl::Access::Update);
     return texture_;
 }

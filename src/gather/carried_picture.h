@@ -20,6 +20,7 @@ class CarriedPicture {
         const PixelRectangle* lobes;      // where a picture of lobes has anything; null: one of irradiance
         float specularLimit;
         bool coats = false;  // of lobes of coats
+        bool cached = true;  // the cache stands in for what no pixel of the picture shows
     };
     // `inputs.surfaces`: the other view; of another size it shows the same, with more pixels.
     const gl::Texture& carry(const gl::Device& device, const RayInputs& inputs, const From& from);

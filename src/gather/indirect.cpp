@@ -16,6 +16,8 @@ constexpr int kUnsettledMean = 4;
 // Later ones reach over one of so many frames since the light changed: the weight of what was gathered before falls with
 // that power of the frames, where a mean of all would keep it for as long as it is (docs/theory/4e_pixels.md).
 constexpr int kFramesPerPass = 2;
+// What the filter takes a draw of lamps for: rays into the hemisphere of about as much noise (builtin:lamps, 100 and 1,000).
+constexpr int kLampRays = 16;
 constexpr int kOcclusionPasses = 16;
 constexpr int kOcclusionRays = 2;
 
@@ -41,6 +43,10 @@ bool wantsLobe(const Indirect::Wanted& wanted, const RayInputs& inputs) {
                                        : hasGloss(inputs.scene, wanted.settings.specularLimit));
 }
 
+bool wantsLamps(const Indirect::Wanted& wanted, const RayInputs& inputs) {
+    return wanted.parts.direct && inputs.lights.drawsLamps();
+}
+
 // Where a coat may be seen.
 bool wantsCoat(const Indirect::Wanted& wanted, const RayInputs& inputs) {
     return wanted.settings.specularRays > 0 && wanted.parts.specular && inputs.surfaces.haveLayers() &&
@@ -54,6 +60,11 @@ bool wantsCoat(const Indirect::Wanted& wanted, const RayInputs& inputs) {
 void Indirect::follow(const RayInputs& inputs, const TracedSettings& settings) {
     if (lightFrom_ != inputs.lit.sources() || !settings_ || !(*settings_ == settings))
         diffuseHistory_.passes = specularHistory_.passes = coatHistory_.passes = occlusionHistory_.passes = 0;
+    const base::Revision lamps = inputs.lights.revision(), voxels = inputs.voxels.revision();
+    if (lampsFrom_ != lamps || lampVoxelsFrom_ != voxels || !settings_ || !(*settings_ == settings))
+        lampHistory_.passes = 0;
+    lampsFrom_ = lamps;
+    lampVoxelsFrom_ = voxels;
     lightFrom_ = inputs.lit.sources();
     settings_ = settings;
     // Where things were in the pictures so far is not known any more if they moved for one that was left.
@@ -63,7 +74,9 @@ void Indirect::follow(const RayInputs& inputs, const TracedSettings& settings) {
     if (lost) forget();
 }
 
-void Indirect::forget() { diffuseHistory_ = specularHistory_ = coatHistory_ = occlusionHistory_ = {}; }
+void Indirect::forget() {
+    diffuseHistory_ = specularHistory_ = coatHistory_ = occlusionHistory_ = lampHistory_ = {};
+}
 
 // Where each instance was in the frame before, for means that follow them. One that has come since stands still.
 void Indirect::followInstances(const scene::GpuScene& scene) {
@@ -98,7 +111,8 @@ base::Steps Indirect::addPasses(const gl::Device& device, const RayInputs& input
     if (pass.settings.budgeted) {
         next.reuse = !known ? Reuse::None : (still ? Reuse::SameView : Reuse::Reproject);
         next.number = static_cast<std::uint32_t>(history.passes);
-        const int grown = inputs.lit.steady() ? history.passes / kFramesPerPass : 0;
+        const bool steady = &picture == &lamps_ || inputs.lit.steady();
+        const int grown = steady ? history.passes / kFramesPerPass : 0;
         next.longest = std::min(pass.longest, std::max(kUnsettledMean, grown));
         co_await picture.gatherInSteps(device, inputs, next);
         ++history.passes;
@@ -117,7 +131,14 @@ base::Steps Indirect::addPasses(const gl::Device& device, const RayInputs& input
 base::Steps Indirect::gatherInSteps(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted) {
     const TracedSettings& settings = wanted.settings;
     follow(inputs, settings);
-    irradiance_ = lobe_ = coat_ = nullptr;
+    irradiance_ = lobe_ = coat_ = lampPicture_ = nullptr;
+    if (wantsLamps(wanted, inputs)) {
+        const RayPass pass{settings,    kLampRays, settings.passes,      0,
+                           Reuse::None, nullptr,   wanted.lookupCounters};
+        co_await addPasses(device, inputs, pass, lamps_, lampHistory_);
+        co_await lamps_.filterInSteps(device, inputs, settings.filterLevels);
+        lampPicture_ = &lamps_.filtered();
+    }
     if (wantsIrradiance(wanted)) {
         const RayPass pass{settings, settings.pixelRays,   settings.passes, 0, Reuse::None,
                            nullptr,  wanted.lookupCounters};
@@ -141,6 +162,7 @@ base::Steps Indirect::gatherInSteps(const gl::Device& device, const RayInputs& i
     }
     gatheredIrradiance_ = irradiance_;
     gatheredLobe_ = lobe_;
+    gatheredLamps_ = lampPicture_;
     gatheredCoat_ = coat_;
     gatheredView_ = inputs.surfaces.view();
     unfinished_ = false;
@@ -151,6 +173,14 @@ base::Steps Indirect::carry(const gl::Device& device, const RayInputs& inputs,
     if (gatheredIrradiance_ != nullptr)
         irradiance_ = &carriedIrradiance_.carry(
             device, inputs, {*gatheredIrradiance_, gatheredView_, nullptr, settings.specularLimit});
+    co_await gl::rest(device);
+    if (gatheredLamps_ != nullptr)
+        lampPicture_ = &carriedLamps_.carry(device, inputs,
+                                            {.picture = *gatheredLamps_,
+                                             .view = gatheredView_,
+                                             .lobes = nullptr,
+                                             .specularLimit = settings.specularLimit,
+                                             .cached = false});
     co_await gl::rest(device);
     if (gatheredLobe_ != nullptr)
         lobe_ = &carriedLobe_.carry(device, inputs,

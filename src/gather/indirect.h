@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Indirect light at pixels, as a value: surfaces + lit voxels -> irradiance for diffuse reflection, radiance
-// in the specular lobe, occlusion. Means over passes and frames are kept, and taken up again where the same
+// in the specular lobe, occlusion; and light of lamps that are drawn by chance. Means over passes and frames are kept, and taken up again where the same
 // surface is seen.
 #pragma once
 
@@ -45,6 +45,8 @@ class Indirect {
     // and the cache, or the irradiance, stands in.
     const gl::Texture* irradiance() const { return irradiance_; }
     const gl::Texture* lobe() const { return lobe_; }
+    // Of lamps that are drawn by chance, as a white surface would show it; null where there are none.
+    const gl::Texture* lamps() const { return lampPicture_; }
     const PixelRectangle& lobes() const { return specular_.lobes(); }  // where `lobe` has anything
     // Radiance in the lobes of clear coats, where any are seen; null: the irradiance stands in.
     const gl::Texture* coat() const { return coat_; }
@@ -66,16 +68,19 @@ class Indirect {
     PixelRays specular_{RayPicture::Specular};
     PixelRays coats_{RayPicture::Coat};
     PixelRays occlusion_{RayPicture::Occlusion};
-    History diffuseHistory_, specularHistory_, coatHistory_, occlusionHistory_;
+    PixelRays lamps_{RayPicture::Lamps};
+    History diffuseHistory_, specularHistory_, coatHistory_, occlusionHistory_, lampHistory_;
     const gl::Texture* irradiance_ = nullptr;
     const gl::Texture* lobe_ = nullptr;
     const gl::Texture* coat_ = nullptr;
+    const gl::Texture* lampPicture_ = nullptr;
     // What gather() found, which carry() starts from.
     const gl::Texture* gatheredIrradiance_ = nullptr;
     const gl::Texture* gatheredLobe_ = nullptr;
     const gl::Texture* gatheredCoat_ = nullptr;
+    const gl::Texture* gatheredLamps_ = nullptr;
     gpu::FrameConstants gatheredView_{};
-    CarriedPicture carriedIrradiance_, carriedLobe_, carriedCoat_;
+    CarriedPicture carriedIrradiance_, carriedLobe_, carriedCoat_, carriedLamps_;
     const gl::Texture* occlusionPicture_ = nullptr;
 
     // Where instances were, and where from they have come since.
@@ -87,6 +92,7 @@ class Indirect {
 
     // What the histories were gathered from.
     base::Revision lightFrom_;
+    base::Revision lampsFrom_, lampVoxelsFrom_;  // of lamps
     std::optional<TracedSettings> settings_;
 };
 

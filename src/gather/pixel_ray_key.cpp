@@ -18,8 +18,8 @@ void addPasses(std::vector<PixelRayKey>& keys, PixelRayKey key) {
             keys.push_back(key);
         }
     }
-    // Coats are not recorded.
-    if (key.kind == RayPicture::Coat) return;
+    // Coats and lamps are not recorded.
+    if (key.kind == RayPicture::Coat || key.kind == RayPicture::Lamps) return;
     key.motion = Motion::None;
     key.counts = key.listed = false;
     key.records = true;
@@ -30,6 +30,12 @@ void addPasses(std::vector<PixelRayKey>& keys, PixelRayKey key) {
 
 gl::ProgramDesc PixelRayKey::desc() const {
     gl::ProgramDesc desc;
+    if (kind == RayPicture::Lamps) {
+        desc = {{"gather/ray_lamps.comp.glsl"}, {{"MOTION", std::to_string(static_cast<int>(motion))}}};
+        if (counts) desc.defines.emplace_back("COUNT_LOOKUPS", "1");
+        for (auto& define : lamps.defines()) desc.defines.push_back(std::move(define));
+        return desc;
+    }
     desc.files = {isOfLobes(kind) ? "gather/ray_specular.comp.glsl" : "gather/ray_diffuse.comp.glsl"};
     desc.defines = {{"MOTION", std::to_string(static_cast<int>(motion))}};
     if (!isOfLobes(kind)) desc.defines.emplace_back("OCCLUSION", kind == RayPicture::Occlusion ? "1" : "0");
@@ -44,6 +50,8 @@ gl::ProgramDesc PixelRayKey::desc() const {
 
 std::vector<PixelRayKey> PixelRayKey::all() {
     std::vector<PixelRayKey> keys;
+    for (const light::LampKey& lamps : light::LampKey::all())
+        addPasses(keys, {.kind = RayPicture::Lamps, .hits = {}, .lamps = lamps});
     for (const bool triangles : {false, true}) {
         // Occlusion asks for no light.
         addPasses(keys, {.kind = RayPicture::Occlusion, .triangles = triangles});

@@ -9,7 +9,7 @@
 
 namespace conelight::gather {
 
-enum class RayPicture { Diffuse, Specular, Coat, Occlusion };
+enum class RayPicture { Diffuse, Specular, Coat, Occlusion, Lamps };
 // Whether rays go into lobes of listed pixels: those of surfaces, or of the clear coats above them.
 inline bool isOfLobes(RayPicture kind) { return kind == RayPicture::Specular || kind == RayPicture::Coat; }
 // Surfaces are their coats then.
@@ -30,6 +30,7 @@ struct PixelRayKey {
     bool aims = false;       // of lobes: as many rays again at voxels that send light
     bool records = false;    // steps of one pixel, for the inspector
     light::HitKey hits;
+    light::LampKey lamps;  // of kind Lamps
 
     gl::ProgramDesc desc() const;
     static std::vector<PixelRayKey> all();

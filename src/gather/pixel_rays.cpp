@@ -32,16 +32,18 @@ constexpr int kGroupEdge = 8;        // of passes over all pixels
 
 gl::ProgramDesc selectDesc(bool coats) { return {{"gather/lobe_select.comp.glsl"}, surfaceDefines(coats)}; }
 
-const char* const kGatherPass[] = {"diffuse rays", "specular rays", "coat rays", "occlusion rays"};
-const char* const kLabel[] = {"gathered diffuse", "gathered specular", "gathered coat", "gathered occlusion"};
+const char* const kGatherPass[] = {"diffuse rays", "specular rays", "coat rays", "occlusion rays", "rays to lamps"};
+const char* const kLabel[] = {"gathered diffuse", "gathered specular", "gathered coat", "gathered occlusion",
+                              "gathered lamps"};
 
 }  // namespace
 
 void RayInputs::declare(gl::Inputs& inputs) const {
     inputs.add(scene).add(lights).add(surfaces);
-    // Pictures of direct light alone are drawn without voxels.
-    if (!lit.revision()) return;
-    inputs.add(voxels).add(lit);
+    // Pictures of direct light alone are drawn without lit voxels, most of them without any.
+    if (lit.revision()) inputs.add(lit);
+    if (!voxels.revision()) return;
+    inputs.add(voxels);
     voxels.surface().declareTriangles(inputs);
 }
 
@@ -137,6 +139,11 @@ PixelRayKey PixelRays::key(const RayInputs& inputs, const RayPass& pass) const {
     key.aims = isOfLobes(kind_) && light::hasOtherEmitters(inputs.scene, inputs.lights);
     key.triangles = isOfLobes(kind_) ? pass.settings.exactMirrors : pass.settings.exactNear;
     if (kind_ == RayPicture::Occlusion) return key;
+    if (kind_ == RayPicture::Lamps) {
+        key.triangles = false;
+        key.lamps = inputs.lights.lampKey();
+        return key;
+    }
     key.hits = inputs.lights.hitKey(inputs.scene, pass.settings.exactHits);
     return key;
 }

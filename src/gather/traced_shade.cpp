@@ -31,6 +31,7 @@ struct TracedShade::ShadeKey {
     light::LightKey lights;   // of direct light
     bool visibility = false;  // of lights without extent, from a picture
     bool caustics = false;    // with diffuse light
+    bool lamps = false;       // of direct light, from a picture
     bool records = false;     // one pixel, as a compute shader, for the inspector
     bool compute = false;     // the picture as a compute shader
 
@@ -48,6 +49,7 @@ gl::ProgramDesc TracedShade::ShadeKey::desc() const {
                           {"LOBE", lobe && parts.specular ? "1" : "0"}}};
     if (!emission) desc.defines.emplace_back("SURFACE_EMISSION", "0");
     if (visibility) desc.defines.emplace_back("VISIBILITY_PICTURE", "1");
+    if (lamps && parts.direct) desc.defines.emplace_back("LAMP_PICTURE", "1");
     if (caustics && parts.diffuse) desc.defines.emplace_back("CAUSTICS", "1");
     if (counts) desc.defines.emplace_back("COUNT_LOOKUPS", "1");
     if (parts.direct)
@@ -59,6 +61,14 @@ gl::ProgramDesc TracedShade::ShadeKey::desc() const {
 
 std::vector<TracedShade::ShadeKey> TracedShade::ShadeKey::all() {
     std::vector<ShadeKey> keys;
+    // Lamps of a picture come with other lights that are told by their kinds.
+    const auto addLamps = [&](ShadeKey key) {
+        const light::LightKey& lights = key.lights;
+        const bool others = lights.directional + lights.rect > 0;
+        if (!key.parts.direct || lights.point + lights.spot > 0 || lights.fixed == others) return;
+        key.lamps = true;
+        keys.push_back(key);
+    };
     // The sums that components are made of (partsOf), each as its parts are known.
     const auto add = [&](const PictureParts& parts, const light::LightKey& lights) {
         const bool gathers = parts.diffuse || parts.specular;
@@ -70,10 +80,12 @@ std::vector<TracedShade::ShadeKey> TracedShade::ShadeKey::all() {
                 if (visibility && !(parts.direct && lights.hasSharpShadows())) continue;
                 key.visibility = visibility;
                 keys.push_back(key);
+                addLamps(key);
                 // Without direct light, lights are not told.
                 if (!parts.diffuse || (parts.direct && !lights.glass)) continue;
                 keys.push_back(key);
                 keys.back().caustics = true;
+                addLamps(keys.back());
             }
         }
     };
@@ -158,6 +170,8 @@ base::Steps TracedShade::drawInSteps(const gl::Device& device, const RayInputs& 
     given.add(inputs).uniform("PixelRayBlock", constants_);
     if (irradiance != nullptr) given.texture("irradiancePicture", *irradiance);
     if (lobe != nullptr) given.texture("lobePicture", *lobe);
+    const gl::Texture* const lamps = parts.direct ? indirect.lamps() : nullptr;
+    if (lamps != nullptr) given.texture("lampPicture", *lamps);
     if (wanted.lookupCounters != nullptr) given.storage("LookupTable", *wanted.lookupCounters);
     if (wanted.visibility != nullptr) given.texture("visibilityPicture", *wanted.visibility);
     ShadeKey key{parts,
@@ -167,7 +181,8 @@ base::Steps TracedShade::drawInSteps(const gl::Device& device, const RayInputs& 
                  wanted.lookupCounters != nullptr,
                  parts.direct ? lightsOfPixels(inputs.lights, inputs.surfaces) : light::LightKey{},
                  wanted.visibility != nullptr,
-                 inputs.lights.hasCaustics()};
+                 inputs.lights.hasCaustics(),
+                 lamps != nullptr};
     if (device.profile == gl::ExecutionProfile::Gpu) {
         const gl::PassScope pass(device.profiler, kShade);
         key.compute = true;

@@ -122,6 +122,8 @@ base::Steps Caustics::castSolid(const gl::Device& device, const Inputs& inputs, 
     gl::barrier(gl::Access::ShaderStorage | gl::Access::Update);
     sums_.clear();
     for (std::uint32_t i = 0; i < table.size(); ++i) {
+        // Too many for paths of their own.
+        if (inputs.lights.drawsLamps() && table[i].type <= LIGHT_SPOT) continue;
         cast.light = i;
         cast.lampGrid = table[i].type == LIGHT_RECT ? kLampGrid : 1;
         cast.grid = static_cast<std::uint32_t>(std::sqrt(static_cast<float>(paths))) / cast.lampGrid;

@@ -2,6 +2,7 @@
 #include "light/light_key.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace conelight::light {
 namespace {
@@ -92,6 +93,21 @@ std::vector<LightKey> LightKey::all() {
             }
         }
     }
+    return keys;
+}
+
+gl::Defines LampKey::defines() const {
+    gl::Defines defines{{"LIGHTS_SHAPED", shaped ? "1" : "0"}, {"LIGHTS_SHADOWS", "0"}};
+    if (glass) defines.emplace_back("GLASS", "1");
+    if (veils) defines.emplace_back("VEILS", "1");
+    return defines;
+}
+
+std::vector<LampKey> LampKey::all() {
+    std::vector<LampKey> keys;
+    for (const bool shaped : {false, true})
+        for (const auto& [glass, veils] : {std::pair{false, false}, {true, false}, {true, true}})
+            keys.push_back({shaped, glass, veils});
     return keys;
 }
 

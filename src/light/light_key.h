@@ -35,6 +35,17 @@ struct LightKey {
     auto operator<=>(const LightKey&) const = default;
 };
 
+// Of shaders that draw lamps by chance (lib/lamp_tree.glsl).
+struct LampKey {
+    bool shaped = false;  // as LightKey's
+    bool glass = false;
+    bool veils = false;  // of glass: blended surfaces are looked at by its tree
+
+    gl::Defines defines() const;
+    static std::vector<LampKey> all();
+    auto operator<=>(const LampKey&) const = default;
+};
+
 // What rays do where they hit.
 struct HitKey {
     bool exact = false;        // punctual lights are looked up; else faces give all light

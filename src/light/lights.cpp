@@ -2,7 +2,9 @@
 #include "light/lights.h"
 
 #include <algorithm>
+#include <span>
 
+#include "gl/gl.h"
 #include "gl/pace.h"
 #include "scene/emissive_quads.h"
 #include "scene/gpu_lights.h"
@@ -44,16 +46,44 @@ base::Steps Lights::updateInSteps(const gl::Device& device, const scene::GpuScen
     fillTable(scene.source(), wanted.emissiveQuads);
     const bool veils =
         wanted.veils && wanted.shadowMaps && wanted.settings.shadowSize > 0 && scene::hasVeils(scene);
-    if (wanted.shadowMaps) co_await shadows_.updateInSteps(device, scene, wanted.settings, veils, table_);
+    LampTree tree;
+    if (wantsTree(scene, wanted)) tree = LampTree::over(std::span(table_).first(ends_.y));
+    lampsOfTree_ = tree.nodes.empty() ? 0 : ends_.y;
+    if (wanted.shadowMaps) co_await drawShadows(device, scene, wanted.settings, veils);
     environment_.update(scene.source().environment);
     updateProfiles(scene::profilesOf(scene.source().lights));
     co_await gl::rest(device);
     glass_.update(scene, veils);
     upload(scene.source());
+    lamps_.update(tree, tableBuffer_);
     from_ = sources;
     profile_ = device.profile;
     if (hasGlass() || hasCaustics()) caustics_.clear();
     revision_ = ownRevision_ = base::Revision::next();
+}
+
+// Rays find what is in the voxels: where something else casts shadows, lamps need maps.
+bool Lights::wantsTree(const scene::GpuScene& scene, const LightsWanted& wanted) const {
+    constexpr std::uint32_t kBoth = INSTANCE_CASTS_SHADOW | INSTANCE_VOXELIZED;
+    return wanted.lampTree && ends_.y > static_cast<std::uint32_t>(wanted.settings.exactLamps) &&
+           std::none_of(scene.instances().begin(), scene.instances().end(),
+                        [](const gpu::Instance& i) { return (i.flags & kBoth) == INSTANCE_CASTS_SHADOW; });
+}
+
+// Of all lights but those of a tree.
+base::Steps Lights::drawShadows(const gl::Device& device, const scene::GpuScene& scene,
+                                LightSettings settings, bool veils) {
+    if (lampsOfTree_ == 0) {
+        co_await shadows_.updateInSteps(device, scene, settings, veils, table_);
+        co_return;
+    }
+    const auto first = table_.begin() + static_cast<std::ptrdiff_t>(lampsOfTree_);
+    std::vector<gpu::Light> others(first, table_.end());
+    co_await shadows_.updateInSteps(device, scene, settings, veils, others);
+    std::copy(others.begin(), others.end(), first);
+    // Without shadows no ray is asked for.
+    if (settings.shadowSize == 0)
+        for (auto lamp = table_.begin(); lamp != first; ++lamp) lamp->flags &= ~LIGHT_CASTS_SHADOW;
 }
 
 bool Lights::castsCaustics() const {
@@ -123,6 +153,7 @@ void Lights::declare(gl::Inputs& inputs) const {
         .uniform("FixedLightBlock", tableBuffer_)
         .uniform("FixedLightRows", tableBuffer_)
         .texture("lightProfiles", profileMap_)
+        .add(lamps_)
         .add(shadows_)
         .add(environment_)
         .add(glass_);
@@ -130,10 +161,21 @@ void Lights::declare(gl::Inputs& inputs) const {
 }
 
 LightKey Lights::key() const {
-    LightKey key = LightKey::of(ends_, shaped_, from_.wanted.settings.shadowSize > 0,
+    const glm::uvec4 asked = ends_ - glm::min(ends_, glm::uvec4(lampsOfTree_));
+    LightKey key = LightKey::of(asked, shaped_, from_.wanted.settings.shadowSize > 0,
                                 from_.wanted.settings.shadowFilter, profile_);
+    // Exact numbers tell where a light is in the table, which begins with the tree's.
+    if (lampsOfTree_ > 0 && asked.w > 0) {
+        key.fixed = false;
+        for (int* kind : {&key.directional, &key.rect}) *kind = std::min(*kind, 1);
+    }
     key.glass = hasGlass() && key.shadows;
     return key;
+}
+
+LampKey Lights::lampKey() const {
+    const bool glass = hasGlass() && from_.wanted.settings.shadowSize > 0;
+    return {shaped_, glass, glass && hasVeils()};
 }
 
 HitKey Lights::hitKey(const scene::GpuScene& scene, bool exactDirect) const {
@@ -143,7 +185,7 @@ HitKey Lights::hitKey(const scene::GpuScene& scene, bool exactDirect) const {
     key.environment = hasEnvironment();
     key.glass = hasGlass();
     key.lights.shaped = shaped_;
-    key.exact = exactDirect && ends_.z > 0 && ends_.z <= kMostExactLights;
+    key.exact = exactDirect && ends_.z > 0 && ends_.z <= kMostExactLights && lampsOfTree_ == 0;
     if (!key.exact) return key;
     key.gloss = lobes == Lobes::Dielectrics;
     // One comparison of four texels per light: rays average edges anyway.

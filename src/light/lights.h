@@ -14,6 +14,7 @@
 #include "gl/device.h"
 #include "light/caustics.h"
 #include "light/environment.h"
+#include "light/lamp_tree.h"
 #include "light/light_key.h"
 #include "light/shadow_maps.h"
 #include "scene/glass_tree.h"
@@ -29,6 +30,7 @@ struct LightsWanted {
     bool shadowMaps = true;     // they are drawn; else the table says that nothing is in shadow
     bool caustics = false;      // castCaustics will follow
     bool veils = false;         // blended surfaces hide light by their opacity, not all of it or none
+    bool lampTree = false;      // where there are many, lamps are drawn by chance (LightSettings::exactLamps)
     bool operator==(const LightsWanted&) const = default;
 };
 
@@ -54,13 +56,19 @@ class Lights {
     // LightTable, LightingBlock, FixedLightBlock and FixedLightRows (the table once more, for shaders that
     // know how many lights there are), the shadow maps, and the environment's picture and the tree of glass where there are any.
     void declare(gl::Inputs& inputs) const;
-    LightKey key() const;  // the variant of shaders that these lights need
+    // The variant of shaders that these lights need; lamps that are drawn by chance are none of theirs.
+    LightKey key() const;
     // Of shaders whose rays look punctual lights up where they hit; off where there are none, or more than
     // pays.
     HitKey hitKey(const scene::GpuScene& scene, bool exactDirect) const;
 
     const std::vector<gpu::Light>& table() const { return table_; }  // sorted by kind
     const glm::uvec4& ends() const { return ends_; }  // of the points, spots, directional lights, rectangles
+    // Whether points and spots are drawn by chance, by a tree over them: they have no shadow maps then, and none but
+    // lib/lamp_tree.glsl gives their light.
+    bool drawsLamps() const { return !lamps_.empty(); }
+    LampKey lampKey() const;
+    const LampTable& lamps() const { return lamps_; }
     // Whether an instance's emission arrives from a rectangle of the table: voxels leave it out.
     bool areInTable(std::size_t instance) const { return emitters_[instance] != 0; }
     bool hasGlass() const { return !glass_.empty(); }  // or veils, which light passes, too
@@ -75,6 +83,9 @@ class Lights {
 
   private:
     void fillTable(const Scene& scene, bool emissiveQuads);
+    bool wantsTree(const scene::GpuScene& scene, const LightsWanted& wanted) const;
+    base::Steps drawShadows(const gl::Device& device, const scene::GpuScene& scene, LightSettings settings,
+                            bool veils);
     void updateProfiles(scene::Profiles profiles);
     void upload(const Scene& scene);
 
@@ -86,6 +97,8 @@ class Lights {
     glm::uvec4 ends_{0};
     std::vector<char> emitters_;  // per instance
     gl::Buffer tableBuffer_, block_;
+    std::uint32_t lampsOfTree_ = 0;  // the first ones of the table
+    LampTable lamps_;
     ShadowMaps shadows_;
     EnvironmentTable environment_;
     scene::GlassTree glass_;  // that light passes

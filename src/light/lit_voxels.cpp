@@ -21,6 +21,9 @@ constexpr int kCoarseUpdates = IRRADIANCE_SETTLE;
 // Means over frames while the cache is still on its way would show old light.
 constexpr int kSteadyUpdates = 14;
 
+// With a limited number of bounces, of lamps that are drawn by chance, besides the first.
+constexpr int kLampDrawsOfBounces = 4;
+
 static_assert(std::size(gpu::CacheConstants{}.places) == EditPlaces::kMost);
 
 }  // namespace
@@ -99,6 +102,15 @@ base::Steps LitVoxels::putDirectLight(const gl::Device& device, const Inputs& in
     const RayLight rays{directLight_, fits ? &fit_ : nullptr};
     injectLight(device, {inputs.scene, inputs.lights, surface}, faces_, &rays);
     co_await gl::rest(device);
+    if (inputs.lights.drawsLamps())
+        co_await lamps_.beginInSteps(device, {inputs.scene, inputs.lights, inputs.voxels, faces_});
+}
+
+// More draws of lamps, between updates.
+base::Steps LitVoxels::drawLamps(const gl::Device& device, const Inputs& inputs, std::uint32_t faces,
+                                 int rounds) {
+    for (int i = 0; i < rounds && inputs.lights.drawsLamps(); ++i)
+        co_await lamps_.goOnInSteps(device, {inputs.scene, inputs.lights, inputs.voxels, faces_}, faces);
 }
 
 base::Steps LitVoxels::update(const gl::Device& device, const Inputs& inputs, const Budget& budget) {
@@ -124,6 +136,12 @@ base::Steps LitVoxels::update(const gl::Device& device, const Inputs& inputs, co
     }
     for (const Run& run : runs) {
         cache.cosineRays = cache.lightRays = run.rays;
+        // Those that average get another draw of lamps than those before; the rays of few updates all draws at once.
+        const bool averages = budget.oneUpdate || &run != &runs.front();
+        if (settings_.bounces && run.passes > 0)
+            co_await drawLamps(device, inputs, 0, kLampDrawsOfBounces);
+        else if (averages && run.passes > 0)
+            co_await drawLamps(device, inputs, cache.facesPerUpdate, 1);
         co_await cache_.updateInSteps(device, given, cache, run.passes);
         if (run.passes > 0) revision_ = base::Revision::next();
     }
@@ -146,8 +164,8 @@ void LitVoxels::declare(gl::Inputs& inputs) const {
 
 std::vector<gl::ProgramDesc> LitVoxels::programDescs() {
     std::vector<gl::ProgramDesc> descs = injectLightProgramDescs();
-    for (const auto& more :
-         {EmissionFit::programDescs(), IrradianceCache::programDescs(), Caustics::programDescs()})
+    for (const auto& more : {EmissionFit::programDescs(), LampFaces::programDescs(),
+                             IrradianceCache::programDescs(), Caustics::programDescs()})
         descs.insert(descs.end(), more.begin(), more.end());
     return descs;
 }

@@ -13,6 +13,7 @@
 #include "light/edit_places.h"
 #include "light/emission_fit.h"
 #include "light/irradiance_cache.h"
+#include "light/lamp_faces.h"
 #include "light/lights.h"
 #include "light/lit_faces.h"
 #include "scene/gpu_scene.h"
@@ -82,11 +83,13 @@ class LitVoxels {
     int wantedUpdates() const;
     base::Steps putDirectLight(const gl::Device& device, const Inputs& inputs);
     base::Steps update(const gl::Device& device, const Inputs& inputs, const Budget& budget);
+    base::Steps drawLamps(const gl::Device& device, const Inputs& inputs, std::uint32_t faces, int rounds);
 
     LitFaces faces_;
     gl::Buffer directLight_;  // a uint per face (cachedDirect of shared/irradiance.h)
     gl::Texture directTexels_;
     EmissionFit fit_;
+    LampFaces lamps_;
     IrradianceCache cache_;
     std::uint64_t visitsBefore_ = 0;  // by caches that were given up
     EditPlaces places_;

@@ -171,7 +171,7 @@ int LightField::Impl::update(const LightBudget& budget) {
     const gl::PassScope pass(profiler, "update");
     const std::uint64_t before = lit.faceVisits();
     programs.trim();
-    lights.update(device, *scene, {settings.light, /*emitters as lights*/ false, true});
+    lights.update(device, *scene, {.settings = settings.light, .emissiveQuads = false, .lampTree = true});
     voxels.update(device, *scene, settings.voxels, voxels::Rays::Yes);
     const light::RelightSettings wanted = light::relightSettings(settings.traced);
     const light::LitVoxels::Inputs inputs{*scene, lights, voxels};

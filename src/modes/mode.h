@@ -70,6 +70,8 @@ class ModeRenderer {
     virtual bool castsCaustics() const { return false; }
     // Whether lights shine through blended surfaces by their opacity.
     virtual bool seesVeils() const { return false; }
+    // Whether it draws lamps by chance where there are many.
+    virtual bool drawsLamps() const { return false; }
     // Whether flat emitters become lights where light.emissive_quads is on.
     virtual bool lightsFromEmitters(const Settings&) const { return true; }
 

@@ -300,8 +300,13 @@ base::Steps Renderer::Impl::prepare(const Settings& settings) {
     const bool shadows =
         settings.component == Component::ShadowMap || mode->needsShadows(scene->source(), settings);
     const bool emitters = settings.light.emissiveQuads && mode->lightsFromEmitters(settings);
-    const light::LightsWanted wanted{settings.light, emitters, shadows, mode->castsCaustics(),
-                                     mode->seesVeils()};
+    const light::LightsWanted wanted{
+        .settings = settings.light,
+        .emissiveQuads = emitters,
+        .shadowMaps = shadows,
+        .caustics = mode->castsCaustics(),
+        .veils = mode->seesVeils(),
+        .lampTree = mode->drawsLamps() && settings.component != Component::ShadowMap};
     co_await lights.updateInSteps(device, *scene, wanted);
 }
 

@@ -46,7 +46,8 @@ base::Steps TracedMode::drawInSteps(const Frame& given) {
                            parts.diffuse || parts.specular || frame.recorder != nullptr;
     const bool exactShadows = parts.direct && component != Component::Voxels && settings.exactShadows &&
                               gather::PixelVisibility::serves(frame.scene, frame.lights);
-    if ((usesLight || exactShadows || frame.lights.castsCaustics()) && !frame.besideCenters) {
+    const bool lamps = parts.direct && component != Component::Voxels && frame.lights.drawsLamps();
+    if ((usesLight || exactShadows || lamps || frame.lights.castsCaustics()) && !frame.besideCenters) {
         co_await voxelize(frame);
         co_await frame.lights.castCausticsInSteps(frame.device, frame.scene, voxels_);
         co_await gl::rest(frame.device);

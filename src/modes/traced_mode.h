@@ -28,6 +28,7 @@ class TracedMode : public ModeRenderer {
     bool readsCascades() const override { return true; }
     bool castsCaustics() const override { return true; }
     bool seesVeils() const override { return true; }
+    bool drawsLamps() const override { return true; }
 
     static std::vector<gl::ProgramDesc> programDescs();
 

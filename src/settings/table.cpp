@@ -104,6 +104,10 @@ std::vector<Setting<LightSettings>> lightSettings() {
         {"caustics", &LightSettings::caustics, Numbers{1024, 1048576, 1, true, false}, "",
          "light paths from each light through each solid of glass, in modes traced and cones; 0: none, light "
          "goes straight through solids"},
+        {"exact_lamps", &LightSettings::exactLamps, Numbers{0, 1000000}, "",
+         "mode traced asks so many point lights and spots one by one; where there are more, it draws a few "
+         "for each "
+         "place, and rays tell their shadows"},
     };
 }
 

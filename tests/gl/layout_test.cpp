@@ -17,6 +17,7 @@
 #include "shared/image.h"
 #include "shared/inspect.h"
 #include "shared/irradiance.h"
+#include "shared/lamps.h"
 #include "shared/lighting.h"
 #include "shared/pixel_rays.h"
 #include "shared/radiance_octree.h"
@@ -153,6 +154,8 @@ std::vector<Struct> otherStructs() {
             blending, parallel, pad0, pad1, pad2),
         ROW(LightingConstants, sky, environmentScale, lightEnds, environmentTurn, environmentInverseFlux,
             environmentLevel0, environmentCellLevel),
+        ROW(LampNode, center, radius2, power, reach, next, firstSlot, slots, pad0, pad1, pad2),
+        ROW(LampFaceConstants, firstFace, faceCount, round, restarts),
         ROW(CascadeConstants, middle, levels, inverseNearest, perDoubling, inverseDepth, pad0),
         ROW(Cascade, position, shadowNear, texel, layer, pad0, pad1),
         ROW(ShadowMapConstants, clipFromWorld, slopeUnit, middle, halfSize, pad0),
