@@ -32,7 +32,8 @@ constexpr int kGroupEdge = 8;        // of passes over all pixels
 
 gl::ProgramDesc selectDesc(bool coats) { return {{"gather/lobe_select.comp.glsl"}, surfaceDefines(coats)}; }
 
-const char* const kGatherPass[] = {"diffuse rays", "specular rays", "coat rays", "occlusion rays", "rays to lamps"};
+const char* const kGatherPass[] = {"diffuse rays", "specular rays", "coat rays", "occlusion rays",
+                                   "rays to lamps"};
 const char* const kLabel[] = {"gathered diffuse", "gathered specular", "gathered coat", "gathered occlusion",
                               "gathered lamps"};
 
