@@ -120,6 +120,20 @@ vec3 rayInverse(vec3 direction) {
 
 #include "lib/level_path.glsl"
 
+// The box of all voxels in grid coordinates, and how far before its border rays end.
+struct VoxelBox {
+    vec3 lowest, highest;
+    float margin;
+};
+VoxelBox voxelBox() {
+#if NESTED_GRIDS
+    vec4 place = levelPlace(coarsestLevel());
+    return VoxelBox(place.xyz, place.xyz + place.w * levelSize(), kRayEnd * place.w);
+#else
+    return VoxelBox(vec3(0.0), vec3(gridSize()), kRayEnd);
+#endif
+}
+
 // ---- Faces of one voxel ---------------------------------------------------------------------------------
 
 // Whether a crossing at distance t, at `position` in the voxel, lies within the bounds of a face.
