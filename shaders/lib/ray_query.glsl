@@ -120,17 +120,17 @@ vec3 rayInverse(vec3 direction) {
 
 #include "lib/level_path.glsl"
 
-// The box of all voxels in grid coordinates, and how far before its border rays end.
-struct VoxelBox {
+// Bounds of all voxels in grid coordinates, and how far before its border rays end.
+struct VoxelBounds {
     vec3 lowest, highest;
     float margin;
 };
-VoxelBox voxelBox() {
+VoxelBounds voxelBounds() {
 #if NESTED_GRIDS
     vec4 place = levelPlace(coarsestLevel());
-    return VoxelBox(place.xyz, place.xyz + place.w * levelSize(), kRayEnd * place.w);
+    return VoxelBounds(place.xyz, place.xyz + place.w * levelSize(), kRayEnd * place.w);
 #else
-    return VoxelBox(vec3(0.0), vec3(gridSize()), kRayEnd);
+    return VoxelBounds(vec3(0.0), vec3(gridSize()), kRayEnd);
 #endif
 }
 
