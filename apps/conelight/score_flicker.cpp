@@ -51,20 +51,26 @@ struct StationErrors {
     }
 };
 
-// A frame that changes far more than the others do: the light jumps there.
+// A frame that changes far more than those about it: the light jumps there.
 struct Jump {
-    double typical = 0, worst = 0;  // unsteadiness: the median and the largest
-    std::size_t frame = 0;          // of the largest
-    double ratio() const { return typical > 0 ? worst / typical : worst > 0 ? INFINITY : 1; }
+    double ratio = 1;       // unsteadiness over the median of the frames about it
+    std::size_t frame = 1;  // the second of the two
 };
 
-Jump jumpOf(std::vector<double> each) {
+// A step between two frames raises both; a bright edge that is followed wrongly, one. So of two in a row the smaller counts.
+Jump jumpOf(const std::vector<double>& each) {
+    constexpr std::size_t kAbout = 8;  // frames on either side
     Jump jump;
-    const auto most = std::max_element(each.begin(), each.end());
-    jump.worst = *most;
-    jump.frame = 1 + static_cast<std::size_t>(most - each.begin());
-    std::nth_element(each.begin(), each.begin() + static_cast<std::ptrdiff_t>(each.size() / 2), each.end());
-    jump.typical = each[each.size() / 2];
+    for (std::size_t i = 1; i < each.size(); ++i) {
+        const double both = std::min(each[i - 1], each[i]);
+        const std::size_t from = i - std::min(i, kAbout), to = std::min(each.size(), i + kAbout);
+        std::vector<double> about(each.begin() + static_cast<std::ptrdiff_t>(from),
+                                  each.begin() + static_cast<std::ptrdiff_t>(to));
+        const auto middle = about.begin() + static_cast<std::ptrdiff_t>(about.size() / 2);
+        std::nth_element(about.begin(), middle, about.end());
+        const double ratio = *middle > 0 ? both / *middle : both > 0 ? INFINITY : 1;
+        if (ratio > jump.ratio) jump = {ratio, 1 + i};
+    }
     return jump;
 }
 
@@ -187,7 +193,7 @@ std::string score(Flicker& flicker, const std::string& name, const Variant& vari
     const Jump jump = jumpOf(unsteady);
     const double worst = *std::max_element(score.each.begin(), score.each.end());
     tables.all.add({name, variant.label(), component, percent(score.flicker), percent(score.floor),
-                    percent(worst), fmt::format("{:.1f} x at {}", jump.ratio(), jump.frame),
+                    percent(worst), fmt::format("{:.1f} x at {}", jump.ratio, jump.frame),
                     percent(errors.block), percent(errors.bias), percent(score.pixelsUsed),
                     fmt::format("{} spp", flicker.samples)});
     for (std::size_t i = 0; i < flicker.stations.size(); ++i) {
@@ -207,7 +213,7 @@ std::string score(Flicker& flicker, const std::string& name, const Variant& vari
                 {"noise_floor", score.floor},
                 {"each", score.each},
                 {"pixels_followed", score.pixelsUsed},
-                {"jump", {{"ratio", jump.ratio()}, {"frame", jump.frame}, {"median", jump.typical}}},
+                {"jump", {{"ratio", jump.ratio}, {"frame", jump.frame}}},
                 {"unsteadiness", unsteady},
                 {"block_rel_rmse", errors.block},
                 {"bias", errors.bias},
