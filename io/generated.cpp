@@ -45,6 +45,7 @@ constexpr GeneratedParameter kAtriumParameters[] = {
     {"sun", 9.5, 0, 1e4, false, "irradiance facing the sun, W/m^2"},
     {"sky", 0.8, 0, 1e4, false, "radiance of the sky, W/(sr m^2)"},
     {"lamps", 2, 0, 1e4, false, "intensity of each of the four lanterns, W/sr"},
+    {"figure", 0, 0, 1, true, "1: somebody crosses the courtyard in the clip `walk`"},
 };
 constexpr GeneratedParameter kGlossyParameters[] = {
     {"roughness", 0.2, 0.02, 1, false, "of the floor"},

@@ -5,6 +5,7 @@
 // things are instances.
 #include "io/generated_atrium.h"
 
+#include "io/generated_figure.h"
 #include "io/generated_textures.h"
 
 #include <fmt/format.h>
@@ -484,6 +485,7 @@ Scene buildAtrium(const Values& values) {
     atrium::build(scene, atrium::planForBudget(materials, values["triangles"]));
     atrium::addLights(scene, values);
     atrium::addCameras(scene);
+    if (values["figure"] > 0) addWalkingFigure(scene, {0.2f, -atrium::kStep, -2.35f});
     return scene;
 }
 

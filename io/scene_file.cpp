@@ -14,6 +14,7 @@
 #include "io/assimp_import.h"
 #include "io/files.h"
 #include "io/generated.h"
+#include "io/generated_figure.h"
 #include "io/gltf.h"
 #include "io/scene_format.h"
 
@@ -70,7 +71,9 @@ Scene load(const std::string& pathOrBuiltin, const LoadOptions& options, SceneAn
     if (pathOrBuiltin.rfind(kBuiltin, 0) == 0) {
         if (options.up != UpAxis::Auto)
             throw Error(ErrorKind::Usage, file + ": is y-up; an up axis is taken for files");
-        return generateScene(pathOrBuiltin.substr(kBuiltin.size()));
+        Scene scene = generateScene(pathOrBuiltin.substr(kBuiltin.size()));
+        if (animation != nullptr) *animation = generated::figureAnimation(scene);
+        return scene;
     }
     try {
         Scene scene = read(fs::path(pathOrBuiltin), options, animation);

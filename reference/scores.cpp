@@ -80,8 +80,16 @@ std::size_t indexOf(const Image& image, int x, int y) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
 }
 
-std::optional<Errors> errorsAt(const FlickerFrame& frame, int x, int y) {
+// What is taken off the picture.
+enum class Less { Reference, Nothing };
+
+std::optional<Errors> errorsAt(const FlickerFrame& frame, Less less, int x, int y) {
     const std::size_t i = indexOf(frame.test, x, y);
+    if (less == Less::Nothing) {
+        const glm::vec4 t = frame.test.pixels[i];
+        if (!finite(t)) return std::nullopt;
+        return Errors{glm::dvec3(t), glm::dvec3(t)};
+    }
     const glm::vec4 t = frame.test.pixels[i], a = frame.halfA.pixels[i], b = frame.halfB.pixels[i];
     if (!finite(t) || !finite(a) || !finite(b)) return std::nullopt;
     return Errors{glm::dvec3(t) - glm::dvec3(a), glm::dvec3(t) - glm::dvec3(b)};
@@ -89,7 +97,8 @@ std::optional<Errors> errorsAt(const FlickerFrame& frame, int x, int y) {
 
 // The error at a world point as another frame sees it; nothing when it is hidden there or outside, or next to
 // an edge, where the four pixels show different surfaces.
-std::optional<Errors> errorsOf(const FlickerFrame& frame, const View& view, const glm::dvec3& point) {
+std::optional<Errors> errorsOf(const FlickerFrame& frame, Less less, const View& view,
+                               const glm::dvec3& point) {
     // 1/depth is linear over the pixels of a plane, so it is read like the errors and has to be right there.
     // What curves within a pixel, or lies behind an edge, is off by more.
     constexpr double kDepthTolerance = 0.005;
@@ -112,7 +121,7 @@ std::optional<Errors> errorsOf(const FlickerFrame& frame, const View& view, cons
         const double depth = frame.depth.pixels[indexOf(frame.depth, x, y)].x;
         if (!(depth > 0)) return std::nullopt;
         inverseDepth += weight / depth;
-        const std::optional<Errors> one = errorsAt(frame, x, y);
+        const std::optional<Errors> one = errorsAt(frame, less, x, y);
         if (!one) return std::nullopt;
         result.a += weight * one->a;
         result.b += weight * one->b;
@@ -126,7 +135,9 @@ struct HighPass {
     std::size_t used = 0;
 };
 
-HighPass highPassOf(const FlickerFrame& before, const FlickerFrame& now, const FlickerFrame& after) {
+// Of frame t, which has neighbours.
+HighPass highPassOf(std::span<const FlickerFrame> frames, std::size_t t, Less less) {
+    const FlickerFrame &before = frames[t - 1], &now = frames[t], &after = frames[t + 1];
     const int width = now.test.width, height = now.test.height;
     const View here(now.camera, width, height);
     const View views[2] = {{before.camera, width, height}, {after.camera, width, height}};
@@ -134,11 +145,11 @@ HighPass highPassOf(const FlickerFrame& before, const FlickerFrame& now, const F
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const double depth = now.depth.pixels[indexOf(now.depth, x, y)].x;
-            const std::optional<Errors> e = errorsAt(now, x, y);
+            const std::optional<Errors> e = errorsAt(now, less, x, y);
             if (!(depth > 0) || !e) continue;
             const glm::dvec3 point = here.pointAt(x, y, depth);
-            const std::optional<Errors> e0 = errorsOf(before, views[0], point);
-            const std::optional<Errors> e1 = errorsOf(after, views[1], point);
+            const std::optional<Errors> e0 = errorsOf(before, less, views[0], point);
+            const std::optional<Errors> e1 = errorsOf(after, less, views[1], point);
             if (!e0 || !e1) continue;
             const double product = glm::dot(e->a - 0.5 * (e0->a + e1->a), e->b - 0.5 * (e0->b + e1->b));
             result.sum += product;
@@ -146,6 +157,19 @@ HighPass highPassOf(const FlickerFrame& before, const FlickerFrame& now, const F
             ++result.used;
         }
     return result;
+}
+
+// A mean of h^2 as a flicker.
+double relativeOf(double meanSquare, double mean) {
+    return ratioOf(std::sqrt(std::max(2.0 / 3.0 * meanSquare, 0.0)), mean);
+}
+double valueOf(const HighPass& h, double mean) {
+    return relativeOf(h.used > 0 ? h.sum / (3 * static_cast<double>(h.used)) : 0, mean);
+}
+
+void requireThree(std::span<const FlickerFrame> frames) {
+    if (frames.size() < 3)
+        base::fail(ErrorKind::BadInput, "flicker: %zu frames; at least 3 would be right", frames.size());
 }
 
 }  // namespace
@@ -199,34 +223,52 @@ double relativeDifference(const Image& a, const Image& b) {
     return relativeDifference(a, b, meanRadiance(b));
 }
 
-FlickerScore flickerScore(std::span<const FlickerFrame> frames) {
-    if (frames.size() < 3)
-        base::fail(ErrorKind::BadInput, "flicker: %zu frames; at least 3 would be right", frames.size());
+FlickerScore flickerScore(std::span<const FlickerFrame> frames, std::span<const std::size_t> middles) {
+    requireThree(frames);
+    std::vector<std::size_t> counted(middles.begin(), middles.end());
+    for (std::size_t t = 1; middles.empty() && t + 1 < frames.size(); ++t) counted.push_back(t);
     FlickerScore score;
+    std::size_t withHalves = 0;
     for (const FlickerFrame& frame : frames) {
-        for (const Image* image : {&frame.test, &frame.halfA, &frame.halfB, &frame.depth})
+        for (const Image* image : {&frame.test, &frame.depth})
             requireSameSize(*image, frames[0].test, "flicker");
-        score.mean += 0.5 * (meanOf(frame.halfA) + meanOf(frame.halfB)) / static_cast<double>(frames.size());
+        if (frame.halfA.pixels.empty()) continue;
+        for (const Image* image : {&frame.halfA, &frame.halfB})
+            requireSameSize(*image, frames[0].test, "flicker");
+        score.mean += 0.5 * (meanOf(frame.halfA) + meanOf(frame.halfB));
+        ++withHalves;
     }
-    const auto flickerOf = [&](double meanSquare) {
-        return ratioOf(std::sqrt(std::max(2.0 / 3.0 * meanSquare, 0.0)), score.mean);
-    };
-    const auto valueOf = [&](const HighPass& h) {
-        return flickerOf(h.used > 0 ? h.sum / (3 * static_cast<double>(h.used)) : 0);
-    };
+    score.mean /= static_cast<double>(std::max<std::size_t>(withHalves, 1));
     HighPass all;
-    for (std::size_t t = 1; t + 1 < frames.size(); ++t) {
-        const HighPass one = highPassOf(frames[t - 1], frames[t], frames[t + 1]);
-        score.each.push_back(valueOf(one));
+    for (const std::size_t t : counted) {
+        for (std::size_t near = t - 1; near <= t + 1; ++near)
+            requireSameSize(frames[near].halfA, frames[0].test, "flicker");
+        const HighPass one = highPassOf(frames, t, Less::Reference);
+        score.each.push_back(valueOf(one, score.mean));
         all.sum += one.sum;
         all.squares += one.squares;
         all.used += one.used;
     }
-    if (all.used > 0) score.floor = flickerOf(std::sqrt(all.squares) / (3 * static_cast<double>(all.used)));
-    const double pixels = static_cast<double>(frames[0].test.pixels.size() * (frames.size() - 2));
+    if (all.used > 0)
+        score.floor = relativeOf(std::sqrt(all.squares) / (3 * static_cast<double>(all.used)), score.mean);
+    const double pixels = static_cast<double>(frames[0].test.pixels.size() * counted.size());
     score.pixelsUsed = static_cast<double>(all.used) / pixels;
-    score.flicker = valueOf(all);
+    score.flicker = valueOf(all, score.mean);
     return score;
+}
+
+std::vector<double> unsteadiness(std::span<const FlickerFrame> frames) {
+    requireThree(frames);
+    double mean = 0;
+    for (const FlickerFrame& frame : frames) {
+        for (const Image* image : {&frame.test, &frame.depth})
+            requireSameSize(*image, frames[0].test, "flicker");
+        mean += meanOf(frame.test) / static_cast<double>(frames.size());
+    }
+    std::vector<double> each;
+    for (std::size_t t = 1; t + 1 < frames.size(); ++t)
+        each.push_back(valueOf(highPassOf(frames, t, Less::Nothing), mean));
+    return each;
 }
 
 int settledAt(std::span<const double> errors, double fraction) {

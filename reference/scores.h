@@ -33,7 +33,7 @@ double relativeDifference(const Image& a, const Image& b, double mean);
 double meanRadiance(const Image& image);
 
 // A frame of a path: the picture, two independent halves of its reference, view depth of each pixel in m (0:
-// background) and the camera that saw them.
+// background) and the camera that saw them. Frames that no error is asked of have no halves.
 struct FlickerFrame {
     Image test, halfA, halfB, depth;
     Camera camera;
@@ -51,8 +51,13 @@ struct FlickerScore {
 //     h = e_t - (e_{t-1} + e_{t+1}) / 2        flicker = sqrt(2/3 mean h^2) / mean reference
 // A steady error gives 0, so does one that changes evenly; errors that are independent from frame to frame
 // give their relRMSE (the variance of h is 3/2 of theirs). h^2 is taken as the product of h against half A
-// and h against half B, whose noise is independent. Throws Error(BadInput) for fewer than three frames.
-FlickerScore flickerScore(std::span<const FlickerFrame> frames);
+// and h against half B, whose noise is independent. `middles`: the inner frames t that count, which have halves, as their
+// neighbours have; none named: all. Throws Error(BadInput) for fewer than three frames.
+FlickerScore flickerScore(std::span<const FlickerFrame> frames, std::span<const std::size_t> middles = {});
+
+// The same of the pictures themselves, e = test, per inner frame and over the mean of all pictures; needs no halves. What
+// a walk shows of even surfaces is steady, so a frame far above the others is a jump of the light.
+std::vector<double> unsteadiness(std::span<const FlickerFrame> frames);
 
 // The first frame, counted from 1, from which on every error is at most `fraction`; 0: never.
 int settledAt(std::span<const double> errors, double fraction);

@@ -6,12 +6,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <map>
 
 #include "command.h"
 #include "conelight/error.h"
 #include "conelight/shaders.h"
 #include "outputs.h"
+#include "scene_upload.h"
 #include "script_run.h"
 #include "static_light.h"
 #include "stats_json.h"
@@ -27,6 +29,7 @@ struct BenchOptions {
     int frames = 5;
     bool dynamic = false;
     std::string moving;  // name or index of an instance; empty: none
+    std::string clip;    // empty: none
     ViewOptions view;
     ScriptOptions script;
 };
@@ -87,9 +90,11 @@ struct Run {
 void printRun(const std::string& scene, const BenchOptions& options, const Run& run) {
     const Spread cpu = run.of(&FrameStats::cpuMs);
     const Spread wall = run.of(&FrameStats::wallMs);
+    const std::string moves = !options.moving.empty() ? "  moving " + options.moving
+                              : !options.clip.empty() ? "  clip " + options.clip
+                                                      : "";
     fmt::print("{}  mode {}  {}  {} voxels{}{}  {} frames\n", scene, run.mode, options.view.size,
-               run.settings.voxels.size, options.dynamic ? "  dynamic" : "",
-               options.moving.empty() ? "" : "  moving " + options.moving, options.frames);
+               run.settings.voxels.size, options.dynamic ? "  dynamic" : "", moves, options.frames);
     fmt::print("  {:<28} cpu {:9.2f} ms ({:.2f} .. {:.2f})   wall {:9.2f} ms\n", "frame", cpu.median, cpu.min,
                cpu.max, wall.median);
     for (const auto& [name, time] : run.passes()) {
@@ -116,6 +121,7 @@ nlohmann::ordered_json runJson(const std::string& scene, const BenchOptions& opt
     json["dynamic"] = options.dynamic;
     json["moving"] =
         options.moving.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(options.moving);
+    json["clip"] = options.clip.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(options.clip);
     const bool onGpu = !run.frames.front().passes.empty() && run.frames.front().passes.front().gpuMs >= 0;
     json["frame"] = {{"cpu_ms", spreadJson(run.of(&FrameStats::cpuMs))},
                      {"wall_ms", spreadJson(run.of(&FrameStats::wallMs))}};
@@ -168,6 +174,21 @@ Instance movedInstance(const Scene& scene, std::size_t index, int frame) {
     return instance;
 }
 
+std::size_t benchedClip(const io::SceneAnimation& animation, const std::string& path,
+                        const std::string& wanted) {
+    try {
+        return io::clipNumber(animation, wanted);
+    } catch (const Error& error) {
+        throw Error(error.kind(), path + ": --animate: " + error.what());
+    }
+}
+
+// Thirty frames a second, from its start again and again.
+double clipSeconds(const io::AnimationClip& clip, int frame) {
+    const double seconds = double(frame) / 30, duration = double(clip.duration);
+    return duration > 0 ? std::fmod(seconds, duration) : 0;
+}
+
 // Mode hybrid: light of what does not move, `moving` not counted among it; else none.
 std::shared_ptr<const BakedLight> bakedFor(const Run& run, const Scene& scene, const std::string& path,
                                            const std::string& moving, Progress& progress) {
@@ -198,18 +219,23 @@ std::unique_ptr<Session> sessionFor(const Scene& scene, const Camera& camera, co
 // rebuild volumes.
 std::vector<Run> benchScene(const std::string& path, const BenchOptions& options, const Size& size,
                             const std::vector<std::string>& modes, Progress& progress) {
-    const Scene scene = openScene(path, options.view, progress);
+    io::SceneAnimation animation;
+    const bool plays = !options.clip.empty();
+    const Scene scene = openScene(path, options.view, progress, plays ? &animation : nullptr, plays);
+    const std::size_t clip = plays ? benchedClip(animation, path, options.clip) : 0;
     const Camera camera = cameraFor(scene, options.view);
     std::vector<std::unique_ptr<Session>> sessions;
+    std::vector<SceneUpload> uploads(modes.size());
     std::vector<Run> runs;
     std::vector<std::unique_ptr<Renderer>> renderers;
     for (const std::string& mode : modes) {
         sessions.push_back(sessionFor(scene, camera, path, mode, options, progress));
         if (!options.moving.empty()) findInstance(sessions.back()->scene(), path, options.moving);
+        sessions.back()->setAnimation(animation);
         runs.push_back({mode, sessions.back()->shownSettings(), {}, {}, {}, nullptr});
         Renderer& renderer =
             *renderers.emplace_back(std::make_unique<Renderer>(rendererOptions(options.view, "")));
-        renderer.setScene(sessions.back()->scene());
+        uploads[runs.size() - 1].follow(renderer, *sessions.back());
         runs.back().baked = bakedFor(runs.back(), sessions.back()->scene(), path, options.moving, progress);
         renderer.setBakedLight(runs.back().baked);
         Settings& settings = runs.back().settings;
@@ -242,6 +268,8 @@ std::vector<Run> benchScene(const std::string& path, const BenchOptions& options
                 const std::size_t moving = findInstance(moved, path, options.moving);
                 renderers[i]->setInstance(moving, movedInstance(moved, moving, frame));
             }
+            if (plays) sessions[i]->poseClip(clip, clipSeconds(animation.clips[clip], frame));
+            uploads[i].follow(*renderers[i], *sessions[i]);
             renderers[i]->render(sessions[i]->camera(), size.width, size.height, runs[i].settings);
             runs[i].frames.push_back(renderers[i]->stats());
         }
@@ -298,6 +326,11 @@ void addBench(CLI::App& app) {
         ->add_option("--moving", options->moving,
                      "move this instance (name or index) before each frame; what it does not touch is kept")
         ->type_name("INSTANCE");
+    command
+        ->add_option("--animate", options->clip,
+                     "play this clip (name or number, `conelight info` lists them) at 30 frames a second")
+        ->type_name("CLIP")
+        ->excludes("--moving");
     command->add_option("--json", options->jsonFile, "write the figures as JSON")->type_name("FILE");
     command
         ->add_option("--shaders", options->shaders,

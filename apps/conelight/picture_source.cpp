@@ -125,12 +125,19 @@ void PictureSource::setScene(const Scene& scene) {
     impl_->dropTruths();
 }
 
-void PictureSource::moveInstances(const Scene& scene) {
+void PictureSource::changeScene(const Scene& scene) {
     const Scene* const shown = impl_->uploaded;
     setScene(scene);
     if (shown == nullptr) return;
+    Renderer& renderer = *impl_->renderer;
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i)
+        if (scene.meshes[i].positions != shown->meshes[i].positions) renderer.setMesh(i, scene.meshes[i]);
+    for (std::size_t i = 0; i < scene.materials.size(); ++i)
+        if (scene.materials[i] != shown->materials[i]) renderer.setMaterial(i, scene.materials[i]);
     for (std::size_t i = 0; i < scene.instances.size(); ++i)
-        if (!(scene.instances[i] == shown->instances[i])) impl_->renderer->setInstance(i, scene.instances[i]);
+        if (!(scene.instances[i] == shown->instances[i])) renderer.setInstance(i, scene.instances[i]);
+    if (scene.lights != shown->lights) renderer.setLights(scene.lights);
+    if (!(scene.environment == shown->environment)) renderer.setEnvironment(scene.environment);
     impl_->uploaded = &scene;
 }
 

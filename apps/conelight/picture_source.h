@@ -76,9 +76,9 @@ class PictureSource {
     // Keeps a reference: `scene` lives unchanged until the next setScene. What the renderer keeps over frames
     // is kept.
     void setScene(const Scene& scene);
-    // As setScene, of a scene that differs from that of the last draw by instances alone: they are moved in place, as a
-    // live program moves them.
-    void moveInstances(const Scene& scene);
+    // As setScene, of a scene that differs from that of the last draw, which still lives, by vertices, instances, materials,
+    // lights and surroundings alone: they are changed in place, as a live program changes them.
+    void changeScene(const Scene& scene);
     // The session's scene as it is now; keeps a reference to it. Called before each draw, it uploads what
     // changed since and no more. Throws what the renderer refuses.
     void follow(const Session& session);

@@ -12,6 +12,7 @@
 #include "command.h"
 #include "conelight/error.h"
 #include "console/command_table.h"
+#include "hour_of_day.h"
 #include "io/gltf_write.h"
 #include "io/image_file.h"
 #include "outputs.h"
@@ -161,6 +162,8 @@ void checkFiles(const RenderOptions& options) {
                   {"--bake", options.radiosity.bakeFile},
                   {"--stats", options.statsFile, OutputKind::Json}},
                  inputs);
+    if (!options.pathFile.empty())
+        hoursOf(readCameraPath(options.pathFile), options.pathFile, options.scene, options.view);
 }
 
 // Components asked for: the picture's, then those of the layers; layers of the path tracer alone set what it
@@ -342,7 +345,6 @@ void run(RenderOptions options) {
     PictureRequest request = requestOf(options);
     parseFrames(options);
     checkFiles(options);
-    if (!options.pathFile.empty()) readCameraPath(options.pathFile);
     Progress progress;
     io::SceneAnimation animation;
     Scene scene = openScene(options.scene, options.view, progress,
@@ -363,7 +365,10 @@ void run(RenderOptions options) {
     if (isFilm(options)) {
         if (!options.aovs.empty())
             options.script.layers = [&options](const Picture& drawn) { return layersOf(options, drawn); };
-        runScript(options.script, session, &source, request, progress, filmRequest(options, session));
+        const Request film = filmRequest(options, session);
+        if (film.alongPath)
+            addHours(options.script.beforeFrame, options.pathFile, session, options.view, film);
+        runScript(options.script, session, &source, request, progress, film);
         takeSession(session, request);
         if (options.radiosity.bakeFile.empty()) return;
     } else if (options.script.given()) {

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-// `conelight score flicker`: error that comes and goes along a path of the camera or of an object.
+// `conelight score flicker`: error that comes and goes along a path of the camera, of an object or of the day.
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <glm/gtc/matrix_transform.hpp>
+#include <map>
 
 #include "conelight/error.h"
+#include "reference/metrics.h"
 #include "reference/scores.h"
 #include "reference_file.h"
 #include "score.h"
+#include "score_path.h"
 
 namespace conelight::program {
 namespace {
@@ -18,174 +19,242 @@ namespace {
 struct FlickerOptions : ScoreOptions {
     std::string path = "orbit=4";
     int frames = 8;
-    std::string component = "indirect";
+    int stations = 0;  // 0: all inner frames
+    std::string components = "indirect";
     std::string cache;
     TracerOptions tracer;
 };
 
-// orbit=DEG: about the target; dolly=PART: that part of the way to the target; object=NAME:X,Y,Z: in metres.
-struct Path {
-    enum class Kind { Orbit, Dolly, Object } kind = Kind::Orbit;
-    float amount = 0;
-    std::string object;
-    glm::vec3 travel{0};
+// The inner frames that are compared with the path tracer, in even steps from the first to the last.
+std::vector<std::size_t> stationsOf(const FlickerOptions& options) {
+    const int inner = options.frames - 2, count = options.stations > 0 ? options.stations : inner;
+    std::vector<std::size_t> stations;
+    for (int i = 0; i < count; ++i)
+        stations.push_back(
+            1 + static_cast<std::size_t>(std::lround(double(i) * (inner - 1) / std::max(count - 1, 1))));
+    return stations;
+}
+
+// How far a variant is from the path tracer at the stations.
+struct StationErrors {
+    std::vector<reference::Metrics> each;
+    double block = 0, bias = 0;  // root mean square of the blocks', mean
+
+    void add(const reference::Metrics& metrics) { each.push_back(metrics); }
+    void finish() {
+        const double count = static_cast<double>(each.size());
+        for (const reference::Metrics& one : each) {
+            block += one.blockRelRmse * one.blockRelRmse / count;
+            bias += one.bias / count;
+        }
+        block = std::sqrt(block);
+    }
 };
 
-[[noreturn]] void badPath(const std::string& text) {
-    throw Error(ErrorKind::Usage, "--path: '" + text +
-                                      "' is not usable; orbit=DEGREES, dolly=PART or "
-                                      "object=NAME:X,Y,Z would be right");
-}
+// A frame that changes far more than those about it: the light jumps there.
+struct Jump {
+    double ratio = 1;       // unsteadiness over the median of the frames about it
+    std::size_t frame = 1;  // the second of the two
+};
 
-Path parsePath(const std::string& text) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos) badPath(text);
-    const std::string kind = text.substr(0, equals), value = text.substr(equals + 1);
-    Path path;
-    if (kind == "object") {
-        const std::size_t colon = value.rfind(':');
-        if (colon == std::string::npos) badPath(text);
-        path.kind = Path::Kind::Object;
-        path.object = value.substr(0, colon);
-        path.travel = parseVec3("--path", value.substr(colon + 1));
-        return path;
+// A step between two frames raises both; a bright edge that is followed wrongly, one. So of two in a row the smaller counts.
+Jump jumpOf(const std::vector<double>& each) {
+    constexpr std::size_t kAbout = 8;  // frames on either side
+    Jump jump;
+    for (std::size_t i = 1; i < each.size(); ++i) {
+        const double both = std::min(each[i - 1], each[i]);
+        const std::size_t from = i - std::min(i, kAbout), to = std::min(each.size(), i + kAbout);
+        std::vector<double> about(each.begin() + static_cast<std::ptrdiff_t>(from),
+                                  each.begin() + static_cast<std::ptrdiff_t>(to));
+        const auto middle = about.begin() + static_cast<std::ptrdiff_t>(about.size() / 2);
+        std::nth_element(about.begin(), middle, about.end());
+        const double ratio = *middle > 0 ? both / *middle : both > 0 ? INFINITY : 1;
+        if (ratio > jump.ratio) jump = {ratio, 1 + i};
     }
-    char* end = nullptr;
-    path.amount = std::strtof(value.c_str(), &end);
-    if (value.empty() || *end != '\0' || !std::isfinite(path.amount)) badPath(text);
-    if (kind == "dolly" && path.amount < 1)
-        path.kind = Path::Kind::Dolly;
-    else if (kind != "orbit")
-        badPath(text);
-    return path;
+    return jump;
 }
 
-// Scene and camera at `t` in [0,1] of the path.
-Camera cameraAt(const Path& path, Camera camera, float t) {
-    const glm::vec3 arm = camera.eye - camera.target;
-    if (path.kind == Path::Kind::Orbit)
-        camera.eye = camera.target + glm::vec3(glm::rotate(glm::mat4(1), glm::radians(path.amount * t),
-                                                           glm::normalize(camera.up)) *
-                                               glm::vec4(arm, 0));
-    if (path.kind == Path::Kind::Dolly) camera.eye = camera.target + (1 - path.amount * t) * arm;
-    return camera;
-}
-
-Scene sceneAt(const Path& path, const Scene& scene, float t) {
-    Scene moved = scene;
-    if (path.kind != Path::Kind::Object) return moved;
-    bool found = false;
-    for (Instance& instance : moved.instances) {
-        if (instance.name != path.object) continue;
-        instance.worldFromObject = glm::translate(glm::mat4(1), t * path.travel) * instance.worldFromObject;
-        found = true;
-    }
-    if (!found)
-        throw Error(ErrorKind::Usage, "--path: the scene has no object '" + path.object +
-                                          "'; a name that `conelight info SCENE` lists would be right");
-    return moved;
-}
-
-// All frames of one scene: reference and depth first, then each variant's pictures in its own renderer.
+// All frames of one scene: references at the stations and beside them, and depth, first; then each variant's pictures in
+// its own renderer.
 struct Flicker {
     const FlickerOptions& options;
-    const Path path;
-    Component component;
+    const Scene& scene;
     Progress& progress;
-    std::vector<Scene> scenes;  // one when only the camera moves
-    std::vector<reference::FlickerFrame> frames;
+    const ScorePath path;
+    const std::vector<std::size_t> stations;
+    std::vector<reference::FlickerFrame> frames = {};
+    std::map<std::size_t, ReferencePicture> truths = {};
     int samples = 0;
 
-    const Scene& sceneOf(std::size_t frame) const { return scenes[scenes.size() == 1 ? 0 : frame]; }
+    PictureRequest requestAt(std::size_t f) const {
+        PictureRequest request;
+        request.size = parseSize(options.view.size);
+        request.camera = path.cameraAt(cameraFor(scene, options.view), static_cast<int>(f), options.frames);
+        request.reference = options.tracer.settings();
+        return request;
+    }
+    bool isNearStation(std::size_t f) const {
+        return std::any_of(stations.begin(), stations.end(),
+                           [f](std::size_t s) { return f + 1 >= s && f <= s + 1; });
+    }
 
-    void prepare(const Scene& scene) {
+    void prepare() {
         PictureSource source(options.view);
-        const Camera start = cameraFor(scene, options.view);
-        const std::size_t count = static_cast<std::size_t>(options.frames);
-        const bool moves = path.kind == Path::Kind::Object;
-        for (std::size_t f = 0; f < count; ++f) {
-            const float t = static_cast<float>(f) / static_cast<float>(count - 1);
-            if (moves || f == 0) scenes.push_back(sceneAt(path, scene, t));
-        }
-        for (std::size_t f = 0; f < count; ++f) {
-            const float t = static_cast<float>(f) / static_cast<float>(count - 1);
-            if (moves || f == 0) source.setScene(sceneOf(f));
-            PictureRequest request;
-            request.size = parseSize(options.view.size);
-            request.camera = cameraAt(path, start, t);
-            request.reference = options.tracer.settings();
-            progress.show(fmt::format("reference of frame {} of {}", f + 1, count));
-            const ReferencePicture truth =
-                referenceFor(source, sceneOf(f), request, options.cache, "flicker", &progress);
-            samples = truth.samplesPerPixel;
+        SceneAlong along(path, scene, options.frames);
+        for (std::size_t f = 0; f < static_cast<std::size_t>(options.frames); ++f) {
+            const Scene& now = along.at(static_cast<int>(f));
+            if (f == 0)
+                source.setScene(now);
+            else if (path.movesScene())
+                source.changeScene(now);
+            PictureRequest request = requestAt(f);
+            progress.show(fmt::format("reference of frame {} of {}", f + 1, options.frames));
+            if (isNearStation(f)) {
+                truths[f] = referenceFor(source, now, request, options.cache, "flicker", &progress);
+                samples = truths[f].samplesPerPixel;
+            }
             request.components = {Component::Depth};
             reference::FlickerFrame frame;
             frame.camera = request.camera;
             frame.depth = source.draw(request, &progress).images.front();
-            frame.halfA = component == Component::Full ? truth.halfA : truth.indirectA;
-            frame.halfB = component == Component::Full ? truth.halfB : truth.indirectB;
             frames.push_back(std::move(frame));
         }
     }
 
     // In order, as an animation that starts settled: what a mode keeps over frames takes part.
-    void draw(PictureSource& source, const Variant& variant) {
+    std::string draw(const Variant& variant, Component component) {
+        PictureSource source(options.view);
+        SceneAlong along(path, scene, options.frames);
         for (std::size_t f = 0; f < frames.size(); ++f) {
+            progress.show(fmt::format("{}: frame {} of {}", variant.label(), f + 1, frames.size()));
+            const Scene& now = along.at(static_cast<int>(f));
             if (f == 0)
-                source.setScene(sceneOf(f));
-            else if (scenes.size() > 1)
-                source.moveInstances(sceneOf(f));
-            PictureRequest request;
+                source.setScene(now);
+            else if (path.movesScene())
+                source.changeScene(now);
+            PictureRequest request = requestAt(f);
             request.mode = variant.mode;
-            request.settings = variant.settingsFor(sceneOf(f), options.view);
-            request.camera = frames[f].camera;
-            request.size = parseSize(options.view.size);
+            request.settings = variant.settingsFor(now, options.view);
             request.components = {component};
-            request.reference = options.tracer.settings();
             request.settings.traced.budgeted = f > 0;
-            frames[f].test = source.draw(request, &progress).images.front();
+            frames[f].test = source.draw(request, nullptr).images.front();
+            const auto truth = truths.find(f);
+            if (truth == truths.end()) continue;
+            const bool all = component == Component::Full;
+            frames[f].halfA = all ? truth->second.halfA : truth->second.indirectA;
+            frames[f].halfB = all ? truth->second.halfB : truth->second.indirectB;
         }
+        return source.device();
+    }
+
+    StationErrors errors(Component component) const {
+        StationErrors errors;
+        for (const std::size_t s : stations) {
+            reference::MetricOptions how;
+            how.flip = false;
+            errors.add(reference::compareImages(frames[s].test, *truths.at(s).part(component), how,
+                                                reference::Halves{&frames[s].halfA, &frames[s].halfB}));
+        }
+        errors.finish();
+        return errors;
     }
 };
 
+nlohmann::ordered_json stationsJson(const Flicker& flicker, const StationErrors& errors) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::array();
+    for (std::size_t i = 0; i < flicker.stations.size(); ++i) {
+        const glm::vec3 eye = flicker.frames[flicker.stations[i]].camera.eye;
+        const reference::Metrics& one = errors.each[i];
+        json.push_back({{"frame", flicker.stations[i]},
+                        {"eye", {eye.x, eye.y, eye.z}},
+                        {"rel_rmse", one.relRmse},
+                        {"block_rel_rmse", one.blockRelRmse},
+                        {"bias", one.bias},
+                        {"reference_mean", one.referenceMean},
+                        {"reference_noise", one.referenceNoise}});
+    }
+    return json;
+}
+
+// What was found, on its way to both tables and the report.
+struct FlickerTables {
+    Table all{{"scene", "mode", "component", "flicker", "noise floor", "worst frame", "jump", "4x4", "bias",
+               "pixels followed", "reference"}};
+    Table stations{{"mode", "component", "frame", "eye", "relRMSE", "4x4", "bias", "reference's noise"}};
+};
+
+// One component of one variant, drawn and judged.
+std::string score(Flicker& flicker, const std::string& name, const Variant& variant,
+                  const std::string& component, FlickerTables& tables, ScoreReport& report) {
+    const std::string device = flicker.draw(variant, componentOf(component));
+    const reference::FlickerScore score = reference::flickerScore(flicker.frames, flicker.stations);
+    const StationErrors errors = flicker.errors(componentOf(component));
+    const std::vector<double> unsteady = reference::unsteadiness(flicker.frames);
+    const Jump jump = jumpOf(unsteady);
+    const double worst = *std::max_element(score.each.begin(), score.each.end());
+    tables.all.add({name, variant.label(), component, percent(score.flicker), percent(score.floor),
+                    percent(worst), fmt::format("{:.1f} x at {}", jump.ratio, jump.frame),
+                    percent(errors.block), percent(errors.bias), percent(score.pixelsUsed),
+                    fmt::format("{} spp", flicker.samples)});
+    for (std::size_t i = 0; i < flicker.stations.size(); ++i) {
+        const glm::vec3 eye = flicker.frames[flicker.stations[i]].camera.eye;
+        const reference::Metrics& one = errors.each[i];
+        tables.stations.add({variant.label(), component, std::to_string(flicker.stations[i]),
+                             fmt::format("{:.2f},{:.2f},{:.2f}", eye.x, eye.y, eye.z), percent(one.relRmse),
+                             percent(one.blockRelRmse), percent(one.bias), percent(one.referenceNoise)});
+    }
+    report.add(name + " " + variant.label(), score.flicker,
+               {{"scene", name},
+                {"variant", variant.label()},
+                {"path", flicker.options.path},
+                {"component", component},
+                {"frames", flicker.options.frames},
+                {"flicker", score.flicker},
+                {"noise_floor", score.floor},
+                {"each", score.each},
+                {"pixels_followed", score.pixelsUsed},
+                {"jump", {{"ratio", jump.ratio}, {"frame", jump.frame}}},
+                {"unsteadiness", unsteady},
+                {"block_rel_rmse", errors.block},
+                {"bias", errors.bias},
+                {"stations", stationsJson(flicker, errors)},
+                {"reference_mean", score.mean},
+                {"reference_samples_per_pixel", flicker.samples}});
+    return device;
+}
+
 void run(const FlickerOptions& options) {
     const std::vector<Variant> variants = options.checked("flicker", false);
-    const Path path = parsePath(options.path);
-    if (options.component != "full" && options.component != "indirect")
-        throw Error(ErrorKind::Usage, "--component: '" + options.component +
-                                          "' is not usable; full or indirect would be right");
+    const std::vector<std::string> components = splitList(options.components);
+    for (const std::string& component : components)
+        if (component != "full" && component != "indirect")
+            throw Error(ErrorKind::Usage,
+                        "--component: '" + component + "' is not usable; full or indirect would be right");
+    if (options.stations > options.frames - 2)
+        throw Error(ErrorKind::Usage, fmt::format("--stations: {} are more than the {} frames that have "
+                                                  "neighbours; fewer, or more --frames, would be right",
+                                                  options.stations, options.frames - 2));
+    for (const std::string& name : options.scenes) ScorePath(options.path, name, options.view);
     ScoreReport report("flicker", "high-pass error / mean radiance of the reference", options);
-    Table table({"scene", "mode", "flicker", "noise floor", "worst frame", "pixels followed", "reference"});
+    FlickerTables tables;
     Progress progress;
     std::string device;
     for (const std::string& name : options.scenes) {
-        const Scene scene = openScene(name, options.view, progress);
-        Flicker flicker{options, path, componentOf(options.component), progress, {}, {}, 0};
-        flicker.prepare(scene);
-        for (const Variant& variant : variants) {
-            PictureSource source(options.view);
-            flicker.draw(source, variant);
-            device = source.device();
-            const reference::FlickerScore score = reference::flickerScore(flicker.frames);
-            const double worst = *std::max_element(score.each.begin(), score.each.end());
-            table.add({name, variant.label(), percent(score.flicker), percent(score.floor), percent(worst),
-                       percent(score.pixelsUsed), fmt::format("{} spp", flicker.samples)});
-            report.add(name + " " + variant.label(), score.flicker,
-                       {{"scene", name},
-                        {"variant", variant.label()},
-                        {"path", options.path},
-                        {"component", options.component},
-                        {"frames", options.frames},
-                        {"flicker", score.flicker},
-                        {"noise_floor", score.floor},
-                        {"each", score.each},
-                        {"pixels_followed", score.pixelsUsed},
-                        {"reference_mean", score.mean},
-                        {"reference_samples_per_pixel", flicker.samples}});
-        }
+        ScorePath path(options.path, name, options.view);
+        const Scene scene =
+            openScene(name, options.view, progress, path.animation(), path.animation() != nullptr);
+        Flicker flicker{options, scene, progress, path, stationsOf(options)};
+        flicker.prepare();
+        for (const Variant& variant : variants)
+            for (const std::string& component : components)
+                device = score(flicker, name, variant, component, tables, report);
     }
     progress.finish();
-    table.print(2);
+    tables.all.print(3);
+    if (options.stations > 0) {
+        fmt::print("\n");
+        tables.stations.print(2);
+    }
     report.finish(device);
 }
 
@@ -194,17 +263,23 @@ void run(const FlickerOptions& options) {
 void addScoreFlicker(CLI::App& score) {
     auto options = std::make_shared<FlickerOptions>();
     CLI::App* command = score.add_subcommand(
-        "flicker", "error that comes and goes along a path of the camera or of an object");
+        "flicker", "error that comes and goes along a path of the camera, of an object or of the day");
     command->add_option("scenes", options->scenes, "scene files or builtin:NAME")->required();
     command
         ->add_option("--path", options->path,
-                     "orbit=DEGREES about the target, dolly=PART of the way to it, or object=NAME:X,Y,Z in m")
+                     "orbit=DEGREES about the target, dolly=PART of the way to it, object=NAME:X,Y,Z in m, "
+                     "clip=NAME of the scene, or the file of a camera path (docs/reference/camera_path.md)")
         ->capture_default_str()
         ->type_name("PATH");
     command->add_option("--frames", options->frames, "along the path")
         ->capture_default_str()
-        ->check(CLI::Range(3, 1000));
-    command->add_option("--component", options->component, "full or indirect")->capture_default_str();
+        ->check(CLI::Range(3, 10000));
+    command
+        ->add_option("--stations", options->stations,
+                     "so many frames, and their neighbours, are path-traced; all are drawn (default: all)")
+        ->check(CLI::Range(1, 10000));
+    command->add_option("--component", options->components, "full, indirect or both, comma-separated")
+        ->capture_default_str();
     command->add_option("--cache", options->cache, "folder in which reference pictures are kept")
         ->type_name("DIR");
     options->tracer.addTo(

@@ -102,6 +102,33 @@ TEST_F(FilmTest, FramesOfAClipAreStillsOfItsPoses) {
     EXPECT_TRUE(pixelsOf(scratchPath("film_d01.png")) == pixelsOf(still));
 }
 
+// Hours of the path go to the generated sky and to the town; a scene with neither is refused.
+TEST_F(FilmTest, AKeySetsTheHourOfTheDay) {
+    const std::string path = file("day.json");
+    std::ofstream(path) << R"({"conelight": "camera path", "keys": [
+        {"hour": 9, "eye": [20, 3, 1], "target": [0, 2, 0]},
+        {"hour": 23, "eye": [20, 3, 1], "target": [0, 2, 0]}]})";
+    const std::string eye = " --eye 20,3,1 --target 0,2,0 --fov 45", look = " --mode phong --aa 0" + kSmall;
+    const std::vector<std::pair<std::string, std::string>> cases = {
+        {"builtin:furnace --environment 'builtin:sky?day=100&hour=", "'"},
+        {"'builtin:town?size=180&hour=", "' --component emission"}};
+    for (const auto& [scene, end] : cases) {
+        const CommandResult film = conelight("render " + scene + "3" + end + look + "--path " + path +
+                                             " --frames 3 -o " + scratchPath("film_day%02d.exr"));
+        ASSERT_EQ(film.status, 0) << film.output;
+        for (const auto& [frame, hour] : {std::pair("00", "9"), std::pair("02", "23")}) {
+            const std::string still = file("hour.exr");
+            ASSERT_EQ(conelight("render " + scene + hour + end + look + eye + " -o " + still).status, 0);
+            EXPECT_TRUE(pixelsOf(scratchPath(std::string("film_day") + frame + ".exr")) == pixelsOf(still))
+                << scene << hour;
+        }
+        EXPECT_TRUE(pixelsOf(scratchPath("film_day00.exr")) != pixelsOf(scratchPath("film_day02.exr")));
+    }
+    expectOneLine(conelight("render builtin:furnace" + look + "--path " + path + " -o " +
+                            scratchPath("film_day%02d.exr")),
+                  2, "builtin:sky");
+}
+
 TEST_F(FilmTest, PartsOfAFilmAreItsFrames) {
     const std::string path = keys();
     for (const std::string& how : {"--path " + path, std::string("--turntable")}) {

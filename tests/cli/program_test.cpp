@@ -185,6 +185,24 @@ TEST_F(ProgramTest, BenchJsonHasTheDocumentedShape) {
         EXPECT_GT(json["runs"][0]["frame"]["cpu_ms"][key].get<double>(), 0.0);
 }
 
+TEST_F(ProgramTest, BenchPlaysAClip) {
+    const std::string bench =
+        "bench 'builtin:atrium?triangles=10000&figure=1' --modes phong --frames 2 "
+        "--size 24x16 --set light.shadow_size=64 ";
+    const auto shadows = [&](const std::string& clip) {
+        EXPECT_EQ(conelight(bench + clip + " --json '" + path("clip.json") + "'").status, 0);
+        const nlohmann::json run = nlohmann::json::parse(bytesOf(path("clip.json")))["runs"][0];
+        EXPECT_EQ(run["clip"].is_null(), clip.empty());
+        return std::any_of(run["passes"].begin(), run["passes"].end(), [](const nlohmann::json& pass) {
+            return pass["name"].get<std::string>().find("shadow") != std::string::npos;
+        });
+    };
+    EXPECT_TRUE(shadows("--animate walk"));  // what moves casts shadows anew in each frame
+    EXPECT_FALSE(shadows(""));
+    expectOneLine(conelight(bench + "--animate run"), 2, "--animate");
+    expectOneLine(conelight(bench + "--animate walk --moving water"), 2, "--moving");
+}
+
 // The texts are those of the profile that was asked for, and the JSON file says how often each compute program ran.
 TEST_F(ProgramTest, BenchWritesTheShadersThatFramesNeed) {
     const std::string bench = "bench builtin:cornell --frames 1 --size 16x16 --voxels 16 --shaders '";

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // `conelight score` on cases whose score is known.
 #include <filesystem>
+#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "support/program.h"
@@ -85,6 +86,43 @@ TEST_F(ScoreTest, ThePathTracerDoesNotFlickerAgainstItself) {
     EXPECT_GT(json["runs"][1]["pixels_followed"].get<double>(), 0.5);
 }
 
+// All frames of a camera path are drawn; those of the stations, and their neighbours, are path-traced.
+TEST_F(ScoreTest, AWalkIsJudgedAtItsStations) {
+    const std::string path = scratchPath("walk.json");
+    std::ofstream(path) << R"({"conelight": "camera path", "keys": [
+        {"eye": [0, 0.5, 1.4], "target": [0, 0.5, 0]}, {"eye": [0.06, 0.5, 1.3], "target": [0, 0.5, 0]}]})";
+    const std::string walk =
+        "flicker builtin:cornell --modes reference,traced --quality draft --size 24x24 "
+        "--voxels 16 --spp 4 --frames 8 --path " +
+        path;
+    const nlohmann::json runs = scored(walk + " --stations 2 --component full,indirect")["runs"];
+    ASSERT_EQ(runs.size(), 4u);  // two modes, each in two components
+    for (const auto& run : runs) {
+        EXPECT_EQ(run["unsteadiness"].size(), 6u);
+        ASSERT_EQ(run["stations"].size(), 2u);
+        EXPECT_EQ(run["stations"][0]["frame"], 1);
+        EXPECT_EQ(run["stations"][1]["frame"], 6);
+        EXPECT_LT(run["stations"][1]["eye"][2], run["stations"][0]["eye"][2]);
+        EXPECT_GE(run["jump"]["ratio"], 1);
+    }
+    EXPECT_EQ(runs[0]["block_rel_rmse"],
+              0.0);  // the path tracer against itself: errors of both halves cancel
+    EXPECT_EQ(runs[0]["bias"], 0.0);
+    EXPECT_EQ(runs[3]["component"], "indirect");
+    EXPECT_GT(runs[3]["block_rel_rmse"].get<double>(), 0.0);
+    EXPECT_NE(runs[2]["bias"], runs[3]["bias"]);
+    expectOneLine(conelight("score " + walk + " --stations 7"), 2, "--stations: 7");
+    expectOneLine(conelight("score flicker builtin:cornell --path " + path + ".no"), 3, "walk.json.no");
+}
+
+// What a clip moves, from its start to its end: light of the figure's surroundings follows it.
+TEST_F(ScoreTest, AClipIsAPath) {
+    const nlohmann::json json = scored(
+        "flicker 'builtin:atrium?triangles=10000&figure=1' --path clip=walk "
+        "--frames 3 --modes phong --component full --size 32x24 --spp 1");
+    EXPECT_GT(json["runs"][0]["unsteadiness"][0].get<double>(), 0.001);
+}
+
 TEST_F(ScoreTest, AThresholdThatIsExceededIsStatus1) {
     const std::string shift =
         "score shift builtin:cornell-point --modes thesis --shifts 1 --size 32x32 "
@@ -105,6 +143,7 @@ TEST_F(ScoreTest, WrongUsageIsOneLineAndStatus2) {
     expectOneLine(conelight("score convergence builtin:cornell --within x"), 2, "--within");
     expectOneLine(conelight("score flicker builtin:cornell --path zoom=3"), 2, "orbit");
     expectOneLine(conelight("score flicker builtin:cornell --path object=nobody:1,0,0"), 2, "nobody");
+    expectOneLine(conelight("score flicker builtin:cornell --path clip=walk"), 2, "clip");
     expectOneLine(conelight("score leak --angles 10,x"), 2, "--angles");
     expectOneLine(conelight("score leak --dark nobody --size 16x16"), 2, "nobody");
 }

@@ -124,17 +124,35 @@ TEST(CameraPath, TimesAreKeptInOrderAndReplaced) {
     EXPECT_EQ(path.start(), 2);
 }
 
+TEST(CameraPath, HoursRunBetweenTheKeysThatHaveOne) {
+    CameraPath path = walk();
+    EXPECT_FALSE(path.hourAt(1));
+    path.add(1, looking({2, 1, 4}, {2, 1, 0}), 12);
+    path.add(4, looking({6, 1, 0}, {6, 1, -3}), 30);
+    EXPECT_EQ(path.hourAt(0), 12);  // before the first of them
+    EXPECT_EQ(path.hourAt(1), 12);
+    EXPECT_EQ(path.hourAt(4), 6);  // of the next day
+    double before = 12;
+    for (double t = 1; t < 3; t += 0.1) {
+        EXPECT_GE(*path.hourAt(t), before) << t;
+        before = *path.hourAt(t);
+    }
+    path.add(4, looking({6, 1, 0}, {6, 1, -2}));  // another view keeps the hour
+    EXPECT_EQ(path.hourAt(4), 6);
+}
+
 TEST(CameraPathFile, ComesBackBitForBit) {
     const std::string file = (test::folderOf("camera_path") / "walk.json").string();
     std::filesystem::remove(file);
     CameraPath path = walk();
-    path.add(0.1, looking({1.0f / 3, 1e-7f, 12345.678f}, {0.1f, 0.2f, 0.3f}, 33.3f));
+    path.add(0.1, looking({1.0f / 3, 1e-7f, 12345.678f}, {0.1f, 0.2f, 0.3f}, 33.3f), 20.1);
     writeCameraPath(file, path, false);
     const CameraPath read = readCameraPath(file);
     ASSERT_EQ(read.keys().size(), path.keys().size());
     for (std::size_t i = 0; i < path.keys().size(); ++i) {
         EXPECT_EQ(read.keys()[i].seconds, path.keys()[i].seconds);
         EXPECT_TRUE(same(read.keys()[i].camera, path.keys()[i].camera)) << i;
+        EXPECT_EQ(read.keys()[i].hour, path.keys()[i].hour) << i;
     }
     EXPECT_THROW(writeCameraPath(file, path, false), Error);
     EXPECT_NO_THROW(writeCameraPath(file, path, true));
@@ -161,6 +179,8 @@ TEST(CameraPathFile, BadOnesAreRefusedByOneLineWithItsNumber) {
          ":5: key 0, fov: 0 is not usable"},
         {head + "  {\"eye\": [0,0,1], \"target\": [0,0,0],\n   \"zoom\": 0}]}",
          ":5: key 0 has no field 'zoom'"},
+        {head + "  {\"eye\": [0,0,1], \"target\": [0,0,0], \"hour\": 49}]}",
+         ":4: key 0, hour: 49 is not usable"},
         {head + "  {\"eye\": [0,0,1], \"eye\": [0,0,0]}]}", ":4: 'eye' stands twice"},
         {head + "  {\"eye\": [0,0,1], \"target\": [0,0,0], \"up\": [0,0,0]}]}",
          ":4: key 0: up has no length"},

@@ -103,6 +103,28 @@ TEST(Scores, NoiseOfTheReferenceIsNotCounted) {
     EXPECT_LT(score.flicker, 3 * score.floor);
 }
 
+// Only the frames that are named count, and only they and their neighbours need references.
+TEST(Scores, NamedFramesAloneCount) {
+    std::vector<FlickerFrame> frames = still(9, [](int t) { return filled(t == 2 || t == 7 ? 1.5f : 1.0f); });
+    for (const std::size_t t : {0u, 1u, 2u, 3u}) frames[t].halfA = frames[t].halfB = {};
+    const std::size_t calm = 5, jump = 7;
+    EXPECT_EQ(flickerScore(frames, {&calm, 1}).flicker, 0);
+    EXPECT_NEAR(flickerScore(frames, {&jump, 1}).flicker, std::sqrt(2.0 / 3.0) * 0.5, 1e-6);
+    EXPECT_EQ(flickerScore(frames, {&jump, 1}).pixelsUsed, 1);
+    EXPECT_THROW(flickerScore(frames), Error);  // frame 1 has no reference
+}
+
+TEST(Scores, UnsteadinessFindsTheFrameThatJumps) {
+    std::vector<FlickerFrame> frames = still(7, [](int t) { return filled(t < 4 ? 1.0f : 1.25f); });
+    for (FlickerFrame& frame : frames) frame.halfA = frame.halfB = {};
+    const std::vector<double> each = unsteadiness(frames);
+    ASSERT_EQ(each.size(), 5u);
+    const double mean = (4 + 3 * 1.25) / 7;
+    for (std::size_t i = 0; i < each.size(); ++i)  // frames 3 and 4 have the step beside them
+        EXPECT_NEAR(each[i], i == 2 || i == 3 ? std::sqrt(2.0 / 3.0) * 0.125 / mean : 0, 1e-7) << i;
+    EXPECT_THROW(unsteadiness({frames.data(), 2}), Error);
+}
+
 // A wall at z = 0 with a smooth error fixed to it, seen by a camera that slides sideways: nothing flickers on
 // the wall, though every pixel changes.
 void expectNoFlicker(float orthographicHeight) {

@@ -45,9 +45,10 @@ void listPath(const CommandContext& context) {
     const CameraPath& path = context.session.cameraPath();
     if (path.empty()) return context.print("the camera path has no keys; `path add` keeps this view as one");
     for (std::size_t i = 0; i < path.keys().size(); ++i) {
-        const auto& [time, camera] = path.keys()[i];
-        context.print(fmt::format("{:3} {:>8.3f} s  eye {}  target {}  {}", i, time, textOf(camera.eye),
-                                  textOf(camera.target), projectionText(camera)));
+        const auto& [time, camera, hour] = path.keys()[i];
+        context.print(fmt::format("{:3} {:>8.3f} s  eye {}  target {}  {}{}", i, time, textOf(camera.eye),
+                                  textOf(camera.target), projectionText(camera),
+                                  hour ? fmt::format("  hour {:g}", *hour) : ""));
     }
 }
 

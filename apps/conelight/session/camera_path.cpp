@@ -108,13 +108,15 @@ std::optional<glm::vec3> common(const std::vector<PathKey>& keys, glm::vec3 Came
 
 }  // namespace
 
-void CameraPath::add(double seconds, const Camera& camera) {
+void CameraPath::add(double seconds, const Camera& camera, std::optional<double> hour) {
     const auto at = std::lower_bound(keys_.begin(), keys_.end(), seconds,
                                      [](const PathKey& key, double s) { return key.seconds < s; });
-    if (at != keys_.end() && at->seconds == seconds)
-        at->camera = camera;
-    else
-        keys_.insert(at, {seconds, camera});
+    if (at == keys_.end() || at->seconds != seconds) {
+        keys_.insert(at, {seconds, camera, hour});
+        return;
+    }
+    at->camera = camera;
+    if (hour) at->hour = hour;
 }
 
 void CameraPath::remove(std::size_t index) {
@@ -189,8 +191,24 @@ Camera CameraPath::at(double seconds) const {
     return camera;
 }
 
-Camera CameraPath::frame(int index, int count) const {
-    return at(count < 2 ? start() : start() + (end() - start()) * index / (count - 1));
+Camera CameraPath::frame(int index, int count) const { return at(frameSeconds(index, count)); }
+
+double CameraPath::frameSeconds(int index, int count) const {
+    return count < 2 ? start() : start() + (end() - start()) * index / (count - 1);
+}
+
+std::optional<double> CameraPath::hourAt(double seconds) const {
+    std::vector<double> times, hours;
+    for (const PathKey& key : keys_) {
+        if (!key.hour) continue;
+        times.push_back(key.seconds);
+        hours.push_back(*key.hour);
+    }
+    if (times.empty()) return {};
+    const double hour = seconds <= times.front()  ? hours.front()
+                        : seconds >= times.back() ? hours.back()
+                                                  : monotone(times, hours, seconds);
+    return hour > 24 ? hour - 24 : hour;
 }
 
 Camera turntableFrame(const Camera& camera, int index, int count) {

@@ -8,6 +8,7 @@
 // time alone.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,6 +19,7 @@ namespace conelight::program {
 struct PathKey {
     double seconds = 0;
     Camera camera;
+    std::optional<double> hour;  // of the day, 0 to 48: above 24 of the next
 };
 
 class CameraPath {
@@ -27,8 +29,8 @@ class CameraPath {
     double start() const { return keys_.empty() ? 0 : keys_.front().seconds; }
     double end() const { return keys_.empty() ? 0 : keys_.back().seconds; }
 
-    // In order of time; a key at the same time is replaced.
-    void add(double seconds, const Camera& camera);
+    // In order of time; a key at the same time gets this camera, and the hour if there is one.
+    void add(double seconds, const Camera& camera, std::optional<double> hour = {});
     void remove(std::size_t index);
     // To a time between its neighbours, which keep theirs.
     void move(std::size_t index, double seconds) { keys_[index].seconds = seconds; }
@@ -40,6 +42,10 @@ class CameraPath {
     Camera at(double seconds) const;
     // Frame `index` of `count` from start to end, both included.
     Camera frame(int index, int count) const;
+    double frameSeconds(int index, int count) const;
+    // Hour of the day, 0 to 24, by a monotone cubic through the keys that have one; before the first of them and behind
+    // the last, theirs. None: no key has.
+    std::optional<double> hourAt(double seconds) const;
 
   private:
     float orthographicHeightAt(double seconds) const;

@@ -70,9 +70,11 @@ PathKey keyOf(const io::JsonFile& file, const Json& json, const std::string& poi
         else if (field == "orthographic")
             key.camera.orthographicHeight =
                 static_cast<float>(number(file, value, at, what, 0, kTallestView));
+        else if (field == "hour")
+            key.hour = number(file, value, at, what, 0, 48);
         else
             file.fail(at, fmt::format("{} has no field '{}'; time, eye, target, up, fov, near, far, lens, "
-                                      "focus or orthographic would be right",
+                                      "focus, orthographic or hour would be right",
                                       name, io::oneLine(field, 40)));
     }
     for (const char* needed : {"eye", "target"})
@@ -118,7 +120,7 @@ CameraPath readCameraPath(const std::string& name) {
                       fmt::format("key {}: time {:g} s is not later than the key before, at "
                                   "{:g} s",
                                   i, key.seconds, path.end()));
-        path.add(key.seconds, key.camera);
+        path.add(key.seconds, key.camera, key.hour);
     }
     return path;
 }
@@ -127,13 +129,14 @@ void writeCameraPath(const std::string& name, const CameraPath& path, bool overw
     io::refuseOverwriting(name, overwrite);
     std::string out = fmt::format("{{\n  \"conelight\": \"{}\",\n  \"keys\": [", kPathKind);
     for (std::size_t i = 0; i < path.keys().size(); ++i) {
-        const auto& [seconds, camera] = path.keys()[i];
+        const auto& [seconds, camera, hour] = path.keys()[i];
         out += fmt::format(
             "{}\n    {{\"time\": {}, \"eye\": {}, \"target\": {}, \"up\": {}, \"fov\": {:.10g}, \"near\": "
             "{:.9g}, "
-            "\"far\": {:.9g}{}}}",
+            "\"far\": {:.9g}{}{}}}",
             i == 0 ? "" : ",", seconds, jsonText(camera.eye), jsonText(camera.target), jsonText(camera.up),
-            double(camera.fovY) / kDegree, camera.zNear, camera.zFar, lensText(camera));
+            double(camera.fovY) / kDegree, camera.zNear, camera.zFar, lensText(camera),
+            hour ? fmt::format(", \"hour\": {}", *hour) : "");
     }
     out += "\n  ]\n}\n";
     io::writeFile(name, {reinterpret_cast<const std::uint8_t*>(out.data()), out.size()});

@@ -196,6 +196,9 @@ class Session {
     void setClipLoops(bool loops) { clip_.loops = loops; }
     void restClip();
     void stepClip(double seconds);  // of the clock, while one plays; ends it when it no longer fits
+    // What differs between two states of this scene that have its tables, as at two hours of a day: instances, materials,
+    // lights, surroundings. No step of undo.
+    void takeChanges(const Scene& before, const Scene& now);
     void askForVoxels() { ++revisions_.voxels; }
 
     // Return the label of what was undone or redone; nothing when there is none.

@@ -162,4 +162,26 @@ void Session::takeAddition(const AddEdit& edit, bool forward) {
     if (!added.lights.empty()) ++revisions_.lights;
 }
 
+void Session::takeChanges(const Scene& before, const Scene& now) {
+    for (std::size_t i = 0; i < std::min(now.instances.size(), scene_.instances.size()); ++i) {
+        if (now.instances[i] == before.instances[i]) continue;
+        scene_.instances[i] = now.instances[i];
+        ++instanceRevisions_[i];
+        ++revisions_.instances;
+    }
+    for (std::size_t i = 0; i < std::min(now.materials.size(), scene_.materials.size()); ++i) {
+        if (now.materials[i] == before.materials[i]) continue;
+        scene_.materials[i] = now.materials[i];
+        ++materialRevisions_[i];
+        ++revisions_.materials;
+    }
+    if (now.lights != before.lights) {
+        scene_.lights = now.lights;
+        ++revisions_.lights;
+    }
+    if (now.environment == before.environment) return;
+    scene_.environment = now.environment;
+    ++revisions_.sky;
+}
+
 }  // namespace conelight::program

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+#include "score_path.h"
+
+#include <cmath>
+#include <cstdlib>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "conelight/error.h"
+
+namespace conelight::program {
+namespace {
+
+[[noreturn]] void badPath(const std::string& text) {
+    throw Error(ErrorKind::Usage,
+                "--path: '" + text +
+                    "' is not usable; orbit=DEGREES, dolly=PART, object=NAME:X,Y,Z, clip=NAME "
+                    "or the file of a camera path would be right");
+}
+
+// 0 at the first frame, 1 at the last.
+float partOf(int index, int count) { return static_cast<float>(index) / static_cast<float>(count - 1); }
+
+}  // namespace
+
+ScorePath::ScorePath(const std::string& text, const std::string& scene, const ViewOptions& view)
+    : text_(text) {
+    const std::size_t equals = text.find('=');
+    const std::string kind = text.substr(0, equals);
+    const bool isFile =
+        equals == std::string::npos || (text.size() > 5 && text.substr(text.size() - 5) == ".json");
+    if (isFile) {
+        kind_ = Kind::File;
+        keys_ = readCameraPath(text);
+        hours_ = hoursOf(keys_, text, scene, view);
+        return;
+    }
+    const std::string value = text.substr(equals + 1);
+    if (kind == "object") {
+        takeObject(value);
+        return;
+    }
+    if (kind == "clip") {
+        kind_ = Kind::Clip;
+        name_ = value;
+        return;
+    }
+    char* end = nullptr;
+    amount_ = std::strtof(value.c_str(), &end);
+    if (value.empty() || *end != '\0' || !std::isfinite(amount_)) badPath(text);
+    if (kind == "dolly" && amount_ < 1)
+        kind_ = Kind::Dolly;
+    else if (kind != "orbit")
+        badPath(text);
+}
+
+void ScorePath::takeObject(const std::string& value) {
+    const std::size_t colon = value.rfind(':');
+    if (colon == std::string::npos) badPath(text_);
+    kind_ = Kind::Object;
+    name_ = value.substr(0, colon);
+    travel_ = parseVec3("--path", value.substr(colon + 1));
+}
+
+Camera ScorePath::cameraAt(const Camera& start, int index, int count) const {
+    Camera camera = start;
+    const glm::vec3 arm = camera.eye - camera.target;
+    if (kind_ == Kind::File) camera = keys_.frame(index, count);
+    if (kind_ == Kind::Orbit) {
+        const glm::mat4 turn = glm::rotate(glm::mat4(1), glm::radians(amount_ * partOf(index, count)),
+                                           glm::normalize(camera.up));
+        camera.eye = camera.target + glm::vec3(turn * glm::vec4(arm, 0));
+    }
+    if (kind_ == Kind::Dolly) camera.eye = camera.target + (1 - amount_ * partOf(index, count)) * arm;
+    return camera;
+}
+
+Scene ScorePath::sceneAt(const Scene& scene, int index, int count) const {
+    if (hours_) return hours_->at(scene, *keys_.hourAt(keys_.frameSeconds(index, count)));
+    Scene moved = scene;
+    if (kind_ == Kind::Clip) {
+        const std::size_t clip = io::clipNumber(animation_, name_);
+        io::poseScene(animation_, clip, partOf(index, count) * animation_.clips[clip].duration, scene, moved);
+    }
+    if (kind_ != Kind::Object) return moved;
+    bool found = false;
+    for (Instance& instance : moved.instances) {
+        if (instance.name != name_) continue;
+        instance.worldFromObject =
+            glm::translate(glm::mat4(1), partOf(index, count) * travel_) * instance.worldFromObject;
+        found = true;
+    }
+    if (!found)
+        throw Error(ErrorKind::Usage, "--path: the scene has no object '" + name_ +
+                                          "'; a name that `conelight info SCENE` lists would be right");
+    return moved;
+}
+
+}  // namespace conelight::program

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// What moves while a score watches: the camera, an object, or the hour of the day. Frame `index` of `count` of them.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "command.h"
+#include "hour_of_day.h"
+#include "session/camera_path.h"
+
+namespace conelight::program {
+
+class ScorePath {
+  public:
+    // orbit=DEGREES, dolly=PART, object=NAME:X,Y,Z, clip=NAME (all of it), or a file of a camera path (docs/reference/camera_path.md), whose
+    // hours are of the scene that `view` opens. Throws Error(Usage), and what reading the file throws.
+    ScorePath(const std::string& text, const std::string& scene, const ViewOptions& view);
+
+    // What the scene is to be opened with; null: no clip.
+    io::SceneAnimation* animation() { return kind_ == Kind::Clip ? &animation_ : nullptr; }
+    bool movesScene() const { return kind_ == Kind::Object || kind_ == Kind::Clip || hours_; }
+    Camera cameraAt(const Camera& start, int index, int count) const;
+    // Throws Error(Usage) for an object or a clip that `scene` has not.
+    Scene sceneAt(const Scene& scene, int index, int count) const;
+
+  private:
+    enum class Kind { Orbit, Dolly, Object, Clip, File };
+    void takeObject(const std::string& value);
+
+    std::string text_;
+    Kind kind_ = Kind::Orbit;
+    float amount_ = 0;
+    std::string name_;  // of the object or the clip
+    glm::vec3 travel_{0};
+    CameraPath keys_;
+    io::SceneAnimation animation_;
+    std::optional<HourOfDay> hours_;
+};
+
+// The scene along a path, frame by frame.
+class SceneAlong {
+  public:
+    SceneAlong(const ScorePath& path, const Scene& rest, int count)
+        : path_(path), rest_(rest), count_(count) {}
+    // Stays until the next call but one.
+    const Scene& at(int index) {
+        if (!path_.movesScene()) return rest_;
+        turn_ = 1 - turn_;
+        return held_[turn_].emplace(path_.sceneAt(rest_, index, count_));
+    }
+
+  private:
+    const ScorePath& path_;
+    const Scene& rest_;
+    int count_, turn_ = 0;
+    std::optional<Scene> held_[2];
+};
+
+}  // namespace conelight::program
