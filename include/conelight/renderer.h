@@ -56,6 +56,8 @@ struct FrameStats {
     std::vector<std::pair<std::string, double>> lookupsPerPixel;
     // How often the driver was asked to draw meshes. On a GPU one call draws all that needs no change between.
     std::uint64_t drawCalls = 0;
+    // How often the call has waited for the GPU to tell what it had counted: each stops a GPU's work (docs/guide/embed.md).
+    std::uint64_t waits = 0;
     std::vector<DispatchStats> dispatches;  // empty unless they are counted
     std::vector<MemoryStats> memory;        // GL objects of this renderer that have storage, largest first
     std::string device;

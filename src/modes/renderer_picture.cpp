@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "base/log.h"
 #include "conelight/memory.h"
+#include "gl/buffer.h"
 #include "gl/debug.h"
 #include "gl/dispatch_counter.h"
 #include "gl/gl.h"
@@ -146,7 +147,7 @@ base::Steps Renderer::Impl::render(WantedPicture asked) {
     profiler.beginFrame();
     programs.trim();
     if (everyFrame) scene.require("render").touch();
-    const std::uint64_t drawnBefore = scene->drawCalls();
+    const std::uint64_t drawnBefore = scene->drawCalls(), waitedBefore = gl::waitCount();
     lookupCounters.clear();
     target().resize(asked.width, asked.height);
     std::optional<gl::DispatchCounter> dispatches;
@@ -161,6 +162,7 @@ base::Steps Renderer::Impl::render(WantedPicture asked) {
     if (settings.component != Component::ShadowMap) drawOverlays(settings);
     collectStats();
     stats.drawCalls = scene->drawCalls() - drawnBefore;
+    stats.waits = gl::waitCount() - waitedBefore;
     if (dispatches)
         for (const gl::DispatchCount& one : dispatches->counts())
             stats.dispatches.push_back(
