@@ -135,6 +135,7 @@ void Renderer::Impl::forgetPicture() {
     views = {};
     temporal.reset();
     display = {};
+    turned = {};
     shadowMapView = {};
     wireframe = {};
     headlight = {};

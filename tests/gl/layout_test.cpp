@@ -121,7 +121,7 @@ std::vector<Struct> glassStructs() {
 std::vector<Struct> structsOfPictures() {
     return {
         ROW(Exposure, scale, pad0, pad1, pad2),
-        ROW(DisplayConstants, curve, srgb, kept, spread, check, pad0, pad1, pad2, balance, falseColors),
+        ROW(DisplayConstants, curve, srgb, kept, spread, check, topFirst, pad0, pad1, balance, falseColors),
         ROW(HeadlightConstants, irradiance, pad0, pad1, pad2),
         ROW(HostMeshConstants, low, vertexCount, high, indexCount, firstVertex, firstIndex, indexOffset,
             indexKind, positions, normals, uvs, tangents, colors, noTangent, pad0, pad1, pad2),
