@@ -33,18 +33,11 @@ bool seesLight(uint number, Surface s, bool otherwise, bool wanted) {
     vec3 origin = gridFromWorld(s.position + start * direction);
 
     // The part of the way that lies in the grid; pixels outside have maps alone
-#if NESTED_GRIDS
-    vec4 place = levelPlace(coarsestLevel());
-    vec3 lowest = place.xyz, highest = place.xyz + place.w * levelSize();
-    float margin = kRayEnd * place.w;
-#else
-    vec3 lowest = vec3(0.0), highest = vec3(gridSize());
-    const float margin = kRayEnd;
-#endif
-    vec3 border = mix(lowest, highest, greaterThan(direction, vec3(0.0)));
+    VoxelBounds bounds = voxelBounds();
+    vec3 border = mix(bounds.lowest, bounds.highest, greaterThan(direction, vec3(0.0)));
     vec3 exits = (border - origin) * rayInverse(direction);
-    float end = min(min(min(exits.x, exits.y), exits.z) - margin, (distance - start) / grid.voxelSize);
-    bool inside = all(greaterThan(origin, lowest)) && all(lessThan(origin, highest));
+    float end = min(min(min(exits.x, exits.y), exits.z) - bounds.margin, (distance - start) / grid.voxelSize);
+    bool inside = all(greaterThan(origin, bounds.lowest)) && all(lessThan(origin, bounds.highest));
     bool reached = reachesEnd(Ray(origin, direction, wanted && inside ? end : -1.0, vec3(0.0)), otherwise);
     return inside ? reached || end <= 0.0 : otherwise;
 }

@@ -16,16 +16,10 @@ bool seesLamp(vec3 start, vec3 lamp, bool wanted) {
     float end = kLampEnd * distance * grid.inverseVoxelSize;
 
     // The part of the way that lies in the voxels
-#if NESTED_GRIDS
-    vec4 place = levelPlace(coarsestLevel());
-    vec3 lowest = place.xyz, highest = place.xyz + place.w * levelSize();
-    float margin = kRayEnd * place.w;
-#else
-    vec3 lowest = vec3(0.0), highest = vec3(gridSize());
-    const float margin = kRayEnd;
-#endif
+    VoxelBounds bounds = voxelBounds();
     vec3 inverse = rayInverse(direction);
-    vec3 a = (lowest + margin - origin) * inverse, b = (highest - margin - origin) * inverse;
+    vec3 a = (bounds.lowest + bounds.margin - origin) * inverse,
+         b = (bounds.highest - bounds.margin - origin) * inverse;
     vec3 low = min(a, b), high = max(a, b);
     float enter = max(max(low.x, max(low.y, low.z)), 0.0);
     float leave = min(min(high.x, min(high.y, high.z)), end);

@@ -120,6 +120,20 @@ vec3 rayInverse(vec3 direction) {
 
 #include "lib/level_path.glsl"
 
+// Bounds of all voxels in grid coordinates, and how far before its border rays end.
+struct VoxelBounds {
+    vec3 lowest, highest;
+    float margin;
+};
+VoxelBounds voxelBounds() {
+#if NESTED_GRIDS
+    vec4 place = levelPlace(coarsestLevel());
+    return VoxelBounds(place.xyz, place.xyz + place.w * levelSize(), kRayEnd * place.w);
+#else
+    return VoxelBounds(vec3(0.0), vec3(gridSize()), kRayEnd);
+#endif
+}
+
 // ---- Faces of one voxel ---------------------------------------------------------------------------------
 
 // Whether a crossing at distance t, at `position` in the voxel, lies within the bounds of a face.

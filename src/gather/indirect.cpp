@@ -59,10 +59,10 @@ bool wantsCoat(const Indirect::Wanted& wanted, const RayInputs& inputs) {
 // Histories of other light or of other settings are old.
 void Indirect::follow(const RayInputs& inputs, const TracedSettings& settings) {
     if (lightFrom_ != inputs.lit.sources() || !settings_ || !(*settings_ == settings))
-        diffuseHistory_.passes = specularHistory_.passes = coatHistory_.passes = occlusionHistory_.passes = 0;
+        for (Gathered* one : {&diffuse_, &specular_, &coats_, &occlusion_}) one->history.passes = 0;
     const base::Revision lamps = inputs.lights.revision(), voxels = inputs.voxels.revision();
     if (lampsFrom_ != lamps || lampVoxelsFrom_ != voxels || !settings_ || !(*settings_ == settings))
-        lampHistory_.passes = 0;
+        lamps_.history.passes = 0;
     lampsFrom_ = lamps;
     lampVoxelsFrom_ = voxels;
     lightFrom_ = inputs.lit.sources();
@@ -75,7 +75,7 @@ void Indirect::follow(const RayInputs& inputs, const TracedSettings& settings) {
 }
 
 void Indirect::forget() {
-    diffuseHistory_ = specularHistory_ = coatHistory_ = occlusionHistory_ = lampHistory_ = {};
+    for (Gathered* one : {&diffuse_, &specular_, &coats_, &occlusion_, &lamps_}) one->history = {};
 }
 
 // Where each instance was in the frame before, for means that follow them. One that has come since stands still.
@@ -101,7 +101,9 @@ void Indirect::followInstances(const scene::GpuScene& scene) {
 
 // Finished at once, or one more pass on top of what is known.
 base::Steps Indirect::addPasses(const gl::Device& device, const RayInputs& inputs, const RayPass& pass,
-                                PixelRays& picture, History& history) {
+                                Gathered& gathered) {
+    PixelRays& picture = gathered.rays;
+    History& history = gathered.history;
     RayPass next = pass;
     next.motion = moved_ ? &motion_ : nullptr;
     const gpu::FrameConstants& view = inputs.surfaces.view();
@@ -111,7 +113,7 @@ base::Steps Indirect::addPasses(const gl::Device& device, const RayInputs& input
     if (pass.settings.budgeted) {
         next.reuse = !known ? Reuse::None : (still ? Reuse::SameView : Reuse::Reproject);
         next.number = static_cast<std::uint32_t>(history.passes);
-        const bool steady = &picture == &lamps_ || inputs.lit.steady();
+        const bool steady = &gathered == &lamps_ || inputs.lit.steady();
         const int grown = steady ? history.passes / kFramesPerPass : 0;
         next.longest = std::min(pass.longest, std::max(kUnsettledMean, grown));
         co_await picture.gatherInSteps(device, inputs, next);
@@ -128,69 +130,51 @@ base::Steps Indirect::addPasses(const gl::Device& device, const RayInputs& input
     }
 }
 
+base::Steps Indirect::gatherOne(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted,
+                                int rays, Gathered& gathered) {
+    const RayPass pass{wanted.settings, rays,    wanted.settings.passes, 0,
+                       Reuse::None,     nullptr, wanted.lookupCounters};
+    co_await addPasses(device, inputs, pass, gathered);
+    co_await gathered.rays.filterInSteps(device, inputs, wanted.settings.filterLevels);
+    gathered.picture = &gathered.rays.filtered();
+}
+
 base::Steps Indirect::gatherInSteps(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted) {
     const TracedSettings& settings = wanted.settings;
     follow(inputs, settings);
-    irradiance_ = lobe_ = coat_ = lampPicture_ = nullptr;
-    if (wantsLamps(wanted, inputs)) {
-        const RayPass pass{settings,    kLampRays, settings.passes,      0,
-                           Reuse::None, nullptr,   wanted.lookupCounters};
-        co_await addPasses(device, inputs, pass, lamps_, lampHistory_);
-        co_await lamps_.filterInSteps(device, inputs, settings.filterLevels);
-        lampPicture_ = &lamps_.filtered();
-    }
-    if (wantsIrradiance(wanted)) {
-        const RayPass pass{settings, settings.pixelRays,   settings.passes, 0, Reuse::None,
-                           nullptr,  wanted.lookupCounters};
-        co_await addPasses(device, inputs, pass, diffuse_, diffuseHistory_);
-        co_await diffuse_.filterInSteps(device, inputs, settings.filterLevels);
-        irradiance_ = &diffuse_.filtered();
-    }
-    if (wantsLobe(wanted, inputs)) {
-        const RayPass pass{settings, settings.specularRays, settings.passes, 0, Reuse::None,
-                           nullptr,  wanted.lookupCounters};
-        co_await addPasses(device, inputs, pass, specular_, specularHistory_);
-        co_await specular_.filterInSteps(device, inputs, settings.filterLevels);
-        lobe_ = &specular_.filtered();
-    }
-    if (wantsCoat(wanted, inputs)) {
-        const RayPass pass{settings, settings.specularRays, settings.passes, 0, Reuse::None,
-                           nullptr,  wanted.lookupCounters};
-        co_await addPasses(device, inputs, pass, coats_, coatHistory_);
-        co_await coats_.filterInSteps(device, inputs, settings.filterLevels);
-        coat_ = &coats_.filtered();
-    }
-    gatheredIrradiance_ = irradiance_;
-    gatheredLobe_ = lobe_;
-    gatheredLamps_ = lampPicture_;
-    gatheredCoat_ = coat_;
+    for (Gathered* one : {&lamps_, &diffuse_, &specular_, &coats_}) one->picture = nullptr;
+    if (wantsLamps(wanted, inputs)) co_await gatherOne(device, inputs, wanted, kLampRays, lamps_);
+    if (wantsIrradiance(wanted)) co_await gatherOne(device, inputs, wanted, settings.pixelRays, diffuse_);
+    if (wantsLobe(wanted, inputs))
+        co_await gatherOne(device, inputs, wanted, settings.specularRays, specular_);
+    if (wantsCoat(wanted, inputs)) co_await gatherOne(device, inputs, wanted, settings.specularRays, coats_);
+    for (Gathered* one : {&lamps_, &diffuse_, &specular_, &coats_}) one->found = one->picture;
     gatheredView_ = inputs.surfaces.view();
     unfinished_ = false;
 }
 
 base::Steps Indirect::carry(const gl::Device& device, const RayInputs& inputs,
                             const TracedSettings& settings) {
-    if (gatheredIrradiance_ != nullptr)
-        irradiance_ = &carriedIrradiance_.carry(
-            device, inputs, {*gatheredIrradiance_, gatheredView_, nullptr, settings.specularLimit});
+    const auto carryOne = [&](Gathered& gathered, bool lobes) {
+        if (gathered.found == nullptr) return;
+        const CarriedPicture::From from{.picture = *gathered.found,
+                                        .view = gatheredView_,
+                                        .lobes = lobes ? &gathered.rays.lobes() : nullptr,
+                                        .specularLimit = settings.specularLimit,
+                                        .coats = &gathered == &coats_,
+                                        .cached = &gathered != &lamps_};
+        gathered.picture = &gathered.carried.carry(device, inputs, from);
+    };
+    carryOne(diffuse_, false);
     co_await gl::rest(device);
-    if (gatheredLamps_ != nullptr)
-        lampPicture_ = &carriedLamps_.carry(device, inputs,
-                                            {.picture = *gatheredLamps_,
-                                             .view = gatheredView_,
-                                             .lobes = nullptr,
-                                             .specularLimit = settings.specularLimit,
-                                             .cached = false});
+    carryOne(lamps_, false);
     co_await gl::rest(device);
-    if (gatheredLobe_ != nullptr)
-        lobe_ = &carriedLobe_.carry(device, inputs,
-                                    {*gatheredLobe_, gatheredView_, &lobes(), settings.specularLimit});
+    carryOne(specular_, true);
     co_await gl::rest(device);
     // Beside the pixels' centres there may be none.
-    coat_ = nullptr;
-    if (gatheredCoat_ == nullptr || !inputs.surfaces.haveLayers()) co_return;
-    coat_ = &carriedCoat_.carry(
-        device, inputs, {*gatheredCoat_, gatheredView_, &coats_.lobes(), settings.specularLimit, true});
+    coats_.picture = nullptr;
+    if (!inputs.surfaces.haveLayers()) co_return;
+    carryOne(coats_, true);
     co_await gl::rest(device);
 }
 
@@ -198,9 +182,9 @@ base::Steps Indirect::gatherOcclusion(const gl::Device& device, const RayInputs&
                                       const TracedSettings& settings) {
     follow(inputs, settings);
     const RayPass pass{settings, kOcclusionRays, kOcclusionPasses};
-    co_await addPasses(device, inputs, pass, occlusion_, occlusionHistory_);
-    co_await occlusion_.filterInSteps(device, inputs, 1);
-    occlusionPicture_ = &occlusion_.filtered();
+    co_await addPasses(device, inputs, pass, occlusion_);
+    co_await occlusion_.rays.filterInSteps(device, inputs, 1);
+    occlusion_.picture = &occlusion_.rays.filtered();
     unfinished_ = false;
 }
 
@@ -208,17 +192,17 @@ void Indirect::record(const gl::Device& device, const RayInputs& inputs, const W
                       StepRecorder& recorder) {
     const TracedSettings& settings = wanted.settings;
     if (wantsIrradiance(wanted))
-        diffuse_.record(device, inputs, {settings, settings.pixelRays, settings.passes}, settings.passes,
-                        recorder);
+        diffuse_.rays.record(device, inputs, {settings, settings.pixelRays, settings.passes}, settings.passes,
+                             recorder);
     if (wantsLobe(wanted, inputs))
-        specular_.record(device, inputs, {settings, settings.specularRays, settings.passes}, settings.passes,
-                         recorder);
+        specular_.rays.record(device, inputs, {settings, settings.specularRays, settings.passes},
+                              settings.passes, recorder);
 }
 
 void Indirect::recordOcclusion(const gl::Device& device, const RayInputs& inputs,
                                const TracedSettings& settings, StepRecorder& recorder) {
-    occlusion_.record(device, inputs, {settings, kOcclusionRays, kOcclusionPasses}, kOcclusionPasses,
-                      recorder);
+    occlusion_.rays.record(device, inputs, {settings, kOcclusionRays, kOcclusionPasses}, kOcclusionPasses,
+                           recorder);
 }
 
 }  // namespace conelight::gather

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Indirect light at pixels, as a value: surfaces + lit voxels -> irradiance for diffuse reflection, radiance
-// in the specular lobe, occlusion; and light of lamps that are drawn by chance. Means over passes and frames are kept, and taken up again where the same
-// surface is seen.
+// in the specular lobe, occlusion; and light of lamps that are drawn by chance. Means over passes and frames are
+// kept, and taken up again where the same surface is seen.
 #pragma once
 
 #include <optional>
@@ -43,14 +43,14 @@ class Indirect {
 
     // Of the last gather() or carry(), pictures of lib/pixel_history.glsl; null: rays were not asked for it,
     // and the cache, or the irradiance, stands in.
-    const gl::Texture* irradiance() const { return irradiance_; }
-    const gl::Texture* lobe() const { return lobe_; }
+    const gl::Texture* irradiance() const { return diffuse_.picture; }
+    const gl::Texture* lobe() const { return specular_.picture; }
     // Of lamps that are drawn by chance, as a white surface would show it; null where there are none.
-    const gl::Texture* lamps() const { return lampPicture_; }
-    const PixelRectangle& lobes() const { return specular_.lobes(); }  // where `lobe` has anything
+    const gl::Texture* lamps() const { return lamps_.picture; }
+    const PixelRectangle& lobes() const { return specular_.rays.lobes(); }  // where `lobe` has anything
     // Radiance in the lobes of clear coats, where any are seen; null: the irradiance stands in.
-    const gl::Texture* coat() const { return coat_; }
-    const gl::Texture& occlusion() const { return *occlusionPicture_; }
+    const gl::Texture* coat() const { return coats_.picture; }
+    const gl::Texture& occlusion() const { return *occlusion_.picture; }
 
   private:
     // The means so far: from where, of how many passes.
@@ -58,30 +58,29 @@ class Indirect {
         std::optional<gpu::FrameConstants> view;
         int passes = 0;
     };
+    // One of the pictures: its rays, its means, and where it is.
+    struct Gathered {
+        PixelRays rays;
+        History history;
+        CarriedPicture carried;
+        const gl::Texture* found = nullptr;    // by gather(), which carry() starts from
+        const gl::Texture* picture = nullptr;  // of the last gather() or carry()
+    };
     void forget();
     void follow(const RayInputs& inputs, const TracedSettings& settings);
     void followInstances(const scene::GpuScene& scene);
     base::Steps addPasses(const gl::Device& device, const RayInputs& inputs, const RayPass& pass,
-                          PixelRays& picture, History& history);
+                          Gathered& gathered);
+    // `rays`: of a pixel in a pass.
+    base::Steps gatherOne(const gl::Device& device, const RayInputs& inputs, const Wanted& wanted, int rays,
+                          Gathered& gathered);
 
-    PixelRays diffuse_{RayPicture::Diffuse};
-    PixelRays specular_{RayPicture::Specular};
-    PixelRays coats_{RayPicture::Coat};
-    PixelRays occlusion_{RayPicture::Occlusion};
-    PixelRays lamps_{RayPicture::Lamps};
-    History diffuseHistory_, specularHistory_, coatHistory_, occlusionHistory_, lampHistory_;
-    const gl::Texture* irradiance_ = nullptr;
-    const gl::Texture* lobe_ = nullptr;
-    const gl::Texture* coat_ = nullptr;
-    const gl::Texture* lampPicture_ = nullptr;
-    // What gather() found, which carry() starts from.
-    const gl::Texture* gatheredIrradiance_ = nullptr;
-    const gl::Texture* gatheredLobe_ = nullptr;
-    const gl::Texture* gatheredCoat_ = nullptr;
-    const gl::Texture* gatheredLamps_ = nullptr;
-    gpu::FrameConstants gatheredView_{};
-    CarriedPicture carriedIrradiance_, carriedLobe_, carriedCoat_, carriedLamps_;
-    const gl::Texture* occlusionPicture_ = nullptr;
+    Gathered diffuse_{PixelRays(RayPicture::Diffuse), {}, {}};
+    Gathered specular_{PixelRays(RayPicture::Specular), {}, {}};
+    Gathered coats_{PixelRays(RayPicture::Coat), {}, {}};
+    Gathered occlusion_{PixelRays(RayPicture::Occlusion), {}, {}};
+    Gathered lamps_{PixelRays(RayPicture::Lamps), {}, {}};
+    gpu::FrameConstants gatheredView_{};  // of what was found
 
     // Where instances were, and where from they have come since.
     std::vector<glm::mat4> placed_;

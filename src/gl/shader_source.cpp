@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <regex>
 #include <sstream>
 
@@ -112,6 +113,8 @@ std::string includePath(const std::string& rest, const std::string& where) {
 
 // Copies files line by line into one text. Three kinds of lines do not arrive: #include (replaced by the
 // file), #pragma once, and what shared headers hold between #ifdef __cplusplus and its #else or #endif.
+// A file arrives once. One that is included below an #if arrives again where it is included next: the compiler
+// may have left out the first. A macro lets it read one of the two.
 class Expander {
   public:
     Expander(const ShaderProvider& provider, const Defines& defines)
@@ -143,8 +146,12 @@ class Expander {
             fail(ErrorKind::Runtime,
                  "%s%sthere is no shader file '%s'; paths are relative to the shader root", from.c_str(),
                  from.empty() ? "" : ": ", path.c_str());
-        File file{static_cast<int>(result_.files.size()), path, {}};
-        result_.files.push_back(path);
+        File file{indexOf(path), path, {}};
+        const std::string macro = "CONELIGHT_FILE_" + std::to_string(file.index);
+        const bool guarded = conditions_ > 0 || copies_[path] == Copies::BelowIf;
+        copies_[path] = conditions_ > 0 ? Copies::BelowIf : Copies::Whole;
+        if (guarded) append("#ifndef " + macro, -1, 0);
+        if (guarded) append("#define " + macro, -1, 0);
         chain_.push_back(path);
         std::istringstream lines(*text);
         std::string line;
@@ -166,6 +173,15 @@ class Expander {
             if (condition.language)
                 fail(ErrorKind::Runtime, "%s: #ifdef __cplusplus without #endif", path.c_str());
         chain_.pop_back();
+        if (guarded) append("#endif", -1, 0);
+    }
+
+    int indexOf(const std::string& path) {
+        std::vector<std::string>& files = result_.files;
+        const auto found = std::find(files.begin(), files.end(), path);
+        const auto index = static_cast<int>(found - files.begin());
+        if (found == files.end()) files.push_back(path);
+        return index;
     }
 
     void include(const std::string& path, const std::string& where) {
@@ -176,8 +192,7 @@ class Expander {
         if (std::find(chain_.begin(), chain_.end(), path) != chain_.end())
             fail(ErrorKind::Runtime, "%s: include cycle %s -> %s", where.c_str(), joinedChain().c_str(),
                  path.c_str());
-        if (std::find(result_.files.begin(), result_.files.end(), path) == result_.files.end())
-            copyFile(path, where);
+        if (copies_[path] != Copies::Whole) copyFile(path, where);
     }
 
     static bool skipping(const File& file) {
@@ -186,12 +201,13 @@ class Expander {
     }
 
     // Follows #if ... #endif. True when the line is one of ours and does not arrive in the text.
-    bool takesBranch(File& file, const Directive& directive, int number) const {
+    bool takesBranch(File& file, const Directive& directive, int number) {
         const bool opens = directive.name == "if" || directive.name == "ifdef" || directive.name == "ifndef";
         if (opens) {
             const std::string what = directive.rest.substr(0, directive.rest.find_first_of(" \t/"));
             const bool language = directive.name != "if" && what == "__cplusplus";
             file.conditions.push_back({language, language && directive.name == "ifdef"});
+            if (!language) ++conditions_;
             return language;
         }
         if (file.conditions.empty()) return false;
@@ -204,6 +220,7 @@ class Expander {
         if (directive.name == "endif") {
             // The line belongs to the branch that it ends: it must not arrive when that one is skipped.
             const bool gone = ours || skipping(file);
+            if (!ours) --conditions_;
             file.conditions.pop_back();
             return gone;
         }
@@ -239,6 +256,9 @@ class Expander {
     const Defines& defines_;
     ExpandedShader result_;
     std::vector<std::string> chain_;
+    enum class Copies { None, BelowIf, Whole };
+    std::map<std::string, Copies> copies_;
+    int conditions_ = 0;  // #if that are open, in all files of the chain
     bool sawVersion_ = false;
 };
 

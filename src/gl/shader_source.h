@@ -2,8 +2,8 @@
 // GLSL files -> one text per shader: resolves #include "path", inserts defines after #version, and keeps a
 // table from lines of the expanded text to file:line, with which driver logs are rewritten. No GL calls.
 //
-// Rules: paths are relative to the shader root (never to the including file), a file is included once, a
-// cycle is an error that names the chain. An include counts even inside an #if that is not taken; only
+// Rules: paths are relative to the shader root (never to the including file), a file is read once, a cycle is
+// an error that names the chain. An include below an #if is resolved whether that is taken or not; only
 // #ifdef __cplusplus is decided here, and its C++ branch left out. No #line is emitted: Mesa prints source 0
 // whatever it says.
 #pragma once

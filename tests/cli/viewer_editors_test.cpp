@@ -50,6 +50,10 @@ TEST_F(ViewerPanelsTest, MaterialsAreEdited) {
     const std::string rough = answer("material white", "  roughness");
     dragWidget("edit:roughness", {0.5f, 0.5f}, {-30, 0});
     EXPECT_NE(answer("material white", "  roughness"), rough);
+    dragWidget("edit:coat", {0.02f, 0.5f}, {40, 0});
+    const std::string coat = answer("material white", "  coat ");
+    dragWidget("edit:coat roughness", {0.02f, 0.5f}, {40, 0});
+    EXPECT_NE(answer("material white", "  coat "), coat);
 
     // What glows stands with the lights.
     click("entry:lamp (glows)");

@@ -91,16 +91,11 @@ TEST(PathTracerLayers, WhiteSurfacesVanishInTheWhiteFurnace) {
     for (const Material& material : all)
         for (const double angle : {0.1, 0.8, 1.3, 1.5}) {
             Scene scene;
-            addInstance(scene, quadMesh({-10, 0, 10}, {20, 0, 0}, {0, 0, -20}), material);
+            addInstance(scene, groundMesh(10), material);
             scene.sky = glm::vec3(1);
-            Camera camera;
-            camera.eye = {static_cast<float>(std::sin(angle)), static_cast<float>(std::cos(angle)), 0};
-            camera.target = {0, 0, 0};
-            camera.up = {0, 0, 1};
-            camera.fovY = 1e-3f;
             PathTracerSettings settings;
             settings.samplesPerPixel = 8192;
-            const PathTracedPicture picture = PathTracer(scene).render(camera, 4, 4, settings);
+            const PathTracedPicture picture = PathTracer(scene).render(cameraSlanted(angle), 4, 4, settings);
             EXPECT_EQ(picture.badSamples, 0u);
             const double sent = meanOf(picture.full);
             EXPECT_LE(sent, 1.012);
@@ -144,7 +139,7 @@ TEST(PathTracerLayers, SamplesFollowTheirDensity) {
 TEST(PathTracerLayers, EveryWayOfFindingLightAgrees) {
     for (const Material& material : {layered(0.3f, 1, 0.35f, 0, 0), layered(0.1f, 0.5f, 0.6f, 0.8f, 0.4f)}) {
         Scene scene;
-        addInstance(scene, quadMesh({-3, 0, 3}, {6, 0, 0}, {0, 0, -6}), material);
+        addInstance(scene, groundMesh(3), material);
         Light lamp;
         lamp.type = LightType::Rect;
         lamp.position = {-1, 1, 0};
@@ -177,19 +172,14 @@ TEST(PathTracerLayers, ASmoothCoatMirrors) {
         Material lacquer = layered(0, coat, 0, 0, 0);
         lacquer.specular = 0;
         Scene scene;
-        addInstance(scene, quadMesh({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}), lacquer);
+        addInstance(scene, groundMesh(2), lacquer);
         addInstance(scene, quadMesh({-3, 0.1f, -1.5f}, {0, 0, 3}, {0, 4, 0}),
                     diffuseMaterial(glm::vec3(0), glm::vec3(5)));
         scene.materials.back().doubleSided = true;
         const double angle = 1.1;
-        Camera camera;
-        camera.eye = {static_cast<float>(std::sin(angle)), static_cast<float>(std::cos(angle)), 0};
-        camera.target = {0, 0, 0};
-        camera.up = {0, 0, 1};
-        camera.fovY = 1e-3f;
         PathTracerSettings settings;
         settings.samplesPerPixel = 512;
-        const PathTracedPicture picture = PathTracer(scene).render(camera, 4, 4, settings);
+        const PathTracedPicture picture = PathTracer(scene).render(cameraSlanted(angle), 4, 4, settings);
         const double fresnel = 0.04 + 0.96 * std::pow(1 - std::cos(angle), 5);
         EXPECT_NEAR(meanOf(picture.full), 5 * static_cast<double>(coat) * fresnel, 0.005);
     }
@@ -200,7 +190,7 @@ TEST(PathTracerLayers, EmissionIsSeenThroughTheLayers) {
     Scene scene;
     Material glowing = layered(0, 1, 0, 0, 0);
     glowing.emission = glm::vec3(3);
-    addInstance(scene, quadMesh({-2, 0, 2}, {4, 0, 0}, {0, 0, -4}), glowing);
+    addInstance(scene, groundMesh(2), glowing);
     PathTracerSettings settings;
     settings.samplesPerPixel = 4;
     const PathTracedPicture picture =
@@ -219,7 +209,7 @@ Texture plainTexture(std::vector<std::uint8_t> rgba, bool srgb) {
 // Coats lie smoothly over a base whose normals a map bends, unless they have a map of their own.
 TEST(PathTracerLayers, CoatsHaveNormalsAndTexturesOfTheirOwn) {
     Scene scene;
-    Mesh ground = quadMesh({-2, 0, 2}, {4, 0, 0}, {0, 0, -4});
+    Mesh ground = groundMesh(2);
     ground.uvs.assign(4, {0.5f, 0.5f});
     ground.tangents.assign(4, {1, 0, 0, 1});
     scene.textures = {plainTexture({230, 128, 180, 255}, false), plainTexture({51, 102, 0, 204}, false)};

@@ -20,18 +20,6 @@ namespace {
 
 using namespace reference;
 
-Mesh groundMesh(float half) { return quadMesh({-half, 0, half}, {2 * half, 0, 0}, {0, 0, -2 * half}); }
-
-// Looks at the origin from `angle` off the vertical.
-Camera slanted(double angle) {
-    Camera camera;
-    camera.eye = {static_cast<float>(std::sin(angle)), static_cast<float>(std::cos(angle)), 0};
-    camera.target = {0, 0, 0};
-    camera.up = {0, 0, 1};
-    camera.fovY = 1e-3f;
-    return camera;
-}
-
 PathTracedPicture render(const Scene& scene, const Camera& camera, int samples, int size = 4) {
     PathTracerSettings settings;
     settings.samplesPerPixel = samples;
@@ -88,7 +76,7 @@ TEST(PathTracerMaterial, WhiteFurnaceOfTheLobeIsTheQuadrature) {
                 Scene scene;
                 addInstance(scene, groundMesh(10), material);
                 scene.sky = glm::vec3(1);
-                const PathTracedPicture picture = render(scene, slanted(angle), 4096);
+                const PathTracedPicture picture = render(scene, cameraSlanted(angle), 4096);
 
                 const glm::vec3 toEye(std::sin(angle), 0, std::cos(angle));
                 const math::Brdf brdf =
@@ -141,7 +129,7 @@ TEST(PathTracerMaterial, SmoothMetalMirrorsAnEmitter) {
     addInstance(scene, quadMesh({-3, 0.1f, -1.5f}, {0, 0, 3}, {0, 4, 0}),
                 diffuseMaterial(glm::vec3(0), glm::vec3(5)));
     scene.materials.back().doubleSided = true;
-    const PathTracedPicture picture = render(scene, slanted(0.7854), 256);
+    const PathTracedPicture picture = render(scene, cameraSlanted(0.7854), 256);
     EXPECT_NEAR(meanOf(picture.direct), 5, 0.05);
     EXPECT_NEAR(meanOf(picture.indirect), 0, 1e-6);
 }
@@ -236,7 +224,7 @@ TEST(PathTracerMaterial, SphereVanishesInTheWhiteFurnace) {
     for (const float x : {1.0f, -1.0f}) {
         scene.instances[0].worldFromObject = glm::mat4(1);
         scene.instances[0].worldFromObject[0][0] = x;
-        Camera camera = slanted(1.2);
+        Camera camera = cameraSlanted(1.2);
         camera.eye *= 3.0f;
         camera.fovY = 0.9f;
         const PathTracedPicture picture = render(scene, camera, 64, 24);

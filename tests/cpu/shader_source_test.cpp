@@ -72,6 +72,24 @@ TEST(ShaderSourceTest, IncludesArriveOnceInPlace) {
     EXPECT_EQ(placeOf(shader, 4), "a.comp.glsl:4");
 }
 
+// A file below an #if that is not taken is still there for the next that includes it.
+TEST(ShaderSourceTest, AnIncludeBelowAnIfHidesNoLaterOne) {
+    const gl::ExpandedShader shader =
+        gl::expandShader(from({{"a.comp.glsl",
+                                "#version 450 core\n#if 0\n#include \"b.glsl\"\n#endif\n#include \"c.glsl\"\n"
+                                "#include \"b.glsl\"\n"},
+                               {"b.glsl", "b\n"},
+                               {"c.glsl", "#include \"b.glsl\"\nc\n"}}),
+                         "a.comp.glsl");
+    const std::string guarded = "#ifndef CONELIGHT_FILE_1\n#define CONELIGHT_FILE_1\nb\n#endif\n";
+    EXPECT_EQ(shader.text, "#version 450 core\n#if 0\n" + guarded + "#endif\n" + guarded + "c\n");
+    EXPECT_EQ(shader.files, (std::vector<std::string>{"a.comp.glsl", "b.glsl", "c.glsl"}));
+    EXPECT_EQ(placeOf(shader, 3), "define");
+    EXPECT_EQ(placeOf(shader, 5), "b.glsl:1");
+    EXPECT_EQ(placeOf(shader, 10), "b.glsl:1");
+    EXPECT_EQ(placeOf(shader, 12), "c.glsl:2");
+}
+
 TEST(ShaderSourceTest, DefinesFollowTheVersionInOrder) {
     const gl::ExpandedShader shader =
         gl::expandShader(from({{"a.comp.glsl", "// head\n#version 450 core\nx\n"}}), "a.comp.glsl",

@@ -44,16 +44,14 @@ class LayersTest : public TracedModeTest {
         path.samplesPerPixel = samples;
         return reference::PathTracer(scene).render(scene.cameras.at(0), kTracedPixels, kTracedPixels, path);
     }
-    // RMSE over the mean of the truth.
-    static double errorOf(const Image& image, const Image& truth) {
-        double sum = 0;
-        for (std::size_t i = 0; i < image.pixels.size(); ++i) {
-            const glm::dvec3 apart = glm::dvec3(image.pixels[i]) - glm::dvec3(truth.pixels[i]);
-            sum += glm::dot(apart, apart) / 3;
-        }
-        return std::sqrt(sum / static_cast<double>(image.pixels.size())) / meanOf(truth);
-    }
 };
+
+Light sunAbove() {
+    Light sun;
+    sun.type = LightType::Directional;
+    sun.direction = {0, -1, 0};
+    return sun;
+}
 
 Material lacquer(float coatRoughness) {
     Material m = diffuseMaterial(glm::vec3(0.05f));
@@ -85,8 +83,8 @@ TEST_F(LayersTest, CoatsAndSheenAreTheTruth) {
         Scene bare = scene;
         bare.materials.back().coat = 0;
         bare.materials.back().sheenColor = glm::vec3(0);
-        const double error = errorOf(image, truth.full);
-        const double without = errorOf(draw(bare, tracedSettings(Quality::Interactive)), truth.full);
+        const double error = relRmse(image, truth.full);
+        const double without = relRmse(draw(bare, tracedSettings(Quality::Interactive)), truth.full);
         const std::string what = std::string(one.lamp ? "lamp" : "point") + " coat " +
                                  std::to_string(one.ball.coatRoughness) + " sheen " +
                                  std::to_string(one.ball.sheenRoughness);
@@ -130,15 +128,12 @@ TEST_F(LayersTest, CoatsHaveNormalsOfTheirOwn) {
         Material m = lacquer(0.25f);
         m.baseColor = {0, 0, 0, 1};
         (ofCoat ? m.coatNormalTexture : m.normalTexture).texture = 0;
-        Mesh ground = quadMesh({-2, 0, 2}, {4, 0, 0}, {0, 0, -4});
+        Mesh ground = groundMesh(2);
         ground.uvs.assign(4, {0.5f, 0.5f});
         ground.tangents.assign(4, {1, 0, 0, 1});
         scene.textures.push_back(leaning);
         addInstance(scene, std::move(ground), m);
-        Light sun;
-        sun.type = LightType::Directional;
-        sun.direction = {0, -1, 0};
-        scene.lights.push_back(sun);
+        scene.lights.push_back(sunAbove());
         scene.cameras.push_back(cameraAbove({0, 0, 0}, 2, 0.1f));
         const Image image = draw(scene, tracedSettings(Quality::Draft, Component::Direct));
         const reference::PathTracedPicture truth = truthOf(scene, 4);
@@ -160,13 +155,10 @@ TEST_F(LayersTest, TexturesOfLayersCount) {
     Material m = lacquer(0.25f);
     m.baseColor = {0, 0, 0, 1};
     m.coatTexture.texture = 0;
-    Mesh ground = quadMesh({-2, 0, 2}, {4, 0, 0}, {0, 0, -4});
+    Mesh ground = groundMesh(2);
     ground.uvs = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     addInstance(scene, std::move(ground), m);
-    Light sun;
-    sun.type = LightType::Directional;
-    sun.direction = {0, -1, 0};
-    scene.lights.push_back(sun);
+    scene.lights.push_back(sunAbove());
     scene.cameras.push_back(cameraAbove({0, 0, 0}, 2, 0.5f));
     const Image image = draw(scene, tracedSettings(Quality::Draft, Component::Direct));
     const auto columns = [&](int from, int to) {
@@ -188,7 +180,7 @@ TEST_F(LayersTest, ConesShowLayers) {
         Settings settings = tracedSettings(Quality::Interactive);
         settings.mode = Mode::Cones;
         settings.voxels.size = 64;
-        const double error = errorOf(draw(scene, settings), truth.full);
+        const double error = relRmse(draw(scene, settings), truth.full);
         Scene bare = scene;
         for (Material& m : bare.materials) {
             m.coat = 0;
@@ -196,7 +188,7 @@ TEST_F(LayersTest, ConesShowLayers) {
         }
         RecordProperty("error", std::to_string(error));
         EXPECT_LT(error, 0.25);
-        EXPECT_LT(error, errorOf(draw(bare, settings), truth.full));
+        EXPECT_LT(error, relRmse(draw(bare, settings), truth.full));
     }
 }
 

@@ -99,6 +99,19 @@ TEST_F(ManyLamps, ShadowsAreThoseOfMaps) {
     EXPECT_GT(meanOf(draw(yard(60, false), settings(true))), 1.1 * meanOf(truth));
 }
 
+// Views beside the pixels' centres take what those have gathered.
+TEST_F(ManyLamps, EdgesAreSmoothed) {
+    const Scene scene = yard(60);
+    Settings drawn = settings(false), exact = settings(true);
+    drawn.traced.passes = 64;
+    drawn.image.antialiasing = exact.image.antialiasing = 4;
+    const Image truth = draw(scene, exact), image = draw(scene, drawn);
+    EXPECT_NEAR(meanOf(image) / meanOf(truth), 1, 0.01);
+    EXPECT_LT(blockError(image, truth), 0.03);
+    exact.image.antialiasing = 0;
+    EXPECT_GT(relRmse(draw(scene, exact), truth), 0.02);  // edges differ
+}
+
 // What faces hold, and so all light that comes by a bounce.
 TEST_F(ManyLamps, IndirectLightIsThatOfAllLamps) {
     const Scene scene = yard(60);

@@ -60,7 +60,7 @@ class Loading(ErrorCase):
 
 class Building(ErrorCase):
     def test_every_number_comes_back(self):
-        for name in ("builtin:cornell", "builtin:glossy", "builtin:sunroom"):
+        for name in ("builtin:cornell", "builtin:glossy", "builtin:sunroom", "builtin:coats"):
             loaded = conelight.Scene.load(name)
             built = scene_from_arrays(loaded)
             for kind in ("materials", "instances", "lights"):

@@ -34,13 +34,23 @@ struct SharedContext {
 };
 
 SharedContext& sharedContext() {
-    static SharedContext* const shared = new SharedContext;  // lives until the process ends
+    static SharedContext* const shared = new SharedContext;
     return *shared;
 }
+
+// Ends the context behind the last test. Mesa writes its kernels to disk in a thread that does not outlive main.
+struct ContextEnd : ::testing::Environment {
+    void TearDown() override {
+        if (used) sharedContext().context.reset();
+    }
+    static inline bool used = false;
+};
+const ::testing::Environment* const contextEnd = ::testing::AddGlobalTestEnvironment(new ContextEnd);
 
 }  // namespace
 
 void GlTest::SetUp() {
+    ContextEnd::used = true;
     if (!sharedContext().failure.empty()) {
         if (std::getenv("CONELIGHT_REQUIRE_GL") != nullptr) FAIL() << sharedContext().failure;
         GTEST_SKIP() << sharedContext().failure;

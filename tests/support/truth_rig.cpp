@@ -14,6 +14,17 @@ Camera cameraAbove(const glm::vec3& point, float height, float width) {
     return camera;
 }
 
+Camera cameraSlanted(double angle) {
+    Camera camera;
+    camera.eye = {static_cast<float>(std::sin(angle)), static_cast<float>(std::cos(angle)), 0};
+    camera.target = {0, 0, 0};
+    camera.up = {0, 0, 1};
+    camera.fovY = 1e-3f;
+    return camera;
+}
+
+Mesh groundMesh(float half) { return quadMesh({-half, 0, half}, {2 * half, 0, 0}, {0, 0, -2 * half}); }
+
 glm::dvec3 meanColorOf(const Image& image) {
     glm::dvec3 sum(0);
     for (const glm::vec4& p : image.pixels) sum += glm::dvec3(p.r, p.g, p.b);

@@ -14,9 +14,12 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -178,6 +181,7 @@ void checkChangesInC(conelight_renderer* renderer, const conelight_scene* scene,
     conelight_material blue = CONELIGHT_MATERIAL_INIT;
     blue.base_color[0] = blue.base_color[1] = 0;
     blue.size = offsetof(conelight_material, coat);  // of a program that knows no coats
+    blue.coat = 2;                                   // of no matter for that size
     for (std::size_t i = 0; i < counts.materials; ++i)
         check(conelight_renderer_set_material(renderer, i, &blue));
     draw();
@@ -213,6 +217,36 @@ void checkRowsInC(const conelight_scene* scene, const HostTexture& lowestFirst,
             fail("C: rows of a texture in another order");
         conelight_renderer_destroy(renderer);
     }
+}
+
+// By C: a coat and sheen arrive in the scene, as its file tells.
+void checkLayersInC(const std::string& file) {
+    conelight_scene* scene = nullptr;
+    check(conelight_scene_create(&scene));
+    const float corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    const std::uint32_t triangle[3] = {0, 1, 2};
+    conelight_mesh mesh = CONELIGHT_MESH_INIT;
+    mesh.positions = corners;
+    mesh.indices = triangle;
+    mesh.vertex_count = mesh.index_count = 3;
+    conelight_material cloth = CONELIGHT_MATERIAL_INIT;
+    cloth.coat = 0.5f;
+    cloth.coat_roughness = 0.25f;
+    cloth.sheen_color[0] = cloth.sheen_color[1] = cloth.sheen_color[2] = 0.125f;
+    cloth.sheen_roughness = 0.75f;
+    conelight_instance instance = CONELIGHT_INSTANCE_INIT;
+    std::int32_t index = 0;
+    check(conelight_scene_add_mesh(scene, &mesh, &instance.mesh));
+    check(conelight_scene_add_material(scene, &cloth, &instance.material));
+    check(conelight_scene_add_instance(scene, &instance, &index));
+    check(conelight_scene_save(scene, file.c_str(), 0));
+    conelight_scene_destroy(scene);
+    std::ifstream saved(file);
+    const std::string text{std::istreambuf_iterator<char>(saved), {}};
+    for (const char* value :
+         {"\"clearcoatFactor\": 0.5", "\"clearcoatRoughnessFactor\": 0.25", "\"sheenRoughnessFactor\": 0.75"})
+        if (text.find(value) == std::string::npos)
+            fail("C: a scene's file does not say " + std::string(value));
 }
 
 // By C, in this context: the same picture in a texture of the host and in memory.
@@ -308,6 +342,7 @@ int main(int argc, char** argv) try {
     checkBounce(image);
     checkCopies(renderer, image);
     writePfm(argv[1], image);
+    checkLayersInC(std::string(argv[1]) + ".gltf");
     checkGuest(renderer, camera, kSize);
     checkC();
     checkLostContext(renderer, camera);

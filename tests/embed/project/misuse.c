@@ -146,6 +146,7 @@ static void wrong_pictures(conelight_renderer* renderer, const conelight_scene* 
     conelight_camera camera = CONELIGHT_CAMERA_INIT;
     conelight_stats stats = CONELIGHT_STATS_INIT;
     conelight_host_mesh mesh = CONELIGHT_HOST_MESH_INIT;
+    conelight_material material = CONELIGHT_MATERIAL_INIT;
     static float rgba[4 * 8 * 8];
     EXPECT(CONELIGHT_USAGE, conelight_renderer_render(renderer, &camera, 8, 8, NULL, NULL));
     EXPECT(CONELIGHT_USAGE, conelight_renderer_set_sky(renderer, rgba));
@@ -170,6 +171,8 @@ static void wrong_pictures(conelight_renderer* renderer, const conelight_scene* 
     EXPECT(CONELIGHT_OK, conelight_renderer_read(renderer, rgba, 4 * 8 * 8));
     if (!(rgba[4 * 36] > 0)) ++faults; /* a wall of the box */
     EXPECT(CONELIGHT_USAGE, conelight_renderer_copy_to_texture(renderer, 1));
+    material.coat = 2;
+    EXPECT(CONELIGHT_BAD_INPUT, conelight_renderer_set_material(renderer, 0, &material));
     EXPECT(CONELIGHT_USAGE, conelight_renderer_add_host_mesh(renderer, &mesh, NULL)); /* of its own context */
     EXPECT(CONELIGHT_USAGE, conelight_renderer_set_transform(renderer, 1000, rgba));
     EXPECT(CONELIGHT_OK, conelight_renderer_get_stats(renderer, &stats));
