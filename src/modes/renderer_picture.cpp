@@ -161,9 +161,10 @@ base::Steps Renderer::Impl::render(WantedPicture asked) {
     }
     gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess);
     if (settings.component != Component::ShadowMap) drawOverlays(settings);
+    const std::uint64_t waits = gl::waitCount() - waitedBefore;  // times are waited for behind them
     collectStats();
     stats.drawCalls = scene->drawCalls() - drawnBefore;
-    stats.waits = gl::waitCount() - waitedBefore;
+    stats.waits = waits;
     if (dispatches)
         for (const gl::DispatchCount& one : dispatches->counts())
             stats.dispatches.push_back(

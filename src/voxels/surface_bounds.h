@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // How much an update of the surface voxels finds at most, worked out on the CPU: lists that have room for it cannot
-// overflow, so that nobody has to wait for their counts (docs/theory/2_voxels.md, "Counts that come late").
+// overflow, so that nobody has to wait for their counts (docs/theory/2_voxels.md, "Memory").
 #pragma once
 
 #include <cstdint>
