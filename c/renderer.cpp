@@ -62,8 +62,7 @@ void refuseHeadless(const conelight_renderer* renderer) {
 conelight_result conelight_renderer_create(const conelight_renderer_options* options,
                                            conelight_renderer** renderer) {
     return guarded([&] {
-        const conelight_renderer_options standard = CONELIGHT_RENDERER_OPTIONS_INIT;
-        const auto& given = options != nullptr ? c::readStruct(options, "options") : standard;
+        const conelight_renderer_options given = c::optionsOf(options);
         need(renderer, "renderer");
         c::registerGuests();
         auto made = std::make_unique<conelight_renderer>();
@@ -76,6 +75,7 @@ conelight_result conelight_renderer_create(const conelight_renderer_options* opt
         RendererOptions own;
         own.shaderDirectory = c::textOf(given.shader_directory);
         own.reportGlErrors = given.report_gl_errors != 0;
+        own.rows = given.top_first != 0 ? RowOrder::TopFirst : RowOrder::BottomFirst;
         made->renderer = std::make_unique<Renderer>(own);
         if (made->context) made->context->release();
         *renderer = made.release();

@@ -38,22 +38,34 @@ glm::mat4 matrixOf(const float* columns) {
 
 namespace {
 
-conelight_material wholeMaterial(const Material& before, const conelight_material* given, const char* what) {
-    constexpr std::size_t kFirstSize = offsetof(conelight_material, coat);
+// What the caller's version has of a struct, which was `firstSize` bytes at first, over `values` for the rest.
+template <class Struct>
+void takeGrown(Struct& values, const Struct* given, std::size_t firstSize, const char* what) {
     const std::size_t size = need(given, what).size;
-    if (size < kFirstSize)
+    if (size < firstSize)
         failUsage(std::string(what) + ": size " + std::to_string(size) + "; " +
-                  std::to_string(sizeof(conelight_material)) + ", what the INIT macro sets, would be right");
+                  std::to_string(sizeof(Struct)) + ", what the INIT macro sets, would be right");
+    std::memcpy(static_cast<void*>(&values), given, std::min(size, sizeof values));
+}
+
+conelight_material wholeMaterial(const Material& before, const conelight_material* given, const char* what) {
     conelight_material values = CONELIGHT_MATERIAL_INIT;
     values.coat = before.coat;
     values.coat_roughness = before.coatRoughness;
     for (int i = 0; i < 3; ++i) values.sheen_color[i] = before.sheenColor[i];
     values.sheen_roughness = before.sheenRoughness;
-    std::memcpy(static_cast<void*>(&values), given, std::min(size, sizeof values));
+    takeGrown(values, given, offsetof(conelight_material, coat), what);
     return values;
 }
 
 }  // namespace
+
+conelight_renderer_options optionsOf(const conelight_renderer_options* given) {
+    conelight_renderer_options values = CONELIGHT_RENDERER_OPTIONS_INIT;
+    if (given != nullptr)
+        takeGrown(values, given, offsetof(conelight_renderer_options, top_first), "options");
+    return values;
+}
 
 void assign(Material& material, const conelight_material* given, const char* what) {
     const conelight_material values = wholeMaterial(material, given, what);

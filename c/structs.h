@@ -16,6 +16,8 @@ namespace conelight::c {
 // Structs of the version without coat and sheen are taken, too.
 void assign(Material& material, const conelight_material* values, const char* what);
 void assign(Light& light, const conelight_light& values);
+// Of the version without top_first, too; null: the defaults.
+conelight_renderer_options optionsOf(const conelight_renderer_options* given);
 Instance instanceOf(const conelight_instance& values);
 Mesh meshOf(const conelight_mesh& values);
 HostMesh hostMeshOf(const conelight_host_mesh& values);

@@ -271,9 +271,11 @@ typedef struct conelight_renderer_options {
     int32_t device;           /* headless: number of an EGL device; CONELIGHT_NONE: a GPU, else software */
     int32_t report_gl_errors; /* 1: errors of the driver go to the log; takes the context's debug callback */
     const char* shader_directory; /* NULL: the built-in shaders; else files there win */
+    int32_t
+        top_first; /* textures: 1: their top row is row 0, as in Vulkan and Direct3D; 0: the lowest, as in OpenGL */
 } conelight_renderer_options;
 #define CONELIGHT_RENDERER_OPTIONS_INIT \
-    { sizeof(conelight_renderer_options), 0, CONELIGHT_NONE, 0, NULL }
+    { sizeof(conelight_renderer_options), 0, CONELIGHT_NONE, 0, NULL, 0 }
 
 typedef struct conelight_stats {
     size_t size;
@@ -348,7 +350,7 @@ CONELIGHT_API conelight_result conelight_renderer_read_display(const conelight_r
                                                                const conelight_settings* settings,
                                                                uint8_t* rgb, size_t count);
 /* Into the caller's framebuffer (0: the default one), lower left corner at x y, all its colour buffers; or into a
- * GL_TEXTURE_2D of the picture's size, whose first row is then the lowest. Linear, in the target's format, which is not of
+ * GL_TEXTURE_2D of the picture's size, rows as conelight_renderer_options::top_first has them. Linear, in the target's format, which is not of
  * integers. Not of headless renderers. */
 CONELIGHT_API conelight_result conelight_renderer_copy_to_framebuffer(const conelight_renderer* renderer,
                                                                       uint32_t framebuffer, int32_t x,

@@ -87,6 +87,13 @@ struct Run {
     }
 };
 
+// Of frames, for the GPU.
+Spread waitsOf(const Run& run) {
+    std::vector<double> values;
+    for (const FrameStats& frame : run.frames) values.push_back(static_cast<double>(frame.waits));
+    return spread(values);
+}
+
 void printRun(const std::string& scene, const BenchOptions& options, const Run& run) {
     const Spread cpu = run.of(&FrameStats::cpuMs);
     const Spread wall = run.of(&FrameStats::wallMs);
@@ -104,6 +111,9 @@ void printRun(const std::string& scene, const BenchOptions& options, const Run& 
     }
     for (const auto& [kind, count] : run.counted.lookupsPerPixel)
         if (count > 0) fmt::print("  {:<28} {:13.1f} per pixel\n", "lookups " + kind, count);
+    const Spread waits = waitsOf(run);
+    fmt::print("  {:<28} {:13.0f} per frame ({:.0f} .. {:.0f})\n", "waits", waits.median, waits.min,
+               waits.max);
     std::size_t total = 0;
     for (const MemoryStats& object : run.frames.back().memory) total += object.bytes;
     fmt::print("  {:<28} {:13.1f} MB\n", "GL objects", static_cast<double>(total) / 1e6);
@@ -125,6 +135,7 @@ nlohmann::ordered_json runJson(const std::string& scene, const BenchOptions& opt
     const bool onGpu = !run.frames.front().passes.empty() && run.frames.front().passes.front().gpuMs >= 0;
     json["frame"] = {{"cpu_ms", spreadJson(run.of(&FrameStats::cpuMs))},
                      {"wall_ms", spreadJson(run.of(&FrameStats::wallMs))}};
+    json["frame"]["waits"] = spreadJson(waitsOf(run));
     json["frame"]["gpu_ms"] = nullptr;
     if (onGpu) {
         std::vector<double> sums;

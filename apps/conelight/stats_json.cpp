@@ -71,6 +71,7 @@ nlohmann::ordered_json statsJson(const FrameStats& stats) {
              {"wall_ms", pass.wallMs},
              {"gpu_ms", pass.gpuMs >= 0 ? nlohmann::ordered_json(pass.gpuMs) : nlohmann::ordered_json()}});
     json["draw_calls"] = stats.drawCalls;
+    json["waits"] = stats.waits;
     json["lookups_per_pixel"] = lookupsJson(stats);
     json["memory_bytes"] = memoryJson(stats);
     const ProgramStats programs = programStats();

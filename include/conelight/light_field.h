@@ -88,11 +88,14 @@ struct GatheredLight {
     int width = 0, height = 0;
 };
 
-// What a field holds, and what its last update() did.
+// What a field holds, and what its last update() did. On a GPU stats() waits for the numbers of voxels and faces, where
+// they have changed since the last frame: hosts that draw without a stop ask for it rarely.
 struct LightFieldStats {
     std::size_t voxels = 0, faces = 0;  // of the grid; light is kept per face
     // Whose light the last update() renewed; one that was renewed twice counts twice.
     std::uint64_t facesUpdated = 0;
+    // How often the last update() and the calls of gather() since have waited for the GPU, as in FrameStats.
+    std::uint64_t waits = 0;
     // Of the last update() and of the calls of gather() since; empty unless profiling is on. "update" and "gather" hold
     // those that follow with their name in front, such as "update/voxelize: mark".
     std::vector<PassStats> passes;

@@ -56,6 +56,8 @@ struct FrameStats {
     std::vector<std::pair<std::string, double>> lookupsPerPixel;
     // How often the driver was asked to draw meshes. On a GPU one call draws all that needs no change between.
     std::uint64_t drawCalls = 0;
+    // How often the call has waited for the GPU to tell what it had counted: each stops a GPU's work (docs/guide/embed.md).
+    std::uint64_t waits = 0;
     std::vector<DispatchStats> dispatches;  // empty unless they are counted
     std::vector<MemoryStats> memory;        // GL objects of this renderer that have storage, largest first
     std::string device;
@@ -72,6 +74,11 @@ struct PictureWork {
 // drivers store tile by tile. Gpu: as compute; server GPUs shade fragments at a small part of their rate.
 enum class Execution { Auto, Processor, Gpu };
 
+// Which row of a picture comes first in textures that a renderer hands out or fills: the lowest, as OpenGL counts texture
+// coordinates, or the top one, as Vulkan, Direct3D and files of pictures have it. Pictures in memory (Image, bytes) have
+// the top row first in either case.
+enum class RowOrder { BottomFirst, TopFirst };
+
 struct RendererOptions {
     std::string shaderDirectory;  // empty: the embedded shaders; else files there win (for development)
     // Takes the context's KHR_debug callback: errors of the driver go to the log.
@@ -79,6 +86,8 @@ struct RendererOptions {
     Execution execution = Execution::Auto;
     std::shared_ptr<ProgramCache> programs =
         {};  // keeps linked programs; null: each start builds all of them
+    // Of imageTexture, displayTexture and copyToTexture. Those of a LightField are ordered as the host's own.
+    RowOrder rows = RowOrder::BottomFirst;
 };
 
 class CONELIGHT_API Renderer {
@@ -178,13 +187,14 @@ class CONELIGHT_API Renderer {
     // gathers nothing. What the shown component does not need is gathered for this. Throws Error(Usage)
     // before the first render() and for a pixel outside the picture.
     PixelInspection inspectPixel(int x, int y);
-    std::uint32_t imageTexture()
-        const;  // GL_TEXTURE_2D, RGBA32F, owned by the renderer; row 0 is the bottom row
-    // The picture as a screen shows it (what toneMapped gives): GL_TEXTURE_2D, RGBA8, row 0 is the top row.
+    // The picture, linear: GL_TEXTURE_2D, RGBA32F, rows as RendererOptions::rows has them, owned by the renderer. With the
+    // top row first each call copies it. 0 before the first render().
+    std::uint32_t imageTexture() const;
+    // The picture as a screen shows it (what toneMapped gives): GL_TEXTURE_2D, RGBA8, rows in the same order.
     // Drawn anew at each call; owned by the renderer. 0 before the first render().
     std::uint32_t displayTexture(const ImageSettings& settings);
     // Copies the last picture, linear, into what the host draws to: a framebuffer (0: the default one), lower left
-    // corner at (x, y), all its colour buffers; or a GL_TEXTURE_2D of the picture's size, row 0 the bottom row.
+    // corner at (x, y), all its colour buffers; or a GL_TEXTURE_2D of the picture's size, rows as RendererOptions has them.
     // Throw Error(Usage) before the first render() and for a target that does not do.
     void copyToFramebuffer(std::uint32_t framebuffer, int x, int y) const;
     void copyToTexture(std::uint32_t texture) const;

@@ -23,7 +23,7 @@ layout(std430) readonly buffer FaceCorrectionTable { uvec2 faceCorrections[]; };
 void main() {
     uint index = linearIndex();
     bool inside = index < grid.faceCount;
-    FaceRecord face = faces[min(index, grid.faceCount - 1u)];
+    FaceRecord face = faces[min(index, max(grid.faceCount, 1u) - 1u)];
     vec3 normal = faceNormal(face);
     vec3 origin = worldFromGrid(faceCenter(face)) + cones.offset * normal;
     uint samples;

@@ -1,7 +1,7 @@
 #version 450 core
 // SPDX-License-Identifier: MIT
 // Linear radiance -> 8-bit picture for a screen: exposure, tone curve, sRGB. GPU twin of
-// src/image/tone_map.cpp, which has the sources of the curves; turned so that row 0 is the top row.
+// src/image/tone_map.cpp, which has the sources of the curves.
 //   BLOOM 1: part of the light has spread (bloom_up.comp.glsl)
 #ifndef BLOOM
 #error BLOOM must be 0 or 1
@@ -79,7 +79,7 @@ vec3 falseColor(float luminance) {
 
 void main() {
     ivec2 size = textureSize(linearImage, 0);
-    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);
+    ivec2 pixel = ivec2(gl_GlobalInvocationID.xy);  // from the top
     if (pixel.x >= size.x || pixel.y >= size.y) return;
     vec3 color = texelFetch(linearImage, ivec2(pixel.x, size.y - 1 - pixel.y), 0).rgb;
 #if BLOOM
@@ -93,5 +93,6 @@ void main() {
     color = display.srgb != 0u ? srgbFromLinear(color) : color;
     if (display.check == 1u) color = clippingMarked(color, pixel);
     if (display.check == 2u) color = falseColor(dot(light, vec3(0.2126, 0.7152, 0.0722)));
-    imageStore(displayImage, pixel, vec4(color, 1.0));
+    int row = display.topFirst != 0u ? pixel.y : size.y - 1 - pixel.y;
+    imageStore(displayImage, ivec2(pixel.x, row), vec4(color, 1.0));
 }

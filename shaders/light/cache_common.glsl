@@ -6,7 +6,14 @@
 #include "lib/voxel_grid.glsl"
 #include "lib/voxel_record.glsl"
 #include "light/cache_state.glsl"
+#include "shared/prefix_sum.h"
 layout(std140) uniform CacheBlock { CacheConstants cache; };
 layout(std430) buffer StateTable { FaceCache states[]; };
 // Per chunk of faces: its flux, then the flux of all chunks before it.
 layout(std430) buffer ChunkTable { float chunks[]; };
+
+// Faces of a chunk, and chunks: as gpu::perChunk and gpu::chunksOf have them.
+uint facesPerChunk() {
+    return max((grid.faceCount + PREFIX_MOST_CHUNKS - 1u) / PREFIX_MOST_CHUNKS, PREFIX_LEAST_CHUNK);
+}
+uint chunkCount() { return (grid.faceCount + facesPerChunk() - 1u) / facesPerChunk(); }

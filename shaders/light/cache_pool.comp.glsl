@@ -15,19 +15,21 @@ void main() {
     // find the same one everywhere: within groups of 8 and 64 they are exchanged at random.
     uint entry = place ^ (randomHash(place >> 3) & 7u);
     entry ^= randomHash(entry >> 6) & 56u;
-    float total = chunks[cache.chunkCount];
+    uint chunkTotal = chunkCount();
+    float total = chunks[chunkTotal];
     uint state = randomHash(entry ^ randomHash(cache.update ^ randomHash(cache.seed ^ 0x51ed270bu)));
     float wanted = (float(entry) + randomNext(state)) * (total / float(LIGHT_SAMPLE_COUNT));
     uint low = 0u;
-    uint high = cache.chunkCount;
+    uint high = chunkTotal;
     do {
         uint middle = (low + high) / 2u;
         bool above = chunks[middle] <= wanted;
         low = above ? middle : low;
         high = above ? high : middle;
     } while (high - low > 1u);
-    uint face = low * cache.facesPerChunk;
-    uint end = min(face + cache.facesPerChunk, grid.faceCount);
+    uint each = facesPerChunk();
+    uint face = low * each;
+    uint end = min(face + each, grid.faceCount);
     float sum = chunks[low];
     // The last face with any flux stands in where rounding overshoots.
     uint found = face;

@@ -3,8 +3,8 @@
 // The flux of faces in front of each chunk of them, for the pool of light samples (shared/prefix_sum.h).
 //   STEP 0  one invocation per chunk: flux of faces -> its flux
 //        1  one group: flux of chunks -> flux before each; behind them the total
-#if STEP == 1
 #include "shared/prefix_sum.h"
+#if STEP == 1
 layout(local_size_x = PREFIX_GROUP) in;
 #elif STEP == 0
 layout(local_size_x = 64) in;
@@ -17,9 +17,10 @@ uniform samplerBuffer faceFluxes;
 
 void main() {
     uint chunk = linearIndex();
-    if (chunk >= cache.chunkCount) return;
-    uint face = chunk * cache.facesPerChunk;
-    uint end = min(face + cache.facesPerChunk, grid.faceCount);
+    if (chunk >= chunkCount()) return;
+    uint each = facesPerChunk();
+    uint face = chunk * each;
+    uint end = min(face + each, grid.faceCount);
     float flux = 0.0;
     do {
         flux += texelFetch(faceFluxes, int(face)).x;
@@ -32,9 +33,10 @@ void main() {
 layout(std430) writeonly buffer PoolTable { uint pool[]; };
 
 void main() {
-    float total = prefixChunks(cache.chunkCount);
+    uint count = chunkCount();
+    float total = prefixChunks(count);
     if (gl_LocalInvocationIndex != 0u) return;
-    chunks[cache.chunkCount] = total;
+    chunks[count] = total;
     pool[0] = floatBitsToUint(total > 0.0 ? 1.0 / total : 0.0);
 }
 #endif

@@ -110,7 +110,7 @@ float seenArea(int face, bool asked) {
 }
 
 void main() {
-    int face = int(min(linearIndex(), grid.faceCount - 1u));
+    int face = int(min(linearIndex(), max(grid.faceCount, 1u) - 1u));
     bool used = linearIndex() < grid.faceCount;
     bool asked = used && parts[face] != 0u && emits(face);
     float seen = seenArea(face, asked);
@@ -120,7 +120,7 @@ void main() {
 uniform usamplerBuffer voxelFragments;
 void main() {
     uint slot = linearIndex();
-    int i = 2 * int(min(slot, fragmentSlots - 1u));
+    int i = 2 * int(min(slot, max(fragmentSlots, 1u) - 1u));
     bool shines = slot < fragmentSlots && texelFetch(voxelFragments, i).y != 0u &&
                   unpackRgb9e5(texelFetch(voxelFragments, i + 1).w) != vec3(0.0);
     if (!shines) return;

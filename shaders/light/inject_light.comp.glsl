@@ -57,7 +57,7 @@ bool isAreaLight(FaceRecord face, vec3 position, vec3 normal, float voxelSize) {
 }
 
 void main() {
-    uint index = min(linearIndex(), grid.faceCount - 1u);
+    uint index = min(linearIndex(), max(grid.faceCount, 1u) - 1u);
     bool inside = linearIndex() < grid.faceCount;
     FaceRecord face = faces[index];
     vec3 normal = faceNormal(face);

@@ -27,8 +27,8 @@ uniform usamplerBuffer voxelFaceMaterials;
 const float kFaceHeight = 0.1;
 
 void main() {
-    uint index = min(lampFaces.firstFace + linearIndex(), grid.faceCount - 1u);
-    bool inside = linearIndex() < lampFaces.faceCount;
+    uint index = min(lampFaces.firstFace + linearIndex(), max(grid.faceCount, 1u) - 1u);
+    bool inside = linearIndex() < lampFaces.faceCount && lampFaces.firstFace + linearIndex() < grid.faceCount;
     FaceRecord face = faces[index];
     vec3 normal = faceNormal(face);
     vec3 position = worldFromGrid(faceCenter(face));

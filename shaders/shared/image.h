@@ -36,10 +36,10 @@ struct DisplayConstants {
     float kept;    // of bloom: part of a pixel's light that stays
     float spread;  // and part of the first level of what spreads
     // ---- 16 B
-    uint check;  // ExposureCheck: 0 off, 1 clipping, 2 false colour
+    uint check;     // ExposureCheck: 0 off, 1 clipping, 2 false colour
+    uint topFirst;  // 1: the top row is row 0; else the lowest one
     uint pad0;
     uint pad1;
-    uint pad2;
     // ---- 32 B
     vec4 balance[3];  // columns of the matrix of white balance
     // ---- 80 B

@@ -37,6 +37,10 @@
 // Order in which updates visit faces (cache_order): six directions and 64 places in a brick per block of 4^3
 // bricks.
 #define CACHE_BINS_PER_BLOCK 384u
+// What cache_ranges writes: so many ranges of the order, of so many words each: first place, number of faces, three
+// counts of groups of an indirect dispatch.
+#define CACHE_RANGES 4u
+#define CACHE_RANGE_WORDS 5u
 
 #define CACHE_SHARES 0x8000u
 #define CACHE_UPDATES_MASK 0x7fffu
@@ -81,21 +85,25 @@ struct CacheConstants {
     uint update;  // number of the update, part of every seed
     uint seed;
     uint longestWindow;  // updates that are averaged at most
-    uint facesPerChunk;
-    // ---- 32 B
-    uint chunkCount;
     uint reflections;    // on metals, of one ray
+    // ---- 32 B
     float fireflyClamp;  // as in PixelRayConstants
     // 1: after a change windows are short near `places`, elsewhere no longer than IRRADIANCE_FAR_WEIGHT lets them
     uint restartsNear;
-    // ---- 48 B
     uint placeCount;
     uint pad0;
-    uint pad1;
-    uint pad2;
-    // ---- 64 B
+    // ---- 48 B
     vec4 places[4];  // of changes, world space; w: radius, m
-};                   // 128 B
+};                   // 112 B
+
+// Uniform block of cache_ranges: the part of the faces that gather, of so many parts, where an update looks for faces
+// inside closed objects.
+struct CacheRanges {
+    uint part;
+    uint parts;
+    uint pad0;
+    uint pad1;
+};  // 16 B
 
 // Uniform block of the pass that carries light over.
 struct CacheReprojection {
@@ -120,7 +128,8 @@ CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::LitFace) == 16);
 static_assert(sizeof(conelight::gpu::FaceCache) == 16);
-static_assert(sizeof(conelight::gpu::CacheConstants) == 128);
+static_assert(sizeof(conelight::gpu::CacheConstants) == 112);
+static_assert(sizeof(conelight::gpu::CacheRanges) == 16);
 static_assert(sizeof(conelight::gpu::CacheReprojection) == 32);
 static_assert(sizeof(conelight::gpu::CacheOrder) == 16);
 #endif

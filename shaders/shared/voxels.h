@@ -170,6 +170,8 @@ struct SurfaceConstants {
 // Faces in which something covers something else, and others whose bounds are too wide
 #define SURFACE_LAYERS 36
 #define SURFACE_WIDE 37
+// Updates: places of fragments from here on are not in use
+#define SURFACE_SLOTS 38
 #define SURFACE_ARGS_WIDE 40
 #define SURFACE_COUNTER_WORDS 44
 

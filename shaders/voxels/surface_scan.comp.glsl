@@ -38,6 +38,8 @@ void main() {
     writeArguments(SURFACE_ARGS_TILES, 8u * min(counters[SURFACE_TILES], surface.tileCapacity));
 #elif STEP == 3
     writeArguments(SURFACE_ARGS_WORK, min(counters[SURFACE_WORK], surface.faceCapacity));
+    uint made = counters[SURFACE_FRAGMENTS];
+    counters[SURFACE_SLOTS] = counters[SURFACE_TAIL] + made - min(made, counters[SURFACE_FREE]);
 #elif STEP == 4
     writeArguments(SURFACE_ARGS_LAYERS, min(counters[SURFACE_LAYERS], surface.faceCapacity));
     writeArguments(SURFACE_ARGS_WIDE, min(counters[SURFACE_WIDE], surface.faceCapacity));

@@ -168,7 +168,7 @@ void ConeGather::gatherBounce(const gl::Device& device, const BounceInputs& inpu
     const bool corrected = inputs.corrections != nullptr;
     if (corrected) given.storage("FaceCorrectionTable", *inputs.corrections);
     device.get(bounceDesc(keyOf(inputs.volume, opacity_, fractional_, inputs.lights), corrected))
-        .dispatchLinear(given, inputs.surface.faceCount());
+        .dispatchLinear(given, inputs.surface.mostFaces());
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
 }
 

@@ -96,7 +96,7 @@ void RadianceOctree::build(const gl::Device& device, const RadianceLayout& layou
     build(device, {layout.size, layout.maxLevel, layout.blocks}, [&](const gl::Inputs& tree) {
         gl::Inputs marks = tree;
         marks.add(surface);
-        device.get(MarkKey{layout.blocks}.desc()).dispatchLinear(marks, surface.voxelCount());
+        device.get(MarkKey{layout.blocks}.desc()).dispatchLinear(marks, surface.mostVoxels());
     });
     fitBricks(bricks_, GL_RGBA16F, "radiance bricks");
     layout_ = layout;

@@ -115,7 +115,7 @@ void RadianceVolume::scatter(const gl::Device& device, const voxels::SurfaceVoxe
         if (device.profile == gl::ExecutionProfile::Gpu) gl::barrier(gl::Access::ImageAccess);
         inputs.image("level0", texture_, gl::ImageUse::Write);
     }
-    device.get(ScatterKey{layout_.blocks, isOctree()}.desc()).dispatchLinear(inputs, surface.voxelCount());
+    device.get(ScatterKey{layout_.blocks, isOctree()}.desc()).dispatchLinear(inputs, surface.mostVoxels());
 }
 
 void RadianceVolume::buildLevel(const gl::Device& device, const voxels::SurfaceVoxels& surface,
@@ -130,7 +130,7 @@ void RadianceVolume::buildLevel(const gl::Device& device, const voxels::SurfaceV
     if (sparse) {
         const std::size_t texelsPerBrick = level == 1 ? 8 : 1;
         device.get(key.desc())
-            .dispatchLinear(inputs, surface.occupiedBrickCount() * texelsPerBrick *
+            .dispatchLinear(inputs, surface.mostOccupiedBricks() * texelsPerBrick *
                                         static_cast<std::size_t>(layout_.blocks));
     } else {
         device.get(key.desc())

@@ -66,7 +66,7 @@ base::Steps StaticVolume::updateInSteps(const gl::Device& device, const Inputs& 
 
 void StaticVolume::correct(const gl::Device& device, const ConesSettings& settings) {
     light::LitFaces gathered;
-    gathered.reserve(voxels_.surface().faceCount());
+    gathered.reserve(voxels_.surface().mostFaces());
     volume_.cones().gatherBounce(device, {lights_, volume_.volume(), voxels_.surface()}, gathered);
     faces_.correct(device, gathered);
     correctedFrom_ = volume_.revision();

@@ -72,12 +72,14 @@ void Buffer::fill(std::uint32_t word) {
     glClearNamedBufferData(name(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &word);
 }
 
-void Buffer::copyFrom(const Buffer& source, std::size_t bytes) {
-    CONELIGHT_ASSERT(bytes <= this->bytes() && bytes <= source.bytes() && source.name() != name(),
-                     "Buffer::copyFrom reaches past the end of a buffer");
+void Buffer::copyRange(const Buffer& source, std::size_t from, std::size_t to, std::size_t bytes) {
+    CONELIGHT_ASSERT(
+        inRange(to, bytes, this->bytes()) && inRange(from, bytes, source.bytes()) && source.name() != name(),
+        "Buffer::copyRange reaches past the end of a buffer");
     if (bytes == 0) return;
     glMemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    glCopyNamedBufferSubData(source.name(), name(), 0, 0, static_cast<GLsizeiptr>(bytes));
+    glCopyNamedBufferSubData(source.name(), name(), static_cast<GLintptr>(from), static_cast<GLintptr>(to),
+                             static_cast<GLsizeiptr>(bytes));
 }
 
 void Buffer::read(std::size_t offset, void* data, std::size_t bytes) const {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A GL buffer of immutable size. Filled at creation, by update(), or by shaders; read back by read().
 // Creation throws Error(Runtime) when the driver has no memory; ranges outside the buffer are assertions.
-// clear(), fill(), copyFrom() and read() see and follow what shaders wrote before; update() does only after
+// clear(), fill(), copyFrom(), copyRange() and read() see and follow what shaders wrote before; update() does only after
 // barrier(Access::Update).
 #pragma once
 
@@ -39,7 +39,10 @@ class Buffer : public Object<ObjectType::Buffer> {
     void clear();                   // all bytes zero
     void fill(std::uint32_t word);  // every 32-bit word
 
-    void copyFrom(const Buffer& source, std::size_t bytes);  // the first `bytes` of another buffer
+    void copyFrom(const Buffer& source, std::size_t bytes) {  // the first `bytes` of another buffer
+        copyRange(source, 0, 0, bytes);
+    }
+    void copyRange(const Buffer& source, std::size_t from, std::size_t to, std::size_t bytes);
 
     void read(std::size_t offset, void* data, std::size_t bytes) const;  // waits for the GPU
     template <class T>

@@ -36,7 +36,7 @@ bool holdsIntegers(Name framebuffer) {
     return false;
 }
 
-void blit(const Texture& picture, Name target, const glm::ivec2& corner, const char* call) {
+void blit(const Texture& picture, Name target, const glm::ivec2& corner, Rows rows, const char* call) {
     if (glCheckNamedFramebufferStatus(target, GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
         base::fail(ErrorKind::Usage,
                    "%s: the target is not complete; one that can be drawn to would be right", call);
@@ -44,8 +44,10 @@ void blit(const Texture& picture, Name target, const glm::ivec2& corner, const c
         base::fail(ErrorKind::Usage, "%s: the target holds integers; colours would be right", call);
     const Attached source(picture.name());
     const int width = picture.width(), height = picture.height();
-    glBlitNamedFramebuffer(source.name, target, 0, 0, width, height, corner.x, corner.y, corner.x + width,
-                           corner.y + height, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    const int low = corner.y, high = corner.y + height;
+    const bool turned = rows == Rows::Turned;
+    glBlitNamedFramebuffer(source.name, target, 0, 0, width, height, corner.x, turned ? high : low,
+                           corner.x + width, turned ? low : high, GL_COLOR_BUFFER_BIT, GL_NEAREST);
 }
 
 }  // namespace
@@ -53,10 +55,10 @@ void blit(const Texture& picture, Name target, const glm::ivec2& corner, const c
 void copyToFramebuffer(const Texture& picture, Name framebuffer, const glm::ivec2& corner) {
     if (framebuffer != 0 && glIsFramebuffer(framebuffer) == GL_FALSE)
         base::fail(ErrorKind::Usage, "copyToFramebuffer: %u is no framebuffer of this context", framebuffer);
-    blit(picture, framebuffer, corner, "copyToFramebuffer");
+    blit(picture, framebuffer, corner, Rows::AsTheyAre, "copyToFramebuffer");
 }
 
-void copyToTexture(const Texture& picture, Name texture) {
+void copyToTexture(const Texture& picture, Name texture, Rows rows) {
     if (glIsTexture(texture) == GL_FALSE)
         base::fail(ErrorKind::Usage, "copyToTexture: %u is no texture of this context", texture);
     GLint target = 0, width = 0, height = 0;
@@ -70,7 +72,7 @@ void copyToTexture(const Texture& picture, Name texture) {
                    "copyToTexture: not a GL_TEXTURE_2D of %d x %d; such a one would be right",
                    picture.width(), picture.height());
     const Attached attached(texture);
-    blit(picture, attached.name, {0, 0}, "copyToTexture");
+    blit(picture, attached.name, {0, 0}, rows, "copyToTexture");
 }
 
 }  // namespace conelight::gl

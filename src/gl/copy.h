@@ -12,7 +12,8 @@ namespace conelight::gl {
 // All colour buffers of a framebuffer of the context (0: the default one), lower left corner at `corner`. What lies
 // outside of it is left out.
 void copyToFramebuffer(const Texture& picture, Name framebuffer, const glm::ivec2& corner);
-// Level 0 of a GL_TEXTURE_2D of the picture's size.
-void copyToTexture(const Texture& picture, Name texture);
+// Level 0 of a GL_TEXTURE_2D of the picture's size; turned: the last row first.
+enum class Rows { AsTheyAre, Turned };
+void copyToTexture(const Texture& picture, Name texture, Rows rows = Rows::AsTheyAre);
 
 }  // namespace conelight::gl

@@ -26,6 +26,10 @@ struct Device {
     // Programs for voxels in nested grids (shaders/lib/voxel_levels.glsl). Those for one grid know nothing of them.
     bool nestedGrids = false;
 
+    // Whether counts of shaders are read a frame later (gl/late_words.h). A software driver computes as it is told, so
+    // that waiting costs it nothing.
+    bool readsLate() const { return profile == ExecutionProfile::Gpu && pace == nullptr; }
+
     const Program& get(const ProgramDesc& desc) const {
         return nestedGrids ? programs.get(forNestedGrids(desc)) : programs.get(desc);
     }

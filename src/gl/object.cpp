@@ -80,6 +80,7 @@ OwnerScope::~OwnerScope() { currentOwner = outer_; }
 
 ForgetNames::ForgetNames() { ++forgetting; }
 ForgetNames::~ForgetNames() { --forgetting; }
+bool namesAreForgotten() { return forgetting > 0; }
 
 namespace detail {
 

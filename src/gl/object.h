@@ -53,6 +53,8 @@ class ForgetNames {
     ForgetNames& operator=(const ForgetNames&) = delete;
 };
 
+bool namesAreForgotten();
+
 namespace detail {
 // Labels `name` and puts it on the list; the result is its key there.
 std::uint32_t created(ObjectType type, Name name, const std::string& label, std::size_t bytes);

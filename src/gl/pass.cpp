@@ -8,6 +8,7 @@
 #include "gl/buffer.h"
 #include "gl/dispatch_counter.h"
 #include "gl/gl.h"
+#include "gl/late_words.h"
 #include "gl/work.h"
 
 namespace conelight::gl {
@@ -43,6 +44,7 @@ double Query::resultMs() const {
 void Profiler::beginFrame() {
     CONELIGHT_ASSERT(open_.empty(), "Profiler::beginFrame inside a pass scope");
     passes_.clear();
+    gl::beginFrame();
 }
 
 std::vector<PassTime> Profiler::endFrame() {

@@ -51,13 +51,15 @@ gpu::DisplayConstants constantsOf(const ImageSettings& settings) {
 
 }  // namespace
 
-void Display::draw(const gl::Device& device, const gl::Texture& linear, const ImageSettings& settings) {
+void Display::draw(const gl::Device& device, const gl::Texture& linear, const ImageSettings& settings,
+                   RowOrder rows) {
     if (!texture_ || texture_.width() != linear.width() || texture_.height() != linear.height()) {
         texture_ = {};
         texture_ = gl::Texture({GL_TEXTURE_2D, GL_RGBA8, linear.width(), linear.height()}, "display image");
     }
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::DisplayConstants), "display constants");
     gpu::DisplayConstants constants = constantsOf(settings);
+    constants.topFirst = rows == RowOrder::TopFirst ? 1 : 0;
     exposure_.measure(device, linear, settings.exposure);
     const bool blooms = settings.bloom > 0 && linear.width() > 1 && linear.height() > 1;
     if (!blooms) bloom_.reset();

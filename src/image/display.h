@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "conelight/renderer.h"
 #include "conelight/settings.h"
 #include "gl/buffer.h"
 #include "gl/device.h"
@@ -18,8 +19,9 @@ class Display {
   public:
     // `linear` (RGBA32F, row 0 at the bottom) -> texture(). Ends with the barrier for texture fetches. GL
     // state changed: program and its slots.
-    void draw(const gl::Device& device, const gl::Texture& linear, const ImageSettings& settings);
-    const gl::Texture& texture() const { return texture_; }  // RGBA8, row 0 is the top row
+    void draw(const gl::Device& device, const gl::Texture& linear, const ImageSettings& settings,
+              RowOrder rows);
+    const gl::Texture& texture() const { return texture_; }  // RGBA8
 
     static std::vector<gl::ProgramDesc> programDescs();
 

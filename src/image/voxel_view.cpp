@@ -188,7 +188,7 @@ void VoxelView::buildLevels(const gl::Device& device, VoxelData data, const Lit&
         inputs.image("coarser", levels_, gl::ImageUse::Write, level);
         const gl::Program& program = device.get(LevelKey{level == 0}.desc());
         if (level == 0)
-            program.dispatchLinear(inputs, std::size_t{8} * lit.voxels.surface().occupiedBrickCount());
+            program.dispatchLinear(inputs, std::size_t{8} * lit.voxels.surface().mostOccupiedBricks());
         else
             program.dispatch(inputs, levels_.width(level), levels_.height(level), levels_.depth(level));
         gl::barrier(gl::Access::ImageAccess | gl::Access::TextureFetch);

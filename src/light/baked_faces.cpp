@@ -65,7 +65,7 @@ void BakedFaces::correct(const gl::Device& device, const LitFaces& gathered) {
 void BakedFaces::light(const gl::Device& device, const voxels::SurfaceVoxels& surface, const LitFaces& faces,
                        gl::Buffer& corrections) const {
     const gl::PassScope pass(device.profiler, "baked faces");
-    const std::size_t bytes = sizeof(glm::uvec2) * surface.faceCount();
+    const std::size_t bytes = sizeof(glm::uvec2) * surface.mostFaces();
     if (!corrections || corrections.bytes() < bytes)
         corrections = gl::Buffer(bytes + bytes / 4, "face corrections");
     gl::Inputs given;
@@ -74,7 +74,7 @@ void BakedFaces::light(const gl::Device& device, const voxels::SurfaceVoxels& su
     given.storage("BakedFaceTable", irradiance_)
         .storage("BakedCorrectionTable", corrections_)
         .storage("FaceCorrectionTable", corrections);
-    device.get(lightDesc()).dispatchLinear(given, surface.faceCount());
+    device.get(lightDesc()).dispatchLinear(given, surface.mostFaces());
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
 }
 

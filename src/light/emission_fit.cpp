@@ -11,6 +11,7 @@ namespace conelight::light {
 namespace {
 
 constexpr std::uint32_t kRowGroups = 64;  // as in the shader
+constexpr std::size_t kSlotsAt = 16;      // bytes before fragmentSlots of SentLight
 constexpr int kWalkStep = 3;              // per fragment of a list that the step before makes
 
 struct FitKey {
@@ -29,13 +30,14 @@ base::Steps EmissionFit::updateInSteps(const gl::Device& device, const scene::Gp
     voxelsFrom_ = {};
     gl::PassSteps pass(device, "emission that fits");
     const voxels::SurfaceVoxels& surface = voxels.surface();
-    const std::uint32_t faces = surface.faceCount(), slots = surface.fragmentSlots();
+    const std::uint32_t faces = surface.mostFaces(), slots = surface.mostFragmentSlots();
     gl::reserveTexels(parts_, texels_, GL_R32UI, std::size_t{4} * faces, "emission that fits");
     // Of the passes below: the header of SentLight, then two numbers per face; fragments that shine.
-    const std::array<std::uint32_t, 6> header{kRowGroups, 0, 1, 0, slots, 0};
+    const std::array<std::uint32_t, 6> header{kRowGroups, 0, 1, 0, 0, 0};
     gl::Buffer sent(sizeof header + std::size_t{8} * faces, "light that lamps send");
     sent.clear();
     sent.update(header);
+    surface.putFragmentSlots(sent, kSlotsAt);
     const gl::Buffer shining(std::size_t{4} * std::max(slots, 1u), "fragments that shine");
     gl::Inputs inputs;
     inputs.add(scene)

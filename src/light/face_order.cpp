@@ -2,6 +2,7 @@
 #include "light/face_order.h"
 
 #include <algorithm>
+#include <array>
 
 #include "gl/gl.h"
 #include "gl/pace.h"
@@ -24,6 +25,19 @@ struct OrderKey {
 };
 
 }  // namespace
+
+void FaceOrder::takeCounts(bool late) {
+    if (late) return late_.take(chunks_, 0, 2);
+    const auto counts = chunks_.read<std::uint32_t>(2);
+    counts_ = {counts[0], counts[1]};
+}
+
+const FaceOrder::Counts& FaceOrder::known() const {
+    if (!late_.pending()) return counts_;
+    std::array<std::uint32_t, 2> words{};
+    late_.read(words);
+    return counts_ = {words[0], words[1]};
+}
 
 void FaceOrder::reserveOrder(std::size_t faces) {
     if (order_.bytes() >= 4 * faces && order_) return;
@@ -52,9 +66,10 @@ void FaceOrder::releaseBins() {
 
 base::Steps FaceOrder::sortInSteps(const gl::Device& device, const voxels::SurfaceVoxels& surface,
                                    const gl::Buffer& states, const gl::Texture& stateTexels, Wanted wanted) {
-    const std::uint32_t faces = surface.faceCount();
-    gathering_ = faces;
-    doubtful_ = 0;
+    const bool late = wanted.late && device.readsLate();
+    const std::uint32_t faces = surface.mostFaces();
+    late_.drop();
+    counts_ = {faces, 0};
     if (faces == 0) co_return;
     reserveOrder(faces);
     const glm::ivec3 blocks = (surface.grid().storedBricks() + 3) / 4;
@@ -74,6 +89,9 @@ base::Steps FaceOrder::sortInSteps(const gl::Device& device, const voxels::Surfa
             .storage("ChunkTable", chunks_);
         device.get(OrderKey{5}.desc()).dispatchLinear(inputs, faces);
         gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
+        chunks_.clear();
+        surface.putFaceCount(chunks_, 0);
+        takeCounts(late);
         co_return;
     }
     reserveBins(bins);
@@ -98,9 +116,7 @@ base::Steps FaceOrder::sortInSteps(const gl::Device& device, const voxels::Surfa
         gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
         co_await gl::rest(device);
     }
-    const auto counts = chunks_.read<std::uint32_t>(2);
-    gathering_ = counts[0];
-    doubtful_ = counts[1];
+    takeCounts(late);
     // They are as large as what they sort.
     if (!wanted.keepsMemory) releaseBins();
 }

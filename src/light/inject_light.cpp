@@ -44,14 +44,14 @@ bool hasOtherEmitters(const scene::GpuScene& scene, const Lights& lights) {
 void injectLight(const gl::Device& device, const InjectInputs& inputs, LitFaces& faces,
                  const RayLight* rays) {
     const gl::PassScope pass(device.profiler, "inject light");
-    faces.reserve(inputs.surface.faceCount());
+    faces.reserve(inputs.surface.mostFaces());
     gl::Inputs given;
     given.add(inputs.scene).add(inputs.lights).add(inputs.surface).add(faces);
     if (rays != nullptr) given.storage("CachedDirect", rays->cachedDirect);
     const bool fits = rays != nullptr && rays->fit != nullptr;
     if (fits) given.add(*rays->fit);
     device.get(InjectKey{inputs.lights.key(), rays != nullptr, fits}.desc())
-        .dispatchLinear(given, inputs.surface.faceCount());
+        .dispatchLinear(given, inputs.surface.mostFaces());
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch);
 }
 

@@ -117,8 +117,8 @@ base::Steps IrradianceCache::adoptInSteps(const gl::Device& device, const voxels
     }
     carried_ = hadFaces_ && old != nullptr && voxelsFrom_ && old->revision == voxelsFrom_ &&
                (old->grid.levels > 1) == (voxels.grid().levels > 1);
-    reserve(surface.faceCount());
-    faceCount_ = surface.faceCount();
+    reserve(surface.mostFaces());
+    faceCount_ = surface.mostFaces();
     {
         const gl::PassScope pass(device.profiler, "irradiance: reproject");
         if (carried_ && faceCount_ > 0)
@@ -159,10 +159,11 @@ base::Steps IrradianceCache::sort(const gl::Device& device, const voxels::Surfac
                                   bool searches) {
     firstFace_ = 0;
     co_await order_.sortInSteps(device, surface, states_, stateTexels_,
-                                {.searches = searches, .keepsMemory = carried_});
+                                {.searches = searches, .keepsMemory = carried_, .late = searches});
 }
 
 void IrradianceCache::restartAverages(const Places& changed) {
+    know();
     // No update has seen the change before, wherever that was.
     restartsNear_ = restarts_ ? std::nullopt : changed;
     restarts_ = true;
@@ -190,8 +191,6 @@ gpu::CacheConstants IrradianceCache::packed(const CacheSettings& settings, std::
     c.update = updatesMade_;
     c.seed = settings.seed;
     c.longestWindow = settings.averages ? static_cast<std::uint32_t>(std::max(settings.longestWindow, 1)) : 1;
-    c.facesPerChunk = gpu::perChunk(faceCount_);
-    c.chunkCount = gpu::chunksOf(faceCount_);
     c.reflections = static_cast<std::uint32_t>(std::max(settings.reflections, 0));
     c.fireflyClamp = fireflyClamp((settings.cosineRays + settings.lightRays) *
                                   std::min(settings.longestWindow, kUsualWindow));
@@ -208,8 +207,7 @@ base::Steps IrradianceCache::commit(const gl::Device& device, const Inputs& inpu
                                     const CacheSettings& settings, bool atPixels) {
     gl::PassSteps scope(device, "irradiance: light samples");
     prepared_ = false;
-    const gpu::CacheConstants block = packed(settings);
-    constants_.update(block);
+    constants_.update(packed(settings));
     gl::Inputs given;
     given.add(inputs.voxels.surface())
         .add(inputs.faces)
@@ -239,7 +237,7 @@ base::Steps IrradianceCache::commit(const gl::Device& device, const Inputs& inpu
     }
     co_await scope.rest();
     if (std::exchange(restarts_, false)) device.get(pass("restart")).dispatchLinear(given, faceCount_);
-    device.get(sums(0)).dispatchLinear(given, block.chunkCount);
+    device.get(sums(0)).dispatchLinear(given, gpu::mostChunks(faceCount_));
     gl::barrier(gl::Access::ShaderStorage);
     co_await scope.rest();
     device.get(sums(1)).dispatch(given, 1);
@@ -266,25 +264,26 @@ base::Steps IrradianceCache::visitFaces(const Visit& visit, std::uint32_t first,
     if (findsBacks) raysTested_ += (end - first) * static_cast<std::uint64_t>(visit.settings.cosineRays);
 }
 
+// Where the next update searches.
+IrradianceCache::VisitPart IrradianceCache::nextSearched() const {
+    const bool changeAgainAndAgain = updatesOfVoxels_ == 0 && carried_;
+    const std::uint32_t parts = changeAgainAndAgain ? kInteriorInterval : 1;
+    return {updatesMade_ % parts, parts};
+}
+
 // Searches a part of the faces, and all that are doubtful.
 base::Steps IrradianceCache::visitRange(const Visit& visit, std::uint32_t first, std::uint32_t end) {
     const std::uint32_t middle = std::clamp(order_.gathering(), first, end);
-    const bool changeAgainAndAgain = updatesOfVoxels_ == 0 && carried_;
-    const std::uint64_t parts = changeAgainAndAgain ? kInteriorInterval : 1, part = updatesMade_ % parts;
-    const auto cut = [&](std::uint64_t at) {
-        return first + static_cast<std::uint32_t>(at * (middle - first) / parts);
-    };
-    const std::uint32_t from = visit.searches ? cut(part) : middle;
-    const std::uint32_t to = visit.searches ? cut(part + 1) : middle;
+    const VisitPart searched = nextSearched();
+    const std::uint32_t from = visit.searches ? first + searched.begin(middle - first) : middle;
+    const std::uint32_t to = visit.searches ? first + searched.end(middle - first) : middle;
     co_await visitFaces(visit, first, from, false);
     co_await visitFaces(visit, from, to, true);
     co_await visitFaces(visit, to, middle, false);
     co_await visitFaces(visit, middle, end, visit.searches);
 }
 
-// One update of the next `count` faces.
-base::Steps IrradianceCache::visitAll(const gl::Device& device, const Inputs& inputs,
-                                      const CacheSettings& settings, std::uint32_t count) {
+gl::Inputs IrradianceCache::givenToUpdates(const Inputs& inputs) const {
     gl::Inputs given;
     given.add(inputs.scene)
         .add(inputs.lights)
@@ -296,13 +295,75 @@ base::Steps IrradianceCache::visitAll(const gl::Device& device, const Inputs& in
         .storage("StateTable", states_)
         .texture("stateTexels", stateTexels_)
         .texture("order", order_.texels());
+    return given;
+}
+
+HitKey IrradianceCache::hitsOf(const Inputs& inputs, const CacheSettings& settings) {
     HitKey hits = inputs.lights.hitKey(inputs.scene, settings.exactDirect);
     if (hits.lights.shadows) hits.lights.filter = UpdateKey::kFilter;
-    const Visit visit{device, given, settings, hits, raysTested_ < searchedRays()};
+    return hits;
+}
+
+// One update of the next `count` faces.
+base::Steps IrradianceCache::visitAll(const gl::Device& device, const Inputs& inputs,
+                                      const CacheSettings& settings, std::uint32_t count) {
+    const gl::Inputs given = givenToUpdates(inputs);
+    const Visit visit{device, given, settings, hitsOf(inputs, settings), raysTested_ < searchedRays()};
     const std::uint32_t atEnd = std::min(count, order_.visited() - firstFace_);
     co_await visitRange(visit, firstFace_, firstFace_ + atEnd);
     co_await visitRange(visit, 0, count - atEnd);
     gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Update);
+}
+
+// Whether an update of all faces does the same whatever their number, which is on its way: whether it searches, and
+// whether faces are sorted behind it. A number that is known elsewhere is taken in.
+bool IrradianceCache::goesUncounted(const CacheSettings& settings) const {
+    if (!order_.isFresh() || settings.facesPerUpdate != 0) return false;
+    int rays = settings.cosineRays;
+    for (const LateUpdate& update : uncounted_) rays += update.rays;
+    return rays < IRRADIANCE_INTERIOR_RAYS;
+}
+
+// visitAll() of all faces, as many as the GPU has sorted.
+void IrradianceCache::visitUncounted(const gl::Device& device, const Inputs& inputs,
+                                     const CacheSettings& settings) {
+    const gl::PassScope scope(device.profiler, "irradiance: update");
+    constexpr std::size_t kRangeBytes = std::size_t{4} * CACHE_RANGE_WORDS, kCountBytes = 8;
+    if (!ranges_) {
+        ranges_ = gl::Buffer(CACHE_RANGES * kRangeBytes, "irradiance cache ranges");
+        rangeBlock_ = gl::Buffer(sizeof(gpu::CacheRanges), "irradiance cache range constants");
+    }
+    const VisitPart searched = nextSearched();
+    rangeBlock_.update(gpu::CacheRanges{searched.part, searched.parts, 0, 0});
+    gl::Inputs counted;
+    counted.uniform("RangeBlock", rangeBlock_)
+        .storage("OrderCounts", order_.counts())
+        .storage("RangeTable", ranges_);
+    device.get(pass("ranges")).dispatch(counted, 1);
+    gl::barrier(gl::Access::Indirect | gl::Access::Update);
+    const gl::Inputs given = givenToUpdates(inputs);
+    const HitKey hits = hitsOf(inputs, settings);
+    constants_.update(packed(settings));
+    for (std::size_t range = 0; range < CACHE_RANGES; ++range) {
+        // Every other one is searched.
+        constants_.copyRange(ranges_, range * kRangeBytes, 0, kCountBytes);
+        device.get(UpdateKey{hits, range % 2 == 1}.desc())
+            .dispatchIndirect(given, ranges_, range * kRangeBytes + kCountBytes);
+    }
+    gl::barrier(gl::Access::ShaderStorage | gl::Access::TextureFetch | gl::Access::Update);
+    uncounted_.push_back({searched, settings.cosineRays});
+}
+
+// Counts what updates have visited that went uncounted.
+void IrradianceCache::know() const {
+    for (const LateUpdate& update : std::exchange(uncounted_, {})) {
+        const std::uint32_t gathering = order_.gathering();
+        const std::uint64_t searched =
+            update.searched.end(gathering) - update.searched.begin(gathering) + order_.doubtful();
+        raysTested_ += searched * static_cast<std::uint64_t>(update.rays);
+        facesVisited_ += order_.visited();
+        visits_ += order_.visited();
+    }
 }
 
 base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Inputs& inputs,
@@ -312,6 +373,13 @@ base::Steps IrradianceCache::updateInSteps(const gl::Device& device, const Input
     if (faceCount_ == 0) co_return;
     if (!prepared_) co_await commit(device, inputs, settings, passes <= 0);
     for (int i = 0; i < passes; ++i) {
+        if (goesUncounted(settings)) {
+            visitUncounted(device, inputs, settings);
+            ++updatesMade_;
+            co_await commit(device, inputs, settings, i + 1 == passes);
+            continue;
+        }
+        know();
         const std::uint32_t count = perUpdate(settings);
         const bool searches = raysTested_ < searchedRays();
         // One that was left has used its random numbers.
@@ -343,6 +411,8 @@ bool IrradianceCache::settled() const { return updates() >= IRRADIANCE_SETTLE; }
 
 // Whole ones over all faces since light changed.
 int IrradianceCache::updates() const {
+    if (order_.isFresh()) return static_cast<int>(uncounted_.size());  // no others since the change
+    know();
     return order_.visited() == 0 ? IRRADIANCE_SETTLE : static_cast<int>(facesVisited_ / order_.visited());
 }
 
@@ -351,8 +421,8 @@ void IrradianceCache::declare(gl::Inputs& inputs) const {
 }
 
 std::vector<gl::ProgramDesc> IrradianceCache::programDescs() {
-    std::vector<gl::ProgramDesc> descs{sums(0),         sums(1),           pass("pool"),
-                                       pass("restart"), pass("reproject"), pass("share")};
+    std::vector<gl::ProgramDesc> descs{sums(0),           sums(1),       pass("pool"),  pass("restart"),
+                                       pass("reproject"), pass("share"), pass("ranges")};
     for (const CommitKey& key : CommitKey::all()) descs.push_back(key.desc());
     for (const UpdateKey& key : UpdateKey::all()) descs.push_back(key.desc());
     const std::vector<gl::ProgramDesc> order = FaceOrder::programDescs();

@@ -76,8 +76,12 @@ class IrradianceCache {
     // away.
     bool settled() const;
     int updates() const;  // whole rounds over all faces since the last change
+    // Both wait where a GPU has not counted them yet.
     std::uint32_t faces() const { return order_.visited(); }  // of a round
-    std::uint64_t visits() const { return visits_; }          // of faces, ever
+    std::uint64_t visits() const {                            // of faces, ever
+        know();
+        return visits_;
+    }
 
     void declare(gl::Inputs& inputs) const;                      // lightSamples, faceLight
     const gl::Buffer& state() const { return states_; }          // gpu::FaceCache per face, for tests
@@ -93,6 +97,27 @@ class IrradianceCache {
     std::uint64_t searchedRays() const;  // after so many all faces inside closed objects are known
     gpu::CacheConstants packed(const CacheSettings& settings, std::uint32_t first = 0,
                                std::uint32_t count = 0) const;
+    // The part of the faces that gather in which an update looks for those inside closed objects.
+    struct VisitPart {
+        std::uint32_t part, parts;
+        std::uint32_t begin(std::uint64_t faces) const {
+            return static_cast<std::uint32_t>(part * faces / parts);
+        }
+        std::uint32_t end(std::uint64_t faces) const {
+            return static_cast<std::uint32_t>((part + std::uint64_t{1}) * faces / parts);
+        }
+    };
+    // An update of all faces while their number was on its way from the GPU.
+    struct LateUpdate {
+        VisitPart searched;
+        int rays;
+    };
+    VisitPart nextSearched() const;
+    gl::Inputs givenToUpdates(const Inputs& inputs) const;
+    static HitKey hitsOf(const Inputs& inputs, const CacheSettings& settings);
+    bool goesUncounted(const CacheSettings& settings) const;
+    void visitUncounted(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings);
+    void know() const;
     struct Visit;
     base::Steps visitRange(const Visit& visit, std::uint32_t first, std::uint32_t end);
     base::Steps visitFaces(const Visit& visit, std::uint32_t first, std::uint32_t end, bool findsBacks);
@@ -102,7 +127,7 @@ class IrradianceCache {
                        bool atPixels);
 
     gl::Buffer states_, oldStates_, faceLight_, sharedLight_, fluxes_, chunks_, pool_, constants_,
-        reprojectionBlock_, oldLevelBlock_;
+        reprojectionBlock_, oldLevelBlock_, ranges_, rangeBlock_;
     gl::Texture faceLightTexels_, sharedLightTexels_, fluxTexels_, poolTexels_, stateTexels_, oldStateTexels_;
     FaceOrder order_;
     base::Revision voxelsFrom_;  // whose faces these are
@@ -114,13 +139,15 @@ class IrradianceCache {
     bool prepared_ = false;  // pool and lit faces say what the states and the direct light say
     bool restarts_ = false;
     Places restartsNear_;
-    std::uint32_t updatesMade_ = 0;      // ever
-    bool unfinished_ = false;            // the last one was left
-    std::uint32_t updatesOfVoxels_ = 0;  // calls of update() for these voxels
-    std::uint32_t firstFace_ = 0;        // where the next update begins
-    std::uint64_t facesVisited_ = 0;     // since light changed
-    std::uint64_t visits_ = 0;
-    std::uint64_t raysTested_ = 0;  // cosine rays that looked for faces inside objects, since voxels changed
+    std::uint32_t updatesMade_ = 0;              // ever
+    bool unfinished_ = false;                    // the last one was left
+    std::uint32_t updatesOfVoxels_ = 0;          // calls of update() for these voxels
+    std::uint32_t firstFace_ = 0;                // where the next update begins
+    mutable std::vector<LateUpdate> uncounted_;  // since faces were sorted
+    mutable std::uint64_t facesVisited_ = 0;     // since light changed
+    mutable std::uint64_t visits_ = 0;
+    mutable std::uint64_t raysTested_ =
+        0;  // cosine rays that looked for faces inside objects, since voxels changed
 };
 
 }  // namespace conelight::light

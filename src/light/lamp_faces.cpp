@@ -18,7 +18,7 @@ gl::ProgramDesc lampFacesDesc(const LampKey& key) { return {{"light/lamp_faces.c
 }  // namespace
 
 base::Steps LampFaces::beginInSteps(const gl::Device& device, const Inputs& inputs) {
-    const std::uint32_t faces = inputs.voxels.surface().faceCount();
+    const std::uint32_t faces = inputs.voxels.surface().mostFaces();
     round_ = next_ = 0;
     if (faces == 0) co_return;
     if (!constants_) constants_ = gl::Buffer(sizeof(gpu::LampFaceConstants), "lamp faces constants");
@@ -29,7 +29,9 @@ base::Steps LampFaces::beginInSteps(const gl::Device& device, const Inputs& inpu
 }
 
 base::Steps LampFaces::goOnInSteps(const gl::Device& device, const Inputs& inputs, std::uint32_t count) {
-    const std::uint32_t faces = inputs.voxels.surface().faceCount();
+    const voxels::SurfaceVoxels& surface = inputs.voxels.surface();
+    // A part of them is one of so many as there are.
+    const std::uint32_t faces = count == 0 && next_ == 0 ? surface.mostFaces() : surface.faceCount();
     std::uint32_t left = count == 0 ? faces : std::min(count, faces);
     while (left > 0 && round_ < kMostRounds) {
         const std::uint32_t now = std::min(left, faces - next_);

@@ -95,9 +95,9 @@ base::Steps LitVoxels::followVoxels(const gl::Device& device, const voxels::Voxe
 // Direct light, emission and sky on every face.
 base::Steps LitVoxels::putDirectLight(const gl::Device& device, const Inputs& inputs) {
     const voxels::SurfaceVoxels& surface = inputs.voxels.surface();
-    gl::reserveTexels(directLight_, directTexels_, GL_R32UI, std::size_t{4} * surface.faceCount(),
+    gl::reserveTexels(directLight_, directTexels_, GL_R32UI, std::size_t{4} * surface.mostFaces(),
                       "cached direct light");
-    const bool fits = surface.faceCount() > 0 && hasOtherEmitters(inputs.scene, inputs.lights);
+    const bool fits = surface.mostFaces() > 0 && hasOtherEmitters(inputs.scene, inputs.lights);
     if (fits) co_await fit_.updateInSteps(device, inputs.scene, inputs.voxels);
     const RayLight rays{directLight_, fits ? &fit_ : nullptr};
     injectLight(device, {inputs.scene, inputs.lights, surface}, faces_, &rays);

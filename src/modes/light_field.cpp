@@ -10,6 +10,7 @@
 #include "base/log.h"
 #include "gather/indirect.h"
 #include "gather/light_outputs.h"
+#include "gl/buffer.h"
 #include "gl/debug.h"
 #include "gl/gl.h"
 #include "gl/host_slots.h"
@@ -57,6 +58,7 @@ struct LightField::Impl {
     std::map<int, View> views;
     int nextView = 1;
     LightFieldStats stats;
+    std::uint64_t visitedBefore = 0;  // faces, by the last update()
 
     explicit Impl(const RendererOptions& options) : Impl(options, modes::profileOf(options.execution)) {}
     Impl(const RendererOptions& options, gl::ExecutionProfile profile)
@@ -104,7 +106,7 @@ void LightField::Impl::forget() {
     lights = {};
     voxels = {};
     lit = {};
-    stats.voxels = stats.faces = stats.facesUpdated = 0;
+    visitedBefore = 0;
     for (auto& [number, view] : views) view = {};
 }
 
@@ -166,10 +168,11 @@ int LightField::update(const LightBudget& budget) {
 }
 
 int LightField::Impl::update(const LightBudget& budget) {
+    const std::uint64_t waitedBefore = gl::waitCount();
     const double start = light::RelightBudget::begin(budget.milliseconds);
     profiler.beginFrame();
     const gl::PassScope pass(profiler, "update");
-    const std::uint64_t before = lit.faceVisits();
+    visitedBefore = lit.faceVisits();
     programs.trim();
     lights.update(device, *scene, {.settings = settings.light, .emissiveQuads = false, .lampTree = true});
     voxels.update(device, *scene, settings.voxels, voxels::Rays::Yes);
@@ -183,9 +186,7 @@ int LightField::Impl::update(const LightBudget& budget) {
                                .start = start});
     else
         lit.relight(device, inputs, wanted, {.faces = static_cast<std::uint32_t>(budget.faces)});
-    stats.voxels = voxels.surface().voxelCount();
-    stats.faces = voxels.surface().faceCount();
-    stats.facesUpdated = lit.faceVisits() - before;
+    stats.waits = gl::waitCount() - waitedBefore;
     return lit.updates();
 }
 
@@ -217,6 +218,7 @@ GatheredLight LightField::gather(int view, const HostSurfaces& surfaces, const G
 }
 
 GatheredLight LightField::Impl::gather(View& view, const HostSurfaces& host, int reduction) {
+    const std::uint64_t waitedBefore = gl::waitCount();
     const gl::PassScope pass(profiler, "gather");
     programs.trim();
     view.surfaces.take(device, *scene, host, reduction);
@@ -230,6 +232,7 @@ GatheredLight LightField::Impl::gather(View& view, const HostSurfaces& host, int
     } else {
         view.outputs.draw(device, traced, view.indirect, settings.traced.specularLimit);
     }
+    stats.waits += gl::waitCount() - waitedBefore;
     return {view.outputs.diffuse().name(), view.outputs.specular().name(), host.width, host.height};
 }
 
@@ -242,6 +245,11 @@ const LightFieldStats& LightField::stats() const {
     for (const gl::PassTime& time : times)
         stats.passes.push_back({time.name, time.cpuMs, time.wallMs, time.gpuMs});
     stats.memory = modes::memoryStats(impl_->owner);
+    // Numbers that are on their way are waited for here, which is not a frame's doing.
+    const bool any = static_cast<bool>(impl_->lit.revision());
+    stats.voxels = any ? impl_->voxels.surface().voxelCount() : 0;
+    stats.faces = any ? impl_->voxels.surface().faceCount() : 0;
+    stats.facesUpdated = impl_->lit.faceVisits() - impl_->visitedBefore;
     return stats;
 }
 

@@ -185,12 +185,26 @@ PixelInspection Renderer::inspectPixel(int x, int y) {
     return impl_->inspect(x, y);
 }
 
-std::uint32_t Renderer::imageTexture() const { return impl_->image ? impl_->image.texture().name() : 0; }
+std::uint32_t Renderer::imageTexture() const {
+    if (!impl_->image) return 0;
+    const gl::Texture& picture = impl_->image.texture();
+    if (impl_->rows == RowOrder::BottomFirst) return picture.name();
+    const modes::OwnerGuard call(impl_->owner);
+    gl::Texture& turned = impl_->turned;
+    if (!turned || turned.width() != picture.width() || turned.height() != picture.height()) {
+        turned = {};
+        turned =
+            gl::Texture({picture.desc().target, picture.desc().format, picture.width(), picture.height()},
+                        "turned image");
+    }
+    gl::copyToTexture(picture, turned.name(), gl::Rows::Turned);
+    return turned.name();
+}
 
 std::uint32_t Renderer::displayTexture(const ImageSettings& settings) {
     if (!impl_->image) return 0;
     const modes::OwnerGuard call(impl_->owner);
-    impl_->display.draw(impl_->device, impl_->image.texture(), settings);
+    impl_->display.draw(impl_->device, impl_->image.texture(), settings, impl_->rows);
     return impl_->display.texture().name();
 }
 
@@ -204,7 +218,8 @@ void Renderer::copyToFramebuffer(std::uint32_t framebuffer, int x, int y) const 
 void Renderer::copyToTexture(std::uint32_t texture) const {
     if (!impl_->image) base::fail(ErrorKind::Usage, "copyToTexture: nothing was rendered; render before it");
     const modes::OwnerGuard call(impl_->owner);
-    gl::copyToTexture(impl_->image.texture(), texture);
+    const bool turned = impl_->rows == RowOrder::TopFirst;
+    gl::copyToTexture(impl_->image.texture(), texture, turned ? gl::Rows::Turned : gl::Rows::AsTheyAre);
 }
 
 const FrameStats& Renderer::stats() const {

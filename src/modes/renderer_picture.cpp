@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "base/log.h"
 #include "conelight/memory.h"
+#include "gl/buffer.h"
 #include "gl/debug.h"
 #include "gl/dispatch_counter.h"
 #include "gl/gl.h"
@@ -134,6 +135,7 @@ void Renderer::Impl::forgetPicture() {
     views = {};
     temporal.reset();
     display = {};
+    turned = {};
     shadowMapView = {};
     wireframe = {};
     headlight = {};
@@ -146,7 +148,7 @@ base::Steps Renderer::Impl::render(WantedPicture asked) {
     profiler.beginFrame();
     programs.trim();
     if (everyFrame) scene.require("render").touch();
-    const std::uint64_t drawnBefore = scene->drawCalls();
+    const std::uint64_t drawnBefore = scene->drawCalls(), waitedBefore = gl::waitCount();
     lookupCounters.clear();
     target().resize(asked.width, asked.height);
     std::optional<gl::DispatchCounter> dispatches;
@@ -159,8 +161,10 @@ base::Steps Renderer::Impl::render(WantedPicture asked) {
     }
     gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess);
     if (settings.component != Component::ShadowMap) drawOverlays(settings);
+    const std::uint64_t waits = gl::waitCount() - waitedBefore;  // times are waited for behind them
     collectStats();
     stats.drawCalls = scene->drawCalls() - drawnBefore;
+    stats.waits = waits;
     if (dispatches)
         for (const gl::DispatchCount& one : dispatches->counts())
             stats.dispatches.push_back(

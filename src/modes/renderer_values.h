@@ -55,6 +55,8 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
     std::optional<image::TemporalPicture> temporal;
     // Other looks at them.
     image::Display display;
+    RowOrder rows = RowOrder::BottomFirst;  // of textures for the host
+    gl::Texture turned;                     // the picture, if its top row is to come first
     image::ShadowView shadowMapView;
     image::WireframeView wireframe;
     image::Headlight headlight;
@@ -82,7 +84,8 @@ struct [[gnu::visibility("hidden")]] Renderer::Impl {  // not public, though in 
     explicit Impl(const RendererOptions& options) : Impl(options, modes::profileOf(options.execution)) {}
     Impl(const RendererOptions& options, gl::ExecutionProfile profile)
         : programs(modes::shadersOf(options, profile), modes::programsOf(options)),
-          device{programs, profiler, profile} {}
+          device{programs, profiler, profile},
+          rows(options.rows) {}
 
     // The scene, to change it: a picture of it as it was is dropped.
     modes::OwnerScene changed() {

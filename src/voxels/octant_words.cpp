@@ -39,7 +39,7 @@ base::Steps OctantWords::buildInSteps(const gl::Device& device, const SurfaceVox
         .storage("RowTable", rows_)
         .texture("rows", rowTexels_)
         .image("octants", texture_, gl::ImageUse::Write);
-    device.get(masksDesc()).dispatchLinear(inputs, surface.occupiedBrickCount());
+    device.get(masksDesc()).dispatchLinear(inputs, surface.mostOccupiedBricks());
     gl::barrier(gl::Access::TextureFetch | gl::Access::ImageAccess);
     co_await pass.rest();
     device.get(reachDesc()).dispatchLinear(inputs, rowWords);

@@ -1,38 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <utility>
 
+#include "base/assert.h"
 #include "gl/gl.h"
 #include "gl/pace.h"
 #include "voxels/nested_grid.h"
+#include "voxels/surface_bounds.h"
 #include "voxels/surface_work.h"
 
 namespace conelight::voxels {
 namespace {
 
-// Boxes of instances are grown by this many voxels before their bricks are searched: transformed corners of a
-// box and transformed vertices are rounded differently (2^-24 of their distance from the origin, a few
-// times).
-constexpr float kBoxMargin = 0.1f;
-constexpr float kBoxRounding = 1e-6f;
-
 // Marks the bricks of a level that a box meets, from the place of its first on; a box that is not finite meets all.
 void addBricks(std::vector<bool>& marked, const VoxelGrid& grid, std::size_t first, const Aabb& box) {
-    if (box.empty()) return;
     const glm::ivec3 bricks = grid.bricks();
-    glm::ivec3 low(0), high(bricks - 1);
-    for (int axis = 0; axis < 3; ++axis) {
-        const float a = grid.gridFromWorld(box.min)[axis];
-        const float b = grid.gridFromWorld(box.max)[axis];
-        if (!std::isfinite(a) || !std::isfinite(b)) continue;
-        const float far =
-            std::max({std::abs(box.min[axis]), std::abs(box.max[axis]), std::abs(grid.origin[axis])});
-        const float margin = kBoxMargin + kBoxRounding * far / grid.voxelSize;
-        const float limit = static_cast<float>(bricks[axis]);
-        low[axis] = static_cast<int>(std::clamp(std::floor((a - margin) / 4), 0.0f, limit));
-        high[axis] = static_cast<int>(std::clamp(std::floor((b + margin) / 4), -1.0f, limit - 1));
-    }
+    const VoxelRange range = voxelsOfBox(grid, box);
+    const glm::ivec3 low = range.low / 4, high = (range.end + 3) / 4 - 1;
     for (int z = low.z; z <= high.z; ++z)
         for (int y = low.y; y <= high.y; ++y)
             for (int x = low.x; x <= high.x; ++x) marked[first + brickIndex({x, y, z}, bricks)] = true;
@@ -179,22 +165,85 @@ base::Steps SurfaceVoxels::Impl::carry(const gl::Device& device) {
     co_await scope.rest();
 }
 
-// Reads the counts back. False when a list was too small: what there is now is of no use.
-bool SurfaceVoxels::Impl::finishUpdate(const Edits& edits) {
-    counters.read(0, counts.data(), sizeof counts);
+// More room in lists costs memory; up to twice of what there is it is worth a wait less in every frame, and up to so
+// many entries in any case.
+constexpr double kMostGrowth = 2, kGrowthForFree = 65536;
+
+// Makes room for all that the update may find, so that its counts need not be waited for. False: that would be too much,
+// or is not known.
+bool SurfaceVoxels::Impl::makeRoom(const scene::GpuScene& scene, const Edits& edits) {
+    const std::optional<SurfaceBounds> found = bounder.of(scene, edits.runs, grid);
+    if (!found) return false;
+    Capacity wanted = capacity;
+    bool fits = true;
+    const auto need = [&](std::uint32_t& have, std::uint32_t used, double more, double most) {
+        const double needed = std::min(used + std::ceil(more), most);
+        fits = fits && needed <= std::max(kMostGrowth * have, kGrowthForFree);
+        if (fits && needed > have) have = withSpare(static_cast<std::uint32_t>(needed));
+        return static_cast<std::uint32_t>(std::min(needed, 1e9));
+    };
+    constexpr double kUnlimited = 1e9;
+    const double bricks = static_cast<double>(grid.brickCount());
+    late.most.slots = need(wanted.fragments, tail, found->fragments, kUnlimited);
+    late.most.voxels = need(wanted.voxels, counts[SURFACE_VOXELS], found->voxels, kUnlimited);
+    late.most.faces = need(wanted.faces, counts[SURFACE_FACES], found->faces, kUnlimited);
+    late.most.bricks = need(wanted.bricks, counts[SURFACE_BRICKS], found->bricks, bricks);
+    need(wanted.tiles, 0, found->tiles, kUnlimited);
+    if (fits) growLists(wanted);
+    return fits;
+}
+
+// What the counts say, of an update that has set up so many triangles.
+void SurfaceVoxels::Impl::takeCounts() {
     const std::uint32_t made = counts[SURFACE_FRAGMENTS];
     const std::uint32_t reused = std::min(made, counts[SURFACE_FREE]);
     tail += made - reused;
     freeSlots = counts[SURFACE_FREE] - reused;
-    lastUpdate = {false, edits.scrolls, edits.triangles, made, counts[SURFACE_WORK]};
+    lastUpdate.fragments = made;
+    lastUpdate.faces = counts[SURFACE_WORK];
+}
+
+bool SurfaceVoxels::Impl::fits() const {
     return tail <= capacity.fragments && counts[SURFACE_TILES] <= capacity.tiles &&
            counts[SURFACE_VOXELS] <= capacity.voxels && counts[SURFACE_FACES] <= capacity.faces &&
            counts[SURFACE_BRICKS] <= capacity.bricks;
 }
 
+// Reads the counts back. False when a list was too small: what there is is of no use then.
+bool SurfaceVoxels::Impl::finishUpdate(const Edits& edits) {
+    counters.read(0, counts.data(), sizeof counts);
+    lastUpdate = {false, edits.scrolls, edits.triangles, 0, 0};
+    takeCounts();
+    if (!fits()) return false;
+    updateGridBlock();
+    return true;
+}
+
+// Leaves the counts on their way: shaders have them.
+void SurfaceVoxels::Impl::finishLate(const Edits& edits) {
+    lastUpdate = {false, edits.scrolls, edits.triangles, 0, 0};
+    late.words.take(counters, 0, counts.size());
+    updateGridBlock();
+    const auto copy = [&](std::size_t counter, std::size_t to) {
+        gridBlock.copyRange(counters, 4 * counter, to, 4);
+    };
+    copy(SURFACE_VOXELS, offsetof(gpu::VoxelGrid, voxelCount));
+    copy(SURFACE_FACES, offsetof(gpu::VoxelGrid, faceCount));
+    copy(SURFACE_BRICKS, offsetof(gpu::VoxelGrid, occupiedBricks));
+}
+
+// Takes counts in that are on their way.
+void SurfaceVoxels::Impl::know() {
+    if (!late.words.pending()) return;
+    late.words.read(counts);
+    takeCounts();
+    CONELIGHT_ASSERT(fits(), "SurfaceVoxels::update: more than the most that there can be");
+}
+
 base::Steps SurfaceVoxels::updateInSteps(const gl::Device& device, const scene::GpuScene& scene,
                                          VoxelGrid grid) {
     Impl& m = *impl_;
+    m.know();
     const bool can = m.canUpdate(scene, grid);
     const Edits edits = can ? m.editsOf(scene, grid) : Edits{};
     // Beyond half of all triangles, to clip all is as cheap as to search for those to keep.
@@ -211,6 +260,8 @@ base::Steps SurfaceVoxels::updateInSteps(const gl::Device& device, const scene::
     m.grid = grid;
     m.allocateFor(m.capacity);
     m.growTriangles(scene.triangleCount());
+    // Fragments of all instances may come in where nested grids move.
+    const bool late = device.readsLate() && !edits.scrolls && m.makeRoom(scene, edits);
     m.uploadEdits(scene, edits);
     co_await m.drop(device, edits);
     if (edits.scrolls) co_await m.shift(device);
@@ -224,14 +275,14 @@ base::Steps SurfaceVoxels::updateInSteps(const gl::Device& device, const scene::
     co_await m.carry(device);
     co_await m.clip(device, scene, true);
     co_await m.resolve(device, true);
-    if (!m.finishUpdate(edits)) {
+    if (late) {
+        m.finishLate(edits);
+    } else if (!m.finishUpdate(edits)) {
         // A list is too small: grow() in build() sees what a whole scene needs.
         co_await buildInSteps(device, scene, grid);
         co_return;
     }
-    m.updateGridBlock();
     m.keys.grid = m.grid;
-    m.keys.faceCount = m.counts[SURFACE_FACES];
     m.keys.revision = base::Revision::next();
     m.remember(scene);
     m.scrolled = m.scrolled || edits.scrolls;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "voxels/surface_voxels.h"
 
+#include <cstddef>
 #include <utility>
 
 #include "base/assert.h"
@@ -27,6 +28,7 @@ VoxelGrid SurfaceVoxels::gridAround(const scene::GpuScene& scene, const VoxelSet
 base::Steps SurfaceVoxels::buildInSteps(const gl::Device& device, const scene::GpuScene& scene,
                                         VoxelGrid grid) {
     Impl& m = *impl_;
+    m.know();
     m.unfinished = true;
     // The keys of the voxels there are stay for readers that carry something over.
     if (m.keys.revision) std::swap(m.keys, m.oldKeys);
@@ -50,7 +52,6 @@ base::Steps SurfaceVoxels::buildInSteps(const gl::Device& device, const scene::G
     }
     m.updateGridBlock();
     m.keys.grid = m.grid;
-    m.keys.faceCount = m.counts[SURFACE_FACES];
     m.keys.revision = base::Revision::next();
     m.remember(scene);
     m.unfinished = false;
@@ -101,18 +102,53 @@ const VoxelKeys* SurfaceVoxels::previous() const {
 }
 
 const VoxelGrid& SurfaceVoxels::grid() const { return impl_->grid; }
-std::uint32_t SurfaceVoxels::voxelCount() const { return impl_->counts[SURFACE_VOXELS]; }
-std::uint32_t SurfaceVoxels::faceCount() const { return impl_->counts[SURFACE_FACES]; }
-std::uint32_t SurfaceVoxels::occupiedBrickCount() const { return impl_->counts[SURFACE_BRICKS]; }
-std::uint32_t SurfaceVoxels::fragmentCount() const { return impl_->tail - impl_->freeSlots; }
-std::uint32_t SurfaceVoxels::fragmentSlots() const { return impl_->tail; }
+std::uint32_t SurfaceVoxels::voxelCount() const { return known(SURFACE_VOXELS); }
+std::uint32_t SurfaceVoxels::faceCount() const { return known(SURFACE_FACES); }
+std::uint32_t SurfaceVoxels::occupiedBrickCount() const { return known(SURFACE_BRICKS); }
+std::uint32_t SurfaceVoxels::known(int counter) const {
+    impl_->know();
+    return impl_->counts[static_cast<std::size_t>(counter)];
+}
+std::uint32_t SurfaceVoxels::mostVoxels() const {
+    return isLate() ? impl_->late.most.voxels : impl_->counts[SURFACE_VOXELS];
+}
+std::uint32_t SurfaceVoxels::mostFaces() const {
+    return isLate() ? impl_->late.most.faces : impl_->counts[SURFACE_FACES];
+}
+std::uint32_t SurfaceVoxels::mostOccupiedBricks() const {
+    return isLate() ? impl_->late.most.bricks : impl_->counts[SURFACE_BRICKS];
+}
+std::uint32_t SurfaceVoxels::mostFragmentSlots() const {
+    return isLate() ? impl_->late.most.slots : impl_->tail;
+}
+bool SurfaceVoxels::isLate() const { return impl_->late.words.pending(); }
+void SurfaceVoxels::putFaceCount(gl::Buffer& to, std::size_t offset) const {
+    to.copyRange(impl_->gridBlock, offsetof(gpu::VoxelGrid, faceCount), offset, 4);
+}
+void SurfaceVoxels::putFragmentSlots(gl::Buffer& to, std::size_t offset) const {
+    if (isLate())
+        to.copyRange(impl_->counters, std::size_t{4} * SURFACE_SLOTS, offset, 4);
+    else
+        to.update(offset, &impl_->tail, 4);
+}
+std::uint32_t SurfaceVoxels::fragmentCount() const {
+    impl_->know();
+    return impl_->tail - impl_->freeSlots;
+}
+std::uint32_t SurfaceVoxels::fragmentSlots() const {
+    impl_->know();
+    return impl_->tail;
+}
 const gl::Texture& SurfaceVoxels::brickWords() const { return impl_->keys.brickWords; }
 const gl::Buffer& SurfaceVoxels::records() const { return impl_->keys.records; }
 const gl::Buffer& SurfaceVoxels::faces() const { return impl_->now.faces; }
 const gl::Buffer& SurfaceVoxels::faceMaterials() const { return impl_->now.faceMaterials; }
 const gl::Buffer& SurfaceVoxels::occupiedBricks() const { return impl_->brickList; }
 const gl::Buffer& SurfaceVoxels::changedBricks() const { return impl_->changedBricks; }
-const SurfaceUpdate& SurfaceVoxels::lastUpdate() const { return impl_->lastUpdate; }
+const SurfaceUpdate& SurfaceVoxels::lastUpdate() const {
+    impl_->know();
+    return impl_->lastUpdate;
+}
 bool SurfaceVoxels::hasScrolled() const { return impl_->scrolled; }
 const gl::Buffer& SurfaceVoxels::fragments() const { return impl_->fragments; }
 

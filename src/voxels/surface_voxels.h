@@ -57,7 +57,8 @@ class SurfaceVoxels {
     // the same voxels. Nested grids around another eye keep the voxels that stay in their level, which may differ
     // from those of a build by rounding (hasScrolled). Falls back to build() for another scene or grid,
     // when materials need another variant of the passes, when more than half of the triangles changed, and
-    // when a list has become too small. Does nothing when nothing changed.
+    // when a list has become too small. Does nothing when nothing changed. On a GPU it does not wait where lists have
+    // room for all that may come.
     void update(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings) {
         updateInSteps(device, scene, gridOf(scene, settings)).finish();
     }
@@ -98,6 +99,16 @@ class SurfaceVoxels {
     std::uint32_t occupiedBrickCount() const;
     std::uint32_t fragmentCount() const;  // pairs (triangle, voxel)
     std::uint32_t fragmentSlots() const;  // places of fragments; those not in use have no area
+    // On a GPU the counts of an update come a frame later, so that it is not waited for: those above wait if they have
+    // to. At most so many there are, and shaders know how many (VoxelGridBlock).
+    std::uint32_t mostVoxels() const;
+    std::uint32_t mostFaces() const;
+    std::uint32_t mostOccupiedBricks() const;
+    std::uint32_t mostFragmentSlots() const;
+    bool isLate() const;  // the counts are on their way
+    // faceCount(), fragmentSlots() into a buffer, without waiting.
+    void putFaceCount(gl::Buffer& to, std::size_t offset) const;
+    void putFragmentSlots(gl::Buffer& to, std::size_t offset) const;
 
     const gl::Texture& brickWords() const;     // RGBA32UI, size of grid().bricks()
     const gl::Buffer& records() const;         // voxRec; voxelCount() uints are in use
@@ -111,6 +122,7 @@ class SurfaceVoxels {
     const gl::Buffer& fragments() const;
 
   private:
+    std::uint32_t known(int counter) const;
     struct Impl;
     std::unique_ptr<Impl> impl_;
 };

@@ -17,8 +17,16 @@ constexpr std::size_t kFragmentBytes = 32;
 constexpr float kLargestEmission = 65504.0f;  // what a half holds
 
 // Room for what is there and a little more, if that is less than there is.
-std::uint32_t trimmed(std::uint32_t have, std::uint32_t used) {
-    return std::min(have, used + used / kSpareShare + 64);
+std::uint32_t trimmed(std::uint32_t have, std::uint32_t used) { return std::min(have, withSpare(used)); }
+
+// A list of which all that is there is kept, and the texture over it.
+void growList(gl::Buffer& buffer, gl::Texture& texels, std::size_t bytes, const char* label) {
+    const unsigned format = texels.desc().format;
+    gl::Buffer larger(bytes, label);
+    larger.copyFrom(buffer, buffer.bytes());
+    texels = {};
+    buffer = std::move(larger);
+    texels = gl::Texture(buffer, format, label);
 }
 
 void trimBuffer(gl::Buffer& buffer, std::size_t bytes, const char* label) {
@@ -38,6 +46,8 @@ void trimList(gl::Buffer& buffer, gl::Texture& texels, std::size_t bytes, const 
 }
 
 }  // namespace
+
+std::uint32_t withSpare(std::uint32_t needed) { return needed + needed / kSpareShare + 64; }
 
 // Whether shown or not: what is hidden may be shown next.
 Surfaces surfacesOf(const scene::GpuScene& scene) {
@@ -153,11 +163,7 @@ void SurfaceVoxels::Impl::allocateFor(const Capacity& wanted) {
     }
     now.reserve(wanted.voxels, wanted.faces);
     reserveRecords(keys, wanted.voxels);
-    if (!owners || wanted.faces > capacity.faces) {
-        owners = gl::Buffer(std::size_t{4} * wanted.faces, "voxelizer face owners");
-        ownerTexels = gl::Texture(owners, GL_R32UI, "voxelizer face owners");
-        layered = gl::Buffer(std::size_t{4} * wanted.faces, "voxelizer layered faces");
-    }
+    if (!owners || wanted.faces > capacity.faces) reserveFaceLists(wanted.faces);
     if (wanted.bricks > capacity.bricks)
         brickList = gl::Buffer(std::size_t{4} * wanted.bricks, "occupied bricks");
     capacity = wanted;
@@ -213,6 +219,27 @@ void SurfaceVoxels::Impl::growTriangles(std::uint32_t count) {
     triangles = std::move(larger);
     triangleTexels = gl::Texture(triangles, GL_RGBA32F, "voxelizer triangles");
     capacity.triangles = room;
+}
+
+// For an update: what is there stays, where it is still read.
+void SurfaceVoxels::Impl::growLists(const Capacity& wanted) {
+    if (wanted.fragments > capacity.fragments) {
+        growList(pairs, pairTexels, std::size_t{8} * wanted.fragments, "voxelizer pairs");
+        growList(fragments, fragmentTexels, kFragmentBytes * wanted.fragments, "voxelizer fragments");
+    }
+    if (wanted.tiles > capacity.tiles) tiles = gl::Buffer(std::size_t{8} * wanted.tiles, "voxelizer tiles");
+    if (wanted.faces > capacity.faces) reserveFaceLists(wanted.faces);
+    if (wanted.bricks > capacity.bricks)
+        brickList = gl::Buffer(std::size_t{4} * wanted.bricks, "occupied bricks");
+    const std::size_t chunkBytes = std::size_t{8} * gpu::mostChunks(wanted.voxels);
+    if (chunkBytes > chunks.bytes()) chunks = gl::Buffer(chunkBytes, "voxelizer chunks");
+    capacity = wanted;
+}
+
+void SurfaceVoxels::Impl::reserveFaceLists(std::uint32_t faces) {
+    owners = gl::Buffer(std::size_t{4} * faces, "voxelizer face owners");
+    ownerTexels = gl::Texture(owners, GL_R32UI, "voxelizer face owners");
+    layered = gl::Buffer(std::size_t{4} * faces, "voxelizer layered faces");
 }
 
 void SurfaceVoxels::Impl::upload(const scene::GpuScene& scene, const Edits* edits) {

@@ -7,8 +7,10 @@
 #include <cstdint>
 #include <vector>
 
+#include "gl/late_words.h"
 #include "shared/prefix_sum.h"
 #include "shared/voxels.h"
+#include "voxels/surface_bounds.h"
 #include "voxels/surface_keys.h"
 #include "voxels/surface_voxels.h"
 
@@ -38,6 +40,7 @@ struct Surfaces {
 };
 
 Surfaces surfacesOf(const scene::GpuScene& scene);
+std::uint32_t withSpare(std::uint32_t needed);  // and a little more
 
 // What an update makes besides the keys. Two of them take turns when there are updates.
 struct Results {
@@ -65,6 +68,14 @@ struct Edits {
     bool any = false;
 };
 
+// Counts of an update that are on their way to the CPU; how many there are at most until then.
+struct LateCounts {
+    gl::LateWords words;
+    struct Counts {
+        std::uint32_t slots = 0, voxels = 0, faces = 0, bricks = 0;
+    } most;
+};
+
 struct SurfaceVoxels::Impl {
     VoxelGrid grid;
     Capacity capacity;
@@ -89,6 +100,8 @@ struct SurfaceVoxels::Impl {
     std::vector<Aabb> boxes;  // empty: not voxelized
     // Slots of fragments: those below `tail` are in use or on the list of free ones.
     std::uint32_t tail = 0, freeSlots = 0;
+    LateCounts late;
+    UpdateBounds bounder;
     SurfaceUpdate lastUpdate;
 
     void reserve(const scene::GpuScene& scene);
@@ -97,6 +110,8 @@ struct SurfaceVoxels::Impl {
     void trim();
     bool grow();
     void growTriangles(std::uint32_t count);
+    void reserveFaceLists(std::uint32_t faces);
+    void growLists(const Capacity& wanted);
     void upload(const scene::GpuScene& scene, const Edits* edits = nullptr);
     void clearWorkSpace();
     gl::Inputs given() const;
@@ -114,7 +129,12 @@ struct SurfaceVoxels::Impl {
     base::Steps shift(const gl::Device& device);
     base::Steps markEdits(const gl::Device& device, const scene::GpuScene& scene, const Edits& edits);
     base::Steps carry(const gl::Device& device);
+    bool makeRoom(const scene::GpuScene& scene, const Edits& edits);
     bool finishUpdate(const Edits& edits);
+    void finishLate(const Edits& edits);
+    void takeCounts();
+    bool fits() const;
+    void know();
 };
 
 }  // namespace conelight::voxels

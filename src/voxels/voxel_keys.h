@@ -3,8 +3,6 @@
 // the voxels before are kept (SurfaceVoxels::previous), so that light can go from old faces to new ones.
 #pragma once
 
-#include <cstdint>
-
 #include "base/revision.h"
 #include "gl/buffer.h"
 #include "gl/inputs.h"
@@ -18,8 +16,7 @@ struct VoxelKeys {
     gl::Texture brickWords;    // RGBA32UI, size of grid.bricks()
     gl::Buffer records;        // voxRec
     gl::Texture recordTexels;  // the same
-    std::uint32_t faceCount = 0;
-    base::Revision revision;  // of the voxels; none while they are being made
+    base::Revision revision;   // of the voxels; none while they are being made
 
     // voxelBricks, voxelBrickImage, voxelRecords, RecordTable.
     void declare(gl::Inputs& inputs) const;

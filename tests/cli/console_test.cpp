@@ -153,7 +153,9 @@ TEST_F(ConsoleCliTest, BenchMeasuresTheEditedState) {
     const CommandResult result = conelight("bench builtin:cornell --modes cones --frames 1" + kSmall +
                                            "--exec 'set voxels.size 64' --json " + path("bench.json"));
     ASSERT_EQ(result.status, 0) << result.output;
-    EXPECT_EQ(nlohmann::json::parse(bytesOf(path("bench.json")))["runs"][0]["voxels"], 64);
+    const nlohmann::json bench = nlohmann::json::parse(bytesOf(path("bench.json")))["runs"][0];
+    EXPECT_EQ(bench["voxels"], 64);
+    EXPECT_EQ(bench["frame"]["waits"]["max"], 0);  // all stands still
     EXPECT_EQ(conelight("bench builtin:cornell --modes cones --frames 1 --exec 'mode phong'").status, 2);
 }
 

@@ -121,7 +121,7 @@ std::vector<Struct> glassStructs() {
 std::vector<Struct> structsOfPictures() {
     return {
         ROW(Exposure, scale, pad0, pad1, pad2),
-        ROW(DisplayConstants, curve, srgb, kept, spread, check, pad0, pad1, pad2, balance, falseColors),
+        ROW(DisplayConstants, curve, srgb, kept, spread, check, topFirst, pad0, pad1, balance, falseColors),
         ROW(HeadlightConstants, irradiance, pad0, pad1, pad2),
         ROW(HostMeshConstants, low, vertexCount, high, indexCount, firstVertex, firstIndex, indexOffset,
             indexKind, positions, normals, uvs, tangents, colors, noTangent, pad0, pad1, pad2),
@@ -186,8 +186,8 @@ std::vector<Struct> otherStructs() {
         ROW(FaceCache, irradiance, counts),
         ROW(CacheOrder, number, searches, binsPerChunk, chunkCount),
         ROW(CacheConstants, firstFace, faceCount, cosineRays, lightRays, update, seed, longestWindow,
-            facesPerChunk, chunkCount, reflections, fireflyClamp, restartsNear, placeCount, pad0, pad1, pad2,
-            places),
+            reflections, fireflyClamp, restartsNear, placeCount, pad0, places),
+        ROW(CacheRanges, part, parts, pad0, pad1),
         ROW(CacheReprojection, oldOrigin, oldInverseVoxelSize, oldSizeX, oldSizeY, oldSizeZ, pad0),
         ROW(SurfaceConstants, triangleCount, instanceCount, tileCapacity, fragmentCapacity, voxelCapacity,
             faceCapacity, brickCapacity, bricksPerChunk, voxelsPerChunk, emissionScale, editedBricks, pad0),

@@ -8,6 +8,7 @@
 #include <map>
 #include <random>
 
+#include "gl/late_words.h"
 #include "gl/pass.h"
 #include "io/scene_file.h"
 #include "scene/gpu_scene.h"
@@ -145,6 +146,39 @@ TEST_F(VoxelUpdates, AnySequenceGivesTheBitsOfABuild) {
     int updates = 0;
     for (const unsigned seed : {1u, 2u, 3u}) updates += checkSequence(crowd(), seed);
     EXPECT_GT(updates, 30);  // of 60: the rest moved out of the grid or were too much at once
+}
+
+// On a GPU counts come a frame later: shaders have them, the CPU knows a bound until it asks.
+TEST_F(VoxelUpdates, OnAGpuNobodyWaitsForThem) {
+    gl::Device gpuDevice = device();
+    gpuDevice.profile = gl::ExecutionProfile::Gpu;
+    Scene scene = crowd();
+    scene::GpuScene gpu(scene);
+    SurfaceVoxels surface;
+    surface.update(gpuDevice, gpu, settings);
+    std::mt19937 random(4);
+    int late = 0;
+    for (int step = 0; step < 40; ++step) {
+        for (unsigned i = 0; i <= random() % 3; ++i) changeSomething(scene, gpu, random);
+        gl::beginFrame();
+        const std::uint64_t waits = gl::waitCount();
+        surface.update(gpuDevice, gpu, settings);
+        if (surface.isLate()) {
+            ++late;
+            EXPECT_EQ(gl::waitCount(), waits) << step;
+            const std::uint32_t most[] = {surface.mostVoxels(), surface.mostFaces(),
+                                          surface.mostOccupiedBricks(), surface.mostFragmentSlots()};
+            // Some are asked at once, some frames later.
+            if (step % 3 != 0) continue;
+            EXPECT_LE(surface.voxelCount(), most[0]);
+            EXPECT_EQ(gl::waitCount(), waits + 1);
+            EXPECT_LE(surface.faceCount(), most[1]);
+            EXPECT_LE(surface.occupiedBrickCount(), most[2]);
+            EXPECT_LE(surface.fragmentSlots(), most[3]);
+        }
+        ASSERT_EQ(download(surface), built(gpu)) << step;
+    }
+    EXPECT_GT(late, 15);  // of 40: the rest moved out of the grid or were too much at once
 }
 
 // Textures, masks, big meshes in many instances.

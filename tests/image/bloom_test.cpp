@@ -115,8 +115,13 @@ TEST_F(BloomTest, TheGpuShowsWhatTheCpuDoes) {
         glGetTextureImage(renderer.displayTexture(image), 0, GL_RGBA, GL_UNSIGNED_BYTE,
                           static_cast<GLsizei>(shown.size()), shown.data());
         int worst = 0;
-        for (std::size_t i = 0; i < expected.size(); ++i)
-            worst = std::max(worst, std::abs(int(expected[i]) - int(shown[i / 3 * 4 + i % 3])));
+        const auto across = static_cast<std::size_t>(width);
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            // The texture's lowest row comes first.
+            const std::size_t pixel = i / 3, row = static_cast<std::size_t>(height) - 1 - pixel / across;
+            const std::size_t texel = row * across + pixel % across;
+            worst = std::max(worst, std::abs(int(expected[i]) - int(shown[texel * 4 + i % 3])));
+        }
         EXPECT_LE(worst, 1);
         EXPECT_EQ(renderer.readImage().pixels, linear.pixels) << "linear radiance stays";
         image.bloom = 0;

@@ -100,38 +100,89 @@ TEST_F(ExecutionTest, AGpuIsAskedOnceForDrawsOfOneState) {
     }
 }
 
-// Counts stay on the GPU, but for those of voxels that change, and of faces that are sorted: for an update, and again
-// when it is known which lie inside of things.
-TEST_F(ExecutionTest, SettledFramesWaitForNothing) {
+// Counts stay on the GPU, or come a frame later. Finished pictures need those of faces that are sorted: until updates
+// search no more, and again when it is known which lie inside of things.
+TEST_F(ExecutionTest, FramesWaitForNothing) {
     struct Case {
         Mode mode;
+        bool budgeted;
         std::uint64_t moving;  // waits of a frame in which something moves
     };
-    for (const Case& one : {Case{Mode::Phong, 0}, Case{Mode::Traced, 3}, Case{Mode::Cones, 1}}) {
+    for (const Case& one : {Case{Mode::Phong, false, 0}, Case{Mode::Traced, true, 0},
+                            Case{Mode::Traced, false, 2}, Case{Mode::Cones, false, 0}}) {
         const Scene scene = io::generateScene("cornell?block=1");
-        Renderer renderer({"", true, Execution::Gpu});
+        Renderer renderer({"", true, Execution::Gpu}), processor({"", true, Execution::Processor});
         renderer.setScene(scene);
+        processor.setScene(scene);
         Settings settings;
         settings.mode = one.mode;
         applyQuality(settings.traced, Quality::Draft);
+        settings.traced.budgeted = one.budgeted;
         settings.voxels.size = 16;
         settings.image.antialiasing = 0;
         Camera camera = scene.cameras.front();
-        const auto waits = [&] {
-            const std::uint64_t before = gl::waitCount();
+        const auto draw = [&] {
             renderer.render(camera, 48, 36, settings);
-            return gl::waitCount() - before;
+            processor.render(camera, 48, 36, settings);
         };
-        waits();
-        waits();
-        EXPECT_EQ(waits(), 0u) << one.mode.name();
+        for (int i = 0; i < (one.budgeted ? 20 : 2); ++i) draw();
+        EXPECT_EQ(renderer.stats().waits, 0u) << one.mode.name();
         camera.eye.x += 0.01f;
-        EXPECT_EQ(waits(), 0u) << one.mode.name();
+        draw();
+        EXPECT_EQ(renderer.stats().waits, 0u) << one.mode.name();
         Instance moved = scene.instances.back();
-        moved.worldFromObject[3].x += 0.1f;
-        renderer.setInstance(scene.instances.size() - 1, moved);
-        EXPECT_EQ(waits(), one.moving) << one.mode.name();
+        for (int i = 0; i < 3; ++i) {
+            moved.worldFromObject[3].x += 0.05f;
+            renderer.setInstance(scene.instances.size() - 1, moved);
+            processor.setInstance(scene.instances.size() - 1, moved);
+            draw();
+            EXPECT_EQ(renderer.stats().waits, one.moving) << one.mode.name() << ", " << i;
+            EXPECT_GE(processor.stats().waits, one.moving);
+        }
+        EXPECT_LT(relRmse(renderer.readImage(), processor.readImage()), 1e-7) << one.mode.name();
+        draw();  // at rest again
+        EXPECT_LT(relRmse(renderer.readImage(), processor.readImage()), 1e-7) << one.mode.name();
     }
+}
+
+// The same numbers as if each had been waited for, and the same light.
+TEST_F(ExecutionTest, AFieldInMotionWaitsForNothing) {
+    std::vector<std::vector<glm::vec4>> diffuse;
+    std::vector<std::uint64_t> told;
+    for (const Execution execution : {Execution::Processor, Execution::Gpu}) {
+        LightField field({"", true, execution});
+        field.setScene(scene_);
+        Settings settings = realtimeSettings(Quality::Draft);
+        settings.voxels.size = 16;
+        field.setSettings(settings);
+        HostPicture host(scene_, lens());
+        drawn(host);
+        host.surfaces().roughness = 0;  // no reflections
+        const int view = field.addView();
+        Instance moved = scene_.instances.back();
+        std::vector<std::uint64_t> numbers;
+        for (int i = 0; i < 6; ++i) {
+            moved.worldFromObject[3].x += 0.04f;
+            if (i < 4) field.setInstance(scene_.instances.size() - 1, moved);
+            numbers.push_back(static_cast<std::uint64_t>(field.update()));
+            const GatheredLight light = field.gather(view, host.surfaces());
+            if (i > 0 && execution == Execution::Gpu) {
+                EXPECT_EQ(field.stats().waits, 0u) << i;
+            }
+            if (i % 2 != 0)
+                numbers.insert(numbers.end(),
+                               {field.stats().voxels, field.stats().faces, field.stats().facesUpdated});
+            if (i == 3 || i == 5) diffuse.push_back(pixelsOf(light.diffuse));
+        }
+        if (execution == Execution::Processor) {
+            told = numbers;
+        } else {
+            EXPECT_EQ(numbers, told);
+        }
+    }
+    EXPECT_EQ(diffuse[0], diffuse[2]);
+    EXPECT_EQ(diffuse[1], diffuse[3]);
+    EXPECT_NE(diffuse[0], diffuse[1]);
 }
 
 std::size_t programCount() {

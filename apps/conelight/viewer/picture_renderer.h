@@ -17,8 +17,11 @@ namespace conelight::program {
 
 class PictureRenderer {
   public:
+    // Its textures have the top row first, as those of files.
     PictureRenderer(RendererOptions options, platform::RenderThread& thread)
-        : options_(std::move(options)), thread_(thread) {}
+        : options_(std::move(options)), thread_(thread) {
+        options_.rows = RowOrder::TopFirst;
+    }
     ~PictureRenderer() { thread_.wait(kForever), free(); }
 
     explicit operator bool() const { return renderer_ != nullptr; }

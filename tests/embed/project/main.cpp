@@ -199,6 +199,26 @@ void checkChangesInC(conelight_renderer* renderer, const conelight_scene* scene,
         if (pixel.a != 0) fail("C: an instance did not move");
 }
 
+// By C: the top row first in a texture, as in memory, where that is asked for; options of a program that cannot ask.
+void checkRowsInC(const conelight_scene* scene, const HostTexture& lowestFirst,
+                  const std::vector<glm::vec4>& read) {
+    for (const bool topFirst : {true, false}) {
+        conelight_renderer_options options = CONELIGHT_RENDERER_OPTIONS_INIT;
+        options.top_first = 1;
+        if (!topFirst) options.size = offsetof(conelight_renderer_options, top_first);
+        conelight_renderer* renderer = nullptr;
+        check(conelight_renderer_create(&options, &renderer));
+        check(conelight_renderer_set_scene(renderer, scene));
+        const int size = lowestFirst.size;
+        check(conelight_renderer_render(renderer, nullptr, size, size, nullptr, "albedo"));
+        const HostTexture texture(GL_RGBA32F, size);
+        check(conelight_renderer_copy_to_texture(renderer, texture.name));
+        if (texture.pixels() != (topFirst ? read : lowestFirst.pixels()) || read == lowestFirst.pixels())
+            fail("C: rows of a texture in another order");
+        conelight_renderer_destroy(renderer);
+    }
+}
+
 // By C: a coat and sheen arrive in the scene, as its file tells.
 void checkLayersInC(const std::string& file) {
     conelight_scene* scene = nullptr;
@@ -251,6 +271,7 @@ void checkC() {
     if (read[0] != texture.pixels()[static_cast<std::size_t>(kSize * (kSize - 1))] || !(read[136].r > 0) ||
         texture.pixels() != target.pixels())
         fail("C: a copy of the picture has other pixels");
+    checkRowsInC(scene, texture, read);
     checkChangesInC(renderer, scene, kSize);
     conelight_renderer_destroy(renderer);
     conelight_scene_destroy(scene);
