@@ -200,8 +200,7 @@ void checkChangesInC(conelight_renderer* renderer, const conelight_scene* scene,
 }
 
 // By C: the top row first in a texture, as in memory, where that is asked for; options of a program that cannot ask.
-void checkRowsInC(const conelight_scene* scene, const HostTexture& lowestFirst,
-                  const std::vector<glm::vec4>& read) {
+void checkRowsInC(const conelight_scene* scene, int size) {
     for (const bool topFirst : {true, false}) {
         conelight_renderer_options options = CONELIGHT_RENDERER_OPTIONS_INIT;
         options.top_first = 1;
@@ -209,11 +208,14 @@ void checkRowsInC(const conelight_scene* scene, const HostTexture& lowestFirst,
         conelight_renderer* renderer = nullptr;
         check(conelight_renderer_create(&options, &renderer));
         check(conelight_renderer_set_scene(renderer, scene));
-        const int size = lowestFirst.size;
-        check(conelight_renderer_render(renderer, nullptr, size, size, nullptr, "albedo"));
+        check(conelight_renderer_render(renderer, nullptr, size, size, nullptr, "normal"));
+        std::vector<glm::vec4> read(static_cast<std::size_t>(size * size)), turned;
+        check(conelight_renderer_read(renderer, &read[0].x, 4 * read.size()));
+        for (int y = size - 1; y >= 0; --y)
+            turned.insert(turned.end(), read.begin() + y * size, read.begin() + (y + 1) * size);
         const HostTexture texture(GL_RGBA32F, size);
         check(conelight_renderer_copy_to_texture(renderer, texture.name));
-        if (texture.pixels() != (topFirst ? read : lowestFirst.pixels()) || read == lowestFirst.pixels())
+        if (texture.pixels() != (topFirst ? read : turned) || read == turned)
             fail("C: rows of a texture in another order");
         conelight_renderer_destroy(renderer);
     }
@@ -239,7 +241,7 @@ void checkLayersInC(const std::string& file) {
     check(conelight_scene_add_mesh(scene, &mesh, &instance.mesh));
     check(conelight_scene_add_material(scene, &cloth, &instance.material));
     check(conelight_scene_add_instance(scene, &instance, &index));
-    check(conelight_scene_save(scene, file.c_str(), 0));
+    check(conelight_scene_save(scene, file.c_str(), 1));
     conelight_scene_destroy(scene);
     std::ifstream saved(file);
     const std::string text{std::istreambuf_iterator<char>(saved), {}};
@@ -271,7 +273,7 @@ void checkC() {
     if (read[0] != texture.pixels()[static_cast<std::size_t>(kSize * (kSize - 1))] || !(read[136].r > 0) ||
         texture.pixels() != target.pixels())
         fail("C: a copy of the picture has other pixels");
-    checkRowsInC(scene, texture, read);
+    checkRowsInC(scene, kSize);
     checkChangesInC(renderer, scene, kSize);
     conelight_renderer_destroy(renderer);
     conelight_scene_destroy(scene);
