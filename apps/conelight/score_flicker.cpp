@@ -38,16 +38,16 @@ std::vector<std::size_t> stationsOf(const FlickerOptions& options) {
 // How far a variant is from the path tracer at the stations.
 struct StationErrors {
     std::vector<reference::Metrics> each;
-    double block = 0, bias = 0;  // root mean square of the blocks', mean
 
-    void add(const reference::Metrics& metrics) { each.push_back(metrics); }
-    void finish() {
-        const double count = static_cast<double>(each.size());
-        for (const reference::Metrics& one : each) {
-            block += one.blockRelRmse * one.blockRelRmse / count;
-            bias += one.bias / count;
-        }
-        block = std::sqrt(block);
+    double block() const {  // root mean square
+        double squares = 0;
+        for (const reference::Metrics& one : each) squares += one.blockRelRmse * one.blockRelRmse;
+        return std::sqrt(squares / static_cast<double>(each.size()));
+    }
+    double bias() const {  // mean
+        double sum = 0;
+        for (const reference::Metrics& one : each) sum += one.bias;
+        return sum / static_cast<double>(each.size());
     }
 };
 
@@ -98,15 +98,21 @@ struct Flicker {
                            [f](std::size_t s) { return f + 1 >= s && f <= s + 1; });
     }
 
+    // The scene of the frame, in the source; frames in order.
+    const Scene& show(PictureSource& source, SceneAlong& along, std::size_t f) const {
+        const Scene& now = along.at(static_cast<int>(f));
+        if (f == 0)
+            source.setScene(now);
+        else if (path.movesScene())
+            source.changeScene(now);
+        return now;
+    }
+
     void prepare() {
         PictureSource source(options.view);
         SceneAlong along(path, scene, options.frames);
         for (std::size_t f = 0; f < static_cast<std::size_t>(options.frames); ++f) {
-            const Scene& now = along.at(static_cast<int>(f));
-            if (f == 0)
-                source.setScene(now);
-            else if (path.movesScene())
-                source.changeScene(now);
+            const Scene& now = show(source, along, f);
             PictureRequest request = requestAt(f);
             progress.show(fmt::format("reference of frame {} of {}", f + 1, options.frames));
             if (isNearStation(f)) {
@@ -127,11 +133,7 @@ struct Flicker {
         SceneAlong along(path, scene, options.frames);
         for (std::size_t f = 0; f < frames.size(); ++f) {
             progress.show(fmt::format("{}: frame {} of {}", variant.label(), f + 1, frames.size()));
-            const Scene& now = along.at(static_cast<int>(f));
-            if (f == 0)
-                source.setScene(now);
-            else if (path.movesScene())
-                source.changeScene(now);
+            const Scene& now = show(source, along, f);
             PictureRequest request = requestAt(f);
             request.mode = variant.mode;
             request.settings = variant.settingsFor(now, options.view);
@@ -152,10 +154,10 @@ struct Flicker {
         for (const std::size_t s : stations) {
             reference::MetricOptions how;
             how.flip = false;
-            errors.add(reference::compareImages(frames[s].test, *truths.at(s).part(component), how,
-                                                reference::Halves{&frames[s].halfA, &frames[s].halfB}));
+            errors.each.push_back(
+                reference::compareImages(frames[s].test, *truths.at(s).part(component), how,
+                                         reference::Halves{&frames[s].halfA, &frames[s].halfB}));
         }
-        errors.finish();
         return errors;
     }
 };
@@ -194,7 +196,7 @@ std::string score(Flicker& flicker, const std::string& name, const Variant& vari
     const double worst = *std::max_element(score.each.begin(), score.each.end());
     tables.all.add({name, variant.label(), component, percent(score.flicker), percent(score.floor),
                     percent(worst), fmt::format("{:.1f} x at {}", jump.ratio, jump.frame),
-                    percent(errors.block), percent(errors.bias), percent(score.pixelsUsed),
+                    percent(errors.block()), percent(errors.bias()), percent(score.pixelsUsed),
                     fmt::format("{} spp", flicker.samples)});
     for (std::size_t i = 0; i < flicker.stations.size(); ++i) {
         const glm::vec3 eye = flicker.frames[flicker.stations[i]].camera.eye;
@@ -215,8 +217,8 @@ std::string score(Flicker& flicker, const std::string& name, const Variant& vari
                 {"pixels_followed", score.pixelsUsed},
                 {"jump", {{"ratio", jump.ratio}, {"frame", jump.frame}}},
                 {"unsteadiness", unsteady},
-                {"block_rel_rmse", errors.block},
-                {"bias", errors.bias},
+                {"block_rel_rmse", errors.block()},
+                {"bias", errors.bias()},
                 {"stations", stationsJson(flicker, errors)},
                 {"reference_mean", score.mean},
                 {"reference_samples_per_pixel", flicker.samples}});

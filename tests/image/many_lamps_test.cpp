@@ -8,6 +8,7 @@
 #include "conelight/error.h"
 #include "gl/program.h"
 #include "io/generated.h"
+#include "reference/metrics.h"
 #include "support/traced_rig.h"
 
 namespace conelight::test {
@@ -55,20 +56,9 @@ class ManyLamps : public TracedModeTest {
     }
     // relRMSE of means of 4x4 pixels.
     static double blockError(const Image& image, const Image& truth) {
-        double square = 0, sum = 0;
-        for (int y = 0; y + 4 <= image.height; y += 4)
-            for (int x = 0; x + 4 <= image.width; x += 4) {
-                glm::dvec3 a(0), b(0);
-                for (int i = 0; i < 16; ++i) {
-                    const auto at = static_cast<std::size_t>((y + i / 4) * image.width + x + i % 4);
-                    a += glm::dvec3(image.pixels[at]) / 16.0;
-                    b += glm::dvec3(truth.pixels[at]) / 16.0;
-                }
-                square += glm::dot(a - b, a - b);
-                sum += glm::dot(b, glm::dvec3(1));
-            }
-        const double blocks = image.width / 4 * (image.height / 4);
-        return std::sqrt(square / (3 * blocks)) / (sum / (3 * blocks));
+        reference::MetricOptions options;
+        options.flip = false;
+        return reference::compareImages(image, truth, options).blockRelRmse;
     }
 };
 
