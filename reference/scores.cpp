@@ -271,6 +271,24 @@ std::vector<double> unsteadiness(std::span<const FlickerFrame> frames) {
     return each;
 }
 
+Jump jumpOf(std::span<const double> each) {
+    constexpr std::size_t kAbout = 8;  // frames on either side
+    Jump jump;
+    for (std::size_t i = 1; i < each.size(); ++i) {
+        const double both = std::min(each[i - 1], each[i]);
+        const std::size_t from = i - std::min(i, kAbout), to = std::min(each.size(), i + kAbout);
+        std::vector<double> about(each.begin() + static_cast<std::ptrdiff_t>(from),
+                                  each.begin() + static_cast<std::ptrdiff_t>(to));
+        const auto middle = about.begin() + static_cast<std::ptrdiff_t>(about.size() / 2);
+        std::nth_element(about.begin(), middle, about.end());
+        const double ratio = *middle > 0 ? both / *middle
+                             : both > 0  ? std::numeric_limits<double>::infinity()
+                                         : 1;
+        if (ratio > jump.ratio) jump = {ratio, 1 + i};
+    }
+    return jump;
+}
+
 int settledAt(std::span<const double> errors, double fraction) {
     int frame = static_cast<int>(errors.size());
     if (errors.empty() || !(errors.back() <= fraction)) return 0;

@@ -59,6 +59,14 @@ FlickerScore flickerScore(std::span<const FlickerFrame> frames, std::span<const 
 // a walk shows of even surfaces is steady, so a frame far above the others is a jump of the light.
 std::vector<double> unsteadiness(std::span<const FlickerFrame> frames);
 
+// The step between two frames that stands out most among those about it: what unsteadiness() says of both over the median of
+// eight on either side. A step raises both frames; a bright edge that is followed wrongly, one. So the smaller counts.
+struct Jump {
+    double ratio = 1;       // 1: none
+    std::size_t frame = 1;  // the second of the two
+};
+Jump jumpOf(std::span<const double> unsteadiness);
+
 // The first frame, counted from 1, from which on every error is at most `fraction`; 0: never.
 int settledAt(std::span<const double> errors, double fraction);
 

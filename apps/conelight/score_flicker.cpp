@@ -51,29 +51,6 @@ struct StationErrors {
     }
 };
 
-// A frame that changes far more than those about it: the light jumps there.
-struct Jump {
-    double ratio = 1;       // unsteadiness over the median of the frames about it
-    std::size_t frame = 1;  // the second of the two
-};
-
-// A step between two frames raises both; a bright edge that is followed wrongly, one. So of two in a row the smaller counts.
-Jump jumpOf(const std::vector<double>& each) {
-    constexpr std::size_t kAbout = 8;  // frames on either side
-    Jump jump;
-    for (std::size_t i = 1; i < each.size(); ++i) {
-        const double both = std::min(each[i - 1], each[i]);
-        const std::size_t from = i - std::min(i, kAbout), to = std::min(each.size(), i + kAbout);
-        std::vector<double> about(each.begin() + static_cast<std::ptrdiff_t>(from),
-                                  each.begin() + static_cast<std::ptrdiff_t>(to));
-        const auto middle = about.begin() + static_cast<std::ptrdiff_t>(about.size() / 2);
-        std::nth_element(about.begin(), middle, about.end());
-        const double ratio = *middle > 0 ? both / *middle : both > 0 ? INFINITY : 1;
-        if (ratio > jump.ratio) jump = {ratio, 1 + i};
-    }
-    return jump;
-}
-
 // All frames of one scene: references at the stations and beside them, and depth, first; then each variant's pictures in
 // its own renderer.
 struct Flicker {
@@ -192,7 +169,7 @@ std::string score(Flicker& flicker, const std::string& name, const Variant& vari
     const reference::FlickerScore score = reference::flickerScore(flicker.frames, flicker.stations);
     const StationErrors errors = flicker.errors(componentOf(component));
     const std::vector<double> unsteady = reference::unsteadiness(flicker.frames);
-    const Jump jump = jumpOf(unsteady);
+    const reference::Jump jump = reference::jumpOf(unsteady);
     const double worst = *std::max_element(score.each.begin(), score.each.end());
     tables.all.add({name, variant.label(), component, percent(score.flicker), percent(score.floor),
                     percent(worst), fmt::format("{:.1f} x at {}", jump.ratio, jump.frame),

@@ -123,6 +123,19 @@ TEST(Scores, UnsteadinessFindsTheFrameThatJumps) {
     for (std::size_t i = 0; i < each.size(); ++i)  // frames 3 and 4 have the step beside them
         EXPECT_NEAR(each[i], i == 2 || i == 3 ? std::sqrt(2.0 / 3.0) * 0.125 / mean : 0, 1e-7) << i;
     EXPECT_THROW(unsteadiness({frames.data(), 2}), Error);
+    EXPECT_EQ(jumpOf(each).frame, 4u);
+}
+
+// Against what is about it: a long part that is restless is no jump, nor is one frame alone.
+TEST(Scores, AJumpStandsOutInTwoFrames) {
+    std::vector<double> each(60, 0.01);
+    std::fill(each.begin() + 30, each.end(), 0.1);
+    each[10] = 0.5;
+    EXPECT_DOUBLE_EQ(jumpOf(std::span(each).first(25)).ratio, 1);
+    EXPECT_DOUBLE_EQ(jumpOf(std::span(each).subspan(35)).ratio, 1);
+    each[50] = each[51] = 2;
+    EXPECT_DOUBLE_EQ(jumpOf(each).ratio, 20);
+    EXPECT_EQ(jumpOf(each).frame, 52u);
 }
 
 // A wall at z = 0 with a smooth error fixed to it, seen by a camera that slides sideways: nothing flickers on
