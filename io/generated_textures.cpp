@@ -126,10 +126,16 @@ float noise(glm::vec2 uv, int cells, std::uint32_t seed) {
     const glm::vec2 p = uv * float(cells);
     const glm::vec2 base = glm::floor(p);
     const glm::vec2 f = p - base;
-    const int x0 = int(base.x), y0 = int(base.y);
+    const auto wrapped = [cells](int i) {
+        const int rest = i % cells;
+        return rest < 0 ? rest + cells : rest;
+    };
+    const auto next = [cells](int i) { return i + 1 < cells ? i + 1 : 0; };
+    const int x0 = wrapped(int(base.x)), y0 = wrapped(int(base.y));
+    const std::uint32_t columns[2] = {std::uint32_t(x0), std::uint32_t(next(x0))};
+    const std::uint32_t rows[2] = {std::uint32_t(y0), std::uint32_t(next(y0))};
     auto corner = [&](int dx, int dy) {
-        const auto wrap = [cells](int i) { return std::uint32_t(((i % cells) + cells) % cells); };
-        const std::uint32_t h = shapes::hash(wrap(x0 + dx), wrap(y0 + dy), seed);
+        const std::uint32_t h = shapes::hash(columns[dx], rows[dy], seed);
         // One of 16 directions: enough to hide the lattice, and no trigonometry per texel.
         constexpr float kC[16] = {1,  .92388f,  .70711f,  .38268f,  0, -.38268f, -.70711f, -.92388f,
                                   -1, -.92388f, -.70711f, -.38268f, 0, .38268f,  .70711f,  .92388f};
