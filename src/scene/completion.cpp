@@ -108,7 +108,7 @@ double irradianceFromAbove(const EnvironmentImage& image) {
 
 // Below the horizon the surroundings are what the ground looks like where nothing stands, so its rim is not seen.
 // They light the ground as the ground lights them: E = E_0 + E_1 L, L = albedo/pi (E + lamp).
-Environment studioSurroundings(float heading) {
+Environment madeStudio() {
     StudioLevels levels{.key = 0, .fill = kFill, .room = kRoom, .floor = 0.1};
     const double low = irradianceFromAbove(*studioPicture(levels));
     levels.floor = 0.2;
@@ -123,6 +123,13 @@ Environment studioSurroundings(float heading) {
     Environment studio;
     studio.file = name;
     studio.image = studioPicture(levels);
+    return studio;
+}
+
+// All scenes share one picture.
+Environment studioSurroundings(float heading) {
+    static const Environment made = madeStudio();
+    Environment studio = made;
     studio.rotation = heading;
     return studio;
 }

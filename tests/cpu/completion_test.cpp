@@ -73,6 +73,17 @@ TEST(CompletionTest, CompletedScenesCanBeSeen) {
     EXPECT_TRUE(empty.instances.empty());
 }
 
+// It is made once, and renderers know it again.
+TEST(CompletionTest, ScenesShareTheStudiosPicture) {
+    Scene one = box(), other = box();
+    other.cameras.emplace_back();
+    other.cameras[0].eye = {3, 1, 0};
+    completeScene(one);
+    completeScene(other);
+    EXPECT_EQ(one.environment.image, other.environment.image);
+    EXPECT_NE(one.environment.rotation, other.environment.rotation);
+}
+
 TEST(CompletionTest, SkyOrEmissionAreLightEnough) {
     for (const bool sky : {true, false}) {
         Scene scene = box();
