@@ -44,6 +44,17 @@ float fluxTowards(const gpu::Light& light, const glm::vec3& middle, float radius
     return intensity * solidAngle * d2 / glm::dot(light.falloff, glm::vec3(1, distance, d2));
 }
 
+// Of so many texels per edge. Maps with levels and filters alike are one kernel to llvmpipe
+// (gl/sampler_slots.h), so what stands for none has two.
+gl::Texture mapOf(int edge, int layers) {
+    gl::Texture map({GL_TEXTURE_2D_ARRAY, GL_RGBA32F, edge, edge, layers, 0}, "caustic map");
+    map.parameter(GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
+    map.parameter(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+    map.parameter(GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+    map.parameter(GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    return map;
+}
+
 float farFrom(const glm::vec3& middle, const voxels::VoxelGrid& grid) {
     const glm::vec3 extent = glm::vec3(grid.size) * grid.voxelSize;
     return glm::length(middle - (grid.origin + 0.5f * extent)) + glm::length(extent);
@@ -56,7 +67,7 @@ void Caustics::clear() {
     constants_.edge = kEdge;
     if (!block_) block_ = gl::Buffer(sizeof(gpu::CausticConstants), "caustic constants");
     block_.update(constants_);
-    if (!map_) map_ = gl::Texture({GL_TEXTURE_2D_ARRAY, GL_RGBA32F}, "caustic map");
+    if (!map_) map_ = mapOf(2, 1);
 }
 
 void Caustics::layOut(std::size_t solids, int paths) {
@@ -72,11 +83,7 @@ void Caustics::layOut(std::size_t solids, int paths) {
     const int layers = static_cast<int>(solids);
     if (map_.width() == kEdge && map_.depth() == layers) return;
     map_ = {};
-    map_ = gl::Texture({GL_TEXTURE_2D_ARRAY, GL_RGBA32F, kEdge, kEdge, layers, 0}, "caustic map");
-    map_.parameter(GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
-    map_.parameter(GL_TEXTURE_MAG_FILTER, GL_LINEAR);
-    map_.parameter(GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    map_.parameter(GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+    map_ = mapOf(kEdge, layers);
 }
 
 base::Steps Caustics::castInSteps(const gl::Device& device, const Inputs& inputs,

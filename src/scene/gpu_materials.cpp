@@ -221,12 +221,14 @@ SceneTextures::SceneTextures(const std::vector<Texture>& sources) {
     const std::uint8_t white[4] = {255, 255, 255, 255};
     white_ = gl::Texture({GL_TEXTURE_2D, GL_RGBA8, 1, 1, 1, 1}, "white");
     white_.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, white);
-    // The surface array has at least one (white) layer so that it can always be bound.
+    // The surface array has at least one layer so that it can always be bound, and two levels: with one llvmpipe builds
+    // other kernels (gl/sampler_slots.h).
     const int layers = std::max<int>(static_cast<int>(sources.size()), 1);
-    const int edge = sources.empty() ? 1 : kSurfaceEdge;
+    const int edge = sources.empty() ? 2 : kSurfaceEdge;
     surfaceArray_ =
         gl::Texture({GL_TEXTURE_2D_ARRAY, GL_SRGB8_ALPHA8, edge, edge, layers, 0}, "surface array");
-    if (sources.empty()) surfaceArray_.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, white);
+    for (int level = 0; sources.empty() && level < surfaceArray_.desc().levels; ++level)
+        surfaceArray_.clear(level, GL_RGBA, GL_UNSIGNED_BYTE, white);
     drawn_.resize(sources.size());
     for (std::size_t i = 0; i < sources.size(); ++i) {
         if (gl::Work* const work = gl::Work::current()) work->tell("textures", i + 1, sources.size());

@@ -171,6 +171,32 @@ TEST_F(CausticsTest, LensGathersLightInItsFocus) {
 }
 
 // The same light, to the bit, each time; other numbers of paths make other noise, and none none.
+// A driver that builds kernels for levels and filters builds none anew when the first solid comes.
+TEST_F(CausticsTest, MapOfNoneIsSampledAsOneOfSome) {
+    Scene scene = ballInBox();
+    scene.lights = {Light{}};
+    scene::GpuScene gpuScene(scene);
+    light::Lights lights;
+    voxels::Voxels voxels;
+    voxels.update(device(), gpuScene, {.size = 16}, voxels::Rays::Yes);
+    const auto mapWith = [&](int paths) {
+        light::LightsWanted wanted;
+        wanted.caustics = true;
+        wanted.settings.caustics = paths;
+        lights.update(device(), gpuScene, wanted);
+        lights.castCaustics(device(), gpuScene, voxels);
+        const gl::Texture& map = lights.caustics().map();
+        std::vector<int> states{map.desc().levels > 1};
+        for (const GLenum name :
+             {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER, GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T})
+            glGetTextureParameteriv(map.name(), name, &states.emplace_back());
+        return std::pair(map.width(), states);
+    };
+    const auto none = mapWith(0), some = mapWith(1024);
+    EXPECT_LT(none.first, some.first);
+    EXPECT_EQ(none.second, some.second);
+}
+
 TEST_F(CausticsTest, SameCallsSameBits) {
     Scene scene = ballInBox();
     Light lamp;

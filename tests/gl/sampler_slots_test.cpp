@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "gl/pass.h"
+#include "scene/gpu_materials.h"
 #include "support/gl_fixture.h"
 
 namespace conelight::test {
@@ -17,6 +18,10 @@ struct SamplerSlotsTest : GlTest {
         GlTest::SetUp();
         addShader("test/fetch.comp.glsl", text("usamplerBuffer", "float(texelFetch(source, 0).x)"));
         addShader("test/sample.comp.glsl", text("sampler2D", "textureLod(source, vec2(0.3), 0.0).x"));
+        addShader("test/surface.comp.glsl",
+                  "#version 450 core\nlayout(local_size_x = 1) in;\nuniform sampler2DArray surfaceArray;\n"
+                  "layout(std430) writeonly buffer Out { float value; };\n"
+                  "void main() { value = textureLod(surfaceArray, vec3(0.3), 0.0).x; }\n");
         addShader("test/voxel.comp.glsl", text("usampler3D", "float(texelFetch(source, ivec3(0), 0).x)"));
     }
     static std::string text(const std::string& type, const std::string& read) {
@@ -41,6 +46,15 @@ struct SamplerSlotsTest : GlTest {
         texture.parameter(GL_TEXTURE_MAG_FILTER, GL_NEAREST);
         run("test/voxel.comp.glsl", texture);
     }
+    // The textures of a scene that has some, or none.
+    void surface(bool some) {
+        const Texture white{.name = "white", .width = 1, .height = 1, .rgba = {255, 255, 255, 255}};
+        const scene::SceneTextures textures(some ? std::vector<Texture>{white} : std::vector<Texture>{});
+        const gl::Buffer out(4, "out");
+        gl::Inputs inputs;
+        textures.declare(inputs);
+        programs().compute("test/surface.comp.glsl").dispatch(inputs.storage("Out", out), 1);
+    }
     void run(const std::string& file, const gl::Texture& source, const gl::Sampler* sampler = nullptr) {
         const gl::Buffer out(4, "out");
         programs().compute(file).dispatch(gl::Inputs().texture("source", source, sampler).storage("Out", out),
@@ -54,6 +68,7 @@ TEST_F(SamplerSlotsTest, DISABLED_OneOrder) {
     sample(GL_LINEAR);
     sample(GL_NEAREST);
     voxel(3);
+    surface(false);
 }
 TEST_F(SamplerSlotsTest, DISABLED_AnotherOrder) {
     for (const int filter : {GL_LINEAR, GL_NEAREST}) {
@@ -61,6 +76,7 @@ TEST_F(SamplerSlotsTest, DISABLED_AnotherOrder) {
         for (const std::size_t bytes : {20u, 32u, 65536u}) fetch(bytes);
     }
     for (const int edge : {4, 5, 16}) voxel(edge);
+    for (const bool some : {true, false}) surface(some);
 }
 
 TEST_F(SamplerSlotsTest, KernelsAreBuiltOnce) {
