@@ -236,9 +236,9 @@ void main() {
     return;
 #endif
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
-    // What a smooth surface shows moves otherwise than the surface: means are short there.
+    // What a smooth surface shows moves otherwise than the surface, and may be what changed: means are short there.
     bool moved = pixelRays.reuse >= REUSE_REPROJECTED;
-    float longest =
-        moved ? mix(1.0, pixelRays.longestMean, smoothstep(0.1, 0.5, s.roughness)) : pixelRays.longestMean;
+    float longest = mix(moved ? 1.0 : pixelRays.shortestMean, longestMeanAt(s.position),
+                        smoothstep(0.1, 0.5, s.roughness));
     imageStore(result, pixel, withPass(pixel, s, seen, value, longest));
 }

@@ -11,6 +11,7 @@
 #ifndef MOTION
 #error MOTION must be 0, 1 or 2
 #endif
+#include "lib/changed_light.glsl"
 #include "lib/dot.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/pixel_history.glsl"
@@ -94,6 +95,13 @@ SoFar valueSoFar(ivec2 pixel, Surface s) {
     // Less than a twentieth of a pixel is rounding.
     float scale = weight > 0.05 ? 1.0 / weight : 0.0;
     return SoFar(scale * sum.value, scale * sum.variance);
+}
+
+// Passes that a mean is of at most at `position`: the fewer, the nearer to what changed.
+float longestMeanAt(vec3 position) {
+    float changed = 1e-6;
+    for (uint i = 0u; i < pixelRays.placeCount; ++i) changed += changedPart(position, pixelRays.places[i]);
+    return clamp(1.0 / weightAfterChange(changed), pixelRays.shortestMean, pixelRays.longestMean);
 }
 
 // The mean of what was so far and one more pass; `longest` passes at most, so that change gets through.

@@ -7,12 +7,13 @@
 #include <vector>
 
 #include "scene/gpu_scene.h"
+#include "shared/irradiance.h"
 
 namespace conelight::light {
 
 class EditPlaces {
   public:
-    static constexpr std::size_t kMost = 4;  // more are taken together
+    static constexpr std::size_t kMost = CHANGED_PLACES;  // more are taken together
 
     // Spheres at what changed, world space, w: radius, m. They are as large as what came, went or bent; of what moved by a
     // part of its size they have that part of its cross-section. None: nothing to go by, light may be another everywhere:

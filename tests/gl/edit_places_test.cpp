@@ -14,8 +14,8 @@ class EditPlacesTest : public GlTest {
   protected:
     void SetUp() override {
         GlTest::SetUp();
-        for (int i = 0; i < 6; ++i)
-            addInstance(source_, boxMesh(), diffuseMaterial(glm::vec3(0.5f)), at({3.0f * float(i), 0, 0}));
+        for (std::size_t i = 0; i < kBoxes; ++i)
+            addInstance(source_, boxMesh(), diffuseMaterial(glm::vec3(0.5f)), at({3.0f * static_cast<float>(i), 0, 0}));
         Material lamp;
         lamp.emission = glm::vec3(1);
         addInstance(source_, boxMesh(), lamp, at({0, 9, 0}));
@@ -33,6 +33,7 @@ class EditPlacesTest : public GlTest {
         scene_->setInstance(index, moved);
     }
 
+    static constexpr std::size_t kBoxes = light::EditPlaces::kMost + 1;
     Scene source_;
     std::optional<scene::GpuScene> scene_;
     light::EditPlaces places_;
@@ -63,7 +64,7 @@ TEST_F(EditPlacesTest, MoreThanAFewAreOne) {
     places_.look(*scene_);
     for (std::size_t i = 0; i < light::EditPlaces::kMost; ++i) move(i, {0, 0.1f, 0});
     EXPECT_EQ(places_.look(*scene_)->size(), light::EditPlaces::kMost);
-    for (std::size_t i = 0; i <= light::EditPlaces::kMost; ++i) move(i, {0, 0.1f, 0});
+    for (std::size_t i = 0; i < kBoxes; ++i) move(i, {0, 0.1f, 0});
     const auto all = places_.look(*scene_);
     ASSERT_EQ(all->size(), 1u);
     EXPECT_GT(all->front().w, 6);
@@ -71,7 +72,7 @@ TEST_F(EditPlacesTest, MoreThanAFewAreOne) {
 
 TEST_F(EditPlacesTest, LightsAndWhatEmitsChangeEverything) {
     places_.look(*scene_);
-    move(6, {0.1f, 0, 0});  // the lamp
+    move(kBoxes, {0.1f, 0, 0});  // the lamp
     EXPECT_FALSE(places_.look(*scene_));
     Material unlit = source_.materials[0];
     unlit.unlit = true;
