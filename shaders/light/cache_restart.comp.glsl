@@ -3,7 +3,7 @@
 // After a change of light: of how many updates the mean of each face counts as. What was there is replaced by the next
 // updates, but is good until then. Behind cache_commit, which reads what faces share.
 layout(local_size_x = 64) in;
-#include "lib/changed_light.glsl"
+#include "lib/edit_spheres.glsl"
 #include "light/cache_common.glsl"
 uniform usamplerBuffer voxelFaces;
 
@@ -12,7 +12,7 @@ uniform usamplerBuffer voxelFaces;
 uint updatesKept(uint updates, vec3 position) {
     float changed = cache.restartsNear != 0u ? 0.0 : 1.0;
     for (uint i = 0u; i < cache.placeCount; ++i)
-        changed += changedPart(position, cache.places[i]);
+        changed += changedPart(position, cache.places[i], cache.placeParts[i >> 2][i & 3u]);
     float weight = clamp(weightAfterChange(changed), IRRADIANCE_FAR_WEIGHT, 1.0);
     float window = 1.5 / weight - 1.5;  // as (4.13) weighs
     return min(updates, window < 1.0 ? 1u : uint(window) + IRRADIANCE_SETTLE);

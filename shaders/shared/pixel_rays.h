@@ -51,15 +51,16 @@ struct PixelRayConstants {
     uint motionStep;  // one of so many texels in each direction is a pixel
     uint reuse;       // REUSE_*
     // ---- 176 B
-    float shortestMean;  // passes that are averaged at most, at `places`
+    float shortestMean;      // passes that are averaged at most, at `places`
+    float shortestLobeMean;  // of what smooth surfaces show of `places`
     uint placeCount;
     uint pad0;
-    uint pad1;
     // ---- 192 B
-    vec4 places[CHANGED_PLACES];  // of what changed last, as in CacheConstants
-};                                // 448 B
+    vec4 places[CHANGED_PLACES];     // of what changed last, as in CacheConstants
+    vec4 placeParts[CHANGED_FOURS];  // as there
+};                                   // 512 B
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
-static_assert(sizeof(conelight::gpu::PixelRayConstants) == 448);
+static_assert(sizeof(conelight::gpu::PixelRayConstants) == 512);
 #endif

@@ -117,6 +117,7 @@ base::Steps Indirect::addPasses(const gl::Device& device, const RayInputs& input
         const bool steady = &gathered == &lamps_ || inputs.lit.steady();
         const int grown = steady ? history.passes / kFramesPerPass : 0;
         next.shortest = std::max(kUnsettledMean, grown);
+        next.shortestOfLobes = std::max(1, grown);
         co_await picture.gatherInSteps(device, inputs, next);
         ++history.passes;
         history.view = view;

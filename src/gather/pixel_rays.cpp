@@ -68,15 +68,16 @@ void setPictureSoFar(gpu::PixelRayConstants& constants, const gpu::FrameConstant
 }
 
 // Where what changed last may be anywhere, means are short everywhere.
-void setMeans(gpu::PixelRayConstants& constants, const RayPass& pass,
-              const light::IrradianceCache::Places& changed) {
+void setMeans(gpu::PixelRayConstants& constants, const RayPass& pass, const light::EditSpheres& changed) {
     const int longest = std::max(pass.longest, 1);
     const int shortest = pass.shortest > 0 ? std::min(pass.shortest, longest) : longest;
     constants.longestMean = static_cast<float>(changed ? longest : shortest);
     constants.shortestMean = static_cast<float>(shortest);
+    constants.shortestLobeMean = changed && pass.shortestOfLobes > 0
+                                     ? static_cast<float>(std::min(pass.shortestOfLobes, longest))
+                                     : constants.shortestMean;
     if (!changed) return;
-    constants.placeCount = static_cast<std::uint32_t>(changed->size());
-    std::copy(changed->begin(), changed->end(), constants.places);
+    light::putPlaces(constants, *changed);
 }
 
 // One that reaches behind the eye may be anywhere.

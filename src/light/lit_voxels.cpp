@@ -58,7 +58,7 @@ base::Steps LitVoxels::relightInSteps(const gl::Device& device, const Inputs& in
         cache_ = {};
         voxelsFrom_ = {};
     }
-    IrradianceCache::Places changed = places_.look(inputs.scene);
+    EditSpheres changed = places_.look(inputs.scene);
     if (!budget.oneUpdate || inTheDark || otherSettings) changed.reset();
     // Finished pictures keep nothing of the light before.
     const bool forgets = !budget.oneUpdate && changed_;
