@@ -4,20 +4,12 @@
 #include <epoxy/gl.h>
 
 namespace conelight::platform {
-namespace {
-
-std::uint64_t updateCount = 0;  // pictures belong to the window's thread
-
-}  // namespace
-
-std::uint64_t PictureTexture::updates() { return updateCount; }
 
 PictureTexture::~PictureTexture() {
     if (name_ != 0) glDeleteTextures(1, &name_);
 }
 
 void PictureTexture::update(int width, int height, const std::vector<std::uint8_t>& bytes) {
-    ++updateCount;
     if (name_ == 0 || width != width_ || height != height_) {
         if (name_ != 0) glDeleteTextures(1, &name_);
         glCreateTextures(GL_TEXTURE_2D, 1, &name_);

@@ -16,8 +16,6 @@ class PictureTexture {
 
     // RGB or RGBA bytes, as their number says, first row on top.
     void update(int width, int height, const std::vector<std::uint8_t>& bytes);
-    // Counts updates of all pictures: with it unchanged, each holds what it held.
-    static std::uint64_t updates();
     std::uint32_t name() const { return name_; }  // 0: empty
     int width() const { return width_; }
     int height() const { return height_; }

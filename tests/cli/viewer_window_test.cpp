@@ -3,7 +3,6 @@
 // remembered, and what it says of bad input.
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -60,35 +59,6 @@ TEST_F(ViewerTest, LinesAreTypedIntoTheWindowAndRemembered) {
         viewer->status("frames");
         return viewer->output().find("loaded builtin:cornell") != std::string::npos;
     })) << viewer->output();
-}
-
-// Frames that look like the last one cost no pixels; a window whose pixels are lost gets them back.
-TEST_F(ViewerTest, WhatLooksTheSameIsNotDrawnAgain) {
-    start(kSmall + "builtin:cornell");
-    settle();
-    screen->xdotool("key ctrl+j");  // what the console says would be another look
-    const auto drawn = [&] {
-        const std::string text = viewer->status("gui"), word = "drawn ";
-        return std::atoi(text.substr(std::min(text.size(), text.find(word) + word.size())).c_str());
-    };
-    pass();
-    const glm::ivec2 at = inPicture(0.5f, 0.35f);
-    const glm::vec3 shown = shownAt(at);
-    const int before = drawn();
-    for (int i = 0; i < 3; ++i) pass();
-    EXPECT_LE(drawn(), before + 2);  // times that are shown may change
-    viewer->send("set image.exposure 1");
-    settle();
-    pass();
-    EXPECT_GT(drawn(), before);
-    const glm::vec3 brighter = shownAt(at);
-    EXPECT_GT(brighter.x, shown.x + 10);
-
-    screen->xdotool("search --name Conelight windowunmap --sync");
-    EXPECT_FALSE(near(shownAt(at), brighter, 5));
-    screen->xdotool("search --name Conelight windowmap --sync");
-    pass();
-    EXPECT_TRUE(near(shownAt(at), brighter, 1));
 }
 
 TEST_F(ViewerTest, BadFilesAndBadNumbersAreLinesNotTheEnd) {

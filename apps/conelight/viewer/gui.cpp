@@ -75,36 +75,6 @@ void setColors(ImGuiStyle& style, bool light) {
     c[ImGuiCol_ModalWindowDimBg] = {0, 0, 0, 0.45f};
 }
 
-// All that the pixels of the frame that was ended follow from.
-std::string bytesOfFrame(std::uint64_t contents) {
-    std::string bytes;
-    const auto add = [&bytes](const auto& value) {
-        bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
-    };
-    const auto addAll = [&bytes](const auto& values) {
-        bytes.append(reinterpret_cast<const char*>(values.Data),
-                     static_cast<std::size_t>(values.size_in_bytes()));
-    };
-    const ImDrawData& data = *ImGui::GetDrawData();
-    add(contents);
-    add(data.DisplayPos);
-    add(data.DisplaySize);
-    add(data.FramebufferScale);
-    for (int i = 0; i < data.CmdListsCount; ++i) {
-        const ImDrawList& list = *data.CmdLists[i];
-        addAll(list.VtxBuffer);
-        addAll(list.IdxBuffer);
-        for (const ImDrawCmd& command : list.CmdBuffer) {
-            add(command.ClipRect);
-            add(command.GetTexID());
-            add(command.VtxOffset);
-            add(command.IdxOffset);
-            add(command.ElemCount);
-        }
-    }
-    return bytes;
-}
-
 }  // namespace
 
 Gui::Gui(platform::Window& window, float scale) : window_(window), followsScreen_(!(scale > 0)) {
@@ -252,7 +222,6 @@ void Gui::beginFrame() {
         if (ImGui::GetIO().Fonts->TexID != ImTextureID{}) {
             ImGui_ImplOpenGL3_DestroyFontsTexture();
             ImGui_ImplOpenGL3_CreateFontsTexture();
-            forgetDrawn();
         }
     }
     ImGui_ImplOpenGL3_NewFrame();
@@ -274,13 +243,8 @@ void Gui::takeReturn() {
 #endif
 }
 
-void Gui::endFrame() { ImGui::Render(); }
-
-bool Gui::differs(std::uint64_t contents) const { return drawn_ != bytesOfFrame(contents); }
-
-void Gui::draw(std::uint64_t contents) {
-    drawn_ = bytesOfFrame(contents);
-    ++drawnFrames_;
+void Gui::endFrame() {
+    ImGui::Render();
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }
 

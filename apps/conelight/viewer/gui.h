@@ -3,10 +3,8 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <deque>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "platform/window.h"
@@ -22,15 +20,8 @@ class Gui {
     Gui& operator=(const Gui&) = delete;
 
     void beginFrame();
+    // Draws the GUI into the window's framebuffer.
     void endFrame();
-    // Whether the frame that was ended shows something else than the last that was drawn: triangles, their textures, the
-    // framebuffer's size, or `contents`, which counts changes of what textures hold.
-    bool differs(std::uint64_t contents) const;
-    // Draws the frame that was ended into the window's framebuffer.
-    void draw(std::uint64_t contents);
-    // The window's pixels are lost: the next frame differs.
-    void forgetDrawn() { drawn_.clear(); }
-    std::uint64_t drawnFrames() const { return drawnFrames_; }
     bool wantsMouse() const;     // the cursor is over the GUI or drags one of its widgets
     bool wantsKeyboard() const;  // a text field has the keys
     bool hasInput() const;       // that the last frame did not take: the next one does
@@ -59,8 +50,6 @@ class Gui {
     bool followsScreen_, light_ = false;
     std::optional<float> chosenScale_;
     float scale_ = 1, wantedScale_ = 1;
-    std::uint64_t drawnFrames_ = 0;
-    std::string drawn_;  // bytes of the last frame that was drawn
 };
 
 }  // namespace conelight::program

@@ -85,7 +85,7 @@ void statsPanel(const FrameStats& stats, const FrameTimes& times, double guiMs) 
     ImGui::TextDisabled("%s", stats.device.c_str());
     ImGui::PopTextWrapPos();
     passTable(stats);
-    ImGui::TextDisabled("GUI %.1f ms", guiMs);
+    ImGui::TextDisabled("GUI %.2f ms", guiMs);
     if (ImGui::IsItemHovered())
         ImGui::SetTooltip("CPU time of this thread for the panels of a frame, median");
     memoryTable(stats);

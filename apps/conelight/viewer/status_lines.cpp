@@ -105,8 +105,7 @@ std::vector<std::pair<std::string, std::string>> statusLines(const StatusInputs&
         {"moving", movingText(in.view.movement())},
         {"pauses", fmt::format("longest {:.0f} ms between {} looks for input since the last `status pauses`",
                                pauses.longestMs, pauses.looks)},
-        {"gui", fmt::format("{:.3f} ms of CPU a frame (median of {}), drawn {} times", gui.median(),
-                            gui.all().size(), in.gui.drawnFrames())},
+        {"gui", fmt::format("{:.3f} ms of CPU a frame (median of {})", gui.median(), gui.all().size())},
         {"first_frame", fmt::format("{:.2f} s after the start", 1e-3 * in.timings.firstPictureMs())},
         {"pixel", pixelText(in.probe.found())}};
 }

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "conelight/error.h"
-#include "platform/picture_texture.h"
 #include "viewer/black_hint.h"
 #include "viewer/menus.h"
 #include "viewer/picture_panel.h"
@@ -77,7 +76,6 @@ class Viewer {
     void watchShaders();
     void takeCommands();
     void frame();
-    bool drawWindow();
     void updatePictures();
     bool drawPictureJob();
     void drawParts(const glm::ivec2& area);
@@ -155,7 +153,6 @@ Viewer::Viewer(const ViewerOptions& options)
     if (!preferences_.complaint().empty()) console_.fail(preferences_.complaint());
     window_.onDrop = [this](const std::vector<std::string>& paths) { document_.drop(paths); };
     window_.onRefresh = [this] {
-        gui_.forgetDrawn();
         if (!drawing_) frame();
     };
     work_.onChangedMeanwhile = [this](const Request& request) { document_.load(request); };
@@ -234,11 +231,14 @@ void Viewer::frame() {
         view_.turntable.step(session_, std::min(now - lastFrame_, kLongestStep));
     }
     updatePictures();
+    window_.clear(glm::vec3(0.07f));
     timings_.beginGui();
     gui_.beginFrame();
     const std::optional<PictureView::Click> clicked = showGui();
     gui_.endFrame();
-    if (drawWindow()) timings_.endGui();
+    commands_.writeWindow();
+    window_.swapBuffers();
+    timings_.endGui();
     lastFrame_ = now;
     if (view_.slot(false).texture() != 0 && timings_.noteFirstPicture() && timing_)
         console_.say(timings_.firstPictureText());
@@ -246,18 +246,6 @@ void Viewer::frame() {
     if (probe_.gather()) more_ = true;
     if (clicked) takeClick(*clicked);
     places_.answer(console_);
-}
-
-// The GUI over its pictures. Where nothing looks different, the window keeps its pixels; returns whether something does.
-bool Viewer::drawWindow() {
-    const std::uint64_t contents =
-        view_.slot(false).version() + view_.slot(true).version() + platform::PictureTexture::updates();
-    if (!gui_.differs(contents) && !commands_.writesWindow()) return false;
-    window_.clear(glm::vec3(0.07f));
-    gui_.draw(contents);
-    commands_.writeWindow();
-    window_.swapBuffers();
-    return true;
 }
 
 // What the next frame will be busy with for so long that it is to be said; empty: nothing.

@@ -32,7 +32,6 @@ class WindowCommands {
     void carryOut(const Request& request);
     // Writes the frame as it is when `screenshot_window` asked for it.
     void writeWindow();
-    bool writesWindow() const { return !windowShot_.empty(); }
 
   private:
     using Words = std::vector<std::string>;  // the command's name first
