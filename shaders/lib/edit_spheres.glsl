@@ -4,6 +4,9 @@
 #include "lib/dot.glsl"
 #include "shared/irradiance.h"
 
+// Place `i` of a list. Said so, drivers do not write the loop over a list out place by place.
+uint editSphere(uint i) { return min(i, CHANGED_PLACES - 1u); }
+
 // The part of what `position` sees that changed inside the sphere round `place`, radius in w, of whose cross-section `part`
 // changed: about part r^2 / d^2.
 float changedPart(vec3 position, vec4 place, float part) {

@@ -122,8 +122,10 @@ SoFar valueSoFar(ivec2 pixel, Surface s) {
 // Passes that a mean is of at most at `position`: the fewer, the nearer to what changed.
 float longestMeanAt(vec3 position) {
     float changed = 1e-6;
-    for (uint i = 0u; i < pixelRays.placeCount; ++i)
-        changed += changedPart(position, pixelRays.places[i], pixelRays.placeParts[i >> 2][i & 3u]);
+    for (uint i = 0u; i < pixelRays.placeCount; ++i) {
+        uint at = editSphere(i);
+        changed += changedPart(position, pixelRays.places[at], pixelRays.placeParts[at >> 2][at & 3u]);
+    }
     return clamp(1.0 / weightAfterChange(changed), pixelRays.shortestMean, pixelRays.longestMean);
 }
 
@@ -131,7 +133,7 @@ float longestMeanAt(vec3 position) {
 float longestLobeMean(vec3 position, vec3 axis, float spread) {
     float changed = 1e-6;
     for (uint i = 0u; i < pixelRays.placeCount; ++i)
-        changed += changedInLobe(position, axis, spread, pixelRays.places[i]);
+        changed += changedInLobe(position, axis, spread, pixelRays.places[editSphere(i)]);
     return clamp(1.0 / weightAfterChange(changed), pixelRays.shortestLobeMean, pixelRays.longestMean);
 }
 

@@ -11,8 +11,10 @@ uniform usamplerBuffer voxelFaces;
 // there.
 uint updatesKept(uint updates, vec3 position) {
     float changed = cache.restartsNear != 0u ? 0.0 : 1.0;
-    for (uint i = 0u; i < cache.placeCount; ++i)
-        changed += changedPart(position, cache.places[i], cache.placeParts[i >> 2][i & 3u]);
+    for (uint i = 0u; i < cache.placeCount; ++i) {
+        uint at = editSphere(i);
+        changed += changedPart(position, cache.places[at], cache.placeParts[at >> 2][at & 3u]);
+    }
     float weight = clamp(weightAfterChange(changed), IRRADIANCE_FAR_WEIGHT, 1.0);
     float window = 1.5 / weight - 1.5;  // as (4.13) weighs
     return min(updates, window < 1.0 ? 1u : uint(window) + IRRADIANCE_SETTLE);
