@@ -156,7 +156,8 @@ class CONELIGHT_API LightField {
     void setRegion(const Aabb& region);
     const Scene& scene() const;
 
-    // From the next update() on; realtimeSettings() at first. Throws Error(Usage) for values out of range.
+    // From the next update() on; realtimeSettings() at first. Throws Error(Usage) for values out of range. Nested grids
+    // (voxels.levels) take an anchor, for a field has no eye; without one there is one grid.
     void setSettings(const Settings& settings);
     const Settings& settings() const;
 
@@ -178,8 +179,8 @@ class CONELIGHT_API LightField {
 
     // For draw calls and dispatches of the host's whose shaders include conelight/light_field.glsl: binds what they
     // read, light as the last update() left it. The slots stay bound, the rest of the state as it was; after the
-    // next update() or setScene() bind again. Throws Error(Usage) before the first update() and for slots that the
-    // driver has not.
+    // next update() or setScene() bind again. Throws Error(Usage) before the first update(), for slots that the
+    // driver has not, and with nested grids, which lookups do not read.
     void bindLookups(const LookupSlots& slots = {}) const;
 
     // Timings per pass cost a glFinish each on software drivers, and a wait for the GPU in stats() elsewhere.

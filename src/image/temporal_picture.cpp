@@ -9,6 +9,7 @@
 #include "gl/picture_pass.h"
 #include "shared/image.h"
 #include "view/surfaces.h"
+#include "voxels/voxels.h"
 
 namespace conelight::image {
 namespace {
@@ -31,6 +32,7 @@ struct TemporalKey {
 // What has no part in linear radiance, or changes from frame to frame and leaves the picture what it is.
 Settings withoutLook(Settings settings) {
     settings.image = ImageSettings{};
+    settings.voxels = voxels::withoutAnchor(settings.voxels);
     settings.traced.faceBudget = 0;
     settings.traced.timeBudget = 0;
     return settings;

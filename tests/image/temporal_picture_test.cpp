@@ -268,6 +268,23 @@ TEST_F(TemporalPictureTest, ANewShapeHasNoPast) {
     EXPECT_NEAR(redAt(1), 1, 1e-3);
 }
 
+// The levels that it moves hold the same scene.
+TEST_F(TemporalPictureTest, AnAnchorOfVoxelsMayMove) {
+    const Scene scene = spokes();
+    const auto last = [&](bool moves) {
+        Renderer renderer;
+        renderer.setScene(scene);
+        Settings on = settingsOf(Mode::Phong, true);
+        Image image;
+        for (int i = 0; i < 4; ++i) {
+            if (moves) on.voxels.anchor = VoxelAnchor::at({static_cast<float>(i), 0, 0});
+            image = drawn(renderer, scene.cameras.front(), on);
+        }
+        return image;
+    };
+    EXPECT_EQ(last(true).pixels, last(false).pixels);
+}
+
 TEST_F(TemporalPictureTest, OffItKeepsNoMemory) {
     const Scene scene = spokes();
     Renderer renderer;
