@@ -76,5 +76,6 @@ void main() {
     return;
 #endif
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
-    imageStore(result, pixel, withPass(pixel, s, seen, diffuse ? value : vec3(0.0), pixelRays.longestMean));
+    float longest = longestMeanAt(s.position);
+    imageStore(result, pixel, withPass(pixel, s, seen, diffuse ? value : vec3(0.0), longest));
 }

@@ -236,9 +236,10 @@ void main() {
     return;
 #endif
     if (any(greaterThanEqual(pixel, imageSize(result)))) return;
-    // What a smooth surface shows moves otherwise than the surface: means are short there.
-    bool moved = pixelRays.reuse >= REUSE_REPROJECTED;
-    float longest =
-        moved ? mix(1.0, pixelRays.longestMean, smoothstep(0.1, 0.5, s.roughness)) : pixelRays.longestMean;
+    // What a smooth surface shows moves otherwise than the surface: means are short where it or the eye moves.
+    vec3 axis = 2.0 * dot(s.normal, s.toEye) * s.normal - s.toEye;
+    float ofLobe =
+        reflectsTheSame(pixel, s) ? longestLobeMean(s.position, axis, max(2.0 * b.alpha, 0.02)) : 1.0;
+    float longest = mix(ofLobe, longestMeanAt(s.position), smoothstep(0.1, 0.5, s.roughness));
     imageStore(result, pixel, withPass(pixel, s, seen, value, longest));
 }

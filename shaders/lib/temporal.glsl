@@ -12,6 +12,7 @@
 #error MOTION must be 0, 1 or 2
 #endif
 #include "lib/dot.glsl"
+#include "lib/edit_spheres.glsl"
 #include "lib/gbuffer.glsl"
 #include "lib/pixel_history.glsl"
 #include "shared/pixel_rays.h"
@@ -41,7 +42,15 @@ SoFar soFarOf(uvec4 bits) {
     return SoFar(vec4(pixelHistoryValue(bits), pixelHistoryCount(bits)), deviation * deviation);
 }
 
-SoFar valueSoFar(ivec2 pixel, Surface s) {
+// Where a surface was when the picture so far was gathered.
+struct SurfaceSoFar {
+    vec3 position;
+    vec3 normal;
+    vec3 planeNormal;
+    vec4 clip;
+};
+
+SurfaceSoFar surfaceSoFar(ivec2 pixel, Surface s) {
     vec3 position = s.position;
     vec3 normal = s.normal;
     vec3 planeNormal = s.geometricNormal;
@@ -52,7 +61,6 @@ SoFar valueSoFar(ivec2 pixel, Surface s) {
     planeNormal = normalize(mat3(motion) * planeNormal);
 #endif
     vec4 clip = pixelRays.oldClipFromWorld * vec4(position, 1.0);
-    ivec2 size = textureSize(pixelHistory, 0);
 #if MOTION == 2
     // The host's vector in place of what the matrices say
     vec3 moved = texelFetch(hostMotion, pixel * int(pixelRays.motionStep), 0).xyz;
@@ -62,6 +70,21 @@ SoFar valueSoFar(ivec2 pixel, Surface s) {
     float oldDepth = pixelRays.oldParallel != 0.0 ? clip.z : clip.w;
     position = oldPoint(clip.xy / max(clip.w, 1e-6), oldDepth + moved.z);
 #endif
+    return SurfaceSoFar(position, normal, planeNormal, clip);
+}
+
+// Whether surface and eye are where they were, so that it reflects what it did.
+bool reflectsTheSame(ivec2 pixel, Surface s) {
+    vec3 apart = surfaceSoFar(pixel, s).position - s.position;
+    bool sameEye =
+        pixelRays.oldEye == frame.eye && (frame.parallel == 0.0 || pixelRays.oldForward == frame.viewForward);
+    return pixelRays.reuse == REUSE_SAME_VIEW || (sameEye && dot(apart, apart) <= 1e-8 * s.depth * s.depth);
+}
+
+SoFar valueSoFar(ivec2 pixel, Surface s) {
+    SurfaceSoFar old = surfaceSoFar(pixel, s);
+    vec4 clip = old.clip;
+    ivec2 size = textureSize(pixelHistory, 0);
     vec2 place = (clip.xy / max(clip.w, 1e-6) * 0.5 + 0.5) * vec2(size) - 0.5;
     // Where the view has hardly changed, rounding must not blur.
     vec2 nearest = floor(place + 0.5);
@@ -81,8 +104,8 @@ SoFar valueSoFar(ivec2 pixel, Surface s) {
         vec2 at = (vec2(q) + 0.5) / vec2(size) * 2.0 - 1.0;
         vec3 there = oldPoint(at, pixelHistoryDepth(bits));
         bool same = inside && bits.z != 0u && pixelHistoryInstance(bits) == (s.instance & 0xffu) &&
-                    dot(pixelHistoryNormal(bits), normal) > 0.9 &&
-                    abs(dot(there - position, planeNormal)) < pixelRays.planeTolerance;
+                    dot(pixelHistoryNormal(bits), old.normal) > 0.9 &&
+                    abs(dot(there - old.position, old.planeNormal)) < pixelRays.planeTolerance;
         same = sameView ? bits.z != 0u : same;
         vec2 w = mix(1.0 - part, part, vec2(offset));
         float tap = same ? w.x * w.y : 0.0;
@@ -94,6 +117,22 @@ SoFar valueSoFar(ivec2 pixel, Surface s) {
     // Less than a twentieth of a pixel is rounding.
     float scale = weight > 0.05 ? 1.0 / weight : 0.0;
     return SoFar(scale * sum.value, scale * sum.variance);
+}
+
+// Passes that a mean is of at most at `position`: the fewer, the nearer to what changed.
+float longestMeanAt(vec3 position) {
+    float changed = 1e-6;
+    for (uint i = 0u; i < pixelRays.placeCount; ++i)
+        changed += changedPart(position, pixelRays.places[i], pixelRays.placeParts[i >> 2][i & 3u]);
+    return clamp(1.0 / weightAfterChange(changed), pixelRays.shortestMean, pixelRays.longestMean);
+}
+
+// The same of what a smooth surface shows about `axis`: the fewer, the more of what changed is there.
+float longestLobeMean(vec3 position, vec3 axis, float spread) {
+    float changed = 1e-6;
+    for (uint i = 0u; i < pixelRays.placeCount; ++i)
+        changed += changedInLobe(position, axis, spread, pixelRays.places[i]);
+    return clamp(1.0 / weightAfterChange(changed), pixelRays.shortestLobeMean, pixelRays.longestMean);
 }
 
 // The mean of what was so far and one more pass; `longest` passes at most, so that change gets through.

@@ -3,21 +3,17 @@
 // After a change of light: of how many updates the mean of each face counts as. What was there is replaced by the next
 // updates, but is good until then. Behind cache_commit, which reads what faces share.
 layout(local_size_x = 64) in;
-#include "lib/dot.glsl"
+#include "lib/edit_spheres.glsl"
 #include "light/cache_common.glsl"
 uniform usamplerBuffer voxelFaces;
 
 // The updates that count of those that a face has had, after a change: 1 near it, where the next update replaces what was
-// there (docs/theory/4d_cache.md, "Things that move"). A sphere of radius r that is d away covers about the part
-// r^2 / d^2 of what a face sees.
+// there.
 uint updatesKept(uint updates, vec3 position) {
     float changed = cache.restartsNear != 0u ? 0.0 : 1.0;
-    for (uint i = 0u; i < cache.placeCount; ++i) {
-        vec3 apart = position - cache.places[i].xyz;
-        float radius = cache.places[i].w;
-        changed = max(changed, radius * radius / max(dot(apart, apart), 1e-12));
-    }
-    float weight = clamp(pow(2.0 / IRRADIANCE_NOISE * changed, 2.0 / 3.0), IRRADIANCE_FAR_WEIGHT, 1.0);
+    for (uint i = 0u; i < cache.placeCount; ++i)
+        changed += changedPart(position, cache.places[i], cache.placeParts[i >> 2][i & 3u]);
+    float weight = clamp(weightAfterChange(changed), IRRADIANCE_FAR_WEIGHT, 1.0);
     float window = 1.5 / weight - 1.5;  // as (4.13) weighs
     return min(updates, window < 1.0 ? 1u : uint(window) + IRRADIANCE_SETTLE);
 }

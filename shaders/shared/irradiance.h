@@ -28,6 +28,9 @@
 #define IRRADIANCE_FAR_WEIGHT 0.125
 // The noise of a face's update, over its mean, that weights after a change are the best for.
 #define IRRADIANCE_NOISE 0.7
+// Of what changed last so many places are known.
+#define CHANGED_PLACES 16u
+#define CHANGED_FOURS 4u  // fours of them
 // Until so many updates after a change pixels see a face's mean shared with its neighbours.
 #define IRRADIANCE_SHARED_UPDATES 32
 // A face lies inside a closed object when of at least so many cosine rays more than a quarter meet a surface
@@ -93,8 +96,9 @@ struct CacheConstants {
     uint placeCount;
     uint pad0;
     // ---- 48 B
-    vec4 places[4];  // of changes, world space; w: radius, m
-};                   // 112 B
+    vec4 places[CHANGED_PLACES];     // of changes, world space; w: radius, m
+    vec4 placeParts[CHANGED_FOURS];  // of their cross-sections, how much changed, [0,1]
+};                                   // 368 B
 
 // Uniform block of cache_ranges: the part of the faces that gather, of so many parts, where an update looks for faces
 // inside closed objects.
@@ -128,7 +132,7 @@ CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::LitFace) == 16);
 static_assert(sizeof(conelight::gpu::FaceCache) == 16);
-static_assert(sizeof(conelight::gpu::CacheConstants) == 112);
+static_assert(sizeof(conelight::gpu::CacheConstants) == 368);
 static_assert(sizeof(conelight::gpu::CacheRanges) == 16);
 static_assert(sizeof(conelight::gpu::CacheReprojection) == 32);
 static_assert(sizeof(conelight::gpu::CacheOrder) == 16);

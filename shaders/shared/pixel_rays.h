@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What the passes that gather by rays at pixels share with src/gather/pixel_rays.cpp.
 #pragma once
+#include "shared/irradiance.h"
 #include "shared/prelude.h"
 
 // Names, besides those of voxels, surfaces and lights:
@@ -33,7 +34,7 @@ struct PixelRayConstants {
     uint rays;  // of each kind, per pixel
     // ---- 112 B
     vec3 oldUp;
-    float longestMean;  // passes that are averaged at most
+    float longestMean;  // passes that are averaged at most, far from `places`
     // ---- 128 B
     float specularLimit;  // rougher surfaces get no rays into the lobe
     float reach;          // of occlusion, voxels
@@ -49,9 +50,17 @@ struct PixelRayConstants {
     float motionScaleY;
     uint motionStep;  // one of so many texels in each direction is a pixel
     uint reuse;       // REUSE_*
-};                    // 176 B
+    // ---- 176 B
+    float shortestMean;      // passes that are averaged at most, at `places`
+    float shortestLobeMean;  // of what smooth surfaces show of `places`
+    uint placeCount;
+    uint pad0;
+    // ---- 192 B
+    vec4 places[CHANGED_PLACES];     // of what changed last, as in CacheConstants
+    vec4 placeParts[CHANGED_FOURS];  // as there
+};                                   // 512 B
 
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
-static_assert(sizeof(conelight::gpu::PixelRayConstants) == 176);
+static_assert(sizeof(conelight::gpu::PixelRayConstants) == 512);
 #endif

@@ -9,7 +9,7 @@
 namespace conelight::gather {
 namespace {
 
-// Means over frames while the cache is still on its way, so many passes: longer ones would show old light
+// Means over frames while the cache is still on its way, so many passes at what changed: longer ones would show old light
 // (builtin:cornell-point, interactive: 16 frames to settle instead of 12 when they were long after 8
 // updates).
 constexpr int kUnsettledMean = 4;
@@ -75,7 +75,8 @@ void Indirect::follow(const RayInputs& inputs, const TracedSettings& settings) {
 }
 
 void Indirect::forget() {
-    for (Gathered* one : {&diffuse_, &specular_, &coats_, &occlusion_, &lamps_}) one->history = {};
+    for (Gathered* one : {&diffuse_, &specular_, &coats_, &occlusion_, &lamps_})
+        one->history = {.view = std::nullopt, .passes = 0, .number = one->history.number};
 }
 
 // Where each instance was in the frame before, for means that follow them. One that has come since stands still.
@@ -112,10 +113,11 @@ base::Steps Indirect::addPasses(const gl::Device& device, const RayInputs& input
     const bool still = known && sameView(*history.view, view) && !moved_ && !inputs.surfaces.haveMotion();
     if (pass.settings.budgeted) {
         next.reuse = !known ? Reuse::None : (still ? Reuse::SameView : Reuse::Reproject);
-        next.number = static_cast<std::uint32_t>(history.passes);
+        next.number = history.number++;
         const bool steady = &gathered == &lamps_ || inputs.lit.steady();
         const int grown = steady ? history.passes / kFramesPerPass : 0;
-        next.longest = std::min(pass.longest, std::max(kUnsettledMean, grown));
+        next.shortest = std::max(kUnsettledMean, grown);
+        next.shortestOfLobes = std::max(1, grown);
         co_await picture.gatherInSteps(device, inputs, next);
         ++history.passes;
         history.view = view;
@@ -127,6 +129,7 @@ base::Steps Indirect::addPasses(const gl::Device& device, const RayInputs& input
             co_await picture.gatherInSteps(device, inputs, next);
             history.view = view;
         }
+        history.number = static_cast<std::uint32_t>(history.passes);
     }
 }
 

@@ -57,6 +57,7 @@ class Indirect {
     struct History {
         std::optional<gpu::FrameConstants> view;
         int passes = 0;
+        std::uint32_t number = 0;  // of the next pass in motion, which gives it random numbers of its own
     };
     // One of the pictures: its rays, its means, and where it is.
     struct Gathered {

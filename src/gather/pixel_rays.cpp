@@ -67,6 +67,19 @@ void setPictureSoFar(gpu::PixelRayConstants& constants, const gpu::FrameConstant
     constants.planeTolerance = kPlaneTolerance * grid.voxelSize;
 }
 
+// Where what changed last may be anywhere, means are short everywhere.
+void setMeans(gpu::PixelRayConstants& constants, const RayPass& pass, const light::EditSpheres& changed) {
+    const int longest = std::max(pass.longest, 1);
+    const int shortest = pass.shortest > 0 ? std::min(pass.shortest, longest) : longest;
+    constants.longestMean = static_cast<float>(changed ? longest : shortest);
+    constants.shortestMean = static_cast<float>(shortest);
+    constants.shortestLobeMean = changed && pass.shortestOfLobes > 0
+                                     ? static_cast<float>(std::min(pass.shortestOfLobes, longest))
+                                     : constants.shortestMean;
+    if (!changed) return;
+    light::putPlaces(constants, *changed);
+}
+
 // One that reaches behind the eye may be anywhere.
 PixelRectangle rectangleOf(const view::Surfaces& surfaces, const scene::GpuScene& scene, float nearest,
                            const std::function<bool(const gpu::Instance&)>& counts) {
@@ -159,7 +172,7 @@ gpu::PixelRayConstants PixelRays::packed(const RayInputs& inputs, const RayPass&
     c.motionStep = static_cast<std::uint32_t>(inputs.surfaces.reduction());
     c.pass = pass.number;
     c.rays = static_cast<std::uint32_t>(std::max(pass.rays, 1));
-    c.longestMean = static_cast<float>(std::max(pass.longest, 1));
+    setMeans(c, pass, inputs.lit.changed());
     c.specularLimit = pass.settings.specularLimit;
     c.reach = kOcclusionReach * static_cast<float>(std::max({grid.size.x, grid.size.y, grid.size.z}));
     const bool lobes = isOfLobes(kind_);

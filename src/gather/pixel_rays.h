@@ -49,6 +49,9 @@ struct RayPass {
     const gl::Buffer* motion = nullptr;          // mat4 per instance, where it was in the frame before; null:
                                                  // nothing moved
     const gl::Buffer* lookupCounters = nullptr;  // not null: what rays look up is added (shared/lookups.h)
+    // Passes that are averaged at most at what changed last (LitVoxels::changed), and those of what smooth surfaces show
+    // of it; 0: `longest`.
+    int shortest = 0, shortestOfLobes = 0;
 };
 
 // Pixels lowest <= p < end.
@@ -62,6 +65,9 @@ gl::Texture makePixelPicture(int width, int height, const char* label);
 // What lib/temporal.glsl has to know of the view that the picture so far was gathered with.
 void setPictureSoFar(gpu::PixelRayConstants& constants, const gpu::FrameConstants& view,
                      const voxels::VoxelGrid& grid);
+
+// How many passes lib/temporal.glsl averages, far from what `changed` and there.
+void setMeans(gpu::PixelRayConstants& constants, const RayPass& pass, const light::EditSpheres& changed);
 
 // About the boxes of all instances that count, in whole groups of 8 pixels; all of a host's picture. Corners nearer than
 // `nearest`, m, are behind the eye.

@@ -12,7 +12,9 @@ bool emits(const scene::GpuScene& scene, std::size_t index) {
     return material.emission != glm::vec3(0) || (material.flags & MATERIAL_UNLIT) != 0;
 }
 
-glm::vec4 sphereRound(const Aabb& box) { return {box.center(), 0.5f * glm::length(box.extent())}; }
+EditSphere sphereRound(const Aabb& box, float part = 1) {
+    return {box.center(), 0.5f * glm::length(box.extent()), part};
+}
 
 // The farthest that a corner of the box goes, of its diagonal, [0,1].
 float partOfItsSize(const Aabb& box, const glm::mat4& was, const glm::mat4& is) {
@@ -31,9 +33,9 @@ bool EditPlaces::isOther(const scene::GpuScene& scene) const {
     return scene_ != scene.identity() || lights_ != scene.lightRevision() || sky_ != scene.skyRevision();
 }
 
-std::optional<std::vector<glm::vec4>> EditPlaces::look(const scene::GpuScene& scene) {
+EditSpheres EditPlaces::look(const scene::GpuScene& scene) {
     bool local = !isOther(scene);
-    std::vector<glm::vec4> places;
+    std::vector<EditSphere> places;
     if (local && geometry_ == scene.geometryRevision()) return places;
     scene_ = scene.identity();
     geometry_ = scene.geometryRevision();
@@ -59,8 +61,7 @@ std::optional<std::vector<glm::vec4>> EditPlaces::look(const scene::GpuScene& sc
         if (box.empty()) continue;
         all.grow(box);
         if (places.size() > kMost) continue;
-        places.push_back(sphereRound(box));
-        places.back().w *= std::sqrt(part);
+        places.push_back(sphereRound(box, part));
     }
     if (!local) return std::nullopt;
     if (places.size() > kMost) places = {sphereRound(all)};

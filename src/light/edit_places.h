@@ -7,18 +7,37 @@
 #include <vector>
 
 #include "scene/gpu_scene.h"
+#include "shared/irradiance.h"
 
 namespace conelight::light {
 
+// A sphere in world space, m, and the part of its cross-section that changed, [0,1].
+struct EditSphere {
+    glm::vec3 center{0};
+    float radius = 0, part = 1;
+};
+
+// Of a change, all of them; none: it may be anywhere.
+using EditSpheres = std::optional<std::vector<EditSphere>>;
+
+// Into a block of shaders: placeCount, places, placeParts.
+template <typename Constants>
+void putPlaces(Constants& constants, const std::vector<EditSphere>& places) {
+    constants.placeCount = static_cast<std::uint32_t>(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        constants.places[i] = {places[i].center, places[i].radius};
+        constants.placeParts[i / 4][static_cast<int>(i % 4)] = places[i].part;
+    }
+}
+
 class EditPlaces {
   public:
-    static constexpr std::size_t kMost = 4;  // more are taken together
+    static constexpr std::size_t kMost = CHANGED_PLACES;  // more are taken together
 
-    // Spheres at what changed, world space, w: radius, m. They are as large as what came, went or bent; of what moved by a
-    // part of its size they have that part of its cross-section. None: nothing to go by, light may be another everywhere:
-    // at the first look, when lights, the sky or what emits changed, and for another scene. Costs three comparisons where
-    // nothing changed.
-    std::optional<std::vector<glm::vec4>> look(const scene::GpuScene& scene);
+    // Spheres round what came, went or bent, and round where things moved, by which part of their size. None: nothing to go
+    // by, light may be another everywhere: at the first look, when lights, the sky or what emits changed, and for another
+    // scene. Costs three comparisons where nothing changed.
+    EditSpheres look(const scene::GpuScene& scene);
 
   private:
     struct Entry {

@@ -105,7 +105,7 @@ void IrradianceCache::reserve(std::uint32_t faces) {
 }
 
 base::Steps IrradianceCache::adoptInSteps(const gl::Device& device, const voxels::Voxels& voxels,
-                                          Places changed) {
+                                          EditSpheres changed) {
     const voxels::SurfaceVoxels& surface = voxels.surface();
     const voxels::VoxelKeys* old = voxels.previous();
     restartAverages(changed);
@@ -162,7 +162,7 @@ base::Steps IrradianceCache::sort(const gl::Device& device, const voxels::Surfac
                                 {.searches = searches, .keepsMemory = carried_, .late = searches});
 }
 
-void IrradianceCache::restartAverages(const Places& changed) {
+void IrradianceCache::restartAverages(const EditSpheres& changed) {
     know();
     // No update has seen the change before, wherever that was.
     restartsNear_ = restarts_ ? std::nullopt : changed;
@@ -196,8 +196,7 @@ gpu::CacheConstants IrradianceCache::packed(const CacheSettings& settings, std::
                                   std::min(settings.longestWindow, kUsualWindow));
     if (restarts_ && restartsNear_) {
         c.restartsNear = 1;
-        c.placeCount = static_cast<std::uint32_t>(restartsNear_->size());
-        std::copy(restartsNear_->begin(), restartsNear_->end(), c.places);
+        putPlaces(c, *restartsNear_);
     }
     return c;
 }

@@ -12,6 +12,7 @@
 
 #include "base/steps.h"
 #include "gl/device.h"
+#include "light/edit_places.h"
 #include "light/face_order.h"
 #include "light/lights.h"
 #include "light/lit_faces.h"
@@ -45,20 +46,17 @@ class IrradianceCache {
         const LitFaces& faces;            // lit directly (injectLight)
     };
 
-    // Spheres round all that changed, world space, radius in w, m, at most EditPlaces::kMost; none: it may be anywhere.
-    // Averages far from them stay longer, in moving pictures (docs/theory/4d_cache.md, "Things that move").
-    using Places = std::optional<std::vector<glm::vec4>>;
-
     // Takes up voxels. Each face gets the light of the face that lay there and looked the same way in the
     // voxels before (voxels.previous()) if these are the ones that the cache holds; else it starts dark.
     // Counts as a change of light.
     void adopt(const gl::Device& device, const voxels::Voxels& voxels) {
         adoptInSteps(device, voxels, {}).finish();
     }
-    // Left before it is done, it is to be done again, for the same voxels or others, before update().
-    base::Steps adoptInSteps(const gl::Device& device, const voxels::Voxels& voxels, Places changed);
+    // Averages far from what changed, at most EditPlaces::kMost places, stay longer (docs/theory/4d_cache.md, "Things that
+    // move"). Left before it is done, it is to be done again, for the same voxels or others, before update().
+    base::Steps adoptInSteps(const gl::Device& device, const voxels::Voxels& voxels, EditSpheres changed);
     // Direct light, emission or the sky is another: short averages again, until bounces have settled.
-    void restartAverages(const Places& changed = {});
+    void restartAverages(const EditSpheres& changed = {});
 
     // Visits faces `passes` times over (facesPerUpdate each). GL state changed: program and its slots.
     void update(const gl::Device& device, const Inputs& inputs, const CacheSettings& settings,
@@ -138,7 +136,7 @@ class IrradianceCache {
 
     bool prepared_ = false;  // pool and lit faces say what the states and the direct light say
     bool restarts_ = false;
-    Places restartsNear_;
+    EditSpheres restartsNear_;
     std::uint32_t updatesMade_ = 0;              // ever
     bool unfinished_ = false;                    // the last one was left
     std::uint32_t updatesOfVoxels_ = 0;          // calls of update() for these voxels

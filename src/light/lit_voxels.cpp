@@ -2,7 +2,6 @@
 #include "light/lit_voxels.h"
 
 #include <algorithm>
-#include <iterator>
 #include <vector>
 
 #include "gl/gl.h"
@@ -23,8 +22,6 @@ constexpr int kSteadyUpdates = 14;
 
 // With a limited number of bounces, of lamps that are drawn by chance, besides the first.
 constexpr int kLampDrawsOfBounces = 4;
-
-static_assert(std::size(gpu::CacheConstants{}.places) == EditPlaces::kMost);
 
 }  // namespace
 
@@ -61,16 +58,16 @@ base::Steps LitVoxels::relightInSteps(const gl::Device& device, const Inputs& in
         cache_ = {};
         voxelsFrom_ = {};
     }
-    IrradianceCache::Places changed = places_.look(inputs.scene);
+    EditSpheres changed = places_.look(inputs.scene);
     if (!budget.oneUpdate || inTheDark || otherSettings) changed.reset();
     // Finished pictures keep nothing of the light before.
-    const bool forgets = !budget.oneUpdate && keptFar_;
+    const bool forgets = !budget.oneUpdate && changed_;
     const bool changes = inTheDark || otherSources || otherSettings || forgets;
     if (inTheDark || otherVoxels)
         co_await cache_.adoptInSteps(device, inputs.voxels, changed);
     else if (changes)
         cache_.restartAverages(changed);
-    if (changes) keptFar_ = changed.has_value();
+    if (changes) changed_ = changed;
     voxelsFrom_ = inputs.voxels.revision();
     voxelSettings_ = inputs.voxels.settings();
     directDue_ = inTheDark || otherSources;
@@ -149,7 +146,7 @@ base::Steps LitVoxels::update(const gl::Device& device, const Inputs& inputs, co
 }
 
 // What far faces have kept of the light before goes by twice as many.
-int LitVoxels::wantedUpdates() const { return (keptFar_ ? 2 : 1) * settings_.updates; }
+int LitVoxels::wantedUpdates() const { return (changed_ ? 2 : 1) * settings_.updates; }
 
 int LitVoxels::updates() const {
     const int made = cache_.updates();

@@ -70,6 +70,8 @@ class LitVoxels {
     // That an update of all visits; 0 at first.
     std::uint32_t facesPerUpdate() const { return cache_.faces(); }
     std::uint64_t faceVisits() const { return visitsBefore_ + cache_.visits(); }  // by updates, ever
+    // Of the change that sources() was raised for last.
+    const EditSpheres& changed() const { return changed_; }
     // Whether means are long enough to be averaged over many frames.
     bool steady() const;
     const LitFaces& faces() const { return faces_; }
@@ -93,7 +95,7 @@ class LitVoxels {
     IrradianceCache cache_;
     std::uint64_t visitsBefore_ = 0;  // by caches that were given up
     EditPlaces places_;
-    bool keptFar_ = false;    // the last change was taken as one of near faces alone
+    EditSpheres changed_;     // by the last change; some: it was taken as one of near faces alone
     bool directDue_ = false;  // direct light is that of other voxels or lights
 
     // What it was made from.

@@ -14,8 +14,9 @@ class EditPlacesTest : public GlTest {
   protected:
     void SetUp() override {
         GlTest::SetUp();
-        for (int i = 0; i < 6; ++i)
-            addInstance(source_, boxMesh(), diffuseMaterial(glm::vec3(0.5f)), at({3.0f * float(i), 0, 0}));
+        for (std::size_t i = 0; i < kBoxes; ++i)
+            addInstance(source_, boxMesh(), diffuseMaterial(glm::vec3(0.5f)),
+                        at({3.0f * static_cast<float>(i), 0, 0}));
         Material lamp;
         lamp.emission = glm::vec3(1);
         addInstance(source_, boxMesh(), lamp, at({0, 9, 0}));
@@ -33,6 +34,7 @@ class EditPlacesTest : public GlTest {
         scene_->setInstance(index, moved);
     }
 
+    static constexpr std::size_t kBoxes = light::EditPlaces::kMost + 1;
     Scene source_;
     std::optional<scene::GpuScene> scene_;
     light::EditPlaces places_;
@@ -44,34 +46,36 @@ TEST_F(EditPlacesTest, NothingToGoByAtFirst) {
     EXPECT_TRUE(places_.look(*scene_)->empty());
 }
 
-// Its cross-section is that part of the thing's by which it moved of its size.
+// The part of its cross-section is that by which it moved of its size.
 TEST_F(EditPlacesTest, SmallMovesAreSmallPlaces) {
     places_.look(*scene_);
     const float radius = 0.5f * glm::length(scene_->instanceBounds(2).extent());
     move(2, {0.01f, 0, 0});
     const auto small = places_.look(*scene_);
     ASSERT_TRUE(small && small->size() == 1);
-    EXPECT_NEAR(small->front().x, 6, 0.1);
-    EXPECT_NEAR(small->front().w, radius * std::sqrt(0.01f / (2 * radius)), 0.01f * radius);
+    EXPECT_NEAR(small->front().center.x, 6, 0.1);
+    EXPECT_NEAR(small->front().radius, radius, 0.01f);
+    EXPECT_NEAR(small->front().part, 0.01f / (2 * radius), 1e-4f);
     move(2, {0, 40, 0});
     const auto large = places_.look(*scene_);
     ASSERT_TRUE(large && large->size() == 1);
-    EXPECT_GT(large->front().w, 20);  // where it was and where it is
+    EXPECT_GT(large->front().radius, 20);  // where it was and where it is
+    EXPECT_EQ(large->front().part, 1);
 }
 
 TEST_F(EditPlacesTest, MoreThanAFewAreOne) {
     places_.look(*scene_);
     for (std::size_t i = 0; i < light::EditPlaces::kMost; ++i) move(i, {0, 0.1f, 0});
     EXPECT_EQ(places_.look(*scene_)->size(), light::EditPlaces::kMost);
-    for (std::size_t i = 0; i <= light::EditPlaces::kMost; ++i) move(i, {0, 0.1f, 0});
+    for (std::size_t i = 0; i < kBoxes; ++i) move(i, {0, 0.1f, 0});
     const auto all = places_.look(*scene_);
     ASSERT_EQ(all->size(), 1u);
-    EXPECT_GT(all->front().w, 6);
+    EXPECT_GT(all->front().radius, 6);
 }
 
 TEST_F(EditPlacesTest, LightsAndWhatEmitsChangeEverything) {
     places_.look(*scene_);
-    move(6, {0.1f, 0, 0});  // the lamp
+    move(kBoxes, {0.1f, 0, 0});  // the lamp
     EXPECT_FALSE(places_.look(*scene_));
     Material unlit = source_.materials[0];
     unlit.unlit = true;
@@ -89,11 +93,11 @@ TEST_F(EditPlacesTest, ComingAndGoingArePlacesOfFullSize) {
     scene_->removeInstance(1);
     const auto gone = places_.look(*scene_);
     ASSERT_TRUE(gone && gone->size() == 1);
-    EXPECT_NEAR(gone->front().x, 3, 1e-3);
+    EXPECT_NEAR(gone->front().center.x, 3, 1e-3);
     scene_->addInstance(source_.instances[1]);
     const auto come = places_.look(*scene_);
     ASSERT_TRUE(come && come->size() == 1);
-    EXPECT_NEAR(come->front().w, gone->front().w, 1e-3);
+    EXPECT_NEAR(come->front().radius, gone->front().radius, 1e-3);
 }
 
 }  // namespace

@@ -196,8 +196,8 @@ std::vector<glm::vec4> LightFieldMotion::moving(Says says, int reduction) {
     for (int frame = 0; frame < kFrames; ++frame) {
         if (frame > 0) {
             scene_.instances.back().worldFromObject[3] += glm::vec4(-0.04f, 0, 0.03f, 0);
-            scene_.cameras.front().eye.x -= 0.02f;
-            scene_.cameras.front().target.x -= 0.02f;
+            scene_.cameras.front().eye.x -= 0.05f;
+            scene_.cameras.front().target.x -= 0.05f;
         }
         field.setInstance(scene_.instances.size() - 1, scene_.instances.back());
         field.update({.updates = 4});

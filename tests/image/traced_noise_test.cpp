@@ -90,6 +90,87 @@ TEST_F(TracedNoiseTest, FewUpdatesOfTheCacheShowLittleNoise) {
     EXPECT_LT(relRmse(after(48), settled), 0.06);
 }
 
+// A box goes on in a corner, frame by frame. Each frame has rays of its own, and means far from it are of as many passes as
+// in a still scene. A mean of four passes has 0.4 of the noise of one.
+TEST_F(TracedNoiseTest, FarFromWhatMovesMeansAreLong) {
+    Scene scene = io::generateScene("cornell-point");
+    addInstance(scene, boxMesh(), diffuseMaterial(glm::vec3(0.5f)),
+                glm::scale(glm::translate(glm::mat4(1), {0.3f, 0.06f, 0.3f}), glm::vec3(0.05f)));
+    Settings settings = tracedSettings(Quality::Interactive, Component::Diffuse);
+    settings.traced.filterLevels = 0;
+    Renderer renderer;
+    renderer.setScene(scene);
+    draw(renderer, scene, settings);  // settles the cache
+    settings.traced.budgeted = true;
+    const auto step = [&] {
+        scene.instances.back().worldFromObject[3].x -= 0.01f;
+        renderer.setInstance(scene.instances.size() - 1, scene.instances.back());
+        return draw(renderer, scene, settings);
+    };
+    step();
+    Image last;
+    for (int frame = 0; frame < 12; ++frame) last = step();
+    Settings rest = settings;
+    rest.traced.budgeted = false;
+    const Image one = [&] {
+        rest.traced.passes = 1;
+        return draw(scene, rest);
+    }();
+    rest.traced.passes = 256;
+    const Image truth = draw(scene, rest);
+    EXPECT_LT(relRmse(last, truth), 0.3 * relRmse(one, truth));
+}
+
+// Ten moving frames in which the last thing of a scene goes by `step` m each; the last one, and what it should show.
+struct MovedPictures {
+    Image moving, truth;
+};
+MovedPictures moveLast(Scene scene, Settings settings, const glm::vec3& step) {
+    Renderer renderer;
+    renderer.setScene(scene);
+    const auto drawn = [&](Renderer& by) {
+        by.render(scene.cameras.at(0), kPixels, kPixels, settings);
+        return by.readImage();
+    };
+    drawn(renderer);
+    settings.traced.budgeted = true;
+    MovedPictures pictures;
+    for (int frame = 0; frame < 10; ++frame) {
+        scene.instances.back().worldFromObject[3] += glm::vec4(step, 0);
+        renderer.setInstance(scene.instances.size() - 1, scene.instances.back());
+        pictures.moving = drawn(renderer);
+    }
+    settings.traced.budgeted = false;
+    settings.traced.passes = 32;
+    Renderer other;
+    other.setScene(scene);
+    pictures.truth = drawn(other);
+    return pictures;
+}
+
+// A thing moves over a floor of rough metal, which stands still and so keeps its means. The noise of one pass would be 1.
+TEST_F(TracedNoiseTest, LobesKeepTheirMeansWhileThingsMove) {
+    const MovedPictures pictures =
+        moveLast(io::generateScene("glossy"), tracedSettings(Quality::Interactive, Component::Specular),
+                 {-0.05f, 0, 0});
+    EXPECT_LT(relRmse(pictures.moving, pictures.truth), 0.6);
+}
+
+// A bright ball rolls over a mirror that is not quite smooth: no trail stays behind it. Long means would be off by 1.
+TEST_F(TracedNoiseTest, LobesForgetWhatMovedInThem) {
+    Scene scene = closedBox(diffuseMaterial(glm::vec3(0.1f)));
+    Material steel = diffuseMaterial(glm::vec3(0.8f));
+    steel.metallic = 1;
+    steel.roughness = 0.15f;
+    addInstance(scene, quadMesh({-0.95f, -0.95f, 0.95f}, {1.9f, 0, 0}, {0, 0, -1.9f}), steel);
+    scene.lights.push_back({.intensity = glm::vec3(1), .position = {0, 0.9f, 0.5f}});
+    addInstance(scene, sphereMesh(24, 16), diffuseMaterial(glm::vec3(0.9f)),
+                glm::scale(glm::translate(glm::mat4(1), {0.6f, -0.6f, -0.2f}), glm::vec3(0.2f)));
+    const MovedPictures pictures =
+        moveLast(scene, tracedSettings(Quality::Interactive, Component::Specular), {-0.08f, 0, 0});
+    EXPECT_LT(relRmse(pictures.moving, pictures.truth), 0.6);
+}
+
 // A camera that moves over a still scene, frame by frame with reuse, ends up near a picture made at rest.
 TEST_F(TracedNoiseTest, MovingCameraLeavesNoGhosts) {
     const Scene scene = io::generateScene("cornell");
