@@ -53,7 +53,8 @@ struct HostSurfaces {
     int roughnessChannel = 0;
     std::uint32_t reflectance = 0;  // rgb: at normal incidence (F0), linear; 0: 0.04
     // GL_R16UI or GL_R32UI: index into the instances of the scene. Tells where the surface of a pixel was, when
-    // things move. 0: none; means of moving things are then kept where they happen to match.
+    // things move or bend (setInstance, setMesh). 0: none; means of moving things are then kept where they happen to
+    // match.
     std::uint32_t instances = 0;
     // Where the surface of a pixel was in the picture of the view before, less where it is: xy of it times
     // motionScale, in parts of the picture's size, as texture coordinates count. z, if there is one, is by how much
