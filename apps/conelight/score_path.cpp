@@ -79,7 +79,11 @@ Scene ScorePath::sceneAt(const Scene& scene, int index, int count) const {
     Scene moved = scene;
     if (kind_ == Kind::Clip) {
         const std::size_t clip = io::clipNumber(animation_, name_);
-        io::poseScene(animation_, clip, partOf(index, count) * animation_.clips[clip].duration, scene, moved);
+        const io::NodePoses poses =
+            io::posesAt(animation_, clip, partOf(index, count) * animation_.clips[clip].duration);
+        io::poseScene(animation_, poses, scene, moved);
+        for (const io::DeformedMesh& mesh : animation_.meshes)
+            io::deform(mesh, poses, moved.meshes[mesh.mesh]);
     }
     if (kind_ != Kind::Object) return moved;
     bool found = false;

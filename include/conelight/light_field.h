@@ -53,7 +53,8 @@ struct HostSurfaces {
     int roughnessChannel = 0;
     std::uint32_t reflectance = 0;  // rgb: at normal incidence (F0), linear; 0: 0.04
     // GL_R16UI or GL_R32UI: index into the instances of the scene. Tells where the surface of a pixel was, when
-    // things move. 0: none; means of moving things are then kept where they happen to match.
+    // things move or bend (setInstance, setMesh). 0: none; means of moving things are then kept where they happen to
+    // match.
     std::uint32_t instances = 0;
     // Where the surface of a pixel was in the picture of the view before, less where it is: xy of it times
     // motionScale, in parts of the picture's size, as texture coordinates count. z, if there is one, is by how much
@@ -156,7 +157,8 @@ class CONELIGHT_API LightField {
     void setRegion(const Aabb& region);
     const Scene& scene() const;
 
-    // From the next update() on; realtimeSettings() at first. Throws Error(Usage) for values out of range.
+    // From the next update() on; realtimeSettings() at first. Throws Error(Usage) for values out of range. Nested grids
+    // (voxels.levels) take an anchor, for a field has no eye; without one there is one grid.
     void setSettings(const Settings& settings);
     const Settings& settings() const;
 
@@ -178,8 +180,8 @@ class CONELIGHT_API LightField {
 
     // For draw calls and dispatches of the host's whose shaders include conelight/light_field.glsl: binds what they
     // read, light as the last update() left it. The slots stay bound, the rest of the state as it was; after the
-    // next update() or setScene() bind again. Throws Error(Usage) before the first update() and for slots that the
-    // driver has not.
+    // next update() or setScene() bind again. Throws Error(Usage) before the first update(), for slots that the
+    // driver has not, and with nested grids, which lookups do not read.
     void bindLookups(const LookupSlots& slots = {}) const;
 
     // Timings per pass cost a glFinish each on software drivers, and a wait for the GPU in stats() elsewhere.

@@ -39,11 +39,36 @@ enum class ToneMap { None, Reinhard, Aces, Agx, Neutral };
 // luminance in stops as colours (falseColor).
 enum class ExposureCheck { Off, Clipping, FalseColor };
 
+// A number, or `auto`: one that follows from the scene, its voxels or its picture.
+struct AutoFloat {
+    bool isAuto = true;
+    float value = 0;
+    float resolve(float automatic) const { return isAuto ? automatic : value; }
+    bool operator==(const AutoFloat& other) const {
+        return isAuto == other.isAuto && (isAuto || value == other.value);
+    }
+};
+
+// The point, m, world space, that the finest of nested grids lie round. Axes that are auto follow the eye. With a point
+// of the host's all views of a scene have the same voxels, wherever their eyes are.
+struct VoxelAnchor {
+    AutoFloat x, y, z;
+    static VoxelAnchor at(const glm::vec3& point) {
+        return {{false, point.x}, {false, point.y}, {false, point.z}};
+    }
+    bool isPoint() const { return !x.isAuto && !y.isAuto && !z.isAuto; }  // whatever the eye
+    glm::vec3 around(const glm::vec3& eye) const {
+        return {x.resolve(eye.x), y.resolve(eye.y), z.resolve(eye.z)};
+    }
+    bool operator==(const VoxelAnchor&) const = default;
+};
+
 struct VoxelSettings {
     int size = 128;
     float padding = 0.03f;
     glm::vec3 shift{0};  // moves the lattice toward lower coordinates
-    int levels = 1;      // nested grids around the eye in mode traced; 1: one grid; 0: as the scene needs
+    int levels = 1;      // nested grids in mode traced; 1: one grid; 0: as the scene needs
+    VoxelAnchor anchor;  // of these
     bool operator==(const VoxelSettings&) const = default;
 };
 
@@ -55,16 +80,6 @@ struct LightSettings {
     int caustics = 65536;       // paths per solid of glass and light; 0: light goes straight through solids
     int exactLamps = 64;        // of mode traced: more points and spots are drawn by chance
     bool operator==(const LightSettings&) const = default;
-};
-
-// A number, or `auto`: one that follows from the scene, its voxels or its picture.
-struct AutoFloat {
-    bool isAuto = true;
-    float value = 0;
-    float resolve(float automatic) const { return isAuto ? automatic : value; }
-    bool operator==(const AutoFloat& other) const {
-        return isAuto == other.isAuto && (isAuto || value == other.value);
-    }
 };
 
 // Auto: who draws decides, or the scene's conventions.

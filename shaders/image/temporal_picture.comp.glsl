@@ -5,6 +5,10 @@
 //   STILL 1: nothing has changed: the mean of all views so far
 //   STILL 0: the picture before is looked up where the surface was (reprojection as in lib/temporal.glsl), left out
 //            where that was hidden, and clipped to what the view shows about the pixel (Salvi 2016)
+//   VERTICES 1: vertices have moved, and surfaceMotion says where surfaces were (view/motion_picture.h)
+#ifndef VERTICES
+#error VERTICES must be 0 or 1
+#endif
 #ifndef STILL
 #error STILL must be 0 or 1
 #endif
@@ -15,7 +19,9 @@
 #include "shared/image.h"
 layout(local_size_x = 8, local_size_y = 8) in;
 layout(std140) uniform TemporalBlock { TemporalPictureConstants temporal; };
-#if !STILL
+#if VERTICES
+uniform sampler2D surfaceMotion;
+#elif !STILL
 layout(std430) readonly buffer Motion { mat4 oldFromWorld[]; };
 #endif
 uniform sampler2D view;
@@ -68,10 +74,17 @@ vec3 placeBefore(ivec2 pixel, vec2 size) {
     vec4 clip = temporal.oldClipFromWorld * vec4(ray, 0.0);
     float known = 1.0, before = kSky;
     if (depth < kSky) {
+        vec4 old = vec4(pixelOrigin(pixel) + depth * ray, 1.0);
+#if VERTICES
+        vec4 moved = texelFetch(surfaceMotion, pixel, 0);
+        old.xyz += moved.xyz;
+        known = moved.a < 0.0 ? 0.0 : 1.0;
+#else
         mat4 motion = oldFromWorld[texelFetch(gbufferGeometry, pixel, 0).w >> 2];
-        vec4 old = motion * vec4(pixelOrigin(pixel) + depth * ray, 1.0);
-        clip = temporal.oldClipFromWorld * old;
+        old = motion * old;
         known = motion[3][3];
+#endif
+        clip = temporal.oldClipFromWorld * old;
         before = parallel ? dot(temporal.oldDepth, old) : clip.w;
     }
     vec2 place = (clip.xy / max(clip.w, 1e-6) * 0.5 + 0.5) * size - 0.5;

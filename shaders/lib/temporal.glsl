@@ -6,8 +6,8 @@
 // pixelRays.reuse says which (REUSE_* of shared/pixel_rays.h). A picture of the same view has our pixel in its place. Of one
 //   of another view (pixelRays.old*), those of the four pixels about the place count that show our surface, by
 //   plane, normal and instance. It is no variant: kernels of rays are long, and drivers compile each anew.
-// MOTION 1: instances have moved as well. 2: a host says where its pixels were (hostMotion); the surface was as far from
-//   the eye then as the vector's z says.
+// MOTION 1: instances have moved as well. 2: pixels say where they were (hostMotion). Vectors of a host's are of the picture;
+//   the surface was as far from the eye then as their z says. Ours, when vertices have moved, are of the world.
 #ifndef MOTION
 #error MOTION must be 0, 1 or 2
 #endif
@@ -60,15 +60,21 @@ SurfaceSoFar surfaceSoFar(ivec2 pixel, Surface s) {
     normal = normalize(mat3(motion) * normal);
     planeNormal = normalize(mat3(motion) * planeNormal);
 #endif
+#if MOTION == 2
+    bool ofWorld = pixelRays.motionStep == 0u;
+    vec4 moved = texelFetch(hostMotion, pixel * max(int(pixelRays.motionStep), 1), 0);
+    position += ofWorld ? moved.xyz : vec3(0.0);
+#endif
     vec4 clip = pixelRays.oldClipFromWorld * vec4(position, 1.0);
 #if MOTION == 2
     // The host's vector in place of what the matrices say
-    vec3 moved = texelFetch(hostMotion, pixel * int(pixelRays.motionStep), 0).xyz;
     vec2 toPart = vec2(pixelRays.motionScaleX, pixelRays.motionScaleY);
     vec2 here = (vec2(pixel) + 0.5) / vec2(frame.width, frame.height);
-    clip.xy = (2.0 * (here + moved.xy * toPart) - 1.0) * clip.w;
+    clip.xy = ofWorld ? clip.xy : (2.0 * (here + moved.xy * toPart) - 1.0) * clip.w;
     float oldDepth = pixelRays.oldParallel != 0.0 ? clip.z : clip.w;
-    position = oldPoint(clip.xy / max(clip.w, 1e-6), oldDepth + moved.z);
+    position = ofWorld ? position : oldPoint(clip.xy / max(clip.w, 1e-6), oldDepth + moved.z);
+    // Nobody knows where it was.
+    clip.w = ofWorld && moved.a < 0.0 ? 0.0 : clip.w;
 #endif
     return SurfaceSoFar(position, normal, planeNormal, clip);
 }

@@ -18,7 +18,20 @@ struct ShrinkConstants {
     uint pad2;
 };  // 16 B
 
+// Storage MotionTable of view/motion.vert.glsl, per instance: where it was in the picture before.
+struct InstanceMotion {
+    mat4 worldFromObject;
+    // ---- 64 B
+    uint firstVertex;  // of its mesh in VerticesBefore, or MOTION_*
+    uint pad0;
+    uint pad1;
+    uint pad2;
+};                                     // 80 B
+#define MOTION_SAME_SHAPE 0xffffffffu  // its vertices are those of the picture before
+#define MOTION_UNKNOWN 0xfffffffeu     // nobody knows where they were
+
 CONELIGHT_SHARED_END
 #ifdef __cplusplus
 static_assert(sizeof(conelight::gpu::ShrinkConstants) == 16);
+static_assert(sizeof(conelight::gpu::InstanceMotion) == 80);
 #endif

@@ -9,7 +9,8 @@
 //   irradiancePicture  usampler2D: gathered irradiance, for composition
 //   lobePicture        usampler2D: radiance in the specular lobe, for composition
 //   Motion             storage: mat4 per instance, world of the frame before from world of this one
-//   hostMotion         sampler2D: where a host's pixels were, less where they are
+//   hostMotion         sampler2D: where a host's pixels were, less where they are (HostSurfaces::motion); with motionStep 0
+//                      where surfaces were in the world, less where they are, m (view/motion_picture.h)
 //   LobeList           storage: group counts of an indirect dispatch, number of pixels, first row of groups, pixels
 #define LOBE_GROUPS_X 32u  // in x of that dispatch; y may be 65,535
 
@@ -45,10 +46,10 @@ struct PixelRayConstants {
     uint lowestX;        // lowest pixel of the dispatch
     uint lowestY;
     float oldParallel;  // of FrameConstants
-    // ---- 160 B: of MOTION 2, vectors of the host's (HostSurfaces::motion)
+    // ---- 160 B: of MOTION 2
     float motionScaleX;  // texel -> part of the picture's width
     float motionScaleY;
-    uint motionStep;  // one of so many texels in each direction is a pixel
+    uint motionStep;  // one of so many texels in each direction is a pixel; 0: each is one, of the world
     uint reuse;       // REUSE_*
     // ---- 176 B
     float shortestMean;      // passes that are averaged at most, at `places`

@@ -71,7 +71,10 @@ void Indirect::follow(const RayInputs& inputs, const TracedSettings& settings) {
     const bool lost = unfinished_ && moved_;
     unfinished_ = true;
     followInstances(inputs.scene);
-    if (lost) forget();
+    // Surfaces may have been seen since the last picture without one.
+    const base::Revision movedFrom = inputs.surfaces.movedFrom();
+    if (lost || (movedFrom && movedFrom != geometry_)) forget();
+    geometry_ = inputs.scene.geometryRevision();
 }
 
 void Indirect::forget() {
@@ -88,12 +91,18 @@ void Indirect::followInstances(const scene::GpuScene& scene) {
     const std::size_t known = std::min(placed_.size(), instances.size());
     placed_.resize(instances.size());
     entries_.resize(instances.size());
+    shapes_.resize(instances.size());
     for (std::size_t i = 0; i < instances.size(); ++i) {
         const glm::mat4 place = instances[i].worldFromObject;
         if (i < known && entries_[i] == scene.entryRevision(i) && placed_[i] != place) {
             oldFromWorld[i] = placed_[i] * glm::inverse(place);
             moved_ = true;
         }
+        // Where its vertices were, pixels say (Surfaces::haveMotion), or its means stay where they match.
+        const bool bends =
+            i < known && entries_[i] == scene.entryRevision(i) && shapes_[i] != scene.shapeRevision(i);
+        moved_ = moved_ || bends;
+        shapes_[i] = scene.shapeRevision(i);
         placed_[i] = place;
         entries_[i] = scene.entryRevision(i);
     }

@@ -86,6 +86,8 @@ class Indirect {
     // Where instances were, and where from they have come since.
     std::vector<glm::mat4> placed_;
     std::vector<base::Revision> entries_;  // which they were
+    std::vector<base::Revision> shapes_;
+    base::Revision geometry_;  // of the scene in the last picture
     gl::Buffer motion_;
     bool moved_ = false;
     bool unfinished_ = false;  // what was begun last was left

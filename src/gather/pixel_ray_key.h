@@ -17,8 +17,8 @@ inline gl::Defines surfaceDefines(bool coats) {
     return coats ? gl::Defines{{"SURFACE_COATS", "1"}} : gl::Defines{};
 }
 
-// What has moved since the picture so far (MOTION of lib/temporal.glsl): nothing but the view, instances, or what a
-// host's vectors say.
+// What has moved since the picture so far (MOTION of lib/temporal.glsl): nothing but the view, instances, or what vectors
+// of pixels say.
 enum class Motion { None, Instances, Vectors };
 
 struct PixelRayKey {

@@ -169,7 +169,7 @@ gpu::PixelRayConstants PixelRays::packed(const RayInputs& inputs, const RayPass&
     c.reuse = static_cast<std::uint32_t>(pass.reuse);
     c.motionScaleX = inputs.surfaces.motionScale().x;
     c.motionScaleY = inputs.surfaces.motionScale().y;
-    c.motionStep = static_cast<std::uint32_t>(inputs.surfaces.reduction());
+    c.motionStep = static_cast<std::uint32_t>(inputs.surfaces.motionStep());
     c.pass = pass.number;
     c.rays = static_cast<std::uint32_t>(std::max(pass.rays, 1));
     setMeans(c, pass, inputs.lit.changed());

@@ -9,6 +9,7 @@
 #include "gl/picture_pass.h"
 #include "shared/image.h"
 #include "view/surfaces.h"
+#include "voxels/voxels.h"
 
 namespace conelight::image {
 namespace {
@@ -22,15 +23,18 @@ constexpr std::uint32_t kKeptAtRest = 4;
 
 struct TemporalKey {
     bool still;
+    bool vertices;  // have moved
     gl::ProgramDesc desc() const {
-        return {{"image/temporal_picture.comp.glsl"}, {{"STILL", still ? "1" : "0"}}};
+        return {{"image/temporal_picture.comp.glsl"},
+                {{"STILL", still ? "1" : "0"}, {"VERTICES", vertices ? "1" : "0"}}};
     }
-    static std::vector<TemporalKey> all() { return {{false}, {true}}; }
+    static std::vector<TemporalKey> all() { return {{false, false}, {false, true}, {true, false}}; }
 };
 
 // What has no part in linear radiance, or changes from frame to frame and leaves the picture what it is.
 Settings withoutLook(Settings settings) {
     settings.image = ImageSettings{};
+    settings.voxels = voxels::withoutAnchor(settings.voxels);
     settings.traced.faceBudget = 0;
     settings.traced.timeBudget = 0;
     return settings;
@@ -67,8 +71,8 @@ void TemporalPicture::resize(int width, int height) {
     frame_ = 0;
 }
 
-// Where each instance was in the frame before. A matrix of zeros: its shape has changed, nothing is known of where its
-// points were.
+// Where each instance was in the frame before. A matrix of zeros: its shape has changed; nothing is known of where its
+// points were, unless the surfaces tell it.
 void TemporalPicture::followInstances(const scene::GpuScene& scene) {
     const std::size_t count = scene.instances().size();
     std::vector<glm::mat4> oldFromWorld(std::max<std::size_t>(count, 1), glm::mat4(1));
@@ -110,6 +114,7 @@ void TemporalPicture::follow(const Shown& shown) {
     if (from_.geometry != now.geometry && !moved_) frame_ = 0;
     still_ = !left && frame_ > 0 && from_ == now && camera_ == shown.camera;
     camera_ = shown.camera;
+    geometryBefore_ = from_.geometry;
     settings_ = settings;
     from_ = now;
 }
@@ -145,7 +150,9 @@ base::Steps TemporalPicture::add(const gl::Device& device, const scene::GpuScene
         .texture("placesBefore", places_[0])
         .image("places", places_[1], gl::ImageUse::Write)
         .image("picture", picture, gl::ImageUse::Write);
-    const gl::ProgramDesc desc = TemporalKey{still_}.desc();
+    const bool vertices = !still_ && centers.movedFrom() && centers.movedFrom() == geometryBefore_;
+    if (vertices) given.texture("surfaceMotion", centers.moved());
+    const gl::ProgramDesc desc = TemporalKey{still_, vertices}.desc();
     const glm::ivec2 size(width_, height_);
     co_await gl::dispatchPicture(device, {"temporal", desc, given, size});
     gl::barrier(gl::Access::TextureFetch | gl::Access::Framebuffer | gl::Access::ImageAccess |

@@ -78,6 +78,7 @@ class TemporalPicture {
     gpu::FrameConstants viewBefore_{};
     Settings settings_;
     From from_;
+    base::Revision geometryBefore_;
 };
 
 }  // namespace conelight::image

@@ -66,6 +66,13 @@ struct LightField::Impl {
           device{programs, profiler, profile} {}
     modes::OwnerScene changed() { return {owner, scene}; }
     void forget();
+    void voxelize();
+    // With programs for nested grids where the voxels are in such.
+    gl::Device nested() const {
+        gl::Device nested = device;
+        nested.nestedGrids = voxels.grid().levels > 1;
+        return nested;
+    }
     int update(const LightBudget& budget);
     GatheredLight gather(View& view, const HostSurfaces& host, int reduction);
 };
@@ -167,6 +174,19 @@ int LightField::update(const LightBudget& budget) {
     return impl_->update(budget);
 }
 
+// Levels lie round the anchor: a field has no eye.
+void LightField::Impl::voxelize() {
+    const VoxelSettings& wanted = settings.voxels;
+    voxels::VoxelGrid grid;
+    if (wanted.levels != 1 && wanted.anchor.isPoint())
+        grid = voxels::SurfaceVoxels::gridAround(*scene, wanted, {});
+    if (grid.levels == 1) return voxels.update(device, *scene, wanted, voxels::Rays::Yes);
+    gl::Device nested = device;
+    nested.nestedGrids = true;
+    const auto scroll = settings.traced.budgeted ? voxels::Scroll::Yes : voxels::Scroll::No;
+    voxels.updateInSteps(grid, nested, *scene, wanted, voxels::Rays::Yes, scroll).finish();
+}
+
 int LightField::Impl::update(const LightBudget& budget) {
     const std::uint64_t waitedBefore = gl::waitCount();
     const double start = light::RelightBudget::begin(budget.milliseconds);
@@ -175,17 +195,18 @@ int LightField::Impl::update(const LightBudget& budget) {
     visitedBefore = lit.faceVisits();
     programs.trim();
     lights.update(device, *scene, {.settings = settings.light, .emissiveQuads = false, .lampTree = true});
-    voxels.update(device, *scene, settings.voxels, voxels::Rays::Yes);
+    voxelize();
+    const gl::Device onLevels = nested();
     const light::RelightSettings wanted = light::relightSettings(settings.traced);
     const light::LitVoxels::Inputs inputs{*scene, lights, voxels};
     if (settings.traced.budgeted)
-        relightBudget.relight(device, lit, inputs, wanted,
+        relightBudget.relight(onLevels, lit, inputs, wanted,
                               {.updates = budget.updates,
                                .faces = static_cast<std::uint32_t>(budget.faces),
                                .milliseconds = budget.milliseconds,
                                .start = start});
     else
-        lit.relight(device, inputs, wanted, {.faces = static_cast<std::uint32_t>(budget.faces)});
+        lit.relight(onLevels, inputs, wanted, {.faces = static_cast<std::uint32_t>(budget.faces)});
     stats.waits = gl::waitCount() - waitedBefore;
     return lit.updates();
 }
@@ -221,16 +242,17 @@ GatheredLight LightField::Impl::gather(View& view, const HostSurfaces& host, int
     const std::uint64_t waitedBefore = gl::waitCount();
     const gl::PassScope pass(profiler, "gather");
     programs.trim();
+    const gl::Device onLevels = nested();
     view.surfaces.take(device, *scene, host, reduction);
     const gather::RayInputs traced{*scene, lights, voxels, lit, view.surfaces};
-    view.indirect.gather(device, traced, {settings.traced, {.diffuse = true, .specular = true}});
+    view.indirect.gather(onLevels, traced, {settings.traced, {.diffuse = true, .specular = true}});
     if (reduction > 1) {
         view.all.take(device, *scene, host, 1);
         const gather::RayInputs all{*scene, lights, voxels, lit, view.all};
-        view.indirect.carry(device, all, settings.traced).finish();
-        view.outputs.draw(device, all, view.indirect, settings.traced.specularLimit);
+        view.indirect.carry(onLevels, all, settings.traced).finish();
+        view.outputs.draw(onLevels, all, view.indirect, settings.traced.specularLimit);
     } else {
-        view.outputs.draw(device, traced, view.indirect, settings.traced.specularLimit);
+        view.outputs.draw(onLevels, traced, view.indirect, settings.traced.specularLimit);
     }
     stats.waits += gl::waitCount() - waitedBefore;
     return {view.outputs.diffuse().name(), view.outputs.specular().name(), host.width, host.height};
@@ -272,6 +294,11 @@ std::string lookupsGlsl(const LookupSlots& slots) {
 void LightField::bindLookups(const LookupSlots& slots) const {
     if (!impl_->lit.revision())
         base::fail(ErrorKind::Usage, "bindLookups: there is no light yet; update before it would be right");
+    if (impl_->voxels.grid().levels > 1)
+        base::fail(ErrorKind::Usage,
+                   "bindLookups: the field has %d nested grids, and lookups read one; voxels.levels=1 would "
+                   "be right",
+                   impl_->voxels.grid().levels);
     gl::Inputs given;
     given.add(impl_->lights).add(impl_->voxels).add(impl_->lit);
     given.texture("voxelOctants", impl_->voxels.octants().texture());
@@ -282,7 +309,10 @@ namespace modes {
 
 std::vector<gl::ProgramDesc> lightFieldProgramDescs() {
     std::vector<gl::ProgramDesc> descs = view::HostSurfaceImport::programDescs();
-    for (gl::ProgramDesc& desc : gather::LightOutputs::programDescs()) descs.push_back(std::move(desc));
+    for (gl::ProgramDesc& desc : gather::LightOutputs::programDescs()) {
+        descs.push_back(gl::Device::forNestedGrids(desc));
+        descs.push_back(std::move(desc));
+    }
     return descs;
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "conelight/memory.h"
+#include "voxels/voxels.h"
 
 namespace conelight::modes {
 namespace {
@@ -55,7 +56,8 @@ Settings MemoryFit::lowered(const Settings& settings, int steps) {
 }
 
 Settings MemoryFit::fitted(const Settings& settings, int width, int height) {
-    const Work work{settings.mode, settings.voxels, settings.light, width, height, memoryLimit()};
+    const Work work{settings.mode, voxels::withoutAnchor(settings.voxels), settings.light, width, height,
+                    memoryLimit()};
     if (!(work == work_)) steps_ = 0;
     work_ = work;
     return lowered(settings, steps_);

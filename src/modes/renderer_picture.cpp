@@ -48,6 +48,14 @@ bool isTemporal(const Settings& settings) {
     return settings.image.temporal == Toggle::On && isOfLight(settings.component);
 }
 
+// Means over frames follow what moves; those of mode traced may begin with a finished picture.
+view::Surfaces::Motion motionOf(const Settings& settings) {
+    using Motion = view::Surfaces::Motion;
+    const bool traced = settings.mode == Mode::Traced;
+    if (isTemporal(settings) || (traced && settings.traced.budgeted)) return Motion::Drawn;
+    return traced ? Motion::Kept : Motion::None;
+}
+
 // Of which the picture is the mean; 0: it is that of the pixels' centres. Stills of light have them; what pixels
 // are of is told at their centres.
 int viewsOfStill(const Settings& settings, const Camera& camera) {
@@ -212,7 +220,8 @@ base::Steps Renderer::Impl::seeCenters(const WantedPicture& asked) {
                                           .part = still ? view::centersOfStill() : view::PixelPart{},
                                           .withGlass = image::isDebugView(settings.component),
                                           .shrink = settings.view.shrink,
-                                          .cascades = &cascades};
+                                          .cascades = &cascades,
+                                          .motion = motionOf(settings)};
     co_await surfaces.seeInSteps(device, *scene, picture);
 }
 

@@ -24,6 +24,7 @@
 #include "scene/host_mesh.h"
 #include "view/gbuffer.h"
 #include "view/layer_picture.h"
+#include "view/motion_picture.h"
 #include "voxels/octant_words.h"
 #include "voxels/surface_voxels.h"
 
@@ -85,6 +86,7 @@ std::vector<gl::ProgramDesc> allShaderVariants() {
     add(light::ShadowMaps::programDescs());
     add(view::GBuffer::programDescs());
     add(view::LayerPicture::programDescs());
+    add(view::MotionPicture::programDescs());
     add(image::debugViewProgramDescs());
     add(image::backgroundProgramDescs());
     add(image::Headlight::programDescs());

@@ -68,6 +68,7 @@ void GpuScene::uploadInstances() {
     instanceBounds_.resize(instances_.size());
     instanceRevisions_.resize(instances_.size(), identity_);
     shapeRevisions_.resize(instances_.size(), identity_);
+    shapesBefore_.resize(instances_.size());
     entryRevisions_.resize(instances_.size(), identity_);
     removed_.resize(instances_.size());
     for (std::size_t i = 0; i < instances_.size(); ++i) {
@@ -165,6 +166,10 @@ void GpuScene::setInstance(std::size_t index, const Instance& instance) {
 void GpuScene::setMesh(std::size_t index, const Mesh& mesh) {
     const PackedMesh own = packed(mesh);
     MeshRange& range = meshRanges_[index];
+    std::vector<gpu::Vertex> before(own.vertices.size());
+    for (std::size_t i = 0; i < before.size(); ++i)
+        before[i].position = source_.meshes[index].positions[own.sources[i]];
+    verticesBefore_.update(placeForVerticesBefore(index), before.data(), before.size() * sizeof(gpu::Vertex));
     vertexBuffer_.update(range.firstVertex * sizeof(gpu::Vertex), own.vertices.data(),
                          own.vertices.size() * sizeof(gpu::Vertex));
     indexBuffer_.update(range.firstIndex * sizeof(std::uint32_t), own.indices.data(),
@@ -191,6 +196,7 @@ void GpuScene::reshape(std::size_t index) {
         instanceObjectBounds_[i] = range.bounds;
         place(i, g.worldFromObject);
         uploadInstance(i);
+        shapesBefore_[i] = shapeRevisions_[i];
         instanceRevisions_[i] = shapeRevisions_[i] = geometryRevision_;
     }
 }
@@ -297,6 +303,7 @@ void GpuScene::declare(gl::Inputs& inputs) const {
         .storage("IndexTable", indexBuffer_)
         .storage("InstanceTable", instanceBuffer_)
         .storage("MaterialTable", materialBuffer_);
+    if (verticesBefore_) inputs.storage("VerticesBefore", verticesBefore_);
     textures_.declare(inputs);
 }
 

@@ -38,7 +38,8 @@ class GpuScene {
     // Copies and uploads everything. Throws Error(BadInput) by Scene::validate.
     explicit GpuScene(const Scene& source);
 
-    // What shaders may read: VertexTable, IndexTable, InstanceTable, MaterialTable, surfaceArray.
+    // What shaders may read: VertexTable, IndexTable, InstanceTable, MaterialTable, surfaceArray; verticesBefore where
+    // any are kept.
     void declare(gl::Inputs& inputs) const;
     // The textures that draw() binds for programs that read them: baseTexture, metalRoughTexture and the
     // others of view/gbuffer.frag.glsl.
@@ -114,6 +115,12 @@ class GpuScene {
     base::Revision instanceRevision(std::size_t instance) const { return instanceRevisions_[instance]; }
     // Raised when the vertices of the instance's mesh change.
     base::Revision shapeRevision(std::size_t instance) const { return shapeRevisions_[instance]; }
+    // Of the vertices that the mesh had before those, and where they lie in verticesBefore; none: they are not known.
+    base::Revision shapeBefore(std::size_t instance) const { return shapesBefore_[instance]; }
+    std::uint32_t firstVertexBefore(std::size_t instance) const {
+        return meshRanges_[static_cast<std::size_t>(source_.instances[instance].mesh)].firstBefore.value_or(
+            0);
+    }
     // Raised when another instance takes the place of this one.
     base::Revision entryRevision(std::size_t instance) const { return entryRevisions_[instance]; }
     base::Revision geometryRevision() const { return geometryRevision_; }
@@ -152,6 +159,7 @@ class GpuScene {
         bool removed = false;
         bool ofHost = false;
         std::uint32_t vertexCount = 0;
+        std::optional<std::uint32_t> firstBefore;  // of the vertices before, once the mesh has changed
     };
     void uploadMeshes();
     void uploadInstances();
@@ -159,6 +167,7 @@ class GpuScene {
     std::size_t placeForMesh(std::uint32_t vertices, std::uint32_t indices);
     void convert(const gl::Device& device, std::size_t index, const HostMesh& mesh);
     void touchUsersOf(std::size_t texture);
+    std::size_t placeForVerticesBefore(std::size_t index);
     void reshape(std::size_t index);
     void putInstance(std::size_t index, const Instance& instance);
     std::optional<std::size_t> freeEntry(std::uint32_t triangles) const;
@@ -190,15 +199,16 @@ class GpuScene {
     std::vector<Aabb> instanceObjectBounds_, instanceBounds_;
     std::vector<Aabb> partBounds_;            // object boxes of the parts of all meshes
     std::vector<std::size_t> instanceParts_;  // the first of an instance's mesh
-    std::vector<base::Revision> instanceRevisions_, shapeRevisions_, entryRevisions_;
+    std::vector<base::Revision> instanceRevisions_, shapeRevisions_, shapesBefore_, entryRevisions_;
     std::vector<char> removed_;  // per instance
-    std::uint32_t vertexCount_ = 0, indexCount_ = 0;
+    std::uint32_t vertexCount_ = 0, indexCount_ = 0, beforeCount_ = 0;
     std::vector<std::optional<glm::mat4>> bakedPlaces_;  // where baked light has an instance
     base::Revision identity_ = base::Revision::next(), geometryRevision_, lightRevision_, skyRevision_,
                    bakedRevision_;
     std::vector<gpu::Material> materials_;
     std::vector<MaterialTextures> materialTextures_;
     SceneTextures textures_;
+    gl::Buffer verticesBefore_;  // of meshes that have changed, as they were
     gl::Buffer vertexBuffer_, indexBuffer_, instanceBuffer_, instanceIndexBuffer_, materialBuffer_;
     gl::VertexArray vertexArray_;
     HostMeshImport hostMeshes_;

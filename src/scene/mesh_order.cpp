@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 
 #include "conelight/scene.h"
 
@@ -31,10 +32,12 @@ std::uint32_t mortonCode(const glm::vec3& point, const Aabb& box) {
 
 }  // namespace
 
-void orderForReuse(std::vector<gpu::Vertex>& vertices, std::size_t firstVertex,
-                   std::vector<std::uint32_t>& indices, std::size_t firstIndex) {
+std::vector<std::uint32_t> orderForReuse(std::vector<gpu::Vertex>& vertices, std::size_t firstVertex,
+                                         std::vector<std::uint32_t>& indices, std::size_t firstIndex) {
     const std::size_t triangles = (indices.size() - firstIndex) / 3;
-    if (triangles == 0) return;
+    std::vector<std::uint32_t> order(vertices.size() - firstVertex);
+    std::iota(order.begin(), order.end(), 0u);
+    if (triangles == 0) return order;
     Aabb box;
     for (std::size_t i = firstVertex; i < vertices.size(); ++i) box.grow(vertices[i].position);
     const std::vector<std::uint32_t> before(indices.begin() + static_cast<std::ptrdiff_t>(firstIndex),
@@ -60,12 +63,17 @@ void orderForReuse(std::vector<gpu::Vertex>& vertices, std::size_t firstVertex,
             const std::uint32_t vertex = before[3 * places[t].triangle + corner];
             if (number[vertex] == kUnnamed) {
                 vertices[firstVertex + named] = old[vertex];
+                order[named] = vertex;
                 number[vertex] = named++;
             }
             indices[firstIndex + 3 * t + corner] = number[vertex];
         }
-    for (std::size_t vertex = 0; vertex < old.size(); ++vertex)
-        if (number[vertex] == kUnnamed) vertices[firstVertex + named++] = old[vertex];
+    for (std::uint32_t vertex = 0; vertex < old.size(); ++vertex) {
+        if (number[vertex] != kUnnamed) continue;
+        order[named] = vertex;
+        vertices[firstVertex + named++] = old[vertex];
+    }
+    return order;
 }
 
 }  // namespace conelight::scene

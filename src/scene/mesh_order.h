@@ -14,8 +14,8 @@ namespace conelight::scene {
 
 // `indices` (three per triangle) from `firstIndex` on name `vertices` from `firstVertex` on, counted from
 // there. Triangles are sorted by the Morton code of their centre (Morton 1966), ties as they were; vertices
-// that none names come last.
-void orderForReuse(std::vector<gpu::Vertex>& vertices, std::size_t firstVertex,
-                   std::vector<std::uint32_t>& indices, std::size_t firstIndex);
+// that none names come last. Returns which vertex each was, counted from `firstVertex`.
+std::vector<std::uint32_t> orderForReuse(std::vector<gpu::Vertex>& vertices, std::size_t firstVertex,
+                                         std::vector<std::uint32_t>& indices, std::size_t firstIndex);
 
 }  // namespace conelight::scene

@@ -10,13 +10,16 @@ namespace conelight::scene {
 
 PackedMesh packed(const Mesh& mesh) {
     PackedMesh to;
-    if (appendVertices(mesh, to.vertices)) {
+    const bool whole = appendVertices(mesh, to.vertices);
+    if (whole) {
         to.indices = mesh.indices;
     } else {
         to.indices.resize(mesh.indices.size());
         std::iota(to.indices.begin(), to.indices.end(), 0u);
     }
-    orderForReuse(to.vertices, 0, to.indices, 0);
+    to.sources = orderForReuse(to.vertices, 0, to.indices, 0);
+    if (!whole)
+        for (std::uint32_t& source : to.sources) source = mesh.indices[source];
     for (std::size_t i = 0; i < to.indices.size(); ++i) {
         if (i % kPartIndices == 0) to.parts.emplace_back();
         to.parts.back().grow(to.vertices[to.indices[i]].position);

@@ -18,6 +18,7 @@ struct PackedMesh {
     std::vector<gpu::Vertex> vertices;
     std::vector<std::uint32_t> indices;
     std::vector<Aabb> parts;
+    std::vector<std::uint32_t> sources;  // the mesh's vertex that each is made of
 };
 
 PackedMesh packed(const Mesh& mesh);

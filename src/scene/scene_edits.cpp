@@ -89,7 +89,23 @@ std::size_t GpuScene::addMesh(const gl::Device& device, const HostMesh& mesh) {
     return index;
 }
 
+// Where its surface was before it changes, for means over frames that follow it: in the order that its vertices take, of
+// which positions alone count. Returns the offset.
+std::size_t GpuScene::placeForVerticesBefore(std::size_t index) {
+    MeshRange& range = meshRanges_[index];
+    if (!range.firstBefore) {
+        range.firstBefore = beforeCount_;
+        beforeCount_ += range.vertexRoom;
+        reserve(verticesBefore_, beforeCount_ * sizeof(gpu::Vertex), "scene vertices before");
+    }
+    return *range.firstBefore * sizeof(gpu::Vertex);
+}
+
 void GpuScene::setMesh(const gl::Device& device, std::size_t index, const HostMesh& mesh) {
+    const MeshRange& range = meshRanges_[index];
+    const std::size_t place = placeForVerticesBefore(index);
+    verticesBefore_.copyRange(vertexBuffer_, range.firstVertex * sizeof(gpu::Vertex), place,
+                              range.vertexCount * sizeof(gpu::Vertex));
     convert(device, index, mesh);
     reshape(index);
 }
@@ -169,7 +185,7 @@ std::size_t GpuScene::addInstance(const Instance& instance) {
         triangleCount_ += triangles;
         source_.instances.emplace_back();
         for (auto* boxes : {&instanceObjectBounds_, &instanceBounds_}) boxes->emplace_back();
-        for (auto* revisions : {&instanceRevisions_, &shapeRevisions_, &entryRevisions_})
+        for (auto* revisions : {&instanceRevisions_, &shapeRevisions_, &shapesBefore_, &entryRevisions_})
             revisions->emplace_back();
         instanceParts_.push_back(0);
         removed_.push_back(0);
@@ -196,6 +212,7 @@ void GpuScene::putInstance(std::size_t index, const Instance& instance) {
     g.flags = range.wideColors ? INSTANCE_WIDE_COLORS : 0u;
     source_.instances[index] = instance;
     removed_[index] = 0;
+    shapesBefore_[index] = {};
     bakedPlaces_[index].reset();
     instanceParts_[index] = range.firstPart;
     instanceObjectBounds_[index] = range.bounds;

@@ -9,6 +9,10 @@ namespace {
 
 constexpr const char* kShiftHelp = "moves the grid, to see what its place changes (conelight score shift)";
 
+constexpr Numbers kAnchorRange{-1e9, 1e9};
+constexpr const char* kAnchorHelp =
+    "point of the world that nested grids lie round: all views have the same voxels; auto: the eye";
+
 constexpr Choice<Component> kComponents[] = {
     {"full", Component::Full},       {"direct", Component::Direct},     {"indirect", Component::Indirect},
     {"diffuse", Component::Diffuse}, {"specular", Component::Specular}, {"occlusion", Component::Occlusion},
@@ -88,6 +92,9 @@ std::vector<Setting<VoxelSettings>> voxelSettings() {
         {"levels", &VoxelSettings::levels, Numbers{0, 8}, "",
          "nested grids in mode traced: each halves the voxels around the eye, at most 1024 / voxels.size of "
          "them; 1: one grid; 0: as many as make voxels at the eye at most 0.15 m"},
+        {"anchor_x", within(&VoxelSettings::anchor, &VoxelAnchor::x), kAnchorRange, "m", kAnchorHelp},
+        {"anchor_y", within(&VoxelSettings::anchor, &VoxelAnchor::y), kAnchorRange, "m", kAnchorHelp},
+        {"anchor_z", within(&VoxelSettings::anchor, &VoxelAnchor::z), kAnchorRange, "m", kAnchorHelp},
     };
 }
 

@@ -34,6 +34,7 @@ void Surfaces::take(const gl::Device& device, const scene::GpuScene& scene, cons
     motionScale_ = host.motionScale;
     reduction_ = reduction;
     import_->draw(device, {host, reduction, scene.instances().size()}, block_, *gbuffer_);
+    follow(device, scene, host.instances != 0 && host.motion == 0 ? Motion::Drawn : Motion::None);
     gl::barrier(gl::Access::TextureFetch | gl::Access::ShaderStorage);
 }
 
@@ -48,14 +49,23 @@ base::Steps Surfaces::seeInSteps(const gl::Device& device, const scene::GpuScene
     co_await gbuffer_->drawInSteps(device, scene, block_, wanted);
     prepareLayers(scene);
     if (layers_) co_await layers_->drawInSteps(device, scene, block_, *gbuffer_, wanted);
+    follow(device, scene, picture.motion);
     gl::barrier(gl::Access::TextureFetch | gl::Access::ShaderStorage);
+}
+
+// Where things were in a picture that was not followed is not known.
+void Surfaces::follow(const gl::Device& device, const scene::GpuScene& scene, Motion motion) {
+    if (motion == Motion::None) return moved_.reset();
+    if (!moved_) moved_.emplace();
+    if (moved_->follow(scene) && motion == Motion::Drawn) moved_->draw(device, scene, block_, *gbuffer_);
 }
 
 void Surfaces::declare(gl::Inputs& inputs) const {
     inputs.uniform("FrameBlock", block_).add(*gbuffer_);
     if (layers_) inputs.add(*layers_);
     if (haveCascades()) inputs.add(*cascades_);
-    if (haveMotion()) inputs.foreignTexture("hostMotion", motion_, import_->sampler());
+    if (movedFrom()) inputs.texture("hostMotion", moved());
+    if (motion_ != 0) inputs.foreignTexture("hostMotion", motion_, import_->sampler());
 }
 
 }  // namespace conelight::view

@@ -12,6 +12,7 @@
 #include "view/gbuffer.h"
 #include "view/host_surfaces.h"
 #include "view/layer_picture.h"
+#include "view/motion_picture.h"
 #include "view/shadow_cascades.h"
 
 namespace conelight::view {
@@ -19,6 +20,9 @@ namespace conelight::view {
 class Surfaces {
   public:
     Surfaces();
+
+    // Where surfaces were in the picture before (movedFrom), once vertices have moved. Kept: the next picture may draw it.
+    enum class Motion { None, Kept, Drawn };
 
     // Draws what the camera sees, width x height >= 1. GL state changed: as GBuffer::draw. Ends with the
     // barrier for texture fetches.
@@ -30,6 +34,7 @@ class Surfaces {
         bool withGlass = false;                    // else what is behind it
         float shrink = 0;                          // ViewSettings::shrink
         const ShadowCascades* cascades = nullptr;  // about the camera, as long as the surfaces; none: null
+        Motion motion = Motion::None;
     };
     void see(const gl::Device& device, const scene::GpuScene& scene, const Picture& picture) {
         seeInSteps(device, scene, picture).finish();
@@ -44,10 +49,17 @@ class Surfaces {
     // Whether a host drew them: what materials of the scene say of gloss does not hold then, but this.
     bool areHosts() const { return import_.has_value(); }
     bool mayHaveLobes() const { return hostsLobes_; }
-    // Whether the host says where its pixels were in the picture before, and how.
-    bool haveMotion() const { return motion_ != 0; }
+    // Whether pixels say where they were in the picture before: by vectors of a host's, or by how much their surface has
+    // moved in the world, once vertices have (MotionPicture).
+    bool haveMotion() const { return motion_ != 0 || movedFrom(); }
     const glm::vec2& motionScale() const { return motionScale_; }
-    int reduction() const { return reduction_; }
+    // Of the host's vectors one of so many in each direction is a pixel's; 0: they are of the world.
+    int motionStep() const { return motion_ != 0 ? reduction_ : 0; }
+    // Geometry of the scene in the picture before, where MotionPicture says what has moved since.
+    base::Revision movedFrom() const {
+        return motion_ == 0 && moved_ && moved_->drawn() ? moved_->from() : base::Revision{};
+    }
+    const gl::Texture& moved() const { return moved_->texture(); }
 
     // Whether pixels have shadow maps about the eye.
     bool haveCascades() const { return cascades_ != nullptr && cascades_->levels() > 0; }
@@ -67,6 +79,7 @@ class Surfaces {
   private:
     std::optional<GBuffer> gbuffer_;
     std::optional<LayerPicture> layers_;
+    std::optional<MotionPicture> moved_;
     gpu::FrameConstants view_{};
     gl::Buffer block_;
     std::optional<HostSurfaceImport> import_;
@@ -79,6 +92,7 @@ class Surfaces {
 
     void resize(int width, int height);
     void prepareLayers(const scene::GpuScene& scene);
+    void follow(const gl::Device& device, const scene::GpuScene& scene, Motion motion);
 };
 
 }  // namespace conelight::view

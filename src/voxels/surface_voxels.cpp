@@ -22,7 +22,8 @@ VoxelGrid SurfaceVoxels::gridOf(const scene::GpuScene& scene, const VoxelSetting
 
 VoxelGrid SurfaceVoxels::gridAround(const scene::GpuScene& scene, const VoxelSettings& settings,
                                     const glm::vec3& eye) {
-    return nestedGrid(gridOf(scene, settings), scene.gridBounds(), settings.levels, eye);
+    return nestedGrid(gridOf(scene, settings), scene.gridBounds(), settings.levels,
+                      settings.anchor.around(eye));
 }
 
 base::Steps SurfaceVoxels::buildInSteps(const gl::Device& device, const scene::GpuScene& scene,

@@ -82,7 +82,7 @@ class SurfaceVoxels {
 
     // The grid fitted to the scene as it was handed over, grown by whole bricks to what has left it since.
     static VoxelGrid gridOf(const scene::GpuScene& scene, const VoxelSettings& settings);
-    // The same in settings.levels levels around an eye.
+    // The same in settings.levels levels around settings.anchor, or an eye.
     static VoxelGrid gridAround(const scene::GpuScene& scene, const VoxelSettings& settings,
                                 const glm::vec3& eye);
 

@@ -32,8 +32,8 @@ void Voxels::build(const gl::Device& device, const scene::GpuScene& scene, const
 }
 
 bool Voxels::areOf(const scene::GpuScene& scene, const VoxelSettings& settings) const {
-    return revision() && scene_ == scene.identity() && geometry_ == scene.geometryRevision() &&
-           settings_ == settings;
+    return revision() && grid().levels == 1 && scene_ == scene.identity() &&
+           geometry_ == scene.geometryRevision() && settings_ == withoutAnchor(settings);
 }
 
 bool Voxels::areIn(const VoxelGrid& grid, const scene::GpuScene& scene, Scroll scroll) const {
@@ -44,7 +44,7 @@ bool Voxels::areIn(const VoxelGrid& grid, const scene::GpuScene& scene, Scroll s
 void Voxels::remember(const scene::GpuScene& scene, const VoxelSettings& settings) {
     scene_ = scene.identity();
     geometry_ = scene.geometryRevision();
-    settings_ = settings;
+    settings_ = withoutAnchor(settings);
 }
 
 base::Steps Voxels::makeOctants(const gl::Device& device, Rays rays) {

@@ -15,6 +15,12 @@ enum class Rays : bool { No, Yes };
 // Whether nested grids around another eye may keep voxels (SurfaceVoxels::hasScrolled), as pictures in motion do.
 enum class Scroll : bool { No, Yes };
 
+// An anchor moves levels, as an eye does, and is no other setting of what they hold.
+inline VoxelSettings withoutAnchor(VoxelSettings settings) {
+    settings.anchor = {};
+    return settings;
+}
+
 class Voxels {
   public:
     // Makes voxels of `scene` as it is, in place of those there are: what has not changed stays
@@ -36,7 +42,7 @@ class Voxels {
     void build(const gl::Device& device, const scene::GpuScene& scene, const VoxelSettings& settings,
                Rays rays);
 
-    // Whether update() would leave them as they are.
+    // Whether update() would leave them as they are: areOf, in one grid.
     bool areIn(const VoxelGrid& grid, const scene::GpuScene& scene, Scroll scroll = Scroll::No) const;
     bool areOf(const scene::GpuScene& scene, const VoxelSettings& settings) const;
     // Of the surface voxels: equal as long as these are the same.
@@ -45,7 +51,8 @@ class Voxels {
     bool hasOctants() const;  // of these voxels
     const OctantWords& octants() const { return octants_; }
     const VoxelGrid& grid() const { return surface_.grid(); }
-    const VoxelSettings& settings() const { return settings_; }  // that the voxels were made with
+    // That the voxels were made with, but for the anchor: the grid tells where levels lie.
+    const VoxelSettings& settings() const { return settings_; }
     // Keys of the voxels before the last change; null when there were none.
     const VoxelKeys* previous() const { return surface_.previous(); }
 

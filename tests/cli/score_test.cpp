@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "support/moving_scene.h"
 #include "support/program.h"
 
 namespace conelight::test {
@@ -120,6 +121,15 @@ TEST_F(ScoreTest, AClipIsAPath) {
     const nlohmann::json json = scored(
         "flicker 'builtin:atrium?triangles=10000&figure=1' --path clip=walk "
         "--frames 3 --modes phong --component full --size 32x24 --spp 1");
+    EXPECT_GT(json["runs"][0]["unsteadiness"][0].get<double>(), 0.001);
+}
+
+// Shapes that a clip bends change as well.
+TEST_F(ScoreTest, AClipOfShapesIsAPath) {
+    const nlohmann::json json =
+        scored("flicker " + growingBlock("growing.gltf") +
+               " --path clip=rise --frames 3 --modes phong --component full --size 24x24 "
+               "--spp 1");
     EXPECT_GT(json["runs"][0]["unsteadiness"][0].get<double>(), 0.001);
 }
 

@@ -72,8 +72,9 @@ Grid scatteredGrid() {
 TEST(MeshOrderTest, KeepsTrianglesAndTheirTurn) {
     const Grid before = scatteredGrid();
     Grid after = before;
-    scene::orderForReuse(after.vertices, 0, after.indices, 0);
+    const std::vector<std::uint32_t> order = scene::orderForReuse(after.vertices, 0, after.indices, 0);
     EXPECT_NE(after.indices, before.indices);
+    for (std::size_t i = 0; i < order.size(); ++i) EXPECT_EQ(after.vertices[i].color, order[i]);
     EXPECT_EQ(trianglesOf(after.vertices, 0, after.indices, 0),
               trianglesOf(before.vertices, 0, before.indices, 0));
     // Whole vertices move, none is lost.
@@ -104,7 +105,8 @@ TEST(MeshOrderTest, WhatComesBeforeStaysAndUnusedVerticesAreKept) {
         grid.vertices.push_back(vertex);
     }
     grid.indices.insert(grid.indices.end(), {3, 1, 2});
-    scene::orderForReuse(grid.vertices, first.vertices.size(), grid.indices, first.indices.size());
+    const std::vector<std::uint32_t> order =
+        scene::orderForReuse(grid.vertices, first.vertices.size(), grid.indices, first.indices.size());
     EXPECT_TRUE(std::equal(first.indices.begin(), first.indices.end(), grid.indices.begin()));
     ASSERT_EQ(grid.vertices.size(), first.vertices.size() + 4);
     for (std::size_t i = 0; i < first.vertices.size(); ++i)
@@ -113,6 +115,7 @@ TEST(MeshOrderTest, WhatComesBeforeStaysAndUnusedVerticesAreKept) {
     EXPECT_EQ(second, (std::vector<std::uint32_t>{0, 1, 2}));
     EXPECT_EQ(grid.vertices[first.vertices.size()].position.x, 2);
     EXPECT_EQ(grid.vertices.back().position.x, 7);
+    EXPECT_EQ(order, (std::vector<std::uint32_t>{3, 1, 2, 0}));
 }
 
 }  // namespace conelight::test

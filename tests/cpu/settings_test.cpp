@@ -301,6 +301,28 @@ TEST(SettingsTest, AllBouncesAreAWord) {
     EXPECT_THROW(validateSettings(settings), Error);
 }
 
+// Each axis is a number or the eye's.
+TEST(SettingsTest, AnAnchorIsAPointOrFollowsTheEye) {
+    Settings settings;
+    EXPECT_EQ(settings.voxels.anchor.around({1, 2, 3}), glm::vec3(1, 2, 3));
+    EXPECT_FALSE(settings.voxels.anchor.isPoint());
+    setSetting(settings, "voxels.anchor_y", "-4.5");
+    EXPECT_EQ(settings.voxels.anchor.around({1, 2, 3}), glm::vec3(1, -4.5f, 3));
+    EXPECT_FALSE(settings.voxels.anchor.isPoint());
+    setSetting(settings, "voxels.anchor_x", "7");
+    setSetting(settings, "voxels.anchor_z", "0");
+    EXPECT_EQ(settings.voxels.anchor, VoxelAnchor::at({7, -4.5f, 0}));
+    EXPECT_TRUE(settings.voxels.anchor.isPoint());
+    EXPECT_EQ(
+        failureOf("voxels.anchor_x", "nan"),
+        "setting voxels.anchor_x: 'nan' is not usable; a number from -1e+09 to 1e+09 or auto would be right");
+    for (const float bad :
+         {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+        settings.voxels.anchor = VoxelAnchor::at({0, 0, bad});
+        EXPECT_THROW(validateSettings(settings), Error);
+    }
+}
+
 // The host's locale must not change how numbers are read.
 TEST(SettingsTest, LocaleDoesNotMatter) {
     const std::string old = std::setlocale(LC_ALL, nullptr);

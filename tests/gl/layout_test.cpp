@@ -129,6 +129,7 @@ std::vector<Struct> structsOfPictures() {
         ROW(TemporalPictureConstants, oldClipFromWorld, oldDepth, longest, fresh, oldParallel, pad0),
         ROW(BloomConstants, weight, coarser, fromLevel, pad0),
         ROW(ShrinkConstants, kept, pad0, pad1, pad2),
+        ROW(InstanceMotion, worldFromObject, firstVertex, pad0, pad1, pad2),
         ROW(WireframeConstants, color, opacity, halfWidth, pad0, pad1, pad2),
         ROW(ShadowViewConstants, light, tiles, tilesPerEdge, columns, rows, pad0, pad1, pad2),
         ROW(VoxelViewConstants, origin, voxelSize, sizeX, sizeY, sizeZ, data, level, spread, maxLevel,

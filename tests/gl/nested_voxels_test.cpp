@@ -194,6 +194,29 @@ TEST_F(NestedVoxelsTest, EachLevelHoldsWhatAGridOfItsOwnWould) {
         expectLevel(level, all, oneGrid(device(), scene, grid_.level(level)));
 }
 
+// Whatever the eye, levels have the anchor near their middle: those that need not be moved inwards at the scene's border.
+TEST_F(NestedVoxelsTest, LevelsLieRoundTheAnchor) {
+    const scene::GpuScene gpu(roomWithBoxes());
+    VoxelSettings settings{64};
+    settings.levels = 4;
+    const glm::vec3 anchor(5, -3, 2), eye(-11, 4, 6);
+    const VoxelGrid byEye = voxels::SurfaceVoxels::gridAround(gpu, settings, eye);
+    settings.anchor = VoxelAnchor::at(anchor);
+    const VoxelGrid grid = voxels::SurfaceVoxels::gridAround(gpu, settings, eye);
+    EXPECT_FALSE(grid == byEye);
+    EXPECT_EQ(grid, voxels::SurfaceVoxels::gridAround(gpu, settings, anchor));
+    ASSERT_EQ(grid.levels, 4);
+    for (int level = 0; level < 2; ++level) {
+        const VoxelGrid one = grid.level(level);
+        const glm::vec3 apart =
+            glm::abs(one.worldFromGrid(0.5f * glm::vec3(one.size)) - anchor) / one.voxelSize;
+        for (int axis = 0; axis < 3; ++axis)
+            EXPECT_LE(apart[axis], static_cast<float>(one.size[axis]) / 7.9f) << level;
+    }
+    settings.anchor = {{}, {false, anchor.y}, {}};
+    EXPECT_EQ(voxels::SurfaceVoxels::gridAround(gpu, settings, {5, 17, 2}), grid);
+}
+
 TEST_F(NestedVoxelsTest, UpdatesGiveTheBitsOfABuild) {
     Scene scene = roomWithBoxes();
     voxelize(scene, 32, 3, {0.5f, 0.2f, 0.1f});

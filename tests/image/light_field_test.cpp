@@ -55,6 +55,43 @@ TEST_F(LightFieldTest, TellsWhatRendererShows) {
     EXPECT_LT(specular, 1e-3);
 }
 
+// Nested grids round an anchor: as Renderer has them, whose eye is elsewhere.
+TEST_F(LightFieldTest, HasNestedGridsRoundAnAnchor) {
+    Settings settings = hostSettings();
+    settings.voxels.size = 24;
+    settings.voxels.levels = 2;
+    settings.traced.pixelRays = settings.traced.specularRays = 0;  // the cache alone
+    settings.traced.cacheUpdates = 4;
+    LightField field;
+    field.setScene(scene_);
+    field.setSettings(settings);
+    field.update();
+    const std::size_t oneGrid = field.stats().faces;
+    settings.voxels.anchor = VoxelAnchor::at({0.3f, -0.4f, 0.2f});
+    field.setSettings(settings);
+    field.update();
+    EXPECT_GT(field.stats().faces, oneGrid);
+    HostPicture host(scene_, lens());
+    drawn(host);
+    const GatheredLight light = field.gather(field.addView(), host.surfaces());
+    EXPECT_LT(hostDifference(pixelsOf(light.diffuse), truth(settings, Component::Diffuse), onMetal(false)),
+              1e-3);
+    try {
+        field.bindLookups();
+        ADD_FAILURE() << "bound";
+    } catch (const Error& error) {
+        EXPECT_STREQ(error.what(),
+                     "bindLookups: the field has 2 nested grids, and lookups read one; voxels.levels=1 would "
+                     "be right");
+    }
+    // One grid again.
+    settings.voxels.anchor = {};
+    field.setSettings(settings);
+    field.update();
+    EXPECT_EQ(field.stats().faces, oneGrid);
+    field.bindLookups();
+}
+
 // Matrices of other kinds see the same: reversed and infinite depth in [0,1]; normals of triangles from depths.
 TEST_F(LightFieldTest, TakesTheHostsMatrices) {
     LightField field;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pictures of mode `traced` with nested grids: light is neither lost nor found where rays and surfaces cross from one
 // level into the next; a room keeps its light on a plain of any size; the eye may move.
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
@@ -19,6 +20,13 @@ Settings nestedSettings(Quality quality, int levels) {
     Settings settings = tracedSettings(quality, Component::Indirect);
     settings.voxels.levels = levels;
     return settings;
+}
+
+// Whether the last picture made voxels.
+bool voxelized(const Renderer& renderer) {
+    const std::vector<PassStats>& passes = renderer.stats().passes;
+    return std::any_of(passes.begin(), passes.end(),
+                       [](const PassStats& pass) { return pass.name.find("voxelize") != std::string::npos; });
 }
 
 Scene roomOnAPlain(int edge) { return io::generateScene("plain?size=" + std::to_string(edge)); }
@@ -76,6 +84,50 @@ TEST_F(NestedGridsTest, TheEyeMayMove) {
     Settings one = settings;
     one.voxels.levels = 1;
     EXPECT_EQ(draw(renderer, scene, one).pixels, draw(scene, one).pixels);
+}
+
+// Cameras at other places find the voxels of one anchor as they are, and draw what they would have drawn first.
+TEST_F(NestedGridsTest, AnAnchorKeepsTheVoxels) {
+    const Scene scene = roomOnAPlain(24);
+    Scene elsewhere = scene;
+    elsewhere.cameras.at(0).eye += glm::vec3(2.5f, 0, -1);
+    Settings settings = nestedSettings(Quality::Draft, 3);
+    settings.traced.cacheUpdates = 2;
+    settings.traced.passes = 1;
+    Renderer renderer;
+    renderer.setProfiling(true, false);
+    renderer.setScene(scene);
+    draw(renderer, scene, settings);
+    draw(renderer, elsewhere, settings);
+    EXPECT_TRUE(voxelized(renderer));
+    settings.voxels.anchor = VoxelAnchor::at({0, 1.5f, 0});
+    draw(renderer, scene, settings);
+    EXPECT_TRUE(voxelized(renderer));
+    const Image second = draw(renderer, elsewhere, settings);
+    EXPECT_FALSE(voxelized(renderer));
+    EXPECT_EQ(second.pixels, draw(elsewhere, settings).pixels);
+    // An anchor that stays in its cell changes nothing.
+    settings.voxels.anchor = VoxelAnchor::at({0.01f, 1.5f, 0});
+    EXPECT_EQ(draw(renderer, elsewhere, settings).pixels, second.pixels);
+    EXPECT_FALSE(voxelized(renderer));
+}
+
+// An eye far away sees into a room through its door: its light is that of the room alone where the levels lie round it.
+TEST_F(NestedGridsTest, LightIsFineAtTheAnchor) {
+    const auto seen = [](int edge) {
+        Scene scene = roomOnAPlain(edge);
+        scene.cameras.at(0) = {.eye = {30, 1.5f, 2.5f}, .target = {4, 1.2f, 2.5f}, .fovY = 0.07f};
+        return scene;
+    };
+    const Image alone = draw(seen(0), nestedSettings(Quality::Interactive, 1));
+    Settings settings = nestedSettings(Quality::Interactive, 0);
+    const Image byEye = draw(seen(600), settings);
+    settings.voxels.anchor = VoxelAnchor::at({0, 1.5f, 0});
+    const Image anchored = draw(seen(600), settings);
+    RecordProperty("anchored", std::to_string(relRmse(anchored, alone)));
+    RecordProperty("by_eye", std::to_string(relRmse(byEye, alone)));
+    EXPECT_LT(relRmse(anchored, alone), 0.1);
+    EXPECT_GT(relRmse(byEye, alone), 0.4);
 }
 
 // While it moves, light goes from the levels before to those after: no picture is dark.

@@ -242,8 +242,9 @@ TEST_F(TemporalPictureTest, ThinThingsFlickerLessWhileTheCameraMoves) {
     expectLessFlicker(4);
 }
 
-// Nothing is known of where the points of a new shape were.
-TEST_F(TemporalPictureTest, ANewShapeHasNoPast) {
+// Of a shape that has changed twice since the last picture nobody knows where its points were; of one that has changed
+// once its vertices tell.
+void expectNothingBehindAJump(int changes) {
     Scene scene;
     addInstance(scene, quadMesh({-6, -6, -2}, {12, 0, 0}, {0, 12, 0}), unlitMaterial(glm::vec3(0.05f)));
     const std::size_t sheet =
@@ -255,8 +256,11 @@ TEST_F(TemporalPictureTest, ANewShapeHasNoPast) {
     renderer.setScene(scene);
     const Settings on = settingsOf(Mode::Phong, true);
     for (int i = 0; i < 8; ++i) drawn(renderer, camera, on);
-    renderer.setMesh(static_cast<std::size_t>(scene.instances[sheet].mesh),
-                     quadMesh({0.5f, -1, 0}, {1, 0, 0}, {0, 2, 0}));
+    for (int i = 1; i <= changes; ++i) {
+        const float to = 0.5f - 0.7f * static_cast<float>(changes - i);
+        renderer.setMesh(static_cast<std::size_t>(scene.instances[sheet].mesh),
+                         quadMesh({to, -1, 0}, {1, 0, 0}, {0, 2, 0}));
+    }
     const Image image = drawn(renderer, camera, on);
     const auto redAt = [&](float x) {
         return image
@@ -264,8 +268,30 @@ TEST_F(TemporalPictureTest, ANewShapeHasNoPast) {
                     static_cast<std::size_t>((x + 2) * kPixels / 4)]
             .r;
     };
-    EXPECT_NEAR(redAt(-1), 0.05f, 1e-3);
-    EXPECT_NEAR(redAt(1), 1, 1e-3);
+    EXPECT_NEAR(redAt(-1), 0.05f, 1e-3) << changes;
+    EXPECT_NEAR(redAt(1), 1, 1e-3) << changes;
+}
+
+TEST_F(TemporalPictureTest, AShapeThatJumpsLeavesNothingBehind) {
+    expectNothingBehindAJump(1);
+    expectNothingBehindAJump(2);
+}
+
+// The levels that it moves hold the same scene.
+TEST_F(TemporalPictureTest, AnAnchorOfVoxelsMayMove) {
+    const Scene scene = spokes();
+    const auto last = [&](bool moves) {
+        Renderer renderer;
+        renderer.setScene(scene);
+        Settings on = settingsOf(Mode::Phong, true);
+        Image image;
+        for (int i = 0; i < 4; ++i) {
+            if (moves) on.voxels.anchor = VoxelAnchor::at({static_cast<float>(i), 0, 0});
+            image = drawn(renderer, scene.cameras.front(), on);
+        }
+        return image;
+    };
+    EXPECT_EQ(last(true).pixels, last(false).pixels);
 }
 
 TEST_F(TemporalPictureTest, OffItKeepsNoMemory) {
