@@ -28,9 +28,28 @@ float partOfItsSize(const Aabb& box, const glm::mat4& was, const glm::mat4& is) 
 
 }  // namespace
 
+// The farthest that a vertex of a mesh that bends has come, of the diagonal.
+float bentPart(const scene::GpuScene& scene, std::size_t index) {
+    const glm::mat3 axes(scene.instances()[index].worldFromObject);
+    const float scale = std::max({glm::length(axes[0]), glm::length(axes[1]), glm::length(axes[2])});
+    const float part = scale * scene.bentBy(index) / glm::length(scene.instanceBounds(index).extent());
+    return part < 1 ? part : 1;
+}
+
 // Than that of the last look, for all faces.
 bool EditPlaces::isOther(const scene::GpuScene& scene) const {
     return scene_ != scene.identity() || lights_ != scene.lightRevision() || sky_ != scene.skyRevision();
+}
+
+// Of the size of instance `index`, [0,1]: by how much it moved and bent; 1 where that is not known, and of a new look.
+float EditPlaces::partChanged(const scene::GpuScene& scene, std::size_t index, const Entry& was,
+                              const Entry& is) {
+    const bool bent = was.shape != is.shape, moved = was.place != is.place;
+    const bool known = was.entry == is.entry && (!bent || was.shape == scene.shapeBefore(index));
+    if (!known || (!bent && !moved)) return 1;
+    const float bend = bent ? bentPart(scene, index) : 0;
+    const float move = moved ? partOfItsSize(is.bounds, was.place, is.place) : 0;
+    return std::min(bend + move, 1.0f);
 }
 
 EditSpheres EditPlaces::look(const scene::GpuScene& scene) {
@@ -55,8 +74,7 @@ EditSpheres EditPlaces::look(const scene::GpuScene& scene) {
         if (entry.emits || now.emits) local = false;
         Aabb box = entry.bounds;
         box.grow(now.bounds);
-        const bool same = entry.shape == now.shape && entry.entry == now.entry && entry.place != now.place;
-        const float part = same ? partOfItsSize(now.bounds, entry.place, now.place) : 1.0f;
+        const float part = partChanged(scene, i, entry, now);
         entry = now;
         if (box.empty()) continue;
         all.grow(box);

@@ -34,7 +34,7 @@ class EditPlaces {
   public:
     static constexpr std::size_t kMost = CHANGED_PLACES;  // more are taken together
 
-    // Spheres round what came, went or bent, and round where things moved, by which part of their size. None: nothing to go
+    // Spheres round what came or went, and round where things moved or bent, by which part of their size. None: nothing to go
     // by, light may be another everywhere: at the first look, when lights, the sky or what emits changed, and for another
     // scene. Costs three comparisons where nothing changed.
     EditSpheres look(const scene::GpuScene& scene);
@@ -46,6 +46,8 @@ class EditPlaces {
         glm::mat4 place{1};
         bool emits = false;
     };
+    static float partChanged(const scene::GpuScene& scene, std::size_t index, const Entry& was,
+                             const Entry& is);
     bool isOther(const scene::GpuScene& scene) const;
     base::Revision scene_, geometry_, lights_, sky_;
     std::vector<Entry> entries_;

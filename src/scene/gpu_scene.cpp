@@ -167,8 +167,11 @@ void GpuScene::setMesh(std::size_t index, const Mesh& mesh) {
     const PackedMesh own = packed(mesh);
     MeshRange& range = meshRanges_[index];
     std::vector<gpu::Vertex> before(own.vertices.size());
-    for (std::size_t i = 0; i < before.size(); ++i)
+    range.bentBy = 0;
+    for (std::size_t i = 0; i < before.size(); ++i) {
         before[i].position = source_.meshes[index].positions[own.sources[i]];
+        range.bentBy = std::max(range.bentBy, glm::distance(before[i].position, own.vertices[i].position));
+    }
     verticesBefore_.update(placeForVerticesBefore(index), before.data(), before.size() * sizeof(gpu::Vertex));
     vertexBuffer_.update(range.firstVertex * sizeof(gpu::Vertex), own.vertices.data(),
                          own.vertices.size() * sizeof(gpu::Vertex));

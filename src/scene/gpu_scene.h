@@ -121,6 +121,10 @@ class GpuScene {
         return meshRanges_[static_cast<std::size_t>(source_.instances[instance].mesh)].firstBefore.value_or(
             0);
     }
+    // The farthest that one of these vertices has come since, m in the mesh's own space; infinite: not known.
+    float bentBy(std::size_t instance) const {
+        return meshRanges_[static_cast<std::size_t>(source_.instances[instance].mesh)].bentBy;
+    }
     // Raised when another instance takes the place of this one.
     base::Revision entryRevision(std::size_t instance) const { return entryRevisions_[instance]; }
     base::Revision geometryRevision() const { return geometryRevision_; }
@@ -160,6 +164,7 @@ class GpuScene {
         bool ofHost = false;
         std::uint32_t vertexCount = 0;
         std::optional<std::uint32_t> firstBefore;  // of the vertices before, once the mesh has changed
+        float bentBy = 0;                          // the farthest that one has come since
     };
     void uploadMeshes();
     void uploadInstances();

@@ -4,6 +4,7 @@
 // (voxels) may keep them, unless identity() changes.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "scene/gpu_scene.h"
@@ -102,7 +103,8 @@ std::size_t GpuScene::placeForVerticesBefore(std::size_t index) {
 }
 
 void GpuScene::setMesh(const gl::Device& device, std::size_t index, const HostMesh& mesh) {
-    const MeshRange& range = meshRanges_[index];
+    MeshRange& range = meshRanges_[index];
+    range.bentBy = std::numeric_limits<float>::infinity();  // nobody looks
     const std::size_t place = placeForVerticesBefore(index);
     verticesBefore_.copyRange(vertexBuffer_, range.firstVertex * sizeof(gpu::Vertex), place,
                               range.vertexCount * sizeof(gpu::Vertex));

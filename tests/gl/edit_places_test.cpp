@@ -63,6 +63,25 @@ TEST_F(EditPlacesTest, SmallMovesAreSmallPlaces) {
     EXPECT_EQ(large->front().part, 1);
 }
 
+// By the farthest way of a vertex. Of two changes between looks only the last is known.
+TEST_F(EditPlacesTest, SmallBendsAreSmallPlaces) {
+    places_.look(*scene_);
+    const auto bend = [&](float by) {
+        Mesh bent = scene_->source().meshes[2];
+        bent.positions[0].y -= by;
+        scene_->setMesh(2, bent);
+    };
+    bend(0.01f);
+    const auto once = places_.look(*scene_);
+    ASSERT_TRUE(once && once->size() == 1);
+    EXPECT_NEAR(once->front().part, 0.01f / (2 * once->front().radius), 1e-4f);
+    bend(0.01f);
+    bend(0.01f);
+    const auto twice = places_.look(*scene_);
+    ASSERT_TRUE(twice && twice->size() == 1);
+    EXPECT_EQ(twice->front().part, 1);
+}
+
 TEST_F(EditPlacesTest, MoreThanAFewAreOne) {
     places_.look(*scene_);
     for (std::size_t i = 0; i < light::EditPlaces::kMost; ++i) move(i, {0, 0.1f, 0});
